@@ -1,0 +1,178 @@
+#pragma once
+/// Every message of the edge (UDP) and of the bus (LCM), as plain structs.
+/// The .lcm files in lcmtypes/ have the same fields in the same order and document the bytes;
+/// only common/codec/codec*.cpp knows both. Units are last in a name; SI without a suffix.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace seam {
+
+/// Bumped when any message changes: peers of different versions do not talk.
+constexpr std::int32_t kProtocolVersion = 1;
+
+/// Largest encoded message on the bus; larger ones overflow stock lcm-logger's socket buffer.
+constexpr std::size_t kBusMessageBytesMax = 60000;
+/// Most bodies in one States message: 22 bytes each must fit a datagram of 1200 bytes.
+constexpr std::size_t kStatesBodiesMax = 48;
+/// Most bodies in one View message: 30 bytes each within kBusMessageBytesMax.
+constexpr std::size_t kViewBodiesMax = 1900;
+
+/// Client -> server, until answered: wants to join.
+struct Hello {
+  std::int64_t utime = 0;
+  std::int32_t protocol = kProtocolVersion;
+  std::string name;             ///< player or spectator name, 1..32 characters of [A-Za-z0-9_-]
+};
+
+/// Server -> client, reliable: admitted. The Room follows in Chunks.
+struct Welcome {
+  std::int64_t utime = 0;
+  std::int32_t peer = 0;        ///< this client's peer number, >= 1
+  std::int32_t player = -1;     ///< index of the scene's player it drives, -1 for a spectator
+  std::int32_t room_bytes = 0;  ///< size of the encoded Room that follows
+};
+
+/// A piece of a message too large for a datagram; pieces come reliably and in order.
+struct Chunk {
+  std::int64_t utime = 0;
+  std::int32_t offset_bytes = 0;
+  std::vector<std::uint8_t> data;  ///< 1..1000 bytes
+};
+
+/// What the room is: enough to simulate it. First message of every recording, repeated each second.
+struct Room {
+  std::int64_t utime = 0;
+  std::int32_t sequence = 0;
+  std::int32_t protocol = kProtocolVersion;
+  std::string room;             ///< room name as in the channel
+  std::string scene_name;       ///< file name of the scene without folder and ".toml"
+  std::string scene_text;       ///< the whole scene file
+  std::string mode;             ///< oracle | central | strict | buffer
+  std::string reconcile;        ///< snap | interleave | ... ; empty unless mode is buffer
+  std::string impair;           ///< name of the network profile
+  std::int64_t seed = 0;
+  std::int32_t tick_hz = 60;
+  std::int32_t send_hz = 30;    ///< rate of States from each peer
+};
+
+/// Client -> server: asks for the server's time.
+struct Ping {
+  std::int64_t utime = 0;       ///< client's clock when sent
+};
+
+/// Server -> client: the answer.
+struct Pong {
+  std::int64_t utime = 0;       ///< server's clock when it answers
+  std::int64_t client_us = 0;   ///< Ping::utime, returned
+  std::int64_t tick0_us = -1;   ///< server's clock at tick 0; -1 while the room waits for players
+};
+
+/// A player's inputs for successive ticks.
+struct Inputs {
+  std::int64_t utime = 0;
+  std::int32_t sequence = 0;
+  std::int32_t player = 0;
+  std::int64_t first_tick = 0;            ///< tick that inputs[0] is applied *in* (state after it)
+  std::vector<std::int8_t> drive;         ///< -127..127: throttle, backwards to forwards
+  std::vector<std::int8_t> lift;          ///< -127..127: second axis
+  std::vector<std::int16_t> buttons;      ///< bit field
+};
+
+/// States of bodies after `tick`, from the peer that has authority over them. Quantised:
+/// position 1/512 m about the origin, angle 2*pi/65536 rad, velocity 1/256 m/s, spin 1/256 rad/s.
+struct States {
+  std::int64_t utime = 0;
+  std::int32_t sequence = 0;
+  std::int32_t peer = 0;                  ///< the authority
+  std::int64_t tick = 0;
+  std::int64_t composition = 0;           ///< hash of the assemblies' make-up
+  std::int32_t origin_x = 0;              ///< whole metres
+  std::int32_t origin_y = 0;              ///< whole metres
+  std::vector<std::int16_t> id;           ///< assembly ids, ascending; all vectors of one length
+  std::vector<std::int16_t> epoch;        ///< of the body's mechanism
+  std::vector<std::int8_t> flags;         ///< kStateAsleep | kStateImpact
+  std::vector<std::int16_t> x, y;         ///< 1/512 m
+  std::vector<std::int16_t> angle;        ///< 2*pi/65536 rad, wraps
+  std::vector<std::int16_t> vx, vy;       ///< 1/256 m/s
+  std::vector<std::int16_t> spin;         ///< 1/256 rad/s
+};
+constexpr std::int8_t kStateAsleep = 1;
+constexpr std::int8_t kStateImpact = 2;   ///< a major impact within the last second, on the authority
+
+/// Server -> everyone, reliable and ordered: who has authority over a mechanism from `tick` on.
+struct Grants {
+  std::int64_t utime = 0;
+  std::int32_t sequence = 0;
+  std::int64_t tick = 0;
+  std::vector<std::int16_t> mechanism;    ///< mechanism ids
+  std::vector<std::int8_t> authority;     ///< peer
+  std::vector<std::int16_t> epoch;        ///< grows with every change of authority
+  std::vector<std::int32_t> secondaries;  ///< bit p: peer p is secondary
+};
+
+/// Bus only: what a peer shows at a tick. This is what is measured and drawn.
+struct View {
+  std::int64_t utime = 0;
+  std::int32_t sequence = 0;
+  std::int32_t peer = 0;
+  std::int64_t tick = 0;
+  std::int32_t part = 0;                  ///< part of parts: very large views are split
+  std::int32_t parts = 1;
+  std::vector<std::int16_t> id;           ///< assembly ids, ascending
+  std::vector<std::int8_t> role;          ///< kRole...
+  std::vector<std::int8_t> authority;     ///< peer that has authority, as this peer knows it
+  std::vector<float> x, y, angle;         ///< m, m, rad (unwrapped): as displayed
+  std::vector<float> vx, vy, spin;        ///< m/s, m/s, rad/s: of the physics state
+};
+constexpr std::int8_t kRoleRemote = 0;
+constexpr std::int8_t kRoleSecondary = 1;
+constexpr std::int8_t kRoleAuthority = 2;
+
+/// Bus only: major impacts a peer's world felt in a tick.
+struct Impacts {
+  std::int64_t utime = 0;
+  std::int32_t sequence = 0;
+  std::int32_t peer = 0;
+  std::int64_t tick = 0;
+  std::vector<std::int16_t> id_a, id_b;   ///< assembly ids; -1 for anchored ground
+  std::vector<float> x, y;                ///< m
+  std::vector<float> dv;                  ///< m/s, the larger change of velocity of the two
+};
+
+/// Once a second, on the bus from every peer: counters since the peer started.
+struct Stats {
+  std::int64_t utime = 0;
+  std::int32_t sequence = 0;
+  std::int32_t peer = 0;
+  std::int64_t tick = 0;
+  std::int64_t bytes_out = 0, bytes_in = 0;          ///< UDP payload
+  std::int64_t datagrams_out = 0, datagrams_in = 0;
+  std::int64_t dropped_malformed = 0;   ///< did not decode, or not ours
+  std::int64_t dropped_stale = 0;       ///< old epoch or old tick
+  std::int64_t dropped_right = 0;       ///< sender had no right to say it
+  std::int64_t dropped_implausible = 0; ///< not finite, too fast, out of the world
+  std::int64_t cpu_us = 0;              ///< CPU time of the process (0 in virtual time)
+  std::int32_t rtt_us = 0;              ///< least round trip of the last window, -1 unknown
+  std::int32_t loss_ppm = 0;            ///< datagrams lost on the way in, per million
+  std::int32_t tick_late_us = 0;        ///< worst lateness of a tick in the last second
+  std::int32_t clock_offset_us = 0;     ///< slewed offset still to be corrected
+};
+
+/// Bus only: something a person wants to read (joined, left, hand-over, repaired).
+struct Event {
+  std::int64_t utime = 0;
+  std::int32_t sequence = 0;
+  std::int32_t peer = 0;
+  std::int64_t tick = 0;
+  std::string text;
+};
+
+/// Either way: the last message of a link, or the refusal of a Hello.
+struct Bye {
+  std::int64_t utime = 0;
+  std::string reason;
+};
+
+}  // namespace seam

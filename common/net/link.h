@@ -1,0 +1,61 @@
+#pragma once
+/// One conversation over Net: sequence, acks, unreliable messages and a few reliable ordered ones.
+///
+///   datagram:  magic u32 | session u64 | sequence u16 | ack u16 | ack_bits u32 | messages...
+///   message:   header u16 (bit 15: reliable, bits 0..14: bytes) | [reliable id u16] | bytes
+///
+/// All big-endian. docs/protocol.md is the reference.
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "common/base/bytes.h"
+#include "common/net/net.h"
+
+namespace seam {
+
+/// Largest message of either kind, so that it fits one datagram with its headers.
+constexpr std::size_t kMessageBytesMax = 1150;
+/// Reliable messages in flight; more wait in a queue.
+constexpr int kReliableWindow = 64;
+
+/// Reads the session of a datagram without a Link; 0 when it is not one of ours.
+std::uint64_t PeekSession(ByteView datagram);
+
+class Link {
+ public:
+  /// Both ends must have the same session number (not 0); the client draws it at random.
+  explicit Link(std::uint64_t session);
+  ~Link();
+  Link(Link&&) noexcept;
+  Link& operator=(Link&&) noexcept;
+
+  /// Sent once with the next Flush. Requires 1..kMessageBytesMax bytes.
+  void SendUnreliable(ByteView message);
+  /// Repeated until acknowledged, delivered once and in order. False when 4096 are waiting: the
+  /// peer is gone or hostile, drop it.
+  bool SendReliable(ByteView message);
+
+  using Sink = std::function<void(ByteView)>;
+  /// Packs what is queued into datagrams of at most kDatagramBytesMax and gives them to `send`.
+  /// Unacknowledged reliable messages ride along, spaced by the round trip so that they do not
+  /// fill the path. Sends an empty datagram (acks only) if nothing was sent for 100 ms.
+  void Flush(std::int64_t now_us, const Sink& send);
+
+  /// Takes a datagram; calls `deliver` for each message in it that is new. False (and counted)
+  /// when it is malformed, of another session, a duplicate or too old; nothing is delivered then.
+  bool Receive(std::int64_t now_us, ByteView datagram, const Sink& deliver);
+
+  std::int64_t last_receive_us() const;   ///< -1 before the first
+  std::int64_t rtt_us() const;            ///< smoothed (RFC 6298), -1 before the first sample
+  std::int64_t loss_ppm() const;          ///< share of the last 256 incoming sequence numbers missing
+  std::int64_t rejected() const;          ///< datagrams Receive returned false for
+  bool reliable_pending() const;          ///< something sent reliably is not acknowledged yet
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace seam

@@ -1,0 +1,41 @@
+#pragma once
+/// Datagrams, and nothing else: what a Server or Client needs of the world outside.
+
+#include <cstdint>
+#include <string>
+
+#include "common/base/bytes.h"
+
+namespace seam {
+
+/// Largest datagram we send: below every common path MTU, so that IP never fragments it.
+constexpr std::size_t kDatagramBytesMax = 1200;
+
+/// An IPv4 endpoint, both in host byte order.
+struct Address {
+  std::uint32_t ip = 0;
+  std::uint16_t port = 0;
+  bool operator==(const Address& o) const { return ip == o.ip && port == o.port; }
+  bool operator!=(const Address& o) const { return !(*this == o); }
+  bool operator<(const Address& o) const { return ip != o.ip ? ip < o.ip : port < o.port; }
+};
+
+/// "127.0.0.1:7777". For logs.
+std::string ToString(const Address& address);
+
+/// Unreliable, unordered datagrams. Not thread-safe. No call blocks, throws or aborts because of
+/// what the network does.
+class Net {
+ public:
+  virtual ~Net() = default;
+  /// Takes note of the time (microseconds, never backwards); simulated networks deliver by it.
+  virtual void Advance(std::int64_t now_us) = 0;
+  /// Queues a datagram of 1..kDatagramBytesMax bytes. It may be lost.
+  virtual void Send(const Address& to, ByteView datagram) = 0;
+  /// Hands queued datagrams to the network.
+  virtual void Flush() = 0;
+  /// Takes the next waiting datagram; false when there is none.
+  virtual bool Receive(Address* from, Bytes* datagram) = 0;
+};
+
+}  // namespace seam

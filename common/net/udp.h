@@ -1,0 +1,38 @@
+#pragma once
+/// Net over a non-blocking IPv4 UDP socket, batched with recvmmsg/sendmmsg.
+
+#include <memory>
+#include <string>
+
+#include "common/net/net.h"
+
+namespace seam {
+
+/// Reads "host:port" or "host" (numeric IPv4 or a name). Throws OperatorError with what is wrong.
+Address ParseAddress(const std::string& text, std::uint16_t default_port);
+
+class UdpNet : public Net {
+ public:
+  /// Binds `local` (port 0: any). Throws OperatorError ("port 7777 is in use: ...").
+  explicit UdpNet(const Address& local);
+  ~UdpNet() override;
+  UdpNet(const UdpNet&) = delete;
+  UdpNet& operator=(const UdpNet&) = delete;
+
+  void Advance(std::int64_t) override {}
+  void Send(const Address& to, ByteView datagram) override;
+  void Flush() override;
+  bool Receive(Address* from, Bytes* datagram) override;
+
+  /// Sleeps in poll until a datagram (or, if >= 0, `extra_fd`) is readable or `timeout_us` has
+  /// passed; a signal ends it early.
+  void Wait(std::int64_t timeout_us, int extra_fd = -1);
+
+  Address local() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace seam

@@ -1,0 +1,34 @@
+#pragma once
+/// The recent past of a world's bodies, tick by tick: what retrospective corrections look at.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/physics/types.h"
+
+namespace seam {
+
+/// A ring of the last `capacity` ticks. Ticks are recorded one after another.
+class History {
+ public:
+  History(int body_count, int capacity_ticks);
+
+  /// Notes all bodies' states after `tick`. Requires tick == newest() + 1 unless empty; use Clear
+  /// before a jump.
+  void Record(std::int64_t tick, const std::vector<BodyState>& states);
+  /// nullptr when the tick is not in the ring.
+  const BodyState* At(std::int64_t tick, int body) const;
+  BodyState* At(std::int64_t tick, int body);
+  std::int64_t newest() const;      ///< -1 when empty
+  std::int64_t oldest() const;      ///< -1 when empty
+  void Clear();
+
+ private:
+  int bodies_ = 0;
+  int capacity_ = 0;
+  int count_ = 0;
+  std::int64_t newest_ = -1;
+  std::vector<BodyState> ring_;
+};
+
+}  // namespace seam

@@ -1,0 +1,124 @@
+#pragma once
+/// A scene as data: what scenes/*.toml says, checked, in SI units. docs/scenes.md is its reference.
+
+#include <string>
+#include <vector>
+
+#include "common/physics/types.h"
+
+namespace seam {
+
+enum class ShapeKind { kBox, kCircle, kPolygon, kChain };
+
+struct Material {
+  float density = 1;       ///< kg/m^2, 0.01..100
+  float friction = 0.5f;   ///< 0..1
+  float restitution = 0;   ///< 0..1
+};
+
+struct Part {
+  PartId id = 0;
+  std::string name;                 ///< unique
+  ShapeKind kind = ShapeKind::kBox;
+  Vec2 position{0, 0};              ///< m
+  float angle = 0;                  ///< rad
+  Vec2 size{1, 1};                  ///< box: full width and height, m
+  float radius = 0.5f;              ///< circle, m
+  std::vector<Vec2> points;         ///< polygon (convex, 3..8, local) or chain (>= 2, local), m
+  Material material;
+  bool anchored = false;            ///< never moves (chains always are)
+  bool bullet = false;              ///< continuous collision against moving bodies
+  int group = 0;                    ///< Box2D group index: equal negative groups do not collide
+  Vec2 velocity{0, 0};              ///< m/s at tick 0
+  float spin = 0;                   ///< rad/s at tick 0
+  int owner = -1;                   ///< player who has authority while connected; -1: by region
+  int line = 0;                     ///< in the scene file
+};
+
+enum class JointKind { kWeld, kRevolute, kWheel, kDistance };
+
+struct Joint {
+  std::string name;
+  JointKind kind = JointKind::kWeld;
+  PartId a = 0, b = 0;
+  Vec2 anchor_a{0, 0};              ///< world, at tick 0
+  Vec2 anchor_b{0, 0};              ///< world; same as anchor_a unless kDistance
+  Vec2 axis{0, 1};                  ///< world, unit; kWheel: direction of the spring
+  float frequency_hz = 0;           ///< spring (wheel, distance); 0: rigid
+  float damping_ratio = 0.7f;
+  float length = -1;                ///< kDistance: m; -1: as placed
+  bool limited = false;             ///< kRevolute
+  float lower = 0, upper = 0;       ///< rad
+  bool collide = false;             ///< the joined bodies collide with each other
+  int motor_player = -1;            ///< whose `drive` turns the motor; -1: a constant motor
+  float motor_speed = 0;            ///< rad/s at full drive
+  float motor_torque = 0;           ///< N m, the most the motor can do; 0: no motor
+  int line = 0;
+};
+
+/// A push when a button goes down: velocity change for one assembly.
+struct Action {
+  int button = 0;                   ///< 0..14
+  PartId part = 0;
+  Vec2 impulse{0, 0};               ///< N s, at the centre of mass
+};
+
+/// Scripted input: from `from_tick` until the next span.
+struct InputSpan {
+  std::int64_t from_tick = 0;
+  Input input;
+};
+
+struct Player {
+  std::string name;                 ///< what seam-client --name says
+  PartId vehicle = -1;              ///< a part of the mechanism that is the player's own, or -1
+  bool has_region = false;
+  Vec2 region_min{0, 0}, region_max{0, 0};   ///< static region, m
+  std::vector<Action> actions;
+  std::vector<InputSpan> script;    ///< ascending
+};
+
+struct Solver {
+  int tick_hz = 60;                 ///< 10..960
+  int substeps = 1;                 ///< 1..32 Box2D steps per tick
+  int velocity_iterations = 8;      ///< 1..64
+  int position_iterations = 3;      ///< 1..64
+  bool sleep = true;
+  bool continuous = true;
+};
+
+/// Where a collision between players' things is measured (common/measure: rebound).
+struct WatchCollision {
+  std::vector<PartId> struck;       ///< whose momentum is compared with the oracle's
+  std::int64_t around_tick = 0;     ///< searched from here on
+};
+
+struct Camera {
+  Vec2 min{-20, -2}, max{20, 12};   ///< what must be visible, m
+  PartId follow = -1;
+};
+
+struct Scene {
+  std::string name;                 ///< file name without folder and .toml
+  std::string title;
+  Vec2 gravity{0, -10};
+  Solver solver;
+  double duration_s = 10;           ///< length of the demo
+  float buffer_m = 10;              ///< width of the buffer zone
+  float speed_limit = 120;          ///< m/s: states beyond are implausible
+  Vec2 bounds_min{-1000, -1000}, bounds_max{1000, 1000};  ///< states beyond are implausible
+  std::vector<Part> parts;
+  std::vector<Joint> joints;
+  std::vector<Player> players;
+  std::vector<WatchCollision> watch;
+  Camera camera;
+  std::string text;                 ///< the file itself
+};
+
+/// Parses and checks a scene. Throws OperatorError "file:line: what" on the first mistake; nothing
+/// that passes makes Box2D abort.
+Scene ParseScene(const std::string& text, const std::string& file_name);
+/// Reads the file, then ParseScene.
+Scene LoadScene(const std::string& path);
+
+}  // namespace seam

@@ -1,0 +1,85 @@
+#pragma once
+/// One simulated world: a scene's assemblies in Box2D, stepped a tick at a time. Deterministic:
+/// the same calls give the same bits, at any optimisation level, in any process.
+
+#include <memory>
+#include <vector>
+
+#include "common/physics/assembly.h"
+#include "common/physics/scene.h"
+
+namespace seam {
+
+/// A change of velocity by contact that may be worth a spark, felt in the last tick.
+struct Impact {
+  int body_a = -1, body_b = -1;     ///< body indices; -1: anchored
+  Vec2 point{0, 0};                 ///< m
+  float dv = 0;                     ///< m/s, impulse over mass, the larger of the two bodies'
+};
+
+/// Two moving bodies that touched (with contact points) at the end of the last tick.
+struct Touch {
+  int body_a = -1, body_b = -1;     ///< body indices
+};
+
+enum class Motion { kDynamic, kKinematic };
+
+/// A `body` below is an index 0..body_count()-1 of the moving assemblies, ascending by id.
+class World {
+ public:
+  explicit World(const Scene& scene);
+  ~World();
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  const Scene& scene() const;
+  const Composition& composition() const;
+  int body_count() const;
+  PartId id(int body) const;            ///< assembly id
+  int BodyOfId(PartId assembly) const;  ///< -1 if there is no such moving assembly
+  int mechanism(int body) const;        ///< index into composition().mechanisms
+  float mass(int body) const;           ///< kg
+
+  std::int64_t tick() const;            ///< ticks stepped so far
+  void SetTick(std::int64_t tick);      ///< for a peer that joins later
+  float dt() const;                     ///< s per tick
+
+  BodyState Read(int body) const;
+  /// Sets pose and velocity. Requires finite values within the speed limits of types (asserted).
+  /// Wakes the body if `wake`; contact caches survive when the move is small.
+  void Write(int body, const BodyState& state, bool wake = true);
+  bool awake(int body) const;
+  void SetAwake(int body, bool awake);
+
+  /// Kinematic bodies move by their velocity and feel nothing.
+  void SetMotion(int body, Motion motion);
+  Motion motion(int body) const;
+
+  /// The motors that follow this player's axes from now on. Buttons are not looked at.
+  void SetInput(int player, const Input& input);
+  /// The push of the scene's player's action (index), now.
+  void Act(int player, int action);
+
+  /// Advances by one tick.
+  void Step();
+
+  const std::vector<Impact>& impacts() const;  ///< of the last tick, dv above kImpactRecordMin
+  const std::vector<Touch>& touches() const;   ///< after the last tick, each pair once
+
+  /// FNV-1a over tick, poses, velocities and sleep flags of all bodies, bit for bit.
+  std::uint64_t Hash() const;
+
+  /// Deepest overlap of two touching shapes by true geometry is common/measure's business; this is
+  /// kinetic plus potential energy of the moving bodies, J.
+  double Energy() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Impacts below this change of velocity are not recorded, m/s. A body resting under g = 10 feels
+/// 0.17 each tick of 1/60 s: must stay above that times the height of a stack.
+constexpr float kImpactRecordMin = 0.5f;
+
+}  // namespace seam
