@@ -1,0 +1,28 @@
+#pragma once
+/// A finished picture in memory: what a canvas draws into and a PNG is written from.
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace seam {
+
+/// 8-bit sRGB, rows from the top, no padding.
+struct Image {
+  int width_px = 0;
+  int height_px = 0;
+  std::vector<std::uint8_t> rgb;   ///< 3 * width * height bytes
+
+  const std::uint8_t* At(int x, int y) const {
+    return rgb.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
+                             static_cast<std::size_t>(x));
+  }
+};
+
+/// A colour with its opacity.
+struct Colour {
+  std::uint8_t r = 0, g = 0, b = 0, a = 255;
+  bool operator==(const Colour& o) const { return r == o.r && g == o.g && b == o.b && a == o.a; }
+};
+
+}  // namespace seam
