@@ -3,6 +3,7 @@
 /// The .lcm files in lcmtypes/ have the same fields in the same order and document the bytes;
 /// only common/codec/codec*.cpp knows both. Units are last in a name; SI without a suffix.
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -14,10 +15,33 @@ constexpr std::int32_t kProtocolVersion = 1;
 
 /// Largest encoded message on the bus; larger ones overflow stock lcm-logger's socket buffer.
 constexpr std::size_t kBusMessageBytesMax = 60000;
-/// Most bodies in one States message: 22 bytes each must fit a datagram of 1200 bytes.
+/// Most bodies in one States message: 50 + 17 bytes each must fit a datagram of 1200 bytes.
 constexpr std::size_t kStatesBodiesMax = 48;
-/// Most bodies in one View message: 30 bytes each within kBusMessageBytesMax.
+/// Most bodies in one View message: 28 bytes each within kBusMessageBytesMax.
 constexpr std::size_t kViewBodiesMax = 1900;
+
+/// Most views' parts: 32768 ids in views of kViewBodiesMax need 18.
+constexpr std::int32_t kViewPartsMax = 32;
+/// Most ticks in one Inputs message.
+constexpr std::size_t kInputsMax = 64;
+/// Most mechanisms in one Grants message: 30 + 9 bytes each must fit Link's kMessageBytesMax (1150).
+constexpr std::size_t kGrantsMax = 120;
+/// Most impacts in one Impacts message: 16 bytes each within kBusMessageBytesMax.
+constexpr std::size_t kImpactsMax = 3000;
+/// Most bytes in one Chunk.
+constexpr std::size_t kChunkBytesMax = 1000;
+/// Longest scene file that a Room can carry; a longer one cannot be played.
+constexpr std::size_t kSceneTextBytesMax = 51200;
+/// Longest names of modes, reconcilers, scenes; longest network profile; longest event or reason.
+constexpr std::size_t kLabelBytesMax = 64, kImpairBytesMax = 200, kTextBytesMax = 1000;
+/// Peers 0..31 and players 0..31: Grants::secondaries has a bit for each peer.
+constexpr std::int32_t kPeersMax = 32;
+/// Ticks are below this (580 years at 60 Hz), times below kTimeMaxUs (285 years) either side of 0:
+/// sums and differences of what a message says cannot overflow.
+constexpr std::int64_t kTickMax = std::int64_t{1} << 40;
+constexpr std::int64_t kTimeMaxUs = std::int64_t{1} << 53;
+/// Largest coordinate of a States origin, m: beyond it single precision is coarser than 1/16 m.
+constexpr std::int32_t kOriginMax = 1 << 20;
 
 /// Client -> server, until answered: wants to join.
 struct Hello {

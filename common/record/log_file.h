@@ -14,16 +14,25 @@
 
 namespace seam {
 
+/// "EDA1DA01": where an event begins.
+constexpr std::uint32_t kLogMagic = 0xEDA1DA01u;
+constexpr std::size_t kLogHeaderBytes = 28;
+/// Largest message in a log, normal 60 kB; a header that says more is taken for damage.
+constexpr std::size_t kLogDataBytesMax = 1000000;
+
 /// Writes the format that lcm-logger writes and lcm-logplayer reads.
 class LogWriter : public Recorder {
  public:
-  /// Throws OperatorError when the file cannot be created. Refuses to overwrite unless `force`.
+  /// Throws OperatorError when the file cannot be created, or exists and `force` is not given.
   explicit LogWriter(const std::string& path, bool force = false);
   ~LogWriter() override;
   LogWriter(const LogWriter&) = delete;
   LogWriter& operator=(const LogWriter&) = delete;
+  /// Appends an event with the timestamp `utime`. Counts a failure when the disk is full, the
+  /// channel is empty or longer than kChannelBytesMax, or the message exceeds kLogDataBytesMax.
   void Publish(const std::string& channel, std::int64_t utime, ByteView message) override;
   std::int64_t failures() const override { return failures_; }
+  /// Hands what is buffered to the operating system; a failure is counted.
   void Flush();
 
  private:
@@ -39,21 +48,34 @@ struct LogEvent {
   Bytes data;
 };
 
-/// Reads event by event. After damage it searches for the next plausible header.
+/// Reads event by event. After damage it searches for the next plausible header. An event whose
+/// own lengths are damaged may come out cut short or run together: decode what it carries.
 class LogReader {
  public:
   /// Throws OperatorError when the file cannot be opened or has no event at all ("not an LCM log").
+  /// Reads what the file holds now, not what is appended later.
   explicit LogReader(const std::string& path);
   ~LogReader();
   LogReader(const LogReader&) = delete;
   LogReader& operator=(const LogReader&) = delete;
-  /// False at the end.
+  /// False at the end. Never throws for what the file contains.
   bool Next(LogEvent* event);
+  /// Bytes that belong to no event that Next returned.
   std::int64_t skipped_bytes() const { return skipped_bytes_; }
+  /// Stretches of such bytes.
   std::int64_t damaged_places() const { return damaged_places_; }
 
  private:
+  struct Header;
+  const std::uint8_t* Peek(std::int64_t at, std::size_t bytes);
+  bool ReadHeader(std::int64_t at, bool magic_matters, Header* header);
+  std::int64_t FindHeader(std::int64_t from, std::int64_t to);
+  bool FollowedByEvent(std::int64_t end);
+
   std::FILE* file_ = nullptr;
+  Bytes window_;                       ///< a stretch of the file, from window_at_
+  std::int64_t window_at_ = 0;
+  std::int64_t at_ = 0;                ///< where the next event should begin
   std::int64_t size_bytes_ = 0;
   std::int64_t skipped_bytes_ = 0;
   std::int64_t damaged_places_ = 0;

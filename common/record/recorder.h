@@ -1,6 +1,7 @@
 #pragma once
 /// Where a peer's messages go to be seen: the LCM bus, a log file, memory, several, or nowhere.
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -9,6 +10,9 @@
 #include "common/base/bytes.h"
 
 namespace seam {
+
+/// Longest channel name of LCM.
+constexpr std::size_t kChannelBytesMax = 63;
 
 class Recorder {
  public:
@@ -41,7 +45,9 @@ class TeeRecorder : public Recorder {
   std::vector<Recorder*> to_;
 };
 
-/// "SEAM.<room>.<kind>" or "SEAM.<room>.<kind>.<peer>" when peer >= 0. kind is lower case.
+/// "SEAM.<room>.<kind>" or "SEAM.<room>.<kind>.<peer>" when peer >= 0. kind is lower case: room,
+/// inputs, states, grants, view, impacts, stats, event; docs/recordings.md lists them. Throws
+/// OperatorError when `room` is not a name (1..32 characters of [A-Za-z0-9_-]).
 std::string ChannelName(const std::string& room, const std::string& kind, int peer = -1);
 
 }  // namespace seam

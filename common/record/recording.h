@@ -1,8 +1,11 @@
 #pragma once
 /// A whole session in memory, decoded from a log: what measures and pictures are made of.
 
+#include <array>
+#include <cstdint>
 #include <map>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/codec/messages.h"
@@ -25,7 +28,9 @@ struct Recording {
   std::int64_t foreign = 0;            ///< events of channels that are not SEAM.*
   std::int64_t undecodable = 0;        ///< events of SEAM.* that did not decode
   std::int64_t skipped_bytes = 0;      ///< damaged bytes of the log
+  std::int64_t duplicates = 0;         ///< events heard twice, kept once
   std::int64_t bus_gaps = 0;           ///< messages missing by their sequence numbers
+  std::map<std::string, std::int64_t> gaps;  ///< the same by channel; channels without gaps absent
   std::int64_t first_tick = 0, last_tick = -1;  ///< over all views
 };
 
@@ -33,23 +38,49 @@ struct Recording {
 /// there is no such file or no room in it; damage is counted, not fatal.
 Recording ReadRecording(const std::string& path, const std::string& room = "");
 
-/// Adds one message to a recording (a live bus, a log): false when it does not belong.
+/// Adds one message to a recording (a live bus, a log). Bears a late start, duplicates, and
+/// messages out of order; a hostile log costs memory in proportion to its size, no more.
 class RecordingBuilder {
  public:
+  /// `room` "": the room of the first message that decodes.
   explicit RecordingBuilder(std::string room = "") : wanted_room_(std::move(room)) {}
+  /// False when the message does not belong: foreign, undecodable, or a duplicate (each counted).
   bool Add(const std::string& channel, ByteView message);
-  Recording& recording() { return recording_; }
+  /// Sorted by tick; the reference stays valid, but messages added later may be out of order in it
+  /// until recording() is called again.
+  Recording& recording();
+  /// True once a Room was heard; without one nothing can be drawn.
   bool has_room() const { return has_room_; }
 
  private:
+  /// What has come on a channel, by sequence number.
+  struct Heard {
+    std::int64_t first = -1, highest = -1;
+    std::uint64_t mask = 0;                           ///< bit i: highest - i has come
+    std::array<std::uint64_t, 64> hashes{};           ///< of the bytes, at sequence % 64
+  };
+  bool IsDuplicate(const std::string& channel, std::int32_t sequence, ByteView message);
+  void CountGaps(const std::string& channel, std::int64_t more);
+  bool Keep(Room& room);
+  bool Keep(Inputs& inputs);
+  bool Keep(States& states);
+  bool Keep(Grants& grants);
+  bool Keep(View& part);
+  bool Keep(Impacts& impacts);
+  bool Keep(Stats& stats);
+  bool Keep(Event& event);
+  bool KeepWhole(View& view);
+  void DropStrayTicks();
+
   std::string wanted_room_;
   bool has_room_ = false;
+  bool sorted_ = true;
   Recording recording_;
-  std::map<std::string, std::int32_t> last_sequence_;
-  std::map<std::pair<int, std::int64_t>, std::vector<View>> partial_;
+  std::map<std::string, Heard> heard_;                ///< by channel
+  std::map<std::pair<std::int64_t, int>, std::vector<View>> partial_;  ///< parts by tick and peer
 };
 
-/// Decodes and keeps nothing but what it publishes, in memory: a recording without a file.
+/// A recording without a file: decodes what is published and keeps it.
 class MemoryRecorder : public Recorder {
  public:
   void Publish(const std::string& channel, std::int64_t utime, ByteView message) override;

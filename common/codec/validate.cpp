@@ -1,0 +1,167 @@
+#include "common/codec/validate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace seam {
+namespace {
+
+template <class T, class L, class H>
+bool Within(T value, L low, H high) {
+  return value >= static_cast<T>(low) && value <= static_cast<T>(high);
+}
+
+bool Time(std::int64_t us) { return us > -kTimeMaxUs && us < kTimeMaxUs; }
+bool Counter(std::int64_t n) { return n >= 0 && n < kTimeMaxUs; }
+bool Tick(std::int64_t tick) { return tick >= 0 && tick < kTickMax; }
+/// Statistics and events may come before the first tick: -1.
+bool TickOrBefore(std::int64_t tick) { return tick == -1 || Tick(tick); }
+bool Peer(std::int32_t peer) { return Within(peer, 0, kPeersMax - 1); }
+
+template <class... Vectors>
+bool Lengths(std::size_t length, const Vectors&... vectors) {
+  return ((vectors.size() == length) && ...);
+}
+
+template <class T, class L, class H>
+bool AllWithin(const std::vector<T>& values, L low, H high) {
+  return std::all_of(values.begin(), values.end(), [&](T v) { return Within(v, low, high); });
+}
+
+template <class... Vectors>
+bool Finite(const Vectors&... vectors) {
+  const auto finite = [](const std::vector<float>& values) {
+    return std::all_of(values.begin(), values.end(), [](float v) { return std::isfinite(v); });
+  };
+  return (finite(vectors) && ...);
+}
+
+/// Ids: from 0 and strictly ascending.
+bool Ascending(const std::vector<std::int16_t>& ids) {
+  return (ids.empty() || ids.front() >= 0) &&
+         std::adjacent_find(ids.begin(), ids.end(), [](std::int16_t a, std::int16_t b) {
+           return a >= b;
+         }) == ids.end();
+}
+
+/// Bytes of the UTF-8 sequence at `at`, 0 when it is malformed or a control character.
+std::size_t SequenceBytes(const std::string& text, std::size_t at) {
+  const auto byte = [&](std::size_t i) {
+    return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u;
+  };
+  const unsigned lead = byte(at);
+  if (lead < 0x80) return lead >= 0x20 && lead != 0x7f ? 1 : 0;
+  const std::size_t bytes = lead >= 0xf0 ? 4 : lead >= 0xe0 ? 3 : 2;
+  if (lead < 0xc2 || lead > 0xf4) return 0;
+  unsigned code = lead & (0x7fu >> bytes);
+  for (std::size_t i = 1; i < bytes; ++i) {
+    if ((byte(at + i) & 0xc0u) != 0x80u) return 0;
+    code = code << 6 | (byte(at + i) & 0x3fu);
+  }
+  constexpr unsigned kLeast[] = {0, 0, 0xa0, 0x800, 0x10000};  // 0xa0: U+0080..9F are controls
+  const bool surrogate = code >= 0xd800 && code <= 0xdfff;
+  return code >= kLeast[bytes] && code <= 0x10ffff && !surrogate ? bytes : 0;
+}
+
+}  // namespace
+
+bool IsName(const std::string& text) {
+  return Within(text.size(), 1, 32) && std::all_of(text.begin(), text.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                  c == '_' || c == '-';
+         });
+}
+
+bool IsPrintable(const std::string& text, std::size_t bytes_max, bool lines) {
+  if (text.size() > bytes_max) return false;
+  for (std::size_t at = 0; at < text.size();) {
+    const char c = text[at];
+    const bool line = lines && (c == '\n' || c == '\r' || c == '\t');
+    const std::size_t bytes = line ? 1 : SequenceBytes(text, at);
+    if (bytes == 0) return false;
+    at += bytes;
+  }
+  return true;
+}
+
+bool Valid(const Hello& m) { return Time(m.utime) && IsName(m.name); }
+
+bool Valid(const Welcome& m) {
+  return Time(m.utime) && Within(m.peer, 1, kPeersMax - 1) && Within(m.player, -1, kPeersMax - 1) &&
+         Within(m.room_bytes, 1, kBusMessageBytesMax);
+}
+
+bool Valid(const Chunk& m) {
+  return Time(m.utime) && Within(m.offset_bytes, 0, kBusMessageBytesMax) &&
+         Within(m.data.size(), 1, kChunkBytesMax) &&
+         static_cast<std::size_t>(m.offset_bytes) + m.data.size() <= kBusMessageBytesMax;
+}
+
+bool Valid(const Room& m) {
+  return Time(m.utime) && m.sequence >= 0 && IsPrintable(m.room, kLabelBytesMax) &&
+         IsPrintable(m.scene_name, kLabelBytesMax) &&
+         IsPrintable(m.scene_text, kSceneTextBytesMax, true) &&
+         IsPrintable(m.mode, kLabelBytesMax) && IsPrintable(m.reconcile, kLabelBytesMax) &&
+         IsPrintable(m.impair, kImpairBytesMax) && Within(m.tick_hz, 10, 960) &&
+         Within(m.send_hz, 1, m.tick_hz);
+}
+
+bool Valid(const Ping& m) { return Time(m.utime); }
+
+bool Valid(const Pong& m) { return Time(m.utime) && Time(m.client_us) && Time(m.tick0_us); }
+
+bool Valid(const Inputs& m) {
+  return Time(m.utime) && m.sequence >= 0 && Within(m.player, 0, kPeersMax - 1) &&
+         Tick(m.first_tick) && Within(m.drive.size(), 1, kInputsMax) &&
+         Lengths(m.drive.size(), m.lift, m.buttons) && AllWithin(m.drive, -127, 127) &&
+         AllWithin(m.lift, -127, 127);
+}
+
+bool Valid(const States& m) {
+  return Time(m.utime) && m.sequence >= 0 && Peer(m.peer) && Tick(m.tick) &&
+         m.id.size() <= kStatesBodiesMax &&
+         Lengths(m.id.size(), m.epoch, m.flags, m.x, m.y, m.angle, m.vx, m.vy, m.spin) &&
+         Ascending(m.id) && AllWithin(m.flags, 0, kStateAsleep | kStateImpact) &&
+         Within(m.origin_x, -kOriginMax, kOriginMax) && Within(m.origin_y, -kOriginMax, kOriginMax);
+}
+
+bool Valid(const Grants& m) {
+  return Time(m.utime) && m.sequence >= 0 && Tick(m.tick) && m.mechanism.size() <= kGrantsMax &&
+         Lengths(m.mechanism.size(), m.authority, m.epoch, m.secondaries) &&
+         AllWithin(m.mechanism, 0, INT16_MAX) && AllWithin(m.authority, 0, kPeersMax - 1);
+}
+
+bool Valid(const View& m) {
+  return Time(m.utime) && m.sequence >= 0 && Peer(m.peer) && Tick(m.tick) &&
+         Within(m.parts, 1, kViewPartsMax) && Within(m.part, 0, m.parts - 1) &&
+         m.id.size() <= kViewBodiesMax &&
+         Lengths(m.id.size(), m.role, m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin) &&
+         Ascending(m.id) && AllWithin(m.role, kRoleRemote, kRoleAuthority) &&
+         AllWithin(m.authority, 0, kPeersMax - 1) &&
+         Finite(m.x, m.y, m.angle, m.vx, m.vy, m.spin);
+}
+
+bool Valid(const Impacts& m) {
+  return Time(m.utime) && m.sequence >= 0 && Peer(m.peer) && Tick(m.tick) &&
+         m.id_a.size() <= kImpactsMax && Lengths(m.id_a.size(), m.id_b, m.x, m.y, m.dv) &&
+         AllWithin(m.id_a, -1, INT16_MAX) && AllWithin(m.id_b, -1, INT16_MAX) &&
+         Finite(m.x, m.y, m.dv);
+}
+
+bool Valid(const Stats& m) {
+  return Time(m.utime) && m.sequence >= 0 && Peer(m.peer) && TickOrBefore(m.tick) &&
+         Counter(m.bytes_out) && Counter(m.bytes_in) && Counter(m.datagrams_out) &&
+         Counter(m.datagrams_in) && Counter(m.dropped_malformed) && Counter(m.dropped_stale) &&
+         Counter(m.dropped_right) && Counter(m.dropped_implausible) && Counter(m.cpu_us) &&
+         m.rtt_us >= -1 && Within(m.loss_ppm, 0, 1000000);
+}
+
+bool Valid(const Event& m) {
+  return Time(m.utime) && m.sequence >= 0 && Peer(m.peer) && TickOrBefore(m.tick) &&
+         IsPrintable(m.text, kTextBytesMax);
+}
+
+bool Valid(const Bye& m) { return Time(m.utime) && IsPrintable(m.reason, kImpairBytesMax); }
+
+}  // namespace seam

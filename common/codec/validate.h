@@ -1,0 +1,35 @@
+#pragma once
+/// The bounds of every message: what Encode promises and Decode demands.
+/// What Valid accepts may be indexed, added and subtracted without a further look.
+
+#include <string>
+
+#include "common/codec/messages.h"
+
+namespace seam {
+
+/// 1..32 characters of [A-Za-z0-9_-]: names of players and rooms.
+bool IsName(const std::string& text);
+
+/// At most `bytes_max` bytes of well-formed UTF-8 (RFC 3629) without control characters;
+/// `lines` allows newline, carriage return and tab.
+bool IsPrintable(const std::string& text, std::size_t bytes_max, bool lines = false);
+
+/// True when every field is within the bounds of messages.h: vectors of equal length, counts, peers,
+/// ticks and times in range, ids >= 0 and ascending where documented, floats finite.
+bool Valid(const Hello&);
+bool Valid(const Welcome&);
+bool Valid(const Chunk&);
+bool Valid(const Room&);
+bool Valid(const Ping&);
+bool Valid(const Pong&);
+bool Valid(const Inputs&);
+bool Valid(const States&);
+bool Valid(const Grants&);
+bool Valid(const View&);
+bool Valid(const Impacts&);
+bool Valid(const Stats&);
+bool Valid(const Event&);
+bool Valid(const Bye&);
+
+}  // namespace seam

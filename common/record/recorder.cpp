@@ -1,0 +1,19 @@
+#include "common/record/recorder.h"
+
+#include "common/base/check.h"
+#include "common/codec/validate.h"
+
+namespace seam {
+
+std::string ChannelName(const std::string& room, const std::string& kind, int peer) {
+  if (!IsName(room)) {
+    throw OperatorError("room \"" + room + "\": a room's name is 1..32 characters of [A-Za-z0-9_-]");
+  }
+  SEAM_ASSERT(IsName(kind));
+  std::string name = "SEAM." + room + "." + kind;
+  if (peer >= 0) name += "." + std::to_string(peer);
+  SEAM_ASSERT(name.size() <= kChannelBytesMax);
+  return name;
+}
+
+}  // namespace seam

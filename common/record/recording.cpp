@@ -1,0 +1,247 @@
+#include "common/record/recording.h"
+
+#include <algorithm>
+#include <tuple>
+#include <type_traits>
+#include <variant>
+
+#include "common/codec/codec.h"
+
+namespace seam {
+namespace {
+
+/// Channels whose sequence numbers are followed; a session has about 4 a peer.
+constexpr std::size_t kChannelsMax = 4096;
+/// Views that wait for further parts; normal 1 a peer. Beyond it the oldest tick is given up.
+constexpr std::size_t kPartialMax = 256;
+/// No session pauses for so many ticks: views farther apart than this do not belong together.
+/// A damaged tick would otherwise make a session of thousands of years.
+constexpr std::int64_t kTickPauseMax = 100000;
+
+/// The room in "SEAM.<room>.<kind>..."; "" when the channel is not one of ours.
+std::string RoomOf(const std::string& channel) {
+  if (channel.compare(0, 5, "SEAM.") != 0) return "";
+  const std::size_t end = channel.find('.', 5);
+  return end == std::string::npos ? "" : channel.substr(5, end - 5);
+}
+
+bool SameSession(const Room& a, const Room& b) {
+  const auto tie = [](const Room& r) {
+    return std::tie(r.protocol, r.scene_name, r.scene_text, r.mode, r.reconcile, r.impair, r.seed,
+                    r.tick_hz, r.send_hz);
+  };
+  return tie(a) == tie(b);
+}
+
+template <class T>
+void Append(std::vector<T>* to, const std::vector<T>& from) {
+  to->insert(to->end(), from.begin(), from.end());
+}
+
+template <class T>
+bool TickLess(const T& a, const T& b) {
+  return a.tick < b.tick;
+}
+
+template <class T>
+bool AppendByTick(std::vector<T>* to, T& message) {
+  const bool in_order = to->empty() || !TickLess(message, to->back());
+  to->push_back(std::move(message));
+  return in_order;
+}
+
+}  // namespace
+
+bool RecordingBuilder::Add(const std::string& channel, ByteView message) {
+  ++recording_.events_read;
+  const std::string room = RoomOf(channel);
+  if (room.empty() || (!wanted_room_.empty() && room != wanted_room_)) {
+    ++recording_.foreign;
+    return false;
+  }
+  AnyMessage any = Decode(message);
+  return std::visit(
+      [&](auto& m) {
+        using M = std::decay_t<decltype(m)>;
+        if constexpr (std::is_same_v<M, std::monostate>) {
+          ++recording_.undecodable;
+          return false;
+        } else if constexpr (std::is_same_v<M, Hello> || std::is_same_v<M, Welcome> ||
+                             std::is_same_v<M, Chunk> || std::is_same_v<M, Ping> ||
+                             std::is_same_v<M, Pong> || std::is_same_v<M, Bye>) {
+          ++recording_.foreign;  // of the edge: it has no business on the bus
+          return false;
+        } else {
+          if (wanted_room_.empty()) wanted_room_ = room;
+          return !IsDuplicate(channel, m.sequence, message) && Keep(m);
+        }
+      },
+      any);
+}
+
+void RecordingBuilder::CountGaps(const std::string& channel, std::int64_t more) {
+  if (more == 0) return;
+  recording_.bus_gaps += more;
+  if ((recording_.gaps[channel] += more) == 0) recording_.gaps.erase(channel);
+}
+
+bool RecordingBuilder::IsDuplicate(const std::string& channel, std::int32_t sequence,
+                                   ByteView message) {
+  if (heard_.size() >= kChannelsMax && heard_.count(channel) == 0) return false;
+  Heard& heard = heard_[channel];
+  std::uint64_t& hash = heard.hashes[static_cast<std::size_t>(sequence) % 64];
+  const std::uint64_t hash_before = hash;
+  hash = Fnv1a(message.data, message.size);
+  const std::int64_t ahead = sequence - heard.highest;
+  if (heard.highest < 0 || ahead <= -64) {  // the first, or a publisher that started again
+    heard.first = heard.highest = sequence;
+    heard.mask = 1;
+    return false;
+  }
+  if (ahead > 0) {
+    CountGaps(channel, ahead - 1);
+    heard.highest = sequence;
+    heard.mask = ahead < 64 ? heard.mask << ahead | 1 : 1;
+    return false;
+  }
+  const std::uint64_t bit = std::uint64_t{1} << -ahead;
+  if ((heard.mask & bit) != 0) {
+    if (hash != hash_before) return false;  // another message of that number: started again
+    ++recording_.duplicates;
+    return true;
+  }
+  heard.mask |= bit;  // late: it was counted as missing, unless it came before the first
+  CountGaps(channel, sequence > heard.first ? -1 : heard.first - sequence - 1);
+  heard.first = std::min<std::int64_t>(heard.first, sequence);
+  return false;
+}
+
+bool RecordingBuilder::Keep(Room& room) {
+  if (has_room_ && !SameSession(room, recording_.room)) {
+    ++recording_.foreign;
+    return false;
+  }
+  if (!has_room_) recording_.room = std::move(room);
+  has_room_ = true;
+  return true;
+}
+
+bool RecordingBuilder::Keep(Inputs& inputs) {
+  Inputs& kept = recording_.inputs[inputs.player][inputs.first_tick];
+  if (inputs.drive.size() > kept.drive.size()) kept = std::move(inputs);
+  return true;
+}
+
+bool RecordingBuilder::Keep(States& states) {
+  recording_.states.push_back(std::move(states));
+  return true;
+}
+
+bool RecordingBuilder::Keep(Grants& grants) {
+  recording_.grants.push_back(std::move(grants));
+  return true;
+}
+
+bool RecordingBuilder::Keep(Impacts& impacts) {
+  sorted_ = AppendByTick(&recording_.impacts, impacts) && sorted_;
+  return true;
+}
+
+bool RecordingBuilder::Keep(Stats& stats) {
+  sorted_ = AppendByTick(&recording_.stats[stats.peer], stats) && sorted_;
+  return true;
+}
+
+bool RecordingBuilder::Keep(Event& event) {
+  sorted_ = AppendByTick(&recording_.events, event) && sorted_;
+  return true;
+}
+
+bool RecordingBuilder::Keep(View& part) {
+  if (part.parts == 1) return KeepWhole(part);
+  const std::pair<std::int64_t, int> key(part.tick, part.peer);
+  std::vector<View>& parts = partial_[key];
+  if (!parts.empty() && parts.front().parts != part.parts) parts.clear();
+  const auto place = std::lower_bound(parts.begin(), parts.end(), part,
+                                      [](const View& a, const View& b) { return a.part < b.part; });
+  if (place != parts.end() && place->part == part.part) {
+    *place = std::move(part);
+  } else {
+    parts.insert(place, std::move(part));
+  }
+  if (parts.size() < static_cast<std::size_t>(parts.front().parts)) {
+    if (partial_.size() > kPartialMax) partial_.erase(partial_.begin());
+    return true;
+  }
+  View whole = std::move(parts.front());
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    const View& next = parts[i];
+    Append(&whole.id, next.id);
+    Append(&whole.role, next.role);
+    Append(&whole.authority, next.authority);
+    for (const auto field : {&View::x, &View::y, &View::angle, &View::vx, &View::vy, &View::spin}) {
+      Append(&(whole.*field), next.*field);
+    }
+  }
+  whole.parts = 1;
+  partial_.erase(key);
+  return KeepWhole(whole);
+}
+
+bool RecordingBuilder::KeepWhole(View& view) {
+  const auto not_below = [](std::int16_t a, std::int16_t b) { return a >= b; };
+  if (std::adjacent_find(view.id.begin(), view.id.end(), not_below) != view.id.end()) {
+    ++recording_.undecodable;  // parts that do not fit together
+    return false;
+  }
+  const bool first = recording_.last_tick < 0;
+  recording_.first_tick = first ? view.tick : std::min(recording_.first_tick, view.tick);
+  recording_.last_tick = std::max(recording_.last_tick, view.tick);
+  recording_.views[view.peer][view.tick] = std::move(view);
+  return true;
+}
+
+Recording& RecordingBuilder::recording() {
+  if (!sorted_) {
+    const auto sort = [](auto& v) {
+      using T = typename std::decay_t<decltype(v)>::value_type;
+      std::stable_sort(v.begin(), v.end(), TickLess<T>);
+    };
+    sort(recording_.impacts);
+    sort(recording_.events);
+    for (auto& [peer, stats] : recording_.stats) sort(stats);
+    sorted_ = true;
+  }
+  if (recording_.last_tick - recording_.first_tick > kTickPauseMax) DropStrayTicks();
+  return recording_;
+}
+
+/// Keeps the longest run of ticks without a pause over kTickPauseMax.
+void RecordingBuilder::DropStrayTicks() {
+  std::vector<std::int64_t> ticks;
+  for (const auto& [peer, views] : recording_.views) {
+    for (const auto& [tick, view] : views) ticks.push_back(tick);
+  }
+  std::sort(ticks.begin(), ticks.end());
+  std::size_t best = 0, best_size = 0;
+  for (std::size_t begin = 0, end = 0; begin < ticks.size(); begin = end) {
+    for (end = begin + 1; end < ticks.size() && ticks[end] - ticks[end - 1] <= kTickPauseMax;) ++end;
+    if (end - begin > best_size) {
+      best = begin;
+      best_size = end - begin;
+    }
+  }
+  recording_.first_tick = ticks[best];
+  recording_.last_tick = ticks[best + best_size - 1];
+  recording_.undecodable += static_cast<std::int64_t>(ticks.size() - best_size);
+  for (auto& [peer, views] : recording_.views) {
+    views.erase(views.begin(), views.lower_bound(recording_.first_tick));
+    views.erase(views.upper_bound(recording_.last_tick), views.end());
+  }
+}
+
+void MemoryRecorder::Publish(const std::string& channel, std::int64_t, ByteView message) {
+  builder.Add(channel, message);
+}
+
+}  // namespace seam

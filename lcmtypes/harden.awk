@@ -1,0 +1,73 @@
+# Hardens a C++ header of lcm-gen 1.3: its stock decode() can be killed by 20 bytes, because it
+# believes array counts and string lengths. Usage: awk -f harden.awk hello_t.hpp > hardened.hpp
+#
+#   arrays   count < 0 or beyond the bytes that are left: return -1 before the resize
+#   strings  length < 1 or beyond the bytes that are left, or no NUL at the end: return -1
+#   floats   copied through integers: the stock cast of float* to int32_t* breaks strict aliasing
+#
+# Exits with 1 and a line when it meets an allocation that it does not know how to guard, so that a
+# newer lcm-gen or a new kind of field cannot slip through. Works with mawk and gawk.
+
+function fail(why) {
+  print FILENAME ":" FNR ": harden.awk: " why ": " $0 | "cat 1>&2"
+  failed = 1
+  exit 1
+}
+
+# The text between the first `from` and the next `to` of the line.
+function between(from, to,    rest) {
+  rest = substr($0, index($0, from) + length(from))
+  return substr(rest, 1, index(rest, to) - 1)
+}
+
+# The stock check of a string: replaced, and the assign that must follow is armed.
+/^    if\(__[A-Za-z0-9_]*_len__ > maxlen - pos\) return -1;$/ {
+  n = between("if(", " >")
+  print "    if(" n " < 1 || " n " > maxlen - pos) return -1;"
+  print "    if(((const char*)buf)[offset + pos + " n " - 1] != 0) return -1;"
+  checked = n
+  next
+}
+
+/assign\(/ {
+  if (checked == "" || index($0, "offset + pos, " checked " - 1);") == 0) fail("unguarded string")
+  checked = ""
+  guarded++
+}
+
+/resize\(/ {
+  if ($0 !~ /^        this->[a-z0-9_]+\.resize\(this->[a-z0-9_]+\);$/) fail("unguarded resize")
+  n = between("resize(", ")")
+  print "        if(" n " < 0 || " n " > maxlen - pos) return -1;"
+  guarded++
+}
+
+/(reserve|malloc|calloc|new|alloc)[ (]/ && !/^ *[\/*]/ { fail("unknown allocation") }
+
+# One line of a float array: through a vector of the same bits.
+/__float_(de|en)code_array\(.*&this->[a-z0-9_]+\[0\], this->[a-z0-9_]+\);$/ {
+  field = between("&this->", "[0]")
+  n = between("[0], ", ")")
+  print "        std::vector< int32_t > __bits__(" n ");"
+  if ($0 ~ /decode/) {
+    print "        tlen = __int32_t_decode_array(buf, offset + pos, maxlen - pos, __bits__.data(), " n ");"
+    print "        memcpy(this->" field ".data(), __bits__.data(), sizeof(float) * __bits__.size());"
+  } else {
+    print "        memcpy(__bits__.data(), this->" field ".data(), sizeof(float) * __bits__.size());"
+    print "        tlen = __int32_t_encode_array(buf, offset + pos, maxlen - pos, __bits__.data(), " n ");"
+  }
+  next
+}
+/__(float|double)_(de|en)code_array\(/ { fail("floating-point field that is not an array of floats") }
+
+/_decodeNoHash\(const void \*buf.*\)$/ { decoders++ }
+
+{ print }
+
+END {
+  if (failed) exit 1
+  if (decoders != 1) {
+    print FILENAME ": harden.awk: expected one decoder, found " decoders + 0 | "cat 1>&2"
+    exit 1
+  }
+}
