@@ -1,10 +1,11 @@
 #pragma once
 /// One conversation over Net: sequence, acks, unreliable messages and a few reliable ordered ones.
 ///
-///   datagram:  magic u32 | session u64 | sequence u16 | ack u16 | ack_bits u32 | messages...
+///   datagram:  magic u32 | checksum u32 | session u64 | sequence u16 | ack u16 | ack_bits u32 |
+///              messages...
 ///   message:   header u16 (bit 15: reliable, bits 0..14: bytes) | [reliable id u16] | bytes
 ///
-/// All big-endian. docs/protocol.md is the reference.
+/// All big-endian; the checksum is CRC-32C over all other bytes. docs/protocol.md is the reference.
 
 #include <cstdint>
 #include <functional>
@@ -20,7 +21,8 @@ constexpr std::size_t kMessageBytesMax = 1150;
 /// Reliable messages in flight; more wait in a queue.
 constexpr int kReliableWindow = 64;
 
-/// Reads the session of a datagram without a Link; 0 when it is not one of ours.
+/// Reads the session of a datagram without a Link; 0 when it is not one of ours (too short, too
+/// long, another magic, a wrong checksum).
 std::uint64_t PeekSession(ByteView datagram);
 
 class Link {
@@ -31,25 +33,30 @@ class Link {
   Link(Link&&) noexcept;
   Link& operator=(Link&&) noexcept;
 
-  /// Sent once with the next Flush. Requires 1..kMessageBytesMax bytes.
+  /// Sent once with the next Flush. Requires 1..kMessageBytesMax bytes. Of more than 1024 without a
+  /// Flush the oldest are forgotten.
   void SendUnreliable(ByteView message);
-  /// Repeated until acknowledged, delivered once and in order. False when 4096 are waiting: the
-  /// peer is gone or hostile, drop it.
+  /// Repeated until acknowledged, delivered once and in order. Requires 1..kMessageBytesMax bytes.
+  /// False when 4096 are waiting: the peer is gone or hostile, drop it.
   bool SendReliable(ByteView message);
 
   using Sink = std::function<void(ByteView)>;
   /// Packs what is queued into datagrams of at most kDatagramBytesMax and gives them to `send`.
-  /// Unacknowledged reliable messages ride along, spaced by the round trip so that they do not
-  /// fill the path. Sends an empty datagram (acks only) if nothing was sent for 100 ms.
+  /// Unacknowledged reliable messages ride along first, spaced by the round trip so that they do
+  /// not fill the path, about 9 kB of them in one call. Sends a datagram without messages (acks
+  /// only) if nothing was sent for 100 ms, and when something reliable has arrived since the last.
   void Flush(std::int64_t now_us, const Sink& send);
 
   /// Takes a datagram; calls `deliver` for each message in it that is new. False (and counted)
   /// when it is malformed, of another session, a duplicate or too old; nothing is delivered then.
+  /// `deliver` may send on this link, but must neither destroy it nor call Receive.
   bool Receive(std::int64_t now_us, ByteView datagram, const Sink& deliver);
 
   std::int64_t last_receive_us() const;   ///< -1 before the first
-  std::int64_t rtt_us() const;            ///< smoothed (RFC 6298), -1 before the first sample
-  std::int64_t loss_ppm() const;          ///< share of the last 256 incoming sequence numbers missing
+  /// Smoothed (RFC 6298), with the time the peer lets pass until its next datagram; -1 before the
+  /// first sample.
+  std::int64_t rtt_us() const;
+  std::int64_t loss_ppm() const;          ///< missing of the last 256 incoming sequence numbers
   std::int64_t rejected() const;          ///< datagrams Receive returned false for
   bool reliable_pending() const;          ///< something sent reliably is not acknowledged yet
 

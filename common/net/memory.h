@@ -1,6 +1,7 @@
 #pragma once
 /// A network inside one process and in virtual time: what a test or experiment runs on.
 
+#include <cstdint>
 #include <deque>
 #include <map>
 #include <memory>
@@ -10,7 +11,8 @@
 
 namespace seam {
 
-/// Delivers at once and in order; wrap an endpoint in ImpairedNet for anything worse.
+/// Delivers at once and in order; wrap an endpoint in ImpairedNet for anything worse. What is sent
+/// to an address without an endpoint is lost.
 class MemoryNetwork {
  public:
   /// An endpoint bound to `address`; owned by the caller, must not outlive the network.
@@ -19,7 +21,13 @@ class MemoryNetwork {
 
  private:
   friend class MemoryEndpoint;
-  std::map<Address, std::deque<std::pair<Address, Bytes>>> inbox_;
+  using Datagrams = std::deque<std::pair<Address, Bytes>>;   // sender, bytes
+  struct Inbox {
+    std::uint64_t endpoint = 0;   // the number of the endpoint that may use it
+    Datagrams datagrams;
+  };
+  std::map<Address, Inbox> inbox_;
+  std::uint64_t endpoints_ = 0;   // made so far
 };
 
 }  // namespace seam

@@ -8,7 +8,8 @@
 
 namespace seam {
 
-/// Reads "host:port" or "host" (numeric IPv4 or a name). Throws OperatorError with what is wrong.
+/// Reads "host:port" or "host" (numeric IPv4 or a name, which may take the resolver's time). Port 0
+/// is allowed: any port, to bind. Throws OperatorError with what is wrong.
 Address ParseAddress(const std::string& text, std::uint16_t default_port);
 
 class UdpNet : public Net {
@@ -25,7 +26,8 @@ class UdpNet : public Net {
   bool Receive(Address* from, Bytes* datagram) override;
 
   /// Sleeps in poll until a datagram (or, if >= 0, `extra_fd`) is readable or `timeout_us` has
-  /// passed; a signal ends it early.
+  /// passed; a signal ends it early. Returns at once at the end of file of `extra_fd`: do not pass
+  /// it again then. Does not Flush.
   void Wait(std::int64_t timeout_us, int extra_fd = -1);
 
   Address local() const;

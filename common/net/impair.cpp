@@ -1,0 +1,181 @@
+#include "common/net/impair.h"
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <queue>
+#include <vector>
+
+#include "common/base/check.h"
+#include "common/net/impair_path.h"
+
+namespace seam {
+namespace {
+
+/// Paths per direction with a stream of their own. Beyond (forged senders), one path is shared.
+constexpr std::size_t kPathsMax = 4096;
+/// Most datagrams taken from the inner net at once, so that a flood cannot hold us.
+constexpr int kPullMax = 4096;
+
+/// A datagram under way.
+struct Waiting {
+  std::int64_t due_us = 0;
+  std::uint64_t number = 0;      // of arrival: keeps ties in order
+  Address peer;
+  std::size_t* path_bytes = nullptr;
+  Bytes data;
+};
+
+struct Later {
+  bool operator()(const Waiting& a, const Waiting& b) const {
+    return a.due_us != b.due_us ? a.due_us > b.due_us : a.number > b.number;
+  }
+};
+
+/// One direction: a path per peer, and what is under way on all of them.
+class Direction {
+ public:
+  Direction(const ImpairProfile& profile, const Random& random)
+      : profile_(profile), random_(random) {}
+  Direction(const Direction&) = delete;
+  Direction& operator=(const Direction&) = delete;
+
+  void Enter(const Address& peer, ByteView data, std::int64_t now_us) {
+    Path& path = Find(peer);
+    const Fate fate = path.impair.Next(now_us, data.size);
+    for (int i = 0; i < fate.count; ++i) {
+      if (path.bytes + data.size > ImpairedNet::kPathBytesMax) continue;
+      if (bytes_ + data.size > ImpairedNet::kQueueBytesMax) continue;
+      Waiting waiting{fate.arrivals[i].due_us, ++entered_, peer, &path.bytes,
+                      Bytes(data.begin(), data.end())};
+      const std::int64_t bit = fate.arrivals[i].flip_bit;
+      if (bit >= 0) {
+        auto& byte = waiting.data[static_cast<std::size_t>(bit / 8)];
+        byte = static_cast<std::uint8_t>(byte ^ (1u << (bit % 8)));
+      }
+      path.bytes += data.size;
+      bytes_ += data.size;
+      heap_.push_back(std::move(waiting));
+      std::push_heap(heap_.begin(), heap_.end(), Later());
+    }
+  }
+
+  /// Takes the first datagram that is due; false when none is.
+  bool Leave(std::int64_t now_us, Address* peer, Bytes* data) {
+    if (next_due_us() > now_us) return false;
+    std::pop_heap(heap_.begin(), heap_.end(), Later());
+    Waiting& first = heap_.back();
+    *first.path_bytes -= first.data.size();
+    bytes_ -= first.data.size();
+    *peer = first.peer;
+    *data = std::move(first.data);
+    heap_.pop_back();
+    return true;
+  }
+
+  void Clear() {
+    for (const Waiting& waiting : heap_) *waiting.path_bytes -= waiting.data.size();
+    heap_.clear();
+    bytes_ = 0;
+  }
+
+  std::int64_t next_due_us() const {
+    return heap_.empty() ? std::numeric_limits<std::int64_t>::max() : heap_.front().due_us;
+  }
+
+ private:
+  struct Path {
+    ImpairPath impair;
+    std::size_t bytes = 0;       // under way on it
+  };
+
+  Path& Find(const Address& peer) {
+    const auto found = paths_.find(peer);
+    if (found != paths_.end()) return found->second;
+    const Address key = paths_.size() < kPathsMax ? peer : Address{};
+    const std::uint64_t purpose = (std::uint64_t{key.ip} << 16) | key.port;
+    // std::map never moves its elements, so Waiting may point into them.
+    return paths_.try_emplace(key, Path{ImpairPath(profile_, random_.Fork(purpose)), 0})
+        .first->second;
+  }
+
+  const ImpairProfile profile_;
+  const Random random_;
+  std::map<Address, Path> paths_;
+  std::vector<Waiting> heap_;
+  std::uint64_t entered_ = 0;
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace
+
+struct ImpairedNet::Impl {
+  Impl(Net& inner_net, const ImpairProfile& out_profile, const ImpairProfile& in_profile,
+       std::uint64_t seed)
+      : inner(inner_net), out(out_profile, Random(seed).Fork(1)),
+        in(in_profile, Random(seed).Fork(2)) {}
+
+  /// Takes in what the inner net has received by now.
+  void Pull() {
+    Address from;
+    Bytes data;
+    for (int i = 0; i < kPullMax && inner.Receive(&from, &data); ++i) {
+      if (!cut && !data.empty()) in.Enter(from, data, now_us);
+    }
+  }
+
+  /// Hands on what is due.
+  void Push() {
+    Address to;
+    Bytes data;
+    while (out.Leave(now_us, &to, &data)) inner.Send(to, data);
+  }
+
+  Net& inner;
+  Direction out, in;
+  bool cut = false;
+  std::int64_t now_us = 0;
+};
+
+ImpairedNet::ImpairedNet(Net& inner, const ImpairProfile& out, const ImpairProfile& in,
+                         std::uint64_t seed)
+    : impl_(std::make_unique<Impl>(inner, out, in, seed)) {}
+
+ImpairedNet::~ImpairedNet() = default;
+
+void ImpairedNet::Advance(std::int64_t now_us) {
+  SEAM_ASSERT(now_us >= impl_->now_us);
+  impl_->now_us = now_us;
+  impl_->inner.Advance(now_us);
+  impl_->Pull();
+  impl_->Push();
+}
+
+void ImpairedNet::Send(const Address& to, ByteView datagram) {
+  SEAM_ASSERT(datagram.size >= 1 && datagram.size <= kDatagramBytesMax);
+  if (impl_->cut) return;
+  impl_->out.Enter(to, datagram, impl_->now_us);
+  impl_->Push();
+}
+
+void ImpairedNet::Flush() { impl_->inner.Flush(); }
+
+bool ImpairedNet::Receive(Address* from, Bytes* datagram) {
+  impl_->Pull();
+  return impl_->in.Leave(impl_->now_us, from, datagram);
+}
+
+void ImpairedNet::Cut(bool cut) {
+  impl_->cut = impl_->cut || cut;
+  impl_->Pull();   // what arrived while cut is lost too
+  impl_->cut = cut;
+  if (!cut) return;
+  impl_->in.Clear();
+  impl_->out.Clear();
+}
+
+std::int64_t ImpairedNet::next_due_us() const {
+  return std::min(impl_->in.next_due_us(), impl_->out.next_due_us());
+}
+
+}  // namespace seam

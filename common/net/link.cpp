@@ -1,0 +1,273 @@
+#include "common/net/link.h"
+
+#include <algorithm>
+#include <array>
+#include <deque>
+#include <map>
+#include <vector>
+
+#include "common/base/check.h"
+#include "common/net/datagram.h"
+#include "common/net/sequence_window.h"
+
+namespace seam {
+namespace {
+
+/// Reliable messages that may wait for the window.
+constexpr std::size_t kReliableQueueMax = 4096;
+/// Unreliable messages that may wait for a Flush.
+constexpr std::size_t kUnreliableQueueMax = 1024;
+/// Reliable bytes begun in one Flush: eight datagrams. At 60 Hz 4.4 Mb/s; more floods a slow path.
+constexpr std::size_t kReliableFlushBytes = 8 * kMessageBytesMax;
+/// Datagrams whose contents we remember for their ack: 600 ms at 1700 a second. An ack that comes
+/// later is not understood, and what it acked is sent again.
+constexpr std::size_t kSentRecords = 1024;
+/// Silence after which acks are sent by themselves, us.
+constexpr std::int64_t kIdleUs = 100'000;
+/// Time before a reliable message is repeated: before the round trip is known, and at least, us.
+constexpr std::int64_t kFirstResendUs = 250'000;
+constexpr std::int64_t kResendUsMin = 50'000;
+/// Sequence numbers that one ack field and its 32 bits cover.
+constexpr std::int64_t kAckSpan = 33;
+
+/// A reliable message until it is acknowledged.
+struct Outgoing {
+  std::int64_t id = 0;
+  std::int64_t sent_us = -1;     // -1: not yet
+  bool acked = false;
+  Bytes bytes;
+};
+
+/// What a datagram carried.
+struct SentRecord {
+  std::int64_t sequence = -1;
+  std::int64_t sent_us = 0;
+  bool acked = false;
+  std::vector<std::int64_t> ids;
+};
+
+}  // namespace
+
+std::uint64_t PeekSession(ByteView datagram) {
+  DatagramHeader header;
+  return ReadHeader(datagram, &header) ? header.session : 0;
+}
+
+struct Link::Impl {
+  const std::uint64_t session;
+
+  std::int64_t sequence = 0;                 // of the newest datagram sent; the first is 1
+  std::int64_t last_send_us = -1;
+  std::deque<Bytes> unreliable;
+  std::deque<Outgoing> reliable;             // the first kReliableWindow of them are the window
+  std::int64_t next_id = 0;
+  std::array<SentRecord, kSentRecords> sent;
+  std::int64_t srtt_us = -1;
+  bool ever_acked = false;
+
+  SequenceWindow window;
+  std::int64_t flushed_newest = -1;          // window.newest() at the last Flush
+  bool ack_owed = false;                     // something reliable came since the last datagram
+  std::int64_t next_in = 0;                  // id of the next reliable message to deliver
+  std::map<std::int64_t, Bytes> early;       // reliable messages ahead of it, within the window
+  std::int64_t last_receive_us = -1;
+  std::int64_t rejected = 0;
+
+  explicit Impl(std::uint64_t number) : session(number) {}
+
+  std::int64_t ResendUs() const {
+    return srtt_us < 0 ? kFirstResendUs : std::max(srtt_us + srtt_us / 4, kResendUsMin);
+  }
+
+  // ---- sending
+
+  /// One Flush at work: the datagram being filled, and what it carries.
+  struct Packing {
+    std::int64_t now_us;
+    const Sink& send;
+    std::vector<std::int64_t> acks;          // ack fields for the datagrams, newest first
+    std::size_t datagrams = 0;
+    DatagramWriter writer{};
+    std::vector<std::int64_t> ids{};
+  };
+
+  /// The ack fields that together cover all that arrived since the last Flush. One is the rule;
+  /// more when over 33 datagrams came in between.
+  std::vector<std::int64_t> AckPoints() const {
+    std::vector<std::int64_t> points;
+    std::int64_t at = window.newest();
+    const std::int64_t oldest = window.newest() - SequenceWindow::kSize;
+    while (!window.empty() && at > oldest && (points.empty() || at > flushed_newest)) {
+      if (window.Has(at)) {
+        points.push_back(at);
+        at -= kAckSpan;
+      } else {
+        --at;
+      }
+    }
+    return points;
+  }
+
+  /// Sends the datagram being filled, which may be empty.
+  void Emit(Packing& packing) {
+    DatagramHeader header;
+    header.session = session;
+    header.sequence = static_cast<std::uint16_t>(++sequence);
+    if (!packing.acks.empty()) {
+      const std::int64_t ack = packing.acks[std::min(packing.datagrams, packing.acks.size() - 1)];
+      header.ack = static_cast<std::uint16_t>(ack);
+      header.ack_bits = window.BitsBefore(ack);
+    }
+    SentRecord& record = sent[static_cast<std::size_t>(sequence) % kSentRecords];
+    record = {sequence, packing.now_us, false, std::move(packing.ids)};
+    packing.send(packing.writer.Finish(header));
+    ++packing.datagrams;
+    packing.writer = DatagramWriter();
+    packing.ids.clear();
+    last_send_us = packing.now_us;
+    ack_owed = false;
+  }
+
+  void Pack(Packing& packing, const DatagramMessage& message) {
+    const std::size_t bytes = FramedBytes(message.bytes.size, message.reliable);
+    if (packing.writer.bytes() + bytes > kDatagramBytesMax) Emit(packing);
+    packing.writer.Append(message);
+  }
+
+  void PackReliable(Packing& packing) {
+    std::size_t budget = kReliableFlushBytes;
+    const std::size_t count = std::min<std::size_t>(reliable.size(), kReliableWindow);
+    for (std::size_t i = 0; i < count; ++i) {
+      Outgoing& message = reliable[i];
+      const bool waits = message.sent_us >= 0 && packing.now_us - message.sent_us < ResendUs();
+      if (message.acked || waits) continue;
+      if (message.bytes.size() > budget) break;
+      budget -= message.bytes.size();
+      Pack(packing, {true, static_cast<std::uint16_t>(message.id), message.bytes});
+      packing.ids.push_back(message.id);
+      message.sent_us = packing.now_us;
+    }
+  }
+
+  void Flush(std::int64_t now_us, const Sink& send) {
+    Packing packing{now_us, send, AckPoints()};
+    PackReliable(packing);
+    for (const Bytes& message : unreliable) Pack(packing, {false, 0, message});
+    unreliable.clear();
+    if (!packing.writer.empty()) Emit(packing);
+    const bool idle = last_send_us < 0 || now_us - last_send_us >= kIdleUs;
+    if (idle || ack_owed) Emit(packing);
+    while (packing.datagrams > 0 && packing.datagrams < packing.acks.size()) Emit(packing);
+    if (packing.datagrams > 0) flushed_newest = window.newest();
+  }
+
+  // ---- receiving
+
+  void SampleRtt(std::int64_t sample_us) {
+    if (sample_us < 0) return;
+    srtt_us = srtt_us < 0 ? sample_us : srtt_us + (sample_us - srtt_us) / 8;
+  }
+
+  /// Datagram `number` has arrived. Karn's rule (never to time what was sent twice) holds by
+  /// itself: a repeated message travels in a new datagram with a number of its own.
+  void Acknowledge(std::int64_t number, std::int64_t now_us, bool sample) {
+    if (number < 1) return;
+    SentRecord& record = sent[static_cast<std::size_t>(number) % kSentRecords];
+    if (record.sequence != number || record.acked) return;
+    record.acked = ever_acked = true;
+    if (sample) SampleRtt(now_us - record.sent_us);
+    for (const std::int64_t id : record.ids) {
+      const std::int64_t index = reliable.empty() ? -1 : id - reliable.front().id;
+      const bool waiting = index >= 0 && index < static_cast<std::int64_t>(reliable.size());
+      if (waiting) reliable[static_cast<std::size_t>(index)].acked = true;
+    }
+    while (!reliable.empty() && reliable.front().acked) reliable.pop_front();
+  }
+
+  void ReadAcks(std::int64_t ack, std::uint32_t bits, std::int64_t now_us) {
+    // Zeros say "nothing has arrived" until something is known to have.
+    if (!ever_acked && static_cast<std::uint16_t>(ack) == 0 && bits == 0) return;
+    Acknowledge(ack, now_us, true);
+    for (int i = 0; i < 32; ++i) {
+      if ((bits >> i) & 1u) Acknowledge(ack - 1 - i, now_us, false);
+    }
+  }
+
+  bool IdsInWindow(const std::vector<DatagramMessage>& messages) const {
+    return std::all_of(messages.begin(), messages.end(), [this](const DatagramMessage& message) {
+      return !message.reliable || Unwrap(message.id, next_in) - next_in < kReliableWindow;
+    });
+  }
+
+  void DeliverReliable(const DatagramMessage& message, const Sink& deliver) {
+    const std::int64_t id = Unwrap(message.id, next_in);
+    ack_owed = true;
+    if (id < next_in) return;                // delivered before
+    early.emplace(id, Bytes(message.bytes.begin(), message.bytes.end()));
+    while (!early.empty() && early.begin()->first == next_in) {
+      const Bytes bytes = std::move(early.begin()->second);
+      early.erase(early.begin());
+      ++next_in;
+      deliver(bytes);
+    }
+  }
+
+  bool Receive(std::int64_t now_us, ByteView datagram, const Sink& deliver) {
+    DatagramHeader header;
+    if (!ReadHeader(datagram, &header) || header.session != session) return false;
+    const std::int64_t number = window.Full(header.sequence);
+    const std::int64_t ack = Unwrap(header.ack, sequence);
+    std::vector<DatagramMessage> messages;
+    if (!window.IsNew(number) || ack > sequence) return false;
+    if (!ReadMessages(datagram, &messages) || !IdsInWindow(messages)) return false;
+    // Nothing can go wrong from here on: the datagram counts as arrived, and is acted on.
+    window.Insert(number);
+    last_receive_us = now_us;
+    ReadAcks(ack, header.ack_bits, now_us);
+    for (const DatagramMessage& message : messages) {
+      if (message.reliable) {
+        DeliverReliable(message, deliver);
+      } else {
+        deliver(message.bytes);
+      }
+    }
+    return true;
+  }
+};
+
+Link::Link(std::uint64_t session) : impl_(std::make_unique<Impl>(session)) {
+  SEAM_ASSERT(session != 0);
+}
+Link::~Link() = default;
+Link::Link(Link&&) noexcept = default;
+Link& Link::operator=(Link&&) noexcept = default;
+
+void Link::SendUnreliable(ByteView message) {
+  SEAM_ASSERT(message.size >= 1 && message.size <= kMessageBytesMax);
+  if (impl_->unreliable.size() >= kUnreliableQueueMax) impl_->unreliable.pop_front();
+  impl_->unreliable.emplace_back(message.begin(), message.end());
+}
+
+bool Link::SendReliable(ByteView message) {
+  SEAM_ASSERT(message.size >= 1 && message.size <= kMessageBytesMax);
+  if (impl_->reliable.size() >= kReliableQueueMax) return false;
+  impl_->reliable.push_back(
+      {impl_->next_id++, -1, false, Bytes(message.begin(), message.end())});
+  return true;
+}
+
+void Link::Flush(std::int64_t now_us, const Sink& send) { impl_->Flush(now_us, send); }
+
+bool Link::Receive(std::int64_t now_us, ByteView datagram, const Sink& deliver) {
+  const bool accepted = impl_->Receive(now_us, datagram, deliver);
+  if (!accepted) ++impl_->rejected;
+  return accepted;
+}
+
+std::int64_t Link::last_receive_us() const { return impl_->last_receive_us; }
+std::int64_t Link::rtt_us() const { return impl_->srtt_us; }
+std::int64_t Link::loss_ppm() const { return impl_->window.loss_ppm(); }
+std::int64_t Link::rejected() const { return impl_->rejected; }
+bool Link::reliable_pending() const { return !impl_->reliable.empty(); }
+
+}  // namespace seam
