@@ -67,6 +67,7 @@ class LogReader {
 
  private:
   struct Header;
+  std::size_t ReadAt(std::int64_t at, std::uint8_t* to, std::size_t bytes);
   const std::uint8_t* Peek(std::int64_t at, std::size_t bytes);
   bool ReadHeader(std::int64_t at, bool magic_matters, Header* header);
   std::int64_t FindHeader(std::int64_t from, std::int64_t to);
@@ -75,6 +76,7 @@ class LogReader {
   std::FILE* file_ = nullptr;
   Bytes window_;                       ///< a stretch of the file, from window_at_
   std::int64_t window_at_ = 0;
+  std::uint8_t glance_[kLogHeaderBytes] = {};
   std::int64_t at_ = 0;                ///< where the next event should begin
   std::int64_t size_bytes_ = 0;
   std::int64_t skipped_bytes_ = 0;

@@ -1,0 +1,144 @@
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "common/base/check.h"
+#include "common/record/log_file.h"
+
+namespace seam {
+namespace {
+
+/// Read at least this much at once, bytes.
+constexpr std::size_t kReadBytes = 256 * 1024;
+
+template <class T>
+T GetBigEndian(const std::uint8_t* from) {
+  std::uint64_t value = 0;
+  for (std::size_t i = 0; i < sizeof(T); ++i) value = value << 8 | from[i];
+  return static_cast<T>(value);
+}
+
+}  // namespace
+
+struct LogReader::Header {
+  std::int64_t number, timestamp_us;
+  std::size_t channel_bytes, data_bytes;
+  std::int64_t end;  ///< where the event ends in the file
+};
+
+LogReader::LogReader(const std::string& path) {
+  file_ = std::fopen(path.c_str(), "rb");
+  if (file_ == nullptr) throw OperatorError(path + ": cannot be opened: " + std::strerror(errno));
+  struct stat status = {};
+  const bool regular = fstat(fileno(file_), &status) == 0 && S_ISREG(status.st_mode);
+  size_bytes_ = regular ? static_cast<std::int64_t>(status.st_size) : 0;
+  if (FindHeader(0, size_bytes_) == size_bytes_) {
+    std::fclose(file_);
+    throw OperatorError(path + (regular ? ": not an LCM log: no event in it" : ": not a file"));
+  }
+}
+
+LogReader::~LogReader() { std::fclose(file_); }
+
+/// The `bytes` bytes at `at`, valid until the next call; null when the file ends before or cannot
+/// be read. A glance at a header outside the window leaves the window where it is.
+const std::uint8_t* LogReader::Peek(std::int64_t at, std::size_t bytes) {
+  if (at < 0 || at > size_bytes_ || bytes > static_cast<std::size_t>(size_bytes_ - at)) return {};
+  const std::int64_t inside = at - window_at_;
+  if (inside >= 0 && static_cast<std::size_t>(inside) + bytes <= window_.size()) {
+    return window_.data() + inside;
+  }
+  if (bytes <= sizeof glance_) {
+    return ReadAt(at, glance_, bytes) == bytes ? glance_ : nullptr;
+  }
+  window_.resize(std::max(bytes, kReadBytes));
+  window_at_ = at;
+  window_.resize(ReadAt(at, window_.data(), window_.size()));
+  return window_.size() >= bytes ? window_.data() : nullptr;
+}
+
+std::size_t LogReader::ReadAt(std::int64_t at, std::uint8_t* to, std::size_t bytes) {
+  const ssize_t got = pread(fileno(file_), to, bytes, static_cast<off_t>(at));
+  return got > 0 ? static_cast<std::size_t>(got) : 0;
+}
+
+/// True when an event may begin at `at`: magic (if it matters), lengths in bounds, and all of it
+/// in the file.
+bool LogReader::ReadHeader(std::int64_t at, bool magic_matters, Header* header) {
+  const std::uint8_t* bytes = Peek(at, kLogHeaderBytes);
+  if (bytes == nullptr) return false;
+  if (magic_matters && GetBigEndian<std::uint32_t>(bytes) != kLogMagic) return false;
+  const auto channel_bytes = GetBigEndian<std::uint32_t>(bytes + 20);
+  const auto data_bytes = GetBigEndian<std::uint32_t>(bytes + 24);
+  if (channel_bytes < 1 || channel_bytes > kChannelBytesMax) return false;
+  if (data_bytes > kLogDataBytesMax) return false;
+  header->number = GetBigEndian<std::int64_t>(bytes + 4);
+  header->timestamp_us = GetBigEndian<std::int64_t>(bytes + 12);
+  header->channel_bytes = channel_bytes;
+  header->data_bytes = data_bytes;
+  header->end = at + static_cast<std::int64_t>(kLogHeaderBytes + channel_bytes + data_bytes);
+  return header->end <= size_bytes_;
+}
+
+/// The first place in [from, to) where an event may begin; `to` when there is none.
+std::int64_t LogReader::FindHeader(std::int64_t from, std::int64_t to) {
+  constexpr std::uint8_t kFirst = kLogMagic >> 24;
+  while (from < to) {
+    // A stretch that is in the window anyway, or can be brought into it, but never beyond `to`.
+    const auto stretch = static_cast<std::size_t>(std::min<std::int64_t>(to - from, kReadBytes / 2));
+    const std::uint8_t* bytes = Peek(from, stretch);
+    if (bytes == nullptr) return to;
+    const std::uint8_t* hit = std::find(bytes, bytes + stretch, kFirst);
+    from += hit - bytes;
+    Header header;
+    if (hit == bytes + stretch) continue;
+    if (ReadHeader(from, true, &header)) return from;
+    ++from;
+  }
+  return to;
+}
+
+/// True when what is at `end` bears out that an event ends there: the end of the file, a magic, or
+/// a header whose magic alone is damaged (its own event is followed by one).
+bool LogReader::FollowedByEvent(std::int64_t end) {
+  const auto good_end = [this](std::int64_t at) {
+    if (at == size_bytes_) return true;
+    const std::uint8_t* magic = Peek(at, 4);
+    return magic != nullptr && GetBigEndian<std::uint32_t>(magic) == kLogMagic;
+  };
+  Header next;
+  return good_end(end) || (ReadHeader(end, false, &next) && good_end(next.end));
+}
+
+bool LogReader::Next(LogEvent* event) {
+  const std::int64_t expected = at_;
+  Header header;
+  for (;; ++at_) {
+    at_ = FindHeader(at_, size_bytes_);
+    if (at_ == size_bytes_ || !ReadHeader(at_, true, &header)) break;
+    if (FollowedByEvent(header.end)) break;
+    // Nothing follows where it should. If another event begins inside this one, this one's lengths
+    // are wrong; if none does, the damage lies behind it.
+    if (FindHeader(at_ + 1, header.end) == header.end) break;
+  }
+  if (at_ != expected) {
+    ++damaged_places_;
+    skipped_bytes_ += at_ - expected;
+  }
+  if (at_ == size_bytes_) return false;
+  event->number = header.number;
+  event->timestamp_us = header.timestamp_us;
+  const std::int64_t body = at_ + static_cast<std::int64_t>(kLogHeaderBytes);
+  const std::uint8_t* bytes = Peek(body, header.channel_bytes + header.data_bytes);
+  if (bytes == nullptr) return false;  // the file shrank meanwhile
+  event->channel.assign(reinterpret_cast<const char*>(bytes), header.channel_bytes);
+  event->data.assign(bytes + header.channel_bytes,
+                     bytes + header.channel_bytes + header.data_bytes);
+  at_ = header.end;
+  return true;
+}
+
+}  // namespace seam

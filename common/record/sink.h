@@ -1,0 +1,33 @@
+#pragma once
+/// What `--lcm-url` and `--record` mean: a peer's recorder made of a bus, a log file, both or none.
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "common/record/bus.h"
+#include "common/record/log_file.h"
+
+namespace seam {
+
+/// Publishes to the bus (unless `lcm_url` is "none") and writes `record_path` (unless empty). With
+/// both, the log also holds what other peers of the room publish on the bus, so that it is the log
+/// that lcm-logger would have written.
+class Sink : public Recorder {
+ public:
+  /// Throws OperatorError from Bus or LogWriter.
+  Sink(const std::string& lcm_url, const std::string& record_path, bool force,
+       const std::string& room);
+
+  void Publish(const std::string& channel, std::int64_t utime, ByteView message) override;
+  std::int64_t failures() const override;
+  /// Takes what other peers have published into the log. Call often; never blocks.
+  void Poll();
+
+ private:
+  std::unique_ptr<Bus> bus_;
+  std::unique_ptr<LogWriter> log_;
+  std::map<std::string, bool> own_channels_;
+};
+
+}  // namespace seam

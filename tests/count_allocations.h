@@ -1,0 +1,11 @@
+#pragma once
+/// Counts what operator new is asked for: a test's way to see that hostile bytes cost little memory.
+
+#include <cstddef>
+
+namespace seam {
+
+/// Bytes that this thread has asked operator new for since the program started.
+std::size_t AllocatedBytes();
+
+}  // namespace seam

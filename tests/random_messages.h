@@ -1,0 +1,178 @@
+#pragma once
+/// Random valid messages of every type, and their comparison field by field: for tests.
+
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "common/base/random.h"
+#include "common/codec/messages.h"
+
+namespace seam {
+
+/// Fills messages with contents that are valid and use the whole range of each field.
+class RandomMessages {
+ public:
+  explicit RandomMessages(std::uint64_t seed) : random_(seed) {}
+
+  std::int64_t Integer(std::int64_t low, std::int64_t high) {
+    return low + static_cast<std::int64_t>(random_.Next() %
+                                           (static_cast<std::uint64_t>(high - low) + 1));
+  }
+  std::size_t Count(std::size_t low, std::size_t high) {
+    return static_cast<std::size_t>(
+        Integer(static_cast<std::int64_t>(low), static_cast<std::int64_t>(high)));
+  }
+
+  void Fill(Hello& m) { Common(m), m.protocol = Int32(), m.name = Name(); }
+  void Fill(Welcome& m) {
+    Common(m), Set(m.peer, 1, 31), Set(m.player, -1, 31), Set(m.room_bytes, 1, 60000);
+  }
+  void Fill(Chunk& m) {
+    Common(m), Set(m.offset_bytes, 0, 59000), Vector(m.data, Count(1, kChunkBytesMax), 0, 255);
+  }
+  void Fill(Room& m) {
+    Common(m), m.protocol = Int32(), m.room = Name(), m.scene_name = Text(64), m.mode = Text(64);
+    m.scene_text = Text(300) + "\n\t" + Text(99), m.reconcile = Text(64), m.impair = Text(200);
+    m.seed = static_cast<std::int64_t>(random_.Next()), Set(m.tick_hz, 10, 960);
+    Set(m.send_hz, 1, m.tick_hz), Sequence(m);
+  }
+  void Fill(Ping& m) { Common(m); }
+  void Fill(Pong& m) { Common(m), m.client_us = Time(), m.tick0_us = Time(); }
+  void Fill(Inputs& m, std::size_t count) {
+    Common(m), Sequence(m), Set(m.player, 0, 31), m.first_tick = Tick();
+    Vector(m.drive, count, -127, 127), Vector(m.lift, count, -127, 127), Any(m.buttons, count);
+  }
+  void Fill(Inputs& m) { Fill(m, Count(1, kInputsMax)); }
+  void Fill(States& m, std::size_t count) {
+    Common(m), Sequence(m), Set(m.peer, 0, 31), m.tick = Tick();
+    m.composition = static_cast<std::int64_t>(random_.Next());
+    Set(m.origin_x, -kOriginMax, kOriginMax), Set(m.origin_y, -kOriginMax, kOriginMax);
+    Ids(m.id, count), Any(m.epoch, count), Vector(m.flags, count, 0, 3), Any(m.x, count);
+    Any(m.y, count), Any(m.angle, count), Any(m.vx, count), Any(m.vy, count), Any(m.spin, count);
+  }
+  void Fill(States& m) { Fill(m, Count(0, kStatesBodiesMax)); }
+  void Fill(Grants& m, std::size_t count) {
+    Common(m), Sequence(m), m.tick = Tick(), Vector(m.mechanism, count, 0, INT16_MAX);
+    Vector(m.authority, count, 0, 31), Any(m.epoch, count), Any(m.secondaries, count);
+  }
+  void Fill(Grants& m) { Fill(m, Count(0, kGrantsMax)); }
+  void Fill(View& m, std::size_t count) {
+    Common(m), Sequence(m), Set(m.peer, 0, 31), m.tick = Tick(), Set(m.parts, 1, kViewPartsMax);
+    Set(m.part, 0, m.parts - 1), Ids(m.id, count), Vector(m.role, count, 0, 2);
+    Vector(m.authority, count, 0, 31), Floats(m.x, count), Floats(m.y, count);
+    Floats(m.angle, count), Floats(m.vx, count), Floats(m.vy, count), Floats(m.spin, count);
+  }
+  void Fill(View& m) { Fill(m, Count(0, 60)); }
+  void Fill(Impacts& m, std::size_t count) {
+    Common(m), Sequence(m), Set(m.peer, 0, 31), m.tick = Tick();
+    Vector(m.id_a, count, -1, INT16_MAX), Vector(m.id_b, count, -1, INT16_MAX);
+    Floats(m.x, count), Floats(m.y, count), Floats(m.dv, count);
+  }
+  void Fill(Impacts& m) { Fill(m, Count(0, 60)); }
+  void Fill(Stats& m) {
+    Common(m), Sequence(m), Set(m.peer, 0, 31), m.tick = Tick();
+    for (auto* n : {&m.bytes_out, &m.bytes_in, &m.datagrams_out, &m.datagrams_in,
+                    &m.dropped_malformed, &m.dropped_stale, &m.dropped_right,
+                    &m.dropped_implausible, &m.cpu_us}) {
+      Set(*n, 0, kTimeMaxUs - 1);
+    }
+    Set(m.rtt_us, -1, INT32_MAX), Set(m.loss_ppm, 0, 1000000), m.tick_late_us = Int32();
+    m.clock_offset_us = Int32();
+  }
+  void Fill(Event& m) {
+    Common(m), Sequence(m), Set(m.peer, 0, 31), m.tick = Tick(), m.text = Text(1000);
+  }
+  void Fill(Bye& m) { Common(m), m.reason = Text(200); }
+
+ private:
+  std::int64_t Time() { return Integer(-kTimeMaxUs + 1, kTimeMaxUs - 1); }
+  std::int64_t Tick() { return Integer(0, kTickMax - 1); }
+  std::int32_t Int32() { return static_cast<std::int32_t>(random_.Next()); }
+  template <class M>
+  void Common(M& m) {
+    m.utime = Time();
+  }
+  template <class M>
+  void Sequence(M& m) {
+    Set(m.sequence, 0, INT32_MAX);
+  }
+  template <class T>
+  void Set(T& value, std::int64_t low, std::int64_t high) {
+    value = static_cast<T>(Integer(low, high));
+  }
+  template <class T>
+  void Vector(std::vector<T>& v, std::size_t count, std::int64_t low, std::int64_t high) {
+    v.resize(count);
+    for (T& x : v) Set(x, low, high);
+  }
+  template <class T>
+  void Any(std::vector<T>& v, std::size_t count) {
+    v.resize(count);
+    for (T& x : v) x = static_cast<T>(random_.Next());
+  }
+  void Floats(std::vector<float>& v, std::size_t count) {
+    v.resize(count);
+    for (float& x : v) x = static_cast<float>(random_.Uniform(-1e6, 1e6));
+  }
+  void Ids(std::vector<std::int16_t>& ids, std::size_t count) {
+    ids.resize(count);
+    const auto step = static_cast<std::int64_t>(32767 / (count + 1));
+    for (std::size_t i = 0; i < count; ++i) {
+      Set(ids[i], static_cast<std::int64_t>(i) * step, static_cast<std::int64_t>(i + 1) * step - 1);
+    }
+  }
+  std::string Name() {
+    std::string name(Count(1, 32), ' ');
+    for (char& c : name) c = "abcXYZ019_-"[Integer(0, 10)];
+    return name;
+  }
+  std::string Text(std::size_t bytes_max) {
+    static const char* const kPieces[] = {"a", "Z", " ", "~", "\"", "\u00e4", "\u20ac", "\U0001F600"};
+    std::string text;
+    for (std::size_t n = Count(0, bytes_max / 4); n > 0; --n) text += kPieces[Integer(0, 7)];
+    return text;
+  }
+
+  Random random_;
+};
+
+inline auto Fields(const Hello& m) { return std::tie(m.utime, m.protocol, m.name); }
+inline auto Fields(const Welcome& m) { return std::tie(m.utime, m.peer, m.player, m.room_bytes); }
+inline auto Fields(const Chunk& m) { return std::tie(m.utime, m.offset_bytes, m.data); }
+inline auto Fields(const Room& m) {
+  return std::tie(m.utime, m.sequence, m.protocol, m.room, m.scene_name, m.scene_text, m.mode,
+                  m.reconcile, m.impair, m.seed, m.tick_hz, m.send_hz);
+}
+inline auto Fields(const Ping& m) { return std::tie(m.utime); }
+inline auto Fields(const Pong& m) { return std::tie(m.utime, m.client_us, m.tick0_us); }
+inline auto Fields(const Inputs& m) {
+  return std::tie(m.utime, m.sequence, m.player, m.first_tick, m.drive, m.lift, m.buttons);
+}
+inline auto Fields(const States& m) {
+  return std::tie(m.utime, m.sequence, m.peer, m.tick, m.composition, m.origin_x, m.origin_y, m.id,
+                  m.epoch, m.flags, m.x, m.y, m.angle, m.vx, m.vy, m.spin);
+}
+inline auto Fields(const Grants& m) {
+  return std::tie(m.utime, m.sequence, m.tick, m.mechanism, m.authority, m.epoch, m.secondaries);
+}
+inline auto Fields(const View& m) {
+  return std::tie(m.utime, m.sequence, m.peer, m.tick, m.part, m.parts, m.id, m.role, m.authority,
+                  m.x, m.y, m.angle, m.vx, m.vy, m.spin);
+}
+inline auto Fields(const Impacts& m) {
+  return std::tie(m.utime, m.sequence, m.peer, m.tick, m.id_a, m.id_b, m.x, m.y, m.dv);
+}
+inline auto Fields(const Stats& m) {
+  return std::tie(m.utime, m.sequence, m.peer, m.tick, m.bytes_out, m.bytes_in, m.datagrams_out,
+                  m.datagrams_in, m.dropped_malformed, m.dropped_stale, m.dropped_right,
+                  m.dropped_implausible, m.cpu_us, m.rtt_us, m.loss_ppm, m.tick_late_us,
+                  m.clock_offset_us);
+}
+inline auto Fields(const Event& m) {
+  return std::tie(m.utime, m.sequence, m.peer, m.tick, m.text);
+}
+inline auto Fields(const Bye& m) { return std::tie(m.utime, m.reason); }
+
+}  // namespace seam
