@@ -1,0 +1,224 @@
+#include "client/client.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/check.h"
+#include "common/sync/input_source.h"
+
+namespace seam {
+namespace {
+
+constexpr std::int64_t kPingFastUs = 50000;    // until the clock has settled and the room started
+constexpr std::int64_t kPingSlowUs = 200000;
+constexpr std::int64_t kHelloUs = 100000;
+/// Most ticks stepped in one call; further behind than kGiveUpTicks we rejoin.
+constexpr int kStepsMost = 20;
+constexpr std::int64_t kGiveUpTicks = 300;
+/// Mode central: inputs should arrive this long before the server needs them, us.
+constexpr double kInputMarginUs = 35000;
+
+}  // namespace
+
+Client::Client(const ClientConfig& config, Net& net, Recorder& recorder)
+    : config_(config), net_(net), recorder_(recorder), random_(config.session_seed) {}
+
+void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
+  net_.Advance(now_us);
+  if (closed_ || !fatal_.empty()) return;
+  if (link_ == nullptr) Join(now_us);
+  ReceiveAll(now_us);
+  if (closed_ || !fatal_.empty()) return;
+  const std::int64_t silence_us = now_us - answered_us_;
+  if (silence_us > kSilentUs && replica_ != nullptr && !released_) {
+    replica_->ReleaseAll();
+    released_ = true;
+  }
+  // What we let go of we do not take up again as the same session: the server may have given it on.
+  if (silence_us > kLostUs || (released_ && silence_us < kSilentUs)) {
+    ++rejoins_;
+    Join(now_us);
+  }
+  Greet(now_us);
+  StartIfDue(now_us);
+  if (started_) StepDue(now_us);
+  if (publisher_ != nullptr && now_us - last_stats_us_ >= 1000000) PublishStats(now_us, cpu_us);
+  Flush(now_us);
+}
+
+void Client::Join(std::int64_t now_us) {
+  std::uint64_t number = random_.Next();
+  if (number == 0) number = 1;
+  link_ = std::make_unique<Link>(number);
+  replica_.reset();
+  scene_.reset();
+  held_.clear();
+  room_bytes_.clear();
+  room_size_ = 0;
+  clock_ = ClockFilter();
+  peer_ = player_ = -1;
+  said_ready_ = started_ = released_ = false;
+  tick0_us_ = -1;
+  lead_us_ = -1;
+  answered_us_ = now_us;
+}
+
+void Client::Greet(std::int64_t now_us) {
+  Hello hello;
+  hello.utime = now_us;
+  hello.name = config_.name;
+  if (peer_ < 0) {
+    if (now_us - last_hello_us_ >= kHelloUs) {
+      last_hello_us_ = now_us;
+      link_->SendUnreliable(Encode(hello));
+    }
+    return;
+  }
+  if (!said_ready_ && replica_ != nullptr && clock_.settled()) {
+    said_ready_ = true;
+    link_->SendReliable(Encode(hello));
+  }
+  const bool settled = clock_.settled() && tick0_us_ >= 0;
+  if (now_us - last_ping_us_ >= (settled ? kPingSlowUs : kPingFastUs)) {
+    last_ping_us_ = now_us;
+    Ping ping;
+    ping.utime = now_us;
+    link_->SendUnreliable(Encode(ping));
+  }
+}
+
+std::int64_t Client::LeadTarget() const {
+  return static_cast<std::int64_t>(static_cast<double>(clock_.rtt_p90_us()) / 2 + kInputMarginUs);
+}
+
+std::int64_t Client::RoomTime(std::int64_t now_us) {
+  std::int64_t time = clock_.ServerTime(now_us) - tick0_us_;
+  if (room_.mode == "central") {
+    if (lead_us_ < 0) lead_us_ = static_cast<double>(LeadTarget());
+    time += static_cast<std::int64_t>(lead_us_);
+  }
+  return time;
+}
+
+void Client::StartIfDue(std::int64_t now_us) {
+  if (started_ || replica_ == nullptr || !clock_.settled() || tick0_us_ < 0) return;
+  const std::int64_t time = RoomTime(now_us);
+  if (time < 0) return;
+  // Within the first half second we were here from the start and only step a little late.
+  const std::int64_t tick = time * room_.tick_hz / 1000000;
+  if (tick > room_.tick_hz / 2) replica_->StartAt(tick);
+  started_ = true;
+  for (const Bytes& bytes : held_) {
+    const AnyMessage any = Decode(bytes);
+    if (const auto* states = std::get_if<States>(&any)) replica_->Place(*states);
+  }
+  held_.clear();
+}
+
+void Client::StepDue(std::int64_t now_us) {
+  const std::int64_t hz = room_.tick_hz;
+  const std::int64_t time = RoomTime(now_us);
+  const std::int64_t due = time * hz / 1000000;
+  if (due - replica_->tick() > kGiveUpTicks) {   // suspended for seconds: the server dropped us
+    ++rejoins_;
+    Join(now_us);
+    return;
+  }
+  for (int steps = 0; steps < kStepsMost && replica_->tick() < due; ++steps) {
+    worst_late_us_ =
+        std::max(worst_late_us_, time - (replica_->tick() + 1) * 1000000 / hz);
+    StepOnce(now_us);
+    if (lead_us_ >= 0) {
+      const double most = 1000000.0 / static_cast<double>(hz) * 0.02;
+      lead_us_ += std::clamp(static_cast<double>(LeadTarget()) - lead_us_, -most, most);
+    }
+  }
+}
+
+void Client::NoteOwnInput() {
+  if (player_ < 0) return;
+  const std::int64_t next = replica_->tick() + 1;
+  Input input;
+  switch (config_.drive) {
+    case Drive::kNone: break;
+    case Drive::kScript: {
+      for (std::size_t p = 0; p < scene_->players.size(); ++p) {
+        if (scene_->players[p].name == config_.script_of) {
+          input = ScriptedInput(*scene_, static_cast<int>(p), next);
+        }
+      }
+      break;
+    }
+    case Drive::kBot: input = BotInput(room_.seed, player_, next, room_.tick_hz); break;
+    case Drive::kLive: input = live_; break;
+  }
+  replica_->inputs(player_).Note(next, input);
+}
+
+void Client::StepOnce(std::int64_t now_us) {
+  NoteOwnInput();
+  replica_->Step();
+  const bool central = room_.mode == "central";
+  const std::int64_t every = central ? 1 : std::max(1, room_.tick_hz / room_.send_hz);
+  if (player_ >= 0 && room_.mode != "oracle" && replica_->tick() % every == 0) {
+    Inputs inputs = replica_->inputs(player_).Export(player_, kInputsRedundant);
+    inputs.utime = now_us;
+    link_->SendUnreliable(Encode(inputs));
+  }
+  for (States& states : replica_->TakeStates()) {
+    states.utime = now_us;
+    if (!released_) link_->SendUnreliable(Encode(states));
+  }
+  View view = replica_->MakeView();
+  view.utime = now_us;
+  publisher_->Publish(view);
+  Impacts impacts = replica_->MakeImpacts();
+  impacts.utime = now_us;
+  if (!impacts.id_a.empty()) publisher_->Publish(impacts);
+}
+
+std::int64_t Client::next_tick_us(std::int64_t now_us) {
+  // A twentieth of a second is often enough while joining; then as the timeline says.
+  if (!started_) return now_us + 10000;
+  const std::int64_t time = RoomTime(now_us);
+  const std::int64_t next = (replica_->tick() + 1) * 1000000 / room_.tick_hz;
+  return now_us + std::max<std::int64_t>(0, next - time) + 1;
+}
+
+void Client::Flush(std::int64_t now_us) {
+  link_->Flush(now_us, [&](ByteView datagram) {
+    stats_.bytes_out += static_cast<std::int64_t>(datagram.size);
+    stats_.datagrams_out += 1;
+    net_.Send(config_.server, datagram);
+  });
+  net_.Flush();
+}
+
+void Client::PublishStats(std::int64_t now_us, std::int64_t cpu_us) {
+  last_stats_us_ = now_us;
+  stats_.utime = now_us;
+  stats_.peer = peer_;
+  stats_.tick = replica_ != nullptr ? replica_->tick() : 0;
+  stats_.cpu_us = cpu_us;
+  stats_.rtt_us = static_cast<std::int32_t>(
+      std::min<std::int64_t>(clock_.rtt_least_us(), 1000000000));
+  stats_.loss_ppm = static_cast<std::int32_t>(link_->loss_ppm());
+  stats_.tick_late_us = static_cast<std::int32_t>(std::min<std::int64_t>(worst_late_us_, 1 << 30));
+  stats_.clock_offset_us = static_cast<std::int32_t>(
+      std::clamp<std::int64_t>(clock_.pending_us(), -1000000000, 1000000000));
+  worst_late_us_ = 0;
+  publisher_->Publish(stats_);
+}
+
+void Client::Shutdown(std::int64_t now_us) {
+  if (link_ == nullptr || closed_) return;
+  Bye bye;
+  bye.utime = now_us;
+  bye.reason = "left";
+  for (int copy = 0; copy < 2; ++copy) {   // it may be lost, and nobody waits to repeat it
+    link_->SendUnreliable(Encode(bye));
+    Flush(now_us);
+  }
+}
+
+}  // namespace seam

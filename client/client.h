@@ -1,0 +1,114 @@
+#pragma once
+/// A player's (or spectator's) peer: joins a room, follows the server's timeline, simulates its
+/// part, and publishes what it shows. A function of the time and the datagrams it is given.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/base/random.h"
+#include "common/net/link.h"
+#include "common/net/net.h"
+#include "common/record/recorder.h"
+#include "common/sync/clock_filter.h"
+#include "common/sync/publisher.h"
+#include "common/sync/replica.h"
+
+namespace seam {
+
+/// Where this client's inputs come from.
+enum class Drive { kNone, kScript, kBot, kLive };
+
+struct ClientConfig {
+  Address server;
+  std::string name = "guest";
+  Drive drive = Drive::kNone;
+  std::string script_of;             ///< kScript: the scene's player whose script it plays
+  std::uint64_t session_seed = 1;    ///< drawn at random by main, fixed in tests
+  bool smooth = true;
+};
+
+class Client {
+ public:
+  /// `net` and `recorder` must outlive the client.
+  Client(const ClientConfig& config, Net& net, Recorder& recorder);
+
+  /// Receives, steps the ticks that are due on the server's timeline, sends.
+  void Tick(std::int64_t now_us, std::int64_t cpu_us);
+  /// When to call Tick next at the latest, on the same clock.
+  std::int64_t next_tick_us(std::int64_t now_us);
+  /// Says goodbye; call Tick no more.
+  void Shutdown(std::int64_t now_us);
+
+  /// kLive: the keyboard's state, held until the next call.
+  void SetLiveInput(const Input& input) { live_ = input; }
+
+  /// Not empty: the server refused us, or sent something we cannot use. Final.
+  const std::string& fatal() const { return fatal_; }
+  /// The server closed the room (after we had been in). Final as well.
+  bool closed() const { return closed_; }
+  bool running() const { return replica_ != nullptr && started_; }
+  int peer() const { return peer_; }
+  const Replica* replica() const { return replica_.get(); }
+  const Room& room() const { return room_; }
+  const Stats& stats() const { return stats_; }
+  std::int64_t rejoins() const { return rejoins_; }
+
+  /// A lease: when the newest ping that the server answered is older than this, we let go of our
+  /// mechanisms. Below Server::kSilentUs, so that nobody simulates with authority what the server
+  /// is about to take back, whichever direction of the path fails.
+  static constexpr std::int64_t kSilentUs = 2000000;
+  /// Age of the newest answered ping after which we try to join anew.
+  static constexpr std::int64_t kLostUs = 4000000;
+  static constexpr int kInputsRedundant = 16;   ///< ticks of input repeated in every message
+
+ private:
+  void Join(std::int64_t now_us);
+  void ReceiveAll(std::int64_t now_us);
+  void OnMessage(std::int64_t now_us, ByteView bytes);
+  void OnChunk(const Chunk& chunk);
+  void Build();
+  void Greet(std::int64_t now_us);
+  void StartIfDue(std::int64_t now_us);
+  void StepDue(std::int64_t now_us);
+  void StepOnce(std::int64_t now_us);
+  void NoteOwnInput();
+  void PublishStats(std::int64_t now_us, std::int64_t cpu_us);
+  void Flush(std::int64_t now_us);
+  std::int64_t RoomTime(std::int64_t now_us);
+  std::int64_t LeadTarget() const;
+
+  ClientConfig config_;
+  Net& net_;
+  Recorder& recorder_;
+  Random random_;
+  std::unique_ptr<Link> link_;
+  std::unique_ptr<Publisher> publisher_;
+  std::unique_ptr<Scene> scene_;
+  std::unique_ptr<Replica> replica_;
+  ClockFilter clock_;
+  Room room_;
+  std::vector<Bytes> held_;            // grants and states that came before the replica was built
+  Bytes room_bytes_;
+  std::size_t room_size_ = 0;
+  int peer_ = -1;
+  int player_ = -1;
+  bool said_ready_ = false;
+  bool started_ = false;
+  bool released_ = false;
+  bool closed_ = false;
+  std::string fatal_;
+  std::int64_t tick0_us_ = -1;         // on the server's clock
+  double lead_us_ = -1;                // mode central: how far ahead of the server we simulate
+  std::int64_t answered_us_ = 0;       // when we sent the newest ping that was answered
+  std::int64_t last_ping_us_ = -1000000000;
+  std::int64_t last_hello_us_ = -1000000000;
+  std::int64_t last_stats_us_ = -1000000000;
+  std::int64_t worst_late_us_ = 0;
+  std::int64_t rejoins_ = 0;
+  Input live_;
+  Stats stats_;
+};
+
+}  // namespace seam

@@ -1,0 +1,115 @@
+/// Client, incoming: the server is distrusted too.
+
+#include <algorithm>
+#include <variant>
+
+#include "client/client.h"
+#include "common/base/check.h"
+
+namespace seam {
+namespace {
+
+constexpr std::size_t kRoomBytesMost = 60000;
+constexpr std::size_t kHeldMost = 256;
+
+}  // namespace
+
+void Client::ReceiveAll(std::int64_t now_us) {
+  Address from;
+  Bytes datagram;
+  for (int n = 0; n < 1024 && net_.Receive(&from, &datagram); ++n) {
+    stats_.bytes_in += static_cast<std::int64_t>(datagram.size());
+    stats_.datagrams_in += 1;
+    const bool good = from == config_.server &&
+                      link_->Receive(now_us, datagram, [&](ByteView message) {
+                        OnMessage(now_us, message);
+                      });
+    if (!good) ++stats_.dropped_malformed;
+  }
+}
+
+void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
+  const AnyMessage any = Decode(bytes);
+  if (const auto* welcome = std::get_if<Welcome>(&any)) {
+    if (peer_ >= 0) return;
+    if (welcome->peer < 1 || welcome->room_bytes < 1 ||
+        static_cast<std::size_t>(welcome->room_bytes) > kRoomBytesMost) {
+      fatal_ = "the server's welcome makes no sense";
+      return;
+    }
+    peer_ = welcome->peer;
+    player_ = welcome->player;
+    room_size_ = static_cast<std::size_t>(welcome->room_bytes);
+  } else if (const auto* chunk = std::get_if<Chunk>(&any)) {
+    OnChunk(*chunk);
+  } else if (const auto* pong = std::get_if<Pong>(&any)) {
+    if (pong->client_us > now_us || pong->client_us < now_us - 10000000) return;
+    answered_us_ = std::max(answered_us_, pong->client_us);
+    clock_.AddSample(pong->client_us, pong->utime, now_us);
+    if (pong->tick0_us >= 0) tick0_us_ = pong->tick0_us;
+  } else if (const auto* grants = std::get_if<Grants>(&any)) {
+    if (replica_ != nullptr && !released_) replica_->ApplyGrants(*grants);
+  } else if (const auto* states = std::get_if<States>(&any)) {
+    if (started_) {
+      stats_.dropped_stale += replica_->Receive(*states).stale;
+    } else if (held_.size() < kHeldMost) {
+      held_.emplace_back(bytes.begin(), bytes.end());
+    }
+  } else if (const auto* inputs = std::get_if<Inputs>(&any)) {
+    const bool known = scene_ != nullptr && inputs->player >= 0 && inputs->player != player_ &&
+                       static_cast<std::size_t>(inputs->player) < scene_->players.size();
+    if (known) replica_->inputs(inputs->player).Note(*inputs);
+  } else if (const auto* bye = std::get_if<Bye>(&any)) {
+    if (peer_ < 0) {
+      fatal_ = "the server refuses: " + bye->reason;
+    } else {
+      closed_ = true;
+    }
+  } else {
+    ++stats_.dropped_malformed;
+  }
+}
+
+void Client::OnChunk(const Chunk& chunk) {
+  if (replica_ != nullptr || room_size_ == 0) return;
+  if (static_cast<std::size_t>(chunk.offset_bytes) != room_bytes_.size() ||
+      room_bytes_.size() + chunk.data.size() > room_size_) {
+    fatal_ = "the server's room does not fit its welcome";
+    return;
+  }
+  room_bytes_.insert(room_bytes_.end(), chunk.data.begin(), chunk.data.end());
+  if (room_bytes_.size() == room_size_) Build();
+}
+
+void Client::Build() {
+  const AnyMessage any = Decode(room_bytes_);
+  const Room* room = std::get_if<Room>(&any);
+  if (room == nullptr) {
+    fatal_ = "the server's room does not decode";
+    return;
+  }
+  room_ = *room;
+  try {
+    SyncConfig sync = MakeSyncConfig(room_.mode, room_.reconcile);
+    sync.tick_hz = room_.tick_hz;
+    sync.send_hz = room_.send_hz;
+    sync.smooth = config_.smooth;
+    sync.seed = room_.seed;
+    scene_ = std::make_unique<Scene>(ParseScene(room_.scene_text, room_.scene_name + ".toml"));
+    if (scene_->solver.tick_hz != room_.tick_hz) {
+      throw OperatorError("its tick rate is not its scene's");
+    }
+    if (config_.drive == Drive::kScript) {
+      bool found = false;
+      for (const Player& p : scene_->players) found = found || p.name == config_.script_of;
+      if (!found) throw OperatorError("it has no player \"" + config_.script_of + "\" to script");
+    }
+    replica_ = std::make_unique<Replica>(*scene_, sync, peer_, player_);
+  } catch (const OperatorError& e) {
+    fatal_ = "cannot use the server's scene: " + std::string(e.what());
+    return;
+  }
+  if (publisher_ == nullptr) publisher_ = std::make_unique<Publisher>(recorder_, room_.room);
+}
+
+}  // namespace seam

@@ -1,0 +1,56 @@
+#include "client/keyboard.h"
+
+#include <termios.h>
+#include <unistd.h>
+
+#include "common/base/check.h"
+
+namespace seam {
+
+struct Keyboard::Saved {
+  termios settings{};
+};
+
+Keyboard::Keyboard() : saved_(std::make_unique<Saved>()) {
+  if (isatty(0) == 0 || tcgetattr(0, &saved_->settings) != 0) {
+    throw OperatorError("--drive keyboard needs a terminal on standard input");
+  }
+  termios raw = saved_->settings;
+  raw.c_lflag &= ~static_cast<tcflag_t>(ICANON | ECHO);
+  raw.c_cc[VMIN] = 0;
+  raw.c_cc[VTIME] = 0;
+  tcsetattr(0, TCSANOW, &raw);
+}
+
+Keyboard::~Keyboard() { tcsetattr(0, TCSANOW, &saved_->settings); }
+
+Input Keyboard::Poll(std::int64_t now_us) {
+  char keys[64];
+  const ssize_t count = read(0, keys, sizeof keys);
+  for (ssize_t i = 0; i < count; ++i) {
+    char key = keys[i];
+    if (key == '\033' && i + 2 < count && keys[i + 1] == '[') {   // an arrow: ESC [ A..D
+      const char arrow = keys[i + 2];
+      key = arrow == 'A' ? 'w' : arrow == 'B' ? 's' : arrow == 'C' ? 'd' : 'a';
+      i += 2;
+    }
+    if (key == 'd') right_us_ = now_us + kHoldUs;
+    if (key == 'a') left_us_ = now_us + kHoldUs;
+    if (key == 'w') up_us_ = now_us + kHoldUs;
+    if (key == 's') down_us_ = now_us + kHoldUs;
+    if (key == ' ') button_us_[0] = now_us + kHoldUs;
+    if (key >= '0' && key <= '9') button_us_[key - '0'] = now_us + kHoldUs;
+    if (key == 'q' || key == '\003') quit_ = true;
+  }
+  Input input;
+  input.drive = static_cast<std::int8_t>((right_us_ > now_us ? 127 : 0) -
+                                         (left_us_ > now_us ? 127 : 0));
+  input.lift =
+      static_cast<std::int8_t>((up_us_ > now_us ? 127 : 0) - (down_us_ > now_us ? 127 : 0));
+  int buttons = 0;
+  for (int b = 0; b < 10; ++b) buttons |= button_us_[b] > now_us ? 1 << b : 0;
+  input.buttons = static_cast<std::int16_t>(buttons);
+  return input;
+}
+
+}  // namespace seam

@@ -1,0 +1,36 @@
+#pragma once
+/// The terminal as a game controller: arrow keys or WASD, space and digits as buttons.
+
+#include <cstdint>
+#include <memory>
+
+#include "common/physics/types.h"
+
+namespace seam {
+
+/// Puts the terminal into raw mode while it lives. Terminals tell of key presses only, not of
+/// releases: a key counts as held until kHoldUs after its last repetition.
+class Keyboard {
+ public:
+  /// Throws OperatorError when standard input is not a terminal.
+  Keyboard();
+  ~Keyboard();
+  Keyboard(const Keyboard&) = delete;
+  Keyboard& operator=(const Keyboard&) = delete;
+
+  /// Reads what was typed and returns the state of the controls. `q` and Ctrl-C set quit().
+  Input Poll(std::int64_t now_us);
+  bool quit() const { return quit_; }
+  int fd() const { return 0; }
+
+  static constexpr std::int64_t kHoldUs = 150000;
+
+ private:
+  struct Saved;
+  std::unique_ptr<Saved> saved_;
+  std::int64_t right_us_ = 0, left_us_ = 0, up_us_ = 0, down_us_ = 0;
+  std::int64_t button_us_[10] = {};
+  bool quit_ = false;
+};
+
+}  // namespace seam

@@ -1,0 +1,143 @@
+/// seam-client: one player (or spectator) of a room, over UDP. `seam-client --help`.
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <random>
+
+#include "client/client.h"
+#include "client/keyboard.h"
+#include "common/base/process.h"
+#include "common/net/impair.h"
+#include "common/net/udp.h"
+#include "common/record/sink.h"
+
+namespace {
+
+using namespace seam;
+
+struct Flags {
+  std::string server;
+  std::string name = "guest";
+  std::string drive = "none";
+  std::string impair = "perfect";
+  std::int64_t seed = 1;
+  std::string smooth = "on";
+  double duration_s = 0;
+  double join_s = 10;
+  std::string record;
+  bool force = false;
+  std::string room = "main";
+  std::string lcm_url;
+  bool quiet = false;
+};
+
+void Define(CLI::App& app, Flags& f) {
+  app.add_option("server", f.server, "host:port of seam-server (port 7777 if left out)");
+  app.add_option("--name", f.name, "player of the scene to be; any other name watches");
+  app.add_option("--drive", f.drive, "none | bot | keyboard | name of the player whose script to play");
+  app.add_option("--impair", f.impair, "impair this client's network, both directions");
+  app.add_option("--seed", f.seed, "of the impairment")->check(CLI::Range(0, 1000000000));
+  app.add_option("--smooth", f.smooth, "hide corrections in the view: on | off")
+      ->check(CLI::IsMember({"on", "off"}));
+  app.add_option("--duration", f.duration_s, "seconds to run (0: until stopped)")
+      ->check(CLI::Range(0.0, 1e6));
+  app.add_option("--join-timeout", f.join_s, "seconds to wait for the server's answer")
+      ->check(CLI::Range(0.1, 1e6));
+  app.add_option("--record", f.record, "write an LCM log of the bus to this file");
+  app.add_flag("--force", f.force, "overwrite the --record file");
+  app.add_option("--room", f.room, "name of the room (for --record)");
+  app.add_option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
+  app.add_flag("--quiet", f.quiet, "no progress line");
+}
+
+ClientConfig Configure(const Flags& f) {
+  const bool good = !f.name.empty() && f.name.size() <= 32 &&
+                    std::all_of(f.name.begin(), f.name.end(), [](unsigned char c) {
+                      return std::isalnum(c) != 0 || c == '_' || c == '-';
+                    });
+  if (!good) throw OperatorError("--name takes 1 to 32 letters, digits, - or _");
+  ClientConfig config;
+  config.server = ParseAddress(f.server, 7777);
+  config.name = f.name;
+  config.smooth = f.smooth == "on";
+  config.session_seed =
+      (static_cast<std::uint64_t>(std::random_device{}()) << 32) ^ std::random_device{}();
+  if (f.drive == "bot") {
+    config.drive = Drive::kBot;
+  } else if (f.drive == "keyboard") {
+    config.drive = Drive::kLive;
+  } else if (f.drive != "none") {
+    config.drive = Drive::kScript;
+    config.script_of = f.drive;
+  }
+  return config;
+}
+
+int Play(const Flags& f) {
+  if (f.server.empty()) throw OperatorError("which server? for example: seam-client 127.0.0.1:7777");
+  const ClientConfig config = Configure(f);
+  const ImpairProfile profile = FindProfile(f.impair);
+  std::unique_ptr<Keyboard> keyboard;
+  if (config.drive == Drive::kLive) keyboard = std::make_unique<Keyboard>();
+  UdpNet udp(Address{0, 0});
+  ImpairedNet net(udp, profile, profile, static_cast<std::uint64_t>(f.seed) + 7);
+  Sink sink(f.lcm_url, f.record, f.force, f.room);
+  Client client(config, net, sink);
+  StopOnSignals();
+  const std::int64_t begin = SteadyClockUs();
+  std::int64_t next_line_us = 0;
+  while (g_stop == 0 && !client.closed() && client.fatal().empty()) {
+    const std::int64_t now = SteadyClockUs();
+    if (keyboard != nullptr) {
+      client.SetLiveInput(keyboard->Poll(now));
+      if (keyboard->quit()) break;
+    }
+    client.Tick(now, CpuUs());
+    sink.Poll();
+    const double elapsed_s = static_cast<double>(now - begin) * 1e-6;
+    if (f.duration_s > 0 && elapsed_s > f.duration_s) break;
+    if (client.peer() < 0 && client.rejoins() == 0 && elapsed_s > f.join_s) {
+      throw OperatorError("no answer from " + ToString(config.server) + " within " +
+                          std::to_string(static_cast<int>(f.join_s)) + " s");
+    }
+    if (!f.quiet && client.running() && now >= next_line_us) {
+      next_line_us = now + 1000000;
+      std::fprintf(stderr, "\r%s: peer %d, tick %lld, %lld rejoin(s)   ", f.name.c_str(),
+                   client.peer(), static_cast<long long>(client.replica()->tick()),
+                   static_cast<long long>(client.rejoins()));
+    }
+    const std::int64_t wake = std::min({client.next_tick_us(now), net.next_due_us(), now + 20000});
+    udp.Wait(std::max<std::int64_t>(0, wake - SteadyClockUs()), keyboard ? keyboard->fd() : -1);
+  }
+  if (!client.fatal().empty()) throw OperatorError(client.fatal());
+  client.Shutdown(SteadyClockUs());
+  const Stats& s = client.stats();
+  std::fprintf(stderr, "\nseam-client: %s; %lld datagrams in, %lld out, %lld bad, %lld stale bodies\n",
+               client.closed() ? "the server closed the room" : "left",
+               static_cast<long long>(s.datagrams_in), static_cast<long long>(s.datagrams_out),
+               static_cast<long long>(s.dropped_malformed),
+               static_cast<long long>(s.dropped_stale));
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return RunMain("seam-client", [&] {
+    CLI::App app{"seam-client: simulate and show one player's part of a room"};
+    Flags flags;
+    Define(app, flags);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+      std::printf("%s", app.help().c_str());
+      return 0;
+    } catch (const CLI::ParseError& e) {
+      throw OperatorError(std::string(e.what()) + " (see seam-client --help)");
+    }
+    return Play(flags);
+  });
+}

@@ -1,0 +1,67 @@
+#pragma once
+/// What the mains share: the clock, CPU time, stop signals and the exit status of an error.
+
+#include <sys/resource.h>
+#include <time.h>
+
+#include <csignal>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+
+#include "common/base/check.h"
+
+namespace seam {
+
+/// Wall clock, us since 1970, as LCM's utime; made monotonic by its caller's use of differences.
+inline std::int64_t WallClockUs() {
+  timespec t{};
+  clock_gettime(CLOCK_REALTIME, &t);
+  return static_cast<std::int64_t>(t.tv_sec) * 1000000 + t.tv_nsec / 1000;
+}
+
+/// Clock that never runs backwards, in us, starting at the wall clock's reading of the first call.
+inline std::int64_t SteadyClockUs() {
+  timespec t{};
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  const std::int64_t now = static_cast<std::int64_t>(t.tv_sec) * 1000000 + t.tv_nsec / 1000;
+  static const std::int64_t offset_us = WallClockUs() - now;
+  return now + offset_us;
+}
+
+/// CPU time of this process so far, us.
+inline std::int64_t CpuUs() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<std::int64_t>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) * 1000000 +
+         usage.ru_utime.tv_usec + usage.ru_stime.tv_usec;
+}
+
+inline volatile std::sig_atomic_t g_stop = 0;
+
+/// SIGINT and SIGTERM set g_stop; a second one kills. poll() is interrupted.
+inline void StopOnSignals() {
+  struct sigaction action {};
+  action.sa_handler = [](int) { g_stop = 1; };
+  action.sa_flags = static_cast<int>(SA_RESETHAND);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  std::signal(SIGPIPE, SIG_IGN);
+}
+
+/// Runs a main's body: an operator's mistake is one line and status 2, anything else that was
+/// thrown is one line and status 1.
+template <typename Body>
+int RunMain(const char* program, Body body) {
+  try {
+    return body();
+  } catch (const OperatorError& e) {
+    std::fprintf(stderr, "%s: %s\n", program, e.what());
+    return 2;
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "%s: unexpected: %s\n", program, e.what());
+    return 1;
+  }
+}
+
+}  // namespace seam

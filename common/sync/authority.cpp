@@ -1,0 +1,65 @@
+#include "common/sync/authority.h"
+
+#include <algorithm>
+
+#include "common/base/check.h"
+
+namespace seam {
+namespace {
+
+/// Entries of 9 bytes each that fit kMessageBytesMax with the header.
+constexpr std::size_t kGrantsPerMessage = 100;
+
+}  // namespace
+
+AuthorityTable::AuthorityTable(const Composition& composition) {
+  for (const Mechanism& m : composition.mechanisms) ids_.push_back(m.id);
+  holdings_.resize(ids_.size());
+}
+
+void AuthorityTable::Set(int mechanism, const Holding& holding) {
+  SEAM_ASSERT(holding.epoch >= at(mechanism).epoch);
+  holdings_[static_cast<std::size_t>(mechanism)] = holding;
+}
+
+std::vector<int> AuthorityTable::Apply(const Grants& grants) {
+  std::vector<int> changed;
+  for (std::size_t i = 0; i < grants.mechanism.size(); ++i) {
+    const auto found = std::lower_bound(ids_.begin(), ids_.end(), grants.mechanism[i]);
+    if (found == ids_.end() || *found != grants.mechanism[i]) continue;
+    const auto index = static_cast<std::size_t>(found - ids_.begin());
+    Holding next;
+    next.authority = grants.authority[i];
+    next.epoch = grants.epoch[i];
+    next.secondaries = static_cast<std::uint32_t>(grants.secondaries[i]);
+    Holding& now = holdings_[index];
+    if (next.epoch < now.epoch) continue;
+    if (next.authority == now.authority && next.epoch == now.epoch &&
+        next.secondaries == now.secondaries) {
+      continue;
+    }
+    now = next;
+    changed.push_back(static_cast<int>(index));
+  }
+  return changed;
+}
+
+std::vector<Grants> AuthorityTable::Export(std::int64_t utime, std::int64_t tick,
+                                           const std::vector<int>& mechanisms) const {
+  std::vector<Grants> out;
+  for (int m : mechanisms) {
+    if (out.empty() || out.back().mechanism.size() >= kGrantsPerMessage) {
+      out.emplace_back();
+      out.back().utime = utime;
+      out.back().tick = tick;
+    }
+    Grants& g = out.back();
+    g.mechanism.push_back(static_cast<std::int16_t>(id(m)));
+    g.authority.push_back(static_cast<std::int8_t>(at(m).authority));
+    g.epoch.push_back(static_cast<std::int16_t>(at(m).epoch));
+    g.secondaries.push_back(static_cast<std::int32_t>(at(m).secondaries));
+  }
+  return out;
+}
+
+}  // namespace seam

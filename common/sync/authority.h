@@ -1,0 +1,43 @@
+#pragma once
+/// Who has authority over each mechanism, who follows it, and since which epoch: the ledger that
+/// every peer keeps from the server's grants.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/codec/messages.h"
+#include "common/physics/assembly.h"
+
+namespace seam {
+
+
+struct Holding {
+  int authority = 0;
+  int epoch = 0;
+  std::uint32_t secondaries = 0;    ///< bit p: peer p is secondary
+};
+
+/// One entry per mechanism of the composition, by index. At first the server has everything.
+class AuthorityTable {
+ public:
+  explicit AuthorityTable(const Composition& composition);
+
+  int count() const { return static_cast<int>(holdings_.size()); }
+  const Holding& at(int mechanism) const { return holdings_[static_cast<std::size_t>(mechanism)]; }
+  PartId id(int mechanism) const { return ids_[static_cast<std::size_t>(mechanism)]; }
+
+  /// Sets one entry (the server plans with this).
+  void Set(int mechanism, const Holding& holding);
+  /// Takes over a message; unknown mechanisms and older epochs are ignored. Returns the indices of
+  /// the mechanisms whose entry changed.
+  std::vector<int> Apply(const Grants& grants);
+  /// Everything in as few messages as fit a datagram.
+  std::vector<Grants> Export(std::int64_t utime, std::int64_t tick,
+                             const std::vector<int>& mechanisms) const;
+
+ private:
+  std::vector<Holding> holdings_;
+  std::vector<PartId> ids_;
+};
+
+}  // namespace seam

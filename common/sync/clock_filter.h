@@ -1,0 +1,47 @@
+#pragma once
+/// Learns the server's clock from pings: believes the least-delayed answers, and once settled
+/// changes its mind only slowly, so that simulated time never jumps.
+
+#include <array>
+#include <cstdint>
+
+namespace seam {
+
+class ClockFilter {
+ public:
+  /// A ping sent at `sent_us` (our clock) was answered at `server_us` (its clock) and the answer
+  /// came at `received_us` (our clock). Nonsense (received before sent) is ignored.
+  void AddSample(std::int64_t sent_us, std::int64_t server_us, std::int64_t received_us);
+
+  /// Enough samples to start with.
+  bool settled() const { return samples_ >= kSettleSamples; }
+
+  /// The server's clock at our `now_us`. Never runs backwards for growing now_us once settled; slews
+  /// towards the best estimate by at most kSlewPpm (kSlewFarPpm when far off).
+  std::int64_t ServerTime(std::int64_t now_us);
+
+  /// Least round trip in the window; -1 before the first sample.
+  std::int64_t rtt_least_us() const;
+  /// Round trip that 9 of 10 samples of the window stay below; -1 before the first sample.
+  std::int64_t rtt_p90_us() const;
+  /// What is still to be slewed, us.
+  std::int64_t pending_us() const { return static_cast<std::int64_t>(target_ - offset_); }
+
+  static constexpr int kSettleSamples = 8;
+  static constexpr double kSlewPpm = 2000;      ///< 2 ms a second: invisible
+  static constexpr double kSlewFarPpm = 50000;  ///< more than 50 ms off: a suspended or stepped clock
+ private:
+  static constexpr int kWindow = 32;
+  struct Sample {
+    std::int64_t rtt_us = 0;
+    std::int64_t offset_us = 0;
+  };
+  std::array<Sample, kWindow> window_{};
+  std::int64_t samples_ = 0;
+  double target_ = 0;      // best estimate of server minus ours, us
+  double offset_ = 0;      // in use, us
+  bool used_ = false;
+  std::int64_t last_now_us_ = 0;
+};
+
+}  // namespace seam

@@ -1,0 +1,38 @@
+#include "common/sync/mode.h"
+
+#include "common/base/check.h"
+
+namespace seam {
+
+const char* ToString(Mode mode) {
+  switch (mode) {
+    case Mode::kOracle: return "oracle";
+    case Mode::kCentral: return "central";
+    case Mode::kStrict: return "strict";
+    case Mode::kBuffer: return "buffer";
+  }
+  return "?";
+}
+
+Mode ParseMode(const std::string& name) {
+  for (Mode mode : {Mode::kOracle, Mode::kCentral, Mode::kStrict, Mode::kBuffer}) {
+    if (name == ToString(mode)) return mode;
+  }
+  throw OperatorError("unknown mode \"" + name + "\": use oracle, central, strict or buffer");
+}
+
+SyncConfig MakeSyncConfig(const std::string& mode, const std::string& reconcile) {
+  SyncConfig config;
+  config.mode = ParseMode(mode);
+  if (config.mode != Mode::kBuffer) {
+    if (!reconcile.empty()) {
+      throw OperatorError("--reconcile belongs to --mode buffer, not to --mode " + mode);
+    }
+    return config;
+  }
+  config.reconcile_name = reconcile.empty() ? "retrospect" : reconcile;
+  config.reconcile = FindReconciler(config.reconcile_name);
+  return config;
+}
+
+}  // namespace seam

@@ -1,0 +1,33 @@
+#pragma once
+/// How a room is synchronised: the mode, the reconciler and the rates, as flags and messages say it.
+
+#include <string>
+
+#include "common/sync/reconcile.h"
+
+namespace seam {
+
+/// DESIGN: who simulates what. kOracle: every peer simulates everything alone, with all inputs.
+enum class Mode { kOracle, kCentral, kStrict, kBuffer };
+
+struct SyncConfig {
+  Mode mode = Mode::kBuffer;
+  Reconciler reconcile = nullptr;     ///< not null exactly when mode is kBuffer
+  std::string reconcile_name;
+  int tick_hz = 60;
+  int send_hz = 30;                   ///< States per second from each peer; <= tick_hz
+  bool smooth = true;                 ///< hide corrections in the view
+  std::int64_t seed = 0;              ///< of bots
+
+  /// Ticks between two States of a peer.
+  int send_every() const { return tick_hz / send_hz > 0 ? tick_hz / send_hz : 1; }
+};
+
+const char* ToString(Mode mode);
+/// Throws OperatorError naming the known ones.
+Mode ParseMode(const std::string& name);
+/// Fills mode and reconciler from their names. An empty reconciler in mode buffer means
+/// "retrospect". Throws OperatorError when unknown or when a reconciler is given in another mode.
+SyncConfig MakeSyncConfig(const std::string& mode, const std::string& reconcile);
+
+}  // namespace seam

@@ -1,0 +1,34 @@
+#pragma once
+/// States on the wire: whole numbers of fixed quanta, so that both ends hold the same values.
+
+#include <vector>
+
+#include "common/codec/messages.h"
+#include "common/physics/types.h"
+
+namespace seam {
+
+constexpr float kPositionQuantum = 1.0f / 512;    ///< m
+constexpr float kVelocityQuantum = 1.0f / 256;    ///< m/s and rad/s
+constexpr double kAngleQuantum = 6.283185307179586 / 65536;  ///< rad
+
+/// The state a receiver will hold: every field rounded to its quantum. Idempotent. The angle keeps
+/// its revolutions. Speeds beyond the int16 range (128 m/s, 128 rad/s) are clamped to it.
+BodyState Quantised(const BodyState& state);
+
+/// One body's entry in a States message.
+struct PackedBody {
+  PartId id = 0;
+  int epoch = 0;
+  std::int8_t flags = 0;
+  BodyState state;
+};
+
+/// Splits bodies into messages of at most kStatesBodiesMax, each within 60 m of its origin.
+/// The header fields (utime, peer, tick, composition) are copied from `header`.
+std::vector<States> Pack(const States& header, const std::vector<PackedBody>& bodies);
+
+/// Entry `i` of a message as a state; the angle is unwrapped to the revolution nearest `near_angle`.
+BodyState Unpack(const States& states, std::size_t i, float near_angle);
+
+}  // namespace seam

@@ -1,0 +1,60 @@
+#pragma once
+/// The rule by which a secondary corrects its copy of a body when the authority's state arrives.
+/// One rule per file, all of one signature, so that two are compared by opening two files.
+///
+///   remote  ----o t1 ............................ the authority's state, as old as the network made it
+///   local   ----o t1 ----------------------o t2   our copy then, and now
+///                \___ dt = t2 - t1 ________/
+
+#include <string>
+#include <vector>
+
+#include "common/physics/types.h"
+
+namespace seam {
+
+struct ReconcileInput {
+  BodyState local;                     ///< Xl: our copy now, at t2
+  BodyState remote;                    ///< Xr: the authority's, at t1 (angle unwrapped near ours)
+  const BodyState* local_then = nullptr;  ///< our copy at t1; nullptr: no longer (or not yet) known
+  float dt = 0;                        ///< t2 - t1, s, >= 0
+  float since_impact = 1e9f;           ///< s since our copy's last major impact
+  bool coupled = false;                ///< it touches, or is jointed to one that touches, a body
+                                       ///< of another authority than its own
+  float gain = 1;                      ///< for coupled bodies: largest stable share to correct
+  float now_hz = 60;                   ///< ticks per second
+};
+
+/// What to add to our copy. `then` is the part that was already due at t1; a rule that knows it
+/// has the history between t1 and t2 corrected along the line from `then` to `now`.
+struct Correction {
+  BodyState now;                       ///< added to the state at t2
+  bool rewrites_history = false;
+  BodyState then;                      ///< added to the state at t1
+};
+
+using Reconciler = Correction (*)(const ReconcileInput&);
+
+Correction ReconcileSnap(const ReconcileInput&);
+Correction ReconcileInterleave(const ReconcileInput&);
+Correction ReconcileCompensated(const ReconcileInput&);
+Correction ReconcileFade(const ReconcileInput&);
+Correction ReconcileRetrospect(const ReconcileInput&);
+
+struct NamedReconciler {
+  const char* name;
+  Reconciler rule;
+  const char* about;
+};
+const std::vector<NamedReconciler>& Reconcilers();
+/// Throws OperatorError naming the known ones.
+Reconciler FindReconciler(const std::string& name);
+
+/// a - b, component by component.
+BodyState Minus(const BodyState& a, const BodyState& b);
+/// a + s b, component by component.
+BodyState PlusScaled(const BodyState& a, const BodyState& b, float s);
+/// Xr' = Xr moved on by its own velocity for dt.
+BodyState Extrapolate(const BodyState& remote, float dt);
+
+}  // namespace seam

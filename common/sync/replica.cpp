@@ -1,0 +1,204 @@
+#include "common/sync/replica.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/check.h"
+#include "common/sync/input_source.h"
+
+namespace seam {
+namespace {
+
+/// Ticks of history: 2 s at 60 Hz. A state older than that is corrected without looking back.
+constexpr int kHistoryTicks = 120;
+/// Bodies stay coupled for this long after they last touched, s: contact flickers.
+constexpr double kCoupledHold = 0.25;
+/// Dead reckoning beyond the buffer zone goes no further than this, s.
+constexpr float kReckonMost = 0.5f;
+
+}  // namespace
+
+Replica::Replica(const Scene& scene, const SyncConfig& config, int self, int own_player)
+    : config_(config),
+      self_(self),
+      own_player_(own_player),
+      world_(scene),
+      table_(world_.composition()),
+      history_(world_.body_count(), kHistoryTicks),
+      smoother_(world_.body_count(), config.smooth),
+      snapshots_(world_.body_count()),
+      delay_(config.send_every()),
+      tracks_(scene.players.size()) {
+  const auto bodies = static_cast<std::size_t>(world_.body_count());
+  last_impact_tick_.assign(bodies, -1000000);
+  last_coupled_tick_.assign(world_.composition().mechanisms.size(), -1000000);
+  heard_tick_.assign(bodies, -1);
+  placed_.assign(bodies, true);
+  priority_.assign(bodies, 0.0f);
+  asleep_since_.assign(bodies, -1);
+  RolesChanged();
+  RecordHistory();
+}
+
+void Replica::StartAt(std::int64_t tick) {
+  if (tick == world_.tick()) return;
+  placed_.assign(placed_.size(), false);
+  world_.SetTick(tick);
+  history_.Clear();
+  RecordHistory();
+}
+
+std::int8_t Replica::RoleOf(int mechanism) const {
+  const Holding& h = table_.at(mechanism);
+  if (config_.mode == Mode::kOracle) return self_ == 0 ? kRoleAuthority : kRoleSecondary;
+  if (h.authority == self_) return kRoleAuthority;
+  if (config_.mode == Mode::kCentral) {
+    const int owner = world_.composition().mechanisms[static_cast<std::size_t>(mechanism)].owner;
+    return own_player_ >= 0 && owner == own_player_ ? kRoleSecondary : kRoleRemote;
+  }
+  if (config_.mode == Mode::kBuffer && ((h.secondaries >> self_) & 1U) != 0) return kRoleSecondary;
+  return kRoleRemote;
+}
+
+bool Replica::Simulated(int mechanism) const { return RoleOf(mechanism) != kRoleRemote; }
+
+std::vector<int> Replica::ApplyGrants(const Grants& grants) {
+  std::vector<int> before;
+  for (int m = 0; m < table_.count(); ++m) before.push_back(table_.at(m).authority);
+  std::vector<int> changed = table_.Apply(grants);
+  changed.erase(std::remove_if(changed.begin(), changed.end(),
+                               [&](int m) {
+                                 return before[static_cast<std::size_t>(m)] ==
+                                        table_.at(m).authority;
+                               }),
+                changed.end());
+  RolesChanged();
+  return changed;
+}
+
+void Replica::RolesChanged() {
+  for (int body = 0; body < world_.body_count(); ++body) {
+    const Motion wanted =
+        Simulated(world_.mechanism(body)) ? Motion::kDynamic : Motion::kKinematic;
+    if (world_.motion(body) != wanted) world_.SetMotion(body, wanted);
+  }
+}
+
+void Replica::ReleaseAll() {
+  for (int m = 0; m < table_.count(); ++m) {
+    Holding h = table_.at(m);
+    if (h.authority != self_) continue;
+    h.authority = 0;
+    table_.Set(m, h);
+  }
+  RolesChanged();
+}
+
+void Replica::ApplyInputs(std::int64_t next) {
+  for (std::size_t p = 0; p < tracks_.size(); ++p) {
+    const int player = static_cast<int>(p);
+    if (config_.mode == Mode::kOracle) {
+      tracks_[p].Note(next, ScriptedInput(scene(), player, next));
+    }
+    world_.SetInput(player, tracks_[p].At(next));
+    const std::int16_t pressed = tracks_[p].TakePresses(next);
+    const std::vector<Action>& actions = scene().players[p].actions;
+    for (std::size_t a = 0; a < actions.size(); ++a) {
+      if (((pressed >> actions[a].button) & 1) == 0) continue;
+      const int assembly =
+          world_.composition().assembly_of_part[static_cast<std::size_t>(actions[a].part)];
+      const int m = world_.composition().assemblies[static_cast<std::size_t>(assembly)].mechanism;
+      // Exactly one peer pushes: the authority, when it hears of it (all of them in the oracle).
+      const bool mine = config_.mode == Mode::kOracle || (m >= 0 && table_.at(m).authority == self_);
+      if (mine) world_.Act(player, static_cast<int>(a));
+    }
+  }
+}
+
+void Replica::DriveKinematic(std::int64_t next) {
+  const double delay = delay_.Advance();
+  for (int body = 0; body < world_.body_count(); ++body) {
+    if (world_.motion(body) != Motion::kKinematic) continue;
+    BodyState state = world_.Read(body);
+    if (!snapshots_.has(body)) {
+      state.velocity.setZero();
+      state.spin = 0;
+      world_.Write(body, state, false);
+      continue;
+    }
+    const BodyState target =
+        config_.mode == Mode::kBuffer
+            ? snapshots_.Extrapolate(body, next, world_.dt(), kReckonMost)
+            : snapshots_.Interpolate(body, static_cast<double>(next) - delay);
+    state.velocity = (target.position - state.position) / world_.dt();
+    state.spin = (target.angle - state.angle) / world_.dt();
+    const float limit = scene().speed_limit;
+    if (state.velocity.norm() > limit || std::fabs(state.spin) > 90.0f) {
+      // Too far to travel in a tick: place it there at rest.
+      smoother_.Moved(body, target.position - state.position, target.angle - state.angle);
+      state.position = target.position;
+      state.angle = target.angle;
+      state.velocity.setZero();
+      state.spin = 0;
+    }
+    const bool moves = state.velocity.squaredNorm() > 0 || state.spin != 0;
+    world_.Write(body, state, moves);
+  }
+}
+
+void Replica::NoteImpacts() {
+  for (const Impact& impact : world_.impacts()) {
+    if (impact.dv < kMajorImpact) continue;
+    for (int body : {impact.body_a, impact.body_b}) {
+      if (body >= 0) last_impact_tick_[static_cast<std::size_t>(body)] = tick();
+    }
+  }
+}
+
+void Replica::NoteTouches() {
+  for (const Touch& touch : world_.touches()) {
+    const int a = world_.mechanism(touch.body_a);
+    const int b = world_.mechanism(touch.body_b);
+    if (table_.at(a).authority == table_.at(b).authority) continue;
+    last_coupled_tick_[static_cast<std::size_t>(a)] = tick();
+    last_coupled_tick_[static_cast<std::size_t>(b)] = tick();
+  }
+}
+
+void Replica::RecordHistory() {
+  std::vector<BodyState> states;
+  states.reserve(static_cast<std::size_t>(world_.body_count()));
+  for (int body = 0; body < world_.body_count(); ++body) states.push_back(world_.Read(body));
+  history_.Record(tick(), states);
+}
+
+void Replica::Step() {
+  const std::int64_t next = tick() + 1;
+  ApplyInputs(next);
+  if (config_.mode != Mode::kOracle) DriveKinematic(next);
+  world_.Step();
+  NoteImpacts();
+  NoteTouches();
+  outgoing_.clear();
+  if (config_.mode != Mode::kOracle && next % config_.send_every() == 0) {
+    std::vector<PackedBody> bodies = ChooseBodies();
+    outgoing_ = Pack(Header(), bodies);
+  }
+  RecordHistory();
+  for (int body = 0; body < world_.body_count(); ++body) {
+    smoother_.Advance(body, world_.dt(), world_.Read(body).velocity.norm());
+  }
+  std::vector<States> waiting;
+  waiting.swap(early_);
+  for (const States& states : waiting) Receive(states);
+}
+
+float Replica::GainFor(float dt) const {
+  // A pure correction delayed by d updates is stable below 2 sin(pi / (2 (2 d + 1))).
+  const double d = std::ceil(static_cast<double>(dt) * config_.send_hz);
+  const double limit = 2 * std::sin(3.14159265358979 / (2 * (2 * d + 1)));
+  constexpr double kShareOfLimit = 0.6;   // nearer to 1 rings, nearer to 0 drifts
+  return static_cast<float>(std::min(1.0, kShareOfLimit * limit));
+}
+
+}  // namespace seam

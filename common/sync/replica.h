@@ -1,0 +1,113 @@
+#pragma once
+/// One peer's copy of a room: a world, what it knows of the others, and the rules that keep the
+/// copy near theirs. Server and clients each have one; it knows nothing of time, sockets or files.
+///
+///   Receive(States), ApplyGrants, NoteInputs          between steps
+///   Step: inputs -> kinematic bodies -> World::Step -> quantise and collect own States -> history
+///   TakeStates, MakeView, MakeImpacts                 after it
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "common/physics/history.h"
+#include "common/physics/world.h"
+#include "common/sync/authority.h"
+#include "common/sync/input_track.h"
+#include "common/sync/mode.h"
+#include "common/sync/quantize.h"
+#include "common/sync/smoother.h"
+#include "common/sync/snapshots.h"
+
+namespace seam {
+
+class Replica {
+ public:
+  /// `self`: peer number. `own_player`: the player whose vehicle this peer predicts in mode
+  /// central, or -1.
+  Replica(const Scene& scene, const SyncConfig& config, int self, int own_player);
+
+  /// Begins (or, after an absence, goes on) at `tick`. Beginning at 0 all bodies are where the
+  /// scene puts them; later, each body waits for its first state and is placed there.
+  void StartAt(std::int64_t tick);
+  std::int64_t tick() const { return world_.tick(); }
+
+  const Scene& scene() const { return world_.scene(); }
+  World& world() { return world_; }
+  const AuthorityTable& authority() const { return table_; }
+  /// The server plans here; clients only follow grants.
+  AuthorityTable& authority() { return table_; }
+  /// kRoleAuthority, kRoleSecondary or kRoleRemote of this peer for a mechanism.
+  std::int8_t RoleOf(int mechanism) const;
+
+  /// Follows the server's word. Returns the mechanisms whose authority changed hands.
+  std::vector<int> ApplyGrants(const Grants& grants);
+  /// After Set on authority(): lets motion types follow the roles.
+  void RolesChanged();
+  /// Gives up every authority (the server has not been heard for too long).
+  void ReleaseAll();
+
+  InputTrack& inputs(int player) { return tracks_[static_cast<std::size_t>(player)]; }
+
+  /// What became of the bodies of a States message.
+  struct Received {
+    int used = 0;
+    int stale = 0;       ///< older than what is known, or of an old epoch
+    int unknown = 0;     ///< no such body, or this peer's own
+  };
+  /// States of another peer's bodies. Those of ticks still to come wait for them.
+  Received Receive(const States& states);
+  /// Like Receive, but takes poses as they are: the room as it is now, for one who joins late.
+  void Place(const States& states);
+
+  void Step();
+
+  /// What this peer has to tell after the last Step: empty unless a send is due. utime is left 0.
+  std::vector<States> TakeStates();
+  /// The current state of all bodies (of the authorities this peer is or follows), for a joiner.
+  std::vector<States> Everything() const;
+  View MakeView() const;
+  /// Impacts of the last tick above the major threshold; ids empty when there were none.
+  Impacts MakeImpacts() const;
+
+  double display_delay_ticks() const { return delay_.ticks(); }
+
+ private:
+  void ApplyInputs(std::int64_t next);
+  void DriveKinematic(std::int64_t next);
+  void NoteImpacts();
+  void NoteTouches();
+  void ReceiveOne(const States& states, std::size_t i, int body);
+  void Correct(int body, const States& states, std::size_t i);
+  void Predict(const States& states);
+  void RecordHistory();
+  std::vector<PackedBody> ChooseBodies();
+  States Header() const;
+  bool Simulated(int mechanism) const;
+  float GainFor(float dt) const;
+
+  SyncConfig config_;
+  int self_;
+  int own_player_;
+  World world_;
+  AuthorityTable table_;
+  History history_;
+  Smoother smoother_;
+  Snapshots snapshots_;
+  DisplayDelay delay_;
+  std::vector<InputTrack> tracks_;
+  std::vector<States> early_;                  // of ticks still to come
+  std::vector<std::int64_t> last_impact_tick_;   // by body
+  std::vector<std::int64_t> last_coupled_tick_;  // by mechanism
+  std::vector<std::int64_t> heard_tick_;       // by body: newest state heard, -1 never
+  std::vector<bool> placed_;                   // by body: pose is known
+  std::vector<float> priority_;                // by body: accumulator for sending
+  std::vector<std::int64_t> asleep_since_;     // by body, -1 awake
+  std::vector<States> outgoing_;
+};
+
+/// A change of velocity that counts as a major impact for `fade`, m/s. Lower lets a resting stack
+/// count as colliding; higher lets real collisions be overruled by old news.
+constexpr float kMajorImpact = 1.0f;
+
+}  // namespace seam

@@ -1,0 +1,147 @@
+/// Replica, incoming: other peers' states become corrections, snapshots or a replay.
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/check.h"
+#include "common/sync/replica.h"
+
+namespace seam {
+namespace {
+
+/// States of ticks still to come that may wait; a hostile peer could send many.
+constexpr std::size_t kEarlyMost = 64;
+constexpr std::int64_t kEarlyTicksMost = 120;
+/// Speeds written to the world stay within what the engine itself can move, m/s and rad/s.
+constexpr float kSpinMost = 94.0f;
+
+bool Negligible(const BodyState& d) {
+  return d.position.norm() < 0.75f * kPositionQuantum &&
+         std::fabs(d.angle) < 0.75f * static_cast<float>(kAngleQuantum) &&
+         d.velocity.norm() < 1.5f * kVelocityQuantum && std::fabs(d.spin) < 1.5f * kVelocityQuantum;
+}
+
+BodyState WithinLimits(BodyState state, float speed_limit) {
+  const float speed = state.velocity.norm();
+  if (speed > speed_limit) state.velocity *= speed_limit / speed;
+  state.spin = std::clamp(state.spin, -kSpinMost, kSpinMost);
+  return state;
+}
+
+}  // namespace
+
+Replica::Received Replica::Receive(const States& states) {
+  Received result;
+  if (states.tick > tick()) {
+    if (early_.size() < kEarlyMost && states.tick <= tick() + kEarlyTicksMost) {
+      early_.push_back(states);
+      result.used = static_cast<int>(states.id.size());
+    } else {
+      result.stale = static_cast<int>(states.id.size());
+    }
+    return result;
+  }
+  bool any_new = false;
+  bool predicted = false;
+  for (std::size_t i = 0; i < states.id.size(); ++i) {
+    const int body = world_.BodyOfId(states.id[i]);
+    if (body < 0) {
+      ++result.unknown;
+      continue;
+    }
+    const int mechanism = world_.mechanism(body);
+    const Holding& holding = table_.at(mechanism);
+    if (holding.authority == self_ || states.peer == self_) {
+      ++result.unknown;
+      continue;
+    }
+    if (states.epoch[i] < holding.epoch ||
+        states.tick <= heard_tick_[static_cast<std::size_t>(body)]) {
+      ++result.stale;
+      continue;
+    }
+    ++result.used;
+    any_new = true;
+    heard_tick_[static_cast<std::size_t>(body)] = states.tick;
+    if (config_.mode == Mode::kCentral && RoleOf(mechanism) == kRoleSecondary) predicted = true;
+    ReceiveOne(states, i, body);
+  }
+  if (any_new) delay_.AddAge(tick() - states.tick);
+  if (predicted) Predict(states);
+  return result;
+}
+
+void Replica::ReceiveOne(const States& states, std::size_t i, int body) {
+  const BodyState remote = Unpack(states, i, world_.Read(body).angle);
+  snapshots_.Add(body, states.tick, remote);
+  if (!placed_[static_cast<std::size_t>(body)]) {
+    placed_[static_cast<std::size_t>(body)] = true;
+    world_.Write(body, WithinLimits(remote, scene().speed_limit));
+    *history_.At(tick(), body) = world_.Read(body);
+    smoother_.Reset(body);
+    return;
+  }
+  if (config_.mode == Mode::kBuffer && RoleOf(world_.mechanism(body)) == kRoleSecondary) {
+    Correct(body, states, i);
+  }
+}
+
+void Replica::Place(const States& states) {
+  for (std::size_t i = 0; i < states.id.size(); ++i) {
+    const int body = world_.BodyOfId(states.id[i]);
+    if (body < 0 || placed_[static_cast<std::size_t>(body)]) continue;
+    const BodyState remote = Unpack(states, i, world_.Read(body).angle);
+    snapshots_.Add(body, states.tick, remote);
+    placed_[static_cast<std::size_t>(body)] = true;
+    world_.Write(body, WithinLimits(remote, scene().speed_limit));
+    if ((states.flags[i] & kStateAsleep) != 0) world_.SetAwake(body, false);
+    *history_.At(tick(), body) = world_.Read(body);
+    smoother_.Reset(body);
+  }
+}
+
+void Replica::Correct(int body, const States& states, std::size_t i) {
+  const int mechanism = world_.mechanism(body);
+  ReconcileInput in;
+  in.local = world_.Read(body);
+  in.remote = Unpack(states, i, in.local.angle);
+  if ((states.flags[i] & kStateAsleep) != 0) {
+    // At rest, for good as far as the authority knows: take its pose bit for bit, so that all
+    // peers end with the same numbers.
+    const bool same = in.remote.position == in.local.position && in.remote.angle == in.local.angle;
+    if (same && !world_.awake(body)) return;
+    smoother_.Moved(body, in.remote.position - in.local.position, in.remote.angle - in.local.angle);
+    world_.Write(body, in.remote, false);
+    world_.SetAwake(body, false);
+    *history_.At(tick(), body) = world_.Read(body);
+    return;
+  }
+  BodyState* then = history_.At(states.tick, body);
+  in.local_then = then;
+  in.dt = static_cast<float>(tick() - states.tick) * world_.dt();
+  in.since_impact = static_cast<float>(
+      tick() - last_impact_tick_[static_cast<std::size_t>(body)]) * world_.dt();
+  in.coupled = last_coupled_tick_[static_cast<std::size_t>(mechanism)] >=
+               tick() - config_.tick_hz / 4;
+  in.gain = GainFor(in.dt);
+  in.now_hz = static_cast<float>(config_.tick_hz);
+  const Correction c = config_.reconcile(in);
+  if (Negligible(c.now)) return;
+  const BodyState corrected =
+      WithinLimits(PlusScaled(in.local, c.now, 1), scene().speed_limit);
+  if (c.rewrites_history) {
+    // The past is corrected too, so that the next message is compared with what we now believe.
+    const float steps = static_cast<float>(std::max<std::int64_t>(1, tick() - states.tick));
+    for (std::int64_t t = states.tick; t < tick(); ++t) {
+      BodyState* past = history_.At(t, body);
+      if (past == nullptr) continue;
+      const float s = static_cast<float>(t - states.tick) / steps;
+      *past = PlusScaled(*past, PlusScaled(c.then, Minus(c.now, c.then), s), 1);
+    }
+  }
+  world_.Write(body, corrected);
+  *history_.At(tick(), body) = corrected;
+  smoother_.Moved(body, corrected.position - in.local.position, corrected.angle - in.local.angle);
+}
+
+}  // namespace seam

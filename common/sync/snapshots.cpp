@@ -1,0 +1,70 @@
+#include "common/sync/snapshots.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/check.h"
+#include "common/sync/reconcile.h"
+
+namespace seam {
+namespace {
+
+constexpr std::size_t kKeep = 64;          // states per body: about a second
+constexpr std::size_t kAges = 90;          // arrivals looked at for the delay
+constexpr double kSlewPerTick = 0.02;      // ticks of delay per tick: 2 % slower or faster
+
+}  // namespace
+
+Snapshots::Snapshots(int body_count) : rings_(static_cast<std::size_t>(body_count)) {}
+
+void Snapshots::Add(int body, std::int64_t tick, const BodyState& state) {
+  std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
+  if (!ring.empty() && ring.back().tick >= tick) return;
+  ring.push_back({tick, state});
+  if (ring.size() > kKeep) ring.pop_front();
+}
+
+std::int64_t Snapshots::newest_tick(int body) const {
+  const std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
+  return ring.empty() ? -1 : ring.back().tick;
+}
+
+BodyState Snapshots::Interpolate(int body, double tick) const {
+  const std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
+  SEAM_ASSERT(!ring.empty());
+  if (tick >= static_cast<double>(ring.back().tick)) return ring.back().state;
+  for (std::size_t i = ring.size() - 1; i-- > 0;) {
+    const Stamped& a = ring[i];
+    if (static_cast<double>(a.tick) > tick) continue;
+    const Stamped& b = ring[i + 1];
+    const double t = (tick - static_cast<double>(a.tick)) / static_cast<double>(b.tick - a.tick);
+    return PlusScaled(a.state, Minus(b.state, a.state), static_cast<float>(t));
+  }
+  return ring.front().state;
+}
+
+BodyState Snapshots::Extrapolate(int body, std::int64_t tick, float dt, float most_s) const {
+  const std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
+  SEAM_ASSERT(!ring.empty());
+  const float age = static_cast<float>(std::max<std::int64_t>(0, tick - ring.back().tick)) * dt;
+  return seam::Extrapolate(ring.back().state, std::min(age, most_s));
+}
+
+void DisplayDelay::AddAge(std::int64_t age_ticks) {
+  ages_.push_back(std::max<std::int64_t>(0, age_ticks));
+  if (ages_.size() > kAges) ages_.pop_front();
+}
+
+double DisplayDelay::Advance() {
+  if (ages_.empty()) return std::max(delay_, 0.0);
+  std::vector<std::int64_t> sorted(ages_.begin(), ages_.end());
+  const std::size_t rank = (sorted.size() - 1) * 19 / 20;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(rank),
+                   sorted.end());
+  const double target = static_cast<double>(sorted[rank] + interval_ticks_);
+  if (delay_ < 0) delay_ = target;
+  delay_ += std::clamp(target - delay_, -kSlewPerTick, kSlewPerTick);
+  return delay_;
+}
+
+}  // namespace seam

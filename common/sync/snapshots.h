@@ -1,0 +1,54 @@
+#pragma once
+/// Received states by tick, for what is displayed rather than simulated: the snapshot
+/// interpolation of modes strict and central, and dead reckoning beyond the buffer zone.
+
+#include <cstdint>
+#include <deque>
+#include <vector>
+
+#include "common/physics/types.h"
+
+namespace seam {
+
+/// The last few states heard of each body.
+class Snapshots {
+ public:
+  explicit Snapshots(int body_count);
+
+  /// Keeps the state if it is newer than what it has of this body.
+  void Add(int body, std::int64_t tick, const BodyState& state);
+  bool has(int body) const { return !rings_[static_cast<std::size_t>(body)].empty(); }
+  std::int64_t newest_tick(int body) const;     ///< -1 when none
+
+  /// Interpolated at a (fractional) tick; the oldest or newest kept state outside of what is known:
+  /// never extrapolated. Requires has(body).
+  BodyState Interpolate(int body, double tick) const;
+  /// The newest state moved on by its velocity for at most `most_s`. Requires has(body).
+  BodyState Extrapolate(int body, std::int64_t tick, float dt, float most_s) const;
+
+ private:
+  struct Stamped {
+    std::int64_t tick = 0;
+    BodyState state;
+  };
+  std::vector<std::deque<Stamped>> rings_;
+};
+
+/// How far in the past to display so that the next snapshot has nearly always arrived: the age
+/// that 19 of 20 snapshots stay below, plus one interval. Slews, because a jump of it is a stutter.
+class DisplayDelay {
+ public:
+  explicit DisplayDelay(int interval_ticks) : interval_ticks_(interval_ticks) {}
+  /// A snapshot was `age_ticks` old when it came.
+  void AddAge(std::int64_t age_ticks);
+  /// Called once a tick; returns the delay in ticks.
+  double Advance();
+  double ticks() const { return delay_; }
+
+ private:
+  int interval_ticks_;
+  std::deque<std::int64_t> ages_;
+  double delay_ = -1;
+};
+
+}  // namespace seam

@@ -1,0 +1,159 @@
+/// seam-server: a room over UDP. `seam-server --help`.
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+
+#include "common/base/process.h"
+#include "common/net/impair.h"
+#include "common/net/udp.h"
+#include "common/record/doctor.h"
+#include "common/record/sink.h"
+#include "server/server.h"
+
+namespace {
+
+using namespace seam;
+
+struct Flags {
+  std::string scene;
+  int port = 7777;
+  std::string bind = "0.0.0.0";
+  std::string mode = "buffer";
+  std::string reconcile;
+  std::string impair = "perfect";
+  std::int64_t seed = 1;
+  int send_hz = 30;
+  std::string room = "main";
+  int wait = -1;
+  double duration_s = 0;
+  std::string record;
+  bool force = false;
+  std::string lcm_url;
+  bool quiet = false;
+  bool doctor = false;
+};
+
+std::string ProfilesText() {
+  std::string text = "\nnetwork profiles (--impair), each way:\n";
+  for (const ImpairProfile& p : Profiles()) text += "  " + p.name + ": " + p.about + "\n";
+  text += "  or delay=50ms,jitter=10ms,loss=1%,...\nreconcilers (--reconcile, mode buffer):\n";
+  for (const NamedReconciler& r : Reconcilers()) {
+    text += "  " + std::string(r.name) + ": " + r.about + "\n";
+  }
+  return text;
+}
+
+void Define(CLI::App& app, Flags& f) {
+  app.add_option("scene", f.scene, "scene file (scenes/*.toml)");
+  app.add_option("--port", f.port, "UDP port")->check(CLI::Range(1, 65535));
+  app.add_option("--bind", f.bind, "address to listen on");
+  app.add_option("--mode", f.mode, "oracle | central | strict | buffer");
+  app.add_option("--reconcile", f.reconcile, "rule for mode buffer (default retrospect)");
+  app.add_option("--impair", f.impair, "impair the network in both directions by a profile");
+  app.add_option("--seed", f.seed, "of impairments and bots")->check(CLI::Range(0, 1000000000));
+  app.add_option("--send-hz", f.send_hz, "state messages per second")->check(CLI::Range(1, 240));
+  app.add_option("--room", f.room, "name of the room in the channels");
+  app.add_option("--wait", f.wait, "players to wait for (default: those of the scene; 0: none)")
+      ->check(CLI::Range(0, 31));
+  app.add_option("--duration", f.duration_s, "seconds to run after tick 0 (0: until stopped)")
+      ->check(CLI::Range(0.0, 1e6));
+  app.add_option("--record", f.record, "write the session's LCM log to this file too");
+  app.add_flag("--force", f.force, "overwrite the --record file");
+  app.add_option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
+  app.add_flag("--quiet", f.quiet, "no progress line");
+  app.add_flag("--doctor", f.doctor, "check that LCM works on this machine, and exit");
+}
+
+void CheckRoomName(const std::string& room) {
+  const bool good = !room.empty() && room.size() <= 32 &&
+                    std::all_of(room.begin(), room.end(), [](unsigned char c) {
+                      return std::isalnum(c) != 0 || c == '_' || c == '-';
+                    });
+  if (!good) throw OperatorError("--room takes 1 to 32 letters, digits, - or _");
+}
+
+int Serve(const Flags& f) {
+  if (f.scene.empty()) throw OperatorError("which scene? for example: seam-server scenes/crossing.toml");
+  CheckRoomName(f.room);
+  const Scene scene = LoadScene(f.scene);
+  ServerConfig config;
+  config.sync = MakeSyncConfig(f.mode, f.reconcile);
+  config.sync.tick_hz = scene.solver.tick_hz;
+  config.sync.send_hz = std::min(f.send_hz, scene.solver.tick_hz);
+  config.sync.seed = f.seed;
+  config.room = f.room;
+  config.impair = f.impair;
+  config.seed = f.seed;
+  config.wait_players = f.wait >= 0 ? f.wait : static_cast<int>(scene.players.size());
+  const ImpairProfile profile = FindProfile(f.impair);
+
+  Address local = ParseAddress(f.bind, static_cast<std::uint16_t>(f.port));
+  UdpNet udp(local);
+  ImpairedNet net(udp, profile, profile, static_cast<std::uint64_t>(f.seed));
+  Sink sink(f.lcm_url, f.record, f.force, f.room);
+  Server server(scene, config, net, sink);
+  StopOnSignals();
+  std::fprintf(stderr, "seam-server: %s, mode %s%s%s, network %s, on %s; waiting for %d player(s)\n",
+               scene.name.c_str(), f.mode.c_str(), config.sync.reconcile_name.empty() ? "" : " ",
+               config.sync.reconcile_name.c_str(), f.impair.c_str(),
+               ToString(udp.local()).c_str(), config.wait_players);
+  const auto last_tick = static_cast<std::int64_t>(f.duration_s * scene.solver.tick_hz);
+  std::int64_t next_line_us = 0;
+  while (g_stop == 0 && (last_tick == 0 || server.tick() < last_tick)) {
+    const std::int64_t now = SteadyClockUs();
+    server.Tick(now, CpuUs());
+    sink.Poll();
+    if (!f.quiet && server.started() && now >= next_line_us) {
+      next_line_us = now + 1000000;
+      std::fprintf(stderr, "\rtick %lld, %d client(s), worst round trip %.0f ms   ",
+                   static_cast<long long>(server.tick()), server.client_count(),
+                   server.stats().rtt_us / 1000.0);
+    }
+    const std::int64_t wake = std::min({server.next_tick_us(), net.next_due_us(), now + 20000});
+    udp.Wait(std::max<std::int64_t>(0, wake - SteadyClockUs()));
+  }
+  server.Shutdown(SteadyClockUs(), "the server stops");
+  for (int n = 0; n < 20 && net.next_due_us() != std::numeric_limits<std::int64_t>::max(); ++n) {
+    udp.Wait(20000);   // let the goodbye through the simulated network
+    net.Advance(SteadyClockUs());
+    net.Flush();
+  }
+  sink.Poll();
+  const Stats& s = server.stats();
+  std::fprintf(stderr,
+               "\nseam-server: %lld ticks; dropped %lld malformed, %lld stale, %lld without right, "
+               "%lld implausible; %lld bus failures\n",
+               static_cast<long long>(server.tick()), static_cast<long long>(s.dropped_malformed),
+               static_cast<long long>(s.dropped_stale), static_cast<long long>(s.dropped_right),
+               static_cast<long long>(s.dropped_implausible),
+               static_cast<long long>(sink.failures()));
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return RunMain("seam-server", [&] {
+    CLI::App app{"seam-server: one room of a distributed 2D world, over UDP and the LCM bus"};
+    Flags flags;
+    Define(app, flags);
+    app.footer(ProfilesText());
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+      std::printf("%s", app.help().c_str());
+      return 0;
+    } catch (const CLI::ParseError& e) {
+      throw OperatorError(std::string(e.what()) + " (see seam-server --help)");
+    }
+    if (flags.doctor) {
+      const DoctorReport report = RunDoctor(flags.lcm_url);
+      for (const std::string& line : report.lines) std::printf("%s\n", line.c_str());
+      return report.healthy ? 0 : 1;
+    }
+    return Serve(flags);
+  });
+}

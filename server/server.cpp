@@ -1,0 +1,224 @@
+#include "server/server.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "common/sync/input_source.h"
+
+namespace seam {
+namespace {
+
+/// Most ticks stepped in one call: a server that was suspended catches up without starving the net.
+constexpr int kStepsMost = 8;
+/// Remote mechanisms are relayed every so many sends.
+constexpr std::int64_t kFarEvery = 3;
+
+}  // namespace
+
+Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorder& recorder)
+    : scene_(scene),
+      config_(config),
+      net_(net),
+      publisher_(recorder, config.room),
+      replica_(scene_, config.sync, 0, -1),
+      planner_(scene_, config.sync) {
+  revoking_.assign(static_cast<std::size_t>(replica_.authority().count()), false);
+  accepted_.resize(static_cast<std::size_t>(replica_.world().body_count()));
+  if (config_.sync.mode == Mode::kBuffer) {
+    // The server follows everything, so that it can take over at any moment.
+    for (int m = 0; m < replica_.authority().count(); ++m) {
+      Holding h;
+      h.secondaries = 1;
+      replica_.authority().Set(m, h);
+    }
+  }
+}
+
+void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
+  net_.Advance(now_us);
+  ReceiveAll(now_us);
+  DropSilent(now_us);
+  for (auto& [address, session] : sessions_) Advance(now_us, *session);
+  StartIfReady(now_us);
+  if (now_us - last_room_us_ >= 1000000) {
+    last_room_us_ = now_us;
+    publisher_.Publish(MakeRoom(now_us));
+  }
+  for (int steps = 0; steps < kStepsMost && now_us >= next_tick_us(); ++steps) {
+    worst_late_us_ = std::max(worst_late_us_, now_us - next_tick_us());
+    StepOnce(now_us);
+  }
+  if (now_us - last_stats_us_ >= 1000000) PublishStats(now_us, cpu_us);
+  FlushAll(now_us);
+}
+
+std::int64_t Server::next_tick_us() const {
+  if (!started()) return std::numeric_limits<std::int64_t>::max();
+  return tick0_us_ + (replica_.tick() + 1) * 1000000 / config_.sync.tick_hz;
+}
+
+void Server::StartIfReady(std::int64_t now_us) {
+  if (started()) return;
+  int ready = 0;
+  for (const auto& [address, session] : sessions_) {
+    if (session->stage == Stage::kReady && session->player >= 0) ++ready;
+  }
+  if (ready < config_.wait_players) return;
+  tick0_us_ = now_us + (config_.wait_players > 0 ? kLeadInUs : 0);
+  // Whoever is here from the start has its mechanisms from tick 0 on: plan once, now.
+  PlanAuthority(now_us);
+  View view = replica_.MakeView();
+  view.utime = now_us;
+  publisher_.Publish(view);
+  Say(now_us, "the room starts with " + std::to_string(ready) + " players");
+}
+
+void Server::StepOnce(std::int64_t now_us) {
+  if (config_.sync.mode == Mode::kOracle) {
+    for (std::size_t p = 0; p < scene_.players.size(); ++p) {
+      Inputs inputs;
+      inputs.utime = now_us;
+      inputs.player = static_cast<int>(p);
+      inputs.first_tick = replica_.tick() + 1;
+      const Input in = ScriptedInput(scene_, inputs.player, inputs.first_tick);
+      inputs.drive.push_back(in.drive);
+      inputs.lift.push_back(in.lift);
+      inputs.buttons.push_back(in.buttons);
+      publisher_.Publish(inputs);
+    }
+  }
+  replica_.Step();
+  PlanAuthority(now_us);
+  for (States& states : replica_.TakeStates()) {
+    states.utime = now_us;
+    Relay(states, 0);
+    publisher_.Publish(states);
+  }
+  View view = replica_.MakeView();
+  view.utime = now_us;
+  publisher_.Publish(view);
+  Impacts impacts = replica_.MakeImpacts();
+  impacts.utime = now_us;
+  if (!impacts.id_a.empty()) publisher_.Publish(impacts);
+}
+
+void Server::PlanAuthority(std::int64_t now_us) {
+  const std::vector<Wish> wishes =
+      planner_.Plan(replica_.world(), replica_.authority(), PeerOfPlayer());
+  std::vector<int> changed;
+  std::vector<Grants> revocations;
+  for (int m = 0; m < replica_.authority().count(); ++m) {
+    const auto index = static_cast<std::size_t>(m);
+    Holding h = replica_.authority().at(m);
+    const Wish& wish = wishes[index];
+    if (revoking_[index]) {
+      // One authority at a time: the server takes over only once the holder has confirmed (or is
+      // gone, and has let go by its own clock).
+      const bool gone = std::none_of(sessions_.begin(), sessions_.end(), [&](const auto& s) {
+        return s.second->peer == h.authority;
+      });
+      const bool confirmed = std::any_of(sessions_.begin(), sessions_.end(), [&](const auto& s) {
+        return s.second->peer == h.authority && !s.second->link.reliable_pending();
+      });
+      if (!gone && !confirmed) continue;
+      revoking_[index] = false;
+      h.authority = 0;
+      h.epoch += 1;
+      replica_.authority().Set(m, h);
+      if (gone) changed.push_back(m);
+    }
+    const std::uint32_t server_bit = config_.sync.mode == Mode::kBuffer ? 1 : 0;
+    const std::uint32_t secondaries = wish.secondaries | server_bit;
+    if (h.authority != 0 && wish.authority != h.authority) {
+      revoking_[index] = true;
+      AuthorityTable told = replica_.authority();
+      Holding next = h;
+      next.authority = 0;
+      next.epoch += 1;
+      told.Set(m, next);
+      for (const Grants& g : told.Export(now_us, replica_.tick(), {m})) revocations.push_back(g);
+      continue;
+    }
+    if (wish.authority == h.authority && secondaries == h.secondaries) continue;
+    if (wish.authority != h.authority) h.epoch += 1;
+    h.authority = wish.authority;
+    h.secondaries = secondaries;
+    replica_.authority().Set(m, h);
+    changed.push_back(m);
+  }
+  if (!revocations.empty()) Announce(revocations);
+  if (!changed.empty()) {
+    replica_.RolesChanged();
+    Announce(replica_.authority().Export(now_us, replica_.tick(), changed));
+  }
+}
+
+void Server::Announce(const std::vector<Grants>& messages) {
+  for (const Grants& g : messages) {
+    publisher_.Publish(g);
+    const Bytes bytes = Encode(g);
+    for (auto& [address, session] : sessions_) {
+      if (session->stage != Stage::kGreeted && !session->link.SendReliable(bytes)) {
+        session->leaving = true;
+        session->leaving_why = "does not acknowledge";
+      }
+    }
+  }
+}
+
+void Server::Relay(const States& states, int from_peer) {
+  const Bytes bytes = Encode(states);
+  const std::int64_t send = states.tick / config_.sync.send_every();
+  for (auto& [address, session] : sessions_) {
+    if (session->peer == from_peer || session->stage != Stage::kReady) continue;
+    bool near = config_.sync.mode != Mode::kBuffer;
+    for (std::size_t i = 0; i < states.id.size() && !near; ++i) {
+      const int body = replica_.world().BodyOfId(states.id[i]);
+      const Holding& h = replica_.authority().at(replica_.world().mechanism(body));
+      near = ((h.secondaries >> session->peer) & 1U) != 0;
+    }
+    if (near || send % kFarEvery == 0) session->link.SendUnreliable(bytes);
+  }
+}
+
+void Server::Say(std::int64_t now_us, const std::string& text) {
+  Event event;
+  event.utime = now_us;
+  event.tick = replica_.tick();
+  event.text = text;
+  publisher_.Publish(event);
+}
+
+void Server::PublishStats(std::int64_t now_us, std::int64_t cpu_us) {
+  last_stats_us_ = now_us;
+  stats_.utime = now_us;
+  stats_.tick = replica_.tick();
+  stats_.cpu_us = cpu_us;
+  stats_.tick_late_us = static_cast<std::int32_t>(std::min<std::int64_t>(worst_late_us_, 1 << 30));
+  worst_late_us_ = 0;
+  stats_.rtt_us = -1;
+  std::int64_t loss = 0;
+  for (const auto& [address, session] : sessions_) {
+    stats_.rtt_us = std::max(stats_.rtt_us, static_cast<std::int32_t>(session->link.rtt_us()));
+    loss = std::max(loss, session->link.loss_ppm());
+  }
+  stats_.loss_ppm = static_cast<std::int32_t>(loss);
+  publisher_.Publish(stats_);
+}
+
+Room Server::MakeRoom(std::int64_t utime) const {
+  Room room;
+  room.utime = utime;
+  room.room = config_.room;
+  room.scene_name = scene_.name;
+  room.scene_text = scene_.text;
+  room.mode = ToString(config_.sync.mode);
+  room.reconcile = config_.sync.reconcile_name;
+  room.impair = config_.impair;
+  room.seed = config_.seed;
+  room.tick_hz = config_.sync.tick_hz;
+  room.send_hz = config_.sync.send_hz;
+  return room;
+}
+
+}  // namespace seam

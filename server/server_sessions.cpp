@@ -1,0 +1,141 @@
+/// Server, clients' comings and goings.
+
+#include <algorithm>
+
+#include "common/codec/codec.h"
+#include "server/server.h"
+
+namespace seam {
+namespace {
+
+constexpr std::size_t kChunkBytes = 1000;
+/// A session that never proves its address or never gets ready is forgotten after this, us.
+constexpr std::int64_t kHalfOpenUs = 10000000;
+
+}  // namespace
+
+void Server::Admit(std::int64_t now_us, Session& session, const std::string& name) {
+  std::vector<bool> taken(kPeersMax, false);
+  taken[0] = true;
+  for (const auto& [address, other] : sessions_) {
+    taken[static_cast<std::size_t>(other->peer)] = true;
+    if (other->name != name) continue;
+    if (now_us - other->link.last_receive_us() < 1000000) {
+      Refuse(now_us, session.address, session.number, "the name " + name + " is in use");
+      return;
+    }
+    Drop(now_us, address, "replaced by a new session of the same name");
+    taken[static_cast<std::size_t>(0)] = true;
+    break;
+  }
+  const auto free = std::find(taken.begin(), taken.end(), false);
+  if (free == taken.end()) {
+    Refuse(now_us, session.address, session.number, "the room is full");
+    return;
+  }
+  session.name = name;
+  session.peer = static_cast<int>(free - taken.begin());
+  for (std::size_t p = 0; p < scene_.players.size(); ++p) {
+    if (scene_.players[p].name == name) session.player = static_cast<int>(p);
+  }
+  Welcome welcome;
+  welcome.utime = now_us;
+  welcome.peer = session.peer;
+  welcome.player = session.player;
+  welcome.room_bytes = static_cast<std::int32_t>(Encode(MakeRoom(0)).size());
+  session.link.SendReliable(Encode(welcome));
+  Say(now_us, name + " joins from " + ToString(session.address) + " as peer " +
+                  std::to_string(session.peer));
+}
+
+void Server::Refuse(std::int64_t now_us, const Address& to, std::uint64_t number,
+                    const std::string& reason) {
+  Link link(number);
+  Bye bye;
+  bye.utime = now_us;
+  bye.reason = reason;
+  link.SendUnreliable(Encode(bye));
+  link.Flush(now_us, [&](ByteView datagram) { net_.Send(to, datagram); });
+}
+
+void Server::Advance(std::int64_t now_us, Session& session) {
+  if (session.stage != Stage::kGreeted || session.link.reliable_pending()) return;
+  // The Welcome was acknowledged, so somebody really listens at this address.
+  session.stage = Stage::kLoading;
+  const Bytes room = Encode(MakeRoom(0));
+  for (std::size_t at = 0; at < room.size(); at += kChunkBytes) {
+    Chunk chunk;
+    chunk.utime = now_us;
+    chunk.offset_bytes = static_cast<std::int32_t>(at);
+    chunk.data.assign(room.begin() + static_cast<std::ptrdiff_t>(at),
+                      room.begin() +
+                          static_cast<std::ptrdiff_t>(std::min(room.size(), at + kChunkBytes)));
+    session.link.SendReliable(Encode(chunk));
+  }
+  std::vector<int> all;
+  for (int m = 0; m < replica_.authority().count(); ++m) all.push_back(m);
+  for (const Grants& g : replica_.authority().Export(now_us, replica_.tick(), all)) {
+    session.link.SendReliable(Encode(g));
+  }
+  if (!started()) return;
+  for (States& states : replica_.Everything()) {
+    states.utime = now_us;
+    session.link.SendReliable(Encode(states));
+  }
+}
+
+std::vector<int> Server::PeerOfPlayer() const {
+  std::vector<int> peers(scene_.players.size(), -1);
+  for (const auto& [address, session] : sessions_) {
+    if (session->player >= 0 && session->stage == Stage::kReady) {
+      peers[static_cast<std::size_t>(session->player)] = session->peer;
+    }
+  }
+  return peers;
+}
+
+void Server::DropSilent(std::int64_t now_us) {
+  std::vector<std::pair<Address, std::string>> gone;
+  for (const auto& [address, session] : sessions_) {
+    const std::int64_t heard = std::max(session->link.last_receive_us(), session->created_us);
+    if (session->created_us < now_us - kHalfOpenUs && session->stage != Stage::kReady) {
+      gone.emplace_back(address, "never got ready");
+    } else if (now_us - heard > kSilentUs) {
+      gone.emplace_back(address, "not heard for " + std::to_string(kSilentUs / 1000000) + " s");
+    } else if (session->leaving) {
+      gone.emplace_back(address, session->leaving_why);
+    }
+  }
+  for (const auto& [address, why] : gone) Drop(now_us, address, why);
+}
+
+void Server::Drop(std::int64_t now_us, const Address& address, const std::string& why) {
+  const auto found = sessions_.find(address);
+  if (found == sessions_.end()) return;
+  Say(now_us, found->second->name + " (peer " + std::to_string(found->second->peer) +
+                  ") is gone: " + why);
+  sessions_.erase(found);
+}
+
+void Server::FlushAll(std::int64_t now_us) {
+  for (auto& [address, session] : sessions_) {
+    const Address to = address;
+    session->link.Flush(now_us, [&](ByteView datagram) {
+      stats_.bytes_out += static_cast<std::int64_t>(datagram.size);
+      stats_.datagrams_out += 1;
+      net_.Send(to, datagram);
+    });
+  }
+  net_.Flush();
+}
+
+void Server::Shutdown(std::int64_t now_us, const std::string& reason) {
+  Bye bye;
+  bye.utime = now_us;
+  bye.reason = reason;
+  for (auto& [address, session] : sessions_) session->link.SendUnreliable(Encode(bye));
+  FlushAll(now_us);
+  sessions_.clear();
+}
+
+}  // namespace seam

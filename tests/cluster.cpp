@@ -1,0 +1,102 @@
+#include "tests/cluster.h"
+
+#include <algorithm>
+
+#include "common/base/check.h"
+
+namespace seam {
+namespace {
+
+/// Virtual time advances in steps of at most this and at least kStepLeastUs.
+constexpr std::int64_t kStepMostUs = 5000;
+constexpr std::int64_t kStepLeastUs = 200;
+
+}  // namespace
+
+Cluster::Cluster(const ClusterConfig& config)
+    : config_(config),
+      scene_(config.scene_text.empty() ? LoadScene("scenes/" + config.scene + ".toml")
+                                       : ParseScene(config.scene_text, config.scene)) {
+  const ImpairProfile profile = FindProfile(config.impair);
+  server_endpoint_ = network_.Attach(server_address_);
+  server_net_ = std::make_unique<ImpairedNet>(*server_endpoint_, profile, profile,
+                                              static_cast<std::uint64_t>(config.seed));
+  ServerConfig server;
+  server.sync = MakeSyncConfig(config.mode, config.reconcile);
+  server.sync.tick_hz = scene_.solver.tick_hz;
+  server.sync.send_hz = std::min(config.send_hz, scene_.solver.tick_hz);
+  server.sync.seed = config.seed;
+  server.sync.smooth = config.smooth;
+  server.impair = config.impair;
+  server.seed = config.seed;
+  server.wait_players = static_cast<int>(scene_.players.size());
+  server_ = std::make_unique<Server>(scene_, server, *server_net_, recorder_);
+  clients_.resize(scene_.players.size());
+  for (std::size_t i = 0; i < clients_.size(); ++i) StartClient(i);
+}
+
+Cluster::~Cluster() = default;
+
+void Cluster::StartClient(std::size_t i) {
+  Peer& peer = clients_[i];
+  peer.client.reset();
+  peer.endpoint = network_.Attach(Address{0x7f000001, next_port_++});
+  // Every machine's clock is off by something else.
+  peer.clock_offset_us = 12345678 + 3777777 * static_cast<std::int64_t>(next_port_ - 20000);
+  ClientConfig config;
+  config.server = server_address_;
+  config.name = scene_.players[i].name;
+  config.drive = config_.drive;
+  config.script_of = config.name;
+  config.session_seed = static_cast<std::uint64_t>(config_.seed) * 1000 + next_port_;
+  config.smooth = config_.smooth;
+  peer.client = std::make_unique<Client>(config, *peer.endpoint, recorder_);
+}
+
+void Cluster::Instant() {
+  std::int64_t next = now_us_ + kStepMostUs;
+  next = std::min({next, server_->next_tick_us(), server_net_->next_due_us()});
+  for (Peer& peer : clients_) {
+    if (peer.client == nullptr) continue;
+    const std::int64_t local = now_us_ + peer.clock_offset_us;
+    next = std::min(next, peer.client->next_tick_us(local) - peer.clock_offset_us);
+  }
+  now_us_ = std::max(next, now_us_ + kStepLeastUs);
+  server_->Tick(now_us_, 0);
+  for (Peer& peer : clients_) {
+    if (peer.client != nullptr) peer.client->Tick(now_us_ + peer.clock_offset_us, 0);
+  }
+  if (each_instant) each_instant();
+}
+
+void Cluster::RunToTick(std::int64_t tick) {
+  std::int64_t last_progress_us = now_us_;
+  std::int64_t last_tick = server_->tick();
+  while (server_->tick() < tick) {
+    Instant();
+    if (server_->tick() != last_tick) {
+      last_tick = server_->tick();
+      last_progress_us = now_us_;
+    }
+    SEAM_ASSERT(now_us_ - last_progress_us < 30000000);
+  }
+}
+
+void Cluster::Run() {
+  const double seconds = config_.duration_s > 0 ? config_.duration_s : scene_.duration_s;
+  RunToTick(static_cast<std::int64_t>(seconds * scene_.solver.tick_hz));
+}
+
+void Cluster::Kill(int client) {
+  clients_[static_cast<std::size_t>(client)].client.reset();
+}
+
+void Cluster::Revive(int client) { StartClient(static_cast<std::size_t>(client)); }
+
+Recording RunCluster(const ClusterConfig& config) {
+  Cluster cluster(config);
+  cluster.Run();
+  return cluster.recording();
+}
+
+}  // namespace seam

@@ -1,0 +1,83 @@
+#pragma once
+/// The real Server and Clients in one process, over the simulated network, in virtual time.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/client.h"
+#include "common/net/impair.h"
+#include "common/net/memory.h"
+#include "common/record/recording.h"
+#include "server/server.h"
+
+namespace seam {
+
+struct ClusterConfig {
+  std::string scene = "crossing";     ///< of scenes/
+  std::string scene_text;             ///< instead of a file, if not empty
+  std::string mode = "buffer";
+  std::string reconcile;
+  std::string impair = "demo";
+  std::int64_t seed = 1;
+  double duration_s = 0;              ///< ticks after tick 0; 0: the scene's own
+  Drive drive = Drive::kScript;
+  int send_hz = 30;
+  bool smooth = true;
+};
+
+class Cluster {
+ public:
+  explicit Cluster(const ClusterConfig& config);
+  ~Cluster();
+
+  /// Runs until the server has done this many ticks (or gives up after 30 s without one).
+  void RunToTick(std::int64_t tick);
+  /// Runs to the configured end.
+  void Run();
+
+  /// Called after every virtual instant.
+  std::function<void()> each_instant;
+
+  /// The client's process dies (nothing more is sent), or a new one starts under its name.
+  void Kill(int client);
+  void Revive(int client);
+
+  Server& server() { return *server_; }
+  Client* client(int i) { return clients_[static_cast<std::size_t>(i)].client.get(); }
+  int client_count() const { return static_cast<int>(clients_.size()); }
+  std::int64_t now_us() const { return now_us_; }
+  const Recording& recording() { return recorder_.builder.recording(); }
+  ImpairedNet& server_net() { return *server_net_; }
+  const Scene& scene() const { return scene_; }
+  /// A raw endpoint of the network, for hostile tests.
+  std::unique_ptr<Net> Attach(const Address& address) { return network_.Attach(address); }
+  Address server_address() const { return server_address_; }
+
+ private:
+  struct Peer {
+    std::unique_ptr<Net> endpoint;
+    std::unique_ptr<Client> client;
+    std::int64_t clock_offset_us = 0;
+  };
+  void StartClient(std::size_t i);
+  void Instant();
+
+  ClusterConfig config_;
+  Scene scene_;
+  MemoryNetwork network_;
+  MemoryRecorder recorder_;
+  Address server_address_{0x7f000001, 7777};
+  std::unique_ptr<Net> server_endpoint_;
+  std::unique_ptr<ImpairedNet> server_net_;
+  std::unique_ptr<Server> server_;
+  std::vector<Peer> clients_;
+  std::int64_t now_us_ = 1000000;
+  std::uint16_t next_port_ = 20000;
+};
+
+/// Runs a cluster to its end and returns what it recorded.
+Recording RunCluster(const ClusterConfig& config);
+
+}  // namespace seam
