@@ -46,6 +46,11 @@ struct LogEvent {
   std::int64_t timestamp_us = 0;
   std::string channel;
   Bytes data;
+
+  friend bool operator==(const LogEvent& a, const LogEvent& b) {
+    return a.number == b.number && a.timestamp_us == b.timestamp_us && a.channel == b.channel &&
+           a.data == b.data;
+  }
 };
 
 /// Reads event by event. After damage it searches for the next plausible header. An event whose
@@ -72,11 +77,12 @@ class LogReader {
   bool ReadHeader(std::int64_t at, bool magic_matters, Header* header);
   std::int64_t FindHeader(std::int64_t from, std::int64_t to);
   bool FollowedByEvent(std::int64_t end);
+  bool SwallowsAnother(std::int64_t at, const Header& header);
 
   std::FILE* file_ = nullptr;
   Bytes window_;                       ///< a stretch of the file, from window_at_
   std::int64_t window_at_ = 0;
-  std::uint8_t glance_[kLogHeaderBytes] = {};
+  std::uint8_t glance_[kChannelBytesMax] = {};
   std::int64_t at_ = 0;                ///< where the next event should begin
   std::int64_t size_bytes_ = 0;
   std::int64_t skipped_bytes_ = 0;

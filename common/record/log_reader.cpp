@@ -65,8 +65,8 @@ std::size_t LogReader::ReadAt(std::int64_t at, std::uint8_t* to, std::size_t byt
   return got > 0 ? static_cast<std::size_t>(got) : 0;
 }
 
-/// True when an event may begin at `at`: magic (if it matters), lengths in bounds, and all of it
-/// in the file.
+/// True when an event may begin at `at`: magic (if it matters), lengths in bounds, a printable
+/// channel, and all of it in the file.
 bool LogReader::ReadHeader(std::int64_t at, bool magic_matters, Header* header) {
   const std::uint8_t* bytes = Peek(at, kLogHeaderBytes);
   if (bytes == nullptr) return false;
@@ -80,7 +80,11 @@ bool LogReader::ReadHeader(std::int64_t at, bool magic_matters, Header* header) 
   header->channel_bytes = channel_bytes;
   header->data_bytes = data_bytes;
   header->end = at + static_cast<std::int64_t>(kLogHeaderBytes + channel_bytes + data_bytes);
-  return header->end <= size_bytes_;
+  if (header->end > size_bytes_) return false;
+  const std::uint8_t* channel = Peek(at + static_cast<std::int64_t>(kLogHeaderBytes), channel_bytes);
+  return channel != nullptr && std::all_of(channel, channel + channel_bytes, [](std::uint8_t c) {
+           return c >= 0x20 && c < 0x7f;
+         });
 }
 
 /// The first place in [from, to) where an event may begin; `to` when there is none.
@@ -113,16 +117,26 @@ bool LogReader::FollowedByEvent(std::int64_t end) {
   return good_end(end) || (ReadHeader(end, false, &next) && good_end(next.end));
 }
 
+/// True when the lengths in the header at `at` are wrong because another event begins inside them:
+/// any, if nothing follows where this one should end; the next by its number, if something does.
+/// (A message may well carry a piece of another log. When nothing follows and nothing begins
+/// inside, the damage lies behind this event.)
+bool LogReader::SwallowsAnother(std::int64_t at, const Header& header) {
+  const std::int64_t inner_at = FindHeader(at + 1, header.end);
+  if (inner_at == header.end) return false;
+  Header inner;
+  const bool next = ReadHeader(inner_at, true, &inner) && header.number < inner.number &&
+                    header.number + 1 == inner.number;
+  return next || !FollowedByEvent(header.end);
+}
+
 bool LogReader::Next(LogEvent* event) {
   const std::int64_t expected = at_;
   Header header;
   for (;; ++at_) {
     at_ = FindHeader(at_, size_bytes_);
     if (at_ == size_bytes_ || !ReadHeader(at_, true, &header)) break;
-    if (FollowedByEvent(header.end)) break;
-    // Nothing follows where it should. If another event begins inside this one, this one's lengths
-    // are wrong; if none does, the damage lies behind it.
-    if (FindHeader(at_ + 1, header.end) == header.end) break;
+    if (!SwallowsAnother(at_, header)) break;
   }
   if (at_ != expected) {
     ++damaged_places_;
