@@ -1,46 +1,16 @@
 #include "common/record/log_file.h"
 
 #include <gtest/gtest.h>
+#include <sys/mman.h>
 #include <unistd.h>
-
-#include <cstdio>
-#include <fstream>
-#include <iterator>
 
 #include "common/base/check.h"
 #include "common/base/random.h"
 #include "tests/count_allocations.h"
+#include "tests/temporary_file.h"
 
 namespace seam {
 namespace {
-
-/// A file name in a directory of this test alone; the directory goes with the object.
-class TemporaryFile {
- public:
-  TemporaryFile() {
-    folder_ = ::testing::TempDir() + "seam-log-XXXXXX";
-    EXPECT_NE(mkdtemp(folder_.data()), nullptr);
-  }
-  ~TemporaryFile() {
-    std::remove(path().c_str());
-    rmdir(folder_.c_str());
-  }
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  std::string path() const { return folder_ + "/a.lcm"; }
-
-  void Write(const Bytes& bytes) const {
-    std::ofstream(path(), std::ios::binary)
-        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<long>(bytes.size()));
-  }
-  Bytes Read() const {
-    std::ifstream file(path(), std::ios::binary);
-    return Bytes(std::istreambuf_iterator<char>(file), {});
-  }
-
- private:
-  std::string folder_;
-};
 
 std::vector<LogEvent> RandomEvents(std::uint64_t seed, int count, std::size_t bytes_max) {
   Random random(seed);
@@ -74,11 +44,11 @@ struct ReadBack {
 };
 
 ReadBack ReadLog(const Bytes& bytes) {
-  static const TemporaryFile file;  // one for all: some tests read tens of thousands of logs
-  file.Write(bytes);
+  const int fd = memfd_create("log", 0);  // no disk: some tests read tens of thousands of logs
+  EXPECT_EQ(write(fd, bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
   ReadBack back;
   try {
-    LogReader reader(file.path());
+    LogReader reader("/proc/self/fd/" + std::to_string(fd));
     LogEvent event;
     while (reader.Next(&event)) back.events.push_back(event);
     EXPECT_FALSE(reader.Next(&event)) << "the end stays the end";
@@ -87,6 +57,7 @@ ReadBack ReadLog(const Bytes& bytes) {
   } catch (const OperatorError&) {
     back.opened = false;
   }
+  close(fd);
   // Every byte of the file is either in an event or counted as skipped.
   std::int64_t accounted = back.skipped_bytes;
   for (const LogEvent& e : back.events) {

@@ -54,7 +54,8 @@ const std::uint8_t* LogReader::Peek(std::int64_t at, std::size_t bytes) {
   if (bytes <= sizeof glance_) {
     return ReadAt(at, glance_, bytes) == bytes ? glance_ : nullptr;
   }
-  window_.resize(std::max(bytes, kReadBytes));
+  const auto left = static_cast<std::size_t>(size_bytes_ - at);
+  window_.resize(std::min(left, std::max(bytes, kReadBytes)));
   window_at_ = at;
   window_.resize(ReadAt(at, window_.data(), window_.size()));
   return window_.size() >= bytes ? window_.data() : nullptr;
