@@ -7,10 +7,13 @@ namespace {
 thread_local std::size_t allocated_bytes = 0;
 }  // namespace
 
-// Replaces the global operators for the whole test program; new[] and delete[] call them.
-void* operator new(std::size_t bytes) {
+// Replaces the global operators for the whole test program.
+void* operator new(std::size_t bytes, const std::nothrow_t&) noexcept {
   allocated_bytes += bytes;
-  void* memory = std::malloc(bytes == 0 ? 1 : bytes);
+  return std::malloc(bytes == 0 ? 1 : bytes);
+}
+void* operator new(std::size_t bytes) {
+  void* memory = operator new(bytes, std::nothrow);
   if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
