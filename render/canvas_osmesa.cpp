@@ -48,6 +48,13 @@ void main() {
   result = vec4(fragment_colour.rgb, fragment_colour.a * cover);
 })";
 
+const char* const kPlainShader = R"(#version 330 core
+in vec4 fragment_colour;
+out vec4 result;
+void main() {
+  result = fragment_colour;
+})";
+
 const char* const kTextShader = R"(#version 330 core
 in vec4 fragment_shape;
 in vec4 fragment_colour;
@@ -95,13 +102,16 @@ OSMesaContext CreateContext() {
   return OSMesaCreateContextAttribs(attributes, nullptr);
 }
 
+std::size_t Index(BatchKind kind) { return static_cast<std::size_t>(kind); }
+
 class OsmesaCanvas : public Canvas {
  public:
   explicit OsmesaCanvas(const Font& font) : context_(CreateContext()) {
     if (context_ == nullptr) throw OperatorError("OSMesa gives no OpenGL 3.3 context");
     MakeCurrent();
-    shape_program_ = Link(kShapeShader);
-    text_program_ = Link(kTextShader);
+    programs_[Index(BatchKind::kPlain)] = Link(kPlainShader);
+    programs_[Index(BatchKind::kShape)] = Link(kShapeShader);
+    programs_[Index(BatchKind::kText)] = Link(kTextShader);
     glGenVertexArrays(1, &vertex_array_);
     glBindVertexArray(vertex_array_);
     glGenBuffers(2, buffers_);
@@ -129,19 +139,18 @@ class OsmesaCanvas : public Canvas {
     MakeCurrent();
     Resize(list.width_px(), list.height_px());
     glScissor(0, 0, width_, height_);
-    glClearColor(static_cast<float>(background.r) / 255, static_cast<float>(background.g) / 255,
-                 static_cast<float>(background.b) / 255, 1);
-    glClear(GL_COLOR_BUFFER_BIT);
+    Clear(background);
     Upload(GL_ARRAY_BUFFER, list.vertices().data(), list.vertices().size() * sizeof(Vertex));
     Upload(GL_ELEMENT_ARRAY_BUFFER, list.indices().data(),
            list.indices().size() * sizeof(std::uint32_t));
     for (const Batch& batch : list.batches()) {
-      const GLuint program = batch.text ? text_program_ : shape_program_;
-      glUseProgram(program);
-      glUniform2f(glGetUniformLocation(program, "page"), static_cast<float>(width_),
-                  static_cast<float>(height_));
       glScissor(static_cast<int>(batch.clip.x), static_cast<int>(batch.clip.y),
                 static_cast<int>(batch.clip.width), static_cast<int>(batch.clip.height));
+      if (batch.kind == BatchKind::kClear) {
+        Clear(batch.clear);
+        continue;
+      }
+      glUseProgram(programs_[Index(batch.kind)]);
       const std::size_t offset = batch.first_index * sizeof(std::uint32_t);
       glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(batch.indices), GL_UNSIGNED_INT,
                      reinterpret_cast<const void*>(offset));
@@ -156,6 +165,12 @@ class OsmesaCanvas : public Canvas {
     if (OSMesaGetCurrentContext() == context_) return;
     const bool good = OSMesaMakeCurrent(context_, own_buffer_, GL_UNSIGNED_BYTE, 4, 4) == GL_TRUE;
     SEAM_ASSERT(good);
+  }
+
+  static void Clear(Colour colour) {
+    glClearColor(static_cast<float>(colour.r) / 255, static_cast<float>(colour.g) / 255,
+                 static_cast<float>(colour.b) / 255, 1);
+    glClear(GL_COLOR_BUFFER_BIT);
   }
 
   static void Attribute(GLuint location, GLint count, GLenum type, std::size_t offset) {
@@ -190,6 +205,11 @@ class OsmesaCanvas : public Canvas {
                               renderbuffer_);
     SEAM_ASSERT(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
     glViewport(0, 0, width, height);
+    for (const GLuint program : programs_) {
+      glUseProgram(program);
+      glUniform2f(glGetUniformLocation(program, "page"), static_cast<float>(width),
+                  static_cast<float>(height));
+    }
   }
 
   // The page is drawn upside down for OpenGL, so its rows come out from the top.
@@ -211,7 +231,8 @@ class OsmesaCanvas : public Canvas {
 
   OSMesaContext context_;
   std::uint8_t own_buffer_[4 * 4 * 4] = {};
-  GLuint shape_program_ = 0, text_program_ = 0, vertex_array_ = 0, texture_ = 0;
+  GLuint programs_[3] = {0, 0, 0};   // by BatchKind
+  GLuint vertex_array_ = 0, texture_ = 0;
   GLuint buffers_[2] = {0, 0};
   GLuint framebuffer_ = 0, renderbuffer_ = 0;
   int width_ = 0, height_ = 0;

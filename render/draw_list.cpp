@@ -39,22 +39,27 @@ void DrawList::Begin(int width_px, int height_px) {
 }
 
 void DrawList::Clip(const Rect& rect) {
-  const float x0 = std::max(0.0f, std::round(rect.x));
-  const float y0 = std::max(0.0f, std::round(rect.y));
-  const float x1 = std::min(static_cast<float>(width_px_), std::round(rect.right()));
-  const float y1 = std::min(static_cast<float>(height_px_), std::round(rect.bottom()));
-  clip_ = {x0, y0, std::max(0.0f, x1 - x0), std::max(0.0f, y1 - y0)};
+  NoClip();
+  clip_ = Cut(rect);
+}
+
+Rect DrawList::Cut(const Rect& rect) const {
+  const float x0 = std::max(clip_.x, std::round(rect.x));
+  const float y0 = std::max(clip_.y, std::round(rect.y));
+  const float x1 = std::min(clip_.right(), std::round(rect.right()));
+  const float y1 = std::min(clip_.bottom(), std::round(rect.bottom()));
+  return {x0, y0, std::max(0.0f, x1 - x0), std::max(0.0f, y1 - y0)};
 }
 
 void DrawList::NoClip() {
   clip_ = {0, 0, static_cast<float>(width_px_), static_cast<float>(height_px_)};
 }
 
-void DrawList::Need(bool text) {
-  if (!batches_.empty() && batches_.back().text == text && Same(batches_.back().clip, clip_))
+void DrawList::Need(BatchKind kind) {
+  if (!batches_.empty() && batches_.back().kind == kind && Same(batches_.back().clip, clip_))
     return;
   Batch batch;
-  batch.text = text;
+  batch.kind = kind;
   batch.clip = clip_;
   batch.first_index = static_cast<std::uint32_t>(indices_.size());
   batches_.push_back(batch);
@@ -76,18 +81,31 @@ void DrawList::Triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
 
 void DrawList::Fill(const std::vector<Vec2>& points, Colour colour) {
   if (points.size() < 3 || colour.a == 0) return;
-  Need(false);
+  Need(BatchKind::kShape);
+  Fan(points, colour);
+}
+
+void DrawList::Fan(const std::vector<Vec2>& points, Colour colour) {
   const auto first = static_cast<std::uint32_t>(vertices_.size());
   for (const Vec2& p : points) Add(p.x(), p.y(), colour);
   for (std::uint32_t i = 2; i < points.size(); ++i) Triangle(first, first + i - 1, first + i);
 }
 
 void DrawList::FillRect(const Rect& r, Colour colour) {
-  Fill({{r.x, r.y}, {r.right(), r.y}, {r.right(), r.bottom()}, {r.x, r.bottom()}}, colour);
+  if (colour.a == 255) {
+    Batch batch;
+    batch.kind = BatchKind::kClear;
+    batch.clip = Cut(r);
+    batch.clear = colour;
+    if (batch.clip.width > 0 && batch.clip.height > 0) batches_.push_back(batch);
+    return;
+  }
+  Need(BatchKind::kPlain);
+  Fan({{r.x, r.y}, {r.right(), r.y}, {r.right(), r.bottom()}, {r.x, r.bottom()}}, colour);
 }
 
 void DrawList::FillShaded(const Vec2 points[4], Colour from, Colour to) {
-  Need(false);
+  Need(BatchKind::kPlain);
   const auto first = static_cast<std::uint32_t>(vertices_.size());
   for (int i = 0; i < 4; ++i) Add(points[i].x(), points[i].y(), i < 2 ? from : to);
   Triangle(first, first + 1, first + 2);
@@ -108,7 +126,7 @@ void DrawList::Hatch(const std::vector<Vec2>& points, const Vec2& origin, const 
 void DrawList::Stroke(const std::vector<Vec2>& points, bool closed, const Line& line) {
   const std::size_t n = points.size();
   if (n < 2 || line.colour.a == 0) return;
-  Need(false);
+  Need(BatchKind::kShape);
   const float half = line.width / 2;
   const float reach = half + 1;   // one pixel further than the line for its soft edge
   const std::size_t segments = closed ? n : n - 1;
@@ -169,7 +187,7 @@ float DrawList::Text(float x, float y, TextStyle style, const std::string& utf8,
   const float width = font_.Width(style, utf8);
   float pen = align == Align::kLeft ? x : align == Align::kRight ? x - width : x - width / 2;
   const float base = std::round(y);
-  Need(true);
+  Need(BatchKind::kText);
   for (std::uint32_t codepoint : Codepoints(utf8)) {
     const Glyph& g = font_.Find(style, codepoint);
     const float x0 = std::round(pen) + static_cast<float>(g.left);

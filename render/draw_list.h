@@ -32,11 +32,16 @@ struct Vertex {
   static constexpr float kSolid = 1e6f;
 };
 
-/// A run of triangles with one program and one clip: one draw call.
+/// What a run of triangles needs: plain colour, coverage, or the atlas; or none at all, because an
+/// opaque rectangle is cleared.
+enum class BatchKind { kPlain, kShape, kText, kClear };
+
+/// A run of triangles of one kind and clip: one draw call.
 struct Batch {
-  bool text = false;
+  BatchKind kind = BatchKind::kShape;
   Rect clip;
   std::uint32_t first_index = 0, indices = 0;
+  Colour clear;     ///< kClear: fills `clip`
 };
 
 /// How a line looks.
@@ -61,6 +66,7 @@ class DrawList {
 
   /// Convex, in order.
   void Fill(const std::vector<Vec2>& points, Colour colour);
+  /// For large areas; its edges are not softened, and an opaque one has whole pixels.
   void FillRect(const Rect& rect, Colour colour);
   /// A quadrilateral whose colour goes from `from` (points 0, 1) to `to` (points 2, 3).
   void FillShaded(const Vec2 points[4], Colour from, Colour to);
@@ -87,7 +93,9 @@ class DrawList {
   int height_px() const { return height_px_; }
 
  private:
-  void Need(bool text);
+  void Need(BatchKind kind);
+  Rect Cut(const Rect& rect) const;
+  void Fan(const std::vector<Vec2>& points, Colour colour);
   std::uint32_t Add(float x, float y, Colour colour);
   void Triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
 

@@ -1,0 +1,115 @@
+#include "render/draw_body.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/palette.h"
+
+namespace seam {
+namespace {
+
+std::vector<Vec2> OnPanel(const Viewport& viewport, const std::vector<Vec2>& local,
+                          const Frame2& frame) {
+  std::vector<Vec2> px;
+  px.reserve(local.size());
+  for (const Vec2& p : local) px.push_back(viewport.ToPx(frame(p)));
+  return px;
+}
+
+/// A chain is ground: shade what lies below it, if it runs sideways only.
+void ShadeBelow(DrawList& list, const Viewport& viewport, const std::vector<Vec2>& px,
+                const BodyLook& look) {
+  for (std::size_t i = 2; i < px.size(); ++i)
+    if ((px[i].x() - px[i - 1].x()) * (px[1].x() - px[0].x()) <= 0) return;
+  const float depth = std::min(2.0f * viewport.px_per_m, 40 * list.font().scale());
+  for (std::size_t i = 1; i < px.size(); ++i) {
+    const Vec2 quad[4] = {px[i - 1], px[i], px[i] + Vec2(0, depth), px[i - 1] + Vec2(0, depth)};
+    list.FillShaded(quad, Faded(look.fill, look.opacity), Faded(look.fill, 0));
+  }
+}
+
+float EdgeWidth(const DrawList& list, float size_px) {
+  return std::clamp(size_px / 10, 0.7f, 1.5f) * list.font().scale();
+}
+
+void DrawOutline(DrawList& list, const Viewport& viewport, const Outline& outline,
+                 const Frame2& frame, const BodyLook& look) {
+  const Colour fill = Faded(look.fill, look.opacity);
+  const Colour edge = Faded(look.edge, look.opacity);
+  std::vector<Vec2> px = OnPanel(viewport, outline.points, frame);
+  if (outline.kind == ShapeKind::kChain) {
+    ShadeBelow(list, viewport, px, look);
+    list.Stroke(px, false, {2 * list.font().scale(), edge, 0});
+    return;
+  }
+  const bool circle = outline.kind == ShapeKind::kCircle;
+  const Vec2 centre = px[0], rim = px[circle ? 1 : 0];
+  float size = 2 * outline.radius * viewport.px_per_m;
+  if (circle) {
+    px = CirclePoints(centre, size / 2);
+  } else {
+    size = (px[0] - px[px.size() / 2]).norm();
+  }
+  if (size < 1.5f) {   // too small for an edge: a dot
+    list.Disc(centre, 0.75f, edge);
+    return;
+  }
+  list.Fill(px, fill);
+  if (look.hatched && size > 5) {
+    const float s = 0.70710678f;
+    const Vec2 normal(s * (frame.cosine + frame.sine), s * (frame.cosine - frame.sine));
+    const Vec2 origin = viewport.ToPx(frame.position);
+    list.Hatch(px, origin, normal, 6 * list.font().scale(), Faded(edge, 0.55f));
+  }
+  const float width = EdgeWidth(list, size);
+  list.Stroke(px, true, {width, edge, 0});
+  if (circle && size > 8) list.Stroke({centre, centre + 0.8f * (rim - centre)}, false,
+                                      {width, edge, 0});
+}
+
+}  // namespace
+
+BodyLook LookOf(int authority, int role) {
+  constexpr Colour kWhite{255, 255, 255, 255};
+  const Colour base = PeerColour(authority);
+  BodyLook look;
+  look.edge = Darker(base);
+  switch (role) {
+    case kRoleAuthority: look.fill = base; break;
+    case kRoleSecondary: look.fill = Mix(base, kWhite, 0.5f); break;
+    default:
+      look.fill = Mix(base, kWhite, 0.86f);
+      look.edge = Mix(look.edge, base, 0.5f);
+      look.hatched = true;
+  }
+  return look;
+}
+
+BodyLook GroundLook() { return {kGround, kGroundEdge, false, 1}; }
+
+void DrawBody(DrawList& list, const Viewport& viewport, const BodyShapes& body, const Pose& pose,
+              const BodyLook& look) {
+  const Frame2 frame(pose);
+  for (const Outline& outline : body.outlines) DrawOutline(list, viewport, outline, frame, look);
+}
+
+void DrawGhost(DrawList& list, const Viewport& viewport, const BodyShapes& body, const Pose& pose,
+               float opacity) {
+  const float scale = list.font().scale();
+  const Frame2 frame(pose);
+  for (const Outline& outline : body.outlines) {
+    std::vector<Vec2> px = OnPanel(viewport, outline.points, frame);
+    if (outline.kind == ShapeKind::kCircle)
+      px = CirclePoints(px[0], outline.radius * viewport.px_per_m);
+    const bool closed = outline.kind != ShapeKind::kChain;
+    list.Stroke(px, closed, {3 * scale, Faded({255, 255, 255, 255}, 0.6f * opacity), 0});
+    list.Stroke(px, closed, {1.3f * scale, Faded(kInk, opacity), 5 * scale});
+  }
+}
+
+float PixelsApart(const Viewport& viewport, const BodyShapes& body, const Pose& a, const Pose& b) {
+  const float turn = std::abs(std::remainder(a.angle - b.angle, 6.2831853f));
+  return ((a.position - b.position).norm() + turn * body.reach) * viewport.px_per_m;
+}
+
+}  // namespace seam

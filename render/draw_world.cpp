@@ -1,0 +1,190 @@
+#include "render/draw_world.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/draw_body.h"
+#include "render/draw_scene.h"
+#include "render/palette.h"
+
+namespace seam {
+namespace {
+
+constexpr double kTrailSeconds = 1.2;
+constexpr int kTrailPoints = 36;
+constexpr double kImpactSeconds = 0.5;   ///< how long a mark stays
+constexpr float kImpactShownMin = 1.0f;  ///< m/s; weaker ones would clutter a stack
+
+struct Seen {
+  const BodyShapes* body = nullptr;
+  Shown shown;
+};
+
+std::vector<Seen> BodiesOnPanel(const Viewport& viewport, const Playback& playback,
+                                const WorldLook& look) {
+  std::vector<Seen> seen;
+  const Moment now = playback.MomentAt(look.peer, look.tick);
+  for (const BodyShapes& body : playback.moving()) {
+    const std::optional<Shown> shown = playback.Find(now, body.id);
+    if (!shown) continue;
+    if (look.cull && !viewport.Sees(shown->pose.position, body.reach)) continue;
+    seen.push_back({&body, *shown});
+  }
+  return seen;
+}
+
+/// Where bodies came from; bodies at rest have none.
+void DrawTrails(DrawList& list, const Viewport& viewport, const Playback& playback,
+                const WorldLook& look) {
+  std::vector<Moment> past;
+  const double span = kTrailSeconds * playback.tick_hz();
+  for (int i = 0; i <= kTrailPoints; ++i)
+    past.push_back(playback.MomentAt(look.peer, look.tick - span * (1.0 - i / double{kTrailPoints})));
+  for (const BodyShapes& body : playback.moving()) {
+    std::vector<Vec2> points;
+    std::vector<Colour> colours;
+    float length = 0;
+    bool on_panel = !look.cull;
+    for (int i = 0; i <= kTrailPoints; ++i) {
+      const auto shown = playback.Find(past[static_cast<std::size_t>(i)], body.id);
+      if (!shown) continue;
+      const Vec2 px = viewport.ToPx(shown->pose.position);
+      if (!points.empty()) {
+        const float step = (px - points.back()).norm();
+        if (step < 0.5f) continue;   // no direction to speak of
+        length += step;
+      }
+      on_panel = on_panel || viewport.Sees(shown->pose.position, length / viewport.px_per_m);
+      points.push_back(px);
+      const float age = 1 - static_cast<float>(i) / static_cast<float>(kTrailPoints);
+      colours.push_back(Faded(PeerColour(shown->authority), 0.6f * (1 - age)));
+    }
+    if (!on_panel || length < 8 * list.font().scale()) continue;
+    list.StrokeShaded(points, colours, 2 * list.font().scale());
+  }
+}
+
+void DrawJoints(DrawList& list, const Viewport& viewport, const Playback& playback,
+                const WorldLook& look) {
+  const float scale = list.font().scale();
+  const Moment now = playback.MomentAt(look.peer, look.tick);
+  const auto place = [&](PartId id, bool anchored, const Vec2& anchor) -> std::optional<Vec2> {
+    if (!anchored) {
+      const auto shown = playback.Find(now, id);
+      if (!shown) return std::nullopt;
+      return viewport.ToPx(Frame2(shown->pose)(anchor));
+    }
+    for (const BodyShapes& body : playback.anchored())
+      if (body.id == id) return viewport.ToPx(Frame2(body.start)(anchor));
+    return std::nullopt;
+  };
+  for (const DrawnJoint& joint : playback.joints()) {
+    const auto a = place(joint.a, joint.a_anchored, joint.anchor_a);
+    const auto b = place(joint.b, joint.b_anchored, joint.anchor_b);
+    if (!a || !b) continue;
+    if (joint.rod) list.Stroke({*a, *b}, false, {1.5f * scale, kFaintInk, 0});
+    if (viewport.px_per_m > 12) list.Disc(*a, 1.6f * scale, kInk);
+  }
+}
+
+/// Ghosts appear where view and truth part, so that a right picture stays clean.
+void DrawGhosts(DrawList& list, const Viewport& viewport, const Playback& playback,
+                const WorldLook& look) {
+  const Moment now = playback.MomentAt(look.peer, look.tick);
+  for (const BodyShapes& body : playback.moving()) {
+    const auto truth = playback.Truth(body.id, look.tick);
+    if (!truth || (look.cull && !viewport.Sees(truth->position, body.reach))) continue;
+    const auto shown = playback.Find(now, body.id);
+    const float apart = shown ? PixelsApart(viewport, body, shown->pose, *truth) : 1e3f;
+    const float opacity = std::clamp((apart / list.font().scale() - 0.75f) / 2, 0.0f, 1.0f);
+    if (opacity > 0) DrawGhost(list, viewport, body, *truth, 0.9f * opacity);
+  }
+}
+
+void DrawImpacts(DrawList& list, const Viewport& viewport, const Playback& playback,
+                 const WorldLook& look) {
+  const float scale = list.font().scale();
+  for (const Impacts& impacts : playback.recording().impacts) {
+    const double age = (look.tick - static_cast<double>(impacts.tick)) / playback.tick_hz();
+    if (impacts.peer != look.peer || age < 0 || age > kImpactSeconds) continue;
+    const auto t = static_cast<float>(age / kImpactSeconds);
+    for (std::size_t i = 0; i < impacts.dv.size(); ++i) {
+      if (impacts.dv[i] < kImpactShownMin) continue;
+      const Vec2 at = viewport.ToPx({impacts.x[i], impacts.y[i]});
+      const float strength = std::min(std::sqrt(impacts.dv[i]), 5.0f);
+      const float radius = (3 + 5 * strength * (0.3f + 0.7f * t)) * scale;
+      const Line line{1.6f * scale, Faded(kSpark, 0.9f * (1 - t)), 0};
+      list.Ring(at, radius, line);
+      for (int ray = 0; ray < 8; ++ray) {
+        const float a = 0.7853982f * static_cast<float>(ray) + 0.39f;
+        const Vec2 way(std::cos(a), std::sin(a));
+        list.Stroke({at + way * (radius + 2 * scale), at + way * (radius + (3 + 2 * strength) *
+                                                                               scale)},
+                    false, line);
+      }
+    }
+  }
+}
+
+/// The players' names over their vehicles.
+void DrawNames(DrawList& list, const Viewport& viewport, const Playback& playback,
+               const std::vector<Seen>& seen) {
+  const float scale = list.font().scale();
+  for (const Seen& one : seen) {
+    if (one.body->owner_player < 0) continue;
+    const auto player = static_cast<std::size_t>(one.body->owner_player);
+    const std::string& name = playback.scene().players[player].name;
+    float top = 1e9f;
+    const Frame2 frame(one.shown.pose);
+    for (const Outline& outline : one.body->outlines)
+      for (const Vec2& p : outline.points)
+        top = std::min(top, viewport.ToPx(frame(p)).y() - outline.radius * viewport.px_per_m);
+    const float x = viewport.ToPx(one.shown.pose.position).x();
+    const float width = list.font().Width(TextStyle::kStrong, name);
+    const float y = top - 9 * scale;
+    list.FillRect({std::round(x - width / 2 - 4 * scale), std::round(y - 12 * scale),
+                   width + 8 * scale, 16 * scale}, Faded(kPanel, 0.75f));
+    list.Text(x, y, TextStyle::kStrong, name, Darker(PeerColour(one.shown.authority)),
+              Align::kCentre);
+  }
+}
+
+}  // namespace
+
+Viewport SceneViewport(const Rect& panel, const Playback& playback, int peer, double tick) {
+  const auto& box = playback.scene().camera;
+  Viewport viewport = Fit(panel, box.min, box.max);
+  const PartId part = box.follow;
+  if (part < 0) return viewport;
+  for (const BodyShapes& body : playback.moving()) {
+    if (std::find(body.parts.begin(), body.parts.end(), part) == body.parts.end()) continue;
+    const auto truth = playback.Truth(body.id, tick);
+    const auto shown = playback.Find(playback.MomentAt(peer, tick), body.id);
+    if (truth) viewport.centre = truth->position;
+    if (!truth && shown) viewport.centre = shown->pose.position;
+  }
+  return viewport;
+}
+
+void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playback,
+               const WorldLook& look) {
+  list.Clip(viewport.panel);
+  list.FillRect(viewport.panel, kPanel);
+  DrawRegions(list, viewport, playback);
+  DrawGrid(list, viewport);
+  DrawGround(list, viewport, playback, look.cull);
+  if (look.trails) DrawTrails(list, viewport, playback, look);
+  const std::vector<Seen> seen = BodiesOnPanel(viewport, playback, look);
+  for (const Seen& one : seen)
+    DrawBody(list, viewport, *one.body, one.shown.pose,
+             LookOf(one.shown.authority, one.shown.role));
+  DrawJoints(list, viewport, playback, look);
+  DrawGhosts(list, viewport, playback, look);
+  DrawImpacts(list, viewport, playback, look);
+  DrawNames(list, viewport, playback, seen);
+  DrawRegionNames(list, viewport, playback);
+  DrawScaleBar(list, viewport);
+  list.NoClip();
+}
+
+}  // namespace seam

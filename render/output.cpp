@@ -1,0 +1,97 @@
+#include "render/output.h"
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+#include <vector>
+
+#include "common/base/check.h"
+
+extern char** environ;
+
+namespace seam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// "frame_" and at least five digits and ".png".
+bool IsFrameName(const std::string& name) {
+  const std::string head = "frame_", tail = ".png";
+  if (name.size() < head.size() + 5 + tail.size()) return false;
+  if (name.compare(0, head.size(), head) != 0) return false;
+  if (name.compare(name.size() - tail.size(), tail.size(), tail) != 0) return false;
+  const std::string digits = name.substr(head.size(), name.size() - head.size() - tail.size());
+  return digits.find_first_not_of("0123456789") == std::string::npos;
+}
+
+}  // namespace
+
+OutputFolder::OutputFolder(const std::string& path, bool force) : path_(path) {
+  std::error_code error;
+  const fs::file_status status = fs::status(path_, error);
+  if (!fs::exists(status)) return;
+  if (!fs::is_directory(status)) throw OperatorError(path_ + " is not a folder");
+  for (const auto& entry : fs::directory_iterator(path_, error)) {
+    const std::string name = entry.path().filename().string();
+    if (force || IsFrameName(name)) continue;
+    throw OperatorError(path_ + " holds other files (" + name +
+                        "): choose another folder or give --force");
+  }
+  if (error) throw OperatorError(path_ + ": " + error.message());
+}
+
+void OutputFolder::Prepare() const {
+  std::error_code error;
+  fs::create_directories(path_, error);
+  if (error) throw OperatorError(path_ + ": " + error.message());
+  std::vector<fs::path> old;
+  for (const auto& entry : fs::directory_iterator(path_, error))
+    if (IsFrameName(entry.path().filename().string())) old.push_back(entry.path());
+  for (const fs::path& frame : old) fs::remove(frame, error);
+  if (error) throw OperatorError(path_ + ": " + error.message());
+}
+
+std::string OutputFolder::FramePath(int frame) const {
+  return fmt::format("{}/frame_{:05d}.png", path_, frame);
+}
+
+void CheckOutputFile(const std::string& path, const std::string& ending, bool force) {
+  const fs::path file(path);
+  if (file.extension() != ending) throw OperatorError(path + ": must end in " + ending);
+  std::error_code error;
+  const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
+  if (!fs::is_directory(folder, error))
+    throw OperatorError(folder.string() + ": no such folder");
+  if (fs::is_directory(file, error)) throw OperatorError(path + " is a folder");
+  if (fs::exists(file, error) && !force)
+    throw OperatorError(path + " exists: choose another name or give --force");
+}
+
+void RequireFfmpeg() {
+  const char* const list = std::getenv("PATH");
+  std::istringstream folders(list == nullptr ? "" : list);
+  for (std::string folder; std::getline(folders, folder, ':');)
+    if (access((folder + "/ffmpeg").c_str(), X_OK) == 0) return;
+  throw OperatorError("--video needs ffmpeg, which is not installed (apt-get install ffmpeg)");
+}
+
+void EncodeVideo(const OutputFolder& folder, int fps, const std::string& path) {
+  std::vector<std::string> words{"ffmpeg", "-loglevel", "error", "-y", "-framerate",
+                                 std::to_string(fps), "-i", folder.path() + "/frame_%05d.png",
+                                 "-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", path};
+  std::vector<char*> arguments;
+  for (std::string& word : words) arguments.push_back(word.data());
+  arguments.push_back(nullptr);
+  pid_t child = 0;
+  int status = 0;
+  const int failed = posix_spawnp(&child, "ffmpeg", nullptr, nullptr, arguments.data(), environ);
+  if (failed != 0 || waitpid(child, &status, 0) != child || status != 0)
+    throw OperatorError("ffmpeg could not make " + path + "; the frames are in " + folder.path());
+}
+
+}  // namespace seam

@@ -1,0 +1,234 @@
+#include "render/playback.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seam {
+namespace {
+
+/// The body's place in a view, or npos.
+std::size_t IndexOf(const View& view, PartId id) {
+  const auto wanted = static_cast<std::int16_t>(id);
+  const auto found = std::lower_bound(view.id.begin(), view.id.end(), wanted);
+  if (found == view.id.end() || *found != wanted) return std::string::npos;
+  return static_cast<std::size_t>(found - view.id.begin());
+}
+
+Pose PoseIn(const View& view, std::size_t i) { return {{view.x[i], view.y[i]}, view.angle[i]}; }
+
+Pose Blend(const Pose& a, const Pose& b, float blend) {
+  return {a.position + blend * (b.position - a.position), a.angle + blend * (b.angle - a.angle)};
+}
+
+/// Views further apart than this are a hole in the recording, not a motion: ticks.
+constexpr std::int64_t kGapTicksMax = 12;
+
+Scene SceneOf(const Recording& recording) {
+  return ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
+}
+
+}  // namespace
+
+Playback::Playback(Recording recording, std::optional<Oracle> oracle)
+    : recording_(std::make_shared<const Recording>(std::move(recording))),
+      scene_(SceneOf(*recording_)),
+      oracle_(std::move(oracle)) {
+  Prepare();
+  if (oracle_) MeasureErrors();
+}
+
+Playback::Playback(Recording recording, Scene scene, std::optional<Oracle> oracle)
+    : recording_(std::make_shared<const Recording>(std::move(recording))),
+      scene_(std::move(scene)),
+      oracle_(std::move(oracle)) {
+  Prepare();
+  if (oracle_) MeasureErrors();
+}
+
+Playback::Playback(const Recording* growing, std::optional<Oracle> oracle)
+    : recording_(std::shared_ptr<const Recording>(), growing),
+      scene_(SceneOf(*growing)),
+      oracle_(std::move(oracle)) {
+  Prepare();
+}
+
+void Playback::Prepare() {
+  const Composition composition = Compose(scene_);
+  moving_ = ShapesOf(scene_, composition, false);
+  anchored_ = ShapesOf(scene_, composition, true);
+  joints_ = JointsOf(scene_, composition);
+}
+
+void Playback::MeasureErrors() {
+  measures_ = Measure(*recording_, *oracle_);
+  error_first_tick_ = measures_->first_tick;
+  errors_[-1] = measures_->error_by_tick_m;
+  // One peer's curve is the same measure of a recording that has this peer alone.
+  for (const auto& [peer, views] : recording_->views) {
+    if (recording_->views.size() == 1) {
+      errors_[peer] = errors_[-1];
+      break;
+    }
+    Recording alone;
+    alone.room = recording_->room;
+    alone.views[peer] = views;
+    alone.first_tick = recording_->first_tick;
+    alone.last_tick = recording_->last_tick;
+    const Measures own = Measure(alone, *oracle_);
+    const std::int64_t shift = own.first_tick - error_first_tick_;
+    std::vector<double>& errors = errors_[peer];
+    errors.assign(errors_[-1].size(), 0.0);
+    for (std::size_t i = 0; i < own.error_by_tick_m.size(); ++i) {
+      const std::int64_t at = static_cast<std::int64_t>(i) + shift;
+      if (at >= 0 && at < static_cast<std::int64_t>(errors.size()))
+        errors[static_cast<std::size_t>(at)] = own.error_by_tick_m[i];
+    }
+  }
+}
+
+double Playback::first_s() const {
+  return static_cast<double>(recording_->first_tick) / tick_hz();
+}
+
+double Playback::last_s() const {
+  return static_cast<double>(std::max(recording_->last_tick, recording_->first_tick)) / tick_hz();
+}
+
+std::vector<int> Playback::peers() const {
+  std::vector<int> peers;
+  for (const auto& [peer, views] : recording_->views)
+    if (!views.empty()) peers.push_back(peer);
+  return peers;
+}
+
+int Playback::PeerOr(int peer) const {
+  const std::vector<int> all = peers();
+  if (std::find(all.begin(), all.end(), peer) != all.end()) return peer;
+  return all.empty() ? -1 : all.front();
+}
+
+int Playback::PlayerOf(int peer) const {
+  // A player's peer is who has authority over the player's vehicle in that peer's own last view.
+  const auto views = recording_->views.find(peer);
+  if (peer <= 0 || views == recording_->views.end() || views->second.empty()) return -1;
+  const View& last = views->second.rbegin()->second;
+  for (const BodyShapes& body : moving_) {
+    const std::size_t i = body.owner_player >= 0 ? IndexOf(last, body.id) : std::string::npos;
+    if (i != std::string::npos && last.authority[i] == peer) return body.owner_player;
+  }
+  // Nobody's vehicle (a central server has it all): players join in the scene's order.
+  return peer <= static_cast<int>(scene_.players.size()) ? peer - 1 : -1;
+}
+
+std::string Playback::PeerName(int peer) const {
+  if (peer == 0) return recording_->room.mode == "oracle" ? "oracle" : "server";
+  const int player = PlayerOf(peer);
+  const std::string number = "peer " + std::to_string(peer);
+  if (player < 0) return number;
+  const std::string& name = scene_.players[static_cast<std::size_t>(player)].name;
+  return name.empty() ? number : name + " (" + number + ")";
+}
+
+std::string Playback::Label() const {
+  const Room& room = recording_->room;
+  return room.reconcile.empty() ? room.mode : room.mode + " · " + room.reconcile;
+}
+
+Moment Playback::MomentAt(int peer, double tick) const {
+  Moment moment;
+  const auto found = recording_->views.find(peer);
+  if (found == recording_->views.end()) return moment;
+  const auto& views = found->second;
+  auto after = views.upper_bound(static_cast<std::int64_t>(std::floor(tick)));
+  if (after == views.begin()) return moment;
+  const auto before = std::prev(after);
+  moment.before = &before->second;
+  moment.after = moment.before;
+  if (after == views.end() || after->first - before->first > kGapTicksMax) return moment;
+  moment.after = &after->second;
+  moment.blend = static_cast<float>((tick - static_cast<double>(before->first)) /
+                                    static_cast<double>(after->first - before->first));
+  return moment;
+}
+
+std::optional<Shown> Playback::Find(const Moment& moment, PartId id) const {
+  if (moment.before == nullptr) return std::nullopt;
+  const std::size_t i = IndexOf(*moment.before, id);
+  if (i == std::string::npos) return std::nullopt;
+  Shown shown;
+  shown.pose = PoseIn(*moment.before, i);
+  shown.role = moment.before->role[i];
+  shown.authority = moment.before->authority[i];
+  const std::size_t j = moment.blend > 0 ? IndexOf(*moment.after, id) : std::string::npos;
+  if (j != std::string::npos) shown.pose = Blend(shown.pose, PoseIn(*moment.after, j), moment.blend);
+  return shown;
+}
+
+std::optional<Pose> Playback::Truth(PartId id, double tick) const {
+  if (!oracle_) return std::nullopt;
+  const auto whole = static_cast<std::int64_t>(std::floor(tick));
+  const BodyState* before = oracle_->At(whole, id);
+  if (before == nullptr) return std::nullopt;
+  const Pose pose{before->position, before->angle};
+  const auto blend = static_cast<float>(tick - static_cast<double>(whole));
+  const BodyState* after = blend > 0 ? oracle_->At(whole + 1, id) : nullptr;
+  return after == nullptr ? pose : Blend(pose, {after->position, after->angle}, blend);
+}
+
+std::int32_t Playback::RoundTripUs(int peer, double tick) const {
+  std::int32_t greatest = -1;
+  for (const auto& [from, list] : recording_->stats) {
+    if (peer != 0 && from != peer) continue;
+    std::int32_t last = -1;
+    for (const Stats& stats : list)
+      if (static_cast<double>(stats.tick) <= tick) last = stats.rtt_us;
+    greatest = std::max(greatest, last);
+  }
+  return greatest;
+}
+
+void Playback::MeasureTick(std::int64_t tick) {
+  if (!oracle_) return;
+  Recording now;
+  now.room = recording_->room;
+  now.first_tick = now.last_tick = tick;
+  for (const auto& [peer, views] : recording_->views) {
+    const auto view = views.find(tick);
+    if (view != views.end()) now.views[peer][tick] = view->second;
+  }
+  if (errors_.empty()) error_first_tick_ = tick;
+  const auto place = static_cast<std::size_t>(std::max<std::int64_t>(tick - error_first_tick_, 0));
+  const auto set = [&](int peer, const Recording& of) {
+    const Measures measured = Measure(of, *oracle_);
+    errors_[peer].resize(std::max(errors_[peer].size(), place + 1), 0.0);
+    if (!measured.error_by_tick_m.empty())
+      errors_[peer][place] = measured.error_by_tick_m.front();
+  };
+  set(-1, now);
+  for (const auto& [peer, views] : now.views) {
+    Recording alone = now;
+    alone.views = {{peer, views}};
+    set(peer, alone);
+  }
+}
+
+double Playback::TickAt(double seconds) const {
+  const double tick = seconds * tick_hz();
+  const double whole = std::round(tick);
+  return std::abs(tick - whole) < 1e-6 ? whole : tick;
+}
+
+const std::vector<double>& Playback::ErrorByTick(int peer) const {
+  static const std::vector<double> none;
+  const auto found = errors_.find(peer);
+  return found == errors_.end() ? none : found->second;
+}
+
+std::optional<double> Playback::ErrorAt(int peer, double tick) const {
+  const std::vector<double>& errors = ErrorByTick(peer);
+  const auto i = static_cast<std::int64_t>(std::floor(tick)) - error_first_tick_;
+  if (i < 0 || i >= static_cast<std::int64_t>(errors.size())) return std::nullopt;
+  return errors[static_cast<std::size_t>(i)];
+}
+
+}  // namespace seam

@@ -1,0 +1,56 @@
+#include "render/sequence.h"
+
+#include <atomic>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+#include "render/canvas.h"
+#include "render/palette.h"
+#include "render/png_writer.h"
+
+namespace seam {
+
+std::vector<double> FrameTimes(double from_s, double to_s, int fps) {
+  std::vector<double> times;
+  for (int i = 0;; ++i) {
+    const double s = from_s + static_cast<double>(i) / fps;
+    if (s > to_s + 1e-9) break;
+    times.push_back(s);
+  }
+  return times;
+}
+
+void WriteSequence(const Page& page, const Font& font, const std::vector<double>& times_s,
+                   int threads, const OutputFolder& folder, const Progress& progress) {
+  std::atomic<std::size_t> next{0};
+  std::mutex mutex;   // guards done, first_error and the callback
+  int done = 0;
+  std::exception_ptr first_error;
+  const auto work = [&] {
+    try {
+      const std::unique_ptr<Canvas> canvas = MakeCanvas(font);
+      DrawList list(font);
+      Image image;
+      for (std::size_t i = next++; i < times_s.size(); i = next++) {
+        DrawPage(list, page, times_s[i]);
+        canvas->Draw(list, kPaper, &image);
+        WritePng(folder.FramePath(static_cast<int>(i)), image);
+        const std::lock_guard<std::mutex> lock(mutex);
+        progress(++done);
+      }
+    } catch (...) {
+      const std::lock_guard<std::mutex> lock(mutex);
+      if (!first_error) first_error = std::current_exception();
+      next = times_s.size();
+    }
+  };
+  std::vector<std::thread> helpers;
+  for (int i = 1; i < threads; ++i) helpers.emplace_back(work);
+  work();
+  for (std::thread& helper : helpers) helper.join();
+  if (first_error) std::rethrow_exception(first_error);
+}
+
+}  // namespace seam

@@ -1,0 +1,25 @@
+#pragma once
+/// Draws a page at many moments into a folder of PNG files, several frames at a time.
+
+#include <functional>
+#include <vector>
+
+#include "render/font.h"
+#include "render/frame.h"
+#include "render/output.h"
+
+namespace seam {
+
+/// Moments `1/fps` apart from `from_s` up to and including `to_s`, s.
+std::vector<double> FrameTimes(double from_s, double to_s, int fps);
+
+/// Called after each frame with the number done, by one thread at a time.
+using Progress = std::function<void(int done)>;
+
+/// Writes one frame per moment; each of `threads` has a canvas of its own and takes the next frame
+/// that nobody has. The files do not depend on `threads`. Throws what a frame throws (a full
+/// disk), after all threads have stopped.
+void WriteSequence(const Page& page, const Font& font, const std::vector<double>& times_s,
+                   int threads, const OutputFolder& folder, const Progress& progress);
+
+}  // namespace seam

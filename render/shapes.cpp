@@ -1,0 +1,95 @@
+#include "render/shapes.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seam {
+namespace {
+
+Vec2 Into(const Pose& frame, const Vec2& world) {
+  const float c = std::cos(frame.angle), s = std::sin(frame.angle);
+  const Vec2 d = world - frame.position;
+  return {c * d.x() + s * d.y(), c * d.y() - s * d.x()};
+}
+
+Pose PoseOf(const Part& part) { return {part.position, part.angle}; }
+
+const Part& PartOf(const Scene& scene, PartId id) {
+  return scene.parts.at(static_cast<std::size_t>(id));
+}
+
+Outline OutlineOf(const Part& part, const Pose& root) {
+  Outline outline;
+  outline.kind = part.kind;
+  std::vector<Vec2> local;
+  switch (part.kind) {
+    case ShapeKind::kBox: {
+      const Vec2 h = part.size / 2;
+      local = {{-h.x(), -h.y()}, {h.x(), -h.y()}, {h.x(), h.y()}, {-h.x(), h.y()}};
+      break;
+    }
+    case ShapeKind::kCircle:
+      local = {{0, 0}, {part.radius, 0}};
+      outline.radius = part.radius;
+      break;
+    case ShapeKind::kPolygon:
+    case ShapeKind::kChain:
+      local = part.points;
+      break;
+  }
+  const Frame2 to_world(PoseOf(part));
+  for (const Vec2& p : local) outline.points.push_back(Into(root, to_world(p)));
+  return outline;
+}
+
+}  // namespace
+
+Frame2::Frame2(const Pose& pose)
+    : position(pose.position), cosine(std::cos(pose.angle)), sine(std::sin(pose.angle)) {}
+
+std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composition,
+                                 bool anchored) {
+  std::vector<BodyShapes> bodies;
+  for (const Assembly& assembly : composition.assemblies) {
+    if (assembly.anchored != anchored) continue;
+    BodyShapes body;
+    body.id = assembly.id;
+    body.parts = assembly.parts;
+    body.start = PoseOf(PartOf(scene, assembly.id));
+    for (PartId id : assembly.parts) {
+      body.outlines.push_back(OutlineOf(PartOf(scene, id), body.start));
+      const Outline& outline = body.outlines.back();
+      for (const Vec2& p : outline.points)
+        body.reach = std::max(body.reach, p.norm() + outline.radius);
+      for (std::size_t player = 0; player < scene.players.size(); ++player)
+        if (scene.players[player].vehicle == id) body.owner_player = static_cast<int>(player);
+    }
+    bodies.push_back(std::move(body));
+  }
+  return bodies;
+}
+
+std::vector<DrawnJoint> JointsOf(const Scene& scene, const Composition& composition) {
+  std::vector<DrawnJoint> joints;
+  const auto assembly_of = [&](PartId part) -> const Assembly& {
+    const int index = composition.assembly_of_part.at(static_cast<std::size_t>(part));
+    return composition.assemblies.at(static_cast<std::size_t>(index));
+  };
+  for (const Joint& joint : scene.joints) {
+    if (joint.kind == JointKind::kWeld) continue;
+    const Assembly& a = assembly_of(joint.a);
+    const Assembly& b = assembly_of(joint.b);
+    DrawnJoint drawn;
+    drawn.a = a.id;
+    drawn.b = b.id;
+    drawn.a_anchored = a.anchored;
+    drawn.b_anchored = b.anchored;
+    drawn.anchor_a = Into(PoseOf(PartOf(scene, a.id)), joint.anchor_a);
+    drawn.anchor_b = Into(PoseOf(PartOf(scene, b.id)), joint.anchor_b);
+    drawn.rod = joint.kind == JointKind::kDistance;
+    joints.push_back(drawn);
+  }
+  return joints;
+}
+
+}  // namespace seam

@@ -1,0 +1,57 @@
+#pragma once
+/// A scene's parts as outlines that can be drawn, relative to the body they belong to.
+
+#include <vector>
+
+#include "common/physics/assembly.h"
+#include "common/physics/scene.h"
+
+namespace seam {
+
+struct Pose {
+  Vec2 position{0, 0};   ///< m
+  float angle = 0;       ///< rad
+};
+
+/// From a pose's own frame to the world.
+struct Frame2 {
+  Vec2 position{0, 0};
+  float cosine = 1, sine = 0;
+  explicit Frame2(const Pose& pose);
+  Vec2 operator()(const Vec2& p) const {
+    return {position.x() + cosine * p.x() - sine * p.y(),
+            position.y() + sine * p.x() + cosine * p.y()};
+  }
+};
+
+/// One part, in the frame of its assembly's root part.
+struct Outline {
+  ShapeKind kind = ShapeKind::kBox;
+  std::vector<Vec2> points;    ///< m; corners, or the chain; a circle: centre and a point on the rim
+  float radius = 0;            ///< circle, m
+};
+
+/// One assembly.
+struct BodyShapes {
+  PartId id = 0;
+  std::vector<PartId> parts;   ///< ascending
+  std::vector<Outline> outlines;
+  float reach = 0;             ///< m: nothing of it is further from the root
+  Pose start;                  ///< of the root part at tick 0
+  int owner_player = -1;       ///< the player whose vehicle belongs to it, -1: none
+};
+
+/// A joint worth drawing; anchors in the frames of the two bodies.
+struct DrawnJoint {
+  PartId a = 0, b = 0;         ///< assembly ids
+  Vec2 anchor_a{0, 0}, anchor_b{0, 0};
+  bool a_anchored = false, b_anchored = false;
+  bool rod = false;            ///< distance joint: a line; else a pin
+};
+
+std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composition,
+                                 bool anchored);
+/// All joints but welds.
+std::vector<DrawnJoint> JointsOf(const Scene& scene, const Composition& composition);
+
+}  // namespace seam
