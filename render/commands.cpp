@@ -1,0 +1,133 @@
+#include "render/commands.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+
+#include "common/base/check.h"
+#include "render/canvas.h"
+#include "render/load.h"
+#include "render/palette.h"
+#include "render/png_writer.h"
+#include "render/sequence.h"
+#include "render/strobe.h"
+#include "render/strobe_layout.h"
+
+namespace seam {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double Since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+/// On a terminal a line that renews itself; elsewhere silent until the end.
+class ProgressLine {
+ public:
+  ProgressLine(int total, const std::string& path) : total_(total), path_(path) {}
+  void operator()(int done) {
+    if (isatty(STDERR_FILENO) == 0 || (done != total_ && done % 10 != 0)) return;
+    std::fprintf(stderr, "\r%d of %d frames, %.0f frames/s ", done, total_,
+                 done / std::max(Since(start_), 1e-3));
+  }
+  void Finish(int fps) const {
+    const double rate = total_ / std::max(Since(start_), 1e-3);
+    std::fprintf(stderr, "%s%d frames in %s, %.0f frames/s, %.1f x real time at %d fps\n",
+                 isatty(STDERR_FILENO) != 0 ? "\r" : "", total_, path_.c_str(), rate, rate / fps,
+                 fps);
+  }
+
+ private:
+  int total_;
+  std::string path_;
+  Clock::time_point start_ = Clock::now();
+};
+
+int ThreadsOf(const RenderOptions& options) {
+  if (options.threads > 0) return options.threads;
+  return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 64);
+}
+
+/// The wanted part of the page's time, which must not be empty.
+std::vector<double> TimesOf(const RenderOptions& options, const Page& page) {
+  const double from_s = std::isnan(options.from_s) ? page.from_s : options.from_s;
+  const double to_s = std::isnan(options.to_s) ? page.to_s : std::min(options.to_s, page.to_s);
+  if (from_s < page.from_s || from_s > to_s)
+    throw OperatorError(fmt::format("--from and --to must lie in the recording, {:.2f} to {:.2f} s",
+                                    page.from_s, page.to_s));
+  return FrameTimes(from_s, to_s, options.fps);
+}
+
+}  // namespace
+
+void RenderSequence(const RenderOptions& options) {
+  const OutputFolder folder(options.out, options.force);
+  if (!options.video.empty()) {
+    RequireFfmpeg();
+    CheckOutputFile(options.video, ".mp4", options.force);
+  }
+  const std::vector<Playback> playbacks = LoadPlaybacks(options);
+  const Font font(ScaleOf(options.width_px, options.height_px), TextsOf(playbacks), options.fonts);
+  if (options.peer_given && options.peer >= 0)
+    for (const Playback& playback : playbacks) RequirePeer(playback, options.peer);
+  Page page = options.compare ? MakeComparison(playbacks, options.peer)
+                              : MakePage(playbacks.front(), options.peer);
+  page.width_px = options.width_px;
+  page.height_px = options.height_px;
+  const std::vector<double> times = TimesOf(options, page);
+  folder.Prepare();
+  ProgressLine line(static_cast<int>(times.size()), folder.path());
+  WriteSequence(page, font, times, std::min(ThreadsOf(options), static_cast<int>(times.size())),
+                folder, [&line](int done) { line(done); });
+  line.Finish(options.fps);
+  if (!options.video.empty()) EncodeVideo(folder, options.fps, options.video);
+}
+
+void RenderStrobe(const RenderOptions& options) {
+  CheckOutputFile(options.out, ".png", true);
+  const std::vector<Playback> playbacks = LoadPlaybacks(options);
+  StrobeWishes wishes;
+  wishes.from_s = options.from_s;
+  wishes.to_s = options.to_s;
+  wishes.every_ticks = options.every_ticks;
+  if (options.peer_given) wishes.peer = options.peer;
+  if (options.size_given) {
+    wishes.width_px = options.width_px;
+    wishes.height_px = options.height_px;
+  }
+  const StrobePlan plan = PlanStrobe(playbacks, wishes);
+  const Font font(StrobeScale(plan.width_px), TextsOf(playbacks), options.fonts);
+  DrawList list(font);
+  DrawStrobe(list, playbacks, plan);
+  Image image;
+  MakeCanvas(font)->Draw(list, kPaper, &image);
+  WritePng(options.out, image, 9);
+  std::fprintf(stderr, "%s: %dx%d, %.2f s to %.2f s\n", options.out.c_str(), image.width_px,
+               image.height_px, plan.from_s, plan.to_s);
+}
+
+int RenderMain(int argc, const char* const* argv) {
+  try {
+    RenderOptions options;
+    if (!ParseRenderOptions(argc, argv, &options)) return 0;
+    if (options.live) {
+      RenderLive(options);
+    } else if (options.strobe) {
+      RenderStrobe(options);
+    } else {
+      RenderSequence(options);
+    }
+    return 0;
+  } catch (const OperatorError& error) {
+    std::fprintf(stderr, "seam-render: %s\n", error.what());
+    return 2;
+  }
+}
+
+}  // namespace seam

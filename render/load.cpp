@@ -1,0 +1,47 @@
+#include "render/load.h"
+
+#include "common/base/check.h"
+
+namespace seam {
+namespace {
+
+Playback Load(const std::string& path, const RenderOptions& options) {
+  Recording recording = ReadRecording(path, options.room);
+  if (recording.views.empty() || recording.last_tick < recording.first_tick)
+    throw OperatorError(path + ": the recording has no views, so there is nothing to draw");
+  if (recording.room.tick_hz < 1) throw OperatorError(path + ": the room's tick rate is missing");
+  std::optional<Oracle> oracle;
+  if (!options.oracle.empty()) {
+    oracle = LoadOracle(options.oracle);
+  } else if (recording.room.mode == "oracle") {
+    oracle = OracleFromRecording(recording);
+  } else {
+    oracle = ComputeOracle(recording);
+  }
+  return Playback(std::move(recording), std::move(oracle));
+}
+
+}  // namespace
+
+std::vector<Playback> LoadPlaybacks(const RenderOptions& options) {
+  std::vector<Playback> playbacks;
+  for (const std::string& path : options.logs) playbacks.push_back(Load(path, options));
+  return playbacks;
+}
+
+Oracle LoadOracle(const std::string& path) {
+  const Recording recording = ReadRecording(path);
+  if (recording.room.mode != "oracle")
+    throw OperatorError(path + ": made in mode " + recording.room.mode +
+                        ", so it is no oracle (seam-server --mode oracle)");
+  return OracleFromRecording(recording);
+}
+
+void RequirePeer(const Playback& playback, int peer) {
+  if (playback.PeerOr(peer) == peer || playback.recording().room.mode == "oracle") return;
+  std::string known;
+  for (int p : playback.peers()) known += (known.empty() ? "" : ", ") + std::to_string(p);
+  throw OperatorError("--view " + std::to_string(peer) + ": the recording has views of " + known);
+}
+
+}  // namespace seam

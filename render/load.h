@@ -1,0 +1,21 @@
+#pragma once
+/// From logs to playbacks, with the oracle that belongs to each.
+
+#include <vector>
+
+#include "render/options.h"
+#include "render/playback.h"
+
+namespace seam {
+
+/// Reads options.logs; the oracle is options.oracle's, or the log's own if it was made in mode
+/// oracle, or computed from the recorded inputs. Throws OperatorError for a log without views.
+std::vector<Playback> LoadPlaybacks(const RenderOptions& options);
+
+/// The displayed path of a log made in mode oracle. Throws OperatorError when it is another mode's.
+Oracle LoadOracle(const std::string& path);
+
+/// Throws OperatorError naming the peers there are when `peer` showed nothing.
+void RequirePeer(const Playback& playback, int peer);
+
+}  // namespace seam

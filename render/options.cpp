@@ -1,0 +1,118 @@
+#include "render/options.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+
+#include "common/base/check.h"
+#include "render/font.h"
+#include "render/frame.h"
+
+namespace seam {
+namespace {
+
+void ParseSize(const std::string& text, RenderOptions* o) {
+  int width = 0, height = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &width, &height, &rest) != 2 || width < 320 ||
+      width > 7680 || height < 240 || height > 7680)
+    throw OperatorError("--size " + text + ": must be WIDTHxHEIGHT, 320x240 to 7680x7680");
+  o->width_px = width;
+  o->height_px = height;
+  o->size_given = true;
+}
+
+void ParseView(const std::string& text, RenderOptions* o) {
+  o->peer_given = true;
+  if (text == "all") {
+    o->peer = kViewAll;
+    return;
+  }
+  int peer = 0;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%d%c", &peer, &rest) != 1 || peer < 0 || peer > 127)
+    throw OperatorError("--view " + text + ": must be a peer's number or all");
+  o->peer = peer;
+}
+
+void Check(const RenderOptions& o) {
+  if (o.out.empty()) throw OperatorError("-o is missing: where should the pictures go?");
+  if (o.live) {
+    if (!o.logs.empty()) throw OperatorError("--live listens to the bus: it takes no log");
+    if (o.compare || o.strobe) throw OperatorError("--live draws frames of one session only");
+    if (!std::isnan(o.from_s) || !std::isnan(o.to_s))
+      throw OperatorError("--from and --to do not go with --live");
+  } else if (o.logs.empty()) {
+    throw OperatorError("no log given: seam-render session.lcm -o frames/");
+  } else if (!o.room.empty() && o.compare) {
+    throw OperatorError("--room does not go with --compare");
+  }
+  if (o.logs.size() > 1 && !o.compare)
+    throw OperatorError("several logs: add --compare to draw them in one picture");
+  if (o.logs.size() > 9) throw OperatorError("at most 9 logs can be compared");
+  if (o.compare && o.peer_given && o.peer == kViewAll)
+    throw OperatorError("--view all does not go with --compare");
+  if (o.strobe && o.peer_given && o.peer == kViewAll)
+    throw OperatorError("--view all does not go with --strobe: it draws the clients' views");
+  if (o.strobe && !o.video.empty()) throw OperatorError("--video does not go with --strobe");
+  if (o.every_ticks != 0 && !o.strobe) throw OperatorError("--every goes with --strobe only");
+  if (o.fps < 1 || o.fps > 240) throw OperatorError("--fps must be 1 to 240");
+  if (o.threads < 0 || o.threads > 64) throw OperatorError("--threads must be 1 to 64");
+  if (o.every_ticks < 0) throw OperatorError("--every must be at least 1 tick");
+  if (!(o.seconds >= 0)) throw OperatorError("--seconds must be positive");
+  if (!std::isnan(o.from_s) && !std::isnan(o.to_s) && o.from_s >= o.to_s)
+    throw OperatorError("--from must be before --to");
+  if (!o.video.empty() && (o.width_px % 2 != 0 || o.height_px % 2 != 0))
+    throw OperatorError("--video needs an even width and height");
+}
+
+}  // namespace
+
+bool ParseRenderOptions(int argc, const char* const* argv, RenderOptions* options) {
+  RenderOptions& o = *options;
+  o.fonts = kFontFolder;
+  std::string size, view;
+  CLI::App app{"Draws recordings of Seam2D sessions as PNG pictures, without a display."};
+  app.name("seam-render");
+  app.footer(
+      "examples:\n"
+      "  seam-render session.lcm -o frames/                      one peer's view\n"
+      "  seam-render session.lcm -o frames/ --view all           all peers side by side\n"
+      "  seam-render --compare a.lcm b.lcm c.lcm -o frames/      runs in step\n"
+      "  seam-render --strobe a.lcm -o hit.png                   one collision in one picture\n"
+      "  seam-render --strobe --compare a.lcm b.lcm -o hits.png  a row for each run\n"
+      "  seam-render --live -o frames/                           what the LCM bus brings");
+  app.add_option("logs", o.logs, "LCM logs of sessions");
+  app.add_option("-o,--out", o.out, "folder for frames, or the .png file of --strobe");
+  app.add_flag("--compare", o.compare, "several logs in one picture, in step by tick");
+  app.add_flag("--strobe", o.strobe, "many exposures of one collision in one picture");
+  app.add_flag("--live", o.live, "draw what the LCM bus brings");
+  app.add_flag("--force", o.force, "write even where other files are");
+  app.add_option("--fps", o.fps, "frames per second of the session (30)");
+  app.add_option("--size", size, "WIDTHxHEIGHT in pixels (1280x720)");
+  app.add_option("--from", o.from_s, "first moment, s");
+  app.add_option("--to", o.to_s, "last moment, s");
+  app.add_option("--view", view, "whose view: a peer's number, or all (0, the server)");
+  app.add_option("--oracle", o.oracle, "log of the same scene made in mode oracle (computed)");
+  app.add_option("--threads", o.threads, "frames drawn at a time (number of cores)");
+  app.add_option("--every", o.every_ticks, "--strobe: ticks between exposures");
+  app.add_option("--lcm-url", o.lcm_url, "--live: the bus (LCM_DEFAULT_URL)");
+  app.add_option("--room", o.room, "which room, if there are several");
+  app.add_option("--seconds", o.seconds, "--live: stop after so long (when quiet for 2 s)");
+  app.add_option("--video", o.video, "also make this .mp4 of the frames, by ffmpeg");
+  app.add_option("--fonts", o.fonts, "folder of DejaVuSans.ttf and DejaVuSans-Bold.ttf");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::CallForHelp&) {
+    std::fputs(app.help().c_str(), stdout);
+    return false;
+  } catch (const CLI::ParseError& error) {
+    throw OperatorError(std::string(error.what()) + " (seam-render --help)");
+  }
+  if (!size.empty()) ParseSize(size, options);
+  if (!view.empty()) ParseView(view, options);
+  Check(o);
+  return true;
+}
+
+}  // namespace seam

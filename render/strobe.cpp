@@ -1,0 +1,169 @@
+#include "render/strobe.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/draw_body.h"
+#include "render/draw_hud.h"
+#include "render/draw_scene.h"
+#include "render/format.h"
+#include "render/palette.h"
+#include "render/strobe_layout.h"
+
+namespace seam {
+namespace {
+
+std::vector<double> Exposures(const StrobePlan& plan) {
+  std::vector<double> times;
+  for (int i = 0; plan.from_s + i * plan.step_s <= plan.to_s + 1e-9; ++i)
+    times.push_back(plan.from_s + i * plan.step_s);
+  return times;
+}
+
+/// The last exposure is full, the first faint.
+float Opacity(std::size_t exposure, std::size_t count) {
+  if (count < 2) return 1;
+  const float share = static_cast<float>(exposure) / static_cast<float>(count - 1);
+  return 0.16f + 0.84f * share * share;
+}
+
+/// All exposures of one body; one that has not moved since its last is drawn once, the latest.
+void DrawBodyExposures(DrawList& list, const Viewport& viewport, const Playback& playback,
+                       int peer, const BodyShapes& body, const std::vector<double>& times) {
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const auto at = [&](std::size_t k) {
+      return playback.Find(playback.MomentAt(peer, playback.TickAt(times[k])), body.id);
+    };
+    const auto shown = at(i);
+    if (!shown || !viewport.Sees(shown->pose.position, body.reach)) continue;
+    const auto next = i + 1 < times.size() ? at(i + 1) : std::nullopt;
+    if (next && PixelsApart(viewport, body, shown->pose, next->pose) < 1.5f) continue;
+    BodyLook look = LookOf(shown->authority, shown->role);
+    look.opacity = Opacity(i, times.size());
+    DrawBody(list, viewport, body, shown->pose, look);
+  }
+}
+
+void DrawGhostExposures(DrawList& list, const Viewport& viewport, const Playback& playback,
+                        int peer, const BodyShapes& body, const std::vector<double>& times) {
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    const double tick = playback.TickAt(times[i]);
+    const auto truth = playback.Truth(body.id, tick);
+    if (!truth || !viewport.Sees(truth->position, body.reach)) continue;
+    const auto shown = playback.Find(playback.MomentAt(peer, tick), body.id);
+    if (shown && PixelsApart(viewport, body, shown->pose, *truth) < 2) continue;
+    DrawGhost(list, viewport, body, *truth, 0.3f + 0.6f * Opacity(i, times.size()));
+  }
+}
+
+void DrawPanel(DrawList& list, const Rect& area, const Playback& playback, int peer,
+               const StrobePlan& plan) {
+  const Viewport viewport = Fit(area, plan.min, plan.max);
+  const std::vector<double> times = Exposures(plan);
+  list.Clip(area);
+  list.FillRect(area, kPanel);
+  DrawRegions(list, viewport, playback);
+  DrawGrid(list, viewport);
+  DrawGround(list, viewport, playback, true);
+  for (const BodyShapes& body : playback.moving())
+    DrawBodyExposures(list, viewport, playback, peer, body, times);
+  for (const BodyShapes& body : playback.moving())
+    DrawGhostExposures(list, viewport, playback, peer, body, times);
+  list.NoClip();
+  list.StrokeRect({area.x + 0.5f, area.y + 0.5f, area.width - 1, area.height - 1},
+                  {1, kFrame, 0});
+}
+
+/// Mode, reconciler and the run's key figures, left of its row.
+void DrawRowLabel(DrawList& list, const Rect& area, const Playback& playback) {
+  const float scale = list.font().scale();
+  const Room& room = playback.recording().room;
+  float y = area.y + 20 * scale;
+  list.Text(area.x, y, TextStyle::kNumber, room.reconcile.empty() ? room.mode : room.reconcile,
+            kInk);
+  y += 17 * scale;
+  if (!room.reconcile.empty())
+    list.Text(area.x, y, TextStyle::kBody, "mode " + room.mode, kFaintInk);
+  y += 10 * scale;
+  const auto figure = [&](const std::string& name, const std::string& value) {
+    y += 17 * scale;
+    list.Text(area.x, y, TextStyle::kBody, name, kFaintInk);
+    list.Text(area.right(), y, TextStyle::kStrong, value, kInk, Align::kRight);
+  };
+  if (!playback.measures() || room.mode == "oracle") {
+    if (room.mode == "oracle") list.Text(area.x, y, TextStyle::kBody, "one world: the truth",
+                                         kFaintInk);
+    return;
+  }
+  const Measures& measures = *playback.measures();
+  if (measures.rebound) figure("rebound", FormatNumber(*measures.rebound, 2));
+  figure("error RMS", FormatLength(measures.error_rms_m));
+  figure("error max", FormatLength(measures.error_max_m));
+}
+
+}  // namespace
+
+float StrobeScale(int width_px) { return static_cast<float>(width_px) / 1280; }
+
+StrobeLayout LayOutStrobe(const StrobePlan& plan, int rows) {
+  StrobeLayout layout;
+  layout.scale = StrobeScale(plan.width_px);
+  layout.margin = 18 * layout.scale;
+  layout.header = 80 * layout.scale;
+  layout.footer = 34 * layout.scale;
+  layout.labels = 158 * layout.scale;
+  layout.gap = 8 * layout.scale;
+  const auto columns = static_cast<float>(plan.peers.size());
+  const auto row_count = static_cast<float>(rows);
+  layout.panel_width = (static_cast<float>(plan.width_px) - 2 * layout.margin - layout.labels -
+                        (columns - 1) * layout.gap) / columns;
+  layout.panel_height = (static_cast<float>(plan.height_px) - layout.header - layout.footer -
+                         (row_count - 1) * layout.gap) / row_count;
+  return layout;
+}
+
+int StrobeHeight(const StrobePlan& plan, int rows) {
+  const StrobeLayout layout = LayOutStrobe(plan, rows);
+  const Vec2 size = plan.max - plan.min;
+  const float panel = std::max(layout.panel_width * size.y() / size.x(), 96 * layout.scale);
+  const float count = static_cast<float>(rows);
+  return static_cast<int>(std::lround(layout.header + layout.footer + count * std::round(panel) +
+                                      (count - 1) * layout.gap));
+}
+
+void DrawStrobe(DrawList& list, const std::vector<Playback>& playbacks, const StrobePlan& plan) {
+  const StrobeLayout layout = LayOutStrobe(plan, static_cast<int>(playbacks.size()));
+  const float scale = layout.scale;
+  list.Begin(plan.width_px, plan.height_px);
+  const Playback& last = playbacks.back();
+  const Playback& first = playbacks.front();
+  const Room& room = last.recording().room;
+  std::string subtitle = "exposures every " + FormatTime(plan.step_s) + " from " +
+                         FormatTime(plan.from_s) + " to " + FormatTime(plan.to_s) +
+                         ", older ones fainter";
+  if (!room.impair.empty()) subtitle += "  ·  network " + room.impair;
+  const std::string title = first.scene().title.empty() ? room.scene_name : first.scene().title;
+  const float width = static_cast<float>(plan.width_px) - 2 * layout.margin;
+  DrawHeader(list, {layout.margin, 6 * scale, width, layout.header}, title, subtitle, {});
+  for (std::size_t column = 0; column < plan.peers.size(); ++column) {
+    const float x = layout.margin + layout.labels +
+                    static_cast<float>(column) * (layout.panel_width + layout.gap);
+    const std::string name = last.PeerName(plan.peers[column]);
+    list.Text(x, layout.header - 7 * scale, TextStyle::kStrong, "as " + name + " sees it", kInk);
+    for (std::size_t row = 0; row < playbacks.size(); ++row) {
+      const float y = layout.header +
+                      static_cast<float>(row) * (layout.panel_height + layout.gap);
+      const Rect area{std::round(x), std::round(y), std::round(layout.panel_width),
+                      std::round(layout.panel_height)};
+      const Playback& playback = playbacks[row];
+      if (column == 0)
+        DrawRowLabel(list, {layout.margin, y, layout.labels - 18 * scale, area.height}, playback);
+      DrawPanel(list, area, playback, playback.PeerOr(plan.peers[column]), plan);
+    }
+  }
+  const float below = static_cast<float>(plan.height_px) - layout.footer;
+  DrawLegend(list, {layout.margin, below + 4 * scale, width, layout.footer - 8 * scale}, last,
+             false);
+}
+
+}  // namespace seam

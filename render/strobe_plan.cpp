@@ -1,0 +1,160 @@
+// Which moments, which views and which part of the world a strobe picture shows.
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "common/base/check.h"
+#include "render/frame.h"
+#include "render/strobe.h"
+#include "render/strobe_layout.h"
+
+namespace seam {
+namespace {
+
+constexpr double kBefore_s = 0.5, kAfter_s = 0.9;   ///< about the collision
+constexpr int kExposures = 8;                       ///< unless asked otherwise
+constexpr float kJumpMin = 1.0f;       ///< m/s in a tick that only a collision gives
+constexpr float kStrongImpact = 3.0f;  ///< m/s
+
+/// Assemblies that the scene's first watch looks at; empty without one.
+std::set<PartId> Struck(const Playback& playback) {
+  std::set<PartId> ids;
+  if (playback.scene().watch.empty()) return ids;
+  for (PartId part : playback.scene().watch.front().struck)
+    for (const BodyShapes& body : playback.moving())
+      if (std::find(body.parts.begin(), body.parts.end(), part) != body.parts.end())
+        ids.insert(body.id);
+  return ids;
+}
+
+std::int64_t WatchedTick(const Playback& playback) {
+  const std::set<PartId> struck = Struck(playback);
+  if (struck.empty() || !playback.has_oracle()) return -1;
+  const Oracle& oracle = playback.oracle();
+  const std::int64_t last = oracle.first_tick + static_cast<std::int64_t>(oracle.ticks.size());
+  std::int64_t tick = std::max(playback.scene().watch.front().around_tick, oracle.first_tick + 1);
+  for (; tick < last; ++tick)
+    for (PartId id : struck) {
+      const BodyState* now = oracle.At(tick, id);
+      const BodyState* before = oracle.At(tick - 1, id);
+      if (now != nullptr && before != nullptr &&
+          (now->velocity - before->velocity).norm() > kJumpMin)
+        return tick;
+    }
+  return -1;
+}
+
+std::int64_t ImpactTick(const Playback& playback) {
+  std::int64_t first = -1;
+  for (const Impacts& impacts : playback.recording().impacts)
+    for (float dv : impacts.dv)
+      if (dv >= kStrongImpact && (first < 0 || impacts.tick < first)) first = impacts.tick;
+  return first;
+}
+
+struct Box {
+  Vec2 min{1e9f, 1e9f}, max{-1e9f, -1e9f};
+  bool empty() const { return min.x() > max.x(); }
+  void Add(const Vec2& p, float reach) {
+    min = min.cwiseMin(p - Vec2(reach, reach));
+    max = max.cwiseMax(p + Vec2(reach, reach));
+  }
+};
+
+/// All that moves in the window, in truth and in all views shown.
+Box MovingBox(const std::vector<Playback>& playbacks, const StrobePlan& plan) {
+  Box box;
+  for (const Playback& playback : playbacks) {
+    const std::set<PartId> struck = Struck(playback);
+    for (const BodyShapes& body : playback.moving()) {
+      if (!struck.empty() && struck.count(body.id) == 0) continue;
+      Box own;
+      for (double s = plan.from_s; s <= plan.to_s + 1e-9; s += plan.step_s) {
+        const double tick = playback.TickAt(s);
+        if (const auto truth = playback.Truth(body.id, tick)) own.Add(truth->position, 0);
+        for (int peer : plan.peers)
+          if (const auto shown = playback.Find(
+                  playback.MomentAt(playback.PeerOr(peer), tick), body.id))
+            own.Add(shown->pose.position, 0);
+      }
+      if (own.empty() || ((own.max - own.min).norm() < 0.3f && struck.empty())) continue;
+      box.Add(own.min, body.reach);
+      box.Add(own.max, body.reach);
+    }
+  }
+  return box;
+}
+
+void ChooseBox(const std::vector<Playback>& playbacks, StrobePlan* plan) {
+  const auto& camera = playbacks.front().scene().camera;
+  Box box = MovingBox(playbacks, *plan);
+  if (box.empty()) {
+    box.min = camera.min;
+    box.max = camera.max;
+  }
+  // Something flung out of the picture must not make the rest of it tiny.
+  const Vec2 margin = 0.06f * (box.max - box.min) + Vec2(0.3f, 0.5f);
+  Vec2 min = box.min - margin, max = box.max + margin;
+  if (camera.follow < 0) {
+    min = min.cwiseMax(camera.min);
+    max = max.cwiseMin(camera.max);
+  }
+  if (min.x() >= max.x() || min.y() >= max.y()) {
+    min = camera.min;
+    max = camera.max;
+  }
+  // Rows are wide: at most 4.5 to 1, at least 1.6 to 1.
+  const Vec2 size = max - min;
+  const float height = std::max(size.y(), size.x() / 4.5f);
+  const float width = std::max(size.x(), 1.6f * height);
+  max.y() = min.y() + height;
+  const float middle = (min.x() + max.x()) / 2;
+  plan->min = {middle - width / 2, min.y()};
+  plan->max = {middle + width / 2, max.y()};
+}
+
+std::vector<int> Columns(const std::vector<Playback>& playbacks, int wish) {
+  std::set<int> clients;
+  for (const Playback& playback : playbacks)
+    for (int peer : playback.peers())
+      if (peer > 0) clients.insert(peer);
+  if (wish >= 0) return {wish};
+  std::vector<int> columns(clients.begin(), clients.end());
+  if (columns.size() > 2) columns.resize(2);   // more would be too small to read
+  if (columns.empty()) columns.push_back(0);
+  return columns;
+}
+
+}  // namespace
+
+double CollisionTime(const Playback& playback) {
+  std::int64_t tick = WatchedTick(playback);
+  if (tick < 0) tick = ImpactTick(playback);
+  if (tick < 0) return (playback.first_s() + playback.last_s()) / 2;
+  return static_cast<double>(tick) / playback.tick_hz();
+}
+
+StrobePlan PlanStrobe(const std::vector<Playback>& playbacks, const StrobeWishes& wishes) {
+  SEAM_ASSERT(!playbacks.empty());
+  const Playback& first = playbacks.front();
+  const double hit_s = CollisionTime(first);
+  StrobePlan plan;
+  plan.from_s = std::isnan(wishes.from_s) ? std::max(first.first_s(), hit_s - kBefore_s)
+                                          : wishes.from_s;
+  plan.to_s = std::isnan(wishes.to_s) ? std::min(first.last_s(), plan.from_s + kBefore_s + kAfter_s)
+                                      : wishes.to_s;
+  if (plan.from_s >= plan.to_s || plan.from_s > first.last_s() || plan.to_s < first.first_s())
+    throw OperatorError("--from and --to leave nothing of the recording");
+  const double hz = first.tick_hz();
+  const double step = std::round((plan.to_s - plan.from_s) * hz / (kExposures - 1));
+  plan.step_s = std::max(wishes.every_ticks > 0 ? wishes.every_ticks : step, 1.0) / hz;
+  plan.peers = Columns(playbacks, wishes.peer);
+  ChooseBox(playbacks, &plan);
+  if (wishes.width_px > 0) plan.width_px = wishes.width_px;
+  plan.height_px = wishes.height_px > 0 ? wishes.height_px
+                                        : StrobeHeight(plan, static_cast<int>(playbacks.size()));
+  return plan;
+}
+
+}  // namespace seam
