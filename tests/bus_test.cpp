@@ -11,6 +11,7 @@
 #include "common/base/check.h"
 #include "common/base/random.h"
 #include "common/codec/codec.h"
+#include "common/record/doctor.h"
 #include "common/record/log_file.h"
 #include "common/record/recording.h"
 #include "tests/child_process.h"
@@ -198,6 +199,41 @@ TEST_F(BusInNamespace, BehindAFirewallItSaysSoInsteadOfCrashing) {
   const std::string line = Complaint("");
   EXPECT_NE(line.find("firewall"), std::string::npos) << line;
   EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+}
+
+std::string Text(const DoctorReport& report) {
+  std::string text;
+  for (const std::string& line : report.lines) text += line + "\n";
+  return text;
+}
+
+TEST_F(BusInNamespace, TheDoctorFindsAHealthyMachineHealthy) {
+  SEAM_ENTER(kMulticast);
+  const DoctorReport report = RunDoctor("");
+  EXPECT_TRUE(report.healthy) << Text(report);
+  EXPECT_NE(Text(report).find("interface lo"), std::string::npos) << Text(report);
+  EXPECT_NE(Text(report).find("60000 bytes comes back"), std::string::npos) << Text(report);
+}
+
+TEST_F(BusInNamespace, TheDoctorSaysWhatToTypeWithoutARoute) {
+  SEAM_ENTER("ip link set lo up");
+  const DoctorReport report = RunDoctor("");
+  EXPECT_FALSE(report.healthy) << Text(report);
+  EXPECT_NE(Text(report).find("ip route add 224.0.0.0/4 dev lo"), std::string::npos);
+}
+
+TEST(Doctor, FindsTheMostSpecificUsableRoute) {
+  const std::string head = "Iface Destination Gateway Flags RefCnt Use Metric Mask MTU Window IRTT\n";
+  const std::string any = "eth0\t00000000\t0100A8C0\t0003\t0\t0\t0\t00000000\t0\t0\t0\n";
+  const std::string multicast = "lo\t000000E0\t00000000\t0001\t0\t0\t0\t000000F0\t0\t0\t0\n";
+  const std::string down = "wlan0\t000000E0\t00000000\t0000\t0\t0\t0\t000000F0\t0\t0\t0\n";
+  const std::string reject = "*\t000000E0\t00000000\t0201\t0\t0\t0\t000000F0\t0\t0\t0\n";
+  EXPECT_EQ(RouteInterface(head + any + multicast, "239.255.76.67"), "lo");
+  EXPECT_EQ(RouteInterface(head + multicast + any, "239.255.76.67"), "lo");
+  EXPECT_EQ(RouteInterface(head + any + down + reject, "239.255.76.67"), "eth0");
+  EXPECT_EQ(RouteInterface(head + multicast, "10.0.0.1"), "");
+  EXPECT_EQ(RouteInterface(head, "239.255.76.67"), "");
+  EXPECT_EQ(RouteInterface("", "nonsense"), "");
 }
 
 TEST_F(BusInNamespace, StockLoggerRecordsWhatItPublishes) {
