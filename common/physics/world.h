@@ -22,6 +22,13 @@ struct Touch {
   int body_a = -1, body_b = -1;     ///< body indices
 };
 
+/// A direction in which something anchored holds a body back: a contact's normal, or the line of a
+/// distance joint to an anchor.
+struct Block {
+  int body = -1;
+  Vec2 normal{0, 1};                ///< unit
+};
+
 enum class Motion { kDynamic, kKinematic };
 
 /// A `body` below is an index 0..body_count()-1 of the moving assemblies, ascending by id.
@@ -65,6 +72,9 @@ class World {
 
   const std::vector<Impact>& impacts() const;  ///< of the last tick, dv above kImpactRecordMin
   const std::vector<Touch>& touches() const;   ///< after the last tick, each pair once
+
+  /// After the last tick, ascending by body; at most two per body.
+  const std::vector<Block>& blocks() const;
 
   /// FNV-1a over tick, poses, velocities and sleep flags of all bodies, bit for bit.
   std::uint64_t Hash() const;
