@@ -2,6 +2,7 @@
 /// Numbers from recordings alone: error, stutter, backsteps, rebound, rest, cost. docs/metrics.md
 /// defines each; this header names them.
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,14 +17,23 @@ namespace seam {
 struct Oracle {
   std::int64_t first_tick = 0;
   std::vector<PartId> ids;                          ///< ascending
-  std::vector<std::vector<BodyState>> ticks;        ///< [tick - first_tick][index in ids]
+  /// [tick - first_tick][index in ids]; empty for a tick that is not known.
+  std::vector<std::vector<BodyState>> ticks;
+  /// nullptr when the tick or the body is not known.
   const BodyState* At(std::int64_t tick, PartId id) const;
 };
 
-/// Simulates the recording's scene alone, with the inputs it recorded.
+/// Simulates the recording's scene alone from tick 0 to the recording's last tick, with the inputs
+/// it recorded: each in the tick it names, axes held over ticks without one, buttons acting on the
+/// tick they go down. Throws OperatorError when the scene does not parse or the session is too long
+/// (kOracleStatesMax).
 Oracle ComputeOracle(const Recording& recording);
 
-/// The displayed path of peer 0 in a recording made with --mode oracle.
+/// Most ticks times bodies that ComputeOracle keeps: 24 bytes each.
+constexpr std::int64_t kOracleStatesMax = 50'000'000;
+
+/// The displayed path of peer 0 in a recording made with --mode oracle. Throws OperatorError for a
+/// recording of another mode, or without views of peer 0.
 Oracle OracleFromRecording(const Recording& recording);
 
 struct Measures {
@@ -35,15 +45,20 @@ struct Measures {
   std::optional<double> rebound;      ///< only for scenes that watch a collision
   std::optional<double> rest_ticks;   ///< only if the scene comes to rest in the recording
   double handover_jump_m = 0;         ///< largest jump of a view at a change of authority
-  std::int64_t handovers = 0;
+  std::int64_t handovers = 0;         ///< changes of authority over a mechanism
   double bytes_per_s = 0;             ///< mean over clients, both directions, UDP payload
   double cpu_us_per_s = 0;            ///< mean over peers, per simulated second
-  // By tick, RMS over peers' views and bodies: what the strip of the renderer draws.
+  /// Poses that were compared: peers x ticks x bodies. 0: nothing was, and the errors mean nothing.
+  std::int64_t compared = 0;
+  // By tick, RMS over peers' views and bodies: what the strip of the renderer draws. 0 where
+  // nothing was compared; [tick - first_tick], for all ticks of the recording.
   std::vector<double> error_by_tick_m;
   std::int64_t first_tick = 0;
   std::map<int, double> error_rms_by_peer_m;
 };
 
+/// Everything at once. Throws OperatorError when the recorded scene does not parse; a recording
+/// without a scene (made by hand) has no rebound, and each of its bodies is a mechanism.
 Measures Measure(const Recording& recording, const Oracle& oracle);
 
 }  // namespace seam

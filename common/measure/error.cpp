@@ -1,0 +1,71 @@
+/// Displayed pose against the oracle's, over all peers, ticks and bodies.
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/measure/parts.h"
+
+namespace seam {
+namespace {
+
+constexpr double kTurn = 6.283185307179586;   // rad
+
+/// Sum of squares and count, for a root mean square.
+struct Squares {
+  double sum = 0;
+  std::int64_t count = 0;
+  void Add(double squared) {
+    sum += squared;
+    ++count;
+  }
+  double Rms() const { return count == 0 ? 0 : std::sqrt(sum / static_cast<double>(count)); }
+};
+
+/// Nearest rank: the least value that at least `share` of all values do not exceed.
+double Percentile(std::vector<double>& values, double share) {
+  if (values.empty()) return 0;
+  const double rank = std::ceil(share * static_cast<double>(values.size()));
+  const auto index = static_cast<std::size_t>(std::max(rank, 1.0)) - 1;
+  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(index);
+  std::nth_element(values.begin(), nth, values.end());
+  return *nth;
+}
+
+}  // namespace
+
+void MeasureError(const Recording& recording, const Oracle& oracle, Measures* measures) {
+  measures->first_tick = recording.first_tick;
+  const std::int64_t ticks = recording.last_tick - recording.first_tick + 1;
+  std::vector<Squares> by_tick(static_cast<std::size_t>(std::max<std::int64_t>(0, ticks)));
+  std::vector<double> distances;
+  Squares all, angles;
+  for (const auto& [peer, views] : recording.views) {
+    Squares of_peer;
+    for (const auto& [tick, view] : views) {
+      for (std::size_t i = 0; i < view.id.size(); ++i) {
+        const BodyState* truth = oracle.At(tick, view.id[i]);
+        if (truth == nullptr) continue;
+        const double dx = double{view.x[i]} - double{truth->position.x()};
+        const double dy = double{view.y[i]} - double{truth->position.y()};
+        const double squared = dx * dx + dy * dy;
+        const double turned = std::remainder(double{view.angle[i]} - double{truth->angle}, kTurn);
+        all.Add(squared);
+        of_peer.Add(squared);
+        angles.Add(turned * turned);
+        distances.push_back(std::sqrt(squared));
+        by_tick[static_cast<std::size_t>(tick - recording.first_tick)].Add(squared);
+      }
+    }
+    if (of_peer.count > 0) measures->error_rms_by_peer_m[peer] = of_peer.Rms();
+  }
+  measures->compared = all.count;
+  measures->error_rms_m = all.Rms();
+  measures->error_rms_rad = angles.Rms();
+  measures->error_p95_m = Percentile(distances, 0.95);
+  if (!distances.empty()) {
+    measures->error_max_m = *std::max_element(distances.begin(), distances.end());
+  }
+  for (const Squares& of_tick : by_tick) measures->error_by_tick_m.push_back(of_tick.Rms());
+}
+
+}  // namespace seam

@@ -1,0 +1,74 @@
+#include "common/measure/measure.h"
+
+#include <algorithm>
+
+#include "common/measure/parts.h"
+#include "common/physics/assembly.h"
+
+namespace seam {
+namespace {
+
+/// Mass by id of the moving assemblies that the watched parts belong to, kg.
+std::map<PartId, double> StruckMasses(const Scene& scene, const Composition& composition,
+                                      const WatchCollision& watch) {
+  std::map<PartId, double> masses;
+  for (const PartId struck : watch.struck) {
+    const int index = composition.assembly_of_part[static_cast<std::size_t>(struck)];
+    const Assembly& assembly = composition.assemblies[static_cast<std::size_t>(index)];
+    if (assembly.anchored) continue;
+    double mass = 0;
+    for (const PartId part : assembly.parts) {
+      mass += double{PartMass(scene.parts[static_cast<std::size_t>(part)])};
+    }
+    masses[assembly.id] = mass;
+  }
+  return masses;
+}
+
+/// Mean over the watched collisions that can be measured.
+std::optional<double> MeanRebound(const Recording& recording, const Oracle& oracle,
+                                  const Scene& scene, const Composition& composition) {
+  double sum = 0;
+  int count = 0;
+  for (const WatchCollision& watch : scene.watch) {
+    const auto masses = StruckMasses(scene, composition, watch);
+    const std::optional<double> rebound = Rebound(recording, oracle, masses, watch.around_tick);
+    if (!rebound) continue;
+    sum += *rebound;
+    ++count;
+  }
+  if (count == 0) return std::nullopt;
+  return sum / count;
+}
+
+}  // namespace
+
+int IndexOf(const View& view, PartId id) {
+  const auto found = std::lower_bound(view.id.begin(), view.id.end(), id);
+  if (found == view.id.end() || *found != id) return -1;
+  return static_cast<int>(found - view.id.begin());
+}
+
+double TickSeconds(const Recording& recording) { return 1.0 / std::max(1, recording.room.tick_hz); }
+
+Measures Measure(const Recording& recording, const Oracle& oracle) {
+  Measures measures;
+  MeasureError(recording, oracle, &measures);
+  MeasureSmoothness(recording, oracle, &measures);
+  measures.rest_ticks = RestTicks(recording, oracle);
+  MeasureCost(recording, &measures);
+  std::map<PartId, int> mechanisms;
+  if (!recording.room.scene_text.empty()) {
+    const Scene scene =
+        ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
+    const Composition composition = Compose(scene);
+    for (const Assembly& assembly : composition.assemblies) {
+      if (assembly.mechanism >= 0) mechanisms[assembly.id] = assembly.mechanism;
+    }
+    measures.rebound = MeanRebound(recording, oracle, scene, composition);
+  }
+  MeasureHandover(recording, mechanisms, &measures);
+  return measures;
+}
+
+}  // namespace seam

@@ -1,0 +1,41 @@
+#pragma once
+/// The single measures that Measure puts together, one per file; docs/metrics.md defines each.
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "common/measure/measure.h"
+
+namespace seam {
+
+/// The place of a body in a view, -1 if it is not shown.
+int IndexOf(const View& view, PartId id);
+
+/// Seconds per tick of a recording.
+double TickSeconds(const Recording& recording);
+
+/// error.cpp: error_*, error_by_tick_m, error_rms_by_peer_m, compared.
+void MeasureError(const Recording& recording, const Oracle& oracle, Measures* measures);
+
+/// smoothness.cpp: stutter_mps2 and backsteps.
+void MeasureSmoothness(const Recording& recording, const Oracle& oracle, Measures* measures);
+
+/// rebound.cpp: the share of the oracle's momentum transfer that a collision really transferred.
+/// `masses`: of the struck assemblies by id, kg. nullopt: no collision, or it was not recorded.
+std::optional<double> Rebound(const Recording& recording, const Oracle& oracle,
+                              const std::map<PartId, double>& masses, std::int64_t around_tick);
+
+/// rest.cpp: ticks from the oracle's rest until all peers show the same bits.
+std::optional<double> RestTicks(const Recording& recording, const Oracle& oracle);
+
+/// handover.cpp: handover_jump_m and handovers. `mechanisms`: by assembly id; a body that is not in
+/// it is a mechanism by itself.
+void MeasureHandover(const Recording& recording, const std::map<PartId, int>& mechanisms,
+                     Measures* measures);
+
+/// cost.cpp: bytes_per_s and cpu_us_per_s.
+void MeasureCost(const Recording& recording, Measures* measures);
+
+}  // namespace seam

@@ -1,0 +1,71 @@
+/// How long it takes until everybody sees the same thing, once nothing moves any more.
+
+#include <algorithm>
+#include <cstring>
+
+#include "common/measure/parts.h"
+
+namespace seam {
+namespace {
+
+/// A body slower than this is at rest, m/s.
+constexpr float kRestSpeed = 0.01f;
+/// The oracle must have rested so long at the end for it to count as for good, s.
+constexpr double kRestLeast = 0.5;
+
+bool AllSlow(const std::vector<BodyState>& states) {
+  return std::all_of(states.begin(), states.end(), [](const BodyState& state) {
+    return state.velocity.norm() < kRestSpeed;
+  });
+}
+
+template <class T>
+bool SameBits(const std::vector<T>& a, const std::vector<T>& b) {
+  return a.size() == b.size() &&
+         (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+bool SamePoses(const View& a, const View& b) {
+  return SameBits(a.id, b.id) && SameBits(a.x, b.x) && SameBits(a.y, b.y) &&
+         SameBits(a.angle, b.angle);
+}
+
+/// The views of one tick, of all peers that have one.
+std::vector<const View*> ViewsAt(const Recording& recording, std::int64_t tick) {
+  std::vector<const View*> views;
+  for (const auto& [peer, of_peer] : recording.views) {
+    const auto found = of_peer.find(tick);
+    if (found != of_peer.end()) views.push_back(&found->second);
+  }
+  return views;
+}
+
+}  // namespace
+
+std::optional<double> RestTicks(const Recording& recording, const Oracle& oracle) {
+  std::int64_t rest = oracle.first_tick + static_cast<std::int64_t>(oracle.ticks.size());
+  const std::int64_t oracle_end = std::min(rest - 1, recording.last_tick);
+  while (rest > oracle.first_tick &&
+         AllSlow(oracle.ticks[static_cast<std::size_t>(rest - 1 - oracle.first_tick)])) {
+    --rest;
+  }
+  if (static_cast<double>(oracle_end - rest) * TickSeconds(recording) < kRestLeast) {
+    return std::nullopt;
+  }
+  // Backwards from the end for as long as all who show anything show the same.
+  std::int64_t equal_since = recording.last_tick + 1;
+  bool compared = false;
+  for (std::int64_t tick = recording.last_tick; tick >= rest; --tick) {
+    const std::vector<const View*> views = ViewsAt(recording, tick);
+    const bool equal = std::all_of(views.begin(), views.end(), [&](const View* view) {
+      return SamePoses(*views.front(), *view);
+    });
+    if (!equal) break;
+    compared = compared || views.size() > 1;
+    equal_since = tick;
+  }
+  if (!compared) return std::nullopt;
+  return static_cast<double>(equal_since - rest);
+}
+
+}  // namespace seam

@@ -1,0 +1,76 @@
+/// What the eye sees: jerks that the oracle does not have, and steps against the motion.
+
+#include <cmath>
+
+#include "common/measure/parts.h"
+
+namespace seam {
+namespace {
+
+/// Slower bodies have no direction to step against, m/s.
+constexpr double kSpeedLeast = 0.5;
+/// Shorter steps cannot be seen, m.
+constexpr double kStepLeast = 0.001;
+
+struct Point {
+  double x = 0, y = 0;
+};
+
+Point Shown(const View& view, int i) {
+  const auto index = static_cast<std::size_t>(i);
+  return {view.x[index], view.y[index]};
+}
+
+Point At(const BodyState& state) { return {state.position.x(), state.position.y()}; }
+
+/// Whether the move from `a` to `b` goes against the velocity.
+bool IsBackstep(const Point& a, const Point& b, double vx, double vy) {
+  const double speed = std::hypot(vx, vy);
+  if (speed <= kSpeedLeast) return false;
+  return ((b.x - a.x) * vx + (b.y - a.y) * vy) / speed < -kStepLeast;
+}
+
+/// The view of `tick`, nullptr if there is none.
+const View* Find(const std::map<std::int64_t, View>& views, std::int64_t tick) {
+  const auto found = views.find(tick);
+  return found == views.end() ? nullptr : &found->second;
+}
+
+}  // namespace
+
+void MeasureSmoothness(const Recording& recording, const Oracle& oracle, Measures* measures) {
+  const double h = TickSeconds(recording);
+  double sum = 0;
+  std::int64_t count = 0;
+  for (const auto& [peer, views] : recording.views) {
+    for (const auto& [tick, view] : views) {
+      const View* before = Find(views, tick - 1);
+      if (before == nullptr) continue;
+      const View* earlier = Find(views, tick - 2);
+      for (std::size_t i = 0; i < view.id.size(); ++i) {
+        const PartId id = view.id[i];
+        const BodyState* truth = oracle.At(tick, id);
+        const BodyState* truth_before = oracle.At(tick - 1, id);
+        const int k = IndexOf(*before, id);
+        if (truth == nullptr || truth_before == nullptr || k < 0) continue;
+        const Point p = {view.x[i], view.y[i]}, q = Shown(*before, k);
+        const Point o = At(*truth), n = At(*truth_before);
+        if (IsBackstep(q, p, view.vx[i], view.vy[i]) &&
+            !IsBackstep(n, o, truth->velocity.x(), truth->velocity.y())) {
+          ++measures->backsteps;
+        }
+        const BodyState* truth_earlier = oracle.At(tick - 2, id);
+        const int j = earlier == nullptr ? -1 : IndexOf(*earlier, id);
+        if (truth_earlier == nullptr || j < 0) continue;
+        const Point r = Shown(*earlier, j), m = At(*truth_earlier);
+        const double ax = (p.x - 2 * q.x + r.x) - (o.x - 2 * n.x + m.x);
+        const double ay = (p.y - 2 * q.y + r.y) - (o.y - 2 * n.y + m.y);
+        sum += (ax * ax + ay * ay) / (h * h * h * h);
+        ++count;
+      }
+    }
+  }
+  measures->stutter_mps2 = count == 0 ? 0 : std::sqrt(sum / static_cast<double>(count));
+}
+
+}  // namespace seam

@@ -1,0 +1,106 @@
+#include "common/measure/table.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace seam {
+namespace {
+
+const char* const kColumns[] = {"scene",       "run",         "mode",        "reconcile",
+                                "impair",      "seed",        "error_rms_m", "error_p95_m",
+                                "error_max_m", "stutter_mps2", "backsteps",  "rebound",
+                                "bytes_per_s", "cpu_us_per_s"};
+/// Columns before this one are text and stand to the left.
+constexpr std::size_t kTextColumns = 5;
+
+std::string Number(double value, bool applies = true) {
+  return applies ? fmt::format("{:.6g}", value) : "";
+}
+
+std::vector<std::string> Values(const MeasuredRun& run) {
+  const Measures& m = run.measures;
+  const bool any = m.compared > 0;
+  return {run.room.scene_name,
+          run.run,
+          run.room.mode,
+          run.room.reconcile,
+          run.room.impair,
+          std::to_string(run.room.seed),
+          Number(m.error_rms_m, any),
+          Number(m.error_p95_m, any),
+          Number(m.error_max_m, any),
+          Number(m.stutter_mps2, any),
+          any ? std::to_string(m.backsteps) : "",
+          Number(m.rebound.value_or(0), m.rebound.has_value()),
+          Number(m.bytes_per_s, m.bytes_per_s > 0),
+          Number(m.cpu_us_per_s, m.cpu_us_per_s > 0)};
+}
+
+std::string Quoted(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
+std::string More(const MeasuredRun& run) {
+  const Measures& m = run.measures;
+  std::string out = fmt::format("\n{}\n", run.run);
+  out += fmt::format("  angle error      {:.6g} rad RMS over {} poses\n", m.error_rms_rad,
+                     m.compared);
+  for (const auto& [peer, rms] : m.error_rms_by_peer_m) {
+    out += fmt::format("  peer {:<2}          {:.6g} m RMS\n", peer, rms);
+  }
+  out += fmt::format("  hand-over        {} changes of authority, largest jump {:.6g} m\n",
+                     m.handovers, m.handover_jump_m);
+  out += m.rest_ticks ? fmt::format("  rest             all peers bit-equal {:g} ticks after the "
+                                    "oracle's rest\n", *m.rest_ticks)
+                      : std::string("  rest             not reached\n");
+  out += fmt::format("  log              {} messages missing, {} damaged bytes skipped\n", run.gaps,
+                     run.skipped_bytes);
+  return out;
+}
+
+}  // namespace
+
+std::string CsvHeader() {
+  std::string line;
+  for (const char* column : kColumns) line += (line.empty() ? "" : ",") + std::string(column);
+  return line;
+}
+
+std::string CsvLine(const MeasuredRun& run) {
+  std::string line;
+  bool first = true;
+  for (const std::string& value : Values(run)) {
+    line += (first ? "" : ",") + Quoted(value);
+    first = false;
+  }
+  return line;
+}
+
+std::string FormatTable(const std::vector<MeasuredRun>& runs, bool more) {
+  std::vector<std::vector<std::string>> rows = {{std::begin(kColumns), std::end(kColumns)}};
+  for (const MeasuredRun& run : runs) rows.push_back(Values(run));
+  std::string out;
+  std::vector<std::size_t> widths(rows.front().size(), 1);
+  for (const auto& row : rows) {
+    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
+  }
+  for (const auto& row : rows) {
+    std::string line;
+    for (std::size_t i = 0; i < row.size(); ++i) {
+      const std::string value = row[i].empty() ? "-" : row[i];
+      line += i < kTextColumns ? fmt::format("{:<{}}  ", value, widths[i])
+                               : fmt::format("{:>{}}  ", value, widths[i]);
+    }
+    out += line.substr(0, line.find_last_not_of(' ') + 1) + '\n';
+  }
+  if (more) {
+    for (const MeasuredRun& run : runs) out += More(run);
+  }
+  return out;
+}
+
+}  // namespace seam

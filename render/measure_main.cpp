@@ -1,0 +1,147 @@
+/// seam-measure: numbers from recordings. docs/metrics.md says what each of them means.
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/base/check.h"
+#include "common/measure/table.h"
+#include "common/record/recording.h"
+
+namespace seam {
+namespace {
+
+struct Options {
+  std::vector<std::string> logs;
+  std::string oracle;
+  std::string csv;
+  bool append = false;
+  bool more = false;
+  std::vector<std::string> names;
+};
+
+/// "out/demo/buffer.lcm" -> "buffer".
+std::string BaseName(const std::string& path) {
+  const std::size_t slash = path.find_last_of('/');
+  std::string name = slash == std::string::npos ? path : path.substr(slash + 1);
+  const std::size_t dot = name.rfind(".lcm");
+  if (dot != std::string::npos && dot > 0 && dot + 4 == name.size()) name.resize(dot);
+  return name;
+}
+
+/// Reads a log and says on stderr what is wrong with it.
+Recording Read(const std::string& path) {
+  Recording recording = ReadRecording(path);
+  if (recording.skipped_bytes > 0 || recording.undecodable > 0 || recording.bus_gaps > 0) {
+    std::fprintf(stderr,
+                 "seam-measure: warning: %s: %lld damaged bytes skipped, %lld events undecodable, "
+                 "%lld messages missing\n",
+                 path.c_str(), static_cast<long long>(recording.skipped_bytes),
+                 static_cast<long long>(recording.undecodable),
+                 static_cast<long long>(recording.bus_gaps));
+  }
+  return recording;
+}
+
+/// The oracle given by --oracle; it must have simulated what `recording` did.
+Oracle GivenOracle(const Recording& truth, const Recording& recording, const Options& options,
+                   const std::string& path) {
+  if (truth.room.scene_text != recording.room.scene_text) {
+    throw OperatorError(path + ": its scene is not the one of " + options.oracle);
+  }
+  if (truth.room.tick_hz != recording.room.tick_hz) {
+    throw OperatorError(path + ": its tick rate is not the one of " + options.oracle);
+  }
+  return OracleFromRecording(truth);
+}
+
+MeasuredRun MeasureLog(const std::string& path, const std::string& name, const Options& options,
+                       const std::optional<Recording>& truth) {
+  const Recording recording = Read(path);
+  const Oracle oracle =
+      truth ? GivenOracle(*truth, recording, options, path) : ComputeOracle(recording);
+  MeasuredRun run;
+  run.run = name;
+  run.room = recording.room;
+  run.measures = Measure(recording, oracle);
+  run.gaps = recording.bus_gaps;
+  run.skipped_bytes = recording.skipped_bytes;
+  if (run.measures.compared == 0) {
+    std::fprintf(stderr, "seam-measure: warning: %s: no view of a tick that the oracle has\n",
+                 path.c_str());
+  }
+  return run;
+}
+
+/// The first line of a file, without its end; empty when there is no such file.
+std::string FirstLine(const std::string& path) {
+  std::FILE* file = std::fopen(path.c_str(), "r");
+  if (file == nullptr) return "";
+  std::string line;
+  for (int c = std::fgetc(file); c != EOF && c != '\n'; c = std::fgetc(file)) {
+    line += static_cast<char>(c);
+  }
+  std::fclose(file);
+  return line;
+}
+
+void WriteCsv(const std::vector<MeasuredRun>& runs, const Options& options) {
+  const std::string existing = options.append ? FirstLine(options.csv) : "";
+  if (!existing.empty() && existing != CsvHeader()) {
+    throw OperatorError(options.csv + ": has other columns, cannot append to it");
+  }
+  std::FILE* file = std::fopen(options.csv.c_str(), options.append ? "a" : "w");
+  if (file == nullptr) throw OperatorError(options.csv + ": cannot be written");
+  std::string text = existing.empty() ? CsvHeader() + '\n' : "";
+  for (const MeasuredRun& run : runs) text += CsvLine(run) + '\n';
+  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  if (std::fclose(file) != 0 || !written) throw OperatorError(options.csv + ": disk full?");
+}
+
+void Run(const Options& options) {
+  if (!options.names.empty() && options.names.size() != options.logs.size()) {
+    throw OperatorError("--names has " + std::to_string(options.names.size()) + " names for " +
+                        std::to_string(options.logs.size()) + " logs");
+  }
+  std::optional<Recording> truth;
+  if (!options.oracle.empty()) truth = Read(options.oracle);
+  std::vector<MeasuredRun> runs;
+  for (std::size_t i = 0; i < options.logs.size(); ++i) {
+    const std::string& path = options.logs[i];
+    const std::string name = options.names.empty() ? BaseName(path) : options.names[i];
+    runs.push_back(MeasureLog(path, name, options, truth));
+  }
+  if (!options.csv.empty()) WriteCsv(runs, options);
+  std::fputs(FormatTable(runs, options.more).c_str(), stdout);
+}
+
+}  // namespace
+}  // namespace seam
+
+int main(int argc, char** argv) {
+  seam::Options options;
+  CLI::App app{"Measures recordings against the truth: error, stutter, rebound, cost."};
+  app.add_option("LOG", options.logs, "recordings (LCM logs)")->required();
+  app.add_option("--oracle", options.oracle,
+                 "a recording made with --mode oracle; without it the oracle is computed");
+  const auto* csv = app.add_option("--csv", options.csv, "write the table as CSV to this file too");
+  app.add_flag("--append", options.append, "add to the CSV file instead of replacing it");
+  app.add_option("--names", options.names, "what to call the runs, in the order of the logs")
+      ->delimiter(',')
+      ->allow_extra_args(false);   // the logs may follow it
+  app.add_flag("--more", options.more, "print the further measures");
+  try {
+    app.parse(argc, argv);
+    if (options.append && csv->empty()) throw seam::OperatorError("--append needs --csv");
+    seam::Run(options);
+    return 0;
+  } catch (const CLI::CallForHelp& help) {
+    return app.exit(help);
+  } catch (const std::exception& error) {   // OperatorError, and CLI11's for flags
+    std::fprintf(stderr, "seam-measure: %s\n", error.what());
+    return 2;
+  }
+}
