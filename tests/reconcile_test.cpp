@@ -98,6 +98,7 @@ TEST(Reconcile, RetrospectIsExactThroughGravityWhereCompensatedIsNot) {
   in.remote = flight(0, 5, t1);
   in.local_then = &local_then;
   in.dt = dt;
+  in.common = Minus(in.remote, local_then);
   const Correction exact = ReconcileRetrospect(in);
   EXPECT_NEAR((in.local.position + exact.now.position - truth_now.position).norm(), 0, 1e-5);
   EXPECT_NEAR((in.local.velocity + exact.now.velocity - truth_now.velocity).norm(), 0, 1e-5);
@@ -117,6 +118,41 @@ TEST(Reconcile, RetrospectTakesABoundedShareOfACoupledBody) {
   const Correction c = ReconcileRetrospect(in);
   EXPECT_FLOAT_EQ(c.now.position.x(), 0.025f) << "no Dv dt term";
   EXPECT_FLOAT_EQ(c.now.velocity.x(), 0.25f);
+}
+
+TEST(Reconcile, RetrospectDoesNotExtrapolateIntoTheGround) {
+  BodyState then;
+  ReconcileInput in;
+  in.local_then = &then;
+  in.remote.position = Vec2(0.2f, 0.1f);
+  in.remote.velocity = Vec2(2, 1);
+  in.common = in.remote;
+  in.dt = 0.1f;
+  in.gain = 0.25f;
+  in.block_count = 1;
+  in.blocks[0] = Vec2(0, 1);
+  const Correction c = ReconcileRetrospect(in);
+  EXPECT_FLOAT_EQ(c.now.position.x(), 0.2f + 2 * 0.1f) << "along the ground: all of it, carried on";
+  EXPECT_FLOAT_EQ(c.now.position.y(), 0.025f) << "across: a bounded share";
+  EXPECT_FLOAT_EQ(c.now.velocity.x(), 2);
+  EXPECT_FLOAT_EQ(c.now.velocity.y(), 0.25f);
+}
+
+TEST(Reconcile, RetrospectCarriesAMechanismOnAsAWhole) {
+  // A wheel that swings on its spring: the car's own difference is carried on, the swing is not.
+  BodyState then;
+  ReconcileInput in;
+  in.local_then = &then;
+  in.remote.position = Vec2(1, 0.3f);
+  in.remote.velocity = Vec2(0, -8);
+  in.common.position = Vec2(1, 0);
+  in.common.velocity = Vec2(2, 0);
+  in.alone = false;
+  in.dt = 0.1f;
+  in.gain = 0.5f;
+  const Correction c = ReconcileRetrospect(in);
+  EXPECT_FLOAT_EQ(c.now.position.x(), 1 + 0.2f);
+  EXPECT_FLOAT_EQ(c.now.position.y(), 0.15f);
 }
 
 TEST(Reconcile, RetrospectLeavesQuantisationNoiseOfACoupledBodyAlone) {

@@ -22,7 +22,12 @@ struct ReconcileInput {
   bool coupled = false;                ///< it touches, or is jointed to one that touches, a body
                                        ///< of another authority than its own
   float gain = 1;                      ///< for coupled bodies: largest stable share to correct
-  float now_hz = 60;                   ///< ticks per second
+  /// Of the whole mechanism, mass-weighted over the bodies of this message: Xr(t1) - Xl(t1), only
+  /// position and velocity. A body alone: its own difference.
+  BodyState common;
+  bool alone = true;                   ///< its mechanism is this one body
+  int block_count = 0;                 ///< directions in which something anchored holds the
+  Vec2 blocks[2] = {{0, 0}, {0, 0}};   ///< mechanism back, unit vectors
 };
 
 /// What to add to our copy. `then` is the part that was already due at t1; a rule that knows it

@@ -1,9 +1,13 @@
 /// retrospect (ours): compare states of the same tick, and carry the difference forward.
 ///   D = Xr(t1) - Xl(t1), Dv likewise;   X = Xl + D + Dv dt,   V = Vl + Dv
 /// Exact whenever both peers' copies felt the same forces since t1: nothing is extrapolated through
-/// gravity, spin or contact. A body that touches another authority's body is in a feedback loop
-/// with delay (each peer corrects towards what the other corrected): there only a bounded share is
-/// taken, without the Dv dt term, and nothing inside a dead band just above the quantisation.
+/// gravity, spin or contact. That holds for *free* differences: of a mechanism as a whole, in the
+/// directions in which nothing holds it. What is left is the difference of springs, of joints and of
+/// bodies pressed against ground or against each other. It does not grow like Dv dt (it swings back,
+/// or a contact removes it), and where another authority's body is pressed against it, each peer
+/// corrects towards what the other corrected. All of that is a feedback loop with delay: there only
+/// a bounded share is taken, without the Dv dt term, and nothing inside a dead band just above the
+/// quantisation.
 
 #include <cmath>
 
@@ -24,6 +28,12 @@ Vec2 Outside(const Vec2& value, float band) {
   return value.norm() > band ? value : Vec2(0.0f, 0.0f);
 }
 
+/// The part of `v` across every direction that is blocked.
+Vec2 Unblocked(const ReconcileInput& in, Vec2 v) {
+  for (int i = 0; i < in.block_count; ++i) v -= v.dot(in.blocks[i]) * in.blocks[i];
+  return v;
+}
+
 }  // namespace
 
 Correction ReconcileRetrospect(const ReconcileInput& in) {
@@ -33,20 +43,26 @@ Correction ReconcileRetrospect(const ReconcileInput& in) {
     return out;
   }
   out.rewrites_history = true;
-  BodyState d = Minus(in.remote, *in.local_then);
+  const BodyState d = Minus(in.remote, *in.local_then);
+  BodyState free;   // the part that both peers' forces leave alone
   if (!in.coupled) {
-    out.then = d;
-    out.now = d;
-    out.now.position += in.dt * d.velocity;
-    out.now.angle += in.dt * d.spin;
-    return out;
+    free.position = Unblocked(in, in.common.position);
+    free.velocity = Unblocked(in, in.common.velocity);
+    if (in.alone && in.block_count == 0) {
+      free.angle = d.angle;
+      free.spin = d.spin;
+    }
   }
-  d.position = in.gain * Outside(d.position, kBandPosition);
-  d.angle = in.gain * Outside(d.angle, kBandAngle);
-  d.velocity = in.gain * Outside(d.velocity, kBandVelocity);
-  d.spin = in.gain * Outside(d.spin, kBandVelocity);
-  out.then = d;
-  out.now = d;
+  const BodyState held = Minus(d, free);
+  BodyState share;
+  share.position = in.gain * Outside(held.position, kBandPosition);
+  share.angle = in.gain * Outside(held.angle, kBandAngle);
+  share.velocity = in.gain * Outside(held.velocity, kBandVelocity);
+  share.spin = in.gain * Outside(held.spin, kBandVelocity);
+  out.then = PlusScaled(free, share, 1);
+  out.now = out.then;
+  out.now.position += in.dt * free.velocity;
+  out.now.angle += in.dt * free.spin;
   return out;
 }
 

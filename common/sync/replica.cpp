@@ -33,9 +33,12 @@ Replica::Replica(const Scene& scene, const SyncConfig& config, int self, int own
   last_impact_tick_.assign(bodies, -1000000);
   last_coupled_tick_.assign(world_.composition().mechanisms.size(), -1000000);
   heard_tick_.assign(bodies, -1);
+  dynamic_since_.assign(bodies, 0);
   placed_.assign(bodies, true);
   priority_.assign(bodies, 0.0f);
   asleep_since_.assign(bodies, -1);
+  // Where everything is at tick 0, and how it moves, is known to all from the scene.
+  for (int body = 0; body < world_.body_count(); ++body) snapshots_.Add(body, 0, world_.Read(body));
   RolesChanged();
   RecordHistory();
 }
@@ -80,7 +83,18 @@ void Replica::RolesChanged() {
   for (int body = 0; body < world_.body_count(); ++body) {
     const Motion wanted =
         Simulated(world_.mechanism(body)) ? Motion::kDynamic : Motion::kKinematic;
-    if (world_.motion(body) != wanted) world_.SetMotion(body, wanted);
+    if (world_.motion(body) == wanted) continue;
+    world_.SetMotion(body, wanted);
+    if (wanted != Motion::kDynamic || !snapshots_.has(body)) continue;
+    // What was only displayed had the velocity of its display, not of a body: start from the
+    // authority's.
+    const BodyState before = world_.Read(body);
+    BodyState state = snapshots_.Extrapolate(body, tick(), world_.dt(), kReckonMost);
+    state.angle = before.angle + std::remainder(state.angle - before.angle, 6.2831853f);
+    world_.Write(body, state);
+    smoother_.Moved(body, state.position - before.position, state.angle - before.angle);
+    dynamic_since_[static_cast<std::size_t>(body)] = tick();
+    if (BodyState* now = history_.At(tick(), body)) *now = state;
   }
 }
 

@@ -7,7 +7,8 @@
 ///   TakeStates, MakeView, MakeImpacts                 after it
 
 #include <cstdint>
-#include <memory>
+#include <map>
+#include <utility>
 #include <vector>
 
 #include "common/physics/history.h"
@@ -77,8 +78,14 @@ class Replica {
   void DriveKinematic(std::int64_t next);
   void NoteImpacts();
   void NoteTouches();
-  void ReceiveOne(const States& states, std::size_t i, int body);
-  void Correct(int body, const States& states, std::size_t i);
+  /// Notes one entry; true if its body is simulated here and to be corrected.
+  bool ReceiveOne(const States& states, std::size_t i, int body);
+  /// Mass-weighted mean of Xr(t1) - Xl(t1) by mechanism.
+  std::map<int, BodyState> CommonDifferences(
+      const States& states, const std::vector<std::pair<std::size_t, int>>& entries) const;
+  /// Our copy at an earlier tick; nullptr when it is not comparable with the authority's.
+  const BodyState* PastOf(int body, std::int64_t tick) const;
+  void Correct(int body, const States& states, std::size_t i, const BodyState& common);
   void Predict(const States& states);
   void RecordHistory();
   std::vector<PackedBody> ChooseBodies();
@@ -100,6 +107,7 @@ class Replica {
   std::vector<std::int64_t> last_impact_tick_;   // by body
   std::vector<std::int64_t> last_coupled_tick_;  // by mechanism
   std::vector<std::int64_t> heard_tick_;       // by body: newest state heard, -1 never
+  std::vector<std::int64_t> dynamic_since_;    // by body: its history tells of forces from here on
   std::vector<bool> placed_;                   // by body: pose is known
   std::vector<float> priority_;                // by body: accumulator for sending
   std::vector<std::int64_t> asleep_since_;     // by body, -1 awake

@@ -43,6 +43,7 @@ Replica::Received Replica::Receive(const States& states) {
   }
   bool any_new = false;
   bool predicted = false;
+  std::vector<std::pair<std::size_t, int>> secondary;   // entries to be corrected, with their body
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = world_.BodyOfId(states.id[i]);
     if (body < 0) {
@@ -64,14 +65,18 @@ Replica::Received Replica::Receive(const States& states) {
     any_new = true;
     heard_tick_[static_cast<std::size_t>(body)] = states.tick;
     if (config_.mode == Mode::kCentral && RoleOf(mechanism) == kRoleSecondary) predicted = true;
-    ReceiveOne(states, i, body);
+    if (ReceiveOne(states, i, body)) secondary.emplace_back(i, body);
+  }
+  const std::map<int, BodyState> common = CommonDifferences(states, secondary);
+  for (const auto& [i, body] : secondary) {
+    Correct(body, states, i, common.at(world_.mechanism(body)));
   }
   if (any_new) delay_.AddAge(tick() - states.tick);
   if (predicted) Predict(states);
   return result;
 }
 
-void Replica::ReceiveOne(const States& states, std::size_t i, int body) {
+bool Replica::ReceiveOne(const States& states, std::size_t i, int body) {
   const BodyState remote = Unpack(states, i, world_.Read(body).angle);
   snapshots_.Add(body, states.tick, remote);
   if (!placed_[static_cast<std::size_t>(body)]) {
@@ -79,11 +84,32 @@ void Replica::ReceiveOne(const States& states, std::size_t i, int body) {
     world_.Write(body, WithinLimits(remote, scene().speed_limit));
     *history_.At(tick(), body) = world_.Read(body);
     smoother_.Reset(body);
-    return;
+    return false;
   }
-  if (config_.mode == Mode::kBuffer && RoleOf(world_.mechanism(body)) == kRoleSecondary) {
-    Correct(body, states, i);
+  return config_.mode == Mode::kBuffer && RoleOf(world_.mechanism(body)) == kRoleSecondary;
+}
+
+std::map<int, BodyState> Replica::CommonDifferences(
+    const States& states, const std::vector<std::pair<std::size_t, int>>& entries) const {
+  std::map<int, BodyState> sums;
+  std::map<int, float> masses;
+  for (const auto& [i, body] : entries) {
+    const int m = world_.mechanism(body);
+    BodyState& sum = sums[m];
+    const BodyState* then = PastOf(body, states.tick);
+    if (then == nullptr) continue;
+    sum = PlusScaled(sum, Minus(Unpack(states, i, then->angle), *then), world_.mass(body));
+    masses[m] += world_.mass(body);
   }
+  for (auto& [m, sum] : sums) {
+    if (masses[m] > 0) sum = PlusScaled(BodyState{}, sum, 1 / masses[m]);
+  }
+  return sums;
+}
+
+const BodyState* Replica::PastOf(int body, std::int64_t tick) const {
+  if (tick < dynamic_since_[static_cast<std::size_t>(body)]) return nullptr;
+  return history_.At(tick, body);
 }
 
 void Replica::Place(const States& states) {
@@ -100,11 +126,16 @@ void Replica::Place(const States& states) {
   }
 }
 
-void Replica::Correct(int body, const States& states, std::size_t i) {
+void Replica::Correct(int body, const States& states, std::size_t i, const BodyState& common) {
   const int mechanism = world_.mechanism(body);
   ReconcileInput in;
   in.local = world_.Read(body);
-  in.remote = Unpack(states, i, in.local.angle);
+  const BodyState* then = PastOf(body, states.tick);
+  in.dt = static_cast<float>(tick() - states.tick) * world_.dt();
+  // The wire's angle has lost its revolutions: it is the one nearest to where our copy was.
+  const float angle_then =
+      then != nullptr ? then->angle : in.local.angle - in.dt * in.local.spin;
+  in.remote = Unpack(states, i, angle_then);
   if ((states.flags[i] & kStateAsleep) != 0) {
     // At rest, for good as far as the authority knows: take its pose bit for bit, so that all
     // peers end with the same numbers.
@@ -116,15 +147,20 @@ void Replica::Correct(int body, const States& states, std::size_t i) {
     *history_.At(tick(), body) = world_.Read(body);
     return;
   }
-  BodyState* then = history_.At(states.tick, body);
   in.local_then = then;
-  in.dt = static_cast<float>(tick() - states.tick) * world_.dt();
   in.since_impact = static_cast<float>(
       tick() - last_impact_tick_[static_cast<std::size_t>(body)]) * world_.dt();
   in.coupled = last_coupled_tick_[static_cast<std::size_t>(mechanism)] >=
                tick() - config_.tick_hz / 4;
   in.gain = GainFor(in.dt);
-  in.now_hz = static_cast<float>(config_.tick_hz);
+  in.common = common;
+  in.alone = world_.composition().mechanisms[static_cast<std::size_t>(mechanism)]
+                 .assemblies.size() == 1;
+  for (const Block& block : world_.blocks()) {
+    if (world_.mechanism(block.body) != mechanism || in.block_count == 2) continue;
+    const bool known = in.block_count == 1 && std::fabs(block.normal.dot(in.blocks[0])) > 0.9f;
+    if (!known) in.blocks[in.block_count++] = block.normal;
+  }
   const Correction c = config_.reconcile(in);
   if (Negligible(c.now)) return;
   const BodyState corrected =
