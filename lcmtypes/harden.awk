@@ -46,19 +46,22 @@ function between(from, to,    rest) {
 
 # One line of a float array: through a vector of the same bits.
 /__float_(de|en)code_array\(.*&this->[a-z0-9_]+\[0\], this->[a-z0-9_]+\);$/ {
-  field = between("&this->", "[0]")
+  values = "this->" between("&this->", "[0]") ".data()"
+  bits = "__bits__.data()"
+  bytes = "sizeof(float) * __bits__.size()"
+  where = "(buf, offset + pos, maxlen - pos, " bits ", "
   n = between("[0], ", ")")
   print "        std::vector< int32_t > __bits__(" n ");"
   if ($0 ~ /decode/) {
-    print "        tlen = __int32_t_decode_array(buf, offset + pos, maxlen - pos, __bits__.data(), " n ");"
-    print "        memcpy(this->" field ".data(), __bits__.data(), sizeof(float) * __bits__.size());"
+    print "        tlen = __int32_t_decode_array" where n ");"
+    print "        memcpy(" values ", " bits ", " bytes ");"
   } else {
-    print "        memcpy(__bits__.data(), this->" field ".data(), sizeof(float) * __bits__.size());"
-    print "        tlen = __int32_t_encode_array(buf, offset + pos, maxlen - pos, __bits__.data(), " n ");"
+    print "        memcpy(" bits ", " values ", " bytes ");"
+    print "        tlen = __int32_t_encode_array" where n ");"
   }
   next
 }
-/__(float|double)_(de|en)code_array\(/ { fail("floating-point field that is not an array of floats") }
+/__(float|double)_(de|en)code_array\(/ { fail("a floating-point field, not an array of floats") }
 
 /_decodeNoHash\(const void \*buf.*\)$/ { decoders++ }
 

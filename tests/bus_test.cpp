@@ -223,7 +223,7 @@ TEST_F(BusInNamespace, TheDoctorSaysWhatToTypeWithoutARoute) {
 }
 
 TEST(Doctor, FindsTheMostSpecificUsableRoute) {
-  const std::string head = "Iface Destination Gateway Flags RefCnt Use Metric Mask MTU Window IRTT\n";
+  const std::string head = "Iface Destination Gateway Flags RefCnt Use Metric Mask MTU\n";
   const std::string any = "eth0\t00000000\t0100A8C0\t0003\t0\t0\t0\t00000000\t0\t0\t0\n";
   const std::string multicast = "lo\t000000E0\t00000000\t0001\t0\t0\t0\t000000F0\t0\t0\t0\n";
   const std::string down = "wlan0\t000000E0\t00000000\t0000\t0\t0\t0\t000000F0\t0\t0\t0\n";

@@ -18,7 +18,7 @@ class ChildProcess {
   explicit ChildProcess(const std::vector<std::string>& argv)
       : output_fd_(memfd_create("output", MFD_CLOEXEC)) {
     std::vector<char*> pointers;
-    for (const std::string& argument : argv) pointers.push_back(const_cast<char*>(argument.c_str()));
+    for (const std::string& word : argv) pointers.push_back(const_cast<char*>(word.c_str()));
     pointers.push_back(nullptr);
     pid_ = fork();
     if (pid_ != 0) return;

@@ -1,5 +1,5 @@
 #pragma once
-/// Counts what operator new is asked for: a test's way to see that hostile bytes cost little memory.
+/// Counts what operator new is asked for: shows a test that hostile bytes cost little memory.
 
 #include <cstddef>
 

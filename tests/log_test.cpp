@@ -161,7 +161,8 @@ TEST(Log, OneCorruptByteCostsAtMostItsOwnEvent) {
       ASSERT_TRUE(back.opened);
       ASSERT_TRUE(KeepsTheOthers(back.events, events, event)) << "byte " << at << " = " << value;
       ASSERT_LE(back.events.size(), events.size());
-      const bool lengths_or_magic = at - event_at < 4 || (at - event_at >= 20 && at - event_at < 28);
+      const std::size_t field = at - event_at;
+      const bool lengths_or_magic = field < 4 || (field >= 20 && field < kLogHeaderBytes);
       if (lengths_or_magic && log[at] != good) {
         ASSERT_GE(back.damaged_places, 1) << at;
       }
@@ -179,9 +180,10 @@ TEST(Log, RandomBytesBetweenEventsAreSkippedAndCounted) {
     std::int64_t junk_bytes = 0;
     for (const LogEvent& e : events) {
       if (random.Chance(0.5)) {
-        const std::size_t junk = 1 + random.Next() % 5000;
-        for (std::size_t i = 0; i < junk; ++i) log.push_back(static_cast<std::uint8_t>(random.Next()));
-        junk_bytes += static_cast<std::int64_t>(junk);
+        Bytes junk(1 + random.Next() % 5000);
+        for (std::uint8_t& byte : junk) byte = static_cast<std::uint8_t>(random.Next());
+        log.insert(log.end(), junk.begin(), junk.end());
+        junk_bytes += static_cast<std::int64_t>(junk.size());
         ++places;
       }
       Bytes bytes = WriteLog({e});

@@ -129,7 +129,8 @@ class RandomMessages {
     return name;
   }
   std::string Text(std::size_t bytes_max) {
-    static const char* const kPieces[] = {"a", "Z", " ", "~", "\"", "\u00e4", "\u20ac", "\U0001F600"};
+    static const char* const kPieces[] = {"a",  "Z",      " ",      "~",
+                                          "\"", "\u00e4", "\u20ac", "\U0001F600"};
     std::string text;
     for (std::size_t n = Count(0, bytes_max / 4); n > 0; --n) text += kPieces[Integer(0, 7)];
     return text;

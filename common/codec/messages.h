@@ -24,7 +24,7 @@ constexpr std::size_t kViewBodiesMax = 1900;
 constexpr std::int32_t kViewPartsMax = 32;
 /// Most ticks in one Inputs message.
 constexpr std::size_t kInputsMax = 64;
-/// Most mechanisms in one Grants message: 30 + 9 bytes each must fit Link's kMessageBytesMax (1150).
+/// Most mechanisms in one Grants message: 30 + 9 bytes each must fit Link's kMessageBytesMax.
 constexpr std::size_t kGrantsMax = 120;
 /// Most impacts in one Impacts message: 16 bytes each within kBusMessageBytesMax.
 constexpr std::size_t kImpactsMax = 3000;
@@ -123,7 +123,7 @@ struct States {
   std::vector<std::int16_t> spin;         ///< 1/256 rad/s
 };
 constexpr std::int8_t kStateAsleep = 1;
-constexpr std::int8_t kStateImpact = 2;   ///< a major impact within the last second, on the authority
+constexpr std::int8_t kStateImpact = 2;   ///< a major impact in the last second, on the authority
 
 /// Server -> everyone, reliable and ordered: who has authority over a mechanism from `tick` on.
 struct Grants {

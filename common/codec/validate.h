@@ -15,8 +15,8 @@ bool IsName(const std::string& text);
 /// `lines` allows newline, carriage return and tab.
 bool IsPrintable(const std::string& text, std::size_t bytes_max, bool lines = false);
 
-/// True when every field is within the bounds of messages.h: vectors of equal length, counts, peers,
-/// ticks and times in range, ids >= 0 and ascending where documented, floats finite.
+/// True when every field is within the bounds of messages.h: vectors of equal length, counts,
+/// peers, ticks and times in range, ids >= 0 and ascending where documented, floats finite.
 bool Valid(const Hello&);
 bool Valid(const Welcome&);
 bool Valid(const Chunk&);

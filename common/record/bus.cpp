@@ -82,9 +82,11 @@ std::string OneLine(std::string text) {
 
 [[noreturn]] void ThrowNotCreated(const std::string& url, const std::string& text) {
   if (Contains(text, "provider") || Contains(text, "URL") || Contains(text, "parse")) {
-    throw OperatorError("LCM url \"" + url + "\" is wrong; say for example udpm://239.255.76.67:7667");
+    throw OperatorError("LCM url \"" + url +
+                        "\" is wrong; say for example udpm://239.255.76.67:7667");
   }
-  if (Contains(text, "unreachable") || Contains(text, "No such device") || Contains(text, "route")) {
+  if (Contains(text, "unreachable") || Contains(text, "No such device") ||
+      Contains(text, "route")) {
     throw OperatorError(std::string("LCM: this machine has no route for multicast; ") + kRoute);
   }
   throw OperatorError("LCM url \"" + url + "\" cannot be used: " + OneLine(text));

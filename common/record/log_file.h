@@ -2,8 +2,8 @@
 /// LCM event logs without lcm::LogFile, which crashes on damaged files: a writer whose bytes depend
 /// on its arguments alone, and a reader that reads a damaged log as far as it is good.
 ///
-///   event: magic 0xEDA1DA01 u32 | number i64 | timestamp_us i64 | channel_bytes i32 | data_bytes i32
-///          | channel | data            (big-endian; the format of LCM 1.3's eventlog.c)
+///   event: magic 0xEDA1DA01 u32 | number i64 | timestamp_us i64 | channel_bytes i32
+///          | data_bytes i32 | channel | data   (big-endian; the format of LCM 1.3's eventlog.c)
 
 #include <cstdint>
 #include <cstdio>

@@ -82,7 +82,8 @@ bool LogReader::ReadHeader(std::int64_t at, bool magic_matters, Header* header) 
   header->data_bytes = data_bytes;
   header->end = at + static_cast<std::int64_t>(kLogHeaderBytes + channel_bytes + data_bytes);
   if (header->end > size_bytes_) return false;
-  const std::uint8_t* channel = Peek(at + static_cast<std::int64_t>(kLogHeaderBytes), channel_bytes);
+  const std::int64_t channel_at = at + static_cast<std::int64_t>(kLogHeaderBytes);
+  const std::uint8_t* channel = Peek(channel_at, channel_bytes);
   return channel != nullptr && std::all_of(channel, channel + channel_bytes, [](std::uint8_t c) {
            return c >= 0x20 && c < 0x7f;
          });
@@ -93,7 +94,8 @@ std::int64_t LogReader::FindHeader(std::int64_t from, std::int64_t to) {
   constexpr std::uint8_t kFirst = kLogMagic >> 24;
   while (from < to) {
     // A stretch that is in the window anyway, or can be brought into it, but never beyond `to`.
-    const auto stretch = static_cast<std::size_t>(std::min<std::int64_t>(to - from, kReadBytes / 2));
+    const auto left = static_cast<std::size_t>(to - from);
+    const std::size_t stretch = std::min(left, kReadBytes / 2);
     const std::uint8_t* bytes = Peek(from, stretch);
     if (bytes == nullptr) return to;
     const std::uint8_t* hit = std::find(bytes, bytes + stretch, kFirst);

@@ -7,7 +7,7 @@ namespace seam {
 
 std::string ChannelName(const std::string& room, const std::string& kind, int peer) {
   if (!IsName(room)) {
-    throw OperatorError("room \"" + room + "\": a room's name is 1..32 characters of [A-Za-z0-9_-]");
+    throw OperatorError("room \"" + room + "\": a name is 1..32 characters of [A-Za-z0-9_-]");
   }
   SEAM_ASSERT(IsName(kind));
   std::string name = "SEAM." + room + "." + kind;

@@ -225,7 +225,8 @@ void RecordingBuilder::DropStrayTicks() {
   std::sort(ticks.begin(), ticks.end());
   std::size_t best = 0, best_size = 0;
   for (std::size_t begin = 0, end = 0; begin < ticks.size(); begin = end) {
-    for (end = begin + 1; end < ticks.size() && ticks[end] - ticks[end - 1] <= kTickPauseMax;) ++end;
+    end = begin + 1;
+    while (end < ticks.size() && ticks[end] - ticks[end - 1] <= kTickPauseMax) ++end;
     if (end - begin > best_size) {
       best = begin;
       best_size = end - begin;
