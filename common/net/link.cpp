@@ -1,7 +1,6 @@
 #include "common/net/link.h"
 
 #include <algorithm>
-#include <array>
 #include <deque>
 #include <map>
 #include <vector>
@@ -40,7 +39,6 @@ struct Outgoing {
 
 /// What a datagram carried.
 struct SentRecord {
-  std::int64_t sequence = -1;
   std::int64_t sent_us = 0;
   bool acked = false;
   std::vector<std::int64_t> ids;
@@ -61,7 +59,7 @@ struct Link::Impl {
   std::deque<Bytes> unreliable;
   std::deque<Outgoing> reliable;             // the first kReliableWindow of them are the window
   std::int64_t next_id = 0;
-  std::array<SentRecord, kSentRecords> sent;
+  std::deque<SentRecord> sent;               // of successive sequence numbers up to the newest
   std::int64_t srtt_us = -1;
   bool ever_acked = false;
 
@@ -118,8 +116,8 @@ struct Link::Impl {
       header.ack = static_cast<std::uint16_t>(ack);
       header.ack_bits = window.BitsBefore(ack);
     }
-    SentRecord& record = sent[static_cast<std::size_t>(sequence) % kSentRecords];
-    record = {sequence, packing.now_us, false, std::move(packing.ids)};
+    if (sent.size() >= kSentRecords) sent.pop_front();
+    sent.push_back({packing.now_us, false, std::move(packing.ids)});
     packing.send(packing.writer.Finish(header));
     ++packing.datagrams;
     packing.writer = DatagramWriter();
@@ -171,9 +169,10 @@ struct Link::Impl {
   /// Datagram `number` has arrived. Karn's rule (never to time what was sent twice) holds by
   /// itself: a repeated message travels in a new datagram with a number of its own.
   void Acknowledge(std::int64_t number, std::int64_t now_us, bool sample) {
-    if (number < 1) return;
-    SentRecord& record = sent[static_cast<std::size_t>(number) % kSentRecords];
-    if (record.sequence != number || record.acked) return;
+    const auto age = static_cast<std::size_t>(sequence - number);
+    if (age >= sent.size()) return;          // forgotten
+    SentRecord& record = sent[sent.size() - 1 - age];
+    if (record.acked) return;
     record.acked = ever_acked = true;
     if (sample) SampleRtt(now_us - record.sent_us);
     for (const std::int64_t id : record.ids) {
