@@ -189,8 +189,7 @@ std::int32_t Playback::RoundTripUs(int peer, double tick) const {
 
 void Playback::MeasureTick(std::int64_t tick) {
   if (!oracle_) return;
-  Recording now;
-  now.room = recording_->room;
+  Recording now;   // without the scene's text: nothing but poses is measured here
   now.first_tick = now.last_tick = tick;
   for (const auto& [peer, views] : recording_->views) {
     const auto view = views.find(tick);
