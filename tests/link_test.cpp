@@ -246,7 +246,7 @@ TEST(Link, AnswersReliableMessagesAtTheNextFlush) {
 
 TEST(Link, RefusesReliableMessagesWhenThePeerIsGone) {
   Link link(kSession);
-  for (int i = 0; i < 4096; ++i) ASSERT_TRUE(link.SendReliable(Text("x")));
+  for (int i = 0; i < 4096; ++i) ASSERT_TRUE(link.SendReliable(Bytes(1000, 'x')));
   EXPECT_FALSE(link.SendReliable(Text("x")));
   std::size_t most = 0;
   for (std::int64_t now_us = 0; now_us < 5'000'000; now_us += kTickUs) {
@@ -458,6 +458,10 @@ TEST(SequenceWindow, KnowsWhatArrivedAndWhatShareDidNot) {
   EXPECT_EQ(window.newest(), 19);
   EXPECT_EQ(window.BitsBefore(19), 0b111100000u);
   EXPECT_EQ(window.loss_ppm(), 500'000);
+  window.Insert(8);                      // late, and before the first that came
+  EXPECT_EQ(window.loss_ppm(), 500'000);
+  window.Insert(9);
+  EXPECT_EQ(window.loss_ppm(), 5 * 1'000'000 / 12);
   window.Insert(19 + 1000);
   EXPECT_EQ(window.BitsBefore(1019), 0u);
   EXPECT_FALSE(window.IsNew(19));        // too old to know
