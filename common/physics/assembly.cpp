@@ -1,125 +1,146 @@
 #include "common/physics/assembly.h"
 
 #include <algorithm>
+#include <map>
 #include <numeric>
 
 #include "common/base/bytes.h"
+#include "common/physics/mass.h"
 
 namespace seam {
 namespace {
 
-/// Union-find over 0..n-1.
-class Groups {
+/// Disjoint sets of 0..count-1; a set's name is its lowest member.
+class Sets {
  public:
-  explicit Groups(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0); }
+  explicit Sets(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0);
+  }
   int Find(int i) {
-    while (parent_[static_cast<std::size_t>(i)] != i) i = parent_[static_cast<std::size_t>(i)];
+    while (At(i) != i) i = At(i) = At(At(i));
     return i;
   }
-  void Join(int a, int b) {
-    const int ra = Find(a);
-    const int rb = Find(b);
-    parent_[static_cast<std::size_t>(std::max(ra, rb))] = std::min(ra, rb);
+  void Unite(int a, int b) {
+    a = Find(a);
+    b = Find(b);
+    At(std::max(a, b)) = std::min(a, b);
   }
 
  private:
+  int& At(int i) { return parent_[static_cast<std::size_t>(i)]; }
   std::vector<int> parent_;
 };
 
-}  // namespace
-
-float PartMass(const Part& part) {
-  double area = 0;
-  switch (part.kind) {
-    case ShapeKind::kBox: area = static_cast<double>(part.size.x()) * part.size.y(); break;
-    case ShapeKind::kCircle: area = 3.14159265358979 * part.radius * part.radius; break;
-    case ShapeKind::kPolygon:
-      for (std::size_t i = 0; i < part.points.size(); ++i) {
-        const Vec2& p = part.points[i];
-        const Vec2& q = part.points[(i + 1) % part.points.size()];
-        area += 0.5 * (static_cast<double>(p.x()) * q.y() - static_cast<double>(q.x()) * p.y());
-      }
-      area = std::abs(area);
-      break;
-    case ShapeKind::kChain: break;
+std::vector<Assembly> WeldParts(const Scene& scene) {
+  Sets sets(scene.parts.size());
+  for (const Joint& joint : scene.joints) {
+    if (joint.kind == JointKind::kWeld) sets.Unite(joint.a, joint.b);
   }
-  return static_cast<float>(area * part.material.density);
+  std::map<int, Assembly> welded;
+  for (const Part& part : scene.parts) {
+    Assembly& assembly = welded[sets.Find(part.id)];
+    const bool heavier = assembly.parts.empty() ||
+                         PartMass(part) >
+                             PartMass(scene.parts[static_cast<std::size_t>(assembly.id)]);
+    if (heavier) assembly.id = part.id;
+    assembly.anchored = assembly.anchored || part.anchored;
+    assembly.parts.push_back(part.id);
+  }
+  std::vector<Assembly> assemblies;
+  for (auto& [name, assembly] : welded) assemblies.push_back(std::move(assembly));
+  std::sort(assemblies.begin(), assemblies.end(),
+            [](const Assembly& x, const Assembly& y) { return x.id < y.id; });
+  return assemblies;
 }
 
-Composition Compose(const Scene& scene) {
-  Composition out;
-  const std::size_t count = scene.parts.size();
-  Groups welded(count);
-  for (const Joint& j : scene.joints) {
-    if (j.kind == JointKind::kWeld) welded.Join(j.a, j.b);
+int OwnerOf(const Scene& scene, const Composition& composition, const Mechanism& mechanism) {
+  std::vector<PartId> parts;
+  for (const int assembly : mechanism.assemblies) {
+    const auto& members = composition.assemblies[static_cast<std::size_t>(assembly)].parts;
+    parts.insert(parts.end(), members.begin(), members.end());
   }
-  std::vector<std::vector<PartId>> groups(count);
-  for (std::size_t i = 0; i < count; ++i) {
-    groups[static_cast<std::size_t>(welded.Find(static_cast<int>(i)))].push_back(
-        static_cast<PartId>(i));
+  std::sort(parts.begin(), parts.end());
+  for (const PartId part : parts) {
+    const int owner = scene.parts[static_cast<std::size_t>(part)].owner;
+    if (owner >= 0) return owner;
   }
-  for (const std::vector<PartId>& parts : groups) {
-    if (parts.empty()) continue;
-    Assembly a;
-    a.parts = parts;
-    a.id = parts.front();
-    for (PartId p : parts) {
-      const Part& part = scene.parts[static_cast<std::size_t>(p)];
-      a.anchored = a.anchored || part.anchored;
-      if (PartMass(part) > PartMass(scene.parts[static_cast<std::size_t>(a.id)])) a.id = p;
+  return -1;
+}
+
+void JoinAssemblies(const Scene& scene, Composition* composition) {
+  std::vector<Assembly>& assemblies = composition->assemblies;
+  Sets sets(assemblies.size());
+  for (const Joint& joint : scene.joints) {
+    const int a = composition->assembly_of_part[static_cast<std::size_t>(joint.a)];
+    const int b = composition->assembly_of_part[static_cast<std::size_t>(joint.b)];
+    const bool both_move = !assemblies[static_cast<std::size_t>(a)].anchored &&
+                           !assemblies[static_cast<std::size_t>(b)].anchored;
+    if (both_move) sets.Unite(a, b);
+  }
+  // A set's name is its lowest index, and indices ascend with ids: mechanisms come out ascending.
+  std::map<int, int> mechanism_of_set;
+  for (std::size_t i = 0; i < assemblies.size(); ++i) {
+    if (assemblies[i].anchored) continue;
+    const int set = sets.Find(static_cast<int>(i));
+    const auto [found, added] =
+        mechanism_of_set.emplace(set, static_cast<int>(composition->mechanisms.size()));
+    if (added) {
+      composition->mechanisms.push_back({});
+      composition->mechanisms.back().id = assemblies[i].id;
     }
-    out.assemblies.push_back(a);
-  }
-  std::sort(out.assemblies.begin(), out.assemblies.end(),
-            [](const Assembly& a, const Assembly& b) { return a.id < b.id; });
-  out.assembly_of_part.assign(count, -1);
-  for (std::size_t i = 0; i < out.assemblies.size(); ++i) {
-    for (PartId p : out.assemblies[i].parts) {
-      out.assembly_of_part[static_cast<std::size_t>(p)] = static_cast<int>(i);
-    }
-  }
-  Groups jointed(out.assemblies.size());
-  for (const Joint& j : scene.joints) {
-    if (j.kind == JointKind::kWeld) continue;
-    const int a = out.assembly_of_part[static_cast<std::size_t>(j.a)];
-    const int b = out.assembly_of_part[static_cast<std::size_t>(j.b)];
-    if (out.assemblies[static_cast<std::size_t>(a)].anchored) continue;
-    if (out.assemblies[static_cast<std::size_t>(b)].anchored) continue;
-    jointed.Join(a, b);
-  }
-  std::vector<int> mechanism_of(out.assemblies.size(), -1);
-  for (std::size_t i = 0; i < out.assemblies.size(); ++i) {
-    if (out.assemblies[i].anchored) continue;
-    const auto lead = static_cast<std::size_t>(jointed.Find(static_cast<int>(i)));
-    if (mechanism_of[lead] < 0) {
-      mechanism_of[lead] = static_cast<int>(out.mechanisms.size());
-      out.mechanisms.emplace_back();
-      out.mechanisms.back().id = out.assemblies[i].id;
-    }
-    out.assemblies[i].mechanism = mechanism_of[lead];
-    out.mechanisms[static_cast<std::size_t>(mechanism_of[lead])].assemblies.push_back(
+    assemblies[i].mechanism = found->second;
+    composition->mechanisms[static_cast<std::size_t>(found->second)].assemblies.push_back(
         static_cast<int>(i));
   }
-  for (Mechanism& m : out.mechanisms) {
-    PartId lowest = -1;
-    for (int a : m.assemblies) {
-      for (PartId p : out.assemblies[static_cast<std::size_t>(a)].parts) {
-        const int owner = scene.parts[static_cast<std::size_t>(p)].owner;
-        if (owner >= 0 && (lowest < 0 || p < lowest)) {
-          lowest = p;
-          m.owner = owner;
-        }
-      }
+  for (Mechanism& mechanism : composition->mechanisms) {
+    mechanism.owner = OwnerOf(scene, *composition, mechanism);
+  }
+}
+
+std::uint64_t HashOf(const Composition& composition) {
+  std::uint64_t hash = Fnv1a(nullptr, 0);
+  const auto add = [&hash](std::int32_t value) {
+    // By bytes, lowest first: the same on every machine.
+    for (int shift = 0; shift < 32; shift += 8) {
+      const auto byte = static_cast<std::uint8_t>(static_cast<std::uint32_t>(value) >> shift);
+      hash = Fnv1a(&byte, 1, hash);
+    }
+  };
+  add(static_cast<std::int32_t>(composition.assemblies.size()));
+  for (const Assembly& assembly : composition.assemblies) {
+    add(assembly.id);
+    add(assembly.anchored ? 1 : 0);
+    add(assembly.mechanism);
+    add(static_cast<std::int32_t>(assembly.parts.size()));
+    for (const PartId part : assembly.parts) add(part);
+  }
+  add(static_cast<std::int32_t>(composition.mechanisms.size()));
+  for (const Mechanism& mechanism : composition.mechanisms) {
+    add(mechanism.id);
+    add(mechanism.owner);
+    add(static_cast<std::int32_t>(mechanism.assemblies.size()));
+    for (const int assembly : mechanism.assemblies) add(assembly);
+  }
+  for (const int assembly : composition.assembly_of_part) add(assembly);
+  return hash;
+}
+
+}  // namespace
+
+float PartMass(const Part& part) { return static_cast<float>(PartProperties(part).mass); }
+
+Composition Compose(const Scene& scene) {
+  Composition composition;
+  composition.assemblies = WeldParts(scene);
+  composition.assembly_of_part.assign(scene.parts.size(), -1);
+  for (std::size_t i = 0; i < composition.assemblies.size(); ++i) {
+    for (const PartId part : composition.assemblies[i].parts) {
+      composition.assembly_of_part[static_cast<std::size_t>(part)] = static_cast<int>(i);
     }
   }
-  std::uint64_t hash = Fnv1a("seam", 4);
-  for (const Assembly& a : out.assemblies) {
-    hash = Fnv1a(&a.id, sizeof a.id, hash);
-    hash = Fnv1a(&a.mechanism, sizeof a.mechanism, hash);
-    hash = Fnv1a(a.parts.data(), a.parts.size() * sizeof(PartId), hash);
-  }
-  out.hash = hash;
-  return out;
+  JoinAssemblies(scene, &composition);
+  composition.hash = HashOf(composition);
+  return composition;
 }
 
 }  // namespace seam

@@ -10,7 +10,7 @@
 namespace seam {
 namespace {
 
-/// Edit distance (Levenshtein 1966): insertions, deletions and changes that turn one into the other.
+/// Edit distance (Levenshtein 1966): insertions, deletions and changes from one to the other.
 std::size_t EditDistance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;

@@ -1,6 +1,6 @@
 #pragma once
 /// Typed, range-checked reading of one TOML table. Every mistake throws OperatorError
-/// "file:line: what: …" that says what was expected.
+/// "file:line: what: ..." that says what was expected.
 
 #include <initializer_list>
 #include <optional>
@@ -45,7 +45,7 @@ class SceneReader {
   std::string Name(const char* key) const;
   /// [x, y], both in the range.
   Vec2 Vector(const char* key, Range range, std::optional<Vec2> fallback = {}) const;
-  /// [[x, y], …], all in the range; empty when absent.
+  /// [[x, y], ...], all in the range; empty when absent.
   std::vector<Vec2> Points(const char* key, Range range, std::size_t count_max) const;
   /// ["a", "b"] or "a"; empty when absent.
   std::vector<std::string> Texts(const char* key) const;

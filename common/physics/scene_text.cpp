@@ -64,7 +64,9 @@ void CheckNesting(const std::string& text, const std::string& file) {
       if (c == quote) quote = 0;
       if (i < text.size() && text[i] == '\n') --i;
     } else if (c == '"' || c == '\'') {
-      if (text.compare(i, 3, 3, c) == 0) Fail(file, line, "multi-line text is not allowed");
+      if (text.compare(i, 3, std::string(3, c)) == 0) {
+        Fail(file, line, "multi-line text is not allowed");
+      }
       quote = c;
     } else if (c == '#') {
       comment = true;

@@ -25,7 +25,7 @@ struct TomlNode {
   const TomlNode* Find(const std::string& key) const;
 };
 
-/// "text", "a number", …: for messages.
+/// "text", "a number": for messages.
 const char* KindName(TomlNode::Kind kind);
 
 /// Requires a text that passed CheckSceneText. Throws OperatorError "file:line: what".

@@ -1,0 +1,128 @@
+#include <cmath>
+
+#include "common/physics/scene_draft.h"
+#include "common/physics/scene_limits.h"
+
+namespace seam {
+namespace {
+
+JointKind ReadKind(const SceneReader& r) {
+  const std::string kind = r.Text("kind");
+  if (kind == "weld") return JointKind::kWeld;
+  if (kind == "revolute") return JointKind::kRevolute;
+  if (kind == "wheel") return JointKind::kWheel;
+  if (kind == "distance") return JointKind::kDistance;
+  r.FailAt("kind", "kind must be weld, revolute, wheel or distance");
+}
+
+/// Complains about a key that this kind of joint would ignore.
+void Refuse(const SceneReader& r, std::initializer_list<const char*> keys, const char* kind) {
+  for (const char* key : keys) {
+    if (r.Has(key)) r.FailAt(key, std::string("a ") + kind + " joint has no " + key);
+  }
+}
+
+void ReadLimits(const SceneReader& r, Joint* joint) {
+  if (!r.Has("limits")) return;
+  const Vec2 limits = r.Vector("limits", {-100, 100});
+  joint->limited = true;
+  joint->lower = limits.x();
+  joint->upper = limits.y();
+  if (joint->lower > joint->upper) r.FailAt("limits", "the lower limit is above the upper");
+}
+
+void ReadAxis(const SceneReader& r, Joint* joint) {
+  const Eigen::Vector2d axis = r.Vector("axis", {-1000, 1000}, Vec2(0, 1)).cast<double>();
+  const double length = std::sqrt(axis.x() * axis.x() + axis.y() * axis.y());
+  if (length < 1e-3) r.FailAt("axis", "axis is too short to have a direction");
+  joint->axis = (axis / length).cast<float>();
+}
+
+void ReadSpring(const SceneReader& r, Joint* joint) {
+  joint->frequency_hz = r.Number("frequency", {0, 60}, 0.0f);
+  joint->damping_ratio = r.Number("damping_ratio", {0, 10}, joint->damping_ratio);
+}
+
+void ReadMotor(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
+  const TomlNode* table = r.Table("motor");
+  if (table == nullptr) return;
+  const SceneReader m(*table, draft.file, r.what() + ": motor", {"player", "speed", "torque"});
+  joint->motor_speed = m.Number("speed", {-1000, 1000});
+  joint->motor_torque = m.Number("torque", {1e-6, 1e7});
+  if (m.Has("player")) joint->motor_player = FindPlayer(m, "player", m.Text("player"), draft);
+}
+
+/// Where the ends are: at the parts' positions unless said otherwise.
+void ReadDistance(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
+  const auto position = [&](PartId part) {
+    return draft.scene.parts[static_cast<std::size_t>(part)].position;
+  };
+  joint->anchor_a = r.Vector("anchor_a", kCoordinate, position(joint->a));
+  joint->anchor_b = r.Vector("anchor_b", kCoordinate, position(joint->b));
+  ReadSpring(r, joint);
+  if (r.Has("length")) {
+    joint->length = r.Number("length", {kEdgeMin, 10000});
+  } else if ((joint->anchor_b - joint->anchor_a).norm() < kEdgeMin) {
+    r.Fail("the ends are closer than " + Decimal(kEdgeMin) + " m: give it a length");
+  }
+}
+
+void ReadJoint(const TomlNode& node, SceneDraft* draft) {
+  Joint joint;
+  joint.line = node.line;
+  SceneReader r(node, draft->file, "joint",
+                {"name", "kind", "a", "b", "anchor", "anchor_a", "anchor_b", "axis", "frequency",
+                 "damping_ratio", "length", "limits", "collide", "motor"});
+  joint.name = r.Name("name");
+  r.Rename("joint '" + joint.name + "'");
+  for (const Joint& other : draft->scene.joints) {
+    if (other.name == joint.name) r.FailAt("name", "there is another joint of this name");
+  }
+  joint.kind = ReadKind(r);
+  joint.a = FindPart(r, "a", *draft);
+  joint.b = FindPart(r, "b", *draft);
+  if (joint.a == joint.b) r.Fail("joins a part with itself");
+  joint.collide = r.Flag("collide", false);
+
+  const Vec2 centre = draft->scene.parts[static_cast<std::size_t>(joint.b)].position;
+  if (joint.kind != JointKind::kDistance) {
+    joint.anchor_a = joint.anchor_b = r.Vector("anchor", kCoordinate, centre);
+    Refuse(r, {"anchor_a", "anchor_b", "length"},
+           joint.kind == JointKind::kWeld       ? "weld"
+           : joint.kind == JointKind::kRevolute ? "revolute"
+                                                : "wheel");
+  }
+  switch (joint.kind) {
+    case JointKind::kWeld:
+      Refuse(r, {"anchor", "axis", "frequency", "damping_ratio", "limits", "motor", "collide"},
+             "weld");
+      break;
+    case JointKind::kRevolute:
+      Refuse(r, {"axis", "frequency", "damping_ratio"}, "revolute");
+      ReadLimits(r, &joint);
+      ReadMotor(r, *draft, &joint);
+      break;
+    case JointKind::kWheel:
+      Refuse(r, {"limits"}, "wheel");
+      ReadAxis(r, &joint);
+      ReadSpring(r, &joint);
+      ReadMotor(r, *draft, &joint);
+      break;
+    case JointKind::kDistance:
+      Refuse(r, {"anchor", "axis", "limits", "motor"}, "distance");
+      ReadDistance(r, *draft, &joint);
+      break;
+  }
+  if (draft->scene.joints.size() == kJointsMax) {
+    r.Fail("a scene may have at most " + std::to_string(kJointsMax) + " joints");
+  }
+  draft->scene.joints.push_back(joint);
+}
+
+}  // namespace
+
+void ReadJoints(const SceneReader& root, SceneDraft* draft) {
+  for (const TomlNode* node : root.Tables("joint")) ReadJoint(*node, draft);
+}
+
+}  // namespace seam

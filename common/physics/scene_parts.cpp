@@ -1,0 +1,155 @@
+#include <cmath>
+
+#include "common/physics/scene_draft.h"
+#include "common/physics/scene_limits.h"
+
+namespace seam {
+namespace {
+
+/// How often a part is copied and where each copy goes.
+struct Repeat {
+  int columns = 1, rows = 1;
+  bool grid = false;                ///< names get two numbers
+  Vec2 step{0, 0};                  ///< m; grid: x per column, y per row; else per copy
+};
+
+Repeat ReadRepeat(const SceneReader& part, const std::string& file) {
+  Repeat repeat;
+  const TomlNode* table = part.Table("repeat");
+  if (table == nullptr) return repeat;
+  const SceneReader r(*table, file, part.what() + ": repeat", {"count", "step"});
+  const Range count{1, static_cast<double>(kPartsMax)};
+  const TomlNode* node = table->Find("count");
+  if (node != nullptr && node->kind == TomlNode::Kind::kArray) {
+    repeat.grid = true;
+    const Vec2 pair = r.Vector("count", count);
+    repeat.columns = static_cast<int>(pair.x());
+    repeat.rows = static_cast<int>(pair.y());
+    if (pair != Vec2(static_cast<float>(repeat.columns), static_cast<float>(repeat.rows))) {
+      r.FailAt("count", "count must be integers");
+    }
+  } else {
+    repeat.columns = r.Integer("count", count);
+  }
+  repeat.step = r.Vector("step", {-1000, 1000});
+  return repeat;
+}
+
+void ReadShape(const SceneReader& r, float size_max, Part* part) {
+  const int shapes = r.Has("box") + r.Has("circle") + r.Has("polygon") + r.Has("chain");
+  if (shapes != 1) r.Fail("needs exactly one of box, circle, polygon and chain");
+  if (r.Has("box")) {
+    part->kind = ShapeKind::kBox;
+    part->size = r.Vector("box", {kSizeMin, size_max});
+  } else if (r.Has("circle")) {
+    part->kind = ShapeKind::kCircle;
+    part->radius = r.Number("circle", {kSizeMin / 2, size_max / 2});
+  } else if (r.Has("polygon")) {
+    part->kind = ShapeKind::kPolygon;
+    part->points = r.Points("polygon", {-size_max, size_max}, kPolygonPointsMax);
+    const std::string complaint = PolygonComplaint(part->points, size_max);
+    if (!complaint.empty()) r.FailAt("polygon", complaint);
+  } else {
+    part->kind = ShapeKind::kChain;
+    part->anchored = true;
+    part->points = r.Points("chain", kCoordinate, kChainPointsMax);
+    const std::string complaint = ChainComplaint(part->points);
+    if (!complaint.empty()) r.FailAt("chain", complaint);
+  }
+}
+
+void ReadMotion(const SceneReader& r, float speed_limit, Part* part) {
+  if (!part->anchored) part->anchored = r.Flag("anchored", false);
+  else if (!r.Flag("anchored", true)) r.FailAt("anchored", "a chain is always anchored");
+  part->bullet = r.Flag("bullet", false);
+  part->velocity = r.Vector("velocity", {-speed_limit, speed_limit}, Vec2(0, 0));
+  part->spin = r.Number("spin", {-kSpinMax, kSpinMax}, 0.0f);
+  if (part->velocity.norm() > speed_limit) {
+    r.FailAt("velocity", "velocity is above the speed_limit of " + Decimal(speed_limit) + " m/s");
+  }
+  if (part->anchored && (r.Has("velocity") || r.Has("spin"))) {
+    r.Fail("an anchored part cannot have velocity or spin");
+  }
+}
+
+/// Who owns the copies, in turn; -1 for nobody.
+std::vector<int> ReadOwners(const SceneReader& r, const SceneDraft& draft, bool anchored) {
+  if (r.Has("owner") && r.Has("owners")) r.Fail("has both owner and owners");
+  const char* key = r.Has("owners") ? "owners" : "owner";
+  std::vector<int> owners;
+  for (const std::string& name : r.Texts(key)) {
+    owners.push_back(FindPlayer(r, key, name, draft));
+  }
+  if (r.Has("owner") && owners.size() != 1) r.FailAt("owner", "owner must be one player's name");
+  if (r.Has("owners") && owners.empty()) r.FailAt("owners", "owners is empty");
+  if (anchored && !owners.empty()) r.FailAt(key, "an anchored part cannot have an owner");
+  if (owners.empty()) owners.push_back(-1);
+  return owners;
+}
+
+void Place(const SceneReader& r, Part part, const std::string& name, SceneDraft* draft) {
+  Scene& scene = draft->scene;
+  const bool inside = (part.position.array() >= scene.bounds_min.array()).all() &&
+                      (part.position.array() <= scene.bounds_max.array()).all();
+  if (!part.anchored && !inside) r.FailAt("position", "'" + name + "' lies outside the bounds");
+  if (scene.parts.size() == kPartsMax) {
+    r.Fail("a scene may have at most " + std::to_string(kPartsMax) + " parts");
+  }
+  part.id = static_cast<PartId>(scene.parts.size());
+  part.name = name;
+  draft->part_of_name[name] = part.id;
+  scene.parts.push_back(std::move(part));
+}
+
+void ReadPart(const TomlNode& node, SceneDraft* draft) {
+  SceneReader r(node, draft->file, "part",
+                {"name", "box", "circle", "polygon", "chain", "position", "angle", "density",
+                 "friction", "restitution", "anchored", "bullet", "group", "velocity", "spin",
+                 "owner", "owners", "repeat"});
+  const std::string name = r.Name("name");
+  r.Rename("part '" + name + "'");
+  if (draft->part_of_name.count(name) != 0 || draft->group_of_name.count(name) != 0) {
+    r.FailAt("name", "there is another part of this name");
+  }
+  Part part;
+  part.line = r.line();
+  ReadShape(r, draft->size_max, &part);
+  part.position = r.Vector("position", kCoordinate, Vec2(0, 0));
+  part.angle = r.Number("angle", {-100, 100}, 0.0f);
+  part.material.density = r.Number("density", kDensity, part.material.density);
+  part.material.friction = r.Number("friction", {0, 1}, part.material.friction);
+  part.material.restitution = r.Number("restitution", {0, 1}, part.material.restitution);
+  part.group = r.Integer("group", {-1000, 1000}, 0);
+  ReadMotion(r, draft->scene.speed_limit, &part);
+  const std::vector<int> owners = ReadOwners(r, *draft, part.anchored);
+  const Repeat repeat = ReadRepeat(r, draft->file);
+
+  if (!r.Has("repeat")) {
+    if (owners.size() != 1) r.FailAt("owners", "several owners need repeat");
+    part.owner = owners[0];
+    Place(r, part, name, draft);
+    return;
+  }
+  const Vec2 first = part.position;
+  std::vector<PartId>& group = draft->group_of_name[name];
+  for (int column = 0; column < repeat.columns; ++column) {
+    for (int row = 0; row < repeat.rows; ++row) {
+      const float across = static_cast<float>(column);
+      const float up = static_cast<float>(repeat.grid ? row : column);
+      part.position = first + Vec2(across * repeat.step.x(), up * repeat.step.y());
+      part.owner = owners[group.size() % owners.size()];
+      group.push_back(static_cast<PartId>(draft->scene.parts.size()));
+      Place(r, part, name + "." + std::to_string(column) +
+                         (repeat.grid ? "." + std::to_string(row) : ""), draft);
+    }
+  }
+}
+
+}  // namespace
+
+void ReadParts(const SceneReader& root, SceneDraft* draft) {
+  for (const TomlNode* node : root.Tables("part")) ReadPart(*node, draft);
+  if (draft->scene.parts.empty()) root.Fail("there is no [[part]]");
+}
+
+}  // namespace seam
