@@ -114,6 +114,8 @@ void World::Impl::AddFixture(b2Body* body, const Part& root, const Part& part) {
       def.shape = &polygon;
       break;
     case ShapeKind::kChain: {
+      // The scene's open side is on the left of the way along the points, Box2D's on the right.
+      std::reverse(points.begin(), points.end());
       const b2Vec2 before = points[0] - (points[1] - points[0]);
       const b2Vec2 after = points.back() + (points.back() - points[points.size() - 2]);
       chain.CreateChain(points.data(), static_cast<int32>(points.size()), before, after);
