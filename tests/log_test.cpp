@@ -6,6 +6,7 @@
 
 #include "common/base/check.h"
 #include "common/base/random.h"
+#include "common/codec/codec.h"
 #include "tests/count_allocations.h"
 #include "tests/temporary_file.h"
 
@@ -88,6 +89,31 @@ TEST(Log, BytesDependOnTheArgumentsAlone) {
   const Bytes expected = {0xed, 0xa1, 0xda, 0x01, 0, 0, 0, 0, 0, 0, 0, 0, 1,   2,   3,  4,
                           5,    6,    7,    8,    0, 0, 0, 2, 0, 0, 0, 1, 'A', 'B', 0xff};
   EXPECT_EQ(WriteLog({one}), expected);
+}
+
+TEST(Log, WritesTheExampleOfTheDocumentation) {
+  Event event;
+  event.utime = 5;
+  event.sequence = 1;
+  event.peer = 2;
+  event.tick = 3;
+  event.text = "hi";
+  const Bytes log = WriteLog({{0, 5, ChannelName("r", "event", 2), Encode(event)}});
+  std::string hex;
+  for (const std::uint8_t byte : log) {
+    for (const int digit : {byte >> 4, byte & 15}) hex += "0123456789abcdef"[digit];
+  }
+  // docs/recordings.md, "The file": change both or neither.
+  EXPECT_EQ(hex,
+            "eda1da010000000000000000"
+            "0000000000000005"
+            "0000000e00000027"
+            "5345414d2e722e6576656e742e32"
+            "5017292b3aa2f237"
+            "0000000000000005"
+            "0000000100000002"
+            "0000000000000003"
+            "00000003686900");
 }
 
 TEST(Log, RefusesToOverwriteUnlessForced) {
