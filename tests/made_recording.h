@@ -1,0 +1,73 @@
+#pragma once
+/// Recordings made by hand: one moving body and one that stands, shown by peers who see it right.
+
+#include <cstdint>
+#include <functional>
+#include <utility>
+
+#include "common/measure/measure.h"
+
+namespace seam {
+
+constexpr int kHz = 64;   // ticks are exact in binary
+constexpr double kH = 1.0 / kHz;
+
+/// A body as a function of the tick.
+using Path = std::function<BodyState(std::int64_t)>;
+
+/// A state by its numbers: m, m, m/s, m/s, rad.
+inline BodyState State(double x, double y, double vx = 0, double vy = 0, double angle = 0) {
+  BodyState state;
+  state.position = Vec2(static_cast<float>(x), static_cast<float>(y));
+  state.velocity = Vec2(static_cast<float>(vx), static_cast<float>(vy));
+  state.angle = static_cast<float>(angle);
+  return state;
+}
+
+/// Moves along x at `speed`.
+inline Path Moving(double speed) {
+  return [speed](std::int64_t tick) {
+    return State(speed * kH * static_cast<double>(tick), 1, speed, 0);
+  };
+}
+
+/// A view of bodies 3 and 7, of which 7 stands still; peer 0 has authority unless told otherwise.
+inline View MakeView(int peer, std::int64_t tick, const BodyState& body) {
+  View view;
+  view.peer = peer;
+  view.tick = tick;
+  for (const auto& [id, state] : {std::pair{3, body}, std::pair{7, State(-5, 0)}}) {
+    view.id.push_back(static_cast<std::int16_t>(id));
+    view.role.push_back(peer == 0 ? kRoleAuthority : kRoleSecondary);
+    view.authority.push_back(0);
+    view.x.push_back(state.position.x());
+    view.y.push_back(state.position.y());
+    view.angle.push_back(state.angle);
+    view.vx.push_back(state.velocity.x());
+    view.vy.push_back(state.velocity.y());
+    view.spin.push_back(state.spin);
+  }
+  return view;
+}
+
+/// Views of `peers` peers that all show `motion`, from tick 0 to `last_tick`.
+inline Recording MakeRecording(int peers, std::int64_t last_tick, const Path& motion) {
+  Recording recording;
+  recording.room.tick_hz = kHz;
+  recording.room.mode = "oracle";
+  for (int peer = 0; peer < peers; ++peer) {
+    for (std::int64_t tick = 0; tick <= last_tick; ++tick) {
+      recording.views[peer][tick] = MakeView(peer, tick, motion(tick));
+    }
+  }
+  recording.first_tick = 0;
+  recording.last_tick = last_tick;
+  return recording;
+}
+
+/// The truth of `motion`.
+inline Oracle MakeOracle(std::int64_t last_tick, const Path& motion) {
+  return OracleFromRecording(MakeRecording(1, last_tick, motion));
+}
+
+}  // namespace seam
