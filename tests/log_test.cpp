@@ -4,6 +4,8 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <filesystem>
+
 #include "common/base/check.h"
 #include "common/base/random.h"
 #include "common/codec/codec.h"
@@ -135,6 +137,10 @@ TEST(Log, CountsWhatItCannotWrite) {
   EXPECT_EQ(writer.failures(), 3);
   writer.Flush();
   EXPECT_EQ(file.Read(), Bytes{});
+}
+
+TEST(Log, CountsWhatAFullDiskDoesNotTake) {
+  if (!std::filesystem::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full";
   LogWriter full("/dev/full", true);
   full.Publish("A", 0, Bytes{1});
   full.Flush();
