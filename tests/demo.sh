@@ -1,0 +1,117 @@
+#!/usr/bin/env bash
+# make demo: real processes over loopback UDP and the LCM bus, one session per scene and method,
+# captured by the stock lcm-logger, then drawn and measured. Usage: demo.sh OUTPUT_DIR
+# Environment: SEAM_BIN (folder of the programs), IMPAIR (network profile, default demo), SEED.
+set -euo pipefail
+
+out=${1:?usage: demo.sh OUTPUT_DIR}
+bin=${SEAM_BIN:-build/release}
+impair=${IMPAIR:-demo}
+seed=${SEED:-1}
+scenes=${SCENES:-crossing wall stack cradle}
+runs="oracle strict snap interleave compensated fade retrospect"
+
+# The LCM bus is multicast: a network namespace of our own has it without root, without the
+# network, and without disturbing other users of the bus.
+if [ -z "${SEAM_IN_NAMESPACE:-}" ]; then
+  if unshare -rn true 2>/dev/null; then
+    exec env SEAM_IN_NAMESPACE=1 unshare -rn sh -c \
+      'ip link set lo up; ip route add 224.0.0.0/4 dev lo; exec "$@"' sh bash "$0" "$@"
+  fi
+  echo "demo: no network namespace allowed here; using this machine's own multicast route" >&2
+fi
+
+mkdir -p "$out"
+rm -rf "$out"/*.lcm "$out"/*.png "$out"/*.csv "$out"/*.log "$out"/frames
+pids=()
+cleanup() { for p in "${pids[@]:-}"; do kill "$p" 2>/dev/null || true; done; }
+trap cleanup EXIT INT TERM
+began=$SECONDS
+
+# run_session SCENE RUN INDEX: starts logger, server and clients; returns at once.
+run_session() {
+  local scene=$1 run=$2 index=$3 log="$out/$1-$2" mode=buffer reconcile="" url
+  local port=$((17000 + index))
+  url="udpm://239.255.76.67:$((18000 + index))?ttl=0"
+  case $run in
+    oracle|strict|central) mode=$run ;;
+    *) reconcile="--reconcile $run" ;;
+  esac
+  lcm-logger --quiet --lcm-url="$url" "$log.lcm" >"$log-logger.log" 2>&1 &
+  local logger=$!
+  pids+=("$logger")
+  (
+    sleep 0.3
+    # shellcheck disable=SC2086
+    "$bin/seam-server" "scenes/$scene.toml" --port "$port" --bind 127.0.0.1 --mode "$mode" \
+      $reconcile --impair "$impair" --seed "$seed" --lcm-url "$url" --quiet \
+      --duration "$(sed -n 's/^duration *= *\([0-9.]*\).*/\1/p' "scenes/$scene.toml")" \
+      >"$log-server.log" 2>&1 &
+    server=$!
+    clients=()
+    for name in ann bob; do
+      "$bin/seam-client" "127.0.0.1:$port" --name "$name" --drive "$name" --lcm-url "$url" \
+        --quiet >"$log-$name.log" 2>&1 &
+      clients+=($!)
+    done
+    status=0
+    wait "$server" || status=$?
+    for c in "${clients[@]}"; do wait "$c" || status=$?; done
+    sleep 0.2
+    kill -INT "$logger" 2>/dev/null || true
+    exit "$status"
+  ) &
+  sessions+=("$!:$scene/$run")
+  pids+=("$!")
+}
+
+index=0
+failed=0
+for scene in $scenes; do
+  sessions=()
+  for run in $runs; do
+    run_session "$scene" "$run" "$index"
+    index=$((index + 1))
+  done
+  printf 'demo: %-9s %d sessions of logger + server + 2 clients, %s ...' \
+    "$scene" "${#sessions[@]}" "$impair"
+  for s in "${sessions[@]}"; do
+    if ! wait "${s%%:*}"; then
+      echo; echo "demo: session ${s#*:} failed; see $out/${s#*:}" | tr '/' '/' >&2
+      failed=1
+    fi
+  done
+  sleep 0.3
+  printf ' done at %d s\n' $((SECONDS - began))
+done
+[ "$failed" = 0 ] || exit 1
+
+csv="$out/results.csv"
+for scene in $scenes; do
+  logs=()
+  for run in $runs; do logs+=("$out/$scene-$run.lcm"); done
+  "$bin/seam-measure" --csv "$csv" --append --names "${runs// /,}" \
+    --oracle "$out/$scene-oracle.lcm" "${logs[@]}"
+done
+
+echo "demo: drawing"
+size=${SIZE:-960x540}
+for scene in $scenes; do
+  for run in $runs; do
+    "$bin/seam-render" "$out/$scene-$run.lcm" --oracle "$out/$scene-oracle.lcm" \
+      -o "$out/frames/$scene-$run" --fps 15 --size "$size"
+    "$bin/seam-render" --strobe "$out/$scene-$run.lcm" --oracle "$out/$scene-oracle.lcm" \
+      -o "$out/$scene-$run-strobe.png"
+  done
+  "$bin/seam-render" --compare "$out/$scene-strict.lcm" "$out/$scene-fade.lcm" \
+    "$out/$scene-retrospect.lcm" --oracle "$out/$scene-oracle.lcm" \
+    -o "$out/frames/$scene-compare" --fps 15 --size 1280x720
+done
+"$bin/seam-render" --strobe --compare "$out"/crossing-{oracle,strict,interleave,fade,retrospect}.lcm \
+  --oracle "$out/crossing-oracle.lcm" -o "$out/summary.png"
+echo "demo: $((SECONDS - began)) s in all"
+echo "  table     $csv"
+echo "  summary   $out/summary.png"
+echo "  strobes   $out/SCENE-RUN-strobe.png"
+echo "  frames    $out/frames/SCENE-RUN/ and $out/frames/SCENE-compare/"
+echo "  captures  $out/SCENE-RUN.lcm (as lcm-logger wrote them)"
