@@ -38,8 +38,8 @@ void DrawTrails(DrawList& list, const Viewport& viewport, const Playback& playba
                 const WorldLook& look) {
   std::vector<Moment> past;
   const double span = kTrailSeconds * playback.tick_hz();
-  for (int i = 0; i <= kTrailPoints; ++i)
-    past.push_back(playback.MomentAt(look.peer, look.tick - span * (1.0 - i / double{kTrailPoints})));
+  for (int i = kTrailPoints; i >= 0; --i)
+    past.push_back(playback.MomentAt(look.peer, look.tick - span * i / kTrailPoints));
   for (const BodyShapes& body : playback.moving()) {
     std::vector<Vec2> points;
     std::vector<Colour> colours;

@@ -1,5 +1,5 @@
 #pragma once
-/// The world as one peer shows it at a moment: ground, trails, bodies, the oracle's ghosts, impacts.
+/// The world as one peer shows it at a moment: ground, trails, bodies, ghosts, impacts.
 
 #include "render/viewport.h"
 #include "render/playback.h"
@@ -14,8 +14,9 @@ struct WorldLook {
   bool trails = true;
 };
 
-/// The viewport of a playback's scene at a tick: the scene's box, or as large a box about what it
-/// follows (the oracle's path if there is one, so that the viewport does not stutter with the view).
+/// What a playback's scene wants to be seen at a tick: the scene's box, or as large a box about the
+/// part that its camera follows (on the oracle's path if there is one, so that the camera does not
+/// stutter with the view).
 Viewport SceneViewport(const Rect& panel, const Playback& playback, int peer, double tick);
 
 /// Draws into viewport.panel and nowhere else.

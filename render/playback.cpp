@@ -160,7 +160,8 @@ std::optional<Shown> Playback::Find(const Moment& moment, PartId id) const {
   shown.role = moment.before->role[i];
   shown.authority = moment.before->authority[i];
   const std::size_t j = moment.blend > 0 ? IndexOf(*moment.after, id) : std::string::npos;
-  if (j != std::string::npos) shown.pose = Blend(shown.pose, PoseIn(*moment.after, j), moment.blend);
+  if (j != std::string::npos)
+    shown.pose = Blend(shown.pose, PoseIn(*moment.after, j), moment.blend);
   return shown;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
-/// A small session made by hand, for tests of the renderer: two carts that meet on a floor, a wheel,
-/// a stack and a rope's end, as the server and two players see them. No physics is simulated: the
-/// truth is a formula, the views are the truth some ticks late.
+/// A small session made by hand, for tests of the renderer: two carts that meet on a floor, a
+/// wheel and a stack, as the server and two players see them. No physics is simulated: the truth
+/// is a formula, the views are the truth some ticks late.
 
 #include <algorithm>
 #include <cmath>
