@@ -1,5 +1,6 @@
 #pragma once
-/// Groups a scene's parts into assemblies (welded: one body) and mechanisms (jointed: one authority).
+/// Groups a scene's parts into assemblies (welded: one body) and mechanisms (jointed: one
+/// authority).
 
 #include <vector>
 
@@ -32,7 +33,7 @@ struct Composition {
   std::uint64_t hash = 0;           ///< of all of the above
 };
 
-/// Mass of one part from its shape and density, kg.
+/// Mass of one part from its shape and density, kg; 0 for chains.
 float PartMass(const Part& part);
 
 Composition Compose(const Scene& scene);

@@ -52,13 +52,16 @@ class World {
   float dt() const;                     ///< s per tick
 
   BodyState Read(int body) const;
-  /// Sets pose and velocity. Requires finite values within the speed limits of types (asserted).
-  /// Wakes the body if `wake`; contact caches survive when the move is small.
+  /// Sets pose and velocity. Requires finite values (asserted). Wakes the body if `wake`; else a
+  /// sleeping body takes the pose and sleeps on, without velocity. Contact caches survive when the
+  /// move is small; bit-equal values change nothing.
   void Write(int body, const BodyState& state, bool wake = true);
   bool awake(int body) const;
   void SetAwake(int body, bool awake);
 
-  /// Kinematic bodies move by their velocity and feel nothing.
+  /// Kinematic bodies move by their velocity and feel nothing; theirs is the velocity of
+  /// `position`, not of the centre of mass. A change carries the motion over and drops the body's
+  /// contacts.
   void SetMotion(int body, Motion motion);
   Motion motion(int body) const;
 

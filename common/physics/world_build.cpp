@@ -1,0 +1,186 @@
+#include "common/physics/world_build.h"
+
+#include <cfloat>
+
+#include "common/base/check.h"
+
+namespace seam {
+namespace {
+
+b2Vec2 InRoot(const Part& part, const Part& root, const Vec2& point) {
+  return ToB2(ToRootFrame(part, root, point.cast<double>()).cast<float>());
+}
+
+std::vector<b2Vec2> PointsInRoot(const Part& part, const Part& root) {
+  std::vector<b2Vec2> points;
+  for (const Vec2& p : part.points) points.push_back(InRoot(part, root, p));
+  return points;
+}
+
+/// Box2D's chains collide on the right of the way along their points, the scene's on the left: so
+/// that ground is written in reading order. The ends continue straight on.
+void SetChain(const std::vector<b2Vec2>& points, b2ChainShape* chain) {
+  const std::vector<b2Vec2> p(points.rbegin(), points.rend());
+  const b2Vec2 before = p[0] - (p[1] - p[0]);
+  const b2Vec2 after = p.back() + (p.back() - p[p.size() - 2]);
+  chain->CreateChain(p.data(), static_cast<int32>(p.size()), before, after);
+}
+
+void AddFixture(const Part& part, const Part& root, b2Body* body) {
+  b2PolygonShape polygon;
+  b2CircleShape circle;
+  b2ChainShape chain;
+  b2FixtureDef def;
+  switch (part.kind) {
+    case ShapeKind::kBox:
+      polygon.SetAsBox(part.size.x() / 2, part.size.y() / 2, InRoot(part, root, {0, 0}),
+                       part.angle - root.angle);
+      def.shape = &polygon;
+      break;
+    case ShapeKind::kCircle:
+      circle.m_radius = part.radius;
+      circle.m_p = InRoot(part, root, {0, 0});
+      def.shape = &circle;
+      break;
+    case ShapeKind::kPolygon: {
+      const std::vector<b2Vec2> points = PointsInRoot(part, root);
+      polygon.Set(points.data(), static_cast<int32>(points.size()));
+      def.shape = &polygon;
+      break;
+    }
+    case ShapeKind::kChain:
+      SetChain(PointsInRoot(part, root), &chain);
+      def.shape = &chain;
+      break;
+  }
+  def.density = 0;   // The mass is set once for the body: summing it per fixture is quadratic.
+  def.friction = part.material.friction;
+  def.restitution = part.material.restitution;
+  def.filter.groupIndex = static_cast<int16>(part.group);
+  body->CreateFixture(&def);
+}
+
+b2Body* AddBody(const Scene& scene, const Assembly& assembly, b2World* world) {
+  const Part& root = scene.parts[static_cast<std::size_t>(assembly.id)];
+  b2BodyDef def;
+  def.type = assembly.anchored ? b2_staticBody : b2_dynamicBody;
+  def.position = ToB2(root.position);
+  def.angle = root.angle;
+  for (const PartId id : assembly.parts) {
+    def.bullet = def.bullet || scene.parts[static_cast<std::size_t>(id)].bullet;
+  }
+  b2Body* body = world->CreateBody(&def);
+  for (const PartId id : assembly.parts) {
+    AddFixture(scene.parts[static_cast<std::size_t>(id)], root, body);
+  }
+  return body;
+}
+
+b2MassData MassDataOf(const Scene& scene, const Assembly& assembly) {
+  const MassProperties own = AssemblyProperties(scene, assembly);
+  b2MassData data;
+  data.mass = static_cast<float>(own.mass);
+  data.center = ToB2(own.centre.cast<float>());
+  data.I = static_cast<float>(own.inertia + own.mass * own.centre.dot(own.centre));
+  return data;
+}
+
+b2Joint* AddRevolute(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
+  b2RevoluteJointDef def;
+  def.Initialize(a, b, ToB2(joint.anchor_a));
+  def.enableLimit = joint.limited;
+  def.lowerAngle = joint.lower;
+  def.upperAngle = joint.upper;
+  def.enableMotor = joint.motor_torque > 0;
+  def.maxMotorTorque = joint.motor_torque;
+  def.collideConnected = joint.collide;
+  return world->CreateJoint(&def);
+}
+
+b2Joint* AddWheel(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
+  b2WheelJointDef def;
+  def.Initialize(a, b, ToB2(joint.anchor_a), ToB2(joint.axis));
+  if (joint.frequency_hz > 0) {
+    b2LinearStiffness(def.stiffness, def.damping, joint.frequency_hz, joint.damping_ratio, a, b);
+  } else {
+    // Without a spring Box2D would let the wheel slide along the axis: hold it.
+    def.enableLimit = true;
+    def.lowerTranslation = def.upperTranslation = 0;
+  }
+  def.enableMotor = joint.motor_torque > 0;
+  def.maxMotorTorque = joint.motor_torque;
+  def.collideConnected = joint.collide;
+  return world->CreateJoint(&def);
+}
+
+b2Joint* AddDistance(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
+  b2DistanceJointDef def;
+  def.Initialize(a, b, ToB2(joint.anchor_a), ToB2(joint.anchor_b));
+  if (joint.length > 0) def.length = joint.length;
+  def.minLength = def.maxLength = def.length;
+  if (joint.frequency_hz > 0) {
+    // Box2D's spring works only between unequal limits.
+    b2LinearStiffness(def.stiffness, def.damping, joint.frequency_hz, joint.damping_ratio, a, b);
+    def.minLength = 0;
+    def.maxLength = FLT_MAX;
+  }
+  def.collideConnected = joint.collide;
+  return world->CreateJoint(&def);
+}
+
+void AddJoint(const Joint& joint, b2Body* a, b2Body* b, b2World* world, BuiltScene* built) {
+  b2Joint* made = nullptr;
+  switch (joint.kind) {
+    case JointKind::kWeld: return;     // Welded parts are one body already.
+    case JointKind::kRevolute: made = AddRevolute(joint, a, b, world); break;
+    case JointKind::kWheel: made = AddWheel(joint, a, b, world); break;
+    case JointKind::kDistance: made = AddDistance(joint, a, b, world); break;
+  }
+  if (joint.motor_torque > 0) {
+    built->motors.push_back({made, joint.kind == JointKind::kWheel, joint.motor_player,
+                             joint.motor_speed});
+  }
+  const bool anchored = IndexOf(a) < 0 || IndexOf(b) < 0;
+  if (joint.kind == JointKind::kDistance && joint.frequency_hz <= 0 && anchored) {
+    built->tethers.push_back(static_cast<b2DistanceJoint*>(made));
+  }
+}
+
+}  // namespace
+
+void Motor::Drive(float share) const {
+  if (wheel) {
+    static_cast<b2WheelJoint*>(joint)->SetMotorSpeed(share * speed);
+  } else {
+    static_cast<b2RevoluteJoint*>(joint)->SetMotorSpeed(share * speed);
+  }
+}
+
+int IndexOf(b2Body* body) { return static_cast<int>(body->GetUserData().pointer) - 1; }
+
+BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2World* world) {
+  BuiltScene built;
+  for (const Assembly& assembly : composition.assemblies) {
+    b2Body* body = AddBody(scene, assembly, world);
+    built.bodies.push_back(body);
+    if (assembly.anchored) continue;
+    const b2MassData mass = MassDataOf(scene, assembly);
+    built.moving.push_back({body, assembly.id, assembly.mechanism, mass});
+    body->GetUserData().pointer = built.moving.size();
+    body->SetMassData(&mass);
+    const Part& root = scene.parts[static_cast<std::size_t>(assembly.id)];
+    body->SetLinearVelocity(ToB2(root.velocity));
+    body->SetAngularVelocity(root.spin);
+  }
+  const auto body_of = [&](PartId part) {
+    const int assembly = composition.assembly_of_part[static_cast<std::size_t>(part)];
+    return built.bodies[static_cast<std::size_t>(assembly)];
+  };
+  for (const Joint& joint : scene.joints) {
+    AddJoint(joint, body_of(joint.a), body_of(joint.b), world, &built);
+  }
+  for (const Motor& motor : built.motors) motor.Drive(motor.player < 0 ? 1.0f : 0.0f);
+  return built;
+}
+
+}  // namespace seam

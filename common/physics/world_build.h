@@ -1,0 +1,49 @@
+#pragma once
+/// Puts a scene into a Box2D world: one body per assembly, in the order of their ids, then the
+/// joints in the scene's order. The same scene gives the same bodies in the same order everywhere.
+
+#include <box2d/box2d.h>
+
+#include <vector>
+
+#include "common/physics/assembly.h"
+#include "common/physics/mass.h"
+#include "common/physics/scene.h"
+
+namespace seam {
+
+inline b2Vec2 ToB2(const Vec2& v) { return b2Vec2(v.x(), v.y()); }
+inline Vec2 FromB2(const b2Vec2& v) { return Vec2(v.x, v.y); }
+
+/// A moving assembly in Box2D.
+struct MovingBody {
+  b2Body* body = nullptr;
+  PartId id = 0;                      ///< assembly
+  int mechanism = 0;
+  b2MassData mass{};                  ///< about the body's origin
+};
+
+struct Motor {
+  b2Joint* joint = nullptr;           ///< wheel or revolute
+  bool wheel = false;
+  int player = -1;                    ///< -1: turns constantly
+  float speed = 0;                    ///< rad/s at full drive
+
+  /// `share` of full drive, -1..1. Wakes the bodies if the speed changes.
+  void Drive(float share) const;
+};
+
+struct BuiltScene {
+  std::vector<b2Body*> bodies;        ///< by index into Composition::assemblies
+  std::vector<MovingBody> moving;     ///< ascending by id
+  std::vector<Motor> motors;
+  std::vector<b2DistanceJoint*> tethers;  ///< rigid, to something anchored
+};
+
+/// Index into BuiltScene::moving; -1 for anchored bodies.
+int IndexOf(b2Body* body);
+
+/// Requires a scene that ParseScene accepted, or one as good.
+BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2World* world);
+
+}  // namespace seam

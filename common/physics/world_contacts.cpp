@@ -1,0 +1,109 @@
+#include "common/physics/world_contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+namespace seam {
+namespace {
+
+/// Indices of a contact's bodies, the lower first; -1: anchored.
+std::pair<int, int> PairOf(const b2Contact* contact) {
+  const int a = IndexOf(const_cast<b2Fixture*>(contact->GetFixtureA())->GetBody());
+  const int b = IndexOf(const_cast<b2Fixture*>(contact->GetFixtureB())->GetBody());
+  return {std::min(a, b), std::max(a, b)};
+}
+
+bool Touching(const b2Contact* contact) {
+  return contact->IsTouching() && contact->GetManifold()->pointCount > 0;
+}
+
+/// Cosine above which two directions count as one.
+constexpr float kSameDirection = 0.9f;
+
+void AddBlock(int body, const Vec2& normal, std::vector<Block>* blocks) {
+  int known = 0;
+  for (const Block& block : *blocks) {
+    if (block.body != body) continue;
+    if (std::fabs(block.normal.dot(normal)) > kSameDirection) return;
+    ++known;
+  }
+  if (known < 2) blocks->push_back({body, normal});
+}
+
+}  // namespace
+
+void ImpulseMeter::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
+  Felt felt;
+  for (int i = 0; i < impulse->count; ++i) felt.impulse += impulse->normalImpulses[i];
+  if (felt.impulse <= 0) return;
+  std::tie(felt.body_a, felt.body_b) = PairOf(contact);
+  b2WorldManifold manifold;
+  contact->GetWorldManifold(&manifold);
+  felt.point = FromB2(manifold.points[0]);
+  felt_.push_back(felt);
+}
+
+std::vector<Impact> ImpulseMeter::Impacts(const std::vector<MovingBody>& moving) {
+  // Stable: the order of solving decides the order of summing, the same everywhere.
+  std::stable_sort(felt_.begin(), felt_.end(), [](const Felt& x, const Felt& y) {
+    return std::tie(x.body_a, x.body_b) < std::tie(y.body_a, y.body_b);
+  });
+  std::vector<Impact> impacts;
+  for (std::size_t i = 0; i < felt_.size();) {
+    Felt sum = felt_[i];
+    float strongest = sum.impulse;
+    for (++i; i < felt_.size() && felt_[i].body_a == sum.body_a && felt_[i].body_b == sum.body_b;
+         ++i) {
+      sum.impulse += felt_[i].impulse;
+      if (felt_[i].impulse > strongest) {
+        strongest = felt_[i].impulse;
+        sum.point = felt_[i].point;
+      }
+    }
+    float dv = 0;
+    for (const int body : {sum.body_a, sum.body_b}) {
+      if (body < 0) continue;
+      dv = std::max(dv, sum.impulse / moving[static_cast<std::size_t>(body)].mass.mass);
+    }
+    if (dv > kImpactRecordMin) impacts.push_back({sum.body_a, sum.body_b, sum.point, dv});
+  }
+  return impacts;
+}
+
+std::vector<Touch> FindTouches(const b2World& world) {
+  std::vector<std::pair<int, int>> pairs;
+  for (const b2Contact* c = world.GetContactList(); c != nullptr; c = c->GetNext()) {
+    const std::pair<int, int> pair = PairOf(c);
+    if (Touching(c) && pair.first >= 0) pairs.push_back(pair);
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  std::vector<Touch> touches;
+  for (const auto& [a, b] : pairs) touches.push_back({a, b});
+  return touches;
+}
+
+std::vector<Block> FindBlocks(const b2World& world, const std::vector<b2DistanceJoint*>& tethers) {
+  std::vector<Block> blocks;
+  for (const b2Contact* c = world.GetContactList(); c != nullptr; c = c->GetNext()) {
+    const std::pair<int, int> pair = PairOf(c);
+    if (!Touching(c) || pair.first >= 0 || pair.second < 0) continue;
+    b2WorldManifold manifold;
+    c->GetWorldManifold(&manifold);
+    AddBlock(pair.second, FromB2(manifold.normal), &blocks);
+  }
+  for (b2DistanceJoint* tether : tethers) {
+    const Vec2 along = FromB2(tether->GetAnchorB() - tether->GetAnchorA());
+    const float length = along.norm();
+    if (length <= 0) continue;
+    const int body = std::max(IndexOf(tether->GetBodyA()), IndexOf(tether->GetBodyB()));
+    AddBlock(body, along / length, &blocks);
+  }
+  std::stable_sort(blocks.begin(), blocks.end(),
+                   [](const Block& x, const Block& y) { return x.body < y.body; });
+  return blocks;
+}
+
+}  // namespace seam

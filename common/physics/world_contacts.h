@@ -1,0 +1,35 @@
+#pragma once
+/// What a tick's contacts did: impacts, touches, and what anchored things block.
+
+#include <vector>
+
+#include "common/physics/world.h"
+#include "common/physics/world_build.h"
+
+namespace seam {
+
+/// Listens to Box2D and sums the normal impulses of a tick's substeps by pair of bodies.
+class ImpulseMeter : public b2ContactListener {
+ public:
+  void Clear() { felt_.clear(); }
+  /// Ascending by pair; only those above kImpactRecordMin.
+  std::vector<Impact> Impacts(const std::vector<MovingBody>& moving);
+
+  void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
+
+ private:
+  struct Felt {
+    int body_a = -1, body_b = -1;     // a < b
+    float impulse = 0;                // N s, of all contact points
+    Vec2 point{0, 0};                 // m
+  };
+  std::vector<Felt> felt_;            // in the order of solving
+};
+
+/// Touching pairs of moving bodies, ascending, each once.
+std::vector<Touch> FindTouches(const b2World& world);
+
+/// At most two directions for each body, ascending by body.
+std::vector<Block> FindBlocks(const b2World& world, const std::vector<b2DistanceJoint*>& tethers);
+
+}  // namespace seam
