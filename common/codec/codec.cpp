@@ -169,19 +169,20 @@ std::size_t Count(const Grants& m) { return m.mechanism.size(); }
 std::size_t Count(const View& m) { return m.id.size(); }
 std::size_t Count(const Impacts& m) { return m.id_a.size(); }
 
-/// Sets the count of a generated type that has one.
+/// Sets the count of a generated type that has one; 0 prefers the first where both fit.
 template <class Message, class Generated>
-auto SetCount(const Message& message, Generated& wire) -> decltype(wire.count, void()) {
+auto SetCount(const Message& message, Generated& wire, int) -> decltype(wire.count, void()) {
   wire.count = static_cast<std::int16_t>(Count(message));
 }
-void SetCount(...) {}
+template <class Message, class Generated>
+void SetCount(const Message&, Generated&, long) {}
 
 template <class Message>
 Bytes EncodeAs(const Message& message) {
   SEAM_ASSERT(Valid(message));
   typename Wire<Message>::Type wire{};
   Wire<Message>::Fields(wire) = Wire<Message>::Fields(message);
-  SetCount(message, wire);
+  SetCount(message, wire, 0);
   const int size = wire.getEncodedSize();
   SEAM_ASSERT(size > 0 && static_cast<std::size_t>(size) <= kBusMessageBytesMax);
   Bytes bytes(static_cast<std::size_t>(size));
