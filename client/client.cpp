@@ -61,6 +61,7 @@ void Client::Join(std::int64_t now_us) {
   tick0_us_ = -1;
   lead_us_ = -1;
   answered_us_ = now_us;
+  refused_us_ = -1;
 }
 
 void Client::Greet(std::int64_t now_us) {

@@ -102,6 +102,7 @@ class Client {
   std::int64_t tick0_us_ = -1;         // on the server's clock
   double lead_us_ = -1;                // mode central: how far ahead of the server we simulate
   std::int64_t answered_us_ = 0;       // when we sent the newest ping that was answered
+  std::int64_t refused_us_ = -1;       // of the first refusal since we began to join
   std::int64_t last_ping_us_ = -1000000000;
   std::int64_t last_hello_us_ = -1000000000;
   std::int64_t last_stats_us_ = -1000000000;

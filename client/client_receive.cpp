@@ -11,6 +11,8 @@ namespace {
 
 constexpr std::size_t kRoomBytesMost = 60000;
 constexpr std::size_t kHeldMost = 256;
+/// A refused join is repeated for this long, us.
+constexpr std::int64_t kInsistUs = 3000000;
 
 }  // namespace
 
@@ -61,7 +63,9 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
     if (known) replica_->inputs(inputs->player).Note(*inputs);
   } else if (const auto* bye = std::get_if<Bye>(&any)) {
     if (peer_ < 0) {
-      fatal_ = "the server refuses: " + bye->reason;
+      // Our own earlier session may still hold the name: insist for a while.
+      if (refused_us_ < 0) refused_us_ = now_us;
+      if (now_us - refused_us_ > kInsistUs) fatal_ = "the server refuses: " + bye->reason;
     } else {
       closed_ = true;
     }

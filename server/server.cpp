@@ -112,20 +112,15 @@ void Server::PlanAuthority(std::int64_t now_us) {
     Holding h = replica_.authority().at(m);
     const Wish& wish = wishes[index];
     if (revoking_[index]) {
-      // One authority at a time: the server takes over only once the holder has confirmed (or is
-      // gone, and has let go by its own clock).
-      const bool gone = std::none_of(sessions_.begin(), sessions_.end(), [&](const auto& s) {
-        return s.second->peer == h.authority;
-      });
+      // One authority at a time: the server takes over only once the holder has confirmed.
       const bool confirmed = std::any_of(sessions_.begin(), sessions_.end(), [&](const auto& s) {
         return s.second->peer == h.authority && !s.second->link.reliable_pending();
       });
-      if (!gone && !confirmed) continue;
+      if (!confirmed) continue;
       revoking_[index] = false;
       h.authority = 0;
       h.epoch += 1;
       replica_.authority().Set(m, h);
-      if (gone) changed.push_back(m);
     }
     const std::uint32_t server_bit = config_.sync.mode == Mode::kBuffer ? 1 : 0;
     const std::uint32_t secondaries = wish.secondaries | server_bit;

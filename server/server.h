@@ -71,6 +71,8 @@ class Server {
   void Advance(std::int64_t now_us, Session& session);
   void DropSilent(std::int64_t now_us);
   void Drop(std::int64_t now_us, const Address& address, const std::string& why);
+  /// The server has the dropped peer's mechanisms from now on.
+  void TakeBack(std::int64_t now_us, int peer);
   void FlushAll(std::int64_t now_us);
   std::vector<int> PeerOfPlayer() const;
 

@@ -11,33 +11,44 @@ namespace {
 constexpr std::size_t kChunkBytes = 1000;
 /// A session that never proves its address or never gets ready is forgotten after this, us.
 constexpr std::int64_t kHalfOpenUs = 10000000;
+/// A name is free for a new session (a restarted client) when the old one was silent this long, us.
+constexpr std::int64_t kNameHeldUs = 1000000;
 
 }  // namespace
 
 void Server::Admit(std::int64_t now_us, Session& session, const std::string& name) {
+  const auto same = std::find_if(sessions_.begin(), sessions_.end(),
+                                 [&](const auto& s) { return s.second->name == name; });
+  if (same != sessions_.end()) {
+    if (now_us - same->second->link.last_receive_us() < kNameHeldUs) {
+      Refuse(now_us, session.address, session.number, "the name " + name + " is in use");
+      return;
+    }
+    const Address old = same->first;
+    Drop(now_us, old, "replaced by a new session of the same name");
+  }
   std::vector<bool> taken(kPeersMax, false);
   taken[0] = true;
   for (const auto& [address, other] : sessions_) {
     taken[static_cast<std::size_t>(other->peer)] = true;
-    if (other->name != name) continue;
-    if (now_us - other->link.last_receive_us() < 1000000) {
-      Refuse(now_us, session.address, session.number, "the name " + name + " is in use");
-      return;
-    }
-    Drop(now_us, address, "replaced by a new session of the same name");
-    taken[static_cast<std::size_t>(0)] = true;
-    break;
   }
-  const auto free = std::find(taken.begin(), taken.end(), false);
+  for (std::size_t p = 0; p < scene_.players.size(); ++p) {
+    if (scene_.players[p].name == name) session.player = static_cast<int>(p);
+  }
+  // Player p is peer p + 1 wherever possible, so that recordings of a scene agree on who is who;
+  // spectators come after the players.
+  const auto first = static_cast<std::ptrdiff_t>(scene_.players.size()) + 1;
+  const auto own = taken.begin() + session.player + 1;
+  const auto free = session.player >= 0 && !*own
+                        ? own
+                        : std::find(taken.begin() + std::min<std::ptrdiff_t>(first, kPeersMax),
+                                    taken.end(), false);
   if (free == taken.end()) {
     Refuse(now_us, session.address, session.number, "the room is full");
     return;
   }
   session.name = name;
   session.peer = static_cast<int>(free - taken.begin());
-  for (std::size_t p = 0; p < scene_.players.size(); ++p) {
-    if (scene_.players[p].name == name) session.player = static_cast<int>(p);
-  }
   Welcome welcome;
   welcome.utime = now_us;
   welcome.peer = session.peer;
@@ -114,7 +125,27 @@ void Server::Drop(std::int64_t now_us, const Address& address, const std::string
   if (found == sessions_.end()) return;
   Say(now_us, found->second->name + " (peer " + std::to_string(found->second->peer) +
                   ") is gone: " + why);
+  const int peer = found->second->peer;
   sessions_.erase(found);
+  TakeBack(now_us, peer);
+}
+
+void Server::TakeBack(std::int64_t now_us, int peer) {
+  // Whoever is dropped for silence has let go by its own clock already (Client::kSilentUs).
+  std::vector<int> changed;
+  for (int m = 0; m < replica_.authority().count(); ++m) {
+    Holding h = replica_.authority().at(m);
+    if (h.authority != peer) continue;
+    h.authority = 0;
+    h.epoch += revoking_[static_cast<std::size_t>(m)] ? 2 : 1;   // a revocation has used up one
+    h.secondaries &= ~(std::uint32_t{1} << peer);
+    revoking_[static_cast<std::size_t>(m)] = false;
+    replica_.authority().Set(m, h);
+    changed.push_back(m);
+  }
+  if (changed.empty()) return;
+  replica_.RolesChanged();
+  Announce(replica_.authority().Export(now_us, replica_.tick(), changed));
 }
 
 void Server::FlushAll(std::int64_t now_us) {
