@@ -87,7 +87,8 @@ std::string OneLine(std::string text) {
   }
   if (Contains(text, "unreachable") || Contains(text, "No such device") ||
       Contains(text, "route")) {
-    throw OperatorError(std::string("LCM: this machine has no route for multicast; ") + kRoute);
+    throw OperatorError("LCM: this machine has no route for multicast; do without the bus "
+                        "(--lcm-url none), or " + std::string(kRoute));
   }
   throw OperatorError("LCM url \"" + url + "\" cannot be used: " + OneLine(text));
 }
