@@ -76,7 +76,8 @@ inline std::vector<Arrived> Send(const ImpairProfile& profile, const Traffic& ru
     sender.Send(kThere, Numbered(i, run.bytes));
     step(now_us);
   }
-  while (impaired.next_due_us() < std::numeric_limits<std::int64_t>::max()) step(impaired.next_due_us());
+  constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max();
+  while (impaired.next_due_us() < kNever) step(impaired.next_due_us());
   return arrived;
 }
 
