@@ -24,12 +24,13 @@ struct Part {
   float angle = 0;                  ///< rad
   Vec2 size{1, 1};                  ///< box: full width and height, m
   float radius = 0.5f;              ///< circle, m
-  std::vector<Vec2> points;         ///< polygon (convex, 3..8, local) or chain (>= 2, local), m
+  std::vector<Vec2> points;         ///< polygon (convex, 3..8, local) or chain (>= 2, local; solid
+                                    ///< on the right of the way along it), m
   Material material;
   bool anchored = false;            ///< never moves (chains always are)
   bool bullet = false;              ///< continuous collision against moving bodies
   int group = 0;                    ///< Box2D group index: equal negative groups do not collide
-  Vec2 velocity{0, 0};              ///< m/s at tick 0
+  Vec2 velocity{0, 0};              ///< m/s at tick 0, of the assembly's centre of mass
   float spin = 0;                   ///< rad/s at tick 0
   int owner = -1;                   ///< player who has authority while connected; -1: by region
   int line = 0;                     ///< in the scene file
@@ -44,7 +45,7 @@ struct Joint {
   Vec2 anchor_a{0, 0};              ///< world, at tick 0
   Vec2 anchor_b{0, 0};              ///< world; same as anchor_a unless kDistance
   Vec2 axis{0, 1};                  ///< world, unit; kWheel: direction of the spring
-  float frequency_hz = 0;           ///< spring (wheel, distance); 0: rigid
+  float frequency_hz = 0;           ///< of a spring (wheel, distance); 0: rigid
   float damping_ratio = 0.7f;
   float length = -1;                ///< kDistance: m; -1: as placed
   bool limited = false;             ///< kRevolute
@@ -61,6 +62,7 @@ struct Action {
   int button = 0;                   ///< 0..14
   PartId part = 0;
   Vec2 impulse{0, 0};               ///< N s, at the centre of mass
+  int line = 0;                     ///< in the scene file
 };
 
 /// Scripted input: from `from_tick` until the next span.
@@ -76,6 +78,7 @@ struct Player {
   Vec2 region_min{0, 0}, region_max{0, 0};   ///< static region, m
   std::vector<Action> actions;
   std::vector<InputSpan> script;    ///< ascending
+  int line = 0;                     ///< in the scene file
 };
 
 struct Solver {
@@ -91,6 +94,7 @@ struct Solver {
 struct WatchCollision {
   std::vector<PartId> struck;       ///< whose momentum is compared with the oracle's
   std::int64_t around_tick = 0;     ///< searched from here on
+  int line = 0;                     ///< in the scene file
 };
 
 struct Camera {

@@ -1,5 +1,3 @@
-#include <cmath>
-
 #include "common/base/check.h"
 #include "common/physics/assembly.h"
 #include "common/physics/mass.h"
@@ -27,11 +25,6 @@ struct Checked {
 
 void CheckMoving(const Checked& c, const Assembly& assembly) {
   const Part& root = c.part(assembly.id);
-  const MassProperties mass = AssemblyProperties(c.scene, assembly);
-  const double arm_squared = mass.centre.dot(mass.centre);
-  if (!(mass.inertia >= kInertiaShareMin * mass.mass * arm_squared) || !(mass.inertia > 1e-12)) {
-    c.Fail(root.line, "part '" + root.name + "': what is welded to it lies too far away");
-  }
   for (const PartId id : assembly.parts) {
     const Part& part = c.part(id);
     const bool still = part.velocity == Vec2(0, 0) && part.spin == 0;
@@ -98,27 +91,25 @@ void CheckPlayers(const Checked& c) {
     const Player& player = c.scene.players[p];
     const std::string name = "player '" + player.name + "': ";
     if (player.vehicle >= 0) {
-      const Part& part = c.part(player.vehicle);
+      const std::string vehicle = name + "the vehicle '" + c.part(player.vehicle).name + "' is ";
       const Assembly& assembly = c.assembly_of(player.vehicle);
-      if (assembly.anchored) {
-        c.Fail(part.line, name + "the vehicle '" + part.name + "' is anchored");
-      }
+      if (assembly.anchored) c.Fail(player.line, vehicle + "anchored");
       int& other = driver[static_cast<std::size_t>(assembly.mechanism)];
       if (other >= 0) {
-        c.Fail(part.line, name + "the vehicle '" + part.name + "' is '" +
-                              c.scene.players[static_cast<std::size_t>(other)].name + "'s");
+        const Player& first = c.scene.players[static_cast<std::size_t>(other)];
+        c.Fail(player.line, vehicle + "'" + first.name + "'s already");
       }
       other = static_cast<int>(p);
     }
     for (const Action& action : player.actions) {
-      const Part& part = c.part(action.part);
+      const std::string what = name + "action on '" + c.part(action.part).name + "': ";
       const Assembly& assembly = c.assembly_of(action.part);
-      if (assembly.anchored) c.Fail(part.line, name + "action on '" + part.name + "': is anchored");
+      if (assembly.anchored) c.Fail(action.line, what + "it is anchored");
       const double mass = AssemblyProperties(c.scene, assembly).mass;
-      if (static_cast<double>(action.impulse.norm()) / mass >
-          static_cast<double>(c.scene.speed_limit)) {
-        c.Fail(part.line, name + "action on '" + part.name + "' (" + Decimal(mass) +
-                              " kg): its impulse makes it faster than the speed_limit");
+      const double speed = static_cast<double>(action.impulse.norm()) / mass;
+      if (speed > static_cast<double>(c.scene.speed_limit)) {
+        c.Fail(action.line, what + "the impulse makes its " + Decimal(mass) +
+                                " kg faster than the speed_limit");
       }
     }
   }
@@ -127,10 +118,8 @@ void CheckPlayers(const Checked& c) {
 void CheckWatch(const Checked& c) {
   for (const WatchCollision& watch : c.scene.watch) {
     for (const PartId id : watch.struck) {
-      const Part& part = c.part(id);
-      if (c.assembly_of(id).anchored) {
-        c.Fail(part.line, "watch: struck part '" + part.name + "' is anchored");
-      }
+      if (!c.assembly_of(id).anchored) continue;
+      c.Fail(watch.line, "watch: the struck part '" + c.part(id).name + "' is anchored");
     }
   }
 }

@@ -28,8 +28,5 @@ constexpr std::size_t kPartsMax = 4096, kJointsMax = 4096, kPlayersMax = 31, kAc
 constexpr std::size_t kScriptMax = 2000, kWatchMax = 16;
 /// Welded parts farther than this from their root would lose their edges to rounding, m.
 constexpr float kWeldReachMax = 1000;
-/// A body's moment of inertia about its centre of mass must be at least this share of
-/// mass x (distance from the root's centre)^2, or single precision makes it zero or negative.
-constexpr double kInertiaShareMin = 1e-4;
 
 }  // namespace seam

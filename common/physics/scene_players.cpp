@@ -61,6 +61,7 @@ void ReadActions(const SceneReader& r, const SceneDraft& draft, Player* player) 
   for (const TomlNode* node : r.Tables("actions")) {
     const SceneReader a(*node, draft.file, r.what() + ": action", {"button", "part", "impulse"});
     Action action;
+    action.line = node->line;
     action.button = a.Integer("button", {0, kButtons - 1});
     action.part = FindPart(a, "part", draft);
     action.impulse = a.Vector("impulse", {-1e7, 1e7});
@@ -103,6 +104,7 @@ void ReadPlayers(const SceneReader& root, SceneDraft* draft) {
     Player& player = draft->scene.players[index++];
     SceneReader r = PlayerReader(*node, *draft);
     r.Rename("player '" + player.name + "'");
+    player.line = node->line;
     if (r.Has("vehicle")) player.vehicle = FindPart(r, "vehicle", *draft);
     ReadRegion(r, &player);
     ReadActions(r, *draft, &player);
@@ -114,6 +116,7 @@ void ReadWatch(const SceneReader& root, SceneDraft* draft) {
   for (const TomlNode* node : root.Tables("watch")) {
     const SceneReader r(*node, draft->file, "watch", {"struck", "around"});
     WatchCollision watch;
+    watch.line = node->line;
     for (const std::string& name : r.Texts("struck")) {
       for (const PartId part : FindParts(r, "struck", name, *draft)) watch.struck.push_back(part);
     }

@@ -11,7 +11,13 @@ double Cross(const Vec2& a, const Vec2& b) {
          static_cast<double>(a.y()) * static_cast<double>(b.x());
 }
 
-std::string PointName(std::size_t i) { return "point " + std::to_string(i + 1); }
+/// Points are counted from 1 in messages.
+std::string Number(std::size_t i) { return std::to_string(i + 1); }
+
+std::string TooClose(std::size_t i, std::size_t k) {
+  return "points " + Number(i) + " and " + Number(k) + " are closer than " + Decimal(kEdgeMin) +
+         " m";
+}
 
 /// Twice the signed area, m^2 (shoelace formula).
 double TwiceArea(const std::vector<Vec2>& points) {
@@ -33,8 +39,7 @@ std::string PolygonComplaint(const std::vector<Vec2>& points, float size_max) {
     high = high.cwiseMax(points[i]);
     for (std::size_t k = 0; k < i; ++k) {
       if ((points[i] - points[k]).norm() < kEdgeMin) {
-        return PointName(k) + " and " + PointName(i) + " are closer than " + Decimal(kEdgeMin) +
-               " m";
+        return TooClose(k, i);
       }
     }
   }
@@ -54,7 +59,7 @@ std::string PolygonComplaint(const std::vector<Vec2>& points, float size_max) {
       const std::size_t other = (i + k) % n;
       const double inside = turn * Cross(edge, points[other] - points[i]) / edge.norm();
       if (inside < static_cast<double>(kConvexMin)) {
-        return "not convex at " + PointName(other) + " (or three points in one line)";
+        return "not convex at point " + Number(other) + " (or three points in one line)";
       }
     }
   }
@@ -65,8 +70,7 @@ std::string ChainComplaint(const std::vector<Vec2>& points) {
   if (points.size() < 2) return "a chain needs 2 points or more";
   for (std::size_t i = 1; i < points.size(); ++i) {
     if ((points[i] - points[i - 1]).norm() < kEdgeMin) {
-      return PointName(i - 1) + " and " + PointName(i) + " are closer than " + Decimal(kEdgeMin) +
-             " m";
+      return TooClose(i - 1, i);
     }
   }
   return "";
