@@ -94,7 +94,7 @@ void DrawBody(DrawList& list, const Viewport& viewport, const BodyShapes& body, 
 }
 
 void DrawGhost(DrawList& list, const Viewport& viewport, const BodyShapes& body, const Pose& pose,
-               float opacity) {
+               float opacity, float width) {
   const float scale = list.font().scale();
   const Frame2 frame(pose);
   for (const Outline& outline : body.outlines) {
@@ -102,8 +102,17 @@ void DrawGhost(DrawList& list, const Viewport& viewport, const BodyShapes& body,
     if (outline.kind == ShapeKind::kCircle)
       px = CirclePoints(px[0], outline.radius * viewport.px_per_m);
     const bool closed = outline.kind != ShapeKind::kChain;
-    list.Stroke(px, closed, {3 * scale, Faded({255, 255, 255, 255}, 0.6f * opacity), 0});
-    list.Stroke(px, closed, {1.3f * scale, Faded(kInk, opacity), 5 * scale});
+    list.Stroke(px, closed, {(width + 1.7f) * scale, Faded({255, 255, 255, 255}, 0.6f * opacity), 0});
+    list.Stroke(px, closed, {width * scale, Faded(kInk, opacity), 5 * scale});
+  }
+}
+
+void DrawSpark(DrawList& list, const Vec2& at, float radius, float reach, const Line& line) {
+  list.Ring(at, radius, line);
+  for (int ray = 0; ray < 8; ++ray) {
+    const float a = 0.7853982f * static_cast<float>(ray) + 0.3926991f;
+    const Vec2 way(std::cos(a), std::sin(a));
+    list.Stroke({at + way * (radius + 0.3f * reach), at + way * (radius + reach)}, false, line);
   }
 }
 

@@ -23,9 +23,12 @@ BodyLook GroundLook();
 void DrawBody(DrawList& list, const Viewport& viewport, const BodyShapes& body, const Pose& pose,
               const BodyLook& look);
 
-/// A dashed outline with a pale rim, so that it reads on any fill.
+/// A dashed outline, `width` px, with a pale rim, so that it reads on any fill.
 void DrawGhost(DrawList& list, const Viewport& viewport, const BodyShapes& body, const Pose& pose,
-               float opacity);
+               float opacity, float width = 1.3f);
+
+/// An impact: a ring of `radius` px with eight rays, the whole `reach` px larger.
+void DrawSpark(DrawList& list, const Vec2& at, float radius, float reach, const Line& line);
 
 /// Largest distance on the panel between the same point of a body in two poses, px.
 float PixelsApart(const Viewport& viewport, const BodyShapes& body, const Pose& a, const Pose& b);

@@ -69,14 +69,8 @@ void DrawLegend(DrawList& list, const Rect& area, const Playback& playback, bool
     x += list.Text(x, base, TextStyle::kSmall, "oracle: where it should be", kInk) + 16 * scale;
   }
   if (impacts) {
-    const Vec2 centre(x + 7 * scale, base - 4 * scale);
-    const Line line{1.4f * scale, kSpark, 0};
-    list.Ring(centre, 4 * scale, line);
-    for (int ray = 0; ray < 8; ++ray) {
-      const float a = 0.7853982f * static_cast<float>(ray) + 0.39f;
-      const Vec2 way(std::cos(a), std::sin(a));
-      list.Stroke({centre + way * 5 * scale, centre + way * 8 * scale}, false, line);
-    }
+    DrawSpark(list, {x + 7 * scale, base - 4 * scale}, 4 * scale, 4 * scale,
+              {1.4f * scale, kSpark, 0});
     x += 20 * scale;
     list.Text(x, base, TextStyle::kSmall, "impact", kInk);
   }

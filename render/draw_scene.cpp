@@ -53,22 +53,31 @@ Rect Shared(const Rect& a, const Rect& b) {
   return {x0, y0, std::max(0.0f, x1 - x0), std::max(0.0f, y1 - y0)};
 }
 
-/// Stripes between the region and the edge of its buffer zone, as far as the panel shows them.
-void HatchBand(DrawList& list, const Region& region, const Rect& panel) {
-  const Rect &in = region.inner, &out = region.outer;
-  const Rect sides[4] = {{out.x, out.y, in.x - out.x, out.height},
-                         {in.right(), out.y, out.right() - in.right(), out.height},
-                         {in.x, out.y, in.width, in.y - out.y},
-                         {in.x, in.bottom(), in.width, out.bottom() - in.bottom()}};
-  // Each region's stripes lean its own way, so that two zones over each other read as two.
-  const float lean = in.x + in.right() < panel.x + panel.right() ? 0.70710678f : -0.70710678f;
-  for (const Rect& side : sides) {
-    const Rect r = Shared(side, panel);
-    if (r.width < 1 || r.height < 1) continue;
-    list.Hatch({{r.x, r.y}, {r.right(), r.y}, {r.right(), r.bottom()}, {r.x, r.bottom()}},
-               {in.x, in.y}, {0.70710678f, lean}, 14 * list.font().scale(),
-               Faded(region.colour, 0.12f));
+/// The extents of a region and its zone along the bottom of the panel, named.
+void DrawRibbon(DrawList& list, const Region& region, const Rect& row) {
+  const float scale = list.font().scale();
+  const Rect zone = Shared({region.outer.x, row.y, region.outer.width, row.height}, row);
+  const Rect own = Shared({region.inner.x, row.y, region.inner.width, row.height}, row);
+  if (zone.width > own.width) {
+    list.FillRect(zone, Mix(kPanel, region.colour, 0.12f));
+    list.Hatch({{zone.x, zone.y}, {zone.right(), zone.y}, {zone.right(), zone.bottom()},
+                {zone.x, zone.bottom()}}, {region.inner.x, row.y}, {0.70710678f, 0.70710678f},
+               7 * scale, Mix(kPanel, region.colour, 0.45f));
   }
+  list.FillRect(own, Mix(kPanel, region.colour, 0.45f));
+  const auto name = [&](float from, float to, const std::string& text) {
+    if (to - from < list.font().Width(TextStyle::kSmall, text) + 8 * scale) return;
+    const float middle = (from + to) / 2, width = list.font().Width(TextStyle::kSmall, text);
+    if (from < own.x || to > own.right())   // letters do not read on stripes
+      list.FillRect({middle - width / 2 - 4 * scale, row.y, width + 8 * scale, row.height},
+                    Mix(kPanel, region.colour, 0.12f));
+    list.Text(middle, row.y + 11 * scale, TextStyle::kSmall, text,
+              Mix(Darker(region.colour), kInk, 0.5f), Align::kCentre);
+  };
+  name(own.x, own.right(), region.name + "'s region");
+  if (zone.width <= own.width) return;
+  name(zone.x, own.width > 0 ? own.x : zone.right(), region.name + "'s buffer zone");
+  if (own.width > 0) name(own.right(), zone.right(), region.name + "'s buffer zone");
 }
 
 }  // namespace
@@ -95,7 +104,6 @@ void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playb
   for (const Region& region : regions)
     list.FillRect(Shared(region.inner, viewport.panel), Mix(kPanel, region.colour, 0.1f));
   for (const Region& region : regions) {
-    HatchBand(list, region, viewport.panel);
     const Rect inner{region.inner.x + scale, region.inner.y + scale,
                      region.inner.width - 2 * scale, region.inner.height - 2 * scale};
     list.StrokeRect(inner, {1.5f * scale, Faded(region.colour, 0.85f), 0});
@@ -105,33 +113,13 @@ void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playb
 }
 
 void DrawRegionNames(DrawList& list, const Viewport& viewport, const Playback& playback) {
-  const float scale = list.font().scale();
-  const float y = viewport.panel.bottom() - 10 * scale;
-  const auto name = [&](float from, float to, const std::string& text, Colour colour) {
-    from = std::max(from, viewport.panel.x);
-    to = std::min(to, viewport.panel.right());
-    if (to - from < list.font().Width(TextStyle::kSmall, text) + 12 * scale) return;
-    list.Text((from + to) / 2, y, TextStyle::kSmall, text, Darker(colour), Align::kCentre);
-  };
   const std::vector<Region> regions = RegionsOf(viewport, playback);
-  for (const Region& region : regions) {
-    // Where two zones overlap a name would stand on another: only the region's own part.
-    float from = region.inner.x, to = region.inner.right();
-    for (const Region& other : regions) {
-      if (&other == &region) continue;
-      if (other.outer.x <= from && other.outer.right() < to)
-        from = std::max(from, other.outer.right());
-      if (other.outer.right() >= to && other.outer.x > from) to = std::min(to, other.outer.x);
-    }
-    name(from, to, region.name + "'s region", region.colour);
-    for (const Region& other : regions) {
-      if (&other == &region || region.outer.width <= region.inner.width) continue;
-      const bool to_the_right = other.inner.x >= region.inner.right() - 1;
-      const bool to_the_left = other.inner.right() <= region.inner.x + 1;
-      const std::string text = region.name + "'s buffer zone";
-      if (to_the_right) name(region.inner.right(), region.outer.right(), text, region.colour);
-      if (to_the_left) name(region.outer.x, region.inner.x, text, region.colour);
-    }
+  if (regions.size() > 4) return;   // more rows would hide the world
+  const float height = std::round(15 * list.font().scale());
+  float y = viewport.panel.bottom() - 1;
+  for (auto region = regions.rbegin(); region != regions.rend(); ++region) {
+    y -= height;
+    DrawRibbon(list, *region, {viewport.panel.x, y, viewport.panel.width, height});
   }
 }
 

@@ -12,7 +12,7 @@ void DrawGrid(DrawList& list, const Viewport& viewport);
 /// The players' regions in their peers' colours, and the band of scene.buffer_m around each, if the
 /// mode has them.
 void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playback);
-/// The regions' names, above everything.
+/// The extents of regions and buffer zones as named ribbons along the bottom, above everything.
 void DrawRegionNames(DrawList& list, const Viewport& viewport, const Playback& playback);
 
 void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playback, bool cull);

@@ -5,6 +5,7 @@
 
 #include "render/draw_body.h"
 #include "render/draw_scene.h"
+#include "render/marks.h"
 #include "render/palette.h"
 
 namespace seam {
@@ -13,7 +14,6 @@ namespace {
 constexpr double kTrailSeconds = 1.2;
 constexpr int kTrailPoints = 36;
 constexpr double kImpactSeconds = 0.5;   ///< how long a mark stays
-constexpr float kImpactShownMin = 1.0f;  ///< m/s; weaker ones would clutter a stack
 
 struct Seen {
   const BodyShapes* body = nullptr;
@@ -104,25 +104,13 @@ void DrawGhosts(DrawList& list, const Viewport& viewport, const Playback& playba
 void DrawImpacts(DrawList& list, const Viewport& viewport, const Playback& playback,
                  const WorldLook& look) {
   const float scale = list.font().scale();
-  for (const Impacts& impacts : playback.recording().impacts) {
-    const double age = (look.tick - static_cast<double>(impacts.tick)) / playback.tick_hz();
-    if (impacts.peer != look.peer || age < 0 || age > kImpactSeconds) continue;
-    const auto t = static_cast<float>(age / kImpactSeconds);
-    for (std::size_t i = 0; i < impacts.dv.size(); ++i) {
-      if (impacts.dv[i] < kImpactShownMin) continue;
-      const Vec2 at = viewport.ToPx({impacts.x[i], impacts.y[i]});
-      const float strength = std::min(std::sqrt(impacts.dv[i]), 5.0f);
-      const float radius = (3 + 5 * strength * (0.3f + 0.7f * t)) * scale;
-      const Line line{1.6f * scale, Faded(kSpark, 0.9f * (1 - t)), 0};
-      list.Ring(at, radius, line);
-      for (int ray = 0; ray < 8; ++ray) {
-        const float a = 0.7853982f * static_cast<float>(ray) + 0.39f;
-        const Vec2 way(std::cos(a), std::sin(a));
-        list.Stroke({at + way * (radius + 2 * scale), at + way * (radius + (3 + 2 * strength) *
-                                                                               scale)},
-                    false, line);
-      }
-    }
+  const double span = kImpactSeconds * playback.tick_hz();
+  for (const Mark& mark : MarksBefore(playback.recording(), look.peer, look.tick, span)) {
+    const auto age = static_cast<float>((look.tick - mark.tick) / span);
+    const float strength = std::min(std::sqrt(mark.dv), 5.0f);
+    const float radius = (3 + 5 * strength * (0.3f + 0.7f * age)) * scale;
+    DrawSpark(list, viewport.ToPx(mark.point), radius, (3 + 2 * strength) * scale,
+              {1.6f * scale, Faded(kSpark, 0.9f * (1 - age)), 0});
   }
 }
 

@@ -13,6 +13,8 @@
 namespace seam {
 namespace {
 
+constexpr float kGhostWidth = 0.9f;   ///< px; many lie over each other here
+
 std::vector<double> Exposures(const StrobePlan& plan) {
   std::vector<double> times;
   for (int i = 0; plan.from_s + i * plan.step_s <= plan.to_s + 1e-9; ++i)
@@ -27,32 +29,34 @@ float Opacity(std::size_t exposure, std::size_t count) {
   return 0.16f + 0.84f * share * share;
 }
 
-/// All exposures of one body; one that has not moved since its last is drawn once, the latest.
-void DrawBodyExposures(DrawList& list, const Viewport& viewport, const Playback& playback,
-                       int peer, const BodyShapes& body, const std::vector<double>& times) {
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const auto at = [&](std::size_t k) {
-      return playback.Find(playback.MomentAt(peer, playback.TickAt(times[k])), body.id);
-    };
-    const auto shown = at(i);
+/// One exposure; a body that does not move until the next is left to that one.
+void DrawExposure(DrawList& list, const Viewport& viewport, const Playback& playback, int peer,
+                  const std::vector<double>& times, std::size_t i) {
+  const Moment now = playback.MomentAt(peer, playback.TickAt(times[i]));
+  const bool last = i + 1 == times.size();
+  const Moment next = last ? now : playback.MomentAt(peer, playback.TickAt(times[i + 1]));
+  for (const BodyShapes& body : playback.moving()) {
+    const auto shown = playback.Find(now, body.id);
     if (!shown || !viewport.Sees(shown->pose.position, body.reach)) continue;
-    const auto next = i + 1 < times.size() ? at(i + 1) : std::nullopt;
-    if (next && PixelsApart(viewport, body, shown->pose, next->pose) < 1.5f) continue;
+    const auto then = playback.Find(next, body.id);
+    if (!last && then && PixelsApart(viewport, body, shown->pose, then->pose) < 1.5f) continue;
     BodyLook look = LookOf(shown->authority, shown->role);
     look.opacity = Opacity(i, times.size());
     DrawBody(list, viewport, body, shown->pose, look);
   }
 }
 
-void DrawGhostExposures(DrawList& list, const Viewport& viewport, const Playback& playback,
-                        int peer, const BodyShapes& body, const std::vector<double>& times) {
-  for (std::size_t i = 0; i < times.size(); ++i) {
-    const double tick = playback.TickAt(times[i]);
+/// The oracle's poses at the same moments, where they are not the view's.
+void DrawGhosts(DrawList& list, const Viewport& viewport, const Playback& playback, int peer,
+                const std::vector<double>& times, std::size_t i) {
+  const double tick = playback.TickAt(times[i]);
+  const Moment now = playback.MomentAt(peer, tick);
+  for (const BodyShapes& body : playback.moving()) {
     const auto truth = playback.Truth(body.id, tick);
     if (!truth || !viewport.Sees(truth->position, body.reach)) continue;
-    const auto shown = playback.Find(playback.MomentAt(peer, tick), body.id);
+    const auto shown = playback.Find(now, body.id);
     if (shown && PixelsApart(viewport, body, shown->pose, *truth) < 2) continue;
-    DrawGhost(list, viewport, body, *truth, 0.3f + 0.6f * Opacity(i, times.size()));
+    DrawGhost(list, viewport, body, *truth, 0.2f + 0.7f * Opacity(i, times.size()), kGhostWidth);
   }
 }
 
@@ -65,36 +69,38 @@ void DrawPanel(DrawList& list, const Rect& area, const Playback& playback, int p
   DrawRegions(list, viewport, playback);
   DrawGrid(list, viewport);
   DrawGround(list, viewport, playback, true);
-  for (const BodyShapes& body : playback.moving())
-    DrawBodyExposures(list, viewport, playback, peer, body, times);
-  for (const BodyShapes& body : playback.moving())
-    DrawGhostExposures(list, viewport, playback, peer, body, times);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    DrawExposure(list, viewport, playback, peer, times, i);
+  for (std::size_t i = 0; i < times.size(); ++i)
+    DrawGhosts(list, viewport, playback, peer, times, i);
   list.NoClip();
   list.StrokeRect({area.x + 0.5f, area.y + 0.5f, area.width - 1, area.height - 1},
                   {1, kFrame, 0});
+}
+
+std::string Explained(const std::string& mode) {
+  if (mode == "oracle") return "one world: the truth";
+  if (mode == "strict") return "no buffer zone";
+  if (mode == "central") return "server simulates all";
+  return "mode " + mode;
 }
 
 /// Mode, reconciler and the run's key figures, left of its row.
 void DrawRowLabel(DrawList& list, const Rect& area, const Playback& playback) {
   const float scale = list.font().scale();
   const Room& room = playback.recording().room;
-  float y = area.y + 20 * scale;
+  float y = area.y + 16 * scale;
   list.Text(area.x, y, TextStyle::kNumber, room.reconcile.empty() ? room.mode : room.reconcile,
             kInk);
-  y += 17 * scale;
-  if (!room.reconcile.empty())
-    list.Text(area.x, y, TextStyle::kBody, "mode " + room.mode, kFaintInk);
-  y += 10 * scale;
+  y += 16 * scale;
+  list.Text(area.x, y, TextStyle::kBody, Explained(room.mode), kFaintInk);
+  y += 4 * scale;
   const auto figure = [&](const std::string& name, const std::string& value) {
-    y += 17 * scale;
+    y += 16 * scale;
     list.Text(area.x, y, TextStyle::kBody, name, kFaintInk);
     list.Text(area.right(), y, TextStyle::kStrong, value, kInk, Align::kRight);
   };
-  if (!playback.measures() || room.mode == "oracle") {
-    if (room.mode == "oracle") list.Text(area.x, y, TextStyle::kBody, "one world: the truth",
-                                         kFaintInk);
-    return;
-  }
+  if (!playback.measures() || room.mode == "oracle") return;
   const Measures& measures = *playback.measures();
   if (measures.rebound) figure("rebound", FormatNumber(*measures.rebound, 2));
   figure("error RMS", FormatLength(measures.error_rms_m));

@@ -12,7 +12,7 @@
 namespace seam {
 namespace {
 
-constexpr double kBefore_s = 0.5, kAfter_s = 0.9;   ///< about the collision
+constexpr double kBefore_s = 0.2, kAfter_s = 0.8;   ///< about the collision
 constexpr int kExposures = 8;                       ///< unless asked otherwise
 constexpr float kJumpMin = 1.0f;       ///< m/s in a tick that only a collision gives
 constexpr float kStrongImpact = 3.0f;  ///< m/s
@@ -66,9 +66,13 @@ struct Box {
 Box MovingBox(const std::vector<Playback>& playbacks, const StrobePlan& plan) {
   Box box;
   for (const Playback& playback : playbacks) {
-    const std::set<PartId> struck = Struck(playback);
+    std::set<PartId> struck = Struck(playback);
+    const bool watched = !struck.empty();
+    if (watched)   // and who strikes it
+      for (const BodyShapes& body : playback.moving())
+        if (body.owner_player >= 0) struck.insert(body.id);
     for (const BodyShapes& body : playback.moving()) {
-      if (!struck.empty() && struck.count(body.id) == 0) continue;
+      if (watched && struck.count(body.id) == 0) continue;
       Box own;
       for (double s = plan.from_s; s <= plan.to_s + 1e-9; s += plan.step_s) {
         const double tick = playback.TickAt(s);
@@ -78,7 +82,7 @@ Box MovingBox(const std::vector<Playback>& playbacks, const StrobePlan& plan) {
                   playback.MomentAt(playback.PeerOr(peer), tick), body.id))
             own.Add(shown->pose.position, 0);
       }
-      if (own.empty() || ((own.max - own.min).norm() < 0.3f && struck.empty())) continue;
+      if (own.empty() || ((own.max - own.min).norm() < 0.3f && !watched)) continue;
       box.Add(own.min, body.reach);
       box.Add(own.max, body.reach);
     }
@@ -104,9 +108,9 @@ void ChooseBox(const std::vector<Playback>& playbacks, StrobePlan* plan) {
     min = camera.min;
     max = camera.max;
   }
-  // Rows are wide: at most 4.5 to 1, at least 1.6 to 1.
+  // Rows are wide: at most 6 to 1, at least 1.6 to 1.
   const Vec2 size = max - min;
-  const float height = std::max(size.y(), size.x() / 4.5f);
+  const float height = std::max(size.y(), size.x() / 6);
   const float width = std::max(size.x(), 1.6f * height);
   max.y() = min.y() + height;
   const float middle = (min.x() + max.x()) / 2;
