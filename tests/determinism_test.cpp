@@ -1,6 +1,6 @@
-/// The determinism contract: the same scene and inputs give the same bits, in any world, process and
-/// build. tests/golden_hashes.txt holds what every build must compute; after a change that is meant
-/// to change behaviour, rewrite it with
+/// The determinism contract: the same scene and inputs give the same bits, in any world, process
+/// and build. tests/golden_hashes.txt holds what every build must compute; after a change that is
+/// meant to change behaviour, rewrite it with
 ///   SEAM_GOLDEN=write build/release/seam-tests --gtest_filter='Determinism.*'
 /// look at the difference, and say in the commit message which hash changed and why.
 
