@@ -97,13 +97,17 @@ void DrawGhost(DrawList& list, const Viewport& viewport, const BodyShapes& body,
                float opacity, float width) {
   const float scale = list.font().scale();
   const Frame2 frame(pose);
+  const bool small = body.reach * viewport.px_per_m < 10 * scale;   // dashes would be dust
+  const Line rim{(width + 1.7f) * scale, Faded({255, 255, 255, 255}, 0.6f * opacity), 0};
+  const Line line{small ? 0.8f * scale : width * scale, Faded(kInk, (small ? 0.7f : 1) * opacity),
+                  small ? 0 : 5 * scale};
   for (const Outline& outline : body.outlines) {
     std::vector<Vec2> px = OnPanel(viewport, outline.points, frame);
     if (outline.kind == ShapeKind::kCircle)
       px = CirclePoints(px[0], outline.radius * viewport.px_per_m);
     const bool closed = outline.kind != ShapeKind::kChain;
-    list.Stroke(px, closed, {(width + 1.7f) * scale, Faded({255, 255, 255, 255}, 0.6f * opacity), 0});
-    list.Stroke(px, closed, {width * scale, Faded(kInk, opacity), 5 * scale});
+    if (!small) list.Stroke(px, closed, rim);
+    list.Stroke(px, closed, line);
   }
 }
 

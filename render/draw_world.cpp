@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/draw_body.h"
+#include "render/draw_joints.h"
 #include "render/draw_scene.h"
 #include "render/marks.h"
 #include "render/palette.h"
@@ -64,29 +65,6 @@ void DrawTrails(DrawList& list, const Viewport& viewport, const Playback& playba
   }
 }
 
-void DrawJoints(DrawList& list, const Viewport& viewport, const Playback& playback,
-                const WorldLook& look) {
-  const float scale = list.font().scale();
-  const Moment now = playback.MomentAt(look.peer, look.tick);
-  const auto place = [&](PartId id, bool anchored, const Vec2& anchor) -> std::optional<Vec2> {
-    if (!anchored) {
-      const auto shown = playback.Find(now, id);
-      if (!shown) return std::nullopt;
-      return viewport.ToPx(Frame2(shown->pose)(anchor));
-    }
-    for (const BodyShapes& body : playback.anchored())
-      if (body.id == id) return viewport.ToPx(Frame2(body.start)(anchor));
-    return std::nullopt;
-  };
-  for (const DrawnJoint& joint : playback.joints()) {
-    const auto a = place(joint.a, joint.a_anchored, joint.anchor_a);
-    const auto b = place(joint.b, joint.b_anchored, joint.anchor_b);
-    if (!a || !b) continue;
-    if (joint.rod) list.Stroke({*a, *b}, false, {1.5f * scale, kFaintInk, 0});
-    if (viewport.px_per_m > 12) list.Disc(*a, 1.6f * scale, kInk);
-  }
-}
-
 /// Ghosts appear where view and truth part, so that a right picture stays clean.
 void DrawGhosts(DrawList& list, const Viewport& viewport, const Playback& playback,
                 const WorldLook& look) {
@@ -108,8 +86,8 @@ void DrawImpacts(DrawList& list, const Viewport& viewport, const Playback& playb
   for (const Mark& mark : MarksBefore(playback.recording(), look.peer, look.tick, span)) {
     const auto age = static_cast<float>((look.tick - mark.tick) / span);
     const float strength = std::min(std::sqrt(mark.dv), 5.0f);
-    const float radius = (3 + 5 * strength * (0.3f + 0.7f * age)) * scale;
-    DrawSpark(list, viewport.ToPx(mark.point), radius, (3 + 2 * strength) * scale,
+    const float radius = (3 + 3.5f * strength * (0.3f + 0.7f * age)) * scale;
+    DrawSpark(list, viewport.ToPx(mark.point), radius, (3 + 1.5f * strength) * scale,
               {1.6f * scale, Faded(kSpark, 0.9f * (1 - age)), 0});
   }
 }
@@ -162,11 +140,13 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
   DrawGrid(list, viewport);
   DrawGround(list, viewport, playback, look.cull);
   if (look.trails) DrawTrails(list, viewport, playback, look);
+  const Moment now = playback.MomentAt(look.peer, look.tick);
+  DrawRods(list, viewport, playback, now, 1);
   const std::vector<Seen> seen = BodiesOnPanel(viewport, playback, look);
   for (const Seen& one : seen)
     DrawBody(list, viewport, *one.body, one.shown.pose,
              LookOf(one.shown.authority, one.shown.role));
-  DrawJoints(list, viewport, playback, look);
+  DrawPins(list, viewport, playback, now, 1);
   DrawGhosts(list, viewport, playback, look);
   DrawImpacts(list, viewport, playback, look);
   DrawNames(list, viewport, playback, seen);

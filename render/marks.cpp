@@ -1,6 +1,7 @@
 #include "render/marks.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <utility>
 
@@ -10,6 +11,8 @@ namespace {
 constexpr float kShownMin = 1.0f;         ///< m/s; weaker ones would clutter a stack
 constexpr float kGroundShownMin = 3.0f;   ///< m/s, against what never moves
 constexpr double kSame_s = 0.35;          ///< pushes of a pair within this are one meeting
+constexpr float kNear_m = 3.0f;           ///< of several this near each other one is marked
+constexpr std::size_t kMarksMax = 5;      ///< at a time
 constexpr float kStronger = 1.5f;         ///< unless one is this much stronger than the last
 
 struct Push {
@@ -17,6 +20,21 @@ struct Push {
   std::pair<int, int> pair;
   Mark mark;
 };
+
+/// The strongest, and of those near each other in place and time only one.
+std::vector<Mark> Thinned(std::vector<Mark> marks, double same_ticks) {
+  std::stable_sort(marks.begin(), marks.end(),
+                   [](const Mark& a, const Mark& b) { return a.dv > b.dv; });
+  std::vector<Mark> kept;
+  for (const Mark& mark : marks) {
+    const bool near_another = std::any_of(kept.begin(), kept.end(), [&](const Mark& other) {
+      return (mark.point - other.point).norm() < kNear_m &&
+             std::abs(mark.tick - other.tick) < same_ticks;
+    });
+    if (!near_another && kept.size() < kMarksMax) kept.push_back(mark);
+  }
+  return kept;
+}
 
 }  // namespace
 
@@ -48,7 +66,7 @@ std::vector<Mark> MarksBefore(const Recording& recording, int peer, double tick,
     if (again || push.mark.dv < (ground ? kGroundShownMin : kShownMin)) continue;
     if (push.tick > tick - span) marks.push_back(push.mark);
   }
-  return marks;
+  return Thinned(std::move(marks), same);
 }
 
 }  // namespace seam

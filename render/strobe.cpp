@@ -5,6 +5,7 @@
 
 #include "render/draw_body.h"
 #include "render/draw_hud.h"
+#include "render/draw_joints.h"
 #include "render/draw_scene.h"
 #include "render/format.h"
 #include "render/palette.h"
@@ -35,6 +36,7 @@ void DrawExposure(DrawList& list, const Viewport& viewport, const Playback& play
   const Moment now = playback.MomentAt(peer, playback.TickAt(times[i]));
   const bool last = i + 1 == times.size();
   const Moment next = last ? now : playback.MomentAt(peer, playback.TickAt(times[i + 1]));
+  DrawRods(list, viewport, playback, now, 0.8f * Opacity(i, times.size()));
   for (const BodyShapes& body : playback.moving()) {
     const auto shown = playback.Find(now, body.id);
     if (!shown || !viewport.Sees(shown->pose.position, body.reach)) continue;
@@ -46,9 +48,13 @@ void DrawExposure(DrawList& list, const Viewport& viewport, const Playback& play
   }
 }
 
-/// The oracle's poses at the same moments, where they are not the view's.
+/// With more bodies than this only the last moment has ghosts: more would be a thicket.
+constexpr std::size_t kFewBodies = 12;
+
+/// The oracle's poses at the same moment, where they are not the view's.
 void DrawGhosts(DrawList& list, const Viewport& viewport, const Playback& playback, int peer,
                 const std::vector<double>& times, std::size_t i) {
+  if (i + 1 < times.size() && playback.moving().size() > kFewBodies) return;
   const double tick = playback.TickAt(times[i]);
   const Moment now = playback.MomentAt(peer, tick);
   for (const BodyShapes& body : playback.moving()) {
@@ -131,7 +137,8 @@ StrobeLayout LayOutStrobe(const StrobePlan& plan, int rows) {
 int StrobeHeight(const StrobePlan& plan, int rows) {
   const StrobeLayout layout = LayOutStrobe(plan, rows);
   const Vec2 size = plan.max - plan.min;
-  const float panel = std::max(layout.panel_width * size.y() / size.x(), 96 * layout.scale);
+  const float panel = std::clamp(layout.panel_width * size.y() / size.x(), 96 * layout.scale,
+                                 190 * layout.scale);
   const float count = static_cast<float>(rows);
   return static_cast<int>(std::lround(layout.header + layout.footer + count * std::round(panel) +
                                       (count - 1) * layout.gap));

@@ -27,8 +27,8 @@ struct StrobeWishes {
 };
 
 /// When the first watched collision happens (by the oracle's jump of velocity), else the first
-/// strong impact, else the middle of the recording; s.
-double CollisionTime(const Playback& playback);
+/// strong impact, else when the views are most wrong, else the middle; s.
+double CollisionTime(const std::vector<Playback>& playbacks);
 
 /// Chooses window, exposures, columns, the box of the world that holds what moves, and a height.
 /// Requires at least one playback. Throws OperatorError when the window is empty.

@@ -13,7 +13,7 @@ struct StrobeLayout {
 };
 
 StrobeLayout LayOutStrobe(const StrobePlan& plan, int rows);
-/// The height at which the world's box fills each panel.
+/// The height at which the world's box fills each panel, within what rows should have.
 int StrobeHeight(const StrobePlan& plan, int rows);
 /// Text and lines grow with the width alone.
 float StrobeScale(int width_px);

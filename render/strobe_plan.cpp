@@ -16,6 +16,7 @@ constexpr double kBefore_s = 0.2, kAfter_s = 0.8;   ///< about the collision
 constexpr int kExposures = 8;                       ///< unless asked otherwise
 constexpr float kJumpMin = 1.0f;       ///< m/s in a tick that only a collision gives
 constexpr float kStrongImpact = 3.0f;  ///< m/s
+constexpr float kStill_m = 0.3f;       ///< what moves less does not widen the picture
 
 /// Assemblies that the scene's first watch looks at; empty without one.
 std::set<PartId> Struck(const Playback& playback) {
@@ -45,12 +46,24 @@ std::int64_t WatchedTick(const Playback& playback) {
   return -1;
 }
 
+/// The first strong impact between bodies that move.
 std::int64_t ImpactTick(const Playback& playback) {
   std::int64_t first = -1;
   for (const Impacts& impacts : playback.recording().impacts)
-    for (float dv : impacts.dv)
-      if (dv >= kStrongImpact && (first < 0 || impacts.tick < first)) first = impacts.tick;
+    for (std::size_t i = 0; i < impacts.dv.size(); ++i) {
+      const bool both_move = impacts.id_a[i] >= 0 && impacts.id_b[i] >= 0;
+      if (both_move && impacts.dv[i] >= kStrongImpact && (first < 0 || impacts.tick < first))
+        first = impacts.tick;
+    }
   return first;
+}
+
+/// When the views were most wrong; -1 if they never were.
+std::int64_t WorstTick(const Playback& playback) {
+  const std::vector<double>& errors = playback.ErrorByTick(-1);
+  const auto worst = std::max_element(errors.begin(), errors.end());
+  if (worst == errors.end() || *worst <= 0) return -1;
+  return playback.ErrorFirstTick() + (worst - errors.begin());
 }
 
 struct Box {
@@ -66,13 +79,8 @@ struct Box {
 Box MovingBox(const std::vector<Playback>& playbacks, const StrobePlan& plan) {
   Box box;
   for (const Playback& playback : playbacks) {
-    std::set<PartId> struck = Struck(playback);
-    const bool watched = !struck.empty();
-    if (watched)   // and who strikes it
-      for (const BodyShapes& body : playback.moving())
-        if (body.owner_player >= 0) struck.insert(body.id);
+    const std::set<PartId> struck = Struck(playback);
     for (const BodyShapes& body : playback.moving()) {
-      if (watched && struck.count(body.id) == 0) continue;
       Box own;
       for (double s = plan.from_s; s <= plan.to_s + 1e-9; s += plan.step_s) {
         const double tick = playback.TickAt(s);
@@ -82,7 +90,8 @@ Box MovingBox(const std::vector<Playback>& playbacks, const StrobePlan& plan) {
                   playback.MomentAt(playback.PeerOr(peer), tick), body.id))
             own.Add(shown->pose.position, 0);
       }
-      if (own.empty() || ((own.max - own.min).norm() < 0.3f && !watched)) continue;
+      const bool still = !own.empty() && (own.max - own.min).norm() < kStill_m;
+      if (own.empty() || (still && struck.count(body.id) == 0)) continue;
       box.Add(own.min, body.reach);
       box.Add(own.max, body.reach);
     }
@@ -108,10 +117,10 @@ void ChooseBox(const std::vector<Playback>& playbacks, StrobePlan* plan) {
     min = camera.min;
     max = camera.max;
   }
-  // Rows are wide: at most 6 to 1, at least 1.6 to 1.
+  // Rows are wide: at most 6 to 1, at least 2.2 to 1.
   const Vec2 size = max - min;
   const float height = std::max(size.y(), size.x() / 6);
-  const float width = std::max(size.x(), 1.6f * height);
+  const float width = std::max(size.x(), 2.2f * height);
   max.y() = min.y() + height;
   const float middle = (min.x() + max.x()) / 2;
   plan->min = {middle - width / 2, min.y()};
@@ -132,17 +141,19 @@ std::vector<int> Columns(const std::vector<Playback>& playbacks, int wish) {
 
 }  // namespace
 
-double CollisionTime(const Playback& playback) {
-  std::int64_t tick = WatchedTick(playback);
-  if (tick < 0) tick = ImpactTick(playback);
-  if (tick < 0) return (playback.first_s() + playback.last_s()) / 2;
-  return static_cast<double>(tick) / playback.tick_hz();
+double CollisionTime(const std::vector<Playback>& playbacks) {
+  for (const auto find : {WatchedTick, ImpactTick, WorstTick})
+    for (const Playback& playback : playbacks) {
+      const std::int64_t tick = find(playback);
+      if (tick >= 0) return static_cast<double>(tick) / playback.tick_hz();
+    }
+  return (playbacks.front().first_s() + playbacks.front().last_s()) / 2;
 }
 
 StrobePlan PlanStrobe(const std::vector<Playback>& playbacks, const StrobeWishes& wishes) {
   SEAM_ASSERT(!playbacks.empty());
   const Playback& first = playbacks.front();
-  const double hit_s = CollisionTime(first);
+  const double hit_s = CollisionTime(playbacks);
   StrobePlan plan;
   plan.from_s = std::isnan(wishes.from_s) ? std::max(first.first_s(), hit_s - kBefore_s)
                                           : wishes.from_s;

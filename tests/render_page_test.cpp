@@ -90,14 +90,28 @@ TEST(Strip, TheCurveLiesAtItsErrorOnTheScale) {
 }
 
 TEST(Strobe, FindsTheWatchedCollision) {
-  EXPECT_NEAR(CollisionTime(MakePlayback()), synthetic::kHitTick / 60.0, 1.01 / 60);
+  std::vector<Playback> runs;
+  runs.push_back(MakePlayback());
+  EXPECT_NEAR(CollisionTime(runs), synthetic::kHitTick / 60.0, 1.01 / 60);
 }
 
 TEST(Strobe, FindsAStrongImpactWhereNothingIsWatched) {
   Scene scene = synthetic::MakeScene();
   scene.watch.clear();
-  const Playback playback(synthetic::MakeRecording(6), scene, synthetic::MakeOracle());
-  EXPECT_DOUBLE_EQ(CollisionTime(playback), synthetic::kHitTick / 60.0);
+  std::vector<Playback> runs;
+  runs.push_back(Playback(synthetic::MakeRecording(6), scene, synthetic::MakeOracle()));
+  EXPECT_DOUBLE_EQ(CollisionTime(runs), synthetic::kHitTick / 60.0);
+}
+
+TEST(Strobe, FindsTheWorstMomentWhereNothingCollides) {
+  Scene scene = synthetic::MakeScene();
+  scene.watch.clear();
+  Recording recording = synthetic::MakeRecording(0);
+  recording.impacts.clear();
+  recording.views[2][120].y[0] += 3;
+  std::vector<Playback> runs;
+  runs.push_back(Playback(recording, scene, synthetic::MakeOracle()));
+  EXPECT_DOUBLE_EQ(CollisionTime(runs), 2);
 }
 
 TEST(Strobe, ShowsEarlierAndLaterPosesAtOnceTheEarlierOnesFainter) {
