@@ -8,7 +8,8 @@ namespace seam {
 
 /// Coordinates, m. Single precision is good to 2 mm at 30 km; piles shake from 100 km.
 constexpr Range kCoordinate{-30000, 30000};
-/// Size of a moving thing, m; `size_max` may raise the upper limit up to kSizeMaxMax.
+/// Size of a moving thing, m; `size_max` may raise the upper limit up to kSizeMaxMax, which is also
+/// the limit of anchored things.
 constexpr float kSizeMin = 0.05f, kSizeMaxDefault = 10, kSizeMaxMax = 1000;
 /// Shortest edge and least distance of a polygon's or chain's points, m. Box2D merges points at
 /// 2.5 mm and asserts at chain spacings of 5 mm.

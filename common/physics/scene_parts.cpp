@@ -113,7 +113,7 @@ void ReadPart(const TomlNode& node, SceneDraft* draft) {
   }
   Part part;
   part.line = r.line();
-  ReadShape(r, draft->size_max, &part);
+  ReadShape(r, r.Flag("anchored", false) ? kSizeMaxMax : draft->size_max, &part);
   part.position = r.Vector("position", kCoordinate, Vec2(0, 0));
   part.angle = r.Number("angle", {-100, 100}, 0.0f);
   part.material.density = r.Number("density", kDensity, part.material.density);
