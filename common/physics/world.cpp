@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 
 #include "common/base/bytes.h"
 #include "common/base/check.h"
@@ -9,6 +10,12 @@
 #include "common/physics/world_contacts.h"
 
 namespace seam {
+namespace {
+
+/// Stricter than ==: a peer's 0 and another's -0 would be two poses.
+bool SameBits(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0; }
+
+}  // namespace
 
 struct World::Impl {
   explicit Impl(const Scene& s) : scene(s), composition(Compose(s)), world(ToB2(s.gravity)) {
@@ -69,12 +76,16 @@ void World::Write(int body, const BodyState& state, bool wake) {
   const BodyState now = Read(body);
   // SetTransform moves the body's proxies but keeps its contacts and their impulses for as long as
   // the fattened boxes (0.1 m) still overlap.
-  if (now.position != state.position || now.angle != state.angle) {
+  if (!SameBits(now.position.x(), state.position.x()) ||
+      !SameBits(now.position.y(), state.position.y()) || !SameBits(now.angle, state.angle)) {
     b->SetTransform(ToB2(state.position), state.angle);
   }
   // Setting a velocity restarts the time to sleep: only when it is another one.
-  if (now.velocity != state.velocity) b->SetLinearVelocity(ToB2(state.velocity));
-  if (now.spin != state.spin) b->SetAngularVelocity(state.spin);
+  if (!SameBits(now.velocity.x(), state.velocity.x()) ||
+      !SameBits(now.velocity.y(), state.velocity.y())) {
+    b->SetLinearVelocity(ToB2(state.velocity));
+  }
+  if (!SameBits(now.spin, state.spin)) b->SetAngularVelocity(state.spin);
   if (wake && !was_awake) b->SetAwake(true);
   if (!wake && !was_awake) b->SetAwake(false);
 }
