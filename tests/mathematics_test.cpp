@@ -53,7 +53,7 @@ TEST(Mathematics, ProjectileFollowsTheIntegratorsOwnSum) {
     // 1.6e-5 m after 4 s: single precision alone.
     ASSERT_NEAR(s.position.y(), n * 20 * h - kG * h * h * n * (n + 1) / 2, 5e-5);
     ASSERT_NEAR(s.velocity.y(), 20 - n * kG * h, 2e-5);
-    ASSERT_NEAR(s.angle, 3 * n * h, 2e-5);
+    ASSERT_NEAR(s.angle, 3 * n * h, 1e-4);
   }
 }
 
@@ -68,10 +68,11 @@ TEST(Mathematics, HeadOnElasticCollisionExchangesSpeedsByMass) {
     const double energy = world->Energy();
     Steps(world.get(), 60);
     const double v1 = world->Read(0).velocity.x(), v2 = world->Read(1).velocity.x();
-    EXPECT_NEAR(v1, (m1 - m2) / (m1 + m2) * 8, 1e-5) << ratio;
-    EXPECT_NEAR(v2, 2 * m1 / (m1 + m2) * 8, 1e-5) << ratio;
-    EXPECT_NEAR(m1 * v1 + m2 * v2, m1 * 8, 1e-5 * m1 * 8) << ratio;
-    EXPECT_NEAR(world->Energy(), energy, 1e-5 * energy) << ratio;
+    // Measured 5e-7: single precision.
+    EXPECT_NEAR(v1, (m1 - m2) / (m1 + m2) * 8, 4e-6) << ratio;
+    EXPECT_NEAR(v2, 2 * m1 / (m1 + m2) * 8, 4e-6) << ratio;
+    EXPECT_NEAR(m1 * v1 + m2 * v2, m1 * 8, 1e-6 * m1 * 8) << ratio;
+    EXPECT_NEAR(world->Energy(), energy, 1e-6 * energy) << ratio;
   }
 }
 
@@ -83,8 +84,8 @@ TEST(Mathematics, InelasticCollisionKeepsMomentumAndTheShareOfSpeed) {
         "[[part]]\nname=\"b\"\nbox=[2, 1]\n" + bounce, "", "gravity=[0, 0]");
     Steps(world.get(), 60);
     const double v1 = world->Read(0).velocity.x(), v2 = world->Read(1).velocity.x();
-    EXPECT_NEAR(v1 + 2 * v2, 6, 1e-5) << e;
-    EXPECT_NEAR(v2 - v1, e * 6, 1e-5) << e;
+    EXPECT_NEAR(v1 + 2 * v2, 6, 4e-6) << e;
+    EXPECT_NEAR(v2 - v1, e * 6, 4e-6) << e;
   }
 }
 
@@ -97,8 +98,8 @@ TEST(Mathematics, SlidingBlockStopsAfterTheSquareOfItsSpeed) {
         "[[part]]\nname=\"block\"\nbox=[1, 1]\nposition=[0, 0.515]\nvelocity=[8, 0]\n" + rough);
     Steps(world.get(), 600);
     const double d = world->Read(0).position.x();
-    // Measured 1e-3 m: the block settles into Box2D's skin while it slides.
-    EXPECT_NEAR(d, 64 / (2 * mu * kG) - 8.0 / 120, 0.003) << mu;
+    // Measured 4e-5 m: the last step's share of a step.
+    EXPECT_NEAR(d, 64 / (2 * mu * kG) - 8.0 / 120, 2e-4) << mu;
     EXPECT_NEAR(world->Read(0).velocity.x(), 0, 1e-4) << mu;
   }
 }
@@ -129,11 +130,11 @@ TEST(Mathematics, BlockOnAnInclineSlidesOrStays) {
     const auto world = OnSlope(angle, mu, "box=[1, 1]\n");
     Steps(world.get(), n);
     const double a = kG * (std::sin(angle) - mu * std::cos(angle));
-    EXPECT_NEAR(Along(*world, angle), a * h * h * n * (n + 1) / 2, 0.01) << mu;
+    EXPECT_NEAR(Along(*world, angle), a * h * h * n * (n + 1) / 2, 2e-5) << mu;
   }
   const auto held = OnSlope(angle, 0.45, "box=[1, 1]\n");
   Steps(held.get(), 600);
-  EXPECT_NEAR(Along(*held, angle), 0, 0.002);
+  EXPECT_NEAR(Along(*held, angle), 0, 2e-4);   // measured 3e-5 m in 10 s
 }
 
 TEST(Mathematics, DiscRollsWithTwoThirdsOfTheSlopesPull) {
@@ -146,10 +147,10 @@ TEST(Mathematics, DiscRollsWithTwoThirdsOfTheSlopesPull) {
   const double a = 2.0 / 3 * kG * std::sin(angle);
   const double exact = a * h * h * n * (n + 1) / 2;
   const double along = Along(*world, angle);
-  EXPECT_NEAR(along, exact, 0.01 * exact);
-  // It rolls on the skin: its path is longer than its turning by the skin's share of the radius.
+  // Measured 0.2 % of 10 m behind, and turned 0.3 % too far: it rolls on Box2D's skin.
+  EXPECT_NEAR(along, exact, 0.004 * exact);
   const double turned = 0.5 * -(static_cast<double>(world->Read(0).angle) + angle);
-  EXPECT_NEAR(turned, along, 0.02 * along);
+  EXPECT_NEAR(turned, along, 0.006 * along);
 }
 
 TEST(Mathematics, SimplePendulumKeepsGausssPeriod) {
@@ -163,8 +164,8 @@ TEST(Mathematics, SimplePendulumKeepsGausssPeriod) {
         "[[joint]]\nname=\"rod\"\nkind=\"distance\"\na=\"hook\"\nb=\"bob\"\n",
         "tick_hz=240\nsubsteps=4\n");
     const double exact = 4 * std::sqrt(length / kG) * EllipticK(std::sin(start / 2));
-    // Joints dissipate: a swing that shrinks is a little quicker.
-    EXPECT_NEAR(FirstPeriod(world.get(), 0), exact, 2e-3 * exact) << start;
+    // Joints dissipate: a swing that shrinks is quicker. Measured 4e-7, 2e-4, 1.1e-3 of T.
+    EXPECT_NEAR(FirstPeriod(world.get(), 0), exact, 1e-3 * start * start * exact) << start;
   }
 }
 
@@ -179,7 +180,7 @@ TEST(Mathematics, PhysicalPendulumKeepsGausssPeriod) {
       "tick_hz=240\nsubsteps=4\n");
   const double inertia = (4 + 0.16) / 12 + d * d;
   const double exact = 4 * std::sqrt(inertia / (kG * d)) * EllipticK(std::sin(start / 2));
-  EXPECT_NEAR(FirstPeriod(world.get(), 0), exact, 2e-3 * exact);
+  EXPECT_NEAR(FirstPeriod(world.get(), 0), exact, 3e-4 * exact);   // measured 1e-4
 }
 
 TEST(Mathematics, SpringSwingsAtItsFrequency) {
@@ -190,7 +191,7 @@ TEST(Mathematics, SpringSwingsAtItsFrequency) {
       "[[joint]]\nname=\"spring\"\nkind=\"distance\"\na=\"hook\"\nb=\"mass\"\nlength=3\n"
       "frequency=2\ndamping_ratio=0\n",
       "tick_hz=240\nsubsteps=4\n", "gravity=[0, 0]");
-  EXPECT_NEAR(FirstPeriod(world.get(), 0), 0.5, 0.5 * 2e-3);
+  EXPECT_NEAR(FirstPeriod(world.get(), 0), 0.5, 1e-4);   // measured 3e-5 s
 }
 
 TEST(Mathematics, CradlePassesTheSpeedToTheLastBall) {
