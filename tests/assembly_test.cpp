@@ -58,7 +58,8 @@ TEST(Assembly, AssembliesAndMechanismsAscendById) {
 TEST(Assembly, WeldsCarryAnchorsAndAnchorsSeparateMechanisms) {
   const Composition c = Compose(Parse(
       Box("post", 1, 1, 0, 0, "anchored = true") + Box("arm", 3, 1, 2, 0) +
-      Box("left", 1, 1, 4, 0) + Box("right", 1, 1, 4, 2) + Join("weld", "post", "arm") + Join("revolute", "arm", "left") +
+      Box("left", 1, 1, 4, 0) + Box("right", 1, 1, 4, 2) +
+      Join("weld", "post", "arm") + Join("revolute", "arm", "left") +
       Join("revolute", "arm", "right")));
   ASSERT_EQ(c.assemblies.size(), 3u);
   EXPECT_TRUE(c.assemblies[0].anchored);
