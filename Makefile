@@ -70,7 +70,7 @@ $(OUT)/%.o: %.cpp $(GEN)/.stamp
 
 $(OUT)/libseam.a: $(COMMON)
 	@rm -f $@
-	ar rcs $@ $^
+	@ar rcs $@ $^
 $(OUT)/seam-server: $(OUT)/server/main.o $(SERVER) $(OUT)/libseam.a
 	$(CXX) $(ALL_CXXFLAGS) $^ $(LIBS) -o $@
 $(OUT)/seam-client: $(OUT)/client/main.o $(CLIENT) $(OUT)/libseam.a

@@ -10,7 +10,7 @@ namespace seam {
 namespace {
 
 constexpr std::int64_t kPingFastUs = 50000;    // until the clock has settled and the room started
-constexpr std::int64_t kPingSlowUs = 200000;
+constexpr std::int64_t kPingSlowUs = 100000;
 constexpr std::int64_t kHelloUs = 100000;
 /// Most ticks stepped in one call; further behind than kGiveUpTicks we rejoin.
 constexpr int kStepsMost = 20;
@@ -42,7 +42,7 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   Greet(now_us);
   StartIfDue(now_us);
   if (started_) StepDue(now_us);
-  if (publisher_ != nullptr && now_us - last_stats_us_ >= 1000000) PublishStats(now_us, cpu_us);
+  if (publisher_ != nullptr && peer_ >= 0 && now_us - last_stats_us_ >= 1000000) PublishStats(now_us, cpu_us);
   Flush(now_us);
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// States on the wire: whole numbers of fixed quanta, so that both ends hold the same values.
+/// States on the wire: whole numbers of fixed quanta.
 
 #include <vector>
 

@@ -14,6 +14,8 @@ constexpr std::size_t kEarlyMost = 64;
 constexpr std::int64_t kEarlyTicksMost = 120;
 /// Speeds written to the world stay within what the engine itself can move, m/s and rad/s.
 constexpr float kSpinMost = 94.0f;
+/// A copy slower than this may be taken to its authority's pose of rest at once, m/s and rad/s.
+constexpr float kQuiet = 0.1f;
 
 bool Negligible(const BodyState& d) {
   return d.position.norm() < 0.75f * kPositionQuantum &&
@@ -136,14 +138,14 @@ void Replica::Correct(int body, const States& states, std::size_t i, const BodyS
   const float angle_then =
       then != nullptr ? then->angle : in.local.angle - in.dt * in.local.spin;
   in.remote = Unpack(states, i, angle_then);
-  if ((states.flags[i] & kStateAsleep) != 0) {
-    // At rest, for good as far as the authority knows: take its pose bit for bit, so that all
-    // peers end with the same numbers.
-    const bool same = in.remote.position == in.local.position && in.remote.angle == in.local.angle;
-    if (same && !world_.awake(body)) return;
+  const bool quiet = in.local.velocity.norm() < kQuiet && std::fabs(in.local.spin) < kQuiet;
+  if ((states.flags[i] & kStateAsleep) != 0 && quiet) {
+    // At rest as far as the authority knows: take its pose bit for bit, so that all peers end with
+    // the same numbers. Our copy is neither woken nor put to sleep by it: either would start the
+    // engine's time to sleep again, for all that it touches.
+    if (in.remote.position == in.local.position && in.remote.angle == in.local.angle) return;
     smoother_.Moved(body, in.remote.position - in.local.position, in.remote.angle - in.local.angle);
     world_.Write(body, in.remote, false);
-    world_.SetAwake(body, false);
     *history_.At(tick(), body) = world_.Read(body);
     return;
   }
