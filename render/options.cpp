@@ -60,8 +60,8 @@ void Check(const RenderOptions& o) {
   if (o.threads < 0 || o.threads > 64) throw OperatorError("--threads must be 1 to 64");
   if (o.every_ticks < 0) throw OperatorError("--every must be at least 1 tick");
   if (!(o.seconds >= 0)) throw OperatorError("--seconds must be positive");
-  if (!std::isnan(o.from_s) && !std::isnan(o.to_s) && o.from_s >= o.to_s)
-    throw OperatorError("--from must be before --to");
+  if (!std::isnan(o.from_s) && !std::isnan(o.to_s) && o.from_s > o.to_s)
+    throw OperatorError("--from must not be after --to");
   if (!o.video.empty() && (o.width_px % 2 != 0 || o.height_px % 2 != 0))
     throw OperatorError("--video needs an even width and height");
 }

@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/codec/codec.h"
 #include "common/measure/measure.h"
 #include "common/physics/scene.h"
+#include "common/record/log_file.h"
 #include "common/record/recording.h"
 
 namespace seam {
@@ -136,6 +138,76 @@ inline Recording MakeRecording(int late_ticks, const std::string& mode = "buffer
     recording.stats[peer].push_back(stats);
   }
   return recording;
+}
+
+/// The same scene as a file would say it.
+inline std::string SceneText() {
+  return R"(title = "Two carts meet"
+duration = 3
+buffer = 6
+[[part]]
+name = "floor"
+chain = [[-30, 0], [30, 0]]
+[[part]]
+name = "cart_a"
+box = [3, 1.5]
+position = [-10, 0.75]
+[[part]]
+name = "cart_b"
+box = [3, 1.5]
+position = [10, 0.75]
+[[part]]
+name = "wheel"
+circle = 0.8
+position = [-14, 0.8]
+[[part]]
+name = "box"
+box = [1, 1]
+position = [14, 0.5]
+repeat = {count = 4, step = [0, 1]}
+[[player]]
+name = "ann"
+vehicle = "cart_a"
+region = [[-40, -10], [-0.001, 30]]
+[[player]]
+name = "ben"
+vehicle = "cart_b"
+region = [[0, -10], [40, 30]]
+[[watch]]
+struck = ["cart_a", "cart_b"]
+around = 0.5
+[camera]
+min = [-18, -2]
+max = [18, 10]
+)";
+}
+
+/// What every peer's world would be, had they all been one.
+inline Recording MakeOracleRecording() {
+  Recording recording = MakeRecording(0, "oracle", "");
+  recording.views.erase(1);
+  recording.views.erase(2);
+  return recording;
+}
+
+/// Writes a recording as a session would have been logged, in the order of time.
+inline void WriteLog(const std::string& path, Recording recording) {
+  recording.room.scene_text = SceneText();
+  LogWriter log(path);
+  log.Publish(ChannelName("test", "room"), 0, Encode(recording.room));
+  std::int32_t sequence = 0;
+  for (int tick = 0; tick <= kTicks; ++tick) {
+    const std::int64_t utime = tick * 1000000LL / 60;
+    for (auto& [peer, views] : recording.views) {
+      views[tick].sequence = tick + 1;
+      log.Publish(ChannelName("test", "view", peer), utime, Encode(views[tick]));
+    }
+    for (Impacts& impacts : recording.impacts) {
+      if (impacts.tick != tick) continue;
+      impacts.sequence = ++sequence;
+      log.Publish(ChannelName("test", "impacts", impacts.peer), utime, Encode(impacts));
+    }
+  }
 }
 
 }  // namespace synthetic

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
@@ -7,6 +8,7 @@
 #include "render/commands.h"
 #include "render/png_writer.h"
 #include "render/sequence.h"
+#include "tests/child_process.h"
 #include "tests/render_fixture.h"
 
 namespace seam {
@@ -127,6 +129,152 @@ TEST(RenderProgram, OperatorsMistakesAreOneLineStatus2AndWriteNothing) {
     EXPECT_EQ(said.rfind("seam-render: ", 0), 0u) << typed << ": " << said;
     EXPECT_EQ(folder.List(), std::vector<std::string>{"not.lcm"}) << typed;
   }
+}
+
+/// A folder with the synthetic session's log and its oracle's.
+class RenderLog : public ::testing::Test {
+ protected:
+  RenderLog() {
+    synthetic::WriteLog(log_, synthetic::MakeRecording(6));
+    synthetic::WriteLog(strict_, synthetic::MakeRecording(20, "strict", ""));
+    synthetic::WriteLog(oracle_, synthetic::MakeOracleRecording());
+  }
+
+  /// The frames of a folder, in order.
+  static std::vector<std::string> Frames(const std::string& folder) {
+    std::set<std::string> paths;
+    for (const auto& entry : fs::directory_iterator(folder)) paths.insert(entry.path());
+    std::vector<std::string> frames;
+    for (const std::string& path : paths) frames.push_back(Content(path));
+    return frames;
+  }
+
+  Folder folder_;
+  const std::string log_ = folder_ / "log.lcm", strict_ = folder_ / "strict.lcm";
+  const std::string oracle_ = folder_ / "oracle.lcm";
+  const std::vector<std::string> untouched_{"log.lcm", "oracle.lcm", "strict.lcm"};
+};
+
+TEST_F(RenderLog, GivesTheSameFilesInEveryRunAndWithAnyNumberOfThreads) {
+  std::vector<std::vector<std::string>> runs;
+  for (const char* threads : {"1", "4", "3"}) {
+    const std::string out = folder_ / (std::string("run") + threads);
+    std::string said;
+    ASSERT_EQ(SeamRender({log_, "-o", out, "--oracle", oracle_, "--threads", threads, "--size",
+                          "480x270", "--fps", "10", "--view", "all"}, &said), 0) << said;
+    EXPECT_NE(said.find("31 frames in " + out), std::string::npos) << said;
+    EXPECT_NE(said.find("x real time at 10 fps"), std::string::npos) << said;
+    runs.push_back(Frames(out));
+  }
+  ASSERT_EQ(runs[0].size(), 31u);
+  for (const auto& run : runs) EXPECT_TRUE(run == runs[0]);
+}
+
+TEST_F(RenderLog, FromAndToPickTheSameFramesAsTheWholeHas) {
+  const std::vector<std::string> common{log_, "--oracle", oracle_, "--size", "480x270", "--fps",
+                                        "10", "-o"};
+  auto whole = common, part = common;
+  whole.push_back(folder_ / "whole");
+  part.insert(part.end(), {folder_ / "part", "--from", "1", "--to", "1.55"});
+  ASSERT_EQ(SeamRender(whole), 0);
+  ASSERT_EQ(SeamRender(part), 0);
+  const auto all = Frames(folder_ / "whole"), some = Frames(folder_ / "part");
+  ASSERT_EQ(some.size(), 6u);   // 1.0, 1.1, ... 1.5
+  for (std::size_t i = 0; i < some.size(); ++i) EXPECT_TRUE(some[i] == all[10 + i]) << i;
+}
+
+TEST_F(RenderLog, DrawsWithTheOracleItComputesItself) {
+  std::string said;
+  ASSERT_EQ(SeamRender({log_, "-o", folder_ / "out", "--from", "1", "--to", "1"}, &said), 0) << said;
+  EXPECT_EQ(Frames(folder_ / "out").size(), 1u);
+}
+
+TEST_F(RenderLog, ComparesRunsAndPicturesTheirCollision) {
+  std::string said;
+  ASSERT_EQ(SeamRender({"--compare", log_, strict_, "-o", folder_ / "out", "--oracle", oracle_,
+                        "--from", "1", "--to", "1.2"}, &said), 0) << said;
+  EXPECT_EQ(Frames(folder_ / "out").size(), 7u);
+  const std::string one = folder_ / "one.png", all = folder_ / "all.png";
+  ASSERT_EQ(SeamRender({"--strobe", log_, "-o", one, "--oracle", oracle_}, &said), 0) << said;
+  ASSERT_EQ(SeamRender({"--strobe", "--compare", oracle_, strict_, log_, "-o", all, "--oracle",
+                        oracle_}, &said), 0) << said;
+  const Image single = ReadPng(one), rows = ReadPng(all);
+  EXPECT_EQ(single.width_px, 1280);
+  EXPECT_GT(rows.height_px, single.height_px + 150);
+  // Again gives the same, over the old file.
+  const std::string before = Content(all);
+  ASSERT_EQ(SeamRender({"--strobe", "--compare", oracle_, strict_, log_, "-o", all, "--oracle",
+                        oracle_}), 0);
+  EXPECT_EQ(Content(all), before);
+}
+
+TEST_F(RenderLog, DrawsADamagedLogAsFarAsItIsGood) {
+  const std::string bytes = Content(log_), damaged = folder_ / "damaged.lcm";
+  std::string torn = bytes.substr(0, bytes.size() / 2 + 13);
+  for (std::size_t i = bytes.size() / 4; i < bytes.size() / 4 + 40; ++i) torn[i] = '\xee';
+  std::ofstream(damaged, std::ios::binary) << torn;
+  std::string said;
+  ASSERT_EQ(SeamRender({damaged, "-o", folder_ / "out", "--fps", "5", "--oracle", oracle_}, &said),
+            0) << said;
+  const std::size_t frames = Frames(folder_ / "out").size();
+  EXPECT_GE(frames, 7u);
+  EXPECT_LE(frames, 9u);
+}
+
+TEST_F(RenderLog, MistakesInWhatIsAskedOfALogWriteNothing) {
+  const std::string out = folder_ / "out";
+  const std::vector<std::vector<std::string>> mistakes{
+      {log_, "-o", out, "--view", "7"},
+      {log_, "-o", out, "--from", "30"},
+      {log_, "-o", out, "--to", "-1"},
+      {log_, "-o", out, "--oracle", strict_},
+      {log_, "-o", out, "--oracle", folder_ / "none"},
+      {log_, "-o", out, "--room", "other"},
+      {log_, "-o", out, "--fonts", "/nowhere"},
+      {"--strobe", log_, "-o", out + ".png", "--from", "30"},
+      {"--strobe", log_, "-o", out + ".png", "--fonts", "/nowhere"},
+      {log_, "-o", out, "--video", out + ".avi"},
+      {log_, "-o", log_},
+  };
+  for (const auto& mistake : mistakes) {
+    std::string said, typed;
+    for (const std::string& word : mistake) typed += " " + word;
+    EXPECT_EQ(SeamRender(mistake, &said), 2) << typed;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << typed << ": " << said;
+    EXPECT_EQ(folder_.List(), untouched_) << typed;
+  }
+}
+
+TEST_F(RenderLog, WithoutFfmpegAVideoIsRefusedBeforeAnythingIsDrawn) {
+  const std::string path = std::getenv("PATH");
+  setenv("PATH", "/nowhere", 1);
+  std::string said;
+  const int status = SeamRender({log_, "-o", folder_ / "out", "--video", folder_ / "a.mp4"}, &said);
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(status, 2);
+  EXPECT_NE(said.find("ffmpeg"), std::string::npos) << said;
+  EXPECT_EQ(folder_.List(), untouched_);
+}
+
+TEST_F(RenderLog, LiveDrawsWhatTheStockPlayerSends) {
+  const char* const bin = std::getenv("SEAM_BIN");
+  ChildProcess probe({"sh", "-c", "unshare -rn true && command -v lcm-logplayer"});
+  if (bin == nullptr || !probe.Wait(10) || probe.exit_status() != 0)
+    GTEST_SKIP() << "needs SEAM_BIN, a network namespace and lcm-logplayer";
+  const std::string out = folder_ / "out";
+  // A namespace of its own has multicast and disturbs nobody.
+  const std::string commands = "ip link set lo up; ip route add 224.0.0.0/4 dev lo; \"$0\" --live "
+                               "-o \"$1\" --size 480x270 --fps 10 --seconds 60 & "
+                               "sleep 1; lcm-logplayer \"$2\"; wait $!";
+  ChildProcess session({"unshare", "-rn", "env", "LCM_DEFAULT_URL=", "sh", "-c", commands,
+                        std::string(bin) + "/seam-render", out, log_});
+  ASSERT_TRUE(session.Wait(90)) << "hangs";
+  ASSERT_EQ(session.exit_status(), 0) << session.output();
+  EXPECT_NE(session.output().find(" frames in " + out), std::string::npos) << session.output();
+  const std::vector<std::string> frames = Frames(out);
+  EXPECT_GT(frames.size(), 5u);    // a busy machine may skip some
+  EXPECT_LE(frames.size(), 31u);
+  EXPECT_NE(frames.front(), frames.back());
 }
 
 }  // namespace
