@@ -15,6 +15,8 @@ constexpr int kHistoryTicks = 120;
 constexpr double kCoupledHold = 0.25;
 /// Dead reckoning beyond the buffer zone goes no further than this, s.
 constexpr float kReckonMost = 0.5f;
+/// Kinematic bodies are not made to spin faster than this, rad/s: the engine clamps at 94.
+constexpr float kSpinDrivenMost = 90.0f;
 
 }  // namespace
 
@@ -145,16 +147,18 @@ void Replica::DriveKinematic(std::int64_t next) {
             ? snapshots_.Extrapolate(body, next, world_.dt(), kReckonMost)
             : snapshots_.Interpolate(body, static_cast<double>(next) - delay);
     state.velocity = (target.position - state.position) / world_.dt();
-    state.spin = (target.angle - state.angle) / world_.dt();
-    const float limit = scene().speed_limit;
-    if (state.velocity.norm() > limit || std::fabs(state.spin) > 90.0f) {
-      // Too far to travel in a tick: place it there at rest.
-      smoother_.Moved(body, target.position - state.position, target.angle - state.angle);
+    if (state.velocity.norm() > scene().speed_limit) {
+      // Too far to travel in a tick: it is placed there at once.
+      smoother_.Moved(body, target.position - state.position, 0);
       state.position = target.position;
-      state.angle = target.angle;
       state.velocity.setZero();
-      state.spin = 0;
     }
+    // A fast wheel turns by more than the wire's angle can tell: it spins as it should and its
+    // angle is placed.
+    const float turn = std::remainder(target.angle - state.angle, 6.2831853f);
+    const bool fast = std::fabs(turn) > kSpinDrivenMost * world_.dt();
+    state.spin = fast ? target.spin : turn / world_.dt();
+    if (fast) state.angle += turn - target.spin * world_.dt();
     const bool moves = state.velocity.squaredNorm() > 0 || state.spin != 0;
     world_.Write(body, state, moves);
   }
