@@ -14,7 +14,7 @@ History::History(int body_count, int capacity_ticks)
 }
 
 void History::Record(std::int64_t tick, const std::vector<BodyState>& states) {
-  SEAM_ASSERT(count_ == 0 || tick == newest_ + 1);
+  SEAM_ASSERT(tick >= 0 && (count_ == 0 || tick == newest_ + 1));
   SEAM_ASSERT(static_cast<int>(states.size()) == bodies_);
   newest_ = tick;
   count_ = std::min(count_ + 1, capacity_);
@@ -22,6 +22,7 @@ void History::Record(std::int64_t tick, const std::vector<BodyState>& states) {
 }
 
 const BodyState* History::At(std::int64_t tick, int body) const {
+  SEAM_ASSERT(body >= 0 && body < bodies_);
   if (count_ == 0 || tick > newest_ || tick <= newest_ - count_) return nullptr;
   return &ring_[static_cast<std::size_t>((tick % capacity_) * bodies_ + body)];
 }

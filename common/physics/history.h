@@ -13,8 +13,8 @@ class History {
  public:
   History(int body_count, int capacity_ticks);
 
-  /// Notes all bodies' states after `tick`. Requires tick == newest() + 1 unless empty; use Clear
-  /// before a jump.
+  /// Notes all bodies' states after `tick`. Requires tick == newest() + 1, or empty and tick >= 0;
+  /// use Clear before a jump.
   void Record(std::int64_t tick, const std::vector<BodyState>& states);
   /// nullptr when the tick is not in the ring.
   const BodyState* At(std::int64_t tick, int body) const;
