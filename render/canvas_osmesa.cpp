@@ -140,10 +140,8 @@ class OsmesaCanvas : public Canvas {
     Resize(list.width_px(), list.height_px());
     glScissor(0, 0, width_, height_);
     Clear(background);
-    Upload(GL_ARRAY_BUFFER, list.vertices().data(), list.vertices().size() * sizeof(Vertex));
-    Upload(GL_ELEMENT_ARRAY_BUFFER, list.indices().data(),
-           list.indices().size() * sizeof(std::uint32_t));
-    for (const Batch& batch : list.batches()) {
+    Upload(list);
+    for (const Batch& batch : list.Batches()) {
       glScissor(static_cast<int>(batch.clip.x), static_cast<int>(batch.clip.y),
                 static_cast<int>(batch.clip.width), static_cast<int>(batch.clip.height));
       if (batch.kind == BatchKind::kClear) {
@@ -151,7 +149,9 @@ class OsmesaCanvas : public Canvas {
         continue;
       }
       glUseProgram(programs_[Index(batch.kind)]);
-      const std::size_t offset = batch.first_index * sizeof(std::uint32_t);
+      // The text's indices follow the shapes'.
+      const std::size_t skip = batch.kind == BatchKind::kText ? list.indices().size() : 0;
+      const std::size_t offset = (skip + batch.first_index) * sizeof(std::uint32_t);
       glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(batch.indices), GL_UNSIGNED_INT,
                      reinterpret_cast<const void*>(offset));
     }
@@ -179,8 +179,26 @@ class OsmesaCanvas : public Canvas {
                           reinterpret_cast<const void*>(offset));
   }
 
-  static void Upload(GLenum target, const void* data, std::size_t bytes) {
-    glBufferData(target, static_cast<GLsizeiptr>(bytes), data, GL_STREAM_DRAW);
+  void Upload(const DrawList& list) {
+    const std::size_t index_bytes = list.indices().size() * sizeof(std::uint32_t);
+    const std::size_t text_bytes = list.text_indices().size() * sizeof(std::uint32_t);
+    Reserve(0, list.vertices().size() * sizeof(Vertex));
+    Reserve(1, index_bytes + text_bytes);
+    const auto put = [](GLenum target, std::size_t at, const void* data, std::size_t bytes) {
+      if (bytes == 0) return;
+      glBufferSubData(target, static_cast<GLintptr>(at), static_cast<GLsizeiptr>(bytes), data);
+    };
+    put(GL_ARRAY_BUFFER, 0, list.vertices().data(), list.vertices().size() * sizeof(Vertex));
+    put(GL_ELEMENT_ARRAY_BUFFER, 0, list.indices().data(), index_bytes);
+    put(GL_ELEMENT_ARRAY_BUFFER, index_bytes, list.text_indices().data(), text_bytes);
+  }
+
+  // Buffers only grow: a new one each page would be megabytes from the kernel each page.
+  void Reserve(int buffer, std::size_t bytes) {
+    if (bytes <= buffer_bytes_[buffer]) return;
+    buffer_bytes_[buffer] = 2 * bytes;
+    glBufferData(buffer == 0 ? GL_ARRAY_BUFFER : GL_ELEMENT_ARRAY_BUFFER,
+                 static_cast<GLsizeiptr>(2 * bytes), nullptr, GL_STREAM_DRAW);
   }
 
   void UploadAtlas(const Font& font) {
@@ -233,7 +251,8 @@ class OsmesaCanvas : public Canvas {
   std::uint8_t own_buffer_[4 * 4 * 4] = {};
   GLuint programs_[3] = {0, 0, 0};   // by BatchKind
   GLuint vertex_array_ = 0, texture_ = 0;
-  GLuint buffers_[2] = {0, 0};
+  GLuint buffers_[2] = {0, 0};       // vertices, indices
+  std::size_t buffer_bytes_[2] = {0, 0};
   GLuint framebuffer_ = 0, renderbuffer_ = 0;
   int width_ = 0, height_ = 0;
   std::vector<std::uint8_t> rgba_;

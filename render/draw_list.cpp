@@ -34,13 +34,35 @@ void DrawList::Begin(int width_px, int height_px) {
   height_px_ = height_px;
   vertices_.clear();
   indices_.clear();
+  text_indices_.clear();
   batches_.clear();
+  open_text_ = Batch();
+  open_text_.kind = BatchKind::kText;
   NoClip();
 }
 
 void DrawList::Clip(const Rect& rect) {
-  NoClip();
-  clip_ = Cut(rect);
+  clip_ = {0, 0, static_cast<float>(width_px_), static_cast<float>(height_px_)};
+  SetClip(Cut(rect));
+}
+
+void DrawList::NoClip() {
+  SetClip({0, 0, static_cast<float>(width_px_), static_cast<float>(height_px_)});
+}
+
+void DrawList::SetClip(const Rect& rect) {
+  clip_ = rect;
+  if (Same(open_text_.clip, rect)) return;
+  if (open_text_.indices > 0) batches_.push_back(open_text_);
+  open_text_.clip = rect;
+  open_text_.first_index = static_cast<std::uint32_t>(text_indices_.size());
+  open_text_.indices = 0;
+}
+
+std::vector<Batch> DrawList::Batches() const {
+  std::vector<Batch> all = batches_;
+  if (open_text_.indices > 0) all.push_back(open_text_);
+  return all;
 }
 
 Rect DrawList::Cut(const Rect& rect) const {
@@ -49,10 +71,6 @@ Rect DrawList::Cut(const Rect& rect) const {
   const float x1 = std::min(clip_.right(), std::round(rect.right()));
   const float y1 = std::min(clip_.bottom(), std::round(rect.bottom()));
   return {x0, y0, std::max(0.0f, x1 - x0), std::max(0.0f, y1 - y0)};
-}
-
-void DrawList::NoClip() {
-  clip_ = {0, 0, static_cast<float>(width_px_), static_cast<float>(height_px_)};
 }
 
 void DrawList::Need(BatchKind kind) {
@@ -92,7 +110,9 @@ void DrawList::Fan(const std::vector<Vec2>& points, Colour colour) {
 }
 
 void DrawList::FillRect(const Rect& r, Colour colour) {
-  if (colour.a == 255) {
+  constexpr float kLarge = 5000;   // px: below, a draw call of its own would cost more
+  const bool large = r.width * r.height > kLarge;
+  if (colour.a == 255 && large) {
     Batch batch;
     batch.kind = BatchKind::kClear;
     batch.clip = Cut(r);
@@ -100,7 +120,7 @@ void DrawList::FillRect(const Rect& r, Colour colour) {
     if (batch.clip.width > 0 && batch.clip.height > 0) batches_.push_back(batch);
     return;
   }
-  Need(BatchKind::kPlain);
+  Need(large ? BatchKind::kPlain : BatchKind::kShape);
   Fan({{r.x, r.y}, {r.right(), r.y}, {r.right(), r.bottom()}, {r.x, r.bottom()}}, colour);
 }
 
@@ -187,7 +207,6 @@ float DrawList::Text(float x, float y, TextStyle style, const std::string& utf8,
   const float width = font_.Width(style, utf8);
   float pen = align == Align::kLeft ? x : align == Align::kRight ? x - width : x - width / 2;
   const float base = std::round(y);
-  Need(BatchKind::kText);
   for (std::uint32_t codepoint : Codepoints(utf8)) {
     const Glyph& g = font_.Find(style, codepoint);
     const float x0 = std::round(pen) + static_cast<float>(g.left);
@@ -200,8 +219,9 @@ float DrawList::Text(float x, float y, TextStyle style, const std::string& utf8,
       vertices_[v].across = static_cast<float>(g.atlas_x) + right;
       vertices_[v].half = static_cast<float>(g.atlas_y) + down;
     }
-    Triangle(first, first + 1, first + 2);
-    Triangle(first, first + 2, first + 3);
+    text_indices_.insert(text_indices_.end(), {first, first + 1, first + 2, first, first + 2,
+                                               first + 3});
+    open_text_.indices += 6;
     pen += g.advance;
   }
   return width;

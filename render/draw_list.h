@@ -1,6 +1,7 @@
 #pragma once
 /// What is to be drawn, as triangles in painter's order: shapes, lines with width, text. Pure
 /// arithmetic in pixels (origin upper left, y downwards); a Canvas turns it into an Image.
+/// Text lies over the shapes of its clip, whichever came first, so that a page is few draw calls.
 ///
 /// Lines are antialiased by distance: every vertex carries how far across the line it lies, and the
 /// fragment's coverage is `half + 0.5 - |across|`. So a line costs two triangles and has 256
@@ -40,7 +41,7 @@ enum class BatchKind { kPlain, kShape, kText, kClear };
 struct Batch {
   BatchKind kind = BatchKind::kShape;
   Rect clip;
-  std::uint32_t first_index = 0, indices = 0;
+  std::uint32_t first_index = 0, indices = 0;   ///< kText: among the text's indices
   Colour clear;     ///< kClear: fills `clip`
 };
 
@@ -66,7 +67,7 @@ class DrawList {
 
   /// Convex, in order.
   void Fill(const std::vector<Vec2>& points, Colour colour);
-  /// For large areas; its edges are not softened, and an opaque one has whole pixels.
+  /// For large areas; its edges are not softened, and a large opaque one has whole pixels.
   void FillRect(const Rect& rect, Colour colour);
   /// A quadrilateral whose colour goes from `from` (points 0, 1) to `to` (points 2, 3).
   void FillShaded(const Vec2 points[4], Colour from, Colour to);
@@ -88,12 +89,14 @@ class DrawList {
   const Font& font() const { return font_; }
   const std::vector<Vertex>& vertices() const { return vertices_; }
   const std::vector<std::uint32_t>& indices() const { return indices_; }
-  const std::vector<Batch>& batches() const { return batches_; }
+  const std::vector<std::uint32_t>& text_indices() const { return text_indices_; }
+  std::vector<Batch> Batches() const;
   int width_px() const { return width_px_; }
   int height_px() const { return height_px_; }
 
  private:
   void Need(BatchKind kind);
+  void SetClip(const Rect& rect);
   Rect Cut(const Rect& rect) const;
   void Fan(const std::vector<Vec2>& points, Colour colour);
   std::uint32_t Add(float x, float y, Colour colour);
@@ -104,7 +107,9 @@ class DrawList {
   Rect clip_;
   std::vector<Vertex> vertices_;
   std::vector<std::uint32_t> indices_;
+  std::vector<std::uint32_t> text_indices_;
   std::vector<Batch> batches_;
+  Batch open_text_;   // text of the present clip
 };
 
 /// The points of a circle, as many as it needs to look round.
