@@ -42,7 +42,8 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   Greet(now_us);
   StartIfDue(now_us);
   if (started_) StepDue(now_us);
-  if (publisher_ != nullptr && peer_ >= 0 && now_us - last_stats_us_ >= 1000000) PublishStats(now_us, cpu_us);
+  const bool stats_due = now_us - last_stats_us_ >= 1000000;
+  if (publisher_ != nullptr && peer_ >= 0 && stats_due) PublishStats(now_us, cpu_us);
   Flush(now_us);
 }
 

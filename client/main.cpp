@@ -37,7 +37,8 @@ struct Flags {
 void Define(CLI::App& app, Flags& f) {
   app.add_option("server", f.server, "host:port of seam-server (port 7777 if left out)");
   app.add_option("--name", f.name, "player of the scene to be; any other name watches");
-  app.add_option("--drive", f.drive, "none | bot | keyboard | name of the player whose script to play");
+  app.add_option("--drive", f.drive, 
+                 "none | bot | keyboard | name of the player whose script to play");
   app.add_option("--impair", f.impair, "impair this client's network, both directions");
   app.add_option("--seed", f.seed, "of the impairment")->check(CLI::Range(0, 1000000000));
   app.add_option("--smooth", f.smooth, "hide corrections in the view: on | off")
@@ -77,7 +78,9 @@ ClientConfig Configure(const Flags& f) {
 }
 
 int Play(const Flags& f) {
-  if (f.server.empty()) throw OperatorError("which server? for example: seam-client 127.0.0.1:7777");
+  if (f.server.empty()) {
+    throw OperatorError("which server? for example: seam-client 127.0.0.1:7777");
+  }
   const ClientConfig config = Configure(f);
   const ImpairProfile profile = FindProfile(f.impair);
   std::unique_ptr<Keyboard> keyboard;
@@ -115,7 +118,8 @@ int Play(const Flags& f) {
   if (!client.fatal().empty()) throw OperatorError(client.fatal());
   client.Shutdown(SteadyClockUs());
   const Stats& s = client.stats();
-  std::fprintf(stderr, "\nseam-client: %s; %lld datagrams in, %lld out, %lld bad, %lld stale bodies\n",
+  std::fprintf(stderr,
+               "\nseam-client: %s; %lld datagrams in, %lld out, %lld bad, %lld stale bodies\n",
                client.closed() ? "the server closed the room" : "left",
                static_cast<long long>(s.datagrams_in), static_cast<long long>(s.datagrams_out),
                static_cast<long long>(s.dropped_malformed),

@@ -76,7 +76,9 @@ void CheckRoomName(const std::string& room) {
 }
 
 int Serve(const Flags& f) {
-  if (f.scene.empty()) throw OperatorError("which scene? for example: seam-server scenes/crossing.toml");
+  if (f.scene.empty()) {
+    throw OperatorError("which scene? for example: seam-server scenes/crossing.toml");
+  }
   CheckRoomName(f.room);
   const Scene scene = LoadScene(f.scene);
   ServerConfig config;
@@ -96,7 +98,8 @@ int Serve(const Flags& f) {
   Sink sink(f.lcm_url, f.record, f.force, f.room);
   Server server(scene, config, net, sink);
   StopOnSignals();
-  std::fprintf(stderr, "seam-server: %s, mode %s%s%s, network %s, on %s; waiting for %d player(s)\n",
+  std::fprintf(stderr,
+               "seam-server: %s, mode %s%s%s, network %s, on %s; waiting for %d player(s)\n",
                scene.name.c_str(), f.mode.c_str(), config.sync.reconcile_name.empty() ? "" : " ",
                config.sync.reconcile_name.c_str(), f.impair.c_str(),
                ToString(udp.local()).c_str(), config.wait_players);

@@ -16,8 +16,8 @@ class ClockFilter {
   /// Enough samples to start with.
   bool settled() const { return samples_ >= kSettleSamples; }
 
-  /// The server's clock at our `now_us`. Never runs backwards for growing now_us once settled; slews
-  /// towards the best estimate by at most kSlewPpm (kSlewFarPpm when far off).
+  /// The server's clock at our `now_us`. Once settled it never runs backwards for growing now_us; it
+  /// slews towards the best estimate by at most kSlewPpm (kSlewFarPpm when far off).
   std::int64_t ServerTime(std::int64_t now_us);
 
   /// Least round trip in the window; -1 before the first sample.
@@ -29,7 +29,7 @@ class ClockFilter {
 
   static constexpr int kSettleSamples = 8;
   static constexpr double kSlewPpm = 2000;      ///< 2 ms a second: invisible
-  static constexpr double kSlewFarPpm = 50000;  ///< more than 50 ms off: a suspended or stepped clock
+  static constexpr double kSlewFarPpm = 50000;  ///< more than 50 ms off: a stepped clock
  private:
   static constexpr int kWindow = 32;
   struct Sample {

@@ -1,5 +1,5 @@
 #pragma once
-/// How a room is synchronised: the mode, the reconciler and the rates, as flags and messages say it.
+/// How a room is synchronised: mode, reconciler and rates, as flags and messages say it.
 
 #include <string>
 

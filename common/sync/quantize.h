@@ -28,7 +28,7 @@ struct PackedBody {
 /// The header fields (utime, peer, tick, composition) are copied from `header`.
 std::vector<States> Pack(const States& header, const std::vector<PackedBody>& bodies);
 
-/// Entry `i` of a message as a state; the angle is unwrapped to the revolution nearest `near_angle`.
+/// Entry `i` of a message as a state; the angle is unwrapped to the turn nearest `near_angle`.
 BodyState Unpack(const States& states, std::size_t i, float near_angle);
 
 }  // namespace seam

@@ -2,7 +2,7 @@
 /// The rule by which a secondary corrects its copy of a body when the authority's state arrives.
 /// One rule per file, all of one signature, so that two are compared by opening two files.
 ///
-///   remote  ----o t1 ............................ the authority's state, as old as the network made it
+///   remote  ----o t1 ........................ the authority's state, as old as the network made it
 ///   local   ----o t1 ----------------------o t2   our copy then, and now
 ///                \___ dt = t2 - t1 ________/
 

@@ -1,4 +1,4 @@
-/// interleave: X = Xl/2 + Xr/2. After Kevin He (2012), "buffer zone": both peers' results are mixed.
+/// interleave: X = Xl/2 + Xr/2. After Kevin He (2012), "buffer zone": both results are mixed.
 
 #include "common/sync/reconcile.h"
 

@@ -2,12 +2,12 @@
 ///   D = Xr(t1) - Xl(t1), Dv likewise;   X = Xl + D + Dv dt,   V = Vl + Dv
 /// Exact whenever both peers' copies felt the same forces since t1: nothing is extrapolated through
 /// gravity, spin or contact. That holds for *free* differences: of a mechanism as a whole, in the
-/// directions in which nothing holds it. What is left is the difference of springs, of joints and of
-/// bodies pressed against ground or against each other. It does not grow like Dv dt (it swings back,
-/// or a contact removes it), and where another authority's body is pressed against it, each peer
-/// corrects towards what the other corrected. All of that is a feedback loop with delay: there only
-/// a bounded share is taken, without the Dv dt term, and nothing inside a dead band just above the
-/// quantisation.
+/// directions in which nothing holds it. What is left is the difference of springs, of joints and
+/// of bodies pressed against ground or against each other. It does not grow like Dv dt (it swings
+/// back, or a contact removes it), and where another authority's body is pressed against it, each
+/// peer corrects towards what the other corrected. All of that is a feedback loop with delay: there
+/// only a bounded share is taken, without the Dv dt term, and nothing inside a dead band just above
+/// the quantisation.
 
 #include <cmath>
 

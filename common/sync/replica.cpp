@@ -125,7 +125,8 @@ void Replica::ApplyInputs(std::int64_t next) {
           world_.composition().assembly_of_part[static_cast<std::size_t>(actions[a].part)];
       const int m = world_.composition().assemblies[static_cast<std::size_t>(assembly)].mechanism;
       // Exactly one peer pushes: the authority, when it hears of it (all of them in the oracle).
-      const bool mine = config_.mode == Mode::kOracle || (m >= 0 && table_.at(m).authority == self_);
+      const bool alone = config_.mode == Mode::kOracle;
+      const bool mine = alone || (m >= 0 && table_.at(m).authority == self_);
       if (mine) world_.Act(player, static_cast<int>(a));
     }
   }

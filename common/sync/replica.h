@@ -114,8 +114,9 @@ class Replica {
   std::vector<States> outgoing_;
 };
 
-/// A change of velocity that counts as a major impact for `fade`, m/s. Lower lets a resting stack
-/// count as colliding; higher lets real collisions be overruled by old news.
-constexpr float kMajorImpact = 1.0f;
+/// A change of velocity that counts as a major impact for `fade`, m/s. A driven wheel feels up to
+/// 2.6 m/s from the ground in every tick: lower lets it count as colliding all the time; higher lets
+/// real collisions be overruled by old news.
+constexpr float kMajorImpact = 3.0f;
 
 }  // namespace seam

@@ -72,9 +72,10 @@ std::vector<PackedBody> Replica::ChooseBodies() {
       state.spin = 0;
     }
     packed.state = Quantised(state);
-    // At rest the sender takes what it sends, so that all peers end with the same numbers. In motion
-    // it does not: writing the rounded pose back 30 times a second topples a stack of ten boxes even
-    // in a world of its own (docs/metrics.md), and a receiver's error of half a quantum does nothing.
+    // At rest the sender takes what it sends, so that all peers end with the same numbers. In
+    // motion it does not: writing the rounded pose back 30 times a second topples a stack of ten
+    // boxes even in a world of its own (docs/architecture.md), and a receiver's error of half a
+    // quantum does nothing.
     if (!awake) world_.Write(body, packed.state, false);
     chosen.push_back(packed);
   }
