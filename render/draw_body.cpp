@@ -121,7 +121,7 @@ void DrawSpark(DrawList& list, const Vec2& at, float radius, float reach, const 
 }
 
 float PixelsApart(const Viewport& viewport, const BodyShapes& body, const Pose& a, const Pose& b) {
-  const float turn = std::abs(std::remainder(a.angle - b.angle, 6.2831853f));
+  const float turn = body.round ? 0 : std::abs(std::remainder(a.angle - b.angle, 6.2831853f));
   return ((a.position - b.position).norm() + turn * body.reach) * viewport.px_per_m;
 }
 

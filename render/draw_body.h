@@ -30,7 +30,7 @@ void DrawGhost(DrawList& list, const Viewport& viewport, const BodyShapes& body,
 /// An impact: a ring of `radius` px with eight rays, the whole `reach` px larger.
 void DrawSpark(DrawList& list, const Vec2& at, float radius, float reach, const Line& line);
 
-/// Largest distance on the panel between the same point of a body in two poses, px.
+/// Largest distance on the panel between the same point of a body's outline in two poses, px.
 float PixelsApart(const Viewport& viewport, const BodyShapes& body, const Pose& a, const Pose& b);
 
 }  // namespace seam

@@ -34,6 +34,18 @@ std::vector<Seen> BodiesOnPanel(const Viewport& viewport, const Playback& playba
   return seen;
 }
 
+/// A look at a few of the moments: most bodies of a large scene rest, and rest cheaply.
+bool RestsOver(const Viewport& viewport, const Playback& playback,
+               const std::vector<Moment>& past, PartId id) {
+  const auto now = playback.Find(past.back(), id);
+  for (std::size_t i = 0; now && i + 1 < past.size(); i += 9) {
+    const auto then = playback.Find(past[i], id);
+    if (!then) continue;
+    if ((then->pose.position - now->pose.position).norm() * viewport.px_per_m > 0.5f) return false;
+  }
+  return true;
+}
+
 /// Where bodies came from; bodies at rest have none.
 void DrawTrails(DrawList& list, const Viewport& viewport, const Playback& playback,
                 const WorldLook& look) {
@@ -42,6 +54,7 @@ void DrawTrails(DrawList& list, const Viewport& viewport, const Playback& playba
   for (int i = kTrailPoints; i >= 0; --i)
     past.push_back(playback.MomentAt(look.peer, look.tick - span * i / kTrailPoints));
   for (const BodyShapes& body : playback.moving()) {
+    if (RestsOver(viewport, playback, past, body.id)) continue;
     std::vector<Vec2> points;
     std::vector<Colour> colours;
     float length = 0;

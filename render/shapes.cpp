@@ -64,6 +64,8 @@ std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composit
       for (std::size_t player = 0; player < scene.players.size(); ++player)
         if (scene.players[player].vehicle == id) body.owner_player = static_cast<int>(player);
     }
+    body.round = body.outlines.size() == 1 && body.outlines[0].kind == ShapeKind::kCircle &&
+                 body.outlines[0].points[0].norm() < 1e-3f;
     bodies.push_back(std::move(body));
   }
   return bodies;

@@ -37,6 +37,7 @@ struct BodyShapes {
   std::vector<PartId> parts;   ///< ascending
   std::vector<Outline> outlines;
   float reach = 0;             ///< m: nothing of it is further from the root
+  bool round = false;          ///< a circle about its root: its outline does not show its angle
   Pose start;                  ///< of the root part at tick 0
   int owner_player = -1;       ///< the player whose vehicle belongs to it, -1: none
 };

@@ -69,9 +69,14 @@ std::int64_t WorstTick(const Playback& playback) {
 struct Box {
   Vec2 min{1e9f, 1e9f}, max{-1e9f, -1e9f};
   bool empty() const { return min.x() > max.x(); }
-  void Add(const Vec2& p, float reach) {
-    min = min.cwiseMin(p - Vec2(reach, reach));
-    max = max.cwiseMax(p + Vec2(reach, reach));
+  void Add(const Vec2& p, float radius) {
+    min = min.cwiseMin(p - Vec2(radius, radius));
+    max = max.cwiseMax(p + Vec2(radius, radius));
+  }
+  void Add(const BodyShapes& body, const Pose& pose) {
+    const Frame2 frame(pose);
+    for (const Outline& outline : body.outlines)
+      for (const Vec2& p : outline.points) Add(frame(p), outline.radius);
   }
 };
 
@@ -81,19 +86,24 @@ Box MovingBox(const std::vector<Playback>& playbacks, const StrobePlan& plan) {
   for (const Playback& playback : playbacks) {
     const std::set<PartId> struck = Struck(playback);
     for (const BodyShapes& body : playback.moving()) {
-      Box own;
+      Box path, extent;
       for (double s = plan.from_s; s <= plan.to_s + 1e-9; s += plan.step_s) {
         const double tick = playback.TickAt(s);
-        if (const auto truth = playback.Truth(body.id, tick)) own.Add(truth->position, 0);
+        const auto add = [&](const Pose& pose) {
+          path.Add(pose.position, 0);
+          extent.Add(body, pose);
+        };
+        if (const auto truth = playback.Truth(body.id, tick)) add(*truth);
         for (int peer : plan.peers)
           if (const auto shown = playback.Find(
                   playback.MomentAt(playback.PeerOr(peer), tick), body.id))
-            own.Add(shown->pose.position, 0);
+            add(shown->pose);
       }
-      const bool still = !own.empty() && (own.max - own.min).norm() < kStill_m;
-      if (own.empty() || (still && struck.count(body.id) == 0)) continue;
-      box.Add(own.min, body.reach);
-      box.Add(own.max, body.reach);
+      if (path.empty()) continue;
+      const bool still = (path.max - path.min).norm() < kStill_m;
+      if (still && struck.count(body.id) == 0) continue;
+      box.Add(extent.min, 0);
+      box.Add(extent.max, 0);
     }
   }
   return box;
