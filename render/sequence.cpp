@@ -6,6 +6,7 @@
 #include <mutex>
 #include <thread>
 
+#include "common/base/check.h"
 #include "render/canvas.h"
 #include "render/palette.h"
 #include "render/png_writer.h"
@@ -13,6 +14,9 @@
 namespace seam {
 
 std::vector<double> FrameTimes(double from_s, double to_s, int fps) {
+  if ((to_s - from_s) * fps > kFramesMax)
+    throw OperatorError("more than " + std::to_string(kFramesMax) +
+                        " frames: choose a part with --from and --to");
   std::vector<double> times;
   for (int i = 0;; ++i) {
     const double s = from_s + static_cast<double>(i) / fps;

@@ -10,7 +10,11 @@
 
 namespace seam {
 
-/// Moments `1/fps` apart from `from_s` up to and including `to_s`, s.
+/// Most frames of one sequence: nine hours at 30 a second. A damaged log may claim any tick.
+constexpr int kFramesMax = 1000000;
+
+/// Moments `1/fps` apart from `from_s` up to and including `to_s`, s. Throws OperatorError when
+/// they are more than kFramesMax.
 std::vector<double> FrameTimes(double from_s, double to_s, int fps);
 
 /// Called after each frame with the number done, by one thread at a time.

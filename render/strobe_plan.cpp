@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kBefore_s = 0.2, kAfter_s = 0.8;   ///< about the collision
 constexpr int kExposures = 8;                       ///< unless asked otherwise
+constexpr double kExposuresMax = 200;
 constexpr float kJumpMin = 1.0f;       ///< m/s in a tick that only a collision gives
 constexpr float kStrongImpact = 3.0f;  ///< m/s
 constexpr float kStill_m = 0.3f;       ///< what moves less does not widen the picture
@@ -174,6 +175,8 @@ StrobePlan PlanStrobe(const std::vector<Playback>& playbacks, const StrobeWishes
   const double hz = first.tick_hz();
   const double step = std::round((plan.to_s - plan.from_s) * hz / (kExposures - 1));
   plan.step_s = std::max(wishes.every_ticks > 0 ? wishes.every_ticks : step, 1.0) / hz;
+  if ((plan.to_s - plan.from_s) / plan.step_s > kExposuresMax)
+    throw OperatorError("too many exposures: choose a shorter part or a larger --every");
   plan.peers = Columns(playbacks, wishes.peer);
   ChooseBox(playbacks, &plan);
   if (wishes.width_px > 0) plan.width_px = wishes.width_px;

@@ -3,7 +3,6 @@
 #include <filesystem>
 
 #include "common/base/check.h"
-#include "render/png_writer.h"
 #include "tests/render_fixture.h"
 
 namespace seam {

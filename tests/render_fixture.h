@@ -16,6 +16,7 @@
 #include "render/draw_world.h"
 #include "render/frame.h"
 #include "render/palette.h"
+#include "render/png_writer.h"
 #include "tests/render_synthetic.h"
 
 namespace seam {
@@ -74,7 +75,8 @@ inline Image RenderedPage(const Page& page, double now_s) {
 }
 
 /// The world of peer 1 at a tick on a page of its own.
-inline Image RenderedWorld(const Playback& playback, double tick, Viewport* viewport, bool cull = true) {
+inline Image RenderedWorld(const Playback& playback, double tick, Viewport* viewport,
+                           bool cull = true) {
   DrawList list(TestFont());
   list.Begin(800, 400);
   *viewport = SceneViewport({0, 0, 800, 400}, playback, 1, tick);
@@ -103,5 +105,29 @@ inline int Differences(const Image& a, const Image& b, int x0, int y0, int x1, i
 inline int Differences(const Image& a, const Image& b) {
   return Differences(a, b, 0, 0, a.width_px, a.height_px);
 }
+
+/// A folder with the synthetic session's log and its oracle's.
+class RenderLog : public ::testing::Test {
+ protected:
+  RenderLog() {
+    synthetic::WriteLog(log_, synthetic::MakeRecording(6));
+    synthetic::WriteLog(strict_, synthetic::MakeRecording(20, "strict", ""));
+    synthetic::WriteLog(oracle_, synthetic::MakeOracleRecording());
+  }
+
+  /// The frames of a folder, in order.
+  static std::vector<std::string> Frames(const std::string& folder) {
+    std::set<std::string> paths;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) paths.insert(entry.path());
+    std::vector<std::string> frames;
+    for (const std::string& path : paths) frames.push_back(Content(path));
+    return frames;
+  }
+
+  Folder folder_;
+  const std::string log_ = folder_ / "log.lcm", strict_ = folder_ / "strict.lcm";
+  const std::string oracle_ = folder_ / "oracle.lcm";
+  const std::vector<std::string> untouched_{"log.lcm", "oracle.lcm", "strict.lcm"};
+};
 
 }  // namespace seam

@@ -144,6 +144,7 @@ TEST(Strobe, AnEmptyWindowIsAnOperatorError) {
   runs.push_back(MakePlayback(0));
   EXPECT_THROW(PlanStrobe(runs, StrobeWishes{50, 51}), OperatorError);
   EXPECT_THROW(PlanStrobe(runs, StrobeWishes{2, 1}), OperatorError);
+  EXPECT_THROW(PlanStrobe(runs, StrobeWishes{0, 1e9, 1}), OperatorError);
 }
 
 }  // namespace
