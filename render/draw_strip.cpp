@@ -66,29 +66,35 @@ void DrawSeconds(DrawList& list, const Axes& axes) {
   }
 }
 
-/// The curve as one point per pixel column: the worst of the column's ticks.
-std::vector<Vec2> Columns(const Axes& axes, const Curve& curve) {
-  std::vector<Vec2> points;
+/// The curve as one point per pixel column, the worst of the column's ticks; in pieces, because
+/// where nothing is known there is no curve.
+std::vector<std::vector<Vec2>> Pieces(const Axes& axes, const Curve& curve) {
+  std::vector<std::vector<Vec2>> pieces;
   const auto& errors = *curve.errors_m;
   float last_column = -1;
+  bool known = false;
   for (std::size_t i = 0; i < errors.size(); ++i) {
     const double s = (static_cast<double>(curve.first_tick) + static_cast<double>(i)) /
                      curve.tick_hz;
     if (s < axes.from_s - 1e-9 || s > axes.to_s + 1e-9) continue;
+    const bool before = known;
+    known = !std::isnan(errors[i]);
+    if (!known) continue;
+    if (!before) pieces.emplace_back();
+    std::vector<Vec2>& points = pieces.back();
     const float x = axes.X(s), y = axes.Y(errors[i]);
-    if (!points.empty() && std::floor(x) == last_column) {
+    if (before && std::floor(x) == last_column) {
       points.back().y() = std::min(points.back().y(), y);
       continue;
     }
     last_column = std::floor(x);
     points.emplace_back(x, y);
   }
-  return points;
+  return pieces;
 }
 
-void DrawCurve(DrawList& list, const Axes& axes, const Curve& curve, float now_x, bool filled) {
-  const float scale = list.font().scale();
-  const std::vector<Vec2> points = Columns(axes, curve);
+void DrawPiece(DrawList& list, const Axes& axes, const Curve& curve,
+               const std::vector<Vec2>& points, float now_x, bool filled) {
   std::vector<Colour> colours;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const bool past = points[i].x() <= now_x;
@@ -99,7 +105,12 @@ void DrawCurve(DrawList& list, const Axes& axes, const Curve& curve, float now_x
     const Colour under = Faded(curve.colour, past ? 0.22f : 0.07f);
     list.FillShaded(quad, under, under);
   }
-  list.StrokeShaded(points, colours, (curve.bold ? 1.8f : 1.1f) * scale);
+  list.StrokeShaded(points, colours, (curve.bold ? 1.8f : 1.1f) * list.font().scale());
+}
+
+void DrawCurve(DrawList& list, const Axes& axes, const Curve& curve, float now_x, bool filled) {
+  for (const std::vector<Vec2>& points : Pieces(axes, curve))
+    DrawPiece(list, axes, curve, points, now_x, filled);
 }
 
 void DrawNow(DrawList& list, const Axes& axes, const std::vector<Curve>& curves,
@@ -114,7 +125,9 @@ void DrawNow(DrawList& list, const Axes& axes, const std::vector<Curve>& curves,
     const auto i = static_cast<std::int64_t>(std::floor(look.now_s * curve.tick_hz + 1e-6)) -
                    curve.first_tick;
     if (i < 0 || i >= static_cast<std::int64_t>(curve.errors_m->size()) || !curve.bold) continue;
-    const Vec2 at(x, axes.Y((*curve.errors_m)[static_cast<std::size_t>(i)]));
+    const double error = (*curve.errors_m)[static_cast<std::size_t>(i)];
+    if (std::isnan(error)) continue;
+    const Vec2 at(x, axes.Y(error));
     list.Disc(at, 4.5f * scale, kPanel);
     list.Disc(at, 3.2f * scale, curve.colour);
   }

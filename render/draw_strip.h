@@ -11,7 +11,7 @@ namespace seam {
 
 /// One curve of errors by tick.
 struct Curve {
-  const std::vector<double>* errors_m = nullptr;   ///< borrowed
+  const std::vector<double>* errors_m = nullptr;   ///< borrowed; NaN: unknown
   std::int64_t first_tick = 0;
   int tick_hz = 60;
   Colour colour;

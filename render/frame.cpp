@@ -143,7 +143,10 @@ std::string TextsOf(const std::vector<Playback>& playbacks) {
 }
 
 float ScaleOf(int width_px, int height_px) {
-  return std::min(static_cast<float>(width_px) / 1280, static_cast<float>(height_px) / 720);
+  const auto width = static_cast<float>(width_px), height = static_cast<float>(height_px);
+  // Small pages get relatively larger letters, as far as the legend fits.
+  const float readable = std::min({0.85f, width / 1090, height / 620});
+  return std::max(std::min(width / 1280, height / 720), readable);
 }
 
 }  // namespace seam

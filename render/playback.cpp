@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace seam {
 namespace {
@@ -62,27 +63,35 @@ void Playback::Prepare() {
 void Playback::MeasureErrors() {
   measures_ = Measure(*recording_, *oracle_);
   error_first_tick_ = measures_->first_tick;
-  errors_[-1] = measures_->error_by_tick_m;
+  Keep(-1, *measures_);
   // One peer's curve is the same measure of a recording that has this peer alone.
   for (const auto& [peer, views] : recording_->views) {
-    if (recording_->views.size() == 1) {
-      errors_[peer] = errors_[-1];
-      break;
-    }
     Recording alone;
-    alone.room = recording_->room;
     alone.views[peer] = views;
     alone.first_tick = recording_->first_tick;
     alone.last_tick = recording_->last_tick;
-    const Measures own = Measure(alone, *oracle_);
-    const std::int64_t shift = own.first_tick - error_first_tick_;
-    std::vector<double>& errors = errors_[peer];
-    errors.assign(errors_[-1].size(), 0.0);
-    for (std::size_t i = 0; i < own.error_by_tick_m.size(); ++i) {
-      const std::int64_t at = static_cast<std::int64_t>(i) + shift;
-      if (at >= 0 && at < static_cast<std::int64_t>(errors.size()))
-        errors[static_cast<std::size_t>(at)] = own.error_by_tick_m[i];
-    }
+    Keep(peer, recording_->views.size() == 1 ? *measures_ : Measure(alone, *oracle_));
+  }
+}
+
+/// Where nothing was compared a measure says 0, which a picture must not show as no error.
+bool Playback::Compared(int peer, std::int64_t tick) const {
+  if (oracle_->ids.empty() || oracle_->At(tick, oracle_->ids.front()) == nullptr) return false;
+  for (const auto& [from, views] : recording_->views)
+    if ((peer < 0 || from == peer) && views.count(tick) > 0) return true;
+  return false;
+}
+
+/// Takes a measure's errors by tick into a peer's.
+void Playback::Keep(int peer, const Measures& measures) {
+  std::vector<double>& errors = errors_[peer];
+  for (std::size_t i = 0; i < measures.error_by_tick_m.size(); ++i) {
+    const std::int64_t tick = measures.first_tick + static_cast<std::int64_t>(i);
+    if (tick < error_first_tick_ || !Compared(peer, tick)) continue;
+    const auto place = static_cast<std::size_t>(tick - error_first_tick_);
+    if (place >= errors.size())
+      errors.resize(place + 1, std::numeric_limits<double>::quiet_NaN());
+    errors[place] = measures.error_by_tick_m[i];
   }
 }
 
@@ -197,18 +206,11 @@ void Playback::MeasureTick(std::int64_t tick) {
     if (view != views.end()) now.views[peer][tick] = view->second;
   }
   if (errors_.empty()) error_first_tick_ = tick;
-  const auto place = static_cast<std::size_t>(std::max<std::int64_t>(tick - error_first_tick_, 0));
-  const auto set = [&](int peer, const Recording& of) {
-    const Measures measured = Measure(of, *oracle_);
-    errors_[peer].resize(std::max(errors_[peer].size(), place + 1), 0.0);
-    if (!measured.error_by_tick_m.empty())
-      errors_[peer][place] = measured.error_by_tick_m.front();
-  };
-  set(-1, now);
+  Keep(-1, Measure(now, *oracle_));
   for (const auto& [peer, views] : now.views) {
     Recording alone = now;
     alone.views = {{peer, views}};
-    set(peer, alone);
+    Keep(peer, Measure(alone, *oracle_));
   }
 }
 
@@ -228,7 +230,8 @@ std::optional<double> Playback::ErrorAt(int peer, double tick) const {
   const std::vector<double>& errors = ErrorByTick(peer);
   const auto i = static_cast<std::int64_t>(std::floor(tick)) - error_first_tick_;
   if (i < 0 || i >= static_cast<std::int64_t>(errors.size())) return std::nullopt;
-  return errors[static_cast<std::size_t>(i)];
+  const double error = errors[static_cast<std::size_t>(i)];
+  return std::isnan(error) ? std::nullopt : std::optional<double>(error);
 }
 
 }  // namespace seam

@@ -73,12 +73,13 @@ class Playback {
   /// the greatest of its clients' is taken.
   std::int32_t RoundTripUs(int peer, double tick) const;
 
-  /// RMS error of a peer's view at a tick, m; peer -1: of all views. Empty without an oracle.
+  /// RMS error of a peer's view at a tick, m; peer -1: of all views. NaN where the oracle or the
+  /// views know nothing; empty without an oracle.
   const std::vector<double>& ErrorByTick(int peer) const;
   /// Tick of the first entry of ErrorByTick.
   std::int64_t ErrorFirstTick() const { return error_first_tick_; }
   std::optional<double> ErrorAt(int peer, double tick) const;
-  /// Adds the errors of a tick that came in, live. Ticks must ascend; skipped ones count as 0.
+  /// Adds the errors of a tick that came in, live. Ticks must ascend; skipped ones are unknown.
   void MeasureTick(std::int64_t tick);
   /// Empty without an oracle.
   const std::optional<Measures>& measures() const { return measures_; }
@@ -86,6 +87,8 @@ class Playback {
  private:
   void Prepare();
   void MeasureErrors();
+  bool Compared(int peer, std::int64_t tick) const;
+  void Keep(int peer, const Measures& measures);
 
   std::shared_ptr<const Recording> recording_;
   Scene scene_;

@@ -62,9 +62,14 @@ std::int64_t ImpactTick(const Playback& playback) {
 /// When the views were most wrong; -1 if they never were.
 std::int64_t WorstTick(const Playback& playback) {
   const std::vector<double>& errors = playback.ErrorByTick(-1);
-  const auto worst = std::max_element(errors.begin(), errors.end());
-  if (worst == errors.end() || *worst <= 0) return -1;
-  return playback.ErrorFirstTick() + (worst - errors.begin());
+  std::int64_t worst = -1;
+  double most = 0;
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    if (!(errors[i] > most)) continue;   // nor is NaN
+    most = errors[i];
+    worst = playback.ErrorFirstTick() + static_cast<std::int64_t>(i);
+  }
+  return worst;
 }
 
 struct Box {

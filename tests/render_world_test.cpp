@@ -166,6 +166,22 @@ TEST(Playback, AViewsErrorIsTheMeasureOfThatViewAlone) {
   EXPECT_EQ(MakePlayback(0).ErrorAt(-1, 40).value(), 0);
 }
 
+TEST(Playback, AnErrorThatIsNotKnownIsNotZero) {
+  Oracle oracle = synthetic::MakeOracle();
+  oracle.ticks.resize(101);              // the oracle ends at tick 100
+  oracle.ticks[50].clear();              // and lost one
+  Recording recording = synthetic::MakeRecording(6);
+  recording.views[1].erase(60);
+  const Playback playback(recording, synthetic::MakeScene(), oracle);
+  EXPECT_TRUE(playback.ErrorAt(1, 40).has_value());
+  EXPECT_FALSE(playback.ErrorAt(1, 50).has_value());
+  EXPECT_FALSE(playback.ErrorAt(1, 60).has_value());
+  EXPECT_TRUE(playback.ErrorAt(-1, 60).has_value());
+  EXPECT_TRUE(playback.ErrorAt(1, 100).has_value());
+  EXPECT_FALSE(playback.ErrorAt(1, 101).has_value());
+  EXPECT_FALSE(playback.ErrorAt(-1, 101).has_value());
+}
+
 TEST(Playback, WithoutAnOracleThereAreNoErrorsAndNoGhosts) {
   const Playback playback(synthetic::MakeRecording(6), synthetic::MakeScene(), std::nullopt);
   EXPECT_FALSE(playback.ErrorAt(-1, 40).has_value());
