@@ -57,6 +57,7 @@ void Client::Join(std::int64_t now_us) {
   room_bytes_.clear();
   room_size_ = 0;
   clock_ = ClockFilter();
+  if (peer_ >= 0 || joining_since_us_ == 0) joining_since_us_ = now_us;
   peer_ = player_ = -1;
   said_ready_ = started_ = released_ = false;
   tick0_us_ = -1;
@@ -217,7 +218,7 @@ void Client::Shutdown(std::int64_t now_us) {
   Bye bye;
   bye.utime = now_us;
   bye.reason = "left";
-  for (int copy = 0; copy < 2; ++copy) {   // it may be lost, and nobody waits to repeat it
+  for (int copy = 0; copy < 4; ++copy) {   // it may be lost, and nobody waits to repeat it
     link_->SendUnreliable(Encode(bye));
     Flush(now_us);
   }

@@ -48,6 +48,10 @@ class Client {
   const std::string& fatal() const { return fatal_; }
   /// The server closed the room (after we had been in). Final as well.
   bool closed() const { return closed_; }
+  /// How long it has been trying to join (again), us; 0 while it is in.
+  std::int64_t joining_us(std::int64_t now_us) const {
+    return peer_ < 0 && link_ != nullptr ? now_us - joining_since_us_ : 0;
+  }
   bool running() const { return replica_ != nullptr && started_; }
   int peer() const { return peer_; }
   const Replica* replica() const { return replica_.get(); }
@@ -102,6 +106,7 @@ class Client {
   std::int64_t tick0_us_ = -1;         // on the server's clock
   double lead_us_ = -1;                // mode central: how far ahead of the server we simulate
   std::int64_t answered_us_ = 0;       // when we sent the newest ping that was answered
+  std::int64_t joining_since_us_ = 0;
   std::int64_t refused_us_ = -1;       // of the first refusal since we began to join
   std::int64_t last_ping_us_ = -1000000000;
   std::int64_t last_hello_us_ = -1000000000;

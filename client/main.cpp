@@ -45,7 +45,7 @@ void Define(CLI::App& app, Flags& f) {
       ->check(CLI::IsMember({"on", "off"}));
   app.add_option("--duration", f.duration_s, "seconds to run (0: until stopped)")
       ->check(CLI::Range(0.0, 1e6));
-  app.add_option("--join-timeout", f.join_s, "seconds to wait for the server's answer")
+  app.add_option("--join-timeout", f.join_s, "seconds to try to join, at first or again")
       ->check(CLI::Range(0.1, 1e6));
   app.add_option("--record", f.record, "write an LCM log of the bus to this file");
   app.add_flag("--force", f.force, "overwrite the --record file");
@@ -102,9 +102,10 @@ int Play(const Flags& f) {
     sink.Poll();
     const double elapsed_s = static_cast<double>(now - begin) * 1e-6;
     if (f.duration_s > 0 && elapsed_s > f.duration_s) break;
-    if (client.peer() < 0 && client.rejoins() == 0 && elapsed_s > f.join_s) {
-      throw OperatorError("no answer from " + ToString(config.server) + " within " +
-                          std::to_string(static_cast<int>(f.join_s)) + " s");
+    if (static_cast<double>(client.joining_us(now)) * 1e-6 > f.join_s) {
+      throw OperatorError((client.rejoins() == 0 ? "no answer from " : "lost the server ") +
+                          ToString(config.server) + "; gave up after " +
+                          std::to_string(static_cast<int>(f.join_s)) + " s (--join-timeout)");
     }
     if (!f.quiet && client.running() && now >= next_line_us) {
       next_line_us = now + 1000000;

@@ -11,6 +11,8 @@ namespace {
 constexpr std::size_t kChunkBytes = 1000;
 /// A session that never proves its address or never gets ready is forgotten after this, us.
 constexpr std::int64_t kHalfOpenUs = 10000000;
+/// A goodbye is sent this often, each in a datagram of its own.
+constexpr int kByeCopies = 4;
 /// A name is free for a new session (a restarted client) when the old one was silent this long, us.
 constexpr std::int64_t kNameHeldUs = 1000000;
 
@@ -164,8 +166,10 @@ void Server::Shutdown(std::int64_t now_us, const std::string& reason) {
   Bye bye;
   bye.utime = now_us;
   bye.reason = reason;
-  for (auto& [address, session] : sessions_) session->link.SendUnreliable(Encode(bye));
-  FlushAll(now_us);
+  for (int copy = 0; copy < kByeCopies; ++copy) {   // nobody will repeat a lost one
+    for (auto& [address, session] : sessions_) session->link.SendUnreliable(Encode(bye));
+    FlushAll(now_us);
+  }
   sessions_.clear();
 }
 

@@ -51,7 +51,7 @@ run_session() {
     clients=()
     for name in ann bob; do
       "$bin/seam-client" "127.0.0.1:$port" --name "$name" --drive "$name" --lcm-url "$url" \
-        --quiet >"$log-$name.log" 2>&1 &
+        --duration 60 --quiet >"$log-$name.log" 2>&1 &
       clients+=($!)
     done
     status=0
@@ -65,19 +65,27 @@ run_session() {
   pids+=("$!")
 }
 
+# Two scenes at a time: fourteen sessions sleep most of the time.
 index=0
 failed=0
-for scene in $scenes; do
+set -- $scenes
+while [ $# -gt 0 ]; do
+  batch="$1 ${2:-}"
+  shift
+  [ $# -eq 0 ] || shift
   sessions=()
-  for run in $runs; do
-    run_session "$scene" "$run" "$index"
-    index=$((index + 1))
+  for scene in $batch; do
+    for run in $runs; do
+      run_session "$scene" "$run" "$index"
+      index=$((index + 1))
+    done
   done
-  printf 'demo: %-9s %d sessions of logger + server + 2 clients, %s ...' \
-    "$scene" "${#sessions[@]}" "$impair"
+  printf 'demo: %-16s %d sessions of logger + server + 2 clients, network %s ...' \
+    "$batch" "${#sessions[@]}" "$impair"
   for s in "${sessions[@]}"; do
     if ! wait "${s%%:*}"; then
-      echo; echo "demo: session ${s#*:} failed; see $out/${s#*:}" | tr '/' '/' >&2
+      name=${s#*:}
+      printf '\ndemo: session %s failed; see %s/%s-*.log\n' "$name" "$out" "${name/\//-}" >&2
       failed=1
     fi
   done

@@ -16,8 +16,8 @@ class ClockFilter {
   /// Enough samples to start with.
   bool settled() const { return samples_ >= kSettleSamples; }
 
-  /// The server's clock at our `now_us`. Once settled it never runs backwards for growing now_us; it
-  /// slews towards the best estimate by at most kSlewPpm (kSlewFarPpm when far off).
+  /// The server's clock at our `now_us`. Once settled it never runs backwards while now_us grows:
+  /// it slews towards the best estimate by at most kSlewPpm (kSlewFarPpm when far off).
   std::int64_t ServerTime(std::int64_t now_us);
 
   /// Least round trip in the window; -1 before the first sample.
