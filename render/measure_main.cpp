@@ -20,6 +20,7 @@ struct Options {
   std::string csv;
   bool append = false;
   bool more = false;
+  bool floor = false;
   std::vector<std::string> names;
 };
 
@@ -101,6 +102,13 @@ void WriteCsv(const std::vector<MeasuredRun>& runs, const Options& options) {
   if (std::fclose(file) != 0 || !written) throw OperatorError(options.csv + ": disk full?");
 }
 
+void PrintFloor(const Recording& recording) {
+  std::printf("floor of %s: %.3g m RMS (the oracle against itself, one body moved by 1e-6 m; "
+              "median over bodies)\n",
+              recording.room.scene_name.c_str(),
+              ErrorFloor(recording, ComputeOracle(recording)));
+}
+
 void Run(const Options& options) {
   if (!options.names.empty() && options.names.size() != options.logs.size()) {
     throw OperatorError("--names has " + std::to_string(options.names.size()) + " names for " +
@@ -116,6 +124,7 @@ void Run(const Options& options) {
   }
   if (!options.csv.empty()) WriteCsv(runs, options);
   std::fputs(FormatTable(runs, options.more).c_str(), stdout);
+  if (options.floor) PrintFloor(Read(options.logs.front()));
 }
 
 }  // namespace
@@ -132,6 +141,7 @@ int main(int argc, char** argv) {
   app.add_option("--names", options.names, "what to call the runs, in the order of the logs")
       ->delimiter(',')
       ->allow_extra_args(false);   // the logs may follow it
+  app.add_flag("--floor", options.floor, "also print what chaos alone does to the first log");
   app.add_flag("--more", options.more, "print the further measures");
   try {
     app.parse(argc, argv);

@@ -186,6 +186,14 @@ TEST(Cluster, GarbageAndForeignDatagramsAreCountedAndTheRoomRunsOn) {
   EXPECT_LT(Measure(b, ComputeOracle(b)).error_rms_m, 2 * calm + 0.01);
 }
 
+TEST(Cluster, TheFloorTellsAChaoticSceneFromAnOrderlyOne) {
+  const Recording orderly = RunCluster(With("cradle", "oracle"));
+  EXPECT_LT(ErrorFloor(orderly, ComputeOracle(orderly)), 1e-4);
+  EXPECT_GT(ErrorFloor(orderly, ComputeOracle(orderly)), 0);
+  const Recording chaotic = RunCluster(With("wall", "oracle"));
+  EXPECT_GT(ErrorFloor(chaotic, ComputeOracle(chaotic)), 0.1);
+}
+
 TEST(Cluster, VirtualTimeIsFasterThanRealTime) {
   const auto begin = std::chrono::steady_clock::now();
   const Recording recording = RunCluster(With("crossing", "buffer", "retrospect"));

@@ -98,7 +98,7 @@ csv="$out/results.csv"
 for scene in $scenes; do
   logs=()
   for run in $runs; do logs+=("$out/$scene-$run.lcm"); done
-  "$bin/seam-measure" --csv "$csv" --append --names "${runs// /,}" \
+  "$bin/seam-measure" --floor --csv "$csv" --append --names "${runs// /,}" \
     --oracle "$out/$scene-oracle.lcm" "${logs[@]}"
 done
 
@@ -111,9 +111,8 @@ for scene in $scenes; do
     "$bin/seam-render" --strobe "$out/$scene-$run.lcm" --oracle "$out/$scene-oracle.lcm" \
       -o "$out/$scene-$run-strobe.png"
   done
-  "$bin/seam-render" --compare "$out/$scene-strict.lcm" "$out/$scene-fade.lcm" \
-    "$out/$scene-retrospect.lcm" --oracle "$out/$scene-oracle.lcm" \
-    -o "$out/frames/$scene-compare" --fps 15 --size 1280x720
+  "$bin/seam-render" --compare "$out/$scene"-{strict,interleave,fade,retrospect}.lcm \
+    --oracle "$out/$scene-oracle.lcm" -o "$out/frames/$scene-compare" --fps 15 --size 1280x720
 done
 "$bin/seam-render" --strobe --compare "$out"/crossing-{oracle,strict,interleave,fade,retrospect}.lcm \
   --oracle "$out/crossing-oracle.lcm" -o "$out/summary.png"

@@ -27,7 +27,16 @@ struct Oracle {
 /// it recorded: each in the tick it names, axes held over ticks without one, buttons acting on the
 /// tick they go down. Throws OperatorError when the scene does not parse or the session is too long
 /// (kOracleStatesMax).
-Oracle ComputeOracle(const Recording& recording);
+/// `nudged_body` >= 0: with that body (an index into ids) moved by kNudge at the start.
+Oracle ComputeOracle(const Recording& recording, int nudged_body = -1);
+
+/// How far the floor's nudge moves one body, m.
+constexpr float kNudge = 1e-6f;
+
+/// The oracle's own sensitivity: RMS distance in m between it and itself with one body nudged, the
+/// median over at most `bodies` bodies, evenly chosen. No method can be expected to be better: where
+/// the floor is a metre, errors of a metre say nothing.
+double ErrorFloor(const Recording& recording, const Oracle& oracle, int bodies = 7);
 
 /// Most ticks times bodies that ComputeOracle keeps: 24 bytes each.
 constexpr std::int64_t kOracleStatesMax = 50'000'000;

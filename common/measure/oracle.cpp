@@ -55,10 +55,15 @@ const BodyState* Oracle::At(std::int64_t tick, PartId id) const {
   return &ticks[row][static_cast<std::size_t>(found - ids.begin())];
 }
 
-Oracle ComputeOracle(const Recording& recording) {
+Oracle ComputeOracle(const Recording& recording, int nudged_body) {
   Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
   scene.solver.tick_hz = recording.room.tick_hz;
   World world(scene);
+  if (nudged_body >= 0) {
+    BodyState state = world.Read(nudged_body);
+    state.position.x() += kNudge;
+    world.Write(nudged_body, state, false);
+  }
   Oracle oracle;
   for (int body = 0; body < world.body_count(); ++body) oracle.ids.push_back(world.id(body));
   const std::int64_t states = std::max(1, world.body_count());

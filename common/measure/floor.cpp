@@ -1,0 +1,42 @@
+/// The floor under all errors: what chaos alone makes of a micrometre.
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/measure/measure.h"
+
+namespace seam {
+namespace {
+
+/// RMS distance over all bodies and the ticks that both have, m.
+double Distance(const Oracle& a, const Oracle& b) {
+  double sum = 0;
+  std::int64_t count = 0;
+  for (std::size_t row = 0; row < b.ticks.size(); ++row) {
+    const std::int64_t tick = b.first_tick + static_cast<std::int64_t>(row);
+    for (std::size_t i = 0; i < b.ticks[row].size(); ++i) {
+      const BodyState* other = a.At(tick, b.ids[i]);
+      if (other == nullptr) continue;
+      sum += (other->position - b.ticks[row][i].position).cast<double>().squaredNorm();
+      ++count;
+    }
+  }
+  return count == 0 ? 0 : std::sqrt(sum / static_cast<double>(count));
+}
+
+}  // namespace
+
+double ErrorFloor(const Recording& recording, const Oracle& oracle, int bodies) {
+  const int all = static_cast<int>(oracle.ids.size());
+  const int chosen = std::min(bodies, all);
+  if (chosen < 1) return 0;
+  std::vector<double> distances;
+  for (int k = 0; k < chosen; ++k) {
+    distances.push_back(Distance(oracle, ComputeOracle(recording, k * all / chosen)));
+  }
+  const auto middle = distances.begin() + chosen / 2;
+  std::nth_element(distances.begin(), middle, distances.end());
+  return *middle;
+}
+
+}  // namespace seam
