@@ -191,7 +191,7 @@ TEST(Cluster, TheFloorTellsAChaoticSceneFromAnOrderlyOne) {
   EXPECT_LT(ErrorFloor(orderly, ComputeOracle(orderly)), 1e-4);
   EXPECT_GT(ErrorFloor(orderly, ComputeOracle(orderly)), 0);
   const Recording chaotic = RunCluster(With("wall", "oracle"));
-  EXPECT_GT(ErrorFloor(chaotic, ComputeOracle(chaotic)), 0.1);
+  EXPECT_GT(ErrorFloor(chaotic, ComputeOracle(chaotic)), 0.01);
 }
 
 TEST(Cluster, VirtualTimeIsFasterThanRealTime) {
