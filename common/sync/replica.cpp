@@ -216,7 +216,7 @@ float Replica::GainFor(float dt) const {
   // A pure correction delayed by d updates is stable below 2 sin(pi / (2 (2 d + 1))).
   const double d = std::ceil(static_cast<double>(dt) * config_.send_hz);
   const double limit = 2 * std::sin(3.14159265358979 / (2 * (2 * d + 1)));
-  constexpr double kShareOfLimit = 0.4;   // nearer to 1 rings, nearer to 0 drifts
+  constexpr double kShareOfLimit = 0.25;   // above 0.4 a tall stack never rests at 200 ms
   return static_cast<float>(std::min(1.0, kShareOfLimit * limit));
 }
 
