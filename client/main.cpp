@@ -37,7 +37,7 @@ struct Flags {
 void Define(CLI::App& app, Flags& f) {
   app.add_option("server", f.server, "host:port of seam-server (port 7777 if left out)");
   app.add_option("--name", f.name, "player of the scene to be; any other name watches");
-  app.add_option("--drive", f.drive, 
+  app.add_option("--drive", f.drive,
                  "none | bot | keyboard | name of the player whose script to play");
   app.add_option("--impair", f.impair, "impair this client's network, both directions");
   app.add_option("--seed", f.seed, "of the impairment")->check(CLI::Range(0, 1000000000));

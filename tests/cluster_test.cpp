@@ -1,4 +1,4 @@
-/// The real server and clients in one process and in virtual time: what the modes do to a collision,
+/// The real server and clients in one process and in virtual time: what modes do to a collision,
 /// who has authority when, and that a run repeats bit for bit.
 
 #include "tests/cluster.h"
@@ -199,8 +199,8 @@ TEST(Cluster, VirtualTimeIsFasterThanRealTime) {
   const Recording recording = RunCluster(With("crossing", "buffer", "retrospect"));
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
   const double simulated = static_cast<double>(recording.last_tick) / 60;
-  std::printf("[          ] %.1f s simulated in %.2f s: %.0f x real time\n", simulated, took.count(),
-              simulated / took.count());
+  std::printf("[          ] %.1f s simulated in %.2f s: %.0f x real time\n", simulated,
+              took.count(), simulated / took.count());
   EXPECT_GT(simulated, 5);
 }
 

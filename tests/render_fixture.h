@@ -118,7 +118,9 @@ class RenderLog : public ::testing::Test {
   /// The frames of a folder, in order.
   static std::vector<std::string> Frames(const std::string& folder) {
     std::set<std::string> paths;
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) paths.insert(entry.path());
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      paths.insert(entry.path());
+    }
     std::vector<std::string> frames;
     for (const std::string& path : paths) frames.push_back(Content(path));
     return frames;

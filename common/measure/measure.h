@@ -34,8 +34,8 @@ Oracle ComputeOracle(const Recording& recording, int nudged_body = -1);
 constexpr float kNudge = 1e-6f;
 
 /// The oracle's own sensitivity: RMS distance in m between it and itself with one body nudged, the
-/// median over at most `bodies` bodies, evenly chosen. No method can be expected to be better: where
-/// the floor is a metre, errors of a metre say nothing.
+/// median over at most `bodies` bodies, evenly chosen. No method can be expected to be better:
+/// where the floor is a metre, errors of a metre say nothing.
 double ErrorFloor(const Recording& recording, const Oracle& oracle, int bodies = 7);
 
 /// Most ticks times bodies that ComputeOracle keeps: 24 bytes each.

@@ -115,8 +115,8 @@ class Replica {
 };
 
 /// A change of velocity that counts as a major impact for `fade`, m/s. A driven wheel feels up to
-/// 2.6 m/s from the ground in every tick: lower lets it count as colliding all the time; higher lets
-/// real collisions be overruled by old news.
+/// 2.6 m/s from the ground in every tick: lower lets it count as colliding all the time; higher
+/// lets real collisions be overruled by old news.
 constexpr float kMajorImpact = 3.0f;
 
 }  // namespace seam
