@@ -4,6 +4,11 @@
 # program's files with main in main.cpp (render/ holds seam-measure's main too); tests/ is one
 # GoogleTest program. lcmtypes/*.lcm become headers under build/gen/, hardened by lcmtypes/harden.awk.
 
+# All cores, unless -j says otherwise.
+ifeq ($(filter -j%,$(MAKEFLAGS)),)
+MAKEFLAGS += -j$(shell nproc)
+endif
+
 BUILD ?= release
 PREFIX ?= /usr/local
 OUT := build/$(BUILD)
@@ -84,12 +89,10 @@ $(OUT)/seam-tests: $(TESTS) $(SERVER) $(CLIENT) $(RENDER) $(OUT)/libseam.a
 
 tests: deps $(OUT)/seam-tests $(PROGRAMS)   ## build the tests
 
-test: deps                           ## build and run all tests
-	@$(MAKE) --no-print-directory -j$$(nproc) tests
+test: tests                          ## build and run all tests
 	SEAM_BIN=$(OUT) $(OUT)/seam-tests
 
-demo: deps                           ## run the main job and draw it, into out/demo/
-	@$(MAKE) --no-print-directory -j$$(nproc) all
+demo: all                            ## run the main job and draw it, into out/demo/
 	SEAM_BIN=$(OUT) tests/demo.sh out/demo
 
 install: all                         ## install the programs under PREFIX
