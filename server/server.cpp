@@ -12,6 +12,8 @@ namespace {
 constexpr int kStepsMost = 8;
 /// Remote mechanisms are relayed every so many sends.
 constexpr std::int64_t kFarEvery = 3;
+/// Plans of who simulates what: more often follows faster bodies, and costs more with many.
+constexpr int kPlansPerSecond = 10;
 
 }  // namespace
 
@@ -103,14 +105,16 @@ void Server::StepOnce(std::int64_t now_us) {
 }
 
 void Server::PlanAuthority(std::int64_t now_us) {
-  const std::vector<Wish> wishes =
-      planner_.Plan(replica_.world(), replica_.authority(), PeerOfPlayer());
+  if (plan_due_ || replica_.tick() % std::max(1, config_.sync.tick_hz / kPlansPerSecond) == 0) {
+    plan_due_ = false;
+    wishes_ = planner_.Plan(replica_.world(), replica_.authority(), PeerOfPlayer());
+  }
   std::vector<int> changed;
   std::vector<Grants> revocations;
   for (int m = 0; m < replica_.authority().count(); ++m) {
     const auto index = static_cast<std::size_t>(m);
     Holding h = replica_.authority().at(m);
-    const Wish& wish = wishes[index];
+    const Wish& wish = wishes_[index];
     if (revoking_[index]) {
       // One authority at a time: the server takes over only once the holder has confirmed.
       const bool confirmed = std::any_of(sessions_.begin(), sessions_.end(), [&](const auto& s) {

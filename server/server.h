@@ -69,6 +69,8 @@ class Server {
   void Refuse(std::int64_t now_us, const Address& to, std::uint64_t number,
               const std::string& reason);
   void Advance(std::int64_t now_us, Session& session);
+  /// Makes room by dropping the oldest session that has not proved its address; false if none.
+  bool EvictUnproven(std::int64_t now_us);
   void DropSilent(std::int64_t now_us);
   void Drop(std::int64_t now_us, const Address& address, const std::string& why);
   /// The server has the dropped peer's mechanisms from now on.
@@ -93,6 +95,8 @@ class Server {
   Replica replica_;
   Planner planner_;
   Sessions sessions_;
+  std::vector<Wish> wishes_;                    // of the last plan
+  bool plan_due_ = true;                        // somebody came or went
   std::vector<bool> revoking_;                  // by mechanism: told to let go, not yet confirmed
   struct LastAccepted {
     std::int64_t tick = -1;

@@ -56,7 +56,7 @@ void Server::OnDatagram(std::int64_t now_us, const Address& from, const Bytes& d
     if (!good) ++stats_.dropped_malformed;
     return;
   }
-  if (sessions_.size() >= kSessionsMost) {
+  if (sessions_.size() >= kSessionsMost && !EvictUnproven(now_us)) {
     ++stats_.dropped_right;
     return;
   }
@@ -83,6 +83,7 @@ void Server::OnHello(std::int64_t now_us, Session& session, const Hello& hello) 
     // Said again, reliably: loaded, and the clock has settled. Before that it only repeats itself.
     if (session.stage == Stage::kLoading) {
       session.stage = Stage::kReady;
+      plan_due_ = true;
       Say(now_us, session.name + " is ready as peer " + std::to_string(session.peer));
     }
     return;

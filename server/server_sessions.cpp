@@ -11,6 +11,9 @@ namespace {
 constexpr std::size_t kChunkBytes = 1000;
 /// A session that never proves its address or never gets ready is forgotten after this, us.
 constexpr std::int64_t kHalfOpenUs = 10000000;
+/// Time an address has to prove itself when others wait for its place, us: forged hellos must not
+/// fill the room.
+constexpr std::int64_t kProofUs = 1000000;
 /// A goodbye is sent this often, each in a datagram of its own.
 constexpr int kByeCopies = 4;
 /// A name is free for a new session (a restarted client) when the old one was silent this long, us.
@@ -29,6 +32,7 @@ void Server::Admit(std::int64_t now_us, Session& session, const std::string& nam
     const Address old = same->first;
     Drop(now_us, old, "replaced by a new session of the same name");
   }
+  if (sessions_.size() + 1 >= static_cast<std::size_t>(kPeersMax)) EvictUnproven(now_us);
   std::vector<bool> taken(kPeersMax, false);
   taken[0] = true;
   for (const auto& [address, other] : sessions_) {
@@ -107,6 +111,20 @@ std::vector<int> Server::PeerOfPlayer() const {
   return peers;
 }
 
+bool Server::EvictUnproven(std::int64_t now_us) {
+  auto oldest = sessions_.end();
+  for (auto it = sessions_.begin(); it != sessions_.end(); ++it) {
+    if (it->second->stage != Stage::kGreeted) continue;
+    const bool older =
+        oldest == sessions_.end() || it->second->created_us < oldest->second->created_us;
+    if (older) oldest = it;
+  }
+  if (oldest == sessions_.end() || now_us - oldest->second->created_us < kProofUs) return false;
+  const Address address = oldest->first;
+  Drop(now_us, address, "others wait and it never proved its address");
+  return true;
+}
+
 void Server::DropSilent(std::int64_t now_us) {
   std::vector<std::pair<Address, std::string>> gone;
   for (const auto& [address, session] : sessions_) {
@@ -133,6 +151,7 @@ void Server::Drop(std::int64_t now_us, const Address& address, const std::string
 }
 
 void Server::TakeBack(std::int64_t now_us, int peer) {
+  plan_due_ = true;
   // Whoever is dropped for silence has let go by its own clock already (Client::kSilentUs).
   std::vector<int> changed;
   for (int m = 0; m < replica_.authority().count(); ++m) {

@@ -186,6 +186,35 @@ TEST(Cluster, GarbageAndForeignDatagramsAreCountedAndTheRoomRunsOn) {
   EXPECT_LT(Measure(b, ComputeOracle(b)).error_rms_m, 2 * calm + 0.01);
 }
 
+TEST(Cluster, ForgedHellosDoNotKeepAPlayerOut) {
+  Cluster cluster(With("cradle", "buffer", "retrospect"));
+  cluster.RunToTick(60);
+  cluster.Kill(1);
+  // A hello a virtual instant, each as if from another machine that never answers.
+  std::vector<std::unique_ptr<Net>> forged;
+  cluster.each_instant = [&] {
+    const auto n = static_cast<std::uint32_t>(forged.size());
+    if (n >= 4000) return;
+    forged.push_back(cluster.Attach(Address{0x0a000000 + n, 1000}));
+    Link link(1 + n);
+    Hello hello;
+    hello.name = "forged" + std::to_string(n);
+    link.SendUnreliable(Encode(hello));
+    link.Flush(cluster.now_us(), [&](ByteView datagram) {
+      forged.back()->Send(cluster.server_address(), datagram);
+    });
+    forged.back()->Flush();
+  };
+  cluster.RunToTick(240);
+  cluster.Revive(1);
+  cluster.RunToTick(240 + 60 * 8);
+  EXPECT_GT(forged.size(), 300u);
+  EXPECT_TRUE(cluster.client(1)->running());
+  EXPECT_EQ(cluster.client(1)->peer(), 2);
+  EXPECT_TRUE(cluster.client(0)->running());
+  EXPECT_LE(cluster.server().client_count(), 64);
+}
+
 TEST(Cluster, TheFloorTellsAChaoticSceneFromAnOrderlyOne) {
   const Recording orderly = RunCluster(With("cradle", "oracle"));
   EXPECT_LT(ErrorFloor(orderly, ComputeOracle(orderly)), 1e-4);
