@@ -47,10 +47,15 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   Flush(now_us);
 }
 
-void Client::Join(std::int64_t now_us) {
+void Client::BeginConversation() {
   std::uint64_t number = random_.Next();
   if (number == 0) number = 1;
   link_ = std::make_unique<Link>(number);
+  refused_ = false;
+}
+
+void Client::Join(std::int64_t now_us) {
+  BeginConversation();
   replica_.reset();
   scene_.reset();
   held_.clear();
@@ -73,6 +78,9 @@ void Client::Greet(std::int64_t now_us) {
   if (peer_ < 0) {
     if (now_us - last_hello_us_ >= kHelloUs) {
       last_hello_us_ = now_us;
+      // The server forgets whom it refuses: to say more in that conversation, with its refusal
+      // acknowledged, would be to acknowledge what it never sent.
+      if (refused_) BeginConversation();
       link_->SendUnreliable(Encode(hello));
     }
     return;

@@ -73,6 +73,7 @@ class Client {
   void OnMessage(std::int64_t now_us, ByteView bytes);
   void OnChunk(const Chunk& chunk);
   void Build();
+  void BeginConversation();
   void Greet(std::int64_t now_us);
   void StartIfDue(std::int64_t now_us);
   void StepDue(std::int64_t now_us);
@@ -108,6 +109,7 @@ class Client {
   std::int64_t answered_us_ = 0;       // when we sent the newest ping that was answered
   std::int64_t joining_since_us_ = 0;
   std::int64_t refused_us_ = -1;       // of the first refusal since we began to join
+  bool refused_ = false;               // the last hello was
   std::int64_t last_ping_us_ = -1000000000;
   std::int64_t last_hello_us_ = -1000000000;
   std::int64_t last_stats_us_ = -1000000000;

@@ -64,6 +64,7 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
   } else if (const auto* bye = std::get_if<Bye>(&any)) {
     if (peer_ < 0) {
       // Our own earlier session may still hold the name: insist for a while.
+      refused_ = true;
       if (refused_us_ < 0) refused_us_ = now_us;
       if (now_us - refused_us_ > kInsistUs) fatal_ = "the server refuses: " + bye->reason;
     } else {
