@@ -2,7 +2,8 @@
 #
 # Layout: every .cpp under common/ goes into libseam.a; server/, client/ and render/ each hold one
 # program's files with main in main.cpp (render/ holds seam-measure's main too); tests/ is one
-# GoogleTest program. lcmtypes/*.lcm become headers under build/gen/, hardened by lcmtypes/harden.awk.
+# GoogleTest program, tests/lab/ is seam-lab, which alone has server and clients in one process.
+# lcmtypes/*.lcm become headers under build/gen/, hardened by lcmtypes/harden.awk.
 
 # All cores, unless -j says otherwise.
 ifeq ($(filter -j%,$(MAKEFLAGS)),)
@@ -34,13 +35,14 @@ DEBS := g++ make pkg-config liblcm-dev liblcm-bin libbox2d-dev libeigen3-dev lib
 	libgtest-dev iproute2 util-linux
 
 obj = $(patsubst %.cpp,$(OUT)/%.o,$(1))
-MAINS := server/main.cpp client/main.cpp render/main.cpp render/measure_main.cpp
+MAINS := server/main.cpp client/main.cpp render/main.cpp render/measure_main.cpp tests/lab/main.cpp
 COMMON := $(call obj,$(sort $(wildcard common/*/*.cpp)))
 SERVER := $(call obj,$(sort $(filter-out $(MAINS),$(wildcard server/*.cpp))))
 CLIENT := $(call obj,$(sort $(filter-out $(MAINS),$(wildcard client/*.cpp))))
 RENDER := $(call obj,$(sort $(filter-out $(MAINS),$(wildcard render/*.cpp))))
+LAB := $(call obj,$(sort $(filter-out $(MAINS),$(wildcard tests/lab/*.cpp))))
 TESTS := $(call obj,$(sort $(wildcard tests/*.cpp)))
-PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-render seam-measure)
+PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-render seam-measure seam-lab)
 LCM_TYPES := $(sort $(wildcard lcmtypes/*.lcm))
 
 .DEFAULT_GOAL := all
@@ -84,7 +86,9 @@ $(OUT)/seam-render: $(OUT)/render/main.o $(RENDER) $(OUT)/libseam.a
 	$(CXX) $(ALL_CXXFLAGS) $^ $(LIBS) $(RENDER_LIBS) -o $@
 $(OUT)/seam-measure: $(OUT)/render/measure_main.o $(OUT)/libseam.a
 	$(CXX) $(ALL_CXXFLAGS) $^ $(LIBS) -o $@
-$(OUT)/seam-tests: $(TESTS) $(SERVER) $(CLIENT) $(RENDER) $(OUT)/libseam.a
+$(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(SERVER) $(CLIENT) $(OUT)/libseam.a
+	$(CXX) $(ALL_CXXFLAGS) $^ $(LIBS) -o $@
+$(OUT)/seam-tests: $(TESTS) $(LAB) $(SERVER) $(CLIENT) $(RENDER) $(OUT)/libseam.a
 	$(CXX) $(ALL_CXXFLAGS) $^ $(LIBS) $(RENDER_LIBS) -lgtest -lgtest_main -o $@
 
 tests: deps $(OUT)/seam-tests $(PROGRAMS)   ## build the tests

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "common/measure/measure.h"
-#include "tests/cluster.h"
+#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace {

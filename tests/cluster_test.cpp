@@ -1,7 +1,7 @@
 /// The real server and clients in one process and in virtual time: what modes do to a collision,
 /// who has authority when, and that a run repeats bit for bit.
 
-#include "tests/cluster.h"
+#include "tests/lab/cluster.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "tests/cluster.h"
+#include "tests/lab/cluster.h"
 
 #include <algorithm>
 
@@ -10,8 +10,17 @@ namespace {
 /// Virtual time advances in steps of at most this and at least kStepLeastUs.
 constexpr std::int64_t kStepMostUs = 5000;
 constexpr std::int64_t kStepLeastUs = 200;
+/// Without a tick for so long, nobody plays.
+constexpr std::int64_t kPatienceUs = 30000000;
 
 }  // namespace
+
+void Cluster::Tap::Publish(const std::string& channel, std::int64_t, ByteView message) {
+  if (cluster_.config_.keep) memory.Publish(channel, cluster_.now_us_, message);
+  if (cluster_.config_.recorder != nullptr) {
+    cluster_.config_.recorder->Publish(channel, cluster_.now_us_, message);
+  }
+}
 
 Cluster::Cluster(const ClusterConfig& config)
     : config_(config),
@@ -78,7 +87,10 @@ void Cluster::RunToTick(std::int64_t tick) {
       last_tick = server_->tick();
       last_progress_us = now_us_;
     }
-    SEAM_ASSERT(now_us_ - last_progress_us < 30000000);
+    if (now_us_ - last_progress_us > kPatienceUs) {
+      throw OperatorError(scene_.name + ": no tick within 30 s of virtual time: can its players " +
+                          "join over the network \"" + config_.impair + "\"?");
+    }
   }
 }
 

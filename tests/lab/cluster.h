@@ -25,6 +25,8 @@ struct ClusterConfig {
   Drive drive = Drive::kScript;
   int send_hz = 30;
   bool smooth = true;
+  Recorder* recorder = nullptr;       ///< also gets every message, at now_us()
+  bool keep = true;                   ///< recording() has everything; false saves its memory
 };
 
 class Cluster {
@@ -32,7 +34,8 @@ class Cluster {
   explicit Cluster(const ClusterConfig& config);
   ~Cluster();
 
-  /// Runs until the server has done this many ticks (or gives up after 30 s without one).
+  /// Runs until the server has done this many ticks. Throws OperatorError after 30 s without one:
+  /// nobody can play over such a network.
   void RunToTick(std::int64_t tick);
   /// Runs to the configured end.
   void Run();
@@ -48,7 +51,7 @@ class Cluster {
   Client* client(int i) { return clients_[static_cast<std::size_t>(i)].client.get(); }
   int client_count() const { return static_cast<int>(clients_.size()); }
   std::int64_t now_us() const { return now_us_; }
-  const Recording& recording() { return recorder_.builder.recording(); }
+  const Recording& recording() { return recorder_.memory.builder.recording(); }
   ImpairedNet& server_net() { return *server_net_; }
   const Scene& scene() const { return scene_; }
   /// A raw endpoint of the network, for hostile tests.
@@ -56,6 +59,17 @@ class Cluster {
   Address server_address() const { return server_address_; }
 
  private:
+  /// What the peers publish, to memory and to the configured recorder, at the one virtual time:
+  /// what lcm-logger does to a live session.
+  class Tap : public Recorder {
+   public:
+    explicit Tap(const Cluster& cluster) : cluster_(cluster) {}
+    void Publish(const std::string& channel, std::int64_t utime, ByteView message) override;
+    MemoryRecorder memory;
+
+   private:
+    const Cluster& cluster_;
+  };
   struct Peer {
     std::unique_ptr<Net> endpoint;
     std::unique_ptr<Client> client;
@@ -67,7 +81,7 @@ class Cluster {
   ClusterConfig config_;
   Scene scene_;
   MemoryNetwork network_;
-  MemoryRecorder recorder_;
+  Tap recorder_{*this};
   Address server_address_{0x7f000001, 7777};
   std::unique_ptr<Net> server_endpoint_;
   std::unique_ptr<ImpairedNet> server_net_;

@@ -1,0 +1,55 @@
+/// seam-lab: sessions of the real server and clients in virtual time, compared and swept.
+/// docs/lab.md.
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <string>
+
+#include "common/base/check.h"
+#include "common/base/process.h"
+#include "tests/lab/commands.h"
+
+namespace {
+
+using namespace seam;
+
+CLI::App* DefineRun(CLI::App& app, RunCommand& c) {
+  CLI::App* run = app.add_subcommand("run", "record one session in virtual time");
+  SessionSettings& s = c.settings;
+  run->add_option("SCENE", s.scene, "scene file (scenes/*.toml)")->required();
+  run->add_option("-o,--output", c.log, "LCM log to write")->required();
+  run->add_option("--mode", s.mode, "oracle | central | strict | buffer");
+  run->add_option("--reconcile", s.reconcile, "rule for mode buffer (default retrospect)");
+  run->add_option("--impair", s.impair, "network, both directions: a profile's name or a list");
+  run->add_option("--seed", s.seed, "of network and bots")->check(CLI::Range(0, 1000000000));
+  run->add_option("--send-hz", s.send_hz, "state messages per second")
+      ->check(CLI::Range(1, kSendHzMax));
+  run->add_option("--duration", s.duration_s, "seconds after tick 0 (0: the scene's own)")
+      ->check(CLI::Range(0.0, kDurationMax));
+  run->add_option("--drive", s.drive, "script | bot")->check(CLI::IsMember({"script", "bot"}));
+  run->add_option("--smooth", c.smooth, "hide corrections in the view: on | off")
+      ->check(CLI::IsMember({"on", "off"}));
+  run->add_flag("--force", c.force, "overwrite the log");
+  return run;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  return RunMain("seam-lab", [&] {
+    CLI::App app{"seam-lab: sessions of the real server and clients in virtual time"};
+    app.require_subcommand(1);
+    RunCommand run;
+    const CLI::App* run_app = DefineRun(app, run);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::CallForHelp&) {
+      std::printf("%s", app.help().c_str());
+      return 0;
+    } catch (const CLI::ParseError& e) {
+      throw OperatorError(std::string(e.what()) + " (see seam-lab --help)");
+    }
+    if (run_app->parsed()) return RunLog(run);
+    return 2;
+  });
+}

@@ -1,0 +1,58 @@
+#include "tests/lab/session.h"
+
+#include <cmath>
+
+#include "common/base/check.h"
+
+namespace seam {
+namespace {
+
+Drive ParseDrive(const std::string& drive) {
+  if (drive == "script") return Drive::kScript;
+  if (drive == "bot") return Drive::kBot;
+  throw OperatorError("no drive \"" + drive + "\"; there are script and bot");
+}
+
+void CheckRange(const char* name, double value, double min, double max) {
+  if (value >= min && value <= max) return;   // false for NaN
+  throw OperatorError(std::string(name) + " " + std::to_string(value) + " is not within " +
+                      std::to_string(min) + " and " + std::to_string(max));
+}
+
+}  // namespace
+
+ClusterConfig Configure(const SessionSettings& settings) {
+  CheckRange("seed", static_cast<double>(settings.seed), 0, static_cast<double>(kSeedMax));
+  CheckRange("send_hz", settings.send_hz, 1, kSendHzMax);
+  CheckRange("duration", settings.duration_s, 0, kDurationMax);
+  MakeSyncConfig(settings.mode, settings.reconcile);
+  FindProfile(settings.impair);
+  if (settings.impair.size() > kImpairBytesMax) {
+    throw OperatorError("the network profile is longer than " + std::to_string(kImpairBytesMax) +
+                        " bytes: recordings could not name it");
+  }
+  ClusterConfig config;
+  config.scene = settings.scene;
+  config.scene_text = LoadScene(settings.scene).text;
+  config.mode = settings.mode;
+  config.reconcile = settings.reconcile;
+  config.impair = settings.impair;
+  config.seed = settings.seed;
+  config.duration_s = settings.duration_s;
+  config.drive = ParseDrive(settings.drive);
+  config.send_hz = settings.send_hz;
+  config.smooth = settings.smooth;
+  return config;
+}
+
+SessionResult RunSession(const ClusterConfig& config) {
+  Cluster cluster(config);
+  const std::int64_t begin_us = cluster.now_us();
+  cluster.Run();
+  SessionResult result;
+  result.simulated_s = static_cast<double>(cluster.now_us() - begin_us) * 1e-6;
+  result.ticks = cluster.server().tick();
+  return result;
+}
+
+}  // namespace seam

@@ -1,0 +1,46 @@
+#pragma once
+/// One session in virtual time as the command line says it: checked first, then run into a recorder.
+
+#include <cstdint>
+#include <string>
+
+#include "common/record/recorder.h"
+#include "tests/lab/cluster.h"
+
+namespace seam {
+
+/// The program's behaviour, for rows that must be comparable: raised by hand whenever a commit
+/// changes what a session does or how it is measured.
+constexpr const char* kLabVersion = "seam2d-0.1";
+
+/// What a session depends on; equal settings give equal bytes.
+struct SessionSettings {
+  std::string scene;                  ///< path of a scene file
+  std::string mode = "buffer";
+  std::string reconcile;              ///< "": the mode's default
+  std::string impair = "demo";
+  std::int64_t seed = 1;
+  int send_hz = 30;                   ///< at most the scene's tick_hz is used
+  double duration_s = 0;              ///< after tick 0; 0: the scene's own
+  std::string drive = "script";       ///< script | bot
+  bool smooth = true;
+};
+
+/// Largest values of --seed and --duration, as seam-server's.
+constexpr std::int64_t kSeedMax = 1000000000;
+constexpr double kDurationMax = 1e6;
+constexpr int kSendHzMax = 240;
+
+/// Reads the scene and checks everything that can be wrong before anything is run or written.
+/// Throws OperatorError. The recorder is not set.
+ClusterConfig Configure(const SessionSettings& settings);
+
+struct SessionResult {
+  double simulated_s = 0;             ///< virtual time, joining included
+  std::int64_t ticks = 0;             ///< since tick 0
+};
+
+/// Runs to the end. Throws OperatorError when the players cannot join over such a network.
+SessionResult RunSession(const ClusterConfig& config);
+
+}  // namespace seam
