@@ -23,6 +23,8 @@ constexpr std::size_t kLogDataBytesMax = 1000000;
 /// Writes the format that lcm-logger writes and lcm-logplayer reads.
 class LogWriter : public Recorder {
  public:
+  /// What the constructor would throw, without touching the file: for a log that begins later.
+  static void Check(const std::string& path, bool force);
   /// Throws OperatorError when the file cannot be created, or exists and `force` is not given.
   explicit LogWriter(const std::string& path, bool force = false);
   ~LogWriter() override;

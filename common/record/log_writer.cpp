@@ -1,5 +1,8 @@
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
+#include <filesystem>
 
 #include "common/base/check.h"
 #include "common/record/log_file.h"
@@ -15,15 +18,35 @@ std::uint8_t* PutBigEndian(std::uint8_t* to, T value) {
   return to;
 }
 
+[[noreturn]] void ThrowExists(const std::string& path) {
+  throw OperatorError(path + ": exists; choose another name, remove it, or give --force");
+}
+
+[[noreturn]] void ThrowNotCreated(const std::string& path, int error) {
+  throw OperatorError(path + ": cannot be created: " + std::strerror(error));
+}
+
 }  // namespace
+
+void LogWriter::Check(const std::string& path, bool force) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(path, error);
+  if (std::filesystem::exists(status)) {
+    if (!force) ThrowExists(path);
+    if (std::filesystem::is_directory(status)) ThrowNotCreated(path, EISDIR);
+    if (access(path.c_str(), W_OK) != 0) ThrowNotCreated(path, errno);
+    return;
+  }
+  std::string folder = std::filesystem::path(path).parent_path().string();
+  if (folder.empty()) folder = ".";
+  if (access(folder.c_str(), W_OK | X_OK) != 0) ThrowNotCreated(path, errno);
+}
 
 LogWriter::LogWriter(const std::string& path, bool force) {
   file_ = std::fopen(path.c_str(), force ? "wb" : "wbx");
   if (file_ != nullptr) return;
-  if (errno == EEXIST) {
-    throw OperatorError(path + ": exists; choose another name, remove it, or allow overwriting");
-  }
-  throw OperatorError(path + ": cannot be created: " + std::strerror(errno));
+  if (errno == EEXIST) ThrowExists(path);
+  ThrowNotCreated(path, errno);
 }
 
 LogWriter::~LogWriter() { std::fclose(file_); }

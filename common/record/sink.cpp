@@ -1,7 +1,6 @@
 #include "common/record/sink.h"
 
-#include <algorithm>
-#include <cctype>
+#include "common/base/check.h"
 
 namespace seam {
 namespace {
@@ -12,19 +11,29 @@ constexpr int kPollsMost = 64;
 }  // namespace
 
 Sink::Sink(const std::string& lcm_url, const std::string& record_path, bool force,
-           const std::string& room) {
+           const std::string& room)
+    : record_path_(record_path), force_(force) {
+  if (!record_path.empty()) LogWriter::Check(record_path, force);
   if (lcm_url != "none") bus_ = std::make_unique<Bus>(lcm_url);
-  if (record_path.empty()) return;
-  log_ = std::make_unique<LogWriter>(record_path, force);
-  if (bus_ == nullptr) return;
+  if (record_path.empty() || bus_ == nullptr) return;
   bus_->Subscribe("SEAM\\." + room + "\\..*",
                   [this](const std::string& channel, std::int64_t utime, ByteView message) {
                     // Our own messages come back by loopback; they are in the log already.
-                    if (own_channels_.count(channel) == 0) log_->Publish(channel, utime, message);
+                    if (log_ == nullptr || own_channels_.count(channel) != 0) return;
+                    log_->Publish(channel, utime, message);
                   });
 }
 
+void Sink::OpenLog() {
+  try {
+    log_ = std::make_unique<LogWriter>(record_path_, force_);
+  } catch (const OperatorError&) {
+    ++open_failures_;   // somebody was quicker: it was possible when we looked
+  }
+}
+
 void Sink::Publish(const std::string& channel, std::int64_t utime, ByteView message) {
+  if (log_ == nullptr && !record_path_.empty()) OpenLog();
   if (log_ != nullptr) {
     own_channels_[channel] = true;
     log_->Publish(channel, utime, message);
@@ -33,11 +42,12 @@ void Sink::Publish(const std::string& channel, std::int64_t utime, ByteView mess
 }
 
 std::int64_t Sink::failures() const {
-  return (bus_ != nullptr ? bus_->failures() : 0) + (log_ != nullptr ? log_->failures() : 0);
+  return (bus_ != nullptr ? bus_->failures() : 0) + (log_ != nullptr ? log_->failures() : 0) +
+         open_failures_;
 }
 
 void Sink::Poll() {
-  if (log_ != nullptr && bus_ != nullptr) {
+  if (!record_path_.empty() && bus_ != nullptr) {
     for (int n = 0; n < kPollsMost; ++n) bus_->Poll(0);
   }
 }

@@ -12,10 +12,11 @@ namespace seam {
 
 /// Publishes to the bus (unless `lcm_url` is "none") and writes `record_path` (unless empty). With
 /// both, the log also holds what other peers of the room publish on the bus, so that it is the log
-/// that lcm-logger would have written.
+/// that lcm-logger would have written. It begins with the first message that is published here: a
+/// program that never gets so far leaves no file, and a file that may be overwritten as it was.
 class Sink : public Recorder {
  public:
-  /// Throws OperatorError from Bus or LogWriter.
+  /// Throws OperatorError from Bus, or for a file that cannot be written.
   Sink(const std::string& lcm_url, const std::string& record_path, bool force,
        const std::string& room);
 
@@ -25,8 +26,13 @@ class Sink : public Recorder {
   void Poll();
 
  private:
+  void OpenLog();
+
+  std::string record_path_;
+  bool force_;
   std::unique_ptr<Bus> bus_;
-  std::unique_ptr<LogWriter> log_;
+  std::unique_ptr<LogWriter> log_;           ///< null until it begins
+  std::int64_t open_failures_ = 0;
   std::map<std::string, bool> own_channels_;
 };
 
