@@ -127,6 +127,9 @@ int RenderMain(int argc, const char* const* argv) {
   } catch (const OperatorError& error) {
     std::fprintf(stderr, "seam-render: %s\n", error.what());
     return 2;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "seam-render: unexpected: %s\n", error.what());
+    return 1;
   }
 }
 

@@ -38,7 +38,7 @@ void Prune(Recording* recording, std::int64_t before_tick) {
 
 LiveRenderer::LiveRenderer(const RenderOptions& options)
     : options_(options), folder_(options.out, options.force), builder_(options.room) {
-  if (!options.oracle.empty()) oracle_ = LoadOracle(options.oracle);
+  if (!options.oracle.empty()) truth_ = LoadOracle(options.oracle);
   const Font probe(1, "", options.fonts);   // fails now, not in the middle of a session
 }
 
@@ -84,7 +84,12 @@ void LiveRenderer::DrawDue() {
 }
 
 void LiveRenderer::Begin() {
-  playback_.emplace(&builder_.recording(), oracle_);
+  std::optional<Oracle> oracle;
+  if (truth_) {
+    RequireSameScene(*truth_, builder_.recording().room, "the session on the bus");
+    oracle = truth_->oracle;
+  }
+  playback_.emplace(&builder_.recording(), std::move(oracle));
   next_s_ = static_cast<double>(builder_.recording().views.begin()->second.begin()->first) /
             playback_->tick_hz();
   std::string texts = playback_->scene().title + playback_->recording().room.scene_name;

@@ -8,6 +8,7 @@
 
 #include "common/record/recording.h"
 #include "render/canvas.h"
+#include "render/load.h"
 #include "render/options.h"
 #include "render/output.h"
 #include "render/playback.h"
@@ -45,7 +46,7 @@ class LiveRenderer {
   const RenderOptions options_;
   OutputFolder folder_;
   RecordingBuilder builder_;
-  std::optional<Oracle> oracle_;
+  std::optional<GivenOracle> truth_;
   std::optional<Playback> playback_;   // of builder_'s recording
   std::optional<Font> font_;
   std::unique_ptr<Canvas> canvas_;

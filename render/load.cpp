@@ -12,7 +12,9 @@ Playback Load(const std::string& path, const RenderOptions& options) {
   if (recording.room.tick_hz < 1) throw OperatorError(path + ": the room's tick rate is missing");
   std::optional<Oracle> oracle;
   if (!options.oracle.empty()) {
-    oracle = LoadOracle(options.oracle);
+    GivenOracle truth = LoadOracle(options.oracle);
+    RequireSameScene(truth, recording.room, path);
+    oracle = std::move(truth.oracle);
   } else if (recording.room.mode == "oracle") {
     oracle = OracleFromRecording(recording);
   } else {
@@ -29,12 +31,20 @@ std::vector<Playback> LoadPlaybacks(const RenderOptions& options) {
   return playbacks;
 }
 
-Oracle LoadOracle(const std::string& path) {
+GivenOracle LoadOracle(const std::string& path) {
   const Recording recording = ReadRecording(path);
   if (recording.room.mode != "oracle")
     throw OperatorError(path + ": made in mode " + recording.room.mode +
                         ", so it is no oracle (seam-server --mode oracle)");
-  return OracleFromRecording(recording);
+  return {path, recording.room, OracleFromRecording(recording)};
+}
+
+void RequireSameScene(const GivenOracle& truth, const Room& room, const std::string& what) {
+  if (truth.room.scene_text != room.scene_text)
+    throw OperatorError(what + ": its scene (" + room.scene_name + ") is not the one of " +
+                        truth.path + " (" + truth.room.scene_name + ")");
+  if (truth.room.tick_hz != room.tick_hz)
+    throw OperatorError(what + ": its tick rate is not the one of " + truth.path);
 }
 
 void RequirePeer(const Playback& playback, int peer) {

@@ -12,8 +12,18 @@ namespace seam {
 /// oracle, or computed from the recorded inputs. Throws OperatorError for a log without views.
 std::vector<Playback> LoadPlaybacks(const RenderOptions& options);
 
-/// The displayed path of a log made in mode oracle. Throws OperatorError when it is another mode's.
-Oracle LoadOracle(const std::string& path);
+/// The displayed path of a log made in mode oracle, and the room it was made in.
+struct GivenOracle {
+  std::string path;
+  Room room;
+  Oracle oracle;
+};
+
+/// Throws OperatorError when the log is another mode's.
+GivenOracle LoadOracle(const std::string& path);
+
+/// Throws OperatorError, naming both, unless `truth` simulated the scene of the room `what`.
+void RequireSameScene(const GivenOracle& truth, const Room& room, const std::string& what);
 
 /// Throws OperatorError naming the peers there are when `peer` showed nothing.
 void RequirePeer(const Playback& playback, int peer);
