@@ -77,26 +77,32 @@ MeasuredRun MeasureLog(const std::string& path, const std::string& name, const O
   return run;
 }
 
-/// The first line of a file, without its end; empty when there is no such file.
+/// The first line of a file (of it, 1000 bytes); empty when there is no such file.
 std::string FirstLine(const std::string& path) {
   std::FILE* file = std::fopen(path.c_str(), "r");
   if (file == nullptr) return "";
   std::string line;
-  for (int c = std::fgetc(file); c != EOF && c != '\n'; c = std::fgetc(file)) {
+  for (int c = 0; line.size() < 1000 && (c = std::fgetc(file)) != EOF && c != '\n';) {
     line += static_cast<char>(c);
   }
   std::fclose(file);
   return line;
 }
 
-void WriteCsv(const std::vector<MeasuredRun>& runs, const Options& options) {
-  const std::string existing = options.append ? FirstLine(options.csv) : "";
+/// `seam-measure --csv a.lcm b.lcm` forgets a name: it must not make a table of a recording.
+void CheckCsv(const Options& options) {
+  const std::string existing = FirstLine(options.csv);
   if (!existing.empty() && existing != CsvHeader()) {
-    throw OperatorError(options.csv + ": has other columns, cannot append to it");
+    throw OperatorError(options.csv + (options.append ? ": has other columns, cannot append to it"
+                                                      : ": exists and is no table of this program"));
   }
+}
+
+void WriteCsv(const std::vector<MeasuredRun>& runs, const Options& options) {
+  const std::string header = options.append ? FirstLine(options.csv) : "";
   std::FILE* file = std::fopen(options.csv.c_str(), options.append ? "a" : "w");
   if (file == nullptr) throw OperatorError(options.csv + ": cannot be written");
-  std::string text = existing.empty() ? CsvHeader() + '\n' : "";
+  std::string text = header.empty() ? CsvHeader() + '\n' : "";
   for (const MeasuredRun& run : runs) text += CsvLine(run) + '\n';
   const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
   if (std::fclose(file) != 0 || !written) throw OperatorError(options.csv + ": disk full?");
@@ -114,6 +120,7 @@ void Run(const Options& options) {
     throw OperatorError("--names has " + std::to_string(options.names.size()) + " names for " +
                         std::to_string(options.logs.size()) + " logs");
   }
+  if (!options.csv.empty()) CheckCsv(options);
   std::optional<Recording> truth;
   if (!options.oracle.empty()) truth = Read(options.oracle);
   std::vector<MeasuredRun> runs;
@@ -133,7 +140,7 @@ void Run(const Options& options) {
 int main(int argc, char** argv) {
   seam::Options options;
   CLI::App app{"Measures recordings against the truth: error, stutter, rebound, cost."};
-  app.add_option("LOG", options.logs, "recordings (LCM logs)")->required();
+  app.add_option("LOG", options.logs, "recordings (LCM logs)");
   app.add_option("--oracle", options.oracle,
                  "a recording made with --mode oracle; without it the oracle is computed");
   const auto* csv = app.add_option("--csv", options.csv, "write the table as CSV to this file too");
@@ -145,6 +152,9 @@ int main(int argc, char** argv) {
   app.add_flag("--more", options.more, "print the further measures");
   try {
     app.parse(argc, argv);
+    if (options.logs.empty()) {
+      throw seam::OperatorError("which log? for example: seam-measure session.lcm");
+    }
     if (options.append && csv->empty()) throw seam::OperatorError("--append needs --csv");
     seam::Run(options);
     return 0;
