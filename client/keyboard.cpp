@@ -1,5 +1,6 @@
 #include "client/keyboard.h"
 
+#include <poll.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -24,24 +25,35 @@ Keyboard::Keyboard() : saved_(std::make_unique<Saved>()) {
 
 Keyboard::~Keyboard() { tcsetattr(0, TCSANOW, &saved_->settings); }
 
+void Keyboard::Press(char key, std::int64_t now_us) {
+  if (key == '\033') {
+    escape_ = 1;
+    return;
+  }
+  if (escape_ == 1 && (key == '[' || key == 'O')) {
+    escape_ = 2;
+    return;
+  }
+  if (escape_ == 2) {   // ESC [ A..D, with modifiers ESC [ 1 ; 2 A
+    if ((key >= '0' && key <= '9') || key == ';') return;
+    key = key == 'A' ? 'w' : key == 'B' ? 's' : key == 'C' ? 'd' : key == 'D' ? 'a' : '\0';
+  }
+  escape_ = 0;
+  if (key == 'd') right_us_ = now_us + kHoldUs;
+  if (key == 'a') left_us_ = now_us + kHoldUs;
+  if (key == 'w') up_us_ = now_us + kHoldUs;
+  if (key == 's') down_us_ = now_us + kHoldUs;
+  if (key == ' ') button_us_[0] = now_us + kHoldUs;
+  if (key >= '0' && key <= '9') button_us_[key - '0'] = now_us + kHoldUs;
+  if (key == 'q' || key == '\003') quit_ = true;
+}
+
 Input Keyboard::Poll(std::int64_t now_us) {
   char keys[64];
   const ssize_t count = read(0, keys, sizeof keys);
-  for (ssize_t i = 0; i < count; ++i) {
-    char key = keys[i];
-    if (key == '\033' && i + 2 < count && keys[i + 1] == '[') {   // an arrow: ESC [ A..D
-      const char arrow = keys[i + 2];
-      key = arrow == 'A' ? 'w' : arrow == 'B' ? 's' : arrow == 'C' ? 'd' : 'a';
-      i += 2;
-    }
-    if (key == 'd') right_us_ = now_us + kHoldUs;
-    if (key == 'a') left_us_ = now_us + kHoldUs;
-    if (key == 'w') up_us_ = now_us + kHoldUs;
-    if (key == 's') down_us_ = now_us + kHoldUs;
-    if (key == ' ') button_us_[0] = now_us + kHoldUs;
-    if (key >= '0' && key <= '9') button_us_[key - '0'] = now_us + kHoldUs;
-    if (key == 'q' || key == '\003') quit_ = true;
-  }
+  for (ssize_t i = 0; i < count; ++i) Press(keys[i], now_us);
+  pollfd terminal{0, 0, 0};   // reports a hang-up unasked; read() alone says 0 for that too
+  if (poll(&terminal, 1, 0) > 0) quit_ = true;
   Input input;
   input.drive = static_cast<std::int8_t>((right_us_ > now_us ? 127 : 0) -
                                          (left_us_ > now_us ? 127 : 0));

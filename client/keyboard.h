@@ -18,7 +18,8 @@ class Keyboard {
   Keyboard(const Keyboard&) = delete;
   Keyboard& operator=(const Keyboard&) = delete;
 
-  /// Reads what was typed and returns the state of the controls. `q` and Ctrl-C set quit().
+  /// Reads what was typed and returns the state of the controls. `q`, Ctrl-C and a terminal that
+  /// is closed set quit().
   Input Poll(std::int64_t now_us);
   bool quit() const { return quit_; }
   int fd() const { return 0; }
@@ -26,10 +27,13 @@ class Keyboard {
   static constexpr std::int64_t kHoldUs = 150000;
 
  private:
+  void Press(char key, std::int64_t now_us);
+
   struct Saved;
   std::unique_ptr<Saved> saved_;
   std::int64_t right_us_ = 0, left_us_ = 0, up_us_ = 0, down_us_ = 0;
   std::int64_t button_us_[10] = {};
+  int escape_ = 0;                     // bytes of an arrow's ESC [ or ESC O that have come
   bool quit_ = false;
 };
 

@@ -3,6 +3,8 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <random>
@@ -10,6 +12,7 @@
 #include "client/client.h"
 #include "client/keyboard.h"
 #include "common/base/process.h"
+#include "common/net/farewell.h"
 #include "common/net/impair.h"
 #include "common/net/udp.h"
 #include "common/record/sink.h"
@@ -54,14 +57,24 @@ void Define(CLI::App& app, Flags& f) {
   app.add_flag("--quiet", f.quiet, "no progress line");
 }
 
-ClientConfig Configure(const Flags& f) {
-  const bool good = !f.name.empty() && f.name.size() <= 32 &&
-                    std::all_of(f.name.begin(), f.name.end(), [](unsigned char c) {
+void CheckName(const std::string& flag, const std::string& name) {
+  const bool good = !name.empty() && name.size() <= 32 &&
+                    std::all_of(name.begin(), name.end(), [](unsigned char c) {
                       return std::isalnum(c) != 0 || c == '_' || c == '-';
                     });
-  if (!good) throw OperatorError("--name takes 1 to 32 letters, digits, - or _");
+  if (!good) throw OperatorError(flag + " takes 1 to 32 letters, digits, - or _");
+}
+
+ClientConfig Configure(const Flags& f) {
+  CheckName("--name", f.name);
+  CheckName("--room", f.room);
+  if (std::isnan(f.duration_s)) throw OperatorError("--duration must be a number of seconds");
+  if (std::isnan(f.join_s)) throw OperatorError("--join-timeout must be a number of seconds");
   ClientConfig config;
   config.server = ParseAddress(f.server, 7777);
+  if (config.server.port == 0) {
+    throw OperatorError("address \"" + f.server + "\": no server has port 0");
+  }
   config.name = f.name;
   config.smooth = f.smooth == "on";
   config.session_seed =
@@ -75,6 +88,13 @@ ClientConfig Configure(const Flags& f) {
     config.script_of = f.drive;
   }
   return config;
+}
+
+/// "10", "0.5".
+std::string Seconds(double seconds) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", seconds);
+  return text;
 }
 
 int Play(const Flags& f) {
@@ -104,8 +124,8 @@ int Play(const Flags& f) {
     if (f.duration_s > 0 && elapsed_s > f.duration_s) break;
     if (static_cast<double>(client.joining_us(now)) * 1e-6 > f.join_s) {
       throw OperatorError((client.rejoins() == 0 ? "no answer from " : "lost the server ") +
-                          ToString(config.server) + "; gave up after " +
-                          std::to_string(static_cast<int>(f.join_s)) + " s (--join-timeout)");
+                          ToString(config.server) + "; gave up after " + Seconds(f.join_s) +
+                          " s (--join-timeout)");
     }
     if (!f.quiet && client.running() && now >= next_line_us) {
       next_line_us = now + 1000000;
@@ -116,8 +136,9 @@ int Play(const Flags& f) {
     const std::int64_t wake = std::min({client.next_tick_us(now), net.next_due_us(), now + 20000});
     udp.Wait(std::max<std::int64_t>(0, wake - SteadyClockUs()), keyboard ? keyboard->fd() : -1);
   }
+  if (client.fatal().empty() || client.peer() >= 0) client.Shutdown(SteadyClockUs());
+  LetThrough(udp, net);
   if (!client.fatal().empty()) throw OperatorError(client.fatal());
-  client.Shutdown(SteadyClockUs());
   const Stats& s = client.stats();
   std::fprintf(stderr,
                "\nseam-client: %s; %lld datagrams in, %lld out, %lld bad, %lld stale bodies\n",

@@ -3,10 +3,12 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
+#include <cctype>
+#include <cmath>
 #include <cstdio>
-#include <limits>
 
 #include "common/base/process.h"
+#include "common/net/farewell.h"
 #include "common/net/impair.h"
 #include "common/net/udp.h"
 #include "common/record/doctor.h"
@@ -75,6 +77,23 @@ void CheckRoomName(const std::string& room) {
   if (!good) throw OperatorError("--room takes 1 to 32 letters, digits, - or _");
 }
 
+/// The tick to stop after; 0: none. However short the duration, it is one.
+std::int64_t LastTick(double duration_s, int tick_hz) {
+  if (std::isnan(duration_s)) throw OperatorError("--duration must be a number of seconds");
+  if (duration_s <= 0) return 0;
+  return std::max<std::int64_t>(1, std::llround(duration_s * tick_hz));
+}
+
+/// How many players tick 0 waits for.
+int PlayersToWaitFor(const Flags& f, const Scene& scene) {
+  const int players = static_cast<int>(scene.players.size());
+  if (f.wait > players) {
+    throw OperatorError("--wait " + std::to_string(f.wait) + ": " + f.scene + " has " +
+                        std::to_string(players) + " player(s), so the room would never start");
+  }
+  return f.wait >= 0 ? f.wait : players;
+}
+
 int Serve(const Flags& f) {
   if (f.scene.empty()) {
     throw OperatorError("which scene? for example: seam-server scenes/crossing.toml");
@@ -89,7 +108,8 @@ int Serve(const Flags& f) {
   config.room = f.room;
   config.impair = f.impair;
   config.seed = f.seed;
-  config.wait_players = f.wait >= 0 ? f.wait : static_cast<int>(scene.players.size());
+  config.wait_players = PlayersToWaitFor(f, scene);
+  const std::int64_t last_tick = LastTick(f.duration_s, scene.solver.tick_hz);
   const ImpairProfile profile = FindProfile(f.impair);
 
   Address local = ParseAddress(f.bind, static_cast<std::uint16_t>(f.port));
@@ -103,7 +123,6 @@ int Serve(const Flags& f) {
                scene.name.c_str(), f.mode.c_str(), config.sync.reconcile_name.empty() ? "" : " ",
                config.sync.reconcile_name.c_str(), f.impair.c_str(),
                ToString(udp.local()).c_str(), config.wait_players);
-  const auto last_tick = static_cast<std::int64_t>(f.duration_s * scene.solver.tick_hz);
   std::int64_t next_line_us = 0;
   while (g_stop == 0 && (last_tick == 0 || server.tick() < last_tick)) {
     const std::int64_t now = SteadyClockUs();
@@ -113,17 +132,13 @@ int Serve(const Flags& f) {
       next_line_us = now + 1000000;
       std::fprintf(stderr, "\rtick %lld, %d client(s), worst round trip %.0f ms   ",
                    static_cast<long long>(server.tick()), server.client_count(),
-                   server.stats().rtt_us / 1000.0);
+                   std::max(0, server.stats().rtt_us) / 1000.0);
     }
     const std::int64_t wake = std::min({server.next_tick_us(), net.next_due_us(), now + 20000});
     udp.Wait(std::max<std::int64_t>(0, wake - SteadyClockUs()));
   }
   server.Shutdown(SteadyClockUs(), "the server stops");
-  for (int n = 0; n < 20 && net.next_due_us() != std::numeric_limits<std::int64_t>::max(); ++n) {
-    udp.Wait(20000);   // let the goodbye through the simulated network
-    net.Advance(SteadyClockUs());
-    net.Flush();
-  }
+  LetThrough(udp, net);
   sink.Poll();
   const Stats& s = server.stats();
   std::fprintf(stderr,

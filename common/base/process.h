@@ -39,13 +39,17 @@ inline std::int64_t CpuUs() {
 
 inline volatile std::sig_atomic_t g_stop = 0;
 
-/// SIGINT and SIGTERM set g_stop; a second one kills. poll() is interrupted.
+/// SIGINT, SIGTERM and SIGHUP (a closed terminal, unless nohup said to ignore it) set g_stop; a
+/// second one kills. poll() is interrupted.
 inline void StopOnSignals() {
   struct sigaction action {};
   action.sa_handler = [](int) { g_stop = 1; };
   action.sa_flags = static_cast<int>(SA_RESETHAND);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+  struct sigaction hang_up {};
+  sigaction(SIGHUP, nullptr, &hang_up);
+  if (hang_up.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
 }
 

@@ -178,4 +178,8 @@ std::int64_t ImpairedNet::next_due_us() const {
   return std::min(impl_->in.next_due_us(), impl_->out.next_due_us());
 }
 
+bool ImpairedNet::sending() const {
+  return impl_->out.next_due_us() != std::numeric_limits<std::int64_t>::max();
+}
+
 }  // namespace seam

@@ -76,6 +76,8 @@ class ImpairedNet : public Net {
   void Cut(bool cut);
   /// When the next delayed datagram is due, INT64_MAX if none: how long a main may sleep.
   std::int64_t next_due_us() const;
+  /// Something that was sent is still under way.
+  bool sending() const;
 
  private:
   struct Impl;
