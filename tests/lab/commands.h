@@ -18,4 +18,13 @@ struct RunCommand {
 /// Records a session and prints its simulated and wall seconds in one line.
 int RunLog(const RunCommand& command);
 
+struct DivergenceCommand {
+  std::string log_a, log_b;
+  int peer = -1;                      ///< -1: all
+  bool common = false;                ///< only the views that both have
+};
+
+/// Prints the first difference of two recordings' views. 0: equal; 1: they differ.
+int FirstDivergence(const DivergenceCommand& command);
+
 }  // namespace seam

@@ -33,6 +33,17 @@ CLI::App* DefineRun(CLI::App& app, RunCommand& c) {
   return run;
 }
 
+CLI::App* DefineDivergence(CLI::App& app, DivergenceCommand& c) {
+  CLI::App* divergence = app.add_subcommand(
+      "first-divergence", "where two recordings' views differ first (status 1), or equal (0)");
+  divergence->add_option("A", c.log_a, "an LCM log")->required();
+  divergence->add_option("B", c.log_b, "an LCM log of the same scene")->required();
+  divergence->add_option("--peer", c.peer, "compare this peer's views alone")
+      ->check(CLI::Range(0, 31));
+  divergence->add_flag("--common", c.common, "leave out views that only one of them has");
+  return divergence;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -40,7 +51,9 @@ int main(int argc, char** argv) {
     CLI::App app{"seam-lab: sessions of the real server and clients in virtual time"};
     app.require_subcommand(1);
     RunCommand run;
+    DivergenceCommand divergence;
     const CLI::App* run_app = DefineRun(app, run);
+    const CLI::App* divergence_app = DefineDivergence(app, divergence);
     try {
       app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
@@ -50,6 +63,7 @@ int main(int argc, char** argv) {
       throw OperatorError(std::string(e.what()) + " (see seam-lab --help)");
     }
     if (run_app->parsed()) return RunLog(run);
+    if (divergence_app->parsed()) return FirstDivergence(divergence);
     return 2;
   });
 }
