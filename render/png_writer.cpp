@@ -6,6 +6,7 @@
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 
 #include "common/base/check.h"
 
@@ -47,7 +48,8 @@ void WritePng(const std::string& path, const Image& image, int level) {
   const bool closed = std::fclose(file) == 0;
   if (encoded && closed) return;
   const std::string why = errno != 0 ? std::strerror(errno) : "write failed";
-  std::remove(path.c_str());
+  std::error_code ignored;                  // a device or a pipe is not ours to remove
+  if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
   throw OperatorError(path + ": " + why);
 }
 

@@ -112,6 +112,7 @@ TEST(Png, ADiskThatDoesNotTakeItIsAnOperatorError) {
   EXPECT_THROW(WritePng("/nowhere/a.png", image), OperatorError);
   if (!fs::exists("/dev/full")) return;
   EXPECT_THROW(WritePng("/dev/full", image), OperatorError);
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
 }  // namespace
