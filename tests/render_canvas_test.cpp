@@ -110,7 +110,7 @@ TEST(Png, ADiskThatDoesNotTakeItIsAnOperatorError) {
   image.width_px = image.height_px = 200;
   image.rgb.resize(200 * 200 * 3);
   EXPECT_THROW(WritePng("/nowhere/a.png", image), OperatorError);
-  if (!fs::exists("/dev/full")) return;
+  if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   EXPECT_THROW(WritePng("/dev/full", image), OperatorError);
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
