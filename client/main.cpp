@@ -139,13 +139,16 @@ int Play(const Flags& f) {
   if (client.fatal().empty() || client.peer() >= 0) client.Shutdown(SteadyClockUs());
   LetThrough(udp, net);
   if (!client.fatal().empty()) throw OperatorError(client.fatal());
+  sink.Flush();
   const Stats& s = client.stats();
   std::fprintf(stderr,
-               "\nseam-client: %s; %lld datagrams in, %lld out, %lld bad, %lld stale bodies\n",
+               "\nseam-client: %s; %lld datagrams in, %lld out, %lld bad, %lld stale bodies; "
+               "%lld bus failures\n",
                client.closed() ? "the server closed the room" : "left",
                static_cast<long long>(s.datagrams_in), static_cast<long long>(s.datagrams_out),
                static_cast<long long>(s.dropped_malformed),
-               static_cast<long long>(s.dropped_stale));
+               static_cast<long long>(s.dropped_stale),
+               static_cast<long long>(sink.failures()));
   return 0;
 }
 

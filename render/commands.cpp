@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "common/base/check.h"
+#include "common/base/process.h"
 #include "render/canvas.h"
 #include "render/load.h"
 #include "render/palette.h"
@@ -113,7 +114,7 @@ void RenderStrobe(const RenderOptions& options) {
 }
 
 int RenderMain(int argc, const char* const* argv) {
-  try {
+  return RunMain("seam-render", [&] {
     RenderOptions options;
     if (!ParseRenderOptions(argc, argv, &options)) return 0;
     if (options.live) {
@@ -124,13 +125,7 @@ int RenderMain(int argc, const char* const* argv) {
       RenderSequence(options);
     }
     return 0;
-  } catch (const OperatorError& error) {
-    std::fprintf(stderr, "seam-render: %s\n", error.what());
-    return 2;
-  } catch (const std::exception& error) {
-    std::fprintf(stderr, "seam-render: unexpected: %s\n", error.what());
-    return 1;
-  }
+  });
 }
 
 }  // namespace seam

@@ -2,12 +2,12 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <exception>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/base/check.h"
+#include "common/base/process.h"
 #include "common/measure/table.h"
 #include "common/record/recording.h"
 
@@ -94,7 +94,7 @@ void CheckCsv(const Options& options) {
   const std::string existing = FirstLine(options.csv);
   if (!existing.empty() && existing != CsvHeader()) {
     throw OperatorError(options.csv + (options.append ? ": has other columns, cannot append to it"
-                                                      : ": exists and is no table of this program"));
+                                                      : ": exists and is no table of measures"));
   }
 }
 
@@ -150,18 +150,20 @@ int main(int argc, char** argv) {
       ->allow_extra_args(false);   // the logs may follow it
   app.add_flag("--floor", options.floor, "also print what chaos alone does to the first log");
   app.add_flag("--more", options.more, "print the further measures");
-  try {
-    app.parse(argc, argv);
+  return seam::RunMain("seam-measure", [&] {
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::CallForHelp& help) {
+      return app.exit(help);
+    } catch (const CLI::ParseError& error) {
+      throw seam::OperatorError(std::string(error.what()) + " (see seam-measure --help)");
+    }
     if (options.logs.empty()) {
       throw seam::OperatorError("which log? for example: seam-measure session.lcm");
     }
     if (options.append && csv->empty()) throw seam::OperatorError("--append needs --csv");
     seam::Run(options);
+    if (std::fflush(stdout) != 0) throw seam::OperatorError("stdout: disk full?");
     return 0;
-  } catch (const CLI::CallForHelp& help) {
-    return app.exit(help);
-  } catch (const std::exception& error) {   // OperatorError, and CLI11's for flags
-    std::fprintf(stderr, "seam-measure: %s\n", error.what());
-    return 2;
-  }
+  });
 }

@@ -140,6 +140,7 @@ int Serve(const Flags& f) {
   server.Shutdown(SteadyClockUs(), "the server stops");
   LetThrough(udp, net);
   sink.Poll();
+  sink.Flush();
   const Stats& s = server.stats();
   std::fprintf(stderr,
                "\nseam-server: %lld ticks; dropped %lld malformed, %lld stale, %lld without right, "

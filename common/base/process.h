@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <string>
 
 #include "common/base/check.h"
 
@@ -53,6 +54,15 @@ inline void StopOnSignals() {
   std::signal(SIGPIPE, SIG_IGN);
 }
 
+/// Writes "program: text" to stderr as one line, whatever is in the text: a file's name may hold
+/// line ends and what else a terminal obeys.
+inline void PrintError(const char* program, std::string text) {
+  for (char& c : text) {
+    if (static_cast<unsigned char>(c) < 0x20 || c == 0x7f) c = '?';
+  }
+  std::fprintf(stderr, "%s: %s\n", program, text.c_str());
+}
+
 /// Runs a main's body: an operator's mistake is one line and status 2, anything else that was
 /// thrown is one line and status 1.
 template <typename Body>
@@ -60,10 +70,10 @@ int RunMain(const char* program, Body body) {
   try {
     return body();
   } catch (const OperatorError& e) {
-    std::fprintf(stderr, "%s: %s\n", program, e.what());
+    PrintError(program, e.what());
     return 2;
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "%s: unexpected: %s\n", program, e.what());
+    PrintError(program, std::string("unexpected: ") + e.what());
     return 1;
   }
 }

@@ -46,6 +46,10 @@ std::int64_t Sink::failures() const {
          open_failures_;
 }
 
+void Sink::Flush() {
+  if (log_ != nullptr) log_->Flush();
+}
+
 void Sink::Poll() {
   if (!record_path_.empty() && bus_ != nullptr) {
     for (int n = 0; n < kPollsMost; ++n) bus_->Poll(0);

@@ -24,6 +24,8 @@ class Sink : public Recorder {
   std::int64_t failures() const override;
   /// Takes what other peers have published into the log. Call often; never blocks.
   void Poll();
+  /// Hands the log to the operating system, so that failures() knows of a full disk.
+  void Flush();
 
  private:
   void OpenLog();
