@@ -27,4 +27,16 @@ struct DivergenceCommand {
 /// Prints the first difference of two recordings' views. 0: equal; 1: they differ.
 int FirstDivergence(const DivergenceCommand& command);
 
+struct SweepCommand {
+  std::string file;                   ///< what to vary (docs/lab.md)
+  std::string table;                  ///< CSV file to write or complete
+  int jobs = 0;                       ///< runs at a time; 0: as many as there are cores
+  bool force = false;                 ///< begin the table anew
+  bool quiet = false;                 ///< no progress line
+};
+
+/// Runs every combination that the table does not have yet. 1: some runs failed (and left no row),
+/// or a signal came.
+int RunSweep(const SweepCommand& command);
+
 }  // namespace seam

@@ -44,6 +44,17 @@ CLI::App* DefineDivergence(CLI::App& app, DivergenceCommand& c) {
   return divergence;
 }
 
+CLI::App* DefineSweep(CLI::App& app, SweepCommand& c) {
+  CLI::App* sweep = app.add_subcommand("sweep", "run and measure all combinations of settings");
+  sweep->add_option("FILE", c.file, "what to vary (TOML; docs/lab.md)")->required();
+  sweep->add_option("-o,--output", c.table, "CSV table to write, or to complete")->required();
+  sweep->add_option("--jobs", c.jobs, "runs at a time (default: one a core)")
+      ->check(CLI::Range(1, 256));
+  sweep->add_flag("--force", c.force, "begin the table anew");
+  sweep->add_flag("--quiet", c.quiet, "no progress line");
+  return sweep;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -52,8 +63,10 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     RunCommand run;
     DivergenceCommand divergence;
+    SweepCommand sweep;
     const CLI::App* run_app = DefineRun(app, run);
     const CLI::App* divergence_app = DefineDivergence(app, divergence);
+    const CLI::App* sweep_app = DefineSweep(app, sweep);
     try {
       app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
@@ -64,6 +77,7 @@ int main(int argc, char** argv) {
     }
     if (run_app->parsed()) return RunLog(run);
     if (divergence_app->parsed()) return FirstDivergence(divergence);
+    if (sweep_app->parsed()) return RunSweep(sweep);
     return 2;
   });
 }

@@ -22,6 +22,10 @@ void CheckRange(const char* name, double value, double min, double max) {
 }  // namespace
 
 ClusterConfig Configure(const SessionSettings& settings) {
+  return Configure(settings, LoadScene(settings.scene));
+}
+
+ClusterConfig Configure(const SessionSettings& settings, const Scene& scene) {
   CheckRange("seed", static_cast<double>(settings.seed), 0, static_cast<double>(kSeedMax));
   CheckRange("send_hz", settings.send_hz, 1, kSendHzMax);
   CheckRange("duration", settings.duration_s, 0, kDurationMax);
@@ -33,7 +37,7 @@ ClusterConfig Configure(const SessionSettings& settings) {
   }
   ClusterConfig config;
   config.scene = settings.scene;
-  config.scene_text = LoadScene(settings.scene).text;
+  config.scene_text = scene.text;
   config.mode = settings.mode;
   config.reconcile = settings.reconcile;
   config.impair = settings.impair;

@@ -34,6 +34,8 @@ constexpr int kSendHzMax = 240;
 /// Reads the scene and checks everything that can be wrong before anything is run or written.
 /// Throws OperatorError. The recorder is not set.
 ClusterConfig Configure(const SessionSettings& settings);
+/// The same with the scene already read.
+ClusterConfig Configure(const SessionSettings& settings, const Scene& scene);
 
 struct SessionResult {
   double simulated_s = 0;             ///< virtual time, joining included

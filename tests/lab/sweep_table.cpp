@@ -1,0 +1,116 @@
+#include "tests/lab/sweep_table.h"
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <map>
+#include <sstream>
+
+#include "common/base/check.h"
+
+namespace seam {
+namespace {
+
+/// Where each field of a CSV line ends: the places of its commas outside quotes, and its size.
+std::vector<std::size_t> FieldEnds(const std::string& line) {
+  std::vector<std::size_t> ends;
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"') quoted = !quoted;
+    if (line[i] == ',' && !quoted) ends.push_back(i);
+  }
+  ends.push_back(line.size());
+  return ends;
+}
+
+[[noreturn]] void Refuse(const std::string& path, const std::string& why) {
+  throw OperatorError(path + ": " + why + "; choose another name, or --force to begin anew");
+}
+
+[[noreturn]] void CannotWrite(const std::string& path) {
+  throw OperatorError(path + ": cannot be written: " + std::strerror(errno));
+}
+
+}  // namespace
+
+SweepTable::SweepTable(const std::string& path, const std::string& header, int key_columns,
+                       const std::vector<std::string>& keys, bool force)
+    : path_(path), header_(header), lines_(keys.size()) {
+  std::ifstream file(path, std::ios::binary);
+  std::ostringstream text;
+  if (file && !force) text << file.rdbuf();
+  Load(text.str(), key_columns, keys);
+  Rewrite();
+}
+
+SweepTable::~SweepTable() {
+  if (file_ != nullptr) std::fclose(file_);
+}
+
+void SweepTable::Load(const std::string& text, int key_columns,
+                      const std::vector<std::string>& keys) {
+  std::map<std::string, std::size_t> rows;
+  for (std::size_t i = 0; i < keys.size(); ++i) rows[keys[i]] = i;
+  const std::size_t columns = FieldEnds(header_).size();
+  std::size_t at = text.find('\n');
+  const std::string first = text.substr(0, at);
+  if (at == std::string::npos ? header_.rfind(first, 0) != 0 : first != header_) {
+    Refuse(path_, "is not a sweep's table of this program");
+  }
+  for (int number = 2; at != std::string::npos; ++number) {
+    const std::size_t begin = at + 1;
+    at = text.find('\n', begin);
+    if (at == std::string::npos) break;   // half-written, or the end
+    const std::string line = text.substr(begin, at - begin);
+    const std::vector<std::size_t> ends = FieldEnds(line);
+    const auto row = ends.size() == columns
+                         ? rows.find(line.substr(0, ends[static_cast<std::size_t>(key_columns - 1)]))
+                         : rows.end();
+    if (row == rows.end() || Has(row->second)) {
+      Refuse(path_, "line " + std::to_string(number) +
+                        " is not of this sweep (scene, settings or version differ)");
+    }
+    lines_[row->second] = line;
+    ++count_;
+  }
+}
+
+void SweepTable::Rewrite() {
+  if (file_ != nullptr) std::fclose(file_);
+  file_ = nullptr;
+  const std::string draft = path_ + ".part";
+  std::string text = header_ + '\n';
+  for (std::size_t i = 0; i < lines_.size(); ++i) {
+    if (!Has(i)) continue;
+    text += lines_[i] + '\n';
+    end_ = i + 1;
+  }
+  std::FILE* file = std::fopen(draft.c_str(), "wb");
+  if (file == nullptr) CannotWrite(path_);
+  const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
+  const bool closed = std::fclose(file) == 0;
+  if (!written || !closed || std::rename(draft.c_str(), path_.c_str()) != 0) {
+    const int error = errno;
+    std::remove(draft.c_str());
+    errno = error;
+    CannotWrite(path_);
+  }
+  file_ = std::fopen(path_.c_str(), "ab");
+  if (file_ == nullptr) CannotWrite(path_);
+}
+
+void SweepTable::Add(std::size_t row, const std::string& line) {
+  SEAM_ASSERT(!Has(row));
+  lines_[row] = line;
+  ++count_;
+  if (row < end_) {   // an older sweep had later rows
+    Rewrite();
+    return;
+  }
+  end_ = row + 1;
+  const std::string text = line + '\n';
+  const bool written = std::fwrite(text.data(), 1, text.size(), file_) == text.size();
+  if (std::fflush(file_) != 0 || !written) CannotWrite(path_);
+}
+
+}  // namespace seam
