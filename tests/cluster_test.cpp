@@ -223,6 +223,20 @@ TEST(Cluster, TheFloorTellsAChaoticSceneFromAnOrderlyOne) {
   EXPECT_GT(ErrorFloor(chaotic, ComputeOracle(chaotic)), 0.01);
 }
 
+TEST(Cluster, TheFloorsNudgeIsNotLostInRoundingFarFromTheOrigin) {
+  const Recording recording = RunCluster(With("crossing", "oracle"));
+  const Oracle oracle = ComputeOracle(recording);
+  for (int body = 0; body < static_cast<int>(oracle.ids.size()); ++body) {
+    const Oracle nudged = ComputeOracle(recording, body);
+    bool differs = false;
+    for (std::int64_t tick = 1; tick < 60; ++tick) {
+      const PartId id = oracle.ids[static_cast<std::size_t>(body)];
+      differs = differs || nudged.At(tick, id)->position != oracle.At(tick, id)->position;
+    }
+    EXPECT_TRUE(differs) << "body " << body;
+  }
+}
+
 TEST(Cluster, VirtualTimeIsFasterThanRealTime) {
   const auto begin = std::chrono::steady_clock::now();
   const Recording recording = RunCluster(With("crossing", "buffer", "retrospect"));

@@ -30,7 +30,7 @@ struct Oracle {
 /// `nudged_body` >= 0: with that body (an index into ids) moved by kNudge at the start.
 Oracle ComputeOracle(const Recording& recording, int nudged_body = -1);
 
-/// How far the floor's nudge moves one body, m.
+/// How far the floor's nudge moves one body, m; at least to the next float (8e-6 m at 100 m).
 constexpr float kNudge = 1e-6f;
 
 /// The oracle's own sensitivity: RMS distance in m between it and itself with one body nudged, the

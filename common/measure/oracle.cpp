@@ -1,6 +1,7 @@
 /// The truth a recording is measured against: simulated alone, or taken from another recording.
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/base/check.h"
 #include "common/measure/measure.h"
@@ -61,7 +62,9 @@ Oracle ComputeOracle(const Recording& recording, int nudged_body) {
   World world(scene);
   if (nudged_body >= 0) {
     BodyState state = world.Read(nudged_body);
-    state.position.x() += kNudge;
+    // At least to the next float: 40 m from the origin a micrometre is lost in rounding.
+    const float x = state.position.x();
+    state.position.x() = std::max(x + kNudge, std::nextafter(x, x + 1));
     world.Write(nudged_body, state, false);
   }
   Oracle oracle;
