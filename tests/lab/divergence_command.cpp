@@ -14,8 +14,8 @@ Recording ReadWhole(const std::string& path) {
   Recording recording = ReadRecording(path);
   if (recording.skipped_bytes > 0 || recording.undecodable > 0 || recording.bus_gaps > 0) {
     std::fprintf(stderr,
-                 "seam-lab: warning: %s: %lld damaged bytes, %lld events undecodable, %lld messages "
-                 "missing\n",
+                 "seam-lab: warning: %s: %lld damaged bytes, %lld events undecodable, "
+                 "%lld messages missing\n",
                  path.c_str(), static_cast<long long>(recording.skipped_bytes),
                  static_cast<long long>(recording.undecodable),
                  static_cast<long long>(recording.bus_gaps));

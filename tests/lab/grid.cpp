@@ -77,7 +77,9 @@ Lists ReadLists(const std::string& path) {
                        "duration", "seeds", "floor"});
   Lists lists;
   lists.scene_paths = Texts(r, "scenes", nullptr);
-  if (lists.scene_paths.empty()) r.Fail("which scenes? for example: scenes = [\"scenes/wall.toml\"]");
+  if (lists.scene_paths.empty()) {
+    r.Fail("which scenes? for example: scenes = [\"scenes/wall.toml\"]");
+  }
   for (const std::string& scene : lists.scene_paths) {
     lists.scenes.push_back(std::make_shared<Scene>(LoadScene(scene)));
   }
@@ -171,12 +173,13 @@ std::string GridHeader() {
 Grid ReadGrid(const std::string& path) {
   const Lists lists = ReadLists(path);
   const std::vector<std::string> networks = Networks(lists, path);
-  const double size = 1.0 * static_cast<double>(lists.scenes.size() * lists.methods.size()) *
+  const double size = static_cast<double>(lists.scenes.size() * lists.methods.size()) *
                       static_cast<double>(networks.size() * lists.send_hz.size()) *
                       static_cast<double>(lists.drive.size() * lists.smooth.size()) *
                       static_cast<double>(lists.seeds.size());
   if (size > static_cast<double>(kGridPointsMax)) {
-    throw OperatorError(fmt::format("{}: {:.0f} runs are more than {}", path, size, kGridPointsMax));
+    throw OperatorError(
+        fmt::format("{}: {:.0f} runs are more than {}", path, size, kGridPointsMax));
   }
   Grid grid;
   grid.floor = lists.floor;

@@ -1,5 +1,5 @@
 #pragma once
-/// One session in virtual time as the command line says it: checked first, then run into a recorder.
+/// One session in virtual time as the command line says it: checked first, then run.
 
 #include <cstdint>
 #include <string>

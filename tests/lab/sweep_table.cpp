@@ -52,6 +52,7 @@ void SweepTable::Load(const std::string& text, int key_columns,
   std::map<std::string, std::size_t> rows;
   for (std::size_t i = 0; i < keys.size(); ++i) rows[keys[i]] = i;
   const std::size_t columns = FieldEnds(header_).size();
+  const auto last_of_key = static_cast<std::size_t>(key_columns - 1);
   std::size_t at = text.find('\n');
   const std::string first = text.substr(0, at);
   if (at == std::string::npos ? header_.rfind(first, 0) != 0 : first != header_) {
@@ -63,9 +64,8 @@ void SweepTable::Load(const std::string& text, int key_columns,
     if (at == std::string::npos) break;   // half-written, or the end
     const std::string line = text.substr(begin, at - begin);
     const std::vector<std::size_t> ends = FieldEnds(line);
-    const auto row = ends.size() == columns
-                         ? rows.find(line.substr(0, ends[static_cast<std::size_t>(key_columns - 1)]))
-                         : rows.end();
+    const bool whole = ends.size() == columns;
+    const auto row = whole ? rows.find(line.substr(0, ends[last_of_key])) : rows.end();
     if (row == rows.end() || Has(row->second)) {
       Refuse(path_, "line " + std::to_string(number) +
                         " is not of this sweep (scene, settings or version differ)");
