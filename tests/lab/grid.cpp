@@ -6,6 +6,7 @@
 #include <set>
 #include <sstream>
 
+#include "common/base/bytes.h"
 #include "common/base/check.h"
 #include "common/physics/scene_reader.h"
 #include "common/physics/scene_text.h"

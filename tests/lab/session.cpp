@@ -1,7 +1,5 @@
 #include "tests/lab/session.h"
 
-#include <cmath>
-
 #include "common/base/check.h"
 
 namespace seam {
