@@ -116,6 +116,7 @@ class Client {
   std::int64_t worst_late_us_ = 0;
   std::int64_t rejoins_ = 0;
   Input live_;
+  std::int64_t discarded_ = 0;         // by the net, as far as counted in stats_
   Stats stats_;
 };
 

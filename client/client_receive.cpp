@@ -28,6 +28,8 @@ void Client::ReceiveAll(std::int64_t now_us) {
                       });
     if (!good) ++stats_.dropped_malformed;
   }
+  stats_.dropped_malformed += net_.discarded() - discarded_;
+  discarded_ = net_.discarded();
 }
 
 void Client::OnMessage(std::int64_t now_us, ByteView bytes) {

@@ -107,6 +107,7 @@ class Server {
   std::int64_t last_room_us_ = -1000000000;
   std::int64_t last_stats_us_ = -1000000000;
   std::int64_t worst_late_us_ = 0;
+  std::int64_t discarded_ = 0;                  // by the net, as far as counted in stats_
   Stats stats_;
 };
 

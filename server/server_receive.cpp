@@ -30,6 +30,8 @@ void Server::ReceiveAll(std::int64_t now_us) {
     stats_.datagrams_in += 1;
     OnDatagram(now_us, from, datagram);
   }
+  stats_.dropped_malformed += net_.discarded() - discarded_;
+  discarded_ = net_.discarded();
 }
 
 void Server::OnDatagram(std::int64_t now_us, const Address& from, const Bytes& datagram) {

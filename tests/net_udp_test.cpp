@@ -95,6 +95,7 @@ TEST(Udp, OversizedAndEmptyDatagramsOfOthersAreSkipped) {
   Address from;
   EXPECT_EQ(Await(b, &from), Bytes{5});
   EXPECT_EQ(from, a.local());
+  EXPECT_EQ(b.discarded(), 2);
 }
 
 TEST(Udp, APortInUseIsOneClearLine) {

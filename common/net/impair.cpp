@@ -165,6 +165,8 @@ bool ImpairedNet::Receive(Address* from, Bytes* datagram) {
   return impl_->in.Leave(impl_->now_us, from, datagram);
 }
 
+std::int64_t ImpairedNet::discarded() const { return impl_->inner.discarded(); }
+
 void ImpairedNet::Cut(bool cut) {
   impl_->cut = impl_->cut || cut;
   impl_->Pull();   // what arrived while cut is lost too

@@ -71,6 +71,7 @@ class ImpairedNet : public Net {
   void Flush() override;
   /// In the order in which datagrams are due; those due together in the order they came in.
   bool Receive(Address* from, Bytes* datagram) override;
+  std::int64_t discarded() const override;
 
   /// Nothing passes either way while cut (what is under way is lost).
   void Cut(bool cut);

@@ -36,6 +36,8 @@ class Net {
   virtual void Flush() = 0;
   /// Takes the next waiting datagram; false when there is none.
   virtual bool Receive(Address* from, Bytes* datagram) = 0;
+  /// Datagrams that came and were empty or longer than kDatagramBytesMax: Receive leaves them out.
+  virtual std::int64_t discarded() const { return 0; }
 };
 
 }  // namespace seam

@@ -26,6 +26,8 @@ constexpr int kSocketBufferBytes = 1 << 20;
 constexpr std::size_t kSlotBytes = kDatagramBytesMax + 1;
 /// Pending socket errors (an ICMP for an earlier send) passed over in one Receive.
 constexpr int kErrorsPassedOver = 8;
+/// Datagrams of a wrong size left out in one Receive, so that a flood of them cannot hold it.
+constexpr int kDiscardsMost = 1024;
 
 sockaddr_in ToSockaddr(const Address& address) {
   sockaddr_in out{};
@@ -135,6 +137,7 @@ struct UdpNet::Impl {
   Batch in, out;
   unsigned in_count = 0, in_next = 0;   // received, and handed out of them
   unsigned out_count = 0;
+  std::int64_t discarded = 0;
 
   ~Impl() {
     if (fd >= 0) close(fd);
@@ -198,17 +201,23 @@ void UdpNet::Flush() {
 }
 
 bool UdpNet::Receive(Address* from, Bytes* datagram) {
-  for (;;) {
+  for (int discards = 0; discards < kDiscardsMost; ++discards) {
     if (impl_->in_next == impl_->in_count && !impl_->Fetch()) return false;
     const unsigned slot = impl_->in_next++;
     const std::size_t bytes = impl_->in.headers[slot].msg_len;
-    if (bytes == 0 || bytes > kDatagramBytesMax) continue;   // not from one of us
+    if (bytes == 0 || bytes > kDatagramBytesMax) {   // not from one of us
+      ++impl_->discarded;
+      continue;
+    }
     *from = FromSockaddr(impl_->in.addresses[slot]);
     const std::uint8_t* data = impl_->in.data[slot].data();
     datagram->assign(data, data + bytes);
     return true;
   }
+  return false;
 }
+
+std::int64_t UdpNet::discarded() const { return impl_->discarded; }
 
 void UdpNet::Wait(std::int64_t timeout_us, int extra_fd) {
   if (impl_->in_next < impl_->in_count) return;

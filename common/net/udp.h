@@ -24,6 +24,7 @@ class UdpNet : public Net {
   void Send(const Address& to, ByteView datagram) override;
   void Flush() override;
   bool Receive(Address* from, Bytes* datagram) override;
+  std::int64_t discarded() const override;
 
   /// Sleeps in poll until a datagram (or, if >= 0, `extra_fd`) is readable or `timeout_us` has
   /// passed; a signal ends it early. Returns at once at the end of file of `extra_fd`: do not pass
