@@ -13,7 +13,6 @@
 #include "common/codec/codec.h"
 #include "common/net/udp.h"
 #include "common/record/log_file.h"
-#include "tests/in_namespace.h"
 #include "tests/program.h"
 
 namespace seam {

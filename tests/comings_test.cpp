@@ -160,9 +160,14 @@ TEST_F(Comings, AKilledClientsMechanismsAreTakenBackAndGivenToItsSuccessor) {
       << session.Story();
   session.client("ann").Signal(SIGKILL);
   ASSERT_TRUE(session.client("ann").Wait(10));
+  Program impostor({BuiltProgram("seam-client"), session.address(), "--name", "bob", "--lcm-url",
+                    "none"});
   const std::string gone = "ann (peer 1) is gone: not heard for 3 s";
   ASSERT_TRUE(session.WaitUntil([&](const Recording& r) { return Says(r, gone); }, 10))
       << session.Story();
+  EXPECT_TRUE(impostor.Wait(10));
+  EXPECT_EQ(impostor.status(), 2);
+  EXPECT_EQ(impostor.errors(), "seam-client: the server refuses: the name bob is in use\n");
   Recording seen = session.Captured();
   const std::int64_t killed = seen.views[1].rbegin()->first;
   const std::set<int> hers = MechanismsOf(seen, 1, killed);

@@ -216,7 +216,7 @@ TEST_F(EndToEnd, TheMeasuresOfACaptureAreSane) {
   EXPECT_LT(number["retrospect"]["error_rms_m"], number["strict"]["error_rms_m"]);
   for (const char* run : {"retrospect", "central"}) {
     EXPECT_GT(number[run]["error_max_m"], 0) << run;
-    // Mode central shows others' bodies as late as its buffer of snapshots is long: 0.2 s at 30 m/s.
+    // Mode central shows others' bodies as late as its snapshots are: 0.2 s at 30 m/s.
     EXPECT_LT(number[run]["error_max_m"], run[0] == 'r' ? 2 : 15) << run;
     EXPECT_GT(number[run]["bytes_per_s"], 1000) << run;
     EXPECT_LT(number[run]["bytes_per_s"], 100000) << run;

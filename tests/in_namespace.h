@@ -23,11 +23,11 @@ class InNamespace : public ::testing::Test {
   std::string skip_reason_;
 };
 
-/// Runs the rest of the test inside only.
-#define SEAM_INSIDE_ONLY()                                       \
-  if (!Enter()) {                                                \
-    if (!skip_reason().empty()) GTEST_SKIP() << skip_reason();   \
-    return;                                                      \
+/// Runs the rest of the test inside only; takes Enter's argument.
+#define SEAM_INSIDE_ONLY(...)                                  \
+  if (!Enter(__VA_ARGS__)) {                                   \
+    if (!skip_reason().empty()) GTEST_SKIP() << skip_reason(); \
+    return;                                                    \
   }
 
 }  // namespace seam

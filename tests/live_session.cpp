@@ -41,8 +41,8 @@ bool LiveSession::Begin() {
 
 Program& LiveSession::Join(const std::string& name, const std::vector<std::string>& flags,
                            int terminal) {
-  std::vector<std::string> words = {BuiltProgram("seam-client"), "127.0.0.1:" + port_, "--name",
-                                    name, "--lcm-url", lcm_url_};
+  std::vector<std::string> words = {BuiltProgram("seam-client"), address(), "--name", name,
+                                    "--lcm-url", lcm_url_};
   words.insert(words.end(), flags.begin(), flags.end());
   clients_[name] = std::make_unique<Program>(words, "", terminal);
   return *clients_[name];

@@ -3,7 +3,6 @@
 /// and an LCM port of their own.
 
 #include <functional>
-#include <list>
 #include <map>
 #include <memory>
 #include <string>
@@ -43,8 +42,8 @@ class LiveSession {
   /// Waits at most `seconds` until what was captured is `enough`.
   bool WaitUntil(const std::function<bool(const Recording&)>& enough, double seconds) const;
   std::string capture_path() const { return stem_ + ".lcm"; }
-  std::string record_path() const { return stem_ + "-record.lcm"; }
   const std::string& lcm_url() const { return lcm_url_; }
+  std::string address() const { return "127.0.0.1:" + port_; }
   /// For a failure's message: what all of them wrote.
   std::string Story() const;
 
