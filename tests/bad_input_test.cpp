@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <deque>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
 #include "common/codec/codec.h"
 #include "common/net/udp.h"
@@ -27,11 +25,6 @@ struct Mistake {
   std::string says;     ///< part of the line
 };
 
-std::string ReadFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(file), {}};
-}
-
 constexpr const char* kTail =
     "[[player]]\nname = \"ann\"\n"
     "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [50, 0]]\n";
@@ -47,8 +40,8 @@ struct BadScene {
 };
 
 const std::vector<BadScene>& BadScenes() {
-  static const std::string tail = kTail, crate = tail + kCrate, axle = tail + kCrate +
-                                                                      "box = [1, 1]\n" + kAxle;
+  static const std::string tail = kTail, crate = tail + kCrate;
+  static const std::string axle = crate + "box = [1, 1]\n" + kAxle;
   static const std::vector<BadScene> scenes = {
       {"empty.toml", "", "empty.toml:1: "},
       {"garbage.toml", "\x7f" "ELF\x01\x01\n\n", "garbage.toml:1: "},
@@ -74,8 +67,8 @@ class BadInput : public ::testing::Test {
   static void SetUpTestSuite() {
     made_ = std::make_unique<Workspace>();
     const Workspace& to = *made_;
-    for (const char* scene : {"crossing", "stack"}) {
-      to.Write(std::string(scene) + ".toml", ReadFile("scenes/" + std::string(scene) + ".toml"));
+    for (const char* scene : {"crossing.toml", "stack.toml"}) {
+      fs::copy_file(std::string("scenes/") + scene, to / scene);
     }
     to.Write("nothing.lcm", "");
     to.Write("words.lcm", "These are words, not events.\n");
@@ -168,9 +161,8 @@ class BadInput : public ::testing::Test {
 /// `words` after the program's name, and a good rest.
 Mistake Server(Words words, const std::string& says) {
   words.insert(words.begin(), "seam-server");
-  const Words rest = {"--lcm-url", "none"};
   if (std::count(words.begin(), words.end(), "--lcm-url") == 0) {
-    words.insert(words.end(), rest.begin(), rest.end());
+    words.insert(words.end(), {"--lcm-url", "none"});
   }
   return {words, says};
 }
@@ -205,6 +197,10 @@ TEST_F(BadInput, FlagsOfTheServer) {
   const std::string port = std::to_string(taken.local().port);
   const auto flags = [](Words words, const std::string& says) {
     words.insert(words.begin(), "crossing.toml");
+    if (std::count(words.begin(), words.end(), "--bind") == 0 &&
+        std::count(words.begin(), words.end(), "--port") == 0) {
+      words.insert(words.end(), {"--bind", "127.0.0.1:0"});
+    }
     return Server(std::move(words), says);
   };
   Judge({flags({"--nonsense"}, "--nonsense"), flags({"second.toml"}, "second.toml"),

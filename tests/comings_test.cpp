@@ -163,7 +163,9 @@ TEST_F(Comings, AKilledClientsMechanismsAreTakenBackAndGivenToItsSuccessor) {
   Program impostor({BuiltProgram("seam-client"), session.address(), "--name", "bob", "--lcm-url",
                     "none"});
   const std::string gone = "ann (peer 1) is gone: not heard for 3 s";
-  ASSERT_TRUE(session.WaitUntil([&](const Recording& r) { return Says(r, gone); }, 10))
+  ASSERT_TRUE(session.WaitUntil(
+      [&](const Recording& r) { return Says(r, gone) && MechanismsOf(r, 1, r.last_tick).empty(); },
+      10))
       << session.Story();
   EXPECT_TRUE(impostor.Wait(10));
   EXPECT_EQ(impostor.status(), 2);

@@ -27,27 +27,45 @@ std::string Content(const std::string& path) {
 }
 
 /// One session of each kind, side by side, from beginning to end.
-struct Sessions {
+class Sessions {
+ public:
   Sessions() {
-    const std::map<std::string, std::vector<std::string>> runs = {
-        {"retrospect", {"--reconcile", "retrospect", "--record", folder / "server.lcm"}},
-        {"central", {"--mode", "central"}},
-        {"strict", {"--mode", "strict"}},
-        {"oracle", {"--mode", "oracle"}}};
+    Play({{"retrospect",
+           {"--reconcile", "retrospect", "--record", folder / "server.lcm", "--force"}},
+          {"central", {"--mode", "central"}},
+          {"strict", {"--mode", "strict"}},
+          {"oracle", {"--mode", "oracle"}}});
+  }
+  Workspace folder;
+  std::map<std::string, std::unique_ptr<LiveSession>> all;
+  bool ended = true;   ///< all of them by themselves
+
+ private:
+  using Flags = std::map<std::string, std::vector<std::string>>;
+
+  /// The stock logger's queue holds 30 messages, a sixth of a second of a session: where it is not
+  /// given the processor for so long it loses some, and that session is played again, up to three
+  /// times. What we lose ourselves is lost each time.
+  void Play(const Flags& runs, int repeats = 3) {
     for (const auto& [name, flags] : runs) {
       SessionPlan plan;
       plan.name = name;
       plan.server_flags = {"--duration", "4", "--impair", "demo", "--quiet"};
       plan.server_flags.insert(plan.server_flags.end(), flags.begin(), flags.end());
       for (const char* who : {"ann", "bob"}) plan.clients[who] = {"--drive", who, "--quiet"};
-      all[name] = std::make_unique<LiveSession>(folder, static_cast<int>(all.size()), plan);
+      all[name].reset();
+      all[name] = std::make_unique<LiveSession>(folder, ports_++, plan);
     }
-    for (auto& [name, session] : all) began = session->Begin() && began;
-    for (auto& [name, session] : all) ended = began && session->Finish(60) && ended;
+    for (const auto& [name, flags] : runs) ended = all[name]->Begin() && ended;
+    Flags lossy;
+    for (const auto& [name, flags] : runs) {
+      ended = ended && all[name]->Finish(60);
+      if (all[name]->Captured().bus_gaps > 0) lossy[name] = flags;
+    }
+    if (ended && !lossy.empty() && repeats > 0) Play(lossy, repeats - 1);
   }
-  Workspace folder;
-  std::map<std::string, std::unique_ptr<LiveSession>> all;
-  bool began = true, ended = true;
+
+  int ports_ = 0;      ///< taken so far
 };
 
 class EndToEnd : public InNamespace {
@@ -68,7 +86,6 @@ class EndToEnd : public InNamespace {
 
 TEST_F(EndToEnd, EveryProcessEndsByItselfWithStatus0) {
   SEAM_INSIDE_ONLY();
-  ASSERT_TRUE(Played().began);
   EXPECT_TRUE(Played().ended);
   for (auto& [name, session] : Played().all) {
     SCOPED_TRACE(session->Story());
@@ -76,8 +93,9 @@ TEST_F(EndToEnd, EveryProcessEndsByItselfWithStatus0) {
       EXPECT_EQ(p->status(), 0);
       EXPECT_EQ(p->output(), "");
     }
-    EXPECT_NE(session->server().errors().find("seam-server: 240 ticks; dropped 0 malformed"),
-              std::string::npos);
+    const std::string last = session->server().errors();
+    EXPECT_GE(NumberBefore(last, " ticks; dropped 0 malformed, "), kTicks);
+    EXPECT_LE(NumberBefore(last, " ticks; "), kTicks + 8) << "as many as it steps in one go";
     EXPECT_NE(session->server().errors().find("; 0 bus failures\n"), std::string::npos);
     for (const char* who : {"ann", "bob"}) {
       EXPECT_NE(session->client(who).errors().find("seam-client: the server closed the room; "),

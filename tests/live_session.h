@@ -22,7 +22,7 @@ struct SessionPlan {
 
 class LiveSession {
  public:
-  /// Starts the logger. `index`: of the session among those that run at a time; chooses the ports.
+  /// Makes or overwrites the files; starts the logger. `index`: of the session among those that run at a time; chooses the ports.
   LiveSession(const Workspace& folder, int index, const SessionPlan& plan);
 
   /// Waits until the logger listens, then starts the server and the clients; false when the logger
@@ -48,11 +48,18 @@ class LiveSession {
   std::string Story() const;
 
  private:
+  /// Publishes on `channel` until the logger has written it; false when it does not.
+  bool Probe(const std::string& channel);
+
   SessionPlan plan_;
   std::string stem_, port_, lcm_url_;
   std::unique_ptr<Program> logger_, server_;
   std::map<std::string, std::unique_ptr<Program>> clients_;
 };
+
+/// The whole number that stands before `word` in the last place where `text` has it, -1 for none:
+/// NumberBefore("12 ticks", " ticks") is 12.
+long NumberBefore(const std::string& text, const std::string& word);
 
 /// Number of the first event of `recording` whose text contains `text`, -1 when there is none.
 int FindEvent(const Recording& recording, const std::string& text);
