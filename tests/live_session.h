@@ -22,7 +22,8 @@ struct SessionPlan {
 
 class LiveSession {
  public:
-  /// Makes or overwrites the files; starts the logger. `index`: of the session among those that run at a time; chooses the ports.
+  /// Makes or overwrites its files and starts the logger. `index` chooses the ports: a number of
+  /// its own for each session in the namespace.
   LiveSession(const Workspace& folder, int index, const SessionPlan& plan);
 
   /// Waits until the logger listens, then starts the server and the clients; false when the logger
