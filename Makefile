@@ -40,7 +40,7 @@ COMMON := $(call obj,$(sort $(wildcard common/*/*.cpp)))
 SERVER := $(call obj,$(sort $(filter-out $(MAINS),$(wildcard server/*.cpp))))
 CLIENT := $(call obj,$(sort $(filter-out $(MAINS),$(wildcard client/*.cpp))))
 RENDER := $(call obj,$(sort $(filter-out $(MAINS),$(wildcard render/*.cpp))))
-LAB := $(call obj,$(sort $(filter-out $(MAINS),$(wildcard tests/lab/*.cpp))))
+LAB := $(call obj,$(sort $(filter-out $(MAINS),$(wildcard tests/lab/*.cpp tests/lab/*/*.cpp))))
 TESTS := $(call obj,$(sort $(wildcard tests/*.cpp)))
 PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-render seam-measure seam-lab)
 LCM_TYPES := $(sort $(wildcard lcmtypes/*.lcm))
@@ -102,7 +102,9 @@ demo: all                            ## run the main job and draw it, into out/d
 install: all                         ## install the programs under PREFIX
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/seam2d/scenes
 	install -m 755 $(PROGRAMS) $(DESTDIR)$(PREFIX)/bin
+	install -d $(DESTDIR)$(PREFIX)/share/seam2d/scenes/hard
 	install -m 644 $(wildcard scenes/*.toml) $(DESTDIR)$(PREFIX)/share/seam2d/scenes
+	install -m 644 $(wildcard scenes/hard/*.toml) $(DESTDIR)$(PREFIX)/share/seam2d/scenes/hard
 
 clean:                               ## remove build/ and out/
 	rm -rf build out

@@ -34,7 +34,7 @@ class Sets {
 std::vector<Assembly> WeldParts(const Scene& scene) {
   Sets sets(scene.parts.size());
   for (const Joint& joint : scene.joints) {
-    if (joint.kind == JointKind::kWeld) sets.Unite(joint.a, joint.b);
+    if (joint.kind == JointKind::kWeld && !scene.solver.weld_joints) sets.Unite(joint.a, joint.b);
   }
   std::map<int, Assembly> welded;
   for (const Part& part : scene.parts) {

@@ -87,7 +87,14 @@ struct Solver {
   int velocity_iterations = 8;      ///< 1..64
   int position_iterations = 3;      ///< 1..64
   bool sleep = true;
-  bool continuous = true;
+  bool continuous = true;           ///< fast things do not pass through anchored ones
+  bool warm_starting = true;        ///< each step begins with the last one's impulses
+  /// m; the rounded rim by which shapes collide before they touch. 0: the engine's own (1 cm for
+  /// polygons and chains, nothing for circles, so that boxes rest 1.5 cm apart). Else moving shapes
+  /// have this rim, anchored and bullet ones keep 1 cm and are moved in by the difference, and
+  /// everything comes to rest 2 skin - 5 mm apart: nothing at 2.5 mm, the least allowed.
+  float skin = 0;
+  bool weld_joints = false;         ///< welds are the engine's joints, not one body
 };
 
 /// Where a collision between players' things is measured (common/measure: rebound).

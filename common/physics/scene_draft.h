@@ -19,6 +19,18 @@ struct SceneDraft {
   std::map<std::string, std::vector<PartId>> group_of_name;  ///< what `repeat` made of a name
 };
 
+/// `repeat = {count, step}`: how often a part or joint is copied, and where each copy goes.
+struct Repeat {
+  int columns = 1, rows = 1;
+  bool grid = false;                ///< names get two numbers
+  Vec2 step{0, 0};                  ///< m; grid: x per column, y per row; else per copy
+
+  Vec2 Offset(int column, int row) const;
+  /// ".3", or in a grid ".3.1".
+  std::string Suffix(int column, int row) const;
+};
+Repeat ReadRepeat(const SceneReader& owner, const std::string& file);
+
 /// [[player]]: only names, so that parts and joints can refer to them.
 void ReadPlayerNames(const SceneReader& root, SceneDraft* draft);
 /// [[part]], repetitions written out.

@@ -67,17 +67,61 @@ void ReadDistance(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
   }
 }
 
+void Add(const SceneReader& r, const Joint& joint, SceneDraft* draft) {
+  for (const Joint& other : draft->scene.joints) {
+    if (other.name == joint.name) {
+      r.FailAt("name", "there is another joint of this name");
+    }
+  }
+  if (draft->scene.joints.size() == kJointsMax) {
+    r.Fail("a scene may have at most " + std::to_string(kJointsMax) + " joints");
+  }
+  draft->scene.joints.push_back(joint);
+}
+
+/// The part whose copy number is `by` after that of `part`: "link.0" and {2} is "link.2". A part
+/// that is no copy stays.
+PartId CopyAfter(const SceneReader& r, PartId part, int column, int row, bool grid,
+                 const SceneDraft& draft) {
+  const std::string& name = draft.scene.parts[static_cast<std::size_t>(part)].name;
+  const std::size_t first = name.find('.');
+  if (first == std::string::npos) return part;
+  const std::size_t second = name.find('.', first + 1);
+  const bool two = second != std::string::npos;
+  if (two != grid) r.FailAt("repeat", "repeat: '" + name + "' is not repeated the same way");
+  std::string copy = name.substr(0, first + 1) +
+                     std::to_string(std::stoi(name.substr(first + 1)) + column);
+  if (two) copy += "." + std::to_string(std::stoi(name.substr(second + 1)) + row);
+  const auto found = draft.part_of_name.find(copy);
+  if (found == draft.part_of_name.end()) {
+    r.FailAt("repeat", "repeat: there is no part '" + copy + "'");
+  }
+  return found->second;
+}
+
+void Copy(const SceneReader& r, const Joint& first, SceneDraft* draft) {
+  const Repeat repeat = ReadRepeat(r, draft->file);
+  for (int column = 0; column < repeat.columns; ++column) {
+    for (int row = 0; row < repeat.rows; ++row) {
+      Joint joint = first;
+      joint.name += repeat.Suffix(column, row);
+      joint.a = CopyAfter(r, first.a, column, row, repeat.grid, *draft);
+      joint.b = CopyAfter(r, first.b, column, row, repeat.grid, *draft);
+      joint.anchor_a += repeat.Offset(column, row);
+      joint.anchor_b += repeat.Offset(column, row);
+      Add(r, joint, draft);
+    }
+  }
+}
+
 void ReadJoint(const TomlNode& node, SceneDraft* draft) {
   Joint joint;
   joint.line = node.line;
   SceneReader r(node, draft->file, "joint",
                 {"name", "kind", "a", "b", "anchor", "anchor_a", "anchor_b", "axis", "frequency",
-                 "damping_ratio", "length", "limits", "collide", "motor"});
+                 "damping_ratio", "length", "limits", "collide", "motor", "repeat"});
   joint.name = r.Name("name");
   r.Rename("joint '" + joint.name + "'");
-  for (const Joint& other : draft->scene.joints) {
-    if (other.name == joint.name) r.FailAt("name", "there is another joint of this name");
-  }
   joint.kind = ReadKind(r);
   joint.a = FindPart(r, "a", *draft);
   joint.b = FindPart(r, "b", *draft);
@@ -94,8 +138,7 @@ void ReadJoint(const TomlNode& node, SceneDraft* draft) {
   }
   switch (joint.kind) {
     case JointKind::kWeld:
-      Refuse(r, {"anchor", "axis", "frequency", "damping_ratio", "limits", "motor", "collide"},
-             "weld");
+      Refuse(r, {"axis", "frequency", "damping_ratio", "limits", "motor", "collide"}, "weld");
       break;
     case JointKind::kRevolute:
       Refuse(r, {"axis", "frequency", "damping_ratio"}, "revolute");
@@ -113,10 +156,11 @@ void ReadJoint(const TomlNode& node, SceneDraft* draft) {
       ReadDistance(r, *draft, &joint);
       break;
   }
-  if (draft->scene.joints.size() == kJointsMax) {
-    r.Fail("a scene may have at most " + std::to_string(kJointsMax) + " joints");
+  if (r.Has("repeat")) {
+    Copy(r, joint, draft);
+  } else {
+    Add(r, joint, draft);
   }
-  draft->scene.joints.push_back(joint);
 }
 
 }  // namespace

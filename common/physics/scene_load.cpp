@@ -26,7 +26,7 @@ void ReadSolver(const SceneReader& root, const std::string& file, Solver* solver
   if (table == nullptr) return;
   const SceneReader r(*table, file, "solver",
                       {"tick_hz", "substeps", "velocity_iterations", "position_iterations",
-                       "sleep", "continuous"});
+                       "sleep", "continuous", "warm_starting", "skin", "welds"});
   solver->tick_hz = r.Integer("tick_hz", {10, 960}, solver->tick_hz);
   solver->substeps = r.Integer("substeps", {1, 32}, solver->substeps);
   solver->velocity_iterations =
@@ -35,6 +35,11 @@ void ReadSolver(const SceneReader& root, const std::string& file, Solver* solver
       r.Integer("position_iterations", {1, 64}, solver->position_iterations);
   solver->sleep = r.Flag("sleep", solver->sleep);
   solver->continuous = r.Flag("continuous", solver->continuous);
+  solver->warm_starting = r.Flag("warm_starting", solver->warm_starting);
+  if (r.Has("skin")) solver->skin = r.Number("skin", kSkinRange, 0.0f);
+  const std::string welds = r.Text("welds", "body");
+  if (welds != "body" && welds != "joint") r.FailAt("welds", "welds must be 'body' or 'joint'");
+  solver->weld_joints = welds == "joint";
 }
 
 void ReadBounds(const SceneReader& root, Scene* scene) {

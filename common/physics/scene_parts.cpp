@@ -6,35 +6,6 @@
 namespace seam {
 namespace {
 
-/// How often a part is copied and where each copy goes.
-struct Repeat {
-  int columns = 1, rows = 1;
-  bool grid = false;                ///< names get two numbers
-  Vec2 step{0, 0};                  ///< m; grid: x per column, y per row; else per copy
-};
-
-Repeat ReadRepeat(const SceneReader& part, const std::string& file) {
-  Repeat repeat;
-  const TomlNode* table = part.Table("repeat");
-  if (table == nullptr) return repeat;
-  const SceneReader r(*table, file, part.what() + ": repeat", {"count", "step"});
-  const Range count{1, static_cast<double>(kPartsMax)};
-  const TomlNode* node = table->Find("count");
-  if (node != nullptr && node->kind == TomlNode::Kind::kArray) {
-    repeat.grid = true;
-    const Vec2 pair = r.Vector("count", count);
-    repeat.columns = static_cast<int>(pair.x());
-    repeat.rows = static_cast<int>(pair.y());
-    if (pair != Vec2(static_cast<float>(repeat.columns), static_cast<float>(repeat.rows))) {
-      r.FailAt("count", "count must be integers");
-    }
-  } else {
-    repeat.columns = r.Integer("count", count);
-  }
-  repeat.step = r.Vector("step", {-1000, 1000});
-  return repeat;
-}
-
 void ReadShape(const SceneReader& r, float size_max, Part* part) {
   const int shapes = r.Has("box") + r.Has("circle") + r.Has("polygon") + r.Has("chain");
   if (shapes != 1) r.Fail("needs exactly one of box, circle, polygon and chain");
@@ -134,13 +105,10 @@ void ReadPart(const TomlNode& node, SceneDraft* draft) {
   std::vector<PartId>& group = draft->group_of_name[name];
   for (int column = 0; column < repeat.columns; ++column) {
     for (int row = 0; row < repeat.rows; ++row) {
-      const float across = static_cast<float>(column);
-      const float up = static_cast<float>(repeat.grid ? row : column);
-      part.position = first + Vec2(across * repeat.step.x(), up * repeat.step.y());
+      part.position = first + repeat.Offset(column, row);
       part.owner = owners[group.size() % owners.size()];
       group.push_back(static_cast<PartId>(draft->scene.parts.size()));
-      Place(r, part, name + "." + std::to_string(column) +
-                         (repeat.grid ? "." + std::to_string(row) : ""), draft);
+      Place(r, part, name + repeat.Suffix(column, row), draft);
     }
   }
 }

@@ -21,6 +21,7 @@ struct World::Impl {
   explicit Impl(const Scene& s) : scene(s), composition(Compose(s)), world(ToB2(s.gravity)) {
     world.SetContinuousPhysics(s.solver.continuous);
     world.SetAllowSleeping(s.solver.sleep);
+    world.SetWarmStarting(s.solver.warm_starting);
     world.SetContactListener(&meter);
     built = BuildScene(scene, composition, &world);
   }

@@ -3,62 +3,10 @@
 #include <cfloat>
 
 #include "common/base/check.h"
+#include "common/physics/world_shapes.h"
 
 namespace seam {
 namespace {
-
-b2Vec2 InRoot(const Part& part, const Part& root, const Vec2& point) {
-  return ToB2(ToRootFrame(part, root, point.cast<double>()).cast<float>());
-}
-
-std::vector<b2Vec2> PointsInRoot(const Part& part, const Part& root) {
-  std::vector<b2Vec2> points;
-  for (const Vec2& p : part.points) points.push_back(InRoot(part, root, p));
-  return points;
-}
-
-/// Box2D's chains collide on the right of the way along their points, the scene's on the left: so
-/// that ground is written in reading order. The ends continue straight on.
-void SetChain(const std::vector<b2Vec2>& points, b2ChainShape* chain) {
-  const std::vector<b2Vec2> p(points.rbegin(), points.rend());
-  const b2Vec2 before = p[0] - (p[1] - p[0]);
-  const b2Vec2 after = p.back() + (p.back() - p[p.size() - 2]);
-  chain->CreateChain(p.data(), static_cast<int32>(p.size()), before, after);
-}
-
-void AddFixture(const Part& part, const Part& root, b2Body* body) {
-  b2PolygonShape polygon;
-  b2CircleShape circle;
-  b2ChainShape chain;
-  b2FixtureDef def;
-  switch (part.kind) {
-    case ShapeKind::kBox:
-      polygon.SetAsBox(part.size.x() / 2, part.size.y() / 2, InRoot(part, root, {0, 0}),
-                       part.angle - root.angle);
-      def.shape = &polygon;
-      break;
-    case ShapeKind::kCircle:
-      circle.m_radius = part.radius;
-      circle.m_p = InRoot(part, root, {0, 0});
-      def.shape = &circle;
-      break;
-    case ShapeKind::kPolygon: {
-      const std::vector<b2Vec2> points = PointsInRoot(part, root);
-      polygon.Set(points.data(), static_cast<int32>(points.size()));
-      def.shape = &polygon;
-      break;
-    }
-    case ShapeKind::kChain:
-      SetChain(PointsInRoot(part, root), &chain);
-      def.shape = &chain;
-      break;
-  }
-  def.density = 0;   // The mass is set once for the body: summing it per fixture is quadratic.
-  def.friction = part.material.friction;
-  def.restitution = part.material.restitution;
-  def.filter.groupIndex = static_cast<int16>(part.group);
-  body->CreateFixture(&def);
-}
 
 b2Body* AddBody(const Scene& scene, const Assembly& assembly, b2World* world) {
   const Part& root = scene.parts[static_cast<std::size_t>(assembly.id)];
@@ -70,8 +18,9 @@ b2Body* AddBody(const Scene& scene, const Assembly& assembly, b2World* world) {
     def.bullet = def.bullet || scene.parts[static_cast<std::size_t>(id)].bullet;
   }
   b2Body* body = world->CreateBody(&def);
+  const bool guarded = assembly.anchored || def.bullet;
   for (const PartId id : assembly.parts) {
-    AddFixture(scene.parts[static_cast<std::size_t>(id)], root, body);
+    AddFixture(scene.parts[static_cast<std::size_t>(id)], root, scene.solver.skin, guarded, body);
   }
   return body;
 }
@@ -131,10 +80,20 @@ b2Joint* AddDistance(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
   return world->CreateJoint(&def);
 }
 
-void AddJoint(const Joint& joint, b2Body* a, b2Body* b, b2World* world, BuiltScene* built) {
+b2Joint* AddWeld(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
+  b2WeldJointDef def;
+  def.Initialize(a, b, ToB2(joint.anchor_a));
+  return world->CreateJoint(&def);
+}
+
+void AddJoint(const Scene& scene, const Joint& joint, b2Body* a, b2Body* b, b2World* world,
+              BuiltScene* built) {
   b2Joint* made = nullptr;
   switch (joint.kind) {
-    case JointKind::kWeld: return;     // Welded parts are one body already.
+    case JointKind::kWeld:
+      if (a == b || !scene.solver.weld_joints) return;   // one body already
+      made = AddWeld(joint, a, b, world);
+      break;
     case JointKind::kRevolute: made = AddRevolute(joint, a, b, world); break;
     case JointKind::kWheel: made = AddWheel(joint, a, b, world); break;
     case JointKind::kDistance: made = AddDistance(joint, a, b, world); break;
@@ -180,7 +139,7 @@ BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2Worl
     return built.bodies[static_cast<std::size_t>(assembly)];
   };
   for (const Joint& joint : scene.joints) {
-    AddJoint(joint, body_of(joint.a), body_of(joint.b), world, &built);
+    AddJoint(scene, joint, body_of(joint.a), body_of(joint.b), world, &built);
   }
   for (const Motor& motor : built.motors) motor.Drive(motor.player < 0 ? 1.0f : 0.0f);
   return built;

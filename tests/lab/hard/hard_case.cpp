@@ -1,0 +1,27 @@
+#include "tests/lab/hard/hard_case.h"
+
+namespace seam {
+
+const std::vector<HardCase>& HardCases() {
+  static const std::vector<HardCase> all = [] {
+    std::vector<HardCase> cases = ExactCases();
+    const std::vector<HardCase> more = InvariantCases();
+    cases.insert(cases.end(), more.begin(), more.end());
+    return cases;
+  }();
+  return all;
+}
+
+Scene LoadHardScene(const HardCase& hard, const std::string& folder) {
+  Scene scene = LoadScene(folder + "/" + hard.scene + ".toml");
+  if (hard.adjust) hard.adjust(&scene);
+  return scene;
+}
+
+Solver StockSolver() {
+  Solver stock;
+  stock.weld_joints = true;
+  return stock;
+}
+
+}  // namespace seam

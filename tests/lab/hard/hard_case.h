@@ -1,0 +1,61 @@
+#pragma once
+/// A hard case for the solver: a scene of scenes/hard, how long it runs, and what is right.
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "common/physics/world.h"
+
+namespace seam {
+
+/// Three kinds of error that must not be mixed up.
+enum class Truth {
+  kFormula,                           ///< against an exact answer
+  kConverged,                         ///< against the scene's own run at 32 times the rate
+  kInvariant,                         ///< against what must not happen
+};
+
+/// Watches one run of one world.
+class Judge {
+ public:
+  virtual ~Judge() = default;
+  /// Called once before the first step and then after every tick.
+  virtual void See(const World& world) = 0;
+  /// >= 0, in the case's unit; infinite or NaN: it diverged. Asked for after the last tick.
+  virtual double Error() const = 0;
+  /// Empty, or in a few words what happened that must not: "fell at 12.3 s".
+  virtual std::string Failure() const { return ""; }
+};
+
+struct HardCase {
+  std::string name;                   ///< unique; letters, digits, '-'
+  std::string scene;                  ///< file of scenes/hard, without folder and ".toml"
+  Truth truth = Truth::kInvariant;
+  std::string unit;                   ///< of the error: "m", "rad", "J/J", "1"
+  std::string about;                  ///< what the error is, with the source of a formula; a line
+  double seconds = 60;                ///< simulated
+  /// Makes the judge; empty for kConverged: RMS distance of all bodies from the converged run, m.
+  std::function<std::unique_ptr<Judge>(const Scene&)> judge;
+  /// Changes the scene after it was read, for families (the same pyramid farther from the origin);
+  /// empty: nothing.
+  std::function<void(Scene*)> adjust;
+};
+
+/// All cases, those with exact or converged answers first, names ascending within either.
+const std::vector<HardCase>& HardCases();
+
+/// exact_*.cpp and invariant_*.cpp.
+std::vector<HardCase> ExactCases();
+std::vector<HardCase> InvariantCases();
+
+/// The case's scene as its file has it, adjusted. `folder`: of the scenes, "scenes/hard".
+/// Throws OperatorError.
+Scene LoadHardScene(const HardCase& hard, const std::string& folder = "scenes/hard");
+
+/// What everybody else uses: 60 Hz, one substep, 8/3 iterations, the engine's own skin, warm
+/// starting, continuous collision, sleep, welds as joints.
+Solver StockSolver();
+
+}  // namespace seam
