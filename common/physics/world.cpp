@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "common/base/bytes.h"
 #include "common/base/check.h"
@@ -22,6 +23,7 @@ struct World::Impl {
     world.SetContinuousPhysics(s.solver.continuous);
     world.SetAllowSleeping(s.solver.sleep);
     world.SetWarmStarting(s.solver.warm_starting);
+    meter.SetSubsteps(s.solver.substeps);
     world.SetContactListener(&meter);
     built = BuildScene(scene, composition, &world);
   }
@@ -38,8 +40,9 @@ struct World::Impl {
   BuiltScene built;
   std::int64_t tick = 0;
   std::vector<Impact> impacts;
-  std::vector<Touch> touches;
-  std::vector<Block> blocks;
+  // Looked up when asked for: a world that nobody asks pays nothing.
+  std::optional<std::vector<Touch>> touches;
+  std::optional<std::vector<Block>> blocks;
 };
 
 World::World(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
@@ -96,6 +99,8 @@ void World::SetAwake(int body, bool awake) { impl_->moving(body).body->SetAwake(
 
 void World::SetMotion(int body, Motion motion) {
   if (this->motion(body) == motion) return;   // a change would destroy the contacts
+  touches();                                  // as they are after the last tick
+  blocks();
   const MovingBody& m = impl_->moving(body);
   const b2Vec2 origin_velocity = m.body->GetLinearVelocityFromLocalPoint(b2Vec2(0, 0));
   if (motion == Motion::kKinematic) {
@@ -140,13 +145,21 @@ void World::Step() {
   }
   ++w.tick;
   w.impacts = w.meter.Impacts(w.built.moving);
-  w.touches = FindTouches(w.world);
-  w.blocks = FindBlocks(w.world, w.built.tethers);
+  w.touches.reset();
+  w.blocks.reset();
 }
 
 const std::vector<Impact>& World::impacts() const { return impl_->impacts; }
-const std::vector<Touch>& World::touches() const { return impl_->touches; }
-const std::vector<Block>& World::blocks() const { return impl_->blocks; }
+
+const std::vector<Touch>& World::touches() const {
+  if (!impl_->touches) impl_->touches = FindTouches(impl_->world);
+  return *impl_->touches;
+}
+
+const std::vector<Block>& World::blocks() const {
+  if (!impl_->blocks) impl_->blocks = FindBlocks(impl_->world, impl_->built.tethers);
+  return *impl_->blocks;
+}
 
 std::uint64_t World::Hash() const {
   std::uint64_t hash = Fnv1a(&impl_->tick, sizeof impl_->tick);

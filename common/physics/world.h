@@ -74,7 +74,8 @@ class World {
   void Step();
 
   const std::vector<Impact>& impacts() const;  ///< of the last tick, dv above kImpactRecordMin
-  const std::vector<Touch>& touches() const;   ///< after the last tick, each pair once
+  /// After the last tick, each pair once. Looked up at the first call after a step.
+  const std::vector<Touch>& touches() const;
 
   /// After the last tick, ascending by body; at most two per body.
   const std::vector<Block>& blocks() const;

@@ -37,7 +37,11 @@ void AddBlock(int body, const Vec2& normal, std::vector<Block>* blocks) {
 void ImpulseMeter::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
   Felt felt;
   for (int i = 0; i < impulse->count; ++i) felt.impulse += impulse->normalImpulses[i];
-  if (felt.impulse <= 0) return;
+  // Anchored bodies have no mass here.
+  const float mass_a = contact->GetFixtureA()->GetBody()->GetMass();
+  const float mass_b = contact->GetFixtureB()->GetBody()->GetMass();
+  const float lighter = mass_a <= 0 || (mass_b > 0 && mass_b < mass_a) ? mass_b : mass_a;
+  if (felt.impulse <= counts_from_ * lighter) return;
   std::tie(felt.body_a, felt.body_b) = PairOf(contact);
   b2WorldManifold manifold;
   contact->GetWorldManifold(&manifold);

@@ -11,6 +11,10 @@ namespace seam {
 /// Listens to Box2D and sums the normal impulses of a tick's substeps by pair of bodies.
 class ImpulseMeter : public b2ContactListener {
  public:
+  /// Substeps per tick: how finely a blow may be divided.
+  void SetSubsteps(int substeps) {
+    counts_from_ = kImpactRecordMin / (kShares * static_cast<float>(substeps));
+  }
   void Clear() { felt_.clear(); }
   /// Ascending by pair; only those above kImpactRecordMin.
   std::vector<Impact> Impacts(const std::vector<MovingBody>& moving);
@@ -18,12 +22,16 @@ class ImpulseMeter : public b2ContactListener {
   void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
 
  private:
+  /// A contact's impulse counts from this share of an impact's least one in each substep: what lies
+  /// still costs nothing, and 16 contacts of one pair must conspire to be overlooked.
+  static constexpr float kShares = 16;
   struct Felt {
     int body_a = -1, body_b = -1;     // a < b
     float impulse = 0;                // N s, of all contact points
     Vec2 point{0, 0};                 // m
   };
   std::vector<Felt> felt_;            // in the order of solving
+  float counts_from_ = 0;             // m/s: impulse over the lighter body's mass
 };
 
 /// Touching pairs of moving bodies, ascending, each once.
