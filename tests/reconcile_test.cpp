@@ -143,7 +143,7 @@ TEST(Reconcile, RetrospectCarriesAMechanismOnAsAWhole) {
   BodyState then;
   ReconcileInput in;
   in.local_then = &then;
-  in.remote.position = Vec2(1, 0.3f);
+  in.remote.position = Vec2(1, 0.08f);
   in.remote.velocity = Vec2(0, -8);
   in.common.position = Vec2(1, 0);
   in.common.velocity = Vec2(2, 0);
@@ -152,7 +152,27 @@ TEST(Reconcile, RetrospectCarriesAMechanismOnAsAWhole) {
   in.gain = 0.5f;
   const Correction c = ReconcileRetrospect(in);
   EXPECT_FLOAT_EQ(c.now.position.x(), 1 + 0.2f);
-  EXPECT_FLOAT_EQ(c.now.position.y(), 0.15f);
+  EXPECT_FLOAT_EQ(c.now.position.y(), 0.04f);
+}
+
+TEST(Reconcile, RetrospectMovesWhatIsHeldByFiveCentimetresAtMost) {
+  const BodyState then = At(0);
+  ReconcileInput in;
+  in.local_then = &then;
+  in.remote = At(3);
+  in.coupled = true;
+  in.gain = 0.5f;
+  EXPECT_FLOAT_EQ(ReconcileRetrospect(in).now.position.x(), 0.05f);
+}
+
+TEST(Reconcile, RetrospectWaitsForAPastUnlessTheCopyIsFarOff) {
+  ReconcileInput in;
+  in.remote = At(0.2f, 2);
+  EXPECT_EQ(ReconcileRetrospect(in).now.position.x(), 0);
+  in.remote = At(0.3f, 2);
+  EXPECT_FLOAT_EQ(ReconcileRetrospect(in).now.position.x(), 0.3f);
+  in.remote = At(0.2f, 3);
+  EXPECT_FLOAT_EQ(ReconcileRetrospect(in).now.velocity.x(), 3);
 }
 
 TEST(Reconcile, RetrospectLeavesQuantisationNoiseOfACoupledBodyAlone) {

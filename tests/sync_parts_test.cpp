@@ -57,9 +57,35 @@ TEST(Quantize, IsIdempotentAndBothEndsHoldTheSameNumbers) {
   EXPECT_EQ(seen, bodies.size());
 }
 
+BodyState State(float x, float vx, float angle) {
+  BodyState state;
+  state.position.x() = x;
+  state.velocity.x() = vx;
+  state.angle = angle;
+  return state;
+}
+
+TEST(Smoother, TheViewsVelocityIsContinuousAndItReturnsLikeACriticallyDampedSpring) {
+  Smoother smoother(1, true);
+  smoother.Moved(0, State(0.1f, 0, 0));
+  const float dt = 1 / 60.0f;
+  for (int frame = 1; frame <= 60; ++frame) {
+    smoother.Advance(0, dt, 100);
+    const float t = static_cast<float>(frame) * dt;   // x = x0 (1 + w t) exp(-w t), w = 10/s
+    EXPECT_NEAR(smoother.offset(0).x(), -0.1f * (1 + 10 * t) * std::exp(-10 * t), 1e-5f);
+  }
+}
+
+TEST(Smoother, HalfOfAJumpOfVelocityIsHidden) {
+  Smoother smoother(1, true);
+  smoother.Moved(0, State(0, 2, 0));
+  smoother.Advance(0, 1e-4f, 100);
+  EXPECT_NEAR(smoother.offset(0).x() / 1e-4f, -1, 2e-3f);
+}
+
 TEST(Smoother, ACorrectionDoesNotMoveTheViewAtOnceAndIsForgottenInTime) {
   Smoother smoother(1, true);
-  smoother.Moved(0, Vec2(0.5f, 0), 0.1f);
+  smoother.Moved(0, State(0.5f, 0, 0.1f));
   EXPECT_FLOAT_EQ(smoother.offset(0).x(), -0.5f);
   float last = 0.5f;
   for (int frame = 0; frame < 240; ++frame) {
@@ -75,7 +101,8 @@ TEST(Smoother, ACorrectionDoesNotMoveTheViewAtOnceAndIsForgottenInTime) {
 
 TEST(Smoother, DoesNothingWhenOff) {
   Smoother smoother(1, false);
-  smoother.Moved(0, Vec2(0.5f, 0), 0);
+  smoother.Moved(0, State(0.5f, 1, 0.1f));
+  smoother.Advance(0, 1 / 60.0f, 0);
   EXPECT_EQ(smoother.offset(0).norm(), 0);
 }
 
@@ -163,6 +190,30 @@ TEST(BotInput, IsAFunctionOfSeedPlayerAndTickAlone) {
     differ += BotInput(5, 0, t, 60) == BotInput(6, 0, t, 60) ? 0 : 1;
   }
   EXPECT_GT(differ, 300);
+}
+
+TEST(Snapshots, ReckonWithTheAccelerationBetweenTheLastTwo) {
+  Snapshots snapshots(1);
+  const float dt = 1 / 60.0f;
+  // Brakes at 6 m/s^2 from 20 m/s at tick 0: v = 20 - 6 t, x = 20 t - 3 t^2.
+  for (const std::int64_t tick : {0, 6}) {
+    const float t = static_cast<float>(tick) * dt;
+    snapshots.Add(0, tick, State(20 * t - 3 * t * t, 20 - 6 * t, 0));
+  }
+  const BodyState at = snapshots.Extrapolate(0, 18, dt, 1);   // 0.2 s on
+  EXPECT_NEAR(at.position.x(), 20 * 0.3f - 3 * 0.09f, 1e-4f);
+  EXPECT_NEAR(at.velocity.x(), 20 - 6 * 0.3f, 1e-4f);
+  // Beyond 0.3 s it moves on with the velocity it has then.
+  const BodyState late = snapshots.Extrapolate(0, 36, dt, 1);
+  EXPECT_NEAR(late.velocity.x(), 20 - 6 * 0.4f, 1e-4f);
+  EXPECT_NEAR(late.position.x(), 20 * 0.4f - 3 * 0.16f + 0.2f * late.velocity.x(), 1e-4f);
+}
+
+TEST(Snapshots, ReckonABlowWithoutItsAcceleration) {
+  Snapshots snapshots(1);
+  snapshots.Add(0, 0, State(0, 10, 0));
+  snapshots.Add(0, 2, State(0, -5, 0));
+  EXPECT_NEAR(snapshots.Extrapolate(0, 14, 1 / 60.0f, 1).position.x(), -5 * 0.2f, 1e-5f);
 }
 
 TEST(Snapshots, InterpolateBetweenAndHoldBeyond) {

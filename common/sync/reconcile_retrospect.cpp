@@ -22,6 +22,17 @@ constexpr float kBandPosition = 1.5f / 512;
 constexpr float kBandAngle = 3 * 9.58738e-5f;
 constexpr float kBandVelocity = 1.5f / 256;
 
+/// A copy that has just begun to be simulated has no past to compare yet. Up to these differences,
+/// m and m/s, it waits for one: placing a loaded wheel by a quantum makes it hop.
+constexpr float kStartApart = 0.25f, kStartApartSpeed = 2.5f;
+/// Most that one message moves what is held, m: more is pushed into neighbours, which push back.
+constexpr float kHeldMost = 0.05f;
+
+Vec2 AtMost(float most, const Vec2& v) {
+  const float size = v.norm();
+  return size > most ? Vec2(v * (most / size)) : v;
+}
+
 float Outside(float value, float band) { return std::fabs(value) > band ? value : 0.0f; }
 
 Vec2 Outside(const Vec2& value, float band) {
@@ -38,8 +49,9 @@ Vec2 Unblocked(const ReconcileInput& in, Vec2 v) {
 
 Correction ReconcileRetrospect(const ReconcileInput& in) {
   Correction out;
-  if (in.local_then == nullptr) {  // nothing to compare with: start from the authority's state
-    out.now = Minus(Extrapolate(in.remote, in.dt), in.local);
+  if (in.local_then == nullptr) {  // nothing to compare with: only what is far off is placed
+    const BodyState d = Minus(Extrapolate(in.remote, in.dt), in.local);
+    if (d.position.norm() > kStartApart || d.velocity.norm() > kStartApartSpeed) out.now = d;
     return out;
   }
   out.rewrites_history = true;
@@ -55,7 +67,7 @@ Correction ReconcileRetrospect(const ReconcileInput& in) {
   }
   const BodyState held = Minus(d, free);
   BodyState share;
-  share.position = in.gain * Outside(held.position, kBandPosition);
+  share.position = AtMost(kHeldMost, in.gain * Outside(held.position, kBandPosition));
   share.angle = in.gain * Outside(held.angle, kBandAngle);
   share.velocity = in.gain * Outside(held.velocity, kBandVelocity);
   share.spin = in.gain * Outside(held.spin, kBandVelocity);

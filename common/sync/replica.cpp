@@ -13,10 +13,6 @@ namespace {
 constexpr int kHistoryTicks = 120;
 /// Bodies stay coupled for this long after they last touched, s: contact flickers.
 constexpr double kCoupledHold = 0.25;
-/// Dead reckoning beyond the buffer zone goes no further than this, s.
-constexpr float kReckonMost = 0.5f;
-/// Kinematic bodies are not made to spin faster than this, rad/s: the engine clamps at 94.
-constexpr float kSpinDrivenMost = 90.0f;
 
 }  // namespace
 
@@ -94,7 +90,7 @@ void Replica::RolesChanged() {
     BodyState state = snapshots_.Extrapolate(body, tick(), world_.dt(), kReckonMost);
     state.angle = before.angle + std::remainder(state.angle - before.angle, 6.2831853f);
     world_.Write(body, state);
-    smoother_.Moved(body, state.position - before.position, state.angle - before.angle);
+    smoother_.Moved(body, Minus(state, before));
     dynamic_since_[static_cast<std::size_t>(body)] = tick();
     if (BodyState* now = history_.At(tick(), body)) *now = state;
   }
@@ -129,39 +125,6 @@ void Replica::ApplyInputs(std::int64_t next) {
       const bool mine = alone || (m >= 0 && table_.at(m).authority == self_);
       if (mine) world_.Act(player, static_cast<int>(a));
     }
-  }
-}
-
-void Replica::DriveKinematic(std::int64_t next) {
-  const double delay = delay_.Advance();
-  for (int body = 0; body < world_.body_count(); ++body) {
-    if (world_.motion(body) != Motion::kKinematic) continue;
-    BodyState state = world_.Read(body);
-    if (!snapshots_.has(body)) {
-      state.velocity.setZero();
-      state.spin = 0;
-      world_.Write(body, state, false);
-      continue;
-    }
-    const BodyState target =
-        config_.mode == Mode::kBuffer
-            ? snapshots_.Extrapolate(body, next, world_.dt(), kReckonMost)
-            : snapshots_.Interpolate(body, static_cast<double>(next) - delay);
-    state.velocity = (target.position - state.position) / world_.dt();
-    if (state.velocity.norm() > scene().speed_limit) {
-      // Too far to travel in a tick: it is placed there at once.
-      smoother_.Moved(body, target.position - state.position, 0);
-      state.position = target.position;
-      state.velocity.setZero();
-    }
-    // A fast wheel turns by more than the wire's angle can tell: it spins as it should and its
-    // angle is placed.
-    const float turn = std::remainder(target.angle - state.angle, 6.2831853f);
-    const bool fast = std::fabs(turn) > kSpinDrivenMost * world_.dt();
-    state.spin = fast ? target.spin : turn / world_.dt();
-    if (fast) state.angle += turn - target.spin * world_.dt();
-    const bool moves = state.velocity.squaredNorm() > 0 || state.spin != 0;
-    world_.Write(body, state, moves);
   }
 }
 

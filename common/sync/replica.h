@@ -76,6 +76,8 @@ class Replica {
  private:
   void ApplyInputs(std::int64_t next);
   void DriveKinematic(std::int64_t next);
+  BodyState AlongSnapshots(int body, const BodyState& target, BodyState state);
+  BodyState AlongReckoned(int body, std::int64_t next, BodyState state);
   void NoteImpacts();
   void NoteTouches();
   /// Notes one entry; true if its body is simulated here and to be corrected.
@@ -85,6 +87,8 @@ class Replica {
       const States& states, const std::vector<std::pair<std::size_t, int>>& entries) const;
   /// Our copy at an earlier tick; nullptr when it is not comparable with the authority's.
   const BodyState* PastOf(int body, std::int64_t tick) const;
+  /// PastOf with the velocity of the near tick at which our copy moved most like `remote`.
+  BodyState LikePastOf(int body, std::int64_t tick, const BodyState& remote) const;
   void Correct(int body, const States& states, std::size_t i, const BodyState& common);
   void Predict(const States& states);
   void RecordHistory();
@@ -113,6 +117,10 @@ class Replica {
   std::vector<std::int64_t> asleep_since_;     // by body, -1 awake
   std::vector<States> outgoing_;
 };
+
+/// Dead reckoning beyond the buffer zone goes no further than this, s. Shorter than the age of what
+/// is heard, and a fast body stops and jumps; longer shows more of what is not so.
+constexpr float kReckonMost = 1.0f;
 
 /// A change of velocity that counts as a major impact for `fade`, m/s. A driven wheel feels up to
 /// 2.6 m/s from the ground in every tick: lower lets it count as colliding all the time; higher

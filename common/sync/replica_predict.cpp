@@ -69,7 +69,7 @@ void Replica::Predict(const States& states) {
       continue;
     }
     const BodyState replayed = world_.Read(body);
-    smoother_.Moved(body, replayed.position - old.position, replayed.angle - old.angle);
+    smoother_.Moved(body, Minus(replayed, old));
   }
 }
 

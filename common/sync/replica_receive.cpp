@@ -16,6 +16,12 @@ constexpr std::int64_t kEarlyTicksMost = 120;
 constexpr float kSpinMost = 94.0f;
 /// A copy slower than this may be taken to its authority's pose of rest at once, m/s and rad/s.
 constexpr float kQuiet = 0.1f;
+/// The same collision happens a tick or two apart at two peers. In between their velocities differ
+/// by the whole blow, and carrying that difference on would strike twice. So a difference beyond
+/// kOtherImpact, m/s, is looked for within this many ticks: the least one counts. 5 ticks see other
+/// collisions too; 2 miss some of the same.
+constexpr std::int64_t kImpactShift = 3;
+constexpr float kOtherImpact = 1;
 
 bool Negligible(const BodyState& d) {
   return d.position.norm() < 0.75f * kPositionQuantum &&
@@ -100,7 +106,8 @@ std::map<int, BodyState> Replica::CommonDifferences(
     BodyState& sum = sums[m];
     const BodyState* then = PastOf(body, states.tick);
     if (then == nullptr) continue;
-    sum = PlusScaled(sum, Minus(Unpack(states, i, then->angle), *then), world_.mass(body));
+    const BodyState remote = Unpack(states, i, then->angle);
+    sum = PlusScaled(sum, Minus(remote, LikePastOf(body, states.tick, remote)), world_.mass(body));
     masses[m] += world_.mass(body);
   }
   for (auto& [m, sum] : sums) {
@@ -112,6 +119,22 @@ std::map<int, BodyState> Replica::CommonDifferences(
 const BodyState* Replica::PastOf(int body, std::int64_t tick) const {
   if (tick < dynamic_since_[static_cast<std::size_t>(body)]) return nullptr;
   return history_.At(tick, body);
+}
+
+BodyState Replica::LikePastOf(int body, std::int64_t tick, const BodyState& remote) const {
+  BodyState like = *PastOf(body, tick);
+  float least = (remote.velocity - like.velocity).norm();
+  if (least < kOtherImpact) return like;
+  for (std::int64_t t = tick - kImpactShift; t <= tick + kImpactShift; ++t) {
+    const BodyState* past = t <= this->tick() ? PastOf(body, t) : nullptr;
+    if (past == nullptr) continue;
+    const float difference = (remote.velocity - past->velocity).norm();
+    if (difference >= least) continue;
+    least = difference;
+    like.velocity = past->velocity;
+    like.spin = past->spin;
+  }
+  return like;
 }
 
 void Replica::Place(const States& states) {
@@ -144,12 +167,19 @@ void Replica::Correct(int body, const States& states, std::size_t i, const BodyS
     // the same numbers. Our copy is neither woken nor put to sleep by it: either would start the
     // engine's time to sleep again, for all that it touches.
     if (in.remote.position == in.local.position && in.remote.angle == in.local.angle) return;
-    smoother_.Moved(body, in.remote.position - in.local.position, in.remote.angle - in.local.angle);
+    BodyState moved = Minus(in.remote, in.local);
+    moved.velocity.setZero();
+    moved.spin = 0;
+    smoother_.Moved(body, moved);
     world_.Write(body, in.remote, false);
     *history_.At(tick(), body) = world_.Read(body);
     return;
   }
-  in.local_then = then;
+  BodyState like;
+  if (then != nullptr) {
+    like = LikePastOf(body, states.tick, in.remote);
+    in.local_then = &like;
+  }
   in.since_impact = static_cast<float>(
       tick() - last_impact_tick_[static_cast<std::size_t>(body)]) * world_.dt();
   in.coupled = last_coupled_tick_[static_cast<std::size_t>(mechanism)] >=
@@ -179,7 +209,7 @@ void Replica::Correct(int body, const States& states, std::size_t i, const BodyS
   }
   world_.Write(body, corrected);
   *history_.At(tick(), body) = corrected;
-  smoother_.Moved(body, corrected.position - in.local.position, corrected.angle - in.local.angle);
+  smoother_.Moved(body, Minus(corrected, in.local));
 }
 
 }  // namespace seam

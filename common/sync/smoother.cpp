@@ -6,21 +6,28 @@
 namespace seam {
 namespace {
 
-// Share kept per 1/60 s. Nearer to 1 hides longer and shows stale poses for longer.
-constexpr float kKeepSmall = 0.95f;   // offsets up to kSmall
-constexpr float kKeepLarge = 0.85f;   // offsets from kLarge on
-constexpr float kSmall = 0.25f;       // m
-constexpr float kLarge = 1.0f;        // m
-// Speed of the glide, m/s: at least kGlideMin, or kGlideShare of the body's own speed.
+/// Rate of the critically damped return, 1/s: 0.1 s is its time constant. Faster shows corrections
+/// as jerks, slower shows stale poses for longer (measured: docs/architecture.md).
+constexpr float kRate = 10;
+/// Share of a correction of velocity that the offset takes. All of it hides a collision that our
+/// copy only heard of, but what contacts undo at once would show; none shows every velocity jump.
+constexpr float kVelocityShare = 0.5f;
+/// Speed of the glide, m/s: at least kGlideMin, or kGlideShare of the body's own speed.
 constexpr float kGlideMin = 4.0f;
 constexpr float kGlideShare = 0.35f;
-// Beyond this the view jumps: nobody can glide through it without lying for seconds. m
-constexpr float kGiveUp = 15.0f;
 constexpr float kSpinCap = 6.0f;      // rad/s
+/// Beyond this the view jumps: nobody can glide through it without lying for seconds. m
+constexpr float kGiveUp = 15.0f;
+/// Offsets below these are over: m (rad) and m/s (rad/s).
+constexpr float kOver = 1e-5f, kOverSpeed = 1e-4f;
 
-float Keep(float size) {
-  const float t = std::clamp((size - kSmall) / (kLarge - kSmall), 0.0f, 1.0f);
-  return kKeepSmall + t * (kKeepLarge - kKeepSmall);
+/// One step of a critically damped spring of rate kRate towards zero, exactly.
+template <typename T>
+void Return(float dt, T* offset, T* velocity) {
+  const float decay = std::exp(-kRate * dt);
+  const T slope = *velocity + kRate * *offset;
+  *offset = (*offset + slope * dt) * decay;
+  *velocity = (*velocity - slope * (kRate * dt)) * decay;
 }
 
 }  // namespace
@@ -28,33 +35,40 @@ float Keep(float size) {
 Smoother::Smoother(int body_count, bool enabled)
     : enabled_(enabled), offsets_(static_cast<std::size_t>(body_count)) {}
 
-void Smoother::Moved(int body, const Vec2& by, float by_angle) {
+void Smoother::Moved(int body, const BodyState& by) {
   if (!enabled_) return;
   Offset& o = offsets_[static_cast<std::size_t>(body)];
-  o.position -= by;
-  o.angle -= by_angle;
+  o.position -= by.position;
+  o.velocity -= kVelocityShare * by.velocity;
+  o.angle = std::remainder(o.angle - by.angle, 6.2831853f);
+  o.spin -= kVelocityShare * by.spin;
   if (o.position.norm() > kGiveUp) o = Offset{};
-  o.angle = std::remainder(o.angle, 6.2831853f);
 }
 
 void Smoother::Reset(int body) { offsets_[static_cast<std::size_t>(body)] = Offset{}; }
 
 void Smoother::Advance(int body, float dt, float speed) {
   Offset& o = offsets_[static_cast<std::size_t>(body)];
-  const float frames = dt * 60;
-  const float size = o.position.norm();
-  if (size > 0) {
-    const float step = size * (1 - std::pow(Keep(size), frames));
-    const float cap = std::max(kGlideMin, kGlideShare * speed) * dt;
-    o.position *= 1 - std::min(step, cap) / size;
-    if (size < 1e-5f) o.position.setZero();
+  const Vec2 was = o.position;
+  Return(dt, &o.position, &o.velocity);
+  const Vec2 move = o.position - was;
+  const float most = std::max(kGlideMin, kGlideShare * speed) * dt;
+  if (move.norm() > most) {
+    const Vec2 capped = move * (most / move.norm());
+    o.position = was + capped;
+    o.velocity = capped / dt;
   }
-  const float turn = std::fabs(o.angle);
-  if (turn > 0) {
-    const float step = turn * (1 - std::pow(Keep(turn), frames));
-    o.angle *= 1 - std::min(step, kSpinCap * dt) / turn;
-    if (turn < 1e-5f) o.angle = 0;
+  if (o.position.norm() < kOver && o.velocity.norm() < kOverSpeed) {
+    o.position.setZero();
+    o.velocity.setZero();
   }
+  const float angle_was = o.angle;
+  Return(dt, &o.angle, &o.spin);
+  if (std::fabs(o.angle - angle_was) > kSpinCap * dt) {
+    o.spin = std::copysign(kSpinCap, o.angle - angle_was);
+    o.angle = angle_was + o.spin * dt;
+  }
+  if (std::fabs(o.angle) < kOver && std::fabs(o.spin) < kOverSpeed) o.angle = o.spin = 0;
 }
 
 const Vec2& Smoother::offset(int body) const {

@@ -7,16 +7,18 @@
 
 namespace seam {
 
-/// A visual offset per body. A correction moves the physics state by d; the offset takes -d, so the
-/// view stays where it was, and then decays. After Fiedler, "State Synchronization" (2015): x0.95
-/// per 1/60 s for small offsets, x0.85 for large ones; here with a cap on the speed of the glide,
-/// because the decay of a large offset shows as a burst of speed.
+/// A visual offset per body, with a velocity of its own. A correction moves the physics state by d;
+/// the offset takes -d, so the view stays where it was, and then comes back to zero like a
+/// critically damped spring: its velocity is continuous too, where plain exponential decay (after
+/// Fiedler, "State Synchronization", 2015) begins each glide with a jerk. Of a correction of
+/// velocity the offset takes a share, with a cap on the speed of the glide, because that of a large
+/// offset shows as a burst.
 class Smoother {
  public:
   Smoother(int body_count, bool enabled);
 
-  /// The physics state of `body` was moved by this much.
-  void Moved(int body, const Vec2& by, float by_angle);
+  /// The physics state of `body` was changed by this much.
+  void Moved(int body, const BodyState& by);
   /// The body was placed anew (joined, hand-over of the unknown): show it there at once.
   void Reset(int body);
   /// Lets a frame pass. `speed` of the body (m/s) widens the cap: a fast body hides a fast glide.
@@ -27,8 +29,10 @@ class Smoother {
 
  private:
   struct Offset {
-    Vec2 position{0, 0};
-    float angle = 0;
+    Vec2 position{0, 0};    // m
+    Vec2 velocity{0, 0};    // m/s
+    float angle = 0;        // rad
+    float spin = 0;         // rad/s
   };
   bool enabled_;
   std::vector<Offset> offsets_;

@@ -23,7 +23,8 @@ class Snapshots {
   /// Interpolated at a (fractional) tick; the oldest or newest kept state outside of what is known:
   /// never extrapolated. Requires has(body).
   BodyState Interpolate(int body, double tick) const;
-  /// The newest state moved on by its velocity for at most `most_s`. Requires has(body).
+  /// The newest state moved on by its velocity for at most `most_s`, and by a moderate acceleration
+  /// as between the last two states. Requires has(body).
   BodyState Extrapolate(int body, std::int64_t tick, float dt, float most_s) const;
 
  private:

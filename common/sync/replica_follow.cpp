@@ -1,0 +1,74 @@
+/// Replica: bodies that are displayed, not simulated, follow what was heard of them.
+
+#include <cmath>
+
+#include "common/sync/replica.h"
+
+namespace seam {
+namespace {
+
+/// Kinematic bodies are not made to spin faster than this, rad/s: the engine clamps at 94.
+constexpr float kSpinDrivenMost = 90.0f;
+/// A turn of more than this within a tick is taken for a fast wheel's, whose angle nobody follows.
+constexpr float kTurnSeen = 0.5f;
+
+float TurnTo(float from, float to) { return std::remainder(to - from, 6.2831853f); }
+
+}  // namespace
+
+void Replica::DriveKinematic(std::int64_t next) {
+  const double delay = delay_.Advance();
+  for (int body = 0; body < world_.body_count(); ++body) {
+    if (world_.motion(body) != Motion::kKinematic) continue;
+    BodyState state = world_.Read(body);
+    if (!snapshots_.has(body)) {
+      state.velocity.setZero();
+      state.spin = 0;
+    } else if (config_.mode == Mode::kBuffer) {
+      state = AlongReckoned(body, next, state);
+    } else {
+      state = AlongSnapshots(
+          body, snapshots_.Interpolate(body, static_cast<double>(next) - delay), state);
+    }
+    const bool moves = state.velocity.squaredNorm() > 0 || state.spin != 0;
+    world_.Write(body, state, moves);
+  }
+}
+
+/// In the past, between snapshots: the path has no jumps, so its steps are the velocity.
+BodyState Replica::AlongSnapshots(int body, const BodyState& target, BodyState state) {
+  state.velocity = (target.position - state.position) / world_.dt();
+  if (state.velocity.norm() > scene().speed_limit) {
+    // Too far to travel in a tick: it is placed there at once.
+    BodyState jump;
+    jump.position = target.position - state.position;
+    smoother_.Moved(body, jump);
+    state.position = target.position;
+    state.velocity.setZero();
+  }
+  // A fast wheel turns by more than the wire's angle can tell: it spins as it should and its
+  // angle is placed.
+  const float turn = TurnTo(state.angle, target.angle);
+  const bool fast = std::fabs(turn) > kSpinDrivenMost * world_.dt();
+  state.spin = fast ? target.spin : turn / world_.dt();
+  if (fast) state.angle += turn - target.spin * world_.dt();
+  return state;
+}
+
+/// In the present, by dead reckoning: each message begins another path. The body is placed on it
+/// and moves with the path's velocity, not with that of the jump; the view glides over.
+BodyState Replica::AlongReckoned(int body, std::int64_t next, BodyState state) {
+  const BodyState here = snapshots_.Extrapolate(body, next - 1, world_.dt(), kReckonMost);
+  const BodyState there = snapshots_.Extrapolate(body, next, world_.dt(), kReckonMost);
+  BodyState along = here;
+  along.angle = state.angle + TurnTo(state.angle, here.angle);
+  along.velocity = (there.position - here.position) / world_.dt();
+  along.spin = (there.angle - here.angle) / world_.dt();
+  BodyState jump = Minus(along, state);
+  if (std::fabs(jump.angle) > kTurnSeen) jump.angle = 0;
+  jump.spin = 0;
+  smoother_.Moved(body, jump);
+  return along;
+}
+
+}  // namespace seam
