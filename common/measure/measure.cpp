@@ -55,6 +55,7 @@ Measures Measure(const Recording& recording, const Oracle& oracle) {
   Measures measures;
   MeasureError(recording, oracle, &measures);
   MeasureSmoothness(recording, oracle, &measures);
+  MeasureSeam(recording, &measures);
   measures.rest_ticks = RestTicks(recording, oracle);
   MeasureCost(recording, &measures);
   std::map<PartId, int> mechanisms;

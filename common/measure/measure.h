@@ -51,6 +51,9 @@ struct Measures {
   double error_rms_rad = 0;
   double stutter_mps2 = 0;            ///< RMS of the second difference minus the oracle's
   std::int64_t backsteps = 0;         ///< displayed moves against the body's velocity
+  // Between peers: displayed against the authority's display. Empty when nobody follows anybody.
+  std::optional<double> seam_rms_m;
+  std::optional<double> seam_stutter_mps2;
   std::optional<double> rebound;      ///< only for scenes that watch a collision
   std::optional<double> rest_ticks;   ///< only if the scene comes to rest in the recording
   double handover_jump_m = 0;         ///< largest jump of a view at a change of authority

@@ -22,6 +22,9 @@ void MeasureError(const Recording& recording, const Oracle& oracle, Measures* me
 /// smoothness.cpp: stutter_mps2 and backsteps.
 void MeasureSmoothness(const Recording& recording, const Oracle& oracle, Measures* measures);
 
+/// seam.cpp: seam_rms_m and seam_stutter_mps2.
+void MeasureSeam(const Recording& recording, Measures* measures);
+
 /// rebound.cpp: the share of the oracle's momentum transfer that a collision really transferred.
 /// `masses`: of the struck assemblies by id, kg. nullopt: no collision, or it was not recorded.
 std::optional<double> Rebound(const Recording& recording, const Oracle& oracle,

@@ -52,6 +52,10 @@ std::string More(const MeasuredRun& run) {
   for (const auto& [peer, rms] : m.error_rms_by_peer_m) {
     out += fmt::format("  peer {:<2}          {:.6g} m RMS\n", peer, rms);
   }
+  if (m.seam_rms_m) {
+    out += fmt::format("  seam             {:.6g} m RMS from the authority's view, stutter {:.6g} "
+                       "m/s2 against it\n", *m.seam_rms_m, m.seam_stutter_mps2.value_or(0));
+  }
   out += fmt::format("  hand-over        {} changes of authority, largest jump {:.6g} m\n",
                      m.handovers, m.handover_jump_m);
   out += m.rest_ticks ? fmt::format("  rest             all peers bit-equal {:g} ticks after the "
