@@ -221,6 +221,8 @@ TEST(Cluster, TheFloorTellsAChaoticSceneFromAnOrderlyOne) {
   EXPECT_GT(ErrorFloor(orderly, ComputeOracle(orderly)), 0);
   const Recording chaotic = RunCluster(With("wall", "oracle"));
   EXPECT_GT(ErrorFloor(chaotic, ComputeOracle(chaotic)), 0.01);
+  EXPECT_GT(ErrorFloor(orderly, ComputeOracle(orderly), kWireNudge), kWireNudge / 30);
+  EXPECT_LT(ErrorFloor(orderly, ComputeOracle(orderly), kWireNudge), 100 * kWireNudge);
 }
 
 TEST(Cluster, TheFloorsNudgeIsNotLostInRoundingFarFromTheOrigin) {

@@ -299,10 +299,12 @@ TEST(LabSweep, ARowHoldsWhatMeasuringTheSameRunGives) {
   ASSERT_TRUE(m.rebound.has_value());
   const std::string expected =
       grid.points[0].key +
-      fmt::format(",{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.6g},,{},{:.6g},{:.6g},{:.6g},{},",
+      fmt::format(",{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{},{:.6g},{:.6g},{:.6g},,{},"
+                  "{:.6g},{:.6g},{:.6g},{:.6g},{},",
                   m.error_rms_m, m.error_p95_m, m.error_max_m, m.error_rms_rad, m.stutter_mps2,
-                  m.backsteps, *m.rebound, m.handovers, m.handover_jump_m,
-                  ErrorFloor(recording, oracle), m.bytes_per_s, m.compared);
+                  m.backsteps, *m.seam_rms_m, *m.seam_stutter_mps2, *m.rebound, m.handovers,
+                  m.handover_jump_m, ErrorFloor(recording, oracle),
+                  ErrorFloor(recording, oracle, kWireNudge), m.bytes_per_s, m.compared);
   EXPECT_EQ(row.substr(0, expected.size()), expected);
   const std::string header = SweepHeader();
   EXPECT_EQ(std::count(row.begin(), row.end(), ','),

@@ -26,13 +26,13 @@ double Distance(const Oracle& a, const Oracle& b) {
 
 }  // namespace
 
-double ErrorFloor(const Recording& recording, const Oracle& oracle, int bodies) {
+double ErrorFloor(const Recording& recording, const Oracle& oracle, float nudge, int bodies) {
   const int all = static_cast<int>(oracle.ids.size());
   const int chosen = std::min(bodies, all);
   if (chosen < 1) return 0;
   std::vector<double> distances;
   for (int k = 0; k < chosen; ++k) {
-    distances.push_back(Distance(oracle, ComputeOracle(recording, k * all / chosen)));
+    distances.push_back(Distance(oracle, ComputeOracle(recording, k * all / chosen, nudge)));
   }
   const auto middle = distances.begin() + chosen / 2;
   std::nth_element(distances.begin(), middle, distances.end());

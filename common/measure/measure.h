@@ -23,20 +23,25 @@ struct Oracle {
   const BodyState* At(std::int64_t tick, PartId id) const;
 };
 
+/// How far the floor's nudge moves one body, m; at least to the next float (8e-6 m at 100 m).
+constexpr float kNudge = 1e-6f;
+/// The same at the resolution of the wire, whose positions are whole 1/512 m: half of that.
+constexpr float kWireNudge = 1.0f / 1024;
+
 /// Simulates the recording's scene alone from tick 0 to the recording's last tick, with the inputs
 /// it recorded: each in the tick it names, axes held over ticks without one, buttons acting on the
 /// tick they go down. Throws OperatorError when the scene does not parse or the session is too long
 /// (kOracleStatesMax).
-/// `nudged_body` >= 0: with that body (an index into ids) moved by kNudge at the start.
-Oracle ComputeOracle(const Recording& recording, int nudged_body = -1);
-
-/// How far the floor's nudge moves one body, m; at least to the next float (8e-6 m at 100 m).
-constexpr float kNudge = 1e-6f;
+/// `nudged_body` >= 0: with that body (an index into ids) moved by `nudge` m along x at the start,
+/// at least to the next float.
+Oracle ComputeOracle(const Recording& recording, int nudged_body = -1,
+                     float nudge = kNudge);
 
 /// The oracle's own sensitivity: RMS distance in m between it and itself with one body nudged, the
 /// median over at most `bodies` bodies, evenly chosen. No method can be expected to be better:
 /// where the floor is a metre, errors of a metre say nothing.
-double ErrorFloor(const Recording& recording, const Oracle& oracle, int bodies = 7);
+double ErrorFloor(const Recording& recording, const Oracle& oracle, float nudge = kNudge,
+                  int bodies = 7);
 
 /// Most ticks times bodies that ComputeOracle keeps: 24 bytes each.
 constexpr std::int64_t kOracleStatesMax = 50'000'000;

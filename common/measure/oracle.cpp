@@ -56,7 +56,7 @@ const BodyState* Oracle::At(std::int64_t tick, PartId id) const {
   return &ticks[row][static_cast<std::size_t>(found - ids.begin())];
 }
 
-Oracle ComputeOracle(const Recording& recording, int nudged_body) {
+Oracle ComputeOracle(const Recording& recording, int nudged_body, float nudge) {
   Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
   scene.solver.tick_hz = recording.room.tick_hz;
   World world(scene);
@@ -64,7 +64,7 @@ Oracle ComputeOracle(const Recording& recording, int nudged_body) {
     BodyState state = world.Read(nudged_body);
     // At least to the next float: 40 m from the origin a micrometre is lost in rounding.
     const float x = state.position.x();
-    state.position.x() = std::max(x + kNudge, std::nextafter(x, x + 1));
+    state.position.x() = std::max(x + nudge, std::nextafter(x, x + 1));
     world.Write(nudged_body, state, false);
   }
   Oracle oracle;

@@ -38,10 +38,13 @@ std::string Values(const Recording& recording, bool floor) {
     line += Number(error, any);
   }
   line += any ? fmt::format(",{}", m.backsteps) : ",";
+  line += Number(m.seam_rms_m.value_or(0), m.seam_rms_m.has_value());
+  line += Number(m.seam_stutter_mps2.value_or(0), m.seam_stutter_mps2.has_value());
   line += Number(m.rebound.value_or(0), m.rebound.has_value());
   line += Number(m.rest_ticks.value_or(0), m.rest_ticks.has_value());
   line += fmt::format(",{}", m.handovers) + Number(m.handover_jump_m, any);
-  line += Number(floor ? ErrorFloor(recording, oracle) : 0, floor);
+  line += Number(floor ? ErrorFloor(recording, oracle, kNudge) : 0, floor);
+  line += Number(floor ? ErrorFloor(recording, oracle, kWireNudge) : 0, floor);
   return line + Number(m.bytes_per_s, m.bytes_per_s > 0) + fmt::format(",{}", m.compared);
 }
 
@@ -49,8 +52,9 @@ std::string Values(const Recording& recording, bool floor) {
 
 std::string SweepHeader() {
   return GridHeader() +
-         ",error_rms_m,error_p95_m,error_max_m,error_rms_rad,stutter_mps2,backsteps,rebound,"
-         "rest_ticks,handovers,handover_jump_m,floor_m,bytes_per_s,compared,digest,cpu_s";
+         ",error_rms_m,error_p95_m,error_max_m,error_rms_rad,stutter_mps2,backsteps,"
+         "seam_rms_m,seam_stutter_mps2,rebound,rest_ticks,handovers,handover_jump_m,floor_m,"
+         "floor_wire_m,bytes_per_s,compared,digest,cpu_s";
 }
 
 std::string SweepRow(const GridPoint& point, bool floor) {
