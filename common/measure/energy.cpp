@@ -1,0 +1,52 @@
+#include "common/measure/energy.h"
+
+#include "common/base/check.h"
+
+namespace seam {
+namespace {
+
+constexpr double kTurn = 6.283185307179586;   // rad
+
+}  // namespace
+
+EnergyMeter::EnergyMeter(const Scene& scene, const Composition& composition)
+    : gravity_(scene.gravity.cast<double>()) {
+  for (const Assembly& assembly : composition.assemblies) {
+    if (!assembly.anchored) masses_.push_back(AssemblyProperties(scene, assembly));
+  }
+  const auto mass = [&](const JointEnd& end) {
+    return end.moving < 0 ? 0 : masses_[static_cast<std::size_t>(end.moving)].mass;
+  };
+  for (const JointEnds& ends : FindJointEnds(scene, composition)) {
+    const bool sprung = ends.kind == JointKind::kWheel || ends.kind == JointKind::kDistance;
+    if (!sprung || ends.frequency_hz <= 0) continue;
+    // As b2LinearStiffness: of the reduced mass, where an anchored side weighs endlessly.
+    const double a = mass(ends.a), b = mass(ends.b);
+    const double reduced = a > 0 && b > 0 ? a * b / (a + b) : a + b;
+    const double omega = kTurn * ends.frequency_hz;
+    springs_.push_back({ends, reduced * omega * omega});
+  }
+}
+
+double EnergyMeter::Of(const std::vector<BodyState>& moving) const {
+  SEAM_ASSERT(moving.size() == masses_.size());
+  double energy = 0;
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    const BodyState& state = moving[i];
+    const double spin = double{state.spin};
+    energy += masses_[i].mass * state.velocity.cast<double>().squaredNorm() / 2;
+    energy += masses_[i].inertia * spin * spin / 2;
+    energy -= masses_[i].mass * gravity_.dot(Pose(state).ToWorld(masses_[i].centre));
+  }
+  for (const Spring& spring : springs_) {
+    const Eigen::Vector2d apart =
+        spring.ends.b.PointNow(moving) - spring.ends.a.PointNow(moving);
+    const double stretch = spring.ends.kind == JointKind::kWheel
+                               ? apart.dot(spring.ends.a.AxisNow(moving))
+                               : apart.norm() - spring.ends.length;
+    energy += spring.stiffness * stretch * stretch / 2;
+  }
+  return energy;
+}
+
+}  // namespace seam

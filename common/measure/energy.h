@@ -1,0 +1,37 @@
+#pragma once
+/// Mechanical energy of a state of a scene, in double precision.
+
+#include <vector>
+
+#include "common/measure/joint_ends.h"
+#include "common/physics/mass.h"
+
+namespace seam {
+
+/// Everything about a scene's energy that its states do not change, looked up once.
+class EnergyMeter {
+ public:
+  EnergyMeter(const Scene& scene, const Composition& composition);
+
+  /// J: kinetic, potential (0 at the origin's height along gravity) and in springs of wheel and
+  /// distance joints. What motors and players put in is in it; limits and contacts store nothing.
+  /// `moving`: of the moving assemblies ascending by id; velocities are of the centres of mass.
+  double Of(const std::vector<BodyState>& moving) const;
+
+ private:
+  struct Spring {
+    JointEnds ends;
+    double stiffness = 0;                 // N/m
+  };
+  Eigen::Vector2d gravity_;               // m/s^2
+  std::vector<MassProperties> masses_;    // of the moving assemblies
+  std::vector<Spring> springs_;
+};
+
+/// The same, for one state.
+inline double MechanicalEnergy(const Scene& scene, const Composition& composition,
+                               const std::vector<BodyState>& moving) {
+  return EnergyMeter(scene, composition).Of(moving);
+}
+
+}  // namespace seam

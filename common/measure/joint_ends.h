@@ -1,0 +1,34 @@
+#pragma once
+/// The two points that a joint holds together, as its assemblies carry them.
+
+#include "common/measure/pose.h"
+
+namespace seam {
+
+/// One end of a joint.
+struct JointEnd {
+  int assembly = -1;                      ///< index into the composition's
+  int moving = -1;                        ///< index into the moving states; -1: anchored
+  Eigen::Vector2d point{0, 0};            ///< m, in the root's frame; in the world if anchored
+  Eigen::Vector2d axis{0, 1};             ///< unit, likewise
+
+  Eigen::Vector2d PointNow(const std::vector<BodyState>& states) const {
+    return moving < 0 ? point : Pose(states[static_cast<std::size_t>(moving)]).ToWorld(point);
+  }
+  Eigen::Vector2d AxisNow(const std::vector<BodyState>& states) const {
+    return moving < 0 ? axis : Pose(states[static_cast<std::size_t>(moving)]).Turn(axis);
+  }
+};
+
+/// A joint that the simulation has: not a weld within one body.
+struct JointEnds {
+  JointKind kind = JointKind::kRevolute;
+  JointEnd a, b;
+  double length = 0;                      ///< m, of a distance joint
+  double frequency_hz = 0;                ///< of a spring; 0: rigid
+};
+
+/// All of them, in the scene's order.
+std::vector<JointEnds> FindJointEnds(const Scene& scene, const Composition& composition);
+
+}  // namespace seam
