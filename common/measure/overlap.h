@@ -16,8 +16,8 @@ class OverlapMeter {
 
   /// m, >= 0: the deepest overlap of any two parts that may collide: not of one assembly, not both
   /// anchored, not of one negative group, not of assemblies joined by a joint without `collide`.
-  /// `moving`: of the moving assemblies ascending by id, as World::Read(0..body_count-1). Infinite when
-  /// a pose is not finite.
+  /// `moving`: of the moving assemblies ascending by id, as World::Read(0..body_count-1). Infinite
+  /// when a pose is not finite.
   double Deepest(const std::vector<BodyState>& moving) const;
 
  private:
