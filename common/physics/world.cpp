@@ -1,6 +1,7 @@
 #include "common/physics/world.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 #include <cstring>
 #include <optional>
@@ -23,9 +24,11 @@ struct World::Impl {
     world.SetContinuousPhysics(s.solver.continuous);
     world.SetAllowSleeping(s.solver.sleep);
     world.SetWarmStarting(s.solver.warm_starting);
-    meter.SetSubsteps(s.solver.substeps);
-    world.SetContactListener(&meter);
     built = BuildScene(scene, composition, &world);
+    float lightest = FLT_MAX;
+    for (const MovingBody& m : built.moving) lightest = std::min(lightest, m.mass.mass);
+    meter.Set(s.solver.substeps, lightest);
+    world.SetContactListener(&meter);
   }
 
   const MovingBody& moving(int body) const {

@@ -37,6 +37,7 @@ void AddBlock(int body, const Vec2& normal, std::vector<Block>* blocks) {
 void ImpulseMeter::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
   Felt felt;
   for (int i = 0; i < impulse->count; ++i) felt.impulse += impulse->normalImpulses[i];
+  if (felt.impulse <= least_) return;   // without a look at the bodies: most contacts, every step
   // Anchored bodies have no mass here.
   const float mass_a = contact->GetFixtureA()->GetBody()->GetMass();
   const float mass_b = contact->GetFixtureB()->GetBody()->GetMass();

@@ -11,9 +11,10 @@ namespace seam {
 /// Listens to Box2D and sums the normal impulses of a tick's substeps by pair of bodies.
 class ImpulseMeter : public b2ContactListener {
  public:
-  /// Substeps per tick: how finely a blow may be divided.
-  void SetSubsteps(int substeps) {
+  /// `substeps` per tick: how finely a blow may be divided. `lightest`: least mass that moves, kg.
+  void Set(int substeps, float lightest) {
     counts_from_ = kImpactRecordMin / (kShares * static_cast<float>(substeps));
+    least_ = counts_from_ * lightest;
   }
   void Clear() { felt_.clear(); }
   /// Ascending by pair; only those above kImpactRecordMin.
@@ -23,8 +24,8 @@ class ImpulseMeter : public b2ContactListener {
 
  private:
   /// A contact's impulse counts from this share of an impact's least one in each substep: what lies
-  /// still costs nothing, and 16 contacts of one pair must conspire to be overlooked.
-  static constexpr float kShares = 16;
+  /// still costs next to nothing, and three shapes of one body must share a blow to be overlooked.
+  static constexpr float kShares = 2;
   struct Felt {
     int body_a = -1, body_b = -1;     // a < b
     float impulse = 0;                // N s, of all contact points
@@ -32,6 +33,7 @@ class ImpulseMeter : public b2ContactListener {
   };
   std::vector<Felt> felt_;            // in the order of solving
   float counts_from_ = 0;             // m/s: impulse over the lighter body's mass
+  float least_ = 0;                   // N s: counts_from_ for the lightest body of all
 };
 
 /// Touching pairs of moving bodies, ascending, each once.
