@@ -3,6 +3,7 @@
 /// nothing written, for what the operator can put right.
 
 #include <string>
+#include <vector>
 
 #include "tests/lab/session.h"
 
@@ -38,5 +39,17 @@ struct SweepCommand {
 /// Runs every combination that the table does not have yet. 1: some runs failed (and left no row),
 /// or a signal came.
 int RunSweep(const SweepCommand& command);
+
+struct OverheadCommand {
+  std::vector<std::string> scenes = {
+      "scenes/wall.toml",   "scenes/stack.toml",        "scenes/crossing.toml",
+      "scenes/cradle.toml", "scenes/hard/pyramid-20.toml", "scenes/hard/thousand.toml"};
+  std::string table;                  ///< CSV file to write or complete; empty: none
+  int repeats = 5;
+  bool force = false;                 ///< begin the table anew
+};
+
+/// Prints what World::Step costs beside the engine alone. 1: they end differently, or a signal.
+int RunOverhead(const OverheadCommand& command);
 
 }  // namespace seam

@@ -55,6 +55,16 @@ CLI::App* DefineSweep(CLI::App& app, SweepCommand& c) {
   return sweep;
 }
 
+CLI::App* DefineOverhead(CLI::App& app, OverheadCommand& c) {
+  CLI::App* overhead = app.add_subcommand("overhead", "what a step costs beside Box2D alone");
+  overhead->add_option("SCENES", c.scenes, "scene files (default: four of scenes, two hard ones)");
+  overhead->add_option("-o,--output", c.table, "CSV table to write, or to complete");
+  overhead->add_option("--repeats", c.repeats, "of which the least counts")
+      ->check(CLI::Range(1, 1000));
+  overhead->add_flag("--force", c.force, "begin the table anew");
+  return overhead;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -64,9 +74,11 @@ int main(int argc, char** argv) {
     RunCommand run;
     DivergenceCommand divergence;
     SweepCommand sweep;
+    OverheadCommand overhead;
     const CLI::App* run_app = DefineRun(app, run);
     const CLI::App* divergence_app = DefineDivergence(app, divergence);
     const CLI::App* sweep_app = DefineSweep(app, sweep);
+    const CLI::App* overhead_app = DefineOverhead(app, overhead);
     try {
       app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
@@ -78,6 +90,7 @@ int main(int argc, char** argv) {
     if (run_app->parsed()) return RunLog(run);
     if (divergence_app->parsed()) return FirstDivergence(divergence);
     if (sweep_app->parsed()) return RunSweep(sweep);
+    if (overhead_app->parsed()) return RunOverhead(overhead);
     return 2;
   });
 }
