@@ -40,6 +40,20 @@ struct SweepCommand {
 /// or a signal came.
 int RunSweep(const SweepCommand& command);
 
+struct PhysicsCommand {
+  std::vector<std::string> cases;     ///< names; empty: all
+  std::string grid = "report";        ///< quick | report | full
+  std::string table;                  ///< CSV file to write or complete
+  std::string folder = "scenes/hard";
+  int jobs = 0;                       ///< runs at a time; 0: as many as there are cores
+  bool force = false;                 ///< begin the table anew
+  bool quiet = false;                 ///< no progress line
+};
+
+/// Runs the hard cases with the stock setting, their own, and others; prints a table. 1: some runs
+/// failed (and left no row), or a signal came.
+int RunPhysics(const PhysicsCommand& command);
+
 struct OverheadCommand {
   std::vector<std::string> scenes = {
       "scenes/wall.toml",   "scenes/stack.toml",        "scenes/crossing.toml",

@@ -55,6 +55,20 @@ CLI::App* DefineSweep(CLI::App& app, SweepCommand& c) {
   return sweep;
 }
 
+CLI::App* DefinePhysics(CLI::App& app, PhysicsCommand& c) {
+  CLI::App* physics = app.add_subcommand("physics", "solver settings on the hard cases");
+  physics->add_option("--cases", c.cases, "names (default: all)")->delimiter(',');
+  physics->add_option("--grid", c.grid, "quick | report | full")
+      ->check(CLI::IsMember({"quick", "report", "full"}));
+  physics->add_option("-o,--output", c.table, "CSV table to write, or to complete")->required();
+  physics->add_option("--scenes", c.folder, "folder of the hard scenes (default: scenes/hard)");
+  physics->add_option("--jobs", c.jobs, "runs at a time (default: one a core)")
+      ->check(CLI::Range(1, 256));
+  physics->add_flag("--force", c.force, "begin the table anew");
+  physics->add_flag("--quiet", c.quiet, "no progress line");
+  return physics;
+}
+
 CLI::App* DefineOverhead(CLI::App& app, OverheadCommand& c) {
   CLI::App* overhead = app.add_subcommand("overhead", "what a step costs beside Box2D alone");
   overhead->add_option("SCENES", c.scenes, "scene files (default: four of scenes, two hard ones)");
@@ -74,10 +88,12 @@ int main(int argc, char** argv) {
     RunCommand run;
     DivergenceCommand divergence;
     SweepCommand sweep;
+    PhysicsCommand physics;
     OverheadCommand overhead;
     const CLI::App* run_app = DefineRun(app, run);
     const CLI::App* divergence_app = DefineDivergence(app, divergence);
     const CLI::App* sweep_app = DefineSweep(app, sweep);
+    const CLI::App* physics_app = DefinePhysics(app, physics);
     const CLI::App* overhead_app = DefineOverhead(app, overhead);
     try {
       app.parse(argc, argv);
@@ -90,6 +106,7 @@ int main(int argc, char** argv) {
     if (run_app->parsed()) return RunLog(run);
     if (divergence_app->parsed()) return FirstDivergence(divergence);
     if (sweep_app->parsed()) return RunSweep(sweep);
+    if (physics_app->parsed()) return RunPhysics(physics);
     if (overhead_app->parsed()) return RunOverhead(overhead);
     return 2;
   });

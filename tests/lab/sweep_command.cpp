@@ -1,6 +1,3 @@
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <thread>
@@ -10,45 +7,12 @@
 #include "tests/lab/commands.h"
 #include "tests/lab/grid.h"
 #include "tests/lab/jobs.h"
+#include "tests/lab/progress.h"
 #include "tests/lab/sweep_row.h"
 #include "tests/lab/sweep_table.h"
 
 namespace seam {
 namespace {
-
-std::string Span(double seconds) {
-  const auto s = static_cast<std::int64_t>(seconds);
-  if (s < 60) return fmt::format("{} s", s);
-  return s < 3600 ? fmt::format("{} min {} s", s / 60, s % 60)
-                  : fmt::format("{} h {} min", s / 3600, s / 60 % 60);
-}
-
-/// How far it is, and how long it will take at the mean pace so far: on a terminal a line that
-/// renews itself, elsewhere a line a minute.
-class Progress {
- public:
-  Progress(std::size_t total, bool quiet)
-      : total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
-  void operator()(std::size_t done) {
-    const std::int64_t now_us = SteadyClockUs();
-    if (quiet_ || now_us - last_us_ < (terminal_ ? 200000 : 60000000)) return;
-    last_us_ = now_us;
-    const double pace = static_cast<double>(now_us - begin_us_) / static_cast<double>(done);
-    std::fprintf(stderr, "%s%zu of %zu runs, about %s left%s", terminal_ ? "\r" : "", done, total_,
-                 Span(pace * static_cast<double>(total_ - done) * 1e-6).c_str(),
-                 terminal_ ? "      " : "\n");
-    shown_ = true;
-  }
-  ~Progress() {
-    if (shown_ && terminal_) std::fputc('\n', stderr);
-  }
-
- private:
-  std::size_t total_;
-  bool quiet_, terminal_, shown_ = false;
-  std::int64_t begin_us_ = SteadyClockUs();
-  std::int64_t last_us_ = begin_us_;
-};
 
 /// Runs the points of `todo`; returns how many failed.
 std::size_t RunPoints(const Grid& grid, const std::vector<std::size_t>& todo, int jobs, bool quiet,

@@ -33,6 +33,23 @@ std::vector<std::size_t> FieldEnds(const std::string& line) {
 
 }  // namespace
 
+std::vector<std::string> CsvFields(const std::string& line) {
+  std::vector<std::string> fields;
+  std::size_t begin = 0;
+  for (const std::size_t end : FieldEnds(line)) {
+    std::string field = line.substr(begin, end - begin);
+    begin = end + 1;
+    if (field.size() >= 2 && field.front() == '"') {
+      field = field.substr(1, field.size() - 2);
+      for (std::size_t at = 0; (at = field.find("\"\"", at)) != std::string::npos; ++at) {
+        field.erase(at, 1);
+      }
+    }
+    fields.push_back(std::move(field));
+  }
+  return fields;
+}
+
 SweepTable::SweepTable(const std::string& path, const std::string& header, int key_columns,
                        const std::vector<std::string>& keys, bool force)
     : path_(path), header_(header), lines_(keys.size()) {

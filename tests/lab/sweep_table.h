@@ -21,6 +21,8 @@ class SweepTable {
   SweepTable& operator=(const SweepTable&) = delete;
 
   bool Has(std::size_t row) const { return !lines_[row].empty(); }
+  /// Empty when it is not there yet.
+  const std::string& line(std::size_t row) const { return lines_[row]; }
   std::size_t count() const { return count_; }
   /// `line` without its end, beginning with the row's key. Throws OperatorError when the disk is
   /// full.
@@ -36,5 +38,8 @@ class SweepTable {
   std::size_t end_ = 0;               // one behind the last row in the file
   std::FILE* file_ = nullptr;         // open to append
 };
+
+/// The values of a CSV line, without the quotes around and within them.
+std::vector<std::string> CsvFields(const std::string& line);
 
 }  // namespace seam

@@ -1,0 +1,160 @@
+#include "tests/lab/hard/observe.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "common/base/check.h"
+#include "common/measure/energy.h"
+#include "common/measure/joint_drift.h"
+#include "common/measure/overlap.h"
+#include "tests/lab/hard/script_hand.h"
+
+namespace seam {
+namespace {
+
+constexpr double kInfinite = std::numeric_limits<double>::infinity();
+
+std::vector<BodyState> ReadAll(const World& world) {
+  std::vector<BodyState> states;
+  states.reserve(static_cast<std::size_t>(world.body_count()));
+  for (int body = 0; body < world.body_count(); ++body) states.push_back(world.Read(body));
+  return states;
+}
+
+bool Lost(const World& world) {
+  for (int body = 0; body < world.body_count(); ++body) {
+    const BodyState s = world.Read(body);
+    const bool finite = s.position.allFinite() && s.velocity.allFinite() &&
+                        std::isfinite(s.angle) && std::isfinite(s.spin);
+    if (!finite || s.position.cast<double>().norm() > kLostBeyond) return true;
+  }
+  return false;
+}
+
+bool AllAsleep(const World& world) {
+  for (int body = 0; body < world.body_count(); ++body) {
+    if (world.awake(body)) return false;
+  }
+  return world.body_count() > 0;
+}
+
+bool Fed(const Scene& scene) {
+  const bool motors = std::any_of(scene.joints.begin(), scene.joints.end(),
+                                  [](const Joint& joint) { return joint.motor_torque > 0; });
+  const bool scripts = std::any_of(scene.players.begin(), scene.players.end(),
+                                   [](const Player& player) { return !player.script.empty(); });
+  return motors || scripts;
+}
+
+/// The meters of a run, each beyond what it showed at the start.
+class Meters {
+ public:
+  explicit Meters(const World& world)
+      : overlap_(world.scene(), world.composition()),
+        joints_(world.scene(), world.composition()) {
+    const std::vector<BodyState> states = ReadAll(world);
+    overlap_start_ = overlap_.Deepest(states);
+    joints_start_ = joints_.Worst(states);
+    energy_start_ = MechanicalEnergy(world.scene(), world.composition(), states);
+  }
+  void See(const World& world) {
+    const std::vector<BodyState> states = ReadAll(world);
+    deepest_ = std::max(deepest_, overlap_.Deepest(states) - overlap_start_);
+    worst_ = std::max(worst_, joints_.Worst(states) - joints_start_);
+    const double energy = MechanicalEnergy(world.scene(), world.composition(), states);
+    gain_ = std::max(gain_, energy - energy_start_);
+  }
+  double deepest() const { return deepest_; }
+  double worst() const { return worst_; }
+  double gain() const { return gain_; }
+
+ private:
+  OverlapMeter overlap_;
+  JointMeter joints_;
+  double overlap_start_ = 0, joints_start_ = 0, energy_start_ = 0;
+  double deepest_ = 0, worst_ = 0, gain_ = 0;
+};
+
+/// RMS speed of all bodies over the ticks it is shown.
+class Jitter {
+ public:
+  void See(const World& world) {
+    for (int body = 0; body < world.body_count(); ++body) {
+      sum_ += world.Read(body).velocity.cast<double>().squaredNorm();
+    }
+    count_ += world.body_count();
+  }
+  double mps() const { return count_ == 0 ? 0 : std::sqrt(sum_ / static_cast<double>(count_)); }
+
+ private:
+  double sum_ = 0;
+  std::int64_t count_ = 0;
+};
+
+}  // namespace
+
+double EnergyScale(const Scene& scene) {
+  const Composition composition = Compose(scene);
+  double mass = 0, kinetic = 0;
+  for (const Assembly& assembly : composition.assemblies) {
+    if (assembly.anchored) continue;
+    const MassProperties own = AssemblyProperties(scene, assembly);
+    const Part& root = scene.parts[static_cast<std::size_t>(assembly.id)];
+    const double spin = static_cast<double>(root.spin);
+    mass += own.mass;
+    kinetic += own.mass * root.velocity.cast<double>().squaredNorm() / 2 +
+               own.inertia * spin * spin / 2;
+  }
+  const double scale = kinetic + mass * scene.gravity.cast<double>().norm();
+  return scale > 0 ? scale : mass / 2;
+}
+
+Observation Observe(const HardCase& hard, const Scene& scene, double seconds,
+                    const Trajectory* reference) {
+  const std::unique_ptr<Judge> judge = hard.judge ? hard.judge(scene) : nullptr;
+  SEAM_ASSERT(judge != nullptr || reference != nullptr);
+  World world(scene);
+  ScriptHand hand(scene);
+  Meters meters(world);
+  Jitter jitter;
+  Trajectory path(scene);
+  const int hz = scene.solver.tick_hz;
+  const std::int64_t ticks = std::llround(seconds * hz);
+  const int sample_hz = world.body_count() > 300 ? std::gcd(hz, 10) : CommonHz(hz);
+  const auto see = [&] {
+    if (judge) judge->See(world);
+    if (!judge) path.See(world);
+    if (world.tick() % (hz / sample_hz) == 0) meters.See(world);
+    if (world.tick() > ticks - 5 * hz) jitter.See(world);
+  };
+  Observation seen;
+  see();
+  while (world.tick() < ticks && !seen.diverged) {
+    hand.Play(scene, world.tick() + 1, &world);
+    world.Step();
+    seen.diverged = Lost(world);
+    if (seen.diverged) break;
+    see();
+    if (!seen.asleep_s && AllAsleep(world)) {
+      seen.asleep_s = static_cast<double>(world.tick()) / hz;
+    }
+  }
+  seen.seconds = static_cast<double>(world.tick()) / hz;
+  seen.error = seen.diverged ? kInfinite : judge ? judge->Error() : Distance(path, *reference);
+  if (!std::isfinite(seen.error)) seen.diverged = true;
+  seen.failure = judge ? judge->Failure() : "";
+  if (seen.diverged) {
+    seen.error = kInfinite;
+    if (seen.failure.empty()) seen.failure = fmt::format("diverged at {:.3g} s", seen.seconds);
+  }
+  seen.penetration_m = meters.deepest();
+  seen.joint_drift_m = meters.worst();
+  if (!Fed(scene)) seen.energy_gain = meters.gain() / EnergyScale(scene);
+  seen.jitter_mps = jitter.mps();
+  return seen;
+}
+
+}  // namespace seam

@@ -1,0 +1,63 @@
+#pragma once
+/// Runs a hard case once and says what became of it, and what its steps cost beside another's.
+
+#include <limits>
+#include <optional>
+
+#include "tests/lab/hard/hard_case.h"
+#include "tests/lab/hard/trajectory.h"
+
+namespace seam {
+
+/// A body beyond this coordinate is lost: the run diverged. m
+constexpr double kLostBeyond = 1e6;
+
+/// What was seen of a run. Sampled 30 times a second (10 where more than 300 bodies move; else the
+/// nearest rate that ticks fall on).
+struct Observation {
+  double error = 0;                   ///< the case's; infinite: it diverged
+  std::string failure;                ///< empty, or what happened that must not
+  double penetration_m = 0;           ///< deepest overlap, beyond that at the start
+  double joint_drift_m = 0;           ///< worst separation at a joint, beyond that at the start
+  /// Greatest rise of the mechanical energy above its start, in units of EnergyScale; empty where
+  /// motors or players feed the scene.
+  std::optional<double> energy_gain;
+  double jitter_mps = 0;              ///< RMS speed of all bodies in the last 5 s; of what rests
+  std::optional<double> asleep_s;     ///< when all slept for the first time; empty: never
+  double seconds = 0;                 ///< simulated: fewer than asked for when it diverged
+  bool diverged = false;              ///< a body was lost or is not a number; stopped there
+};
+
+/// What a gain of energy is compared with, J: the kinetic energy at the start, and what all that
+/// moves would gain by falling 1 m (or, without gravity and motion, have at 1 m/s).
+double EnergyScale(const Scene& scene);
+
+/// Runs `scene` (the case's, with any solver) for `seconds`. `reference`: needed where the case has
+/// no judge; the error is then the distance from it. The scripts of the scene's players are played.
+Observation Observe(const HardCase& hard, const Scene& scene, double seconds,
+                    const Trajectory* reference = nullptr);
+
+/// The scene's own run at 32 times the stock rate (60 Hz, 32 substeps of 8/3, else as the scene
+/// says), and by how much that at 16 times differs from it.
+struct Reference {
+  Trajectory finest;
+  double change_m = 0;                ///< RMS, as Distance
+  bool Converged(double stock_error_m) const { return change_m < 0.1 * stock_error_m; }
+};
+Reference MakeReference(const Scene& scene, double seconds);
+
+/// The path of one run. `nudged`: this body begins 1e-6 m beside its place (or at the next float).
+Trajectory PathOf(const Scene& scene, double seconds, int nudged = -1);
+
+/// What World::Step takes, CPU us per simulated second, of two scenes stepped side by side: a
+/// quarter of a second in turn, in this process.
+struct Cost {
+  double us_per_s = 0, stock_us_per_s = 0;
+  double ratio = 0;
+};
+
+/// Medians of five runs of both over `seconds`, of fewer (but one) when they take more than 0.3 s
+/// of CPU time together.
+Cost CompareCost(const Scene& scene, const Scene& stock, double seconds);
+
+}  // namespace seam

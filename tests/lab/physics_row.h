@@ -1,0 +1,30 @@
+#pragma once
+/// One line of the table of `seam-lab physics`.
+
+#include <map>
+#include <string>
+
+#include "tests/lab/hard/observe.h"
+#include "tests/lab/hard/physics_plan.h"
+
+namespace seam {
+
+constexpr int kPhysicsKeyColumns = 14;
+std::string PhysicsHeader();
+
+/// The first kPhysicsKeyColumns values: what it is. `version` holds a hash of the scene's text.
+std::string PhysicsKey(const PhysicsPoint& point);
+
+/// Runs and measures; the line without its end. All but the last columns cpu_us_per_s,
+/// stock_cpu_us_per_s and cost_ratio is a function of the point. `reference`: where the case has no
+/// judge.
+std::string PhysicsRow(const PhysicsPoint& point, const Reference* reference);
+
+/// The line of a run that took its process with it.
+std::string CrashedRow(const PhysicsPoint& point, const std::string& why);
+
+/// Prints per case: the error of the stock and of the scene's own setting, their ratio, what the
+/// latter costs of the former, and failures. `lines`: the rows there are, by point; empty: not yet.
+void PrintPhysics(const PhysicsPlan& plan, const std::vector<std::string>& lines);
+
+}  // namespace seam
