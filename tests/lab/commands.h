@@ -54,6 +54,18 @@ struct PhysicsCommand {
 /// failed (and left no row), or a signal came.
 int RunPhysics(const PhysicsCommand& command);
 
+struct TuneCommand {
+  std::string scene;                  ///< a file
+  double error = 0;                   ///< what it must not exceed, in the unit of the measure
+  bool keep_hz = false;               ///< tick_hz stays as the scene has it
+  double seconds = 0;                 ///< horizon; 0: the case's, or 10 s or the scene's duration
+  double budget_s = 120;              ///< predicted CPU seconds of the search's runs
+  std::string hard;                   ///< the hard case by name; empty: found by the file's name
+};
+
+/// Prints the cheapest solver setting that the search finds below `error`. 1: none is.
+int RunTune(const TuneCommand& command);
+
 struct OverheadCommand {
   std::vector<std::string> scenes = {
       "scenes/wall.toml",   "scenes/stack.toml",        "scenes/crossing.toml",

@@ -69,6 +69,21 @@ CLI::App* DefinePhysics(CLI::App& app, PhysicsCommand& c) {
   return physics;
 }
 
+CLI::App* DefineTune(CLI::App& app, TuneCommand& c) {
+  CLI::App* tune = app.add_subcommand("tune", "the cheapest solver setting below an error");
+  tune->add_option("SCENE", c.scene, "scene file (scenes/*.toml, scenes/hard/*.toml)")->required();
+  tune->add_option("--error", c.error, "most error: a hard case's own measure, else RMS metres")
+      ->required()
+      ->check(CLI::Range(0.0, 1e9));
+  tune->add_flag("--keep-hz", c.keep_hz, "leave tick_hz as it is");
+  tune->add_option("--seconds", c.seconds, "simulated (default: the case's; else up to 10)")
+      ->check(CLI::Range(0.1, kDurationMax));
+  tune->add_option("--budget", c.budget_s, "CPU seconds of its runs, predicted (default: 120)")
+      ->check(CLI::Range(0.001, 1e6));
+  tune->add_option("--case", c.hard, "the hard case, where a scene has several");
+  return tune;
+}
+
 CLI::App* DefineOverhead(CLI::App& app, OverheadCommand& c) {
   CLI::App* overhead = app.add_subcommand("overhead", "what a step costs beside Box2D alone");
   overhead->add_option("SCENES", c.scenes, "scene files (default: four of scenes, two hard ones)");
@@ -89,11 +104,13 @@ int main(int argc, char** argv) {
     DivergenceCommand divergence;
     SweepCommand sweep;
     PhysicsCommand physics;
+    TuneCommand tune;
     OverheadCommand overhead;
     const CLI::App* run_app = DefineRun(app, run);
     const CLI::App* divergence_app = DefineDivergence(app, divergence);
     const CLI::App* sweep_app = DefineSweep(app, sweep);
     const CLI::App* physics_app = DefinePhysics(app, physics);
+    const CLI::App* tune_app = DefineTune(app, tune);
     const CLI::App* overhead_app = DefineOverhead(app, overhead);
     try {
       app.parse(argc, argv);
@@ -107,6 +124,7 @@ int main(int argc, char** argv) {
     if (divergence_app->parsed()) return FirstDivergence(divergence);
     if (sweep_app->parsed()) return RunSweep(sweep);
     if (physics_app->parsed()) return RunPhysics(physics);
+    if (tune_app->parsed()) return RunTune(tune);
     if (overhead_app->parsed()) return RunOverhead(overhead);
     return 2;
   });
