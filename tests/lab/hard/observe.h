@@ -56,8 +56,8 @@ struct Cost {
   double ratio = 0;
 };
 
-/// Medians of five runs of both over `seconds`, of fewer (but one) when they take more than 0.3 s
-/// of CPU time together.
+/// Medians of 15 runs of both over `seconds`; of fewer, but one, when they take more than 0.2 s of
+/// CPU time together.
 Cost CompareCost(const Scene& scene, const Scene& stock, double seconds);
 
 }  // namespace seam

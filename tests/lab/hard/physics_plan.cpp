@@ -9,7 +9,7 @@ namespace {
 
 /// CPU seconds of a row: the run that is observed, and those of both settings that are timed.
 double RowCost(double own, double stock) {
-  return own + std::max(own + stock, std::min(0.3, 5 * (own + stock)));
+  return own + std::max(own + stock, std::min(0.2, 15 * (own + stock)));
 }
 
 }  // namespace
@@ -52,8 +52,8 @@ PhysicsPlan PlanPhysics(const std::vector<const HardCase*>& cases, GridSize size
     }
     if (left_out > 0) {
       plan.left_out.push_back(
-          fmt::format("{}: {} of {} settings of the grid left out: over {:.0f} s of CPU", hard->name,
-                      left_out, tried + left_out, budget));
+          fmt::format("{}: {} of {} settings of the grid left out: over {:.0f} s of CPU",
+                      hard->name, left_out, tried + left_out, budget));
     }
   }
   return plan;

@@ -10,8 +10,8 @@ namespace seam {
 /// How often per second ticks of `tick_hz` fall on multiples of 1/30 s: 30 at 60 Hz, 10 at 50 Hz.
 int CommonHz(int tick_hz);
 
-/// The paths of all moving parts, sampled at multiples of 1/30 s from 0 on. Parts, not bodies: welds
-/// may be one body in one run and joints in the other.
+/// The paths of all moving parts, sampled at multiples of 1/30 s from 0 on. Parts, not bodies:
+/// welds may be one body in one run and joints in the other.
 class Trajectory {
  public:
   explicit Trajectory(const Scene& scene);

@@ -14,6 +14,8 @@ constexpr double kBeyondFirst = 1.3;
 /// Whose cost is measured, in units of the least predicted cost that passes.
 constexpr double kWorthMeasuring = 1.5;
 constexpr std::size_t kMeasuredMost = 12;
+/// What two timings of one setting may differ by.
+constexpr double kSameCost = 1.05;
 constexpr float kSmallSkin = 0.0025f;   // m
 
 class Search {
@@ -51,8 +53,8 @@ class Search {
 
   std::vector<Solver> Grid() const {
     std::vector<Solver> grid = {problem_.own};
-    const std::vector<int> rates =
-        problem_.keep_hz ? std::vector<int>{problem_.own.tick_hz} : std::vector<int>{30, 60, 120, 240};
+    std::vector<int> rates = {30, 60, 120, 240};
+    if (problem_.keep_hz) rates = {problem_.own.tick_hz};
     const std::vector<std::pair<int, int>> iterations = {{1, 1}, {2, 1}, {4, 1}, {8, 3}, {16, 4}};
     for (const float skin : {0.0f, kSmallSkin}) {
       for (const int hz : rates) {
@@ -108,19 +110,24 @@ class Search {
     }
   }
 
+  /// Of those that pass; the best is the least by prediction of those that cost the least.
   void MeasureCosts() {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Trial& trial : result_.trials) {
-      if (Passes(trial)) least = std::min(least, trial.predicted);
-    }
-    std::vector<std::size_t> order = ByPredictedCost();
-    std::size_t measured = 0;
+    const std::vector<std::size_t> order = ByPredictedCost();
+    std::vector<std::size_t> measured;
     for (const std::size_t i : order) {
       Trial& trial = result_.trials[i];
-      const bool worth = Passes(trial) && trial.predicted <= kWorthMeasuring * least;
-      if (!worth || measured++ >= kMeasuredMost) continue;
+      if (!Passes(trial) || measured.size() >= kMeasuredMost) continue;
+      const double least = result_.trials[measured.empty() ? i : measured[0]].predicted;
+      if (trial.predicted > kWorthMeasuring * least) break;
       trial.cost = problem_.measured_cost(trial.solver);
-      if (!result_.best || *trial.cost < *result_.trials[*result_.best].cost) result_.best = i;
+      measured.push_back(i);
+    }
+    double least_cost = std::numeric_limits<double>::infinity();
+    for (const std::size_t i : measured) least_cost = std::min(least_cost, *result_.trials[i].cost);
+    for (const std::size_t i : measured) {
+      if (*result_.trials[i].cost > kSameCost * least_cost) continue;
+      result_.best = i;
+      return;
     }
   }
 
