@@ -1,0 +1,51 @@
+#pragma once
+/// What no hard case may do, whatever else is asked of it: diverge, explode, leave its room.
+
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tests/lab/hard/hard_case.h"
+
+namespace seam {
+
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+/// A rectangle of the world, m.
+struct Room {
+  double min_x = -kNoLimit, min_y = -kNoLimit, max_x = kNoLimit, max_y = kNoLimit;
+};
+
+struct WatchLimits {
+  /// m/s: what is faster exploded. Well above all that the case can honestly reach, so that
+  /// whatever merely fell is not called an explosion.
+  double speed_mps = kNoLimit;
+  Room room;                        ///< a body whose position is outside escaped
+};
+
+/// Reads every body once a tick, and keeps the first thing that happened that must not.
+class Watch : public Judge {
+ public:
+  explicit Watch(const WatchLimits& limits) : limits_(limits) {}
+  void See(const World& world) final;
+  double Error() const final;
+  std::string Failure() const override { return failure_; }
+
+ protected:
+  /// Called by See with finite states() only; `t` in s since tick 0.
+  virtual void Look(const World& world, double t) = 0;
+  /// What Error says unless the world diverged.
+  virtual double Value() const = 0;
+
+  const std::vector<BodyState>& states() const { return states_; }
+  /// "`what` at 12.3 s", unless something else failed before.
+  void Fail(const std::string& what, double t);
+
+ private:
+  const WatchLimits limits_;
+  std::vector<BodyState> states_;
+  std::string failure_;
+  bool diverged_ = false;
+};
+
+}  // namespace seam
