@@ -1,5 +1,3 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -54,10 +52,7 @@ class RestlessJudge final : public MoveJudge {
 
 class ReleaseJudge final : public MoveJudge {
  public:
-  ReleaseJudge(const WatchLimits& limits, double overlap_m, const Scene& scene)
-      : MoveJudge(limits), overlap_m_(overlap_m), scene_(scene) {}
-
-  std::string Failure() const override { return MoveJudge::Failure(); }
+  using MoveJudge::MoveJudge;
 
  protected:
   void Judged(const std::vector<double>& speeds_mps, double) override {
@@ -66,8 +61,6 @@ class ReleaseJudge final : public MoveJudge {
   double Value() const override { return fastest_mps_; }
 
  private:
-  const double overlap_m_;
-  const Scene scene_;
   double fastest_mps_ = 0;
 };
 
@@ -85,7 +78,8 @@ class ArrivalJudge final : public Watch {
   void Look(const World& world, double t) override {
     const int body = world.BodyOfId(part_);
     SEAM_ASSERT(body >= 0);
-    const double height = static_cast<double>(states()[static_cast<std::size_t>(body)].position.y());
+    const Vec2& at = states()[static_cast<std::size_t>(body)].position;
+    const double height = static_cast<double>(at.y());
     // Until it must be there, the last height counts: of a run that ends before.
     if (t <= arrival_.from_s) worst_m_ = 0;
     worst_m_ = std::max(worst_m_, std::fabs(height - arrival_.height_m));
@@ -105,9 +99,8 @@ std::unique_ptr<Judge> MakeRestlessJudge(const WatchLimits& limits, double from_
   return std::make_unique<RestlessJudge>(limits, from_s);
 }
 
-std::unique_ptr<Judge> MakeReleaseJudge(const WatchLimits& limits, double overlap_m,
-                                        const Scene& scene) {
-  return std::make_unique<ReleaseJudge>(limits, overlap_m, scene);
+std::unique_ptr<Judge> MakeReleaseJudge(const WatchLimits& limits, const Scene&) {
+  return std::make_unique<ReleaseJudge>(limits);
 }
 
 std::unique_ptr<Judge> MakeArrivalJudge(const WatchLimits& limits, const Arrival& arrival,
