@@ -1,5 +1,5 @@
-/// The judges of the hard cases without an exact answer, on worlds moved by hand, and each case with
-/// its scene's own solver.
+/// The judges of the hard cases without an exact answer, on worlds moved by hand, and each case
+/// with its scene's own solver.
 
 #include <gtest/gtest.h>
 
@@ -176,7 +176,7 @@ TEST(HardJudge, RestlessIsTheRootMeanSquareOfMovesOverTime) {
 
 TEST(HardJudge, ReleaseIsTheGreatestSpeedOfAnyMove) {
   Puppet p(kTwoBoxes);
-  const auto judge = MakeReleaseJudge({}, p.scene);
+  const auto judge = MakeReleaseJudge({}, 0.01, p.scene);
   float y = 0;
   for (int tick = 0; tick < 10; ++tick) {
     y += tick == 4 ? 0.1f : 0.01f;   // 6 m/s once, else 0.6 m/s
@@ -185,6 +185,17 @@ TEST(HardJudge, ReleaseIsTheGreatestSpeedOfAnyMove) {
     judge->See(p.world);
   }
   EXPECT_NEAR(judge->Error(), 6, 1e-4);
+}
+
+TEST(HardJudge, WhoIsReleasedMustNotOverlapInTheEnd) {
+  Puppet p(kTwoBoxes);
+  const auto judge = MakeReleaseJudge({}, 0.01, p.scene);
+  p.Place(1, 0.97f, 0);
+  p.ShowAt(0, judge.get());
+  EXPECT_EQ(judge->Failure(), "still overlap by 0.03 m");
+  p.Place(1, 0.995f, 0);
+  p.ShowAt(1, judge.get());
+  EXPECT_EQ(judge->Failure(), "");
 }
 
 TEST(HardJudge, ArrivalIsHowFarOffItIsFromThenOn) {

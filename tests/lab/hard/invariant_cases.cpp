@@ -22,6 +22,7 @@ HardCase Case(const std::string& name, const char* unit, const char* about, Make
 }
 
 const char* const kDrift = "the farthest any body came from where it stood, across its weight";
+const char* const kSag = "the farthest any body came from where it hung";
 const char* const kShake = "the farthest any body came from where it was after 2 s";
 const char* const kFar = "the farthest any body came from where it is in the same scene at 0 km";
 const char* const kReach = "by how much a body was farther from its hook than its joints allow";
@@ -78,7 +79,7 @@ void AddMechanisms(std::vector<HardCase>* cases) {
   cases->push_back(Case("ball-and-chain", "m", kReach, Hangs(300)));
   cases->push_back(Case("bridge", "m", kReach, Hangs(100)));
   AddFar("far-chain", kReach, [](const Vec2&) { return Hangs(100); }, cases);
-  cases->push_back(Case("joint-grid", "m", "the farthest any disc came from where it hung", [](const Scene&) {
+  cases->push_back(Case("joint-grid", "m", kSag, [](const Scene&) {
     return MakeDriftJudge({200, {}}, {5, Vec2(0, 0), 0});
   }));
   cases->push_back(Case("scissor-lift", "m", "height of the platform", [](const Scene& scene) {
@@ -94,7 +95,7 @@ void AddCrowds(std::vector<HardCase>* cases) {
     return MakeToppleJudge({15, {}}, {kNoLimit, Vec2(0, 0), 10});
   }));
   cases->push_back(Case("overlap", "m/s", "greatest speed", [](const Scene& scene) {
-    return MakeReleaseJudge({5, {-20, -20, 20, 20}}, scene);
+    return MakeReleaseJudge({5, {-20, -20, 20, 20}}, 0.01, scene);
   }));
   cases->push_back(Case("rush", "m/s", "RMS speed after 15 s", [](const Scene&) {
     return MakeRestlessJudge({60, {-40, 0, 40, 80}}, 15);

@@ -36,12 +36,15 @@ std::unique_ptr<Judge> MakeToppleJudge(const WatchLimits& limits, const DriftLim
 std::unique_ptr<Judge> MakeReachJudge(const WatchLimits& limits, double tear_m,
                                       const Scene& scene);
 
-/// Error: RMS over all bodies of how fast they moved, m/s, after `from_s` (in a run that ends before:
-/// in its last tick). From positions: what the engine moves without giving it a velocity is seen.
+/// Error: RMS over all bodies of how fast they moved, m/s, after `from_s` (in a run that ends
+/// before: in its last tick). From positions: what the engine moves without giving it a velocity is
+/// seen.
 std::unique_ptr<Judge> MakeRestlessJudge(const WatchLimits& limits, double from_s);
 
-/// Error: the greatest speed at which any body ever moved, m/s, from positions.
-std::unique_ptr<Judge> MakeReleaseJudge(const WatchLimits& limits, const Scene& scene);
+/// Error: the greatest speed at which any body ever moved, m/s, from positions. Fails with "still
+/// overlap" when at the end two parts are more than `overlap_m` into each other, by true shapes.
+std::unique_ptr<Judge> MakeReleaseJudge(const WatchLimits& limits, double overlap_m,
+                                        const Scene& scene);
 
 /// Where a part should be, and from when on.
 struct Arrival {

@@ -1,7 +1,10 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/measure/overlap.h"
 #include "tests/lab/hard/invariant_judges.h"
 
 namespace seam {
@@ -38,7 +41,8 @@ class RestlessJudge final : public MoveJudge {
 
  protected:
   void Judged(const std::vector<double>& speeds_mps, double t) override {
-    if (t <= from_s_) sum_ = count_ = 0;
+    if (!counts_) sum_ = count_ = 0;
+    counts_ = t > from_s_;
     for (const double speed : speeds_mps) sum_ += speed * speed;
     count_ += static_cast<double>(speeds_mps.size());
   }
@@ -46,13 +50,22 @@ class RestlessJudge final : public MoveJudge {
 
  private:
   const double from_s_;
+  bool counts_ = false;             ///< this tick and those after it
   double sum_ = 0;                  ///< of squares, (m/s)^2
   double count_ = 0;
 };
 
 class ReleaseJudge final : public MoveJudge {
  public:
-  using MoveJudge::MoveJudge;
+  ReleaseJudge(const WatchLimits& limits, double overlap_m, const Scene& scene)
+      : MoveJudge(limits), overlap_m_(overlap_m), meter_(scene, Compose(scene)) {}
+
+  std::string Failure() const override {
+    const std::string other = MoveJudge::Failure();
+    if (!other.empty()) return other;
+    const double overlap = meter_.Deepest(states());
+    return overlap > overlap_m_ ? fmt::format("still overlap by {:.2g} m", overlap) : "";
+  }
 
  protected:
   void Judged(const std::vector<double>& speeds_mps, double) override {
@@ -61,6 +74,8 @@ class ReleaseJudge final : public MoveJudge {
   double Value() const override { return fastest_mps_; }
 
  private:
+  const double overlap_m_;
+  const OverlapMeter meter_;
   double fastest_mps_ = 0;
 };
 
@@ -99,8 +114,9 @@ std::unique_ptr<Judge> MakeRestlessJudge(const WatchLimits& limits, double from_
   return std::make_unique<RestlessJudge>(limits, from_s);
 }
 
-std::unique_ptr<Judge> MakeReleaseJudge(const WatchLimits& limits, const Scene&) {
-  return std::make_unique<ReleaseJudge>(limits);
+std::unique_ptr<Judge> MakeReleaseJudge(const WatchLimits& limits, double overlap_m,
+                                        const Scene& scene) {
+  return std::make_unique<ReleaseJudge>(limits, overlap_m, scene);
 }
 
 std::unique_ptr<Judge> MakeArrivalJudge(const WatchLimits& limits, const Arrival& arrival,
