@@ -93,7 +93,7 @@ class World {
 };
 
 /// Impacts below this change of velocity are not recorded, m/s. A body resting under g = 10 feels
-/// 0.17 each tick of 1/60 s, and as much more for each that lies on it: lower makes piles cost time.
+/// 0.17 each tick of 1/60 s, and as much more for each that lies on it: lower makes piles dear.
 constexpr float kImpactRecordMin = 1.5f;
 
 }  // namespace seam
