@@ -106,7 +106,7 @@ std::vector<HardCase> ChainCases() {
       {"catenary", "catenary", Truth::kFormula, "m",
        "worst distance of a link from tan(phi_i) = c (i - (n - 1)/2), sum L cos(phi_i) = span", 20,
        Catenary, {}},
-      {"chain-heavy-end", "chain_heavy_end", Truth::kFormula, "m",
+      {"chain-heavy-end", "chain-heavy-end", Truth::kFormula, "m",
        "worst stretch of ten links of 0.01 kg with 10 kg at their end", 20, Stretch, {}},
   };
 }

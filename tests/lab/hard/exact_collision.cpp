@@ -59,12 +59,12 @@ std::unique_ptr<Judge> Blows(const Scene& scene) {
 std::vector<HardCase> CollisionCases() {
   const std::string newton = "worst error of a velocity after the blow, of the speed before: ";
   return {
-      {"collision-elastic", "collision_elastic", Truth::kFormula, "1",
+      {"collision-elastic", "collision-elastic", Truth::kFormula, "1",
        newton + "v1' = (m1 - m2)/(m1 + m2) v, v2' = 2 m1/(m1 + m2) v, masses 1:10 to 10:1", 1,
        Blows, {}},
-      {"collision-glancing", "collision_glancing", Truth::kFormula, "1",
+      {"collision-glancing", "collision-glancing", Truth::kFormula, "1",
        newton + "only the part along the line of centres is exchanged", 1, Blows, {}},
-      {"collision-inelastic", "collision_inelastic", Truth::kFormula, "1",
+      {"collision-inelastic", "collision-inelastic", Truth::kFormula, "1",
        newton + "v1' = (m1 - e m2)/(m1 + m2) v, v2' = (1 + e) m1/(m1 + m2) v", 1, Blows, {}},
   };
 }

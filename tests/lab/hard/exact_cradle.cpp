@@ -76,9 +76,9 @@ std::vector<HardCase> CradleCases() {
   const std::string shares = "worst error of a ball's share of the energy at half a period: 1 for "
                              "the last, 0 for the others; ";
   return {
-      {"cradle-gaps", "newton_cradle", Truth::kFormula, "J/J", shares + "2 cm between the balls",
+      {"cradle-gaps", "newton-cradle", Truth::kFormula, "J/J", shares + "2 cm between the balls",
        3, MakeJudge<CradleJudge>, {}},
-      {"cradle-touching", "newton_cradle", Truth::kFormula, "J/J", shares + "the balls touch", 3,
+      {"cradle-touching", "newton-cradle", Truth::kFormula, "J/J", shares + "the balls touch", 3,
        MakeJudge<CradleJudge>, CloseGaps},
   };
 }

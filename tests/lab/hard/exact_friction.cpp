@@ -74,17 +74,17 @@ std::unique_ptr<Judge> DiscSlip(const Scene& scene) {
 std::vector<HardCase> FrictionCases() {
   const std::string coulomb = "worst distance along the ground from Coulomb's ";
   return {
-      {"rolling-disc", "rolling_disc", Truth::kFormula, "m",
+      {"rolling-disc", "rolling-disc", Truth::kFormula, "m",
        "worst distance along the slope from g sin(theta) t^2/3", 4, RollingDisc, {}},
-      {"rolling-disc-slip", "rolling_disc", Truth::kFormula, "m",
+      {"rolling-disc-slip", "rolling-disc", Truth::kFormula, "m",
        "worst difference of the way come and radius times angle turned", 4, DiscSlip, {}},
-      {"slide-flat", "slide_flat", Truth::kFormula, "m",
+      {"slide-flat", "slide-flat", Truth::kFormula, "m",
        coulomb + "v0 t - mu g t^2/2, at rest after v0^2/(2 mu g)", 4, SlidingBlock, {}},
-      {"slope-creep", "slope_creep", Truth::kFormula, "m",
+      {"slope-creep", "slope-creep", Truth::kFormula, "m",
        "creep of a block that mu > tan(theta) must hold", 20, SlidingBlock, {}},
-      {"slope-slide", "slope_slide", Truth::kFormula, "m",
+      {"slope-slide", "slope-slide", Truth::kFormula, "m",
        coulomb + "g (sin - mu cos) t^2/2", 4, SlidingBlock, {}},
-      {"slope-stop", "slope_stop", Truth::kFormula, "m",
+      {"slope-stop", "slope-stop", Truth::kFormula, "m",
        coulomb + "path, at rest after v0^2/(2 g (mu cos - sin))", 5, SlidingBlock, {}},
   };
 }

@@ -1,4 +1,4 @@
-/// Three parallel cranks on one coupler, driven by one motor: a closed loop that is held twice over.
+/// Three parallel cranks on one coupler, driven by one motor: a loop that is held twice over.
 
 #include <cmath>
 
@@ -38,7 +38,7 @@ std::unique_ptr<Judge> CrankAngles(const Scene& scene) {
 }  // namespace
 
 std::vector<HardCase> LinkageCases() {
-  return {{"motor-loop", "motor_loop", Truth::kFormula, "rad",
+  return {{"motor-loop", "motor-loop", Truth::kFormula, "rad",
            "worst angle of three cranks on one coupler from the motor's speed times t", 20,
            CrankAngles, {}}};
 }

@@ -8,8 +8,8 @@
 namespace seam {
 namespace {
 
-/// A box that stands tilted on one corner, released at rest. With R half its diagonal, p^2 = 3g/(4R)
-/// and alpha = atan(width/height), turning about the corner obeys
+/// A box that stands tilted on one corner, released at rest. With R half its diagonal,
+/// p^2 = 3g/(4R) and alpha = atan(width/height), turning about the corner obeys
 /// spin^2 = 2 p^2 (cos(alpha - start) - cos(alpha - angle)), which Housner linearises.
 struct Rocking {
   explicit Rocking(const Scene& scene) {
@@ -67,8 +67,8 @@ class TimeJudge : public Judge {
   double struck_ = std::numeric_limits<double>::infinity();   ///< s; it never came down
 };
 
-/// Housner: angular momentum about the corner that is struck keeps 1 - 1.5 sin^2(alpha) of the spin.
-/// Measured by how far the block rises on the other side before it turns back.
+/// Housner: angular momentum about the corner that is struck leaves 1 - 1.5 sin^2(alpha) of the
+/// spin. Measured by how far the block rises on the other side before it turns back.
 class SpinJudge : public Judge {
  public:
   explicit SpinJudge(const Scene& scene) : rocking_(scene) {}
@@ -113,13 +113,13 @@ std::vector<HardCase> ToppleCases() {
   return {
       {"dominoes", "dominoes", Truth::kConverged, "m",
        "RMS distance of thirty dominoes from the run at 32 times the rate", 6, {}, {}},
-      {"rocking-spin", "rocking_block", Truth::kFormula, "1", spin + small, 4,
+      {"rocking-spin", "rocking-block", Truth::kFormula, "1", spin + small, 4,
        MakeJudge<SpinJudge>, {}},
-      {"rocking-spin-tenfold", "rocking_block", Truth::kFormula, "1", spin + large, 12,
+      {"rocking-spin-tenfold", "rocking-block", Truth::kFormula, "1", spin + large, 12,
        MakeJudge<SpinJudge>, Tenfold},
-      {"rocking-time", "rocking_block", Truth::kFormula, "s/s", time + small, 4,
+      {"rocking-time", "rocking-block", Truth::kFormula, "s/s", time + small, 4,
        MakeJudge<TimeJudge>, {}},
-      {"rocking-time-tenfold", "rocking_block", Truth::kFormula, "s/s", time + large, 12,
+      {"rocking-time-tenfold", "rocking-block", Truth::kFormula, "s/s", time + large, 12,
        MakeJudge<TimeJudge>, Tenfold},
   };
 }

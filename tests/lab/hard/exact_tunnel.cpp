@@ -81,7 +81,9 @@ class TunnelJudge : public Judge {
 
 /// What the wall must not miss of a shot's way in one step, m. Bullets: the engine's clamp. Others
 /// meet a moving wall only where a step ends: half of the shot's 20 cm and the wall's 6 cm.
-constexpr double kBulletStep = 2.02, kPlainStep = 0.13;
+constexpr double kBulletStep = 2, kPlainStep = 0.13;
+/// m/s; the moving walls come towards the shots.
+constexpr double kWallSpeed = 1;
 
 /// Every shot of the scene at this speed, and the fewest steps a second that hold it. (The speeds
 /// are above what a scene may say: its limit is the clamp at 60 Hz.)
@@ -92,7 +94,8 @@ std::function<void(Scene*)> Fire(int speed, bool bullet) {
       part.velocity = Vec2(static_cast<float>(speed), 0);
       part.bullet = bullet;
     }
-    const int steps_hz = static_cast<int>(std::ceil((speed + 1) / (bullet ? kBulletStep : kPlainStep)));
+    const double steps = bullet ? speed / kBulletStep : (speed + kWallSpeed) / kPlainStep;
+    const int steps_hz = static_cast<int>(std::ceil(steps));
     Solver& solver = scene->solver;
     while (solver.tick_hz * 32 < steps_hz) solver.tick_hz *= 2;
     solver.substeps = std::max(1, (steps_hz + solver.tick_hz - 1) / solver.tick_hz);
