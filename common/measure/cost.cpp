@@ -40,6 +40,7 @@ double MeanRate(const Recording& recording, int first_peer, const Counter& count
 void MeasureCost(const Recording& recording, Measures* measures) {
   measures->bytes_per_s =
       MeanRate(recording, 1, [](const Stats& s) { return s.bytes_in + s.bytes_out; });
+  measures->sent_bytes_per_s = MeanRate(recording, 1, [](const Stats& s) { return s.bytes_out; });
   measures->cpu_us_per_s = MeanRate(recording, 0, [](const Stats& s) { return s.cpu_us; });
 }
 

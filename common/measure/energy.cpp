@@ -1,5 +1,8 @@
 #include "common/measure/energy.h"
 
+#include <algorithm>
+#include <limits>
+
 #include "common/base/check.h"
 
 namespace seam {
@@ -30,6 +33,9 @@ EnergyMeter::EnergyMeter(const Scene& scene, const Composition& composition)
 
 double EnergyMeter::Of(const std::vector<BodyState>& moving) const {
   SEAM_ASSERT(moving.size() == masses_.size());
+  if (!std::all_of(moving.begin(), moving.end(), IsFinite)) {
+    return std::numeric_limits<double>::infinity();
+  }
   double energy = 0;
   for (std::size_t i = 0; i < moving.size(); ++i) {
     const BodyState& state = moving[i];

@@ -16,6 +16,7 @@ class EnergyMeter {
   /// J: kinetic, potential (0 at the origin's height along gravity) and in springs of wheel and
   /// distance joints. What motors and players put in is in it; limits and contacts store nothing.
   /// `moving`: of the moving assemblies ascending by id; velocities are of the centres of mass.
+  /// Infinite when a state is not finite.
   double Of(const std::vector<BodyState>& moving) const;
 
  private:

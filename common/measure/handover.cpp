@@ -1,4 +1,5 @@
-/// Changes of authority, and how far a displayed body jumps at one.
+/// Changes of authority: how far a displayed body jumps at one, and how far apart the two
+/// authorities were about it.
 
 #include <algorithm>
 #include <cmath>
@@ -25,6 +26,47 @@ void ForEachChange(const std::map<std::int64_t, View>& views, const Action& act)
   }
 }
 
+bool Claims(const View& view, PartId id) {
+  const int i = IndexOf(view, id);
+  return i >= 0 && view.role[static_cast<std::size_t>(i)] == kRoleAuthority;
+}
+
+/// What two views show of a body, one minus the other.
+void Compare(const View& one, const View& other, PartId id, Measures* measures) {
+  const int i = IndexOf(one, id), k = IndexOf(other, id);
+  if (i < 0 || k < 0) return;
+  const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(k);
+  const double gap = std::hypot(double{one.x[a]} - double{other.x[b]},
+                                double{one.y[a]} - double{other.y[b]});
+  const double dv = std::hypot(double{one.vx[a]} - double{other.vx[b]},
+                               double{one.vy[a]} - double{other.vy[b]});
+  measures->handover_gap_m = std::max(measures->handover_gap_m.value_or(0), gap);
+  measures->handover_dv_mps = std::max(measures->handover_dv_mps.value_or(0), dv);
+}
+
+/// At the first tick at which another peer than before claims a body: both peers' ideas of it.
+void MeasureGaps(const Recording& recording, Measures* measures) {
+  std::map<PartId, int> holders;
+  for (std::int64_t tick = recording.first_tick; tick <= recording.last_tick; ++tick) {
+    std::map<int, const View*> views;
+    for (const auto& [peer, of_peer] : recording.views) {
+      const auto found = of_peer.find(tick);
+      if (found != of_peer.end()) views[peer] = &found->second;
+    }
+    for (const auto& [peer, view] : views) {
+      for (std::size_t i = 0; i < view->id.size(); ++i) {
+        if (view->role[i] != kRoleAuthority) continue;
+        const PartId id = view->id[i];
+        const int before = holders.emplace(id, peer).first->second;
+        const auto old = views.find(before);
+        if (before == peer || (old != views.end() && Claims(*old->second, id))) continue;
+        if (old != views.end()) Compare(*view, *old->second, id, measures);
+        holders[id] = peer;
+      }
+    }
+  }
+}
+
 }  // namespace
 
 void MeasureHandover(const Recording& recording, const std::map<PartId, int>& mechanisms,
@@ -38,6 +80,7 @@ void MeasureHandover(const Recording& recording, const std::map<PartId, int>& me
       measures->handover_jump_m = std::max(measures->handover_jump_m, std::hypot(dx, dy));
     });
   }
+  MeasureGaps(recording, measures);
   if (recording.views.empty()) return;
   // The server's views, or of the lowest peer there is; a mechanism's bodies change together.
   std::set<std::pair<std::int64_t, int>> changes;

@@ -57,6 +57,7 @@ Measures Measure(const Recording& recording, const Oracle& oracle) {
   MeasureSmoothness(recording, oracle, &measures);
   MeasureSeam(recording, &measures);
   measures.rest_ticks = RestTicks(recording, oracle);
+  measures.jitter_rest_mps = RestJitter(recording, oracle);
   MeasureCost(recording, &measures);
   std::map<PartId, int> mechanisms;
   if (!recording.room.scene_text.empty()) {
@@ -67,6 +68,7 @@ Measures Measure(const Recording& recording, const Oracle& oracle) {
       if (assembly.mechanism >= 0) mechanisms[assembly.id] = assembly.mechanism;
     }
     measures.rebound = MeanRebound(recording, oracle, scene, composition);
+    MeasureDisplayed(recording, oracle, scene, composition, &measures);
   }
   MeasureHandover(recording, mechanisms, &measures);
   return measures;

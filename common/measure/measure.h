@@ -1,6 +1,6 @@
 #pragma once
-/// Numbers from recordings alone: error, stutter, backsteps, rebound, rest, cost. docs/metrics.md
-/// defines each; this header names them.
+/// Numbers from recordings alone: error, stutter, backsteps, seam, rebound, rest, penetration, joint
+/// drift, energy, hand-over, cost. docs/metrics.md defines each; this header names them.
 
 #include <cstdint>
 #include <map>
@@ -61,9 +61,18 @@ struct Measures {
   std::optional<double> seam_stutter_mps2;
   std::optional<double> rebound;      ///< only for scenes that watch a collision
   std::optional<double> rest_ticks;   ///< only if the scene comes to rest in the recording
+  std::optional<double> jitter_rest_mps;  ///< RMS displayed speed once the oracle rests
+  // Of what is shown, by the scene's geometry; empty when no view shows all moving bodies.
+  std::optional<double> penetration_m;    ///< deepest overlap of two parts, 10 times a second
+  std::optional<double> joint_drift_m;    ///< worst joint, any tick; empty without joints
+  std::optional<double> energy_gain_j;    ///< most above the oracle's energy around that tick
+  std::optional<double> oracle_penetration_m, oracle_joint_drift_m;   ///< the oracle's own
   double handover_jump_m = 0;         ///< largest jump of a view at a change of authority
   std::int64_t handovers = 0;         ///< changes of authority over a mechanism
+  // How far the new authority is from the old one when it takes up. Empty without a hand-over.
+  std::optional<double> handover_gap_m, handover_dv_mps;
   double bytes_per_s = 0;             ///< mean over clients, both directions, UDP payload
+  double sent_bytes_per_s = 0;        ///< the same, what they send alone
   double cpu_us_per_s = 0;            ///< mean over peers, per simulated second
   /// Poses that were compared: peers x ticks x bodies. 0: nothing was, and the errors mean nothing.
   std::int64_t compared = 0;
@@ -75,7 +84,8 @@ struct Measures {
 };
 
 /// Everything at once. Throws OperatorError when the recorded scene does not parse; a recording
-/// without a scene (made by hand) has no rebound, and each of its bodies is a mechanism.
+/// without a scene (made by hand) has no rebound, penetration, drift or energy, and each of its
+/// bodies is a mechanism.
 Measures Measure(const Recording& recording, const Oracle& oracle);
 
 }  // namespace seam

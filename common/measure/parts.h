@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/measure/measure.h"
+#include "common/physics/assembly.h"
 
 namespace seam {
 
@@ -33,12 +34,20 @@ std::optional<double> Rebound(const Recording& recording, const Oracle& oracle,
 /// rest.cpp: ticks from the oracle's rest until all peers show the same bits.
 std::optional<double> RestTicks(const Recording& recording, const Oracle& oracle);
 
-/// handover.cpp: handover_jump_m and handovers. `mechanisms`: by assembly id; a body that is not in
+/// rest.cpp: RMS displayed speed, m/s, from half a second after the oracle came to rest.
+std::optional<double> RestJitter(const Recording& recording, const Oracle& oracle);
+
+/// displayed.cpp: penetration_m, joint_drift_m, energy_gain_j, and the oracle's own of the first
+/// two.
+void MeasureDisplayed(const Recording& recording, const Oracle& oracle, const Scene& scene,
+                      const Composition& composition, Measures* measures);
+
+/// handover.cpp: handover_* and handovers. `mechanisms`: by assembly id; a body that is not in
 /// it is a mechanism by itself.
 void MeasureHandover(const Recording& recording, const std::map<PartId, int>& mechanisms,
                      Measures* measures);
 
-/// cost.cpp: bytes_per_s and cpu_us_per_s.
+/// cost.cpp: bytes_per_s, sent_bytes_per_s and cpu_us_per_s.
 void MeasureCost(const Recording& recording, Measures* measures);
 
 }  // namespace seam

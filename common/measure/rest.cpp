@@ -1,6 +1,8 @@
-/// How long it takes until everybody sees the same thing, once nothing moves any more.
+/// Once nothing moves any more: how long it takes until everybody sees the same thing, and how much
+/// what is shown still trembles.
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 
 #include "common/measure/parts.h"
@@ -12,6 +14,8 @@ namespace {
 constexpr float kRestSpeed = 0.01f;
 /// The oracle must have rested so long at the end for it to count as for good, s.
 constexpr double kRestLeast = 0.5;
+/// What comes late over a network still moves so long after the oracle: no tremble, s.
+constexpr double kSettle = 0.5;
 
 bool AllSlow(const std::vector<BodyState>& states) {
   return std::all_of(states.begin(), states.end(), [](const BodyState& state) {
@@ -40,9 +44,9 @@ std::vector<const View*> ViewsAt(const Recording& recording, std::int64_t tick) 
   return views;
 }
 
-}  // namespace
-
-std::optional<double> RestTicks(const Recording& recording, const Oracle& oracle) {
+/// The tick from which on the oracle rests to its end, if it does so for at least kRestLeast of the
+/// recording.
+std::optional<std::int64_t> OraclesRest(const Recording& recording, const Oracle& oracle) {
   std::int64_t rest = oracle.first_tick + static_cast<std::int64_t>(oracle.ticks.size());
   const std::int64_t oracle_end = std::min(rest - 1, recording.last_tick);
   while (rest > oracle.first_tick &&
@@ -52,6 +56,15 @@ std::optional<double> RestTicks(const Recording& recording, const Oracle& oracle
   if (static_cast<double>(oracle_end - rest) * TickSeconds(recording) < kRestLeast) {
     return std::nullopt;
   }
+  return rest;
+}
+
+}  // namespace
+
+std::optional<double> RestTicks(const Recording& recording, const Oracle& oracle) {
+  const std::optional<std::int64_t> rests = OraclesRest(recording, oracle);
+  if (!rests) return std::nullopt;
+  const std::int64_t rest = *rests;
   // Backwards from the end for as long as all who show anything show the same.
   std::int64_t equal_since = recording.last_tick + 1;
   bool compared = false;
@@ -66,6 +79,32 @@ std::optional<double> RestTicks(const Recording& recording, const Oracle& oracle
   }
   if (!compared) return std::nullopt;
   return static_cast<double>(equal_since - rest);
+}
+
+std::optional<double> RestJitter(const Recording& recording, const Oracle& oracle) {
+  const std::optional<std::int64_t> rest = OraclesRest(recording, oracle);
+  if (!rest) return std::nullopt;
+  const double h = TickSeconds(recording);
+  const std::int64_t begin = *rest + std::llround(kSettle / h);
+  double sum = 0;
+  std::int64_t count = 0;
+  for (const auto& [peer, views] : recording.views) {
+    for (auto now = views.upper_bound(begin); now != views.end(); ++now) {
+      const auto before = views.find(now->first - 1);
+      if (before == views.end()) continue;
+      for (std::size_t i = 0; i < now->second.id.size(); ++i) {
+        const int k = IndexOf(before->second, now->second.id[i]);
+        if (k < 0 || oracle.At(now->first, now->second.id[i]) == nullptr) continue;
+        const auto index = static_cast<std::size_t>(k);
+        const double dx = double{now->second.x[i]} - double{before->second.x[index]};
+        const double dy = double{now->second.y[i]} - double{before->second.y[index]};
+        sum += (dx * dx + dy * dy) / (h * h);
+        ++count;
+      }
+    }
+  }
+  if (count == 0) return std::nullopt;
+  return std::sqrt(sum / static_cast<double>(count));
 }
 
 }  // namespace seam

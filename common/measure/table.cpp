@@ -44,6 +44,15 @@ std::string Quoted(const std::string& text) {
   return out + '"';
 }
 
+/// "0.01 m at most (the oracle's own: 0.002)", or "does not apply".
+std::string Beside(const std::optional<double>& value, const std::optional<double>& oracle,
+                   const char* unit) {
+  if (!value) return "does not apply";
+  std::string text = fmt::format("{:.6g} {}", *value, unit);
+  if (oracle) text += fmt::format(" (the oracle's own: {:.6g})", *oracle);
+  return text;
+}
+
 std::string More(const MeasuredRun& run) {
   const Measures& m = run.measures;
   std::string out = fmt::format("\n{}\n", run.run);
@@ -56,11 +65,27 @@ std::string More(const MeasuredRun& run) {
     out += fmt::format("  seam             {:.6g} m RMS from the authority's view, stutter {:.6g} "
                        "m/s2 against it\n", *m.seam_rms_m, m.seam_stutter_mps2.value_or(0));
   }
-  out += fmt::format("  hand-over        {} changes of authority, largest jump {:.6g} m\n",
-                     m.handovers, m.handover_jump_m);
+  out += fmt::format("  penetration      {}\n", Beside(m.penetration_m, m.oracle_penetration_m,
+                                                       "m at most"));
+  out += fmt::format("  joint drift      {}\n", Beside(m.joint_drift_m, m.oracle_joint_drift_m,
+                                                       "m at most"));
+  out += fmt::format("  energy gain      {}\n", Beside(m.energy_gain_j, std::nullopt,
+                                                       "J above the oracle's, within 0.5 s"));
+  out += fmt::format("  hand-over        {} changes of authority", m.handovers);
+  if (m.handovers > 0) out += fmt::format(", largest jump {:.6g} m", m.handover_jump_m);
+  if (m.handover_gap_m && m.handover_dv_mps) {
+    out += fmt::format("; old and new authority at most {:.6g} m and {:.6g} m/s apart",
+                       *m.handover_gap_m, *m.handover_dv_mps);
+  }
+  out += '\n';
   out += m.rest_ticks ? fmt::format("  rest             all peers bit-equal {:g} ticks after the "
                                     "oracle's rest\n", *m.rest_ticks)
                       : std::string("  rest             not reached\n");
+  out += fmt::format("  jitter at rest   {}\n",
+                     Beside(m.jitter_rest_mps, std::nullopt, "m/s RMS"));
+  if (m.sent_bytes_per_s > 0) {
+    out += fmt::format("  sent             {:.6g} bytes/s by a client\n", m.sent_bytes_per_s);
+  }
   out += fmt::format("  log              {} messages missing, {} damaged bytes skipped\n", run.gaps,
                      run.skipped_bytes);
   return out;
