@@ -233,7 +233,8 @@ TEST(Floor, OfBodiesThatFallAloneIsTheNudgeOfOneAmongAll) {
   EXPECT_DOUBLE_EQ(ErrorFloor(run, oracle, kWireNudge), 0x1p-10 / 2);
   EXPECT_NEAR(ErrorFloor(run, oracle), 1e-6 / 2, 1e-12);
   // A ball balanced on a point falls to either side: a micrometre becomes metres.
-  run.room.scene_text = "[[part]]\nname = \"ball\"\ncircle = 0.5\n[[part]]\nname = \"ridge\"\n"
+  run.room.scene_text = "[solver]\nsleep = false\n[[part]]\nname = \"ball\"\ncircle = 0.5\n"
+                        "[[part]]\nname = \"ridge\"\n"
                         "polygon = [[-9, -9], [0, -0.51], [9, -9]]\nanchored = true\n";
   run.last_tick = 10 * kHz;
   EXPECT_GT(ErrorFloor(run, ComputeOracle(run)), 1);

@@ -1,6 +1,6 @@
 #pragma once
-/// Numbers from recordings alone: error, stutter, backsteps, seam, rebound, rest, penetration, joint
-/// drift, energy, hand-over, cost. docs/metrics.md defines each; this header names them.
+/// Numbers from recordings alone: error, stutter, backsteps, seam, rebound, rest, penetration,
+/// joint drift, energy, hand-over, cost. docs/metrics.md defines each; this header names them.
 
 #include <cstdint>
 #include <map>
