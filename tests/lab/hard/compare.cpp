@@ -14,7 +14,7 @@ namespace {
 constexpr double kNudge = 1e-6;        // m
 constexpr int kFinest = 32;            // substeps of 1/60 s
 constexpr double kStretch = 0.25;      // s, simulated between two looks at the clock
-constexpr double kEnoughUs = 0.2e6;    // CPU time of cost runs
+constexpr double kEnoughUs = 0.15e6;   // CPU time of cost runs
 constexpr int kRunsMost = 15;
 
 Scene Refined(const Scene& scene, int substeps) {

@@ -16,8 +16,6 @@
 namespace seam {
 namespace {
 
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
-
 std::vector<BodyState> ReadAll(const World& world) {
   std::vector<BodyState> states;
   states.reserve(static_cast<std::size_t>(world.body_count()));
@@ -79,20 +77,46 @@ class Meters {
   double deepest_ = 0, worst_ = 0, gain_ = 0;
 };
 
-/// RMS speed of all bodies over the ticks it is shown.
-class Jitter {
+/// What every run is watched for, whatever its case.
+class Watch {
  public:
-  void See(const World& world) {
-    for (int body = 0; body < world.body_count(); ++body) {
-      sum_ += world.Read(body).velocity.cast<double>().squaredNorm();
-    }
-    count_ += world.body_count();
+  Watch(const World& world, std::int64_t ticks) : meters_(world) {
+    const int hz = world.scene().solver.tick_hz;
+    sample_ticks_ = hz / (world.body_count() > kCrowd ? std::gcd(hz, 10) : CommonHz(hz));
+    rest_from_ = ticks - kRestSeconds * hz;
   }
-  double mps() const { return count_ == 0 ? 0 : std::sqrt(sum_ / static_cast<double>(count_)); }
+
+  void See(const World& world, Observation* seen) {
+    const bool asleep = AllAsleep(world);
+    if (asleep && !seen->asleep_s) {
+      seen->asleep_s = static_cast<double>(world.tick()) / world.scene().solver.tick_hz;
+    }
+    // What slept through since the last look has not moved.
+    slept_ = slept_ && asleep;
+    if (world.tick() % sample_ticks_ == 0) {
+      if (!slept_) meters_.See(world);
+      slept_ = asleep;
+    }
+    if (world.tick() <= rest_from_) return;
+    for (int body = 0; body < world.body_count(); ++body) {
+      squares_ += world.Read(body).velocity.cast<double>().squaredNorm();
+    }
+    speeds_ += world.body_count();
+  }
+
+  void Conclude(const Scene& scene, Observation* seen) const {
+    seen->penetration_m = meters_.deepest();
+    seen->joint_drift_m = meters_.worst();
+    if (!Fed(scene)) seen->energy_gain = meters_.gain() / EnergyScale(scene);
+    if (speeds_ > 0) seen->jitter_mps = std::sqrt(squares_ / static_cast<double>(speeds_));
+  }
 
  private:
-  double sum_ = 0;
-  std::int64_t count_ = 0;
+  static constexpr int kCrowd = 300, kRestSeconds = 5;
+  Meters meters_;
+  std::int64_t sample_ticks_ = 1, rest_from_ = 0, speeds_ = 0;
+  double squares_ = 0;                // (m/s)^2, summed
+  bool slept_ = false;                // all, since the last look of the meters
 };
 
 }  // namespace
@@ -119,42 +143,29 @@ Observation Observe(const HardCase& hard, const Scene& scene, double seconds,
   SEAM_ASSERT(judge != nullptr || reference != nullptr);
   World world(scene);
   ScriptHand hand(scene);
-  Meters meters(world);
-  Jitter jitter;
   Trajectory path(scene);
   const int hz = scene.solver.tick_hz;
   const std::int64_t ticks = std::llround(seconds * hz);
-  const int sample_hz = world.body_count() > 300 ? std::gcd(hz, 10) : CommonHz(hz);
-  const auto see = [&] {
+  Watch watch(world, ticks);
+  Observation seen;
+  while (true) {
     if (judge) judge->See(world);
     if (!judge) path.See(world);
-    if (world.tick() % (hz / sample_hz) == 0) meters.See(world);
-    if (world.tick() > ticks - 5 * hz) jitter.See(world);
-  };
-  Observation seen;
-  see();
-  while (world.tick() < ticks && !seen.diverged) {
+    watch.See(world, &seen);
+    if (world.tick() >= ticks) break;
     hand.Play(scene, world.tick() + 1, &world);
     world.Step();
     seen.diverged = Lost(world);
     if (seen.diverged) break;
-    see();
-    if (!seen.asleep_s && AllAsleep(world)) {
-      seen.asleep_s = static_cast<double>(world.tick()) / hz;
-    }
   }
   seen.seconds = static_cast<double>(world.tick()) / hz;
-  seen.error = seen.diverged ? kInfinite : judge ? judge->Error() : Distance(path, *reference);
-  if (!std::isfinite(seen.error)) seen.diverged = true;
+  watch.Conclude(world.scene(), &seen);
+  if (!seen.diverged) seen.error = judge ? judge->Error() : Distance(path, *reference);
   seen.failure = judge ? judge->Failure() : "";
-  if (seen.diverged) {
-    seen.error = kInfinite;
-    if (seen.failure.empty()) seen.failure = fmt::format("diverged at {:.3g} s", seen.seconds);
-  }
-  seen.penetration_m = meters.deepest();
-  seen.joint_drift_m = meters.worst();
-  if (!Fed(scene)) seen.energy_gain = meters.gain() / EnergyScale(scene);
-  seen.jitter_mps = jitter.mps();
+  seen.diverged = seen.diverged || !std::isfinite(seen.error);
+  if (!seen.diverged) return seen;
+  seen.error = std::numeric_limits<double>::infinity();
+  if (seen.failure.empty()) seen.failure = fmt::format("diverged at {:.3g} s", seen.seconds);
   return seen;
 }
 

@@ -56,7 +56,7 @@ struct Cost {
   double ratio = 0;
 };
 
-/// Medians of 15 runs of both over `seconds`; of fewer, but one, when they take more than 0.2 s of
+/// Medians of 15 runs of both over `seconds`; of fewer, but one, when they take more than 0.15 s of
 /// CPU time together.
 Cost CompareCost(const Scene& scene, const Scene& stock, double seconds);
 
