@@ -79,7 +79,7 @@ const Bound kBounds[] = {
     {"rolling-disc", 0.039, 0.005},
     {"rolling-disc-slip", 5.1e-5, 1.4e-4},
     {"slide-flat", 0.134, 0.0037},
-    {"slope-creep", 2.3e-5, 1e-6},
+    {"slope-creep", 2.3e-7, 1e-6},
     {"slope-slide", 0.137, 0.0063},
     {"slope-stop", 0.134, 0.0045},
 };
