@@ -68,7 +68,8 @@ class TimeJudge : public Judge {
 };
 
 /// Housner: angular momentum about the corner that is struck leaves 1 - 1.5 sin^2(alpha) of the
-/// spin. Measured by how far the block rises on the other side before it turns back.
+/// spin. Measured by how far the block rises on the other side before it turns back: what a blow in
+/// the wrong place spoils, too.
 class SpinJudge : public Judge {
  public:
   explicit SpinJudge(const Scene& scene) : rocking_(scene) {}
