@@ -202,5 +202,12 @@ TEST(Scene, RefusesTextsThatNoMessageOrStackCouldHold) {
   EXPECT_THROW(LoadScene("/dev/zero"), OperatorError);
 }
 
+TEST(Scene, LimitsThemselvesAreAllowed) {
+  EXPECT_NO_THROW(ParseScene("[[part]]\nname = \"p\"\nbox = [0.05, 10]\n", "s.toml"));
+  EXPECT_NO_THROW(ParseScene("[solver]\nskin = 0.0025\n[[part]]\nname = \"p\"\ncircle = 0.025\n",
+                             "s.toml"));
+  EXPECT_ANY_THROW(ParseScene("[[part]]\nname = \"p\"\nbox = [0.0499, 10]\n", "s.toml"));
+}
+
 }  // namespace
 }  // namespace seam

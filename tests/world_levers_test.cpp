@@ -18,7 +18,7 @@ std::unique_ptr<World> Levers(const std::string& solver, const std::string& part
 
 const char* kShot =
     "[[part]]\nname = \"wall\"\nbox = [0.05, 4]\nanchored = true\n"
-    "[[part]]\nname = \"shot\"\ncircle = 0.1\nposition = [-5.05, 0]\nvelocity = [60, 0]\n";
+    "[[part]]\nname = \"shot\"\ncircle = 0.1\nposition = [-5.5, 0]\nvelocity = [60, 0]\n";
 
 float ShotAfter(const std::string& solver) {
   World world(ParseScene("gravity = [0, 0]\n[solver]\n" + solver + "\n" + kShot, "s.toml"));

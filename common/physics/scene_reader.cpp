@@ -98,8 +98,11 @@ const TomlNode* SceneReader::Get(const char* key, bool required) const {
 double SceneReader::NumberIn(const TomlNode& node, const char* key, Range range) const {
   const bool is_number =
       node.kind == TomlNode::Kind::kInteger || node.kind == TomlNode::Kind::kNumber;
-  // Written so that NaN fails.
-  if (!is_number || !(node.number >= range.min && node.number <= range.max)) {
+  // As single precision, which limits are in: 0.05 is not below 0.05f. Written so that NaN fails.
+  const auto value = static_cast<float>(node.number);
+  const bool inside =
+      value >= static_cast<float>(range.min) && value <= static_cast<float>(range.max);
+  if (!is_number || !inside) {
     Expected(node, key, "a number from " + Decimal(range.min) + " to " + Decimal(range.max));
   }
   return node.number;
