@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/lab/hard/hard_case.h"
+#include "tests/lab/hard/exact_judge.h"
 
 namespace seam {
 namespace {
@@ -64,6 +64,21 @@ struct Puppet {
   World world;
   const std::unique_ptr<Judge> judge;
 };
+
+TEST(HardExact, AnErrorThatIsNoNumberIsTheWorst) {
+  EXPECT_EQ(Worse(1, 2), 2);
+  EXPECT_EQ(Worse(2, 1), 2);
+  EXPECT_TRUE(std::isnan(Worse(std::nan(""), 1)));
+  EXPECT_TRUE(std::isnan(Worse(1, std::nan(""))));
+  // And it stays the worst of a run.
+  Puppet p("projectile");
+  double next = std::nan("");
+  Worst worst([&next](const World&) { return next; });
+  worst.See(p.world);
+  next = 3;
+  worst.See(p.world);
+  EXPECT_TRUE(std::isnan(worst.Error()));
+}
 
 TEST(HardExact, ProjectileIsComparedWithTheSumAndWithTheParabola) {
   // n = 120 steps of 1/60 s: y = 20 * 2 - 10 * 120 * 121/(2 * 3600) = 40 - 20.1667.

@@ -53,8 +53,7 @@ std::unique_ptr<Judge> Catenary(const Scene& scene) {
   return std::make_unique<Worst>([exact, first](const World& world) {
     double worst = 0;
     for (std::size_t i = 0; i < exact.size(); ++i) {
-      const double away = (Place(world, first + static_cast<int>(i)) - exact[i]).norm();
-      if (!(away <= worst)) worst = away;
+      worst = Worse(worst, (Place(world, first + static_cast<int>(i)) - exact[i]).norm());
     }
     return worst;
   });

@@ -48,7 +48,7 @@ std::unique_ptr<Judge> Blows(const Scene& scene) {
     for (const Blow& blow : blows) {
       const double a = (Speed(world, blow.a) - blow.after_a).norm();
       const double b = (Speed(world, blow.b) - blow.after_b).norm();
-      worst = std::max({worst, a / blow.speed, b / blow.speed});
+      worst = Worse(worst, Worse(a / blow.speed, b / blow.speed));
     }
     return worst;
   });

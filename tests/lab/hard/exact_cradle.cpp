@@ -36,8 +36,7 @@ class CradleJudge : public Judge {
       const double energy = gravity_ * Height(i, Place(world, bodies_[i])) +
                             Speed(world, bodies_[i]).squaredNorm() / 2;
       const double truth = i + 1 == bodies_.size() ? 1 : 0;
-      const double wrong = std::fabs(energy / released_ - truth);
-      if (!(wrong <= error_)) error_ = wrong;
+      error_ = Worse(error_, std::fabs(energy / released_ - truth));
     }
   }
 

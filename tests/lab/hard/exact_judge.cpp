@@ -7,10 +7,9 @@
 
 namespace seam {
 
-void Worst::See(const World& world) {
-  const double wrong = wrong_(world);
-  if (!std::isnan(worst_) && !(wrong <= worst_)) worst_ = wrong;
-}
+double Worse(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
+
+void Worst::See(const World& world) { worst_ = Worse(worst_, wrong_(world)); }
 
 const Part& PartNamed(const Scene& scene, const std::string& name) {
   const auto found = std::find_if(scene.parts.begin(), scene.parts.end(),

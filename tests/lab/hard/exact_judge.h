@@ -8,6 +8,9 @@
 
 namespace seam {
 
+/// The greater of two errors; NaN if one is.
+double Worse(double a, double b);
+
 /// Error: the greatest of what `wrong` says at tick 0 and after each tick. NaN stays NaN.
 class Worst : public Judge {
  public:

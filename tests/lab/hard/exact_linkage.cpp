@@ -28,8 +28,7 @@ std::unique_ptr<Judge> CrankAngles(const Scene& scene) {
     double worst = 0;
     for (const Turning& one : all) {
       const double exact = one.start + one.speed * Seconds(world);
-      const double wrong = std::fabs(static_cast<double>(world.Read(one.body).angle) - exact);
-      if (!(wrong <= worst)) worst = wrong;
+      worst = Worse(worst, std::fabs(static_cast<double>(world.Read(one.body).angle) - exact));
     }
     return worst;
   });
