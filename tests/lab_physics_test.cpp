@@ -1,16 +1,21 @@
 /// seam-lab physics: what is observed of runs whose course is known, and its table.
 
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
+#include <sstream>
 
 #include "common/base/check.h"
+#include "tests/child_process.h"
 #include "tests/lab/hard/observe.h"
 #include "tests/lab/hard/physics_plan.h"
 #include "tests/lab/hard/settings.h"
 #include "tests/lab/physics_row.h"
 #include "tests/lab/sweep_table.h"
+#include "tests/lab_workspace.h"
 
 namespace seam {
 namespace {
@@ -218,6 +223,63 @@ TEST(PhysicsRow, IsAFunctionOfThePointButForItsCpuColumns) {
   EXPECT_EQ(WithoutCpu(PhysicsRow(point, nullptr)), WithoutCpu(row));
   const Reference reference = MakeReference(point.scene, 1);
   EXPECT_NE(CsvFields(PhysicsRow(point, &reference)).back(), "");
+}
+
+std::string RunLab(const std::vector<std::string>& words, int status) {
+  ChildProcess lab(words);
+  EXPECT_TRUE(lab.Wait(120));
+  EXPECT_EQ(lab.exit_status(), status) << lab.output();
+  return lab.output();
+}
+
+std::vector<std::vector<std::string>> RowsWithoutCpu(const std::string& table) {
+  std::istringstream in(table);
+  std::vector<std::vector<std::string>> rows;
+  for (std::string line; std::getline(in, line);) rows.push_back(WithoutCpu(line));
+  return rows;
+}
+
+TEST(LabPhysics, KilledItGoesOnToTheSameTableButForTheCpu) {
+  const LabWorkspace files;
+  const auto words = [&](const char* table) {
+    return std::vector<std::string>{LabProgram(), "physics", "--cases", "tower-10,scissor-lift",
+                                    "--grid", "quick", "-o", files / table, "--jobs", "2"};
+  };
+  const std::string said = RunLab(words("whole.csv"), 0);
+  EXPECT_NE(said.find("12 of 12 rows, 12 of them new"), std::string::npos) << said;
+  EXPECT_NE(said.find("tower-10 "), std::string::npos) << said;
+  const auto whole = RowsWithoutCpu(files.Read("whole.csv"));
+  ASSERT_EQ(whole.size(), 13u);
+  EXPECT_EQ(whole[1][4], "stock");
+  EXPECT_EQ(whole[2][4], "scene");
+  EXPECT_EQ(whole[3][4], "grid");
+  ChildProcess lab(words("t.csv"));
+  for (int i = 0; i < 5000; ++i) {   // until some rows are there
+    const std::string text = files.Read("t.csv");
+    if (std::count(text.begin(), text.end(), '\n') >= 3) break;
+    usleep(2000);
+  }
+  lab.Stop(SIGKILL);
+  const std::string part = files.Read("t.csv");
+  EXPECT_LT(std::count(part.begin(), part.end(), '\n'), 13);
+  RunLab(words("t.csv"), 0);
+  EXPECT_EQ(RowsWithoutCpu(files.Read("t.csv")), whole);
+  const std::size_t kept = part.rfind('\n') + 1;
+  EXPECT_EQ(files.Read("t.csv").substr(0, kept), part.substr(0, kept)) << "not run again";
+}
+
+TEST(LabPhysics, MistakesAreSaidAndNothingIsWritten) {
+  const LabWorkspace files;
+  const auto refused = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {LabProgram(), "physics", "-o", files / "t.csv"};
+    words.insert(words.end(), more.begin(), more.end());
+    return RunLab(words, 2);
+  };
+  const std::string unknown = refused({"--cases", "tower-10,tower-1000"});
+  EXPECT_NE(unknown.find("no hard case 'tower-1000' (there are "), std::string::npos) << unknown;
+  refused({"--grid", "huge"});
+  refused({"--scenes", files / "none"});
+  EXPECT_TRUE(files.Names().empty());
 }
 
 }  // namespace
