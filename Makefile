@@ -46,7 +46,7 @@ PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-render seam-measure
 LCM_TYPES := $(sort $(wildcard lcmtypes/*.lcm))
 
 .DEFAULT_GOAL := all
-.PHONY: all help deps demo test tests install clean
+.PHONY: all help deps demo bench test tests install clean
 
 all: deps $(PROGRAMS)                ## build the programs
 
@@ -98,6 +98,11 @@ test: tests                          ## build and run all tests
 
 demo: all                            ## run the main job and draw it, into out/demo/
 	SEAM_BIN=$(OUT) tests/demo.sh out/demo
+
+bench: all                           ## cost of a step beside Box2D, hard cases: out/bench/
+	@mkdir -p out/bench
+	$(OUT)/seam-lab overhead -o out/bench/overhead.csv --force
+	$(OUT)/seam-lab physics --grid quick -o out/bench/physics.csv --force
 
 install: all                         ## install the programs under PREFIX
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/seam2d/scenes

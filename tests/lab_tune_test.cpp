@@ -58,6 +58,7 @@ TuneProblem MadeUpProblem(double limit, int needed) {
     const Solver& s = trial->solver;
     trial->error = 1.5 / (s.tick_hz * s.substeps);
     if (s.velocity_iterations < needed) trial->failure = "fell";
+    trial->run_cost = trial->predicted;
   };
   problem.predicted = [](const Solver& s) {
     return s.tick_hz * s.substeps * (7.0 + s.velocity_iterations + s.position_iterations) +
@@ -94,6 +95,28 @@ TEST(Tune, FindsTheCheapestOfAMadeUpProblem) {
   }
 }
 
+TEST(Tune, WhatCostsLessThanPredictedIsFoundToo) {
+  // Piles that are solved well sleep at once: from 20 iterations on they cost a tenth.
+  TuneProblem problem = MadeUpProblem(1.5 / 60, 5);
+  problem.measured_cost = [cost = problem.predicted](const Solver& s) {
+    return cost(s) * (s.velocity_iterations >= 20 ? 0.1 : 1);
+  };
+  problem.run = [run = problem.run, cost = problem.measured_cost](Trial* trial) {
+    run(trial);
+    trial->run_cost = cost(trial->solver);
+  };
+  const TuneResult alone = Tune(problem);
+  ASSERT_TRUE(alone.best.has_value());
+  EXPECT_EQ(alone.trials[*alone.best].solver.velocity_iterations, 5) << "too far away to be seen";
+  problem.own.velocity_iterations = 24;
+  const TuneResult result = Tune(problem);
+  ASSERT_TRUE(result.best.has_value());
+  const Trial& best = result.trials[*result.best];
+  EXPECT_EQ(best.solver.velocity_iterations, 20);
+  EXPECT_EQ(best.solver.position_iterations, 1);
+  EXPECT_EQ(best.solver.tick_hz * best.solver.substeps, 60);
+}
+
 TEST(Tune, ItsFrontFallsInErrorAsItRisesInCost) {
   const TuneResult result = Tune(MadeUpProblem(1.5 / 240, 2));
   ASSERT_GE(result.front.size(), 3u);
@@ -102,7 +125,7 @@ TEST(Tune, ItsFrontFallsInErrorAsItRisesInCost) {
     EXPECT_GE(*result.trials[result.front[i]].cost, *result.trials[result.front[i - 1]].cost);
   }
   for (const std::size_t i : result.front) EXPECT_EQ(result.trials[i].failure, "");
-  EXPECT_EQ(result.front.back(), *result.best);
+  EXPECT_EQ(std::count(result.front.begin(), result.front.end(), *result.best), 1);
 }
 
 TEST(Tune, SaysWhenNothingReachesIt) {

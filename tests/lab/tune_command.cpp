@@ -105,6 +105,7 @@ int RunTune(const TuneCommand& command) {
     const Observation seen = Observe(target.hard, scene, target.seconds, reference);
     trial->error = seen.error;
     trial->failure = seen.failure;
+    trial->run_cost = seen.cpu_us_per_s;
   };
   problem.predicted = [&](const Solver& solver) {
     return PredictedCpu(target.scene, solver, target.seconds);
@@ -118,15 +119,20 @@ int RunTune(const TuneCommand& command) {
   problem.budget = command.budget_s;
   const TuneResult result = Tune(problem);
   std::printf("%-6s %9s %10s\n", "", "cost", "error");
-  for (Trial trial : {Trial{StockSolver(), 0, 0, "", 1.0}, Trial{problem.own, 0, 0, "", {}}}) {
-    const bool is_stock = trial.cost.has_value();
-    problem.run(&trial);
-    if (!is_stock) trial.cost = problem.measured_cost(trial.solver);
-    PrintTrial(is_stock ? "stock" : "own", trial);
-  }
+  Trial usual;
+  usual.solver = StockSolver();
+  usual.cost = 1;
+  problem.run(&usual);
+  PrintTrial("stock", usual);
+  Trial own;
+  own.solver = problem.own;
+  own.cost = problem.measured_cost(own.solver);
+  problem.run(&own);
+  PrintTrial("own", own);
   for (const std::size_t i : result.front) {
-    PrintTrial(result.best == i ? "best" : "front", result.trials[i]);
+    if (result.best != i) PrintTrial("front", result.trials[i]);
   }
+  if (result.best) PrintTrial("best", result.trials[*result.best]);
   std::printf("%zu settings run%s\n", result.trials.size(),
               result.complete ? "" : "; the rest of the grid is beyond --budget");
   if (!result.best) {

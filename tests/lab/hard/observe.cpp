@@ -12,6 +12,7 @@
 #include "common/measure/overlap.h"
 #include "common/physics/mass.h"
 #include "tests/lab/hard/script_hand.h"
+#include "tests/lab/hard/thread_clock.h"
 
 namespace seam {
 namespace {
@@ -148,17 +149,21 @@ Observation Observe(const HardCase& hard, const Scene& scene, double seconds,
   const std::int64_t ticks = std::llround(seconds * hz);
   Watch watch(world, ticks);
   Observation seen;
+  double step_us = 0;
   while (true) {
     if (judge) judge->See(world);
     if (!judge) path.See(world);
     watch.See(world, &seen);
     if (world.tick() >= ticks) break;
     hand.Play(scene, world.tick() + 1, &world);
+    const double begin_us = ThreadCpuUs();
     world.Step();
+    step_us += ThreadCpuUs() - begin_us;
     seen.diverged = Lost(world);
     if (seen.diverged) break;
   }
   seen.seconds = static_cast<double>(world.tick()) / hz;
+  if (seen.seconds > 0) seen.cpu_us_per_s = step_us / seen.seconds;
   watch.Conclude(world.scene(), &seen);
   if (!seen.diverged) seen.error = judge ? judge->Error() : Distance(path, *reference);
   seen.failure = judge ? judge->Failure() : "";

@@ -24,6 +24,8 @@ struct Observation {
   std::optional<double> energy_gain;
   double jitter_mps = 0;              ///< RMS speed of all bodies in the last 5 s; of what rests
   std::optional<double> asleep_s;     ///< when all slept for the first time; empty: never
+  double cpu_us_per_s = 0;            ///< of World::Step alone, per simulated second, for a first
+                                      ///< idea: CompareCost measures
   double seconds = 0;                 ///< simulated: fewer than asked for when it diverged
   bool diverged = false;              ///< a body was lost or is not a number; stopped there
 };
@@ -42,7 +44,6 @@ Observation Observe(const HardCase& hard, const Scene& scene, double seconds,
 struct Reference {
   Trajectory finest;
   double change_m = 0;                ///< RMS, as Distance
-  bool Converged(double stock_error_m) const { return change_m < 0.1 * stock_error_m; }
 };
 Reference MakeReference(const Scene& scene, double seconds);
 

@@ -9,13 +9,14 @@
 namespace seam {
 namespace {
 
-/// How far behind the first that passes the coarse grid is searched: the prediction may err.
-constexpr double kBeyondFirst = 1.3;
-/// Whose cost is measured, in units of the least predicted cost that passes.
-constexpr double kWorthMeasuring = 1.5;
+/// How far behind the first that passes the coarse grid is searched.
+constexpr double kBeyondFirst = 2;
+/// Whose cost is measured.
 constexpr std::size_t kMeasuredMost = 12;
 /// What two timings of one setting may differ by.
 constexpr double kSameCost = 1.05;
+/// From how many of the cheapest the search goes on to their neighbours, and how often.
+constexpr std::size_t kClimbers = 3, kClimbs = 4;
 constexpr float kSmallSkin = 0.0025f;   // m
 
 class Search {
@@ -23,9 +24,11 @@ class Search {
   explicit Search(const TuneProblem& problem) : problem_(problem) {}
 
   TuneResult Run() {
+    Try(problem_.own);
     Coarse();
     Refine();
-    MeasureCosts();
+    for (std::size_t i = 0; i < kClimbs; ++i) Climb();
+    ChooseBest();
     FindFront();
     return std::move(result_);
   }
@@ -39,7 +42,9 @@ class Search {
   std::optional<std::size_t> Try(const Solver& solver) {
     const auto [known, fresh] = known_.emplace(SolverLines(solver), result_.trials.size());
     if (!fresh) return known->second;
-    Trial trial{solver, problem_.predicted(solver), 0, "", {}};
+    Trial trial;
+    trial.solver = solver;
+    trial.predicted = problem_.predicted(solver);
     if (spent_ + trial.predicted > problem_.budget) {
       known_.erase(known);
       result_.complete = false;
@@ -52,7 +57,7 @@ class Search {
   }
 
   std::vector<Solver> Grid() const {
-    std::vector<Solver> grid = {problem_.own};
+    std::vector<Solver> grid;
     std::vector<int> rates = {30, 60, 120, 240};
     if (problem_.keep_hz) rates = {problem_.own.tick_hz};
     const std::vector<std::pair<int, int>> iterations = {{1, 1}, {2, 1}, {4, 1}, {8, 3}, {16, 4}};
@@ -110,48 +115,88 @@ class Search {
     }
   }
 
-  /// Of those that pass; the best is the least by prediction of those that cost the least.
-  void MeasureCosts() {
-    const std::vector<std::size_t> order = ByPredictedCost();
-    std::vector<std::size_t> measured;
-    for (const std::size_t i : order) {
-      Trial& trial = result_.trials[i];
-      if (!Passes(trial) || measured.size() >= kMeasuredMost) continue;
-      const double least = result_.trials[measured.empty() ? i : measured[0]].predicted;
-      if (trial.predicted > kWorthMeasuring * least) break;
-      trial.cost = problem_.measured_cost(trial.solver);
-      measured.push_back(i);
+  /// Tries what is a little more or less than the cheapest that pass.
+  void Climb() {
+    std::vector<std::size_t> cheapest = Passing();
+    cheapest.resize(std::min(cheapest.size(), kClimbers));
+    for (const std::size_t i : cheapest) {
+      const Solver from = result_.trials[i].solver;
+      std::vector<Solver> neighbours = Lesser(from);
+      Solver more = from;
+      more.substeps = std::min(32, from.substeps + 1);
+      neighbours.push_back(more);
+      more = from;
+      more.velocity_iterations = std::min(64, from.velocity_iterations * 5 / 4 + 1);
+      neighbours.push_back(more);
+      more = from;
+      more.skin = kSmallSkin;
+      neighbours.push_back(more);
+      for (const Solver& solver : neighbours) {
+        if (!Try(solver)) return;
+      }
     }
-    double least_cost = std::numeric_limits<double>::infinity();
-    for (const std::size_t i : measured) least_cost = std::min(least_cost, *result_.trials[i].cost);
-    for (const std::size_t i : measured) {
-      if (*result_.trials[i].cost > kSameCost * least_cost) continue;
+  }
+
+  /// What passes, by what its run took.
+  std::vector<std::size_t> Passing() const {
+    std::vector<std::size_t> passing;
+    for (std::size_t i = 0; i < result_.trials.size(); ++i) {
+      if (Passes(result_.trials[i])) passing.push_back(i);
+    }
+    SortBy(&passing, [](const Trial& trial) { return trial.run_cost; });
+    return passing;
+  }
+
+  template <typename Key>
+  void SortBy(std::vector<std::size_t>* indices, Key key) const {
+    std::stable_sort(indices->begin(), indices->end(), [&](std::size_t a, std::size_t b) {
+      const Trial& x = result_.trials[a];
+      const Trial& y = result_.trials[b];
+      return key(x) != key(y) ? key(x) < key(y) : x.error < y.error;
+    });
+  }
+
+  double CostOf(std::size_t i) {
+    Trial& trial = result_.trials[i];
+    if (!trial.cost) trial.cost = problem_.measured_cost(trial.solver);
+    return *trial.cost;
+  }
+
+  void ChooseBest() {
+    std::vector<std::size_t> candidates = Passing();
+    candidates.resize(std::min(candidates.size(), kMeasuredMost));
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::size_t i : candidates) least = std::min(least, CostOf(i));
+    SortBy(&candidates, [](const Trial& trial) { return trial.predicted; });
+    for (const std::size_t i : candidates) {
+      if (CostOf(i) > kSameCost * least) continue;
       result_.best = i;
       return;
     }
   }
 
-  std::vector<std::size_t> ByPredictedCost() const {
-    std::vector<std::size_t> order(result_.trials.size());
-    for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::stable_sort(order.begin(), order.end(), [this](std::size_t a, std::size_t b) {
-      const Trial& x = result_.trials[a];
-      const Trial& y = result_.trials[b];
-      return x.predicted != y.predicted ? x.predicted < y.predicted : x.error < y.error;
-    });
-    return order;
+  /// Of `from`, sorted by cost, those that are better than all before them.
+  std::vector<std::size_t> Better(const std::vector<std::size_t>& from) const {
+    std::vector<std::size_t> better;
+    double least = std::numeric_limits<double>::infinity();
+    for (const std::size_t i : from) {
+      const Trial& trial = result_.trials[i];
+      if (!trial.failure.empty() || trial.error >= least) continue;
+      least = trial.error;
+      better.push_back(i);
+    }
+    return better;
   }
 
   void FindFront() {
-    double least = std::numeric_limits<double>::infinity();
-    for (const std::size_t i : ByPredictedCost()) {
-      Trial& trial = result_.trials[i];
-      const bool best = result_.best == i;
-      if (!best && (!trial.failure.empty() || trial.error >= least)) continue;
-      least = std::min(least, trial.error);
-      if (!trial.cost) trial.cost = problem_.measured_cost(trial.solver);
-      result_.front.push_back(i);
-    }
+    std::vector<std::size_t> all(result_.trials.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+    SortBy(&all, [](const Trial& trial) { return trial.run_cost; });
+    for (const std::size_t i : Better(all)) CostOf(i);
+    const auto unmeasured = [&](std::size_t i) { return !result_.trials[i].cost; };
+    all.erase(std::remove_if(all.begin(), all.end(), unmeasured), all.end());
+    SortBy(&all, [](const Trial& trial) { return *trial.cost; });
+    result_.front = Better(all);
   }
 
   const TuneProblem& problem_;
