@@ -20,7 +20,7 @@
 namespace seam {
 namespace {
 
-constexpr const char* kScenes[] = {"crossing", "wall", "stack", "cradle"};
+constexpr const char* kScenes[] = {"crossing", "wall", "stack", "cradle", "relay"};
 constexpr const char* kGoldenFile = "tests/golden_hashes.txt";
 constexpr std::int64_t kTicks = 600;
 

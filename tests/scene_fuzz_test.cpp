@@ -14,7 +14,7 @@
 namespace seam {
 namespace {
 
-const char* const kShipped[] = {"crossing", "wall", "stack", "cradle"};
+const char* const kShipped[] = {"crossing", "wall", "stack", "cradle", "relay"};
 
 std::string ReadText(const std::string& name) {
   std::ifstream in("scenes/" + name + ".toml", std::ios::binary);

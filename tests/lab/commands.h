@@ -2,6 +2,7 @@
 /// The commands of seam-lab. Each returns the program's exit status and throws OperatorError, with
 /// nothing written, for what the operator can put right.
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,9 +15,13 @@ struct RunCommand {
   std::string smooth = "on";          ///< on | off
   std::string log;                    ///< file to write
   bool force = false;                 ///< overwrite it
+  std::vector<std::string> set;       ///< --set, each one or several with ';' between them
+  std::optional<double> buffer_m;     ///< --buffer
+  bool floor = true;                  ///< also measure, and compute the floor
 };
 
-/// Records a session and prints its simulated and wall seconds in one line.
+/// Records a session and prints its simulated and wall seconds in one line, and its error beside
+/// the floor in another.
 int RunLog(const RunCommand& command);
 
 struct DivergenceCommand {

@@ -1,5 +1,5 @@
 #pragma once
-/// A sweep file: lists of what to vary, and all their combinations in a fixed order.
+/// All combinations that a sweep file asks for, in a fixed order.
 
 #include <cstdint>
 #include <memory>
@@ -13,7 +13,7 @@ namespace seam {
 
 /// One combination.
 struct GridPoint {
-  std::shared_ptr<const Scene> scene;
+  std::shared_ptr<const Scene> scene;   ///< with its settings in it
   SessionSettings settings;           ///< with the defaults of mode and scene filled in
   /// The first kGridColumns values of its CSV line, quoted: all that is needed to repeat it.
   std::string key;
@@ -24,11 +24,21 @@ struct Grid {
   bool floor = true;                  ///< compute the floor too
 };
 
-/// version,scene,scene_hash,mode,reconcile,impair,send_hz,drive,smooth,duration_s,seed
+/// version,scene,scene_hash,set,mode,reconcile,impair,send_hz,drive,smooth,duration_s,seed
 std::string GridHeader();
-constexpr int kGridColumns = 11;
+constexpr int kGridColumns = 12;
 /// Most combinations: a row is 250 bytes of memory.
 constexpr std::size_t kGridPointsMax = 1000000;
+/// Most settings of a scene, each of which is one more scene in memory.
+constexpr std::size_t kGridScenesMax = 10000;
+
+/// What a network and a scene are in numbers, for plots:
+/// one_way_ms,jitter_ms,loss_percent,tick_hz,substeps,velocity_iterations,position_iterations,
+/// skin_m,buffer_m. Loss is the mean without stalls and outages, skin empty where the scene leaves
+/// it to the engine.
+std::string PointHeader();
+/// The values, with a comma before each.
+std::string PointValues(const GridPoint& point);
 
 /// Reads and checks the file and every scene it names. Throws OperatorError: every combination of
 /// what it returns can be run.

@@ -29,7 +29,11 @@ CLI::App* DefineRun(CLI::App& app, RunCommand& c) {
   run->add_option("--drive", s.drive, "script | bot")->check(CLI::IsMember({"script", "bot"}));
   run->add_option("--smooth", c.smooth, "hide corrections in the view: on | off")
       ->check(CLI::IsMember({"on", "off"}));
+  run->add_option("--set", c.set, "KEY=VALUE of the scene: solver.substeps=2 (repeatable)")
+      ->allow_extra_args(false);
+  run->add_option("--buffer", c.buffer_m, "width of the buffer zone, m (as --set buffer=M)");
   run->add_flag("--force", c.force, "overwrite the log");
+  run->add_flag("!--no-floor", c.floor, "do not measure the run and its floor");
   return run;
 }
 

@@ -1,28 +1,53 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdio>
 
 #include "common/base/check.h"
 #include "common/base/process.h"
+#include "common/measure/measure.h"
 #include "common/record/log_file.h"
 #include "tests/lab/commands.h"
+#include "tests/lab/scene_settings.h"
 
 namespace seam {
+namespace {
+
+/// The error, and what no method could be expected to beat.
+std::string Summary(const Recording& recording) {
+  try {
+    const Oracle oracle = ComputeOracle(recording);
+    const Measures m = Measure(recording, oracle);
+    return fmt::format("error {:.3g} m RMS, stutter {:.3g} m/s2; floor {:.3g} m (the oracle "
+                       "against itself, one body moved by 1e-6 m)",
+                       m.error_rms_m, m.stutter_mps2, ErrorFloor(recording, oracle));
+  } catch (const OperatorError& error) {   // the log is whole all the same
+    return std::string("not measured: ") + error.what();
+  }
+}
+
+}  // namespace
 
 int RunLog(const RunCommand& command) {
   SessionSettings settings = command.settings;
   settings.smooth = command.smooth == "on";
+  for (const std::string& each : command.set) settings.set.push_back(each);
+  if (command.buffer_m) settings.set.push_back(fmt::format("buffer={}", *command.buffer_m));
+  settings.set = SplitSettings(JoinSettings(settings.set));
   ClusterConfig config = Configure(settings);
   LogWriter log(command.log, command.force);
   config.recorder = &log;
-  config.keep = false;
+  config.keep = command.floor;
   const std::int64_t begin_us = SteadyClockUs();
-  const SessionResult result = RunSession(config);
+  Recording recording;
+  const SessionResult result = RunSession(config, &recording);
   log.Flush();
   if (log.failures() > 0) throw OperatorError(command.log + ": not all was written: disk full?");
   const double wall_s = static_cast<double>(SteadyClockUs() - begin_us) * 1e-6;
   std::printf("%s: %lld ticks, %.3f s simulated in %.3f s: %.1f x real time\n",
               command.log.c_str(), static_cast<long long>(result.ticks), result.simulated_s,
               wall_s, result.simulated_s / std::max(wall_s, 1e-6));
+  if (command.floor) std::printf("%s\n", Summary(recording).c_str());
   return 0;
 }
 

@@ -1,6 +1,7 @@
 #include "tests/lab/session.h"
 
 #include "common/base/check.h"
+#include "tests/lab/scene_settings.h"
 
 namespace seam {
 namespace {
@@ -20,7 +21,7 @@ void CheckRange(const char* name, double value, double min, double max) {
 }  // namespace
 
 ClusterConfig Configure(const SessionSettings& settings) {
-  return Configure(settings, LoadScene(settings.scene));
+  return Configure(settings, LoadSceneWith(settings.scene, settings.set));
 }
 
 ClusterConfig Configure(const SessionSettings& settings, const Scene& scene) {
@@ -47,13 +48,14 @@ ClusterConfig Configure(const SessionSettings& settings, const Scene& scene) {
   return config;
 }
 
-SessionResult RunSession(const ClusterConfig& config) {
+SessionResult RunSession(const ClusterConfig& config, Recording* recording) {
   Cluster cluster(config);
   const std::int64_t begin_us = cluster.now_us();
   cluster.Run();
   SessionResult result;
   result.simulated_s = static_cast<double>(cluster.now_us() - begin_us) * 1e-6;
   result.ticks = cluster.server().tick();
+  if (recording != nullptr && config.keep) *recording = cluster.recording();
   return result;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "common/record/recorder.h"
 #include "tests/lab/cluster.h"
@@ -24,6 +25,7 @@ struct SessionSettings {
   double duration_s = 0;              ///< after tick 0; 0: the scene's own
   std::string drive = "script";       ///< script | bot
   bool smooth = true;
+  std::vector<std::string> set;       ///< of the scene: "solver.substeps=2", "buffer=5"
 };
 
 /// Largest values of --seed and --duration, as seam-server's.
@@ -31,10 +33,10 @@ constexpr std::int64_t kSeedMax = 1000000000;
 constexpr double kDurationMax = 1e6;
 constexpr int kSendHzMax = 240;
 
-/// Reads the scene and checks everything that can be wrong before anything is run or written.
-/// Throws OperatorError. The recorder is not set.
+/// Reads the scene, with its settings, and checks everything that can be wrong before anything is
+/// run or written. Throws OperatorError. The recorder is not set.
 ClusterConfig Configure(const SessionSettings& settings);
-/// The same with the scene already read.
+/// The same with the scene already read, its settings in it.
 ClusterConfig Configure(const SessionSettings& settings, const Scene& scene);
 
 struct SessionResult {
@@ -42,7 +44,8 @@ struct SessionResult {
   std::int64_t ticks = 0;             ///< since tick 0
 };
 
-/// Runs to the end. Throws OperatorError when the players cannot join over such a network.
-SessionResult RunSession(const ClusterConfig& config);
+/// Runs to the end; the recording, if wanted and kept, goes to `recording`. Throws OperatorError
+/// when the players cannot join over such a network.
+SessionResult RunSession(const ClusterConfig& config, Recording* recording = nullptr);
 
 }  // namespace seam

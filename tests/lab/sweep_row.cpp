@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <optional>
+#include <vector>
+
 #include "common/base/bytes.h"
 #include "common/base/process.h"
 #include "common/measure/measure.h"
@@ -23,38 +27,72 @@ class Digest : public Recorder {
   std::uint64_t value_ = Fnv1a("", 0);
 };
 
-/// ",value", or "," where it does not apply.
-std::string Number(double value, bool applies) {
-  return applies ? fmt::format(",{:.6g}", value) : ",";
+/// Six digits; counts are whole.
+std::string Number(double value) {
+  const bool whole = value == std::floor(value) && std::fabs(value) < 1e15;
+  return whole ? fmt::format(",{:.0f}", value) : fmt::format(",{:.6g}", value);
+}
+
+/// A column's name, and its value if it applies.
+struct Column {
+  const char* name;
+  std::optional<double> value;
+};
+
+/// All columns of the measures, in order.
+std::vector<Column> Columns(const Measures& m, std::optional<double> floor_m,
+                            std::optional<double> floor_wire_m) {
+  const auto given = [](bool applies, double value) {
+    return applies ? std::optional<double>(value) : std::nullopt;
+  };
+  const bool any = m.compared > 0;
+  return {{"error_rms_m", given(any, m.error_rms_m)},
+          {"error_p95_m", given(any, m.error_p95_m)},
+          {"error_max_m", given(any, m.error_max_m)},
+          {"error_rms_rad", given(any, m.error_rms_rad)},
+          {"stutter_mps2", given(any, m.stutter_mps2)},
+          {"backsteps", given(any, static_cast<double>(m.backsteps))},
+          {"seam_rms_m", m.seam_rms_m},
+          {"seam_stutter_mps2", m.seam_stutter_mps2},
+          {"rebound", m.rebound},
+          {"rest_ticks", m.rest_ticks},
+          {"jitter_rest_mps", m.jitter_rest_mps},
+          {"penetration_m", m.penetration_m},
+          {"oracle_penetration_m", m.oracle_penetration_m},
+          {"joint_drift_m", m.joint_drift_m},
+          {"oracle_joint_drift_m", m.oracle_joint_drift_m},
+          {"energy_gain_j", m.energy_gain_j},
+          {"handovers", static_cast<double>(m.handovers)},
+          {"handover_jump_m", given(m.handovers > 0, m.handover_jump_m)},
+          {"handover_gap_m", m.handover_gap_m},
+          {"handover_dv_mps", m.handover_dv_mps},
+          {"floor_m", floor_m},
+          {"floor_wire_m", floor_wire_m},
+          {"bytes_per_s", given(m.bytes_per_s > 0, m.bytes_per_s)},
+          {"sent_bytes_per_s", given(m.sent_bytes_per_s > 0, m.sent_bytes_per_s)},
+          {"compared", static_cast<double>(m.compared)}};
 }
 
 std::string Values(const Recording& recording, bool floor) {
   const Oracle oracle = ComputeOracle(recording);
-  const Measures m = Measure(recording, oracle);
-  const bool any = m.compared > 0;
-  std::string line;
-  for (const double error : {m.error_rms_m, m.error_p95_m, m.error_max_m, m.error_rms_rad,
-                             m.stutter_mps2}) {
-    line += Number(error, any);
+  std::optional<double> floor_m, floor_wire_m;
+  if (floor) {
+    floor_m = ErrorFloor(recording, oracle, kNudge);
+    floor_wire_m = ErrorFloor(recording, oracle, kWireNudge);
   }
-  line += any ? fmt::format(",{}", m.backsteps) : ",";
-  line += Number(m.seam_rms_m.value_or(0), m.seam_rms_m.has_value());
-  line += Number(m.seam_stutter_mps2.value_or(0), m.seam_stutter_mps2.has_value());
-  line += Number(m.rebound.value_or(0), m.rebound.has_value());
-  line += Number(m.rest_ticks.value_or(0), m.rest_ticks.has_value());
-  line += fmt::format(",{}", m.handovers) + Number(m.handover_jump_m, any);
-  line += Number(floor ? ErrorFloor(recording, oracle, kNudge) : 0, floor);
-  line += Number(floor ? ErrorFloor(recording, oracle, kWireNudge) : 0, floor);
-  return line + Number(m.bytes_per_s, m.bytes_per_s > 0) + fmt::format(",{}", m.compared);
+  std::string line;
+  for (const Column& column : Columns(Measure(recording, oracle), floor_m, floor_wire_m)) {
+    line += column.value ? Number(*column.value) : ",";
+  }
+  return line;
 }
 
 }  // namespace
 
 std::string SweepHeader() {
-  return GridHeader() +
-         ",error_rms_m,error_p95_m,error_max_m,error_rms_rad,stutter_mps2,backsteps,"
-         "seam_rms_m,seam_stutter_mps2,rebound,rest_ticks,handovers,handover_jump_m,floor_m,"
-         "floor_wire_m,bytes_per_s,compared,digest,cpu_s";
+  std::string header = GridHeader() + "," + PointHeader();
+  for (const Column& column : Columns({}, {}, {})) header += std::string(",") + column.name;
+  return header + ",digest,cpu_s";
 }
 
 std::string SweepRow(const GridPoint& point, bool floor) {
@@ -65,7 +103,7 @@ std::string SweepRow(const GridPoint& point, bool floor) {
   Cluster cluster(config);
   cluster.Run();
   const double cpu_s = static_cast<double>(CpuUs() - begin_us) * 1e-6;
-  return point.key + Values(cluster.recording(), floor) +
+  return point.key + PointValues(point) + Values(cluster.recording(), floor) +
          fmt::format(",{:016x},{:.3f}", digest.value(), cpu_s);
 }
 

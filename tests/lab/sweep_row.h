@@ -7,7 +7,7 @@
 
 namespace seam {
 
-/// The grid's columns, then the measures of docs/metrics.md, then digest and cpu_s.
+/// The grid's columns, the same in numbers, then the measures of docs/metrics.md, digest and cpu_s.
 std::string SweepHeader();
 
 /// Runs and measures; the line without its end. Everything but the last column, cpu_s, depends on
