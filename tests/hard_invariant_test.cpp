@@ -288,6 +288,17 @@ TEST(HardInvariant, WhereStockFailsTheScenesOwnSolverHoldsForAMinute) {
   }
 }
 
+TEST(HardInvariant, PilesStandEvenWhenNothingMaySleep) {
+  // A pile that sleeps stands whatever the solver does: what wakes it must not fell it.
+  for (const char* name : {"arch", "card-house", "mass-ratio", "tower-10", "tower-30"}) {
+    SCOPED_TRACE(name);
+    const HardCase& hard = CaseOf(name);
+    Solver awake = LoadHardScene(hard).solver;
+    awake.sleep = false;
+    EXPECT_EQ(RunCase(hard, 60, &awake).failure, "");
+  }
+}
+
 TEST(HardInvariant, TheScenesOwnSolverErrsLessThanStock) {
   const Solver stock = StockSolver();
   for (const char* name : {"pyramid-20", "joint-grid", "overlap", "far-tilted-10km",
