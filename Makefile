@@ -46,7 +46,7 @@ PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-render seam-measure
 LCM_TYPES := $(sort $(wildcard lcmtypes/*.lcm))
 
 .DEFAULT_GOAL := all
-.PHONY: all help deps demo bench test tests install clean
+.PHONY: all help deps demo bench report test tests install clean
 
 all: deps $(PROGRAMS)                ## build the programs
 
@@ -103,6 +103,11 @@ bench: all                           ## cost of a step beside Box2D, hard cases:
 	@mkdir -p out/bench
 	$(OUT)/seam-lab overhead -o out/bench/overhead.csv --force
 	$(OUT)/seam-lab physics --grid quick -o out/bench/physics.csv --force
+
+# QUICK=1: fewer seeds and settings, in two minutes.
+report tests test: DEBS += gnuplot-nox
+report: all                          ## speed against error: all the measurements, into out/report/ (QUICK=1)
+	SEAM_BIN=$(OUT) FORCE=$(FORCE) tests/report.sh out/report $(if $(QUICK),quick)
 
 install: all                         ## install the programs under PREFIX
 	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/seam2d/scenes

@@ -83,4 +83,15 @@ struct OverheadCommand {
 /// Prints what World::Step costs beside the engine alone. 1: they end differently, or a signal.
 int RunOverhead(const OverheadCommand& command);
 
+struct ReportCommand {
+  std::string data = "out/report/data";   ///< folder of the tables
+  std::string out = "out/report";         ///< folder to write
+  std::string sweeps = "tests/lab/sweeps";   ///< where the sweeps' files are, to be named
+  std::string markdown;                   ///< a page of the docs to fill in; "": none
+  bool png = false;                       ///< not SVG
+};
+
+/// Draws and tabulates what is in the tables: index.html, plots/, tables/.
+int RunReport(const ReportCommand& command);
+
 }  // namespace seam

@@ -98,6 +98,16 @@ CLI::App* DefineOverhead(CLI::App& app, OverheadCommand& c) {
   return overhead;
 }
 
+CLI::App* DefineReport(CLI::App& app, ReportCommand& c) {
+  CLI::App* report = app.add_subcommand("report", "plots and tables of what was swept, as a page");
+  report->add_option("DATA", c.data, "folder of CSV tables (default out/report/data)");
+  report->add_option("-o,--output", c.out, "folder to write (default out/report)");
+  report->add_option("--sweeps", c.sweeps, "folder of the sweeps' files, to be named");
+  report->add_option("--markdown", c.markdown, "fill the tables into this page of the docs");
+  report->add_flag("--png", c.png, "plots as PNG, not SVG");
+  return report;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -110,12 +120,14 @@ int main(int argc, char** argv) {
     PhysicsCommand physics;
     TuneCommand tune;
     OverheadCommand overhead;
+    ReportCommand report;
     const CLI::App* run_app = DefineRun(app, run);
     const CLI::App* divergence_app = DefineDivergence(app, divergence);
     const CLI::App* sweep_app = DefineSweep(app, sweep);
     const CLI::App* physics_app = DefinePhysics(app, physics);
     const CLI::App* tune_app = DefineTune(app, tune);
     const CLI::App* overhead_app = DefineOverhead(app, overhead);
+    const CLI::App* report_app = DefineReport(app, report);
     try {
       app.parse(argc, argv);
     } catch (const CLI::CallForHelp&) {
@@ -130,6 +142,7 @@ int main(int argc, char** argv) {
     if (physics_app->parsed()) return RunPhysics(physics);
     if (tune_app->parsed()) return RunTune(tune);
     if (overhead_app->parsed()) return RunOverhead(overhead);
+    if (report_app->parsed()) return RunReport(report);
     return 2;
   });
 }

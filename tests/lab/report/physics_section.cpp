@@ -1,0 +1,203 @@
+#include "tests/lab/report/physics_section.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace seam {
+namespace {
+
+constexpr const char* kStockColour = "#000000";
+constexpr const char* kSceneColour = "#d55e00";
+
+/// Grid settings by rate: from few ticks a second, pale, to many, dark.
+struct Rate {
+  double up_to_hz;
+  const char* name;
+  const char* colour;
+};
+constexpr std::array<Rate, 4> kRates = {{{30, "30 Hz", "#a6cee3"},
+                                         {60, "60 Hz", "#56b4e9"},
+                                         {120, "120 Hz", "#0072b2"},
+                                         {1e9, "240 Hz", "#08306b"}}};
+
+PlotCurve PointsOnly(const std::string& name, const std::string& colour, int point, double size) {
+  return {name, {colour, "solid", 0, point, size}, {}};
+}
+
+PlotPoint At(const PhysicsRun& run) {
+  return {run.cost_ratio, run.error, run.error, run.error};
+}
+
+PlotCurve FrontCurve(const std::vector<PhysicsRun>& runs) {
+  PlotCurve front;
+  front.name = "front";
+  front.look = {"#f3c9a9", "solid", 6, 0, 0};
+  for (const std::size_t i : ParetoFront(PhysicsTrials(runs))) {
+    if (!front.points.empty()) {
+      const double before = front.points.back().y;
+      front.points.push_back({runs[i].cost_ratio, before, before, before});
+    }
+    front.points.push_back(At(runs[i]));
+  }
+  return front;
+}
+
+/// A label's box in pixels.
+struct Box {
+  double left, bottom, right, top;
+  bool Meets(const Box& o) const {
+    return left < o.right && o.left < right && bottom < o.top && o.bottom < top;
+  }
+};
+
+/// Puts each note beside its point where it covers no other point and no other note, if it can.
+void SpreadNotes(double width_px, double height_px, PlotPanel* panel) {
+  std::vector<double> xs, ys;
+  for (const Note& note : panel->notes) xs.push_back(note.x), ys.push_back(note.y);
+  const PlotRange rx = FindRange(xs, true), ry = FindRange(ys, true);
+  const auto px = [&](const PlotRange& r, double v, double size) {
+    return std::log(PlaceOn(r, v, true) / r.low) / std::log(r.high / r.low) * size;
+  };
+  std::vector<Box> taken;
+  for (const Note& note : panel->notes) {
+    const double x = px(rx, note.x, width_px), y = px(ry, note.y, height_px);
+    taken.push_back({x - 5, y - 5, x + 5, y + 5});
+  }
+  for (Note& note : panel->notes) {
+    const double x = px(rx, note.x, width_px), y = px(ry, note.y, height_px);
+    const double length = 6.2 * static_cast<double>(note.text.size());
+    for (int attempt = 0; attempt < 14; ++attempt) {
+      const bool left = attempt % 2 == 1;
+      const int step = (attempt / 2 + 1) / 2 * (attempt / 2 % 2 == 1 ? 1 : -1);
+      const double begin = left ? x - 8 - length : x + 8;
+      const double at = y + step * 12;
+      const Box box = {begin, at - 6, begin + length, at + 6};
+      const bool inside = begin > 0 && begin + length < width_px;
+      const bool meets = std::any_of(taken.begin(), taken.end(),
+                                     [&](const Box& other) { return box.Meets(other); });
+      if ((!inside || meets) && attempt < 13) continue;
+      note.left = left;
+      note.lift = step * 12 / 15.0;
+      taken.push_back(box);
+      break;
+    }
+  }
+}
+
+}  // namespace
+
+Figure WorkPrecision(const PhysicsCase& c, const std::string& command) {
+  Figure figure;
+  figure.name = "case-" + c.name;
+  std::replace(figure.name.begin(), figure.name.end(), '_', '-');
+  figure.title = c.name;
+  figure.command = command;
+  figure.panel_width_px = 560;
+  figure.panel_height_px = 380;
+  figure.small = true;
+  PlotPanel panel;
+  panel.x = {"CPU time, ratio to stock measured beside it", true, {}, "failed"};
+  panel.y = {fmt::format("error ({}; {})", c.unit, c.truth), true, {}, "diverged"};
+  panel.uprights.push_back({1, ""});
+  panel.curves.push_back(FrontCurve(c.all));
+  for (std::size_t i = 0; i < kRates.size(); ++i) {
+    PlotCurve warm = PointsOnly(kRates[i].name, kRates[i].colour, 7, 0.55);
+    PlotCurve cold = PointsOnly("", kRates[i].colour, 6, 0.55);
+    for (const PhysicsRun& run : c.all) {
+      const double above = i == 0 ? 0 : kRates[i - 1].up_to_hz;
+      if (run.tick_hz <= above || run.tick_hz > kRates[i].up_to_hz) continue;
+      if (std::isfinite(run.cost_ratio)) (run.warm ? warm : cold).points.push_back(At(run));
+    }
+    if (warm.points.empty()) cold.name = warm.name;
+    for (PlotCurve* curve : {&warm, &cold}) {
+      if (!curve->points.empty()) panel.curves.push_back(std::move(*curve));
+    }
+  }
+  PlotCurve failed = PointsOnly("failed", "#c41e3a", 2, 0.9);
+  for (const PhysicsRun& run : c.all) {
+    if (!run.held() && std::isfinite(run.cost_ratio)) failed.points.push_back(At(run));
+  }
+  if (!failed.points.empty()) panel.curves.push_back(std::move(failed));
+  const auto mark = [&](const std::optional<PhysicsRun>& run, const char* name, const char* colour,
+                        int point, double size) {
+    if (!run || !std::isfinite(run->cost_ratio)) return;
+    PlotCurve curve = PointsOnly(name, colour, point, size);
+    curve.points.push_back(At(*run));
+    panel.curves.push_back(std::move(curve));
+  };
+  mark(c.stock, "stock", kStockColour, 4, 1.6);
+  mark(c.scene, "scene's own", kSceneColour, 12, 2.0);
+  figure.panels.push_back(std::move(panel));
+  const auto says = [](const std::optional<PhysicsRun>& run) {
+    if (!run) return std::string("not measured");
+    return Digits(run->error) + (run->held() ? "" : " (" + run->failure + ")");
+  };
+  figure.caption = fmt::format(
+      "{} settings, open circles without warm starting. Stock: {}. The scene's own ({}): {}, at {} "
+      "× the cost.",
+      c.all.size(), says(c.stock), c.scene ? c.scene->setting : "none", says(c.scene),
+      c.scene ? Digits(c.scene->cost_ratio) : "–");
+  return figure;
+}
+
+Figure PhysicsSummary(const std::vector<PhysicsCase>& cases, const std::string& command) {
+  Figure figure;
+  figure.name = "hard-cases";
+  figure.title = "Hard cases: each scene's own setting against stock";
+  figure.command = command;
+  figure.panel_width_px = 1100;
+  figure.panel_height_px = 680;
+  PlotPanel panel;
+  panel.x = {"CPU time, ratio to stock", true, {}, "failed"};
+  panel.y = {"error, ratio to stock", true, {}, "fails"};
+  panel.uprights.push_back({1, "stock's cost"});
+  panel.levels.push_back({1, "stock's error"});
+  PlotCurve held = PointsOnly("both hold", kSceneColour, 7, 0.9);
+  PlotCurve rescued = PointsOnly("stock fails", "#0072b2", 9, 1.1);
+  PlotCurve failed = PointsOnly("own fails", "#c41e3a", 2, 1.1);
+  PlotCurve both = PointsOnly("both fail", "#999999", 2, 1.1);
+  for (const PhysicsCase& c : cases) {
+    if (!c.stock || !c.scene || !std::isfinite(c.scene->cost_ratio)) continue;
+    const double ratio = ErrorRatio(*c.scene, *c.stock);
+    const PlotPoint point = {c.scene->cost_ratio, ratio, ratio, ratio};
+    PlotCurve& kind = c.scene->held() ? (c.stock->held() ? held : rescued)
+                                  : (c.stock->held() ? failed : both);
+    kind.points.push_back(point);
+    panel.notes.push_back({point.x, point.y, c.name, false, 0});
+  }
+  SpreadNotes(figure.panel_width_px - 92, figure.panel_height_px - 82, &panel);
+  for (PlotCurve* curve : {&held, &rescued, &failed, &both}) {
+    if (!curve->points.empty()) panel.curves.push_back(std::move(*curve));
+  }
+  figure.panels.push_back(std::move(panel));
+  figure.caption =
+      "Below the line: less error than the stock setting (60 Hz, 8/3 iterations) on the same "
+      "scene; left of it: less CPU time. At 0: the scene's setting has no error at all, or stock "
+      "fails and the scene's setting does not.";
+  return figure;
+}
+
+Section PhysicsSection(const CsvTable& table, const std::string& command) {
+  const std::vector<PhysicsCase> cases = ViewPhysics(table);
+  Section section;
+  section.id = "hard-cases";
+  section.title = "Hard cases for the solver";
+  section.intro =
+      "Every setting that was tried, at its cost as a ratio to the stock setting timed beside it "
+      "in the same run, against its error: from a formula (exact), from the scene's own converged "
+      "run, or by what must not happen (invariant). Settings that failed are marked; those that "
+      "diverged are at the upper edge.";
+  section.items.emplace_back(PhysicsSummary(cases, command));
+  for (TextTable t : {PhysicsTable(cases, command), PhysicsSearchTable(cases, command),
+                      PhysicsSideTable(table, cases, command)}) {
+    t.open = section.items.size() == 1;
+    section.items.emplace_back(std::move(t));
+  }
+  for (const PhysicsCase& c : cases) section.items.emplace_back(WorkPrecision(c, command));
+  return section;
+}
+
+}  // namespace seam

@@ -1,0 +1,140 @@
+#include "tests/lab/report/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "common/base/check.h"
+#include "tests/lab/report/physics_section.h"
+#include "tests/lab/report/sweep_section.h"
+
+namespace seam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Files of the folder with this extension, by name.
+std::vector<fs::path> FilesIn(const fs::path& folder, const std::string& extension) {
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
+    if (i->path().extension() == extension) files.push_back(i->path());
+  }
+  if (error) throw OperatorError(folder.string() + ": " + error.message());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+TextTable OverheadTable(const CsvTable& csv, const std::string& command) {
+  csv.Require({"scene", "bodies", "raw_us_per_step", "core_us_per_step", "ratio"});
+  TextTable table;
+  table.name = "overhead";
+  table.title = "A step of the core beside raw Box2D with the same bodies";
+  table.header = {"scene", "bodies", "raw Box2D (µs a step)", "core (µs a step)", "ratio"};
+  std::vector<double> ratios;
+  for (std::size_t row = 0; row < csv.rows(); ++row) {
+    const auto digits = [&](const char* column) {
+      const auto value = csv.Number(row, column);
+      return value ? Digits(*value) : std::string("–");
+    };
+    if (const auto ratio = csv.Number(row, "ratio")) ratios.push_back(*ratio);
+    table.rows.push_back({fs::path(csv.Text(row, "scene")).stem().string(),
+                          csv.Text(row, "bodies"), digits("raw_us_per_step"),
+                          digits("core_us_per_step"), digits("ratio")});
+  }
+  table.note = "Median (quartiles) of the ratios: " + Digits(FindQuartiles(ratios)) + ".";
+  table.command = command;
+  table.open = true;
+  return table;
+}
+
+Section CostSection(const std::vector<Sweep>& sweeps, const fs::path& data) {
+  Section section;
+  section.id = "cost";
+  section.title = "What the runtime costs";
+  const fs::path overhead = data / "overhead.csv";
+  if (fs::exists(overhead)) {
+    section.items.emplace_back(OverheadTable(CsvTable::Load(overhead.string()),
+                                             "seam-lab overhead -o " + overhead.string()));
+  }
+  if (!sweeps.empty()) {
+    TextTable speed = SpeedTable(sweeps);
+    speed.open = true;
+    section.items.emplace_back(std::move(speed));
+  }
+  return section;
+}
+
+void AddSweeps(const std::vector<Sweep>& sweeps, std::vector<Section>* sections) {
+  if (sweeps.empty()) return;
+  Section network;
+  network.id = "network";
+  network.title = "Over a network: each method against what the network does";
+  network.intro =
+      "Real server and clients over a simulated network. A point is the median over seeds, its bar "
+      "the quartiles (nearest rank). Scripted drives repeat; bots press throttle and brake at "
+      "random, seeded, which the other side cannot know. The floor is the oracle against itself "
+      "with one body moved by a micrometre.";
+  TextTable fronts = FrontTable(sweeps);
+  fronts.open = true;
+  if (!fronts.rows.empty()) network.items.emplace_back(std::move(fronts));
+  sections->push_back(std::move(network));
+  for (const Sweep& sweep : sweeps) sections->push_back(SweepSection(sweep));
+}
+
+}  // namespace
+
+std::vector<Section> BuildReport(const ReportInput& input) {
+  std::vector<Sweep> sweeps;
+  const fs::path data = input.data;
+  for (const fs::path& path : FilesIn(data, ".csv")) {
+    const std::string name = path.stem().string();
+    if (name == "physics" || name == "overhead") continue;
+    const std::string command =
+        fmt::format("seam-lab sweep {} -o {} && seam-lab report {}",
+                    (fs::path(input.sweeps) / (name + ".toml")).string(), path.string(),
+                    input.data);
+    CsvTable table = CsvTable::Load(path.string());
+    SweepView view = ViewSweep(table);
+    if (!view.groups.empty()) {
+      sweeps.push_back({name, command, std::move(table), std::move(view)});
+    }
+  }
+  std::vector<Section> sections;
+  Section cost = CostSection(sweeps, data);
+  if (!cost.items.empty()) sections.push_back(std::move(cost));
+  Section renders = RendersSection(input.out);
+  if (!renders.items.empty()) sections.push_back(std::move(renders));
+  const fs::path physics = data / "physics.csv";
+  if (fs::exists(physics)) {
+    sections.push_back(PhysicsSection(
+        CsvTable::Load(physics.string()),
+        fmt::format("seam-lab physics -o {} && seam-lab report {}", physics.string(), input.data)));
+  }
+  AddSweeps(sweeps, &sections);
+  if (sections.empty()) throw OperatorError(input.data + ": has no tables (*.csv) to report");
+  return sections;
+}
+
+std::vector<const TextTable*> Tables(const std::vector<Section>& sections) {
+  std::vector<const TextTable*> tables;
+  for (const Section& section : sections) {
+    for (const PageItem& item : section.items) {
+      if (const auto* table = std::get_if<TextTable>(&item)) tables.push_back(table);
+    }
+  }
+  return tables;
+}
+
+std::vector<const Figure*> Figures(const std::vector<Section>& sections) {
+  std::vector<const Figure*> figures;
+  for (const Section& section : sections) {
+    for (const PageItem& item : section.items) {
+      if (const auto* figure = std::get_if<Figure>(&item)) figures.push_back(figure);
+    }
+  }
+  return figures;
+}
+
+}  // namespace seam

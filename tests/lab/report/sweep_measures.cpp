@@ -1,0 +1,57 @@
+#include "common/base/check.h"
+#include "tests/lab/report/sweep_view.h"
+
+namespace seam {
+namespace {
+
+SweepMeasure Column(const char* id, const char* name, const char* unit, bool log,
+                    const std::string& column, double scale = 1) {
+  return {id, name, unit, log, [column, scale](const CsvTable& table, std::size_t row) {
+            std::optional<double> value = table.Number(row, column);
+            if (value) *value *= scale;
+            return value;
+          }};
+}
+
+}  // namespace
+
+const std::vector<SweepMeasure>& SweepMeasures() {
+  static const std::vector<SweepMeasure> measures = {
+      Column("error", "error, RMS", "m", true, "error_rms_m"),
+      Column("seam", "seam: peer against authority, RMS", "m", true, "seam_rms_m"),
+      Column("stutter", "stutter, RMS", "m/s²", true, "stutter_mps2"),
+      Column("rebound", "rebound", "1 is right", false, "rebound"),
+      Column("penetration", "penetration, deepest", "m", true, "penetration_m"),
+      Column("handover", "jump at hand-over, largest", "m", true, "handover_jump_m"),
+      Column("bytes", "traffic of a client", "kB/s", false, "bytes_per_s", 1e-3)};
+  return measures;
+}
+
+const SweepMeasure& CpuMeasure() {
+  static const SweepMeasure cpu = {
+      "cpu", "CPU of server and clients", "ms per s", true,
+      [](const CsvTable& table, std::size_t row) -> std::optional<double> {
+        const std::optional<double> cpu_s = table.Number(row, "cpu_s");
+        const std::optional<double> duration_s = table.Number(row, "duration_s");
+        if (!cpu_s || !duration_s || *duration_s <= 0) return std::nullopt;
+        return 1000 * *cpu_s / *duration_s;
+      }};
+  return cpu;
+}
+
+const std::vector<SweepMeasure>& FloorMeasures() {
+  static const std::vector<SweepMeasure> floors = {
+      Column("floor", "floor", "m", true, "floor_m"),
+      Column("floor-wire", "floor of the wire", "m", true, "floor_wire_m")};
+  return floors;
+}
+
+const SweepMeasure& MeasureNamed(const std::string& id) {
+  for (const SweepMeasure& measure : SweepMeasures()) {
+    if (measure.id == id) return measure;
+  }
+  SEAM_ASSERT(id == "cpu");
+  return CpuMeasure();
+}
+
+}  // namespace seam

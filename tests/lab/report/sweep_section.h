@@ -1,0 +1,39 @@
+#pragma once
+/// What the report shows of one sweep: curves of every measure, fronts where the axis is a setting
+/// of ours, tables of medians with quartiles.
+
+#include <string>
+#include <vector>
+
+#include "tests/lab/report/page.h"
+#include "tests/lab/report/sweep_view.h"
+
+namespace seam {
+
+/// A sweep's table, and how it was made.
+struct Sweep {
+  std::string name;                   ///< of its file, without .csv
+  std::string command;
+  CsvTable table;
+  SweepView view;
+};
+
+Section SweepSection(const Sweep& sweep);
+
+/// The front of one group: what each method costs and errs at each x.
+struct MethodTrial {
+  std::string method;
+  double x = 0;
+  CostError trial;                        ///< medians
+};
+/// Medians of `cost` and of `error`; those that have both.
+std::vector<MethodTrial> Trials(const Sweep& sweep, const SweepGroup& group,
+                                const SweepMeasure& cost, const SweepMeasure& error);
+
+/// Which methods are on which front, over all sweeps along a setting of ours: a row for each front,
+/// a column for each method. Without such sweeps it has no rows.
+TextTable FrontTable(const std::vector<Sweep>& sweeps);
+/// Seconds simulated per second of CPU, by method and scene, over all sweeps.
+TextTable SpeedTable(const std::vector<Sweep>& sweeps);
+
+}  // namespace seam

@@ -1,0 +1,197 @@
+#include "tests/lab/report/sweep_view.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <set>
+
+#include "common/net/impair.h"
+#include "tests/lab/report/method_look.h"
+
+namespace seam {
+namespace {
+
+using Keys = std::map<std::string, std::string>;
+
+/// Names of the axes we know; others are called as their column.
+const std::array<SweepAxis, 11>& Axes() {
+  static const std::array<SweepAxis, 11> axes = {{
+      {"one_way_ms", "one-way latency", "ms", false},
+      {"loss_percent", "loss", "%", false},
+      {"jitter_ms", "jitter, mean of the exponential", "ms", false},
+      {"send_hz", "updates", "Hz", true},
+      {"buffer_m", "buffer width", "m", true},
+      {"substeps", "substeps", "", true},
+      {"tick_hz", "ticks", "Hz", true},
+      {"velocity_iterations", "velocity iterations", "", true},
+      {"position_iterations", "position iterations", "", true},
+      {"skin", "skin", "m", true},
+      {"duration_s", "duration", "s", false},
+  }};
+  return axes;
+}
+
+/// Columns between seed and the first measure belong to the run as well.
+bool IsMeasureOrIdentity(const std::string& column) {
+  static const std::set<std::string> not_keys = {"version", "scene",     "scene_hash", "mode",
+                                                 "impair",  "reconcile", "drive",      "seed"};
+  return not_keys.count(column) > 0;
+}
+
+std::string Number(double value) { return fmt::format("{:g}", std::round(value * 1e6) / 1e6); }
+
+/// Share of datagrams lost in the long run, by the Gilbert-Elliott model.
+double LossShare(const ImpairProfile& p) {
+  const double both = p.loss_good_to_bad + p.loss_bad_to_good;
+  const double bad = both > 0 ? p.loss_good_to_bad / both : 0;
+  return bad * p.loss_in_bad + (1 - bad) * p.loss_in_good;
+}
+
+/// What distinguishes a run besides scene, drive, method and seed.
+Keys KeysOf(const CsvTable& table, std::size_t row, const std::vector<std::string>& columns) {
+  Keys keys;
+  for (const std::string& column : columns) keys[column] = table.Text(row, column);
+  const ImpairProfile profile = FindProfile(table.Text(row, "impair"));
+  keys["one_way_ms"] = Number(static_cast<double>(profile.delay_us) * 1e-3);
+  keys["jitter_ms"] = Number(static_cast<double>(profile.jitter_mean_us) * 1e-3);
+  keys["loss_percent"] = Number(LossShare(profile) * 100);
+  return keys;
+}
+
+/// Those columns that are settings of a run: all before the first measure.
+std::vector<std::string> KeyColumns(const CsvTable& table) {
+  std::vector<std::string> columns;
+  for (const std::string& column : table.header()) {
+    if (column == "error_rms_m") break;
+    if (!IsMeasureOrIdentity(column)) columns.push_back(column);
+  }
+  return columns;
+}
+
+SweepAxis AxisOf(const std::string& key) {
+  for (const SweepAxis& axis : Axes()) {
+    if (axis.key == key) return axis;
+  }
+  return {key, key, "", true};
+}
+
+bool IsNumber(const std::string& text) {
+  char* end = nullptr;
+  std::strtod(text.c_str(), &end);
+  return !text.empty() && *end == '\0';
+}
+
+/// The key with the most values, all of them numbers; of equals the one listed first.
+std::string ChooseAxis(const std::map<std::string, std::set<std::string>>& values) {
+  std::string best = "one_way_ms";
+  std::size_t most = 1;
+  const auto consider = [&](const std::string& key) {
+    const auto found = values.find(key);
+    if (found == values.end() || found->second.size() <= most) return;
+    const auto& all = found->second;
+    if (!std::all_of(all.begin(), all.end(), [](const auto& v) { return IsNumber(v); })) return;
+    best = key;
+    most = all.size();
+  };
+  for (const SweepAxis& axis : Axes()) consider(axis.key);
+  for (const auto& item : values) consider(item.first);
+  return best;
+}
+
+std::string Method(const CsvTable& table, std::size_t row) {
+  const std::string& rule = table.Text(row, "reconcile");
+  return rule.empty() ? table.Text(row, "mode") : rule;
+}
+
+SweepGroup* GroupOf(const CsvTable& table, std::size_t row, SweepView* view) {
+  const std::string scene = std::filesystem::path(table.Text(row, "scene")).stem().string();
+  const std::string& drive = table.Text(row, "drive");
+  for (SweepGroup& group : view->groups) {
+    if (group.scene == scene && group.drive == drive) return &group;
+  }
+  view->groups.push_back({scene, drive, {}, {}, {}});
+  return &view->groups.back();
+}
+
+std::string Fixed(const std::map<std::string, std::set<std::string>>& values,
+                  const std::string& axis) {
+  std::string text;
+  for (const char* key : {"one_way_ms", "loss_percent", "jitter_ms", "send_hz"}) {
+    const auto found = values.find(key);
+    if (key == axis || found == values.end() || found->second.size() != 1) continue;
+    const SweepAxis a = AxisOf(key);
+    text += fmt::format("{}{} {} {}", text.empty() ? "" : ", ",
+                        a.name.substr(0, a.name.find(',')), *found->second.begin(), a.unit);
+  }
+  return text;
+}
+
+}  // namespace
+
+SweepView ViewSweep(const CsvTable& table) {
+  table.Require({"scene", "mode", "reconcile", "impair", "drive", "seed", "error_rms_m"});
+  const std::vector<std::string> columns = KeyColumns(table);
+  std::vector<Keys> keys;
+  std::map<std::string, std::set<std::string>> values;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    keys.push_back(KeysOf(table, row, columns));
+    for (const auto& item : keys.back()) {
+      // A scene's own value, written as none, is no choice of the sweep.
+      if (!item.second.empty()) values[item.first].insert(item.second);
+    }
+  }
+  values.erase("duration_s");   // each scene has its own
+  SweepView view;
+  view.axis = AxisOf(ChooseAxis(values));
+  view.fixed = Fixed(values, view.axis.key);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    std::string method = Method(table, row);
+    for (const auto& item : keys[row]) {
+      const auto found = values.find(item.first);
+      if (item.first == view.axis.key || found == values.end()) continue;
+      if (found->second.size() < 2) continue;
+      method += ", " + AxisOf(item.first).name + ' ' + item.second;
+    }
+    const std::string& x = keys[row][view.axis.key];
+    if (x.empty()) continue;
+    GroupOf(table, row, &view)->runs[method][std::strtod(x.c_str(), nullptr)].push_back(row);
+  }
+  for (SweepGroup& group : view.groups) {
+    std::set<double> xs;
+    for (const auto& method : group.runs) {
+      group.methods.push_back(method.first);
+      for (const auto& point : method.second) xs.insert(point.first);
+    }
+    group.xs.assign(xs.begin(), xs.end());
+    std::stable_sort(group.methods.begin(), group.methods.end(), [](const auto& a, const auto& b) {
+      return MethodOrder(a) < MethodOrder(b);
+    });
+  }
+  return view;
+}
+
+std::optional<Quartiles> Summary(const CsvTable& table, const SweepMeasure& measure,
+                                 const std::vector<std::size_t>& rows) {
+  std::vector<double> values;
+  for (const std::size_t row : rows) {
+    const std::optional<double> value = measure.value(table, row);
+    if (value) values.push_back(*value);
+  }
+  return FindQuartiles(std::move(values));
+}
+
+std::optional<Quartiles> Summary(const CsvTable& table, const SweepMeasure& measure,
+                                 const SweepGroup& group) {
+  std::vector<std::size_t> rows;
+  for (const auto& method : group.runs) {
+    for (const auto& point : method.second) {
+      rows.insert(rows.end(), point.second.begin(), point.second.end());
+    }
+  }
+  return Summary(table, measure, rows);
+}
+
+}  // namespace seam

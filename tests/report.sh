@@ -1,0 +1,71 @@
+#!/usr/bin/env bash
+# make report: sweeps over the simulated network and over solver settings, renderings, and the page
+# of it all. Usage: report.sh OUTPUT_DIR [quick]. Interrupted, the same command goes on where it was.
+# Environment: SEAM_BIN (folder of the programs), JOBS (default: one a core), FORCE (not empty: all
+# tables anew).
+set -euo pipefail
+
+out=${1:?usage: report.sh OUTPUT_DIR [quick]}
+bin=${SEAM_BIN:-build/release}
+grid=report
+data=$out/data
+sweeps=tests/lab/sweeps
+if [ "${2:-}" = quick ]; then
+  grid=quick
+  data=$out/data-quick
+  sweeps=$sweeps/quick
+fi
+jobs=()
+[ -z "${JOBS:-}" ] || jobs=(--jobs "$JOBS")
+[ -z "${FORCE:-}" ] || rm -f "$data"/*.csv
+mkdir -p "$data" "$out/renders"
+step() { printf 'report: %4d s  %s\n' "$SECONDS" "$*"; }
+
+if "$bin/seam-lab" overhead --help >/dev/null 2>&1; then
+  step "step cost beside raw Box2D"
+  "$bin/seam-lab" overhead -o "$data/overhead.csv"
+fi
+for file in "$sweeps"/*.toml; do
+  name=$(basename "$file" .toml)
+  step "sweep $file"
+  "$bin/seam-lab" sweep "$file" -o "$data/$name.csv" "${jobs[@]}"
+done
+if "$bin/seam-lab" physics --help >/dev/null 2>&1; then
+  step "hard cases"
+  "$bin/seam-lab" physics --grid "$grid" -o "$data/physics.csv" "${jobs[@]}" >"$data/physics.txt"
+fi
+
+# One run of each method, drawn in step. The commands go beside the pictures, into the page.
+impair=delay=100ms,loss=1%,jitter=10ms
+for scene in crossing wall cradle stack; do
+  step "drawing $scene"
+  strobe="$bin/seam-render --strobe --compare" frames="$bin/seam-render --compare"
+  commands=
+  for method in oracle strict fade retrospect; do
+    case $method in
+      oracle | strict) how="--mode $method" ;;
+      *) how="--reconcile $method" ;;
+    esac
+    log=$out/renders/$scene-$method.lcm
+    run="seam-lab run scenes/$scene.toml $how --impair $impair --seed 1 -o $log"
+    # shellcheck disable=SC2086
+    "$bin/"$run --force >/dev/null
+    commands+="$run"$'\n'
+    strobe+=" $log"
+    [ "$method" = oracle ] || frames+=" $log"
+  done
+  strobe+=" --oracle $out/renders/$scene-oracle.lcm"
+  frames+=" --oracle $out/renders/$scene-oracle.lcm --fps 3 --size 960x540"
+  # shellcheck disable=SC2086
+  $strobe -o "$out/renders/$scene-strobe.png" >/dev/null
+  # shellcheck disable=SC2086
+  $frames -o "$out/renders/$scene-frames" >/dev/null
+  printf '%s%s -o %s\n' "$commands" "${strobe#"$bin/"}" "$out/renders/$scene-strobe.png" \
+    >"$out/renders/$scene-strobe.txt"
+  printf '%s%s -o %s\n' "$commands" "${frames#"$bin/"}" "$out/renders/$scene-frames" \
+    >"$out/renders/$scene-frames.txt"
+done
+
+step "the page"
+"$bin/seam-lab" report "$data" -o "$out" --sweeps "$sweeps"
+step "done: open $out/index.html"
