@@ -130,7 +130,7 @@ std::string PhysicsCsv(const std::vector<std::string>& rows) {
 }
 std::string PhysicsRow(const std::string& name, const std::string& role, const std::string& error,
                        const std::string& failure, const std::string& ratio) {
-  return "v," + name + ",exact,m," + role + ",60,1,8,3,1,0.01,1,joint,20," + error + ",\"" +
+  return "v," + name + ",formula,m," + role + ",60,1,8,3,on,,on,joint,20," + error + ",\"" +
          failure + "\",0.01,,0,0.1,,900,1000," + ratio + ",";
 }
 

@@ -8,10 +8,12 @@ set -euo pipefail
 out=${1:?usage: report.sh OUTPUT_DIR [quick]}
 bin=${SEAM_BIN:-build/release}
 grid=report
+beside=()   # scenes for the step cost: seam-lab's own choice
 data=$out/data
 sweeps=tests/lab/sweeps
 if [ "${2:-}" = quick ]; then
   grid=quick
+  beside=(scenes/wall.toml scenes/stack.toml scenes/crossing.toml scenes/cradle.toml --repeats 2)
   data=$out/data-quick
   sweeps=$sweeps/quick
 fi
@@ -21,19 +23,24 @@ jobs=()
 mkdir -p "$data" "$out/renders"
 step() { printf 'report: %4d s  %s\n' "$SECONDS" "$*"; }
 
-if "$bin/seam-lab" overhead --help >/dev/null 2>&1; then
-  step "step cost beside raw Box2D"
-  "$bin/seam-lab" overhead -o "$data/overhead.csv"
-fi
+# Runs that fail leave no row and are named on stderr; the others are reported.
+failed=0
+try() {
+  local status=0
+  "$@" || status=$?
+  [ "$status" -lt 2 ] || exit "$status"
+  [ "$status" = 0 ] || failed=1
+}
+
+step "step cost beside raw Box2D"
+try "$bin/seam-lab" overhead "${beside[@]}" -o "$data/overhead.csv"
 for file in "$sweeps"/*.toml; do
   name=$(basename "$file" .toml)
   step "sweep $file"
-  "$bin/seam-lab" sweep "$file" -o "$data/$name.csv" "${jobs[@]}"
+  try "$bin/seam-lab" sweep "$file" -o "$data/$name.csv" "${jobs[@]}"
 done
-if "$bin/seam-lab" physics --help >/dev/null 2>&1; then
-  step "hard cases"
-  "$bin/seam-lab" physics --grid "$grid" -o "$data/physics.csv" "${jobs[@]}" >"$data/physics.txt"
-fi
+step "hard cases"
+try "$bin/seam-lab" physics --grid "$grid" -o "$data/physics.csv" "${jobs[@]}" >"$data/physics.txt"
 
 # One run of each method, drawn in step. The commands go beside the pictures, into the page.
 impair=delay=100ms,loss=1%,jitter=10ms
@@ -69,3 +76,4 @@ done
 step "the page"
 "$bin/seam-lab" report "$data" -o "$out" --sweeps "$sweeps"
 step "done: open $out/index.html"
+exit "$failed"

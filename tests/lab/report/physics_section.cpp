@@ -99,17 +99,17 @@ Figure WorkPrecision(const PhysicsCase& c, const std::string& command) {
   figure.panel_height_px = 380;
   figure.small = true;
   PlotPanel panel;
-  panel.x = {"CPU time, ratio to stock measured beside it", true, {}, "failed"};
+  panel.x = {"CPU time, ratio to stock measured beside it", true, {}, "crashed"};
   panel.y = {fmt::format("error ({}; {})", c.unit, c.truth), true, {}, "diverged"};
   panel.uprights.push_back({1, ""});
   panel.curves.push_back(FrontCurve(c.all));
   for (std::size_t i = 0; i < kRates.size(); ++i) {
-    PlotCurve warm = PointsOnly(kRates[i].name, kRates[i].colour, 7, 0.55);
-    PlotCurve cold = PointsOnly("", kRates[i].colour, 6, 0.55);
+    PlotCurve warm = PointsOnly(kRates[i].name, kRates[i].colour, 7, 0.75);
+    PlotCurve cold = PointsOnly("", kRates[i].colour, 6, 0.75);
     for (const PhysicsRun& run : c.all) {
       const double above = i == 0 ? 0 : kRates[i - 1].up_to_hz;
       if (run.tick_hz <= above || run.tick_hz > kRates[i].up_to_hz) continue;
-      if (std::isfinite(run.cost_ratio)) (run.warm ? warm : cold).points.push_back(At(run));
+      (run.warm ? warm : cold).points.push_back(At(run));
     }
     if (warm.points.empty()) cold.name = warm.name;
     for (PlotCurve* curve : {&warm, &cold}) {
@@ -118,12 +118,12 @@ Figure WorkPrecision(const PhysicsCase& c, const std::string& command) {
   }
   PlotCurve failed = PointsOnly("failed", "#c41e3a", 2, 0.9);
   for (const PhysicsRun& run : c.all) {
-    if (!run.held() && std::isfinite(run.cost_ratio)) failed.points.push_back(At(run));
+    if (!run.held()) failed.points.push_back(At(run));
   }
   if (!failed.points.empty()) panel.curves.push_back(std::move(failed));
   const auto mark = [&](const std::optional<PhysicsRun>& run, const char* name, const char* colour,
                         int point, double size) {
-    if (!run || !std::isfinite(run->cost_ratio)) return;
+    if (!run) return;
     PlotCurve curve = PointsOnly(name, colour, point, size);
     curve.points.push_back(At(*run));
     panel.curves.push_back(std::move(curve));
@@ -151,7 +151,7 @@ Figure PhysicsSummary(const std::vector<PhysicsCase>& cases, const std::string& 
   figure.panel_width_px = 1100;
   figure.panel_height_px = 680;
   PlotPanel panel;
-  panel.x = {"CPU time, ratio to stock", true, {}, "failed"};
+  panel.x = {"CPU time, ratio to stock", true, {}, "crashed"};
   panel.y = {"error, ratio to stock", true, {}, "fails"};
   panel.uprights.push_back({1, "stock's cost"});
   panel.levels.push_back({1, "stock's error"});
@@ -160,7 +160,7 @@ Figure PhysicsSummary(const std::vector<PhysicsCase>& cases, const std::string& 
   PlotCurve failed = PointsOnly("own fails", "#c41e3a", 2, 1.1);
   PlotCurve both = PointsOnly("both fail", "#999999", 2, 1.1);
   for (const PhysicsCase& c : cases) {
-    if (!c.stock || !c.scene || !std::isfinite(c.scene->cost_ratio)) continue;
+    if (!c.stock || !c.scene) continue;
     const double ratio = ErrorRatio(*c.scene, *c.stock);
     const PlotPoint point = {c.scene->cost_ratio, ratio, ratio, ratio};
     PlotCurve& kind = c.scene->held() ? (c.stock->held() ? held : rescued)
@@ -187,8 +187,8 @@ Section PhysicsSection(const CsvTable& table, const std::string& command) {
   section.title = "Hard cases for the solver";
   section.intro =
       "Every setting that was tried, at its cost as a ratio to the stock setting timed beside it "
-      "in the same run, against its error: from a formula (exact), from the scene's own converged "
-      "run, or by what must not happen (invariant). Settings that failed are marked; those that "
+      "in the same run, against its error: from a formula, from the scene's own converged run, "
+      "or by what must not happen (invariant). Settings that failed are marked; those that "
       "diverged are at the upper edge.";
   section.items.emplace_back(PhysicsSummary(cases, command));
   for (TextTable t : {PhysicsTable(cases, command), PhysicsSearchTable(cases, command),

@@ -16,7 +16,7 @@ struct PhysicsRun {
   double tick_hz = 60;
   bool warm = true;
   double error = 0;                   ///< in the case's unit; infinite: diverged
-  double cost_ratio = 1;              ///< of CPU time to stock's, measured beside it
+  double cost_ratio = 1;              ///< of CPU time to stock's beside it; NaN: it crashed
   std::string failure;                ///< what happened that must not; "": nothing
   bool held() const { return failure.empty(); }
 };
