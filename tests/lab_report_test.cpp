@@ -74,6 +74,21 @@ TEST(SweepView, NamesASecondThingThatWasVariedWithTheMethod) {
   EXPECT_EQ(view.groups[0].runs.count("strict, smooth on"), 1u);
 }
 
+TEST(SweepView, WhatScenesDifferInByThemselvesWasNotVaried) {
+  // Buffers of 1 and 5 m were tried in one scene, 5 m is set in both; substeps are the scenes' own.
+  std::string csv = "scene,set,mode,reconcile,impair,drive,seed,substeps,buffer_m,error_rms_m\n";
+  csv += "wall,buffer=1,buffer,fade,perfect,script,1,1,1,0.5\n";
+  csv += "wall,buffer=5;gravity=2,buffer,fade,perfect,script,1,1,5,0.4\n";
+  csv += "stack,buffer=5,buffer,fade,perfect,script,1,2,5,0.4\n";
+  const SweepView view = SweepOf(csv).view;
+  EXPECT_EQ(view.axis.key, "buffer_m");
+  EXPECT_TRUE(view.axis.ours);
+  ASSERT_EQ(view.groups.size(), 2u);
+  EXPECT_EQ(view.groups[0].methods,
+            (std::vector<std::string>{"fade, set gravity=2", "fade, set –"}));
+  EXPECT_EQ(view.groups[1].xs, (std::vector<double>{5}));
+}
+
 TEST(SweepSection, TabulatesMediansAndQuartiles) {
   const TextTable table = TableOf(SweepSection(SweepOf(LatencyCsv())), "latency-wall-error");
   EXPECT_EQ(table.header, (std::vector<std::string>{"method", "50 ms", "100 ms"}));

@@ -57,8 +57,8 @@ double PlaceOn(const PlotRange& range, double value, bool log) {
 }
 
 std::vector<double> LogTics(const PlotRange& range) {
-  const double low = range.zero ? range.zero_at * 1.3 : range.low;
-  const double high = range.infinity ? range.infinity_at / 1.3 : range.high;
+  const double low = range.zero ? range.zero_at * 1.6 : range.low;
+  const double high = range.infinity ? range.infinity_at / 1.6 : range.high;
   const double decades = std::log10(high / low);
   const int first = static_cast<int>(std::floor(std::log10(low)));
   const int last = static_cast<int>(std::ceil(std::log10(high)));

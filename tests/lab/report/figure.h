@@ -46,6 +46,8 @@ struct Axis {
   bool log = false;
   std::vector<double> tics;           ///< where; none: chosen
   std::string at_infinity = "failed"; ///< what infinity is called
+  std::string at_zero = "0";          ///< and zero on a logarithmic axis
+  std::vector<std::string> names = {};   ///< of 0, 1, 2, ... from above, in place of numbers
 };
 
 struct PlotPanel {
@@ -63,6 +65,7 @@ struct Figure {
   std::string command;                ///< that makes it
   int columns = 1;                    ///< panels beside each other
   int panel_width_px = 400, panel_height_px = 300;
+  int left_px = 72;                   ///< of a panel, for the tics of its y axis
   bool small = false;                 ///< in the page several beside each other
   std::vector<PlotPanel> panels;
 };

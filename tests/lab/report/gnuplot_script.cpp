@@ -9,7 +9,7 @@ namespace seam {
 namespace {
 
 constexpr int kLegendLinePx = 22, kTitlePx = 34;
-constexpr int kLeftPx = 72, kRightPx = 24, kTopPx = 34, kBottomPx = 54;
+constexpr int kRightPx = 24, kTopPx = 34, kBottomPx = 54;
 
 /// In single quotes, as gnuplot reads a text in which nothing is special.
 std::string Quoted(const std::string& text) {
@@ -93,9 +93,19 @@ class Script {
   double X(double px) const { return px / width_; }
   double Y(double px_from_top) const { return 1 - px_from_top / height_; }
 
+  static std::string Names(const char* axis, const Axis& a) {
+    std::string list;
+    for (std::size_t i = 0; i < a.names.size(); ++i) {
+      list += fmt::format("{}{} {}", i == 0 ? "" : ", ", Quoted(a.names[i]), i);
+    }
+    return fmt::format("unset logscale {0}\nset {0}range [{1}:-1]\nset {0}tics ({2})\n", axis,
+                       a.names.size(), list);
+  }
+
   std::string AxisLines(const char* axis, const Axis& a, const PlotRange& range) const {
     std::string out = fmt::format("{1} logscale {0}\nset {0}range [{2}:{3}]\n", axis,
                                   a.log ? "set" : "unset", range.low, range.high);
+    if (!a.names.empty()) return Names(axis, a);
     std::vector<double> tics = a.tics;
     if (tics.empty() && a.log) tics = LogTics(range);
     std::string list;
@@ -105,7 +115,8 @@ class Script {
     }
     out += list.empty() ? fmt::format("set {}tics autofreq\n", axis)
                         : fmt::format("set {}tics ({})\n", axis, list);
-    if (range.zero) out += fmt::format("set {}tics add ('0' {})\n", axis, range.zero_at);
+    if (range.zero) out += fmt::format("set {}tics add ({} {})\n", axis, Quoted(a.at_zero),
+                         range.zero_at);
     if (range.infinity) {
       out += fmt::format("set {}tics add ({} {})\n", axis, Quoted(a.at_infinity),
                          range.infinity_at);
@@ -120,7 +131,7 @@ class Script {
     const double top = kTitlePx + legend_px_ + (i / columns_) * f_.panel_height_px;
     text_ += fmt::format("set lmargin at screen {}\nset rmargin at screen {}\n"
                          "set tmargin at screen {}\nset bmargin at screen {}\n",
-                         X(left + kLeftPx), X(left + f_.panel_width_px - kRightPx),
+                         X(left + f_.left_px), X(left + f_.panel_width_px - kRightPx),
                          Y(top + kTopPx), Y(top + f_.panel_height_px - kBottomPx));
     std::vector<double> xs, ys;
     for (const PlotCurve& curve : p.curves) {

@@ -17,6 +17,8 @@ Section PhysicsSection(const CsvTable& table, const std::string& command);
 Figure WorkPrecision(const PhysicsCase& c, const std::string& command);
 /// Error ratio against cost ratio of each scene's own setting, named.
 Figure PhysicsSummary(const std::vector<PhysicsCase>& cases, const std::string& command);
+/// Error and cost ratio of every case, by name.
+Figure PhysicsList(const std::vector<PhysicsCase>& cases, const std::string& command);
 /// Stock against scene: error, ratio, cost, verdict; then what the search found.
 TextTable PhysicsTable(const std::vector<PhysicsCase>& cases, const std::string& command);
 TextTable PhysicsSearchTable(const std::vector<PhysicsCase>& cases, const std::string& command);

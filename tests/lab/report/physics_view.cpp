@@ -28,7 +28,8 @@ std::string Setting(const CsvTable& t, std::size_t row) {
   }
   if (!IsOn(t.Text(row, "warm_starting"))) text += ", cold";
   if (!IsOn(t.Text(row, "continuous"))) text += ", not continuous";
-  if (t.Text(row, "welds") == "body") text += ", welds as one body";
+  const bool stock = t.Text(row, "role") == "stock";   // that always has them so
+  if (!stock && t.Text(row, "welds") == "joint") text += ", welds jointed";
   return text;
 }
 

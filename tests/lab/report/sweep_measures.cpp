@@ -23,6 +23,7 @@ const std::vector<SweepMeasure>& SweepMeasures() {
       Column("rebound", "rebound", "1 is right", false, "rebound"),
       Column("penetration", "penetration, deepest", "m", true, "penetration_m"),
       Column("handover", "jump at hand-over, largest", "m", true, "handover_jump_m"),
+      Column("gap", "gap at hand-over, largest", "m", true, "handover_gap_m"),
       Column("bytes", "traffic of a client", "kB/s", false, "bytes_per_s", 1e-3)};
   return measures;
 }
@@ -44,6 +45,12 @@ const std::vector<SweepMeasure>& FloorMeasures() {
       Column("floor", "floor", "m", true, "floor_m"),
       Column("floor-wire", "floor of the wire", "m", true, "floor_wire_m")};
   return floors;
+}
+
+const SweepMeasure& OraclesPenetration() {
+  static const SweepMeasure oracle =
+      Column("oracle-penetration", "penetration of the oracle", "m", true, "oracle_penetration_m");
+  return oracle;
 }
 
 const SweepMeasure& MeasureNamed(const std::string& id) {

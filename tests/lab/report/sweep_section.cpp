@@ -85,6 +85,10 @@ Figure CurvesOf(const Sweep& sweep, const SweepGroup& group) {
         if (floor) panel.levels.push_back({floor->median, measured.name});
       }
     }
+    if (measure.id == "penetration") {
+      const auto oracle = Summary(sweep.table, OraclesPenetration(), group);
+      if (oracle && oracle->median > 0) panel.levels.push_back({oracle->median, "oracle's own"});
+    }
     if (measure.id == "rebound") panel.levels.push_back({1, "right"});
     figure.panels.push_back(std::move(panel));
   }

@@ -50,6 +50,11 @@ void Fill(const Cells& cells, const std::string& corner, TextTable* table) {
   }
 }
 
+/// Tables over several sweeps are made by all of them.
+void AddCommand(const Sweep& sweep, TextTable* table) {
+  table->command += (table->command.empty() ? "make report  # sweeps: " : ", ") + sweep.name;
+}
+
 /// For every method: at which x it is on the front, "✓ 10, 30"; else how many times the front's
 /// error it has at best for what it costs: "1.8 x".
 std::map<std::string, std::string> Places(const Sweep& sweep, const SweepGroup& group,
@@ -102,7 +107,7 @@ TextTable FrontTable(const std::vector<Sweep>& sweeps) {
         }
       }
     }
-    table.command += (table.command.empty() ? "" : "; ") + sweep.command;
+    AddCommand(sweep, &table);
   }
   Fill(cells, "front", &table);
   table.note =
@@ -131,7 +136,7 @@ TextTable SpeedTable(const std::vector<Sweep>& sweeps) {
         }
       }
     }
-    table.command += (table.command.empty() ? "" : "; ") + sweep.command;
+    AddCommand(sweep, &table);
   }
   for (const auto& group : factors) {
     for (const auto& method : group.second) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <set>
+#include <sstream>
 
 #include "common/net/impair.h"
 #include "tests/lab/report/method_look.h"
@@ -28,7 +29,7 @@ const std::array<SweepAxis, 11>& Axes() {
       {"tick_hz", "ticks", "Hz", true},
       {"velocity_iterations", "velocity iterations", "", true},
       {"position_iterations", "position iterations", "", true},
-      {"skin", "skin", "m", true},
+      {"skin_m", "skin", "m", true},
       {"duration_s", "duration", "s", false},
   }};
   return axes;
@@ -50,10 +51,29 @@ double LossShare(const ImpairProfile& p) {
   return bad * p.loss_in_bad + (1 - bad) * p.loss_in_good;
 }
 
+/// "a=1; solver.substeps=2" without what has a column of its own.
+std::string OtherSettings(const CsvTable& table, const std::string& set) {
+  std::string rest;
+  std::istringstream items(set);
+  for (std::string item; std::getline(items, item, ';');) {
+    const std::size_t begin = item.find_first_not_of(' ');
+    if (begin == std::string::npos) continue;
+    item = item.substr(begin);
+    std::string name = item.substr(0, item.find('='));
+    name = name.substr(name.rfind('.') + 1);
+    name = name.substr(0, name.find(' '));
+    if (table.Has(name) || table.Has(name + "_m")) continue;
+    rest += (rest.empty() ? "" : "; ") + item;
+  }
+  return rest;
+}
+
 /// What distinguishes a run besides scene, drive, method and seed.
 Keys KeysOf(const CsvTable& table, std::size_t row, const std::vector<std::string>& columns) {
   Keys keys;
   for (const std::string& column : columns) keys[column] = table.Text(row, column);
+  if (table.Has("set")) keys["set"] = OtherSettings(table, table.Text(row, "set"));
+  if (table.Has("one_way_ms")) return keys;
   const ImpairProfile profile = FindProfile(table.Text(row, "impair"));
   keys["one_way_ms"] = Number(static_cast<double>(profile.delay_us) * 1e-3);
   keys["jitter_ms"] = Number(static_cast<double>(profile.jitter_mean_us) * 1e-3);
@@ -84,8 +104,29 @@ bool IsNumber(const std::string& text) {
   return !text.empty() && *end == '\0';
 }
 
+/// Of each key the values that the runs of one scene have, of the scene with the most.
+using Values = std::map<std::string, std::set<std::string>>;
+
+Values ValuesOf(const CsvTable& table, const std::vector<Keys>& keys) {
+  std::map<std::string, Values> by_scene;
+  for (std::size_t row = 0; row < keys.size(); ++row) {
+    for (const auto& item : keys[row]) {
+      // A scene's own value, written as none, is no choice of the sweep; but no text is a value.
+      if (item.second.empty() && item.first != "set") continue;
+      by_scene[table.Text(row, "scene")][item.first].insert(item.second);
+    }
+  }
+  Values most;
+  for (const auto& scene : by_scene) {
+    for (const auto& item : scene.second) {
+      if (item.second.size() > most[item.first].size()) most[item.first] = item.second;
+    }
+  }
+  return most;
+}
+
 /// The key with the most values, all of them numbers; of equals the one listed first.
-std::string ChooseAxis(const std::map<std::string, std::set<std::string>>& values) {
+std::string ChooseAxis(const Values& values) {
   std::string best = "one_way_ms";
   std::size_t most = 1;
   const auto consider = [&](const std::string& key) {
@@ -116,8 +157,7 @@ SweepGroup* GroupOf(const CsvTable& table, std::size_t row, SweepView* view) {
   return &view->groups.back();
 }
 
-std::string Fixed(const std::map<std::string, std::set<std::string>>& values,
-                  const std::string& axis) {
+std::string Fixed(const Values& values, const std::string& axis) {
   std::string text;
   for (const char* key : {"one_way_ms", "loss_percent", "jitter_ms", "send_hz"}) {
     const auto found = values.find(key);
@@ -135,15 +175,8 @@ SweepView ViewSweep(const CsvTable& table) {
   table.Require({"scene", "mode", "reconcile", "impair", "drive", "seed", "error_rms_m"});
   const std::vector<std::string> columns = KeyColumns(table);
   std::vector<Keys> keys;
-  std::map<std::string, std::set<std::string>> values;
-  for (std::size_t row = 0; row < table.rows(); ++row) {
-    keys.push_back(KeysOf(table, row, columns));
-    for (const auto& item : keys.back()) {
-      // A scene's own value, written as none, is no choice of the sweep.
-      if (!item.second.empty()) values[item.first].insert(item.second);
-    }
-  }
-  values.erase("duration_s");   // each scene has its own
+  for (std::size_t row = 0; row < table.rows(); ++row) keys.push_back(KeysOf(table, row, columns));
+  const Values values = ValuesOf(table, keys);
   SweepView view;
   view.axis = AxisOf(ChooseAxis(values));
   view.fixed = Fixed(values, view.axis.key);
@@ -153,7 +186,7 @@ SweepView ViewSweep(const CsvTable& table) {
       const auto found = values.find(item.first);
       if (item.first == view.axis.key || found == values.end()) continue;
       if (found->second.size() < 2) continue;
-      method += ", " + AxisOf(item.first).name + ' ' + item.second;
+      method += ", " + AxisOf(item.first).name + ' ' + (item.second.empty() ? "–" : item.second);
     }
     const std::string& x = keys[row][view.axis.key];
     if (x.empty()) continue;

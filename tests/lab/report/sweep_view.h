@@ -45,12 +45,14 @@ struct SweepMeasure {
   std::string Label() const { return name + (unit.empty() ? "" : " (" + unit + ")"); }
 };
 
-/// error, seam, stutter, rebound, penetration, handover, bytes.
+/// error, seam, stutter, rebound, penetration, handover, gap, bytes.
 const std::vector<SweepMeasure>& SweepMeasures();
 /// CPU time of server and clients, ms per second of the session.
 const SweepMeasure& CpuMeasure();
 /// The scene's own sensitivity, to a micrometre and to the wire's resolution.
 const std::vector<SweepMeasure>& FloorMeasures();
+/// What overlap the truth itself has.
+const SweepMeasure& OraclesPenetration();
 /// One of the above by its id, or "cpu".
 const SweepMeasure& MeasureNamed(const std::string& id);
 
