@@ -196,7 +196,7 @@ TEST(Reconcile, EveryRuleLeavesEqualStatesAlone) {
     in.local_then = &same;
     in.dt = 0.2f;
     EXPECT_EQ(r.rule(in).now.position.norm(), 0) << r.name;
-    EXPECT_EQ(FindReconciler(r.name), r.rule);
+    EXPECT_EQ(FindReconciler(r.name).rule, r.rule);
   }
   EXPECT_THROW(FindReconciler("wish"), OperatorError);
 }

@@ -1,15 +1,12 @@
 #include "common/physics/world.h"
 
 #include <algorithm>
-#include <cfloat>
 #include <cmath>
 #include <cstring>
-#include <optional>
 
 #include "common/base/bytes.h"
 #include "common/base/check.h"
-#include "common/physics/world_build.h"
-#include "common/physics/world_contacts.h"
+#include "common/physics/world_impl.h"
 
 namespace seam {
 namespace {
@@ -18,35 +15,6 @@ namespace {
 bool SameBits(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 }  // namespace
-
-struct World::Impl {
-  explicit Impl(const Scene& s) : scene(s), composition(Compose(s)), world(ToB2(s.gravity)) {
-    world.SetContinuousPhysics(s.solver.continuous);
-    world.SetAllowSleeping(s.solver.sleep);
-    world.SetWarmStarting(s.solver.warm_starting);
-    built = BuildScene(scene, composition, &world);
-    float lightest = FLT_MAX;
-    for (const MovingBody& m : built.moving) lightest = std::min(lightest, m.mass.mass);
-    meter.Set(s.solver.substeps, lightest);
-    world.SetContactListener(&meter);
-  }
-
-  const MovingBody& moving(int body) const {
-    SEAM_ASSERT(body >= 0 && body < static_cast<int>(built.moving.size()));
-    return built.moving[static_cast<std::size_t>(body)];
-  }
-
-  const Scene scene;
-  const Composition composition;
-  ImpulseMeter meter;
-  b2World world;
-  BuiltScene built;
-  std::int64_t tick = 0;
-  std::vector<Impact> impacts;
-  // Looked up when asked for: a world that nobody asks pays nothing.
-  std::optional<std::vector<Touch>> touches;
-  std::optional<std::vector<Block>> blocks;
-};
 
 World::World(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
 World::~World() = default;
@@ -141,10 +109,10 @@ void World::Act(int player, int action) {
 void World::Step() {
   Impl& w = *impl_;
   const Solver& solver = w.scene.solver;
-  const float h = 1.0f / static_cast<float>(solver.tick_hz * solver.substeps);
+  const float h = w.step_s();
   w.meter.Clear();
   for (int i = 0; i < solver.substeps; ++i) {
-    w.world.Step(h, solver.velocity_iterations, solver.position_iterations);
+    w.world->Step(h, solver.velocity_iterations, solver.position_iterations);
   }
   ++w.tick;
   w.impacts = w.meter.Impacts(w.built.moving);
@@ -155,12 +123,12 @@ void World::Step() {
 const std::vector<Impact>& World::impacts() const { return impl_->impacts; }
 
 const std::vector<Touch>& World::touches() const {
-  if (!impl_->touches) impl_->touches = FindTouches(impl_->world);
+  if (!impl_->touches) impl_->touches = FindTouches(*impl_->world);
   return *impl_->touches;
 }
 
 const std::vector<Block>& World::blocks() const {
-  if (!impl_->blocks) impl_->blocks = FindBlocks(impl_->world, impl_->built.tethers);
+  if (!impl_->blocks) impl_->blocks = FindBlocks(*impl_->world, impl_->built.tethers);
   return *impl_->blocks;
 }
 

@@ -31,6 +31,26 @@ struct Block {
 
 enum class Motion { kDynamic, kKinematic };
 
+/// All that decides how a world goes on from a tick, but for the order of its contacts and its
+/// actions. Only a world that did a Barrier at that tick goes on the same.
+struct WorldSnapshot {
+  struct Body {
+    BodyState state;
+    bool awake = true;
+    float quiet_s = 0;                  ///< how long it has been slow enough to sleep
+  };
+  /// Of one point of a contact, where the next step begins to look for its impulse.
+  struct Point {
+    std::uint64_t pair = 0;             ///< the two shapes
+    std::uint64_t feature = 0;          ///< which pieces of them
+    float normal = 0, tangent = 0;      ///< N s
+  };
+  std::int64_t tick = 0;
+  std::vector<Body> bodies;
+  std::vector<Point> points;            ///< ascending by pair, feature
+  std::vector<float> joints;            ///< impulses, N s and N m s, in the engine's order
+};
+
 /// A `body` below is an index 0..body_count()-1 of the moving assemblies, ascending by id.
 class World {
  public:
@@ -79,6 +99,13 @@ class World {
 
   /// After the last tick, ascending by body; at most two per body.
   const std::vector<Block>& blocks() const;
+
+  /// Rebuilds the world, so that nothing is left in it of how it came to its state, and returns
+  /// that state. Bodies, motions and motors stay; impulses of contacts and joints are carried over.
+  WorldSnapshot Barrier();
+  /// Goes back to a state that Barrier returned. Motions and motors stay as they are now. With the
+  /// same calls after it, the world does again, bit for bit, what it did then.
+  void Restore(const WorldSnapshot& snapshot);
 
   /// FNV-1a over tick, poses, velocities and sleep flags of all bodies, bit for bit.
   std::uint64_t Hash() const;

@@ -110,12 +110,19 @@ void AddJoint(const Scene& scene, const Joint& joint, b2Body* a, b2Body* b, b2Wo
 
 }  // namespace
 
-void Motor::Drive(float share) const {
+void Motor::Drive(float share) const { SetSpeed(share * speed); }
+
+void Motor::SetSpeed(float now) const {
   if (wheel) {
-    static_cast<b2WheelJoint*>(joint)->SetMotorSpeed(share * speed);
+    static_cast<b2WheelJoint*>(joint)->SetMotorSpeed(now);
   } else {
-    static_cast<b2RevoluteJoint*>(joint)->SetMotorSpeed(share * speed);
+    static_cast<b2RevoluteJoint*>(joint)->SetMotorSpeed(now);
   }
+}
+
+float Motor::Speed() const {
+  return wheel ? static_cast<b2WheelJoint*>(joint)->GetMotorSpeed()
+               : static_cast<b2RevoluteJoint*>(joint)->GetMotorSpeed();
 }
 
 int IndexOf(b2Body* body) { return static_cast<int>(body->GetUserData().pointer) - 1; }

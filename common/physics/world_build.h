@@ -31,6 +31,9 @@ struct Motor {
 
   /// `share` of full drive, -1..1. Wakes the bodies if the speed changes.
   void Drive(float share) const;
+  /// rad/s, as it is now.
+  float Speed() const;
+  void SetSpeed(float now) const;
 };
 
 struct BuiltScene {

@@ -114,6 +114,7 @@ void AddFixture(const Part& part, const Part& root, float skin, bool guarded, b2
   def.density = 0;   // The mass is set once for the body: summing it per fixture is quadratic.
   def.friction = part.material.friction;
   def.restitution = part.material.restitution;
+  def.userData.pointer = static_cast<std::uintptr_t>(part.id);
   def.filter.groupIndex = static_cast<int16>(part.group);
   body->CreateFixture(&def);
 }

@@ -31,7 +31,10 @@ SyncConfig MakeSyncConfig(const std::string& mode, const std::string& reconcile)
     return config;
   }
   config.reconcile_name = reconcile.empty() ? "retrospect" : reconcile;
-  config.reconcile = FindReconciler(config.reconcile_name);
+  const NamedReconciler& rule = FindReconciler(config.reconcile_name);
+  config.reconcile = rule.rule;
+  config.pull = rule.pull;
+  config.resimulates = rule.resimulates;
   return config;
 }
 

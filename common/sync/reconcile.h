@@ -40,20 +40,53 @@ struct Correction {
 
 using Reconciler = Correction (*)(const ReconcileInput&);
 
+/// What a rule that acts in every tick between two messages goes by. Times in s.
+///
+///   authority   --o t1 ......................... target: moved on from there to now
+///   our copy         arrival o-------------o local, now     (since_arrival)
+struct PullInput {
+  BodyState local;                     ///< our copy, before the step
+  BodyState arrival;                   ///< our copy when the newest message came
+  BodyState target_then;               ///< the authority's, moved on to when the message came
+  BodyState target;                    ///< the authority's, moved on to now
+  BodyState drift;                     ///< what the step adds to a free body that is let go at rest
+  float since_arrival = 0;             ///< before the step
+  float interval = 0;                  ///< between two messages, as expected
+  float step = 0;                      ///< length of a tick
+};
+
+/// What the replica remembers of a body for its puller.
+struct PullMemory {
+  Vec2 before{0, 0};                   ///< velocity before the last pull
+  Vec2 asked{0, 0};                    ///< change of velocity by the last pull
+  float share = 1;                     ///< of what is wanted that is asked; below 1: it is blocked
+};
+
+/// What to add to velocity and spin before the step. Poses are the step's business.
+using Puller = Correction (*)(const PullInput&, PullMemory*);
+
+Correction PullSpring(const PullInput&, PullMemory*);
+Correction PullPvb(const PullInput&, PullMemory*);
+
 Correction ReconcileSnap(const ReconcileInput&);
 Correction ReconcileInterleave(const ReconcileInput&);
 Correction ReconcileCompensated(const ReconcileInput&);
 Correction ReconcileFade(const ReconcileInput&);
 Correction ReconcileRetrospect(const ReconcileInput&);
+Correction ReconcileResimulate(const ReconcileInput&);
+Correction ReconcilePvb(const ReconcileInput&);
+Correction ReconcileSpring(const ReconcileInput&);
 
 struct NamedReconciler {
   const char* name;
   Reconciler rule;
   const char* about;
+  Puller pull = nullptr;               ///< also acts in every tick
+  bool resimulates = false;            ///< the replica goes back and steps again (ReplayFrom)
 };
 const std::vector<NamedReconciler>& Reconcilers();
 /// Throws OperatorError naming the known ones.
-Reconciler FindReconciler(const std::string& name);
+const NamedReconciler& FindReconciler(const std::string& name);
 
 /// a - b, component by component.
 BodyState Minus(const BodyState& a, const BodyState& b);

@@ -1,0 +1,172 @@
+/// World: going back in time. After FACTS measured for this engine: a snapshot of poses, velocities
+/// and impulses alone does not replay, because the order in which contacts are solved is history,
+/// too, and cannot be set. So the world that goes on takes the same way as the one that goes back:
+/// it is built anew from the snapshot at the tick it takes one (the barrier).
+
+#include <algorithm>
+#include <tuple>
+
+#include "common/physics/world_impl.h"
+
+namespace seam {
+namespace {
+
+/// What the engine keeps to itself, without setters: time to sleep and the joints' impulses. An
+/// explicit instantiation may name private members ([temp.spec]), so this is no trick on the
+/// compiler, only on the class.
+template <typename Tag, typename Tag::Type kMember>
+struct Reveal {
+  friend typename Tag::Type Member(Tag) { return kMember; }
+};
+
+#define SEAM_REVEAL(tag, type, owner, member) \
+  struct tag {                                \
+    using Type = type owner::*;               \
+    friend Type Member(tag);                  \
+  };                                          \
+  template struct Reveal<tag, &owner::member>
+
+SEAM_REVEAL(SleepTime, float, b2Body, m_sleepTime);
+SEAM_REVEAL(RevolutePoint, b2Vec2, b2RevoluteJoint, m_impulse);
+SEAM_REVEAL(RevoluteMotor, float, b2RevoluteJoint, m_motorImpulse);
+SEAM_REVEAL(RevoluteLower, float, b2RevoluteJoint, m_lowerImpulse);
+SEAM_REVEAL(RevoluteUpper, float, b2RevoluteJoint, m_upperImpulse);
+SEAM_REVEAL(WheelLine, float, b2WheelJoint, m_impulse);
+SEAM_REVEAL(WheelMotor, float, b2WheelJoint, m_motorImpulse);
+SEAM_REVEAL(WheelSpring, float, b2WheelJoint, m_springImpulse);
+SEAM_REVEAL(WheelLower, float, b2WheelJoint, m_lowerImpulse);
+SEAM_REVEAL(WheelUpper, float, b2WheelJoint, m_upperImpulse);
+SEAM_REVEAL(DistanceLine, float, b2DistanceJoint, m_impulse);
+SEAM_REVEAL(DistanceLower, float, b2DistanceJoint, m_lowerImpulse);
+SEAM_REVEAL(DistanceUpper, float, b2DistanceJoint, m_upperImpulse);
+SEAM_REVEAL(WeldAll, b2Vec3, b2WeldJoint, m_impulse);
+
+#undef SEAM_REVEAL
+
+/// The impulses that a joint begins its next step with.
+std::vector<float*> ImpulsesOf(b2Joint* joint) {
+  if (joint->GetType() == e_revoluteJoint) {
+    auto& j = *static_cast<b2RevoluteJoint*>(joint);
+    b2Vec2& point = j.*Member(RevolutePoint());
+    return {&point.x, &point.y, &(j.*Member(RevoluteMotor())), &(j.*Member(RevoluteLower())),
+            &(j.*Member(RevoluteUpper()))};
+  }
+  if (joint->GetType() == e_wheelJoint) {
+    auto& j = *static_cast<b2WheelJoint*>(joint);
+    return {&(j.*Member(WheelLine())), &(j.*Member(WheelMotor())), &(j.*Member(WheelSpring())),
+            &(j.*Member(WheelLower())), &(j.*Member(WheelUpper()))};
+  }
+  if (joint->GetType() == e_distanceJoint) {
+    auto& j = *static_cast<b2DistanceJoint*>(joint);
+    return {&(j.*Member(DistanceLine())), &(j.*Member(DistanceLower())),
+            &(j.*Member(DistanceUpper()))};
+  }
+  SEAM_ASSERT(joint->GetType() == e_weldJoint);
+  b2Vec3& all = static_cast<b2WeldJoint*>(joint)->*Member(WeldAll());
+  return {&all.x, &all.y, &all.z};
+}
+
+using PointKey = std::tuple<std::uint64_t, std::uint64_t>;
+PointKey KeyOf(const WorldSnapshot::Point& p) { return {p.pair, p.feature}; }
+
+/// Calls `visit(key, point)` for all points of contacts.
+template <typename Visit>
+void EachPoint(b2World* world, const Visit& visit) {
+  for (b2Contact* c = world->GetContactList(); c != nullptr; c = c->GetNext()) {
+    // Part numbers and ids of features are below 2^32; a chain's segments tell points apart.
+    const std::uint64_t a = c->GetFixtureA()->GetUserData().pointer;
+    const std::uint64_t b = c->GetFixtureB()->GetUserData().pointer;
+    const auto child = static_cast<std::uint64_t>(c->GetChildIndexA() + c->GetChildIndexB());
+    b2Manifold* manifold = c->GetManifold();
+    for (int32 i = 0; i < manifold->pointCount; ++i) {
+      b2ManifoldPoint& point = manifold->points[i];
+      visit(PointKey{a << 32 | b, child << 32 | point.id.key}, &point);
+    }
+  }
+}
+
+WorldSnapshot Save(std::int64_t tick, const std::vector<MovingBody>& moving, b2World* world) {
+  WorldSnapshot out;
+  out.tick = tick;
+  for (const MovingBody& m : moving) {
+    WorldSnapshot::Body body;
+    body.state = {FromB2(m.body->GetPosition()), m.body->GetAngle(),
+                  FromB2(m.body->GetLinearVelocity()), m.body->GetAngularVelocity()};
+    body.awake = m.body->IsAwake();
+    body.quiet_s = m.body->*Member(SleepTime());
+    out.bodies.push_back(body);
+  }
+  EachPoint(world, [&](const PointKey& key, const b2ManifoldPoint* point) {
+    const auto& [pair, feature] = key;
+    out.points.push_back({pair, feature, point->normalImpulse, point->tangentImpulse});
+  });
+  std::sort(out.points.begin(), out.points.end(),
+            [](const auto& x, const auto& y) { return KeyOf(x) < KeyOf(y); });
+  for (b2Joint* j = world->GetJointList(); j != nullptr; j = j->GetNext()) {
+    for (const float* impulse : ImpulsesOf(j)) out.joints.push_back(*impulse);
+  }
+  return out;
+}
+
+}  // namespace
+
+WorldSnapshot World::Barrier() {
+  const WorldSnapshot snapshot = Save(impl_->tick, impl_->built.moving, &*impl_->world);
+  Restore(snapshot);
+  return snapshot;
+}
+
+void World::Restore(const WorldSnapshot& snapshot) {
+  Impl& w = *impl_;
+  SEAM_ASSERT(snapshot.bodies.size() == w.built.moving.size());
+  std::vector<bool> kinematic;
+  for (int body = 0; body < body_count(); ++body) {
+    kinematic.push_back(motion(body) == Motion::kKinematic);
+  }
+  std::vector<float> speeds;
+  for (const Motor& motor : w.built.motors) speeds.push_back(motor.Speed());
+
+  w.Empty();
+  // The engine scales the impulses it begins with by the ratio to its last step, which a new world
+  // takes for 0: let it have had one.
+  w.world->Step(w.step_s(), 1, 1);
+  w.built = BuildScene(w.scene, w.composition, &*w.world);
+  w.world->SetContactListener(&w.meter);
+  for (std::size_t i = 0; i < w.built.motors.size(); ++i) w.built.motors[i].SetSpeed(speeds[i]);
+  for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
+    if (kinematic[i]) SetMotion(static_cast<int>(i), Motion::kKinematic);
+    const BodyState& state = snapshot.bodies[i].state;
+    b2Body* b = w.built.moving[i].body;
+    b->SetTransform(ToB2(state.position), state.angle);
+  }
+  // No time passes, but contacts are found, which wakes what they touch.
+  w.world->Step(0, 1, 1);
+  EachPoint(&*w.world, [&](const PointKey& key, b2ManifoldPoint* point) {
+    const auto found =
+        std::lower_bound(snapshot.points.begin(), snapshot.points.end(), key,
+                         [](const WorldSnapshot::Point& p, const PointKey& k) {
+                           return KeyOf(p) < k;
+                         });
+    if (found == snapshot.points.end() || KeyOf(*found) != key) return;
+    point->normalImpulse = found->normal;
+    point->tangentImpulse = found->tangent;
+  });
+  std::size_t next = 0;
+  for (b2Joint* j = w.world->GetJointList(); j != nullptr; j = j->GetNext()) {
+    for (float* impulse : ImpulsesOf(j)) *impulse = snapshot.joints.at(next++);
+  }
+  for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
+    const WorldSnapshot::Body& body = snapshot.bodies[i];
+    b2Body* b = w.built.moving[i].body;
+    b->SetLinearVelocity(ToB2(body.state.velocity));
+    b->SetAngularVelocity(body.state.spin);
+    b->SetAwake(body.awake);
+    b->*Member(SleepTime()) = body.quiet_s;
+  }
+  w.tick = snapshot.tick;
+  w.meter.Clear();
+  w.touches.reset();
+  w.blocks.reset();
+}
+
+}  // namespace seam
