@@ -49,6 +49,7 @@ struct PullInput {
   BodyState arrival;                   ///< our copy when the newest message came
   BodyState target_then;               ///< the authority's, moved on to when the message came
   BodyState target;                    ///< the authority's, moved on to now
+  BodyState target_next;               ///< and to after the step
   BodyState drift;                     ///< what the step adds to a free body that is let go at rest
   float since_arrival = 0;             ///< before the step
   float interval = 0;                  ///< between two messages, as expected

@@ -35,6 +35,7 @@ Replica::Replica(const Scene& scene, const SyncConfig& config, int self, int own
   placed_.assign(bodies, true);
   priority_.assign(bodies, 0.0f);
   asleep_since_.assign(bodies, -1);
+  if (config.pull != nullptr) pulls_.resize(bodies);
   // Where everything is at tick 0, and how it moves, is known to all from the scene.
   for (int body = 0; body < world_.body_count(); ++body) snapshots_.Add(body, 0, world_.Read(body));
   RolesChanged();
@@ -46,6 +47,8 @@ void Replica::StartAt(std::int64_t tick) {
   placed_.assign(placed_.size(), false);
   world_.SetTick(tick);
   history_.Clear();
+  barriers_.clear();
+  replay_from_ = -1;
   RecordHistory();
 }
 
@@ -156,8 +159,10 @@ void Replica::RecordHistory() {
 
 void Replica::Step() {
   const std::int64_t next = tick() + 1;
+  if (config_.resimulates) Resimulate();
   ApplyInputs(next);
   if (config_.mode != Mode::kOracle) DriveKinematic(next);
+  if (config_.pull != nullptr) PullCopies(next);
   world_.Step();
   NoteImpacts();
   NoteTouches();
@@ -167,6 +172,7 @@ void Replica::Step() {
     outgoing_ = Pack(Header(), bodies);
   }
   RecordHistory();
+  if (config_.resimulates) TakeBarrier();
   for (int body = 0; body < world_.body_count(); ++body) {
     smoother_.Advance(body, world_.dt(), world_.Read(body).velocity.norm());
   }

@@ -7,6 +7,7 @@
 ///   TakeStates, MakeView, MakeImpacts                 after it
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <utility>
 #include <vector>
@@ -91,6 +92,18 @@ class Replica {
   BodyState LikePastOf(int body, std::int64_t tick, const BodyState& remote) const;
   void Correct(int body, const States& states, std::size_t i, const BodyState& common);
   void Predict(const States& states);
+  // Rules that act in every tick (replica_pull.cpp).
+  BodyState PullTarget(int body, std::int64_t at) const;
+  void NoteArrival(int body);
+  void PullCopies(std::int64_t next);
+  // Going back and stepping again (replica_resimulate.cpp).
+  /// Asks for a replay from `tick`, of which a state of `body` came; false: it cannot be had.
+  bool ReplayFrom(int body, std::int64_t tick);
+  void TakeBarrier();
+  bool FollowsHistory(int body, std::int64_t tick) const;
+  void PutIn();
+  void StepAgain();
+  void Resimulate();
   void RecordHistory();
   std::vector<PackedBody> ChooseBodies();
   States Header() const;
@@ -116,6 +129,15 @@ class Replica {
   std::vector<float> priority_;                // by body: accumulator for sending
   std::vector<std::int64_t> asleep_since_;     // by body, -1 awake
   std::vector<States> outgoing_;
+  struct Pull {
+    std::int64_t arrived = -1;                 // tick of the newest message's arrival, -1 none
+    BodyState arrival;                         // our copy then
+    BodyState target_then;                     // where the authority's was thought to be then
+    PullMemory memory;
+  };
+  std::vector<Pull> pulls_;                    // by body; empty without such a rule
+  std::deque<WorldSnapshot> barriers_;         // ascending; empty unless the rule goes back
+  std::int64_t replay_from_ = -1;              // oldest tick to go back to, -1 none
 };
 
 /// Dead reckoning beyond the buffer zone goes no further than this, s. Shorter than the age of what

@@ -5,6 +5,7 @@
 
 #include "common/base/check.h"
 #include "common/sync/replica.h"
+#include "common/sync/state_limits.h"
 
 namespace seam {
 namespace {
@@ -12,8 +13,6 @@ namespace {
 /// States of ticks still to come that may wait; a hostile peer could send many.
 constexpr std::size_t kEarlyMost = 64;
 constexpr std::int64_t kEarlyTicksMost = 120;
-/// Speeds written to the world stay within what the engine itself can move, m/s and rad/s.
-constexpr float kSpinMost = 94.0f;
 /// A copy slower than this may be taken to its authority's pose of rest at once, m/s and rad/s.
 constexpr float kQuiet = 0.1f;
 /// The same collision happens a tick or two apart at two peers. In between their velocities differ
@@ -22,19 +21,6 @@ constexpr float kQuiet = 0.1f;
 /// collisions too; 2 miss some of the same.
 constexpr std::int64_t kImpactShift = 3;
 constexpr float kOtherImpact = 1;
-
-bool Negligible(const BodyState& d) {
-  return d.position.norm() < 0.75f * kPositionQuantum &&
-         std::fabs(d.angle) < 0.75f * static_cast<float>(kAngleQuantum) &&
-         d.velocity.norm() < 1.5f * kVelocityQuantum && std::fabs(d.spin) < 1.5f * kVelocityQuantum;
-}
-
-BodyState WithinLimits(BodyState state, float speed_limit) {
-  const float speed = state.velocity.norm();
-  if (speed > speed_limit) state.velocity *= speed_limit / speed;
-  state.spin = std::clamp(state.spin, -kSpinMost, kSpinMost);
-  return state;
-}
 
 }  // namespace
 
@@ -89,6 +75,8 @@ bool Replica::ReceiveOne(const States& states, std::size_t i, int body) {
   snapshots_.Add(body, states.tick, remote);
   if (!placed_[static_cast<std::size_t>(body)]) {
     placed_[static_cast<std::size_t>(body)] = true;
+    barriers_.clear();   // from before it was here
+    replay_from_ = -1;
     world_.Write(body, WithinLimits(remote, scene().speed_limit));
     *history_.At(tick(), body) = world_.Read(body);
     smoother_.Reset(body);
@@ -144,6 +132,8 @@ void Replica::Place(const States& states) {
     const BodyState remote = Unpack(states, i, world_.Read(body).angle);
     snapshots_.Add(body, states.tick, remote);
     placed_[static_cast<std::size_t>(body)] = true;
+    barriers_.clear();   // from before it was here
+    replay_from_ = -1;
     world_.Write(body, WithinLimits(remote, scene().speed_limit));
     if ((states.flags[i] & kStateAsleep) != 0) world_.SetAwake(body, false);
     *history_.At(tick(), body) = world_.Read(body);
@@ -166,6 +156,7 @@ void Replica::Correct(int body, const States& states, std::size_t i, const BodyS
     // At rest as far as the authority knows: take its pose bit for bit, so that all peers end with
     // the same numbers. Our copy is neither woken nor put to sleep by it: either would start the
     // engine's time to sleep again, for all that it touches.
+    if (config_.pull != nullptr) pulls_[static_cast<std::size_t>(body)].arrived = -1;
     if (in.remote.position == in.local.position && in.remote.angle == in.local.angle) return;
     BodyState moved = Minus(in.remote, in.local);
     moved.velocity.setZero();
@@ -175,6 +166,7 @@ void Replica::Correct(int body, const States& states, std::size_t i, const BodyS
     *history_.At(tick(), body) = world_.Read(body);
     return;
   }
+  if (config_.resimulates && ReplayFrom(body, states.tick)) return;
   BodyState like;
   if (then != nullptr) {
     like = LikePastOf(body, states.tick, in.remote);
@@ -194,7 +186,10 @@ void Replica::Correct(int body, const States& states, std::size_t i, const BodyS
     if (!known) in.blocks[in.block_count++] = block.normal;
   }
   const Correction c = config_.reconcile(in);
-  if (Negligible(c.now)) return;
+  if (Negligible(c.now)) {
+    if (config_.pull != nullptr) NoteArrival(body);
+    return;
+  }
   const BodyState corrected =
       WithinLimits(PlusScaled(in.local, c.now, 1), scene().speed_limit);
   if (c.rewrites_history) {
@@ -210,6 +205,7 @@ void Replica::Correct(int body, const States& states, std::size_t i, const BodyS
   world_.Write(body, corrected);
   *history_.At(tick(), body) = corrected;
   smoother_.Moved(body, Minus(corrected, in.local));
+  if (config_.pull != nullptr) NoteArrival(body);
 }
 
 }  // namespace seam

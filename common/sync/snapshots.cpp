@@ -32,6 +32,14 @@ std::int64_t Snapshots::newest_tick(int body) const {
   return ring.empty() ? -1 : ring.back().tick;
 }
 
+const BodyState* Snapshots::At(int body, std::int64_t tick) const {
+  const std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
+  for (auto it = ring.rbegin(); it != ring.rend() && it->tick >= tick; ++it) {
+    if (it->tick == tick) return &it->state;
+  }
+  return nullptr;
+}
+
 BodyState Snapshots::Interpolate(int body, double tick) const {
   const std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
   SEAM_ASSERT(!ring.empty());

@@ -20,6 +20,8 @@ class Snapshots {
   bool has(int body) const { return !rings_[static_cast<std::size_t>(body)].empty(); }
   std::int64_t newest_tick(int body) const;     ///< -1 when none
 
+  /// The state of exactly this tick; nullptr when it is not kept.
+  const BodyState* At(int body, std::int64_t tick) const;
   /// Interpolated at a (fractional) tick; the oldest or newest kept state outside of what is known:
   /// never extrapolated. Requires has(body).
   BodyState Interpolate(int body, double tick) const;

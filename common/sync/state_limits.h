@@ -1,0 +1,33 @@
+#pragma once
+/// What a correction may write, and what it need not.
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/sync/quantize.h"
+
+namespace seam {
+
+/// Speeds written to the world stay within what the engine itself can move, rad/s.
+constexpr float kSpinMost = 94.0f;
+
+/// A difference that the wire's rounding explains.
+inline bool Negligible(const BodyState& d) {
+  return d.position.norm() < 0.75f * kPositionQuantum &&
+         std::fabs(d.angle) < 0.75f * static_cast<float>(kAngleQuantum) &&
+         d.velocity.norm() < 1.5f * kVelocityQuantum && std::fabs(d.spin) < 1.5f * kVelocityQuantum;
+}
+
+inline BodyState WithinLimits(BodyState state, float speed_limit) {
+  const float speed = state.velocity.norm();
+  if (speed > speed_limit) state.velocity *= speed_limit / speed;
+  state.spin = std::clamp(state.spin, -kSpinMost, kSpinMost);
+  return state;
+}
+
+/// `angle` plus the whole turns that bring it nearest to `near`.
+inline float Unwrapped(float angle, float near) {
+  return near + std::remainder(angle - near, 6.2831853f);
+}
+
+}  // namespace seam
