@@ -54,6 +54,7 @@ struct PullInput {
   float since_arrival = 0;             ///< before the step
   float interval = 0;                  ///< between two messages, as expected
   float step = 0;                      ///< length of a tick
+  bool coupled = false;                ///< as in ReconcileInput
 };
 
 /// What the replica remembers of a body for its puller.

@@ -5,7 +5,7 @@
 ///   Vb = V0 + (V0' - V0) T                 P  = P0  + Vb  t + A' t^2 / 2
 ///   Q  = P + (P' - P) T                    P' = P0' + V0' t + A' t^2 / 2
 /// Here Q is not where the copy is put but where its velocity leads: what is in its way still stops
-/// it, and the next message begins from where that left it.
+/// it, which ends the blend, and the next message begins from where that left it.
 
 #include <algorithm>
 #include <cmath>
@@ -18,9 +18,16 @@ namespace {
 /// Farther off than this, m, it is placed: blended, it would come at hundreds of m/s.
 constexpr float kPlaceBeyond = 8;
 constexpr float kMovedOnMost = 0.3f;   // s, where it is placed
-/// Blended over at least this time, s: over the interval of 30 messages a second alone, an error
-/// of half a metre is made good at 15 m/s.
-constexpr float kBlendLeast = 1.0f / 30;
+/// Blended over at least this time, s. Over the interval of 30 messages a second alone, as the
+/// article has it, an error of half a metre is made good at 15 m/s, and two peers' corrections swing
+/// up against each other: a stack of ten explodes. Longer follows later.
+constexpr float kBlendLeast = 0.3f;
+/// A velocity that is another one by this, m/s, than the blend left it: it was struck, and the rest
+/// of the blend would push whatever struck it. Less would count the springs of a car.
+constexpr float kStruck = 1;
+/// Of the blend, for bodies that touch those of other authorities: each peer corrects towards what
+/// the other corrected. More lets a stack rock; none leaves what slides apart.
+constexpr float kCoupledShare = 0.05f;
 /// The angle of what spins faster than this is not followed, rad/s: the wire lost its revolutions.
 constexpr float kSpinFollowed = 15;
 
@@ -44,7 +51,14 @@ Correction ReconcilePvb(const ReconcileInput& in) {
   return out;
 }
 
-Correction PullPvb(const PullInput& in, PullMemory*) {
+Correction PullPvb(const PullInput& in, PullMemory* memory) {
+  const Vec2 expected = memory->before + memory->asked + in.drift.velocity;
+  if (in.since_arrival == 0) {
+    memory->share = 1;
+  } else if ((in.local.velocity - expected).norm() > kStruck) {
+    memory->share = 0;
+  }
+  if (memory->share <= 0) return Correction();
   const float blend = std::max(in.interval, kBlendLeast);
   const float t = in.since_arrival;
   const auto path = [&](float at, const BodyState& there) {
@@ -64,6 +78,7 @@ Correction PullPvb(const PullInput& in, PullMemory*) {
   } else {
     out.now.spin = in.target_next.spin - in.local.spin;
   }
+  if (in.coupled) out.now = PlusScaled(BodyState{}, out.now, kCoupledShare);
   return out;
 }
 

@@ -126,7 +126,9 @@ void Replica::ApplyInputs(std::int64_t next) {
       // Exactly one peer pushes: the authority, when it hears of it (all of them in the oracle).
       const bool alone = config_.mode == Mode::kOracle;
       const bool mine = alone || (m >= 0 && table_.at(m).authority == self_);
-      if (mine) world_.Act(player, static_cast<int>(a));
+      if (!mine) continue;
+      world_.Act(player, static_cast<int>(a));
+      if (config_.resimulates) acted_.push_back({next, player, static_cast<int>(a)});
     }
   }
 }

@@ -100,6 +100,8 @@ class Replica {
   /// Asks for a replay from `tick`, of which a state of `body` came; false: it cannot be had.
   bool ReplayFrom(int body, std::int64_t tick);
   void TakeBarrier();
+  /// By mechanism: whether it touches bodies of other authorities, without a blow since `from`.
+  std::vector<bool> FindPressed(std::int64_t from) const;
   bool FollowsHistory(int body, std::int64_t tick) const;
   void PutIn();
   void StepAgain();
@@ -138,6 +140,12 @@ class Replica {
   std::vector<Pull> pulls_;                    // by body; empty without such a rule
   std::deque<WorldSnapshot> barriers_;         // ascending; empty unless the rule goes back
   std::int64_t replay_from_ = -1;              // oldest tick to go back to, -1 none
+  std::vector<bool> pressed_;                  // FindPressed of the last replay
+  struct Acted {
+    std::int64_t tick = 0;
+    int player = 0, action = 0;
+  };
+  std::deque<Acted> acted_;                    // pushes that this peer did since the first barrier
 };
 
 /// Dead reckoning beyond the buffer zone goes no further than this, s. Shorter than the age of what

@@ -9,6 +9,8 @@ namespace {
 /// The authority's state is moved on by this at most, s (BeamMP's). Farther, a car that braked is
 /// looked for in the next street.
 constexpr float kPullReckonMost = 0.3f;
+/// Bodies stay coupled for this long after they last touched, s: contact flickers.
+constexpr float kCoupledHold = 0.25f;
 
 }  // namespace
 
@@ -37,6 +39,11 @@ void Replica::PullCopies(std::int64_t next) {
     Pull& pull = pulls_[static_cast<std::size_t>(body)];
     if (pull.arrived < dynamic_since_[static_cast<std::size_t>(body)]) continue;
     if (pull.arrived < 0 || RoleOf(world_.mechanism(body)) != kRoleSecondary) continue;
+    // News from before a blow would undo it.
+    if (snapshots_.newest_tick(body) <= last_impact_tick_[static_cast<std::size_t>(body)]) continue;
+    const std::int64_t coupled_tick =
+        last_coupled_tick_[static_cast<std::size_t>(world_.mechanism(body))];
+    in.coupled = static_cast<float>(next - 1 - coupled_tick) * dt <= kCoupledHold;
     in.local = world_.Read(body);
     in.arrival = pull.arrival;
     in.target = PullTarget(body, next - 1);

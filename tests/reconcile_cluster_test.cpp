@@ -1,0 +1,91 @@
+/// The rules that act every tick, and the one that goes back, in whole sessions.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/measure/measure.h"
+#include "tests/lab/cluster.h"
+
+namespace seam {
+namespace {
+
+ClusterConfig With(const std::string& scene, const std::string& reconcile) {
+  ClusterConfig config;
+  config.scene = scene;
+  config.reconcile = reconcile;
+  return config;
+}
+
+double ErrorOf(const std::string& scene, const std::string& reconcile) {
+  const Recording recording = RunCluster(With(scene, reconcile));
+  return Measure(recording, ComputeOracle(recording)).error_rms_m;
+}
+
+/// Bounds are twice what was measured, m.
+struct Bound {
+  const char* rule;
+  double crossing, cradle;
+};
+constexpr Bound kBounds[] = {
+    {"resimulate", 0.25, 1e-3}, {"spring", 0.4, 0.1}, {"pvb", 0.13, 0.13}};
+
+TEST(RuleSessions, EachIsBelowItsBoundAndBetterThanSnap) {
+  const double snap_crossing = ErrorOf("crossing", "snap"), snap_cradle = ErrorOf("cradle", "snap");
+  for (const Bound& b : kBounds) {
+    const double crossing = ErrorOf("crossing", b.rule), cradle = ErrorOf("cradle", b.rule);
+    EXPECT_LT(crossing, b.crossing) << b.rule;
+    EXPECT_LT(crossing, snap_crossing) << b.rule;
+    EXPECT_LT(cradle, b.cradle) << b.rule;
+    EXPECT_LT(cradle, snap_cradle) << b.rule;
+  }
+}
+
+TEST(RuleSessions, TheSameSeedGivesTheSameBytes) {
+  for (const Bound& b : kBounds) {
+    const auto digest = [&] {
+      ClusterConfig config = With("crossing", b.rule);
+      config.impair = "4g";
+      const Recording r = RunCluster(config);
+      std::uint64_t hash = Fnv1a("", 0);
+      for (const auto& [peer, views] : r.views) {
+        for (const auto& [tick, view] : views) {
+          const Bytes bytes = Encode(view);
+          hash = Fnv1a(bytes.data(), bytes.size(), hash);
+        }
+      }
+      return hash;
+    };
+    EXPECT_EQ(digest(), digest()) << b.rule;
+  }
+}
+
+TEST(RuleSessions, ResimulateHasPeersNearerToEachOtherThanRetrospectInTheCrash) {
+  const auto seam = [](const char* rule) {
+    const Recording recording = RunCluster(With("wall", rule));
+    return Measure(recording, ComputeOracle(recording)).seam_rms_m;
+  };
+  ASSERT_TRUE(seam("resimulate").has_value());
+  EXPECT_LT(*seam("resimulate"), *seam("retrospect"));
+}
+
+TEST(RuleSessions, TheStackStandsUnderResimulateAndSpring) {
+  for (const char* rule : {"resimulate", "spring"}) {
+    ClusterConfig config = With("stack", rule);
+    config.impair = "oneway100";
+    config.duration_s = 30;
+    const Recording recording = RunCluster(config);
+    const Oracle oracle = ComputeOracle(recording);
+    for (const auto& [peer, views] : recording.views) {
+      const View& last = views.rbegin()->second;
+      for (std::size_t i = 0; i < last.id.size(); ++i) {
+        const BodyState* truth = oracle.At(last.tick, last.id[i]);
+        ASSERT_NE(truth, nullptr);
+        EXPECT_NEAR(last.y[i], truth->position.y(), 0.05) << rule << " peer " << peer;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace seam
