@@ -11,8 +11,8 @@ const std::vector<NamedReconciler>& Reconcilers() {
       {"compensated", ReconcileCompensated, "half ours, half the authority's moved on by v dt"},
       {"fade", ReconcileFade, "ours just after an impact, the authority's moved-on state later"},
       {"retrospect", ReconcileRetrospect, "add what our own past differed by at the same tick"},
-      {"resimulate", ReconcileResimulate, "go back to the authority's state and step again", nullptr,
-       true},
+      {"resimulate", ReconcileResimulate, "go back to the authority's state and step again",
+       nullptr, true},
       {"pvb", ReconcilePvb, "blend velocities, and the paths that they lead to", PullPvb},
       {"spring", ReconcileSpring, "a damped spring to the authority's moved-on state", PullSpring},
   };

@@ -19,15 +19,15 @@ namespace {
 constexpr float kPlaceBeyond = 8;
 constexpr float kMovedOnMost = 0.3f;   // s, where it is placed
 /// Blended over at least this time, s. Over the interval of 30 messages a second alone, as the
-/// article has it, an error of half a metre is made good at 15 m/s, and two peers' corrections swing
-/// up against each other: a stack of ten explodes. Longer follows later.
+/// article has it, an error of half a metre is made good at 15 m/s, and two peers' corrections
+/// swing up against each other: a stack of ten explodes. Longer follows later.
 constexpr float kBlendLeast = 0.3f;
 /// A velocity that is another one by this, m/s, than the blend left it: it was struck, and the rest
 /// of the blend would push whatever struck it. Less would count the springs of a car.
 constexpr float kStruck = 1;
 /// Of the blend, for bodies that touch those of other authorities: each peer corrects towards what
 /// the other corrected. More lets a stack rock; none leaves what slides apart.
-constexpr float kCoupledShare = 0.05f;
+constexpr float kCoupledShare = 0.02f;
 /// The angle of what spins faster than this is not followed, rad/s: the wire lost its revolutions.
 constexpr float kSpinFollowed = 15;
 

@@ -1,9 +1,10 @@
-/// spring: a damped spring from our copy to the authority's state, moved on to now; it acts in every
-/// tick between two messages and only on velocities:
+/// spring: a damped spring from our copy to the authority's state, moved on to now; it acts in
+/// every tick between two messages and only on velocities:
 ///   a = kp (xr' - x) + kd (vr' - v),   |a| <= cap
-/// After BeamMP (public source of its vehicle synchronisation, 2024), which has 5 1/s^2, 5 1/s, a cap
-/// of 100 m/s^2 and extrapolates by 0.3 s at most. Where the copy did not accelerate as it was asked
-/// to, something is in its way, and the force is cut: two peers do not press a pile from both sides.
+/// After BeamMP (its vehicle synchronisation, public source), which has 5 1/s^2, 5 1/s, a cap of
+/// 100 m/s^2 and extrapolates by 0.3 s at most. Where the copy did not accelerate as it was asked
+/// to, something is in its way, and the force is cut: two peers do not press a pile from both
+/// sides.
 
 #include <algorithm>
 #include <cmath>

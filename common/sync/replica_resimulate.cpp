@@ -1,8 +1,8 @@
 /// Replica: going back to where a message is from, and stepping again from there.
 ///
 ///   barrier      t1 message                      now
-///   --|-----------o-----|-----------|-----------|--o     all that came between two steps: one replay,
-///     restore --> put in ... step, step, step ...        from the oldest t1
+///   --|-----------o-----|-----------|-----------|--o     all that came between two steps: one
+///     restore --> put in ... step, step, step ...        replay, from the oldest t1
 ///
 /// The authority's states are put in at every tick of which one is known, so what was heard before
 /// is not forgotten. Our own bodies are stepped again, too: a collision that was otherwise than we
@@ -18,8 +18,8 @@
 namespace seam {
 namespace {
 
-/// Most ticks that are stepped again, 1 s at 60 Hz: a message that was longer under way is not worth
-/// it. Less than the history.
+/// Most ticks that are stepped again, 1 s at 60 Hz: a message that was longer under way is not
+/// worth it. Less than the history.
 constexpr std::int64_t kReplayMost = 60;
 /// Of the difference, where bodies of several authorities press against each other. All of it
 /// doubles the error of a shoved stack; much less is no longer a correction.
