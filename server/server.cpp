@@ -122,8 +122,7 @@ void Server::PlanAuthority(std::int64_t now_us) {
       });
       if (!confirmed) continue;
       revoking_[index] = false;
-      h.authority = 0;
-      h.epoch += 1;
+      h = WithoutHolder(h);
       replica_.authority().Set(m, h);
     }
     const std::uint32_t server_bit = config_.sync.mode == Mode::kBuffer ? 1 : 0;
@@ -131,10 +130,7 @@ void Server::PlanAuthority(std::int64_t now_us) {
     if (h.authority != 0 && wish.authority != h.authority) {
       revoking_[index] = true;
       AuthorityTable told = replica_.authority();
-      Holding next = h;
-      next.authority = 0;
-      next.epoch += 1;
-      told.Set(m, next);
+      told.Set(m, WithoutHolder(h));
       for (const Grants& g : told.Export(now_us, replica_.tick(), {m})) revocations.push_back(g);
       continue;
     }
@@ -150,6 +146,14 @@ void Server::PlanAuthority(std::int64_t now_us) {
     replica_.RolesChanged();
     Announce(replica_.authority().Export(now_us, replica_.tick(), changed));
   }
+}
+
+Holding Server::WithoutHolder(Holding h) const {
+  // Who lets go goes on simulating until the next grant: its copy is the best there is.
+  if (config_.sync.mode == Mode::kBuffer) h.secondaries |= std::uint32_t{1} << h.authority;
+  h.authority = 0;
+  h.epoch += 1;
+  return h;
 }
 
 void Server::Announce(const std::vector<Grants>& messages) {

@@ -82,6 +82,8 @@ class Server {
   void StartIfReady(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);
   void PlanAuthority(std::int64_t now_us);
+  /// The holding while nobody has it: the server next, an epoch on.
+  Holding WithoutHolder(Holding h) const;
   void Announce(const std::vector<Grants>& messages);
   void Relay(const States& states, int from_peer);
   void Say(std::int64_t now_us, const std::string& text);

@@ -85,6 +85,9 @@ void Replica::RolesChanged() {
     const Motion wanted =
         Simulated(world_.mechanism(body)) ? Motion::kDynamic : Motion::kKinematic;
     if (world_.motion(body) == wanted) continue;
+    // What was simulated here is from now on reckoned from where it is, not from what was last
+    // heard of it, which may be from before this peer had the authority.
+    if (wanted == Motion::kKinematic) snapshots_.Add(body, tick(), world_.Read(body));
     world_.SetMotion(body, wanted);
     if (wanted != Motion::kDynamic || !snapshots_.has(body)) continue;
     // What was only displayed had the velocity of its display, not of a body: start from the
