@@ -226,6 +226,38 @@ TEST(PhysicsRow, IsAFunctionOfThePointButForItsCpuColumns) {
   EXPECT_NE(CsvFields(PhysicsRow(point, &reference)).back(), "");
 }
 
+TEST(PhysicsPlan, SpendsACasesBudgetOnWhatIsAwake) {
+  const LabWorkspace files;
+  const std::string pile = "[[part]]\nname = \"box\"\nbox = [1, 1]\nposition = [0, 0.51]\n"
+                           "repeat = {count = 200, step = [2, 0]}\nfriction = 0\n";
+  const std::string ground = "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [900, 0]]\n";
+  files.Write("made-up.toml", ground + pile);
+  HardCase hard = MadeUp(20);
+  const auto plan_of = [&](GridSize size, double* awake) {
+    *awake = AwakeShare(hard, size, files / "");
+    return PlanPhysics({&hard}, size, {*awake}, files / "");
+  };
+  double awake = 0;
+  const PhysicsPlan resting = plan_of(GridSize::kReport, &awake);
+  EXPECT_NEAR(awake, 0.6 / 20, 0.02) << "they settle and sleep after half a second";
+  files.Write("made-up.toml", ground + pile + "velocity = [0.3, 0]\n");
+  const PhysicsPlan gliding = plan_of(GridSize::kReport, &awake);
+  EXPECT_EQ(awake, 1);
+  for (const PhysicsPlan* plan : {&resting, &gliding}) {
+    ASSERT_GE(plan->points.size(), 3u);
+    EXPECT_EQ(plan->points[0].role, "stock");
+    EXPECT_TRUE(SameSolver(plan->points[0].scene.solver, StockSolver()));
+    EXPECT_EQ(plan->points[1].role, "scene");
+    EXPECT_EQ(plan->points[2].role, "grid");
+  }
+  EXPECT_GT(resting.points.size(), 2 * gliding.points.size());
+  EXPECT_EQ(gliding.left_out.size(), 1u);
+  // 20 s of 200 boxes at 60 Hz: 0.5 CPU s of kQuick's 2. For 100 s all of it is left out.
+  EXPECT_EQ(plan_of(GridSize::kQuick, &awake).points[1].role, "scene");
+  hard.seconds = 100;
+  EXPECT_TRUE(plan_of(GridSize::kQuick, &awake).points.empty());
+}
+
 std::string RunLab(const std::vector<std::string>& words, int status) {
   ChildProcess lab(words);
   EXPECT_TRUE(lab.Wait(120));

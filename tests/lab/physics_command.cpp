@@ -37,6 +37,20 @@ GridSize SizeOf(const std::string& name) {
   return name == "quick" ? GridSize::kQuick : name == "full" ? GridSize::kFull : GridSize::kReport;
 }
 
+std::vector<double> AwakeShares(const std::vector<const HardCase*>& cases, GridSize size,
+                                const std::string& folder, int jobs) {
+  for (const HardCase* hard : cases) LoadHardScene(*hard, folder);   // a mistake is said at once
+  std::vector<double> shares(cases.size(), 1);
+  RunJobs(
+      cases.size(), jobs,
+      [&](std::size_t i) { return fmt::format("{}", AwakeShare(*cases[i], size, folder)); },
+      [&](std::size_t i, const JobResult& result) {
+        if (result.good) shares[i] = std::stod(result.text);
+      },
+      [] { return g_stop != 0; });
+  return shares;
+}
+
 using References = std::map<const HardCase*, Reference>;
 
 /// Of the cases with rows to come that have no judge.
@@ -86,8 +100,14 @@ std::size_t RunPoints(const PhysicsPlan& plan, const std::vector<std::size_t>& t
 }  // namespace
 
 int RunPhysics(const PhysicsCommand& command) {
-  const PhysicsPlan plan =
-      PlanPhysics(ChosenCases(command.cases), SizeOf(command.grid), command.folder);
+  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  const int jobs = command.jobs > 0 ? command.jobs : cores;
+  const GridSize size = SizeOf(command.grid);
+  const std::vector<const HardCase*> cases = ChosenCases(command.cases);
+  StopOnSignals();
+  const std::vector<double> awake = AwakeShares(cases, size, command.folder, jobs);
+  if (g_stop != 0) return 1;   // before there was a plan
+  const PhysicsPlan plan = PlanPhysics(cases, size, awake, command.folder);
   std::vector<std::string> keys;
   for (const PhysicsPoint& point : plan.points) keys.push_back(PhysicsKey(point));
   SweepTable table(command.table, PhysicsHeader(), kPhysicsKeyColumns, keys, command.force);
@@ -99,10 +119,7 @@ int RunPhysics(const PhysicsCommand& command) {
   for (const std::string& line : plan.left_out) {
     if (!command.quiet) std::fprintf(stderr, "%s\n", line.c_str());
   }
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  StopOnSignals();
-  const std::size_t failed =
-      RunPoints(plan, todo, command.jobs > 0 ? command.jobs : cores, command.quiet, &table);
+  const std::size_t failed = RunPoints(plan, todo, jobs, command.quiet, &table);
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < keys.size(); ++i) lines.push_back(table.line(i));
   PrintPhysics(plan, lines);

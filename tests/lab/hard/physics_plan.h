@@ -21,13 +21,19 @@ struct PhysicsPlan {
   std::vector<std::string> left_out;  ///< what of the grid was too dear, a line each
 };
 
-/// CPU seconds for a case's grid, by PredictedCpu; what exceeds it is left out. Predicted, not
-/// measured, so that every machine plans the same table. The stock and the scene's setting are
-/// always there, but in kQuick, which leaves out cases whose stock run is predicted to take more.
+/// CPU seconds for a case's grid; what exceeds it is left out. The stock and the scene's setting
+/// are always there, but in kQuick, which leaves out cases whose stock run is predicted to take
+/// more when nothing sleeps.
 double CaseBudget(GridSize size);
 
-/// `cases` must outlive the plan. `folder`: of the scenes. Throws OperatorError.
+/// The share of its bodies' ticks that the case's stock run is awake, 0..1: what its cost and that
+/// of other settings is predicted with, counted and not timed, so that every machine plans the same
+/// table. 1 where kQuick leaves it out.
+double AwakeShare(const HardCase& hard, GridSize size, const std::string& folder);
+
+/// `awake`: of each case. `cases` must outlive the plan. `folder`: of the scenes. Throws
+/// OperatorError.
 PhysicsPlan PlanPhysics(const std::vector<const HardCase*>& cases, GridSize size,
-                        const std::string& folder);
+                        const std::vector<double>& awake, const std::string& folder);
 
 }  // namespace seam
