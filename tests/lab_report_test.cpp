@@ -4,8 +4,10 @@
 
 #include <cmath>
 #include <filesystem>
+#include <set>
 
 #include "common/base/check.h"
+#include "common/sync/reconcile.h"
 #include "tests/child_process.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/grid.h"
@@ -278,13 +280,19 @@ TEST(Report, ADamagedTableIsOneLineAndNothingIsWritten) {
   EXPECT_EQ(nothing.exit_status(), 2);
 }
 
-TEST(Report, TheSweepsItRunsCanAllBeRun) {
+TEST(Report, TheSweepsItRunsCanBeRunAndLeaveNoReconcilerOut) {
   for (const char* folder : {"tests/lab/sweeps", "tests/lab/sweeps/quick"}) {
     std::size_t count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
       if (entry.path().extension() != ".toml") continue;
       ++count;
-      EXPECT_GT(ReadGrid(entry.path().string()).points.size(), 20u) << entry.path();
+      std::set<std::string> rules;
+      for (const GridPoint& point : ReadGrid(entry.path().string()).points) {
+        rules.insert(point.settings.reconcile);
+      }
+      for (const NamedReconciler& known : Reconcilers()) {
+        EXPECT_EQ(rules.count(known.name), 1u) << entry.path() << " leaves out " << known.name;
+      }
     }
     EXPECT_GE(count, 3u) << folder;
   }

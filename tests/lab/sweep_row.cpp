@@ -104,7 +104,7 @@ std::string SweepRow(const GridPoint& point, bool floor) {
   cluster.Run();
   const double cpu_s = static_cast<double>(CpuUs() - begin_us) * 1e-6;
   return point.key + PointValues(point) + Values(cluster.recording(), floor) +
-         fmt::format(",{:016x},{:.3f}", digest.value(), cpu_s);
+         fmt::format(",{:016x},{:.4f}", digest.value(), cpu_s);
 }
 
 }  // namespace seam
