@@ -126,8 +126,8 @@ TEST(Determinism, EveryBuildComputesTheGoldenHashes) {
   const char* wish = std::getenv("SEAM_GOLDEN");
   if (wish != nullptr && std::string(wish) == "write") {
     std::ofstream out(kGoldenFile);
-    out << "# World::Hash() of each scene with its scripts, alone, after " << kTicks << " ticks, in "
-        << "hard/ " << kHardTicks << ".\n";
+    out << "# World::Hash() of each scene with its scripts, alone, after " << kTicks
+        << " ticks, in hard/ " << kHardTicks << ".\n";
     for (const auto& [scene, hash] : computed) out << scene << ' ' << hash << '\n';
     ASSERT_TRUE(out.good()) << "cannot write " << kGoldenFile;
   }
