@@ -6,18 +6,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/hard_case_named.h"
 #include "tests/lab/hard/hard_case.h"
 
 namespace seam {
 namespace {
-
-const HardCase& Case(const std::string& name) {
-  const std::vector<HardCase>& all = HardCases();
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [&](const HardCase& hard) { return hard.name == name; });
-  EXPECT_NE(found, all.end()) << name;
-  return *found;
-}
 
 struct Verdict {
   double error;
@@ -86,7 +79,7 @@ const Bound kBounds[] = {
 
 TEST(HardExactRuns, TheScenesOwnSettingIsRightToWhatWasMeasured) {
   for (const Bound& bound : kBounds) {
-    const Verdict own = Judged(Case(bound.name), LoadHardScene(Case(bound.name)));
+    const Verdict own = Judged(CaseNamed(bound.name), LoadHardScene(CaseNamed(bound.name)));
     EXPECT_LE(own.error, bound.own) << bound.name;
     EXPECT_EQ(own.failure, "") << bound.name;
   }
@@ -105,16 +98,16 @@ TEST(HardExactRuns, TheScenesOwnSettingIsNoWorseThanStock) {
 TEST(HardExactRuns, WithSmallStepsTheFormulasAreMet) {
   // So the formulas are of the scenes that are run, and what is left is the step.
   for (const Bound& bound : kBounds) {
-    EXPECT_LE(RunFinely(Case(bound.name), 2).error, bound.fine) << bound.name;
+    EXPECT_LE(RunFinely(CaseNamed(bound.name), 2).error, bound.fine) << bound.name;
   }
-  EXPECT_LE(RunFinely(Case("pendulum-energy"), 8).error, 0.12);
+  EXPECT_LE(RunFinely(CaseNamed("pendulum-energy"), 8).error, 0.12);
 }
 
 TEST(HardExactRuns, JudgesAreRightAtAnyRate) {
   // At 30 ticks a second the step's share of these is twice that of stock, and at 960 a sixteenth,
   // however a tick is cut.
   for (const char* name : {"projectile-parabola", "slide-flat", "slope-slide", "slope-stop"}) {
-    const HardCase& hard = Case(name);
+    const HardCase& hard = CaseNamed(name);
     const double stock = RunStock(hard).error;
     for (const int hz : {30, 120, 480, 960}) {
       for (const int substeps : {1, 3}) {
@@ -141,24 +134,24 @@ TEST(HardExactRuns, NothingTunnelsWithTheCasesOwnStepsAndNothingIsSlowed) {
   EXPECT_EQ(shots, 16);
   // And stock: half of all shots pass, which is every one at a wall that moves; above 120 m/s the
   // clamp slows them all.
-  EXPECT_GT(RunStock(Case("tunnel-plain-0100")).error, 0.4);
-  EXPECT_EQ(RunStock(Case("tunnel-bullet-0120")).failure, "");
-  EXPECT_EQ(RunStock(Case("tunnel-bullet-0200")).failure,
+  EXPECT_GT(RunStock(CaseNamed("tunnel-plain-0100")).error, 0.4);
+  EXPECT_EQ(RunStock(CaseNamed("tunnel-bullet-0120")).failure, "");
+  EXPECT_EQ(RunStock(CaseNamed("tunnel-bullet-0200")).failure,
             "32 of 32 shots slowed by the engine's clamp");
 }
 
 TEST(HardExactRuns, WhatStockCannotDo) {
-  EXPECT_GT(RunStock(Case("cantilever")).error, 2);            // m of 10 m
-  EXPECT_GT(RunStock(Case("chain-heavy-end")).error, 5);       // m of 10 m
-  EXPECT_GT(RunStock(Case("motor-loop")).error, 3);            // rad of 60
-  EXPECT_GT(RunStock(Case("pendulum-energy")).error, 0.8);     // of all there is
+  EXPECT_GT(RunStock(CaseNamed("cantilever")).error, 2);            // m of 10 m
+  EXPECT_GT(RunStock(CaseNamed("chain-heavy-end")).error, 5);       // m of 10 m
+  EXPECT_GT(RunStock(CaseNamed("motor-loop")).error, 3);            // rad of 60
+  EXPECT_GT(RunStock(CaseNamed("pendulum-energy")).error, 0.8);     // of all there is
   // And no setting: balls that touch are struck one after the other within a step.
-  EXPECT_GT(RunFinely(Case("cradle-touching"), 2).error, 0.5);
+  EXPECT_GT(RunFinely(CaseNamed("cradle-touching"), 2).error, 0.5);
 }
 
 /// m/s between the dominoes 10 and 25, which pass 0.25 rad one after the other.
 double WaveSpeed(int tick_hz, int substeps) {
-  Scene scene = LoadHardScene(Case("dominoes"));
+  Scene scene = LoadHardScene(CaseNamed("dominoes"));
   scene.solver.tick_hz = tick_hz;
   scene.solver.substeps = substeps;
   World world(scene);

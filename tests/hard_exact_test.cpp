@@ -6,26 +6,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "tests/hard_case_named.h"
 #include "tests/lab/hard/exact_judge.h"
 
 namespace seam {
 namespace {
 
-const HardCase& Case(const std::string& name) {
-  const std::vector<HardCase>& all = HardCases();
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [&](const HardCase& hard) { return hard.name == name; });
-  EXPECT_NE(found, all.end()) << name;
-  return *found;
-}
-
 /// A case's world, whose bodies are placed by hand and shown to its judge at chosen times.
 struct Puppet {
   explicit Puppet(const std::string& name, bool weld_joints = false)
-      : scene(Adjusted(name, weld_joints)), world(scene), judge(Case(name).judge(scene)) {}
+      : scene(Adjusted(name, weld_joints)), world(scene), judge(CaseNamed(name).judge(scene)) {}
 
   static Scene Adjusted(const std::string& name, bool weld_joints) {
-    Scene scene = LoadHardScene(Case(name));
+    Scene scene = LoadHardScene(CaseNamed(name));
     scene.solver.weld_joints = weld_joints;
     return scene;
   }

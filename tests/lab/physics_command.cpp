@@ -3,15 +3,14 @@
 #include <algorithm>
 #include <cstdio>
 #include <map>
-#include <thread>
+#include <optional>
 
 #include "common/base/check.h"
 #include "common/base/process.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/jobs.h"
 #include "tests/lab/physics_row.h"
-#include "tests/lab/progress.h"
-#include "tests/lab/sweep_table.h"
+#include "tests/lab/rows.h"
 
 namespace seam {
 namespace {
@@ -67,41 +66,25 @@ References MakeReferences(const PhysicsPlan& plan, const std::vector<std::size_t
   return references;
 }
 
-/// Runs the points of `todo`; returns how many left no row.
-std::size_t RunPoints(const PhysicsPlan& plan, const std::vector<std::size_t>& todo, int jobs,
-                      bool quiet, SweepTable* table) {
-  const References references = MakeReferences(plan, todo);
-  Progress progress(todo.size(), quiet);
-  std::size_t failed = 0;
-  RunJobs(
-      todo.size(), jobs,
-      [&](std::size_t i) {
-        const PhysicsPoint& point = plan.points[todo[i]];
-        const auto reference = references.find(point.hard);
-        return PhysicsRow(point, reference == references.end() ? nullptr : &reference->second);
-      },
-      [&](std::size_t i, const JobResult& result) {
-        const PhysicsPoint& point = plan.points[todo[i]];
-        if (result.good) {
-          table->Add(todo[i], result.text);
-        } else if (result.text.rfind("crashed", 0) == 0) {   // the engine gave up: a result
-          table->Add(todo[i], CrashedRow(point, result.text));
-        } else {
-          ++failed;
-          std::fprintf(stderr, "seam-lab: failed: %s: %s\n", PhysicsKey(point).c_str(),
-                       result.text.c_str());
-        }
-        progress(i + 1);
-      },
-      [] { return g_stop != 0; });
-  return failed;
+/// What makes the rows of a plan. A crash is a result: the engine gave up.
+RowMaker PhysicsRows(const PhysicsPlan& plan, const References& references) {
+  RowMaker maker;
+  maker.make = [&](std::size_t row) {
+    const PhysicsPoint& point = plan.points[row];
+    const auto reference = references.find(point.hard);
+    return PhysicsRow(point, reference == references.end() ? nullptr : &reference->second);
+  };
+  maker.rescue = [&](std::size_t row, const std::string& why) -> std::optional<std::string> {
+    if (why.rfind("crashed", 0) != 0) return std::nullopt;
+    return CrashedRow(plan.points[row], why);
+  };
+  return maker;
 }
 
 }  // namespace
 
 int RunPhysics(const PhysicsCommand& command) {
-  const int cores = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  const int jobs = command.jobs > 0 ? command.jobs : cores;
+  const int jobs = JobsOr(command.jobs);
   const GridSize size = SizeOf(command.grid);
   const std::vector<const HardCase*> cases = ChosenCases(command.cases);
   StopOnSignals();
@@ -111,24 +94,17 @@ int RunPhysics(const PhysicsCommand& command) {
   std::vector<std::string> keys;
   for (const PhysicsPoint& point : plan.points) keys.push_back(PhysicsKey(point));
   SweepTable table(command.table, PhysicsHeader(), kPhysicsKeyColumns, keys, command.force);
-  const std::size_t before = table.count();
-  std::vector<std::size_t> todo;
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    if (!table.Has(i)) todo.push_back(i);
-  }
+  const std::vector<std::size_t> todo = MissingRows(table, keys.size());
   for (const std::string& line : plan.left_out) {
     if (!command.quiet) std::fprintf(stderr, "%s\n", line.c_str());
   }
-  const std::size_t failed = RunPoints(plan, todo, jobs, command.quiet, &table);
+  const References references = MakeReferences(plan, todo);
+  const RowsDone done =
+      MakeRows(keys, todo, PhysicsRows(plan, references), jobs, command.quiet, &table);
   std::vector<std::string> lines;
   for (std::size_t i = 0; i < keys.size(); ++i) lines.push_back(table.line(i));
   PrintPhysics(plan, lines);
-  std::printf("%s: %zu of %zu rows, %zu of them new", command.table.c_str(), table.count(),
-              keys.size(), table.count() - before);
-  if (failed > 0) std::printf("; %zu runs failed", failed);
-  if (g_stop != 0) std::printf("; stopped: the same command goes on");
-  std::printf("\n");
-  return table.count() == keys.size() ? 0 : 1;
+  return PrintRows(command.table, table, keys.size(), done);
 }
 
 }  // namespace seam
