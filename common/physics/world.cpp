@@ -93,6 +93,7 @@ void World::SetInput(int player, const Input& input) {
   for (const Motor& motor : impl_->built.motors) {
     if (motor.player == player) motor.Drive(share);
   }
+  for (const auto& stage : impl_->stages) stage->SetInput(player, input);
 }
 
 void World::Act(int player, int action) {
@@ -111,10 +112,13 @@ void World::Step() {
   const Solver& solver = w.scene.solver;
   const float h = w.step_s();
   w.meter.Clear();
+  for (const auto& stage : w.stages) stage->BeforeTick();
   for (int i = 0; i < solver.substeps; ++i) {
+    for (const auto& stage : w.stages) stage->BeforeStep(h);
     w.world->Step(h, solver.velocity_iterations, solver.position_iterations);
   }
   ++w.tick;
+  for (const auto& stage : w.stages) stage->AfterTick();
   w.impacts = w.meter.Impacts(w.built.moving);
   w.touches.reset();
   w.blocks.reset();

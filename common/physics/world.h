@@ -49,6 +49,7 @@ struct WorldSnapshot {
   std::vector<Body> bodies;
   std::vector<Point> points;            ///< ascending by pair, feature
   std::vector<float> joints;            ///< impulses, N s and N m s, in the engine's order
+  std::vector<float> stages;            ///< what each stage remembers
 };
 
 /// A `body` below is an index 0..body_count()-1 of the moving assemblies, ascending by id.

@@ -86,12 +86,12 @@ b2Joint* AddWeld(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
   return world->CreateJoint(&def);
 }
 
-void AddJoint(const Scene& scene, const Joint& joint, b2Body* a, b2Body* b, b2World* world,
-              BuiltScene* built) {
+b2Joint* AddJoint(const Scene& scene, const Joint& joint, b2Body* a, b2Body* b, b2World* world,
+                  BuiltScene* built) {
   b2Joint* made = nullptr;
   switch (joint.kind) {
     case JointKind::kWeld:
-      if (a == b || !scene.solver.weld_joints) return;   // one body already
+      if (a == b || !scene.solver.weld_joints) return nullptr;   // one body already
       made = AddWeld(joint, a, b, world);
       break;
     case JointKind::kRevolute: made = AddRevolute(joint, a, b, world); break;
@@ -106,6 +106,7 @@ void AddJoint(const Scene& scene, const Joint& joint, b2Body* a, b2Body* b, b2Wo
   if (joint.kind == JointKind::kDistance && joint.frequency_hz <= 0 && anchored) {
     built->tethers.push_back(static_cast<b2DistanceJoint*>(made));
   }
+  return made;
 }
 
 }  // namespace
@@ -146,7 +147,8 @@ BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2Worl
     return built.bodies[static_cast<std::size_t>(assembly)];
   };
   for (const Joint& joint : scene.joints) {
-    AddJoint(scene, joint, body_of(joint.a), body_of(joint.b), world, &built);
+    built.joints.push_back(
+        AddJoint(scene, joint, body_of(joint.a), body_of(joint.b), world, &built));
   }
   for (const Motor& motor : built.motors) motor.Drive(motor.player < 0 ? 1.0f : 0.0f);
   return built;

@@ -39,6 +39,7 @@ struct Motor {
 struct BuiltScene {
   std::vector<b2Body*> bodies;        ///< by index into Composition::assemblies
   std::vector<MovingBody> moving;     ///< ascending by id
+  std::vector<b2Joint*> joints;       ///< by index into Scene::joints; nullptr: one body
   std::vector<Motor> motors;
   std::vector<b2DistanceJoint*> tethers;  ///< rigid, to something anchored
 };

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "common/base/check.h"
+#include "common/physics/contact_hub.h"
+#include "common/physics/stage.h"
 #include "common/physics/world.h"
 #include "common/physics/world_build.h"
 #include "common/physics/world_contacts.h"
@@ -22,11 +24,27 @@ struct World::Impl {
     float lightest = FLT_MAX;
     for (const MovingBody& m : built.moving) lightest = std::min(lightest, m.mass.mass);
     meter.Set(s.solver.substeps, lightest);
-    world->SetContactListener(&meter);
+    stages = MakeStages({scene, composition, built, tick});
+    std::vector<Stage*> listening;
+    for (const auto& stage : stages) {
+      if (stage->listens()) listening.push_back(stage.get());
+    }
+    if (!listening.empty()) hub.emplace(meter, std::move(listening));
+    Listen();
+    for (const auto& stage : stages) stage->Rebuilt(&*world);
+  }
+
+  void Listen() {
+    if (hub) {
+      world->SetContactListener(&*hub);
+    } else {
+      world->SetContactListener(&meter);
+    }
   }
 
   /// Begins a world without bodies.
   void Empty() {
+    for (const auto& stage : stages) stage->Emptied();
     world.emplace(ToB2(scene.gravity));
     world->SetContinuousPhysics(scene.solver.continuous);
     world->SetAllowSleeping(scene.solver.sleep);
@@ -49,6 +67,8 @@ struct World::Impl {
   std::optional<b2World> world;         // rebuilt by Barrier and Restore
   BuiltScene built;
   std::int64_t tick = 0;
+  std::vector<std::unique_ptr<Stage>> stages;   // in their order of action
+  std::optional<ContactHub> hub;        // only when a stage listens
   std::vector<Impact> impacts;
   // Looked up when asked for: a world that nobody asks pays nothing.
   std::optional<std::vector<Touch>> touches;

@@ -111,7 +111,8 @@ WorldSnapshot Save(std::int64_t tick, const std::vector<MovingBody>& moving, b2W
 }  // namespace
 
 WorldSnapshot World::Barrier() {
-  const WorldSnapshot snapshot = Save(impl_->tick, impl_->built.moving, &*impl_->world);
+  WorldSnapshot snapshot = Save(impl_->tick, impl_->built.moving, &*impl_->world);
+  for (const auto& stage : impl_->stages) stage->Save(&snapshot.stages);
   Restore(snapshot);
   return snapshot;
 }
@@ -131,7 +132,8 @@ void World::Restore(const WorldSnapshot& snapshot) {
   // takes for 0: let it have had one.
   w.world->Step(w.step_s(), 1, 1);
   w.built = BuildScene(w.scene, w.composition, &*w.world);
-  w.world->SetContactListener(&w.meter);
+  w.Listen();
+  for (const auto& stage : w.stages) stage->Rebuilt(&*w.world);
   for (std::size_t i = 0; i < w.built.motors.size(); ++i) w.built.motors[i].SetSpeed(speeds[i]);
   for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
     if (kinematic[i]) SetMotion(static_cast<int>(i), Motion::kKinematic);
@@ -164,6 +166,9 @@ void World::Restore(const WorldSnapshot& snapshot) {
     b->*Member(SleepTime()) = body.quiet_s;
   }
   w.tick = snapshot.tick;
+  std::size_t taken = 0;
+  for (const auto& stage : w.stages) taken += stage->Load(snapshot.stages.data() + taken);
+  SEAM_ASSERT(taken == snapshot.stages.size());
   w.meter.Clear();
   w.touches.reset();
   w.blocks.reset();

@@ -83,6 +83,15 @@ struct OverheadCommand {
 /// Prints what World::Step costs beside the engine alone. 1: they end differently, or a signal.
 int RunOverhead(const OverheadCommand& command);
 
+struct WorldCommand {
+  std::vector<std::string> benches;   ///< names; empty: all
+  std::string folder;                 ///< for a CSV and a Markdown table each; empty: none
+  bool quick = false;                 ///< smaller and fewer
+};
+
+/// Prints what the features of a scene cost and err beside their baselines. 1: a signal came.
+int RunWorld(const WorldCommand& command);
+
 struct ReportCommand {
   std::string data = "out/report/data";   ///< folder of the tables
   std::string out = "out/report";         ///< folder to write

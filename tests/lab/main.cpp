@@ -98,6 +98,14 @@ CLI::App* DefineOverhead(CLI::App& app, OverheadCommand& c) {
   return overhead;
 }
 
+CLI::App* DefineWorld(CLI::App& app, WorldCommand& c) {
+  CLI::App* world = app.add_subcommand("world", "features of a scene beside their baselines");
+  world->add_option("NAMES", c.benches, "which (default: all)");
+  world->add_option("-o,--output", c.folder, "folder for a CSV and a Markdown table each");
+  world->add_flag("--quick", c.quick, "smaller and fewer");
+  return world;
+}
+
 CLI::App* DefineReport(CLI::App& app, ReportCommand& c) {
   CLI::App* report = app.add_subcommand("report", "plots and tables of what was swept, as a page");
   report->add_option("DATA", c.data, "folder of CSV tables (default out/report/data)");
@@ -120,6 +128,7 @@ int main(int argc, char** argv) {
     PhysicsCommand physics;
     TuneCommand tune;
     OverheadCommand overhead;
+    WorldCommand world;
     ReportCommand report;
     const CLI::App* run_app = DefineRun(app, run);
     const CLI::App* divergence_app = DefineDivergence(app, divergence);
@@ -127,6 +136,7 @@ int main(int argc, char** argv) {
     const CLI::App* physics_app = DefinePhysics(app, physics);
     const CLI::App* tune_app = DefineTune(app, tune);
     const CLI::App* overhead_app = DefineOverhead(app, overhead);
+    const CLI::App* world_app = DefineWorld(app, world);
     const CLI::App* report_app = DefineReport(app, report);
     try {
       app.parse(argc, argv);
@@ -142,6 +152,7 @@ int main(int argc, char** argv) {
     if (physics_app->parsed()) return RunPhysics(physics);
     if (tune_app->parsed()) return RunTune(tune);
     if (overhead_app->parsed()) return RunOverhead(overhead);
+    if (world_app->parsed()) return RunWorld(world);
     if (report_app->parsed()) return RunReport(report);
     return 2;
   });

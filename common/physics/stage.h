@@ -1,0 +1,70 @@
+#pragma once
+/// What acts on a world besides gravity, contacts and joints: water, conveyors, thrust, characters,
+/// the fixtures of featherweight parts. One stage each, made only for scenes that use it.
+
+#include <box2d/box2d.h>
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "common/physics/assembly.h"
+#include "common/physics/scene.h"
+#include "common/physics/types.h"
+#include "common/physics/world_build.h"
+
+namespace seam {
+
+/// What a stage works on. The references stay valid for the stage's life; what they refer to
+/// changes (bodies are made anew by Barrier, Restore and changes of topology).
+struct StageWorld {
+  const Scene& scene;
+  const Composition& composition;
+  const BuiltScene& built;
+  const std::int64_t& tick;         ///< ticks stepped so far
+};
+
+/// Deterministic: a function of the scene, the calls and what Save keeps. In each tick:
+///
+///   BeforeTick,  then per substep: BeforeStep, the engine's step (contacts),  then AfterTick
+///
+/// No hidden forces: whatever moves a body comes from here or from the engine.
+class Stage {
+ public:
+  virtual ~Stage() = default;
+
+  /// The bodies, fixtures and joints in `world` are new (also called once at the start): look them
+  /// up again. May add fixtures, and bodies whose user data pointer is 0 (anchored); no joints.
+  virtual void Rebuilt(b2World* world) = 0;
+  /// Before the world is emptied: forget all pointers into it.
+  virtual void Emptied() {}
+  /// Once before each tick, awake bodies or not: choose motor speeds, stream fixtures.
+  virtual void BeforeTick() {}
+  /// Before each of the engine's steps of `h` s: apply forces. Forces must not wake what sleeps
+  /// (pass wake = false) unless something changed.
+  virtual void BeforeStep(float /*h*/) {}
+  virtual void AfterTick() {}
+  /// A player's axes and buttons from the next tick on.
+  virtual void SetInput(int /*player*/, const Input& /*input*/) {}
+
+  /// What the stage remembers from tick to tick, always as many numbers, so that Restore can go
+  /// back bit for bit. Load takes what Save gave.
+  virtual void Save(std::vector<float>* /*memory*/) const {}
+  /// Returns how many it took.
+  virtual std::size_t Load(const float* /*memory*/) { return 0; }
+
+  /// Stages that return true hear of contacts; others cost the contact pipeline nothing.
+  virtual bool listens() const { return false; }
+  virtual void BeginContact(b2Contact* /*contact*/) {}
+  virtual void EndContact(b2Contact* /*contact*/) {}
+  virtual void PreSolve(b2Contact* /*contact*/) {}
+};
+
+/// The stages that this scene needs, in their order of action (stages.cpp has one line for each).
+std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world);
+
+/// Fixtures carry their part's id in their user data; those that stages make carry at least this,
+/// so that they are never taken for a part's.
+constexpr std::uintptr_t kStageFixture = 1u << 24;
+
+}  // namespace seam

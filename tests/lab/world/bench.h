@@ -1,0 +1,30 @@
+#pragma once
+/// Costs and errors of what a scene may contain, each beside its baseline in the same run:
+/// seam-lab world NAME. One file per bench.
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/lab/report/text_table.h"
+
+namespace seam {
+
+struct WorldBench {
+  const char* name;                   ///< a-z, 0-9, -
+  TextTable (*run)(bool quick);       ///< quick: fewer bodies and repeats, seconds in all
+};
+
+/// All of them, in the order of the report.
+const std::vector<WorldBench>& WorldBenches();
+
+// Each in its own file tests/lab/world/NAME.cpp, and named in benches.cpp.
+
+/// CPU seconds of this process so far.
+double CpuSeconds();
+
+/// What `b` costs beside `a`: the two take turns `pairs` times; the median of the pairs' ratios of
+/// CPU time. Both run once before, uncounted. Requires pairs >= 1.
+double CostRatio(const std::function<void()>& a, const std::function<void()>& b, int pairs);
+
+}  // namespace seam

@@ -1,0 +1,54 @@
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+
+#include "common/base/check.h"
+#include "common/base/process.h"
+#include "tests/lab/commands.h"
+#include "tests/lab/grid.h"
+#include "tests/lab/world/bench.h"
+
+namespace seam {
+namespace {
+
+void WriteCsv(const TextTable& table, const std::string& path) {
+  const auto line = [](const std::vector<std::string>& fields) {
+    std::string text;
+    for (const std::string& field : fields) {
+      if (!text.empty()) text += ',';
+      text += CsvField(field);
+    }
+    return text + "\n";
+  };
+  std::string text = line(table.header);
+  for (const std::vector<std::string>& row : table.rows) text += line(row);
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  if (!file.flush()) throw OperatorError(path + ": cannot be written");
+}
+
+}  // namespace
+
+int RunWorld(const WorldCommand& command) {
+  for (const std::string& name : command.benches) {
+    bool known = false;
+    for (const WorldBench& bench : WorldBenches()) known = known || name == bench.name;
+    if (!known) throw OperatorError("there is no bench '" + name + "'");
+  }
+  if (!command.folder.empty()) std::filesystem::create_directories(command.folder);
+  StopOnSignals();
+  for (const WorldBench& bench : WorldBenches()) {
+    bool wanted = command.benches.empty();
+    for (const std::string& name : command.benches) wanted = wanted || name == bench.name;
+    if (!wanted || g_stop != 0) continue;
+    const TextTable table = bench.run(command.quick);
+    std::printf("%s\n\n%s\n", table.title.c_str(), Markdown(table).c_str());
+    std::fflush(stdout);
+    if (command.folder.empty()) continue;
+    WriteCsv(table, command.folder + "/" + bench.name + ".csv");
+    std::ofstream(command.folder + "/" + bench.name + ".md") << Markdown(table);
+  }
+  return g_stop == 0 ? 0 : 1;
+}
+
+}  // namespace seam
