@@ -37,8 +37,8 @@ void DrawOutline(DrawList& list, const Viewport& viewport, const Outline& outlin
   const Colour fill = Faded(look.fill, look.opacity);
   const Colour edge = Faded(look.edge, look.opacity);
   std::vector<Vec2> px = OnPanel(viewport, outline.points, frame);
-  if (outline.kind == ShapeKind::kChain) {
-    ShadeBelow(list, viewport, px, look);
+  if (IsLine(outline.kind)) {
+    if (outline.kind == ShapeKind::kChain) ShadeBelow(list, viewport, px, look);
     list.Stroke(px, false, {2 * list.font().scale(), edge, 0});
     return;
   }
@@ -105,7 +105,7 @@ void DrawGhost(DrawList& list, const Viewport& viewport, const BodyShapes& body,
     std::vector<Vec2> px = OnPanel(viewport, outline.points, frame);
     if (outline.kind == ShapeKind::kCircle)
       px = CirclePoints(px[0], outline.radius * viewport.px_per_m);
-    const bool closed = outline.kind != ShapeKind::kChain;
+    const bool closed = !IsLine(outline.kind);
     if (!small) list.Stroke(px, closed, rim);
     list.Stroke(px, closed, line);
   }

@@ -18,6 +18,23 @@ const Part& PartOf(const Scene& scene, PartId id) {
   return scene.parts.at(static_cast<std::size_t>(id));
 }
 
+/// Around two discs: half a turn about each end's centre.
+std::vector<Vec2> CapsulePoints(const Part& part) {
+  constexpr int kSides = 12;
+  const Vec2 along = part.points[1] - part.points[0];
+  const float heading = std::atan2(along.y(), along.x());
+  std::vector<Vec2> points;
+  for (int end = 0; end < 2; ++end) {
+    for (int i = 0; i <= kSides; ++i) {
+      const float turn = 3.14159265f * (0.5f + static_cast<float>(end) +
+                                        static_cast<float>(i) / static_cast<float>(kSides));
+      points.push_back(part.points[static_cast<std::size_t>(end)] +
+                       part.radius * Vec2(std::cos(heading + turn), std::sin(heading + turn)));
+    }
+  }
+  return points;
+}
+
 Outline OutlineOf(const Part& part, const Pose& root) {
   Outline outline;
   outline.kind = part.kind;
@@ -32,8 +49,10 @@ Outline OutlineOf(const Part& part, const Pose& root) {
       local = {{0, 0}, {part.radius, 0}};
       outline.radius = part.radius;
       break;
+    case ShapeKind::kCapsule: local = CapsulePoints(part); break;
     case ShapeKind::kPolygon:
     case ShapeKind::kChain:
+    case ShapeKind::kSegment:
       local = part.points;
       break;
   }

@@ -27,7 +27,8 @@ struct Frame2 {
 /// One part, in the frame of its assembly's root part.
 struct Outline {
   ShapeKind kind = ShapeKind::kBox;
-  std::vector<Vec2> points;    ///< m; corners, or the chain; circle: centre and a rim point
+  std::vector<Vec2> points;    ///< m; corners (a capsule's ends have many), or the line's points;
+                               ///< circle: centre and a rim point
   float radius = 0;            ///< circle, m
 };
 

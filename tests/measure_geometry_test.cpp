@@ -73,6 +73,28 @@ TEST(Overlap, OfCirclesIsExactOutsideAndInside) {
   EXPECT_NEAR(in_box("[1.5, 0.25]"), 1.0, kRound);           // its centre inside
 }
 
+TEST(Overlap, OfCapsulesIsTheirRimsAroundTheirMiddleLines) {
+  const std::string lying = Body("a", "capsule = [2, 0.5]");
+  const auto with = [&](const std::string& other) {
+    return Meters(lying + Body("b", other)).Deepest();
+  };
+  EXPECT_NEAR(with("circle = 0.5\nposition = [0.5, 0.75]"), 0.25, kRound);    // on its side
+  EXPECT_NEAR(with("circle = 0.5\nposition = [1.6, 0.6]"), 1 - std::sqrt(0.72), kRound);   // end
+  EXPECT_EQ(with("circle = 0.5\nposition = [1.8, 0.7]"), 0);
+  EXPECT_NEAR(with("box = [1, 1]\nposition = [0, 0.75]"), 0.25, kRound);
+  EXPECT_NEAR(with("box = [1, 1]\nposition = [1.8, 0.8]"), 0.5 - std::hypot(0.3, 0.3), kRound);
+  EXPECT_NEAR(with("capsule = [2, 0.5]\nposition = [0, 0.9]"), 0.1, kRound);    // side by side
+  EXPECT_NEAR(with("capsule = [2, 0.5]\nposition = [0.5, 1.8]\nangle = 1.57079633"), 0.2, kRound);
+  const std::string ground = Body("ground", "chain = [[-9, 0], [9, 0]]");
+  EXPECT_NEAR(Meters(ground + Body("b", "capsule = [2, 0.5]\nposition = [0, 0.45]")).Deepest(),
+              0.05, kRound);
+  const std::string edge = Body("edge", "segment = [[-9, 0], [9, 0]]");
+  for (const char* at : {"[0, 0.45]", "[0, -0.45]"}) {
+    const Meters m(edge + Body("b", std::string("capsule = [2, 0.5]\nposition = ") + at));
+    EXPECT_NEAR(m.Deepest(), 0.05, kRound) << "a segment is solid from both sides";
+  }
+}
+
 TEST(Overlap, PolygonsCountEitherWayRoundAndBeneathATurnedRoot) {
   const std::string box = Body("box", "box = [1, 1]\nposition = [10.4, 5]");
   for (const char* points : {"[[0, -1], [1, 0], [0, 1]]", "[[0, 1], [1, 0], [0, -1]]"}) {

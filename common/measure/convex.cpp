@@ -17,7 +17,8 @@ Vector2d RightOf(const Vector2d& a, const Vector2d& b) {
   return Vector2d(along.y(), -along.x()) / along.norm();
 }
 
-/// How far `b` is beyond that face of `a` that it is farthest beyond; negative: inside all.
+/// How far `b`'s corners are beyond that face of `a` that they are farthest beyond; negative:
+/// inside all. Radii do not count.
 double BeyondFaces(const Convex& a, const Convex& b) {
   double most = -kFar;
   for (int i = 0; i < a.count; ++i) {
@@ -25,7 +26,7 @@ double BeyondFaces(const Convex& a, const Convex& b) {
     const Vector2d normal = RightOf(corner, a.corners[(i + 1) % a.count]);
     double least = kFar;
     for (int k = 0; k < b.count; ++k) least = std::min(least, normal.dot(b.corners[k] - corner));
-    most = std::max(most, least - b.radius);
+    most = std::max(most, least);
     if (most >= 0) return most;
   }
   return most;
@@ -40,17 +41,17 @@ Vector2d NearestOf(const Vector2d& a, const Vector2d& b, const Vector2d& p) {
   return a + std::clamp(Along(a, b, p), 0.0, 1.0) * (b - a);
 }
 
-/// A polygon or segment, and a circle.
-double RoundDepth(const Convex& polygon, const Convex& circle) {
-  const double inside = -BeyondFaces(polygon, {circle.corners, 1, 0});
-  if (inside > 0) return inside + circle.radius;
+/// The least distance of a corner of `b` from an edge of `a`.
+double CornersFromEdges(const Convex& a, const Convex& b) {
   double nearest = kFar;
-  for (int i = 0; i < polygon.count; ++i) {
-    const Vector2d& p = circle.corners[0];
-    const Vector2d& next = polygon.corners[(i + 1) % polygon.count];
-    nearest = std::min(nearest, (p - NearestOf(polygon.corners[i], next, p)).norm());
+  for (int i = 0; i < a.count; ++i) {
+    const Vector2d& next = a.corners[(i + 1) % a.count];
+    for (int k = 0; k < b.count; ++k) {
+      const Vector2d& p = b.corners[k];
+      nearest = std::min(nearest, (p - NearestOf(a.corners[i], next, p)).norm());
+    }
   }
-  return std::max(0.0, circle.radius - nearest);
+  return nearest;
 }
 
 /// A point's distance from the nearest of the edges, negative on the solid side.
@@ -81,10 +82,16 @@ double OverlapDepth(const Convex& a, const Convex& b) {
   if (a.count == 1 && b.count == 1) {
     return std::max(0.0, a.radius + b.radius - (a.corners[0] - b.corners[0]).norm());
   }
-  if (a.count == 1) return RoundDepth(b, a);
-  if (b.count == 1) return RoundDepth(a, b);
-  const double beyond = BeyondFaces(a, b);
-  return beyond >= 0 ? 0 : std::max(0.0, -std::max(beyond, BeyondFaces(b, a)));
+  // The hulls of the corners overlap, or their distance eats of the radii.
+  double beyond = a.count > 1 ? BeyondFaces(a, b) : -kFar;
+  if (beyond < 0 && b.count > 1) beyond = std::max(beyond, BeyondFaces(b, a));
+  const double rims = a.radius + b.radius;
+  if (beyond < 0) return rims - beyond;
+  if (beyond >= rims) return 0;
+  double apart = kFar;
+  if (a.count > 1) apart = std::min(apart, CornersFromEdges(a, b));
+  if (b.count > 1) apart = std::min(apart, CornersFromEdges(b, a));
+  return std::max(0.0, rims - apart);
 }
 
 std::vector<TerrainEdge> TerrainEdges(const std::vector<Eigen::Vector2d>& line) {

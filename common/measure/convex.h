@@ -7,12 +7,12 @@
 
 namespace seam {
 
-/// Corners somewhere else: one corner and a radius is a circle, two corners are a segment, three or
-/// more a polygon, counter-clockwise. Only circles have a radius.
+/// Corners somewhere else: one corner and a radius is a circle, two corners are a segment, with a
+/// radius a capsule, three or more a polygon, counter-clockwise.
 struct Convex {
   const Eigen::Vector2d* corners = nullptr;   ///< m
   int count = 0;
-  double radius = 0;                          ///< m
+  double radius = 0;                          ///< m, around the corners' hull
 };
 
 /// The least distance by which one has to move for the two to touch no more, m (separating axes:

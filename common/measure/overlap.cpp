@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 
 constexpr double kFar = std::numeric_limits<double>::infinity();
 
-/// Corners in the part's own frame, counter-clockwise; a circle's centre.
+/// Corners in the part's own frame, counter-clockwise; the centres of a circle or a capsule's ends.
 std::vector<Vector2d> Corners(const Part& part) {
   std::vector<Vector2d> corners;
   if (part.kind == ShapeKind::kCircle) return {Vector2d(0, 0)};
@@ -73,7 +73,8 @@ void OverlapMeter::AddPart(const Part& part, const Part& root, int assembly, int
   solid.assembly = assembly;
   solid.moving = moving;
   solid.group = part.group;
-  solid.radius = part.kind == ShapeKind::kCircle ? double{part.radius} : 0;
+  const bool round = part.kind == ShapeKind::kCircle || part.kind == ShapeKind::kCapsule;
+  solid.radius = round ? double{part.radius} : 0;
   solid.first = static_cast<int>(corners_.size());
   solid.count = static_cast<int>(corners.size());
   corners_.insert(corners_.end(), corners.begin(), corners.end());

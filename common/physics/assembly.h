@@ -33,7 +33,7 @@ struct Composition {
   std::uint64_t hash = 0;           ///< of all of the above
 };
 
-/// Mass of one part from its shape and density, kg; 0 for chains.
+/// Mass of one part from its shape and density, kg; 0 for lines.
 float PartMass(const Part& part);
 
 Composition Compose(const Scene& scene);

@@ -5,6 +5,8 @@
 namespace seam {
 namespace {
 
+constexpr double kPi = 3.14159265358979323846;
+
 double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -29,6 +31,18 @@ MassProperties PolygonProperties(const Part& part, double density) {
           density * (std::abs(second) - std::abs(area) * offset.dot(offset))};
 }
 
+/// A box and two half discs. The centroid of a half disc is 4 r/3 pi from its flat side: about a
+/// point d further, on the flat side, its moment per mass is r^2/2 + 2 d 4 r/3 pi + d^2.
+MassProperties CapsuleProperties(const Part& part, double density) {
+  const Eigen::Vector2d first = part.points[0].cast<double>(), last = part.points[1].cast<double>();
+  const double length = (last - first).norm(), r = static_cast<double>(part.radius);
+  const double box = density * length * 2 * r, discs = density * kPi * r * r;
+  const double d = length / 2;
+  const double inertia = box * (length * length + 4 * r * r) / 12 +
+                         discs * (r * r / 2 + 8 * d * r / (3 * kPi) + d * d);
+  return {box + discs, (first + last) / 2, inertia};
+}
+
 }  // namespace
 
 MassProperties PartProperties(const Part& part) {
@@ -41,11 +55,13 @@ MassProperties PartProperties(const Part& part) {
     }
     case ShapeKind::kCircle: {
       const double radius = static_cast<double>(part.radius);
-      const double mass = density * 3.14159265358979323846 * radius * radius;
+      const double mass = density * kPi * radius * radius;
       return {mass, {0, 0}, mass * radius * radius / 2};
     }
+    case ShapeKind::kCapsule: return CapsuleProperties(part, density);
     case ShapeKind::kPolygon: return PolygonProperties(part, density);
-    case ShapeKind::kChain: break;
+    case ShapeKind::kChain:
+    case ShapeKind::kSegment: break;
   }
   return {};
 }

@@ -11,7 +11,7 @@ struct MassProperties {
   double inertia = 0;                  ///< kg m^2, about the centre
 };
 
-/// In the part's own frame. All zero for chains.
+/// In the part's own frame. All zero for lines.
 MassProperties PartProperties(const Part& part);
 
 /// In the frame of the assembly's root part.

@@ -8,7 +8,12 @@
 
 namespace seam {
 
-enum class ShapeKind { kBox, kCircle, kPolygon, kChain };
+enum class ShapeKind { kBox, kCircle, kCapsule, kPolygon, kChain, kSegment };
+
+/// Lines without an inside: always anchored, without mass.
+inline bool IsLine(ShapeKind kind) {
+  return kind == ShapeKind::kChain || kind == ShapeKind::kSegment;
+}
 
 struct Material {
   float density = 1;       ///< kg/m^2, 0.01..100
@@ -23,11 +28,12 @@ struct Part {
   Vec2 position{0, 0};              ///< m
   float angle = 0;                  ///< rad
   Vec2 size{1, 1};                  ///< box: full width and height, m
-  float radius = 0.5f;              ///< circle, m
-  std::vector<Vec2> points;         ///< polygon (convex, 3..8, local) or chain (>= 2, local; solid
-                                    ///< on the right of the way along it), m
+  float radius = 0.5f;              ///< circle, capsule, m
+  std::vector<Vec2> points;         ///< local, m: polygon (convex, 3..64; a wedge is one), chain
+                                    ///< (>= 2; solid on the right of the way along it), segment
+                                    ///< (2) or the centres of a capsule's ends (2)
   Material material;
-  bool anchored = false;            ///< never moves (chains always are)
+  bool anchored = false;            ///< never moves (lines always are)
   bool bullet = false;              ///< continuous collision against moving bodies
   int group = 0;                    ///< Box2D group index: equal negative groups do not collide
   Vec2 velocity{0, 0};              ///< m/s at tick 0, of the assembly's centre of mass

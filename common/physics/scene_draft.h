@@ -57,6 +57,9 @@ int FindPlayer(const SceneReader& reader, const char* key, const std::string& na
 /// Throws OperatorError.
 void CheckScene(const Scene& scene, const std::string& file);
 
+/// The one of box, circle, capsule, wedge, polygon, chain and segment that the table has.
+void ReadShape(const SceneReader& r, float size_max, Part* part);
+
 /// Box2D's and our own demands on shapes; empty when they are met.
 std::string PolygonComplaint(const std::vector<Vec2>& points, float size_max);
 std::string ChainComplaint(const std::vector<Vec2>& points);

@@ -16,8 +16,8 @@ constexpr float kSizeMin = 0.05f, kSizeMaxDefault = 10, kSizeMaxMax = 1000;
 constexpr float kEdgeMin = 0.02f;
 /// Least area of a polygon, m^2, and least distance of its points from its other edges' lines, m.
 constexpr float kAreaMin = 1e-3f, kConvexMin = 1e-3f;
-/// Points of a polygon and of a chain.
-constexpr std::size_t kPolygonPointsMax = 8, kChainPointsMax = 2000;
+/// Points of a polygon and of a chain. The engine's polygons have 8: larger ones are cut.
+constexpr std::size_t kPolygonPointsMax = 64, kChainPointsMax = 2000;
 /// kg/m^2; the engine's solver wants mass ratios that are not extreme.
 constexpr Range kDensity{0.01, 100};
 /// rad/s: a quarter turn a step at 60 Hz, the engine's own clamp.

@@ -6,32 +6,9 @@
 namespace seam {
 namespace {
 
-void ReadShape(const SceneReader& r, float size_max, Part* part) {
-  const int shapes = r.Has("box") + r.Has("circle") + r.Has("polygon") + r.Has("chain");
-  if (shapes != 1) r.Fail("needs exactly one of box, circle, polygon and chain");
-  if (r.Has("box")) {
-    part->kind = ShapeKind::kBox;
-    part->size = r.Vector("box", {kSizeMin, size_max});
-  } else if (r.Has("circle")) {
-    part->kind = ShapeKind::kCircle;
-    part->radius = r.Number("circle", {kSizeMin / 2, size_max / 2});
-  } else if (r.Has("polygon")) {
-    part->kind = ShapeKind::kPolygon;
-    part->points = r.Points("polygon", {-size_max, size_max}, kPolygonPointsMax);
-    const std::string complaint = PolygonComplaint(part->points, size_max);
-    if (!complaint.empty()) r.FailAt("polygon", complaint);
-  } else {
-    part->kind = ShapeKind::kChain;
-    part->anchored = true;
-    part->points = r.Points("chain", kCoordinate, kChainPointsMax);
-    const std::string complaint = ChainComplaint(part->points);
-    if (!complaint.empty()) r.FailAt("chain", complaint);
-  }
-}
-
 void ReadMotion(const SceneReader& r, float speed_limit, Part* part) {
   if (!part->anchored) part->anchored = r.Flag("anchored", false);
-  else if (!r.Flag("anchored", true)) r.FailAt("anchored", "a chain is always anchored");
+  else if (!r.Flag("anchored", true)) r.FailAt("anchored", "a line is always anchored");
   part->bullet = r.Flag("bullet", false);
   part->velocity = r.Vector("velocity", {-speed_limit, speed_limit}, Vec2(0, 0));
   part->spin = r.Number("spin", {-kSpinMax, kSpinMax}, 0.0f);
@@ -74,9 +51,9 @@ void Place(const SceneReader& r, Part part, const std::string& name, SceneDraft*
 
 void ReadPart(const TomlNode& node, SceneDraft* draft) {
   SceneReader r(node, draft->file, "part",
-                {"name", "box", "circle", "polygon", "chain", "position", "angle", "density",
-                 "friction", "restitution", "anchored", "bullet", "group", "velocity", "spin",
-                 "owner", "owners", "repeat"});
+                {"name", "box", "circle", "capsule", "wedge", "polygon", "chain", "segment",
+                 "position", "angle", "density", "friction", "restitution", "anchored", "bullet",
+                 "group", "velocity", "spin", "owner", "owners", "repeat"});
   const std::string name = r.Name("name");
   r.Rename("part '" + name + "'");
   if (draft->part_of_name.count(name) != 0 || draft->group_of_name.count(name) != 0) {

@@ -28,11 +28,77 @@ double TwiceArea(const std::vector<Vec2>& points) {
   return sum;
 }
 
+void CheckPolygon(const SceneReader& r, const char* key, float size_max, const Part& part) {
+  const std::string complaint = PolygonComplaint(part.points, size_max);
+  if (!complaint.empty()) r.FailAt(key, complaint);
+}
+
+void ReadCapsule(const SceneReader& r, float size_max, Part* part) {
+  const Vec2 size = r.Vector("capsule", {kEdgeMin, size_max});
+  const float half = size.x() / 2;
+  part->kind = ShapeKind::kCapsule;
+  part->points = {{-half, 0}, {half, 0}};
+  part->radius = size.y();
+  if (part->radius < kSizeMin / 2 || size.x() + 2 * part->radius > size_max) {
+    r.FailAt("capsule", "a capsule is [length between its ends' centres, radius]; the radius at "
+                        "least " + Decimal(kSizeMin / 2) + " m, the whole at most " +
+                            Decimal(size_max) + " m long");
+  }
+}
+
+/// A right triangle about the middle of its legs' box, its right angle on the lower right: a ramp
+/// up to the right. With a negative width up to the left.
+void ReadWedge(const SceneReader& r, float size_max, Part* part) {
+  const Vec2 half = r.Vector("wedge", {-size_max, size_max}) / 2;
+  part->kind = ShapeKind::kPolygon;
+  part->points = {{-half.x(), -half.y()}, {half.x(), -half.y()}, half};
+  if (half.y() <= 0) r.FailAt("wedge", "a wedge's height must be positive");
+  CheckPolygon(r, "wedge", size_max, *part);
+}
+
+void ReadLine(const SceneReader& r, const char* key, Part* part) {
+  const bool chain = part->kind == ShapeKind::kChain;
+  part->anchored = true;
+  part->points = r.Points(key, kCoordinate, chain ? kChainPointsMax : 2);
+  if (!chain && part->points.size() != 2) r.FailAt(key, "a segment has 2 points");
+  const std::string complaint = ChainComplaint(part->points);
+  if (!complaint.empty()) r.FailAt(key, complaint);
+}
+
 }  // namespace
+
+void ReadShape(const SceneReader& r, float size_max, Part* part) {
+  const int shapes = r.Has("box") + r.Has("circle") + r.Has("capsule") + r.Has("wedge") +
+                     r.Has("polygon") + r.Has("chain") + r.Has("segment");
+  if (shapes != 1) {
+    r.Fail("needs exactly one of box, circle, capsule, wedge, polygon, chain and segment");
+  }
+  if (r.Has("box")) {
+    part->kind = ShapeKind::kBox;
+    part->size = r.Vector("box", {kSizeMin, size_max});
+  } else if (r.Has("circle")) {
+    part->kind = ShapeKind::kCircle;
+    part->radius = r.Number("circle", {kSizeMin / 2, size_max / 2});
+  } else if (r.Has("capsule")) {
+    ReadCapsule(r, size_max, part);
+  } else if (r.Has("wedge")) {
+    ReadWedge(r, size_max, part);
+  } else if (r.Has("polygon")) {
+    part->kind = ShapeKind::kPolygon;
+    part->points = r.Points("polygon", {-size_max, size_max}, kPolygonPointsMax);
+    CheckPolygon(r, "polygon", size_max, *part);
+  } else if (r.Has("chain")) {
+    part->kind = ShapeKind::kChain;
+    ReadLine(r, "chain", part);
+  } else {
+    part->kind = ShapeKind::kSegment;
+    ReadLine(r, "segment", part);
+  }
+}
 
 std::string PolygonComplaint(const std::vector<Vec2>& points, float size_max) {
   const std::size_t n = points.size();
-  if (n < 3) return "a polygon needs 3 to 8 points";
+  if (n < 3) return "a polygon needs 3 to " + std::to_string(kPolygonPointsMax) + " points";
   Vec2 low = points[0], high = points[0];
   for (std::size_t i = 0; i < n; ++i) {
     low = low.cwiseMin(points[i]);

@@ -1,6 +1,7 @@
 #include "common/physics/world_shapes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "common/physics/mass.h"
@@ -78,45 +79,102 @@ void SetChain(const std::vector<b2Vec2>& points, float skin, b2ChainShape* chain
   chain->CreateChain(p.data(), static_cast<int32>(p.size()), before, after);
 }
 
+/// Adds shapes as a part's pieces, in the order of the calls.
+class Pieces {
+ public:
+  Pieces(const Part& part, b2Body* body) : body_(body) {
+    def_.density = 0;   // The mass is set once for the body: summing it per fixture is quadratic.
+    def_.friction = part.material.friction;
+    def_.restitution = part.material.restitution;
+    def_.userData.pointer = static_cast<std::uintptr_t>(part.id);
+    def_.filter.groupIndex = static_cast<int16>(part.group);
+  }
+  void Add(const b2Shape& shape) {
+    def_.shape = &shape;
+    body_->CreateFixture(&def_);
+    def_.userData.pointer += std::uintptr_t{1} << 32;
+  }
+
+ private:
+  b2Body* body_;
+  b2FixtureDef def_;
+};
+
+/// Convex points in order. More than the engine's eight are cut in halves, so that no piece is a
+/// sliver.
+void AddPolygon(const std::vector<b2Vec2>& points, float skin, bool guarded, Pieces* pieces) {
+  if (points.size() > b2_maxPolygonVertices) {
+    const auto middle = points.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
+    AddPolygon({points.begin(), middle + 1}, skin, guarded, pieces);
+    std::vector<b2Vec2> rest(middle, points.end());
+    rest.push_back(points[0]);
+    AddPolygon(rest, skin, guarded, pieces);
+    return;
+  }
+  b2PolygonShape polygon;
+  polygon.Set(points.data(), static_cast<int32>(points.size()));
+  SetSkin(skin, guarded, &polygon);
+  pieces->Add(polygon);
+}
+
+/// The engine gives circles no rim: with `skin` they get one, or they would rest in what they lie
+/// on.
+void AddCircle(const b2Vec2& centre, float radius, float skin, Pieces* pieces) {
+  b2CircleShape circle;
+  circle.m_radius = radius + skin;
+  circle.m_p = centre;
+  pieces->Add(circle);
+}
+
+/// Two circles and a box between them whose rim ends where theirs does.
+void AddCapsule(const Part& part, const Part& root, float skin, bool guarded, Pieces* pieces) {
+  const b2Vec2 first = InRoot(part, root, part.points[0]);
+  const b2Vec2 last = InRoot(part, root, part.points[1]);
+  AddCircle(first, part.radius, skin, pieces);
+  AddCircle(last, part.radius, skin, pieces);
+  const float rim = skin > 0 && !guarded ? skin : b2_polygonRadius;
+  const b2Vec2 along = last - first;
+  b2PolygonShape box;
+  box.SetAsBox(along.Length() / 2, part.radius + skin - rim, 0.5f * (first + last),
+               std::atan2(along.y, along.x));
+  box.m_radius = rim;
+  pieces->Add(box);
+}
+
 }  // namespace
 
 void AddFixture(const Part& part, const Part& root, float skin, bool guarded, b2Body* body) {
-  b2PolygonShape polygon;
-  b2CircleShape circle;
-  b2ChainShape chain;
-  b2FixtureDef def;
+  Pieces pieces(part, body);
   switch (part.kind) {
-    case ShapeKind::kBox:
+    case ShapeKind::kBox: {
+      b2PolygonShape polygon;
       polygon.SetAsBox(part.size.x() / 2, part.size.y() / 2, InRoot(part, root, {0, 0}),
                        part.angle - root.angle);
       SetSkin(skin, guarded, &polygon);
-      def.shape = &polygon;
-      break;
-    case ShapeKind::kCircle:
-      // The engine gives circles no rim: with `skin` they get one, or they would rest in what
-      // they lie on.
-      circle.m_radius = part.radius + skin;
-      circle.m_p = InRoot(part, root, {0, 0});
-      def.shape = &circle;
-      break;
-    case ShapeKind::kPolygon: {
-      const std::vector<b2Vec2> points = PointsInRoot(part, root);
-      polygon.Set(points.data(), static_cast<int32>(points.size()));
-      SetSkin(skin, guarded, &polygon);
-      def.shape = &polygon;
+      pieces.Add(polygon);
       break;
     }
-    case ShapeKind::kChain:
-      SetChain(PointsInRoot(part, root), skin, &chain);
-      def.shape = &chain;
+    case ShapeKind::kCircle:
+      AddCircle(InRoot(part, root, {0, 0}), part.radius, skin, &pieces);
       break;
+    case ShapeKind::kCapsule: AddCapsule(part, root, skin, guarded, &pieces); break;
+    case ShapeKind::kPolygon:
+      AddPolygon(PointsInRoot(part, root), skin, guarded, &pieces);
+      break;
+    case ShapeKind::kChain: {
+      b2ChainShape chain;
+      SetChain(PointsInRoot(part, root), skin, &chain);
+      pieces.Add(chain);
+      break;
+    }
+    case ShapeKind::kSegment: {
+      const std::vector<b2Vec2> ends = PointsInRoot(part, root);
+      b2EdgeShape edge;
+      edge.SetTwoSided(ends[0], ends[1]);
+      pieces.Add(edge);
+      break;
+    }
   }
-  def.density = 0;   // The mass is set once for the body: summing it per fixture is quadratic.
-  def.friction = part.material.friction;
-  def.restitution = part.material.restitution;
-  def.userData.pointer = static_cast<std::uintptr_t>(part.id);
-  def.filter.groupIndex = static_cast<int16>(part.group);
-  body->CreateFixture(&def);
 }
 
 }  // namespace seam

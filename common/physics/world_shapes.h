@@ -3,6 +3,8 @@
 
 #include <box2d/box2d.h>
 
+#include <cstdint>
+
 #include "common/physics/scene.h"
 
 namespace seam {
@@ -18,6 +20,18 @@ namespace seam {
 /// The engine lets rims overlap by its slop of 5 mm: stock boxes rest 1.5 cm apart, these touch.
 /// Continuous collision wants a sum of rims of 1.25 cm or more, and has it against all that is
 /// guarded; with less, discs and boxes pass through thin floors.
+///
+/// One fixture, or several pieces: a capsule's box and discs, a large polygon's cuts. Segments keep
+/// their rim of 1 cm on both sides.
 void AddFixture(const Part& part, const Part& root, float skin, bool guarded, b2Body* body);
+
+/// What a fixture's user data says: the part's id in the low 32 bits, which of its pieces above.
+inline std::uint32_t PartOf(const b2Fixture* fixture) {
+  return static_cast<std::uint32_t>(
+      const_cast<b2Fixture*>(fixture)->GetUserData().pointer & 0xffffffffu);
+}
+inline std::uint32_t PieceOf(const b2Fixture* fixture) {
+  return static_cast<std::uint32_t>(const_cast<b2Fixture*>(fixture)->GetUserData().pointer >> 32);
+}
 
 }  // namespace seam

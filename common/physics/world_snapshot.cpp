@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "common/physics/world_impl.h"
+#include "common/physics/world_shapes.h"
 
 namespace seam {
 namespace {
@@ -73,10 +74,13 @@ PointKey KeyOf(const WorldSnapshot::Point& p) { return {p.pair, p.feature}; }
 template <typename Visit>
 void EachPoint(b2World* world, const Visit& visit) {
   for (b2Contact* c = world->GetContactList(); c != nullptr; c = c->GetNext()) {
-    // Part numbers and ids of features are below 2^32; a chain's segments tell points apart.
-    const std::uint64_t a = c->GetFixtureA()->GetUserData().pointer;
-    const std::uint64_t b = c->GetFixtureB()->GetUserData().pointer;
-    const auto child = static_cast<std::uint64_t>(c->GetChildIndexA() + c->GetChildIndexB());
+    // Part numbers and ids of features are below 2^32, a chain's segments and pieces of parts
+    // below 2^12: together they tell points apart.
+    const std::uint64_t a = PartOf(c->GetFixtureA()), b = PartOf(c->GetFixtureB());
+    const std::uint64_t pieces = std::uint64_t{PieceOf(c->GetFixtureA())} << 8 |
+                                 PieceOf(c->GetFixtureB());
+    const auto child = static_cast<std::uint64_t>(c->GetChildIndexA() + c->GetChildIndexB()) |
+                       pieces << 12;
     b2Manifold* manifold = c->GetManifold();
     for (int32 i = 0; i < manifold->pointCount; ++i) {
       b2ManifoldPoint& point = manifold->points[i];
