@@ -61,6 +61,7 @@ TEST(SceneDocs, EveryKeyIsOnThePage) {
   const std::pair<std::string, std::string> tables[] = {
       {"", "## Top level"},         {"[solver]", "## `[solver]`"},
       {"[[part]]", "## `[[part]]`"}, {ball + "[[joint]]", "## `[[joint]]`"},
+      {ball + "[[bricks]]", "## `[[bricks]]`"},
       {"[[player]]", "## `[[player]]`"}, {ball + "[[watch]]", "## `[[watch]]`"},
       {ball + "[camera]", "## `[camera]`"}};
   for (const auto& [table, heading] : tables) {

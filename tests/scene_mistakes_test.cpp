@@ -47,6 +47,8 @@ struct Mistake {
 /// A joint from line 12 between the ground and the crate; line 16 is the mistake.
 #define JOINT(kind, line_16) \
   "[[joint]]\nname = \"j\"\nkind = \"" kind "\"\na = \"ground\"\nb = \"crate\"\n" line_16 "\n"
+#define BRICKS(line_14) "[[bricks]]\nname = \"b\"\n" line_14 "\n"
+#define TOWERS(sizes) "towers = {count = 2, pitch = 16, " sizes "}"
 #define PLAYER(line_14) "[[player]]\nname = \"bob\"\n" line_14 "\n"
 
 const Mistake kMistakes[] = {
@@ -202,6 +204,24 @@ const Mistake kMistakes[] = {
     {"", "[[watch]]\nstruck = \"ground\"\n", 12, "anchored"},
     {"", "[camera]\nmin = [0, 0]\nmax = [0, 0]\n", 12, "right of and above"},
     {"", "[camera]\nfollow = \"nobody\"\n", 13, "there is no part 'nobody'"},
+    // Bricks
+    {"", BRICKS("size = [1, 1]"), 14, "unknown key 'size'"},
+    {"", BRICKS("brick = [1]"), 14, "brick must be two numbers"},
+    {"", BRICKS("brick = [1, 5]"), 14, "from 0.1 to 4"},
+    {"", BRICKS("brick = [0.52, 0.25]"), 14, "steps of 0.05 m"},
+    {"", BRICKS("brick = [0.5, 0.25]"), 12, "exactly one of count and towers"},
+    {"", BRICKS("count = [1, 1]\nbrick = [1, 1]\ntowers = {}"), 12, "exactly one of count"},
+    {"", BRICKS("count = [1.5, 1]\nbrick = [1, 1]"), 14, "count must be integers"},
+    {"", BRICKS("count = [2000, 1001]\nbrick = [1, 1]"), 12, "at most 2000000 bricks"},
+    {"", BRICKS("position = [29999, 0]\nbrick = [1, 1]\ncount = [2, 1]"), 12, "beyond 30 km"},
+    {"", BRICKS("position = [0.01, 0]\nbrick = [1, 1]\ncount = [2, 1]"), 14, "steps of 0.05"},
+    {"", BRICKS("strength = -1\nbrick = [1, 1]\ncount = [2, 1]"), 14, "from 0 to 1000"},
+    {"", BRICKS("featherweight = false\nbrick = [1, 1]\ncount = [70, 70]"), 14, "4096 parts"},
+    {"", BRICKS("brick = [1, 1]\ncount = [2, 1]") BRICKS("brick = [1, 1]\ncount = [2, 1]"), 17,
+     "other bricks of this name"},
+    {"", BRICKS("brick = [1, 1]\n" TOWERS("width = [9, 8], height = [1, 2]")), 15, "least is above"},
+    {"", BRICKS("brick = [1, 1]\n" TOWERS("width = [8, 19], height = [1, 2]")), 15, "wider than"},
+    {"", BRICKS("brick = [1, 1]\n" TOWERS("width = [8, 9]")), 15, "height"},
 };
 
 TEST(SceneMistakes, NameFileLineAndReason) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "common/physics/bricks.h"
 #include "common/physics/types.h"
 
 namespace seam {
@@ -126,11 +127,16 @@ struct Scene {
   Vec2 bounds_min{-1000, -1000}, bounds_max{1000, 1000};  ///< states beyond are implausible
   std::vector<Part> parts;
   std::vector<Joint> joints;
+  std::vector<BrickField> bricks;   ///< anchored, and no parts
   std::vector<Player> players;
   std::vector<WatchCollision> watch;
   Camera camera;
   std::string text;                 ///< the file itself
 };
+
+/// Anchored part like the brick of this field whose lower left corner is at x, y (units), without
+/// name and id.
+Part BrickPart(const BrickField& field, int x, int y);
 
 /// Parses and checks a scene. Throws OperatorError "file:line: what" on the first mistake; nothing
 /// that passes makes Box2D abort.

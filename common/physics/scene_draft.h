@@ -35,6 +35,8 @@ Repeat ReadRepeat(const SceneReader& owner, const std::string& file);
 void ReadPlayerNames(const SceneReader& root, SceneDraft* draft);
 /// [[part]], repetitions written out.
 void ReadParts(const SceneReader& root, SceneDraft* draft);
+/// [[bricks]]. Requires parts.
+void ReadBricks(const SceneReader& root, SceneDraft* draft);
 /// [[joint]]. Requires parts and players.
 void ReadJoints(const SceneReader& root, SceneDraft* draft);
 /// [[player]]: all but the names. Requires parts.

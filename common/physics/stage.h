@@ -36,6 +36,9 @@ class Stage {
   /// The bodies, fixtures and joints in `world` are new (also called once at the start): look them
   /// up again. May add fixtures, and bodies whose user data pointer is 0 (anchored); no joints.
   virtual void Rebuilt(b2World* world) = 0;
+  /// After Rebuilt, when the world goes back to a snapshot: the bodies are where they were then,
+  /// velocities and memory follow. Contacts are found next: what bodies touch must be there.
+  virtual void Placed() {}
   /// Before the world is emptied: forget all pointers into it.
   virtual void Emptied() {}
   /// Once before each tick, awake bodies or not: choose motor speeds, stream fixtures.

@@ -145,6 +145,7 @@ void World::Restore(const WorldSnapshot& snapshot) {
     b2Body* b = w.built.moving[i].body;
     b->SetTransform(ToB2(state.position), state.angle);
   }
+  for (const auto& stage : w.stages) stage->Placed();
   // No time passes, but contacts are found, which wakes what they touch.
   w.world->Step(0, 1, 1);
   EachPoint(&*w.world, [&](const PointKey& key, b2ManifoldPoint* point) {

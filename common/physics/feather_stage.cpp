@@ -1,0 +1,177 @@
+#include "common/physics/feather_stage.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/physics/feather_chunk.h"
+#include "common/physics/scene_limits.h"
+
+namespace seam {
+namespace {
+
+/// How far ahead a body's way is laid, s, and how many cells a tick for that. What it could touch
+/// within the tick does not count: that is there at once.
+constexpr float kAhead = 0.2f;
+constexpr int kCellsPerTick = 2;
+/// m beyond which a cell is dropped that a body had asked for.
+constexpr float kKeep = 4;
+/// The engine moves nothing farther in a step, m; and its boxes are larger than the shapes by this.
+constexpr float kStepMost = 2, kFat = 0.2f;
+
+/// Cells from..to inclusive; none: from > to.
+struct CellRange {
+  int x0 = 0, y0 = 0, x1 = -1, y1 = -1;
+
+  bool empty() const { return x0 > x1 || y0 > y1; }
+  bool Contains(int x, int y) const { return x >= x0 && x <= x1 && y >= y0 && y <= y1; }
+  bool Contains(const CellRange& o) const {
+    return o.empty() || (Contains(o.x0, o.y0) && Contains(o.x1, o.y1));
+  }
+  CellRange Within(const CellRange& o) const {
+    return {std::max(x0, o.x0), std::max(y0, o.y0), std::min(x1, o.x1), std::min(y1, o.y1)};
+  }
+  CellRange With(const CellRange& o) const {
+    if (empty()) return o;
+    if (o.empty()) return *this;
+    return {std::min(x0, o.x0), std::min(y0, o.y0), std::max(x1, o.x1), std::max(y1, o.y1)};
+  }
+};
+
+/// Farthest point of a body's shapes from its origin, m.
+float ReachOf(b2Body* body) {
+  float reach = 0;
+  for (b2Fixture* f = body->GetFixtureList(); f != nullptr; f = f->GetNext()) {
+    if (f->GetType() == b2Shape::e_circle) {
+      const auto& circle = *static_cast<b2CircleShape*>(f->GetShape());
+      reach = std::max(reach, circle.m_p.Length() + circle.m_radius);
+    } else if (f->GetType() == b2Shape::e_polygon) {
+      const auto& polygon = *static_cast<b2PolygonShape*>(f->GetShape());
+      for (int32 i = 0; i < polygon.m_count; ++i) {
+        reach = std::max(reach, polygon.m_vertices[i].Length() + polygon.m_radius);
+      }
+    }
+  }
+  return reach;
+}
+
+class FeatherStage : public Stage {
+ public:
+  explicit FeatherStage(const StageWorld& world)
+      : world_(world), store_(world.scene.bricks),
+        loaded_(static_cast<std::size_t>(store_.cell_count())) {
+    const Solver& solver = world.scene.solver;
+    tick_s_ = 1.0f / static_cast<float>(solver.tick_hz);
+    most_ = kStepMost * static_cast<float>(solver.substeps);
+  }
+
+  void Rebuilt(b2World* world) override {
+    b2_ = world;
+    followed_.assign(world_.built.moving.size(), {});
+    for (std::size_t i = 0; i < followed_.size(); ++i) {
+      followed_[i].reach = ReachOf(world_.built.moving[i].body);
+    }
+  }
+  void Emptied() override {
+    b2_ = nullptr;
+    std::fill(loaded_.begin(), loaded_.end(), Loaded{});
+  }
+  void Placed() override { Stream(0); }
+  void BeforeTick() override { Stream(kCellsPerTick); }
+
+ private:
+  struct Loaded {
+    b2Body* body = nullptr;
+    int wanted = 0;                 // by so many bodies
+  };
+  struct Followed {
+    float reach = 0;                // m
+    CellRange cells;                    // that it wants
+  };
+
+  /// The cells within `margin` m of the body, on the way that it makes in `ahead` s.
+  CellRange CellsNear(const b2Body& body, float reach, float margin, float ahead) const {
+    const b2Vec2 from = body.GetPosition();
+    const b2Vec2 to = from + ahead * body.GetLinearVelocity();
+    const float out = reach + margin;
+    const CellRange near{Cell(std::min(from.x, to.x) - out), Cell(std::min(from.y, to.y) - out),
+                     Cell(std::max(from.x, to.x) + out), Cell(std::max(from.y, to.y) + out)};
+    return near.Within({store_.cell_x_min(), store_.cell_y_min(), store_.cell_x_max(),
+                        store_.cell_y_max()});
+  }
+  static int Cell(float metres) {
+    constexpr float kSide = FeatherStore::kCell * kBrickUnit, kFar = 1e6f;
+    return static_cast<int>(std::floor(std::clamp(metres, -kFar, kFar) / kSide));
+  }
+
+  void Stream(int budget) {
+    if (store_.cell_count() == 0) return;
+    for (std::size_t i = 0; i < followed_.size(); ++i) {
+      Followed& f = followed_[i];
+      const b2Body& body = *world_.built.moving[i].body;
+      if (body.GetType() != b2_dynamicBody) {   // kinematic: touches nothing anchored
+        if (!f.cells.empty()) Want({}, &f);
+        continue;
+      }
+      const float speed = std::max(kSpeedMax, body.GetLinearVelocity().Length());
+      const float margin = kFat + std::min(most_, speed * tick_s_);
+      const CellRange must = CellsNear(body, f.reach, margin, 0);
+      const CellRange ahead = CellsNear(body, f.reach, margin, kAhead);
+      const CellRange keep = CellsNear(body, f.reach, margin + kKeep, kAhead);
+      CellRange want = f.cells.Within(keep).With(must);
+      if (!want.Contains(ahead) && budget > 0) want = want.With(ahead);
+      if (!want.Contains(f.cells) || !f.cells.Contains(want)) budget -= Want(want, &f);
+    }
+  }
+
+  /// Returns how many cells got their fixtures.
+  int Want(const CellRange& cells, Followed* f) {
+    int made = 0;
+    for (int y = cells.y0; y <= cells.y1; ++y) {
+      for (int x = cells.x0; x <= cells.x1; ++x) {
+        if (!f->cells.Contains(x, y)) made += Add(store_.CellAt(x, y));
+      }
+    }
+    for (int y = f->cells.y0; y <= f->cells.y1; ++y) {
+      for (int x = f->cells.x0; x <= f->cells.x1; ++x) {
+        if (!cells.Contains(x, y)) Drop(store_.CellAt(x, y));
+      }
+    }
+    f->cells = cells;
+    return made;
+  }
+
+  int Add(int cell) {
+    if (cell < 0) return 0;
+    Loaded& l = loaded_[static_cast<std::size_t>(cell)];
+    if (l.wanted++ > 0) return 0;
+    l.body = AddChunk(store_, store_.cell_x(cell), store_.cell_y(cell),
+                      world_.scene.solver.skin, IdOf(cell), b2_);
+    return 1;
+  }
+  void Drop(int cell) {
+    if (cell < 0) return;
+    Loaded& l = loaded_[static_cast<std::size_t>(cell)];
+    if (--l.wanted > 0) return;
+    if (l.body != nullptr) b2_->DestroyBody(l.body);
+    l.body = nullptr;
+  }
+  /// Of a cell's first fixture; a cell has fewer than 1024 outlines that anything could touch.
+  static std::uintptr_t IdOf(int cell) {
+    return kStageFixture + (static_cast<std::uintptr_t>(cell) << 10);
+  }
+
+  const StageWorld world_;
+  FeatherStore store_;
+  b2World* b2_ = nullptr;
+  std::vector<Loaded> loaded_;      // by cell
+  std::vector<Followed> followed_;  // by moving body
+  float tick_s_ = 0, most_ = 0;
+};
+
+}  // namespace
+
+std::unique_ptr<Stage> MakeFeatherStage(const StageWorld& world) {
+  return std::make_unique<FeatherStage>(world);
+}
+
+}  // namespace seam
