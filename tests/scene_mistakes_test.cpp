@@ -219,7 +219,8 @@ const Mistake kMistakes[] = {
     {"", BRICKS("featherweight = false\nbrick = [1, 1]\ncount = [70, 70]"), 14, "4096 parts"},
     {"", BRICKS("brick = [1, 1]\ncount = [2, 1]") BRICKS("brick = [1, 1]\ncount = [2, 1]"), 17,
      "other bricks of this name"},
-    {"", BRICKS("brick = [1, 1]\n" TOWERS("width = [9, 8], height = [1, 2]")), 15, "least is above"},
+    {"", BRICKS("brick = [1, 1]\n" TOWERS("width = [9, 8], height = [1, 2]")), 15,
+     "least is above"},
     {"", BRICKS("brick = [1, 1]\n" TOWERS("width = [8, 19], height = [1, 2]")), 15, "wider than"},
     {"", BRICKS("brick = [1, 1]\n" TOWERS("width = [8, 9]")), 15, "height"},
 };
