@@ -29,9 +29,10 @@ ALL_CXXFLAGS := -std=c++17 $(CXXFLAGS_$(BUILD)) -ffp-contract=off $(WARN) -MMD -
 	-isystem $(GEN) -isystem /usr/include/eigen3 -isystem /usr/include/freetype2 -pthread $(CXXFLAGS)
 LIBS := -llcm -lbox2d -lfmt -pthread
 RENDER_LIBS := -lOSMesa -lpng -lfreetype
+SERVER_LIBS := -llua5.4
 
 DEBS := g++ make pkg-config liblcm-dev liblcm-bin libbox2d-dev libeigen3-dev libosmesa6-dev \
-	libcli11-dev libtoml11-dev libfmt-dev libpng-dev libfreetype-dev fonts-dejavu-core \
+	liblua5.4-dev libcli11-dev libtoml11-dev libfmt-dev libpng-dev libfreetype-dev fonts-dejavu-core \
 	libgtest-dev iproute2 util-linux
 
 obj = $(patsubst %.cpp,$(OUT)/%.o,$(1))
@@ -79,7 +80,7 @@ $(OUT)/libseam.a: $(COMMON)
 	@rm -f $@
 	@ar rcs $@ $^
 $(OUT)/seam-server: $(OUT)/server/main.o $(SERVER) $(OUT)/libseam.a
-	$(CXX) $(ALL_CXXFLAGS) $^ $(LIBS) -o $@
+	$(CXX) $(ALL_CXXFLAGS) $^ $(LIBS) $(SERVER_LIBS) -o $@
 $(OUT)/seam-client: $(OUT)/client/main.o $(CLIENT) $(OUT)/libseam.a
 	$(CXX) $(ALL_CXXFLAGS) $^ $(LIBS) -o $@
 $(OUT)/seam-render: $(OUT)/render/main.o $(RENDER) $(OUT)/libseam.a
@@ -87,9 +88,9 @@ $(OUT)/seam-render: $(OUT)/render/main.o $(RENDER) $(OUT)/libseam.a
 $(OUT)/seam-measure: $(OUT)/render/measure_main.o $(OUT)/libseam.a
 	$(CXX) $(ALL_CXXFLAGS) $^ $(LIBS) -o $@
 $(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(SERVER) $(CLIENT) $(OUT)/libseam.a
-	$(CXX) $(ALL_CXXFLAGS) $^ $(LIBS) -o $@
+	$(CXX) $(ALL_CXXFLAGS) $^ $(LIBS) $(SERVER_LIBS) -o $@
 $(OUT)/seam-tests: $(TESTS) $(LAB) $(SERVER) $(CLIENT) $(RENDER) $(OUT)/libseam.a
-	$(CXX) $(ALL_CXXFLAGS) $^ $(LIBS) $(RENDER_LIBS) -lgtest -lgtest_main -o $@
+	$(CXX) $(ALL_CXXFLAGS) $^ $(LIBS) $(RENDER_LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
 tests: deps $(OUT)/seam-tests $(PROGRAMS)   ## build the tests
 

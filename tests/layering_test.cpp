@@ -185,6 +185,7 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
   ExpectOnlyIn("render/font[^/]*", kCode, "ft2build\\.h|freetype/.*");
   ExpectOnlyIn("common/physics/.*", kProduct, "toml\\.hpp|toml[^/]*/.*");
   ExpectOnlyIn("(server|client|render)/.*", kProduct, "CLI/.*");
+  ExpectOnlyIn("server/script_lua[^/]*", kCode, "(.*/)?(lua|lauxlib|lualib)\\.h(pp)?");
   ExpectOnlyIn("none", kProduct, "gtest/.*");
   ExpectOnlyIn("common/net/udp[^/]*", kProduct, "sys/socket\\.h|netinet/.*|arpa/.*|netdb\\.h");
 }
