@@ -6,6 +6,7 @@
 
 #include "common/physics/bricks.h"
 #include "common/physics/types.h"
+#include "common/physics/water.h"
 
 namespace seam {
 
@@ -128,6 +129,7 @@ struct Scene {
   std::vector<Part> parts;
   std::vector<Joint> joints;
   std::vector<BrickField> bricks;   ///< anchored, and no parts
+  std::vector<Water> waters;
   std::vector<Player> players;
   std::vector<WatchCollision> watch;
   Camera camera;

@@ -39,6 +39,8 @@ void ReadParts(const SceneReader& root, SceneDraft* draft);
 void ReadBricks(const SceneReader& root, SceneDraft* draft);
 /// [[joint]]. Requires parts and players.
 void ReadJoints(const SceneReader& root, SceneDraft* draft);
+/// [[water]]. Requires gravity.
+void ReadWaters(const SceneReader& root, SceneDraft* draft);
 /// [[player]]: all but the names. Requires parts.
 void ReadPlayers(const SceneReader& root, SceneDraft* draft);
 /// [[watch]]. Requires parts.

@@ -27,6 +27,9 @@ constexpr float kSpeedMax = 120;
 /// m. Least: half of the engine's slop, so that resting shapes just touch; with less they overlap.
 /// With an anchored rim of 1 cm the sum is the 1.25 cm that continuous collision needs.
 constexpr Range kSkinRange{0.0025, 0.01};
+/// Width and height of water, m, and its flow, m/s.
+constexpr float kWaterSizeMax = 20000, kFlowMax = 50;
+constexpr std::size_t kWatersMax = 64;
 /// Numbers of things. Parts: what two views of bodies carry; players: peers 1..31.
 constexpr std::size_t kPartsMax = 4096, kJointsMax = 4096, kPlayersMax = 31, kActionsMax = 15;
 constexpr std::size_t kScriptMax = 2000, kWatchMax = 16;

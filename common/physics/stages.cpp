@@ -1,6 +1,7 @@
 #include "common/physics/stage.h"
 
 #include "common/physics/feather_stage.h"
+#include "common/physics/water_stage.h"
 
 namespace seam {
 
@@ -8,6 +9,7 @@ std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world) {
   // A stage for each feature that the scene uses, and no other.
   std::vector<std::unique_ptr<Stage>> stages;
   if (!world.scene.bricks.empty()) stages.push_back(MakeFeatherStage(world));
+  if (!world.scene.waters.empty()) stages.push_back(MakeWaterStage(world));
   return stages;
 }
 
