@@ -55,6 +55,13 @@ TEST(WaterRest, ADiscOfHalfTheDensityLiesHalfIn) {
   EXPECT_NEAR(low.position.y(), 0.5, 1e-4);
 }
 
+TEST(WaterRest, ACapsuleLiesFlatAndHalfIn) {
+  const BodyState rest =
+      Settled("capsule = [2, 0.3]\nposition = [0, 0.5]\nangle = 0.3\ndensity = 0.5", 40);
+  EXPECT_NEAR(rest.position.y(), 0, 1e-3);
+  EXPECT_NEAR(rest.angle, 0, 1e-3);
+}
+
 TEST(WaterRest, ASquareFloatsUprightWhileItIsLightOrHeavyEnough) {
   // Upright iff s < (3 - sqrt 3)/6 = 0.21132 or s > 0.78868.
   for (const double s : {0.1, 0.2, 0.8, 0.9}) EXPECT_NEAR(Lean(s, 0.2), 0, 0.1) << s;

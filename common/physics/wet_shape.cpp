@@ -38,9 +38,30 @@ std::vector<Vec2d> LocalCorners(const Part& part) {
   return corners;
 }
 
+/// From the end at points[1] about to the one at points[0], grown to the capsule's area.
+std::vector<Vec2d> CapsuleCorners(const Part& part) {
+  const Vec2d ends[2] = {part.points[1].cast<double>(), part.points[0].cast<double>()};
+  const double radius = static_cast<double>(part.radius);
+  const double start = std::atan2(ends[0].y() - ends[1].y(), ends[0].x() - ends[1].x()) - kPi / 2;
+  std::vector<Vec2d> corners;
+  for (int cap = 0; cap < 2; ++cap) {
+    for (int i = 0; i <= kCapArcs; ++i) {
+      const double turn = start + kPi * cap + kPi * i / kCapArcs;
+      corners.push_back(ends[cap] + radius * Vec2d(std::cos(turn), std::sin(turn)));
+    }
+  }
+  const AreaMoments small = AreaOf(corners.data(), static_cast<int>(corners.size()));
+  const double area = kPi * radius * radius + 2 * radius * (ends[0] - ends[1]).norm();
+  const double grown = std::sqrt(area / small.area);
+  for (Vec2d& p : corners) p = small.centre + grown * (p - small.centre);
+  return corners;
+}
+
 WetPart PartOf(const Part& part, const Part& root) {
   WetPart wet;
-  for (const Vec2d& p : LocalCorners(part)) wet.corners.push_back(ToRootFrame(part, root, p));
+  wet.capsule = part.kind == ShapeKind::kCapsule;
+  wet.corners = wet.capsule ? CapsuleCorners(part) : LocalCorners(part);
+  for (Vec2d& p : wet.corners) p = ToRootFrame(part, root, p);
   if (part.kind == ShapeKind::kCircle) {
     wet.disc = true;
     wet.radius = wet.reach = static_cast<double>(part.radius);
@@ -75,7 +96,8 @@ std::vector<WetEdge> EdgesOf(const WetPart& part) {
     return edges;
   }
   for (std::size_t i = 0; i < part.corners.size(); ++i) {
-    edges.push_back(EdgeOf(part.corners[i], part.corners[(i + 1) % part.corners.size()], false));
+    const bool arc = part.capsule && (i + 1) % (kCapArcs + 1) != 0;
+    edges.push_back(EdgeOf(part.corners[i], part.corners[(i + 1) % part.corners.size()], arc));
   }
   return edges;
 }
@@ -129,7 +151,7 @@ WetShape WetShapeOf(const Scene& scene, const Assembly& assembly) {
   WetShape shape;
   for (const PartId id : assembly.parts) {
     const Part& part = scene.parts[static_cast<std::size_t>(id)];
-    if (part.kind != ShapeKind::kChain) shape.parts.push_back(PartOf(part, root));
+    if (!IsLine(part.kind)) shape.parts.push_back(PartOf(part, root));
   }
   shape.box.min = Vec2d(1e9, 1e9);
   shape.box.max = -shape.box.min;

@@ -10,9 +10,10 @@
 
 namespace seam {
 
-/// The outline of one part: convex corners counter-clockwise, or a disc.
+/// The outline of one part: convex corners counter-clockwise, or a disc. A capsule is a polygon of
+/// its area, each end in kCapArcs pieces.
 struct WetPart {
-  bool disc = false;
+  bool disc = false, capsule = false;
   std::vector<Vec2d> corners;       ///< m; disc: none
   double radius = 0;                ///< m; disc
   AreaMoments whole;
@@ -34,8 +35,8 @@ struct WetShape {
   double reach = 0;                 ///< m: nothing is farther from the centre
 };
 
-/// A circle's edge is drawn with so many pieces.
-constexpr int kArcs = 24;
+/// A circle's edge, and the half circle at a capsule's end, are drawn with so many pieces.
+constexpr int kArcs = 24, kCapArcs = 12;
 
 /// Edges of one part that another of the same assembly touches or covers are left out: water does
 /// not get there. Parts that overlap displace twice what they share, as they weigh twice there.
