@@ -24,38 +24,47 @@ b2Vec2 Place(const OutlinePath::Corner& c, int x0, int y0, float depth) {
 
 }  // namespace
 
-b2Body* AddChunk(const FeatherStore& store, int cell_x, int cell_y, float skin,
-                 std::uintptr_t first_id, b2World* world) {
-  const std::vector<OutlinePath> paths = OutlinesOf(store, cell_x, cell_y);
-  if (paths.empty()) return nullptr;
+Chunk ChunkOf(const FeatherStore& store, int cell_x, int cell_y, float skin) {
   const int x0 = cell_x * FeatherStore::kCell, y0 = cell_y * FeatherStore::kCell;
   const float depth = skin > 0 ? b2_polygonRadius - skin : 0;
-  b2BodyDef def;
-  def.position.Set(static_cast<float>(x0) * kBrickUnit, static_cast<float>(y0) * kBrickUnit);
-  b2Body* body = world->CreateBody(&def);
-  std::vector<b2Vec2> points;
-  std::uintptr_t id = first_id;
-  for (const OutlinePath& path : paths) {
-    points.clear();
-    for (const OutlinePath::Corner& c : path.corners) points.push_back(Place(c, x0, y0, depth));
-    b2ChainShape chain;
-    const auto count = static_cast<int32>(points.size());
-    if (path.closed) {
-      chain.CreateLoop(points.data(), count);
-    } else {
-      // How the outline goes on in the next cell: a metre of it, only its direction matters.
-      chain.CreateChain(points.data(), count, points.front() - Unit(path.corners.front().before),
-                        points.back() + Unit(path.corners.back().after));
-    }
-    b2FixtureDef fixture;
-    fixture.shape = &chain;
-    fixture.userData.pointer = id++;
+  Chunk chunk;
+  chunk.corner.Set(static_cast<float>(x0) * kBrickUnit, static_cast<float>(y0) * kBrickUnit);
+  for (const OutlinePath& path : OutlinesOf(store, cell_x, cell_y)) {
+    Chunk::Chain chain;
+    for (const auto& corner : path.corners) chain.points.push_back(Place(corner, x0, y0, depth));
+    chain.closed = path.closed;
+    // How the outline goes on in the next cell: a metre of it, only its direction matters.
+    chain.before = chain.points.front() - Unit(path.corners.front().before);
+    chain.after = chain.points.back() + Unit(path.corners.back().after);
     for (const BrickKind& kind : store.kinds()) {
       if (kind.surface != path.surface) continue;
-      fixture.friction = kind.friction;
-      fixture.restitution = kind.restitution;
+      chain.friction = kind.friction;
+      chain.restitution = kind.restitution;
       break;
     }
+    chunk.chains.push_back(std::move(chain));
+  }
+  return chunk;
+}
+
+b2Body* AddChunk(const Chunk& chunk, std::uintptr_t first_id, b2World* world) {
+  if (chunk.chains.empty()) return nullptr;
+  b2BodyDef def;
+  def.position = chunk.corner;
+  b2Body* body = world->CreateBody(&def);
+  for (const Chunk::Chain& chain : chunk.chains) {
+    b2ChainShape shape;
+    const auto count = static_cast<int32>(chain.points.size());
+    if (chain.closed) {
+      shape.CreateLoop(chain.points.data(), count);
+    } else {
+      shape.CreateChain(chain.points.data(), count, chain.before, chain.after);
+    }
+    b2FixtureDef fixture;
+    fixture.shape = &shape;
+    fixture.userData.pointer = first_id++;
+    fixture.friction = chain.friction;
+    fixture.restitution = chain.restitution;
     body->CreateFixture(&fixture);
   }
   return body;

@@ -37,18 +37,17 @@ struct CellRange {
   }
 };
 
-/// Farthest point of a body's shapes from its origin, m.
+/// Nothing of a body's shapes is farther from its origin than this, m.
 float ReachOf(b2Body* body) {
   float reach = 0;
+  b2Transform still;
+  still.SetIdentity();
   for (b2Fixture* f = body->GetFixtureList(); f != nullptr; f = f->GetNext()) {
-    if (f->GetType() == b2Shape::e_circle) {
-      const auto& circle = *static_cast<b2CircleShape*>(f->GetShape());
-      reach = std::max(reach, circle.m_p.Length() + circle.m_radius);
-    } else if (f->GetType() == b2Shape::e_polygon) {
-      const auto& polygon = *static_cast<b2PolygonShape*>(f->GetShape());
-      for (int32 i = 0; i < polygon.m_count; ++i) {
-        reach = std::max(reach, polygon.m_vertices[i].Length() + polygon.m_radius);
-      }
+    for (int32 child = 0; child < f->GetShape()->GetChildCount(); ++child) {
+      b2AABB box;
+      f->GetShape()->ComputeAABB(&box, still, child);
+      const b2Vec2 far = b2Max(b2Abs(box.lowerBound), b2Abs(box.upperBound));
+      reach = std::max(reach, far.Length());
     }
   }
   return reach;
@@ -73,7 +72,10 @@ class FeatherStage : public Stage {
   }
   void Emptied() override {
     b2_ = nullptr;
-    std::fill(loaded_.begin(), loaded_.end(), Loaded{});
+    for (Loaded& l : loaded_) {     // the chunks are still right
+      l.body = nullptr;
+      l.wanted = 0;
+    }
   }
   void Placed() override { Stream(0); }
   void BeforeTick() override { Stream(kCellsPerTick); }
@@ -82,6 +84,7 @@ class FeatherStage : public Stage {
   struct Loaded {
     b2Body* body = nullptr;
     int wanted = 0;                 // by so many bodies
+    std::unique_ptr<Chunk> chunk;   // kept while the world is built anew
   };
   struct Followed {
     float reach = 0;                // m
@@ -144,8 +147,11 @@ class FeatherStage : public Stage {
     if (cell < 0) return 0;
     Loaded& l = loaded_[static_cast<std::size_t>(cell)];
     if (l.wanted++ > 0) return 0;
-    l.body = AddChunk(store_, store_.cell_x(cell), store_.cell_y(cell),
-                      world_.scene.solver.skin, IdOf(cell), b2_);
+    if (l.chunk == nullptr) {
+      l.chunk = std::make_unique<Chunk>(ChunkOf(store_, store_.cell_x(cell), store_.cell_y(cell),
+                                                world_.scene.solver.skin));
+    }
+    l.body = AddChunk(*l.chunk, IdOf(cell), b2_);
     return 1;
   }
   void Drop(int cell) {
@@ -154,6 +160,7 @@ class FeatherStage : public Stage {
     if (--l.wanted > 0) return;
     if (l.body != nullptr) b2_->DestroyBody(l.body);
     l.body = nullptr;
+    l.chunk.reset();
   }
   /// Of a cell's first fixture; a cell has fewer than 1024 outlines that anything could touch.
   static std::uintptr_t IdOf(int cell) {

@@ -114,15 +114,12 @@ int FeatherStore::CellAt(int cell_x, int cell_y) const {
 void FeatherStore::Append(int cell, std::vector<Brick>* out) const {
   const Cell& c = cells_[static_cast<std::size_t>(cell)];
   for (std::uint32_t i = c.first; i < c.first + c.count; ++i) {
-    const std::uint32_t packed = bricks_[i];
-    out->push_back({c.x * kCell + static_cast<int>(packed & 0xff),
-                    c.y * kCell + static_cast<int>(packed >> 8 & 0xff),
-                    static_cast<int>(packed >> 16)});
+    out->push_back(Unpack(bricks_[i], c));
   }
 }
 
 std::vector<Brick> FeatherStore::InBox(int x0, int y0, int x1, int y1) const {
-  std::vector<Brick> out, all;
+  std::vector<Brick> out;
   if (cells_.empty()) return out;
   // A brick may reach in from the cell before.
   const int from_x = std::max(CellOf(x0 - kBrickSideMax), min_x_);
@@ -132,9 +129,9 @@ std::vector<Brick> FeatherStore::InBox(int x0, int y0, int x1, int y1) const {
     for (int x = from_x; x <= to_x; ++x) {
       const int cell = CellAt(x, y);
       if (cell < 0) continue;
-      all.clear();
-      Append(cell, &all);
-      for (const Brick& b : all) {
+      const Cell& c = cells_[static_cast<std::size_t>(cell)];
+      for (std::uint32_t i = c.first; i < c.first + c.count; ++i) {
+        const Brick b = Unpack(bricks_[i], c);
         const BrickKind& kind = kinds_[static_cast<std::size_t>(b.kind)];
         if (b.x < x1 && b.y < y1 && b.x + kind.width > x0 && b.y + kind.height > y0) {
           out.push_back(b);

@@ -71,6 +71,10 @@ class FeatherStore {
     std::uint32_t first = 0, count = 0;   // in bricks_, ascending; room until the next cell's
   };
   static std::uint32_t Pack(const Brick& brick, int cell_x, int cell_y);
+  static Brick Unpack(std::uint32_t packed, const Cell& cell) {
+    return {cell.x * kCell + static_cast<int>(packed & 0xff),
+            cell.y * kCell + static_cast<int>(packed >> 8 & 0xff), static_cast<int>(packed >> 16)};
+  }
   void Fill(const std::vector<BrickField>& fields);
 
   std::vector<std::uint32_t> bricks_;

@@ -19,6 +19,7 @@ struct WorldBench {
 const std::vector<WorldBench>& WorldBenches();
 
 // Each in its own file tests/lab/world/NAME.cpp, and named in benches.cpp.
+TextTable FeatherweightBench(bool quick);
 
 /// CPU seconds of this process so far.
 double CpuSeconds();

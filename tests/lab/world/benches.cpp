@@ -6,7 +6,9 @@
 namespace seam {
 
 const std::vector<WorldBench>& WorldBenches() {
-  static const std::vector<WorldBench> benches = {};
+  static const std::vector<WorldBench> benches = {
+      {"featherweight", FeatherweightBench},
+  };
   return benches;
 }
 
