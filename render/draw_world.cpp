@@ -6,6 +6,7 @@
 #include "render/draw_body.h"
 #include "render/draw_joints.h"
 #include "render/draw_scene.h"
+#include "render/draw_water.h"
 #include "render/marks.h"
 #include "render/palette.h"
 
@@ -151,6 +152,7 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
   list.FillRect(viewport.panel, kPanel);
   DrawRegions(list, viewport, playback);
   DrawGrid(list, viewport);
+  DrawWaters(list, viewport, playback);
   DrawGround(list, viewport, playback, look.cull);
   if (look.trails) DrawTrails(list, viewport, playback, look);
   const Moment now = playback.MomentAt(look.peer, look.tick);
@@ -160,6 +162,7 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
     DrawBody(list, viewport, *one.body, one.shown.pose,
              LookOf(one.shown.authority, one.shown.role));
   DrawPins(list, viewport, playback, now, 1);
+  DrawSurfaces(list, viewport, playback);
   DrawGhosts(list, viewport, playback, look);
   DrawImpacts(list, viewport, playback, look);
   DrawNames(list, viewport, playback, seen);

@@ -7,6 +7,7 @@
 #include "render/draw_hud.h"
 #include "render/draw_joints.h"
 #include "render/draw_scene.h"
+#include "render/draw_water.h"
 #include "render/format.h"
 #include "render/palette.h"
 #include "render/strobe_layout.h"
@@ -74,9 +75,11 @@ void DrawPanel(DrawList& list, const Rect& area, const Playback& playback, int p
   list.FillRect(area, kPanel);
   DrawRegions(list, viewport, playback);
   DrawGrid(list, viewport);
+  DrawWaters(list, viewport, playback);
   DrawGround(list, viewport, playback, true);
   for (std::size_t i = 0; i < times.size(); ++i)
     DrawExposure(list, viewport, playback, peer, times, i);
+  DrawSurfaces(list, viewport, playback);
   for (std::size_t i = 0; i < times.size(); ++i)
     DrawGhosts(list, viewport, playback, peer, times, i);
   list.NoClip();

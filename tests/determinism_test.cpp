@@ -21,7 +21,8 @@
 namespace seam {
 namespace {
 
-constexpr const char* kScenes[] = {"crossing", "wall", "stack", "cradle", "relay"};
+constexpr const char* kScenes[] = {"crossing", "wall", "stack", "cradle", "relay",
+                                    "harbour", "regatta"};
 constexpr const char* kGoldenFile = "tests/golden_hashes.txt";
 constexpr std::int64_t kTicks = 600, kHardTicks = 120;
 

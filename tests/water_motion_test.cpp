@@ -5,6 +5,7 @@
 #include <cmath>
 #include <optional>
 
+#include "common/measure/energy.h"
 #include "tests/water_world.h"
 
 namespace seam {
@@ -54,6 +55,23 @@ TEST(WaterMotion, BobbingWithoutDragKeepsItsHeight) {
     highest = std::max(highest, world->Read(0).position.y());
   }
   EXPECT_NEAR(highest, 0.1, 0.003);
+}
+
+TEST(WaterMotion, EnergyWithTheWatersIsKeptWhileThingsBobAndRock) {
+  const auto world = SmallWorld(
+      Floater("p", "polygon = [[-1, -0.4], [0.8, -0.6], [1.2, 0.2], [0, 0.8]]\ndensity = 0.6\n"
+                   "position = [0, 0.4]\nangle = 0.5") + IdealSea(), "tick_hz = 480");
+  const EnergyMeter meter(world->scene(), world->composition());
+  const double start = meter.Of({world->Read(0)});
+  double off = 0, low = world->Energy(), high = low;
+  for (int i = 0; i < 480 * 10; ++i) {
+    world->Step();
+    off = std::max(off, std::fabs(meter.Of({world->Read(0)}) - start));
+    low = std::min(low, world->Energy());
+    high = std::max(high, world->Energy());
+  }
+  EXPECT_GT(high - low, 2) << "J, to and fro between the thing and the water";
+  EXPECT_LT(off, 0.01 * (high - low));
 }
 
 TEST(WaterMotion, ASinkingBoxReachesItsTerminalSpeedAsTanh) {

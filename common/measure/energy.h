@@ -5,6 +5,7 @@
 
 #include "common/measure/joint_ends.h"
 #include "common/physics/mass.h"
+#include "common/physics/wet_shape.h"
 
 namespace seam {
 
@@ -13,8 +14,9 @@ class EnergyMeter {
  public:
   EnergyMeter(const Scene& scene, const Composition& composition);
 
-  /// J: kinetic, potential (0 at the origin's height along gravity) and in springs of wheel and
-  /// distance joints. What motors and players put in is in it; limits and contacts store nothing.
+  /// J: kinetic, potential (0 at the origin's height along gravity), in springs of wheel and
+  /// distance joints, and in the water that things push aside. What motors, flows and players put in
+  /// is in it; limits and contacts store nothing.
   /// `moving`: of the moving assemblies ascending by id; velocities are of the centres of mass.
   /// Infinite when a state is not finite.
   double Of(const std::vector<BodyState>& moving) const;
@@ -24,6 +26,10 @@ class EnergyMeter {
     JointEnds ends;
     double stiffness = 0;                 // N/m
   };
+  double InWater(const std::vector<BodyState>& moving) const;
+
+  const std::vector<Water> waters_;
+  std::vector<WetShape> wet_shapes_;      // of the moving assemblies, if there is water
   Eigen::Vector2d gravity_;               // m/s^2
   std::vector<MassProperties> masses_;    // of the moving assemblies
   std::vector<Spring> springs_;

@@ -20,6 +20,7 @@ const std::vector<WorldBench>& WorldBenches();
 
 // Each in its own file tests/lab/world/NAME.cpp, and named in benches.cpp.
 TextTable FeatherweightBench(bool quick);
+TextTable WaterBench(bool quick);
 
 /// CPU seconds of this process so far.
 double CpuSeconds();

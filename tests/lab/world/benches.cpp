@@ -8,6 +8,7 @@ namespace seam {
 const std::vector<WorldBench>& WorldBenches() {
   static const std::vector<WorldBench> benches = {
       {"featherweight", FeatherweightBench},
+      {"water", WaterBench},
   };
   return benches;
 }
