@@ -15,8 +15,8 @@ class EnergyMeter {
   EnergyMeter(const Scene& scene, const Composition& composition);
 
   /// J: kinetic, potential (0 at the origin's height along gravity), in springs of wheel and
-  /// distance joints, and in the water that things push aside. What motors, flows and players put in
-  /// is in it; limits and contacts store nothing.
+  /// distance joints, and in the water that things push aside. What motors, flows and players put
+  /// in is in it; limits and contacts store nothing.
   /// `moving`: of the moving assemblies ascending by id; velocities are of the centres of mass.
   /// Infinite when a state is not finite.
   double Of(const std::vector<BodyState>& moving) const;

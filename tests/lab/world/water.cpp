@@ -155,7 +155,7 @@ std::vector<std::string> Row(const Method& method, bool quick) {
 
 TextTable WaterBench(bool quick) {
   TextTable table;
-  table.name = "world-water";
+  table.name = "water";
   table.title = "Buoyancy: what each way costs and how wrong it is";
   table.header = {"method", "draught: box (m)", "hull 8 x 0.6 (m)", "square on its corner (m)",
                   "disc (m)", "lean at s = 0.23 (deg)", "lean at s = 0.5 (deg)",
@@ -170,7 +170,7 @@ TextTable WaterBench(bool quick) {
       "and has its middle as centre of lift: so a tilted thing rights itself too weakly. voxel4 is "
       "2 x 2 cells of the whole thing's box, however many parts it has. Drag goes by wet edges and "
       "is the same for all.";
-  table.command = "seam-lab world water";
+  table.command = std::string("seam-lab world water") + (quick ? " --quick" : "");
   return table;
 }
 
