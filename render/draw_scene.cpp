@@ -5,6 +5,7 @@
 #include <string>
 
 #include "render/draw_body.h"
+#include "render/draw_bricks.h"
 #include "render/palette.h"
 
 namespace seam {
@@ -128,6 +129,7 @@ void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playba
     if (cull && !viewport.Sees(body.start.position, body.reach)) continue;
     DrawBody(list, viewport, body, body.start, GroundLook());
   }
+  if (playback.bricks() != nullptr) DrawBricks(list, viewport, *playback.bricks());
 }
 
 void DrawScaleBar(DrawList& list, const Viewport& viewport) {

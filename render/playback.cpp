@@ -58,6 +58,7 @@ void Playback::Prepare() {
   moving_ = ShapesOf(scene_, composition, false);
   anchored_ = ShapesOf(scene_, composition, true);
   joints_ = JointsOf(scene_, composition);
+  if (!scene_.bricks.empty()) bricks_ = std::make_shared<FeatherStore>(scene_.bricks);
 }
 
 void Playback::MeasureErrors() {

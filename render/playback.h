@@ -9,6 +9,7 @@
 
 #include "common/measure/measure.h"
 #include "common/physics/assembly.h"
+#include "common/physics/feather_store.h"
 #include "common/physics/scene.h"
 #include "common/record/recording.h"
 #include "render/shapes.h"
@@ -47,6 +48,8 @@ class Playback {
   const std::vector<BodyShapes>& moving() const { return moving_; }
   const std::vector<BodyShapes>& anchored() const { return anchored_; }
   const std::vector<DrawnJoint>& joints() const { return joints_; }
+  /// nullptr: the scene has none.
+  const FeatherStore* bricks() const { return bricks_.get(); }
   bool has_oracle() const { return oracle_.has_value(); }
   const Oracle& oracle() const { return *oracle_; }
 
@@ -95,6 +98,7 @@ class Playback {
   std::optional<Oracle> oracle_;
   std::vector<BodyShapes> moving_, anchored_;
   std::vector<DrawnJoint> joints_;
+  std::shared_ptr<const FeatherStore> bricks_;
   std::map<int, int> player_of_peer_;
   std::optional<Measures> measures_;
   std::map<int, std::vector<double>> errors_;   // by peer; -1: all

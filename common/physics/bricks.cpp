@@ -27,18 +27,24 @@ class Windows {
       : bay_(Bricks(kBay, field.width)), storey_(Bricks(kStorey, field.height)),
         wide_(Bricks(kWindowWidth, field.width)), high_(Bricks(kWindowHeight, field.height)),
         sill_(Bricks(kSill, field.height)), bays_((columns - 2) / bay_), storeys_(rows / storey_),
-        left_((columns - bays_ * bay_) / 2) {
+        columns_(columns), left_((columns - bays_ * bay_) / 2) {
     if (wide_ >= bay_ || sill_ + high_ >= storey_) bays_ = 0;   // bricks too large for windows
   }
-  bool operator()(int column, int row) const {
+  /// Whether there is a hole. No window is cut by the sides at `aside`, or by the row from which on
+  /// the tower stands back.
+  bool operator()(int column, int row, int aside, int setback_row) const {
     const int c = column - left_;
     if (c < 0 || c >= bays_ * bay_ || row >= storeys_ * storey_) return false;
     const int within = c % bay_ - (bay_ - wide_) / 2, above = row % storey_ - sill_;
-    return within >= 0 && within < wide_ && above >= 0 && above < high_;
+    if (within < 0 || within >= wide_ || above < 0 || above >= high_) return false;
+    const int left = column - within, low = row - above;
+    const bool walled = left > aside && left + wide_ < columns_ - aside;
+    const bool one_part = low > setback_row || low + high_ < setback_row;
+    return walled && one_part;
   }
 
  private:
-  int bay_, storey_, wide_, high_, sill_, bays_, storeys_, left_;
+  int bay_, storey_, wide_, high_, sill_, bays_, storeys_, columns_, left_;
 };
 
 bool EachOfTower(const BrickField& field, int index,
@@ -55,10 +61,7 @@ bool EachOfTower(const BrickField& field, int index,
   for (int row = 0; row < rows; ++row) {
     const int aside = row >= setback_row ? setback : 0;
     for (int column = aside; column < columns - aside; ++column) {
-      // A window that the setback cuts would be a hole in the roof's rim: bricked up.
-      const bool open = t.windows && column > aside && column < columns - aside - 1 &&
-                        row != setback_row - 1 && window(column, row);
-      if (open) continue;
+      if (t.windows && window(column, row, aside, setback_row)) continue;
       if (!visit(x + column * field.width, field.y + row * field.height)) return false;
     }
   }
