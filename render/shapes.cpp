@@ -97,7 +97,8 @@ std::vector<DrawnJoint> JointsOf(const Scene& scene, const Composition& composit
     return composition.assemblies.at(static_cast<std::size_t>(index));
   };
   for (const Joint& joint : scene.joints) {
-    if (joint.kind == JointKind::kWeld) continue;
+    const bool rigid = joint.kind == JointKind::kWeld || joint.kind == JointKind::kGlue;
+    if (joint.gone || rigid) continue;
     const Assembly& a = assembly_of(joint.a);
     const Assembly& b = assembly_of(joint.b);
     DrawnJoint drawn;

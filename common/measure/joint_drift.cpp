@@ -9,6 +9,7 @@ namespace {
 double Drift(const JointEnds& joint, const std::vector<BodyState>& moving) {
   const Eigen::Vector2d apart = joint.b.PointNow(moving) - joint.a.PointNow(moving);
   switch (joint.kind) {
+    case JointKind::kGlue:
     case JointKind::kWeld:
     case JointKind::kRevolute: return apart.norm();
     case JointKind::kWheel: {

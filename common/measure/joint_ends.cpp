@@ -19,12 +19,12 @@ std::vector<JointEnds> FindJointEnds(const Scene& scene, const Composition& comp
   };
   std::vector<JointEnds> all;
   for (const Joint& joint : scene.joints) {
+    if (joint.gone || joint.kind == JointKind::kGlue) continue;
     if (joint.kind == JointKind::kWeld && !scene.solver.weld_joints) continue;
     JointEnds ends;
     ends.kind = joint.kind;
     ends.a = end(joint.a, joint.anchor_a, joint.axis);
-    ends.b = end(joint.b, joint.kind == JointKind::kDistance ? joint.anchor_b : joint.anchor_a,
-                 joint.axis);
+    ends.b = end(joint.b, joint.anchor_b, joint.axis);
     if (ends.a.assembly == ends.b.assembly) continue;
     ends.length = joint.length > 0
                       ? double{joint.length}

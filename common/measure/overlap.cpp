@@ -55,9 +55,11 @@ OverlapMeter::OverlapMeter(const Scene& scene, const Composition& composition) {
     }
   }
   for (const Joint& joint : scene.joints) {
+    if (joint.gone) continue;
     const int a = composition.assembly_of_part[static_cast<std::size_t>(joint.a)];
     const int b = composition.assembly_of_part[static_cast<std::size_t>(joint.b)];
-    const bool collide = joint.collide && joint.kind != JointKind::kWeld;
+    const bool rigid = joint.kind == JointKind::kWeld || joint.kind == JointKind::kGlue;
+    const bool collide = joint.collide && !rigid;
     if (!collide) joined_.push_back(Ordered(a, b));
   }
   std::sort(joined_.begin(), joined_.end());

@@ -34,10 +34,13 @@ class Sets {
 std::vector<Assembly> WeldParts(const Scene& scene) {
   Sets sets(scene.parts.size());
   for (const Joint& joint : scene.joints) {
-    if (joint.kind == JointKind::kWeld && !scene.solver.weld_joints) sets.Unite(joint.a, joint.b);
+    if (joint.gone) continue;
+    const bool weld = joint.kind == JointKind::kWeld && !scene.solver.weld_joints;
+    if (weld || joint.kind == JointKind::kGlue) sets.Unite(joint.a, joint.b);
   }
   std::map<int, Assembly> welded;
   for (const Part& part : scene.parts) {
+    if (part.gone) continue;
     Assembly& assembly = welded[sets.Find(part.id)];
     const bool heavier = assembly.parts.empty() ||
                          PartMass(part) >
@@ -71,6 +74,7 @@ void JoinAssemblies(const Scene& scene, Composition* composition) {
   std::vector<Assembly>& assemblies = composition->assemblies;
   Sets sets(assemblies.size());
   for (const Joint& joint : scene.joints) {
+    if (joint.gone) continue;
     const int a = composition->assembly_of_part[static_cast<std::size_t>(joint.a)];
     const int b = composition->assembly_of_part[static_cast<std::size_t>(joint.b)];
     const bool both_move = !assemblies[static_cast<std::size_t>(a)].anchored &&

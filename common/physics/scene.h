@@ -41,17 +41,19 @@ struct Part {
   Vec2 velocity{0, 0};              ///< m/s at tick 0, of the assembly's centre of mass
   float spin = 0;                   ///< rad/s at tick 0
   int owner = -1;                   ///< player who has authority while connected; -1: by region
+  bool gone = false;                ///< has left at run time (common/physics/topology.h)
   int line = 0;                     ///< in the scene file
 };
 
-enum class JointKind { kWeld, kRevolute, kWheel, kDistance };
+/// kGlue: one body, like a weld, until a force breaks it.
+enum class JointKind { kWeld, kRevolute, kWheel, kDistance, kGlue };
 
 struct Joint {
   std::string name;
   JointKind kind = JointKind::kWeld;
   PartId a = 0, b = 0;
   Vec2 anchor_a{0, 0};              ///< world, at tick 0
-  Vec2 anchor_b{0, 0};              ///< world; same as anchor_a unless kDistance
+  Vec2 anchor_b{0, 0};              ///< world; same as anchor_a at first, unless kDistance
   Vec2 axis{0, 1};                  ///< world, unit; kWheel: direction of the spring
   float frequency_hz = 0;           ///< of a spring (wheel, distance); 0: rigid
   float damping_ratio = 0.7f;
@@ -59,6 +61,9 @@ struct Joint {
   bool limited = false;             ///< kRevolute
   float lower = 0, upper = 0;       ///< rad
   bool collide = false;             ///< the joined bodies collide with each other
+  float strength = 0;               ///< kGlue: N that break it; 0: none does
+  float turn = 0;                   ///< rad; by how much bonds have turned the place of b, less a's
+  bool gone = false;                ///< broken or removed at run time
   int motor_player = -1;            ///< whose `drive` turns the motor; -1: a constant motor
   float motor_speed = 0;            ///< rad/s at full drive
   float motor_torque = 0;           ///< N m, the most the motor can do; 0: no motor

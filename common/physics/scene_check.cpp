@@ -65,7 +65,7 @@ void CheckAssemblies(const Checked& c) {
 
 void CheckJoints(const Checked& c) {
   for (const Joint& joint : c.scene.joints) {
-    if (joint.kind == JointKind::kWeld) continue;
+    if (joint.kind == JointKind::kWeld || joint.kind == JointKind::kGlue) continue;
     const Assembly& a = c.assembly_of(joint.a);
     const Assembly& b = c.assembly_of(joint.b);
     const std::string name = "joint '" + joint.name + "': ";

@@ -9,10 +9,11 @@ namespace {
 JointKind ReadKind(const SceneReader& r) {
   const std::string kind = r.Text("kind");
   if (kind == "weld") return JointKind::kWeld;
+  if (kind == "glue") return JointKind::kGlue;
   if (kind == "revolute") return JointKind::kRevolute;
   if (kind == "wheel") return JointKind::kWheel;
   if (kind == "distance") return JointKind::kDistance;
-  r.FailAt("kind", "kind must be weld, revolute, wheel or distance");
+  r.FailAt("kind", "kind must be weld, glue, revolute, wheel or distance");
 }
 
 /// Complains about a key that this kind of joint would ignore.
@@ -67,6 +68,28 @@ void ReadDistance(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
   }
 }
 
+/// Ends given in the parts' own frames, and the angle between the parts at which the joint is at
+/// rest: for what is joined while it moves, where the places in the scene say nothing.
+void ReadLocal(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
+  const auto place = [&](PartId id, const char* key, Vec2* anchor) {
+    if (!r.Has(key)) return;
+    if (r.Has("anchor")) r.FailAt(key, std::string("has both anchor and ") + key);
+    const Part& part = draft.scene.parts[static_cast<std::size_t>(id)];
+    const Eigen::Vector2d local = r.Vector(key, {-1000, 1000}).cast<double>();
+    const double c = std::cos(static_cast<double>(part.angle));
+    const double s = std::sin(static_cast<double>(part.angle));
+    const Eigen::Vector2d turned(c * local.x() - s * local.y(), s * local.x() + c * local.y());
+    *anchor = (part.position.cast<double>() + turned).cast<float>();
+  };
+  if (r.Has("local_a") != r.Has("local_b")) r.Fail("needs local_a and local_b, or neither");
+  place(joint->a, "local_a", &joint->anchor_a);
+  place(joint->b, "local_b", &joint->anchor_b);
+  if (!r.Has("reference_angle")) return;
+  const Part& a = draft.scene.parts[static_cast<std::size_t>(joint->a)];
+  const Part& b = draft.scene.parts[static_cast<std::size_t>(joint->b)];
+  joint->turn = b.angle - a.angle - r.Number("reference_angle", {-1000, 1000});
+}
+
 void Add(const SceneReader& r, const Joint& joint, SceneDraft* draft) {
   for (const Joint& other : draft->scene.joints) {
     if (other.name == joint.name) {
@@ -119,7 +142,8 @@ void ReadJoint(const TomlNode& node, SceneDraft* draft) {
   joint.line = node.line;
   SceneReader r(node, draft->file, "joint",
                 {"name", "kind", "a", "b", "anchor", "anchor_a", "anchor_b", "axis", "frequency",
-                 "damping_ratio", "length", "limits", "collide", "motor", "repeat"});
+                 "damping_ratio", "length", "limits", "collide", "motor", "repeat", "strength",
+                 "local_a", "local_b", "reference_angle"});
   joint.name = r.Name("name");
   r.Rename("joint '" + joint.name + "'");
   joint.kind = ReadKind(r);
@@ -133,12 +157,17 @@ void ReadJoint(const TomlNode& node, SceneDraft* draft) {
     joint.anchor_a = joint.anchor_b = r.Vector("anchor", kCoordinate, centre);
     Refuse(r, {"anchor_a", "anchor_b", "length"},
            joint.kind == JointKind::kWeld       ? "weld"
+           : joint.kind == JointKind::kGlue     ? "glue"
            : joint.kind == JointKind::kRevolute ? "revolute"
                                                 : "wheel");
   }
   switch (joint.kind) {
     case JointKind::kWeld:
       Refuse(r, {"axis", "frequency", "damping_ratio", "limits", "motor", "collide"}, "weld");
+      break;
+    case JointKind::kGlue:
+      Refuse(r, {"axis", "frequency", "damping_ratio", "limits", "motor", "collide"}, "glue");
+      joint.strength = r.Number("strength", {0, 1e9});
       break;
     case JointKind::kRevolute:
       Refuse(r, {"axis", "frequency", "damping_ratio"}, "revolute");
@@ -156,6 +185,10 @@ void ReadJoint(const TomlNode& node, SceneDraft* draft) {
       ReadDistance(r, *draft, &joint);
       break;
   }
+  if (joint.kind != JointKind::kGlue && r.Has("strength")) {
+    r.FailAt("strength", "only glue has a strength");
+  }
+  ReadLocal(r, *draft, &joint);
   if (r.Has("repeat")) {
     Copy(r, joint, draft);
   } else {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "common/physics/assembly.h"
+#include "common/physics/edit.h"
 #include "common/physics/scene.h"
 #include "common/physics/types.h"
 #include "common/physics/world_build.h"
@@ -49,6 +50,12 @@ class Stage {
   virtual void AfterTick() {}
   /// A player's axes and buttons from the next tick on.
   virtual void SetInput(int /*player*/, const Input& /*input*/) {}
+
+  /// After AfterTick: adds what this stage finds should change (a bond breaks, parts join). Whoever
+  /// has authority proposes it; nothing has changed yet.
+  virtual void Wishes(std::vector<Edit>* /*edits*/) {}
+  /// An edit was applied (after Rebuilt, if bodies changed).
+  virtual void Edited(const Edit& /*edit*/) {}
 
   /// What the stage remembers from tick to tick, always as many numbers, so that Restore can go
   /// back bit for bit. Load takes what Save gave.

@@ -21,6 +21,7 @@ World::~World() = default;
 
 const Scene& World::scene() const { return impl_->scene; }
 const Composition& World::composition() const { return impl_->composition; }
+const Topology& World::topology() const { return impl_->topology; }
 int World::body_count() const { return static_cast<int>(impl_->built.moving.size()); }
 PartId World::id(int body) const { return impl_->moving(body).id; }
 int World::mechanism(int body) const { return impl_->moving(body).mechanism; }
@@ -103,6 +104,7 @@ void World::Act(int player, int action) {
   SEAM_ASSERT(action >= 0 && action < static_cast<int>(actions.size()));
   const Action& a = actions[static_cast<std::size_t>(action)];
   const int assembly = impl_->composition.assembly_of_part[static_cast<std::size_t>(a.part)];
+  if (assembly < 0) return;   // the part has left
   impl_->built.bodies[static_cast<std::size_t>(assembly)]->ApplyLinearImpulseToCenter(
       ToB2(a.impulse), true);
 }
@@ -122,6 +124,12 @@ void World::Step() {
   w.impacts = w.meter.Impacts(w.built.moving);
   w.touches.reset();
   w.blocks.reset();
+}
+
+std::vector<Edit> World::Wishes() const {
+  std::vector<Edit> edits;
+  for (const auto& stage : impl_->stages) stage->Wishes(&edits);
+  return edits;
 }
 
 const std::vector<Impact>& World::impacts() const { return impl_->impacts; }

@@ -3,10 +3,13 @@
 /// the same calls give the same bits, at any optimisation level, in any process.
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "common/physics/assembly.h"
+#include "common/physics/recomposition.h"
 #include "common/physics/scene.h"
+#include "common/physics/topology.h"
 
 namespace seam {
 
@@ -48,11 +51,12 @@ struct WorldSnapshot {
   std::int64_t tick = 0;
   std::vector<Body> bodies;
   std::vector<Point> points;            ///< ascending by pair, feature
-  std::vector<float> joints;            ///< impulses, N s and N m s, in the engine's order
+  std::vector<std::vector<float>> joints;   ///< impulses, N s and N m s, by the scene's joints
   std::vector<float> stages;            ///< what each stage remembers
 };
 
-/// A `body` below is an index 0..body_count()-1 of the moving assemblies, ascending by id.
+/// A `body` below is an index 0..body_count()-1 of the moving assemblies, ascending by id. Apply
+/// may change all of them.
 class World {
  public:
   explicit World(const Scene& scene);
@@ -60,8 +64,9 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  const Scene& scene() const;
+  const Scene& scene() const;           ///< as it has become
   const Composition& composition() const;
+  const Topology& topology() const;
   int body_count() const;
   PartId id(int body) const;            ///< assembly id
   int BodyOfId(PartId assembly) const;  ///< -1 if there is no such moving assembly
@@ -91,6 +96,13 @@ class World {
   /// The push of the scene's player's action (index), now.
   void Act(int player, int action);
 
+  /// Applies edits in their order. Where they change who is one body with whom, the bodies
+  /// concerned are made anew: momentum, angular momentum and contacts carry over; what is left is told.
+  /// nullopt: all bodies and joints are what they were.
+  std::optional<Recomposition> Apply(const std::vector<Edit>& edits);
+  /// What the last tick gives reason to change; see Stage::Wishes. Nothing has changed yet.
+  std::vector<Edit> Wishes() const;
+
   /// Advances by one tick.
   void Step();
 
@@ -116,6 +128,7 @@ class World {
   double Energy() const;
 
  private:
+  void Push(const Edit& edit);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

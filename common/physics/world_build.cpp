@@ -37,9 +37,17 @@ b2MassData MassDataOf(const Scene& scene, const Assembly& assembly) {
   return data;
 }
 
+/// Where bonds have moved an end's place, the ends are no longer one point of the scene.
+template <typename Def>
+void SetEnds(const Joint& joint, b2Body* b, Def* def) {
+  def->localAnchorB = b->GetLocalPoint(ToB2(joint.anchor_b));
+}
+
 b2Joint* AddRevolute(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
   b2RevoluteJointDef def;
   def.Initialize(a, b, ToB2(joint.anchor_a));
+  SetEnds(joint, b, &def);
+  def.referenceAngle -= joint.turn;
   def.enableLimit = joint.limited;
   def.lowerAngle = joint.lower;
   def.upperAngle = joint.upper;
@@ -52,6 +60,7 @@ b2Joint* AddRevolute(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
 b2Joint* AddWheel(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
   b2WheelJointDef def;
   def.Initialize(a, b, ToB2(joint.anchor_a), ToB2(joint.axis));
+  SetEnds(joint, b, &def);
   if (joint.frequency_hz > 0) {
     b2LinearStiffness(def.stiffness, def.damping, joint.frequency_hz, joint.damping_ratio, a, b);
   } else {
@@ -83,24 +92,28 @@ b2Joint* AddDistance(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
 b2Joint* AddWeld(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
   b2WeldJointDef def;
   def.Initialize(a, b, ToB2(joint.anchor_a));
+  SetEnds(joint, b, &def);
+  def.referenceAngle -= joint.turn;
   return world->CreateJoint(&def);
 }
 
 b2Joint* AddJoint(const Scene& scene, const Joint& joint, b2Body* a, b2Body* b, b2World* world,
                   BuiltScene* built) {
+  if (a == b || (IndexOf(a) < 0 && IndexOf(b) < 0)) return nullptr;   // nothing to hold
   b2Joint* made = nullptr;
   switch (joint.kind) {
     case JointKind::kWeld:
-      if (a == b || !scene.solver.weld_joints) return nullptr;   // one body already
+      if (!scene.solver.weld_joints) return nullptr;
       made = AddWeld(joint, a, b, world);
       break;
+    case JointKind::kGlue: return nullptr;
     case JointKind::kRevolute: made = AddRevolute(joint, a, b, world); break;
     case JointKind::kWheel: made = AddWheel(joint, a, b, world); break;
     case JointKind::kDistance: made = AddDistance(joint, a, b, world); break;
   }
   if (joint.motor_torque > 0) {
     built->motors.push_back({made, joint.kind == JointKind::kWheel, joint.motor_player,
-                             joint.motor_speed});
+                             joint.motor_speed, static_cast<int>(built->joints.size())});
   }
   const bool anchored = IndexOf(a) < 0 || IndexOf(b) < 0;
   if (joint.kind == JointKind::kDistance && joint.frequency_hz <= 0 && anchored) {
@@ -147,6 +160,10 @@ BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2Worl
     return built.bodies[static_cast<std::size_t>(assembly)];
   };
   for (const Joint& joint : scene.joints) {
+    if (joint.gone) {
+      built.joints.push_back(nullptr);
+      continue;
+    }
     built.joints.push_back(
         AddJoint(scene, joint, body_of(joint.a), body_of(joint.b), world, &built));
   }

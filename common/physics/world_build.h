@@ -28,6 +28,7 @@ struct Motor {
   bool wheel = false;
   int player = -1;                    ///< -1: turns constantly
   float speed = 0;                    ///< rad/s at full drive
+  int index = 0;                      ///< into Scene::joints
 
   /// `share` of full drive, -1..1. Wakes the bodies if the speed changes.
   void Drive(float share) const;

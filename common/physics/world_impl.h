@@ -18,20 +18,32 @@
 namespace seam {
 
 struct World::Impl {
-  explicit Impl(const Scene& s) : scene(s), composition(Compose(s)) {
+  explicit Impl(const Scene& s) : topology(s) {
     Empty();
+    Build();
+    FindStages();
+    Listen();
+    for (const auto& stage : stages) stage->Rebuilt(&*world);
+  }
+
+  void Build() {
     built = BuildScene(scene, composition, &*world);
     float lightest = FLT_MAX;
     for (const MovingBody& m : built.moving) lightest = std::min(lightest, m.mass.mass);
-    meter.Set(s.solver.substeps, lightest);
-    stages = MakeStages({scene, composition, built, tick});
+    meter.Set(scene.solver.substeps, lightest);
+  }
+
+  /// Makes the stages anew if the scene needs more of them than there are.
+  void FindStages() {
+    std::vector<std::unique_ptr<Stage>> needed = MakeStages({scene, composition, built, tick});
+    if (needed.size() <= stages.size()) return;
+    stages = std::move(needed);
     std::vector<Stage*> listening;
     for (const auto& stage : stages) {
       if (stage->listens()) listening.push_back(stage.get());
     }
+    hub.reset();
     if (!listening.empty()) hub.emplace(meter, std::move(listening));
-    Listen();
-    for (const auto& stage : stages) stage->Rebuilt(&*world);
   }
 
   void Listen() {
@@ -56,13 +68,26 @@ struct World::Impl {
     return 1.0f / static_cast<float>(scene.solver.tick_hz * scene.solver.substeps);
   }
 
+  /// What survives when the bodies are made anew.
+  struct Kept {
+    WorldSnapshot snapshot;
+    std::vector<float> speeds;          ///< of motors, by the scene's joints
+  };
+  Kept Keep() const;
+  std::vector<float> Speeds() const;    ///< of motors, by the scene's joints
+  /// Makes everything anew, in the states of the snapshot. What it has of joints that are no more
+  /// is left out. The snapshot of stages may be empty: they begin anew, too.
+  void Rebuild(const WorldSnapshot& snapshot, const std::vector<bool>& kinematic,
+               const std::vector<float>& speeds);
+
   const MovingBody& moving(int body) const {
     SEAM_ASSERT(body >= 0 && body < static_cast<int>(built.moving.size()));
     return built.moving[static_cast<std::size_t>(body)];
   }
 
-  const Scene scene;
-  const Composition composition;
+  Topology topology;
+  const Scene& scene = topology.scene();
+  const Composition& composition = topology.composition();
   ImpulseMeter meter;
   std::optional<b2World> world;         // rebuilt by Barrier and Restore
   BuiltScene built;

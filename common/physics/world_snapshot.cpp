@@ -89,10 +89,13 @@ void EachPoint(b2World* world, const Visit& visit) {
   }
 }
 
-WorldSnapshot Save(std::int64_t tick, const std::vector<MovingBody>& moving, b2World* world) {
-  WorldSnapshot out;
+}  // namespace
+
+World::Impl::Kept World::Impl::Keep() const {
+  Kept kept;
+  WorldSnapshot& out = kept.snapshot;
   out.tick = tick;
-  for (const MovingBody& m : moving) {
+  for (const MovingBody& m : built.moving) {
     WorldSnapshot::Body body;
     body.state = {FromB2(m.body->GetPosition()), m.body->GetAngle(),
                   FromB2(m.body->GetLinearVelocity()), m.body->GetAngularVelocity()};
@@ -100,55 +103,54 @@ WorldSnapshot Save(std::int64_t tick, const std::vector<MovingBody>& moving, b2W
     body.quiet_s = m.body->*Member(SleepTime());
     out.bodies.push_back(body);
   }
-  EachPoint(world, [&](const PointKey& key, const b2ManifoldPoint* point) {
+  EachPoint(const_cast<b2World*>(&*world), [&](const PointKey& key, const b2ManifoldPoint* point) {
     const auto& [pair, feature] = key;
     out.points.push_back({pair, feature, point->normalImpulse, point->tangentImpulse});
   });
   std::sort(out.points.begin(), out.points.end(),
             [](const auto& x, const auto& y) { return KeyOf(x) < KeyOf(y); });
-  for (b2Joint* j = world->GetJointList(); j != nullptr; j = j->GetNext()) {
-    for (const float* impulse : ImpulsesOf(j)) out.joints.push_back(*impulse);
+  for (b2Joint* joint : built.joints) {
+    out.joints.emplace_back();
+    if (joint == nullptr) continue;
+    for (const float* impulse : ImpulsesOf(joint)) out.joints.back().push_back(*impulse);
   }
-  return out;
+  for (const auto& stage : stages) stage->Save(&out.stages);
+  kept.speeds = Speeds();
+  return kept;
 }
 
-}  // namespace
-
-WorldSnapshot World::Barrier() {
-  WorldSnapshot snapshot = Save(impl_->tick, impl_->built.moving, &*impl_->world);
-  for (const auto& stage : impl_->stages) stage->Save(&snapshot.stages);
-  Restore(snapshot);
-  return snapshot;
+std::vector<float> World::Impl::Speeds() const {
+  std::vector<float> speeds(scene.joints.size(), 0.0f);
+  for (const Motor& motor : built.motors) {
+    speeds[static_cast<std::size_t>(motor.index)] = motor.Speed();
+  }
+  return speeds;
 }
 
-void World::Restore(const WorldSnapshot& snapshot) {
-  Impl& w = *impl_;
-  SEAM_ASSERT(snapshot.bodies.size() == w.built.moving.size());
-  std::vector<bool> kinematic;
-  for (int body = 0; body < body_count(); ++body) {
-    kinematic.push_back(motion(body) == Motion::kKinematic);
-  }
-  std::vector<float> speeds;
-  for (const Motor& motor : w.built.motors) speeds.push_back(motor.Speed());
-
-  w.Empty();
+void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<bool>& kinematic,
+                          const std::vector<float>& speeds) {
+  Empty();
   // The engine scales the impulses it begins with by the ratio to its last step, which a new world
   // takes for 0: let it have had one.
-  w.world->Step(w.step_s(), 1, 1);
-  w.built = BuildScene(w.scene, w.composition, &*w.world);
-  w.Listen();
-  for (const auto& stage : w.stages) stage->Rebuilt(&*w.world);
-  for (std::size_t i = 0; i < w.built.motors.size(); ++i) w.built.motors[i].SetSpeed(speeds[i]);
+  world->Step(step_s(), 1, 1);
+  Build();
+  SEAM_ASSERT(snapshot.bodies.size() == built.moving.size());
+  Listen();
+  for (const auto& stage : stages) stage->Rebuilt(&*world);
+  for (const Motor& motor : built.motors) {
+    const auto index = static_cast<std::size_t>(motor.index);
+    if (index < speeds.size()) motor.SetSpeed(speeds[index]);
+  }
   for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
-    if (kinematic[i]) SetMotion(static_cast<int>(i), Motion::kKinematic);
+    b2Body* b = built.moving[i].body;
+    if (kinematic[i]) b->SetType(b2_kinematicBody);
     const BodyState& state = snapshot.bodies[i].state;
-    b2Body* b = w.built.moving[i].body;
     b->SetTransform(ToB2(state.position), state.angle);
   }
   for (const auto& stage : w.stages) stage->Placed();
   // No time passes, but contacts are found, which wakes what they touch.
-  w.world->Step(0, 1, 1);
-  EachPoint(&*w.world, [&](const PointKey& key, b2ManifoldPoint* point) {
+  world->Step(0, 1, 1);
+  EachPoint(&*world, [&](const PointKey& key, b2ManifoldPoint* point) {
     const auto found =
         std::lower_bound(snapshot.points.begin(), snapshot.points.end(), key,
                          [](const WorldSnapshot::Point& p, const PointKey& k) {
@@ -158,25 +160,42 @@ void World::Restore(const WorldSnapshot& snapshot) {
     point->normalImpulse = found->normal;
     point->tangentImpulse = found->tangent;
   });
-  std::size_t next = 0;
-  for (b2Joint* j = w.world->GetJointList(); j != nullptr; j = j->GetNext()) {
-    for (float* impulse : ImpulsesOf(j)) *impulse = snapshot.joints.at(next++);
+  for (std::size_t j = 0; j < built.joints.size() && j < snapshot.joints.size(); ++j) {
+    if (built.joints[j] == nullptr || snapshot.joints[j].empty()) continue;
+    std::size_t next = 0;
+    for (float* impulse : ImpulsesOf(built.joints[j])) *impulse = snapshot.joints[j].at(next++);
   }
   for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
     const WorldSnapshot::Body& body = snapshot.bodies[i];
-    b2Body* b = w.built.moving[i].body;
+    b2Body* b = built.moving[i].body;
     b->SetLinearVelocity(ToB2(body.state.velocity));
     b->SetAngularVelocity(body.state.spin);
     b->SetAwake(body.awake);
     b->*Member(SleepTime()) = body.quiet_s;
   }
-  w.tick = snapshot.tick;
+  tick = snapshot.tick;
   std::size_t taken = 0;
-  for (const auto& stage : w.stages) taken += stage->Load(snapshot.stages.data() + taken);
+  if (!snapshot.stages.empty()) {
+    for (const auto& stage : stages) taken += stage->Load(snapshot.stages.data() + taken);
+  }
   SEAM_ASSERT(taken == snapshot.stages.size());
-  w.meter.Clear();
-  w.touches.reset();
-  w.blocks.reset();
+  meter.Clear();
+  touches.reset();
+  blocks.reset();
+}
+
+WorldSnapshot World::Barrier() {
+  WorldSnapshot snapshot = impl_->Keep().snapshot;
+  Restore(snapshot);
+  return snapshot;
+}
+
+void World::Restore(const WorldSnapshot& snapshot) {
+  std::vector<bool> kinematic;
+  for (int body = 0; body < body_count(); ++body) {
+    kinematic.push_back(motion(body) == Motion::kKinematic);
+  }
+  impl_->Rebuild(snapshot, kinematic, impl_->Speeds());
 }
 
 }  // namespace seam

@@ -1,0 +1,261 @@
+/// World: bodies that split and merge. Momentum and angular momentum are carried over exactly (to
+/// rounding), contacts by the parts that touch.
+///
+///   before: bodies X (parts 1 2 3) and Y (4)      edit: 3 breaks off, 3 bonds with 4
+///   after:  bodies (1 2) and (3 4)
+///   a body after = pieces of bodies before; each piece moves as the body it comes from;
+///   v = sum m_k v_k / sum m_k,  w = sum (I_k w_k + m_k r_k x v_k) / I
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include "common/physics/mass.h"
+#include "common/physics/world_impl.h"
+
+namespace seam {
+namespace {
+
+using Eigen::Vector2d;
+
+Vector2d Turned(const Vector2d& v, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
+}
+
+double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+const Assembly& AssemblyOf(const Composition& c, int index) {
+  return c.assemblies[static_cast<std::size_t>(index)];
+}
+
+int AssemblyIndex(const Composition& c, PartId part) {
+  const auto p = static_cast<std::size_t>(part);
+  return p < c.assembly_of_part.size() ? c.assembly_of_part[p] : -1;
+}
+
+/// What the world was before the edits.
+struct Before {
+  Composition composition;
+  std::vector<Part> parts;                 // places within their assemblies
+  std::vector<BodyState> states;           // by body
+  std::vector<int> body_of_assembly;       // -1: anchored
+  std::vector<MassProperties> properties;  // by body, in the root's frame
+
+  int BodyOf(PartId part) const {
+    const int index = AssemblyIndex(composition, part);
+    return index < 0 ? -1 : body_of_assembly[static_cast<std::size_t>(index)];
+  }
+  const Part& RootOf(PartId part) const {
+    return parts[static_cast<std::size_t>(
+        AssemblyOf(composition, AssemblyIndex(composition, part)).id)];
+  }
+};
+
+std::vector<int> BodyOfAssembly(const Composition& c) {
+  std::vector<int> bodies;
+  int next = 0;
+  for (const Assembly& a : c.assemblies) bodies.push_back(a.anchored ? -1 : next++);
+  return bodies;
+}
+
+/// A rigid piece: parts of one body before that are in one body now.
+struct Piece {
+  double mass = 0, inertia = 0;            // kg, kg m^2 about `centre_now`
+  Vector2d centre_then{0, 0};              // m, in the root's frame before
+  Vector2d centre_now{0, 0};               // m, in the root's frame now
+  std::vector<PartId> parts;
+};
+
+Piece PieceOf(const Before& before, const Scene& scene, const Part& root_now,
+              const std::vector<PartId>& parts, bool came) {
+  Piece piece;
+  piece.parts = parts;
+  for (const PartId id : parts) {
+    const auto p = static_cast<std::size_t>(id);
+    const MassProperties own = PartProperties(scene.parts[p]);
+    piece.mass += own.mass;
+    piece.centre_now += own.mass * ToRootFrame(scene.parts[p], root_now, own.centre);
+    if (came) {
+      piece.centre_then +=
+          own.mass * ToRootFrame(before.parts[p], before.RootOf(id), own.centre);
+    }
+  }
+  if (piece.mass > 0) {
+    piece.centre_now /= piece.mass;
+    piece.centre_then /= piece.mass;
+  }
+  for (const PartId id : parts) {
+    const Part& part = scene.parts[static_cast<std::size_t>(id)];
+    const MassProperties own = PartProperties(part);
+    const Vector2d arm = ToRootFrame(part, root_now, own.centre) - piece.centre_now;
+    piece.inertia += own.inertia + own.mass * arm.dot(arm);
+  }
+  return piece;
+}
+
+BodyOrigin OriginOf(const Before& before, const Scene& scene, const Assembly& now) {
+  BodyOrigin origin;
+  origin.body = before.BodyOf(now.id);
+  if (origin.body < 0) return origin;
+  const Assembly& then = AssemblyOf(before.composition, AssemblyIndex(before.composition, now.id));
+  origin.same = then.id == now.id && then.parts == now.parts;
+  const Part& root_then = before.parts[static_cast<std::size_t>(then.id)];
+  const Part& root_part = before.parts[static_cast<std::size_t>(now.id)];
+  origin.root = ToRootFrame(root_part, root_then, Vector2d(0, 0));
+  origin.angle = root_part.id == root_then.id ? 0.0
+                                              : static_cast<double>(root_part.angle) -
+                                                    static_cast<double>(root_then.angle);
+  origin.centre_before = before.properties[static_cast<std::size_t>(origin.body)].centre;
+  std::vector<PartId> from_there;
+  for (const PartId id : now.parts) {
+    if (before.BodyOf(id) == origin.body) from_there.push_back(id);
+  }
+  const Part& root_now = scene.parts[static_cast<std::size_t>(now.id)];
+  origin.centre = PieceOf(before, scene, root_now, from_there, true).centre_then;
+  return origin;
+}
+
+/// The motion of a body made of pieces.
+BodyState StateOf(const Before& before, const Scene& scene, const Assembly& now,
+                  const BodyOrigin& origin) {
+  const Part& root = scene.parts[static_cast<std::size_t>(now.id)];
+  if (origin.same) return before.states[static_cast<std::size_t>(origin.body)];
+  BodyState state;
+  state.position = root.position;
+  state.angle = root.angle;
+  if (origin.body >= 0) {
+    state = Carried(origin, before.states[static_cast<std::size_t>(origin.body)]);
+  }
+  std::map<int, std::vector<PartId>> by_body;
+  for (const PartId id : now.parts) by_body[before.BodyOf(id)].push_back(id);
+  const MassProperties whole = AssemblyProperties(scene, now);
+  const double angle = static_cast<double>(state.angle);
+  Vector2d momentum{0, 0};
+  double angular = 0;
+  for (const auto& [body, parts] : by_body) {
+    const Piece piece = PieceOf(before, scene, root, parts, body >= 0);
+    Vector2d velocity{0, 0};
+    double spin = 0;
+    if (body >= 0) {
+      const BodyState& then = before.states[static_cast<std::size_t>(body)];
+      spin = static_cast<double>(then.spin);
+      const Vector2d arm =
+          Turned(piece.centre_then - before.properties[static_cast<std::size_t>(body)].centre,
+                 static_cast<double>(then.angle));
+      velocity = then.velocity.cast<double>() + spin * Vector2d(-arm.y(), arm.x());
+    } else {
+      velocity = root.velocity.cast<double>();   // of what was anchored: 0
+      spin = static_cast<double>(root.spin);
+    }
+    momentum += piece.mass * velocity;
+    const Vector2d arm = Turned(piece.centre_now - whole.centre, angle);
+    angular += piece.inertia * spin + piece.mass * Cross(arm, velocity);
+  }
+  if (whole.mass > 0) state.velocity = (momentum / whole.mass).cast<float>();
+  if (whole.inertia > 0) state.spin = static_cast<float>(angular / whole.inertia);
+  return state;
+}
+
+std::vector<std::vector<int>> MechanismsFrom(const Before& before, const Composition& now) {
+  std::vector<std::vector<int>> all;
+  for (const Mechanism& m : now.mechanisms) {
+    std::vector<int> from;
+    int first = -1;
+    for (const int index : m.assemblies) {
+      for (const PartId part : AssemblyOf(now, index).parts) {
+        const int then = AssemblyIndex(before.composition, part);
+        const int mechanism = then < 0 ? -1 : AssemblyOf(before.composition, then).mechanism;
+        if (mechanism < 0) continue;
+        from.push_back(mechanism);
+        if (part == m.id) first = mechanism;
+      }
+    }
+    std::sort(from.begin(), from.end());
+    from.erase(std::unique(from.begin(), from.end()), from.end());
+    const auto at = std::find(from.begin(), from.end(), first);
+    if (at != from.end()) std::rotate(from.begin(), at, at + 1);
+    all.push_back(from);
+  }
+  return all;
+}
+
+}  // namespace
+
+BodyState Carried(const BodyOrigin& origin, const BodyState& before) {
+  if (origin.same) return before;
+  const double angle = static_cast<double>(before.angle);
+  const double spin = static_cast<double>(before.spin);
+  const Vector2d arm = Turned(origin.centre - origin.centre_before, angle);
+  BodyState now = before;
+  now.position = (before.position.cast<double>() + Turned(origin.root, angle)).cast<float>();
+  now.angle = static_cast<float>(angle + origin.angle);
+  now.velocity =
+      (before.velocity.cast<double>() + spin * Vector2d(-arm.y(), arm.x())).cast<float>();
+  return now;
+}
+
+std::optional<Recomposition> World::Apply(const std::vector<Edit>& edits) {
+  Impl& w = *impl_;
+  const std::uint64_t hash = w.composition.hash;
+  const std::size_t joints_before = w.scene.joints.size();
+  Before before{w.composition, w.scene.parts, {}, BodyOfAssembly(w.composition), {}};
+  std::vector<bool> held;                  // joints that are there, broken ones not
+  for (const b2Joint* joint : w.built.joints) held.push_back(joint != nullptr);
+  for (int body = 0; body < body_count(); ++body) before.states.push_back(Read(body));
+  for (const Assembly& a : w.composition.assemblies) {
+    if (!a.anchored) before.properties.push_back(AssemblyProperties(w.scene, a));
+  }
+  const Impl::Kept kept = w.Keep();
+  w.topology.Apply(edits);
+  bool changed = w.composition.hash != hash || w.scene.joints.size() != joints_before;
+  for (std::size_t j = 0; j < joints_before; ++j) {
+    changed = changed || (held[j] && w.scene.joints[j].gone);
+  }
+  std::optional<Recomposition> out;
+  if (changed) {
+    out.emplace();
+    WorldSnapshot snapshot;
+    snapshot.tick = w.tick;
+    std::vector<bool> kinematic;
+    for (const Assembly& now : w.composition.assemblies) {
+      if (now.anchored) continue;
+      const BodyOrigin origin = OriginOf(before, w.scene, now);
+      WorldSnapshot::Body body;
+      body.state = StateOf(before, w.scene, now, origin);
+      kinematic.push_back(origin.body >= 0 && motion(origin.body) == Motion::kKinematic);
+      if (origin.same) {
+        const WorldSnapshot::Body& then =
+            kept.snapshot.bodies[static_cast<std::size_t>(origin.body)];
+        body.awake = then.awake;
+        body.quiet_s = then.quiet_s;
+      }
+      snapshot.bodies.push_back(body);
+      out->bodies.push_back(origin);
+    }
+    out->mechanisms = MechanismsFrom(before, w.composition);
+    snapshot.points = kept.snapshot.points;
+    snapshot.joints = kept.snapshot.joints;
+    const std::size_t stages = w.stages.size();
+    w.FindStages();
+    if (w.stages.size() == stages) snapshot.stages = kept.snapshot.stages;
+    w.Rebuild(snapshot, kinematic, kept.speeds);
+    w.impacts.clear();
+  }
+  for (const Edit& edit : edits) {
+    if (edit.kind == EditKind::kPush && w.topology.Complaint(edit).empty()) Push(edit);
+    for (const auto& stage : w.stages) stage->Edited(edit);
+  }
+  return out;
+}
+
+void World::Push(const Edit& edit) {
+  const int index = AssemblyIndex(composition(), edit.a);
+  if (index < 0 || AssemblyOf(composition(), index).anchored) return;
+  b2Body* body = impl_->built.bodies[static_cast<std::size_t>(index)];
+  if (body->GetType() != b2_dynamicBody) return;
+  body->ApplyLinearImpulseToCenter(b2Vec2(edit.x, edit.y), true);
+  body->ApplyAngularImpulse(edit.angle, true);
+}
+
+}  // namespace seam
