@@ -148,7 +148,7 @@ const Mistake kMistakes[] = {
     {"", PART("chain = [[0, 0], [0.005, 0], [1, 0]]"), 14, "points 1 and 2 are closer"},
     // Joints
     {"", "[[joint]]\nkind = \"weld\"\n", 12, "name is missing"},
-    {"", JOINT("rope", ""), 14, "kind must be weld, revolute, wheel or distance"},
+    {"", JOINT("rope", ""), 14, "kind must be weld, glue, revolute, wheel or distance"},
     {"", "[[joint]]\nname = \"j\"\nkind = \"weld\"\na = \"crate\"\nb = \"nobody\"\n", 16,
      "there is no part 'nobody'"},
     {"", "[[joint]]\nname = \"j\"\nkind = \"weld\"\na = \"crate\"\n", 12, "b is missing"},

@@ -97,7 +97,7 @@ class World {
   void Act(int player, int action);
 
   /// Applies edits in their order. Where they change who is one body with whom, the bodies
-  /// concerned are made anew: momentum, angular momentum and contacts carry over; what is left is told.
+  /// concerned are made anew: momentum, angular momentum and contacts carry over.
   /// nullopt: all bodies and joints are what they were.
   std::optional<Recomposition> Apply(const std::vector<Edit>& edits);
   /// What the last tick gives reason to change; see Stage::Wishes. Nothing has changed yet.
