@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/sync/edit_order.h"
 #include "common/sync/input_source.h"
 
 namespace seam {
@@ -94,6 +95,11 @@ void Client::Greet(std::int64_t now_us) {
     last_ping_us_ = now_us;
     Ping ping;
     ping.utime = now_us;
+    if (replica_ != nullptr && started_) {
+      ping.topology = replica_->topology();
+      ping.composition =
+          static_cast<std::int64_t>(replica_->world().composition().hash);
+    }
     link_->SendUnreliable(Encode(ping));
   }
 }
@@ -175,6 +181,12 @@ void Client::StepOnce(std::int64_t now_us) {
     Inputs inputs = replica_->inputs(player_).Export(player_, kInputsRedundant);
     inputs.utime = now_us;
     link_->SendUnreliable(Encode(inputs));
+  }
+  for (const Edit& edit : replica_->TakeProposals()) {
+    EditOrder proposal = ToOrder(edit);
+    proposal.utime = now_us;
+    proposal.tick = replica_->tick();
+    if (!released_) link_->SendReliable(Encode(proposal));
   }
   for (States& states : replica_->TakeStates()) {
     states.utime = now_us;

@@ -72,6 +72,8 @@ class Client {
   void ReceiveAll(std::int64_t now_us);
   void OnMessage(std::int64_t now_us, ByteView bytes);
   void OnChunk(const Chunk& chunk);
+  void OnEdit(const EditOrder& order);
+  void MakeReplica();
   void Build();
   void BeginConversation();
   void Greet(std::int64_t now_us);

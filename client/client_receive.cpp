@@ -53,6 +53,8 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
     if (pong->tick0_us >= 0) tick0_us_ = pong->tick0_us;
   } else if (const auto* grants = std::get_if<Grants>(&any)) {
     if (replica_ != nullptr && !released_) replica_->ApplyGrants(*grants);
+  } else if (const auto* order = std::get_if<EditOrder>(&any)) {
+    OnEdit(*order);
   } else if (const auto* states = std::get_if<States>(&any)) {
     if (started_) {
       stats_.dropped_stale += replica_->Receive(*states).stale;
@@ -77,6 +79,27 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
   }
 }
 
+void Client::OnEdit(const EditOrder& order) {
+  if (replica_ == nullptr) return;
+  if (order.number >= 0) {
+    if (!released_ && !replica_->Queue(order)) ++stats_.dropped_stale;
+    return;
+  }
+  // Our composition was not the room's: begin with the scene, everything else follows.
+  const std::int64_t tick = replica_->tick();
+  MakeReplica();
+  if (started_) replica_->StartAt(tick);
+}
+
+void Client::MakeReplica() {
+  SyncConfig sync = MakeSyncConfig(room_.mode, room_.reconcile);
+  sync.tick_hz = room_.tick_hz;
+  sync.send_hz = room_.send_hz;
+  sync.smooth = config_.smooth;
+  sync.seed = room_.seed;
+  replica_ = std::make_unique<Replica>(*scene_, sync, peer_, player_);
+}
+
 void Client::OnChunk(const Chunk& chunk) {
   if (replica_ != nullptr || room_size_ == 0) return;
   if (static_cast<std::size_t>(chunk.offset_bytes) != room_bytes_.size() ||
@@ -97,11 +120,6 @@ void Client::Build() {
   }
   room_ = *room;
   try {
-    SyncConfig sync = MakeSyncConfig(room_.mode, room_.reconcile);
-    sync.tick_hz = room_.tick_hz;
-    sync.send_hz = room_.send_hz;
-    sync.smooth = config_.smooth;
-    sync.seed = room_.seed;
     scene_ = std::make_unique<Scene>(ParseScene(room_.scene_text, room_.scene_name + ".toml"));
     if (scene_->solver.tick_hz != room_.tick_hz) {
       throw OperatorError("its tick rate is not its scene's");
@@ -111,7 +129,7 @@ void Client::Build() {
       for (const Player& p : scene_->players) found = found || p.name == config_.script_of;
       if (!found) throw OperatorError("it has no player \"" + config_.script_of + "\" to script");
     }
-    replica_ = std::make_unique<Replica>(*scene_, sync, peer_, player_);
+    MakeReplica();
   } catch (const OperatorError& e) {
     fatal_ = "cannot use the server's scene: " + std::string(e.what());
     return;

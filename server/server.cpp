@@ -24,6 +24,7 @@ Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorde
       publisher_(recorder, config.room),
       replica_(scene_, config.sync, 0, -1),
       planner_(scene_, config.sync) {
+  hash_after_[0] = replica_.world().composition().hash;
   revoking_.assign(static_cast<std::size_t>(replica_.authority().count()), false);
   accepted_.resize(static_cast<std::size_t>(replica_.world().body_count()));
   if (config_.sync.mode == Mode::kBuffer) {
@@ -89,7 +90,9 @@ void Server::StepOnce(std::int64_t now_us) {
       publisher_.Publish(inputs);
     }
   }
+  OrderPending(now_us);
   replica_.Step();
+  for (const Edit& edit : replica_.TakeProposals()) Order(edit);
   PlanAuthority(now_us);
   for (States& states : replica_.TakeStates()) {
     states.utime = now_us;
@@ -108,6 +111,7 @@ void Server::PlanAuthority(std::int64_t now_us) {
   if (plan_due_ || replica_.tick() % std::max(1, config_.sync.tick_hz / kPlansPerSecond) == 0) {
     plan_due_ = false;
     wishes_ = planner_.Plan(replica_.world(), replica_.authority(), PeerOfPlayer());
+    if (config_.sync.mode != Mode::kOracle) BringTogether(&wishes_);
   }
   std::vector<int> changed;
   std::vector<Grants> revocations;
@@ -177,6 +181,7 @@ void Server::Relay(const States& states, int from_peer) {
     bool near = config_.sync.mode != Mode::kBuffer;
     for (std::size_t i = 0; i < states.id.size() && !near; ++i) {
       const int body = replica_.world().BodyOfId(states.id[i]);
+      if (body < 0) continue;   // it has left meanwhile
       const Holding& h = replica_.authority().at(replica_.world().mechanism(body));
       near = ((h.secondaries >> session->peer) & 1U) != 0;
     }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -45,15 +46,33 @@ class Server {
   const Stats& stats() const { return stats_; }
   const Replica& replica() const { return replica_; }
   World& world() { return replica_.world(); }
+  /// Orders an edit at the next tick, or as soon as its parts are in one hand. One that cannot be is
+  /// dropped; Topology::Complaint tells beforehand.
+  void Order(const Edit& edit);
 
   /// A client not heard for this long is gone. Its own patience (Client::kSilentUs) is shorter, so
   /// that it has let go of its mechanisms before the server takes them back.
   static constexpr std::int64_t kSilentUs = 3000000;
   /// From the last player's readiness to tick 0, us: time for the answer to reach everyone.
   static constexpr std::int64_t kLeadInUs = 1000000;
+  /// A peer whose composition differs is repaired at most this often, us.
+  static constexpr std::int64_t kRepairAgainUs = 3000000;
 
  private:
   using Sessions = std::map<Address, std::unique_ptr<Session>>;
+
+  // server_edits.cpp
+  void OnProposal(Session& session, const EditOrder& order);
+  int MechanismOf(PartId part) const;
+  std::vector<int> MechanismsOf(const Edit& edit) const;
+  bool InOneHand(const std::vector<int>& mechanisms) const;
+  /// Lets mechanisms that are to be joined wish for the same authority.
+  void BringTogether(std::vector<Wish>* wishes) const;
+  void OrderPending(std::int64_t now_us);
+  void FollowTopology(const std::optional<Recomposition>& change);
+  void CheckComposition(std::int64_t now_us, Session& session, const Ping& ping);
+  /// Edits, grants and states: all that a peer needs to have our world.
+  void SendWorld(std::int64_t now_us, Session& session);
 
   // server_receive.cpp
   void ReceiveAll(std::int64_t now_us);
@@ -100,6 +119,15 @@ class Server {
   std::vector<Wish> wishes_;                    // of the last plan
   bool plan_due_ = true;                        // somebody came or went
   std::vector<bool> revoking_;                  // by mechanism: told to let go, not yet confirmed
+  struct Pending {
+    Edit edit;
+    int peer = 0;                               // who proposed it
+    std::int64_t since = 0;                     // tick
+  };
+  std::vector<Pending> pending_;                // in the order of coming
+  std::vector<EditOrder> edits_;                // all that were ordered, by number
+  std::map<int, std::uint64_t> hash_after_;     // of the composition, by number of edits applied
+  bool full_ = false;                           // no more edits
   struct LastAccepted {
     std::int64_t tick = -1;
     Vec2 position{0, 0};

@@ -110,6 +110,9 @@ void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
     pong.client_us = ping->utime;
     pong.tick0_us = tick0_us_;
     session.link.SendUnreliable(Encode(pong));
+    CheckComposition(now_us, session, *ping);
+  } else if (const auto* proposal = std::get_if<EditOrder>(&any)) {
+    OnProposal(session, *proposal);
   } else if (const auto* hello = std::get_if<Hello>(&any)) {
     OnHello(now_us, session, *hello);
   } else if (std::holds_alternative<Bye>(any)) {
@@ -177,9 +180,11 @@ void Server::OnStates(std::int64_t now_us, Session& session, const States& state
     ++stats_.dropped_stale;
     return;
   }
-  if (states.composition !=
-      static_cast<std::int64_t>(replica_.world().composition().hash)) {
-    ++stats_.dropped_implausible;
+  const auto hash = hash_after_.find(states.topology);
+  const bool other = hash != hash_after_.end() &&
+                     hash->second != static_cast<std::uint64_t>(states.composition);
+  if (other || states.topology > replica_.topology()) {
+    ++stats_.dropped_implausible;   // its next ping has it repaired
     return;
   }
   States kept = states;
@@ -192,7 +197,11 @@ void Server::OnStates(std::int64_t now_us, Session& session, const States& state
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(states.id[i]);
     if (body < 0) {
-      ++stats_.dropped_right;
+      ++(states.topology < replica_.topology() ? stats_.dropped_stale : stats_.dropped_right);
+      continue;
+    }
+    if (!replica_.SameBody(body, states.topology)) {
+      ++stats_.dropped_stale;
       continue;
     }
     const Holding& h = replica_.authority().at(replica_.world().mechanism(body));

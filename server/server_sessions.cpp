@@ -89,16 +89,7 @@ void Server::Advance(std::int64_t now_us, Session& session) {
                           static_cast<std::ptrdiff_t>(std::min(room.size(), at + kChunkBytes)));
     session.link.SendReliable(Encode(chunk));
   }
-  std::vector<int> all;
-  for (int m = 0; m < replica_.authority().count(); ++m) all.push_back(m);
-  for (const Grants& g : replica_.authority().Export(now_us, replica_.tick(), all)) {
-    session.link.SendReliable(Encode(g));
-  }
-  if (!started()) return;
-  for (States& states : replica_.Everything()) {
-    states.utime = now_us;
-    session.link.SendReliable(Encode(states));
-  }
+  SendWorld(now_us, session);
 }
 
 std::vector<int> Server::PeerOfPlayer() const {

@@ -26,6 +26,7 @@ struct Session {
   int player = -1;
   Stage stage = Stage::kGreeted;
   std::int64_t created_us = 0;
+  std::int64_t repaired_us = -1000000000;
   bool leaving = false;             ///< to be dropped at the next opportunity
   std::string leaving_why;
 };

@@ -16,7 +16,7 @@ namespace seam {
 namespace {
 
 using Messages = ::testing::Types<Hello, Welcome, Chunk, Room, Ping, Pong, Inputs, States, Grants,
-                                  View, Impacts, Stats, Event, Bye>;
+                                  EditOrder, View, Impacts, Stats, Event, Bye>;
 
 template <class Message>
 class Codec : public ::testing::Test {};
@@ -267,7 +267,7 @@ TEST(CodecWire, TypeHashesArePinnedToTheProtocolVersion) {
   const std::vector<std::uint64_t> hashes = {
       hash(Encode(hello)),    hash(Encode(welcome)), hash(Encode(chunk)),   hash(Encode(Room{})),
       hash(Encode(Ping{})),   hash(Encode(Pong{})),  hash(Encode(inputs)),  hash(Encode(States{})),
-      hash(Encode(Grants{})), hash(Encode(View{})),  hash(Encode(Impacts{})),
+      hash(Encode(Grants{})), hash(Encode(EditOrder{})), hash(Encode(View{})),  hash(Encode(Impacts{})),
       hash(Encode(Stats{})),  hash(Encode(Event{})), hash(Encode(Bye{}))};
   const std::vector<std::uint64_t> pinned = {
       0x77af54d8cac6751eu, 0xcb0ab4d23d15572fu, 0xfe05a5dcca243573u, 0xfc29582c30d1354eu,

@@ -7,6 +7,7 @@
 #include "common/codec/validate.h"
 #include "seam/bye_t.hpp"
 #include "seam/chunk_t.hpp"
+#include "seam/edit_t.hpp"
 #include "seam/event_t.hpp"
 #include "seam/grants_t.hpp"
 #include "seam/hello_t.hpp"
@@ -70,7 +71,7 @@ struct Wire<Ping> {
   using Type = ping_t;
   template <class M>
   static auto Fields(M& m) {
-        return std::tie(m.utime);
+        return std::tie(m.utime, m.topology, m.composition);
   }
 };
 
@@ -97,8 +98,8 @@ struct Wire<States> {
   using Type = states_t;
   template <class M>
   static auto Fields(M& m) {
-        return std::tie(m.utime, m.sequence, m.peer, m.tick, m.composition, m.origin_x, m.origin_y,
-                    m.id, m.epoch, m.flags, m.x, m.y, m.angle, m.vx, m.vy, m.spin);
+        return std::tie(m.utime, m.sequence, m.peer, m.tick, m.topology, m.composition, m.origin_x,
+                    m.origin_y, m.id, m.epoch, m.flags, m.x, m.y, m.angle, m.vx, m.vy, m.spin);
   }
 };
 
@@ -113,12 +114,22 @@ struct Wire<Grants> {
 };
 
 template <>
+struct Wire<EditOrder> {
+  using Type = edit_t;
+  template <class M>
+  static auto Fields(M& m) {
+        return std::tie(m.utime, m.sequence, m.number, m.tick, m.kind, m.cause, m.a, m.b, m.joint,
+                    m.player, m.x, m.y, m.angle, m.amount, m.text);
+  }
+};
+
+template <>
 struct Wire<View> {
   using Type = view_t;
   template <class M>
   static auto Fields(M& m) {
-        return std::tie(m.utime, m.sequence, m.peer, m.tick, m.part, m.parts, m.id, m.role,
-                    m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin);
+        return std::tie(m.utime, m.sequence, m.peer, m.tick, m.topology, m.part, m.parts, m.id,
+                    m.role, m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin);
   }
 };
 
@@ -219,6 +230,7 @@ const std::unordered_map<std::uint64_t, Decoder>& Decoders() {
       {WireHash<Inputs>(), DecodeAs<Inputs>},
       {WireHash<States>(), DecodeAs<States>},
       {WireHash<Grants>(), DecodeAs<Grants>},
+      {WireHash<EditOrder>(), DecodeAs<EditOrder>},
       {WireHash<View>(), DecodeAs<View>},
       {WireHash<Impacts>(), DecodeAs<Impacts>},
       {WireHash<Stats>(), DecodeAs<Stats>},
@@ -239,6 +251,7 @@ Bytes Encode(const Pong& m) { return EncodeAs(m); }
 Bytes Encode(const Inputs& m) { return EncodeAs(m); }
 Bytes Encode(const States& m) { return EncodeAs(m); }
 Bytes Encode(const Grants& m) { return EncodeAs(m); }
+Bytes Encode(const EditOrder& m) { return EncodeAs(m); }
 Bytes Encode(const View& m) { return EncodeAs(m); }
 Bytes Encode(const Impacts& m) { return EncodeAs(m); }
 Bytes Encode(const Stats& m) { return EncodeAs(m); }

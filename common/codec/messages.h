@@ -11,7 +11,7 @@
 namespace seam {
 
 /// Bumped when any message changes: peers of different versions do not talk.
-constexpr std::int32_t kProtocolVersion = 1;
+constexpr std::int32_t kProtocolVersion = 2;
 
 /// Largest encoded message on the bus; larger ones overflow stock lcm-logger's socket buffer.
 constexpr std::size_t kBusMessageBytesMax = 60000;
@@ -84,6 +84,8 @@ struct Room {
 /// Client -> server: asks for the server's time.
 struct Ping {
   std::int64_t utime = 0;       ///< client's clock when sent
+  std::int32_t topology = -1;   ///< edits applied so far, -1 before there is a world
+  std::int64_t composition = 0; ///< hash of the assemblies' make-up after them
 };
 
 /// Server -> client: the answer.
@@ -111,7 +113,8 @@ struct States {
   std::int32_t sequence = 0;
   std::int32_t peer = 0;                  ///< the authority
   std::int64_t tick = 0;
-  std::int64_t composition = 0;           ///< hash of the assemblies' make-up
+  std::int32_t topology = 0;              ///< edits that the sender had applied
+  std::int64_t composition = 0;           ///< hash of the assemblies' make-up after them
   std::int32_t origin_x = 0;              ///< whole metres
   std::int32_t origin_y = 0;              ///< whole metres
   std::vector<std::int16_t> id;           ///< assembly ids, ascending; all vectors of one length
@@ -136,12 +139,31 @@ struct Grants {
   std::vector<std::int32_t> secondaries;  ///< bit p: peer p is secondary
 };
 
+/// A change of who is joined to whom, or of what there is; see common/physics/edit.h for the fields
+/// of each kind. From a client: proposed by the authority. From the server: ordered, for everyone.
+struct EditOrder {
+  std::int64_t utime = 0;
+  std::int32_t sequence = 0;
+  std::int32_t number = -1;     ///< place in the order; -1: a proposal, or (server) begin anew
+  std::int64_t tick = 0;        ///< the server's when ordered; a proposer's own
+  std::int8_t kind = 0;
+  std::int8_t cause = 0;
+  std::int16_t a = -1, b = -1, joint = -1;
+  std::int8_t player = -1;
+  float x = 0, y = 0, angle = 0, amount = 0;
+  std::string text;             ///< at most kEditTextBytesMax
+};
+/// The whole must fit Link's kMessageBytesMax.
+constexpr std::size_t kEditTextBytesMax = 900;
+constexpr std::int8_t kEditKindsMax = 8;
+
 /// Bus only: what a peer shows at a tick. This is what is measured and drawn.
 struct View {
   std::int64_t utime = 0;
   std::int32_t sequence = 0;
   std::int32_t peer = 0;
   std::int64_t tick = 0;
+  std::int32_t topology = 0;              ///< edits that the peer had applied
   std::int32_t part = 0;                  ///< part of parts: very large views are split
   std::int32_t parts = 1;
   std::vector<std::int16_t> id;           ///< assembly ids, ascending

@@ -107,7 +107,7 @@ bool Valid(const Room& m) {
          Within(m.send_hz, 1, m.tick_hz);
 }
 
-bool Valid(const Ping& m) { return Time(m.utime); }
+bool Valid(const Ping& m) { return Time(m.utime) && m.topology >= -1; }
 
 bool Valid(const Pong& m) { return Time(m.utime) && Time(m.client_us) && Time(m.tick0_us); }
 
@@ -119,7 +119,7 @@ bool Valid(const Inputs& m) {
 }
 
 bool Valid(const States& m) {
-  return Time(m.utime) && m.sequence >= 0 && Peer(m.peer) && Tick(m.tick) &&
+  return Time(m.utime) && m.sequence >= 0 && m.topology >= 0 && Peer(m.peer) && Tick(m.tick) &&
          m.id.size() <= kStatesBodiesMax &&
          Lengths(m.id.size(), m.epoch, m.flags, m.x, m.y, m.angle, m.vx, m.vy, m.spin) &&
          Ascending(m.id) && AllWithin(m.flags, 0, kStateAsleep | kStateImpact) &&
@@ -132,8 +132,16 @@ bool Valid(const Grants& m) {
          AllWithin(m.mechanism, 0, INT16_MAX) && AllWithin(m.authority, 0, kPeersMax - 1);
 }
 
+bool Valid(const EditOrder& m) {
+  return Time(m.utime) && m.sequence >= 0 && m.number >= -1 && Tick(m.tick) &&
+         Within(m.kind, 0, kEditKindsMax) && Within(m.cause, 0, 1) && m.a >= -1 && m.b >= -1 &&
+         m.joint >= -1 && Within(m.player, -1, kPeersMax - 1) && std::isfinite(m.x) &&
+         std::isfinite(m.y) && std::isfinite(m.angle) && std::isfinite(m.amount) &&
+         IsPrintable(m.text, kEditTextBytesMax, true);
+}
+
 bool Valid(const View& m) {
-  return Time(m.utime) && m.sequence >= 0 && Peer(m.peer) && Tick(m.tick) &&
+  return Time(m.utime) && m.sequence >= 0 && m.topology >= 0 && Peer(m.peer) && Tick(m.tick) &&
          Within(m.parts, 1, kViewPartsMax) && Within(m.part, 0, m.parts - 1) &&
          m.id.size() <= kViewBodiesMax &&
          Lengths(m.id.size(), m.role, m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin) &&

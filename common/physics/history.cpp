@@ -35,4 +35,22 @@ std::int64_t History::newest() const { return count_ == 0 ? -1 : newest_; }
 std::int64_t History::oldest() const { return count_ == 0 ? -1 : newest_ - count_ + 1; }
 void History::Clear() { count_ = 0; }
 
+void History::Recompose(const std::vector<BodyOrigin>& origins,
+                        const std::vector<BodyState>& now) {
+  SEAM_ASSERT(origins.size() == now.size());
+  const int bodies = static_cast<int>(origins.size());
+  std::vector<BodyState> ring(static_cast<std::size_t>(bodies) *
+                              static_cast<std::size_t>(capacity_));
+  for (std::int64_t tick = oldest(); count_ > 0 && tick <= newest_; ++tick) {
+    for (int body = 0; body < bodies; ++body) {
+      const BodyOrigin& origin = origins[static_cast<std::size_t>(body)];
+      BodyState& state = ring[static_cast<std::size_t>((tick % capacity_) * bodies + body)];
+      state = origin.body < 0 ? now[static_cast<std::size_t>(body)]
+                              : Carried(origin, *At(tick, origin.body));
+    }
+  }
+  ring_ = std::move(ring);
+  bodies_ = bodies;
+}
+
 }  // namespace seam

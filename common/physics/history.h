@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/physics/recomposition.h"
 #include "common/physics/types.h"
 
 namespace seam {
@@ -22,6 +23,9 @@ class History {
   std::int64_t newest() const;      ///< -1 when empty
   std::int64_t oldest() const;      ///< -1 when empty
   void Clear();
+  /// The bodies are others now: each one's past is that of where it came from, moved rigidly; of
+  /// what is new there is none, and `now` fills its place.
+  void Recompose(const std::vector<BodyOrigin>& origins, const std::vector<BodyState>& now);
 
  private:
   int bodies_ = 0;

@@ -142,6 +142,11 @@ bool RecordingBuilder::Keep(Grants& grants) {
   return true;
 }
 
+bool RecordingBuilder::Keep(EditOrder& edit) {
+  if (edit.number >= 0) recording_.edits.try_emplace(edit.number, std::move(edit));
+  return true;
+}
+
 bool RecordingBuilder::Keep(Impacts& impacts) {
   sorted_ = AppendByTick(&recording_.impacts, impacts) && sorted_;
   return true;

@@ -20,6 +20,7 @@ struct Recording {
   std::map<int, std::map<std::int64_t, Inputs>> inputs;  ///< by player, by first_tick
   std::vector<States> states;                       ///< accepted ones, in log order
   std::vector<Grants> grants;                       ///< in log order
+  std::map<std::int32_t, EditOrder> edits;          ///< by number: the room's order
   std::vector<Impacts> impacts;
   std::map<int, std::vector<Stats>> stats;          ///< by peer, ascending
   std::vector<Event> events;
@@ -65,6 +66,7 @@ class RecordingBuilder {
   bool Keep(Inputs& inputs);
   bool Keep(States& states);
   bool Keep(Grants& grants);
+  bool Keep(EditOrder& edit);
   bool Keep(View& part);
   bool Keep(Impacts& impacts);
   bool Keep(Stats& stats);

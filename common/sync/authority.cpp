@@ -22,6 +22,32 @@ void AuthorityTable::Set(int mechanism, const Holding& holding) {
   holdings_[static_cast<std::size_t>(mechanism)] = holding;
 }
 
+void AuthorityTable::Recompose(const Composition& composition,
+                               const std::vector<std::vector<int>>& from, const Holding& fresh) {
+  SEAM_ASSERT(from.size() == composition.mechanisms.size());
+  std::vector<Holding> holdings;
+  ids_.clear();
+  for (std::size_t m = 0; m < from.size(); ++m) {
+    ids_.push_back(composition.mechanisms[m].id);
+    Holding h = fresh;
+    for (std::size_t i = 0; i < from[m].size(); ++i) {
+      const Holding& then = at(from[m][i]);
+      if (i == 0) {
+        h = then;
+        continue;
+      }
+      h.epoch = std::max(h.epoch, then.epoch);
+      h.secondaries |= then.secondaries | std::uint32_t{1} << then.authority;
+    }
+    if (from[m].size() > 1) {
+      h.epoch += 1;
+      h.secondaries &= ~(std::uint32_t{1} << h.authority);
+    }
+    holdings.push_back(h);
+  }
+  holdings_ = std::move(holdings);
+}
+
 std::vector<int> AuthorityTable::Apply(const Grants& grants) {
   std::vector<int> changed;
   for (std::size_t i = 0; i < grants.mechanism.size(); ++i) {

@@ -35,6 +35,19 @@ int Planner::WantedPlayer(const World& world, int mechanism, int current_player)
   return -1;
 }
 
+void Planner::Recompose(const std::vector<std::vector<int>>& from) {
+  if (changed_tick_.empty()) return;
+  std::vector<std::int64_t> changed;
+  std::vector<int> last;
+  for (const std::vector<int>& then : from) {
+    const auto first = then.empty() ? 0 : static_cast<std::size_t>(then.front());
+    changed.push_back(then.empty() ? -1000000 : changed_tick_[first]);
+    last.push_back(then.empty() ? 0 : last_authority_[first]);
+  }
+  changed_tick_ = changed;
+  last_authority_ = last;
+}
+
 std::vector<Wish> Planner::Plan(const World& world, const AuthorityTable& table,
                                 const std::vector<int>& peer_of_player) {
   const auto count = static_cast<std::size_t>(table.count());

@@ -29,6 +29,9 @@ class Planner {
   std::vector<Wish> Plan(const World& world, const AuthorityTable& table,
                          const std::vector<int>& peer_of_player);
 
+  /// The mechanisms are others now; see Recomposition.
+  void Recompose(const std::vector<std::vector<int>>& from);
+
   static constexpr float kHysteresis = 2.0f;    ///< m beyond the border before a hand-over
   static constexpr double kDwell = 0.5;         ///< s an authority lasts at least
 

@@ -25,6 +25,7 @@ void Publisher::Publish(Room message) { Number(message, "scene", -1); }
 void Publisher::Publish(Inputs message) { Number(message, "inputs", message.player); }
 void Publisher::Publish(States message) { Number(message, "states", message.peer); }
 void Publisher::Publish(Grants message) { Number(message, "grants", -1); }
+void Publisher::Publish(EditOrder message) { Number(message, "edit", -1); }
 void Publisher::Publish(Impacts message) { Number(message, "impacts", message.peer); }
 void Publisher::Publish(Stats message) { Number(message, "stats", message.peer); }
 void Publisher::Publish(Event message) { Number(message, "event", message.peer); }
@@ -39,6 +40,7 @@ void Publisher::Publish(const View& message) {
     piece.utime = message.utime;
     piece.peer = message.peer;
     piece.tick = message.tick;
+    piece.topology = message.topology;
     piece.part = static_cast<std::int32_t>(part);
     piece.parts = static_cast<std::int32_t>(parts);
     piece.id = Slice(message.id, a, b);

@@ -17,6 +17,7 @@ class Publisher {
   void Publish(Inputs message);
   void Publish(States message);
   void Publish(Grants message);
+  void Publish(EditOrder message);
   /// Splits views of more than kViewBodiesMax bodies.
   void Publish(const View& message);
   void Publish(Impacts message);

@@ -35,6 +35,7 @@ Replica::Replica(const Scene& scene, const SyncConfig& config, int self, int own
   placed_.assign(bodies, true);
   priority_.assign(bodies, 0.0f);
   asleep_since_.assign(bodies, -1);
+  changed_at_.assign(bodies, 0);
   if (config.pull != nullptr) pulls_.resize(bodies);
   // Where everything is at tick 0, and how it moves, is known to all from the scene.
   for (int body = 0; body < world_.body_count(); ++body) snapshots_.Add(body, 0, world_.Read(body));
@@ -67,6 +68,7 @@ std::int8_t Replica::RoleOf(int mechanism) const {
 bool Replica::Simulated(int mechanism) const { return RoleOf(mechanism) != kRoleRemote; }
 
 std::vector<int> Replica::ApplyGrants(const Grants& grants) {
+  ApplyEdits();   // the grants are about what is there after them
   std::vector<int> before;
   for (int m = 0; m < table_.count(); ++m) before.push_back(table_.at(m).authority);
   std::vector<int> changed = table_.Apply(grants);
@@ -125,6 +127,7 @@ void Replica::ApplyInputs(std::int64_t next) {
       if (((pressed >> actions[a].button) & 1) == 0) continue;
       const int assembly =
           world_.composition().assembly_of_part[static_cast<std::size_t>(actions[a].part)];
+      if (assembly < 0) continue;   // the part has left
       const int m = world_.composition().assemblies[static_cast<std::size_t>(assembly)].mechanism;
       // Exactly one peer pushes: the authority, when it hears of it (all of them in the oracle).
       const bool alone = config_.mode == Mode::kOracle;
@@ -163,6 +166,7 @@ void Replica::RecordHistory() {
 }
 
 void Replica::Step() {
+  ApplyEdits();
   const std::int64_t next = tick() + 1;
   if (config_.resimulates) Resimulate();
   ApplyInputs(next);
@@ -171,6 +175,7 @@ void Replica::Step() {
   world_.Step();
   NoteImpacts();
   NoteTouches();
+  NoteProposals();
   outgoing_.clear();
   if (config_.mode != Mode::kOracle && next % config_.send_every() == 0) {
     std::vector<PackedBody> bodies = ChooseBodies();

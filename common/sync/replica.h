@@ -9,6 +9,8 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <optional>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -41,6 +43,20 @@ class Replica {
   AuthorityTable& authority() { return table_; }
   /// kRoleAuthority, kRoleSecondary or kRoleRemote of this peer for a mechanism.
   std::int8_t RoleOf(int mechanism) const;
+
+  /// Edits that the server ordered, in their order; they are applied before anything else is done.
+  /// False, and ignored: it is not the next one.
+  bool Queue(const EditOrder& order);
+  /// Applies what is queued. What became of the bodies; nullopt: they are what they were.
+  std::optional<Recomposition> ApplyEdits();
+  /// What this peer, as the authority of the bodies concerned, found that should change; in mode
+  /// oracle all that physics finds.
+  std::vector<Edit> TakeProposals();
+  /// Whether the body is made of what it was made of after that many edits.
+  bool SameBody(int body, int edits) const {
+    return changed_at_[static_cast<std::size_t>(body)] <= edits;
+  }
+  int topology() const { return world_.topology().edits(); }
 
   /// Follows the server's word. Returns the mechanisms whose authority changed hands.
   std::vector<int> ApplyGrants(const Grants& grants);
@@ -107,6 +123,7 @@ class Replica {
   void StepAgain();
   void Resimulate();
   void RecordHistory();
+  void NoteProposals();
   std::vector<PackedBody> ChooseBodies();
   States Header() const;
   bool Simulated(int mechanism) const;
@@ -145,6 +162,10 @@ class Replica {
     std::int64_t tick = 0;
     int player = 0, action = 0;
   };
+  std::vector<Edit> queued_;                   // ordered, not yet applied
+  std::vector<int> changed_at_;                // by body: edits there were when it was last changed
+  std::vector<Edit> proposals_;
+  std::map<std::tuple<int, int, int, int>, std::int64_t> proposed_;   // when, by what
   std::deque<Acted> acted_;                    // pushes that this peer did since the first barrier
 };
 

@@ -25,9 +25,11 @@ constexpr float kOtherImpact = 1;
 }  // namespace
 
 Replica::Received Replica::Receive(const States& states) {
+  ApplyEdits();
   Received result;
-  if (states.tick > tick()) {
-    if (early_.size() < kEarlyMost && states.tick <= tick() + kEarlyTicksMost) {
+  if (states.tick > tick() || states.topology > topology()) {   // of what is still to come here
+    if (early_.size() < kEarlyMost && states.tick <= tick() + kEarlyTicksMost &&
+        states.tick > tick() - kEarlyTicksMost) {
       early_.push_back(states);
       result.used = static_cast<int>(states.id.size());
     } else {
@@ -44,9 +46,14 @@ Replica::Received Replica::Receive(const States& states) {
       ++result.unknown;
       continue;
     }
+    if (states.topology < changed_at_[static_cast<std::size_t>(body)]) {
+      ++result.stale;   // of another body of the same root
+      continue;
+    }
     const int mechanism = world_.mechanism(body);
     const Holding& holding = table_.at(mechanism);
-    if (holding.authority == self_ || states.peer == self_) {
+    const bool placed = placed_[static_cast<std::size_t>(body)];
+    if (placed && (holding.authority == self_ || states.peer == self_)) {
       ++result.unknown;
       continue;
     }
@@ -126,6 +133,7 @@ BodyState Replica::LikePastOf(int body, std::int64_t tick, const BodyState& remo
 }
 
 void Replica::Place(const States& states) {
+  ApplyEdits();
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = world_.BodyOfId(states.id[i]);
     if (body < 0 || placed_[static_cast<std::size_t>(body)]) continue;

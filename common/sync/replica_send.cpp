@@ -24,6 +24,7 @@ States Replica::Header() const {
   States header;
   header.peer = self_;
   header.tick = tick();
+  header.topology = topology();
   header.composition = static_cast<std::int64_t>(world_.composition().hash);
   return header;
 }
@@ -32,7 +33,7 @@ std::vector<PackedBody> Replica::ChooseBodies() {
   std::vector<int> candidates;
   for (int body = 0; body < world_.body_count(); ++body) {
     const auto b = static_cast<std::size_t>(body);
-    if (table_.at(world_.mechanism(body)).authority != self_) continue;
+    if (table_.at(world_.mechanism(body)).authority != self_ || !placed_[b]) continue;
     if (world_.awake(body)) {
       asleep_since_[b] = -1;
       const bool hit = tick() - last_impact_tick_[b] < config_.tick_hz;
@@ -105,6 +106,7 @@ View Replica::MakeView() const {
   View view;
   view.peer = self_;
   view.tick = tick();
+  view.topology = topology();
   for (int body = 0; body < world_.body_count(); ++body) {
     const int m = world_.mechanism(body);
     const BodyState s = world_.Read(body);

@@ -35,6 +35,14 @@ void Return(float dt, T* offset, T* velocity) {
 Smoother::Smoother(int body_count, bool enabled)
     : enabled_(enabled), offsets_(static_cast<std::size_t>(body_count)) {}
 
+void Smoother::Recompose(const std::vector<int>& origins) {
+  std::vector<Offset> offsets;
+  for (const int from : origins) {
+    offsets.push_back(from < 0 ? Offset{} : offsets_[static_cast<std::size_t>(from)]);
+  }
+  offsets_ = std::move(offsets);
+}
+
 void Smoother::Moved(int body, const BodyState& by) {
   if (!enabled_) return;
   Offset& o = offsets_[static_cast<std::size_t>(body)];

@@ -27,6 +27,16 @@ void Snapshots::Add(int body, std::int64_t tick, const BodyState& state) {
   if (ring.size() > kKeep) ring.pop_front();
 }
 
+void Snapshots::Recompose(const std::vector<BodyOrigin>& origins) {
+  std::vector<std::deque<Stamped>> rings(origins.size());
+  for (std::size_t i = 0; i < origins.size(); ++i) {
+    if (origins[i].body < 0) continue;
+    rings[i] = rings_[static_cast<std::size_t>(origins[i].body)];
+    for (Stamped& stamped : rings[i]) stamped.state = Carried(origins[i], stamped.state);
+  }
+  rings_ = std::move(rings);
+}
+
 std::int64_t Snapshots::newest_tick(int body) const {
   const std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
   return ring.empty() ? -1 : ring.back().tick;

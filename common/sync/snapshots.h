@@ -6,6 +6,7 @@
 #include <deque>
 #include <vector>
 
+#include "common/physics/recomposition.h"
 #include "common/physics/types.h"
 
 namespace seam {
@@ -17,6 +18,8 @@ class Snapshots {
 
   /// Keeps the state if it is newer than what it has of this body.
   void Add(int body, std::int64_t tick, const BodyState& state);
+  /// The bodies are others now: what was heard of those they come from is carried over.
+  void Recompose(const std::vector<BodyOrigin>& origins);
   bool has(int body) const { return !rings_[static_cast<std::size_t>(body)].empty(); }
   std::int64_t newest_tick(int body) const;     ///< -1 when none
 

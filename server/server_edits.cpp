@@ -1,0 +1,210 @@
+/// Server, topology: peers propose, the server orders, everyone applies in that order. Two
+/// mechanisms that are to become one first come into one hand, so that there are never two
+/// authorities over what they become.
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/codec/codec.h"
+#include "common/physics/proposal.h"
+#include "common/sync/edit_order.h"
+#include "server/server.h"
+
+namespace seam {
+namespace {
+
+/// A proposal that cannot be ordered yet (its parts are changing hands) is forgotten after this, s.
+constexpr double kPatience = 3;
+/// Proposals that may wait; a hostile peer could send many.
+constexpr std::size_t kPendingMost = 1024;
+/// Edits in the life of a room: who joins late gets them all.
+constexpr std::size_t kEditsMost = 8192;
+
+}  // namespace
+
+void Server::Order(const Edit& edit) {
+  if (pending_.size() < kPendingMost) pending_.push_back({edit, 0, replica_.tick()});
+}
+
+void Server::OnProposal(Session& session, const EditOrder& order) {
+  if (session.stage != Stage::kReady || order.number != -1) {
+    ++stats_.dropped_right;
+    return;
+  }
+  const Edit edit = ToEdit(order);
+  const Topology& topology = replica_.world().topology();
+  if (!topology.Complaint(edit).empty()) {
+    ++stats_.dropped_stale;   // somebody else's came first
+    return;
+  }
+  const std::vector<PartId> parts = topology.PartsOf(edit);
+  const bool right = !parts.empty() && MayPropose(topology, edit) &&
+                     std::any_of(parts.begin(), parts.end(), [&](PartId part) {
+                       const int m = MechanismOf(part);
+                       return m >= 0 && replica_.authority().at(m).authority == session.peer;
+                     });
+  if (!right) {
+    ++stats_.dropped_right;
+    return;
+  }
+  if (!PlausibleProposal(replica_.world(), edit)) {
+    ++stats_.dropped_implausible;
+    return;
+  }
+  if (pending_.size() < kPendingMost) pending_.push_back({edit, session.peer, replica_.tick()});
+}
+
+int Server::MechanismOf(PartId part) const {
+  const Composition& c = replica_.world().composition();
+  const int index = c.assembly_of_part[static_cast<std::size_t>(part)];
+  return index < 0 ? -1 : c.assemblies[static_cast<std::size_t>(index)].mechanism;
+}
+
+std::vector<int> Server::MechanismsOf(const Edit& edit) const {
+  std::vector<int> mechanisms;
+  for (const PartId part : replica_.world().topology().PartsOf(edit)) {
+    const int m = MechanismOf(part);
+    if (m >= 0) mechanisms.push_back(m);
+  }
+  return mechanisms;
+}
+
+bool Server::InOneHand(const std::vector<int>& mechanisms) const {
+  for (const int m : mechanisms) {
+    if (revoking_[static_cast<std::size_t>(m)]) return false;
+    if (replica_.authority().at(m).authority !=
+        replica_.authority().at(mechanisms.front()).authority) {
+      return false;
+    }
+  }
+  return true;
+}
+
+void Server::BringTogether(std::vector<Wish>* wishes) const {
+  for (const Pending& pending : pending_) {
+    const std::vector<int> mechanisms = MechanismsOf(pending.edit);
+    if (mechanisms.size() < 2) continue;
+    // To whom the owner of either plays; else to whom has the first.
+    int to = (*wishes)[static_cast<std::size_t>(mechanisms.front())].authority;
+    for (const int m : mechanisms) {
+      const Mechanism& mechanism =
+          replica_.world().composition().mechanisms[static_cast<std::size_t>(m)];
+      if (mechanism.owner >= 0) {
+        to = (*wishes)[static_cast<std::size_t>(m)].authority;
+        break;
+      }
+    }
+    for (const int m : mechanisms) {
+      Wish& wish = (*wishes)[static_cast<std::size_t>(m)];
+      if (wish.authority != to) wish.secondaries |= std::uint32_t{1} << wish.authority;
+      wish.authority = to;
+      wish.secondaries &= ~(std::uint32_t{1} << to);
+    }
+  }
+}
+
+void Server::OrderPending(std::int64_t now_us) {
+  const Topology& topology = replica_.world().topology();
+  const auto patience = static_cast<std::int64_t>(kPatience * config_.sync.tick_hz);
+  std::vector<Pending> waiting;
+  std::vector<EditOrder> ordered;
+  std::vector<PartId> taken;               // parts that an edit of this batch is about
+  for (Pending& pending : pending_) {
+    if (!topology.Complaint(pending.edit).empty()) {
+      if (pending.peer > 0) ++stats_.dropped_stale;
+      continue;
+    }
+    const std::vector<PartId> parts = topology.PartsOf(pending.edit);
+    const bool again = std::any_of(parts.begin(), parts.end(), [&](PartId part) {
+      return std::find(taken.begin(), taken.end(), part) != taken.end();
+    });
+    const bool bond = pending.edit.kind == EditKind::kBond;
+    if ((bond && again) || !InOneHand(MechanismsOf(pending.edit))) {
+      if (replica_.tick() - pending.since < patience) waiting.push_back(pending);
+      continue;
+    }
+    if (bond && !PlausibleProposal(replica_.world(), pending.edit)) continue;   // it has moved on
+    if (edits_.size() == kEditsMost) {
+      if (!full_) Say(now_us, "no more edits: the room has had " + std::to_string(kEditsMost));
+      full_ = true;
+      continue;
+    }
+    taken.insert(taken.end(), parts.begin(), parts.end());
+    EditOrder order = ToOrder(pending.edit);
+    order.utime = now_us;
+    order.tick = replica_.tick();
+    order.number = static_cast<std::int32_t>(edits_.size());
+    edits_.push_back(order);
+    ordered.push_back(order);
+  }
+  pending_ = std::move(waiting);
+  if (ordered.empty()) return;
+  for (const EditOrder& order : ordered) {
+    publisher_.Publish(order);
+    const Bytes bytes = Encode(order);
+    for (auto& [address, session] : sessions_) {
+      if (session->stage == Stage::kGreeted) continue;
+      if (!session->link.SendReliable(bytes)) {
+        session->leaving = true;
+        session->leaving_why = "does not acknowledge";
+      }
+    }
+    replica_.Queue(order);
+  }
+  FollowTopology(replica_.ApplyEdits());
+}
+
+void Server::FollowTopology(const std::optional<Recomposition>& change) {
+  hash_after_[replica_.topology()] = replica_.world().composition().hash;
+  if (!change) return;
+  std::vector<bool> revoking;
+  for (const std::vector<int>& from : change->mechanisms) {
+    revoking.push_back(!from.empty() && revoking_[static_cast<std::size_t>(from.front())]);
+  }
+  revoking_ = revoking;
+  std::vector<LastAccepted> accepted;
+  for (const BodyOrigin& origin : change->bodies) {
+    accepted.push_back(origin.same ? accepted_[static_cast<std::size_t>(origin.body)]
+                                   : LastAccepted{});
+  }
+  accepted_ = accepted;
+  planner_.Recompose(change->mechanisms);
+  plan_due_ = true;
+}
+
+void Server::CheckComposition(std::int64_t now_us, Session& session, const Ping& ping) {
+  if (session.stage != Stage::kReady || ping.topology < 0) return;
+  const auto known = hash_after_.find(ping.topology);
+  if (known == hash_after_.end() ||
+      known->second == static_cast<std::uint64_t>(ping.composition)) {
+    return;
+  }
+  // Once for each time it was repaired: what is under way must arrive first.
+  if (now_us - session.repaired_us < kRepairAgainUs) return;
+  session.repaired_us = now_us;
+  Say(now_us, session.name + " (peer " + std::to_string(session.peer) +
+                  ") has another composition after " + std::to_string(ping.topology) +
+                  " edits: repaired");
+  ++stats_.dropped_implausible;
+  EditOrder anew;
+  anew.utime = now_us;
+  anew.tick = std::max<std::int64_t>(0, replica_.tick());
+  session.link.SendReliable(Encode(anew));
+  SendWorld(now_us, session);
+}
+
+void Server::SendWorld(std::int64_t now_us, Session& session) {
+  for (const EditOrder& order : edits_) session.link.SendReliable(Encode(order));
+  std::vector<int> all;
+  for (int m = 0; m < replica_.authority().count(); ++m) all.push_back(m);
+  for (const Grants& g : replica_.authority().Export(now_us, replica_.tick(), all)) {
+    session.link.SendReliable(Encode(g));
+  }
+  if (!started()) return;
+  for (States& states : replica_.Everything()) {
+    states.utime = now_us;
+    session.link.SendReliable(Encode(states));
+  }
+}
+
+}  // namespace seam
