@@ -65,9 +65,7 @@ class RandomMessages {
     Common(m), Sequence(m), Set(m.number, -1, INT32_MAX), m.tick = Tick();
     Set(m.kind, 0, kEditKindsMax), Set(m.cause, 0, 1), Set(m.player, -1, 31);
     for (auto* id : {&m.a, &m.b, &m.joint}) Set(*id, -1, INT16_MAX);
-    std::vector<float> four;
-    Floats(four, 4);
-    m.x = four[0], m.y = four[1], m.angle = four[2], m.amount = four[3], m.text = Text(300);
+    Floats(m.value, 4), m.text = Text(300);
   }
   void Fill(View& m, std::size_t count) {
     Common(m), Sequence(m), Set(m.peer, 0, 31), m.tick = Tick(), Set(m.parts, 1, kViewPartsMax);
@@ -172,7 +170,7 @@ inline auto Fields(const Grants& m) {
 }
 inline auto Fields(const EditOrder& m) {
   return std::tie(m.utime, m.sequence, m.number, m.tick, m.kind, m.cause, m.a, m.b, m.joint,
-                  m.player, m.x, m.y, m.angle, m.amount, m.text);
+                  m.player, m.text, m.value);
 }
 inline auto Fields(const View& m) {
   return std::tie(m.utime, m.sequence, m.peer, m.tick, m.topology, m.part, m.parts, m.id, m.role,

@@ -119,7 +119,7 @@ struct Wire<EditOrder> {
   template <class M>
   static auto Fields(M& m) {
         return std::tie(m.utime, m.sequence, m.number, m.tick, m.kind, m.cause, m.a, m.b, m.joint,
-                    m.player, m.x, m.y, m.angle, m.amount, m.text);
+                    m.player, m.text, m.value);
   }
 };
 
@@ -177,6 +177,7 @@ std::size_t Count(const Chunk& m) { return m.data.size(); }
 std::size_t Count(const Inputs& m) { return m.drive.size(); }
 std::size_t Count(const States& m) { return m.id.size(); }
 std::size_t Count(const Grants& m) { return m.mechanism.size(); }
+std::size_t Count(const EditOrder& m) { return m.value.size(); }
 std::size_t Count(const View& m) { return m.id.size(); }
 std::size_t Count(const Impacts& m) { return m.id_a.size(); }
 

@@ -150,8 +150,8 @@ struct EditOrder {
   std::int8_t cause = 0;
   std::int16_t a = -1, b = -1, joint = -1;
   std::int8_t player = -1;
-  float x = 0, y = 0, angle = 0, amount = 0;
   std::string text;             ///< at most kEditTextBytesMax
+  std::vector<float> value = {0, 0, 0, 0};   ///< x, y, angle, amount
 };
 /// The whole must fit Link's kMessageBytesMax.
 constexpr std::size_t kEditTextBytesMax = 900;

@@ -135,9 +135,8 @@ bool Valid(const Grants& m) {
 bool Valid(const EditOrder& m) {
   return Time(m.utime) && m.sequence >= 0 && m.number >= -1 && Tick(m.tick) &&
          Within(m.kind, 0, kEditKindsMax) && Within(m.cause, 0, 1) && m.a >= -1 && m.b >= -1 &&
-         m.joint >= -1 && Within(m.player, -1, kPeersMax - 1) && std::isfinite(m.x) &&
-         std::isfinite(m.y) && std::isfinite(m.angle) && std::isfinite(m.amount) &&
-         IsPrintable(m.text, kEditTextBytesMax, true);
+         m.joint >= -1 && Within(m.player, -1, kPeersMax - 1) && m.value.size() == 4 &&
+         Finite(m.value) && IsPrintable(m.text, kEditTextBytesMax, true);
 }
 
 bool Valid(const View& m) {

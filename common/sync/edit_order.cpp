@@ -12,10 +12,7 @@ EditOrder ToOrder(const Edit& edit) {
   order.b = static_cast<std::int16_t>(edit.b);
   order.joint = static_cast<std::int16_t>(edit.joint);
   order.player = static_cast<std::int8_t>(edit.player);
-  order.x = edit.x;
-  order.y = edit.y;
-  order.angle = edit.angle;
-  order.amount = edit.amount;
+  order.value = {edit.x, edit.y, edit.angle, edit.amount};
   order.text = edit.text;
   return order;
 }
@@ -28,10 +25,10 @@ Edit ToEdit(const EditOrder& order) {
   edit.b = order.b;
   edit.joint = order.joint;
   edit.player = order.player;
-  edit.x = order.x;
-  edit.y = order.y;
-  edit.angle = order.angle;
-  edit.amount = order.amount;
+  edit.x = order.value[0];
+  edit.y = order.value[1];
+  edit.angle = order.value[2];
+  edit.amount = order.value[3];
   edit.text = order.text;
   return edit;
 }
