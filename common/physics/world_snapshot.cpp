@@ -147,7 +147,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<bool>
     const BodyState& state = snapshot.bodies[i].state;
     b->SetTransform(ToB2(state.position), state.angle);
   }
-  for (const auto& stage : w.stages) stage->Placed();
+  for (const auto& stage : stages) stage->Placed();
   // No time passes, but contacts are found, which wakes what they touch.
   world->Step(0, 1, 1);
   EachPoint(&*world, [&](const PointKey& key, b2ManifoldPoint* point) {

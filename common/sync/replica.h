@@ -38,6 +38,7 @@ class Replica {
 
   const Scene& scene() const { return world_.scene(); }
   World& world() { return world_; }
+  const World& world() const { return world_; }
   const AuthorityTable& authority() const { return table_; }
   /// The server plans here; clients only follow grants.
   AuthorityTable& authority() { return table_; }
