@@ -46,8 +46,8 @@ class Server {
   const Stats& stats() const { return stats_; }
   const Replica& replica() const { return replica_; }
   World& world() { return replica_.world(); }
-  /// Orders an edit at the next tick, or as soon as its parts are in one hand. One that cannot be is
-  /// dropped; Topology::Complaint tells beforehand.
+  /// Orders an edit at the next tick, or as soon as its parts are in one hand. One that cannot be
+  /// is dropped; Topology::Complaint tells beforehand.
   void Order(const Edit& edit);
 
   /// A client not heard for this long is gone. Its own patience (Client::kSilentUs) is shorter, so
