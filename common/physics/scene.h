@@ -94,6 +94,19 @@ struct Player {
   int line = 0;                     ///< in the scene file
 };
 
+/// A place from which something is driven: motors and thrusts that name the seat as their player
+/// follow whoever sits there. Inputs of seat s are those of player `players.size() + s`.
+struct Seat {
+  std::string name;                 ///< not a player's
+  PartId part = 0;                  ///< that it is on
+  Vec2 at{0, 0};                    ///< m, in the part's frame: where the player's own part goes
+  float angle = 0;                  ///< rad, of the player's own part against the seat's
+  float reach = 2;                  ///< m; how near one must be to get in
+  int button = 0;                   ///< gets in and out
+  int player = -1;                  ///< who sits there now
+  int line = 0;                     ///< in the scene file
+};
+
 struct Solver {
   int tick_hz = 60;                 ///< 10..960
   int substeps = 1;                 ///< 1..32 Box2D steps per tick
@@ -136,6 +149,7 @@ struct Scene {
   std::vector<BrickField> bricks;   ///< anchored, and no parts
   std::vector<Water> waters;
   std::vector<Player> players;
+  std::vector<Seat> seats;
   std::vector<WatchCollision> watch;
   Camera camera;
   std::string text;                 ///< the file itself

@@ -43,6 +43,10 @@ void ReadJoints(const SceneReader& root, SceneDraft* draft);
 void ReadWaters(const SceneReader& root, SceneDraft* draft);
 /// [[player]]: all but the names. Requires parts.
 void ReadPlayers(const SceneReader& root, SceneDraft* draft);
+/// [[seat]]: only names, so that motors can refer to them. Requires players' names.
+void ReadSeatNames(const SceneReader& root, SceneDraft* draft);
+/// [[seat]]: all but the names. Requires parts.
+void ReadSeats(const SceneReader& root, SceneDraft* draft);
 /// [[watch]]. Requires parts.
 void ReadWatch(const SceneReader& root, SceneDraft* draft);
 /// [camera]. Requires parts.
@@ -55,6 +59,11 @@ std::vector<PartId> FindParts(const SceneReader& reader, const char* key, const 
                               const SceneDraft& draft);
 /// The player's index; complains at `key` if there is none.
 int FindPlayer(const SceneReader& reader, const char* key, const std::string& name,
+               const SceneDraft& draft);
+
+/// Whose inputs: a player's index, or players.size() + a seat's; complains at `key` if there is
+/// neither.
+int FindDriver(const SceneReader& reader, const char* key, const std::string& name,
                const SceneDraft& draft);
 
 /// Whole scenes: what only shows when everything is known (who is welded and joined to whom).

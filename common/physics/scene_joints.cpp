@@ -50,7 +50,7 @@ void ReadMotor(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
   const SceneReader m(*table, draft.file, r.what() + ": motor", {"player", "speed", "torque"});
   joint->motor_speed = m.Number("speed", {-1000, 1000});
   joint->motor_torque = m.Number("torque", {1e-6, 1e7});
-  if (m.Has("player")) joint->motor_player = FindPlayer(m, "player", m.Text("player"), draft);
+  if (m.Has("player")) joint->motor_player = FindDriver(m, "player", m.Text("player"), draft);
 }
 
 /// Where the ends are: at the parts' positions unless said otherwise.

@@ -66,7 +66,7 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   const SceneReader root(tree, file_name, "scene",
                          {"title", "gravity", "duration", "buffer", "speed_limit", "size_max",
                           "bounds", "solver", "part", "bricks", "joint", "water", "player",
-                          "watch", "camera"});
+                          "seat", "watch", "camera"});
   scene.title = root.Text("title", scene.name);
   scene.gravity = root.Vector("gravity", {-100, 100}, scene.gravity);
   scene.duration_s = root.Seconds("duration", {0.1, 86400}, scene.duration_s);
@@ -76,11 +76,13 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   ReadBounds(root, &scene);
   ReadSolver(root, file_name, &scene.solver);
   ReadPlayerNames(root, &draft);
+  ReadSeatNames(root, &draft);
   ReadParts(root, &draft);
   ReadBricks(root, &draft);
   ReadJoints(root, &draft);
   ReadWaters(root, &draft);
   ReadPlayers(root, &draft);
+  ReadSeats(root, &draft);
   ReadWatch(root, &draft);
   ReadCamera(root, &draft);
   CheckScene(scene, file_name);
