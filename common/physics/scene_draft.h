@@ -65,6 +65,8 @@ int FindPlayer(const SceneReader& reader, const char* key, const std::string& na
 /// neither.
 int FindDriver(const SceneReader& reader, const char* key, const std::string& name,
                const SceneDraft& draft);
+/// The player whose axis (`axis`, the drive unless said) something follows; -1 without `player`.
+int ReadFollowed(const SceneReader& r, const SceneDraft& draft, InputAxis* axis);
 
 /// Whole scenes: what only shows when everything is known (who is welded and joined to whom).
 /// Throws OperatorError.
