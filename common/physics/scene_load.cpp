@@ -66,7 +66,7 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   const SceneReader root(tree, file_name, "scene",
                          {"title", "gravity", "duration", "buffer", "speed_limit", "size_max",
                           "bounds", "solver", "part", "bricks", "joint", "thrust", "water",
-                          "player", "seat", "watch", "camera"});
+                          "player", "seat", "watch", "camera", "trigger", "script"});
   scene.title = root.Text("title", scene.name);
   scene.gravity = root.Vector("gravity", {-100, 100}, scene.gravity);
   scene.duration_s = root.Seconds("duration", {0.1, 86400}, scene.duration_s);
@@ -84,9 +84,12 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   ReadWaters(root, &draft);
   ReadPlayers(root, &draft);
   ReadSeats(root, &draft);
+  ReadTriggers(root, &draft);
+  ReadScripts(root, &draft);
   ReadWatch(root, &draft);
   ReadCamera(root, &draft);
   CheckScene(scene, file_name);
+  CheckPermissions(scene, file_name);
   return std::move(draft.scene);
 }
 
