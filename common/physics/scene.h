@@ -162,6 +162,7 @@ struct Scene {
   std::vector<Part> parts;
   std::vector<Joint> joints;
   std::vector<BrickField> bricks;   ///< anchored, and no parts
+  std::vector<Brick> bricks_gone;   ///< of those: what blasts have freed, in their order
   std::vector<Water> waters;
   std::vector<Thrust> thrusts;
   std::vector<Player> players;
