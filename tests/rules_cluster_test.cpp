@@ -51,7 +51,8 @@ std::string Coins() {
              "\"\nkind = \"pickup\"\npart = \"coin" + n +
              "\"\nposition = [0, -2]\nbox = [0.3, 2]\nscore = 1\n";
   }
-  return coins + "[[trigger]]\nname = \"acid\"\nkind = \"hazard\"\nposition = [2, 0]\nbox = [2, 2]\n"
+  return coins +
+         "[[trigger]]\nname = \"acid\"\nkind = \"hazard\"\nposition = [2, 0]\nbox = [2, 2]\n"
                  "health = 10\n";
 }
 

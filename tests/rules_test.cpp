@@ -223,7 +223,8 @@ end
   const std::string& text = game.world.scene().text;
   const auto typo = text.begin() + static_cast<std::ptrdiff_t>(text.find("remove_prat"));
   EXPECT_EQ(game.hands.said.back(),
-            "script s is stopped: g.toml:" + std::to_string(1 + std::count(text.begin(), typo, '\n')) +
+            "script s is stopped: g.toml:" +
+                std::to_string(1 + std::count(text.begin(), typo, '\n')) +
                 ": attempt to call a nil value (field 'remove_prat')");
 }
 
