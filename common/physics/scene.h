@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "common/physics/bricks.h"
+#include "common/physics/connectors.h"
+#include "common/physics/grouping.h"
 #include "common/physics/types.h"
 #include "common/physics/water.h"
 
@@ -41,6 +43,7 @@ struct Part {
   Vec2 velocity{0, 0};              ///< m/s at tick 0, of the assembly's centre of mass
   float spin = 0;                   ///< rad/s at tick 0
   int owner = -1;                   ///< player who has authority while connected; -1: by region
+  Connectors connectors;
   bool gone = false;                ///< has left at run time (common/physics/topology.h)
   int line = 0;                     ///< in the scene file
 };
@@ -62,6 +65,7 @@ struct Joint {
   float lower = 0, upper = 0;       ///< rad
   bool collide = false;             ///< the joined bodies collide with each other
   float strength = 0;               ///< kGlue: N that break it; 0: none does
+  bool grouped = false;             ///< kGlue: made because its parts rest; a touch undoes it
   float turn = 0;                   ///< rad; by how much bonds have turned the place of b, less a's
   bool gone = false;                ///< broken or removed at run time
   int motor_player = -1;            ///< whose `drive` turns the motor; -1: a constant motor
@@ -107,6 +111,13 @@ struct Seat {
   int line = 0;                     ///< in the scene file
 };
 
+/// Which shapes a large assembly (kFacesFrom parts or more) collides with.
+enum class Faces {
+  kMerged,                          ///< aligned boxes that touch are one shape
+  kOuter,                           ///< boxes with a box on all four sides are left out
+  kAll,
+};
+
 struct Solver {
   int tick_hz = 60;                 ///< 10..960
   int substeps = 1;                 ///< 1..32 Box2D steps per tick
@@ -121,6 +132,7 @@ struct Solver {
   /// everything comes to rest 2 skin - 5 mm apart: nothing at 2.5 mm, the least allowed.
   float skin = 0;
   bool weld_joints = false;         ///< welds are the engine's joints, not one body
+  Faces faces = Faces::kMerged;
 };
 
 /// Where a collision between players' things is measured (common/measure: rebound).
@@ -148,6 +160,7 @@ struct Scene {
   std::vector<Joint> joints;
   std::vector<BrickField> bricks;   ///< anchored, and no parts
   std::vector<Water> waters;
+  Grouping grouping;
   std::vector<Player> players;
   std::vector<Seat> seats;
   std::vector<WatchCollision> watch;
