@@ -109,7 +109,7 @@ TEST(Glue, WhatSpinsIsTornApartByMassTimesSpinSquaredTimesRadius) {
 }
 
 TEST(Glue, ABlowStrainsABondByTheShareOfMassBehindIt) {
-  // 1 kg at 10 m/s stops against 1 + 1 kg: 6.667 N s, a half of it through the bond: 200 N at 60 Hz.
+  // 1 kg at 10 m/s stops against 1 + 1 kg: 6.667 N s, half of it through the bond: 200 N at 60 Hz.
   const auto blow = [](double strength) {
     return "[[part]]\nname = \"ram\"\nbox = [1, 1]\nposition = [-3, 0]\nvelocity = [10, 0]\n"
            "[[part]]\nname = \"box\"\nbox = [1, 1]\n"

@@ -28,8 +28,8 @@ struct BondNet {
   int NodeOf(PartId part) const;
 };
 
-/// Of those of the scene's `joints` (indices, ascending) that are within the assembly. Without bonds
-/// if nothing in it can break.
+/// Of those of the scene's `joints` (indices, ascending) that are within the assembly. Without
+/// bonds if nothing in it can break.
 BondNet NetOf(const Scene& scene, const Assembly& assembly, const std::vector<int>& joints);
 
 /// The force through each bond, N, when `forces` (N, by node) act and their sum is what accelerates
