@@ -7,6 +7,8 @@
 #include "common/physics/bricks.h"
 #include "common/physics/forces.h"
 #include "common/physics/rules.h"
+#include "common/physics/connectors.h"
+#include "common/physics/grouping.h"
 #include "common/physics/types.h"
 #include "common/physics/water.h"
 
@@ -44,6 +46,7 @@ struct Part {
   float spin = 0;                   ///< rad/s at tick 0
   PartRules rules;
   int owner = -1;                   ///< player who has authority while connected; -1: by region
+  Connectors connectors;
   bool gone = false;                ///< has left at run time (common/physics/topology.h)
   Conveyor conveyor;                ///< its surface moves
   int line = 0;                     ///< in the scene file
@@ -67,6 +70,7 @@ struct Joint {
   float lower = 0, upper = 0;       ///< rad; wheel, prismatic: m from the start; distance: m
   float strength = 0;               ///< kGlue: N, the force at which it breaks; 0: never
   bool collide = false;             ///< the joined bodies collide with each other
+  bool grouped = false;             ///< kGlue: made because its parts rest; a touch undoes it
   float turn = 0;                   ///< rad; by how much bonds have turned the place of b, less a's
   bool gone = false;                ///< broken or removed at run time
   int motor_player = -1;            ///< whose axis turns the motor; -1: a constant motor
@@ -122,6 +126,13 @@ struct Seat {
   int line = 0;                     ///< in the scene file
 };
 
+/// Which shapes a large assembly (kFacesFrom parts or more) collides with.
+enum class Faces {
+  kMerged,                          ///< aligned boxes that touch are one shape
+  kOuter,                           ///< boxes with a box on all four sides are left out
+  kAll,
+};
+
 struct Solver {
   int tick_hz = 60;                 ///< 10..960
   int substeps = 1;                 ///< 1..32 Box2D steps per tick
@@ -136,6 +147,7 @@ struct Solver {
   /// everything comes to rest 2 skin - 5 mm apart: nothing at 2.5 mm, the least allowed.
   float skin = 0;
   bool weld_joints = false;         ///< welds are the engine's joints, not one body
+  Faces faces = Faces::kMerged;
 };
 
 /// Where a collision between players' things is measured (common/measure: rebound).
@@ -165,6 +177,7 @@ struct Scene {
   std::vector<Brick> bricks_gone;   ///< of those: what blasts have freed, in their order
   std::vector<Water> waters;
   std::vector<Thrust> thrusts;
+  Grouping grouping;
   std::vector<Player> players;
   std::vector<Seat> seats;
   std::vector<Trigger> triggers;    ///< the server's

@@ -20,8 +20,12 @@ struct SceneDraft {
 };
 
 /// `repeat = {count, step}`: how often a part or joint is copied, and where each copy goes.
+/// Of a part also `weld` or `glue`: copies that follow each other in a column or row are joined.
 struct Repeat {
   int columns = 1, rows = 1;
+  bool joined = false;
+  JointKind kind = JointKind::kWeld;
+  float strength = 0;               ///< N; of glue
   bool grid = false;                ///< names get two numbers
   Vec2 step{0, 0};                  ///< m; grid: x per column, y per row; else per copy
 
@@ -35,6 +39,10 @@ Repeat ReadRepeat(const SceneReader& owner, const std::string& file);
 void ReadPlayerNames(const SceneReader& root, SceneDraft* draft);
 /// [[part]], repetitions written out.
 void ReadParts(const SceneReader& root, SceneDraft* draft);
+/// A part's inlets and outlets.
+Connectors ReadConnectors(const SceneReader& part);
+/// [grouping].
+void ReadGrouping(const SceneReader& root, SceneDraft* draft);
 /// [[bricks]]. Requires parts.
 void ReadBricks(const SceneReader& root, SceneDraft* draft);
 /// [[joint]]. Requires parts and players.

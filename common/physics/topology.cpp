@@ -223,6 +223,7 @@ std::string Topology::Bond(const Edit& edit) {
   glue.b = edit.b;
   glue.anchor_a = glue.anchor_b = b.position;
   glue.strength = edit.amount;
+  glue.grouped = edit.joint == kBondGroup;
   scene_.joints.push_back(glue);
   stale_ = true;
   return "";
