@@ -124,8 +124,9 @@ void DrawRegionNames(DrawList& list, const Viewport& viewport, const Playback& p
   }
 }
 
-void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playback, bool cull) {
-  for (const BodyShapes& body : playback.anchored()) {
+void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playback,
+                const DrawnForm& form, bool cull) {
+  for (const BodyShapes& body : form.anchored) {
     if (cull && !viewport.Sees(body.start.position, body.reach)) continue;
     DrawBody(list, viewport, body, body.start, GroundLook());
   }
