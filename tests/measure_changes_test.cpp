@@ -184,7 +184,7 @@ TEST(MeasureChanges, PartsThatCameAreKnownByTheirNames) {
   EXPECT_FALSE(oracle.At(40, kFirstNew).has_value());   // the oracle knows no debris
   EXPECT_NEAR(oracle.At(40, kFirstNew + 1).value().position.x(), 3, 1e-6);
   EXPECT_FALSE(oracle.At(60, kFirstNew + 1).has_value());
-  EXPECT_EQ(Measure(recording, oracle).error_max_m, 0);
+  EXPECT_LT(Measure(recording, oracle).error_max_m, 1e-6);   // a body made anew is rounded anew
 }
 
 TEST(MeasureChanges, NoSecondDifferenceIsTakenAcrossAChangeOfBody) {
