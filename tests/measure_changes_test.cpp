@@ -12,6 +12,7 @@
 #include "common/measure/measure.h"
 #include "common/physics/world.h"
 #include "common/sync/edit_order.h"
+#include "tests/lab/cluster.h"
 
 namespace seam {
 namespace {
@@ -39,6 +40,12 @@ name = "alone"
 box = [1, 1]
 position = [10, 0]
 velocity = [0, 1]
+[[player]]
+name = "ann"
+region = [[-100, -100], [2, 100]]
+[[player]]
+name = "bob"
+region = [[2, -100], [100, 100]]
 [[joint]]
 name = "glue"
 kind = "glue"
@@ -220,6 +227,27 @@ TEST(MeasureChanges, ALateEditIsALagAndAMissingBodyIsLost) {
   EXPECT_NEAR(m.topology_lag_s.value(), 44.0 / 60, 1e-9);
   EXPECT_EQ(m.lost.value(), 1);
   EXPECT_FALSE(Measure(Simulate({}), ComputeOracle(Simulate({}))).lost.has_value());
+}
+
+TEST(MeasureChanges, ASessionUnderLossLosesNoBody) {
+  ClusterConfig config;
+  config.scene_text = kScene;
+  config.reconcile = "retrospect";
+  config.impair = "4g";
+  Cluster cluster(config);
+  cluster.RunToTick(40);
+  cluster.server().Order(BreakGlue(EditCause::kOutside));
+  cluster.RunToTick(60);
+  cluster.server().Order(Insert("crate", 3, EditCause::kOutside));
+  cluster.Run();
+  const Recording& recording = cluster.recording();
+  const Measures m = Measure(recording, ComputeOracle(recording));
+  EXPECT_EQ(recording.edits.size(), 2u);
+  EXPECT_EQ(m.lost.value(), 0);
+  EXPECT_GT(m.topology_lag_s.value(), 0);
+  EXPECT_LT(m.topology_lag_s.value(), 1);
+  // A break a tenth of a second late sends the light box off at 3 m/s in a direction 0.3 rad wrong.
+  EXPECT_LT(m.error_max_m, 1.5);
 }
 
 TEST(MeasureChanges, AFormIsTheSameHoweverOftenItIsAskedFor) {

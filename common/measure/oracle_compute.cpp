@@ -96,6 +96,7 @@ class Outside {
     return -1;
   }
   void Translate(int number, const Scene& now, Edit* edit) const {
+    if (edit->kind == EditKind::kSeat) return;   // `a` is no part
     const auto came = [](std::int32_t id, std::size_t first) {
       return id >= 0 && static_cast<std::size_t>(id) >= first;
     };
