@@ -51,7 +51,9 @@ TEST(Join, AnInletTakesOneOutlet) {
 }
 
 TEST(Join, WhatLooksTheWrongWayOrDoesNotComeNearerDoesNotJoin) {
-  auto turned = SmallWorld(Brick("a", 0, 0) + Brick("b", 1.05, 0, "angle = 0.5\nvelocity = [-0.5, 0]"), "", kNoGravity);
+  auto turned = SmallWorld(Brick("a", 0, 0) + Brick("b", 1.05, 0, "angle = 0.5\n"
+                                                                  "velocity = [-0.5, 0]"),
+                           "", kNoGravity);
   EXPECT_TRUE(Live(turned.get(), 30).empty());
   auto away = SmallWorld(Brick("a", 0, 0) + Brick("b", 1.05, 0, "velocity = [0.5, 0]"), "",
                          kNoGravity);
