@@ -161,12 +161,17 @@ for scene in $worlds; do
     echo "demo: $scene is not measured (no oracle within 20 s)" >&2
     continue
   fi
-  sed -n '1,2p' "$out/$scene-world.txt"
+  awk -v OFS="  " -v scene="$scene" '
+    NR == 2 { for (i = 1; i <= NF; ++i) if (!($i ~ /[a-z-]/) && n < 5) v[++n] = $i }
+    /^  seam / { seam = $2 }
+    /bodies lost/ { lost = $(NF - 5) }
+    END { printf "  %-11s error %8s m RMS, stutter %8s m/s2, seam %9s m RMS", scene, v[2], v[5], seam
+          print (lost == "" ? "" : ", bodies lost or too many " lost) }' "$out/$scene-world.txt"
   middle=$(awk '/^duration *=/ { print $3 / 2 }' "scenes/$scene.toml")
   timeout 40 "$bin/seam-render" "$log" -o "$out/frames/$scene-world" --view all --fps 1 \
-    --from "$middle" --to "$middle" >/dev/null || continue
+    --from "$middle" --to "$middle" >/dev/null 2>&1 || continue
   mv "$out/frames/$scene-world"/*.png "$out/$scene-world.png"
-  timeout 40 "$bin/seam-render" --strobe "$log" -o "$out/$scene-world-strobe.png" >/dev/null ||
+  timeout 40 "$bin/seam-render" --strobe "$log" -o "$out/$scene-world-strobe.png" >/dev/null 2>&1 ||
     echo "demo: no strobe of $scene" >&2
 done
 echo "demo: $((SECONDS - began)) s in all"
