@@ -124,9 +124,9 @@ void DrawRegionNames(DrawList& list, const Viewport& viewport, const Playback& p
   }
 }
 
-void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playback, double tick,
-                bool cull) {
-  for (const BodyShapes& body : playback.anchored()) {
+void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playback,
+                const DrawnForm& form, double tick, bool cull) {
+  for (const BodyShapes& body : form.anchored) {
     const Pose pose = playback.Anchored(body, tick);
     if (cull && !viewport.Sees(pose.position, body.reach)) continue;
     DrawBody(list, viewport, body, pose, GroundLook());

@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "render/draw_body.h"
+#include "render/draw_breaks.h"
+#include "render/draw_ghosts.h"
 #include "render/draw_joints.h"
 #include "render/draw_scene.h"
 #include "render/draw_water.h"
@@ -23,10 +25,10 @@ struct Seen {
 };
 
 std::vector<Seen> BodiesOnPanel(const Viewport& viewport, const Playback& playback,
-                                const WorldLook& look) {
+                                const DrawnForm& form, const WorldLook& look) {
   std::vector<Seen> seen;
   const Moment now = playback.MomentAt(look.peer, look.tick);
-  for (const BodyShapes& body : playback.moving()) {
+  for (const BodyShapes& body : form.moving) {
     const std::optional<Shown> shown = playback.Find(now, body.id);
     if (!shown) continue;
     if (look.cull && !viewport.Sees(shown->pose.position, body.reach)) continue;
@@ -49,12 +51,12 @@ bool RestsOver(const Viewport& viewport, const Playback& playback,
 
 /// Where bodies came from; bodies at rest have none.
 void DrawTrails(DrawList& list, const Viewport& viewport, const Playback& playback,
-                const WorldLook& look) {
+                const DrawnForm& form, const WorldLook& look) {
   std::vector<Moment> past;
   const double span = kTrailSeconds * playback.tick_hz();
   for (int i = kTrailPoints; i >= 0; --i)
     past.push_back(playback.MomentAt(look.peer, look.tick - span * i / kTrailPoints));
-  for (const BodyShapes& body : playback.moving()) {
+  for (const BodyShapes& body : form.moving) {
     if (RestsOver(viewport, playback, past, body.id)) continue;
     std::vector<Vec2> points;
     std::vector<Colour> colours;
@@ -81,16 +83,15 @@ void DrawTrails(DrawList& list, const Viewport& viewport, const Playback& playba
 
 /// Ghosts appear where view and truth part, so that a right picture stays clean.
 void DrawGhosts(DrawList& list, const Viewport& viewport, const Playback& playback,
-                const WorldLook& look) {
+                const DrawnForm& form, const WorldLook& look) {
   const Moment now = playback.MomentAt(look.peer, look.tick);
-  for (const BodyShapes& body : playback.moving()) {
-    const auto truth = playback.Truth(body.id, look.tick);
-    if (!truth || (look.cull && !viewport.Sees(truth->position, body.reach))) continue;
-    const auto shown = playback.Find(now, body.id);
-    const float apart = shown ? PixelsApart(viewport, body, shown->pose, *truth) : 1e3f;
+  VisitTruth(playback, form, now, look.tick, [&](const BodyShapes& body, const Pose& truth,
+                                                 const std::optional<Pose>& shown) {
+    if (look.cull && !viewport.Sees(truth.position, body.reach)) return;
+    const float apart = shown ? PixelsApart(viewport, body, *shown, truth) : 1e3f;
     const float opacity = std::clamp((apart / list.font().scale() - 0.75f) / 2, 0.0f, 1.0f);
-    if (opacity > 0) DrawGhost(list, viewport, body, *truth, 0.9f * opacity);
-  }
+    if (opacity > 0) DrawGhost(list, viewport, body, truth, 0.9f * opacity);
+  });
 }
 
 void DrawImpacts(DrawList& list, const Viewport& viewport, const Playback& playback,
@@ -136,7 +137,8 @@ Viewport SceneViewport(const Rect& panel, const Playback& playback, int peer, do
   Viewport viewport = Fit(panel, box.min, box.max);
   const PartId part = box.follow;
   if (part < 0) return viewport;
-  for (const BodyShapes& body : playback.moving()) {
+  const auto form = playback.FormOf(playback.MomentAt(peer, tick));
+  for (const BodyShapes& body : form->moving) {
     if (std::find(body.parts.begin(), body.parts.end(), part) == body.parts.end()) continue;
     const auto truth = playback.Truth(body.id, tick);
     const auto shown = playback.Find(playback.MomentAt(peer, tick), body.id);
@@ -148,22 +150,24 @@ Viewport SceneViewport(const Rect& panel, const Playback& playback, int peer, do
 
 void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playback,
                const WorldLook& look) {
+  const Moment now = playback.MomentAt(look.peer, look.tick);
+  const auto form = playback.FormOf(now);
   list.Clip(viewport.panel);
   list.FillRect(viewport.panel, kPanel);
   DrawRegions(list, viewport, playback);
   DrawGrid(list, viewport);
   DrawWaters(list, viewport, playback);
-  DrawGround(list, viewport, playback, look.tick, look.cull);
-  if (look.trails) DrawTrails(list, viewport, playback, look);
-  const Moment now = playback.MomentAt(look.peer, look.tick);
+  DrawGround(list, viewport, playback, *form, look.tick, look.cull);
+  if (look.trails) DrawTrails(list, viewport, playback, *form, look);
   DrawRods(list, viewport, playback, now, 1);
-  const std::vector<Seen> seen = BodiesOnPanel(viewport, playback, look);
+  const std::vector<Seen> seen = BodiesOnPanel(viewport, playback, *form, look);
   for (const Seen& one : seen)
     DrawBody(list, viewport, *one.body, one.shown.pose,
              LookOf(one.shown.authority, one.shown.role));
   DrawPins(list, viewport, playback, now, 1);
   DrawSurfaces(list, viewport, playback);
-  DrawGhosts(list, viewport, playback, look);
+  DrawGhosts(list, viewport, playback, *form, look);
+  DrawBreaks(list, viewport, playback, now, look.tick);
   DrawImpacts(list, viewport, playback, look);
   DrawNames(list, viewport, playback, seen);
   DrawRegionNames(list, viewport, playback);

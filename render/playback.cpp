@@ -8,12 +8,13 @@ namespace seam {
 namespace {
 
 /// The body's place in a view, or npos.
-std::size_t IndexOf(const View& view, PartId id) {
-  const auto wanted = static_cast<std::int16_t>(id);
-  const auto found = std::lower_bound(view.id.begin(), view.id.end(), wanted);
-  if (found == view.id.end() || *found != wanted) return std::string::npos;
-  return static_cast<std::size_t>(found - view.id.begin());
+std::size_t PlaceOf(const View& view, PartId id) {
+  const int i = IndexOf(view, id);
+  return i < 0 ? std::string::npos : static_cast<std::size_t>(i);
 }
+
+/// Shapes of so many forms are kept.
+constexpr std::size_t kDrawnFormsMost = 64;
 
 Pose PoseIn(const View& view, std::size_t i) { return {{view.x[i], view.y[i]}, view.angle[i]}; }
 
@@ -54,12 +55,45 @@ Playback::Playback(const Recording* growing, std::optional<Oracle> oracle)
 }
 
 void Playback::Prepare() {
-  const Composition composition = Compose(scene_);
-  moving_ = ShapesOf(scene_, composition, false);
-  anchored_ = ShapesOf(scene_, composition, true);
-  joints_ = JointsOf(scene_, composition);
+  forms_ = std::make_shared<KnownForms>();
+  const std::lock_guard<std::mutex> lock(forms_->mutex);
+  const auto form = AllForms().At(0);
+  forms_->first =
+      std::make_shared<const DrawnForm>(seam::FormOf(form->scene(), form->composition()));
   if (!scene_.bricks.empty()) bricks_ = std::make_shared<FeatherStore>(scene_.bricks);
   imposed_.emplace(scene_, composition);
+}
+
+const Forms& Playback::AllForms() const {
+  if (forms_->all == nullptr || forms_->edits != recording_->edits.size()) {
+    forms_->all = std::make_unique<Forms>(scene_, *recording_);
+    forms_->edits = recording_->edits.size();
+    forms_->drawn.clear();
+  }
+  return *forms_->all;
+}
+
+std::shared_ptr<const DrawnForm> Playback::FormAfter(int edits) const {
+  const std::lock_guard<std::mutex> lock(forms_->mutex);
+  const Forms& all = AllForms();
+  const int key = all.Key(edits);
+  if (key == 0) return forms_->first;
+  const auto known = forms_->drawn.find(key);
+  if (known != forms_->drawn.end()) return known->second;
+  if (forms_->drawn.size() >= kDrawnFormsMost) forms_->drawn.erase(forms_->drawn.begin());
+  const auto form = all.At(key);
+  auto drawn = std::make_shared<const DrawnForm>(seam::FormOf(form->scene(), form->composition()));
+  forms_->drawn[key] = drawn;
+  return drawn;
+}
+
+std::shared_ptr<const DrawnForm> Playback::FormOf(const Moment& moment) const {
+  return FormAfter(moment.before == nullptr ? 0 : moment.before->topology);
+}
+
+std::shared_ptr<const Form> Playback::WorldOf(const Moment& moment) const {
+  const std::lock_guard<std::mutex> lock(forms_->mutex);
+  return AllForms().At(moment.before == nullptr ? 0 : moment.before->topology);
 }
 
 void Playback::MeasureErrors() {
@@ -78,7 +112,7 @@ void Playback::MeasureErrors() {
 
 /// Where nothing was compared a measure says 0, which a picture must not show as no error.
 bool Playback::Compared(int peer, std::int64_t tick) const {
-  if (oracle_->ids.empty() || oracle_->At(tick, oracle_->ids.front()) == nullptr) return false;
+  if (oracle_->ids.empty() || !oracle_->At(tick, oracle_->ids.front())) return false;
   for (const auto& [from, views] : recording_->views)
     if ((peer < 0 || from == peer) && views.count(tick) > 0) return true;
   return false;
@@ -130,8 +164,9 @@ int Playback::PlayerOf(int peer) const {
   const auto views = recording_->views.find(peer);
   if (peer <= 0 || views == recording_->views.end() || views->second.empty()) return -1;
   const View& last = views->second.rbegin()->second;
-  for (const BodyShapes& body : moving_) {
-    const std::size_t i = owned(body) ? IndexOf(last, body.id) : std::string::npos;
+  const auto form = FormAfter(last.topology);
+  for (const BodyShapes& body : form->moving) {
+    const std::size_t i = owned(body) ? PlaceOf(last, body.id) : std::string::npos;
     if (i != std::string::npos && last.authority[i] == peer) return body.owner_player;
   }
   // Nobody's vehicle (a central server has it all): players join in the scene's order.
@@ -172,27 +207,43 @@ Moment Playback::MomentAt(int peer, double tick) const {
 
 std::optional<Shown> Playback::Find(const Moment& moment, PartId id) const {
   if (moment.before == nullptr) return std::nullopt;
-  const std::size_t i = IndexOf(*moment.before, id);
+  const std::size_t i = PlaceOf(*moment.before, id);
   if (i == std::string::npos) return std::nullopt;
   Shown shown;
   shown.pose = PoseIn(*moment.before, i);
   shown.role = moment.before->role[i];
   shown.authority = moment.before->authority[i];
-  const std::size_t j = moment.blend > 0 ? IndexOf(*moment.after, id) : std::string::npos;
+  const std::size_t j = moment.blend > 0 ? PlaceOf(*moment.after, id) : std::string::npos;
   if (j != std::string::npos)
     shown.pose = Blend(shown.pose, PoseIn(*moment.after, j), moment.blend);
   return shown;
 }
 
+std::optional<Pose> Playback::FindPart(const Moment& moment, PartId part) const {
+  const auto world = WorldOf(moment);
+  const int of = world->AssemblyOf(part);
+  if (of < 0) return std::nullopt;
+  const Assembly& assembly = world->composition().assemblies[static_cast<std::size_t>(of)];
+  const Part& own = world->scene().parts[static_cast<std::size_t>(part)];
+  if (assembly.anchored) return Pose{own.position, own.angle};
+  const std::optional<Shown> shown = Find(moment, assembly.id);
+  if (!shown) return std::nullopt;
+  BodyState body;
+  body.position = shown->pose.position;
+  body.angle = shown->pose.angle;
+  const BodyState state = StateOfPart(world->scene(), assembly, part, body);
+  return Pose{state.position, state.angle};
+}
+
 std::optional<Pose> Playback::Truth(PartId id, double tick) const {
   if (!oracle_) return std::nullopt;
   const auto whole = static_cast<std::int64_t>(std::floor(tick));
-  const BodyState* before = oracle_->At(whole, id);
-  if (before == nullptr) return std::nullopt;
+  const std::optional<BodyState> before = oracle_->At(whole, id);
+  if (!before) return std::nullopt;
   const Pose pose{before->position, before->angle};
   const auto blend = static_cast<float>(tick - static_cast<double>(whole));
-  const BodyState* after = blend > 0 ? oracle_->At(whole + 1, id) : nullptr;
-  return after == nullptr ? pose : Blend(pose, {after->position, after->angle}, blend);
+  const std::optional<BodyState> after = blend > 0 ? oracle_->At(whole + 1, id) : std::nullopt;
+  return after ? Blend(pose, {after->position, after->angle}, blend) : pose;
 }
 
 Pose Playback::Anchored(const BodyShapes& body, double tick) const {

@@ -3,10 +3,12 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "common/measure/forms.h"
 #include "common/measure/measure.h"
 #include "common/physics/assembly.h"
 #include "common/physics/feather_store.h"
@@ -47,9 +49,15 @@ class Playback {
 
   const Recording& recording() const { return *recording_; }
   const Scene& scene() const { return scene_; }
-  const std::vector<BodyShapes>& moving() const { return moving_; }
-  const std::vector<BodyShapes>& anchored() const { return anchored_; }
-  const std::vector<DrawnJoint>& joints() const { return joints_; }
+  /// At first, before any edit.
+  const std::vector<BodyShapes>& moving() const { return forms_->first->moving; }
+  const std::vector<BodyShapes>& anchored() const { return forms_->first->anchored; }
+  /// After so many edits of the recording.
+  std::shared_ptr<const DrawnForm> FormAfter(int edits) const;
+  /// What the moment's view is made of.
+  std::shared_ptr<const DrawnForm> FormOf(const Moment& moment) const;
+  /// Scene and composition of the same.
+  std::shared_ptr<const Form> WorldOf(const Moment& moment) const;
   /// nullptr: the scene has none.
   const FeatherStore* bricks() const { return bricks_.get(); }
   bool has_oracle() const { return oracle_.has_value(); }
@@ -73,9 +81,12 @@ class Playback {
 
   Moment MomentAt(int peer, double tick) const;
   std::optional<Shown> Find(const Moment& moment, PartId id) const;
+  /// Of any part.
   std::optional<Pose> Truth(PartId id, double tick) const;
   /// Where an anchored body is: at its start, unless it is kinematic.
   Pose Anchored(const BodyShapes& body, double tick) const;
+  /// A part as shown, whichever body it is in.
+  std::optional<Pose> FindPart(const Moment& moment, PartId part) const;
   /// Round trip as `peer` last reported it by `tick`, µs; -1 unknown. Peer 0 has none of its own:
   /// the greatest of its clients' is taken.
   std::int32_t RoundTripUs(int peer, double tick) const;
@@ -100,8 +111,17 @@ class Playback {
   std::shared_ptr<const Recording> recording_;
   Scene scene_;
   std::optional<Oracle> oracle_;
-  std::vector<BodyShapes> moving_, anchored_;
-  std::vector<DrawnJoint> joints_;
+  /// Shapes by topology, as many as are worth keeping. Frames are drawn by several threads.
+  struct KnownForms {
+    std::mutex mutex;
+    std::size_t edits = 0;            // of the recording, when `all` was made
+    std::unique_ptr<Forms> all;
+    std::shared_ptr<const DrawnForm> first;
+    std::map<int, std::shared_ptr<const DrawnForm>> drawn;   // by key
+  };
+  /// Of all edits heard so far. Requires forms_->mutex.
+  const Forms& AllForms() const;
+  std::shared_ptr<KnownForms> forms_;
   std::shared_ptr<const FeatherStore> bricks_;
   std::optional<ImposedMotions> imposed_;
   std::map<int, int> player_of_peer_;

@@ -80,6 +80,8 @@ std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composit
     if (assembly.kinematic >= 0) body.imposed = moved++;
     for (PartId id : assembly.parts) {
       body.outlines.push_back(OutlineOf(PartOf(scene, id), body.start));
+      const Pose own = PoseOf(PartOf(scene, id));
+      body.places.push_back({Into(body.start, own.position), own.angle - body.start.angle});
       const Outline& outline = body.outlines.back();
       for (const Vec2& p : outline.points)
         body.reach = std::max(body.reach, p.norm() + outline.radius);
@@ -91,6 +93,17 @@ std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composit
     bodies.push_back(std::move(body));
   }
   return bodies;
+}
+
+Pose FrameBehind(const Pose& at, const Pose& place) {
+  const Pose frame{at.position, at.angle - place.angle};
+  const Vec2 turned = Frame2({{0, 0}, frame.angle})(place.position);
+  return {at.position - turned, frame.angle};
+}
+
+DrawnForm FormOf(const Scene& scene, const Composition& composition) {
+  return {ShapesOf(scene, composition, false), ShapesOf(scene, composition, true),
+          JointsOf(scene, composition)};
 }
 
 std::vector<DrawnJoint> JointsOf(const Scene& scene, const Composition& composition) {

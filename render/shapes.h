@@ -13,6 +13,9 @@ struct Pose {
   float angle = 0;       ///< rad
 };
 
+/// The pose of a frame in which `place` is at `at`: of a body by one of its parts.
+Pose FrameBehind(const Pose& at, const Pose& place);
+
 /// From a pose's own frame to the world.
 struct Frame2 {
   Vec2 position{0, 0};
@@ -36,7 +39,8 @@ struct Outline {
 struct BodyShapes {
   PartId id = 0;
   std::vector<PartId> parts;   ///< ascending
-  std::vector<Outline> outlines;
+  std::vector<Outline> outlines;   ///< one for each part
+  std::vector<Pose> places;    ///< of the parts, in the root part's frame
   float reach = 0;             ///< m: nothing of it is further from the root
   bool round = false;          ///< a circle about its root: its outline does not show its angle
   Pose start;                  ///< of the root part at tick 0
@@ -52,8 +56,15 @@ struct DrawnJoint {
   bool rod = false;            ///< distance joint or rope: a line; else a pin at a's anchor
 };
 
+/// All that a world's bodies look like as long as none changes.
+struct DrawnForm {
+  std::vector<BodyShapes> moving, anchored;
+  std::vector<DrawnJoint> joints;
+};
+
 std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composition,
                                  bool anchored);
+DrawnForm FormOf(const Scene& scene, const Composition& composition);
 /// All joints that hold two bodies at a point, an axis or a length.
 std::vector<DrawnJoint> JointsOf(const Scene& scene, const Composition& composition);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/draw_body.h"
+#include "render/draw_ghosts.h"
 #include "render/draw_hud.h"
 #include "render/draw_joints.h"
 #include "render/draw_scene.h"
@@ -38,7 +39,8 @@ void DrawExposure(DrawList& list, const Viewport& viewport, const Playback& play
   const bool last = i + 1 == times.size();
   const Moment next = last ? now : playback.MomentAt(peer, playback.TickAt(times[i + 1]));
   DrawRods(list, viewport, playback, now, 0.8f * Opacity(i, times.size()));
-  for (const BodyShapes& body : playback.moving()) {
+  const auto form = playback.FormOf(now);
+  for (const BodyShapes& body : form->moving) {
     const auto shown = playback.Find(now, body.id);
     if (!shown || !viewport.Sees(shown->pose.position, body.reach)) continue;
     const auto then = playback.Find(next, body.id);
@@ -58,13 +60,13 @@ void DrawGhosts(DrawList& list, const Viewport& viewport, const Playback& playba
   if (i + 1 < times.size() && playback.moving().size() > kFewBodies) return;
   const double tick = playback.TickAt(times[i]);
   const Moment now = playback.MomentAt(peer, tick);
-  for (const BodyShapes& body : playback.moving()) {
-    const auto truth = playback.Truth(body.id, tick);
-    if (!truth || !viewport.Sees(truth->position, body.reach)) continue;
-    const auto shown = playback.Find(now, body.id);
-    if (shown && PixelsApart(viewport, body, shown->pose, *truth) < 2) continue;
-    DrawGhost(list, viewport, body, *truth, 0.2f + 0.7f * Opacity(i, times.size()), kGhostWidth);
-  }
+  const float opacity = 0.2f + 0.7f * Opacity(i, times.size());
+  VisitTruth(playback, *playback.FormOf(now), now, tick,
+             [&](const BodyShapes& body, const Pose& truth, const std::optional<Pose>& shown) {
+               if (!viewport.Sees(truth.position, body.reach)) return;
+               if (shown && PixelsApart(viewport, body, *shown, truth) < 2) return;
+               DrawGhost(list, viewport, body, truth, opacity, kGhostWidth);
+             });
 }
 
 void DrawPanel(DrawList& list, const Rect& area, const Playback& playback, int peer,
@@ -76,7 +78,8 @@ void DrawPanel(DrawList& list, const Rect& area, const Playback& playback, int p
   DrawRegions(list, viewport, playback);
   DrawGrid(list, viewport);
   DrawWaters(list, viewport, playback);
-  DrawGround(list, viewport, playback, playback.TickAt(times.back()), true);
+  const Moment last = playback.MomentAt(peer, playback.TickAt(times.back()));
+  DrawGround(list, viewport, playback, *playback.FormOf(last), last.tick, true);
   for (std::size_t i = 0; i < times.size(); ++i)
     DrawExposure(list, viewport, playback, peer, times, i);
   DrawSurfaces(list, viewport, playback);

@@ -38,10 +38,8 @@ std::int64_t WatchedTick(const Playback& playback) {
   std::int64_t tick = std::max(playback.scene().watch.front().around_tick, oracle.first_tick + 1);
   for (; tick < last; ++tick)
     for (PartId id : struck) {
-      const BodyState* now = oracle.At(tick, id);
-      const BodyState* before = oracle.At(tick - 1, id);
-      if (now != nullptr && before != nullptr &&
-          (now->velocity - before->velocity).norm() > kJumpMin)
+      const auto now = oracle.At(tick, id), before = oracle.At(tick - 1, id);
+      if (now && before && (now->velocity - before->velocity).norm() > kJumpMin)
         return tick;
     }
   return -1;
@@ -91,7 +89,10 @@ Box MovingBox(const std::vector<Playback>& playbacks, const StrobePlan& plan) {
   Box box;
   for (const Playback& playback : playbacks) {
     const std::set<PartId> struck = Struck(playback);
-    for (const BodyShapes& body : playback.moving()) {
+    const Moment middle = playback.MomentAt(playback.PeerOr(plan.peers.front()),
+                                            playback.TickAt((plan.from_s + plan.to_s) / 2));
+    const auto form = playback.FormOf(middle);
+    for (const BodyShapes& body : form->moving) {
       Box path, extent;
       for (double s = plan.from_s; s <= plan.to_s + 1e-9; s += plan.step_s) {
         const double tick = playback.TickAt(s);

@@ -18,9 +18,11 @@ bool IsBroken(const Joint& joint) { return joint.kind == JointKind::kGlue && joi
 bool IsBonded(const Joint& joint) { return joint.name.rfind("bond.", 0) == 0; }
 
 /// Runs a scene and a bit on, until nothing more is under way.
-std::unique_ptr<Cluster> Played(const std::string& scene, std::int64_t seed) {
+std::unique_ptr<Cluster> Played(const std::string& scene, std::int64_t seed,
+                                const std::string& text = "") {
   ClusterConfig config;
   config.scene = scene;
+  config.scene_text = text;
   config.reconcile = "retrospect";
   config.impair = "4g";
   config.seed = seed;
@@ -58,8 +60,10 @@ void ExpectAgreement(Cluster* cluster) {
   for (const int held : holders) EXPECT_EQ(held, 1) << "one authority for each";
 }
 
-TEST(AssemblyCluster, TheShipLosesItsBowForAllPeersAlike) {
-  const auto cluster = Played("titanic", 1);
+class AssemblyCluster : public ::testing::TestWithParam<int> {};
+
+TEST_P(AssemblyCluster, TheShipLosesItsBowForAllPeersAlike) {
+  const auto cluster = Played("titanic", GetParam());
   ExpectAgreement(cluster.get());
   const World& world = cluster->server().world();
   EXPECT_GE(Count(world.scene(), IsBroken), 10);
@@ -75,12 +79,51 @@ TEST(AssemblyCluster, TheShipLosesItsBowForAllPeersAlike) {
   EXPECT_EQ(assembly("aft.0.0"), assembly("fore.0.0"));
 }
 
-TEST(AssemblyCluster, TheHouseFallsToPiecesAndPiecesJoinForAllPeersAlike) {
-  const auto cluster = Played("gluehouse", 1);
+TEST_P(AssemblyCluster, TheHouseFallsToPiecesAndPiecesJoinForAllPeersAlike) {
+  const auto cluster = Played("gluehouse", GetParam());
   ExpectAgreement(cluster.get());
   EXPECT_GE(Count(cluster->server().world().scene(), IsBroken), 3);
   EXPECT_GE(Count(cluster->server().world().scene(), IsBonded), 1);
 }
+
+/// Stacks on both sides; ann's ball rolls into the one on bob's side after they have been grouped.
+const char* const kStacks = R"(
+duration = 7
+buffer = 4
+[grouping]
+after = 0.5
+[[player]]
+name = "ann"
+region = [[-1000, -1000], [-0.001, 1000]]
+[[player]]
+name = "bob"
+region = [[0, -1000], [1000, 1000]]
+[[part]]
+name = "ground"
+chain = [[-100, 0], [100, 0]]
+[[part]]
+name = "box"
+box = [1, 1]
+position = [-12, 0.515]
+repeat = {count = [2, 3], step = [24, 1.015]}
+[[part]]
+name = "ball"
+circle = 0.5
+density = 3
+position = [-8, 0.5]
+velocity = [5, 0]
+spin = -10
+)";
+
+TEST_P(AssemblyCluster, GroupsAreMadeAndUndoneForAllPeersAlike) {
+  const auto cluster = Played("stacks", GetParam(), kStacks);
+  ExpectAgreement(cluster.get());
+  const Scene& scene = cluster->server().world().scene();
+  EXPECT_GE(Count(scene, IsBonded), 4) << "both stacks were grouped";
+  EXPECT_GE(Count(scene, IsBroken), 2) << "the one that was hit was undone";
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, AssemblyCluster, ::testing::Values(1, 2, 3));
 
 }  // namespace
 }  // namespace seam

@@ -77,8 +77,8 @@ TEST(Cluster, TheStackStandsForAMinuteAfterTheShove) {
         const View& last = views.rbegin()->second;
         ASSERT_GT(last.tick, 64 * 60);
         for (std::size_t i = 0; i < last.id.size(); ++i) {
-          const BodyState* truth = oracle.At(last.tick, last.id[i]);
-          ASSERT_NE(truth, nullptr);
+          const auto truth = oracle.At(last.tick, last.id[i]);
+          ASSERT_TRUE(truth.has_value());
           EXPECT_NEAR(last.y[i], truth->position.y(), 0.05)
               << network << " " << rule << " peer " << peer << " box " << i;
           EXPECT_NEAR(last.x[i], truth->position.x(), 0.25) << network << " " << rule;
@@ -99,8 +99,8 @@ TEST(Cluster, CentralPredictsItsOwnVehicleToTheServersState) {
     if (tick < 30 || tick > 120) continue;
     for (std::size_t i = 0; i < view.id.size(); ++i) {
       if (view.id[i] != car) continue;
-      const BodyState* truth = oracle.At(tick, car);
-      ASSERT_NE(truth, nullptr);
+      const auto truth = oracle.At(tick, car);
+      ASSERT_TRUE(truth.has_value());
       EXPECT_NEAR(view.x[i], truth->position.x(), 0.1) << tick;
       ++looked;
     }

@@ -1,14 +1,20 @@
 #!/usr/bin/env bash
 # make demo: real processes over loopback UDP and the LCM bus, one session per scene and method,
 # captured by the stock lcm-logger, then drawn and measured. Usage: demo.sh OUTPUT_DIR
-# Environment: SEAM_BIN (folder of the programs), IMPAIR (network profile, default demo), SEED.
+# Then one session of each of the large worlds, over 4g. Environment: SEAM_BIN (folder of the programs),
+# IMPAIR (network profile of the first part, default demo), SEED, SCENES and WORLDS (which scenes; "": none).
 set -euo pipefail
 
 out=${1:?usage: demo.sh OUTPUT_DIR}
 bin=${SEAM_BIN:-build/release}
 impair=${IMPAIR:-demo}
 seed=${SEED:-1}
-scenes=${SCENES:-crossing wall stack cradle}
+scenes=${SCENES-crossing wall stack cradle}
+worlds=
+all="titanic skyline regatta harbour ragdolls obstacle crane gluehouse conveyor playground"
+for world in ${WORLDS-$all}; do
+  [ ! -f "scenes/$world.toml" ] || worlds="$worlds $world"
+done
 runs="oracle strict snap interleave compensated fade retrospect"
 
 # The LCM bus is multicast: a network namespace of our own has it without root, without the
@@ -28,13 +34,20 @@ cleanup() { for p in "${pids[@]:-}"; do kill "$p" 2>/dev/null || true; done; }
 trap cleanup EXIT INT TERM
 began=$SECONDS
 
-# run_session SCENE RUN INDEX: starts logger, server and clients; returns at once.
+# players SCENE: their names, as [[player]] sections give them.
+players() {
+  awk '/^\[/ { player = /^\[\[player\]\]/ }
+       player && /^name *=/ { split($0, quoted, "\""); print quoted[2] }' "scenes/$1.toml"
+}
+
+# run_session SCENE RUN INDEX IMPAIR: starts logger, server and all players; returns at once.
 run_session() {
-  local scene=$1 run=$2 index=$3 log="$out/$1-$2" mode=buffer reconcile="" url
+  local scene=$1 run=$2 index=$3 impair=$4 log="$out/$1-$2" mode=buffer reconcile="" url
   local port=$((17000 + index))
   url="udpm://239.255.76.67:$((18000 + index))?ttl=0"
   case $run in
     oracle|strict|central) mode=$run ;;
+    world) reconcile="--reconcile retrospect" ;;
     *) reconcile="--reconcile $run" ;;
   esac
   lcm-logger --quiet --lcm-url="$url" "$log.lcm" >"$log-logger.log" 2>&1 &
@@ -49,7 +62,7 @@ run_session() {
       >"$log-server.log" 2>&1 &
     server=$!
     clients=()
-    for name in ann bob; do
+    for name in $(players "$scene"); do
       "$bin/seam-client" "127.0.0.1:$port" --name "$name" --drive "$name" --lcm-url "$url" \
         --duration 60 --quiet >"$log-$name.log" 2>&1 &
       clients+=($!)
@@ -65,6 +78,20 @@ run_session() {
   pids+=("$!")
 }
 
+# wait_sessions: for all of `sessions`; names those that failed.
+wait_sessions() {
+  local s name
+  for s in "${sessions[@]}"; do
+    if ! wait "${s%%:*}"; then
+      name=${s#*:}
+      printf '\ndemo: session %s failed; see %s/%s-*.log\n' "$name" "$out" "${name/\//-}" >&2
+      failed=1
+    fi
+  done
+  sleep 0.3
+  printf ' done at %d s\n' $((SECONDS - began))
+}
+
 # Two scenes at a time: fourteen sessions sleep most of the time.
 index=0
 failed=0
@@ -76,21 +103,27 @@ while [ $# -gt 0 ]; do
   sessions=()
   for scene in $batch; do
     for run in $runs; do
-      run_session "$scene" "$run" "$index"
+      run_session "$scene" "$run" "$index" "$impair"
       index=$((index + 1))
     done
   done
   printf 'demo: %-16s %d sessions of logger + server + 2 clients, network %s ...' \
     "$batch" "${#sessions[@]}" "$impair"
-  for s in "${sessions[@]}"; do
-    if ! wait "${s%%:*}"; then
-      name=${s#*:}
-      printf '\ndemo: session %s failed; see %s/%s-*.log\n' "$name" "$out" "${name/\//-}" >&2
-      failed=1
-    fi
+  wait_sessions
+done
+
+# Large worlds: three at a time, and one method, because their servers do not sleep.
+set -- $worlds
+while [ $# -gt 0 ]; do
+  batch="$1 ${2:-} ${3:-}"
+  shift $(($# < 3 ? $# : 3))
+  sessions=()
+  for scene in $batch; do
+    run_session "$scene" world "$index" 4g
+    index=$((index + 1))
   done
-  sleep 0.3
-  printf ' done at %d s\n' $((SECONDS - began))
+  printf 'demo: %-28s %d worlds with all their players, network 4g ...' "$batch" "${#sessions[@]}"
+  wait_sessions
 done
 [ "$failed" = 0 ] || exit 1
 
@@ -114,11 +147,37 @@ for scene in $scenes; do
   "$bin/seam-render" --compare "$out/$scene"-{strict,interleave,fade,retrospect}.lcm \
     --oracle "$out/$scene-oracle.lcm" -o "$out/frames/$scene-compare" --fps 15 --size 1280x720
 done
-"$bin/seam-render" --strobe --compare "$out"/crossing-{oracle,strict,interleave,fade,retrospect}.lcm \
-  --oracle "$out/crossing-oracle.lcm" -o "$out/summary.png"
+if [ -f "$out/crossing-oracle.lcm" ]; then
+  "$bin/seam-render" --strobe --compare \
+    "$out"/crossing-{oracle,strict,interleave,fade,retrospect}.lcm \
+    --oracle "$out/crossing-oracle.lcm" -o "$out/summary.png"
+fi
+
+# The oracle of a large world is computed from the log; where that takes long, it goes unmeasured.
+for scene in $worlds; do
+  log=$out/$scene-world.lcm
+  if ! timeout 20 "$bin/seam-measure" --more --csv "$out/worlds.csv" --append --names retrospect \
+    "$log" >"$out/$scene-world.txt"; then
+    echo "demo: $scene is not measured (no oracle within 20 s)" >&2
+    continue
+  fi
+  awk -v OFS="  " -v scene="$scene" '
+    NR == 2 { for (i = 1; i <= NF; ++i) if (!($i ~ /[a-z-]/) && n < 5) v[++n] = $i }
+    /^  seam / { seam = $2 }
+    /bodies lost/ { lost = $(NF - 5) }
+    END { printf "  %-11s error %8s m RMS, stutter %8s m/s2, seam %9s m RMS", scene, v[2], v[5], seam
+          print (lost == "" ? "" : ", bodies lost or too many " lost) }' "$out/$scene-world.txt"
+  middle=$(awk '/^duration *=/ { print $3 / 2 }' "scenes/$scene.toml")
+  timeout 40 "$bin/seam-render" "$log" -o "$out/frames/$scene-world" --view all --fps 1 \
+    --from "$middle" --to "$middle" >/dev/null 2>&1 || continue
+  mv "$out/frames/$scene-world"/*.png "$out/$scene-world.png"
+  timeout 40 "$bin/seam-render" --strobe "$log" -o "$out/$scene-world-strobe.png" >/dev/null 2>&1 ||
+    echo "demo: no strobe of $scene" >&2
+done
 echo "demo: $((SECONDS - began)) s in all"
-echo "  table     $csv"
+echo "  tables    $csv and $out/worlds.csv"
 echo "  summary   $out/summary.png"
 echo "  strobes   $out/SCENE-RUN-strobe.png"
+echo "  worlds    $out/SCENE-world.png, -strobe.png and .txt"
 echo "  frames    $out/frames/SCENE-RUN/ and $out/frames/SCENE-compare/"
 echo "  captures  $out/SCENE-RUN.lcm (as lcm-logger wrote them)"

@@ -153,11 +153,11 @@ TEST(Oracle, OfARecordingNeedsModeOracleAndTheServersViews) {
   EXPECT_EQ(OracleFromRecording(run).ids, (std::vector<PartId>{3, 7}));
   run.views[0].erase(5);
   const Oracle oracle = OracleFromRecording(run);
-  EXPECT_EQ(oracle.At(5, 3), nullptr);
-  EXPECT_EQ(oracle.At(11, 3), nullptr);
-  EXPECT_EQ(oracle.At(-1, 3), nullptr);
-  EXPECT_EQ(oracle.At(6, 4), nullptr);
-  ASSERT_NE(oracle.At(6, 7), nullptr);
+  EXPECT_FALSE(oracle.At(5, 3).has_value());
+  EXPECT_FALSE(oracle.At(11, 3).has_value());
+  EXPECT_FALSE(oracle.At(-1, 3).has_value());
+  EXPECT_FALSE(oracle.At(6, 4).has_value());
+  ASSERT_TRUE(oracle.At(6, 7).has_value());
   EXPECT_EQ(oracle.At(6, 7)->position.x(), -5);
   run.views.erase(0);
   EXPECT_THROW((void)OracleFromRecording(run), OperatorError);

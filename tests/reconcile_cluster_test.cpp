@@ -79,8 +79,8 @@ TEST(RuleSessions, TheStackStandsUnderResimulateAndSpring) {
     for (const auto& [peer, views] : recording.views) {
       const View& last = views.rbegin()->second;
       for (std::size_t i = 0; i < last.id.size(); ++i) {
-        const BodyState* truth = oracle.At(last.tick, last.id[i]);
-        ASSERT_NE(truth, nullptr);
+        const auto truth = oracle.At(last.tick, last.id[i]);
+        ASSERT_TRUE(truth.has_value());
         EXPECT_NEAR(last.y[i], truth->position.y(), 0.05) << rule << " peer " << peer;
       }
     }

@@ -34,6 +34,10 @@ try() {
 
 step "step cost beside raw Box2D"
 try "$bin/seam-lab" overhead "${beside[@]}" -o "$data/overhead.csv"
+step "features of a scene beside their baselines"
+quick=()
+[ "${2:-}" != quick ] || quick=(--quick)
+try "$bin/seam-lab" world "${quick[@]}" -o "$data/world" >/dev/null
 for file in "$sweeps"/*.toml; do
   name=$(basename "$file" .toml)
   step "sweep $file"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 
 #include "common/measure/energy.h"
 #include "common/measure/joint_drift.h"
@@ -25,12 +26,24 @@ std::optional<Bodies> StatesOf(const View& view, const std::vector<PartId>& ids)
     return std::nullopt;
   }
   Bodies states;
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    states.push_back(BodyState{{view.x[i], view.y[i]}, view.angle[i],
-                               {view.vx[i], view.vy[i]}, view.spin[i]});
-  }
+  for (std::size_t i = 0; i < ids.size(); ++i) states.push_back(StateIn(view, i));
   return states;
 }
+
+/// What is measured of one form's states.
+struct Meters {
+  explicit Meters(const Form& form)
+      : ids(form.ids),
+        overlap(form.scene(), form.composition()),
+        joints(form.scene(), form.composition()),
+        energy(form.scene(), form.composition()),
+        jointed(!FindJointEnds(form.scene(), form.composition()).empty()) {}
+  const std::vector<PartId> ids;
+  const OverlapMeter overlap;
+  const JointMeter joints;
+  const EnergyMeter energy;
+  const bool jointed;
+};
 
 void Raise(std::optional<double>* most, double value) {
   *most = std::max(most->value_or(value), value);
@@ -39,15 +52,9 @@ void Raise(std::optional<double>* most, double value) {
 /// The oracle's energy, by tick.
 class Budget {
  public:
-  Budget(const Oracle& oracle, const EnergyMeter& meter, double h)
-      : first_tick_(oracle.first_tick), reach_(std::llround(kEnergyWindow / h)) {
-    std::int64_t tick = oracle.first_tick - 1;
-    for (const Bodies& states : oracle.ticks) {
-      ++tick;
-      energies_.push_back(states.empty() ? std::nullopt
-                                         : std::optional<double>(meter.Of(states, tick)));
-    }
-  }
+  Budget(std::int64_t first_tick, double h)
+      : first_tick_(first_tick), reach_(std::llround(kEnergyWindow / h)) {}
+  void Add(std::optional<double> energy) { energies_.push_back(energy); }
   /// The greatest within the window around a tick that the oracle has.
   std::optional<double> Around(std::int64_t tick) const {
     const std::int64_t last = static_cast<std::int64_t>(energies_.size()) - 1;
@@ -68,36 +75,65 @@ class Budget {
   std::vector<std::optional<double>> energies_;
 };
 
+/// The oracle's own, row by row, each by the bodies of its time.
+Budget MeasureOracle(const Oracle& oracle, const Forms& own, double h, int every,
+                     Measures* measures) {
+  Budget budget(oracle.first_tick, h);
+  std::size_t era = 0;
+  auto meters = std::make_unique<Meters>(*own.At(0));
+  for (std::size_t row = 0; row < oracle.ticks.size(); ++row) {
+    while (era < oracle.eras.size() && oracle.eras[era].first_row <= row) {
+      const int edits = oracle.eras[era++].edits;
+      if (edits > 0) meters = std::make_unique<Meters>(*own.At(edits));
+    }
+    const Bodies& states = oracle.ticks[row];
+    if (states.size() != meters->ids.size() || states.empty()) {
+      budget.Add(std::nullopt);
+      continue;
+    }
+    const std::int64_t tick = oracle.first_tick + static_cast<std::int64_t>(row);
+    budget.Add(meters->energy.Of(states, tick));
+    if (tick % every == 0) {
+      Raise(&measures->oracle_penetration_m, meters->overlap.Deepest(states, tick));
+    }
+    if (meters->jointed) {
+      Raise(&measures->oracle_joint_drift_m, meters->joints.Worst(states, tick));
+    }
+  }
+  return budget;
+}
+
 }  // namespace
 
-void MeasureDisplayed(const Recording& recording, const Oracle& oracle, const Scene& scene,
-                      const Composition& composition, Measures* measures) {
-  std::vector<PartId> ids;
-  for (const Assembly& assembly : composition.assemblies) {
-    if (!assembly.anchored) ids.push_back(assembly.id);
-  }
-  if (ids.empty() || oracle.ids != ids) return;
-  const OverlapMeter overlap(scene, composition);
-  const JointMeter joints(scene, composition);
-  const EnergyMeter energy(scene, composition);
-  const Budget budget(oracle, energy, TickSeconds(recording));
-  const bool jointed = !FindJointEnds(scene, composition).empty();
+void MeasureDisplayed(const Recording& recording, const Oracle& oracle, const Forms& forms,
+                      Measures* measures) {
+  const auto first = forms.At(0);
+  if (oracle.eras.empty() && (first->ids.empty() || oracle.ids != first->ids)) return;
   const int every = (std::max(1, recording.room.tick_hz) + kOverlapHz - 1) / kOverlapHz;
-  for (std::size_t row = 0; row < oracle.ticks.size(); ++row) {
-    const Bodies& states = oracle.ticks[row];
-    if (states.empty()) continue;
-    const std::int64_t tick = oracle.first_tick + static_cast<std::int64_t>(row);
-    if (tick % every == 0) Raise(&measures->oracle_penetration_m, overlap.Deepest(states, tick));
-    if (jointed) Raise(&measures->oracle_joint_drift_m, joints.Worst(states, tick));
-  }
+  const Forms own(first->scene(), oracle.edits);
+  const Budget budget = MeasureOracle(oracle, own, TickSeconds(recording), every, measures);
+  // Form by form: meters are dear to make and large to keep.
+  std::map<int, std::vector<const View*>> by_form;
   for (const auto& [peer, views] : recording.views) {
-    for (const auto& [tick, view] : views) {
-      const std::optional<Bodies> states = StatesOf(view, ids);
+    for (const auto& [tick, view] : views) by_form[forms.Key(view.topology)].push_back(&view);
+  }
+  for (const auto& [key, views] : by_form) {
+    const Meters meters(*forms.At(key));
+    if (meters.ids.empty()) continue;
+    for (const View* view : views) {
+      const std::optional<Bodies> states = StatesOf(*view, meters.ids);
       if (!states) continue;
-      if (tick % every == 0) Raise(&measures->penetration_m, overlap.Deepest(*states, tick));
-      if (jointed) Raise(&measures->joint_drift_m, joints.Worst(*states, tick));
-      const std::optional<double> due = budget.Around(tick);
-      if (due) Raise(&measures->energy_gain_j, std::max(0.0, energy.Of(*states, tick) - *due));
+      if (view->tick % every == 0) {
+        Raise(&measures->penetration_m, meters.overlap.Deepest(*states, view->tick));
+      }
+      if (meters.jointed) {
+        Raise(&measures->joint_drift_m, meters.joints.Worst(*states, view->tick));
+      }
+      const std::optional<double> due = budget.Around(view->tick);
+      if (due) {
+        Raise(&measures->energy_gain_j,
+              std::max(0.0, meters.energy.Of(*states, view->tick) - *due));
+      }
     }
   }
 }

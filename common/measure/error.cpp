@@ -43,8 +43,8 @@ void MeasureError(const Recording& recording, const Oracle& oracle, Measures* me
     Squares of_peer;
     for (const auto& [tick, view] : views) {
       for (std::size_t i = 0; i < view.id.size(); ++i) {
-        const BodyState* truth = oracle.At(tick, view.id[i]);
-        if (truth == nullptr) continue;
+        const std::optional<BodyState> truth = oracle.At(tick, view.id[i]);
+        if (!truth) continue;
         const double dx = double{view.x[i]} - double{truth->position.x()};
         const double dy = double{view.y[i]} - double{truth->position.y()};
         const double squared = dx * dx + dy * dy;

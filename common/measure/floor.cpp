@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "common/measure/measure.h"
 
@@ -14,9 +15,11 @@ double Distance(const Oracle& a, const Oracle& b) {
   std::int64_t count = 0;
   for (std::size_t row = 0; row < b.ticks.size(); ++row) {
     const std::int64_t tick = b.first_tick + static_cast<std::int64_t>(row);
+    const std::vector<PartId>& ids = b.IdsOf(row);
     for (std::size_t i = 0; i < b.ticks[row].size(); ++i) {
-      const BodyState* other = a.At(tick, b.ids[i]);
-      if (other == nullptr) continue;
+      if (ids[i] >= b.inserted_from) continue;   // may be another part in `a`
+      const std::optional<BodyState> other = a.At(tick, ids[i]);
+      if (!other) continue;
       sum += (other->position - b.ticks[row][i].position).cast<double>().squaredNorm();
       ++count;
     }

@@ -45,7 +45,7 @@ void Compare(const View& one, const View& other, PartId id, Measures* measures) 
 }
 
 /// At the first tick at which another peer than before claims a body: both peers' ideas of it.
-void MeasureGaps(const Recording& recording, Measures* measures) {
+void MeasureGaps(const Recording& recording, const Forms* forms, Measures* measures) {
   std::map<PartId, int> holders;
   for (std::int64_t tick = recording.first_tick; tick <= recording.last_tick; ++tick) {
     std::map<int, const View*> views;
@@ -60,7 +60,10 @@ void MeasureGaps(const Recording& recording, Measures* measures) {
         const int before = holders.emplace(id, peer).first->second;
         const auto old = views.find(before);
         if (before == peer || (old != views.end() && Claims(*old->second, id))) continue;
-        if (old != views.end()) Compare(*view, *old->second, id, measures);
+        const bool same = old != views.end() &&
+                          (forms == nullptr ||
+                           forms->SameBody(view->topology, old->second->topology, id));
+        if (same) Compare(*view, *old->second, id, measures);
         holders[id] = peer;
       }
     }
@@ -70,24 +73,34 @@ void MeasureGaps(const Recording& recording, Measures* measures) {
 }  // namespace
 
 void MeasureHandover(const Recording& recording, const std::map<PartId, int>& mechanisms,
-                     Measures* measures) {
+                     Measures* measures, const Forms* forms) {
   const double h = TickSeconds(recording);
   for (const auto& [peer, views] : recording.views) {
     ForEachChange(views, [&](std::int64_t, const View& before, std::size_t k, const View& now,
                              std::size_t i) {
+      // What has become part of another body jumps for that.
+      if (forms != nullptr && !forms->SameBody(before.topology, now.topology, now.id[i])) return;
       const double dx = double{now.x[i]} - double{before.x[k]} - double{now.vx[i]} * h;
       const double dy = double{now.y[i]} - double{before.y[k]} - double{now.vy[i]} * h;
       measures->handover_jump_m = std::max(measures->handover_jump_m, std::hypot(dx, dy));
     });
   }
-  MeasureGaps(recording, measures);
+  MeasureGaps(recording, forms, measures);
   if (recording.views.empty()) return;
   // The server's views, or of the lowest peer there is; a mechanism's bodies change together.
   std::set<std::pair<std::int64_t, int>> changes;
   ForEachChange(recording.views.begin()->second, [&](std::int64_t tick, const View&, std::size_t,
                                                      const View& now, std::size_t i) {
-    const auto mechanism = mechanisms.find(now.id[i]);
-    changes.insert({tick, mechanism == mechanisms.end() ? -1 - now.id[i] : mechanism->second});
+    int mechanism = -1 - now.id[i];
+    const auto known = mechanisms.find(now.id[i]);
+    if (known != mechanisms.end()) mechanism = known->second;
+    if (forms != nullptr) {
+      const auto form = forms->At(now.topology);
+      const int of = form->AssemblyOf(now.id[i]);
+      const auto& all = form->composition().assemblies;
+      if (of >= 0) mechanism = all[static_cast<std::size_t>(of)].mechanism;
+    }
+    changes.insert({tick, mechanism});
   });
   measures->handovers = static_cast<std::int64_t>(changes.size());
 }

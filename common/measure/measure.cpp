@@ -43,34 +43,32 @@ std::optional<double> MeanRebound(const Recording& recording, const Oracle& orac
 
 }  // namespace
 
-int IndexOf(const View& view, PartId id) {
-  const auto found = std::lower_bound(view.id.begin(), view.id.end(), id);
-  if (found == view.id.end() || *found != id) return -1;
-  return static_cast<int>(found - view.id.begin());
-}
-
 double TickSeconds(const Recording& recording) { return 1.0 / std::max(1, recording.room.tick_hz); }
 
 Measures Measure(const Recording& recording, const Oracle& oracle) {
   Measures measures;
   MeasureError(recording, oracle, &measures);
-  MeasureSmoothness(recording, oracle, &measures);
-  MeasureSeam(recording, &measures);
   measures.rest_ticks = RestTicks(recording, oracle);
   measures.jitter_rest_mps = RestJitter(recording, oracle);
   MeasureCost(recording, &measures);
   std::map<PartId, int> mechanisms;
+  std::optional<Forms> forms;
   if (!recording.room.scene_text.empty()) {
     const Scene scene =
         ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
-    const Composition composition = Compose(scene);
+    forms.emplace(scene, recording);
+    const Composition& composition = forms->At(0)->composition();
     for (const Assembly& assembly : composition.assemblies) {
       if (assembly.mechanism >= 0) mechanisms[assembly.id] = assembly.mechanism;
     }
     measures.rebound = MeanRebound(recording, oracle, scene, composition);
-    MeasureDisplayed(recording, oracle, scene, composition, &measures);
+    MeasureDisplayed(recording, oracle, *forms, &measures);
+    MeasureChanges(recording, *forms, &measures);
   }
-  MeasureHandover(recording, mechanisms, &measures);
+  const Forms* changing = forms && forms->change() ? &*forms : nullptr;
+  MeasureSmoothness(recording, oracle, changing, &measures);
+  MeasureSeam(recording, changing, &measures);
+  MeasureHandover(recording, mechanisms, &measures, changing);
   return measures;
 }
 

@@ -8,47 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "common/measure/oracle.h"
 #include "common/physics/scene.h"
 #include "common/record/recording.h"
 
 namespace seam {
-
-/// The truth: poses of every moving body after every tick, by assembly id.
-struct Oracle {
-  std::int64_t first_tick = 0;
-  std::vector<PartId> ids;                          ///< ascending
-  /// [tick - first_tick][index in ids]; empty for a tick that is not known.
-  std::vector<std::vector<BodyState>> ticks;
-  /// nullptr when the tick or the body is not known.
-  const BodyState* At(std::int64_t tick, PartId id) const;
-};
-
-/// How far the floor's nudge moves one body, m; at least to the next float (8e-6 m at 100 m).
-constexpr float kNudge = 1e-6f;
-/// The same at the resolution of the wire, whose positions are whole 1/512 m: half of that.
-constexpr float kWireNudge = 1.0f / 1024;
-
-/// Simulates the recording's scene alone from tick 0 to the recording's last tick, with the inputs
-/// it recorded: each in the tick it names, axes held over ticks without one, buttons acting on the
-/// tick they go down. Throws OperatorError when the scene does not parse or the session is too long
-/// (kOracleStatesMax).
-/// `nudged_body` >= 0: with that body (an index into ids) moved by `nudge` m along x at the start,
-/// at least to the next float.
-Oracle ComputeOracle(const Recording& recording, int nudged_body = -1,
-                     float nudge = kNudge);
-
-/// The oracle's own sensitivity: RMS distance in m between it and itself with one body nudged, the
-/// median over at most `bodies` bodies, evenly chosen. No method can be expected to be better:
-/// where the floor is a metre, errors of a metre say nothing.
-double ErrorFloor(const Recording& recording, const Oracle& oracle, float nudge = kNudge,
-                  int bodies = 7);
-
-/// Most ticks times bodies that ComputeOracle keeps: 24 bytes each.
-constexpr std::int64_t kOracleStatesMax = 50'000'000;
-
-/// The displayed path of peer 0 in a recording made with --mode oracle. Throws OperatorError for a
-/// recording of another mode, or without views of peer 0.
-Oracle OracleFromRecording(const Recording& recording);
 
 struct Measures {
   // Pose errors over all peers' views, bodies and ticks that the oracle has.
@@ -71,6 +35,9 @@ struct Measures {
   std::int64_t handovers = 0;         ///< changes of authority over a mechanism
   // How far the new authority is from the old one when it takes up. Empty without a hand-over.
   std::optional<double> handover_gap_m, handover_dv_mps;
+  // Of worlds whose bodies change; empty without edits.
+  std::optional<double> topology_lag_s;   ///< longest that a peer lacked an edit that was ordered
+  std::optional<std::int64_t> lost;   ///< bodies too few or too many in views, over all ticks
   double bytes_per_s = 0;             ///< mean over clients, both directions, UDP payload
   double sent_bytes_per_s = 0;        ///< the same, what they send alone
   double cpu_us_per_s = 0;            ///< mean over peers, per simulated second

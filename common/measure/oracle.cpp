@@ -1,118 +1,139 @@
-/// The truth a recording is measured against: simulated alone, or taken from another recording.
+#include "common/measure/oracle.h"
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 
-#include "common/base/check.h"
-#include "common/measure/measure.h"
-#include "common/physics/world.h"
+#include "common/measure/forms.h"
+#include "common/measure/pose.h"
+#include "common/physics/mass.h"
 
 namespace seam {
 namespace {
 
-/// One player's recorded inputs by tick. Where pieces overlap they agree; the first one stands.
-using InputTicks = std::map<std::int64_t, Input>;
-
-InputTicks TicksOf(const std::map<std::int64_t, Inputs>& pieces) {
-  InputTicks ticks;
-  for (const auto& [first_tick, piece] : pieces) {
-    for (std::size_t i = 0; i < piece.drive.size(); ++i) {
-      ticks.try_emplace(first_tick + static_cast<std::int64_t>(i),
-                        Input{piece.drive[i], piece.lift[i], piece.buttons[i]});
-    }
+BodyState Placed(const Oracle::Place& place, const std::vector<BodyState>& moving) {
+  BodyState state;
+  if (place.body < 0) {
+    state.position = Vec2(place.x, place.y);
+    state.angle = place.angle;
+    return state;
   }
-  return ticks;
-}
-
-/// Sets a player's axes for `tick`, if they were recorded, and does what its buttons going down do.
-void Apply(World& world, int player, const InputTicks& inputs, std::int64_t tick) {
-  const auto now = inputs.find(tick);
-  if (now == inputs.end()) return;
-  world.SetInput(player, now->second);
-  const int before = now == inputs.begin() ? 0 : std::prev(now)->second.buttons;
-  const int pressed = now->second.buttons & ~before;
-  const auto& actions = world.scene().players[static_cast<std::size_t>(player)].actions;
-  for (std::size_t a = 0; a < actions.size(); ++a) {
-    if ((pressed >> actions[a].button) & 1) world.Act(player, static_cast<int>(a));
-  }
-}
-
-std::vector<BodyState> ReadAll(const World& world) {
-  std::vector<BodyState> states;
-  states.reserve(static_cast<std::size_t>(world.body_count()));
-  for (int body = 0; body < world.body_count(); ++body) states.push_back(world.Read(body));
-  return states;
+  state = moving[static_cast<std::size_t>(place.body)];
+  state.position =
+      Pose(state).ToWorld({double{place.x}, double{place.y}}).cast<float>();
+  state.angle = static_cast<float>(double{state.angle} + double{place.angle});
+  return state;
 }
 
 }  // namespace
 
-const BodyState* Oracle::At(std::int64_t tick, PartId id) const {
-  if (tick < first_tick) return nullptr;
+const Oracle::Era* Oracle::EraOf(std::size_t row) const {
+  const auto later = [](std::size_t r, const Era& era) { return r < era.first_row; };
+  const auto after = std::upper_bound(eras.begin(), eras.end(), row, later);
+  return after == eras.begin() ? nullptr : &*std::prev(after);
+}
+
+PartId Oracle::OwnId(PartId part) const {
+  if (part < inserted_from) return part;
+  const auto found = own_id.find(part);
+  return found == own_id.end() ? -1 : found->second;
+}
+
+const std::vector<PartId>& Oracle::IdsOf(std::size_t row) const {
+  const Era* era = EraOf(row);
+  return era == nullptr ? ids : era->bodies->ids;
+}
+
+std::optional<BodyState> Oracle::At(std::int64_t tick, PartId part) const {
+  if (tick < first_tick) return std::nullopt;
   const auto row = static_cast<std::size_t>(tick - first_tick);
-  const auto found = std::lower_bound(ids.begin(), ids.end(), id);
-  if (row >= ticks.size() || ticks[row].empty() || found == ids.end() || *found != id) {
-    return nullptr;
+  if (row >= ticks.size() || ticks[row].empty()) return std::nullopt;
+  const Era* era = EraOf(row);
+  const PartId own = OwnId(part);
+  const std::vector<PartId>& now = era == nullptr ? ids : era->bodies->ids;
+  const auto found = std::lower_bound(now.begin(), now.end(), own);
+  if (found != now.end() && *found == own) {
+    return ticks[row][static_cast<std::size_t>(found - now.begin())];
   }
-  return &ticks[row][static_cast<std::size_t>(found - ids.begin())];
+  if (era == nullptr || own < 0) return std::nullopt;
+  const std::vector<Place>& places = era->bodies->places;
+  if (static_cast<std::size_t>(own) >= places.size()) return std::nullopt;
+  const Place& place = places[static_cast<std::size_t>(own)];
+  if (place.body == -2) return std::nullopt;
+  return Placed(place, ticks[row]);
 }
 
-Oracle ComputeOracle(const Recording& recording, int nudged_body, float nudge) {
-  Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
-  scene.solver.tick_hz = recording.room.tick_hz;
-  World world(scene);
-  if (nudged_body >= 0) {
-    BodyState state = world.Read(nudged_body);
-    // At least to the next float: 40 m from the origin a micrometre is lost in rounding.
-    const float x = state.position.x();
-    state.position.x() = std::max(x + nudge, std::nextafter(x, x + 1));
-    world.Write(nudged_body, state, false);
+bool Oracle::SameBody(std::int64_t tick_a, std::int64_t tick_b, PartId part) const {
+  if (eras.size() < 2 || tick_a < first_tick || tick_b < first_tick) return true;
+  const Era* a = EraOf(static_cast<std::size_t>(tick_a - first_tick));
+  const Era* b = EraOf(static_cast<std::size_t>(tick_b - first_tick));
+  if (a->bodies == b->bodies) return true;
+  const auto own = static_cast<std::size_t>(OwnId(part));
+  const std::vector<PartId>&ra = a->bodies->roots, &rb = b->bodies->roots;
+  if (own >= ra.size() || own >= rb.size() || ra[own] != rb[own] || ra[own] < 0) return false;
+  const std::size_t least = std::min(ra.size(), rb.size());
+  for (std::size_t p = 0; p < std::max(ra.size(), rb.size()); ++p) {
+    const bool in_a = p < ra.size() && ra[p] == ra[own];
+    const bool in_b = p < rb.size() && rb[p] == ra[own];
+    if (in_a != in_b || (in_a && p >= least)) return false;
   }
-  Oracle oracle;
-  for (int body = 0; body < world.body_count(); ++body) oracle.ids.push_back(world.id(body));
-  const std::int64_t states = std::max(1, world.body_count());
-  if (recording.last_tick > kOracleStatesMax / states) {
-    throw OperatorError("the session is too long for an oracle: " +
-                        std::to_string(recording.last_tick) + " ticks of " +
-                        std::to_string(states) + " bodies");
-  }
-  std::map<int, InputTicks> inputs;
-  for (const auto& [player, pieces] : recording.inputs) {
-    const bool known = player >= 0 && static_cast<std::size_t>(player) < scene.players.size();
-    if (known) inputs[player] = TicksOf(pieces);
-  }
-  oracle.ticks.push_back(ReadAll(world));
-  for (std::int64_t tick = 1; tick <= recording.last_tick; ++tick) {
-    for (const auto& [player, ticks] : inputs) Apply(world, player, ticks, tick);
-    world.Step();
-    oracle.ticks.push_back(ReadAll(world));
-  }
-  return oracle;
+  return true;
 }
 
-Oracle OracleFromRecording(const Recording& recording) {
-  if (recording.room.mode != "oracle") {
-    throw OperatorError("the oracle's recording was made with --mode " + recording.room.mode +
-                        ", not --mode oracle");
+bool Oracle::Together(std::int64_t tick, const std::vector<PartId>& parts) const {
+  if (tick < first_tick) return true;
+  const Era* era = EraOf(static_cast<std::size_t>(tick - first_tick));
+  if (era == nullptr) return true;
+  const std::vector<PartId>& roots = era->bodies->roots;
+  PartId root = -1;
+  for (const PartId part : parts) {
+    const auto own = static_cast<std::size_t>(OwnId(part));
+    if (own >= roots.size() || roots[own] < 0) return false;
+    if (root >= 0 && roots[own] != root) return false;
+    root = roots[own];
   }
-  const auto views = recording.views.find(0);
-  if (views == recording.views.end() || views->second.empty()) {
-    throw OperatorError("the oracle's recording has no views of the server");
-  }
-  Oracle oracle;
-  oracle.first_tick = views->second.begin()->first;
-  const View& first = views->second.begin()->second;
-  oracle.ids.assign(first.id.begin(), first.id.end());
-  const std::int64_t count = views->second.rbegin()->first - oracle.first_tick + 1;
-  oracle.ticks.resize(static_cast<std::size_t>(count));
-  for (const auto& [tick, view] : views->second) {
-    if (view.id != first.id) continue;
-    auto& states = oracle.ticks[static_cast<std::size_t>(tick - oracle.first_tick)];
-    for (std::size_t i = 0; i < view.id.size(); ++i) {
-      states.push_back(BodyState{{view.x[i], view.y[i]}, view.angle[i],
-                                 {view.vx[i], view.vy[i]}, view.spin[i]});
+  return true;
+}
+
+void Oracle::Begin(std::size_t row, const Form& form, int applied) {
+  auto bodies = std::make_shared<Bodies>();
+  bodies->ids = form.ids;
+  const Scene& scene = form.scene();
+  bodies->places.resize(scene.parts.size(), Place{-2, 0, 0, 0});
+  bodies->roots.resize(scene.parts.size(), -1);
+  for (std::size_t a = 0; a < form.composition().assemblies.size(); ++a) {
+    const Assembly& assembly = form.composition().assemblies[a];
+    const Part& root = scene.parts[static_cast<std::size_t>(assembly.id)];
+    for (const PartId id : assembly.parts) {
+      const auto p = static_cast<std::size_t>(id);
+      const Part& part = scene.parts[p];
+      bodies->roots[p] = assembly.id;
+      if (assembly.anchored) {
+        bodies->places[p] = {-1, part.position.x(), part.position.y(), part.angle};
+        continue;
+      }
+      const Vec2 place = ToRootFrame(part, root, Eigen::Vector2d(0, 0)).cast<float>();
+      bodies->places[p] = {form.moving[a], place.x(), place.y(), part.angle - root.angle};
     }
   }
-  return oracle;
+  if (!eras.empty() && eras.back().first_row == row) eras.pop_back();   // it lasted no tick
+  eras.push_back({row, applied, std::move(bodies)});
+  if (row == 0) ids = form.ids;
+}
+
+void Oracle::Identify(const Recording& recording, const Scene& scene) {
+  if (recording.edits.empty() || eras.empty()) return;
+  inserted_from = static_cast<PartId>(scene.parts.size());
+  const auto recorded = Forms(scene, recording).At(std::numeric_limits<int>::max());
+  const auto own = Forms(scene, edits).At(std::numeric_limits<int>::max());
+  std::map<std::string, PartId> by_name;
+  for (std::size_t p = scene.parts.size(); p < own->scene().parts.size(); ++p) {
+    by_name[own->scene().parts[p].name] = static_cast<PartId>(p);
+  }
+  for (std::size_t p = scene.parts.size(); p < recorded->scene().parts.size(); ++p) {
+    const auto found = by_name.find(recorded->scene().parts[p].name);
+    if (found != by_name.end()) own_id[static_cast<PartId>(p)] = found->second;
+  }
 }
 
 }  // namespace seam

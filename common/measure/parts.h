@@ -6,13 +6,11 @@
 #include <optional>
 #include <vector>
 
+#include "common/measure/forms.h"
 #include "common/measure/measure.h"
 #include "common/physics/assembly.h"
 
 namespace seam {
-
-/// The place of a body in a view, -1 if it is not shown.
-int IndexOf(const View& view, PartId id);
 
 /// Seconds per tick of a recording.
 double TickSeconds(const Recording& recording);
@@ -20,11 +18,14 @@ double TickSeconds(const Recording& recording);
 /// error.cpp: error_*, error_by_tick_m, error_rms_by_peer_m, compared.
 void MeasureError(const Recording& recording, const Oracle& oracle, Measures* measures);
 
+// `forms` below: nullptr where bodies never change.
+
 /// smoothness.cpp: stutter_mps2 and backsteps.
-void MeasureSmoothness(const Recording& recording, const Oracle& oracle, Measures* measures);
+void MeasureSmoothness(const Recording& recording, const Oracle& oracle, const Forms* forms,
+                       Measures* measures);
 
 /// seam.cpp: seam_rms_m and seam_stutter_mps2.
-void MeasureSeam(const Recording& recording, Measures* measures);
+void MeasureSeam(const Recording& recording, const Forms* forms, Measures* measures);
 
 /// rebound.cpp: the share of the oracle's momentum transfer that a collision really transferred.
 /// `masses`: of the struck assemblies by id, kg. nullopt: no collision, or it was not recorded.
@@ -39,13 +40,16 @@ std::optional<double> RestJitter(const Recording& recording, const Oracle& oracl
 
 /// displayed.cpp: penetration_m, joint_drift_m, energy_gain_j, and the oracle's own of the first
 /// two.
-void MeasureDisplayed(const Recording& recording, const Oracle& oracle, const Scene& scene,
-                      const Composition& composition, Measures* measures);
+void MeasureDisplayed(const Recording& recording, const Oracle& oracle, const Forms& forms,
+                      Measures* measures);
 
-/// handover.cpp: handover_* and handovers. `mechanisms`: by assembly id; a body that is not in
-/// it is a mechanism by itself.
+/// changes.cpp: topology_lag_s, lost.
+void MeasureChanges(const Recording& recording, const Forms& forms, Measures* measures);
+
+/// handover.cpp: handover_* and handovers. `mechanisms`: by assembly id, where bodies never change;
+/// a body that is not in it is a mechanism by itself.
 void MeasureHandover(const Recording& recording, const std::map<PartId, int>& mechanisms,
-                     Measures* measures);
+                     Measures* measures, const Forms* forms = nullptr);
 
 /// cost.cpp: bytes_per_s, sent_bytes_per_s and cpu_us_per_s.
 void MeasureCost(const Recording& recording, Measures* measures);

@@ -27,8 +27,8 @@ using Momentum = std::optional<Vec>;
 Momentum OfOracle(const Oracle& oracle, const std::map<PartId, double>& masses, std::int64_t tick) {
   Vec sum(0, 0);
   for (const auto& [id, mass] : masses) {
-    const BodyState* state = oracle.At(tick, id);
-    if (state == nullptr) return std::nullopt;
+    const std::optional<BodyState> state = oracle.At(tick, id);
+    if (!state) return std::nullopt;
     sum += mass * state->velocity.cast<double>();
   }
   return sum;

@@ -94,7 +94,7 @@ std::optional<double> RestJitter(const Recording& recording, const Oracle& oracl
       if (before == views.end()) continue;
       for (std::size_t i = 0; i < now->second.id.size(); ++i) {
         const int k = IndexOf(before->second, now->second.id[i]);
-        if (k < 0 || oracle.At(now->first, now->second.id[i]) == nullptr) continue;
+        if (k < 0 || !oracle.At(now->first, now->second.id[i])) continue;
         const auto index = static_cast<std::size_t>(k);
         const double dx = double{now->second.x[i]} - double{before->second.x[index]};
         const double dy = double{now->second.y[i]} - double{before->second.y[index]};

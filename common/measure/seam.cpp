@@ -15,28 +15,43 @@ const View* Find(const Views& views, std::int64_t tick) {
   return found == views.end() ? nullptr : &found->second;
 }
 
-/// Displayed minus the authority's, m; nullopt when the peer has the authority itself, or the
-/// authority's view of the tick is missing or does not claim the body.
-std::optional<Eigen::Vector2d> Apart(const Recording& recording, int peer, const View& view,
-                                     std::size_t i) {
+/// Displayed minus the authority's.
+struct Distance {
+  Eigen::Vector2d d{0, 0};            // m
+  int topology = 0, of_authority = 0;   // of the two views
+};
+
+/// nullopt when the peer has the authority itself, or the authority's view of the tick is missing
+/// or does not claim the body (where bodies change: the body that has the part).
+std::optional<Distance> Apart(const Recording& recording, int peer, const View& view,
+                              std::size_t i, const Forms* forms) {
   const int authority = view.authority[i];
   if (authority == peer) return std::nullopt;
   const auto views = recording.views.find(authority);
   if (views == recording.views.end()) return std::nullopt;
   const View* own = Find(views->second, view.tick);
-  const int k = own == nullptr ? -1 : IndexOf(*own, view.id[i]);
-  if (k < 0 || own->authority[static_cast<std::size_t>(k)] != authority) return std::nullopt;
-  const auto index = static_cast<std::size_t>(k);
-  return Eigen::Vector2d(double{view.x[i]} - double{own->x[index]},
-                         double{view.y[i]} - double{own->y[index]});
+  if (own == nullptr) return std::nullopt;
+  const int k = IndexOf(*own, view.id[i]);
+  std::size_t index = 0;
+  std::optional<BodyState> theirs;
+  if (k >= 0) {
+    index = static_cast<std::size_t>(k);
+    theirs = StateIn(*own, index);
+  } else if (forms != nullptr) {
+    theirs = forms->InView(*own, view.id[i], &index);
+  }
+  if (!theirs || own->authority[index] != authority) return std::nullopt;
+  return Distance{Eigen::Vector2d(double{view.x[i]} - double{theirs->position.x()},
+                                  double{view.y[i]} - double{theirs->position.y()}),
+                  view.topology, own->topology};
 }
 
-std::optional<Eigen::Vector2d> ApartAt(const Recording& recording, int peer, const Views& views,
-                                       std::int64_t tick, PartId id) {
+std::optional<Distance> ApartAt(const Recording& recording, int peer, const Views& views,
+                                std::int64_t tick, PartId id, const Forms* forms) {
   const View* view = Find(views, tick);
   const int i = view == nullptr ? -1 : IndexOf(*view, id);
   if (i < 0) return std::nullopt;
-  return Apart(recording, peer, *view, static_cast<std::size_t>(i));
+  return Apart(recording, peer, *view, static_cast<std::size_t>(i), forms);
 }
 
 struct Mean {
@@ -54,19 +69,25 @@ struct Mean {
 
 }  // namespace
 
-void MeasureSeam(const Recording& recording, Measures* measures) {
+void MeasureSeam(const Recording& recording, const Forms* forms, Measures* measures) {
   const double h = TickSeconds(recording);
+  const auto same = [&](const Distance& a, const Distance& b, PartId id) {
+    return forms == nullptr || (forms->SameBody(a.topology, b.topology, id) &&
+                                forms->SameBody(a.of_authority, b.of_authority, id));
+  };
   Mean apart, jerk;
   for (const auto& [peer, views] : recording.views) {
     for (const auto& [tick, view] : views) {
       for (std::size_t i = 0; i < view.id.size(); ++i) {
-        const auto now = Apart(recording, peer, view, i);
+        const auto now = Apart(recording, peer, view, i, forms);
         if (!now) continue;
-        apart.Add(now->squaredNorm());
-        const auto before = ApartAt(recording, peer, views, tick - 1, view.id[i]);
-        const auto earlier = ApartAt(recording, peer, views, tick - 2, view.id[i]);
+        apart.Add(now->d.squaredNorm());
+        const PartId id = view.id[i];
+        const auto before = ApartAt(recording, peer, views, tick - 1, id, forms);
+        const auto earlier = ApartAt(recording, peer, views, tick - 2, id, forms);
         if (!before || !earlier) continue;
-        jerk.Add((*now - 2 * *before + *earlier).squaredNorm() / (h * h * h * h));
+        if (!same(*now, *before, id) || !same(*before, *earlier, id)) continue;
+        jerk.Add((now->d - 2 * before->d + earlier->d).squaredNorm() / (h * h * h * h));
       }
     }
   }

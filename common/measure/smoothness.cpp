@@ -38,8 +38,14 @@ const View* Find(const std::map<std::int64_t, View>& views, std::int64_t tick) {
 
 }  // namespace
 
-void MeasureSmoothness(const Recording& recording, const Oracle& oracle, Measures* measures) {
+void MeasureSmoothness(const Recording& recording, const Oracle& oracle, const Forms* forms,
+                       Measures* measures) {
   const double h = TickSeconds(recording);
+  // What a body becomes part of moves otherwise than it did: no difference is taken across that.
+  const auto same = [&](const View& now, const View& then, PartId id) {
+    if (forms != nullptr && !forms->SameBody(now.topology, then.topology, id)) return false;
+    return oracle.SameBody(now.tick, then.tick, id);
+  };
   double sum = 0;
   std::int64_t count = 0;
   for (const auto& [peer, views] : recording.views) {
@@ -49,19 +55,19 @@ void MeasureSmoothness(const Recording& recording, const Oracle& oracle, Measure
       const View* earlier = Find(views, tick - 2);
       for (std::size_t i = 0; i < view.id.size(); ++i) {
         const PartId id = view.id[i];
-        const BodyState* truth = oracle.At(tick, id);
-        const BodyState* truth_before = oracle.At(tick - 1, id);
+        const std::optional<BodyState> truth = oracle.At(tick, id);
+        const std::optional<BodyState> truth_before = oracle.At(tick - 1, id);
         const int k = IndexOf(*before, id);
-        if (truth == nullptr || truth_before == nullptr || k < 0) continue;
+        if (!truth || !truth_before || k < 0 || !same(view, *before, id)) continue;
         const Point p = {view.x[i], view.y[i]}, q = Shown(*before, k);
         const Point o = At(*truth), n = At(*truth_before);
         if (IsBackstep(q, p, view.vx[i], view.vy[i]) &&
             !IsBackstep(n, o, truth->velocity.x(), truth->velocity.y())) {
           ++measures->backsteps;
         }
-        const BodyState* truth_earlier = oracle.At(tick - 2, id);
+        const std::optional<BodyState> truth_earlier = oracle.At(tick - 2, id);
         const int j = earlier == nullptr ? -1 : IndexOf(*earlier, id);
-        if (truth_earlier == nullptr || j < 0) continue;
+        if (!truth_earlier || j < 0 || !same(*before, *earlier, id)) continue;
         const Point r = Shown(*earlier, j), m = At(*truth_earlier);
         const double ax = (p.x - 2 * q.x + r.x) - (o.x - 2 * n.x + m.x);
         const double ay = (p.y - 2 * q.y + r.y) - (o.y - 2 * n.y + m.y);

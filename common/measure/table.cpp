@@ -83,6 +83,10 @@ std::string More(const MeasuredRun& run) {
                       : std::string("  rest             not reached\n");
   out += fmt::format("  jitter at rest   {}\n",
                      Beside(m.jitter_rest_mps, std::nullopt, "m/s RMS"));
+  if (m.topology_lag_s && m.lost) {
+    out += fmt::format("  bodies change    a peer lacked an edit for at most {:.6g} s; {} bodies "
+                       "lost or too many\n", *m.topology_lag_s, *m.lost);
+  }
   if (m.sent_bytes_per_s > 0) {
     out += fmt::format("  sent             {:.6g} bytes/s by a client\n", m.sent_bytes_per_s);
   }

@@ -22,6 +22,10 @@ struct Connectors {
   bool empty() const { return inlets.empty() && outlets.empty(); }
 };
 
+/// What comes together more slowly does not join, m/s: what a blow has cracked would heal where it
+/// stands.
+constexpr float kJoinClosing = 0.1f;
+
 /// Least time between a break and the next joint of the parts concerned, s: or what is torn apart
 /// would join again before it is away.
 constexpr float kJoinAgain = 1;

@@ -28,6 +28,7 @@ struct Where {
   const Open* open = nullptr;
   b2Vec2 at{0, 0};                    // m
   float angle = 0;                    // rad
+  b2Vec2 velocity{0, 0};              // m/s
 };
 
 /// An outlet and an inlet that meet, nearest first.
@@ -111,6 +112,8 @@ bool JoinStage::Meet(const Where& outlet, const Where& inlet) const {
   const bool moves = (a->GetType() == b2_dynamicBody && a->IsAwake()) ||
                      (b->GetType() == b2_dynamicBody && b->IsAwake());
   if (!moves) return false;
+  const b2Vec2 out(std::cos(outlet.angle), std::sin(outlet.angle));
+  if (b2Dot(out, outlet.velocity - inlet.velocity) < kJoinClosing) return false;
   const Connectors& one = PartWith(*outlet.open).connectors;
   const Connectors& other = PartWith(*inlet.open).connectors;
   if ((outlet.at - inlet.at).Length() > std::min(one.reach, other.reach)) return false;
@@ -124,7 +127,8 @@ void JoinStage::AfterTick() {
   for (const Open& open : open_) {
     if (waiting_.count(open.what.part) != 0) continue;
     const b2Body* body = BodyOf(open);
-    placed.push_back({&open, body->GetWorldPoint(open.local), body->GetAngle() + open.turn});
+    placed.push_back({&open, body->GetWorldPoint(open.local), body->GetAngle() + open.turn,
+                      body->GetLinearVelocityFromLocalPoint(open.local)});
   }
   std::sort(placed.begin(), placed.end(),
             [](const Where& x, const Where& y) { return x.at.x < y.at.x; });

@@ -47,6 +47,9 @@ int RunWorld(const WorldCommand& command) {
     if (command.folder.empty()) continue;
     WriteCsv(table, command.folder + "/" + bench.name + ".csv");
     std::ofstream(command.folder + "/" + bench.name + ".md") << Markdown(table);
+    // What a CSV has no place for, for the report.
+    std::ofstream(command.folder + "/" + bench.name + ".txt") << table.title << "\n"
+                                                              << table.note << "\n";
   }
   return g_stop == 0 ? 0 : 1;
 }

@@ -104,6 +104,8 @@ std::vector<Section> BuildReport(const ReportInput& input) {
   std::vector<Section> sections;
   Section cost = CostSection(sweeps, data);
   if (!cost.items.empty()) sections.push_back(std::move(cost));
+  Section world = WorldSection((data / "world").string());
+  if (!world.items.empty()) sections.push_back(std::move(world));
   Section renders = RendersSection(input.out);
   if (!renders.items.empty()) sections.push_back(std::move(renders));
   const fs::path physics = data / "physics.csv";

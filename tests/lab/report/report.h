@@ -25,6 +25,9 @@ std::vector<const Figure*> Figures(const std::vector<Section>& sections);
 /// renders/NAME.png and the frames in renders/NAME/, each with its command in NAME.txt.
 /// Frames open a contact sheet, renders/NAME.html.
 Section RendersSection(const std::string& out);
+/// A table for each FOLDER/NAME.csv, as `seam-lab world -o FOLDER` leaves them; no items where
+/// there is no such folder.
+Section WorldSection(const std::string& folder);
 /// frame_00000.png, ... as far as they go without a hole.
 std::vector<std::string> FramesOf(const std::string& folder);
 

@@ -31,7 +31,7 @@ std::unique_ptr<World> Yard(const Rule& rule, bool ball, bool quick) {
       "[[part]]\nname = \"crate\"\nbox = [1, 1]\nposition = [0, 0.5]\nrepeat = {count = [" +
       stacks + ", 4], step = [3, 1]}\n" +
       (ball ? "[[part]]\nname = \"ball\"\ncircle = 0.4\nposition = [-34, 2.4]\ndensity = 3\n"
-              "velocity = [8, 20]\n"
+              "velocity = [8.35, 20]\n"
             : "");
   return std::make_unique<World>(ParseScene(text, "yard.toml"));
 }

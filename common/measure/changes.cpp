@@ -1,0 +1,52 @@
+/// Bodies that come, go, split and merge: whether everybody hears of it, and shows what there is.
+
+#include <algorithm>
+
+#include "common/measure/parts.h"
+
+namespace seam {
+namespace {
+
+/// Longest that a view lacked an edit, ticks.
+std::int64_t LongestLag(const Recording& recording) {
+  std::int64_t longest = 0;
+  for (const auto& [peer, views] : recording.views) {
+    for (const auto& [tick, view] : views) {
+      const auto lacking = recording.edits.lower_bound(view.topology);
+      if (lacking == recording.edits.end()) continue;
+      longest = std::max(longest, tick - lacking->second.tick);
+    }
+  }
+  return longest;
+}
+
+/// Ids that are in one of the two lists and not in the other. Both ascending.
+std::int64_t Differing(const std::vector<PartId>& there, const std::vector<std::int16_t>& shown) {
+  std::int64_t both = 0;
+  auto a = there.begin();
+  for (const std::int16_t id : shown) {
+    while (a != there.end() && *a < id) ++a;
+    if (a != there.end() && *a == id) ++both;
+  }
+  return static_cast<std::int64_t>(there.size() + shown.size()) - 2 * both;
+}
+
+}  // namespace
+
+void MeasureChanges(const Recording& recording, const Forms& forms, Measures* measures) {
+  if (!forms.change()) return;
+  measures->topology_lag_s =
+      static_cast<double>(LongestLag(recording)) * TickSeconds(recording);
+  std::map<int, std::vector<const View*>> by_form;
+  for (const auto& [peer, views] : recording.views) {
+    for (const auto& [tick, view] : views) by_form[forms.Key(view.topology)].push_back(&view);
+  }
+  std::int64_t lost = 0;
+  for (const auto& [key, views] : by_form) {
+    const auto form = forms.At(key);
+    for (const View* view : views) lost += Differing(form->ids, view->id);
+  }
+  measures->lost = lost;
+}
+
+}  // namespace seam

@@ -1,0 +1,132 @@
+#include "common/measure/forms.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+#include "common/measure/pose.h"
+#include "common/physics/mass.h"
+#include "common/sync/edit_order.h"
+
+namespace seam {
+namespace {
+
+/// Forms kept; one of a thousand parts takes half a megabyte. More are made again when needed.
+constexpr std::size_t kFormsMost = 64;
+/// A room has at most 8192 edits; a damaged number must not make a list of two thousand million.
+constexpr std::int32_t kNumbersMost = 65536;
+
+bool ChangesBodies(EditKind kind) {
+  return kind != EditKind::kNothing && kind != EditKind::kPush && kind != EditKind::kSeat;
+}
+
+}  // namespace
+
+Form::Form(Topology made) : topology(std::move(made)), moving(MovingIndices(composition())) {
+  for (const Assembly& assembly : composition().assemblies) {
+    if (!assembly.anchored) ids.push_back(assembly.id);
+  }
+}
+
+int Form::AssemblyOf(PartId part) const {
+  const std::vector<int>& all = composition().assembly_of_part;
+  const bool known = part >= 0 && static_cast<std::size_t>(part) < all.size();
+  return known ? all[static_cast<std::size_t>(part)] : -1;
+}
+
+BodyState StateOfPart(const Scene& scene, const Assembly& assembly, PartId part,
+                      const BodyState& body) {
+  if (part == assembly.id) return body;
+  const Part& own = scene.parts[static_cast<std::size_t>(part)];
+  const Part& root = scene.parts[static_cast<std::size_t>(assembly.id)];
+  const Eigen::Vector2d place = ToRootFrame(own, root, Eigen::Vector2d(0, 0));
+  BodyState state = body;
+  state.position = Pose(body).ToWorld(place).cast<float>();
+  state.angle = static_cast<float>(double{body.angle} + double{own.angle} - double{root.angle});
+  return state;
+}
+
+Forms::Forms(const Scene& scene, std::vector<Edit> edits) : edits_(std::move(edits)) {
+  keys_.push_back(0);
+  for (std::size_t n = 0; n < edits_.size(); ++n) {
+    keys_.push_back(ChangesBodies(edits_[n].kind) ? static_cast<int>(n) + 1 : keys_.back());
+  }
+  forms_[0] = std::make_shared<const Form>(Topology(scene));
+}
+
+Forms::Forms(const Scene& scene, const Recording& recording) : Forms(scene, EditsOf(recording)) {}
+
+Forms::~Forms() = default;
+
+int Forms::Key(int edits) const {
+  const int last = static_cast<int>(keys_.size()) - 1;
+  return keys_[static_cast<std::size_t>(std::clamp(edits, 0, last))];
+}
+
+std::shared_ptr<const Form> Forms::At(int edits) const {
+  const int key = Key(edits);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  auto place = forms_.upper_bound(key);
+  --place;                                   // 0 is always there
+  if (place->first == key) return place->second;
+  Topology topology = place->second->topology;
+  topology.Apply({edits_.begin() + place->first, edits_.begin() + key});
+  auto made = std::make_shared<const Form>(std::move(topology));
+  forms_[key] = made;
+  if (forms_.size() > kFormsMost) {
+    auto farthest = std::next(forms_.begin());
+    if (std::abs(forms_.rbegin()->first - key) > std::abs(farthest->first - key)) {
+      farthest = std::prev(forms_.end());
+    }
+    forms_.erase(farthest);
+  }
+  return made;
+}
+
+bool Forms::SameBody(int edits_a, int edits_b, PartId id) const {
+  if (Key(edits_a) == Key(edits_b)) return true;
+  const auto a = At(edits_a), b = At(edits_b);
+  const int of_a = a->AssemblyOf(id), of_b = b->AssemblyOf(id);
+  if (of_a < 0 || of_b < 0) return false;
+  const Assembly& one = a->composition().assemblies[static_cast<std::size_t>(of_a)];
+  const Assembly& other = b->composition().assemblies[static_cast<std::size_t>(of_b)];
+  return one.id == other.id && one.anchored == other.anchored && one.parts == other.parts;
+}
+
+std::optional<BodyState> Forms::InView(const View& view, PartId part, std::size_t* index) const {
+  int i = IndexOf(view, part);
+  if (i >= 0) {
+    *index = static_cast<std::size_t>(i);
+    return StateIn(view, *index);
+  }
+  if (!change()) return std::nullopt;
+  const auto form = At(view.topology);
+  const int of = form->AssemblyOf(part);
+  if (of < 0) return std::nullopt;
+  const Assembly& assembly = form->composition().assemblies[static_cast<std::size_t>(of)];
+  i = IndexOf(view, assembly.id);
+  if (i < 0) return std::nullopt;
+  *index = static_cast<std::size_t>(i);
+  return StateOfPart(form->scene(), assembly, part, StateIn(view, *index));
+}
+
+std::vector<Edit> EditsOf(const Recording& recording) {
+  std::vector<Edit> edits;
+  for (const auto& [number, order] : recording.edits) {
+    if (number < 0 || number >= kNumbersMost) continue;
+    edits.resize(static_cast<std::size_t>(number) + 1);
+    edits.back() = ToEdit(order);
+  }
+  return edits;
+}
+
+int IndexOf(const View& view, PartId id) {
+  const auto found = std::lower_bound(view.id.begin(), view.id.end(), id);
+  if (found == view.id.end() || *found != id) return -1;
+  return static_cast<int>(found - view.id.begin());
+}
+
+BodyState StateIn(const View& view, std::size_t i) {
+  return BodyState{{view.x[i], view.y[i]}, view.angle[i], {view.vx[i], view.vy[i]}, view.spin[i]};
+}
+
+}  // namespace seam

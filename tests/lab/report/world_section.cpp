@@ -1,0 +1,54 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "tests/lab/report/csv_table.h"
+#include "tests/lab/report/report.h"
+
+namespace seam {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// NAME.csv, and title and note from NAME.txt.
+TextTable LoadBench(const fs::path& csv_path) {
+  const CsvTable csv = CsvTable::Load(csv_path.string());
+  TextTable table;
+  table.name = "world-" + csv_path.stem().string();
+  table.title = csv_path.stem().string();
+  table.header = csv.header();
+  for (std::size_t row = 0; row < csv.rows(); ++row) {
+    std::vector<std::string> fields;
+    for (const std::string& column : table.header) fields.push_back(csv.Text(row, column));
+    table.rows.push_back(std::move(fields));
+  }
+  std::ifstream words(fs::path(csv_path).replace_extension(".txt"));
+  std::string line;
+  if (std::getline(words, line) && !line.empty()) table.title = line;
+  while (std::getline(words, line)) table.note += (table.note.empty() ? "" : " ") + line;
+  table.command = "seam-lab world " + csv_path.stem().string();
+  table.open = true;
+  return table;
+}
+
+}  // namespace
+
+Section WorldSection(const std::string& folder) {
+  Section section;
+  section.id = "world";
+  section.title = "What a scene may contain, beside its baseline";
+  section.intro =
+      "Each table is one run: the feature and what it is compared with take turns, and ratios are "
+      "medians over pairs of turns. Errors are against mathematics.";
+  std::vector<fs::path> files;
+  std::error_code error;
+  for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
+    if (i->path().extension() == ".csv") files.push_back(i->path());
+  }
+  std::sort(files.begin(), files.end());
+  for (const fs::path& file : files) section.items.emplace_back(LoadBench(file));
+  return section;
+}
+
+}  // namespace seam
