@@ -15,7 +15,7 @@ std::optional<Vec2> AnchorOn(const Viewport& viewport, const Playback& playback,
     return viewport.ToPx(Frame2(shown->pose)(anchor));
   }
   for (const BodyShapes& body : playback.anchored())
-    if (body.id == id) return viewport.ToPx(Frame2(body.start)(anchor));
+    if (body.id == id) return viewport.ToPx(Frame2(playback.Anchored(body, moment.tick))(anchor));
   return std::nullopt;
 }
 

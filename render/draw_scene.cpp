@@ -124,10 +124,12 @@ void DrawRegionNames(DrawList& list, const Viewport& viewport, const Playback& p
   }
 }
 
-void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playback, bool cull) {
+void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playback, double tick,
+                bool cull) {
   for (const BodyShapes& body : playback.anchored()) {
-    if (cull && !viewport.Sees(body.start.position, body.reach)) continue;
-    DrawBody(list, viewport, body, body.start, GroundLook());
+    const Pose pose = playback.Anchored(body, tick);
+    if (cull && !viewport.Sees(pose.position, body.reach)) continue;
+    DrawBody(list, viewport, body, pose, GroundLook());
   }
   if (playback.bricks() != nullptr) DrawBricks(list, viewport, *playback.bricks());
 }

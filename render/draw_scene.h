@@ -15,7 +15,9 @@ void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playb
 /// The extents of regions and buffer zones as named ribbons along the bottom, above everything.
 void DrawRegionNames(DrawList& list, const Viewport& viewport, const Playback& playback);
 
-void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playback, bool cull);
+/// All that is anchored, kinematic parts where they are at `tick`.
+void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playback, double tick,
+                bool cull);
 
 /// A bar of a round number of metres in the lower right corner.
 void DrawScaleBar(DrawList& list, const Viewport& viewport);

@@ -153,7 +153,7 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
   DrawRegions(list, viewport, playback);
   DrawGrid(list, viewport);
   DrawWaters(list, viewport, playback);
-  DrawGround(list, viewport, playback, look.cull);
+  DrawGround(list, viewport, playback, look.tick, look.cull);
   if (look.trails) DrawTrails(list, viewport, playback, look);
   const Moment now = playback.MomentAt(look.peer, look.tick);
   DrawRods(list, viewport, playback, now, 1);

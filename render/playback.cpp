@@ -59,6 +59,7 @@ void Playback::Prepare() {
   anchored_ = ShapesOf(scene_, composition, true);
   joints_ = JointsOf(scene_, composition);
   if (!scene_.bricks.empty()) bricks_ = std::make_shared<FeatherStore>(scene_.bricks);
+  imposed_.emplace(scene_, composition);
 }
 
 void Playback::MeasureErrors() {
@@ -146,6 +147,7 @@ std::string Playback::Label() const {
 
 Moment Playback::MomentAt(int peer, double tick) const {
   Moment moment;
+  moment.tick = tick;
   const auto found = recording_->views.find(peer);
   if (found == recording_->views.end()) return moment;
   const auto& views = found->second;
@@ -184,6 +186,12 @@ std::optional<Pose> Playback::Truth(PartId id, double tick) const {
   const auto blend = static_cast<float>(tick - static_cast<double>(whole));
   const BodyState* after = blend > 0 ? oracle_->At(whole + 1, id) : nullptr;
   return after == nullptr ? pose : Blend(pose, {after->position, after->angle}, blend);
+}
+
+Pose Playback::Anchored(const BodyShapes& body, double tick) const {
+  if (body.imposed < 0) return body.start;
+  const BodyState now = imposed_->At(body.imposed, tick);
+  return {now.position, now.angle};
 }
 
 std::int32_t Playback::RoundTripUs(int peer, double tick) const {

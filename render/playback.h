@@ -10,6 +10,7 @@
 #include "common/measure/measure.h"
 #include "common/physics/assembly.h"
 #include "common/physics/feather_store.h"
+#include "common/physics/kinematic.h"
 #include "common/physics/scene.h"
 #include "common/record/recording.h"
 #include "render/shapes.h"
@@ -28,6 +29,7 @@ struct Moment {
   const View* before = nullptr;   ///< nullptr: this peer showed nothing yet
   const View* after = nullptr;
   float blend = 0;                ///< 0 at before, 1 at after
+  double tick = 0;                ///< what was asked for
 };
 
 /// Poses are interpolated between the views on either side, never extrapolated: where a view is
@@ -72,6 +74,8 @@ class Playback {
   Moment MomentAt(int peer, double tick) const;
   std::optional<Shown> Find(const Moment& moment, PartId id) const;
   std::optional<Pose> Truth(PartId id, double tick) const;
+  /// Where an anchored body is: at its start, unless it is kinematic.
+  Pose Anchored(const BodyShapes& body, double tick) const;
   /// Round trip as `peer` last reported it by `tick`, µs; -1 unknown. Peer 0 has none of its own:
   /// the greatest of its clients' is taken.
   std::int32_t RoundTripUs(int peer, double tick) const;
@@ -99,6 +103,7 @@ class Playback {
   std::vector<BodyShapes> moving_, anchored_;
   std::vector<DrawnJoint> joints_;
   std::shared_ptr<const FeatherStore> bricks_;
+  std::optional<ImposedMotions> imposed_;
   std::map<int, int> player_of_peer_;
   std::optional<Measures> measures_;
   std::map<int, std::vector<double>> errors_;   // by peer; -1: all

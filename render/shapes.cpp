@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace seam {
 namespace {
@@ -69,12 +70,14 @@ Frame2::Frame2(const Pose& pose)
 std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composition,
                                  bool anchored) {
   std::vector<BodyShapes> bodies;
+  int moved = 0;
   for (const Assembly& assembly : composition.assemblies) {
     if (assembly.anchored != anchored) continue;
     BodyShapes body;
     body.id = assembly.id;
     body.parts = assembly.parts;
     body.start = PoseOf(PartOf(scene, assembly.id));
+    if (assembly.kinematic >= 0) body.imposed = moved++;
     for (PartId id : assembly.parts) {
       body.outlines.push_back(OutlineOf(PartOf(scene, id), body.start));
       const Outline& outline = body.outlines.back();
@@ -97,8 +100,9 @@ std::vector<DrawnJoint> JointsOf(const Scene& scene, const Composition& composit
     return composition.assemblies.at(static_cast<std::size_t>(index));
   };
   for (const Joint& joint : scene.joints) {
-    const bool rigid = joint.kind == JointKind::kWeld || joint.kind == JointKind::kGlue;
-    if (joint.gone || rigid) continue;
+    const bool bond = joint.kind == JointKind::kWeld || joint.kind == JointKind::kGlue;
+    const bool unseen = joint.kind == JointKind::kMotor || joint.kind == JointKind::kKinematic;
+    if (joint.gone || bond || unseen) continue;
     const Assembly& a = assembly_of(joint.a);
     const Assembly& b = assembly_of(joint.b);
     DrawnJoint drawn;
@@ -108,7 +112,12 @@ std::vector<DrawnJoint> JointsOf(const Scene& scene, const Composition& composit
     drawn.b_anchored = b.anchored;
     drawn.anchor_a = Into(PoseOf(PartOf(scene, a.id)), joint.anchor_a);
     drawn.anchor_b = Into(PoseOf(PartOf(scene, b.id)), joint.anchor_b);
-    drawn.rod = joint.kind == JointKind::kDistance;
+    drawn.rod = joint.kind == JointKind::kDistance || joint.kind == JointKind::kRope;
+    if (joint.kind == JointKind::kPrismatic) {   // what slides carries the pin
+      std::swap(drawn.a, drawn.b);
+      std::swap(drawn.anchor_a, drawn.anchor_b);
+      std::swap(drawn.a_anchored, drawn.b_anchored);
+    }
     joints.push_back(drawn);
   }
   return joints;

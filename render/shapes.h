@@ -40,6 +40,7 @@ struct BodyShapes {
   float reach = 0;             ///< m: nothing of it is further from the root
   bool round = false;          ///< a circle about its root: its outline does not show its angle
   Pose start;                  ///< of the root part at tick 0
+  int imposed = -1;            ///< anchored, but moved: index into the scene's ImposedMotions
   int owner_player = -1;       ///< the player whose vehicle belongs to it, -1: none
 };
 
@@ -48,12 +49,12 @@ struct DrawnJoint {
   PartId a = 0, b = 0;         ///< assembly ids
   Vec2 anchor_a{0, 0}, anchor_b{0, 0};
   bool a_anchored = false, b_anchored = false;
-  bool rod = false;            ///< distance joint: a line; else a pin
+  bool rod = false;            ///< distance joint or rope: a line; else a pin at a's anchor
 };
 
 std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composition,
                                  bool anchored);
-/// All joints but welds.
+/// All joints that hold two bodies at a point, an axis or a length.
 std::vector<DrawnJoint> JointsOf(const Scene& scene, const Composition& composition);
 
 }  // namespace seam

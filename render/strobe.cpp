@@ -76,7 +76,7 @@ void DrawPanel(DrawList& list, const Rect& area, const Playback& playback, int p
   DrawRegions(list, viewport, playback);
   DrawGrid(list, viewport);
   DrawWaters(list, viewport, playback);
-  DrawGround(list, viewport, playback, true);
+  DrawGround(list, viewport, playback, playback.TickAt(times.back()), true);
   for (std::size_t i = 0; i < times.size(); ++i)
     DrawExposure(list, viewport, playback, peer, times, i);
   DrawSurfaces(list, viewport, playback);

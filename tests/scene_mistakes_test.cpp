@@ -49,6 +49,9 @@ struct Mistake {
   "[[joint]]\nname = \"j\"\nkind = \"" kind "\"\na = \"ground\"\nb = \"crate\"\n" line_16 "\n"
 #define BRICKS(line_14) "[[bricks]]\nname = \"b\"\n" line_14 "\n"
 #define TOWERS(sizes) "towers = {count = 2, pitch = 16, " sizes "}"
+/// A kinematic joint from line 12; line 16 is the mistake.
+#define KINEMATIC(part, line_16) \
+  "[[joint]]\nname = \"j\"\nkind = \"kinematic\"\nb = \"" part "\"\n" line_16 "\n"
 #define PLAYER(line_14) "[[player]]\nname = \"bob\"\n" line_14 "\n"
 
 const Mistake kMistakes[] = {
@@ -148,7 +151,7 @@ const Mistake kMistakes[] = {
     {"", PART("chain = [[0, 0], [0.005, 0], [1, 0]]"), 14, "points 1 and 2 are closer"},
     // Joints
     {"", "[[joint]]\nkind = \"weld\"\n", 12, "name is missing"},
-    {"", JOINT("rope", ""), 14, "kind must be weld, glue, revolute, wheel or distance"},
+    {"", JOINT("string", ""), 14, "kind must be one of weld, glue, hinge, revolute"},
     {"", "[[joint]]\nname = \"j\"\nkind = \"weld\"\na = \"crate\"\nb = \"nobody\"\n", 16,
      "there is no part 'nobody'"},
     {"", "[[joint]]\nname = \"j\"\nkind = \"weld\"\na = \"crate\"\n", 12, "b is missing"},
@@ -177,6 +180,33 @@ const Mistake kMistakes[] = {
     {"bounds = [[-2000, -10], [2000, 10]]",
      PART("circle = 0.1\nposition = [1500, 0]") "[[joint]]\nname = \"w\"\nkind = \"weld\"\n"
          "a = \"crate\"\nb = \"p\"\n", 12, "over more than 1000 m"},
+    {"", JOINT("prismatic", "motor = {speed = 1, torque = 1}"), 17, "unknown key 'torque'"},
+    {"", JOINT("prismatic", "motor = {speed = 1, force = 1, axis = \"lift\"}"), 17,
+     "an axis needs a player"},
+    {"", JOINT("hinge", "motor = {player = \"ann\", axis = \"up\", speed = 1, torque = 1}"), 17,
+     "axis must be 'drive' or 'lift'"},
+    {"", JOINT("hinge", "limits = [-200, 0]"), 17, "from -100 to 100"},
+    {"", JOINT("distance", "limits = [0, 2]"), 17, "from 0.02 to 10000"},
+    {"", JOINT("rope", "frequency = 2"), 17, "a rope joint has no frequency"},
+    {"", JOINT("weld", "collide = true"), 17, "a rigid weld joint has no collide"},
+    {"", JOINT("weld", "strength = 3"), 17, "a weld joint has no strength"},
+    {"", JOINT("glue", "strength = -1"), 17, "strength must be a number from 0 to"},
+    {"", JOINT("glue", "frequency = 1"), 17, "a glue joint has no frequency"},
+    {"", JOINT("motor", "force = 5"), 12, "torque is missing"},
+    {"", JOINT("motor", "force = -5\ntorque = 1"), 17, "force must be a number from 0"},
+    {"", JOINT("motor", "force = 5\ntorque = 1\nfollow = {reach = [0, 1]}"), 19,
+     "player is missing"},
+    {"", JOINT("kinematic", "turning = 1"), 15, "a kinematic joint has no a"},
+    {"", KINEMATIC("crate", "turning = 1"), 12, "'crate' is not anchored"},
+    {"", KINEMATIC("ground", ""), 12, "needs a path or a turning"},
+    {"", KINEMATIC("ground", "turning = 95"), 16, "from -94 to 94"},
+    {"", KINEMATIC("ground", "turning = 1\nperiod = 1"), 17, "a period needs a path"},
+    {"", KINEMATIC("ground", "path = [[0, 0], [1, 0]]"), 12, "period is missing"},
+    {"", KINEMATIC("ground", "path = [[1, 0], [1, 0]]\nperiod = 1"), 16, "leads nowhere"},
+    {"", KINEMATIC("ground", "path = [[0, 0], [90, 0]]\nperiod = 1"), 17,
+     "at 180 m/s, beyond the speed_limit"},
+    {"", KINEMATIC("ground", "turning = 1") "[[joint]]\nname = \"l\"\nkind = \"kinematic\"\n"
+         "b = \"ground\"\nturning = 1\n", 12, "'l' moves the same assembly"},
     // Players
     {"", "[[player]]\n", 12, "name is missing"},
     {"", "[[player]]\nname = \"ann\"\n", 13, "another player of this name"},

@@ -41,9 +41,11 @@ class Budget {
  public:
   Budget(const Oracle& oracle, const EnergyMeter& meter, double h)
       : first_tick_(oracle.first_tick), reach_(std::llround(kEnergyWindow / h)) {
+    std::int64_t tick = oracle.first_tick - 1;
     for (const Bodies& states : oracle.ticks) {
+      ++tick;
       energies_.push_back(states.empty() ? std::nullopt
-                                         : std::optional<double>(meter.Of(states)));
+                                         : std::optional<double>(meter.Of(states, tick)));
     }
   }
   /// The greatest within the window around a tick that the oracle has.
@@ -85,17 +87,17 @@ void MeasureDisplayed(const Recording& recording, const Oracle& oracle, const Sc
     const Bodies& states = oracle.ticks[row];
     if (states.empty()) continue;
     const std::int64_t tick = oracle.first_tick + static_cast<std::int64_t>(row);
-    if (tick % every == 0) Raise(&measures->oracle_penetration_m, overlap.Deepest(states));
-    if (jointed) Raise(&measures->oracle_joint_drift_m, joints.Worst(states));
+    if (tick % every == 0) Raise(&measures->oracle_penetration_m, overlap.Deepest(states, tick));
+    if (jointed) Raise(&measures->oracle_joint_drift_m, joints.Worst(states, tick));
   }
   for (const auto& [peer, views] : recording.views) {
     for (const auto& [tick, view] : views) {
       const std::optional<Bodies> states = StatesOf(view, ids);
       if (!states) continue;
-      if (tick % every == 0) Raise(&measures->penetration_m, overlap.Deepest(*states));
-      if (jointed) Raise(&measures->joint_drift_m, joints.Worst(*states));
+      if (tick % every == 0) Raise(&measures->penetration_m, overlap.Deepest(*states, tick));
+      if (jointed) Raise(&measures->joint_drift_m, joints.Worst(*states, tick));
       const std::optional<double> due = budget.Around(tick);
-      if (due) Raise(&measures->energy_gain_j, std::max(0.0, energy.Of(*states) - *due));
+      if (due) Raise(&measures->energy_gain_j, std::max(0.0, energy.Of(*states, tick) - *due));
     }
   }
 }

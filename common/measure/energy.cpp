@@ -15,20 +15,26 @@ constexpr double kTurn = 6.283185307179586;   // rad
 }  // namespace
 
 EnergyMeter::EnergyMeter(const Scene& scene, const Composition& composition)
-    : waters_(scene.waters), gravity_(scene.gravity.cast<double>()) {
+    : waters_(scene.waters),
+      gravity_(scene.gravity.cast<double>()),
+      imposed_(scene, composition) {
   for (const Assembly& assembly : composition.assemblies) {
     if (assembly.anchored) continue;
     masses_.push_back(AssemblyProperties(scene, assembly));
     if (!waters_.empty()) wet_shapes_.push_back(WetShapeOf(scene, assembly));
   }
-  const auto mass = [&](const JointEnd& end) {
-    return end.moving < 0 ? 0 : masses_[static_cast<std::size_t>(end.moving)].mass;
+  // Of a side, kg, or about its origin, kg m^2; 0 for one that nothing moves.
+  const auto load = [&](const JointEnd& end, bool turns) {
+    if (end.moving < 0 || end.moving >= static_cast<int>(masses_.size())) return 0.0;
+    const MassProperties& own = masses_[static_cast<std::size_t>(end.moving)];
+    return turns ? own.inertia + own.mass * own.centre.squaredNorm() : own.mass;
   };
   for (const JointEnds& ends : FindJointEnds(scene, composition)) {
-    const bool sprung = ends.kind == JointKind::kWheel || ends.kind == JointKind::kDistance;
-    if (!sprung || ends.frequency_hz <= 0) continue;
-    // As b2LinearStiffness: of the reduced mass, where an anchored side weighs endlessly.
-    const double a = mass(ends.a), b = mass(ends.b);
+    if (ends.frequency_hz <= 0) continue;
+    // As b2LinearStiffness and b2AngularStiffness: of the reduced mass or moment, where an anchored
+    // side weighs endlessly.
+    const bool turns = ends.kind == JointKind::kWeld;
+    const double a = load(ends.a, turns), b = load(ends.b, turns);
     const double reduced = a > 0 && b > 0 ? a * b / (a + b) : a + b;
     const double omega = kTurn * ends.frequency_hz;
     springs_.push_back({ends, reduced * omega * omega});
@@ -54,7 +60,20 @@ double EnergyMeter::InWater(const std::vector<BodyState>& moving) const {
   return energy;
 }
 
-double EnergyMeter::Of(const std::vector<BodyState>& moving) const {
+double EnergyMeter::Stretch(const Spring& spring, const std::vector<BodyState>& states) const {
+  const JointEnds& ends = spring.ends;
+  if (ends.kind == JointKind::kWeld) {
+    const auto angle = [&](const JointEnd& end) {
+      return end.moving < 0 ? 0 : double{states[static_cast<std::size_t>(end.moving)].angle};
+    };
+    return angle(ends.b) - angle(ends.a) - ends.angle;
+  }
+  const Eigen::Vector2d apart = ends.b.PointNow(states) - ends.a.PointNow(states);
+  return ends.kind == JointKind::kWheel ? apart.dot(ends.a.AxisNow(states))
+                                        : apart.norm() - ends.length;
+}
+
+double EnergyMeter::Of(const std::vector<BodyState>& moving, std::int64_t tick) const {
   SEAM_ASSERT(moving.size() == masses_.size());
   if (!std::all_of(moving.begin(), moving.end(), IsFinite)) {
     return std::numeric_limits<double>::infinity();
@@ -67,12 +86,10 @@ double EnergyMeter::Of(const std::vector<BodyState>& moving) const {
     energy += masses_[i].inertia * spin * spin / 2;
     energy -= masses_[i].mass * gravity_.dot(Pose(state).ToWorld(masses_[i].centre));
   }
+  if (springs_.empty()) return energy;
+  const std::vector<BodyState> states = AllStates(moving, imposed_, tick);
   for (const Spring& spring : springs_) {
-    const Eigen::Vector2d apart =
-        spring.ends.b.PointNow(moving) - spring.ends.a.PointNow(moving);
-    const double stretch = spring.ends.kind == JointKind::kWheel
-                               ? apart.dot(spring.ends.a.AxisNow(moving))
-                               : apart.norm() - spring.ends.length;
+    const double stretch = Stretch(spring, states);
     energy += spring.stiffness * stretch * stretch / 2;
   }
   return energy;

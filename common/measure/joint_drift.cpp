@@ -1,35 +1,57 @@
 #include "common/measure/joint_drift.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace seam {
 namespace {
 
-double Drift(const JointEnds& joint, const std::vector<BodyState>& moving) {
-  const Eigen::Vector2d apart = joint.b.PointNow(moving) - joint.a.PointNow(moving);
+/// How far a value is outside of its limits.
+double Beyond(double value, double lower, double upper) {
+  return std::max({0.0, lower - value, value - upper});
+}
+
+/// Off the axis, and along it as far as that is not allowed.
+double AlongAxis(const JointEnds& joint, const Eigen::Vector2d& apart,
+                 const Eigen::Vector2d& axis) {
+  const double off = std::abs(axis.x() * apart.y() - axis.y() * apart.x());
+  const bool free = joint.kind == JointKind::kPrismatic || joint.frequency_hz > 0;
+  if (free && !joint.limited) return off;
+  const double along = axis.dot(apart);
+  return std::hypot(off, joint.limited ? Beyond(along, joint.lower, joint.upper) : along);
+}
+
+double Drift(const JointEnds& joint, const std::vector<BodyState>& states) {
+  const Eigen::Vector2d apart = joint.b.PointNow(states) - joint.a.PointNow(states);
   switch (joint.kind) {
     case JointKind::kGlue:
     case JointKind::kWeld:
+    case JointKind::kGlue:
     case JointKind::kRevolute: return apart.norm();
-    case JointKind::kWheel: {
-      if (joint.frequency_hz <= 0) return apart.norm();
-      const Eigen::Vector2d axis = joint.a.AxisNow(moving);
-      return std::abs(axis.x() * apart.y() - axis.y() * apart.x());
-    }
-    case JointKind::kDistance: break;
+    case JointKind::kWheel:
+    case JointKind::kPrismatic: return AlongAxis(joint, apart, joint.a.AxisNow(states));
+    case JointKind::kRope: return std::max(0.0, apart.norm() - joint.length);
+    case JointKind::kDistance:
+      if (joint.limited) return Beyond(apart.norm(), joint.lower, joint.upper);
+      return joint.frequency_hz > 0 ? 0 : std::abs(apart.norm() - joint.length);
+    case JointKind::kMotor:
+    case JointKind::kKinematic: break;
   }
-  return joint.frequency_hz > 0 ? 0 : std::abs(apart.norm() - joint.length);
+  return 0;
 }
 
 }  // namespace
 
-double JointMeter::Worst(const std::vector<BodyState>& moving) const {
+double JointMeter::Worst(const std::vector<BodyState>& moving, std::int64_t tick) const {
   if (!std::all_of(moving.begin(), moving.end(), IsFinite)) {
     return std::numeric_limits<double>::infinity();
   }
   double worst = 0;
-  for (const JointEnds& joint : joints_) worst = std::max(worst, Drift(joint, moving));
+  const std::vector<BodyState> all =
+      imposed_.count() > 0 ? AllStates(moving, imposed_, tick) : std::vector<BodyState>();
+  const std::vector<BodyState>& states = imposed_.count() > 0 ? all : moving;
+  for (const JointEnds& joint : joints_) worst = std::max(worst, Drift(joint, states));
   return worst;
 }
 

@@ -11,17 +11,19 @@ namespace seam {
 class JointMeter {
  public:
   JointMeter(const Scene& scene, const Composition& composition)
-      : joints_(FindJointEnds(scene, composition)) {}
+      : joints_(FindJointEnds(scene, composition)), imposed_(scene, composition) {}
 
-  /// m, >= 0: the worst of all joints. Revolute, and weld (only where welds are joints): how far
-  /// the anchors are apart; wheel: how far the anchor on `b` is off the axis through the anchor on
-  /// `a`, along the axis too if it has no spring; distance: how much longer or shorter it is than
-  /// its length, 0 for a spring. `moving`: of the moving assemblies ascending by id. Infinite when
-  /// a pose is not finite.
-  double Worst(const std::vector<BodyState>& moving) const;
+  /// m, >= 0: the worst of all joints. Revolute, and weld and glue where they are joints: how far
+  /// the anchors are apart; wheel and prismatic: how far the anchor on `b` is off the axis through
+  /// the anchor on `a`, or along it beyond the limits, and along it at all for a wheel with neither
+  /// spring nor limits; distance and rope: how much longer or shorter it is than it may be, 0 for a
+  /// spring without limits; motor: 0, since it yields. `moving`: of the moving assemblies ascending
+  /// by id. `tick`: where kinematic parts are. Infinite when a pose is not finite.
+  double Worst(const std::vector<BodyState>& moving, std::int64_t tick = 0) const;
 
  private:
   std::vector<JointEnds> joints_;
+  ImposedMotions imposed_;
 };
 
 }  // namespace seam

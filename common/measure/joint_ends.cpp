@@ -1,9 +1,25 @@
 #include "common/measure/joint_ends.h"
 
+#include <algorithm>
+
 namespace seam {
 
+std::vector<BodyState> AllStates(const std::vector<BodyState>& moving,
+                                 const ImposedMotions& imposed, std::int64_t tick) {
+  std::vector<BodyState> all = moving;
+  for (int i = 0; i < imposed.count(); ++i) {
+    all.push_back(imposed.At(i, static_cast<double>(tick)));
+  }
+  return all;
+}
+
 std::vector<JointEnds> FindJointEnds(const Scene& scene, const Composition& composition) {
-  const std::vector<int> moving = MovingIndices(composition);
+  std::vector<int> moving = MovingIndices(composition);
+  int next = 0;
+  for (const int index : moving) next = std::max(next, index + 1);
+  for (std::size_t i = 0; i < moving.size(); ++i) {
+    if (composition.assemblies[i].kinematic >= 0) moving[i] = next++;   // as AllStates counts
+  }
   const auto end = [&](PartId part, const Vec2& anchor, const Vec2& axis) {
     JointEnd e;
     e.assembly = composition.assembly_of_part[static_cast<std::size_t>(part)];
@@ -19,8 +35,7 @@ std::vector<JointEnds> FindJointEnds(const Scene& scene, const Composition& comp
   };
   std::vector<JointEnds> all;
   for (const Joint& joint : scene.joints) {
-    if (joint.gone || joint.kind == JointKind::kGlue) continue;
-    if (joint.kind == JointKind::kWeld && !scene.solver.weld_joints) continue;
+    if (joint.gone || IsRigid(joint, scene.solver)) continue;
     JointEnds ends;
     ends.kind = joint.kind;
     ends.a = end(joint.a, joint.anchor_a, joint.axis);
@@ -30,6 +45,15 @@ std::vector<JointEnds> FindJointEnds(const Scene& scene, const Composition& comp
                       ? double{joint.length}
                       : (joint.anchor_b - joint.anchor_a).cast<double>().norm();
     ends.frequency_hz = double{joint.frequency_hz};
+    // An end that stands still has the angle 0.
+    const auto angle = [&](const JointEnd& e) {
+      const PartId root = composition.assemblies[static_cast<std::size_t>(e.assembly)].id;
+      return e.moving < 0 ? 0 : double{scene.parts[static_cast<std::size_t>(root)].angle};
+    };
+    ends.angle = angle(ends.b) - angle(ends.a);
+    ends.limited = joint.limited;
+    ends.lower = double{joint.lower};
+    ends.upper = double{joint.upper};
     all.push_back(ends);
   }
   return all;

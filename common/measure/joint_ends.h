@@ -2,13 +2,14 @@
 /// The two points that a joint holds together, as its assemblies carry them.
 
 #include "common/measure/pose.h"
+#include "common/physics/kinematic.h"
 
 namespace seam {
 
 /// One end of a joint.
 struct JointEnd {
   int assembly = -1;                      ///< index into the composition's
-  int moving = -1;                        ///< index into the moving states; -1: anchored
+  int moving = -1;                        ///< index into AllStates; -1: anchored
   Eigen::Vector2d point{0, 0};            ///< m, in the root's frame; in the world if anchored
   Eigen::Vector2d axis{0, 1};             ///< unit, likewise
 
@@ -24,9 +25,16 @@ struct JointEnd {
 struct JointEnds {
   JointKind kind = JointKind::kRevolute;
   JointEnd a, b;
-  double length = 0;                      ///< m, of a distance joint
+  double length = 0;                      ///< m, of a distance joint or rope
   double frequency_hz = 0;                ///< of a spring; 0: rigid
+  double angle = 0;                       ///< rad, of b against a at tick 0
+  bool limited = false;
+  double lower = 0, upper = 0;            ///< m along a wheel's or prismatic's axis; m of length
 };
+
+/// The moving states, then those of the parts that move by the tick alone (ImposedMotions).
+std::vector<BodyState> AllStates(const std::vector<BodyState>& moving,
+                                 const ImposedMotions& imposed, std::int64_t tick);
 
 /// All of them, in the scene's order.
 std::vector<JointEnds> FindJointEnds(const Scene& scene, const Composition& composition);

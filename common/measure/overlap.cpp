@@ -44,7 +44,8 @@ struct OverlapMeter::Placed {
   }
 };
 
-OverlapMeter::OverlapMeter(const Scene& scene, const Composition& composition) {
+OverlapMeter::OverlapMeter(const Scene& scene, const Composition& composition)
+    : imposed_(scene, composition) {
   const std::vector<int> moving = MovingIndices(composition);
   for (std::size_t i = 0; i < composition.assemblies.size(); ++i) {
     const Assembly& assembly = composition.assemblies[i];
@@ -58,8 +59,7 @@ OverlapMeter::OverlapMeter(const Scene& scene, const Composition& composition) {
     if (joint.gone) continue;
     const int a = composition.assembly_of_part[static_cast<std::size_t>(joint.a)];
     const int b = composition.assembly_of_part[static_cast<std::size_t>(joint.b)];
-    const bool rigid = joint.kind == JointKind::kWeld || joint.kind == JointKind::kGlue;
-    const bool collide = joint.collide && !rigid;
+    const bool collide = joint.collide || joint.kind == JointKind::kKinematic;
     if (!collide) joined_.push_back(Ordered(a, b));
   }
   std::sort(joined_.begin(), joined_.end());
@@ -67,11 +67,13 @@ OverlapMeter::OverlapMeter(const Scene& scene, const Composition& composition) {
 
 void OverlapMeter::AddPart(const Part& part, const Part& root, int assembly, int moving) {
   std::vector<Vector2d> corners = Corners(part);
+  const int imposed = imposed_.IndexOf(assembly);
   for (Vector2d& corner : corners) {
     corner = ToRootFrame(part, root, corner);
-    if (moving < 0) corner = Pose(root).ToWorld(corner);
+    if (moving < 0 && imposed < 0) corner = Pose(root).ToWorld(corner);
   }
   Solid solid;
+  solid.imposed = imposed;
   solid.assembly = assembly;
   solid.moving = moving;
   solid.group = part.group;
@@ -142,12 +144,16 @@ std::vector<std::pair<int, int>> OverlapMeter::NearPairs(const Placed& placed) c
   return pairs;
 }
 
-double OverlapMeter::Deepest(const std::vector<BodyState>& moving) const {
+double OverlapMeter::Deepest(const std::vector<BodyState>& moving, std::int64_t tick) const {
   SEAM_ASSERT(moving.size() == moving_count_);
   std::vector<Pose> poses;
   for (const BodyState& state : moving) {
     if (!IsFinite(state)) return kFar;
     poses.emplace_back(state);
+  }
+  std::vector<Pose> imposed;
+  for (int i = 0; i < imposed_.count(); ++i) {
+    imposed.emplace_back(imposed_.At(i, static_cast<double>(tick)));
   }
   Placed placed{corners_, std::vector<Vector2d>(solids_.size()),
                 std::vector<Vector2d>(solids_.size())};
@@ -160,6 +166,8 @@ double OverlapMeter::Deepest(const std::vector<BodyState>& moving) const {
       Vector2d& corner = placed.corners[static_cast<std::size_t>(k)];
       if (solid.moving >= 0) {
         corner = poses[static_cast<std::size_t>(solid.moving)].ToWorld(corner);
+      } else if (solid.imposed >= 0) {
+        corner = imposed[static_cast<std::size_t>(solid.imposed)].ToWorld(corner);
       }
       placed.min[i] = placed.min[i].cwiseMin(corner - Vector2d::Constant(margin));
       placed.max[i] = placed.max[i].cwiseMax(corner + Vector2d::Constant(margin));

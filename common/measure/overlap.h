@@ -7,6 +7,7 @@
 
 #include "common/measure/convex.h"
 #include "common/physics/assembly.h"
+#include "common/physics/kinematic.h"
 
 namespace seam {
 
@@ -16,15 +17,16 @@ class OverlapMeter {
 
   /// m, >= 0: the deepest overlap of any two parts that may collide: not of one assembly, not both
   /// anchored, not of one negative group, not of assemblies joined by a joint without `collide`.
-  /// `moving`: of the moving assemblies ascending by id, as World::Read(0..body_count-1). Infinite
-  /// when a pose is not finite.
-  double Deepest(const std::vector<BodyState>& moving) const;
+  /// `moving`: of the moving assemblies ascending by id, as World::Read(0..body_count-1). `tick`:
+  /// where kinematic parts are. Infinite when a pose is not finite.
+  double Deepest(const std::vector<BodyState>& moving, std::int64_t tick = 0) const;
 
  private:
   /// A part, or one edge of a chain.
   struct Solid {
     int assembly = 0;                 // index into the composition's
     int moving = -1;                  // index into the states; -1: anchored
+    int imposed = -1;                 // anchored, but moved: index into imposed_
     int group = 0;
     int first = 0, count = 0;         // its corners
     double radius = 0;                // m
@@ -37,8 +39,9 @@ class OverlapMeter {
   /// The pairs whose bounding boxes overlap and that may collide; in each, the first one moves.
   std::vector<std::pair<int, int>> NearPairs(const Placed& placed) const;
 
+  ImposedMotions imposed_;
   std::vector<Solid> solids_;
-  std::vector<Eigen::Vector2d> corners_;   // of moving parts in the root's frame, else in the world
+  std::vector<Eigen::Vector2d> corners_;   // of what moves in the root's frame, else in the world
   std::vector<TerrainEdge> edges_;
   std::vector<std::pair<int, int>> joined_;   // pairs of assemblies, the lower first; sorted
   std::size_t moving_count_ = 0;

@@ -34,9 +34,7 @@ class Sets {
 std::vector<Assembly> WeldParts(const Scene& scene) {
   Sets sets(scene.parts.size());
   for (const Joint& joint : scene.joints) {
-    if (joint.gone) continue;
-    const bool weld = joint.kind == JointKind::kWeld && !scene.solver.weld_joints;
-    if (weld || joint.kind == JointKind::kGlue) sets.Unite(joint.a, joint.b);
+    if (!joint.gone && IsRigid(joint, scene.solver)) sets.Unite(joint.a, joint.b);
   }
   std::map<int, Assembly> welded;
   for (const Part& part : scene.parts) {
@@ -143,6 +141,14 @@ Composition Compose(const Scene& scene) {
     }
   }
   JoinAssemblies(scene, &composition);
+  for (std::size_t i = 0; i < scene.joints.size(); ++i) {
+    if (scene.joints[i].gone || scene.joints[i].kind != JointKind::kKinematic) continue;
+    const auto part = static_cast<std::size_t>(scene.joints[i].b);
+    const auto assembly = static_cast<std::size_t>(composition.assembly_of_part[part]);
+    if (composition.assembly_of_part[part] < 0) continue;
+    Assembly& moved = composition.assemblies[assembly];
+    if (moved.anchored) moved.kinematic = static_cast<int>(i);
+  }
   composition.hash = HashOf(composition);
   return composition;
 }

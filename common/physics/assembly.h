@@ -15,6 +15,7 @@ struct Assembly {
   bool anchored = false;            ///< a member is anchored: never moves
   std::vector<PartId> parts;        ///< ascending
   int mechanism = -1;               ///< index into Composition::mechanisms; -1 when anchored
+  int kinematic = -1;               ///< anchored, but moved by this joint (index); -1: stands still
 };
 
 /// Moving assemblies connected by non-rigid joints: never split between peers.
@@ -35,6 +36,13 @@ struct Composition {
 
 /// Mass of one part from its shape and density, kg; 0 for lines.
 float PartMass(const Part& part);
+
+/// Whether a joint, while it is there, makes its parts one body: glue, or a rigid weld unless the
+/// scene wants the engine's joints for those.
+inline bool IsRigid(const Joint& joint, const Solver& solver) {
+  if (joint.kind == JointKind::kGlue) return true;
+  return joint.kind == JointKind::kWeld && joint.frequency_hz <= 0 && !solver.weld_joints;
+}
 
 Composition Compose(const Scene& scene);
 

@@ -45,28 +45,39 @@ struct Part {
   int line = 0;                     ///< in the scene file
 };
 
-/// kGlue: one body, like a weld, until a force breaks it.
-enum class JointKind { kWeld, kRevolute, kWheel, kDistance, kGlue };
+enum class JointKind {
+  kWeld, kGlue, kRevolute, kWheel, kDistance, kRope, kPrismatic, kMotor, kKinematic
+};
 
 struct Joint {
   std::string name;
   JointKind kind = JointKind::kWeld;
-  PartId a = 0, b = 0;
+  PartId a = 0, b = 0;              ///< kKinematic: both the part that is moved
   Vec2 anchor_a{0, 0};              ///< world, at tick 0
-  Vec2 anchor_b{0, 0};              ///< world; same as anchor_a at first, unless kDistance
-  Vec2 axis{0, 1};                  ///< world, unit; kWheel: direction of the spring
-  float frequency_hz = 0;           ///< of a spring (wheel, distance); 0: rigid
+  Vec2 anchor_b{0, 0};              ///< world; same as anchor_a at first, unless kDistance, kRope
+  Vec2 axis{0, 1};                  ///< world, unit; kWheel: of the spring; kPrismatic: of motion
+  float frequency_hz = 0;           ///< of a spring (wheel, distance, weld); 0: rigid
   float damping_ratio = 0.7f;
-  float length = -1;                ///< kDistance: m; -1: as placed
-  bool limited = false;             ///< kRevolute
-  float lower = 0, upper = 0;       ///< rad
+  float length = -1;                ///< kDistance, kRope (the most): m; -1: as placed
+  bool limited = false;             ///< kRevolute, kWheel, kPrismatic, kDistance
+  float lower = 0, upper = 0;       ///< rad; wheel, prismatic: m from the start; distance: m
+  float strength = 0;               ///< kGlue: N, the force at which it breaks; 0: never
   bool collide = false;             ///< the joined bodies collide with each other
-  float strength = 0;               ///< kGlue: N that break it; 0: none does
   float turn = 0;                   ///< rad; by how much bonds have turned the place of b, less a's
   bool gone = false;                ///< broken or removed at run time
-  int motor_player = -1;            ///< whose `drive` turns the motor; -1: a constant motor
-  float motor_speed = 0;            ///< rad/s at full drive
-  float motor_torque = 0;           ///< N m, the most the motor can do; 0: no motor
+  int motor_player = -1;            ///< whose axis turns the motor; -1: a constant motor
+  InputAxis motor_axis = InputAxis::kDrive;
+  float motor_speed = 0;            ///< rad/s (kPrismatic: m/s) at full drive
+  float motor_torque = 0;           ///< N m (kPrismatic: N), the most it can do; 0: no motor
+  float force_max = 0;              ///< kMotor: N, with which it holds b's place in a's frame
+  float torque_max = 0;             ///< kMotor: N m, with which it holds b's angle against a's
+  Vec2 reach{0, 0};                 ///< kMotor: m, how far the player's full axis moves that place
+  float swing = 0;                  ///< kMotor: rad, and turns that angle
+  std::vector<Vec2> path;           ///< kKinematic: m from its place, visited in turn, for ever
+  double period_s = 0;              ///< kKinematic: of the whole path and back to its first point
+  double phase = 0;                 ///< kKinematic: share of the path that is behind it at tick 0
+  bool ease = false;                ///< kKinematic: it stands still for a moment at each point
+  float turning = 0;                ///< kKinematic: rad/s about the anchor
   int line = 0;
 };
 

@@ -35,7 +35,7 @@ void AddToScene(const std::string& text, Scene* scene) {
   }
   for (std::size_t j = joints; j < draft.scene.joints.size(); ++j) {
     const Joint& joint = draft.scene.joints[j];
-    const bool rigid = joint.kind == JointKind::kWeld || joint.kind == JointKind::kGlue;
+    const bool rigid = IsRigid(joint, draft.scene.solver) || joint.kind == JointKind::kKinematic;
     const int a = composition.assembly_of_part[static_cast<std::size_t>(joint.a)];
     const int b = composition.assembly_of_part[static_cast<std::size_t>(joint.b)];
     if (!rigid && a == b) root.Fail("joint '" + joint.name + "': its parts are welded together");

@@ -64,11 +64,19 @@ void CheckAssemblies(const Checked& c) {
 }
 
 void CheckJoints(const Checked& c) {
-  for (const Joint& joint : c.scene.joints) {
-    if (joint.kind == JointKind::kWeld || joint.kind == JointKind::kGlue) continue;
+  for (std::size_t i = 0; i < c.scene.joints.size(); ++i) {
+    const Joint& joint = c.scene.joints[i];
+    if (IsRigid(joint, c.scene.solver)) continue;
     const Assembly& a = c.assembly_of(joint.a);
     const Assembly& b = c.assembly_of(joint.b);
     const std::string name = "joint '" + joint.name + "': ";
+    if (joint.kind == JointKind::kKinematic) {
+      if (!b.anchored) c.Fail(joint.line, name + "'" + c.part(joint.b).name + "' is not anchored");
+      const int other = b.kinematic;
+      if (other == static_cast<int>(i)) continue;
+      const Joint& mover = c.scene.joints[static_cast<std::size_t>(other)];
+      c.Fail(joint.line, name + "'" + mover.name + "' moves the same assembly");
+    }
     if (a.id == b.id) c.Fail(joint.line, name + "its parts are welded together");
     if (a.anchored && b.anchored) c.Fail(joint.line, name + "both its parts are anchored");
   }

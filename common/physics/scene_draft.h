@@ -57,6 +57,9 @@ std::vector<PartId> FindParts(const SceneReader& reader, const char* key, const 
 int FindPlayer(const SceneReader& reader, const char* key, const std::string& name,
                const SceneDraft& draft);
 
+/// The player whose axis (`axis`, the drive unless said) something follows; -1 without `player`.
+int ReadFollowed(const SceneReader& r, const SceneDraft& draft, InputAxis* axis);
+
 /// Whole scenes: what only shows when everything is known (who is welded and joined to whom).
 /// Throws OperatorError.
 void CheckScene(const Scene& scene, const std::string& file);

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "common/physics/scene_draft.h"
@@ -6,34 +7,70 @@
 namespace seam {
 namespace {
 
-JointKind ReadKind(const SceneReader& r) {
-  const std::string kind = r.Text("kind");
-  if (kind == "weld") return JointKind::kWeld;
-  if (kind == "glue") return JointKind::kGlue;
-  if (kind == "revolute") return JointKind::kRevolute;
-  if (kind == "wheel") return JointKind::kWheel;
-  if (kind == "distance") return JointKind::kDistance;
-  r.FailAt("kind", "kind must be weld, glue, revolute, wheel or distance");
+/// What a kind of joint is called, and which keys it takes besides those of all.
+struct Kind {
+  const char* name;
+  JointKind kind;
+  std::vector<std::string> keys;
+};
+
+const std::vector<Kind>& Kinds() {
+  static const std::vector<Kind> kinds = {
+      {"weld", JointKind::kWeld, {"a", "anchor", "frequency", "damping_ratio", "collide"}},
+      {"glue", JointKind::kGlue, {"a", "anchor", "strength"}},
+      {"hinge", JointKind::kRevolute, {"a", "anchor", "limits", "motor", "collide"}},
+      {"revolute", JointKind::kRevolute, {"a", "anchor", "limits", "motor", "collide"}},
+      {"prismatic", JointKind::kPrismatic,
+       {"a", "anchor", "axis", "limits", "motor", "collide"}},
+      {"wheel", JointKind::kWheel,
+       {"a", "anchor", "axis", "frequency", "damping_ratio", "limits", "motor", "collide"}},
+      {"distance", JointKind::kDistance,
+       {"a", "anchor_a", "anchor_b", "length", "frequency", "damping_ratio", "limits", "collide"}},
+      {"rope", JointKind::kRope, {"a", "anchor_a", "anchor_b", "length", "collide"}},
+      {"motor", JointKind::kMotor, {"a", "force", "torque", "follow", "collide"}},
+      {"kinematic", JointKind::kKinematic,
+       {"anchor", "path", "period", "phase", "ease", "turning"}}};
+  return kinds;
 }
 
-/// Complains about a key that this kind of joint would ignore.
-void Refuse(const SceneReader& r, std::initializer_list<const char*> keys, const char* kind) {
-  for (const char* key : keys) {
-    if (r.Has(key)) r.FailAt(key, std::string("a ") + kind + " joint has no " + key);
+/// Complains about keys that this kind of joint would ignore.
+const Kind& ReadKind(const SceneReader& r) {
+  static const char* const kSome[] = {
+      "a", "anchor", "anchor_a", "anchor_b", "axis", "frequency", "damping_ratio", "length",
+      "limits", "collide", "motor", "strength", "force", "torque", "follow", "path", "period",
+      "phase", "ease", "turning", "local_a", "local_b", "reference_angle"};
+  const std::string name = r.Text("kind");
+  std::string all;
+  for (const Kind& kind : Kinds()) {
+    all += std::string(all.empty() ? "" : ", ") + kind.name;
+    if (name != kind.name) continue;
+    for (const char* key : kSome) {
+      const bool local = std::string(key).rfind("local_", 0) == 0 ||
+                         std::string(key) == "reference_angle";
+      const bool known = local ? kind.kind != JointKind::kKinematic
+                               : std::count(kind.keys.begin(), kind.keys.end(), key) > 0;
+      if (!known && r.Has(key)) r.FailAt(key, "a " + name + " joint has no " + key);
+    }
+    return kind;
   }
+  r.FailAt("kind", "kind must be one of " + all);
 }
 
+/// Hinge: rad; distance: m, of its length; else m from the start.
 void ReadLimits(const SceneReader& r, Joint* joint) {
   if (!r.Has("limits")) return;
-  const Vec2 limits = r.Vector("limits", {-100, 100});
+  const Range angles{-100, 100}, lengths{kEdgeMin, 10000}, shifts{-1000, 1000};
+  const Vec2 limits = r.Vector("limits", joint->kind == JointKind::kRevolute   ? angles
+                                         : joint->kind == JointKind::kDistance ? lengths
+                                                                               : shifts);
   joint->limited = true;
   joint->lower = limits.x();
   joint->upper = limits.y();
   if (joint->lower > joint->upper) r.FailAt("limits", "the lower limit is above the upper");
 }
 
-void ReadAxis(const SceneReader& r, Joint* joint) {
-  const Eigen::Vector2d axis = r.Vector("axis", {-1000, 1000}, Vec2(0, 1)).cast<double>();
+void ReadAxis(const SceneReader& r, const Vec2& fallback, Joint* joint) {
+  const Eigen::Vector2d axis = r.Vector("axis", {-1000, 1000}, fallback).cast<double>();
   const double length = std::sqrt(axis.x() * axis.x() + axis.y() * axis.y());
   if (length < 1e-3) r.FailAt("axis", "axis is too short to have a direction");
   joint->axis = (axis / length).cast<float>();
@@ -47,10 +84,49 @@ void ReadSpring(const SceneReader& r, Joint* joint) {
 void ReadMotor(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
   const TomlNode* table = r.Table("motor");
   if (table == nullptr) return;
-  const SceneReader m(*table, draft.file, r.what() + ": motor", {"player", "speed", "torque"});
+  const char* most = joint->kind == JointKind::kPrismatic ? "force" : "torque";
+  const SceneReader m(*table, draft.file, r.what() + ": motor", {"player", "axis", "speed", most});
   joint->motor_speed = m.Number("speed", {-1000, 1000});
-  joint->motor_torque = m.Number("torque", {1e-6, 1e7});
-  if (m.Has("player")) joint->motor_player = FindPlayer(m, "player", m.Text("player"), draft);
+  joint->motor_torque = m.Number(most, {1e-6, 1e7});
+  joint->motor_player = ReadFollowed(m, draft, &joint->motor_axis);
+}
+
+void ReadPoseMotor(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
+  joint->force_max = r.Number("force", {0, 1e7});
+  joint->torque_max = r.Number("torque", {0, 1e7});
+  const TomlNode* table = r.Table("follow");
+  if (table == nullptr) return;
+  const SceneReader f(*table, draft.file, r.what() + ": follow",
+                      {"player", "axis", "reach", "swing"});
+  joint->reach = f.Vector("reach", {-1000, 1000}, Vec2(0, 0));
+  joint->swing = f.Number("swing", {-100, 100}, 0.0f);
+  joint->motor_player = ReadFollowed(f, draft, &joint->motor_axis);
+  if (joint->motor_player < 0) f.Fail("player is missing");
+}
+
+/// The longest that a path may be travelled for, s: sessions count ticks for days.
+constexpr double kPeriodMax = 86400;
+
+void ReadKinematic(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
+  joint->turning = r.Number("turning", {-kSpinMax, kSpinMax}, 0.0f);
+  joint->ease = r.Flag("ease", false);
+  joint->phase = r.Seconds("phase", {0, 1}, 0.0);
+  joint->path = r.Points("path", kCoordinate, kPathPointsMax);
+  if (joint->path.empty()) {
+    if (joint->turning == 0) r.Fail("needs a path or a turning");
+    if (r.Has("period")) r.FailAt("period", "a period needs a path");
+    return;
+  }
+  joint->period_s = r.Seconds("period", {0.1, kPeriodMax});
+  double length = 0;
+  for (std::size_t i = 0; i < joint->path.size(); ++i) {
+    length += double{(joint->path[(i + 1) % joint->path.size()] - joint->path[i]).norm()};
+  }
+  if (length < double{kEdgeMin}) r.FailAt("path", "the path leads nowhere");
+  const double speed = length / joint->period_s * (joint->ease ? 1.5707963 : 1);
+  if (speed > double{draft.scene.speed_limit}) {
+    r.FailAt("period", "it would move at " + Decimal(speed) + " m/s, beyond the speed_limit");
+  }
 }
 
 /// Where the ends are: at the parts' positions unless said otherwise.
@@ -61,6 +137,7 @@ void ReadDistance(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
   joint->anchor_a = r.Vector("anchor_a", kCoordinate, position(joint->a));
   joint->anchor_b = r.Vector("anchor_b", kCoordinate, position(joint->b));
   ReadSpring(r, joint);
+  ReadLimits(r, joint);
   if (r.Has("length")) {
     joint->length = r.Number("length", {kEdgeMin, 10000});
   } else if ((joint->anchor_b - joint->anchor_a).norm() < kEdgeMin) {
@@ -137,57 +214,61 @@ void Copy(const SceneReader& r, const Joint& first, SceneDraft* draft) {
   }
 }
 
+/// What is the kind's own. Requires a, b and the anchors.
+void ReadDetails(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
+  switch (joint->kind) {
+    case JointKind::kWeld:
+      ReadSpring(r, joint);
+      if (joint->frequency_hz > 0) break;
+      for (const char* key : {"damping_ratio", "collide"}) {
+        if (r.Has(key)) r.FailAt(key, std::string("a rigid weld joint has no ") + key);
+      }
+      break;
+    case JointKind::kGlue: joint->strength = r.Number("strength", {0, 1e9}); break;
+    case JointKind::kRevolute:
+      ReadLimits(r, joint);
+      ReadMotor(r, draft, joint);
+      break;
+    case JointKind::kPrismatic:
+      ReadAxis(r, Vec2(1, 0), joint);
+      ReadLimits(r, joint);
+      ReadMotor(r, draft, joint);
+      break;
+    case JointKind::kWheel:
+      ReadAxis(r, Vec2(0, 1), joint);
+      ReadSpring(r, joint);
+      ReadLimits(r, joint);
+      ReadMotor(r, draft, joint);
+      break;
+    case JointKind::kDistance:
+    case JointKind::kRope: ReadDistance(r, draft, joint); break;
+    case JointKind::kMotor: ReadPoseMotor(r, draft, joint); break;
+    case JointKind::kKinematic: ReadKinematic(r, draft, joint); break;
+  }
+}
+
 void ReadJoint(const TomlNode& node, SceneDraft* draft) {
   Joint joint;
   joint.line = node.line;
   SceneReader r(node, draft->file, "joint",
                 {"name", "kind", "a", "b", "anchor", "anchor_a", "anchor_b", "axis", "frequency",
-                 "damping_ratio", "length", "limits", "collide", "motor", "repeat", "strength",
+                 "damping_ratio", "length", "limits", "collide", "motor", "strength", "force",
+                 "torque", "follow", "path", "period", "phase", "ease", "turning", "repeat",
                  "local_a", "local_b", "reference_angle"});
   joint.name = r.Name("name");
   r.Rename("joint '" + joint.name + "'");
-  joint.kind = ReadKind(r);
-  joint.a = FindPart(r, "a", *draft);
+  joint.kind = ReadKind(r).kind;
   joint.b = FindPart(r, "b", *draft);
-  if (joint.a == joint.b) r.Fail("joins a part with itself");
+  if (joint.kind == JointKind::kKinematic) {
+    joint.a = joint.b;
+  } else {
+    joint.a = FindPart(r, "a", *draft);
+    if (joint.a == joint.b) r.Fail("joins a part with itself");
+  }
   joint.collide = r.Flag("collide", false);
-
   const Vec2 centre = draft->scene.parts[static_cast<std::size_t>(joint.b)].position;
-  if (joint.kind != JointKind::kDistance) {
-    joint.anchor_a = joint.anchor_b = r.Vector("anchor", kCoordinate, centre);
-    Refuse(r, {"anchor_a", "anchor_b", "length"},
-           joint.kind == JointKind::kWeld       ? "weld"
-           : joint.kind == JointKind::kGlue     ? "glue"
-           : joint.kind == JointKind::kRevolute ? "revolute"
-                                                : "wheel");
-  }
-  switch (joint.kind) {
-    case JointKind::kWeld:
-      Refuse(r, {"axis", "frequency", "damping_ratio", "limits", "motor", "collide"}, "weld");
-      break;
-    case JointKind::kGlue:
-      Refuse(r, {"axis", "frequency", "damping_ratio", "limits", "motor", "collide"}, "glue");
-      joint.strength = r.Number("strength", {0, 1e9});
-      break;
-    case JointKind::kRevolute:
-      Refuse(r, {"axis", "frequency", "damping_ratio"}, "revolute");
-      ReadLimits(r, &joint);
-      ReadMotor(r, *draft, &joint);
-      break;
-    case JointKind::kWheel:
-      Refuse(r, {"limits"}, "wheel");
-      ReadAxis(r, &joint);
-      ReadSpring(r, &joint);
-      ReadMotor(r, *draft, &joint);
-      break;
-    case JointKind::kDistance:
-      Refuse(r, {"anchor", "axis", "limits", "motor"}, "distance");
-      ReadDistance(r, *draft, &joint);
-      break;
-  }
-  if (joint.kind != JointKind::kGlue && r.Has("strength")) {
-    r.FailAt("strength", "only glue has a strength");
-  }
+  joint.anchor_a = joint.anchor_b = r.Vector("anchor", kCoordinate, centre);
+  ReadDetails(r, *draft, &joint);
   ReadLocal(r, *draft, &joint);
   if (r.Has("repeat")) {
     Copy(r, joint, draft);
@@ -197,6 +278,17 @@ void ReadJoint(const TomlNode& node, SceneDraft* draft) {
 }
 
 }  // namespace
+
+int ReadFollowed(const SceneReader& r, const SceneDraft& draft, InputAxis* axis) {
+  if (!r.Has("player")) {
+    if (r.Has("axis")) r.FailAt("axis", "an axis needs a player");
+    return -1;
+  }
+  const std::string name = r.Text("axis", "drive");
+  if (name != "drive" && name != "lift") r.FailAt("axis", "axis must be 'drive' or 'lift'");
+  *axis = name == "lift" ? InputAxis::kLift : InputAxis::kDrive;
+  return FindPlayer(r, "player", r.Text("player"), draft);
+}
 
 void ReadJoints(const SceneReader& root, SceneDraft* draft) {
   for (const TomlNode* node : root.Tables("joint")) ReadJoint(*node, draft);

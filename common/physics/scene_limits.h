@@ -18,6 +18,8 @@ constexpr float kEdgeMin = 0.02f;
 constexpr float kAreaMin = 1e-3f, kConvexMin = 1e-3f;
 /// Points of a polygon and of a chain. The engine's polygons have 8: larger ones are cut.
 constexpr std::size_t kPolygonPointsMax = 64, kChainPointsMax = 2000;
+/// Points of a kinematic part's path.
+constexpr std::size_t kPathPointsMax = 200;
 /// kg/m^2; the engine's solver wants mass ratios that are not extreme.
 constexpr Range kDensity{0.01, 100};
 /// rad/s: a quarter turn a step at 60 Hz, the engine's own clamp.

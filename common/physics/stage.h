@@ -42,6 +42,8 @@ class Stage {
   virtual void Placed() {}
   /// Before the world is emptied: forget all pointers into it.
   virtual void Emptied() {}
+  /// The tick is another one than that after the last step: a peer joined late, or went back.
+  virtual void TickSet() {}
   /// Once before each tick, awake bodies or not: choose motor speeds, stream fixtures.
   virtual void BeforeTick() {}
   /// Before each of the engine's steps of `h` s: apply forces. Forces must not wake what sleeps

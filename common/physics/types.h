@@ -29,4 +29,13 @@ struct Input {
   }
 };
 
+/// Which of a player's axes something follows.
+enum class InputAxis { kDrive, kLift };
+
+/// How far an axis is pushed, -1..1.
+inline float ShareOf(const Input& input, InputAxis axis) {
+  const int value = axis == InputAxis::kDrive ? input.drive : input.lift;
+  return static_cast<float>(value < -127 ? -127 : value) / 127.0f;
+}
+
 }  // namespace seam

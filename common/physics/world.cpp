@@ -27,7 +27,10 @@ PartId World::id(int body) const { return impl_->moving(body).id; }
 int World::mechanism(int body) const { return impl_->moving(body).mechanism; }
 float World::mass(int body) const { return impl_->moving(body).mass.mass; }
 std::int64_t World::tick() const { return impl_->tick; }
-void World::SetTick(std::int64_t tick) { impl_->tick = tick; }
+void World::SetTick(std::int64_t tick) {
+  impl_->tick = tick;
+  for (const auto& stage : impl_->stages) stage->TickSet();
+}
 float World::dt() const { return 1.0f / static_cast<float>(impl_->scene.solver.tick_hz); }
 
 int World::BodyOfId(PartId assembly) const {
@@ -90,9 +93,8 @@ Motion World::motion(int body) const {
 }
 
 void World::SetInput(int player, const Input& input) {
-  const float share = static_cast<float>(std::max<int>(input.drive, -127)) / 127.0f;
-  for (const Motor& motor : impl_->built.motors) {
-    if (motor.player == player) motor.Drive(share);
+  for (Motor& motor : impl_->built.motors) {
+    if (motor.player == player) motor.Drive(ShareOf(input, motor.axis));
   }
   for (const auto& stage : impl_->stages) stage->SetInput(player, input);
 }

@@ -9,6 +9,7 @@
 #include "common/physics/assembly.h"
 #include "common/physics/mass.h"
 #include "common/physics/scene.h"
+#include "common/physics/world_joints.h"
 
 namespace seam {
 
@@ -23,26 +24,12 @@ struct MovingBody {
   b2MassData mass{};                  ///< about the body's origin
 };
 
-struct Motor {
-  b2Joint* joint = nullptr;           ///< wheel or revolute
-  bool wheel = false;
-  int player = -1;                    ///< -1: turns constantly
-  float speed = 0;                    ///< rad/s at full drive
-  int index = 0;                      ///< into Scene::joints
-
-  /// `share` of full drive, -1..1. Wakes the bodies if the speed changes.
-  void Drive(float share) const;
-  /// rad/s, as it is now.
-  float Speed() const;
-  void SetSpeed(float now) const;
-};
-
 struct BuiltScene {
   std::vector<b2Body*> bodies;        ///< by index into Composition::assemblies
   std::vector<MovingBody> moving;     ///< ascending by id
   std::vector<b2Joint*> joints;       ///< by index into Scene::joints; nullptr: one body
   std::vector<Motor> motors;
-  std::vector<b2DistanceJoint*> tethers;  ///< rigid, to something anchored
+  std::vector<b2DistanceJoint*> tethers;  ///< no springs, to something anchored
 };
 
 /// Index into BuiltScene::moving; -1 for anchored bodies.

@@ -22,6 +22,9 @@ bool Touching(const b2Contact* contact) {
 /// Cosine above which two directions count as one.
 constexpr float kSameDirection = 0.9f;
 
+/// A rope this much shorter than it may be is still taut, m.
+constexpr float kTaut = 0.01f;
+
 void AddBlock(int body, const Vec2& normal, std::vector<Block>* blocks) {
   int known = 0;
   for (const Block& block : *blocks) {
@@ -102,7 +105,9 @@ std::vector<Block> FindBlocks(const b2World& world, const std::vector<b2Distance
   for (b2DistanceJoint* tether : tethers) {
     const Vec2 along = FromB2(tether->GetAnchorB() - tether->GetAnchorA());
     const float length = along.norm();
-    if (length <= 0) continue;
+    const bool slack = tether->GetMinLength() < tether->GetMaxLength() &&
+                       length < tether->GetMaxLength() - kTaut;
+    if (length <= 0 || slack) continue;
     const int body = std::max(IndexOf(tether->GetBodyA()), IndexOf(tether->GetBodyB()));
     AddBlock(body, along / length, &blocks);
   }

@@ -40,6 +40,12 @@ SEAM_REVEAL(WheelUpper, float, b2WheelJoint, m_upperImpulse);
 SEAM_REVEAL(DistanceLine, float, b2DistanceJoint, m_impulse);
 SEAM_REVEAL(DistanceLower, float, b2DistanceJoint, m_lowerImpulse);
 SEAM_REVEAL(DistanceUpper, float, b2DistanceJoint, m_upperImpulse);
+SEAM_REVEAL(PrismaticLine, b2Vec2, b2PrismaticJoint, m_impulse);
+SEAM_REVEAL(PrismaticMotor, float, b2PrismaticJoint, m_motorImpulse);
+SEAM_REVEAL(PrismaticLower, float, b2PrismaticJoint, m_lowerImpulse);
+SEAM_REVEAL(PrismaticUpper, float, b2PrismaticJoint, m_upperImpulse);
+SEAM_REVEAL(MotorPoint, b2Vec2, b2MotorJoint, m_linearImpulse);
+SEAM_REVEAL(MotorTurn, float, b2MotorJoint, m_angularImpulse);
 SEAM_REVEAL(WeldAll, b2Vec3, b2WeldJoint, m_impulse);
 
 #undef SEAM_REVEAL
@@ -61,6 +67,17 @@ std::vector<float*> ImpulsesOf(b2Joint* joint) {
     auto& j = *static_cast<b2DistanceJoint*>(joint);
     return {&(j.*Member(DistanceLine())), &(j.*Member(DistanceLower())),
             &(j.*Member(DistanceUpper()))};
+  }
+  if (joint->GetType() == e_prismaticJoint) {
+    auto& j = *static_cast<b2PrismaticJoint*>(joint);
+    b2Vec2& line = j.*Member(PrismaticLine());
+    return {&line.x, &line.y, &(j.*Member(PrismaticMotor())), &(j.*Member(PrismaticLower())),
+            &(j.*Member(PrismaticUpper()))};
+  }
+  if (joint->GetType() == e_motorJoint) {
+    auto& j = *static_cast<b2MotorJoint*>(joint);
+    b2Vec2& point = j.*Member(MotorPoint());
+    return {&point.x, &point.y, &(j.*Member(MotorTurn()))};
   }
   SEAM_ASSERT(joint->GetType() == e_weldJoint);
   b2Vec3& all = static_cast<b2WeldJoint*>(joint)->*Member(WeldAll());
@@ -130,6 +147,7 @@ std::vector<float> World::Impl::Speeds() const {
 void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<bool>& kinematic,
                           const std::vector<float>& speeds) {
   Empty();
+  tick = snapshot.tick;   // stages put things where they are then
   // The engine scales the impulses it begins with by the ratio to its last step, which a new world
   // takes for 0: let it have had one.
   world->Step(step_s(), 1, 1);
@@ -137,7 +155,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<bool>
   SEAM_ASSERT(snapshot.bodies.size() == built.moving.size());
   Listen();
   for (const auto& stage : stages) stage->Rebuilt(&*world);
-  for (const Motor& motor : built.motors) {
+  for (Motor& motor : built.motors) {
     const auto index = static_cast<std::size_t>(motor.index);
     if (index < speeds.size()) motor.SetSpeed(speeds[index]);
   }
@@ -173,7 +191,6 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<bool>
     b->SetAwake(body.awake);
     b->*Member(SleepTime()) = body.quiet_s;
   }
-  tick = snapshot.tick;
   std::size_t taken = 0;
   if (!snapshot.stages.empty()) {
     for (const auto& stage : stages) taken += stage->Load(snapshot.stages.data() + taken);

@@ -62,8 +62,8 @@ class Meters {
   }
   void See(const World& world) {
     const std::vector<BodyState> states = ReadAll(world);
-    deepest_ = std::max(deepest_, overlap_.Deepest(states) - overlap_start_);
-    worst_ = std::max(worst_, joints_.Worst(states) - joints_start_);
+    deepest_ = std::max(deepest_, overlap_.Deepest(states, world.tick()) - overlap_start_);
+    worst_ = std::max(worst_, joints_.Worst(states, world.tick()) - joints_start_);
     const double energy = MechanicalEnergy(world.scene(), world.composition(), states);
     gain_ = std::max(gain_, energy - energy_start_);
   }

@@ -28,9 +28,8 @@ RawBox2d::RawBox2d(const Scene& scene) : impl_(std::make_unique<Impl>(scene)) {}
 RawBox2d::~RawBox2d() = default;
 
 void RawBox2d::SetInput(int player, const Input& input) {
-  const float share = static_cast<float>(std::max<int>(input.drive, -127)) / 127.0f;
-  for (const Motor& motor : impl_->built.motors) {
-    if (motor.player == player) motor.Drive(share);
+  for (Motor& motor : impl_->built.motors) {
+    if (motor.player == player) motor.Drive(ShareOf(input, motor.axis));
   }
 }
 
