@@ -62,6 +62,7 @@ TEST(SceneDocs, EveryKeyIsOnThePage) {
       {"", "## Top level"},         {"[solver]", "## `[solver]`"},
       {"[[part]]", "## `[[part]]`"}, {ball + "[[joint]]", "## `[[joint]]`"},
       {ball + "[[bricks]]", "## `[[bricks]]`"},
+      {ball + "[[thrust]]", "## `[[thrust]]`"},
       {ball + "[[water]]", "## `[[water]]`"},
       {"[[player]]", "## `[[player]]`"}, {ball + "[[watch]]", "## `[[watch]]`"},
       {ball + "[camera]", "## `[camera]`"}};

@@ -52,6 +52,7 @@ struct Mistake {
 /// A kinematic joint from line 12; line 16 is the mistake.
 #define KINEMATIC(part, line_16) \
   "[[joint]]\nname = \"j\"\nkind = \"kinematic\"\nb = \"" part "\"\n" line_16 "\n"
+#define THRUST(line_14) "[[thrust]]\nname = \"t\"\n" line_14 "\n"
 #define PLAYER(line_14) "[[player]]\nname = \"bob\"\n" line_14 "\n"
 
 const Mistake kMistakes[] = {
@@ -207,6 +208,20 @@ const Mistake kMistakes[] = {
      "at 180 m/s, beyond the speed_limit"},
     {"", KINEMATIC("ground", "turning = 1") "[[joint]]\nname = \"l\"\nkind = \"kinematic\"\n"
          "b = \"ground\"\nturning = 1\n", 12, "'l' moves the same assembly"},
+    // Conveyors and thrust
+    {"", PART("box = [1, 1]\nconveyor = 101"), 15, "conveyor must be a number from -100 to 100"},
+    {"", PART("box = [1, 1]\nconveyor = {player = \"ann\"}"), 15, "speed is missing"},
+    {"", PART("box = [1, 1]\nconveyor = true"), 15, "conveyor must be a number"},
+    {"", THRUST("part = \"crate\""), 12, "force is missing"},
+    {"", THRUST("part = \"nobody\"\nforce = [1, 0]"), 14, "there is no part 'nobody'"},
+    {"", THRUST("part = \"ground\"\nforce = [1, 0]"), 12, "'ground' is anchored"},
+    {"", THRUST("part = \"crate\"\nforce = [1e7, 0]"), 15, "from -1000000 to 1000000"},
+    {"", THRUST("part = \"crate\"\nforce = [1, 0]\nbutton = 0"), 16, "a button needs a player"},
+    {"", THRUST("part = \"crate\"\nforce = [1, 0]\nplayer = \"ann\"\nbutton = 15"), 17, "to 14"},
+    {"", THRUST("part = \"crate\"\nforce = [1, 0]\nplayer = \"ann\"\naxis = \"lift\"\n"
+                "button = 1"), 18, "both axis and button"},
+    {"", THRUST("part = \"crate\"\nforce = [1, 0]") THRUST("part = \"crate\"\nforce = [1, 0]"), 17,
+     "another thrust of this name"},
     // Players
     {"", "[[player]]\n", 12, "name is missing"},
     {"", "[[player]]\nname = \"ann\"\n", 13, "another player of this name"},

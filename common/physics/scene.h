@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/physics/bricks.h"
+#include "common/physics/forces.h"
 #include "common/physics/types.h"
 #include "common/physics/water.h"
 
@@ -42,6 +43,7 @@ struct Part {
   float spin = 0;                   ///< rad/s at tick 0
   int owner = -1;                   ///< player who has authority while connected; -1: by region
   bool gone = false;                ///< has left at run time (common/physics/topology.h)
+  Conveyor conveyor;                ///< its surface moves
   int line = 0;                     ///< in the scene file
 };
 
@@ -146,6 +148,7 @@ struct Scene {
   std::vector<Joint> joints;
   std::vector<BrickField> bricks;   ///< anchored, and no parts
   std::vector<Water> waters;
+  std::vector<Thrust> thrusts;
   std::vector<Player> players;
   std::vector<WatchCollision> watch;
   Camera camera;

@@ -82,6 +82,14 @@ void CheckJoints(const Checked& c) {
   }
 }
 
+void CheckThrusts(const Checked& c) {
+  for (const Thrust& thrust : c.scene.thrusts) {
+    if (!c.assembly_of(thrust.part).anchored) continue;
+    c.Fail(thrust.line, "thrust '" + thrust.name + "': '" + c.part(thrust.part).name +
+                            "' is anchored");
+  }
+}
+
 void CheckOwners(const Checked& c) {
   for (const Part& part : c.scene.parts) {
     const Assembly& assembly = c.assembly_of(part.id);
@@ -139,6 +147,7 @@ void CheckScene(const Scene& scene, const std::string& file) {
   const Checked checked{scene, composition, file};
   CheckAssemblies(checked);
   CheckJoints(checked);
+  CheckThrusts(checked);
   CheckOwners(checked);
   CheckPlayers(checked);
   CheckWatch(checked);

@@ -34,7 +34,7 @@ constexpr float kWaterSizeMax = 20000, kFlowMax = 50;
 constexpr std::size_t kWatersMax = 64;
 /// Numbers of things. Parts: what two views of bodies carry; players: peers 1..31.
 constexpr std::size_t kPartsMax = 4096, kJointsMax = 4096, kPlayersMax = 31, kActionsMax = 15;
-constexpr std::size_t kScriptMax = 2000, kWatchMax = 16;
+constexpr std::size_t kScriptMax = 2000, kWatchMax = 16, kThrustsMax = 256;
 /// Welded parts farther than this from their root would lose their edges to rounding, m.
 constexpr float kWeldReachMax = 1000;
 

@@ -53,7 +53,7 @@ void ReadPart(const TomlNode& node, SceneDraft* draft) {
   SceneReader r(node, draft->file, "part",
                 {"name", "box", "circle", "capsule", "wedge", "polygon", "chain", "segment",
                  "position", "angle", "density", "friction", "restitution", "anchored", "bullet",
-                 "group", "velocity", "spin", "owner", "owners", "repeat"});
+                 "group", "conveyor", "velocity", "spin", "owner", "owners", "repeat"});
   const std::string name = r.Name("name");
   r.Rename("part '" + name + "'");
   if (draft->part_of_name.count(name) != 0 || draft->group_of_name.count(name) != 0) {
@@ -68,6 +68,7 @@ void ReadPart(const TomlNode& node, SceneDraft* draft) {
   part.material.friction = r.Number("friction", {0, 1}, part.material.friction);
   part.material.restitution = r.Number("restitution", {0, 1}, part.material.restitution);
   part.group = r.Integer("group", {-1000, 1000}, 0);
+  ReadConveyor(r, *draft, &part);
   ReadMotion(r, draft->scene.speed_limit, &part);
   const std::vector<int> owners = ReadOwners(r, *draft, part.anchored);
   const Repeat repeat = ReadRepeat(r, draft->file);

@@ -211,6 +211,11 @@ const std::vector<TomlNode>& SceneReader::Items(const char* key) const {
   return node->items;
 }
 
+bool SceneReader::IsTable(const char* key) const {
+  const TomlNode* node = Get(key, false);
+  return node != nullptr && node->kind == TomlNode::Kind::kTable;
+}
+
 const TomlNode* SceneReader::Table(const char* key) const {
   const TomlNode* node = Get(key, false);
   if (node != nullptr && node->kind != TomlNode::Kind::kTable) Expected(*node, key, "a table");

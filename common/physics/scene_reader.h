@@ -53,6 +53,8 @@ class SceneReader {
   std::vector<const TomlNode*> Tables(const char* key) const;
   /// Any array's items; empty when absent.
   const std::vector<TomlNode>& Items(const char* key) const;
+  /// Whether the key is there and a table.
+  bool IsTable(const char* key) const;
   /// nullptr when absent.
   const TomlNode* Table(const char* key) const;
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "common/physics/feather_stage.h"
+#include "common/physics/force_stages.h"
 #include "common/physics/kinematic.h"
 #include "common/physics/stage.h"
 #include "common/physics/water_stage.h"
@@ -16,6 +17,10 @@ std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world) {
   if (any(world.scene.joints, [](const Joint& j) { return j.kind == JointKind::kKinematic; })) {
     stages.push_back(MakeKinematicStage(world));
   }
+  if (any(world.scene.parts, [](const Part& p) { return p.conveyor.speed != 0; })) {
+    stages.push_back(MakeConveyorStage(world));
+  }
+  if (!world.scene.thrusts.empty()) stages.push_back(MakeThrustStage(world));
   if (!world.scene.bricks.empty()) stages.push_back(MakeFeatherStage(world));
   if (!world.scene.waters.empty()) stages.push_back(MakeWaterStage(world));
   return stages;
