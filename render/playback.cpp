@@ -119,12 +119,19 @@ int Playback::PeerOr(int peer) const {
 }
 
 int Playback::PlayerOf(int peer) const {
-  // A player's peer is who has authority over the player's vehicle in that peer's own last view.
+  // A player's peer is who has authority over the player's own vehicle in that peer's last view.
+  // One that nobody owns tells nothing: authority over it goes by region.
+  const auto owned = [this](const BodyShapes& body) {
+    return std::any_of(body.parts.begin(), body.parts.end(), [&](PartId part) {
+      const int owner = scene_.parts[static_cast<std::size_t>(part)].owner;
+      return owner >= 0 && owner == body.owner_player;
+    });
+  };
   const auto views = recording_->views.find(peer);
   if (peer <= 0 || views == recording_->views.end() || views->second.empty()) return -1;
   const View& last = views->second.rbegin()->second;
   for (const BodyShapes& body : moving_) {
-    const std::size_t i = body.owner_player >= 0 ? IndexOf(last, body.id) : std::string::npos;
+    const std::size_t i = owned(body) ? IndexOf(last, body.id) : std::string::npos;
     if (i != std::string::npos && last.authority[i] == peer) return body.owner_player;
   }
   // Nobody's vehicle (a central server has it all): players join in the scene's order.

@@ -93,6 +93,7 @@ void Server::StepOnce(std::int64_t now_us) {
   OrderPending(now_us);
   replica_.Step();
   for (const Edit& edit : replica_.TakeProposals()) Order(edit);
+  MindSeats();
   PlanAuthority(now_us);
   for (States& states : replica_.TakeStates()) {
     states.utime = now_us;

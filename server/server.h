@@ -74,6 +74,12 @@ class Server {
   /// Edits, grants and states: all that a peer needs to have our world.
   void SendWorld(std::int64_t now_us, Session& session);
 
+  // server_seats.cpp
+  void MindSeats();
+  bool PlayerSits(int player) const;
+  bool GetIn(int player, int seat);
+  void GetOut(int seat);
+
   // server_receive.cpp
   void ReceiveAll(std::int64_t now_us);
   void OnDatagram(std::int64_t now_us, const Address& from, const Bytes& datagram);

@@ -123,7 +123,8 @@ void Server::OrderPending(std::int64_t now_us) {
       if (replica_.tick() - pending.since < patience) waiting.push_back(pending);
       continue;
     }
-    if (bond && !PlausibleProposal(replica_.world(), pending.edit)) continue;   // it has moved on
+    const bool found = pending.edit.cause == EditCause::kPhysics;
+    if (found && !PlausibleProposal(replica_.world(), pending.edit)) continue;   // it has moved on
     if (edits_.size() == kEditsMost) {
       if (!full_) Say(now_us, "no more edits: the room has had " + std::to_string(kEditsMost));
       full_ = true;
@@ -175,10 +176,10 @@ void Server::FollowTopology(const std::optional<Recomposition>& change) {
 void Server::CheckComposition(std::int64_t now_us, Session& session, const Ping& ping) {
   if (session.stage != Stage::kReady || ping.topology < 0) return;
   const auto known = hash_after_.find(ping.topology);
-  if (known == hash_after_.end() ||
-      known->second == static_cast<std::uint64_t>(ping.composition)) {
-    return;
-  }
+  const bool never = ping.topology > static_cast<std::int32_t>(edits_.size());
+  const bool other = known != hash_after_.end() &&
+                     known->second != static_cast<std::uint64_t>(ping.composition);
+  if (!never && !other) return;
   // Once for each time it was repaired: what is under way must arrive first.
   if (now_us - session.repaired_us < kRepairAgainUs) return;
   session.repaired_us = now_us;

@@ -64,6 +64,7 @@ TEST(SceneDocs, EveryKeyIsOnThePage) {
       {ball + "[[bricks]]", "## `[[bricks]]`"},
       {ball + "[[thrust]]", "## `[[thrust]]`"},
       {ball + "[[water]]", "## `[[water]]`"},
+      {ball + "[grouping]", "## `[grouping]`"},
       {"[[player]]", "## `[[player]]`"}, {ball + "[[watch]]", "## `[[watch]]`"},
       {ball + "[camera]", "## `[camera]`"}};
   for (const auto& [table, heading] : tables) {

@@ -1,5 +1,6 @@
 #pragma once
 /// A world alone, whose players do what their scripts say: the single-world run of a scene file.
+/// What physics finds should change (what breaks, what joins) changes at once.
 
 #include <string>
 #include <vector>
@@ -35,6 +36,8 @@ class ScriptedWorld {
       before_[p] = input;
     }
     world.Step();
+    const std::vector<Edit> edits = world.Wishes();
+    if (!edits.empty()) world.Apply(edits);
   }
   void StepTo(std::int64_t tick) {
     while (world.tick() < tick) Step();

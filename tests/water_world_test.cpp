@@ -163,6 +163,23 @@ TEST(WaterWorld, TwoWeldedBoxesMoveAsTheBigBoxDoes) {
   EXPECT_GT(b.position.x(), 0.5) << "they did move";
 }
 
+TEST(WaterWorld, WhatBreaksApartFloatsOrSinksEachForItself) {
+  World world(SceneOf(Welded("box = [2, 1]\ndensity = 0.2", "box = [2, 0.5]\ndensity = 1.2\n"
+                             "position = [0, -0.75]") + Sea("viscosity = 2"), "sleep = false"));
+  Steps(&world, 60 * 20);
+  ASSERT_EQ(world.body_count(), 1);
+  EXPECT_NEAR(world.Read(0).position.y() + 0.25, 0.75 - 1.6 / 2, 0.5) << "together they float";
+  EXPECT_GT(world.Read(0).position.y(), -1);
+  Edit part;
+  part.kind = EditKind::kBreak;
+  part.joint = 0;
+  world.Apply({part});
+  ASSERT_EQ(world.body_count(), 2);
+  Steps(&world, 60 * 10);
+  EXPECT_NEAR(world.Read(0).position.y(), 0.5 - 0.2, 0.01);
+  EXPECT_LT(world.Read(1).position.y(), -3);
+}
+
 TEST(WaterWorld, WatersSideBySideDoWhatOneDoes) {
   const std::string ship = Floater("p", "box = [3, 1]\ndensity = 0.4\nvelocity = [2, 0]\nspin = 1");
   World one(SceneOf(ship + Sea()));

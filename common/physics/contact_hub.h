@@ -24,6 +24,7 @@ class ContactHub : public b2ContactListener {
   }
   void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override {
     meter_.PostSolve(contact, impulse);
+    for (Stage* stage : stages_) stage->PostSolve(contact, impulse);
   }
 
  private:

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/physics/group_stage.h"
+#include "common/physics/join.h"
 #include "common/physics/mass.h"
 
 namespace seam {
@@ -16,9 +18,10 @@ bool MayPropose(const Topology& topology, const Edit& edit) {
   if (edit.cause != EditCause::kPhysics) return false;
   if (edit.kind == EditKind::kBreak) {
     const Joint& joint = topology.scene().joints[static_cast<std::size_t>(edit.joint)];
-    return joint.kind == JointKind::kGlue && joint.strength > 0;
+    return joint.kind == JointKind::kGlue && (joint.strength > 0 || joint.grouped);
   }
-  return false;
+  return IsJoin(topology.scene(), topology.composition(), edit) ||
+         MayGroup(topology.scene(), topology.composition(), edit);
 }
 
 BodyState PartPose(const World& world, PartId part) {

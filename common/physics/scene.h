@@ -5,7 +5,9 @@
 #include <vector>
 
 #include "common/physics/bricks.h"
+#include "common/physics/connectors.h"
 #include "common/physics/forces.h"
+#include "common/physics/grouping.h"
 #include "common/physics/types.h"
 #include "common/physics/water.h"
 
@@ -42,6 +44,7 @@ struct Part {
   Vec2 velocity{0, 0};              ///< m/s at tick 0, of the assembly's centre of mass
   float spin = 0;                   ///< rad/s at tick 0
   int owner = -1;                   ///< player who has authority while connected; -1: by region
+  Connectors connectors;
   bool gone = false;                ///< has left at run time (common/physics/topology.h)
   Conveyor conveyor;                ///< its surface moves
   int line = 0;                     ///< in the scene file
@@ -65,6 +68,7 @@ struct Joint {
   float lower = 0, upper = 0;       ///< rad; wheel, prismatic: m from the start; distance: m
   float strength = 0;               ///< kGlue: N, the force at which it breaks; 0: never
   bool collide = false;             ///< the joined bodies collide with each other
+  bool grouped = false;             ///< kGlue: made because its parts rest; a touch undoes it
   float turn = 0;                   ///< rad; by how much bonds have turned the place of b, less a's
   bool gone = false;                ///< broken or removed at run time
   int motor_player = -1;            ///< whose axis turns the motor; -1: a constant motor
@@ -107,6 +111,26 @@ struct Player {
   int line = 0;                     ///< in the scene file
 };
 
+/// A place from which something is driven: motors and thrusts that name the seat as their player
+/// follow whoever sits there. Inputs of seat s are those of player `players.size() + s`.
+struct Seat {
+  std::string name;                 ///< not a player's
+  PartId part = 0;                  ///< that it is on
+  Vec2 at{0, 0};                    ///< m, in the part's frame: where the player's own part goes
+  float angle = 0;                  ///< rad, of the player's own part against the seat's
+  float reach = 2;                  ///< m; how near one must be to get in
+  int button = 0;                   ///< gets in and out
+  int player = -1;                  ///< who sits there now
+  int line = 0;                     ///< in the scene file
+};
+
+/// Which shapes a large assembly (kFacesFrom parts or more) collides with.
+enum class Faces {
+  kMerged,                          ///< aligned boxes that touch are one shape
+  kOuter,                           ///< boxes with a box on all four sides are left out
+  kAll,
+};
+
 struct Solver {
   int tick_hz = 60;                 ///< 10..960
   int substeps = 1;                 ///< 1..32 Box2D steps per tick
@@ -121,6 +145,7 @@ struct Solver {
   /// everything comes to rest 2 skin - 5 mm apart: nothing at 2.5 mm, the least allowed.
   float skin = 0;
   bool weld_joints = false;         ///< welds are the engine's joints, not one body
+  Faces faces = Faces::kMerged;
 };
 
 /// Where a collision between players' things is measured (common/measure: rebound).
@@ -149,7 +174,9 @@ struct Scene {
   std::vector<BrickField> bricks;   ///< anchored, and no parts
   std::vector<Water> waters;
   std::vector<Thrust> thrusts;
+  Grouping grouping;
   std::vector<Player> players;
+  std::vector<Seat> seats;
   std::vector<WatchCollision> watch;
   Camera camera;
   std::string text;                 ///< the file itself

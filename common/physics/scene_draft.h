@@ -20,8 +20,12 @@ struct SceneDraft {
 };
 
 /// `repeat = {count, step}`: how often a part or joint is copied, and where each copy goes.
+/// Of a part also `weld` or `glue`: copies that follow each other in a column or row are joined.
 struct Repeat {
   int columns = 1, rows = 1;
+  bool joined = false;
+  JointKind kind = JointKind::kWeld;
+  float strength = 0;               ///< N; of glue
   bool grid = false;                ///< names get two numbers
   Vec2 step{0, 0};                  ///< m; grid: x per column, y per row; else per copy
 
@@ -35,6 +39,10 @@ Repeat ReadRepeat(const SceneReader& owner, const std::string& file);
 void ReadPlayerNames(const SceneReader& root, SceneDraft* draft);
 /// [[part]], repetitions written out.
 void ReadParts(const SceneReader& root, SceneDraft* draft);
+/// A part's inlets and outlets.
+Connectors ReadConnectors(const SceneReader& part);
+/// [grouping].
+void ReadGrouping(const SceneReader& root, SceneDraft* draft);
 /// [[bricks]]. Requires parts.
 void ReadBricks(const SceneReader& root, SceneDraft* draft);
 /// [[joint]]. Requires parts and players.
@@ -43,6 +51,10 @@ void ReadJoints(const SceneReader& root, SceneDraft* draft);
 void ReadWaters(const SceneReader& root, SceneDraft* draft);
 /// [[player]]: all but the names. Requires parts.
 void ReadPlayers(const SceneReader& root, SceneDraft* draft);
+/// [[seat]]: only names, so that motors can refer to them. Requires players' names.
+void ReadSeatNames(const SceneReader& root, SceneDraft* draft);
+/// [[seat]]: all but the names. Requires parts.
+void ReadSeats(const SceneReader& root, SceneDraft* draft);
 /// [[watch]]. Requires parts.
 void ReadWatch(const SceneReader& root, SceneDraft* draft);
 /// [camera]. Requires parts.
@@ -57,8 +69,14 @@ std::vector<PartId> FindParts(const SceneReader& reader, const char* key, const 
 int FindPlayer(const SceneReader& reader, const char* key, const std::string& name,
                const SceneDraft& draft);
 
-/// The player whose axis (`axis`, the drive unless said) something follows; -1 without `player`.
+/// Whose axis (`axis`, the drive unless said) something follows, as FindDriver; -1 without
+/// `player`.
 int ReadFollowed(const SceneReader& r, const SceneDraft& draft, InputAxis* axis);
+
+/// Whose inputs: a player's index, or players.size() + a seat's; complains at `key` if there is
+/// neither.
+int FindDriver(const SceneReader& reader, const char* key, const std::string& name,
+               const SceneDraft& draft);
 
 /// Whole scenes: what only shows when everything is known (who is welded and joined to whom).
 /// Throws OperatorError.

@@ -201,6 +201,7 @@ PartId CopyAfter(const SceneReader& r, PartId part, int column, int row, bool gr
 
 void Copy(const SceneReader& r, const Joint& first, SceneDraft* draft) {
   const Repeat repeat = ReadRepeat(r, draft->file);
+  if (repeat.joined) r.FailAt("repeat", "repeat: only parts are welded or glued");
   for (int column = 0; column < repeat.columns; ++column) {
     for (int row = 0; row < repeat.rows; ++row) {
       Joint joint = first;
@@ -287,7 +288,7 @@ int ReadFollowed(const SceneReader& r, const SceneDraft& draft, InputAxis* axis)
   const std::string name = r.Text("axis", "drive");
   if (name != "drive" && name != "lift") r.FailAt("axis", "axis must be 'drive' or 'lift'");
   *axis = name == "lift" ? InputAxis::kLift : InputAxis::kDrive;
-  return FindPlayer(r, "player", r.Text("player"), draft);
+  return FindDriver(r, "player", r.Text("player"), draft);
 }
 
 void ReadJoints(const SceneReader& root, SceneDraft* draft) {

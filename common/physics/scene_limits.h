@@ -35,6 +35,8 @@ constexpr std::size_t kWatersMax = 64;
 /// Numbers of things. Parts: what two views of bodies carry; players: peers 1..31.
 constexpr std::size_t kPartsMax = 4096, kJointsMax = 4096, kPlayersMax = 31, kActionsMax = 15;
 constexpr std::size_t kScriptMax = 2000, kWatchMax = 16, kThrustsMax = 256;
+/// Inlets, and outlets, of one part.
+constexpr std::size_t kConnectorsMax = 16;
 /// Welded parts farther than this from their root would lose their edges to rounding, m.
 constexpr float kWeldReachMax = 1000;
 

@@ -26,7 +26,8 @@ void ReadSolver(const SceneReader& root, const std::string& file, Solver* solver
   if (table == nullptr) return;
   const SceneReader r(*table, file, "solver",
                       {"tick_hz", "substeps", "velocity_iterations", "position_iterations",
-                       "sleep", "continuous", "warm_starting", "skin", "welds"});
+                       "sleep", "continuous", "warm_starting", "skin", "welds",
+                       "faces"});
   solver->tick_hz = r.Integer("tick_hz", {10, 960}, solver->tick_hz);
   solver->substeps = r.Integer("substeps", {1, 32}, solver->substeps);
   solver->velocity_iterations =
@@ -40,6 +41,13 @@ void ReadSolver(const SceneReader& root, const std::string& file, Solver* solver
   const std::string welds = r.Text("welds", "body");
   if (welds != "body" && welds != "joint") r.FailAt("welds", "welds must be 'body' or 'joint'");
   solver->weld_joints = welds == "joint";
+  const std::string faces = r.Text("faces", "merged");
+  if (faces != "merged" && faces != "outer" && faces != "all") {
+    r.FailAt("faces", "faces must be 'merged', 'outer' or 'all'");
+  }
+  solver->faces = faces == "merged"  ? Faces::kMerged
+                  : faces == "outer" ? Faces::kOuter
+                                     : Faces::kAll;
 }
 
 void ReadBounds(const SceneReader& root, Scene* scene) {
@@ -66,7 +74,7 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   const SceneReader root(tree, file_name, "scene",
                          {"title", "gravity", "duration", "buffer", "speed_limit", "size_max",
                           "bounds", "solver", "part", "bricks", "joint", "thrust", "water",
-                          "player", "watch", "camera"});
+                          "player", "seat", "watch", "camera", "grouping"});
   scene.title = root.Text("title", scene.name);
   scene.gravity = root.Vector("gravity", {-100, 100}, scene.gravity);
   scene.duration_s = root.Seconds("duration", {0.1, 86400}, scene.duration_s);
@@ -76,12 +84,15 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   ReadBounds(root, &scene);
   ReadSolver(root, file_name, &scene.solver);
   ReadPlayerNames(root, &draft);
+  ReadSeatNames(root, &draft);
   ReadParts(root, &draft);
   ReadBricks(root, &draft);
   ReadJoints(root, &draft);
   ReadThrusts(root, &draft);
   ReadWaters(root, &draft);
+  ReadGrouping(root, &draft);
   ReadPlayers(root, &draft);
+  ReadSeats(root, &draft);
   ReadWatch(root, &draft);
   ReadCamera(root, &draft);
   CheckScene(scene, file_name);

@@ -49,11 +49,43 @@ void Place(const SceneReader& r, Part part, const std::string& name, SceneDraft*
   scene.parts.push_back(std::move(part));
 }
 
+/// "name.h.2.0" joins copy (2, 0) with (3, 0), "name.v.2.0" with (2, 1).
+void JoinCopies(const SceneReader& r, const Repeat& repeat, const std::string& name,
+                const std::vector<PartId>& group, SceneDraft* draft) {
+  const auto part = [&](int column, int row) {
+    return group[static_cast<std::size_t>(column * repeat.rows + row)];
+  };
+  const auto join = [&](const char* way, int column, int row, PartId to) {
+    if (draft->scene.joints.size() == kJointsMax) {
+      r.FailAt("repeat", "a scene may have at most " + std::to_string(kJointsMax) + " joints");
+    }
+    Joint joint;
+    joint.name = name + way + repeat.Suffix(column, row);
+    joint.kind = repeat.kind;
+    joint.strength = repeat.strength;
+    joint.a = part(column, row);
+    joint.b = to;
+    const std::vector<Part>& parts = draft->scene.parts;
+    joint.anchor_a = joint.anchor_b = (parts[static_cast<std::size_t>(joint.a)].position +
+                                       parts[static_cast<std::size_t>(to)].position) /
+                                      2;
+    joint.line = r.line();
+    draft->scene.joints.push_back(joint);
+  };
+  for (int column = 0; column < repeat.columns; ++column) {
+    for (int row = 0; row < repeat.rows; ++row) {
+      if (column + 1 < repeat.columns) join(".h", column, row, part(column + 1, row));
+      if (row + 1 < repeat.rows) join(".v", column, row, part(column, row + 1));
+    }
+  }
+}
+
 void ReadPart(const TomlNode& node, SceneDraft* draft) {
   SceneReader r(node, draft->file, "part",
                 {"name", "box", "circle", "capsule", "wedge", "polygon", "chain", "segment",
                  "position", "angle", "density", "friction", "restitution", "anchored", "bullet",
-                 "group", "conveyor", "velocity", "spin", "owner", "owners", "repeat"});
+                 "group", "conveyor", "velocity", "spin", "owner", "owners", "repeat", "inlets",
+                 "outlets", "join_strength", "join_reach", "join_angle"});
   const std::string name = r.Name("name");
   r.Rename("part '" + name + "'");
   if (draft->part_of_name.count(name) != 0 || draft->group_of_name.count(name) != 0) {
@@ -70,6 +102,7 @@ void ReadPart(const TomlNode& node, SceneDraft* draft) {
   part.group = r.Integer("group", {-1000, 1000}, 0);
   ReadConveyor(r, *draft, &part);
   ReadMotion(r, draft->scene.speed_limit, &part);
+  part.connectors = ReadConnectors(r);
   const std::vector<int> owners = ReadOwners(r, *draft, part.anchored);
   const Repeat repeat = ReadRepeat(r, draft->file);
 
@@ -89,6 +122,7 @@ void ReadPart(const TomlNode& node, SceneDraft* draft) {
       Place(r, part, name + repeat.Suffix(column, row), draft);
     }
   }
+  if (repeat.joined) JoinCopies(r, repeat, name, group, draft);
 }
 
 }  // namespace

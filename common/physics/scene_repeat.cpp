@@ -17,7 +17,8 @@ Repeat ReadRepeat(const SceneReader& owner, const std::string& file) {
   Repeat repeat;
   const TomlNode* table = owner.Table("repeat");
   if (table == nullptr) return repeat;
-  const SceneReader r(*table, file, owner.what() + ": repeat", {"count", "step"});
+  const SceneReader r(*table, file, owner.what() + ": repeat",
+                      {"count", "step", "weld", "glue"});
   const Range count{1, static_cast<double>(kPartsMax)};
   const TomlNode* node = table->Find("count");
   if (node != nullptr && node->kind == TomlNode::Kind::kArray) {
@@ -32,6 +33,12 @@ Repeat ReadRepeat(const SceneReader& owner, const std::string& file) {
     repeat.columns = r.Integer("count", count);
   }
   repeat.step = r.Vector("step", {-1000, 1000});
+  if (r.Has("weld") && r.Has("glue")) r.FailAt("glue", "has both weld and glue");
+  repeat.joined = r.Has("glue") || r.Flag("weld", false);
+  if (r.Has("glue")) {
+    repeat.kind = JointKind::kGlue;
+    repeat.strength = r.Number("glue", {0, 1e9});
+  }
   return repeat;
 }
 

@@ -70,6 +70,7 @@ class Stage {
   virtual void BeginContact(b2Contact* /*contact*/) {}
   virtual void EndContact(b2Contact* /*contact*/) {}
   virtual void PreSolve(b2Contact* /*contact*/) {}
+  virtual void PostSolve(b2Contact* /*contact*/, const b2ContactImpulse* /*impulse*/) {}
 };
 
 /// The stages that this scene needs, in their order of action (stages.cpp has one line for each).

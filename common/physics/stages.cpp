@@ -2,6 +2,10 @@
 
 #include "common/physics/feather_stage.h"
 #include "common/physics/force_stages.h"
+#include "common/physics/glue_stage.h"
+#include "common/physics/group_stage.h"
+#include "common/physics/join.h"
+#include "common/physics/join_stage.h"
 #include "common/physics/kinematic.h"
 #include "common/physics/stage.h"
 #include "common/physics/water_stage.h"
@@ -23,6 +27,10 @@ std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world) {
   if (!world.scene.thrusts.empty()) stages.push_back(MakeThrustStage(world));
   if (!world.scene.bricks.empty()) stages.push_back(MakeFeatherStage(world));
   if (!world.scene.waters.empty()) stages.push_back(MakeWaterStage(world));
+  const bool joins = HasConnectors(world.scene);
+  if (joins || HasBreakableGlue(world.scene)) stages.push_back(MakeGlueStage(world));
+  if (joins) stages.push_back(MakeJoinStage(world));
+  if (world.scene.grouping.after > 0) stages.push_back(MakeGroupStage(world));
   return stages;
 }
 

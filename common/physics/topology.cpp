@@ -89,7 +89,15 @@ std::string Topology::Complaint(const Edit& edit) const {
         return "the impulse is not finite";
       }
       return "";
-    case EditKind::kSeat:
+    case EditKind::kSeat: {
+      if (edit.a < 0 || edit.a >= static_cast<PartId>(scene_.seats.size())) {
+        return "there is no such seat";
+      }
+      if (edit.player < -1 || edit.player >= static_cast<int>(scene_.players.size())) {
+        return "there is no such player";
+      }
+      return "";
+    }
     case EditKind::kBlast: return "";
     case EditKind::kNothing: break;
   }
@@ -158,8 +166,10 @@ std::string Topology::ApplyOne(const Edit& edit) {
       scene_.parts[static_cast<std::size_t>(edit.a)].anchored = false;
       stale_ = true;
       break;
-    case EditKind::kPush:
     case EditKind::kSeat:
+      scene_.seats[static_cast<std::size_t>(edit.a)].player = edit.player;
+      break;
+    case EditKind::kPush:
     case EditKind::kBlast:
     case EditKind::kNothing: break;
   }
@@ -213,6 +223,7 @@ std::string Topology::Bond(const Edit& edit) {
   glue.b = edit.b;
   glue.anchor_a = glue.anchor_b = b.position;
   glue.strength = edit.amount;
+  glue.grouped = edit.joint == kBondGroup;
   scene_.joints.push_back(glue);
   stale_ = true;
   return "";

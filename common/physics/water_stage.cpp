@@ -29,11 +29,11 @@ class WaterStage : public Stage {
   explicit WaterStage(const StageWorld& world) : w_(world) {}
 
   void Rebuilt(b2World* world) override;
+  void Placed() override;
   void Emptied() override { pool_ = nullptr; }
   void BeforeTick() override;
   void BeforeStep(float h) override;
   void AfterTick() override { NoteMotions(); }
-  std::size_t Load(const float* /*memory*/) override;
   bool listens() const override { return true; }
   void BeginContact(b2Contact* contact) override { Count(contact, 1); }
   void EndContact(b2Contact* contact) override { Count(contact, -1); }
@@ -82,11 +82,10 @@ void WaterStage::Rebuilt(b2World* world) {
   for (std::size_t i = 0; i < kinematic_.size(); ++i) unseen_.push_back({static_cast<int>(i)});
 }
 
-std::size_t WaterStage::Load(const float* /*memory*/) {
-  // Nothing is remembered. But Restore has set the motions by now, and has let contacts be found.
+/// The motions are set by now, and contacts are found before the next step.
+void WaterStage::Placed() {
   NoteMotions();
   unseen_.clear();
-  return 0;
 }
 
 void WaterStage::NoteMotions() {

@@ -93,6 +93,18 @@ Motion World::motion(int body) const {
 }
 
 void World::SetInput(int player, const Input& input) {
+  const std::vector<Seat>& seats = impl_->scene.seats;
+  if (seats.empty()) return Follow(player, input);
+  bool sits = false;
+  for (std::size_t s = 0; s < seats.size(); ++s) {
+    if (seats[s].player != player) continue;
+    sits = true;
+    Follow(static_cast<int>(impl_->scene.players.size() + s), input);
+  }
+  Follow(player, sits ? Input{} : input);
+}
+
+void World::Follow(int player, const Input& input) {
   for (Motor& motor : impl_->built.motors) {
     if (motor.player == player) motor.Drive(ShareOf(input, motor.axis));
   }

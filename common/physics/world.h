@@ -129,6 +129,7 @@ class World {
 
  private:
   void Push(const Edit& edit);
+  void Follow(int player, const Input& input);
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -1,12 +1,14 @@
 #include "common/physics/world_build.h"
 
 #include "common/base/check.h"
+#include "common/physics/faces.h"
 #include "common/physics/world_shapes.h"
 
 namespace seam {
 namespace {
 
-b2Body* AddBody(const Scene& scene, const Assembly& assembly, b2World* world) {
+b2Body* AddBody(const Scene& scene, const Assembly& assembly, b2World* world,
+                std::map<PartId, std::vector<PartId>>* merged) {
   const Part& root = scene.parts[static_cast<std::size_t>(assembly.id)];
   b2BodyDef def;
   def.type = !assembly.anchored        ? b2_dynamicBody
@@ -19,8 +21,9 @@ b2Body* AddBody(const Scene& scene, const Assembly& assembly, b2World* world) {
   }
   b2Body* body = world->CreateBody(&def);
   const bool guarded = assembly.anchored || def.bullet;
-  for (const PartId id : assembly.parts) {
-    AddFixture(scene.parts[static_cast<std::size_t>(id)], root, scene.solver.skin, guarded, body);
+  for (const Face& face : FacesOf(scene, assembly)) {
+    AddFixture(face.shape, root, scene.solver.skin, guarded, body);
+    if (face.parts.size() > 1) (*merged)[face.shape.id] = face.parts;
   }
   return body;
 }
@@ -61,7 +64,7 @@ int IndexOf(b2Body* body) { return static_cast<int>(body->GetUserData().pointer)
 BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2World* world) {
   BuiltScene built;
   for (const Assembly& assembly : composition.assemblies) {
-    b2Body* body = AddBody(scene, assembly, world);
+    b2Body* body = AddBody(scene, assembly, world, &built.merged);
     built.bodies.push_back(body);
     if (assembly.anchored) continue;
     const b2MassData mass = MassDataOf(scene, assembly);

@@ -4,6 +4,7 @@
 
 #include <box2d/box2d.h>
 
+#include <map>
 #include <vector>
 
 #include "common/physics/assembly.h"
@@ -30,6 +31,8 @@ struct BuiltScene {
   std::vector<b2Joint*> joints;       ///< by index into Scene::joints; nullptr: one body
   std::vector<Motor> motors;
   std::vector<b2DistanceJoint*> tethers;  ///< no springs, to something anchored
+  /// Parts that collide as one shape, by the lowest of them, whose number the shape has.
+  std::map<PartId, std::vector<PartId>> merged;
 };
 
 /// Index into BuiltScene::moving; -1 for anchored bodies.

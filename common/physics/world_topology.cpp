@@ -244,6 +244,9 @@ std::optional<Recomposition> World::Apply(const std::vector<Edit>& edits) {
   }
   for (const Edit& edit : edits) {
     if (edit.kind == EditKind::kPush && w.topology.Complaint(edit).empty()) Push(edit);
+    if (edit.kind == EditKind::kSeat && edit.player < 0 && w.topology.Complaint(edit).empty()) {
+      Follow(static_cast<int>(w.scene.players.size()) + edit.a, Input{});   // nobody drives on
+    }
     for (const auto& stage : w.stages) stage->Edited(edit);
   }
   return out;

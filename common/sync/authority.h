@@ -29,7 +29,7 @@ class AuthorityTable {
   /// Sets one entry (the server plans with this).
   void Set(int mechanism, const Holding& holding);
   /// The mechanisms are others now. Each takes what the first of those it comes from had, or
-  /// `fresh` if it is new; of several the highest epoch, one on: states of before are of other bodies.
+  /// `fresh` if it is new; of several the highest epoch, one on: earlier states are of others.
   void Recompose(const Composition& composition, const std::vector<std::vector<int>>& from,
                  const Holding& fresh);
   /// Takes over a message; unknown mechanisms and older epochs are ignored. Returns the indices of

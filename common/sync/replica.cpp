@@ -34,6 +34,7 @@ Replica::Replica(const Scene& scene, const SyncConfig& config, int self, int own
   dynamic_since_.assign(bodies, 0);
   placed_.assign(bodies, true);
   priority_.assign(bodies, 0.0f);
+  pressed_now_.assign(scene.players.size(), 0);
   asleep_since_.assign(bodies, -1);
   changed_at_.assign(bodies, 0);
   if (config.pull != nullptr) pulls_.resize(bodies);
@@ -122,6 +123,7 @@ void Replica::ApplyInputs(std::int64_t next) {
     }
     world_.SetInput(player, tracks_[p].At(next));
     const std::int16_t pressed = tracks_[p].TakePresses(next);
+    pressed_now_[p] |= pressed;
     const std::vector<Action>& actions = scene().players[p].actions;
     for (std::size_t a = 0; a < actions.size(); ++a) {
       if (((pressed >> actions[a].button) & 1) == 0) continue;

@@ -66,6 +66,10 @@ class Replica {
   /// Gives up every authority (the server has not been heard for too long).
   void ReleaseAll();
 
+  /// Buttons of this player that went down since the last call, as far as heard of.
+  int TakePressed(int player) {
+    return std::exchange(pressed_now_[static_cast<std::size_t>(player)], 0);
+  }
   InputTrack& inputs(int player) { return tracks_[static_cast<std::size_t>(player)]; }
 
   /// What became of the bodies of a States message.
@@ -140,6 +144,7 @@ class Replica {
   Snapshots snapshots_;
   DisplayDelay delay_;
   std::vector<InputTrack> tracks_;
+  std::vector<int> pressed_now_;               // by player
   std::vector<States> early_;                  // of ticks still to come
   std::vector<std::int64_t> last_impact_tick_;   // by body
   std::vector<std::int64_t> last_coupled_tick_;  // by mechanism

@@ -21,6 +21,8 @@ const std::vector<WorldBench>& WorldBenches();
 // Each in its own file tests/lab/world/NAME.cpp, and named in benches.cpp.
 TextTable FeatherweightBench(bool quick);
 TextTable WaterBench(bool quick);
+TextTable AssemblyBench(bool quick);
+TextTable GroupingBench(bool quick);
 
 /// CPU seconds of this process so far.
 double CpuSeconds();

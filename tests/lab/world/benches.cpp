@@ -9,6 +9,8 @@ const std::vector<WorldBench>& WorldBenches() {
   static const std::vector<WorldBench> benches = {
       {"featherweight", FeatherweightBench},
       {"water", WaterBench},
+      {"assembly", AssemblyBench},
+      {"grouping", GroupingBench},
   };
   return benches;
 }

@@ -1,0 +1,54 @@
+#pragma once
+/// Which parts a contact pushes, and how hard.
+
+#include <cmath>
+
+#include "common/physics/faces.h"
+#include "common/physics/stage.h"
+#include "common/physics/world_shapes.h"
+
+namespace seam {
+
+/// A push on what a fixture stands for; resolved to one part only when somebody wants to know.
+struct PartPush {
+  PartId fixture = -1;              ///< the part whose number the fixture has
+  b2Vec2 point{0, 0};               ///< in the body's frame, m
+  Eigen::Vector2d impulse{0, 0};    ///< N s, in the world's directions
+};
+
+/// The part that is at the point.
+inline PartId PartAt(const StageWorld& w, PartId fixture, const b2Vec2& point) {
+  const auto merged = w.built.merged.find(fixture);
+  if (merged == w.built.merged.end()) return fixture;
+  const int assembly = w.composition.assembly_of_part[static_cast<std::size_t>(fixture)];
+  const Assembly& whole = w.composition.assemblies[static_cast<std::size_t>(assembly)];
+  const Part& root = w.scene.parts[static_cast<std::size_t>(whole.id)];
+  const Eigen::Vector2d local = FromB2(point).cast<double>();
+  const double angle = static_cast<double>(root.angle);
+  const double c = std::cos(angle), s = std::sin(angle);
+  const Eigen::Vector2d turned(c * local.x() - s * local.y(), s * local.x() + c * local.y());
+  return NearestPart(w.scene, merged->second, root.position.cast<double>() + turned);
+}
+
+/// visit(push) for both sides of each point of a contact that was solved, but not for what stages
+/// made.
+template <typename Visit>
+void EachContactPush(b2Contact* contact, const b2ContactImpulse& impulse, const Visit& visit) {
+  b2WorldManifold manifold;
+  contact->GetWorldManifold(&manifold);
+  const Eigen::Vector2d normal = FromB2(manifold.normal).cast<double>();
+  const Eigen::Vector2d tangent(normal.y(), -normal.x());
+  for (int i = 0; i < impulse.count; ++i) {
+    const Eigen::Vector2d on_b = static_cast<double>(impulse.normalImpulses[i]) * normal +
+                                 static_cast<double>(impulse.tangentImpulses[i]) * tangent;
+    for (const bool b : {false, true}) {
+      b2Fixture* fixture = b ? contact->GetFixtureB() : contact->GetFixtureA();
+      const std::uint32_t id = PartOf(fixture);
+      if (id >= kStageFixture) continue;
+      visit(PartPush{static_cast<PartId>(id),
+                     fixture->GetBody()->GetLocalPoint(manifold.points[i]), b ? on_b : -on_b});
+    }
+  }
+}
+
+}  // namespace seam

@@ -1,0 +1,27 @@
+#pragma once
+/// The shapes that an assembly collides with: of many aligned boxes few rectangles, so that faces
+/// inside of it cost nothing and nothing catches in its seams.
+
+#include <vector>
+
+#include "common/physics/assembly.h"
+
+namespace seam {
+
+/// Assemblies of fewer parts collide with each of them.
+constexpr std::size_t kFacesFrom = 8;
+
+struct Face {
+  Part shape;                       ///< with the number of the lowest of its parts
+  std::vector<PartId> parts;        ///< ascending
+};
+
+/// Ascending by number. Boxes become one when they have the same angle, friction, restitution and
+/// group, and share a whole side, to a millimetre.
+std::vector<Face> FacesOf(const Scene& scene, const Assembly& assembly);
+
+/// That of `parts` which is nearest to a point of their common frame (the scene's places), m.
+PartId NearestPart(const Scene& scene, const std::vector<PartId>& parts,
+                   const Eigen::Vector2d& point);
+
+}  // namespace seam
