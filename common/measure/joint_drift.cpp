@@ -27,7 +27,6 @@ double Drift(const JointEnds& joint, const std::vector<BodyState>& states) {
   switch (joint.kind) {
     case JointKind::kGlue:
     case JointKind::kWeld:
-    case JointKind::kGlue:
     case JointKind::kRevolute: return apart.norm();
     case JointKind::kWheel:
     case JointKind::kPrismatic: return AlongAxis(joint, apart, joint.a.AxisNow(states));
