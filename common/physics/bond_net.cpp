@@ -90,8 +90,7 @@ BondNet NetOf(const Scene& scene, const Assembly& assembly, const std::vector<in
   std::vector<BondNet::Bond> bonds;
   for (const int j : joints) {
     const Joint& joint = scene.joints[static_cast<std::size_t>(j)];
-    const bool weld = joint.kind == JointKind::kWeld && !scene.solver.weld_joints;
-    if (joint.gone || (!weld && joint.kind != JointKind::kGlue)) continue;
+    if (joint.gone || !IsRigid(joint, scene.solver)) continue;
     const int a = PlaceOf(net.parts, joint.a), b = PlaceOf(net.parts, joint.b);
     if (a < 0 || b < 0) continue;
     if (CanBreak(joint)) {

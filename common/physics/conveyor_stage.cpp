@@ -7,7 +7,7 @@ namespace {
 class ConveyorStage : public Stage {
  public:
   explicit ConveyorStage(const StageWorld& world)
-      : world_(world), inputs_(world.scene.players.size()) {}
+      : world_(world), inputs_(world.scene.players.size() + world.scene.seats.size()) {}
 
   void Rebuilt(b2World* /*world*/) override {
     speeds_.assign(world_.scene.parts.size(), 0);
@@ -55,7 +55,7 @@ class ConveyorStage : public Stage {
   }
 
   const StageWorld world_;
-  std::vector<Input> inputs_;           // by player
+  std::vector<Input> inputs_;           // by player, then by seat
   std::vector<float> speeds_;           // by part, m/s
 };
 

@@ -19,11 +19,12 @@ Vector2d Turned(const Vector2d& v, double angle) {
   return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
 }
 
-/// Boxes that may become one: angle, friction, restitution, group.
-using Kind = std::tuple<float, float, float, int>;
+/// Boxes that may become one: angle, friction, restitution, group, conveyor.
+using Kind = std::tuple<float, float, float, int, float, int, int>;
 
 Kind KindOf(const Part& part) {
-  return {part.angle, part.material.friction, part.material.restitution, part.group};
+  return {part.angle, part.material.friction, part.material.restitution, part.group,
+          part.conveyor.speed, part.conveyor.player, static_cast<int>(part.conveyor.axis)};
 }
 
 /// A rectangle in the frame of a kind's first box.

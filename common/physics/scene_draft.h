@@ -75,6 +75,10 @@ std::vector<PartId> FindParts(const SceneReader& reader, const char* key, const 
 int FindPlayer(const SceneReader& reader, const char* key, const std::string& name,
                const SceneDraft& draft);
 
+/// Whose axis (`axis`, the drive unless said) something follows, as FindDriver; -1 without
+/// `player`.
+int ReadFollowed(const SceneReader& r, const SceneDraft& draft, InputAxis* axis);
+
 /// Whose inputs: a player's index, or players.size() + a seat's; complains at `key` if there is
 /// neither.
 int FindDriver(const SceneReader& reader, const char* key, const std::string& name,
