@@ -63,6 +63,7 @@ void Client::Join(std::int64_t now_us) {
   room_bytes_.clear();
   room_size_ = 0;
   clock_ = ClockFilter();
+  metadata_ = MetaTable();
   if (peer_ >= 0 || joining_since_us_ == 0) joining_since_us_ = now_us;
   peer_ = player_ = -1;
   said_ready_ = started_ = released_ = false;

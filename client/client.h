@@ -12,6 +12,7 @@
 #include "common/net/net.h"
 #include "common/record/recorder.h"
 #include "common/sync/clock_filter.h"
+#include "common/sync/metadata.h"
 #include "common/sync/publisher.h"
 #include "common/sync/replica.h"
 
@@ -55,6 +56,8 @@ class Client {
   bool running() const { return replica_ != nullptr && started_; }
   int peer() const { return peer_; }
   const Replica* replica() const { return replica_.get(); }
+  /// Health, scores, ... as the server has told them.
+  const MetaTable& metadata() const { return metadata_; }
   const Room& room() const { return room_; }
   const Stats& stats() const { return stats_; }
   std::int64_t rejoins() const { return rejoins_; }
@@ -95,6 +98,7 @@ class Client {
   std::unique_ptr<Scene> scene_;
   std::unique_ptr<Replica> replica_;
   ClockFilter clock_;
+  MetaTable metadata_;
   Room room_;
   std::vector<Bytes> held_;            // grants and states that came before the replica was built
   Bytes room_bytes_;

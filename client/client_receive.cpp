@@ -55,6 +55,8 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
     if (replica_ != nullptr && !released_) replica_->ApplyGrants(*grants);
   } else if (const auto* order = std::get_if<EditOrder>(&any)) {
     OnEdit(*order);
+  } else if (const auto* meta = std::get_if<Meta>(&any)) {
+    metadata_.Apply(*meta);
   } else if (const auto* states = std::get_if<States>(&any)) {
     if (started_) {
       stats_.dropped_stale += replica_->Receive(*states).stale;

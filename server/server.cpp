@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "common/sync/input_source.h"
+#include "server/rules.h"
 
 namespace seam {
 namespace {
@@ -35,7 +36,10 @@ Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorde
       replica_.authority().Set(m, h);
     }
   }
+  MakeRules();
 }
+
+Server::~Server() = default;
 
 void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   net_.Advance(now_us);
@@ -106,6 +110,7 @@ void Server::StepOnce(std::int64_t now_us) {
   Impacts impacts = replica_.MakeImpacts();
   impacts.utime = now_us;
   if (!impacts.id_a.empty()) publisher_.Publish(impacts);
+  RunRules(now_us);
 }
 
 void Server::PlanAuthority(std::int64_t now_us) {
@@ -113,6 +118,7 @@ void Server::PlanAuthority(std::int64_t now_us) {
     plan_due_ = false;
     wishes_ = planner_.Plan(replica_.world(), replica_.authority(), PeerOfPlayer());
     if (config_.sync.mode != Mode::kOracle) BringTogether(&wishes_);
+    ForbidWishes();
   }
   std::vector<int> changed;
   std::vector<Grants> revocations;

@@ -19,6 +19,9 @@
 
 namespace seam {
 
+class RoomHands;
+class Rules;
+
 struct ServerConfig {
   SyncConfig sync;
   std::string room = "main";
@@ -31,6 +34,7 @@ class Server {
  public:
   /// `net` and `recorder` must outlive the server.
   Server(const Scene& scene, const ServerConfig& config, Net& net, Recorder& recorder);
+  ~Server();
 
   /// Receives, steps the ticks that are due, sends. `now_us`: any clock that never runs backwards;
   /// `cpu_us`: CPU time used so far, for the record (0 when unknown).
@@ -49,6 +53,8 @@ class Server {
   /// Orders an edit at the next tick, or as soon as its parts are in one hand. One that cannot be
   /// is dropped; Topology::Complaint tells beforehand.
   void Order(const Edit& edit);
+  /// What it decides of health, scores and scripts; nullptr when the scene has nothing of it.
+  const Rules* rules() const { return rules_.get(); }
 
   /// A client not heard for this long is gone. Its own patience (Client::kSilentUs) is shorter, so
   /// that it has let go of its mechanisms before the server takes them back.
@@ -103,6 +109,14 @@ class Server {
   void FlushAll(std::int64_t now_us);
   std::vector<int> PeerOfPlayer() const;
 
+  // server_rules.cpp
+  class Hands;
+  void MakeRules();
+  void RunRules(std::int64_t now_us);
+  void SendRules(std::int64_t now_us, Session& session);
+  /// Who may not push a part does not get its authority.
+  void ForbidWishes();
+
   // server.cpp
   void StartIfReady(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);
@@ -122,6 +136,9 @@ class Server {
   Replica replica_;
   Planner planner_;
   Sessions sessions_;
+  std::unique_ptr<RoomHands> hands_;
+  std::unique_ptr<Rules> rules_;                // null: the scene has nothing to decide
+  std::int64_t rules_us_ = 0;                   // the time of the tick they look at
   std::vector<Wish> wishes_;                    // of the last plan
   bool plan_due_ = true;                        // somebody came or went
   std::vector<bool> revoking_;                  // by mechanism: told to let go, not yet confirmed

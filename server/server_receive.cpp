@@ -4,6 +4,7 @@
 #include <cstdlib>
 
 #include "common/codec/codec.h"
+#include "server/rules.h"
 #include "server/server.h"
 
 namespace seam {
@@ -85,6 +86,7 @@ void Server::OnHello(std::int64_t now_us, Session& session, const Hello& hello) 
     // Said again, reliably: loaded, and the clock has settled. Before that it only repeats itself.
     if (session.stage == Stage::kLoading) {
       session.stage = Stage::kReady;
+      if (rules_ != nullptr && session.player >= 0) rules_->OnJoin(session.player);
       plan_due_ = true;
       Say(now_us, session.name + " is ready as peer " + std::to_string(session.peer));
     }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/codec/codec.h"
+#include "server/rules.h"
 #include "server/server.h"
 
 namespace seam {
@@ -90,6 +91,7 @@ void Server::Advance(std::int64_t now_us, Session& session) {
     session.link.SendReliable(Encode(chunk));
   }
   SendWorld(now_us, session);
+  SendRules(now_us, session);
 }
 
 std::vector<int> Server::PeerOfPlayer() const {
@@ -137,6 +139,8 @@ void Server::Drop(std::int64_t now_us, const Address& address, const std::string
   Say(now_us, found->second->name + " (peer " + std::to_string(found->second->peer) +
                   ") is gone: " + why);
   const int peer = found->second->peer;
+  const bool played = found->second->player >= 0 && found->second->stage == Stage::kReady;
+  if (rules_ != nullptr && played) rules_->OnLeave(found->second->player);
   sessions_.erase(found);
   TakeBack(now_us, peer);
 }

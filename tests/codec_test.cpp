@@ -16,7 +16,7 @@ namespace seam {
 namespace {
 
 using Messages = ::testing::Types<Hello, Welcome, Chunk, Room, Ping, Pong, Inputs, States, Grants,
-                                  EditOrder, View, Impacts, Stats, Event, Bye>;
+                                  EditOrder, Meta, View, Impacts, Stats, Event, Bye>;
 
 template <class Message>
 class Codec : public ::testing::Test {};
@@ -182,6 +182,9 @@ TEST(CodecBounds, TheLargestMessagesFitTheirCarriers) {
   Grants grants;
   random.Fill(grants, kGrantsMax);
   EXPECT_LE(Encode(grants).size(), kMessageBytesMax);
+  Meta meta;
+  random.Fill(meta, kMetaMax);
+  EXPECT_LE(Encode(meta).size(), kMessageBytesMax);
   Inputs inputs;
   random.Fill(inputs, kInputsMax);
   EXPECT_LE(Encode(inputs).size(), kMessageBytesMax);
@@ -269,12 +272,13 @@ TEST(CodecWire, TypeHashesArePinnedToTheProtocolVersion) {
       hash(Encode(Ping{})),   hash(Encode(Pong{})),  hash(Encode(inputs)),  hash(Encode(States{})),
       hash(Encode(Grants{})), hash(Encode(View{})),  hash(Encode(Impacts{})),
       hash(Encode(Stats{})),  hash(Encode(Event{})), hash(Encode(Bye{})),
-      hash(Encode(EditOrder{}))};
+      hash(Encode(EditOrder{})), hash(Encode(Meta{}))};
   const std::vector<std::uint64_t> pinned = {
       0x77af54d8cac6751eu, 0xcb0ab4d23d15572fu, 0xfe05a5dcca243573u, 0xfc29582c30d1354eu,
       0x62ac12b10407beb0u, 0xb2cacdee7d5215e5u, 0xc2fed145dcaf1ce1u, 0xa25f63785235287eu,
       0x6fb17c58cd6b7966u, 0x61c26b67f73065e4u, 0x59bc5977764a411fu, 0xbfb5240b6817cf3eu,
-      0x5017292b3aa2f237u, 0x51c7828d52d2d8f2u, 0x2188d5d8f5ff2d0du};
+      0x5017292b3aa2f237u, 0x51c7828d52d2d8f2u, 0x2188d5d8f5ff2d0du,
+      0xf89c26f5a00b008du};
   EXPECT_EQ(hashes, pinned);
   EXPECT_EQ(std::set<std::uint64_t>(hashes.begin(), hashes.end()).size(), hashes.size());
 }

@@ -67,6 +67,12 @@ class RandomMessages {
     for (auto* id : {&m.a, &m.b, &m.joint}) Set(*id, -1, INT16_MAX);
     Floats(m.value, 4), m.text = Text(300);
   }
+  void Fill(Meta& m, std::size_t count) {
+    Common(m), Sequence(m), m.tick = Tick(), Vector(m.kind, count, 0, 1);
+    Vector(m.id, count, 0, INT16_MAX), Vector(m.key, count, 0, kMetaKeyMax);
+    Floats(m.value, count);
+  }
+  void Fill(Meta& m) { Fill(m, Count(0, kMetaMax)); }
   void Fill(View& m, std::size_t count) {
     Common(m), Sequence(m), Set(m.peer, 0, 31), m.tick = Tick(), Set(m.parts, 1, kViewPartsMax);
     Set(m.topology, 0, INT32_MAX);
@@ -171,6 +177,9 @@ inline auto Fields(const Grants& m) {
 inline auto Fields(const EditOrder& m) {
   return std::tie(m.utime, m.sequence, m.number, m.tick, m.kind, m.cause, m.a, m.b, m.joint,
                   m.player, m.text, m.value);
+}
+inline auto Fields(const Meta& m) {
+  return std::tie(m.utime, m.sequence, m.tick, m.kind, m.id, m.key, m.value);
 }
 inline auto Fields(const View& m) {
   return std::tie(m.utime, m.sequence, m.peer, m.tick, m.topology, m.part, m.parts, m.id, m.role,

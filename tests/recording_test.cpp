@@ -79,6 +79,7 @@ TEST(Recording, KeepsEveryKindOfMessage) {
   const Inputs inputs = publish("inputs", Inputs{});
   const States states = publish("states", States{});
   const Grants grants = publish("grants", Grants{});
+  const Meta meta = publish("meta", Meta{});
   const Impacts impacts = publish("impacts", Impacts{});
   const Stats stats = publish("stats", Stats{});
   const Event event = publish("event", Event{});
@@ -93,6 +94,8 @@ TEST(Recording, KeepsEveryKindOfMessage) {
   EXPECT_EQ(Fields(r.states[0]), Fields(states));
   ASSERT_EQ(r.grants.size(), 1u);
   EXPECT_EQ(Fields(r.grants[0]), Fields(grants));
+  ASSERT_EQ(r.meta.size(), 1u);
+  EXPECT_EQ(Fields(r.meta[0]), Fields(meta));
   ASSERT_EQ(r.impacts.size(), 1u);
   EXPECT_EQ(Fields(r.impacts[0]), Fields(impacts));
   ASSERT_EQ(r.stats.at(stats.peer).size(), 1u);
@@ -100,7 +103,7 @@ TEST(Recording, KeepsEveryKindOfMessage) {
   ASSERT_EQ(r.events.size(), 1u);
   EXPECT_EQ(Fields(r.events[0]), Fields(event));
   EXPECT_EQ(Fields(r.views.at(3).at(100)), Fields(view));
-  EXPECT_EQ(r.events_read, 8);
+  EXPECT_EQ(r.events_read, 9);
   EXPECT_EQ(r.foreign + r.undecodable + r.bus_gaps + r.duplicates, 0);
 }
 

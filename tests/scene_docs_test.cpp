@@ -65,6 +65,7 @@ TEST(SceneDocs, EveryKeyIsOnThePage) {
       {ball + "[[water]]", "## `[[water]]`"},
       {ball + "[grouping]", "## `[grouping]`"},
       {"[[player]]", "## `[[player]]`"}, {ball + "[[watch]]", "## `[[watch]]`"},
+      {ball + "[[trigger]]", "## `[[trigger]]`"}, {ball + "[[script]]", "## `[[script]]`"},
       {ball + "[camera]", "## `[camera]`"}};
   for (const auto& [table, heading] : tables) {
     const auto from = page.find(heading + "\n");

@@ -49,6 +49,9 @@ struct Mistake {
   "[[joint]]\nname = \"j\"\nkind = \"" kind "\"\na = \"ground\"\nb = \"crate\"\n" line_16 "\n"
 #define BRICKS(line_14) "[[bricks]]\nname = \"b\"\n" line_14 "\n"
 #define TOWERS(sizes) "towers = {count = 2, pitch = 16, " sizes "}"
+/// A trigger from line 12; line 16 is the mistake.
+#define TRIGGER(line_16) \
+  "[[trigger]]\nname = \"t\"\nposition = [1, 1]\nbox = [1, 1]\n" line_16 "\n"
 #define PLAYER(line_14) "[[player]]\nname = \"bob\"\n" line_14 "\n"
 
 const Mistake kMistakes[] = {
@@ -58,7 +61,6 @@ const Mistake kMistakes[] = {
     {"", PART("box = [1 1]"), 14, ""},
     {"", PART("box = [1, 1]\nbox = [1, 1]"), 15, ""},
     {"title = \"a\nb\"", "", 1, "closing quote"},
-    {"title = '''a'''", "", 1, "multi-line"},
     {"title = [[[[[[[[[[[[[1]]]]]]]]]]]]]", "", 1, "nested too deeply"},
     {"a.b.c.d.e.f = 1", "", 1, "too many dots"},
     {"title = \"\x01\"", "", 1, "control character"},
@@ -90,6 +92,41 @@ const Mistake kMistakes[] = {
     {"bounds = [[0, 0]]", "", 1, "bounds must be [[x, y], [x, y]]"},
     {"bounds = [[5, 5], [0, 0]]", "", 1, "lower left first"},
     {"bounds = [[-1, -1], [1, 1]]", "", 10, "outside the bounds"},
+    // Scripts and triggers
+    {"title = '''a'''", "", 1, "multi-line"},
+    {"script = \"\"\"\nx = 1\n\"\"\"", "", 1, "code stands between ''' and '''"},
+    {"script = '''\nx = 1\n", "", 1, "code without its closing '''"},
+    {"script = '''\nx = 1\n''''", "", 3, "one quote too many"},
+    {"script = 3", "", 1, "an array"},
+    {"", "[[script]]\nname = \"s\"\n", 12, "code is missing"},
+    {"", "[[script]]\nname = \"s\"\ncode = 3\n", 14, "code must be text"},
+    {"", "[[script]]\nname = \"s\"\ncode = \"\\u001b\"\n", 14, "control character"},
+    {"", "[[script]]\nname = \"s\"\ncode = \"\"\ninstructions = 999\n", 15, "from 1000"},
+    {"", "[[script]]\nname = \"s\"\ncode = \"\"\nmemory = 70000\n", 15, "integer from 256"},
+    {"", "[[script]]\nname = \"s\"\ncode = \"\"\n[[script]]\nname = \"s\"\ncode = \"\"\n", 16,
+     "another script"},
+    {"", "[[trigger]]\nname = \"t\"\nbox = [1, 1]\n", 12, "needs a position or a part"},
+    {"", "[[trigger]]\nname = \"t\"\nposition = [1, 1]\n", 12, "box is missing"},
+    {"", TRIGGER("kind = \"door\""), 16, "kind must be area"},
+    {"", TRIGGER("for = \"lorry\""), 16, "there is no part 'lorry'"},
+    {"", TRIGGER("players = [\"bob\"]"), 16, "there is no player 'bob'"},
+    {"", TRIGGER("order = 1"), 16, "only a checkpoint has an order"},
+    {"", TRIGGER("kind = \"checkpoint\""), 12, "order is missing"},
+    {"", TRIGGER("kind = \"checkpoint\"\norder = 0"), 17, "from 1 to 1000"},
+    {"", TRIGGER("health = 1"), 16, "only a pickup or a hazard"},
+    {"", TRIGGER("kind = \"hazard\"\nhealth = -1"), 17, "from 0"},
+    {"", TRIGGER("kind = \"pickup\"\nonce = false"), 17, "a pickup is taken once"},
+    {"", TRIGGER("# nobody has a vehicle"), 12, "nobody can enter"},
+    {"", TRIGGER("part = \"crate\"\nfor = \"crate\""), 17, "its own trigger"},
+    {"", TRIGGER("for = \"crate\"") TRIGGER("for = \"crate\""), 18, "another trigger"},
+    {"", PART("box = [1, 1]\nhealth = -1"), 15, "health must be a number from 0"},
+    {"", PART("box = [1, 1]\ndamage = {above = 1}"), 15, "damage needs health"},
+    {"", PART("box = [1, 1]\nhealth = 1\ndamage = {abov = 1}"), 16, "did you mean 'above'?"},
+    {"", PART("box = [1, 1]\npermissions = {take = [\"bob\"]}"), 15, "there is no player 'bob'"},
+    {"", PART("box = [1, 1]\nowner = \"ann\"\npermissions = {push = []}"), 12, "may not push it"},
+    {"", PART("box = [1, 1]\npermissions = {drive = []}")
+         "[[joint]]\nname = \"j\"\nkind = \"revolute\"\na = \"ground\"\nb = \"p\"\n"
+         "motor = {player = \"ann\", speed = 1, torque = 1}\n", 16, "may not drive 'p'"},
     // Parts
     {"", "[[part]]\nbox = [1, 1]\n", 12, "name is missing"},
     {"", "[[part]]\nname = \"a.b\"\nbox = [1, 1]\n", 13, "letters, digits"},

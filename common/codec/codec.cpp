@@ -13,6 +13,7 @@
 #include "seam/hello_t.hpp"
 #include "seam/impacts_t.hpp"
 #include "seam/inputs_t.hpp"
+#include "seam/meta_t.hpp"
 #include "seam/ping_t.hpp"
 #include "seam/pong_t.hpp"
 #include "seam/room_t.hpp"
@@ -124,6 +125,15 @@ struct Wire<EditOrder> {
 };
 
 template <>
+struct Wire<Meta> {
+  using Type = meta_t;
+  template <class M>
+  static auto Fields(M& m) {
+        return std::tie(m.utime, m.sequence, m.tick, m.kind, m.id, m.key, m.value);
+  }
+};
+
+template <>
 struct Wire<View> {
   using Type = view_t;
   template <class M>
@@ -178,6 +188,7 @@ std::size_t Count(const Inputs& m) { return m.drive.size(); }
 std::size_t Count(const States& m) { return m.id.size(); }
 std::size_t Count(const Grants& m) { return m.mechanism.size(); }
 std::size_t Count(const EditOrder& m) { return m.value.size(); }
+std::size_t Count(const Meta& m) { return m.id.size(); }
 std::size_t Count(const View& m) { return m.id.size(); }
 std::size_t Count(const Impacts& m) { return m.id_a.size(); }
 
@@ -232,6 +243,7 @@ const std::unordered_map<std::uint64_t, Decoder>& Decoders() {
       {WireHash<States>(), DecodeAs<States>},
       {WireHash<Grants>(), DecodeAs<Grants>},
       {WireHash<EditOrder>(), DecodeAs<EditOrder>},
+      {WireHash<Meta>(), DecodeAs<Meta>},
       {WireHash<View>(), DecodeAs<View>},
       {WireHash<Impacts>(), DecodeAs<Impacts>},
       {WireHash<Stats>(), DecodeAs<Stats>},
@@ -253,6 +265,7 @@ Bytes Encode(const Inputs& m) { return EncodeAs(m); }
 Bytes Encode(const States& m) { return EncodeAs(m); }
 Bytes Encode(const Grants& m) { return EncodeAs(m); }
 Bytes Encode(const EditOrder& m) { return EncodeAs(m); }
+Bytes Encode(const Meta& m) { return EncodeAs(m); }
 Bytes Encode(const View& m) { return EncodeAs(m); }
 Bytes Encode(const Impacts& m) { return EncodeAs(m); }
 Bytes Encode(const Stats& m) { return EncodeAs(m); }

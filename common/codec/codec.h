@@ -12,7 +12,7 @@ namespace seam {
 /// What Decode found. std::monostate: malformed, foreign, or breaking a bound of its type.
 using AnyMessage =
     std::variant<std::monostate, Hello, Welcome, Chunk, Room, Ping, Pong, Inputs, States, Grants,
-                 EditOrder, View, Impacts, Stats, Event, Bye>;
+                 EditOrder, Meta, View, Impacts, Stats, Event, Bye>;
 
 /// LCM encoding (8 bytes of type hash, then big-endian fields). Requires vectors of equal length
 /// within the bounds of messages.h (asserted: a violation is our bug).
@@ -26,6 +26,7 @@ Bytes Encode(const Inputs&);
 Bytes Encode(const States&);
 Bytes Encode(const Grants&);
 Bytes Encode(const EditOrder&);
+Bytes Encode(const Meta&);
 Bytes Encode(const View&);
 Bytes Encode(const Impacts&);
 Bytes Encode(const Stats&);

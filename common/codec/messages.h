@@ -26,6 +26,8 @@ constexpr std::int32_t kViewPartsMax = 32;
 constexpr std::size_t kInputsMax = 64;
 /// Most mechanisms in one Grants message: 30 + 9 bytes each must fit Link's kMessageBytesMax.
 constexpr std::size_t kGrantsMax = 120;
+/// Most values in one Meta message: 30 + 8 bytes each must fit Link's kMessageBytesMax.
+constexpr std::size_t kMetaMax = 120;
 /// Most impacts in one Impacts message: 16 bytes each within kBusMessageBytesMax.
 constexpr std::size_t kImpactsMax = 3000;
 /// Most bytes in one Chunk.
@@ -156,6 +158,26 @@ struct EditOrder {
 /// The whole must fit Link's kMessageBytesMax.
 constexpr std::size_t kEditTextBytesMax = 900;
 constexpr std::int8_t kEditKindsMax = 8;
+
+/// Server -> everyone, reliable and ordered: what parts and players have and are worth, changes
+/// only. The server alone decides it.
+struct Meta {
+  std::int64_t utime = 0;
+  std::int32_t sequence = 0;
+  std::int64_t tick = 0;
+  std::vector<std::int8_t> kind;          ///< kMetaPart | kMetaPlayer
+  std::vector<std::int16_t> id;           ///< part id, or the player's place in the scene
+  std::vector<std::int8_t> key;           ///< kMetaHealth...
+  std::vector<float> value;
+};
+constexpr std::int8_t kMetaPart = 0, kMetaPlayer = 1;
+constexpr std::int8_t kMetaHealth = 0;
+constexpr std::int8_t kMetaScore = 1;
+constexpr std::int8_t kMetaCheckpoint = 2;  ///< the highest checkpoint reached in this lap
+constexpr std::int8_t kMetaLaps = 3;        ///< times that all checkpoints were reached in order
+constexpr std::int8_t kMetaTaken = 4;       ///< of a pickup's part: 1 + the player who took it
+constexpr std::int8_t kMetaScripts = 16;    ///< 16..25: "value0".."value9", for scripts alone
+constexpr std::int8_t kMetaKeyMax = 25;
 
 /// Bus only: what a peer shows at a tick. This is what is measured and drawn.
 struct View {

@@ -139,6 +139,13 @@ bool Valid(const EditOrder& m) {
          Finite(m.value) && IsPrintable(m.text, kEditTextBytesMax, true);
 }
 
+bool Valid(const Meta& m) {
+  return Time(m.utime) && m.sequence >= 0 && Tick(m.tick) && m.id.size() <= kMetaMax &&
+         Lengths(m.id.size(), m.kind, m.key, m.value) &&
+         AllWithin(m.kind, kMetaPart, kMetaPlayer) && AllWithin(m.id, 0, INT16_MAX) &&
+         AllWithin(m.key, 0, kMetaKeyMax) && Finite(m.value);
+}
+
 bool Valid(const View& m) {
   return Time(m.utime) && m.sequence >= 0 && m.topology >= 0 && Peer(m.peer) && Tick(m.tick) &&
          Within(m.parts, 1, kViewPartsMax) && Within(m.part, 0, m.parts - 1) &&

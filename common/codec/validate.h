@@ -27,6 +27,7 @@ bool Valid(const Inputs&);
 bool Valid(const States&);
 bool Valid(const Grants&);
 bool Valid(const EditOrder& m);
+bool Valid(const Meta&);
 bool Valid(const View&);
 bool Valid(const Impacts&);
 bool Valid(const Stats&);

@@ -7,6 +7,7 @@
 #include "common/physics/bricks.h"
 #include "common/physics/connectors.h"
 #include "common/physics/grouping.h"
+#include "common/physics/rules.h"
 #include "common/physics/types.h"
 #include "common/physics/water.h"
 
@@ -42,6 +43,7 @@ struct Part {
   int group = 0;                    ///< Box2D group index: equal negative groups do not collide
   Vec2 velocity{0, 0};              ///< m/s at tick 0, of the assembly's centre of mass
   float spin = 0;                   ///< rad/s at tick 0
+  PartRules rules;
   int owner = -1;                   ///< player who has authority while connected; -1: by region
   Connectors connectors;
   bool gone = false;                ///< has left at run time (common/physics/topology.h)
@@ -163,6 +165,8 @@ struct Scene {
   Grouping grouping;
   std::vector<Player> players;
   std::vector<Seat> seats;
+  std::vector<Trigger> triggers;    ///< the server's
+  std::vector<ScriptSource> scripts;  ///< the server's
   std::vector<WatchCollision> watch;
   Camera camera;
   std::string text;                 ///< the file itself

@@ -55,6 +55,12 @@ void ReadPlayers(const SceneReader& root, SceneDraft* draft);
 void ReadSeatNames(const SceneReader& root, SceneDraft* draft);
 /// [[seat]]: all but the names. Requires parts.
 void ReadSeats(const SceneReader& root, SceneDraft* draft);
+/// What a [[part]] says of health, score and permissions.
+PartRules ReadPartRules(const SceneReader& r, const SceneDraft& draft);
+/// [[trigger]]. Requires parts and players.
+void ReadTriggers(const SceneReader& root, SceneDraft* draft);
+/// [[script]]. Requires the text.
+void ReadScripts(const SceneReader& root, SceneDraft* draft);
 /// [[watch]]. Requires parts.
 void ReadWatch(const SceneReader& root, SceneDraft* draft);
 /// [camera]. Requires parts.
@@ -80,6 +86,9 @@ void CheckScene(const Scene& scene, const std::string& file);
 
 /// The one of box, circle, capsule, wedge, polygon, chain and segment that the table has.
 void ReadShape(const SceneReader& r, float size_max, Part* part);
+
+/// Nobody has to do what the permissions forbid. Throws OperatorError.
+void CheckPermissions(const Scene& scene, const std::string& file);
 
 /// Box2D's and our own demands on shapes; empty when they are met.
 std::string PolygonComplaint(const std::vector<Vec2>& points, float size_max);

@@ -74,7 +74,8 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   const SceneReader root(tree, file_name, "scene",
                          {"title", "gravity", "duration", "buffer", "speed_limit", "size_max",
                           "bounds", "solver", "part", "bricks", "joint", "water", "player",
-                          "seat", "watch", "camera", "grouping"});
+                          "seat", "watch", "camera", "grouping",
+                          "trigger", "script"});
   scene.title = root.Text("title", scene.name);
   scene.gravity = root.Vector("gravity", {-100, 100}, scene.gravity);
   scene.duration_s = root.Seconds("duration", {0.1, 86400}, scene.duration_s);
@@ -92,9 +93,12 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   ReadGrouping(root, &draft);
   ReadPlayers(root, &draft);
   ReadSeats(root, &draft);
+  ReadTriggers(root, &draft);
+  ReadScripts(root, &draft);
   ReadWatch(root, &draft);
   ReadCamera(root, &draft);
   CheckScene(scene, file_name);
+  CheckPermissions(scene, file_name);
   return std::move(draft.scene);
 }
 

@@ -85,7 +85,8 @@ void ReadPart(const TomlNode& node, SceneDraft* draft) {
                 {"name", "box", "circle", "capsule", "wedge", "polygon", "chain", "segment",
                  "position", "angle", "density", "friction", "restitution", "anchored", "bullet",
                  "group", "velocity", "spin", "owner", "owners", "repeat", "inlets", "outlets",
-                 "join_strength", "join_reach", "join_angle"});
+                 "join_strength", "join_reach", "join_angle", "health", "damage", "score",
+                 "permissions"});
   const std::string name = r.Name("name");
   r.Rename("part '" + name + "'");
   if (draft->part_of_name.count(name) != 0 || draft->group_of_name.count(name) != 0) {
@@ -102,6 +103,7 @@ void ReadPart(const TomlNode& node, SceneDraft* draft) {
   part.group = r.Integer("group", {-1000, 1000}, 0);
   ReadMotion(r, draft->scene.speed_limit, &part);
   part.connectors = ReadConnectors(r);
+  part.rules = ReadPartRules(r, *draft);
   const std::vector<int> owners = ReadOwners(r, *draft, part.anchored);
   const Repeat repeat = ReadRepeat(r, draft->file);
 

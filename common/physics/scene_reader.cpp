@@ -152,6 +152,20 @@ std::string SceneReader::Text(const char* key, std::optional<std::string> fallba
   return node->text;
 }
 
+std::string SceneReader::Code(const char* key) const {
+  const TomlNode* node = Get(key, true);
+  if (node->kind != TomlNode::Kind::kText) Expected(*node, key, "text");
+  if (!IsCleanText(node->text, "\n\r\t")) {
+    FailAt(key, std::string(key) + " has a control character");
+  }
+  return node->text;
+}
+
+bool SceneReader::IsText(const char* key) const {
+  const TomlNode* node = table_.Find(key);
+  return node != nullptr && node->kind == TomlNode::Kind::kText;
+}
+
 std::string SceneReader::Name(const char* key) const {
   const std::string name = Text(key);
   const auto plain = [](char c) {

@@ -41,6 +41,9 @@ class SceneReader {
   bool Flag(const char* key, bool fallback) const;
   /// Up to 200 bytes, without control characters.
   std::string Text(const char* key, std::optional<std::string> fallback = {}) const;
+  /// A program: as long as the scene, with line ends and tabs.
+  std::string Code(const char* key) const;
+  bool IsText(const char* key) const;
   /// A letter or digit, then up to 31 letters, digits, '_' or '-'.
   std::string Name(const char* key) const;
   /// [x, y], both in the range.

@@ -1,5 +1,6 @@
 #include "common/physics/scene_text.h"
 
+#include <algorithm>
 #include <cstdint>
 
 #include "common/base/check.h"
@@ -45,6 +46,26 @@ void CheckCharacters(const std::string& text, const std::string& file) {
   }
 }
 
+/// The end of code that is written over several lines at `at`; moves `line` to it. Only scripts may
+/// have it, and only between ''': it is taken as it stands, so that its lines are the file's.
+std::size_t EndOfCode(const std::string& text, std::size_t at, const std::string& file, int* line) {
+  const std::size_t begin = text.rfind('\n', at) + 1;   // npos + 1 is 0
+  std::string before = text.substr(begin, at - begin);
+  before.erase(std::remove_if(before.begin(), before.end(),
+                              [](char c) { return c == ' ' || c == '\t'; }),
+               before.end());
+  if (before != "script=" && before != "code=") {
+    Fail(file, *line, "multi-line text is not allowed");
+  }
+  if (text[at] != '\'') Fail(file, *line, "code stands between ''' and ''', not \"\"\"");
+  const std::size_t end = text.find("'''", at + 3);
+  if (end == std::string::npos) Fail(file, *line, "code without its closing '''");
+  *line += static_cast<int>(std::count(text.begin() + static_cast<std::ptrdiff_t>(at),
+                                       text.begin() + static_cast<std::ptrdiff_t>(end), '\n'));
+  if (end + 3 < text.size() && text[end + 3] == '\'') Fail(file, *line, "one quote too many");
+  return end + 2;
+}
+
 /// Reads just enough TOML to know brackets from text and comments.
 void CheckNesting(const std::string& text, const std::string& file) {
   int line = 1, depth = 0, dots = 0;
@@ -65,9 +86,10 @@ void CheckNesting(const std::string& text, const std::string& file) {
       if (i < text.size() && text[i] == '\n') --i;
     } else if (c == '"' || c == '\'') {
       if (text.compare(i, 3, std::string(3, c)) == 0) {
-        Fail(file, line, "multi-line text is not allowed");
+        i = EndOfCode(text, i, file, &line);
+      } else {
+        quote = c;
       }
-      quote = c;
     } else if (c == '#') {
       comment = true;
     } else if (c == '[' || c == '{') {

@@ -151,6 +151,8 @@ const std::vector<Touch>& World::touches() const {
   return *impl_->touches;
 }
 
+std::vector<PartTouch> World::PartTouches() const { return FindPartTouches(*impl_->world); }
+
 const std::vector<Block>& World::blocks() const {
   if (!impl_->blocks) impl_->blocks = FindBlocks(*impl_->world, impl_->built.tethers);
   return *impl_->blocks;

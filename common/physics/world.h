@@ -25,6 +25,12 @@ struct Touch {
   int body_a = -1, body_b = -1;     ///< body indices
 };
 
+/// Two parts of different bodies that touch, anchored ones included, a < b.
+struct PartTouch {
+  PartId a = -1, b = -1;
+  bool operator<(const PartTouch& o) const { return a != o.a ? a < o.a : b < o.b; }
+};
+
 /// A direction in which something anchored holds a body back: a contact's normal, or the line of a
 /// distance joint to an anchor.
 struct Block {
@@ -109,6 +115,9 @@ class World {
   const std::vector<Impact>& impacts() const;  ///< of the last tick, dv above kImpactRecordMin
   /// After the last tick, each pair once. Looked up at the first call after a step.
   const std::vector<Touch>& touches() const;
+
+  /// The same by part, ascending; also of what is anchored. Looked up at every call.
+  std::vector<PartTouch> PartTouches() const;
 
   /// After the last tick, ascending by body; at most two per body.
   const std::vector<Block>& blocks() const;

@@ -5,6 +5,9 @@
 #include <tuple>
 #include <utility>
 
+#include "common/physics/stage.h"
+#include "common/physics/world_shapes.h"
+
 namespace seam {
 namespace {
 
@@ -87,6 +90,20 @@ std::vector<Touch> FindTouches(const b2World& world) {
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   std::vector<Touch> touches;
   for (const auto& [a, b] : pairs) touches.push_back({a, b});
+  return touches;
+}
+
+std::vector<PartTouch> FindPartTouches(const b2World& world) {
+  std::vector<PartTouch> touches;
+  for (const b2Contact* c = world.GetContactList(); c != nullptr; c = c->GetNext()) {
+    if (!Touching(c)) continue;
+    const auto a = PartOf(c->GetFixtureA()), b = PartOf(c->GetFixtureB());
+    if (a >= kStageFixture || b >= kStageFixture || a == b) continue;
+    touches.push_back({static_cast<PartId>(std::min(a, b)), static_cast<PartId>(std::max(a, b))});
+  }
+  std::sort(touches.begin(), touches.end());
+  const auto same = [](const PartTouch& x, const PartTouch& y) { return !(x < y) && !(y < x); };
+  touches.erase(std::unique(touches.begin(), touches.end(), same), touches.end());
   return touches;
 }
 

@@ -39,6 +39,9 @@ class ImpulseMeter : public b2ContactListener {
 /// Touching pairs of moving bodies, ascending, each once.
 std::vector<Touch> FindTouches(const b2World& world);
 
+/// Touching pairs of parts, ascending, each once; not what stages have added.
+std::vector<PartTouch> FindPartTouches(const b2World& world);
+
 /// At most two directions for each body, ascending by body.
 std::vector<Block> FindBlocks(const b2World& world, const std::vector<b2DistanceJoint*>& tethers);
 

@@ -46,7 +46,7 @@ class TeeRecorder : public Recorder {
 };
 
 /// "SEAM.<room>.<kind>" or "SEAM.<room>.<kind>.<peer>" when peer >= 0. kind is lower case: scene,
-/// inputs, states, grants, view, impacts, stats, event; docs/recordings.md lists them. Throws
+/// inputs, states, grants, meta, view, impacts, stats, event; docs/recordings.md lists them. Throws
 /// OperatorError when `room` is not a name (1..32 characters of [A-Za-z0-9_-]).
 std::string ChannelName(const std::string& room, const std::string& kind, int peer = -1);
 

@@ -147,6 +147,11 @@ bool RecordingBuilder::Keep(EditOrder& edit) {
   return true;
 }
 
+bool RecordingBuilder::Keep(Meta& meta) {
+  recording_.meta.push_back(std::move(meta));
+  return true;
+}
+
 bool RecordingBuilder::Keep(Impacts& impacts) {
   sorted_ = AppendByTick(&recording_.impacts, impacts) && sorted_;
   return true;

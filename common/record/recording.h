@@ -21,6 +21,7 @@ struct Recording {
   std::vector<States> states;                       ///< accepted ones, in log order
   std::vector<Grants> grants;                       ///< in log order
   std::map<std::int32_t, EditOrder> edits;          ///< by number: the room's order
+  std::vector<Meta> meta;                           ///< in log order; the last value stands
   std::vector<Impacts> impacts;
   std::map<int, std::vector<Stats>> stats;          ///< by peer, ascending
   std::vector<Event> events;
@@ -67,6 +68,7 @@ class RecordingBuilder {
   bool Keep(States& states);
   bool Keep(Grants& grants);
   bool Keep(EditOrder& edit);
+  bool Keep(Meta& meta);
   bool Keep(View& part);
   bool Keep(Impacts& impacts);
   bool Keep(Stats& stats);

@@ -26,6 +26,7 @@ void Publisher::Publish(Inputs message) { Number(message, "inputs", message.play
 void Publisher::Publish(States message) { Number(message, "states", message.peer); }
 void Publisher::Publish(Grants message) { Number(message, "grants", -1); }
 void Publisher::Publish(EditOrder message) { Number(message, "edit", -1); }
+void Publisher::Publish(Meta message) { Number(message, "meta", -1); }
 void Publisher::Publish(Impacts message) { Number(message, "impacts", message.peer); }
 void Publisher::Publish(Stats message) { Number(message, "stats", message.peer); }
 void Publisher::Publish(Event message) { Number(message, "event", message.peer); }

@@ -18,6 +18,7 @@ class Publisher {
   void Publish(States message);
   void Publish(Grants message);
   void Publish(EditOrder message);
+  void Publish(Meta message);
   /// Splits views of more than kViewBodiesMax bodies.
   void Publish(const View& message);
   void Publish(Impacts message);

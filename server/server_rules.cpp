@@ -1,0 +1,104 @@
+/// Server, what it decides beyond motion: triggers, damage, scores, scripts, permissions.
+
+#include "common/codec/codec.h"
+#include "server/rules.h"
+#include "server/script_host.h"
+#include "server/server.h"
+
+namespace seam {
+
+/// What the rules ask for becomes edits, in the server's order and for outside causes: an oracle
+/// cannot find them out by itself.
+class Server::Hands : public RoomHands {
+ public:
+  explicit Hands(Server& server) : server_(server) {}
+
+  void RemovePart(PartId part) override {
+    Edit edit;
+    edit.kind = EditKind::kRemove;
+    edit.a = part;
+    Ask(edit);
+  }
+  void BreakJoint(int joint) override {
+    Edit edit;
+    edit.kind = EditKind::kBreak;
+    edit.joint = joint;
+    Ask(edit);
+  }
+  void Push(PartId part, const Vec2& impulse) override {
+    Edit edit;
+    edit.kind = EditKind::kPush;
+    edit.a = part;
+    edit.x = impulse.x();
+    edit.y = impulse.y();
+    Ask(edit);
+  }
+  void Insert(const std::string& text) override {
+    Edit edit;
+    edit.kind = EditKind::kInsert;
+    edit.text = text;
+    Ask(edit);
+  }
+  void Say(const std::string& text) override { server_.Say(server_.rules_us_, text); }
+  bool Present(int player) const override {
+    return server_.PeerOfPlayer()[static_cast<std::size_t>(player)] >= 0;
+  }
+  Input ReadInput(int player) const override {
+    return server_.replica_.inputs(player).At(server_.replica_.tick());
+  }
+
+ private:
+  void Ask(Edit edit) {
+    edit.cause = EditCause::kOutside;
+    const std::string complaint = server_.replica_.world().topology().Complaint(edit);
+    if (!complaint.empty()) throw ScriptRefusal(complaint);
+    server_.Order(edit);
+  }
+
+  Server& server_;
+};
+
+void Server::MakeRules() {
+  if (!Rules::Needed(scene_)) return;
+  hands_ = std::make_unique<Hands>(*this);
+  rules_ = std::make_unique<Rules>(replica_.world(), config_.seed, *hands_);
+}
+
+void Server::RunRules(std::int64_t now_us) {
+  if (rules_ == nullptr) return;
+  rules_us_ = now_us;
+  rules_->AfterTick();
+  for (const Meta& meta : rules_->TakeChanges(now_us)) {
+    publisher_.Publish(meta);
+    const Bytes bytes = Encode(meta);
+    for (auto& [address, session] : sessions_) {
+      if (session->stage == Stage::kGreeted || session->link.SendReliable(bytes)) continue;
+      session->leaving = true;
+      session->leaving_why = "does not acknowledge";
+    }
+  }
+}
+
+void Server::SendRules(std::int64_t now_us, Session& session) {
+  if (rules_ == nullptr) return;
+  for (const Meta& meta : rules_->metadata().Export(now_us, replica_.tick())) {
+    session.link.SendReliable(Encode(meta));
+  }
+}
+
+void Server::ForbidWishes() {
+  const std::vector<Part>& parts = replica_.world().scene().parts;
+  const std::vector<int> peers = PeerOfPlayer();
+  for (const Part& part : parts) {
+    if (part.rules.push == kEveryPlayer) continue;
+    const int mechanism = MechanismOf(part.id);
+    if (mechanism < 0 || static_cast<std::size_t>(mechanism) >= wishes_.size()) continue;
+    Wish& wish = wishes_[static_cast<std::size_t>(mechanism)];
+    for (std::size_t p = 0; p < peers.size(); ++p) {
+      const bool has = wish.authority > 0 && peers[p] == wish.authority;
+      if (has && !Allows(part.rules.push, static_cast<int>(p))) wish.authority = 0;
+    }
+  }
+}
+
+}  // namespace seam
