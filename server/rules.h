@@ -26,6 +26,8 @@ class RoomHands {
   /// Each throws ScriptRefusal when it cannot be.
   virtual void RemovePart(PartId part) = 0;
   virtual void BreakJoint(int joint) = 0;         ///< index into Scene::joints
+  /// Makes b rigid with a where it is now, up to `strength` N (0: for ever).
+  virtual void Bond(PartId a, PartId b, float strength) = 0;
   virtual void Push(PartId part, const Vec2& impulse) = 0;
   /// [[part]] and [[joint]] as a scene writes them.
   virtual void Insert(const std::string& text) = 0;

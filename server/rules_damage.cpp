@@ -62,8 +62,8 @@ void Rules::Die(PartId id) {
   dead_.insert(id);
   const Part& part = scene().parts[static_cast<std::size_t>(id)];
   const auto by = struck_by_.find(id);
-  const std::string who = by != struck_by_.end() ? " by " + PlayerName(by->second) : "";
-  Say(part.name + " is destroyed" + who);
+  const std::string by_whom = by != struck_by_.end() ? " by " + PlayerName(by->second) : "";
+  Say(part.name + " is destroyed" + by_whom);
   if (by != struck_by_.end() && part.rules.score != 0) {
     table_.Add({kMetaPlayer, static_cast<std::int16_t>(by->second), kMetaScore}, part.rules.score);
   }

@@ -41,6 +41,10 @@ class ScriptHost {
   /// `table`: as a [[part]] or [[joint]] of the scene, without `repeat`; its line is the script's.
   virtual void AddPart(const TomlNode& table) = 0;
   virtual void AddJoint(const TomlNode& table) = 0;
+  /// Makes two parts one body as they are now; it holds up to `strength` N (0: for ever).
+  virtual void Weld(const std::string& a, const std::string& b, float strength) = 0;
+  /// Ends what is rigid between the two.
+  virtual void Unweld(const std::string& a, const std::string& b) = 0;
   virtual void RemovePart(const std::string& part) = 0;
   virtual void RemoveJoint(const std::string& joint) = 0;
 

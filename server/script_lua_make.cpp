@@ -93,13 +93,13 @@ int Add(lua_State* L, void (ScriptHost::*add)(const TomlNode&)) {
 int AddPart(lua_State* L) { return Add(L, &ScriptHost::AddPart); }
 int AddJoint(lua_State* L) { return Add(L, &ScriptHost::AddJoint); }
 
-/// weld(name, a, b, x, y), hinge(...) and distance(name, a, b, length): the usual joints in short.
+/// hinge(name, a, b, x, y) and distance(name, a, b, length): the usual joints in short.
 template <bool kAnchored>
 int Join(lua_State* L, const char* kind) {
   const char* texts[] = {luaL_checkstring(L, 1), luaL_checkstring(L, 2), luaL_checkstring(L, 3)};
   const char* keys[] = {"name", "a", "b"};
-  const bool placed = !lua_isnoneornil(L, 4);
-  const float x = placed ? LuaNumber(L, 4) : 0;
+  bool placed = !lua_isnoneornil(L, 4);
+  float x = placed ? LuaNumber(L, 4) : 0;
   const float y = placed && kAnchored ? LuaNumber(L, 5) : 0;
   LuaCountDeed(L);
   const int line = LineOf(L);
@@ -118,6 +118,12 @@ int Join(lua_State* L, const char* kind) {
       node.text = value;
       return node;
     };
+    BodyState from, to;
+    if (!placed && !kAnchored && HostOf(L).ReadPart(texts[1], &from) &&
+        HostOf(L).ReadPart(texts[2], &to)) {
+      x = (to.position - from.position).norm();   // as they are now, not as the scene put them
+      placed = true;
+    }
     TomlNode joint;
     joint.line = line;
     joint.kind = TomlNode::Kind::kTable;
@@ -137,7 +143,21 @@ int Join(lua_State* L, const char* kind) {
   return 0;
 }
 
-int Weld(lua_State* L) { return Join<true>(L, "weld"); }
+int Weld(lua_State* L) {
+  const char* a = luaL_checkstring(L, 1);
+  const char* b = luaL_checkstring(L, 2);
+  const float strength = lua_isnoneornil(L, 3) ? 0 : LuaNumber(L, 3);
+  LuaCountDeed(L);
+  Attempt(L, [&] { HostOf(L).Weld(a, b, strength); });
+  return 0;
+}
+int Unweld(lua_State* L) {
+  const char* a = luaL_checkstring(L, 1);
+  const char* b = luaL_checkstring(L, 2);
+  LuaCountDeed(L);
+  Attempt(L, [&] { HostOf(L).Unweld(a, b); });
+  return 0;
+}
 int Hinge(lua_State* L) { return Join<true>(L, "revolute"); }
 int Distance(lua_State* L) { return Join<false>(L, "distance"); }
 
@@ -173,6 +193,7 @@ void AddLuaMaking(lua_State* L) {
   const luaL_Reg functions[] = {{"add_part", AddPart},
                                 {"add_joint", AddJoint},
                                 {"weld", Weld},
+                                {"unweld", Unweld},
                                 {"hinge", Hinge},
                                 {"distance", Distance},
                                 {"remove_part", RemovePart},

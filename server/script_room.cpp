@@ -69,11 +69,34 @@ void ScriptRoom::AddPart(const TomlNode& table) { rules_.hands_.Insert(ToToml("p
 void ScriptRoom::AddJoint(const TomlNode& table) { rules_.hands_.Insert(ToToml("joint", table)); }
 void ScriptRoom::RemovePart(const std::string& part) { rules_.hands_.RemovePart(NeedPart(part)); }
 
+void ScriptRoom::Weld(const std::string& a, const std::string& b, float strength) {
+  if (strength < 0) throw ScriptRefusal("a strength below 0");
+  rules_.hands_.Bond(NeedPart(a), NeedPart(b), strength);
+}
+
+void ScriptRoom::Unweld(const std::string& a, const std::string& b) {
+  const PartId first = NeedPart(a), second = NeedPart(b);
+  const std::vector<Joint>& joints = rules_.scene().joints;
+  bool any = false;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const Joint& joint = joints[j];
+    const bool rigid = joint.kind == JointKind::kWeld || joint.kind == JointKind::kGlue;
+    const bool between = (joint.a == first && joint.b == second) ||
+                         (joint.a == second && joint.b == first);
+    if (joint.gone || !rigid || !between) continue;
+    rules_.hands_.BreakJoint(static_cast<int>(j));
+    any = true;
+  }
+  if (!any) {
+    throw ScriptRefusal("'" + Printable(a) + "' and '" + Printable(b) + "' are not welded");
+  }
+}
+
 void ScriptRoom::RemoveJoint(const std::string& joint) {
   const std::vector<Joint>& joints = rules_.scene().joints;
-  // The newest of this name: others may be gone.
   for (std::size_t j = joints.size(); j-- > 0;) {
-    if (joints[j].name == joint) return rules_.hands_.BreakJoint(static_cast<int>(j));
+    if (joints[j].gone || joints[j].name != joint) continue;
+    return rules_.hands_.BreakJoint(static_cast<int>(j));
   }
   throw ScriptRefusal("there is no joint '" + Printable(joint) + "'");
 }

@@ -29,6 +29,8 @@ class ScriptRoom : public ScriptHost {
   void Push(const std::string& part, const Vec2& impulse, const std::string& why) override;
   void AddPart(const TomlNode& table) override;
   void AddJoint(const TomlNode& table) override;
+  void Weld(const std::string& a, const std::string& b, float strength) override;
+  void Unweld(const std::string& a, const std::string& b) override;
   void RemovePart(const std::string& part) override;
   void RemoveJoint(const std::string& joint) override;
   float Get(const std::string& subject, const std::string& key) const override;

@@ -1,6 +1,9 @@
 /// Server, what it decides beyond motion: triggers, damage, scores, scripts, permissions.
 
+#include <cmath>
+
 #include "common/codec/codec.h"
+#include "common/physics/proposal.h"
 #include "server/rules.h"
 #include "server/script_host.h"
 #include "server/server.h"
@@ -23,6 +26,21 @@ class Server::Hands : public RoomHands {
     Edit edit;
     edit.kind = EditKind::kBreak;
     edit.joint = joint;
+    Ask(edit);
+  }
+  void Bond(PartId a, PartId b, float strength) override {
+    const World& world = server_.replica_.world();
+    const BodyState at_a = PartPose(world, a), at_b = PartPose(world, b);
+    const Vec2 apart = at_b.position - at_a.position;
+    const float cosine = std::cos(at_a.angle), sine = std::sin(at_a.angle);
+    Edit edit;
+    edit.kind = EditKind::kBond;
+    edit.a = a;
+    edit.b = b;
+    edit.x = cosine * apart.x() + sine * apart.y();
+    edit.y = cosine * apart.y() - sine * apart.x();
+    edit.angle = at_b.angle - at_a.angle;
+    edit.amount = strength;
     Ask(edit);
   }
   void Push(PartId part, const Vec2& impulse) override {

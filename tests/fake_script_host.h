@@ -45,6 +45,12 @@ class FakeHost : public ScriptHost {
   }
   void AddPart(const TomlNode& table) override { asked.push_back("add part " + Text(table)); }
   void AddJoint(const TomlNode& table) override { asked.push_back("add joint " + Text(table)); }
+  void Weld(const std::string& a, const std::string& b, float strength) override {
+    asked.push_back("weld " + a + " " + b + " " + Text(static_cast<double>(strength)));
+  }
+  void Unweld(const std::string& a, const std::string& b) override {
+    asked.push_back("unweld " + a + " " + b);
+  }
   void RemovePart(const std::string& part) override {
     states.erase(part);
     asked.push_back("remove part " + part);

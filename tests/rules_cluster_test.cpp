@@ -51,9 +51,8 @@ std::string Coins() {
              "\"\nkind = \"pickup\"\npart = \"coin" + n +
              "\"\nposition = [0, -2]\nbox = [0.3, 2]\nscore = 1\n";
   }
-  return coins +
-         "[[trigger]]\nname = \"acid\"\nkind = \"hazard\"\nposition = [2, 0]\nbox = [2, 2]\n"
-                 "health = 10\n";
+  return coins + "[[trigger]]\nname = \"acid\"\nkind = \"hazard\"\nposition = [2, 0]\n"
+                 "box = [2, 2]\nhealth = 10\n";
 }
 
 ClusterConfig With(const std::string& text, const std::string& mode, const std::string& impair,
@@ -100,7 +99,13 @@ TEST(RulesCluster, EachPickupIsGivenOnceAndAllPeersKnowTheSameAtTheEnd) {
       EXPECT_LT(server.Get({kMetaPart, 0, kMetaHealth}), 95) << mode;
       for (int c = 0; c < cluster.client_count(); ++c) {
         EXPECT_EQ(cluster.client(c)->metadata().values(), server.values()) << mode << " " << c;
+        EXPECT_EQ(cluster.client(c)->replica()->world().composition().hash,
+                  cluster.server().world().composition().hash)
+            << mode << " " << c;
       }
+      const Composition& left = cluster.server().world().composition();
+      EXPECT_EQ(std::count(left.assembly_of_part.begin(), left.assembly_of_part.end(), -1), 12)
+          << mode << ": the coins are gone";
       MetaTable recorded;
       for (const Meta& meta : cluster.recording().meta) recorded.Apply(meta);
       EXPECT_EQ(recorded.values(), server.values()) << mode;
@@ -151,6 +156,43 @@ TEST(RulesCluster, AScriptsErrorStopsTheScriptNotTheRoom) {
   EXPECT_EQ(stopped, 1);
   EXPECT_EQ(cluster.server().tick(), 480);
   EXPECT_EQ(cluster.server().rules()->metadata().Get({kMetaPlayer, 0, kMetaScore}), 480);
+}
+
+TEST(RulesCluster, WhatAScriptMakesAndBreaksIsTheSameAtEveryPeer) {
+  const std::string code = R"(
+[[script]]
+name = "maker"
+code = '''
+function on_tick()
+  local t = world.tick()
+  if t == 60 then
+    world.add_part{name = "box", box = {0.5, 0.5}, position = {0, 4}}
+    world.add_part{name = "pole", box = {0.2, 2}, position = {0, 6}, anchored = true}
+  end
+  if t == 120 then world.hinge("pin", "pole", "box", 0, 4.5) end
+  if t == 150 then world.impulse("box", 0.5, 0, "nudge") end
+  if t == 240 then world.remove_joint("pin") end
+  if t == 300 then world.remove_part("pole") end
+  if t == 360 then
+    local box = world.part("box")
+    print("box", world.part("pole") == nil, box.x > 0.2)
+  end
+end
+'''
+)";
+  for (const char* mode : {"buffer", "strict", "central", "oracle"}) {
+    Cluster cluster(With(Race(code), mode, "4g"));
+    cluster.Run();
+    EXPECT_EQ(Said(cluster.recording())["box true true"], 1) << mode;
+    const World& world = cluster.server().world();
+    EXPECT_EQ(world.body_count(), 3) << mode;
+    for (int c = 0; c < cluster.client_count(); ++c) {
+      const World& copy = cluster.client(c)->replica()->world();
+      EXPECT_EQ(copy.composition().hash, world.composition().hash) << mode;
+      const BodyState there = copy.Read(2), here = world.Read(2);
+      EXPECT_LT((there.position - here.position).norm(), 0.5) << mode;
+    }
+  }
 }
 
 TEST(RulesCluster, ASceneWithoutRulesHasNone) {

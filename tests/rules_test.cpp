@@ -21,6 +21,10 @@ class FakeHands : public RoomHands {
   Lines asked, said;
   void RemovePart(PartId part) override { asked.push_back("remove " + std::to_string(part)); }
   void BreakJoint(int joint) override { asked.push_back("break " + std::to_string(joint)); }
+  void Bond(PartId a, PartId b, float strength) override {
+    asked.push_back("bond " + std::to_string(a) + " " + std::to_string(b) + " " +
+                    std::to_string(strength));
+  }
   void Push(PartId part, const Vec2& impulse) override {
     asked.push_back("push " + std::to_string(part) + " " + std::to_string(impulse.x()));
   }
@@ -185,7 +189,8 @@ function on_tick(t)
   if world.tick() == 10 then
     world.impulse("a", 1, 0)
     world.add_part{name = "new", box = {1, 1}, position = {0, 9.5}, anchored = true}
-    world.weld("w", "a", "b")
+    world.weld("a", "b", 5)
+    print(pcall(world.unweld, "a", "b"))
     world.set("ann", "value3", 4)
     print(pcall(world.impulse, "wall", 1, 0))
     print(pcall(world.impulse, "a", 1e6, 0))
@@ -201,7 +206,8 @@ end
   game.rules.OnLeave(1);
   game.Step(10);
   EXPECT_EQ(game.hands.said,
-            (Lines{"ann joins ann", "bob leaves", "false 'wall' is anchored",
+            (Lines{"ann joins ann", "bob leaves", "false 'a' and 'b' are not welded",
+                   "false 'wall' is anchored",
                    "false the push makes 'a' faster than the speed_limit",
                    "false 'wall' has no health in the scene",
                    "false no value 'colour': health, score, checkpoint, laps, taken, value0 .. "
@@ -211,7 +217,7 @@ end
             (Lines{"push 0 1.000000",
                    "[[part]]\nanchored = true\nbox = [1, 1]\nname = \"new\"\n"
                    "position = [0, 9.5]\n",
-                   "[[joint]]\nkind = \"weld\"\nname = \"w\"\na = \"a\"\nb = \"b\"\n"}));
+                   "bond 0 1 5.000000"}));
   EXPECT_EQ(game.OfPlayer(0, kMetaScripts + 3), 4);
   game.hands.said.clear();
   game.Step(100);
@@ -222,10 +228,9 @@ end
   EXPECT_EQ(game.hands.said[2].rfind("a wall 5", 0), 0u) << game.hands.said[2];
   const std::string& text = game.world.scene().text;
   const auto typo = text.begin() + static_cast<std::ptrdiff_t>(text.find("remove_prat"));
+  const std::string line = std::to_string(1 + std::count(text.begin(), typo, '\n'));
   EXPECT_EQ(game.hands.said.back(),
-            "script s is stopped: g.toml:" +
-                std::to_string(1 + std::count(text.begin(), typo, '\n')) +
-                ": attempt to call a nil value (field 'remove_prat')");
+            "script s is stopped: g.toml:" + line + ": attempt to call a nil value (field 'remove_prat')");
 }
 
 TEST(Rules, APartOfABodyIsWhereItsRootHasCarriedIt) {

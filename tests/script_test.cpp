@@ -59,9 +59,11 @@ TEST(Script, MakesPartsAndJointsAsASceneWouldSayThem) {
   FakeRoom room(R"(
     world.add_part{name = "b2", box = {1, 0.5}, position = {2, 3}, bullet = true}
     world.add_joint{name = "j", kind = "wheel", a = "ball", b = "b2", motor = {speed = 3}}
-    world.weld("w", "ball", "b2", 1, 2)
-    world.hinge("h", "ball", "b2")
-    world.distance("d", "ball", "b2", 2.5)
+    world.weld("ball", "b2")
+    world.unweld("ball", "b2")
+    world.hinge("h", "ball", "crate.0", 1, 2)
+    world.distance("d", "ball", "crate.0", 2.5)
+    world.distance("e", "ball", "crate.1")
     world.remove_joint("d")
     world.remove_part("b2")
   )");
@@ -69,9 +71,10 @@ TEST(Script, MakesPartsAndJointsAsASceneWouldSayThem) {
   EXPECT_EQ(room.host.asked,
             (Lines{"add part {box=[1 0.5 ] bullet=true name=b2 position=[2 3 ] }",
                    "add joint {a=ball b=b2 kind=wheel motor={speed=3 } name=j }",
-                   "add joint {kind=weld name=w a=ball b=b2 anchor=[1 2 ] }",
-                   "add joint {kind=revolute name=h a=ball b=b2 }",
-                   "add joint {kind=distance name=d a=ball b=b2 length=2.5 }",
+                   "weld ball b2 0", "unweld ball b2",
+                   "add joint {kind=revolute name=h a=ball b=crate.0 anchor=[1 2 ] }",
+                   "add joint {kind=distance name=d a=ball b=crate.0 length=2.5 }",
+                   "add joint {kind=distance name=e a=ball b=crate.1 length=2.23607 }",
                    "remove joint d", "remove part b2"}));
 }
 

@@ -10,6 +10,7 @@
 #include "common/physics/connectors.h"
 #include "common/physics/forces.h"
 #include "common/physics/grouping.h"
+#include "common/physics/rules.h"
 #include "common/physics/types.h"
 #include "common/physics/water.h"
 

@@ -169,7 +169,9 @@ void CheckPermissions(const Scene& scene, const std::string& file) {
     return scene.parts[static_cast<std::size_t>(id)];
   };
   for (const Joint& joint : scene.joints) {
-    if (joint.motor_player < 0) continue;
+    const bool by_player = joint.motor_player >= 0 &&
+                           joint.motor_player < static_cast<int>(scene.players.size());
+    if (!by_player) continue;   // always on, or a seat's
     for (const PartId id : {joint.a, joint.b}) {
       if (Allows(part(id).rules.drive, joint.motor_player)) continue;
       fail(joint.line, "joint '" + joint.name + "': its player may not drive '" + part(id).name +
