@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "common/physics/feather_blast.h"
 #include "tests/scripted_world.h"
 #include "tests/small_world.h"
 
@@ -213,6 +214,21 @@ TEST(Feather, ASleeperKeepsItsGroundUnderAFarTraveller) {
   for (int t = 0; t < 60; ++t) world.Step();
   EXPECT_NEAR(world.Read(0).position.y(), before.position.y(), 1e-3);
   EXPECT_GT(world.Read(1).position.x(), 300);
+}
+
+TEST(Feather, WhatIsGoneIsAHoleWithItsOwnWalls) {
+  // Two layers of pavement over a floor 3 m below; the blast opens both over a width of 3.5 m.
+  const std::string floor = "[[part]]\nname = \"floor\"\nbox = [100, 1]\nposition = [0, -4]\n"
+                            "anchored = true\n";
+  const std::string balls = "[[part]]\nname = \"in\"\ncircle = 0.4\nposition = [7.8, 1]\n"
+                            "[[part]]\nname = \"out\"\ncircle = 0.4\nposition = [10.5, 1]\n";
+  Scene scene = ParseScene(Pavement(true, "0.5") + floor + balls, "s.toml");
+  scene.bricks_gone = BlastBricks(scene.bricks, {}, {Vec2(8, -0.25f), 2, 20}).bricks;
+  ASSERT_EQ(scene.bricks_gone.size(), 16u);
+  World world(scene);
+  for (int t = 0; t < 240; ++t) world.Step();
+  EXPECT_NEAR(world.Read(0).position.y(), -3.1, 0.02) << "it fell through";
+  EXPECT_NEAR(world.Read(1).position.y(), 0.4, 0.02) << "it lies beside the hole";
 }
 
 TEST(Feather, BricksAsPartsAreTheSameBricks) {

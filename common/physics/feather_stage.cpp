@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/check.h"
 #include "common/physics/feather_chunk.h"
 #include "common/physics/scene_limits.h"
 
@@ -65,6 +66,7 @@ class FeatherStage : public Stage {
 
   void Rebuilt(b2World* world) override {
     b2_ = world;
+    TakeOut();
     followed_.assign(world_.built.moving.size(), {});
     for (std::size_t i = 0; i < followed_.size(); ++i) {
       followed_[i].reach = ReachOf(world_.built.moving[i].body);
@@ -90,6 +92,35 @@ class FeatherStage : public Stage {
     float reach = 0;                // m
     CellRange cells;                    // that it wants
   };
+
+  /// Brings the store to what the scene says is left. Requires that nothing has fixtures.
+  void TakeOut() {
+    const std::vector<Brick>& gone = world_.scene.bricks_gone;
+    const std::size_t known = std::min(taken_.size(), gone.size());
+    const auto same = static_cast<std::size_t>(
+        std::mismatch(taken_.begin(), taken_.begin() + static_cast<std::ptrdiff_t>(known),
+                      gone.begin()).first - taken_.begin());
+    const auto at = static_cast<std::ptrdiff_t>(same);
+    const std::vector<Brick> back(taken_.begin() + at, taken_.end());
+    const std::vector<Brick> out(gone.begin() + at, gone.end());
+    store_.Restore(back);
+    SEAM_ASSERT(store_.Remove(out) == out.size());
+    for (const auto* changed : {&back, &out}) {
+      for (const Brick& b : *changed) ForgetAround(b);
+    }
+    taken_ = gone;
+  }
+  /// The outlines of the cells whose boundary a brick is part of.
+  void ForgetAround(const Brick& b) {
+    const BrickKind& kind = store_.kinds()[static_cast<std::size_t>(b.kind)];
+    for (int y = FeatherStore::CellOf(b.y - 1); y <= FeatherStore::CellOf(b.y + kind.height); ++y) {
+      for (int x = FeatherStore::CellOf(b.x - 1); x <= FeatherStore::CellOf(b.x + kind.width);
+           ++x) {
+        const int cell = store_.CellAt(x, y);
+        if (cell >= 0) loaded_[static_cast<std::size_t>(cell)].chunk.reset();
+      }
+    }
+  }
 
   /// The cells within `margin` m of the body, on the way that it makes in `ahead` s.
   CellRange CellsNear(const b2Body& body, float reach, float margin, float ahead) const {
@@ -169,6 +200,7 @@ class FeatherStage : public Stage {
 
   const StageWorld world_;
   FeatherStore store_;
+  std::vector<Brick> taken_;        // out of the store
   b2World* b2_ = nullptr;
   std::vector<Loaded> loaded_;      // by cell
   std::vector<Followed> followed_;  // by moving body
