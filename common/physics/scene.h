@@ -159,7 +159,6 @@ struct Scene {
   std::vector<Part> parts;
   std::vector<Joint> joints;
   std::vector<BrickField> bricks;   ///< anchored, and no parts
-  std::vector<Brick> bricks_gone;   ///< of those: what blasts have freed, in their order
   std::vector<Water> waters;
   Grouping grouping;
   std::vector<Player> players;
