@@ -67,6 +67,26 @@ void DrawOutline(DrawList& list, const Viewport& viewport, const Outline& outlin
                                       {width, edge, 0});
 }
 
+/// Parts without edges, and the edge of the whole.
+void DrawRimmed(DrawList& list, const Viewport& viewport, const BodyShapes& body,
+                const Frame2& frame, const BodyLook& look) {
+  const float scale = list.font().scale();
+  const float s = 0.70710678f;
+  const Vec2 normal(s * (frame.cosine + frame.sine), s * (frame.cosine - frame.sine));
+  const Vec2 origin = viewport.ToPx(frame.position);
+  for (const Outline& outline : body.outlines) {
+    std::vector<Vec2> px = OnPanel(viewport, outline.points, frame);
+    if (outline.kind == ShapeKind::kCircle)
+      px = CirclePoints(px[0], outline.radius * viewport.px_per_m);
+    list.Fill(px, Faded(look.fill, look.opacity));
+    if (look.hatched)
+      list.Hatch(px, origin, normal, 6 * scale, Faded(look.edge, 0.55f * look.opacity));
+  }
+  for (const auto& edge : body.rim)
+    list.Stroke(OnPanel(viewport, {edge[0], edge[1]}, frame), false,
+                {1.1f * scale, Faded(look.edge, look.opacity), 0});
+}
+
 }  // namespace
 
 BodyLook LookOf(int authority, int role) {
@@ -90,6 +110,7 @@ BodyLook GroundLook() { return {kGround, kGroundEdge, false, 1}; }
 void DrawBody(DrawList& list, const Viewport& viewport, const BodyShapes& body, const Pose& pose,
               const BodyLook& look) {
   const Frame2 frame(pose);
+  if (!body.rim.empty()) return DrawRimmed(list, viewport, body, frame, look);
   for (const Outline& outline : body.outlines) DrawOutline(list, viewport, outline, frame, look);
 }
 
@@ -101,6 +122,15 @@ void DrawGhost(DrawList& list, const Viewport& viewport, const BodyShapes& body,
   const Line rim{(width + 1.7f) * scale, Faded({255, 255, 255, 255}, 0.6f * opacity), 0};
   const Line line{small ? 0.8f * scale : width * scale, Faded(kInk, (small ? 0.7f : 1) * opacity),
                   small ? 0 : 5 * scale};
+  for (const auto& edge : body.rim) {   // dashes as long as the edges: each edge is one line
+    const std::vector<Vec2> px = OnPanel(viewport, {edge[0], edge[1]}, frame);
+    if ((px[0] - px[1]).norm() > 4 * scale) {
+      list.Stroke(px, false, line);
+    } else {
+      list.Stroke({px[0], px[0] + 0.55f * (px[1] - px[0])}, false, {line.width, line.colour, 0});
+    }
+  }
+  if (!body.rim.empty()) return;
   for (const Outline& outline : body.outlines) {
     std::vector<Vec2> px = OnPanel(viewport, outline.points, frame);
     if (outline.kind == ShapeKind::kCircle)

@@ -62,6 +62,71 @@ Outline OutlineOf(const Part& part, const Pose& root) {
   return outline;
 }
 
+/// Bodies of more parts are drawn by their rim: a thousand outlines would be a grey field.
+constexpr std::size_t kManyParts = 100;
+constexpr float kCovered_m = 0.02f;      ///< an edge with a part so near its outside is covered
+
+/// Corners; a circle as a polygon.
+std::vector<Vec2> CornersOf(const Outline& outline) {
+  if (outline.kind != ShapeKind::kCircle) return outline.points;
+  std::vector<Vec2> corners;
+  for (int i = 0; i < 12; ++i) {
+    const float turn = 0.52359878f * static_cast<float>(i);
+    corners.push_back(outline.points[0] + outline.radius * Vec2(std::cos(turn), std::sin(turn)));
+  }
+  return corners;
+}
+
+float SignedArea(const std::vector<Vec2>& corners) {
+  float twice = 0;
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return twice / 2;
+}
+
+/// Within a convex shape of counter-clockwise corners.
+bool Covers(const std::vector<Vec2>& corners, const Vec2& p) {
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const Vec2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
+    const Vec2 along = b - a, to = p - a;
+    if (along.x() * to.y() - along.y() * to.x() < 0) return false;
+  }
+  return true;
+}
+
+std::vector<std::array<Vec2, 2>> RimOf(const std::vector<Outline>& outlines) {
+  std::vector<std::vector<Vec2>> shapes;
+  std::vector<std::array<Vec2, 2>> boxes;   // min, max
+  for (const Outline& outline : outlines) {
+    shapes.push_back(CornersOf(outline));
+    if (SignedArea(shapes.back()) < 0) std::reverse(shapes.back().begin(), shapes.back().end());
+    Vec2 min = shapes.back()[0], max = min;
+    for (const Vec2& p : shapes.back()) {
+      min = min.cwiseMin(p);
+      max = max.cwiseMax(p);
+    }
+    boxes.push_back({min, max});
+  }
+  std::vector<std::array<Vec2, 2>> rim;
+  for (std::size_t s = 0; s < shapes.size(); ++s) {
+    for (std::size_t i = 0; i < shapes[s].size(); ++i) {
+      const Vec2 &a = shapes[s][i], &b = shapes[s][(i + 1) % shapes[s].size()];
+      const Vec2 along = (b - a).normalized();
+      const Vec2 beside = (a + b) / 2 + kCovered_m * Vec2(along.y(), -along.x());
+      bool covered = false;
+      for (std::size_t o = 0; o < shapes.size() && !covered; ++o) {
+        const bool near = (beside.array() >= boxes[o][0].array()).all() &&
+                          (beside.array() <= boxes[o][1].array()).all();
+        covered = o != s && near && Covers(shapes[o], beside);
+      }
+      if (!covered) rim.push_back({a, b});
+    }
+  }
+  return rim;
+}
+
 }  // namespace
 
 Frame2::Frame2(const Pose& pose)
@@ -90,6 +155,9 @@ std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composit
     }
     body.round = body.outlines.size() == 1 && body.outlines[0].kind == ShapeKind::kCircle &&
                  body.outlines[0].points[0].norm() < 1e-3f;
+    const bool lines = std::any_of(body.outlines.begin(), body.outlines.end(),
+                                   [](const Outline& o) { return IsLine(o.kind); });
+    if (body.outlines.size() > kManyParts && !lines) body.rim = RimOf(body.outlines);
     bodies.push_back(std::move(body));
   }
   return bodies;

@@ -1,6 +1,7 @@
 #pragma once
 /// A scene's parts as outlines that can be drawn, relative to the body they belong to.
 
+#include <array>
 #include <vector>
 
 #include "common/physics/assembly.h"
@@ -41,6 +42,9 @@ struct BodyShapes {
   std::vector<PartId> parts;   ///< ascending
   std::vector<Outline> outlines;   ///< one for each part
   std::vector<Pose> places;    ///< of the parts, in the root part's frame
+  /// Of a body of many parts: the edges that no other of its parts covers, two points each, m in
+  /// the root's frame. Empty for others.
+  std::vector<std::array<Vec2, 2>> rim;
   float reach = 0;             ///< m: nothing of it is further from the root
   bool round = false;          ///< a circle about its root: its outline does not show its angle
   Pose start;                  ///< of the root part at tick 0

@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <tuple>
 
+#include "common/base/check.h"
 #include "common/physics/scene_limits.h"
 
 namespace seam {
@@ -122,6 +124,9 @@ Freed BlastBricks(const std::vector<BrickField>& fields, const std::vector<Brick
     whole.height *= piece.rows;
     Part part = BrickPart(whole, piece.first.x, piece.first.y);
     part.anchored = false;
+    part.name = field.name + "@" + std::to_string(piece.first.x) + "," +
+                std::to_string(piece.first.y) + "+" + std::to_string(piece.columns) + "x" +
+                std::to_string(piece.rows);
     part.line = field.line;
     Vector2d velocity = SpeedAt(blast, part.position.cast<double>());
     const double most = static_cast<double>(kSpeedMax), speed = velocity.norm();
@@ -136,6 +141,33 @@ Freed BlastBricks(const std::vector<BrickField>& fields, const std::vector<Brick
     }
   }
   return freed;
+}
+
+std::vector<Brick> FreedBricks(const std::vector<BrickField>& fields,
+                               const std::vector<Part>& parts) {
+  std::vector<Brick> freed;
+  for (const Part& part : parts) {
+    const std::size_t at = part.name.find('@');
+    if (at == std::string::npos) continue;
+    int x = 0, y = 0, columns = 0, rows = 0;
+    const int read = std::sscanf(part.name.c_str() + at, "@%d,%d+%dx%d", &x, &y, &columns, &rows);
+    SEAM_ASSERT(read == 4);
+    for (std::size_t kind = 0; kind < fields.size(); ++kind) {
+      if (part.name.compare(0, at, fields[kind].name) != 0) continue;
+      for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
+          freed.push_back({x + column * fields[kind].width, y + row * fields[kind].height,
+                           static_cast<int>(kind)});
+        }
+      }
+    }
+  }
+  return freed;
+}
+
+bool Possible(const Blast& blast) {
+  return blast.centre.allFinite() && blast.radius > 0 && blast.radius <= kBlastRadiusMax &&
+         blast.speed >= 0 && blast.speed <= kSpeedMax;
 }
 
 }  // namespace seam

@@ -21,7 +21,7 @@ struct Blast {
 
 struct Freed {
   std::vector<Brick> bricks;        ///< no longer anchored
-  std::vector<Part> parts;          ///< boxes of up to two by two of them; without ids and names
+  std::vector<Part> parts;          ///< boxes of up to two by two of them; without ids
 };
 
 /// The bricks of `fields` but `gone` that the blast would give a speed above their strength,
@@ -30,5 +30,14 @@ struct Freed {
 /// million).
 Freed BlastBricks(const std::vector<BrickField>& fields, const std::vector<Brick>& gone,
                   const Blast& blast);
+
+/// All bricks that have become parts: a piece is named after what it was, "towers@-120,35+2x2" for
+/// two by two bricks of `towers` whose lower left corner is at (-120, 35) units. No name in a scene
+/// has an @. In the order of the parts, those that have left included.
+std::vector<Brick> FreedBricks(const std::vector<BrickField>& fields,
+                               const std::vector<Part>& parts);
+
+/// Whether a blast is one that can be: finite, of at most kBlastRadiusMax and kSpeedMax.
+bool Possible(const Blast& blast);
 
 }  // namespace seam

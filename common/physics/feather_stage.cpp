@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/physics/feather_blast.h"
 #include "common/physics/feather_chunk.h"
 #include "common/physics/scene_limits.h"
 
@@ -95,7 +96,7 @@ class FeatherStage : public Stage {
 
   /// Brings the store to what the scene says is left. Requires that nothing has fixtures.
   void TakeOut() {
-    const std::vector<Brick>& gone = world_.scene.bricks_gone;
+    const std::vector<Brick> gone = FreedBricks(world_.scene.bricks, world_.scene.parts);
     const std::size_t known = std::min(taken_.size(), gone.size());
     const auto same = static_cast<std::size_t>(
         std::mismatch(taken_.begin(), taken_.begin() + static_cast<std::ptrdiff_t>(known),

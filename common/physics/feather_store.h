@@ -9,6 +9,14 @@
 
 namespace seam {
 
+/// A brick by itself. Units of 5 cm.
+struct Brick {
+  int x = 0, y = 0;                 ///< lower left corner
+  int kind = 0;                     ///< index into Scene::bricks, and FeatherStore::kinds()
+
+  bool operator==(const Brick& o) const { return x == o.x && y == o.y && kind == o.kind; }
+};
+
 /// What bricks of one field have in common.
 struct BrickKind {
   int width = 0, height = 0;        ///< units

@@ -4,7 +4,9 @@
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/physics/feather_blast.h"
 #include "common/physics/mass.h"
+#include "common/physics/scene_limits.h"
 
 namespace seam {
 namespace {
@@ -25,6 +27,10 @@ struct Place {
     return {-back.Turned(shift), -angle};
   }
 };
+
+Blast BlastOf(const Edit& edit) {
+  return {Vec2(edit.x, edit.y), edit.amount, edit.angle};
+}
 
 Place PlaceOf(const Part& part) {
   return {part.position.cast<double>(), static_cast<double>(part.angle)};
@@ -98,7 +104,12 @@ std::string Topology::Complaint(const Edit& edit) const {
       }
       return "";
     }
-    case EditKind::kBlast: return "";
+    case EditKind::kBlast: {
+      if (!Possible(BlastOf(edit))) return "the blast is too large or too fast";
+      if (scene_.bricks.empty()) return "there are no bricks";
+      if (scene_.parts.size() + kBlastPiecesMax > kPartsMax) return "there are too many parts";
+      return "";
+    }
     case EditKind::kNothing: break;
   }
   return "it is no edit";
@@ -169,8 +180,16 @@ std::string Topology::ApplyOne(const Edit& edit) {
     case EditKind::kSeat:
       scene_.seats[static_cast<std::size_t>(edit.a)].player = edit.player;
       break;
+    case EditKind::kBlast: {
+      const std::vector<Brick> gone = FreedBricks(scene_.bricks, scene_.parts);
+      for (Part& part : BlastBricks(scene_.bricks, gone, BlastOf(edit)).parts) {
+        part.id = static_cast<PartId>(scene_.parts.size());
+        scene_.parts.push_back(std::move(part));
+        stale_ = true;
+      }
+      break;
+    }
     case EditKind::kPush:
-    case EditKind::kBlast:
     case EditKind::kNothing: break;
   }
   return "";
