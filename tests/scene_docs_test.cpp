@@ -63,6 +63,7 @@ TEST(SceneDocs, EveryKeyIsOnThePage) {
       {"[[part]]", "## `[[part]]`"}, {ball + "[[joint]]", "## `[[joint]]`"},
       {ball + "[[bricks]]", "## `[[bricks]]`"},
       {ball + "[[water]]", "## `[[water]]`"},
+      {"[[character]]", "## `[[character]]`"},
       {"[[player]]", "## `[[player]]`"}, {ball + "[[watch]]", "## `[[watch]]`"},
       {ball + "[camera]", "## `[camera]`"}};
   for (const auto& [table, heading] : tables) {

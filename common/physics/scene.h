@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/physics/bricks.h"
+#include "common/physics/character.h"
 #include "common/physics/types.h"
 #include "common/physics/water.h"
 
@@ -135,6 +136,7 @@ struct Scene {
   std::vector<Joint> joints;
   std::vector<BrickField> bricks;   ///< anchored, and no parts
   std::vector<Water> waters;
+  std::vector<Character> characters;
   std::vector<Player> players;
   std::vector<WatchCollision> watch;
   Camera camera;

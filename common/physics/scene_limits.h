@@ -33,6 +33,9 @@ constexpr std::size_t kWatersMax = 64;
 /// Numbers of things. Parts: what two views of bodies carry; players: peers 1..31.
 constexpr std::size_t kPartsMax = 4096, kJointsMax = 4096, kPlayersMax = 31, kActionsMax = 15;
 constexpr std::size_t kScriptMax = 2000, kWatchMax = 16;
+/// m; smaller ones would have parts below kSizeMin.
+constexpr Range kCharacterHeight{1, 5};
+constexpr std::size_t kCharactersMax = 64;
 /// Welded parts farther than this from their root would lose their edges to rounding, m.
 constexpr float kWeldReachMax = 1000;
 

@@ -65,8 +65,8 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
 
   const SceneReader root(tree, file_name, "scene",
                          {"title", "gravity", "duration", "buffer", "speed_limit", "size_max",
-                          "bounds", "solver", "part", "bricks", "joint", "water", "player",
-                          "watch", "camera"});
+                          "bounds", "solver", "part", "bricks", "character", "joint", "water",
+                          "player", "watch", "camera"});
   scene.title = root.Text("title", scene.name);
   scene.gravity = root.Vector("gravity", {-100, 100}, scene.gravity);
   scene.duration_s = root.Seconds("duration", {0.1, 86400}, scene.duration_s);
@@ -78,6 +78,7 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   ReadPlayerNames(root, &draft);
   ReadParts(root, &draft);
   ReadBricks(root, &draft);
+  ReadCharacters(root, &draft);
   ReadJoints(root, &draft);
   ReadWaters(root, &draft);
   ReadPlayers(root, &draft);
