@@ -44,7 +44,8 @@ void CharacterControl::Jump(const CharacterSense& s) {
     } else if (both || s.legs[side].down) {
       Bear(s, side, pressure, both ? 0.5f * lift : lift, both ? 0.5f * torso : torso);
     } else {
-      Reach(s, side, s.hip + b2Vec2(0.1f * shape.hip, -0.6f * shape.hip), 0);
+      Reach(s, side, s.hip + b2Vec2(0.1f * shape.hip, -0.6f * shape.hip), s.hip_velocity, 0,
+            kSwingStiffness);
     }
   }
   const float arms = push ? 1.5f : -0.8f;
@@ -72,7 +73,8 @@ void CharacterControl::Air(const CharacterSense& s) {
   const float apart = kAirApart * shape.hip;
   for (int side = 0; side < 2; ++side) {
     const float x = s.hip.x + ahead + (side == memory_.stance ? apart : -apart);
-    Reach(s, side, b2Vec2(x, s.hip.y - depth), 0, sinks ? kLandStiffness : kAirStiffness);
+    Reach(s, side, b2Vec2(x, s.hip.y - depth), s.hip_velocity, 0,
+          sinks ? kLandStiffness : kAirStiffness);
   }
   Arms(0.8f, 0.8f, 0.4f);
 }

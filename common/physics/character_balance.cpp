@@ -59,21 +59,28 @@ void CharacterControl::Push(const CharacterSense& s, int side, b2Vec2 pressure, 
   limbs_.Torque(Ankle(side), torque_at(leg.ankle));
 }
 
-/// Leads the ankle to a point and the foot to an angle, all in the own frame: the knee bends
-/// forward.
-void CharacterControl::Reach(const CharacterSense& s, int side, b2Vec2 ankle, float foot,
-                             float stiffness) {
-  if (stiffness <= 0) stiffness = kSwingStiffness;
+/// Angles of thigh and shank, absolute, that bring the ankle `way` from the hip, the knee forward.
+CharacterControl::LegPose CharacterControl::PoseFor(b2Vec2 way) const {
   const float a = limbs_.shape().thigh, b = limbs_.shape().shank;
-  const b2Vec2 way = ankle - s.hip;
-  const float distance = std::clamp(way.Length(), std::abs(a - b) + 0.25f * a, 0.995f * (a + b));
+  const float distance =
+      std::clamp(way.Length(), std::abs(a - b) + 0.25f * a, 0.995f * (a + b));
   const float down = std::atan2(way.x, -way.y);
   const float at_hip = std::acos((a * a + distance * distance - b * b) / (2 * a * distance));
   const float at_knee = std::acos((a * a + b * b - distance * distance) / (2 * a * b));
-  const float thigh = down + at_hip;
-  const float bend = at_knee - b2_pi;
-  Pose(Hip(side), thigh - s.torso, stiffness);
-  Pose(Knee(side), bend, stiffness);
+  return {down + at_hip, at_knee - b2_pi};
+}
+
+/// Leads the ankle to a point that moves, and the foot to an angle, all in the own frame.
+void CharacterControl::Reach(const CharacterSense& s, int side, b2Vec2 ankle, b2Vec2 velocity,
+                             float foot, float stiffness) {
+  constexpr float kAhead = 0.01f;     // s, for the rates of the angles
+  const b2Vec2 way = ankle - s.hip;
+  const LegPose now = PoseFor(way);
+  const LegPose then = PoseFor(way + kAhead * (velocity - s.hip_velocity));
+  const float thigh_spin = (then.thigh - now.thigh) / kAhead;
+  const float knee_spin = (then.knee - now.knee) / kAhead;
+  Pose(Hip(side), now.thigh - s.torso, stiffness, thigh_spin - s.torso_spin, kHipRate);
+  Pose(Knee(side), now.knee, stiffness, knee_spin);
   Pose(Ankle(side), foot - s.legs[side].shank, kAnkleStiffness);
 }
 
@@ -130,7 +137,8 @@ void CharacterControl::Stand(const CharacterSense& s) {
     if (part > 0) {
       Bear(s, side, pressure, part * lift, part * torso);
     } else {
-      Reach(s, side, b2Vec2(s.legs[side].ankle.x, ground_y + shape.ankle), 0);
+      Reach(s, side, b2Vec2(s.legs[side].ankle.x, ground_y + shape.ankle), s.hip_velocity, 0,
+            kSwingStiffness);
     }
   }
   Arms(0.1f, -0.1f, 0.3f);
@@ -187,17 +195,29 @@ CharacterControl::Foothold CharacterControl::NextFoothold(const CharacterSense& 
   return next;
 }
 
-/// Of the swinging foot: up, over, down to where it is to stand.
-void CharacterControl::Swing(const CharacterSense& s, int side, const Foothold& to) {
+/// Of the swinging foot, at `time` s: up, over, down to where it is to stand.
+b2Vec2 CharacterControl::SwingAt(float time, const Foothold& to) const {
   const float whole = StepTime();
-  const float t = memory_.step / whole;
+  const float t = time / whole;
   const b2Vec2 from = memory_.from;
-  const float x = from.x + (to.ankle.x - from.x) * Smooth((t - 0.12f) / (0.9f - 0.12f));
-  const float top = std::max(from.y, to.ankle.y) + kClearance * limbs_.scale();
-  float y = t < 0.5f ? from.y + (top - from.y) * Smooth(t / 0.35f)
-                     : top + (to.ankle.y - top) * Smooth((t - 0.5f) / 0.5f);
-  if (t > 1) y -= 0.5f * limbs_.scale() * (memory_.step - whole);   // it should be there by now
-  Reach(s, side, b2Vec2(x, y), to.slope);
+  // Onto a stair it goes up before it goes on.
+  const bool stair = to.ankle.y > from.y + 0.05f * limbs_.scale() && std::abs(to.slope) < 0.05f;
+  const float wait = stair ? kStairWait : 0;
+  const float lifted = stair ? kStairLifted : kLifted;
+  const float x = from.x + (to.ankle.x - from.x) * Smooth((t - wait) / (kArrive - wait));
+  const float top =
+      std::max(from.y, to.ankle.y) + (stair ? kStairClearance : kClearance) * limbs_.scale();
+  const float y = t < 0.5f ? from.y + (top - from.y) * Smooth(t / lifted)
+                           : top + (to.ankle.y - top) * Smooth((t - 0.5f) / 0.5f);
+  const float late = t > 1 ? kSearch * limbs_.scale() * (time - whole) : 0;
+  return b2Vec2(x, y - late);
+}
+
+void CharacterControl::Swing(const CharacterSense& s, int side, const Foothold& to) {
+  constexpr float kAhead = 0.01f;     // s, for the foot's velocity
+  const b2Vec2 now = SwingAt(memory_.step, to);
+  const b2Vec2 then = SwingAt(memory_.step + kAhead, to);
+  Reach(s, side, now, 1 / kAhead * (then - now), to.slope, kSwingStiffness);
 }
 
 void CharacterControl::StepOn(const CharacterSense& s, float h) {

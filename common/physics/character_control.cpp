@@ -102,9 +102,10 @@ float CharacterControl::Omega(const CharacterSense& s, float ground_y) const {
   return std::sqrt(gravity_ / height);
 }
 
-void CharacterControl::Pose(CharacterJoint joint, float angle, float strength) {
+void CharacterControl::Pose(CharacterJoint joint, float angle, float strength, float spin,
+                            float rate) {
   const float stiffness = strength * unit_;
-  limbs_.Servo(joint, angle, stiffness, stiffness / kServoRate);
+  limbs_.Servo(joint, angle, spin, stiffness, stiffness / rate);
 }
 
 }  // namespace seam

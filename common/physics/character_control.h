@@ -14,6 +14,7 @@
 /// on at the wished speed (Englsberger and others, "Three-Dimensional Bipedal Walking Control
 /// Based on Divergent Component of Motion", 2015).
 
+#include "common/physics/character_gains.h"
 #include "common/physics/character_limbs.h"
 
 namespace seam {
@@ -62,12 +63,17 @@ class CharacterControl {
     float slope = 0;
   };
   Foothold NextFoothold(const CharacterSense& s, float support_x) const;
+  b2Vec2 SwingAt(float time, const Foothold& to) const;
   void Swing(const CharacterSense& s, int side, const Foothold& to);
   void Bear(const CharacterSense& s, int side, float pressure_x, float lift, float torso_torque);
   void Push(const CharacterSense& s, int side, b2Vec2 pressure, float lift, float forward);
   b2Vec2 Sole(const CharacterSense& s, int side, float x) const;
-  void Reach(const CharacterSense& s, int side, b2Vec2 ankle, float foot,
-             float stiffness = 0);
+  struct LegPose {
+    float thigh = 0, knee = 0;        // rad; absolute, and of the joint
+  };
+  LegPose PoseFor(b2Vec2 way) const;
+  void Reach(const CharacterSense& s, int side, b2Vec2 ankle, b2Vec2 velocity, float foot,
+             float stiffness);
   float StepTime() const;
   float TorsoTorque(const CharacterSense& s, float lean) const;
   float Lift(const CharacterSense& s, float ground_y, float hip_height, float ground_vy) const;
@@ -85,7 +91,9 @@ class CharacterControl {
   /// N m: weight x height, by which all gains are in proportion.
   float unit() const { return unit_; }
   float Omega(const CharacterSense& s, float ground_y) const;
-  void Pose(CharacterJoint joint, float angle, float strength);
+  /// A servo of so many units per rad; `rate` 1/s is its stiffness over its damping.
+  void Pose(CharacterJoint joint, float angle, float strength, float spin = 0,
+            float rate = kServoRate);
 
   const Character& character_;
   const StageWorld world_;

@@ -6,7 +6,7 @@ namespace seam {
 
 /// 1/s: servos go towards their angle with at most this times what is missing. Faster ones ring
 /// with what the foot touches, slower ones come late for the step.
-constexpr float kServoRate = 25;
+constexpr float kServoRate = 25, kHipRate = 12;
 /// Shares of unit per rad of the servos.
 constexpr float kSwingStiffness = 0.6f, kAnkleStiffness = 0.12f, kArmStiffness = 0.12f,
                 kNeckStiffness = 0.06f;
@@ -34,8 +34,12 @@ constexpr float kCaptureMargin = -0.02f;
 
 /// s of a step.
 constexpr float kStepTime = 0.30f;
-/// m of the foot over the ground in its middle.
-constexpr float kClearance = 0.09f;
+/// m of the foot over the ground in its middle, and over a stair.
+constexpr float kClearance = 0.09f, kStairClearance = 0.08f;
+/// Shares of a step: when the foot is up, when it goes on onto a stair, when it is where it lands.
+constexpr float kLifted = 0.4f, kStairLifted = 0.4f, kStairWait = 0, kArrive = 1.0f;
+/// m/s by which a foot that finds no ground goes on down.
+constexpr float kSearch = 0.5f;
 /// m/s at full drive; m/s^2 by which the wish follows.
 constexpr float kSpeedMost = 3.0f, kSpeedBack = 1.2f, kSpeedRate = 2.5f;
 /// rad of the torso's lean forward per m/s.

@@ -8,6 +8,8 @@ namespace {
 
 /// A motor that is to do a torque runs towards a spin that it does not reach, rad/s.
 constexpr float kSpinBeyond = 1000;
+/// How far up the normal of what bears must point.
+constexpr float kBearing = 0.5f;
 
 /// The nearest fixture along a ray that is solid and not of the group.
 struct Nearest : b2RayCastCallback {
@@ -66,12 +68,17 @@ bool CharacterLimbs::awake() const {
   return bodies_[kTorso] != nullptr && bodies_[kTorso]->IsAwake();
 }
 
-bool CharacterLimbs::Touches(CharacterPart part, b2Vec2* velocity) const {
+bool CharacterLimbs::Touches(CharacterPart part, float least_up, b2Vec2* velocity) const {
   b2Body* body = bodies_[part];
   for (b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
     b2Contact* contact = edge->contact;
     if (!contact->IsTouching() || !contact->IsEnabled()) continue;
     if (contact->GetFixtureA()->IsSensor() || contact->GetFixtureB()->IsSensor()) continue;
+    b2WorldManifold manifold;
+    contact->GetWorldManifold(&manifold);
+    // Its normal points from the first to the second. What stands before one does not bear one.
+    const bool first = contact->GetFixtureA()->GetBody() == body;
+    if ((first ? -manifold.normal.y : manifold.normal.y) < least_up) continue;
     *velocity = Own(edge->other->GetLinearVelocityFromWorldPoint(body->GetWorldCenter()));
     return true;
   }
@@ -89,7 +96,7 @@ void CharacterLimbs::SenseLeg(int side, LegSense* leg) const {
   leg->thigh = facing_ * hip->GetBodyB()->GetAngle();
   leg->shank = facing_ * ankle->GetBodyA()->GetAngle();
   leg->foot = facing_ * ankle->GetBodyB()->GetAngle();
-  leg->down = Touches(side == 0 ? kFootLeft : kFootRight, &leg->ground_velocity);
+  leg->down = Touches(side == 0 ? kFootLeft : kFootRight, kBearing, &leg->ground_velocity);
 }
 
 CharacterSense CharacterLimbs::Sense() const {
@@ -128,7 +135,8 @@ CharacterSense CharacterLimbs::Sense() const {
       joints_[kHipLeft]->GetAnchorA()));
   b2Vec2 ignored;
   const bool head = bodies_[kHead] != nullptr && joints_[kNeck] != nullptr;
-  sense.lying = Touches(kTorso, &ignored) || (head && Touches(kHead, &ignored));
+  sense.lying =
+      Touches(kTorso, kBearing, &ignored) || (head && Touches(kHead, kBearing, &ignored));
   return sense;
 }
 
@@ -136,13 +144,14 @@ float CharacterLimbs::angle(CharacterJoint joint) const {
   return facing_ * joints_[joint]->GetJointAngle();
 }
 
-void CharacterLimbs::Servo(CharacterJoint joint, float angle, float stiffness, float damping) {
+void CharacterLimbs::Servo(CharacterJoint joint, float angle, float spin, float stiffness,
+                           float damping) {
   b2RevoluteJoint* j = joints_[joint];
   if (j == nullptr) return;
-  const float spin = facing_ * j->GetJointSpeed();
-  const float wish = stiffness * (angle - this->angle(joint)) - damping * spin;
+  const float there = spin + stiffness / damping * (angle - this->angle(joint));
+  const float wish = damping * (there - facing_ * j->GetJointSpeed());
   told_[joint] = std::clamp(wish, -bound_[joint], bound_[joint]);
-  j->SetMotorSpeed(facing_ * stiffness * (angle - this->angle(joint)) / damping);
+  j->SetMotorSpeed(facing_ * there);
   j->SetMaxMotorTorque(std::abs(told_[joint]));
 }
 

@@ -59,11 +59,11 @@ class CharacterLimbs {
   float angle(CharacterJoint joint) const;    ///< rad
   float bound(CharacterJoint joint) const { return bound_[joint]; }   ///< N m
 
-  /// A servo: torque stiffness (angle - now) - damping spin, N m, within the bound, that never
+  /// A servo: torque stiffness (angle - now) + damping (spin - now), N m, within the bound, that never
   /// drives the joint faster than it would by itself (the spin at which that torque is 0): so it
   /// is stable at any stiffness and step, as in Tan, Liu and Turk, "Stable Proportional-Derivative
   /// Controllers", 2011.
-  void Servo(CharacterJoint joint, float angle, float stiffness, float damping);
+  void Servo(CharacterJoint joint, float angle, float spin, float stiffness, float damping);
   /// Torque on the outer part, within the bound; returns what it is.
   float Torque(CharacterJoint joint, float torque);
   /// Only muscle tone.
@@ -79,7 +79,7 @@ class CharacterLimbs {
 
  private:
   void SenseLeg(int side, LegSense* leg) const;
-  bool Touches(CharacterPart part, b2Vec2* velocity) const;
+  bool Touches(CharacterPart part, float least_up, b2Vec2* velocity) const;
 
   const Character& character_;
   const StageWorld world_;
