@@ -10,7 +10,9 @@ namespace {
 
 std::string Complaint(const std::string& character) {
   try {
-    ParseScene(std::string(kFlatGround) + "[[character]]\n" + character, "s.toml");
+    ParseScene(std::string("[[player]]\nname = \"ann\"\n") + kFlatGround + "[[character]]\n" +
+                   character,
+               "s.toml");
     return "";
   } catch (const OperatorError& e) {
     return e.what();
@@ -18,7 +20,7 @@ std::string Complaint(const std::string& character) {
 }
 
 TEST(Character, IsTwelvePartsAndElevenHingesOfOneMechanism) {
-  const Scene scene = FlatScene("position = [3, 0]\n");
+  const Scene scene = CharacterScene("position = [3, 0]\n");
   EXPECT_EQ(scene.parts.size(), 1u + kCharacterParts);
   EXPECT_EQ(scene.joints.size(), static_cast<std::size_t>(kCharacterJoints));
   EXPECT_EQ(Compose(scene).mechanisms.size(), 1u);
@@ -36,11 +38,11 @@ TEST(Character, IsTwelvePartsAndElevenHingesOfOneMechanism) {
   EXPECT_NEAR(high, 1.8, 0.01);
 }
 
-TEST(Character, BoundsOfTorqueGrowWithTheFourthPowerOfItsHeight) {
-  // Mass with the square, weight x height with the cube: in two dimensions the third power.
-  const Scene one = FlatScene("position = [0, 0]\n");
-  const Scene two = FlatScene("position = [0, 0]\nheight = 3.6\n");
-  const Scene strong = FlatScene("position = [0, 0]\nstrength = 2\ntorque = {hip = 3}\n");
+TEST(Character, BoundsOfTorqueGrowWithTheThirdPowerOfItsHeight) {
+  // In two dimensions mass grows with the square, so weight x height with the cube.
+  const Scene one = CharacterScene("position = [0, 0]\n");
+  const Scene two = CharacterScene("position = [0, 0]\nheight = 3.6\n");
+  const Scene strong = CharacterScene("position = [0, 0]\nstrength = 2\ntorque = {hip = 3}\n");
   for (int j = 0; j < kCharacterJoints; ++j) {
     const auto joint = static_cast<std::size_t>(j);
     const float bound = one.joints[joint].motor_torque;
@@ -52,8 +54,9 @@ TEST(Character, BoundsOfTorqueGrowWithTheFourthPowerOfItsHeight) {
 }
 
 TEST(Character, AMirroredOneMovesLikeItsImage) {
-  ScriptedWorld right(FlatScene("position = [0, 0.5]\nkind = \"passive\"\nvelocity = [2, 0]\n"));
-  ScriptedWorld left(FlatScene(
+  ScriptedWorld right(
+      CharacterScene("position = [0, 0.5]\nkind = \"passive\"\nvelocity = [2, 0]\n"));
+  ScriptedWorld left(CharacterScene(
       "position = [0, 0.5]\nkind = \"passive\"\nfacing = \"left\"\nvelocity = [-2, 0]\n"));
   for (ScriptedWorld* run : {&right, &left}) run->StepTo(20);
   for (const char* part : {"hero.head", "hero.foot-l", "hero.lower-leg-r"}) {
@@ -64,7 +67,7 @@ TEST(Character, AMirroredOneMovesLikeItsImage) {
 }
 
 TEST(Character, APassiveOneKeepsItsJointsLimitsAndComesToRest) {
-  ScriptedWorld run(FlatScene("position = [0, 3]\nangle = 0.7\nkind = \"passive\"\n"));
+  ScriptedWorld run(CharacterScene("position = [0, 3]\nangle = 0.7\nkind = \"passive\"\n"));
   double beyond = 0;
   for (int tick = 0; tick < 900; ++tick) {
     run.Step();

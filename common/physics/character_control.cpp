@@ -60,13 +60,22 @@ void CharacterControl::Act(float h) {
     case CharacterMode::kAir: Air(s); break;
     case CharacterMode::kFall: Fall(s); break;
     case CharacterMode::kRise: Rise(s, h); break;
-    case CharacterMode::kSwim: break;
+    case CharacterMode::kSwim: Swim(s, h); break;
     case CharacterMode::kLimp: limbs_.SlackenAll(); break;
   }
 }
 
 /// What cannot go on as it is; each mode ends itself in its own function when it is done.
 void CharacterControl::Choose(const CharacterSense& s, float h) {
+  if (!world_.scene.waters.empty()) {
+    const float depth = ChestDepth(s) / limbs_.scale();
+    const bool swims = memory_.mode == CharacterMode::kSwim;
+    if (!swims && depth > kSwimFrom) Enter(CharacterMode::kSwim);
+    const bool stands = depth < kSwimTo && (s.legs[0].down || s.legs[1].down || s.lying);
+    if (swims && stands) Enter(std::abs(s.torso) < 0.5f * kTiltMost ? CharacterMode::kStand
+                                                                    : CharacterMode::kFall);
+    if (memory_.mode == CharacterMode::kSwim) return;
+  }
   const bool upright_mode =
       memory_.mode == CharacterMode::kStand || memory_.mode == CharacterMode::kStep ||
       memory_.mode == CharacterMode::kJump || memory_.mode == CharacterMode::kAir;

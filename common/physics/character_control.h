@@ -88,6 +88,10 @@ class CharacterControl {
   void Rise(const CharacterSense& s, float h);
   void Up(const CharacterSense& s);
 
+  // character_swim.cpp
+  float ChestDepth(const CharacterSense& s) const;
+  void Swim(const CharacterSense& s, float h);
+
   /// N m: weight x height, by which all gains are in proportion.
   float unit() const { return unit_; }
   float Omega(const CharacterSense& s, float ground_y) const;
@@ -95,7 +99,7 @@ class CharacterControl {
   void Pose(CharacterJoint joint, float angle, float strength, float spin = 0,
             float rate = kServoRate);
 
-  const Character& character_;
+  const Character character_;
   const StageWorld world_;
   CharacterLimbs limbs_;
   CharacterMemory memory_;

@@ -78,4 +78,12 @@ constexpr float kFallStiffness = 0.03f, kFallLeast = 0.4f, kFallMost = 2.0f;
 /// stands again.
 constexpr float kRiseStiffness = 0.4f, kUpMost = 2.0f, kRisen = 0.85f;
 
+/// Swimming: m of the chest under water from which, and to which, for 1.8 m.
+constexpr float kSwimFrom = 0.05f, kSwimTo = -0.25f;
+/// Turns of an arm per s, beats of the legs per turn; the shoulder overhead and at the hip, rad,
+/// and the elbow while it comes back.
+constexpr float kStrokeHz = 0.8f, kKicks = 2, kStrokeFrom = 2.7f, kStrokeTo = 0.0f, kFolded = 2.3f;
+/// Of all its servos; rad of the legs' beat; rad of the torso's lean at full drive; legs per torso.
+constexpr float kStrokeStiffness = 0.2f, kKick = 0.35f, kSwimLean = 1.0f, kSwimSteer = 0.8f;
+
 }  // namespace seam

@@ -59,8 +59,8 @@ class CharacterLimbs {
   float angle(CharacterJoint joint) const;    ///< rad
   float bound(CharacterJoint joint) const { return bound_[joint]; }   ///< N m
 
-  /// A servo: torque stiffness (angle - now) + damping (spin - now), N m, within the bound, that never
-  /// drives the joint faster than it would by itself (the spin at which that torque is 0): so it
+  /// A servo: torque stiffness (angle - now) + damping (spin - now), N m, within the bound, never
+  /// driving the joint faster than it would by itself (the spin at which that torque is 0): so it
   /// is stable at any stiffness and step, as in Tan, Liu and Turk, "Stable Proportional-Derivative
   /// Controllers", 2011.
   void Servo(CharacterJoint joint, float angle, float spin, float stiffness, float damping);
@@ -81,7 +81,7 @@ class CharacterLimbs {
   void SenseLeg(int side, LegSense* leg) const;
   bool Touches(CharacterPart part, float least_up, b2Vec2* velocity) const;
 
-  const Character& character_;
+  const Character character_;   // a copy: edits of the scene may move it
   const StageWorld world_;
   float facing_ = 1, scale_ = 1;
   CharacterShape shape_;
