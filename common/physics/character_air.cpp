@@ -57,7 +57,7 @@ void CharacterControl::Air(const CharacterSense& s) {
   const CharacterShape& shape = limbs_.shape();
   const bool touch = s.legs[0].down || s.legs[1].down;
   if (touch && memory_.time > kAirLeast) {
-    const bool still = std::abs(s.velocity.x) < 0.4f && s.legs[0].down && s.legs[1].down;
+    const bool still = std::abs(s.velocity.x) < 0.5f;
     BeginStep(s, s.legs[0].down ? 0 : 1);
     memory_.speed = std::clamp(s.velocity.x, -kSpeedBack, kSpeedMost);
     Enter(still ? CharacterMode::kStand : CharacterMode::kStep);
