@@ -5,8 +5,7 @@
 #include <vector>
 
 #include "common/physics/bricks.h"
-#include "common/physics/forces.h"
-#include "common/physics/rules.h"
+#include "common/physics/character.h"
 #include "common/physics/connectors.h"
 #include "common/physics/forces.h"
 #include "common/physics/grouping.h"
@@ -176,10 +175,10 @@ struct Scene {
   std::vector<Part> parts;
   std::vector<Joint> joints;
   std::vector<BrickField> bricks;   ///< anchored, and no parts
-  std::vector<Brick> bricks_gone;   ///< of those: what blasts have freed, in their order
   std::vector<Water> waters;
   std::vector<Thrust> thrusts;
   Grouping grouping;
+  std::vector<Character> characters;
   std::vector<Player> players;
   std::vector<Seat> seats;
   std::vector<Trigger> triggers;    ///< the server's

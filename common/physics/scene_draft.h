@@ -45,7 +45,9 @@ Connectors ReadConnectors(const SceneReader& part);
 void ReadGrouping(const SceneReader& root, SceneDraft* draft);
 /// [[bricks]]. Requires parts.
 void ReadBricks(const SceneReader& root, SceneDraft* draft);
-/// [[joint]]. Requires parts and players.
+/// [[character]], as parts and joints. Requires parts and players.
+void ReadCharacters(const SceneReader& root, SceneDraft* draft);
+/// [[joint]]. Requires parts, characters and players.
 void ReadJoints(const SceneReader& root, SceneDraft* draft);
 /// [[water]]. Requires gravity.
 void ReadWaters(const SceneReader& root, SceneDraft* draft);

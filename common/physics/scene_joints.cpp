@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "common/physics/scene_draft.h"
@@ -186,6 +187,7 @@ PartId CopyAfter(const SceneReader& r, PartId part, int column, int row, bool gr
   const std::string& name = draft.scene.parts[static_cast<std::size_t>(part)].name;
   const std::size_t first = name.find('.');
   if (first == std::string::npos) return part;
+  if (std::isdigit(static_cast<unsigned char>(name[first + 1])) == 0) return part;  // a character's
   const std::size_t second = name.find('.', first + 1);
   const bool two = second != std::string::npos;
   if (two != grid) r.FailAt("repeat", "repeat: '" + name + "' is not repeated the same way");

@@ -37,6 +37,9 @@ constexpr std::size_t kPartsMax = 4096, kJointsMax = 4096, kPlayersMax = 31, kAc
 constexpr std::size_t kScriptMax = 2000, kWatchMax = 16, kThrustsMax = 256;
 /// Inlets, and outlets, of one part.
 constexpr std::size_t kConnectorsMax = 16;
+/// m; smaller ones would have parts below kSizeMin.
+constexpr Range kCharacterHeight{1, 5};
+constexpr std::size_t kCharactersMax = 64;
 /// Welded parts farther than this from their root would lose their edges to rounding, m.
 constexpr float kWeldReachMax = 1000;
 

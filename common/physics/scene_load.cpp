@@ -73,8 +73,9 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
 
   const SceneReader root(tree, file_name, "scene",
                          {"title", "gravity", "duration", "buffer", "speed_limit", "size_max",
-                          "bounds", "solver", "part", "bricks", "joint", "thrust", "water",
-                          "player", "seat", "watch", "camera", "trigger", "script", "grouping"});
+                          "bounds", "solver", "part", "bricks", "character", "joint", "thrust",
+                          "water", "player", "seat", "watch", "camera", "trigger", "script",
+                          "grouping"});
   scene.title = root.Text("title", scene.name);
   scene.gravity = root.Vector("gravity", {-100, 100}, scene.gravity);
   scene.duration_s = root.Seconds("duration", {0.1, 86400}, scene.duration_s);
@@ -87,6 +88,7 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   ReadSeatNames(root, &draft);
   ReadParts(root, &draft);
   ReadBricks(root, &draft);
+  ReadCharacters(root, &draft);
   ReadJoints(root, &draft);
   ReadThrusts(root, &draft);
   ReadWaters(root, &draft);

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "common/physics/character_stage.h"
 #include "common/physics/feather_stage.h"
 #include "common/physics/force_stages.h"
 #include "common/physics/kinematic.h"
@@ -31,6 +32,7 @@ std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world) {
   if (joins || HasBreakableGlue(world.scene)) stages.push_back(MakeGlueStage(world));
   if (joins) stages.push_back(MakeJoinStage(world));
   if (world.scene.grouping.after > 0) stages.push_back(MakeGroupStage(world));
+  if (HasActiveCharacter(world.scene)) stages.push_back(MakeCharacterStage(world));
   return stages;
 }
 
