@@ -68,7 +68,7 @@ void Server::StartIfReady(std::int64_t now_us) {
   if (started()) return;
   int ready = 0;
   for (const auto& [address, session] : sessions_) {
-    if (session->stage == Stage::kReady && session->player >= 0) ++ready;
+    if (session->stage == SessionStage::kReady && session->player >= 0) ++ready;
   }
   if (ready < config_.wait_players) return;
   tick0_us_ = now_us + (config_.wait_players > 0 ? kLeadInUs : 0);
@@ -172,7 +172,7 @@ void Server::Announce(const std::vector<Grants>& messages) {
     publisher_.Publish(g);
     const Bytes bytes = Encode(g);
     for (auto& [address, session] : sessions_) {
-      if (session->stage != Stage::kGreeted && !session->link.SendReliable(bytes)) {
+      if (session->stage != SessionStage::kGreeted && !session->link.SendReliable(bytes)) {
         session->leaving = true;
         session->leaving_why = "does not acknowledge";
       }
@@ -184,7 +184,7 @@ void Server::Relay(const States& states, int from_peer) {
   const Bytes bytes = Encode(states);
   const std::int64_t send = states.tick / config_.sync.send_every();
   for (auto& [address, session] : sessions_) {
-    if (session->peer == from_peer || session->stage != Stage::kReady) continue;
+    if (session->peer == from_peer || session->stage != SessionStage::kReady) continue;
     bool near = config_.sync.mode != Mode::kBuffer;
     for (std::size_t i = 0; i < states.id.size() && !near; ++i) {
       const int body = replica_.world().BodyOfId(states.id[i]);

@@ -27,7 +27,7 @@ void Server::Order(const Edit& edit) {
 }
 
 void Server::OnProposal(Session& session, const EditOrder& order) {
-  if (session.stage != Stage::kReady || order.number != -1) {
+  if (session.stage != SessionStage::kReady || order.number != -1) {
     ++stats_.dropped_right;
     return;
   }
@@ -144,7 +144,7 @@ void Server::OrderPending(std::int64_t now_us) {
     publisher_.Publish(order);
     const Bytes bytes = Encode(order);
     for (auto& [address, session] : sessions_) {
-      if (session->stage == Stage::kGreeted) continue;
+      if (session->stage == SessionStage::kGreeted) continue;
       if (!session->link.SendReliable(bytes)) {
         session->leaving = true;
         session->leaving_why = "does not acknowledge";
@@ -174,7 +174,7 @@ void Server::FollowTopology(const std::optional<Recomposition>& change) {
 }
 
 void Server::CheckComposition(std::int64_t now_us, Session& session, const Ping& ping) {
-  if (session.stage != Stage::kReady || ping.topology < 0) return;
+  if (session.stage != SessionStage::kReady || ping.topology < 0) return;
   const auto known = hash_after_.find(ping.topology);
   const bool never = ping.topology > static_cast<std::int32_t>(edits_.size());
   const bool other = known != hash_after_.end() &&

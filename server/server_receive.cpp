@@ -84,8 +84,8 @@ void Server::OnDatagram(std::int64_t now_us, const Address& from, const Bytes& d
 void Server::OnHello(std::int64_t now_us, Session& session, const Hello& hello) {
   if (session.peer > 0) {
     // Said again, reliably: loaded, and the clock has settled. Before that it only repeats itself.
-    if (session.stage == Stage::kLoading) {
-      session.stage = Stage::kReady;
+    if (session.stage == SessionStage::kLoading) {
+      session.stage = SessionStage::kReady;
       if (rules_ != nullptr && session.player >= 0) rules_->OnJoin(session.player);
       plan_due_ = true;
       Say(now_us, session.name + " is ready as peer " + std::to_string(session.peer));
@@ -153,7 +153,7 @@ void Server::OnInputs(std::int64_t now_us, Session& session, const Inputs& input
   publisher_.Publish(fresh);
   const Bytes bytes = Encode(inputs);
   for (auto& [address, other] : sessions_) {
-    if (other->peer != session.peer && other->stage == Stage::kReady) {
+    if (other->peer != session.peer && other->stage == SessionStage::kReady) {
       other->link.SendUnreliable(bytes);
     }
   }
@@ -174,7 +174,7 @@ bool Server::Plausible(int body, std::int64_t tick, const BodyState& state) {
 void Server::OnStates(std::int64_t now_us, Session& session, const States& states) {
   const double hz = config_.sync.tick_hz;
   const auto age = static_cast<double>(replica_.tick() - states.tick);
-  if (states.peer != session.peer || session.stage != Stage::kReady) {
+  if (states.peer != session.peer || session.stage != SessionStage::kReady) {
     ++stats_.dropped_right;
     return;
   }

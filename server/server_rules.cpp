@@ -90,7 +90,7 @@ void Server::RunRules(std::int64_t now_us) {
     publisher_.Publish(meta);
     const Bytes bytes = Encode(meta);
     for (auto& [address, session] : sessions_) {
-      if (session->stage == Stage::kGreeted || session->link.SendReliable(bytes)) continue;
+      if (session->stage == SessionStage::kGreeted || session->link.SendReliable(bytes)) continue;
       session->leaving = true;
       session->leaving_why = "does not acknowledge";
     }

@@ -77,9 +77,9 @@ void Server::Refuse(std::int64_t now_us, const Address& to, std::uint64_t number
 }
 
 void Server::Advance(std::int64_t now_us, Session& session) {
-  if (session.stage != Stage::kGreeted || session.link.reliable_pending()) return;
+  if (session.stage != SessionStage::kGreeted || session.link.reliable_pending()) return;
   // The Welcome was acknowledged, so somebody really listens at this address.
-  session.stage = Stage::kLoading;
+  session.stage = SessionStage::kLoading;
   const Bytes room = Encode(MakeRoom(0));
   for (std::size_t at = 0; at < room.size(); at += kChunkBytes) {
     Chunk chunk;
@@ -97,7 +97,7 @@ void Server::Advance(std::int64_t now_us, Session& session) {
 std::vector<int> Server::PeerOfPlayer() const {
   std::vector<int> peers(scene_.players.size(), -1);
   for (const auto& [address, session] : sessions_) {
-    if (session->player >= 0 && session->stage == Stage::kReady) {
+    if (session->player >= 0 && session->stage == SessionStage::kReady) {
       peers[static_cast<std::size_t>(session->player)] = session->peer;
     }
   }
@@ -107,7 +107,7 @@ std::vector<int> Server::PeerOfPlayer() const {
 bool Server::EvictUnproven(std::int64_t now_us) {
   auto oldest = sessions_.end();
   for (auto it = sessions_.begin(); it != sessions_.end(); ++it) {
-    if (it->second->stage != Stage::kGreeted) continue;
+    if (it->second->stage != SessionStage::kGreeted) continue;
     const bool older =
         oldest == sessions_.end() || it->second->created_us < oldest->second->created_us;
     if (older) oldest = it;
@@ -122,7 +122,7 @@ void Server::DropSilent(std::int64_t now_us) {
   std::vector<std::pair<Address, std::string>> gone;
   for (const auto& [address, session] : sessions_) {
     const std::int64_t heard = std::max(session->link.last_receive_us(), session->created_us);
-    if (session->created_us < now_us - kHalfOpenUs && session->stage != Stage::kReady) {
+    if (session->created_us < now_us - kHalfOpenUs && session->stage != SessionStage::kReady) {
       gone.emplace_back(address, "never got ready");
     } else if (now_us - heard > kSilentUs) {
       gone.emplace_back(address, "not heard for " + std::to_string(kSilentUs / 1000000) + " s");
@@ -139,7 +139,7 @@ void Server::Drop(std::int64_t now_us, const Address& address, const std::string
   Say(now_us, found->second->name + " (peer " + std::to_string(found->second->peer) +
                   ") is gone: " + why);
   const int peer = found->second->peer;
-  const bool played = found->second->player >= 0 && found->second->stage == Stage::kReady;
+  const bool played = found->second->player >= 0 && found->second->stage == SessionStage::kReady;
   if (rules_ != nullptr && played) rules_->OnLeave(found->second->player);
   sessions_.erase(found);
   TakeBack(now_us, peer);

@@ -9,7 +9,7 @@
 
 namespace seam {
 
-enum class Stage {
+enum class SessionStage {
   kGreeted,   ///< Welcome sent; its acknowledgement proves the address before much is sent there
   kLoading,   ///< the Room is under way
   kReady,     ///< simulates (or will from tick 0)
@@ -24,7 +24,7 @@ struct Session {
   std::string name;
   int peer = 0;
   int player = -1;
-  Stage stage = Stage::kGreeted;
+  SessionStage stage = SessionStage::kGreeted;
   std::int64_t created_us = 0;
   std::int64_t repaired_us = -1000000000;
   bool leaving = false;             ///< to be dropped at the next opportunity

@@ -84,10 +84,10 @@ inline std::vector<float> MotorTorques(ScriptedWorld* run) {
   const WorldSnapshot snapshot = run->world.Barrier();
   const Solver& solver = run->world.scene().solver;
   const auto steps_hz = static_cast<float>(solver.tick_hz * solver.substeps);
-  // Per hinge: two of the point, the motor's, two of the limits; the engine lists the last first.
+  // Per hinge: two of the point, the motor's, two of the limits.
   std::vector<float> torques(kCharacterJoints);
   for (std::size_t j = 0; j < torques.size(); ++j) {
-    torques[torques.size() - 1 - j] = steps_hz * snapshot.joints.at(5 * j + 2);
+    torques[j] = steps_hz * snapshot.joints.at(j).at(2);
   }
   return torques;
 }

@@ -38,14 +38,6 @@ struct BrickField {
   int line = 0;                     ///< in the scene file
 };
 
-/// A brick by itself. Units of 5 cm.
-struct Brick {
-  int x = 0, y = 0;                 ///< lower left corner
-  int kind = 0;                     ///< index into Scene::bricks
-
-  bool operator==(const Brick& o) const { return x == o.x && y == o.y && kind == o.kind; }
-};
-
 /// Calls `visit(x, y)` with the lower left corner (units) of each brick, always in the same order,
 /// until one call returns false.
 void EachBrick(const BrickField& field, const std::function<bool(int, int)>& visit);
