@@ -61,7 +61,7 @@ void Playback::Prepare() {
   forms_->first =
       std::make_shared<const DrawnForm>(seam::FormOf(form->scene(), form->composition()));
   if (!scene_.bricks.empty()) bricks_ = std::make_shared<FeatherStore>(scene_.bricks);
-  imposed_.emplace(scene_, composition);
+  imposed_.emplace(scene_, Compose(scene_));
 }
 
 const Forms& Playback::AllForms() const {
