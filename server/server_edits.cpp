@@ -152,7 +152,7 @@ void Server::OrderPending(std::int64_t now_us) {
     }
     replica_.Queue(order);
   }
-  FollowTopology(replica_.ApplyEdits());
+  while (replica_.has_queued()) FollowTopology(replica_.ApplyNextEdit());
 }
 
 void Server::FollowTopology(const std::optional<Recomposition>& change) {

@@ -55,6 +55,8 @@ void ExpectAgreement(Cluster* cluster) {
     for (int m = 0; m < truth.authority().count(); ++m) {
       const bool has = replica.authority().at(m).authority == client.peer();
       holders[static_cast<std::size_t>(m)] += has ? 1 : 0;
+      if (!has) continue;
+      EXPECT_EQ(replica.authority().at(m).epoch, truth.authority().at(m).epoch);
     }
   }
   for (const int held : holders) EXPECT_EQ(held, 1) << "one authority for each";

@@ -227,6 +227,9 @@ TEST(MeasureChanges, ALateEditIsALagAndAMissingBodyIsLost) {
   EXPECT_NEAR(m.topology_lag_s.value(), 44.0 / 60, 1e-9);
   EXPECT_EQ(m.lost.value(), 1);
   EXPECT_FALSE(Measure(Simulate({}), ComputeOracle(Simulate({}))).lost.has_value());
+  recording = Simulate(Eventful());
+  recording.edits.erase(0);   // the log lacks it: no view after it can be judged
+  EXPECT_EQ(Measure(recording, ComputeOracle(recording)).lost.value(), 0);
 }
 
 TEST(MeasureChanges, ASessionUnderLossLosesNoBody) {

@@ -31,6 +31,16 @@ std::int64_t Differing(const std::vector<PartId>& there, const std::vector<std::
   return static_cast<std::int64_t>(there.size() + shown.size()) - 2 * both;
 }
 
+/// Edits before the first that the log lacks: what is made of what after it, nobody can say.
+std::int32_t KnownEdits(const Recording& recording) {
+  std::int32_t known = 0;
+  for (const auto& [number, edit] : recording.edits) {
+    if (number != known) break;
+    ++known;
+  }
+  return known;
+}
+
 }  // namespace
 
 void MeasureChanges(const Recording& recording, const Forms& forms, Measures* measures) {
@@ -38,8 +48,11 @@ void MeasureChanges(const Recording& recording, const Forms& forms, Measures* me
   measures->topology_lag_s =
       static_cast<double>(LongestLag(recording)) * TickSeconds(recording);
   std::map<int, std::vector<const View*>> by_form;
+  const std::int32_t known = KnownEdits(recording);
   for (const auto& [peer, views] : recording.views) {
-    for (const auto& [tick, view] : views) by_form[forms.Key(view.topology)].push_back(&view);
+    for (const auto& [tick, view] : views) {
+      if (view.topology <= known) by_form[forms.Key(view.topology)].push_back(&view);
+    }
   }
   std::int64_t lost = 0;
   for (const auto& [key, views] : by_form) {

@@ -48,8 +48,12 @@ class Replica {
   /// Edits that the server ordered, in their order; they are applied before anything else is done.
   /// False, and ignored: it is not the next one.
   bool Queue(const EditOrder& order);
-  /// Applies what is queued. What became of the bodies; nullopt: they are what they were.
-  std::optional<Recomposition> ApplyEdits();
+  bool has_queued() const { return !queued_.empty(); }
+  /// Applies the next that is queued. What became of the bodies; nullopt: they are what they were.
+  /// One by one everywhere: each merger makes a new epoch, and who applied two at once would be an
+  /// epoch behind for ever. Requires has_queued().
+  std::optional<Recomposition> ApplyNextEdit();
+  void ApplyEdits();                  ///< all that is queued
   /// What this peer, as the authority of the bodies concerned, found that should change; in mode
   /// oracle all that physics finds.
   std::vector<Edit> TakeProposals();
@@ -129,6 +133,7 @@ class Replica {
   void Resimulate();
   void RecordHistory();
   void NoteProposals();
+  void Recompose(const Recomposition& change);
   std::vector<PackedBody> ChooseBodies();
   States Header() const;
   bool Simulated(int mechanism) const;

@@ -32,13 +32,20 @@ bool Replica::Queue(const EditOrder& order) {
   return true;
 }
 
-std::optional<Recomposition> Replica::ApplyEdits() {
-  if (queued_.empty()) return std::nullopt;
-  std::vector<Edit> edits;
-  edits.swap(queued_);
-  const std::optional<Recomposition> change = world_.Apply(edits);
-  if (!change) return change;
-  const std::vector<BodyOrigin>& bodies = change->bodies;
+void Replica::ApplyEdits() {
+  while (has_queued()) ApplyNextEdit();
+}
+
+std::optional<Recomposition> Replica::ApplyNextEdit() {
+  const Edit edit = queued_.front();
+  queued_.erase(queued_.begin());
+  std::optional<Recomposition> change = world_.Apply({edit});
+  if (change) Recompose(*change);
+  return change;
+}
+
+void Replica::Recompose(const Recomposition& change) {
+  const std::vector<BodyOrigin>& bodies = change.bodies;
   std::vector<BodyState> now;
   std::vector<int> from;
   for (int body = 0; body < world_.body_count(); ++body) {
@@ -69,7 +76,7 @@ std::optional<Recomposition> Replica::ApplyEdits() {
   }
   placed_ = placed;
   std::vector<std::int64_t> coupled;
-  for (const std::vector<int>& mechanism : change->mechanisms) {
+  for (const std::vector<int>& mechanism : change.mechanisms) {
     std::int64_t last = -1000000;
     for (const int then : mechanism) {
       last = std::max(last, last_coupled_tick_[static_cast<std::size_t>(then)]);
@@ -79,12 +86,11 @@ std::optional<Recomposition> Replica::ApplyEdits() {
   last_coupled_tick_ = coupled;
   Holding fresh;
   fresh.secondaries = config_.mode == Mode::kBuffer ? 1 : 0;
-  table_.Recompose(world_.composition(), change->mechanisms, fresh);
+  table_.Recompose(world_.composition(), change.mechanisms, fresh);
   barriers_.clear();   // of other bodies
   replay_from_ = -1;
   pressed_.clear();
   RolesChanged();
-  return change;
 }
 
 void Replica::NoteProposals() {

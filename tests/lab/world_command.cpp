@@ -14,9 +14,8 @@ namespace {
 void WriteCsv(const TextTable& table, const std::string& path) {
   const auto line = [](const std::vector<std::string>& fields) {
     std::string text;
-    for (const std::string& field : fields) {
-      if (!text.empty()) text += ',';
-      text += CsvField(field);
+    for (std::size_t i = 0; i < fields.size(); ++i) {   // the first one may be empty
+      text += (i > 0 ? "," : "") + CsvField(fields[i]);
     }
     return text + "\n";
   };

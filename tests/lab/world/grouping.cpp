@@ -86,8 +86,8 @@ TextTable GroupingBench(bool quick) {
   table.note =
       "60 stacks of four crates, at rest after 3 s; cost of a tick beside the first row's world in "
       "the same run. Error: of the crate that is farthest from where it is with neither. Then a "
-      "ball hits the first stack at 4 s: what a blow does is chaotic, so errors of decimetres "
-      "there say only that something differed before it.";
+      "ball hits one stack at 4 s; its group is undone before the blow. What a blow does is "
+      "chaotic: sleep alone, which changes only the last bits, makes centimetres, too.";
   table.command = "build/release/seam-lab world grouping";
   return table;
 }
