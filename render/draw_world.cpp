@@ -7,6 +7,7 @@
 #include "render/draw_breaks.h"
 #include "render/draw_ghosts.h"
 #include "render/draw_joints.h"
+#include "render/draw_rules.h"
 #include "render/draw_scene.h"
 #include "render/draw_water.h"
 #include "render/marks.h"
@@ -158,6 +159,7 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
   DrawGrid(list, viewport);
   DrawWaters(list, viewport, playback);
   DrawGround(list, viewport, playback, *form, look.tick, look.cull);
+  DrawTriggers(list, viewport, playback, now, look.tick);
   if (look.trails) DrawTrails(list, viewport, playback, *form, look);
   DrawRods(list, viewport, playback, now, 1);
   const std::vector<Seen> seen = BodiesOnPanel(viewport, playback, *form, look);
@@ -169,8 +171,10 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
   DrawGhosts(list, viewport, playback, *form, look);
   DrawBreaks(list, viewport, playback, now, look.tick);
   DrawImpacts(list, viewport, playback, look);
+  DrawHealth(list, viewport, playback, now, look.tick);
   DrawNames(list, viewport, playback, seen);
   DrawRegionNames(list, viewport, playback);
+  DrawScores(list, viewport.panel, playback, look.tick);
   DrawScaleBar(list, viewport);
   list.NoClip();
 }
