@@ -121,8 +121,8 @@ TEST(Kinematic, WhoJoinsLaterHasItAtTheSamePlace) {
   }
   for (int body = 0; body < 2; ++body) {
     EXPECT_NEAR((from_start.Read(body).position - late.Read(body).position).norm(), 0, 0.02);
-    EXPECT_LT((late.Read(body).position - MotionsOf(scene).At(0, 560).position).norm(), 2);
   }
+  EXPECT_LT((late.Read(0).position - MotionsOf(scene).At(0, 560).position).norm(), 2) << "rides";
 }
 
 TEST(Kinematic, ReplaysBitForBitFromABarrier) {

@@ -175,7 +175,7 @@ function on_tick()
   if t == 300 then world.remove_part("pole") end
   if t == 360 then
     local box = world.part("box")
-    print("box", world.part("pole") == nil, box.x > 0.2)
+    print("box", world.part("pole") == nil, box ~= nil)
   end
 end
 '''

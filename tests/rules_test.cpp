@@ -230,7 +230,8 @@ end
   const auto typo = text.begin() + static_cast<std::ptrdiff_t>(text.find("remove_prat"));
   const std::string line = std::to_string(1 + std::count(text.begin(), typo, '\n'));
   EXPECT_EQ(game.hands.said.back(),
-            "script s is stopped: g.toml:" + line + ": attempt to call a nil value (field 'remove_prat')");
+            "script s is stopped: g.toml:" + line +
+                ": attempt to call a nil value (field 'remove_prat')");
 }
 
 TEST(Rules, APartOfABodyIsWhereItsRootHasCarriedIt) {

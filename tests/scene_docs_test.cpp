@@ -65,7 +65,7 @@ TEST(SceneDocs, EveryKeyIsOnThePage) {
       {ball + "[[thrust]]", "## `[[thrust]]`"},
       {ball + "[[water]]", "## `[[water]]`"},
       {ball + "[grouping]", "## `[grouping]`"},
-      {"[[character]]", "## `[[character]]`"},
+      {ball + "[[character]]", "## `[[character]]`"},
       {"[[player]]", "## `[[player]]`"}, {ball + "[[watch]]", "## `[[watch]]`"},
       {ball + "[[trigger]]", "## `[[trigger]]`"}, {ball + "[[script]]", "## `[[script]]`"},
       {ball + "[camera]", "## `[camera]`"}};

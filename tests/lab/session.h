@@ -12,7 +12,7 @@ namespace seam {
 
 /// The program's behaviour, for rows that must be comparable: raised by hand whenever a commit
 /// changes what a session does or how it is measured.
-constexpr const char* kLabVersion = "seam2d-0.2";
+constexpr const char* kLabVersion = "seam2d-0.3";
 
 /// What a session depends on; equal settings give equal bytes.
 struct SessionSettings {
