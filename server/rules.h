@@ -29,6 +29,7 @@ class RoomHands {
   /// Makes b rigid with a where it is now, up to `strength` N (0: for ever).
   virtual void Bond(PartId a, PartId b, float strength) = 0;
   virtual void Push(PartId part, const Vec2& impulse) = 0;
+  virtual void Blast(const Vec2& centre, float radius, float speed) = 0;
   /// [[part]] and [[joint]] as a scene writes them.
   virtual void Insert(const std::string& text) = 0;
   virtual void Say(const std::string& text) = 0;

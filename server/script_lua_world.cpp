@@ -96,6 +96,14 @@ int Push(lua_State* L, float scale, const char* why) {
   return 0;
 }
 
+int Blast(lua_State* L) {
+  const Vec2 centre(LuaNumber(L, 1), LuaNumber(L, 2));
+  const float radius = LuaNumber(L, 3), speed = LuaNumber(L, 4);
+  LuaCountDeed(L);
+  Attempt(L, [&] { HostOf(L).Blast(centre, radius, speed); });
+  return 0;
+}
+
 int Impulse(lua_State* L) { return Push(L, 1, "impulse"); }
 int Force(lua_State* L) { return Push(L, HostOf(L).dt(), "force"); }
 
@@ -178,6 +186,7 @@ void OpenLuaWorld(lua_State* L) {
                                 {"input", ReadInput},
                                 {"impulse", Impulse},
                                 {"force", Force},
+                                {"blast", Blast},
                                 {"get", Get},
                                 {"set", Set},
                                 {"score", Score},

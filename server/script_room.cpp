@@ -65,6 +65,11 @@ void ScriptRoom::Push(const std::string& part, const Vec2& impulse, const std::s
   rules_.hands_.Push(id, impulse);
 }
 
+void ScriptRoom::Blast(const Vec2& centre, float radius, float speed) {
+  if (rules_.scene().bricks.empty()) throw ScriptRefusal("there are no bricks");
+  rules_.hands_.Blast(centre, radius, speed);
+}
+
 void ScriptRoom::AddPart(const TomlNode& table) { rules_.hands_.Insert(ToToml("part", table)); }
 void ScriptRoom::AddJoint(const TomlNode& table) { rules_.hands_.Insert(ToToml("joint", table)); }
 void ScriptRoom::RemovePart(const std::string& part) { rules_.hands_.RemovePart(NeedPart(part)); }

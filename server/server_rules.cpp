@@ -51,6 +51,15 @@ class Server::Hands : public RoomHands {
     edit.y = impulse.y();
     Ask(edit);
   }
+  void Blast(const Vec2& centre, float radius, float speed) override {
+    Edit edit;
+    edit.kind = EditKind::kBlast;
+    edit.x = centre.x();
+    edit.y = centre.y();
+    edit.amount = radius;
+    edit.angle = speed;
+    Ask(edit);
+  }
   void Insert(const std::string& text) override {
     Edit edit;
     edit.kind = EditKind::kInsert;

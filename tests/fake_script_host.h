@@ -43,6 +43,10 @@ class FakeHost : public ScriptHost {
     asked.push_back("push " + part + " " + Text(impulse.x()) + " " + Text(impulse.y()) + " " +
                     why);
   }
+  void Blast(const Vec2& centre, float radius, float speed) override {
+    asked.push_back("blast " + Text(centre.x()) + " " + Text(centre.y()) + " " + Text(radius) +
+                    " " + Text(speed));
+  }
   void AddPart(const TomlNode& table) override { asked.push_back("add part " + Text(table)); }
   void AddJoint(const TomlNode& table) override { asked.push_back("add joint " + Text(table)); }
   void Weld(const std::string& a, const std::string& b, float strength) override {

@@ -204,5 +204,36 @@ TEST(RulesCluster, ASceneWithoutRulesHasNone) {
   EXPECT_TRUE(cluster.recording().meta.empty());
 }
 
+TEST(RulesCluster, ABlastFreesTheSameBricksAtEveryPeer) {
+  const std::string wall = R"(
+[[bricks]]
+name = "wall"
+brick = [0.5, 0.25]
+position = [-3, 4]
+count = [12, 8]
+strength = 1
+[[script]]
+name = "bang"
+code = '''
+function on_tick() if world.tick() == 100 then world.blast(2.9, 5, 1.2, 8) end end
+'''
+)";
+  Cluster cluster(With(Race(wall), "buffer", "4g"));
+  cluster.RunToTick(90);
+  const World& world = cluster.server().world();
+  const int before = world.body_count();
+  cluster.Run();
+  EXPECT_GT(world.body_count(), before + 5);
+  EXPECT_LE(world.body_count(), before + 40);
+  int fallen = 0;
+  for (int b = 0; b < world.body_count(); ++b) fallen += world.Read(b).position.y() < 3 ? 1 : 0;
+  EXPECT_GT(fallen, 3) << "pieces come down";
+  for (int c = 0; c < cluster.client_count(); ++c) {
+    const World& copy = cluster.client(c)->replica()->world();
+    EXPECT_EQ(copy.composition().hash, world.composition().hash);
+    EXPECT_EQ(copy.body_count(), world.body_count());
+  }
+}
+
 }  // namespace
 }  // namespace seam

@@ -28,6 +28,9 @@ class FakeHands : public RoomHands {
   void Push(PartId part, const Vec2& impulse) override {
     asked.push_back("push " + std::to_string(part) + " " + std::to_string(impulse.x()));
   }
+  void Blast(const Vec2&, float radius, float) override {
+    asked.push_back("blast " + std::to_string(radius));
+  }
   void Insert(const std::string& text) override { asked.push_back(text); }
   void Say(const std::string& text) override { said.push_back(text); }
   bool Present(int player) const override { return player == 0; }
