@@ -23,6 +23,8 @@ TextTable FeatherweightBench(bool quick);
 TextTable WaterBench(bool quick);
 TextTable AssemblyBench(bool quick);
 TextTable GroupingBench(bool quick);
+TextTable JointsBench(bool quick);
+TextTable CharactersBench(bool quick);
 
 /// CPU seconds of this process so far.
 double CpuSeconds();

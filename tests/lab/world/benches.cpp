@@ -11,6 +11,8 @@ const std::vector<WorldBench>& WorldBenches() {
       {"water", WaterBench},
       {"assembly", AssemblyBench},
       {"grouping", GroupingBench},
+      {"joints", JointsBench},
+      {"characters", CharactersBench},
   };
   return benches;
 }
