@@ -235,5 +235,53 @@ function on_tick() if world.tick() == 100 then world.blast(2.9, 5, 1.2, 8) end e
   }
 }
 
+TEST(RulesCluster, ACharacterThatDiesComesApartAtItsJointsForEverybody) {
+  const std::string hero = R"(
+duration = 6
+[solver]
+substeps = 4
+[[player]]
+name = "ann"
+region = [[-1000, -1000], [-0.001, 1000]]
+[[player]]
+name = "bob"
+region = [[0, -1000], [1000, 1000]]
+[[part]]
+name = "ground"
+chain = [[-50, 0], [50, 0]]
+friction = 0.9
+[[character]]
+name = "hero"
+player = "ann"
+position = [-0.5, 0]
+health = 40
+[[trigger]]
+name = "fire"
+kind = "hazard"
+box = [4, 4]
+position = [0, 1]
+health = 20
+)";
+  for (const char* rule : {"retrospect", "resimulate"}) {
+    ClusterConfig config = With(hero, "buffer", "4g");
+    config.reconcile = rule;
+    Cluster cluster(config);
+    cluster.RunToTick(90);
+    const World& world = cluster.server().world();
+    EXPECT_EQ(world.body_count(), 12);
+    EXPECT_EQ(world.composition().mechanisms.size(), 1u) << "alive after 1.5 s";
+    cluster.Run();
+    EXPECT_EQ(world.composition().mechanisms.size(), 12u) << "dead: no joint is left";
+    for (int c = 0; c < cluster.client_count(); ++c) {
+      const World& copy = cluster.client(c)->replica()->world();
+      EXPECT_EQ(copy.composition().hash, world.composition().hash) << rule;
+      for (int b = 0; b < copy.body_count(); ++b) {
+        EXPECT_TRUE(copy.Read(b).position.allFinite());
+        EXPECT_LT(copy.Read(b).position.y(), 1) << "what is dead lies";
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace seam

@@ -97,7 +97,7 @@ void AddHinges(const SceneReader& r, CharacterDraft* draft, SceneDraft* out) {
 void ReadCharacter(const TomlNode& node, SceneDraft* draft) {
   SceneReader r(node, draft->file, "character",
                 {"name", "kind", "player", "owner", "position", "angle", "facing", "height",
-                 "density", "friction", "strength", "torque", "velocity"});
+                 "density", "friction", "strength", "torque", "velocity", "health"});
   const std::string name = r.Name("name");
   r.Rename("character '" + name + "'");
   if (draft->part_of_name.count(name) != 0 || draft->group_of_name.count(name) != 0) {
@@ -109,6 +109,11 @@ void ReadCharacter(const TomlNode& node, SceneDraft* draft) {
   CharacterDraft character = ReadDraft(r, name, *draft);
   character.group = kFirstGroup - static_cast<int>(draft->scene.characters.size());
   AddParts(r, &character, draft);
+  const float health = r.Number("health", {0, 1e6}, 0.0f);
+  for (const char* vital : {".head", ".torso"}) {
+    const PartId id = draft->part_of_name.at(name + vital);
+    draft->scene.parts[static_cast<std::size_t>(id)].rules.health = health;
+  }
   AddHinges(r, &character, draft);
   draft->scene.characters.push_back(character.character);
 }
