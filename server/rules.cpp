@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "server/part_places.h"
+#include "server/part_owner.h"
 #include "server/script.h"
 #include "server/script_room.h"
 

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "server/part_places.h"
+#include "server/part_owner.h"
 #include "server/rules.h"
 #include "server/script_host.h"
 

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "common/physics/scene_text.h"
-#include "server/part_places.h"
+#include "server/part_owner.h"
 
 namespace seam {
 namespace {

@@ -170,13 +170,15 @@ Holding Server::WithoutHolder(Holding h) const {
 void Server::Announce(const std::vector<Grants>& messages) {
   for (const Grants& g : messages) {
     publisher_.Publish(g);
-    const Bytes bytes = Encode(g);
-    for (auto& [address, session] : sessions_) {
-      if (session->stage != SessionStage::kGreeted && !session->link.SendReliable(bytes)) {
-        session->leaving = true;
-        session->leaving_why = "does not acknowledge";
-      }
-    }
+    SendToAll(Encode(g));
+  }
+}
+
+void Server::SendToAll(const Bytes& message) {
+  for (auto& [address, session] : sessions_) {
+    if (session->stage == SessionStage::kGreeted || session->link.SendReliable(message)) continue;
+    session->leaving = true;
+    session->leaving_why = "does not acknowledge";
   }
 }
 

@@ -69,7 +69,6 @@ class Server {
 
   // server_edits.cpp
   void OnProposal(Session& session, const EditOrder& order);
-  int MechanismOf(PartId part) const;
   std::vector<int> MechanismsOf(const Edit& edit) const;
   bool InOneHand(const std::vector<int>& mechanisms) const;
   /// Lets mechanisms that are to be joined wish for the same authority.
@@ -124,6 +123,8 @@ class Server {
   /// The holding while nobody has it: the server next, an epoch on.
   Holding WithoutHolder(Holding h) const;
   void Announce(const std::vector<Grants>& messages);
+  /// Reliably, to everyone who has proved its address; who never acknowledges has to leave.
+  void SendToAll(const Bytes& message);
   void Relay(const States& states, int from_peer);
   void Say(std::int64_t now_us, const std::string& text);
   void PublishStats(std::int64_t now_us, std::int64_t cpu_us);

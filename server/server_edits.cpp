@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/codec/codec.h"
+#include "common/physics/part_places.h"
 #include "common/physics/proposal.h"
 #include "common/sync/edit_order.h"
 #include "server/server.h"
@@ -40,7 +41,7 @@ void Server::OnProposal(Session& session, const EditOrder& order) {
   const std::vector<PartId> parts = topology.PartsOf(edit);
   const bool right = !parts.empty() && MayPropose(topology, edit) &&
                      std::any_of(parts.begin(), parts.end(), [&](PartId part) {
-                       const int m = MechanismOf(part);
+                       const int m = MechanismOf(replica_.world(), part);
                        return m >= 0 && replica_.authority().at(m).authority == session.peer;
                      });
   if (!right) {
@@ -54,16 +55,10 @@ void Server::OnProposal(Session& session, const EditOrder& order) {
   if (pending_.size() < kPendingMost) pending_.push_back({edit, session.peer, replica_.tick()});
 }
 
-int Server::MechanismOf(PartId part) const {
-  const Composition& c = replica_.world().composition();
-  const int index = c.assembly_of_part[static_cast<std::size_t>(part)];
-  return index < 0 ? -1 : c.assemblies[static_cast<std::size_t>(index)].mechanism;
-}
-
 std::vector<int> Server::MechanismsOf(const Edit& edit) const {
   std::vector<int> mechanisms;
   for (const PartId part : replica_.world().topology().PartsOf(edit)) {
-    const int m = MechanismOf(part);
+    const int m = MechanismOf(replica_.world(), part);
     if (m >= 0) mechanisms.push_back(m);
   }
   return mechanisms;
@@ -142,14 +137,7 @@ void Server::OrderPending(std::int64_t now_us) {
   if (ordered.empty()) return;
   for (const EditOrder& order : ordered) {
     publisher_.Publish(order);
-    const Bytes bytes = Encode(order);
-    for (auto& [address, session] : sessions_) {
-      if (session->stage == SessionStage::kGreeted) continue;
-      if (!session->link.SendReliable(bytes)) {
-        session->leaving = true;
-        session->leaving_why = "does not acknowledge";
-      }
-    }
+    SendToAll(Encode(order));
     replica_.Queue(order);
   }
   while (replica_.has_queued()) FollowTopology(replica_.ApplyNextEdit());

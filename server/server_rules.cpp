@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "common/codec/codec.h"
-#include "common/physics/proposal.h"
+#include "common/physics/part_places.h"
 #include "server/rules.h"
 #include "server/script_host.h"
 #include "server/server.h"
@@ -29,19 +29,7 @@ class Server::Hands : public RoomHands {
     Ask(edit);
   }
   void Bond(PartId a, PartId b, float strength) override {
-    const World& world = server_.replica_.world();
-    const BodyState at_a = PartPose(world, a), at_b = PartPose(world, b);
-    const Vec2 apart = at_b.position - at_a.position;
-    const float cosine = std::cos(at_a.angle), sine = std::sin(at_a.angle);
-    Edit edit;
-    edit.kind = EditKind::kBond;
-    edit.a = a;
-    edit.b = b;
-    edit.x = cosine * apart.x() + sine * apart.y();
-    edit.y = cosine * apart.y() - sine * apart.x();
-    edit.angle = at_b.angle - at_a.angle;
-    edit.amount = strength;
-    Ask(edit);
+    Ask(BondAsTheyAre(server_.replica_.world(), a, b, strength));
   }
   void Push(PartId part, const Vec2& impulse) override {
     Edit edit;
@@ -97,12 +85,7 @@ void Server::RunRules(std::int64_t now_us) {
   rules_->AfterTick();
   for (const Meta& meta : rules_->TakeChanges(now_us)) {
     publisher_.Publish(meta);
-    const Bytes bytes = Encode(meta);
-    for (auto& [address, session] : sessions_) {
-      if (session->stage == SessionStage::kGreeted || session->link.SendReliable(bytes)) continue;
-      session->leaving = true;
-      session->leaving_why = "does not acknowledge";
-    }
+    SendToAll(Encode(meta));
   }
 }
 
@@ -118,7 +101,7 @@ void Server::ForbidWishes() {
   const std::vector<int> peers = PeerOfPlayer();
   for (const Part& part : parts) {
     if (part.rules.push == kEveryPlayer) continue;
-    const int mechanism = MechanismOf(part.id);
+    const int mechanism = MechanismOf(replica_.world(), part.id);
     if (mechanism < 0 || static_cast<std::size_t>(mechanism) >= wishes_.size()) continue;
     Wish& wish = wishes_[static_cast<std::size_t>(mechanism)];
     for (std::size_t p = 0; p < peers.size(); ++p) {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "common/physics/proposal.h"
+#include "common/physics/part_places.h"
 #include "server/server.h"
 
 namespace seam {

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "tests/lab/cluster.h"
+#include "tests/two_sides.h"
 
 namespace seam {
 namespace {
@@ -89,17 +89,12 @@ TEST_P(AssemblyCluster, TheHouseFallsToPiecesAndPiecesJoinForAllPeersAlike) {
 }
 
 /// Stacks on both sides; ann's ball rolls into the one on bob's side after they have been grouped.
-const char* const kStacks = R"(
+const std::string kStacks = std::string(R"(
 duration = 7
 buffer = 4
 [grouping]
 after = 0.5
-[[player]]
-name = "ann"
-region = [[-1000, -1000], [-0.001, 1000]]
-[[player]]
-name = "bob"
-region = [[0, -1000], [1000, 1000]]
+)") + kTwoSides + R"(
 [[part]]
 name = "ground"
 chain = [[-100, 0], [100, 0]]

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/physics/proposal.h"
+#include "common/physics/part_places.h"
 #include "tests/living_world.h"
 
 namespace seam {

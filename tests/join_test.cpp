@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "common/physics/part_places.h"
 #include "common/physics/proposal.h"
 #include "tests/living_world.h"
 

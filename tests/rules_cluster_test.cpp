@@ -7,7 +7,7 @@
 #include <map>
 
 #include "server/rules.h"
-#include "tests/lab/cluster.h"
+#include "tests/two_sides.h"
 
 namespace seam {
 namespace {
@@ -236,16 +236,11 @@ function on_tick() if world.tick() == 100 then world.blast(2.9, 5, 1.2, 8) end e
 }
 
 TEST(RulesCluster, ACharacterThatDiesComesApartAtItsJointsForEverybody) {
-  const std::string hero = R"(
+  const std::string hero = std::string(R"(
 duration = 6
 [solver]
 substeps = 4
-[[player]]
-name = "ann"
-region = [[-1000, -1000], [-0.001, 1000]]
-[[player]]
-name = "bob"
-region = [[0, -1000], [1000, 1000]]
+)") + kTwoSides + R"(
 [[part]]
 name = "ground"
 chain = [[-50, 0], [50, 0]]

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "server/part_places.h"
+#include "server/part_owner.h"
 #include "server/script_host.h"
 #include "server/script_room.h"
 

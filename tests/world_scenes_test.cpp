@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "tests/lab/cluster.h"
+#include "tests/two_sides.h"
 
 namespace seam {
 namespace {
@@ -26,18 +26,7 @@ TEST_P(WorldScene, CrossesTheSeamsUnder4gWholeAndWithOneAuthority) {
     for (int m = 0; m < server.authority().count(); ++m) {
       holders.emplace(server.authority().id(m), server.authority().at(m).authority);
     }
-    for (int i = 0; i < cluster.client_count(); ++i) {
-      const Client* client = cluster.client(i);
-      if (client == nullptr || !client->running()) continue;
-      const Replica& replica = *client->replica();
-      if (replica.topology() != server.topology()) continue;
-      for (int m = 0; m < server.authority().count(); ++m) {
-        const Holding& ours = server.authority().at(m);
-        const Holding& theirs = replica.authority().at(m);
-        const bool both = theirs.epoch == ours.epoch && theirs.authority == client->peer();
-        if (both && ours.authority != client->peer()) ++twice;
-      }
-    }
+    twice += SecondAuthorities(&cluster);
   };
   cluster.Run();
   EXPECT_EQ(twice, 0);

@@ -6,6 +6,8 @@
 #include <numeric>
 #include <set>
 
+#include "common/physics/stage_memory.h"
+
 namespace seam {
 namespace {
 
@@ -182,22 +184,9 @@ void GroupStage::Edited(const Edit& edit) {
   }
 }
 
-void GroupStage::Save(std::vector<float>* memory) const {
-  memory->push_back(static_cast<float>(quiet_.size()));
-  for (const auto& [part, ticks] : quiet_) {
-    memory->push_back(static_cast<float>(part));
-    memory->push_back(static_cast<float>(ticks));
-  }
-}
+void GroupStage::Save(std::vector<float>* memory) const { SaveTicks(quiet_, memory); }
 
-std::size_t GroupStage::Load(const float* memory) {
-  const auto count = static_cast<std::size_t>(memory[0]);
-  quiet_.clear();
-  for (std::size_t i = 0; i < count; ++i) {
-    quiet_[static_cast<PartId>(memory[1 + 2 * i])] = static_cast<int>(memory[2 + 2 * i]);
-  }
-  return 1 + 2 * count;
-}
+std::size_t GroupStage::Load(const float* memory) { return LoadTicks(memory, &quiet_); }
 
 }  // namespace
 

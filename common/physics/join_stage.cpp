@@ -9,6 +9,7 @@
 
 #include "common/physics/join.h"
 #include "common/physics/mass.h"
+#include "common/physics/stage_memory.h"
 
 namespace seam {
 namespace {
@@ -158,22 +159,9 @@ void JoinStage::Wishes(std::vector<Edit>* edits) {
   }
 }
 
-void JoinStage::Save(std::vector<float>* memory) const {
-  memory->push_back(static_cast<float>(waiting_.size()));
-  for (const auto& [part, ticks] : waiting_) {
-    memory->push_back(static_cast<float>(part));
-    memory->push_back(static_cast<float>(ticks));
-  }
-}
+void JoinStage::Save(std::vector<float>* memory) const { SaveTicks(waiting_, memory); }
 
-std::size_t JoinStage::Load(const float* memory) {
-  const auto count = static_cast<std::size_t>(memory[0]);
-  waiting_.clear();
-  for (std::size_t i = 0; i < count; ++i) {
-    waiting_[static_cast<PartId>(memory[1 + 2 * i])] = static_cast<int>(memory[2 + 2 * i]);
-  }
-  return 1 + 2 * count;
-}
+std::size_t JoinStage::Load(const float* memory) { return LoadTicks(memory, &waiting_); }
 
 }  // namespace
 

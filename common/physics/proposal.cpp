@@ -4,7 +4,7 @@
 
 #include "common/physics/group_stage.h"
 #include "common/physics/join.h"
-#include "common/physics/mass.h"
+#include "common/physics/part_places.h"
 
 namespace seam {
 namespace {
@@ -22,28 +22,6 @@ bool MayPropose(const Topology& topology, const Edit& edit) {
   }
   return IsJoin(topology.scene(), topology.composition(), edit) ||
          MayGroup(topology.scene(), topology.composition(), edit);
-}
-
-BodyState PartPose(const World& world, PartId part) {
-  const Composition& c = world.composition();
-  const std::vector<Part>& parts = world.scene().parts;
-  const Part& own = parts[static_cast<std::size_t>(part)];
-  const Assembly& assembly = c.assemblies[static_cast<std::size_t>(
-      c.assembly_of_part[static_cast<std::size_t>(part)])];
-  BodyState pose;
-  pose.position = own.position;
-  pose.angle = own.angle;
-  if (assembly.anchored) return pose;
-  const Part& root = parts[static_cast<std::size_t>(assembly.id)];
-  const BodyState body = world.Read(world.BodyOfId(assembly.id));
-  const Eigen::Vector2d local = ToRootFrame(own, root, Eigen::Vector2d(0, 0));
-  const double angle = static_cast<double>(body.angle);
-  const double co = std::cos(angle), si = std::sin(angle);
-  const Eigen::Vector2d arm(co * local.x() - si * local.y(), si * local.x() + co * local.y());
-  pose = body;
-  pose.position = (body.position.cast<double>() + arm).cast<float>();
-  pose.angle = body.angle + (own.angle - root.angle);
-  return pose;
 }
 
 bool PlausibleProposal(const World& world, const Edit& edit) {

@@ -14,7 +14,4 @@ bool MayPropose(const Topology& topology, const Edit& edit);
 /// Whether the parts of a bond are about where it puts them, in our copy; true for other edits.
 bool PlausibleProposal(const World& world, const Edit& edit);
 
-/// The pose of a part, whichever body it belongs to. Requires a part that has not left.
-BodyState PartPose(const World& world, PartId part);
-
 }  // namespace seam

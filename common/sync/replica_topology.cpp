@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "common/physics/part_places.h"
 #include "common/sync/edit_order.h"
 #include "common/sync/replica.h"
 
@@ -99,9 +100,7 @@ void Replica::NoteProposals() {
     if (config_.mode != Mode::kOracle) {
       bool mine = false;
       for (const PartId part : parts) {
-        const int index =
-            world_.composition().assembly_of_part[static_cast<std::size_t>(part)];
-        const int m = world_.composition().assemblies[static_cast<std::size_t>(index)].mechanism;
+        const int m = MechanismOf(world_, part);
         if (m < 0) continue;
         mine = table_.at(m).authority == self_;
         break;   // of two, the first one's authority proposes

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/physics/faces.h"
-#include "common/physics/proposal.h"
+#include "common/physics/part_places.h"
 #include "common/physics/world.h"
 #include "tests/lab/world/bench.h"
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/physics/proposal.h"
+#include "common/physics/part_places.h"
 #include "tests/lab/world/bench.h"
 
 namespace seam {

@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "common/physics/proposal.h"
+#include "common/physics/part_places.h"
 #include "common/physics/world.h"
 #include "tests/lab/world/bench.h"
 

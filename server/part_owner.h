@@ -1,0 +1,20 @@
+#pragma once
+/// Whose the things of a world are.
+
+#include "common/physics/part_places.h"
+
+namespace seam {
+
+/// Whose a mechanism is: the player whose vehicle is part of it, else its owner; -1 nobody's.
+inline int PlayerOf(const World& world, int mechanism) {
+  if (mechanism < 0) return -1;
+  const std::vector<Player>& players = world.scene().players;
+  for (std::size_t p = 0; p < players.size(); ++p) {
+    if (players[p].vehicle >= 0 && MechanismOf(world, players[p].vehicle) == mechanism) {
+      return static_cast<int>(p);
+    }
+  }
+  return world.composition().mechanisms[static_cast<std::size_t>(mechanism)].owner;
+}
+
+}  // namespace seam

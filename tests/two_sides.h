@@ -1,0 +1,39 @@
+#pragma once
+/// ann's side and bob's, for scenes of tests: her region is left of x = 0, his right of it.
+
+#include <gtest/gtest.h>
+
+#include "tests/lab/cluster.h"
+
+namespace seam {
+
+inline const char* const kTwoSides = R"(
+[[player]]
+name = "ann"
+region = [[-1000, -1000], [-0.001, 1000]]
+[[player]]
+name = "bob"
+region = [[0, -1000], [1000, 1000]]
+)";
+
+/// How many clients think that they have a mechanism, at the server's own epoch, that the server
+/// thinks another has. Looks only at clients that have applied as many edits as the server.
+inline int SecondAuthorities(Cluster* cluster) {
+  const Replica& server = cluster->server().replica();
+  int twice = 0;
+  for (int i = 0; i < cluster->client_count(); ++i) {
+    const Client* client = cluster->client(i);
+    if (client == nullptr || !client->running()) continue;
+    const Replica& replica = *client->replica();
+    if (replica.topology() != server.topology()) continue;
+    for (int m = 0; m < server.authority().count(); ++m) {
+      const Holding& ours = server.authority().at(m);
+      const Holding& theirs = replica.authority().at(m);
+      const bool both = theirs.epoch == ours.epoch && theirs.authority == client->peer();
+      if (both && ours.authority != client->peer()) ++twice;
+    }
+  }
+  return twice;
+}
+
+}  // namespace seam
