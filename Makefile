@@ -35,14 +35,16 @@ DEBS := g++ make pkg-config liblcm-dev liblcm-bin libbox2d-dev libeigen3-dev lib
 	liblua5.4-dev libcli11-dev libtoml11-dev libfmt-dev libpng-dev libfreetype-dev fonts-dejavu-core \
 	libgtest-dev iproute2 util-linux
 
+# All .cpp below a folder; and their objects.
+below = $(sort $(shell find $(1) -name '*.cpp'))
 obj = $(patsubst %.cpp,$(OUT)/%.o,$(1))
 MAINS := server/main.cpp client/main.cpp render/main.cpp render/measure_main.cpp tests/lab/main.cpp
-COMMON := $(call obj,$(sort $(wildcard common/*/*.cpp)))
-SERVER := $(call obj,$(sort $(filter-out $(MAINS),$(wildcard server/*.cpp))))
-CLIENT := $(call obj,$(sort $(filter-out $(MAINS),$(wildcard client/*.cpp))))
-RENDER := $(call obj,$(sort $(filter-out $(MAINS),$(wildcard render/*.cpp))))
-LAB := $(call obj,$(sort $(filter-out $(MAINS),$(wildcard tests/lab/*.cpp tests/lab/*/*.cpp))))
-TESTS := $(call obj,$(sort $(wildcard tests/*.cpp)))
+COMMON := $(call obj,$(call below,common))
+SERVER := $(call obj,$(filter-out $(MAINS),$(call below,server)))
+CLIENT := $(call obj,$(filter-out $(MAINS),$(call below,client)))
+RENDER := $(call obj,$(filter-out $(MAINS),$(call below,render)))
+LAB := $(call obj,$(filter-out $(MAINS) %_test.cpp,$(call below,tests/lab)))
+TESTS := $(call obj,$(filter %_test.cpp tests/support/%,$(call below,tests)))
 PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-render seam-measure seam-lab)
 LCM_TYPES := $(sort $(wildcard lcmtypes/*.lcm))
 

@@ -11,7 +11,7 @@
 #include "common/net/link.h"
 #include "common/net/net.h"
 #include "common/record/recorder.h"
-#include "common/sync/clock_filter.h"
+#include "client/clock_filter.h"
 #include "common/sync/metadata.h"
 #include "common/sync/publisher.h"
 #include "common/sync/replica.h"

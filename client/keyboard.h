@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <memory>
 
-#include "common/physics/types.h"
+#include "common/scene/types.h"
 
 namespace seam {
 

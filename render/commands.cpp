@@ -11,10 +11,10 @@
 
 #include "common/base/check.h"
 #include "common/base/process.h"
-#include "render/canvas.h"
+#include "render/canvas/canvas.h"
 #include "render/load.h"
-#include "render/palette.h"
-#include "render/png_writer.h"
+#include "render/canvas/palette.h"
+#include "render/canvas/png_writer.h"
 #include "render/sequence.h"
 #include "render/strobe.h"
 #include "render/strobe_layout.h"

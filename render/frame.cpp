@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/draw_hud.h"
-#include "render/draw_world.h"
-#include "render/format.h"
-#include "render/palette.h"
+#include "render/draw/draw_hud.h"
+#include "render/draw/draw_world.h"
+#include "render/playback/format.h"
+#include "render/canvas/palette.h"
 
 namespace seam {
 namespace {

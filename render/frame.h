@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "render/draw_strip.h"
-#include "render/playback.h"
-#include "render/viewport.h"
+#include "render/draw/draw_strip.h"
+#include "render/playback/playback.h"
+#include "render/canvas/viewport.h"
 
 namespace seam {
 

@@ -7,8 +7,8 @@
 #include "common/codec/codec.h"
 #include "render/frame.h"
 #include "render/load.h"
-#include "render/palette.h"
-#include "render/png_writer.h"
+#include "render/canvas/palette.h"
+#include "render/canvas/png_writer.h"
 
 namespace seam {
 namespace {

@@ -7,11 +7,11 @@
 #include <string>
 
 #include "common/record/recording.h"
-#include "render/canvas.h"
+#include "render/canvas/canvas.h"
 #include "render/load.h"
 #include "render/options.h"
 #include "render/output.h"
-#include "render/playback.h"
+#include "render/playback/playback.h"
 
 namespace seam {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "render/options.h"
-#include "render/playback.h"
+#include "render/playback/playback.h"
 
 namespace seam {
 

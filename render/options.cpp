@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "common/base/check.h"
-#include "render/font.h"
+#include "render/canvas/font.h"
 #include "render/frame.h"
 
 namespace seam {

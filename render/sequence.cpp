@@ -7,9 +7,9 @@
 #include <thread>
 
 #include "common/base/check.h"
-#include "render/canvas.h"
-#include "render/palette.h"
-#include "render/png_writer.h"
+#include "render/canvas/canvas.h"
+#include "render/canvas/palette.h"
+#include "render/canvas/png_writer.h"
 
 namespace seam {
 

@@ -4,7 +4,7 @@
 #include <functional>
 #include <vector>
 
-#include "render/font.h"
+#include "render/canvas/font.h"
 #include "render/frame.h"
 #include "render/output.h"
 

@@ -3,14 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/draw_body.h"
-#include "render/draw_ghosts.h"
-#include "render/draw_hud.h"
-#include "render/draw_joints.h"
-#include "render/draw_scene.h"
-#include "render/draw_water.h"
-#include "render/format.h"
-#include "render/palette.h"
+#include "render/draw/draw_body.h"
+#include "render/draw/draw_ghosts.h"
+#include "render/draw/draw_hud.h"
+#include "render/draw/draw_joints.h"
+#include "render/draw/draw_scene.h"
+#include "render/draw/draw_water.h"
+#include "render/playback/format.h"
+#include "render/canvas/palette.h"
 #include "render/strobe_layout.h"
 
 namespace seam {

@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "render/playback.h"
-#include "render/viewport.h"
+#include "render/playback/playback.h"
+#include "render/canvas/viewport.h"
 
 namespace seam {
 

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "common/sync/input_source.h"
-#include "server/rules.h"
+#include "server/rules/rules.h"
 
 namespace seam {
 namespace {

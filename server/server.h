@@ -12,7 +12,7 @@
 
 #include "common/net/net.h"
 #include "common/record/recorder.h"
-#include "common/sync/planner.h"
+#include "server/authority/planner.h"
 #include "common/sync/publisher.h"
 #include "common/sync/replica.h"
 #include "server/session.h"

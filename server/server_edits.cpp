@@ -7,7 +7,7 @@
 
 #include "common/codec/codec.h"
 #include "common/physics/part_places.h"
-#include "common/physics/proposal.h"
+#include "server/authority/proposal.h"
 #include "common/sync/edit_order.h"
 #include "server/server.h"
 

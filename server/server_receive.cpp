@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "common/codec/codec.h"
-#include "server/rules.h"
+#include "server/rules/rules.h"
 #include "server/server.h"
 
 namespace seam {

@@ -4,8 +4,8 @@
 
 #include "common/codec/codec.h"
 #include "common/physics/part_places.h"
-#include "server/rules.h"
-#include "server/script_host.h"
+#include "server/rules/rules.h"
+#include "server/script/script_host.h"
 #include "server/server.h"
 
 namespace seam {

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/codec/codec.h"
-#include "server/rules.h"
+#include "server/rules/rules.h"
 #include "server/server.h"
 
 namespace seam {

@@ -141,8 +141,9 @@ struct Grants {
   std::vector<std::int32_t> secondaries;  ///< bit p: peer p is secondary
 };
 
-/// A change of who is joined to whom, or of what there is; see common/physics/edit.h for the fields
-/// of each kind. From a client: proposed by the authority. From the server: ordered, for everyone.
+/// A change of who is joined to whom, or of what there is; see common/topology/edit.h for the
+/// fields of each kind. From a client: proposed by the authority. From the server: ordered, for
+/// everyone.
 struct EditOrder {
   std::int64_t utime = 0;
   std::int32_t sequence = 0;

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "common/base/check.h"
-#include "common/physics/water_push.h"
+#include "common/stages/water/water_push.h"
 
 namespace seam {
 namespace {

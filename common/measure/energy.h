@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "common/measure/joint_ends.h"
-#include "common/physics/mass.h"
-#include "common/physics/wet_shape.h"
+#include "common/scene/mass.h"
+#include "common/stages/water/wet_shape.h"
 
 namespace seam {
 

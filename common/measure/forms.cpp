@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "common/measure/pose.h"
-#include "common/physics/mass.h"
+#include "common/scene/mass.h"
 #include "common/sync/edit_order.h"
 
 namespace seam {

@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "common/physics/topology.h"
-#include "common/physics/types.h"
+#include "common/topology/topology.h"
+#include "common/scene/types.h"
 #include "common/record/recording.h"
 
 namespace seam {

@@ -2,7 +2,7 @@
 /// The two points that a joint holds together, as its assemblies carry them.
 
 #include "common/measure/pose.h"
-#include "common/physics/kinematic.h"
+#include "common/stages/kinematic.h"
 
 namespace seam {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/measure/parts.h"
-#include "common/physics/assembly.h"
+#include "common/scene/assembly.h"
 
 namespace seam {
 namespace {

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "common/measure/oracle.h"
-#include "common/physics/scene.h"
+#include "common/scene/scene.h"
 #include "common/record/recording.h"
 
 namespace seam {

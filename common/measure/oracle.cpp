@@ -6,7 +6,7 @@
 
 #include "common/measure/forms.h"
 #include "common/measure/pose.h"
-#include "common/physics/mass.h"
+#include "common/scene/mass.h"
 
 namespace seam {
 namespace {

@@ -9,8 +9,8 @@
 #include <optional>
 #include <vector>
 
-#include "common/physics/edit.h"
-#include "common/physics/scene.h"
+#include "common/topology/edit.h"
+#include "common/scene/scene.h"
 #include "common/record/recording.h"
 
 namespace seam {

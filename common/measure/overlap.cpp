@@ -5,7 +5,7 @@
 
 #include "common/base/check.h"
 #include "common/measure/pose.h"
-#include "common/physics/mass.h"
+#include "common/scene/mass.h"
 
 namespace seam {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "common/measure/convex.h"
-#include "common/physics/assembly.h"
-#include "common/physics/kinematic.h"
+#include "common/scene/assembly.h"
+#include "common/stages/kinematic.h"
 
 namespace seam {
 

@@ -8,7 +8,7 @@
 
 #include "common/measure/forms.h"
 #include "common/measure/measure.h"
-#include "common/physics/assembly.h"
+#include "common/scene/assembly.h"
 
 namespace seam {
 

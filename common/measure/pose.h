@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "common/physics/assembly.h"
+#include "common/scene/assembly.h"
 
 namespace seam {
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "common/physics/assembly.h"
+#include "common/scene/assembly.h"
 
 namespace seam {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/physics/recomposition.h"
-#include "common/physics/types.h"
+#include "common/topology/body_remap.h"
+#include "common/scene/types.h"
 
 namespace seam {
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "common/base/check.h"
-#include "common/physics/mass.h"
+#include "common/scene/mass.h"
 
 namespace seam {
 namespace {

@@ -2,7 +2,7 @@
 /// Where every part of a world is, and what it belongs to: parts of one body from the pose of their
 /// root.
 
-#include "common/physics/edit.h"
+#include "common/topology/edit.h"
 #include "common/physics/world.h"
 
 namespace seam {

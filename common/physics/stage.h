@@ -8,10 +8,10 @@
 #include <memory>
 #include <vector>
 
-#include "common/physics/assembly.h"
-#include "common/physics/edit.h"
-#include "common/physics/scene.h"
-#include "common/physics/types.h"
+#include "common/scene/assembly.h"
+#include "common/topology/edit.h"
+#include "common/scene/scene.h"
+#include "common/scene/types.h"
 #include "common/physics/world_build.h"
 
 namespace seam {

@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "common/physics/assembly.h"
-#include "common/physics/recomposition.h"
-#include "common/physics/scene.h"
-#include "common/physics/topology.h"
+#include "common/scene/assembly.h"
+#include "common/topology/body_remap.h"
+#include "common/scene/scene.h"
+#include "common/topology/topology.h"
 
 namespace seam {
 

@@ -7,9 +7,9 @@
 #include <map>
 #include <vector>
 
-#include "common/physics/assembly.h"
-#include "common/physics/mass.h"
-#include "common/physics/scene.h"
+#include "common/scene/assembly.h"
+#include "common/scene/mass.h"
+#include "common/scene/scene.h"
 #include "common/physics/world_joints.h"
 
 namespace seam {

@@ -3,7 +3,7 @@
 
 #include <box2d/box2d.h>
 
-#include "common/physics/scene.h"
+#include "common/scene/scene.h"
 
 namespace seam {
 

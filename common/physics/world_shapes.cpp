@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "common/physics/mass.h"
+#include "common/scene/mass.h"
 #include "common/physics/world_build.h"
 
 namespace seam {

@@ -5,7 +5,7 @@
 
 #include <cstdint>
 
-#include "common/physics/scene.h"
+#include "common/scene/scene.h"
 
 namespace seam {
 

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <map>
 
-#include "common/physics/mass.h"
+#include "common/scene/mass.h"
 #include "common/physics/world_impl.h"
 
 namespace seam {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "common/codec/messages.h"
-#include "common/physics/assembly.h"
+#include "common/scene/assembly.h"
 
 namespace seam {
 

@@ -2,7 +2,7 @@
 /// Edits as messages.
 
 #include "common/codec/messages.h"
-#include "common/physics/edit.h"
+#include "common/topology/edit.h"
 
 namespace seam {
 

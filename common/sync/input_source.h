@@ -1,7 +1,7 @@
 #pragma once
 /// Where a player's inputs come from when no keyboard is attached: the scene's script, or a bot.
 
-#include "common/physics/scene.h"
+#include "common/scene/scene.h"
 
 namespace seam {
 

@@ -5,7 +5,7 @@
 #include <map>
 
 #include "common/codec/messages.h"
-#include "common/physics/types.h"
+#include "common/scene/types.h"
 
 namespace seam {
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "common/sync/reconcile.h"
+#include "common/sync/reconcile/reconcile.h"
 
 namespace seam {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/codec/messages.h"
-#include "common/physics/types.h"
+#include "common/scene/types.h"
 
 namespace seam {
 

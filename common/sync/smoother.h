@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "common/physics/types.h"
+#include "common/scene/types.h"
 
 namespace seam {
 

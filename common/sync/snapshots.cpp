@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "common/base/check.h"
-#include "common/sync/reconcile.h"
+#include "common/sync/reconcile/reconcile.h"
 
 namespace seam {
 namespace {

@@ -6,8 +6,8 @@
 #include <deque>
 #include <vector>
 
-#include "common/physics/recomposition.h"
-#include "common/physics/types.h"
+#include "common/topology/body_remap.h"
+#include "common/scene/types.h"
 
 namespace seam {
 

@@ -3,7 +3,7 @@
 #include <cstdio>
 
 #include "common/base/check.h"
-#include "common/physics/scene.h"
+#include "common/scene/scene.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/divergence.h"
 

@@ -6,8 +6,8 @@
 #include <sstream>
 
 #include "common/base/check.h"
-#include "common/physics/scene_reader.h"
-#include "common/physics/scene_text.h"
+#include "common/scene/scene_reader.h"
+#include "common/scene/scene_text.h"
 #include "tests/lab/grid.h"
 #include "tests/lab/scene_settings.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "common/physics/mass.h"
+#include "common/scene/mass.h"
 #include "tests/lab/hard/exact_judge.h"
 
 namespace seam {

@@ -10,7 +10,7 @@
 #include "common/measure/energy.h"
 #include "common/measure/joint_drift.h"
 #include "common/measure/overlap.h"
-#include "common/physics/mass.h"
+#include "common/scene/mass.h"
 #include "tests/lab/hard/script_hand.h"
 #include "tests/lab/hard/thread_clock.h"
 

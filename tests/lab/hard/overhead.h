@@ -1,7 +1,7 @@
 #pragma once
 /// What the core adds to a step of the engine, measured side by side.
 
-#include "common/physics/scene.h"
+#include "common/scene/scene.h"
 
 namespace seam {
 

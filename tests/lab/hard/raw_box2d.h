@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "common/physics/scene.h"
+#include "common/scene/scene.h"
 
 namespace seam {
 

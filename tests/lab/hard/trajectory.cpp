@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "common/base/check.h"
-#include "common/physics/mass.h"
+#include "common/scene/mass.h"
 
 namespace seam {
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "common/physics/scene.h"
+#include "common/scene/scene.h"
 
 namespace seam {
 

@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "common/physics/feather_store.h"
+#include "common/topology/feather_store.h"
 #include "common/physics/world.h"
 #include "tests/lab/world/bench.h"
 

@@ -1,0 +1,300 @@
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include "common/scene/scene_draft.h"
+#include "common/scene/scene_limits.h"
+
+namespace seam {
+namespace {
+
+/// What a kind of joint is called, and which keys it takes besides those of all.
+struct Kind {
+  const char* name;
+  JointKind kind;
+  std::vector<std::string> keys;
+};
+
+const std::vector<Kind>& Kinds() {
+  static const std::vector<Kind> kinds = {
+      {"weld", JointKind::kWeld, {"a", "anchor", "frequency", "damping_ratio", "collide"}},
+      {"glue", JointKind::kGlue, {"a", "anchor", "strength"}},
+      {"hinge", JointKind::kRevolute, {"a", "anchor", "limits", "motor", "collide"}},
+      {"revolute", JointKind::kRevolute, {"a", "anchor", "limits", "motor", "collide"}},
+      {"prismatic", JointKind::kPrismatic,
+       {"a", "anchor", "axis", "limits", "motor", "collide"}},
+      {"wheel", JointKind::kWheel,
+       {"a", "anchor", "axis", "frequency", "damping_ratio", "limits", "motor", "collide"}},
+      {"distance", JointKind::kDistance,
+       {"a", "anchor_a", "anchor_b", "length", "frequency", "damping_ratio", "limits", "collide"}},
+      {"rope", JointKind::kRope, {"a", "anchor_a", "anchor_b", "length", "collide"}},
+      {"motor", JointKind::kMotor, {"a", "force", "torque", "follow", "collide"}},
+      {"kinematic", JointKind::kKinematic,
+       {"anchor", "path", "period", "phase", "ease", "turning"}}};
+  return kinds;
+}
+
+/// Complains about keys that this kind of joint would ignore.
+const Kind& ReadKind(const SceneReader& r) {
+  static const char* const kSome[] = {
+      "a", "anchor", "anchor_a", "anchor_b", "axis", "frequency", "damping_ratio", "length",
+      "limits", "collide", "motor", "strength", "force", "torque", "follow", "path", "period",
+      "phase", "ease", "turning", "local_a", "local_b", "reference_angle"};
+  const std::string name = r.Text("kind");
+  std::string all;
+  for (const Kind& kind : Kinds()) {
+    all += std::string(all.empty() ? "" : ", ") + kind.name;
+    if (name != kind.name) continue;
+    for (const char* key : kSome) {
+      const bool local = std::string(key).rfind("local_", 0) == 0 ||
+                         std::string(key) == "reference_angle";
+      const bool known = local ? kind.kind != JointKind::kKinematic
+                               : std::count(kind.keys.begin(), kind.keys.end(), key) > 0;
+      if (!known && r.Has(key)) r.FailAt(key, "a " + name + " joint has no " + key);
+    }
+    return kind;
+  }
+  r.FailAt("kind", "kind must be one of " + all);
+}
+
+/// Hinge: rad; distance: m, of its length; else m from the start.
+void ReadLimits(const SceneReader& r, Joint* joint) {
+  if (!r.Has("limits")) return;
+  const Range angles{-100, 100}, lengths{kEdgeMin, 10000}, shifts{-1000, 1000};
+  const Vec2 limits = r.Vector("limits", joint->kind == JointKind::kRevolute   ? angles
+                                         : joint->kind == JointKind::kDistance ? lengths
+                                                                               : shifts);
+  joint->limited = true;
+  joint->lower = limits.x();
+  joint->upper = limits.y();
+  if (joint->lower > joint->upper) r.FailAt("limits", "the lower limit is above the upper");
+}
+
+void ReadAxis(const SceneReader& r, const Vec2& fallback, Joint* joint) {
+  const Eigen::Vector2d axis = r.Vector("axis", {-1000, 1000}, fallback).cast<double>();
+  const double length = std::sqrt(axis.x() * axis.x() + axis.y() * axis.y());
+  if (length < 1e-3) r.FailAt("axis", "axis is too short to have a direction");
+  joint->axis = (axis / length).cast<float>();
+}
+
+void ReadSpring(const SceneReader& r, Joint* joint) {
+  joint->frequency_hz = r.Number("frequency", {0, 60}, 0.0f);
+  joint->damping_ratio = r.Number("damping_ratio", {0, 10}, joint->damping_ratio);
+}
+
+void ReadMotor(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
+  const TomlNode* table = r.Table("motor");
+  if (table == nullptr) return;
+  const char* most = joint->kind == JointKind::kPrismatic ? "force" : "torque";
+  const SceneReader m(*table, draft.file, r.what() + ": motor", {"player", "axis", "speed", most});
+  joint->motor_speed = m.Number("speed", {-1000, 1000});
+  joint->motor_torque = m.Number(most, {1e-6, 1e7});
+  joint->motor_player = ReadFollowed(m, draft, &joint->motor_axis);
+}
+
+void ReadPoseMotor(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
+  joint->force_max = r.Number("force", {0, 1e7});
+  joint->torque_max = r.Number("torque", {0, 1e7});
+  const TomlNode* table = r.Table("follow");
+  if (table == nullptr) return;
+  const SceneReader f(*table, draft.file, r.what() + ": follow",
+                      {"player", "axis", "reach", "swing"});
+  joint->reach = f.Vector("reach", {-1000, 1000}, Vec2(0, 0));
+  joint->swing = f.Number("swing", {-100, 100}, 0.0f);
+  joint->motor_player = ReadFollowed(f, draft, &joint->motor_axis);
+  if (joint->motor_player < 0) f.Fail("player is missing");
+}
+
+/// The longest that a path may be travelled for, s: sessions count ticks for days.
+constexpr double kPeriodMax = 86400;
+
+void ReadKinematic(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
+  joint->turning = r.Number("turning", {-kSpinMax, kSpinMax}, 0.0f);
+  joint->ease = r.Flag("ease", false);
+  joint->phase = r.Seconds("phase", {0, 1}, 0.0);
+  joint->path = r.Points("path", kCoordinate, kPathPointsMax);
+  if (joint->path.empty()) {
+    if (joint->turning == 0) r.Fail("needs a path or a turning");
+    if (r.Has("period")) r.FailAt("period", "a period needs a path");
+    return;
+  }
+  joint->period_s = r.Seconds("period", {0.1, kPeriodMax});
+  double length = 0;
+  for (std::size_t i = 0; i < joint->path.size(); ++i) {
+    length += double{(joint->path[(i + 1) % joint->path.size()] - joint->path[i]).norm()};
+  }
+  if (length < double{kEdgeMin}) r.FailAt("path", "the path leads nowhere");
+  const double speed = length / joint->period_s * (joint->ease ? 1.5707963 : 1);
+  if (speed > double{draft.scene.speed_limit}) {
+    r.FailAt("period", "it would move at " + Decimal(speed) + " m/s, beyond the speed_limit");
+  }
+}
+
+/// Where the ends are: at the parts' positions unless said otherwise.
+void ReadDistance(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
+  const auto position = [&](PartId part) {
+    return draft.scene.parts[static_cast<std::size_t>(part)].position;
+  };
+  joint->anchor_a = r.Vector("anchor_a", kCoordinate, position(joint->a));
+  joint->anchor_b = r.Vector("anchor_b", kCoordinate, position(joint->b));
+  ReadSpring(r, joint);
+  ReadLimits(r, joint);
+  if (r.Has("length")) {
+    joint->length = r.Number("length", {kEdgeMin, 10000});
+  } else if ((joint->anchor_b - joint->anchor_a).norm() < kEdgeMin) {
+    r.Fail("the ends are closer than " + Decimal(kEdgeMin) + " m: give it a length");
+  }
+}
+
+/// Ends given in the parts' own frames, and the angle between the parts at which the joint is at
+/// rest: for what is joined while it moves, where the places in the scene say nothing.
+void ReadLocal(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
+  const auto place = [&](PartId id, const char* key, Vec2* anchor) {
+    if (!r.Has(key)) return;
+    if (r.Has("anchor")) r.FailAt(key, std::string("has both anchor and ") + key);
+    const Part& part = draft.scene.parts[static_cast<std::size_t>(id)];
+    const Eigen::Vector2d local = r.Vector(key, {-1000, 1000}).cast<double>();
+    const double c = std::cos(static_cast<double>(part.angle));
+    const double s = std::sin(static_cast<double>(part.angle));
+    const Eigen::Vector2d turned(c * local.x() - s * local.y(), s * local.x() + c * local.y());
+    *anchor = (part.position.cast<double>() + turned).cast<float>();
+  };
+  if (r.Has("local_a") != r.Has("local_b")) r.Fail("needs local_a and local_b, or neither");
+  place(joint->a, "local_a", &joint->anchor_a);
+  place(joint->b, "local_b", &joint->anchor_b);
+  if (!r.Has("reference_angle")) return;
+  const Part& a = draft.scene.parts[static_cast<std::size_t>(joint->a)];
+  const Part& b = draft.scene.parts[static_cast<std::size_t>(joint->b)];
+  joint->turn = b.angle - a.angle - r.Number("reference_angle", {-1000, 1000});
+}
+
+void Add(const SceneReader& r, const Joint& joint, SceneDraft* draft) {
+  for (const Joint& other : draft->scene.joints) {
+    if (other.name == joint.name) {
+      r.FailAt("name", "there is another joint of this name");
+    }
+  }
+  if (draft->scene.joints.size() == kJointsMax) {
+    r.Fail("a scene may have at most " + std::to_string(kJointsMax) + " joints");
+  }
+  draft->scene.joints.push_back(joint);
+}
+
+/// The part whose copy number is `by` after that of `part`: "link.0" and {2} is "link.2". A part
+/// that is no copy stays.
+PartId CopyAfter(const SceneReader& r, PartId part, int column, int row, bool grid,
+                 const SceneDraft& draft) {
+  const std::string& name = draft.scene.parts[static_cast<std::size_t>(part)].name;
+  const std::size_t first = name.find('.');
+  if (first == std::string::npos) return part;
+  if (std::isdigit(static_cast<unsigned char>(name[first + 1])) == 0) return part;  // a character's
+  const std::size_t second = name.find('.', first + 1);
+  const bool two = second != std::string::npos;
+  if (two != grid) r.FailAt("repeat", "repeat: '" + name + "' is not repeated the same way");
+  std::string copy = name.substr(0, first + 1) +
+                     std::to_string(std::stoi(name.substr(first + 1)) + column);
+  if (two) copy += "." + std::to_string(std::stoi(name.substr(second + 1)) + row);
+  const auto found = draft.part_of_name.find(copy);
+  if (found == draft.part_of_name.end()) {
+    r.FailAt("repeat", "repeat: there is no part '" + copy + "'");
+  }
+  return found->second;
+}
+
+void Copy(const SceneReader& r, const Joint& first, SceneDraft* draft) {
+  const Repeat repeat = ReadRepeat(r, draft->file);
+  if (repeat.joined) r.FailAt("repeat", "repeat: only parts are welded or glued");
+  for (int column = 0; column < repeat.columns; ++column) {
+    for (int row = 0; row < repeat.rows; ++row) {
+      Joint joint = first;
+      joint.name += repeat.Suffix(column, row);
+      joint.a = CopyAfter(r, first.a, column, row, repeat.grid, *draft);
+      joint.b = CopyAfter(r, first.b, column, row, repeat.grid, *draft);
+      joint.anchor_a += repeat.Offset(column, row);
+      joint.anchor_b += repeat.Offset(column, row);
+      Add(r, joint, draft);
+    }
+  }
+}
+
+/// What is the kind's own. Requires a, b and the anchors.
+void ReadDetails(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
+  switch (joint->kind) {
+    case JointKind::kWeld:
+      ReadSpring(r, joint);
+      if (joint->frequency_hz > 0) break;
+      for (const char* key : {"damping_ratio", "collide"}) {
+        if (r.Has(key)) r.FailAt(key, std::string("a rigid weld joint has no ") + key);
+      }
+      break;
+    case JointKind::kGlue: joint->strength = r.Number("strength", {0, 1e9}); break;
+    case JointKind::kRevolute:
+      ReadLimits(r, joint);
+      ReadMotor(r, draft, joint);
+      break;
+    case JointKind::kPrismatic:
+      ReadAxis(r, Vec2(1, 0), joint);
+      ReadLimits(r, joint);
+      ReadMotor(r, draft, joint);
+      break;
+    case JointKind::kWheel:
+      ReadAxis(r, Vec2(0, 1), joint);
+      ReadSpring(r, joint);
+      ReadLimits(r, joint);
+      ReadMotor(r, draft, joint);
+      break;
+    case JointKind::kDistance:
+    case JointKind::kRope: ReadDistance(r, draft, joint); break;
+    case JointKind::kMotor: ReadPoseMotor(r, draft, joint); break;
+    case JointKind::kKinematic: ReadKinematic(r, draft, joint); break;
+  }
+}
+
+void ReadJoint(const TomlNode& node, SceneDraft* draft) {
+  Joint joint;
+  joint.line = node.line;
+  SceneReader r(node, draft->file, "joint",
+                {"name", "kind", "a", "b", "anchor", "anchor_a", "anchor_b", "axis", "frequency",
+                 "damping_ratio", "length", "limits", "collide", "motor", "strength", "force",
+                 "torque", "follow", "path", "period", "phase", "ease", "turning", "repeat",
+                 "local_a", "local_b", "reference_angle"});
+  joint.name = r.Name("name");
+  r.Rename("joint '" + joint.name + "'");
+  joint.kind = ReadKind(r).kind;
+  joint.b = FindPart(r, "b", *draft);
+  if (joint.kind == JointKind::kKinematic) {
+    joint.a = joint.b;
+  } else {
+    joint.a = FindPart(r, "a", *draft);
+    if (joint.a == joint.b) r.Fail("joins a part with itself");
+  }
+  joint.collide = r.Flag("collide", false);
+  const Vec2 centre = draft->scene.parts[static_cast<std::size_t>(joint.b)].position;
+  joint.anchor_a = joint.anchor_b = r.Vector("anchor", kCoordinate, centre);
+  ReadDetails(r, *draft, &joint);
+  ReadLocal(r, *draft, &joint);
+  if (r.Has("repeat")) {
+    Copy(r, joint, draft);
+  } else {
+    Add(r, joint, draft);
+  }
+}
+
+}  // namespace
+
+int ReadFollowed(const SceneReader& r, const SceneDraft& draft, InputAxis* axis) {
+  if (!r.Has("player")) {
+    if (r.Has("axis")) r.FailAt("axis", "an axis needs a player");
+    return -1;
+  }
+  const std::string name = r.Text("axis", "drive");
+  if (name != "drive" && name != "lift") r.FailAt("axis", "axis must be 'drive' or 'lift'");
+  *axis = name == "lift" ? InputAxis::kLift : InputAxis::kDrive;
+  return FindDriver(r, "player", r.Text("player"), draft);
+}
+
+void ReadJoints(const SceneReader& root, SceneDraft* draft) {
+  for (const TomlNode* node : root.Tables("joint")) ReadJoint(*node, draft);
+}
+
+}  // namespace seam

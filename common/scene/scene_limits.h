@@ -1,0 +1,46 @@
+#pragma once
+/// What a scene may say, in SI units. Within these limits Box2D 2.4.1 neither asserts nor loses its
+/// footing; docs/scenes.md repeats them.
+
+#include "common/scene/scene_reader.h"
+
+namespace seam {
+
+/// Coordinates, m. Single precision is good to 2 mm at 30 km; piles shake from 100 km.
+constexpr Range kCoordinate{-30000, 30000};
+/// Size of a moving thing, m; `size_max` may raise the upper limit up to kSizeMaxMax, which is also
+/// the limit of anchored things.
+constexpr float kSizeMin = 0.05f, kSizeMaxDefault = 10, kSizeMaxMax = 1000;
+/// Shortest edge and least distance of a polygon's or chain's points, m. Box2D merges points at
+/// 2.5 mm and asserts at chain spacings of 5 mm.
+constexpr float kEdgeMin = 0.02f;
+/// Least area of a polygon, m^2, and least distance of its points from its other edges' lines, m.
+constexpr float kAreaMin = 1e-3f, kConvexMin = 1e-3f;
+/// Points of a polygon and of a chain. The engine's polygons have 8: larger ones are cut.
+constexpr std::size_t kPolygonPointsMax = 64, kChainPointsMax = 2000;
+/// Points of a kinematic part's path.
+constexpr std::size_t kPathPointsMax = 200;
+/// kg/m^2; the engine's solver wants mass ratios that are not extreme.
+constexpr Range kDensity{0.01, 100};
+/// rad/s: a quarter turn a step at 60 Hz, the engine's own clamp.
+constexpr float kSpinMax = 94;
+/// m/s: 2 m a step at 60 Hz, the engine's own clamp.
+constexpr float kSpeedMax = 120;
+/// m. Least: half of the engine's slop, so that resting shapes just touch; with less they overlap.
+/// With an anchored rim of 1 cm the sum is the 1.25 cm that continuous collision needs.
+constexpr Range kSkinRange{0.0025, 0.01};
+/// Width and height of water, m, and its flow, m/s.
+constexpr float kWaterSizeMax = 20000, kFlowMax = 50;
+constexpr std::size_t kWatersMax = 64;
+/// Numbers of things. Parts: what two views of bodies carry; players: peers 1..31.
+constexpr std::size_t kPartsMax = 4096, kJointsMax = 4096, kPlayersMax = 31, kActionsMax = 15;
+constexpr std::size_t kScriptMax = 2000, kWatchMax = 16, kThrustsMax = 256;
+/// Inlets, and outlets, of one part.
+constexpr std::size_t kConnectorsMax = 16;
+/// m; smaller ones would have parts below kSizeMin.
+constexpr Range kCharacterHeight{1, 5};
+constexpr std::size_t kCharactersMax = 64;
+/// Welded parts farther than this from their root would lose their edges to rounding, m.
+constexpr float kWeldReachMax = 1000;
+
+}  // namespace seam

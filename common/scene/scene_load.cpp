@@ -1,0 +1,118 @@
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "common/base/check.h"
+#include "common/scene/scene.h"
+#include "common/scene/scene_draft.h"
+#include "common/scene/scene_limits.h"
+#include "common/scene/scene_text.h"
+
+namespace seam {
+namespace {
+
+std::string SceneName(const std::string& file) {
+  std::string name = file.substr(file.find_last_of('/') + 1);
+  const std::string ending = ".toml";
+  if (name.size() > ending.size() &&
+      name.compare(name.size() - ending.size(), ending.size(), ending) == 0) {
+    name.resize(name.size() - ending.size());
+  }
+  return name;
+}
+
+void ReadSolver(const SceneReader& root, const std::string& file, Solver* solver) {
+  const TomlNode* table = root.Table("solver");
+  if (table == nullptr) return;
+  const SceneReader r(*table, file, "solver",
+                      {"tick_hz", "substeps", "velocity_iterations", "position_iterations",
+                       "sleep", "continuous", "warm_starting", "skin", "welds",
+                       "faces"});
+  solver->tick_hz = r.Integer("tick_hz", {10, 960}, solver->tick_hz);
+  solver->substeps = r.Integer("substeps", {1, 32}, solver->substeps);
+  solver->velocity_iterations =
+      r.Integer("velocity_iterations", {1, 64}, solver->velocity_iterations);
+  solver->position_iterations =
+      r.Integer("position_iterations", {1, 64}, solver->position_iterations);
+  solver->sleep = r.Flag("sleep", solver->sleep);
+  solver->continuous = r.Flag("continuous", solver->continuous);
+  solver->warm_starting = r.Flag("warm_starting", solver->warm_starting);
+  if (r.Has("skin")) solver->skin = r.Number("skin", kSkinRange, 0.0f);
+  const std::string welds = r.Text("welds", "body");
+  if (welds != "body" && welds != "joint") r.FailAt("welds", "welds must be 'body' or 'joint'");
+  solver->weld_joints = welds == "joint";
+  const std::string faces = r.Text("faces", "merged");
+  if (faces != "merged" && faces != "outer" && faces != "all") {
+    r.FailAt("faces", "faces must be 'merged', 'outer' or 'all'");
+  }
+  solver->faces = faces == "merged"  ? Faces::kMerged
+                  : faces == "outer" ? Faces::kOuter
+                                     : Faces::kAll;
+}
+
+void ReadBounds(const SceneReader& root, Scene* scene) {
+  if (!root.Has("bounds")) return;
+  const std::vector<Vec2> corners = root.Points("bounds", kCoordinate, 2);
+  if (corners.size() != 2) root.FailAt("bounds", "bounds must be [[x, y], [x, y]]");
+  scene->bounds_min = corners[0];
+  scene->bounds_max = corners[1];
+  if ((corners[1] - corners[0]).minCoeff() < 1) {
+    root.FailAt("bounds", "bounds must be two corners, the lower left first, 1 m apart or more");
+  }
+}
+
+}  // namespace
+
+Scene ParseScene(const std::string& text, const std::string& file_name) {
+  CheckSceneText(text, file_name);
+  const TomlNode tree = ParseToml(text, file_name);
+  SceneDraft draft{file_name, {}, kSizeMaxDefault, {}, {}};
+  Scene& scene = draft.scene;
+  scene.name = SceneName(file_name);
+  scene.text = text;
+
+  const SceneReader root(tree, file_name, "scene",
+                         {"title", "gravity", "duration", "buffer", "speed_limit", "size_max",
+                          "bounds", "solver", "part", "bricks", "character", "joint", "thrust",
+                          "water", "player", "seat", "watch", "camera", "trigger", "script",
+                          "grouping"});
+  scene.title = root.Text("title", scene.name);
+  scene.gravity = root.Vector("gravity", {-100, 100}, scene.gravity);
+  scene.duration_s = root.Seconds("duration", {0.1, 86400}, scene.duration_s);
+  scene.buffer_m = root.Number("buffer", {0, 10000}, scene.buffer_m);
+  scene.speed_limit = root.Number("speed_limit", {1, kSpeedMax}, scene.speed_limit);
+  draft.size_max = root.Number("size_max", {kSizeMin, kSizeMaxMax}, kSizeMaxDefault);
+  ReadBounds(root, &scene);
+  ReadSolver(root, file_name, &scene.solver);
+  ReadPlayerNames(root, &draft);
+  ReadSeatNames(root, &draft);
+  ReadParts(root, &draft);
+  ReadBricks(root, &draft);
+  ReadCharacters(root, &draft);
+  ReadJoints(root, &draft);
+  ReadThrusts(root, &draft);
+  ReadWaters(root, &draft);
+  ReadGrouping(root, &draft);
+  ReadPlayers(root, &draft);
+  ReadSeats(root, &draft);
+  ReadTriggers(root, &draft);
+  ReadScripts(root, &draft);
+  ReadWatch(root, &draft);
+  ReadCamera(root, &draft);
+  CheckScene(scene, file_name);
+  CheckPermissions(scene, file_name);
+  return std::move(draft.scene);
+}
+
+Scene LoadScene(const std::string& path) {
+  std::ifstream in(path, std::ios::binary);
+  if (!in) throw OperatorError(path + ": no such scene file");
+  // One byte more than allowed, so that a huge file is refused without being read.
+  std::string text(kSceneBytesMax + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (in.bad()) throw OperatorError(path + ": cannot be read");
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  return ParseScene(text, path);
+}
+
+}  // namespace seam

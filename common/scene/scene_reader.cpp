@@ -1,0 +1,239 @@
+#include "common/scene/scene_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "common/base/check.h"
+#include "common/scene/scene_text.h"
+
+namespace seam {
+namespace {
+
+/// Edit distance (Levenshtein 1966): insertions, deletions and changes from one to the other.
+std::size_t EditDistance(const std::string& a, const std::string& b) {
+  std::vector<std::size_t> row(b.size() + 1);
+  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i) {
+    std::size_t diagonal = row[0];
+    row[0] = i;
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+      diagonal = row[j];
+      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
+    }
+  }
+  return row[b.size()];
+}
+
+std::string Suggestion(const std::string& key, std::initializer_list<const char*> keys) {
+  std::string nearest;
+  std::size_t least = std::max<std::size_t>(2, key.size() / 3) + 1;
+  for (const char* known : keys) {
+    const std::size_t distance = EditDistance(key, known);
+    if (distance < least) {
+      least = distance;
+      nearest = known;
+    }
+  }
+  if (!nearest.empty()) return "did you mean '" + nearest + "'?";
+  std::string all = "known are";
+  for (const char* known : keys) all += std::string(" ") + known;
+  return all;
+}
+
+}  // namespace
+
+std::string Decimal(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, "%.7g", value);
+  return text;
+}
+
+SceneReader::SceneReader(const TomlNode& table, const std::string& file, std::string what,
+                         std::initializer_list<const char*> keys)
+    : table_(table), file_(file), what_(std::move(what)) {
+  if (table.kind != TomlNode::Kind::kTable) {
+    FailLine(table.line, std::string("must be a table, not ") + KindName(table.kind));
+  }
+  for (const auto& [key, node] : table.members) {
+    const std::string& name = key;
+    const auto same = [&name](const char* known) { return name == known; };
+    if (std::any_of(keys.begin(), keys.end(), same)) continue;
+    const std::string shown = Printable(key);
+    FailLine(node.line, "unknown key '" + shown + "' (" + Suggestion(shown, keys) + ")");
+  }
+}
+
+void SceneReader::FailLine(int line, const std::string& complaint) const {
+  throw OperatorError(file_ + ":" + std::to_string(std::max(line, 1)) + ": " + what_ + ": " +
+                      complaint);
+}
+
+void SceneReader::Fail(const std::string& complaint) const { FailLine(table_.line, complaint); }
+
+void SceneReader::FailAt(const char* key, const std::string& complaint) const {
+  FailLine(LineOf(key), complaint);
+}
+
+void SceneReader::Expected(const TomlNode& node, const char* key, const std::string& what) const {
+  const std::string got = node.kind == TomlNode::Kind::kInteger ||
+                                  node.kind == TomlNode::Kind::kNumber
+                              ? Decimal(node.number)
+                              : std::string(KindName(node.kind));
+  FailLine(node.line, std::string(key) + " must be " + what + ", not " + got);
+}
+
+int SceneReader::LineOf(const char* key) const {
+  const TomlNode* node = table_.Find(key);
+  return node != nullptr ? node->line : table_.line;
+}
+
+const TomlNode* SceneReader::Get(const char* key, bool required) const {
+  const TomlNode* node = table_.Find(key);
+  if (node == nullptr && required) Fail(std::string(key) + " is missing");
+  return node;
+}
+
+double SceneReader::NumberIn(const TomlNode& node, const char* key, Range range) const {
+  const bool is_number =
+      node.kind == TomlNode::Kind::kInteger || node.kind == TomlNode::Kind::kNumber;
+  // As single precision, which limits are in: 0.05 is not below 0.05f. Written so that NaN fails.
+  const auto value = static_cast<float>(node.number);
+  const bool inside =
+      value >= static_cast<float>(range.min) && value <= static_cast<float>(range.max);
+  if (!is_number || !inside) {
+    Expected(node, key, "a number from " + Decimal(range.min) + " to " + Decimal(range.max));
+  }
+  return node.number;
+}
+
+Vec2 SceneReader::VectorIn(const TomlNode& node, const char* key, Range range) const {
+  if (node.kind != TomlNode::Kind::kArray || node.items.size() != 2) {
+    Expected(node, key, "two numbers [x, y]");
+  }
+  return {static_cast<float>(NumberIn(node.items[0], key, range)),
+          static_cast<float>(NumberIn(node.items[1], key, range))};
+}
+
+float SceneReader::Number(const char* key, Range range, std::optional<float> fallback) const {
+  const TomlNode* node = Get(key, !fallback);
+  return node == nullptr ? *fallback : static_cast<float>(NumberIn(*node, key, range));
+}
+
+double SceneReader::Seconds(const char* key, Range range, std::optional<double> fallback) const {
+  const TomlNode* node = Get(key, !fallback);
+  return node == nullptr ? *fallback : NumberIn(*node, key, range);
+}
+
+int SceneReader::Integer(const char* key, Range range, std::optional<int> fallback) const {
+  const TomlNode* node = Get(key, !fallback);
+  if (node == nullptr) return *fallback;
+  if (node->kind != TomlNode::Kind::kInteger || !(node->number >= range.min) ||
+      !(node->number <= range.max)) {
+    Expected(*node, key, "an integer from " + Decimal(range.min) + " to " + Decimal(range.max));
+  }
+  return static_cast<int>(node->integer);
+}
+
+bool SceneReader::Flag(const char* key, bool fallback) const {
+  const TomlNode* node = Get(key, false);
+  if (node == nullptr) return fallback;
+  if (node->kind != TomlNode::Kind::kBoolean) Expected(*node, key, "true or false");
+  return node->boolean;
+}
+
+std::string SceneReader::Text(const char* key, std::optional<std::string> fallback) const {
+  const TomlNode* node = Get(key, !fallback);
+  if (node == nullptr) return *fallback;
+  if (node->kind != TomlNode::Kind::kText) Expected(*node, key, "text");
+  if (node->text.size() > 200) FailAt(key, std::string(key) + " is longer than 200 bytes");
+  if (!IsCleanText(node->text, "")) FailAt(key, std::string(key) + " has a control character");
+  return node->text;
+}
+
+std::string SceneReader::Code(const char* key) const {
+  const TomlNode* node = Get(key, true);
+  if (node->kind != TomlNode::Kind::kText) Expected(*node, key, "text");
+  if (!IsCleanText(node->text, "\n\r\t")) {
+    FailAt(key, std::string(key) + " has a control character");
+  }
+  return node->text;
+}
+
+bool SceneReader::IsText(const char* key) const {
+  const TomlNode* node = table_.Find(key);
+  return node != nullptr && node->kind == TomlNode::Kind::kText;
+}
+
+std::string SceneReader::Name(const char* key) const {
+  const std::string name = Text(key);
+  const auto plain = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+  };
+  bool good = !name.empty() && name.size() <= 32 && plain(name[0]);
+  for (const char c : name) good = good && (plain(c) || c == '_' || c == '-');
+  if (!good) {
+    FailAt(key, std::string(key) + " '" + Printable(name) +
+                    "' must be 1 to 32 letters, digits, '_' or '-', a letter or digit first");
+  }
+  return name;
+}
+
+Vec2 SceneReader::Vector(const char* key, Range range, std::optional<Vec2> fallback) const {
+  const TomlNode* node = Get(key, !fallback);
+  return node == nullptr ? *fallback : VectorIn(*node, key, range);
+}
+
+std::vector<Vec2> SceneReader::Points(const char* key, Range range, std::size_t count_max) const {
+  std::vector<Vec2> points;
+  for (const TomlNode& item : Items(key)) {
+    if (points.size() == count_max) {
+      FailAt(key, std::string(key) + " has more than " + std::to_string(count_max) + " points");
+    }
+    points.push_back(VectorIn(item, key, range));
+  }
+  return points;
+}
+
+std::vector<std::string> SceneReader::Texts(const char* key) const {
+  std::vector<std::string> texts;
+  const TomlNode* node = Get(key, false);
+  if (node == nullptr) return texts;
+  if (node->kind == TomlNode::Kind::kText) return {node->text};
+  for (const TomlNode& item : Items(key)) {
+    if (item.kind != TomlNode::Kind::kText) Expected(item, key, "names");
+    texts.push_back(item.text);
+  }
+  return texts;
+}
+
+std::vector<const TomlNode*> SceneReader::Tables(const char* key) const {
+  std::vector<const TomlNode*> tables;
+  for (const TomlNode& item : Items(key)) {
+    if (item.kind != TomlNode::Kind::kTable) Expected(item, key, "tables");
+    tables.push_back(&item);
+  }
+  return tables;
+}
+
+const std::vector<TomlNode>& SceneReader::Items(const char* key) const {
+  static const std::vector<TomlNode> kNone;
+  const TomlNode* node = Get(key, false);
+  if (node == nullptr) return kNone;
+  if (node->kind != TomlNode::Kind::kArray) Expected(*node, key, "an array");
+  return node->items;
+}
+
+bool SceneReader::IsTable(const char* key) const {
+  const TomlNode* node = Get(key, false);
+  return node != nullptr && node->kind == TomlNode::Kind::kTable;
+}
+
+const TomlNode* SceneReader::Table(const char* key) const {
+  const TomlNode* node = Get(key, false);
+  if (node != nullptr && node->kind != TomlNode::Kind::kTable) Expected(*node, key, "a table");
+  return node;
+}
+
+}  // namespace seam

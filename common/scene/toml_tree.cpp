@@ -1,0 +1,111 @@
+#include "common/scene/toml_tree.h"
+
+#include <algorithm>
+#include <sstream>
+#include <toml.hpp>
+
+#include "common/base/check.h"
+#include "common/scene/scene_text.h"
+
+namespace seam {
+namespace {
+
+// What differs between toml11 3 (Debian 12) and 4 (Debian 13): where a value and an error are.
+#if TOML11_VERSION_MAJOR >= 4
+int LineOf(const toml::source_location& at) { return static_cast<int>(at.first_line_number()); }
+
+std::pair<int, std::string> Explain(const toml::syntax_error& e) {
+  if (e.errors().empty()) return {1, "not valid TOML"};
+  const toml::error_info& first = e.errors().front();
+  const int line = first.locations().empty() ? 1 : LineOf(first.locations().front().first);
+  return {line, first.title()};
+}
+#else
+int LineOf(const toml::source_location& at) { return static_cast<int>(at.line()); }
+
+std::pair<int, std::string> Explain(const toml::syntax_error& e) {
+  return {LineOf(e.location()), e.what()};
+}
+#endif
+
+/// "[error] toml::parse_table: invalid line format" -> "invalid line format".
+std::string FirstLine(const std::string& what) {
+  std::string line = what.substr(0, what.find('\n'));
+  for (const char* prefix : {"[error]", "toml::"}) {
+    const auto at = line.find(prefix);
+    if (at == std::string::npos) continue;
+    const auto end = line.find(prefix[0] == '[' ? "]" : ": ", at);
+    if (end != std::string::npos) line.erase(0, end + 1);
+  }
+  const auto first = line.find_first_not_of(" :");
+  return first == std::string::npos ? "syntax error" : Printable(line.substr(first));
+}
+
+TomlNode Convert(const toml::value& value) {
+  TomlNode node;
+  node.line = LineOf(value.location());
+  if (value.is_boolean()) {
+    node.kind = TomlNode::Kind::kBoolean;
+    node.boolean = value.as_boolean();
+  } else if (value.is_integer()) {
+    node.kind = TomlNode::Kind::kInteger;
+    node.integer = value.as_integer();
+    node.number = static_cast<double>(node.integer);
+  } else if (value.is_floating()) {
+    node.kind = TomlNode::Kind::kNumber;
+    node.number = value.as_floating();
+  } else if (value.is_string()) {
+    node.kind = TomlNode::Kind::kText;
+    node.text = toml::get<std::string>(value);
+  } else if (value.is_array()) {
+    node.kind = TomlNode::Kind::kArray;
+    for (const toml::value& item : value.as_array()) node.items.push_back(Convert(item));
+  } else if (value.is_table()) {
+    node.kind = TomlNode::Kind::kTable;
+    for (const auto& [key, member] : value.as_table()) {
+      node.members.emplace_back(key, Convert(member));
+    }
+    // toml11's tables are hash maps: order must not depend on its hashes.
+    std::sort(node.members.begin(), node.members.end(), [](const auto& x, const auto& y) {
+      return x.second.line != y.second.line ? x.second.line < y.second.line : x.first < y.first;
+    });
+  }
+  return node;
+}
+
+}  // namespace
+
+const TomlNode* TomlNode::Find(const std::string& key) const {
+  for (const auto& [name, member] : members) {
+    if (name == key) return &member;
+  }
+  return nullptr;
+}
+
+const char* KindName(TomlNode::Kind kind) {
+  switch (kind) {
+    case TomlNode::Kind::kBoolean: return "true or false";
+    case TomlNode::Kind::kInteger: return "an integer";
+    case TomlNode::Kind::kNumber: return "a number";
+    case TomlNode::Kind::kText: return "text";
+    case TomlNode::Kind::kArray: return "an array";
+    case TomlNode::Kind::kTable: return "a table";
+    case TomlNode::Kind::kOther: break;
+  }
+  return "a date or time";
+}
+
+TomlNode ParseToml(const std::string& text, const std::string& file) {
+  try {
+    std::istringstream in(text);
+    return Convert(toml::parse(in, file));
+  } catch (const toml::syntax_error& e) {
+    const auto [line, what] = Explain(e);
+    throw OperatorError(file + ":" + std::to_string(line) + ": " + FirstLine(what));
+  } catch (const std::exception& e) {
+    // Some mistakes (a number that does not fit) reach us without a place.
+    throw OperatorError(file + ":1: not valid TOML: " + FirstLine(e.what()));
+  }
+}
+
+}  // namespace seam

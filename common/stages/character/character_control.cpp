@@ -1,0 +1,120 @@
+#include "common/stages/character/character_control.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/stages/character/character_gains.h"
+
+namespace seam {
+
+void CharacterMemory::Save(std::vector<float>* memory) const {
+  memory->insert(memory->end(),
+                 {static_cast<float>(mode), time, static_cast<float>(stance), step, from.x, from.y,
+                  speed, static_cast<float>(phase), phase_time});
+}
+
+std::size_t CharacterMemory::Load(const float* memory) {
+  mode = static_cast<CharacterMode>(static_cast<int>(memory[0]));
+  time = memory[1];
+  stance = static_cast<int>(memory[2]);
+  step = memory[3];
+  from.Set(memory[4], memory[5]);
+  speed = memory[6];
+  phase = static_cast<int>(memory[7]);
+  phase_time = memory[8];
+  return 9;
+}
+
+CharacterControl::CharacterControl(const Character& character, const StageWorld& world)
+    : character_(character), world_(world), limbs_(character, world) {
+  gravity_ = std::max(1.0f, -world.scene.gravity.y());
+}
+
+void CharacterControl::SetInput(const Input& input) {
+  drive_ = character_.facing * static_cast<float>(std::max<int>(input.drive, -127)) / 127.0f;
+  lift_ = static_cast<float>(std::max<int>(input.lift, -127)) / 127.0f;
+}
+
+void CharacterControl::Enter(CharacterMode mode) {
+  memory_.mode = mode;
+  memory_.time = 0;
+  memory_.phase = 0;
+  memory_.phase_time = 0;
+}
+
+void CharacterControl::Act(float h) {
+  if (!limbs_.dynamic()) return;
+  if (!limbs_.whole()) {
+    if (memory_.mode != CharacterMode::kLimp) Enter(CharacterMode::kLimp);
+    limbs_.SlackenAll();
+    return;
+  }
+  const CharacterSense s = limbs_.Sense();
+  unit_ = s.mass * 10 * character_.height;
+  memory_.time += h;
+  Choose(s, h);
+  switch (memory_.mode) {
+    case CharacterMode::kStand: Stand(s); break;
+    case CharacterMode::kStep: StepOn(s, h); break;
+    case CharacterMode::kJump: Jump(s); break;
+    case CharacterMode::kAir: Air(s); break;
+    case CharacterMode::kFall: Fall(s); break;
+    case CharacterMode::kRise: Rise(s, h); break;
+    case CharacterMode::kSwim: Swim(s, h); break;
+    case CharacterMode::kLimp: limbs_.SlackenAll(); break;
+  }
+}
+
+/// What cannot go on as it is; each mode ends itself in its own function when it is done.
+void CharacterControl::Choose(const CharacterSense& s, float h) {
+  if (!world_.scene.waters.empty()) {
+    const float depth = ChestDepth(s) / limbs_.scale();
+    const bool swims = memory_.mode == CharacterMode::kSwim;
+    if (!swims && depth > kSwimFrom) Enter(CharacterMode::kSwim);
+    const bool stands = depth < kSwimTo && (s.legs[0].down || s.legs[1].down || s.lying);
+    if (swims && stands) Enter(std::abs(s.torso) < 0.5f * kTiltMost ? CharacterMode::kStand
+                                                                    : CharacterMode::kFall);
+    if (memory_.mode == CharacterMode::kSwim) return;
+  }
+  const bool upright_mode =
+      memory_.mode == CharacterMode::kStand || memory_.mode == CharacterMode::kStep ||
+      memory_.mode == CharacterMode::kJump || memory_.mode == CharacterMode::kAir;
+  if (!upright_mode) return;
+  const float low = std::min(s.legs[0].ankle.y, s.legs[1].ankle.y) - limbs_.shape().ankle;
+  const bool sunk = s.hip.y - low < kSunk * limbs_.shape().hip &&
+                    memory_.mode != CharacterMode::kAir;
+  if (std::abs(s.torso) > kTiltMost || sunk) {
+    Enter(CharacterMode::kFall);
+    return;
+  }
+  const bool walks =
+      memory_.mode == CharacterMode::kStand || memory_.mode == CharacterMode::kStep;
+  if (!walks) return;
+  const bool down = s.legs[0].down || s.legs[1].down;
+  memory_.phase_time = down ? 0 : memory_.phase_time + h;
+  if (memory_.phase_time > kLostGround) {
+    Enter(CharacterMode::kAir);
+  } else if (lift_ > 0.5f && down && memory_.time > kJumpRest) {
+    const bool running = memory_.mode == CharacterMode::kStep;
+    // Only with the foot below, or there is nothing to push on that does not turn the body.
+    const LegSense& stance = s.legs[memory_.stance];
+    const float over = s.centre.x - stance.ankle.x;
+    const bool below = over > -kJumpBehind * limbs_.scale() && over < kJumpBefore * limbs_.scale();
+    if (running && (!below || !stance.down)) return;
+    Enter(CharacterMode::kJump);
+    memory_.phase = running ? 2 : 0;   // who runs has no time to crouch
+  }
+}
+
+float CharacterControl::Omega(const CharacterSense& s, float ground_y) const {
+  const float height = std::max(0.3f * limbs_.shape().hip, s.centre.y - ground_y);
+  return std::sqrt(gravity_ / height);
+}
+
+void CharacterControl::Pose(CharacterJoint joint, float angle, float strength, float spin,
+                            float rate) {
+  const float stiffness = strength * unit_;
+  limbs_.Servo(joint, angle, spin, stiffness, stiffness / rate);
+}
+
+}  // namespace seam

@@ -1,0 +1,111 @@
+#pragma once
+/// What makes an active character stand, run, jump, fall, get up and swim: before each of the
+/// engine's steps it looks at its own body and tells the motors what torque to do.
+///
+///   stand --drive, or pushed too far--> step --slow enough--> stand
+///   stand, step --lift--> jump --> air --feet touch--> step or stand
+///   anything --tilted, sunk down--> fall --it lies--> rise --up--> stand
+///   anything --in water--> swim          a leg or the torso gone--> limp
+///
+/// The balance is the linear inverted pendulum's: its divergent part, the point x + v / w0 with
+/// w0 = sqrt(g / h), must be over or be caught by a foot (Pratt and others, "Capture Point: A Step
+/// toward Humanoid Push Recovery", 2006). Standing legs do virtual forces (Pratt and others,
+/// "Virtual Model Control", 2001); swinging ones are led to a foothold from where the pendulum goes
+/// on at the wished speed (Englsberger and others, "Three-Dimensional Bipedal Walking Control
+/// Based on Divergent Component of Motion", 2015).
+
+#include "common/stages/character/character_gains.h"
+#include "common/stages/character/character_limbs.h"
+
+namespace seam {
+
+enum class CharacterMode { kStand, kStep, kJump, kAir, kFall, kRise, kSwim, kLimp };
+
+/// All that a controller remembers; numbers only, so that a world can save it.
+struct CharacterMemory {
+  CharacterMode mode = CharacterMode::kStand;
+  float time = 0;                     ///< s in this mode
+  int stance = 0;                     ///< kStep: the side that bears
+  float step = 0;                     ///< s; kStep: since the swinging foot left the ground
+  b2Vec2 from{0, 0};                  ///< m; kStep: where it left, own frame
+  float speed = 0;                    ///< m/s that is wished for now
+  int phase = 0;                      ///< kRise: of the way up
+  float phase_time = 0;               ///< s in it
+
+  void Save(std::vector<float>* memory) const;
+  std::size_t Load(const float* memory);
+};
+
+class CharacterControl {
+ public:
+  CharacterControl(const Character& character, const StageWorld& world);
+
+  void Find(b2World* world) { limbs_.Find(world); }
+  void Forget() { limbs_.Forget(); }
+  void SetInput(const Input& input);
+  /// Before the engine's step of `h` s.
+  void Act(float h);
+
+  const CharacterMemory& memory() const { return memory_; }
+  CharacterMemory* mutable_memory() { return &memory_; }
+
+ private:
+  void Choose(const CharacterSense& s, float h);
+  void Enter(CharacterMode mode);
+
+  // character_balance.cpp
+  void Stand(const CharacterSense& s);
+  void StepOn(const CharacterSense& s, float h);
+  void BeginStep(const CharacterSense& s, int stance);
+  /// Where the swinging foot is to stand: its ankle, and the ground's slope there, rad.
+  struct Foothold {
+    b2Vec2 ankle{0, 0};
+    float slope = 0;
+  };
+  Foothold NextFoothold(const CharacterSense& s, float support_x) const;
+  b2Vec2 SwingAt(float time, const Foothold& to) const;
+  void Swing(const CharacterSense& s, int side, const Foothold& to);
+  void Bear(const CharacterSense& s, int side, float pressure_x, float lift, float torso_torque);
+  void Push(const CharacterSense& s, int side, b2Vec2 pressure, float lift, float forward);
+  b2Vec2 Sole(const CharacterSense& s, int side, float x) const;
+  struct LegPose {
+    float thigh = 0, knee = 0;        // rad; absolute, and of the joint
+  };
+  LegPose PoseFor(b2Vec2 way) const;
+  void Reach(const CharacterSense& s, int side, b2Vec2 ankle, b2Vec2 velocity, float foot,
+             float stiffness);
+  float StepTime() const;
+  float TorsoTorque(const CharacterSense& s, float lean) const;
+  float Lift(const CharacterSense& s, float ground_y, float hip_height, float ground_vy) const;
+  void Arms(float left, float right, float elbow);
+
+  // character_air.cpp
+  void Jump(const CharacterSense& s);
+  void Air(const CharacterSense& s);
+
+  // character_rise.cpp
+  void Fall(const CharacterSense& s);
+  void Rise(const CharacterSense& s, float h);
+  void Up(const CharacterSense& s);
+
+  // character_swim.cpp
+  float ChestDepth(const CharacterSense& s) const;
+  void Swim(const CharacterSense& s, float h);
+
+  /// N m: weight x height, by which all gains are in proportion.
+  float unit() const { return unit_; }
+  float Omega(const CharacterSense& s, float ground_y) const;
+  /// A servo of so many units per rad; `rate` 1/s is its stiffness over its damping.
+  void Pose(CharacterJoint joint, float angle, float strength, float spin = 0,
+            float rate = kServoRate);
+
+  const Character character_;
+  const StageWorld world_;
+  CharacterLimbs limbs_;
+  CharacterMemory memory_;
+  float drive_ = 0, lift_ = 0;        // -1..1, drive forward
+  float gravity_ = 10;                // m/s^2, downwards
+  float unit_ = 1;
+};
+
+}  // namespace seam

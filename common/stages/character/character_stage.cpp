@@ -1,0 +1,62 @@
+#include "common/stages/character/character_stage.h"
+
+#include <algorithm>
+
+#include "common/stages/character/character_control.h"
+
+namespace seam {
+namespace {
+
+class CharacterStage : public Stage {
+ public:
+  explicit CharacterStage(const StageWorld& world) {
+    for (const Character& character : world.scene.characters) {
+      if (!character.active) continue;
+      players_.push_back(character.player);
+      controls_.emplace_back(character, world);
+    }
+  }
+
+  void Rebuilt(b2World* world) override {
+    for (CharacterControl& control : controls_) control.Find(world);
+  }
+  void Emptied() override {
+    for (CharacterControl& control : controls_) control.Forget();
+  }
+  void BeforeStep(float h) override {
+    for (CharacterControl& control : controls_) control.Act(h);
+  }
+  void SetInput(int player, const Input& input) override {
+    for (std::size_t i = 0; i < controls_.size(); ++i) {
+      if (players_[i] == player) controls_[i].SetInput(input);
+    }
+  }
+
+  void Save(std::vector<float>* memory) const override {
+    for (const CharacterControl& control : controls_) control.memory().Save(memory);
+  }
+  std::size_t Load(const float* memory) override {
+    std::size_t taken = 0;
+    for (CharacterControl& control : controls_) {
+      taken += control.mutable_memory()->Load(memory + taken);
+    }
+    return taken;
+  }
+
+ private:
+  std::vector<int> players_;
+  std::vector<CharacterControl> controls_;
+};
+
+}  // namespace
+
+bool HasActiveCharacter(const Scene& scene) {
+  return std::any_of(scene.characters.begin(), scene.characters.end(),
+                     [](const Character& c) { return c.active; });
+}
+
+std::unique_ptr<Stage> MakeCharacterStage(const StageWorld& world) {
+  return std::make_unique<CharacterStage>(world);
+}
+
+}  // namespace seam

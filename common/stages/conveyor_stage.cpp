@@ -1,0 +1,68 @@
+#include "common/stages/force_stages.h"
+#include "common/physics/world_shapes.h"
+
+namespace seam {
+namespace {
+
+class ConveyorStage : public Stage {
+ public:
+  explicit ConveyorStage(const StageWorld& world)
+      : world_(world), inputs_(world.scene.players.size() + world.scene.seats.size()) {}
+
+  void Rebuilt(b2World* /*world*/) override {
+    speeds_.assign(world_.scene.parts.size(), 0);
+    for (const Part& part : world_.scene.parts) Set(part);
+  }
+  void SetInput(int player, const Input& input) override {
+    Input& last = inputs_[static_cast<std::size_t>(player)];
+    if (last == input) return;
+    last = input;
+    for (const Part& part : world_.scene.parts) {
+      if (part.conveyor.player == player && Set(part)) WakeWhatLiesOn(part);
+    }
+  }
+  bool listens() const override { return true; }
+  void PreSolve(b2Contact* contact) override {
+    const float a = SpeedOf(contact->GetFixtureA()), b = SpeedOf(contact->GetFixtureB());
+    // The engine drives B along the right hand side of the normal from A to B against A: clockwise
+    // around A, and for A, seen from B, clockwise around B.
+    if (a != 0 || b != 0 || contact->GetTangentSpeed() != 0) contact->SetTangentSpeed(a + b);
+  }
+
+ private:
+  /// True if the part's speed is another one now.
+  bool Set(const Part& part) {
+    const Conveyor& c = part.conveyor;
+    const float share =
+        c.player < 0 ? 1 : ShareOf(inputs_[static_cast<std::size_t>(c.player)], c.axis);
+    float& speed = speeds_[static_cast<std::size_t>(part.id)];
+    const float before = speed;
+    speed = share * c.speed;
+    return speed != before;
+  }
+  float SpeedOf(const b2Fixture* fixture) const {
+    const std::size_t part = PartOf(fixture);
+    return part < speeds_.size() ? speeds_[part] : 0;   // stages' own fixtures are no parts
+  }
+  void WakeWhatLiesOn(const Part& part) {
+    const int assembly = world_.composition.assembly_of_part[static_cast<std::size_t>(part.id)];
+    if (assembly < 0) return;
+    b2Body* body = world_.built.bodies[static_cast<std::size_t>(assembly)];
+    for (b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
+      if (edge->contact->IsTouching()) edge->other->SetAwake(true);
+    }
+    if (body->GetType() == b2_dynamicBody) body->SetAwake(true);
+  }
+
+  const StageWorld world_;
+  std::vector<Input> inputs_;           // by player, then by seat
+  std::vector<float> speeds_;           // by part, m/s
+};
+
+}  // namespace
+
+std::unique_ptr<Stage> MakeConveyorStage(const StageWorld& world) {
+  return std::make_unique<ConveyorStage>(world);
+}
+
+}  // namespace seam

@@ -1,0 +1,39 @@
+#include <algorithm>
+
+#include "common/stages/character/character_stage.h"
+#include "common/stages/bricks/feather_stage.h"
+#include "common/stages/force_stages.h"
+#include "common/stages/kinematic.h"
+#include "common/physics/stage.h"
+#include "common/stages/bonds/glue_stage.h"
+#include "common/stages/bonds/group_stage.h"
+#include "common/topology/join.h"
+#include "common/stages/bonds/join_stage.h"
+#include "common/stages/water/water_stage.h"
+
+namespace seam {
+
+std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world) {
+  const auto any = [](const auto& all, const auto& uses) {
+    return std::any_of(all.begin(), all.end(), uses);
+  };
+  // A stage for each feature that the scene uses, and no other.
+  std::vector<std::unique_ptr<Stage>> stages;
+  if (any(world.scene.joints, [](const Joint& j) { return j.kind == JointKind::kKinematic; })) {
+    stages.push_back(MakeKinematicStage(world));
+  }
+  if (any(world.scene.parts, [](const Part& p) { return p.conveyor.speed != 0; })) {
+    stages.push_back(MakeConveyorStage(world));
+  }
+  if (!world.scene.thrusts.empty()) stages.push_back(MakeThrustStage(world));
+  if (!world.scene.bricks.empty()) stages.push_back(MakeFeatherStage(world));
+  if (!world.scene.waters.empty()) stages.push_back(MakeWaterStage(world));
+  const bool joins = HasConnectors(world.scene);
+  if (joins || HasBreakableGlue(world.scene)) stages.push_back(MakeGlueStage(world));
+  if (joins) stages.push_back(MakeJoinStage(world));
+  if (world.scene.grouping.after > 0) stages.push_back(MakeGroupStage(world));
+  if (HasActiveCharacter(world.scene)) stages.push_back(MakeCharacterStage(world));
+  return stages;
+}
+
+}  // namespace seam

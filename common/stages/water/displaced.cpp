@@ -1,0 +1,134 @@
+#include "common/stages/water/displaced.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/check.h"
+
+namespace seam {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+/// Each of the four cuts adds at most one corner to a convex polygon.
+constexpr int kCornersMax = kCutCornersMax + 4;
+
+double Cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
+
+/// Keeps what has sign * (coordinate - limit) <= 0; returns the number of corners left.
+int Cut(const Vec2d* in, int count, int axis, double limit, double sign, Vec2d* out) {
+  int left = 0;
+  for (int i = 0; i < count; ++i) {
+    const Vec2d& a = in[i];
+    const Vec2d& b = in[i + 1 < count ? i + 1 : 0];
+    const double over_a = sign * (a[axis] - limit), over_b = sign * (b[axis] - limit);
+    if (over_a <= 0) out[left++] = a;
+    // From the inner to the outer end, so that an edge is cut at the same bits from both sides.
+    if ((over_a <= 0) == (over_b <= 0)) continue;
+    const Vec2d& inner = over_a <= 0 ? a : b;
+    const Vec2d& outer = over_a <= 0 ? b : a;
+    const double in_over = std::min(over_a, over_b), out_over = std::max(over_a, over_b);
+    out[left++] = inner + (outer - inner) * (in_over / (in_over - out_over));
+  }
+  return left;
+}
+
+/// The part of a disc on the far side of a line at `depth` from its centre, -radius..radius: the
+/// greater the depth, the more. `towards`: unit, from the line into that part.
+AreaMoments Segment(const Vec2d& centre, double radius, double depth, const Vec2d& towards) {
+  // Half the angle at which the chord is seen, and the same for what is left out.
+  const double chord = std::sqrt(std::max(0.0, radius * radius - depth * depth));
+  const double half = std::atan2(chord, -depth);
+  const double r2 = radius * radius;
+  AreaMoments part;
+  part.area = r2 * half + depth * chord;
+  if (part.area <= 0) return {};
+  // First moment along `towards` from the disc's centre, and second moment about the centre: a
+  // sector of 2 half has r^4 half / 2, the triangle of the chord and the centre the rest.
+  const double first = 2 * chord * chord * chord / 3;
+  const double about = r2 * r2 * half / 2 +
+                       depth * chord * (depth * depth / 2 + chord * chord / 6);
+  const double arm = first / part.area;
+  part.centre = centre + towards * arm;
+  part.second = std::max(0.0, about - part.area * arm * arm);
+  return part;
+}
+
+AreaMoments DiscAsPolygon(const Vec2d& centre, double radius, const Bounds& bounds) {
+  Vec2d corners[kCutCornersMax];
+  const double turn = 2 * kPi / kCutCornersMax;
+  const double reach = radius * std::sqrt(turn / std::sin(turn));
+  for (int i = 0; i < kCutCornersMax; ++i) {
+    corners[i] = centre + reach * Vec2d(std::cos(turn * i), std::sin(turn * i));
+  }
+  return AreaWithin(corners, kCutCornersMax, bounds);
+}
+
+}  // namespace
+
+AreaMoments AreaOf(const Vec2d* corners, int count) {
+  // Sums over the triangles that the first corner makes with each edge, as in mass.cpp.
+  double twice = 0, second = 0;
+  Vec2d first{0, 0};
+  for (int i = 1; i + 1 < count; ++i) {
+    const Vec2d a = corners[i] - corners[0], b = corners[i + 1] - corners[0];
+    const double cross = Cross(a, b);
+    twice += cross;
+    first += cross * (a + b);
+    second += cross * (a.dot(a) + a.dot(b) + b.dot(b));
+  }
+  if (twice <= 0) return {};
+  const Vec2d arm = first / (3 * twice);
+  return {twice / 2, corners[0] + arm, std::max(0.0, second / 12 - twice / 2 * arm.dot(arm))};
+}
+
+AreaMoments AreaWithin(const Vec2d* corners, int count, const Bounds& bounds) {
+  SEAM_ASSERT(count >= 3 && count <= kCutCornersMax);
+  Vec2d low = corners[0], high = corners[0];
+  for (int i = 1; i < count; ++i) {
+    low = low.cwiseMin(corners[i]);
+    high = high.cwiseMax(corners[i]);
+  }
+  Vec2d one[kCornersMax], other[kCornersMax];
+  const Vec2d* now = corners;
+  Vec2d* free = one;
+  const auto cut = [&](int axis, double limit, double sign) {
+    count = Cut(now, count, axis, limit, sign, free);
+    now = free;
+    free = free == one ? other : one;
+    return count >= 3;
+  };
+  if (high.y() > bounds.max.y() && !cut(1, bounds.max.y(), 1)) return {};
+  if (low.y() < bounds.min.y() && !cut(1, bounds.min.y(), -1)) return {};
+  if (high.x() > bounds.max.x() && !cut(0, bounds.max.x(), 1)) return {};
+  if (low.x() < bounds.min.x() && !cut(0, bounds.min.x(), -1)) return {};
+  return AreaOf(now, count);
+}
+
+AreaMoments DiscWithin(const Vec2d& centre, double radius, const Bounds& bounds) {
+  // How far inside of each side the centre lies.
+  const double depths[4] = {bounds.max.y() - centre.y(), centre.y() - bounds.min.y(),
+                            bounds.max.x() - centre.x(), centre.x() - bounds.min.x()};
+  static const Vec2d kInwards[4] = {{0, -1}, {0, 1}, {-1, 0}, {1, 0}};
+  int cuts = 0, by = 0;
+  for (int side = 0; side < 4; ++side) {
+    if (depths[side] <= -radius) return {};
+    if (depths[side] >= radius) continue;
+    ++cuts;
+    by = side;
+  }
+  const double r2 = radius * radius;
+  if (cuts == 0) return {kPi * r2, centre, kPi * r2 * r2 / 2};
+  if (cuts == 1) return Segment(centre, radius, depths[by], kInwards[by]);
+  return DiscAsPolygon(centre, radius, bounds);
+}
+
+void Add(const AreaMoments& more, AreaMoments* sum) {
+  if (more.area <= 0) return;
+  const double area = sum->area + more.area;
+  const Vec2d apart = more.centre - sum->centre;
+  sum->second += more.second + sum->area * more.area / area * apart.dot(apart);
+  sum->centre += apart * (more.area / area);
+  sum->area = area;
+}
+
+}  // namespace seam

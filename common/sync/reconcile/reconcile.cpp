@@ -1,0 +1,49 @@
+#include "common/sync/reconcile/reconcile.h"
+
+#include "common/base/check.h"
+
+namespace seam {
+
+const std::vector<NamedReconciler>& Reconcilers() {
+  static const std::vector<NamedReconciler> all = {
+      {"snap", ReconcileSnap, "take the authority's old state as it is"},
+      {"interleave", ReconcileInterleave, "half ours, half the authority's old state"},
+      {"compensated", ReconcileCompensated, "half ours, half the authority's moved on by v dt"},
+      {"fade", ReconcileFade, "ours just after an impact, the authority's moved-on state later"},
+      {"retrospect", ReconcileRetrospect, "add what our own past differed by at the same tick"},
+      {"resimulate", ReconcileResimulate, "go back to the authority's state and step again",
+       nullptr, true},
+      {"pvb", ReconcilePvb, "blend velocities, and the paths that they lead to", PullPvb},
+      {"spring", ReconcileSpring, "a damped spring to the authority's moved-on state", PullSpring},
+  };
+  return all;
+}
+
+const NamedReconciler& FindReconciler(const std::string& name) {
+  std::string known;
+  for (const NamedReconciler& r : Reconcilers()) {
+    if (name == r.name) return r;
+    known += (known.empty() ? "" : ", ") + std::string(r.name);
+  }
+  throw OperatorError("unknown reconciler \"" + name + "\": use one of " + known);
+}
+
+BodyState Minus(const BodyState& a, const BodyState& b) { return PlusScaled(a, b, -1); }
+
+BodyState PlusScaled(const BodyState& a, const BodyState& b, float s) {
+  BodyState out;
+  out.position = a.position + s * b.position;
+  out.angle = a.angle + s * b.angle;
+  out.velocity = a.velocity + s * b.velocity;
+  out.spin = a.spin + s * b.spin;
+  return out;
+}
+
+BodyState Extrapolate(const BodyState& remote, float dt) {
+  BodyState out = remote;
+  out.position += dt * remote.velocity;
+  out.angle += dt * remote.spin;
+  return out;
+}
+
+}  // namespace seam

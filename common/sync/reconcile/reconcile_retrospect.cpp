@@ -1,0 +1,81 @@
+/// retrospect (ours): compare states of the same tick, and carry the difference forward.
+///   D = Xr(t1) - Xl(t1), Dv likewise;   X = Xl + D + Dv dt,   V = Vl + Dv
+/// Exact whenever both peers' copies felt the same forces since t1: nothing is extrapolated through
+/// gravity, spin or contact. That holds for *free* differences: of a mechanism as a whole, in the
+/// directions in which nothing holds it. What is left is the difference of springs, of joints and
+/// of bodies pressed against ground or against each other. It does not grow like Dv dt (it swings
+/// back, or a contact removes it), and where another authority's body is pressed against it, each
+/// peer corrects towards what the other corrected. All of that is a feedback loop with delay: there
+/// only a bounded share is taken, without the Dv dt term, and nothing inside a dead band just above
+/// the quantisation.
+
+#include <cmath>
+
+#include "common/sync/reconcile/reconcile.h"
+
+namespace seam {
+namespace {
+
+/// Dead band for coupled bodies: 1.5 quanta of position (m), angle (rad) and velocity (m/s, rad/s).
+/// Below one quantum resting copies never stop correcting each other; much above, error stands.
+constexpr float kBandPosition = 1.5f / 512;
+constexpr float kBandAngle = 3 * 9.58738e-5f;
+constexpr float kBandVelocity = 1.5f / 256;
+
+/// A copy that has just begun to be simulated has no past to compare yet. Up to these differences,
+/// m and m/s, it waits for one: placing a loaded wheel by a quantum makes it hop.
+constexpr float kStartApart = 0.25f, kStartApartSpeed = 2.5f;
+/// Most that one message moves what is held, m: more is pushed into neighbours, which push back.
+constexpr float kHeldMost = 0.05f;
+
+Vec2 AtMost(float most, const Vec2& v) {
+  const float size = v.norm();
+  return size > most ? Vec2(v * (most / size)) : v;
+}
+
+float Outside(float value, float band) { return std::fabs(value) > band ? value : 0.0f; }
+
+Vec2 Outside(const Vec2& value, float band) {
+  return value.norm() > band ? value : Vec2(0.0f, 0.0f);
+}
+
+/// The part of `v` across every direction that is blocked.
+Vec2 Unblocked(const ReconcileInput& in, Vec2 v) {
+  for (int i = 0; i < in.block_count; ++i) v -= v.dot(in.blocks[i]) * in.blocks[i];
+  return v;
+}
+
+}  // namespace
+
+Correction ReconcileRetrospect(const ReconcileInput& in) {
+  Correction out;
+  if (in.local_then == nullptr) {  // nothing to compare with: only what is far off is placed
+    const BodyState d = Minus(Extrapolate(in.remote, in.dt), in.local);
+    if (d.position.norm() > kStartApart || d.velocity.norm() > kStartApartSpeed) out.now = d;
+    return out;
+  }
+  out.rewrites_history = true;
+  const BodyState d = Minus(in.remote, *in.local_then);
+  BodyState free;   // the part that both peers' forces leave alone
+  if (!in.coupled) {
+    free.position = Unblocked(in, in.common.position);
+    free.velocity = Unblocked(in, in.common.velocity);
+    if (in.alone && in.block_count == 0) {
+      free.angle = d.angle;
+      free.spin = d.spin;
+    }
+  }
+  const BodyState held = Minus(d, free);
+  BodyState share;
+  share.position = AtMost(kHeldMost, in.gain * Outside(held.position, kBandPosition));
+  share.angle = in.gain * Outside(held.angle, kBandAngle);
+  share.velocity = in.gain * Outside(held.velocity, kBandVelocity);
+  share.spin = in.gain * Outside(held.spin, kBandVelocity);
+  out.then = PlusScaled(free, share, 1);
+  out.now = out.then;
+  out.now.position += in.dt * free.velocity;
+  out.now.angle += in.dt * free.spin;
+  return out;
+}
+
+}  // namespace seam

@@ -1,0 +1,173 @@
+#include "common/topology/feather_blast.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <tuple>
+
+#include "common/base/check.h"
+#include "common/scene/scene_limits.h"
+
+namespace seam {
+namespace {
+
+using Eigen::Vector2d;
+
+constexpr double kUnit = static_cast<double>(kBrickUnit);
+
+Vector2d MiddleOf(const BrickField& field, int x, int y, int columns, int rows) {
+  return Vector2d(2 * x + columns * field.width, 2 * y + rows * field.height) * (kUnit / 2);
+}
+
+/// m/s outwards at a place.
+Vector2d SpeedAt(const Blast& blast, const Vector2d& place) {
+  const Vector2d out = place - blast.centre.cast<double>();
+  const double distance = std::sqrt(out.x() * out.x() + out.y() * out.y());
+  const double radius = static_cast<double>(blast.radius);
+  if (distance >= radius) return {0, 0};
+  const double speed = static_cast<double>(blast.speed) * (1 - distance / radius);
+  if (distance < 1e-6) return {0, speed};
+  return out * (speed / distance);
+}
+
+bool Before(const Brick& a, const Brick& b) {
+  return std::tie(a.kind, a.y, a.x) < std::tie(b.kind, b.y, b.x);
+}
+
+/// All that the blast would free, by kind, from below, from the left.
+std::vector<Brick> Loosened(const std::vector<BrickField>& fields, const std::vector<Brick>& gone,
+                            const Blast& blast) {
+  std::vector<Brick> loose;
+  for (std::size_t kind = 0; kind < fields.size(); ++kind) {
+    const BrickField& field = fields[kind];
+    const auto from = static_cast<int>(
+        std::floor(static_cast<double>(blast.centre.x() - blast.radius) / kUnit)) - field.width;
+    const auto to = static_cast<int>(
+        std::ceil(static_cast<double>(blast.centre.x() + blast.radius) / kUnit));
+    EachBrick(field, [&](int x, int y) {
+      if (x < from || x > to) return true;
+      const Vector2d speed = SpeedAt(blast, MiddleOf(field, x, y, 1, 1));
+      const double strength = static_cast<double>(field.strength);
+      if (speed.squaredNorm() > std::max(1e-6, strength * strength)) {
+        loose.push_back({x, y, static_cast<int>(kind)});
+      }
+      return true;
+    });
+  }
+  std::sort(loose.begin(), loose.end(), Before);
+  const auto left = [&](const Brick& b) {
+    return std::find(gone.begin(), gone.end(), b) != gone.end();
+  };
+  loose.erase(std::remove_if(loose.begin(), loose.end(), left), loose.end());
+  loose.erase(std::unique(loose.begin(), loose.end()), loose.end());
+  return loose;
+}
+
+/// Neighbours that fly together.
+struct Piece {
+  Brick first;                      ///< its lower left
+  int columns = 1, rows = 1;
+  double distance = 0;              ///< m, of its middle from the blast's
+};
+
+/// Two by two where there are four, else two side by side, else one on another, else one.
+std::vector<Piece> Pieces(const std::vector<BrickField>& fields, const std::vector<Brick>& loose,
+                          const Blast& blast) {
+  std::vector<bool> used(loose.size(), false);
+  const auto find = [&](const Brick& b) {
+    const auto at = std::lower_bound(loose.begin(), loose.end(), b, Before);
+    const bool there = at != loose.end() && *at == b && !used[static_cast<std::size_t>(
+                                                            at - loose.begin())];
+    return there ? static_cast<int>(at - loose.begin()) : -1;
+  };
+  std::vector<Piece> pieces;
+  for (std::size_t i = 0; i < loose.size(); ++i) {
+    if (used[i]) continue;
+    const Brick& b = loose[i];
+    const BrickField& field = fields[static_cast<std::size_t>(b.kind)];
+    const int right = find({b.x + field.width, b.y, b.kind});
+    const int above = find({b.x, b.y + field.height, b.kind});
+    const int both = find({b.x + field.width, b.y + field.height, b.kind});
+    Piece piece{b, right >= 0 ? 2 : 1, 1, 0};
+    std::vector<int> members = {static_cast<int>(i), right};
+    if (right >= 0 && above >= 0 && both >= 0) {
+      piece.rows = 2;
+      members.insert(members.end(), {above, both});
+    } else if (right < 0 && above >= 0) {
+      piece.rows = 2;
+      members.push_back(above);
+    }
+    for (const int m : members) {
+      if (m >= 0) used[static_cast<std::size_t>(m)] = true;
+    }
+    const Vector2d out = MiddleOf(field, b.x, b.y, piece.columns, piece.rows) -
+                         blast.centre.cast<double>();
+    piece.distance = std::sqrt(out.x() * out.x() + out.y() * out.y());
+    pieces.push_back(piece);
+  }
+  std::stable_sort(pieces.begin(), pieces.end(),
+                   [](const Piece& p, const Piece& q) { return p.distance < q.distance; });
+  if (pieces.size() > kBlastPiecesMax) pieces.resize(kBlastPiecesMax);
+  return pieces;
+}
+
+}  // namespace
+
+Freed BlastBricks(const std::vector<BrickField>& fields, const std::vector<Brick>& gone,
+                  const Blast& blast) {
+  Freed freed;
+  const std::vector<Brick> loose = Loosened(fields, gone, blast);
+  for (const Piece& piece : Pieces(fields, loose, blast)) {
+    const BrickField& field = fields[static_cast<std::size_t>(piece.first.kind)];
+    BrickField whole = field;
+    whole.width *= piece.columns;
+    whole.height *= piece.rows;
+    Part part = BrickPart(whole, piece.first.x, piece.first.y);
+    part.anchored = false;
+    part.name = field.name + "@" + std::to_string(piece.first.x) + "," +
+                std::to_string(piece.first.y) + "+" + std::to_string(piece.columns) + "x" +
+                std::to_string(piece.rows);
+    part.line = field.line;
+    Vector2d velocity = SpeedAt(blast, part.position.cast<double>());
+    const double most = static_cast<double>(kSpeedMax), speed = velocity.norm();
+    if (speed > most) velocity *= most / speed;
+    part.velocity = velocity.cast<float>();
+    freed.parts.push_back(part);
+    for (int row = 0; row < piece.rows; ++row) {
+      for (int column = 0; column < piece.columns; ++column) {
+        freed.bricks.push_back({piece.first.x + column * field.width,
+                                piece.first.y + row * field.height, piece.first.kind});
+      }
+    }
+  }
+  return freed;
+}
+
+std::vector<Brick> FreedBricks(const std::vector<BrickField>& fields,
+                               const std::vector<Part>& parts) {
+  std::vector<Brick> freed;
+  for (const Part& part : parts) {
+    const std::size_t at = part.name.find('@');
+    if (at == std::string::npos) continue;
+    int x = 0, y = 0, columns = 0, rows = 0;
+    const int read = std::sscanf(part.name.c_str() + at, "@%d,%d+%dx%d", &x, &y, &columns, &rows);
+    SEAM_ASSERT(read == 4);
+    for (std::size_t kind = 0; kind < fields.size(); ++kind) {
+      if (part.name.compare(0, at, fields[kind].name) != 0) continue;
+      for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column) {
+          freed.push_back({x + column * fields[kind].width, y + row * fields[kind].height,
+                           static_cast<int>(kind)});
+        }
+      }
+    }
+  }
+  return freed;
+}
+
+bool Possible(const Blast& blast) {
+  return blast.centre.allFinite() && blast.radius > 0 && blast.radius <= kBlastRadiusMax &&
+         blast.speed >= 0 && blast.speed <= kSpeedMax;
+}
+
+}  // namespace seam

@@ -1,0 +1,102 @@
+#include "common/topology/join.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seam {
+namespace {
+
+constexpr double kPi = 3.14159265358979323846;
+/// Two connectors within this of each other are joined: m, rad.
+constexpr float kJoinedAt = 0.005f, kJoinedAngle = 0.02f;
+/// How exactly a proposal must say where a bond puts its parts: m and rad.
+constexpr float kExact = 1e-3f;
+
+Vec2 Turned(const Vec2& v, double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  const Eigen::Vector2d d = v.cast<double>();
+  return Vec2(static_cast<float>(c * d.x() - s * d.y()), static_cast<float>(s * d.x() + c * d.y()));
+}
+
+void AddConnectors(const Part& part, bool inlet, std::vector<FreeConnector>* all) {
+  const std::vector<Connector>& own = inlet ? part.connectors.inlets : part.connectors.outlets;
+  for (std::size_t i = 0; i < own.size(); ++i) {
+    all->push_back({part.id, inlet, static_cast<int>(i),
+                    part.position + Turned(own[i].at, static_cast<double>(part.angle)),
+                    part.angle + own[i].angle});
+  }
+}
+
+bool Joined(const FreeConnector& x, const FreeConnector& y) {
+  const double apart = static_cast<double>(x.angle) - static_cast<double>(y.angle) - kPi;
+  return x.inlet != y.inlet && x.part != y.part && (x.at - y.at).norm() < kJoinedAt &&
+         std::fabs(std::remainder(apart, 2 * kPi)) < static_cast<double>(kJoinedAngle);
+}
+
+}  // namespace
+
+bool HasConnectors(const Scene& scene) {
+  return std::any_of(scene.parts.begin(), scene.parts.end(),
+                     [](const Part& part) { return !part.connectors.empty(); });
+}
+
+std::vector<FreeConnector> FreeConnectors(const Scene& scene, const Composition& composition) {
+  std::vector<FreeConnector> free;
+  for (const Assembly& assembly : composition.assemblies) {
+    std::vector<FreeConnector> all;
+    for (const PartId id : assembly.parts) {
+      AddConnectors(scene.parts[static_cast<std::size_t>(id)], true, &all);
+      AddConnectors(scene.parts[static_cast<std::size_t>(id)], false, &all);
+    }
+    for (const FreeConnector& one : all) {
+      const bool taken = std::any_of(all.begin(), all.end(), [&](const FreeConnector& other) {
+        return Joined(one, other);
+      });
+      if (!taken) free.push_back(one);
+    }
+  }
+  std::stable_sort(free.begin(), free.end(),
+                   [](const FreeConnector& x, const FreeConnector& y) { return x.part < y.part; });
+  return free;
+}
+
+Edit JoinOf(const Part& a, int outlet, const Part& b, int inlet) {
+  const Connector& out = a.connectors.outlets[static_cast<std::size_t>(outlet)];
+  const Connector& in = b.connectors.inlets[static_cast<std::size_t>(inlet)];
+  const double turn = std::remainder(
+      static_cast<double>(out.angle) + kPi - static_cast<double>(in.angle), 2 * kPi);
+  const Vec2 place = out.at - Turned(in.at, turn);
+  Edit edit;
+  edit.kind = EditKind::kBond;
+  edit.joint = kBondConnectors;
+  edit.a = a.id;
+  edit.b = b.id;
+  edit.x = place.x();
+  edit.y = place.y();
+  edit.angle = static_cast<float>(turn);
+  const float one = a.connectors.strength, other = b.connectors.strength;
+  edit.amount = one > 0 && other > 0 ? std::min(one, other) : std::max(one, other);
+  return edit;
+}
+
+bool IsJoin(const Scene& scene, const Composition& composition, const Edit& bond) {
+  if (bond.kind != EditKind::kBond || bond.joint != kBondConnectors) return false;
+  const Part& a = scene.parts[static_cast<std::size_t>(bond.a)];
+  const Part& b = scene.parts[static_cast<std::size_t>(bond.b)];
+  const std::vector<FreeConnector> free = FreeConnectors(scene, composition);
+  for (const FreeConnector& out : free) {
+    if (out.part != a.id || out.inlet) continue;
+    for (const FreeConnector& in : free) {
+      if (in.part != b.id || !in.inlet) continue;
+      const Edit exact = JoinOf(a, out.index, b, in.index);
+      const bool same = std::fabs(exact.x - bond.x) < kExact &&
+                        std::fabs(exact.y - bond.y) < kExact &&
+                        std::fabs(exact.angle - bond.angle) < kExact &&
+                        exact.amount == bond.amount;
+      if (same) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace seam

@@ -1,0 +1,243 @@
+#include "render/canvas/draw_list.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/check.h"
+
+namespace seam {
+namespace {
+
+bool Same(const Rect& a, const Rect& b) {
+  return a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;
+}
+
+Vec2 LeftOf(const Vec2& from, const Vec2& to) {
+  const Vec2 d = to - from;
+  const float length = d.norm();
+  return length > 0 ? Vec2(-d.y() / length, d.x() / length) : Vec2(0, 0);
+}
+
+/// Corner normal whose projection on both neighbours' normals is 1; long at sharp corners, so cut.
+Vec2 Mitre(const Vec2& before, const Vec2& after) {
+  const Vec2 sum = before + after;
+  const float square = sum.squaredNorm();
+  constexpr float kSharp = 0.25f;   // a mitre four times the width: beyond, a blunt corner
+  if (square < kSharp) return after;
+  return sum * (2 / square);
+}
+
+}  // namespace
+
+void DrawList::Begin(int width_px, int height_px) {
+  width_px_ = width_px;
+  height_px_ = height_px;
+  vertices_.clear();
+  indices_.clear();
+  text_indices_.clear();
+  batches_.clear();
+  open_text_ = Batch();
+  open_text_.kind = BatchKind::kText;
+  NoClip();
+}
+
+void DrawList::Clip(const Rect& rect) {
+  clip_ = {0, 0, static_cast<float>(width_px_), static_cast<float>(height_px_)};
+  SetClip(Cut(rect));
+}
+
+void DrawList::NoClip() {
+  SetClip({0, 0, static_cast<float>(width_px_), static_cast<float>(height_px_)});
+}
+
+void DrawList::SetClip(const Rect& rect) {
+  clip_ = rect;
+  if (Same(open_text_.clip, rect)) return;
+  if (open_text_.indices > 0) batches_.push_back(open_text_);
+  open_text_.clip = rect;
+  open_text_.first_index = static_cast<std::uint32_t>(text_indices_.size());
+  open_text_.indices = 0;
+}
+
+std::vector<Batch> DrawList::Batches() const {
+  std::vector<Batch> all = batches_;
+  if (open_text_.indices > 0) all.push_back(open_text_);
+  return all;
+}
+
+Rect DrawList::Cut(const Rect& rect) const {
+  const float x0 = std::max(clip_.x, std::round(rect.x));
+  const float y0 = std::max(clip_.y, std::round(rect.y));
+  const float x1 = std::min(clip_.right(), std::round(rect.right()));
+  const float y1 = std::min(clip_.bottom(), std::round(rect.bottom()));
+  return {x0, y0, std::max(0.0f, x1 - x0), std::max(0.0f, y1 - y0)};
+}
+
+void DrawList::Need(BatchKind kind) {
+  if (!batches_.empty() && batches_.back().kind == kind && Same(batches_.back().clip, clip_))
+    return;
+  Batch batch;
+  batch.kind = kind;
+  batch.clip = clip_;
+  batch.first_index = static_cast<std::uint32_t>(indices_.size());
+  batches_.push_back(batch);
+}
+
+std::uint32_t DrawList::Add(float x, float y, Colour colour) {
+  Vertex vertex;
+  vertex.x = x;
+  vertex.y = y;
+  vertex.colour = colour;
+  vertices_.push_back(vertex);
+  return static_cast<std::uint32_t>(vertices_.size() - 1);
+}
+
+void DrawList::Triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c) {
+  indices_.insert(indices_.end(), {a, b, c});
+  batches_.back().indices += 3;
+}
+
+void DrawList::Fill(const std::vector<Vec2>& points, Colour colour) {
+  if (points.size() < 3 || colour.a == 0) return;
+  Need(BatchKind::kShape);
+  Fan(points, colour);
+}
+
+void DrawList::Fan(const std::vector<Vec2>& points, Colour colour) {
+  const auto first = static_cast<std::uint32_t>(vertices_.size());
+  for (const Vec2& p : points) Add(p.x(), p.y(), colour);
+  for (std::uint32_t i = 2; i < points.size(); ++i) Triangle(first, first + i - 1, first + i);
+}
+
+void DrawList::FillRect(const Rect& r, Colour colour) {
+  constexpr float kLarge = 5000;   // px: below, a draw call of its own would cost more
+  const bool large = r.width * r.height > kLarge;
+  if (colour.a == 255 && large) {
+    Batch batch;
+    batch.kind = BatchKind::kClear;
+    batch.clip = Cut(r);
+    batch.clear = colour;
+    if (batch.clip.width > 0 && batch.clip.height > 0) batches_.push_back(batch);
+    return;
+  }
+  Need(large ? BatchKind::kPlain : BatchKind::kShape);
+  Fan({{r.x, r.y}, {r.right(), r.y}, {r.right(), r.bottom()}, {r.x, r.bottom()}}, colour);
+}
+
+void DrawList::FillShaded(const Vec2 points[4], Colour from, Colour to) {
+  Need(BatchKind::kPlain);
+  const auto first = static_cast<std::uint32_t>(vertices_.size());
+  for (int i = 0; i < 4; ++i) Add(points[i].x(), points[i].y(), i < 2 ? from : to);
+  Triangle(first, first + 1, first + 2);
+  Triangle(first, first + 2, first + 3);
+}
+
+void DrawList::Hatch(const std::vector<Vec2>& points, const Vec2& origin, const Vec2& normal,
+                     float period, Colour colour) {
+  if (points.size() < 3) return;
+  const auto first = static_cast<std::uint32_t>(vertices_.size());
+  Fill(points, colour);
+  for (std::size_t i = 0; i < points.size() && first + i < vertices_.size(); ++i) {
+    vertices_[first + i].along = (points[i] - origin).dot(normal);
+    vertices_[first + i].period = -period;
+  }
+}
+
+void DrawList::Stroke(const std::vector<Vec2>& points, bool closed, const Line& line) {
+  const std::size_t n = points.size();
+  if (n < 2 || line.colour.a == 0) return;
+  Need(BatchKind::kShape);
+  const float half = line.width / 2;
+  const float reach = half + 1;   // one pixel further than the line for its soft edge
+  const std::size_t segments = closed ? n : n - 1;
+  float along = 0;
+  for (std::size_t k = 0; k <= segments; ++k) {
+    const std::size_t i = k % n;
+    const bool has_before = closed || i > 0;
+    const bool has_after = closed || i + 1 < n;
+    const Vec2 before = has_before ? LeftOf(points[(i + n - 1) % n], points[i]) : Vec2(0, 0);
+    const Vec2 after = has_after ? LeftOf(points[i], points[(i + 1) % n]) : before;
+    const Vec2 out = Mitre(has_before ? before : after, after) * reach;
+    if (k > 0) along += (points[i] - points[(k - 1) % n]).norm();
+    for (int side = 1; side >= -1; side -= 2) {
+      const auto s = static_cast<float>(side);
+      const std::uint32_t v = Add(points[i].x() + s * out.x(), points[i].y() + s * out.y(),
+                                  line.colour);
+      vertices_[v].across = s * reach;
+      vertices_[v].half = half;
+      vertices_[v].along = along;
+      vertices_[v].period = line.dash;
+    }
+    if (k == 0) continue;
+    const auto last = static_cast<std::uint32_t>(vertices_.size());
+    Triangle(last - 4, last - 3, last - 2);
+    Triangle(last - 3, last - 2, last - 1);
+  }
+}
+
+void DrawList::StrokeShaded(const std::vector<Vec2>& points, const std::vector<Colour>& colours,
+                            float width) {
+  SEAM_ASSERT(points.size() == colours.size());
+  if (points.size() < 2) return;
+  const auto first = static_cast<std::uint32_t>(vertices_.size());
+  Stroke(points, false, {width, {0, 0, 0, 255}, 0});
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    vertices_[first + 2 * i].colour = colours[i];
+    vertices_[first + 2 * i + 1].colour = colours[i];
+  }
+}
+
+void DrawList::StrokeRect(const Rect& r, const Line& line) {
+  Stroke({{r.x, r.y}, {r.right(), r.y}, {r.right(), r.bottom()}, {r.x, r.bottom()}}, true, line);
+}
+
+void DrawList::Disc(const Vec2& centre, float radius, Colour colour) {
+  // The soft edge of a line of the same colour rounds the plain polygon.
+  if (radius > 1.5f) Fill(CirclePoints(centre, radius - 0.75f), colour);
+  const float width = std::min(radius, 1.5f);
+  Ring(centre, radius - width / 2, {width, colour, 0});
+}
+
+void DrawList::Ring(const Vec2& centre, float radius, const Line& line) {
+  Stroke(CirclePoints(centre, radius), true, line);
+}
+
+float DrawList::Text(float x, float y, TextStyle style, const std::string& utf8, Colour colour,
+                     Align align) {
+  const float width = font_.Width(style, utf8);
+  float pen = align == Align::kLeft ? x : align == Align::kRight ? x - width : x - width / 2;
+  const float base = std::round(y);
+  for (std::uint32_t codepoint : Codepoints(utf8)) {
+    const Glyph& g = font_.Find(style, codepoint);
+    const float x0 = std::round(pen) + static_cast<float>(g.left);
+    const float y0 = base - static_cast<float>(g.top);
+    const auto first = static_cast<std::uint32_t>(vertices_.size());
+    for (int corner = 0; corner < 4; ++corner) {
+      const auto right = static_cast<float>(corner == 1 || corner == 2 ? g.width : 0);
+      const auto down = static_cast<float>(corner >= 2 ? g.height : 0);
+      const std::uint32_t v = Add(x0 + right, y0 + down, colour);
+      vertices_[v].across = static_cast<float>(g.atlas_x) + right;
+      vertices_[v].half = static_cast<float>(g.atlas_y) + down;
+    }
+    text_indices_.insert(text_indices_.end(), {first, first + 1, first + 2, first, first + 2,
+                                               first + 3});
+    open_text_.indices += 6;
+    pen += g.advance;
+  }
+  return width;
+}
+
+std::vector<Vec2> CirclePoints(const Vec2& centre, float radius) {
+  // The sagitta of a side stays below a tenth of a pixel.
+  const float sides = 3.1416f / std::acos(1 - std::min(0.5f, 0.1f / std::max(radius, 0.2f)));
+  const int n = std::clamp(static_cast<int>(std::ceil(sides)), 8, 200);
+  std::vector<Vec2> points;
+  points.reserve(static_cast<std::size_t>(n));
+  for (int i = 0; i < n; ++i) {
+    const float a = 6.2831853f * static_cast<float>(i) / static_cast<float>(n);
+    points.emplace_back(centre.x() + radius * std::cos(a), centre.y() + radius * std::sin(a));
+  }
+  return points;
+}
+
+}  // namespace seam

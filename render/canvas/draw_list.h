@@ -1,0 +1,118 @@
+#pragma once
+/// What is to be drawn, as triangles in painter's order: shapes, lines with width, text. Pure
+/// arithmetic in pixels (origin upper left, y downwards); a Canvas turns it into an Image.
+/// Text lies over the shapes of its clip, whichever came first, so that a page is few draw calls.
+///
+/// Lines are antialiased by distance: every vertex carries how far across the line it lies, and the
+/// fragment's coverage is `half + 0.5 - |across|`. So a line costs two triangles and has 256
+/// shades, and the outline over a plain filled shape hides the shape's own stairs.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/scene/types.h"
+#include "render/canvas/font.h"
+#include "render/canvas/image.h"
+
+namespace seam {
+
+/// px
+struct Rect {
+  float x = 0, y = 0, width = 0, height = 0;
+  float right() const { return x + width; }
+  float bottom() const { return y + height; }
+};
+
+/// One corner of a triangle. In a text batch `across` and `half` are the atlas position in px.
+struct Vertex {
+  float x = 0, y = 0;
+  float across = 0, half = kSolid;   ///< px from the line's middle; half its width
+  float along = 0, period = 0;       ///< px; > 0: dashes, < 0: hatching of that period
+  Colour colour;
+  static constexpr float kSolid = 1e6f;
+};
+
+/// What a run of triangles needs: plain colour, coverage, or the atlas; or none at all, because an
+/// opaque rectangle is cleared.
+enum class BatchKind { kPlain, kShape, kText, kClear };
+
+/// A run of triangles of one kind and clip: one draw call.
+struct Batch {
+  BatchKind kind = BatchKind::kShape;
+  Rect clip;
+  std::uint32_t first_index = 0, indices = 0;   ///< kText: among the text's indices
+  Colour clear;     ///< kClear: fills `clip`
+};
+
+/// How a line looks.
+struct Line {
+  float width = 1;       ///< px
+  Colour colour;
+  float dash = 0;        ///< period of the dashes, px; 0: solid
+};
+
+enum class Align { kLeft, kCentre, kRight };
+
+/// Reused from frame to frame, so that it stops allocating.
+class DrawList {
+ public:
+  explicit DrawList(const Font& font) : font_(font) {}
+
+  /// Empties the list for a page of this size.
+  void Begin(int width_px, int height_px);
+  /// Everything from here on is cut at the rectangle, rounded to whole pixels.
+  void Clip(const Rect& rect);
+  void NoClip();
+
+  /// Convex, in order.
+  void Fill(const std::vector<Vec2>& points, Colour colour);
+  /// For large areas; its edges are not softened, and a large opaque one has whole pixels.
+  void FillRect(const Rect& rect, Colour colour);
+  /// A quadrilateral whose colour goes from `from` (points 0, 1) to `to` (points 2, 3).
+  void FillShaded(const Vec2 points[4], Colour from, Colour to);
+  /// Stripes of `period` px over a convex shape, across `normal` (unit) as seen from `origin`.
+  void Hatch(const std::vector<Vec2>& points, const Vec2& origin, const Vec2& normal,
+             float period, Colour colour);
+  void Stroke(const std::vector<Vec2>& points, bool closed, const Line& line);
+  /// An open line whose colour changes from point to point; as many colours as points.
+  void StrokeShaded(const std::vector<Vec2>& points, const std::vector<Colour>& colours,
+                    float width);
+  void StrokeRect(const Rect& rect, const Line& line);
+  void Disc(const Vec2& centre, float radius, Colour colour);
+  void Ring(const Vec2& centre, float radius, const Line& line);
+
+  /// `y` is the base line. Returns the width.
+  float Text(float x, float y, TextStyle style, const std::string& utf8, Colour colour,
+             Align align = Align::kLeft);
+
+  const Font& font() const { return font_; }
+  const std::vector<Vertex>& vertices() const { return vertices_; }
+  const std::vector<std::uint32_t>& indices() const { return indices_; }
+  const std::vector<std::uint32_t>& text_indices() const { return text_indices_; }
+  std::vector<Batch> Batches() const;
+  int width_px() const { return width_px_; }
+  int height_px() const { return height_px_; }
+
+ private:
+  void Need(BatchKind kind);
+  void SetClip(const Rect& rect);
+  Rect Cut(const Rect& rect) const;
+  void Fan(const std::vector<Vec2>& points, Colour colour);
+  std::uint32_t Add(float x, float y, Colour colour);
+  void Triangle(std::uint32_t a, std::uint32_t b, std::uint32_t c);
+
+  const Font& font_;
+  int width_px_ = 0, height_px_ = 0;
+  Rect clip_;
+  std::vector<Vertex> vertices_;
+  std::vector<std::uint32_t> indices_;
+  std::vector<std::uint32_t> text_indices_;
+  std::vector<Batch> batches_;
+  Batch open_text_;   // text of the present clip
+};
+
+/// The points of a circle, as many as it needs to look round.
+std::vector<Vec2> CirclePoints(const Vec2& centre, float radius);
+
+}  // namespace seam

@@ -1,0 +1,71 @@
+#include "render/canvas/png_writer.h"
+
+#include <png.h>
+
+#include <cerrno>
+#include <csetjmp>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include "common/base/check.h"
+
+namespace seam {
+namespace {
+
+void Quiet(png_structp, png_const_charp) {}
+
+/// libpng leaves by longjmp, so nothing with a destructor may live in here.
+bool Encode(std::FILE* file, const Image& image, int level) {
+  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, Quiet);
+  if (png == nullptr) return false;
+  png_infop info = png_create_info_struct(png);
+  if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) {
+    png_destroy_write_struct(&png, &info);
+    return false;
+  }
+  png_init_io(png, file);
+  png_set_compression_level(png, level);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
+  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width_px),
+               static_cast<png_uint_32>(image.height_px), 8, PNG_COLOR_TYPE_RGB,
+               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  png_write_info(png, info);
+  for (int y = 0; y < image.height_px; ++y) png_write_row(png, image.At(0, y));
+  png_write_end(png, info);
+  png_destroy_write_struct(&png, &info);
+  return true;
+}
+
+}  // namespace
+
+void WritePng(const std::string& path, const Image& image, int level) {
+  SEAM_ASSERT(image.width_px > 0 && image.height_px > 0);
+  std::FILE* file = std::fopen(path.c_str(), "wb");
+  if (file == nullptr) throw OperatorError(path + ": " + std::strerror(errno));
+  errno = 0;
+  const bool encoded = Encode(file, image, level);
+  const bool closed = std::fclose(file) == 0;
+  if (encoded && closed) return;
+  const std::string why = errno != 0 ? std::strerror(errno) : "write failed";
+  std::error_code ignored;                  // a device or a pipe is not ours to remove
+  if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
+  throw OperatorError(path + ": " + why);
+}
+
+Image ReadPng(const std::string& path) {
+  png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  if (png_image_begin_read_from_file(&png, path.c_str()) == 0)
+    throw OperatorError(path + ": " + png.message);
+  png.format = PNG_FORMAT_RGB;
+  Image image;
+  image.width_px = static_cast<int>(png.width);
+  image.height_px = static_cast<int>(png.height);
+  image.rgb.resize(PNG_IMAGE_SIZE(png));
+  if (png_image_finish_read(&png, nullptr, image.rgb.data(), 0, nullptr) == 0)
+    throw OperatorError(path + ": " + png.message);
+  return image;
+}
+
+}  // namespace seam

@@ -1,0 +1,36 @@
+#pragma once
+/// One body on a panel: filled, hatched and outlined by who has authority and in which role, or as
+/// the dashed ghost of the oracle.
+
+#include "render/canvas/viewport.h"
+#include "render/playback/playback.h"
+
+namespace seam {
+
+/// How a body is painted.
+struct BodyLook {
+  Colour fill;
+  Colour edge;
+  bool hatched = false;    ///< stripes of the edge's colour over the fill
+  float opacity = 1;
+};
+
+/// Authority: the peer's colour. Secondary: lighter. Remote: pale and hatched.
+BodyLook LookOf(int authority, int role);
+/// Anchored ground.
+BodyLook GroundLook();
+
+void DrawBody(DrawList& list, const Viewport& viewport, const BodyShapes& body, const Pose& pose,
+              const BodyLook& look);
+
+/// A dashed outline, `width` px, with a pale rim, so that it reads on any fill.
+void DrawGhost(DrawList& list, const Viewport& viewport, const BodyShapes& body, const Pose& pose,
+               float opacity, float width = 1.3f);
+
+/// An impact: a ring of `radius` px with eight rays, the whole `reach` px larger.
+void DrawSpark(DrawList& list, const Vec2& at, float radius, float reach, const Line& line);
+
+/// Largest distance on the panel between the same point of a body's outline in two poses, px.
+float PixelsApart(const Viewport& viewport, const BodyShapes& body, const Pose& a, const Pose& b);
+
+}  // namespace seam

@@ -1,0 +1,108 @@
+#include "render/draw/draw_hud.h"
+
+#include <cmath>
+
+#include "render/draw/draw_body.h"
+#include "render/canvas/palette.h"
+
+namespace seam {
+namespace {
+
+/// A small box painted like a body.
+void Swatch(DrawList& list, float x, float y, const BodyLook& look) {
+  const float scale = list.font().scale();
+  const Rect box{x + 0.5f, std::round(y - 10 * scale) + 0.5f, 16 * scale, 11 * scale};
+  const std::vector<Vec2> corners{{box.x, box.y}, {box.right(), box.y},
+                                  {box.right(), box.bottom()}, {box.x, box.bottom()}};
+  list.Fill(corners, look.fill);
+  if (look.hatched) {
+    const float s = 0.70710678f;
+    list.Hatch(corners, {box.x, box.y}, {s, s}, 6 * scale, Faded(look.edge, 0.55f));
+  }
+  list.Stroke(corners, true, {1.2f * scale, look.edge, 0});
+}
+
+}  // namespace
+
+void DrawHeader(DrawList& list, const Rect& area, const std::string& title,
+                const std::string& subtitle, const std::vector<Figure>& figures) {
+  const float scale = list.font().scale();
+  const float upper = area.y + 22 * scale, lower = area.y + 42 * scale;
+  list.Text(area.x, upper, TextStyle::kTitle, title, kInk);
+  list.Text(area.x, lower, TextStyle::kBody, subtitle, kFaintInk);
+  float right = area.right();
+  for (const auto& [name, value] : figures) {
+    list.Text(right, area.y + 17 * scale, TextStyle::kSmall, name, kFaintInk, Align::kRight);
+    list.Text(right, lower - 2 * scale, TextStyle::kNumber, value, kInk, Align::kRight);
+    right -= 104 * scale;
+  }
+}
+
+void DrawLegend(DrawList& list, const Rect& area, const Playback& playback, bool impacts) {
+  const float scale = list.font().scale();
+  const float base = area.y + area.height / 2 + 4 * scale;
+  float x = area.x;
+  const auto entry = [&](const BodyLook& look, const std::string& text) {
+    Swatch(list, x, base, look);
+    x += 22 * scale;
+    x += list.Text(x, base, TextStyle::kSmall, text, kInk) + 16 * scale;
+  };
+  const auto gap = [&] {
+    list.FillRect({std::round(x), base - 11 * scale, 1, 14 * scale}, kFrame);
+    x += 16 * scale;
+  };
+  const std::vector<int> peers = playback.peers();
+  for (std::size_t i = 0; i < peers.size() && i < 6; ++i)
+    entry(LookOf(peers[i], kRoleAuthority), playback.PeerName(peers[i]));
+  if (peers.size() > 6) x += list.Text(x, base, TextStyle::kSmall, "…", kInk) + 16 * scale;
+  if (playback.recording().room.mode != "oracle") {
+    gap();
+    entry(LookOf(0, kRoleAuthority), "simulated with authority");
+    entry(LookOf(0, kRoleSecondary), "secondary copy");
+    entry(LookOf(0, kRoleRemote), "remote, displayed");
+  }
+  if (playback.has_oracle() || impacts) gap();
+  if (playback.has_oracle()) {
+    const Rect box{x + 0.5f, std::round(base - 10 * scale) + 0.5f, 16 * scale, 11 * scale};
+    list.StrokeRect(box, {1.3f * scale, kInk, 5 * scale});
+    x += 22 * scale;
+    x += list.Text(x, base, TextStyle::kSmall, "oracle: where it should be", kInk) + 16 * scale;
+  }
+  if (impacts) {
+    DrawSpark(list, {x + 7 * scale, base - 4 * scale}, 4 * scale, 4 * scale,
+              {1.4f * scale, kSpark, 0});
+    x += 20 * scale;
+    list.Text(x, base, TextStyle::kSmall, "impact", kInk);
+  }
+}
+
+void DrawCaption(DrawList& list, const Rect& panel, const std::string& left,
+                 const std::string& right, Colour swatch) {
+  const float scale = list.font().scale();
+  const float base = panel.y + 17 * scale;
+  float x = panel.x + 10 * scale;
+  const float from = x - 5 * scale;
+  const float mark = swatch.a > 0 ? 22 * scale : 0;
+  const float width = list.font().Width(TextStyle::kStrong, left) + mark + 10 * scale;
+  list.FillRect({from, panel.y + 4 * scale, width, 18 * scale}, Faded(kPanel, 0.8f));
+  if (swatch.a > 0) list.FillRect({x, base - 7 * scale, 16 * scale, 4 * scale}, swatch);
+  list.Text(x + mark, base, TextStyle::kStrong, left, kInk);
+  if (right.empty()) return;
+  const float end = panel.right() - 10 * scale;
+  const float right_width = list.font().Width(TextStyle::kStrong, right);
+  list.FillRect({end - right_width - 5 * scale, panel.y + 4 * scale, right_width + 10 * scale,
+                 18 * scale}, Faded(kPanel, 0.8f));
+  list.Text(end, base, TextStyle::kStrong, right, kInk, Align::kRight);
+}
+
+std::string RunDescription(const Playback& playback) {
+  const Room& room = playback.recording().room;
+  std::string text = room.reconcile.empty() ? "mode " + room.mode
+                                            : "mode " + room.mode + ", reconcile " + room.reconcile;
+  if (!room.impair.empty()) text += "  ·  network " + room.impair;
+  text += "  ·  " + std::to_string(room.tick_hz) + " Hz, states at " +
+          std::to_string(room.send_hz) + " Hz";
+  return text + "  ·  seed " + std::to_string(room.seed);
+}
+
+}  // namespace seam

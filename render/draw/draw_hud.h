@@ -1,0 +1,30 @@
+#pragma once
+/// The text around the panels: header with title and figures, legend, captions of panels.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/playback/playback.h"
+#include "render/canvas/viewport.h"
+
+namespace seam {
+
+/// A figure of the header: a faint name over a bold value.
+using Figure = std::pair<std::string, std::string>;
+
+/// Title and line below it on the left, figures on the right, the first outermost.
+void DrawHeader(DrawList& list, const Rect& area, const std::string& title,
+                const std::string& subtitle, const std::vector<Figure>& figures);
+
+/// Which colours and patterns mean what, as far as the playback has them.
+void DrawLegend(DrawList& list, const Rect& area, const Playback& playback, bool impacts);
+
+/// In a panel's upper corners; `swatch` marks the curve of a comparison (alpha 0: none).
+void DrawCaption(DrawList& list, const Rect& panel, const std::string& left,
+                 const std::string& right, Colour swatch);
+
+/// Everything a recording says about its run: mode, reconciler, network, seed, rate.
+std::string RunDescription(const Playback& playback);
+
+}  // namespace seam

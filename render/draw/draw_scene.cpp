@@ -1,0 +1,153 @@
+#include "render/draw/draw_scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "render/draw/draw_body.h"
+#include "render/draw/draw_bricks.h"
+#include "render/canvas/palette.h"
+
+namespace seam {
+namespace {
+
+/// The smallest of 1, 2, 5 times ten to the n that is at least `least`.
+float RoundUp(float least) {
+  const float decade = std::pow(10.0f, std::floor(std::log10(least)));
+  for (float step : {1.0f, 2.0f, 5.0f})
+    if (step * decade >= least * 0.999f) return step * decade;
+  return 10 * decade;
+}
+
+struct Region {
+  Rect inner, outer;    ///< px; the region, and with its buffer zone
+  Colour colour;
+  std::string name;
+};
+
+Rect Box(const Viewport& viewport, const Vec2& min, const Vec2& max) {
+  const Vec2 a = viewport.ToPx({min.x(), max.y()}), b = viewport.ToPx({max.x(), min.y()});
+  return {a.x(), a.y(), b.x() - a.x(), b.y() - a.y()};
+}
+
+std::vector<Region> RegionsOf(const Viewport& viewport, const Playback& playback) {
+  std::vector<Region> regions;
+  const Room& room = playback.recording().room;
+  if (room.mode != "strict" && room.mode != "buffer") return regions;
+  const float band = room.mode == "buffer" ? playback.scene().buffer_m : 0;
+  for (int peer : playback.peers()) {
+    const int index = playback.PlayerOf(peer);
+    if (index < 0) continue;
+    const Player& player = playback.scene().players[static_cast<std::size_t>(index)];
+    if (!player.has_region) continue;
+    const Vec2 margin(band, band);
+    regions.push_back({Box(viewport, player.region_min, player.region_max),
+                       Box(viewport, player.region_min - margin, player.region_max + margin),
+                       PeerColour(peer), player.name});
+  }
+  return regions;
+}
+
+Rect Shared(const Rect& a, const Rect& b) {
+  const float x0 = std::max(a.x, b.x), y0 = std::max(a.y, b.y);
+  const float x1 = std::min(a.right(), b.right()), y1 = std::min(a.bottom(), b.bottom());
+  return {x0, y0, std::max(0.0f, x1 - x0), std::max(0.0f, y1 - y0)};
+}
+
+/// The extents of a region and its zone along the bottom of the panel, named.
+void DrawRibbon(DrawList& list, const Region& region, const Rect& row) {
+  const float scale = list.font().scale();
+  const Rect zone = Shared({region.outer.x, row.y, region.outer.width, row.height}, row);
+  const Rect own = Shared({region.inner.x, row.y, region.inner.width, row.height}, row);
+  if (zone.width > own.width) {
+    list.FillRect(zone, Mix(kPanel, region.colour, 0.12f));
+    list.Hatch({{zone.x, zone.y}, {zone.right(), zone.y}, {zone.right(), zone.bottom()},
+                {zone.x, zone.bottom()}}, {region.inner.x, row.y}, {0.70710678f, 0.70710678f},
+               7 * scale, Mix(kPanel, region.colour, 0.45f));
+  }
+  list.FillRect(own, Mix(kPanel, region.colour, 0.45f));
+  const auto name = [&](float from, float to, const std::string& text) {
+    if (to - from < list.font().Width(TextStyle::kSmall, text) + 8 * scale) return;
+    const float middle = (from + to) / 2, width = list.font().Width(TextStyle::kSmall, text);
+    if (from < own.x || to > own.right())   // letters do not read on stripes
+      list.FillRect({middle - width / 2 - 4 * scale, row.y, width + 8 * scale, row.height},
+                    Mix(kPanel, region.colour, 0.12f));
+    list.Text(middle, row.y + 11 * scale, TextStyle::kSmall, text,
+              Mix(Darker(region.colour), kInk, 0.5f), Align::kCentre);
+  };
+  name(own.x, own.right(), region.name + "'s region");
+  if (zone.width <= own.width) return;
+  name(zone.x, own.width > 0 ? own.x : zone.right(), region.name + "'s buffer zone");
+  if (own.width > 0) name(own.right(), zone.right(), region.name + "'s buffer zone");
+}
+
+}  // namespace
+
+void DrawGrid(DrawList& list, const Viewport& viewport) {
+  const float step = RoundUp(45 * list.font().scale() / viewport.px_per_m);
+  const Vec2 low = viewport.ToWorld({viewport.panel.x, viewport.panel.bottom()});
+  const Vec2 high = viewport.ToWorld({viewport.panel.right(), viewport.panel.y});
+  const Line line{1, Faded(kGroundEdge, 0.13f), 0};
+  for (float k = std::ceil(low.x() / step); k * step <= high.x(); ++k) {
+    const float x = std::floor(viewport.ToPx({k * step, 0}).x()) + 0.5f;
+    list.Stroke({{x, viewport.panel.y}, {x, viewport.panel.bottom()}}, false, line);
+  }
+  for (float k = std::ceil(low.y() / step); k * step <= high.y(); ++k) {
+    const float y = std::floor(viewport.ToPx({0, k * step}).y()) + 0.5f;
+    list.Stroke({{viewport.panel.x, y}, {viewport.panel.right(), y}}, false, line);
+  }
+}
+
+void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playback) {
+  const float scale = list.font().scale();
+  // Opaque, because large translucent areas are the dearest thing on a page.
+  const std::vector<Region> regions = RegionsOf(viewport, playback);
+  for (const Region& region : regions)
+    list.FillRect(Shared(region.inner, viewport.panel), Mix(kPanel, region.colour, 0.1f));
+  for (const Region& region : regions) {
+    const Rect inner{region.inner.x + scale, region.inner.y + scale,
+                     region.inner.width - 2 * scale, region.inner.height - 2 * scale};
+    list.StrokeRect(inner, {1.5f * scale, Faded(region.colour, 0.85f), 0});
+    if (region.outer.width > region.inner.width)
+      list.StrokeRect(region.outer, {1.2f * scale, Faded(region.colour, 0.9f), 8 * scale});
+  }
+}
+
+void DrawRegionNames(DrawList& list, const Viewport& viewport, const Playback& playback) {
+  const std::vector<Region> regions = RegionsOf(viewport, playback);
+  if (regions.size() > 4) return;   // more rows would hide the world
+  const float height = std::round(15 * list.font().scale());
+  float y = viewport.panel.bottom() - 1;
+  for (auto region = regions.rbegin(); region != regions.rend(); ++region) {
+    y -= height;
+    DrawRibbon(list, *region, {viewport.panel.x, y, viewport.panel.width, height});
+  }
+}
+
+void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playback,
+                const DrawnForm& form, double tick, bool cull) {
+  for (const BodyShapes& body : form.anchored) {
+    const Pose pose = playback.Anchored(body, tick);
+    if (cull && !viewport.Sees(pose.position, body.reach)) continue;
+    DrawBody(list, viewport, body, pose, GroundLook());
+  }
+  if (playback.bricks() != nullptr) DrawBricks(list, viewport, *playback.bricks());
+}
+
+void DrawScaleBar(DrawList& list, const Viewport& viewport) {
+  const float scale = list.font().scale();
+  const float metres = RoundUp(60 * scale / viewport.px_per_m);
+  const float right = std::round(viewport.panel.right() - 14 * scale) + 0.5f;
+  const float left = right - std::round(metres * viewport.px_per_m);
+  const float y = std::round(viewport.panel.y + 48 * scale) + 0.5f;
+  const float tick = 3 * scale;
+  const Line line{1.2f * scale, kFaintInk, 0};
+  list.Stroke({{left, y}, {right, y}}, false, line);
+  for (float x : {left, right}) list.Stroke({{x, y - tick}, {x, y + tick}}, false, line);
+  std::string text = metres >= 1 ? std::to_string(static_cast<int>(metres + 0.5f)) + " m"
+                                 : std::to_string(static_cast<int>(100 * metres + 0.5f)) + " cm";
+  list.Text((left + right) / 2, y - 5 * scale, TextStyle::kSmall, text, kFaintInk,
+            Align::kCentre);
+}
+
+}  // namespace seam

@@ -1,0 +1,25 @@
+#pragma once
+/// What stands still on a panel: grid, players' regions with their buffer zones, ground, scale bar.
+
+#include "render/canvas/viewport.h"
+#include "render/playback/playback.h"
+
+namespace seam {
+
+/// A grid of 1, 2 or 5 times ten to the n metres.
+void DrawGrid(DrawList& list, const Viewport& viewport);
+
+/// The players' regions in their peers' colours, and the band of scene.buffer_m around each, if the
+/// mode has them.
+void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playback);
+/// The extents of regions and buffer zones as named ribbons along the bottom, above everything.
+void DrawRegionNames(DrawList& list, const Viewport& viewport, const Playback& playback);
+
+/// All that is anchored, kinematic parts where they are at `tick`. `form`: of that moment.
+void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playback,
+                const DrawnForm& form, double tick, bool cull);
+
+/// A bar of a round number of metres in the lower right corner.
+void DrawScaleBar(DrawList& list, const Viewport& viewport);
+
+}  // namespace seam

@@ -1,0 +1,304 @@
+#include "render/playback/playback.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace seam {
+namespace {
+
+/// The body's place in a view, or npos.
+std::size_t PlaceOf(const View& view, PartId id) {
+  const int i = IndexOf(view, id);
+  return i < 0 ? std::string::npos : static_cast<std::size_t>(i);
+}
+
+/// Shapes of so many forms are kept.
+constexpr std::size_t kDrawnFormsMost = 64;
+
+Pose PoseIn(const View& view, std::size_t i) { return {{view.x[i], view.y[i]}, view.angle[i]}; }
+
+Pose Blend(const Pose& a, const Pose& b, float blend) {
+  return {a.position + blend * (b.position - a.position), a.angle + blend * (b.angle - a.angle)};
+}
+
+/// Views further apart than this are a hole in the recording, not a motion: ticks.
+constexpr std::int64_t kGapTicksMax = 12;
+
+Scene SceneOf(const Recording& recording) {
+  return ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
+}
+
+}  // namespace
+
+Playback::Playback(Recording recording, std::optional<Oracle> oracle)
+    : recording_(std::make_shared<const Recording>(std::move(recording))),
+      scene_(SceneOf(*recording_)),
+      oracle_(std::move(oracle)) {
+  Prepare();
+  if (oracle_) MeasureErrors();
+}
+
+Playback::Playback(Recording recording, Scene scene, std::optional<Oracle> oracle)
+    : recording_(std::make_shared<const Recording>(std::move(recording))),
+      scene_(std::move(scene)),
+      oracle_(std::move(oracle)) {
+  Prepare();
+  if (oracle_) MeasureErrors();
+}
+
+Playback::Playback(const Recording* growing, std::optional<Oracle> oracle)
+    : recording_(std::shared_ptr<const Recording>(), growing),
+      scene_(SceneOf(*growing)),
+      oracle_(std::move(oracle)) {
+  Prepare();
+}
+
+void Playback::Prepare() {
+  forms_ = std::make_shared<KnownForms>();
+  const std::lock_guard<std::mutex> lock(forms_->mutex);
+  const auto form = AllForms().At(0);
+  forms_->first =
+      std::make_shared<const DrawnForm>(seam::FormOf(form->scene(), form->composition()));
+  if (!scene_.bricks.empty()) bricks_ = std::make_shared<FeatherStore>(scene_.bricks);
+  imposed_.emplace(scene_, Compose(scene_));
+}
+
+const Forms& Playback::AllForms() const {
+  if (forms_->all == nullptr || forms_->edits != recording_->edits.size()) {
+    forms_->all = std::make_unique<Forms>(scene_, *recording_);
+    forms_->edits = recording_->edits.size();
+    forms_->drawn.clear();
+  }
+  return *forms_->all;
+}
+
+std::shared_ptr<const DrawnForm> Playback::FormAfter(int edits) const {
+  const std::lock_guard<std::mutex> lock(forms_->mutex);
+  const Forms& all = AllForms();
+  const int key = all.Key(edits);
+  if (key == 0) return forms_->first;
+  const auto known = forms_->drawn.find(key);
+  if (known != forms_->drawn.end()) return known->second;
+  if (forms_->drawn.size() >= kDrawnFormsMost) forms_->drawn.erase(forms_->drawn.begin());
+  const auto form = all.At(key);
+  auto drawn = std::make_shared<const DrawnForm>(seam::FormOf(form->scene(), form->composition()));
+  forms_->drawn[key] = drawn;
+  return drawn;
+}
+
+std::shared_ptr<const DrawnForm> Playback::FormOf(const Moment& moment) const {
+  return FormAfter(moment.before == nullptr ? 0 : moment.before->topology);
+}
+
+std::shared_ptr<const Form> Playback::WorldOf(const Moment& moment) const {
+  const std::lock_guard<std::mutex> lock(forms_->mutex);
+  return AllForms().At(moment.before == nullptr ? 0 : moment.before->topology);
+}
+
+void Playback::MeasureErrors() {
+  measures_ = Measure(*recording_, *oracle_);
+  error_first_tick_ = measures_->first_tick;
+  Keep(-1, *measures_);
+  // One peer's curve is the same measure of a recording that has this peer alone.
+  for (const auto& [peer, views] : recording_->views) {
+    Recording alone;
+    alone.views[peer] = views;
+    alone.first_tick = recording_->first_tick;
+    alone.last_tick = recording_->last_tick;
+    Keep(peer, recording_->views.size() == 1 ? *measures_ : Measure(alone, *oracle_));
+  }
+}
+
+/// Where nothing was compared a measure says 0, which a picture must not show as no error.
+bool Playback::Compared(int peer, std::int64_t tick) const {
+  if (oracle_->ids.empty() || !oracle_->At(tick, oracle_->ids.front())) return false;
+  for (const auto& [from, views] : recording_->views)
+    if ((peer < 0 || from == peer) && views.count(tick) > 0) return true;
+  return false;
+}
+
+/// Takes a measure's errors by tick into a peer's.
+void Playback::Keep(int peer, const Measures& measures) {
+  std::vector<double>& errors = errors_[peer];
+  for (std::size_t i = 0; i < measures.error_by_tick_m.size(); ++i) {
+    const std::int64_t tick = measures.first_tick + static_cast<std::int64_t>(i);
+    if (tick < error_first_tick_ || !Compared(peer, tick)) continue;
+    const auto place = static_cast<std::size_t>(tick - error_first_tick_);
+    if (place >= errors.size())
+      errors.resize(place + 1, std::numeric_limits<double>::quiet_NaN());
+    errors[place] = measures.error_by_tick_m[i];
+  }
+}
+
+double Playback::first_s() const {
+  return static_cast<double>(recording_->first_tick) / tick_hz();
+}
+
+double Playback::last_s() const {
+  return static_cast<double>(std::max(recording_->last_tick, recording_->first_tick)) / tick_hz();
+}
+
+std::vector<int> Playback::peers() const {
+  std::vector<int> peers;
+  for (const auto& [peer, views] : recording_->views)
+    if (!views.empty()) peers.push_back(peer);
+  return peers;
+}
+
+int Playback::PeerOr(int peer) const {
+  const std::vector<int> all = peers();
+  if (std::find(all.begin(), all.end(), peer) != all.end()) return peer;
+  return all.empty() ? -1 : all.front();
+}
+
+int Playback::PlayerOf(int peer) const {
+  // A player's peer is who has authority over the player's own vehicle in that peer's last view.
+  // One that nobody owns tells nothing: authority over it goes by region.
+  const auto owned = [this](const BodyShapes& body) {
+    return std::any_of(body.parts.begin(), body.parts.end(), [&](PartId part) {
+      const int owner = scene_.parts[static_cast<std::size_t>(part)].owner;
+      return owner >= 0 && owner == body.owner_player;
+    });
+  };
+  const auto views = recording_->views.find(peer);
+  if (peer <= 0 || views == recording_->views.end() || views->second.empty()) return -1;
+  const View& last = views->second.rbegin()->second;
+  const auto form = FormAfter(last.topology);
+  for (const BodyShapes& body : form->moving) {
+    const std::size_t i = owned(body) ? PlaceOf(last, body.id) : std::string::npos;
+    if (i != std::string::npos && last.authority[i] == peer) return body.owner_player;
+  }
+  // Nobody's vehicle (a central server has it all): players join in the scene's order.
+  return peer <= static_cast<int>(scene_.players.size()) ? peer - 1 : -1;
+}
+
+std::string Playback::PeerName(int peer) const {
+  if (peer == 0) return recording_->room.mode == "oracle" ? "oracle" : "server";
+  const int player = PlayerOf(peer);
+  const std::string number = "peer " + std::to_string(peer);
+  if (player < 0) return number;
+  const std::string& name = scene_.players[static_cast<std::size_t>(player)].name;
+  return name.empty() ? number : name + " (" + number + ")";
+}
+
+std::string Playback::Label() const {
+  const Room& room = recording_->room;
+  return room.reconcile.empty() ? room.mode : room.mode + " · " + room.reconcile;
+}
+
+Moment Playback::MomentAt(int peer, double tick) const {
+  Moment moment;
+  moment.tick = tick;
+  const auto found = recording_->views.find(peer);
+  if (found == recording_->views.end()) return moment;
+  const auto& views = found->second;
+  auto after = views.upper_bound(static_cast<std::int64_t>(std::floor(tick)));
+  if (after == views.begin()) return moment;
+  const auto before = std::prev(after);
+  moment.before = &before->second;
+  moment.after = moment.before;
+  if (after == views.end() || after->first - before->first > kGapTicksMax) return moment;
+  moment.after = &after->second;
+  moment.blend = static_cast<float>((tick - static_cast<double>(before->first)) /
+                                    static_cast<double>(after->first - before->first));
+  return moment;
+}
+
+std::optional<Shown> Playback::Find(const Moment& moment, PartId id) const {
+  if (moment.before == nullptr) return std::nullopt;
+  const std::size_t i = PlaceOf(*moment.before, id);
+  if (i == std::string::npos) return std::nullopt;
+  Shown shown;
+  shown.pose = PoseIn(*moment.before, i);
+  shown.role = moment.before->role[i];
+  shown.authority = moment.before->authority[i];
+  const std::size_t j = moment.blend > 0 ? PlaceOf(*moment.after, id) : std::string::npos;
+  if (j != std::string::npos)
+    shown.pose = Blend(shown.pose, PoseIn(*moment.after, j), moment.blend);
+  return shown;
+}
+
+std::optional<Pose> Playback::FindPart(const Moment& moment, PartId part) const {
+  const auto world = WorldOf(moment);
+  const int of = world->AssemblyOf(part);
+  if (of < 0) return std::nullopt;
+  const Assembly& assembly = world->composition().assemblies[static_cast<std::size_t>(of)];
+  const Part& own = world->scene().parts[static_cast<std::size_t>(part)];
+  if (assembly.anchored) return Pose{own.position, own.angle};
+  const std::optional<Shown> shown = Find(moment, assembly.id);
+  if (!shown) return std::nullopt;
+  BodyState body;
+  body.position = shown->pose.position;
+  body.angle = shown->pose.angle;
+  const BodyState state = StateOfPart(world->scene(), assembly, part, body);
+  return Pose{state.position, state.angle};
+}
+
+std::optional<Pose> Playback::Truth(PartId id, double tick) const {
+  if (!oracle_) return std::nullopt;
+  const auto whole = static_cast<std::int64_t>(std::floor(tick));
+  const std::optional<BodyState> before = oracle_->At(whole, id);
+  if (!before) return std::nullopt;
+  const Pose pose{before->position, before->angle};
+  const auto blend = static_cast<float>(tick - static_cast<double>(whole));
+  const std::optional<BodyState> after = blend > 0 ? oracle_->At(whole + 1, id) : std::nullopt;
+  return after ? Blend(pose, {after->position, after->angle}, blend) : pose;
+}
+
+Pose Playback::Anchored(const BodyShapes& body, double tick) const {
+  if (body.imposed < 0) return body.start;
+  const BodyState now = imposed_->At(body.imposed, tick);
+  return {now.position, now.angle};
+}
+
+std::int32_t Playback::RoundTripUs(int peer, double tick) const {
+  std::int32_t greatest = -1;
+  for (const auto& [from, list] : recording_->stats) {
+    if (peer != 0 && from != peer) continue;
+    std::int32_t last = -1;
+    for (const Stats& stats : list)
+      if (static_cast<double>(stats.tick) <= tick) last = stats.rtt_us;
+    greatest = std::max(greatest, last);
+  }
+  return greatest;
+}
+
+void Playback::MeasureTick(std::int64_t tick) {
+  if (!oracle_) return;
+  Recording now;   // without the scene's text: nothing but poses is measured here
+  now.first_tick = now.last_tick = tick;
+  for (const auto& [peer, views] : recording_->views) {
+    const auto view = views.find(tick);
+    if (view != views.end()) now.views[peer][tick] = view->second;
+  }
+  if (errors_.empty()) error_first_tick_ = tick;
+  Keep(-1, Measure(now, *oracle_));
+  for (const auto& [peer, views] : now.views) {
+    Recording alone = now;
+    alone.views = {{peer, views}};
+    Keep(peer, Measure(alone, *oracle_));
+  }
+}
+
+double Playback::TickAt(double seconds) const {
+  const double tick = seconds * tick_hz();
+  const double whole = std::round(tick);
+  return std::abs(tick - whole) < 1e-6 ? whole : tick;
+}
+
+const std::vector<double>& Playback::ErrorByTick(int peer) const {
+  static const std::vector<double> none;
+  const auto found = errors_.find(peer);
+  return found == errors_.end() ? none : found->second;
+}
+
+std::optional<double> Playback::ErrorAt(int peer, double tick) const {
+  const std::vector<double>& errors = ErrorByTick(peer);
+  const auto i = static_cast<std::int64_t>(std::floor(tick)) - error_first_tick_;
+  if (i < 0 || i >= static_cast<std::int64_t>(errors.size())) return std::nullopt;
+  const double error = errors[static_cast<std::size_t>(i)];
+  return std::isnan(error) ? std::nullopt : std::optional<double>(error);
+}
+
+}  // namespace seam

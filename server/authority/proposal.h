@@ -1,0 +1,17 @@
+#pragma once
+/// Which edits a peer may propose for what it has authority over, and whether they are likely.
+
+#include "common/topology/edit.h"
+#include "common/topology/topology.h"
+#include "common/physics/world.h"
+
+namespace seam {
+
+/// Whether physics could have found this edit, by what the scene says: glue that can break, parts
+/// that can join. Requires topology.Complaint(edit) to be empty.
+bool MayPropose(const Topology& topology, const Edit& edit);
+
+/// Whether the parts of a bond are about where it puts them, in our copy; true for other edits.
+bool PlausibleProposal(const World& world, const Edit& edit);
+
+}  // namespace seam

@@ -1,0 +1,151 @@
+#include "server/rules/rules.h"
+
+#include <algorithm>
+
+#include "server/rules/part_owner.h"
+#include "server/script/script.h"
+#include "server/rules/script_room.h"
+
+namespace seam {
+
+bool Rules::Needed(const Scene& scene) {
+  return !scene.triggers.empty() || !scene.scripts.empty() ||
+         std::any_of(scene.parts.begin(), scene.parts.end(),
+                     [](const Part& part) { return part.rules.health > 0; });
+}
+
+Rules::Rules(const World& world, std::int64_t seed, RoomHands& hands)
+    : world_(world),
+      hands_(hands),
+      triggers_(world.scene().triggers),
+      room_(std::make_unique<ScriptRoom>(*this)) {
+  for (const Trigger& trigger : scene().triggers) {
+    last_checkpoint_ = std::max(last_checkpoint_, trigger.order);
+  }
+  NoteNewParts();
+  // Errors name the file; Lua cuts names of more than 59 characters.
+  const std::string file = scene().name.substr(0, 48) + ".toml";
+  std::uint64_t number = 0;
+  for (const ScriptSource& source : scene().scripts) {
+    const std::uint64_t own = static_cast<std::uint64_t>(seed) * 64 + number++;
+    scripts_.push_back(std::make_unique<Script>(source, file, own, *room_));
+  }
+}
+
+Rules::~Rules() = default;
+
+void Rules::OnJoin(int player) { comers_.push_back({player, true}); }
+void Rules::OnLeave(int player) { comers_.push_back({player, false}); }
+
+void Rules::AfterTick() {
+  NoteNewParts();
+  RunTriggers();
+  RunHazards();
+  RunDamage();
+  RunScripts();
+  RunDeaths();
+  happened_.clear();
+  comers_.clear();
+  struck_by_.clear();
+}
+
+void Rules::NoteNewParts() {
+  const std::vector<Part>& parts = scene().parts;
+  for (; parts_noted_ < parts.size(); ++parts_noted_) {
+    const Part& part = parts[parts_noted_];
+    if (part.rules.health <= 0) continue;
+    table_.Set({kMetaPart, static_cast<std::int16_t>(part.id), kMetaHealth}, part.rules.health);
+  }
+}
+
+bool Rules::Exists(PartId part) const {
+  BodyState state;
+  return ReadPart(world_, part, &state);
+}
+
+float Rules::Health(PartId part) const {
+  return table_.Get({kMetaPart, static_cast<std::int16_t>(part), kMetaHealth});
+}
+
+std::string Rules::PlayerName(int player) const {
+  return player >= 0 ? scene().players[static_cast<std::size_t>(player)].name : "nobody";
+}
+
+void Rules::RunTriggers() {
+  if (scene().triggers.empty()) return;
+  const auto place_of = [this](PartId part) -> std::optional<Vec2> {
+    BodyState state;
+    if (!ReadPart(world_, part, &state)) return std::nullopt;
+    return state.position;
+  };
+  const auto player_of = [this](PartId part) {
+    return PlayerOf(world_, MechanismOf(world_, part));
+  };
+  happened_ = triggers_.Update(place_of, player_of);
+  for (const TriggerEvent& event : happened_) {
+    if (event.entered) OnEntered(event);
+  }
+}
+
+void Rules::OnEntered(const TriggerEvent& event) {
+  const Trigger& trigger = scene().triggers[static_cast<std::size_t>(event.trigger)];
+  const auto player = static_cast<std::int16_t>(event.player);
+  switch (trigger.kind) {
+    case TriggerKind::kCheckpoint: return OnCheckpoint(event);
+    case TriggerKind::kPickup: OnPickup(event); break;
+    case TriggerKind::kArea:
+    case TriggerKind::kHazard: break;
+  }
+  if (trigger.score != 0 && player >= 0) table_.Add({kMetaPlayer, player, kMetaScore},
+                                                    trigger.score);
+}
+
+/// Checkpoints count in their order only; after the last one a lap is done.
+void Rules::OnCheckpoint(const TriggerEvent& event) {
+  const Trigger& trigger = scene().triggers[static_cast<std::size_t>(event.trigger)];
+  if (event.player < 0) return;
+  const auto player = static_cast<std::int16_t>(event.player);
+  const MetaKey reached{kMetaPlayer, player, kMetaCheckpoint};
+  const auto before = static_cast<int>(table_.Get(reached));
+  // The next order there is: orders may have gaps.
+  int next = last_checkpoint_;
+  for (const Trigger& other : scene().triggers) {
+    if (other.order > before) next = std::min(next, other.order);
+  }
+  if (trigger.order != next) return;
+  table_.Set(reached, static_cast<float>(trigger.order));
+  if (trigger.score != 0) table_.Add({kMetaPlayer, player, kMetaScore}, trigger.score);
+  Say(PlayerName(player) + " passes " + trigger.name);
+  if (trigger.order != last_checkpoint_) return;
+  table_.Set(reached, 0);
+  table_.Add({kMetaPlayer, player, kMetaLaps}, 1);
+  Say(PlayerName(player) + " has done a lap");
+}
+
+void Rules::OnPickup(const TriggerEvent& event) {
+  const Trigger& trigger = scene().triggers[static_cast<std::size_t>(event.trigger)];
+  if (trigger.part >= 0) {
+    const auto id = static_cast<std::int16_t>(trigger.part);
+    table_.Set({kMetaPart, id, kMetaTaken}, static_cast<float>(event.player + 1));
+    try {
+      hands_.RemovePart(trigger.part);
+    } catch (const ScriptRefusal&) {
+      // A script has removed it in the same tick: it is taken all the same.
+    }
+  }
+  const Part& taker = scene().parts[static_cast<std::size_t>(event.part)];
+  if (trigger.health != 0 && taker.rules.health > 0 && dead_.count(event.part) == 0) {
+    const float health = std::min(Health(event.part) + trigger.health, taker.rules.health);
+    table_.Set({kMetaPart, static_cast<std::int16_t>(event.part), kMetaHealth}, health);
+  }
+  Say(PlayerName(event.player) + " takes " + trigger.name);
+}
+
+void Rules::RunHazards() {
+  for (const auto& [index, part] : triggers_.inside()) {
+    const Trigger& trigger = scene().triggers[static_cast<std::size_t>(index)];
+    if (trigger.kind == TriggerKind::kHazard) Hurt(part, trigger.health * world_.dt(), -1);
+  }
+}
+
+}  // namespace seam

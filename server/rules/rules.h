@@ -1,0 +1,107 @@
+#pragma once
+/// What the server decides in a room beyond motion: triggers, damage, scores, scripts. From its own
+/// world alone, once per tick; what is to change in the world it asks of the room's hands.
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/physics/world.h"
+#include "common/sync/metadata.h"
+#include "server/rules/triggers.h"
+
+namespace seam {
+
+class Script;
+class ScriptRoom;
+
+/// What the rules may do to the room. Changes reach every peer a little later.
+class RoomHands {
+ public:
+  virtual ~RoomHands() = default;
+  /// Each throws ScriptRefusal when it cannot be.
+  virtual void RemovePart(PartId part) = 0;
+  virtual void BreakJoint(int joint) = 0;         ///< index into Scene::joints
+  /// Makes b rigid with a where it is now, up to `strength` N (0: for ever).
+  virtual void Bond(PartId a, PartId b, float strength) = 0;
+  virtual void Push(PartId part, const Vec2& impulse) = 0;
+  virtual void Blast(const Vec2& centre, float radius, float speed) = 0;
+  /// [[part]] and [[joint]] as a scene writes them.
+  virtual void Insert(const std::string& text) = 0;
+  virtual void Say(const std::string& text) = 0;
+  virtual bool Present(int player) const = 0;
+  virtual Input ReadInput(int player) const = 0;
+};
+
+class Rules {
+ public:
+  /// True for a scene that has anything to decide; else no Rules are needed.
+  static bool Needed(const Scene& scene);
+
+  /// `world` and `hands` must outlive it. Scripts are loaded; one that is wrong is stopped at once,
+  /// and said to be when the first tick is done.
+  Rules(const World& world, std::int64_t seed, RoomHands& hands);
+  ~Rules();
+
+  /// After each tick of the world.
+  void AfterTick();
+  /// A player became ready, or is gone: told to the scripts with the next tick.
+  void OnJoin(int player);
+  void OnLeave(int player);
+
+  const MetaTable& metadata() const { return table_; }
+  std::vector<Meta> TakeChanges(std::int64_t utime) {
+    return table_.TakeChanges(utime, world_.tick());
+  }
+
+ private:
+  friend class ScriptRoom;
+  struct Comer {
+    int player = -1;
+    bool joins = true;
+  };
+
+  // rules.cpp
+  void NoteNewParts();
+  void RunTriggers();
+  void OnEntered(const TriggerEvent& event);
+  void OnCheckpoint(const TriggerEvent& event);
+  void OnPickup(const TriggerEvent& event);
+  void RunHazards();
+  // rules_damage.cpp
+  void RunDamage();
+  void Blow(int body, int by, float dv, const Vec2& point);
+  void Hurt(PartId part, float amount, int by_player);
+  void RunDeaths();
+  void Die(PartId part);
+  // rules_scripts.cpp
+  void RunScripts();
+  void SayStopped(Script& script);
+
+  const Scene& scene() const { return world_.scene(); }
+  bool Exists(PartId part) const;
+  float Health(PartId part) const;
+  std::string PlayerName(int player) const;
+  void Say(const std::string& text) { hands_.Say(text); }
+
+  const World& world_;
+  RoomHands& hands_;
+  Triggers triggers_;
+  MetaTable table_;
+  int last_checkpoint_ = 0;             // the highest order of all
+  std::size_t parts_noted_ = 0;         // whose health is set
+  std::map<PartId, int> struck_by_;     // player, in this tick
+  std::set<PartId> dead_;
+  std::vector<TriggerEvent> happened_;  // in triggers, in this tick
+  std::vector<Comer> comers_;
+  std::unique_ptr<ScriptRoom> room_;    // what scripts see of all this
+  std::vector<std::unique_ptr<Script>> scripts_;
+  std::set<std::string> stopped_said_;
+  std::vector<PartTouch> touching_;     // after the last tick
+};
+
+}  // namespace seam

@@ -1,0 +1,88 @@
+/// Blows, health, and its end.
+
+#include <limits>
+
+#include "server/rules/part_owner.h"
+#include "server/rules/rules.h"
+#include "server/script/script_host.h"
+
+namespace seam {
+
+void Rules::RunDamage() {
+  for (const Impact& impact : world_.impacts()) {
+    Blow(impact.body_a, impact.body_b, impact.dv, impact.point);
+    Blow(impact.body_b, impact.body_a, impact.dv, impact.point);
+  }
+}
+
+/// What a blow does to `body`. Of the two, the lighter one's velocity changes by `dv`; the impulse
+/// is the same, so the other's changes by dv times the ratio of masses.
+void Rules::Blow(int body, int by, float dv, const Vec2& point) {
+  if (body < 0) return;
+  const float mass = world_.mass(body);
+  if (by >= 0 && world_.mass(by) < mass) dv *= world_.mass(by) / mass;
+  const Composition& c = world_.composition();
+  const int index = c.assembly_of_part[static_cast<std::size_t>(world_.id(body))];
+  // It is the nearest part to the blow that is hurt, of those that can be.
+  PartId hurt = -1;
+  float nearest = std::numeric_limits<float>::max();
+  for (const PartId id : c.assemblies[static_cast<std::size_t>(index)].parts) {
+    if (scene().parts[static_cast<std::size_t>(id)].rules.health <= 0) continue;
+    BodyState state;
+    ReadPart(world_, id, &state);
+    const float distance = (state.position - point).norm();
+    if (distance >= nearest) continue;
+    nearest = distance;
+    hurt = id;
+  }
+  if (hurt < 0) return;
+  const PartRules& rules = scene().parts[static_cast<std::size_t>(hurt)].rules;
+  if (dv <= rules.hurt_above) return;
+  const int player = by >= 0 ? PlayerOf(world_, world_.mechanism(by)) : -1;
+  Hurt(hurt, (dv - rules.hurt_above) * rules.hurt_factor, player);
+}
+
+void Rules::Hurt(PartId part, float amount, int by_player) {
+  const Part& hurt = scene().parts[static_cast<std::size_t>(part)];
+  if (hurt.rules.health <= 0 || amount <= 0 || dead_.count(part) != 0) return;
+  const float left = std::max(Health(part) - amount, 0.0f);
+  table_.Set({kMetaPart, static_cast<std::int16_t>(part), kMetaHealth}, left);
+  if (by_player >= 0) struck_by_[part] = by_player;
+}
+
+void Rules::RunDeaths() {
+  for (const Part& part : scene().parts) {
+    const bool dies = part.rules.health > 0 && Health(part.id) <= 0 && dead_.count(part.id) == 0;
+    if (dies && Exists(part.id)) Die(part.id);
+  }
+}
+
+/// What is dead stays: its mechanism comes apart at the joints, or, if it has none, at the welds.
+void Rules::Die(PartId id) {
+  dead_.insert(id);
+  const Part& part = scene().parts[static_cast<std::size_t>(id)];
+  const auto by = struck_by_.find(id);
+  const std::string by_whom = by != struck_by_.end() ? " by " + PlayerName(by->second) : "";
+  Say(part.name + " is destroyed" + by_whom);
+  if (by != struck_by_.end() && part.rules.score != 0) {
+    table_.Add({kMetaPlayer, static_cast<std::int16_t>(by->second), kMetaScore}, part.rules.score);
+  }
+  const int mechanism = MechanismOf(world_, id);
+  if (mechanism < 0) return;
+  const std::vector<Joint>& joints = scene().joints;
+  std::vector<int> moving, welds;
+  for (std::size_t j = 0; j < joints.size(); ++j) {
+    const bool own = MechanismOf(world_, joints[j].a) == mechanism ||
+                     MechanismOf(world_, joints[j].b) == mechanism;
+    if (own) (joints[j].kind == JointKind::kWeld ? welds : moving).push_back(static_cast<int>(j));
+  }
+  for (const int joint : moving.empty() ? welds : moving) {
+    try {
+      hands_.BreakJoint(joint);
+    } catch (const ScriptRefusal&) {
+      continue;   // it is broken already, or about to be
+    }
+  }
+}
+
+}  // namespace seam

@@ -1,0 +1,58 @@
+#pragma once
+/// A room as its scripts see it: names instead of numbers, refusals instead of wrong requests.
+
+#include <map>
+#include <string>
+
+#include "server/rules/rules.h"
+#include "server/script/script_host.h"
+
+namespace seam {
+
+class ScriptRoom : public ScriptHost {
+ public:
+  explicit ScriptRoom(Rules& rules) : rules_(rules) {}
+
+  std::int64_t Tick() const override { return rules_.world_.tick(); }
+  float dt() const override { return rules_.world_.dt(); }
+  bool ReadPart(const std::string& part, BodyState* state) const override;
+  std::size_t PartCount() const override { return rules_.scene().parts.size(); }
+  const std::string& PartName(std::size_t index) const override {
+    return rules_.scene().parts[index].name;
+  }
+  std::size_t PlayerCount() const override { return rules_.scene().players.size(); }
+  const std::string& PlayerName(std::size_t player) const override {
+    return rules_.scene().players[player].name;
+  }
+  bool Present(const std::string& player) const override;
+  Input ReadInput(const std::string& player) const override;
+  void Push(const std::string& part, const Vec2& impulse, const std::string& why) override;
+  void Blast(const Vec2& centre, float radius, float speed) override;
+  void AddPart(const TomlNode& table) override;
+  void AddJoint(const TomlNode& table) override;
+  void Weld(const std::string& a, const std::string& b, float strength) override;
+  void Unweld(const std::string& a, const std::string& b) override;
+  void RemovePart(const std::string& part) override;
+  void RemoveJoint(const std::string& joint) override;
+  float Get(const std::string& subject, const std::string& key) const override;
+  void Set(const std::string& subject, const std::string& key, float value) override;
+  void Say(const std::string& text) override;
+
+ private:
+  /// -1 when there is none of this name now.
+  PartId FindPart(const std::string& name) const;
+  PartId NeedPart(const std::string& name) const;
+  int NeedPlayer(const std::string& name) const;
+  MetaKey KeyOf(const std::string& subject, const std::string& key) const;
+
+  Rules& rules_;
+  // What was looked up so far; parts are only appended.
+  mutable std::map<std::string, PartId> part_of_name_;
+  mutable std::size_t parts_known_ = 0;
+};
+
+/// `[[kind]]` and the table's entries, as a scene writes them. Throws ScriptRefusal for what cannot
+/// be written so.
+std::string ToToml(const std::string& kind, const TomlNode& table);
+
+}  // namespace seam

@@ -1,0 +1,47 @@
+#include "server/rules/triggers.h"
+
+namespace seam {
+namespace {
+
+/// The sides belong to it.
+bool Within(const Vec2& place, const Vec2& centre, const Vec2& size) {
+  return ((place - centre).array().abs() <= size.array() / 2).all();
+}
+
+}  // namespace
+
+Triggers::Triggers(const std::vector<Trigger>& triggers)
+    : triggers_(triggers), over_(triggers.size(), false) {}
+
+std::vector<TriggerEvent> Triggers::Update(const PlaceOf& place_of, const PlayerOf& player_of) {
+  std::vector<TriggerEvent> events;
+  for (std::size_t t = 0; t < triggers_.size(); ++t) {
+    const Trigger& trigger = triggers_[t];
+    const int index = static_cast<int>(t);
+    Vec2 centre = trigger.position;
+    if (trigger.part >= 0 && !over_[t]) {
+      const std::optional<Vec2> carrier = place_of(trigger.part);
+      if (carrier) centre += *carrier;
+      over_[t] = !carrier;
+    }
+    for (const PartId part : trigger.parts) {
+      const bool was = inside_.count({index, part}) != 0;
+      if (over_[t] && !was) continue;
+      const std::optional<Vec2> place = place_of(part);
+      bool is = !over_[t] && place && Within(*place, centre, trigger.size);
+      const int player = is || was ? player_of(part) : -1;
+      is = is && (was || Allows(trigger.players, player));
+      if (is == was) continue;
+      events.push_back({index, part, player, is});
+      if (!is) {
+        inside_.erase({index, part});
+        continue;
+      }
+      inside_.emplace(index, part);
+      if (trigger.once) over_[t] = true;
+    }
+  }
+  return events;
+}
+
+}  // namespace seam

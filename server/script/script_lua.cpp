@@ -1,0 +1,236 @@
+/// A script's life: made, called, stopped.
+
+#include <algorithm>
+#include <cstring>
+
+#include "server/script/script.h"
+#include "server/script/script_lua_guard.h"
+
+namespace seam {
+namespace {
+
+/// Reading the code and running it once may take so many ticks' work.
+constexpr std::int64_t kLoadTicks = 10;
+
+/// Notes where an error was raised; what it is stays as it is.
+int NoteLine(lua_State* L) {
+  LuaGuard& guard = GuardOf(L);
+  if (guard.spent) return 1;
+  guard.line = 0;
+  lua_Debug where;
+  for (int level = 0; level < 16 && lua_getstack(L, level, &where) != 0; ++level) {
+    lua_getinfo(L, "l", &where);
+    if (where.currentline <= 0) continue;
+    guard.line = where.currentline;
+    break;
+  }
+  return 1;
+}
+
+int OpenAll(lua_State* L) {
+  OpenLuaBase(L);
+  OpenLuaText(L);
+  OpenLuaTable(L);
+  OpenLuaMath(L, static_cast<std::uint64_t>(lua_tointeger(L, 1)));
+  OpenLuaWorld(L);
+  return 0;
+}
+
+/// A script may say anything: one line without control characters, to be printed and published.
+std::string Plain(const char* text, std::size_t bytes) {
+  std::string out(text, std::min<std::size_t>(bytes, 200));
+  for (char& c : out) {
+    if (c < ' ' || c > '~') c = '?';
+  }
+  return out;
+}
+
+/// Gives the code to Lua after as many line ends as there are lines before it in the scene.
+struct Source {
+  const std::string& code;
+  std::string before;
+  int given = 0;
+};
+const char* NextPiece(lua_State* /*L*/, void* user, std::size_t* bytes) {
+  auto& source = *static_cast<Source*>(user);
+  const std::string& piece = source.given == 0 ? source.before : source.code;
+  *bytes = source.given < 2 ? piece.size() : 0;
+  ++source.given;
+  return *bytes > 0 ? piece.c_str() : nullptr;
+}
+
+}  // namespace
+
+struct Script::Impl {
+  Impl(const ScriptSource& s, const std::string& file, ScriptHost& host)
+      : source(s), scene_file(file), guard(host, s.limits) {
+    guard.scene_file = scene_file.c_str();
+  }
+  ~Impl() { Close(); }
+
+  void Close() {
+    if (state != nullptr) lua_close(state);
+    state = nullptr;
+  }
+
+  void Open(std::uint64_t seed) {
+    state = lua_newstate(LuaAllocate, &guard);
+    if (state == nullptr) return Stop(source.line, "out of memory");
+    *static_cast<LuaGuard**>(lua_getextraspace(state)) = &guard;
+    lua_pushcfunction(state, OpenAll);
+    lua_pushinteger(state, static_cast<lua_Integer>(seed));
+    if (lua_pcall(state, 1, 0, 0) != LUA_OK) return Stop(source.line, "out of memory");
+    LuaWatch(state);
+    guard.charging = true;
+  }
+
+  void Load() {
+    guard.work = kLoadTicks * guard.limits.instructions;
+    // One character before the first would put a '#' line or a mark of binary code there; mode "t"
+    // takes text only.
+    const auto lines = static_cast<std::size_t>(std::max(source.line - 1, 0));
+    Source reader{source.code, lines > 0 ? std::string(lines, '\n') : " "};
+    const std::string chunk = "=" + scene_file;
+    lua_settop(state, 0);
+    lua_pushcfunction(state, NoteLine);
+    const int status = lua_load(state, NextPiece, &reader, chunk.c_str(), "t");
+    if (status != LUA_OK) return Fail(status, source.line);
+    Call(0, source.line);
+  }
+
+  /// Calls the function below the `count` arguments on the stack, above NoteLine at 1.
+  void Call(int count, int line) {
+    guard.line = 0;
+    const int status = lua_pcall(state, count, 0, 1);
+    if (status != LUA_OK) return Fail(status, line);
+    lua_settop(state, 0);
+  }
+
+  bool Has(const char* callback) {
+    if (state == nullptr || guard.spent) return false;
+    lua_settop(state, 0);
+    lua_pushcfunction(state, [](lua_State* L) {
+      lua_rawgeti(L, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
+      lua_pushstring(L, static_cast<const char*>(lua_touserdata(L, 1)));
+      lua_pushboolean(L, lua_rawget(L, -2) == LUA_TFUNCTION);
+      return 1;
+    });
+    lua_pushlightuserdata(state, const_cast<char*>(callback));
+    const bool has = lua_pcall(state, 1, 1, 0) == LUA_OK && lua_toboolean(state, -1) != 0;
+    lua_settop(state, 0);
+    return has;
+  }
+
+  struct Callback {
+    const char* name;
+    const char* text[2];
+    int flag;                       // -1: none
+    const double* number;
+  };
+
+  void Run(const Callback& callback) {
+    if (state == nullptr || guard.spent) return;
+    lua_settop(state, 0);
+    lua_pushcfunction(state, NoteLine);
+    lua_pushcfunction(state, [](lua_State* L) {
+      const auto& c = *static_cast<const Callback*>(lua_touserdata(L, 1));
+      lua_settop(L, 0);
+      lua_rawgeti(L, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
+      lua_pushstring(L, c.name);
+      if (lua_rawget(L, 1) != LUA_TFUNCTION) return 0;
+      lua_Debug about;
+      lua_pushvalue(L, -1);
+      lua_getinfo(L, ">S", &about);
+      GuardOf(L).line = about.linedefined;   // should memory fail, which tells no line
+      for (const char* text : c.text) {
+        if (text != nullptr) lua_pushstring(L, text);
+      }
+      if (c.number != nullptr) lua_pushnumber(L, *c.number);
+      if (c.flag >= 0) lua_pushboolean(L, c.flag);
+      lua_call(L, lua_gettop(L) - 2, 0);
+      return 0;
+    });
+    lua_pushlightuserdata(state, const_cast<Callback*>(&callback));
+    Call(1, source.line);
+  }
+
+  void Fail(int status, int line) {
+    if (guard.line > 0) line = guard.line;
+    if (guard.spent) return Stop(line, guard.why);
+    if (status == LUA_ERRMEM) {
+      LuaExplain(&guard);
+      return Stop(line, guard.why);
+    }
+    // Nothing that could run the script's code or raise: text is taken as it is.
+    if (lua_type(state, -1) != LUA_TSTRING) {
+      return Stop(line, std::string("an error that is no text but a ") +
+                            luaL_typename(state, -1));
+    }
+    std::size_t bytes = 0;
+    const char* text = lua_tolstring(state, -1, &bytes);
+    const std::string prefix = scene_file + ":";
+    if (std::strncmp(text, prefix.c_str(), prefix.size()) == 0) {
+      // Lua, or the scene's reader, has said where.
+      error = Plain(text, bytes);
+      return Close();
+    }
+    Stop(line, Plain(text, bytes));
+  }
+
+  void Stop(int line, const std::string& what) {
+    error = scene_file + ":" + std::to_string(line) + ": " + what;
+    Close();
+  }
+
+  const ScriptSource source;
+  const std::string scene_file;
+  LuaGuard guard;
+  lua_State* state = nullptr;       // null once stopped
+  std::string error;
+};
+
+Script::Script(const ScriptSource& source, const std::string& scene_file, std::uint64_t seed,
+               ScriptHost& host)
+    : impl_(std::make_unique<Impl>(source, scene_file, host)) {
+  impl_->Open(seed);
+  if (impl_->state != nullptr) impl_->Load();
+}
+
+Script::~Script() = default;
+
+void Script::BeginTick() {
+  impl_->guard.work = impl_->guard.limits.instructions;
+  impl_->guard.says = impl_->guard.deeds = 0;
+}
+
+void Script::OnTick(double t) { impl_->Run({"on_tick", {nullptr, nullptr}, -1, &t}); }
+
+void Script::OnTouch(const std::string& a, const std::string& b) {
+  impl_->Run({"on_touch", {a.c_str(), b.c_str()}, -1, nullptr});
+}
+
+void Script::OnTrigger(const std::string& trigger, const std::string& part, bool entered) {
+  impl_->Run({"on_trigger", {trigger.c_str(), part.c_str()}, entered ? 1 : 0, nullptr});
+}
+
+void Script::OnJoin(const std::string& player) {
+  impl_->Run({"on_join", {player.c_str(), nullptr}, -1, nullptr});
+}
+
+void Script::OnLeave(const std::string& player) {
+  impl_->Run({"on_leave", {player.c_str(), nullptr}, -1, nullptr});
+}
+
+bool Script::Defines(const char* callback) const {
+  return impl_->Has(callback);
+}
+
+bool Script::stopped() const { return impl_->state == nullptr; }
+const std::string& Script::error() const { return impl_->error; }
+const std::string& Script::name() const { return impl_->source.name; }
+std::int64_t Script::work() const {
+  return impl_->guard.limits.instructions - impl_->guard.work;
+}
+std::int64_t Script::memory_bytes() const { return impl_->guard.memory; }
+
+}  // namespace seam

@@ -1,0 +1,126 @@
+/// scenes/titanic.toml and scenes/gluehouse.toml over a bad network: what breaks and joins, breaks
+/// and joins for everybody.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/support/two_sides.h"
+
+namespace seam {
+namespace {
+
+int Count(const Scene& scene, bool (*what)(const Joint&)) {
+  return static_cast<int>(std::count_if(scene.joints.begin(), scene.joints.end(), what));
+}
+
+bool IsBroken(const Joint& joint) { return joint.kind == JointKind::kGlue && joint.gone; }
+bool IsBonded(const Joint& joint) { return joint.name.rfind("bond.", 0) == 0; }
+
+/// Runs a scene and a bit on, until nothing more is under way.
+std::unique_ptr<Cluster> Played(const std::string& scene, std::int64_t seed,
+                                const std::string& text = "") {
+  ClusterConfig config;
+  config.scene = scene;
+  config.scene_text = text;
+  config.reconcile = "retrospect";
+  config.impair = "4g";
+  config.seed = seed;
+  config.keep = false;
+  auto cluster = std::make_unique<Cluster>(config);
+  const Server& server = cluster->server();
+  auto tick = static_cast<std::int64_t>(cluster->scene().duration_s * 60);
+  cluster->RunToTick(tick);
+  int edits = -1;
+  for (int more = 0; more < 10 && edits != server.replica().topology(); ++more) {
+    edits = server.replica().topology();
+    tick += 60;
+    cluster->RunToTick(tick);
+  }
+  EXPECT_EQ(edits, server.replica().topology()) << "it goes on breaking";
+  return cluster;
+}
+
+void ExpectAgreement(Cluster* cluster) {
+  const Replica& truth = cluster->server().replica();
+  std::vector<int> holders(static_cast<std::size_t>(truth.authority().count()), 0);
+  for (int m = 0; m < truth.authority().count(); ++m) {
+    holders[static_cast<std::size_t>(m)] += truth.authority().at(m).authority == 0 ? 1 : 0;
+  }
+  for (int i = 0; i < cluster->client_count(); ++i) {
+    const Client& client = *cluster->client(i);
+    const Replica& replica = *client.replica();
+    ASSERT_EQ(replica.topology(), truth.topology()) << "client " << i;
+    ASSERT_EQ(replica.world().composition().hash, truth.world().composition().hash);
+    for (int m = 0; m < truth.authority().count(); ++m) {
+      const bool has = replica.authority().at(m).authority == client.peer();
+      holders[static_cast<std::size_t>(m)] += has ? 1 : 0;
+      if (!has) continue;
+      EXPECT_EQ(replica.authority().at(m).epoch, truth.authority().at(m).epoch);
+    }
+  }
+  for (const int held : holders) EXPECT_EQ(held, 1) << "one authority for each";
+}
+
+class AssemblyCluster : public ::testing::TestWithParam<int> {};
+
+TEST_P(AssemblyCluster, TheShipLosesItsBowForAllPeersAlike) {
+  const auto cluster = Played("titanic", GetParam());
+  ExpectAgreement(cluster.get());
+  const World& world = cluster->server().world();
+  EXPECT_GE(Count(world.scene(), IsBroken), 10);
+  const auto assembly = [&world](const std::string& name) {
+    for (const Part& part : world.scene().parts) {
+      if (part.name == name) {
+        return world.composition().assembly_of_part[static_cast<std::size_t>(part.id)];
+      }
+    }
+    return -1;
+  };
+  EXPECT_NE(assembly("bow.0.0"), assembly("fore.24.0"));
+  EXPECT_EQ(assembly("aft.0.0"), assembly("fore.0.0"));
+}
+
+TEST_P(AssemblyCluster, TheHouseFallsToPiecesAndPiecesJoinForAllPeersAlike) {
+  const auto cluster = Played("gluehouse", GetParam());
+  ExpectAgreement(cluster.get());
+  EXPECT_GE(Count(cluster->server().world().scene(), IsBroken), 3);
+  EXPECT_GE(Count(cluster->server().world().scene(), IsBonded), 1);
+}
+
+/// Stacks on both sides; ann's ball rolls into the one on bob's side after they have been grouped.
+const std::string kStacks = std::string(R"(
+duration = 7
+buffer = 4
+[grouping]
+after = 0.5
+)") + kTwoSides + R"(
+[[part]]
+name = "ground"
+chain = [[-100, 0], [100, 0]]
+[[part]]
+name = "box"
+box = [1, 1]
+position = [-12, 0.515]
+repeat = {count = [2, 3], step = [24, 1.015]}
+[[part]]
+name = "ball"
+circle = 0.5
+density = 3
+position = [-8, 0.5]
+velocity = [5, 0]
+spin = -10
+)";
+
+TEST_P(AssemblyCluster, GroupsAreMadeAndUndoneForAllPeersAlike) {
+  const auto cluster = Played("stacks", GetParam(), kStacks);
+  ExpectAgreement(cluster.get());
+  const Scene& scene = cluster->server().world().scene();
+  EXPECT_GE(Count(scene, IsBonded), 4) << "both stacks were grouped";
+  EXPECT_GE(Count(scene, IsBroken), 2) << "the one that was hit was undone";
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, AssemblyCluster, ::testing::Values(1, 2, 3));
+
+}  // namespace
+}  // namespace seam

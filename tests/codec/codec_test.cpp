@@ -1,0 +1,287 @@
+#include "common/codec/codec.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <set>
+
+#include "common/codec/validate.h"
+#include "common/net/link.h"
+#include "tests/support/count_allocations.h"
+#include "tests/support/random_messages.h"
+
+namespace seam {
+namespace {
+
+using Messages = ::testing::Types<Hello, Welcome, Chunk, Room, Ping, Pong, Inputs, States, Grants,
+                                  EditOrder, Meta, View, Impacts, Stats, Event, Bye>;
+
+template <class Message>
+class Codec : public ::testing::Test {};
+TYPED_TEST_SUITE(Codec, Messages);
+
+/// Decodes and checks what holds for all bytes: the result is empty or valid, encodes to the same
+/// bytes again, and cost little memory.
+AnyMessage DecodeChecked(const Bytes& bytes) {
+  const std::size_t before = AllocatedBytes();
+  AnyMessage any = Decode(bytes);
+  EXPECT_LE(AllocatedBytes() - before, 16 * bytes.size() + 4096);
+  std::visit(
+      [&](const auto& m) {
+        if constexpr (!std::is_same_v<std::decay_t<decltype(m)>, std::monostate>) {
+          EXPECT_TRUE(Valid(m));
+          EXPECT_EQ(Encode(m), bytes);
+        }
+      },
+      any);
+  return any;
+}
+
+bool Rejected(const Bytes& bytes) {
+  return std::holds_alternative<std::monostate>(DecodeChecked(bytes));
+}
+
+template <class Message>
+Message Small(std::uint64_t seed) {
+  RandomMessages random(seed);
+  Message message;
+  random.Fill(message);
+  while (Encode(message).size() > 260) random.Fill(message);
+  return message;
+}
+
+TYPED_TEST(Codec, RoundTripsRandomContents) {
+  RandomMessages random(1);
+  for (int i = 0; i < 200; ++i) {
+    TypeParam message;
+    random.Fill(message);
+    const AnyMessage any = DecodeChecked(Encode(message));
+    ASSERT_TRUE(std::holds_alternative<TypeParam>(any)) << "round " << i;
+    EXPECT_EQ(Fields(std::get<TypeParam>(any)), Fields(message)) << "round " << i;
+  }
+}
+
+TYPED_TEST(Codec, RejectsEveryTruncationAndEveryTrailingByte) {
+  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+    const Bytes bytes = Encode(Small<TypeParam>(seed));
+    for (std::size_t size = 0; size < bytes.size(); ++size) {
+      EXPECT_TRUE(Rejected(Bytes(bytes.begin(), bytes.begin() + static_cast<long>(size))));
+    }
+    Bytes longer = bytes;
+    longer.push_back(0);
+    EXPECT_TRUE(Rejected(longer));
+  }
+}
+
+TYPED_TEST(Codec, SurvivesEveryCorruptionOfOneByte) {
+  Bytes bytes = Encode(Small<TypeParam>(3));
+  for (std::uint8_t& byte : bytes) {
+    const std::uint8_t good = byte;
+    for (int value = 0; value < 256; ++value) {
+      byte = static_cast<std::uint8_t>(value);
+      DecodeChecked(bytes);
+    }
+    byte = good;
+  }
+}
+
+TYPED_TEST(Codec, SurvivesRandomBytesAfterTheRightHash) {
+  Random random(4);
+  const Bytes good = Encode(Small<TypeParam>(4));
+  for (int i = 0; i < 5000; ++i) {
+    Bytes bytes(good.begin(), good.begin() + 8);
+    const std::size_t size = random.Next() % 300;
+    const bool mostly_zero = random.Chance(0.5);
+    while (bytes.size() < 8 + size) {
+      const bool zero = mostly_zero && random.Chance(0.9);
+      bytes.push_back(zero ? std::uint8_t{0} : static_cast<std::uint8_t>(random.Next()));
+    }
+    DecodeChecked(bytes);
+  }
+}
+
+TYPED_TEST(Codec, SurvivesManyCorruptionsAtOnce) {
+  Random random(5);
+  for (std::uint64_t round = 0; round < 2000; ++round) {
+    Bytes bytes = Encode(Small<TypeParam>(round));
+    for (int n = 1 + static_cast<int>(random.Next() % 8); n > 0; --n) {
+      bytes[random.Next() % bytes.size()] = static_cast<std::uint8_t>(random.Next());
+    }
+    DecodeChecked(bytes);
+  }
+}
+
+/// `bytes` with a big-endian integer of `size` bytes put at `at`.
+Bytes With(Bytes bytes, std::size_t at, std::size_t size, std::uint64_t value) {
+  for (std::size_t i = 0; i < size; ++i) {
+    bytes[at + i] = static_cast<std::uint8_t>(value >> (8 * (size - 1 - i)));
+  }
+  return bytes;
+}
+
+TEST(CodecHostile, StringLengthsDoNotKill) {
+  Bye bye;
+  bye.reason = "because";
+  const Bytes bytes = Encode(bye);
+  constexpr std::size_t kLengthAt = 16;
+  ASSERT_EQ(bytes[kLengthAt + 3], 8);  // with its NUL
+  for (const std::uint64_t length : {0u, 1u, 7u, 9u, 1u << 25, 1u << 28, 0x7fffffffu, 0x80000000u,
+                                     0xfffffff7u, 0xffffffffu}) {
+    EXPECT_TRUE(Rejected(With(bytes, kLengthAt, 4, length))) << length;
+  }
+  EXPECT_TRUE(Rejected(With(bytes, bytes.size() - 1, 1, 'x'))) << "no NUL at the end";
+  EXPECT_TRUE(Rejected(With(bytes, bytes.size() - 3, 1, 0))) << "a NUL inside";
+  // The 20 bytes that end a stock decoder: hash, time, and a length with nothing behind it.
+  for (const std::uint64_t length : {0u, 0xffffffffu}) {
+    EXPECT_TRUE(Rejected(With(Bytes(bytes.begin(), bytes.begin() + 20), kLengthAt, 4, length)));
+  }
+}
+
+TEST(CodecHostile, ArrayCountsDoNotKill) {
+  View view;
+  const Bytes bytes = Encode(view);  // the count is its last field
+  for (const std::uint64_t count : {1u, 255u, 1901u, 0x7fffu, 0x8000u, 0xff00u, 0xffffu}) {
+    EXPECT_TRUE(Rejected(With(bytes, bytes.size() - 2, 2, count))) << count;
+    Bytes longer = With(bytes, bytes.size() - 2, 2, count);
+    longer.resize(kBusMessageBytesMax, 0);
+    EXPECT_TRUE(Rejected(longer)) << count;
+  }
+}
+
+TEST(CodecHostile, TooLongAndUnknownMessagesAreRefused) {
+  EXPECT_TRUE(Rejected({}));
+  EXPECT_TRUE(Rejected(Bytes(8, 0xff)));
+  EXPECT_TRUE(Rejected(Bytes(kBusMessageBytesMax + 1, 0)));
+  Random random(6);
+  for (int i = 0; i < 20000; ++i) {
+    Bytes bytes(random.Next() % 64);
+    for (std::uint8_t& byte : bytes) byte = static_cast<std::uint8_t>(random.Next());
+    EXPECT_TRUE(Rejected(bytes));
+  }
+}
+
+TEST(CodecHostile, FloatsThatAreNotFiniteAreRefused) {
+  RandomMessages random(7);
+  View view;
+  random.Fill(view, 1);
+  const Bytes bytes = Encode(view);
+  for (std::size_t at = bytes.size() - 24; at < bytes.size(); at += 4) {
+    EXPECT_TRUE(Rejected(With(bytes, at, 4, 0x7f800000u)));  // infinity
+    EXPECT_TRUE(Rejected(With(bytes, at, 4, 0xffc00000u)));  // not a number
+    EXPECT_FALSE(Rejected(With(bytes, at, 4, 0x3f800000u)));
+  }
+}
+
+TEST(CodecBounds, TheLargestMessagesFitTheirCarriers) {
+  RandomMessages random(8);
+  States states;
+  random.Fill(states, kStatesBodiesMax);
+  EXPECT_LE(Encode(states).size(), kMessageBytesMax);
+  Grants grants;
+  random.Fill(grants, kGrantsMax);
+  EXPECT_LE(Encode(grants).size(), kMessageBytesMax);
+  Meta meta;
+  random.Fill(meta, kMetaMax);
+  EXPECT_LE(Encode(meta).size(), kMessageBytesMax);
+  Inputs inputs;
+  random.Fill(inputs, kInputsMax);
+  EXPECT_LE(Encode(inputs).size(), kMessageBytesMax);
+  Chunk chunk;
+  chunk.data.assign(kChunkBytesMax, 0);
+  EXPECT_LE(Encode(chunk).size(), kMessageBytesMax);
+  View view;
+  random.Fill(view, kViewBodiesMax);
+  EXPECT_LE(Encode(view).size(), kBusMessageBytesMax);
+  Impacts impacts;
+  random.Fill(impacts, kImpactsMax);
+  EXPECT_LE(Encode(impacts).size(), kBusMessageBytesMax);
+  Room room;
+  room.scene_text.assign(kSceneTextBytesMax, '#');
+  room.scene_name = room.mode = room.reconcile = std::string(kLabelBytesMax, 'x');
+  room.impair.assign(kImpairBytesMax, 'x');
+  EXPECT_LE(Encode(room).size(), kBusMessageBytesMax);
+}
+
+TEST(CodecBounds, WhatBreaksABoundIsNotValid) {
+  const auto broken = [](auto change) {
+    RandomMessages random(9);
+    View view;
+    random.Fill(view, 3);
+    EXPECT_TRUE(Valid(view));
+    change(view);
+    return !Valid(view);
+  };
+  EXPECT_TRUE(broken([](View& v) { v.peer = 32; }));
+  EXPECT_TRUE(broken([](View& v) { v.peer = -1; }));
+  EXPECT_TRUE(broken([](View& v) { v.tick = -1; }));
+  EXPECT_TRUE(broken([](View& v) { v.tick = kTickMax; }));
+  EXPECT_TRUE(broken([](View& v) { v.utime = std::numeric_limits<std::int64_t>::min(); }));
+  EXPECT_TRUE(broken([](View& v) { v.sequence = -1; }));
+  EXPECT_TRUE(broken([](View& v) { v.part = v.parts; }));
+  EXPECT_TRUE(broken([](View& v) { v.id[1] = v.id[0]; }));
+  EXPECT_TRUE(broken([](View& v) { std::swap(v.id[1], v.id[2]); }));
+  EXPECT_TRUE(broken([](View& v) { v.id[0] = -1; }));
+  EXPECT_TRUE(broken([](View& v) { v.role[2] = 3; }));
+  EXPECT_TRUE(broken([](View& v) { v.authority[2] = 32; }));
+  EXPECT_TRUE(broken([](View& v) { v.spin.pop_back(); }));
+  EXPECT_TRUE(broken([](View& v) { v.vx[1] = std::nanf(""); }));
+}
+
+TEST(CodecText, OnlyPrintableUtf8Passes) {
+  EXPECT_TRUE(IsPrintable("plain, \u00e4\u20ac\U0001F600", 64));
+  EXPECT_FALSE(IsPrintable("two\nlines", 64));
+  EXPECT_TRUE(IsPrintable("two\r\n\tlines", 64, true));
+  EXPECT_FALSE(IsPrintable("\x1b[2J", 64, true)) << "terminal escape";
+  EXPECT_FALSE(IsPrintable("\x7f", 64));
+  EXPECT_FALSE(IsPrintable("\xc2\x9b" "2J", 64)) << "8-bit terminal escape";
+  EXPECT_FALSE(IsPrintable("\xc0\xaf", 64)) << "overlong";
+  EXPECT_FALSE(IsPrintable("\xe0\x80\xaf", 64)) << "overlong";
+  EXPECT_FALSE(IsPrintable("\xed\xa0\x80", 64)) << "surrogate";
+  EXPECT_FALSE(IsPrintable("\xf4\x90\x80\x80", 64)) << "beyond U+10FFFF";
+  EXPECT_FALSE(IsPrintable("cut \xe2\x82", 64));
+  EXPECT_FALSE(IsPrintable("\x80", 64));
+  EXPECT_FALSE(IsPrintable("12345", 4));
+  EXPECT_TRUE(IsName("Ann_2-x"));
+  EXPECT_FALSE(IsName(""));
+  EXPECT_FALSE(IsName("a.b"));
+  EXPECT_FALSE(IsName(std::string(33, 'a')));
+}
+
+TEST(CodecWire, TypeHashesArePinnedToTheProtocolVersion) {
+  // A changed hash means that recordings and peers of before no longer decode: bump
+  // kProtocolVersion, and write the new hashes here.
+  ASSERT_EQ(kProtocolVersion, 2);
+  const auto hash = [](const Bytes& bytes) {
+    std::uint64_t value = 0;
+    for (std::size_t i = 0; i < 8; ++i) value = value << 8 | bytes[i];
+    return value;
+  };
+  Hello hello;
+  hello.name = "a";
+  Welcome welcome;
+  welcome.peer = welcome.room_bytes = 1;
+  Chunk chunk;
+  chunk.data = {0};
+  Inputs inputs;
+  inputs.drive = inputs.lift = {0};
+  inputs.buttons = {0};
+  const std::vector<std::uint64_t> hashes = {
+      hash(Encode(hello)),    hash(Encode(welcome)), hash(Encode(chunk)),   hash(Encode(Room{})),
+      hash(Encode(Ping{})),   hash(Encode(Pong{})),  hash(Encode(inputs)),  hash(Encode(States{})),
+      hash(Encode(Grants{})), hash(Encode(View{})),  hash(Encode(Impacts{})),
+      hash(Encode(Stats{})),  hash(Encode(Event{})), hash(Encode(Bye{})),
+      hash(Encode(EditOrder{})), hash(Encode(Meta{}))};
+  const std::vector<std::uint64_t> pinned = {
+      0x77af54d8cac6751eu, 0xcb0ab4d23d15572fu, 0xfe05a5dcca243573u, 0xfc29582c30d1354eu,
+      0x62ac12b10407beb0u, 0xb2cacdee7d5215e5u, 0xc2fed145dcaf1ce1u, 0xa25f63785235287eu,
+      0x6fb17c58cd6b7966u, 0x61c26b67f73065e4u, 0x59bc5977764a411fu, 0xbfb5240b6817cf3eu,
+      0x5017292b3aa2f237u, 0x51c7828d52d2d8f2u, 0x2188d5d8f5ff2d0du,
+      0xf89c26f5a00b008du};
+  EXPECT_EQ(hashes, pinned);
+  EXPECT_EQ(std::set<std::uint64_t>(hashes.begin(), hashes.end()).size(), hashes.size());
+}
+
+}  // namespace
+}  // namespace seam

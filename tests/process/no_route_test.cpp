@@ -1,0 +1,54 @@
+/// What the operator reads on a machine that has no route for multicast, as LCM needs it.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "tests/support/in_namespace.h"
+#include "tests/support/program.h"
+
+namespace seam {
+namespace {
+
+class NoRoute : public InNamespace {};
+
+TEST_F(NoRoute, EveryProgramOnTheBusSaysInOneLineWhatToTypeAndWritesNothing) {
+  SEAM_INSIDE_ONLY("ip link set lo up");
+  const std::string scene = std::filesystem::absolute("scenes/crossing.toml").string();
+  const std::vector<std::vector<std::string>> commands = {
+      {"seam-server", scene, "--bind", "127.0.0.1:0", "--record", "new.lcm"},
+      {"seam-client", "127.0.0.1:9", "--record", "new.lcm"},
+      {"seam-render", "--live", "-o", "new"}};
+  for (std::vector<std::string> words : commands) {
+    const Workspace folder;
+    const std::string begin = words[0] + ": LCM: this machine has no route for multicast; ";
+    words[0] = BuiltProgram(words[0]);
+    Program program(words, folder.path());
+    EXPECT_TRUE(program.Wait(30));
+    SCOPED_TRACE(program.Story());
+    EXPECT_EQ(program.status(), 2);
+    EXPECT_EQ(program.output(), "");
+    const std::string line = program.errors();
+    EXPECT_EQ(line.rfind(begin, 0), 0u);
+    EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1);
+    EXPECT_NE(line.find("ip link set lo up multicast on; ip route add 224.0.0.0/4 dev lo"),
+              std::string::npos);
+    EXPECT_TRUE(folder.Content().empty());
+  }
+}
+
+TEST_F(NoRoute, TheDoctorSaysSoAndTheRoomCanDoWithoutTheBus) {
+  SEAM_INSIDE_ONLY("ip link set lo up");
+  Program doctor({BuiltProgram("seam-server"), "--doctor"});
+  EXPECT_TRUE(doctor.Wait(30));
+  EXPECT_EQ(doctor.status(), 1) << doctor.Story();
+  EXPECT_NE(doctor.output().find("ip route add 224.0.0.0/4 dev lo"), std::string::npos);
+  Program server({BuiltProgram("seam-server"), "scenes/crossing.toml", "--bind", "127.0.0.1:0",
+                  "--wait", "0", "--duration", "0.2", "--lcm-url", "none"});
+  EXPECT_TRUE(server.Wait(30));
+  EXPECT_EQ(server.status(), 0) << server.Story();
+}
+
+}  // namespace
+}  // namespace seam

@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "common/base/check.h"
+#include "tests/support/render_fixture.h"
+
+namespace seam {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(Canvas, FillsWholePixelsAndKeepsTheRestOfThePage) {
+  DrawList list(TestFont());
+  list.Begin(64, 48);
+  list.Fill({{10, 10}, {30, 10}, {30, 20}, {10, 20}}, {200, 10, 20, 255});
+  const Image image = Rendered(list);
+  ASSERT_EQ(image.width_px, 64);
+  ASSERT_EQ(image.height_px, 48);
+  for (int y = 0; y < 48; ++y)
+    for (int x = 0; x < 64; ++x) {
+      const bool inside = x >= 10 && x < 30 && y >= 10 && y < 20;
+      const Colour expected = inside ? Colour{200, 10, 20, 255} : kPaper;
+      ASSERT_EQ(PixelAt(image, Vec2(x, y)), expected) << x << "," << y;
+    }
+}
+
+TEST(Canvas, ALineCoversItsWidthAndSharesItsEdgePixels) {
+  DrawList list(TestFont());
+  list.Begin(40, 20);
+  // From y = 8.75 to 11.25: rows 9 and 10 full, rows 8 and 11 a quarter.
+  list.Stroke({{0, 10}, {40, 10}}, false, {2.5f, {0, 0, 0, 255}, 0});
+  const Image image = Rendered(list);
+  const auto shade = [&](int y) { return static_cast<int>(image.At(20, y)[0]); };
+  EXPECT_EQ(shade(7), kPaper.r);
+  EXPECT_NEAR(shade(8), 0.75 * kPaper.r, 2);
+  EXPECT_EQ(shade(9), 0);
+  EXPECT_EQ(shade(10), 0);
+  EXPECT_NEAR(shade(11), 0.75 * kPaper.r, 2);
+  EXPECT_EQ(shade(12), kPaper.r);
+}
+
+TEST(Canvas, AClipKeepsEverythingInside) {
+  DrawList list(TestFont());
+  list.Begin(64, 64);
+  list.Clip({16, 16, 32, 32});
+  list.FillRect({0, 0, 64, 64}, {1, 2, 3, 255});
+  list.Disc({16, 16}, 20, {250, 2, 3, 255});
+  list.Text(0, 40, TextStyle::kTitle, "MMMMMMMM", {0, 255, 0, 255});
+  const Image image = Rendered(list);
+  for (int y = 0; y < 64; ++y)
+    for (int x = 0; x < 64; ++x) {
+      const bool inside = x >= 16 && x < 48 && y >= 16 && y < 48;
+      ASSERT_EQ(PixelAt(image, Vec2(x, y)) == kPaper, !inside) << x << "," << y;
+    }
+}
+
+TEST(Canvas, PagesOfDifferentSizesFollowEachOther) {
+  const std::unique_ptr<Canvas> canvas = MakeCanvas(TestFont());
+  DrawList list(TestFont());
+  Image first, again;
+  list.Begin(100, 50);
+  list.Disc({50, 25}, 10, {0, 0, 0, 255});
+  canvas->Draw(list, kPaper, &first);
+  list.Begin(30, 70);
+  canvas->Draw(list, kPaper, &again);
+  EXPECT_EQ(again.width_px, 30);
+  list.Begin(100, 50);
+  list.Disc({50, 25}, 10, {0, 0, 0, 255});
+  canvas->Draw(list, kPaper, &again);
+  EXPECT_EQ(first.rgb, again.rgb);
+}
+
+TEST(RenderFont, SaysInOneLineWhichFontIsMissing) {
+  try {
+    const Font font(1, "", "/nowhere");
+    FAIL() << "a font from nowhere";
+  } catch (const OperatorError& error) {
+    const std::string line = error.what();
+    EXPECT_NE(line.find("/nowhere/DejaVuSans.ttf"), std::string::npos) << line;
+    EXPECT_NE(line.find("fonts-dejavu-core"), std::string::npos) << line;
+    EXPECT_EQ(line.find('\n'), std::string::npos);
+  }
+}
+
+TEST(RenderFont, ReadsUtf8AndSurvivesWhatIsNot) {
+  EXPECT_EQ(Codepoints("aµ→"), (std::vector<std::uint32_t>{'a', 0xb5, 0x2192}));
+  EXPECT_EQ(Codepoints("\xff" "a\xc2"), (std::vector<std::uint32_t>{0xfffd, 'a', 0xfffd}));
+  EXPECT_EQ(Codepoints("\xe2\x82"), (std::vector<std::uint32_t>{0xfffd, 0xfffd}));
+  EXPECT_GT(TestFont().Width(TextStyle::kBody, "\xff\xfe 猫"), 0);
+}
+
+TEST(Png, DecodesToTheSamePixelsAndCarriesNoTime) {
+  Folder folder;
+  Image image;
+  image.width_px = 37;
+  image.height_px = 11;
+  for (int i = 0; i < 37 * 11 * 3; ++i)
+    image.rgb.push_back(static_cast<std::uint8_t>(i * 7 + i / 5));
+  WritePng(folder / "a.png", image);
+  const Image read = ReadPng(folder / "a.png");
+  EXPECT_EQ(read.width_px, 37);
+  EXPECT_EQ(read.height_px, 11);
+  EXPECT_EQ(read.rgb, image.rgb);
+  EXPECT_EQ(Content(folder / "a.png").find("tIME"), std::string::npos);
+}
+
+TEST(Png, ADiskThatDoesNotTakeItIsAnOperatorError) {
+  Image image;
+  image.width_px = image.height_px = 200;
+  image.rgb.resize(200 * 200 * 3);
+  EXPECT_THROW(WritePng("/nowhere/a.png", image), OperatorError);
+  if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full here";
+  EXPECT_THROW(WritePng("/dev/full", image), OperatorError);
+  EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+}  // namespace
+}  // namespace seam

@@ -1,0 +1,87 @@
+/// docs/scenes.md against the loader: its example is a scene, and its tables name every key.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "tests/support/scripted_world.h"
+
+namespace seam {
+namespace {
+
+std::string Page() {
+  std::ifstream in("docs/scenes.md");
+  std::stringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+std::string Example() {
+  const std::string page = Page(), begin = "```toml\n";
+  const auto from = page.find(begin);
+  if (from == std::string::npos) return "";
+  const auto start = from + begin.size();
+  return page.substr(start, page.find("```", start) - start);
+}
+
+TEST(SceneDocs, TheWorkedExampleDoesWhatItsTitleSays) {
+  ScriptedWorld run(ParseScene(Example(), "seesaw.toml"));
+  EXPECT_EQ(run.world.scene().title, "Seesaw: ann drops a weight, bob's crates fly");
+  EXPECT_EQ(run.world.body_count(), 5);
+  run.StepTo(48);
+  const float rest = run.Read("crate.0").position.y();
+  float highest = rest;
+  while (run.world.tick() < 480) {
+    run.Step();
+    highest = std::max(highest, run.Read("crate.0").position.y());
+  }
+  EXPECT_GT(highest, rest + 5);
+}
+
+/// The keys that the loader says it knows, when it meets one that it does not.
+std::vector<std::string> KnownKeys(const std::string& table) {
+  try {
+    ParseScene(table + "\nzzzzzzzzzzzzzzzz = 1\n", "s.toml");
+  } catch (const std::exception& e) {
+    const std::string what = e.what(), begin = "known are ";
+    const auto at = what.find(begin);
+    if (at == std::string::npos) return {};
+    std::istringstream in(what.substr(at + begin.size(), what.size() - at - begin.size() - 1));
+    std::vector<std::string> keys;
+    for (std::string key; in >> key;) keys.push_back(key);
+    return keys;
+  }
+  return {};
+}
+
+TEST(SceneDocs, EveryKeyIsOnThePage) {
+  const std::string page = Page();
+  const std::string ball = "[[part]]\nname = \"p\"\ncircle = 1\n";
+  const std::pair<std::string, std::string> tables[] = {
+      {"", "## Top level"},         {"[solver]", "## `[solver]`"},
+      {"[[part]]", "## `[[part]]`"}, {ball + "[[joint]]", "## `[[joint]]`"},
+      {ball + "[[bricks]]", "## `[[bricks]]`"},
+      {ball + "[[thrust]]", "## `[[thrust]]`"},
+      {ball + "[[water]]", "## `[[water]]`"},
+      {ball + "[grouping]", "## `[grouping]`"},
+      {ball + "[[character]]", "## `[[character]]`"},
+      {"[[player]]", "## `[[player]]`"}, {ball + "[[watch]]", "## `[[watch]]`"},
+      {ball + "[[trigger]]", "## `[[trigger]]`"}, {ball + "[[script]]", "## `[[script]]`"},
+      {ball + "[camera]", "## `[camera]`"}};
+  for (const auto& [table, heading] : tables) {
+    const auto from = page.find(heading + "\n");
+    ASSERT_NE(from, std::string::npos) << heading;
+    const std::string section = page.substr(from, page.find("\n## ", from + 1) - from);
+    const std::vector<std::string> keys = KnownKeys(table);
+    EXPECT_GE(keys.size(), 2u) << heading;
+    for (const std::string& key : keys) {
+      const bool is_table = page.find("[" + key + "]") != std::string::npos;
+      EXPECT_TRUE(is_table || section.find("`" + key + "`") != std::string::npos)
+          << key << " is missing below " << heading;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace seam

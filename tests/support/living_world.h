@@ -1,0 +1,22 @@
+#pragma once
+/// A world that does what it finds should change, like an oracle.
+
+#include <vector>
+
+#include "tests/support/small_world.h"
+
+namespace seam {
+
+/// Steps, and applies what each step gives reason to. Returns all of it.
+inline std::vector<Edit> Live(World* world, int ticks) {
+  std::vector<Edit> all;
+  for (int i = 0; i < ticks; ++i) {
+    world->Step();
+    const std::vector<Edit> edits = world->Wishes();
+    if (!edits.empty()) world->Apply(edits);
+    all.insert(all.end(), edits.begin(), edits.end());
+  }
+  return all;
+}
+
+}  // namespace seam

@@ -1,0 +1,252 @@
+/// The small parts of common/sync, each against what it promises.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/base/check.h"
+#include "common/base/random.h"
+#include "client/clock_filter.h"
+#include "common/sync/input_source.h"
+#include "common/sync/input_track.h"
+#include "common/sync/mode.h"
+#include "common/sync/quantize.h"
+#include "common/sync/smoother.h"
+#include "common/sync/snapshots.h"
+
+namespace seam {
+namespace {
+
+TEST(Quantize, IsIdempotentAndBothEndsHoldTheSameNumbers) {
+  Random random(7);
+  std::vector<PackedBody> bodies;
+  for (int i = 0; i < 400; ++i) {
+    PackedBody b;
+    b.id = i;
+    b.epoch = i % 5;
+    b.state.position = Vec2(static_cast<float>(random.Uniform(-500, 500)),
+                            static_cast<float>(random.Uniform(-500, 500)));
+    b.state.angle = static_cast<float>(random.Uniform(-50, 50));
+    b.state.velocity = Vec2(static_cast<float>(random.Uniform(-100, 100)),
+                            static_cast<float>(random.Uniform(-100, 100)));
+    b.state.spin = static_cast<float>(random.Uniform(-90, 90));
+    const BodyState q = Quantised(b.state);
+    const BodyState qq = Quantised(q);
+    EXPECT_EQ(q.position, qq.position);
+    EXPECT_EQ(q.angle, qq.angle);
+    EXPECT_EQ(q.velocity, qq.velocity);
+    EXPECT_EQ(q.spin, qq.spin);
+    EXPECT_LE((q.position - b.state.position).cwiseAbs().maxCoeff(), kPositionQuantum * 0.51f);
+    EXPECT_LE(std::fabs(q.spin - b.state.spin), kVelocityQuantum * 0.51f);
+    b.state = q;
+    bodies.push_back(b);
+  }
+  std::size_t seen = 0;
+  for (const States& s : Pack(States{}, bodies)) {
+    ASSERT_LE(s.id.size(), kStatesBodiesMax);
+    for (std::size_t i = 0; i < s.id.size(); ++i, ++seen) {
+      const PackedBody& sent = bodies[static_cast<std::size_t>(s.id[i])];
+      // The receiver's own copy is less than half a turn away.
+      const BodyState got = Unpack(s, i, sent.state.angle + 2.5f);
+      EXPECT_EQ(got.position, sent.state.position);
+      EXPECT_EQ(got.angle, sent.state.angle);
+      EXPECT_EQ(got.velocity, sent.state.velocity);
+      EXPECT_EQ(got.spin, sent.state.spin);
+    }
+  }
+  EXPECT_EQ(seen, bodies.size());
+}
+
+BodyState State(float x, float vx, float angle) {
+  BodyState state;
+  state.position.x() = x;
+  state.velocity.x() = vx;
+  state.angle = angle;
+  return state;
+}
+
+TEST(Smoother, TheViewsVelocityIsContinuousAndItReturnsLikeACriticallyDampedSpring) {
+  Smoother smoother(1, true);
+  smoother.Moved(0, State(0.1f, 0, 0));
+  const float dt = 1 / 60.0f;
+  for (int frame = 1; frame <= 60; ++frame) {
+    smoother.Advance(0, dt, 100);
+    const float t = static_cast<float>(frame) * dt;   // x = x0 (1 + w t) exp(-w t), w = 10/s
+    EXPECT_NEAR(smoother.offset(0).x(), -0.1f * (1 + 10 * t) * std::exp(-10 * t), 1e-5f);
+  }
+}
+
+TEST(Smoother, HalfOfAJumpOfVelocityIsHidden) {
+  Smoother smoother(1, true);
+  smoother.Moved(0, State(0, 2, 0));
+  smoother.Advance(0, 1e-4f, 100);
+  EXPECT_NEAR(smoother.offset(0).x() / 1e-4f, -1, 2e-3f);
+}
+
+TEST(Smoother, ACorrectionDoesNotMoveTheViewAtOnceAndIsForgottenInTime) {
+  Smoother smoother(1, true);
+  smoother.Moved(0, State(0.5f, 0, 0.1f));
+  EXPECT_FLOAT_EQ(smoother.offset(0).x(), -0.5f);
+  float last = 0.5f;
+  for (int frame = 0; frame < 240; ++frame) {
+    smoother.Advance(0, 1 / 60.0f, 0);
+    const float size = smoother.offset(0).norm();
+    EXPECT_LE(size, last);
+    EXPECT_LE(last - size, 4.01f / 60) << "the glide has a speed limit";
+    last = size;
+  }
+  EXPECT_LT(last, 1e-3f);
+  EXPECT_LT(std::fabs(smoother.angle_offset(0)), 1e-3f);
+}
+
+TEST(Smoother, DoesNothingWhenOff) {
+  Smoother smoother(1, false);
+  smoother.Moved(0, State(0.5f, 1, 0.1f));
+  smoother.Advance(0, 1 / 60.0f, 0);
+  EXPECT_EQ(smoother.offset(0).norm(), 0);
+}
+
+TEST(ClockFilter, FindsTheOffsetUnderOneSidedJitterAndThenNeverJumps) {
+  Random random(3);
+  ClockFilter clock;
+  const std::int64_t offset = 98765432;
+  std::int64_t now = 1000;
+  std::int64_t last = -1;
+  std::int64_t last_now = 0;
+  for (int i = 0; i < 400; ++i) {
+    const auto there = static_cast<std::int64_t>(50000 + random.Exponential(10000));
+    const auto back = static_cast<std::int64_t>(50000 + random.Exponential(10000));
+    clock.AddSample(now, now + there + offset, now + there + back);
+    now += there + back;
+    for (int step = 0; step < 10; ++step) {
+      now += 5000;
+      const std::int64_t t = clock.ServerTime(now);
+      if (clock.settled() && last >= 0) {
+        EXPECT_GE(t, last) << "time ran backwards";
+        const std::int64_t passed = now - last_now;
+        EXPECT_LE(std::llabs(t - last - passed), passed / 500 + 1) << i;
+      }
+      last = clock.settled() ? t : -1;
+      last_now = now;
+    }
+  }
+  EXPECT_LT(std::llabs(clock.ServerTime(now) - now - offset), 3000);
+  // The server's clock steps by five seconds: followed by slewing alone.
+  std::int64_t before = clock.ServerTime(now);
+  for (int i = 0; i < 100; ++i) {
+    now += 100000;
+    clock.AddSample(now - 100000, now - 50000 + offset + 5000000, now);
+    const std::int64_t t = clock.ServerTime(now);
+    EXPECT_LE(t - before, 100000 + 5001);
+    EXPECT_GE(t - before, 100000 - 5001);
+    before = t;
+  }
+}
+
+TEST(ClockFilter, IgnoresAnswersFromBeforeTheQuestion) {
+  ClockFilter clock;
+  clock.AddSample(100, 5, 50);
+  EXPECT_EQ(clock.rtt_least_us(), -1);
+}
+
+TEST(InputTrack, HoldsTheAxesButNotTheButtonsBeyondWhatItKnows) {
+  InputTrack track;
+  track.Note(10, Input{100, -5, 3});
+  EXPECT_EQ(track.At(9), Input{});
+  EXPECT_EQ(track.At(10), (Input{100, -5, 3}));
+  EXPECT_EQ(track.At(15), (Input{100, -5, 0}));
+}
+
+TEST(InputTrack, ReportsEachPressOnceEvenWhenItComesLate) {
+  InputTrack track;
+  track.Note(1, Input{0, 0, 0});
+  EXPECT_EQ(track.TakePresses(1), 0);
+  track.Note(2, Input{0, 0, 1});
+  track.Note(3, Input{0, 0, 1});
+  track.Note(4, Input{0, 0, 2});
+  EXPECT_EQ(track.TakePresses(6), 3) << "late, and two of them";
+  EXPECT_EQ(track.TakePresses(7), 0);
+  track.Note(7, Input{0, 0, 2});
+  EXPECT_EQ(track.TakePresses(7), 0) << "still held";
+}
+
+TEST(InputTrack, ExportsTheNewestRunOfTicks) {
+  InputTrack track;
+  for (std::int64_t t = 0; t < 30; ++t) track.Note(t, Input{static_cast<std::int8_t>(t), 0, 0});
+  const Inputs out = track.Export(4, 16);
+  EXPECT_EQ(out.player, 4);
+  EXPECT_EQ(out.first_tick, 14);
+  ASSERT_EQ(out.drive.size(), 16u);
+  EXPECT_EQ(out.drive.back(), 29);
+  InputTrack other;
+  other.Note(out);
+  EXPECT_EQ(other.At(20), (Input{20, 0, 0}));
+}
+
+TEST(BotInput, IsAFunctionOfSeedPlayerAndTickAlone) {
+  int differ = 0;
+  for (std::int64_t t = 0; t < 600; ++t) {
+    EXPECT_EQ(BotInput(5, 0, t, 60), BotInput(5, 0, t, 60));
+    differ += BotInput(5, 0, t, 60) == BotInput(6, 0, t, 60) ? 0 : 1;
+  }
+  EXPECT_GT(differ, 300);
+}
+
+TEST(Snapshots, ReckonWithTheAccelerationBetweenTheLastTwo) {
+  Snapshots snapshots(1);
+  const float dt = 1 / 60.0f;
+  // Brakes at 6 m/s^2 from 20 m/s at tick 0: v = 20 - 6 t, x = 20 t - 3 t^2.
+  for (const std::int64_t tick : {0, 6}) {
+    const float t = static_cast<float>(tick) * dt;
+    snapshots.Add(0, tick, State(20 * t - 3 * t * t, 20 - 6 * t, 0));
+  }
+  const BodyState at = snapshots.Extrapolate(0, 18, dt, 1);   // 0.2 s on
+  EXPECT_NEAR(at.position.x(), 20 * 0.3f - 3 * 0.09f, 1e-4f);
+  EXPECT_NEAR(at.velocity.x(), 20 - 6 * 0.3f, 1e-4f);
+  // Beyond 0.3 s it moves on with the velocity it has then.
+  const BodyState late = snapshots.Extrapolate(0, 36, dt, 1);
+  EXPECT_NEAR(late.velocity.x(), 20 - 6 * 0.4f, 1e-4f);
+  EXPECT_NEAR(late.position.x(), 20 * 0.4f - 3 * 0.16f + 0.2f * late.velocity.x(), 1e-4f);
+}
+
+TEST(Snapshots, ReckonABlowWithoutItsAcceleration) {
+  Snapshots snapshots(1);
+  snapshots.Add(0, 0, State(0, 10, 0));
+  snapshots.Add(0, 2, State(0, -5, 0));
+  EXPECT_NEAR(snapshots.Extrapolate(0, 14, 1 / 60.0f, 1).position.x(), -5 * 0.2f, 1e-5f);
+}
+
+TEST(Snapshots, InterpolateBetweenAndHoldBeyond) {
+  Snapshots snapshots(1);
+  BodyState s;
+  s.velocity = Vec2(6, 0);
+  s.position = Vec2(1, 0);
+  snapshots.Add(0, 10, s);
+  s.position = Vec2(2, 0);
+  snapshots.Add(0, 20, s);
+  snapshots.Add(0, 15, BodyState{});
+  EXPECT_FLOAT_EQ(snapshots.Interpolate(0, 15).position.x(), 1.5f) << "older news is not taken";
+  EXPECT_FLOAT_EQ(snapshots.Interpolate(0, 25).position.x(), 2) << "never extrapolated";
+  EXPECT_FLOAT_EQ(snapshots.Interpolate(0, 5).position.x(), 1);
+  EXPECT_FLOAT_EQ(snapshots.Extrapolate(0, 26, 1 / 60.0f, 0.5f).position.x(), 2.6f);
+  EXPECT_FLOAT_EQ(snapshots.Extrapolate(0, 2000, 1 / 60.0f, 0.5f).position.x(), 5);
+}
+
+TEST(DisplayDelay, CoversNearlyAllArrivalsAndMovesSlowly) {
+  DisplayDelay delay(2);
+  for (int i = 0; i < 90; ++i) delay.AddAge(i % 10 == 0 ? 9 : 6);
+  EXPECT_NEAR(delay.Advance(), 11, 0.1) << "p95 of 6 and 9, plus the interval";
+  for (int i = 0; i < 90; ++i) delay.AddAge(20);
+  const double before = delay.ticks();
+  EXPECT_LE(delay.Advance() - before, 0.0201);
+}
+
+TEST(Mode, NamesAreCheckedAndReconcilersBelongToBuffer) {
+  EXPECT_EQ(MakeSyncConfig("buffer", "").reconcile_name, "retrospect");
+  EXPECT_EQ(MakeSyncConfig("strict", "").reconcile, nullptr);
+  EXPECT_THROW(MakeSyncConfig("strict", "fade"), OperatorError);
+  EXPECT_THROW(MakeSyncConfig("lockstep", ""), OperatorError);
+}
+
+}  // namespace
+}  // namespace seam
