@@ -51,8 +51,4 @@ class ScriptRoom : public ScriptHost {
   mutable std::size_t parts_known_ = 0;
 };
 
-/// `[[kind]]` and the table's entries, as a scene writes them. Throws ScriptRefusal for what cannot
-/// be written so.
-std::string ToToml(const std::string& kind, const TomlNode& table);
-
 }  // namespace seam

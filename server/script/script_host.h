@@ -59,4 +59,8 @@ class ScriptHost {
   virtual void Say(const std::string& text) = 0;
 };
 
+/// `[[kind]]` and the table's entries, as a scene writes them. Throws ScriptRefusal for what cannot
+/// be written so.
+std::string ToToml(const std::string& kind, const TomlNode& table);
+
 }  // namespace seam

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "common/scene/scene_text.h"
-#include "server/rules/script_room.h"
+#include "server/script/script_host.h"
 
 namespace seam {
 namespace {
