@@ -8,7 +8,6 @@
 #include "render/draw/draw_hud.h"
 #include "render/draw/draw_joints.h"
 #include "render/draw/draw_scene.h"
-#include "render/draw/draw_water.h"
 #include "render/playback/format.h"
 #include "render/canvas/palette.h"
 #include "render/strobe_layout.h"

@@ -1,4 +1,4 @@
-#include "common/stages/force_stages.h"
+#include "common/stages/make_stages.h"
 #include "common/physics/world_shapes.h"
 
 namespace seam {

@@ -1,15 +1,9 @@
 #include <algorithm>
 
-#include "common/stages/character/character_stage.h"
-#include "common/stages/bricks/feather_stage.h"
-#include "common/stages/force_stages.h"
+#include "common/stages/make_stages.h"
 #include "common/stages/kinematic.h"
 #include "common/physics/stage.h"
-#include "common/stages/bonds/glue_stage.h"
-#include "common/stages/bonds/group_stage.h"
 #include "common/topology/join.h"
-#include "common/stages/bonds/join_stage.h"
-#include "common/stages/water/water_stage.h"
 
 namespace seam {
 

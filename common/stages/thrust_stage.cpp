@@ -1,4 +1,4 @@
-#include "common/stages/force_stages.h"
+#include "common/stages/make_stages.h"
 
 namespace seam {
 namespace {

@@ -1,5 +1,8 @@
 #include "render/draw/draw_joints.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "render/canvas/palette.h"
 
 namespace seam {
@@ -18,6 +21,27 @@ std::optional<Vec2> AnchorOn(const Viewport& viewport, const Playback& playback,
   for (const BodyShapes& body : form.anchored)
     if (body.id == id) return viewport.ToPx(Frame2(playback.Anchored(body, moment.tick))(anchor));
   return std::nullopt;
+}
+
+constexpr double kCrackSeconds = 0.5;
+constexpr float kCrack_m = 0.7f;        ///< length
+
+/// Where the joint was, as part a now carries it, and the way from a to b.
+struct Crack {
+  Vec2 at{0, 0}, along{1, 0};
+};
+
+std::optional<Crack> CrackOf(const Playback& playback, const Moment& moment, const Joint& joint,
+                             const Scene& scene) {
+  const auto a = playback.FindPart(moment, joint.a), b = playback.FindPart(moment, joint.b);
+  if (!a || !b) return std::nullopt;
+  const Part& part = scene.parts[static_cast<std::size_t>(joint.a)];
+  const Vec2 offset = joint.anchor_a - part.position;
+  Crack crack;
+  crack.at = Frame2({a->position, a->angle - part.angle})(offset);
+  const Vec2 apart = b->position - a->position;
+  if (apart.norm() > 1e-3f) crack.along = apart.normalized();
+  return crack;
 }
 
 }  // namespace
@@ -45,6 +69,38 @@ void DrawPins(DrawList& list, const Viewport& viewport, const Playback& playback
     const auto a = AnchorOn(viewport, playback, *form, moment, joint.a, joint.a_anchored,
                             joint.anchor_a);
     if (a) list.Disc(*a, 1.6f * list.font().scale(), Faded(kInk, opacity));
+  }
+}
+
+void DrawBreaks(DrawList& list, const Viewport& viewport, const Playback& playback,
+                const Moment& moment, double tick) {
+  const auto& edits = playback.recording().edits;
+  if (moment.before == nullptr || edits.empty()) return;
+  const double span = kCrackSeconds * playback.tick_hz();
+  const float scale = list.font().scale();
+  for (const auto& [number, edit] : edits) {
+    if (number >= moment.before->topology) break;
+    const double age = tick - static_cast<double>(edit.tick);
+    const bool recent = age >= 0 && age < span;
+    if (!recent || edit.kind != static_cast<std::int8_t>(EditKind::kBreak)) continue;
+    const auto world = playback.WorldOf(moment);
+    const auto& joints = world->scene().joints;
+    if (edit.joint < 0 || static_cast<std::size_t>(edit.joint) >= joints.size()) continue;
+    const Joint& joint = joints[static_cast<std::size_t>(edit.joint)];
+    const auto crack = CrackOf(playback, moment, joint, world->scene());
+    if (!crack || !viewport.Sees(crack->at, kCrack_m)) continue;
+    const Vec2 middle = viewport.ToPx(crack->at);
+    const Vec2 along(crack->along.x(), -crack->along.y()), across(along.y(), -along.x());
+    const float half =
+        std::clamp(kCrack_m / 2 * viewport.px_per_m, 5 * scale, 20 * scale);
+    std::vector<Vec2> zigzag;
+    for (int i = -3; i <= 3; ++i) {
+      const float side = i % 2 == 0 ? -0.22f : 0.22f;
+      zigzag.push_back(middle + across * (half * static_cast<float>(i) / 3) + along * half * side);
+    }
+    const auto fresh = static_cast<float>(1 - age / span);
+    list.Stroke(zigzag, false, {4 * scale, Faded(kPanel, 0.8f * fresh), 0});
+    list.Stroke(zigzag, false, {2 * scale, Faded(kSpark, fresh), 0});
   }
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-/// What stands still on a panel: grid, players' regions with their buffer zones, ground, scale bar.
+/// What stands still on a panel: grid, players' regions with their buffer zones, ground, scale bar,
+/// and water: a tint behind everything that moves, a thinner one over it, and the level as a line.
 
 #include "render/canvas/viewport.h"
 #include "render/playback/playback.h"
@@ -21,5 +22,10 @@ void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playba
 
 /// A bar of a round number of metres in the lower right corner.
 void DrawScaleBar(DrawList& list, const Viewport& viewport);
+
+/// Before the bodies: the water, and its flow as arrows.
+void DrawWaters(DrawList& list, const Viewport& viewport, const Playback& playback);
+/// After the bodies: the veil over what is under water, and the level.
+void DrawSurfaces(DrawList& list, const Viewport& viewport, const Playback& playback);
 
 }  // namespace seam

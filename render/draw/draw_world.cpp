@@ -4,12 +4,10 @@
 #include <cmath>
 
 #include "render/draw/draw_body.h"
-#include "render/draw/draw_breaks.h"
 #include "render/draw/draw_ghosts.h"
 #include "render/draw/draw_joints.h"
 #include "render/draw/draw_rules.h"
 #include "render/draw/draw_scene.h"
-#include "render/draw/draw_water.h"
 #include "render/playback/marks.h"
 #include "render/canvas/palette.h"
 

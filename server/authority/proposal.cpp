@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "common/stages/bonds/group_stage.h"
+#include "common/stages/make_stages.h"
 #include "common/topology/join.h"
 #include "common/physics/part_places.h"
 

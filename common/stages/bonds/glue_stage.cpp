@@ -1,4 +1,4 @@
-#include "common/stages/bonds/glue_stage.h"
+#include "common/stages/make_stages.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "common/stages/character/character_stage.h"
+#include "common/stages/make_stages.h"
 
 #include <algorithm>
 

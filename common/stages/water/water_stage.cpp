@@ -1,4 +1,4 @@
-#include "common/stages/water/water_stage.h"
+#include "common/stages/make_stages.h"
 
 #include <algorithm>
 #include <map>

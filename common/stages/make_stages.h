@@ -1,0 +1,56 @@
+#pragma once
+/// How each stage is made, and what tells whether a scene needs it. MakeStages (stages.cpp) has one
+/// line for each.
+
+#include <memory>
+
+#include "common/physics/stage.h"
+
+namespace seam {
+
+/// Gives the contacts of parts with a conveyor their tangent speed: friction does the rest, and is
+/// the most that a belt can pull with.
+std::unique_ptr<Stage> MakeConveyorStage(const StageWorld& world);
+
+/// Pushes bodies before each of the engine's steps. What sleeps is woken when a player's command
+/// changes, and by nothing else.
+std::unique_ptr<Stage> MakeThrustStage(const StageWorld& world);
+
+/// Bodies of water: sensors in the contact pipeline say which bodies they hold.
+std::unique_ptr<Stage> MakeWaterStage(const StageWorld& world);
+
+/// Whether anything in the scene can break.
+bool HasBreakableGlue(const Scene& scene);
+
+/// Forces are means over a tick: a blow of J N s counts as J times the scene's ticks per second.
+/// What acts on a part: contacts and joints. Whatever else moves the body (gravity, water, thrust)
+/// is taken to act on all of it alike, by mass, and so strains nothing; but gravity on what is
+/// anchored does. A body that could not break by the sum of all that acts costs next to nothing.
+std::unique_ptr<Stage> MakeGlueStage(const StageWorld& world);
+
+/// Finds connectors that meet.
+std::unique_ptr<Stage> MakeJoinStage(const StageWorld& world);
+
+/// Whether a bond may be one that resting parts make: of single bodies that no joint holds.
+bool MayGroup(const Scene& scene, const Composition& composition, const Edit& bond);
+
+/// Grouped: single bodies (no joint holds them) that have touched and been slower than kRestSpeed
+/// and kRestSpin for the scene's time. Undone: when the group moves or feels a change of velocity
+/// above the scene's, or the engine's box around a moving body comes to its own, which is before
+/// the blow: otherwise the blow would meet one body of all their mass.
+std::unique_ptr<Stage> MakeGroupStage(const StageWorld& world);
+
+/// m/s and rad/s: below, a thing rests. The engine's own limits for sleep are 0.01 and 0.035.
+constexpr float kRestSpeed = 0.05f, kRestSpin = 0.05f;
+
+/// Gives bricks fixtures where something moves, and takes them away again.
+/// Requires world.scene.bricks. Which cells have fixtures is a function of where the bodies are and
+/// were since the world was last built; nothing that touches or could touch within a tick is ever
+/// missing.
+std::unique_ptr<Stage> MakeFeatherStage(const StageWorld& world);
+
+/// Whether any of the scene's characters is active; MakeCharacterStage requires one.
+bool HasActiveCharacter(const Scene& scene);
+std::unique_ptr<Stage> MakeCharacterStage(const StageWorld& world);
+
+}  // namespace seam
