@@ -10,7 +10,7 @@
 namespace seam {
 namespace {
 
-constexpr std::int64_t kPingFastUs = 50000;    // until the clock has settled and the room started
+constexpr std::int64_t kPingFastUs = 50000;  // until the clock has settled and the room started
 constexpr std::int64_t kPingSlowUs = 100000;
 constexpr std::int64_t kHelloUs = 100000;
 /// Most ticks stepped in one call; further behind than kGiveUpTicks we rejoin.
@@ -98,8 +98,7 @@ void Client::Greet(std::int64_t now_us) {
     ping.utime = now_us;
     if (replica_ != nullptr && started_) {
       ping.topology = replica_->topology();
-      ping.composition =
-          static_cast<std::int64_t>(replica_->world().composition().hash);
+      ping.composition = static_cast<std::int64_t>(replica_->world().composition().hash);
     }
     link_->SendUnreliable(Encode(ping));
   }
@@ -137,14 +136,13 @@ void Client::StepDue(std::int64_t now_us) {
   const std::int64_t hz = room_.tick_hz;
   const std::int64_t time = RoomTime(now_us);
   const std::int64_t due = time * hz / 1000000;
-  if (due - replica_->tick() > kGiveUpTicks) {   // suspended for seconds: the server dropped us
+  if (due - replica_->tick() > kGiveUpTicks) {  // suspended for seconds: the server dropped us
     ++rejoins_;
     Join(now_us);
     return;
   }
   for (int steps = 0; steps < kStepsMost && replica_->tick() < due; ++steps) {
-    worst_late_us_ =
-        std::max(worst_late_us_, time - (replica_->tick() + 1) * 1000000 / hz);
+    worst_late_us_ = std::max(worst_late_us_, time - (replica_->tick() + 1) * 1000000 / hz);
     StepOnce(now_us);
     if (lead_us_ >= 0) {
       const double most = 1000000.0 / static_cast<double>(hz) * 0.02;
@@ -224,8 +222,8 @@ void Client::PublishStats(std::int64_t now_us, std::int64_t cpu_us) {
   stats_.peer = peer_;
   stats_.tick = replica_ != nullptr ? replica_->tick() : 0;
   stats_.cpu_us = cpu_us;
-  stats_.rtt_us = static_cast<std::int32_t>(
-      std::min<std::int64_t>(clock_.rtt_least_us(), 1000000000));
+  stats_.rtt_us =
+      static_cast<std::int32_t>(std::min<std::int64_t>(clock_.rtt_least_us(), 1000000000));
   stats_.loss_ppm = static_cast<std::int32_t>(link_->loss_ppm());
   stats_.tick_late_us = static_cast<std::int32_t>(std::min<std::int64_t>(worst_late_us_, 1 << 30));
   stats_.clock_offset_us = static_cast<std::int32_t>(
@@ -239,7 +237,7 @@ void Client::Shutdown(std::int64_t now_us) {
   Bye bye;
   bye.utime = now_us;
   bye.reason = "left";
-  for (int copy = 0; copy < 4; ++copy) {   // it may be lost, and nobody waits to repeat it
+  for (int copy = 0; copy < 4; ++copy) {  // it may be lost, and nobody waits to repeat it
     link_->SendUnreliable(Encode(bye));
     Flush(now_us);
   }

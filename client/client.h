@@ -7,11 +7,11 @@
 #include <string>
 #include <vector>
 
+#include "client/clock_filter.h"
 #include "common/base/random.h"
 #include "common/net/link.h"
 #include "common/net/net.h"
 #include "common/record/recorder.h"
-#include "client/clock_filter.h"
 #include "common/sync/metadata.h"
 #include "common/sync/publisher.h"
 #include "common/sync/replica.h"
@@ -25,8 +25,8 @@ struct ClientConfig {
   Address server;
   std::string name = "guest";
   Drive drive = Drive::kNone;
-  std::string script_of;             ///< kScript: the scene's player whose script it plays
-  std::uint64_t session_seed = 1;    ///< drawn at random by main, fixed in tests
+  std::string script_of;           ///< kScript: the scene's player whose script it plays
+  std::uint64_t session_seed = 1;  ///< drawn at random by main, fixed in tests
   bool smooth = true;
 };
 
@@ -68,7 +68,7 @@ class Client {
   static constexpr std::int64_t kSilentUs = 2000000;
   /// Age of the newest answered ping after which we try to join anew.
   static constexpr std::int64_t kLostUs = 4000000;
-  static constexpr int kInputsRedundant = 16;   ///< ticks of input repeated in every message
+  static constexpr int kInputsRedundant = 16;  ///< ticks of input repeated in every message
 
  private:
   void Join(std::int64_t now_us);
@@ -100,7 +100,7 @@ class Client {
   ClockFilter clock_;
   MetaTable metadata_;
   Room room_;
-  std::vector<Bytes> held_;            // grants and states that came before the replica was built
+  std::vector<Bytes> held_;  // grants and states that came before the replica was built
   Bytes room_bytes_;
   std::size_t room_size_ = 0;
   int peer_ = -1;
@@ -110,19 +110,19 @@ class Client {
   bool released_ = false;
   bool closed_ = false;
   std::string fatal_;
-  std::int64_t tick0_us_ = -1;         // on the server's clock
-  double lead_us_ = -1;                // mode central: how far ahead of the server we simulate
-  std::int64_t answered_us_ = 0;       // when we sent the newest ping that was answered
+  std::int64_t tick0_us_ = -1;    // on the server's clock
+  double lead_us_ = -1;           // mode central: how far ahead of the server we simulate
+  std::int64_t answered_us_ = 0;  // when we sent the newest ping that was answered
   std::int64_t joining_since_us_ = 0;
-  std::int64_t refused_us_ = -1;       // of the first refusal since we began to join
-  bool refused_ = false;               // the last hello was
+  std::int64_t refused_us_ = -1;  // of the first refusal since we began to join
+  bool refused_ = false;          // the last hello was
   std::int64_t last_ping_us_ = -1000000000;
   std::int64_t last_hello_us_ = -1000000000;
   std::int64_t last_stats_us_ = -1000000000;
   std::int64_t worst_late_us_ = 0;
   std::int64_t rejoins_ = 0;
   Input live_;
-  std::int64_t discarded_ = 0;         // by the net, as far as counted in stats_
+  std::int64_t discarded_ = 0;  // by the net, as far as counted in stats_
   Stats stats_;
 };
 

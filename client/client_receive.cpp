@@ -22,10 +22,9 @@ void Client::ReceiveAll(std::int64_t now_us) {
   for (int n = 0; n < 1024 && net_.Receive(&from, &datagram); ++n) {
     stats_.bytes_in += static_cast<std::int64_t>(datagram.size());
     stats_.datagrams_in += 1;
-    const bool good = from == config_.server &&
-                      link_->Receive(now_us, datagram, [&](ByteView message) {
-                        OnMessage(now_us, message);
-                      });
+    const bool good =
+        from == config_.server &&
+        link_->Receive(now_us, datagram, [&](ByteView message) { OnMessage(now_us, message); });
     if (!good) ++stats_.dropped_malformed;
   }
   stats_.dropped_malformed += net_.discarded() - discarded_;

@@ -38,8 +38,8 @@ class ClockFilter {
   };
   std::array<Sample, kWindow> window_{};
   std::int64_t samples_ = 0;
-  double target_ = 0;      // best estimate of server minus ours, us
-  double offset_ = 0;      // in use, us
+  double target_ = 0;  // best estimate of server minus ours, us
+  double offset_ = 0;  // in use, us
   bool used_ = false;
   std::int64_t last_now_us_ = 0;
 };

@@ -34,7 +34,7 @@ void Keyboard::Press(char key, std::int64_t now_us) {
     escape_ = 2;
     return;
   }
-  if (escape_ == 2) {   // ESC [ A..D, with modifiers ESC [ 1 ; 2 A
+  if (escape_ == 2) {  // ESC [ A..D, with modifiers ESC [ 1 ; 2 A
     if ((key >= '0' && key <= '9') || key == ';') return;
     key = key == 'A' ? 'w' : key == 'B' ? 's' : key == 'C' ? 'd' : key == 'D' ? 'a' : '\0';
   }
@@ -52,11 +52,11 @@ Input Keyboard::Poll(std::int64_t now_us) {
   char keys[64];
   const ssize_t count = read(0, keys, sizeof keys);
   for (ssize_t i = 0; i < count; ++i) Press(keys[i], now_us);
-  pollfd terminal{0, 0, 0};   // reports a hang-up unasked; read() alone says 0 for that too
+  pollfd terminal{0, 0, 0};  // reports a hang-up unasked; read() alone says 0 for that too
   if (poll(&terminal, 1, 0) > 0) quit_ = true;
   Input input;
-  input.drive = static_cast<std::int8_t>((right_us_ > now_us ? 127 : 0) -
-                                         (left_us_ > now_us ? 127 : 0));
+  input.drive =
+      static_cast<std::int8_t>((right_us_ > now_us ? 127 : 0) - (left_us_ > now_us ? 127 : 0));
   input.lift =
       static_cast<std::int8_t>((up_us_ > now_us ? 127 : 0) - (down_us_ > now_us ? 127 : 0));
   int buttons = 0;

@@ -33,7 +33,7 @@ class Keyboard {
   std::unique_ptr<Saved> saved_;
   std::int64_t right_us_ = 0, left_us_ = 0, up_us_ = 0, down_us_ = 0;
   std::int64_t button_us_[10] = {};
-  int escape_ = 0;                     // bytes of an arrow's ESC [ or ESC O that have come
+  int escape_ = 0;  // bytes of an arrow's ESC [ or ESC O that have come
   bool quit_ = false;
 };
 

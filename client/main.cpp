@@ -1,7 +1,6 @@
 /// seam-client: one player (or spectator) of a room, over UDP. `seam-client --help`.
 
 #include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -146,8 +145,7 @@ int Play(const Flags& f) {
                "%lld bus failures\n",
                client.closed() ? "the server closed the room" : "left",
                static_cast<long long>(s.datagrams_in), static_cast<long long>(s.datagrams_out),
-               static_cast<long long>(s.dropped_malformed),
-               static_cast<long long>(s.dropped_stale),
+               static_cast<long long>(s.dropped_malformed), static_cast<long long>(s.dropped_stale),
                static_cast<long long>(sink.failures()));
   return 0;
 }

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/canvas/palette.h"
 #include "render/draw/draw_hud.h"
 #include "render/draw/draw_world.h"
 #include "render/playback/format.h"
-#include "render/canvas/palette.h"
 
 namespace seam {
 namespace {
@@ -76,8 +76,7 @@ Page MakePage(const Playback& playback, int peer) {
   page.subtitle = RunDescription(playback);
   page.to_s = playback.last_s();
   const std::vector<int> peers = playback.peers();
-  const std::vector<int> shown = peer == kViewAll ? peers
-                                                  : std::vector<int>{playback.PeerOr(peer)};
+  const std::vector<int> shown = peer == kViewAll ? peers : std::vector<int>{playback.PeerOr(peer)};
   for (int p : shown)
     page.panels.push_back({&playback, p, p, "view of " + playback.PeerName(p), {0, 0, 0, 0}});
   if (!playback.has_oracle()) return page;

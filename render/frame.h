@@ -5,19 +5,19 @@
 #include <string>
 #include <vector>
 
+#include "render/canvas/viewport.h"
 #include "render/draw/draw_strip.h"
 #include "render/playback/playback.h"
-#include "render/canvas/viewport.h"
 
 namespace seam {
 
 /// One world on the page.
 struct Panel {
-  const Playback* playback = nullptr;   ///< borrowed
-  int peer = 0;                         ///< whose view
-  int error_peer = -1;                  ///< whose error the caption states; -1: all views'
+  const Playback* playback = nullptr;  ///< borrowed
+  int peer = 0;                        ///< whose view
+  int error_peer = -1;                 ///< whose error the caption states; -1: all views'
   std::string caption;
-  Colour swatch{0, 0, 0, 0};            ///< of its curve; alpha 0: none
+  Colour swatch{0, 0, 0, 0};  ///< of its curve; alpha 0: none
 };
 
 struct Page {
@@ -25,7 +25,7 @@ struct Page {
   std::string title, subtitle;
   std::vector<Panel> panels;
   std::vector<Curve> curves;
-  double from_s = 0, to_s = 1;          ///< the strip's axis
+  double from_s = 0, to_s = 1;  ///< the strip's axis
   bool cull = true;
 };
 

@@ -12,8 +12,8 @@ namespace seam {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-constexpr double kQuiet_s = 2;        ///< the end of a session
-constexpr double kFirstWait_s = 30;   ///< for its beginning, unless --seconds says otherwise
+constexpr double kQuiet_s = 2;       ///< the end of a session
+constexpr double kFirstWait_s = 30;  ///< for its beginning, unless --seconds says otherwise
 
 double Since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();

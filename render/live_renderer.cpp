@@ -5,18 +5,18 @@
 #include <variant>
 
 #include "common/codec/codec.h"
-#include "render/frame.h"
-#include "render/load.h"
 #include "render/canvas/palette.h"
 #include "render/canvas/png_writer.h"
+#include "render/frame.h"
+#include "render/load.h"
 
 namespace seam {
 namespace {
 
-constexpr double kBehind_s = 0.5;       ///< frames further behind the bus than this are skipped
-constexpr std::int64_t kAheadTicks = 3600;   ///< a view further ahead than this is no next view
-constexpr std::int64_t kAgoTicks = 600;      ///< nor is one this long ago
-constexpr int kStraysMax = 30;          ///< so many in a row are a new session
+constexpr double kBehind_s = 0.5;           ///< frames further behind the bus than this are skipped
+constexpr std::int64_t kAheadTicks = 3600;  ///< a view further ahead than this is no next view
+constexpr std::int64_t kAgoTicks = 600;     ///< nor is one this long ago
+constexpr int kStraysMax = 30;              ///< so many in a row are a new session
 
 /// Forgets what no frame will show any more.
 void Prune(Recording* recording, std::int64_t before_tick) {
@@ -39,7 +39,7 @@ void Prune(Recording* recording, std::int64_t before_tick) {
 LiveRenderer::LiveRenderer(const RenderOptions& options)
     : options_(options), folder_(options.out, options.force), builder_(options.room) {
   if (!options.oracle.empty()) truth_ = LoadOracle(options.oracle);
-  const Font probe(1, "", options.fonts);   // fails now, not in the middle of a session
+  const Font probe(1, "", options.fonts);  // fails now, not in the middle of a session
 }
 
 bool LiveRenderer::IsStray(std::int64_t tick) {
@@ -50,7 +50,7 @@ bool LiveRenderer::IsStray(std::int64_t tick) {
   }
   ++dropped_;
   if (++strays_ < kStraysMax) return true;
-  builder_ = RecordingBuilder(options_.room);   // its room is repeated every second
+  builder_ = RecordingBuilder(options_.room);  // its room is repeated every second
   playback_.reset();
   newest_tick_ = -1;
   strays_ = 0;
@@ -70,8 +70,7 @@ void LiveRenderer::DrawDue() {
   // The viewing peer's newest tick; another peer's may be ahead of it.
   const auto views = builder_.recording().views.find(playback_->PeerOr(options_.peer));
   if (views == builder_.recording().views.end() || views->second.empty()) return;
-  const double newest_s = static_cast<double>(views->second.rbegin()->first) /
-                          playback_->tick_hz();
+  const double newest_s = static_cast<double>(views->second.rbegin()->first) / playback_->tick_hz();
   const double behind_s = newest_s - kBehind_s - next_s_;
   if (behind_s > 0) {
     const double frames = std::ceil(behind_s * options_.fps);

@@ -47,15 +47,15 @@ class LiveRenderer {
   OutputFolder folder_;
   RecordingBuilder builder_;
   std::optional<GivenOracle> truth_;
-  std::optional<Playback> playback_;   // of builder_'s recording
+  std::optional<Playback> playback_;  // of builder_'s recording
   std::optional<Font> font_;
   std::unique_ptr<Canvas> canvas_;
   std::optional<DrawList> list_;
   Image image_;
   bool prepared_ = false;
-  double next_s_ = 0;                  // the next frame's moment
-  std::int64_t newest_tick_ = -1;      // of all views taken
-  int strays_ = 0;                     // dropped one after another
+  double next_s_ = 0;              // the next frame's moment
+  std::int64_t newest_tick_ = -1;  // of all views taken
+  int strays_ = 0;                 // dropped one after another
   int frames_ = 0, skipped_ = 0;
   std::int64_t dropped_ = 0;
 };

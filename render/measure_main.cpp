@@ -109,10 +109,10 @@ void WriteCsv(const std::vector<MeasuredRun>& runs, const Options& options) {
 }
 
 void PrintFloor(const Recording& recording) {
-  std::printf("floor of %s: %.3g m RMS (the oracle against itself, one body moved by 1e-6 m; "
-              "median over bodies)\n",
-              recording.room.scene_name.c_str(),
-              ErrorFloor(recording, ComputeOracle(recording)));
+  std::printf(
+      "floor of %s: %.3g m RMS (the oracle against itself, one body moved by 1e-6 m; "
+      "median over bodies)\n",
+      recording.room.scene_name.c_str(), ErrorFloor(recording, ComputeOracle(recording)));
 }
 
 void Run(const Options& options) {
@@ -147,7 +147,7 @@ int main(int argc, char** argv) {
   app.add_flag("--append", options.append, "add to the CSV file instead of replacing it");
   app.add_option("--names", options.names, "what to call the runs, in the order of the logs")
       ->delimiter(',')
-      ->allow_extra_args(false);   // the logs may follow it
+      ->allow_extra_args(false);  // the logs may follow it
   app.add_flag("--floor", options.floor, "also print what chaos alone does to the first log");
   app.add_flag("--more", options.more, "print the further measures");
   return seam::RunMain("seam-measure", [&] {

@@ -9,20 +9,20 @@ namespace seam {
 
 struct RenderOptions {
   std::vector<std::string> logs;
-  std::string out;               ///< folder; a file for strobe
+  std::string out;  ///< folder; a file for strobe
   bool compare = false, strobe = false, live = false, force = false;
   int fps = 30;
   int width_px = 1280, height_px = 720;
   bool size_given = false;
-  double from_s = std::numeric_limits<double>::quiet_NaN();   ///< NaN: the recording's own
+  double from_s = std::numeric_limits<double>::quiet_NaN();  ///< NaN: the recording's own
   double to_s = std::numeric_limits<double>::quiet_NaN();
   bool peer_given = false;
-  int peer = 0;                  ///< kViewAll: all side by side
-  std::string oracle;            ///< log made in mode oracle; "": computed
-  int threads = 0;               ///< 0: as many as there are cores
+  int peer = 0;        ///< kViewAll: all side by side
+  std::string oracle;  ///< log made in mode oracle; "": computed
+  int threads = 0;     ///< 0: as many as there are cores
   int every_ticks = 0;
   std::string lcm_url, room;
-  double seconds = 0;            ///< live: at most this long; 0: until quiet
+  double seconds = 0;  ///< live: at most this long; 0: until quiet
   std::string video;
   std::string fonts;
 };

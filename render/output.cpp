@@ -65,8 +65,7 @@ void CheckOutputFile(const std::string& path, const std::string& ending, bool fo
   if (file.extension() != ending) throw OperatorError(path + ": must end in " + ending);
   std::error_code error;
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
-  if (!fs::is_directory(folder, error))
-    throw OperatorError(folder.string() + ": no such folder");
+  if (!fs::is_directory(folder, error)) throw OperatorError(folder.string() + ": no such folder");
   if (fs::is_directory(file, error)) throw OperatorError(path + " is a folder");
   if (fs::exists(file, error) && !force)
     throw OperatorError(path + " exists: choose another name or give --force");
@@ -81,9 +80,14 @@ void RequireFfmpeg() {
 }
 
 void EncodeVideo(const OutputFolder& folder, int fps, const std::string& path) {
-  std::vector<std::string> words{"ffmpeg", "-loglevel", "error", "-y", "-framerate",
-                                 std::to_string(fps), "-i", folder.path() + "/frame_%05d.png",
-                                 "-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18", path};
+  std::vector<std::string> words{"ffmpeg",     "-loglevel",
+                                 "error",      "-y",
+                                 "-framerate", std::to_string(fps),
+                                 "-i",         folder.path() + "/frame_%05d.png",
+                                 "-c:v",       "libx264",
+                                 "-pix_fmt",   "yuv420p",
+                                 "-crf",       "18",
+                                 path};
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);

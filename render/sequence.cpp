@@ -29,7 +29,7 @@ std::vector<double> FrameTimes(double from_s, double to_s, int fps) {
 void WriteSequence(const Page& page, const Font& font, const std::vector<double>& times_s,
                    int threads, const OutputFolder& folder, const Progress& progress) {
   std::atomic<std::size_t> next{0};
-  std::mutex mutex;   // guards done, first_error and the callback
+  std::mutex mutex;  // guards done, first_error and the callback
   int done = 0;
   std::exception_ptr first_error;
   const auto work = [&] {

@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/canvas/palette.h"
 #include "render/draw/draw_body.h"
 #include "render/draw/draw_ghosts.h"
 #include "render/draw/draw_hud.h"
 #include "render/draw/draw_joints.h"
 #include "render/draw/draw_scene.h"
 #include "render/playback/format.h"
-#include "render/canvas/palette.h"
 #include "render/strobe_layout.h"
 
 namespace seam {
 namespace {
 
-constexpr float kGhostWidth = 0.9f;   ///< px; many lie over each other here
+constexpr float kGhostWidth = 0.9f;  ///< px; many lie over each other here
 
 std::vector<double> Exposures(const StrobePlan& plan) {
   std::vector<double> times;
@@ -85,8 +85,7 @@ void DrawPanel(DrawList& list, const Rect& area, const Playback& playback, int p
   for (std::size_t i = 0; i < times.size(); ++i)
     DrawGhosts(list, viewport, playback, peer, times, i);
   list.NoClip();
-  list.StrokeRect({area.x + 0.5f, area.y + 0.5f, area.width - 1, area.height - 1},
-                  {1, kFrame, 0});
+  list.StrokeRect({area.x + 0.5f, area.y + 0.5f, area.width - 1, area.height - 1}, {1, kFrame, 0});
 }
 
 std::string Explained(const std::string& mode) {
@@ -133,17 +132,19 @@ StrobeLayout LayOutStrobe(const StrobePlan& plan, int rows) {
   const auto columns = static_cast<float>(plan.peers.size());
   const auto row_count = static_cast<float>(rows);
   layout.panel_width = (static_cast<float>(plan.width_px) - 2 * layout.margin - layout.labels -
-                        (columns - 1) * layout.gap) / columns;
+                        (columns - 1) * layout.gap) /
+                       columns;
   layout.panel_height = (static_cast<float>(plan.height_px) - layout.header - layout.footer -
-                         (row_count - 1) * layout.gap) / row_count;
+                         (row_count - 1) * layout.gap) /
+                        row_count;
   return layout;
 }
 
 int StrobeHeight(const StrobePlan& plan, int rows) {
   const StrobeLayout layout = LayOutStrobe(plan, rows);
   const Vec2 size = plan.max - plan.min;
-  const float panel = std::clamp(layout.panel_width * size.y() / size.x(), 96 * layout.scale,
-                                 190 * layout.scale);
+  const float panel =
+      std::clamp(layout.panel_width * size.y() / size.x(), 96 * layout.scale, 190 * layout.scale);
   const float count = static_cast<float>(rows);
   return static_cast<int>(std::lround(layout.header + layout.footer + count * std::round(panel) +
                                       (count - 1) * layout.gap));
@@ -169,8 +170,7 @@ void DrawStrobe(DrawList& list, const std::vector<Playback>& playbacks, const St
     const std::string name = last.PeerName(plan.peers[column]);
     list.Text(x, layout.header - 7 * scale, TextStyle::kStrong, "as " + name + " sees it", kInk);
     for (std::size_t row = 0; row < playbacks.size(); ++row) {
-      const float y = layout.header +
-                      static_cast<float>(row) * (layout.panel_height + layout.gap);
+      const float y = layout.header + static_cast<float>(row) * (layout.panel_height + layout.gap);
       const Rect area{std::round(x), std::round(y), std::round(layout.panel_width),
                       std::round(layout.panel_height)};
       const Playback& playback = playbacks[row];

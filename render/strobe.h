@@ -4,17 +4,17 @@
 
 #include <vector>
 
-#include "render/playback/playback.h"
 #include "render/canvas/viewport.h"
+#include "render/playback/playback.h"
 
 namespace seam {
 
 /// What the picture shows.
 struct StrobePlan {
   double from_s = 0, to_s = 1;
-  double step_s = 0.1;             ///< between exposures; the last one is at to_s or before
-  Vec2 min{0, 0}, max{1, 1};       ///< of the world, m
-  std::vector<int> peers;          ///< columns: whose views
+  double step_s = 0.1;        ///< between exposures; the last one is at to_s or before
+  Vec2 min{0, 0}, max{1, 1};  ///< of the world, m
+  std::vector<int> peers;     ///< columns: whose views
   int width_px = 1280, height_px = 720;
 };
 
@@ -22,7 +22,7 @@ struct StrobePlan {
 struct StrobeWishes {
   double from_s, to_s;
   int every_ticks = 0;
-  int peer = -1;                   ///< one column; -1: the clients
+  int peer = -1;  ///< one column; -1: the clients
   int width_px = 0, height_px = 0;
 };
 

@@ -12,8 +12,8 @@
 namespace seam {
 namespace {
 
-constexpr double kBefore_s = 0.2, kAfter_s = 0.8;   ///< about the collision
-constexpr int kExposures = 8;                       ///< unless asked otherwise
+constexpr double kBefore_s = 0.2, kAfter_s = 0.8;  ///< about the collision
+constexpr int kExposures = 8;                      ///< unless asked otherwise
 constexpr double kExposuresMax = 200;
 constexpr float kJumpMin = 1.0f;       ///< m/s in a tick that only a collision gives
 constexpr float kStrongImpact = 3.0f;  ///< m/s
@@ -39,8 +39,7 @@ std::int64_t WatchedTick(const Playback& playback) {
   for (; tick < last; ++tick)
     for (PartId id : struck) {
       const auto now = oracle.At(tick, id), before = oracle.At(tick - 1, id);
-      if (now && before && (now->velocity - before->velocity).norm() > kJumpMin)
-        return tick;
+      if (now && before && (now->velocity - before->velocity).norm() > kJumpMin) return tick;
     }
   return -1;
 }
@@ -63,7 +62,7 @@ std::int64_t WorstTick(const Playback& playback) {
   std::int64_t worst = -1;
   double most = 0;
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    if (!(errors[i] > most)) continue;   // nor is NaN
+    if (!(errors[i] > most)) continue;  // nor is NaN
     most = errors[i];
     worst = playback.ErrorFirstTick() + static_cast<std::int64_t>(i);
   }
@@ -102,8 +101,8 @@ Box MovingBox(const std::vector<Playback>& playbacks, const StrobePlan& plan) {
         };
         if (const auto truth = playback.Truth(body.id, tick)) add(*truth);
         for (int peer : plan.peers)
-          if (const auto shown = playback.Find(
-                  playback.MomentAt(playback.PeerOr(peer), tick), body.id))
+          if (const auto shown =
+                  playback.Find(playback.MomentAt(playback.PeerOr(peer), tick), body.id))
             add(shown->pose);
       }
       if (path.empty()) continue;
@@ -151,7 +150,7 @@ std::vector<int> Columns(const std::vector<Playback>& playbacks, int wish) {
       if (peer > 0) clients.insert(peer);
   if (wish >= 0) return {wish};
   std::vector<int> columns(clients.begin(), clients.end());
-  if (columns.size() > 2) columns.resize(2);   // more would be too small to read
+  if (columns.size() > 2) columns.resize(2);  // more would be too small to read
   if (columns.empty()) columns.push_back(0);
   return columns;
 }
@@ -172,8 +171,8 @@ StrobePlan PlanStrobe(const std::vector<Playback>& playbacks, const StrobeWishes
   const Playback& first = playbacks.front();
   const double hit_s = CollisionTime(playbacks);
   StrobePlan plan;
-  plan.from_s = std::isnan(wishes.from_s) ? std::max(first.first_s(), hit_s - kBefore_s)
-                                          : wishes.from_s;
+  plan.from_s =
+      std::isnan(wishes.from_s) ? std::max(first.first_s(), hit_s - kBefore_s) : wishes.from_s;
   plan.to_s = std::isnan(wishes.to_s) ? std::min(first.last_s(), plan.from_s + kBefore_s + kAfter_s)
                                       : wishes.to_s;
   if (plan.from_s >= plan.to_s || plan.from_s > first.last_s() || plan.to_s < first.first_s())

@@ -1,7 +1,6 @@
 /// seam-server: a room over UDP. `seam-server --help`.
 
 #include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -121,8 +120,8 @@ int Serve(const Flags& f) {
   std::fprintf(stderr,
                "seam-server: %s, mode %s%s%s, network %s, on %s; waiting for %d player(s)\n",
                scene.name.c_str(), f.mode.c_str(), config.sync.reconcile_name.empty() ? "" : " ",
-               config.sync.reconcile_name.c_str(), f.impair.c_str(),
-               ToString(udp.local()).c_str(), config.wait_players);
+               config.sync.reconcile_name.c_str(), f.impair.c_str(), ToString(udp.local()).c_str(),
+               config.wait_players);
   std::int64_t next_line_us = 0;
   while (g_stop == 0 && (last_tick == 0 || server.tick() < last_tick)) {
     const std::int64_t now = SteadyClockUs();

@@ -190,7 +190,7 @@ void Server::Relay(const States& states, int from_peer) {
     bool near = config_.sync.mode != Mode::kBuffer;
     for (std::size_t i = 0; i < states.id.size() && !near; ++i) {
       const int body = replica_.world().BodyOfId(states.id[i]);
-      if (body < 0) continue;   // it has left meanwhile
+      if (body < 0) continue;  // it has left meanwhile
       const Holding& h = replica_.authority().at(replica_.world().mechanism(body));
       near = ((h.secondaries >> session->peer) & 1U) != 0;
     }

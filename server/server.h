@@ -12,9 +12,9 @@
 
 #include "common/net/net.h"
 #include "common/record/recorder.h"
-#include "server/authority/planner.h"
 #include "common/sync/publisher.h"
 #include "common/sync/replica.h"
+#include "server/authority/planner.h"
 #include "server/session.h"
 
 namespace seam {
@@ -25,9 +25,9 @@ class Rules;
 struct ServerConfig {
   SyncConfig sync;
   std::string room = "main";
-  std::string impair = "perfect";     ///< for the record only
+  std::string impair = "perfect";  ///< for the record only
   std::int64_t seed = 1;
-  int wait_players = 0;               ///< tick 0 comes when this many players are ready
+  int wait_players = 0;  ///< tick 0 comes when this many players are ready
 };
 
 class Server {
@@ -138,30 +138,30 @@ class Server {
   Planner planner_;
   Sessions sessions_;
   std::unique_ptr<RoomHands> hands_;
-  std::unique_ptr<Rules> rules_;                // null: the scene has nothing to decide
-  std::int64_t rules_us_ = 0;                   // the time of the tick they look at
-  std::vector<Wish> wishes_;                    // of the last plan
-  bool plan_due_ = true;                        // somebody came or went
-  std::vector<bool> revoking_;                  // by mechanism: told to let go, not yet confirmed
+  std::unique_ptr<Rules> rules_;  // null: the scene has nothing to decide
+  std::int64_t rules_us_ = 0;     // the time of the tick they look at
+  std::vector<Wish> wishes_;      // of the last plan
+  bool plan_due_ = true;          // somebody came or went
+  std::vector<bool> revoking_;    // by mechanism: told to let go, not yet confirmed
   struct Pending {
     Edit edit;
-    int peer = 0;                               // who proposed it
-    std::int64_t since = 0;                     // tick
+    int peer = 0;            // who proposed it
+    std::int64_t since = 0;  // tick
   };
-  std::vector<Pending> pending_;                // in the order of coming
-  std::vector<EditOrder> edits_;                // all that were ordered, by number
-  std::map<int, std::uint64_t> hash_after_;     // of the composition, by number of edits applied
-  bool full_ = false;                           // no more edits
+  std::vector<Pending> pending_;             // in the order of coming
+  std::vector<EditOrder> edits_;             // all that were ordered, by number
+  std::map<int, std::uint64_t> hash_after_;  // of the composition, by number of edits applied
+  bool full_ = false;                        // no more edits
   struct LastAccepted {
     std::int64_t tick = -1;
     Vec2 position{0, 0};
   };
-  std::vector<LastAccepted> accepted_;          // by body
+  std::vector<LastAccepted> accepted_;  // by body
   std::int64_t tick0_us_ = -1;
   std::int64_t last_room_us_ = -1000000000;
   std::int64_t last_stats_us_ = -1000000000;
   std::int64_t worst_late_us_ = 0;
-  std::int64_t discarded_ = 0;                  // by the net, as far as counted in stats_
+  std::int64_t discarded_ = 0;  // by the net, as far as counted in stats_
   Stats stats_;
 };
 

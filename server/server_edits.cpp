@@ -7,8 +7,8 @@
 
 #include "common/codec/codec.h"
 #include "common/physics/part_places.h"
-#include "server/authority/proposal.h"
 #include "common/sync/edit_order.h"
+#include "server/authority/proposal.h"
 #include "server/server.h"
 
 namespace seam {
@@ -35,7 +35,7 @@ void Server::OnProposal(Session& session, const EditOrder& order) {
   const Edit edit = ToEdit(order);
   const Topology& topology = replica_.world().topology();
   if (!topology.Complaint(edit).empty()) {
-    ++stats_.dropped_stale;   // somebody else's came first
+    ++stats_.dropped_stale;  // somebody else's came first
     return;
   }
   const std::vector<PartId> parts = topology.PartsOf(edit);
@@ -103,7 +103,7 @@ void Server::OrderPending(std::int64_t now_us) {
   const auto patience = static_cast<std::int64_t>(kPatience * config_.sync.tick_hz);
   std::vector<Pending> waiting;
   std::vector<EditOrder> ordered;
-  std::vector<PartId> taken;               // parts that an edit of this batch is about
+  std::vector<PartId> taken;  // parts that an edit of this batch is about
   for (Pending& pending : pending_) {
     if (!topology.Complaint(pending.edit).empty()) {
       if (pending.peer > 0) ++stats_.dropped_stale;
@@ -119,7 +119,7 @@ void Server::OrderPending(std::int64_t now_us) {
       continue;
     }
     const bool found = pending.edit.cause == EditCause::kPhysics;
-    if (found && !PlausibleProposal(replica_.world(), pending.edit)) continue;   // it has moved on
+    if (found && !PlausibleProposal(replica_.world(), pending.edit)) continue;  // it has moved on
     if (edits_.size() == kEditsMost) {
       if (!full_) Say(now_us, "no more edits: the room has had " + std::to_string(kEditsMost));
       full_ = true;
@@ -165,8 +165,8 @@ void Server::CheckComposition(std::int64_t now_us, Session& session, const Ping&
   if (session.stage != SessionStage::kReady || ping.topology < 0) return;
   const auto known = hash_after_.find(ping.topology);
   const bool never = ping.topology > static_cast<std::int32_t>(edits_.size());
-  const bool other = known != hash_after_.end() &&
-                     known->second != static_cast<std::uint64_t>(ping.composition);
+  const bool other =
+      known != hash_after_.end() && known->second != static_cast<std::uint64_t>(ping.composition);
   if (!never && !other) return;
   // Once for each time it was repaired: what is under way must arrive first.
   if (now_us - session.repaired_us < kRepairAgainUs) return;

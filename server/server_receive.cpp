@@ -53,9 +53,8 @@ void Server::OnDatagram(std::int64_t now_us, const Address& from, const Bytes& d
   }
   if (found != sessions_.end()) {
     Session& session = *found->second;
-    const bool good = session.link.Receive(now_us, datagram, [&](ByteView message) {
-      OnMessage(now_us, session, message);
-    });
+    const bool good = session.link.Receive(
+        now_us, datagram, [&](ByteView message) { OnMessage(now_us, session, message); });
     if (!good) ++stats_.dropped_malformed;
     return;
   }
@@ -166,8 +165,8 @@ bool Server::Plausible(int body, std::int64_t tick, const BodyState& state) {
   if (state.velocity.norm() > scene_.speed_limit) return false;
   const LastAccepted& last = accepted_[static_cast<std::size_t>(body)];
   if (last.tick < 0) return true;
-  const float seconds = static_cast<float>(std::max<std::int64_t>(1, tick - last.tick)) *
-                        replica_.world().dt();
+  const float seconds =
+      static_cast<float>(std::max<std::int64_t>(1, tick - last.tick)) * replica_.world().dt();
   return (p - last.position).norm() <= scene_.speed_limit * seconds + kJumpSlack;
 }
 
@@ -183,16 +182,16 @@ void Server::OnStates(std::int64_t now_us, Session& session, const States& state
     return;
   }
   const auto hash = hash_after_.find(states.topology);
-  const bool other = hash != hash_after_.end() &&
-                     hash->second != static_cast<std::uint64_t>(states.composition);
+  const bool other =
+      hash != hash_after_.end() && hash->second != static_cast<std::uint64_t>(states.composition);
   if (other || states.topology > replica_.topology()) {
-    ++stats_.dropped_implausible;   // its next ping has it repaired
+    ++stats_.dropped_implausible;  // its next ping has it repaired
     return;
   }
   States kept = states;
   kept.utime = now_us;
-  for (auto* column : {&kept.id, &kept.epoch, &kept.x, &kept.y, &kept.angle, &kept.vx, &kept.vy,
-                       &kept.spin}) {
+  for (auto* column :
+       {&kept.id, &kept.epoch, &kept.x, &kept.y, &kept.angle, &kept.vx, &kept.vy, &kept.spin}) {
     column->clear();
   }
   kept.flags.clear();

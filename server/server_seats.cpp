@@ -61,8 +61,8 @@ bool Server::GetIn(int player, int index) {
   if (world.scene().parts[static_cast<std::size_t>(own)].gone) return false;
   const BodyState vehicle = PartPose(world, seat.part);
   const float c = std::cos(vehicle.angle), s = std::sin(vehicle.angle);
-  const Vec2 place = vehicle.position +
-                     Vec2(c * seat.at.x() - s * seat.at.y(), s * seat.at.x() + c * seat.at.y());
+  const Vec2 place =
+      vehicle.position + Vec2(c * seat.at.x() - s * seat.at.y(), s * seat.at.x() + c * seat.at.y());
   if ((PartPose(world, own).position - place).norm() > seat.reach) return false;
   Edit bond;
   bond.kind = EditKind::kBond;

@@ -85,9 +85,9 @@ void Server::Advance(std::int64_t now_us, Session& session) {
     Chunk chunk;
     chunk.utime = now_us;
     chunk.offset_bytes = static_cast<std::int32_t>(at);
-    chunk.data.assign(room.begin() + static_cast<std::ptrdiff_t>(at),
-                      room.begin() +
-                          static_cast<std::ptrdiff_t>(std::min(room.size(), at + kChunkBytes)));
+    chunk.data.assign(
+        room.begin() + static_cast<std::ptrdiff_t>(at),
+        room.begin() + static_cast<std::ptrdiff_t>(std::min(room.size(), at + kChunkBytes)));
     session.link.SendReliable(Encode(chunk));
   }
   SendWorld(now_us, session);
@@ -136,8 +136,8 @@ void Server::DropSilent(std::int64_t now_us) {
 void Server::Drop(std::int64_t now_us, const Address& address, const std::string& why) {
   const auto found = sessions_.find(address);
   if (found == sessions_.end()) return;
-  Say(now_us, found->second->name + " (peer " + std::to_string(found->second->peer) +
-                  ") is gone: " + why);
+  Say(now_us,
+      found->second->name + " (peer " + std::to_string(found->second->peer) + ") is gone: " + why);
   const int peer = found->second->peer;
   const bool played = found->second->player >= 0 && found->second->stage == SessionStage::kReady;
   if (rules_ != nullptr && played) rules_->OnLeave(found->second->player);
@@ -153,7 +153,7 @@ void Server::TakeBack(std::int64_t now_us, int peer) {
     Holding h = replica_.authority().at(m);
     if (h.authority != peer) continue;
     h.authority = 0;
-    h.epoch += revoking_[static_cast<std::size_t>(m)] ? 2 : 1;   // a revocation has used up one
+    h.epoch += revoking_[static_cast<std::size_t>(m)] ? 2 : 1;  // a revocation has used up one
     h.secondaries &= ~(std::uint32_t{1} << peer);
     revoking_[static_cast<std::size_t>(m)] = false;
     replica_.authority().Set(m, h);
@@ -180,7 +180,7 @@ void Server::Shutdown(std::int64_t now_us, const std::string& reason) {
   Bye bye;
   bye.utime = now_us;
   bye.reason = reason;
-  for (int copy = 0; copy < kByeCopies; ++copy) {   // nobody will repeat a lost one
+  for (int copy = 0; copy < kByeCopies; ++copy) {  // nobody will repeat a lost one
     for (auto& [address, session] : sessions_) session->link.SendUnreliable(Encode(bye));
     FlushAll(now_us);
   }

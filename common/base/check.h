@@ -8,12 +8,12 @@
 #include <string>
 
 /// Our own bug: prints file and line and aborts, in every build.
-#define SEAM_ASSERT(condition)                                                              \
-  do {                                                                                      \
-    if (!(condition)) {                                                                     \
+#define SEAM_ASSERT(condition)                                                               \
+  do {                                                                                       \
+    if (!(condition)) {                                                                      \
       std::fprintf(stderr, "%s:%d: assertion failed: %s\n", __FILE__, __LINE__, #condition); \
-      std::abort();                                                                         \
-    }                                                                                       \
+      std::abort();                                                                          \
+    }                                                                                        \
   } while (false)
 
 namespace seam {

@@ -35,7 +35,7 @@ struct Wire<Hello> {
   using Type = hello_t;
   template <class M>
   static auto Fields(M& m) {
-        return std::tie(m.utime, m.protocol, m.name);
+    return std::tie(m.utime, m.protocol, m.name);
   }
 };
 
@@ -44,7 +44,7 @@ struct Wire<Welcome> {
   using Type = welcome_t;
   template <class M>
   static auto Fields(M& m) {
-        return std::tie(m.utime, m.peer, m.player, m.room_bytes);
+    return std::tie(m.utime, m.peer, m.player, m.room_bytes);
   }
 };
 
@@ -53,7 +53,7 @@ struct Wire<Chunk> {
   using Type = chunk_t;
   template <class M>
   static auto Fields(M& m) {
-        return std::tie(m.utime, m.offset_bytes, m.data);
+    return std::tie(m.utime, m.offset_bytes, m.data);
   }
 };
 
@@ -62,7 +62,7 @@ struct Wire<Room> {
   using Type = room_t;
   template <class M>
   static auto Fields(M& m) {
-        return std::tie(m.utime, m.sequence, m.protocol, m.room, m.scene_name, m.scene_text, m.mode,
+    return std::tie(m.utime, m.sequence, m.protocol, m.room, m.scene_name, m.scene_text, m.mode,
                     m.reconcile, m.impair, m.seed, m.tick_hz, m.send_hz);
   }
 };
@@ -72,7 +72,7 @@ struct Wire<Ping> {
   using Type = ping_t;
   template <class M>
   static auto Fields(M& m) {
-        return std::tie(m.utime, m.topology, m.composition);
+    return std::tie(m.utime, m.topology, m.composition);
   }
 };
 
@@ -81,7 +81,7 @@ struct Wire<Pong> {
   using Type = pong_t;
   template <class M>
   static auto Fields(M& m) {
-        return std::tie(m.utime, m.client_us, m.tick0_us);
+    return std::tie(m.utime, m.client_us, m.tick0_us);
   }
 };
 
@@ -90,7 +90,7 @@ struct Wire<Inputs> {
   using Type = inputs_t;
   template <class M>
   static auto Fields(M& m) {
-        return std::tie(m.utime, m.sequence, m.player, m.first_tick, m.drive, m.lift, m.buttons);
+    return std::tie(m.utime, m.sequence, m.player, m.first_tick, m.drive, m.lift, m.buttons);
   }
 };
 
@@ -99,7 +99,7 @@ struct Wire<States> {
   using Type = states_t;
   template <class M>
   static auto Fields(M& m) {
-        return std::tie(m.utime, m.sequence, m.peer, m.tick, m.topology, m.composition, m.origin_x,
+    return std::tie(m.utime, m.sequence, m.peer, m.tick, m.topology, m.composition, m.origin_x,
                     m.origin_y, m.id, m.epoch, m.flags, m.x, m.y, m.angle, m.vx, m.vy, m.spin);
   }
 };
@@ -109,8 +109,7 @@ struct Wire<Grants> {
   using Type = grants_t;
   template <class M>
   static auto Fields(M& m) {
-        return std::tie(m.utime, m.sequence, m.tick, m.mechanism, m.authority, m.epoch,
-                    m.secondaries);
+    return std::tie(m.utime, m.sequence, m.tick, m.mechanism, m.authority, m.epoch, m.secondaries);
   }
 };
 
@@ -119,7 +118,7 @@ struct Wire<EditOrder> {
   using Type = edit_t;
   template <class M>
   static auto Fields(M& m) {
-        return std::tie(m.utime, m.sequence, m.number, m.tick, m.kind, m.cause, m.a, m.b, m.joint,
+    return std::tie(m.utime, m.sequence, m.number, m.tick, m.kind, m.cause, m.a, m.b, m.joint,
                     m.player, m.text, m.value);
   }
 };
@@ -129,7 +128,7 @@ struct Wire<Meta> {
   using Type = meta_t;
   template <class M>
   static auto Fields(M& m) {
-        return std::tie(m.utime, m.sequence, m.tick, m.kind, m.id, m.key, m.value);
+    return std::tie(m.utime, m.sequence, m.tick, m.kind, m.id, m.key, m.value);
   }
 };
 
@@ -138,8 +137,8 @@ struct Wire<View> {
   using Type = view_t;
   template <class M>
   static auto Fields(M& m) {
-        return std::tie(m.utime, m.sequence, m.peer, m.tick, m.topology, m.part, m.parts, m.id,
-                    m.role, m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin);
+    return std::tie(m.utime, m.sequence, m.peer, m.tick, m.topology, m.part, m.parts, m.id, m.role,
+                    m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin);
   }
 };
 
@@ -148,7 +147,7 @@ struct Wire<Impacts> {
   using Type = impacts_t;
   template <class M>
   static auto Fields(M& m) {
-        return std::tie(m.utime, m.sequence, m.peer, m.tick, m.id_a, m.id_b, m.x, m.y, m.dv);
+    return std::tie(m.utime, m.sequence, m.peer, m.tick, m.id_a, m.id_b, m.x, m.y, m.dv);
   }
 };
 
@@ -157,10 +156,10 @@ struct Wire<Stats> {
   using Type = stats_t;
   template <class M>
   static auto Fields(M& m) {
-        return std::tie(m.utime, m.sequence, m.peer, m.tick, m.bytes_out, m.bytes_in,
-                    m.datagrams_out, m.datagrams_in, m.dropped_malformed, m.dropped_stale,
-                    m.dropped_right, m.dropped_implausible, m.cpu_us, m.rtt_us, m.loss_ppm,
-                    m.tick_late_us, m.clock_offset_us);
+    return std::tie(m.utime, m.sequence, m.peer, m.tick, m.bytes_out, m.bytes_in, m.datagrams_out,
+                    m.datagrams_in, m.dropped_malformed, m.dropped_stale, m.dropped_right,
+                    m.dropped_implausible, m.cpu_us, m.rtt_us, m.loss_ppm, m.tick_late_us,
+                    m.clock_offset_us);
   }
 };
 
@@ -169,7 +168,7 @@ struct Wire<Event> {
   using Type = event_t;
   template <class M>
   static auto Fields(M& m) {
-        return std::tie(m.utime, m.sequence, m.peer, m.tick, m.text);
+    return std::tie(m.utime, m.sequence, m.peer, m.tick, m.text);
   }
 };
 
@@ -178,7 +177,7 @@ struct Wire<Bye> {
   using Type = bye_t;
   template <class M>
   static auto Fields(M& m) {
-        return std::tie(m.utime, m.reason);
+    return std::tie(m.utime, m.reason);
   }
 };
 
@@ -233,22 +232,14 @@ using Decoder = AnyMessage (*)(ByteView);
 
 const std::unordered_map<std::uint64_t, Decoder>& Decoders() {
   static const std::unordered_map<std::uint64_t, Decoder> decoders = {
-      {WireHash<Hello>(), DecodeAs<Hello>},
-      {WireHash<Welcome>(), DecodeAs<Welcome>},
-      {WireHash<Chunk>(), DecodeAs<Chunk>},
-      {WireHash<Room>(), DecodeAs<Room>},
-      {WireHash<Ping>(), DecodeAs<Ping>},
-      {WireHash<Pong>(), DecodeAs<Pong>},
-      {WireHash<Inputs>(), DecodeAs<Inputs>},
-      {WireHash<States>(), DecodeAs<States>},
-      {WireHash<Grants>(), DecodeAs<Grants>},
-      {WireHash<EditOrder>(), DecodeAs<EditOrder>},
-      {WireHash<Meta>(), DecodeAs<Meta>},
-      {WireHash<View>(), DecodeAs<View>},
-      {WireHash<Impacts>(), DecodeAs<Impacts>},
-      {WireHash<Stats>(), DecodeAs<Stats>},
-      {WireHash<Event>(), DecodeAs<Event>},
-      {WireHash<Bye>(), DecodeAs<Bye>},
+      {WireHash<Hello>(), DecodeAs<Hello>},     {WireHash<Welcome>(), DecodeAs<Welcome>},
+      {WireHash<Chunk>(), DecodeAs<Chunk>},     {WireHash<Room>(), DecodeAs<Room>},
+      {WireHash<Ping>(), DecodeAs<Ping>},       {WireHash<Pong>(), DecodeAs<Pong>},
+      {WireHash<Inputs>(), DecodeAs<Inputs>},   {WireHash<States>(), DecodeAs<States>},
+      {WireHash<Grants>(), DecodeAs<Grants>},   {WireHash<EditOrder>(), DecodeAs<EditOrder>},
+      {WireHash<Meta>(), DecodeAs<Meta>},       {WireHash<View>(), DecodeAs<View>},
+      {WireHash<Impacts>(), DecodeAs<Impacts>}, {WireHash<Stats>(), DecodeAs<Stats>},
+      {WireHash<Event>(), DecodeAs<Event>},     {WireHash<Bye>(), DecodeAs<Bye>},
   };
   return decoders;
 }

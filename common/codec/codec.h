@@ -10,9 +10,8 @@
 namespace seam {
 
 /// What Decode found. std::monostate: malformed, foreign, or breaking a bound of its type.
-using AnyMessage =
-    std::variant<std::monostate, Hello, Welcome, Chunk, Room, Ping, Pong, Inputs, States, Grants,
-                 EditOrder, Meta, View, Impacts, Stats, Event, Bye>;
+using AnyMessage = std::variant<std::monostate, Hello, Welcome, Chunk, Room, Ping, Pong, Inputs,
+                                States, Grants, EditOrder, Meta, View, Impacts, Stats, Event, Bye>;
 
 /// LCM encoding (8 bytes of type hash, then big-endian fields). Requires vectors of equal length
 /// within the bounds of messages.h (asserted: a violation is our bug).

@@ -49,7 +49,7 @@ constexpr std::int32_t kOriginMax = 1 << 20;
 struct Hello {
   std::int64_t utime = 0;
   std::int32_t protocol = kProtocolVersion;
-  std::string name;             ///< player or spectator name, 1..32 characters of [A-Za-z0-9_-]
+  std::string name;  ///< player or spectator name, 1..32 characters of [A-Za-z0-9_-]
 };
 
 /// Server -> client, reliable: admitted. The Room follows in Chunks.
@@ -72,29 +72,29 @@ struct Room {
   std::int64_t utime = 0;
   std::int32_t sequence = 0;
   std::int32_t protocol = kProtocolVersion;
-  std::string room;             ///< room name as in the channel
-  std::string scene_name;       ///< file name of the scene without folder and ".toml"
-  std::string scene_text;       ///< the whole scene file
-  std::string mode;             ///< oracle | central | strict | buffer
-  std::string reconcile;        ///< snap | interleave | ... ; empty unless mode is buffer
-  std::string impair;           ///< name of the network profile
+  std::string room;        ///< room name as in the channel
+  std::string scene_name;  ///< file name of the scene without folder and ".toml"
+  std::string scene_text;  ///< the whole scene file
+  std::string mode;        ///< oracle | central | strict | buffer
+  std::string reconcile;   ///< snap | interleave | ... ; empty unless mode is buffer
+  std::string impair;      ///< name of the network profile
   std::int64_t seed = 0;
   std::int32_t tick_hz = 60;
-  std::int32_t send_hz = 30;    ///< rate of States from each peer
+  std::int32_t send_hz = 30;  ///< rate of States from each peer
 };
 
 /// Client -> server: asks for the server's time.
 struct Ping {
-  std::int64_t utime = 0;       ///< client's clock when sent
-  std::int32_t topology = -1;   ///< edits applied so far, -1 before there is a world
-  std::int64_t composition = 0; ///< hash of the assemblies' make-up after them
+  std::int64_t utime = 0;        ///< client's clock when sent
+  std::int32_t topology = -1;    ///< edits applied so far, -1 before there is a world
+  std::int64_t composition = 0;  ///< hash of the assemblies' make-up after them
 };
 
 /// Server -> client: the answer.
 struct Pong {
-  std::int64_t utime = 0;       ///< server's clock when it answers
-  std::int64_t client_us = 0;   ///< Ping::utime, returned
-  std::int64_t tick0_us = -1;   ///< server's clock at tick 0; -1 while the room waits for players
+  std::int64_t utime = 0;      ///< server's clock when it answers
+  std::int64_t client_us = 0;  ///< Ping::utime, returned
+  std::int64_t tick0_us = -1;  ///< server's clock at tick 0; -1 while the room waits for players
 };
 
 /// A player's inputs for successive ticks.
@@ -102,10 +102,10 @@ struct Inputs {
   std::int64_t utime = 0;
   std::int32_t sequence = 0;
   std::int32_t player = 0;
-  std::int64_t first_tick = 0;            ///< tick that inputs[0] is applied *in* (state after it)
-  std::vector<std::int8_t> drive;         ///< -127..127: throttle, backwards to forwards
-  std::vector<std::int8_t> lift;          ///< -127..127: second axis
-  std::vector<std::int16_t> buttons;      ///< bit field
+  std::int64_t first_tick = 0;        ///< tick that inputs[0] is applied *in* (state after it)
+  std::vector<std::int8_t> drive;     ///< -127..127: throttle, backwards to forwards
+  std::vector<std::int8_t> lift;      ///< -127..127: second axis
+  std::vector<std::int16_t> buttons;  ///< bit field
 };
 
 /// States of bodies after `tick`, from the peer that has authority over them. Quantised:
@@ -113,22 +113,22 @@ struct Inputs {
 struct States {
   std::int64_t utime = 0;
   std::int32_t sequence = 0;
-  std::int32_t peer = 0;                  ///< the authority
+  std::int32_t peer = 0;  ///< the authority
   std::int64_t tick = 0;
-  std::int32_t topology = 0;              ///< edits that the sender had applied
-  std::int64_t composition = 0;           ///< hash of the assemblies' make-up after them
-  std::int32_t origin_x = 0;              ///< whole metres
-  std::int32_t origin_y = 0;              ///< whole metres
-  std::vector<std::int16_t> id;           ///< assembly ids, ascending; all vectors of one length
-  std::vector<std::int16_t> epoch;        ///< of the body's mechanism
-  std::vector<std::int8_t> flags;         ///< kStateAsleep | kStateImpact
-  std::vector<std::int16_t> x, y;         ///< 1/512 m
-  std::vector<std::int16_t> angle;        ///< 2*pi/65536 rad, wraps
-  std::vector<std::int16_t> vx, vy;       ///< 1/256 m/s
-  std::vector<std::int16_t> spin;         ///< 1/256 rad/s
+  std::int32_t topology = 0;         ///< edits that the sender had applied
+  std::int64_t composition = 0;      ///< hash of the assemblies' make-up after them
+  std::int32_t origin_x = 0;         ///< whole metres
+  std::int32_t origin_y = 0;         ///< whole metres
+  std::vector<std::int16_t> id;      ///< assembly ids, ascending; all vectors of one length
+  std::vector<std::int16_t> epoch;   ///< of the body's mechanism
+  std::vector<std::int8_t> flags;    ///< kStateAsleep | kStateImpact
+  std::vector<std::int16_t> x, y;    ///< 1/512 m
+  std::vector<std::int16_t> angle;   ///< 2*pi/65536 rad, wraps
+  std::vector<std::int16_t> vx, vy;  ///< 1/256 m/s
+  std::vector<std::int16_t> spin;    ///< 1/256 rad/s
 };
 constexpr std::int8_t kStateAsleep = 1;
-constexpr std::int8_t kStateImpact = 2;   ///< a major impact in the last second, on the authority
+constexpr std::int8_t kStateImpact = 2;  ///< a major impact in the last second, on the authority
 
 /// Server -> everyone, reliable and ordered: who has authority over a mechanism from `tick` on.
 struct Grants {
@@ -147,14 +147,14 @@ struct Grants {
 struct EditOrder {
   std::int64_t utime = 0;
   std::int32_t sequence = 0;
-  std::int32_t number = -1;     ///< place in the order; -1: a proposal, or (server) begin anew
-  std::int64_t tick = 0;        ///< the server's when ordered; a proposer's own
+  std::int32_t number = -1;  ///< place in the order; -1: a proposal, or (server) begin anew
+  std::int64_t tick = 0;     ///< the server's when ordered; a proposer's own
   std::int8_t kind = 0;
   std::int8_t cause = 0;
   std::int16_t a = -1, b = -1, joint = -1;
   std::int8_t player = -1;
-  std::string text;             ///< at most kEditTextBytesMax
-  std::vector<float> value = {0, 0, 0, 0};   ///< x, y, angle, amount
+  std::string text;                         ///< at most kEditTextBytesMax
+  std::vector<float> value = {0, 0, 0, 0};  ///< x, y, angle, amount
 };
 /// The whole must fit Link's kMessageBytesMax.
 constexpr std::size_t kEditTextBytesMax = 900;
@@ -166,9 +166,9 @@ struct Meta {
   std::int64_t utime = 0;
   std::int32_t sequence = 0;
   std::int64_t tick = 0;
-  std::vector<std::int8_t> kind;          ///< kMetaPart | kMetaPlayer
-  std::vector<std::int16_t> id;           ///< part id, or the player's place in the scene
-  std::vector<std::int8_t> key;           ///< kMetaHealth...
+  std::vector<std::int8_t> kind;  ///< kMetaPart | kMetaPlayer
+  std::vector<std::int16_t> id;   ///< part id, or the player's place in the scene
+  std::vector<std::int8_t> key;   ///< kMetaHealth...
   std::vector<float> value;
 };
 constexpr std::int8_t kMetaPart = 0, kMetaPlayer = 1;
@@ -186,14 +186,14 @@ struct View {
   std::int32_t sequence = 0;
   std::int32_t peer = 0;
   std::int64_t tick = 0;
-  std::int32_t topology = 0;              ///< edits that the peer had applied
-  std::int32_t part = 0;                  ///< part of parts: very large views are split
+  std::int32_t topology = 0;  ///< edits that the peer had applied
+  std::int32_t part = 0;      ///< part of parts: very large views are split
   std::int32_t parts = 1;
-  std::vector<std::int16_t> id;           ///< assembly ids, ascending
-  std::vector<std::int8_t> role;          ///< kRole...
-  std::vector<std::int8_t> authority;     ///< peer that has authority, as this peer knows it
-  std::vector<float> x, y, angle;         ///< m, m, rad (unwrapped): as displayed
-  std::vector<float> vx, vy, spin;        ///< m/s, m/s, rad/s: of the physics state
+  std::vector<std::int16_t> id;        ///< assembly ids, ascending
+  std::vector<std::int8_t> role;       ///< kRole...
+  std::vector<std::int8_t> authority;  ///< peer that has authority, as this peer knows it
+  std::vector<float> x, y, angle;      ///< m, m, rad (unwrapped): as displayed
+  std::vector<float> vx, vy, spin;     ///< m/s, m/s, rad/s: of the physics state
 };
 constexpr std::int8_t kRoleRemote = 0;
 constexpr std::int8_t kRoleSecondary = 1;
@@ -205,9 +205,9 @@ struct Impacts {
   std::int32_t sequence = 0;
   std::int32_t peer = 0;
   std::int64_t tick = 0;
-  std::vector<std::int16_t> id_a, id_b;   ///< assembly ids; -1 for anchored ground
-  std::vector<float> x, y;                ///< m
-  std::vector<float> dv;                  ///< m/s, the larger change of velocity of the two
+  std::vector<std::int16_t> id_a, id_b;  ///< assembly ids; -1 for anchored ground
+  std::vector<float> x, y;               ///< m
+  std::vector<float> dv;                 ///< m/s, the larger change of velocity of the two
 };
 
 /// Once a second, on the bus from every peer: counters since the peer started.
@@ -216,17 +216,17 @@ struct Stats {
   std::int32_t sequence = 0;
   std::int32_t peer = 0;
   std::int64_t tick = 0;
-  std::int64_t bytes_out = 0, bytes_in = 0;          ///< UDP payload
+  std::int64_t bytes_out = 0, bytes_in = 0;  ///< UDP payload
   std::int64_t datagrams_out = 0, datagrams_in = 0;
-  std::int64_t dropped_malformed = 0;   ///< did not decode, or not ours
-  std::int64_t dropped_stale = 0;       ///< old epoch or old tick
-  std::int64_t dropped_right = 0;       ///< sender had no right to say it
-  std::int64_t dropped_implausible = 0; ///< not finite, too fast, out of the world
-  std::int64_t cpu_us = 0;              ///< CPU time of the process (0 in virtual time)
-  std::int32_t rtt_us = 0;              ///< least round trip of the last window, -1 unknown
-  std::int32_t loss_ppm = 0;            ///< datagrams lost on the way in, per million
-  std::int32_t tick_late_us = 0;        ///< worst lateness of a tick in the last second
-  std::int32_t clock_offset_us = 0;     ///< slewed offset still to be corrected
+  std::int64_t dropped_malformed = 0;    ///< did not decode, or not ours
+  std::int64_t dropped_stale = 0;        ///< old epoch or old tick
+  std::int64_t dropped_right = 0;        ///< sender had no right to say it
+  std::int64_t dropped_implausible = 0;  ///< not finite, too fast, out of the world
+  std::int64_t cpu_us = 0;               ///< CPU time of the process (0 in virtual time)
+  std::int32_t rtt_us = 0;               ///< least round trip of the last window, -1 unknown
+  std::int32_t loss_ppm = 0;             ///< datagrams lost on the way in, per million
+  std::int32_t tick_late_us = 0;         ///< worst lateness of a tick in the last second
+  std::int32_t clock_offset_us = 0;      ///< slewed offset still to be corrected
 };
 
 /// Bus only: something a person wants to read (joined, left, hand-over, repaired).

@@ -40,9 +40,8 @@ bool Finite(const Vectors&... vectors) {
 /// Ids: from 0 and strictly ascending.
 bool Ascending(const std::vector<std::int16_t>& ids) {
   return (ids.empty() || ids.front() >= 0) &&
-         std::adjacent_find(ids.begin(), ids.end(), [](std::int16_t a, std::int16_t b) {
-           return a >= b;
-         }) == ids.end();
+         std::adjacent_find(ids.begin(), ids.end(),
+                            [](std::int16_t a, std::int16_t b) { return a >= b; }) == ids.end();
 }
 
 /// Bytes of the UTF-8 sequence at `at`, 0 when it is malformed or a control character.
@@ -152,8 +151,7 @@ bool Valid(const View& m) {
          m.id.size() <= kViewBodiesMax &&
          Lengths(m.id.size(), m.role, m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin) &&
          Ascending(m.id) && AllWithin(m.role, kRoleRemote, kRoleAuthority) &&
-         AllWithin(m.authority, 0, kPeersMax - 1) &&
-         Finite(m.x, m.y, m.angle, m.vx, m.vy, m.spin);
+         AllWithin(m.authority, 0, kPeersMax - 1) && Finite(m.x, m.y, m.angle, m.vx, m.vy, m.spin);
 }
 
 bool Valid(const Impacts& m) {

@@ -45,8 +45,7 @@ std::int32_t KnownEdits(const Recording& recording) {
 
 void MeasureChanges(const Recording& recording, const Forms& forms, Measures* measures) {
   if (!forms.change()) return;
-  measures->topology_lag_s =
-      static_cast<double>(LongestLag(recording)) * TickSeconds(recording);
+  measures->topology_lag_s = static_cast<double>(LongestLag(recording)) * TickSeconds(recording);
   std::map<int, std::vector<const View*>> by_form;
   const std::int32_t known = KnownEdits(recording);
   for (const auto& [peer, views] : recording.views) {

@@ -56,9 +56,9 @@ double CornersFromEdges(const Convex& a, const Convex& b) {
 
 /// A point's distance from the nearest of the edges, negative on the solid side.
 struct Height {
-  double squared = kFar;        // m^2
-  double side = 1;              // its sign
-  bool beyond = true;           // past the end of the line: open
+  double squared = kFar;  // m^2
+  double side = 1;        // its sign
+  bool beyond = true;     // past the end of the line: open
 
   void Consider(const TerrainEdge& edge, const Vector2d& p) {
     const Vector2d away = p - NearestOf(edge.from, edge.to, p);
@@ -70,8 +70,8 @@ struct Height {
     if (along <= 0) normal += edge.normal_before;
     if (along >= 1) normal += edge.normal_after;
     side = normal.dot(away);
-    beyond = (along < 0 && edge.normal_before.isZero(0)) ||
-             (along > 1 && edge.normal_after.isZero(0));
+    beyond =
+        (along < 0 && edge.normal_before.isZero(0)) || (along > 1 && edge.normal_after.isZero(0));
   }
   double value() const { return side < 0 ? -std::sqrt(squared) : std::sqrt(squared); }
 };
@@ -111,7 +111,7 @@ double DepthInTerrain(const Convex& solid, const std::vector<const TerrainEdge*>
   double cut = 0, deepest = 0, shallowest = kFar;
   bool all_below = true;
   for (const TerrainEdge* edge : edges) {
-    if (solid.count == 1) break;   // a circle's depth is its centre's height, below
+    if (solid.count == 1) break;  // a circle's depth is its centre's height, below
     const Eigen::Vector2d ends[] = {edge->from, edge->to};
     cut = std::max(cut, OverlapDepth(solid, {ends, 2, 0}));
   }
@@ -122,7 +122,7 @@ double DepthInTerrain(const Convex& solid, const std::vector<const TerrainEdge*>
       all_below = false;
       continue;
     }
-    const double below = solid.radius - height.value();   // of its lowest point
+    const double below = solid.radius - height.value();  // of its lowest point
     deepest = std::max(deepest, below);
     shallowest = std::min(shallowest, below - 2 * solid.radius);
     all_below = all_below && below > 0;

@@ -10,9 +10,9 @@ namespace seam {
 /// Corners somewhere else: one corner and a radius is a circle, two corners are a segment, with a
 /// radius a capsule, three or more a polygon, counter-clockwise.
 struct Convex {
-  const Eigen::Vector2d* corners = nullptr;   ///< m
+  const Eigen::Vector2d* corners = nullptr;  ///< m
   int count = 0;
-  double radius = 0;                          ///< m, around the corners' hull
+  double radius = 0;  ///< m, around the corners' hull
 };
 
 /// The least distance by which one has to move for the two to touch no more, m (separating axes:
@@ -21,7 +21,7 @@ double OverlapDepth(const Convex& a, const Convex& b);
 
 /// One piece of terrain: solid on the right of the way from `from` to `to`.
 struct TerrainEdge {
-  Eigen::Vector2d from{0, 0}, to{0, 0};       ///< m
+  Eigen::Vector2d from{0, 0}, to{0, 0};  ///< m
   /// Unit, into the open; that of the neighbours, zero where the line ends.
   Eigen::Vector2d normal{0, 1}, normal_before{0, 0}, normal_after{0, 0};
 };

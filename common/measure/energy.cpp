@@ -10,14 +10,12 @@
 namespace seam {
 namespace {
 
-constexpr double kTurn = 6.283185307179586;   // rad
+constexpr double kTurn = 6.283185307179586;  // rad
 
 }  // namespace
 
 EnergyMeter::EnergyMeter(const Scene& scene, const Composition& composition)
-    : waters_(scene.waters),
-      gravity_(scene.gravity.cast<double>()),
-      imposed_(scene, composition) {
+    : waters_(scene.waters), gravity_(scene.gravity.cast<double>()), imposed_(scene, composition) {
   for (const Assembly& assembly : composition.assemblies) {
     if (assembly.anchored) continue;
     masses_.push_back(AssemblyProperties(scene, assembly));

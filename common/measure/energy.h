@@ -24,15 +24,15 @@ class EnergyMeter {
  private:
   struct Spring {
     JointEnds ends;
-    double stiffness = 0;                 // N/m; of a weld: N m/rad
+    double stiffness = 0;  // N/m; of a weld: N m/rad
   };
   double InWater(const std::vector<BodyState>& moving) const;
   double Stretch(const Spring& spring, const std::vector<BodyState>& states) const;
 
   const std::vector<Water> waters_;
-  std::vector<WetShape> wet_shapes_;      // of the moving assemblies, if there is water
-  Eigen::Vector2d gravity_;               // m/s^2
-  std::vector<MassProperties> masses_;    // of the moving assemblies
+  std::vector<WetShape> wet_shapes_;    // of the moving assemblies, if there is water
+  Eigen::Vector2d gravity_;             // m/s^2
+  std::vector<MassProperties> masses_;  // of the moving assemblies
   std::vector<Spring> springs_;
   ImposedMotions imposed_;
 };

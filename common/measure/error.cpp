@@ -8,7 +8,7 @@
 namespace seam {
 namespace {
 
-constexpr double kTurn = 6.283185307179586;   // rad
+constexpr double kTurn = 6.283185307179586;  // rad
 
 /// Sum of squares and count, for a root mean square.
 struct Squares {

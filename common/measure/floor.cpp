@@ -17,7 +17,7 @@ double Distance(const Oracle& a, const Oracle& b) {
     const std::int64_t tick = b.first_tick + static_cast<std::int64_t>(row);
     const std::vector<PartId>& ids = b.IdsOf(row);
     for (std::size_t i = 0; i < b.ticks[row].size(); ++i) {
-      if (ids[i] >= b.inserted_from) continue;   // may be another part in `a`
+      if (ids[i] >= b.inserted_from) continue;  // may be another part in `a`
       const std::optional<BodyState> other = a.At(tick, ids[i]);
       if (!other) continue;
       sum += (other->position - b.ticks[row][i].position).cast<double>().squaredNorm();

@@ -66,7 +66,7 @@ std::shared_ptr<const Form> Forms::At(int edits) const {
   const int key = Key(edits);
   const std::lock_guard<std::mutex> lock(mutex_);
   auto place = forms_.upper_bound(key);
-  --place;                                   // 0 is always there
+  --place;  // 0 is always there
   if (place->first == key) return place->second;
   Topology topology = place->second->topology;
   topology.Apply({edits_.begin() + place->first, edits_.begin() + key});

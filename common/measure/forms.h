@@ -9,9 +9,9 @@
 #include <optional>
 #include <vector>
 
-#include "common/topology/topology.h"
-#include "common/scene/types.h"
 #include "common/record/recording.h"
+#include "common/scene/types.h"
+#include "common/topology/topology.h"
 
 namespace seam {
 
@@ -24,8 +24,8 @@ struct Form {
   int AssemblyOf(PartId part) const;
 
   Topology topology;
-  std::vector<int> moving;          ///< by assembly: place among the moving ones, -1: anchored
-  std::vector<PartId> ids;          ///< of the moving assemblies, ascending
+  std::vector<int> moving;  ///< by assembly: place among the moving ones, -1: anchored
+  std::vector<PartId> ids;  ///< of the moving assemblies, ascending
 };
 
 /// Where a part is when the body that it belongs to is at `body`, in double precision; its
@@ -54,9 +54,9 @@ class Forms {
 
  private:
   std::vector<Edit> edits_;
-  std::vector<int> keys_;           // by number of edits
-  mutable std::mutex mutex_;        // guards forms_
-  mutable std::map<int, std::shared_ptr<const Form>> forms_;   // by key
+  std::vector<int> keys_;                                     // by number of edits
+  mutable std::mutex mutex_;                                  // guards forms_
+  mutable std::map<int, std::shared_ptr<const Form>> forms_;  // by key
 };
 
 /// The edits of a recording in their order; those that the log lacks do nothing.

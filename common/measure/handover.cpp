@@ -36,10 +36,10 @@ void Compare(const View& one, const View& other, PartId id, Measures* measures) 
   const int i = IndexOf(one, id), k = IndexOf(other, id);
   if (i < 0 || k < 0) return;
   const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(k);
-  const double gap = std::hypot(double{one.x[a]} - double{other.x[b]},
-                                double{one.y[a]} - double{other.y[b]});
-  const double dv = std::hypot(double{one.vx[a]} - double{other.vx[b]},
-                               double{one.vy[a]} - double{other.vy[b]});
+  const double gap =
+      std::hypot(double{one.x[a]} - double{other.x[b]}, double{one.y[a]} - double{other.y[b]});
+  const double dv =
+      std::hypot(double{one.vx[a]} - double{other.vx[b]}, double{one.vy[a]} - double{other.vy[b]});
   measures->handover_gap_m = std::max(measures->handover_gap_m.value_or(0), gap);
   measures->handover_dv_mps = std::max(measures->handover_dv_mps.value_or(0), dv);
 }
@@ -60,9 +60,9 @@ void MeasureGaps(const Recording& recording, const Forms* forms, Measures* measu
         const int before = holders.emplace(id, peer).first->second;
         const auto old = views.find(before);
         if (before == peer || (old != views.end() && Claims(*old->second, id))) continue;
-        const bool same = old != views.end() &&
-                          (forms == nullptr ||
-                           forms->SameBody(view->topology, old->second->topology, id));
+        const bool same =
+            old != views.end() &&
+            (forms == nullptr || forms->SameBody(view->topology, old->second->topology, id));
         if (same) Compare(*view, *old->second, id, measures);
         holders[id] = peer;
       }
@@ -89,19 +89,19 @@ void MeasureHandover(const Recording& recording, const std::map<PartId, int>& me
   if (recording.views.empty()) return;
   // The server's views, or of the lowest peer there is; a mechanism's bodies change together.
   std::set<std::pair<std::int64_t, int>> changes;
-  ForEachChange(recording.views.begin()->second, [&](std::int64_t tick, const View&, std::size_t,
-                                                     const View& now, std::size_t i) {
-    int mechanism = -1 - now.id[i];
-    const auto known = mechanisms.find(now.id[i]);
-    if (known != mechanisms.end()) mechanism = known->second;
-    if (forms != nullptr) {
-      const auto form = forms->At(now.topology);
-      const int of = form->AssemblyOf(now.id[i]);
-      const auto& all = form->composition().assemblies;
-      if (of >= 0) mechanism = all[static_cast<std::size_t>(of)].mechanism;
-    }
-    changes.insert({tick, mechanism});
-  });
+  ForEachChange(recording.views.begin()->second,
+                [&](std::int64_t tick, const View&, std::size_t, const View& now, std::size_t i) {
+                  int mechanism = -1 - now.id[i];
+                  const auto known = mechanisms.find(now.id[i]);
+                  if (known != mechanisms.end()) mechanism = known->second;
+                  if (forms != nullptr) {
+                    const auto form = forms->At(now.topology);
+                    const int of = form->AssemblyOf(now.id[i]);
+                    const auto& all = form->composition().assemblies;
+                    if (of >= 0) mechanism = all[static_cast<std::size_t>(of)].mechanism;
+                  }
+                  changes.insert({tick, mechanism});
+                });
   measures->handovers = static_cast<std::int64_t>(changes.size());
 }
 

@@ -18,7 +18,7 @@ std::vector<JointEnds> FindJointEnds(const Scene& scene, const Composition& comp
   int next = 0;
   for (const int index : moving) next = std::max(next, index + 1);
   for (std::size_t i = 0; i < moving.size(); ++i) {
-    if (composition.assemblies[i].kinematic >= 0) moving[i] = next++;   // as AllStates counts
+    if (composition.assemblies[i].kinematic >= 0) moving[i] = next++;  // as AllStates counts
   }
   const auto end = [&](PartId part, const Vec2& anchor, const Vec2& axis) {
     JointEnd e;
@@ -41,9 +41,8 @@ std::vector<JointEnds> FindJointEnds(const Scene& scene, const Composition& comp
     ends.a = end(joint.a, joint.anchor_a, joint.axis);
     ends.b = end(joint.b, joint.anchor_b, joint.axis);
     if (ends.a.assembly == ends.b.assembly) continue;
-    ends.length = joint.length > 0
-                      ? double{joint.length}
-                      : (joint.anchor_b - joint.anchor_a).cast<double>().norm();
+    ends.length = joint.length > 0 ? double{joint.length}
+                                   : (joint.anchor_b - joint.anchor_a).cast<double>().norm();
     ends.frequency_hz = double{joint.frequency_hz};
     // An end that stands still has the angle 0.
     const auto angle = [&](const JointEnd& e) {

@@ -8,10 +8,10 @@ namespace seam {
 
 /// One end of a joint.
 struct JointEnd {
-  int assembly = -1;                      ///< index into the composition's
-  int moving = -1;                        ///< index into AllStates; -1: anchored
-  Eigen::Vector2d point{0, 0};            ///< m, in the root's frame; in the world if anchored
-  Eigen::Vector2d axis{0, 1};             ///< unit, likewise
+  int assembly = -1;            ///< index into the composition's
+  int moving = -1;              ///< index into AllStates; -1: anchored
+  Eigen::Vector2d point{0, 0};  ///< m, in the root's frame; in the world if anchored
+  Eigen::Vector2d axis{0, 1};   ///< unit, likewise
 
   Eigen::Vector2d PointNow(const std::vector<BodyState>& states) const {
     return moving < 0 ? point : Pose(states[static_cast<std::size_t>(moving)]).ToWorld(point);
@@ -25,11 +25,11 @@ struct JointEnd {
 struct JointEnds {
   JointKind kind = JointKind::kRevolute;
   JointEnd a, b;
-  double length = 0;                      ///< m, of a distance joint or rope
-  double frequency_hz = 0;                ///< of a spring; 0: rigid
-  double angle = 0;                       ///< rad, of b against a at tick 0
+  double length = 0;        ///< m, of a distance joint or rope
+  double frequency_hz = 0;  ///< of a spring; 0: rigid
+  double angle = 0;         ///< rad, of b against a at tick 0
   bool limited = false;
-  double lower = 0, upper = 0;            ///< m along a wheel's or prismatic's axis; m of length
+  double lower = 0, upper = 0;  ///< m along a wheel's or prismatic's axis; m of length
 };
 
 /// The moving states, then those of the parts that move by the tick alone (ImposedMotions).

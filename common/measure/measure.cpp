@@ -54,8 +54,7 @@ Measures Measure(const Recording& recording, const Oracle& oracle) {
   std::map<PartId, int> mechanisms;
   std::optional<Forms> forms;
   if (!recording.room.scene_text.empty()) {
-    const Scene scene =
-        ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
+    const Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
     forms.emplace(scene, recording);
     const Composition& composition = forms->At(0)->composition();
     for (const Assembly& assembly : composition.assemblies) {

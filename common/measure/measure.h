@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "common/measure/oracle.h"
-#include "common/scene/scene.h"
 #include "common/record/recording.h"
+#include "common/scene/scene.h"
 
 namespace seam {
 
@@ -18,29 +18,29 @@ struct Measures {
   // Pose errors over all peers' views, bodies and ticks that the oracle has.
   double error_rms_m = 0, error_p95_m = 0, error_max_m = 0;
   double error_rms_rad = 0;
-  double stutter_mps2 = 0;            ///< RMS of the second difference minus the oracle's
-  std::int64_t backsteps = 0;         ///< displayed moves against the body's velocity
+  double stutter_mps2 = 0;     ///< RMS of the second difference minus the oracle's
+  std::int64_t backsteps = 0;  ///< displayed moves against the body's velocity
   // Between peers: displayed against the authority's display. Empty when nobody follows anybody.
   std::optional<double> seam_rms_m;
   std::optional<double> seam_stutter_mps2;
-  std::optional<double> rebound;      ///< only for scenes that watch a collision
-  std::optional<double> rest_ticks;   ///< only if the scene comes to rest in the recording
+  std::optional<double> rebound;          ///< only for scenes that watch a collision
+  std::optional<double> rest_ticks;       ///< only if the scene comes to rest in the recording
   std::optional<double> jitter_rest_mps;  ///< RMS displayed speed once the oracle rests
   // Of what is shown, by the scene's geometry; empty when no view shows all moving bodies.
-  std::optional<double> penetration_m;    ///< deepest overlap of two parts, 10 times a second
-  std::optional<double> joint_drift_m;    ///< worst joint, any tick; empty without joints
-  std::optional<double> energy_gain_j;    ///< most above the oracle's energy around that tick
-  std::optional<double> oracle_penetration_m, oracle_joint_drift_m;   ///< the oracle's own
-  double handover_jump_m = 0;         ///< largest jump of a view at a change of authority
-  std::int64_t handovers = 0;         ///< changes of authority over a mechanism
+  std::optional<double> penetration_m;  ///< deepest overlap of two parts, 10 times a second
+  std::optional<double> joint_drift_m;  ///< worst joint, any tick; empty without joints
+  std::optional<double> energy_gain_j;  ///< most above the oracle's energy around that tick
+  std::optional<double> oracle_penetration_m, oracle_joint_drift_m;  ///< the oracle's own
+  double handover_jump_m = 0;  ///< largest jump of a view at a change of authority
+  std::int64_t handovers = 0;  ///< changes of authority over a mechanism
   // How far the new authority is from the old one when it takes up. Empty without a hand-over.
   std::optional<double> handover_gap_m, handover_dv_mps;
   // Of worlds whose bodies change; empty without edits.
-  std::optional<double> topology_lag_s;   ///< longest that a peer lacked an edit that was ordered
-  std::optional<std::int64_t> lost;   ///< bodies too few or too many in views, over all ticks
-  double bytes_per_s = 0;             ///< mean over clients, both directions, UDP payload
-  double sent_bytes_per_s = 0;        ///< the same, what they send alone
-  double cpu_us_per_s = 0;            ///< mean over peers, per simulated second
+  std::optional<double> topology_lag_s;  ///< longest that a peer lacked an edit that was ordered
+  std::optional<std::int64_t> lost;      ///< bodies too few or too many in views, over all ticks
+  double bytes_per_s = 0;                ///< mean over clients, both directions, UDP payload
+  double sent_bytes_per_s = 0;           ///< the same, what they send alone
+  double cpu_us_per_s = 0;               ///< mean over peers, per simulated second
   /// Poses that were compared: peers x ticks x bodies. 0: nothing was, and the errors mean nothing.
   std::int64_t compared = 0;
   // By tick, RMS over peers' views and bodies: what the strip of the renderer draws. 0 where

@@ -19,8 +19,7 @@ BodyState Placed(const Oracle::Place& place, const std::vector<BodyState>& movin
     return state;
   }
   state = moving[static_cast<std::size_t>(place.body)];
-  state.position =
-      Pose(state).ToWorld({double{place.x}, double{place.y}}).cast<float>();
+  state.position = Pose(state).ToWorld({double{place.x}, double{place.y}}).cast<float>();
   state.angle = static_cast<float>(double{state.angle} + double{place.angle});
   return state;
 }
@@ -116,7 +115,7 @@ void Oracle::Begin(std::size_t row, const Form& form, int applied) {
       bodies->places[p] = {form.moving[a], place.x(), place.y(), part.angle - root.angle};
     }
   }
-  if (!eras.empty() && eras.back().first_row == row) eras.pop_back();   // it lasted no tick
+  if (!eras.empty() && eras.back().first_row == row) eras.pop_back();  // it lasted no tick
   eras.push_back({row, applied, std::move(bodies)});
   if (row == 0) ids = form.ids;
 }

@@ -9,9 +9,9 @@
 #include <optional>
 #include <vector>
 
-#include "common/topology/edit.h"
-#include "common/scene/scene.h"
 #include "common/record/recording.h"
+#include "common/scene/scene.h"
+#include "common/topology/edit.h"
 
 namespace seam {
 
@@ -21,27 +21,27 @@ struct Form;
 struct Oracle {
   /// A part's place in its body's frame, or in the world; m, rad.
   struct Place {
-    int body = -1;                  ///< index into the era's ids; -1: anchored, -2: not there
+    int body = -1;  ///< index into the era's ids; -1: anchored, -2: not there
     float x = 0, y = 0, angle = 0;
   };
   struct Bodies {
-    std::vector<PartId> ids;        ///< of the moving assemblies, ascending
-    std::vector<Place> places;      ///< by part
-    std::vector<PartId> roots;      ///< by part: the assembly's id; -1: not there
+    std::vector<PartId> ids;    ///< of the moving assemblies, ascending
+    std::vector<Place> places;  ///< by part
+    std::vector<PartId> roots;  ///< by part: the assembly's id; -1: not there
   };
   /// From a row on the bodies are others.
   struct Era {
     std::size_t first_row = 0;
-    int edits = 0;                  ///< how many of Oracle::edits were applied
+    int edits = 0;  ///< how many of Oracle::edits were applied
     std::shared_ptr<const Bodies> bodies;
   };
 
   std::int64_t first_tick = 0;
-  std::vector<PartId> ids;                          ///< at first, ascending
+  std::vector<PartId> ids;  ///< at first, ascending
   /// [tick - first_tick][index in the ids of that time]; empty for a tick that is not known.
   std::vector<std::vector<BodyState>> ticks;
-  std::vector<Era> eras;            ///< ascending; empty: `ids` for ever, other parts unknown
-  std::vector<Edit> edits;          ///< that were applied, in order, with the oracle's own ids
+  std::vector<Era> eras;    ///< ascending; empty: `ids` for ever, other parts unknown
+  std::vector<Edit> edits;  ///< that were applied, in order, with the oracle's own ids
   /// Parts from here on came at run time and may have another id in the recording.
   PartId inserted_from = std::numeric_limits<PartId>::max();
   std::map<PartId, PartId> own_id;  ///< of parts that came, by id in the recording
@@ -79,8 +79,7 @@ constexpr float kWireNudge = 1.0f / 1024;
 /// scene does not parse or the session is too long (kOracleStatesMax).
 /// `nudged_body` >= 0: with that body (an index into ids) moved by `nudge` m along x at the start,
 /// at least to the next float.
-Oracle ComputeOracle(const Recording& recording, int nudged_body = -1,
-                     float nudge = kNudge);
+Oracle ComputeOracle(const Recording& recording, int nudged_body = -1, float nudge = kNudge);
 
 /// The oracle's own sensitivity: RMS distance in m between it and itself with one body nudged, the
 /// median over at most `bodies` bodies, evenly chosen. No method can be expected to be better:

@@ -96,7 +96,7 @@ class Outside {
     return -1;
   }
   void Translate(int number, const Scene& now, Edit* edit) const {
-    if (edit->kind == EditKind::kSeat) return;   // `a` is no part
+    if (edit->kind == EditKind::kSeat) return;  // `a` is no part
     const auto came = [](std::int32_t id, std::size_t first) {
       return id >= 0 && static_cast<std::size_t>(id) >= first;
     };
@@ -108,7 +108,7 @@ class Outside {
   }
 
   const Forms recorded_;
-  const std::size_t parts_, joints_;     // that the scene has itself
+  const std::size_t parts_, joints_;  // that the scene has itself
   std::map<std::int64_t, std::vector<std::pair<int, Edit>>> by_tick_;
 };
 
@@ -144,9 +144,9 @@ Oracle ComputeOracle(const Recording& recording, int nudged_body, float nudge) {
   for (int body = 0; body < world.body_count(); ++body) oracle.ids.push_back(world.id(body));
   const std::int64_t states = std::max(1, world.body_count());
   if (recording.last_tick > kOracleStatesMax / states) {
-    throw OperatorError("the session is too long for an oracle: " +
-                        std::to_string(recording.last_tick) + " ticks of " +
-                        std::to_string(states) + " bodies");
+    throw OperatorError(
+        "the session is too long for an oracle: " + std::to_string(recording.last_tick) +
+        " ticks of " + std::to_string(states) + " bodies");
   }
   std::map<int, InputTicks> inputs;
   for (const auto& [player, pieces] : recording.inputs) {

@@ -37,7 +37,7 @@ std::pair<int, int> Ordered(int a, int b) { return {std::min(a, b), std::max(a, 
 /// All corners in the world, and each solid's bounding box.
 struct OverlapMeter::Placed {
   std::vector<Vector2d> corners;
-  std::vector<Vector2d> min, max;     // by solid
+  std::vector<Vector2d> min, max;  // by solid
 
   Convex Of(const Solid& solid) const {
     return {&corners[static_cast<std::size_t>(solid.first)], solid.count, solid.radius};
@@ -116,7 +116,7 @@ std::vector<std::pair<int, int>> OverlapMeter::NearPairs(const Placed& placed) c
   const auto end = [&](int i) { return placed.max[static_cast<std::size_t>(i)][axis]; };
   std::sort(order.begin(), order.end(), [&](int a, int b) { return begin(a) < begin(b); });
   std::vector<std::pair<int, int>> pairs;
-  std::vector<int> open[2];           // that the sweep is in: moving, anchored
+  std::vector<int> open[2];  // that the sweep is in: moving, anchored
   const auto meet = [&](int now, std::vector<int>* others) {
     const auto n = static_cast<std::size_t>(now);
     for (std::size_t k = 0; k < others->size();) {
@@ -174,7 +174,7 @@ double OverlapMeter::Deepest(const std::vector<BodyState>& moving, std::int64_t 
     }
   }
   double deepest = 0;
-  std::vector<std::pair<int, int>> on_terrain;   // solid, edge
+  std::vector<std::pair<int, int>> on_terrain;  // solid, edge
   for (const auto& [a, b] : NearPairs(placed)) {
     const Solid& one = solids_[static_cast<std::size_t>(a)];
     const Solid& other = solids_[static_cast<std::size_t>(b)];

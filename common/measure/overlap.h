@@ -24,13 +24,13 @@ class OverlapMeter {
  private:
   /// A part, or one edge of a chain.
   struct Solid {
-    int assembly = 0;                 // index into the composition's
-    int moving = -1;                  // index into the states; -1: anchored
-    int imposed = -1;                 // anchored, but moved: index into imposed_
+    int assembly = 0;  // index into the composition's
+    int moving = -1;   // index into the states; -1: anchored
+    int imposed = -1;  // anchored, but moved: index into imposed_
     int group = 0;
-    int first = 0, count = 0;         // its corners
-    double radius = 0;                // m
-    int edge = -1;                    // index into edges_; -1: not of a chain
+    int first = 0, count = 0;  // its corners
+    double radius = 0;         // m
+    int edge = -1;             // index into edges_; -1: not of a chain
   };
   struct Placed;
 
@@ -41,9 +41,9 @@ class OverlapMeter {
 
   ImposedMotions imposed_;
   std::vector<Solid> solids_;
-  std::vector<Eigen::Vector2d> corners_;   // of what moves in the root's frame, else in the world
+  std::vector<Eigen::Vector2d> corners_;  // of what moves in the root's frame, else in the world
   std::vector<TerrainEdge> edges_;
-  std::vector<std::pair<int, int>> joined_;   // pairs of assemblies, the lower first; sorted
+  std::vector<std::pair<int, int>> joined_;  // pairs of assemblies, the lower first; sorted
   std::size_t moving_count_ = 0;
 };
 

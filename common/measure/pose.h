@@ -11,8 +11,8 @@ namespace seam {
 
 /// A frame in the world: a turn, then a shift.
 struct Pose {
-  Eigen::Vector2d position{0, 0};     ///< m
-  double c = 1, s = 0;                ///< cosine and sine of the angle
+  Eigen::Vector2d position{0, 0};  ///< m
+  double c = 1, s = 0;             ///< cosine and sine of the angle
 
   Pose() = default;
   Pose(const Vec2& at, float angle)

@@ -18,9 +18,8 @@ constexpr double kRestLeast = 0.5;
 constexpr double kSettle = 0.5;
 
 bool AllSlow(const std::vector<BodyState>& states) {
-  return std::all_of(states.begin(), states.end(), [](const BodyState& state) {
-    return state.velocity.norm() < kRestSpeed;
-  });
+  return std::all_of(states.begin(), states.end(),
+                     [](const BodyState& state) { return state.velocity.norm() < kRestSpeed; });
 }
 
 template <class T>

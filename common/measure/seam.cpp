@@ -17,14 +17,14 @@ const View* Find(const Views& views, std::int64_t tick) {
 
 /// Displayed minus the authority's.
 struct Distance {
-  Eigen::Vector2d d{0, 0};            // m
-  int topology = 0, of_authority = 0;   // of the two views
+  Eigen::Vector2d d{0, 0};             // m
+  int topology = 0, of_authority = 0;  // of the two views
 };
 
 /// nullopt when the peer has the authority itself, or the authority's view of the tick is missing
 /// or does not claim the body (where bodies change: the body that has the part).
-std::optional<Distance> Apart(const Recording& recording, int peer, const View& view,
-                              std::size_t i, const Forms* forms) {
+std::optional<Distance> Apart(const Recording& recording, int peer, const View& view, std::size_t i,
+                              const Forms* forms) {
   const int authority = view.authority[i];
   if (authority == peer) return std::nullopt;
   const auto views = recording.views.find(authority);

@@ -7,9 +7,9 @@
 namespace seam {
 namespace {
 
-const char* const kColumns[] = {"scene",       "run",         "mode",        "reconcile",
-                                "impair",      "seed",        "error_rms_m", "error_p95_m",
-                                "error_max_m", "stutter_mps2", "backsteps",  "rebound",
+const char* const kColumns[] = {"scene",       "run",          "mode",        "reconcile",
+                                "impair",      "seed",         "error_rms_m", "error_p95_m",
+                                "error_max_m", "stutter_mps2", "backsteps",   "rebound",
                                 "bytes_per_s", "cpu_us_per_s"};
 /// Columns before this one are text and stand to the left.
 constexpr std::size_t kTextColumns = 5;
@@ -56,21 +56,23 @@ std::string Beside(const std::optional<double>& value, const std::optional<doubl
 std::string More(const MeasuredRun& run) {
   const Measures& m = run.measures;
   std::string out = fmt::format("\n{}\n", run.run);
-  out += fmt::format("  angle error      {:.6g} rad RMS over {} poses\n", m.error_rms_rad,
-                     m.compared);
+  out +=
+      fmt::format("  angle error      {:.6g} rad RMS over {} poses\n", m.error_rms_rad, m.compared);
   for (const auto& [peer, rms] : m.error_rms_by_peer_m) {
     out += fmt::format("  peer {:<2}          {:.6g} m RMS\n", peer, rms);
   }
   if (m.seam_rms_m) {
-    out += fmt::format("  seam             {:.6g} m RMS from the authority's view, stutter {:.6g} "
-                       "m/s2 against it\n", *m.seam_rms_m, m.seam_stutter_mps2.value_or(0));
+    out += fmt::format(
+        "  seam             {:.6g} m RMS from the authority's view, stutter {:.6g} "
+        "m/s2 against it\n",
+        *m.seam_rms_m, m.seam_stutter_mps2.value_or(0));
   }
-  out += fmt::format("  penetration      {}\n", Beside(m.penetration_m, m.oracle_penetration_m,
-                                                       "m at most"));
-  out += fmt::format("  joint drift      {}\n", Beside(m.joint_drift_m, m.oracle_joint_drift_m,
-                                                       "m at most"));
-  out += fmt::format("  energy gain      {}\n", Beside(m.energy_gain_j, std::nullopt,
-                                                       "J above the oracle's, within 0.5 s"));
+  out += fmt::format("  penetration      {}\n",
+                     Beside(m.penetration_m, m.oracle_penetration_m, "m at most"));
+  out += fmt::format("  joint drift      {}\n",
+                     Beside(m.joint_drift_m, m.oracle_joint_drift_m, "m at most"));
+  out += fmt::format("  energy gain      {}\n",
+                     Beside(m.energy_gain_j, std::nullopt, "J above the oracle's, within 0.5 s"));
   out += fmt::format("  hand-over        {} changes of authority", m.handovers);
   if (m.handovers > 0) out += fmt::format(", largest jump {:.6g} m", m.handover_jump_m);
   if (m.handover_gap_m && m.handover_dv_mps) {
@@ -78,14 +80,17 @@ std::string More(const MeasuredRun& run) {
                        *m.handover_gap_m, *m.handover_dv_mps);
   }
   out += '\n';
-  out += m.rest_ticks ? fmt::format("  rest             all peers bit-equal {:g} ticks after the "
-                                    "oracle's rest\n", *m.rest_ticks)
+  out += m.rest_ticks ? fmt::format(
+                            "  rest             all peers bit-equal {:g} ticks after the "
+                            "oracle's rest\n",
+                            *m.rest_ticks)
                       : std::string("  rest             not reached\n");
-  out += fmt::format("  jitter at rest   {}\n",
-                     Beside(m.jitter_rest_mps, std::nullopt, "m/s RMS"));
+  out += fmt::format("  jitter at rest   {}\n", Beside(m.jitter_rest_mps, std::nullopt, "m/s RMS"));
   if (m.topology_lag_s && m.lost) {
-    out += fmt::format("  bodies change    a peer lacked an edit for at most {:.6g} s; {} bodies "
-                       "lost or too many\n", *m.topology_lag_s, *m.lost);
+    out += fmt::format(
+        "  bodies change    a peer lacked an edit for at most {:.6g} s; {} bodies "
+        "lost or too many\n",
+        *m.topology_lag_s, *m.lost);
   }
   if (m.sent_bytes_per_s > 0) {
     out += fmt::format("  sent             {:.6g} bytes/s by a client\n", m.sent_bytes_per_s);

@@ -10,10 +10,10 @@ namespace seam {
 
 /// One measured recording.
 struct MeasuredRun {
-  std::string run;            ///< what to call it
-  Room room;                  ///< of the recording
+  std::string run;  ///< what to call it
+  Room room;        ///< of the recording
   Measures measures;
-  std::int64_t gaps = 0;      ///< messages missing by their sequence numbers
+  std::int64_t gaps = 0;           ///< messages missing by their sequence numbers
   std::int64_t skipped_bytes = 0;  ///< damaged bytes of the log
 };
 

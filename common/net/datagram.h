@@ -24,14 +24,14 @@ constexpr std::size_t kDatagramHeaderBytes = 24;
 struct DatagramHeader {
   std::uint64_t session = 0;
   std::uint16_t sequence = 0;
-  std::uint16_t ack = 0;         ///< a sequence number that arrived
-  std::uint32_t ack_bits = 0;    ///< bit i: ack - 1 - i arrived too
+  std::uint16_t ack = 0;       ///< a sequence number that arrived
+  std::uint32_t ack_bits = 0;  ///< bit i: ack - 1 - i arrived too
 };
 
 struct DatagramMessage {
   bool reliable = false;
-  std::uint16_t id = 0;          ///< of a reliable one
-  ByteView bytes;                ///< into the datagram
+  std::uint16_t id = 0;  ///< of a reliable one
+  ByteView bytes;        ///< into the datagram
 };
 
 /// Bytes that a message takes in a datagram with its own header.

@@ -20,7 +20,7 @@ constexpr int kPullMax = 4096;
 /// A datagram under way.
 struct Waiting {
   std::int64_t due_us = 0;
-  std::uint64_t number = 0;      // of arrival: keeps ties in order
+  std::uint64_t number = 0;  // of arrival: keeps ties in order
   Address peer;
   std::size_t* path_bytes = nullptr;
   Bytes data;
@@ -86,7 +86,7 @@ class Direction {
  private:
   struct Path {
     ImpairPath impair;
-    std::size_t bytes = 0;       // under way on it
+    std::size_t bytes = 0;  // under way on it
   };
 
   Path& Find(const Address& peer) {
@@ -112,7 +112,8 @@ class Direction {
 struct ImpairedNet::Impl {
   Impl(Net& inner_net, const ImpairProfile& out_profile, const ImpairProfile& in_profile,
        std::uint64_t seed)
-      : inner(inner_net), out(out_profile, Random(seed).Fork(1)),
+      : inner(inner_net),
+        out(out_profile, Random(seed).Fork(1)),
         in(in_profile, Random(seed).Fork(2)) {}
 
   /// Takes in what the inner net has received by now.
@@ -169,7 +170,7 @@ std::int64_t ImpairedNet::discarded() const { return impl_->inner.discarded(); }
 
 void ImpairedNet::Cut(bool cut) {
   impl_->cut = impl_->cut || cut;
-  impl_->Pull();   // what arrived while cut is lost too
+  impl_->Pull();  // what arrived while cut is lost too
   impl_->cut = cut;
   if (!cut) return;
   impl_->in.Clear();

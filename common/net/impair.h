@@ -15,27 +15,27 @@ namespace seam {
 /// One direction of a path. All times in microseconds, probabilities in [0, 1].
 struct ImpairProfile {
   std::string name;
-  std::string about;                   ///< one line for --help
-  std::int64_t delay_us = 0;           ///< propagation
+  std::string about;          ///< one line for --help
+  std::int64_t delay_us = 0;  ///< propagation
   /// Extra delay, exponential: its mean and its standard deviation are both this. Order is kept (a
   /// clump: a late datagram holds back those behind it).
   std::int64_t jitter_mean_us = 0;
-  double loss_good_to_bad = 0;         ///< Gilbert-Elliott p, per datagram
-  double loss_bad_to_good = 1;         ///< r
-  double loss_in_bad = 1;              ///< 1 - h of the four-parameter model
-  double loss_in_good = 0;             ///< 1 - k
-  double reorder = 0;                  ///< share of datagrams held back by reorder_us
+  double loss_good_to_bad = 0;  ///< Gilbert-Elliott p, per datagram
+  double loss_bad_to_good = 1;  ///< r
+  double loss_in_bad = 1;       ///< 1 - h of the four-parameter model
+  double loss_in_good = 0;      ///< 1 - k
+  double reorder = 0;           ///< share of datagrams held back by reorder_us
   std::int64_t reorder_us = 0;
-  double duplicate = 0;                ///< share that arrives twice, the copy a jitter later
-  double corrupt = 0;                  ///< share of datagrams with one flipped bit
-  double spikes_per_s = 0;             ///< stalls after which everything comes in a burst
+  double duplicate = 0;     ///< share that arrives twice, the copy a jitter later
+  double corrupt = 0;       ///< share of datagrams with one flipped bit
+  double spikes_per_s = 0;  ///< stalls after which everything comes in a burst
   std::int64_t spike_min_us = 0, spike_max_us = 0;
-  std::int64_t rate_bits_per_s = 0;    ///< 0: no limit. 28 bytes of IP and UDP header count too
-  double stalls_per_s = 0;             ///< a second, rarer kind of spike
+  std::int64_t rate_bits_per_s = 0;  ///< 0: no limit. 28 bytes of IP and UDP header count too
+  double stalls_per_s = 0;           ///< a second, rarer kind of spike
   std::int64_t stall_min_us = 0, stall_max_us = 0;
-  std::int64_t outage_period_us = 0;   ///< 0: none; else once in each period, at its end, ...
-  std::int64_t outage_min_us = 0, outage_max_us = 0;   ///< ... for so long ...
-  double outage_loss = 0;              ///< ... this share is lost besides
+  std::int64_t outage_period_us = 0;  ///< 0: none; else once in each period, at its end, ...
+  std::int64_t outage_min_us = 0, outage_max_us = 0;  ///< ... for so long ...
+  double outage_loss = 0;                             ///< ... this share is lost besides
 };
 
 /// The named profiles (docs/network-profiles in --help); `demo` is 50 ms each way, 10 ms jitter,
@@ -61,7 +61,7 @@ class ImpairedNet : public Net {
  public:
   static constexpr std::size_t kPathBytesMax = 4u << 20;
   static constexpr std::size_t kQueueBytesMax = 64u << 20;
-  static constexpr std::int64_t kBacklogUsMax = 500'000;   ///< a home router's buffer
+  static constexpr std::int64_t kBacklogUsMax = 500'000;  ///< a home router's buffer
 
   ImpairedNet(Net& inner, const ImpairProfile& out, const ImpairProfile& in, std::uint64_t seed);
   ~ImpairedNet() override;

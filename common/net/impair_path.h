@@ -12,7 +12,7 @@ namespace seam {
 /// One arrival of a datagram.
 struct Arrival {
   std::int64_t due_us = 0;
-  std::int64_t flip_bit = -1;    ///< which bit arrives wrong, -1: none
+  std::int64_t flip_bit = -1;  ///< which bit arrives wrong, -1: none
 };
 
 /// The arrivals of one datagram: none, one or two.
@@ -56,7 +56,7 @@ class ImpairPath {
 
   const ImpairProfile& profile_;
   Random jitter_, reorder_, duplicate_, corrupt_, loss_, outage_;
-  const Random outage_length_;       // forked by period, never advanced
+  const Random outage_length_;  // forked by period, never advanced
   Stalls spikes_, stalls_;
   bool bad_ = false;                 // state of the Gilbert-Elliott chain
   std::int64_t link_free_us_ = 0;    // when the bottleneck has sent all it has accepted

@@ -11,7 +11,7 @@
 namespace seam {
 namespace {
 
-constexpr std::int64_t kMs = 1000;              // us
+constexpr std::int64_t kMs = 1000;                // us
 constexpr std::int64_t kDelayUsMax = 60'000'000;  // longest time a spec may name
 
 ImpairProfile Base(const char* name, std::int64_t delay_us, std::int64_t jitter_us,
@@ -61,7 +61,7 @@ std::vector<ImpairProfile> Mobile() {
   list.push_back(Base("wifi_busy", 15 * kMs, 8 * kMs,
                       "15 ms + 8 ms, 1.5 % lost in bursts, a stall of 0.1-0.6 s every 8 s"));
   Bursts(list.back(), 0.0063, 0.333, 0.7, 0.002);
-  list.back().spikes_per_s = 0.12;   // 0.2 % of 60 datagrams a second
+  list.back().spikes_per_s = 0.12;  // 0.2 % of 60 datagrams a second
   list.back().spike_min_us = 100 * kMs;
   list.back().spike_max_us = 600 * kMs;
   list.push_back(Base("4g", 50 * kMs, 20 * kMs, "50 ms + 20 ms, 4 % lost in bursts, 5 Mb/s"));

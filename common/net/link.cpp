@@ -32,7 +32,7 @@ constexpr std::int64_t kAckSpan = 33;
 /// A reliable message until it is acknowledged.
 struct Outgoing {
   std::int64_t id = 0;
-  std::int64_t sent_us = -1;     // -1: not yet
+  std::int64_t sent_us = -1;  // -1: not yet
   bool acked = false;
   Bytes bytes;
 };
@@ -54,20 +54,20 @@ std::uint64_t PeekSession(ByteView datagram) {
 struct Link::Impl {
   const std::uint64_t session;
 
-  std::int64_t sequence = 0;                 // of the newest datagram sent; the first is 1
+  std::int64_t sequence = 0;  // of the newest datagram sent; the first is 1
   std::int64_t last_send_us = -1;
   std::deque<Bytes> unreliable;
-  std::deque<Outgoing> reliable;             // the first kReliableWindow of them are the window
+  std::deque<Outgoing> reliable;  // the first kReliableWindow of them are the window
   std::int64_t next_id = 0;
-  std::deque<SentRecord> sent;               // of successive sequence numbers up to the newest
+  std::deque<SentRecord> sent;  // of successive sequence numbers up to the newest
   std::int64_t srtt_us = -1;
   bool ever_acked = false;
 
   SequenceWindow window;
-  std::int64_t flushed_newest = -1;          // window.newest() at the last Flush
-  bool ack_owed = false;                     // something reliable came since the last datagram
-  std::int64_t next_in = 0;                  // id of the next reliable message to deliver
-  std::map<std::int64_t, Bytes> early;       // reliable messages ahead of it, within the window
+  std::int64_t flushed_newest = -1;     // window.newest() at the last Flush
+  bool ack_owed = false;                // something reliable came since the last datagram
+  std::int64_t next_in = 0;             // id of the next reliable message to deliver
+  std::map<std::int64_t, Bytes> early;  // reliable messages ahead of it, within the window
   std::int64_t last_receive_us = -1;
   std::int64_t rejected = 0;
 
@@ -83,7 +83,7 @@ struct Link::Impl {
   struct Packing {
     std::int64_t now_us;
     const Sink& send;
-    std::vector<std::int64_t> acks;          // ack fields for the datagrams, newest first
+    std::vector<std::int64_t> acks;  // ack fields for the datagrams, newest first
     std::size_t datagrams = 0;
     DatagramWriter writer{};
     std::vector<std::int64_t> ids{};
@@ -170,7 +170,7 @@ struct Link::Impl {
   /// itself: a repeated message travels in a new datagram with a number of its own.
   void Acknowledge(std::int64_t number, std::int64_t now_us, bool sample) {
     const auto age = static_cast<std::size_t>(sequence - number);
-    if (age >= sent.size()) return;          // forgotten
+    if (age >= sent.size()) return;  // forgotten
     SentRecord& record = sent[sent.size() - 1 - age];
     if (record.acked) return;
     record.acked = ever_acked = true;
@@ -201,7 +201,7 @@ struct Link::Impl {
   void DeliverReliable(const DatagramMessage& message, const Sink& deliver) {
     const std::int64_t id = Unwrap(message.id, next_in);
     ack_owed = true;
-    if (id < next_in) return;                // delivered before
+    if (id < next_in) return;  // delivered before
     early.emplace(id, Bytes(message.bytes.begin(), message.bytes.end()));
     while (!early.empty() && early.begin()->first == next_in) {
       const Bytes bytes = std::move(early.begin()->second);
@@ -250,8 +250,7 @@ void Link::SendUnreliable(ByteView message) {
 bool Link::SendReliable(ByteView message) {
   SEAM_ASSERT(message.size >= 1 && message.size <= kMessageBytesMax);
   if (impl_->reliable.size() >= kReliableQueueMax) return false;
-  impl_->reliable.push_back(
-      {impl_->next_id++, -1, false, Bytes(message.begin(), message.end())});
+  impl_->reliable.push_back({impl_->next_id++, -1, false, Bytes(message.begin(), message.end())});
   return true;
 }
 

@@ -52,13 +52,13 @@ class Link {
   /// `deliver` may send on this link, but must neither destroy it nor call Receive.
   bool Receive(std::int64_t now_us, ByteView datagram, const Sink& deliver);
 
-  std::int64_t last_receive_us() const;   ///< -1 before the first
+  std::int64_t last_receive_us() const;  ///< -1 before the first
   /// Smoothed (RFC 6298), with the time the peer lets pass until its next datagram; -1 before the
   /// first sample.
   std::int64_t rtt_us() const;
-  std::int64_t loss_ppm() const;          ///< missing of the last 256 incoming sequence numbers
-  std::int64_t rejected() const;          ///< datagrams Receive returned false for
-  bool reliable_pending() const;          ///< something sent reliably is not acknowledged yet
+  std::int64_t loss_ppm() const;  ///< missing of the last 256 incoming sequence numbers
+  std::int64_t rejected() const;  ///< datagrams Receive returned false for
+  bool reliable_pending() const;  ///< something sent reliably is not acknowledged yet
 
  private:
   struct Impl;

@@ -21,13 +21,13 @@ class MemoryNetwork {
 
  private:
   friend class MemoryEndpoint;
-  using Datagrams = std::deque<std::pair<Address, Bytes>>;   // sender, bytes
+  using Datagrams = std::deque<std::pair<Address, Bytes>>;  // sender, bytes
   struct Inbox {
-    std::uint64_t endpoint = 0;   // the number of the endpoint that may use it
+    std::uint64_t endpoint = 0;  // the number of the endpoint that may use it
     Datagrams datagrams;
   };
   std::map<Address, Inbox> inbox_;
-  std::uint64_t endpoints_ = 0;   // made so far
+  std::uint64_t endpoints_ = 0;  // made so far
 };
 
 }  // namespace seam

@@ -34,7 +34,7 @@ class SequenceWindow {
  private:
   bool empty_ = true;
   std::int64_t newest_ = 0, first_ = 0;
-  std::bitset<kSize> arrived_;       // bit i: newest_ - i
+  std::bitset<kSize> arrived_;  // bit i: newest_ - i
 };
 
 }  // namespace seam

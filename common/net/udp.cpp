@@ -135,7 +135,7 @@ Address ParseAddress(const std::string& text, std::uint16_t default_port) {
 struct UdpNet::Impl {
   int fd = -1;
   Batch in, out;
-  unsigned in_count = 0, in_next = 0;   // received, and handed out of them
+  unsigned in_count = 0, in_next = 0;  // received, and handed out of them
   unsigned out_count = 0;
   std::int64_t discarded = 0;
 
@@ -187,12 +187,12 @@ void UdpNet::Send(const Address& to, ByteView datagram) {
 void UdpNet::Flush() {
   unsigned sent = 0;
   while (sent < impl_->out_count) {
-    const int count = sendmmsg(impl_->fd, &impl_->out.headers[sent], impl_->out_count - sent,
-                               MSG_DONTWAIT);
+    const int count =
+        sendmmsg(impl_->fd, &impl_->out.headers[sent], impl_->out_count - sent, MSG_DONTWAIT);
     if (count > 0) {
       sent += static_cast<unsigned>(count);
     } else if (errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS) {
-      break;   // the kernel's buffer is full: a router would drop them too
+      break;  // the kernel's buffer is full: a router would drop them too
     } else if (errno != EINTR) {
       ++sent;  // refused, unreachable, filtered: this one is lost, the others are not
     }
@@ -205,7 +205,7 @@ bool UdpNet::Receive(Address* from, Bytes* datagram) {
     if (impl_->in_next == impl_->in_count && !impl_->Fetch()) return false;
     const unsigned slot = impl_->in_next++;
     const std::size_t bytes = impl_->in.headers[slot].msg_len;
-    if (bytes == 0 || bytes > kDatagramBytesMax) {   // not from one of us
+    if (bytes == 0 || bytes > kDatagramBytesMax) {  // not from one of us
       ++impl_->discarded;
       continue;
     }

@@ -23,13 +23,14 @@ Vector2d Turned(const Vector2d& v, double angle) {
 using Kind = std::tuple<float, float, float, int, float, int, int>;
 
 Kind KindOf(const Part& part) {
-  return {part.angle, part.material.friction, part.material.restitution, part.group,
-          part.conveyor.speed, part.conveyor.player, static_cast<int>(part.conveyor.axis)};
+  return {
+      part.angle,          part.material.friction, part.material.restitution,           part.group,
+      part.conveyor.speed, part.conveyor.player,   static_cast<int>(part.conveyor.axis)};
 }
 
 /// A rectangle in the frame of a kind's first box.
 struct Rectangle {
-  Vector2d min{0, 0}, max{0, 0};      // m
+  Vector2d min{0, 0}, max{0, 0};  // m
   std::vector<PartId> parts;
 };
 
@@ -91,8 +92,8 @@ void AddMerged(const Scene& scene, const std::vector<PartId>& boxes, std::vector
 void AddOuter(const Scene& scene, const std::vector<PartId>& boxes, std::vector<Face>* faces) {
   const Part& first = scene.parts[static_cast<std::size_t>(boxes.front())];
   const auto place = [&](const Part& part, double columns, double rows) {
-    const Vector2d centre = Turned((part.position - first.position).cast<double>(),
-                                   -static_cast<double>(first.angle));
+    const Vector2d centre =
+        Turned((part.position - first.position).cast<double>(), -static_cast<double>(first.angle));
     const Vector2d size = part.size.cast<double>();
     return std::make_tuple(Cell(size.x()), Cell(size.y()), Cell(centre.x() + columns * size.x()),
                            Cell(centre.y() + rows * size.y()));
@@ -103,10 +104,9 @@ void AddOuter(const Scene& scene, const std::vector<PartId>& boxes, std::vector<
   }
   for (const PartId id : boxes) {
     const Part& part = scene.parts[static_cast<std::size_t>(id)];
-    const bool enclosed = places.count(place(part, 1, 0)) != 0 &&
-                          places.count(place(part, -1, 0)) != 0 &&
-                          places.count(place(part, 0, 1)) != 0 &&
-                          places.count(place(part, 0, -1)) != 0;
+    const bool enclosed =
+        places.count(place(part, 1, 0)) != 0 && places.count(place(part, -1, 0)) != 0 &&
+        places.count(place(part, 0, 1)) != 0 && places.count(place(part, 0, -1)) != 0;
     if (!enclosed) faces->push_back({part, {id}});
   }
 }
@@ -142,8 +142,8 @@ PartId NearestPart(const Scene& scene, const std::vector<PartId>& parts, const V
   double least = 1e30;
   for (const PartId id : parts) {
     const Part& part = scene.parts[static_cast<std::size_t>(id)];
-    const Vector2d local = Turned(point - part.position.cast<double>(),
-                                  -static_cast<double>(part.angle));
+    const Vector2d local =
+        Turned(point - part.position.cast<double>(), -static_cast<double>(part.angle));
     const Vector2d half = part.size.cast<double>() / 2;
     const Vector2d out = (local.cwiseAbs() - half).cwiseMax(0.0);
     if (out.norm() < least) {

@@ -12,8 +12,8 @@ namespace seam {
 constexpr std::size_t kFacesFrom = 8;
 
 struct Face {
-  Part shape;                       ///< with the number of the lowest of its parts
-  std::vector<PartId> parts;        ///< ascending
+  Part shape;                 ///< with the number of the lowest of its parts
+  std::vector<PartId> parts;  ///< ascending
 };
 
 /// Ascending by number. Boxes become one when they have the same angle, friction, restitution and

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/topology/body_remap.h"
 #include "common/scene/types.h"
+#include "common/topology/body_remap.h"
 
 namespace seam {
 
@@ -20,8 +20,8 @@ class History {
   /// nullptr when the tick is not in the ring.
   const BodyState* At(std::int64_t tick, int body) const;
   BodyState* At(std::int64_t tick, int body);
-  std::int64_t newest() const;      ///< -1 when empty
-  std::int64_t oldest() const;      ///< -1 when empty
+  std::int64_t newest() const;  ///< -1 when empty
+  std::int64_t oldest() const;  ///< -1 when empty
   void Clear();
   /// The bodies are others now: each one's past is that of where it came from, moved rigidly; of
   /// what is new there is none, and `now` fills its place.

@@ -47,8 +47,7 @@ BodyState PartPose(const World& world, PartId part) {
 
 int MechanismOf(const World& world, PartId part) {
   const int index = AssemblyOf(world, part);
-  return index < 0 ? -1
-                   : world.composition().assemblies[static_cast<std::size_t>(index)].mechanism;
+  return index < 0 ? -1 : world.composition().assemblies[static_cast<std::size_t>(index)].mechanism;
 }
 
 Edit BondAsTheyAre(const World& world, PartId a, PartId b, float strength) {

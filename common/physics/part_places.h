@@ -2,8 +2,8 @@
 /// Where every part of a world is, and what it belongs to: parts of one body from the pose of their
 /// root.
 
-#include "common/topology/edit.h"
 #include "common/physics/world.h"
+#include "common/topology/edit.h"
 
 namespace seam {
 

@@ -8,11 +8,11 @@
 #include <memory>
 #include <vector>
 
+#include "common/physics/world_build.h"
 #include "common/scene/assembly.h"
-#include "common/topology/edit.h"
 #include "common/scene/scene.h"
 #include "common/scene/types.h"
-#include "common/physics/world_build.h"
+#include "common/topology/edit.h"
 
 namespace seam {
 
@@ -22,7 +22,7 @@ struct StageWorld {
   const Scene& scene;
   const Composition& composition;
   const BuiltScene& built;
-  const std::int64_t& tick;         ///< ticks stepped so far
+  const std::int64_t& tick;  ///< ticks stepped so far
 };
 
 /// Deterministic: a function of the scene, the calls and what Save keeps. In each tick:

@@ -73,23 +73,23 @@ bool World::awake(int body) const { return impl_->moving(body).body->IsAwake(); 
 void World::SetAwake(int body, bool awake) { impl_->moving(body).body->SetAwake(awake); }
 
 void World::SetMotion(int body, Motion motion) {
-  if (this->motion(body) == motion) return;   // a change would destroy the contacts
-  touches();                                  // as they are after the last tick
+  if (this->motion(body) == motion) return;  // a change would destroy the contacts
+  touches();                                 // as they are after the last tick
   blocks();
   const MovingBody& m = impl_->moving(body);
   const b2Vec2 origin_velocity = m.body->GetLinearVelocityFromLocalPoint(b2Vec2(0, 0));
   if (motion == Motion::kKinematic) {
-    m.body->SetType(b2_kinematicBody);        // forgets the centre of mass
+    m.body->SetType(b2_kinematicBody);  // forgets the centre of mass
     m.body->SetLinearVelocity(origin_velocity);
   } else {
     m.body->SetType(b2_dynamicBody);
-    m.body->SetMassData(&m.mass);             // carries the velocity over to the centre of mass
+    m.body->SetMassData(&m.mass);  // carries the velocity over to the centre of mass
   }
 }
 
 Motion World::motion(int body) const {
   return impl_->moving(body).body->GetType() == b2_dynamicBody ? Motion::kDynamic
-                                                                : Motion::kKinematic;
+                                                               : Motion::kKinematic;
 }
 
 void World::SetInput(int player, const Input& input) {
@@ -118,7 +118,7 @@ void World::Act(int player, int action) {
   SEAM_ASSERT(action >= 0 && action < static_cast<int>(actions.size()));
   const Action& a = actions[static_cast<std::size_t>(action)];
   const int assembly = impl_->composition.assembly_of_part[static_cast<std::size_t>(a.part)];
-  if (assembly < 0) return;   // the part has left
+  if (assembly < 0) return;  // the part has left
   impl_->built.bodies[static_cast<std::size_t>(assembly)]->ApplyLinearImpulseToCenter(
       ToB2(a.impulse), true);
 }

@@ -7,22 +7,22 @@
 #include <vector>
 
 #include "common/scene/assembly.h"
-#include "common/topology/body_remap.h"
 #include "common/scene/scene.h"
+#include "common/topology/body_remap.h"
 #include "common/topology/topology.h"
 
 namespace seam {
 
 /// A change of velocity by contact that may be worth a spark, felt in the last tick.
 struct Impact {
-  int body_a = -1, body_b = -1;     ///< body indices; -1: anchored
-  Vec2 point{0, 0};                 ///< m
-  float dv = 0;                     ///< m/s, impulse over mass, the larger of the two bodies'
+  int body_a = -1, body_b = -1;  ///< body indices; -1: anchored
+  Vec2 point{0, 0};              ///< m
+  float dv = 0;                  ///< m/s, impulse over mass, the larger of the two bodies'
 };
 
 /// Two moving bodies that touched (with contact points) at the end of the last tick.
 struct Touch {
-  int body_a = -1, body_b = -1;     ///< body indices
+  int body_a = -1, body_b = -1;  ///< body indices
 };
 
 /// Two parts of different bodies that touch, anchored ones included, a < b.
@@ -35,7 +35,7 @@ struct PartTouch {
 /// distance joint to an anchor.
 struct Block {
   int body = -1;
-  Vec2 normal{0, 1};                ///< unit
+  Vec2 normal{0, 1};  ///< unit
 };
 
 enum class Motion { kDynamic, kKinematic };
@@ -46,19 +46,19 @@ struct WorldSnapshot {
   struct Body {
     BodyState state;
     bool awake = true;
-    float quiet_s = 0;                  ///< how long it has been slow enough to sleep
+    float quiet_s = 0;  ///< how long it has been slow enough to sleep
   };
   /// Of one point of a contact, where the next step begins to look for its impulse.
   struct Point {
-    std::uint64_t pair = 0;             ///< the two shapes
-    std::uint64_t feature = 0;          ///< which pieces of them
-    float normal = 0, tangent = 0;      ///< N s
+    std::uint64_t pair = 0;         ///< the two shapes
+    std::uint64_t feature = 0;      ///< which pieces of them
+    float normal = 0, tangent = 0;  ///< N s
   };
   std::int64_t tick = 0;
   std::vector<Body> bodies;
-  std::vector<Point> points;            ///< ascending by pair, feature
-  std::vector<std::vector<float>> joints;   ///< impulses, N s and N m s, by the scene's joints
-  std::vector<float> stages;            ///< what each stage remembers
+  std::vector<Point> points;               ///< ascending by pair, feature
+  std::vector<std::vector<float>> joints;  ///< impulses, N s and N m s, by the scene's joints
+  std::vector<float> stages;               ///< what each stage remembers
 };
 
 /// A `body` below is an index 0..body_count()-1 of the moving assemblies, ascending by id. Apply
@@ -70,7 +70,7 @@ class World {
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  const Scene& scene() const;           ///< as it has become
+  const Scene& scene() const;  ///< as it has become
   const Composition& composition() const;
   const Topology& topology() const;
   int body_count() const;
@@ -79,9 +79,9 @@ class World {
   int mechanism(int body) const;        ///< index into composition().mechanisms
   float mass(int body) const;           ///< kg
 
-  std::int64_t tick() const;            ///< ticks stepped so far
-  void SetTick(std::int64_t tick);      ///< for a peer that joins later
-  float dt() const;                     ///< s per tick
+  std::int64_t tick() const;        ///< ticks stepped so far
+  void SetTick(std::int64_t tick);  ///< for a peer that joins later
+  float dt() const;                 ///< s per tick
 
   BodyState Read(int body) const;
   /// Sets pose and velocity. Requires finite values (asserted). Wakes the body if `wake`; else a

@@ -43,7 +43,7 @@ b2MassData MassDataOf(const Scene& scene, const Assembly& assembly) {
 /// nullptr: its parts are one body, or one is moved by the tick alone.
 b2Joint* AddJoint(const Scene& scene, const Joint& joint, b2Body* a, b2Body* b, b2World* world,
                   BuiltScene* built) {
-  if (a == b || (IndexOf(a) < 0 && IndexOf(b) < 0)) return nullptr;   // nothing to hold
+  if (a == b || (IndexOf(a) < 0 && IndexOf(b) < 0)) return nullptr;  // nothing to hold
   if (IsRigid(joint, scene.solver)) return nullptr;
   b2Joint* made = MakeJoint(joint, a, b, world);
   if (HasMotor(joint)) {

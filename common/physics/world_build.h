@@ -7,10 +7,10 @@
 #include <map>
 #include <vector>
 
+#include "common/physics/world_joints.h"
 #include "common/scene/assembly.h"
 #include "common/scene/mass.h"
 #include "common/scene/scene.h"
-#include "common/physics/world_joints.h"
 
 namespace seam {
 
@@ -20,15 +20,15 @@ inline Vec2 FromB2(const b2Vec2& v) { return Vec2(v.x, v.y); }
 /// A moving assembly in Box2D.
 struct MovingBody {
   b2Body* body = nullptr;
-  PartId id = 0;                      ///< assembly
+  PartId id = 0;  ///< assembly
   int mechanism = 0;
-  b2MassData mass{};                  ///< about the body's origin
+  b2MassData mass{};  ///< about the body's origin
 };
 
 struct BuiltScene {
-  std::vector<b2Body*> bodies;        ///< by index into Composition::assemblies
-  std::vector<MovingBody> moving;     ///< ascending by id
-  std::vector<b2Joint*> joints;       ///< by index into Scene::joints; nullptr: one body
+  std::vector<b2Body*> bodies;     ///< by index into Composition::assemblies
+  std::vector<MovingBody> moving;  ///< ascending by id
+  std::vector<b2Joint*> joints;    ///< by index into Scene::joints; nullptr: one body
   std::vector<Motor> motors;
   std::vector<b2DistanceJoint*> tethers;  ///< no springs, to something anchored
   /// Parts that collide as one shape, by the lowest of them, whose number the shape has.

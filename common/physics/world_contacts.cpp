@@ -43,7 +43,7 @@ void AddBlock(int body, const Vec2& normal, std::vector<Block>* blocks) {
 void ImpulseMeter::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
   Felt felt;
   for (int i = 0; i < impulse->count; ++i) felt.impulse += impulse->normalImpulses[i];
-  if (felt.impulse <= least_) return;   // without a look at the bodies: most contacts, every step
+  if (felt.impulse <= least_) return;  // without a look at the bodies: most contacts, every step
   // Anchored bodies have no mass here.
   const float mass_a = contact->GetFixtureA()->GetBody()->GetMass();
   const float mass_b = contact->GetFixtureB()->GetBody()->GetMass();
@@ -122,8 +122,8 @@ std::vector<Block> FindBlocks(const b2World& world, const std::vector<b2Distance
   for (b2DistanceJoint* tether : tethers) {
     const Vec2 along = FromB2(tether->GetAnchorB() - tether->GetAnchorA());
     const float length = along.norm();
-    const bool slack = tether->GetMinLength() < tether->GetMaxLength() &&
-                       length < tether->GetMaxLength() - kTaut;
+    const bool slack =
+        tether->GetMinLength() < tether->GetMaxLength() && length < tether->GetMaxLength() - kTaut;
     if (length <= 0 || slack) continue;
     const int body = std::max(IndexOf(tether->GetBodyA()), IndexOf(tether->GetBodyB()));
     AddBlock(body, along / length, &blocks);

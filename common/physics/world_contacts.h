@@ -27,13 +27,13 @@ class ImpulseMeter : public b2ContactListener {
   /// still costs next to nothing, and three shapes of one body must share a blow to be overlooked.
   static constexpr float kShares = 2;
   struct Felt {
-    int body_a = -1, body_b = -1;     // a < b
-    float impulse = 0;                // N s, of all contact points
-    Vec2 point{0, 0};                 // m
+    int body_a = -1, body_b = -1;  // a < b
+    float impulse = 0;             // N s, of all contact points
+    Vec2 point{0, 0};              // m
   };
-  std::vector<Felt> felt_;            // in the order of solving
-  float counts_from_ = 0;             // m/s: impulse over the lighter body's mass
-  float least_ = 0;                   // N s: counts_from_ for the lightest body of all
+  std::vector<Felt> felt_;  // in the order of solving
+  float counts_from_ = 0;   // m/s: impulse over the lighter body's mass
+  float least_ = 0;         // N s: counts_from_ for the lightest body of all
 };
 
 /// Touching pairs of moving bodies, ascending, each once.

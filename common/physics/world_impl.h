@@ -71,10 +71,10 @@ struct World::Impl {
   /// What survives when the bodies are made anew.
   struct Kept {
     WorldSnapshot snapshot;
-    std::vector<float> speeds;          ///< of motors, by the scene's joints
+    std::vector<float> speeds;  ///< of motors, by the scene's joints
   };
   Kept Keep() const;
-  std::vector<float> Speeds() const;    ///< of motors, by the scene's joints
+  std::vector<float> Speeds() const;  ///< of motors, by the scene's joints
   /// Makes everything anew, in the states of the snapshot. What it has of joints that are no more
   /// is left out. The snapshot of stages may be empty: they begin anew, too.
   void Rebuild(const WorldSnapshot& snapshot, const std::vector<bool>& kinematic,
@@ -89,11 +89,11 @@ struct World::Impl {
   const Scene& scene = topology.scene();
   const Composition& composition = topology.composition();
   ImpulseMeter meter;
-  std::optional<b2World> world;         // rebuilt by Barrier and Restore
+  std::optional<b2World> world;  // rebuilt by Barrier and Restore
   BuiltScene built;
   std::int64_t tick = 0;
-  std::vector<std::unique_ptr<Stage>> stages;   // in their order of action
-  std::optional<ContactHub> hub;        // only when a stage listens
+  std::vector<std::unique_ptr<Stage>> stages;  // in their order of action
+  std::optional<ContactHub> hub;               // only when a stage listens
   std::vector<Impact> impacts;
   // Looked up when asked for: a world that nobody asks pays nothing.
   std::optional<std::vector<Touch>> touches;

@@ -128,8 +128,7 @@ b2Joint* MakeJoint(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
 }
 
 bool HasMotor(const Joint& joint) {
-  return joint.motor_torque > 0 ||
-         (joint.kind == JointKind::kMotor && joint.motor_player >= 0);
+  return joint.motor_torque > 0 || (joint.kind == JointKind::kMotor && joint.motor_player >= 0);
 }
 
 Motor MotorOf(const Joint& joint, b2Joint* made, int index) {

@@ -9,14 +9,14 @@ namespace seam {
 
 /// What turns, drives or moves the two sides of a joint against each other.
 struct Motor {
-  int index = 0;                      ///< into Scene::joints
-  b2Joint* joint = nullptr;           ///< revolute, wheel, prismatic or motor
-  int player = -1;                    ///< -1: turns constantly
-  InputAxis axis = InputAxis::kDrive;           ///< of the player
-  float speed = 0;                    ///< rad/s or m/s at full drive; motor joint: 1
-  b2Vec2 offset{0, 0}, reach{0, 0};   ///< motor joint, m: b's place in a's frame; per speed
-  float angle = 0, swing = 0;         ///< motor joint, rad: likewise
-  float held = 0;                     ///< motor joint: its speed now
+  int index = 0;                       ///< into Scene::joints
+  b2Joint* joint = nullptr;            ///< revolute, wheel, prismatic or motor
+  int player = -1;                     ///< -1: turns constantly
+  InputAxis axis = InputAxis::kDrive;  ///< of the player
+  float speed = 0;                     ///< rad/s or m/s at full drive; motor joint: 1
+  b2Vec2 offset{0, 0}, reach{0, 0};    ///< motor joint, m: b's place in a's frame; per speed
+  float angle = 0, swing = 0;          ///< motor joint, rad: likewise
+  float held = 0;                      ///< motor joint: its speed now
 
   /// `share` of full drive, -1..1. Wakes the bodies if the speed changes.
   void Drive(float share) { SetSpeed(share * speed); }

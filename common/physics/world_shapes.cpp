@@ -4,8 +4,8 @@
 #include <cmath>
 #include <vector>
 
-#include "common/scene/mass.h"
 #include "common/physics/world_build.h"
+#include "common/scene/mass.h"
 
 namespace seam {
 namespace {
@@ -40,8 +40,8 @@ bool MoveIn(float depth, b2PolygonShape* polygon) {
                              polygon->m_normals[i], depth));
   }
   for (int32 i = 0; i < count; ++i) {
-    const b2Vec2 edge = points[static_cast<std::size_t>((i + 1) % count)] -
-                        points[static_cast<std::size_t>(i)];
+    const b2Vec2 edge =
+        points[static_cast<std::size_t>((i + 1) % count)] - points[static_cast<std::size_t>(i)];
     const b2Vec2 was = polygon->m_vertices[(i + 1) % count] - polygon->m_vertices[i];
     if (b2Dot(edge, was) <= 0 || edge.Length() < kEdgeLeast) return false;
   }
@@ -66,7 +66,7 @@ void SetChain(const std::vector<b2Vec2>& points, float skin, b2ChainShape* chain
     const auto outward = [&](std::size_t segment) {
       b2Vec2 along = points[segment + 1] - points[segment];
       along.Normalize();
-      return b2Vec2(-along.y, along.x);   // left of the way in a scene: open air
+      return b2Vec2(-along.y, along.x);  // left of the way in a scene: open air
     };
     const std::size_t last = points.size() - 1;
     for (std::size_t i = 0; i <= last; ++i) {
@@ -83,7 +83,7 @@ void SetChain(const std::vector<b2Vec2>& points, float skin, b2ChainShape* chain
 class Pieces {
  public:
   Pieces(const Part& part, b2Body* body) : body_(body) {
-    def_.density = 0;   // The mass is set once for the body: summing it per fixture is quadratic.
+    def_.density = 0;  // The mass is set once for the body: summing it per fixture is quadratic.
     def_.friction = part.material.friction;
     def_.restitution = part.material.restitution;
     def_.userData.pointer = static_cast<std::uintptr_t>(part.id);
@@ -158,9 +158,7 @@ void AddFixture(const Part& part, const Part& root, float skin, bool guarded, b2
       AddCircle(InRoot(part, root, {0, 0}), part.radius, skin, &pieces);
       break;
     case ShapeKind::kCapsule: AddCapsule(part, root, skin, guarded, &pieces); break;
-    case ShapeKind::kPolygon:
-      AddPolygon(PointsInRoot(part, root), skin, guarded, &pieces);
-      break;
+    case ShapeKind::kPolygon: AddPolygon(PointsInRoot(part, root), skin, guarded, &pieces); break;
     case ShapeKind::kChain: {
       b2ChainShape chain;
       SetChain(PointsInRoot(part, root), skin, &chain);

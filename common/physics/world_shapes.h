@@ -27,8 +27,8 @@ void AddFixture(const Part& part, const Part& root, float skin, bool guarded, b2
 
 /// What a fixture's user data says: the part's id in the low 32 bits, which of its pieces above.
 inline std::uint32_t PartOf(const b2Fixture* fixture) {
-  return static_cast<std::uint32_t>(
-      const_cast<b2Fixture*>(fixture)->GetUserData().pointer & 0xffffffffu);
+  return static_cast<std::uint32_t>(const_cast<b2Fixture*>(fixture)->GetUserData().pointer &
+                                    0xffffffffu);
 }
 inline std::uint32_t PieceOf(const b2Fixture* fixture) {
   return static_cast<std::uint32_t>(const_cast<b2Fixture*>(fixture)->GetUserData().pointer >> 32);

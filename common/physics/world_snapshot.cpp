@@ -94,10 +94,10 @@ void EachPoint(b2World* world, const Visit& visit) {
     // Part numbers and ids of features are below 2^32, a chain's segments and pieces of parts
     // below 2^12: together they tell points apart.
     const std::uint64_t a = PartOf(c->GetFixtureA()), b = PartOf(c->GetFixtureB());
-    const std::uint64_t pieces = std::uint64_t{PieceOf(c->GetFixtureA())} << 8 |
-                                 PieceOf(c->GetFixtureB());
-    const auto child = static_cast<std::uint64_t>(c->GetChildIndexA() + c->GetChildIndexB()) |
-                       pieces << 12;
+    const std::uint64_t pieces =
+        std::uint64_t{PieceOf(c->GetFixtureA())} << 8 | PieceOf(c->GetFixtureB());
+    const auto child =
+        static_cast<std::uint64_t>(c->GetChildIndexA() + c->GetChildIndexB()) | pieces << 12;
     b2Manifold* manifold = c->GetManifold();
     for (int32 i = 0; i < manifold->pointCount; ++i) {
       b2ManifoldPoint& point = manifold->points[i];
@@ -147,7 +147,7 @@ std::vector<float> World::Impl::Speeds() const {
 void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<bool>& kinematic,
                           const std::vector<float>& speeds) {
   Empty();
-  tick = snapshot.tick;   // stages put things where they are then
+  tick = snapshot.tick;  // stages put things where they are then
   // The engine scales the impulses it begins with by the ratio to its last step, which a new world
   // takes for 0: let it have had one.
   world->Step(step_s(), 1, 1);
@@ -169,11 +169,9 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<bool>
   // No time passes, but contacts are found, which wakes what they touch.
   world->Step(0, 1, 1);
   EachPoint(&*world, [&](const PointKey& key, b2ManifoldPoint* point) {
-    const auto found =
-        std::lower_bound(snapshot.points.begin(), snapshot.points.end(), key,
-                         [](const WorldSnapshot::Point& p, const PointKey& k) {
-                           return KeyOf(p) < k;
-                         });
+    const auto found = std::lower_bound(
+        snapshot.points.begin(), snapshot.points.end(), key,
+        [](const WorldSnapshot::Point& p, const PointKey& k) { return KeyOf(p) < k; });
     if (found == snapshot.points.end() || KeyOf(*found) != key) return;
     point->normalImpulse = found->normal;
     point->tangentImpulse = found->tangent;

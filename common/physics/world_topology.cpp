@@ -10,8 +10,8 @@
 #include <cmath>
 #include <map>
 
-#include "common/scene/mass.h"
 #include "common/physics/world_impl.h"
+#include "common/scene/mass.h"
 
 namespace seam {
 namespace {
@@ -61,9 +61,9 @@ std::vector<int> BodyOfAssembly(const Composition& c) {
 
 /// A rigid piece: parts of one body before that are in one body now.
 struct Piece {
-  double mass = 0, inertia = 0;            // kg, kg m^2 about `centre_now`
-  Vector2d centre_then{0, 0};              // m, in the root's frame before
-  Vector2d centre_now{0, 0};               // m, in the root's frame now
+  double mass = 0, inertia = 0;  // kg, kg m^2 about `centre_now`
+  Vector2d centre_then{0, 0};    // m, in the root's frame before
+  Vector2d centre_now{0, 0};     // m, in the root's frame now
   std::vector<PartId> parts;
 };
 
@@ -77,8 +77,7 @@ Piece PieceOf(const Before& before, const Scene& scene, const Part& root_now,
     piece.mass += own.mass;
     piece.centre_now += own.mass * ToRootFrame(scene.parts[p], root_now, own.centre);
     if (came) {
-      piece.centre_then +=
-          own.mass * ToRootFrame(before.parts[p], before.RootOf(id), own.centre);
+      piece.centre_then += own.mass * ToRootFrame(before.parts[p], before.RootOf(id), own.centre);
     }
   }
   if (piece.mass > 0) {
@@ -103,9 +102,9 @@ BodyOrigin OriginOf(const Before& before, const Scene& scene, const Assembly& no
   const Part& root_then = before.parts[static_cast<std::size_t>(then.id)];
   const Part& root_part = before.parts[static_cast<std::size_t>(now.id)];
   origin.root = ToRootFrame(root_part, root_then, Vector2d(0, 0));
-  origin.angle = root_part.id == root_then.id ? 0.0
-                                              : static_cast<double>(root_part.angle) -
-                                                    static_cast<double>(root_then.angle);
+  origin.angle = root_part.id == root_then.id
+                     ? 0.0
+                     : static_cast<double>(root_part.angle) - static_cast<double>(root_then.angle);
   origin.centre_before = before.properties[static_cast<std::size_t>(origin.body)].centre;
   std::vector<PartId> from_there;
   for (const PartId id : now.parts) {
@@ -145,7 +144,7 @@ BodyState StateOf(const Before& before, const Scene& scene, const Assembly& now,
                  static_cast<double>(then.angle));
       velocity = then.velocity.cast<double>() + spin * Vector2d(-arm.y(), arm.x());
     } else {
-      velocity = root.velocity.cast<double>();   // of what was anchored: 0
+      velocity = root.velocity.cast<double>();  // of what was anchored: 0
       spin = static_cast<double>(root.spin);
     }
     momentum += piece.mass * velocity;
@@ -200,7 +199,7 @@ std::optional<Recomposition> World::Apply(const std::vector<Edit>& edits) {
   const std::uint64_t hash = w.composition.hash;
   const std::size_t joints_before = w.scene.joints.size();
   Before before{w.composition, w.scene.parts, {}, BodyOfAssembly(w.composition), {}};
-  std::vector<bool> held;                  // joints that are there, broken ones not
+  std::vector<bool> held;  // joints that are there, broken ones not
   for (const b2Joint* joint : w.built.joints) held.push_back(joint != nullptr);
   for (int body = 0; body < body_count(); ++body) before.states.push_back(Read(body));
   for (const Assembly& a : w.composition.assemblies) {
@@ -245,7 +244,7 @@ std::optional<Recomposition> World::Apply(const std::vector<Edit>& edits) {
   for (const Edit& edit : edits) {
     if (edit.kind == EditKind::kPush && w.topology.Complaint(edit).empty()) Push(edit);
     if (edit.kind == EditKind::kSeat && edit.player < 0 && w.topology.Complaint(edit).empty()) {
-      Follow(static_cast<int>(w.scene.players.size()) + edit.a, Input{});   // nobody drives on
+      Follow(static_cast<int>(w.scene.players.size()) + edit.a, Input{});  // nobody drives on
     }
     for (const auto& stage : w.stages) stage->Edited(edit);
   }

@@ -7,9 +7,8 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <utility>
-
 #include <lcm/lcm-cpp.hpp>
+#include <utility>
 
 #include "common/base/check.h"
 #include "common/codec/messages.h"
@@ -87,8 +86,10 @@ std::string OneLine(std::string text) {
   }
   if (Contains(text, "unreachable") || Contains(text, "No such device") ||
       Contains(text, "route")) {
-    throw OperatorError("LCM: this machine has no route for multicast; do without the bus "
-                        "(--lcm-url none), or " + std::string(kRoute));
+    throw OperatorError(
+        "LCM: this machine has no route for multicast; do without the bus "
+        "(--lcm-url none), or " +
+        std::string(kRoute));
   }
   throw OperatorError("LCM url \"" + url + "\" cannot be used: " + OneLine(text));
 }
@@ -129,8 +130,8 @@ Bus::Bus(const std::string& url) : impl_(new Impl) {
 Bus::~Bus() = default;
 
 void Bus::Publish(const std::string& channel, std::int64_t, ByteView message) {
-  const bool fits = !channel.empty() && channel.size() <= kChannelBytesMax &&
-                    message.size <= kBusMessageBytesMax;
+  const bool fits =
+      !channel.empty() && channel.size() <= kChannelBytesMax && message.size <= kBusMessageBytesMax;
   const auto bytes = static_cast<unsigned int>(message.size);
   if (!fits || impl_->lcm->publish(channel, message.data, bytes) != 0) ++impl_->failures;
 }
@@ -150,14 +151,16 @@ void Bus::Subscribe(const std::string& channel_regex, Handler handler) {
   const bool listening = impl_->lcm->getFileno() >= 0;
   const std::string text = capture.Take();
   if (!listening) {
-    throw OperatorError(
-        "LCM: multicast sent on " + impl_->url + " does not come back; a firewall? As root type: "
-        "iptables -I INPUT -d 224.0.0.0/4 -p udp -j ACCEPT; or " + kRoute);
+    throw OperatorError("LCM: multicast sent on " + impl_->url +
+                        " does not come back; a firewall? As root type: "
+                        "iptables -I INPUT -d 224.0.0.0/4 -p udp -j ACCEPT; or " +
+                        kRoute);
   }
   if (Contains(text, "receive buffer")) {
     impl_->warnings.push_back(
         "LCM's receive buffer is smaller than asked for, bursts of large messages may be lost; as "
-        "root type: sysctl -w net.core.rmem_max=" + std::to_string(kBusReceiveBytes));
+        "root type: sysctl -w net.core.rmem_max=" +
+        std::to_string(kBusReceiveBytes));
   } else if (!text.empty()) {
     impl_->warnings.push_back("LCM says: " + OneLine(text));
   }

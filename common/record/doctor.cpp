@@ -57,7 +57,8 @@ void CheckBuffers(DoctorReport* report) {
     report->lines.push_back("warning  the limit of receive buffers cannot be read here");
   } else if (limit < kBusReceiveBytes) {
     report->lines.push_back(
-        "warning  receive buffers are limited to " + std::to_string(limit) + " bytes, bursts of "
+        "warning  receive buffers are limited to " + std::to_string(limit) +
+        " bytes, bursts of "
         "large messages may be lost: as root type: sysctl -w net.core.rmem_max=" +
         std::to_string(kBusReceiveBytes));
   } else {

@@ -82,10 +82,10 @@ class LogReader {
   bool SwallowsAnother(std::int64_t at, const Header& header);
 
   std::FILE* file_ = nullptr;
-  Bytes window_;                       ///< a stretch of the file, from window_at_
+  Bytes window_;  ///< a stretch of the file, from window_at_
   std::int64_t window_at_ = 0;
   std::uint8_t glance_[kChannelBytesMax] = {};
-  std::int64_t at_ = 0;                ///< where the next event should begin
+  std::int64_t at_ = 0;  ///< where the next event should begin
   std::int64_t size_bytes_ = 0;
   std::int64_t skipped_bytes_ = 0;
   std::int64_t damaged_places_ = 0;

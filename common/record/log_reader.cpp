@@ -84,9 +84,8 @@ bool LogReader::ReadHeader(std::int64_t at, bool magic_matters, Header* header) 
   if (header->end > size_bytes_) return false;
   const std::int64_t channel_at = at + static_cast<std::int64_t>(kLogHeaderBytes);
   const std::uint8_t* channel = Peek(channel_at, channel_bytes);
-  return channel != nullptr && std::all_of(channel, channel + channel_bytes, [](std::uint8_t c) {
-           return c >= 0x20 && c < 0x7f;
-         });
+  return channel != nullptr && std::all_of(channel, channel + channel_bytes,
+                                           [](std::uint8_t c) { return c >= 0x20 && c < 0x7f; });
 }
 
 /// The first place in [from, to) where an event may begin; `to` when there is none.

@@ -62,10 +62,9 @@ void LogWriter::Publish(const std::string& channel, std::int64_t utime, ByteView
   to = PutBigEndian(to, static_cast<std::uint64_t>(utime));
   to = PutBigEndian(to, static_cast<std::uint32_t>(channel.size()));
   PutBigEndian(to, static_cast<std::uint32_t>(message.size));
-  const bool written =
-      std::fwrite(header, 1, sizeof header, file_) == sizeof header &&
-      std::fwrite(channel.data(), 1, channel.size(), file_) == channel.size() &&
-      std::fwrite(message.data, 1, message.size, file_) == message.size;
+  const bool written = std::fwrite(header, 1, sizeof header, file_) == sizeof header &&
+                       std::fwrite(channel.data(), 1, channel.size(), file_) == channel.size() &&
+                       std::fwrite(message.data, 1, message.size, file_) == message.size;
   if (written) {
     ++number_;
   } else {

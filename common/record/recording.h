@@ -15,23 +15,23 @@ namespace seam {
 
 /// One view of a peer at a tick, its parts put together.
 struct Recording {
-  Room room;                                        ///< the first of the log
-  std::map<int, std::map<std::int64_t, View>> views;   ///< by peer, by tick; complete ones only
+  Room room;                                             ///< the first of the log
+  std::map<int, std::map<std::int64_t, View>> views;     ///< by peer, by tick; complete ones only
   std::map<int, std::map<std::int64_t, Inputs>> inputs;  ///< by player, by first_tick
-  std::vector<States> states;                       ///< accepted ones, in log order
-  std::vector<Grants> grants;                       ///< in log order
-  std::map<std::int32_t, EditOrder> edits;          ///< by number: the room's order
-  std::vector<Meta> meta;                           ///< in log order; the last value stands
+  std::vector<States> states;                            ///< accepted ones, in log order
+  std::vector<Grants> grants;                            ///< in log order
+  std::map<std::int32_t, EditOrder> edits;               ///< by number: the room's order
+  std::vector<Meta> meta;                                ///< in log order; the last value stands
   std::vector<Impacts> impacts;
-  std::map<int, std::vector<Stats>> stats;          ///< by peer, ascending
+  std::map<int, std::vector<Stats>> stats;  ///< by peer, ascending
   std::vector<Event> events;
 
-  std::int64_t events_read = 0;        ///< LCM events in the log
-  std::int64_t foreign = 0;            ///< events of channels that are not SEAM.*
-  std::int64_t undecodable = 0;        ///< events of SEAM.* that did not decode
-  std::int64_t skipped_bytes = 0;      ///< damaged bytes of the log
-  std::int64_t duplicates = 0;         ///< events heard twice, kept once
-  std::int64_t bus_gaps = 0;           ///< messages missing by their sequence numbers
+  std::int64_t events_read = 0;              ///< LCM events in the log
+  std::int64_t foreign = 0;                  ///< events of channels that are not SEAM.*
+  std::int64_t undecodable = 0;              ///< events of SEAM.* that did not decode
+  std::int64_t skipped_bytes = 0;            ///< damaged bytes of the log
+  std::int64_t duplicates = 0;               ///< events heard twice, kept once
+  std::int64_t bus_gaps = 0;                 ///< messages missing by their sequence numbers
   std::map<std::string, std::int64_t> gaps;  ///< the same by channel; channels without gaps absent
   std::int64_t first_tick = 0, last_tick = -1;  ///< over all views
 };
@@ -58,8 +58,8 @@ class RecordingBuilder {
   /// What has come on a channel, by sequence number.
   struct Heard {
     std::int64_t first = -1, highest = -1;
-    std::uint64_t mask = 0;                           ///< bit i: highest - i has come
-    std::array<std::uint64_t, 64> hashes{};           ///< of the bytes, at sequence % 64
+    std::uint64_t mask = 0;                  ///< bit i: highest - i has come
+    std::array<std::uint64_t, 64> hashes{};  ///< of the bytes, at sequence % 64
   };
   bool IsDuplicate(const std::string& channel, std::int32_t sequence, ByteView message);
   void CountGaps(const std::string& channel, std::int64_t more);
@@ -80,7 +80,7 @@ class RecordingBuilder {
   bool has_room_ = false;
   bool sorted_ = true;
   Recording recording_;
-  std::map<std::string, Heard> heard_;                ///< by channel
+  std::map<std::string, Heard> heard_;                                 ///< by channel
   std::map<std::pair<std::int64_t, int>, std::vector<View>> partial_;  ///< parts by tick and peer
 };
 

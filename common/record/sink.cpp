@@ -28,7 +28,7 @@ void Sink::OpenLog() {
   try {
     log_ = std::make_unique<LogWriter>(record_path_, force_);
   } catch (const OperatorError&) {
-    ++open_failures_;   // somebody was quicker: it was possible when we looked
+    ++open_failures_;  // somebody was quicker: it was possible when we looked
   }
 }
 

@@ -33,7 +33,7 @@ class Sink : public Recorder {
   std::string record_path_;
   bool force_;
   std::unique_ptr<Bus> bus_;
-  std::unique_ptr<LogWriter> log_;           ///< null until it begins
+  std::unique_ptr<LogWriter> log_;  ///< null until it begins
   std::int64_t open_failures_ = 0;
   std::map<std::string, bool> own_channels_;
 };

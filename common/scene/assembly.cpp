@@ -40,9 +40,9 @@ std::vector<Assembly> WeldParts(const Scene& scene) {
   for (const Part& part : scene.parts) {
     if (part.gone) continue;
     Assembly& assembly = welded[sets.Find(part.id)];
-    const bool heavier = assembly.parts.empty() ||
-                         PartMass(part) >
-                             PartMass(scene.parts[static_cast<std::size_t>(assembly.id)]);
+    const bool heavier =
+        assembly.parts.empty() ||
+        PartMass(part) > PartMass(scene.parts[static_cast<std::size_t>(assembly.id)]);
     if (heavier) assembly.id = part.id;
     assembly.anchored = assembly.anchored || part.anchored;
     assembly.parts.push_back(part.id);

@@ -24,11 +24,16 @@ int Between(Random& random, int from, int to) {
 class Windows {
  public:
   Windows(const BrickField& field, int columns, int rows)
-      : bay_(Bricks(kBay, field.width)), storey_(Bricks(kStorey, field.height)),
-        wide_(Bricks(kWindowWidth, field.width)), high_(Bricks(kWindowHeight, field.height)),
-        sill_(Bricks(kSill, field.height)), bays_((columns - 2) / bay_), storeys_(rows / storey_),
-        columns_(columns), left_((columns - bays_ * bay_) / 2) {
-    if (wide_ >= bay_ || sill_ + high_ >= storey_) bays_ = 0;   // bricks too large for windows
+      : bay_(Bricks(kBay, field.width)),
+        storey_(Bricks(kStorey, field.height)),
+        wide_(Bricks(kWindowWidth, field.width)),
+        high_(Bricks(kWindowHeight, field.height)),
+        sill_(Bricks(kSill, field.height)),
+        bays_((columns - 2) / bay_),
+        storeys_(rows / storey_),
+        columns_(columns),
+        left_((columns - bays_ * bay_) / 2) {
+    if (wide_ >= bay_ || sill_ + high_ >= storey_) bays_ = 0;  // bricks too large for windows
   }
   /// Whether there is a hole. No window is cut by the sides at `aside`, or by the row from which on
   /// the tower stands back.
@@ -47,8 +52,7 @@ class Windows {
   int bay_, storey_, wide_, high_, sill_, bays_, storeys_, columns_, left_;
 };
 
-bool EachOfTower(const BrickField& field, int index,
-                 const std::function<bool(int, int)>& visit) {
+bool EachOfTower(const BrickField& field, int index, const std::function<bool(int, int)>& visit) {
   const BrickField::Towers& t = field.towers;
   Random random = Random(t.seed).Fork(static_cast<std::uint64_t>(index));
   const int columns = Between(random, t.columns_min, t.columns_max);

@@ -21,21 +21,21 @@ constexpr int kBrickSideMin = 2, kBrickSideMax = 80;
 
 /// A rectangle of bricks, or a row of towers of them.
 struct BrickField {
-  std::string name;                 ///< unique
-  int width = 10, height = 5;       ///< of a brick, units
-  int x = 0, y = 0;                 ///< lower left corner of the first, units
-  int columns = 0, rows = 0;        ///< of a rectangle; 0: towers
+  std::string name;            ///< unique
+  int width = 10, height = 5;  ///< of a brick, units
+  int x = 0, y = 0;            ///< lower left corner of the first, units
+  int columns = 0, rows = 0;   ///< of a rectangle; 0: towers
   struct Towers {
     int count = 0;
-    int pitch = 0;                  ///< from one's left side to the next one's, units
+    int pitch = 0;  ///< from one's left side to the next one's, units
     int columns_min = 1, columns_max = 1, rows_min = 1, rows_max = 1;
     bool windows = false;
-    std::uint64_t seed = 0;         ///< of widths, heights and setbacks
+    std::uint64_t seed = 0;  ///< of widths, heights and setbacks
   } towers;
-  float density = 1;                ///< kg/m^2, of what a blast frees
-  float friction = 0.5f, restitution = 0;   ///< 0..1
-  float strength = 0;               ///< m/s: weaker blasts do not free it
-  int line = 0;                     ///< in the scene file
+  float density = 1;                       ///< kg/m^2, of what a blast frees
+  float friction = 0.5f, restitution = 0;  ///< 0..1
+  float strength = 0;                      ///< m/s: weaker blasts do not free it
+  int line = 0;                            ///< in the scene file
 };
 
 /// Calls `visit(x, y)` with the lower left corner (units) of each brick, always in the same order,

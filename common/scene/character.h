@@ -21,32 +21,49 @@ namespace seam {
 /// Places in Character::parts. Left and right are the same in two dimensions; the right one is
 /// numbered after the left one.
 enum CharacterPart {
-  kHead, kTorso,
-  kUpperArmLeft, kLowerArmLeft, kUpperArmRight, kLowerArmRight,
-  kUpperLegLeft, kLowerLegLeft, kFootLeft, kUpperLegRight, kLowerLegRight, kFootRight,
+  kHead,
+  kTorso,
+  kUpperArmLeft,
+  kLowerArmLeft,
+  kUpperArmRight,
+  kLowerArmRight,
+  kUpperLegLeft,
+  kLowerLegLeft,
+  kFootLeft,
+  kUpperLegRight,
+  kLowerLegRight,
+  kFootRight,
   kCharacterParts
 };
 
 /// Places in Character::joints.
 enum CharacterJoint {
   kNeck,
-  kShoulderLeft, kElbowLeft, kShoulderRight, kElbowRight,
-  kHipLeft, kKneeLeft, kAnkleLeft, kHipRight, kKneeRight, kAnkleRight,
+  kShoulderLeft,
+  kElbowLeft,
+  kShoulderRight,
+  kElbowRight,
+  kHipLeft,
+  kKneeLeft,
+  kAnkleLeft,
+  kHipRight,
+  kKneeRight,
+  kAnkleRight,
   kCharacterJoints
 };
 
 struct Character {
-  std::string name;                 ///< its parts are "name.head", its joints "name.neck" and so on
-  bool active = false;              ///< its joints have motors that a controller turns
-  int player = -1;                  ///< whose axes drive it; -1: it only keeps standing
-  float facing = 1;                 ///< 1: toes to the right, -1: to the left
-  float height = 1.8f;              ///< m
+  std::string name;     ///< its parts are "name.head", its joints "name.neck" and so on
+  bool active = false;  ///< its joints have motors that a controller turns
+  int player = -1;      ///< whose axes drive it; -1: it only keeps standing
+  float facing = 1;     ///< 1: toes to the right, -1: to the left
+  float height = 1.8f;  ///< m
   std::array<PartId, kCharacterParts> parts{};
-  std::array<int, kCharacterJoints> joints{};   ///< indices into Scene::joints
+  std::array<int, kCharacterJoints> joints{};  ///< indices into Scene::joints
   /// N m by which each joint resists turning when nothing drives it: muscle tone, for a body that
   /// is limp, passive or dead.
   std::array<float, kCharacterJoints> slack{};
-  int line = 0;                     ///< in the scene file
+  int line = 0;  ///< in the scene file
 };
 
 struct Scene;
@@ -56,9 +73,9 @@ struct Scene;
 struct CharacterShape {
   float hip = 0.96f, shoulder = 1.46f, neck = 1.54f;
   float thigh = 0.44f, shank = 0.43f;          ///< hip to knee, knee to ankle
-  float ankle = 0.09f;                          ///< above the sole
-  float heel = 0.10f, toe = 0.20f;              ///< behind and before the ankle
-  float upper_arm = 0.30f, lower_arm = 0.34f;   ///< shoulder to elbow, elbow to fingertips
+  float ankle = 0.09f;                         ///< above the sole
+  float heel = 0.10f, toe = 0.20f;             ///< behind and before the ankle
+  float upper_arm = 0.30f, lower_arm = 0.34f;  ///< shoulder to elbow, elbow to fingertips
 };
 
 /// The joints of a character, to be broken when it dies: indices into Scene::joints.

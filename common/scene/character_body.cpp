@@ -7,8 +7,8 @@ namespace {
 
 struct PartMeasure {
   const char* name;
-  float x, y;                       ///< m; of its middle, facing right, above the soles
-  float width, height;              ///< m; width 0: a circle of this diameter
+  float x, y;           ///< m; of its middle, facing right, above the soles
+  float width, height;  ///< m; width 0: a circle of this diameter
 };
 
 /// For 1.8 m. In this order: CharacterPart.
@@ -30,8 +30,8 @@ constexpr PartMeasure kParts[kCharacterParts] = {
 struct HingeMeasure {
   const char* name;
   CharacterPart a, b;
-  float y;                          ///< m above the soles
-  float lower, upper;               ///< rad from upright, facing right
+  float y;             ///< m above the soles
+  float lower, upper;  ///< rad from upright, facing right
   /// Bound of torque as a share of weight x height (m x 10 m/s^2 x height): a man of 75 kg and
   /// 1.8 m does about 0.1 to 0.2 of it (150 to 250 N m) at ankle, knee and hip.
   float share;
@@ -52,8 +52,8 @@ constexpr HingeMeasure kHinges[kCharacterJoints] = {
     {"ankle-r", kLowerLegRight, kFootRight, 0.09f, -0.9f, 0.9f, 0.12f},
 };
 
-constexpr float kHeight = 1.8f;     ///< m; of the tables above
-constexpr float kGravity = 10;      ///< m/s^2; of the bounds of torque, in every scene
+constexpr float kHeight = 1.8f;  ///< m; of the tables above
+constexpr float kGravity = 10;   ///< m/s^2; of the bounds of torque, in every scene
 
 /// From the body's frame, facing right and 1.8 m, to the world.
 Vec2 ToWorld(const CharacterDraft& draft, float x, float y) {

@@ -12,15 +12,15 @@ namespace seam {
 /// What [[character]] says.
 struct CharacterDraft {
   Character character;
-  Vec2 position{0, 0};              ///< m; of the soles, below the hips
-  float angle = 0;                  ///< rad, of the whole body about `position`
-  float density = 1;                ///< kg/m^2
+  Vec2 position{0, 0};  ///< m; of the soles, below the hips
+  float angle = 0;      ///< rad, of the whole body about `position`
+  float density = 1;    ///< kg/m^2
   float friction = 0.8f;
-  float strength = 1;               ///< of all bounds of torque
-  std::array<float, kCharacterJoints> torque{};   ///< N m where positive: instead of the default
-  Vec2 velocity{0, 0};              ///< m/s
+  float strength = 1;                            ///< of all bounds of torque
+  std::array<float, kCharacterJoints> torque{};  ///< N m where positive: instead of the default
+  Vec2 velocity{0, 0};                           ///< m/s
   int owner = -1;
-  int group = 0;                    ///< negative, so that its parts do not collide
+  int group = 0;  ///< negative, so that its parts do not collide
 };
 
 /// Muscle tone of a limp or passive character as a share of its joints' bounds of torque.

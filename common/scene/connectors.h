@@ -8,16 +8,16 @@
 namespace seam {
 
 struct Connector {
-  Vec2 at{0, 0};                    ///< m, in the part's frame
-  float angle = 0;                  ///< rad; the way out of the part
+  Vec2 at{0, 0};    ///< m, in the part's frame
+  float angle = 0;  ///< rad; the way out of the part
 };
 
 /// An inlet takes one outlet. Joined, the two are at one place and look at each other.
 struct Connectors {
   std::vector<Connector> inlets, outlets;
-  float strength = 0;               ///< N that break the joint; 0: none does. The weaker part's
-  float reach = 0.1f;               ///< m; closer than this they join. The shorter part's
-  float angle = 0.3f;               ///< rad; the most they may be turned away from each other
+  float strength = 0;  ///< N that break the joint; 0: none does. The weaker part's
+  float reach = 0.1f;  ///< m; closer than this they join. The shorter part's
+  float angle = 0.3f;  ///< rad; the most they may be turned away from each other
 
   bool empty() const { return inlets.empty() && outlets.empty(); }
 };

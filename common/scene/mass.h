@@ -6,9 +6,9 @@
 namespace seam {
 
 struct MassProperties {
-  double mass = 0;                     ///< kg
-  Eigen::Vector2d centre{0, 0};        ///< m, in the frame that was asked for
-  double inertia = 0;                  ///< kg m^2, about the centre
+  double mass = 0;               ///< kg
+  Eigen::Vector2d centre{0, 0};  ///< m, in the frame that was asked for
+  double inertia = 0;            ///< kg m^2, about the centre
 };
 
 /// In the part's own frame. All zero for lines.

@@ -19,9 +19,9 @@ struct ScriptLimits {
 
 /// A program in Lua 5.4, run by the server. docs/scripts.md is its reference.
 struct ScriptSource {
-  std::string name;                 ///< unique
+  std::string name;  ///< unique
   std::string code;
-  int line = 1;                     ///< of the scene file, on which the code begins
+  int line = 1;  ///< of the scene file, on which the code begins
   ScriptLimits limits;
 };
 
@@ -47,18 +47,18 @@ enum class TriggerKind { kArea, kCheckpoint, kPickup, kHazard };
 
 /// Where something happens to what comes there. A part is there when its position is.
 struct Trigger {
-  std::string name;                 ///< unique
+  std::string name;  ///< unique
   TriggerKind kind = TriggerKind::kArea;
-  Vec2 position{0, 0};              ///< m, of its centre; from `part`, if there is one
-  Vec2 size{1, 1};                  ///< m, full width and height, along the world's axes
-  PartId part = -1;                 ///< moves with it (without turning), ends with it; -1: stays
-  std::vector<PartId> parts;        ///< whom it looks at
+  Vec2 position{0, 0};                ///< m, of its centre; from `part`, if there is one
+  Vec2 size{1, 1};                    ///< m, full width and height, along the world's axes
+  PartId part = -1;                   ///< moves with it (without turning), ends with it; -1: stays
+  std::vector<PartId> parts;          ///< whom it looks at
   PlayerMask players = kEveryPlayer;  ///< whose parts; anybody's, also nobody's
-  bool once = false;                ///< ends with the first part that enters (a pickup always)
-  int order = 0;                    ///< kCheckpoint: from 1
-  float score = 0;                  ///< points for the player of who enters
-  float health = 0;                 ///< kPickup: given at once; kHazard: taken in a second
-  int line = 0;                     ///< in the scene file
+  bool once = false;                  ///< ends with the first part that enters (a pickup always)
+  int order = 0;                      ///< kCheckpoint: from 1
+  float score = 0;                    ///< points for the player of who enters
+  float health = 0;                   ///< kPickup: given at once; kHazard: taken in a second
+  int line = 0;                       ///< in the scene file
 };
 
 }  // namespace seam

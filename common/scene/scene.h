@@ -23,79 +23,87 @@ inline bool IsLine(ShapeKind kind) {
 }
 
 struct Material {
-  float density = 1;       ///< kg/m^2, 0.01..100
-  float friction = 0.5f;   ///< 0..1
-  float restitution = 0;   ///< 0..1
+  float density = 1;      ///< kg/m^2, 0.01..100
+  float friction = 0.5f;  ///< 0..1
+  float restitution = 0;  ///< 0..1
 };
 
 struct Part {
   PartId id = 0;
-  std::string name;                 ///< unique
+  std::string name;  ///< unique
   ShapeKind kind = ShapeKind::kBox;
-  Vec2 position{0, 0};              ///< m
-  float angle = 0;                  ///< rad
-  Vec2 size{1, 1};                  ///< box: full width and height, m
-  float radius = 0.5f;              ///< circle, capsule, m
-  std::vector<Vec2> points;         ///< local, m: polygon (convex, 3..64; a wedge is one), chain
-                                    ///< (>= 2; solid on the right of the way along it), segment
-                                    ///< (2) or the centres of a capsule's ends (2)
+  Vec2 position{0, 0};       ///< m
+  float angle = 0;           ///< rad
+  Vec2 size{1, 1};           ///< box: full width and height, m
+  float radius = 0.5f;       ///< circle, capsule, m
+  std::vector<Vec2> points;  ///< local, m: polygon (convex, 3..64; a wedge is one), chain
+                             ///< (>= 2; solid on the right of the way along it), segment
+                             ///< (2) or the centres of a capsule's ends (2)
   Material material;
-  bool anchored = false;            ///< never moves (lines always are)
-  bool bullet = false;              ///< continuous collision against moving bodies
-  int group = 0;                    ///< Box2D group index: equal negative groups do not collide
-  Vec2 velocity{0, 0};              ///< m/s at tick 0, of the assembly's centre of mass
-  float spin = 0;                   ///< rad/s at tick 0
+  bool anchored = false;  ///< never moves (lines always are)
+  bool bullet = false;    ///< continuous collision against moving bodies
+  int group = 0;          ///< Box2D group index: equal negative groups do not collide
+  Vec2 velocity{0, 0};    ///< m/s at tick 0, of the assembly's centre of mass
+  float spin = 0;         ///< rad/s at tick 0
   PartRules rules;
-  int owner = -1;                   ///< player who has authority while connected; -1: by region
+  int owner = -1;  ///< player who has authority while connected; -1: by region
   Connectors connectors;
-  bool gone = false;                ///< has left at run time (common/topology/topology.h)
-  Conveyor conveyor;                ///< its surface moves
-  int line = 0;                     ///< in the scene file
+  bool gone = false;  ///< has left at run time (common/topology/topology.h)
+  Conveyor conveyor;  ///< its surface moves
+  int line = 0;       ///< in the scene file
 };
 
 enum class JointKind {
-  kWeld, kGlue, kRevolute, kWheel, kDistance, kRope, kPrismatic, kMotor, kKinematic
+  kWeld,
+  kGlue,
+  kRevolute,
+  kWheel,
+  kDistance,
+  kRope,
+  kPrismatic,
+  kMotor,
+  kKinematic
 };
 
 struct Joint {
   std::string name;
   JointKind kind = JointKind::kWeld;
-  PartId a = 0, b = 0;              ///< kKinematic: both the part that is moved
-  Vec2 anchor_a{0, 0};              ///< world, at tick 0
-  Vec2 anchor_b{0, 0};              ///< world; same as anchor_a at first, unless kDistance, kRope
-  Vec2 axis{0, 1};                  ///< world, unit; kWheel: of the spring; kPrismatic: of motion
-  float frequency_hz = 0;           ///< of a spring (wheel, distance, weld); 0: rigid
+  PartId a = 0, b = 0;     ///< kKinematic: both the part that is moved
+  Vec2 anchor_a{0, 0};     ///< world, at tick 0
+  Vec2 anchor_b{0, 0};     ///< world; same as anchor_a at first, unless kDistance, kRope
+  Vec2 axis{0, 1};         ///< world, unit; kWheel: of the spring; kPrismatic: of motion
+  float frequency_hz = 0;  ///< of a spring (wheel, distance, weld); 0: rigid
   float damping_ratio = 0.7f;
-  float length = -1;                ///< kDistance, kRope (the most): m; -1: as placed
-  bool limited = false;             ///< kRevolute, kWheel, kPrismatic, kDistance
-  float lower = 0, upper = 0;       ///< rad; wheel, prismatic: m from the start; distance: m
-  float strength = 0;               ///< kGlue: N, the force at which it breaks; 0: never
-  bool collide = false;             ///< the joined bodies collide with each other
-  bool grouped = false;             ///< kGlue: made because its parts rest; a touch undoes it
-  float turn = 0;                   ///< rad; by how much bonds have turned the place of b, less a's
-  bool gone = false;                ///< broken or removed at run time
-  int motor_player = -1;            ///< whose axis turns the motor; -1: a constant motor
+  float length = -1;           ///< kDistance, kRope (the most): m; -1: as placed
+  bool limited = false;        ///< kRevolute, kWheel, kPrismatic, kDistance
+  float lower = 0, upper = 0;  ///< rad; wheel, prismatic: m from the start; distance: m
+  float strength = 0;          ///< kGlue: N, the force at which it breaks; 0: never
+  bool collide = false;        ///< the joined bodies collide with each other
+  bool grouped = false;        ///< kGlue: made because its parts rest; a touch undoes it
+  float turn = 0;              ///< rad; by how much bonds have turned the place of b, less a's
+  bool gone = false;           ///< broken or removed at run time
+  int motor_player = -1;       ///< whose axis turns the motor; -1: a constant motor
   InputAxis motor_axis = InputAxis::kDrive;
-  float motor_speed = 0;            ///< rad/s (kPrismatic: m/s) at full drive
-  float motor_torque = 0;           ///< N m (kPrismatic: N), the most it can do; 0: no motor
-  float force_max = 0;              ///< kMotor: N, with which it holds b's place in a's frame
-  float torque_max = 0;             ///< kMotor: N m, with which it holds b's angle against a's
-  Vec2 reach{0, 0};                 ///< kMotor: m, how far the player's full axis moves that place
-  float swing = 0;                  ///< kMotor: rad, and turns that angle
-  std::vector<Vec2> path;           ///< kKinematic: m from its place, visited in turn, for ever
-  double period_s = 0;              ///< kKinematic: of the whole path and back to its first point
-  double phase = 0;                 ///< kKinematic: share of the path that is behind it at tick 0
-  bool ease = false;                ///< kKinematic: it stands still for a moment at each point
-  float turning = 0;                ///< kKinematic: rad/s about the anchor
+  float motor_speed = 0;   ///< rad/s (kPrismatic: m/s) at full drive
+  float motor_torque = 0;  ///< N m (kPrismatic: N), the most it can do; 0: no motor
+  float force_max = 0;     ///< kMotor: N, with which it holds b's place in a's frame
+  float torque_max = 0;    ///< kMotor: N m, with which it holds b's angle against a's
+  Vec2 reach{0, 0};        ///< kMotor: m, how far the player's full axis moves that place
+  float swing = 0;         ///< kMotor: rad, and turns that angle
+  std::vector<Vec2> path;  ///< kKinematic: m from its place, visited in turn, for ever
+  double period_s = 0;     ///< kKinematic: of the whole path and back to its first point
+  double phase = 0;        ///< kKinematic: share of the path that is behind it at tick 0
+  bool ease = false;       ///< kKinematic: it stands still for a moment at each point
+  float turning = 0;       ///< kKinematic: rad/s about the anchor
   int line = 0;
 };
 
 /// A push when a button goes down: velocity change for one assembly.
 struct Action {
-  int button = 0;                   ///< 0..14
+  int button = 0;  ///< 0..14
   PartId part = 0;
-  Vec2 impulse{0, 0};               ///< N s, at the centre of mass
-  int line = 0;                     ///< in the scene file
+  Vec2 impulse{0, 0};  ///< N s, at the centre of mass
+  int line = 0;        ///< in the scene file
 };
 
 /// Scripted input: from `from_tick` until the next span.
@@ -105,87 +113,87 @@ struct InputSpan {
 };
 
 struct Player {
-  std::string name;                 ///< what seam-client --name says
-  PartId vehicle = -1;              ///< a part of the mechanism that is the player's own, or -1
+  std::string name;     ///< what seam-client --name says
+  PartId vehicle = -1;  ///< a part of the mechanism that is the player's own, or -1
   bool has_region = false;
-  Vec2 region_min{0, 0}, region_max{0, 0};   ///< static region, m
+  Vec2 region_min{0, 0}, region_max{0, 0};  ///< static region, m
   std::vector<Action> actions;
-  std::vector<InputSpan> script;    ///< ascending
-  int line = 0;                     ///< in the scene file
+  std::vector<InputSpan> script;  ///< ascending
+  int line = 0;                   ///< in the scene file
 };
 
 /// A place from which something is driven: motors and thrusts that name the seat as their player
 /// follow whoever sits there. Inputs of seat s are those of player `players.size() + s`.
 struct Seat {
-  std::string name;                 ///< not a player's
-  PartId part = 0;                  ///< that it is on
-  Vec2 at{0, 0};                    ///< m, in the part's frame: where the player's own part goes
-  float angle = 0;                  ///< rad, of the player's own part against the seat's
-  float reach = 2;                  ///< m; how near one must be to get in
-  int button = 0;                   ///< gets in and out
-  int player = -1;                  ///< who sits there now
-  int line = 0;                     ///< in the scene file
+  std::string name;  ///< not a player's
+  PartId part = 0;   ///< that it is on
+  Vec2 at{0, 0};     ///< m, in the part's frame: where the player's own part goes
+  float angle = 0;   ///< rad, of the player's own part against the seat's
+  float reach = 2;   ///< m; how near one must be to get in
+  int button = 0;    ///< gets in and out
+  int player = -1;   ///< who sits there now
+  int line = 0;      ///< in the scene file
 };
 
 /// Which shapes a large assembly (kFacesFrom parts or more) collides with.
 enum class Faces {
-  kMerged,                          ///< aligned boxes that touch are one shape
-  kOuter,                           ///< boxes with a box on all four sides are left out
+  kMerged,  ///< aligned boxes that touch are one shape
+  kOuter,   ///< boxes with a box on all four sides are left out
   kAll,
 };
 
 struct Solver {
-  int tick_hz = 60;                 ///< 10..960
-  int substeps = 1;                 ///< 1..32 Box2D steps per tick
-  int velocity_iterations = 8;      ///< 1..64
-  int position_iterations = 3;      ///< 1..64
+  int tick_hz = 60;             ///< 10..960
+  int substeps = 1;             ///< 1..32 Box2D steps per tick
+  int velocity_iterations = 8;  ///< 1..64
+  int position_iterations = 3;  ///< 1..64
   bool sleep = true;
-  bool continuous = true;           ///< fast things do not pass through anchored ones
-  bool warm_starting = true;        ///< each step begins with the last one's impulses
+  bool continuous = true;     ///< fast things do not pass through anchored ones
+  bool warm_starting = true;  ///< each step begins with the last one's impulses
   /// m; the rounded rim by which shapes collide before they touch. 0: the engine's own (1 cm for
   /// polygons and chains, nothing for circles, so that boxes rest 1.5 cm apart). Else moving shapes
   /// have this rim, anchored and bullet ones keep 1 cm and are moved in by the difference, and
   /// everything comes to rest 2 skin - 5 mm apart: nothing at 2.5 mm, the least allowed.
   float skin = 0;
-  bool weld_joints = false;         ///< welds are the engine's joints, not one body
+  bool weld_joints = false;  ///< welds are the engine's joints, not one body
   Faces faces = Faces::kMerged;
 };
 
 /// Where a collision between players' things is measured (common/measure: rebound).
 struct WatchCollision {
-  std::vector<PartId> struck;       ///< whose momentum is compared with the oracle's
-  std::int64_t around_tick = 0;     ///< searched from here on
-  int line = 0;                     ///< in the scene file
+  std::vector<PartId> struck;    ///< whose momentum is compared with the oracle's
+  std::int64_t around_tick = 0;  ///< searched from here on
+  int line = 0;                  ///< in the scene file
 };
 
 struct Camera {
-  Vec2 min{-20, -2}, max{20, 12};   ///< what must be visible, m
+  Vec2 min{-20, -2}, max{20, 12};  ///< what must be visible, m
   PartId follow = -1;
 };
 
 struct Scene {
-  std::string name;                 ///< file name without folder and .toml
+  std::string name;  ///< file name without folder and .toml
   std::string title;
   Vec2 gravity{0, -10};
   Solver solver;
-  double duration_s = 10;           ///< length of the demo
-  float buffer_m = 10;              ///< width of the buffer zone
-  float speed_limit = 120;          ///< m/s: states beyond are implausible
+  double duration_s = 10;                                 ///< length of the demo
+  float buffer_m = 10;                                    ///< width of the buffer zone
+  float speed_limit = 120;                                ///< m/s: states beyond are implausible
   Vec2 bounds_min{-1000, -1000}, bounds_max{1000, 1000};  ///< states beyond are implausible
   std::vector<Part> parts;
   std::vector<Joint> joints;
-  std::vector<BrickField> bricks;   ///< anchored, and no parts
+  std::vector<BrickField> bricks;  ///< anchored, and no parts
   std::vector<Water> waters;
   std::vector<Thrust> thrusts;
   Grouping grouping;
   std::vector<Character> characters;
   std::vector<Player> players;
   std::vector<Seat> seats;
-  std::vector<Trigger> triggers;    ///< the server's
+  std::vector<Trigger> triggers;      ///< the server's
   std::vector<ScriptSource> scripts;  ///< the server's
   std::vector<WatchCollision> watch;
   Camera camera;
-  std::string text;                 ///< the file itself
+  std::string text;  ///< the file itself
 };
 
 /// Anchored part like the brick of this field whose lower left corner is at x, y (units), without

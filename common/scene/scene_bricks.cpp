@@ -55,7 +55,7 @@ void ReadCount(const SceneReader& r, BrickField* field) {
 
 /// How many there are now; complains when they are too many or too far away.
 std::size_t Counted(const SceneReader& r, const BrickField& field, std::size_t before) {
-  constexpr int kFar = 600000;      // units: 30 km, kCoordinate
+  constexpr int kFar = 600000;  // units: 30 km, kCoordinate
   std::size_t count = before;
   EachBrick(field, [&](int x, int y) {
     ++count;
@@ -136,8 +136,9 @@ void ReadField(const TomlNode& node, SceneDraft* draft, std::size_t* count) {
 Part BrickPart(const BrickField& field, int x, int y) {
   Part part;
   part.size = Vec2(static_cast<float>(field.width), static_cast<float>(field.height)) * kBrickUnit;
-  part.position = Vec2(static_cast<float>(2 * x + field.width),
-                       static_cast<float>(2 * y + field.height)) * (kBrickUnit / 2);
+  part.position =
+      Vec2(static_cast<float>(2 * x + field.width), static_cast<float>(2 * y + field.height)) *
+      (kBrickUnit / 2);
   part.material = {field.density, field.friction, field.restitution};
   part.anchored = true;
   return part;

@@ -39,8 +39,8 @@ void CheckAnchored(const Checked& c, const Assembly& assembly) {
   for (const PartId id : assembly.parts) {
     const Part& part = c.part(id);
     if (part.velocity != Vec2(0, 0) || part.spin != 0 || part.owner >= 0) {
-      c.Fail(part.line, "part '" + part.name +
-                            "': is welded to an anchored part: no velocity, spin or owner");
+      c.Fail(part.line,
+             "part '" + part.name + "': is welded to an anchored part: no velocity, spin or owner");
     }
   }
 }
@@ -85,8 +85,8 @@ void CheckJoints(const Checked& c) {
 void CheckThrusts(const Checked& c) {
   for (const Thrust& thrust : c.scene.thrusts) {
     if (!c.assembly_of(thrust.part).anchored) continue;
-    c.Fail(thrust.line, "thrust '" + thrust.name + "': '" + c.part(thrust.part).name +
-                            "' is anchored");
+    c.Fail(thrust.line,
+           "thrust '" + thrust.name + "': '" + c.part(thrust.part).name + "' is anchored");
   }
 }
 
@@ -124,8 +124,8 @@ void CheckPlayers(const Checked& c) {
       const double mass = AssemblyProperties(c.scene, assembly).mass;
       const double speed = static_cast<double>(action.impulse.norm()) / mass;
       if (speed > static_cast<double>(c.scene.speed_limit)) {
-        c.Fail(action.line, what + "the impulse makes its " + Decimal(mass) +
-                                " kg faster than the speed_limit");
+        c.Fail(action.line,
+               what + "the impulse makes its " + Decimal(mass) + " kg faster than the speed_limit");
       }
     }
   }

@@ -14,7 +14,7 @@ namespace seam {
 struct SceneDraft {
   const std::string& file;
   Scene scene;
-  float size_max = 10;                                 ///< m
+  float size_max = 10;  ///< m
   std::map<std::string, PartId> part_of_name;
   std::map<std::string, std::vector<PartId>> group_of_name;  ///< what `repeat` made of a name
 };
@@ -25,9 +25,9 @@ struct Repeat {
   int columns = 1, rows = 1;
   bool joined = false;
   JointKind kind = JointKind::kWeld;
-  float strength = 0;               ///< N; of glue
-  bool grid = false;                ///< names get two numbers
-  Vec2 step{0, 0};                  ///< m; grid: x per column, y per row; else per copy
+  float strength = 0;  ///< N; of glue
+  bool grid = false;   ///< names get two numbers
+  Vec2 step{0, 0};     ///< m; grid: x per column, y per row; else per copy
 
   Vec2 Offset(int column, int row) const;
   /// ".3", or in a grid ".3.1".

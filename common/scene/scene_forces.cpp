@@ -6,8 +6,8 @@
 namespace seam {
 namespace {
 
-constexpr Range kForce{-1e6, 1e6};       // N
-constexpr Range kBelt{-100, 100};        // m/s
+constexpr Range kForce{-1e6, 1e6};  // N
+constexpr Range kBelt{-100, 100};   // m/s
 
 Thrust ReadThrust(const TomlNode& node, const SceneDraft& draft) {
   Thrust thrust;

@@ -21,15 +21,17 @@ const std::vector<Kind>& Kinds() {
       {"glue", JointKind::kGlue, {"a", "anchor", "strength"}},
       {"hinge", JointKind::kRevolute, {"a", "anchor", "limits", "motor", "collide"}},
       {"revolute", JointKind::kRevolute, {"a", "anchor", "limits", "motor", "collide"}},
-      {"prismatic", JointKind::kPrismatic,
-       {"a", "anchor", "axis", "limits", "motor", "collide"}},
-      {"wheel", JointKind::kWheel,
+      {"prismatic", JointKind::kPrismatic, {"a", "anchor", "axis", "limits", "motor", "collide"}},
+      {"wheel",
+       JointKind::kWheel,
        {"a", "anchor", "axis", "frequency", "damping_ratio", "limits", "motor", "collide"}},
-      {"distance", JointKind::kDistance,
+      {"distance",
+       JointKind::kDistance,
        {"a", "anchor_a", "anchor_b", "length", "frequency", "damping_ratio", "limits", "collide"}},
       {"rope", JointKind::kRope, {"a", "anchor_a", "anchor_b", "length", "collide"}},
       {"motor", JointKind::kMotor, {"a", "force", "torque", "follow", "collide"}},
-      {"kinematic", JointKind::kKinematic,
+      {"kinematic",
+       JointKind::kKinematic,
        {"anchor", "path", "period", "phase", "ease", "turning"}}};
   return kinds;
 }
@@ -37,17 +39,18 @@ const std::vector<Kind>& Kinds() {
 /// Complains about keys that this kind of joint would ignore.
 const Kind& ReadKind(const SceneReader& r) {
   static const char* const kSome[] = {
-      "a", "anchor", "anchor_a", "anchor_b", "axis", "frequency", "damping_ratio", "length",
-      "limits", "collide", "motor", "strength", "force", "torque", "follow", "path", "period",
-      "phase", "ease", "turning", "local_a", "local_b", "reference_angle"};
+      "a",       "anchor",         "anchor_a", "anchor_b", "axis",     "frequency", "damping_ratio",
+      "length",  "limits",         "collide",  "motor",    "strength", "force",     "torque",
+      "follow",  "path",           "period",   "phase",    "ease",     "turning",   "local_a",
+      "local_b", "reference_angle"};
   const std::string name = r.Text("kind");
   std::string all;
   for (const Kind& kind : Kinds()) {
     all += std::string(all.empty() ? "" : ", ") + kind.name;
     if (name != kind.name) continue;
     for (const char* key : kSome) {
-      const bool local = std::string(key).rfind("local_", 0) == 0 ||
-                         std::string(key) == "reference_angle";
+      const bool local =
+          std::string(key).rfind("local_", 0) == 0 || std::string(key) == "reference_angle";
       const bool known = local ? kind.kind != JointKind::kKinematic
                                : std::count(kind.keys.begin(), kind.keys.end(), key) > 0;
       if (!known && r.Has(key)) r.FailAt(key, "a " + name + " joint has no " + key);
@@ -191,8 +194,8 @@ PartId CopyAfter(const SceneReader& r, PartId part, int column, int row, bool gr
   const std::size_t second = name.find('.', first + 1);
   const bool two = second != std::string::npos;
   if (two != grid) r.FailAt("repeat", "repeat: '" + name + "' is not repeated the same way");
-  std::string copy = name.substr(0, first + 1) +
-                     std::to_string(std::stoi(name.substr(first + 1)) + column);
+  std::string copy =
+      name.substr(0, first + 1) + std::to_string(std::stoi(name.substr(first + 1)) + column);
   if (two) copy += "." + std::to_string(std::stoi(name.substr(second + 1)) + row);
   const auto found = draft.part_of_name.find(copy);
   if (found == draft.part_of_name.end()) {
@@ -254,10 +257,12 @@ void ReadJoint(const TomlNode& node, SceneDraft* draft) {
   Joint joint;
   joint.line = node.line;
   SceneReader r(node, draft->file, "joint",
-                {"name", "kind", "a", "b", "anchor", "anchor_a", "anchor_b", "axis", "frequency",
-                 "damping_ratio", "length", "limits", "collide", "motor", "strength", "force",
-                 "torque", "follow", "path", "period", "phase", "ease", "turning", "repeat",
-                 "local_a", "local_b", "reference_angle"});
+                {"name",     "kind",           "a",       "b",         "anchor",
+                 "anchor_a", "anchor_b",       "axis",    "frequency", "damping_ratio",
+                 "length",   "limits",         "collide", "motor",     "strength",
+                 "force",    "torque",         "follow",  "path",      "period",
+                 "phase",    "ease",           "turning", "repeat",    "local_a",
+                 "local_b",  "reference_angle"});
   joint.name = r.Name("name");
   r.Rename("joint '" + joint.name + "'");
   joint.kind = ReadKind(r).kind;

@@ -25,9 +25,8 @@ void ReadSolver(const SceneReader& root, const std::string& file, Solver* solver
   const TomlNode* table = root.Table("solver");
   if (table == nullptr) return;
   const SceneReader r(*table, file, "solver",
-                      {"tick_hz", "substeps", "velocity_iterations", "position_iterations",
-                       "sleep", "continuous", "warm_starting", "skin", "welds",
-                       "faces"});
+                      {"tick_hz", "substeps", "velocity_iterations", "position_iterations", "sleep",
+                       "continuous", "warm_starting", "skin", "welds", "faces"});
   solver->tick_hz = r.Integer("tick_hz", {10, 960}, solver->tick_hz);
   solver->substeps = r.Integer("substeps", {1, 32}, solver->substeps);
   solver->velocity_iterations =
@@ -71,11 +70,11 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   scene.name = SceneName(file_name);
   scene.text = text;
 
-  const SceneReader root(tree, file_name, "scene",
-                         {"title", "gravity", "duration", "buffer", "speed_limit", "size_max",
-                          "bounds", "solver", "part", "bricks", "character", "joint", "thrust",
-                          "water", "player", "seat", "watch", "camera", "trigger", "script",
-                          "grouping"});
+  const SceneReader root(
+      tree, file_name, "scene",
+      {"title",  "gravity", "duration", "buffer",    "speed_limit", "size_max", "bounds",
+       "solver", "part",    "bricks",   "character", "joint",       "thrust",   "water",
+       "player", "seat",    "watch",    "camera",    "trigger",     "script",   "grouping"});
   scene.title = root.Text("title", scene.name);
   scene.gravity = root.Vector("gravity", {-100, 100}, scene.gravity);
   scene.duration_s = root.Seconds("duration", {0.1, 86400}, scene.duration_s);

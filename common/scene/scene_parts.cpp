@@ -7,8 +7,10 @@ namespace seam {
 namespace {
 
 void ReadMotion(const SceneReader& r, float speed_limit, Part* part) {
-  if (!part->anchored) part->anchored = r.Flag("anchored", false);
-  else if (!r.Flag("anchored", true)) r.FailAt("anchored", "a line is always anchored");
+  if (!part->anchored)
+    part->anchored = r.Flag("anchored", false);
+  else if (!r.Flag("anchored", true))
+    r.FailAt("anchored", "a line is always anchored");
   part->bullet = r.Flag("bullet", false);
   part->velocity = r.Vector("velocity", {-speed_limit, speed_limit}, Vec2(0, 0));
   part->spin = r.Number("spin", {-kSpinMax, kSpinMax}, 0.0f);
@@ -82,11 +84,12 @@ void JoinCopies(const SceneReader& r, const Repeat& repeat, const std::string& n
 
 void ReadPart(const TomlNode& node, SceneDraft* draft) {
   SceneReader r(node, draft->file, "part",
-                {"name", "box", "circle", "capsule", "wedge", "polygon", "chain", "segment",
-                 "position", "angle", "density", "friction", "restitution", "anchored", "bullet",
-                 "group", "conveyor", "velocity", "spin", "owner", "owners", "repeat", "health",
-                 "damage", "score", "permissions", "inlets", "outlets", "join_strength",
-                 "join_reach", "join_angle"});
+                {"name",        "box",         "circle",   "capsule", "wedge",         "polygon",
+                 "chain",       "segment",     "position", "angle",   "density",       "friction",
+                 "restitution", "anchored",    "bullet",   "group",   "conveyor",      "velocity",
+                 "spin",        "owner",       "owners",   "repeat",  "health",        "damage",
+                 "score",       "permissions", "inlets",   "outlets", "join_strength", "join_reach",
+                 "join_angle"});
   const std::string name = r.Name("name");
   r.Rename("part '" + name + "'");
   if (draft->part_of_name.count(name) != 0 || draft->group_of_name.count(name) != 0) {

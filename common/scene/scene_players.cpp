@@ -6,7 +6,7 @@
 namespace seam {
 namespace {
 
-constexpr int kButtons = 15;        // Input::buttons is an int16_t: 15 bits without the sign
+constexpr int kButtons = 15;  // Input::buttons is an int16_t: 15 bits without the sign
 
 SceneReader PlayerReader(const TomlNode& node, const SceneDraft& draft) {
   return SceneReader(node, draft.file, "player",

@@ -77,10 +77,10 @@ void SceneReader::FailAt(const char* key, const std::string& complaint) const {
 }
 
 void SceneReader::Expected(const TomlNode& node, const char* key, const std::string& what) const {
-  const std::string got = node.kind == TomlNode::Kind::kInteger ||
-                                  node.kind == TomlNode::Kind::kNumber
-                              ? Decimal(node.number)
-                              : std::string(KindName(node.kind));
+  const std::string got =
+      node.kind == TomlNode::Kind::kInteger || node.kind == TomlNode::Kind::kNumber
+          ? Decimal(node.number)
+          : std::string(KindName(node.kind));
   FailLine(node.line, std::string(key) + " must be " + what + ", not " + got);
 }
 

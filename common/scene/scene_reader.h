@@ -26,7 +26,7 @@ class SceneReader {
 
   bool Has(const char* key) const { return table_.Find(key) != nullptr; }
   int line() const { return table_.line; }
-  int LineOf(const char* key) const;            ///< the table's when the key is absent
+  int LineOf(const char* key) const;  ///< the table's when the key is absent
   void Rename(std::string what) { what_ = std::move(what); }
   const std::string& what() const { return what_; }
 

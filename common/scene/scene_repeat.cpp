@@ -17,8 +17,7 @@ Repeat ReadRepeat(const SceneReader& owner, const std::string& file) {
   Repeat repeat;
   const TomlNode* table = owner.Table("repeat");
   if (table == nullptr) return repeat;
-  const SceneReader r(*table, file, owner.what() + ": repeat",
-                      {"count", "step", "weld", "glue"});
+  const SceneReader r(*table, file, owner.what() + ": repeat", {"count", "step", "weld", "glue"});
   const Range count{1, static_cast<double>(kPartsMax)};
   const TomlNode* node = table->Find("count");
   if (node != nullptr && node->kind == TomlNode::Kind::kArray) {

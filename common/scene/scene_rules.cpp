@@ -89,8 +89,10 @@ void ReadTrigger(const TomlNode& node, const std::vector<PartId>& vehicles, Scen
   if (r.Has("health") && !gives) r.FailAt("health", "only a pickup or a hazard has health");
   if (checkpoint) trigger.order = r.Integer("order", {1, 1000});
   trigger.size = r.Vector("box", {kEdgeMin, 1000});
-  if (r.Has("part")) trigger.part = FindPart(r, "part", *draft);
-  else if (!r.Has("position")) r.Fail("needs a position or a part");
+  if (r.Has("part"))
+    trigger.part = FindPart(r, "part", *draft);
+  else if (!r.Has("position"))
+    r.Fail("needs a position or a part");
   trigger.position = r.Vector("position", kCoordinate, Vec2(0, 0));
   trigger.players = ReadMask(r, "players", *draft);
   if (trigger.kind == TriggerKind::kPickup && trigger.part >= 0) {
@@ -108,8 +110,7 @@ void ReadTrigger(const TomlNode& node, const std::vector<PartId>& vehicles, Scen
   }
   if (!r.Has("for")) trigger.parts = UsualParts(trigger, *draft, vehicles);
   std::sort(trigger.parts.begin(), trigger.parts.end());
-  trigger.parts.erase(std::unique(trigger.parts.begin(), trigger.parts.end()),
-                      trigger.parts.end());
+  trigger.parts.erase(std::unique(trigger.parts.begin(), trigger.parts.end()), trigger.parts.end());
   if (trigger.parts.empty()) r.Fail("nobody can enter: say 'for' which parts it is");
   if (std::count(trigger.parts.begin(), trigger.parts.end(), trigger.part) != 0) {
     r.FailAt("for", "a part cannot enter its own trigger");
@@ -169,20 +170,20 @@ void CheckPermissions(const Scene& scene, const std::string& file) {
     return scene.parts[static_cast<std::size_t>(id)];
   };
   for (const Joint& joint : scene.joints) {
-    const bool by_player = joint.motor_player >= 0 &&
-                           joint.motor_player < static_cast<int>(scene.players.size());
-    if (!by_player) continue;   // always on, or a seat's
+    const bool by_player =
+        joint.motor_player >= 0 && joint.motor_player < static_cast<int>(scene.players.size());
+    if (!by_player) continue;  // always on, or a seat's
     for (const PartId id : {joint.a, joint.b}) {
       if (Allows(part(id).rules.drive, joint.motor_player)) continue;
-      fail(joint.line, "joint '" + joint.name + "': its player may not drive '" + part(id).name +
-                           "'");
+      fail(joint.line,
+           "joint '" + joint.name + "': its player may not drive '" + part(id).name + "'");
     }
   }
   for (std::size_t p = 0; p < scene.players.size(); ++p) {
     for (const Action& action : scene.players[p].actions) {
       if (Allows(part(action.part).rules.push, static_cast<int>(p))) continue;
-      fail(action.line, "player '" + scene.players[p].name + "': may not push '" +
-                            part(action.part).name + "'");
+      fail(action.line,
+           "player '" + scene.players[p].name + "': may not push '" + part(action.part).name + "'");
     }
   }
   for (const Part& owned : scene.parts) {

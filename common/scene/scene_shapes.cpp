@@ -40,9 +40,10 @@ void ReadCapsule(const SceneReader& r, float size_max, Part* part) {
   part->points = {{-half, 0}, {half, 0}};
   part->radius = size.y();
   if (part->radius < kSizeMin / 2 || size.x() + 2 * part->radius > size_max) {
-    r.FailAt("capsule", "a capsule is [length between its ends' centres, radius]; the radius at "
-                        "least " + Decimal(kSizeMin / 2) + " m, the whole at most " +
-                            Decimal(size_max) + " m long");
+    r.FailAt("capsule",
+             "a capsule is [length between its ends' centres, radius]; the radius at "
+             "least " +
+                 Decimal(kSizeMin / 2) + " m, the whole at most " + Decimal(size_max) + " m long");
   }
 }
 

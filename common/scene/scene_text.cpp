@@ -49,11 +49,11 @@ void CheckCharacters(const std::string& text, const std::string& file) {
 /// The end of code that is written over several lines at `at`; moves `line` to it. Only scripts may
 /// have it, and only between ''': it is taken as it stands, so that its lines are the file's.
 std::size_t EndOfCode(const std::string& text, std::size_t at, const std::string& file, int* line) {
-  const std::size_t begin = text.rfind('\n', at) + 1;   // npos + 1 is 0
+  const std::size_t begin = text.rfind('\n', at) + 1;  // npos + 1 is 0
   std::string before = text.substr(begin, at - begin);
-  before.erase(std::remove_if(before.begin(), before.end(),
-                              [](char c) { return c == ' ' || c == '\t'; }),
-               before.end());
+  before.erase(
+      std::remove_if(before.begin(), before.end(), [](char c) { return c == ' ' || c == '\t'; }),
+      before.end());
   if (before != "script=" && before != "code=") {
     Fail(file, *line, "multi-line text is not allowed");
   }
@@ -110,8 +110,9 @@ void CheckNesting(const std::string& text, const std::string& file) {
 
 void CheckSceneText(const std::string& text, const std::string& file) {
   if (text.size() > kSceneBytesMax) {
-    Fail(file, 1, "a scene may have at most " + std::to_string(kSceneBytesMax) + " bytes, not " +
-                      std::to_string(text.size()));
+    Fail(file, 1,
+         "a scene may have at most " + std::to_string(kSceneBytesMax) + " bytes, not " +
+             std::to_string(text.size()));
   }
   CheckCharacters(text, file);
   CheckNesting(text, file);

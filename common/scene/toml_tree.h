@@ -12,13 +12,13 @@ namespace seam {
 struct TomlNode {
   enum class Kind { kBoolean, kInteger, kNumber, kText, kArray, kTable, kOther };
 
-  Kind kind = Kind::kOther;         ///< kOther: dates and times
-  int line = 0;                     ///< where it begins, from 1
+  Kind kind = Kind::kOther;  ///< kOther: dates and times
+  int line = 0;              ///< where it begins, from 1
   bool boolean = false;
   std::int64_t integer = 0;
-  double number = 0;                ///< of integers too
+  double number = 0;  ///< of integers too
   std::string text;
-  std::vector<TomlNode> items;      ///< of an array
+  std::vector<TomlNode> items;                            ///< of an array
   std::vector<std::pair<std::string, TomlNode>> members;  ///< of a table, by line, then by key
 
   /// nullptr when this is no table or has no such member.

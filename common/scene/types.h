@@ -13,17 +13,17 @@ using PartId = std::int32_t;
 
 /// Pose and velocity of one assembly. `position` is the root part's centre of its shape frame.
 struct BodyState {
-  Vec2 position{0, 0};   ///< m
-  float angle = 0;       ///< rad, not wrapped
-  Vec2 velocity{0, 0};   ///< m/s, of the centre of mass
-  float spin = 0;        ///< rad/s
+  Vec2 position{0, 0};  ///< m
+  float angle = 0;      ///< rad, not wrapped
+  Vec2 velocity{0, 0};  ///< m/s, of the centre of mass
+  float spin = 0;       ///< rad/s
 };
 
 /// What a player does during one tick.
 struct Input {
-  std::int8_t drive = 0;       ///< -127..127, motors that follow the player
-  std::int8_t lift = 0;        ///< -127..127, a second axis
-  std::int16_t buttons = 0;    ///< bit b: action b is pressed; it acts on the tick it goes down
+  std::int8_t drive = 0;     ///< -127..127, motors that follow the player
+  std::int8_t lift = 0;      ///< -127..127, a second axis
+  std::int16_t buttons = 0;  ///< bit b: action b is pressed; it acts on the tick it goes down
   bool operator==(const Input& o) const {
     return drive == o.drive && lift == o.lift && buttons == o.buttons;
   }

@@ -11,9 +11,9 @@ namespace seam {
 
 /// A push on what a fixture stands for; resolved to one part only when somebody wants to know.
 struct PartPush {
-  PartId fixture = -1;              ///< the part whose number the fixture has
-  b2Vec2 point{0, 0};               ///< in the body's frame, m
-  Eigen::Vector2d impulse{0, 0};    ///< N s, in the world's directions
+  PartId fixture = -1;            ///< the part whose number the fixture has
+  b2Vec2 point{0, 0};             ///< in the body's frame, m
+  Eigen::Vector2d impulse{0, 0};  ///< N s, in the world's directions
 };
 
 /// The part that is at the point.
@@ -45,8 +45,8 @@ void EachContactPush(b2Contact* contact, const b2ContactImpulse& impulse, const 
       b2Fixture* fixture = b ? contact->GetFixtureB() : contact->GetFixtureA();
       const std::uint32_t id = PartOf(fixture);
       if (id >= kStageFixture) continue;
-      visit(PartPush{static_cast<PartId>(id),
-                     fixture->GetBody()->GetLocalPoint(manifold.points[i]), b ? on_b : -on_b});
+      visit(PartPush{static_cast<PartId>(id), fixture->GetBody()->GetLocalPoint(manifold.points[i]),
+                     b ? on_b : -on_b});
     }
   }
 }

@@ -1,5 +1,5 @@
-#include "common/stages/make_stages.h"
 #include "common/physics/world_shapes.h"
+#include "common/stages/make_stages.h"
 
 namespace seam {
 namespace {
@@ -42,7 +42,7 @@ class ConveyorStage : public Stage {
   }
   float SpeedOf(const b2Fixture* fixture) const {
     const std::size_t part = PartOf(fixture);
-    return part < speeds_.size() ? speeds_[part] : 0;   // stages' own fixtures are no parts
+    return part < speeds_.size() ? speeds_[part] : 0;  // stages' own fixtures are no parts
   }
   void WakeWhatLiesOn(const Part& part) {
     const int assembly = world_.composition.assembly_of_part[static_cast<std::size_t>(part.id)];
@@ -55,8 +55,8 @@ class ConveyorStage : public Stage {
   }
 
   const StageWorld world_;
-  std::vector<Input> inputs_;           // by player, then by seat
-  std::vector<float> speeds_;           // by part, m/s
+  std::vector<Input> inputs_;  // by player, then by seat
+  std::vector<float> speeds_;  // by part, m/s
 };
 
 }  // namespace

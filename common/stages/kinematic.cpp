@@ -51,15 +51,15 @@ class KinematicStage : public Stage {
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
       const BodyState now = motions_->At(static_cast<int>(i), static_cast<double>(world_.tick));
       b2Body* body = bodies_[i];
-      const bool there = FromB2(body->GetPosition()) == now.position &&
-                         body->GetAngle() == now.angle;
+      const bool there =
+          FromB2(body->GetPosition()) == now.position && body->GetAngle() == now.angle;
       if (!there) body->SetTransform(ToB2(now.position), now.angle);
     }
   }
 
   const StageWorld world_;
   std::optional<ImposedMotions> motions_;
-  std::vector<b2Body*> bodies_;             // by index of motions_
+  std::vector<b2Body*> bodies_;  // by index of motions_
   int substep_ = 0;
 };
 
@@ -108,7 +108,7 @@ BodyState ImposedMotions::At(int index, double tick) const {
   Vector2d place{0, 0}, velocity{0, 0};
   if (!m.path.empty()) {
     const double laps = t / m.period_s + m.phase;
-    const double way = (laps - std::floor(laps)) * m.ends.back();   // m since the first point
+    const double way = (laps - std::floor(laps)) * m.ends.back();  // m since the first point
     std::size_t leg = 0;
     while (leg + 1 < m.ends.size() && way >= m.ends[leg]) ++leg;
     const double from = leg == 0 ? 0 : m.ends[leg - 1], length = m.ends[leg] - from;

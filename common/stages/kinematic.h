@@ -18,19 +18,19 @@ class ImposedMotions {
   ImposedMotions(const Scene& scene, const Composition& composition);
 
   int count() const { return static_cast<int>(motions_.size()); }
-  int assembly(int index) const;             ///< index into the composition's
-  int IndexOf(int assembly) const;           ///< -1: it stands still, or moves freely
+  int assembly(int index) const;    ///< index into the composition's
+  int IndexOf(int assembly) const;  ///< -1: it stands still, or moves freely
   /// Where the assembly's root is, and how it moves; `tick` may lie between ticks.
   BodyState At(int index, double tick) const;
 
  private:
   struct Motion {
     int assembly = 0;
-    Eigen::Vector2d pivot{0, 0};             // m, where the path's origin is; it turns about it
-    Eigen::Vector2d arm{0, 0};               // m, from there to the root's place
-    double angle = 0, turning = 0;           // rad, rad/s
-    std::vector<Eigen::Vector2d> path;       // m, from the pivot
-    std::vector<double> ends;                // m along the path, where each leg ends
+    Eigen::Vector2d pivot{0, 0};        // m, where the path's origin is; it turns about it
+    Eigen::Vector2d arm{0, 0};          // m, from there to the root's place
+    double angle = 0, turning = 0;      // rad, rad/s
+    std::vector<Eigen::Vector2d> path;  // m, from the pivot
+    std::vector<double> ends;           // m along the path, where each leg ends
     double period_s = 1, phase = 0;
     bool ease = false;
   };

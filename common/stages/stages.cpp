@@ -1,8 +1,8 @@
 #include <algorithm>
 
-#include "common/stages/make_stages.h"
-#include "common/stages/kinematic.h"
 #include "common/physics/stage.h"
+#include "common/stages/kinematic.h"
+#include "common/stages/make_stages.h"
 #include "common/topology/join.h"
 
 namespace seam {

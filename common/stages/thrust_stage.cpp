@@ -21,8 +21,8 @@ class ThrustStage : public Stage {
       if (index < 0) continue;
       const auto place = static_cast<std::size_t>(index);
       const Part& part = world_.scene.parts[id];
-      const Part& root = world_.scene.parts[static_cast<std::size_t>(
-          world_.composition.assemblies[place].id)];
+      const Part& root =
+          world_.scene.parts[static_cast<std::size_t>(world_.composition.assemblies[place].id)];
       const float turn = part.angle - root.angle;
       engine.body = world_.built.bodies[place];
       engine.at = ToB2(ToRootFrame(part, root, thrust.at.cast<double>()).cast<float>());
@@ -54,12 +54,12 @@ class ThrustStage : public Stage {
 
  private:
   struct Engine {
-    b2Body* body = nullptr;             // nullptr: its part is gone
-    b2Vec2 at{0, 0}, force{0, 0};       // in the body's frame
-    float share = 0;                    // of the force, -1..1
+    b2Body* body = nullptr;        // nullptr: its part is gone
+    b2Vec2 at{0, 0}, force{0, 0};  // in the body's frame
+    float share = 0;               // of the force, -1..1
   };
   const StageWorld world_;
-  std::vector<Engine> engines_;         // by index into the scene's thrusts
+  std::vector<Engine> engines_;  // by index into the scene's thrusts
 };
 
 }  // namespace

@@ -10,11 +10,10 @@
 
 namespace seam {
 
-
 struct Holding {
   int authority = 0;
   int epoch = 0;
-  std::uint32_t secondaries = 0;    ///< bit p: peer p is secondary
+  std::uint32_t secondaries = 0;  ///< bit p: peer p is secondary
 };
 
 /// One entry per mechanism of the composition, by index. At first the server has everything.

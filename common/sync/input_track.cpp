@@ -28,8 +28,8 @@ Input InputTrack::At(std::int64_t tick) const {
 
 std::int16_t InputTrack::TakePresses(std::int64_t tick) {
   int pressed = 0;
-  for (auto it = known_.upper_bound(presses_taken_until_);
-       it != known_.end() && it->first <= tick; ++it) {
+  for (auto it = known_.upper_bound(presses_taken_until_); it != known_.end() && it->first <= tick;
+       ++it) {
     const int before = it == known_.begin() ? 0 : std::prev(it)->second.buttons;
     pressed |= it->second.buttons & ~before;
     presses_taken_until_ = it->first;

@@ -14,8 +14,8 @@ namespace seam {
 
 /// One value's name.
 struct MetaKey {
-  std::int8_t kind = kMetaPart;     ///< kMetaPart | kMetaPlayer
-  std::int16_t id = 0;              ///< part id, or the player's place in the scene
+  std::int8_t kind = kMetaPart;  ///< kMetaPart | kMetaPlayer
+  std::int16_t id = 0;           ///< part id, or the player's place in the scene
   std::int8_t key = kMetaHealth;
 
   bool operator<(const MetaKey& o) const {
@@ -45,7 +45,7 @@ class MetaTable {
 
  private:
   std::map<MetaKey, float> values_;
-  std::map<MetaKey, float> told_;   // as of the last TakeChanges
+  std::map<MetaKey, float> told_;  // as of the last TakeChanges
 };
 
 }  // namespace seam

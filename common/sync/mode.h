@@ -12,14 +12,14 @@ enum class Mode { kOracle, kCentral, kStrict, kBuffer };
 
 struct SyncConfig {
   Mode mode = Mode::kBuffer;
-  Reconciler reconcile = nullptr;     ///< not null exactly when mode is kBuffer
-  Puller pull = nullptr;              ///< of the reconciler, if it acts in every tick
-  bool resimulates = false;           ///< the reconciler goes back and steps again
+  Reconciler reconcile = nullptr;  ///< not null exactly when mode is kBuffer
+  Puller pull = nullptr;           ///< of the reconciler, if it acts in every tick
+  bool resimulates = false;        ///< the reconciler goes back and steps again
   std::string reconcile_name;
   int tick_hz = 60;
-  int send_hz = 30;                   ///< States per second from each peer; <= tick_hz
-  bool smooth = true;                 ///< hide corrections in the view
-  std::int64_t seed = 0;              ///< of bots
+  int send_hz = 30;       ///< States per second from each peer; <= tick_hz
+  bool smooth = true;     ///< hide corrections in the view
+  std::int64_t seed = 0;  ///< of bots
 
   /// Ticks between two States of a peer.
   int send_every() const { return tick_hz / send_hz > 0 ? tick_hz / send_hz : 1; }

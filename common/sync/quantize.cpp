@@ -6,7 +6,7 @@
 namespace seam {
 namespace {
 
-constexpr float kOriginReach = 60;   // m; int16 at 1/512 m reaches 64
+constexpr float kOriginReach = 60;  // m; int16 at 1/512 m reaches 64
 
 float RoundTo(float value, float quantum) {
   return static_cast<float>(std::nearbyint(static_cast<double>(value) / quantum) * quantum);
@@ -35,8 +35,7 @@ BodyState Quantised(const BodyState& state) {
   out.position = Vec2(RoundTo(state.position.x(), kPositionQuantum),
                       RoundTo(state.position.y(), kPositionQuantum));
   out.angle = static_cast<float>(static_cast<double>(AngleSteps(state.angle)) * kAngleQuantum);
-  out.velocity =
-      Vec2(ClampedVelocity(state.velocity.x()), ClampedVelocity(state.velocity.y()));
+  out.velocity = Vec2(ClampedVelocity(state.velocity.x()), ClampedVelocity(state.velocity.y()));
   out.spin = ClampedVelocity(state.spin);
   return out;
 }
@@ -45,11 +44,10 @@ std::vector<States> Pack(const States& header, const std::vector<PackedBody>& bo
   std::vector<States> out;
   for (const PackedBody& body : bodies) {
     const BodyState q = Quantised(body.state);
-    const bool fits = !out.empty() && out.back().id.size() < kStatesBodiesMax &&
-                      std::fabs(q.position.x() - static_cast<float>(out.back().origin_x)) <
-                          kOriginReach &&
-                      std::fabs(q.position.y() - static_cast<float>(out.back().origin_y)) <
-                          kOriginReach;
+    const bool fits =
+        !out.empty() && out.back().id.size() < kStatesBodiesMax &&
+        std::fabs(q.position.x() - static_cast<float>(out.back().origin_x)) < kOriginReach &&
+        std::fabs(q.position.y() - static_cast<float>(out.back().origin_y)) < kOriginReach;
     if (!fits) {
       out.push_back(header);
       out.back().origin_x = static_cast<std::int32_t>(std::lround(q.position.x()));
@@ -75,8 +73,7 @@ BodyState Unpack(const States& s, std::size_t i, float near_angle) {
                       static_cast<float>(s.origin_y + s.y[i] / 512.0));
   const std::int64_t near_steps = AngleSteps(near_angle);
   const std::int64_t difference = LowBits(s.angle[i] - near_steps);
-  out.angle =
-      static_cast<float>(static_cast<double>(near_steps + difference) * kAngleQuantum);
+  out.angle = static_cast<float>(static_cast<double>(near_steps + difference) * kAngleQuantum);
   out.velocity = Vec2(s.vx[i] * kVelocityQuantum, s.vy[i] * kVelocityQuantum);
   out.spin = s.spin[i] * kVelocityQuantum;
   return out;

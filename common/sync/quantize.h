@@ -8,8 +8,8 @@
 
 namespace seam {
 
-constexpr float kPositionQuantum = 1.0f / 512;    ///< m
-constexpr float kVelocityQuantum = 1.0f / 256;    ///< m/s and rad/s
+constexpr float kPositionQuantum = 1.0f / 512;               ///< m
+constexpr float kVelocityQuantum = 1.0f / 256;               ///< m/s and rad/s
 constexpr double kAngleQuantum = 6.283185307179586 / 65536;  ///< rad
 
 /// The state a receiver will hold: every field rounded to its quantum. Idempotent. The angle keeps

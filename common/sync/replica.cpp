@@ -69,24 +69,22 @@ std::int8_t Replica::RoleOf(int mechanism) const {
 bool Replica::Simulated(int mechanism) const { return RoleOf(mechanism) != kRoleRemote; }
 
 std::vector<int> Replica::ApplyGrants(const Grants& grants) {
-  ApplyEdits();   // the grants are about what is there after them
+  ApplyEdits();  // the grants are about what is there after them
   std::vector<int> before;
   for (int m = 0; m < table_.count(); ++m) before.push_back(table_.at(m).authority);
   std::vector<int> changed = table_.Apply(grants);
-  changed.erase(std::remove_if(changed.begin(), changed.end(),
-                               [&](int m) {
-                                 return before[static_cast<std::size_t>(m)] ==
-                                        table_.at(m).authority;
-                               }),
-                changed.end());
+  changed.erase(
+      std::remove_if(
+          changed.begin(), changed.end(),
+          [&](int m) { return before[static_cast<std::size_t>(m)] == table_.at(m).authority; }),
+      changed.end());
   RolesChanged();
   return changed;
 }
 
 void Replica::RolesChanged() {
   for (int body = 0; body < world_.body_count(); ++body) {
-    const Motion wanted =
-        Simulated(world_.mechanism(body)) ? Motion::kDynamic : Motion::kKinematic;
+    const Motion wanted = Simulated(world_.mechanism(body)) ? Motion::kDynamic : Motion::kKinematic;
     if (world_.motion(body) == wanted) continue;
     // What was simulated here is from now on reckoned from where it is, not from what was last
     // heard of it, which may be from before this peer had the authority.
@@ -129,7 +127,7 @@ void Replica::ApplyInputs(std::int64_t next) {
       if (((pressed >> actions[a].button) & 1) == 0) continue;
       const int assembly =
           world_.composition().assembly_of_part[static_cast<std::size_t>(actions[a].part)];
-      if (assembly < 0) continue;   // the part has left
+      if (assembly < 0) continue;  // the part has left
       const int m = world_.composition().assemblies[static_cast<std::size_t>(assembly)].mechanism;
       // Exactly one peer pushes: the authority, when it hears of it (all of them in the oracle).
       const bool alone = config_.mode == Mode::kOracle;
@@ -197,7 +195,7 @@ float Replica::GainFor(float dt) const {
   // A pure correction delayed by d updates is stable below 2 sin(pi / (2 (2 d + 1))).
   const double d = std::ceil(static_cast<double>(dt) * config_.send_hz);
   const double limit = 2 * std::sin(3.14159265358979 / (2 * (2 * d + 1)));
-  constexpr double kShareOfLimit = 0.25;   // above 0.4 a tall stack never rests at 200 ms
+  constexpr double kShareOfLimit = 0.25;  // above 0.4 a tall stack never rests at 200 ms
   return static_cast<float>(std::min(1.0, kShareOfLimit * limit));
 }
 

@@ -53,7 +53,7 @@ class Replica {
   /// One by one everywhere: each merger makes a new epoch, and who applied two at once would be an
   /// epoch behind for ever. Requires has_queued().
   std::optional<Recomposition> ApplyNextEdit();
-  void ApplyEdits();                  ///< all that is queued
+  void ApplyEdits();  ///< all that is queued
   /// What this peer, as the authority of the bodies concerned, found that should change; in mode
   /// oracle all that physics finds.
   std::vector<Edit> TakeProposals();
@@ -79,8 +79,8 @@ class Replica {
   /// What became of the bodies of a States message.
   struct Received {
     int used = 0;
-    int stale = 0;       ///< older than what is known, or of an old epoch
-    int unknown = 0;     ///< no such body, or this peer's own
+    int stale = 0;    ///< older than what is known, or of an old epoch
+    int unknown = 0;  ///< no such body, or this peer's own
   };
   /// States of another peer's bodies. Those of ticks still to come wait for them.
   Received Receive(const States& states);
@@ -149,35 +149,35 @@ class Replica {
   Snapshots snapshots_;
   DisplayDelay delay_;
   std::vector<InputTrack> tracks_;
-  std::vector<int> pressed_now_;               // by player
-  std::vector<States> early_;                  // of ticks still to come
+  std::vector<int> pressed_now_;                 // by player
+  std::vector<States> early_;                    // of ticks still to come
   std::vector<std::int64_t> last_impact_tick_;   // by body
   std::vector<std::int64_t> last_coupled_tick_;  // by mechanism
-  std::vector<std::int64_t> heard_tick_;       // by body: newest state heard, -1 never
-  std::vector<std::int64_t> dynamic_since_;    // by body: its history tells of forces from here on
-  std::vector<bool> placed_;                   // by body: pose is known
-  std::vector<float> priority_;                // by body: accumulator for sending
-  std::vector<std::int64_t> asleep_since_;     // by body, -1 awake
+  std::vector<std::int64_t> heard_tick_;         // by body: newest state heard, -1 never
+  std::vector<std::int64_t> dynamic_since_;  // by body: its history tells of forces from here on
+  std::vector<bool> placed_;                 // by body: pose is known
+  std::vector<float> priority_;              // by body: accumulator for sending
+  std::vector<std::int64_t> asleep_since_;   // by body, -1 awake
   std::vector<States> outgoing_;
   struct Pull {
-    std::int64_t arrived = -1;                 // tick of the newest message's arrival, -1 none
-    BodyState arrival;                         // our copy then
-    BodyState target_then;                     // where the authority's was thought to be then
+    std::int64_t arrived = -1;  // tick of the newest message's arrival, -1 none
+    BodyState arrival;          // our copy then
+    BodyState target_then;      // where the authority's was thought to be then
     PullMemory memory;
   };
-  std::vector<Pull> pulls_;                    // by body; empty without such a rule
-  std::deque<WorldSnapshot> barriers_;         // ascending; empty unless the rule goes back
-  std::int64_t replay_from_ = -1;              // oldest tick to go back to, -1 none
-  std::vector<bool> pressed_;                  // FindPressed of the last replay
+  std::vector<Pull> pulls_;             // by body; empty without such a rule
+  std::deque<WorldSnapshot> barriers_;  // ascending; empty unless the rule goes back
+  std::int64_t replay_from_ = -1;       // oldest tick to go back to, -1 none
+  std::vector<bool> pressed_;           // FindPressed of the last replay
   struct Acted {
     std::int64_t tick = 0;
     int player = 0, action = 0;
   };
-  std::vector<Edit> queued_;                   // ordered, not yet applied
-  std::vector<int> changed_at_;                // by body: edits there were when it was last changed
+  std::vector<Edit> queued_;     // ordered, not yet applied
+  std::vector<int> changed_at_;  // by body: edits there were when it was last changed
   std::vector<Edit> proposals_;
-  std::map<std::tuple<int, int, int, int>, std::int64_t> proposed_;   // when, by what
-  std::deque<Acted> acted_;                    // pushes that this peer did since the first barrier
+  std::map<std::tuple<int, int, int, int>, std::int64_t> proposed_;  // when, by what
+  std::deque<Acted> acted_;  // pushes that this peer did since the first barrier
 };
 
 /// Dead reckoning beyond the buffer zone goes no further than this, s. Shorter than the age of what

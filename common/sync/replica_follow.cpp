@@ -27,8 +27,8 @@ void Replica::DriveKinematic(std::int64_t next) {
     } else if (config_.mode == Mode::kBuffer) {
       state = AlongReckoned(body, next, state);
     } else {
-      state = AlongSnapshots(
-          body, snapshots_.Interpolate(body, static_cast<double>(next) - delay), state);
+      state = AlongSnapshots(body, snapshots_.Interpolate(body, static_cast<double>(next) - delay),
+                             state);
     }
     const bool moves = state.velocity.squaredNorm() > 0 || state.spin != 0;
     world_.Write(body, state, moves);

@@ -10,8 +10,8 @@ namespace seam {
 namespace {
 
 /// A predicted vehicle this near to the server's is left alone.
-constexpr float kTolerance = 2.5f * kPositionQuantum;           // m
-constexpr float kVelocityTolerance = 16 * kVelocityQuantum;     // m/s
+constexpr float kTolerance = 2.5f * kPositionQuantum;        // m
+constexpr float kVelocityTolerance = 16 * kVelocityQuantum;  // m/s
 
 bool Agrees(const BodyState& d) {
   return d.position.norm() < kTolerance && d.velocity.norm() < kVelocityTolerance;

@@ -32,7 +32,7 @@ void Replica::PullCopies(std::int64_t next) {
   const float dt = world_.dt();
   const auto n = static_cast<float>(scene().solver.substeps);
   in.drift.velocity = dt * scene().gravity;
-  in.drift.position = dt * dt * (n + 1) / (2 * n) * scene().gravity;   // velocity first, then place
+  in.drift.position = dt * dt * (n + 1) / (2 * n) * scene().gravity;  // velocity first, then place
   in.interval = static_cast<float>(config_.send_every()) * dt;
   in.step = dt;
   for (int body = 0; body < world_.body_count(); ++body) {

@@ -27,7 +27,7 @@ constexpr float kOtherImpact = 1;
 Replica::Received Replica::Receive(const States& states) {
   ApplyEdits();
   Received result;
-  if (states.tick > tick() || states.topology > topology()) {   // of what is still to come here
+  if (states.tick > tick() || states.topology > topology()) {  // of what is still to come here
     if (early_.size() < kEarlyMost && states.tick <= tick() + kEarlyTicksMost &&
         states.tick > tick() - kEarlyTicksMost) {
       early_.push_back(states);
@@ -39,7 +39,7 @@ Replica::Received Replica::Receive(const States& states) {
   }
   bool any_new = false;
   bool predicted = false;
-  std::vector<std::pair<std::size_t, int>> secondary;   // entries to be corrected, with their body
+  std::vector<std::pair<std::size_t, int>> secondary;  // entries to be corrected, with their body
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = world_.BodyOfId(states.id[i]);
     if (body < 0) {
@@ -47,7 +47,7 @@ Replica::Received Replica::Receive(const States& states) {
       continue;
     }
     if (states.topology < changed_at_[static_cast<std::size_t>(body)]) {
-      ++result.stale;   // of another body of the same root
+      ++result.stale;  // of another body of the same root
       continue;
     }
     const int mechanism = world_.mechanism(body);
@@ -82,7 +82,7 @@ bool Replica::ReceiveOne(const States& states, std::size_t i, int body) {
   snapshots_.Add(body, states.tick, remote);
   if (!placed_[static_cast<std::size_t>(body)]) {
     placed_[static_cast<std::size_t>(body)] = true;
-    barriers_.clear();   // from before it was here
+    barriers_.clear();  // from before it was here
     replay_from_ = -1;
     world_.Write(body, WithinLimits(remote, scene().speed_limit));
     *history_.At(tick(), body) = world_.Read(body);
@@ -140,7 +140,7 @@ void Replica::Place(const States& states) {
     const BodyState remote = Unpack(states, i, world_.Read(body).angle);
     snapshots_.Add(body, states.tick, remote);
     placed_[static_cast<std::size_t>(body)] = true;
-    barriers_.clear();   // from before it was here
+    barriers_.clear();  // from before it was here
     replay_from_ = -1;
     world_.Write(body, WithinLimits(remote, scene().speed_limit));
     if ((states.flags[i] & kStateAsleep) != 0) world_.SetAwake(body, false);
@@ -156,8 +156,7 @@ void Replica::Correct(int body, const States& states, std::size_t i, const BodyS
   const BodyState* then = PastOf(body, states.tick);
   in.dt = static_cast<float>(tick() - states.tick) * world_.dt();
   // The wire's angle has lost its revolutions: it is the one nearest to where our copy was.
-  const float angle_then =
-      then != nullptr ? then->angle : in.local.angle - in.dt * in.local.spin;
+  const float angle_then = then != nullptr ? then->angle : in.local.angle - in.dt * in.local.spin;
   in.remote = Unpack(states, i, angle_then);
   const bool quiet = in.local.velocity.norm() < kQuiet && std::fabs(in.local.spin) < kQuiet;
   if ((states.flags[i] & kStateAsleep) != 0 && quiet) {
@@ -180,14 +179,14 @@ void Replica::Correct(int body, const States& states, std::size_t i, const BodyS
     like = LikePastOf(body, states.tick, in.remote);
     in.local_then = &like;
   }
-  in.since_impact = static_cast<float>(
-      tick() - last_impact_tick_[static_cast<std::size_t>(body)]) * world_.dt();
-  in.coupled = last_coupled_tick_[static_cast<std::size_t>(mechanism)] >=
-               tick() - config_.tick_hz / 4;
+  in.since_impact =
+      static_cast<float>(tick() - last_impact_tick_[static_cast<std::size_t>(body)]) * world_.dt();
+  in.coupled =
+      last_coupled_tick_[static_cast<std::size_t>(mechanism)] >= tick() - config_.tick_hz / 4;
   in.gain = GainFor(in.dt);
   in.common = common;
-  in.alone = world_.composition().mechanisms[static_cast<std::size_t>(mechanism)]
-                 .assemblies.size() == 1;
+  in.alone =
+      world_.composition().mechanisms[static_cast<std::size_t>(mechanism)].assemblies.size() == 1;
   for (const Block& block : world_.blocks()) {
     if (world_.mechanism(block.body) != mechanism || in.block_count == 2) continue;
     const bool known = in.block_count == 1 && std::fabs(block.normal.dot(in.blocks[0])) > 0.9f;
@@ -198,8 +197,7 @@ void Replica::Correct(int body, const States& states, std::size_t i, const BodyS
     if (config_.pull != nullptr) NoteArrival(body);
     return;
   }
-  const BodyState corrected =
-      WithinLimits(PlusScaled(in.local, c.now, 1), scene().speed_limit);
+  const BodyState corrected = WithinLimits(PlusScaled(in.local, c.now, 1), scene().speed_limit);
   if (c.rewrites_history) {
     // The past is corrected too, so that the next message is compared with what we now believe.
     const float steps = static_cast<float>(std::max<std::int64_t>(1, tick() - states.tick));

@@ -33,7 +33,7 @@ bool Replica::ReplayFrom(int body, std::int64_t tick) {
   if (barriers_.empty() || tick < barriers_.front().tick) return false;
   if (tick < dynamic_since_[static_cast<std::size_t>(body)]) return false;
   const BodyState* known = snapshots_.At(body, tick);
-  if (known == nullptr) return true;   // a newer one was there before this
+  if (known == nullptr) return true;  // a newer one was there before this
   const BodyState& then = *history_.At(tick, body);
   BodyState heard = *known;
   heard.angle = Unwrapped(heard.angle, then.angle);

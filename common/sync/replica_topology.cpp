@@ -88,7 +88,7 @@ void Replica::Recompose(const Recomposition& change) {
   Holding fresh;
   fresh.secondaries = config_.mode == Mode::kBuffer ? 1 : 0;
   table_.Recompose(world_.composition(), change.mechanisms, fresh);
-  barriers_.clear();   // of other bodies
+  barriers_.clear();  // of other bodies
   replay_from_ = -1;
   pressed_.clear();
   RolesChanged();
@@ -103,7 +103,7 @@ void Replica::NoteProposals() {
         const int m = MechanismOf(world_, part);
         if (m < 0) continue;
         mine = table_.at(m).authority == self_;
-        break;   // of two, the first one's authority proposes
+        break;  // of two, the first one's authority proposes
       }
       if (!mine) continue;
     }

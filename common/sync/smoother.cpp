@@ -15,7 +15,7 @@ constexpr float kVelocityShare = 0.5f;
 /// Speed of the glide, m/s: at least kGlideMin, or kGlideShare of the body's own speed.
 constexpr float kGlideMin = 4.0f;
 constexpr float kGlideShare = 0.35f;
-constexpr float kSpinCap = 6.0f;      // rad/s
+constexpr float kSpinCap = 6.0f;  // rad/s
 /// Beyond this the view jumps: nobody can glide through it without lying for seconds. m
 constexpr float kGiveUp = 15.0f;
 /// Offsets below these are over: m (rad) and m/s (rad/s).

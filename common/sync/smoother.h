@@ -32,10 +32,10 @@ class Smoother {
 
  private:
   struct Offset {
-    Vec2 position{0, 0};    // m
-    Vec2 velocity{0, 0};    // m/s
-    float angle = 0;        // rad
-    float spin = 0;         // rad/s
+    Vec2 position{0, 0};  // m
+    Vec2 velocity{0, 0};  // m/s
+    float angle = 0;      // rad
+    float spin = 0;       // rad/s
   };
   bool enabled_;
   std::vector<Offset> offsets_;

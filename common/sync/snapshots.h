@@ -6,8 +6,8 @@
 #include <deque>
 #include <vector>
 
-#include "common/topology/body_remap.h"
 #include "common/scene/types.h"
+#include "common/topology/body_remap.h"
 
 namespace seam {
 
@@ -21,7 +21,7 @@ class Snapshots {
   /// The bodies are others now: what was heard of those they come from is carried over.
   void Recompose(const std::vector<BodyOrigin>& origins);
   bool has(int body) const { return !rings_[static_cast<std::size_t>(body)].empty(); }
-  std::int64_t newest_tick(int body) const;     ///< -1 when none
+  std::int64_t newest_tick(int body) const;  ///< -1 when none
 
   /// The state of exactly this tick; nullptr when it is not kept.
   const BodyState* At(int body, std::int64_t tick) const;

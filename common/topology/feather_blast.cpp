@@ -40,10 +40,11 @@ std::vector<Brick> Loosened(const std::vector<BrickField>& fields, const std::ve
   std::vector<Brick> loose;
   for (std::size_t kind = 0; kind < fields.size(); ++kind) {
     const BrickField& field = fields[kind];
-    const auto from = static_cast<int>(
-        std::floor(static_cast<double>(blast.centre.x() - blast.radius) / kUnit)) - field.width;
-    const auto to = static_cast<int>(
-        std::ceil(static_cast<double>(blast.centre.x() + blast.radius) / kUnit));
+    const auto from =
+        static_cast<int>(std::floor(static_cast<double>(blast.centre.x() - blast.radius) / kUnit)) -
+        field.width;
+    const auto to =
+        static_cast<int>(std::ceil(static_cast<double>(blast.centre.x() + blast.radius) / kUnit));
     EachBrick(field, [&](int x, int y) {
       if (x < from || x > to) return true;
       const Vector2d speed = SpeedAt(blast, MiddleOf(field, x, y, 1, 1));
@@ -65,9 +66,9 @@ std::vector<Brick> Loosened(const std::vector<BrickField>& fields, const std::ve
 
 /// Neighbours that fly together.
 struct Piece {
-  Brick first;                      ///< its lower left
+  Brick first;  ///< its lower left
   int columns = 1, rows = 1;
-  double distance = 0;              ///< m, of its middle from the blast's
+  double distance = 0;  ///< m, of its middle from the blast's
 };
 
 /// Two by two where there are four, else two side by side, else one on another, else one.
@@ -76,8 +77,8 @@ std::vector<Piece> Pieces(const std::vector<BrickField>& fields, const std::vect
   std::vector<bool> used(loose.size(), false);
   const auto find = [&](const Brick& b) {
     const auto at = std::lower_bound(loose.begin(), loose.end(), b, Before);
-    const bool there = at != loose.end() && *at == b && !used[static_cast<std::size_t>(
-                                                            at - loose.begin())];
+    const bool there =
+        at != loose.end() && *at == b && !used[static_cast<std::size_t>(at - loose.begin())];
     return there ? static_cast<int>(at - loose.begin()) : -1;
   };
   std::vector<Piece> pieces;
@@ -100,8 +101,8 @@ std::vector<Piece> Pieces(const std::vector<BrickField>& fields, const std::vect
     for (const int m : members) {
       if (m >= 0) used[static_cast<std::size_t>(m)] = true;
     }
-    const Vector2d out = MiddleOf(field, b.x, b.y, piece.columns, piece.rows) -
-                         blast.centre.cast<double>();
+    const Vector2d out =
+        MiddleOf(field, b.x, b.y, piece.columns, piece.rows) - blast.centre.cast<double>();
     piece.distance = std::sqrt(out.x() * out.x() + out.y() * out.y());
     pieces.push_back(piece);
   }

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "common/topology/feather_store.h"
 #include "common/scene/scene.h"
+#include "common/topology/feather_store.h"
 
 namespace seam {
 
@@ -14,14 +14,14 @@ constexpr int kBlastPiecesMax = 40;
 constexpr float kBlastRadiusMax = 10;
 
 struct Blast {
-  Vec2 centre{0, 0};                ///< m
-  float radius = 1;                 ///< m: bricks whose middle is within it
-  float speed = 10;                 ///< m/s in the centre, falling to 0 at the radius
+  Vec2 centre{0, 0};  ///< m
+  float radius = 1;   ///< m: bricks whose middle is within it
+  float speed = 10;   ///< m/s in the centre, falling to 0 at the radius
 };
 
 struct Freed {
-  std::vector<Brick> bricks;        ///< no longer anchored
-  std::vector<Part> parts;          ///< boxes of up to two by two of them; without ids
+  std::vector<Brick> bricks;  ///< no longer anchored
+  std::vector<Part> parts;    ///< boxes of up to two by two of them; without ids
 };
 
 /// The bricks of `fields` but `gone` that the blast would give a speed above their strength,

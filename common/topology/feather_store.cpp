@@ -102,11 +102,10 @@ std::size_t FeatherStore::bytes() const {
 }
 
 int FeatherStore::CellAt(int cell_x, int cell_y) const {
-  const auto found = std::lower_bound(
-      cells_.begin(), cells_.end(), std::tuple(cell_y, cell_x),
-      [](const Cell& c, const std::tuple<int, int>& at) {
-        return std::tuple<int, int>(c.y, c.x) < at;
-      });
+  const auto found = std::lower_bound(cells_.begin(), cells_.end(), std::tuple(cell_y, cell_x),
+                                      [](const Cell& c, const std::tuple<int, int>& at) {
+                                        return std::tuple<int, int>(c.y, c.x) < at;
+                                      });
   if (found == cells_.end() || found->x != cell_x || found->y != cell_y) return -1;
   return static_cast<int>(found - cells_.begin());
 }
@@ -152,7 +151,7 @@ std::size_t FeatherStore::Remove(const std::vector<Brick>& bricks) {
     const std::uint32_t packed = Pack(brick, cx, cy);
     const auto found = std::lower_bound(begin, end, packed);
     if (found == end || *found != packed) continue;
-    std::rotate(found, found + 1, end);   // the others keep their order
+    std::rotate(found, found + 1, end);  // the others keep their order
     --c.count;
     --size_;
     ++removed;

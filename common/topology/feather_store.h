@@ -11,16 +11,16 @@ namespace seam {
 
 /// A brick by itself. Units of 5 cm.
 struct Brick {
-  int x = 0, y = 0;                 ///< lower left corner
-  int kind = 0;                     ///< index into Scene::bricks, and FeatherStore::kinds()
+  int x = 0, y = 0;  ///< lower left corner
+  int kind = 0;      ///< index into Scene::bricks, and FeatherStore::kinds()
 
   bool operator==(const Brick& o) const { return x == o.x && y == o.y && kind == o.kind; }
 };
 
 /// What bricks of one field have in common.
 struct BrickKind {
-  int width = 0, height = 0;        ///< units
-  int surface = 0;                  ///< equal for equal friction and restitution
+  int width = 0, height = 0;  ///< units
+  int surface = 0;            ///< equal for equal friction and restitution
   float density = 1, friction = 0.5f, restitution = 0, strength = 0;
 };
 
@@ -30,7 +30,7 @@ struct BrickKind {
 ///   |0 units ......... 160|0 ......... 160|
 class FeatherStore {
  public:
-  static constexpr int kCell = 160; ///< units: 8 m
+  static constexpr int kCell = 160;  ///< units: 8 m
   /// Which cell a coordinate (units) lies in.
   static int CellOf(int units) {
     return units >= 0 ? units / kCell : -((-units + kCell - 1) / kCell);
@@ -68,7 +68,7 @@ class FeatherStore {
  private:
   struct Cell {
     std::int16_t x = 0, y = 0;
-    std::uint32_t first = 0, count = 0;   // in bricks_, ascending; room until the next cell's
+    std::uint32_t first = 0, count = 0;  // in bricks_, ascending; room until the next cell's
   };
   static std::uint32_t Pack(const Brick& brick, int cell_x, int cell_y);
   static Brick Unpack(std::uint32_t packed, const Cell& cell) {
@@ -78,7 +78,7 @@ class FeatherStore {
   void Fill(const std::vector<BrickField>& fields);
 
   std::vector<std::uint32_t> bricks_;
-  std::vector<Cell> cells_;               // ascending by y, x
+  std::vector<Cell> cells_;  // ascending by y, x
   std::vector<BrickKind> kinds_;
   std::size_t size_ = 0;
   int min_x_ = 0, max_x_ = 0, min_y_ = 0, max_y_ = 0;

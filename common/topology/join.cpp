@@ -49,9 +49,8 @@ std::vector<FreeConnector> FreeConnectors(const Scene& scene, const Composition&
       AddConnectors(scene.parts[static_cast<std::size_t>(id)], false, &all);
     }
     for (const FreeConnector& one : all) {
-      const bool taken = std::any_of(all.begin(), all.end(), [&](const FreeConnector& other) {
-        return Joined(one, other);
-      });
+      const bool taken = std::any_of(
+          all.begin(), all.end(), [&](const FreeConnector& other) { return Joined(one, other); });
       if (!taken) free.push_back(one);
     }
   }
@@ -63,8 +62,8 @@ std::vector<FreeConnector> FreeConnectors(const Scene& scene, const Composition&
 Edit JoinOf(const Part& a, int outlet, const Part& b, int inlet) {
   const Connector& out = a.connectors.outlets[static_cast<std::size_t>(outlet)];
   const Connector& in = b.connectors.inlets[static_cast<std::size_t>(inlet)];
-  const double turn = std::remainder(
-      static_cast<double>(out.angle) + kPi - static_cast<double>(in.angle), 2 * kPi);
+  const double turn =
+      std::remainder(static_cast<double>(out.angle) + kPi - static_cast<double>(in.angle), 2 * kPi);
   const Vec2 place = out.at - Turned(in.at, turn);
   Edit edit;
   edit.kind = EditKind::kBond;
@@ -91,8 +90,7 @@ bool IsJoin(const Scene& scene, const Composition& composition, const Edit& bond
       const Edit exact = JoinOf(a, out.index, b, in.index);
       const bool same = std::fabs(exact.x - bond.x) < kExact &&
                         std::fabs(exact.y - bond.y) < kExact &&
-                        std::fabs(exact.angle - bond.angle) < kExact &&
-                        exact.amount == bond.amount;
+                        std::fabs(exact.angle - bond.angle) < kExact && exact.amount == bond.amount;
       if (same) return true;
     }
   }

@@ -14,9 +14,9 @@ bool HasConnectors(const Scene& scene);
 struct FreeConnector {
   PartId part = 0;
   bool inlet = false;
-  int index = 0;                    ///< of the part's inlets or outlets
-  Vec2 at{0, 0};                    ///< m, where the scene puts it
-  float angle = 0;                  ///< rad, likewise
+  int index = 0;    ///< of the part's inlets or outlets
+  Vec2 at{0, 0};    ///< m, where the scene puts it
+  float angle = 0;  ///< rad, likewise
 };
 
 /// Those that no counterpart of the same assembly is at, ascending by part.

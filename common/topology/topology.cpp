@@ -4,9 +4,9 @@
 #include <cmath>
 
 #include "common/base/check.h"
-#include "common/topology/feather_blast.h"
 #include "common/scene/mass.h"
 #include "common/scene/scene_limits.h"
+#include "common/topology/feather_blast.h"
 
 namespace seam {
 namespace {
@@ -28,9 +28,7 @@ struct Place {
   }
 };
 
-Blast BlastOf(const Edit& edit) {
-  return {Vec2(edit.x, edit.y), edit.amount, edit.angle};
-}
+Blast BlastOf(const Edit& edit) { return {Vec2(edit.x, edit.y), edit.amount, edit.angle}; }
 
 Place PlaceOf(const Part& part) {
   return {part.position.cast<double>(), static_cast<double>(part.angle)};
@@ -217,9 +215,7 @@ std::string Topology::Bond(const Edit& edit) {
     part.position = place.shift.cast<float>();
     part.angle = static_cast<float>(place.angle);
   }
-  const auto move = [&](Vec2* point) {
-    *point = moves(point->cast<double>()).cast<float>();
-  };
+  const auto move = [&](Vec2* point) { *point = moves(point->cast<double>()).cast<float>(); };
   const float turn = static_cast<float>(moves.angle);
   for (Joint& joint : scene_.joints) {
     if (joint.gone) continue;

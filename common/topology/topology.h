@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "common/scene/assembly.h"
-#include "common/topology/edit.h"
 #include "common/scene/scene.h"
+#include "common/topology/edit.h"
 
 namespace seam {
 
@@ -44,7 +44,7 @@ class Topology {
 
   Scene scene_;
   Composition composition_;
-  bool stale_ = false;              // composition_ is older than scene_
+  bool stale_ = false;  // composition_ is older than scene_
   int edits_ = 0;
 };
 

@@ -98,11 +98,18 @@ GLuint Link(const char* fragment_source) {
 OSMesaContext CreateContext() {
   static std::mutex mutex;
   const std::lock_guard<std::mutex> lock(mutex);
-  setenv("LP_NUM_THREADS", "0", 1);             // frames are the unit of parallel work
+  setenv("LP_NUM_THREADS", "0", 1);                // frames are the unit of parallel work
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);  // leaves no files in the home folder
-  const int attributes[] = {OSMESA_FORMAT, OSMESA_RGBA, OSMESA_PROFILE, OSMESA_CORE_PROFILE,
-                            OSMESA_CONTEXT_MAJOR_VERSION, 3, OSMESA_CONTEXT_MINOR_VERSION, 3,
-                            0, 0};
+  const int attributes[] = {OSMESA_FORMAT,
+                            OSMESA_RGBA,
+                            OSMESA_PROFILE,
+                            OSMESA_CORE_PROFILE,
+                            OSMESA_CONTEXT_MAJOR_VERSION,
+                            3,
+                            OSMESA_CONTEXT_MINOR_VERSION,
+                            3,
+                            0,
+                            0};
   return OSMesaCreateContextAttribs(attributes, nullptr);
 }
 
@@ -223,8 +230,7 @@ class OsmesaCanvas : public Canvas {
     glBindRenderbuffer(GL_RENDERBUFFER, renderbuffer_);
     glRenderbufferStorage(GL_RENDERBUFFER, GL_RGBA8, width, height);
     glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER,
-                              renderbuffer_);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_RENDERBUFFER, renderbuffer_);
     SEAM_ASSERT(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
     glViewport(0, 0, width, height);
     for (const GLuint program : programs_) {
@@ -253,9 +259,9 @@ class OsmesaCanvas : public Canvas {
 
   OSMesaContext context_;
   std::uint8_t own_buffer_[4 * 4 * 4] = {};
-  GLuint programs_[3] = {0, 0, 0};   // by BatchKind
+  GLuint programs_[3] = {0, 0, 0};  // by BatchKind
   GLuint vertex_array_ = 0, texture_ = 0;
-  GLuint buffers_[2] = {0, 0};       // vertices, indices
+  GLuint buffers_[2] = {0, 0};  // vertices, indices
   std::size_t buffer_bytes_[2] = {0, 0};
   GLuint framebuffer_ = 0, renderbuffer_ = 0;
   int width_ = 0, height_ = 0;

@@ -22,7 +22,7 @@ Vec2 LeftOf(const Vec2& from, const Vec2& to) {
 Vec2 Mitre(const Vec2& before, const Vec2& after) {
   const Vec2 sum = before + after;
   const float square = sum.squaredNorm();
-  constexpr float kSharp = 0.25f;   // a mitre four times the width: beyond, a blunt corner
+  constexpr float kSharp = 0.25f;  // a mitre four times the width: beyond, a blunt corner
   if (square < kSharp) return after;
   return sum * (2 / square);
 }
@@ -110,7 +110,7 @@ void DrawList::Fan(const std::vector<Vec2>& points, Colour colour) {
 }
 
 void DrawList::FillRect(const Rect& r, Colour colour) {
-  constexpr float kLarge = 5000;   // px: below, a draw call of its own would cost more
+  constexpr float kLarge = 5000;  // px: below, a draw call of its own would cost more
   const bool large = r.width * r.height > kLarge;
   if (colour.a == 255 && large) {
     Batch batch;
@@ -148,7 +148,7 @@ void DrawList::Stroke(const std::vector<Vec2>& points, bool closed, const Line& 
   if (n < 2 || line.colour.a == 0) return;
   Need(BatchKind::kShape);
   const float half = line.width / 2;
-  const float reach = half + 1;   // one pixel further than the line for its soft edge
+  const float reach = half + 1;  // one pixel further than the line for its soft edge
   const std::size_t segments = closed ? n : n - 1;
   float along = 0;
   for (std::size_t k = 0; k <= segments; ++k) {
@@ -161,8 +161,8 @@ void DrawList::Stroke(const std::vector<Vec2>& points, bool closed, const Line& 
     if (k > 0) along += (points[i] - points[(k - 1) % n]).norm();
     for (int side = 1; side >= -1; side -= 2) {
       const auto s = static_cast<float>(side);
-      const std::uint32_t v = Add(points[i].x() + s * out.x(), points[i].y() + s * out.y(),
-                                  line.colour);
+      const std::uint32_t v =
+          Add(points[i].x() + s * out.x(), points[i].y() + s * out.y(), line.colour);
       vertices_[v].across = s * reach;
       vertices_[v].half = half;
       vertices_[v].along = along;
@@ -219,8 +219,8 @@ float DrawList::Text(float x, float y, TextStyle style, const std::string& utf8,
       vertices_[v].across = static_cast<float>(g.atlas_x) + right;
       vertices_[v].half = static_cast<float>(g.atlas_y) + down;
     }
-    text_indices_.insert(text_indices_.end(), {first, first + 1, first + 2, first, first + 2,
-                                               first + 3});
+    text_indices_.insert(text_indices_.end(),
+                         {first, first + 1, first + 2, first, first + 2, first + 3});
     open_text_.indices += 6;
     pen += g.advance;
   }

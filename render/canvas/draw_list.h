@@ -27,8 +27,8 @@ struct Rect {
 /// One corner of a triangle. In a text batch `across` and `half` are the atlas position in px.
 struct Vertex {
   float x = 0, y = 0;
-  float across = 0, half = kSolid;   ///< px from the line's middle; half its width
-  float along = 0, period = 0;       ///< px; > 0: dashes, < 0: hatching of that period
+  float across = 0, half = kSolid;  ///< px from the line's middle; half its width
+  float along = 0, period = 0;      ///< px; > 0: dashes, < 0: hatching of that period
   Colour colour;
   static constexpr float kSolid = 1e6f;
 };
@@ -41,15 +41,15 @@ enum class BatchKind { kPlain, kShape, kText, kClear };
 struct Batch {
   BatchKind kind = BatchKind::kShape;
   Rect clip;
-  std::uint32_t first_index = 0, indices = 0;   ///< kText: among the text's indices
-  Colour clear;     ///< kClear: fills `clip`
+  std::uint32_t first_index = 0, indices = 0;  ///< kText: among the text's indices
+  Colour clear;                                ///< kClear: fills `clip`
 };
 
 /// How a line looks.
 struct Line {
-  float width = 1;       ///< px
+  float width = 1;  ///< px
   Colour colour;
-  float dash = 0;        ///< period of the dashes, px; 0: solid
+  float dash = 0;  ///< period of the dashes, px; 0: solid
 };
 
 enum class Align { kLeft, kCentre, kRight };
@@ -72,8 +72,8 @@ class DrawList {
   /// A quadrilateral whose colour goes from `from` (points 0, 1) to `to` (points 2, 3).
   void FillShaded(const Vec2 points[4], Colour from, Colour to);
   /// Stripes of `period` px over a convex shape, across `normal` (unit) as seen from `origin`.
-  void Hatch(const std::vector<Vec2>& points, const Vec2& origin, const Vec2& normal,
-             float period, Colour colour);
+  void Hatch(const std::vector<Vec2>& points, const Vec2& origin, const Vec2& normal, float period,
+             Colour colour);
   void Stroke(const std::vector<Vec2>& points, bool closed, const Line& line);
   /// An open line whose colour changes from point to point; as many colours as points.
   void StrokeShaded(const std::vector<Vec2>& points, const std::vector<Colour>& colours,
@@ -109,7 +109,7 @@ class DrawList {
   std::vector<std::uint32_t> indices_;
   std::vector<std::uint32_t> text_indices_;
   std::vector<Batch> batches_;
-  Batch open_text_;   // text of the present clip
+  Batch open_text_;  // text of the present clip
 };
 
 /// The points of a circle, as many as it needs to look round.

@@ -111,16 +111,17 @@ float Font::Width(TextStyle style, const std::string& utf8) const {
   return width;
 }
 
-float Font::CapHeight(TextStyle style) const {
-  return static_cast<float>(Find(style, 'H').top);
-}
+float Font::CapHeight(TextStyle style) const { return static_cast<float>(Find(style, 'H').top); }
 
 std::vector<std::uint32_t> Codepoints(const std::string& utf8) {
   std::vector<std::uint32_t> out;
   for (std::size_t i = 0; i < utf8.size();) {
     const auto lead = static_cast<unsigned char>(utf8[i]);
-    const std::size_t length = lead < 0x80 ? 1 : lead >> 5 == 6 ? 2 : lead >> 4 == 14 ? 3
-                               : lead >> 3 == 30 ? 4 : 0;
+    const std::size_t length = lead < 0x80       ? 1
+                               : lead >> 5 == 6  ? 2
+                               : lead >> 4 == 14 ? 3
+                               : lead >> 3 == 30 ? 4
+                                                 : 0;
     std::uint32_t c = length == 1 ? lead : lead & (0x7fu >> length);
     bool good = length > 0 && i + length <= utf8.size();
     for (std::size_t k = 1; good && k < length; ++k) {

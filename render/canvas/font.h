@@ -19,8 +19,8 @@ constexpr int kTextStyles = 5;
 /// Where a letter lies in the atlas and how it is set.
 struct Glyph {
   int atlas_x = 0, atlas_y = 0, width = 0, height = 0;  ///< px in the atlas
-  int left = 0, top = 0;      ///< from the pen to the upper left corner; top is upwards
-  float advance = 0;          ///< px
+  int left = 0, top = 0;  ///< from the pen to the upper left corner; top is upwards
+  float advance = 0;      ///< px
 };
 
 /// An immutable atlas, shared by all threads.
@@ -34,14 +34,14 @@ class Font {
 
   /// The replacement "?" when the letter is not in the atlas.
   const Glyph& Find(TextStyle style, std::uint32_t codepoint) const;
-  float Width(TextStyle style, const std::string& utf8) const;   ///< px
+  float Width(TextStyle style, const std::string& utf8) const;  ///< px
   /// Height of a capital letter, px.
   float CapHeight(TextStyle style) const;
   float scale() const { return scale_; }
 
   int atlas_width() const { return atlas_width_; }
   int atlas_height() const { return atlas_height_; }
-  const std::vector<std::uint8_t>& atlas() const { return atlas_; }   ///< coverage, rows from top
+  const std::vector<std::uint8_t>& atlas() const { return atlas_; }  ///< coverage, rows from top
 
  private:
   void Pack(Glyph* glyph, const std::uint8_t* bitmap, int pitch);

@@ -11,7 +11,7 @@ namespace seam {
 struct Image {
   int width_px = 0;
   int height_px = 0;
-  std::vector<std::uint8_t> rgb;   ///< 3 * width * height bytes
+  std::vector<std::uint8_t> rgb;  ///< 3 * width * height bytes
 
   const std::uint8_t* At(int x, int y) const {
     return rgb.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +

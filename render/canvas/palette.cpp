@@ -17,12 +17,12 @@ constexpr Colour kClients[7] = {
     {146, 104, 84, 255},   // brown
 };
 constexpr Colour kRuns[6] = {
-    {196, 30, 58, 255},    // crimson
-    {122, 72, 180, 255},   // violet
-    {0, 120, 128, 255},    // teal
-    {28, 31, 36, 255},     // ink
-    {176, 120, 0, 255},    // ochre
-    {90, 110, 40, 255},    // olive
+    {196, 30, 58, 255},   // crimson
+    {122, 72, 180, 255},  // violet
+    {0, 120, 128, 255},   // teal
+    {28, 31, 36, 255},    // ink
+    {176, 120, 0, 255},   // ochre
+    {90, 110, 40, 255},   // olive
 };
 
 std::uint8_t Channel(float value) {
@@ -41,8 +41,8 @@ Colour RunColour(int run) { return kRuns[static_cast<std::size_t>(std::max(run, 
 
 Colour Mix(Colour a, Colour b, float share) {
   const auto one = [share](std::uint8_t from, std::uint8_t to) {
-    return Channel(static_cast<float>(from) + share * (static_cast<float>(to) -
-                                                       static_cast<float>(from)));
+    return Channel(static_cast<float>(from) +
+                   share * (static_cast<float>(to) - static_cast<float>(from)));
   };
   return {one(a.r, b.r), one(a.g, b.g), one(a.b, b.b), one(a.a, b.a)};
 }

@@ -6,17 +6,17 @@
 
 namespace seam {
 
-constexpr Colour kPaper{246, 246, 243, 255};       ///< around the panels
-constexpr Colour kPanel{255, 255, 255, 255};       ///< behind the world
-constexpr Colour kFrame{205, 205, 199, 255};       ///< edges of panels
+constexpr Colour kPaper{246, 246, 243, 255};  ///< around the panels
+constexpr Colour kPanel{255, 255, 255, 255};  ///< behind the world
+constexpr Colour kFrame{205, 205, 199, 255};  ///< edges of panels
 constexpr Colour kGrid{240, 240, 237, 255};
-constexpr Colour kInk{28, 31, 36, 255};            ///< text, ghosts, playhead
-constexpr Colour kFaintInk{104, 109, 117, 255};    ///< secondary text: 5 : 1 on paper
+constexpr Colour kInk{28, 31, 36, 255};          ///< text, ghosts, playhead
+constexpr Colour kFaintInk{104, 109, 117, 255};  ///< secondary text: 5 : 1 on paper
 constexpr Colour kGround{214, 210, 202, 255};
 constexpr Colour kGroundEdge{136, 130, 120, 255};
-constexpr Colour kWater{96, 160, 205, 255};         ///< laid on thinly
-constexpr Colour kWaterLine{38, 96, 145, 255};      ///< its level
-constexpr Colour kSpark{196, 30, 58, 255};         ///< impacts: no peer has it
+constexpr Colour kWater{96, 160, 205, 255};     ///< laid on thinly
+constexpr Colour kWaterLine{38, 96, 145, 255};  ///< its level
+constexpr Colour kSpark{196, 30, 58, 255};      ///< impacts: no peer has it
 
 /// The colour of what a peer has authority over; peer 0, the server, is a neutral grey. Beyond the
 /// seventh client the hues repeat, darker.

@@ -28,8 +28,8 @@ bool Encode(std::FILE* file, const Image& image, int level) {
   png_set_compression_level(png, level);
   png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width_px),
-               static_cast<png_uint_32>(image.height_px), 8, PNG_COLOR_TYPE_RGB,
-               PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+               static_cast<png_uint_32>(image.height_px), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   png_write_info(png, info);
   for (int y = 0; y < image.height_px; ++y) png_write_row(png, image.At(0, y));
   png_write_end(png, info);
@@ -48,7 +48,7 @@ void WritePng(const std::string& path, const Image& image, int level) {
   const bool closed = std::fclose(file) == 0;
   if (encoded && closed) return;
   const std::string why = errno != 0 ? std::strerror(errno) : "write failed";
-  std::error_code ignored;                  // a device or a pipe is not ours to remove
+  std::error_code ignored;  // a device or a pipe is not ours to remove
   if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
   throw OperatorError(path + ": " + why);
 }

@@ -53,9 +53,7 @@ Outline OutlineOf(const Part& part, const Pose& root) {
     case ShapeKind::kCapsule: local = CapsulePoints(part); break;
     case ShapeKind::kPolygon:
     case ShapeKind::kChain:
-    case ShapeKind::kSegment:
-      local = part.points;
-      break;
+    case ShapeKind::kSegment: local = part.points; break;
   }
   const Frame2 to_world(PoseOf(part));
   for (const Vec2& p : local) outline.points.push_back(Into(root, to_world(p)));
@@ -64,7 +62,7 @@ Outline OutlineOf(const Part& part, const Pose& root) {
 
 /// Bodies of more parts are drawn by their rim: a thousand outlines would be a grey field.
 constexpr std::size_t kManyParts = 100;
-constexpr float kCovered_m = 0.02f;      ///< an edge with a part so near its outside is covered
+constexpr float kCovered_m = 0.02f;  ///< an edge with a part so near its outside is covered
 
 /// Corners; a circle as a polygon.
 std::vector<Vec2> CornersOf(const Outline& outline) {
@@ -98,7 +96,7 @@ bool Covers(const std::vector<Vec2>& corners, const Vec2& p) {
 
 std::vector<std::array<Vec2, 2>> RimOf(const std::vector<Outline>& outlines) {
   std::vector<std::vector<Vec2>> shapes;
-  std::vector<std::array<Vec2, 2>> boxes;   // min, max
+  std::vector<std::array<Vec2, 2>> boxes;  // min, max
   for (const Outline& outline : outlines) {
     shapes.push_back(CornersOf(outline));
     if (SignedArea(shapes.back()) < 0) std::reverse(shapes.back().begin(), shapes.back().end());
@@ -194,7 +192,7 @@ std::vector<DrawnJoint> JointsOf(const Scene& scene, const Composition& composit
     drawn.anchor_a = Into(PoseOf(PartOf(scene, a.id)), joint.anchor_a);
     drawn.anchor_b = Into(PoseOf(PartOf(scene, b.id)), joint.anchor_b);
     drawn.rod = joint.kind == JointKind::kDistance || joint.kind == JointKind::kRope;
-    if (joint.kind == JointKind::kPrismatic) {   // what slides carries the pin
+    if (joint.kind == JointKind::kPrismatic) {  // what slides carries the pin
       std::swap(drawn.a, drawn.b);
       std::swap(drawn.anchor_a, drawn.anchor_b);
       std::swap(drawn.a_anchored, drawn.b_anchored);

@@ -10,8 +10,8 @@
 namespace seam {
 
 struct Pose {
-  Vec2 position{0, 0};   ///< m
-  float angle = 0;       ///< rad
+  Vec2 position{0, 0};  ///< m
+  float angle = 0;      ///< rad
 };
 
 /// The pose of a frame in which `place` is at `at`: of a body by one of its parts.
@@ -31,33 +31,33 @@ struct Frame2 {
 /// One part, in the frame of its assembly's root part.
 struct Outline {
   ShapeKind kind = ShapeKind::kBox;
-  std::vector<Vec2> points;    ///< m; corners (a capsule's ends have many), or the line's points;
-                               ///< circle: centre and a rim point
-  float radius = 0;            ///< circle, m
+  std::vector<Vec2> points;  ///< m; corners (a capsule's ends have many), or the line's points;
+                             ///< circle: centre and a rim point
+  float radius = 0;          ///< circle, m
 };
 
 /// One assembly.
 struct BodyShapes {
   PartId id = 0;
-  std::vector<PartId> parts;   ///< ascending
-  std::vector<Outline> outlines;   ///< one for each part
-  std::vector<Pose> places;    ///< of the parts, in the root part's frame
+  std::vector<PartId> parts;      ///< ascending
+  std::vector<Outline> outlines;  ///< one for each part
+  std::vector<Pose> places;       ///< of the parts, in the root part's frame
   /// Of a body of many parts: the edges that no other of its parts covers, two points each, m in
   /// the root's frame. Empty for others.
   std::vector<std::array<Vec2, 2>> rim;
-  float reach = 0;             ///< m: nothing of it is further from the root
-  bool round = false;          ///< a circle about its root: its outline does not show its angle
-  Pose start;                  ///< of the root part at tick 0
-  int imposed = -1;            ///< anchored, but moved: index into the scene's ImposedMotions
-  int owner_player = -1;       ///< the player whose vehicle belongs to it, -1: none
+  float reach = 0;        ///< m: nothing of it is further from the root
+  bool round = false;     ///< a circle about its root: its outline does not show its angle
+  Pose start;             ///< of the root part at tick 0
+  int imposed = -1;       ///< anchored, but moved: index into the scene's ImposedMotions
+  int owner_player = -1;  ///< the player whose vehicle belongs to it, -1: none
 };
 
 /// A joint worth drawing; anchors in the frames of the two bodies.
 struct DrawnJoint {
-  PartId a = 0, b = 0;         ///< assembly ids
+  PartId a = 0, b = 0;  ///< assembly ids
   Vec2 anchor_a{0, 0}, anchor_b{0, 0};
   bool a_anchored = false, b_anchored = false;
-  bool rod = false;            ///< distance joint or rope: a line; else a pin at a's anchor
+  bool rod = false;  ///< distance joint or rope: a line; else a pin at a's anchor
 };
 
 /// All that a world's bodies look like as long as none changes.
@@ -66,8 +66,7 @@ struct DrawnForm {
   std::vector<DrawnJoint> joints;
 };
 
-std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composition,
-                                 bool anchored);
+std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composition, bool anchored);
 DrawnForm FormOf(const Scene& scene, const Composition& composition);
 /// All joints that hold two bodies at a point, an axis or a length.
 std::vector<DrawnJoint> JointsOf(const Scene& scene, const Composition& composition);

@@ -29,26 +29,26 @@ std::vector<Rect> Tile(const Rect& area, int count, float aspect, float gap) {
   float best = 0;
   for (int columns = 1; columns <= count; ++columns) {
     const int rows = (count + columns - 1) / columns;
-    const float width = (area.width - gap * static_cast<float>(columns - 1)) /
-                        static_cast<float>(columns);
-    const float height = (area.height - gap * static_cast<float>(rows - 1)) /
-                         static_cast<float>(rows);
+    const float width =
+        (area.width - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns);
+    const float height =
+        (area.height - gap * static_cast<float>(rows - 1)) / static_cast<float>(rows);
     const float scale = std::min(width / aspect, height);
     if (scale <= best) continue;
     best = scale;
     best_columns = columns;
   }
   const int rows = (count + best_columns - 1) / best_columns;
-  const float width = (area.width - gap * static_cast<float>(best_columns - 1)) /
-                      static_cast<float>(best_columns);
-  const float height = (area.height - gap * static_cast<float>(rows - 1)) /
-                       static_cast<float>(rows);
+  const float width =
+      (area.width - gap * static_cast<float>(best_columns - 1)) / static_cast<float>(best_columns);
+  const float height =
+      (area.height - gap * static_cast<float>(rows - 1)) / static_cast<float>(rows);
   std::vector<Rect> panels;
   for (int i = 0; i < count; ++i) {
     const auto column = static_cast<float>(i % best_columns);
     const auto row = static_cast<float>(i / best_columns);
-    panels.push_back({area.x + column * (width + gap), area.y + row * (height + gap), width,
-                      height});
+    panels.push_back(
+        {area.x + column * (width + gap), area.y + row * (height + gap), width, height});
   }
   return panels;
 }

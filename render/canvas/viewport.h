@@ -7,8 +7,8 @@ namespace seam {
 
 /// World metres (y upwards) to pixels (y downwards), the same scale both ways.
 struct Viewport {
-  Rect panel;              ///< px
-  Vec2 centre{0, 0};       ///< m, in the middle of the panel
+  Rect panel;         ///< px
+  Vec2 centre{0, 0};  ///< m, in the middle of the panel
   float px_per_m = 20;
 
   Vec2 ToPx(const Vec2& world) const {

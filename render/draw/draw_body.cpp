@@ -50,7 +50,7 @@ void DrawOutline(DrawList& list, const Viewport& viewport, const Outline& outlin
   } else {
     size = (px[0] - px[px.size() / 2]).norm();
   }
-  if (size < 1.5f) {   // too small for an edge: a dot
+  if (size < 1.5f) {  // too small for an edge: a dot
     list.Disc(centre, 0.75f, edge);
     return;
   }
@@ -63,8 +63,8 @@ void DrawOutline(DrawList& list, const Viewport& viewport, const Outline& outlin
   }
   const float width = EdgeWidth(list, size);
   list.Stroke(px, true, {width, edge, 0});
-  if (circle && size > 8) list.Stroke({centre, centre + 0.8f * (rim - centre)}, false,
-                                      {width, edge, 0});
+  if (circle && size > 8)
+    list.Stroke({centre, centre + 0.8f * (rim - centre)}, false, {width, edge, 0});
 }
 
 /// Parts without edges, and the edge of the whole.
@@ -118,11 +118,11 @@ void DrawGhost(DrawList& list, const Viewport& viewport, const BodyShapes& body,
                float opacity, float width) {
   const float scale = list.font().scale();
   const Frame2 frame(pose);
-  const bool small = body.reach * viewport.px_per_m < 10 * scale;   // dashes would be dust
+  const bool small = body.reach * viewport.px_per_m < 10 * scale;  // dashes would be dust
   const Line rim{(width + 1.7f) * scale, Faded({255, 255, 255, 255}, 0.6f * opacity), 0};
   const Line line{small ? 0.8f * scale : width * scale, Faded(kInk, (small ? 0.7f : 1) * opacity),
                   small ? 0 : 5 * scale};
-  for (const auto& edge : body.rim) {   // dashes as long as the edges: each edge is one line
+  for (const auto& edge : body.rim) {  // dashes as long as the edges: each edge is one line
     const std::vector<Vec2> px = OnPanel(viewport, {edge[0], edge[1]}, frame);
     if ((px[0] - px[1]).norm() > 4 * scale) {
       list.Stroke(px, false, line);

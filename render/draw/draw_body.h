@@ -11,7 +11,7 @@ namespace seam {
 struct BodyLook {
   Colour fill;
   Colour edge;
-  bool hatched = false;    ///< stripes of the edge's colour over the fill
+  bool hatched = false;  ///< stripes of the edge's colour over the fill
   float opacity = 1;
 };
 

@@ -64,8 +64,8 @@ void DrawCell(DrawList& list, const Viewport& viewport, const FeatherStore& stor
   }
   for (const BrickBlock& b : blocks) {
     const BrickKind& kind = store.kinds()[static_cast<std::size_t>(b.kind)];
-    list.Fill(Corners(viewport, b.x, b.y, b.x + b.columns * kind.width,
-                      b.y + b.rows * kind.height), kGround);
+    list.Fill(Corners(viewport, b.x, b.y, b.x + b.columns * kind.width, b.y + b.rows * kind.height),
+              kGround);
     const auto least = static_cast<float>(std::min(kind.width, kind.height));
     if (least * unit_px >= kBrickLeast) DrawJoints(list, viewport, b, kind);
   }
@@ -87,9 +87,9 @@ void DrawOutlines(DrawList& list, const Viewport& viewport, const FeatherStore& 
 
 std::vector<BrickBlock> BlocksOf(const FeatherStore& store, int cell) {
   std::vector<Brick> bricks;
-  store.Append(cell, &bricks);      // by kind, then y, then x
+  store.Append(cell, &bricks);  // by kind, then y, then x
   std::vector<BrickBlock> blocks;
-  std::size_t row_before = 0, row = 0;   // the kind's first block; the present row's first
+  std::size_t row_before = 0, row = 0;  // the kind's first block; the present row's first
   const auto close_row = [&] {
     // A block that lies on another of the same sides becomes part of it.
     std::size_t kept = row;

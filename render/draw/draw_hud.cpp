@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "render/draw/draw_body.h"
 #include "render/canvas/palette.h"
+#include "render/draw/draw_body.h"
 
 namespace seam {
 namespace {
@@ -12,8 +12,8 @@ namespace {
 void Swatch(DrawList& list, float x, float y, const BodyLook& look) {
   const float scale = list.font().scale();
   const Rect box{x + 0.5f, std::round(y - 10 * scale) + 0.5f, 16 * scale, 11 * scale};
-  const std::vector<Vec2> corners{{box.x, box.y}, {box.right(), box.y},
-                                  {box.right(), box.bottom()}, {box.x, box.bottom()}};
+  const std::vector<Vec2> corners{
+      {box.x, box.y}, {box.right(), box.y}, {box.right(), box.bottom()}, {box.x, box.bottom()}};
   list.Fill(corners, look.fill);
   if (look.hatched) {
     const float s = 0.70710678f;
@@ -90,8 +90,9 @@ void DrawCaption(DrawList& list, const Rect& panel, const std::string& left,
   if (right.empty()) return;
   const float end = panel.right() - 10 * scale;
   const float right_width = list.font().Width(TextStyle::kStrong, right);
-  list.FillRect({end - right_width - 5 * scale, panel.y + 4 * scale, right_width + 10 * scale,
-                 18 * scale}, Faded(kPanel, 0.8f));
+  list.FillRect(
+      {end - right_width - 5 * scale, panel.y + 4 * scale, right_width + 10 * scale, 18 * scale},
+      Faded(kPanel, 0.8f));
   list.Text(end, base, TextStyle::kStrong, right, kInk, Align::kRight);
 }
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "render/playback/playback.h"
 #include "render/canvas/viewport.h"
+#include "render/playback/playback.h"
 
 namespace seam {
 

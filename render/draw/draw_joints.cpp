@@ -8,11 +8,11 @@
 namespace seam {
 namespace {
 
-constexpr float kPinsFrom_px_per_m = 12;   ///< smaller bodies would be all pins
+constexpr float kPinsFrom_px_per_m = 12;  ///< smaller bodies would be all pins
 
 std::optional<Vec2> AnchorOn(const Viewport& viewport, const Playback& playback,
-                             const DrawnForm& form, const Moment& moment, PartId id,
-                             bool anchored, const Vec2& anchor) {
+                             const DrawnForm& form, const Moment& moment, PartId id, bool anchored,
+                             const Vec2& anchor) {
   if (!anchored) {
     const auto shown = playback.Find(moment, id);
     if (!shown) return std::nullopt;
@@ -24,7 +24,7 @@ std::optional<Vec2> AnchorOn(const Viewport& viewport, const Playback& playback,
 }
 
 constexpr double kCrackSeconds = 0.5;
-constexpr float kCrack_m = 0.7f;        ///< length
+constexpr float kCrack_m = 0.7f;  ///< length
 
 /// Where the joint was, as part a now carries it, and the way from a to b.
 struct Crack {
@@ -51,10 +51,10 @@ void DrawRods(DrawList& list, const Viewport& viewport, const Playback& playback
   const auto form = playback.FormOf(moment);
   for (const DrawnJoint& joint : form->joints) {
     if (!joint.rod) continue;
-    const auto a = AnchorOn(viewport, playback, *form, moment, joint.a, joint.a_anchored,
-                            joint.anchor_a);
-    const auto b = AnchorOn(viewport, playback, *form, moment, joint.b, joint.b_anchored,
-                            joint.anchor_b);
+    const auto a =
+        AnchorOn(viewport, playback, *form, moment, joint.a, joint.a_anchored, joint.anchor_a);
+    const auto b =
+        AnchorOn(viewport, playback, *form, moment, joint.b, joint.b_anchored, joint.anchor_b);
     if (a && b)
       list.Stroke({*a, *b}, false, {1.5f * list.font().scale(), Faded(kFaintInk, opacity), 0});
   }
@@ -66,8 +66,8 @@ void DrawPins(DrawList& list, const Viewport& viewport, const Playback& playback
   const auto form = playback.FormOf(moment);
   for (const DrawnJoint& joint : form->joints) {
     if (joint.rod) continue;
-    const auto a = AnchorOn(viewport, playback, *form, moment, joint.a, joint.a_anchored,
-                            joint.anchor_a);
+    const auto a =
+        AnchorOn(viewport, playback, *form, moment, joint.a, joint.a_anchored, joint.anchor_a);
     if (a) list.Disc(*a, 1.6f * list.font().scale(), Faded(kInk, opacity));
   }
 }
@@ -91,8 +91,7 @@ void DrawBreaks(DrawList& list, const Viewport& viewport, const Playback& playba
     if (!crack || !viewport.Sees(crack->at, kCrack_m)) continue;
     const Vec2 middle = viewport.ToPx(crack->at);
     const Vec2 along(crack->along.x(), -crack->along.y()), across(along.y(), -along.x());
-    const float half =
-        std::clamp(kCrack_m / 2 * viewport.px_per_m, 5 * scale, 20 * scale);
+    const float half = std::clamp(kCrack_m / 2 * viewport.px_per_m, 5 * scale, 20 * scale);
     std::vector<Vec2> zigzag;
     for (int i = -3; i <= 3; ++i) {
       const float side = i % 2 == 0 ? -0.22f : 0.22f;

@@ -5,8 +5,8 @@
 #include <string>
 #include <tuple>
 
-#include "render/playback/format.h"
 #include "render/canvas/palette.h"
+#include "render/playback/format.h"
 
 namespace seam {
 namespace {
@@ -108,8 +108,7 @@ void DrawScores(DrawList& list, const Rect& panel, const Playback& playback, dou
     const auto get = [&](int key) { return Get(known, kMetaPlayer, static_cast<int>(p), key, 0); };
     std::string own;
     if (get(kMetaScore) != 0) own += " " + FormatNumber(static_cast<double>(get(kMetaScore)), 0);
-    if (get(kMetaLaps) > 0)
-      own += " lap " + FormatNumber(static_cast<double>(get(kMetaLaps)), 0);
+    if (get(kMetaLaps) > 0) own += " lap " + FormatNumber(static_cast<double>(get(kMetaLaps)), 0);
     if (get(kMetaCheckpoint) > 0)
       own += " at " + FormatNumber(static_cast<double>(get(kMetaCheckpoint)), 0);
     if (!own.empty()) text += (text.empty() ? "" : "   ") + players[p].name + own;

@@ -2,8 +2,8 @@
 /// What the server decides, on a panel: triggers as dashed boxes, health over the parts that have
 /// some, the players' scores in a line.
 
-#include "render/playback/playback.h"
 #include "render/canvas/viewport.h"
+#include "render/playback/playback.h"
 
 namespace seam {
 

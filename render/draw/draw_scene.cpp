@@ -20,7 +20,7 @@ float RoundUp(float least) {
 }
 
 struct Region {
-  Rect inner, outer;    ///< px; the region, and with its buffer zone
+  Rect inner, outer;  ///< px; the region, and with its buffer zone
   Colour colour;
   std::string name;
 };
@@ -61,15 +61,18 @@ void DrawRibbon(DrawList& list, const Region& region, const Rect& row) {
   const Rect own = Shared({region.inner.x, row.y, region.inner.width, row.height}, row);
   if (zone.width > own.width) {
     list.FillRect(zone, Mix(kPanel, region.colour, 0.12f));
-    list.Hatch({{zone.x, zone.y}, {zone.right(), zone.y}, {zone.right(), zone.bottom()},
-                {zone.x, zone.bottom()}}, {region.inner.x, row.y}, {0.70710678f, 0.70710678f},
-               7 * scale, Mix(kPanel, region.colour, 0.45f));
+    list.Hatch({{zone.x, zone.y},
+                {zone.right(), zone.y},
+                {zone.right(), zone.bottom()},
+                {zone.x, zone.bottom()}},
+               {region.inner.x, row.y}, {0.70710678f, 0.70710678f}, 7 * scale,
+               Mix(kPanel, region.colour, 0.45f));
   }
   list.FillRect(own, Mix(kPanel, region.colour, 0.45f));
   const auto name = [&](float from, float to, const std::string& text) {
     if (to - from < list.font().Width(TextStyle::kSmall, text) + 8 * scale) return;
     const float middle = (from + to) / 2, width = list.font().Width(TextStyle::kSmall, text);
-    if (from < own.x || to > own.right())   // letters do not read on stripes
+    if (from < own.x || to > own.right())  // letters do not read on stripes
       list.FillRect({middle - width / 2 - 4 * scale, row.y, width + 8 * scale, row.height},
                     Mix(kPanel, region.colour, 0.12f));
     list.Text(middle, row.y + 11 * scale, TextStyle::kSmall, text,
@@ -142,8 +145,8 @@ void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playb
   for (const Region& region : regions)
     list.FillRect(Shared(region.inner, viewport.panel), Mix(kPanel, region.colour, 0.1f));
   for (const Region& region : regions) {
-    const Rect inner{region.inner.x + scale, region.inner.y + scale,
-                     region.inner.width - 2 * scale, region.inner.height - 2 * scale};
+    const Rect inner{region.inner.x + scale, region.inner.y + scale, region.inner.width - 2 * scale,
+                     region.inner.height - 2 * scale};
     list.StrokeRect(inner, {1.5f * scale, Faded(region.colour, 0.85f), 0});
     if (region.outer.width > region.inner.width)
       list.StrokeRect(region.outer, {1.2f * scale, Faded(region.colour, 0.9f), 8 * scale});
@@ -152,7 +155,7 @@ void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playb
 
 void DrawRegionNames(DrawList& list, const Viewport& viewport, const Playback& playback) {
   const std::vector<Region> regions = RegionsOf(viewport, playback);
-  if (regions.size() > 4) return;   // more rows would hide the world
+  if (regions.size() > 4) return;  // more rows would hide the world
   const float height = std::round(15 * list.font().scale());
   float y = viewport.panel.bottom() - 1;
   for (auto region = regions.rbegin(); region != regions.rend(); ++region) {
@@ -183,8 +186,7 @@ void DrawScaleBar(DrawList& list, const Viewport& viewport) {
   for (float x : {left, right}) list.Stroke({{x, y - tick}, {x, y + tick}}, false, line);
   std::string text = metres >= 1 ? std::to_string(static_cast<int>(metres + 0.5f)) + " m"
                                  : std::to_string(static_cast<int>(100 * metres + 0.5f)) + " cm";
-  list.Text((left + right) / 2, y - 5 * scale, TextStyle::kSmall, text, kFaintInk,
-            Align::kCentre);
+  list.Text((left + right) / 2, y - 5 * scale, TextStyle::kSmall, text, kFaintInk, Align::kCentre);
 }
 
 void DrawWaters(DrawList& list, const Viewport& viewport, const Playback& playback) {

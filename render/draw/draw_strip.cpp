@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "render/playback/format.h"
 #include "render/canvas/palette.h"
+#include "render/playback/format.h"
 
 namespace seam {
 namespace {
 
-constexpr double kLowDecade = -3;   ///< log10 m: the base line is a millimetre
+constexpr double kLowDecade = -3;  ///< log10 m: the base line is a millimetre
 
 /// Plot area and its two scales.
 struct Axes {
@@ -41,8 +41,8 @@ void DrawDecades(DrawList& list, const Axes& axes) {
     list.Stroke({{axes.plot.x, y}, {axes.plot.right(), y}}, false,
                 {1, decade == kLowDecade ? kFrame : kGrid, 0});
     if (axes.high_decade - kLowDecade > 4 && std::fmod(decade - kLowDecade, 2) != 0) continue;
-    static const char* const kNames[] = {"1 mm", "1 cm", "10 cm", "1 m", "10 m", "100 m", "1 km",
-                                         "10 km"};
+    static const char* const kNames[] = {"1 mm", "1 cm",  "10 cm", "1 m",
+                                         "10 m", "100 m", "1 km",  "10 km"};
     list.Text(axes.plot.x - 6 * scale, y + 4 * scale, TextStyle::kSmall,
               kNames[static_cast<int>(decade - kLowDecade)], kFaintInk, Align::kRight);
   }
@@ -74,8 +74,8 @@ std::vector<std::vector<Vec2>> Pieces(const Axes& axes, const Curve& curve) {
   float last_column = -1;
   bool known = false;
   for (std::size_t i = 0; i < errors.size(); ++i) {
-    const double s = (static_cast<double>(curve.first_tick) + static_cast<double>(i)) /
-                     curve.tick_hz;
+    const double s =
+        (static_cast<double>(curve.first_tick) + static_cast<double>(i)) / curve.tick_hz;
     if (s < axes.from_s - 1e-9 || s > axes.to_s + 1e-9) continue;
     const bool before = known;
     known = !std::isnan(errors[i]);
@@ -100,7 +100,9 @@ void DrawPiece(DrawList& list, const Axes& axes, const Curve& curve,
     const bool past = points[i].x() <= now_x;
     colours.push_back(Faded(curve.colour, past ? 1.0f : 0.35f));
     if (!filled || i == 0) continue;
-    const Vec2 quad[4] = {points[i - 1], points[i], {points[i].x(), axes.plot.bottom()},
+    const Vec2 quad[4] = {points[i - 1],
+                          points[i],
+                          {points[i].x(), axes.plot.bottom()},
                           {points[i - 1].x(), axes.plot.bottom()}};
     const Colour under = Faded(curve.colour, past ? 0.22f : 0.07f);
     list.FillShaded(quad, under, under);
@@ -122,8 +124,8 @@ void DrawNow(DrawList& list, const Axes& axes, const std::vector<Curve>& curves,
   const float tip = axes.plot.y + 3 * scale, wing = 4 * scale;
   list.Fill({{x - wing, tip - 6 * scale}, {x + wing, tip - 6 * scale}, {x, tip}}, kInk);
   for (const Curve& curve : curves) {
-    const auto i = static_cast<std::int64_t>(std::floor(look.now_s * curve.tick_hz + 1e-6)) -
-                   curve.first_tick;
+    const auto i =
+        static_cast<std::int64_t>(std::floor(look.now_s * curve.tick_hz + 1e-6)) - curve.first_tick;
     if (i < 0 || i >= static_cast<std::int64_t>(curve.errors_m->size()) || !curve.bold) continue;
     const double error = (*curve.errors_m)[static_cast<std::size_t>(i)];
     if (std::isnan(error)) continue;

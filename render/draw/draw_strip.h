@@ -11,17 +11,17 @@ namespace seam {
 
 /// One curve of errors by tick.
 struct Curve {
-  const std::vector<double>* errors_m = nullptr;   ///< borrowed; NaN: unknown
+  const std::vector<double>* errors_m = nullptr;  ///< borrowed; NaN: unknown
   std::int64_t first_tick = 0;
   int tick_hz = 60;
   Colour colour;
-  std::string label;      ///< in the strip's legend; empty: none
+  std::string label;  ///< in the strip's legend; empty: none
   bool bold = true;
 };
 
 struct StripLook {
-  double from_s = 0, to_s = 1;   ///< the axis
-  double now_s = 0;              ///< playhead
+  double from_s = 0, to_s = 1;  ///< the axis
+  double now_s = 0;             ///< playhead
 };
 
 /// Draws axis, curves and playhead into `area`. Values below a millimetre lie on the base line.

@@ -3,20 +3,20 @@
 #include <algorithm>
 #include <cmath>
 
+#include "render/canvas/palette.h"
 #include "render/draw/draw_body.h"
 #include "render/draw/draw_ghosts.h"
 #include "render/draw/draw_joints.h"
 #include "render/draw/draw_rules.h"
 #include "render/draw/draw_scene.h"
 #include "render/playback/marks.h"
-#include "render/canvas/palette.h"
 
 namespace seam {
 namespace {
 
 constexpr double kTrailSeconds = 1.2;
 constexpr int kTrailPoints = 36;
-constexpr double kImpactSeconds = 0.5;   ///< how long a mark stays
+constexpr double kImpactSeconds = 0.5;  ///< how long a mark stays
 
 struct Seen {
   const BodyShapes* body = nullptr;
@@ -37,8 +37,8 @@ std::vector<Seen> BodiesOnPanel(const Viewport& viewport, const Playback& playba
 }
 
 /// A look at a few of the moments: most bodies of a large scene rest, and rest cheaply.
-bool RestsOver(const Viewport& viewport, const Playback& playback,
-               const std::vector<Moment>& past, PartId id) {
+bool RestsOver(const Viewport& viewport, const Playback& playback, const std::vector<Moment>& past,
+               PartId id) {
   const auto now = playback.Find(past.back(), id);
   for (std::size_t i = 0; now && i + 1 < past.size(); i += 9) {
     const auto then = playback.Find(past[i], id);
@@ -67,7 +67,7 @@ void DrawTrails(DrawList& list, const Viewport& viewport, const Playback& playba
       const Vec2 px = viewport.ToPx(shown->pose.position);
       if (!points.empty()) {
         const float step = (px - points.back()).norm();
-        if (step < 0.5f) continue;   // no direction to speak of
+        if (step < 0.5f) continue;  // no direction to speak of
         length += step;
       }
       on_panel = on_panel || viewport.Sees(shown->pose.position, length / viewport.px_per_m);
@@ -84,13 +84,14 @@ void DrawTrails(DrawList& list, const Viewport& viewport, const Playback& playba
 void DrawGhosts(DrawList& list, const Viewport& viewport, const Playback& playback,
                 const DrawnForm& form, const WorldLook& look) {
   const Moment now = playback.MomentAt(look.peer, look.tick);
-  VisitTruth(playback, form, now, look.tick, [&](const BodyShapes& body, const Pose& truth,
-                                                 const std::optional<Pose>& shown) {
-    if (look.cull && !viewport.Sees(truth.position, body.reach)) return;
-    const float apart = shown ? PixelsApart(viewport, body, *shown, truth) : 1e3f;
-    const float opacity = std::clamp((apart / list.font().scale() - 0.75f) / 2, 0.0f, 1.0f);
-    if (opacity > 0) DrawGhost(list, viewport, body, truth, 0.9f * opacity);
-  });
+  VisitTruth(playback, form, now, look.tick,
+             [&](const BodyShapes& body, const Pose& truth, const std::optional<Pose>& shown) {
+               if (look.cull && !viewport.Sees(truth.position, body.reach)) return;
+               const float apart = shown ? PixelsApart(viewport, body, *shown, truth) : 1e3f;
+               const float opacity =
+                   std::clamp((apart / list.font().scale() - 0.75f) / 2, 0.0f, 1.0f);
+               if (opacity > 0) DrawGhost(list, viewport, body, truth, 0.9f * opacity);
+             });
 }
 
 void DrawImpacts(DrawList& list, const Viewport& viewport, const Playback& playback,
@@ -123,7 +124,8 @@ void DrawNames(DrawList& list, const Viewport& viewport, const Playback& playbac
     const float width = list.font().Width(TextStyle::kStrong, name);
     const float y = top - 9 * scale;
     list.FillRect({std::round(x - width / 2 - 4 * scale), std::round(y - 12 * scale),
-                   width + 8 * scale, 16 * scale}, Faded(kPanel, 0.75f));
+                   width + 8 * scale, 16 * scale},
+                  Faded(kPanel, 0.75f));
     list.Text(x, y, TextStyle::kStrong, name, Darker(PeerColour(one.shown.authority)),
               Align::kCentre);
   }

@@ -8,9 +8,9 @@ namespace seam {
 
 /// What of it, and when.
 struct WorldLook {
-  int peer = 0;          ///< whose view
-  double tick = 0;       ///< may lie between ticks
-  bool cull = true;      ///< leave out what the panel does not show; changes no pixel
+  int peer = 0;      ///< whose view
+  double tick = 0;   ///< may lie between ticks
+  bool cull = true;  ///< leave out what the panel does not show; changes no pixel
   bool trails = true;
 };
 

@@ -18,8 +18,6 @@ std::string FormatLength(double metres) {
 
 std::string FormatTime(double seconds) { return fmt::format("{:.2f} s", seconds); }
 
-std::string FormatNumber(double value, int digits) {
-  return fmt::format("{:.{}f}", value, digits);
-}
+std::string FormatNumber(double value, int digits) { return fmt::format("{:.{}f}", value, digits); }
 
 }  // namespace seam

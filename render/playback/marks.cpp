@@ -8,12 +8,12 @@
 namespace seam {
 namespace {
 
-constexpr float kShownMin = 1.0f;         ///< m/s; weaker ones would clutter a stack
-constexpr float kGroundShownMin = 3.0f;   ///< m/s, against what never moves
-constexpr double kSame_s = 0.35;          ///< pushes of a pair within this are one meeting
-constexpr float kNear_m = 3.0f;           ///< of several this near each other one is marked
-constexpr std::size_t kMarksMax = 5;      ///< at a time
-constexpr float kStronger = 1.5f;         ///< unless one is this much stronger than the last
+constexpr float kShownMin = 1.0f;        ///< m/s; weaker ones would clutter a stack
+constexpr float kGroundShownMin = 3.0f;  ///< m/s, against what never moves
+constexpr double kSame_s = 0.35;         ///< pushes of a pair within this are one meeting
+constexpr float kNear_m = 3.0f;          ///< of several this near each other one is marked
+constexpr std::size_t kMarksMax = 5;     ///< at a time
+constexpr float kStronger = 1.5f;        ///< unless one is this much stronger than the last
 
 struct Push {
   double tick = 0;
@@ -53,7 +53,7 @@ std::vector<Mark> MarksBefore(const Recording& recording, int peer, double tick,
   std::stable_sort(pushes.begin(), pushes.end(),
                    [](const Push& a, const Push& b) { return a.tick < b.tick; });
   std::vector<Mark> marks;
-  std::map<std::pair<int, int>, Mark> last;   // by pair, whether marked or not
+  std::map<std::pair<int, int>, Mark> last;  // by pair, whether marked or not
   for (const Push& push : pushes) {
     const bool ground = push.pair.first < 0;
     const auto before = last.find(push.pair);

@@ -4,15 +4,15 @@
 
 #include <vector>
 
-#include "common/scene/types.h"
 #include "common/record/recording.h"
+#include "common/scene/types.h"
 
 namespace seam {
 
 struct Mark {
   double tick = 0;
-  Vec2 point{0, 0};   ///< m
-  float dv = 0;       ///< m/s
+  Vec2 point{0, 0};  ///< m
+  float dv = 0;      ///< m/s
 };
 
 /// Marks of a peer's world in (tick - span, tick], ticks. A pair of bodies that met with a similar

@@ -125,15 +125,12 @@ void Playback::Keep(int peer, const Measures& measures) {
     const std::int64_t tick = measures.first_tick + static_cast<std::int64_t>(i);
     if (tick < error_first_tick_ || !Compared(peer, tick)) continue;
     const auto place = static_cast<std::size_t>(tick - error_first_tick_);
-    if (place >= errors.size())
-      errors.resize(place + 1, std::numeric_limits<double>::quiet_NaN());
+    if (place >= errors.size()) errors.resize(place + 1, std::numeric_limits<double>::quiet_NaN());
     errors[place] = measures.error_by_tick_m[i];
   }
 }
 
-double Playback::first_s() const {
-  return static_cast<double>(recording_->first_tick) / tick_hz();
-}
+double Playback::first_s() const { return static_cast<double>(recording_->first_tick) / tick_hz(); }
 
 double Playback::last_s() const {
   return static_cast<double>(std::max(recording_->last_tick, recording_->first_tick)) / tick_hz();
@@ -266,7 +263,7 @@ std::int32_t Playback::RoundTripUs(int peer, double tick) const {
 
 void Playback::MeasureTick(std::int64_t tick) {
   if (!oracle_) return;
-  Recording now;   // without the scene's text: nothing but poses is measured here
+  Recording now;  // without the scene's text: nothing but poses is measured here
   now.first_tick = now.last_tick = tick;
   for (const auto& [peer, views] : recording_->views) {
     const auto view = views.find(tick);

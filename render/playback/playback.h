@@ -10,11 +10,11 @@
 
 #include "common/measure/forms.h"
 #include "common/measure/measure.h"
-#include "common/scene/assembly.h"
-#include "common/topology/feather_store.h"
-#include "common/stages/kinematic.h"
-#include "common/scene/scene.h"
 #include "common/record/recording.h"
+#include "common/scene/assembly.h"
+#include "common/scene/scene.h"
+#include "common/stages/kinematic.h"
+#include "common/topology/feather_store.h"
 #include "render/canvas/shapes.h"
 
 namespace seam {
@@ -28,10 +28,10 @@ struct Shown {
 
 /// Two neighbouring views of one peer and how far the moment lies between them.
 struct Moment {
-  const View* before = nullptr;   ///< nullptr: this peer showed nothing yet
+  const View* before = nullptr;  ///< nullptr: this peer showed nothing yet
   const View* after = nullptr;
-  float blend = 0;                ///< 0 at before, 1 at after
-  double tick = 0;                ///< what was asked for
+  float blend = 0;  ///< 0 at before, 1 at after
+  double tick = 0;  ///< what was asked for
 };
 
 /// Poses are interpolated between the views on either side, never extrapolated: where a view is
@@ -114,10 +114,10 @@ class Playback {
   /// Shapes by topology, as many as are worth keeping. Frames are drawn by several threads.
   struct KnownForms {
     std::mutex mutex;
-    std::size_t edits = 0;            // of the recording, when `all` was made
+    std::size_t edits = 0;  // of the recording, when `all` was made
     std::unique_ptr<Forms> all;
     std::shared_ptr<const DrawnForm> first;
-    std::map<int, std::shared_ptr<const DrawnForm>> drawn;   // by key
+    std::map<int, std::shared_ptr<const DrawnForm>> drawn;  // by key
   };
   /// Of all edits heard so far. Requires forms_->mutex.
   const Forms& AllForms() const;
@@ -126,7 +126,7 @@ class Playback {
   std::optional<ImposedMotions> imposed_;
   std::map<int, int> player_of_peer_;
   std::optional<Measures> measures_;
-  std::map<int, std::vector<double>> errors_;   // by peer; -1: all
+  std::map<int, std::vector<double>> errors_;  // by peer; -1: all
   std::int64_t error_first_tick_ = 0;
 };
 

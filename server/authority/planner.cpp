@@ -76,9 +76,9 @@ std::vector<Wish> Planner::Plan(const World& world, const AuthorityTable& table,
     }
     int wanted = player >= 0 ? peer_of_player[static_cast<std::size_t>(player)] : -1;
     if (wanted < 0) wanted = 0;
-    const bool dwells = current_player >= 0 &&
-                        world.tick() - changed_tick_[m] <
-                            static_cast<std::int64_t>(kDwell * config_.tick_hz);
+    const bool dwells =
+        current_player >= 0 &&
+        world.tick() - changed_tick_[m] < static_cast<std::int64_t>(kDwell * config_.tick_hz);
     wishes[m].authority = dwells ? current : wanted;
   }
   if (config_.mode != Mode::kBuffer) return wishes;

@@ -32,16 +32,16 @@ class Planner {
   /// The mechanisms are others now; see Recomposition.
   void Recompose(const std::vector<std::vector<int>>& from);
 
-  static constexpr float kHysteresis = 2.0f;    ///< m beyond the border before a hand-over
-  static constexpr double kDwell = 0.5;         ///< s an authority lasts at least
+  static constexpr float kHysteresis = 2.0f;  ///< m beyond the border before a hand-over
+  static constexpr double kDwell = 0.5;       ///< s an authority lasts at least
 
  private:
   int WantedPlayer(const World& world, int mechanism, int current_player) const;
 
   const Scene& scene_;
   SyncConfig config_;
-  std::vector<std::int64_t> changed_tick_;      // by mechanism
-  std::vector<int> last_authority_;             // by mechanism
+  std::vector<std::int64_t> changed_tick_;  // by mechanism
+  std::vector<int> last_authority_;         // by mechanism
 };
 
 }  // namespace seam

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
+#include "common/physics/part_places.h"
 #include "common/stages/make_stages.h"
 #include "common/topology/join.h"
-#include "common/physics/part_places.h"
 
 namespace seam {
 namespace {
@@ -28,8 +28,7 @@ bool PlausibleProposal(const World& world, const Edit& edit) {
   if (edit.kind != EditKind::kBond) return true;
   const BodyState a = PartPose(world, edit.a), b = PartPose(world, edit.b);
   const float c = std::cos(a.angle), s = std::sin(a.angle);
-  const Vec2 wanted =
-      a.position + Vec2(c * edit.x - s * edit.y, s * edit.x + c * edit.y);
+  const Vec2 wanted = a.position + Vec2(c * edit.x - s * edit.y, s * edit.x + c * edit.y);
   return (wanted - b.position).norm() < kBondReach;
 }
 

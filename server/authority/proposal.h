@@ -1,9 +1,9 @@
 #pragma once
 /// Which edits a peer may propose for what it has authority over, and whether they are likely.
 
+#include "common/physics/world.h"
 #include "common/topology/edit.h"
 #include "common/topology/topology.h"
-#include "common/physics/world.h"
 
 namespace seam {
 

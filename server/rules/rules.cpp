@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "server/rules/part_owner.h"
-#include "server/script/script.h"
 #include "server/rules/script_room.h"
+#include "server/script/script.h"
 
 namespace seam {
 
@@ -96,8 +96,8 @@ void Rules::OnEntered(const TriggerEvent& event) {
     case TriggerKind::kArea:
     case TriggerKind::kHazard: break;
   }
-  if (trigger.score != 0 && player >= 0) table_.Add({kMetaPlayer, player, kMetaScore},
-                                                    trigger.score);
+  if (trigger.score != 0 && player >= 0)
+    table_.Add({kMetaPlayer, player, kMetaScore}, trigger.score);
 }
 
 /// Checkpoints count in their order only; after the last one a lap is done.

@@ -25,7 +25,7 @@ class RoomHands {
   virtual ~RoomHands() = default;
   /// Each throws ScriptRefusal when it cannot be.
   virtual void RemovePart(PartId part) = 0;
-  virtual void BreakJoint(int joint) = 0;         ///< index into Scene::joints
+  virtual void BreakJoint(int joint) = 0;  ///< index into Scene::joints
   /// Makes b rigid with a where it is now, up to `strength` N (0: for ever).
   virtual void Bond(PartId a, PartId b, float strength) = 0;
   virtual void Push(PartId part, const Vec2& impulse) = 0;
@@ -92,16 +92,16 @@ class Rules {
   RoomHands& hands_;
   Triggers triggers_;
   MetaTable table_;
-  int last_checkpoint_ = 0;             // the highest order of all
-  std::size_t parts_noted_ = 0;         // whose health is set
-  std::map<PartId, int> struck_by_;     // player, in this tick
+  int last_checkpoint_ = 0;          // the highest order of all
+  std::size_t parts_noted_ = 0;      // whose health is set
+  std::map<PartId, int> struck_by_;  // player, in this tick
   std::set<PartId> dead_;
   std::vector<TriggerEvent> happened_;  // in triggers, in this tick
   std::vector<Comer> comers_;
-  std::unique_ptr<ScriptRoom> room_;    // what scripts see of all this
+  std::unique_ptr<ScriptRoom> room_;  // what scripts see of all this
   std::vector<std::unique_ptr<Script>> scripts_;
   std::set<std::string> stopped_said_;
-  std::vector<PartTouch> touching_;     // after the last tick
+  std::vector<PartTouch> touching_;  // after the last tick
 };
 
 }  // namespace seam

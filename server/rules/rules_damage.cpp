@@ -80,7 +80,7 @@ void Rules::Die(PartId id) {
     try {
       hands_.BreakJoint(joint);
     } catch (const ScriptRefusal&) {
-      continue;   // it is broken already, or about to be
+      continue;  // it is broken already, or about to be
     }
   }
 }

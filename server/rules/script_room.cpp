@@ -86,8 +86,8 @@ void ScriptRoom::Unweld(const std::string& a, const std::string& b) {
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const Joint& joint = joints[j];
     const bool rigid = joint.kind == JointKind::kWeld || joint.kind == JointKind::kGlue;
-    const bool between = (joint.a == first && joint.b == second) ||
-                         (joint.a == second && joint.b == first);
+    const bool between =
+        (joint.a == first && joint.b == second) || (joint.a == second && joint.b == first);
     if (joint.gone || !rigid || !between) continue;
     rules_.hands_.BreakJoint(static_cast<int>(j));
     any = true;
@@ -130,8 +130,8 @@ MetaKey ScriptRoom::KeyOf(const std::string& subject, const std::string& key) co
     meta.key = code;
     return meta;
   }
-  const bool own = key.size() == 6 && key.compare(0, 5, "value") == 0 && key[5] >= '0' &&
-                   key[5] <= '9';
+  const bool own =
+      key.size() == 6 && key.compare(0, 5, "value") == 0 && key[5] >= '0' && key[5] <= '9';
   if (!own) {
     throw ScriptRefusal("no value '" + Printable(key) +
                         "': health, score, checkpoint, laps, taken, value0 .. value9");

@@ -12,10 +12,10 @@
 namespace seam {
 
 struct TriggerEvent {
-  int trigger = -1;                 ///< index into Scene::triggers
-  PartId part = -1;                 ///< who
-  int player = -1;                  ///< whose it is
-  bool entered = true;              ///< else left
+  int trigger = -1;     ///< index into Scene::triggers
+  PartId part = -1;     ///< who
+  int player = -1;      ///< whose it is
+  bool entered = true;  ///< else left
 };
 
 class Triggers {

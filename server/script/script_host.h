@@ -25,11 +25,11 @@ class ScriptHost {
   virtual ~ScriptHost() = default;
 
   virtual std::int64_t Tick() const = 0;
-  virtual float dt() const = 0;                   ///< s per tick
+  virtual float dt() const = 0;  ///< s per tick
 
   /// False when there is no such part (any more).
   virtual bool ReadPart(const std::string& part, BodyState* state) const = 0;
-  virtual std::size_t PartCount() const = 0;      ///< parts that were there; some may be gone
+  virtual std::size_t PartCount() const = 0;  ///< parts that were there; some may be gone
   virtual const std::string& PartName(std::size_t index) const = 0;
   virtual std::size_t PlayerCount() const = 0;
   virtual const std::string& PlayerName(std::size_t player) const = 0;

@@ -124,7 +124,7 @@ struct Script::Impl {
   struct Callback {
     const char* name;
     const char* text[2];
-    int flag;                       // -1: none
+    int flag;  // -1: none
     const double* number;
   };
 
@@ -141,7 +141,7 @@ struct Script::Impl {
       lua_Debug about;
       lua_pushvalue(L, -1);
       lua_getinfo(L, ">S", &about);
-      GuardOf(L).line = about.linedefined;   // should memory fail, which tells no line
+      GuardOf(L).line = about.linedefined;  // should memory fail, which tells no line
       for (const char* text : c.text) {
         if (text != nullptr) lua_pushstring(L, text);
       }
@@ -163,8 +163,7 @@ struct Script::Impl {
     }
     // Nothing that could run the script's code or raise: text is taken as it is.
     if (lua_type(state, -1) != LUA_TSTRING) {
-      return Stop(line, std::string("an error that is no text but a ") +
-                            luaL_typename(state, -1));
+      return Stop(line, std::string("an error that is no text but a ") + luaL_typename(state, -1));
     }
     std::size_t bytes = 0;
     const char* text = lua_tolstring(state, -1, &bytes);
@@ -185,7 +184,7 @@ struct Script::Impl {
   const ScriptSource source;
   const std::string scene_file;
   LuaGuard guard;
-  lua_State* state = nullptr;       // null once stopped
+  lua_State* state = nullptr;  // null once stopped
   std::string error;
 };
 
@@ -221,16 +220,12 @@ void Script::OnLeave(const std::string& player) {
   impl_->Run({"on_leave", {player.c_str(), nullptr}, -1, nullptr});
 }
 
-bool Script::Defines(const char* callback) const {
-  return impl_->Has(callback);
-}
+bool Script::Defines(const char* callback) const { return impl_->Has(callback); }
 
 bool Script::stopped() const { return impl_->state == nullptr; }
 const std::string& Script::error() const { return impl_->error; }
 const std::string& Script::name() const { return impl_->source.name; }
-std::int64_t Script::work() const {
-  return impl_->guard.limits.instructions - impl_->guard.work;
-}
+std::int64_t Script::work() const { return impl_->guard.limits.instructions - impl_->guard.work; }
 std::int64_t Script::memory_bytes() const { return impl_->guard.memory; }
 
 }  // namespace seam

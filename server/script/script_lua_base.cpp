@@ -11,10 +11,10 @@ namespace {
 /// What a metatable may do. Not in it: `__gc` and `__close`, which Lua calls while it cannot be
 /// interrupted, and `__mode`, by which it could be kept busy collecting.
 constexpr const char* kMetamethods[] = {
-    "__add",  "__sub",   "__mul",   "__div",    "__mod",      "__pow",   "__unm",    "__idiv",
-    "__band", "__bor",   "__bxor",  "__shl",    "__shr",      "__bnot",  "__concat", "__len",
-    "__eq",   "__lt",    "__le",    "__index",  "__newindex", "__call",  "__tostring",
-    "__name", "__metatable"};
+    "__add",    "__sub",      "__mul",  "__div",      "__mod", "__pow",   "__unm",
+    "__idiv",   "__band",     "__bor",  "__bxor",     "__shl", "__shr",   "__bnot",
+    "__concat", "__len",      "__eq",   "__lt",       "__le",  "__index", "__newindex",
+    "__call",   "__tostring", "__name", "__metatable"};
 
 /// Work of catching an error: the stack is cut back and grows again.
 constexpr std::int64_t kCatchUnits = 20;
@@ -116,10 +116,10 @@ void PushCopy(lua_State* L) {
   lua_pushliteral(L, "__metatable");
   if (lua_rawget(L, -2) == LUA_TNIL) {
     lua_pushvalue(L, 2);
-    lua_setfield(L, -3, "__metatable");   // so that getmetatable gives what setmetatable was given
+    lua_setfield(L, -3, "__metatable");  // so that getmetatable gives what setmetatable was given
   } else {
     lua_pushboolean(L, 1);
-    lua_rawseti(L, -3, 1);                // protected
+    lua_rawseti(L, -3, 1);  // protected
   }
   lua_pop(L, 1);
   lua_pushvalue(L, 2);
@@ -164,9 +164,9 @@ void OpenCoroutines(lua_State* L) {
 }  // namespace
 
 void OpenLuaBase(lua_State* L) {
-  constexpr const char* kTaken[] = {"assert",   "error",  "getmetatable", "ipairs",
-                                    "rawequal", "rawget", "rawlen",       "rawset",
-                                    "select",   "tonumber", "type",       "_VERSION"};
+  constexpr const char* kTaken[] = {"assert",   "error",    "getmetatable", "ipairs",
+                                    "rawequal", "rawget",   "rawlen",       "rawset",
+                                    "select",   "tonumber", "type",         "_VERSION"};
   // Lua's own go into a table that no script sees.
   lua_pushcfunction(L, luaopen_base);
   lua_call(L, 0, 1);

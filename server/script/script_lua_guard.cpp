@@ -83,9 +83,9 @@ void LuaSpend(lua_State* L) {
   }
   // What still runs on the way out (variables to be closed) is stopped at its first instruction.
   lua_sethook(L, Look, LUA_MASKCOUNT, 1);
-  lua_pushnil(L);   // the message is in the guard: to make one could fail
+  lua_pushnil(L);  // the message is in the guard: to make one could fail
   lua_error(L);
-  std::abort();     // lua_error does not return
+  std::abort();  // lua_error does not return
 }
 
 void LuaRefuse(lua_State* L, const char* what) {
@@ -95,7 +95,7 @@ void LuaRefuse(lua_State* L, const char* what) {
   if (!placed) luaL_error(L, "%s", what);
   lua_pushstring(L, what);
   lua_error(L);
-  std::abort();     // lua_error does not return
+  std::abort();  // lua_error does not return
 }
 
 void LuaAfter(lua_State* L, int status) {

@@ -6,11 +6,10 @@
 /// from Lua is read first, what goes to Lua is pushed last, and Attempt turns what our own code
 /// throws into an error of the script.
 
-#include <lua5.4/lua.hpp>
-
 #include <cstdint>
 #include <cstdio>
 #include <exception>
+#include <lua5.4/lua.hpp>
 
 #include "common/scene/part_rules.h"
 #include "server/script/script_host.h"
@@ -33,13 +32,13 @@ struct LuaGuard {
   ScriptHost& host;
   const ScriptLimits limits;
   const char* scene_file = "";
-  bool charging = false;            ///< false while the state is being built
-  bool spent = false;               ///< a limit was met: nothing of the script runs any more
-  char why[160] = "";               ///< the limit
-  int line = 0;                     ///< where the last error was raised; 0: not known
-  std::int64_t memory = 0;          ///< bytes in use
-  std::int64_t work = 0;            ///< left in this tick
-  int says = 0, deeds = 0;          ///< in this tick
+  bool charging = false;    ///< false while the state is being built
+  bool spent = false;       ///< a limit was met: nothing of the script runs any more
+  char why[160] = "";       ///< the limit
+  int line = 0;             ///< where the last error was raised; 0: not known
+  std::int64_t memory = 0;  ///< bytes in use
+  std::int64_t work = 0;    ///< left in this tick
+  int says = 0, deeds = 0;  ///< in this tick
 };
 
 inline LuaGuard& GuardOf(lua_State* L) { return **static_cast<LuaGuard**>(lua_getextraspace(L)); }
@@ -79,11 +78,11 @@ float LuaNumber(lua_State* L, int argument);
 void LuaCountDeed(lua_State* L);
 
 /// The globals a script begins with. Require that nothing else was opened in `L`.
-void OpenLuaBase(lua_State* L);      ///< script_lua_base.cpp: basics and coroutines
-void OpenLuaText(lua_State* L);      ///< script_lua_text.cpp: string
-void OpenLuaTable(lua_State* L);     ///< script_lua_table.cpp: table, and pairs in order
-void OpenLuaMath(lua_State* L, std::uint64_t seed);   ///< script_lua_table.cpp: math
-void OpenLuaWorld(lua_State* L);     ///< script_lua_world.cpp: world, print
+void OpenLuaBase(lua_State* L);   ///< script_lua_base.cpp: basics and coroutines
+void OpenLuaText(lua_State* L);   ///< script_lua_text.cpp: string
+void OpenLuaTable(lua_State* L);  ///< script_lua_table.cpp: table, and pairs in order
+void OpenLuaMath(lua_State* L, std::uint64_t seed);  ///< script_lua_table.cpp: math
+void OpenLuaWorld(lua_State* L);                     ///< script_lua_world.cpp: world, print
 /// Adds to the table on top what makes and removes parts and joints (script_lua_make.cpp).
 void AddLuaMaking(lua_State* L);
 

@@ -121,7 +121,7 @@ int Join(lua_State* L, const char* kind) {
     BodyState from, to;
     if (!placed && !kAnchored && HostOf(L).ReadPart(texts[1], &from) &&
         HostOf(L).ReadPart(texts[2], &to)) {
-      x = (to.position - from.position).norm();   // as they are now, not as the scene put them
+      x = (to.position - from.position).norm();  // as they are now, not as the scene put them
       placed = true;
     }
     TomlNode joint;

@@ -12,10 +12,10 @@ namespace {
 
 /// A key of a table while it is sorted. Its text belongs to Lua and does not move.
 struct Key {
-  int place = 0;                    ///< in the list of keys
-  int kind = 0;                     ///< 0 number, 1 text, 2 boolean
+  int place = 0;  ///< in the list of keys
+  int kind = 0;   ///< 0 number, 1 text, 2 boolean
   double number = 0;
-  lua_Integer integer = 0;          ///< beyond 2^53 numbers are equal that are not
+  lua_Integer integer = 0;  ///< beyond 2^53 numbers are equal that are not
   const char* text = nullptr;
   std::size_t bytes = 0;
 };
@@ -58,7 +58,7 @@ int NextInOrder(lua_State* L) {
     ++given;
     if (lua_rawgeti(L, lua_upvalueindex(2), given) == LUA_TNIL) return 1;
     lua_pushvalue(L, -1);
-    if (lua_rawget(L, lua_upvalueindex(1)) != LUA_TNIL) break;   // removed on the way: left out
+    if (lua_rawget(L, lua_upvalueindex(1)) != LUA_TNIL) break;  // removed on the way: left out
     lua_pop(L, 2);
   }
   lua_pushinteger(L, given);
@@ -69,7 +69,7 @@ int NextInOrder(lua_State* L) {
 int Pairs(lua_State* L) {
   luaL_checktype(L, 1, LUA_TTABLE);
   lua_settop(L, 1);
-  lua_newtable(L);                       // 2: keys as they come
+  lua_newtable(L);  // 2: keys as they come
   int count = 0;
   // Going through a table that was emptied costs its former size, which nobody tells.
   LuaCharge(L, 100);

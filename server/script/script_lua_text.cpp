@@ -150,8 +150,7 @@ void OpenLuaText(lua_State* L) {
   lua_getglobal(L, "tostring");
   lua_pushcclosure(L, Format, 2);
   lua_setfield(L, -2, "format");
-  const luaL_Reg ours[] = {
-      {"byte", ByteAt}, {"char", CharOf}, {"find", Find}, {nullptr, nullptr}};
+  const luaL_Reg ours[] = {{"byte", ByteAt}, {"char", CharOf}, {"find", Find}, {nullptr, nullptr}};
   luaL_setfuncs(L, ours, 0);
   // ("x"):rep(3) finds the same, and nobody finds Lua's own through a string's metatable.
   lua_pushliteral(L, "");

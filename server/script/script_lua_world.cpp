@@ -178,21 +178,11 @@ int Print(lua_State* L) {
 }  // namespace
 
 void OpenLuaWorld(lua_State* L) {
-  const luaL_Reg functions[] = {{"tick", Tick},
-                                {"time", Time},
-                                {"part", ReadPart},
-                                {"parts", ListParts},
-                                {"players", ListPlayers},
-                                {"input", ReadInput},
-                                {"impulse", Impulse},
-                                {"force", Force},
-                                {"blast", Blast},
-                                {"get", Get},
-                                {"set", Set},
-                                {"score", Score},
-                                {"health", Health},
-                                {"say", Say},
-                                {nullptr, nullptr}};
+  const luaL_Reg functions[] = {
+      {"tick", Tick},           {"time", Time},       {"part", ReadPart},   {"parts", ListParts},
+      {"players", ListPlayers}, {"input", ReadInput}, {"impulse", Impulse}, {"force", Force},
+      {"blast", Blast},         {"get", Get},         {"set", Set},         {"score", Score},
+      {"health", Health},       {"say", Say},         {nullptr, nullptr}};
   lua_newtable(L);
   luaL_setfuncs(L, functions, 0);
   AddLuaMaking(L);

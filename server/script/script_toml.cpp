@@ -32,7 +32,7 @@ std::string Text(const std::string& text) {
 std::string Number(double number) {
   if (!std::isfinite(number)) throw ScriptRefusal("a number is not finite");
   char text[40];
-  std::snprintf(text, sizeof text, "%.9g", number);   // enough for single precision
+  std::snprintf(text, sizeof text, "%.9g", number);  // enough for single precision
   std::string out = text;
   // To TOML 1e+06 is a float as it is, 3 would be an integer.
   if (out.find_first_of(".e") == std::string::npos) out += ".0";

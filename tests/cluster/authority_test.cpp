@@ -63,7 +63,7 @@ ClusterConfig Cradle() {
 /// Watches, at every virtual instant, who believes to have authority.
 struct Watcher {
   std::int64_t instants = 0, one = 0, none = 0, several = 0;
-  std::map<std::pair<int, int>, int> holder_of_epoch;   // (mechanism, epoch) -> peer
+  std::map<std::pair<int, int>, int> holder_of_epoch;  // (mechanism, epoch) -> peer
   int two_holders_of_an_epoch = 0;
   int longest_none = 0, current_none = 0;
 
@@ -121,7 +121,7 @@ TEST(Authority, TheServersLedgerNamesExactlyOneAuthorityAtEveryTick) {
   cluster.Run();
   // By the grants published: a change of authority always comes with a greater epoch, and the
   // server's view shows one authority per body at each tick.
-  std::map<int, std::pair<int, int>> last;   // mechanism -> epoch, authority
+  std::map<int, std::pair<int, int>> last;  // mechanism -> epoch, authority
   int changes = 0;
   for (const Grants& g : cluster.recording().grants) {
     for (std::size_t i = 0; i < g.mechanism.size(); ++i) {

@@ -200,9 +200,8 @@ TEST(Cluster, ForgedHellosDoNotKeepAPlayerOut) {
     Hello hello;
     hello.name = "forged" + std::to_string(n);
     link.SendUnreliable(Encode(hello));
-    link.Flush(cluster.now_us(), [&](ByteView datagram) {
-      forged.back()->Send(cluster.server_address(), datagram);
-    });
+    link.Flush(cluster.now_us(),
+               [&](ByteView datagram) { forged.back()->Send(cluster.server_address(), datagram); });
     forged.back()->Flush();
   };
   cluster.RunToTick(240);

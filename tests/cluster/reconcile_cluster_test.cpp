@@ -27,8 +27,7 @@ struct Bound {
   const char* rule;
   double crossing, cradle;
 };
-constexpr Bound kBounds[] = {
-    {"resimulate", 0.25, 1e-3}, {"spring", 0.4, 0.1}, {"pvb", 0.13, 0.13}};
+constexpr Bound kBounds[] = {{"resimulate", 0.25, 1e-3}, {"spring", 0.4, 0.1}, {"pvb", 0.13, 0.13}};
 
 TEST(RuleSessions, EachIsBelowItsBoundAndBetterThanSnap) {
   const double snap_crossing = ErrorOf("crossing", "snap"), snap_cradle = ErrorOf("cradle", "snap");

@@ -51,8 +51,9 @@ std::string Coins() {
              "\"\nkind = \"pickup\"\npart = \"coin" + n +
              "\"\nposition = [0, -2]\nbox = [0.3, 2]\nscore = 1\n";
   }
-  return coins + "[[trigger]]\nname = \"acid\"\nkind = \"hazard\"\nposition = [2, 0]\n"
-                 "box = [2, 2]\nhealth = 10\n";
+  return coins +
+         "[[trigger]]\nname = \"acid\"\nkind = \"hazard\"\nposition = [2, 0]\n"
+         "box = [2, 2]\nhealth = 10\n";
 }
 
 ClusterConfig With(const std::string& text, const std::string& mode, const std::string& impair,
@@ -126,8 +127,9 @@ TEST(RulesCluster, WhoComesLateKnowsWhatTheOthersKnow) {
 }
 
 TEST(RulesCluster, WhoMayNotPushAPartDoesNotGetItsAuthority) {
-  const std::string puck = "[[part]]\nname = \"puck\"\ncircle = 0.3\nposition = [-3, 5]\n"
-                           "velocity = [0.1, 0]\n";
+  const std::string puck =
+      "[[part]]\nname = \"puck\"\ncircle = 0.3\nposition = [-3, 5]\n"
+      "velocity = [0.1, 0]\n";
   for (const bool allowed : {true, false}) {
     std::string text = Race(puck + (allowed ? "" : "permissions = {push = [\"bob\"]}\n"));
     const std::string region = "region = [[-50, -50], [-0.1, 50]]\n";

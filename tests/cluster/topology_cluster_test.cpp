@@ -6,8 +6,8 @@
 #include <set>
 
 #include "common/physics/part_places.h"
-#include "server/authority/proposal.h"
 #include "common/sync/edit_order.h"
+#include "server/authority/proposal.h"
 #include "tests/support/two_sides.h"
 
 namespace seam {
@@ -92,7 +92,7 @@ TEST_P(TopologyUnder, EditsKeepTheirOrderAndEndTheSameEverywhere) {
     config.seed = seed;
     Cluster cluster(config);
     cluster.each_instant = [&] { ExpectOneAuthority(&cluster); };
-    cluster.RunToTick(70);                      // about at the seam
+    cluster.RunToTick(70);  // about at the seam
     Server& server = cluster.server();
     server.Order(Break(1));
     cluster.RunToTick(130);
@@ -142,8 +142,7 @@ TEST_P(TopologyUnder, EditsKeepTheirOrderAndEndTheSameEverywhere) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Networks, TopologyUnder,
-                         ::testing::Values("perfect", "4g", "terrible"));
+INSTANTIATE_TEST_SUITE_P(Networks, TopologyUnder, ::testing::Values("perfect", "4g", "terrible"));
 
 TEST(TopologyCluster, APeerThatWentAstrayIsFoundAndRepaired) {
   ClusterConfig config;
@@ -172,9 +171,9 @@ TEST(TopologyCluster, APeerThatWentAstrayIsFoundAndRepaired) {
   EXPECT_TRUE(said);
   const World& truth = cluster.server().world();
   for (int b = 0; b < truth.body_count(); ++b) {
-    EXPECT_LT((cluster.client(1)->replica()->world().Read(b).position - truth.Read(b).position)
-                  .norm(),
-              0.1f);
+    EXPECT_LT(
+        (cluster.client(1)->replica()->world().Read(b).position - truth.Read(b).position).norm(),
+        0.1f);
   }
 }
 
@@ -204,7 +203,7 @@ TEST(TopologyCluster, AClientMayNotEditWhatIsNotItsOwnNorWhatPhysicsCouldNotFind
   config.reconcile = "retrospect";
   config.impair = "perfect";
   Cluster cluster(config);
-  cluster.RunToTick(30);   // the bar is ann's
+  cluster.RunToTick(30);  // the bar is ann's
   const Topology& topology = cluster.server().world().topology();
   Edit free;
   free.kind = EditKind::kFree;

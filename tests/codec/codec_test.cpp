@@ -127,8 +127,8 @@ TEST(CodecHostile, StringLengthsDoNotKill) {
   const Bytes bytes = Encode(bye);
   constexpr std::size_t kLengthAt = 16;
   ASSERT_EQ(bytes[kLengthAt + 3], 8);  // with its NUL
-  for (const std::uint64_t length : {0u, 1u, 7u, 9u, 1u << 25, 1u << 28, 0x7fffffffu, 0x80000000u,
-                                     0xfffffff7u, 0xffffffffu}) {
+  for (const std::uint64_t length :
+       {0u, 1u, 7u, 9u, 1u << 25, 1u << 28, 0x7fffffffu, 0x80000000u, 0xfffffff7u, 0xffffffffu}) {
     EXPECT_TRUE(Rejected(With(bytes, kLengthAt, 4, length))) << length;
   }
   EXPECT_TRUE(Rejected(With(bytes, bytes.size() - 1, 1, 'x'))) << "no NUL at the end";
@@ -235,7 +235,11 @@ TEST(CodecText, OnlyPrintableUtf8Passes) {
   EXPECT_TRUE(IsPrintable("two\r\n\tlines", 64, true));
   EXPECT_FALSE(IsPrintable("\x1b[2J", 64, true)) << "terminal escape";
   EXPECT_FALSE(IsPrintable("\x7f", 64));
-  EXPECT_FALSE(IsPrintable("\xc2\x9b" "2J", 64)) << "8-bit terminal escape";
+  EXPECT_FALSE(
+      IsPrintable("\xc2\x9b"
+                  "2J",
+                  64))
+      << "8-bit terminal escape";
   EXPECT_FALSE(IsPrintable("\xc0\xaf", 64)) << "overlong";
   EXPECT_FALSE(IsPrintable("\xe0\x80\xaf", 64)) << "overlong";
   EXPECT_FALSE(IsPrintable("\xed\xa0\x80", 64)) << "surrogate";
@@ -268,17 +272,17 @@ TEST(CodecWire, TypeHashesArePinnedToTheProtocolVersion) {
   inputs.drive = inputs.lift = {0};
   inputs.buttons = {0};
   const std::vector<std::uint64_t> hashes = {
-      hash(Encode(hello)),    hash(Encode(welcome)), hash(Encode(chunk)),   hash(Encode(Room{})),
-      hash(Encode(Ping{})),   hash(Encode(Pong{})),  hash(Encode(inputs)),  hash(Encode(States{})),
-      hash(Encode(Grants{})), hash(Encode(View{})),  hash(Encode(Impacts{})),
-      hash(Encode(Stats{})),  hash(Encode(Event{})), hash(Encode(Bye{})),
-      hash(Encode(EditOrder{})), hash(Encode(Meta{}))};
+      hash(Encode(hello)),   hash(Encode(welcome)),   hash(Encode(chunk)),
+      hash(Encode(Room{})),  hash(Encode(Ping{})),    hash(Encode(Pong{})),
+      hash(Encode(inputs)),  hash(Encode(States{})),  hash(Encode(Grants{})),
+      hash(Encode(View{})),  hash(Encode(Impacts{})), hash(Encode(Stats{})),
+      hash(Encode(Event{})), hash(Encode(Bye{})),     hash(Encode(EditOrder{})),
+      hash(Encode(Meta{}))};
   const std::vector<std::uint64_t> pinned = {
       0x77af54d8cac6751eu, 0xcb0ab4d23d15572fu, 0xfe05a5dcca243573u, 0xfc29582c30d1354eu,
       0x62ac12b10407beb0u, 0xb2cacdee7d5215e5u, 0xc2fed145dcaf1ce1u, 0xa25f63785235287eu,
       0x6fb17c58cd6b7966u, 0x61c26b67f73065e4u, 0x59bc5977764a411fu, 0xbfb5240b6817cf3eu,
-      0x5017292b3aa2f237u, 0x51c7828d52d2d8f2u, 0x2188d5d8f5ff2d0du,
-      0xf89c26f5a00b008du};
+      0x5017292b3aa2f237u, 0x51c7828d52d2d8f2u, 0x2188d5d8f5ff2d0du, 0xf89c26f5a00b008du};
   EXPECT_EQ(hashes, pinned);
   EXPECT_EQ(std::set<std::uint64_t>(hashes.begin(), hashes.end()).size(), hashes.size());
 }

@@ -99,9 +99,7 @@ void Cluster::Run() {
   RunToTick(static_cast<std::int64_t>(seconds * scene_.solver.tick_hz));
 }
 
-void Cluster::Kill(int client) {
-  clients_[static_cast<std::size_t>(client)].client.reset();
-}
+void Cluster::Kill(int client) { clients_[static_cast<std::size_t>(client)].client.reset(); }
 
 void Cluster::Revive(int client) { StartClient(static_cast<std::size_t>(client)); }
 

@@ -15,18 +15,18 @@
 namespace seam {
 
 struct ClusterConfig {
-  std::string scene = "crossing";     ///< of scenes/
-  std::string scene_text;             ///< instead of a file, if not empty
+  std::string scene = "crossing";  ///< of scenes/
+  std::string scene_text;          ///< instead of a file, if not empty
   std::string mode = "buffer";
   std::string reconcile;
   std::string impair = "demo";
   std::int64_t seed = 1;
-  double duration_s = 0;              ///< ticks after tick 0; 0: the scene's own
+  double duration_s = 0;  ///< ticks after tick 0; 0: the scene's own
   Drive drive = Drive::kScript;
   int send_hz = 30;
   bool smooth = true;
-  Recorder* recorder = nullptr;       ///< also gets every message, at now_us()
-  bool keep = true;                   ///< recording() has everything; false saves its memory
+  Recorder* recorder = nullptr;  ///< also gets every message, at now_us()
+  bool keep = true;              ///< recording() has everything; false saves its memory
 };
 
 class Cluster {

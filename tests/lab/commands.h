@@ -12,12 +12,12 @@ namespace seam {
 
 struct RunCommand {
   SessionSettings settings;
-  std::string smooth = "on";          ///< on | off
-  std::string log;                    ///< file to write
-  bool force = false;                 ///< overwrite it
-  std::vector<std::string> set;       ///< --set, each one or several with ';' between them
-  std::optional<double> buffer_m;     ///< --buffer
-  bool floor = true;                  ///< also measure, and compute the floor
+  std::string smooth = "on";       ///< on | off
+  std::string log;                 ///< file to write
+  bool force = false;              ///< overwrite it
+  std::vector<std::string> set;    ///< --set, each one or several with ';' between them
+  std::optional<double> buffer_m;  ///< --buffer
+  bool floor = true;               ///< also measure, and compute the floor
 };
 
 /// Records a session and prints its simulated and wall seconds in one line, and its error beside
@@ -26,19 +26,19 @@ int RunLog(const RunCommand& command);
 
 struct DivergenceCommand {
   std::string log_a, log_b;
-  int peer = -1;                      ///< -1: all
-  bool common = false;                ///< only the views that both have
+  int peer = -1;        ///< -1: all
+  bool common = false;  ///< only the views that both have
 };
 
 /// Prints the first difference of two recordings' views. 0: equal; 1: they differ.
 int FirstDivergence(const DivergenceCommand& command);
 
 struct SweepCommand {
-  std::string file;                   ///< what to vary (docs/lab.md)
-  std::string table;                  ///< CSV file to write or complete
-  int jobs = 0;                       ///< runs at a time; 0: as many as there are cores
-  bool force = false;                 ///< begin the table anew
-  bool quiet = false;                 ///< no progress line
+  std::string file;    ///< what to vary (docs/lab.md)
+  std::string table;   ///< CSV file to write or complete
+  int jobs = 0;        ///< runs at a time; 0: as many as there are cores
+  bool force = false;  ///< begin the table anew
+  bool quiet = false;  ///< no progress line
 };
 
 /// Runs every combination that the table does not have yet. 1: some runs failed (and left no row),
@@ -46,13 +46,13 @@ struct SweepCommand {
 int RunSweep(const SweepCommand& command);
 
 struct PhysicsCommand {
-  std::vector<std::string> cases;     ///< names; empty: all
-  std::string grid = "report";        ///< quick | report | full
-  std::string table;                  ///< CSV file to write or complete
+  std::vector<std::string> cases;  ///< names; empty: all
+  std::string grid = "report";     ///< quick | report | full
+  std::string table;               ///< CSV file to write or complete
   std::string folder = "scenes/hard";
-  int jobs = 0;                       ///< runs at a time; 0: as many as there are cores
-  bool force = false;                 ///< begin the table anew
-  bool quiet = false;                 ///< no progress line
+  int jobs = 0;        ///< runs at a time; 0: as many as there are cores
+  bool force = false;  ///< begin the table anew
+  bool quiet = false;  ///< no progress line
 };
 
 /// Runs the hard cases with the stock setting, their own, and others; prints a table. 1: some runs
@@ -60,12 +60,12 @@ struct PhysicsCommand {
 int RunPhysics(const PhysicsCommand& command);
 
 struct TuneCommand {
-  std::string scene;                  ///< a file
-  double error = 0;                   ///< what it must not exceed, in the unit of the measure
-  bool keep_hz = false;               ///< tick_hz stays as the scene has it
-  double seconds = 0;                 ///< horizon; 0: the case's, or 10 s or the scene's duration
-  double budget_s = 120;              ///< predicted CPU seconds of the search's runs
-  std::string hard;                   ///< the hard case by name; empty: found by the file's name
+  std::string scene;      ///< a file
+  double error = 0;       ///< what it must not exceed, in the unit of the measure
+  bool keep_hz = false;   ///< tick_hz stays as the scene has it
+  double seconds = 0;     ///< horizon; 0: the case's, or 10 s or the scene's duration
+  double budget_s = 120;  ///< predicted CPU seconds of the search's runs
+  std::string hard;       ///< the hard case by name; empty: found by the file's name
 };
 
 /// Prints the cheapest solver setting that the search finds below `error`. 1: none is.
@@ -73,31 +73,31 @@ int RunTune(const TuneCommand& command);
 
 struct OverheadCommand {
   std::vector<std::string> scenes = {
-      "scenes/wall.toml",   "scenes/stack.toml",        "scenes/crossing.toml",
+      "scenes/wall.toml",   "scenes/stack.toml",           "scenes/crossing.toml",
       "scenes/cradle.toml", "scenes/hard/pyramid-20.toml", "scenes/hard/thousand.toml"};
-  std::string table;                  ///< CSV file to write or complete; empty: none
+  std::string table;  ///< CSV file to write or complete; empty: none
   int repeats = 5;
-  bool force = false;                 ///< begin the table anew
+  bool force = false;  ///< begin the table anew
 };
 
 /// Prints what World::Step costs beside the engine alone. 1: they end differently, or a signal.
 int RunOverhead(const OverheadCommand& command);
 
 struct WorldCommand {
-  std::vector<std::string> benches;   ///< names; empty: all
-  std::string folder;                 ///< for a CSV and a Markdown table each; empty: none
-  bool quick = false;                 ///< smaller and fewer
+  std::vector<std::string> benches;  ///< names; empty: all
+  std::string folder;                ///< for a CSV and a Markdown table each; empty: none
+  bool quick = false;                ///< smaller and fewer
 };
 
 /// Prints what the features of a scene cost and err beside their baselines. 1: a signal came.
 int RunWorld(const WorldCommand& command);
 
 struct ReportCommand {
-  std::string data = "out/report/data";   ///< folder of the tables
-  std::string out = "out/report";         ///< folder to write
-  std::string sweeps = "tests/lab/sweeps";   ///< where the sweeps' files are, to be named
-  std::string markdown;                   ///< a page of the docs to fill in; "": none
-  bool png = false;                       ///< not SVG
+  std::string data = "out/report/data";     ///< folder of the tables
+  std::string out = "out/report";           ///< folder to write
+  std::string sweeps = "tests/lab/sweeps";  ///< where the sweeps' files are, to be named
+  std::string markdown;                     ///< a page of the docs to fill in; "": none
+  bool png = false;                         ///< not SVG
 };
 
 /// Draws and tabulates what is in the tables: index.html, plots/, tables/.

@@ -17,12 +17,12 @@ struct Divergence {
   /// "x", ..., "authority"; "" when the body is in one of the two only.
   std::string field;
   const char* unit = "";
-  double a = 0, b = 0;                ///< the values; not for a missing view or body
-  bool only_in_a = false;             ///< of a missing view or body: which of the two has it
+  double a = 0, b = 0;     ///< the values; not for a missing view or body
+  bool only_in_a = false;  ///< of a missing view or body: which of the two has it
 };
 
 struct Comparison {
-  std::int64_t equal_views = 0;       ///< before the divergence, or all
+  std::int64_t equal_views = 0;  ///< before the divergence, or all
   std::optional<Divergence> first;
 };
 

@@ -30,7 +30,7 @@ std::string BodyText(const Recording& recording, int body) {
     const Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name);
     const auto index = static_cast<std::size_t>(body);
     if (index < scene.parts.size()) text += " (" + scene.parts[index].name + ")";
-  } catch (const OperatorError&) {   // made by hand: the number must do
+  } catch (const OperatorError&) {  // made by hand: the number must do
   }
   return text;
 }
@@ -61,8 +61,9 @@ int FirstDivergence(const DivergenceCommand& command) {
     return 1;
   }
   if (result.equal_views == 0) {
-    throw OperatorError("no views to compare" + (command.peer < 0 ? std::string()
-                        : " of peer " + std::to_string(command.peer)));
+    throw OperatorError("no views to compare" + (command.peer < 0
+                                                     ? std::string()
+                                                     : " of peer " + std::to_string(command.peer)));
   }
   std::printf("equal: %lld views\n", static_cast<long long>(result.equal_views));
   return 0;

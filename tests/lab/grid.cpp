@@ -41,7 +41,7 @@ void AddPoints(const SweepFile& file, GridPoint point, std::vector<GridPoint>* p
           s.drive = drive;
           s.smooth = smooth == "on";
           s.seed = file.seeds.front();
-          Configure(s, *point.scene);   // throws what is wrong with it
+          Configure(s, *point.scene);  // throws what is wrong with it
           for (const std::int64_t seed : file.seeds) {
             s.seed = seed;
             point.key = Key(point);
@@ -78,12 +78,11 @@ std::string PointValues(const GridPoint& point) {
   const double bad = swaps > 0 ? net.loss_good_to_bad / swaps : 0;
   const double loss = bad * net.loss_in_bad + (1 - bad) * net.loss_in_good;
   const Solver& solver = point.scene->solver;
-  return fmt::format(",{:g},{:g},{:g},{},{},{},{},{},{:g}",
-                     static_cast<double>(net.delay_us) * 1e-3,
-                     static_cast<double>(net.jitter_mean_us) * 1e-3, 100 * loss, solver.tick_hz,
-                     solver.substeps, solver.velocity_iterations, solver.position_iterations,
-                     solver.skin > 0 ? fmt::format("{:g}", solver.skin) : "",
-                     point.scene->buffer_m);
+  return fmt::format(
+      ",{:g},{:g},{:g},{},{},{},{},{},{:g}", static_cast<double>(net.delay_us) * 1e-3,
+      static_cast<double>(net.jitter_mean_us) * 1e-3, 100 * loss, solver.tick_hz, solver.substeps,
+      solver.velocity_iterations, solver.position_iterations,
+      solver.skin > 0 ? fmt::format("{:g}", solver.skin) : "", point.scene->buffer_m);
 }
 
 Grid ReadGrid(const std::string& path) {

@@ -13,15 +13,15 @@ namespace seam {
 
 /// One combination.
 struct GridPoint {
-  std::shared_ptr<const Scene> scene;   ///< with its settings in it
-  SessionSettings settings;           ///< with the defaults of mode and scene filled in
+  std::shared_ptr<const Scene> scene;  ///< with its settings in it
+  SessionSettings settings;            ///< with the defaults of mode and scene filled in
   /// The first kGridColumns values of its CSV line, quoted: all that is needed to repeat it.
   std::string key;
 };
 
 struct Grid {
-  std::vector<GridPoint> points;      ///< seeds vary fastest, scenes slowest
-  bool floor = true;                  ///< compute the floor too
+  std::vector<GridPoint> points;  ///< seeds vary fastest, scenes slowest
+  bool floor = true;              ///< compute the floor too
 };
 
 /// version,scene,scene_hash,set,mode,reconcile,impair,send_hz,drive,smooth,duration_s,seed

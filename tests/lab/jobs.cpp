@@ -20,14 +20,14 @@ namespace {
 struct Job {
   std::size_t index = 0;
   pid_t pid = -1;
-  int fd = -1;            ///< where its result comes from
-  std::string heard;      ///< 'R' and the result, or 'E' and the error
+  int fd = -1;        ///< where its result comes from
+  std::string heard;  ///< 'R' and the result, or 'E' and the error
 };
 
 [[noreturn]] void Work(int fd, std::size_t index,
                        const std::function<std::string(std::size_t)>& work) {
-  prctl(PR_SET_PDEATHSIG, SIGKILL);   // it does not outlive the sweep
-  signal(SIGINT, SIG_IGN);            // Ctrl-C reaches all: the sweep decides
+  prctl(PR_SET_PDEATHSIG, SIGKILL);  // it does not outlive the sweep
+  signal(SIGINT, SIG_IGN);           // Ctrl-C reaches all: the sweep decides
   signal(SIGTERM, SIG_DFL);
   std::string said;
   try {
@@ -46,7 +46,7 @@ struct Job {
 Job Start(std::size_t index, const std::function<std::string(std::size_t)>& work) {
   int ends[2];
   if (pipe(ends) != 0) throw OperatorError(std::string("no pipe: ") + std::strerror(errno));
-  std::fflush(nullptr);   // or both would write what is buffered
+  std::fflush(nullptr);  // or both would write what is buffered
   Job job;
   job.index = index;
   job.fd = ends[0];
@@ -114,7 +114,7 @@ void RunJobs(std::size_t count, int jobs, const std::function<std::string(std::s
              const std::function<void(std::size_t, const JobResult&)>& done,
              const std::function<bool()>& stop) {
   Running running;
-  std::map<std::size_t, JobResult> results;   // that wait for an earlier one
+  std::map<std::size_t, JobResult> results;  // that wait for an earlier one
   std::size_t begun = 0, handed = 0;
   while (handed < count && !stop()) {
     while (begun < count && running.jobs.size() < static_cast<std::size_t>(jobs)) {
@@ -126,7 +126,7 @@ void RunJobs(std::size_t count, int jobs, const std::function<std::string(std::s
       results.erase(results.begin());
     }
   }
-  for (const auto& [index, result] : results) done(index, result);   // stopped: keep what there is
+  for (const auto& [index, result] : results) done(index, result);  // stopped: keep what there is
 }
 
 }  // namespace seam

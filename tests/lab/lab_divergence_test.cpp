@@ -8,9 +8,9 @@
 #include "common/base/check.h"
 #include "common/codec/codec.h"
 #include "common/record/log_file.h"
-#include "tests/support/child_process.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/divergence.h"
+#include "tests/support/child_process.h"
 #include "tests/support/lab_workspace.h"
 
 namespace seam {

@@ -10,12 +10,12 @@
 #include <sstream>
 
 #include "common/base/check.h"
-#include "tests/support/child_process.h"
 #include "tests/lab/hard/observe.h"
 #include "tests/lab/hard/physics_plan.h"
 #include "tests/lab/hard/settings.h"
 #include "tests/lab/physics_row.h"
 #include "tests/lab/sweep_table.h"
+#include "tests/support/child_process.h"
 #include "tests/support/lab_workspace.h"
 
 namespace seam {
@@ -66,14 +66,14 @@ TEST(Observe, ABallAtRestSleepsAfterHalfASecondAndNothingIsWrongWithIt) {
   EXPECT_EQ(seen.joint_drift_m, 0);
   EXPECT_EQ(seen.jitter_mps, 0);
   ASSERT_TRUE(seen.asleep_s.has_value());
-  EXPECT_NEAR(*seen.asleep_s, 0.5, 0.05);   // the engine's time to sleep
+  EXPECT_NEAR(*seen.asleep_s, 0.5, 0.05);  // the engine's time to sleep
   ASSERT_TRUE(seen.energy_gain.has_value());
   EXPECT_NEAR(*seen.energy_gain, 0, 1e-3);
 }
 
 TEST(Observe, ABodyInSteadyFlightJittersWithItsSpeedAndNeverSleeps) {
-  const Scene scene = ParseScene(
-      std::string("gravity = [0, 0]\n") + kBall + "velocity = [3, 4]\n", "made-up.toml");
+  const Scene scene =
+      ParseScene(std::string("gravity = [0, 0]\n") + kBall + "velocity = [3, 4]\n", "made-up.toml");
   const Observation seen = Observe(MadeUp(6), scene, 6);
   EXPECT_NEAR(seen.error, 18, 1e-3);
   EXPECT_EQ(seen.failure, "left, \"far\"");
@@ -88,8 +88,9 @@ TEST(Observe, PenetrationIsTheDeepestSeenBeyondThatAtTheStart) {
       "[[part]]\nname = \"ball\"\ncircle = 0.5\nposition = [0, 0.6]\nvelocity = [0, -6]\n";
   const Scene scene = SceneOf(kGround + diver, "tick_hz = 30\ncontinuous = false");
   EXPECT_NEAR(Observe(MadeUp(2), scene, 2).penetration_m, 0.2 + 10 / 900.0 - 0.1, 1e-4);
-  const std::string pair = "[[part]]\nname = \"a\"\nbox = [1, 1]\nposition = [0, 0.5]\n"
-                           "[[part]]\nname = \"b\"\nbox = [1, 1]\nposition = [0, 1.45]\n";
+  const std::string pair =
+      "[[part]]\nname = \"a\"\nbox = [1, 1]\nposition = [0, 0.5]\n"
+      "[[part]]\nname = \"b\"\nbox = [1, 1]\nposition = [0, 1.45]\n";
   const Observation apart = Observe(MadeUp(2), SceneOf(kGround + pair, "skin = 0.0025"), 2);
   EXPECT_NEAR(apart.penetration_m, 0, 1e-3) << "5 cm at the start, and from then on less";
   // The upper one is lifted by those 5 cm: m g 0.05 m of 2 m g 1 m.
@@ -106,8 +107,8 @@ TEST(Observe, DriftOfAJointIsThatBeyondTheStart) {
 }
 
 TEST(Observe, ABodyBeyondAMillionMetresHasDiverged) {
-  Scene scene = ParseScene(
-      std::string("gravity = [0, 0]\n") + kBall + "velocity = [100, 0]\n", "made-up.toml");
+  Scene scene = ParseScene(std::string("gravity = [0, 0]\n") + kBall + "velocity = [100, 0]\n",
+                           "made-up.toml");
   scene.parts[0].position.x() = 1e6f - 10;
   const Observation seen = Observe(MadeUp(3), scene, 3);
   EXPECT_TRUE(seen.diverged);
@@ -203,8 +204,9 @@ std::vector<std::string> WithoutCpu(const std::string& line) {
 
 TEST(PhysicsRow, IsAFunctionOfThePointButForItsCpuColumns) {
   HardCase hard = MadeUp(1);
-  PhysicsPoint point{&hard, "grid", SceneOf(std::string(kGround) + kBall + "velocity = [2, 0]\n",
-                                            "substeps = 2\nskin = 0.0025\nwarm_starting = false")};
+  PhysicsPoint point{&hard, "grid",
+                     SceneOf(std::string(kGround) + kBall + "velocity = [2, 0]\n",
+                             "substeps = 2\nskin = 0.0025\nwarm_starting = false")};
   const std::vector<std::string> names = CsvFields(PhysicsHeader());
   const std::string row = PhysicsRow(point, nullptr);
   EXPECT_EQ(row.rfind(PhysicsKey(point) + ",", 0), 0u);
@@ -228,8 +230,9 @@ TEST(PhysicsRow, IsAFunctionOfThePointButForItsCpuColumns) {
 
 TEST(PhysicsPlan, SpendsACasesBudgetOnWhatIsAwake) {
   const LabWorkspace files;
-  const std::string pile = "[[part]]\nname = \"box\"\nbox = [1, 1]\nposition = [0, 0.51]\n"
-                           "repeat = {count = 200, step = [2, 0]}\nfriction = 0\n";
+  const std::string pile =
+      "[[part]]\nname = \"box\"\nbox = [1, 1]\nposition = [0, 0.51]\n"
+      "repeat = {count = 200, step = [2, 0]}\nfriction = 0\n";
   const std::string ground = "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [900, 0]]\n";
   files.Write("made-up.toml", ground + pile);
   HardCase hard = MadeUp(20);
@@ -276,20 +279,21 @@ TEST(LabPhysics, KilledItGoesOnToTheSameTableButForTheCpu) {
   const LabWorkspace files;
   const auto words = [&](const char* table) {
     return std::vector<std::string>{LabProgram(), "physics", "--cases", "tower-10,scissor-lift",
-                                    "--grid", "quick", "-o", files / table, "--jobs", "2"};
+                                    "--grid",     "quick",   "-o",      files / table,
+                                    "--jobs",     "2"};
   };
   const std::string said = RunLab(words("whole.csv"), 0);
   EXPECT_NE(said.find("tower-10 "), std::string::npos) << said;
   const auto whole = RowsWithoutCpu(files.Read("whole.csv"));
   const std::size_t rows = whole.size() - 1;
-  ASSERT_GE(rows, 8u);   // how many depends on which settings of the grid are the scene's own
+  ASSERT_GE(rows, 8u);  // how many depends on which settings of the grid are the scene's own
   const std::string all = fmt::format("{} of {} rows, {} of them new", rows, rows, rows);
   EXPECT_NE(said.find(all), std::string::npos) << said;
   EXPECT_EQ(whole[1][4], "stock");
   EXPECT_EQ(whole[2][4], "scene");
   EXPECT_EQ(whole[3][4], "grid");
   ChildProcess lab(words("t.csv"));
-  for (int i = 0; i < 5000; ++i) {   // until some rows are there
+  for (int i = 0; i < 5000; ++i) {  // until some rows are there
     const std::string text = files.Read("t.csv");
     if (std::count(text.begin(), text.end(), '\n') >= 3) break;
     usleep(2000);

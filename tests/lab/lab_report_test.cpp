@@ -8,12 +8,12 @@
 
 #include "common/base/check.h"
 #include "common/sync/reconcile/reconcile.h"
-#include "tests/support/child_process.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/grid.h"
 #include "tests/lab/report/physics_section.h"
 #include "tests/lab/report/report.h"
 #include "tests/lab/report/sweep_section.h"
+#include "tests/support/child_process.h"
 #include "tests/support/lab_workspace.h"
 
 namespace seam {
@@ -68,7 +68,7 @@ TEST(SweepView, FindsWhatWasVariedInsideTheNetworksText) {
 
 TEST(SweepView, NamesASecondThingThatWasVariedWithTheMethod) {
   std::string csv = LatencyCsv();
-  const std::size_t at = csv.rfind("script,on");   // of strict, 100 ms, seed 3
+  const std::size_t at = csv.rfind("script,on");  // of strict, 100 ms, seed 3
   csv.replace(at, 9, "script,off");
   const SweepView view = SweepOf(csv).view;
   EXPECT_EQ(view.axis.key, "one_way_ms");
@@ -95,8 +95,8 @@ TEST(SweepSection, TabulatesMediansAndQuartiles) {
   const TextTable table = TableOf(SweepSection(SweepOf(LatencyCsv())), "latency-wall-error");
   EXPECT_EQ(table.header, (std::vector<std::string>{"method", "50 ms", "100 ms"}));
   ASSERT_EQ(table.rows.size(), 2u);
-  EXPECT_EQ(table.rows[1], (std::vector<std::string>{"fade", "0.002 (0.001–0.003)",
-                                                     "0.005 (0.004–0.006)"}));
+  EXPECT_EQ(table.rows[1],
+            (std::vector<std::string>{"fade", "0.002 (0.001–0.003)", "0.005 (0.004–0.006)"}));
   EXPECT_NE(table.note.find("of 3 seeds"), std::string::npos);
   EXPECT_NE(table.note.find("floor: 1.0e-06 m"), std::string::npos);
 }
@@ -119,8 +119,9 @@ TEST(SweepSection, DrawsEveryMeasureThatIsThereAndNamesThoseThatAreZero) {
 
 TEST(FrontTable, SaysWhoIsOnItAndHowFarTheOthersAre) {
   // At 10 and 20 Hz: a costs 100 and 200, errs 4 and 2; b costs 150 and 300, errs 6 and 3.
-  std::string csv = "scene,mode,reconcile,impair,send_hz,drive,duration_s,seed,"
-                    "error_rms_m,bytes_per_s,cpu_s\n";
+  std::string csv =
+      "scene,mode,reconcile,impair,send_hz,drive,duration_s,seed,"
+      "error_rms_m,bytes_per_s,cpu_s\n";
   for (const char* row :
        {"fade,perfect,10,script,10,1,4,100,", "fade,perfect,20,script,10,1,2,200,",
         "snap,perfect,10,script,10,1,6,150,", "snap,perfect,20,script,10,1,3,300,"}) {
@@ -152,15 +153,15 @@ std::string PhysicsRow(const std::string& name, const std::string& role, const s
 }
 
 PhysicsCase CaseOf(const std::string& stock_error, const std::string& stock_failure,
-                   const std::string& error, const std::string& failure,
-                   const std::string& ratio) {
-  return ViewPhysics(CsvTable::Parse(
-      PhysicsCsv({PhysicsRow("arch", "stock", stock_error, stock_failure, "1"),
-                  PhysicsRow("arch", "scene", error, failure, ratio),
-                  PhysicsRow("arch", "grid", "0.02", "", "0.5"),
-                  PhysicsRow("arch", "grid", "0.001", "fell, at 3 s", "0.2"),
-                  PhysicsRow("arch", "grid", "inf", "", "0.1"),
-                  PhysicsRow("arch", "grid", "0.0005", "", "4")}), "p.csv"))[0];
+                   const std::string& error, const std::string& failure, const std::string& ratio) {
+  return ViewPhysics(
+      CsvTable::Parse(PhysicsCsv({PhysicsRow("arch", "stock", stock_error, stock_failure, "1"),
+                                  PhysicsRow("arch", "scene", error, failure, ratio),
+                                  PhysicsRow("arch", "grid", "0.02", "", "0.5"),
+                                  PhysicsRow("arch", "grid", "0.001", "fell, at 3 s", "0.2"),
+                                  PhysicsRow("arch", "grid", "inf", "", "0.1"),
+                                  PhysicsRow("arch", "grid", "0.0005", "", "4")}),
+                      "p.csv"))[0];
 }
 
 TEST(Physics, ASettingThatFailedIsOnNoFrontAndIsNotTheCheapest) {
@@ -187,19 +188,20 @@ TEST(Physics, TheVerdictSaysWhatWasAchieved) {
 }
 
 TEST(Physics, EveryCaseIsInTheTableWithItsFailure) {
-  const CsvTable csv = CsvTable::Parse(
-      PhysicsCsv({PhysicsRow("arch", "stock", "inf", "fell, at 2 s", "1"),
-                  PhysicsRow("arch", "scene", "0", "", "1.5"),
-                  PhysicsRow("cradle", "stock", "0.5", "", "1"),
-                  PhysicsRow("cradle", "scene", "0.5", "", "1")}), "p.csv");
+  const CsvTable csv =
+      CsvTable::Parse(PhysicsCsv({PhysicsRow("arch", "stock", "inf", "fell, at 2 s", "1"),
+                                  PhysicsRow("arch", "scene", "0", "", "1.5"),
+                                  PhysicsRow("cradle", "stock", "0.5", "", "1"),
+                                  PhysicsRow("cradle", "scene", "0.5", "", "1")}),
+                      "p.csv");
   const TextTable table = PhysicsTable(ViewPhysics(csv), "x");
   ASSERT_EQ(table.rows.size(), 2u);
   EXPECT_EQ(table.rows[0][3], "fell, at 2 s");
   EXPECT_EQ(table.rows[0][4], "0");
   EXPECT_EQ(table.rows[0][7], "holds, stock fails; dearer");
   EXPECT_EQ(table.rows[1][5], "1");
-  const std::string script = GnuplotScript(WorkPrecision(ViewPhysics(csv)[0], "x"),
-                                           PictureFormat::kSvg);
+  const std::string script =
+      GnuplotScript(WorkPrecision(ViewPhysics(csv)[0], "x"), PictureFormat::kSvg);
   EXPECT_NE(script.find("add ('0' "), std::string::npos) << "no error at all is drawn as 0";
   EXPECT_NE(script.find("add ('diverged' "), std::string::npos);
 }
@@ -219,13 +221,15 @@ TEST(FillIn, ReplacesItsPlacesAndNothingElse) {
   table.header = {"scene", "×"};
   table.rows = {{"wall", "61"}};
   table.command = "make report";
-  const std::string page = "# R\n<!-- report:speed -->\nold\n<!-- /report:speed -->\nmine\n"
-                           "<!-- report:none -->\nkept\n<!-- /report:none -->\n";
+  const std::string page =
+      "# R\n<!-- report:speed -->\nold\n<!-- /report:speed -->\nmine\n"
+      "<!-- report:none -->\nkept\n<!-- /report:none -->\n";
   std::vector<std::string> missing;
   const std::string filled = FillIn(page, "r.md", {&table}, &missing);
-  EXPECT_EQ(filled, "# R\n<!-- report:speed -->\n| scene | × |\n|---|---:|\n| wall | 61 |\n\n"
-                    "    make report\n<!-- /report:speed -->\nmine\n"
-                    "<!-- report:none -->\nkept\n<!-- /report:none -->\n");
+  EXPECT_EQ(filled,
+            "# R\n<!-- report:speed -->\n| scene | × |\n|---|---:|\n| wall | 61 |\n\n"
+            "    make report\n<!-- /report:speed -->\nmine\n"
+            "<!-- report:none -->\nkept\n<!-- /report:none -->\n");
   EXPECT_EQ(missing, (std::vector<std::string>{"none"}));
   EXPECT_EQ(FillIn(filled, "r.md", {&table}, &missing), filled) << "again: the same";
   EXPECT_THROW(FillIn("<!-- report:speed -->\nold\n", "r.md", {&table}, &missing), OperatorError);
@@ -237,8 +241,9 @@ TEST(Report, WritesAPageWhoseLinksAllExist) {
   files.Write("data/latency.csv", LatencyCsv());
   files.Write("data/physics.csv", PhysicsCsv({PhysicsRow("arch", "stock", "0.2", "", "1"),
                                               PhysicsRow("arch", "scene", "0", "", "1.5")}));
-  files.Write("data/overhead.csv", "scene,bodies,raw_us_per_step,core_us_per_step,ratio\n"
-                                   "scenes/wall.toml,33,10,10.4,1.04\n");
+  files.Write("data/overhead.csv",
+              "scene,bodies,raw_us_per_step,core_us_per_step,ratio\n"
+              "scenes/wall.toml,33,10,10.4,1.04\n");
   files.Write("results.md", "<!-- report:overhead --><!-- /report:overhead -->\n");
   ChildProcess run({LabProgram(), "report", files / "data", "-o", files / ".", "--markdown",
                     files / "results.md"});
@@ -293,8 +298,8 @@ TEST(Report, TablesOfWhatAWorldCostsAreTakenAsTheyAre) {
   EXPECT_EQ(water.name, "world-water");
   EXPECT_EQ(water.title, "Draught of boats");
   EXPECT_EQ(water.note, "One run.");
-  EXPECT_EQ(water.rows, (std::vector<std::vector<std::string>>{{"exact", "0.01"},
-                                                               {"voxel, 4", "0.5"}}));
+  EXPECT_EQ(water.rows,
+            (std::vector<std::vector<std::string>>{{"exact", "0.01"}, {"voxel, 4", "0.5"}}));
   EXPECT_TRUE(WorldSection(files / "nowhere").items.empty());
 }
 
@@ -303,7 +308,7 @@ TEST(Report, TheSweepsItRunsCanBeRunAndLeaveNoReconcilerOut) {
     std::size_t count = 0;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
       if (entry.path().extension() != ".toml") continue;
-      if (entry.path().stem() == "worlds") continue;   // dear: a few methods have to do
+      if (entry.path().stem() == "worlds") continue;  // dear: a few methods have to do
       ++count;
       std::set<std::string> rules;
       for (const GridPoint& point : ReadGrid(entry.path().string()).points) {

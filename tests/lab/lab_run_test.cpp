@@ -11,8 +11,8 @@
 #include "common/base/check.h"
 #include "common/measure/measure.h"
 #include "common/record/log_file.h"
-#include "tests/support/child_process.h"
 #include "tests/lab/commands.h"
+#include "tests/support/child_process.h"
 #include "tests/support/lab_workspace.h"
 
 namespace seam {

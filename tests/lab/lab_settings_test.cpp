@@ -55,8 +55,10 @@ TEST(SceneSettings, AreWhatTheSceneThenSays) {
   EXPECT_TRUE(scene.solver.weld_joints);
   EXPECT_EQ(scene.parts.size(), 2u);
   EXPECT_EQ(scene.parts[1].material.density, 2);
-  EXPECT_EQ(ParseScene(With("solver.tick_hz=240", "[[part]]\nname = \"a\"\nbox = [1, 1]"),
-                       "test.toml").solver.tick_hz, 240);
+  EXPECT_EQ(
+      ParseScene(With("solver.tick_hz=240", "[[part]]\nname = \"a\"\nbox = [1, 1]"), "test.toml")
+          .solver.tick_hz,
+      240);
 }
 
 TEST(SceneSettings, AreTheSameInAnyOrderOfTwoAndCanBeSetAgain) {
@@ -68,8 +70,8 @@ TEST(SceneSettings, AreTheSameInAnyOrderOfTwoAndCanBeSetAgain) {
 
 TEST(SceneSettings, ThatMeanNothingAreRefused) {
   for (const char* settings :
-       {"buffer", "=5", "buffer=", "buffer=five", "buffer=5;buffer=6", ";", "a.b.c=1",
-        "Buffer=5", "buffer=5 # more", "buffer=[", "buffer=5\nsolver = 3", "solver.=1", ".x=1"}) {
+       {"buffer", "=5", "buffer=", "buffer=five", "buffer=5;buffer=6", ";", "a.b.c=1", "Buffer=5",
+        "buffer=5 # more", "buffer=[", "buffer=5\nsolver = 3", "solver.=1", ".x=1"}) {
     EXPECT_THROW(With(settings), OperatorError) << settings;
   }
   for (const char* settings : {"solver.magic=1", "magic=1", "buffer=\"5\"", "solver.substeps=99",

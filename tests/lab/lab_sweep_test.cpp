@@ -10,11 +10,11 @@
 
 #include "common/base/check.h"
 #include "common/measure/measure.h"
-#include "tests/support/child_process.h"
 #include "tests/lab/grid.h"
 #include "tests/lab/jobs.h"
 #include "tests/lab/sweep_row.h"
 #include "tests/lab/sweep_table.h"
+#include "tests/support/child_process.h"
 #include "tests/support/lab_workspace.h"
 
 namespace seam {
@@ -54,8 +54,8 @@ TEST(SweepTable, CutAnywhereItIsCompletedToTheSameFile) {
   const std::string whole = WholeTable();
   for (std::size_t cut = 0; cut <= whole.size(); ++cut) {
     files.Write("t.csv", whole.substr(0, cut));
-    const auto complete_lines = std::count(whole.begin(), whole.begin() + static_cast<long>(cut),
-                                           '\n');
+    const auto complete_lines =
+        std::count(whole.begin(), whole.begin() + static_cast<long>(cut), '\n');
     EXPECT_EQ(Complete(files / "t.csv"), 4 - std::max(0L, static_cast<long>(complete_lines) - 1));
     EXPECT_EQ(files.Read("t.csv"), whole) << "cut at " << cut;
   }
@@ -68,8 +68,8 @@ TEST(SweepTable, RowsThatCameLaterStayBehindAtEveryMoment) {
   SweepTable table(files / "t.csv", kHeader, 2, kKeys, false);
   EXPECT_EQ(table.count(), 2u);
   table.Add(0, LineOf(0));
-  EXPECT_EQ(files.Read("t.csv"), std::string(kHeader) + "\n" + LineOf(0) + "\n" + LineOf(1) + "\n" +
-                                     LineOf(3) + "\n");
+  EXPECT_EQ(files.Read("t.csv"),
+            std::string(kHeader) + "\n" + LineOf(0) + "\n" + LineOf(1) + "\n" + LineOf(3) + "\n");
   table.Add(2, LineOf(2));
   EXPECT_EQ(files.Read("t.csv"), WholeTable());
 }
@@ -79,8 +79,7 @@ TEST(SweepTable, WhatIsNotOfThisSweepIsKept) {
   const std::string header = std::string(kHeader) + "\n";
   for (const std::string& text :
        {std::string("a letter\n"), std::string("a letter"), header + "d,5,0\n",
-        header + LineOf(0) + ",1\n", header + LineOf(0) + "\n" + LineOf(0) + "\n",
-        header + "\n"}) {
+        header + LineOf(0) + ",1\n", header + LineOf(0) + "\n" + LineOf(0) + "\n", header + "\n"}) {
     files.Write("t.csv", text);
     EXPECT_THROW(SweepTable(files / "t.csv", kHeader, 2, kKeys, false), OperatorError) << text;
     EXPECT_EQ(files.Read("t.csv"), text);
@@ -97,7 +96,7 @@ TEST(Jobs, ResultsComeInOrderWhateverTakesLongest) {
         9, jobs,
         [](std::size_t i) {
           usleep(i % 3 == 0 ? 30000 : 1000);
-          return std::string(i == 4 ? 200000 : 1, static_cast<char>('a' + i));   // beyond a pipe
+          return std::string(i == 4 ? 200000 : 1, static_cast<char>('a' + i));  // beyond a pipe
         },
         [&](std::size_t i, const JobResult& result) {
           EXPECT_EQ(i, results.size());
@@ -124,8 +123,8 @@ TEST(Jobs, AnErrorOrACrashOfOneHarmsNoOther) {
         results.push_back((result.good ? "+" : "-") + result.text);
       },
       [] { return false; });
-  EXPECT_EQ(results, (std::vector<std::string>{"+fine", "-no such thing", "-crashed: Killed",
-                                               "+fine"}));
+  EXPECT_EQ(results,
+            (std::vector<std::string>{"+fine", "-no such thing", "-crashed: Killed", "+fine"}));
 }
 
 TEST(Jobs, StoppedTheyEndAndWhatHadFinishedIsKept) {
@@ -189,7 +188,7 @@ TEST(LabSweep, TheTableIsTheSameForAnyJobsAndAfterAnyInterruption) {
   EXPECT_EQ(std::count(whole.begin(), whole.end(), '\n'), 9);
   EXPECT_EQ(WithoutCpu(files.Read("two.csv")), WithoutCpu(whole));
   // Cut in the middle of a row: what was there stays as it was, bytes and all.
-  std::size_t rows = 0;   // the header and four rows
+  std::size_t rows = 0;  // the header and four rows
   for (int line = 0; line < 5; ++line) rows = whole.find('\n', rows) + 1;
   const std::size_t cut = rows + 100;
   files.Write("two.csv", whole.substr(0, cut));
@@ -214,7 +213,7 @@ TEST(LabSweep, KilledOrStoppedItGoesOnWhereItWas) {
   RunWhole(SweepWords(files, "whole.csv", "2"), "12 of 12 rows");
   for (const int signal : {SIGKILL, SIGINT}) {
     ChildProcess lab(SweepWords(files, "t.csv", "2"));
-    for (int i = 0; i < 3000; ++i) {   // until some rows are there
+    for (int i = 0; i < 3000; ++i) {  // until some rows are there
       const std::string text = files.Read("t.csv");
       if (std::count(text.begin(), text.end(), '\n') >= 3) break;
       usleep(2000);
@@ -276,14 +275,14 @@ TEST(LabSweep, ARowHoldsWhatMeasuringTheSameRunGives) {
   EXPECT_EQ(value("sent_bytes_per_s"), number(m.sent_bytes_per_s));
   EXPECT_EQ(value("compared"), std::to_string(m.compared));
   const std::string header = SweepHeader();
-  EXPECT_EQ(std::count(row.begin(), row.end(), ','),
-            std::count(header.begin(), header.end(), ','));
+  EXPECT_EQ(std::count(row.begin(), row.end(), ','), std::count(header.begin(), header.end(), ','));
 }
 
 TEST(LabSweep, RunRepeatsARowWithTheSceneSetInItsText) {
   const LabWorkspace files;
-  const Grid grid = GridOf(files, "scenes = \"scenes/crossing.toml\"\nsubsteps = [3]\n"
-                                  "buffer_m = [7]\nduration = 3\nimpair = \"4g\"");
+  const Grid grid = GridOf(files,
+                           "scenes = \"scenes/crossing.toml\"\nsubsteps = [3]\n"
+                           "buffer_m = [7]\nduration = 3\nimpair = \"4g\"");
   const Recording swept = RunCluster(Configure(grid.points[0].settings, *grid.points[0].scene));
   ChildProcess lab({LabProgram(), "run", "scenes/crossing.toml", "--duration", "3", "--impair",
                     "4g", "--set", "solver.substeps=3", "--buffer", "7", "-o", files / "a.lcm"});
@@ -306,8 +305,9 @@ TEST(LabSweep, RunRepeatsARowWithTheSceneSetInItsText) {
 
 TEST(LabSweep, ARunThatFailsLeavesNoRowAndTheOthersGoOn) {
   const LabWorkspace files;
-  files.Write("sweep.toml", "scenes = \"scenes/crossing.toml\"\nduration = 1\n"
-                            "impair = [\"loss=100%\", \"perfect\"]");
+  files.Write("sweep.toml",
+              "scenes = \"scenes/crossing.toml\"\nduration = 1\n"
+              "impair = [\"loss=100%\", \"perfect\"]");
   ChildProcess lab(SweepWords(files, "t.csv", "1"));
   ASSERT_TRUE(lab.Wait(60));
   EXPECT_EQ(lab.exit_status(), 1);

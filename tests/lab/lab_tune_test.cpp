@@ -8,12 +8,12 @@
 #include <limits>
 #include <set>
 
-#include "tests/support/child_process.h"
 #include "tests/lab/hard/overhead.h"
 #include "tests/lab/hard/physics_plan.h"
 #include "tests/lab/hard/raw_box2d.h"
 #include "tests/lab/hard/settings.h"
 #include "tests/lab/hard/tune.h"
+#include "tests/support/child_process.h"
 #include "tests/support/lab_workspace.h"
 
 namespace seam {
@@ -25,8 +25,7 @@ TEST(Settings, AreWrittenAsTheSceneFileReadsThem) {
     for (const Solver& solver : GridSettings(size, Solver{})) {
       const std::string lines = SolverLines(solver);
       EXPECT_TRUE(all.insert(lines).second) << "twice: " << lines;
-      const Scene scene = ParseScene(
-          lines + "[[part]]\nname = \"b\"\ncircle = 0.5\n", "s.toml");
+      const Scene scene = ParseScene(lines + "[[part]]\nname = \"b\"\ncircle = 0.5\n", "s.toml");
       EXPECT_TRUE(SameSolver(scene.solver, solver)) << lines;
     }
   }
@@ -41,7 +40,7 @@ TEST(Settings, AreWrittenAsTheSceneFileReadsThem) {
 }
 
 TEST(Settings, AScriptKeepsItsTimesAtAnotherRate) {
-  const Scene scene = LoadScene("scenes/stack.toml");   // 3.0 s and 3.1 s at 60 Hz
+  const Scene scene = LoadScene("scenes/stack.toml");  // 3.0 s and 3.1 s at 60 Hz
   Solver fast = scene.solver;
   fast.tick_hz = 240;
   const Scene changed = WithSolver(scene, fast);
@@ -156,12 +155,15 @@ std::string OutputOf(const std::vector<std::string>& words, int status) {
 TEST(LabTune, PrintsLinesToPasteOrThatNoneReachesIt) {
   const LabWorkspace files;
   // Free fall of 1 s: the error at rate 1/h is g t h/2, RMS over t: 2.9 h, at 120 Hz 0.024 m.
-  files.Write("fall.toml", "duration = 1\n[[part]]\nname = \"ball\"\ncircle = 0.5\n"
-                           "position = [0, 20]\n");
+  files.Write("fall.toml",
+              "duration = 1\n[[part]]\nname = \"ball\"\ncircle = 0.5\n"
+              "position = [0, 20]\n");
   const std::string found =
       OutputOf({"tune", files / "fall.toml", "--error", "0.03", "--keep-hz"}, 0);
   EXPECT_NE(found.find("\n[solver]\nsubsteps = 2\nvelocity_iterations = 1\n"
-                       "position_iterations = 1\n"), std::string::npos) << found;
+                       "position_iterations = 1\n"),
+            std::string::npos)
+      << found;
   const std::string none =
       OutputOf({"tune", files / "fall.toml", "--error", "1e-5", "--keep-hz"}, 1);
   EXPECT_NE(none.find("none reaches 1e-05 m"), std::string::npos) << none;
@@ -193,9 +195,13 @@ TEST(LabOverhead, WritesARowForEachSceneAndGoesOnWhereItStopped) {
   OutputOf({"overhead", "scenes/cradle.toml", "-o", files / "o.csv", "--repeats", "1"}, 0);
   const std::string one = files.Read("o.csv");
   EXPECT_EQ(one.rfind("scene,bodies,raw_us_per_step,core_us_per_step,ratio\n"
-                      "scenes/cradle.toml,5,", 0), 0u) << one;
+                      "scenes/cradle.toml,5,",
+                      0),
+            0u)
+      << one;
   OutputOf({"overhead", "scenes/cradle.toml", "scenes/crossing.toml", "-o", files / "o.csv",
-            "--repeats", "1"}, 0);
+            "--repeats", "1"},
+           0);
   const std::string two = files.Read("o.csv");
   EXPECT_EQ(two.rfind(one + "scenes/crossing.toml,4,", 0), 0u) << two;
   OutputOf({"overhead", "scenes/none.toml", "-o", files / "p.csv"}, 2);

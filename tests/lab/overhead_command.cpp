@@ -39,7 +39,7 @@ int RunOverhead(const OverheadCommand& command) {
   std::printf("%-26s %6s %11s %11s %7s\n", "scene", "bodies", "raw us", "core us", "ratio");
   bool equal = true;
   for (std::size_t i = 0; i < scenes.size() && g_stop == 0; ++i) {
-    if (table && table->Has(i)) continue;   // an interrupted run's
+    if (table && table->Has(i)) continue;  // an interrupted run's
     const Overhead o = MeasureOverhead(scenes[i], TicksFor(scenes[i]), command.repeats);
     equal = equal && o.equal;
     std::printf("%-26s %6d %11.4g %11.4g %7.3f%s\n", command.scenes[i].c_str(), o.bodies,

@@ -38,7 +38,7 @@ GridSize SizeOf(const std::string& name) {
 
 std::vector<double> AwakeShares(const std::vector<const HardCase*>& cases, GridSize size,
                                 const std::string& folder, int jobs) {
-  for (const HardCase* hard : cases) LoadHardScene(*hard, folder);   // a mistake is said at once
+  for (const HardCase* hard : cases) LoadHardScene(*hard, folder);  // a mistake is said at once
   std::vector<double> shares(cases.size(), 1);
   RunJobs(
       cases.size(), jobs,
@@ -89,7 +89,7 @@ int RunPhysics(const PhysicsCommand& command) {
   const std::vector<const HardCase*> cases = ChosenCases(command.cases);
   StopOnSignals();
   const std::vector<double> awake = AwakeShares(cases, size, command.folder, jobs);
-  if (g_stop != 0) return 1;   // before there was a plan
+  if (g_stop != 0) return 1;  // before there was a plan
   const PhysicsPlan plan = PlanPhysics(cases, size, awake, command.folder);
   std::vector<std::string> keys;
   for (const PhysicsPoint& point : plan.points) keys.push_back(PhysicsKey(point));

@@ -60,12 +60,12 @@ std::string PhysicsRow(const PhysicsPoint& point, const Reference* reference) {
   // A run that lost a body costs what it cost until then; the engine may not survive more of it.
   const double seconds = std::max(seen.seconds, 1.0 / point.scene.solver.tick_hz);
   const Cost cost = CompareCost(point.scene, WithSolver(point.scene, StockSolver()), seconds);
-  return PhysicsKey(point) +
-         fmt::format(",{},{},{},{},{},{},{},{:.5g},{:.5g},{:.4f},{}", Number(seen.error),
-                     CsvField(seen.failure), Number(seen.penetration_m),
-                     Number(seen.joint_drift_m), Maybe(seen.energy_gain), Number(seen.jitter_mps),
-                     Maybe(seen.asleep_s), cost.us_per_s, cost.stock_us_per_s, cost.ratio,
-                     reference ? Number(reference->change_m) : "");
+  return PhysicsKey(point) + fmt::format(",{},{},{},{},{},{},{},{:.5g},{:.5g},{:.4f},{}",
+                                         Number(seen.error), CsvField(seen.failure),
+                                         Number(seen.penetration_m), Number(seen.joint_drift_m),
+                                         Maybe(seen.energy_gain), Number(seen.jitter_mps),
+                                         Maybe(seen.asleep_s), cost.us_per_s, cost.stock_us_per_s,
+                                         cost.ratio, reference ? Number(reference->change_m) : "");
 }
 
 std::string CrashedRow(const PhysicsPoint& point, const std::string& why) {
@@ -73,8 +73,8 @@ std::string CrashedRow(const PhysicsPoint& point, const std::string& why) {
 }
 
 void PrintPhysics(const PhysicsPlan& plan, const std::vector<std::string>& lines) {
-  std::printf("%-22s %-5s %10s %10s %9s %9s  %s\n", "case", "unit", "stock", "scene's",
-              "its error", "its cost", "failures (stock | scene's), settings tried, of them held");
+  std::printf("%-22s %-5s %10s %10s %9s %9s  %s\n", "case", "unit", "stock", "scene's", "its error",
+              "its cost", "failures (stock | scene's), settings tried, of them held");
   for (std::size_t i = 0; i < lines.size(); ++i) {
     const HardCase& hard = *plan.points[i].hard;
     if (plan.points[i].role != "stock") continue;

@@ -20,8 +20,11 @@ std::string Span(double seconds) {
 }  // namespace
 
 Progress::Progress(std::size_t total, bool quiet)
-    : total_(total), quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0),
-      begin_us_(SteadyClockUs()), last_us_(begin_us_) {}
+    : total_(total),
+      quiet_(quiet),
+      terminal_(isatty(STDERR_FILENO) != 0),
+      begin_us_(SteadyClockUs()),
+      last_us_(begin_us_) {}
 
 Progress::~Progress() {
   if (shown_ && terminal_) std::fputc('\n', stderr);

@@ -95,7 +95,7 @@ int RunReport(const ReportCommand& command) {
   if (!command.markdown.empty()) {
     filled = FillIn(ReadText(command.markdown), command.markdown, tables, &missing);
   }
-  RequireGnuplot();   // the last of what can be wrong before anything is written
+  RequireGnuplot();  // the last of what can be wrong before anything is written
   const PictureFormat format = command.png ? PictureFormat::kPng : PictureFormat::kSvg;
   WriteTables(tables, out);
   DrawFigures(figures, out, format);

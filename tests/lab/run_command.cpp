@@ -18,10 +18,11 @@ std::string Summary(const Recording& recording) {
   try {
     const Oracle oracle = ComputeOracle(recording);
     const Measures m = Measure(recording, oracle);
-    return fmt::format("error {:.3g} m RMS, stutter {:.3g} m/s2; floor {:.3g} m (the oracle "
-                       "against itself, one body moved by 1e-6 m)",
-                       m.error_rms_m, m.stutter_mps2, ErrorFloor(recording, oracle));
-  } catch (const OperatorError& error) {   // the log is whole all the same
+    return fmt::format(
+        "error {:.3g} m RMS, stutter {:.3g} m/s2; floor {:.3g} m (the oracle "
+        "against itself, one body moved by 1e-6 m)",
+        m.error_rms_m, m.stutter_mps2, ErrorFloor(recording, oracle));
+  } catch (const OperatorError& error) {  // the log is whole all the same
     return std::string("not measured: ") + error.what();
   }
 }
@@ -44,9 +45,9 @@ int RunLog(const RunCommand& command) {
   log.Flush();
   if (log.failures() > 0) throw OperatorError(command.log + ": not all was written: disk full?");
   const double wall_s = static_cast<double>(SteadyClockUs() - begin_us) * 1e-6;
-  std::printf("%s: %lld ticks, %.3f s simulated in %.3f s: %.1f x real time\n",
-              command.log.c_str(), static_cast<long long>(result.ticks), result.simulated_s,
-              wall_s, result.simulated_s / std::max(wall_s, 1e-6));
+  std::printf("%s: %lld ticks, %.3f s simulated in %.3f s: %.1f x real time\n", command.log.c_str(),
+              static_cast<long long>(result.ticks), result.simulated_s, wall_s,
+              result.simulated_s / std::max(wall_s, 1e-6));
   if (command.floor) std::printf("%s\n", Summary(recording).c_str());
   return 0;
 }

@@ -11,7 +11,7 @@ namespace seam {
 namespace {
 
 struct Setting {
-  std::string table;        // "" : the scene itself
+  std::string table;  // "" : the scene itself
   std::string key, value;
 };
 
@@ -68,7 +68,7 @@ std::string Opens(const std::string& line) {
   const std::size_t begin = text.find_first_not_of('['), end = text.find(']');
   if (begin > 2 || end == std::string::npos || end < begin) return "";
   const std::string name = text.substr(begin, end - begin);
-  return IsWord(Trimmed(name)) ? text.substr(0, end + begin) : "";   // else a row of an array
+  return IsWord(Trimmed(name)) ? text.substr(0, end + begin) : "";  // else a row of an array
 }
 
 bool Assigns(const std::string& line, const std::string& key) {
@@ -91,7 +91,7 @@ std::string Set(const std::string& text, const Setting& setting) {
   const std::string header = "[" + setting.table + "]";
   const std::string wanted = setting.key + " = " + setting.value;
   bool inside = setting.table.empty();
-  auto opening = inside ? lines.begin() : lines.end();   // a new line goes here
+  auto opening = inside ? lines.begin() : lines.end();  // a new line goes here
   auto line = lines.begin();
   for (; line != lines.end(); ++line) {
     const std::string opened = Opens(*line);
@@ -161,7 +161,7 @@ std::string WithSettings(const std::string& text, const std::vector<std::string>
     bool good = false;
     try {
       good = Says(ParseToml(changed, file), setting);
-    } catch (const OperatorError&) {   // it was there already, in another form
+    } catch (const OperatorError&) {  // it was there already, in another form
     }
     if (!good) Refuse(each, file + " cannot be set so: the key needs a line of its own there");
   }

@@ -13,7 +13,7 @@ Drive ParseDrive(const std::string& drive) {
 }
 
 void CheckRange(const char* name, double value, double min, double max) {
-  if (value >= min && value <= max) return;   // false for NaN
+  if (value >= min && value <= max) return;  // false for NaN
   throw OperatorError(std::string(name) + " " + std::to_string(value) + " is not within " +
                       std::to_string(min) + " and " + std::to_string(max));
 }

@@ -16,16 +16,16 @@ constexpr const char* kLabVersion = "seam2d-0.3";
 
 /// What a session depends on; equal settings give equal bytes.
 struct SessionSettings {
-  std::string scene;                  ///< path of a scene file
+  std::string scene;  ///< path of a scene file
   std::string mode = "buffer";
-  std::string reconcile;              ///< "": the mode's default
+  std::string reconcile;  ///< "": the mode's default
   std::string impair = "demo";
   std::int64_t seed = 1;
-  int send_hz = 30;                   ///< at most the scene's tick_hz is used
-  double duration_s = 0;              ///< after tick 0; 0: the scene's own
-  std::string drive = "script";       ///< script | bot
+  int send_hz = 30;              ///< at most the scene's tick_hz is used
+  double duration_s = 0;         ///< after tick 0; 0: the scene's own
+  std::string drive = "script";  ///< script | bot
   bool smooth = true;
-  std::vector<std::string> set;       ///< of the scene: "solver.substeps=2", "buffer=5"
+  std::vector<std::string> set;  ///< of the scene: "solver.substeps=2", "buffer=5"
 };
 
 /// Largest values of --seed and --duration, as seam-server's.
@@ -40,8 +40,8 @@ ClusterConfig Configure(const SessionSettings& settings);
 ClusterConfig Configure(const SessionSettings& settings, const Scene& scene);
 
 struct SessionResult {
-  double simulated_s = 0;             ///< virtual time, joining included
-  std::int64_t ticks = 0;             ///< since tick 0
+  double simulated_s = 0;  ///< virtual time, joining included
+  std::int64_t ticks = 0;  ///< since tick 0
 };
 
 /// Runs to the end; the recording, if wanted and kept, goes to `recording`. Throws OperatorError

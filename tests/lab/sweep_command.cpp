@@ -14,8 +14,8 @@ int RunSweep(const SweepCommand& command) {
   StopOnSignals();
   RowMaker maker;
   maker.make = [&](std::size_t row) { return SweepRow(grid.points[row], grid.floor); };
-  const RowsDone done = MakeRows(keys, MissingRows(table, keys.size()), maker,
-                                 JobsOr(command.jobs), command.quiet, &table);
+  const RowsDone done = MakeRows(keys, MissingRows(table, keys.size()), maker, JobsOr(command.jobs),
+                                 command.quiet, &table);
   return PrintRows(command.table, table, keys.size(), done);
 }
 

@@ -16,8 +16,8 @@ namespace {
 
 /// Lists that set a scene's key, in the order in which they vary, the slowest first.
 struct ScenesKey {
-  const char* list;       // in the sweep file
-  const char* key;        // in the scene, which checks the range
+  const char* list;  // in the sweep file
+  const char* key;   // in the scene, which checks the range
 };
 constexpr ScenesKey kScenesKeys[] = {{"tick_hz", "solver.tick_hz"},
                                      {"substeps", "solver.substeps"},
@@ -36,7 +36,7 @@ std::string ReadText(const std::string& path) {
 std::vector<std::string> Texts(const SceneReader& r, const char* key, const char* fallback) {
   std::vector<std::string> texts = r.Texts(key);
   if (r.Has(key) && texts.empty()) r.FailAt(key, std::string(key) + " is empty");
-  for (const std::string& text : texts) {   // each becomes part of a line
+  for (const std::string& text : texts) {  // each becomes part of a line
     if (!IsCleanText(text, "")) r.FailAt(key, std::string(key) + " has a control character");
   }
   if (texts.empty() && fallback != nullptr) texts.push_back(fallback);
@@ -133,8 +133,10 @@ std::vector<std::string> Networks(const SceneReader& r) {
                        (!jitters.empty() && Says(impair, "jitter")) ||
                        (!losses.empty() && (Says(impair, "loss") || Says(impair, "burst")));
     if (twice || (!list && impair != "perfect")) {
-      r.FailAt("impair", "one_way_ms, jitter_ms and loss_percent go with \"perfect\" and with "
-                         "lists that do not say the same, not with \"" + impair + "\"");
+      r.FailAt("impair",
+               "one_way_ms, jitter_ms and loss_percent go with \"perfect\" and with "
+               "lists that do not say the same, not with \"" +
+                   impair + "\"");
     }
     std::vector<std::string> these = Combined({""}, "delay=", delays, "ms", ",");
     these = Combined(these, "jitter=", jitters, "ms", ",");
@@ -152,11 +154,11 @@ SweepFile ReadSweepFile(const std::string& path) {
   const std::string text = ReadText(path);
   CheckSceneText(text, path);
   const TomlNode tree = ParseToml(text, path);
-  const SceneReader r(tree, path, "sweep",
-                      {"scenes", "set", "tick_hz", "substeps", "velocity_iterations",
-                       "position_iterations", "skin", "buffer_m", "methods", "impair", "one_way_ms",
-                       "jitter_ms", "loss_percent", "send_hz", "drive", "smooth", "duration",
-                       "seeds", "floor"});
+  const SceneReader r(
+      tree, path, "sweep",
+      {"scenes", "set", "tick_hz", "substeps", "velocity_iterations", "position_iterations", "skin",
+       "buffer_m", "methods", "impair", "one_way_ms", "jitter_ms", "loss_percent", "send_hz",
+       "drive", "smooth", "duration", "seeds", "floor"});
   SweepFile file;
   file.scenes = Texts(r, "scenes", nullptr);
   if (file.scenes.empty()) r.Fail("which scenes? for example: scenes = [\"scenes/wall.toml\"]");

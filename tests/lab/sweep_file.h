@@ -8,7 +8,7 @@
 namespace seam {
 
 struct SweepFile {
-  std::vector<std::string> scenes;    ///< paths
+  std::vector<std::string> scenes;  ///< paths
   /// What is set in the scenes, every combination: {"solver.substeps=2", "buffer=5"}. At least one,
   /// which may be empty.
   std::vector<std::vector<std::string>> settings;
@@ -16,7 +16,7 @@ struct SweepFile {
   std::vector<std::string> networks;  ///< every combination, as FindProfile reads them
   std::vector<std::int64_t> send_hz, seeds;
   std::vector<std::string> drive, smooth;
-  double duration_s = 0;              ///< 0: each scene's own
+  double duration_s = 0;  ///< 0: each scene's own
   bool floor = true;
 };
 

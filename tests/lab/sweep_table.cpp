@@ -78,7 +78,7 @@ void SweepTable::Load(const std::string& text, int key_columns,
   for (int number = 2; at != std::string::npos; ++number) {
     const std::size_t begin = at + 1;
     at = text.find('\n', begin);
-    if (at == std::string::npos) break;   // half-written, or the end
+    if (at == std::string::npos) break;  // half-written, or the end
     const std::string line = text.substr(begin, at - begin);
     const std::vector<std::size_t> ends = FieldEnds(line);
     const bool whole = ends.size() == columns;
@@ -120,7 +120,7 @@ void SweepTable::Add(std::size_t row, const std::string& line) {
   SEAM_ASSERT(!Has(row));
   lines_[row] = line;
   ++count_;
-  if (row < end_) {   // an older sweep had later rows
+  if (row < end_) {  // an older sweep had later rows
     Rewrite();
     return;
   }

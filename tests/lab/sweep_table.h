@@ -33,10 +33,10 @@ class SweepTable {
   void Rewrite();
 
   std::string path_, header_;
-  std::vector<std::string> lines_;    // by row; empty: not there yet
+  std::vector<std::string> lines_;  // by row; empty: not there yet
   std::size_t count_ = 0;
-  std::size_t end_ = 0;               // one behind the last row in the file
-  std::FILE* file_ = nullptr;         // open to append
+  std::size_t end_ = 0;        // one behind the last row in the file
+  std::FILE* file_ = nullptr;  // open to append
 };
 
 /// The values of a CSV line, without the quotes around and within them.

@@ -52,7 +52,7 @@ struct Target {
   HardCase hard;
   Scene scene;
   double seconds = 0;
-  std::unique_ptr<Reference> reference;   // where the case has no judge
+  std::unique_ptr<Reference> reference;  // where the case has no judge
 };
 
 Target TargetOf(const TuneCommand& command) {
@@ -76,12 +76,16 @@ void Introduce(const TuneCommand& command, Target* target) {
   target->reference = std::make_unique<Reference>(MakeReference(target->scene, target->seconds));
   const double change = target->reference->change_m;
   const double floor = Floor(target->scene, target->seconds);
-  std::printf("scene %s: RMS distance of all parts from its own run at 60 Hz x32 8/3, m, over "
-              "%g s\nhalving that run's step changes it by %.3g m; a nudge of 1e-6 m comes to "
-              "%.3g m\n", target->scene.name.c_str(), target->seconds, change, floor);
+  std::printf(
+      "scene %s: RMS distance of all parts from its own run at 60 Hz x32 8/3, m, over "
+      "%g s\nhalving that run's step changes it by %.3g m; a nudge of 1e-6 m comes to "
+      "%.3g m\n",
+      target->scene.name.c_str(), target->seconds, change, floor);
   if (command.error < std::max(change, floor)) {
-    std::printf("warning: %g m is less than that: chaos, not the setting, decides whether a run "
-                "comes so close; a shorter --seconds may be decidable\n", command.error);
+    std::printf(
+        "warning: %g m is less than that: chaos, not the setting, decides whether a run "
+        "comes so close; a shorter --seconds may be decidable\n",
+        command.error);
   }
 }
 

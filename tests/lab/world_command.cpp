@@ -14,7 +14,7 @@ namespace {
 void WriteCsv(const TextTable& table, const std::string& path) {
   const auto line = [](const std::vector<std::string>& fields) {
     std::string text;
-    for (std::size_t i = 0; i < fields.size(); ++i) {   // the first one may be empty
+    for (std::size_t i = 0; i < fields.size(); ++i) {  // the first one may be empty
       text += (i > 0 ? "," : "") + CsvField(fields[i]);
     }
     return text + "\n";

@@ -70,8 +70,8 @@ Edit BreakGlue(EditCause cause) {
 
 Edit Insert(const std::string& name, double x, EditCause cause) {
   Edit edit = MakeEdit(EditKind::kInsert, cause);
-  edit.text = "[[part]]\nname = \"" + name + "\"\nbox = [1, 1]\nposition = [" +
-              std::to_string(x) + ", 20]\nvelocity = [0, 2]\n";
+  edit.text = "[[part]]\nname = \"" + name + "\"\nbox = [1, 1]\nposition = [" + std::to_string(x) +
+              ", 20]\nvelocity = [0, 2]\n";
   return edit;
 }
 
@@ -188,10 +188,10 @@ TEST(MeasureChanges, PartsThatCameAreKnownByTheirNames) {
                                         {20, Insert("crate", 3, EditCause::kOutside)},
                                         {60, OnPart(EditKind::kRemove, kFirstNew + 1)}});
   const Oracle oracle = ComputeOracle(recording);
-  EXPECT_FALSE(oracle.At(40, kFirstNew).has_value());   // the oracle knows no debris
+  EXPECT_FALSE(oracle.At(40, kFirstNew).has_value());  // the oracle knows no debris
   EXPECT_NEAR(oracle.At(40, kFirstNew + 1).value().position.x(), 3, 1e-6);
   EXPECT_FALSE(oracle.At(60, kFirstNew + 1).has_value());
-  EXPECT_LT(Measure(recording, oracle).error_max_m, 1e-6);   // a body made anew is rounded anew
+  EXPECT_LT(Measure(recording, oracle).error_max_m, 1e-6);  // a body made anew is rounded anew
 }
 
 TEST(MeasureChanges, NoSecondDifferenceIsTakenAcrossAChangeOfBody) {
@@ -201,7 +201,7 @@ TEST(MeasureChanges, NoSecondDifferenceIsTakenAcrossAChangeOfBody) {
     Recording recording = Simulate(edits);
     const Oracle oracle = ComputeOracle(recording);
     for (auto& [tick, view] : recording.views[1]) {
-      if (tick >= 50) view.x[0] += 0.1f;   // the bar's root snaps to where the change puts it
+      if (tick >= 50) view.x[0] += 0.1f;  // the bar's root snaps to where the change puts it
     }
     const Measures m = Measure(recording, oracle);
     EXPECT_NEAR(m.error_max_m, 0.1, 1e-3);
@@ -216,7 +216,7 @@ TEST(MeasureChanges, NoSecondDifferenceIsTakenAcrossAChangeOfBody) {
 
 TEST(MeasureChanges, ALateEditIsALagAndAMissingBodyIsLost) {
   Recording recording = Simulate(Eventful());
-  for (std::int64_t tick = 20; tick < 65; ++tick) {   // peer 1 hears of the break 45 ticks late
+  for (std::int64_t tick = 20; tick < 65; ++tick) {  // peer 1 hears of the break 45 ticks late
     View& late = recording.views[1][tick];
     late = recording.views[1][19];
     late.tick = tick;
@@ -228,7 +228,7 @@ TEST(MeasureChanges, ALateEditIsALagAndAMissingBodyIsLost) {
   EXPECT_EQ(m.lost.value(), 1);
   EXPECT_FALSE(Measure(Simulate({}), ComputeOracle(Simulate({}))).lost.has_value());
   recording = Simulate(Eventful());
-  recording.edits.erase(0);   // the log lacks it: no view after it can be judged
+  recording.edits.erase(0);  // the log lacks it: no view after it can be judged
   EXPECT_EQ(Measure(recording, ComputeOracle(recording)).lost.value(), 0);
 }
 
@@ -255,13 +255,13 @@ TEST(MeasureChanges, ASessionUnderLossLosesNoBody) {
 
 TEST(MeasureChanges, AFormIsTheSameHoweverOftenItIsAskedFor) {
   std::vector<Edit> edits;
-  for (int i = 0; i < 300; ++i) {   // more than are kept
+  for (int i = 0; i < 300; ++i) {  // more than are kept
     edits.push_back(Insert("n" + std::to_string(i), i, EditCause::kOutside));
   }
   edits.push_back(OnPart(EditKind::kPush, kAlone));
   const Scene scene = ParseScene(kScene, "bar.toml");
   const Forms forms(scene, edits);
-  EXPECT_EQ(forms.Key(301), 300);   // a push changes no body
+  EXPECT_EQ(forms.Key(301), 300);  // a push changes no body
   for (const int wanted : {300, 10, 299, 0, 150, 10, 1000}) {
     EXPECT_EQ(forms.At(wanted)->ids.size(), 2u + static_cast<std::size_t>(std::min(wanted, 300)));
   }

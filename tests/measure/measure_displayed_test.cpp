@@ -87,7 +87,7 @@ TEST(Displayed, PenetrationLastingATenthOfASecondIsNeverMissed) {
 
 TEST(Displayed, JointDriftIsTheWorstOfAnyTick) {
   Recording run = WithScene(MakeRecording(2, 100, Lying()));
-  const double length = std::hypot(55.0, 60.0);   // from farther.0 to seven
+  const double length = std::hypot(55.0, 60.0);  // from farther.0 to seven
   EXPECT_NEAR(Measure(run, MakeOracle(100, Lying())).joint_drift_m.value(), 0, 1e-5);
   run.views[1][33].x[1] -= 0.5f;
   const Measures m = Measure(run, MakeOracle(100, Lying()));
@@ -100,12 +100,12 @@ TEST(Displayed, EnergyGainIsWhatTheOracleNeverHadAroundThen) {
   const Oracle oracle = MakeOracle(200, Lying());
   EXPECT_EQ(Measure(run, oracle).energy_gain_j.value(), 0);
   run.views[1][50].vx[0] = 3;
-  run.views[1][50].vy[0] = -4;             // 12.5 J of speed
-  run.views[0][60].y[0] += 0.25f;          // 2.5 J of height
+  run.views[1][50].vy[0] = -4;     // 12.5 J of speed
+  run.views[0][60].y[0] += 0.25f;  // 2.5 J of height
   EXPECT_NEAR(Measure(run, oracle).energy_gain_j.value(), 12.5, 1e-9);
   run.views[1][50].vx[0] = run.views[1][50].vy[0] = 0;
   EXPECT_NEAR(Measure(run, oracle).energy_gain_j.value(), 2.5, 1e-9);
-  run.views[0][60].y[0] -= 0.5f;           // less than the oracle is no gain
+  run.views[0][60].y[0] -= 0.5f;  // less than the oracle is no gain
   EXPECT_EQ(Measure(run, oracle).energy_gain_j.value(), 0);
 }
 
@@ -119,14 +119,16 @@ TEST(Displayed, ALateBlowOrAnInputIsNoGainOfEnergyButABlowThatNeverEndsIs) {
     return Measure(WithScene(MakeRecording(1, 200, stopped_at(stop))), oracle).energy_gain_j;
   };
   EXPECT_EQ(gain(64).value(), 0);
-  EXPECT_EQ(gain(64 + 32).value(), 0);       // half a second
+  EXPECT_EQ(gain(64 + 32).value(), 0);  // half a second
   EXPECT_NEAR(gain(64 + 33).value(), 8, 1e-9);
   // An input that gives 8 J is the oracle's too.
   const auto started_at = [](std::int64_t start) {
     return [=](std::int64_t tick) { return State(0, 0.5, tick < start ? 0 : 4, 0); };
   };
-  EXPECT_EQ(Measure(WithScene(MakeRecording(1, 200, started_at(100))),
-                    MakeOracle(200, started_at(105))).energy_gain_j.value(), 0);
+  EXPECT_EQ(
+      Measure(WithScene(MakeRecording(1, 200, started_at(100))), MakeOracle(200, started_at(105)))
+          .energy_gain_j.value(),
+      0);
 }
 
 TEST(Displayed, WithoutASceneItsBodiesOrItsJointsNothingIsClaimed) {
@@ -135,8 +137,7 @@ TEST(Displayed, WithoutASceneItsBodiesOrItsJointsNothingIsClaimed) {
   EXPECT_FALSE(none.penetration_m || none.joint_drift_m || none.energy_gain_j);
   const std::string scene = kScene;
   const std::string jointless = scene.substr(0, scene.find("[[joint]]"));
-  const Measures no_joints =
-      Measure(WithScene(MakeRecording(1, 100, Lying()), jointless), oracle);
+  const Measures no_joints = Measure(WithScene(MakeRecording(1, 100, Lying()), jointless), oracle);
   EXPECT_TRUE(no_joints.penetration_m && no_joints.energy_gain_j);
   EXPECT_FALSE(no_joints.joint_drift_m || no_joints.oracle_joint_drift_m);
   Recording partial = WithScene(MakeRecording(1, 100, Lying()));
@@ -156,19 +157,19 @@ Path Stopping(std::int64_t stop) {
 }
 
 TEST(RestJitter, IsTheRootMeanSquareSpeedShownHalfASecondAfterTheOraclesRest) {
-  const Oracle oracle = MakeOracle(300, Stopping(100));   // rests from tick 100: from 132 on
+  const Oracle oracle = MakeOracle(300, Stopping(100));  // rests from tick 100: from 132 on
   EXPECT_EQ(RestJitter(MakeRecording(2, 300, Stopping(100)), oracle).value(), 0);
-  EXPECT_EQ(RestJitter(MakeRecording(2, 300, Stopping(132)), oracle).value(), 0);   // late, calm
+  EXPECT_EQ(RestJitter(MakeRecording(2, 300, Stopping(132)), oracle).value(), 0);  // late, calm
   Recording run = MakeRecording(1, 300, Stopping(100));
   for (auto& [tick, view] : run.views[0]) {
-    if (tick % 2 == 0) view.y[0] += 0.0009765625f;        // to and fro by 1/1024 m each tick
+    if (tick % 2 == 0) view.y[0] += 0.0009765625f;  // to and fro by 1/1024 m each tick
   }
   // 1/16 m/s of one body of two.
   EXPECT_DOUBLE_EQ(RestJitter(run, oracle).value(), 0.0625 / std::sqrt(2));
   EXPECT_DOUBLE_EQ(Measure(run, oracle).jitter_rest_mps.value(), 0.0625 / std::sqrt(2));
   Recording jump = MakeRecording(1, 300, Stopping(100));
   for (auto& [tick, view] : jump.views[0]) {
-    if (tick >= 200) view.x[1] += 0.125f;                 // once: 8 m/s among 168 ticks of two
+    if (tick >= 200) view.x[1] += 0.125f;  // once: 8 m/s among 168 ticks of two
   }
   EXPECT_DOUBLE_EQ(RestJitter(jump, oracle).value(), 8 / std::sqrt(2.0 * 168));
 }
@@ -203,8 +204,8 @@ TEST(Handover, ComparesTheOldAndTheNewAuthorityWhenTheNewOneTakesUp) {
     run.views[2][100].x[0] += 0.375f;
     run.views[2][100].y[0] -= 0.5f;
     run.views[2][100].vy[0] += 0.25f;
-    run.views[2][101].vx[0] += 9;            // not at the hand-over
-    run.views[0][100].vx[0] += 9;            // whose idea nobody asked for
+    run.views[2][101].vx[0] += 9;  // not at the hand-over
+    run.views[0][100].vx[0] += 9;  // whose idea nobody asked for
     Measures m;
     MeasureHandover(run, {{3, 0}}, &m);
     EXPECT_DOUBLE_EQ(m.handover_gap_m.value(), 0.625);
@@ -226,16 +227,18 @@ TEST(Floor, OfBodiesThatFallAloneIsTheNudgeOfOneAmongAll) {
   run.room.tick_hz = kHz;
   run.room.scene_name = "fall";
   run.last_tick = 64;
-  run.room.scene_text = "[[part]]\nname = \"ball\"\ncircle = 0.5\n"
-                        "repeat = {count = 4, step = [0, 3]}\n";
+  run.room.scene_text =
+      "[[part]]\nname = \"ball\"\ncircle = 0.5\n"
+      "repeat = {count = 4, step = [0, 3]}\n";
   const Oracle oracle = ComputeOracle(run);
-  EXPECT_DOUBLE_EQ(ErrorFloor(run, oracle, 0x1p-20f), 0x1p-20 / 2);   // one of four
+  EXPECT_DOUBLE_EQ(ErrorFloor(run, oracle, 0x1p-20f), 0x1p-20 / 2);  // one of four
   EXPECT_DOUBLE_EQ(ErrorFloor(run, oracle, kWireNudge), 0x1p-10 / 2);
   EXPECT_NEAR(ErrorFloor(run, oracle), 1e-6 / 2, 1e-12);
   // A ball balanced on a point falls to either side: a micrometre becomes metres.
-  run.room.scene_text = "[solver]\nsleep = false\n[[part]]\nname = \"ball\"\ncircle = 0.5\n"
-                        "[[part]]\nname = \"ridge\"\n"
-                        "polygon = [[-9, -9], [0, -0.51], [9, -9]]\nanchored = true\n";
+  run.room.scene_text =
+      "[solver]\nsleep = false\n[[part]]\nname = \"ball\"\ncircle = 0.5\n"
+      "[[part]]\nname = \"ridge\"\n"
+      "polygon = [[-9, -9], [0, -0.51], [9, -9]]\nanchored = true\n";
   run.last_tick = 10 * kHz;
   EXPECT_GT(ErrorFloor(run, ComputeOracle(run)), 1);
 }

@@ -38,7 +38,7 @@ TEST(Rebound, ALateBlowIsStillTheWholeBlow) {
 
 TEST(Rebound, IsReadFromThePeerWithAuthority) {
   Recording run = MakeRecording(2, 200, Struck(4));
-  for (auto& [tick, view] : run.views[0]) {   // the server is a secondary with wrong ideas
+  for (auto& [tick, view] : run.views[0]) {  // the server is a secondary with wrong ideas
     view.role[0] = kRoleSecondary;
     view.vx[0] = -9;
   }
@@ -92,7 +92,7 @@ TEST(Rest, CountsTicksFromTheOraclesRestUntilAllPeersAgreeToTheBit) {
   Recording late = MakeRecording(3, 300, Stopping(100));
   for (std::int64_t tick = 0; tick < 130; ++tick) {
     float& x = late.views[2][tick].x[1];
-    x = std::nextafter(x, 0.0f);        // one bit, on one peer
+    x = std::nextafter(x, 0.0f);  // one bit, on one peer
   }
   EXPECT_EQ(RestTicks(late, oracle).value(), 30);
 }
@@ -111,7 +111,7 @@ TEST(Rest, IsUnknownWhenTheOracleNeverRestsOrNobodyElseLooks) {
   const Oracle oracle = MakeOracle(300, Stopping(100));
   EXPECT_FALSE(RestTicks(MakeRecording(1, 300, Stopping(100)), oracle).has_value());
   EXPECT_FALSE(RestTicks(MakeRecording(2, 300, Stopping(290)), MakeOracle(300, Stopping(290)))
-                   .has_value());       // too short to be for good
+                   .has_value());  // too short to be for good
 }
 
 // ---- hand-over
@@ -120,13 +120,13 @@ TEST(Handover, MeasuresTheJumpBeyondTheMotionAndCountsMechanismsOnce) {
   Recording run = MakeRecording(2, 100, Moving(2));
   for (auto& [peer, views] : run.views) {
     for (auto& [tick, view] : views) {
-      if (tick >= 50) view.authority[0] = view.authority[1] = 1;   // both bodies at tick 50
+      if (tick >= 50) view.authority[0] = view.authority[1] = 1;  // both bodies at tick 50
       if (tick >= 70) view.authority[0] = 0;
     }
   }
   for (auto& [tick, view] : run.views[1]) {
     if (tick >= 50) view.y[0] += 0.25f;
-    if (tick >= 80) view.y[0] += 4;      // a jump, but not at a hand-over
+    if (tick >= 80) view.y[0] += 4;  // a jump, but not at a hand-over
   }
   Measures m;
   MeasureHandover(run, {{3, 0}, {7, 0}}, &m);
@@ -135,7 +135,7 @@ TEST(Handover, MeasuresTheJumpBeyondTheMotionAndCountsMechanismsOnce) {
   Measures apart;
   MeasureHandover(run, {{3, 0}, {7, 1}}, &apart);
   EXPECT_EQ(apart.handovers, 3);
-  EXPECT_EQ(Measure(run, MakeOracle(100, Moving(2))).handovers, 3);   // no scene: every body one
+  EXPECT_EQ(Measure(run, MakeOracle(100, Moving(2))).handovers, 3);  // no scene: every body one
 }
 
 // ---- cost
@@ -163,7 +163,7 @@ TEST(Cost, IsPerSimulatedSecondOfClientsForBytesAndOfAllPeersForTime) {
 
 TEST(Cost, WaitingAndRestartsAreLeftOut) {
   Recording run = MakeRecording(1, 10, Moving(2));
-  run.stats[1] = {MakeStats(1, 0, 0, 0, 0), MakeStats(1, 0, 90'000, 0, 0),   // waits for players
+  run.stats[1] = {MakeStats(1, 0, 0, 0, 0), MakeStats(1, 0, 90'000, 0, 0),  // waits for players
                   MakeStats(1, kHz, 91'000, 0, 0), MakeStats(1, 2 * kHz, 10, 0, 0),
                   MakeStats(1, 3 * kHz, 1010, 0, 0)};
   EXPECT_DOUBLE_EQ(Measure(run, MakeOracle(10, Moving(2))).bytes_per_s, 1000);

@@ -18,8 +18,11 @@ namespace {
 
 struct Meters {
   explicit Meters(const std::string& text)
-      : scene(ParseScene(text, "test.toml")), composition(Compose(scene)),
-        overlap(scene, composition), joints(scene, composition), energy(scene, composition) {}
+      : scene(ParseScene(text, "test.toml")),
+        composition(Compose(scene)),
+        overlap(scene, composition),
+        joints(scene, composition),
+        energy(scene, composition) {}
   /// The scene's own states at tick 0.
   std::vector<BodyState> Start() const {
     std::vector<BodyState> states;
@@ -43,15 +46,15 @@ std::string Body(const std::string& name, const std::string& rest) {
   return "[[part]]\nname = \"" + name + "\"\n" + rest + "\n";
 }
 
-constexpr double kRound = 1e-6;   // the scenes' numbers are floats, m
+constexpr double kRound = 1e-6;  // the scenes' numbers are floats, m
 
 TEST(Overlap, OfTwoBoxesIsTheShortestWayOut) {
   const auto boxes = [](const std::string& second) {
     return Meters(Body("a", "box = [2, 1]") + Body("b", "box = [1, 1]\n" + second)).Deepest();
   };
-  EXPECT_NEAR(boxes("position = [1.375, 0.25]"), 0.125, kRound);     // out to the right
-  EXPECT_NEAR(boxes("position = [0.25, 0.75]"), 0.25, kRound);       // up
-  EXPECT_EQ(boxes("position = [1.5, 0]"), 0);                        // they touch
+  EXPECT_NEAR(boxes("position = [1.375, 0.25]"), 0.125, kRound);  // out to the right
+  EXPECT_NEAR(boxes("position = [0.25, 0.75]"), 0.25, kRound);    // up
+  EXPECT_EQ(boxes("position = [1.5, 0]"), 0);                     // they touch
   EXPECT_EQ(boxes("position = [1.6, 1.1]"), 0);
   // A corner that points down, 0.1 below the top.
   EXPECT_NEAR(boxes("angle = 0.785398163\nposition = [0, 1.10710678]"), 0.1, kRound);
@@ -67,10 +70,10 @@ TEST(Overlap, OfCirclesIsExactOutsideAndInside) {
   const auto in_box = [&](const std::string& at) {
     return Meters(box + Body("ball", "circle = 0.5\nposition = " + at)).Deepest();
   };
-  EXPECT_NEAR(in_box("[0, 1.25]"), 0.25, kRound);            // on the face
-  EXPECT_NEAR(in_box("[2.3, 1.4]"), 0, kRound);              // touches the corner
-  EXPECT_NEAR(in_box("[2.15, 1.2]"), 0.25, kRound);          // on the corner
-  EXPECT_NEAR(in_box("[1.5, 0.25]"), 1.0, kRound);           // its centre inside
+  EXPECT_NEAR(in_box("[0, 1.25]"), 0.25, kRound);    // on the face
+  EXPECT_NEAR(in_box("[2.3, 1.4]"), 0, kRound);      // touches the corner
+  EXPECT_NEAR(in_box("[2.15, 1.2]"), 0.25, kRound);  // on the corner
+  EXPECT_NEAR(in_box("[1.5, 0.25]"), 1.0, kRound);   // its centre inside
 }
 
 TEST(Overlap, OfCapsulesIsTheirRimsAroundTheirMiddleLines) {
@@ -78,12 +81,12 @@ TEST(Overlap, OfCapsulesIsTheirRimsAroundTheirMiddleLines) {
   const auto with = [&](const std::string& other) {
     return Meters(lying + Body("b", other)).Deepest();
   };
-  EXPECT_NEAR(with("circle = 0.5\nposition = [0.5, 0.75]"), 0.25, kRound);    // on its side
-  EXPECT_NEAR(with("circle = 0.5\nposition = [1.6, 0.6]"), 1 - std::sqrt(0.72), kRound);   // end
+  EXPECT_NEAR(with("circle = 0.5\nposition = [0.5, 0.75]"), 0.25, kRound);  // on its side
+  EXPECT_NEAR(with("circle = 0.5\nposition = [1.6, 0.6]"), 1 - std::sqrt(0.72), kRound);  // end
   EXPECT_EQ(with("circle = 0.5\nposition = [1.8, 0.7]"), 0);
   EXPECT_NEAR(with("box = [1, 1]\nposition = [0, 0.75]"), 0.25, kRound);
   EXPECT_NEAR(with("box = [1, 1]\nposition = [1.8, 0.8]"), 0.5 - std::hypot(0.3, 0.3), kRound);
-  EXPECT_NEAR(with("capsule = [2, 0.5]\nposition = [0, 0.9]"), 0.1, kRound);    // side by side
+  EXPECT_NEAR(with("capsule = [2, 0.5]\nposition = [0, 0.9]"), 0.1, kRound);  // side by side
   EXPECT_NEAR(with("capsule = [2, 0.5]\nposition = [0.5, 1.8]\nangle = 1.57079633"), 0.2, kRound);
   const std::string ground = Body("ground", "chain = [[-9, 0], [9, 0]]");
   EXPECT_NEAR(Meters(ground + Body("b", "capsule = [2, 0.5]\nposition = [0, 0.45]")).Deepest(),
@@ -122,15 +125,17 @@ TEST(Overlap, OfThingsThatDoNotCollideIsNone) {
   EXPECT_EQ(Meters(Body("a", at + "group = 3") + Body("b", at + "group = 3")).Deepest(), 1);
   EXPECT_EQ(Meters(Body("a", at + "group = -3") + Body("b", at + "group = -4")).Deepest(), 1);
   EXPECT_EQ(Meters(Body("a", at + "anchored = true") + Body("b", at + "anchored = true") +
-                   Body("c", "circle = 1\nposition = [9, 9]")).Deepest(), 0);
+                   Body("c", "circle = 1\nposition = [9, 9]"))
+                .Deepest(),
+            0);
   EXPECT_EQ(Meters(Body("a", at + "anchored = true") + Body("b", at)).Deepest(), 1);
   const std::string pin = "[[joint]]\nname = \"j\"\nkind = \"revolute\"\na = \"a\"\nb = \"b\"\n";
   EXPECT_EQ(Meters(Body("a", at) + Body("b", at) + pin).Deepest(), 0);
   EXPECT_EQ(Meters(Body("a", at) + Body("b", at) + pin + "collide = true").Deepest(), 1);
   const std::string weld = "[[joint]]\nname = \"j\"\nkind = \"weld\"\na = \"a\"\nb = \"b\"\n";
   EXPECT_EQ(Meters(Body("a", at) + Body("b", at) + weld).Deepest(), 0);
-  EXPECT_EQ(Meters("[solver]\nwelds = \"joint\"\n" + Body("a", at) + Body("b", at) + weld)
-                .Deepest(), 0);
+  EXPECT_EQ(
+      Meters("[solver]\nwelds = \"joint\"\n" + Body("a", at) + Body("b", at) + weld).Deepest(), 0);
 }
 
 /// A ground of many short pieces with a ridge at x = 0 and a cliff at x = 10.
@@ -149,8 +154,8 @@ TEST(Overlap, InTerrainIsTheDepthBelowTheLine) {
   EXPECT_NEAR(InTerrain("box = [1, 1]\nposition = [5, 0.375]"), 0.125, kRound);
   EXPECT_EQ(InTerrain("box = [1, 1]\nposition = [-5, 0.5]"), 0);
   EXPECT_NEAR(InTerrain("circle = 0.5\nposition = [-5, 0.4]"), 0.1, kRound);
-  EXPECT_NEAR(InTerrain("circle = 0.5\nposition = [-5.1, -0.1]"), 0.6, kRound);   // centre below
-  EXPECT_NEAR(InTerrain("box = [1, 1]\nposition = [5, -0.4]"), 0.9, kRound);   // its top looks out
+  EXPECT_NEAR(InTerrain("circle = 0.5\nposition = [-5.1, -0.1]"), 0.6, kRound);  // centre below
+  EXPECT_NEAR(InTerrain("box = [1, 1]\nposition = [5, -0.4]"), 0.9, kRound);  // its top looks out
 }
 
 TEST(Overlap, InTerrainKnowsRidgesAndCliffs) {
@@ -169,15 +174,15 @@ TEST(Overlap, InTerrainKnowsRidgesAndCliffs) {
 }
 
 TEST(Overlap, FarBelowTerrainAndBeyondItsEndsIsOpen) {
-  EXPECT_NEAR(InTerrain("circle = 0.25\nposition = [5, -0.5]"), 0.75, kRound);   // just through
-  EXPECT_EQ(InTerrain("circle = 0.25\nposition = [5, -3]"), 0);                  // under a bridge
+  EXPECT_NEAR(InTerrain("circle = 0.25\nposition = [5, -0.5]"), 0.75, kRound);  // just through
+  EXPECT_EQ(InTerrain("circle = 0.25\nposition = [5, -3]"), 0);                 // under a bridge
   EXPECT_EQ(InTerrain("circle = 0.25\nposition = [-10.2, -0.1]"), 0);
   EXPECT_EQ(InTerrain("box = [0.5, 0.5]\nposition = [-10.3, -0.3]"), 0);
 }
 
 TEST(Overlap, OfManyIsTheDeepestOfAllPairs) {
   Random random(20);
-  for (const double height : {2.0, 40.0}) {   // a sweep along x, and one along y
+  for (const double height : {2.0, 40.0}) {  // a sweep along x, and one along y
     std::vector<std::string> bodies;
     for (int i = 0; i < 24; ++i) {
       const std::string shape = i % 3 == 0   ? "circle = 0.6"
@@ -241,10 +246,10 @@ TEST(JointDrift, IsHowFarTheAnchorsAreApart) {
 }
 
 TEST(JointDrift, OfWeldsCountsOnlyWhereTheyAreJoints) {
-  const std::string weld = TwoBoxes() +
-                           "[[joint]]\nname = \"j\"\nkind = \"weld\"\na = \"a\"\nb = \"b\"\n";
+  const std::string weld =
+      TwoBoxes() + "[[joint]]\nname = \"j\"\nkind = \"weld\"\na = \"a\"\nb = \"b\"\n";
   EXPECT_NEAR(DriftAfter("[solver]\nwelds = \"joint\"\n" + weld, {0.3f, 0.4f}), 0.5, kRound);
-  EXPECT_EQ(DriftAfter(weld, {0.3f, 0.4f}), 0);   // one body
+  EXPECT_EQ(DriftAfter(weld, {0.3f, 0.4f}), 0);  // one body
 }
 
 TEST(JointDrift, OfAWheelIsAcrossItsAxisUnlessItIsRigid) {
@@ -257,11 +262,11 @@ TEST(JointDrift, OfAWheelIsAcrossItsAxisUnlessItIsRigid) {
 }
 
 TEST(JointDrift, OfARigidDistanceIsItsStretchOfASpringNone) {
-  const std::string rod = TwoBoxes() +
-                          "[[joint]]\nname = \"j\"\nkind = \"distance\"\na = \"a\"\nb = \"b\"\n";
+  const std::string rod =
+      TwoBoxes() + "[[joint]]\nname = \"j\"\nkind = \"distance\"\na = \"a\"\nb = \"b\"\n";
   EXPECT_NEAR(DriftAfter(rod, {0.25f, 0}), 0.25, kRound);
   EXPECT_NEAR(DriftAfter(rod, {-0.25f, 0}), 0.25, kRound);
-  EXPECT_NEAR(DriftAfter(rod, {-2, 2}), 0, kRound);            // swung, not stretched
+  EXPECT_NEAR(DriftAfter(rod, {-2, 2}), 0, kRound);  // swung, not stretched
   EXPECT_EQ(DriftAfter(rod + "frequency = 2", {0.25f, 0}), 0);
 }
 
@@ -269,8 +274,9 @@ TEST(JointDrift, OfARigidDistanceIsItsStretchOfASpringNone) {
 
 TEST(Energy, IsKineticAndPotentialOfTheCentreOfMass) {
   const Meters m("gravity = [0, -10]\n" +
-                 Body("a", "box = [2, 1]\ndensity = 3\nposition = [1, 4]\nvelocity = [3, -4]\n"
-                           "spin = 2"));
+                 Body("a",
+                      "box = [2, 1]\ndensity = 3\nposition = [1, 4]\nvelocity = [3, -4]\n"
+                      "spin = 2"));
   // 6 kg: 75 J of speed, 5/2 kg m^2 of inertia: 5 J, and 240 J of height.
   EXPECT_NEAR(m.energy.Of(m.Start()), 75 + 5 + 240, 1e-4);
   EXPECT_EQ(MechanicalEnergy(m.scene, m.composition, m.Start()), m.energy.Of(m.Start()));
@@ -295,7 +301,7 @@ TEST(Energy, SpringsStoreHalfTheStiffnessTimesTheStretchSquared) {
     states[1].position += shift;
     return m.energy.Of(states);
   };
-  const double stiffness = 0.75 * (4 * M_PI) * (4 * M_PI);   // of 1 and 3 kg at 2 Hz
+  const double stiffness = 0.75 * (4 * M_PI) * (4 * M_PI);  // of 1 and 3 kg at 2 Hz
   EXPECT_NEAR(stored("kind = \"distance\"", {0.5f, 0}), stiffness / 8, 1e-4);
   EXPECT_NEAR(stored("kind = \"distance\"", {-2, 2}), 0, 1e-4);
   EXPECT_NEAR(stored("kind = \"wheel\"\naxis = [0, 1]", {0.3f, 0.5f}), stiffness / 8, 1e-4);
@@ -327,7 +333,7 @@ TEST(Energy, OfABouncingSpringIsKeptByTheWorld) {
     lowest = std::min(lowest, double{world.Read(0).position.y()});
     EXPECT_NEAR(m.energy.Of({world.Read(0)}), start, 0.02) << tick;
   }
-  EXPECT_NEAR(lowest, -20 / (4 * M_PI * M_PI), 1e-3);   // 2 g / omega^2: energy went to and fro
+  EXPECT_NEAR(lowest, -20 / (4 * M_PI * M_PI), 1e-3);  // 2 g / omega^2: energy went to and fro
 }
 
 }  // namespace

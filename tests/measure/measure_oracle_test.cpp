@@ -152,7 +152,7 @@ TEST(ComputedOracle, RepeatsARecordedSessionToTheBit) {
   EXPECT_EQ(m.stutter_mps2, 0);
   EXPECT_EQ(m.backsteps, 0);
   EXPECT_EQ(m.rebound.value(), 1);
-  EXPECT_GT(computed.At(120, kOther)->position.x(), 3.05f);   // it really was hit
+  EXPECT_GT(computed.At(120, kOther)->position.x(), 3.05f);  // it really was hit
 }
 
 TEST(ComputedOracle, FollowsTheRecordedInputsAndNotTheScript) {
@@ -267,7 +267,7 @@ TEST_F(MeasureProgram, TakesTheOracleFromAnotherRecordingOfTheSameScene) {
   WriteLog(different, other_.path());
   EXPECT_EQ(Run({"--oracle", other_.path(), log_.path()}), 2);
   EXPECT_EQ(Lines(), 1) << output_;
-  EXPECT_EQ(Run({"--oracle", log_.path(), log_.path()}), 2);   // not made with --mode oracle
+  EXPECT_EQ(Run({"--oracle", log_.path(), log_.path()}), 2);  // not made with --mode oracle
   EXPECT_EQ(Lines(), 1) << output_;
 }
 

@@ -18,10 +18,10 @@ TEST(Seam, APeerWhoShowsWhatTheAuthorityShowsHasNoneHoweverWrongBothAre) {
 }
 
 TEST(Seam, AnOffsetOfAFollowerIsItsSizeAndNoStutter) {
-  Recording run = MakeRecording(2, 100, Moving(2));   // peer 0 has the authority over both bodies
+  Recording run = MakeRecording(2, 100, Moving(2));  // peer 0 has the authority over both bodies
   for (auto& [tick, view] : run.views[1]) view.x[0] += 0.5f;
   const Measures m = Measure(run, MakeOracle(100, Moving(2)));
-  EXPECT_DOUBLE_EQ(*m.seam_rms_m, 0.5 / std::sqrt(2));   // one of two bodies
+  EXPECT_DOUBLE_EQ(*m.seam_rms_m, 0.5 / std::sqrt(2));  // one of two bodies
   EXPECT_DOUBLE_EQ(*m.seam_stutter_mps2, 0);
 }
 

@@ -68,7 +68,7 @@ TEST(Measure, StutterNeedsThreeViewsInARow) {
   for (auto& [tick, view] : run.views[0]) {
     if (tick >= 60) view.x[0] += 0.125f;
   }
-  run.views[0].erase(60);               // the jump is between views that do not follow each other
+  run.views[0].erase(60);  // the jump is between views that do not follow each other
   const Measures m = Measure(run, MakeOracle(100, Moving(2)));
   EXPECT_EQ(m.stutter_mps2, 0);
   EXPECT_DOUBLE_EQ(m.error_max_m, 0.125);
@@ -83,7 +83,7 @@ TEST(Measure, TheOraclesOwnAccelerationIsNoStutter) {
 }
 
 TEST(Measure, CountsExactlyTheStepsAgainstTheVelocity) {
-  Recording run = MakeRecording(2, 100, Moving(2));   // 1/32 m a tick
+  Recording run = MakeRecording(2, 100, Moving(2));  // 1/32 m a tick
   for (const std::int64_t tick : {20, 40, 60}) run.views[1][tick].x[0] -= 0.0625f;
   const Measures m = Measure(run, MakeOracle(100, Moving(2)));
   EXPECT_EQ(m.backsteps, 3);
@@ -101,7 +101,7 @@ TEST(Measure, StepsOfLessThanAMillimetreOrOfSlowBodiesAreNoBacksteps) {
 }
 
 TEST(Measure, ABackstepOfTheOracleItselfIsForgiven) {
-  const Path wheel = [](std::int64_t tick) {   // its root goes back while its mass goes on
+  const Path wheel = [](std::int64_t tick) {  // its root goes back while its mass goes on
     return State(tick % 10 == 5 ? -1 : 0, 0, 2, 0);
   };
   EXPECT_EQ(Measure(MakeRecording(1, 50, wheel), MakeOracle(50, wheel)).backsteps, 0);
@@ -112,7 +112,7 @@ TEST(Measure, TheNinetyFifthPercentileIsTheNearestRank) {
   const auto off = [](std::int64_t tick) { return State(static_cast<double>(tick), 0); };
   Recording run = MakeRecording(1, 100, off);
   run.views[0].erase(0);
-  for (auto& [tick, view] : run.views[0]) {   // only body 3: errors 1, 2, ... 100 m
+  for (auto& [tick, view] : run.views[0]) {  // only body 3: errors 1, 2, ... 100 m
     view.id = {3};
     view.x.resize(1);
   }

@@ -61,7 +61,7 @@ TEST(Link, RejectsADatagramOlderThanItsMemory) {
     datagrams.push_back(Drain(a, i).at(0));
   }
   EXPECT_TRUE(b.Receive(0, datagrams[299], kIgnore));
-  EXPECT_TRUE(b.Receive(0, datagrams[44], kIgnore));    // 255 behind: the last one remembered
+  EXPECT_TRUE(b.Receive(0, datagrams[44], kIgnore));  // 255 behind: the last one remembered
   EXPECT_FALSE(b.Receive(0, datagrams[43], kIgnore));
 }
 
@@ -91,13 +91,13 @@ TEST(Link, RejectsMalformedFramingBeforeDeliveringAnything) {
   const DatagramHeader header{kSession, 1, 0, 0};
   const Bytes good = {0, 1, 'g'};
   const Bytes bad_tails[] = {
-      {0},                        // half a header
-      {0, 0},                     // length 0
-      {0, 2, 'x'},                // beyond the end
-      {0x80, 1, 0},               // reliable without its id
-      {0x80, 1, 0, 0},            // reliable without its byte
-      {0x80, 1, 0, 64, 'x'},      // an id beyond the window
-      {0x7f, 0xff, 'x'},          // a length no datagram can hold
+      {0},                    // half a header
+      {0, 0},                 // length 0
+      {0, 2, 'x'},            // beyond the end
+      {0x80, 1, 0},           // reliable without its id
+      {0x80, 1, 0, 0},        // reliable without its byte
+      {0x80, 1, 0, 64, 'x'},  // an id beyond the window
+      {0x7f, 0xff, 'x'},      // a length no datagram can hold
   };
   int delivered = 0;
   for (const Bytes& tail : bad_tails) {
@@ -108,10 +108,10 @@ TEST(Link, RejectsMalformedFramingBeforeDeliveringAnything) {
   }
   EXPECT_EQ(delivered, 0);
   Link link(kSession);
-  EXPECT_FALSE(link.Receive(0, Forge({kSession, 1, 5, 0}, good), kIgnore));   // acks the unsent
+  EXPECT_FALSE(link.Receive(0, Forge({kSession, 1, 5, 0}, good), kIgnore));  // acks the unsent
   EXPECT_TRUE(link.Receive(0, Forge(header, good), [&](ByteView) { ++delivered; }));
   EXPECT_EQ(delivered, 1);
-  EXPECT_FALSE(link.Receive(0, Forge({kSession, 9, 0, 0}, Bytes(1177, 1)), kIgnore));   // too long
+  EXPECT_FALSE(link.Receive(0, Forge({kSession, 9, 0, 0}, Bytes(1177, 1)), kIgnore));  // too long
 }
 
 TEST(Link, NeverDeliversWhatWasNotSentHoweverDatagramsAreMutated) {
@@ -173,7 +173,7 @@ TEST(Link, StandsAnyContentThatHasARightChecksum) {
 
 TEST(Crc32c, MatchesThePublishedCheckValues) {
   EXPECT_EQ(Crc32c(Text("123456789")), 0xe3069283u);
-  EXPECT_EQ(Crc32c(Bytes(32, 0x00)), 0x8a9136aau);   // RFC 3720 B.4
+  EXPECT_EQ(Crc32c(Bytes(32, 0x00)), 0x8a9136aau);  // RFC 3720 B.4
   EXPECT_EQ(Crc32c(Bytes(32, 0xff)), 0x62a8ab43u);
   EXPECT_EQ(Crc32c(Text("56789"), Crc32c(Text("1234"))), 0xe3069283u);
 }
@@ -186,9 +186,9 @@ TEST(Datagram, HasTheBytesThatTheProtocolPageShows) {
   const Bytes data = writer.Finish({0x1122334455667788ULL, 0x000a, 0x0009, 0x80000001});
   const Bytes expected_start = {'S', 'E', 'A', '1'};
   EXPECT_EQ(Bytes(data.begin(), data.begin() + 4), expected_start);
-  const Bytes expected_rest = {0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77, 0x88, 0x00, 0x0a, 0x00,
-                               0x09, 0x80, 0x00, 0x00, 0x01, 0x80, 0x01, 0x01, 0x02, '!',  0x00,
-                               0x02, 'h',  'i'};
+  const Bytes expected_rest = {0x11, 0x22, 0x33, 0x44, 0x55, 0x66, 0x77, 0x88, 0x00,
+                               0x0a, 0x00, 0x09, 0x80, 0x00, 0x00, 0x01, 0x80, 0x01,
+                               0x01, 0x02, '!',  0x00, 0x02, 'h',  'i'};
   EXPECT_EQ(Bytes(data.begin() + 8, data.end()), expected_rest);
   const Bytes expected_checksum = {0x89, 0xf0, 0x05, 0x51};
   EXPECT_EQ(Bytes(data.begin() + 4, data.begin() + 8), expected_checksum);
@@ -213,13 +213,13 @@ TEST(SequenceWindow, KnowsWhatArrivedAndWhatShareDidNot) {
   EXPECT_EQ(window.newest(), 19);
   EXPECT_EQ(window.BitsBefore(19), 0b111100000u);
   EXPECT_EQ(window.loss_ppm(), 500'000);
-  window.Insert(8);                      // late, and before the first that came
+  window.Insert(8);  // late, and before the first that came
   EXPECT_EQ(window.loss_ppm(), 500'000);
   window.Insert(9);
   EXPECT_EQ(window.loss_ppm(), 5 * 1'000'000 / 12);
   window.Insert(19 + 1000);
   EXPECT_EQ(window.BitsBefore(1019), 0u);
-  EXPECT_FALSE(window.IsNew(19));        // too old to know
+  EXPECT_FALSE(window.IsNew(19));  // too old to know
   EXPECT_TRUE(window.IsNew(1019 - 255));
 }
 

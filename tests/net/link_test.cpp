@@ -1,5 +1,7 @@
 /// Link delivers what it must, once and in order, over every kind of bad network.
 
+#include "common/net/link.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,7 +12,6 @@
 
 #include "common/net/datagram.h"
 #include "common/net/impair.h"
-#include "common/net/link.h"
 #include "common/net/memory.h"
 
 namespace seam {
@@ -36,8 +37,10 @@ std::vector<Bytes> Drain(Link& link, std::int64_t now_us) {
 struct End {
   End(MemoryNetwork& network, const Address& self, const Address& peer,
       const ImpairProfile& profile, std::uint64_t seed)
-      : to(peer), endpoint(network.Attach(self)),
-        net(*endpoint, profile, FindProfile("perfect"), seed), link(kSession) {}
+      : to(peer),
+        endpoint(network.Attach(self)),
+        net(*endpoint, profile, FindProfile("perfect"), seed),
+        link(kSession) {}
 
   void Tick(std::int64_t now_us) {
     net.Advance(now_us);
@@ -77,10 +80,16 @@ struct Pair {
   std::int64_t now_us = 0;
 };
 
-const char* const kNetworks[] = {
-    "perfect", "demo", "oneway200", "wifi_busy", "terrible", "soak", "corrupt", "3g",
-    "delay=30ms,loss=40%,duplicate=30%,reorder=20%:100ms,corrupt=5%",
-    "delay=100ms,jitter=50ms,burst=5%:20%,reorder=10%:80ms"};
+const char* const kNetworks[] = {"perfect",
+                                 "demo",
+                                 "oneway200",
+                                 "wifi_busy",
+                                 "terrible",
+                                 "soak",
+                                 "corrupt",
+                                 "3g",
+                                 "delay=30ms,loss=40%,duplicate=30%,reorder=20%:100ms,corrupt=5%",
+                                 "delay=100ms,jitter=50ms,burst=5%:20%,reorder=10%:80ms"};
 
 TEST(Link, DeliversReliableMessagesOnceAndInOrderOverEveryNetwork) {
   for (const char* network : kNetworks) {

@@ -80,22 +80,22 @@ TEST(Impair, CorruptFlipsExactlyOneBitOfItsShare) {
     wrong += flipped;
   }
   EXPECT_NEAR(wrong, 1000, 130);
-  EXPECT_GT(positions.size(), 250u);   // of 320: anywhere
+  EXPECT_GT(positions.size(), 250u);  // of 320: anywhere
 }
 
 TEST(Impair, ARateLimitSpacesDatagramsAndDropsBeyondItsQueue) {
   Traffic run;
-  run.bytes = 972;                     // 1000 with the headers: 8 ms at 1 Mb/s
+  run.bytes = 972;  // 1000 with the headers: 8 ms at 1 Mb/s
   run.period_us = 20'000;
   for (const Arrived& one : Send(FindProfile("rate=1Mb"), run)) {
     EXPECT_EQ(one.at_us, one.number * run.period_us + 8000);
   }
-  run.period_us = 4000;                // twice what fits
+  run.period_us = 4000;  // twice what fits
   const auto arrived = Send(FindProfile("rate=1Mb"), run);
   for (std::size_t i = 1; i < arrived.size(); ++i) {
     EXPECT_EQ(arrived[i].at_us - arrived[i - 1].at_us, 8000);
   }
-  EXPECT_NEAR(static_cast<double>(arrived.size()), 500 + 62, 3);   // half, and the queue's content
+  EXPECT_NEAR(static_cast<double>(arrived.size()), 500 + 62, 3);  // half, and the queue's content
   for (const Arrived& one : arrived) {
     EXPECT_LE(one.at_us - one.number * run.period_us, ImpairedNet::kBacklogUsMax + 16'000);
   }
@@ -104,7 +104,7 @@ TEST(Impair, ARateLimitSpacesDatagramsAndDropsBeyondItsQueue) {
 TEST(Impair, ASpikeHoldsEverythingAndReleasesItInABurst) {
   Traffic run;
   run.period_us = 10'000;
-  run.count = 60'000;                  // ten minutes
+  run.count = 60'000;  // ten minutes
   const auto arrived = Send(FindProfile("delay=20ms,spikes=0.5:200ms:200ms"), run);
   ASSERT_EQ(arrived.size(), 60'000u);
   int bursts = 0;
@@ -114,7 +114,7 @@ TEST(Impair, ASpikeHoldsEverythingAndReleasesItInABurst) {
     if (arrived[i].at_us - arrived[i - 1].at_us > 150'000) ++bursts;
     worst_us = std::max(worst_us, arrived[i].at_us - arrived[i].number * run.period_us);
   }
-  EXPECT_NEAR(bursts, 600 / 2.2, 60);   // one per 2 s of calm and 0.2 s of stall
+  EXPECT_NEAR(bursts, 600 / 2.2, 60);  // one per 2 s of calm and 0.2 s of stall
   EXPECT_LE(worst_us, 620'000);
   EXPECT_GT(worst_us, 200'000);
 }

@@ -24,7 +24,7 @@ TEST(Impair, EveryProfileHasTheMeanLossItPromises) {
   Traffic run;
   run.count = 60000;
   for (ImpairProfile profile : Profiles()) {
-    profile.corrupt = 0;              // a flipped bit may hit the number we count by
+    profile.corrupt = 0;  // a flipped bit may hit the number we count by
     double expected = ExpectedLoss(profile);
     if (profile.outage_period_us > 0) {
       const double share = static_cast<double>(profile.outage_min_us + profile.outage_max_us) / 2 /
@@ -43,22 +43,22 @@ TEST(Impair, EveryProfileHasTheMeanLossItPromises) {
 TEST(Impair, EveryProfileHasTheMeanDelayItPromises) {
   Traffic run;
   run.count = 3000;
-  run.period_us = 10 * kSecondUs;     // far apart: no clump, no queue
+  run.period_us = 10 * kSecondUs;  // far apart: no clump, no queue
   for (ImpairProfile profile : Profiles()) {
-    if (profile.spikes_per_s > 0) continue;   // tested by themselves
+    if (profile.spikes_per_s > 0) continue;  // tested by themselves
     profile.corrupt = 0;
     const auto jitter_us = static_cast<double>(profile.jitter_mean_us);
     double expected_us = static_cast<double>(profile.delay_us) + jitter_us +
                          profile.reorder * static_cast<double>(profile.reorder_us);
-    const auto copies = profile.duplicate / (1 + profile.duplicate);   // share of arrivals
+    const auto copies = profile.duplicate / (1 + profile.duplicate);  // share of arrivals
     expected_us += copies * std::max(jitter_us, 1000.0);
     if (profile.rate_bits_per_s > 0) {
       expected_us += static_cast<double>((run.bytes + 28) * 8) * 1e6 /
                      static_cast<double>(profile.rate_bits_per_s);
     }
     const double mean_us = MeanDelayUs(Send(profile, run), run);
-    const double deviation_us = jitter_us + std::sqrt(profile.reorder) *
-                                                static_cast<double>(profile.reorder_us);
+    const double deviation_us =
+        jitter_us + std::sqrt(profile.reorder) * static_cast<double>(profile.reorder_us);
     EXPECT_NEAR(mean_us, expected_us, 2 + 4.5 * deviation_us / std::sqrt(2000.0)) << profile.name;
   }
 }
@@ -85,7 +85,7 @@ TEST(Impair, TheDemoProfileIsFiftyMillisecondsTenOfJitterAndOnePercent) {
 }
 
 TEST(Impair, BurstLossesComeInRunsOfTheLengthTheChainPromises) {
-  const ImpairProfile broadband = FindProfile("broadband");   // all lost while bad: runs are 1/r
+  const ImpairProfile broadband = FindProfile("broadband");  // all lost while bad: runs are 1/r
   Traffic run;
   run.count = 100000;
   std::vector<bool> here(static_cast<std::size_t>(run.count), false);
@@ -107,10 +107,10 @@ TEST(Impair, StarlinkLosesHalfForAMomentEveryFifteenSeconds) {
   for (const Arrived& one : Send(FindProfile("starlink"), run)) {
     here[static_cast<std::size_t>(one.number)] = true;
   }
-  int lost_at_end = 0, lost_in_middle = 0;    // 100 periods of 1500 datagrams
+  int lost_at_end = 0, lost_in_middle = 0;  // 100 periods of 1500 datagrams
   for (std::size_t i = 0; i < here.size(); ++i) {
     if (here[i]) continue;
-    if (i % 1500 >= 1475) ++lost_at_end;      // the last 0.25 s, always within the outage
+    if (i % 1500 >= 1475) ++lost_at_end;  // the last 0.25 s, always within the outage
     if (i % 1500 < 25) ++lost_in_middle;
   }
   EXPECT_NEAR(lost_at_end, 1250, 130);
@@ -118,10 +118,9 @@ TEST(Impair, StarlinkLosesHalfForAMomentEveryFifteenSeconds) {
 }
 
 TEST(Profiles, AreFoundByNameAndAllHaveALineAbout) {
-  for (const char* name :
-       {"perfect", "lan", "fibre", "cable", "broadband", "wifi_busy", "4g", "4g_driving", "3g",
-        "starlink", "geo", "terrible", "soak", "corrupt", "lte", "oneway100", "oneway200",
-        "demo"}) {
+  for (const char* name : {"perfect", "lan", "fibre", "cable", "broadband", "wifi_busy", "4g",
+                           "4g_driving", "3g", "starlink", "geo", "terrible", "soak", "corrupt",
+                           "lte", "oneway100", "oneway200", "demo"}) {
     EXPECT_EQ(FindProfile(name).name, name);
   }
   std::set<std::string> names;
@@ -152,11 +151,30 @@ TEST(Profiles, CanBeSpelledOut) {
 }
 
 TEST(Profiles, AWrongSpecIsOneLineThatSaysWhatToChange) {
-  for (const char* spec :
-       {"nosuch", "", "delay=", "delay=50", "delay=-5ms", "delay=50min", "delay=61s", "delay=nanms",
-        "delay=1e400s", "loss=101%", "loss=1.5", "loss=x", "reorder=2%", "reorder=2%:30ms:1",
-        "rate=5", "rate=0Mb", "speed=5", "delay=5ms,", ",delay=5ms", "delay=5ms,,loss=1%",
-        "delay=5ms;loss=1%", "spikes=1:5ms:2ms", "spikes=1e9:1ms:2ms", "burst=1%"}) {
+  for (const char* spec : {"nosuch",
+                           "",
+                           "delay=",
+                           "delay=50",
+                           "delay=-5ms",
+                           "delay=50min",
+                           "delay=61s",
+                           "delay=nanms",
+                           "delay=1e400s",
+                           "loss=101%",
+                           "loss=1.5",
+                           "loss=x",
+                           "reorder=2%",
+                           "reorder=2%:30ms:1",
+                           "rate=5",
+                           "rate=0Mb",
+                           "speed=5",
+                           "delay=5ms,",
+                           ",delay=5ms",
+                           "delay=5ms,,loss=1%",
+                           "delay=5ms;loss=1%",
+                           "spikes=1:5ms:2ms",
+                           "spikes=1e9:1ms:2ms",
+                           "burst=1%"}) {
     try {
       (void)FindProfile(spec);
       ADD_FAILURE() << "accepted " << spec;

@@ -84,8 +84,14 @@ TEST(Udp, OversizedAndEmptyDatagramsOfOthersAreSkipped) {
   const Bytes large(kDatagramBytesMax + 1, 7);
   const std::uint16_t port = b.local().port;
   // A sockaddr_in by hand: family, then port and address in network order.
-  const std::uint8_t to[16] = {AF_INET, 0, static_cast<std::uint8_t>(port >> 8),
-                               static_cast<std::uint8_t>(port & 255), 127, 0, 0, 1};
+  const std::uint8_t to[16] = {AF_INET,
+                               0,
+                               static_cast<std::uint8_t>(port >> 8),
+                               static_cast<std::uint8_t>(port & 255),
+                               127,
+                               0,
+                               0,
+                               1};
   const auto* sockaddr_to = reinterpret_cast<const sockaddr*>(to);
   EXPECT_EQ(sendto(fd, large.data(), large.size(), 0, sockaddr_to, sizeof to), 1201);
   EXPECT_EQ(sendto(fd, large.data(), 0, 0, sockaddr_to, sizeof to), 0);
@@ -124,9 +130,9 @@ TEST(Udp, SendingToNobodyIsLossAndHurtsNobodyElse) {
   }
   Address from;
   for (std::uint8_t round = 0; round < 5; ++round) {
-    a.Send(gone, Bytes{1});                  // refused
-    a.Send({kLoopback, 0}, Bytes{2});        // port 0: invalid
-    a.Send({0xffffffff, 9}, Bytes{3});       // broadcast: not permitted
+    a.Send(gone, Bytes{1});             // refused
+    a.Send({kLoopback, 0}, Bytes{2});   // port 0: invalid
+    a.Send({0xffffffff, 9}, Bytes{3});  // broadcast: not permitted
     a.Send(b.local(), Bytes{round});
     a.Flush();
     EXPECT_EQ(Await(b, &from), Bytes{round});
@@ -143,7 +149,7 @@ TEST(Udp, WaitTimesOutWithoutSpinning) {
   net.Wait(50'000);
   EXPECT_GE(NowUs() - begin_us, 49'000);
   EXPECT_LT(static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC, 0.04);
-  net.Wait(-5);   // the past: returns at once
+  net.Wait(-5);  // the past: returns at once
 }
 
 TEST(Udp, WaitWakesForADatagramAndForTheOtherDescriptor) {
@@ -163,7 +169,7 @@ TEST(Udp, WaitWakesForADatagramAndForTheOtherDescriptor) {
   });
   b.Wait(30'000'000, ends[0]);
   writer.join();
-  EXPECT_LT(NowUs() - begin_us, 20'000'000);   // woken, not timed out
+  EXPECT_LT(NowUs() - begin_us, 20'000'000);  // woken, not timed out
   close(ends[0]);
   close(ends[1]);
 }
@@ -173,7 +179,7 @@ TEST(Udp, WaitDoesNotSleepOnDatagramsAlreadyFetched) {
   for (std::uint8_t i = 0; i < 3; ++i) a.Send(b.local(), Bytes{i});
   a.Flush();
   Address from;
-  EXPECT_EQ(Await(b, &from), Bytes{0});      // the batch of three is in our hands now
+  EXPECT_EQ(Await(b, &from), Bytes{0});  // the batch of three is in our hands now
   const std::int64_t begin_us = NowUs();
   b.Wait(30'000'000);
   EXPECT_LT(NowUs() - begin_us, 20'000'000);
@@ -188,11 +194,10 @@ TEST(Addresses, AreReadWithAndWithoutAPort) {
 }
 
 TEST(Addresses, ThatMakeNoSenseAreOneLineThatQuotesThem) {
-  const std::string no_host(70, 'x');        // no resolver is asked for a label above 63 letters
-  for (const std::string& text :
-       std::vector<std::string>{"", ":80", "127.0.0.1:", "127.0.0.1:65536", "127.0.0.1:-1",
-                                "127.0.0.1:8o", "127.0.0.1:123456", "256.0.0.1", "1.2.3", "::1",
-                                "[::1]:80", "a:b:c", no_host + ":80"}) {
+  const std::string no_host(70, 'x');  // no resolver is asked for a label above 63 letters
+  for (const std::string& text : std::vector<std::string>{
+           "", ":80", "127.0.0.1:", "127.0.0.1:65536", "127.0.0.1:-1", "127.0.0.1:8o",
+           "127.0.0.1:123456", "256.0.0.1", "1.2.3", "::1", "[::1]:80", "a:b:c", no_host + ":80"}) {
     const std::string line = ErrorOf(text);
     EXPECT_NE(line.find('"' + text + '"'), std::string::npos) << text;
     EXPECT_EQ(line.find('\n'), std::string::npos);
@@ -230,7 +235,7 @@ TEST(MemoryNetwork, ARestartedEndpointTakesTheOldOnesPlace) {
   Bytes data;
   EXPECT_FALSE(old->Receive(&from, &data));
   EXPECT_FALSE(a->Receive(&from, &data));
-  old.reset();   // must not take the new one with it
+  old.reset();  // must not take the new one with it
   ASSERT_TRUE(fresh->Receive(&from, &data));
   EXPECT_EQ(data, Bytes{2});
   a->Send(there, Bytes{4});

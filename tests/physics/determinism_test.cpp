@@ -21,8 +21,8 @@
 namespace seam {
 namespace {
 
-constexpr const char* kScenes[] = {"crossing", "wall", "stack", "cradle", "relay",
-                                    "harbour", "regatta", "skyline", "titanic", "gluehouse"};
+constexpr const char* kScenes[] = {"crossing", "wall",    "stack",   "cradle",  "relay",
+                                   "harbour",  "regatta", "skyline", "titanic", "gluehouse"};
 constexpr const char* kGoldenFile = "tests/physics/golden_hashes.txt";
 constexpr std::int64_t kTicks = 600, kHardTicks = 120;
 

@@ -37,9 +37,10 @@ TEST(Faces, AStepMakesTwoAndOtherFrictionStaysApart) {
       "[[joint]]\nname = \"seam\"\nkind = \"weld\"\na = \"cell.0.3\"\nb = \"upper.0.0\"\n";
   EXPECT_EQ(FacesIn(Sheet(10, 4) + upper).size(), 2u);
   EXPECT_EQ(FacesIn(Sheet(4, 4) + upper).size(), 1u) << "as wide: one tall rectangle";
-  const std::string slippery = "[[part]]\nname = \"ice\"\nbox = [0.5, 0.25]\nfriction = 0\n"
-                               "position = [3, 3]\n[[joint]]\nname = \"seam\"\nkind = \"weld\"\n"
-                               "a = \"cell.0.3\"\nb = \"ice\"\n";
+  const std::string slippery =
+      "[[part]]\nname = \"ice\"\nbox = [0.5, 0.25]\nfriction = 0\n"
+      "position = [3, 3]\n[[joint]]\nname = \"seam\"\nkind = \"weld\"\n"
+      "a = \"cell.0.3\"\nb = \"ice\"\n";
   EXPECT_EQ(FacesIn(Sheet(4, 4) + slippery).size(), 2u);
 }
 

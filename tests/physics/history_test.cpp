@@ -52,7 +52,7 @@ TEST(History, CorrectionsStayAndClearForgets) {
   history.Clear();
   EXPECT_EQ(history.newest(), -1);
   EXPECT_EQ(history.At(2, 0), nullptr);
-  history.Record(100, StatesOf(100));      // a jump is fine now
+  history.Record(100, StatesOf(100));  // a jump is fine now
   EXPECT_EQ(history.oldest(), 100);
   EXPECT_EQ(history.At(99, 0), nullptr);
 }

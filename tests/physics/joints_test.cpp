@@ -32,9 +32,8 @@ Input DriveOf(int drive, int lift = 0) {
 
 TEST(Joints, ATorqueLimitedHingeMotorGainsTOverI) {
   // A disc of 2 kg/m^2 and 1 m: m = 2 pi, I = m r^2/2 = pi.
-  const auto world = SmallWorld(
-      std::string(kPost) + PartOf("load", "circle = 1\ndensity = 2") +
-      JointOf("hinge", "motor = {speed = 1000, torque = 4}"));
+  const auto world = SmallWorld(std::string(kPost) + PartOf("load", "circle = 1\ndensity = 2") +
+                                JointOf("hinge", "motor = {speed = 1000, torque = 4}"));
   Steps(world.get(), 60);
   EXPECT_NEAR(double{world->Read(0).spin}, 4 / kPi, 2e-3);
   Steps(world.get(), 60);
@@ -43,10 +42,10 @@ TEST(Joints, ATorqueLimitedHingeMotorGainsTOverI) {
 }
 
 TEST(Joints, AHingeMotorHoldsItsSpeedAndStopsAtTheLimit) {
-  const auto world = SmallWorld(
-      std::string(kPost) + PartOf("load", "circle = 1") +
-      JointOf("hinge", "motor = {speed = 2, torque = 50}\nlimits = [-0.5, 3]"), "",
-      kWeightless);
+  const auto world =
+      SmallWorld(std::string(kPost) + PartOf("load", "circle = 1") +
+                     JointOf("hinge", "motor = {speed = 2, torque = 50}\nlimits = [-0.5, 3]"),
+                 "", kWeightless);
   Steps(world.get(), 60);
   EXPECT_NEAR(world->Read(0).spin, 2, 1e-3);
   // At alpha = T/I until w is reached: w t - w^2 / (2 alpha), and w h / 2 for the discrete steps.
@@ -76,13 +75,14 @@ std::unique_ptr<World> Lift(const std::string& rest) {
 TEST(Joints, APrismaticMotorTooWeakForItsLoadOnlySlowsItsFall) {
   const auto world = Lift("motor = {speed = 0, force = 6}");
   Steps(world.get(), 60);
-  EXPECT_NEAR(world->Read(0).velocity.y(), -(10 - 6), 0.01);     // a = g - F/m
+  EXPECT_NEAR(world->Read(0).velocity.y(), -(10 - 6), 0.01);  // a = g - F/m
   EXPECT_NEAR(world->Read(0).velocity.x(), 0, 1e-4);
 }
 
 TEST(Joints, AStrongOneLiftsAtItsSpeedUpToTheLimit) {
-  const auto world = Lift("limits = [-3, 2]\n"
-                          "motor = {player = \"ann\", axis = \"lift\", speed = 1.5, force = 25}");
+  const auto world = Lift(
+      "limits = [-3, 2]\n"
+      "motor = {player = \"ann\", axis = \"lift\", speed = 1.5, force = 25}");
   Steps(world.get(), 60);
   EXPECT_NEAR(world->Read(0).position.y(), 5, 1e-3) << "it brakes while nobody drives";
   world->SetInput(0, DriveOf(127));
@@ -90,7 +90,7 @@ TEST(Joints, AStrongOneLiftsAtItsSpeedUpToTheLimit) {
   EXPECT_NEAR(world->Read(0).position.y(), 5, 1e-3) << "drive is not its axis";
   world->SetInput(0, DriveOf(0, 127));
   Steps(world.get(), 3);
-  EXPECT_NEAR(world->Read(0).velocity.y(), (25 - 10) * 3 / 60.0, 0.01);   // a = F/m - g
+  EXPECT_NEAR(world->Read(0).velocity.y(), (25 - 10) * 3 / 60.0, 0.01);  // a = F/m - g
   Steps(world.get(), 40);
   EXPECT_NEAR(world->Read(0).velocity.y(), 1.5, 1e-3);
   Steps(world.get(), 60);
@@ -101,21 +101,21 @@ TEST(Joints, AStrongOneLiftsAtItsSpeedUpToTheLimit) {
 }
 
 TEST(Joints, APrismaticLoadDoesNotTurn) {
-  const auto world = SmallWorld(std::string(kPost) +
-                                PartOf("load", "box = [4, 0.2]\nposition = [1.8, 0]") +
-                                JointOf("prismatic", "anchor = [0, 0]\naxis = [1, 0]"));
+  const auto world =
+      SmallWorld(std::string(kPost) + PartOf("load", "box = [4, 0.2]\nposition = [1.8, 0]") +
+                 JointOf("prismatic", "anchor = [0, 0]\naxis = [1, 0]"));
   Steps(world.get(), 240);
   EXPECT_NEAR(world->Read(0).angle, 0, 5e-3);
   EXPECT_NEAR(world->Read(0).position.y(), 0, 5e-3);
 }
 
 TEST(Joints, ARopeIsNothingUntilItIsTaut) {
-  const auto world = SmallWorld(std::string(kPost) +
-                                PartOf("load", "circle = 0.2\nposition = [0, -1]") +
-                                JointOf("rope", "length = 4"));
+  const auto world =
+      SmallWorld(std::string(kPost) + PartOf("load", "circle = 0.2\nposition = [0, -1]") +
+                 JointOf("rope", "length = 4"));
   for (int t = 1; t <= 44; ++t) {
     world->Step();
-    const double fallen = 10.0 / 2 * t * (t + 1) / 3600;     // as the engine sums g
+    const double fallen = 10.0 / 2 * t * (t + 1) / 3600;  // as the engine sums g
     if (fallen >= 3) break;
     ASSERT_NEAR(world->Read(0).position.y(), -1 - fallen, 2e-3) << t;
   }
@@ -125,9 +125,8 @@ TEST(Joints, ARopeIsNothingUntilItIsTaut) {
 }
 
 TEST(Joints, ARopesLengthIsThatOfItsPlaceUnlessSaid) {
-  const auto world = SmallWorld(std::string(kPost) +
-                                PartOf("load", "circle = 0.2\nposition = [3, 0]") +
-                                JointOf("rope"));
+  const auto world = SmallWorld(
+      std::string(kPost) + PartOf("load", "circle = 0.2\nposition = [3, 0]") + JointOf("rope"));
   float longest = 0;
   for (int t = 0; t < 240; ++t) {
     world->Step();
@@ -167,10 +166,10 @@ TEST(Joints, ASpringsPeriodIsTwoPiRootMOverK) {
 TEST(Joints, ADampedSpringLosesItsSwingByItsRatio) {
   // x ~ exp(-zeta omega t): after the period 2 pi/(omega sqrt(1 - zeta^2)) exp(-2 pi zeta/sqrt()).
   const double zeta = 0.1, omega = 2 * kPi;
-  const auto world = SmallWorld(
-      std::string(kPost) + PartOf("load", "box = [1, 1]\nposition = [0, -3.5]") +
-          JointOf("distance", "length = 3\nfrequency = 1\ndamping_ratio = 0.1"),
-      "substeps = 8\ntick_hz = 240", kWeightless);
+  const auto world =
+      SmallWorld(std::string(kPost) + PartOf("load", "box = [1, 1]\nposition = [0, -3.5]") +
+                     JointOf("distance", "length = 3\nfrequency = 1\ndamping_ratio = 0.1"),
+                 "substeps = 8\ntick_hz = 240", kWeightless);
   const double damped = std::sqrt(1 - zeta * zeta);
   Steps(world.get(), static_cast<int>(std::lround(240 * 2 * kPi / (omega * damped))));
   const double left = -3 - double{world->Read(0).position.y()};
@@ -189,9 +188,9 @@ TEST(Joints, ADistanceWithinLimitsIsSlackBetweenThem) {
 }
 
 TEST(Joints, AWheelWithLimitsAndNoSpringSlidesBetweenThem) {
-  const auto world = SmallWorld(std::string(kPost) +
-                                PartOf("load", "circle = 0.3\nposition = [0, 4]") +
-                                JointOf("wheel", "limits = [-0.5, 0.5]"));
+  const auto world =
+      SmallWorld(std::string(kPost) + PartOf("load", "circle = 0.3\nposition = [0, 4]") +
+                 JointOf("wheel", "limits = [-0.5, 0.5]"));
   Steps(world.get(), 12);
   EXPECT_NEAR(world->Read(0).velocity.y(), -2, 0.01) << "it falls freely";
   Steps(world.get(), 60);
@@ -200,10 +199,9 @@ TEST(Joints, AWheelWithLimitsAndNoSpringSlidesBetweenThem) {
 
 TEST(Joints, ASoftWeldSwingsAtItsFrequency) {
   // About its anchor at the centre of mass: a torsion spring on I, at f whatever I is.
-  const auto world = SmallWorld(
-      std::string(kPost) + PartOf("load", "box = [2, 0.5]\nspin = 1") +
-          JointOf("weld", "frequency = 2\ndamping_ratio = 0"),
-      "substeps = 8\ntick_hz = 240", kWeightless);
+  const auto world = SmallWorld(std::string(kPost) + PartOf("load", "box = [2, 0.5]\nspin = 1") +
+                                    JointOf("weld", "frequency = 2\ndamping_ratio = 0"),
+                                "substeps = 8\ntick_hz = 240", kWeightless);
   ASSERT_EQ(world->body_count(), 1) << "a soft weld is a joint, never one body";
   // theta = w0/omega sin(omega t): its first peak is at a quarter of the period.
   Steps(world.get(), 30);
@@ -241,11 +239,10 @@ TEST(Joints, GlueMakesOneBodyAsAWeldDoes) {
 }
 
 TEST(Joints, AMotorJointHoldsAsFarAsItsForceGoes) {
-  const std::string parts =
-      std::string(kPost) + PartOf("load", "box = [1, 1]\nposition = [2, 0]");
+  const std::string parts = std::string(kPost) + PartOf("load", "box = [1, 1]\nposition = [2, 0]");
   const auto weak = SmallWorld(parts + JointOf("motor", "force = 7\ntorque = 1"));
   Steps(weak.get(), 60);
-  EXPECT_NEAR(weak->Read(0).velocity.y(), -3, 0.02);             // a = g - F/m
+  EXPECT_NEAR(weak->Read(0).velocity.y(), -3, 0.02);  // a = g - F/m
   const auto strong = SmallWorld(parts + JointOf("motor", "force = 12\ntorque = 1"));
   Steps(strong.get(), 240);
   EXPECT_NEAR(strong->Read(0).position.y(), 0, 1e-3);
@@ -255,13 +252,14 @@ TEST(Joints, AMotorJointHoldsAsFarAsItsForceGoes) {
 TEST(Joints, AMotorJointFollowsItsPlayersAxis) {
   const auto world = SmallWorld(
       std::string(kDriver) + kPost + PartOf("load", "box = [1, 1]\nposition = [2, 0]") +
-          JointOf("motor", "force = 40\ntorque = 20\nfollow = {player = \"ann\", axis = \"lift\", "
-                           "reach = [0, 3], swing = -1}"),
+          JointOf("motor",
+                  "force = 40\ntorque = 20\nfollow = {player = \"ann\", axis = \"lift\", "
+                  "reach = [0, 3], swing = -1}"),
       "", kWeightless);
   world->SetInput(0, DriveOf(0, 127));
   Steps(world.get(), 4);
-  EXPECT_NEAR(world->Read(0).velocity.y(), 40.0 * 4 / 60, 0.05);     // F t/m
-  EXPECT_NEAR(world->Read(0).spin, -20 / (1 / 6.0) * 4 / 60, 0.5);   // T t/I
+  EXPECT_NEAR(world->Read(0).velocity.y(), 40.0 * 4 / 60, 0.05);    // F t/m
+  EXPECT_NEAR(world->Read(0).spin, -20 / (1 / 6.0) * 4 / 60, 0.5);  // T t/I
   Steps(world.get(), 240);
   EXPECT_NEAR(world->Read(0).position.y(), 3, 0.01);
   EXPECT_NEAR(world->Read(0).angle, -1, 0.01);
@@ -280,8 +278,7 @@ int TicksThatDiffer(const std::string& joint) {
       "anchor_a = [0, 4]\nanchor_b = [-1, 0]\n" +
       PartOf("post", "box = [0.5, 0.5]\nposition = [-1, -0.5]") +
       "[[joint]]\nname = \"weld\"\nkind = \"weld\"\na = \"frame\"\nb = \"post\"\n" +
-      PartOf("load", "box = [0.6, 0.4]\nposition = [1, -1.5]\nspin = 3\nvelocity = [1, 0]") +
-      joint;
+      PartOf("load", "box = [0.6, 0.4]\nposition = [1, -1.5]\nspin = 3\nvelocity = [1, 0]") + joint;
   World world(ParseScene(text, "s.toml"));
   const auto step = [&world] {
     const auto t = static_cast<int>(world.tick());
@@ -324,10 +321,10 @@ TEST(Joints, EveryKindReplaysBitForBitFromABarrier) {
 
 TEST(JointDrift, KnowsAxesLimitsAndRopes) {
   const auto drift = [](const std::string& kind, const std::string& rest, const Vec2& to) {
-    const Scene scene = ParseScene(std::string(kPost) +
-                                       PartOf("load", "box = [1, 1]\nposition = [2, 0]") +
-                                       JointOf(kind, rest),
-                                   "s.toml");
+    const Scene scene =
+        ParseScene(std::string(kPost) + PartOf("load", "box = [1, 1]\nposition = [2, 0]") +
+                       JointOf(kind, rest),
+                   "s.toml");
     return JointMeter(scene, Compose(scene)).Worst({{to, 0, {0, 0}, 0}});
   };
   EXPECT_NEAR(drift("prismatic", "", {7, 0.25f}), 0.25, 1e-6);

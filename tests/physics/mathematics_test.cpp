@@ -32,8 +32,8 @@ double FirstPeriod(World* world, int body) {
     const float now = world->Read(body).position.x();
     if (before < 0 && now >= 0) {
       const double share = static_cast<double>(before / (before - now));
-      crossings[found++] = (static_cast<double>(world->tick()) - 1 + share) *
-                           static_cast<double>(world->dt());
+      crossings[found++] =
+          (static_cast<double>(world->tick()) - 1 + share) * static_cast<double>(world->dt());
     }
     before = now;
     if (world->tick() > 100000) return -1;
@@ -43,8 +43,7 @@ double FirstPeriod(World* world, int body) {
 
 TEST(Mathematics, ProjectileFollowsTheIntegratorsOwnSum) {
   // v_n = v0 + n g h, y_n = y0 + n v0 h + g h^2 n (n + 1)/2: symplectic Euler in closed form.
-  const auto world =
-      SmallWorld("[[part]]\nname=\"ball\"\ncircle=0.5\nvelocity=[7, 20]\nspin=3\n");
+  const auto world = SmallWorld("[[part]]\nname=\"ball\"\ncircle=0.5\nvelocity=[7, 20]\nspin=3\n");
   const double h = 1.0 / 60;
   for (int n = 1; n <= 240; ++n) {
     world->Step();
@@ -62,8 +61,9 @@ TEST(Mathematics, HeadOnElasticCollisionExchangesSpeedsByMass) {
   for (const double ratio : {0.1, 0.5, 1.0, 3.0, 10.0}) {
     const auto world = SmallWorld(
         "[[part]]\nname=\"a\"\ncircle=0.5\nposition=[-3, 0]\nvelocity=[8, 0]\nrestitution=1\n"
-        "friction=0\ndensity=" + Digits(ratio) +
-        "\n[[part]]\nname=\"b\"\ncircle=0.5\nrestitution=1\nfriction=0\n", "", "gravity=[0, 0]");
+        "friction=0\ndensity=" +
+            Digits(ratio) + "\n[[part]]\nname=\"b\"\ncircle=0.5\nrestitution=1\nfriction=0\n",
+        "", "gravity=[0, 0]");
     const double m1 = world->mass(0), m2 = world->mass(1);
     const double energy = world->Energy();
     Steps(world.get(), 60);
@@ -79,9 +79,10 @@ TEST(Mathematics, HeadOnElasticCollisionExchangesSpeedsByMass) {
 TEST(Mathematics, InelasticCollisionKeepsMomentumAndTheShareOfSpeed) {
   for (const double e : {0.0, 0.3, 0.8}) {
     const std::string bounce = "restitution=" + Digits(e) + "\nfriction=0\n";
-    const auto world = SmallWorld(
-        "[[part]]\nname=\"a\"\nbox=[1, 1]\nposition=[-3, 0]\nvelocity=[6, 0]\n" + bounce +
-        "[[part]]\nname=\"b\"\nbox=[2, 1]\n" + bounce, "", "gravity=[0, 0]");
+    const auto world =
+        SmallWorld("[[part]]\nname=\"a\"\nbox=[1, 1]\nposition=[-3, 0]\nvelocity=[6, 0]\n" +
+                       bounce + "[[part]]\nname=\"b\"\nbox=[2, 1]\n" + bounce,
+                   "", "gravity=[0, 0]");
     Steps(world.get(), 60);
     const double v1 = world->Read(0).velocity.x(), v2 = world->Read(1).velocity.x();
     EXPECT_NEAR(v1 + 2 * v2, 6, 4e-6) << e;
@@ -123,7 +124,7 @@ double Along(const World& world, double angle) {
 }
 
 TEST(Mathematics, BlockOnAnInclineSlidesOrStays) {
-  const double angle = 0.4;      // tan = 0.423
+  const double angle = 0.4;  // tan = 0.423
   const int n = 120;
   const double h = 1.0 / 60;
   for (const double mu : {0.0, 0.2, 0.35}) {
@@ -134,7 +135,7 @@ TEST(Mathematics, BlockOnAnInclineSlidesOrStays) {
   }
   const auto held = OnSlope(angle, 0.45, "box=[1, 1]\n");
   Steps(held.get(), 600);
-  EXPECT_NEAR(Along(*held, angle), 0, 2e-4);   // measured 3e-5 m in 10 s
+  EXPECT_NEAR(Along(*held, angle), 0, 2e-4);  // measured 3e-5 m in 10 s
 }
 
 TEST(Mathematics, DiscRollsWithTwoThirdsOfTheSlopesPull) {
@@ -159,9 +160,10 @@ TEST(Mathematics, SimplePendulumKeepsGausssPeriod) {
     const double length = 4;
     const auto world = SmallWorld(
         "[[part]]\nname=\"hook\"\nbox=[0.2, 0.2]\nanchored=true\n"
-        "[[part]]\nname=\"bob\"\ncircle=0.1\nposition=[" + Digits(-length * std::sin(start)) +
-        ", " + Digits(-length * std::cos(start)) + "]\n"
-        "[[joint]]\nname=\"rod\"\nkind=\"distance\"\na=\"hook\"\nb=\"bob\"\n",
+        "[[part]]\nname=\"bob\"\ncircle=0.1\nposition=[" +
+            Digits(-length * std::sin(start)) + ", " + Digits(-length * std::cos(start)) +
+            "]\n"
+            "[[joint]]\nname=\"rod\"\nkind=\"distance\"\na=\"hook\"\nb=\"bob\"\n",
         "tick_hz=240\nsubsteps=4\n");
     const double exact = 4 * std::sqrt(length / kG) * EllipticK(std::sin(start / 2));
     // Joints dissipate: a swing that shrinks is quicker. Measured 4e-7, 2e-4, 1.1e-3 of T.
@@ -174,13 +176,15 @@ TEST(Mathematics, PhysicalPendulumKeepsGausssPeriod) {
   const double start = 0.8, d = 0.9;
   const auto world = SmallWorld(
       "[[part]]\nname=\"hook\"\nbox=[0.2, 0.2]\nanchored=true\n"
-      "[[part]]\nname=\"bar\"\nbox=[0.4, 2]\nangle=" + Digits(-start) + "\nposition=[" +
-      Digits(-d * std::sin(start)) + ", " + Digits(-d * std::cos(start)) + "]\n"
-      "[[joint]]\nname=\"hinge\"\nkind=\"revolute\"\na=\"hook\"\nb=\"bar\"\nanchor=[0, 0]\n",
+      "[[part]]\nname=\"bar\"\nbox=[0.4, 2]\nangle=" +
+          Digits(-start) + "\nposition=[" + Digits(-d * std::sin(start)) + ", " +
+          Digits(-d * std::cos(start)) +
+          "]\n"
+          "[[joint]]\nname=\"hinge\"\nkind=\"revolute\"\na=\"hook\"\nb=\"bar\"\nanchor=[0, 0]\n",
       "tick_hz=240\nsubsteps=4\n");
   const double inertia = (4 + 0.16) / 12 + d * d;
   const double exact = 4 * std::sqrt(inertia / (kG * d)) * EllipticK(std::sin(start / 2));
-  EXPECT_NEAR(FirstPeriod(world.get(), 0), exact, 3e-4 * exact);   // measured 1e-4
+  EXPECT_NEAR(FirstPeriod(world.get(), 0), exact, 3e-4 * exact);  // measured 1e-4
 }
 
 TEST(Mathematics, SpringSwingsAtItsFrequency) {
@@ -191,16 +195,17 @@ TEST(Mathematics, SpringSwingsAtItsFrequency) {
       "[[joint]]\nname=\"spring\"\nkind=\"distance\"\na=\"hook\"\nb=\"mass\"\nlength=3\n"
       "frequency=2\ndamping_ratio=0\n",
       "tick_hz=240\nsubsteps=4\n", "gravity=[0, 0]");
-  EXPECT_NEAR(FirstPeriod(world.get(), 0), 0.5, 1e-4);   // measured 3e-5 s
+  EXPECT_NEAR(FirstPeriod(world.get(), 0), 0.5, 1e-4);  // measured 3e-5 s
 }
 
 TEST(Mathematics, CradlePassesTheSpeedToTheLastBall) {
   // Five equal elastic balls with gaps: each blow is of two balls, so all speed arrives.
   std::string parts;
   for (int i = 0; i < 5; ++i) {
-    parts += "[[part]]\nname=\"b" + std::to_string(i) + "\"\ncircle=0.5\nrestitution=1\n"
-             "friction=0\nposition=[" + Digits(i == 0 ? -3 : 1.02 * i) + ", 0]\n" +
-             (i == 0 ? "velocity=[4, 0]\n" : "");
+    parts += "[[part]]\nname=\"b" + std::to_string(i) +
+             "\"\ncircle=0.5\nrestitution=1\n"
+             "friction=0\nposition=[" +
+             Digits(i == 0 ? -3 : 1.02 * i) + ", 0]\n" + (i == 0 ? "velocity=[4, 0]\n" : "");
   }
   const auto world = SmallWorld(parts, "", "gravity=[0, 0]");
   Steps(world.get(), 90);
@@ -215,7 +220,7 @@ TEST(Mathematics, FreeAssemblyTurnsAboutItsCentreOfMass) {
       "[[part]]\nname=\"shaft\"\nbox=[2, 0.2]\nposition=[1.5, 0]\n"
       "[[joint]]\nname=\"weld\"\nkind=\"weld\"\na=\"head\"\nb=\"shaft\"\n",
       "", "gravity=[0, 0]");
-  const double arm = 1.5 * 0.4 / 1.4;      // of the centre from the head's middle
+  const double arm = 1.5 * 0.4 / 1.4;  // of the centre from the head's middle
   const double energy = world->Energy();
   for (int n = 1; n <= 120; ++n) {
     world->Step();

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "common/scene/mass.h"
 #include "common/physics/world.h"
+#include "common/scene/mass.h"
 #include "tests/support/small_world.h"
 
 namespace seam {
@@ -90,7 +90,7 @@ TEST(Shapes, AStockCapsuleRestsAboveTheGroundAsBoxesDo) {
                                 "[[part]]\nname = \"pill\"\ncapsule = [1, 0.3]\n"
                                 "position = [0, 0.34]\n");
   Steps(world.get(), 240);
-  EXPECT_NEAR(world->Read(0).position.y(), 0.3 + 0.01 - 0.0025, 3e-3);   // a rim less half a slop
+  EXPECT_NEAR(world->Read(0).position.y(), 0.3 + 0.01 - 0.0025, 3e-3);  // a rim less half a slop
   EXPECT_NEAR(world->Read(0).angle, 0, 2e-3);
 }
 
@@ -148,8 +148,8 @@ TEST(Shapes, AWheelOfManyCornersRollsDownAsADisc) {
   // A disc that rolls gains two thirds of what one that slides would: m r^2/2 beside m r^2.
   const auto world = SmallWorld(
       "[[part]]\nname = \"slope\"\nchain = [[-50, 8], [50, -8]]\nfriction = 1\n"
-      "[[part]]\nname = \"wheel\"\n" + Regular(64, 1, false) +
-      "position = [0, 1.04]\nfriction = 1\n");
+      "[[part]]\nname = \"wheel\"\n" +
+      Regular(64, 1, false) + "position = [0, 1.04]\nfriction = 1\n");
   Steps(world.get(), 60);
   const double before = double{world->Read(0).velocity.norm()};
   Steps(world.get(), 60);
@@ -160,13 +160,14 @@ TEST(Shapes, AWheelOfManyCornersRollsDownAsADisc) {
 }
 
 TEST(Shapes, PiecesOfOnePartHaveImpulsesOfTheirOwnInABarrier) {
-  const Scene scene = ParseScene(
-      std::string(kGround) +
-          "[[part]]\nname = \"a\"\ncapsule = [1, 0.3]\nposition = [0, 0.32]\n"
-          "[[part]]\nname = \"b\"\ncapsule = [1, 0.3]\nposition = [0.2, 0.95]\n"
-          "[[part]]\nname = \"c\"\n" + Regular(20, 0.8, false) + "position = [0.3, 2.1]\n" +
-          "[[part]]\nname = \"edge\"\nsegment = [[-2, 0], [-2, 3]]\n",
-      "pieces.toml");
+  const Scene scene =
+      ParseScene(std::string(kGround) +
+                     "[[part]]\nname = \"a\"\ncapsule = [1, 0.3]\nposition = [0, 0.32]\n"
+                     "[[part]]\nname = \"b\"\ncapsule = [1, 0.3]\nposition = [0.2, 0.95]\n"
+                     "[[part]]\nname = \"c\"\n" +
+                     Regular(20, 0.8, false) + "position = [0.3, 2.1]\n" +
+                     "[[part]]\nname = \"edge\"\nsegment = [[-2, 0], [-2, 3]]\n",
+                 "pieces.toml");
   World world(scene);
   std::vector<WorldSnapshot> barriers;
   std::vector<std::uint64_t> hashes;

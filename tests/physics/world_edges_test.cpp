@@ -37,8 +37,10 @@ TEST(WorldEdgesDeathTest, WriteRefusesWhatIsNotFinite) {
   const auto world = SmallWorld(Box("a", 0, 0));
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const float inf = std::numeric_limits<float>::infinity();
-  const BodyState bad[] = {{{nan, 0}, 0, {0, 0}, 0}, {{0, inf}, 0, {0, 0}, 0},
-                           {{0, 0}, nan, {0, 0}, 0}, {{0, 0}, 0, {0, -inf}, 0},
+  const BodyState bad[] = {{{nan, 0}, 0, {0, 0}, 0},
+                           {{0, inf}, 0, {0, 0}, 0},
+                           {{0, 0}, nan, {0, 0}, 0},
+                           {{0, 0}, 0, {0, -inf}, 0},
                            {{0, 0}, 0, {0, 0}, nan}};
   for (const BodyState& state : bad) {
     EXPECT_DEATH(world->Write(0, state), "assertion failed");
@@ -68,7 +70,7 @@ TEST(WorldEdges, HashSeesEveryBitOfEveryField) {
   s.velocity.y() = 1e-30f;
   world->Write(1, s);
   EXPECT_TRUE(changed());
-  s.spin = -0.0f;      // equal to what it was, but not bit for bit
+  s.spin = -0.0f;  // equal to what it was, but not bit for bit
   world->Write(1, s);
   EXPECT_TRUE(changed());
   world->SetAwake(0, false);
@@ -108,7 +110,7 @@ TEST(WorldEdges, WheelWithoutASpringDoesNotSag) {
       "[[part]]\nname=\"wheel\"\ncircle=0.5\nposition=[0, -2]\ndensity=100\n"
       "[[joint]]\nname=\"axle\"\nkind=\"wheel\"\na=\"frame\"\nb=\"wheel\"\n");
   Steps(world.get(), 300);
-  EXPECT_NEAR(world->Read(0).position.x(), 0, 0.005);    // within Box2D's slop of 5 mm
+  EXPECT_NEAR(world->Read(0).position.x(), 0, 0.005);  // within Box2D's slop of 5 mm
   EXPECT_NEAR(world->Read(0).position.y(), -2, 0.0051);
 }
 
@@ -119,7 +121,7 @@ TEST(WorldEdges, RevoluteLimitsStopTheSwing) {
       "[[joint]]\nname=\"hinge\"\nkind=\"revolute\"\na=\"hook\"\nb=\"bar\"\nanchor=[0, 0]\n"
       "limits=[-0.5, 0.5]\n");
   Steps(world.get(), 300);
-  EXPECT_NEAR(world->Read(0).angle, -0.5, 0.05);         // within its slop of 2 degrees
+  EXPECT_NEAR(world->Read(0).angle, -0.5, 0.05);  // within its slop of 2 degrees
 }
 
 TEST(WorldEdges, EnergyIsKineticAndPotential) {
@@ -132,10 +134,10 @@ TEST(WorldEdges, ImpactsOfATickAreTheSameInAnySubsteps) {
   for (const double e : {0.0, 0.5, 1.0}) {
     for (const int substeps : {1, 4}) {
       const std::string ball = "circle = 0.5\nfriction = 0\nrestitution = " + Digits(e) + "\n";
-      const auto world = SmallWorld(
-          "[[part]]\nname=\"heavy\"\ndensity=3\nposition=[-3, 0]\nvelocity=[6, 0]\n" + ball +
-              "[[part]]\nname=\"light\"\n" + ball,
-          "substeps = " + std::to_string(substeps), "gravity = [0, 0]");
+      const auto world =
+          SmallWorld("[[part]]\nname=\"heavy\"\ndensity=3\nposition=[-3, 0]\nvelocity=[6, 0]\n" +
+                         ball + "[[part]]\nname=\"light\"\n" + ball,
+                     "substeps = " + std::to_string(substeps), "gravity = [0, 0]");
       std::vector<Impact> impacts;
       for (int tick = 0; tick < 60; ++tick) {
         world->Step();

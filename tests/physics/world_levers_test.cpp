@@ -35,7 +35,7 @@ TEST(Levers, SubstepsRaiseTheEnginesSpeedLimitOfTwoMetresAStep) {
   for (const int substeps : {1, 2, 4}) {
     Scene scene = ParseScene(std::string("gravity = [0, 0]\n") + kShot, "s.toml");
     scene.solver.substeps = substeps;
-    scene.parts[1].velocity = Vec2(-300, 0);   // away from the wall
+    scene.parts[1].velocity = Vec2(-300, 0);  // away from the wall
     World world(scene);
     world.Step();
     const float limit = std::min(300.0f, 120.0f * static_cast<float>(substeps));

@@ -58,7 +58,7 @@ TEST(Skin, TheEnginesOwnLetsBoxesRestFifteenMillimetresApart) {
 }
 
 TEST(Skin, AWiderOneKeepsThatMuchMoreApartEverywhere) {
-  const float apart = 2 * 0.008f - 0.0025f;   // in the middle of the slop
+  const float apart = 2 * 0.008f - 0.0025f;  // in the middle of the slop
   const std::vector<float> got = Rest("skin = 0.008", true, 0.03f);
   EXPECT_NEAR(got[0], 0.5f + apart, 3e-3f);
   EXPECT_NEAR(got[1], 1.5f + 2 * apart, 6e-3f);

@@ -47,7 +47,7 @@ TEST(Snapshot, WithoutTheBarrierAReplayGoesAnotherWay) {
   // The reason for it: if this ever fails, the barrier can go.
   const Scene scene = LoadScene("scenes/wall.toml");
   ScriptedWorld live(scene), other(scene);
-  live.StepTo(240);    // the bricks fly and lie about
+  live.StepTo(240);  // the bricks fly and lie about
   other.StepTo(240);
   const WorldSnapshot then = other.world.Barrier();
   EXPECT_EQ(live.world.Hash(), other.world.Hash()) << "a barrier changes no state";
@@ -85,8 +85,9 @@ TEST(Snapshot, BarriersKeepWhatHoldsAPileUpAndLetItSleep) {
 }
 
 TEST(Snapshot, ABarrierChangesNothingWhereNothingTouches) {
-  const char* flight = "[[part]]\nname = \"a\"\nbox = [1, 0.5]\nposition = [0, 5]\n"
-                       "velocity = [3, 8]\nspin = 4\n";
+  const char* flight =
+      "[[part]]\nname = \"a\"\nbox = [1, 0.5]\nposition = [0, 5]\n"
+      "velocity = [3, 8]\nspin = 4\n";
   World world(ParseScene(flight, "flight.toml")), plain(ParseScene(flight, "flight.toml"));
   for (int t = 1; t <= 120; ++t) {
     world.Step();

@@ -1,191 +1,16 @@
 /// Mistakes of the operator, in all four programs: each is one line on stderr that begins with the
 /// program's name, nothing on stdout, exit status 2, and nothing written.
 
-#include <gtest/gtest.h>
-#include <unistd.h>
-
-#include <algorithm>
-#include <deque>
-#include <filesystem>
-
-#include "common/codec/codec.h"
-#include "common/net/udp.h"
-#include "common/record/log_file.h"
-#include "tests/support/program.h"
+#include "tests/support/operator_mistakes.h"
 
 namespace seam {
 namespace {
-
-namespace fs = std::filesystem;
-
-using Words = std::vector<std::string>;
-
-struct Mistake {
-  Words command;        ///< program and arguments, run in a folder that Furnish has prepared
-  std::string says;     ///< part of the line
-};
-
-constexpr const char* kTail =
-    "[[player]]\nname = \"ann\"\n"
-    "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [50, 0]]\n";
-constexpr const char* kCrate = "[[part]]\nname = \"crate\"\nposition = [0, 2]\n";
-constexpr const char* kAxle = "[[joint]]\nname = \"axle\"\nkind = \"revolute\"\na = \"ground\"\n";
-
-/// Scenes with one mistake each, and what must be said of it. (tests/scene/scene_mistakes_test.cpp
-/// has every kind; here is what reaches the operator.)
-struct BadScene {
-  const char* name;
-  std::string text;
-  const char* says;
-};
-
-const std::vector<BadScene>& BadScenes() {
-  static const std::string tail = kTail, crate = tail + kCrate;
-  static const std::string axle = crate + "box = [1, 1]\n" + kAxle;
-  static const std::vector<BadScene> scenes = {
-      {"empty.toml", "", "empty.toml:1: "},
-      {"garbage.toml", "\x7f" "ELF\x01\x01\n\n", "garbage.toml:1: "},
-      {"unclosed.toml", tail + "[[part]\nname = 1\n", "unclosed.toml:6: "},
-      {"unknown.toml", crate + "densty = 1\nbox = [1, 1]\n", "unknown.toml:9: "},
-      {"type.toml", crate + "box = \"large\"\n", "type.toml:9: "},
-      {"nan.toml", crate + "box = [nan, 1]\n", "nan.toml:9: "},
-      {"inf.toml", crate + "box = [1, 1]\nvelocity = [inf, 0]\n", "inf.toml:10: "},
-      {"negative.toml", crate + "circle = -1\n", "negative.toml:9: "},
-      {"density.toml", crate + "box = [1, 1]\ndensity = -2\n", "density.toml:10: "},
-      {"gravity.toml", "gravity = [0, nan]\n" + tail, "gravity.toml:1: "},
-      {"twice.toml", crate + "box = [1, 1]\n" + kCrate + "box = [1, 1]\n", "twice.toml:1"},
-      {"players.toml", tail + "[[player]]\nname = \"ann\"\n", "players.toml:7: "},
-      {"dangling.toml", axle + "b = \"chasis\"\nanchor = [0, 0]\n", "no part 'chasis'"},
-      {"itself.toml", axle + "b = \"ground\"\nanchor = [0, 0]\n", "itself.toml:1"},
-      {"long.toml", tail + std::string(60000, '#') + "\n", "long.toml:1: "}};
-  return scenes;
-}
-
-/// What is made once and copied into each mistake's folder.
-class BadInput : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    made_ = std::make_unique<Workspace>();
-    const Workspace& to = *made_;
-    for (const char* scene : {"crossing.toml", "stack.toml"}) {
-      fs::copy_file(std::string("scenes/") + scene, to / scene);
-    }
-    to.Write("nothing.lcm", "");
-    to.Write("words.lcm", "These are words, not events.\n");
-    to.Write("other.csv", "a,b\n1,2\n");
-    fs::create_directory(to / "folder");
-    fs::create_directory(to / "pictures");
-    to.Write("pictures/holiday.png", "not a frame");
-    for (const BadScene& scene : BadScenes()) to.Write(scene.name, scene.text);
-    MakeLogs(to);
-  }
-  static void TearDownTestSuite() { made_.reset(); }
-
-  /// Real recordings, a third of a second long, and some that lack what the programs need.
-  static void MakeLogs(const Workspace& to) {
-    const std::string server = BuiltProgram("seam-server");
-    const auto record = [&](const char* scene, const char* log, const char* mode) {
-      return std::make_unique<Program>(
-          Words{server, scene, "--bind", "127.0.0.1:0", "--wait", "0", "--duration", "0.3",
-                "--lcm-url", "none", "--mode", mode, "--record", log},
-          to.path());
-    };
-    std::vector<std::unique_ptr<Program>> runs;
-    runs.push_back(record("crossing.toml", "good.lcm", "buffer"));
-    runs.push_back(record("stack.toml", "stack.lcm", "oracle"));
-    for (auto& run : runs) ASSERT_TRUE(run->Wait(30) && run->status() == 0) << run->Story();
-
-    Room room;
-    room.room = "r";
-    room.mode = "central";
-    room.scene_name = "bad";
-    room.scene_text = "part = 3\n";
-    View view;
-    view.id = {0};
-    view.role = {kRoleAuthority};
-    view.authority = {0};
-    view.x = view.y = view.angle = view.vx = view.vy = view.spin = {0.0f};
-    LogWriter(to / "roomless.lcm").Publish("SEAM.r.view.0", 0, Encode(view));
-    LogWriter(to / "viewless.lcm").Publish("SEAM.r.scene", 0, Encode(room));
-    LogWriter sceneless(to / "sceneless.lcm");
-    sceneless.Publish("SEAM.r.scene", 0, Encode(room));
-    sceneless.Publish("SEAM.r.view.0", 1, Encode(view));
-  }
-
-  /// A command that is being judged, in a folder of its own.
-  struct Running {
-    explicit Running(const Mistake& m) : mistake(m) {
-      fs::copy(made_->path(), folder.path(), fs::copy_options::recursive);
-      before = folder.Content();
-      Words words = mistake.command;
-      words[0] = BuiltProgram(words[0]);
-      program = std::make_unique<Program>(words, folder.path());
-    }
-    void Judge() {
-      std::string trace;
-      for (const std::string& word : mistake.command) trace += "'" + word + "' ";
-      SCOPED_TRACE(trace);
-      EXPECT_TRUE(program->Wait(60)) << "hangs";
-      SCOPED_TRACE(program->Story());
-      EXPECT_EQ(program->status(), 2);
-      EXPECT_EQ(program->output(), "");
-      const std::string line = program->errors();
-      EXPECT_EQ(line.rfind(mistake.command[0] + ": ", 0), 0u);
-      EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1);
-      EXPECT_EQ(line.find('\r'), std::string::npos);
-      EXPECT_FALSE(line.empty() || line.back() != '\n');
-      EXPECT_NE(line.find(mistake.says), std::string::npos) << "should say: " << mistake.says;
-      EXPECT_EQ(folder.Content(), before) << "nothing may be written";
-    }
-    const Mistake mistake;
-    Workspace folder;
-    std::vector<std::string> before;
-    std::unique_ptr<Program> program;
-  };
-
-  /// A few at a time.
-  static void Judge(const std::vector<Mistake>& mistakes) {
-    std::deque<Running> running;
-    for (const Mistake& mistake : mistakes) {
-      running.emplace_back(mistake);
-      if (running.size() < 4) continue;
-      running.front().Judge();
-      running.pop_front();
-    }
-    for (Running& last : running) last.Judge();
-  }
-
-  static inline std::unique_ptr<Workspace> made_;
-};
-
-/// `words` after the program's name, and a good rest.
-Mistake Server(Words words, const std::string& says) {
-  words.insert(words.begin(), "seam-server");
-  if (std::count(words.begin(), words.end(), "--lcm-url") == 0) {
-    words.insert(words.end(), {"--lcm-url", "none"});
-  }
-  return {words, says};
-}
-Mistake Client(Words words, const std::string& says) {
-  Mistake mistake = Server(std::move(words), says);
-  mistake.command[0] = "seam-client";
-  return mistake;
-}
-Mistake Measure(Words words, const std::string& says) {
-  words.insert(words.begin(), "seam-measure");
-  return {words, says};
-}
-Mistake Render(Words words, const std::string& says) {
-  words.insert(words.begin(), "seam-render");
-  return {words, says};
-}
 
 TEST_F(BadInput, ScenesAreRefusedByFileAndLine) {
   std::vector<Mistake> mistakes = {Server({"missing.toml"}, "missing.toml: no such"),
                                    Server({"folder"}, "folder: "),
                                    Server({"two\nlines.toml"}, "two?lines.toml"),
-                                   Server({"good.lcm"}, "good.lcm"),
-                                   Server({}, "which scene?")};
+                                   Server({"good.lcm"}, "good.lcm"), Server({}, "which scene?")};
   for (const BadScene& scene : BadScenes()) {
     mistakes.push_back(Server({scene.name, "--record", "new.lcm"}, scene.says));
   }
@@ -203,59 +28,79 @@ TEST_F(BadInput, FlagsOfTheServer) {
     }
     return Server(std::move(words), says);
   };
-  Judge({flags({"--nonsense"}, "--nonsense"), flags({"second.toml"}, "second.toml"),
-         flags({"--port"}, "--port"), flags({"--port", "0"}, "--port"),
-         flags({"--port", "65536"}, "--port"), flags({"--port", "-1"}, "--port"),
-         flags({"--port", "http"}, "--port"), flags({"--port", "80x"}, "--port"),
-         flags({"--bind", "127.0.0.1", "--port", port, "--record", "new.lcm"}, "in use"),
-         flags({"--bind", "192.0.2.1"}, "192.0.2.1"), flags({"--bind", ""}, "address"),
-         flags({"--bind", "::1"}, "::1"), flags({"--mode", "magic"}, "unknown mode \"magic\""),
-         flags({"--mode", ""}, "unknown mode"),
-         flags({"--reconcile", "magic"}, "unknown reconciler \"magic\""),
-         flags({"--mode", "strict", "--reconcile", "snap"}, "belongs to --mode buffer"),
-         flags({"--mode", "central", "--reconcile", "fade"}, "belongs to --mode buffer"),
-         flags({"--mode", "oracle", "--reconcile", "magic"}, "--mode"),
-         flags({"--impair", "magic"}, "no network profile \"magic\""),
-         flags({"--impair", ""}, "no network profile"),
-         flags({"--impair", "loss=200%"}, "loss=200%"),
-         flags({"--impair", "delay=nan"}, "delay=nan"),
-         flags({"--impair", "delay=50ms,"}, "impairment"),
-         flags({"--room", "two words"}, "--room"), flags({"--room", ""}, "--room"),
-         flags({"--room", "a.b"}, "--room"), flags({"--room", std::string(33, 'r')}, "--room"),
-         flags({"--wait", "3"}, "--wait 3"), flags({"--wait", "-1"}, "--wait"),
-         flags({"--send-hz", "0"}, "--send-hz"), flags({"--seed", "-1"}, "--seed"),
-         flags({"--seed", "1.5"}, "--seed"), flags({"--duration", "-1"}, "--duration"),
-         flags({"--duration", "nan"}, "--duration"), flags({"--duration", "inf"}, "--duration"),
-         flags({"--duration", "soon"}, "--duration"),
-         flags({"--record", "words.lcm"}, "words.lcm: exists"),
-         flags({"--record", "folder"}, "folder: exists"),
-         flags({"--record", "folder", "--force"}, "folder: cannot be created"),
-         flags({"--record", "no/such.lcm"}, "no/such.lcm: cannot be created"),
-         flags({"--record", "words.lcm/x.lcm"}, "words.lcm/x.lcm: cannot be created"),
-         flags({"--record", "words.lcm", "--force", "--bind", "127.0.0.1", "--port", port},
-               "in use"),
-         flags({"--lcm-url", "magic"}, "LCM url \"magic")});
+  Judge(
+      {flags({"--nonsense"}, "--nonsense"),
+       flags({"second.toml"}, "second.toml"),
+       flags({"--port"}, "--port"),
+       flags({"--port", "0"}, "--port"),
+       flags({"--port", "65536"}, "--port"),
+       flags({"--port", "-1"}, "--port"),
+       flags({"--port", "http"}, "--port"),
+       flags({"--port", "80x"}, "--port"),
+       flags({"--bind", "127.0.0.1", "--port", port, "--record", "new.lcm"}, "in use"),
+       flags({"--bind", "192.0.2.1"}, "192.0.2.1"),
+       flags({"--bind", ""}, "address"),
+       flags({"--bind", "::1"}, "::1"),
+       flags({"--mode", "magic"}, "unknown mode \"magic\""),
+       flags({"--mode", ""}, "unknown mode"),
+       flags({"--reconcile", "magic"}, "unknown reconciler \"magic\""),
+       flags({"--mode", "strict", "--reconcile", "snap"}, "belongs to --mode buffer"),
+       flags({"--mode", "central", "--reconcile", "fade"}, "belongs to --mode buffer"),
+       flags({"--mode", "oracle", "--reconcile", "magic"}, "--mode"),
+       flags({"--impair", "magic"}, "no network profile \"magic\""),
+       flags({"--impair", ""}, "no network profile"),
+       flags({"--impair", "loss=200%"}, "loss=200%"),
+       flags({"--impair", "delay=nan"}, "delay=nan"),
+       flags({"--impair", "delay=50ms,"}, "impairment"),
+       flags({"--room", "two words"}, "--room"),
+       flags({"--room", ""}, "--room"),
+       flags({"--room", "a.b"}, "--room"),
+       flags({"--room", std::string(33, 'r')}, "--room"),
+       flags({"--wait", "3"}, "--wait 3"),
+       flags({"--wait", "-1"}, "--wait"),
+       flags({"--send-hz", "0"}, "--send-hz"),
+       flags({"--seed", "-1"}, "--seed"),
+       flags({"--seed", "1.5"}, "--seed"),
+       flags({"--duration", "-1"}, "--duration"),
+       flags({"--duration", "nan"}, "--duration"),
+       flags({"--duration", "inf"}, "--duration"),
+       flags({"--duration", "soon"}, "--duration"),
+       flags({"--record", "words.lcm"}, "words.lcm: exists"),
+       flags({"--record", "folder"}, "folder: exists"),
+       flags({"--record", "folder", "--force"}, "folder: cannot be created"),
+       flags({"--record", "no/such.lcm"}, "no/such.lcm: cannot be created"),
+       flags({"--record", "words.lcm/x.lcm"}, "words.lcm/x.lcm: cannot be created"),
+       flags({"--record", "words.lcm", "--force", "--bind", "127.0.0.1", "--port", port}, "in use"),
+       flags({"--lcm-url", "magic"}, "LCM url \"magic")});
 }
 
 TEST_F(BadInput, FlagsOfTheClient) {
-  const std::string nobody = "127.0.0.1:9";   // the discard port: nobody answers
+  const std::string nobody = "127.0.0.1:9";  // the discard port: nobody answers
   const auto flags = [&](Words words, const std::string& says) {
     words.insert(words.begin(), {nobody, "--join-timeout", "0.5"});
     return Client(std::move(words), says);
   };
-  Judge({Client({}, "which server?"), Client({"127.0.0.1:0"}, "port 0"),
-         Client({"127.0.0.1:65536"}, "65536"), Client({"127.0.0.1:"}, "port"),
-         Client({"127.0.0.1:7777:1"}, "host:port"), Client({"300.1.1.1"}, "300.1.1.1"),
-         Client({":7777"}, "host"), Client({"no.such.host.invalid"}, "no.such.host.invalid"),
+  Judge({Client({}, "which server?"),
+         Client({"127.0.0.1:0"}, "port 0"),
+         Client({"127.0.0.1:65536"}, "65536"),
+         Client({"127.0.0.1:"}, "port"),
+         Client({"127.0.0.1:7777:1"}, "host:port"),
+         Client({"300.1.1.1"}, "300.1.1.1"),
+         Client({":7777"}, "host"),
+         Client({"no.such.host.invalid"}, "no.such.host.invalid"),
          Client({nobody, "--join-timeout", "0"}, "--join-timeout"),
          Client({nobody, "--join-timeout", "nan"}, "--join-timeout"),
-         flags({"--nonsense"}, "--nonsense"), flags({"more"}, "more"),
-         flags({"--name", "two words"}, "--name"), flags({"--name", ""}, "--name"),
+         flags({"--nonsense"}, "--nonsense"),
+         flags({"more"}, "more"),
+         flags({"--name", "two words"}, "--name"),
+         flags({"--name", ""}, "--name"),
          flags({"--name", std::string(33, 'n')}, "--name"),
          flags({"--name", "m\xc3\xbc"}, "--name"),
-         flags({"--room", "a.b"}, "--room"), flags({"--smooth", "maybe"}, "--smooth"),
+         flags({"--room", "a.b"}, "--room"),
+         flags({"--smooth", "maybe"}, "--smooth"),
          flags({"--impair", "magic"}, "no network profile \"magic\""),
-         flags({"--duration", "nan"}, "--duration"), flags({"--duration", "-1"}, "--duration"),
+         flags({"--duration", "nan"}, "--duration"),
+         flags({"--duration", "-1"}, "--duration"),
          flags({"--drive", "keyboard"}, "--drive keyboard needs a terminal"),
          flags({"--record", "words.lcm"}, "words.lcm: exists"),
          flags({"--record", "no/such.lcm"}, "no/such.lcm: cannot be created"),
@@ -266,12 +111,17 @@ TEST_F(BadInput, FlagsOfTheClient) {
 }
 
 TEST_F(BadInput, LogsAndFlagsOfTheMeasures) {
-  Judge({Measure({}, "which log?"), Measure({"--nonsense"}, "--nonsense"),
+  Judge({Measure({}, "which log?"),
+         Measure({"--nonsense"}, "--nonsense"),
          Measure({"good.lcm", "--nonsense"}, "--nonsense"),
-         Measure({"missing.lcm"}, "missing.lcm: "), Measure({"nothing.lcm"}, "not an LCM log"),
-         Measure({"words.lcm"}, "not an LCM log"), Measure({"folder"}, "folder: "),
-         Measure({"crossing.toml"}, "not an LCM log"), Measure({"roomless.lcm"}, "no Seam2D room"),
-         Measure({"sceneless.lcm"}, "bad"), Measure({"good.lcm", "missing.lcm"}, "missing.lcm"),
+         Measure({"missing.lcm"}, "missing.lcm: "),
+         Measure({"nothing.lcm"}, "not an LCM log"),
+         Measure({"words.lcm"}, "not an LCM log"),
+         Measure({"folder"}, "folder: "),
+         Measure({"crossing.toml"}, "not an LCM log"),
+         Measure({"roomless.lcm"}, "no Seam2D room"),
+         Measure({"sceneless.lcm"}, "bad"),
+         Measure({"good.lcm", "missing.lcm"}, "missing.lcm"),
          Measure({"good.lcm", "missing.lcm", "--csv", "new.csv"}, "missing.lcm"),
          Measure({"good.lcm", "--oracle", "missing.lcm"}, "missing.lcm"),
          Measure({"good.lcm", "--oracle", "good.lcm"}, "--mode oracle"),
@@ -293,11 +143,17 @@ TEST_F(BadInput, LogsAndFlagsOfTheRenderer) {
   const auto log = [](const std::string& path, const std::string& says) {
     return Render({path, "-o", "new"}, says);
   };
-  Judge({Render({}, "-o"), Render({"good.lcm"}, "-o"), Render({"-o", "new"}, "no log"),
-         good({"--nonsense"}, "--nonsense"), log("missing.lcm", "missing.lcm: "),
-         log("nothing.lcm", "not an LCM log"), log("words.lcm", "not an LCM log"),
-         log("folder", "folder: "), log("roomless.lcm", "no Seam2D room"),
-         log("viewless.lcm", "no views"), log("sceneless.lcm", "bad"),
+  Judge({Render({}, "-o"),
+         Render({"good.lcm"}, "-o"),
+         Render({"-o", "new"}, "no log"),
+         good({"--nonsense"}, "--nonsense"),
+         log("missing.lcm", "missing.lcm: "),
+         log("nothing.lcm", "not an LCM log"),
+         log("words.lcm", "not an LCM log"),
+         log("folder", "folder: "),
+         log("roomless.lcm", "no Seam2D room"),
+         log("viewless.lcm", "no views"),
+         log("sceneless.lcm", "bad"),
          Render({"good.lcm", "-o", "words.lcm"}, "not a folder"),
          Render({"good.lcm", "-o", "words.lcm/new"}, "words.lcm/new"),
          Render({"good.lcm", "-o", "pictures"}, "other files"),
@@ -305,12 +161,18 @@ TEST_F(BadInput, LogsAndFlagsOfTheRenderer) {
          good({"--oracle", "missing.lcm"}, "missing.lcm"),
          good({"--oracle", "good.lcm"}, "no oracle"),
          good({"--oracle", "stack.lcm"}, "not the one of stack.lcm"),
-         good({"--fps", "0"}, "--fps"), good({"--fps", "many"}, "--fps"),
-         good({"--size", "1x1"}, "--size"), good({"--view", "7"}, "--view 7"),
-         good({"--view", "-1"}, "--view"), good({"--from", "5"}, "--from"),
-         good({"--from", "0.2", "--to", "0.1"}, "--from"), good({"--threads", "-1"}, "--threads"),
-         good({"--seconds", "nan"}, "--seconds"), good({"--room", "other"}, "no room \"other\""),
-         good({"--fonts", "folder"}, "no font"), good({"--every", "2"}, "--every"),
+         good({"--fps", "0"}, "--fps"),
+         good({"--fps", "many"}, "--fps"),
+         good({"--size", "1x1"}, "--size"),
+         good({"--view", "7"}, "--view 7"),
+         good({"--view", "-1"}, "--view"),
+         good({"--from", "5"}, "--from"),
+         good({"--from", "0.2", "--to", "0.1"}, "--from"),
+         good({"--threads", "-1"}, "--threads"),
+         good({"--seconds", "nan"}, "--seconds"),
+         good({"--room", "other"}, "no room \"other\""),
+         good({"--fonts", "folder"}, "no font"),
+         good({"--every", "2"}, "--every"),
          Render({"--strobe", "good.lcm", "-o", "new"}, ".png"),
          Render({"--strobe", "good.lcm", "-o", "no/new.png"}, "no such folder"),
          Render({"--strobe", "good.lcm", "-o", "new.png", "--view", "all"}, "--view all"),
@@ -332,7 +194,7 @@ TEST_F(BadInput, HelpIsNoMistake) {
 
 TEST_F(BadInput, AFullDiskIsCountedAndTheRoomRunsOn) {
   const Workspace folder;
-  Program server({"sh", "-c", "trap '' XFSZ; ulimit -f 2; exec \"$@\"", "sh",   // at 1 kB
+  Program server({"sh", "-c", "trap '' XFSZ; ulimit -f 2; exec \"$@\"", "sh",  // at 1 kB
                   BuiltProgram("seam-server"), fs::absolute("scenes/crossing.toml").string(),
                   "--bind", "127.0.0.1:0", "--wait", "0", "--duration", "0.5", "--lcm-url", "none",
                   "--record", folder / "full.lcm", "--quiet"});

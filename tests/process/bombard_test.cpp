@@ -21,7 +21,7 @@ namespace seam {
 namespace {
 
 constexpr std::uint64_t kSeed = 20;
-constexpr std::int64_t kTicks = 240;   ///< of a session
+constexpr std::int64_t kTicks = 240;  ///< of a session
 
 /// Stands between one client and the server. The server knows the client by this relay's address.
 class Relay {
@@ -53,7 +53,7 @@ class Relay {
   bool ForgeDown(const Bytes& data) { return to_client_.Send(client_port_, data); }
   std::uint16_t client_port() const { return client_port_; }
 
-  std::vector<Bytes> sent_up, sent_down;   ///< the last real ones
+  std::vector<Bytes> sent_up, sent_down;  ///< the last real ones
 
  private:
   static void Keep(std::vector<Bytes>* kept, const Bytes& data) {
@@ -80,9 +80,9 @@ class Bombarded : public ::testing::Test {
   }
 
   std::unique_ptr<Program> Join(const std::string& name, std::uint16_t port) {
-    return std::make_unique<Program>(std::vector<std::string>{
-        BuiltProgram("seam-client"), "127.0.0.1:" + std::to_string(port), "--name", name,
-        "--drive", name, "--lcm-url", "none", "--quiet"});
+    return std::make_unique<Program>(
+        std::vector<std::string>{BuiltProgram("seam-client"), "127.0.0.1:" + std::to_string(port),
+                                 "--name", name, "--drive", name, "--lcm-url", "none", "--quiet"});
   }
 
   static long Number(const Program& program, const std::string& word) {
@@ -145,7 +145,7 @@ Bytes Bad(Random* random, const std::vector<Bytes>& real) {
     case 1: return Garbage(random, 1201 + random->Next() % 1000);
     case 2: data.resize(random->Next() % data.size()); return data;
     case 3: data.resize(data.size() + 1 + random->Next() % 8); return data;
-    case 4: return data;   // again: it has arrived already
+    case 4: return data;  // again: it has arrived already
     case 5: return Foreign(random);
     default:
       for (std::uint64_t i = 0, n = 1 + random->Next() % 8; i < n; ++i) {
@@ -240,7 +240,7 @@ TEST_F(Bombarded, AForgedPlayerHarmsNeitherTheServerNorTheOthersNorItsOwnProgram
   ASSERT_TRUE(server_->Wait(0)) << "hangs";
   EXPECT_TRUE(ann->Wait(10));
   for (int i = 0; i < 5000 && !bob->Wait(0); ++i) {
-    if (i == 1000) bob->Signal(SIGTERM);   // he may have missed the goodbye
+    if (i == 1000) bob->Signal(SIGTERM);  // he may have missed the goodbye
     relay.Pass(forge, forge);
   }
   SCOPED_TRACE("seed " + std::to_string(kSeed) + server_->Story() + ann->Story() + bob->Story());

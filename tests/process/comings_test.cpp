@@ -160,8 +160,8 @@ TEST_F(Comings, AKilledClientsMechanismsAreTakenBackAndGivenToItsSuccessor) {
       << session.Story();
   session.client("ann").Signal(SIGKILL);
   ASSERT_TRUE(session.client("ann").Wait(10));
-  Program impostor({BuiltProgram("seam-client"), session.address(), "--name", "bob", "--lcm-url",
-                    "none"});
+  Program impostor(
+      {BuiltProgram("seam-client"), session.address(), "--name", "bob", "--lcm-url", "none"});
   const std::string gone = "ann (peer 1) is gone: not heard for 3 s";
   ASSERT_TRUE(session.WaitUntil(
       [&](const Recording& r) { return Says(r, gone) && MechanismsOf(r, 1, r.last_tick).empty(); },
@@ -228,8 +228,8 @@ TEST_F(Comings, ArrowKeysDriveTheCarAndQLeavesTheTerminalAsItWas) {
     usleep(50000);
   }
   const std::int64_t released = session.Captured().last_tick;
-  ASSERT_TRUE(session.WaitUntil(
-      [&](const Recording& r) { return ShowsAfter(r, 1, released + kHz); }, 10));
+  ASSERT_TRUE(
+      session.WaitUntil([&](const Recording& r) { return ShowsAfter(r, 1, released + kHz); }, 10));
   terminal.Type("a ");
   usleep(100000);
   terminal.Type("q");

@@ -18,8 +18,8 @@
 namespace seam {
 namespace {
 
-constexpr std::int64_t kTicks = 240;   ///< of each session: 4 s. The blow is at 2.6 s
-constexpr std::int64_t kEdge = 30;     ///< a client may begin so late and end so early, ticks
+constexpr std::int64_t kTicks = 240;  ///< of each session: 4 s. The blow is at 2.6 s
+constexpr std::int64_t kEdge = 30;    ///< a client may begin so late and end so early, ticks
 
 std::string Content(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
@@ -38,7 +38,7 @@ class Sessions {
   }
   Workspace folder;
   std::map<std::string, std::unique_ptr<LiveSession>> all;
-  bool ended = true;   ///< all of them by themselves
+  bool ended = true;  ///< all of them by themselves
 
  private:
   using Flags = std::map<std::string, std::vector<std::string>>;
@@ -65,7 +65,7 @@ class Sessions {
     if (ended && !lossy.empty() && repeats > 0) Play(lossy, repeats - 1);
   }
 
-  int ports_ = 0;      ///< taken so far
+  int ports_ = 0;  ///< taken so far
 };
 
 class EndToEnd : public InNamespace {
@@ -211,8 +211,9 @@ TEST_F(EndToEnd, TheMeasuresOfACaptureAreSane) {
   const auto rows = ReadCsv(csv);
   ASSERT_EQ(rows.size(), 5u);
   const std::vector<std::string> columns = {
-      "scene", "run", "mode", "reconcile", "impair", "seed", "error_rms_m", "error_p95_m",
-      "error_max_m", "stutter_mps2", "backsteps", "rebound", "bytes_per_s", "cpu_us_per_s"};
+      "scene",     "run",         "mode",        "reconcile",   "impair",
+      "seed",      "error_rms_m", "error_p95_m", "error_max_m", "stutter_mps2",
+      "backsteps", "rebound",     "bytes_per_s", "cpu_us_per_s"};
   EXPECT_EQ(rows[0], columns);
   std::map<std::string, std::map<std::string, double>> number;
   for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -263,7 +264,7 @@ TEST_F(EndToEnd, TheStockPlayerReplaysACaptureAndTheRendererDrawsItLive) {
   const std::string frames = Played().folder / "live";
   Program render({BuiltProgram("seam-render"), "--live", "-o", frames, "--lcm-url", url, "--size",
                   "480x270", "--fps", "10", "--view", "2", "--seconds", "60"});
-  usleep(500000);   // it listens; if it does not yet, the room comes again each second
+  usleep(500000);  // it listens; if it does not yet, the room comes again each second
   Program player({"lcm-logplayer", "--lcm-url=" + url, Capture("retrospect")});
   ASSERT_TRUE(player.Wait(60));
   ASSERT_TRUE(render.Wait(60)) << "it ends when the bus has been quiet for 2 s";

@@ -37,8 +37,8 @@ class BusInNamespace : public ::testing::Test {
     const auto* info = ::testing::UnitTest::GetInstance()->current_test_info();
     char self[4096] = {};
     EXPECT_GT(readlink("/proc/self/exe", self, sizeof self - 1), 0);
-    const std::string filter = std::string("--gtest_filter=") + info->test_suite_name() + "." +
-                               info->name();
+    const std::string filter =
+        std::string("--gtest_filter=") + info->test_suite_name() + "." + info->name();
     ChildProcess inner({"unshare", "-rn", "env", "SEAM_TEST_IN_NAMESPACE=1", "LCM_DEFAULT_URL=",
                         "sh", "-c", network + "; exec \"$@\"", "sh", self, filter});
     EXPECT_TRUE(inner.Wait(120)) << "hangs";

@@ -1,5 +1,3 @@
-#include "common/record/log_file.h"
-
 #include <gtest/gtest.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -9,6 +7,7 @@
 #include "common/base/check.h"
 #include "common/base/random.h"
 #include "common/codec/codec.h"
+#include "common/record/log_file.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/temporary_file.h"
 
@@ -88,7 +87,7 @@ TEST(Log, BytesDependOnTheArgumentsAlone) {
   const std::vector<LogEvent> events = RandomEvents(2, 20, 100);
   EXPECT_EQ(WriteLog(events), WriteLog(events));
   const LogEvent one = {0, 0x0102030405060708, "AB", {0xff}};
-  const Bytes expected = {0xed, 0xa1, 0xda, 0x01, 0, 0, 0, 0, 0, 0, 0, 0, 1,   2,   3,  4,
+  const Bytes expected = {0xed, 0xa1, 0xda, 0x01, 0, 0, 0, 0, 0, 0, 0, 0, 1,   2,   3,   4,
                           5,    6,    7,    8,    0, 0, 0, 2, 0, 0, 0, 1, 'A', 'B', 0xff};
   EXPECT_EQ(WriteLog({one}), expected);
 }
@@ -250,7 +249,7 @@ TEST(Log, ManyNestedFalseHeadersAreReadInLinearWork) {
   // Each header claims the next megabyte, and nothing follows where it ends: the worst case.
   Bytes log;
   for (int i = 0; i < 60000; ++i) {
-    const Bytes header = {0xed, 0xa1, 0xda, 0x01, 0, 0, 0, 0, 0, 0, 0, 0, 0,    0,    0,
+    const Bytes header = {0xed, 0xa1, 0xda, 0x01, 0, 0, 0, 0, 0, 0, 0,    0,    0,    0,  0,
                           0,    0,    0,    0,    0, 0, 0, 0, 1, 0, 0x0e, 0x00, 0x00, 'A'};
     log.insert(log.end(), header.begin(), header.end());
   }

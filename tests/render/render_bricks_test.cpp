@@ -66,7 +66,8 @@ TEST(DrawBricks, PixelsAreFilledWhereBricksAreAndNowhereElse) {
       for (int x = 1; x < 800; x += 3) {
         // Three pixels from every outline and joint, or the pixel says nothing.
         const Vec2 at = viewport.ToWorld(Vec2(static_cast<float>(x), static_cast<float>(y)) +
-                                         Vec2(0.5f, 0.5f)) / kBrickUnit;
+                                         Vec2(0.5f, 0.5f)) /
+                        kBrickUnit;
         const float clear = 3 / (px_per_m * kBrickUnit);
         const auto near = [&](float out) {
           return store.InBox(static_cast<int>(std::floor(at.x() - out)),

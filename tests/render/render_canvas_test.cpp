@@ -85,7 +85,9 @@ TEST(RenderFont, SaysInOneLineWhichFontIsMissing) {
 
 TEST(RenderFont, ReadsUtf8AndSurvivesWhatIsNot) {
   EXPECT_EQ(Codepoints("aµ→"), (std::vector<std::uint32_t>{'a', 0xb5, 0x2192}));
-  EXPECT_EQ(Codepoints("\xff" "a\xc2"), (std::vector<std::uint32_t>{0xfffd, 'a', 0xfffd}));
+  EXPECT_EQ(Codepoints("\xff"
+                       "a\xc2"),
+            (std::vector<std::uint32_t>{0xfffd, 'a', 0xfffd}));
   EXPECT_EQ(Codepoints("\xe2\x82"), (std::vector<std::uint32_t>{0xfffd, 0xfffd}));
   EXPECT_GT(TestFont().Width(TextStyle::kBody, "\xff\xfe 猫"), 0);
 }

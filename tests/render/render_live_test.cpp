@@ -49,7 +49,7 @@ class RenderLive : public ::testing::Test {
 TEST_F(RenderLive, DrawsEachFrameAsSoonAsItsViewIsThere) {
   LiveRenderer live(options_);
   live.DrawDue();
-  EXPECT_FALSE(std::filesystem::exists(options_.out));   // nothing heard, nothing written
+  EXPECT_FALSE(std::filesystem::exists(options_.out));  // nothing heard, nothing written
   SendRoom(&live);
   SendViews(&live, 0, 5);
   EXPECT_EQ(live.frames(), 1);
@@ -73,7 +73,7 @@ TEST_F(RenderLive, MeasuresErrorsTickByTickWhenItIsGivenAnOracle) {
   }
   const Image without = ReadPng(folder_ / "out/frame_00010.png");
   const Image with = ReadPng(folder_ / "seeing/frame_00010.png");
-  EXPECT_GT(Differences(without, with, 20, 235, 460, 262), 40);   // the strip has a curve
+  EXPECT_GT(Differences(without, with, 20, 235, 460, 262), 40);  // the strip has a curve
 }
 
 TEST_F(RenderLive, SkipsFramesThatAreTooFarBehindAndSaysHowMany) {
@@ -82,7 +82,7 @@ TEST_F(RenderLive, SkipsFramesThatAreTooFarBehindAndSaysHowMany) {
   SendView(&live, 0, 0);
   live.DrawDue();
   for (int tick = 1; tick <= 120; ++tick) SendView(&live, tick, tick);
-  live.DrawDue();   // two seconds late: only the last half is drawn
+  live.DrawDue();  // two seconds late: only the last half is drawn
   EXPECT_EQ(live.frames() + live.skipped(), 21);
   EXPECT_GE(live.skipped(), 13);
   EXPECT_GE(live.frames(), 5);
@@ -109,10 +109,10 @@ TEST_F(RenderLive, FollowsASessionThatBeginsAnew) {
   }
   const int before = live.frames();
   EXPECT_EQ(before, 11);
-  SendViews(&live, 0, 40);   // enough to be believed
+  SendViews(&live, 0, 40);  // enough to be believed
   SendRoom(&live);
   SendViews(&live, 41, 100);
-  EXPECT_GE(live.frames(), before + 10);   // at least the second from tick 41 on
+  EXPECT_GE(live.frames(), before + 10);  // at least the second from tick 41 on
   EXPECT_LE(live.frames(), before + 17);
 }
 
@@ -123,16 +123,17 @@ TEST_F(RenderLog, LiveDrawsWhatTheStockPlayerSends) {
     GTEST_SKIP() << "needs SEAM_BIN, a network namespace and lcm-logplayer";
   const std::string out = folder_ / "out";
   // A namespace of its own has multicast and disturbs nobody.
-  const std::string commands = "ip link set lo up; ip route add 224.0.0.0/4 dev lo; \"$0\" --live "
-                               "-o \"$1\" --size 480x270 --fps 10 --seconds 60 & "
-                               "sleep 1; lcm-logplayer \"$2\"; wait $!";
+  const std::string commands =
+      "ip link set lo up; ip route add 224.0.0.0/4 dev lo; \"$0\" --live "
+      "-o \"$1\" --size 480x270 --fps 10 --seconds 60 & "
+      "sleep 1; lcm-logplayer \"$2\"; wait $!";
   ChildProcess session({"unshare", "-rn", "env", "LCM_DEFAULT_URL=", "sh", "-c", commands,
                         std::string(bin) + "/seam-render", out, log_});
   ASSERT_TRUE(session.Wait(90)) << "hangs";
   ASSERT_EQ(session.exit_status(), 0) << session.output();
   EXPECT_NE(session.output().find(" frames in " + out), std::string::npos) << session.output();
   const std::vector<std::string> frames = Frames(out);
-  EXPECT_GT(frames.size(), 5u);    // a busy machine may skip some
+  EXPECT_GT(frames.size(), 5u);  // a busy machine may skip some
   EXPECT_LE(frames.size(), 31u);
   EXPECT_NE(frames.front(), frames.back());
 }

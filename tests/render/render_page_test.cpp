@@ -35,8 +35,8 @@ TEST(Page, TheClockAndThePlayheadMoveWithTime) {
   const Playback playback = MakePlayback();
   const Page page = MakePage(playback, 0);
   const Image a = RenderedPage(page, 1), b = RenderedPage(page, 2);
-  EXPECT_GT(Differences(a, b, 900, 0, 1280, 56), 30);     // figures
-  EXPECT_GT(Differences(a, b, 0, 620, 1280, 700), 100);   // strip
+  EXPECT_GT(Differences(a, b, 900, 0, 1280, 56), 30);    // figures
+  EXPECT_GT(Differences(a, b, 0, 620, 1280, 700), 100);  // strip
 }
 
 TEST(Page, EveryPeersViewHasAPanelAndACurve) {

@@ -29,11 +29,11 @@ TEST(DrawRules, AHealthBarIsAsFullAsThePartIsWell) {
   scene.parts[kHurt].rules.health = 100;
   const Recording hurt = WithMeta(kMetaPart, kHurt, kMetaHealth, 25);
   Viewport viewport;
-  const Image well = Drawn(hurt, scene, 20, &viewport);    // before it was hurt
+  const Image well = Drawn(hurt, scene, 20, &viewport);  // before it was hurt
   const Image ill = Drawn(hurt, scene, kTick, &viewport);
   const auto filled = [&](const Image& image, double tick) {
     const Vec2 at = viewport.ToPx(synthetic::Truth(kHurt, tick).position);
-    int columns = 0;   // of the bar's middle row that are neither pale nor grey
+    int columns = 0;  // of the bar's middle row that are neither pale nor grey
     for (int x = -11; x <= 11; ++x) {
       const Colour c = PixelAt(image, at + Vec2(static_cast<float>(x), -10));
       if (std::abs(c.r - c.g) > 60) ++columns;
@@ -56,8 +56,8 @@ TEST(DrawRules, ATriggerIsDrawnUntilItIsTaken) {
   const Recording taken = WithMeta(kMetaPart, kHurt, kMetaTaken, 1);
   Viewport viewport;
   EXPECT_GT(Differences(Drawn(taken, scene, 20, &viewport), Drawn(taken, bare, 20, &viewport)), 50);
-  EXPECT_EQ(Differences(Drawn(taken, scene, kTick, &viewport),
-                        Drawn(taken, bare, kTick, &viewport)), 0);
+  EXPECT_EQ(
+      Differences(Drawn(taken, scene, kTick, &viewport), Drawn(taken, bare, kTick, &viewport)), 0);
 }
 
 TEST(DrawRules, ScoresAreSaidFromWhenTheyAreKnown) {
@@ -66,8 +66,9 @@ TEST(DrawRules, ScoresAreSaidFromWhenTheyAreKnown) {
   const Recording none = synthetic::MakeRecording(0);
   Viewport viewport;
   EXPECT_EQ(Differences(Drawn(scored, scene, 20, &viewport), Drawn(none, scene, 20, &viewport)), 0);
-  EXPECT_GT(Differences(Drawn(scored, scene, kTick, &viewport),
-                        Drawn(none, scene, kTick, &viewport)), 50);
+  EXPECT_GT(
+      Differences(Drawn(scored, scene, kTick, &viewport), Drawn(none, scene, kTick, &viewport)),
+      50);
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ TEST(Sequence, FramesFollowTheWantedMoments) {
   const std::vector<double> times = FrameTimes(0.5, 1.5, 30);
   ASSERT_EQ(times.size(), 31u);
   const Playback playback = MakePlayback();
-  for (std::size_t i = 0; i < times.size(); ++i)   // 30 frames/s of 60 ticks/s: every other tick
+  for (std::size_t i = 0; i < times.size(); ++i)  // 30 frames/s of 60 ticks/s: every other tick
     EXPECT_EQ(playback.TickAt(times[i]), 30 + 2 * static_cast<double>(i));
 }
 
@@ -74,9 +74,9 @@ TEST(Sequence, AFrameThatCannotBeWrittenStopsItWithAnError) {
   Folder folder;
   const Playback playback = MakePlayback();
   const OutputFolder output(folder / "never-prepared", false);
-  EXPECT_THROW(WriteSequence(MakePage(playback, 1), TestFont(), FrameTimes(0, 1, 10), 2, output,
-                             [](int) {}),
-               OperatorError);
+  EXPECT_THROW(
+      WriteSequence(MakePage(playback, 1), TestFont(), FrameTimes(0, 1, 10), 2, output, [](int) {}),
+      OperatorError);
 }
 
 TEST(OutputFolder, RefusesOtherPeoplesFilesAndReplacesItsOwnFrames) {
@@ -135,7 +135,10 @@ TEST_F(RenderLog, GivesTheSameFilesInEveryRunAndWithAnyNumberOfThreads) {
     const std::string out = folder_ / (std::string("run") + threads);
     std::string said;
     ASSERT_EQ(SeamRender({log_, "-o", out, "--oracle", oracle_, "--threads", threads, "--size",
-                          "480x270", "--fps", "10", "--view", "all"}, &said), 0) << said;
+                          "480x270", "--fps", "10", "--view", "all"},
+                         &said),
+              0)
+        << said;
     EXPECT_NE(said.find("31 frames in " + out), std::string::npos) << said;
     EXPECT_NE(said.find("x real time at 10 fps"), std::string::npos) << said;
     runs.push_back(Frames(out));
@@ -145,15 +148,15 @@ TEST_F(RenderLog, GivesTheSameFilesInEveryRunAndWithAnyNumberOfThreads) {
 }
 
 TEST_F(RenderLog, FromAndToPickTheSameFramesAsTheWholeHas) {
-  const std::vector<std::string> common{log_, "--oracle", oracle_, "--size", "480x270", "--fps",
-                                        "10", "-o"};
+  const std::vector<std::string> common{log_,      "--oracle", oracle_, "--size",
+                                        "480x270", "--fps",    "10",    "-o"};
   auto whole = common, part = common;
   whole.push_back(folder_ / "whole");
   part.insert(part.end(), {folder_ / "part", "--from", "1", "--to", "1.55"});
   ASSERT_EQ(SeamRender(whole), 0);
   ASSERT_EQ(SeamRender(part), 0);
   const auto all = Frames(folder_ / "whole"), some = Frames(folder_ / "part");
-  ASSERT_EQ(some.size(), 6u);   // 1.0, 1.1, ... 1.5
+  ASSERT_EQ(some.size(), 6u);  // 1.0, 1.1, ... 1.5
   for (std::size_t i = 0; i < some.size(); ++i) EXPECT_TRUE(some[i] == all[10 + i]) << i;
 }
 
@@ -167,19 +170,26 @@ TEST_F(RenderLog, DrawsWithTheOracleItComputesItself) {
 TEST_F(RenderLog, ComparesRunsAndPicturesTheirCollision) {
   std::string said;
   ASSERT_EQ(SeamRender({"--compare", log_, strict_, "-o", folder_ / "out", "--oracle", oracle_,
-                        "--from", "1", "--to", "1.2"}, &said), 0) << said;
+                        "--from", "1", "--to", "1.2"},
+                       &said),
+            0)
+      << said;
   EXPECT_EQ(Frames(folder_ / "out").size(), 7u);
   const std::string one = folder_ / "one.png", all = folder_ / "all.png";
   ASSERT_EQ(SeamRender({"--strobe", log_, "-o", one, "--oracle", oracle_}, &said), 0) << said;
-  ASSERT_EQ(SeamRender({"--strobe", "--compare", oracle_, strict_, log_, "-o", all, "--oracle",
-                        oracle_}, &said), 0) << said;
+  ASSERT_EQ(
+      SeamRender({"--strobe", "--compare", oracle_, strict_, log_, "-o", all, "--oracle", oracle_},
+                 &said),
+      0)
+      << said;
   const Image single = ReadPng(one), rows = ReadPng(all);
   EXPECT_EQ(single.width_px, 1280);
   EXPECT_GT(rows.height_px, single.height_px + 150);
   // Again gives the same, over the old file.
   const std::string before = Content(all);
-  ASSERT_EQ(SeamRender({"--strobe", "--compare", oracle_, strict_, log_, "-o", all, "--oracle",
-                        oracle_}), 0);
+  ASSERT_EQ(
+      SeamRender({"--strobe", "--compare", oracle_, strict_, log_, "-o", all, "--oracle", oracle_}),
+      0);
   EXPECT_EQ(Content(all), before);
 }
 
@@ -190,7 +200,8 @@ TEST_F(RenderLog, DrawsADamagedLogAsFarAsItIsGood) {
   std::ofstream(damaged, std::ios::binary) << torn;
   std::string said;
   ASSERT_EQ(SeamRender({damaged, "-o", folder_ / "out", "--fps", "5", "--oracle", oracle_}, &said),
-            0) << said;
+            0)
+      << said;
   const std::size_t frames = Frames(folder_ / "out").size();
   EXPECT_GE(frames, 7u);
   EXPECT_LE(frames, 9u);

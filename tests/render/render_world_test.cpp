@@ -69,7 +69,7 @@ TEST(DrawWorld, TheGhostAppearsOnlyWhereViewAndTruthPart) {
 
 TEST(DrawWorld, CullingChangesNoPixel) {
   Scene scene = synthetic::MakeScene();
-  scene.camera.min = {-9, 0};   // cuts through the stack, the carts' ways and the wheel's
+  scene.camera.min = {-9, 0};  // cuts through the stack, the carts' ways and the wheel's
   scene.camera.max = {9, 4};
   scene.camera.follow = 1;
   const Playback playback(synthetic::MakeRecording(6), scene, synthetic::MakeOracle());
@@ -134,8 +134,8 @@ TEST(Playback, InterpolatesBetweenTicksAndNeverBeyondTheLast) {
 
 TEST(Playback, HoldsTheLastViewOverAHoleAndBridgesALostOne) {
   Recording recording = synthetic::MakeRecording(0);
-  recording.views[1].erase(31);                                       // one lost
-  for (int tick = 61; tick < 100; ++tick) recording.views[1].erase(tick);   // a hole
+  recording.views[1].erase(31);                                            // one lost
+  for (int tick = 61; tick < 100; ++tick) recording.views[1].erase(tick);  // a hole
   const Playback playback(recording, synthetic::MakeScene(), synthetic::MakeOracle());
   const auto x_at = [&](double tick) {
     return playback.Find(playback.MomentAt(1, tick), 1)->pose.position.x();
@@ -168,8 +168,8 @@ TEST(Playback, AViewsErrorIsTheMeasureOfThatViewAlone) {
 
 TEST(Playback, AnErrorThatIsNotKnownIsNotZero) {
   Oracle oracle = synthetic::MakeOracle();
-  oracle.ticks.resize(101);              // the oracle ends at tick 100
-  oracle.ticks[50].clear();              // and lost one
+  oracle.ticks.resize(101);  // the oracle ends at tick 100
+  oracle.ticks[50].clear();  // and lost one
   Recording recording = synthetic::MakeRecording(6);
   recording.views[1].erase(60);
   const Playback playback(recording, synthetic::MakeScene(), oracle);
@@ -188,7 +188,8 @@ TEST(Playback, WithoutAnOracleThereAreNoErrorsAndNoGhosts) {
   EXPECT_FALSE(playback.Truth(1, 40).has_value());
   EXPECT_TRUE(MakePage(playback, 0).curves.empty());
   EXPECT_GT(Differences(RenderedPage(MakePage(playback, 1), 0.7),
-                        RenderedPage(MakePage(MakePlayback(), 1), 0.7)), 100);
+                        RenderedPage(MakePage(MakePlayback(), 1), 0.7)),
+            100);
 }
 
 }  // namespace

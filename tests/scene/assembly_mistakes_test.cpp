@@ -46,7 +46,8 @@ TEST(AssemblyMistakes, AreNamedByFileLineAndReason) {
     EXPECT_NE(Complaint(text).find(says), std::string::npos) << text << Complaint(text);
   }
   EXPECT_EQ(Complaint(Box("inlets = [[0, 0, 0]]\nrepeat = {count = [3, 2], step = [1, 1], "
-                          "glue = 3}") + "[grouping]\nafter = 1\n"),
+                          "glue = 3}") +
+                      "[grouping]\nafter = 1\n"),
             "");
 }
 

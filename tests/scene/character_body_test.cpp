@@ -10,9 +10,9 @@ namespace {
 
 std::string Complaint(const std::string& character) {
   try {
-    ParseScene(std::string("[[player]]\nname = \"ann\"\n") + kFlatGround + "[[character]]\n" +
-                   character,
-               "s.toml");
+    ParseScene(
+        std::string("[[player]]\nname = \"ann\"\n") + kFlatGround + "[[character]]\n" + character,
+        "s.toml");
     return "";
   } catch (const OperatorError& e) {
     return e.what();

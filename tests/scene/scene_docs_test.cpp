@@ -59,15 +59,19 @@ TEST(SceneDocs, EveryKeyIsOnThePage) {
   const std::string page = Page();
   const std::string ball = "[[part]]\nname = \"p\"\ncircle = 1\n";
   const std::pair<std::string, std::string> tables[] = {
-      {"", "## Top level"},         {"[solver]", "## `[solver]`"},
-      {"[[part]]", "## `[[part]]`"}, {ball + "[[joint]]", "## `[[joint]]`"},
+      {"", "## Top level"},
+      {"[solver]", "## `[solver]`"},
+      {"[[part]]", "## `[[part]]`"},
+      {ball + "[[joint]]", "## `[[joint]]`"},
       {ball + "[[bricks]]", "## `[[bricks]]`"},
       {ball + "[[thrust]]", "## `[[thrust]]`"},
       {ball + "[[water]]", "## `[[water]]`"},
       {ball + "[grouping]", "## `[grouping]`"},
       {ball + "[[character]]", "## `[[character]]`"},
-      {"[[player]]", "## `[[player]]`"}, {ball + "[[watch]]", "## `[[watch]]`"},
-      {ball + "[[trigger]]", "## `[[trigger]]`"}, {ball + "[[script]]", "## `[[script]]`"},
+      {"[[player]]", "## `[[player]]`"},
+      {ball + "[[watch]]", "## `[[watch]]`"},
+      {ball + "[[trigger]]", "## `[[trigger]]`"},
+      {ball + "[[script]]", "## `[[script]]`"},
       {ball + "[camera]", "## `[camera]`"}};
   for (const auto& [table, heading] : tables) {
     const auto from = page.find(heading + "\n");

@@ -72,9 +72,12 @@ TEST(SceneFuzz, RandomBytesAreRefusedOrHarmless) {
         const std::uint64_t kind = random.Next() % 4;
         const char byte = random.Chance(0.7) ? favourites[random.Next() % favourites.size()]
                                              : static_cast<char>(random.Next() & 0xff);
-        if (kind == 0) damaged.erase(at, 1 + random.Next() % 30);
-        else if (kind == 1) damaged.insert(at, 1, byte);
-        else damaged[at] = byte;
+        if (kind == 0)
+          damaged.erase(at, 1 + random.Next() % 30);
+        else if (kind == 1)
+          damaged.insert(at, 1, byte);
+        else
+          damaged[at] = byte;
       }
       (Survives(damaged, 1) ? good : bad) += 1;
     }

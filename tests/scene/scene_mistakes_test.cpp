@@ -1,10 +1,9 @@
 /// Every mistake in a scene is one line "file:line: what".
 
-#include "common/scene/scene.h"
-
 #include <gtest/gtest.h>
 
 #include "common/base/check.h"
+#include "common/scene/scene.h"
 
 namespace seam {
 namespace {
@@ -36,10 +35,10 @@ position = [0, 2]
 }
 
 struct Mistake {
-  const char* top;          ///< line 1
-  const char* more;         ///< from line 12
-  int line;                 ///< which the complaint must name
-  const char* says;         ///< part of the complaint
+  const char* top;   ///< line 1
+  const char* more;  ///< from line 12
+  int line;          ///< which the complaint must name
+  const char* says;  ///< part of the complaint
 };
 
 /// A part from line 12 whose line 14 is the mistake.
@@ -54,8 +53,7 @@ struct Mistake {
   "[[joint]]\nname = \"j\"\nkind = \"kinematic\"\nb = \"" part "\"\n" line_16 "\n"
 #define THRUST(line_14) "[[thrust]]\nname = \"t\"\n" line_14 "\n"
 /// A trigger from line 12; line 16 is the mistake.
-#define TRIGGER(line_16) \
-  "[[trigger]]\nname = \"t\"\nposition = [1, 1]\nbox = [1, 1]\n" line_16 "\n"
+#define TRIGGER(line_16) "[[trigger]]\nname = \"t\"\nposition = [1, 1]\nbox = [1, 1]\n" line_16 "\n"
 #define PLAYER(line_14) "[[player]]\nname = \"bob\"\n" line_14 "\n"
 
 const Mistake kMistakes[] = {
@@ -128,9 +126,12 @@ const Mistake kMistakes[] = {
     {"", PART("box = [1, 1]\nhealth = 1\ndamage = {abov = 1}"), 16, "did you mean 'above'?"},
     {"", PART("box = [1, 1]\npermissions = {take = [\"bob\"]}"), 15, "there is no player 'bob'"},
     {"", PART("box = [1, 1]\nowner = \"ann\"\npermissions = {push = []}"), 12, "may not push it"},
-    {"", PART("box = [1, 1]\npermissions = {drive = []}")
-         "[[joint]]\nname = \"j\"\nkind = \"revolute\"\na = \"ground\"\nb = \"p\"\n"
-         "motor = {player = \"ann\", speed = 1, torque = 1}\n", 16, "may not drive 'p'"},
+    {"",
+     PART("box = [1, 1]\npermissions = {drive = []}") "[[joint]]\nname = \"j\"\nkind = "
+                                                      "\"revolute\"\na = \"ground\"\nb = \"p\"\n"
+                                                      "motor = {player = \"ann\", speed = 1, "
+                                                      "torque = 1}\n",
+     16, "may not drive 'p'"},
     // Parts
     {"", "[[part]]\nbox = [1, 1]\n", 12, "name is missing"},
     {"", "[[part]]\nname = \"a.b\"\nbox = [1, 1]\n", 13, "letters, digits"},
@@ -208,16 +209,23 @@ const Mistake kMistakes[] = {
     {"", JOINT("distance", "anchor_a = [0, 2]"), 12, "give it a length"},
     {"", JOINT("distance", "length = 0"), 17, "length must be"},
     {"", JOINT("revolute", "") JOINT("revolute", ""), 19, "another joint of this name"},
-    {"", PART("box = [1, 1]\nanchored = true") "[[joint]]\nname = \"j\"\nkind = \"revolute\"\n"
-         "a = \"ground\"\nb = \"p\"\n", 16, "both its parts are anchored"},
-    {"", PART("box = [1, 1]") "[[joint]]\nname = \"w\"\nkind = \"weld\"\na = \"crate\"\nb = \"p\"\n"
-         "[[joint]]\nname = \"j\"\nkind = \"revolute\"\na = \"crate\"\nb = \"p\"\n", 20,
-     "its parts are welded together"},
-    {"", PART("box = [1, 1]\nvelocity = [1, 0]") "[[joint]]\nname = \"w\"\nkind = \"weld\"\n"
-         "a = \"crate\"\nb = \"p\"\n", 12, "another velocity"},
+    {"",
+     PART("box = [1, 1]\nanchored = true") "[[joint]]\nname = \"j\"\nkind = \"revolute\"\n"
+                                           "a = \"ground\"\nb = \"p\"\n",
+     16, "both its parts are anchored"},
+    {"",
+     PART(
+         "box = [1, 1]") "[[joint]]\nname = \"w\"\nkind = \"weld\"\na = \"crate\"\nb = \"p\"\n"
+                         "[[joint]]\nname = \"j\"\nkind = \"revolute\"\na = \"crate\"\nb = \"p\"\n",
+     20, "its parts are welded together"},
+    {"",
+     PART("box = [1, 1]\nvelocity = [1, 0]") "[[joint]]\nname = \"w\"\nkind = \"weld\"\n"
+                                             "a = \"crate\"\nb = \"p\"\n",
+     12, "another velocity"},
     {"bounds = [[-2000, -10], [2000, 10]]",
      PART("circle = 0.1\nposition = [1500, 0]") "[[joint]]\nname = \"w\"\nkind = \"weld\"\n"
-         "a = \"crate\"\nb = \"p\"\n", 12, "over more than 1000 m"},
+                                                "a = \"crate\"\nb = \"p\"\n",
+     12, "over more than 1000 m"},
     {"", JOINT("prismatic", "motor = {speed = 1, torque = 1}"), 17, "unknown key 'torque'"},
     {"", JOINT("prismatic", "motor = {speed = 1, force = 1, axis = \"lift\"}"), 17,
      "an axis needs a player"},
@@ -243,8 +251,10 @@ const Mistake kMistakes[] = {
     {"", KINEMATIC("ground", "path = [[1, 0], [1, 0]]\nperiod = 1"), 16, "leads nowhere"},
     {"", KINEMATIC("ground", "path = [[0, 0], [90, 0]]\nperiod = 1"), 17,
      "at 180 m/s, beyond the speed_limit"},
-    {"", KINEMATIC("ground", "turning = 1") "[[joint]]\nname = \"l\"\nkind = \"kinematic\"\n"
-         "b = \"ground\"\nturning = 1\n", 12, "'l' moves the same assembly"},
+    {"",
+     KINEMATIC("ground", "turning = 1") "[[joint]]\nname = \"l\"\nkind = \"kinematic\"\n"
+                                        "b = \"ground\"\nturning = 1\n",
+     12, "'l' moves the same assembly"},
     // Conveyors and thrust
     {"", PART("box = [1, 1]\nconveyor = 101"), 15, "conveyor must be a number from -100 to 100"},
     {"", PART("box = [1, 1]\nconveyor = {player = \"ann\"}"), 15, "speed is missing"},
@@ -255,8 +265,10 @@ const Mistake kMistakes[] = {
     {"", THRUST("part = \"crate\"\nforce = [1e7, 0]"), 15, "from -1000000 to 1000000"},
     {"", THRUST("part = \"crate\"\nforce = [1, 0]\nbutton = 0"), 16, "a button needs a player"},
     {"", THRUST("part = \"crate\"\nforce = [1, 0]\nplayer = \"ann\"\nbutton = 15"), 17, "to 14"},
-    {"", THRUST("part = \"crate\"\nforce = [1, 0]\nplayer = \"ann\"\naxis = \"lift\"\n"
-                "button = 1"), 18, "both axis and button"},
+    {"",
+     THRUST("part = \"crate\"\nforce = [1, 0]\nplayer = \"ann\"\naxis = \"lift\"\n"
+            "button = 1"),
+     18, "both axis and button"},
     {"", THRUST("part = \"crate\"\nforce = [1, 0]") THRUST("part = \"crate\"\nforce = [1, 0]"), 17,
      "another thrust of this name"},
     // Players
@@ -317,7 +329,7 @@ TEST(SceneMistakes, NameFileLineAndReason) {
     EXPECT_EQ(got.substr(0, got.find(": ")), "s.toml:" + std::to_string(m.line)) << got;
     EXPECT_NE(got.find(m.says), std::string::npos) << got;
   }
-  EXPECT_EQ(Complaint(Around("", "")), "");   // what they are all built on is good
+  EXPECT_EQ(Complaint(Around("", "")), "");  // what they are all built on is good
 }
 
 }  // namespace

@@ -96,7 +96,8 @@ around = 1.5
 min = [-5, -1]
 max = [5, 9]
 follow = "car"
-)", "folder/all.toml");
+)",
+                             "folder/all.toml");
   EXPECT_EQ(s.name, "all");
   EXPECT_EQ(s.title, "All of it");
   EXPECT_EQ(s.gravity, Vec2(0.5f, -9.81f));
@@ -198,14 +199,14 @@ TEST(Scene, RefusesTextsThatNoMessageOrStackCouldHold) {
   EXPECT_TRUE(says(dots + " = 1", "too many dots"));
   EXPECT_TRUE(says("", "there is no [[part]]"));
   EXPECT_THROW(LoadScene("scenes/no_such_scene.toml"), OperatorError);
-  EXPECT_THROW(LoadScene("scenes"), OperatorError);   // a folder
+  EXPECT_THROW(LoadScene("scenes"), OperatorError);  // a folder
   EXPECT_THROW(LoadScene("/dev/zero"), OperatorError);
 }
 
 TEST(Scene, LimitsThemselvesAreAllowed) {
   EXPECT_NO_THROW(ParseScene("[[part]]\nname = \"p\"\nbox = [0.05, 10]\n", "s.toml"));
-  EXPECT_NO_THROW(ParseScene("[solver]\nskin = 0.0025\n[[part]]\nname = \"p\"\ncircle = 0.025\n",
-                             "s.toml"));
+  EXPECT_NO_THROW(
+      ParseScene("[solver]\nskin = 0.0025\n[[part]]\nname = \"p\"\ncircle = 0.025\n", "s.toml"));
   EXPECT_ANY_THROW(ParseScene("[[part]]\nname = \"p\"\nbox = [0.0499, 10]\n", "s.toml"));
 }
 

@@ -7,8 +7,8 @@
 #include <algorithm>
 
 #include "server/rules/part_owner.h"
-#include "server/script/script_host.h"
 #include "server/rules/script_room.h"
+#include "server/script/script_host.h"
 
 namespace seam {
 namespace {
@@ -69,7 +69,8 @@ std::string Discs(float density, const std::string& more) {
          "[[part]]\nname = \"a\"\ncircle = 0.5\nrestitution = 1\nfriction = 0\nhealth = 100\n"
          "damage = {above = 2, factor = 5}\nvelocity = [10, 0]\n"
          "[[part]]\nname = \"b\"\ncircle = 0.5\nrestitution = 1\nfriction = 0\nposition = [3, 0]\n"
-         "density = " + std::to_string(density) + "\nhealth = 100\n" + more;
+         "density = " +
+         std::to_string(density) + "\nhealth = 100\n" + more;
 }
 
 TEST(Rules, ABlowHurtsByTheChangeOfEachBodysOwnVelocity) {
@@ -118,18 +119,20 @@ b = "hand"
 
 /// A track of length 100 in x, run through by ann's `a` (and bob's `b`, above it).
 std::string Track(const std::string& more, const char* of_a = "", const char* of_b = "") {
-  return std::string("bounds = [[-9000, -100], [9000, 100]]\n"
-                     "[[player]]\nname = \"ann\"\nvehicle = \"a\"\n"
-                     "[[player]]\nname = \"bob\"\nvehicle = \"b\"\n"
-                     "[[part]]\nname = \"a\"\ncircle = 0.2\nvelocity = [6, 0]\n") +
+  return std::string(
+             "bounds = [[-9000, -100], [9000, 100]]\n"
+             "[[player]]\nname = \"ann\"\nvehicle = \"a\"\n"
+             "[[player]]\nname = \"bob\"\nvehicle = \"b\"\n"
+             "[[part]]\nname = \"a\"\ncircle = 0.2\nvelocity = [6, 0]\n") +
          of_a + "\n[[part]]\nname = \"b\"\ncircle = 0.2\nposition = [0, 1]\nvelocity = [6, 0]\n" +
          of_b + "\n" + more;
 }
 
 TEST(Rules, AHazardTakesHealthByTheSecond) {
-  Game game(Track("[[trigger]]\nname = \"fire\"\nkind = \"hazard\"\nposition = [6, 0]\n"
-                  "box = [6, 0.5]\nhealth = 20\n",
-                  "health = 100"));
+  Game game(
+      Track("[[trigger]]\nname = \"fire\"\nkind = \"hazard\"\nposition = [6, 0]\n"
+            "box = [6, 0.5]\nhealth = 20\n",
+            "health = 100"));
   game.Step(180);
   // 6 m at 6 m/s: a second, to the tick at both ends.
   EXPECT_NEAR(game.Value("a"), 80, 2 * 20.0 / 60);
@@ -208,19 +211,18 @@ end
   game.rules.OnJoin(0);
   game.rules.OnLeave(1);
   game.Step(10);
-  EXPECT_EQ(game.hands.said,
-            (Lines{"ann joins ann", "bob leaves", "false 'a' and 'b' are not welded",
-                   "false 'wall' is anchored",
-                   "false the push makes 'a' faster than the speed_limit",
-                   "false 'wall' has no health in the scene",
-                   "false no value 'colour': health, score, checkpoint, laps, taken, value0 .. "
-                   "value9",
-                   "false there is no part 'nothing'"}));
-  EXPECT_EQ(game.hands.asked,
-            (Lines{"push 0 1.000000",
-                   "[[part]]\nanchored = true\nbox = [1, 1]\nname = \"new\"\n"
-                   "position = [0, 9.5]\n",
-                   "bond 0 1 5.000000"}));
+  EXPECT_EQ(
+      game.hands.said,
+      (Lines{"ann joins ann", "bob leaves", "false 'a' and 'b' are not welded",
+             "false 'wall' is anchored", "false the push makes 'a' faster than the speed_limit",
+             "false 'wall' has no health in the scene",
+             "false no value 'colour': health, score, checkpoint, laps, taken, value0 .. "
+             "value9",
+             "false there is no part 'nothing'"}));
+  EXPECT_EQ(game.hands.asked, (Lines{"push 0 1.000000",
+                                     "[[part]]\nanchored = true\nbox = [1, 1]\nname = \"new\"\n"
+                                     "position = [0, 9.5]\n",
+                                     "bond 0 1 5.000000"}));
   EXPECT_EQ(game.OfPlayer(0, kMetaScripts + 3), 4);
   game.hands.said.clear();
   game.Step(100);
@@ -232,16 +234,16 @@ end
   const std::string& text = game.world.scene().text;
   const auto typo = text.begin() + static_cast<std::ptrdiff_t>(text.find("remove_prat"));
   const std::string line = std::to_string(1 + std::count(text.begin(), typo, '\n'));
-  EXPECT_EQ(game.hands.said.back(),
-            "script s is stopped: g.toml:" + line +
-                ": attempt to call a nil value (field 'remove_prat')");
+  EXPECT_EQ(game.hands.said.back(), "script s is stopped: g.toml:" + line +
+                                        ": attempt to call a nil value (field 'remove_prat')");
 }
 
 TEST(Rules, APartOfABodyIsWhereItsRootHasCarriedIt) {
-  Game game("[[part]]\nname = \"a\"\nbox = [2, 2]\nposition = [1, 2]\nangle = 0.5\nspin = 3\n"
-            "velocity = [1, 0]\n[[part]]\nname = \"b\"\nbox = [1, 1]\nposition = [4, 2]\n"
-            "angle = 0.25\nspin = 3\nvelocity = [1, 0]\n"
-            "[[joint]]\nname = \"j\"\nkind = \"weld\"\na = \"a\"\nb = \"b\"\n");
+  Game game(
+      "[[part]]\nname = \"a\"\nbox = [2, 2]\nposition = [1, 2]\nangle = 0.5\nspin = 3\n"
+      "velocity = [1, 0]\n[[part]]\nname = \"b\"\nbox = [1, 1]\nposition = [4, 2]\n"
+      "angle = 0.25\nspin = 3\nvelocity = [1, 0]\n"
+      "[[joint]]\nname = \"j\"\nkind = \"weld\"\na = \"a\"\nb = \"b\"\n");
   ASSERT_EQ(game.world.body_count(), 1);
   game.Step(40);
   BodyState a, b;

@@ -11,15 +11,14 @@ namespace {
 
 struct Attack {
   const char* name;
-  const char* code;                 ///< run by on_tick
-  const char* says;                 ///< part of the error
+  const char* code;  ///< run by on_tick
+  const char* says;  ///< part of the error
 };
 
 const Attack kAttacks[] = {
     {"endless loop", "while true do end", "more than 200000 instructions"},
     {"endless loop that keeps its errors",
-     "while true do pcall(function() while true do end end) end",
-     "more than 200000 instructions"},
+     "while true do pcall(function() while true do end end) end", "more than 200000 instructions"},
     {"nested pcalls", "local function f() while true do pcall(f) end end f()", ""},
     {"pcall of pcall", "while true do pcall(pcall, pcall, error) end", "instructions"},
     {"loop in a coroutine", "coroutine.wrap(function() while true do end end)()", "instructions"},
@@ -28,8 +27,8 @@ const Attack kAttacks[] = {
      "instructions"},
     {"coroutines in coroutines",
      "local function f() while true do coroutine.resume(coroutine.create(f)) end end f()", ""},
-    {"coroutines that wrap themselves",
-     "local function f() return coroutine.wrap(f)() end f()", ""},
+    {"coroutines that wrap themselves", "local function f() return coroutine.wrap(f)() end f()",
+     ""},
     {"a loop in a closed variable",
      "local function m() return setmetatable({}, {__close = function() while true do end end}) end "
      "coroutine.wrap(function() local x <close> = m() while true do end end)()",
@@ -41,8 +40,10 @@ const Attack kAttacks[] = {
     {"a loop in __gc",
      "for i = 1, 1e9 do setmetatable({}, {__gc = function() while true do end end}) end",
      "out of memory"},
-    {"a loop in __index", "local m = {} m.__index = function(t, k) return t[k + 1] end "
-     "local x = setmetatable({}, m)[1]", ""},
+    {"a loop in __index",
+     "local m = {} m.__index = function(t, k) return t[k + 1] end "
+     "local x = setmetatable({}, m)[1]",
+     ""},
     {"a loop in a comparison", "table.sort({3, 2, 1}, function() while true do end end)",
      "instructions"},
     {"a loop in tostring",
@@ -62,10 +63,9 @@ const Attack kAttacks[] = {
     {"a repeated string, by method", "local s = ('x'):rep(1e9, 'y')", "more than 16384 bytes"},
     {"a string repeated -1 times more", "local s = ('x'):rep(math.maxinteger, 'yy')", "16384"},
     {"a joined string",
-     "local t = {} for i = 1, 2000 do t[i] = ('x'):rep(16000) end table.concat(t)",
-     "instructions"},
-    {"a formatted string",
-     "local s = ('x'):rep(16000) local t = ('%s%s%s'):format(s, s, s)", "out of memory"},
+     "local t = {} for i = 1, 2000 do t[i] = ('x'):rep(16000) end table.concat(t)", "instructions"},
+    {"a formatted string", "local s = ('x'):rep(16000) local t = ('%s%s%s'):format(s, s, s)",
+     "out of memory"},
     {"wide formats", "while true do local s = ('%99.99f'):format(1e308) end", "instructions"},
     {"long comparisons",
      "local a, b = ('x'):rep(16000) .. 'a', ('x'):rep(16000) .. 'b' "
@@ -76,17 +76,15 @@ const Attack kAttacks[] = {
     {"a list whose length lies, joined",
      "table.concat(setmetatable({}, {__len = function() return 1 << 40 end}))", "__len"},
     {"too many values", "table.unpack({}, 1, 1e7)", "more than 200 values"},
-    {"too many values, by overflow",
-     "table.unpack({}, math.mininteger, math.maxinteger)", "out of bounds"},
+    {"too many values, by overflow", "table.unpack({}, math.mininteger, math.maxinteger)",
+     "out of bounds"},
     {"too many bytes", "string.byte(('x'):rep(16000), 1, -1)", "more than 200 bytes"},
-    {"a growing list of arguments",
-     "local function f(...) return f(1, ...) end f()", ""},
+    {"a growing list of arguments", "local function f(...) return f(1, ...) end f()", ""},
     {"an emptied table, again and again",
      "local t = {} for i = 1, 16000 do t[i] = i end for i = 1, 16000 do t[i] = nil end "
      "while true do for k in pairs(t) do end end",
      "instructions"},
-    {"always new strings", "for i = 1, 1e9 do local s = i .. ('x'):rep(9000) end",
-     "instructions"},
+    {"always new strings", "for i = 1, 1e9 do local s = i .. ('x'):rep(9000) end", "instructions"},
     {"full memory, again and again",
      "local keep = {} for i = 1, 12000 do keep[i] = {{}} end "
      "while true do local t = {{}, {}, {}} end",
@@ -119,8 +117,8 @@ const Attack kAttacks[] = {
     {"an error that does things when read",
      "error(setmetatable({}, {__tostring = function() while true do end end}))",
      "no text but a table"},
-    {"a part that is no table of a scene",
-     "local t = {} t.a = {t} t.b = t world.add_part(t)", "too large"},
+    {"a part that is no table of a scene", "local t = {} t.a = {t} t.b = t world.add_part(t)",
+     "too large"},
 };
 
 TEST(ScriptHostile, StopsEveryAttackWithinATicksWorkAndMemory) {

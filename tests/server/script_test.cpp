@@ -26,9 +26,8 @@ TEST(Script, IsCalledBackWithWhatHappened) {
   room.script.OnJoin("ann");
   room.script.OnLeave("ann");
   EXPECT_EQ(room.script.error(), "");
-  EXPECT_EQ(room.host.said,
-            (Lines{"tick 1.0", "ball touches crate.0", "goal ball true", "goal ball false",
-                   "ann joins", "ann leaves"}));
+  EXPECT_EQ(room.host.said, (Lines{"tick 1.0", "ball touches crate.0", "goal ball true",
+                                   "goal ball false", "ann joins", "ann leaves"}));
   EXPECT_TRUE(room.script.Defines("on_touch"));
   EXPECT_FALSE(room.script.Defines("on_rain"));
 }
@@ -42,8 +41,8 @@ TEST(Script, ReadsPartsPlayersAndInputs) {
     print(world.tick(), world.time())
   )");
   EXPECT_EQ(room.script.error(), "");
-  EXPECT_EQ(room.host.said, (Lines{"1.0 2.0 0.5 3.0 4.0 5.0", "3 crate.0,crate.1",
-                                   "ann 1.0 -1.0 5", "0 0.0"}));
+  EXPECT_EQ(room.host.said,
+            (Lines{"1.0 2.0 0.5 3.0 4.0 5.0", "3 crate.0,crate.1", "ann 1.0 -1.0 5", "0 0.0"}));
 }
 
 TEST(Script, PushesInNewtonSecondsAndForcesForATick) {
@@ -68,14 +67,14 @@ TEST(Script, MakesPartsAndJointsAsASceneWouldSayThem) {
     world.remove_part("b2")
   )");
   EXPECT_EQ(room.script.error(), "");
-  EXPECT_EQ(room.host.asked,
-            (Lines{"add part {box=[1 0.5 ] bullet=true name=b2 position=[2 3 ] }",
-                   "add joint {a=ball b=b2 kind=wheel motor={speed=3 } name=j }",
-                   "weld ball b2 0", "unweld ball b2",
-                   "add joint {kind=revolute name=h a=ball b=crate.0 anchor=[1 2 ] }",
-                   "add joint {kind=distance name=d a=ball b=crate.0 length=2.5 }",
-                   "add joint {kind=distance name=e a=ball b=crate.1 length=2.23607 }",
-                   "remove joint d", "remove part b2"}));
+  EXPECT_EQ(
+      room.host.asked,
+      (Lines{"add part {box=[1 0.5 ] bullet=true name=b2 position=[2 3 ] }",
+             "add joint {a=ball b=b2 kind=wheel motor={speed=3 } name=j }", "weld ball b2 0",
+             "unweld ball b2", "add joint {kind=revolute name=h a=ball b=crate.0 anchor=[1 2 ] }",
+             "add joint {kind=distance name=d a=ball b=crate.0 length=2.5 }",
+             "add joint {kind=distance name=e a=ball b=crate.1 length=2.23607 }", "remove joint d",
+             "remove part b2"}));
 }
 
 TEST(Script, KeepsScoresAndHealth) {
@@ -109,8 +108,7 @@ TEST(Script, AnErrorNamesItsLineOfTheSceneFile) {
             "s.toml:10: bad argument #2 to 'impulse' (a finite number expected)");
   EXPECT_EQ(ErrorOf("for i = 1, 65 do world.impulse('ball', 1, 1) end"),
             "s.toml:10: more than 64 changes of the world in a tick");
-  EXPECT_EQ(ErrorOf("for i = 1, 9 do print(i) end"),
-            "s.toml:10: says more than 8 lines in a tick");
+  EXPECT_EQ(ErrorOf("for i = 1, 9 do print(i) end"), "s.toml:10: says more than 8 lines in a tick");
   EXPECT_EQ(ErrorOf("error('two\\nlines\\27[31m')"), "s.toml:10: two?lines?[31m");
 }
 
@@ -182,9 +180,8 @@ TEST(Script, HasObjectsWithMetatables) {
     print(table.concat(list, ","), table.unpack(list, 2, 3))
   )");
   EXPECT_EQ(room.script.error(), "");
-  EXPECT_EQ(room.host.said,
-            (Lines{"6 C6 true", "mine false cannot change this metatable", "AB xxx 3 a7 3 4",
-                   "Hi llo 97 98 99", "1,2,3,9 2 3"}));
+  EXPECT_EQ(room.host.said, (Lines{"6 C6 true", "mine false cannot change this metatable",
+                                   "AB xxx 3 a7 3 4", "Hi llo 97 98 99", "1,2,3,9 2 3"}));
 }
 
 }  // namespace

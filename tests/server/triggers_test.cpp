@@ -47,14 +47,14 @@ TEST(Triggers, SayWhoEntersAndWhoLeavesOnce) {
   Triggers triggers({At(0, 2), At(1, 2)});
   Places places{{{0, -2}, {1, 5}, {2, 5}}};
   EXPECT_EQ(Text(places.Update(&triggers)), "");
-  places.x[0] = -1;   // the side belongs to it
+  places.x[0] = -1;  // the side belongs to it
   EXPECT_EQ(Text(places.Update(&triggers)), "+0:0/0 ");
   EXPECT_EQ(Text(places.Update(&triggers)), "");
   places.x[0] = 1.5f;
   places.x[2] = 1.0f;
   EXPECT_EQ(Text(places.Update(&triggers)), "-0:0/0 +0:2/-1 +1:0/0 +1:2/-1 ");
   EXPECT_EQ(triggers.inside().size(), 3u);
-  places.x.erase(2);   // gone from the world
+  places.x.erase(2);  // gone from the world
   EXPECT_EQ(Text(places.Update(&triggers)), "-0:2/-1 -1:2/-1 ");
 }
 
@@ -105,7 +105,7 @@ TEST(Metadata, TellsChangesOnceAndEverythingToLatecomers) {
   server.Add({kMetaPlayer, 3, kMetaScore}, 2);
   server.Add({kMetaPlayer, 3, kMetaScore}, -5);
   server.Set({kMetaPart, 17, kMetaHealth}, 0);
-  server.Set({kMetaPart, 18, kMetaHealth}, 18.5f);   // as it was
+  server.Set({kMetaPart, 18, kMetaHealth}, 18.5f);  // as it was
   changes = server.TakeChanges(7, 9);
   ASSERT_EQ(changes.size(), 1u);
   EXPECT_EQ(changes[0].id, (std::vector<std::int16_t>{17, 3}));

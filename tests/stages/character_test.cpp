@@ -37,8 +37,8 @@ TEST(ActiveCharacter, RunsTenMetresForwardAndFiveBackward) {
 }
 
 TEST(ActiveCharacter, FacingLeftItRunsToTheLeft) {
-  const float way = Way("[[0.5, {drive = -1.0}]]", 7, kFlatGround,
-                        "position = [0, 0]\nfacing = \"left\"\n");
+  const float way =
+      Way("[[0.5, {drive = -1.0}]]", 7, kFlatGround, "position = [0, 0]\nfacing = \"left\"\n");
   EXPECT_LT(way, -10);
 }
 
@@ -133,8 +133,7 @@ b = "wheel.1"
 anchor = [1.5, 0.25]
 motor = {speed = -4, torque = 20}
 )";
-  ScriptedWorld run(
-      CharacterScene("position = [0, 0.72]\nvelocity = [1, 0]\n", "[[0, {}]]", cart));
+  ScriptedWorld run(CharacterScene("position = [0, 0.72]\nvelocity = [1, 0]\n", "[[0, {}]]", cart));
   for (int tick = 0; tick < 600; ++tick) {
     run.Step();
     ASSERT_TRUE(Look(run).upright()) << tick;

@@ -65,8 +65,8 @@ TEST(Displaced, PartsInAndOutOfTheWaterMakeTheWhole) {
     for (const bool disc : {false, true}) {
       const double level = 2 * random.Uniform() - 0.5;
       const AreaMoments all = disc ? DiscWithin({1, 0.3}, 0.8, Below(kWide)) : whole;
-      AreaMoments sum = disc ? DiscWithin({1, 0.3}, 0.8, Below(level))
-                             : Within(points, Below(level));
+      AreaMoments sum =
+          disc ? DiscWithin({1, 0.3}, 0.8, Below(level)) : Within(points, Below(level));
       Add(disc ? DiscWithin({1, 0.3}, 0.8, Above(level)) : Within(points, Above(level)), &sum);
       ExpectSame(sum, all, 1e-9);
     }

@@ -14,9 +14,11 @@ namespace {
 /// 500 m of pavement, 1000 bricks of 0.5 m wide in 63 cells, whose surface is y = 0; or one box.
 std::string Pavement(bool bricks, const std::string& friction) {
   return bricks ? "[[bricks]]\nname = \"street\"\nbrick = [0.5, 0.25]\nposition = [-10, -0.5]\n"
-                  "count = [1000, 2]\nfriction = " + friction + "\n"
+                  "count = [1000, 2]\nfriction = " +
+                      friction + "\n"
                 : "[[part]]\nname = \"street\"\nbox = [500, 0.5]\nposition = [240, -0.25]\n"
-                  "anchored = true\nfriction = " + friction + "\n";
+                  "anchored = true\nfriction = " +
+                      friction + "\n";
 }
 
 const std::string kSolvers[] = {"", "skin = 0.0025\n", "skin = 0.005\nsubsteps = 2\n"};
@@ -32,7 +34,7 @@ Ride RideOn(bool bricks, const std::string& mover, const std::string& friction,
   for (int i = 0; i < ticks; ++i) {
     world->Step();
     const BodyState s = world->Read(0);
-    if (i < 60) continue;           // comes to lie first
+    if (i < 60) continue;  // comes to lie first
     ride.lowest = std::min(ride.lowest, s.position.y());
     ride.highest = std::max(ride.highest, s.position.y());
     ride.turned = std::max(ride.turned, std::fabs(s.angle));
@@ -47,9 +49,11 @@ Ride RideOn(bool bricks, const std::string& mover, const std::string& friction,
 TEST(Feather, ABoxSlidesOverAThousandBricksAsOverOnePlane) {
   for (const std::string& solver : kSolvers) {
     for (const char* bullet : {"false", "true"}) {
-      const std::string box = std::string("[[part]]\nname = \"box\"\nbox = [1, 1]\n"
-                                          "position = [0, 0.5]\nfriction = 0\n"
-                                          "velocity = [60, 0]\nbullet = ") + bullet + "\n";
+      const std::string box = std::string(
+                                  "[[part]]\nname = \"box\"\nbox = [1, 1]\n"
+                                  "position = [0, 0.5]\nfriction = 0\n"
+                                  "velocity = [60, 0]\nbullet = ") +
+                              bullet + "\n";
       const Ride on = RideOn(true, box, "0", solver, 450);
       const Ride plane = RideOn(false, box, "0", solver, 450);
       EXPECT_GT(on.x, 440) << "it has crossed " << 440 / 8 << " cells";
@@ -63,8 +67,9 @@ TEST(Feather, ABoxSlidesOverAThousandBricksAsOverOnePlane) {
 
 TEST(Feather, ABoxBrakedByFrictionStopsWhereItStopsOnOnePlane) {
   // v0^2 / (2 mu g), mu the root of 0.5 * 0.5: 90 m.
-  const std::string box = "[[part]]\nname = \"box\"\nbox = [1, 0.4]\nposition = [0, 0.21]\n"
-                          "friction = 0.5\nvelocity = [30, 0]\n";
+  const std::string box =
+      "[[part]]\nname = \"box\"\nbox = [1, 0.4]\nposition = [0, 0.21]\n"
+      "friction = 0.5\nvelocity = [30, 0]\n";
   for (const std::string& solver : kSolvers) {
     const Ride on = RideOn(true, box, "0.5", solver, 500);
     const Ride plane = RideOn(false, box, "0.5", solver, 500);
@@ -77,9 +82,11 @@ TEST(Feather, ABoxBrakedByFrictionStopsWhereItStopsOnOnePlane) {
 TEST(Feather, ADiscRollsOverAThousandBricksAsOverOnePlane) {
   for (const std::string& solver : kSolvers) {
     for (const char* bullet : {"false", "true"}) {
-      const std::string disc = std::string("[[part]]\nname = \"disc\"\ncircle = 0.5\n"
-                                           "position = [0, 0.5]\nvelocity = [40, 0]\nspin = -80\n"
-                                           "bullet = ") + bullet + "\n";
+      const std::string disc = std::string(
+                                   "[[part]]\nname = \"disc\"\ncircle = 0.5\n"
+                                   "position = [0, 0.5]\nvelocity = [40, 0]\nspin = -80\n"
+                                   "bullet = ") +
+                               bullet + "\n";
       const Ride on = RideOn(true, disc, "0.5", solver, 600);
       const Ride plane = RideOn(false, disc, "0.5", solver, 600);
       EXPECT_GT(on.x, 390) << solver;
@@ -93,10 +100,12 @@ TEST(Feather, ADiscRollsOverAThousandBricksAsOverOnePlane) {
 
 TEST(Feather, ABoxSlidingDownAWallDoesNotCatchAtItsSeams) {
   // A wall of 100 m whose left side is x = 0; the box is pushed against it and falls 80 m.
-  const std::string wall = "[[bricks]]\nname = \"wall\"\nbrick = [0.5, 0.25]\nposition = [0, 0]\n"
-                           "count = [4, 400]\nfriction = 0\n";
-  const std::string box = "[[part]]\nname = \"box\"\nbox = [1, 1]\nposition = [-0.51, 95]\n"
-                          "friction = 0\n";
+  const std::string wall =
+      "[[bricks]]\nname = \"wall\"\nbrick = [0.5, 0.25]\nposition = [0, 0]\n"
+      "count = [4, 400]\nfriction = 0\n";
+  const std::string box =
+      "[[part]]\nname = \"box\"\nbox = [1, 1]\nposition = [-0.51, 95]\n"
+      "friction = 0\n";
   for (const std::string& solver : kSolvers) {
     const auto world = SmallWorld(wall + box, solver, "gravity = [5, -10]");
     Steps(world.get(), 240);
@@ -112,13 +121,15 @@ TEST(Feather, NothingFallsThroughAtTheHighestSpeed) {
   for (int i = 0; i < 48; ++i) {
     const double angle = 2 * 3.14159265358979 * i / 48;
     const double c = std::cos(angle), s = std::sin(angle);
-    const std::string ball =
-        "[[part]]\nname = \"ball\"\ncircle = 0.2\nposition = [" + Digits(61 + 70 * c) + ", " +
-        Digits(9 + 70 * s) + "]\nvelocity = [" + Digits(-119.9 * c) + ", " + Digits(-119.9 * s) +
-        "]\nrestitution = 0.5\n";
-    const auto world = SmallWorld("[[bricks]]\nname = \"block\"\nbrick = [0.5, 0.25]\n"
-                                  "position = [59, 7]\ncount = [8, 16]\n" + ball,
-                                  "", "gravity = [0, 0]");
+    const std::string ball = "[[part]]\nname = \"ball\"\ncircle = 0.2\nposition = [" +
+                             Digits(61 + 70 * c) + ", " + Digits(9 + 70 * s) + "]\nvelocity = [" +
+                             Digits(-119.9 * c) + ", " + Digits(-119.9 * s) +
+                             "]\nrestitution = 0.5\n";
+    const auto world = SmallWorld(
+        "[[bricks]]\nname = \"block\"\nbrick = [0.5, 0.25]\n"
+        "position = [59, 7]\ncount = [8, 16]\n" +
+            ball,
+        "", "gravity = [0, 0]");
     float nearest = 100;
     for (int t = 0; t < 90; ++t) {
       world->Step();
@@ -132,8 +143,9 @@ TEST(Feather, NothingFallsThroughAtTheHighestSpeed) {
 }
 
 TEST(Feather, WhatIsPutElsewhereFindsItsGround) {
-  const auto world = SmallWorld(Pavement(true, "0.5") + "[[part]]\nname = \"box\"\nbox = [1, 1]\n"
-                                                       "position = [0, 0.5]\n");
+  const auto world = SmallWorld(Pavement(true, "0.5") +
+                                "[[part]]\nname = \"box\"\nbox = [1, 1]\n"
+                                "position = [0, 0.5]\n");
   Steps(world.get(), 30);
   for (const float x : {400.0f, 3.0f, 250.5f}) {
     BodyState s = world->Read(0);
@@ -148,13 +160,14 @@ TEST(Feather, WhatIsPutElsewhereFindsItsGround) {
 
 /// Sixty movers over towers and streets, as they fall, roll, settle and sleep.
 Scene City(int movers) {
-  std::string text = "bounds = [[-500, -50], [500, 200]]\n"
-                     "[[bricks]]\nname = \"street\"\nbrick = [1, 0.5]\nposition = [-300, -1]\n"
-                     "count = [600, 2]\n"
-                     "[[bricks]]\nname = \"towers\"\nbrick = [0.5, 0.25]\nposition = [-300, 0]\n"
-                     "friction = 0.7\n"
-                     "towers = {count = 30, pitch = 20, width = [8, 14], height = [6, 24], "
-                     "windows = true, seed = 3}\n";
+  std::string text =
+      "bounds = [[-500, -50], [500, 200]]\n"
+      "[[bricks]]\nname = \"street\"\nbrick = [1, 0.5]\nposition = [-300, -1]\n"
+      "count = [600, 2]\n"
+      "[[bricks]]\nname = \"towers\"\nbrick = [0.5, 0.25]\nposition = [-300, 0]\n"
+      "friction = 0.7\n"
+      "towers = {count = 30, pitch = 20, width = [8, 14], height = [6, 24], "
+      "windows = true, seed = 3}\n";
   for (int i = 0; i < movers; ++i) {
     text += "[[part]]\nname = \"m" + std::to_string(i) + "\"\n" +
             (i % 2 == 0 ? "box = [0.8, 0.6]\n" : "circle = 0.4\nrestitution = 0.4\n") +
@@ -247,11 +260,13 @@ TEST(Feather, ABlastInTwoWorldsIsTheSameBitForBit) {
 }
 
 TEST(Feather, BricksAsPartsAreTheSameBricks) {
-  const std::string wall = "[[bricks]]\nname = \"wall\"\nbrick = [0.5, 0.25]\nposition = [-4, 0]\n"
-                           "towers = {count = 3, pitch = 12, width = [3, 6], height = [3, 9], "
-                           "windows = true, seed = 2}\nfeatherweight = ";
-  const std::string ball = "\n[[part]]\nname = \"ball\"\ncircle = 0.5\nposition = [1, 12]\n"
-                           "restitution = 0.3\n";
+  const std::string wall =
+      "[[bricks]]\nname = \"wall\"\nbrick = [0.5, 0.25]\nposition = [-4, 0]\n"
+      "towers = {count = 3, pitch = 12, width = [3, 6], height = [3, 9], "
+      "windows = true, seed = 2}\nfeatherweight = ";
+  const std::string ball =
+      "\n[[part]]\nname = \"ball\"\ncircle = 0.5\nposition = [1, 12]\n"
+      "restitution = 0.3\n";
   World feather(ParseScene(wall + "true" + ball, "s.toml"));
   World parts(ParseScene(wall + "false" + ball, "s.toml"));
   EXPECT_EQ(feather.scene().parts.size(), 1u);

@@ -13,7 +13,8 @@ const char* kAnn = "[[player]]\nname = \"ann\"\n";
 
 std::string Belt(const std::string& speed, const std::string& rest = "anchored = true") {
   return "[[part]]\nname = \"belt\"\nbox = [40, 1]\nposition = [0, -0.5]\nfriction = 0.4\n"
-         "conveyor = " + speed + "\n" + rest + "\n";
+         "conveyor = " +
+         speed + "\n" + rest + "\n";
 }
 std::string Crate(const std::string& rest = "") {
   return "[[part]]\nname = \"crate\"\nbox = [1, 1]\nposition = [0, 0.515]\nfriction = 0.4\n" +
@@ -70,10 +71,11 @@ TEST(Conveyor, FollowsItsPlayerAndWakesWhatSleepsOnIt) {
 
 TEST(Conveyor, ThatMovesIsPushedBackByWhatItDrags) {
   // A free belt on ice and a crate of the same mass on it: their momentum stays 0.
-  const auto world = SmallWorld(
-      "[[part]]\nname = \"ice\"\nchain = [[-50, -1.015], [50, -1.015]]\nfriction = 0\n" +
-      std::string("[[part]]\nname = \"belt\"\nbox = [10, 1]\nposition = [0, -0.5]\n"
-                  "friction = 0.4\nconveyor = 2\ndensity = 0.1\n") + Crate());
+  const auto world =
+      SmallWorld("[[part]]\nname = \"ice\"\nchain = [[-50, -1.015], [50, -1.015]]\nfriction = 0\n" +
+                 std::string("[[part]]\nname = \"belt\"\nbox = [10, 1]\nposition = [0, -0.5]\n"
+                             "friction = 0.4\nconveyor = 2\ndensity = 0.1\n") +
+                 Crate());
   Steps(world.get(), 60);
   const float belt = world->Read(0).velocity.x(), crate = world->Read(1).velocity.x();
   EXPECT_NEAR(crate - belt, 2, 0.02);
@@ -93,8 +95,9 @@ TEST(Thrust, GivesFTOverMAndSpinByItsOffset) {
 
 TEST(Thrust, TurnsWithItsPartAndGoesBySharesOfTheAxis) {
   const auto world = SmallWorld(
-      std::string(kAnn) + "[[part]]\nname = \"ship\"\nbox = [1, 1]\nangle = 1.57079633\n"
-      "[[thrust]]\nname = \"engine\"\npart = \"ship\"\nforce = [8, 0]\nplayer = \"ann\"\n",
+      std::string(kAnn) +
+          "[[part]]\nname = \"ship\"\nbox = [1, 1]\nangle = 1.57079633\n"
+          "[[thrust]]\nname = \"engine\"\npart = \"ship\"\nforce = [8, 0]\nplayer = \"ann\"\n",
       "", "gravity = [0, 0]\n");
   Steps(world.get(), 30);
   EXPECT_EQ(world->Read(0).velocity.norm(), 0) << "nobody drives";
@@ -109,17 +112,18 @@ TEST(Thrust, TurnsWithItsPartAndGoesBySharesOfTheAxis) {
 
 TEST(Thrust, PushesWhileItsButtonIsPressedAndWakesItsBody) {
   const Scene scene = ParseScene(
-      std::string(kAnn) + "[[part]]\nname = \"ground\"\nchain = [[-9, 0], [9, 0]]\n"
-      "[[part]]\nname = \"rocket\"\nbox = [1, 1]\nposition = [0, 0.515]\n"
-      "[[thrust]]\nname = \"jet\"\npart = \"rocket\"\nforce = [0, 15]\nplayer = \"ann\"\n"
-      "button = 3\n",
+      std::string(kAnn) +
+          "[[part]]\nname = \"ground\"\nchain = [[-9, 0], [9, 0]]\n"
+          "[[part]]\nname = \"rocket\"\nbox = [1, 1]\nposition = [0, 0.515]\n"
+          "[[thrust]]\nname = \"jet\"\npart = \"rocket\"\nforce = [0, 15]\nplayer = \"ann\"\n"
+          "button = 3\n",
       "s.toml");
   World world(scene);
   Steps(&world, 120);
   ASSERT_FALSE(world.awake(0));
   world.SetInput(0, Of(0, 0, 1 << 3));
   Steps(&world, 60);
-  EXPECT_NEAR(world.Read(0).velocity.y(), 5, 0.05);      // F/m - g
+  EXPECT_NEAR(world.Read(0).velocity.y(), 5, 0.05);  // F/m - g
   world.SetInput(0, Of(0, 0, 1 << 2));
   Steps(&world, 30);
   EXPECT_NEAR(world.Read(0).velocity.y(), 0, 0.05);

@@ -13,8 +13,7 @@ namespace {
 
 /// Forces that hold a chain of `count` equal masses up by its first.
 std::vector<Eigen::Vector2d> Hung(int count, double weight) {
-  std::vector<Eigen::Vector2d> forces(static_cast<std::size_t>(count),
-                                      Eigen::Vector2d(0, -weight));
+  std::vector<Eigen::Vector2d> forces(static_cast<std::size_t>(count), Eigen::Vector2d(0, -weight));
   forces[0].y() += count * weight;
   return forces;
 }
@@ -62,7 +61,9 @@ TEST(Glue, AnAnchorTakesWhatTheOthersDoNotBalance) {
 std::string Chain(double strength) {
   return "[[part]]\nname = \"nail\"\nbox = [0.2, 0.2]\nposition = [0, 1]\nanchored = true\n"
          "[[part]]\nname = \"box\"\nbox = [1, 1]\n"
-         "repeat = {count = 5, step = [0, -1], glue = " + Digits(strength) + "}\n"
+         "repeat = {count = 5, step = [0, -1], glue = " +
+         Digits(strength) +
+         "}\n"
          "[[joint]]\nname = \"hook\"\nkind = \"revolute\"\na = \"nail\"\nb = \"box.0\"\n"
          "anchor = [0, 1]\n";
 }
@@ -85,7 +86,8 @@ TEST(Glue, ACantileverOnAWallBreaksAtTheWall) {
            "[[part]]\nname = \"box\"\nbox = [1, 1]\n"
            "repeat = {count = 3, step = [1, 0], glue = 1000}\n"
            "[[joint]]\nname = \"root\"\nkind = \"glue\"\na = \"wall\"\nb = \"box.0\"\n"
-           "strength = " + Digits(strength) + "\n";
+           "strength = " +
+           Digits(strength) + "\n";
   };
   auto holds = SmallWorld(beam(30.1));
   EXPECT_TRUE(Live(holds.get(), 60).empty());
@@ -98,7 +100,8 @@ TEST(Glue, ACantileverOnAWallBreaksAtTheWall) {
 TEST(Glue, WhatSpinsIsTornApartByMassTimesSpinSquaredTimesRadius) {
   const auto two = [](double strength) {
     return "[[part]]\nname = \"box\"\nbox = [1, 1]\nspin = 10\n"
-           "repeat = {count = 2, step = [1, 0], glue = " + Digits(strength) + "}\n";
+           "repeat = {count = 2, step = [1, 0], glue = " +
+           Digits(strength) + "}\n";
   };
   // 1 kg at 0.5 m, 10 rad/s: 50 N.
   auto holds = SmallWorld(two(50.1), "", "gravity = [0, 0]");
@@ -113,7 +116,8 @@ TEST(Glue, ABlowStrainsABondByTheShareOfMassBehindIt) {
   const auto blow = [](double strength) {
     return "[[part]]\nname = \"ram\"\nbox = [1, 1]\nposition = [-3, 0]\nvelocity = [10, 0]\n"
            "[[part]]\nname = \"box\"\nbox = [1, 1]\n"
-           "repeat = {count = 2, step = [1, 0], glue = " + Digits(strength) + "}\n";
+           "repeat = {count = 2, step = [1, 0], glue = " +
+           Digits(strength) + "}\n";
   };
   auto holds = SmallWorld(blow(206), "", "gravity = [0, 0]");
   EXPECT_TRUE(Live(holds.get(), 60).empty());
@@ -125,7 +129,7 @@ TEST(Glue, AStrongHouseStandsAndSleepsUnbroken) {
   const std::string house =
       "[[part]]\nname = \"ground\"\nchain = [[-20, 0], [20, 0]]\n"
       "[[part]]\nname = \"brick\"\nbox = [1, 0.5]\nposition = [0, 0.27]\n"
-      "repeat = {count = [4, 6], step = [1, 0.5], glue = 130}\n";   // weighs 120 N
+      "repeat = {count = [4, 6], step = [1, 0.5], glue = 130}\n";  // weighs 120 N
   auto world = SmallWorld(house);
   EXPECT_TRUE(Live(world.get(), 300).empty());
   EXPECT_EQ(world->body_count(), 1);

@@ -30,8 +30,9 @@ TEST(Group, AStackAtRestBecomesOneBody) {
 }
 
 TEST(Group, WhatComesFlyingMeetsSingleBodiesAgain) {
-  const std::string ball = "[[part]]\nname = \"ball\"\ncircle = 0.3\nposition = [-20, 2.5]\n"
-                           "velocity = [9.5, 10]\ndensity = 4\n";
+  const std::string ball =
+      "[[part]]\nname = \"ball\"\ncircle = 0.3\nposition = [-20, 2.5]\n"
+      "velocity = [9.5, 10]\ndensity = 4\n";
   auto grouped = SmallWorld(std::string(kGround) + Stack() + ball + kGrouping);
   auto single = SmallWorld(std::string(kGround) + Stack() + ball);
   Live(grouped.get(), 100);

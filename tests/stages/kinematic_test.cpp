@@ -1,13 +1,14 @@
 /// Kinematic parts: exactly where their path says, whoever looks and whenever they joined, and what
 /// lies on them rides.
 
+#include "common/stages/kinematic.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "common/measure/joint_drift.h"
 #include "common/measure/overlap.h"
-#include "common/stages/kinematic.h"
 #include "tests/support/small_world.h"
 
 namespace seam {
@@ -59,10 +60,10 @@ TEST(Kinematic, TurningIsAboutTheAnchor) {
 
 TEST(Kinematic, ItCarriesWhatLiesOnIt) {
   for (const char* solver : {"", "substeps = 3"}) {
-    const auto world = SmallWorld(
-        Platform("path = [[0, 0], [40, 0]]\nperiod = 40") +
-            "[[part]]\nname = \"box\"\nbox = [0.5, 0.5]\nposition = [1, 2.515]\n",
-        solver);
+    const auto world =
+        SmallWorld(Platform("path = [[0, 0], [40, 0]]\nperiod = 40") +
+                       "[[part]]\nname = \"box\"\nbox = [0.5, 0.5]\nposition = [1, 2.515]\n",
+                   solver);
     Steps(world.get(), 120);
     const BodyState now = world->Read(0);
     EXPECT_NEAR(now.velocity.x(), 2, 1e-3);

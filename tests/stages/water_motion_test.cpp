@@ -31,9 +31,9 @@ double Period(World* world, double level, double seconds) {
 }
 
 double BobbingPeriod(int tick_hz) {
-  const auto world = SmallWorld(
-      Floater("p", "box = [4, 1]\ndensity = 0.5\nposition = [0, 0.1]") + IdealSea(),
-      "tick_hz = " + std::to_string(tick_hz));
+  const auto world =
+      SmallWorld(Floater("p", "box = [4, 1]\ndensity = 0.5\nposition = [0, 0.1]") + IdealSea(),
+                 "tick_hz = " + std::to_string(tick_hz));
   return Period(world.get(), 0, 28);
 }
 
@@ -46,8 +46,8 @@ TEST(WaterMotion, ABoxBobsWithThePeriodOfItsDraught) {
 }
 
 TEST(WaterMotion, BobbingWithoutDragKeepsItsHeight) {
-  const auto world = SmallWorld(
-      Floater("p", "box = [4, 1]\ndensity = 0.5\nposition = [0, 0.1]") + IdealSea());
+  const auto world =
+      SmallWorld(Floater("p", "box = [4, 1]\ndensity = 0.5\nposition = [0, 0.1]") + IdealSea());
   float highest = 0;
   Steps(world.get(), 60 * 60);
   for (int i = 0; i < 120; ++i) {
@@ -59,8 +59,11 @@ TEST(WaterMotion, BobbingWithoutDragKeepsItsHeight) {
 
 TEST(WaterMotion, EnergyWithTheWatersIsKeptWhileThingsBobAndRock) {
   const auto world = SmallWorld(
-      Floater("p", "polygon = [[-1, -0.4], [0.8, -0.6], [1.2, 0.2], [0, 0.8]]\ndensity = 0.6\n"
-                   "position = [0, 0.4]\nangle = 0.5") + IdealSea(), "tick_hz = 480");
+      Floater("p",
+              "polygon = [[-1, -0.4], [0.8, -0.6], [1.2, 0.2], [0, 0.8]]\ndensity = 0.6\n"
+              "position = [0, 0.4]\nangle = 0.5") +
+          IdealSea(),
+      "tick_hz = 480");
   const EnergyMeter meter(world->scene(), world->composition());
   const double start = meter.Of({world->Read(0)});
   double off = 0, low = world->Energy(), high = low;
@@ -76,9 +79,9 @@ TEST(WaterMotion, EnergyWithTheWatersIsKeptWhileThingsBobAndRock) {
 
 TEST(WaterMotion, ASinkingBoxReachesItsTerminalSpeedAsTanh) {
   for (const int tick_hz : {60, 240}) {
-    const auto world = SmallWorld(
-        Floater("p", "box = [1, 2]\ndensity = 3\nposition = [0, -2]") +
-            Sea("viscosity = 0\ndrag_tangent = 0"), "tick_hz = " + std::to_string(tick_hz));
+    const auto world = SmallWorld(Floater("p", "box = [1, 2]\ndensity = 3\nposition = [0, -2]") +
+                                      Sea("viscosity = 0\ndrag_tangent = 0"),
+                                  "tick_hz = " + std::to_string(tick_hz));
     // 6 kg, of which 2 are lifted; rho/2 C width = 1/2.
     const double fall = 10 * 4.0 / 6, limit = std::sqrt(40 / 0.5);
     for (int i = 1; i <= 4 * tick_hz; ++i) {
@@ -92,9 +95,9 @@ TEST(WaterMotion, ASinkingBoxReachesItsTerminalSpeedAsTanh) {
 
 TEST(WaterMotion, TerminalSpeedIsExactEvenWhereExplicitDragExplodes) {
   // A plank with vt = 0.14 m/s and g = 6.7 m/s^2: explicit drag needs steps below 21 ms.
-  const auto world = SmallWorld(
-      Floater("p", "box = [10, 0.05]\ndensity = 3\nposition = [0, -2]") +
-          Sea("viscosity = 0\ndrag_tangent = 0\ndrag_normal = 100"), "tick_hz = 10");
+  const auto world = SmallWorld(Floater("p", "box = [10, 0.05]\ndensity = 3\nposition = [0, -2]") +
+                                    Sea("viscosity = 0\ndrag_tangent = 0\ndrag_normal = 100"),
+                                "tick_hz = 10");
   const double limit = std::sqrt(0.05 * 10 * 2 * 10 / (0.5 * 100 * 10));
   double before = 0;
   for (int i = 0; i < 100; ++i) {
@@ -111,7 +114,8 @@ TEST(WaterMotion, TerminalSpeedIsExactEvenWhereExplicitDragExplodes) {
 TEST(WaterMotion, ViscosityAloneSlowsByTheExponential) {
   const auto world = SmallWorld(
       Floater("p", "circle = 0.5\ndensity = 1\nposition = [0, -9]\nvelocity = [4, 0]\nspin = 3") +
-          Sea("viscosity = 0.7\ndrag_tangent = 0\ndrag_normal = 0"), "tick_hz = 240");
+          Sea("viscosity = 0.7\ndrag_tangent = 0\ndrag_normal = 0"),
+      "tick_hz = 240");
   Steps(world.get(), 480);
   const double left = std::exp(-0.7 * 2);
   EXPECT_NEAR(world->Read(0).velocity.x(), 4 * left, 0.01 * 4 * left);
@@ -120,9 +124,10 @@ TEST(WaterMotion, ViscosityAloneSlowsByTheExponential) {
 
 TEST(WaterMotion, ASpinningDiscIsSlowedByFrictionAlone) {
   // I w' = -rho/2 C 2 pi r (w r)^2 r and I = rho pi r^4/2: w = w0/(1 + 2 C w0 t).
-  const auto world = SmallWorld(
-      Floater("p", "circle = 0.5\ndensity = 1\nposition = [0, -9]\nspin = 8") +
-          Sea("viscosity = 0\ndrag_tangent = 0.1\ndrag_normal = 1"), "tick_hz = 240");
+  const auto world =
+      SmallWorld(Floater("p", "circle = 0.5\ndensity = 1\nposition = [0, -9]\nspin = 8") +
+                     Sea("viscosity = 0\ndrag_tangent = 0.1\ndrag_normal = 1"),
+                 "tick_hz = 240");
   Steps(world.get(), 480);
   EXPECT_NEAR(world->Read(0).spin, 8 / (1 + 2 * 0.1 * 8 * 2), 0.02);
 }
@@ -130,17 +135,18 @@ TEST(WaterMotion, ASpinningDiscIsSlowedByFrictionAlone) {
 TEST(WaterMotion, ASpinningPlankIsSlowedByItsLeadingHalves) {
   // Of each long side one half leads: the torque is 2 rho/2 C w^2 a^4/4 with a half the length. The
   // short sides add a little (a thickness of 1/40 to the fourth).
-  const auto world = SmallWorld(
-      Floater("p", "box = [4, 0.1]\ndensity = 1\nposition = [0, -9]\nspin = 3") +
-          Sea("viscosity = 0\ndrag_tangent = 0\ndrag_normal = 1"), "tick_hz = 240");
+  const auto world =
+      SmallWorld(Floater("p", "box = [4, 0.1]\ndensity = 1\nposition = [0, -9]\nspin = 3") +
+                     Sea("viscosity = 0\ndrag_tangent = 0\ndrag_normal = 1"),
+                 "tick_hz = 240");
   const double inertia = 0.4 * (16 + 0.01) / 12, factor = 16.0 / 4 / inertia;
   Steps(world.get(), 480);
   EXPECT_NEAR(world->Read(0).spin, 3 / (1 + factor * 3 * 2), 0.002);
 }
 
 TEST(WaterMotion, AFlowCarriesAFloater) {
-  const auto world = SmallWorld(
-      Floater("p", "box = [1, 1]\ndensity = 0.5") + Sea("flow = [1.5, 0]"));
+  const auto world =
+      SmallWorld(Floater("p", "box = [1, 1]\ndensity = 0.5") + Sea("flow = [1.5, 0]"));
   Steps(world.get(), 60 * 20);
   EXPECT_NEAR(world->Read(0).velocity.x(), 1.5, 0.01);
   EXPECT_GT(world->Read(0).position.x(), 15);
@@ -163,9 +169,11 @@ TEST(WaterMotion, EnergyNeverGrowsInStillWater) {
   // A lump of odd shape thrown in with spin: with gravity, buoyancy's potential would be needed, so
   // without it.
   const auto world = SmallWorld(
-      Floater("p", "polygon = [[-1, -0.3], [0.8, -0.5], [1.2, 0.1], [0, 0.9]]\nvelocity = [20, -3]"
-                   "\nspin = 30\nposition = [0, -9]") +
-          Sea("drag_normal = 50\ndrag_tangent = 5"), "tick_hz = 30", "gravity = [0, 0]");
+      Floater("p",
+              "polygon = [[-1, -0.3], [0.8, -0.5], [1.2, 0.1], [0, 0.9]]\nvelocity = [20, -3]"
+              "\nspin = 30\nposition = [0, -9]") +
+          Sea("drag_normal = 50\ndrag_tangent = 5"),
+      "tick_hz = 30", "gravity = [0, 0]");
   double before = world->Energy();
   for (int i = 0; i < 200; ++i) {
     world->Step();

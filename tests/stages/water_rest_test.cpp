@@ -14,8 +14,7 @@ constexpr double kDegree = M_PI / 180;
 
 /// After `seconds` of a single body in a thick sea, stepped at 240 Hz.
 BodyState Settled(const std::string& part, double seconds, const std::string& sea = "") {
-  const auto world = SmallWorld(Floater("p", part) + Sea("viscosity = 2\n" + sea),
-                                "tick_hz = 240");
+  const auto world = SmallWorld(Floater("p", part) + Sea("viscosity = 2\n" + sea), "tick_hz = 240");
   Steps(world.get(), static_cast<int>(240 * seconds));
   return world->Read(0);
 }
@@ -31,11 +30,11 @@ double Lean(double density, double start_angle, double seconds = 40) {
 }
 
 TEST(WaterRest, ABoxSinksByItsShareOfTheWatersDensity) {
-  for (const char* method : {"method = \"exact\"", "method = \"voxel4\"",
-                             "method = \"voxel\"\nn = 5"}) {
+  for (const char* method :
+       {"method = \"exact\"", "method = \"voxel4\"", "method = \"voxel\"\nn = 5"}) {
     for (const double density : {0.1, 0.5, 0.9}) {
-      const BodyState rest = Settled("box = [3, 0.8]\nposition = [0, 0.5]\ndensity = " +
-                                         Digits(density), 20, method);
+      const BodyState rest =
+          Settled("box = [3, 0.8]\nposition = [0, 0.5]\ndensity = " + Digits(density), 20, method);
       EXPECT_NEAR(rest.position.y(), 0.4 - 0.8 * density, 1e-4) << method << ' ' << density;
       EXPECT_NEAR(rest.angle, 0, 1e-4);
     }
@@ -89,11 +88,11 @@ TEST(WaterRest, BetweenASquareLeansByTheKnownAngle) {
 TEST(WaterRest, AHeavyCornerGoesDown) {
   for (const double side : {-0.35, 0.35}) {
     const std::string x = Digits(side);
-    const auto world = SmallWorld(
-        Floater("box", "box = [1, 1]\ndensity = 0.4") +
-            Floater("lead", "box = [0.2, 0.2]\ndensity = 3\nposition = [" + x + ", 0.35]") +
-            "[[joint]]\nname = \"w\"\nkind = \"weld\"\na = \"box\"\nb = \"lead\"\n" +
-            Sea("viscosity = 2"));
+    const auto world =
+        SmallWorld(Floater("box", "box = [1, 1]\ndensity = 0.4") +
+                   Floater("lead", "box = [0.2, 0.2]\ndensity = 3\nposition = [" + x + ", 0.35]") +
+                   "[[joint]]\nname = \"w\"\nkind = \"weld\"\na = \"box\"\nb = \"lead\"\n" +
+                   Sea("viscosity = 2"));
     Steps(world.get(), 60 * 20);
     const BodyState rest = world->Read(0);
     const Vec2 arm(side, 0.35f);
@@ -105,9 +104,9 @@ TEST(WaterRest, AHeavyCornerGoesDown) {
 }
 
 TEST(WaterRest, WhatIsHeavierSinksToTheBottomAndLiesThere) {
-  const auto world = SmallWorld(
-      Floater("bed", "box = [20, 1]\nposition = [0, -5.5]\nanchored = true") +
-      Floater("stone", "box = [1, 1]\nposition = [0, -0.5]\ndensity = 1.5") + Sea());
+  const auto world =
+      SmallWorld(Floater("bed", "box = [20, 1]\nposition = [0, -5.5]\nanchored = true") +
+                 Floater("stone", "box = [1, 1]\nposition = [0, -0.5]\ndensity = 1.5") + Sea());
   Steps(world.get(), 60 * 10);
   EXPECT_NEAR(world->Read(0).position.y(), -4.5, 0.02);
   EXPECT_NEAR(world->Read(0).velocity.norm(), 0, 1e-3);
@@ -115,10 +114,11 @@ TEST(WaterRest, WhatIsHeavierSinksToTheBottomAndLiesThere) {
 
 TEST(WaterRest, ARaftSinksByWhatIsPutOnIt) {
   // Floaters touch floaters: a crate of 0.5 kg on 4 kg that are 8 m^2 large.
-  const auto world = SmallWorld(
-      Floater("raft", "box = [8, 1]\ndensity = 0.5") +
-          Floater("crate", "box = [1, 1]\ndensity = 0.5\nposition = [0, 1.2]") +
-          Sea("viscosity = 2"), "substeps = 4");
+  const auto world =
+      SmallWorld(Floater("raft", "box = [8, 1]\ndensity = 0.5") +
+                     Floater("crate", "box = [1, 1]\ndensity = 0.5\nposition = [0, 1.2]") +
+                     Sea("viscosity = 2"),
+                 "substeps = 4");
   Steps(world.get(), 60 * 20);
   EXPECT_NEAR(world->Read(0).position.y(), 0.5 - 4.5 / 8, 2e-3);
   EXPECT_NEAR(world->Read(1).position.y() - world->Read(0).position.y(), 1, 0.02);
@@ -126,9 +126,9 @@ TEST(WaterRest, ARaftSinksByWhatIsPutOnIt) {
 
 TEST(WaterRest, ThePartBesideTheWaterIsNotLifted) {
   // Half of a plank lies over the edge of the pool: it tips into the dry.
-  const auto world = SmallWorld(
-      Floater("plank", "box = [4, 0.5]\ndensity = 0.5") +
-      "[[water]]\nname = \"pool\"\nbox = [10, 10]\nposition = [-5, -5]\n");
+  const auto world =
+      SmallWorld(Floater("plank", "box = [4, 0.5]\ndensity = 0.5") +
+                 "[[water]]\nname = \"pool\"\nbox = [10, 10]\nposition = [-5, -5]\n");
   Steps(world.get(), 30);
   EXPECT_LT(world->Read(0).angle, -0.05);
 }

@@ -36,9 +36,9 @@ TEST(Regatta, TheThinBoatOutrunsTheThickOneOfTheSameDisplacement) {
 
 TEST(Regatta, PaddlesWithNothingToPushAgainstMoveNothing) {
   // No cheating force: without drag the wheels turn and the boats stay.
-  const std::string text = With(LoadScene("scenes/regatta.toml").text,
-                                "viscosity = 0.05\ndrag_tangent = 0.02",
-                                "viscosity = 0\ndrag_tangent = 0\ndrag_normal = 0");
+  const std::string text =
+      With(LoadScene("scenes/regatta.toml").text, "viscosity = 0.05\ndrag_tangent = 0.02",
+           "viscosity = 0\ndrag_tangent = 0\ndrag_normal = 0");
   ScriptedWorld race(ParseScene(text, "regatta.toml"));
   const float start = race.Read("thin").position.x();
   const float angle = race.Read("thin-hub").angle;

@@ -1,12 +1,13 @@
 /// Water as a part of the world: in the contact pipeline, with sleep, roles, snapshots and welds.
 
+#include "tests/support/water_world.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "common/base/check.h"
 #include "common/stages/water/wet_shape.h"
-#include "tests/support/water_world.h"
 
 namespace seam {
 namespace {
@@ -56,18 +57,18 @@ TEST(WaterWorld, WhatNothingHoldsDoesNotSleepInAFlowHoweverSlow) {
 }
 
 TEST(WaterWorld, WhatIsMooredAgainstAFlowMaySleep) {
-  World world(SceneOf(
-      Floater("p", "circle = 0.5\ndensity = 0.5") +
-      Floater("wall", "box = [1, 4]\nposition = [1.2, 0]\nanchored = true\nfriction = 1") +
-      Sea("flow = [0.3, 0]")));
+  World world(
+      SceneOf(Floater("p", "circle = 0.5\ndensity = 0.5") +
+              Floater("wall", "box = [1, 4]\nposition = [1.2, 0]\nanchored = true\nfriction = 1") +
+              Sea("flow = [0.3, 0]")));
   Steps(&world, 60 * 60);
   EXPECT_FALSE(world.awake(0));
   EXPECT_NEAR(world.Read(0).position.x(), 0.2, 0.02);
 }
 
 TEST(WaterWorld, WhatBecomesDynamicFloatsAtOnce) {
-  World world(SceneOf(Floater("p", "box = [2, 1]\ndensity = 0.5") + Sea("viscosity = 2"),
-                      "sleep = false"));
+  World world(
+      SceneOf(Floater("p", "box = [2, 1]\ndensity = 0.5") + Sea("viscosity = 2"), "sleep = false"));
   Steps(&world, 60 * 20);
   const float rest = world.Read(0).position.y();
   for (int round = 0; round < 3; ++round) {
@@ -151,7 +152,8 @@ TEST(WaterWorld, FacesBetweenWeldedPartsAreNotWet) {
 TEST(WaterWorld, TwoWeldedBoxesMoveAsTheBigBoxDoes) {
   const std::string motion = "density = 0.6\nvelocity = [3, 1]\nspin = 2\n";
   World two(SceneOf(Welded("box = [1, 1]\nposition = [-0.5, 0]\n" + motion,
-                           "box = [1, 1]\nposition = [0.5, 0]\ndensity = 0.6") + Sea()));
+                           "box = [1, 1]\nposition = [0.5, 0]\ndensity = 0.6") +
+                    Sea()));
   World one(SceneOf(Floater("p", "box = [2, 1]\n" + motion) + Sea()));
   Steps(&two, 120);
   Steps(&one, 120);
@@ -164,8 +166,11 @@ TEST(WaterWorld, TwoWeldedBoxesMoveAsTheBigBoxDoes) {
 }
 
 TEST(WaterWorld, WhatBreaksApartFloatsOrSinksEachForItself) {
-  World world(SceneOf(Welded("box = [2, 1]\ndensity = 0.2", "box = [2, 0.5]\ndensity = 1.2\n"
-                             "position = [0, -0.75]") + Sea("viscosity = 2"), "sleep = false"));
+  World world(SceneOf(Welded("box = [2, 1]\ndensity = 0.2",
+                             "box = [2, 0.5]\ndensity = 1.2\n"
+                             "position = [0, -0.75]") +
+                          Sea("viscosity = 2"),
+                      "sleep = false"));
   Steps(&world, 60 * 20);
   ASSERT_EQ(world.body_count(), 1);
   EXPECT_NEAR(world.Read(0).position.y() + 0.25, 0.75 - 1.6 / 2, 0.5) << "together they float";
@@ -201,7 +206,7 @@ TEST(WaterWorld, MistakesNameFileLineAndReason) {
     }
     return std::string();
   };
-  const std::string good = "name = \"sea\"\nbox = [9, 9]\n";   // lines 6 and 7
+  const std::string good = "name = \"sea\"\nbox = [9, 9]\n";  // lines 6 and 7
   EXPECT_EQ(complaint("", good), "");
   const struct {
     std::string top, water, says;

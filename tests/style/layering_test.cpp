@@ -60,7 +60,7 @@ const std::vector<Room>& Rooms() {
   static const std::vector<Room> rooms = {
       {"common/base", {}},
       {"common/net", {"common/base"}},
-      {"seam", {}},   // generated from lcmtypes
+      {"seam", {}},  // generated from lcmtypes
       {"common/codec", {"common/base", "seam"}},
       {"common/record", {"common/base", "common/codec"}},
       {"common/scene", {"common/base"}},
@@ -118,9 +118,7 @@ std::string WrongIncludes(const std::vector<Source>& sources) {
   return offenders;
 }
 
-TEST(Layering, EachRoomIncludesOnlyWhatIsBelowIt) {
-  EXPECT_EQ(WrongIncludes(Code()), "");
-}
+TEST(Layering, EachRoomIncludesOnlyWhatIsBelowIt) { EXPECT_EQ(WrongIncludes(Code()), ""); }
 
 TEST(Layering, TheFileAndTheIncludeThatBreakTheOrderAreNamed) {
   Source source;
@@ -166,7 +164,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
   for (const Source& source : Code()) {
     const std::string folder = FolderOf(source.path);
     if (Regex(".*_test\\.cpp").Matches(source.path) || folder == RoomOf(folder)) continue;
-    if (RoomOf(folder) == "tests") continue;   // a folder for the tests of each room
+    if (RoomOf(folder) == "tests") continue;  // a folder for the tests of each room
     const auto row = std::find_if(table.begin(), table.end(),
                                   [&](const auto& r) { return Regex(r.first).Matches(folder); });
     if (row == table.end()) {
@@ -231,10 +229,9 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
 }
 
 TEST(Layering, PhysicsKnowsNoClockSocketOrUnseededChance) {
-  ExpectOnlyIn("none",
-               {"common/scene", "common/topology", "common/physics", "common/stages",
-                "common/sync"},
-               "chrono|ctime|time\\.h|sys/time\\.h|random|unistd\\.h|thread");
+  ExpectOnlyIn(
+      "none", {"common/scene", "common/topology", "common/physics", "common/stages", "common/sync"},
+      "chrono|ctime|time\\.h|sys/time\\.h|random|unistd\\.h|thread");
 }
 
 }  // namespace

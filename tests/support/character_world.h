@@ -102,8 +102,8 @@ inline double BeyondLimits(const ScriptedWorld& run) {
       return static_cast<double>(run.Read(p.name).angle - p.angle);
     };
     const double turn = angle(joint.b) - angle(joint.a);
-    beyond = std::max({beyond, static_cast<double>(joint.lower) - turn,
-                       turn - static_cast<double>(joint.upper)});
+    beyond = std::max(
+        {beyond, static_cast<double>(joint.lower) - turn, turn - static_cast<double>(joint.upper)});
   }
   return beyond;
 }

@@ -18,7 +18,7 @@ class FakeHost : public ScriptHost {
       {"ball", {{1, 2}, 0.5f, {3, 4}, 5}}, {"crate.0", {}}, {"crate.1", {}}};
   std::vector<std::string> players{"ann", "bob"};
   std::map<std::string, float> values;
-  std::vector<std::string> asked;     ///< in order
+  std::vector<std::string> asked;  ///< in order
   std::vector<std::string> said;
 
   std::int64_t Tick() const override { return tick; }
@@ -40,8 +40,7 @@ class FakeHost : public ScriptHost {
   }
   void Push(const std::string& part, const Vec2& impulse, const std::string& why) override {
     if (states.count(part) == 0) throw ScriptRefusal("there is no part '" + part + "'");
-    asked.push_back("push " + part + " " + Text(impulse.x()) + " " + Text(impulse.y()) + " " +
-                    why);
+    asked.push_back("push " + part + " " + Text(impulse.x()) + " " + Text(impulse.y()) + " " + why);
   }
   void Blast(const Vec2& centre, float radius, float speed) override {
     asked.push_back("blast " + Text(centre.x()) + " " + Text(centre.y()) + " " + Text(radius) +

@@ -55,7 +55,7 @@ class FollowedCopy {
 
   World truth;
   Replica copy;
-  bool talking = true;                 ///< false: messages wait
+  bool talking = true;  ///< false: messages wait
 
  private:
   States Message() const {

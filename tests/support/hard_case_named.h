@@ -13,8 +13,8 @@ namespace seam {
 
 inline const HardCase& CaseNamed(const std::string& name) {
   const std::vector<HardCase>& all = HardCases();
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [&](const HardCase& hard) { return hard.name == name; });
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const HardCase& hard) { return hard.name == name; });
   EXPECT_NE(found, all.end()) << name;
   return *found;
 }

@@ -17,7 +17,7 @@ constexpr double kSuiteSecondsMost = 300;
 struct SuiteRun {
   std::string text;
   std::string skip_reason;
-  std::string story;   ///< of a run that did not end well
+  std::string story;  ///< of a run that did not end well
 };
 
 SuiteRun RunInside(const ::testing::TestSuite& suite, const std::string& network) {

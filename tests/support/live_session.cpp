@@ -14,9 +14,9 @@ LiveSession::LiveSession(const Workspace& folder, int index, const SessionPlan& 
       stem_(folder / plan.name),
       port_(std::to_string(17300 + index)),
       lcm_url_("udpm://239.255.76.67:" + std::to_string(18300 + index) + "?ttl=0") {
-  logger_ = std::make_unique<Program>(std::vector<std::string>{
-      "lcm-logger", "--quiet", "--force", "--lcm-url=" + lcm_url_ + "&recv_buf_size=4194304",
-      capture_path()});
+  logger_ = std::make_unique<Program>(
+      std::vector<std::string>{"lcm-logger", "--quiet", "--force",
+                               "--lcm-url=" + lcm_url_ + "&recv_buf_size=4194304", capture_path()});
 }
 
 bool LiveSession::Probe(const std::string& channel) {
@@ -38,8 +38,14 @@ bool LiveSession::Probe(const std::string& channel) {
 
 bool LiveSession::Begin() {
   if (!Probe("BEGIN")) return false;
-  std::vector<std::string> words = {BuiltProgram("seam-server"), plan_.scene, "--bind",
-                                    "127.0.0.1", "--port", port_, "--lcm-url", lcm_url_};
+  std::vector<std::string> words = {BuiltProgram("seam-server"),
+                                    plan_.scene,
+                                    "--bind",
+                                    "127.0.0.1",
+                                    "--port",
+                                    port_,
+                                    "--lcm-url",
+                                    lcm_url_};
   words.insert(words.end(), plan_.server_flags.begin(), plan_.server_flags.end());
   server_ = std::make_unique<Program>(words);
   for (const auto& [name, flags] : plan_.clients) Join(name, flags);
@@ -48,8 +54,8 @@ bool LiveSession::Begin() {
 
 Program& LiveSession::Join(const std::string& name, const std::vector<std::string>& flags,
                            int terminal) {
-  std::vector<std::string> words = {BuiltProgram("seam-client"), address(), "--name", name,
-                                    "--lcm-url", lcm_url_};
+  std::vector<std::string> words = {
+      BuiltProgram("seam-client"), address(), "--name", name, "--lcm-url", lcm_url_};
   words.insert(words.end(), flags.begin(), flags.end());
   clients_[name] = std::make_unique<Program>(words, "", terminal);
   return *clients_[name];
@@ -68,7 +74,7 @@ Recording LiveSession::Captured() const {
   try {
     return ReadRecording(capture_path());
   } catch (const OperatorError&) {
-    return Recording();   // nothing of the room yet
+    return Recording();  // nothing of the room yet
   }
 }
 

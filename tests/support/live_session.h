@@ -14,10 +14,10 @@
 namespace seam {
 
 struct SessionPlan {
-  std::string name;                            ///< of its files
+  std::string name;  ///< of its files
   std::string scene = "scenes/crossing.toml";
   std::vector<std::string> server_flags;
-  std::map<std::string, std::vector<std::string>> clients;   ///< flags by name
+  std::map<std::string, std::vector<std::string>> clients;  ///< flags by name
 };
 
 class LiveSession {
@@ -30,8 +30,7 @@ class LiveSession {
   /// does not come.
   bool Begin();
   /// Starts a client, again if it has ended. `terminal`: its standard input, -1 for none.
-  Program& Join(const std::string& name, const std::vector<std::string>& flags,
-                int terminal = -1);
+  Program& Join(const std::string& name, const std::vector<std::string>& flags, int terminal = -1);
   /// Waits for the server and the clients to end by themselves, then ends the logger. False when
   /// one of them does not end within `seconds`.
   bool Finish(double seconds);

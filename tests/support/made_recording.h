@@ -9,7 +9,7 @@
 
 namespace seam {
 
-constexpr int kHz = 64;   // ticks are exact in binary
+constexpr int kHz = 64;  // ticks are exact in binary
 constexpr double kH = 1.0 / kHz;
 
 /// A body as a function of the tick.

@@ -37,8 +37,8 @@ int Pauses(double seconds) { return static_cast<int>(seconds * 200); }
 
 std::string BuiltProgram(const std::string& name) {
   const char* const folder = std::getenv("SEAM_BIN");
-  const fs::path bin = folder != nullptr ? fs::path(folder)
-                                         : fs::read_symlink("/proc/self/exe").parent_path();
+  const fs::path bin =
+      folder != nullptr ? fs::path(folder) : fs::read_symlink("/proc/self/exe").parent_path();
   return fs::absolute(bin / name).string();
 }
 

@@ -31,8 +31,8 @@ class Program {
 
   /// Of its exit, 128 + signal when it was killed, -1 while it runs.
   int status() const { return status_; }
-  std::string output() const;   ///< what it has written to stdout so far
-  std::string errors() const;   ///< and to stderr
+  std::string output() const;  ///< what it has written to stdout so far
+  std::string errors() const;  ///< and to stderr
   /// For a failure's message: status and both texts.
   std::string Story() const;
 

@@ -17,8 +17,8 @@ class RandomMessages {
   explicit RandomMessages(std::uint64_t seed) : random_(seed) {}
 
   std::int64_t Integer(std::int64_t low, std::int64_t high) {
-    return low + static_cast<std::int64_t>(random_.Next() %
-                                           (static_cast<std::uint64_t>(high - low) + 1));
+    return low +
+           static_cast<std::int64_t>(random_.Next() % (static_cast<std::uint64_t>(high - low) + 1));
   }
   std::size_t Count(std::size_t low, std::size_t high) {
     return static_cast<std::size_t>(
@@ -89,9 +89,9 @@ class RandomMessages {
   void Fill(Impacts& m) { Fill(m, Count(0, 60)); }
   void Fill(Stats& m) {
     Common(m), Sequence(m), Set(m.peer, 0, 31), m.tick = Tick();
-    for (auto* n : {&m.bytes_out, &m.bytes_in, &m.datagrams_out, &m.datagrams_in,
-                    &m.dropped_malformed, &m.dropped_stale, &m.dropped_right,
-                    &m.dropped_implausible, &m.cpu_us}) {
+    for (auto* n :
+         {&m.bytes_out, &m.bytes_in, &m.datagrams_out, &m.datagrams_in, &m.dropped_malformed,
+          &m.dropped_stale, &m.dropped_right, &m.dropped_implausible, &m.cpu_us}) {
       Set(*n, 0, kTimeMaxUs - 1);
     }
     Set(m.rtt_us, -1, INT32_MAX), Set(m.loss_ppm, 0, 1000000), m.tick_late_us = Int32();
@@ -194,9 +194,7 @@ inline auto Fields(const Stats& m) {
                   m.dropped_implausible, m.cpu_us, m.rtt_us, m.loss_ppm, m.tick_late_us,
                   m.clock_offset_us);
 }
-inline auto Fields(const Event& m) {
-  return std::tie(m.utime, m.sequence, m.peer, m.tick, m.text);
-}
+inline auto Fields(const Event& m) { return std::tie(m.utime, m.sequence, m.peer, m.tick, m.text); }
 inline auto Fields(const Bye& m) { return std::tie(m.utime, m.reason); }
 
 }  // namespace seam

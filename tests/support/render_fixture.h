@@ -13,10 +13,10 @@
 #include <vector>
 
 #include "render/canvas/canvas.h"
-#include "render/draw/draw_world.h"
-#include "render/frame.h"
 #include "render/canvas/palette.h"
 #include "render/canvas/png_writer.h"
+#include "render/draw/draw_world.h"
+#include "render/frame.h"
 #include "tests/support/render_synthetic.h"
 
 namespace seam {

@@ -8,9 +8,9 @@
 
 #include "common/codec/codec.h"
 #include "common/measure/measure.h"
-#include "common/scene/scene.h"
 #include "common/record/log_file.h"
 #include "common/record/recording.h"
+#include "common/scene/scene.h"
 
 namespace seam {
 namespace synthetic {
@@ -41,8 +41,8 @@ inline Scene MakeScene() {
   scene.parts[3].kind = ShapeKind::kCircle;
   scene.parts[3].radius = 0.8f;
   for (int i = 0; i < 4; ++i)
-    scene.parts.push_back(MakeBox(4 + i, "box" + std::to_string(i),
-                                  {14, 0.5f + static_cast<float>(i)}, {1, 1}));
+    scene.parts.push_back(
+        MakeBox(4 + i, "box" + std::to_string(i), {14, 0.5f + static_cast<float>(i)}, {1, 1}));
   const char* const names[] = {"ann", "ben"};
   for (int p = 0; p < 2; ++p) {
     Player player;

@@ -40,12 +40,12 @@ struct Arrived {
 
 /// How a run is driven; every field has a default for tests that do not care.
 struct Traffic {
-  int count = 1000;                    // datagrams sent here -> there
+  int count = 1000;  // datagrams sent here -> there
   std::int64_t period_us = 100'000;
   std::size_t bytes = 60;
   std::uint64_t seed = 1;
-  bool incoming = false;               // impair at the receiver instead of the sender
-  int others = 0;                      // per datagram, so many more from and to somebody else
+  bool incoming = false;  // impair at the receiver instead of the sender
+  int others = 0;         // per datagram, so many more from and to somebody else
 };
 
 /// Sends Traffic::count datagrams through `profile`, and steps from due time to due time, so that

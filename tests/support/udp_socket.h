@@ -41,8 +41,8 @@ class UdpSocket {
     data->resize(65536);
     sockaddr_in from{};
     socklen_t bytes = sizeof from;
-    const ssize_t got = recvfrom(fd_, data->data(), data->size(), 0,
-                                 reinterpret_cast<sockaddr*>(&from), &bytes);
+    const ssize_t got =
+        recvfrom(fd_, data->data(), data->size(), 0, reinterpret_cast<sockaddr*>(&from), &bytes);
     data->resize(got > 0 ? static_cast<std::size_t>(got) : 0);
     *port = ntohs(from.sin_port);
     return got >= 0;

@@ -88,8 +88,10 @@ TEST(Pvb, GoesEvenlyFromRestToRest) {
 
 TEST(Pvb, NeverJumpsWhateverMessageComes) {
   // The authority's ball is kicked; the copy hears of it 9 ticks later and flies after it.
-  FollowedCopy f("gravity = [0, 0]\n[solver]\nsleep = false\n"
-                 "[[part]]\nname = \"a\"\nbox = [1, 1]\nvelocity = [3, 0]\n", "pvb", 9);
+  FollowedCopy f(
+      "gravity = [0, 0]\n[solver]\nsleep = false\n"
+      "[[part]]\nname = \"a\"\nbox = [1, 1]\nvelocity = [3, 0]\n",
+      "pvb", 9);
   f.Steps(30);
   BodyState kicked = f.truth.Read(0);
   kicked.velocity = Vec2(-3, 5);
@@ -115,7 +117,7 @@ TEST(Pvb, ABlowEndsTheBlendUntilTheNextMessage) {
   EXPECT_GT(first.now.velocity.x(), 1);
   memory.asked = first.now.velocity;
   in.since_arrival = in.step;
-  in.local.velocity = Vec2(0, 0);   // it ran into something
+  in.local.velocity = Vec2(0, 0);  // it ran into something
   EXPECT_EQ(PullPvb(in, &memory).now.velocity.norm(), 0);
   in.since_arrival = 2 * in.step;
   EXPECT_EQ(PullPvb(in, &memory).now.velocity.norm(), 0);

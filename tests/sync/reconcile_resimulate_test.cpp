@@ -38,17 +38,20 @@ BodyState By(float x, float vx) {
 }
 
 TEST(Resimulate, IsExactToQuantisationInFreeFlight) {
-  FollowedCopy f("[[part]]\nname = \"a\"\nbox = [1, 0.5]\nposition = [0, 50]\n"
-                 "velocity = [6, 8]\nspin = 3\n", "resimulate", 12);
+  FollowedCopy f(
+      "[[part]]\nname = \"a\"\nbox = [1, 0.5]\nposition = [0, 50]\n"
+      "velocity = [6, 8]\nspin = 3\n",
+      "resimulate", 12);
   // A state as heard is wrong by half a quantum, and its velocity for the 13 ticks after it.
   const float rounding = kPositionQuantum + 13 * kVelocityQuantum / 60 * 1.5f;
   EXPECT_LT(WorstAfter(&f, By(0.5f, 2), 150), rounding + 1e-4f);
 }
 
 TEST(Resimulate, IsExactToQuantisationThroughABounce) {
-  FollowedCopy f("[[part]]\nname = \"ground\"\nchain = [[-50, 0], [50, 0]]\n"
-                 "[[part]]\nname = \"ball\"\ncircle = 0.5\nposition = [0, 3]\nrestitution = 0.9\n",
-                 "resimulate", 12);
+  FollowedCopy f(
+      "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [50, 0]]\n"
+      "[[part]]\nname = \"ball\"\ncircle = 0.5\nposition = [0, 3]\nrestitution = 0.9\n",
+      "resimulate", 12);
   // It lands at tick 42 at 7 m/s. Rounding may move a bounce to the next tick: 2 v h / n of way.
   EXPECT_LT(WorstAfter(&f, By(0.2f, 0.5f), 240), 0.05f);
 }
@@ -113,8 +116,10 @@ TEST(Resimulate, OneReplayFromTheOldestOfManyMessages) {
 }
 
 TEST(Resimulate, WhatIsOlderThanItsBarriersIsPlacedWhenFarOff) {
-  FollowedCopy f("gravity = [0, 0]\n[solver]\nsleep = false\n"
-                 "[[part]]\nname = \"a\"\nbox = [1, 1]\nvelocity = [3, 0]\n", "resimulate", 70);
+  FollowedCopy f(
+      "gravity = [0, 0]\n[solver]\nsleep = false\n"
+      "[[part]]\nname = \"a\"\nbox = [1, 1]\nvelocity = [3, 0]\n",
+      "resimulate", 70);
   f.Steps(30);
   BodyState kicked = f.truth.Read(0);
   kicked.velocity = Vec2(0, 8);

@@ -75,11 +75,11 @@ TEST(Spring, PlacesOnlyWhatIsFarOff) {
   ReconcileInput in;
   in.remote.velocity = Vec2(10, 0);
   in.dt = 0.1f;
-  in.remote.position = Vec2(6, 0);   // moved on: 7
+  in.remote.position = Vec2(6, 0);  // moved on: 7
   EXPECT_EQ(ReconcileSpring(in).now.position.norm(), 0);
   in.remote.position = Vec2(8, 0);
   EXPECT_FLOAT_EQ(ReconcileSpring(in).now.position.x(), 9);
-  in.dt = 2;                         // moved on by 0.3 s, no more
+  in.dt = 2;  // moved on by 0.3 s, no more
   EXPECT_FLOAT_EQ(ReconcileSpring(in).now.position.x(), 11);
 }
 
@@ -94,7 +94,7 @@ TEST(Spring, GivesWayWhereAWallHoldsTheCopyBack) {
   BodyState beyond = f.truth.Read(0);
   beyond.position.x() = 5;
   f.truth.Write(0, beyond);
-  f.Steps(120);   // it has come to the wall
+  f.Steps(120);  // it has come to the wall
   float first = 0, last = 0, farthest = 0;
   for (int t = 0; t < 600; ++t) {
     f.Step();
@@ -121,7 +121,7 @@ TEST(Spring, ComesBackInFullWhenTheWayIsFree) {
     asked = PullSpring(in, &memory).now.velocity.x();
     EXPECT_GE(asked, before);
     before = asked;
-    memory.before = in.local.velocity;   // and now it moves
+    memory.before = in.local.velocity;  // and now it moves
     memory.asked = Vec2(asked, 0);
     in.local.velocity.x() = 0;
     memory.before.x() = -asked;
@@ -131,9 +131,11 @@ TEST(Spring, ComesBackInFullWhenTheWayIsFree) {
 
 TEST(Spring, StandingOnTheGroundIsNotBeingBlocked) {
   // Beside a resting authority's body, on the ground: gravity is taken up, the pull is not.
-  FollowedCopy f("[[part]]\nname = \"ground\"\nchain = [[-50, 0], [50, 0]]\n"
-                 "[[part]]\nname = \"a\"\nbox = [1, 1]\nposition = [0, 0.5]\nfriction = 0\n"
-                 "velocity = [1, 0]\n", "spring", 6);
+  FollowedCopy f(
+      "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [50, 0]]\n"
+      "[[part]]\nname = \"a\"\nbox = [1, 1]\nposition = [0, 0.5]\nfriction = 0\n"
+      "velocity = [1, 0]\n",
+      "spring", 6);
   f.Steps(20);
   BodyState moved = f.copy.world().Read(0);
   moved.position.x() += 1;

@@ -43,7 +43,7 @@ TEST(Reconcile, CompensatedMeetsHalfWayToTheMovedOnState) {
   ReconcileInput in;
   in.local = At(10);
   in.remote = At(7, 20);
-  in.dt = 0.1f;   // moved on to 9
+  in.dt = 0.1f;  // moved on to 9
   EXPECT_FLOAT_EQ(CorrectedX(in, ReconcileCompensated), 9.5f);
 }
 
@@ -62,10 +62,10 @@ TEST(Reconcile, FadeKeepsTheLocalResultRightAfterAnImpact) {
   in.dt = 0.1f;
   in.since_impact = 0;
   EXPECT_FLOAT_EQ(CorrectedX(in, ReconcileFade), 10);
-  in.since_impact = 0.25f;   // a quarter of the way to 7 + 30 * 0.1 = 10 ... velocity too
+  in.since_impact = 0.25f;  // a quarter of the way to 7 + 30 * 0.1 = 10 ... velocity too
   const Correction c = ReconcileFade(in);
   EXPECT_NEAR((in.local.velocity + c.now.velocity).x(), -3, 1e-6) << "10 and 10: left alone";
-  in.remote = At(9, 30);     // moved on to 12
+  in.remote = At(9, 30);  // moved on to 12
   const Correction d = ReconcileFade(in);
   EXPECT_FLOAT_EQ((in.local.position + d.now.position).x(), 10.5f);
   EXPECT_FLOAT_EQ((in.local.velocity + d.now.velocity).x(), -3 + 33 * 0.25f);

@@ -33,7 +33,7 @@ float WorstAfterBounces(float lower, std::int64_t late) {
   float worst = 0, before = 0, copy_before = 0;
   std::int64_t bounced = -10;
   for (std::int64_t tick = 1; tick <= 240; ++tick) {
-    if (tick == 38) {   // it lands at 42
+    if (tick == 38) {  // it lands at 42
       BodyState moved = truth.Read(0);
       moved.position.y() -= lower;
       truth.Write(0, moved);

@@ -4,9 +4,9 @@
 
 #include <cmath>
 
+#include "client/clock_filter.h"
 #include "common/base/check.h"
 #include "common/base/random.h"
-#include "client/clock_filter.h"
 #include "common/sync/input_source.h"
 #include "common/sync/input_track.h"
 #include "common/sync/mode.h"
@@ -71,7 +71,7 @@ TEST(Smoother, TheViewsVelocityIsContinuousAndItReturnsLikeACriticallyDampedSpri
   const float dt = 1 / 60.0f;
   for (int frame = 1; frame <= 60; ++frame) {
     smoother.Advance(0, dt, 100);
-    const float t = static_cast<float>(frame) * dt;   // x = x0 (1 + w t) exp(-w t), w = 10/s
+    const float t = static_cast<float>(frame) * dt;  // x = x0 (1 + w t) exp(-w t), w = 10/s
     EXPECT_NEAR(smoother.offset(0).x(), -0.1f * (1 + 10 * t) * std::exp(-10 * t), 1e-5f);
   }
 }
@@ -200,7 +200,7 @@ TEST(Snapshots, ReckonWithTheAccelerationBetweenTheLastTwo) {
     const float t = static_cast<float>(tick) * dt;
     snapshots.Add(0, tick, State(20 * t - 3 * t * t, 20 - 6 * t, 0));
   }
-  const BodyState at = snapshots.Extrapolate(0, 18, dt, 1);   // 0.2 s on
+  const BodyState at = snapshots.Extrapolate(0, 18, dt, 1);  // 0.2 s on
   EXPECT_NEAR(at.position.x(), 20 * 0.3f - 3 * 0.09f, 1e-4f);
   EXPECT_NEAR(at.velocity.x(), 20 - 6 * 0.3f, 1e-4f);
   // Beyond 0.3 s it moves on with the velocity it has then.

@@ -49,8 +49,8 @@ TEST(Blast, PartsCoverTheFreedBricksExactly) {
   FeatherStore store(Wall());
   ASSERT_EQ(store.Remove(freed.bricks), freed.bricks.size()) << "each was there, once";
   for (const Brick& b : freed.bricks) {
-    const Vec2 middle = Vec2(static_cast<float>(2 * b.x + 10), static_cast<float>(2 * b.y + 5)) *
-                        (kBrickUnit / 2);
+    const Vec2 middle =
+        Vec2(static_cast<float>(2 * b.x + 10), static_cast<float>(2 * b.y + 5)) * (kBrickUnit / 2);
     int covering = 0;
     for (const Part& part : freed.parts) {
       const Vec2 d = (middle - part.position).cwiseAbs();

@@ -158,7 +158,7 @@ TEST(FeatherOutline, AllCellsTogetherAreTheBoundaryOfTheUnion) {
   for (int seed = 0; seed < 40; ++seed) {
     Random random(static_cast<std::uint64_t>(seed));
     std::vector<BrickField> fields;
-    for (int i = 0; i < 12; ++i) {   // also overlapping, touching at corners, reaching over borders
+    for (int i = 0; i < 12; ++i) {  // also overlapping, touching at corners, reaching over borders
       const auto in = [&](int low, int high) {
         return low + static_cast<int>(random.Next() % static_cast<std::uint64_t>(high - low));
       };
@@ -175,7 +175,7 @@ TEST(FeatherOutline, PathsThatEndGoOnWhereAnotherBegins) {
   BrickField rough = Rectangle(-300, 100, 3, 9);
   rough.friction = 0.9f;
   const FeatherStore store({Towers(2, true), Rectangle(-500, -40, 90, 8), rough});
-  std::map<std::tuple<int, int, int, int>, int> ends;   // corner and way: begun minus ended
+  std::map<std::tuple<int, int, int, int>, int> ends;  // corner and way: begun minus ended
   int open = 0;
   for (const OutlinePath& path : AllOutlines(store)) {
     if (path.closed) continue;

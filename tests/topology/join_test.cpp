@@ -17,14 +17,13 @@ const char* const kNoGravity = "gravity = [0, 0]";
 
 std::string Brick(const std::string& name, double x, double y, const std::string& more = "") {
   return "[[part]]\nname = \"" + name + "\"\nbox = [1, 1]\nposition = [" + Digits(x) + ", " +
-         Digits(y) + "]\noutlets = [[0.5, 0, 0]]\ninlets = [[-0.5, 0, 3.14159265]]\n" + more +
-         "\n";
+         Digits(y) + "]\noutlets = [[0.5, 0, 0]]\ninlets = [[-0.5, 0, 3.14159265]]\n" + more + "\n";
 }
 
 TEST(Join, APieceThatComesNearJoinsAtTheExactPlaceAndKeepsMomentum) {
-  auto world = SmallWorld(Brick("a", 0, 0) +
-                              Brick("b", 1.5, 0.03, "angle = 0.05\nvelocity = [-1, 0]\n"
-                                                    "density = 2\njoin_strength = 70"),
+  auto world = SmallWorld(Brick("a", 0, 0) + Brick("b", 1.5, 0.03,
+                                                   "angle = 0.05\nvelocity = [-1, 0]\n"
+                                                   "density = 2\njoin_strength = 70"),
                           "", kNoGravity);
   const std::vector<Edit> edits = Live(world.get(), 60);
   ASSERT_EQ(edits.size(), 1u);
@@ -52,12 +51,13 @@ TEST(Join, AnInletTakesOneOutlet) {
 }
 
 TEST(Join, WhatLooksTheWrongWayOrDoesNotComeNearerDoesNotJoin) {
-  auto turned = SmallWorld(Brick("a", 0, 0) + Brick("b", 1.05, 0, "angle = 0.5\n"
-                                                                  "velocity = [-0.5, 0]"),
+  auto turned = SmallWorld(Brick("a", 0, 0) + Brick("b", 1.05, 0,
+                                                    "angle = 0.5\n"
+                                                    "velocity = [-0.5, 0]"),
                            "", kNoGravity);
   EXPECT_TRUE(Live(turned.get(), 30).empty());
-  auto away = SmallWorld(Brick("a", 0, 0) + Brick("b", 1.05, 0, "velocity = [0.5, 0]"), "",
-                         kNoGravity);
+  auto away =
+      SmallWorld(Brick("a", 0, 0) + Brick("b", 1.05, 0, "velocity = [0.5, 0]"), "", kNoGravity);
   EXPECT_TRUE(Live(away.get(), 30).empty());
   auto still = SmallWorld(Brick("a", 0, 0) + Brick("b", 1.05, 0), "", kNoGravity);
   EXPECT_TRUE(Live(still.get(), 30).empty());

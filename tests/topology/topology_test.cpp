@@ -73,8 +73,8 @@ Momentum MomentumOf(const World& world) {
 /// Where a part is, whichever body it belongs to.
 BodyState WhereIs(const World& world, PartId part) {
   const Composition& c = world.composition();
-  const Assembly& assembly = c.assemblies[static_cast<std::size_t>(
-      c.assembly_of_part[static_cast<std::size_t>(part)])];
+  const Assembly& assembly =
+      c.assemblies[static_cast<std::size_t>(c.assembly_of_part[static_cast<std::size_t>(part)])];
   const BodyState root = world.Read(world.BodyOfId(assembly.id));
   const auto& parts = world.scene().parts;
   const Eigen::Vector2d local = ToRootFrame(parts[static_cast<std::size_t>(part)],
@@ -92,11 +92,10 @@ BodyState WhereIs(const World& world, PartId part) {
 
 /// Three glued boxes of different weight, thrown with a spin.
 std::unique_ptr<World> Thrown() {
-  auto world = SmallWorld(Part("a", 1, 1, 0, 0) + Part("b", 2, 1, 1.5, 0) +
-                              Part("c", 0.5, 1, 2.75, 0, "density = 3") +
-                              Joint("glue", "a", "b", "strength = 10") +
-                              Joint("glue", "b", "c", "strength = 10"),
-                          "", kNoGravity);
+  auto world = SmallWorld(
+      Part("a", 1, 1, 0, 0) + Part("b", 2, 1, 1.5, 0) + Part("c", 0.5, 1, 2.75, 0, "density = 3") +
+          Joint("glue", "a", "b", "strength = 10") + Joint("glue", "b", "c", "strength = 10"),
+      "", kNoGravity);
   EXPECT_EQ(world->body_count(), 1);
   BodyState state = world->Read(0);
   state.velocity = {3, -2};
@@ -139,8 +138,9 @@ TEST(Topology, WhatWasGluedAgainMovesAsIfItHadNeverBeenBroken) {
 
 TEST(Topology, TwoBodiesThatBondKeepTheirMomentumTogether) {
   auto world = SmallWorld(Part("a", 1, 1, 0, 0, "velocity = [2, 1]\nspin = 3") +
-                              Part("b", 1, 1, 1.2, 0.3, "density = 2\nvelocity = [-1, 0.5]\n"
-                                                        "spin = -1\nangle = 0.3"),
+                              Part("b", 1, 1, 1.2, 0.3,
+                                   "density = 2\nvelocity = [-1, 0.5]\n"
+                                   "spin = -1\nangle = 0.3"),
                           "", kNoGravity);
   const Momentum before = MomentumOf(*world);
   // Exactly as they are: nothing moves, so the angular momentum is the same, too.
@@ -170,9 +170,9 @@ TEST(Topology, BondsMoveThePlacesOfAWholeSide) {
 
 TEST(Topology, AHingeStillHoldsWhenWhatItHoldsIsBonded) {
   auto world = SmallWorld(Part("ground", 1, 1, 0, 5, "anchored = true") +
-                              Part("rod", 1, 0.2, 1, 5) + Part("tip", 0.4, 0.4, 4, 4) +
-                              Joint("revolute", "ground", "rod", "anchor = [0.5, 5]"));
-  world->Apply({Bond(2, 1, 0.7f, 0, 0)});   // the tip is heavier... or not: either side may move
+                          Part("rod", 1, 0.2, 1, 5) + Part("tip", 0.4, 0.4, 4, 4) +
+                          Joint("revolute", "ground", "rod", "anchor = [0.5, 5]"));
+  world->Apply({Bond(2, 1, 0.7f, 0, 0)});  // the tip is heavier... or not: either side may move
   Steps(world.get(), 120);
   const BodyState rod = WhereIs(*world, 1);
   const float c = std::cos(rod.angle), s = std::sin(rod.angle);
@@ -182,11 +182,10 @@ TEST(Topology, AHingeStillHoldsWhenWhatItHoldsIsBonded) {
 }
 
 TEST(Topology, AStackStandsOnThroughAnEditElsewhere) {
-  const std::string parts = Part("floor", 20, 1, 0, -0.5, "anchored = true") +
-                            Part("low", 1, 1, 0, 0.515) + Part("mid", 1, 1, 0, 1.53) +
-                            Part("top", 1, 1, 0, 2.545) + Part("x", 0.5, 0.5, 6, 0.265) +
-                            Part("y", 0.5, 0.5, 6.5, 0.265) +
-                            Joint("glue", "x", "y", "strength = 5");
+  const std::string parts =
+      Part("floor", 20, 1, 0, -0.5, "anchored = true") + Part("low", 1, 1, 0, 0.515) +
+      Part("mid", 1, 1, 0, 1.53) + Part("top", 1, 1, 0, 2.545) + Part("x", 0.5, 0.5, 6, 0.265) +
+      Part("y", 0.5, 0.5, 6.5, 0.265) + Joint("glue", "x", "y", "strength = 5");
   auto world = SmallWorld(parts);
   Steps(world.get(), 120);
   const BodyState before = world->Read(world->BodyOfId(3));
@@ -203,12 +202,13 @@ TEST(Topology, EditsThatCannotBeCountAndDoNothing) {
   const std::uint64_t hash = world->composition().hash;
   Edit insert;
   insert.kind = EditKind::kInsert;
-  insert.text = "[[part]]\nname = \"a\"\nbox = [1, 1]\n";   // a name that is taken
+  insert.text = "[[part]]\nname = \"a\"\nbox = [1, 1]\n";  // a name that is taken
   Edit remove;
   remove.kind = EditKind::kRemove;
   remove.a = 99;
-  EXPECT_FALSE(world->Apply({Break(7), Break(-1), Bond(0, 1, 0, 0, 0), Bond(0, 9, 0, 0, 0), insert,
-                             remove, Edit{}})
+  EXPECT_FALSE(world
+                   ->Apply({Break(7), Break(-1), Bond(0, 1, 0, 0, 0), Bond(0, 9, 0, 0, 0), insert,
+                            remove, Edit{}})
                    .has_value());
   EXPECT_EQ(world->topology().edits(), 7);
   EXPECT_EQ(world->composition().hash, hash);
@@ -245,8 +245,8 @@ TEST(Topology, PartsComeAndGo) {
 }
 
 TEST(Topology, WhatIsFreedFalls) {
-  auto world = SmallWorld(Part("held", 1, 1, 0, 5, "anchored = true") +
-                          Part("hung", 1, 1, 1, 5) + Joint("weld", "held", "hung"));
+  auto world = SmallWorld(Part("held", 1, 1, 0, 5, "anchored = true") + Part("hung", 1, 1, 1, 5) +
+                          Joint("weld", "held", "hung"));
   EXPECT_EQ(world->body_count(), 0);
   Edit free;
   free.kind = EditKind::kFree;

@@ -102,14 +102,14 @@ BondNet NetOf(const Scene& scene, const Assembly& assembly, const std::vector<in
   net.node_of.resize(net.parts.size());
   for (std::size_t i = 0; i < net.parts.size(); ++i) {
     const int name = NameOf(&of, static_cast<int>(i));
-    net.node_of[i] = name == static_cast<int>(i) ? net.nodes++
-                                                 : net.node_of[static_cast<std::size_t>(name)];
+    net.node_of[i] =
+        name == static_cast<int>(i) ? net.nodes++ : net.node_of[static_cast<std::size_t>(name)];
   }
   if (anchored >= 0) net.anchor = net.node_of[static_cast<std::size_t>(anchored)];
   for (BondNet::Bond bond : bonds) {
     bond.a = net.node_of[static_cast<std::size_t>(bond.a)];
     bond.b = net.node_of[static_cast<std::size_t>(bond.b)];
-    if (bond.a == bond.b) continue;   // something that does not break is beside it
+    if (bond.a == bond.b) continue;  // something that does not break is beside it
     if (net.bonds.empty() || bond.strength < net.weakest) net.weakest = bond.strength;
     net.bonds.push_back(bond);
   }
@@ -129,8 +129,8 @@ std::vector<double> BondLoads(const BondNet& net, const std::vector<Eigen::Vecto
     const std::vector<double> shifts = Shifts(net, pull);
     for (std::size_t b = 0; b < loads.size(); ++b) {
       const BondNet::Bond& bond = net.bonds[b];
-      const double load = shifts[static_cast<std::size_t>(bond.a)] -
-                          shifts[static_cast<std::size_t>(bond.b)];
+      const double load =
+          shifts[static_cast<std::size_t>(bond.a)] - shifts[static_cast<std::size_t>(bond.b)];
       loads[b] += load * load;
     }
   }

@@ -13,16 +13,16 @@ namespace seam {
 /// that are anchored.
 struct BondNet {
   struct Bond {
-    int a = 0, b = 0;               ///< nodes, different ones
-    int joint = 0;                  ///< index into Scene::joints
-    double strength = 0;            ///< N
+    int a = 0, b = 0;     ///< nodes, different ones
+    int joint = 0;        ///< index into Scene::joints
+    double strength = 0;  ///< N
   };
-  std::vector<PartId> parts;        ///< of the assembly, ascending
-  std::vector<int> node_of;         ///< by place in `parts`
+  std::vector<PartId> parts;  ///< of the assembly, ascending
+  std::vector<int> node_of;   ///< by place in `parts`
   int nodes = 0;
-  int anchor = -1;                  ///< the node that is anchored; -1: none
-  std::vector<Bond> bonds;          ///< ascending by joint
-  double weakest = 0;               ///< N; of the bonds
+  int anchor = -1;          ///< the node that is anchored; -1: none
+  std::vector<Bond> bonds;  ///< ascending by joint
+  double weakest = 0;       ///< N; of the bonds
 
   /// The node of a part; -1 if it is not of this assembly.
   int NodeOf(PartId part) const;

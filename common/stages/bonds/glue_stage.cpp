@@ -1,11 +1,10 @@
-#include "common/stages/make_stages.h"
-
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/mass.h"
 #include "common/stages/bonds/bond_net.h"
 #include "common/stages/contact_force.h"
-#include "common/scene/mass.h"
+#include "common/stages/make_stages.h"
 
 namespace seam {
 namespace {
@@ -14,18 +13,18 @@ using Eigen::Vector2d;
 
 /// A body with glue in it.
 struct Glued {
-  int assembly = 0;                   // index into Composition::assemblies
+  int assembly = 0;  // index into Composition::assemblies
   BondNet net;
-  std::vector<double> mass;           // kg, by node
-  std::vector<Vector2d> arm;          // m, by node, from the centre of mass, in the root's frame
-  double reach = 0;                   // m: no part's centre is farther from the centre of mass
-  double whole = 0;                   // kg
-  std::vector<int> joints;            // of the engine's, with an end at it: index into joints
+  std::vector<double> mass;   // kg, by node
+  std::vector<Vector2d> arm;  // m, by node, from the centre of mass, in the root's frame
+  double reach = 0;           // m: no part's centre is farther from the centre of mass
+  double whole = 0;           // kg
+  std::vector<int> joints;    // of the engine's, with an end at it: index into joints
   // Of the tick under way:
-  std::vector<PartPush> felt;         // of contacts
-  std::vector<Vector2d> pushed;       // N s, by node
-  double pushes = 0;                  // N s, sum of all magnitudes
-  double spin = 0;                    // rad/s, before the tick
+  std::vector<PartPush> felt;    // of contacts
+  std::vector<Vector2d> pushed;  // N s, by node
+  double pushes = 0;             // N s, sum of all magnitudes
+  double spin = 0;               // rad/s, before the tick
 };
 
 Glued GluedOf(const Scene& scene, const Assembly& assembly, int index, BondNet net) {
@@ -77,10 +76,10 @@ class GlueStage : public Stage {
   void Strain(Glued* glued);
 
   const StageWorld w_;
-  bool stale_ = true;                 // the glue has changed since the bodies were looked at
+  bool stale_ = true;  // the glue has changed since the bodies were looked at
   std::vector<Glued> glued_;
-  std::vector<int> glued_of_;         // by assembly; -1: none
-  std::vector<int> breaking_;         // joints that the last tick was too much for
+  std::vector<int> glued_of_;  // by assembly; -1: none
+  std::vector<int> breaking_;  // joints that the last tick was too much for
 };
 
 void GlueStage::Look() {
@@ -172,8 +171,8 @@ void GlueStage::Strain(Glued* glued) {
   const double turning = anchored ? 0 : (spin - glued->spin) * hz;
   const Vector2d gravity = w_.scene.gravity.cast<double>();
   // No bond bears more than half of the sum of all forces, with what they accelerate.
-  const double inner = anchored ? gravity.norm()
-                                : (std::fabs(turning) + spin * spin) * glued->reach / 2;
+  const double inner =
+      anchored ? gravity.norm() : (std::fabs(turning) + spin * spin) * glued->reach / 2;
   if (glued->pushes * hz + inner * glued->whole <= glued->net.weakest) return;
   for (const PartPush& push : glued->felt) {
     const int node = glued->net.NodeOf(PartAt(w_, push.fixture, push.point));

@@ -1,11 +1,10 @@
-#include "common/stages/make_stages.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
 #include <set>
 
+#include "common/stages/make_stages.h"
 #include "common/stages/stage_memory.h"
 
 namespace seam {
@@ -44,12 +43,12 @@ class GroupStage : public Stage {
 
   const StageWorld w_;
   bool stale_ = true;
-  std::vector<bool> single_;                      // by body: no joint holds it
-  std::vector<std::vector<int>> groups_;          // by body: joints that a touch undoes
-  std::map<PartId, int> quiet_;                   // ticks at rest, by assembly, up to the limit
-  std::vector<b2Vec2> before_;                    // m/s, by body, before the tick
-  std::set<std::pair<int, int>> resting_;         // bodies to be grouped
-  std::set<int> undone_;                          // joints
+  std::vector<bool> single_;               // by body: no joint holds it
+  std::vector<std::vector<int>> groups_;   // by body: joints that a touch undoes
+  std::map<PartId, int> quiet_;            // ticks at rest, by assembly, up to the limit
+  std::vector<b2Vec2> before_;             // m/s, by body, before the tick
+  std::set<std::pair<int, int>> resting_;  // bodies to be grouped
+  std::set<int> undone_;                   // joints
 };
 
 void GroupStage::Look() {
@@ -102,8 +101,8 @@ void GroupStage::Undo(int body) {
 
 void GroupStage::AfterTick() {
   const int bodies = static_cast<int>(w_.built.moving.size());
-  const auto most = static_cast<int>(w_.scene.grouping.after *
-                                     static_cast<float>(w_.scene.solver.tick_hz)) + 1;
+  const auto most =
+      static_cast<int>(w_.scene.grouping.after * static_cast<float>(w_.scene.solver.tick_hz)) + 1;
   std::vector<bool> moves;
   for (int body = 0; body < bodies; ++body) {
     moves.push_back(Moves(body));
@@ -120,8 +119,8 @@ void GroupStage::AfterTick() {
     if (!ripe && !moves[static_cast<std::size_t>(body)]) continue;
     for (const b2ContactEdge* edge = m.body->GetContactList(); edge; edge = edge->next) {
       const int other = IndexOf(edge->other);
-      const bool sensor = edge->contact->GetFixtureA()->IsSensor() ||
-                          edge->contact->GetFixtureB()->IsSensor();
+      const bool sensor =
+          edge->contact->GetFixtureA()->IsSensor() || edge->contact->GetFixtureB()->IsSensor();
       if (other < 0 || sensor) continue;
       // The engine's boxes meet before the shapes do.
       if (moves[static_cast<std::size_t>(body)]) Undo(other);
@@ -155,7 +154,7 @@ void GroupStage::Wishes(std::vector<Edit>* edits) {
     edit.joint = joint;
     edits->push_back(edit);
   }
-  if (stale_) return;                 // the bodies are others already
+  if (stale_) return;  // the bodies are others already
   // Of all that touch, only so many that each is held once.
   std::vector<int> group(w_.built.moving.size());
   std::iota(group.begin(), group.end(), 0);

@@ -1,5 +1,3 @@
-#include "common/stages/make_stages.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -7,9 +5,10 @@
 #include <tuple>
 #include <utility>
 
-#include "common/topology/join.h"
 #include "common/scene/mass.h"
+#include "common/stages/make_stages.h"
 #include "common/stages/stage_memory.h"
+#include "common/topology/join.h"
 
 namespace seam {
 namespace {
@@ -19,21 +18,21 @@ constexpr float kPi = 3.14159265f;
 /// A free connector on a body.
 struct Open {
   FreeConnector what;
-  int assembly = 0;                   // index into Composition::assemblies
-  b2Vec2 local{0, 0};                 // m, in the body's frame
-  float turn = 0;                     // rad, likewise
+  int assembly = 0;    // index into Composition::assemblies
+  b2Vec2 local{0, 0};  // m, in the body's frame
+  float turn = 0;      // rad, likewise
 };
 
 /// Where one is now.
 struct Where {
   const Open* open = nullptr;
-  b2Vec2 at{0, 0};                    // m
-  float angle = 0;                    // rad
-  b2Vec2 velocity{0, 0};              // m/s
+  b2Vec2 at{0, 0};        // m
+  float angle = 0;        // rad
+  b2Vec2 velocity{0, 0};  // m/s
 };
 
 /// An outlet and an inlet that meet, nearest first.
-using Meeting = std::tuple<float, PartId, int, PartId, int>;   // distance, outlet, inlet
+using Meeting = std::tuple<float, PartId, int, PartId, int>;  // distance, outlet, inlet
 
 class JoinStage : public Stage {
  public:
@@ -58,10 +57,10 @@ class JoinStage : public Stage {
   bool Meet(const Where& outlet, const Where& inlet) const;
 
   const StageWorld w_;
-  bool stale_ = true;                 // parts were joined or broken since the last look
+  bool stale_ = true;  // parts were joined or broken since the last look
   std::vector<Open> open_;
-  float reach_ = 0;                   // m; the longest
-  std::map<PartId, int> waiting_;     // ticks left of parts that have just been torn off
+  float reach_ = 0;                // m; the longest
+  std::map<PartId, int> waiting_;  // ticks left of parts that have just been torn off
   std::set<Meeting> met_;
 };
 

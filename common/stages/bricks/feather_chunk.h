@@ -13,12 +13,12 @@ namespace seam {
 /// need not trace the outlines again.
 struct Chunk {
   struct Chain {
-    std::vector<b2Vec2> points;     ///< m, from the cell's corner
+    std::vector<b2Vec2> points;  ///< m, from the cell's corner
     bool closed = false;
-    b2Vec2 before{0, 0}, after{0, 0};   ///< of open ones: how the outline goes on beyond the ends
+    b2Vec2 before{0, 0}, after{0, 0};  ///< of open ones: how the outline goes on beyond the ends
     float friction = 0, restitution = 0;
   };
-  b2Vec2 corner{0, 0};              ///< m
+  b2Vec2 corner{0, 0};  ///< m
   std::vector<Chain> chains;
 };
 

@@ -42,7 +42,7 @@ class Tracer {
     });
     Scan([&](const Side& side) {
       Side first = side;
-      while (Before(first).way == first.way) first = Before(first);   // begin at a corner
+      while (Before(first).way == first.way) first = Before(first);  // begin at a corner
       Trace(first, true);
     });
     return std::move(paths_);

@@ -13,14 +13,14 @@ enum Heading { kEast, kNorth, kWest, kSouth };
 /// A piece of the boundary with solid on the left and air on the right of the way.
 struct OutlinePath {
   struct Corner {
-    int x = 0, y = 0;               ///< units
-    Heading before = kEast, after = kEast;   ///< the boundary's way before and behind it
+    int x = 0, y = 0;                       ///< units
+    Heading before = kEast, after = kEast;  ///< the boundary's way before and behind it
   };
   std::vector<Corner> corners;
   /// Returns to its first corner. Otherwise it begins and ends at the cell's border, or where the
   /// surface changes, and its end corners' headings are those of its continuation there.
   bool closed = false;
-  int surface = 0;                  ///< BrickKind::surface
+  int surface = 0;  ///< BrickKind::surface
 };
 
 /// The boundary of all bricks as far as it belongs to solid within the cell. What the paths of all

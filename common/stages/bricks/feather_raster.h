@@ -27,7 +27,7 @@ class FeatherRaster {
   }
 
  private:
-  static constexpr std::uint8_t kAir = 0;   // else 1 + surface
+  static constexpr std::uint8_t kAir = 0;  // else 1 + surface
   std::uint8_t At(int column, int row) const {
     return squares_[static_cast<std::size_t>(row) * (xs_.size() - 1) +
                     static_cast<std::size_t>(column)];

@@ -1,12 +1,11 @@
-#include "common/stages/make_stages.h"
-
 #include <algorithm>
 #include <cmath>
 
 #include "common/base/check.h"
-#include "common/topology/feather_blast.h"
-#include "common/stages/bricks/feather_chunk.h"
 #include "common/scene/scene_limits.h"
+#include "common/stages/bricks/feather_chunk.h"
+#include "common/stages/make_stages.h"
+#include "common/topology/feather_blast.h"
 
 namespace seam {
 namespace {
@@ -58,7 +57,8 @@ float ReachOf(b2Body* body) {
 class FeatherStage : public Stage {
  public:
   explicit FeatherStage(const StageWorld& world)
-      : world_(world), store_(world.scene.bricks),
+      : world_(world),
+        store_(world.scene.bricks),
         loaded_(static_cast<std::size_t>(store_.cell_count())) {
     const Solver& solver = world.scene.solver;
     tick_s_ = 1.0f / static_cast<float>(solver.tick_hz);
@@ -75,7 +75,7 @@ class FeatherStage : public Stage {
   }
   void Emptied() override {
     b2_ = nullptr;
-    for (Loaded& l : loaded_) {     // the chunks are still right
+    for (Loaded& l : loaded_) {  // the chunks are still right
       l.body = nullptr;
       l.wanted = 0;
     }
@@ -86,12 +86,12 @@ class FeatherStage : public Stage {
  private:
   struct Loaded {
     b2Body* body = nullptr;
-    int wanted = 0;                 // by so many bodies
-    std::unique_ptr<Chunk> chunk;   // kept while the world is built anew
+    int wanted = 0;                // by so many bodies
+    std::unique_ptr<Chunk> chunk;  // kept while the world is built anew
   };
   struct Followed {
-    float reach = 0;                // m
-    CellRange cells;                    // that it wants
+    float reach = 0;  // m
+    CellRange cells;  // that it wants
   };
 
   /// Brings the store to what the scene says is left. Requires that nothing has fixtures.
@@ -100,7 +100,9 @@ class FeatherStage : public Stage {
     const std::size_t known = std::min(taken_.size(), gone.size());
     const auto same = static_cast<std::size_t>(
         std::mismatch(taken_.begin(), taken_.begin() + static_cast<std::ptrdiff_t>(known),
-                      gone.begin()).first - taken_.begin());
+                      gone.begin())
+            .first -
+        taken_.begin());
     const auto at = static_cast<std::ptrdiff_t>(same);
     const std::vector<Brick> back(taken_.begin() + at, taken_.end());
     const std::vector<Brick> out(gone.begin() + at, gone.end());
@@ -129,9 +131,9 @@ class FeatherStage : public Stage {
     const b2Vec2 to = from + ahead * body.GetLinearVelocity();
     const float out = reach + margin;
     const CellRange near{Cell(std::min(from.x, to.x) - out), Cell(std::min(from.y, to.y) - out),
-                     Cell(std::max(from.x, to.x) + out), Cell(std::max(from.y, to.y) + out)};
-    return near.Within({store_.cell_x_min(), store_.cell_y_min(), store_.cell_x_max(),
-                        store_.cell_y_max()});
+                         Cell(std::max(from.x, to.x) + out), Cell(std::max(from.y, to.y) + out)};
+    return near.Within(
+        {store_.cell_x_min(), store_.cell_y_min(), store_.cell_x_max(), store_.cell_y_max()});
   }
   static int Cell(float metres) {
     constexpr float kSide = FeatherStore::kCell * kBrickUnit, kFar = 1e6f;
@@ -143,7 +145,7 @@ class FeatherStage : public Stage {
     for (std::size_t i = 0; i < followed_.size(); ++i) {
       Followed& f = followed_[i];
       const b2Body& body = *world_.built.moving[i].body;
-      if (body.GetType() != b2_dynamicBody) {   // kinematic: touches nothing anchored
+      if (body.GetType() != b2_dynamicBody) {  // kinematic: touches nothing anchored
         if (!f.cells.empty()) Want({}, &f);
         continue;
       }
@@ -180,8 +182,8 @@ class FeatherStage : public Stage {
     Loaded& l = loaded_[static_cast<std::size_t>(cell)];
     if (l.wanted++ > 0) return 0;
     if (l.chunk == nullptr) {
-      l.chunk = std::make_unique<Chunk>(ChunkOf(store_, store_.cell_x(cell), store_.cell_y(cell),
-                                                world_.scene.solver.skin));
+      l.chunk = std::make_unique<Chunk>(
+          ChunkOf(store_, store_.cell_x(cell), store_.cell_y(cell), world_.scene.solver.skin));
     }
     l.body = AddChunk(*l.chunk, IdOf(cell), b2_);
     return 1;
@@ -201,7 +203,7 @@ class FeatherStage : public Stage {
 
   const StageWorld world_;
   FeatherStore store_;
-  std::vector<Brick> taken_;        // out of the store
+  std::vector<Brick> taken_;  // out of the store
   b2World* b2_ = nullptr;
   std::vector<Loaded> loaded_;      // by cell
   std::vector<Followed> followed_;  // by moving body

@@ -17,8 +17,8 @@ void CharacterControl::Jump(const CharacterSense& s) {
   if (memory_.phase == 0) {
     if (height < kJumpCrouch + 0.05f || memory_.time > kJumpCrouchMost) memory_.phase = 1;
   }
-  const bool gone = memory_.phase >= 1 && ((!s.legs[0].down && !s.legs[1].down) ||
-                                           height > kJumpStretched);
+  const bool gone =
+      memory_.phase >= 1 && ((!s.legs[0].down && !s.legs[1].down) || height > kJumpStretched);
   if (gone || memory_.time > kJumpMost) {
     Enter(CharacterMode::kAir);
     Air(s);
@@ -61,8 +61,10 @@ void CharacterControl::Air(const CharacterSense& s) {
     BeginStep(s, s.legs[0].down ? 0 : 1);
     memory_.speed = std::clamp(s.velocity.x, -kSpeedBack, kSpeedMost);
     Enter(still ? CharacterMode::kStand : CharacterMode::kStep);
-    if (still) Stand(s);
-    else StepOn(s, 0);
+    if (still)
+      Stand(s);
+    else
+      StepOn(s, 0);
     return;
   }
   const bool sinks = s.velocity.y < 0.3f;

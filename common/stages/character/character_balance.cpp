@@ -62,8 +62,7 @@ void CharacterControl::Push(const CharacterSense& s, int side, b2Vec2 pressure, 
 /// Angles of thigh and shank, absolute, that bring the ankle `way` from the hip, the knee forward.
 CharacterControl::LegPose CharacterControl::PoseFor(b2Vec2 way) const {
   const float a = limbs_.shape().thigh, b = limbs_.shape().shank;
-  const float distance =
-      std::clamp(way.Length(), std::abs(a - b) + 0.25f * a, 0.995f * (a + b));
+  const float distance = std::clamp(way.Length(), std::abs(a - b) + 0.25f * a, 0.995f * (a + b));
   const float down = std::atan2(way.x, -way.y);
   const float at_hip = std::acos((a * a + distance * distance - b * b) / (2 * a * distance));
   const float at_knee = std::acos((a * a + b * b - distance * distance) / (2 * a * b));
@@ -73,7 +72,7 @@ CharacterControl::LegPose CharacterControl::PoseFor(b2Vec2 way) const {
 /// Leads the ankle to a point that moves, and the foot to an angle, all in the own frame.
 void CharacterControl::Reach(const CharacterSense& s, int side, b2Vec2 ankle, b2Vec2 velocity,
                              float foot, float stiffness) {
-  constexpr float kAhead = 0.01f;     // s, for the rates of the angles
+  constexpr float kAhead = 0.01f;  // s, for the rates of the angles
   const b2Vec2 way = ankle - s.hip;
   const LegPose now = PoseFor(way);
   const LegPose then = PoseFor(way + kAhead * (velocity - s.hip_velocity));
@@ -126,7 +125,7 @@ void CharacterControl::Stand(const CharacterSense& s) {
   const float pressure = capture + kCaptureGain * (capture - middle);
   const float lift = Lift(s, ground_y, kStandHeight * shape.hip, ground_vy);
   const float torso = TorsoTorque(s, 0);
-  float share = 0.5f;                 // of the left
+  float share = 0.5f;  // of the left
   const float apart = s.legs[1].ankle.x - s.legs[0].ankle.x;
   if (std::abs(apart) > 0.1f * shape.hip) {
     share = std::clamp((s.legs[1].ankle.x - pressure) / apart, 0.1f, 0.9f);
@@ -144,9 +143,7 @@ void CharacterControl::Stand(const CharacterSense& s) {
   Arms(0.1f, -0.1f, 0.3f);
 }
 
-float CharacterControl::StepTime() const {
-  return kStepTime * std::sqrt(limbs_.scale());
-}
+float CharacterControl::StepTime() const { return kStepTime * std::sqrt(limbs_.scale()); }
 
 void CharacterControl::BeginStep(const CharacterSense& s, int stance) {
   memory_.stance = stance;
@@ -214,7 +211,7 @@ b2Vec2 CharacterControl::SwingAt(float time, const Foothold& to) const {
 }
 
 void CharacterControl::Swing(const CharacterSense& s, int side, const Foothold& to) {
-  constexpr float kAhead = 0.01f;     // s, for the foot's velocity
+  constexpr float kAhead = 0.01f;  // s, for the foot's velocity
   const b2Vec2 now = SwingAt(memory_.step, to);
   const b2Vec2 then = SwingAt(memory_.step + kAhead, to);
   Reach(s, side, now, 1 / kAhead * (then - now), to.slope, kSwingStiffness);

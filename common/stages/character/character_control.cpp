@@ -8,9 +8,8 @@
 namespace seam {
 
 void CharacterMemory::Save(std::vector<float>* memory) const {
-  memory->insert(memory->end(),
-                 {static_cast<float>(mode), time, static_cast<float>(stance), step, from.x, from.y,
-                  speed, static_cast<float>(phase), phase_time});
+  memory->insert(memory->end(), {static_cast<float>(mode), time, static_cast<float>(stance), step,
+                                 from.x, from.y, speed, static_cast<float>(phase), phase_time});
 }
 
 std::size_t CharacterMemory::Load(const float* memory) {
@@ -72,8 +71,8 @@ void CharacterControl::Choose(const CharacterSense& s, float h) {
     const bool swims = memory_.mode == CharacterMode::kSwim;
     if (!swims && depth > kSwimFrom) Enter(CharacterMode::kSwim);
     const bool stands = depth < kSwimTo && (s.legs[0].down || s.legs[1].down || s.lying);
-    if (swims && stands) Enter(std::abs(s.torso) < 0.5f * kTiltMost ? CharacterMode::kStand
-                                                                    : CharacterMode::kFall);
+    if (swims && stands)
+      Enter(std::abs(s.torso) < 0.5f * kTiltMost ? CharacterMode::kStand : CharacterMode::kFall);
     if (memory_.mode == CharacterMode::kSwim) return;
   }
   const bool upright_mode =
@@ -81,14 +80,13 @@ void CharacterControl::Choose(const CharacterSense& s, float h) {
       memory_.mode == CharacterMode::kJump || memory_.mode == CharacterMode::kAir;
   if (!upright_mode) return;
   const float low = std::min(s.legs[0].ankle.y, s.legs[1].ankle.y) - limbs_.shape().ankle;
-  const bool sunk = s.hip.y - low < kSunk * limbs_.shape().hip &&
-                    memory_.mode != CharacterMode::kAir;
+  const bool sunk =
+      s.hip.y - low < kSunk * limbs_.shape().hip && memory_.mode != CharacterMode::kAir;
   if (std::abs(s.torso) > kTiltMost || sunk) {
     Enter(CharacterMode::kFall);
     return;
   }
-  const bool walks =
-      memory_.mode == CharacterMode::kStand || memory_.mode == CharacterMode::kStep;
+  const bool walks = memory_.mode == CharacterMode::kStand || memory_.mode == CharacterMode::kStep;
   if (!walks) return;
   const bool down = s.legs[0].down || s.legs[1].down;
   memory_.phase_time = down ? 0 : memory_.phase_time + h;
@@ -102,7 +100,7 @@ void CharacterControl::Choose(const CharacterSense& s, float h) {
     const bool below = over > -kJumpBehind * limbs_.scale() && over < kJumpBefore * limbs_.scale();
     if (running && (!below || !stance.down)) return;
     Enter(CharacterMode::kJump);
-    memory_.phase = running ? 2 : 0;   // who runs has no time to crouch
+    memory_.phase = running ? 2 : 0;  // who runs has no time to crouch
   }
 }
 

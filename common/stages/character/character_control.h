@@ -24,13 +24,13 @@ enum class CharacterMode { kStand, kStep, kJump, kAir, kFall, kRise, kSwim, kLim
 /// All that a controller remembers; numbers only, so that a world can save it.
 struct CharacterMemory {
   CharacterMode mode = CharacterMode::kStand;
-  float time = 0;                     ///< s in this mode
-  int stance = 0;                     ///< kStep: the side that bears
-  float step = 0;                     ///< s; kStep: since the swinging foot left the ground
-  b2Vec2 from{0, 0};                  ///< m; kStep: where it left, own frame
-  float speed = 0;                    ///< m/s that is wished for now
-  int phase = 0;                      ///< kRise: of the way up
-  float phase_time = 0;               ///< s in it
+  float time = 0;        ///< s in this mode
+  int stance = 0;        ///< kStep: the side that bears
+  float step = 0;        ///< s; kStep: since the swinging foot left the ground
+  b2Vec2 from{0, 0};     ///< m; kStep: where it left, own frame
+  float speed = 0;       ///< m/s that is wished for now
+  int phase = 0;         ///< kRise: of the way up
+  float phase_time = 0;  ///< s in it
 
   void Save(std::vector<float>* memory) const;
   std::size_t Load(const float* memory);
@@ -69,7 +69,7 @@ class CharacterControl {
   void Push(const CharacterSense& s, int side, b2Vec2 pressure, float lift, float forward);
   b2Vec2 Sole(const CharacterSense& s, int side, float x) const;
   struct LegPose {
-    float thigh = 0, knee = 0;        // rad; absolute, and of the joint
+    float thigh = 0, knee = 0;  // rad; absolute, and of the joint
   };
   LegPose PoseFor(b2Vec2 way) const;
   void Reach(const CharacterSense& s, int side, b2Vec2 ankle, b2Vec2 velocity, float foot,
@@ -103,8 +103,8 @@ class CharacterControl {
   const StageWorld world_;
   CharacterLimbs limbs_;
   CharacterMemory memory_;
-  float drive_ = 0, lift_ = 0;        // -1..1, drive forward
-  float gravity_ = 10;                // m/s^2, downwards
+  float drive_ = 0, lift_ = 0;  // -1..1, drive forward
+  float gravity_ = 10;          // m/s^2, downwards
   float unit_ = 1;
 };
 

@@ -30,9 +30,9 @@ struct Nearest : b2RayCastCallback {
 CharacterLimbs::CharacterLimbs(const Character& character, const StageWorld& world)
     : character_(character), world_(world), facing_(character.facing) {
   scale_ = character.height / 1.8f;
-  for (float* m : {&shape_.hip, &shape_.shoulder, &shape_.neck, &shape_.thigh, &shape_.shank,
-                   &shape_.ankle, &shape_.heel, &shape_.toe, &shape_.upper_arm,
-                   &shape_.lower_arm}) {
+  for (float* m :
+       {&shape_.hip, &shape_.shoulder, &shape_.neck, &shape_.thigh, &shape_.shank, &shape_.ankle,
+        &shape_.heel, &shape_.toe, &shape_.upper_arm, &shape_.lower_arm}) {
     *m *= scale_;
   }
 }
@@ -112,8 +112,7 @@ CharacterSense CharacterLimbs::Sense() const {
   sense.velocity *= 1 / sense.mass;
   for (b2Body* body : bodies_) {
     if (body == nullptr) continue;
-    const float own = body->GetInertia() -
-                      body->GetMass() * body->GetLocalCenter().LengthSquared();
+    const float own = body->GetInertia() - body->GetMass() * body->GetLocalCenter().LengthSquared();
     sense.turning += facing_ * own * body->GetAngularVelocity() +
                      body->GetMass() * b2Cross(Own(body->GetWorldCenter()) - sense.centre,
                                                Own(body->GetLinearVelocity()) - sense.velocity);
@@ -125,18 +124,16 @@ CharacterSense CharacterLimbs::Sense() const {
   for (int side = 0; side < 2; ++side) {
     SenseLeg(side, &sense.legs[side]);
     // As whole turns of the torso do not count, they must not in the legs, either.
-    for (float* angle : {&sense.legs[side].thigh, &sense.legs[side].shank,
-                         &sense.legs[side].foot}) {
+    for (float* angle :
+         {&sense.legs[side].thigh, &sense.legs[side].shank, &sense.legs[side].foot}) {
       *angle += sense.torso - turn;
     }
   }
   sense.hip = sense.legs[0].hip;
-  sense.hip_velocity = Own(torso->GetLinearVelocityFromWorldPoint(
-      joints_[kHipLeft]->GetAnchorA()));
+  sense.hip_velocity = Own(torso->GetLinearVelocityFromWorldPoint(joints_[kHipLeft]->GetAnchorA()));
   b2Vec2 ignored;
   const bool head = bodies_[kHead] != nullptr && joints_[kNeck] != nullptr;
-  sense.lying =
-      Touches(kTorso, kBearing, &ignored) || (head && Touches(kHead, kBearing, &ignored));
+  sense.lying = Touches(kTorso, kBearing, &ignored) || (head && Touches(kHead, kBearing, &ignored));
   return sense;
 }
 

@@ -7,27 +7,27 @@
 
 #include <box2d/box2d.h>
 
-#include "common/scene/character.h"
 #include "common/physics/stage.h"
+#include "common/scene/character.h"
 
 namespace seam {
 
 struct LegSense {
-  b2Vec2 hip{0, 0}, knee{0, 0}, ankle{0, 0};   ///< m
-  b2Vec2 ankle_velocity{0, 0};        ///< m/s
-  float thigh = 0, shank = 0, foot = 0;  ///< rad, absolute; 0 hangs straight down or lies flat
-  bool down = false;                  ///< the foot touches something
-  b2Vec2 ground_velocity{0, 0};       ///< m/s, of what it touches
+  b2Vec2 hip{0, 0}, knee{0, 0}, ankle{0, 0};  ///< m
+  b2Vec2 ankle_velocity{0, 0};                ///< m/s
+  float thigh = 0, shank = 0, foot = 0;       ///< rad, absolute; 0 hangs straight down or lies flat
+  bool down = false;                          ///< the foot touches something
+  b2Vec2 ground_velocity{0, 0};               ///< m/s, of what it touches
 };
 
 struct CharacterSense {
-  float mass = 0;                     ///< kg
+  float mass = 0;                       ///< kg
   b2Vec2 centre{0, 0}, velocity{0, 0};  ///< of mass, m and m/s
-  float turning = 0;                  ///< N m s, angular momentum about the centre of mass
+  float turning = 0;                    ///< N m s, angular momentum about the centre of mass
   b2Vec2 hip{0, 0}, hip_velocity{0, 0};
-  float torso = 0, torso_spin = 0;    ///< rad and rad/s; 0 is upright, positive leans back
+  float torso = 0, torso_spin = 0;  ///< rad and rad/s; 0 is upright, positive leans back
   LegSense legs[2];
-  bool lying = false;                 ///< the torso or head touches something
+  bool lying = false;  ///< the torso or head touches something
 };
 
 /// A point of the ground.
@@ -47,17 +47,17 @@ class CharacterLimbs {
 
   /// Torso and both legs with all their hinges: what a balance needs.
   bool whole() const { return whole_; }
-  bool dynamic() const;               ///< the torso is; else nothing here can move it
+  bool dynamic() const;  ///< the torso is; else nothing here can move it
   bool awake() const;
   /// Requires whole().
   CharacterSense Sense() const;
 
   /// m in the shape of 1.8 m times this are m here.
   float scale() const { return scale_; }
-  const CharacterShape& shape() const { return shape_; }   ///< to scale
+  const CharacterShape& shape() const { return shape_; }  ///< to scale
   bool has(CharacterJoint joint) const { return joints_[joint] != nullptr; }
-  float angle(CharacterJoint joint) const;    ///< rad
-  float bound(CharacterJoint joint) const { return bound_[joint]; }   ///< N m
+  float angle(CharacterJoint joint) const;                           ///< rad
+  float bound(CharacterJoint joint) const { return bound_[joint]; }  ///< N m
 
   /// A servo: torque stiffness (angle - now) + damping (spin - now), N m, within the bound, never
   /// driving the joint faster than it would by itself (the spin at which that torque is 0): so it
@@ -81,7 +81,7 @@ class CharacterLimbs {
   void SenseLeg(int side, LegSense* leg) const;
   bool Touches(CharacterPart part, float least_up, b2Vec2* velocity) const;
 
-  const Character character_;   // a copy: edits of the scene may move it
+  const Character character_;  // a copy: edits of the scene may move it
   const StageWorld world_;
   float facing_ = 1, scale_ = 1;
   CharacterShape shape_;

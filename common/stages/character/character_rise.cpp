@@ -12,8 +12,8 @@ namespace {
 /// A pose of the way up, both sides the same. The poses were found by random search over them (some
 /// hundred falls a minute), for the quickest rise from the worst of several ways to lie.
 struct RiseFrame {
-  float seconds;                      ///< until it is reached, from the one before
-  float hip, knee, ankle, shoulder, elbow;   ///< rad
+  float seconds;                            ///< until it is reached, from the one before
+  float hip, knee, ankle, shoulder, elbow;  ///< rad
 };
 
 constexpr int kFrames = 4;

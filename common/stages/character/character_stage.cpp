@@ -1,8 +1,7 @@
-#include "common/stages/make_stages.h"
-
 #include <algorithm>
 
 #include "common/stages/character/character_control.h"
+#include "common/stages/make_stages.h"
 
 namespace seam {
 namespace {

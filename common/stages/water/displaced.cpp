@@ -45,8 +45,7 @@ AreaMoments Segment(const Vec2d& centre, double radius, double depth, const Vec2
   // First moment along `towards` from the disc's centre, and second moment about the centre: a
   // sector of 2 half has r^4 half / 2, the triangle of the chord and the centre the rest.
   const double first = 2 * chord * chord * chord / 3;
-  const double about = r2 * r2 * half / 2 +
-                       depth * chord * (depth * depth / 2 + chord * chord / 6);
+  const double about = r2 * r2 * half / 2 + depth * chord * (depth * depth / 2 + chord * chord / 6);
   const double arm = first / part.area;
   part.centre = centre + towards * arm;
   part.second = std::max(0.0, about - part.area * arm * arm);

@@ -10,14 +10,14 @@ using Vec2d = Eigen::Vector2d;
 
 /// An area, where its middle is, and how far it is spread.
 struct AreaMoments {
-  double area = 0;                  ///< m^2
-  Vec2d centre{0, 0};               ///< m
-  double second = 0;                ///< m^4: integral of the squared distance from the centre
+  double area = 0;     ///< m^2
+  Vec2d centre{0, 0};  ///< m
+  double second = 0;   ///< m^4: integral of the squared distance from the centre
 };
 
 /// An upright rectangle: of water, its top is the level.
 struct Bounds {
-  Vec2d min{0, 0}, max{0, 0};       ///< m
+  Vec2d min{0, 0}, max{0, 0};  ///< m
 };
 
 /// Most corners of a polygon that AreaWithin takes.

@@ -34,10 +34,9 @@ AreaMoments DisplacedExactly(const WetPart& part, const FloatingBody& body, cons
 }
 
 /// Each cell is under water by the share of its height that is below the level.
-AreaMoments DisplacedByCells(const WetCells& cells, const FloatingBody& body,
-                             const Bounds& water) {
-  const double height = std::fabs(body.sine) * cells.size.x() +
-                        std::fabs(body.cosine) * cells.size.y();
+AreaMoments DisplacedByCells(const WetCells& cells, const FloatingBody& body, const Bounds& water) {
+  const double height =
+      std::fabs(body.sine) * cells.size.x() + std::fabs(body.cosine) * cells.size.y();
   AreaMoments sum;
   for (const AreaMoments& piece : cells.pieces) {
     const Vec2d centre = body.ToWorld(piece.centre);
@@ -72,9 +71,7 @@ bool Shorten(const Bounds& bounds, Vec2d* from, Vec2d* to) {
 
 }  // namespace
 
-Bounds BoundsOf(const Water& water) {
-  return {water.min.cast<double>(), water.max.cast<double>()};
-}
+Bounds BoundsOf(const Water& water) { return {water.min.cast<double>(), water.max.cast<double>()}; }
 
 AreaMoments Displaced(const WetShape& shape, const WetCells* cells, const FloatingBody& body,
                       const Bounds& water) {
@@ -154,8 +151,8 @@ Push WaterSum::Over(double h) const {
   if (slope_.isZero(0)) return push;
   const Eigen::Vector3d masses(body_.mass, body_.mass, body_.inertia);
   const Vec2d others = lift_.force + body_.mass * gravity_;
-  const Eigen::Vector3d pushed = h * (drag_ + Eigen::Vector3d(others.x(), others.y(),
-                                                              lift_.torque));
+  const Eigen::Vector3d pushed =
+      h * (drag_ + Eigen::Vector3d(others.x(), others.y(), lift_.torque));
   Eigen::Matrix3d heavy = h * slope_;
   heavy.diagonal() += masses;
   const Eigen::Vector3d change = heavy.llt().solve(pushed);

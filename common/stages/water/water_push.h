@@ -11,12 +11,12 @@ namespace seam {
 
 /// A rigid body as water sees it.
 struct FloatingBody {
-  Vec2d position{0, 0};             ///< m; of the shape's frame
-  double cosine = 1, sine = 0;      ///< of its angle
-  Vec2d centre{0, 0};               ///< m; of mass, in the world
-  Vec2d velocity{0, 0};             ///< m/s; of the centre of mass
-  double spin = 0;                  ///< rad/s
-  double mass = 0, inertia = 0;     ///< kg, kg m^2 about the centre of mass
+  Vec2d position{0, 0};          ///< m; of the shape's frame
+  double cosine = 1, sine = 0;   ///< of its angle
+  Vec2d centre{0, 0};            ///< m; of mass, in the world
+  Vec2d velocity{0, 0};          ///< m/s; of the centre of mass
+  double spin = 0;               ///< rad/s
+  double mass = 0, inertia = 0;  ///< kg, kg m^2 about the centre of mass
 
   Vec2d ToWorld(const Vec2d& p) const { return position + Turned(p); }
   Vec2d Turned(const Vec2d& p) const {
@@ -31,8 +31,8 @@ AreaMoments Displaced(const WetShape& shape, const WetCells* cells, const Floati
                       const Bounds& water);
 
 struct Push {
-  Vec2d force{0, 0};                ///< N, at the centre of mass
-  double torque = 0;                ///< N m
+  Vec2d force{0, 0};  ///< N, at the centre of mass
+  double torque = 0;  ///< N m
 };
 
 /// The sum of what bodies of water do to one body. With u the velocity of a point of the body
@@ -69,9 +69,9 @@ class WaterSum {
   const FloatingBody& body_;
   const Vec2d& gravity_;
   bool empty_ = true;
-  Push lift_;                                          // buoyancy
-  Eigen::Vector3d drag_{0, 0, 0};                      // N, N, N m
-  Eigen::Matrix3d slope_ = Eigen::Matrix3d::Zero();    // -d drag / d velocity
+  Push lift_;                                        // buoyancy
+  Eigen::Vector3d drag_{0, 0, 0};                    // N, N, N m
+  Eigen::Matrix3d slope_ = Eigen::Matrix3d::Zero();  // -d drag / d velocity
 };
 
 }  // namespace seam

@@ -1,8 +1,7 @@
-#include "common/stages/make_stages.h"
-
 #include <algorithm>
 #include <map>
 
+#include "common/stages/make_stages.h"
 #include "common/stages/water/water_push.h"
 
 namespace seam {
@@ -16,12 +15,12 @@ constexpr int kStepsUnseen = 2;
 /// A body's shape and cells, made when it first gets wet.
 struct Wettable {
   WetShape shape;
-  std::map<int, WetCells> cells;      // by their number
+  std::map<int, WetCells> cells;  // by their number
 };
 
 struct Unseen {
   int body = 0;
-  int steps = kStepsUnseen;           // left
+  int steps = kStepsUnseen;  // left
 };
 
 class WaterStage : public Stage {
@@ -49,9 +48,9 @@ class WaterStage : public Stage {
   bool IsNear(b2Body* body) const;
 
   const StageWorld w_;
-  b2Body* pool_ = nullptr;            // anchored, with one sensor for each water
-  std::vector<int> touching_;         // fixtures in contact, by body and water
-  std::vector<int> wet_;              // bodies with any, ascending
+  b2Body* pool_ = nullptr;     // anchored, with one sensor for each water
+  std::vector<int> touching_;  // fixtures in contact, by body and water
+  std::vector<int> wet_;       // bodies with any, ascending
   std::vector<Unseen> unseen_;
   std::vector<char> kinematic_;       // by body, after the last tick
   std::uint64_t composition_ = 0;     // that the shapes below are of
@@ -138,8 +137,8 @@ Wettable& WaterStage::WettableOf(int body) {
 bool IsHeld(b2Body* body) {
   if (body->GetJointList() != nullptr) return true;
   for (const b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
-    const bool sensor = edge->contact->GetFixtureA()->IsSensor() ||
-                        edge->contact->GetFixtureB()->IsSensor();
+    const bool sensor =
+        edge->contact->GetFixtureA()->IsSensor() || edge->contact->GetFixtureB()->IsSensor();
     if (!sensor && edge->contact->IsTouching()) return true;
   }
   return false;

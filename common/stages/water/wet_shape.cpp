@@ -17,14 +17,14 @@ constexpr double kLookOut = 1e-3, kLarger = 5e-4;
 /// Shorter pieces of edges are left out, m.
 constexpr double kEdgeLeast = 2e-3;
 
-using Span = std::pair<double, double>;   // of an edge, 0..1
+using Span = std::pair<double, double>;  // of an edge, 0..1
 
 std::vector<Vec2d> LocalCorners(const Part& part) {
   std::vector<Vec2d> corners;
   if (part.kind == ShapeKind::kBox) {
     const Vec2d half = part.size.cast<double>() / 2;
-    corners = {{-half.x(), -half.y()}, {half.x(), -half.y()}, {half.x(), half.y()},
-               {-half.x(), half.y()}};
+    corners = {
+        {-half.x(), -half.y()}, {half.x(), -half.y()}, {half.x(), half.y()}, {-half.x(), half.y()}};
   } else if (part.kind == ShapeKind::kPolygon) {
     for (const Vec2& p : part.points) corners.push_back(p.cast<double>());
     double twice = 0;
@@ -196,9 +196,9 @@ WetCells CellsOf(const WetShape& shape, int n) {
       for (int column = index(shape.box.min.x(), step.x(), low.x()); column <= right; ++column) {
         const Vec2d corner = shape.box.min + Vec2d(column * step.x(), row * step.y());
         const Bounds bounds{corner, corner + step};
-        Add(part.disc ? DiscWithin(part.whole.centre, part.radius, bounds)
-                      : AreaWithin(part.corners.data(), static_cast<int>(part.corners.size()),
-                                   bounds),
+        Add(part.disc
+                ? DiscWithin(part.whole.centre, part.radius, bounds)
+                : AreaWithin(part.corners.data(), static_cast<int>(part.corners.size()), bounds),
             &cells.pieces[static_cast<std::size_t>(row * n + column)]);
       }
     }

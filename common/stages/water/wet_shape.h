@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "common/scene/assembly.h"
-#include "common/stages/water/displaced.h"
 #include "common/scene/scene.h"
+#include "common/stages/water/displaced.h"
 
 namespace seam {
 
@@ -14,25 +14,25 @@ namespace seam {
 /// its area, each end in kCapArcs pieces.
 struct WetPart {
   bool disc = false, capsule = false;
-  std::vector<Vec2d> corners;       ///< m; disc: none
-  double radius = 0;                ///< m; disc
+  std::vector<Vec2d> corners;  ///< m; disc: none
+  double radius = 0;           ///< m; disc
   AreaMoments whole;
-  double reach = 0;                 ///< m: nothing of it is farther from whole.centre
+  double reach = 0;  ///< m: nothing of it is farther from whole.centre
 };
 
 /// A piece of the outer edge. `arc`: stands for a piece of a circle, along which the normal turns.
 struct WetEdge {
-  Vec2d from{0, 0}, to{0, 0};       ///< m; the solid is on the left of the way
-  Vec2d normal{0, 1};               ///< unit, outwards
+  Vec2d from{0, 0}, to{0, 0};  ///< m; the solid is on the left of the way
+  Vec2d normal{0, 1};          ///< unit, outwards
   bool arc = false;
 };
 
 struct WetShape {
   std::vector<WetPart> parts;
   std::vector<WetEdge> edges;
-  Bounds box;                       ///< m; of all parts
-  Vec2d centre{0, 0};               ///< m; of the box
-  double reach = 0;                 ///< m: nothing is farther from the centre
+  Bounds box;          ///< m; of all parts
+  Vec2d centre{0, 0};  ///< m; of the box
+  double reach = 0;    ///< m: nothing is farther from the centre
 };
 
 /// A circle's edge, and the half circle at a capsule's end, are drawn with so many pieces.
@@ -45,7 +45,7 @@ WetShape WetShapeOf(const Scene& scene, const Assembly& assembly);
 /// The shape cut into n x n cells of its box: what lies in each, row by row, empty ones left out.
 struct WetCells {
   std::vector<AreaMoments> pieces;
-  Vec2d size{0, 0};                 ///< m; width and height of a cell
+  Vec2d size{0, 0};  ///< m; width and height of a cell
 };
 WetCells CellsOf(const WetShape& shape, int n);
 

@@ -14,28 +14,28 @@
 namespace seam {
 
 struct ReconcileInput {
-  BodyState local;                     ///< Xl: our copy now, at t2
-  BodyState remote;                    ///< Xr: the authority's, at t1 (angle unwrapped near ours)
+  BodyState local;   ///< Xl: our copy now, at t2
+  BodyState remote;  ///< Xr: the authority's, at t1 (angle unwrapped near ours)
   const BodyState* local_then = nullptr;  ///< our copy at t1; nullptr: no longer (or not yet) known
-  float dt = 0;                        ///< t2 - t1, s, >= 0
-  float since_impact = 1e9f;           ///< s since our copy's last major impact
-  bool coupled = false;                ///< it touches, or is jointed to one that touches, a body
-                                       ///< of another authority than its own
-  float gain = 1;                      ///< for coupled bodies: largest stable share to correct
+  float dt = 0;                           ///< t2 - t1, s, >= 0
+  float since_impact = 1e9f;              ///< s since our copy's last major impact
+  bool coupled = false;                   ///< it touches, or is jointed to one that touches, a body
+                                          ///< of another authority than its own
+  float gain = 1;                         ///< for coupled bodies: largest stable share to correct
   /// Of the whole mechanism, mass-weighted over the bodies of this message: Xr(t1) - Xl(t1), only
   /// position and velocity. A body alone: its own difference.
   BodyState common;
-  bool alone = true;                   ///< its mechanism is this one body
-  int block_count = 0;                 ///< directions in which something anchored holds the
-  Vec2 blocks[2] = {{0, 0}, {0, 0}};   ///< mechanism back, unit vectors
+  bool alone = true;                  ///< its mechanism is this one body
+  int block_count = 0;                ///< directions in which something anchored holds the
+  Vec2 blocks[2] = {{0, 0}, {0, 0}};  ///< mechanism back, unit vectors
 };
 
 /// What to add to our copy. `then` is the part that was already due at t1; a rule that knows it
 /// has the history between t1 and t2 corrected along the line from `then` to `now`.
 struct Correction {
-  BodyState now;                       ///< added to the state at t2
+  BodyState now;  ///< added to the state at t2
   bool rewrites_history = false;
-  BodyState then;                      ///< added to the state at t1
+  BodyState then;  ///< added to the state at t1
 };
 
 using Reconciler = Correction (*)(const ReconcileInput&);
@@ -45,23 +45,23 @@ using Reconciler = Correction (*)(const ReconcileInput&);
 ///   authority   --o t1 ......................... target: moved on from there to now
 ///   our copy         arrival o-------------o local, now     (since_arrival)
 struct PullInput {
-  BodyState local;                     ///< our copy, before the step
-  BodyState arrival;                   ///< our copy when the newest message came
-  BodyState target_then;               ///< the authority's, moved on to when the message came
-  BodyState target;                    ///< the authority's, moved on to now
-  BodyState target_next;               ///< and to after the step
-  BodyState drift;                     ///< what the step adds to a free body that is let go at rest
-  float since_arrival = 0;             ///< before the step
-  float interval = 0;                  ///< between two messages, as expected
-  float step = 0;                      ///< length of a tick
-  bool coupled = false;                ///< as in ReconcileInput
+  BodyState local;          ///< our copy, before the step
+  BodyState arrival;        ///< our copy when the newest message came
+  BodyState target_then;    ///< the authority's, moved on to when the message came
+  BodyState target;         ///< the authority's, moved on to now
+  BodyState target_next;    ///< and to after the step
+  BodyState drift;          ///< what the step adds to a free body that is let go at rest
+  float since_arrival = 0;  ///< before the step
+  float interval = 0;       ///< between two messages, as expected
+  float step = 0;           ///< length of a tick
+  bool coupled = false;     ///< as in ReconcileInput
 };
 
 /// What the replica remembers of a body for its puller.
 struct PullMemory {
-  Vec2 before{0, 0};                   ///< velocity before the last pull
-  Vec2 asked{0, 0};                    ///< change of velocity by the last pull
-  float share = 1;                     ///< of what is wanted that is asked; below 1: it is blocked
+  Vec2 before{0, 0};  ///< velocity before the last pull
+  Vec2 asked{0, 0};   ///< change of velocity by the last pull
+  float share = 1;    ///< of what is wanted that is asked; below 1: it is blocked
 };
 
 /// What to add to velocity and spin before the step. Poses are the step's business.
@@ -83,8 +83,8 @@ struct NamedReconciler {
   const char* name;
   Reconciler rule;
   const char* about;
-  Puller pull = nullptr;               ///< also acts in every tick
-  bool resimulates = false;            ///< the replica goes back and steps again (ReplayFrom)
+  Puller pull = nullptr;     ///< also acts in every tick
+  bool resimulates = false;  ///< the replica goes back and steps again (ReplayFrom)
 };
 const std::vector<NamedReconciler>& Reconcilers();
 /// Throws OperatorError naming the known ones.

@@ -17,7 +17,7 @@ namespace {
 
 /// Farther off than this, m, it is placed: blended, it would come at hundreds of m/s.
 constexpr float kPlaceBeyond = 8;
-constexpr float kMovedOnMost = 0.3f;   // s, where it is placed
+constexpr float kMovedOnMost = 0.3f;  // s, where it is placed
 /// Blended over at least this time, s. Over the interval of 30 messages a second alone, as the
 /// article has it, an error of half a metre is made good at 15 m/s, and two peers' corrections
 /// swing up against each other: a stack of ten explodes. Longer follows later.
@@ -37,7 +37,7 @@ T Blended(float t, float blend, const T& p0, const T& v0, const T& there0, const
           const T& there) {
   const float share = std::min(1.0f, t / blend);
   const T vb = v0 + share * (there_v0 - v0);
-  const T accelerated = there - there0 - t * there_v0;   // A' t^2 / 2, or what stands for it
+  const T accelerated = there - there0 - t * there_v0;  // A' t^2 / 2, or what stands for it
   const T p = p0 + t * vb + accelerated;
   return p + share * (there - p);
 }
@@ -73,8 +73,8 @@ Correction PullPvb(const PullInput& in, PullMemory* memory) {
   const Vec2 way = path(t + in.step, in.target_next) - path(t, in.target);
   out.now.velocity = (way - in.drift.position) / in.step - in.local.velocity;
   if (std::fabs(in.target.spin) < kSpinFollowed) {
-    out.now.spin = (turn(t + in.step, in.target_next) - turn(t, in.target)) / in.step -
-                   in.local.spin;
+    out.now.spin =
+        (turn(t + in.step, in.target_next) - turn(t, in.target)) / in.step - in.local.spin;
   } else {
     out.now.spin = in.target_next.spin - in.local.spin;
   }

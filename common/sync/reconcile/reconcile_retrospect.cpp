@@ -56,7 +56,7 @@ Correction ReconcileRetrospect(const ReconcileInput& in) {
   }
   out.rewrites_history = true;
   const BodyState d = Minus(in.remote, *in.local_then);
-  BodyState free;   // the part that both peers' forces leave alone
+  BodyState free;  // the part that both peers' forces leave alone
   if (!in.coupled) {
     free.position = Unblocked(in, in.common.position);
     free.velocity = Unblocked(in, in.common.velocity);

@@ -11,10 +11,10 @@
 namespace seam {
 namespace {
 
-constexpr double kNudge = 1e-6;        // m
-constexpr int kFinest = 32;            // substeps of 1/60 s
-constexpr double kStretch = 0.25;      // s, simulated between two looks at the clock
-constexpr double kEnoughUs = 0.15e6;   // CPU time of cost runs
+constexpr double kNudge = 1e-6;       // m
+constexpr int kFinest = 32;           // substeps of 1/60 s
+constexpr double kStretch = 0.25;     // s, simulated between two looks at the clock
+constexpr double kEnoughUs = 0.15e6;  // CPU time of cost runs
 constexpr int kRunsMost = 15;
 
 Scene Refined(const Scene& scene, int substeps) {
@@ -77,8 +77,7 @@ Trajectory PathOf(const Scene& scene, double seconds, int nudged) {
 
 Reference MakeReference(const Scene& scene, double seconds) {
   Reference reference{PathOf(Refined(scene, kFinest), seconds), 0};
-  reference.change_m =
-      Distance(reference.finest, PathOf(Refined(scene, kFinest / 2), seconds));
+  reference.change_m = Distance(reference.finest, PathOf(Refined(scene, kFinest / 2), seconds));
   return reference;
 }
 

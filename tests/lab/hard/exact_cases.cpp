@@ -6,9 +6,9 @@ namespace seam {
 
 std::vector<HardCase> ExactCases() {
   std::vector<HardCase> all;
-  for (const auto& list : {ChainCases(), CollisionCases(), CradleCases(), FlightCases(),
-                           FrictionCases(), LinkageCases(), PendulumCases(), ToppleCases(),
-                           TunnelCases()}) {
+  for (const auto& list :
+       {ChainCases(), CollisionCases(), CradleCases(), FlightCases(), FrictionCases(),
+        LinkageCases(), PendulumCases(), ToppleCases(), TunnelCases()}) {
     all.insert(all.end(), list.begin(), list.end());
   }
   std::sort(all.begin(), all.end(),

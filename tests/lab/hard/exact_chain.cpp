@@ -99,14 +99,30 @@ std::unique_ptr<Judge> Droop(const Scene& scene) {
 
 std::vector<HardCase> ChainCases() {
   return {
-      {"cantilever", "cantilever", Truth::kFormula, "m",
-       "worst way of the tip of ten welded links from where it was, seen from the base", 10, Droop,
+      {"cantilever",
+       "cantilever",
+       Truth::kFormula,
+       "m",
+       "worst way of the tip of ten welded links from where it was, seen from the base",
+       10,
+       Droop,
        {}},
-      {"catenary", "catenary", Truth::kFormula, "m",
-       "worst distance of a link from tan(phi_i) = c (i - (n - 1)/2), sum L cos(phi_i) = span", 20,
-       Catenary, {}},
-      {"chain-heavy-end", "chain-heavy-end", Truth::kFormula, "m",
-       "worst stretch of ten links of 0.01 kg with 10 kg at their end", 20, Stretch, {}},
+      {"catenary",
+       "catenary",
+       Truth::kFormula,
+       "m",
+       "worst distance of a link from tan(phi_i) = c (i - (n - 1)/2), sum L cos(phi_i) = span",
+       20,
+       Catenary,
+       {}},
+      {"chain-heavy-end",
+       "chain-heavy-end",
+       Truth::kFormula,
+       "m",
+       "worst stretch of ten links of 0.01 kg with 10 kg at their end",
+       20,
+       Stretch,
+       {}},
   };
 }
 

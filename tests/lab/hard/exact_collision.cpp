@@ -12,7 +12,7 @@ namespace {
 /// A disc that meets one at rest, and the velocities that both must leave with.
 struct Blow {
   int a = 0, b = 0;
-  double speed = 0;                    ///< m/s before
+  double speed = 0;  ///< m/s before
   Eigen::Vector2d after_a{0, 0}, after_b{0, 0};
 };
 
@@ -59,13 +59,30 @@ std::unique_ptr<Judge> Blows(const Scene& scene) {
 std::vector<HardCase> CollisionCases() {
   const std::string newton = "worst error of a velocity after the blow, of the speed before: ";
   return {
-      {"collision-elastic", "collision-elastic", Truth::kFormula, "1",
-       newton + "v1' = (m1 - m2)/(m1 + m2) v, v2' = 2 m1/(m1 + m2) v, masses 1:10 to 10:1", 1,
-       Blows, {}},
-      {"collision-glancing", "collision-glancing", Truth::kFormula, "1",
-       newton + "only the part along the line of centres is exchanged", 1, Blows, {}},
-      {"collision-inelastic", "collision-inelastic", Truth::kFormula, "1",
-       newton + "v1' = (m1 - e m2)/(m1 + m2) v, v2' = (1 + e) m1/(m1 + m2) v", 1, Blows, {}},
+      {"collision-elastic",
+       "collision-elastic",
+       Truth::kFormula,
+       "1",
+       newton + "v1' = (m1 - m2)/(m1 + m2) v, v2' = 2 m1/(m1 + m2) v, masses 1:10 to 10:1",
+       1,
+       Blows,
+       {}},
+      {"collision-glancing",
+       "collision-glancing",
+       Truth::kFormula,
+       "1",
+       newton + "only the part along the line of centres is exchanged",
+       1,
+       Blows,
+       {}},
+      {"collision-inelastic",
+       "collision-inelastic",
+       Truth::kFormula,
+       "1",
+       newton + "v1' = (m1 - e m2)/(m1 + m2) v, v2' = (1 + e) m1/(m1 + m2) v",
+       1,
+       Blows,
+       {}},
   };
 }
 

@@ -52,8 +52,8 @@ class CradleJudge : public Judge {
   std::vector<double> lengths_;
   std::vector<int> bodies_;
   double gravity_ = 0;
-  double released_ = 0;                ///< J/kg
-  double half_period_ = 0;             ///< s
+  double released_ = 0;     ///< J/kg
+  double half_period_ = 0;  ///< s
   bool seen_ = false;
   double error_ = 0;
 };
@@ -72,11 +72,18 @@ void CloseGaps(Scene* scene) {
 }  // namespace
 
 std::vector<HardCase> CradleCases() {
-  const std::string shares = "worst error of a ball's share of the energy at half a period: 1 for "
-                             "the last, 0 for the others; ";
+  const std::string shares =
+      "worst error of a ball's share of the energy at half a period: 1 for "
+      "the last, 0 for the others; ";
   return {
-      {"cradle-gaps", "newton-cradle", Truth::kFormula, "J/J", shares + "2 cm between the balls",
-       3, MakeJudge<CradleJudge>, {}},
+      {"cradle-gaps",
+       "newton-cradle",
+       Truth::kFormula,
+       "J/J",
+       shares + "2 cm between the balls",
+       3,
+       MakeJudge<CradleJudge>,
+       {}},
       {"cradle-touching", "newton-cradle", Truth::kFormula, "J/J", shares + "the balls touch", 3,
        MakeJudge<CradleJudge>, CloseGaps},
   };

@@ -40,12 +40,22 @@ std::unique_ptr<Judge> AgainstParabola(const Scene& scene) {
 
 std::vector<HardCase> FlightCases() {
   return {
-      {"projectile", "projectile", Truth::kFormula, "m",
-       "worst distance from y0 + n v0 h + g h^2 n (n + 1)/2, the integrator's own sum", 4,
-       AgainstSum, {}},
-      {"projectile-parabola", "projectile", Truth::kFormula, "m",
-       "worst distance from y0 + v0 t + g t^2/2; the integrator's own share is g h t/2", 4,
-       AgainstParabola, {}},
+      {"projectile",
+       "projectile",
+       Truth::kFormula,
+       "m",
+       "worst distance from y0 + n v0 h + g h^2 n (n + 1)/2, the integrator's own sum",
+       4,
+       AgainstSum,
+       {}},
+      {"projectile-parabola",
+       "projectile",
+       Truth::kFormula,
+       "m",
+       "worst distance from y0 + v0 t + g t^2/2; the integrator's own share is g h t/2",
+       4,
+       AgainstParabola,
+       {}},
   };
 }
 

@@ -26,12 +26,12 @@ struct Incline {
   }
   double Come(const World& world) const { return along.dot(Place(world, body) - start); }
 
-  Eigen::Vector2d along{1, 0};         ///< downhill
-  double pull = 0, press = 0;          ///< m/s^2, gravity along and into the ground
+  Eigen::Vector2d along{1, 0};  ///< downhill
+  double pull = 0, press = 0;   ///< m/s^2, gravity along and into the ground
   double friction = 0;
-  Eigen::Vector2d start{0, 0};         ///< m
-  double speed = 0;                    ///< m/s downhill, >= 0
-  double angle = 0;                    ///< rad, of the thing at tick 0
+  Eigen::Vector2d start{0, 0};  ///< m
+  double speed = 0;             ///< m/s downhill, >= 0
+  double angle = 0;             ///< rad, of the thing at tick 0
   int body = 0;
 };
 
@@ -45,9 +45,8 @@ double Slid(const Incline& on, double t) {
 
 std::unique_ptr<Judge> SlidingBlock(const Scene& scene) {
   const Incline on(scene, "block");
-  return std::make_unique<Worst>([on](const World& world) {
-    return std::fabs(on.Come(world) - Slid(on, Seconds(world)));
-  });
+  return std::make_unique<Worst>(
+      [on](const World& world) { return std::fabs(on.Come(world) - Slid(on, Seconds(world))); });
 }
 
 /// A disc that rolls without slip has 2/3 of the pull: I = m r^2/2.
@@ -74,18 +73,54 @@ std::unique_ptr<Judge> DiscSlip(const Scene& scene) {
 std::vector<HardCase> FrictionCases() {
   const std::string coulomb = "worst distance along the ground from Coulomb's ";
   return {
-      {"rolling-disc", "rolling-disc", Truth::kFormula, "m",
-       "worst distance along the slope from g sin(theta) t^2/3", 4, RollingDisc, {}},
-      {"rolling-disc-slip", "rolling-disc", Truth::kFormula, "m",
-       "worst difference of the way come and radius times angle turned", 4, DiscSlip, {}},
-      {"slide-flat", "slide-flat", Truth::kFormula, "m",
-       coulomb + "v0 t - mu g t^2/2, at rest after v0^2/(2 mu g)", 4, SlidingBlock, {}},
-      {"slope-creep", "slope-creep", Truth::kFormula, "m",
-       "creep of a block that mu > tan(theta) must hold", 20, SlidingBlock, {}},
-      {"slope-slide", "slope-slide", Truth::kFormula, "m",
-       coulomb + "g (sin - mu cos) t^2/2", 4, SlidingBlock, {}},
-      {"slope-stop", "slope-stop", Truth::kFormula, "m",
-       coulomb + "path, at rest after v0^2/(2 g (mu cos - sin))", 5, SlidingBlock, {}},
+      {"rolling-disc",
+       "rolling-disc",
+       Truth::kFormula,
+       "m",
+       "worst distance along the slope from g sin(theta) t^2/3",
+       4,
+       RollingDisc,
+       {}},
+      {"rolling-disc-slip",
+       "rolling-disc",
+       Truth::kFormula,
+       "m",
+       "worst difference of the way come and radius times angle turned",
+       4,
+       DiscSlip,
+       {}},
+      {"slide-flat",
+       "slide-flat",
+       Truth::kFormula,
+       "m",
+       coulomb + "v0 t - mu g t^2/2, at rest after v0^2/(2 mu g)",
+       4,
+       SlidingBlock,
+       {}},
+      {"slope-creep",
+       "slope-creep",
+       Truth::kFormula,
+       "m",
+       "creep of a block that mu > tan(theta) must hold",
+       20,
+       SlidingBlock,
+       {}},
+      {"slope-slide",
+       "slope-slide",
+       Truth::kFormula,
+       "m",
+       coulomb + "g (sin - mu cos) t^2/2",
+       4,
+       SlidingBlock,
+       {}},
+      {"slope-stop",
+       "slope-stop",
+       Truth::kFormula,
+       "m",
+       coulomb + "path, at rest after v0^2/(2 g (mu cos - sin))",
+       5,
+       SlidingBlock,
+       {}},
   };
 }
 

@@ -12,7 +12,7 @@ namespace {
 std::unique_ptr<Judge> CrankAngles(const Scene& scene) {
   struct Turning {
     int body;
-    double start, speed;               ///< rad, rad/s
+    double start, speed;  ///< rad, rad/s
   };
   double motor = 0;
   for (const Joint& joint : scene.joints) {
@@ -37,9 +37,14 @@ std::unique_ptr<Judge> CrankAngles(const Scene& scene) {
 }  // namespace
 
 std::vector<HardCase> LinkageCases() {
-  return {{"motor-loop", "motor-loop", Truth::kFormula, "rad",
-           "worst angle of three cranks on one coupler from the motor's speed times t", 20,
-           CrankAngles, {}}};
+  return {{"motor-loop",
+           "motor-loop",
+           Truth::kFormula,
+           "rad",
+           "worst angle of three cranks on one coupler from the motor's speed times t",
+           20,
+           CrankAngles,
+           {}}};
 }
 
 }  // namespace seam

@@ -20,18 +20,18 @@ struct Pendulum {
     start = Swing(bar.position.cast<double>());
     const double inertia = own.inertia + own.mass * arm * arm;
     const double g = scene.gravity.cast<double>().norm();
-    period = 4 * std::sqrt(inertia / (own.mass * g * arm)) *
-             EllipticK(std::fabs(std::sin(start / 2)));
+    period =
+        4 * std::sqrt(inertia / (own.mass * g * arm)) * EllipticK(std::fabs(std::sin(start / 2)));
   }
   /// rad from straight down.
   double Swing(const Eigen::Vector2d& centre) const {
     return std::atan2(centre.x() - hinge.x(), hinge.y() - centre.y());
   }
 
-  Eigen::Vector2d hinge;               ///< m
+  Eigen::Vector2d hinge;  ///< m
   int body;
-  double start = 0;                    ///< rad
-  double period = 0;                   ///< s, T = 4 sqrt(I/(m g d)) K(sin(start/2))
+  double start = 0;   ///< rad
+  double period = 0;  ///< s, T = 4 sqrt(I/(m g d)) K(sin(start/2))
 };
 
 /// The first whole period, between the first and the third passage of the lowest point; passages
@@ -57,7 +57,7 @@ class PeriodJudge : public Judge {
   double before_;
   int passages_ = 0;
   double first_ = 0;
-  double measured_ = std::numeric_limits<double>::infinity();   // three passages never came
+  double measured_ = std::numeric_limits<double>::infinity();  // three passages never came
 };
 
 /// What began level and at rest has sum m g |x - hinge| to fall, and keeps its energy. The share
@@ -81,12 +81,16 @@ std::unique_ptr<Judge> EnergyKept(const Scene& scene) {
 std::vector<HardCase> PendulumCases() {
   const std::string energy = "worst change of energy over 60 s, of what there is to fall";
   return {
-      {"pendulum-double", "double-pendulum", Truth::kFormula, "J/J", energy, 60,
-       EnergyKept, {}},
+      {"pendulum-double", "double-pendulum", Truth::kFormula, "J/J", energy, 60, EnergyKept, {}},
       {"pendulum-energy", "pendulum", Truth::kFormula, "J/J", energy, 60, EnergyKept, {}},
-      {"pendulum-period", "pendulum", Truth::kFormula, "s/s",
-       "the first period from 90 degrees against 4 sqrt(I/(m g d)) K(sin 45)", 4,
-       MakeJudge<PeriodJudge>, {}},
+      {"pendulum-period",
+       "pendulum",
+       Truth::kFormula,
+       "s/s",
+       "the first period from 90 degrees against 4 sqrt(I/(m g d)) K(sin 45)",
+       4,
+       MakeJudge<PeriodJudge>,
+       {}},
   };
 }
 

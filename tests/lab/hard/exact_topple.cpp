@@ -41,8 +41,8 @@ struct Rocking {
   }
 
   int body = 0;
-  double start = 0, alpha = 0;         ///< rad
-  double p = 0;                        ///< 1/s
+  double start = 0, alpha = 0;  ///< rad
+  double p = 0;                 ///< 1/s
 };
 
 class TimeJudge : public Judge {
@@ -62,9 +62,9 @@ class TimeJudge : public Judge {
 
  private:
   const Rocking rocking_;
-  const double exact_;                 ///< s
+  const double exact_;  ///< s
   double before_;
-  double struck_ = std::numeric_limits<double>::infinity();   ///< s; it never came down
+  double struck_ = std::numeric_limits<double>::infinity();  ///< s; it never came down
 };
 
 /// Housner: angular momentum about the corner that is struck leaves 1 - 1.5 sin^2(alpha) of the
@@ -77,7 +77,7 @@ class SpinJudge : public Judge {
   void See(const World& world) override {
     const double now = static_cast<double>(world.Read(rocking_.body).angle);
     if (turned_ || std::isnan(now)) return;
-    if (risen_ > 0 && -now < risen_) turned_ = true;   // it was at its highest
+    if (risen_ > 0 && -now < risen_) turned_ = true;  // it was at its highest
     if (-now > risen_) risen_ = -now;
   }
 
@@ -90,7 +90,7 @@ class SpinJudge : public Judge {
 
  private:
   const Rocking rocking_;
-  double risen_ = 0;                   ///< rad
+  double risen_ = 0;  ///< rad
   bool turned_ = false;
 };
 
@@ -112,14 +112,32 @@ std::vector<HardCase> ToppleCases() {
       "time to the first blow against the integral of Housner's equation, not linearised, ";
   const std::string small = "block of 0.5 x 2 m", large = "block of 5 x 20 m";
   return {
-      {"dominoes", "dominoes", Truth::kConverged, "m",
-       "RMS distance of thirty dominoes from the run at 32 times the rate", 6, {}, {}},
-      {"rocking-spin", "rocking-block", Truth::kFormula, "1", spin + small, 4,
-       MakeJudge<SpinJudge>, {}},
+      {"dominoes",
+       "dominoes",
+       Truth::kConverged,
+       "m",
+       "RMS distance of thirty dominoes from the run at 32 times the rate",
+       6,
+       {},
+       {}},
+      {"rocking-spin",
+       "rocking-block",
+       Truth::kFormula,
+       "1",
+       spin + small,
+       4,
+       MakeJudge<SpinJudge>,
+       {}},
       {"rocking-spin-tenfold", "rocking-block", Truth::kFormula, "1", spin + large, 12,
        MakeJudge<SpinJudge>, Tenfold},
-      {"rocking-time", "rocking-block", Truth::kFormula, "s/s", time + small, 4,
-       MakeJudge<TimeJudge>, {}},
+      {"rocking-time",
+       "rocking-block",
+       Truth::kFormula,
+       "s/s",
+       time + small,
+       4,
+       MakeJudge<TimeJudge>,
+       {}},
       {"rocking-time-tenfold", "rocking-block", Truth::kFormula, "s/s", time + large, 12,
        MakeJudge<TimeJudge>, Tenfold},
   };

@@ -64,9 +64,9 @@ class TunnelJudge : public Judge {
   static constexpr double kNear = 0.5;
 
   struct Shot {
-    int body = 0, wall = -1;           ///< -1: anchored
-    double wall_x = 0;                 ///< m, at tick 0
-    double speed = 0;                  ///< m/s, as fired
+    int body = 0, wall = -1;  ///< -1: anchored
+    double wall_x = 0;        ///< m, at tick 0
+    double speed = 0;         ///< m/s, as fired
     bool met = false, through = false, slowed = false;
   };
 
@@ -105,11 +105,15 @@ std::function<void(Scene*)> Fire(int speed, bool bullet) {
 HardCase Shooting(int speed, bool bullet) {
   const std::string number = std::to_string(speed);
   const std::string kind = bullet ? "bullet" : "plain";
-  return {"tunnel-" + kind + "-" + std::string(4 - number.size(), '0') + number, "tunnel",
-          Truth::kFormula, "1",
+  return {"tunnel-" + kind + "-" + std::string(4 - number.size(), '0') + number,
+          "tunnel",
+          Truth::kFormula,
+          "1",
           "share of discs and boxes, " + std::string(bullet ? "" : "no ") +
               "bullets, that get through 6 cm at " + number + " m/s",
-          2, MakeJudge<TunnelJudge>, Fire(speed, bullet)};
+          2,
+          MakeJudge<TunnelJudge>,
+          Fire(speed, bullet)};
 }
 
 }  // namespace

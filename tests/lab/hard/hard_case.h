@@ -12,9 +12,9 @@ namespace seam {
 
 /// Three kinds of error that must not be mixed up.
 enum class Truth {
-  kFormula,                           ///< against an exact answer
-  kConverged,                         ///< against the scene's own run at 32 times the rate
-  kInvariant,                         ///< against what must not happen
+  kFormula,    ///< against an exact answer
+  kConverged,  ///< against the scene's own run at 32 times the rate
+  kInvariant,  ///< against what must not happen
 };
 
 /// Watches one run of one world.
@@ -30,12 +30,12 @@ class Judge {
 };
 
 struct HardCase {
-  std::string name;                   ///< unique; letters, digits, '-'
-  std::string scene;                  ///< file of scenes/hard, without folder and ".toml"
+  std::string name;   ///< unique; letters, digits, '-'
+  std::string scene;  ///< file of scenes/hard, without folder and ".toml"
   Truth truth = Truth::kInvariant;
-  std::string unit;                   ///< of the error: "m", "rad", "J/J", "1"
-  std::string about;                  ///< what the error is, with the source of a formula; a line
-  double seconds = 60;                ///< simulated
+  std::string unit;     ///< of the error: "m", "rad", "J/J", "1"
+  std::string about;    ///< what the error is, with the source of a formula; a line
+  double seconds = 60;  ///< simulated
   /// Makes the judge; empty for kConverged: RMS distance of all bodies from the converged run, m.
   std::function<std::unique_ptr<Judge>(const Scene&)> judge;
   /// Changes the scene after it was read, for families (the same pyramid farther from the origin);

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/support/hard_case_named.h"
 #include "tests/lab/hard/hard_case.h"
+#include "tests/support/hard_case_named.h"
 
 namespace seam {
 namespace {
@@ -48,7 +48,7 @@ Verdict RunFinely(const HardCase& hard, int substeps) {
 /// Twice what was measured; the case's unit.
 struct Bound {
   const char* name;
-  double own, fine;                    ///< the scene's own setting; 960 Hz, two substeps of 8/3
+  double own, fine;  ///< the scene's own setting; 960 Hz, two substeps of 8/3
 };
 
 const Bound kBounds[] = {
@@ -63,9 +63,9 @@ const Bound kBounds[] = {
     {"pendulum-double", 0.88, 0.89},
     {"pendulum-energy", 0.39, 0.39},
     {"pendulum-period", 0.0026, 0.0026},
-    {"projectile", 6e-5, 0.0055},      // 1920 roundings a second
+    {"projectile", 6e-5, 0.0055},  // 1920 roundings a second
     {"projectile-parabola", 0.67, 0.023},
-    {"rocking-spin", 0.18, 0.21},      // the engine's slop of 5 mm
+    {"rocking-spin", 0.18, 0.21},  // the engine's slop of 5 mm
     {"rocking-spin-tenfold", 0.021, 0.019},
     {"rocking-time", 0.012, 0.0089},
     {"rocking-time-tenfold", 0.01, 2.5e-4},
@@ -141,10 +141,10 @@ TEST(HardExactRuns, NothingTunnelsWithTheCasesOwnStepsAndNothingIsSlowed) {
 }
 
 TEST(HardExactRuns, WhatStockCannotDo) {
-  EXPECT_GT(RunStock(CaseNamed("cantilever")).error, 2);            // m of 10 m
-  EXPECT_GT(RunStock(CaseNamed("chain-heavy-end")).error, 5);       // m of 10 m
-  EXPECT_GT(RunStock(CaseNamed("motor-loop")).error, 3);            // rad of 60
-  EXPECT_GT(RunStock(CaseNamed("pendulum-energy")).error, 0.8);     // of all there is
+  EXPECT_GT(RunStock(CaseNamed("cantilever")).error, 2);         // m of 10 m
+  EXPECT_GT(RunStock(CaseNamed("chain-heavy-end")).error, 5);    // m of 10 m
+  EXPECT_GT(RunStock(CaseNamed("motor-loop")).error, 3);         // rad of 60
+  EXPECT_GT(RunStock(CaseNamed("pendulum-energy")).error, 0.8);  // of all there is
   // And no setting: balls that touch are struck one after the other within a step.
   EXPECT_GT(RunFinely(CaseNamed("cradle-touching"), 2).error, 0.5);
 }

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/support/hard_case_named.h"
 #include "tests/lab/hard/exact_judge.h"
+#include "tests/support/hard_case_named.h"
 
 namespace seam {
 namespace {
@@ -95,13 +95,12 @@ TEST(HardExact, BlocksSlideAndStopAsCoulombSays) {
   for (const Way& way : {Way{"slide-flat", 0, 1, 8 - 2.5}, Way{"slide-flat", 0, 4, 6.4},
                          Way{"slope-creep", 0.4, 9, 0},
                          Way{"slope-slide", 0.4, 2, 20 * (std::sin(0.4) - 0.2 * std::cos(0.4))},
-                         Way{"slope-stop", 0.2, 5,
-                             3.2 / (0.5 * std::cos(0.2) - std::sin(0.2))}}) {
+                         Way{"slope-stop", 0.2, 5, 3.2 / (0.5 * std::cos(0.2) - std::sin(0.2))}}) {
     Puppet p(way.name);
     const double c = std::cos(way.angle), s = std::sin(way.angle);
     p.Shift("block", way.come * c, -way.come * s);
     EXPECT_NEAR(p.ErrorAt(way.t), 0, 1e-5) << way.name;
-    p.Shift("block", s, c);    // off the ground: another matter
+    p.Shift("block", s, c);  // off the ground: another matter
     EXPECT_NEAR(p.ErrorAt(way.t), 0, 1e-5) << way.name;
     p.Shift("block", -0.125 * c, 0.125 * s);
     EXPECT_NEAR(p.ErrorAt(way.t), 0.125, 1e-5) << way.name;
@@ -130,8 +129,8 @@ TEST(HardExact, PeriodOfAMadeUpSwingIsRight) {
     Puppet p("pendulum-period");
     EXPECT_TRUE(std::isinf(p.ErrorAt(0)));
     for (int n = 1; n < 180; ++n) {
-      const double angle = std::acos(-1.0) / 2 * std::cos(2 * std::acos(-1.0) * n / 60 /
-                                                          (share * exact));
+      const double angle =
+          std::acos(-1.0) / 2 * std::cos(2 * std::acos(-1.0) * n / 60 / (share * exact));
       p.Place("bar", 0.5 * std::sin(angle), -0.5 * std::cos(angle));
       p.ErrorAt(n / 60.0);
     }
@@ -165,7 +164,7 @@ TEST(HardExact, BlowsAreComparedWithReflectionAboutTheCommonCentre) {
       const double aside = static_cast<double>(b.position.y() - a.position.y());
       const Eigen::Vector2d normal(std::sqrt(1 - aside * aside), aside);
       const Eigen::Vector2d v(8, 0), common = m1 / (m1 + m2) * v;
-      const Eigen::Vector2d left = v - (1 + e) * v.dot(normal) * normal;   // relative, after
+      const Eigen::Vector2d left = v - (1 + e) * v.dot(normal) * normal;  // relative, after
       const Eigen::Vector2d after_a = common + m2 / (m1 + m2) * left;
       const Eigen::Vector2d after_b = common - m1 / (m1 + m2) * left;
       p.Push(a.name, after_a.x(), after_a.y());
@@ -181,8 +180,8 @@ TEST(HardExact, BlowsAreComparedWithReflectionAboutTheCommonCentre) {
 TEST(HardExact, CradleIsSeenWhenTheLastBallIsHighest) {
   // Half a period is 2 sqrt(4/10) K(sin 22.5) = 2.066 s.
   const double top = std::acos(-1.0) / 4;
-  for (const auto& [name, pitch] : {std::pair<const char*, double>{"cradle-gaps", 1.02},
-                                    {"cradle-touching", 1.0}}) {
+  for (const auto& [name, pitch] :
+       {std::pair<const char*, double>{"cradle-gaps", 1.02}, {"cradle-touching", 1.0}}) {
     for (const double swing : {top, top * 2 / 3}) {
       Puppet p(name);
       EXPECT_TRUE(std::isnan(p.ErrorAt(2.05))) << "too early";
@@ -194,7 +193,7 @@ TEST(HardExact, CradleIsSeenWhenTheLastBallIsHighest) {
     Puppet moving(name);
     moving.Place("ball0", 0, -4);
     moving.Place("ball4", 4 * pitch + 4 * std::sin(top), -4 * std::cos(top));
-    moving.Push("ball2", 1, 0);   // of 40 (1 - cos 45) J/kg
+    moving.Push("ball2", 1, 0);  // of 40 (1 - cos 45) J/kg
     EXPECT_NEAR(moving.ErrorAt(2.1), 0.5 / (40 * (1 - std::cos(top))), 1e-5);
   }
 }
@@ -215,9 +214,8 @@ TEST(HardExact, RockingBlockFallsInTheTimeOfItsEquation) {
     p.Turn("block", 0.03);
     const double before = std::floor(exact * 60) / 60;
     p.ErrorAt(before);
-    p.Turn("block", -0.01);   // three quarters of a tick later it passed upright
-    EXPECT_NEAR(p.ErrorAt(before + 1.0 / 60),
-                std::fabs((before + 0.75 / 60) / exact - 1), 2e-5);
+    p.Turn("block", -0.01);  // three quarters of a tick later it passed upright
+    EXPECT_NEAR(p.ErrorAt(before + 1.0 / 60), std::fabs((before + 0.75 / 60) / exact - 1), 2e-5);
   }
 }
 
@@ -232,7 +230,7 @@ TEST(HardExact, RockingBlockKeepsHousnersShareOfItsSpin) {
   EXPECT_EQ(p.judge->Failure(), "did not rock back");
   p.Turn("block", 0);
   p.ErrorAt(2);
-  p.Turn("block", -0.2);      // a later swing does not count
+  p.Turn("block", -0.2);  // a later swing does not count
   EXPECT_NEAR(p.ErrorAt(3), 1 - 1.5 / 17 - 0.5, 1e-5);
   EXPECT_EQ(p.judge->Failure(), "");
 }

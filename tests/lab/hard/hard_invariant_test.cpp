@@ -58,7 +58,7 @@ TEST(HardJudge, DriftIsTheWorstDistanceThatCounts) {
     for (Judge* judge : {all.get(), across.get()}) p.ShowAt(0, judge);
     p.Place(1, 5 - 0.3f, 0.4f);
     for (Judge* judge : {all.get(), across.get()}) p.ShowAt(1, judge);
-    p.Place(1, 5, 0);   // back again: the worst stays
+    p.Place(1, 5, 0);  // back again: the worst stays
     for (Judge* judge : {all.get(), across.get()}) p.ShowAt(2, judge);
     EXPECT_NEAR(all->Error(), 0.5, 1e-6);
     EXPECT_NEAR(across->Error(), 0.3, 1e-6);
@@ -86,7 +86,7 @@ TEST(HardJudge, WhoIsTooFarAwayFellAtTheFirstSuchTick) {
   p.Place(0, 0, -0.4f);
   p.ShowAt(1, judge.get());
   EXPECT_EQ(judge->Failure(), "");
-  p.Place(0, 0, -0.6f);   // not across, but fallen
+  p.Place(0, 0, -0.6f);  // not across, but fallen
   p.ShowAt(12.3, judge.get());
   p.ShowAt(13, judge.get());
   EXPECT_EQ(judge->Failure(), "fell at 12.3 s");
@@ -127,14 +127,14 @@ TEST(HardJudge, ReachIsBeyondTheStretchedChain) {
   const auto judge = MakeReachJudge({}, 1, p.scene);
   p.ShowAt(0, judge.get());
   EXPECT_NEAR(judge->Error(), 0, 1e-6) << "laid at full stretch";
-  p.Place(2, 0, -1);      // slack
+  p.Place(2, 0, -1);  // slack
   p.ShowAt(1, judge.get());
   EXPECT_NEAR(judge->Error(), 0, 1e-6);
   p.Place(2, 0, -2.75f);  // its middle is 2.5 m along the chain
   p.ShowAt(2, judge.get());
   EXPECT_NEAR(judge->Error(), 0.25, 1e-6);
   EXPECT_EQ(judge->Failure(), "");
-  p.Place(0, 1.6f, 0);    // its middle is 0.5 m along
+  p.Place(0, 1.6f, 0);  // its middle is 0.5 m along
   p.ShowAt(3, judge.get());
   EXPECT_NEAR(judge->Error(), 1.1, 1e-6);
   EXPECT_EQ(judge->Failure(), "came apart at 3.0 s");
@@ -179,7 +179,7 @@ TEST(HardJudge, ReleaseIsTheGreatestSpeedOfAnyMove) {
   const auto judge = MakeReleaseJudge({}, 0.01, p.scene);
   float y = 0;
   for (int tick = 0; tick < 10; ++tick) {
-    y += tick == 4 ? 0.1f : 0.01f;   // 6 m/s once, else 0.6 m/s
+    y += tick == 4 ? 0.1f : 0.01f;  // 6 m/s once, else 0.6 m/s
     p.Place(1, 5, y);
     p.world.SetTick(tick);
     judge->See(p.world);
@@ -255,8 +255,8 @@ Verdict RunCase(const HardCase& hard, double seconds, const Solver* solver = nul
 
 const HardCase& CaseOf(const std::string& name) {
   static const std::vector<HardCase> all = InvariantCases();
-  const auto found = std::find_if(all.begin(), all.end(),
-                                  [&](const HardCase& hard) { return hard.name == name; });
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const HardCase& hard) { return hard.name == name; });
   EXPECT_NE(found, all.end()) << name;
   return *found;
 }
@@ -274,12 +274,9 @@ TEST(HardInvariant, NoCaseFailsWithItsScenesOwnSolver) {
 
 TEST(HardInvariant, WhereStockFailsTheScenesOwnSolverHoldsForAMinute) {
   const Solver stock = StockSolver();
-  const std::pair<const char*, const char*> failures[] = {{"ball-and-chain", "came apart"},
-                                                          {"bridge", "came apart"},
-                                                          {"card-house", "fell"},
-                                                          {"mass-ratio", "fell"},
-                                                          {"scissor-lift", "is not up"},
-                                                          {"tower-30", "fell"}};
+  const std::pair<const char*, const char*> failures[] = {
+      {"ball-and-chain", "came apart"}, {"bridge", "came apart"},      {"card-house", "fell"},
+      {"mass-ratio", "fell"},           {"scissor-lift", "is not up"}, {"tower-30", "fell"}};
   for (const auto& [name, failure] : failures) {
     SCOPED_TRACE(name);
     const HardCase& hard = CaseOf(name);
@@ -312,7 +309,7 @@ TEST(HardInvariant, TheScenesOwnSolverErrsLessThanStock) {
 TEST(HardInvariant, FamiliesAreWhereTheirNamesSay) {
   const Vec2 near = LoadHardScene(CaseOf("far-chain-0km")).parts[3].position;
   const Scene far = LoadHardScene(CaseOf("far-chain-10km"));
-  EXPECT_EQ(far.parts[3].position - near, Vec2(8000, 6000));   // 10 km by Pythagoras
+  EXPECT_EQ(far.parts[3].position - near, Vec2(8000, 6000));  // 10 km by Pythagoras
   const World world(far);
   EXPECT_EQ(world.Read(2).position, far.parts[3].position);
   EXPECT_EQ(far.joints[0].anchor_a, Vec2(8000, 6000));

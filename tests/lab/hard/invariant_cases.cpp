@@ -3,7 +3,6 @@
 
 #include "tests/lab/hard/hard_case.h"
 #include "tests/lab/hard/invariant_far.h"
-
 #include "tests/lab/hard/invariant_judges.h"
 
 namespace seam {
@@ -78,7 +77,8 @@ const double kLiftHeight = 0.5 + 4 * 5 * std::sin(0.75);
 void AddMechanisms(std::vector<HardCase>* cases) {
   cases->push_back(Case("ball-and-chain", "m", kReach, Hangs(300)));
   cases->push_back(Case("bridge", "m", kReach, Hangs(100)));
-  AddFar("far-chain", kReach, [](const Vec2&) { return Hangs(100); }, cases);
+  AddFar(
+      "far-chain", kReach, [](const Vec2&) { return Hangs(100); }, cases);
   cases->push_back(Case("joint-grid", "m", kSag, [](const Scene&) {
     return MakeDriftJudge({200, {}}, {5, Vec2(0, 0), 0});
   }));

@@ -10,8 +10,7 @@ namespace {
 
 class DriftJudge : public Watch {
  public:
-  DriftJudge(const WatchLimits& limits, const DriftLimits& drift)
-      : Watch(limits), drift_(drift) {}
+  DriftJudge(const WatchLimits& limits, const DriftLimits& drift) : Watch(limits), drift_(drift) {}
 
  protected:
   void Look(const World&, double t) override {

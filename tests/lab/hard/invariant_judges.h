@@ -8,7 +8,7 @@
 namespace seam {
 
 struct DriftLimits {
-  double away_m = kNoLimit;         ///< farther from where it began, a body fell
+  double away_m = kNoLimit;  ///< farther from where it began, a body fell
   /// Unit: the only direction of which drift is counted. Zero: all.
   Vec2 across{0, 0};
   /// s; drift counts from where a body is then. A shorter run is judged from its beginning.
@@ -33,8 +33,7 @@ std::unique_ptr<Judge> MakeToppleJudge(const WatchLimits& limits, const DriftLim
 /// The hook is the anchored joint with the shortest way. Errors of the joints on the way add up.
 /// Bodies that no rigid joints hold to anything anchored are not judged. Fails with "came apart"
 /// above `tear_m`.
-std::unique_ptr<Judge> MakeReachJudge(const WatchLimits& limits, double tear_m,
-                                      const Scene& scene);
+std::unique_ptr<Judge> MakeReachJudge(const WatchLimits& limits, double tear_m, const Scene& scene);
 
 /// Error: RMS over all bodies of how fast they moved, m/s, after `from_s` (in a run that ends
 /// before: in its last tick). From positions: what the engine moves without giving it a velocity is
@@ -49,9 +48,9 @@ std::unique_ptr<Judge> MakeReleaseJudge(const WatchLimits& limits, double overla
 /// Where a part should be, and from when on.
 struct Arrival {
   std::string part;
-  double height_m = 0;              ///< y of its position
+  double height_m = 0;  ///< y of its position
   double from_s = 0;
-  double sink_m = kNoLimit;         ///< more than this off it, it "is not up"
+  double sink_m = kNoLimit;  ///< more than this off it, it "is not up"
 };
 
 /// Error: the farthest, m, that the part's height was off.

@@ -12,10 +12,10 @@ using Point = Eigen::Vector2d;
 /// two places of a joint are at one point, or a rigid distance joint's length apart.
 struct Place {
   int assembly = 0;
-  Point at{0, 0};                   ///< m, world, tick 0
-  std::size_t across = 0;           ///< the joint's other place
+  Point at{0, 0};          ///< m, world, tick 0
+  std::size_t across = 0;  ///< the joint's other place
   double across_m = 0;
-  double way_m = kNoLimit;          ///< from the anchored place `root`
+  double way_m = kNoLimit;  ///< from the anchored place `root`
   Point root{0, 0};
 };
 

@@ -50,8 +50,8 @@ class RestlessJudge final : public MoveJudge {
 
  private:
   const double from_s_;
-  bool counts_ = false;             ///< this tick and those after it
-  double sum_ = 0;                  ///< of squares, (m/s)^2
+  bool counts_ = false;  ///< this tick and those after it
+  double sum_ = 0;       ///< of squares, (m/s)^2
   double count_ = 0;
 };
 

@@ -20,7 +20,7 @@ struct WatchLimits {
   /// m/s: what is faster exploded. Well above all that the case can honestly reach, so that
   /// whatever merely fell is not called an explosion.
   double speed_mps = kNoLimit;
-  Room room;                        ///< a body whose position is outside escaped
+  Room room;  ///< a body whose position is outside escaped
 };
 
 /// Reads every body once a tick, and keeps the first thing that happened that must not.

@@ -53,8 +53,7 @@ bool Fed(const Scene& scene) {
 class Meters {
  public:
   explicit Meters(const World& world)
-      : overlap_(world.scene(), world.composition()),
-        joints_(world.scene(), world.composition()) {
+      : overlap_(world.scene(), world.composition()), joints_(world.scene(), world.composition()) {
     const std::vector<BodyState> states = ReadAll(world);
     overlap_start_ = overlap_.Deepest(states);
     joints_start_ = joints_.Worst(states);
@@ -116,8 +115,8 @@ class Watch {
   static constexpr int kCrowd = 300, kRestSeconds = 5;
   Meters meters_;
   std::int64_t sample_ticks_ = 1, rest_from_ = 0, speeds_ = 0;
-  double squares_ = 0;                // (m/s)^2, summed
-  bool slept_ = false;                // all, since the last look of the meters
+  double squares_ = 0;  // (m/s)^2, summed
+  bool slept_ = false;  // all, since the last look of the meters
 };
 
 }  // namespace
@@ -131,8 +130,8 @@ double EnergyScale(const Scene& scene) {
     const Part& root = scene.parts[static_cast<std::size_t>(assembly.id)];
     const double spin = static_cast<double>(root.spin);
     mass += own.mass;
-    kinetic += own.mass * root.velocity.cast<double>().squaredNorm() / 2 +
-               own.inertia * spin * spin / 2;
+    kinetic +=
+        own.mass * root.velocity.cast<double>().squaredNorm() / 2 + own.inertia * spin * spin / 2;
   }
   const double scale = kinetic + mass * scene.gravity.cast<double>().norm();
   return scale > 0 ? scale : mass / 2;

@@ -15,19 +15,19 @@ constexpr double kLostBeyond = 1e6;
 /// What was seen of a run. Sampled 30 times a second (10 where more than 300 bodies move; else the
 /// nearest rate that ticks fall on).
 struct Observation {
-  double error = 0;                   ///< the case's; infinite: it diverged
-  std::string failure;                ///< empty, or what happened that must not
-  double penetration_m = 0;           ///< deepest overlap, beyond that at the start
-  double joint_drift_m = 0;           ///< worst separation at a joint, beyond that at the start
+  double error = 0;          ///< the case's; infinite: it diverged
+  std::string failure;       ///< empty, or what happened that must not
+  double penetration_m = 0;  ///< deepest overlap, beyond that at the start
+  double joint_drift_m = 0;  ///< worst separation at a joint, beyond that at the start
   /// Greatest rise of the mechanical energy above its start, in units of EnergyScale; empty where
   /// motors or players feed the scene.
   std::optional<double> energy_gain;
-  double jitter_mps = 0;              ///< RMS speed of all bodies in the last 5 s; of what rests
-  std::optional<double> asleep_s;     ///< when all slept for the first time; empty: never
-  double cpu_us_per_s = 0;            ///< of World::Step alone, per simulated second, for a first
-                                      ///< idea: CompareCost measures
-  double seconds = 0;                 ///< simulated: fewer than asked for when it diverged
-  bool diverged = false;              ///< a body was lost or is not a number; stopped there
+  double jitter_mps = 0;           ///< RMS speed of all bodies in the last 5 s; of what rests
+  std::optional<double> asleep_s;  ///< when all slept for the first time; empty: never
+  double cpu_us_per_s = 0;         ///< of World::Step alone, per simulated second, for a first
+                                   ///< idea: CompareCost measures
+  double seconds = 0;              ///< simulated: fewer than asked for when it diverged
+  bool diverged = false;           ///< a body was lost or is not a number; stopped there
 };
 
 /// What a gain of energy is compared with, J: the kinetic energy at the start, and what all that
@@ -43,7 +43,7 @@ Observation Observe(const HardCase& hard, const Scene& scene, double seconds,
 /// says), and by how much that at 16 times differs from it.
 struct Reference {
   Trajectory finest;
-  double change_m = 0;                ///< RMS, as Distance
+  double change_m = 0;  ///< RMS, as Distance
 };
 Reference MakeReference(const Scene& scene, double seconds);
 

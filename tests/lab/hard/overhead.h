@@ -6,10 +6,10 @@
 namespace seam {
 
 struct Overhead {
-  int bodies = 0;                     ///< that move
-  double raw_us_per_step = 0;         ///< b2World::Step, as often as a tick has substeps
-  double core_us_per_step = 0;        ///< World::Step
-  bool equal = false;                 ///< both ended in the same state, bit for bit
+  int bodies = 0;               ///< that move
+  double raw_us_per_step = 0;   ///< b2World::Step, as often as a tick has substeps
+  double core_us_per_step = 0;  ///< World::Step
+  bool equal = false;           ///< both ended in the same state, bit for bit
   double ratio() const { return core_us_per_step / raw_us_per_step; }
 };
 

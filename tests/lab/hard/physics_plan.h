@@ -12,8 +12,8 @@ namespace seam {
 /// One run: a case with one setting.
 struct PhysicsPoint {
   const HardCase* hard = nullptr;
-  std::string role;                   ///< stock | scene | grid
-  Scene scene;                        ///< with the setting in `solver`
+  std::string role;  ///< stock | scene | grid
+  Scene scene;       ///< with the setting in `solver`
 };
 
 struct PhysicsPlan {

@@ -31,7 +31,7 @@ class ScriptHand {
   }
 
  private:
-  std::vector<Input> before_;   // by player: of the last tick
+  std::vector<Input> before_;  // by player: of the last tick
 };
 
 }  // namespace seam

@@ -8,7 +8,7 @@
 namespace seam {
 namespace {
 
-constexpr float kSmallSkin = 0.0025f;   // m; things rest where they touch
+constexpr float kSmallSkin = 0.0025f;  // m; things rest where they touch
 
 /// The levers of one try; skin 0 is the engine's own.
 struct Levers {

@@ -9,9 +9,9 @@
 namespace seam {
 
 enum class GridSize {
-  kQuick,    ///< a handful of settings, 60 s steps of 10 s
-  kReport,   ///< each lever alone, and the combinations that matter
-  kFull,     ///< all combinations: hours
+  kQuick,   ///< a handful of settings, 60 s steps of 10 s
+  kReport,  ///< each lever alone, and the combinations that matter
+  kFull,    ///< all combinations: hours
 };
 
 bool SameSolver(const Solver& a, const Solver& b);

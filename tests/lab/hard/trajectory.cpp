@@ -35,8 +35,7 @@ void Trajectory::See(const World& world) {
     const double angle = static_cast<double>(state.angle);
     const double c = std::cos(angle), s = std::sin(angle);
     const double x = tracked.local.x(), y = tracked.local.y();
-    sample.push_back(state.position.cast<double>() +
-                     Eigen::Vector2d(c * x - s * y, s * x + c * y));
+    sample.push_back(state.position.cast<double>() + Eigen::Vector2d(c * x - s * y, s * x + c * y));
   }
 }
 

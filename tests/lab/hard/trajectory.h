@@ -26,9 +26,9 @@ class Trajectory {
  private:
   struct Tracked {
     PartId assembly = 0;
-    Eigen::Vector2d local{0, 0};      // the part's centre in the assembly's frame, m
+    Eigen::Vector2d local{0, 0};  // the part's centre in the assembly's frame, m
   };
-  std::vector<Tracked> tracked_;      // the moving parts, ascending
+  std::vector<Tracked> tracked_;  // the moving parts, ascending
   std::vector<std::vector<Eigen::Vector2d>> samples_;
 };
 

@@ -17,7 +17,7 @@ constexpr std::size_t kMeasuredMost = 12;
 constexpr double kSameCost = 1.05;
 /// From how many of the cheapest the search goes on to their neighbours, and how often.
 constexpr std::size_t kClimbers = 3, kClimbs = 4;
-constexpr float kSmallSkin = 0.0025f;   // m
+constexpr float kSmallSkin = 0.0025f;  // m
 
 class Search {
  public:
@@ -96,7 +96,7 @@ class Search {
   /// `solver` with a little less of one thing.
   static std::vector<Solver> Lesser(const Solver& solver) {
     std::vector<Solver> lesser;
-    for (int Solver::* lever :
+    for (int Solver::*lever :
          {&Solver::substeps, &Solver::velocity_iterations, &Solver::position_iterations}) {
       Solver less = solver;
       less.*lever -= 1;
@@ -201,7 +201,7 @@ class Search {
 
   const TuneProblem& problem_;
   TuneResult result_;
-  std::map<std::string, std::size_t> known_;   // by SolverLines: index of its trial
+  std::map<std::string, std::size_t> known_;  // by SolverLines: index of its trial
   double spent_ = 0;
 };
 

@@ -13,11 +13,11 @@ namespace seam {
 /// What a setting gave.
 struct Trial {
   Solver solver;
-  double predicted = 0;               ///< cost, in the unit of the problem's `predicted`
-  double error = 0;                   ///< infinite: it diverged
-  std::string failure;                ///< what happened that must not: it does not pass then
-  double run_cost = 0;                ///< what its run took, in any unit: a first idea of its cost
-  std::optional<double> cost;         ///< measured, where it mattered
+  double predicted = 0;        ///< cost, in the unit of the problem's `predicted`
+  double error = 0;            ///< infinite: it diverged
+  std::string failure;         ///< what happened that must not: it does not pass then
+  double run_cost = 0;         ///< what its run took, in any unit: a first idea of its cost
+  std::optional<double> cost;  ///< measured, where it mattered
 };
 
 struct TuneProblem {
@@ -26,17 +26,17 @@ struct TuneProblem {
   std::function<double(const Solver&)> predicted;
   /// Asked for the cheapest that pass and for the front.
   std::function<double(const Solver&)> measured_cost;
-  Solver own;                         ///< tried too; what is not searched is as here
-  double limit = 0;                   ///< of the error
-  bool keep_hz = false;               ///< tick_hz is as in `own`
-  double budget = 0;                  ///< most predicted cost to spend on runs
+  Solver own;            ///< tried too; what is not searched is as here
+  double limit = 0;      ///< of the error
+  bool keep_hz = false;  ///< tick_hz is as in `own`
+  double budget = 0;     ///< most predicted cost to spend on runs
 };
 
 struct TuneResult {
-  std::vector<Trial> trials;          ///< in the order in which they were run
-  std::vector<std::size_t> front;     ///< trials that no other beats in both; cheapest first
-  std::optional<std::size_t> best;    ///< the cheapest that passes
-  bool complete = true;               ///< false: the budget ended the search
+  std::vector<Trial> trials;        ///< in the order in which they were run
+  std::vector<std::size_t> front;   ///< trials that no other beats in both; cheapest first
+  std::optional<std::size_t> best;  ///< the cheapest that passes
+  bool complete = true;             ///< false: the budget ended the search
 };
 
 /// Runs a coarse grid (30 to 240 Hz, 1 to 8 substeps, 1/1 to 16/4, both skins) by rising predicted

@@ -21,7 +21,7 @@ class Reader {
   Reader(const std::string& text, const std::string& path) : text_(text), path_(path) {}
 
   bool done() const { return at_ == text_.size(); }
-  int line() const { return line_; }   ///< at which the next record begins
+  int line() const { return line_; }  ///< at which the next record begins
 
   std::vector<std::string> Record() {
     const int begin = line_;
@@ -88,8 +88,8 @@ CsvTable CsvTable::Parse(const std::string& text, const std::string& path) {
     const int line = reader.line();
     std::vector<std::string> fields = reader.Record();
     if (fields.size() != table.header_.size()) {
-      Fail(path, line, fmt::format("{} fields, but the header has {}", fields.size(),
-                                   table.header_.size()));
+      Fail(path, line,
+           fmt::format("{} fields, but the header has {}", fields.size(), table.header_.size()));
     }
     table.rows_.push_back(std::move(fields));
     table.lines_.push_back(line);

@@ -34,7 +34,7 @@ class CsvTable {
   std::vector<std::string> header_;
   std::map<std::string, std::size_t> columns_;
   std::vector<std::vector<std::string>> rows_;
-  std::vector<int> lines_;            // in the file, of each row
+  std::vector<int> lines_;  // in the file, of each row
 };
 
 }  // namespace seam

@@ -10,20 +10,20 @@ namespace seam {
 /// How a curve is drawn; in all figures the same for the same thing.
 struct Look {
   std::string colour = "#000000";
-  std::string dash = "solid";         ///< gnuplot's dashtype: solid, or (6,3)
-  double width = 1.5;                 ///< of the line, pt; 0: no line
-  int point = 7;                      ///< gnuplot's point type; 0: none
-  double size = 0.6;                  ///< of the points
+  std::string dash = "solid";  ///< gnuplot's dashtype: solid, or (6,3)
+  double width = 1.5;          ///< of the line, pt; 0: no line
+  int point = 7;               ///< gnuplot's point type; 0: none
+  double size = 0.6;           ///< of the points
 };
 
 /// y may be 0 on a logarithmic axis and infinite on any: it is drawn at that edge.
 struct PlotPoint {
   double x = 0, y = 0;
-  double low = 0, high = 0;           ///< quartiles; both y: no bar
+  double low = 0, high = 0;  ///< quartiles; both y: no bar
 };
 
 struct PlotCurve {
-  std::string name;                   ///< "": not in the legend
+  std::string name;  ///< "": not in the legend
   Look look;
   std::vector<PlotPoint> points;
 };
@@ -31,42 +31,42 @@ struct PlotCurve {
 /// A value that means something by itself, such as the floor: a thin line across.
 struct Level {
   double y = 0;
-  std::string name;                   ///< written at its right end
+  std::string name;  ///< written at its right end
 };
 
 struct Note {
   double x = 0, y = 0;
   std::string text;
-  bool left = false;                  ///< of its place; else right
-  double lift = 0;                    ///< above its place, in lines of text
+  bool left = false;  ///< of its place; else right
+  double lift = 0;    ///< above its place, in lines of text
 };
 
 struct Axis {
-  std::string label;                  ///< what it shows, with the unit
+  std::string label;  ///< what it shows, with the unit
   bool log = false;
-  std::vector<double> tics;           ///< where; none: chosen
-  std::string at_infinity = "failed"; ///< what infinity is called
-  std::string at_zero = "0";          ///< and zero on a logarithmic axis
-  std::vector<std::string> names = {};   ///< of 0, 1, 2, ... from above, in place of numbers
+  std::vector<double> tics;             ///< where; none: chosen
+  std::string at_infinity = "failed";   ///< what infinity is called
+  std::string at_zero = "0";            ///< and zero on a logarithmic axis
+  std::vector<std::string> names = {};  ///< of 0, 1, 2, ... from above, in place of numbers
 };
 
 struct PlotPanel {
   Axis x, y;
   std::vector<PlotCurve> curves;
   std::vector<Level> levels;
-  std::vector<Level> uprights;        ///< the same across the other way: y is the place on x
+  std::vector<Level> uprights;  ///< the same across the other way: y is the place on x
   std::vector<Note> notes;
 };
 
 struct Figure {
-  std::string name;                   ///< of its files: a-z, 0-9, -
+  std::string name;  ///< of its files: a-z, 0-9, -
   std::string title;
-  std::string caption;                ///< what is to be seen, one or two sentences
-  std::string command;                ///< that makes it
-  int columns = 1;                    ///< panels beside each other
+  std::string caption;  ///< what is to be seen, one or two sentences
+  std::string command;  ///< that makes it
+  int columns = 1;      ///< panels beside each other
   int panel_width_px = 400, panel_height_px = 300;
-  int left_px = 72;                   ///< of a panel, for the tics of its y axis
-  bool small = false;                 ///< in the page several beside each other
+  int left_px = 72;    ///< of a panel, for the tics of its y axis
+  bool small = false;  ///< in the page several beside each other
   std::vector<PlotPanel> panels;
 };
 
@@ -75,9 +75,9 @@ const char* Extension(PictureFormat format);
 
 /// Where the values of an axis lie on it.
 struct PlotRange {
-  double low = 0, high = 1;           ///< ends of the axis
+  double low = 0, high = 1;  ///< ends of the axis
   bool zero = false, infinity = false;
-  double zero_at = 0, infinity_at = 1;   ///< where these are drawn, if there are any
+  double zero_at = 0, infinity_at = 1;  ///< where these are drawn, if there are any
 };
 
 /// Takes in all `values` with a margin; of none, 0 to 1 (or 1 to 10).

@@ -70,8 +70,7 @@ void RunGnuplot(const std::string& folder, const std::vector<std::string>& scrip
         const auto begin = scripts.begin() + static_cast<std::ptrdiff_t>(i * kBatch);
         const auto size = std::min(kBatch, scripts.size() - i * kBatch);
         const std::string log = folder + "/gnuplot-" + std::to_string(i) + ".log";
-        const int status =
-            Gnuplot(folder, {begin, begin + static_cast<std::ptrdiff_t>(size)}, log);
+        const int status = Gnuplot(folder, {begin, begin + static_cast<std::ptrdiff_t>(size)}, log);
         const std::string complaint = Complaint(log);
         std::remove(log.c_str());
         if (status == 0) return std::string();

@@ -78,16 +78,18 @@ class Script {
   void Begin(PictureFormat format) {
     text_ = fmt::format("# {}\n# {}\nreset\nset encoding utf8\n", f_.title, f_.command);
     text_ += format == PictureFormat::kSvg
-                 ? fmt::format("set terminal svg size {},{} font 'Helvetica,13' noenhanced "
-                               "background '#ffffff'\n", width_, height_)
+                 ? fmt::format(
+                       "set terminal svg size {},{} font 'Helvetica,13' noenhanced "
+                       "background '#ffffff'\n",
+                       width_, height_)
                  : fmt::format("set terminal pngcairo size {},{} font 'sans,10' noenhanced\n",
                                width_, height_);
     text_ += fmt::format("set output '{}.{}'\nset multiplot\n", f_.name, Extension(format));
-    text_ += fmt::format(
-        "set label 1 {} at screen 0.5,{} center font ',16'\n", Quoted(f_.title),
-        1 - 17.0 / height_);
-    text_ += "set border 3 lc rgb '#555555'\nset tics nomirror textcolor rgb '#333333'\n"
-             "set grid lc rgb '#dcdcdc' lw 1 dt 1\nunset key\n";
+    text_ += fmt::format("set label 1 {} at screen 0.5,{} center font ',16'\n", Quoted(f_.title),
+                         1 - 17.0 / height_);
+    text_ +=
+        "set border 3 lc rgb '#555555'\nset tics nomirror textcolor rgb '#333333'\n"
+        "set grid lc rgb '#dcdcdc' lw 1 dt 1\nunset key\n";
   }
 
   double X(double px) const { return px / width_; }
@@ -115,11 +117,11 @@ class Script {
     }
     out += list.empty() ? fmt::format("set {}tics autofreq\n", axis)
                         : fmt::format("set {}tics ({})\n", axis, list);
-    if (range.zero) out += fmt::format("set {}tics add ({} {})\n", axis, Quoted(a.at_zero),
-                         range.zero_at);
+    if (range.zero)
+      out += fmt::format("set {}tics add ({} {})\n", axis, Quoted(a.at_zero), range.zero_at);
     if (range.infinity) {
-      out += fmt::format("set {}tics add ({} {})\n", axis, Quoted(a.at_infinity),
-                         range.infinity_at);
+      out +=
+          fmt::format("set {}tics add ({} {})\n", axis, Quoted(a.at_infinity), range.infinity_at);
     }
     return out;
   }
@@ -129,10 +131,11 @@ class Script {
     const int i = static_cast<int>(index);
     const double left = (i % columns_) * f_.panel_width_px;
     const double top = kTitlePx + legend_px_ + (i / columns_) * f_.panel_height_px;
-    text_ += fmt::format("set lmargin at screen {}\nset rmargin at screen {}\n"
-                         "set tmargin at screen {}\nset bmargin at screen {}\n",
-                         X(left + f_.left_px), X(left + f_.panel_width_px - kRightPx),
-                         Y(top + kTopPx), Y(top + f_.panel_height_px - kBottomPx));
+    text_ += fmt::format(
+        "set lmargin at screen {}\nset rmargin at screen {}\n"
+        "set tmargin at screen {}\nset bmargin at screen {}\n",
+        X(left + f_.left_px), X(left + f_.panel_width_px - kRightPx), Y(top + kTopPx),
+        Y(top + f_.panel_height_px - kBottomPx));
     std::vector<double> xs, ys;
     for (const PlotCurve& curve : p.curves) {
       for (const PlotPoint& point : curve.points) {
@@ -152,7 +155,7 @@ class Script {
     std::string plots;
     for (std::size_t c = 0; c < p.curves.size(); ++c) plots += Plots(p.curves[c], i, c);
     text_ += plots.empty() ? "plot NaN\n" : "plot " + plots.substr(0, plots.size() - 2) + "\n";
-    text_ += "unset label\nunset arrow\n";   // the title's too, after the first panel
+    text_ += "unset label\nunset arrow\n";  // the title's too, after the first panel
   }
 
   /// Levels as lines without heads, notes as labels.
@@ -161,25 +164,27 @@ class Script {
     int tag = 3;
     for (const Level& level : p.levels) {
       const double at = PlaceOn(y, level.y, p.y.log);
-      out += fmt::format("set arrow {0} from graph 0,first {1} to graph 1,first {1} nohead back "
-                         "lc rgb '#888888' lw 1.5 dt (3,3)\n"
-                         "set label {0} {2} at graph 0.99,first {1} right offset 0,0.45 "
-                         "textcolor rgb '#666666' font ',11'\n",
-                         tag++, at, Quoted(level.name));
+      out += fmt::format(
+          "set arrow {0} from graph 0,first {1} to graph 1,first {1} nohead back "
+          "lc rgb '#888888' lw 1.5 dt (3,3)\n"
+          "set label {0} {2} at graph 0.99,first {1} right offset 0,0.45 "
+          "textcolor rgb '#666666' font ',11'\n",
+          tag++, at, Quoted(level.name));
     }
     for (const Level& upright : p.uprights) {
       const double at = PlaceOn(x, upright.y, p.x.log);
-      out += fmt::format("set arrow {0} from first {1},graph 0 to first {1},graph 1 nohead back "
-                         "lc rgb '#888888' lw 1.5 dt (3,3)\n"
-                         "set label {0} {2} at first {1},graph 0.98 left offset 0.5,0 "
-                         "textcolor rgb '#666666' font ',11'\n",
-                         tag++, at, Quoted(upright.name));
+      out += fmt::format(
+          "set arrow {0} from first {1},graph 0 to first {1},graph 1 nohead back "
+          "lc rgb '#888888' lw 1.5 dt (3,3)\n"
+          "set label {0} {2} at first {1},graph 0.98 left offset 0.5,0 "
+          "textcolor rgb '#666666' font ',11'\n",
+          tag++, at, Quoted(upright.name));
     }
     for (const Note& note : p.notes) {
-      out += fmt::format("set label {} {} at {},{} {} offset {},{} font ',11'\n", tag++,
-                         Quoted(note.text), PlaceOn(x, note.x, p.x.log),
-                         PlaceOn(y, note.y, p.y.log), note.left ? "right" : "left",
-                         note.left ? "-0.8" : "0.8", note.lift);
+      out +=
+          fmt::format("set label {} {} at {},{} {} offset {},{} font ',11'\n", tag++,
+                      Quoted(note.text), PlaceOn(x, note.x, p.x.log), PlaceOn(y, note.y, p.y.log),
+                      note.left ? "right" : "left", note.left ? "-0.8" : "0.8", note.lift);
     }
     return out;
   }
@@ -189,9 +194,9 @@ class Script {
     for (std::size_t c = 0; c < p.curves.size(); ++c) {
       out += fmt::format("$p{}c{} << END\n", panel, c);
       for (const PlotPoint& point : p.curves[c].points) {
-        out += fmt::format("{} {} {} {}\n", PlaceOn(x, point.x, p.x.log),
-                           PlaceOn(y, point.y, p.y.log), PlaceOn(y, point.low, p.y.log),
-                           PlaceOn(y, point.high, p.y.log));
+        out +=
+            fmt::format("{} {} {} {}\n", PlaceOn(x, point.x, p.x.log), PlaceOn(y, point.y, p.y.log),
+                        PlaceOn(y, point.low, p.y.log), PlaceOn(y, point.high, p.y.log));
       }
       out += "END\n";
     }
@@ -220,8 +225,9 @@ class Script {
     if (legend_.empty()) return;
     const int entries = static_cast<int>(legend_.size());
     text_ += "reset\nset encoding utf8\nunset border\nunset tics\nunset key\n";
-    text_ += "set lmargin at screen 0\nset rmargin at screen 1\nset tmargin at screen 1\n"
-             "set bmargin at screen 0\nset xrange [0:1]\nset yrange [0:1]\n";
+    text_ +=
+        "set lmargin at screen 0\nset rmargin at screen 1\nset tmargin at screen 1\n"
+        "set bmargin at screen 0\nset xrange [0:1]\nset yrange [0:1]\n";
     std::string plots;
     for (int i = 0; i < entries; ++i) {
       const Look& look = legend_[static_cast<std::size_t>(i)]->look;

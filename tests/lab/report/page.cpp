@@ -41,9 +41,10 @@ std::string Head(const std::string& title) {
 
 std::string Shown(const std::string& file, const std::string& link, const std::string& title,
                   const std::string& below) {
-  return fmt::format("<figure><a href=\"{}\"><img loading=\"lazy\" src=\"{}\" alt=\"{}\"></a>"
-                     "<figcaption>{}</figcaption></figure>\n",
-                     EscapeHtml(link), EscapeHtml(file), EscapeHtml(title), below);
+  return fmt::format(
+      "<figure><a href=\"{}\"><img loading=\"lazy\" src=\"{}\" alt=\"{}\"></a>"
+      "<figcaption>{}</figcaption></figure>\n",
+      EscapeHtml(link), EscapeHtml(file), EscapeHtml(title), below);
 }
 
 /// Each kind of item as HTML.
@@ -61,8 +62,8 @@ struct Writer {
     const std::string table = Html(t);
     const std::string link = fmt::format("<a href=\"tables/{}.md\">Markdown</a>", t.name);
     const std::string title = EscapeHtml(t.title);
-    return fmt::format("<details{}><summary>{}</summary>{}{}</details>\n",
-                       t.open ? " open" : "", title, table, link);
+    return fmt::format("<details{}><summary>{}</summary>{}{}</details>\n", t.open ? " open" : "",
+                       title, table, link);
   }
   std::string operator()(const Thumbnail& t) const {
     return Shown(t.file, t.link, t.title,
@@ -91,11 +92,13 @@ std::string Items(const std::vector<PageItem>& items, PictureFormat format) {
 std::string HtmlPage(const std::vector<Section>& sections, PictureFormat format,
                      const std::string& data) {
   std::string out = Head("Seam2D: speed against error");
-  out += "<h1>Seam2D: speed against error</h1>\n<p>What each choice costs, and how wrong it is. "
-         "All figures are of real runs in virtual time; under each is the command that makes it. "
-         "The measures are defined in <code>docs/metrics.md</code>, the hard cases in "
-         "<code>docs/hard-cases.md</code>. <a href=\"tables.md\">All tables as Markdown</a>, "
-         "<a href=\"" + EscapeHtml(data) + "/\">all data as CSV</a>.</p>\n<nav><ul>\n";
+  out +=
+      "<h1>Seam2D: speed against error</h1>\n<p>What each choice costs, and how wrong it is. "
+      "All figures are of real runs in virtual time; under each is the command that makes it. "
+      "The measures are defined in <code>docs/metrics.md</code>, the hard cases in "
+      "<code>docs/hard-cases.md</code>. <a href=\"tables.md\">All tables as Markdown</a>, "
+      "<a href=\"" +
+      EscapeHtml(data) + "/\">all data as CSV</a>.</p>\n<nav><ul>\n";
   for (const Section& s : sections) {
     out += fmt::format("<li{}><a href=\"#{}\">{}</a></li>\n",
                        s.part_of_last ? " class=\"sub\"" : "", s.id, EscapeHtml(s.title));

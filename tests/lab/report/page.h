@@ -13,20 +13,20 @@ namespace seam {
 
 /// A rendering that is there already: shown small, opens large.
 struct Thumbnail {
-  std::string file;                   ///< shown, relative to the page
-  std::string link;                   ///< opened
+  std::string file;  ///< shown, relative to the page
+  std::string link;  ///< opened
   std::string title;
-  std::string command;                ///< that made it; may be several lines
+  std::string command;  ///< that made it; may be several lines
 };
 
 using PageItem = std::variant<Figure, TextTable, Thumbnail>;
 
 struct Section {
-  std::string id;                     ///< of its anchor
+  std::string id;  ///< of its anchor
   std::string title;
-  std::string intro;                  ///< one paragraph; may be empty
+  std::string intro;  ///< one paragraph; may be empty
   std::vector<PageItem> items;
-  bool part_of_last = false;          ///< a subsection
+  bool part_of_last = false;  ///< a subsection
 };
 
 /// The whole document; pictures are expected in plots/, tables in tables/. `data`: the folder of

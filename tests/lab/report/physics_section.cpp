@@ -37,9 +37,7 @@ PlotCurve PointsOnly(const std::string& name, const std::string& colour, int poi
   return {name, {colour, "solid", 0, point, size}, {}};
 }
 
-PlotPoint At(const PhysicsRun& run) {
-  return {run.cost_ratio, run.error, run.error, run.error};
-}
+PlotPoint At(const PhysicsRun& run) { return {run.cost_ratio, run.error, run.error, run.error}; }
 
 PlotCurve FrontCurve(const std::vector<PhysicsRun>& runs) {
   PlotCurve front;
@@ -96,7 +94,7 @@ void SpreadNotes(double width_px, double height_px, PlotPanel* panel) {
       taken.push_back(box);
       placed = true;
     }
-    if (!placed) note.text.clear();   // the table and the list have it
+    if (!placed) note.text.clear();  // the table and the list have it
   }
 }
 
@@ -211,8 +209,8 @@ Figure PhysicsSummary(const std::vector<PhysicsCase>& cases, const std::string& 
     if (!c.stock || !c.scene) continue;
     const double ratio = ShownRatio(c);
     const PlotPoint point = {c.scene->cost_ratio, ratio, ratio, ratio};
-    PlotCurve& kind = c.scene->held() ? (c.stock->held() ? held : rescued)
-                                  : (c.stock->held() ? failed : both);
+    PlotCurve& kind =
+        c.scene->held() ? (c.stock->held() ? held : rescued) : (c.stock->held() ? failed : both);
     kind.points.push_back(point);
     panel.notes.push_back({point.x, point.y, c.name, false, 0});
   }

@@ -32,8 +32,8 @@ TextTable PhysicsTable(const std::vector<PhysicsCase>& cases, const std::string&
   TextTable table;
   table.name = "hard-cases";
   table.title = "Stock against each scene's own setting";
-  table.header = {"case", "judged by", "unit", "error, stock", "error, own", "error ratio",
-                  "cost ratio", "verdict", "own setting"};
+  table.header = {"case",        "judged by",  "unit",    "error, stock", "error, own",
+                  "error ratio", "cost ratio", "verdict", "own setting"};
   std::map<std::string, int> verdicts;
   for (const PhysicsCase& c : cases) {
     table.rows.push_back({c.name, c.truth, c.unit, Error(c.stock), Error(c.scene),
@@ -47,7 +47,8 @@ TextTable PhysicsTable(const std::vector<PhysicsCase>& cases, const std::string&
   table.note = fmt::format(
       "{} cases. {}. Much better: at most half the error; same cost: at most 1.1 times stock's; "
       "neither: less than that at more cost. Settings: ticks per second, velocity/position "
-      "iterations × substeps.", cases.size(), table.note);
+      "iterations × substeps.",
+      cases.size(), table.note);
   table.command = command;
   return table;
 }
@@ -56,8 +57,14 @@ TextTable PhysicsSearchTable(const std::vector<PhysicsCase>& cases, const std::s
   TextTable table;
   table.name = "hard-cases-search";
   table.title = "The cheapest setting that is no worse than stock, and the best at its cost";
-  table.header = {"case", "cheapest no worse than stock", "cost ratio", "error ratio",
-                  "best at ≤ 1.1 × stock's cost", "cost ratio", "error ratio", "failed"};
+  table.header = {"case",
+                  "cheapest no worse than stock",
+                  "cost ratio",
+                  "error ratio",
+                  "best at ≤ 1.1 × stock's cost",
+                  "cost ratio",
+                  "error ratio",
+                  "failed"};
   for (const PhysicsCase& c : cases) {
     std::vector<std::string> row = {c.name};
     for (const PhysicsRun* run : {CheapestNoWorse(c), BestAtStocksCost(c)}) {

@@ -19,16 +19,16 @@ constexpr double kMuchBetter = 0.5;
 bool IsOn(const std::string& text) { return text == "1" || text == "on" || text == "true"; }
 
 std::string Setting(const CsvTable& t, std::size_t row) {
-  std::string text = fmt::format("{} Hz, {}/{} × {}", t.Text(row, "tick_hz"),
-                                 t.Text(row, "velocity_iterations"),
-                                 t.Text(row, "position_iterations"), t.Text(row, "substeps"));
+  std::string text =
+      fmt::format("{} Hz, {}/{} × {}", t.Text(row, "tick_hz"), t.Text(row, "velocity_iterations"),
+                  t.Text(row, "position_iterations"), t.Text(row, "substeps"));
   const std::string& skin = t.Text(row, "skin");
   if (!skin.empty() && t.Number(row, "skin").value_or(0.01) != 0.01) {
     text += ", skin " + skin + " m";
   }
   if (!IsOn(t.Text(row, "warm_starting"))) text += ", cold";
   if (!IsOn(t.Text(row, "continuous"))) text += ", not continuous";
-  const bool stock = t.Text(row, "role") == "stock";   // that always has them so
+  const bool stock = t.Text(row, "role") == "stock";  // that always has them so
   if (!stock && t.Text(row, "welds") == "joint") text += ", welds jointed";
   return text;
 }

@@ -11,20 +11,20 @@
 namespace seam {
 
 struct PhysicsRun {
-  std::size_t row = 0;                ///< of the table
-  std::string setting;                ///< "120 Hz, 4/1 × 2, skin 0.0025 m"
+  std::size_t row = 0;  ///< of the table
+  std::string setting;  ///< "120 Hz, 4/1 × 2, skin 0.0025 m"
   double tick_hz = 60;
   bool warm = true;
-  double error = 0;                   ///< in the case's unit; infinite: diverged
-  double cost_ratio = 1;              ///< of CPU time to stock's beside it; NaN: it crashed
-  std::string failure;                ///< what happened that must not; "": nothing
+  double error = 0;       ///< in the case's unit; infinite: diverged
+  double cost_ratio = 1;  ///< of CPU time to stock's beside it; NaN: it crashed
+  std::string failure;    ///< what happened that must not; "": nothing
   bool held() const { return failure.empty(); }
 };
 
 struct PhysicsCase {
   std::string name, truth, unit;
   std::optional<PhysicsRun> stock, scene;
-  std::vector<PhysicsRun> all;        ///< these two included, in the order of the table
+  std::vector<PhysicsRun> all;  ///< these two included, in the order of the table
 };
 
 /// Throws OperatorError for a table that is not of `seam-lab physics`.

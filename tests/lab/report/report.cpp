@@ -39,9 +39,8 @@ TextTable OverheadTable(const CsvTable& csv, const std::string& command) {
       return value ? Digits(*value) : std::string("–");
     };
     if (const auto ratio = csv.Number(row, "ratio")) ratios.push_back(*ratio);
-    table.rows.push_back({fs::path(csv.Text(row, "scene")).stem().string(),
-                          csv.Text(row, "bodies"), digits("raw_us_per_step"),
-                          digits("core_us_per_step"), digits("ratio")});
+    table.rows.push_back({fs::path(csv.Text(row, "scene")).stem().string(), csv.Text(row, "bodies"),
+                          digits("raw_us_per_step"), digits("core_us_per_step"), digits("ratio")});
   }
   table.note = "Median (quartiles) of the ratios: " + Digits(FindQuartiles(ratios)) + ".";
   table.command = command;
@@ -91,10 +90,9 @@ std::vector<Section> BuildReport(const ReportInput& input) {
   for (const fs::path& path : FilesIn(data, ".csv")) {
     const std::string name = path.stem().string();
     if (name == "physics" || name == "overhead") continue;
-    const std::string command =
-        fmt::format("seam-lab sweep {} -o {} && seam-lab report {}",
-                    (fs::path(input.sweeps) / (name + ".toml")).string(), path.string(),
-                    input.data);
+    const std::string command = fmt::format("seam-lab sweep {} -o {} && seam-lab report {}",
+                                            (fs::path(input.sweeps) / (name + ".toml")).string(),
+                                            path.string(), input.data);
     CsvTable table = CsvTable::Load(path.string());
     SweepView view = ViewSweep(table);
     if (!view.groups.empty()) {

@@ -9,9 +9,9 @@
 namespace seam {
 
 struct ReportInput {
-  std::string data;                   ///< folder of *.csv: sweeps, physics.csv, overhead.csv
-  std::string sweeps;                 ///< folder of the sweeps' files, for the commands shown
-  std::string out;                    ///< where renders/ may be, with pictures to show
+  std::string data;    ///< folder of *.csv: sweeps, physics.csv, overhead.csv
+  std::string sweeps;  ///< folder of the sweeps' files, for the commands shown
+  std::string out;     ///< where renders/ may be, with pictures to show
 };
 
 /// Reads all tables. A file that is not there leaves its section out; one that is damaged or of

@@ -13,7 +13,7 @@ struct Quartiles {
   double low = 0;
   double median = 0;
   double high = 0;
-  std::size_t count = 0;              ///< of values
+  std::size_t count = 0;  ///< of values
 };
 
 /// Nothing of nothing. Infinities are values, larger than all others; NaN counts as one of them.

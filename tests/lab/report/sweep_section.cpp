@@ -105,8 +105,8 @@ Figure CurvesOf(const Sweep& sweep, const SweepGroup& group) {
 TextTable AlongTable(const Sweep& sweep, const SweepGroup& group, const SweepMeasure& measure) {
   TextTable table;
   table.name = Name(sweep, group, measure.id);
-  table.title = fmt::format("{}: {} against {}", Where(group), measure.Label(),
-                            sweep.view.axis.name);
+  table.title =
+      fmt::format("{}: {} against {}", Where(group), measure.Label(), sweep.view.axis.name);
   table.header = {"method"};
   for (const double x : group.xs) table.header.push_back(AxisText(sweep.view.axis, x));
   for (const std::string& method : group.methods) {
@@ -114,9 +114,8 @@ TextTable AlongTable(const Sweep& sweep, const SweepGroup& group, const SweepMea
     for (const double x : group.xs) {
       const auto& points = group.runs.at(method);
       const auto found = points.find(x);
-      row.push_back(found == points.end()
-                        ? "–"
-                        : Digits(Summary(sweep.table, measure, found->second)));
+      row.push_back(found == points.end() ? "–"
+                                          : Digits(Summary(sweep.table, measure, found->second)));
     }
     table.rows.push_back(std::move(row));
   }
@@ -160,7 +159,7 @@ TextTable MeasuresTable(const Sweep& sweep, const SweepGroup& group) {
 }
 
 PlotPanel FrontPanel(const Sweep& sweep, const SweepGroup& group, const SweepMeasure& cost,
-                 const SweepMeasure& error) {
+                     const SweepMeasure& error) {
   const std::vector<MethodTrial> trials = Trials(sweep, group, cost, error);
   PlotPanel panel;
   panel.x.label = cost.Label();
@@ -171,7 +170,7 @@ PlotPanel FrontPanel(const Sweep& sweep, const SweepGroup& group, const SweepMea
   for (const MethodTrial& t : trials) all.push_back(t.trial);
   PlotCurve front;
   front.name = "front";
-  front.look = {"#f3c9a9", "solid", 7, 0, 0};   // a broad pale band behind the points
+  front.look = {"#f3c9a9", "solid", 7, 0, 0};  // a broad pale band behind the points
   for (const std::size_t i : ParetoFront(all)) {
     const CostError& t = all[i];
     // A front is a staircase: until the next point is paid for, one has the last.

@@ -12,7 +12,7 @@ namespace seam {
 
 /// A sweep's table, and how it was made.
 struct Sweep {
-  std::string name;                   ///< of its file, without .csv
+  std::string name;  ///< of its file, without .csv
   std::string command;
   CsvTable table;
   SweepView view;
@@ -24,7 +24,7 @@ Section SweepSection(const Sweep& sweep);
 struct MethodTrial {
   std::string method;
   double x = 0;
-  CostError trial;                        ///< medians
+  CostError trial;  ///< medians
 };
 /// Medians of `cost` and of `error`; those that have both.
 std::vector<MethodTrial> Trials(const Sweep& sweep, const SweepGroup& group,

@@ -75,7 +75,7 @@ std::map<std::string, std::string> Places(const Sweep& sweep, const SweepGroup& 
   std::map<std::string, double> ratios;
   for (const MethodTrial& t : trials) {
     if (places.count(t.method) > 0) continue;
-    double best = 0;   // error of the front at this cost: its last point that is not dearer
+    double best = 0;  // error of the front at this cost: its last point that is not dearer
     for (const std::size_t i : front) {
       if (all[i].cost <= t.trial.cost) best = all[i].error;
     }
@@ -120,7 +120,7 @@ TextTable SpeedTable(const std::vector<Sweep>& sweeps) {
   TextTable table;
   table.name = "speed";
   table.title = "Virtual time: how many times faster than real time, on one core";
-  std::map<std::string, std::map<std::string, std::vector<double>>> factors;   // group, method
+  std::map<std::string, std::map<std::string, std::vector<double>>> factors;  // group, method
   Cells cells;
   for (const Sweep& sweep : sweeps) {
     for (const SweepGroup& group : sweep.view.groups) {

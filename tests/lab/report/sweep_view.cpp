@@ -163,8 +163,8 @@ std::string Fixed(const Values& values, const std::string& axis) {
     const auto found = values.find(key);
     if (key == axis || found == values.end() || found->second.size() != 1) continue;
     const SweepAxis a = AxisOf(key);
-    text += fmt::format("{}{} {} {}", text.empty() ? "" : ", ",
-                        a.name.substr(0, a.name.find(',')), *found->second.begin(), a.unit);
+    text += fmt::format("{}{} {} {}", text.empty() ? "" : ", ", a.name.substr(0, a.name.find(',')),
+                        *found->second.begin(), a.unit);
   }
   return text;
 }
@@ -199,9 +199,8 @@ SweepView ViewSweep(const CsvTable& table) {
       for (const auto& point : method.second) xs.insert(point.first);
     }
     group.xs.assign(xs.begin(), xs.end());
-    std::stable_sort(group.methods.begin(), group.methods.end(), [](const auto& a, const auto& b) {
-      return MethodOrder(a) < MethodOrder(b);
-    });
+    std::stable_sort(group.methods.begin(), group.methods.end(),
+                     [](const auto& a, const auto& b) { return MethodOrder(a) < MethodOrder(b); });
   }
   return view;
 }

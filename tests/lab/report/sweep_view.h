@@ -15,31 +15,31 @@ namespace seam {
 
 /// What is on the x axis.
 struct SweepAxis {
-  std::string key;                    ///< one_way_ms, loss_percent, send_hz, ...
-  std::string name;                   ///< "one-way latency"
-  std::string unit;                   ///< "ms"
-  bool ours = false;                  ///< a setting we choose, not one the network imposes
+  std::string key;    ///< one_way_ms, loss_percent, send_hz, ...
+  std::string name;   ///< "one-way latency"
+  std::string unit;   ///< "ms"
+  bool ours = false;  ///< a setting we choose, not one the network imposes
 };
 
 /// The runs of one scene and drive.
 struct SweepGroup {
-  std::string scene, drive;           ///< "wall", "bot"
-  std::vector<std::string> methods;   ///< in the order of MethodOrder
-  std::vector<double> xs;             ///< ascending
-  std::map<std::string, std::map<double, std::vector<std::size_t>>> runs;   ///< rows of the table
+  std::string scene, drive;          ///< "wall", "bot"
+  std::vector<std::string> methods;  ///< in the order of MethodOrder
+  std::vector<double> xs;            ///< ascending
+  std::map<std::string, std::map<double, std::vector<std::size_t>>> runs;  ///< rows of the table
 };
 
 struct SweepView {
   SweepAxis axis;
-  std::string fixed;                  ///< what all runs have in common: "loss=1%, 30 Hz"
-  std::vector<SweepGroup> groups;     ///< in the order of the table
+  std::string fixed;               ///< what all runs have in common: "loss=1%, 30 Hz"
+  std::vector<SweepGroup> groups;  ///< in the order of the table
 };
 
 /// One figure of merit of a run.
 struct SweepMeasure {
-  std::string id;                     ///< "error"
-  std::string name;                   ///< "error, RMS"
-  std::string unit;                   ///< "m"
+  std::string id;    ///< "error"
+  std::string name;  ///< "error, RMS"
+  std::string unit;  ///< "m"
   bool log = true;
   std::function<std::optional<double>(const CsvTable&, std::size_t row)> value;
   std::string Label() const { return name + (unit.empty() ? "" : " (" + unit + ")"); }

@@ -74,7 +74,7 @@ std::string Digits(double value) {
   const double size = std::abs(value);
   if (size == 0) return "0";
   if (size < 9.995e-4 || size >= 999500) return fmt::format("{:.1e}", value);
-  if (size >= 99.95) {   // whole, rounded to three digits
+  if (size >= 99.95) {  // whole, rounded to three digits
     const double unit = std::pow(10, std::floor(std::log10(size * 1.0005)) - 2);
     return fmt::format("{:.0f}", std::round(value / unit) * unit);
   }

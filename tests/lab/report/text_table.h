@@ -10,13 +10,13 @@
 namespace seam {
 
 struct TextTable {
-  std::string name;                   ///< of its file, and of its place in the docs: a-z, 0-9, -
+  std::string name;  ///< of its file, and of its place in the docs: a-z, 0-9, -
   std::string title;
   std::vector<std::string> header;
-  std::vector<std::vector<std::string>> rows;   ///< each as long as the header
-  std::string note;                   ///< below it; may be empty
-  bool open = false;                  ///< shown at once, not only when asked for
-  std::string command;                ///< that makes it
+  std::vector<std::vector<std::string>> rows;  ///< each as long as the header
+  std::string note;                            ///< below it; may be empty
+  bool open = false;                           ///< shown at once, not only when asked for
+  std::string command;                         ///< that makes it
 };
 
 /// The table, its note and its command; without the title.

@@ -25,14 +25,13 @@ constexpr Build kBuilds[] = {{"one body, merged rectangles", "faces = \"merged\"
 /// 50 x 20 boxes of half a metre; welded, or glued so that nothing breaks it.
 std::unique_ptr<World> Ship(const Build& build, bool flying, bool quick, const char* bond) {
   const int columns = quick ? 20 : 50, rows = quick ? 10 : 20;
-  std::string text = std::string(flying ? "gravity = [0, 0]\n" : "") +
-                     "[solver]\nsleep = false\n" + build.solver +
-                     "[[part]]\nname = \"ground\"\nchain = [[-100, 0], [100, 0]]\n"
-                     "[[part]]\nname = \"cell\"\nbox = [0.5, 0.5]\nposition = [0, " +
-                     (flying ? "20" : "0.265") + "]\ngroup = -1\n" +
-                     (flying ? "velocity = [3, 0]\n" : "") + "repeat = {count = [" +
-                     std::to_string(columns) + ", " + std::to_string(rows) +
-                     "], step = [0.5, 0.5], " + bond + "}\n";
+  std::string text =
+      std::string(flying ? "gravity = [0, 0]\n" : "") + "[solver]\nsleep = false\n" + build.solver +
+      "[[part]]\nname = \"ground\"\nchain = [[-100, 0], [100, 0]]\n"
+      "[[part]]\nname = \"cell\"\nbox = [0.5, 0.5]\nposition = [0, " +
+      (flying ? "20" : "0.265") + "]\ngroup = -1\n" + (flying ? "velocity = [3, 0]\n" : "") +
+      "repeat = {count = [" + std::to_string(columns) + ", " + std::to_string(rows) +
+      "], step = [0.5, 0.5], " + bond + "}\n";
   return std::make_unique<World>(ParseScene(text, "ship.toml"));
 }
 
@@ -71,8 +70,8 @@ TextTable AssemblyBench(bool quick) {
   TextTable table;
   table.name = "world-assembly";
   table.title = "A ship of a thousand parts";
-  table.header = {"made of", "shapes", "cost at rest", "cost flying", "bend at rest, m",
-                  "bend flying, m"};
+  table.header = {"made of",     "shapes",          "cost at rest",
+                  "cost flying", "bend at rest, m", "bend flying, m"};
   const int ticks = quick ? 10 : 60, pairs = quick ? 3 : 7;
   const auto run = [ticks](World* world) {
     return [world, ticks] {

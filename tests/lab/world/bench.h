@@ -11,8 +11,8 @@
 namespace seam {
 
 struct WorldBench {
-  const char* name;                   ///< a-z, 0-9, -
-  TextTable (*run)(bool quick);       ///< quick: fewer bodies and repeats, seconds in all
+  const char* name;              ///< a-z, 0-9, -
+  TextTable (*run)(bool quick);  ///< quick: fewer bodies and repeats, seconds in all
 };
 
 /// All of them, in the order of the report.

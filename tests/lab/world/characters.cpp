@@ -104,11 +104,11 @@ TextTable CharactersBench(bool quick) {
   const auto run = [](const Scene& scene) {
     World world(scene);
     for (int body = 0; body < world.body_count(); ++body) world.SetAwake(body, true);
-    Steps(&world, 60);   // the limp ones have not come to rest yet
+    Steps(&world, 60);  // the limp ones have not come to rest yet
   };
   add("step, beside a limp one's while it falls",
-      fmt::format("{:.2f} x", CostRatio([&] { run(passive); }, [&] { run(active); },
-                                        quick ? 5 : 21)));
+      fmt::format("{:.2f} x",
+                  CostRatio([&] { run(passive); }, [&] { run(active); }, quick ? 5 : 21)));
   table.note = "Pushes grow by 0.05 N s until one makes it fall within 4 s.";
   table.command = "seam-lab world characters";
   return table;

@@ -7,15 +7,15 @@
 #include <cstdio>
 #include <memory>
 
-#include "common/topology/feather_store.h"
 #include "common/physics/world.h"
+#include "common/topology/feather_store.h"
 #include "tests/lab/world/bench.h"
 
 namespace seam {
 namespace {
 
-constexpr int kMovers = 100, kCars = 20, kPitch = 20;   // a car: three bodies; pitch in m
-constexpr float kRoad = 60;                             // m: the road over the roofs
+constexpr int kMovers = 100, kCars = 20, kPitch = 20;  // a car: three bodies; pitch in m
+constexpr float kRoad = 60;                            // m: the road over the roofs
 
 /// What rolls on the road and falls on roofs (or on the ground alone), and never rests.
 std::string Movers(float left, float right, bool city) {
@@ -29,14 +29,14 @@ std::string Movers(float left, float right, bool city) {
     const float x = at(i, kCars);
     std::snprintf(line, sizeof line,
                   "[[part]]\nname = \"car%d\"\nbox = [3, 0.8]\nposition = [%g, %g]\n"
-                  "velocity = [15, 0]\nfriction = 0.1\n", i, static_cast<double>(x),
-                  static_cast<double>(road + 0.9f));
+                  "velocity = [15, 0]\nfriction = 0.1\n",
+                  i, static_cast<double>(x), static_cast<double>(road + 0.9f));
     text += line;
     for (const int end : {-1, 1}) {
       std::snprintf(line, sizeof line,
                     "[[part]]\nname = \"wheel%d-%d\"\ncircle = 0.4\nposition = [%g, %g]\n"
-                    "velocity = [15, 0]\nfriction = 0.9\nspin = -37\n", i, 1 + end,
-                    static_cast<double>(x + static_cast<float>(end)),
+                    "velocity = [15, 0]\nfriction = 0.9\nspin = -37\n",
+                    i, 1 + end, static_cast<double>(x + static_cast<float>(end)),
                     static_cast<double>(road + 0.41f));
       text += line;
     }
@@ -44,7 +44,8 @@ std::string Movers(float left, float right, bool city) {
   for (int i = 0; i < kMovers - 3 * kCars; ++i) {
     std::snprintf(line, sizeof line,
                   "[[part]]\nname = \"ball%d\"\n%s\nposition = [%g, %g]\nrestitution = 0.8\n"
-                  "velocity = [%d, 0]\n", i, i % 2 == 0 ? "circle = 0.4" : "box = [0.8, 0.6]",
+                  "velocity = [%d, 0]\n",
+                  i, i % 2 == 0 ? "circle = 0.4" : "box = [0.8, 0.6]",
                   static_cast<double>(at(i, kMovers - 3 * kCars)),
                   static_cast<double>(city ? kRoad - 3 : 3), i % 9 - 4);
     text += line;
@@ -62,8 +63,8 @@ std::string Movers(float left, float right, bool city) {
 }
 
 struct City {
-  std::string bricks;               ///< [[bricks]]
-  float left = 0, right = 0;        ///< m
+  std::string bricks;         ///< [[bricks]]
+  float left = 0, right = 0;  ///< m
 };
 
 /// Towers, a street at their feet, and a road over their roofs.
@@ -152,7 +153,7 @@ TextTable FeatherweightBench(bool quick) {
   const Made feather = Make([&] { return ParseScene(with, "city"); });
   Steps(*none.world, 60);
   const double settled = ResidentBytes();
-  Steps(*feather.world, 60);        // now the cells near the movers have fixtures
+  Steps(*feather.world, 60);  // now the cells near the movers have fixtures
   const double fixtures = ResidentBytes() - settled;
   const Made parts = Make([&] { return AsParts(ParseScene(with, "city")); });
 

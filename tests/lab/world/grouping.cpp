@@ -61,8 +61,12 @@ TextTable GroupingBench(bool quick) {
   TextTable table;
   table.name = "world-grouping";
   table.title = "Resting things as one body";
-  table.header = {"rule", "bodies at rest", "cost at rest", "error at rest, m",
-                  "error after a hit, m", "edits of the hit"};
+  table.header = {"rule",
+                  "bodies at rest",
+                  "cost at rest",
+                  "error at rest, m",
+                  "error after a hit, m",
+                  "edits of the hit"};
   for (const Rule& rule : kRules) {
     const auto base = Yard(kRules[0], false, quick), yard = Yard(rule, false, quick);
     Live(base.get(), 180);

@@ -15,7 +15,7 @@ namespace {
 
 struct Kind {
   const char* name;
-  const char* first;                   // TOML of the two joints but name, a and b
+  const char* first;  // TOML of the two joints but name, a and b
   const char* second;
 };
 
@@ -36,9 +36,10 @@ std::string TextOf(const Kind& kind, int load, int substeps) {
   return "[solver]\nsleep = false\n" + welds + fmt::format("substeps = {}\n", substeps) +
          "[[part]]\nname = \"post\"\nbox = [0.5, 0.5]\nposition = [0, 10]\nanchored = true\n"
          "[[part]]\nname = \"link\"\nbox = [1, 1]\nposition = [0.5, 9.5]\ngroup = -1\n" +
-         fmt::format("[[part]]\nname = \"load\"\nbox = [1, 1]\nposition = [1.5, 9.5]\n"
-                     "group = -1\ndensity = {}\n",
-                     load) +
+         fmt::format(
+             "[[part]]\nname = \"load\"\nbox = [1, 1]\nposition = [1.5, 9.5]\n"
+             "group = -1\ndensity = {}\n",
+             load) +
          "[[joint]]\nname = \"first\"\na = \"post\"\nb = \"link\"\n" + kind.first +
          "\n[[joint]]\nname = \"second\"\na = \"link\"\nb = \"load\"\n" + kind.second + "\n";
 }
@@ -68,8 +69,14 @@ TextTable JointsBench(bool quick) {
   TextTable table;
   table.name = "world-joints";
   table.title = "Joint drift under load, m";
-  table.header = {"joint", "load 1x", "10x", "100x", "1x, 4 substeps", "10x, 4 substeps",
-                  "100x, 4 substeps", "cost of 4 substeps"};
+  table.header = {"joint",
+                  "load 1x",
+                  "10x",
+                  "100x",
+                  "1x, 4 substeps",
+                  "10x, 4 substeps",
+                  "100x, 4 substeps",
+                  "cost of 4 substeps"};
   for (const Kind& kind : kKinds) {
     std::vector<std::string> row = {kind.name};
     for (const int substeps : {1, 4}) {

@@ -1,7 +1,5 @@
 /// Cost and error of the ways to find buoyancy.
 
-#include "tests/lab/world/bench.h"
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -9,6 +7,7 @@
 
 #include "common/measure/energy.h"
 #include "common/physics/world.h"
+#include "tests/lab/world/bench.h"
 
 namespace seam {
 namespace {
@@ -17,7 +16,7 @@ constexpr double kPi = 3.14159265358979323846;
 
 struct Method {
   const char* name;
-  const char* lines;                  // of [[water]]
+  const char* lines;  // of [[water]]
 };
 constexpr Method kMethods[] = {{"exact", ""},
                                {"voxel4", "method = \"voxel4\"\n"},
@@ -29,10 +28,10 @@ constexpr const char* kNoDrag = "drag_normal = 0\ndrag_tangent = 0\nviscosity = 
 constexpr const char* kSettling = "drag_normal = 1\nviscosity = 2\n";
 
 std::unique_ptr<World> Sea(const std::string& parts, const std::string& water, int tick_hz) {
-  return std::make_unique<World>(ParseScene(
-      "[solver]\nsleep = false\ntick_hz = " + std::to_string(tick_hz) + "\n" + parts +
-          "[[water]]\nname = \"sea\"\nbox = [1000, 50]\nposition = [0, -25]\n" + water,
-      "water.toml"));
+  return std::make_unique<World>(
+      ParseScene("[solver]\nsleep = false\ntick_hz = " + std::to_string(tick_hz) + "\n" + parts +
+                     "[[water]]\nname = \"sea\"\nbox = [1000, 50]\nposition = [0, -25]\n" + water,
+                 "water.toml"));
 }
 
 std::string Thing(const std::string& rest) { return "[[part]]\nname = \"p\"\n" + rest + "\n"; }
@@ -50,8 +49,9 @@ BodyState Settled(const std::string& thing, const Method& method, double seconds
 
 /// Angle of a square's side with the level, degrees, 0..45, where it settles.
 double Lean(double density, double start, const Method& method, double seconds) {
-  const BodyState rest = Settled("box = [1, 1]\ndensity = " + std::to_string(density) +
-                                     "\nangle = " + std::to_string(start), method, seconds);
+  const BodyState rest = Settled(
+      "box = [1, 1]\ndensity = " + std::to_string(density) + "\nangle = " + std::to_string(start),
+      method, seconds);
   return std::fabs(std::remainder(static_cast<double>(rest.angle), kPi / 2)) * 180 / kPi;
 }
 
@@ -66,8 +66,10 @@ double BobbingPeriod(const std::string& thing, const Method& method) {
     const double now = static_cast<double>(world->Read(0).velocity.y());
     if (before < 0 && now >= 0) {
       const double at = (i + before / (before - now)) * dt;
-      if (first < 0) first = at;
-      else ++periods;
+      if (first < 0)
+        first = at;
+      else
+        ++periods;
       last = at;
     }
     before = now;
@@ -103,8 +105,8 @@ std::string Rows(int things, int welded) {
              x + ", 0.1]\nrepeat = {count = " + n + ", step = [0.5, 0]}\n";
     if (welded == 1) continue;
     parts += "[[joint]]\nname = \"j" + name + "\"\nkind = \"weld\"\na = \"" + name +
-             ".0\"\nb = \"" + name + ".1\"\nrepeat = {count = " +
-             std::to_string(welded - 1) + ", step = [0.5, 0]}\n";
+             ".0\"\nb = \"" + name + ".1\"\nrepeat = {count = " + std::to_string(welded - 1) +
+             ", step = [0.5, 0]}\n";
   }
   return parts;
 }
@@ -131,24 +133,25 @@ std::vector<std::string> Row(const Method& method, bool quick) {
     return Off(static_cast<double>(Settled(thing, method, settle).position.y()), rest);
   };
   // A segment of half an angle of 60 degrees is this share of a disc, and as deep as half a radius.
-  const std::string disc = "circle = 1\ndensity = " +
-                           std::to_string((kPi / 3 - std::sin(kPi / 3) / 2) / kPi);
+  const std::string disc =
+      "circle = 1\ndensity = " + std::to_string((kPi / 3 - std::sin(kPi / 3) / 2) / kPi);
   // A square on its corner with the density s has the depth sqrt(s).
   const double corner = std::sqrt(0.5) - std::sqrt(0.3);
   const double bob = 2 * kPi * std::sqrt(0.25 * 0.6 / 10);
-  return {method.name,
-          draught("box = [2, 1]\ndensity = 0.25", 0.25),
-          draught("box = [8, 0.6]\ndensity = 0.25", 0.15),
-          draught("box = [1, 1]\ndensity = 0.3\nangle = 0.785398163", corner),
-          draught(disc.c_str(), 0.5),
-          Off(Lean(0.23, 0.3, method, quick ? 10 : 60), 19.49),
-          Off(Lean(0.5, 0.3, method, quick ? 10 : 60), 45),
-          Digits(BobbingPeriod("box = [8, 0.6]\ndensity = 0.25\nposition = [0, 0.17]", method) /
-                     bob - 1),
-          Digits(EnergyDrift(method)),
-          Digits(Cost(method, kNoDrag, quick ? 50 : 300, 1, quick)),
-          Digits(Cost(method, "", quick ? 50 : 300, 1, quick)),
-          Digits(Cost(method, "", quick ? 2 : 10, 40, quick))};
+  return {
+      method.name,
+      draught("box = [2, 1]\ndensity = 0.25", 0.25),
+      draught("box = [8, 0.6]\ndensity = 0.25", 0.15),
+      draught("box = [1, 1]\ndensity = 0.3\nangle = 0.785398163", corner),
+      draught(disc.c_str(), 0.5),
+      Off(Lean(0.23, 0.3, method, quick ? 10 : 60), 19.49),
+      Off(Lean(0.5, 0.3, method, quick ? 10 : 60), 45),
+      Digits(BobbingPeriod("box = [8, 0.6]\ndensity = 0.25\nposition = [0, 0.17]", method) / bob -
+             1),
+      Digits(EnergyDrift(method)),
+      Digits(Cost(method, kNoDrag, quick ? 50 : 300, 1, quick)),
+      Digits(Cost(method, "", quick ? 50 : 300, 1, quick)),
+      Digits(Cost(method, "", quick ? 2 : 10, 40, quick))};
 }
 
 }  // namespace
@@ -157,10 +160,18 @@ TextTable WaterBench(bool quick) {
   TextTable table;
   table.name = "water";
   table.title = "Buoyancy: what each way costs and how wrong it is";
-  table.header = {"method", "draught: box (m)", "hull 8 x 0.6 (m)", "square on its corner (m)",
-                  "disc (m)", "lean at s = 0.23 (deg)", "lean at s = 0.5 (deg)",
-                  "bobbing period", "energy drift", "cost: boxes, no drag",
-                  "boxes, with drag", "rows of 40 welded boxes, with drag"};
+  table.header = {"method",
+                  "draught: box (m)",
+                  "hull 8 x 0.6 (m)",
+                  "square on its corner (m)",
+                  "disc (m)",
+                  "lean at s = 0.23 (deg)",
+                  "lean at s = 0.5 (deg)",
+                  "bobbing period",
+                  "energy drift",
+                  "cost: boxes, no drag",
+                  "boxes, with drag",
+                  "rows of 40 welded boxes, with drag"};
   for (const Method& method : kMethods) table.rows.push_back(Row(method, quick));
   table.note =
       "Errors against Archimedes, the stability of floating squares and T = 2 pi sqrt(draught/g), "
