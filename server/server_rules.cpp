@@ -4,6 +4,7 @@
 
 #include "common/codec/codec.h"
 #include "common/physics/part_places.h"
+#include "common/scene/part_rules.h"
 #include "server/rules/rules.h"
 #include "server/script/script_host.h"
 #include "server/server.h"
@@ -100,13 +101,13 @@ void Server::ForbidWishes() {
   const std::vector<Part>& parts = replica_.world().scene().parts;
   const std::vector<int> peers = PeerOfPlayer();
   for (const Part& part : parts) {
-    if (part.rules.push == kEveryPlayer) continue;
+    if (part.rules->push == kEveryPlayer) continue;
     const int mechanism = MechanismOf(replica_.world(), part.id);
     if (mechanism < 0 || static_cast<std::size_t>(mechanism) >= wishes_.size()) continue;
     Wish& wish = wishes_[static_cast<std::size_t>(mechanism)];
     for (std::size_t p = 0; p < peers.size(); ++p) {
       const bool has = wish.authority > 0 && peers[p] == wish.authority;
-      if (has && !Allows(part.rules.push, static_cast<int>(p))) wish.authority = 0;
+      if (has && !Allows(part.rules->push, static_cast<int>(p))) wish.authority = 0;
     }
   }
 }

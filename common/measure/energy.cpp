@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/base/check.h"
+#include "common/scene/water.h"
 #include "common/stages/water/water_push.h"
 
 namespace seam {

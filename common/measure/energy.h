@@ -5,6 +5,7 @@
 
 #include "common/measure/joint_ends.h"
 #include "common/scene/mass.h"
+#include "common/scene/water.h"
 #include "common/stages/water/wet_shape.h"
 
 namespace seam {
@@ -29,7 +30,7 @@ class EnergyMeter {
   double InWater(const std::vector<BodyState>& moving) const;
   double Stretch(const Spring& spring, const std::vector<BodyState>& states) const;
 
-  const std::vector<Water> waters_;
+  const FeatureList<Water> waters_;
   std::vector<WetShape> wet_shapes_;    // of the moving assemblies, if there is water
   Eigen::Vector2d gravity_;             // m/s^2
   std::vector<MassProperties> masses_;  // of the moving assemblies

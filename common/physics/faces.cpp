@@ -6,6 +6,8 @@
 #include <set>
 #include <tuple>
 
+#include "common/scene/forces.h"
+
 namespace seam {
 namespace {
 
@@ -23,9 +25,13 @@ Vector2d Turned(const Vector2d& v, double angle) {
 using Kind = std::tuple<float, float, float, int, float, int, int>;
 
 Kind KindOf(const Part& part) {
-  return {
-      part.angle,          part.material.friction, part.material.restitution,           part.group,
-      part.conveyor.speed, part.conveyor.player,   static_cast<int>(part.conveyor.axis)};
+  return {part.angle,
+          part.material.friction,
+          part.material.restitution,
+          part.group,
+          part.conveyor->speed,
+          part.conveyor->player,
+          static_cast<int>(part.conveyor->axis)};
 }
 
 /// A rectangle in the frame of a kind's first box.

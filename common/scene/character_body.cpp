@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/scene/character.h"
+
 namespace seam {
 namespace {
 

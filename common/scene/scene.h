@@ -4,16 +4,21 @@
 #include <string>
 #include <vector>
 
-#include "common/scene/bricks.h"
-#include "common/scene/character.h"
-#include "common/scene/connectors.h"
-#include "common/scene/forces.h"
-#include "common/scene/grouping.h"
-#include "common/scene/part_rules.h"
+#include "common/scene/feature.h"
 #include "common/scene/types.h"
-#include "common/scene/water.h"
 
 namespace seam {
+
+struct BrickField;    // bricks.h
+struct Character;     // character.h
+struct Connectors;    // connectors.h
+struct Conveyor;      // forces.h
+struct Thrust;        // forces.h
+struct Grouping;      // grouping.h
+struct PartRules;     // part_rules.h
+struct ScriptSource;  // part_rules.h
+struct Trigger;       // part_rules.h
+struct Water;         // water.h
 
 enum class ShapeKind { kBox, kCircle, kCapsule, kPolygon, kChain, kSegment };
 
@@ -45,12 +50,12 @@ struct Part {
   int group = 0;          ///< Box2D group index: equal negative groups do not collide
   Vec2 velocity{0, 0};    ///< m/s at tick 0, of the assembly's centre of mass
   float spin = 0;         ///< rad/s at tick 0
-  PartRules rules;
+  Feature<PartRules> rules;
   int owner = -1;  ///< player who has authority while connected; -1: by region
-  Connectors connectors;
-  bool gone = false;  ///< has left at run time (common/topology/topology.h)
-  Conveyor conveyor;  ///< its surface moves
-  int line = 0;       ///< in the scene file
+  Feature<Connectors> connectors;
+  bool gone = false;           ///< has left at run time (common/topology/topology.h)
+  Feature<Conveyor> conveyor;  ///< its surface moves
+  int line = 0;                ///< in the scene file
 };
 
 enum class JointKind {
@@ -182,15 +187,15 @@ struct Scene {
   Vec2 bounds_min{-1000, -1000}, bounds_max{1000, 1000};  ///< states beyond are implausible
   std::vector<Part> parts;
   std::vector<Joint> joints;
-  std::vector<BrickField> bricks;  ///< anchored, and no parts
-  std::vector<Water> waters;
-  std::vector<Thrust> thrusts;
-  Grouping grouping;
-  std::vector<Character> characters;
+  FeatureList<BrickField> bricks;  ///< anchored, and no parts
+  FeatureList<Water> waters;
+  FeatureList<Thrust> thrusts;
+  Feature<Grouping> grouping;
+  FeatureList<Character> characters;
   std::vector<Player> players;
   std::vector<Seat> seats;
-  std::vector<Trigger> triggers;      ///< the server's
-  std::vector<ScriptSource> scripts;  ///< the server's
+  FeatureList<Trigger> triggers;      ///< the server's
+  FeatureList<ScriptSource> scripts;  ///< the server's
   std::vector<WatchCollision> watch;
   Camera camera;
   std::string text;  ///< the file itself

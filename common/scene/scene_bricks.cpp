@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/scene/bricks.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
 

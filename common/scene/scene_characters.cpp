@@ -1,7 +1,9 @@
 #include <algorithm>
 
 #include "common/scene/assembly.h"
+#include "common/scene/character.h"
 #include "common/scene/character_body.h"
+#include "common/scene/part_rules.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
 
@@ -112,7 +114,10 @@ void ReadCharacter(const TomlNode& node, SceneDraft* draft) {
   const float health = r.Number("health", {0, 1e6}, 0.0f);
   for (const char* vital : {".head", ".torso"}) {
     const PartId id = draft->part_of_name.at(name + vital);
-    draft->scene.parts[static_cast<std::size_t>(id)].rules.health = health;
+    Feature<PartRules>& of_part = draft->scene.parts[static_cast<std::size_t>(id)].rules;
+    PartRules rules = *of_part;
+    rules.health = health;
+    of_part.Set(rules);
   }
   AddHinges(r, &character, draft);
   draft->scene.characters.push_back(character.character);

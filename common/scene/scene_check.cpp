@@ -1,5 +1,6 @@
 #include "common/base/check.h"
 #include "common/scene/assembly.h"
+#include "common/scene/forces.h"
 #include "common/scene/mass.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"

@@ -1,3 +1,5 @@
+#include "common/scene/connectors.h"
+#include "common/scene/grouping.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
 
@@ -48,9 +50,10 @@ void ReadGrouping(const SceneReader& root, SceneDraft* draft) {
   const TomlNode* table = root.Table("grouping");
   if (table == nullptr) return;
   const SceneReader r(*table, draft->file, "grouping", {"after", "impact"});
-  Grouping& grouping = draft->scene.grouping;
+  Grouping grouping;
   grouping.after = r.Number("after", {0.1, 3600});
   grouping.impact = r.Number("impact", {0, 100}, grouping.impact);
+  draft->scene.grouping.Set(grouping);
 }
 
 }  // namespace seam

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "common/scene/connectors.h"
+#include "common/scene/part_rules.h"
 #include "common/scene/scene.h"
 #include "common/scene/scene_reader.h"
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "common/scene/forces.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
 
@@ -16,7 +17,7 @@ Thrust ReadThrust(const TomlNode& node, const SceneDraft& draft) {
                 {"name", "part", "at", "force", "player", "axis", "button"});
   thrust.name = r.Name("name");
   r.Rename("thrust '" + thrust.name + "'");
-  const std::vector<Thrust>& all = draft.scene.thrusts;
+  const FeatureList<Thrust>& all = draft.scene.thrusts;
   const auto same = [&](const Thrust& other) { return other.name == thrust.name; };
   if (std::any_of(all.begin(), all.end(), same)) {
     r.FailAt("name", "there is another thrust of this name");
@@ -36,13 +37,17 @@ Thrust ReadThrust(const TomlNode& node, const SceneDraft& draft) {
 
 void ReadConveyor(const SceneReader& r, const SceneDraft& draft, Part* part) {
   if (!r.IsTable("conveyor")) {
-    part->conveyor.speed = r.Number("conveyor", kBelt, 0.0f);
+    Conveyor conveyor;
+    conveyor.speed = r.Number("conveyor", kBelt, 0.0f);
+    part->conveyor.Set(conveyor);
     return;
   }
   const SceneReader c(*r.Table("conveyor"), draft.file, r.what() + ": conveyor",
                       {"player", "axis", "speed"});
-  part->conveyor.speed = c.Number("speed", kBelt);
-  part->conveyor.player = ReadFollowed(c, draft, &part->conveyor.axis);
+  Conveyor conveyor;
+  conveyor.speed = c.Number("speed", kBelt);
+  conveyor.player = ReadFollowed(c, draft, &conveyor.axis);
+  part->conveyor.Set(conveyor);
 }
 
 void ReadThrusts(const SceneReader& root, SceneDraft* draft) {

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "common/scene/connectors.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
 
@@ -106,8 +107,8 @@ void ReadPart(const TomlNode& node, SceneDraft* draft) {
   part.group = r.Integer("group", {-1000, 1000}, 0);
   ReadConveyor(r, *draft, &part);
   ReadMotion(r, draft->scene.speed_limit, &part);
-  part.rules = ReadPartRules(r, *draft);
-  part.connectors = ReadConnectors(r);
+  part.rules.Set(ReadPartRules(r, *draft));
+  part.connectors.Set(ReadConnectors(r));
   const std::vector<int> owners = ReadOwners(r, *draft, part.anchored);
   const Repeat repeat = ReadRepeat(r, draft->file);
 

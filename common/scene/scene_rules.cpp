@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/check.h"
+#include "common/scene/part_rules.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
 
@@ -65,7 +66,7 @@ std::vector<PartId> UsualParts(const Trigger& trigger, const SceneDraft& draft,
                                const std::vector<PartId>& vehicles) {
   std::vector<PartId> parts = vehicles;
   for (const Part& part : draft.scene.parts) {
-    const bool hurt = trigger.kind == TriggerKind::kHazard && part.rules.health > 0;
+    const bool hurt = trigger.kind == TriggerKind::kHazard && part.rules->health > 0;
     if (hurt && !part.anchored && part.id != trigger.part) parts.push_back(part.id);
   }
   return parts;
@@ -96,7 +97,7 @@ void ReadTrigger(const TomlNode& node, const std::vector<PartId>& vehicles, Scen
   trigger.position = r.Vector("position", kCoordinate, Vec2(0, 0));
   trigger.players = ReadMask(r, "players", *draft);
   if (trigger.kind == TriggerKind::kPickup && trigger.part >= 0) {
-    trigger.players &= draft->scene.parts[static_cast<std::size_t>(trigger.part)].rules.take;
+    trigger.players &= draft->scene.parts[static_cast<std::size_t>(trigger.part)].rules->take;
   }
   trigger.score = r.Number("score", kPoints, 0.0f);
   const Range amounts = trigger.kind == TriggerKind::kHazard ? Range{0, 1e6} : kPoints;
@@ -174,20 +175,20 @@ void CheckPermissions(const Scene& scene, const std::string& file) {
         joint.motor_player >= 0 && joint.motor_player < static_cast<int>(scene.players.size());
     if (!by_player) continue;  // always on, or a seat's
     for (const PartId id : {joint.a, joint.b}) {
-      if (Allows(part(id).rules.drive, joint.motor_player)) continue;
+      if (Allows(part(id).rules->drive, joint.motor_player)) continue;
       fail(joint.line,
            "joint '" + joint.name + "': its player may not drive '" + part(id).name + "'");
     }
   }
   for (std::size_t p = 0; p < scene.players.size(); ++p) {
     for (const Action& action : scene.players[p].actions) {
-      if (Allows(part(action.part).rules.push, static_cast<int>(p))) continue;
+      if (Allows(part(action.part).rules->push, static_cast<int>(p))) continue;
       fail(action.line,
            "player '" + scene.players[p].name + "': may not push '" + part(action.part).name + "'");
     }
   }
   for (const Part& owned : scene.parts) {
-    if (owned.owner < 0 || Allows(owned.rules.push, owned.owner)) continue;
+    if (owned.owner < 0 || Allows(owned.rules->push, owned.owner)) continue;
     fail(owned.line, "part '" + owned.name + "': its owner may not push it");
   }
 }

@@ -1,5 +1,6 @@
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
+#include "common/scene/water.h"
 
 namespace seam {
 namespace {

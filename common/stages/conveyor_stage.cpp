@@ -1,4 +1,5 @@
 #include "common/physics/world_shapes.h"
+#include "common/scene/forces.h"
 #include "common/stages/make_stages.h"
 
 namespace seam {
@@ -18,7 +19,7 @@ class ConveyorStage : public Stage {
     if (last == input) return;
     last = input;
     for (const Part& part : world_.scene.parts) {
-      if (part.conveyor.player == player && Set(part)) WakeWhatLiesOn(part);
+      if (part.conveyor->player == player && Set(part)) WakeWhatLiesOn(part);
     }
   }
   bool listens() const override { return true; }
@@ -32,7 +33,7 @@ class ConveyorStage : public Stage {
  private:
   /// True if the part's speed is another one now.
   bool Set(const Part& part) {
-    const Conveyor& c = part.conveyor;
+    const Conveyor& c = *part.conveyor;
     const float share =
         c.player < 0 ? 1 : ShareOf(inputs_[static_cast<std::size_t>(c.player)], c.axis);
     float& speed = speeds_[static_cast<std::size_t>(part.id)];

@@ -1,6 +1,10 @@
 #include <algorithm>
 
 #include "common/physics/stage.h"
+#include "common/scene/bricks.h"
+#include "common/scene/forces.h"
+#include "common/scene/grouping.h"
+#include "common/scene/water.h"
 #include "common/stages/kinematic.h"
 #include "common/stages/make_stages.h"
 #include "common/topology/join.h"
@@ -16,7 +20,7 @@ std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world) {
   if (any(world.scene.joints, [](const Joint& j) { return j.kind == JointKind::kKinematic; })) {
     stages.push_back(MakeKinematicStage(world));
   }
-  if (any(world.scene.parts, [](const Part& p) { return p.conveyor.speed != 0; })) {
+  if (any(world.scene.parts, [](const Part& p) { return p.conveyor->speed != 0; })) {
     stages.push_back(MakeConveyorStage(world));
   }
   if (!world.scene.thrusts.empty()) stages.push_back(MakeThrustStage(world));
@@ -25,7 +29,7 @@ std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world) {
   const bool joins = HasConnectors(world.scene);
   if (joins || HasBreakableGlue(world.scene)) stages.push_back(MakeGlueStage(world));
   if (joins) stages.push_back(MakeJoinStage(world));
-  if (world.scene.grouping.after > 0) stages.push_back(MakeGroupStage(world));
+  if (world.scene.grouping->after > 0) stages.push_back(MakeGroupStage(world));
   if (HasActiveCharacter(world.scene)) stages.push_back(MakeCharacterStage(world));
   return stages;
 }

@@ -1,3 +1,4 @@
+#include "common/scene/forces.h"
 #include "common/stages/make_stages.h"
 
 namespace seam {

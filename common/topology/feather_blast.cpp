@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "common/base/check.h"
+#include "common/scene/bricks.h"
 #include "common/scene/scene_limits.h"
 
 namespace seam {
@@ -35,7 +36,7 @@ bool Before(const Brick& a, const Brick& b) {
 }
 
 /// All that the blast would free, by kind, from below, from the left.
-std::vector<Brick> Loosened(const std::vector<BrickField>& fields, const std::vector<Brick>& gone,
+std::vector<Brick> Loosened(const FeatureList<BrickField>& fields, const std::vector<Brick>& gone,
                             const Blast& blast) {
   std::vector<Brick> loose;
   for (std::size_t kind = 0; kind < fields.size(); ++kind) {
@@ -72,7 +73,7 @@ struct Piece {
 };
 
 /// Two by two where there are four, else two side by side, else one on another, else one.
-std::vector<Piece> Pieces(const std::vector<BrickField>& fields, const std::vector<Brick>& loose,
+std::vector<Piece> Pieces(const FeatureList<BrickField>& fields, const std::vector<Brick>& loose,
                           const Blast& blast) {
   std::vector<bool> used(loose.size(), false);
   const auto find = [&](const Brick& b) {
@@ -114,7 +115,7 @@ std::vector<Piece> Pieces(const std::vector<BrickField>& fields, const std::vect
 
 }  // namespace
 
-Freed BlastBricks(const std::vector<BrickField>& fields, const std::vector<Brick>& gone,
+Freed BlastBricks(const FeatureList<BrickField>& fields, const std::vector<Brick>& gone,
                   const Blast& blast) {
   Freed freed;
   const std::vector<Brick> loose = Loosened(fields, gone, blast);
@@ -144,7 +145,7 @@ Freed BlastBricks(const std::vector<BrickField>& fields, const std::vector<Brick
   return freed;
 }
 
-std::vector<Brick> FreedBricks(const std::vector<BrickField>& fields,
+std::vector<Brick> FreedBricks(const FeatureList<BrickField>& fields,
                                const std::vector<Part>& parts) {
   std::vector<Brick> freed;
   for (const Part& part : parts) {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "common/scene/bricks.h"
 #include "common/scene/scene.h"
 #include "common/topology/feather_store.h"
 
@@ -28,13 +29,13 @@ struct Freed {
 /// nearest first, as pieces; and no more pieces than kBlastPiecesMax, the rest stays where it is.
 /// A function of its arguments: the same on every peer. Costs a walk over all bricks (3 ms for a
 /// million).
-Freed BlastBricks(const std::vector<BrickField>& fields, const std::vector<Brick>& gone,
+Freed BlastBricks(const FeatureList<BrickField>& fields, const std::vector<Brick>& gone,
                   const Blast& blast);
 
 /// All bricks that have become parts: a piece is named after what it was, "towers@-120,35+2x2" for
 /// two by two bricks of `towers` whose lower left corner is at (-120, 35) units. No name in a scene
 /// has an @. In the order of the parts, those that have left included.
-std::vector<Brick> FreedBricks(const std::vector<BrickField>& fields,
+std::vector<Brick> FreedBricks(const FeatureList<BrickField>& fields,
                                const std::vector<Part>& parts);
 
 /// Whether a blast is one that can be: finite, of at most kBlastRadiusMax and kSpeedMax.

@@ -5,6 +5,7 @@
 #include <unordered_map>
 
 #include "common/base/check.h"
+#include "common/scene/bricks.h"
 
 namespace seam {
 namespace {
@@ -17,7 +18,7 @@ std::uint32_t KeyOf(int cell_x, int cell_y) {
          static_cast<std::uint32_t>(cell_x + kBias);
 }
 
-std::vector<BrickKind> KindsOf(const std::vector<BrickField>& fields) {
+std::vector<BrickKind> KindsOf(const FeatureList<BrickField>& fields) {
   std::vector<BrickKind> kinds;
   int surfaces = 0;
   for (const BrickField& f : fields) {
@@ -35,7 +36,7 @@ std::vector<BrickKind> KindsOf(const std::vector<BrickField>& fields) {
 
 }  // namespace
 
-FeatherStore::FeatherStore(const std::vector<BrickField>& fields) : kinds_(KindsOf(fields)) {
+FeatherStore::FeatherStore(const FeatureList<BrickField>& fields) : kinds_(KindsOf(fields)) {
   std::unordered_map<std::uint32_t, std::uint32_t> count_of_cell;
   for (const BrickField& field : fields) {
     std::uint32_t last_key = 0;
@@ -73,7 +74,7 @@ FeatherStore::FeatherStore(const std::vector<BrickField>& fields) : kinds_(Kinds
   Fill(fields);
 }
 
-void FeatherStore::Fill(const std::vector<BrickField>& fields) {
+void FeatherStore::Fill(const FeatureList<BrickField>& fields) {
   for (std::size_t kind = 0; kind < fields.size(); ++kind) {
     int cell = -1;
     EachBrick(fields[kind], [&](int x, int y) {

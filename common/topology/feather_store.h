@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/scene/bricks.h"
+#include "common/scene/feature.h"
 
 namespace seam {
 
@@ -37,7 +38,7 @@ class FeatherStore {
   }
 
   /// Requires what the scene reader checks: at most kBricksMax bricks, coordinates within 30 km.
-  explicit FeatherStore(const std::vector<BrickField>& fields);
+  explicit FeatherStore(const FeatureList<BrickField>& fields);
 
   std::size_t size() const { return size_; }
   const std::vector<BrickKind>& kinds() const { return kinds_; }
@@ -75,7 +76,7 @@ class FeatherStore {
     return {cell.x * kCell + static_cast<int>(packed & 0xff),
             cell.y * kCell + static_cast<int>(packed >> 8 & 0xff), static_cast<int>(packed >> 16)};
   }
-  void Fill(const std::vector<BrickField>& fields);
+  void Fill(const FeatureList<BrickField>& fields);
 
   std::vector<std::uint32_t> bricks_;
   std::vector<Cell> cells_;  // ascending by y, x

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/connectors.h"
+
 namespace seam {
 namespace {
 
@@ -19,7 +21,7 @@ Vec2 Turned(const Vec2& v, double angle) {
 }
 
 void AddConnectors(const Part& part, bool inlet, std::vector<FreeConnector>* all) {
-  const std::vector<Connector>& own = inlet ? part.connectors.inlets : part.connectors.outlets;
+  const std::vector<Connector>& own = inlet ? part.connectors->inlets : part.connectors->outlets;
   for (std::size_t i = 0; i < own.size(); ++i) {
     all->push_back({part.id, inlet, static_cast<int>(i),
                     part.position + Turned(own[i].at, static_cast<double>(part.angle)),
@@ -37,7 +39,7 @@ bool Joined(const FreeConnector& x, const FreeConnector& y) {
 
 bool HasConnectors(const Scene& scene) {
   return std::any_of(scene.parts.begin(), scene.parts.end(),
-                     [](const Part& part) { return !part.connectors.empty(); });
+                     [](const Part& part) { return !part.connectors->empty(); });
 }
 
 std::vector<FreeConnector> FreeConnectors(const Scene& scene, const Composition& composition) {
@@ -60,8 +62,8 @@ std::vector<FreeConnector> FreeConnectors(const Scene& scene, const Composition&
 }
 
 Edit JoinOf(const Part& a, int outlet, const Part& b, int inlet) {
-  const Connector& out = a.connectors.outlets[static_cast<std::size_t>(outlet)];
-  const Connector& in = b.connectors.inlets[static_cast<std::size_t>(inlet)];
+  const Connector& out = a.connectors->outlets[static_cast<std::size_t>(outlet)];
+  const Connector& in = b.connectors->inlets[static_cast<std::size_t>(inlet)];
   const double turn =
       std::remainder(static_cast<double>(out.angle) + kPi - static_cast<double>(in.angle), 2 * kPi);
   const Vec2 place = out.at - Turned(in.at, turn);
@@ -73,7 +75,7 @@ Edit JoinOf(const Part& a, int outlet, const Part& b, int inlet) {
   edit.x = place.x();
   edit.y = place.y();
   edit.angle = static_cast<float>(turn);
-  const float one = a.connectors.strength, other = b.connectors.strength;
+  const float one = a.connectors->strength, other = b.connectors->strength;
   edit.amount = one > 0 && other > 0 ? std::min(one, other) : std::max(one, other);
   return edit;
 }

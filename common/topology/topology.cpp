@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/scene/bricks.h"
 #include "common/scene/mass.h"
 #include "common/scene/scene_limits.h"
 #include "common/topology/feather_blast.h"

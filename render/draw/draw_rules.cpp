@@ -5,6 +5,7 @@
 #include <string>
 #include <tuple>
 
+#include "common/scene/part_rules.h"
 #include "render/canvas/palette.h"
 #include "render/playback/format.h"
 
@@ -82,13 +83,13 @@ void DrawHealth(DrawList& list, const Viewport& viewport, const Playback& playba
   Known known;
   bool looked = false;
   for (const Part& part : world->scene().parts) {
-    if (part.rules.health <= 0 || part.gone) continue;
+    if (part.rules->health <= 0 || part.gone) continue;
     if (!looked) known = KnownAt(playback.recording(), tick);
     looked = true;
     const auto pose = playback.FindPart(moment, part.id);
     if (!pose || !viewport.Sees(pose->position, 1)) continue;
-    const float left = Get(known, kMetaPart, part.id, kMetaHealth, part.rules.health);
-    const float share = std::clamp(left / part.rules.health, 0.0f, 1.0f);
+    const float left = Get(known, kMetaPart, part.id, kMetaHealth, part.rules->health);
+    const float share = std::clamp(left / part.rules->health, 0.0f, 1.0f);
     const Vec2 px = viewport.ToPx(pose->position);
     const float width = 24 * scale, height = 4 * scale;
     const Rect all{px.x() - width / 2, px.y() - 12 * scale, width, height};

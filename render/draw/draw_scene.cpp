@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "common/scene/water.h"
 #include "render/canvas/palette.h"
 #include "render/draw/draw_body.h"
 #include "render/draw/draw_bricks.h"

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/scene/bricks.h"
+
 namespace seam {
 namespace {
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/scene/part_rules.h"
 #include "server/rules/part_owner.h"
 #include "server/rules/script_room.h"
 #include "server/script/script.h"
@@ -11,7 +12,7 @@ namespace seam {
 bool Rules::Needed(const Scene& scene) {
   return !scene.triggers.empty() || !scene.scripts.empty() ||
          std::any_of(scene.parts.begin(), scene.parts.end(),
-                     [](const Part& part) { return part.rules.health > 0; });
+                     [](const Part& part) { return part.rules->health > 0; });
 }
 
 Rules::Rules(const World& world, std::int64_t seed, RoomHands& hands)
@@ -53,8 +54,8 @@ void Rules::NoteNewParts() {
   const std::vector<Part>& parts = scene().parts;
   for (; parts_noted_ < parts.size(); ++parts_noted_) {
     const Part& part = parts[parts_noted_];
-    if (part.rules.health <= 0) continue;
-    table_.Set({kMetaPart, static_cast<std::int16_t>(part.id), kMetaHealth}, part.rules.health);
+    if (part.rules->health <= 0) continue;
+    table_.Set({kMetaPart, static_cast<std::int16_t>(part.id), kMetaHealth}, part.rules->health);
   }
 }
 
@@ -134,8 +135,8 @@ void Rules::OnPickup(const TriggerEvent& event) {
     }
   }
   const Part& taker = scene().parts[static_cast<std::size_t>(event.part)];
-  if (trigger.health != 0 && taker.rules.health > 0 && dead_.count(event.part) == 0) {
-    const float health = std::min(Health(event.part) + trigger.health, taker.rules.health);
+  if (trigger.health != 0 && taker.rules->health > 0 && dead_.count(event.part) == 0) {
+    const float health = std::min(Health(event.part) + trigger.health, taker.rules->health);
     table_.Set({kMetaPart, static_cast<std::int16_t>(event.part), kMetaHealth}, health);
   }
   Say(PlayerName(event.player) + " takes " + trigger.name);

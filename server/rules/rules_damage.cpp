@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "common/scene/part_rules.h"
 #include "server/rules/part_owner.h"
 #include "server/rules/rules.h"
 #include "server/script/script_host.h"
@@ -27,7 +28,7 @@ void Rules::Blow(int body, int by, float dv, const Vec2& point) {
   PartId hurt = -1;
   float nearest = std::numeric_limits<float>::max();
   for (const PartId id : c.assemblies[static_cast<std::size_t>(index)].parts) {
-    if (scene().parts[static_cast<std::size_t>(id)].rules.health <= 0) continue;
+    if (scene().parts[static_cast<std::size_t>(id)].rules->health <= 0) continue;
     BodyState state;
     ReadPart(world_, id, &state);
     const float distance = (state.position - point).norm();
@@ -36,7 +37,7 @@ void Rules::Blow(int body, int by, float dv, const Vec2& point) {
     hurt = id;
   }
   if (hurt < 0) return;
-  const PartRules& rules = scene().parts[static_cast<std::size_t>(hurt)].rules;
+  const PartRules& rules = *scene().parts[static_cast<std::size_t>(hurt)].rules;
   if (dv <= rules.hurt_above) return;
   const int player = by >= 0 ? PlayerOf(world_, world_.mechanism(by)) : -1;
   Hurt(hurt, (dv - rules.hurt_above) * rules.hurt_factor, player);
@@ -44,7 +45,7 @@ void Rules::Blow(int body, int by, float dv, const Vec2& point) {
 
 void Rules::Hurt(PartId part, float amount, int by_player) {
   const Part& hurt = scene().parts[static_cast<std::size_t>(part)];
-  if (hurt.rules.health <= 0 || amount <= 0 || dead_.count(part) != 0) return;
+  if (hurt.rules->health <= 0 || amount <= 0 || dead_.count(part) != 0) return;
   const float left = std::max(Health(part) - amount, 0.0f);
   table_.Set({kMetaPart, static_cast<std::int16_t>(part), kMetaHealth}, left);
   if (by_player >= 0) struck_by_[part] = by_player;
@@ -52,7 +53,7 @@ void Rules::Hurt(PartId part, float amount, int by_player) {
 
 void Rules::RunDeaths() {
   for (const Part& part : scene().parts) {
-    const bool dies = part.rules.health > 0 && Health(part.id) <= 0 && dead_.count(part.id) == 0;
+    const bool dies = part.rules->health > 0 && Health(part.id) <= 0 && dead_.count(part.id) == 0;
     if (dies && Exists(part.id)) Die(part.id);
   }
 }
@@ -64,8 +65,8 @@ void Rules::Die(PartId id) {
   const auto by = struck_by_.find(id);
   const std::string by_whom = by != struck_by_.end() ? " by " + PlayerName(by->second) : "";
   Say(part.name + " is destroyed" + by_whom);
-  if (by != struck_by_.end() && part.rules.score != 0) {
-    table_.Add({kMetaPlayer, static_cast<std::int16_t>(by->second), kMetaScore}, part.rules.score);
+  if (by != struck_by_.end() && part.rules->score != 0) {
+    table_.Add({kMetaPlayer, static_cast<std::int16_t>(by->second), kMetaScore}, part.rules->score);
   }
   const int mechanism = MechanismOf(world_, id);
   if (mechanism < 0) return;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "common/scene/part_rules.h"
 #include "server/rules/rules.h"
 #include "server/script/script.h"
 

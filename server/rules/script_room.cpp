@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/scene/bricks.h"
+#include "common/scene/part_rules.h"
 #include "common/scene/scene_text.h"
 #include "server/rules/part_owner.h"
 
@@ -148,10 +150,10 @@ void ScriptRoom::Set(const std::string& subject, const std::string& key, float v
   const MetaKey meta = KeyOf(subject, key);
   if (meta.key == kMetaHealth && meta.kind == kMetaPart) {
     const Part& part = rules_.scene().parts[static_cast<std::size_t>(meta.id)];
-    if (part.rules.health <= 0) {
+    if (part.rules->health <= 0) {
       throw ScriptRefusal("'" + part.name + "' has no health in the scene");
     }
-    value = std::min(std::max(value, 0.0f), part.rules.health);
+    value = std::min(std::max(value, 0.0f), part.rules->health);
   }
   rules_.table_.Set(meta, value);
 }

@@ -1,5 +1,7 @@
 #include "server/rules/triggers.h"
 
+#include "common/scene/part_rules.h"
+
 namespace seam {
 namespace {
 
@@ -10,7 +12,7 @@ bool Within(const Vec2& place, const Vec2& centre, const Vec2& size) {
 
 }  // namespace
 
-Triggers::Triggers(const std::vector<Trigger>& triggers)
+Triggers::Triggers(const FeatureList<Trigger>& triggers)
     : triggers_(triggers), over_(triggers.size(), false) {}
 
 std::vector<TriggerEvent> Triggers::Update(const PlaceOf& place_of, const PlayerOf& player_of) {

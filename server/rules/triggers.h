@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/scene/feature.h"
 #include "common/scene/part_rules.h"
 
 namespace seam {
@@ -25,7 +26,7 @@ class Triggers {
   /// Whose a part is; -1 nobody's.
   using PlayerOf = std::function<int(PartId)>;
 
-  explicit Triggers(const std::vector<Trigger>& triggers);
+  explicit Triggers(const FeatureList<Trigger>& triggers);
 
   /// After a tick: who entered and who left, in the order of triggers, then of parts. A trigger
   /// that is over (once, and entered; its part is gone) says that its parts left, then no more.
@@ -36,7 +37,7 @@ class Triggers {
   bool over(int trigger) const { return over_[static_cast<std::size_t>(trigger)]; }
 
  private:
-  const std::vector<Trigger> triggers_;
+  const FeatureList<Trigger> triggers_;
   std::vector<bool> over_;
   std::set<std::pair<int, PartId>> inside_;
 };

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/scene/bricks.h"
 #include "render/draw/draw_bricks.h"
 #include "tests/support/render_fixture.h"
 

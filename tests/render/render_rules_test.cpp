@@ -1,5 +1,6 @@
 /// What the server decides, in pictures: triggers until taken, health as it is left, scores.
 
+#include "common/scene/part_rules.h"
 #include "tests/support/render_fixture.h"
 
 namespace seam {
@@ -26,7 +27,9 @@ Image Drawn(const Recording& recording, const Scene& scene, double tick, Viewpor
 
 TEST(DrawRules, AHealthBarIsAsFullAsThePartIsWell) {
   Scene scene = synthetic::MakeScene();
-  scene.parts[kHurt].rules.health = 100;
+  PartRules rules;
+  rules.health = 100;
+  scene.parts[kHurt].rules.Set(rules);
   const Recording hurt = WithMeta(kMetaPart, kHurt, kMetaHealth, 25);
   Viewport viewport;
   const Image well = Drawn(hurt, scene, 20, &viewport);  // before it was hurt

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/check.h"
+#include "common/scene/character.h"
 #include "tests/support/character_world.h"
 
 namespace seam {

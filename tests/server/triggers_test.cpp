@@ -6,6 +6,7 @@
 
 #include <map>
 
+#include "common/scene/part_rules.h"
 #include "common/sync/metadata.h"
 
 namespace seam {

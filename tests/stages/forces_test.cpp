@@ -1,8 +1,10 @@
 /// Conveyors and thrust against their equations.
 
-#include <gtest/gtest.h>
+#include "common/scene/forces.h"
 
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "tests/support/small_world.h"
 

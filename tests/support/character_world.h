@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "common/scene/character.h"
 #include "tests/support/scripted_world.h"
 
 namespace seam {

@@ -2,10 +2,11 @@
 
 #include "common/topology/feather_blast.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 
+#include <gtest/gtest.h>
+
+#include "common/scene/bricks.h"
 #include "common/scene/mass.h"
 
 namespace seam {

@@ -2,14 +2,16 @@
 
 #include "common/topology/feather_store.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <map>
 #include <set>
 #include <tuple>
 
 #include "common/base/random.h"
+#include "common/scene/bricks.h"
 #include "common/stages/bricks/feather_outline.h"
 
 namespace seam {

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <set>
 
+#include "common/scene/grouping.h"
 #include "common/stages/make_stages.h"
 #include "common/stages/stage_memory.h"
 
@@ -89,7 +90,7 @@ bool GroupStage::Moves(int body) const {
 bool GroupStage::MayJoin(int body) const {
   const MovingBody& m = w_.built.moving[static_cast<std::size_t>(body)];
   const auto quiet = quiet_.find(m.id);
-  const float limit = w_.scene.grouping.after * static_cast<float>(w_.scene.solver.tick_hz);
+  const float limit = w_.scene.grouping->after * static_cast<float>(w_.scene.solver.tick_hz);
   return single_[static_cast<std::size_t>(body)] && m.body->GetType() == b2_dynamicBody &&
          quiet != quiet_.end() && static_cast<float>(quiet->second) >= limit;
 }
@@ -102,7 +103,7 @@ void GroupStage::Undo(int body) {
 void GroupStage::AfterTick() {
   const int bodies = static_cast<int>(w_.built.moving.size());
   const auto most =
-      static_cast<int>(w_.scene.grouping.after * static_cast<float>(w_.scene.solver.tick_hz)) + 1;
+      static_cast<int>(w_.scene.grouping->after * static_cast<float>(w_.scene.solver.tick_hz)) + 1;
   std::vector<bool> moves;
   for (int body = 0; body < bodies; ++body) {
     moves.push_back(Moves(body));
@@ -112,7 +113,7 @@ void GroupStage::AfterTick() {
   for (int body = 0; body < bodies; ++body) {
     const MovingBody& m = w_.built.moving[static_cast<std::size_t>(body)];
     const b2Vec2 change = m.body->GetLinearVelocity() - before_[static_cast<std::size_t>(body)];
-    if (moves[static_cast<std::size_t>(body)] || change.Length() > w_.scene.grouping.impact) {
+    if (moves[static_cast<std::size_t>(body)] || change.Length() > w_.scene.grouping->impact) {
       Undo(body);
     }
     const bool ripe = MayJoin(body);
@@ -191,7 +192,7 @@ std::size_t GroupStage::Load(const float* memory) { return LoadTicks(memory, &qu
 
 bool MayGroup(const Scene& scene, const Composition& composition, const Edit& bond) {
   if (bond.kind != EditKind::kBond || bond.joint != kBondGroup) return false;
-  if (!(scene.grouping.after > 0) || bond.amount != 0) return false;
+  if (!(scene.grouping->after > 0) || bond.amount != 0) return false;
   const std::set<int> held = HeldAssemblies(scene, composition);
   for (const PartId part : {bond.a, bond.b}) {
     const int index = composition.assembly_of_part[static_cast<std::size_t>(part)];

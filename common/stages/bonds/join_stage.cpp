@@ -5,6 +5,7 @@
 #include <tuple>
 #include <utility>
 
+#include "common/scene/connectors.h"
 #include "common/scene/mass.h"
 #include "common/stages/make_stages.h"
 #include "common/stages/stage_memory.h"
@@ -77,11 +78,11 @@ void JoinStage::Look() {
     const Assembly& whole = w_.composition.assemblies[static_cast<std::size_t>(open.assembly)];
     const Part& root = w_.scene.parts[static_cast<std::size_t>(whole.id)];
     const std::vector<Connector>& own =
-        free.inlet ? part.connectors.inlets : part.connectors.outlets;
+        free.inlet ? part.connectors->inlets : part.connectors->outlets;
     const Connector& connector = own[static_cast<std::size_t>(free.index)];
     open.local = ToB2(ToRootFrame(part, root, connector.at.cast<double>()).cast<float>());
     open.turn = part.angle + connector.angle - root.angle;
-    reach_ = std::max(reach_, part.connectors.reach);
+    reach_ = std::max(reach_, part.connectors->reach);
     open_.push_back(open);
   }
 }
@@ -101,7 +102,7 @@ void JoinStage::Edited(const Edit& edit) {
   const Joint& joint = w_.scene.joints[static_cast<std::size_t>(edit.joint)];
   const auto ticks = static_cast<int>(kJoinAgain * static_cast<float>(w_.scene.solver.tick_hz));
   for (const PartId part : {joint.a, joint.b}) {
-    if (!w_.scene.parts[static_cast<std::size_t>(part)].connectors.empty()) waiting_[part] = ticks;
+    if (!w_.scene.parts[static_cast<std::size_t>(part)].connectors->empty()) waiting_[part] = ticks;
   }
 }
 
@@ -114,8 +115,8 @@ bool JoinStage::Meet(const Where& outlet, const Where& inlet) const {
   if (!moves) return false;
   const b2Vec2 out(std::cos(outlet.angle), std::sin(outlet.angle));
   if (b2Dot(out, outlet.velocity - inlet.velocity) < kJoinClosing) return false;
-  const Connectors& one = PartWith(*outlet.open).connectors;
-  const Connectors& other = PartWith(*inlet.open).connectors;
+  const Connectors& one = *PartWith(*outlet.open).connectors;
+  const Connectors& other = *PartWith(*inlet.open).connectors;
   if ((outlet.at - inlet.at).Length() > std::min(one.reach, other.reach)) return false;
   const float away = std::remainder(outlet.angle - inlet.angle - kPi, 2 * kPi);
   return std::fabs(away) <= std::min(one.angle, other.angle);

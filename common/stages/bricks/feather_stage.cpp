@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/scene/bricks.h"
 #include "common/scene/scene_limits.h"
 #include "common/stages/bricks/feather_chunk.h"
 #include "common/stages/make_stages.h"

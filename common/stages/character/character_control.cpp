@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/character.h"
+#include "common/scene/water.h"
 #include "common/stages/character/character_gains.h"
 
 namespace seam {

@@ -14,6 +14,7 @@
 /// on at the wished speed (Englsberger and others, "Three-Dimensional Bipedal Walking Control
 /// Based on Divergent Component of Motion", 2015).
 
+#include "common/scene/character.h"
 #include "common/stages/character/character_gains.h"
 #include "common/stages/character/character_limbs.h"
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/character.h"
+
 namespace seam {
 namespace {
 

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "common/scene/character.h"
 #include "common/stages/character/character_control.h"
 #include "common/stages/make_stages.h"
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/water.h"
 #include "common/stages/character/character_control.h"
 
 namespace seam {

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "common/scene/water.h"
+
 namespace seam {
 namespace {
 

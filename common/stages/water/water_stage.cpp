@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 
+#include "common/scene/water.h"
 #include "common/stages/make_stages.h"
 #include "common/stages/water/water_push.h"
 
@@ -58,7 +59,7 @@ class WaterStage : public Stage {
 };
 
 void WaterStage::Rebuilt(b2World* world) {
-  const std::vector<Water>& waters = w_.scene.waters;
+  const FeatureList<Water>& waters = w_.scene.waters;
   touching_.assign(w_.built.moving.size() * waters.size(), 0);
   wet_.clear();
   unseen_.clear();

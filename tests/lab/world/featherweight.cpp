@@ -1,13 +1,16 @@
 /// A city of anchored bricks under 100 moving bodies: as featherweight bricks, as ordinary static
 /// bodies, and not there at all.
 
-#include <malloc.h>
-#include <unistd.h>
-
 #include <cstdio>
+
+#include <malloc.h>
+
 #include <memory>
 
+#include <unistd.h>
+
 #include "common/physics/world.h"
+#include "common/scene/bricks.h"
 #include "common/topology/feather_store.h"
 #include "tests/lab/world/bench.h"
 
@@ -105,7 +108,7 @@ Scene AsParts(Scene scene) {
       return true;
     });
   }
-  scene.bricks.clear();
+  scene.bricks = {};
   return scene;
 }
 
