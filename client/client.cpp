@@ -14,7 +14,7 @@ constexpr std::int64_t kPingFastUs = 50000;  // until the clock has settled and 
 constexpr std::int64_t kPingSlowUs = 100000;
 constexpr std::int64_t kHelloUs = 100000;
 /// Most ticks stepped in one call; further behind than kGiveUpTicks we rejoin.
-constexpr int kStepsMost = 20;
+constexpr int kStepsMax = 20;
 constexpr std::int64_t kGiveUpTicks = 300;
 /// Mode central: inputs should arrive this long before the server needs them, us.
 constexpr double kInputMarginUs = 35000;
@@ -97,7 +97,7 @@ void Client::Greet(std::int64_t now_us) {
     Ping ping;
     ping.utime = now_us;
     if (replica_ != nullptr && started_) {
-      ping.topology = replica_->topology();
+      ping.revision = replica_->revision();
       ping.composition = static_cast<std::int64_t>(replica_->world().composition().hash);
     }
     link_->SendUnreliable(Encode(ping));
@@ -141,7 +141,7 @@ void Client::StepDue(std::int64_t now_us) {
     Join(now_us);
     return;
   }
-  for (int steps = 0; steps < kStepsMost && replica_->tick() < due; ++steps) {
+  for (int steps = 0; steps < kStepsMax && replica_->tick() < due; ++steps) {
     worst_late_us_ = std::max(worst_late_us_, time - (replica_->tick() + 1) * 1000000 / hz);
     StepOnce(now_us);
     if (lead_us_ >= 0) {
@@ -223,7 +223,7 @@ void Client::PublishStats(std::int64_t now_us, std::int64_t cpu_us) {
   stats_.tick = replica_ != nullptr ? replica_->tick() : 0;
   stats_.cpu_us = cpu_us;
   stats_.rtt_us =
-      static_cast<std::int32_t>(std::min<std::int64_t>(clock_.rtt_least_us(), 1000000000));
+      static_cast<std::int32_t>(std::min<std::int64_t>(clock_.rtt_min_us(), 1000000000));
   stats_.loss_ppm = static_cast<std::int32_t>(link_->loss_ppm());
   stats_.tick_late_us = static_cast<std::int32_t>(std::min<std::int64_t>(worst_late_us_, 1 << 30));
   stats_.clock_offset_us = static_cast<std::int32_t>(

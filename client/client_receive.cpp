@@ -9,8 +9,8 @@
 namespace seam {
 namespace {
 
-constexpr std::size_t kRoomBytesMost = 60000;
-constexpr std::size_t kHeldMost = 256;
+constexpr std::size_t kRoomBytesMax = 60000;
+constexpr std::size_t kHeldMax = 256;
 /// A refused join is repeated for this long, us.
 constexpr std::int64_t kInsistUs = 3000000;
 
@@ -36,7 +36,7 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
   if (const auto* welcome = std::get_if<Welcome>(&any)) {
     if (peer_ >= 0) return;
     if (welcome->peer < 1 || welcome->room_bytes < 1 ||
-        static_cast<std::size_t>(welcome->room_bytes) > kRoomBytesMost) {
+        static_cast<std::size_t>(welcome->room_bytes) > kRoomBytesMax) {
       fatal_ = "the server's welcome makes no sense";
       return;
     }
@@ -59,7 +59,7 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
   } else if (const auto* states = std::get_if<States>(&any)) {
     if (started_) {
       stats_.dropped_stale += replica_->Receive(*states).stale;
-    } else if (held_.size() < kHeldMost) {
+    } else if (held_.size() < kHeldMax) {
       held_.emplace_back(bytes.begin(), bytes.end());
     }
   } else if (const auto* inputs = std::get_if<Inputs>(&any)) {

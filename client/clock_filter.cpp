@@ -42,7 +42,7 @@ std::int64_t ClockFilter::ServerTime(std::int64_t now_us) {
   return now_us + static_cast<std::int64_t>(std::llround(offset_));
 }
 
-std::int64_t ClockFilter::rtt_least_us() const {
+std::int64_t ClockFilter::rtt_min_us() const {
   if (samples_ == 0) return -1;
   std::int64_t least = window_[0].rtt_us;
   for (std::int64_t i = 1; i < std::min<std::int64_t>(samples_, kWindow); ++i) {

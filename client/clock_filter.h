@@ -21,7 +21,7 @@ class ClockFilter {
   std::int64_t ServerTime(std::int64_t now_us);
 
   /// Least round trip in the window; -1 before the first sample.
-  std::int64_t rtt_least_us() const;
+  std::int64_t rtt_min_us() const;
   /// Round trip that 9 of 10 samples of the window stay below; -1 before the first sample.
   std::int64_t rtt_p90_us() const;
   /// What is still to be slewed, us.

@@ -1,13 +1,15 @@
 #include "render/commands.h"
 
-#include <fmt/format.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+
+#include <fmt/format.h>
+
 #include <thread>
+
+#include <unistd.h>
 
 #include "common/base/check.h"
 #include "common/base/process.h"
@@ -93,16 +95,16 @@ void RenderSequence(const RenderOptions& options) {
 void RenderStrobe(const RenderOptions& options) {
   CheckOutputFile(options.out, ".png", true);
   const std::vector<Playback> playbacks = LoadPlaybacks(options);
-  StrobeWishes wishes;
-  wishes.from_s = options.from_s;
-  wishes.to_s = options.to_s;
-  wishes.every_ticks = options.every_ticks;
-  if (options.peer_given) wishes.peer = options.peer;
+  StrobeOptions strobe;
+  strobe.from_s = options.from_s;
+  strobe.to_s = options.to_s;
+  strobe.every_ticks = options.every_ticks;
+  if (options.peer_given) strobe.peer = options.peer;
   if (options.size_given) {
-    wishes.width_px = options.width_px;
-    wishes.height_px = options.height_px;
+    strobe.width_px = options.width_px;
+    strobe.height_px = options.height_px;
   }
-  const StrobePlan plan = PlanStrobe(playbacks, wishes);
+  const StrobePlan plan = PlanStrobe(playbacks, strobe);
   const Font font(StrobeScale(plan.width_px), TextsOf(playbacks), options.fonts);
   DrawList list(font);
   DrawStrobe(list, playbacks, plan);

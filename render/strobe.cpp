@@ -38,8 +38,8 @@ void DrawExposure(DrawList& list, const Viewport& viewport, const Playback& play
   const bool last = i + 1 == times.size();
   const Moment next = last ? now : playback.MomentAt(peer, playback.TickAt(times[i + 1]));
   DrawRods(list, viewport, playback, now, 0.8f * Opacity(i, times.size()));
-  const auto form = playback.FormOf(now);
-  for (const BodyShapes& body : form->moving) {
+  const auto revision = playback.RevisionOf(now);
+  for (const BodyShapes& body : revision->moving) {
     const auto shown = playback.Find(now, body.id);
     if (!shown || !viewport.Sees(shown->pose.position, body.reach)) continue;
     const auto then = playback.Find(next, body.id);
@@ -60,7 +60,7 @@ void DrawGhosts(DrawList& list, const Viewport& viewport, const Playback& playba
   const double tick = playback.TickAt(times[i]);
   const Moment now = playback.MomentAt(peer, tick);
   const float opacity = 0.2f + 0.7f * Opacity(i, times.size());
-  VisitTruth(playback, *playback.FormOf(now), now, tick,
+  VisitTruth(playback, *playback.RevisionOf(now), now, tick,
              [&](const BodyShapes& body, const Pose& truth, const std::optional<Pose>& shown) {
                if (!viewport.Sees(truth.position, body.reach)) return;
                if (shown && PixelsApart(viewport, body, *shown, truth) < 2) return;
@@ -78,7 +78,7 @@ void DrawPanel(DrawList& list, const Rect& area, const Playback& playback, int p
   DrawGrid(list, viewport);
   DrawWaters(list, viewport, playback);
   const Moment last = playback.MomentAt(peer, playback.TickAt(times.back()));
-  DrawGround(list, viewport, playback, *playback.FormOf(last), last.tick, true);
+  DrawGround(list, viewport, playback, *playback.RevisionOf(last), last.tick, true);
   for (std::size_t i = 0; i < times.size(); ++i)
     DrawExposure(list, viewport, playback, peer, times, i);
   DrawSurfaces(list, viewport, playback);

@@ -19,7 +19,7 @@ struct StrobePlan {
 };
 
 /// Flags that replace what the plan would choose; NaN, 0: it chooses.
-struct StrobeWishes {
+struct StrobeOptions {
   double from_s, to_s;
   int every_ticks = 0;
   int peer = -1;  ///< one column; -1: the clients
@@ -32,7 +32,7 @@ double CollisionTime(const std::vector<Playback>& playbacks);
 
 /// Chooses window, exposures, columns, the box of the world that holds what moves, and a height.
 /// Requires at least one playback. Throws OperatorError when the window is empty.
-StrobePlan PlanStrobe(const std::vector<Playback>& playbacks, const StrobeWishes& wishes);
+StrobePlan PlanStrobe(const std::vector<Playback>& playbacks, const StrobeOptions& options);
 
 void DrawStrobe(DrawList& list, const std::vector<Playback>& playbacks, const StrobePlan& plan);
 

@@ -90,8 +90,8 @@ Box MovingBox(const std::vector<Playback>& playbacks, const StrobePlan& plan) {
     const std::set<PartId> struck = Struck(playback);
     const Moment middle = playback.MomentAt(playback.PeerOr(plan.peers.front()),
                                             playback.TickAt((plan.from_s + plan.to_s) / 2));
-    const auto form = playback.FormOf(middle);
-    for (const BodyShapes& body : form->moving) {
+    const auto revision = playback.RevisionOf(middle);
+    for (const BodyShapes& body : revision->moving) {
       Box path, extent;
       for (double s = plan.from_s; s <= plan.to_s + 1e-9; s += plan.step_s) {
         const double tick = playback.TickAt(s);
@@ -143,12 +143,12 @@ void ChooseBox(const std::vector<Playback>& playbacks, StrobePlan* plan) {
   plan->max = {middle + width / 2, max.y()};
 }
 
-std::vector<int> Columns(const std::vector<Playback>& playbacks, int wish) {
+std::vector<int> Columns(const std::vector<Playback>& playbacks, int only) {
   std::set<int> clients;
   for (const Playback& playback : playbacks)
     for (int peer : playback.peers())
       if (peer > 0) clients.insert(peer);
-  if (wish >= 0) return {wish};
+  if (only >= 0) return {only};
   std::vector<int> columns(clients.begin(), clients.end());
   if (columns.size() > 2) columns.resize(2);  // more would be too small to read
   if (columns.empty()) columns.push_back(0);
@@ -166,27 +166,28 @@ double CollisionTime(const std::vector<Playback>& playbacks) {
   return (playbacks.front().first_s() + playbacks.front().last_s()) / 2;
 }
 
-StrobePlan PlanStrobe(const std::vector<Playback>& playbacks, const StrobeWishes& wishes) {
+StrobePlan PlanStrobe(const std::vector<Playback>& playbacks, const StrobeOptions& options) {
   SEAM_ASSERT(!playbacks.empty());
   const Playback& first = playbacks.front();
   const double hit_s = CollisionTime(playbacks);
   StrobePlan plan;
   plan.from_s =
-      std::isnan(wishes.from_s) ? std::max(first.first_s(), hit_s - kBefore_s) : wishes.from_s;
-  plan.to_s = std::isnan(wishes.to_s) ? std::min(first.last_s(), plan.from_s + kBefore_s + kAfter_s)
-                                      : wishes.to_s;
+      std::isnan(options.from_s) ? std::max(first.first_s(), hit_s - kBefore_s) : options.from_s;
+  plan.to_s = std::isnan(options.to_s)
+                  ? std::min(first.last_s(), plan.from_s + kBefore_s + kAfter_s)
+                  : options.to_s;
   if (plan.from_s >= plan.to_s || plan.from_s > first.last_s() || plan.to_s < first.first_s())
     throw OperatorError("--from and --to leave nothing of the recording");
   const double hz = first.tick_hz();
   const double step = std::round((plan.to_s - plan.from_s) * hz / (kExposures - 1));
-  plan.step_s = std::max(wishes.every_ticks > 0 ? wishes.every_ticks : step, 1.0) / hz;
+  plan.step_s = std::max(options.every_ticks > 0 ? options.every_ticks : step, 1.0) / hz;
   if ((plan.to_s - plan.from_s) / plan.step_s > kExposuresMax)
     throw OperatorError("too many exposures: choose a shorter part or a larger --every");
-  plan.peers = Columns(playbacks, wishes.peer);
+  plan.peers = Columns(playbacks, options.peer);
   ChooseBox(playbacks, &plan);
-  if (wishes.width_px > 0) plan.width_px = wishes.width_px;
-  plan.height_px = wishes.height_px > 0 ? wishes.height_px
-                                        : StrobeHeight(plan, static_cast<int>(playbacks.size()));
+  if (options.width_px > 0) plan.width_px = options.width_px;
+  plan.height_px = options.height_px > 0 ? options.height_px
+                                         : StrobeHeight(plan, static_cast<int>(playbacks.size()));
   return plan;
 }
 

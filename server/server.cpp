@@ -10,7 +10,7 @@ namespace seam {
 namespace {
 
 /// Most ticks stepped in one call: a server that was suspended catches up without starving the net.
-constexpr int kStepsMost = 8;
+constexpr int kStepsMax = 8;
 /// Remote mechanisms are relayed every so many sends.
 constexpr std::int64_t kFarEvery = 3;
 /// Plans of who simulates what: more often follows faster bodies, and costs more with many.
@@ -31,7 +31,7 @@ Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorde
   if (config_.sync.mode == Mode::kBuffer) {
     // The server follows everything, so that it can take over at any moment.
     for (int m = 0; m < replica_.authority().count(); ++m) {
-      Holding h;
+      AuthorityRecord h;
       h.secondaries = 1;
       replica_.authority().Set(m, h);
     }
@@ -51,7 +51,7 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
     last_room_us_ = now_us;
     publisher_.Publish(MakeRoom(now_us));
   }
-  for (int steps = 0; steps < kStepsMost && now_us >= next_tick_us(); ++steps) {
+  for (int steps = 0; steps < kStepsMax && now_us >= next_tick_us(); ++steps) {
     worst_late_us_ = std::max(worst_late_us_, now_us - next_tick_us());
     StepOnce(now_us);
   }
@@ -97,7 +97,7 @@ void Server::StepOnce(std::int64_t now_us) {
   OrderPending(now_us);
   replica_.Step();
   for (const Edit& edit : replica_.TakeProposals()) Order(edit);
-  MindSeats();
+  UpdateSeats();
   PlanAuthority(now_us);
   for (States& states : replica_.TakeStates()) {
     states.utime = now_us;
@@ -116,16 +116,16 @@ void Server::StepOnce(std::int64_t now_us) {
 void Server::PlanAuthority(std::int64_t now_us) {
   if (plan_due_ || replica_.tick() % std::max(1, config_.sync.tick_hz / kPlansPerSecond) == 0) {
     plan_due_ = false;
-    wishes_ = planner_.Plan(replica_.world(), replica_.authority(), PeerOfPlayer());
-    if (config_.sync.mode != Mode::kOracle) BringTogether(&wishes_);
-    ForbidWishes();
+    plan_ = planner_.Plan(replica_.world(), replica_.authority(), PeerOfPlayer());
+    if (config_.sync.mode != Mode::kOracle) BringTogether(&plan_);
+    ForbidPlanned();
   }
   std::vector<int> changed;
   std::vector<Grants> revocations;
   for (int m = 0; m < replica_.authority().count(); ++m) {
     const auto index = static_cast<std::size_t>(m);
-    Holding h = replica_.authority().at(m);
-    const Wish& wish = wishes_[index];
+    AuthorityRecord h = replica_.authority().at(m);
+    const PlannedAuthority& planned = plan_[index];
     if (revoking_[index]) {
       // One authority at a time: the server takes over only once the holder has confirmed.
       const bool confirmed = std::any_of(sessions_.begin(), sessions_.end(), [&](const auto& s) {
@@ -137,17 +137,17 @@ void Server::PlanAuthority(std::int64_t now_us) {
       replica_.authority().Set(m, h);
     }
     const std::uint32_t server_bit = config_.sync.mode == Mode::kBuffer ? 1 : 0;
-    const std::uint32_t secondaries = wish.secondaries | server_bit;
-    if (h.authority != 0 && wish.authority != h.authority) {
+    const std::uint32_t secondaries = planned.secondaries | server_bit;
+    if (h.authority != 0 && planned.authority != h.authority) {
       revoking_[index] = true;
       AuthorityTable told = replica_.authority();
       told.Set(m, WithoutHolder(h));
       for (const Grants& g : told.Export(now_us, replica_.tick(), {m})) revocations.push_back(g);
       continue;
     }
-    if (wish.authority == h.authority && secondaries == h.secondaries) continue;
-    if (wish.authority != h.authority) h.epoch += 1;
-    h.authority = wish.authority;
+    if (planned.authority == h.authority && secondaries == h.secondaries) continue;
+    if (planned.authority != h.authority) h.epoch += 1;
+    h.authority = planned.authority;
     h.secondaries = secondaries;
     replica_.authority().Set(m, h);
     changed.push_back(m);
@@ -159,7 +159,7 @@ void Server::PlanAuthority(std::int64_t now_us) {
   }
 }
 
-Holding Server::WithoutHolder(Holding h) const {
+AuthorityRecord Server::WithoutHolder(AuthorityRecord h) const {
   // Who lets go goes on simulating until the next grant: its copy is the best there is.
   if (config_.sync.mode == Mode::kBuffer) h.secondaries |= std::uint32_t{1} << h.authority;
   h.authority = 0;
@@ -191,7 +191,7 @@ void Server::Relay(const States& states, int from_peer) {
     for (std::size_t i = 0; i < states.id.size() && !near; ++i) {
       const int body = replica_.world().BodyOfId(states.id[i]);
       if (body < 0) continue;  // it has left meanwhile
-      const Holding& h = replica_.authority().at(replica_.world().mechanism(body));
+      const AuthorityRecord& h = replica_.authority().at(replica_.world().mechanism(body));
       near = ((h.secondaries >> session->peer) & 1U) != 0;
     }
     if (near || send % kFarEvery == 0) session->link.SendUnreliable(bytes);

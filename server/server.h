@@ -19,7 +19,7 @@
 
 namespace seam {
 
-class RoomHands;
+class RoomCommands;
 class Rules;
 
 struct ServerConfig {
@@ -71,16 +71,16 @@ class Server {
   void OnProposal(Session& session, const EditOrder& order);
   std::vector<int> MechanismsOf(const Edit& edit) const;
   bool InOneHand(const std::vector<int>& mechanisms) const;
-  /// Lets mechanisms that are to be joined wish for the same authority.
-  void BringTogether(std::vector<Wish>* wishes) const;
+  /// Lets mechanisms that are to be joined planned for the same authority.
+  void BringTogether(std::vector<PlannedAuthority>* plan) const;
   void OrderPending(std::int64_t now_us);
-  void FollowTopology(const std::optional<Recomposition>& change);
+  void FollowTopology(const std::optional<BodyRemap>& change);
   void CheckComposition(std::int64_t now_us, Session& session, const Ping& ping);
   /// Edits, grants and states: all that a peer needs to have our world.
   void SendWorld(std::int64_t now_us, Session& session);
 
   // server_seats.cpp
-  void MindSeats();
+  void UpdateSeats();
   bool PlayerSits(int player) const;
   bool GetIn(int player, int seat);
   void GetOut(int seat);
@@ -109,19 +109,19 @@ class Server {
   std::vector<int> PeerOfPlayer() const;
 
   // server_rules.cpp
-  class Hands;
+  class Commands;
   void MakeRules();
   void RunRules(std::int64_t now_us);
   void SendRules(std::int64_t now_us, Session& session);
   /// Who may not push a part does not get its authority.
-  void ForbidWishes();
+  void ForbidPlanned();
 
   // server.cpp
   void StartIfReady(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);
   void PlanAuthority(std::int64_t now_us);
-  /// The holding while nobody has it: the server next, an epoch on.
-  Holding WithoutHolder(Holding h) const;
+  /// The record while nobody has it: the server next, an epoch on.
+  AuthorityRecord WithoutHolder(AuthorityRecord h) const;
   void Announce(const std::vector<Grants>& messages);
   /// Reliably, to everyone who has proved its address; who never acknowledges has to leave.
   void SendToAll(const Bytes& message);
@@ -137,12 +137,12 @@ class Server {
   Replica replica_;
   Planner planner_;
   Sessions sessions_;
-  std::unique_ptr<RoomHands> hands_;
-  std::unique_ptr<Rules> rules_;  // null: the scene has nothing to decide
-  std::int64_t rules_us_ = 0;     // the time of the tick they look at
-  std::vector<Wish> wishes_;      // of the last plan
-  bool plan_due_ = true;          // somebody came or went
-  std::vector<bool> revoking_;    // by mechanism: told to let go, not yet confirmed
+  std::unique_ptr<RoomCommands> commands_;
+  std::unique_ptr<Rules> rules_;        // null: the scene has nothing to decide
+  std::int64_t rules_us_ = 0;           // the time of the tick they look at
+  std::vector<PlannedAuthority> plan_;  // of the last plan
+  bool plan_due_ = true;                // somebody came or went
+  std::vector<bool> revoking_;          // by mechanism: told to let go, not yet confirmed
   struct Pending {
     Edit edit;
     int peer = 0;            // who proposed it

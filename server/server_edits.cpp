@@ -14,17 +14,18 @@
 namespace seam {
 namespace {
 
-/// A proposal that cannot be ordered yet (its parts are changing hands) is forgotten after this, s.
+/// A proposal that cannot be ordered yet (its parts are changing commands) is forgotten after this,
+/// s.
 constexpr double kPatience = 3;
 /// Proposals that may wait; a hostile peer could send many.
-constexpr std::size_t kPendingMost = 1024;
+constexpr std::size_t kPendingMax = 1024;
 /// Edits in the life of a room: who joins late gets them all.
-constexpr std::size_t kEditsMost = 8192;
+constexpr std::size_t kEditsMax = 8192;
 
 }  // namespace
 
 void Server::Order(const Edit& edit) {
-  if (pending_.size() < kPendingMost) pending_.push_back({edit, 0, replica_.tick()});
+  if (pending_.size() < kPendingMax) pending_.push_back({edit, 0, replica_.tick()});
 }
 
 void Server::OnProposal(Session& session, const EditOrder& order) {
@@ -52,7 +53,7 @@ void Server::OnProposal(Session& session, const EditOrder& order) {
     ++stats_.dropped_implausible;
     return;
   }
-  if (pending_.size() < kPendingMost) pending_.push_back({edit, session.peer, replica_.tick()});
+  if (pending_.size() < kPendingMax) pending_.push_back({edit, session.peer, replica_.tick()});
 }
 
 std::vector<int> Server::MechanismsOf(const Edit& edit) const {
@@ -75,25 +76,25 @@ bool Server::InOneHand(const std::vector<int>& mechanisms) const {
   return true;
 }
 
-void Server::BringTogether(std::vector<Wish>* wishes) const {
+void Server::BringTogether(std::vector<PlannedAuthority>* plan) const {
   for (const Pending& pending : pending_) {
     const std::vector<int> mechanisms = MechanismsOf(pending.edit);
     if (mechanisms.size() < 2) continue;
     // To whom the owner of either plays; else to whom has the first.
-    int to = (*wishes)[static_cast<std::size_t>(mechanisms.front())].authority;
+    int to = (*plan)[static_cast<std::size_t>(mechanisms.front())].authority;
     for (const int m : mechanisms) {
       const Mechanism& mechanism =
           replica_.world().composition().mechanisms[static_cast<std::size_t>(m)];
       if (mechanism.owner >= 0) {
-        to = (*wishes)[static_cast<std::size_t>(m)].authority;
+        to = (*plan)[static_cast<std::size_t>(m)].authority;
         break;
       }
     }
     for (const int m : mechanisms) {
-      Wish& wish = (*wishes)[static_cast<std::size_t>(m)];
-      if (wish.authority != to) wish.secondaries |= std::uint32_t{1} << wish.authority;
-      wish.authority = to;
-      wish.secondaries &= ~(std::uint32_t{1} << to);
+      PlannedAuthority& planned = (*plan)[static_cast<std::size_t>(m)];
+      if (planned.authority != to) planned.secondaries |= std::uint32_t{1} << planned.authority;
+      planned.authority = to;
+      planned.secondaries &= ~(std::uint32_t{1} << to);
     }
   }
 }
@@ -120,8 +121,8 @@ void Server::OrderPending(std::int64_t now_us) {
     }
     const bool found = pending.edit.cause == EditCause::kPhysics;
     if (found && !PlausibleProposal(replica_.world(), pending.edit)) continue;  // it has moved on
-    if (edits_.size() == kEditsMost) {
-      if (!full_) Say(now_us, "no more edits: the room has had " + std::to_string(kEditsMost));
+    if (edits_.size() == kEditsMax) {
+      if (!full_) Say(now_us, "no more edits: the room has had " + std::to_string(kEditsMax));
       full_ = true;
       continue;
     }
@@ -143,8 +144,8 @@ void Server::OrderPending(std::int64_t now_us) {
   while (replica_.has_queued()) FollowTopology(replica_.ApplyNextEdit());
 }
 
-void Server::FollowTopology(const std::optional<Recomposition>& change) {
-  hash_after_[replica_.topology()] = replica_.world().composition().hash;
+void Server::FollowTopology(const std::optional<BodyRemap>& change) {
+  hash_after_[replica_.revision()] = replica_.world().composition().hash;
   if (!change) return;
   std::vector<bool> revoking;
   for (const std::vector<int>& from : change->mechanisms) {
@@ -157,14 +158,14 @@ void Server::FollowTopology(const std::optional<Recomposition>& change) {
                                    : LastAccepted{});
   }
   accepted_ = accepted;
-  planner_.Recompose(change->mechanisms);
+  planner_.Remap(change->mechanisms);
   plan_due_ = true;
 }
 
 void Server::CheckComposition(std::int64_t now_us, Session& session, const Ping& ping) {
-  if (session.stage != SessionStage::kReady || ping.topology < 0) return;
-  const auto known = hash_after_.find(ping.topology);
-  const bool never = ping.topology > static_cast<std::int32_t>(edits_.size());
+  if (session.stage != SessionStage::kReady || ping.revision < 0) return;
+  const auto known = hash_after_.find(ping.revision);
+  const bool never = ping.revision > static_cast<std::int32_t>(edits_.size());
   const bool other =
       known != hash_after_.end() && known->second != static_cast<std::uint64_t>(ping.composition);
   if (!never && !other) return;
@@ -172,7 +173,7 @@ void Server::CheckComposition(std::int64_t now_us, Session& session, const Ping&
   if (now_us - session.repaired_us < kRepairAgainUs) return;
   session.repaired_us = now_us;
   Say(now_us, session.name + " (peer " + std::to_string(session.peer) +
-                  ") has another composition after " + std::to_string(ping.topology) +
+                  ") has another composition after " + std::to_string(ping.revision) +
                   " edits: repaired");
   ++stats_.dropped_implausible;
   EditOrder anew;

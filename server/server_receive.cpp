@@ -11,14 +11,14 @@ namespace seam {
 namespace {
 
 /// Inputs this far from now are nonsense, ticks.
-constexpr std::int64_t kInputTicksMost = 600;
+constexpr std::int64_t kInputTicksMax = 600;
 /// States this far in the past or future are nonsense, s.
 constexpr double kStatesPast = 2.0;
 constexpr double kStatesFuture = 0.5;
 /// A body may move this much more than its speed explains between two states, m: a hard correction.
 constexpr float kJumpSlack = 5.0f;
 /// Sessions that have not proved their address, at most: more are refused until some time out.
-constexpr std::size_t kSessionsMost = 64;
+constexpr std::size_t kSessionsMax = 64;
 
 }  // namespace
 
@@ -58,7 +58,7 @@ void Server::OnDatagram(std::int64_t now_us, const Address& from, const Bytes& d
     if (!good) ++stats_.dropped_malformed;
     return;
   }
-  if (sessions_.size() >= kSessionsMost && !EvictUnproven(now_us)) {
+  if (sessions_.size() >= kSessionsMax && !EvictUnproven(now_us)) {
     ++stats_.dropped_right;
     return;
   }
@@ -129,7 +129,7 @@ void Server::OnInputs(std::int64_t now_us, Session& session, const Inputs& input
     ++stats_.dropped_right;
     return;
   }
-  if (std::llabs(inputs.first_tick - replica_.tick()) > kInputTicksMost) {
+  if (std::llabs(inputs.first_tick - replica_.tick()) > kInputTicksMax) {
     ++stats_.dropped_implausible;
     return;
   }
@@ -181,10 +181,10 @@ void Server::OnStates(std::int64_t now_us, Session& session, const States& state
     ++stats_.dropped_stale;
     return;
   }
-  const auto hash = hash_after_.find(states.topology);
+  const auto hash = hash_after_.find(states.revision);
   const bool other =
       hash != hash_after_.end() && hash->second != static_cast<std::uint64_t>(states.composition);
-  if (other || states.topology > replica_.topology()) {
+  if (other || states.revision > replica_.revision()) {
     ++stats_.dropped_implausible;  // its next ping has it repaired
     return;
   }
@@ -198,14 +198,14 @@ void Server::OnStates(std::int64_t now_us, Session& session, const States& state
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(states.id[i]);
     if (body < 0) {
-      ++(states.topology < replica_.topology() ? stats_.dropped_stale : stats_.dropped_right);
+      ++(states.revision < replica_.revision() ? stats_.dropped_stale : stats_.dropped_right);
       continue;
     }
-    if (!replica_.SameBody(body, states.topology)) {
+    if (!replica_.SameBody(body, states.revision)) {
       ++stats_.dropped_stale;
       continue;
     }
-    const Holding& h = replica_.authority().at(replica_.world().mechanism(body));
+    const AuthorityRecord& h = replica_.authority().at(replica_.world().mechanism(body));
     if (h.authority != session.peer) {
       ++(states.epoch[i] < h.epoch ? stats_.dropped_stale : stats_.dropped_right);
       continue;

@@ -13,9 +13,9 @@ namespace seam {
 
 /// What the rules ask for becomes edits, in the server's order and for outside causes: an oracle
 /// cannot find them out by itself.
-class Server::Hands : public RoomHands {
+class Server::Commands : public RoomCommands {
  public:
-  explicit Hands(Server& server) : server_(server) {}
+  explicit Commands(Server& server) : server_(server) {}
 
   void RemovePart(PartId part) override {
     Edit edit;
@@ -76,8 +76,8 @@ class Server::Hands : public RoomHands {
 
 void Server::MakeRules() {
   if (!Rules::Needed(scene_)) return;
-  hands_ = std::make_unique<Hands>(*this);
-  rules_ = std::make_unique<Rules>(replica_.world(), config_.seed, *hands_);
+  commands_ = std::make_unique<Commands>(*this);
+  rules_ = std::make_unique<Rules>(replica_.world(), config_.seed, *commands_);
 }
 
 void Server::RunRules(std::int64_t now_us) {
@@ -97,17 +97,17 @@ void Server::SendRules(std::int64_t now_us, Session& session) {
   }
 }
 
-void Server::ForbidWishes() {
+void Server::ForbidPlanned() {
   const std::vector<Part>& parts = replica_.world().scene().parts;
   const std::vector<int> peers = PeerOfPlayer();
   for (const Part& part : parts) {
     if (part.rules->push == kEveryPlayer) continue;
     const int mechanism = MechanismOf(replica_.world(), part.id);
-    if (mechanism < 0 || static_cast<std::size_t>(mechanism) >= wishes_.size()) continue;
-    Wish& wish = wishes_[static_cast<std::size_t>(mechanism)];
+    if (mechanism < 0 || static_cast<std::size_t>(mechanism) >= plan_.size()) continue;
+    PlannedAuthority& planned = plan_[static_cast<std::size_t>(mechanism)];
     for (std::size_t p = 0; p < peers.size(); ++p) {
-      const bool has = wish.authority > 0 && peers[p] == wish.authority;
-      if (has && !Allows(part.rules->push, static_cast<int>(p))) wish.authority = 0;
+      const bool has = planned.authority > 0 && peers[p] == planned.authority;
+      if (has && !Allows(part.rules->push, static_cast<int>(p))) planned.authority = 0;
     }
   }
 }

@@ -14,7 +14,7 @@ constexpr float kHop = 2;
 
 }  // namespace
 
-void Server::MindSeats() {
+void Server::UpdateSeats() {
   const Scene& scene = replica_.world().scene();
   if (scene.seats.empty()) return;
   for (std::size_t p = 0; p < scene.players.size(); ++p) {

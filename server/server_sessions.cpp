@@ -150,7 +150,7 @@ void Server::TakeBack(std::int64_t now_us, int peer) {
   // Whoever is dropped for silence has let go by its own clock already (Client::kSilentUs).
   std::vector<int> changed;
   for (int m = 0; m < replica_.authority().count(); ++m) {
-    Holding h = replica_.authority().at(m);
+    AuthorityRecord h = replica_.authority().at(m);
     if (h.authority != peer) continue;
     h.authority = 0;
     h.epoch += revoking_[static_cast<std::size_t>(m)] ? 2 : 1;  // a revocation has used up one

@@ -72,7 +72,7 @@ struct Wire<Ping> {
   using Type = ping_t;
   template <class M>
   static auto Fields(M& m) {
-    return std::tie(m.utime, m.topology, m.composition);
+    return std::tie(m.utime, m.revision, m.composition);
   }
 };
 
@@ -99,7 +99,7 @@ struct Wire<States> {
   using Type = states_t;
   template <class M>
   static auto Fields(M& m) {
-    return std::tie(m.utime, m.sequence, m.peer, m.tick, m.topology, m.composition, m.origin_x,
+    return std::tie(m.utime, m.sequence, m.peer, m.tick, m.revision, m.composition, m.origin_x,
                     m.origin_y, m.id, m.epoch, m.flags, m.x, m.y, m.angle, m.vx, m.vy, m.spin);
   }
 };
@@ -137,7 +137,7 @@ struct Wire<View> {
   using Type = view_t;
   template <class M>
   static auto Fields(M& m) {
-    return std::tie(m.utime, m.sequence, m.peer, m.tick, m.topology, m.part, m.parts, m.id, m.role,
+    return std::tie(m.utime, m.sequence, m.peer, m.tick, m.revision, m.part, m.parts, m.id, m.role,
                     m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin);
   }
 };

@@ -86,7 +86,7 @@ struct Room {
 /// Client -> server: asks for the server's time.
 struct Ping {
   std::int64_t utime = 0;        ///< client's clock when sent
-  std::int32_t topology = -1;    ///< edits applied so far, -1 before there is a world
+  std::int32_t revision = -1;    ///< edits applied so far, -1 before there is a world
   std::int64_t composition = 0;  ///< hash of the assemblies' make-up after them
 };
 
@@ -115,7 +115,7 @@ struct States {
   std::int32_t sequence = 0;
   std::int32_t peer = 0;  ///< the authority
   std::int64_t tick = 0;
-  std::int32_t topology = 0;         ///< edits that the sender had applied
+  std::int32_t revision = 0;         ///< edits that the sender had applied
   std::int64_t composition = 0;      ///< hash of the assemblies' make-up after them
   std::int32_t origin_x = 0;         ///< whole metres
   std::int32_t origin_y = 0;         ///< whole metres
@@ -186,7 +186,7 @@ struct View {
   std::int32_t sequence = 0;
   std::int32_t peer = 0;
   std::int64_t tick = 0;
-  std::int32_t topology = 0;  ///< edits that the peer had applied
+  std::int32_t revision = 0;  ///< edits that the peer had applied
   std::int32_t part = 0;      ///< part of parts: very large views are split
   std::int32_t parts = 1;
   std::vector<std::int16_t> id;        ///< assembly ids, ascending

@@ -58,9 +58,9 @@ std::size_t SequenceBytes(const std::string& text, std::size_t at) {
     if ((byte(at + i) & 0xc0u) != 0x80u) return 0;
     code = code << 6 | (byte(at + i) & 0x3fu);
   }
-  constexpr unsigned kLeast[] = {0, 0, 0xa0, 0x800, 0x10000};  // 0xa0: U+0080..9F are controls
+  constexpr unsigned kMin[] = {0, 0, 0xa0, 0x800, 0x10000};  // 0xa0: U+0080..9F are controls
   const bool surrogate = code >= 0xd800 && code <= 0xdfff;
-  return code >= kLeast[bytes] && code <= 0x10ffff && !surrogate ? bytes : 0;
+  return code >= kMin[bytes] && code <= 0x10ffff && !surrogate ? bytes : 0;
 }
 
 }  // namespace
@@ -106,7 +106,7 @@ bool Valid(const Room& m) {
          Within(m.send_hz, 1, m.tick_hz);
 }
 
-bool Valid(const Ping& m) { return Time(m.utime) && m.topology >= -1; }
+bool Valid(const Ping& m) { return Time(m.utime) && m.revision >= -1; }
 
 bool Valid(const Pong& m) { return Time(m.utime) && Time(m.client_us) && Time(m.tick0_us); }
 
@@ -118,7 +118,7 @@ bool Valid(const Inputs& m) {
 }
 
 bool Valid(const States& m) {
-  return Time(m.utime) && m.sequence >= 0 && m.topology >= 0 && Peer(m.peer) && Tick(m.tick) &&
+  return Time(m.utime) && m.sequence >= 0 && m.revision >= 0 && Peer(m.peer) && Tick(m.tick) &&
          m.id.size() <= kStatesBodiesMax &&
          Lengths(m.id.size(), m.epoch, m.flags, m.x, m.y, m.angle, m.vx, m.vy, m.spin) &&
          Ascending(m.id) && AllWithin(m.flags, 0, kStateAsleep | kStateImpact) &&
@@ -146,7 +146,7 @@ bool Valid(const Meta& m) {
 }
 
 bool Valid(const View& m) {
-  return Time(m.utime) && m.sequence >= 0 && m.topology >= 0 && Peer(m.peer) && Tick(m.tick) &&
+  return Time(m.utime) && m.sequence >= 0 && m.revision >= 0 && Peer(m.peer) && Tick(m.tick) &&
          Within(m.parts, 1, kViewPartsMax) && Within(m.part, 0, m.parts - 1) &&
          m.id.size() <= kViewBodiesMax &&
          Lengths(m.id.size(), m.role, m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin) &&

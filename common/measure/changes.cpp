@@ -12,7 +12,7 @@ std::int64_t LongestLag(const Recording& recording) {
   std::int64_t longest = 0;
   for (const auto& [peer, views] : recording.views) {
     for (const auto& [tick, view] : views) {
-      const auto lacking = recording.edits.lower_bound(view.topology);
+      const auto lacking = recording.edits.lower_bound(view.revision);
       if (lacking == recording.edits.end()) continue;
       longest = std::max(longest, tick - lacking->second.tick);
     }
@@ -43,20 +43,21 @@ std::int32_t KnownEdits(const Recording& recording) {
 
 }  // namespace
 
-void MeasureChanges(const Recording& recording, const Forms& forms, Measures* measures) {
-  if (!forms.change()) return;
+void MeasureChanges(const Recording& recording, const RevisionHistory& revisions,
+                    Measures* measures) {
+  if (!revisions.change()) return;
   measures->topology_lag_s = static_cast<double>(LongestLag(recording)) * TickSeconds(recording);
-  std::map<int, std::vector<const View*>> by_form;
+  std::map<int, std::vector<const View*>> by_revision;
   const std::int32_t known = KnownEdits(recording);
   for (const auto& [peer, views] : recording.views) {
     for (const auto& [tick, view] : views) {
-      if (view.topology <= known) by_form[forms.Key(view.topology)].push_back(&view);
+      if (view.revision <= known) by_revision[revisions.Key(view.revision)].push_back(&view);
     }
   }
   std::int64_t lost = 0;
-  for (const auto& [key, views] : by_form) {
-    const auto form = forms.At(key);
-    for (const View* view : views) lost += Differing(form->ids, view->id);
+  for (const auto& [key, views] : by_revision) {
+    const auto revision = revisions.At(key);
+    for (const View* view : views) lost += Differing(revision->ids, view->id);
   }
   measures->lost = lost;
 }

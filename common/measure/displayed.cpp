@@ -30,14 +30,14 @@ std::optional<Bodies> StatesOf(const View& view, const std::vector<PartId>& ids)
   return states;
 }
 
-/// What is measured of one form's states.
+/// What is measured of one revision's states.
 struct Meters {
-  explicit Meters(const Form& form)
-      : ids(form.ids),
-        overlap(form.scene(), form.composition()),
-        joints(form.scene(), form.composition()),
-        energy(form.scene(), form.composition()),
-        jointed(!FindJointEnds(form.scene(), form.composition()).empty()) {}
+  explicit Meters(const SceneRevision& revision)
+      : ids(revision.ids),
+        overlap(revision.scene(), revision.composition()),
+        joints(revision.scene(), revision.composition()),
+        energy(revision.scene(), revision.composition()),
+        jointed(!FindJointEnds(revision.scene(), revision.composition()).empty()) {}
   const std::vector<PartId> ids;
   const OverlapMeter overlap;
   const JointMeter joints;
@@ -76,14 +76,14 @@ class Budget {
 };
 
 /// The oracle's own, row by row, each by the bodies of its time.
-Budget MeasureOracle(const Oracle& oracle, const Forms& own, double h, int every,
+Budget MeasureOracle(const Oracle& oracle, const RevisionHistory& own, double h, int every,
                      Measures* measures) {
   Budget budget(oracle.first_tick, h);
-  std::size_t era = 0;
+  std::size_t span = 0;
   auto meters = std::make_unique<Meters>(*own.At(0));
   for (std::size_t row = 0; row < oracle.ticks.size(); ++row) {
-    while (era < oracle.eras.size() && oracle.eras[era].first_row <= row) {
-      const int edits = oracle.eras[era++].edits;
+    while (span < oracle.spans.size() && oracle.spans[span].first_row <= row) {
+      const int edits = oracle.spans[span++].edits;
       if (edits > 0) meters = std::make_unique<Meters>(*own.At(edits));
     }
     const Bodies& states = oracle.ticks[row];
@@ -105,20 +105,21 @@ Budget MeasureOracle(const Oracle& oracle, const Forms& own, double h, int every
 
 }  // namespace
 
-void MeasureDisplayed(const Recording& recording, const Oracle& oracle, const Forms& forms,
-                      Measures* measures) {
-  const auto first = forms.At(0);
-  if (oracle.eras.empty() && (first->ids.empty() || oracle.ids != first->ids)) return;
+void MeasureDisplayed(const Recording& recording, const Oracle& oracle,
+                      const RevisionHistory& revisions, Measures* measures) {
+  const auto first = revisions.At(0);
+  if (oracle.spans.empty() && (first->ids.empty() || oracle.ids != first->ids)) return;
   const int every = (std::max(1, recording.room.tick_hz) + kOverlapHz - 1) / kOverlapHz;
-  const Forms own(first->scene(), oracle.edits);
+  const RevisionHistory own(first->scene(), oracle.edits);
   const Budget budget = MeasureOracle(oracle, own, TickSeconds(recording), every, measures);
-  // Form by form: meters are dear to make and large to keep.
-  std::map<int, std::vector<const View*>> by_form;
+  // SceneRevision by revision: meters are dear to make and large to keep.
+  std::map<int, std::vector<const View*>> by_revision;
   for (const auto& [peer, views] : recording.views) {
-    for (const auto& [tick, view] : views) by_form[forms.Key(view.topology)].push_back(&view);
+    for (const auto& [tick, view] : views)
+      by_revision[revisions.Key(view.revision)].push_back(&view);
   }
-  for (const auto& [key, views] : by_form) {
-    const Meters meters(*forms.At(key));
+  for (const auto& [key, views] : by_revision) {
+    const Meters meters(*revisions.At(key));
     if (meters.ids.empty()) continue;
     for (const View* view : views) {
       const std::optional<Bodies> states = StatesOf(*view, meters.ids);

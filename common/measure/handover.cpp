@@ -45,7 +45,7 @@ void Compare(const View& one, const View& other, PartId id, Measures* measures) 
 }
 
 /// At the first tick at which another peer than before claims a body: both peers' ideas of it.
-void MeasureGaps(const Recording& recording, const Forms* forms, Measures* measures) {
+void MeasureGaps(const Recording& recording, const RevisionHistory* revisions, Measures* measures) {
   std::map<PartId, int> holders;
   for (std::int64_t tick = recording.first_tick; tick <= recording.last_tick; ++tick) {
     std::map<int, const View*> views;
@@ -61,8 +61,8 @@ void MeasureGaps(const Recording& recording, const Forms* forms, Measures* measu
         const auto old = views.find(before);
         if (before == peer || (old != views.end() && Claims(*old->second, id))) continue;
         const bool same =
-            old != views.end() &&
-            (forms == nullptr || forms->SameBody(view->topology, old->second->topology, id));
+            old != views.end() && (revisions == nullptr ||
+                                   revisions->SameBody(view->revision, old->second->revision, id));
         if (same) Compare(*view, *old->second, id, measures);
         holders[id] = peer;
       }
@@ -73,19 +73,20 @@ void MeasureGaps(const Recording& recording, const Forms* forms, Measures* measu
 }  // namespace
 
 void MeasureHandover(const Recording& recording, const std::map<PartId, int>& mechanisms,
-                     Measures* measures, const Forms* forms) {
+                     Measures* measures, const RevisionHistory* revisions) {
   const double h = TickSeconds(recording);
   for (const auto& [peer, views] : recording.views) {
     ForEachChange(views, [&](std::int64_t, const View& before, std::size_t k, const View& now,
                              std::size_t i) {
       // What has become part of another body jumps for that.
-      if (forms != nullptr && !forms->SameBody(before.topology, now.topology, now.id[i])) return;
+      if (revisions != nullptr && !revisions->SameBody(before.revision, now.revision, now.id[i]))
+        return;
       const double dx = double{now.x[i]} - double{before.x[k]} - double{now.vx[i]} * h;
       const double dy = double{now.y[i]} - double{before.y[k]} - double{now.vy[i]} * h;
       measures->handover_jump_m = std::max(measures->handover_jump_m, std::hypot(dx, dy));
     });
   }
-  MeasureGaps(recording, forms, measures);
+  MeasureGaps(recording, revisions, measures);
   if (recording.views.empty()) return;
   // The server's views, or of the lowest peer there is; a mechanism's bodies change together.
   std::set<std::pair<std::int64_t, int>> changes;
@@ -94,10 +95,10 @@ void MeasureHandover(const Recording& recording, const std::map<PartId, int>& me
                   int mechanism = -1 - now.id[i];
                   const auto known = mechanisms.find(now.id[i]);
                   if (known != mechanisms.end()) mechanism = known->second;
-                  if (forms != nullptr) {
-                    const auto form = forms->At(now.topology);
-                    const int of = form->AssemblyOf(now.id[i]);
-                    const auto& all = form->composition().assemblies;
+                  if (revisions != nullptr) {
+                    const auto revision = revisions->At(now.revision);
+                    const int of = revision->AssemblyOf(now.id[i]);
+                    const auto& all = revision->composition().assemblies;
                     if (of >= 0) mechanism = all[static_cast<std::size_t>(of)].mechanism;
                   }
                   changes.insert({tick, mechanism});

@@ -52,19 +52,19 @@ Measures Measure(const Recording& recording, const Oracle& oracle) {
   measures.jitter_rest_mps = RestJitter(recording, oracle);
   MeasureCost(recording, &measures);
   std::map<PartId, int> mechanisms;
-  std::optional<Forms> forms;
+  std::optional<RevisionHistory> revisions;
   if (!recording.room.scene_text.empty()) {
     const Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
-    forms.emplace(scene, recording);
-    const Composition& composition = forms->At(0)->composition();
+    revisions.emplace(scene, recording);
+    const Composition& composition = revisions->At(0)->composition();
     for (const Assembly& assembly : composition.assemblies) {
       if (assembly.mechanism >= 0) mechanisms[assembly.id] = assembly.mechanism;
     }
     measures.rebound = MeanRebound(recording, oracle, scene, composition);
-    MeasureDisplayed(recording, oracle, *forms, &measures);
-    MeasureChanges(recording, *forms, &measures);
+    MeasureDisplayed(recording, oracle, *revisions, &measures);
+    MeasureChanges(recording, *revisions, &measures);
   }
-  const Forms* changing = forms && forms->change() ? &*forms : nullptr;
+  const RevisionHistory* changing = revisions && revisions->change() ? &*revisions : nullptr;
   MeasureSmoothness(recording, oracle, changing, &measures);
   MeasureSeam(recording, changing, &measures);
   MeasureHandover(recording, mechanisms, &measures, changing);

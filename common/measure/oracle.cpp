@@ -4,8 +4,8 @@
 #include <cmath>
 #include <string>
 
-#include "common/measure/forms.h"
 #include "common/measure/pose.h"
+#include "common/measure/revisions.h"
 #include "common/scene/mass.h"
 
 namespace seam {
@@ -26,10 +26,10 @@ BodyState Placed(const Oracle::Place& place, const std::vector<BodyState>& movin
 
 }  // namespace
 
-const Oracle::Era* Oracle::EraOf(std::size_t row) const {
-  const auto later = [](std::size_t r, const Era& era) { return r < era.first_row; };
-  const auto after = std::upper_bound(eras.begin(), eras.end(), row, later);
-  return after == eras.begin() ? nullptr : &*std::prev(after);
+const Oracle::RevisionSpan* Oracle::SpanOf(std::size_t row) const {
+  const auto later = [](std::size_t r, const RevisionSpan& span) { return r < span.first_row; };
+  const auto after = std::upper_bound(spans.begin(), spans.end(), row, later);
+  return after == spans.begin() ? nullptr : &*std::prev(after);
 }
 
 PartId Oracle::OwnId(PartId part) const {
@@ -39,23 +39,23 @@ PartId Oracle::OwnId(PartId part) const {
 }
 
 const std::vector<PartId>& Oracle::IdsOf(std::size_t row) const {
-  const Era* era = EraOf(row);
-  return era == nullptr ? ids : era->bodies->ids;
+  const RevisionSpan* span = SpanOf(row);
+  return span == nullptr ? ids : span->bodies->ids;
 }
 
 std::optional<BodyState> Oracle::At(std::int64_t tick, PartId part) const {
   if (tick < first_tick) return std::nullopt;
   const auto row = static_cast<std::size_t>(tick - first_tick);
   if (row >= ticks.size() || ticks[row].empty()) return std::nullopt;
-  const Era* era = EraOf(row);
+  const RevisionSpan* span = SpanOf(row);
   const PartId own = OwnId(part);
-  const std::vector<PartId>& now = era == nullptr ? ids : era->bodies->ids;
+  const std::vector<PartId>& now = span == nullptr ? ids : span->bodies->ids;
   const auto found = std::lower_bound(now.begin(), now.end(), own);
   if (found != now.end() && *found == own) {
     return ticks[row][static_cast<std::size_t>(found - now.begin())];
   }
-  if (era == nullptr || own < 0) return std::nullopt;
-  const std::vector<Place>& places = era->bodies->places;
+  if (span == nullptr || own < 0) return std::nullopt;
+  const std::vector<Place>& places = span->bodies->places;
   if (static_cast<std::size_t>(own) >= places.size()) return std::nullopt;
   const Place& place = places[static_cast<std::size_t>(own)];
   if (place.body == -2) return std::nullopt;
@@ -63,9 +63,9 @@ std::optional<BodyState> Oracle::At(std::int64_t tick, PartId part) const {
 }
 
 bool Oracle::SameBody(std::int64_t tick_a, std::int64_t tick_b, PartId part) const {
-  if (eras.size() < 2 || tick_a < first_tick || tick_b < first_tick) return true;
-  const Era* a = EraOf(static_cast<std::size_t>(tick_a - first_tick));
-  const Era* b = EraOf(static_cast<std::size_t>(tick_b - first_tick));
+  if (spans.size() < 2 || tick_a < first_tick || tick_b < first_tick) return true;
+  const RevisionSpan* a = SpanOf(static_cast<std::size_t>(tick_a - first_tick));
+  const RevisionSpan* b = SpanOf(static_cast<std::size_t>(tick_b - first_tick));
   if (a->bodies == b->bodies) return true;
   const auto own = static_cast<std::size_t>(OwnId(part));
   const std::vector<PartId>&ra = a->bodies->roots, &rb = b->bodies->roots;
@@ -81,9 +81,9 @@ bool Oracle::SameBody(std::int64_t tick_a, std::int64_t tick_b, PartId part) con
 
 bool Oracle::Together(std::int64_t tick, const std::vector<PartId>& parts) const {
   if (tick < first_tick) return true;
-  const Era* era = EraOf(static_cast<std::size_t>(tick - first_tick));
-  if (era == nullptr) return true;
-  const std::vector<PartId>& roots = era->bodies->roots;
+  const RevisionSpan* span = SpanOf(static_cast<std::size_t>(tick - first_tick));
+  if (span == nullptr) return true;
+  const std::vector<PartId>& roots = span->bodies->roots;
   PartId root = -1;
   for (const PartId part : parts) {
     const auto own = static_cast<std::size_t>(OwnId(part));
@@ -94,14 +94,14 @@ bool Oracle::Together(std::int64_t tick, const std::vector<PartId>& parts) const
   return true;
 }
 
-void Oracle::Begin(std::size_t row, const Form& form, int applied) {
+void Oracle::Begin(std::size_t row, const SceneRevision& revision, int applied) {
   auto bodies = std::make_shared<Bodies>();
-  bodies->ids = form.ids;
-  const Scene& scene = form.scene();
+  bodies->ids = revision.ids;
+  const Scene& scene = revision.scene();
   bodies->places.resize(scene.parts.size(), Place{-2, 0, 0, 0});
   bodies->roots.resize(scene.parts.size(), -1);
-  for (std::size_t a = 0; a < form.composition().assemblies.size(); ++a) {
-    const Assembly& assembly = form.composition().assemblies[a];
+  for (std::size_t a = 0; a < revision.composition().assemblies.size(); ++a) {
+    const Assembly& assembly = revision.composition().assemblies[a];
     const Part& root = scene.parts[static_cast<std::size_t>(assembly.id)];
     for (const PartId id : assembly.parts) {
       const auto p = static_cast<std::size_t>(id);
@@ -112,19 +112,19 @@ void Oracle::Begin(std::size_t row, const Form& form, int applied) {
         continue;
       }
       const Vec2 place = ToRootFrame(part, root, Eigen::Vector2d(0, 0)).cast<float>();
-      bodies->places[p] = {form.moving[a], place.x(), place.y(), part.angle - root.angle};
+      bodies->places[p] = {revision.moving[a], place.x(), place.y(), part.angle - root.angle};
     }
   }
-  if (!eras.empty() && eras.back().first_row == row) eras.pop_back();  // it lasted no tick
-  eras.push_back({row, applied, std::move(bodies)});
-  if (row == 0) ids = form.ids;
+  if (!spans.empty() && spans.back().first_row == row) spans.pop_back();  // it lasted no tick
+  spans.push_back({row, applied, std::move(bodies)});
+  if (row == 0) ids = revision.ids;
 }
 
 void Oracle::Identify(const Recording& recording, const Scene& scene) {
-  if (recording.edits.empty() || eras.empty()) return;
+  if (recording.edits.empty() || spans.empty()) return;
   inserted_from = static_cast<PartId>(scene.parts.size());
-  const auto recorded = Forms(scene, recording).At(std::numeric_limits<int>::max());
-  const auto own = Forms(scene, edits).At(std::numeric_limits<int>::max());
+  const auto recorded = RevisionHistory(scene, recording).At(std::numeric_limits<int>::max());
+  const auto own = RevisionHistory(scene, edits).At(std::numeric_limits<int>::max());
   std::map<std::string, PartId> by_name;
   for (std::size_t p = scene.parts.size(); p < own->scene().parts.size(); ++p) {
     by_name[own->scene().parts[p].name] = static_cast<PartId>(p);

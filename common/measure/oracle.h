@@ -15,13 +15,13 @@
 
 namespace seam {
 
-struct Form;
+struct SceneRevision;
 
 /// Poses of every moving body after every tick.
 struct Oracle {
   /// A part's place in its body's frame, or in the world; m, rad.
   struct Place {
-    int body = -1;  ///< index into the era's ids; -1: anchored, -2: not there
+    int body = -1;  ///< index into the span's ids; -1: anchored, -2: not there
     float x = 0, y = 0, angle = 0;
   };
   struct Bodies {
@@ -30,7 +30,7 @@ struct Oracle {
     std::vector<PartId> roots;  ///< by part: the assembly's id; -1: not there
   };
   /// From a row on the bodies are others.
-  struct Era {
+  struct RevisionSpan {
     std::size_t first_row = 0;
     int edits = 0;  ///< how many of Oracle::edits were applied
     std::shared_ptr<const Bodies> bodies;
@@ -40,8 +40,8 @@ struct Oracle {
   std::vector<PartId> ids;  ///< at first, ascending
   /// [tick - first_tick][index in the ids of that time]; empty for a tick that is not known.
   std::vector<std::vector<BodyState>> ticks;
-  std::vector<Era> eras;    ///< ascending; empty: `ids` for ever, other parts unknown
-  std::vector<Edit> edits;  ///< that were applied, in order, with the oracle's own ids
+  std::vector<RevisionSpan> spans;  ///< ascending; empty: `ids` for ever, other parts unknown
+  std::vector<Edit> edits;          ///< that were applied, in order, with the oracle's own ids
   /// Parts from here on came at run time and may have another id in the recording.
   PartId inserted_from = std::numeric_limits<PartId>::max();
   std::map<PartId, PartId> own_id;  ///< of parts that came, by id in the recording
@@ -56,14 +56,14 @@ struct Oracle {
   /// Whether all these parts are in one body.
   bool Together(std::int64_t tick, const std::vector<PartId>& parts) const;
 
-  /// From `row` on the bodies are those of `form`, after `applied` edits.
-  void Begin(std::size_t row, const Form& form, int applied);
+  /// From `row` on the bodies are those of `revision`, after `applied` edits.
+  void Begin(std::size_t row, const SceneRevision& revision, int applied);
   /// Learns by their names which parts that came at run time are which in `recording`. `scene`: as
   /// it was at first.
   void Identify(const Recording& recording, const Scene& scene);
 
  private:
-  const Era* EraOf(std::size_t row) const;
+  const RevisionSpan* SpanOf(std::size_t row) const;
   PartId OwnId(PartId part) const;
 };
 

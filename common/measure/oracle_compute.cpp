@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "common/base/check.h"
-#include "common/measure/forms.h"
 #include "common/measure/measure.h"
+#include "common/measure/revisions.h"
 #include "common/physics/world.h"
 #include "common/sync/edit_order.h"
 
@@ -107,7 +107,7 @@ class Outside {
     edit->joint = JointOf(then->scene(), edit->joint, now);
   }
 
-  const Forms recorded_;
+  const RevisionHistory recorded_;
   const std::size_t parts_, joints_;  // that the scene has itself
   std::map<std::int64_t, std::vector<std::pair<int, Edit>>> by_tick_;
 };
@@ -115,10 +115,10 @@ class Outside {
 /// Applies edits to the world after `row` was read, or instead of it.
 void Change(const std::vector<Edit>& edits, std::size_t row, World* world, Oracle* oracle) {
   if (edits.empty()) return;
-  if (oracle->eras.empty()) oracle->Begin(0, Form(world->topology()), 0);
+  if (oracle->spans.empty()) oracle->Begin(0, SceneRevision(world->topology()), 0);
   oracle->edits.insert(oracle->edits.end(), edits.begin(), edits.end());
   if (!world->Apply(edits)) return;
-  oracle->Begin(row, Form(world->topology()), static_cast<int>(oracle->edits.size()));
+  oracle->Begin(row, SceneRevision(world->topology()), static_cast<int>(oracle->edits.size()));
 }
 
 void RequireMemory(std::int64_t kept, const Recording& recording) {
@@ -154,7 +154,7 @@ Oracle ComputeOracle(const Recording& recording, int nudged_body, float nudge) {
     if (known) inputs[player] = TicksOf(pieces);
   }
   // In a recording with edits the views may be of other bodies than the oracle's from the start.
-  if (!recording.edits.empty()) oracle.Begin(0, Form(world.topology()), 0);
+  if (!recording.edits.empty()) oracle.Begin(0, SceneRevision(world.topology()), 0);
   Outside outside(recording, scene);
   Change(outside.Take(0, world.scene()), 0, &world, &oracle);
   oracle.ticks.push_back(ReadAll(world));
@@ -162,11 +162,11 @@ Oracle ComputeOracle(const Recording& recording, int nudged_body, float nudge) {
   for (std::int64_t tick = 1; tick <= recording.last_tick; ++tick) {
     for (const auto& [player, ticks] : inputs) Apply(world, player, ticks, tick);
     world.Step();
-    const std::size_t eras = oracle.eras.size(), row = oracle.ticks.size();
-    Change(world.Wishes(), row, &world, &oracle);
+    const std::size_t spans = oracle.spans.size(), row = oracle.ticks.size();
+    Change(world.ProposeEdits(), row, &world, &oracle);
     Change(outside.Take(tick, world.scene()), row, &world, &oracle);
     kept += world.body_count();
-    if (oracle.eras.size() > eras) {
+    if (oracle.spans.size() > spans) {
       kept += static_cast<std::int64_t>(world.scene().parts.size());
     }
     RequireMemory(kept, recording);
@@ -193,19 +193,19 @@ Oracle OracleFromRecording(const Recording& recording, const Recording* measured
   const bool scene_known = !recording.room.scene_text.empty();
   const bool changes = !oracle.edits.empty() || (measured && !measured->edits.empty());
   std::optional<Scene> scene;
-  std::optional<Forms> forms;
+  std::optional<RevisionHistory> revisions;
   if (scene_known && changes) {
     scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
-    forms.emplace(*scene, recording);
+    revisions.emplace(*scene, recording);
   }
   const std::int64_t count = views->second.rbegin()->first - oracle.first_tick + 1;
   oracle.ticks.resize(static_cast<std::size_t>(count));
   int key = -1;
   for (const auto& [tick, view] : views->second) {
     const auto row = static_cast<std::size_t>(tick - oracle.first_tick);
-    if (forms && forms->Key(view.topology) != key) {
-      key = forms->Key(view.topology);
-      oracle.Begin(oracle.eras.empty() ? 0 : row, *forms->At(key), key);
+    if (revisions && revisions->Key(view.revision) != key) {
+      key = revisions->Key(view.revision);
+      oracle.Begin(oracle.spans.empty() ? 0 : row, *revisions->At(key), key);
     }
     const std::vector<PartId>& ids = oracle.IdsOf(row);
     if (view.id.size() != ids.size() || !std::equal(ids.begin(), ids.end(), view.id.begin())) {

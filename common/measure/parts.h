@@ -6,8 +6,8 @@
 #include <optional>
 #include <vector>
 
-#include "common/measure/forms.h"
 #include "common/measure/measure.h"
+#include "common/measure/revisions.h"
 #include "common/scene/assembly.h"
 
 namespace seam {
@@ -18,14 +18,14 @@ double TickSeconds(const Recording& recording);
 /// error.cpp: error_*, error_by_tick_m, error_rms_by_peer_m, compared.
 void MeasureError(const Recording& recording, const Oracle& oracle, Measures* measures);
 
-// `forms` below: nullptr where bodies never change.
+// `revisions` below: nullptr where bodies never change.
 
 /// smoothness.cpp: stutter_mps2 and backsteps.
-void MeasureSmoothness(const Recording& recording, const Oracle& oracle, const Forms* forms,
-                       Measures* measures);
+void MeasureSmoothness(const Recording& recording, const Oracle& oracle,
+                       const RevisionHistory* revisions, Measures* measures);
 
 /// seam.cpp: seam_rms_m and seam_stutter_mps2.
-void MeasureSeam(const Recording& recording, const Forms* forms, Measures* measures);
+void MeasureSeam(const Recording& recording, const RevisionHistory* revisions, Measures* measures);
 
 /// rebound.cpp: the share of the oracle's momentum transfer that a collision really transferred.
 /// `masses`: of the struck assemblies by id, kg. nullopt: no collision, or it was not recorded.
@@ -40,16 +40,17 @@ std::optional<double> RestJitter(const Recording& recording, const Oracle& oracl
 
 /// displayed.cpp: penetration_m, joint_drift_m, energy_gain_j, and the oracle's own of the first
 /// two.
-void MeasureDisplayed(const Recording& recording, const Oracle& oracle, const Forms& forms,
-                      Measures* measures);
+void MeasureDisplayed(const Recording& recording, const Oracle& oracle,
+                      const RevisionHistory& revisions, Measures* measures);
 
 /// changes.cpp: topology_lag_s, lost.
-void MeasureChanges(const Recording& recording, const Forms& forms, Measures* measures);
+void MeasureChanges(const Recording& recording, const RevisionHistory& revisions,
+                    Measures* measures);
 
 /// handover.cpp: handover_* and handovers. `mechanisms`: by assembly id, where bodies never change;
 /// a body that is not in it is a mechanism by itself.
 void MeasureHandover(const Recording& recording, const std::map<PartId, int>& mechanisms,
-                     Measures* measures, const Forms* forms = nullptr);
+                     Measures* measures, const RevisionHistory* revisions = nullptr);
 
 /// cost.cpp: bytes_per_s, sent_bytes_per_s and cpu_us_per_s.
 void MeasureCost(const Recording& recording, Measures* measures);

@@ -14,7 +14,7 @@ using Vec = Eigen::Vector2d;
 /// A collision begins when the struck momentum changes by this share of its peak in one tick.
 constexpr double kOnset = 0.05;
 /// Peaks below this are no collision, kg m/s.
-constexpr double kPeakLeast = 1e-6;
+constexpr double kPeakMin = 1e-6;
 /// The baseline is the mean over this long before it, s.
 constexpr double kBefore = 0.1;
 /// The transfer is read between these times after it, s: later than any correction of one round
@@ -70,7 +70,7 @@ std::optional<std::int64_t> Onset(const Oracle& oracle, const std::map<PartId, d
     const Momentum now = OfOracle(oracle, masses, tick);
     if (now) peak = std::max(peak, (*now - *start).norm());
   }
-  if (peak < kPeakLeast) return std::nullopt;
+  if (peak < kPeakMin) return std::nullopt;
   for (std::int64_t tick = begin; tick < end; ++tick) {
     const Momentum now = OfOracle(oracle, masses, tick);
     const Momentum before = OfOracle(oracle, masses, tick - 1);
@@ -111,7 +111,7 @@ std::optional<double> Rebound(const Recording& recording, const Oracle& oracle,
   if (!OfOracle(oracle, masses, *onset + ticks(kAfterEnd))) return std::nullopt;
   const Momentum due = transfer([&](std::int64_t tick) { return OfOracle(oracle, masses, tick); });
   const Momentum run = transfer([&](std::int64_t tick) { return OfRun(recording, masses, tick); });
-  if (!due || !run || due->squaredNorm() < kPeakLeast * kPeakLeast) return std::nullopt;
+  if (!due || !run || due->squaredNorm() < kPeakMin * kPeakMin) return std::nullopt;
   return run->dot(*due) / due->squaredNorm();
 }
 

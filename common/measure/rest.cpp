@@ -13,7 +13,7 @@ namespace {
 /// A body slower than this is at rest, m/s.
 constexpr float kRestSpeed = 0.01f;
 /// The oracle must have rested so long at the end for it to count as for good, s.
-constexpr double kRestLeast = 0.5;
+constexpr double kRestMin = 0.5;
 /// What comes late over a network still moves so long after the oracle: no tremble, s.
 constexpr double kSettle = 0.5;
 
@@ -43,7 +43,7 @@ std::vector<const View*> ViewsAt(const Recording& recording, std::int64_t tick) 
   return views;
 }
 
-/// The tick from which on the oracle rests to its end, if it does so for at least kRestLeast of the
+/// The tick from which on the oracle rests to its end, if it does so for at least kRestMin of the
 /// recording.
 std::optional<std::int64_t> OraclesRest(const Recording& recording, const Oracle& oracle) {
   std::int64_t rest = oracle.first_tick + static_cast<std::int64_t>(oracle.ticks.size());
@@ -52,7 +52,7 @@ std::optional<std::int64_t> OraclesRest(const Recording& recording, const Oracle
          AllSlow(oracle.ticks[static_cast<std::size_t>(rest - 1 - oracle.first_tick)])) {
     --rest;
   }
-  if (static_cast<double>(oracle_end - rest) * TickSeconds(recording) < kRestLeast) {
+  if (static_cast<double>(oracle_end - rest) * TickSeconds(recording) < kRestMin) {
     return std::nullopt;
   }
   return rest;

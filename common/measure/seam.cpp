@@ -18,13 +18,13 @@ const View* Find(const Views& views, std::int64_t tick) {
 /// Displayed minus the authority's.
 struct Distance {
   Eigen::Vector2d d{0, 0};             // m
-  int topology = 0, of_authority = 0;  // of the two views
+  int revision = 0, of_authority = 0;  // of the two views
 };
 
 /// nullopt when the peer has the authority itself, or the authority's view of the tick is missing
 /// or does not claim the body (where bodies change: the body that has the part).
 std::optional<Distance> Apart(const Recording& recording, int peer, const View& view, std::size_t i,
-                              const Forms* forms) {
+                              const RevisionHistory* revisions) {
   const int authority = view.authority[i];
   if (authority == peer) return std::nullopt;
   const auto views = recording.views.find(authority);
@@ -37,21 +37,21 @@ std::optional<Distance> Apart(const Recording& recording, int peer, const View& 
   if (k >= 0) {
     index = static_cast<std::size_t>(k);
     theirs = StateIn(*own, index);
-  } else if (forms != nullptr) {
-    theirs = forms->InView(*own, view.id[i], &index);
+  } else if (revisions != nullptr) {
+    theirs = revisions->InView(*own, view.id[i], &index);
   }
   if (!theirs || own->authority[index] != authority) return std::nullopt;
   return Distance{Eigen::Vector2d(double{view.x[i]} - double{theirs->position.x()},
                                   double{view.y[i]} - double{theirs->position.y()}),
-                  view.topology, own->topology};
+                  view.revision, own->revision};
 }
 
 std::optional<Distance> ApartAt(const Recording& recording, int peer, const Views& views,
-                                std::int64_t tick, PartId id, const Forms* forms) {
+                                std::int64_t tick, PartId id, const RevisionHistory* revisions) {
   const View* view = Find(views, tick);
   const int i = view == nullptr ? -1 : IndexOf(*view, id);
   if (i < 0) return std::nullopt;
-  return Apart(recording, peer, *view, static_cast<std::size_t>(i), forms);
+  return Apart(recording, peer, *view, static_cast<std::size_t>(i), revisions);
 }
 
 struct Mean {
@@ -69,22 +69,22 @@ struct Mean {
 
 }  // namespace
 
-void MeasureSeam(const Recording& recording, const Forms* forms, Measures* measures) {
+void MeasureSeam(const Recording& recording, const RevisionHistory* revisions, Measures* measures) {
   const double h = TickSeconds(recording);
   const auto same = [&](const Distance& a, const Distance& b, PartId id) {
-    return forms == nullptr || (forms->SameBody(a.topology, b.topology, id) &&
-                                forms->SameBody(a.of_authority, b.of_authority, id));
+    return revisions == nullptr || (revisions->SameBody(a.revision, b.revision, id) &&
+                                    revisions->SameBody(a.of_authority, b.of_authority, id));
   };
   Mean apart, jerk;
   for (const auto& [peer, views] : recording.views) {
     for (const auto& [tick, view] : views) {
       for (std::size_t i = 0; i < view.id.size(); ++i) {
-        const auto now = Apart(recording, peer, view, i, forms);
+        const auto now = Apart(recording, peer, view, i, revisions);
         if (!now) continue;
         apart.Add(now->d.squaredNorm());
         const PartId id = view.id[i];
-        const auto before = ApartAt(recording, peer, views, tick - 1, id, forms);
-        const auto earlier = ApartAt(recording, peer, views, tick - 2, id, forms);
+        const auto before = ApartAt(recording, peer, views, tick - 1, id, revisions);
+        const auto earlier = ApartAt(recording, peer, views, tick - 2, id, revisions);
         if (!before || !earlier) continue;
         if (!same(*now, *before, id) || !same(*before, *earlier, id)) continue;
         jerk.Add((now->d - 2 * before->d + earlier->d).squaredNorm() / (h * h * h * h));

@@ -8,9 +8,9 @@ namespace seam {
 namespace {
 
 /// Slower bodies have no direction to step against, m/s.
-constexpr double kSpeedLeast = 0.5;
+constexpr double kSpeedMin = 0.5;
 /// Shorter steps cannot be seen, m.
-constexpr double kStepLeast = 0.001;
+constexpr double kStepMin = 0.001;
 
 struct Point {
   double x = 0, y = 0;
@@ -26,8 +26,8 @@ Point At(const BodyState& state) { return {state.position.x(), state.position.y(
 /// Whether the move from `a` to `b` goes against the velocity.
 bool IsBackstep(const Point& a, const Point& b, double vx, double vy) {
   const double speed = std::hypot(vx, vy);
-  if (speed <= kSpeedLeast) return false;
-  return ((b.x - a.x) * vx + (b.y - a.y) * vy) / speed < -kStepLeast;
+  if (speed <= kSpeedMin) return false;
+  return ((b.x - a.x) * vx + (b.y - a.y) * vy) / speed < -kStepMin;
 }
 
 /// The view of `tick`, nullptr if there is none.
@@ -38,12 +38,12 @@ const View* Find(const std::map<std::int64_t, View>& views, std::int64_t tick) {
 
 }  // namespace
 
-void MeasureSmoothness(const Recording& recording, const Oracle& oracle, const Forms* forms,
-                       Measures* measures) {
+void MeasureSmoothness(const Recording& recording, const Oracle& oracle,
+                       const RevisionHistory* revisions, Measures* measures) {
   const double h = TickSeconds(recording);
   // What a body becomes part of moves otherwise than it did: no difference is taken across that.
   const auto same = [&](const View& now, const View& then, PartId id) {
-    if (forms != nullptr && !forms->SameBody(now.topology, then.topology, id)) return false;
+    if (revisions != nullptr && !revisions->SameBody(now.revision, then.revision, id)) return false;
     return oracle.SameBody(now.tick, then.tick, id);
   };
   double sum = 0;

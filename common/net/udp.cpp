@@ -1,17 +1,19 @@
 #include "common/net/udp.h"
 
+#include <algorithm>
+
 #include <arpa/inet.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
+
 #include <netdb.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
-
-#include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstring>
-#include <ctime>
 
 #include "common/base/check.h"
 
@@ -27,7 +29,7 @@ constexpr std::size_t kSlotBytes = kDatagramBytesMax + 1;
 /// Pending socket errors (an ICMP for an earlier send) passed over in one Receive.
 constexpr int kErrorsPassedOver = 8;
 /// Datagrams of a wrong size left out in one Receive, so that a flood of them cannot hold it.
-constexpr int kDiscardsMost = 1024;
+constexpr int kDiscardsMax = 1024;
 
 sockaddr_in ToSockaddr(const Address& address) {
   sockaddr_in out{};
@@ -201,7 +203,7 @@ void UdpNet::Flush() {
 }
 
 bool UdpNet::Receive(Address* from, Bytes* datagram) {
-  for (int discards = 0; discards < kDiscardsMost; ++discards) {
+  for (int discards = 0; discards < kDiscardsMax; ++discards) {
     if (impl_->in_next == impl_->in_count && !impl_->Fetch()) return false;
     const unsigned slot = impl_->in_next++;
     const std::size_t bytes = impl_->in.headers[slot].msg_len;

@@ -35,7 +35,7 @@ std::int64_t History::newest() const { return count_ == 0 ? -1 : newest_; }
 std::int64_t History::oldest() const { return count_ == 0 ? -1 : newest_ - count_ + 1; }
 void History::Clear() { count_ = 0; }
 
-void History::Recompose(const std::vector<BodyOrigin>& origins, const std::vector<BodyState>& now) {
+void History::Remap(const std::vector<BodyOrigin>& origins, const std::vector<BodyState>& now) {
   SEAM_ASSERT(origins.size() == now.size());
   const int bodies = static_cast<int>(origins.size());
   std::vector<BodyState> ring(static_cast<std::size_t>(bodies) *

@@ -25,7 +25,7 @@ class History {
   void Clear();
   /// The bodies are others now: each one's past is that of where it came from, moved rigidly; of
   /// what is new there is none, and `now` fills its place.
-  void Recompose(const std::vector<BodyOrigin>& origins, const std::vector<BodyState>& now);
+  void Remap(const std::vector<BodyOrigin>& origins, const std::vector<BodyState>& now);
 
  private:
   int bodies_ = 0;

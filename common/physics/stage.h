@@ -55,7 +55,7 @@ class Stage {
 
   /// After AfterTick: adds what this stage finds should change (a bond breaks, parts join). Whoever
   /// has authority proposes it; nothing has changed yet.
-  virtual void Wishes(std::vector<Edit>* /*edits*/) {}
+  virtual void ProposeEdits(std::vector<Edit>* /*edits*/) {}
   /// An edit was applied (after Rebuilt, if bodies changed).
   virtual void Edited(const Edit& /*edit*/) {}
 

@@ -75,7 +75,7 @@ void World::SetAwake(int body, bool awake) { impl_->moving(body).body->SetAwake(
 void World::SetMotion(int body, Motion motion) {
   if (this->motion(body) == motion) return;  // a change would destroy the contacts
   touches();                                 // as they are after the last tick
-  blocks();
+  blocked_directions();
   const MovingBody& m = impl_->moving(body);
   const b2Vec2 origin_velocity = m.body->GetLinearVelocityFromLocalPoint(b2Vec2(0, 0));
   if (motion == Motion::kKinematic) {
@@ -137,12 +137,12 @@ void World::Step() {
   for (const auto& stage : w.stages) stage->AfterTick();
   w.impacts = w.meter.Impacts(w.built.moving);
   w.touches.reset();
-  w.blocks.reset();
+  w.blocked_directions.reset();
 }
 
-std::vector<Edit> World::Wishes() const {
+std::vector<Edit> World::ProposeEdits() const {
   std::vector<Edit> edits;
-  for (const auto& stage : impl_->stages) stage->Wishes(&edits);
+  for (const auto& stage : impl_->stages) stage->ProposeEdits(&edits);
   return edits;
 }
 
@@ -155,9 +155,10 @@ const std::vector<Touch>& World::touches() const {
 
 std::vector<PartTouch> World::PartTouches() const { return FindPartTouches(*impl_->world); }
 
-const std::vector<Block>& World::blocks() const {
-  if (!impl_->blocks) impl_->blocks = FindBlocks(*impl_->world, impl_->built.tethers);
-  return *impl_->blocks;
+const std::vector<BlockedDirection>& World::blocked_directions() const {
+  if (!impl_->blocked_directions)
+    impl_->blocked_directions = FindBlockedDirections(*impl_->world, impl_->built.tethers);
+  return *impl_->blocked_directions;
 }
 
 std::uint64_t World::Hash() const {

@@ -33,7 +33,7 @@ struct PartTouch {
 
 /// A direction in which something anchored holds a body back: a contact's normal, or the line of a
 /// distance joint to an anchor.
-struct Block {
+struct BlockedDirection {
   int body = -1;
   Vec2 normal{0, 1};  ///< unit
 };
@@ -105,9 +105,9 @@ class World {
   /// Applies edits in their order. Where they change who is one body with whom, the bodies
   /// concerned are made anew: momentum, angular momentum and contacts carry over.
   /// nullopt: all bodies and joints are what they were.
-  std::optional<Recomposition> Apply(const std::vector<Edit>& edits);
-  /// What the last tick gives reason to change; see Stage::Wishes. Nothing has changed yet.
-  std::vector<Edit> Wishes() const;
+  std::optional<BodyRemap> Apply(const std::vector<Edit>& edits);
+  /// What the last tick gives reason to change; see Stage::ProposeEdits. Nothing has changed yet.
+  std::vector<Edit> ProposeEdits() const;
 
   /// Advances by one tick.
   void Step();
@@ -120,7 +120,7 @@ class World {
   std::vector<PartTouch> PartTouches() const;
 
   /// After the last tick, ascending by body; at most two per body.
-  const std::vector<Block>& blocks() const;
+  const std::vector<BlockedDirection>& blocked_directions() const;
 
   /// Rebuilds the world, so that nothing is left in it of how it came to its state, and returns
   /// that state. Bodies, motions and motors stay; impulses of contacts and joints are carried over.

@@ -28,14 +28,15 @@ constexpr float kSameDirection = 0.9f;
 /// A rope this much shorter than it may be is still taut, m.
 constexpr float kTaut = 0.01f;
 
-void AddBlock(int body, const Vec2& normal, std::vector<Block>* blocks) {
+void AddBlockedDirection(int body, const Vec2& normal,
+                         std::vector<BlockedDirection>* blocked_directions) {
   int known = 0;
-  for (const Block& block : *blocks) {
-    if (block.body != body) continue;
-    if (std::fabs(block.normal.dot(normal)) > kSameDirection) return;
+  for (const BlockedDirection& blocked : *blocked_directions) {
+    if (blocked.body != body) continue;
+    if (std::fabs(blocked.normal.dot(normal)) > kSameDirection) return;
     ++known;
   }
-  if (known < 2) blocks->push_back({body, normal});
+  if (known < 2) blocked_directions->push_back({body, normal});
 }
 
 }  // namespace
@@ -110,14 +111,15 @@ std::vector<PartTouch> FindPartTouches(const b2World& world) {
   return touches;
 }
 
-std::vector<Block> FindBlocks(const b2World& world, const std::vector<b2DistanceJoint*>& tethers) {
-  std::vector<Block> blocks;
+std::vector<BlockedDirection> FindBlockedDirections(const b2World& world,
+                                                    const std::vector<b2DistanceJoint*>& tethers) {
+  std::vector<BlockedDirection> blocked_directions;
   for (const b2Contact* c = world.GetContactList(); c != nullptr; c = c->GetNext()) {
     const std::pair<int, int> pair = PairOf(c);
     if (!Touching(c) || pair.first >= 0 || pair.second < 0) continue;
     b2WorldManifold manifold;
     c->GetWorldManifold(&manifold);
-    AddBlock(pair.second, FromB2(manifold.normal), &blocks);
+    AddBlockedDirection(pair.second, FromB2(manifold.normal), &blocked_directions);
   }
   for (b2DistanceJoint* tether : tethers) {
     const Vec2 along = FromB2(tether->GetAnchorB() - tether->GetAnchorA());
@@ -126,11 +128,12 @@ std::vector<Block> FindBlocks(const b2World& world, const std::vector<b2Distance
         tether->GetMinLength() < tether->GetMaxLength() && length < tether->GetMaxLength() - kTaut;
     if (length <= 0 || slack) continue;
     const int body = std::max(IndexOf(tether->GetBodyA()), IndexOf(tether->GetBodyB()));
-    AddBlock(body, along / length, &blocks);
+    AddBlockedDirection(body, along / length, &blocked_directions);
   }
-  std::stable_sort(blocks.begin(), blocks.end(),
-                   [](const Block& x, const Block& y) { return x.body < y.body; });
-  return blocks;
+  std::stable_sort(
+      blocked_directions.begin(), blocked_directions.end(),
+      [](const BlockedDirection& x, const BlockedDirection& y) { return x.body < y.body; });
+  return blocked_directions;
 }
 
 }  // namespace seam

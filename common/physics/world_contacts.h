@@ -1,5 +1,5 @@
 #pragma once
-/// What a tick's contacts did: impacts, touches, and what anchored things block.
+/// What a tick's contacts did: impacts, touches, and what anchored things blocked.
 
 #include <vector>
 
@@ -43,6 +43,7 @@ std::vector<Touch> FindTouches(const b2World& world);
 std::vector<PartTouch> FindPartTouches(const b2World& world);
 
 /// At most two directions for each body, ascending by body.
-std::vector<Block> FindBlocks(const b2World& world, const std::vector<b2DistanceJoint*>& tethers);
+std::vector<BlockedDirection> FindBlockedDirections(const b2World& world,
+                                                    const std::vector<b2DistanceJoint*>& tethers);
 
 }  // namespace seam

@@ -1,9 +1,10 @@
 #pragma once
 /// What a World is made of; for its own files.
 
+#include <algorithm>
+
 #include <box2d/box2d.h>
 
-#include <algorithm>
 #include <cfloat>
 #include <optional>
 #include <vector>
@@ -97,7 +98,7 @@ struct World::Impl {
   std::vector<Impact> impacts;
   // Looked up when asked for: a world that nobody asks pays nothing.
   std::optional<std::vector<Touch>> touches;
-  std::optional<std::vector<Block>> blocks;
+  std::optional<std::vector<BlockedDirection>> blocked_directions;
 };
 
 }  // namespace seam

@@ -11,9 +11,9 @@ namespace seam {
 namespace {
 
 /// Edges shorter than this are not moved in: the engine merges points at 2.5 mm. m
-constexpr float kEdgeLeast = 0.01f;
+constexpr float kEdgeMin = 0.01f;
 /// A sharp corner's point moves in by at most this many times its edges' distance.
-constexpr float kMiterMost = 5;
+constexpr float kMiterMax = 5;
 
 b2Vec2 InRoot(const Part& part, const Part& root, const Vec2& point) {
   return ToB2(ToRootFrame(part, root, point.cast<double>()).cast<float>());
@@ -27,7 +27,7 @@ std::vector<b2Vec2> PointsInRoot(const Part& part, const Part& root) {
 
 /// Where a corner of two edges with these outward normals goes when both move in by `depth`.
 b2Vec2 MovedIn(const b2Vec2& corner, const b2Vec2& before, const b2Vec2& after, float depth) {
-  const float share = std::min(kMiterMost, 1 / std::max(1e-3f, 1 + b2Dot(before, after)));
+  const float share = std::min(kMiterMax, 1 / std::max(1e-3f, 1 + b2Dot(before, after)));
   return corner - depth * share * (before + after);
 }
 
@@ -43,7 +43,7 @@ bool MoveIn(float depth, b2PolygonShape* polygon) {
     const b2Vec2 edge =
         points[static_cast<std::size_t>((i + 1) % count)] - points[static_cast<std::size_t>(i)];
     const b2Vec2 was = polygon->m_vertices[(i + 1) % count] - polygon->m_vertices[i];
-    if (b2Dot(edge, was) <= 0 || edge.Length() < kEdgeLeast) return false;
+    if (b2Dot(edge, was) <= 0 || edge.Length() < kEdgeMin) return false;
   }
   polygon->Set(points.data(), count);
   return true;

@@ -196,7 +196,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<bool>
   SEAM_ASSERT(taken == snapshot.stages.size());
   meter.Clear();
   touches.reset();
-  blocks.reset();
+  blocked_directions.reset();
 }
 
 WorldSnapshot World::Barrier() {

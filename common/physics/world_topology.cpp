@@ -194,7 +194,7 @@ BodyState Carried(const BodyOrigin& origin, const BodyState& before) {
   return now;
 }
 
-std::optional<Recomposition> World::Apply(const std::vector<Edit>& edits) {
+std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
   Impl& w = *impl_;
   const std::uint64_t hash = w.composition.hash;
   const std::size_t joints_before = w.scene.joints.size();
@@ -211,7 +211,7 @@ std::optional<Recomposition> World::Apply(const std::vector<Edit>& edits) {
   for (std::size_t j = 0; j < joints_before; ++j) {
     changed = changed || (held[j] && w.scene.joints[j].gone);
   }
-  std::optional<Recomposition> out;
+  std::optional<BodyRemap> out;
   if (changed) {
     out.emplace();
     WorldSnapshot snapshot;

@@ -6,7 +6,7 @@ namespace seam {
 namespace {
 
 /// Bus messages taken per Poll, so that a flood cannot hold up the simulation.
-constexpr int kPollsMost = 64;
+constexpr int kPollsMax = 64;
 
 }  // namespace
 
@@ -52,7 +52,7 @@ void Sink::Flush() {
 
 void Sink::Poll() {
   if (!record_path_.empty() && bus_ != nullptr) {
-    for (int n = 0; n < kPollsMost; ++n) bus_->Poll(0);
+    for (int n = 0; n < kPollsMax; ++n) bus_->Poll(0);
   }
 }
 

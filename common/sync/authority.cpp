@@ -14,24 +14,25 @@ constexpr std::size_t kGrantsPerMessage = 100;
 
 AuthorityTable::AuthorityTable(const Composition& composition) {
   for (const Mechanism& m : composition.mechanisms) ids_.push_back(m.id);
-  holdings_.resize(ids_.size());
+  records_.resize(ids_.size());
 }
 
-void AuthorityTable::Set(int mechanism, const Holding& holding) {
-  SEAM_ASSERT(holding.epoch >= at(mechanism).epoch);
-  holdings_[static_cast<std::size_t>(mechanism)] = holding;
+void AuthorityTable::Set(int mechanism, const AuthorityRecord& record) {
+  SEAM_ASSERT(record.epoch >= at(mechanism).epoch);
+  records_[static_cast<std::size_t>(mechanism)] = record;
 }
 
-void AuthorityTable::Recompose(const Composition& composition,
-                               const std::vector<std::vector<int>>& from, const Holding& fresh) {
+void AuthorityTable::Remap(const Composition& composition,
+                           const std::vector<std::vector<int>>& from,
+                           const AuthorityRecord& fresh) {
   SEAM_ASSERT(from.size() == composition.mechanisms.size());
-  std::vector<Holding> holdings;
+  std::vector<AuthorityRecord> records;
   ids_.clear();
   for (std::size_t m = 0; m < from.size(); ++m) {
     ids_.push_back(composition.mechanisms[m].id);
-    Holding h = fresh;
+    AuthorityRecord h = fresh;
     for (std::size_t i = 0; i < from[m].size(); ++i) {
-      const Holding& then = at(from[m][i]);
+      const AuthorityRecord& then = at(from[m][i]);
       if (i == 0) {
         h = then;
         continue;
@@ -43,9 +44,9 @@ void AuthorityTable::Recompose(const Composition& composition,
       h.epoch += 1;
       h.secondaries &= ~(std::uint32_t{1} << h.authority);
     }
-    holdings.push_back(h);
+    records.push_back(h);
   }
-  holdings_ = std::move(holdings);
+  records_ = std::move(records);
 }
 
 std::vector<int> AuthorityTable::Apply(const Grants& grants) {
@@ -54,11 +55,11 @@ std::vector<int> AuthorityTable::Apply(const Grants& grants) {
     const auto found = std::lower_bound(ids_.begin(), ids_.end(), grants.mechanism[i]);
     if (found == ids_.end() || *found != grants.mechanism[i]) continue;
     const auto index = static_cast<std::size_t>(found - ids_.begin());
-    Holding next;
+    AuthorityRecord next;
     next.authority = grants.authority[i];
     next.epoch = grants.epoch[i];
     next.secondaries = static_cast<std::uint32_t>(grants.secondaries[i]);
-    Holding& now = holdings_[index];
+    AuthorityRecord& now = records_[index];
     if (next.epoch < now.epoch) continue;
     if (next.authority == now.authority && next.epoch == now.epoch &&
         next.secondaries == now.secondaries) {

@@ -10,7 +10,7 @@
 
 namespace seam {
 
-struct Holding {
+struct AuthorityRecord {
   int authority = 0;
   int epoch = 0;
   std::uint32_t secondaries = 0;  ///< bit p: peer p is secondary
@@ -21,16 +21,18 @@ class AuthorityTable {
  public:
   explicit AuthorityTable(const Composition& composition);
 
-  int count() const { return static_cast<int>(holdings_.size()); }
-  const Holding& at(int mechanism) const { return holdings_[static_cast<std::size_t>(mechanism)]; }
+  int count() const { return static_cast<int>(records_.size()); }
+  const AuthorityRecord& at(int mechanism) const {
+    return records_[static_cast<std::size_t>(mechanism)];
+  }
   PartId id(int mechanism) const { return ids_[static_cast<std::size_t>(mechanism)]; }
 
   /// Sets one entry (the server plans with this).
-  void Set(int mechanism, const Holding& holding);
+  void Set(int mechanism, const AuthorityRecord& record);
   /// The mechanisms are others now. Each takes what the first of those it comes from had, or
   /// `fresh` if it is new; of several the highest epoch, one on: earlier states are of others.
-  void Recompose(const Composition& composition, const std::vector<std::vector<int>>& from,
-                 const Holding& fresh);
+  void Remap(const Composition& composition, const std::vector<std::vector<int>>& from,
+             const AuthorityRecord& fresh);
   /// Takes over a message; unknown mechanisms and older epochs are ignored. Returns the indices of
   /// the mechanisms whose entry changed.
   std::vector<int> Apply(const Grants& grants);
@@ -39,7 +41,7 @@ class AuthorityTable {
                              const std::vector<int>& mechanisms) const;
 
  private:
-  std::vector<Holding> holdings_;
+  std::vector<AuthorityRecord> records_;
   std::vector<PartId> ids_;
 };
 

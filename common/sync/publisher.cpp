@@ -41,7 +41,7 @@ void Publisher::Publish(const View& message) {
     piece.utime = message.utime;
     piece.peer = message.peer;
     piece.tick = message.tick;
-    piece.topology = message.topology;
+    piece.revision = message.revision;
     piece.part = static_cast<std::int32_t>(part);
     piece.parts = static_cast<std::int32_t>(parts);
     piece.id = Slice(message.id, a, b);

@@ -55,7 +55,7 @@ void Replica::StartAt(std::int64_t tick) {
 }
 
 std::int8_t Replica::RoleOf(int mechanism) const {
-  const Holding& h = table_.at(mechanism);
+  const AuthorityRecord& h = table_.at(mechanism);
   if (config_.mode == Mode::kOracle) return self_ == 0 ? kRoleAuthority : kRoleSecondary;
   if (h.authority == self_) return kRoleAuthority;
   if (config_.mode == Mode::kCentral) {
@@ -94,7 +94,7 @@ void Replica::RolesChanged() {
     // What was only displayed had the velocity of its display, not of a body: start from the
     // authority's.
     const BodyState before = world_.Read(body);
-    BodyState state = snapshots_.Extrapolate(body, tick(), world_.dt(), kReckonMost);
+    BodyState state = snapshots_.Extrapolate(body, tick(), world_.dt(), kReckonMax);
     state.angle = before.angle + std::remainder(state.angle - before.angle, 6.2831853f);
     world_.Write(body, state);
     smoother_.Moved(body, Minus(state, before));
@@ -105,7 +105,7 @@ void Replica::RolesChanged() {
 
 void Replica::ReleaseAll() {
   for (int m = 0; m < table_.count(); ++m) {
-    Holding h = table_.at(m);
+    AuthorityRecord h = table_.at(m);
     if (h.authority != self_) continue;
     h.authority = 0;
     table_.Set(m, h);

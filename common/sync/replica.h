@@ -52,7 +52,7 @@ class Replica {
   /// Applies the next that is queued. What became of the bodies; nullopt: they are what they were.
   /// One by one everywhere: each merger makes a new epoch, and who applied two at once would be an
   /// epoch behind for ever. Requires has_queued().
-  std::optional<Recomposition> ApplyNextEdit();
+  std::optional<BodyRemap> ApplyNextEdit();
   void ApplyEdits();  ///< all that is queued
   /// What this peer, as the authority of the bodies concerned, found that should change; in mode
   /// oracle all that physics finds.
@@ -61,7 +61,7 @@ class Replica {
   bool SameBody(int body, int edits) const {
     return changed_at_[static_cast<std::size_t>(body)] <= edits;
   }
-  int topology() const { return world_.topology().edits(); }
+  int revision() const { return world_.topology().revision(); }
 
   /// Follows the server's word. Returns the mechanisms whose authority changed hands.
   std::vector<int> ApplyGrants(const Grants& grants);
@@ -133,7 +133,7 @@ class Replica {
   void Resimulate();
   void RecordHistory();
   void NoteProposals();
-  void Recompose(const Recomposition& change);
+  void Remap(const BodyRemap& change);
   std::vector<PackedBody> ChooseBodies();
   States Header() const;
   bool Simulated(int mechanism) const;
@@ -182,7 +182,7 @@ class Replica {
 
 /// Dead reckoning beyond the buffer zone goes no further than this, s. Shorter than the age of what
 /// is heard, and a fast body stops and jumps; longer shows more of what is not so.
-constexpr float kReckonMost = 1.0f;
+constexpr float kReckonMax = 1.0f;
 
 /// A change of velocity that counts as a major impact for `fade`, m/s. A driven wheel feels up to
 /// 2.6 m/s from the ground in every tick: lower lets it count as colliding all the time; higher

@@ -8,7 +8,7 @@ namespace seam {
 namespace {
 
 /// Kinematic bodies are not made to spin faster than this, rad/s: the engine clamps at 94.
-constexpr float kSpinDrivenMost = 90.0f;
+constexpr float kSpinDrivenMax = 90.0f;
 /// A turn of more than this within a tick is taken for a fast wheel's, whose angle nobody follows.
 constexpr float kTurnSeen = 0.5f;
 
@@ -49,7 +49,7 @@ BodyState Replica::AlongSnapshots(int body, const BodyState& target, BodyState s
   // A fast wheel turns by more than the wire's angle can tell: it spins as it should and its
   // angle is placed.
   const float turn = TurnTo(state.angle, target.angle);
-  const bool fast = std::fabs(turn) > kSpinDrivenMost * world_.dt();
+  const bool fast = std::fabs(turn) > kSpinDrivenMax * world_.dt();
   state.spin = fast ? target.spin : turn / world_.dt();
   if (fast) state.angle += turn - target.spin * world_.dt();
   return state;
@@ -58,8 +58,8 @@ BodyState Replica::AlongSnapshots(int body, const BodyState& target, BodyState s
 /// In the present, by dead reckoning: each message begins another path. The body is placed on it
 /// and moves with the path's velocity, not with that of the jump; the view glides over.
 BodyState Replica::AlongReckoned(int body, std::int64_t next, BodyState state) {
-  const BodyState here = snapshots_.Extrapolate(body, next - 1, world_.dt(), kReckonMost);
-  const BodyState there = snapshots_.Extrapolate(body, next, world_.dt(), kReckonMost);
+  const BodyState here = snapshots_.Extrapolate(body, next - 1, world_.dt(), kReckonMax);
+  const BodyState there = snapshots_.Extrapolate(body, next, world_.dt(), kReckonMax);
   BodyState along = here;
   along.angle = state.angle + TurnTo(state.angle, here.angle);
   along.velocity = (there.position - here.position) / world_.dt();

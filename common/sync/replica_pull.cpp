@@ -8,14 +8,14 @@ namespace {
 
 /// The authority's state is moved on by this at most, s (BeamMP's). Farther, a car that braked is
 /// looked for in the next street.
-constexpr float kPullReckonMost = 0.3f;
+constexpr float kPullReckonMax = 0.3f;
 /// Bodies stay coupled for this long after they last touched, s: contact flickers.
 constexpr float kCoupledHold = 0.25f;
 
 }  // namespace
 
 BodyState Replica::PullTarget(int body, std::int64_t at) const {
-  BodyState target = snapshots_.Extrapolate(body, at, world_.dt(), kPullReckonMost);
+  BodyState target = snapshots_.Extrapolate(body, at, world_.dt(), kPullReckonMax);
   target.angle = Unwrapped(target.angle, world_.Read(body).angle);
   return target;
 }

@@ -11,8 +11,8 @@ namespace seam {
 namespace {
 
 /// States of ticks still to come that may wait; a hostile peer could send many.
-constexpr std::size_t kEarlyMost = 64;
-constexpr std::int64_t kEarlyTicksMost = 120;
+constexpr std::size_t kEarlyMax = 64;
+constexpr std::int64_t kEarlyTicksMax = 120;
 /// A copy slower than this may be taken to its authority's pose of rest at once, m/s and rad/s.
 constexpr float kQuiet = 0.1f;
 /// The same collision happens a tick or two apart at two peers. In between their velocities differ
@@ -27,9 +27,9 @@ constexpr float kOtherImpact = 1;
 Replica::Received Replica::Receive(const States& states) {
   ApplyEdits();
   Received result;
-  if (states.tick > tick() || states.topology > topology()) {  // of what is still to come here
-    if (early_.size() < kEarlyMost && states.tick <= tick() + kEarlyTicksMost &&
-        states.tick > tick() - kEarlyTicksMost) {
+  if (states.tick > tick() || states.revision > revision()) {  // of what is still to come here
+    if (early_.size() < kEarlyMax && states.tick <= tick() + kEarlyTicksMax &&
+        states.tick > tick() - kEarlyTicksMax) {
       early_.push_back(states);
       result.used = static_cast<int>(states.id.size());
     } else {
@@ -46,18 +46,18 @@ Replica::Received Replica::Receive(const States& states) {
       ++result.unknown;
       continue;
     }
-    if (states.topology < changed_at_[static_cast<std::size_t>(body)]) {
+    if (states.revision < changed_at_[static_cast<std::size_t>(body)]) {
       ++result.stale;  // of another body of the same root
       continue;
     }
     const int mechanism = world_.mechanism(body);
-    const Holding& holding = table_.at(mechanism);
+    const AuthorityRecord& record = table_.at(mechanism);
     const bool placed = placed_[static_cast<std::size_t>(body)];
-    if (placed && (holding.authority == self_ || states.peer == self_)) {
+    if (placed && (record.authority == self_ || states.peer == self_)) {
       ++result.unknown;
       continue;
     }
-    if (states.epoch[i] < holding.epoch ||
+    if (states.epoch[i] < record.epoch ||
         states.tick <= heard_tick_[static_cast<std::size_t>(body)]) {
       ++result.stale;
       continue;
@@ -187,10 +187,11 @@ void Replica::Correct(int body, const States& states, std::size_t i, const BodyS
   in.common = common;
   in.alone =
       world_.composition().mechanisms[static_cast<std::size_t>(mechanism)].assemblies.size() == 1;
-  for (const Block& block : world_.blocks()) {
-    if (world_.mechanism(block.body) != mechanism || in.block_count == 2) continue;
-    const bool known = in.block_count == 1 && std::fabs(block.normal.dot(in.blocks[0])) > 0.9f;
-    if (!known) in.blocks[in.block_count++] = block.normal;
+  for (const BlockedDirection& blocked : world_.blocked_directions()) {
+    if (world_.mechanism(blocked.body) != mechanism || in.blocked_count == 2) continue;
+    const bool known =
+        in.blocked_count == 1 && std::fabs(blocked.normal.dot(in.blocked_directions[0])) > 0.9f;
+    if (!known) in.blocked_directions[in.blocked_count++] = blocked.normal;
   }
   const Correction c = config_.reconcile(in);
   if (Negligible(c.now)) {

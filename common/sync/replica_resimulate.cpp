@@ -20,7 +20,7 @@ namespace {
 
 /// Most ticks that are stepped again, 1 s at 60 Hz: a message that was longer under way is not
 /// worth it. Less than the history.
-constexpr std::int64_t kReplayMost = 60;
+constexpr std::int64_t kReplayMax = 60;
 /// Of the difference, where bodies of several authorities press against each other. All of it
 /// doubles the error of a shoved stack; much less is no longer a correction.
 constexpr float kPressedShare = 0.3f;
@@ -45,7 +45,7 @@ bool Replica::ReplayFrom(int body, std::int64_t tick) {
 void Replica::TakeBarrier() {
   if (tick() % config_.send_every() != 0) return;
   barriers_.push_back(world_.Barrier());
-  while (barriers_.front().tick < tick() - kReplayMost) barriers_.pop_front();
+  while (barriers_.front().tick < tick() - kReplayMax) barriers_.pop_front();
   while (!acted_.empty() && acted_.front().tick < barriers_.front().tick) acted_.pop_front();
 }
 

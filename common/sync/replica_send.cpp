@@ -24,7 +24,7 @@ States Replica::Header() const {
   States header;
   header.peer = self_;
   header.tick = tick();
-  header.topology = topology();
+  header.revision = revision();
   header.composition = static_cast<std::int64_t>(world_.composition().hash);
   return header;
 }
@@ -106,7 +106,7 @@ View Replica::MakeView() const {
   View view;
   view.peer = self_;
   view.tick = tick();
-  view.topology = topology();
+  view.revision = revision();
   for (int body = 0; body < world_.body_count(); ++body) {
     const int m = world_.mechanism(body);
     const BodyState s = world_.Read(body);

@@ -13,7 +13,7 @@ namespace {
 /// A proposal that nothing came of is made again after this, s.
 constexpr double kProposeAgain = 0.5;
 /// Proposals that are remembered.
-constexpr std::size_t kProposedMost = 4096;
+constexpr std::size_t kProposedMax = 4096;
 
 /// values[i] of the body that body i comes from, or `fresh`.
 template <typename T>
@@ -28,7 +28,7 @@ void Carry(const std::vector<BodyOrigin>& origins, const T& fresh, std::vector<T
 }  // namespace
 
 bool Replica::Queue(const EditOrder& order) {
-  if (order.number != topology() + static_cast<int>(queued_.size())) return false;
+  if (order.number != revision() + static_cast<int>(queued_.size())) return false;
   queued_.push_back(ToEdit(order));
   return true;
 }
@@ -37,15 +37,15 @@ void Replica::ApplyEdits() {
   while (has_queued()) ApplyNextEdit();
 }
 
-std::optional<Recomposition> Replica::ApplyNextEdit() {
+std::optional<BodyRemap> Replica::ApplyNextEdit() {
   const Edit edit = queued_.front();
   queued_.erase(queued_.begin());
-  std::optional<Recomposition> change = world_.Apply({edit});
-  if (change) Recompose(*change);
+  std::optional<BodyRemap> change = world_.Apply({edit});
+  if (change) Remap(*change);
   return change;
 }
 
-void Replica::Recompose(const Recomposition& change) {
+void Replica::Remap(const BodyRemap& change) {
   const std::vector<BodyOrigin>& bodies = change.bodies;
   std::vector<BodyState> now;
   std::vector<int> from;
@@ -53,21 +53,21 @@ void Replica::Recompose(const Recomposition& change) {
     now.push_back(world_.Read(body));
     from.push_back(bodies[static_cast<std::size_t>(body)].body);
   }
-  history_.Recompose(bodies, now);
-  snapshots_.Recompose(bodies);
-  smoother_.Recompose(from);
+  history_.Remap(bodies, now);
+  snapshots_.Remap(bodies);
+  smoother_.Remap(from);
   Carry<std::int64_t>(bodies, -1000000, &last_impact_tick_);
   Carry<std::int64_t>(bodies, -1, &heard_tick_);
   Carry<std::int64_t>(bodies, tick(), &dynamic_since_);
   Carry<float>(bodies, 0, &priority_);
   Carry<std::int64_t>(bodies, -1, &asleep_since_);
-  Carry<int>(bodies, topology(), &changed_at_);
+  Carry<int>(bodies, revision(), &changed_at_);
   if (config_.pull != nullptr) Carry(bodies, Pull{}, &pulls_);
   std::vector<bool> placed;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
     placed.push_back(bodies[i].body < 0 || placed_[static_cast<std::size_t>(bodies[i].body)]);
     if (bodies[i].same) continue;
-    changed_at_[i] = topology();
+    changed_at_[i] = revision();
     // Ours now and theirs then were other bodies: nothing to compare until both are the same.
     dynamic_since_[i] = tick();
     if (config_.pull != nullptr) pulls_[i] = Pull{};
@@ -85,9 +85,9 @@ void Replica::Recompose(const Recomposition& change) {
     coupled.push_back(last);
   }
   last_coupled_tick_ = coupled;
-  Holding fresh;
+  AuthorityRecord fresh;
   fresh.secondaries = config_.mode == Mode::kBuffer ? 1 : 0;
-  table_.Recompose(world_.composition(), change.mechanisms, fresh);
+  table_.Remap(world_.composition(), change.mechanisms, fresh);
   barriers_.clear();  // of other bodies
   replay_from_ = -1;
   pressed_.clear();
@@ -95,7 +95,7 @@ void Replica::Recompose(const Recomposition& change) {
 }
 
 void Replica::NoteProposals() {
-  for (Edit& edit : world_.Wishes()) {
+  for (Edit& edit : world_.ProposeEdits()) {
     const std::vector<PartId> parts = world_.topology().PartsOf(edit);
     if (config_.mode != Mode::kOracle) {
       bool mine = false;
@@ -112,7 +112,7 @@ void Replica::NoteProposals() {
     const auto again = static_cast<std::int64_t>(kProposeAgain * config_.tick_hz);
     const auto said = proposed_.find(key);
     if (said != proposed_.end() && tick() - said->second < again) continue;
-    if (proposed_.size() > kProposedMost) proposed_.clear();
+    if (proposed_.size() > kProposedMax) proposed_.clear();
     proposed_[key] = tick();
     proposals_.push_back(std::move(edit));
   }

@@ -35,7 +35,7 @@ void Return(float dt, T* offset, T* velocity) {
 Smoother::Smoother(int body_count, bool enabled)
     : enabled_(enabled), offsets_(static_cast<std::size_t>(body_count)) {}
 
-void Smoother::Recompose(const std::vector<int>& origins) {
+void Smoother::Remap(const std::vector<int>& origins) {
   std::vector<Offset> offsets;
   for (const int from : origins) {
     offsets.push_back(from < 0 ? Offset{} : offsets_[static_cast<std::size_t>(from)]);

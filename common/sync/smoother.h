@@ -25,7 +25,7 @@ class Smoother {
   void Advance(int body, float dt, float speed);
 
   /// The bodies are others now; origins[i] is the body before that body i comes from, -1 for none.
-  void Recompose(const std::vector<int>& origins);
+  void Remap(const std::vector<int>& origins);
 
   const Vec2& offset(int body) const;
   float angle_offset(int body) const;

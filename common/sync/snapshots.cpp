@@ -11,7 +11,7 @@ namespace {
 
 /// Acceleration between the last two states is thought to go on for kAccelerationLasts, unless it
 /// is larger than gravity, brakes and drag make it, or the two are far apart. s, m/s^2, s
-constexpr float kAccelerationLasts = 0.3f, kAccelerationMost = 30, kAccelerationSpan = 0.5f;
+constexpr float kAccelerationLasts = 0.3f, kAccelerationMax = 30, kAccelerationSpan = 0.5f;
 constexpr std::size_t kKeep = 64;      // states per body: about a second
 constexpr std::size_t kAges = 90;      // arrivals looked at for the delay
 constexpr double kSlewPerTick = 0.02;  // ticks of delay per tick: 2 % slower or faster
@@ -27,7 +27,7 @@ void Snapshots::Add(int body, std::int64_t tick, const BodyState& state) {
   if (ring.size() > kKeep) ring.pop_front();
 }
 
-void Snapshots::Recompose(const std::vector<BodyOrigin>& origins) {
+void Snapshots::Remap(const std::vector<BodyOrigin>& origins) {
   std::vector<std::deque<Stamped>> rings(origins.size());
   for (std::size_t i = 0; i < origins.size(); ++i) {
     if (origins[i].body < 0) continue;
@@ -64,17 +64,17 @@ BodyState Snapshots::Interpolate(int body, double tick) const {
   return ring.front().state;
 }
 
-BodyState Snapshots::Extrapolate(int body, std::int64_t tick, float dt, float most_s) const {
+BodyState Snapshots::Extrapolate(int body, std::int64_t tick, float dt, float max_s) const {
   const std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
   SEAM_ASSERT(!ring.empty());
   const float age = static_cast<float>(std::max<std::int64_t>(0, tick - ring.back().tick)) * dt;
-  const float forward = std::min(age, most_s);
+  const float forward = std::min(age, max_s);
   BodyState out = seam::Extrapolate(ring.back().state, forward);
   if (ring.size() < 2) return out;
   const Stamped& before = ring[ring.size() - 2];
   const float between = static_cast<float>(ring.back().tick - before.tick) * dt;
   const Vec2 acceleration = (ring.back().state.velocity - before.state.velocity) / between;
-  if (between > kAccelerationSpan || acceleration.norm() > kAccelerationMost) return out;
+  if (between > kAccelerationSpan || acceleration.norm() > kAccelerationMax) return out;
   const float lasts = std::min(forward, kAccelerationLasts);
   out.velocity += acceleration * lasts;
   out.position += acceleration * (lasts * (forward - lasts / 2));

@@ -19,7 +19,7 @@ class Snapshots {
   /// Keeps the state if it is newer than what it has of this body.
   void Add(int body, std::int64_t tick, const BodyState& state);
   /// The bodies are others now: what was heard of those they come from is carried over.
-  void Recompose(const std::vector<BodyOrigin>& origins);
+  void Remap(const std::vector<BodyOrigin>& origins);
   bool has(int body) const { return !rings_[static_cast<std::size_t>(body)].empty(); }
   std::int64_t newest_tick(int body) const;  ///< -1 when none
 
@@ -28,9 +28,9 @@ class Snapshots {
   /// Interpolated at a (fractional) tick; the oldest or newest kept state outside of what is known:
   /// never extrapolated. Requires has(body).
   BodyState Interpolate(int body, double tick) const;
-  /// The newest state moved on by its velocity for at most `most_s`, and by a moderate acceleration
+  /// The newest state moved on by its velocity for at most `max_s`, and by a moderate acceleration
   /// as between the last two states. Requires has(body).
-  BodyState Extrapolate(int body, std::int64_t tick, float dt, float most_s) const;
+  BodyState Extrapolate(int body, std::int64_t tick, float dt, float max_s) const;
 
  private:
   struct Stamped {

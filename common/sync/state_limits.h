@@ -9,7 +9,7 @@
 namespace seam {
 
 /// Speeds written to the world stay within what the engine itself can move, rad/s.
-constexpr float kSpinMost = 94.0f;
+constexpr float kSpinSpeedMax = 94.0f;
 
 /// A difference that the wire's rounding explains.
 inline bool Negligible(const BodyState& d) {
@@ -21,7 +21,7 @@ inline bool Negligible(const BodyState& d) {
 inline BodyState WithinLimits(BodyState state, float speed_limit) {
   const float speed = state.velocity.norm();
   if (speed > speed_limit) state.velocity *= speed_limit / speed;
-  state.spin = std::clamp(state.spin, -kSpinMost, kSpinMost);
+  state.spin = std::clamp(state.spin, -kSpinSpeedMax, kSpinSpeedMax);
   return state;
 }
 

@@ -19,7 +19,7 @@ struct BodyOrigin {
   Eigen::Vector2d centre_before{0, 0};  ///< that of the whole body before
 };
 
-struct Recomposition {
+struct BodyRemap {
   std::vector<BodyOrigin> bodies;  ///< by body, as they are now
   /// By mechanism, as they are now: those before that parts of it were in, ascending, but first
   /// that of the mechanism's first body; empty when all is new or was anchored.

@@ -44,7 +44,7 @@ bool Topology::Has(PartId part) const {
          !scene_.parts[static_cast<std::size_t>(part)].gone;
 }
 
-void Topology::Recompose() {
+void Topology::UpdateComposition() {
   if (!stale_) return;
   stale_ = false;
   composition_ = Compose(scene_);
@@ -146,17 +146,17 @@ std::vector<PartId> Topology::PartsOf(const Edit& edit) const {
 std::vector<std::string> Topology::Apply(const std::vector<Edit>& edits) {
   std::vector<std::string> complaints;
   for (const Edit& edit : edits) {
-    ++edits_;
+    ++revision_;
     std::string complaint = ApplyOne(edit);
     complaints.push_back(std::move(complaint));
   }
-  Recompose();
+  UpdateComposition();
   return complaints;
 }
 
 std::string Topology::ApplyOne(const Edit& edit) {
   // Only bonds look at who is one body with whom.
-  if (edit.kind == EditKind::kBond) Recompose();
+  if (edit.kind == EditKind::kBond) UpdateComposition();
   if (edit.kind != EditKind::kInsert) {
     std::string complaint = Complaint(edit);
     if (!complaint.empty()) return complaint;

@@ -22,7 +22,7 @@ class Topology {
   const Scene& scene() const { return scene_; }
   const Composition& composition() const { return composition_; }
   /// Edits applied so far, whether or not they could do anything.
-  int edits() const { return edits_; }
+  int revision() const { return revision_; }
 
   /// Applies edits in their order. An edit that cannot be (its part has left, its text is wrong)
   /// counts but does nothing: the same on every peer. Returns what was wrong with each, or "".
@@ -40,12 +40,12 @@ class Topology {
   std::string Insert(const Edit& edit);
   void Remove(PartId part);
   bool Has(PartId part) const;
-  void Recompose();
+  void UpdateComposition();
 
   Scene scene_;
   Composition composition_;
   bool stale_ = false;  // composition_ is older than scene_
-  int edits_ = 0;
+  int revision_ = 0;
 };
 
 /// Parts that may come to be while a room runs, gone ones included: ids on the wire are int16.

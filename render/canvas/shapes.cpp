@@ -167,7 +167,7 @@ Pose FrameBehind(const Pose& at, const Pose& place) {
   return {at.position - turned, frame.angle};
 }
 
-DrawnForm FormOf(const Scene& scene, const Composition& composition) {
+DrawnRevision RevisionOf(const Scene& scene, const Composition& composition) {
   return {ShapesOf(scene, composition, false), ShapesOf(scene, composition, true),
           JointsOf(scene, composition)};
 }

@@ -61,13 +61,13 @@ struct DrawnJoint {
 };
 
 /// All that a world's bodies look like as long as none changes.
-struct DrawnForm {
+struct DrawnRevision {
   std::vector<BodyShapes> moving, anchored;
   std::vector<DrawnJoint> joints;
 };
 
 std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composition, bool anchored);
-DrawnForm FormOf(const Scene& scene, const Composition& composition);
+DrawnRevision RevisionOf(const Scene& scene, const Composition& composition);
 /// All joints that hold two bodies at a point, an axis or a length.
 std::vector<DrawnJoint> JointsOf(const Scene& scene, const Composition& composition);
 

@@ -10,7 +10,7 @@ namespace seam {
 namespace {
 
 /// Below these sizes on the page, px, a cell is a shade and a brick has no joints.
-constexpr float kCellLeast = 10, kBrickLeast = 4;
+constexpr float kCellMin = 10, kBrickMin = 4;
 
 Vec2 Place(const Viewport& viewport, int x, int y) {
   return viewport.ToPx(Vec2(static_cast<float>(x), static_cast<float>(y)) * kBrickUnit);
@@ -58,7 +58,7 @@ void DrawCell(DrawList& list, const Viewport& viewport, const FeatherStore& stor
   const std::vector<BrickBlock> blocks = BlocksOf(store, cell);
   if (blocks.empty()) return;
   const float unit_px = kBrickUnit * viewport.px_per_m;
-  if (unit_px * FeatherStore::kCell < kCellLeast) {
+  if (unit_px * FeatherStore::kCell < kCellMin) {
     DrawShade(list, viewport, store, blocks);
     return;
   }
@@ -67,13 +67,13 @@ void DrawCell(DrawList& list, const Viewport& viewport, const FeatherStore& stor
     list.Fill(Corners(viewport, b.x, b.y, b.x + b.columns * kind.width, b.y + b.rows * kind.height),
               kGround);
     const auto least = static_cast<float>(std::min(kind.width, kind.height));
-    if (least * unit_px >= kBrickLeast) DrawJoints(list, viewport, b, kind);
+    if (least * unit_px >= kBrickMin) DrawJoints(list, viewport, b, kind);
   }
 }
 
 void DrawOutlines(DrawList& list, const Viewport& viewport, const FeatherStore& store, int cell) {
   const float unit_px = kBrickUnit * viewport.px_per_m;
-  if (unit_px * FeatherStore::kCell < 3 * kCellLeast) return;
+  if (unit_px * FeatherStore::kCell < 3 * kCellMin) return;
   const float width = std::clamp(unit_px, 0.6f, 1.3f) * list.font().scale();
   std::vector<Vec2> px;
   for (const OutlinePath& path : OutlinesOf(store, store.cell_x(cell), store.cell_y(cell))) {

@@ -14,8 +14,8 @@ namespace seam {
 using GhostVisitor =
     std::function<void(const BodyShapes&, const Pose& truth, const std::optional<Pose>& shown)>;
 
-/// Visits all of the form's moving bodies of which the oracle knows where they are.
-void VisitTruth(const Playback& playback, const DrawnForm& form, const Moment& moment, double tick,
-                const GhostVisitor& visit);
+/// Visits all of the revision's moving bodies of which the oracle knows where they are.
+void VisitTruth(const Playback& playback, const DrawnRevision& revision, const Moment& moment,
+                double tick, const GhostVisitor& visit);
 
 }  // namespace seam

@@ -11,14 +11,14 @@ namespace {
 constexpr float kPinsFrom_px_per_m = 12;  ///< smaller bodies would be all pins
 
 std::optional<Vec2> AnchorOn(const Viewport& viewport, const Playback& playback,
-                             const DrawnForm& form, const Moment& moment, PartId id, bool anchored,
-                             const Vec2& anchor) {
+                             const DrawnRevision& revision, const Moment& moment, PartId id,
+                             bool anchored, const Vec2& anchor) {
   if (!anchored) {
     const auto shown = playback.Find(moment, id);
     if (!shown) return std::nullopt;
     return viewport.ToPx(Frame2(shown->pose)(anchor));
   }
-  for (const BodyShapes& body : form.anchored)
+  for (const BodyShapes& body : revision.anchored)
     if (body.id == id) return viewport.ToPx(Frame2(playback.Anchored(body, moment.tick))(anchor));
   return std::nullopt;
 }
@@ -48,13 +48,13 @@ std::optional<Crack> CrackOf(const Playback& playback, const Moment& moment, con
 
 void DrawRods(DrawList& list, const Viewport& viewport, const Playback& playback,
               const Moment& moment, float opacity) {
-  const auto form = playback.FormOf(moment);
-  for (const DrawnJoint& joint : form->joints) {
+  const auto revision = playback.RevisionOf(moment);
+  for (const DrawnJoint& joint : revision->joints) {
     if (!joint.rod) continue;
     const auto a =
-        AnchorOn(viewport, playback, *form, moment, joint.a, joint.a_anchored, joint.anchor_a);
+        AnchorOn(viewport, playback, *revision, moment, joint.a, joint.a_anchored, joint.anchor_a);
     const auto b =
-        AnchorOn(viewport, playback, *form, moment, joint.b, joint.b_anchored, joint.anchor_b);
+        AnchorOn(viewport, playback, *revision, moment, joint.b, joint.b_anchored, joint.anchor_b);
     if (a && b)
       list.Stroke({*a, *b}, false, {1.5f * list.font().scale(), Faded(kFaintInk, opacity), 0});
   }
@@ -63,11 +63,11 @@ void DrawRods(DrawList& list, const Viewport& viewport, const Playback& playback
 void DrawPins(DrawList& list, const Viewport& viewport, const Playback& playback,
               const Moment& moment, float opacity) {
   if (viewport.px_per_m < kPinsFrom_px_per_m) return;
-  const auto form = playback.FormOf(moment);
-  for (const DrawnJoint& joint : form->joints) {
+  const auto revision = playback.RevisionOf(moment);
+  for (const DrawnJoint& joint : revision->joints) {
     if (joint.rod) continue;
     const auto a =
-        AnchorOn(viewport, playback, *form, moment, joint.a, joint.a_anchored, joint.anchor_a);
+        AnchorOn(viewport, playback, *revision, moment, joint.a, joint.a_anchored, joint.anchor_a);
     if (a) list.Disc(*a, 1.6f * list.font().scale(), Faded(kInk, opacity));
   }
 }
@@ -79,7 +79,7 @@ void DrawBreaks(DrawList& list, const Viewport& viewport, const Playback& playba
   const double span = kCrackSeconds * playback.tick_hz();
   const float scale = list.font().scale();
   for (const auto& [number, edit] : edits) {
-    if (number >= moment.before->topology) break;
+    if (number >= moment.before->revision) break;
     const double age = tick - static_cast<double>(edit.tick);
     const bool recent = age >= 0 && age < span;
     if (!recent || edit.kind != static_cast<std::int8_t>(EditKind::kBreak)) continue;

@@ -166,8 +166,8 @@ void DrawRegionNames(DrawList& list, const Viewport& viewport, const Playback& p
 }
 
 void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playback,
-                const DrawnForm& form, double tick, bool cull) {
-  for (const BodyShapes& body : form.anchored) {
+                const DrawnRevision& revision, double tick, bool cull) {
+  for (const BodyShapes& body : revision.anchored) {
     const Pose pose = playback.Anchored(body, tick);
     if (cull && !viewport.Sees(pose.position, body.reach)) continue;
     DrawBody(list, viewport, body, pose, GroundLook());

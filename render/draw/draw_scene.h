@@ -16,9 +16,9 @@ void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playb
 /// The extents of regions and buffer zones as named ribbons along the bottom, above everything.
 void DrawRegionNames(DrawList& list, const Viewport& viewport, const Playback& playback);
 
-/// All that is anchored, kinematic parts where they are at `tick`. `form`: of that moment.
+/// All that is anchored, kinematic parts where they are at `tick`. `revision`: of that moment.
 void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playback,
-                const DrawnForm& form, double tick, bool cull);
+                const DrawnRevision& revision, double tick, bool cull);
 
 /// A bar of a round number of metres in the lower right corner.
 void DrawScaleBar(DrawList& list, const Viewport& viewport);

@@ -24,10 +24,10 @@ struct Seen {
 };
 
 std::vector<Seen> BodiesOnPanel(const Viewport& viewport, const Playback& playback,
-                                const DrawnForm& form, const WorldLook& look) {
+                                const DrawnRevision& revision, const WorldLook& look) {
   std::vector<Seen> seen;
   const Moment now = playback.MomentAt(look.peer, look.tick);
-  for (const BodyShapes& body : form.moving) {
+  for (const BodyShapes& body : revision.moving) {
     const std::optional<Shown> shown = playback.Find(now, body.id);
     if (!shown) continue;
     if (look.cull && !viewport.Sees(shown->pose.position, body.reach)) continue;
@@ -50,12 +50,12 @@ bool RestsOver(const Viewport& viewport, const Playback& playback, const std::ve
 
 /// Where bodies came from; bodies at rest have none.
 void DrawTrails(DrawList& list, const Viewport& viewport, const Playback& playback,
-                const DrawnForm& form, const WorldLook& look) {
+                const DrawnRevision& revision, const WorldLook& look) {
   std::vector<Moment> past;
   const double span = kTrailSeconds * playback.tick_hz();
   for (int i = kTrailPoints; i >= 0; --i)
     past.push_back(playback.MomentAt(look.peer, look.tick - span * i / kTrailPoints));
-  for (const BodyShapes& body : form.moving) {
+  for (const BodyShapes& body : revision.moving) {
     if (RestsOver(viewport, playback, past, body.id)) continue;
     std::vector<Vec2> points;
     std::vector<Colour> colours;
@@ -82,9 +82,9 @@ void DrawTrails(DrawList& list, const Viewport& viewport, const Playback& playba
 
 /// Ghosts appear where view and truth part, so that a right picture stays clean.
 void DrawGhosts(DrawList& list, const Viewport& viewport, const Playback& playback,
-                const DrawnForm& form, const WorldLook& look) {
+                const DrawnRevision& revision, const WorldLook& look) {
   const Moment now = playback.MomentAt(look.peer, look.tick);
-  VisitTruth(playback, form, now, look.tick,
+  VisitTruth(playback, revision, now, look.tick,
              [&](const BodyShapes& body, const Pose& truth, const std::optional<Pose>& shown) {
                if (look.cull && !viewport.Sees(truth.position, body.reach)) return;
                const float apart = shown ? PixelsApart(viewport, body, *shown, truth) : 1e3f;
@@ -138,8 +138,8 @@ Viewport SceneViewport(const Rect& panel, const Playback& playback, int peer, do
   Viewport viewport = Fit(panel, box.min, box.max);
   const PartId part = box.follow;
   if (part < 0) return viewport;
-  const auto form = playback.FormOf(playback.MomentAt(peer, tick));
-  for (const BodyShapes& body : form->moving) {
+  const auto revision = playback.RevisionOf(playback.MomentAt(peer, tick));
+  for (const BodyShapes& body : revision->moving) {
     if (std::find(body.parts.begin(), body.parts.end(), part) == body.parts.end()) continue;
     const auto truth = playback.Truth(body.id, tick);
     const auto shown = playback.Find(playback.MomentAt(peer, tick), body.id);
@@ -152,23 +152,23 @@ Viewport SceneViewport(const Rect& panel, const Playback& playback, int peer, do
 void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playback,
                const WorldLook& look) {
   const Moment now = playback.MomentAt(look.peer, look.tick);
-  const auto form = playback.FormOf(now);
+  const auto revision = playback.RevisionOf(now);
   list.Clip(viewport.panel);
   list.FillRect(viewport.panel, kPanel);
   DrawRegions(list, viewport, playback);
   DrawGrid(list, viewport);
   DrawWaters(list, viewport, playback);
-  DrawGround(list, viewport, playback, *form, look.tick, look.cull);
+  DrawGround(list, viewport, playback, *revision, look.tick, look.cull);
   DrawTriggers(list, viewport, playback, now, look.tick);
-  if (look.trails) DrawTrails(list, viewport, playback, *form, look);
+  if (look.trails) DrawTrails(list, viewport, playback, *revision, look);
   DrawRods(list, viewport, playback, now, 1);
-  const std::vector<Seen> seen = BodiesOnPanel(viewport, playback, *form, look);
+  const std::vector<Seen> seen = BodiesOnPanel(viewport, playback, *revision, look);
   for (const Seen& one : seen)
     DrawBody(list, viewport, *one.body, one.shown.pose,
              LookOf(one.shown.authority, one.shown.role));
   DrawPins(list, viewport, playback, now, 1);
   DrawSurfaces(list, viewport, playback);
-  DrawGhosts(list, viewport, playback, *form, look);
+  DrawGhosts(list, viewport, playback, *revision, look);
   DrawBreaks(list, viewport, playback, now, look.tick);
   DrawImpacts(list, viewport, playback, look);
   DrawHealth(list, viewport, playback, now, look.tick);

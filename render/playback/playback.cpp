@@ -15,8 +15,8 @@ std::size_t PlaceOf(const View& view, PartId id) {
   return i < 0 ? std::string::npos : static_cast<std::size_t>(i);
 }
 
-/// Shapes of so many forms are kept.
-constexpr std::size_t kDrawnFormsMost = 64;
+/// Shapes of so many revisions are kept.
+constexpr std::size_t kDrawnRevisionsMax = 64;
 
 Pose PoseIn(const View& view, std::size_t i) { return {{view.x[i], view.y[i]}, view.angle[i]}; }
 
@@ -57,45 +57,47 @@ Playback::Playback(const Recording* growing, std::optional<Oracle> oracle)
 }
 
 void Playback::Prepare() {
-  forms_ = std::make_shared<KnownForms>();
-  const std::lock_guard<std::mutex> lock(forms_->mutex);
-  const auto form = AllForms().At(0);
-  forms_->first =
-      std::make_shared<const DrawnForm>(seam::FormOf(form->scene(), form->composition()));
+  revisions_ = std::make_shared<KnownRevisions>();
+  const std::lock_guard<std::mutex> lock(revisions_->mutex);
+  const auto revision = AllRevisions().At(0);
+  revisions_->first = std::make_shared<const DrawnRevision>(
+      seam::RevisionOf(revision->scene(), revision->composition()));
   if (!scene_.bricks.empty()) bricks_ = std::make_shared<FeatherStore>(scene_.bricks);
   imposed_.emplace(scene_, Compose(scene_));
 }
 
-const Forms& Playback::AllForms() const {
-  if (forms_->all == nullptr || forms_->edits != recording_->edits.size()) {
-    forms_->all = std::make_unique<Forms>(scene_, *recording_);
-    forms_->edits = recording_->edits.size();
-    forms_->drawn.clear();
+const RevisionHistory& Playback::AllRevisions() const {
+  if (revisions_->all == nullptr || revisions_->edits != recording_->edits.size()) {
+    revisions_->all = std::make_unique<RevisionHistory>(scene_, *recording_);
+    revisions_->edits = recording_->edits.size();
+    revisions_->drawn.clear();
   }
-  return *forms_->all;
+  return *revisions_->all;
 }
 
-std::shared_ptr<const DrawnForm> Playback::FormAfter(int edits) const {
-  const std::lock_guard<std::mutex> lock(forms_->mutex);
-  const Forms& all = AllForms();
+std::shared_ptr<const DrawnRevision> Playback::RevisionAfter(int edits) const {
+  const std::lock_guard<std::mutex> lock(revisions_->mutex);
+  const RevisionHistory& all = AllRevisions();
   const int key = all.Key(edits);
-  if (key == 0) return forms_->first;
-  const auto known = forms_->drawn.find(key);
-  if (known != forms_->drawn.end()) return known->second;
-  if (forms_->drawn.size() >= kDrawnFormsMost) forms_->drawn.erase(forms_->drawn.begin());
-  const auto form = all.At(key);
-  auto drawn = std::make_shared<const DrawnForm>(seam::FormOf(form->scene(), form->composition()));
-  forms_->drawn[key] = drawn;
+  if (key == 0) return revisions_->first;
+  const auto known = revisions_->drawn.find(key);
+  if (known != revisions_->drawn.end()) return known->second;
+  if (revisions_->drawn.size() >= kDrawnRevisionsMax)
+    revisions_->drawn.erase(revisions_->drawn.begin());
+  const auto revision = all.At(key);
+  auto drawn = std::make_shared<const DrawnRevision>(
+      seam::RevisionOf(revision->scene(), revision->composition()));
+  revisions_->drawn[key] = drawn;
   return drawn;
 }
 
-std::shared_ptr<const DrawnForm> Playback::FormOf(const Moment& moment) const {
-  return FormAfter(moment.before == nullptr ? 0 : moment.before->topology);
+std::shared_ptr<const DrawnRevision> Playback::RevisionOf(const Moment& moment) const {
+  return RevisionAfter(moment.before == nullptr ? 0 : moment.before->revision);
 }
 
-std::shared_ptr<const Form> Playback::WorldOf(const Moment& moment) const {
-  const std::lock_guard<std::mutex> lock(forms_->mutex);
-  return AllForms().At(moment.before == nullptr ? 0 : moment.before->topology);
+std::shared_ptr<const SceneRevision> Playback::WorldOf(const Moment& moment) const {
+  const std::lock_guard<std::mutex> lock(revisions_->mutex);
+  return AllRevisions().At(moment.before == nullptr ? 0 : moment.before->revision);
 }
 
 void Playback::MeasureErrors() {
@@ -163,8 +165,8 @@ int Playback::PlayerOf(int peer) const {
   const auto views = recording_->views.find(peer);
   if (peer <= 0 || views == recording_->views.end() || views->second.empty()) return -1;
   const View& last = views->second.rbegin()->second;
-  const auto form = FormAfter(last.topology);
-  for (const BodyShapes& body : form->moving) {
+  const auto revision = RevisionAfter(last.revision);
+  for (const BodyShapes& body : revision->moving) {
     const std::size_t i = owned(body) ? PlaceOf(last, body.id) : std::string::npos;
     if (i != std::string::npos && last.authority[i] == peer) return body.owner_player;
   }

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "common/measure/forms.h"
 #include "common/measure/measure.h"
+#include "common/measure/revisions.h"
 #include "common/record/recording.h"
 #include "common/scene/assembly.h"
 #include "common/scene/scene.h"
@@ -50,14 +50,14 @@ class Playback {
   const Recording& recording() const { return *recording_; }
   const Scene& scene() const { return scene_; }
   /// At first, before any edit.
-  const std::vector<BodyShapes>& moving() const { return forms_->first->moving; }
-  const std::vector<BodyShapes>& anchored() const { return forms_->first->anchored; }
+  const std::vector<BodyShapes>& moving() const { return revisions_->first->moving; }
+  const std::vector<BodyShapes>& anchored() const { return revisions_->first->anchored; }
   /// After so many edits of the recording.
-  std::shared_ptr<const DrawnForm> FormAfter(int edits) const;
+  std::shared_ptr<const DrawnRevision> RevisionAfter(int edits) const;
   /// What the moment's view is made of.
-  std::shared_ptr<const DrawnForm> FormOf(const Moment& moment) const;
+  std::shared_ptr<const DrawnRevision> RevisionOf(const Moment& moment) const;
   /// Scene and composition of the same.
-  std::shared_ptr<const Form> WorldOf(const Moment& moment) const;
+  std::shared_ptr<const SceneRevision> WorldOf(const Moment& moment) const;
   /// nullptr: the scene has none.
   const FeatherStore* bricks() const { return bricks_.get(); }
   bool has_oracle() const { return oracle_.has_value(); }
@@ -112,16 +112,16 @@ class Playback {
   Scene scene_;
   std::optional<Oracle> oracle_;
   /// Shapes by topology, as many as are worth keeping. Frames are drawn by several threads.
-  struct KnownForms {
+  struct KnownRevisions {
     std::mutex mutex;
     std::size_t edits = 0;  // of the recording, when `all` was made
-    std::unique_ptr<Forms> all;
-    std::shared_ptr<const DrawnForm> first;
-    std::map<int, std::shared_ptr<const DrawnForm>> drawn;  // by key
+    std::unique_ptr<RevisionHistory> all;
+    std::shared_ptr<const DrawnRevision> first;
+    std::map<int, std::shared_ptr<const DrawnRevision>> drawn;  // by key
   };
-  /// Of all edits heard so far. Requires forms_->mutex.
-  const Forms& AllForms() const;
-  std::shared_ptr<KnownForms> forms_;
+  /// Of all edits heard so far. Requires revisions_->mutex.
+  const RevisionHistory& AllRevisions() const;
+  std::shared_ptr<KnownRevisions> revisions_;
   std::shared_ptr<const FeatherStore> bricks_;
   std::optional<ImposedMotions> imposed_;
   std::map<int, int> player_of_peer_;

@@ -35,7 +35,7 @@ int Planner::WantedPlayer(const World& world, int mechanism, int current_player)
   return -1;
 }
 
-void Planner::Recompose(const std::vector<std::vector<int>>& from) {
+void Planner::Remap(const std::vector<std::vector<int>>& from) {
   if (changed_tick_.empty()) return;
   std::vector<std::int64_t> changed;
   std::vector<int> last;
@@ -48,11 +48,11 @@ void Planner::Recompose(const std::vector<std::vector<int>>& from) {
   last_authority_ = last;
 }
 
-std::vector<Wish> Planner::Plan(const World& world, const AuthorityTable& table,
-                                const std::vector<int>& peer_of_player) {
+std::vector<PlannedAuthority> Planner::Plan(const World& world, const AuthorityTable& table,
+                                            const std::vector<int>& peer_of_player) {
   const auto count = static_cast<std::size_t>(table.count());
-  std::vector<Wish> wishes(count);
-  if (config_.mode == Mode::kOracle || config_.mode == Mode::kCentral) return wishes;
+  std::vector<PlannedAuthority> plan(count);
+  if (config_.mode == Mode::kOracle || config_.mode == Mode::kCentral) return plan;
   if (changed_tick_.empty()) {
     changed_tick_.assign(count, -1000000);
     last_authority_.assign(count, 0);
@@ -79,9 +79,9 @@ std::vector<Wish> Planner::Plan(const World& world, const AuthorityTable& table,
     const bool dwells =
         current_player >= 0 &&
         world.tick() - changed_tick_[m] < static_cast<std::int64_t>(kDwell * config_.tick_hz);
-    wishes[m].authority = dwells ? current : wanted;
+    plan[m].authority = dwells ? current : wanted;
   }
-  if (config_.mode != Mode::kBuffer) return wishes;
+  if (config_.mode != Mode::kBuffer) return plan;
 
   for (std::size_t p = 0; p < peer_of_player.size(); ++p) {
     const int peer = peer_of_player[p];
@@ -89,18 +89,18 @@ std::vector<Wish> Planner::Plan(const World& world, const AuthorityTable& table,
     const Player& player = scene_.players[p];
     const std::uint32_t bit = std::uint32_t{1} << peer;
     for (std::size_t m = 0; m < count; ++m) {
-      if (wishes[m].authority == peer) continue;
+      if (plan[m].authority == peer) continue;
       const bool follows = (table.at(static_cast<int>(m)).secondaries & bit) != 0;
       const float reach = scene_.buffer_m + (follows ? kHysteresis : 0.0f);
       bool near = player.has_region &&
                   DistanceToBox(positions[m], player.region_min, player.region_max) <= reach;
       for (std::size_t o = 0; o < count && !near; ++o) {
-        near = wishes[o].authority == peer && (positions[o] - positions[m]).norm() <= reach;
+        near = plan[o].authority == peer && (positions[o] - positions[m]).norm() <= reach;
       }
-      if (near) wishes[m].secondaries |= bit;
+      if (near) plan[m].secondaries |= bit;
     }
   }
-  return wishes;
+  return plan;
 }
 
 }  // namespace seam

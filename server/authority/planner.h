@@ -11,26 +11,30 @@
 
 namespace seam {
 
-struct Wish {
+/// Who should have authority over one mechanism, and who should follow it.
+struct PlannedAuthority {
   int authority = 0;
   std::uint32_t secondaries = 0;
 };
+
+/// One entry per mechanism, by its index.
+using AuthorityPlan = std::vector<PlannedAuthority>;
 
 class Planner {
  public:
   Planner(const Scene& scene, const SyncConfig& config);
 
-  /// One wish per mechanism. `peer_of_player[p]` is the peer that drives player p, or -1.
+  /// One planned per mechanism. `peer_of_player[p]` is the peer that drives player p, or -1.
   ///
   ///   authority: the owner's peer if it is here; else the peer in whose region the mechanism's
   ///   root is (with kHysteresis before it leaves the one that has it, and kDwell between changes);
   ///   else the server. Secondary (mode buffer): peers whose region, or whose mechanisms, are
   ///   within the scene's buffer width.
-  std::vector<Wish> Plan(const World& world, const AuthorityTable& table,
-                         const std::vector<int>& peer_of_player);
+  std::vector<PlannedAuthority> Plan(const World& world, const AuthorityTable& table,
+                                     const std::vector<int>& peer_of_player);
 
-  /// The mechanisms are others now; see Recomposition.
-  void Recompose(const std::vector<std::vector<int>>& from);
+  /// The mechanisms are others now; see BodyRemap.
+  void Remap(const std::vector<std::vector<int>>& from);
 
   static constexpr float kHysteresis = 2.0f;  ///< m beyond the border before a hand-over
   static constexpr double kDwell = 0.5;       ///< s an authority lasts at least

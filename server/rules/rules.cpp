@@ -15,9 +15,9 @@ bool Rules::Needed(const Scene& scene) {
                      [](const Part& part) { return part.rules->health > 0; });
 }
 
-Rules::Rules(const World& world, std::int64_t seed, RoomHands& hands)
+Rules::Rules(const World& world, std::int64_t seed, RoomCommands& commands)
     : world_(world),
-      hands_(hands),
+      commands_(commands),
       triggers_(world.scene().triggers),
       room_(std::make_unique<ScriptRoom>(*this)) {
   for (const Trigger& trigger : scene().triggers) {
@@ -35,8 +35,8 @@ Rules::Rules(const World& world, std::int64_t seed, RoomHands& hands)
 
 Rules::~Rules() = default;
 
-void Rules::OnJoin(int player) { comers_.push_back({player, true}); }
-void Rules::OnLeave(int player) { comers_.push_back({player, false}); }
+void Rules::OnJoin(int player) { player_events_.push_back({player, true}); }
+void Rules::OnLeave(int player) { player_events_.push_back({player, false}); }
 
 void Rules::AfterTick() {
   NoteNewParts();
@@ -46,7 +46,7 @@ void Rules::AfterTick() {
   RunScripts();
   RunDeaths();
   happened_.clear();
-  comers_.clear();
+  player_events_.clear();
   struck_by_.clear();
 }
 
@@ -129,7 +129,7 @@ void Rules::OnPickup(const TriggerEvent& event) {
     const auto id = static_cast<std::int16_t>(trigger.part);
     table_.Set({kMetaPart, id, kMetaTaken}, static_cast<float>(event.player + 1));
     try {
-      hands_.RemovePart(trigger.part);
+      commands_.RemovePart(trigger.part);
     } catch (const ScriptRefusal&) {
       // A script has removed it in the same tick: it is taken all the same.
     }

@@ -1,6 +1,6 @@
 #pragma once
 /// What the server decides in a room beyond motion: triggers, damage, scores, scripts. From its own
-/// world alone, once per tick; what is to change in the world it asks of the room's hands.
+/// world alone, once per tick; what is to change in the world it asks of the room's commands.
 
 #include <cstdint>
 #include <map>
@@ -20,9 +20,9 @@ class Script;
 class ScriptRoom;
 
 /// What the rules may do to the room. Changes reach every peer a little later.
-class RoomHands {
+class RoomCommands {
  public:
-  virtual ~RoomHands() = default;
+  virtual ~RoomCommands() = default;
   /// Each throws ScriptRefusal when it cannot be.
   virtual void RemovePart(PartId part) = 0;
   virtual void BreakJoint(int joint) = 0;  ///< index into Scene::joints
@@ -42,9 +42,9 @@ class Rules {
   /// True for a scene that has anything to decide; else no Rules are needed.
   static bool Needed(const Scene& scene);
 
-  /// `world` and `hands` must outlive it. Scripts are loaded; one that is wrong is stopped at once,
-  /// and said to be when the first tick is done.
-  Rules(const World& world, std::int64_t seed, RoomHands& hands);
+  /// `world` and `commands` must outlive it. Scripts are loaded; one that is wrong is stopped at
+  /// once, and said to be when the first tick is done.
+  Rules(const World& world, std::int64_t seed, RoomCommands& commands);
   ~Rules();
 
   /// After each tick of the world.
@@ -60,7 +60,7 @@ class Rules {
 
  private:
   friend class ScriptRoom;
-  struct Comer {
+  struct PlayerEvent {
     int player = -1;
     bool joins = true;
   };
@@ -86,10 +86,10 @@ class Rules {
   bool Exists(PartId part) const;
   float Health(PartId part) const;
   std::string PlayerName(int player) const;
-  void Say(const std::string& text) { hands_.Say(text); }
+  void Say(const std::string& text) { commands_.Say(text); }
 
   const World& world_;
-  RoomHands& hands_;
+  RoomCommands& commands_;
   Triggers triggers_;
   MetaTable table_;
   int last_checkpoint_ = 0;          // the highest order of all
@@ -97,7 +97,7 @@ class Rules {
   std::map<PartId, int> struck_by_;  // player, in this tick
   std::set<PartId> dead_;
   std::vector<TriggerEvent> happened_;  // in triggers, in this tick
-  std::vector<Comer> comers_;
+  std::vector<PlayerEvent> player_events_;
   std::unique_ptr<ScriptRoom> room_;  // what scripts see of all this
   std::vector<std::unique_ptr<Script>> scripts_;
   std::set<std::string> stopped_said_;

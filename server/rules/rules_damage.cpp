@@ -79,7 +79,7 @@ void Rules::Die(PartId id) {
   }
   for (const int joint : moving.empty() ? welds : moving) {
     try {
-      hands_.BreakJoint(joint);
+      commands_.BreakJoint(joint);
     } catch (const ScriptRefusal&) {
       continue;  // it is broken already, or about to be
     }

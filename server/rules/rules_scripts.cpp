@@ -25,9 +25,9 @@ void Rules::RunScripts() {
   for (const auto& script : scripts_) {
     if (!script->stopped()) {
       script->BeginTick();
-      for (const Comer& comer : comers_) {
-        const std::string player = PlayerName(comer.player);
-        comer.joins ? script->OnJoin(player) : script->OnLeave(player);
+      for (const PlayerEvent& event : player_events_) {
+        const std::string player = PlayerName(event.player);
+        event.joins ? script->OnJoin(player) : script->OnLeave(player);
       }
       for (const PartTouch& touch : begun) script->OnTouch(name(touch.a), name(touch.b));
       for (const TriggerEvent& event : happened_) {

@@ -46,11 +46,11 @@ bool ScriptRoom::ReadPart(const std::string& part, BodyState* state) const {
 }
 
 bool ScriptRoom::Present(const std::string& player) const {
-  return rules_.hands_.Present(NeedPlayer(player));
+  return rules_.commands_.Present(NeedPlayer(player));
 }
 
 Input ScriptRoom::ReadInput(const std::string& player) const {
-  return rules_.hands_.ReadInput(NeedPlayer(player));
+  return rules_.commands_.ReadInput(NeedPlayer(player));
 }
 
 void ScriptRoom::Push(const std::string& part, const Vec2& impulse, const std::string& /*why*/) {
@@ -64,21 +64,25 @@ void ScriptRoom::Push(const std::string& part, const Vec2& impulse, const std::s
   if (impulse.norm() > rules_.scene().speed_limit * mass) {
     throw ScriptRefusal("the push makes '" + Printable(part) + "' faster than the speed_limit");
   }
-  rules_.hands_.Push(id, impulse);
+  rules_.commands_.Push(id, impulse);
 }
 
 void ScriptRoom::Blast(const Vec2& centre, float radius, float speed) {
   if (rules_.scene().bricks.empty()) throw ScriptRefusal("there are no bricks");
-  rules_.hands_.Blast(centre, radius, speed);
+  rules_.commands_.Blast(centre, radius, speed);
 }
 
-void ScriptRoom::AddPart(const TomlNode& table) { rules_.hands_.Insert(ToToml("part", table)); }
-void ScriptRoom::AddJoint(const TomlNode& table) { rules_.hands_.Insert(ToToml("joint", table)); }
-void ScriptRoom::RemovePart(const std::string& part) { rules_.hands_.RemovePart(NeedPart(part)); }
+void ScriptRoom::AddPart(const TomlNode& table) { rules_.commands_.Insert(ToToml("part", table)); }
+void ScriptRoom::AddJoint(const TomlNode& table) {
+  rules_.commands_.Insert(ToToml("joint", table));
+}
+void ScriptRoom::RemovePart(const std::string& part) {
+  rules_.commands_.RemovePart(NeedPart(part));
+}
 
 void ScriptRoom::Weld(const std::string& a, const std::string& b, float strength) {
   if (strength < 0) throw ScriptRefusal("a strength below 0");
-  rules_.hands_.Bond(NeedPart(a), NeedPart(b), strength);
+  rules_.commands_.Bond(NeedPart(a), NeedPart(b), strength);
 }
 
 void ScriptRoom::Unweld(const std::string& a, const std::string& b) {
@@ -91,7 +95,7 @@ void ScriptRoom::Unweld(const std::string& a, const std::string& b) {
     const bool between =
         (joint.a == first && joint.b == second) || (joint.a == second && joint.b == first);
     if (joint.gone || !rigid || !between) continue;
-    rules_.hands_.BreakJoint(static_cast<int>(j));
+    rules_.commands_.BreakJoint(static_cast<int>(j));
     any = true;
   }
   if (!any) {
@@ -103,7 +107,7 @@ void ScriptRoom::RemoveJoint(const std::string& joint) {
   const std::vector<Joint>& joints = rules_.scene().joints;
   for (std::size_t j = joints.size(); j-- > 0;) {
     if (joints[j].gone || joints[j].name != joint) continue;
-    return rules_.hands_.BreakJoint(static_cast<int>(j));
+    return rules_.commands_.BreakJoint(static_cast<int>(j));
   }
   throw ScriptRefusal("there is no joint '" + Printable(joint) + "'");
 }

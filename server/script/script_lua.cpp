@@ -199,7 +199,7 @@ Script::~Script() = default;
 
 void Script::BeginTick() {
   impl_->guard.work = impl_->guard.limits.instructions;
-  impl_->guard.says = impl_->guard.deeds = 0;
+  impl_->guard.says = impl_->guard.commands = 0;
 }
 
 void Script::OnTick(double t) { impl_->Run({"on_tick", {nullptr, nullptr}, -1, &t}); }

@@ -23,14 +23,14 @@ void Look(lua_State* L, lua_Debug* /*where*/) {
 
 /// No block is larger than this, so that no single instruction (a call with a long list of values,
 /// a step through an emptied table) takes long.
-std::size_t BlockMost(const ScriptLimits& limits) {
+std::size_t BlockMax(const ScriptLimits& limits) {
   return std::max<std::size_t>(static_cast<std::size_t>(limits.memory_bytes) / 16, 65536);
 }
 
 bool TooMuch(const LuaGuard& guard, bool is_string, std::size_t more, std::size_t bytes) {
   if (guard.spent || guard.work < 0) return true;
   if (is_string && bytes > kScriptStringMax + kStringHeader) return true;
-  if (bytes > BlockMost(guard.limits)) return true;
+  if (bytes > BlockMax(guard.limits)) return true;
   return guard.memory + static_cast<std::int64_t>(more) > guard.limits.memory_bytes;
 }
 
@@ -115,7 +115,7 @@ void LuaExplain(LuaGuard* guard) {
                 "out of memory: more than %lld kB in all, %lld kB in one table or %d bytes in one "
                 "string",
                 static_cast<long long>(guard->limits.memory_bytes / 1024),
-                static_cast<long long>(BlockMost(guard->limits) / 1024),
+                static_cast<long long>(BlockMax(guard->limits) / 1024),
                 static_cast<int>(kScriptStringMax));
 }
 

@@ -23,7 +23,7 @@ constexpr int kScriptValuesMax = 200;
 /// Most lines of text that a script may say in a tick.
 constexpr int kScriptSaysMax = 8;
 /// Most changes of the world (pushes, parts, joints) that a script may ask for in a tick.
-constexpr int kScriptDeedsMax = 64;
+constexpr int kScriptCommandsMax = 64;
 
 /// Of one script; reached from any of its coroutines.
 struct LuaGuard {
@@ -32,13 +32,13 @@ struct LuaGuard {
   ScriptHost& host;
   const ScriptLimits limits;
   const char* scene_file = "";
-  bool charging = false;    ///< false while the state is being built
-  bool spent = false;       ///< a limit was met: nothing of the script runs any more
-  char why[160] = "";       ///< the limit
-  int line = 0;             ///< where the last error was raised; 0: not known
-  std::int64_t memory = 0;  ///< bytes in use
-  std::int64_t work = 0;    ///< left in this tick
-  int says = 0, deeds = 0;  ///< in this tick
+  bool charging = false;       ///< false while the state is being built
+  bool spent = false;          ///< a limit was met: nothing of the script runs any more
+  char why[160] = "";          ///< the limit
+  int line = 0;                ///< where the last error was raised; 0: not known
+  std::int64_t memory = 0;     ///< bytes in use
+  std::int64_t work = 0;       ///< left in this tick
+  int says = 0, commands = 0;  ///< in this tick
 };
 
 inline LuaGuard& GuardOf(lua_State* L) { return **static_cast<LuaGuard**>(lua_getextraspace(L)); }
@@ -75,7 +75,7 @@ void Attempt(lua_State* L, F f) {
 /// A finite number as argument; else raises.
 float LuaNumber(lua_State* L, int argument);
 /// Counts what changes the world: it becomes messages to every peer. Raises when it is too much.
-void LuaCountDeed(lua_State* L);
+void LuaCountCommand(lua_State* L);
 
 /// The globals a script begins with. Require that nothing else was opened in `L`.
 void OpenLuaBase(lua_State* L);   ///< script_lua_base.cpp: basics and coroutines

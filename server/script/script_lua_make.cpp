@@ -79,7 +79,7 @@ TomlNode NodeAt(lua_State* L, int line, int depth, int* entries) {
 
 int Add(lua_State* L, void (ScriptHost::*add)(const TomlNode&)) {
   luaL_checktype(L, 1, LUA_TTABLE);
-  LuaCountDeed(L);
+  LuaCountCommand(L);
   const int line = LineOf(L);
   lua_settop(L, 1);
   luaL_checkstack(L, 4 * (kNestingMax + 2), nullptr);
@@ -101,7 +101,7 @@ int Join(lua_State* L, const char* kind) {
   bool placed = !lua_isnoneornil(L, 4);
   float x = placed ? LuaNumber(L, 4) : 0;
   const float y = placed && kAnchored ? LuaNumber(L, 5) : 0;
-  LuaCountDeed(L);
+  LuaCountCommand(L);
   const int line = LineOf(L);
   Attempt(L, [&] {
     const auto number = [line](float value) {
@@ -147,14 +147,14 @@ int Weld(lua_State* L) {
   const char* a = luaL_checkstring(L, 1);
   const char* b = luaL_checkstring(L, 2);
   const float strength = lua_isnoneornil(L, 3) ? 0 : LuaNumber(L, 3);
-  LuaCountDeed(L);
+  LuaCountCommand(L);
   Attempt(L, [&] { HostOf(L).Weld(a, b, strength); });
   return 0;
 }
 int Unweld(lua_State* L) {
   const char* a = luaL_checkstring(L, 1);
   const char* b = luaL_checkstring(L, 2);
-  LuaCountDeed(L);
+  LuaCountCommand(L);
   Attempt(L, [&] { HostOf(L).Unweld(a, b); });
   return 0;
 }
@@ -163,14 +163,14 @@ int Distance(lua_State* L) { return Join<false>(L, "distance"); }
 
 int RemovePart(lua_State* L) {
   const char* name = luaL_checkstring(L, 1);
-  LuaCountDeed(L);
+  LuaCountCommand(L);
   Attempt(L, [&] { HostOf(L).RemovePart(name); });
   return 0;
 }
 
 int RemoveJoint(lua_State* L) {
   const char* name = luaL_checkstring(L, 1);
-  LuaCountDeed(L);
+  LuaCountCommand(L);
   Attempt(L, [&] { HostOf(L).RemoveJoint(name); });
   return 0;
 }
@@ -183,10 +183,10 @@ float LuaNumber(lua_State* L, int argument) {
   return number;
 }
 
-void LuaCountDeed(lua_State* L) {
+void LuaCountCommand(lua_State* L) {
   LuaCharge(L, 100);
-  if (++GuardOf(L).deeds <= kScriptDeedsMax) return;
-  luaL_error(L, "more than %d changes of the world in a tick", kScriptDeedsMax);
+  if (++GuardOf(L).commands <= kScriptCommandsMax) return;
+  luaL_error(L, "more than %d changes of the world in a tick", kScriptCommandsMax);
 }
 
 void AddLuaMaking(lua_State* L) {

@@ -126,8 +126,8 @@ std::int64_t FixRange(lua_State* L, int first) {
   lua_settop(L, first + 1);
   const lua_Integer from = luaL_optinteger(L, first, 1);
   const lua_Integer to = luaL_optinteger(L, first + 1, static_cast<lua_Integer>(length));
-  constexpr lua_Integer kMost = 1 << 24;
-  if (from < -kMost || from > kMost || to < -kMost || to > kMost) {
+  constexpr lua_Integer kMax = 1 << 24;
+  if (from < -kMax || from > kMax || to < -kMax || to > kMax) {
     luaL_error(L, "a list from %I to %I is out of bounds", from, to);
   }
   lua_pushinteger(L, from);

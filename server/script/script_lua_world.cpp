@@ -91,7 +91,7 @@ int Push(lua_State* L, float scale, const char* why) {
   const char* part = luaL_checkstring(L, 1);
   const float x = LuaNumber(L, 2), y = LuaNumber(L, 3);
   why = luaL_optstring(L, 4, why);
-  LuaCountDeed(L);
+  LuaCountCommand(L);
   Attempt(L, [&] { HostOf(L).Push(part, Vec2(x * scale, y * scale), why); });
   return 0;
 }
@@ -99,7 +99,7 @@ int Push(lua_State* L, float scale, const char* why) {
 int Blast(lua_State* L) {
   const Vec2 centre(LuaNumber(L, 1), LuaNumber(L, 2));
   const float radius = LuaNumber(L, 3), speed = LuaNumber(L, 4);
-  LuaCountDeed(L);
+  LuaCountCommand(L);
   Attempt(L, [&] { HostOf(L).Blast(centre, radius, speed); });
   return 0;
 }
@@ -121,7 +121,7 @@ int Set(lua_State* L) {
   const char* subject = luaL_checkstring(L, 1);
   const char* key = luaL_checkstring(L, 2);
   const float value = LuaNumber(L, 3);
-  LuaCountDeed(L);
+  LuaCountCommand(L);
   Attempt(L, [&] { HostOf(L).Set(subject, key, value); });
   return 0;
 }
@@ -132,7 +132,7 @@ int Change(lua_State* L, const char* key) {
   const bool changes = !lua_isnoneornil(L, 2);
   const float more = changes ? LuaNumber(L, 2) : 0;
   LuaCharge(L, 10);
-  if (changes) LuaCountDeed(L);
+  if (changes) LuaCountCommand(L);
   float value = 0;
   Attempt(L, [&] {
     value = HostOf(L).Get(subject, key);

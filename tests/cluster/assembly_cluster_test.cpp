@@ -1,9 +1,9 @@
 /// scenes/titanic.toml and scenes/gluehouse.toml over a bad network: what breaks and joins, breaks
 /// and joins for everybody.
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
+
+#include <gtest/gtest.h>
 
 #include "tests/support/two_sides.h"
 
@@ -32,12 +32,12 @@ std::unique_ptr<Cluster> Played(const std::string& scene, std::int64_t seed,
   auto tick = static_cast<std::int64_t>(cluster->scene().duration_s * 60);
   cluster->RunToTick(tick);
   int edits = -1;
-  for (int more = 0; more < 10 && edits != server.replica().topology(); ++more) {
-    edits = server.replica().topology();
+  for (int more = 0; more < 10 && edits != server.replica().revision(); ++more) {
+    edits = server.replica().revision();
     tick += 60;
     cluster->RunToTick(tick);
   }
-  EXPECT_EQ(edits, server.replica().topology()) << "it goes on breaking";
+  EXPECT_EQ(edits, server.replica().revision()) << "it goes on breaking";
   return cluster;
 }
 
@@ -50,7 +50,7 @@ void ExpectAgreement(Cluster* cluster) {
   for (int i = 0; i < cluster->client_count(); ++i) {
     const Client& client = *cluster->client(i);
     const Replica& replica = *client.replica();
-    ASSERT_EQ(replica.topology(), truth.topology()) << "client " << i;
+    ASSERT_EQ(replica.revision(), truth.revision()) << "client " << i;
     ASSERT_EQ(replica.world().composition().hash, truth.world().composition().hash);
     for (int m = 0; m < truth.authority().count(); ++m) {
       const bool has = replica.authority().at(m).authority == client.peer();

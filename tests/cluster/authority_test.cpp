@@ -1,8 +1,9 @@
 /// Who has authority over what, when, in clusters whose network loses a lot: never two at once.
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -76,7 +77,7 @@ struct Watcher {
       for (int c = 0; c < cluster.client_count(); ++c) {
         const Client* client = cluster.client(c);
         if (client == nullptr || !client->running()) continue;
-        const Holding& h = client->replica()->authority().at(m);
+        const AuthorityRecord& h = client->replica()->authority().at(m);
         if (h.authority != client->peer()) continue;
         ++believers;
         const auto [it, fresh] = holder_of_epoch.emplace(std::pair(m, h.epoch), client->peer());

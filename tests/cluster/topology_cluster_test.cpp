@@ -71,11 +71,11 @@ void ExpectOneAuthority(Cluster* cluster) {
     const Client* client = cluster->client(i);
     if (client == nullptr || !client->running()) continue;
     const Replica& replica = *client->replica();
-    if (replica.topology() != server.topology()) continue;
+    if (replica.revision() != server.revision()) continue;
     ASSERT_EQ(replica.world().composition().hash, server.world().composition().hash);
     for (int m = 0; m < server.authority().count(); ++m) {
-      const Holding& ours = server.authority().at(m);
-      const Holding& theirs = replica.authority().at(m);
+      const AuthorityRecord& ours = server.authority().at(m);
+      const AuthorityRecord& theirs = replica.authority().at(m);
       ASSERT_LE(theirs.epoch, ours.epoch + 1) << "ahead only by what is being revoked";
     }
   }
@@ -118,14 +118,14 @@ TEST_P(TopologyUnder, EditsKeepTheirOrderAndEndTheSameEverywhere) {
     server.Order(remove);
     cluster.Run();
     const Replica& truth = server.replica();
-    EXPECT_EQ(truth.topology(), 5) << "seed " << seed;
+    EXPECT_EQ(truth.revision(), 5) << "seed " << seed;
     const std::uint64_t hash = truth.world().composition().hash;
     std::set<PartId> roots;
     for (int b = 0; b < truth.world().body_count(); ++b) roots.insert(truth.world().id(b));
     EXPECT_EQ(roots.size(), 3u) << "rear, front with crate, late";
     for (int i = 0; i < cluster.client_count(); ++i) {
       const Replica& replica = *cluster.client(i)->replica();
-      EXPECT_EQ(replica.topology(), 5) << "seed " << seed << " client " << i;
+      EXPECT_EQ(replica.revision(), 5) << "seed " << seed << " client " << i;
       EXPECT_EQ(replica.world().composition().hash, hash) << "seed " << seed << " client " << i;
       for (int b = 0; b < replica.world().body_count(); ++b) {
         const float apart =
@@ -161,7 +161,7 @@ TEST(TopologyCluster, APeerThatWentAstrayIsFoundAndRepaired) {
             cluster.server().world().composition().hash);
   cluster.server().Order(Break(0));
   cluster.Run();
-  EXPECT_EQ(cluster.client(1)->replica()->topology(), 1);
+  EXPECT_EQ(cluster.client(1)->replica()->revision(), 1);
   EXPECT_EQ(cluster.client(1)->replica()->world().composition().hash,
             cluster.server().world().composition().hash);
   bool said = false;
@@ -192,7 +192,7 @@ TEST(TopologyCluster, WhoJoinsLateGetsAllEdits) {
   cluster.Run();
   const Client* bob = cluster.client(1);
   ASSERT_TRUE(bob->running());
-  EXPECT_EQ(bob->replica()->topology(), 2);
+  EXPECT_EQ(bob->replica()->revision(), 2);
   EXPECT_EQ(bob->replica()->world().composition().hash,
             cluster.server().world().composition().hash);
 }

@@ -161,7 +161,7 @@ std::string WithSettings(const std::string& text, const std::vector<std::string>
     bool good = false;
     try {
       good = Says(ParseToml(changed, file), setting);
-    } catch (const OperatorError&) {  // it was there already, in another form
+    } catch (const OperatorError&) {  // it was there already, in another revision
     }
     if (!good) Refuse(each, file + " cannot be set so: the key needs a line of its own there");
   }

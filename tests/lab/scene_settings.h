@@ -18,7 +18,7 @@ std::vector<std::string> SplitSettings(const std::string& text);
 std::string JoinSettings(const std::vector<std::string>& settings);
 
 /// The scene file's text with those settings: the line of each key is replaced, or one is added.
-/// Throws OperatorError when the text has the key in a form that cannot be replaced.
+/// Throws OperatorError when the text has the key in a revision that cannot be replaced.
 std::string WithSettings(const std::string& text, const std::vector<std::string>& settings,
                          const std::string& file);
 

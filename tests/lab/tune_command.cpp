@@ -1,9 +1,10 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "common/base/check.h"
@@ -18,7 +19,7 @@ namespace {
 /// The horizon of a scene that is no hard case, unless its duration is shorter. s
 constexpr double kHorizon = 10;
 /// Bodies nudged for the floor.
-constexpr int kNudgedMost = 5;
+constexpr int kNudgedMax = 5;
 
 /// The hard case that is meant: by name, or the first of the scene if it lies in a folder "hard".
 const HardCase* CaseOf(const TuneCommand& command) {
@@ -38,7 +39,7 @@ const HardCase* CaseOf(const TuneCommand& command) {
 double Floor(const Scene& scene, double seconds) {
   const Trajectory path = PathOf(scene, seconds);
   const int bodies = World(scene).body_count();
-  const int chosen = std::min(bodies, kNudgedMost);
+  const int chosen = std::min(bodies, kNudgedMax);
   std::vector<double> distances;
   for (int k = 0; k < chosen; ++k) {
     distances.push_back(Distance(path, PathOf(scene, seconds, k * bodies / chosen)));

@@ -1,15 +1,16 @@
 /// Measures of worlds whose bodies come, go, split and merge: by part, against arithmetic.
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <gtest/gtest.h>
+
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "common/measure/forms.h"
 #include "common/measure/measure.h"
+#include "common/measure/revisions.h"
 #include "common/physics/world.h"
 #include "common/sync/edit_order.h"
 #include "tests/lab/cluster.h"
@@ -89,7 +90,7 @@ View ViewOf(const World& world, int peer) {
   View view;
   view.peer = peer;
   view.tick = world.tick();
-  view.topology = world.topology().edits();
+  view.revision = world.topology().revision();
   for (int body = 0; body < world.body_count(); ++body) {
     const BodyState state = world.Read(body);
     view.id.push_back(static_cast<std::int16_t>(world.id(body)));
@@ -118,7 +119,7 @@ Recording Simulate(const Timed& edits) {
       if (when != tick) continue;
       EditOrder order = ToOrder(edit);
       order.tick = tick;
-      order.number = world.topology().edits();
+      order.number = world.topology().revision();
       recording.edits[order.number] = order;
       world.Apply({edit});
     }
@@ -253,19 +254,20 @@ TEST(MeasureChanges, ASessionUnderLossLosesNoBody) {
   EXPECT_LT(m.error_max_m, 1.5);
 }
 
-TEST(MeasureChanges, AFormIsTheSameHoweverOftenItIsAskedFor) {
+TEST(MeasureChanges, ARevisionIsTheSameHoweverOftenItIsAskedFor) {
   std::vector<Edit> edits;
   for (int i = 0; i < 300; ++i) {  // more than are kept
     edits.push_back(Insert("n" + std::to_string(i), i, EditCause::kOutside));
   }
   edits.push_back(OnPart(EditKind::kPush, kAlone));
   const Scene scene = ParseScene(kScene, "bar.toml");
-  const Forms forms(scene, edits);
-  EXPECT_EQ(forms.Key(301), 300);  // a push changes no body
+  const RevisionHistory revisions(scene, edits);
+  EXPECT_EQ(revisions.Key(301), 300);  // a push changes no body
   for (const int wanted : {300, 10, 299, 0, 150, 10, 1000}) {
-    EXPECT_EQ(forms.At(wanted)->ids.size(), 2u + static_cast<std::size_t>(std::min(wanted, 300)));
+    EXPECT_EQ(revisions.At(wanted)->ids.size(),
+              2u + static_cast<std::size_t>(std::min(wanted, 300)));
   }
-  EXPECT_TRUE(forms.SameBody(0, 300, kLight));
+  EXPECT_TRUE(revisions.SameBody(0, 300, kLight));
 }
 
 }  // namespace

@@ -1,9 +1,10 @@
 /// The named profiles keep the averages that they promise, and specs are read or refused.
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <gtest/gtest.h>
+
 #include <set>
 #include <string>
 
@@ -73,15 +74,15 @@ TEST(Impair, TheDemoProfileIsFiftyMillisecondsTenOfJitterAndOnePercent) {
   const double mean_us = MeanDelayUs(arrived, run);
   EXPECT_NEAR(mean_us, 60'000, 250);
   double variance = 0;
-  std::int64_t least_us = INT64_MAX;
+  std::int64_t min_us = INT64_MAX;
   for (const Arrived& one : arrived) {
     const std::int64_t delay_us = one.at_us - one.number * run.period_us;
-    least_us = std::min(least_us, delay_us);
+    min_us = std::min(min_us, delay_us);
     variance += std::pow(static_cast<double>(delay_us) - mean_us, 2);
   }
   EXPECT_NEAR(std::sqrt(variance / static_cast<double>(arrived.size())), 10'000, 400);
-  EXPECT_GE(least_us, 50'000);
-  EXPECT_LT(least_us, 50'010);
+  EXPECT_GE(min_us, 50'000);
+  EXPECT_LT(min_us, 50'010);
 }
 
 TEST(Impair, BurstLossesComeInRunsOfTheLengthTheChainPromises) {

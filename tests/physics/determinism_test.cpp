@@ -4,17 +4,19 @@
 ///   SEAM_GOLDEN=write build/release/seam-tests --gtest_filter='Determinism.*'
 /// look at the difference, and say in the commit message which hash changed and why.
 
-#include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
+
+#include <gtest/gtest.h>
+
 #include <map>
 #include <memory>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "tests/support/scripted_world.h"
 
@@ -124,8 +126,8 @@ TEST(Determinism, EveryBuildComputesTheGoldenHashes) {
       computed[path.substr(std::string("scenes/").size())] = hash;
     }
   }
-  const char* wish = std::getenv("SEAM_GOLDEN");
-  if (wish != nullptr && std::string(wish) == "write") {
+  const char* request = std::getenv("SEAM_GOLDEN");
+  if (request != nullptr && std::string(request) == "write") {
     std::ofstream out(kGoldenFile);
     out << "# World::Hash() of each scene with its scripts, alone, after " << kTicks
         << " ticks, in hard/ " << kHardTicks << ".\n";

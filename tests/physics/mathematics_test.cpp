@@ -96,7 +96,7 @@ TEST(Mathematics, SlidingBlockStopsAfterTheSquareOfItsSpeed) {
     const std::string rough = "friction=" + Digits(mu) + "\n";
     const auto world = SmallWorld(
         "[[part]]\nname=\"ground\"\nchain=[[-9, 0], [90, 0]]\n" + rough +
-        "[[part]]\nname=\"block\"\nbox=[1, 1]\nposition=[0, 0.515]\nvelocity=[8, 0]\n" + rough);
+        "[[part]]\nname=\"blocked\"\nbox=[1, 1]\nposition=[0, 0.515]\nvelocity=[8, 0]\n" + rough);
     Steps(world.get(), 600);
     const double d = world->Read(0).position.x();
     // Measured 4e-5 m: the last step's share of a step.

@@ -2,9 +2,9 @@
 
 #include "common/physics/world.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "tests/support/scripted_world.h"
 
@@ -232,17 +232,20 @@ b = "bob"
 )");
   run.world.Write(run.Body("box"), BodyState{{0, 0.51f}, 0, {1, 0}, 0});
   run.StepTo(2);
-  const std::vector<Block>& blocks = run.world.blocks();
-  ASSERT_EQ(blocks.size(), 3u) << "box: ground and wall; bob: its string; flying: nothing";
-  EXPECT_EQ(blocks[0].body, run.Body("box"));
-  EXPECT_EQ(blocks[1].body, run.Body("box"));
-  const float across = std::max(std::abs(blocks[0].normal.x()), std::abs(blocks[1].normal.x()));
-  const float up = std::max(std::abs(blocks[0].normal.y()), std::abs(blocks[1].normal.y()));
+  const std::vector<BlockedDirection>& blocked_directions = run.world.blocked_directions();
+  ASSERT_EQ(blocked_directions.size(), 3u)
+      << "box: ground and wall; bob: its string; flying: nothing";
+  EXPECT_EQ(blocked_directions[0].body, run.Body("box"));
+  EXPECT_EQ(blocked_directions[1].body, run.Body("box"));
+  const float across = std::max(std::abs(blocked_directions[0].normal.x()),
+                                std::abs(blocked_directions[1].normal.x()));
+  const float up = std::max(std::abs(blocked_directions[0].normal.y()),
+                            std::abs(blocked_directions[1].normal.y()));
   EXPECT_NEAR(across, 1, 1e-3);
   EXPECT_NEAR(up, 1, 1e-3);
-  EXPECT_EQ(blocks[2].body, run.Body("bob"));
+  EXPECT_EQ(blocked_directions[2].body, run.Body("bob"));
   const Vec2 along = (run.Read("bob").position - Vec2(-8, 6)).normalized();
-  EXPECT_NEAR(std::abs(blocks[2].normal.dot(along)), 1, 1e-4);
+  EXPECT_NEAR(std::abs(blocked_directions[2].normal.dot(along)), 1, 1e-4);
 }
 
 }  // namespace

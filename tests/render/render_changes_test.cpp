@@ -31,10 +31,10 @@ TEST(RenderChanges, TheRimOfASquareOfBoxesIsItsOutside) {
     for (int x = 0; x < kSide; ++x)
       if (x + y > 0) text += Joined("weld", x > 0 ? name(x - 1, y) : name(x, y - 1), name(x, y));
   const Scene scene = ParseScene(text, "square.toml");
-  const DrawnForm form = FormOf(scene, Compose(scene));
-  ASSERT_EQ(form.moving.size(), 1u);
-  EXPECT_EQ(form.moving[0].rim.size(), 4u * kSide);
-  for (const auto& edge : form.moving[0].rim) EXPECT_NEAR((edge[0] - edge[1]).norm(), 1, 1e-5);
+  const DrawnRevision revision = RevisionOf(scene, Compose(scene));
+  ASSERT_EQ(revision.moving.size(), 1u);
+  EXPECT_EQ(revision.moving[0].rim.size(), 4u * kSide);
+  for (const auto& edge : revision.moving[0].rim) EXPECT_NEAR((edge[0] - edge[1]).norm(), 1, 1e-5);
 }
 
 TEST(RenderChanges, EachViewIsDrawnByItsOwnTopology) {
@@ -55,9 +55,9 @@ TEST(RenderChanges, EachViewIsDrawnByItsOwnTopology) {
   std::int64_t changed = -1;
   for (const auto& [tick, view] : recording.views.at(1)) {
     const Moment moment = playback.MomentAt(1, static_cast<double>(tick));
-    const bool broken = view.topology == 1;
+    const bool broken = view.revision == 1;
     if (broken && changed < 0) changed = tick;
-    EXPECT_EQ(playback.FormOf(moment)->moving.size(), broken ? 2u : 1u) << tick;
+    EXPECT_EQ(playback.RevisionOf(moment)->moving.size(), broken ? 2u : 1u) << tick;
     // Nothing but the skin between them (1.5 cm) moves the parts, in one body or in two.
     EXPECT_NEAR(playback.FindPart(moment, 0).value().position.x(), 0, 0.02);
     EXPECT_NEAR(playback.FindPart(moment, 1).value().position.x(), 1, 0.02);

@@ -117,10 +117,10 @@ TEST(Strobe, FindsTheWorstMomentWhereNothingCollides) {
 TEST(Strobe, ShowsEarlierAndLaterPosesAtOnceTheEarlierOnesFainter) {
   std::vector<Playback> runs;
   runs.push_back(MakePlayback(0));
-  StrobeWishes wishes{0.2, 1.2};
-  wishes.every_ticks = 30;
-  wishes.peer = 1;
-  StrobePlan plan = PlanStrobe(runs, wishes);
+  StrobeOptions options{0.2, 1.2};
+  options.every_ticks = 30;
+  options.peer = 1;
+  StrobePlan plan = PlanStrobe(runs, options);
   plan.min = {-18, -2};
   plan.max = {18, 10};
   plan.width_px = 1280;
@@ -142,9 +142,9 @@ TEST(Strobe, ShowsEarlierAndLaterPosesAtOnceTheEarlierOnesFainter) {
 TEST(Strobe, AnEmptyWindowIsAnOperatorError) {
   std::vector<Playback> runs;
   runs.push_back(MakePlayback(0));
-  EXPECT_THROW(PlanStrobe(runs, StrobeWishes{50, 51}), OperatorError);
-  EXPECT_THROW(PlanStrobe(runs, StrobeWishes{2, 1}), OperatorError);
-  EXPECT_THROW(PlanStrobe(runs, StrobeWishes{0, 1e9, 1}), OperatorError);
+  EXPECT_THROW(PlanStrobe(runs, StrobeOptions{50, 51}), OperatorError);
+  EXPECT_THROW(PlanStrobe(runs, StrobeOptions{2, 1}), OperatorError);
+  EXPECT_THROW(PlanStrobe(runs, StrobeOptions{0, 1e9, 1}), OperatorError);
 }
 
 }  // namespace

@@ -2,9 +2,9 @@
 
 #include "server/rules/rules.h"
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
+
+#include <gtest/gtest.h>
 
 #include "server/rules/part_owner.h"
 #include "server/rules/script_room.h"
@@ -16,7 +16,7 @@ namespace {
 using Lines = std::vector<std::string>;
 
 /// Writes down what it is asked for.
-class FakeHands : public RoomHands {
+class FakeRoomCommands : public RoomCommands {
  public:
   Lines asked, said;
   void RemovePart(PartId part) override { asked.push_back("remove " + std::to_string(part)); }
@@ -39,7 +39,7 @@ class FakeHands : public RoomHands {
 
 struct Game {
   explicit Game(const std::string& text)
-      : world(ParseScene("gravity = [0, 0]\n" + text, "g.toml")), rules(world, 1, hands) {}
+      : world(ParseScene("gravity = [0, 0]\n" + text, "g.toml")), rules(world, 1, commands) {}
   void Step(int ticks = 1) {
     for (int i = 0; i < ticks; ++i) {
       world.Step();
@@ -59,7 +59,7 @@ struct Game {
     return rules.metadata().Get({kMetaPlayer, static_cast<std::int16_t>(player), key});
   }
   World world;
-  FakeHands hands;
+  FakeRoomCommands commands;
   Rules rules;
 };
 
@@ -83,7 +83,7 @@ TEST(Rules, ABlowHurtsByTheChangeOfEachBodysOwnVelocity) {
     const float a = 20 * ratio / (1 + ratio), b = 20 / (1 + ratio);
     EXPECT_NEAR(game.Value("a"), 100 - 5 * (a - 2), 0.5) << ratio;
     EXPECT_NEAR(game.Value("b"), 100 - 5 * (b - 2), 0.5) << ratio;
-    EXPECT_EQ(game.hands.said, Lines{});
+    EXPECT_EQ(game.commands.said, Lines{});
   }
 }
 
@@ -111,8 +111,8 @@ b = "hand"
 )"));
   game.Step(60);
   EXPECT_EQ(game.Value("b"), 0);
-  EXPECT_EQ(game.hands.asked, Lines{"break 0"}) << "the shoulder; welds hold";
-  EXPECT_EQ(game.hands.said, Lines{"b is destroyed by ann"});
+  EXPECT_EQ(game.commands.asked, Lines{"break 0"}) << "the shoulder; welds hold";
+  EXPECT_EQ(game.commands.said, Lines{"b is destroyed by ann"});
   EXPECT_EQ(game.OfPlayer(0, kMetaScore), 30);
   EXPECT_EQ(game.OfPlayer(1, kMetaScore), 0);
 }
@@ -154,8 +154,8 @@ TEST(Rules, CheckpointsCountInTheirOrderAndMakeLaps) {
   EXPECT_EQ(game.OfPlayer(0, kMetaCheckpoint), 1) << "and 1 of the next lap";
   EXPECT_EQ(game.OfPlayer(0, kMetaScore), 20);
   EXPECT_EQ(game.OfPlayer(1, kMetaScore), 0) << "bob flew above them";
-  EXPECT_EQ(game.hands.said, (Lines{"ann passes c0", "ann passes c2", "ann passes c3",
-                                    "ann has done a lap", "ann passes c4"}));
+  EXPECT_EQ(game.commands.said, (Lines{"ann passes c0", "ann passes c2", "ann passes c3",
+                                       "ann has done a lap", "ann passes c4"}));
 }
 
 TEST(Rules, APickupIsTakenOnceByTheFirstWhoMay) {
@@ -166,15 +166,15 @@ TEST(Rules, APickupIsTakenOnceByTheFirstWhoMay) {
       "score = 7\nhealth = 500\n";
   Game game(Track(coin, "", "health = 40"));
   game.Step(120);
-  EXPECT_EQ(game.hands.said, Lines{"bob takes gold"});
-  EXPECT_EQ(game.hands.asked, Lines{"remove 2"});
+  EXPECT_EQ(game.commands.said, Lines{"bob takes gold"});
+  EXPECT_EQ(game.commands.asked, Lines{"remove 2"});
   EXPECT_EQ(game.Value("coin", kMetaTaken), 2) << "1 + bob's place";
   EXPECT_EQ(game.OfPlayer(1, kMetaScore), 7);
   EXPECT_EQ(game.OfPlayer(0, kMetaScore), 0);
   EXPECT_EQ(game.Value("b"), 40) << "no more than the scene gave";
 }
 
-TEST(Rules, ScriptsHearOfTouchesTriggersAndComers) {
+TEST(Rules, ScriptsHearOfTouchesTriggersAndPlayers) {
   Game game(Track(R"([[part]]
 name = "wall"
 box = [1, 4]
@@ -212,30 +212,30 @@ end
   game.rules.OnLeave(1);
   game.Step(10);
   EXPECT_EQ(
-      game.hands.said,
+      game.commands.said,
       (Lines{"ann joins ann", "bob leaves", "false 'a' and 'b' are not welded",
              "false 'wall' is anchored", "false the push makes 'a' faster than the speed_limit",
              "false 'wall' has no health in the scene",
              "false no value 'colour': health, score, checkpoint, laps, taken, value0 .. "
              "value9",
              "false there is no part 'nothing'"}));
-  EXPECT_EQ(game.hands.asked, (Lines{"push 0 1.000000",
-                                     "[[part]]\nanchored = true\nbox = [1, 1]\nname = \"new\"\n"
-                                     "position = [0, 9.5]\n",
-                                     "bond 0 1 5.000000"}));
+  EXPECT_EQ(game.commands.asked, (Lines{"push 0 1.000000",
+                                        "[[part]]\nanchored = true\nbox = [1, 1]\nname = \"new\"\n"
+                                        "position = [0, 9.5]\n",
+                                        "bond 0 1 5.000000"}));
   EXPECT_EQ(game.OfPlayer(0, kMetaScripts + 3), 4);
-  game.hands.said.clear();
+  game.commands.said.clear();
   game.Step(100);
-  ASSERT_GE(game.hands.said.size(), 4u);
-  EXPECT_EQ(game.hands.said[0], "half a true");
-  EXPECT_EQ(game.hands.said[1], "half a false");
+  ASSERT_GE(game.commands.said.size(), 4u);
+  EXPECT_EQ(game.commands.said[0], "half a true");
+  EXPECT_EQ(game.commands.said[1], "half a false");
   // 5.3 m at 6 m/s: contact a tick or two early by the engine's margin.
-  EXPECT_EQ(game.hands.said[2].rfind("a wall 5", 0), 0u) << game.hands.said[2];
+  EXPECT_EQ(game.commands.said[2].rfind("a wall 5", 0), 0u) << game.commands.said[2];
   const std::string& text = game.world.scene().text;
   const auto typo = text.begin() + static_cast<std::ptrdiff_t>(text.find("remove_prat"));
   const std::string line = std::to_string(1 + std::count(text.begin(), typo, '\n'));
-  EXPECT_EQ(game.hands.said.back(), "script s is stopped: g.toml:" + line +
-                                        ": attempt to call a nil value (field 'remove_prat')");
+  EXPECT_EQ(game.commands.said.back(), "script s is stopped: g.toml:" + line +
+                                           ": attempt to call a nil value (field 'remove_prat')");
 }
 
 TEST(Rules, APartOfABodyIsWhereItsRootHasCarriedIt) {

@@ -1,8 +1,9 @@
 /// Glue that breaks: forces by arithmetic.
 
+#include <cmath>
+
 #include <gtest/gtest.h>
 
-#include <cmath>
 #include <numeric>
 
 #include "common/stages/bonds/bond_net.h"
@@ -75,9 +76,9 @@ TEST(Glue, TheTopmostBondOfAHangingChainBreaksFirstAtTheWeightBelow) {
   EXPECT_EQ(holds->body_count(), 1);
   auto breaks = SmallWorld(Chain(39.5));
   breaks->Step();
-  const std::vector<Edit> wishes = breaks->Wishes();
-  ASSERT_EQ(wishes.size(), 1u);
-  EXPECT_EQ(breaks->scene().joints[static_cast<std::size_t>(wishes[0].joint)].name, "box.h.0");
+  const std::vector<Edit> proposed = breaks->ProposeEdits();
+  ASSERT_EQ(proposed.size(), 1u);
+  EXPECT_EQ(breaks->scene().joints[static_cast<std::size_t>(proposed[0].joint)].name, "box.h.0");
 }
 
 TEST(Glue, ACantileverOnAWallBreaksAtTheWall) {
@@ -153,18 +154,18 @@ TEST(Glue, TheSameBondsBreakAgainAfterGoingBack) {
       "repeat = {count = [3, 6], step = [1, 0.5], glue = 300}\n");
   Steps(world.get(), 15);
   const WorldSnapshot snapshot = world->Barrier();
-  const auto wishes = [&world] {
+  const auto proposed = [&world] {
     std::vector<int> joints;
     for (int i = 0; i < 20; ++i) {
       world->Step();
-      for (const Edit& edit : world->Wishes()) joints.push_back(edit.joint);
+      for (const Edit& edit : world->ProposeEdits()) joints.push_back(edit.joint);
     }
     return joints;
   };
-  const std::vector<int> first = wishes();
+  const std::vector<int> first = proposed();
   EXPECT_FALSE(first.empty());
   world->Restore(snapshot);
-  EXPECT_EQ(wishes(), first);
+  EXPECT_EQ(proposed(), first);
 }
 
 }  // namespace

@@ -19,11 +19,11 @@ class FollowedCopy {
         copy(truth.scene(), MakeSyncConfig("buffer", rule), 1, -1),
         late_(late) {
     for (int m = 0; m < copy.authority().count(); ++m) {
-      Holding holding;
-      holding.epoch = 1;
-      for (const int mine : own) holding.authority = mine == m ? 1 : holding.authority;
-      holding.secondaries = 1u << 1;
-      copy.authority().Set(m, holding);
+      AuthorityRecord record;
+      record.epoch = 1;
+      for (const int mine : own) record.authority = mine == m ? 1 : record.authority;
+      record.secondaries = 1u << 1;
+      copy.authority().Set(m, record);
     }
     copy.RolesChanged();
     copy.StartAt(0);

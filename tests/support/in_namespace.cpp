@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kInside = "SEAM_TEST_SUITE_IN_NAMESPACE";
 /// Longest that a suite may take, s; normal 20, under sanitizers on a busy machine 60.
-constexpr double kSuiteSecondsMost = 300;
+constexpr double kSuiteSecondsMax = 300;
 
 /// What a suite's run inside has written, or why there was none.
 struct SuiteRun {
@@ -36,7 +36,7 @@ SuiteRun RunInside(const ::testing::TestSuite& suite, const std::string& network
                   "-c", network + "; exec \"$@\"", "sh",
                   std::filesystem::read_symlink("/proc/self/exe").string(), filter,
                   "--gtest_color=no"});
-  const bool ended = inside.Wait(kSuiteSecondsMost);
+  const bool ended = inside.Wait(kSuiteSecondsMax);
   run.text = inside.output();
   if (!ended || (inside.status() != 0 && inside.status() != 1)) {
     run.story = (ended ? "" : "hangs; ") + inside.Story();

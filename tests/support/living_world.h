@@ -12,7 +12,7 @@ inline std::vector<Edit> Live(World* world, int ticks) {
   std::vector<Edit> all;
   for (int i = 0; i < ticks; ++i) {
     world->Step();
-    const std::vector<Edit> edits = world->Wishes();
+    const std::vector<Edit> edits = world->ProposeEdits();
     if (!edits.empty()) world->Apply(edits);
     all.insert(all.end(), edits.begin(), edits.end());
   }

@@ -53,7 +53,7 @@ class PseudoTerminal {
   bool good() const { return terminal_ >= 0; }
   int terminal() const { return terminal_; }
   void Type(const std::string& keys);
-  /// Whether it hands over whole lines and echoes, as a shell's terminal does.
+  /// Whether it commands over whole lines and echoes, as a shell's terminal does.
   bool IsCooked() const;
   /// Closes this end, as when the window is closed.
   void HangUp();

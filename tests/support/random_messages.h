@@ -39,7 +39,7 @@ class RandomMessages {
     Set(m.send_hz, 1, m.tick_hz), Sequence(m);
   }
   void Fill(Ping& m) {
-    Common(m), Set(m.topology, -1, INT32_MAX);
+    Common(m), Set(m.revision, -1, INT32_MAX);
     m.composition = static_cast<std::int64_t>(random_.Next());
   }
   void Fill(Pong& m) { Common(m), m.client_us = Time(), m.tick0_us = Time(); }
@@ -50,7 +50,7 @@ class RandomMessages {
   void Fill(Inputs& m) { Fill(m, Count(1, kInputsMax)); }
   void Fill(States& m, std::size_t count) {
     Common(m), Sequence(m), Set(m.peer, 0, 31), m.tick = Tick();
-    Set(m.topology, 0, INT32_MAX), m.composition = static_cast<std::int64_t>(random_.Next());
+    Set(m.revision, 0, INT32_MAX), m.composition = static_cast<std::int64_t>(random_.Next());
     Set(m.origin_x, -kOriginMax, kOriginMax), Set(m.origin_y, -kOriginMax, kOriginMax);
     Ids(m.id, count), Any(m.epoch, count), Vector(m.flags, count, 0, 3), Any(m.x, count);
     Any(m.y, count), Any(m.angle, count), Any(m.vx, count), Any(m.vy, count), Any(m.spin, count);
@@ -75,7 +75,7 @@ class RandomMessages {
   void Fill(Meta& m) { Fill(m, Count(0, kMetaMax)); }
   void Fill(View& m, std::size_t count) {
     Common(m), Sequence(m), Set(m.peer, 0, 31), m.tick = Tick(), Set(m.parts, 1, kViewPartsMax);
-    Set(m.topology, 0, INT32_MAX);
+    Set(m.revision, 0, INT32_MAX);
     Set(m.part, 0, m.parts - 1), Ids(m.id, count), Vector(m.role, count, 0, 2);
     Vector(m.authority, count, 0, 31), Floats(m.x, count), Floats(m.y, count);
     Floats(m.angle, count), Floats(m.vx, count), Floats(m.vy, count), Floats(m.spin, count);
@@ -162,13 +162,13 @@ inline auto Fields(const Room& m) {
   return std::tie(m.utime, m.sequence, m.protocol, m.room, m.scene_name, m.scene_text, m.mode,
                   m.reconcile, m.impair, m.seed, m.tick_hz, m.send_hz);
 }
-inline auto Fields(const Ping& m) { return std::tie(m.utime, m.topology, m.composition); }
+inline auto Fields(const Ping& m) { return std::tie(m.utime, m.revision, m.composition); }
 inline auto Fields(const Pong& m) { return std::tie(m.utime, m.client_us, m.tick0_us); }
 inline auto Fields(const Inputs& m) {
   return std::tie(m.utime, m.sequence, m.player, m.first_tick, m.drive, m.lift, m.buttons);
 }
 inline auto Fields(const States& m) {
-  return std::tie(m.utime, m.sequence, m.peer, m.tick, m.topology, m.composition, m.origin_x,
+  return std::tie(m.utime, m.sequence, m.peer, m.tick, m.revision, m.composition, m.origin_x,
                   m.origin_y, m.id, m.epoch, m.flags, m.x, m.y, m.angle, m.vx, m.vy, m.spin);
 }
 inline auto Fields(const Grants& m) {
@@ -182,7 +182,7 @@ inline auto Fields(const Meta& m) {
   return std::tie(m.utime, m.sequence, m.tick, m.kind, m.id, m.key, m.value);
 }
 inline auto Fields(const View& m) {
-  return std::tie(m.utime, m.sequence, m.peer, m.tick, m.topology, m.part, m.parts, m.id, m.role,
+  return std::tie(m.utime, m.sequence, m.peer, m.tick, m.revision, m.part, m.parts, m.id, m.role,
                   m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin);
 }
 inline auto Fields(const Impacts& m) {

@@ -36,7 +36,7 @@ class ScriptedWorld {
       before_[p] = input;
     }
     world.Step();
-    const std::vector<Edit> edits = world.Wishes();
+    const std::vector<Edit> edits = world.ProposeEdits();
     if (!edits.empty()) world.Apply(edits);
   }
   void StepTo(std::int64_t tick) {

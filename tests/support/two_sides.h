@@ -25,10 +25,10 @@ inline int SecondAuthorities(Cluster* cluster) {
     const Client* client = cluster->client(i);
     if (client == nullptr || !client->running()) continue;
     const Replica& replica = *client->replica();
-    if (replica.topology() != server.topology()) continue;
+    if (replica.revision() != server.revision()) continue;
     for (int m = 0; m < server.authority().count(); ++m) {
-      const Holding& ours = server.authority().at(m);
-      const Holding& theirs = replica.authority().at(m);
+      const AuthorityRecord& ours = server.authority().at(m);
+      const AuthorityRecord& theirs = replica.authority().at(m);
       const bool both = theirs.epoch == ours.epoch && theirs.authority == client->peer();
       if (both && ours.authority != client->peer()) ++twice;
     }

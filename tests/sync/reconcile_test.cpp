@@ -2,9 +2,9 @@
 
 #include "common/sync/reconcile/reconcile.h"
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "common/base/check.h"
 
@@ -129,8 +129,8 @@ TEST(Reconcile, RetrospectDoesNotExtrapolateIntoTheGround) {
   in.common = in.remote;
   in.dt = 0.1f;
   in.gain = 0.25f;
-  in.block_count = 1;
-  in.blocks[0] = Vec2(0, 1);
+  in.blocked_count = 1;
+  in.blocked_directions[0] = Vec2(0, 1);
   const Correction c = ReconcileRetrospect(in);
   EXPECT_FLOAT_EQ(c.now.position.x(), 0.2f + 2 * 0.1f) << "along the ground: all of it, carried on";
   EXPECT_FLOAT_EQ(c.now.position.y(), 0.025f) << "across: a bounded share";
@@ -198,7 +198,7 @@ TEST(Reconcile, EveryRuleLeavesEqualStatesAlone) {
     EXPECT_EQ(r.rule(in).now.position.norm(), 0) << r.name;
     EXPECT_EQ(FindReconciler(r.name).rule, r.rule);
   }
-  EXPECT_THROW(FindReconciler("wish"), OperatorError);
+  EXPECT_THROW(FindReconciler("magic"), OperatorError);
 }
 
 }  // namespace

@@ -1,10 +1,10 @@
 /// A replica that corrects a copy, against the authority's world, message by message.
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <deque>
+
+#include <gtest/gtest.h>
 
 #include "common/sync/replica.h"
 
@@ -22,10 +22,10 @@ float WorstAfterBounces(float lower, std::int64_t late) {
   const Scene scene = ParseScene(kBall, "s.toml");
   World truth(scene);
   Replica copy(scene, MakeSyncConfig("buffer", "retrospect"), 1, -1);
-  Holding holding;
-  holding.epoch = 1;
-  holding.secondaries = 1u << 1;
-  copy.authority().Set(0, holding);
+  AuthorityRecord record;
+  record.epoch = 1;
+  record.secondaries = 1u << 1;
+  copy.authority().Set(0, record);
   copy.RolesChanged();
   copy.StartAt(0);
 

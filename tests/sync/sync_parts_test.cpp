@@ -1,8 +1,8 @@
 /// The small parts of common/sync, each against what it promises.
 
-#include <gtest/gtest.h>
-
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "client/clock_filter.h"
 #include "common/base/check.h"
@@ -146,7 +146,7 @@ TEST(ClockFilter, FindsTheOffsetUnderOneSidedJitterAndThenNeverJumps) {
 TEST(ClockFilter, IgnoresAnswersFromBeforeTheQuestion) {
   ClockFilter clock;
   clock.AddSample(100, 5, 50);
-  EXPECT_EQ(clock.rtt_least_us(), -1);
+  EXPECT_EQ(clock.rtt_min_us(), -1);
 }
 
 TEST(InputTrack, HoldsTheAxesButNotTheButtonsBeyondWhatItKnows) {

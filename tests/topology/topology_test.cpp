@@ -210,7 +210,7 @@ TEST(Topology, EditsThatCannotBeCountAndDoNothing) {
                    ->Apply({Break(7), Break(-1), Bond(0, 1, 0, 0, 0), Bond(0, 9, 0, 0, 0), insert,
                             remove, Edit{}})
                    .has_value());
-  EXPECT_EQ(world->topology().edits(), 7);
+  EXPECT_EQ(world->topology().revision(), 7);
   EXPECT_EQ(world->composition().hash, hash);
 }
 
@@ -220,7 +220,7 @@ TEST(Topology, TheSameEditsGiveTheSameCompositionWhetherAtOnceOrOneByOne) {
   together->Apply(edits);
   for (const Edit& edit : edits) apart->Apply({edit});
   EXPECT_EQ(together->composition().hash, apart->composition().hash);
-  EXPECT_EQ(together->topology().edits(), apart->topology().edits());
+  EXPECT_EQ(together->topology().revision(), apart->topology().revision());
 }
 
 TEST(Topology, PartsComeAndGo) {

@@ -60,7 +60,7 @@ class GlueStage : public Stage {
   void Rebuilt(b2World* /*world*/) override {}
   void BeforeTick() override;
   void AfterTick() override;
-  void Wishes(std::vector<Edit>* edits) override;
+  void ProposeEdits(std::vector<Edit>* edits) override;
   void Edited(const Edit& /*edit*/) override { stale_ = true; }
   bool listens() const override { return true; }
   void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
@@ -214,7 +214,7 @@ void GlueStage::AfterTick() {
   std::sort(breaking_.begin(), breaking_.end());
 }
 
-void GlueStage::Wishes(std::vector<Edit>* edits) {
+void GlueStage::ProposeEdits(std::vector<Edit>* edits) {
   for (const int joint : breaking_) {
     if (w_.scene.joints[static_cast<std::size_t>(joint)].gone) continue;
     Edit edit;

@@ -30,7 +30,7 @@ class GroupStage : public Stage {
   void Rebuilt(b2World* /*world*/) override {}
   void BeforeTick() override;
   void AfterTick() override;
-  void Wishes(std::vector<Edit>* edits) override;
+  void ProposeEdits(std::vector<Edit>* edits) override;
   void Edited(const Edit& edit) override;
   void Save(std::vector<float>* memory) const override;
   std::size_t Load(const float* memory) override;
@@ -147,7 +147,7 @@ Edit GroupStage::BondOf(int body, int other) const {
   return edit;
 }
 
-void GroupStage::Wishes(std::vector<Edit>* edits) {
+void GroupStage::ProposeEdits(std::vector<Edit>* edits) {
   for (const int joint : undone_) {
     if (w_.scene.joints[static_cast<std::size_t>(joint)].gone) continue;
     Edit edit;

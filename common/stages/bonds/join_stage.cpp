@@ -42,7 +42,7 @@ class JoinStage : public Stage {
   void Rebuilt(b2World* /*world*/) override {}
   void BeforeTick() override;
   void AfterTick() override;
-  void Wishes(std::vector<Edit>* edits) override;
+  void ProposeEdits(std::vector<Edit>* edits) override;
   void Edited(const Edit& edit) override;
   void Save(std::vector<float>* memory) const override;
   std::size_t Load(const float* memory) override;
@@ -146,7 +146,7 @@ void JoinStage::AfterTick() {
   }
 }
 
-void JoinStage::Wishes(std::vector<Edit>* edits) {
+void JoinStage::ProposeEdits(std::vector<Edit>* edits) {
   // The places of assemblies that have been bonded in this tick are not yet known: one at a time.
   std::set<int> busy;
   for (const auto& [distance, a, outlet, b, inlet] : met_) {

@@ -18,7 +18,7 @@ constexpr int kCellsPerTick = 2;
 /// m beyond which a cell is dropped that a body had asked for.
 constexpr float kKeep = 4;
 /// The engine moves nothing farther in a step, m; and its boxes are larger than the shapes by this.
-constexpr float kStepMost = 2, kFat = 0.2f;
+constexpr float kStepMax = 2, kFat = 0.2f;
 
 /// Cells from..to inclusive; none: from > to.
 struct CellRange {
@@ -63,7 +63,7 @@ class FeatherStage : public Stage {
         loaded_(static_cast<std::size_t>(store_.cell_count())) {
     const Solver& solver = world.scene.solver;
     tick_s_ = 1.0f / static_cast<float>(solver.tick_hz);
-    most_ = kStepMost * static_cast<float>(solver.substeps);
+    most_ = kStepMax * static_cast<float>(solver.substeps);
   }
 
   void Rebuilt(b2World* world) override {

@@ -15,11 +15,11 @@ void CharacterControl::Jump(const CharacterSense& s) {
   const float ground_y = low.ankle.y - shape.ankle;
   const float height = (s.hip.y - ground_y) / shape.hip;
   if (memory_.phase == 0) {
-    if (height < kJumpCrouch + 0.05f || memory_.time > kJumpCrouchMost) memory_.phase = 1;
+    if (height < kJumpCrouch + 0.05f || memory_.time > kJumpCrouchMax) memory_.phase = 1;
   }
   const bool gone =
       memory_.phase >= 1 && ((!s.legs[0].down && !s.legs[1].down) || height > kJumpStretched);
-  if (gone || memory_.time > kJumpMost) {
+  if (gone || memory_.time > kJumpMax) {
     Enter(CharacterMode::kAir);
     Air(s);
     return;
@@ -56,10 +56,10 @@ void CharacterControl::Jump(const CharacterSense& s) {
 void CharacterControl::Air(const CharacterSense& s) {
   const CharacterShape& shape = limbs_.shape();
   const bool touch = s.legs[0].down || s.legs[1].down;
-  if (touch && memory_.time > kAirLeast) {
+  if (touch && memory_.time > kAirMin) {
     const bool still = std::abs(s.velocity.x) < 0.5f;
     BeginStep(s, s.legs[0].down ? 0 : 1);
-    memory_.speed = std::clamp(s.velocity.x, -kSpeedBack, kSpeedMost);
+    memory_.speed = std::clamp(s.velocity.x, -kSpeedBack, kRunSpeedMax);
     Enter(still ? CharacterMode::kStand : CharacterMode::kStep);
     if (still)
       Stand(s);

@@ -23,9 +23,9 @@ float CharacterControl::TorsoTorque(const CharacterSense& s, float lean) const {
 float CharacterControl::Lift(const CharacterSense& s, float ground_y, float hip_height,
                              float ground_vy) const {
   const float error = ground_y + hip_height - s.hip.y;
-  const float wish = s.mass * (gravity_ + kHeightStiffness * error / limbs_.scale() -
-                               kHeightDamping * (s.hip_velocity.y - ground_vy));
-  return std::clamp(wish, kLiftLeast * s.mass * gravity_, kLiftMost * s.mass * gravity_);
+  const float proposed = s.mass * (gravity_ + kHeightStiffness * error / limbs_.scale() -
+                                   kHeightDamping * (s.hip_velocity.y - ground_vy));
+  return std::clamp(proposed, kLiftMin * s.mass * gravity_, kLiftMax * s.mass * gravity_);
 }
 
 /// The leg pushes the ground with `lift` N at `pressure_x`, and the torso with `torso_torque`. The
@@ -168,7 +168,7 @@ CharacterControl::Foothold CharacterControl::NextFoothold(const CharacterSense& 
   const float hip_then = s.hip.x + left * s.velocity.x;
   Foothold next;
   next.ankle.x = std::clamp(then - ahead - middle, hip_then - kReachBack * limbs_.scale(),
-                            hip_then + kReachMost * limbs_.scale());
+                            hip_then + kReachMax * limbs_.scale());
   // Not across the edge of a stair, if there is room beside it.
   const float from_y = ground_y + 0.5f * shape.hip, depth = 1.2f * shape.hip;
   const float wished = next.ankle.x;
@@ -179,8 +179,8 @@ CharacterControl::Foothold CharacterControl::NextFoothold(const CharacterSense& 
     const float heel_y = heel.found ? heel.point.y : ground_y;
     const float toe_y = toe.found ? toe.point.y : ground_y;
     const float length = shape.heel + shape.toe;
-    const bool flat = std::abs(toe_y - heel_y) < kSlopeMost * length &&
-                      (heel.normal - toe.normal).Length() < 0.3f;
+    const bool flat =
+        std::abs(toe_y - heel_y) < kSlopeMax * length && (heel.normal - toe.normal).Length() < 0.3f;
     if (!flat && aside != kAside[0]) continue;
     next.ankle.Set(x, std::max(heel_y, toe_y) + shape.ankle);
     next.slope = 0;
@@ -220,9 +220,9 @@ void CharacterControl::Swing(const CharacterSense& s, int side, const Foothold& 
 void CharacterControl::StepOn(const CharacterSense& s, float h) {
   const CharacterShape& shape = limbs_.shape();
   memory_.step += h;
-  const float most = drive_ > 0 ? kSpeedMost : kSpeedBack;
-  const float wish = most * std::sqrt(limbs_.scale()) * drive_;
-  memory_.speed += std::clamp(wish - memory_.speed, -kSpeedRate * h, kSpeedRate * h);
+  const float most = drive_ > 0 ? kRunSpeedMax : kSpeedBack;
+  const float proposed = most * std::sqrt(limbs_.scale()) * drive_;
+  memory_.speed += std::clamp(proposed - memory_.speed, -kSpeedRate * h, kSpeedRate * h);
   const float whole = StepTime();
   const int swing = 1 - memory_.stance;
   if (s.legs[swing].down && memory_.step > 0.5f * whole) {
@@ -251,7 +251,7 @@ void CharacterControl::StepOn(const CharacterSense& s, float h) {
   // The height that the hip keeps is above the line from foot to foot.
   const b2Vec2 way = next.ankle - stance.ankle;
   const bool apart = std::abs(way.x) > 0.15f * shape.hip;
-  const float rise = apart ? std::clamp(way.y / way.x, -kSlopeMost, kSlopeMost) : 0;
+  const float rise = apart ? std::clamp(way.y / way.x, -kSlopeMax, kSlopeMax) : 0;
   const float along = apart ? std::clamp((s.hip.x - stance.ankle.x) / way.x, 0.0f, 1.0f) : 0;
   const float floor_y = ground_y + along * rise * way.x;
   const float floor_vy = stance.ground_velocity.y + rise * memory_.speed;

@@ -74,7 +74,7 @@ void CharacterControl::Choose(const CharacterSense& s, float h) {
     if (!swims && depth > kSwimFrom) Enter(CharacterMode::kSwim);
     const bool stands = depth < kSwimTo && (s.legs[0].down || s.legs[1].down || s.lying);
     if (swims && stands)
-      Enter(std::abs(s.torso) < 0.5f * kTiltMost ? CharacterMode::kStand : CharacterMode::kFall);
+      Enter(std::abs(s.torso) < 0.5f * kTiltMax ? CharacterMode::kStand : CharacterMode::kFall);
     if (memory_.mode == CharacterMode::kSwim) return;
   }
   const bool upright_mode =
@@ -84,7 +84,7 @@ void CharacterControl::Choose(const CharacterSense& s, float h) {
   const float low = std::min(s.legs[0].ankle.y, s.legs[1].ankle.y) - limbs_.shape().ankle;
   const bool sunk =
       s.hip.y - low < kSunk * limbs_.shape().hip && memory_.mode != CharacterMode::kAir;
-  if (std::abs(s.torso) > kTiltMost || sunk) {
+  if (std::abs(s.torso) > kTiltMax || sunk) {
     Enter(CharacterMode::kFall);
     return;
   }

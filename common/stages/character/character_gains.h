@@ -17,7 +17,7 @@ constexpr float kUpperShare = 0.52f, kUpperHeight = 0.40f;
 /// Of the height of the hip, 1/s^2 and 1/s: a spring of 1.6 Hz.
 constexpr float kHeightStiffness = 150, kHeightDamping = 20;
 /// Vertical force, shares of the weight: legs neither pull nor jump while they balance.
-constexpr float kLiftLeast = 0.2f, kLiftMost = 3.0f;
+constexpr float kLiftMin = 0.2f, kLiftMax = 3.0f;
 /// Horizontal force per vertical: below what feet hold (friction 0.5 on 0.8).
 constexpr float kGrip = 0.7f;
 /// Of the hip above the ground while standing and while stepping, shares of its height with
@@ -40,24 +40,24 @@ constexpr float kClearance = 0.09f, kStairClearance = 0.08f;
 constexpr float kLifted = 0.4f, kStairLifted = 0.4f, kStairWait = 0, kArrive = 1.0f;
 /// m/s by which a foot that finds no ground goes on down.
 constexpr float kSearch = 0.5f;
-/// m/s at full drive; m/s^2 by which the wish follows.
-constexpr float kSpeedMost = 3.0f, kSpeedBack = 1.2f, kSpeedRate = 2.5f;
+/// m/s at full drive; m/s^2 by which the proposed follows.
+constexpr float kRunSpeedMax = 3.0f, kSpeedBack = 1.2f, kSpeedRate = 2.5f;
 /// rad of the torso's lean forward per m/s.
 constexpr float kLean = 0.04f;
 /// Steepest way from foot to foot that the hip follows, as rise over run.
-constexpr float kSlopeMost = 0.7f;
+constexpr float kSlopeMax = 0.7f;
 /// m beside the wished foothold, where it looks for a flat one; the first is taken if none is.
 constexpr float kAside[] = {0, 0.08f, -0.08f, 0.16f, -0.16f, 0.24f};
 /// m of the furthest foothold before or behind the hip.
-constexpr float kReachMost = 0.60f, kReachBack = 0.45f;
+constexpr float kReachMax = 0.60f, kReachBack = 0.45f;
 
 /// rad of the torso beyond which it falls; the hip's height, share of straight, below which.
-constexpr float kTiltMost = 1.1f, kSunk = 0.45f;
+constexpr float kTiltMax = 1.1f, kSunk = 0.45f;
 /// Jumping: the hip's height before it, share of straight, and s for that; force, in weights;
 /// m of the pressure behind the centre of mass at full drive; s of the whole, and of the flight in
 /// which a touch is still the ground it left.
-constexpr float kJumpCrouch = 0.72f, kJumpCrouchMost = 0.4f, kJumpLift = 3, kJumpForward = 0.1f,
-                kJumpMost = 0.8f, kAirLeast = 0.1f;
+constexpr float kJumpCrouch = 0.72f, kJumpCrouchMax = 0.4f, kJumpLift = 3, kJumpForward = 0.1f,
+                kJumpMax = 0.8f, kAirMin = 0.1f;
 /// 1/s, of turning while it pushes; of the hip's height, where the legs are straight.
 constexpr float kJumpStill = 100, kJumpStretched = 1.0f;
 /// s without ground after which it is in the air.
@@ -73,10 +73,10 @@ constexpr float kJumpBehind = 0.02f, kJumpBefore = 0.2f;
 constexpr float kJumpRest = 0.2f;
 /// Falling: share of unit per rad of its servos, soft; s after which it begins to get up, when it
 /// lies still and at the latest.
-constexpr float kFallStiffness = 0.03f, kFallLeast = 0.4f, kFallMost = 2.0f;
+constexpr float kFallStiffness = 0.03f, kFallMin = 0.4f, kFallMax = 2.0f;
 /// Getting up: of hips and knees; s for the last part, from a squat; of the hip's height, where it
 /// stands again.
-constexpr float kRiseStiffness = 0.4f, kUpMost = 2.0f, kRisen = 0.85f;
+constexpr float kRiseStiffness = 0.4f, kUpMax = 2.0f, kRisen = 0.85f;
 
 /// Swimming: m of the chest under water from which, and to which, for 1.8 m.
 constexpr float kSwimFrom = 0.05f, kSwimTo = -0.25f;

@@ -70,7 +70,7 @@ bool CharacterLimbs::awake() const {
   return bodies_[kTorso] != nullptr && bodies_[kTorso]->IsAwake();
 }
 
-bool CharacterLimbs::Touches(CharacterPart part, float least_up, b2Vec2* velocity) const {
+bool CharacterLimbs::Touches(CharacterPart part, float up_min, b2Vec2* velocity) const {
   b2Body* body = bodies_[part];
   for (b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
     b2Contact* contact = edge->contact;
@@ -80,7 +80,7 @@ bool CharacterLimbs::Touches(CharacterPart part, float least_up, b2Vec2* velocit
     contact->GetWorldManifold(&manifold);
     // Its normal points from the first to the second. What stands before one does not bear one.
     const bool first = contact->GetFixtureA()->GetBody() == body;
-    if ((first ? -manifold.normal.y : manifold.normal.y) < least_up) continue;
+    if ((first ? -manifold.normal.y : manifold.normal.y) < up_min) continue;
     *velocity = Own(edge->other->GetLinearVelocityFromWorldPoint(body->GetWorldCenter()));
     return true;
   }
@@ -148,8 +148,8 @@ void CharacterLimbs::Servo(CharacterJoint joint, float angle, float spin, float 
   b2RevoluteJoint* j = joints_[joint];
   if (j == nullptr) return;
   const float there = spin + stiffness / damping * (angle - this->angle(joint));
-  const float wish = damping * (there - facing_ * j->GetJointSpeed());
-  told_[joint] = std::clamp(wish, -bound_[joint], bound_[joint]);
+  const float proposed = damping * (there - facing_ * j->GetJointSpeed());
+  told_[joint] = std::clamp(proposed, -bound_[joint], bound_[joint]);
   j->SetMotorSpeed(facing_ * there);
   j->SetMaxMotorTorque(std::abs(told_[joint]));
 }

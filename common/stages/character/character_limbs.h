@@ -79,7 +79,7 @@ class CharacterLimbs {
 
  private:
   void SenseLeg(int side, LegSense* leg) const;
-  bool Touches(CharacterPart part, float least_up, b2Vec2* velocity) const;
+  bool Touches(CharacterPart part, float up_min, b2Vec2* velocity) const;
 
   const Character character_;  // a copy: edits of the scene may move it
   const StageWorld world_;

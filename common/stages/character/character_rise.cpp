@@ -47,7 +47,7 @@ void CharacterControl::Fall(const CharacterSense& s) {
     Pose(Ankle(side), 0, kFallStiffness);
   }
   const bool still = s.velocity.LengthSquared() < 0.1f && std::abs(s.torso_spin) < 0.5f;
-  if (memory_.time > kFallMost || (still && memory_.time > kFallLeast)) {
+  if (memory_.time > kFallMax || (still && memory_.time > kFallMin)) {
     Enter(CharacterMode::kRise);
     memory_.phase = back ? 0 : kFromFront;
   }
@@ -85,19 +85,19 @@ void CharacterControl::Up(const CharacterSense& s) {
   const float ground_y = std::min(s.legs[0].ankle.y, s.legs[1].ankle.y) - shape.ankle;
   const float middle = (s.legs[0].ankle.x + s.legs[1].ankle.x + shape.toe - shape.heel) / 2;
   const float height = (s.hip.y - ground_y) / shape.hip;
-  if (height > kRisen && std::abs(s.torso) < 0.5f * kTiltMost) {
+  if (height > kRisen && std::abs(s.torso) < 0.5f * kTiltMax) {
     Enter(CharacterMode::kStand);
     Stand(s);
     return;
   }
-  if (memory_.phase_time > kUpMost || (memory_.phase_time > 0.5f && s.lying)) {
+  if (memory_.phase_time > kUpMax || (memory_.phase_time > 0.5f && s.lying)) {
     Enter(CharacterMode::kFall);
     return;
   }
   const float capture = s.centre.x + s.velocity.x / Omega(s, ground_y);
   const float pressure = capture + kCaptureGain * (capture - middle);
-  const float wish = std::min(kStandHeight, height + 0.12f);
-  const float lift = Lift(s, ground_y, wish * shape.hip, 0);
+  const float proposed = std::min(kStandHeight, height + 0.12f);
+  const float lift = Lift(s, ground_y, proposed * shape.hip, 0);
   const float torso = TorsoTorque(s, -0.9f * std::clamp(1.2f - height, 0.0f, 1.0f));
   for (int side = 0; side < 2; ++side) Bear(s, side, pressure, 0.5f * lift, 0.5f * torso);
   Arms(0.8f, 0.8f, 0.3f);

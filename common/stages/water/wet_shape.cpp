@@ -15,7 +15,7 @@ constexpr double kPi = 3.14159265358979323846;
 /// another and face the same way neither covers the other. m
 constexpr double kLookOut = 1e-3, kLarger = 5e-4;
 /// Shorter pieces of edges are left out, m.
-constexpr double kEdgeLeast = 2e-3;
+constexpr double kEdgeMin = 2e-3;
 
 using Span = std::pair<double, double>;  // of an edge, 0..1
 
@@ -135,7 +135,7 @@ void AddUncovered(const WetEdge& edge, std::vector<Span> covered, std::vector<We
   const Vec2d along = edge.to - edge.from;
   double open = 0;
   for (const Span& span : covered) {
-    if ((span.first - open) * along.norm() > kEdgeLeast) {
+    if ((span.first - open) * along.norm() > kEdgeMin) {
       out->push_back({edge.from + open * along, edge.from + std::min(1.0, span.first) * along,
                       edge.normal, edge.arc});
     }

@@ -25,9 +25,9 @@ struct ReconcileInput {
   /// Of the whole mechanism, mass-weighted over the bodies of this message: Xr(t1) - Xl(t1), only
   /// position and velocity. A body alone: its own difference.
   BodyState common;
-  bool alone = true;                  ///< its mechanism is this one body
-  int block_count = 0;                ///< directions in which something anchored holds the
-  Vec2 blocks[2] = {{0, 0}, {0, 0}};  ///< mechanism back, unit vectors
+  bool alone = true;      ///< its mechanism is this one body
+  int blocked_count = 0;  ///< directions in which something anchored holds the
+  Vec2 blocked_directions[2] = {{0, 0}, {0, 0}};  ///< mechanism back, unit vectors
 };
 
 /// What to add to our copy. `then` is the part that was already due at t1; a rule that knows it

@@ -17,11 +17,11 @@ namespace {
 
 /// Farther off than this, m, it is placed: blended, it would come at hundreds of m/s.
 constexpr float kPlaceBeyond = 8;
-constexpr float kMovedOnMost = 0.3f;  // s, where it is placed
+constexpr float kMovedOnMax = 0.3f;  // s, where it is placed
 /// Blended over at least this time, s. Over the interval of 30 messages a second alone, as the
 /// article has it, an error of half a metre is made good at 15 m/s, and two peers' corrections
 /// swing up against each other: a stack of ten explodes. Longer follows later.
-constexpr float kBlendLeast = 0.3f;
+constexpr float kBlendMin = 0.3f;
 /// A velocity that is another one by this, m/s, than the blend left it: it was struck, and the rest
 /// of the blend would push whatever struck it. Less would count the springs of a car.
 constexpr float kStruck = 1;
@@ -46,7 +46,7 @@ T Blended(float t, float blend, const T& p0, const T& v0, const T& there0, const
 
 Correction ReconcilePvb(const ReconcileInput& in) {
   Correction out;
-  const BodyState d = Minus(Extrapolate(in.remote, std::min(in.dt, kMovedOnMost)), in.local);
+  const BodyState d = Minus(Extrapolate(in.remote, std::min(in.dt, kMovedOnMax)), in.local);
   if (d.position.norm() > kPlaceBeyond) out.now = d;
   return out;
 }
@@ -59,7 +59,7 @@ Correction PullPvb(const PullInput& in, PullMemory* memory) {
     memory->share = 0;
   }
   if (memory->share <= 0) return Correction();
-  const float blend = std::max(in.interval, kBlendLeast);
+  const float blend = std::max(in.interval, kBlendMin);
   const float t = in.since_arrival;
   const auto path = [&](float at, const BodyState& there) {
     return Blended<Vec2>(at, blend, in.arrival.position, in.arrival.velocity,

@@ -26,7 +26,7 @@ constexpr float kBandVelocity = 1.5f / 256;
 /// m and m/s, it waits for one: placing a loaded wheel by a quantum makes it hop.
 constexpr float kStartApart = 0.25f, kStartApartSpeed = 2.5f;
 /// Most that one message moves what is held, m: more is pushed into neighbours, which push back.
-constexpr float kHeldMost = 0.05f;
+constexpr float kHeldMax = 0.05f;
 
 Vec2 AtMost(float most, const Vec2& v) {
   const float size = v.norm();
@@ -41,7 +41,8 @@ Vec2 Outside(const Vec2& value, float band) {
 
 /// The part of `v` across every direction that is blocked.
 Vec2 Unblocked(const ReconcileInput& in, Vec2 v) {
-  for (int i = 0; i < in.block_count; ++i) v -= v.dot(in.blocks[i]) * in.blocks[i];
+  for (int i = 0; i < in.blocked_count; ++i)
+    v -= v.dot(in.blocked_directions[i]) * in.blocked_directions[i];
   return v;
 }
 
@@ -60,14 +61,14 @@ Correction ReconcileRetrospect(const ReconcileInput& in) {
   if (!in.coupled) {
     free.position = Unblocked(in, in.common.position);
     free.velocity = Unblocked(in, in.common.velocity);
-    if (in.alone && in.block_count == 0) {
+    if (in.alone && in.blocked_count == 0) {
       free.angle = d.angle;
       free.spin = d.spin;
     }
   }
   const BodyState held = Minus(d, free);
   BodyState share;
-  share.position = AtMost(kHeldMost, in.gain * Outside(held.position, kBandPosition));
+  share.position = AtMost(kHeldMax, in.gain * Outside(held.position, kBandPosition));
   share.angle = in.gain * Outside(held.angle, kBandAngle);
   share.velocity = in.gain * Outside(held.velocity, kBandVelocity);
   share.spin = in.gain * Outside(held.spin, kBandVelocity);

@@ -20,13 +20,13 @@ namespace {
 /// below 1.
 constexpr float kStiffness = 20, kDamping = 9;
 /// m/s^2 and rad/s^2. More lets a wrong message throw the copy about.
-constexpr float kAccelerationMost = 100, kTurnMost = 100;
+constexpr float kAccelerationMax = 100, kTurnMax = 100;
 /// The angle of what spins faster than this is not followed, rad/s: the wire lost its revolutions.
 constexpr float kSpinFollowed = 15;
 /// Farther off than this, m, it is placed: a spring would drag it through the scene.
 constexpr float kPlaceBeyond = 8;
 /// Extrapolated by this at most, s, where it is placed.
-constexpr float kMovedOnMost = 0.3f;
+constexpr float kMovedOnMax = 0.3f;
 /// A pull of less than this, m/s, says nothing about what is in the way.
 constexpr float kTellsFrom = 0.01f;
 /// Less than this share of what was asked: something is in the way.
@@ -53,7 +53,7 @@ void GiveWay(const PullInput& in, PullMemory* memory) {
 
 Correction ReconcileSpring(const ReconcileInput& in) {
   Correction out;
-  const BodyState d = Minus(Extrapolate(in.remote, std::min(in.dt, kMovedOnMost)), in.local);
+  const BodyState d = Minus(Extrapolate(in.remote, std::min(in.dt, kMovedOnMax)), in.local);
   if (d.position.norm() > kPlaceBeyond) out.now = d;
   return out;
 }
@@ -62,12 +62,12 @@ Correction PullSpring(const PullInput& in, PullMemory* memory) {
   GiveWay(in, memory);
   const BodyState d = Minus(in.target, in.local);
   Vec2 a = kStiffness * d.position + kDamping * d.velocity;
-  if (a.norm() > kAccelerationMost) a *= kAccelerationMost / a.norm();
+  if (a.norm() > kAccelerationMax) a *= kAccelerationMax / a.norm();
   const bool follows = std::fabs(in.target.spin) < kSpinFollowed;
   const float turn = (follows ? kStiffness * d.angle : 0.0f) + kDamping * d.spin;
   Correction out;
   out.now.velocity = (memory->share * in.step) * a;
-  out.now.spin = memory->share * in.step * std::clamp(turn, -kTurnMost, kTurnMost);
+  out.now.spin = memory->share * in.step * std::clamp(turn, -kTurnMax, kTurnMax);
   return out;
 }
 

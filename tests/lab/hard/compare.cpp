@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "tests/lab/hard/observe.h"
-#include "tests/lab/hard/script_hand.h"
+#include "tests/lab/hard/script_player.h"
 #include "tests/lab/hard/settings.h"
 #include "tests/lab/hard/thread_clock.h"
 
@@ -15,7 +15,7 @@ constexpr double kNudge = 1e-6;       // m
 constexpr int kFinest = 32;           // substeps of 1/60 s
 constexpr double kStretch = 0.25;     // s, simulated between two looks at the clock
 constexpr double kEnoughUs = 0.15e6;  // CPU time of cost runs
-constexpr int kRunsMost = 15;
+constexpr int kRunsMax = 15;
 
 Scene Refined(const Scene& scene, int substeps) {
   Solver fine = scene.solver;
@@ -29,13 +29,13 @@ Scene Refined(const Scene& scene, int substeps) {
 /// A world and the CPU time of its steps.
 class Timed {
  public:
-  explicit Timed(const Scene& scene) : world_(scene), hand_(scene) {}
+  explicit Timed(const Scene& scene) : world_(scene), player_(scene) {}
   void Until(double seconds) {
     const Scene& scene = world_.scene();
     const std::int64_t ticks = std::llround(seconds * scene.solver.tick_hz);
     const double begin_us = ThreadCpuUs();
     while (world_.tick() < ticks) {
-      hand_.Play(scene, world_.tick() + 1, &world_);
+      player_.Play(scene, world_.tick() + 1, &world_);
       world_.Step();
     }
     us_ += ThreadCpuUs() - begin_us;
@@ -44,7 +44,7 @@ class Timed {
 
  private:
   World world_;
-  ScriptHand hand_;
+  ScriptPlayer player_;
   double us_ = 0;
 };
 
@@ -57,7 +57,7 @@ double Median(std::vector<double> values) {
 
 Trajectory PathOf(const Scene& scene, double seconds, int nudged) {
   World world(scene);
-  ScriptHand hand(scene);
+  ScriptPlayer hand(scene);
   if (nudged >= 0) {
     BodyState state = world.Read(nudged);
     const float x = state.position.x();
@@ -84,7 +84,7 @@ Reference MakeReference(const Scene& scene, double seconds) {
 Cost CompareCost(const Scene& scene, const Scene& stock, double seconds) {
   std::vector<double> us, stock_us, ratios;
   double spent_us = 0;
-  for (int run = 0; run < kRunsMost && (run == 0 || spent_us < kEnoughUs); ++run) {
+  for (int run = 0; run < kRunsMax && (run == 0 || spent_us < kEnoughUs); ++run) {
     Timed ours(scene), theirs(stock);
     for (int i = 1; (i - 1) * kStretch < seconds; ++i) {
       const double until = std::min(seconds, i * kStretch);

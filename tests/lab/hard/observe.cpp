@@ -1,9 +1,10 @@
 #include "tests/lab/hard/observe.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <fmt/format.h>
+
 #include <numeric>
 
 #include "common/base/check.h"
@@ -11,7 +12,7 @@
 #include "common/measure/joint_drift.h"
 #include "common/measure/overlap.h"
 #include "common/scene/mass.h"
-#include "tests/lab/hard/script_hand.h"
+#include "tests/lab/hard/script_player.h"
 #include "tests/lab/hard/thread_clock.h"
 
 namespace seam {
@@ -142,7 +143,7 @@ Observation Observe(const HardCase& hard, const Scene& scene, double seconds,
   const std::unique_ptr<Judge> judge = hard.judge ? hard.judge(scene) : nullptr;
   SEAM_ASSERT(judge != nullptr || reference != nullptr);
   World world(scene);
-  ScriptHand hand(scene);
+  ScriptPlayer hand(scene);
   Trajectory path(scene);
   const int hz = scene.solver.tick_hz;
   const std::int64_t ticks = std::llround(seconds * hz);

@@ -6,7 +6,7 @@
 
 #include "common/physics/world.h"
 #include "tests/lab/hard/raw_box2d.h"
-#include "tests/lab/hard/script_hand.h"
+#include "tests/lab/hard/script_player.h"
 #include "tests/lab/hard/thread_clock.h"
 
 namespace seam {
@@ -29,7 +29,7 @@ struct Lane {
     return ThreadCpuUs() - begin_us;
   }
   AnyWorld world;
-  ScriptHand hand;
+  ScriptPlayer hand;
 };
 
 }  // namespace

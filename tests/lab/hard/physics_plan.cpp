@@ -1,11 +1,11 @@
 #include "tests/lab/hard/physics_plan.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "tests/lab/hard/script_hand.h"
+#include <fmt/format.h>
+
+#include "tests/lab/hard/script_player.h"
 
 namespace seam {
 namespace {
@@ -34,7 +34,7 @@ double AwakeShare(const HardCase& hard, GridSize size, const std::string& folder
   const bool left_out = PredictedCpu(scene, scene.solver, hard.seconds) > CaseBudget(size);
   if (size == GridSize::kQuick && left_out) return 1;
   World world(scene);
-  ScriptHand hand(scene);
+  ScriptPlayer hand(scene);
   const std::int64_t ticks = std::llround(hard.seconds * scene.solver.tick_hz);
   std::int64_t awake = 0;
   while (world.tick() < ticks) {

@@ -12,7 +12,7 @@ namespace {
 /// How far behind the first that passes the coarse grid is searched.
 constexpr double kBeyondFirst = 2;
 /// Whose cost is measured.
-constexpr std::size_t kMeasuredMost = 12;
+constexpr std::size_t kMeasuredMax = 12;
 /// What two timings of one setting may differ by.
 constexpr double kSameCost = 1.05;
 /// From how many of the cheapest the search goes on to their neighbours, and how often.
@@ -164,7 +164,7 @@ class Search {
 
   void ChooseBest() {
     std::vector<std::size_t> candidates = Passing();
-    candidates.resize(std::min(candidates.size(), kMeasuredMost));
+    candidates.resize(std::min(candidates.size(), kMeasuredMax));
     double least = std::numeric_limits<double>::infinity();
     for (const std::size_t i : candidates) least = std::min(least, CostOf(i));
     SortBy(&candidates, [](const Trial& trial) { return trial.predicted; });

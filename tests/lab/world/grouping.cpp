@@ -39,7 +39,7 @@ std::unique_ptr<World> Yard(const Rule& rule, bool ball, bool quick) {
 void Live(World* world, int ticks) {
   for (int i = 0; i < ticks; ++i) {
     world->Step();
-    const std::vector<Edit> edits = world->Wishes();
+    const std::vector<Edit> edits = world->ProposeEdits();
     if (!edits.empty()) world->Apply(edits);
   }
 }
@@ -80,12 +80,12 @@ TextTable GroupingBench(bool quick) {
     const auto struck_base = Yard(kRules[0], true, quick), struck = Yard(rule, true, quick);
     Live(struck_base.get(), 200);
     Live(struck.get(), 200);
-    const int edits = struck->topology().edits();
+    const int edits = struck->topology().revision();
     Live(struck_base.get(), 160);
     Live(struck.get(), 160);
     table.rows.push_back({rule.name, bodies, Digits(cost), error,
                           Digits(Apart(*struck, *struck_base)),
-                          std::to_string(struck->topology().edits() - edits)});
+                          std::to_string(struck->topology().revision() - edits)});
   }
   table.note =
       "60 stacks of four crates, at rest after 3 s; cost of a tick beside the first row's world in "

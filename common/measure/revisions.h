@@ -1,6 +1,6 @@
 #pragma once
 /// What a world that changes at run time is made of after each number of edits: the bodies of a
-/// view are those of the form of View::topology.
+/// view are those of the revision of View::revision.
 
 #include <cstdint>
 #include <map>
@@ -16,8 +16,8 @@
 namespace seam {
 
 /// A topology and what is looked up in it again and again.
-struct Form {
-  explicit Form(Topology made);
+struct SceneRevision {
+  explicit SceneRevision(Topology made);
   const Scene& scene() const { return topology.scene(); }
   const Composition& composition() const { return topology.composition(); }
   /// Index into the composition's assemblies; -1: there is no such part.
@@ -33,16 +33,16 @@ struct Form {
 BodyState StateOfPart(const Scene& scene, const Assembly& assembly, PartId part,
                       const BodyState& body);
 
-/// Keeps a few forms; safe to use from several threads.
-class Forms {
+/// Keeps a few revisions; safe to use from several threads.
+class RevisionHistory {
  public:
   /// Requires a scene that ParseScene accepted. Edits in their order.
-  explicit Forms(const Scene& scene, std::vector<Edit> edits = {});
-  Forms(const Scene& scene, const Recording& recording);
-  ~Forms();
+  explicit RevisionHistory(const Scene& scene, std::vector<Edit> edits = {});
+  RevisionHistory(const Scene& scene, const Recording& recording);
+  ~RevisionHistory();
 
   /// After so many edits, or after all there are.
-  std::shared_ptr<const Form> At(int edits) const;
+  std::shared_ptr<const SceneRevision> At(int edits) const;
   /// The least number of edits after which all bodies and joints are as after `edits`.
   int Key(int edits) const;
   bool change() const { return !edits_.empty(); }
@@ -54,9 +54,9 @@ class Forms {
 
  private:
   std::vector<Edit> edits_;
-  std::vector<int> keys_;                                     // by number of edits
-  mutable std::mutex mutex_;                                  // guards forms_
-  mutable std::map<int, std::shared_ptr<const Form>> forms_;  // by key
+  std::vector<int> keys_;                                                  // by number of edits
+  mutable std::mutex mutex_;                                               // guards revisions_
+  mutable std::map<int, std::shared_ptr<const SceneRevision>> revisions_;  // by key
 };
 
 /// The edits of a recording in their order; those that the log lacks do nothing.

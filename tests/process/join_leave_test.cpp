@@ -1,11 +1,13 @@
 /// Who comes, goes, vanishes and steers, with real processes.
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
+
+#include <set>
+
 #include <signal.h>
 #include <unistd.h>
-
-#include <algorithm>
-#include <set>
 
 #include "tests/support/in_namespace.h"
 #include "tests/support/live_session.h"
@@ -53,7 +55,7 @@ b = "front"
 motor = {player = "ann", speed = -30, torque = 20}
 )";
 
-class Comings : public InNamespace {
+class JoinLeave : public InNamespace {
  protected:
   SessionPlan Plan(const std::string& name) const {
     SessionPlan plan;
@@ -79,7 +81,7 @@ bool ShowsAfter(const Recording& recording, int peer, std::int64_t tick) {
   return views != recording.views.end() && views->second.upper_bound(tick) != views->second.end();
 }
 
-TEST_F(Comings, SigintAndSigtermEndServerAndClientsWithStatus0AndAreNoticed) {
+TEST_F(JoinLeave, SigintAndSigtermEndServerAndClientsWithStatus0AndAreNoticed) {
   SEAM_INSIDE_ONLY();
   // Bob leaves by one signal, then the server by the other. What he still sends is delayed by his
   // simulated network, and his goodbye must come through it.
@@ -148,7 +150,7 @@ std::set<int> MechanismsOf(const Recording& recording, int peer, std::int64_t ti
   return mechanisms;
 }
 
-TEST_F(Comings, AKilledClientsMechanismsAreTakenBackAndGivenToItsSuccessor) {
+TEST_F(JoinLeave, AKilledClientsMechanismsAreTakenBackAndGivenToItsSuccessor) {
   SEAM_INSIDE_ONLY();
   const std::vector<std::string> flags = {"--drive", "ann", "--quiet"};
   SessionPlan plan = Plan("killed");
@@ -207,7 +209,7 @@ TEST_F(Comings, AKilledClientsMechanismsAreTakenBackAndGivenToItsSuccessor) {
   EXPECT_EQ(session.client("bob").status(), 0);
 }
 
-TEST_F(Comings, ArrowKeysDriveTheCarAndQLeavesTheTerminalAsItWas) {
+TEST_F(JoinLeave, ArrowKeysDriveTheCarAndQLeavesTheTerminalAsItWas) {
   SEAM_INSIDE_ONLY();
   PseudoTerminal terminal;
   if (!terminal.good()) GTEST_SKIP() << "no pseudo terminals here";
@@ -264,7 +266,7 @@ TEST_F(Comings, ArrowKeysDriveTheCarAndQLeavesTheTerminalAsItWas) {
   }
 }
 
-TEST_F(Comings, AClosedTerminalIsAGoodbye) {
+TEST_F(JoinLeave, AClosedTerminalIsAGoodbye) {
   SEAM_INSIDE_ONLY();
   PseudoTerminal terminal;
   if (!terminal.good()) GTEST_SKIP() << "no pseudo terminals here";

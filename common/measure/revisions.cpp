@@ -1,4 +1,4 @@
-#include "common/measure/forms.h"
+#include "common/measure/revisions.h"
 
 #include <algorithm>
 #include <cstdlib>
@@ -10,10 +10,11 @@
 namespace seam {
 namespace {
 
-/// Forms kept; one of a thousand parts takes half a megabyte. More are made again when needed.
-constexpr std::size_t kFormsMost = 64;
+/// RevisionHistory kept; one of a thousand parts takes half a megabyte. More are made again when
+/// needed.
+constexpr std::size_t kRevisionsMax = 64;
 /// A room has at most 8192 edits; a damaged number must not make a list of two thousand million.
-constexpr std::int32_t kNumbersMost = 65536;
+constexpr std::int32_t kNumbersMax = 65536;
 
 bool ChangesBodies(EditKind kind) {
   return kind != EditKind::kNothing && kind != EditKind::kPush && kind != EditKind::kSeat;
@@ -21,13 +22,14 @@ bool ChangesBodies(EditKind kind) {
 
 }  // namespace
 
-Form::Form(Topology made) : topology(std::move(made)), moving(MovingIndices(composition())) {
+SceneRevision::SceneRevision(Topology made)
+    : topology(std::move(made)), moving(MovingIndices(composition())) {
   for (const Assembly& assembly : composition().assemblies) {
     if (!assembly.anchored) ids.push_back(assembly.id);
   }
 }
 
-int Form::AssemblyOf(PartId part) const {
+int SceneRevision::AssemblyOf(PartId part) const {
   const std::vector<int>& all = composition().assembly_of_part;
   const bool known = part >= 0 && static_cast<std::size_t>(part) < all.size();
   return known ? all[static_cast<std::size_t>(part)] : -1;
@@ -45,44 +47,46 @@ BodyState StateOfPart(const Scene& scene, const Assembly& assembly, PartId part,
   return state;
 }
 
-Forms::Forms(const Scene& scene, std::vector<Edit> edits) : edits_(std::move(edits)) {
+RevisionHistory::RevisionHistory(const Scene& scene, std::vector<Edit> edits)
+    : edits_(std::move(edits)) {
   keys_.push_back(0);
   for (std::size_t n = 0; n < edits_.size(); ++n) {
     keys_.push_back(ChangesBodies(edits_[n].kind) ? static_cast<int>(n) + 1 : keys_.back());
   }
-  forms_[0] = std::make_shared<const Form>(Topology(scene));
+  revisions_[0] = std::make_shared<const SceneRevision>(Topology(scene));
 }
 
-Forms::Forms(const Scene& scene, const Recording& recording) : Forms(scene, EditsOf(recording)) {}
+RevisionHistory::RevisionHistory(const Scene& scene, const Recording& recording)
+    : RevisionHistory(scene, EditsOf(recording)) {}
 
-Forms::~Forms() = default;
+RevisionHistory::~RevisionHistory() = default;
 
-int Forms::Key(int edits) const {
+int RevisionHistory::Key(int edits) const {
   const int last = static_cast<int>(keys_.size()) - 1;
   return keys_[static_cast<std::size_t>(std::clamp(edits, 0, last))];
 }
 
-std::shared_ptr<const Form> Forms::At(int edits) const {
+std::shared_ptr<const SceneRevision> RevisionHistory::At(int edits) const {
   const int key = Key(edits);
   const std::lock_guard<std::mutex> lock(mutex_);
-  auto place = forms_.upper_bound(key);
+  auto place = revisions_.upper_bound(key);
   --place;  // 0 is always there
   if (place->first == key) return place->second;
   Topology topology = place->second->topology;
   topology.Apply({edits_.begin() + place->first, edits_.begin() + key});
-  auto made = std::make_shared<const Form>(std::move(topology));
-  forms_[key] = made;
-  if (forms_.size() > kFormsMost) {
-    auto farthest = std::next(forms_.begin());
-    if (std::abs(forms_.rbegin()->first - key) > std::abs(farthest->first - key)) {
-      farthest = std::prev(forms_.end());
+  auto made = std::make_shared<const SceneRevision>(std::move(topology));
+  revisions_[key] = made;
+  if (revisions_.size() > kRevisionsMax) {
+    auto farthest = std::next(revisions_.begin());
+    if (std::abs(revisions_.rbegin()->first - key) > std::abs(farthest->first - key)) {
+      farthest = std::prev(revisions_.end());
     }
-    forms_.erase(farthest);
+    revisions_.erase(farthest);
   }
   return made;
 }
 
-bool Forms::SameBody(int edits_a, int edits_b, PartId id) const {
+bool RevisionHistory::SameBody(int edits_a, int edits_b, PartId id) const {
   if (Key(edits_a) == Key(edits_b)) return true;
   const auto a = At(edits_a), b = At(edits_b);
   const int of_a = a->AssemblyOf(id), of_b = b->AssemblyOf(id);
@@ -92,27 +96,28 @@ bool Forms::SameBody(int edits_a, int edits_b, PartId id) const {
   return one.id == other.id && one.anchored == other.anchored && one.parts == other.parts;
 }
 
-std::optional<BodyState> Forms::InView(const View& view, PartId part, std::size_t* index) const {
+std::optional<BodyState> RevisionHistory::InView(const View& view, PartId part,
+                                                 std::size_t* index) const {
   int i = IndexOf(view, part);
   if (i >= 0) {
     *index = static_cast<std::size_t>(i);
     return StateIn(view, *index);
   }
   if (!change()) return std::nullopt;
-  const auto form = At(view.topology);
-  const int of = form->AssemblyOf(part);
+  const auto revision = At(view.revision);
+  const int of = revision->AssemblyOf(part);
   if (of < 0) return std::nullopt;
-  const Assembly& assembly = form->composition().assemblies[static_cast<std::size_t>(of)];
+  const Assembly& assembly = revision->composition().assemblies[static_cast<std::size_t>(of)];
   i = IndexOf(view, assembly.id);
   if (i < 0) return std::nullopt;
   *index = static_cast<std::size_t>(i);
-  return StateOfPart(form->scene(), assembly, part, StateIn(view, *index));
+  return StateOfPart(revision->scene(), assembly, part, StateIn(view, *index));
 }
 
 std::vector<Edit> EditsOf(const Recording& recording) {
   std::vector<Edit> edits;
   for (const auto& [number, order] : recording.edits) {
-    if (number < 0 || number >= kNumbersMost) continue;
+    if (number < 0 || number >= kNumbersMax) continue;
     edits.resize(static_cast<std::size_t>(number) + 1);
     edits.back() = ToEdit(order);
   }

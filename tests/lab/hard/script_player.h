@@ -7,9 +7,9 @@
 
 namespace seam {
 
-class ScriptHand {
+class ScriptPlayer {
  public:
-  explicit ScriptHand(const Scene& scene) : before_(scene.players.size()) {}
+  explicit ScriptPlayer(const Scene& scene) : before_(scene.players.size()) {}
 
   /// Gives `world` the inputs of `tick`; call it before the step that leads there. `AnyWorld` has
   /// World's SetInput and Act.
