@@ -32,7 +32,7 @@ Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorde
     // The server follows everything, so that it can take over at any moment.
     for (int m = 0; m < replica_.authority().count(); ++m) {
       AuthorityRecord h;
-      h.secondaries = 1;
+      h.secondaries.Add(0);
       replica_.authority().Set(m, h);
     }
   }
@@ -136,8 +136,8 @@ void Server::PlanAuthority(std::int64_t now_us) {
       h = WithoutHolder(h);
       replica_.authority().Set(m, h);
     }
-    const std::uint32_t server_bit = config_.sync.mode == Mode::kBuffer ? 1 : 0;
-    const std::uint32_t secondaries = planned.secondaries | server_bit;
+    PeerSet secondaries = planned.secondaries;
+    if (config_.sync.mode == Mode::kBuffer) secondaries.Add(0);
     if (h.authority != 0 && planned.authority != h.authority) {
       revoking_[index] = true;
       AuthorityTable told = replica_.authority();
@@ -161,7 +161,7 @@ void Server::PlanAuthority(std::int64_t now_us) {
 
 AuthorityRecord Server::WithoutHolder(AuthorityRecord h) const {
   // Who lets go goes on simulating until the next grant: its copy is the best there is.
-  if (config_.sync.mode == Mode::kBuffer) h.secondaries |= std::uint32_t{1} << h.authority;
+  if (config_.sync.mode == Mode::kBuffer) h.secondaries.Add(h.authority);
   h.authority = 0;
   h.epoch += 1;
   return h;
@@ -192,7 +192,7 @@ void Server::Relay(const States& states, int from_peer) {
       const int body = replica_.world().BodyOfId(states.id[i]);
       if (body < 0) continue;  // it has left meanwhile
       const AuthorityRecord& h = replica_.authority().at(replica_.world().mechanism(body));
-      near = ((h.secondaries >> session->peer) & 1U) != 0;
+      near = h.secondaries.Has(session->peer);
     }
     if (near || send % kFarEvery == 0) session->link.SendUnreliable(bytes);
   }

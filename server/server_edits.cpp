@@ -92,9 +92,9 @@ void Server::BringTogether(std::vector<PlannedAuthority>* plan) const {
     }
     for (const int m : mechanisms) {
       PlannedAuthority& planned = (*plan)[static_cast<std::size_t>(m)];
-      if (planned.authority != to) planned.secondaries |= std::uint32_t{1} << planned.authority;
+      if (planned.authority != to) planned.secondaries.Add(planned.authority);
       planned.authority = to;
-      planned.secondaries &= ~(std::uint32_t{1} << to);
+      planned.secondaries.Remove(to);
     }
   }
 }

@@ -188,13 +188,14 @@ void Server::OnStates(std::int64_t now_us, Session& session, const States& state
     ++stats_.dropped_implausible;  // its next ping has it repaired
     return;
   }
-  States kept = states;
+  States kept;  // what is accepted of it
   kept.utime = now_us;
-  for (auto* column :
-       {&kept.id, &kept.epoch, &kept.x, &kept.y, &kept.angle, &kept.vx, &kept.vy, &kept.spin}) {
-    column->clear();
-  }
-  kept.flags.clear();
+  kept.peer = states.peer;
+  kept.tick = states.tick;
+  kept.revision = states.revision;
+  kept.composition = states.composition;
+  kept.origin_x = states.origin_x;
+  kept.origin_y = states.origin_y;
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(states.id[i]);
     if (body < 0) {

@@ -154,7 +154,7 @@ void Server::TakeBack(std::int64_t now_us, int peer) {
     if (h.authority != peer) continue;
     h.authority = 0;
     h.epoch += revoking_[static_cast<std::size_t>(m)] ? 2 : 1;  // a revocation has used up one
-    h.secondaries &= ~(std::uint32_t{1} << peer);
+    h.secondaries.Remove(peer);
     revoking_[static_cast<std::size_t>(m)] = false;
     replica_.authority().Set(m, h);
     changed.push_back(m);

@@ -11,22 +11,23 @@
 namespace seam {
 
 /// Bumped when any message changes: peers of different versions do not talk.
-constexpr std::int32_t kProtocolVersion = 2;
+constexpr std::int32_t kProtocolVersion = 3;
 
 /// Largest encoded message on the bus; larger ones overflow stock lcm-logger's socket buffer.
 constexpr std::size_t kBusMessageBytesMax = 60000;
-/// Most bodies in one States message: 50 + 17 bytes each must fit a datagram of 1200 bytes.
+/// Most bodies in one States message: 54 + 19 bytes each must fit a datagram of 1200 bytes.
 constexpr std::size_t kStatesBodiesMax = 48;
-/// Most bodies in one View message: 28 bytes each within kBusMessageBytesMax.
+/// Most bodies in one View message: 29 bytes each within kBusMessageBytesMax.
 constexpr std::size_t kViewBodiesMax = 1900;
 
 /// Most views' parts: 32768 ids in views of kViewBodiesMax need 18.
 constexpr std::int32_t kViewPartsMax = 32;
 /// Most ticks in one Inputs message.
 constexpr std::size_t kInputsMax = 64;
-/// Most mechanisms in one Grants message: 30 + 9 bytes each must fit Link's kMessageBytesMax.
-constexpr std::size_t kGrantsMax = 120;
-/// Most values in one Meta message: 30 + 8 bytes each must fit Link's kMessageBytesMax.
+/// Most mechanisms in one Grants or Release message, and most followers in one Grants: 38 + 10
+/// bytes each + 2 bytes a follower must fit Link's kMessageBytesMax.
+constexpr std::size_t kGrantsMax = 80, kGrantFollowersMax = 150;
+/// Most values in one Meta message: 34 + 8 bytes each must fit Link's kMessageBytesMax.
 constexpr std::size_t kMetaMax = 120;
 /// Most impacts in one Impacts message: 16 bytes each within kBusMessageBytesMax.
 constexpr std::size_t kImpactsMax = 3000;
@@ -36,7 +37,7 @@ constexpr std::size_t kChunkBytesMax = 1000;
 constexpr std::size_t kSceneTextBytesMax = 51200;
 /// Longest names of modes, reconcilers, scenes; longest network profile; longest event or reason.
 constexpr std::size_t kLabelBytesMax = 64, kImpairBytesMax = 200, kTextBytesMax = 1000;
-/// Peers 0..31 and players 0..31: Grants::secondaries has a bit for each peer.
+/// Peers 0..31 and players 0..31.
 constexpr std::int32_t kPeersMax = 32;
 /// Ticks are below this (580 years at 60 Hz), times below kTimeMaxUs (285 years) either side of 0:
 /// sums and differences of what a message says cannot overflow.
@@ -45,11 +46,28 @@ constexpr std::int64_t kTimeMaxUs = std::int64_t{1} << 53;
 /// Largest coordinate of a States origin, m: beyond it single precision is coarser than 1/16 m.
 constexpr std::int32_t kOriginMax = 1 << 20;
 
-/// Client -> server, until answered: wants to join.
+/// Client -> server, until answered: is there a room, of which protocol? No version may change its
+/// fields, so that peers of any two can tell each other theirs.
 struct Hello {
   std::int64_t utime = 0;
   std::int32_t protocol = kProtocolVersion;
   std::string name;  ///< player or spectator name, 1..32 characters of [A-Za-z0-9_-]
+};
+
+/// Server -> client, the answer to a Hello of an unknown address. The server remembers nothing of
+/// it: who can repeat the token receives at this address.
+struct Challenge {
+  std::int64_t utime = 0;
+  std::int64_t token = 0;
+};
+
+/// Client -> server, until welcomed: wants to join.
+struct Join {
+  std::int64_t utime = 0;
+  std::int32_t protocol = kProtocolVersion;
+  std::int64_t token = 0;  ///< of the Challenge
+  std::int64_t key = 0;    ///< of an earlier Welcome, to have its place back; 0: none
+  std::string name;        ///< 1..32 characters of [A-Za-z0-9_-]
 };
 
 /// Server -> client, reliable: admitted. The Room follows in Chunks.
@@ -58,6 +76,12 @@ struct Welcome {
   std::int32_t peer = 0;        ///< this client's peer number, >= 1
   std::int32_t player = -1;     ///< index of the scene's player it drives, -1 for a spectator
   std::int32_t room_bytes = 0;  ///< size of the encoded Room that follows
+  std::int64_t key = 0;         ///< secret of this player; see Join
+};
+
+/// Client -> server, reliable: has loaded the room, and its clock has settled.
+struct Ready {
+  std::int64_t utime = 0;
 };
 
 /// A piece of a message too large for a datagram; pieces come reliably and in order.
@@ -70,7 +94,7 @@ struct Chunk {
 /// What the room is: enough to simulate it. First message of every recording, repeated each second.
 struct Room {
   std::int64_t utime = 0;
-  std::int32_t sequence = 0;
+  std::int64_t sequence = 0;
   std::int32_t protocol = kProtocolVersion;
   std::string room;        ///< room name as in the channel
   std::string scene_name;  ///< file name of the scene without folder and ".toml"
@@ -100,7 +124,7 @@ struct Pong {
 /// A player's inputs for successive ticks.
 struct Inputs {
   std::int64_t utime = 0;
-  std::int32_t sequence = 0;
+  std::int64_t sequence = 0;
   std::int32_t player = 0;
   std::int64_t first_tick = 0;        ///< tick that inputs[0] is applied *in* (state after it)
   std::vector<std::int8_t> drive;     ///< -127..127: throttle, backwards to forwards
@@ -112,7 +136,7 @@ struct Inputs {
 /// position 1/512 m about the origin, angle 2*pi/65536 rad, velocity 1/256 m/s, spin 1/256 rad/s.
 struct States {
   std::int64_t utime = 0;
-  std::int32_t sequence = 0;
+  std::int64_t sequence = 0;
   std::int32_t peer = 0;  ///< the authority
   std::int64_t tick = 0;
   std::int32_t revision = 0;         ///< edits that the sender had applied
@@ -120,7 +144,7 @@ struct States {
   std::int32_t origin_x = 0;         ///< whole metres
   std::int32_t origin_y = 0;         ///< whole metres
   std::vector<std::int16_t> id;      ///< assembly ids, ascending; all vectors of one length
-  std::vector<std::int16_t> epoch;   ///< of the body's mechanism
+  std::vector<std::int32_t> epoch;   ///< of the body's mechanism
   std::vector<std::int8_t> flags;    ///< kStateAsleep | kStateImpact
   std::vector<std::int16_t> x, y;    ///< 1/512 m
   std::vector<std::int16_t> angle;   ///< 2*pi/65536 rad, wraps
@@ -133,12 +157,21 @@ constexpr std::int8_t kStateImpact = 2;  ///< a major impact in the last second,
 /// Server -> everyone, reliable and ordered: who has authority over a mechanism from `tick` on.
 struct Grants {
   std::int64_t utime = 0;
-  std::int32_t sequence = 0;
+  std::int64_t sequence = 0;
   std::int64_t tick = 0;
-  std::vector<std::int16_t> mechanism;    ///< mechanism ids
-  std::vector<std::int8_t> authority;     ///< peer
-  std::vector<std::int16_t> epoch;        ///< grows with every change of authority
-  std::vector<std::int32_t> secondaries;  ///< bit p: peer p is secondary
+  std::vector<std::int16_t> mechanism;  ///< mechanism ids
+  std::vector<std::int16_t> authority;  ///< peer
+  std::vector<std::int32_t> epoch;      ///< grows with every change of authority
+  std::vector<std::int16_t> followers;  ///< how many of `follower` are this mechanism's
+  std::vector<std::int16_t> follower;   ///< peers that are secondary, ascending for each mechanism
+};
+
+/// Client -> server, reliable: has let go of these mechanisms, as the grants of these epochs said.
+struct Release {
+  std::int64_t utime = 0;
+  std::int64_t tick = 0;
+  std::vector<std::int16_t> mechanism;
+  std::vector<std::int32_t> epoch;
 };
 
 /// A change of who is joined to whom, or of what there is; see common/topology/edit.h for the
@@ -146,13 +179,14 @@ struct Grants {
 /// everyone.
 struct EditOrder {
   std::int64_t utime = 0;
-  std::int32_t sequence = 0;
+  std::int64_t sequence = 0;
   std::int32_t number = -1;  ///< place in the order; -1: a proposal, or (server) begin anew
   std::int64_t tick = 0;     ///< the server's when ordered; a proposer's own
   std::int8_t kind = 0;
   std::int8_t cause = 0;
-  std::int16_t a = -1, b = -1, joint = -1;
-  std::int8_t player = -1;
+  std::int16_t a = -1, b = -1;
+  std::int32_t joint = -1;
+  std::int16_t player = -1;
   std::string text;                         ///< at most kEditTextBytesMax
   std::vector<float> value = {0, 0, 0, 0};  ///< x, y, angle, amount
 };
@@ -164,7 +198,7 @@ constexpr std::int8_t kEditKindsMax = 8;
 /// only. The server alone decides it.
 struct Meta {
   std::int64_t utime = 0;
-  std::int32_t sequence = 0;
+  std::int64_t sequence = 0;
   std::int64_t tick = 0;
   std::vector<std::int8_t> kind;  ///< kMetaPart | kMetaPlayer
   std::vector<std::int16_t> id;   ///< part id, or the player's place in the scene
@@ -183,17 +217,17 @@ constexpr std::int8_t kMetaKeyMax = 25;
 /// Bus only: what a peer shows at a tick. This is what is measured and drawn.
 struct View {
   std::int64_t utime = 0;
-  std::int32_t sequence = 0;
+  std::int64_t sequence = 0;
   std::int32_t peer = 0;
   std::int64_t tick = 0;
   std::int32_t revision = 0;  ///< edits that the peer had applied
   std::int32_t part = 0;      ///< part of parts: very large views are split
   std::int32_t parts = 1;
-  std::vector<std::int16_t> id;        ///< assembly ids, ascending
-  std::vector<std::int8_t> role;       ///< kRole...
-  std::vector<std::int8_t> authority;  ///< peer that has authority, as this peer knows it
-  std::vector<float> x, y, angle;      ///< m, m, rad (unwrapped): as displayed
-  std::vector<float> vx, vy, spin;     ///< m/s, m/s, rad/s: of the physics state
+  std::vector<std::int16_t> id;         ///< assembly ids, ascending
+  std::vector<std::int8_t> role;        ///< kRole...
+  std::vector<std::int16_t> authority;  ///< peer that has authority, as this peer knows it
+  std::vector<float> x, y, angle;       ///< m, m, rad (unwrapped): as displayed
+  std::vector<float> vx, vy, spin;      ///< m/s, m/s, rad/s: of the physics state
 };
 constexpr std::int8_t kRoleRemote = 0;
 constexpr std::int8_t kRoleSecondary = 1;
@@ -202,7 +236,7 @@ constexpr std::int8_t kRoleAuthority = 2;
 /// Bus only: major impacts a peer's world felt in a tick.
 struct Impacts {
   std::int64_t utime = 0;
-  std::int32_t sequence = 0;
+  std::int64_t sequence = 0;
   std::int32_t peer = 0;
   std::int64_t tick = 0;
   std::vector<std::int16_t> id_a, id_b;  ///< assembly ids; -1 for anchored ground
@@ -213,7 +247,7 @@ struct Impacts {
 /// Once a second, on the bus from every peer: counters since the peer started.
 struct Stats {
   std::int64_t utime = 0;
-  std::int32_t sequence = 0;
+  std::int64_t sequence = 0;
   std::int32_t peer = 0;
   std::int64_t tick = 0;
   std::int64_t bytes_out = 0, bytes_in = 0;  ///< UDP payload
@@ -232,7 +266,7 @@ struct Stats {
 /// Bus only: something a person wants to read (joined, left, hand-over, repaired).
 struct Event {
   std::int64_t utime = 0;
-  std::int32_t sequence = 0;
+  std::int64_t sequence = 0;
   std::int32_t peer = 0;
   std::int64_t tick = 0;
   std::string text;

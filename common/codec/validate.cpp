@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 
 namespace seam {
 namespace {
@@ -86,6 +87,12 @@ bool IsPrintable(const std::string& text, std::size_t bytes_max, bool lines) {
 
 bool Valid(const Hello& m) { return Time(m.utime) && IsName(m.name); }
 
+bool Valid(const Challenge& m) { return Time(m.utime); }
+
+bool Valid(const Join& m) { return Time(m.utime) && IsName(m.name); }
+
+bool Valid(const Ready& m) { return Time(m.utime); }
+
 bool Valid(const Welcome& m) {
   return Time(m.utime) && Within(m.peer, 1, kPeersMax - 1) && Within(m.player, -1, kPeersMax - 1) &&
          Within(m.room_bytes, 1, kBusMessageBytesMax);
@@ -121,14 +128,25 @@ bool Valid(const States& m) {
   return Time(m.utime) && m.sequence >= 0 && m.revision >= 0 && Peer(m.peer) && Tick(m.tick) &&
          m.id.size() <= kStatesBodiesMax &&
          Lengths(m.id.size(), m.epoch, m.flags, m.x, m.y, m.angle, m.vx, m.vy, m.spin) &&
-         Ascending(m.id) && AllWithin(m.flags, 0, kStateAsleep | kStateImpact) &&
+         Ascending(m.id) && AllWithin(m.epoch, 0, INT32_MAX) &&
+         AllWithin(m.flags, 0, kStateAsleep | kStateImpact) &&
          Within(m.origin_x, -kOriginMax, kOriginMax) && Within(m.origin_y, -kOriginMax, kOriginMax);
 }
 
 bool Valid(const Grants& m) {
   return Time(m.utime) && m.sequence >= 0 && Tick(m.tick) && m.mechanism.size() <= kGrantsMax &&
-         Lengths(m.mechanism.size(), m.authority, m.epoch, m.secondaries) &&
-         AllWithin(m.mechanism, 0, INT16_MAX) && AllWithin(m.authority, 0, kPeersMax - 1);
+         Lengths(m.mechanism.size(), m.authority, m.epoch, m.followers) &&
+         m.follower.size() <= kGrantFollowersMax && AllWithin(m.mechanism, 0, INT16_MAX) &&
+         AllWithin(m.authority, 0, kPeersMax - 1) && AllWithin(m.epoch, 0, INT32_MAX) &&
+         AllWithin(m.followers, 0, kPeersMax) && AllWithin(m.follower, 0, kPeersMax - 1) &&
+         std::accumulate(m.followers.begin(), m.followers.end(), std::size_t{0}) ==
+             m.follower.size();
+}
+
+bool Valid(const Release& m) {
+  return Time(m.utime) && Tick(m.tick) && Within(m.mechanism.size(), 1, kGrantsMax) &&
+         Lengths(m.mechanism.size(), m.epoch) && AllWithin(m.mechanism, 0, INT16_MAX) &&
+         AllWithin(m.epoch, 0, INT32_MAX);
 }
 
 bool Valid(const EditOrder& m) {

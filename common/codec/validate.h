@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "common/codec/messages.h"
+#include "common/codec/message_list.h"
 
 namespace seam {
 
@@ -17,21 +17,8 @@ bool IsPrintable(const std::string& text, std::size_t bytes_max, bool lines = fa
 
 /// True when every field is within the bounds of messages.h: vectors of equal length, counts,
 /// peers, ticks and times in range, ids >= 0 and ascending where documented, floats finite.
-bool Valid(const Hello&);
-bool Valid(const Welcome&);
-bool Valid(const Chunk&);
-bool Valid(const Room&);
-bool Valid(const Ping&);
-bool Valid(const Pong&);
-bool Valid(const Inputs&);
-bool Valid(const States&);
-bool Valid(const Grants&);
-bool Valid(const EditOrder& m);
-bool Valid(const Meta&);
-bool Valid(const View&);
-bool Valid(const Impacts&);
-bool Valid(const Stats&);
-bool Valid(const Event&);
-bool Valid(const Bye&);
+#define SEAM_MESSAGE_VALID(Struct, ...) bool Valid(const Struct&);
+SEAM_MESSAGES(SEAM_MESSAGE_VALID)
+#undef SEAM_MESSAGE_VALID
 
 }  // namespace seam

@@ -67,10 +67,10 @@ bool RecordingBuilder::Add(const std::string& channel, ByteView message) {
         using M = std::decay_t<decltype(m)>;
         if constexpr (std::is_same_v<M, std::monostate>) {
           ++recording_.undecodable;
+          const std::int32_t protocol = ForeignProtocol(message);
+          if (protocol != 0) recording_.foreign_protocol = protocol;
           return false;
-        } else if constexpr (std::is_same_v<M, Hello> || std::is_same_v<M, Welcome> ||
-                             std::is_same_v<M, Chunk> || std::is_same_v<M, Ping> ||
-                             std::is_same_v<M, Pong> || std::is_same_v<M, Bye>) {
+        } else if constexpr (MessageTraits<M>::kTravels == Travels::kEdge) {
           ++recording_.foreign;  // of the edge: it has no business on the bus
           return false;
         } else {
@@ -87,7 +87,7 @@ void RecordingBuilder::CountGaps(const std::string& channel, std::int64_t more) 
   if ((recording_.gaps[channel] += more) == 0) recording_.gaps.erase(channel);
 }
 
-bool RecordingBuilder::IsDuplicate(const std::string& channel, std::int32_t sequence,
+bool RecordingBuilder::IsDuplicate(const std::string& channel, std::int64_t sequence,
                                    ByteView message) {
   if (heard_.size() >= kChannelsMax && heard_.count(channel) == 0) return false;
   Heard& heard = heard_[channel];
@@ -119,6 +119,11 @@ bool RecordingBuilder::IsDuplicate(const std::string& channel, std::int32_t sequ
 }
 
 bool RecordingBuilder::Keep(Room& room) {
+  if (room.protocol != kProtocolVersion) {
+    recording_.foreign_protocol = room.protocol;
+    ++recording_.foreign;
+    return false;
+  }
   if (has_room_ && !SameSession(room, recording_.room)) {
     ++recording_.foreign;
     return false;
@@ -263,6 +268,11 @@ Recording ReadRecording(const std::string& path, const std::string& room) {
   LogEvent event;
   while (reader.Next(&event)) builder.Add(event.channel, event.data);
   if (!builder.has_room()) {
+    const std::int32_t other = builder.recording().foreign_protocol;
+    if (other != 0) {
+      throw OperatorError(path + ": recorded with protocol " + std::to_string(other) +
+                          "; this program reads protocol " + std::to_string(kProtocolVersion));
+    }
     const std::string which = room.empty() ? "no Seam2D room" : "no room \"" + room + "\"";
     throw OperatorError(path + ": " + which + " in this log (record channels SEAM.*)");
   }

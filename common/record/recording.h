@@ -28,6 +28,7 @@ struct Recording {
 
   std::int64_t events_read = 0;              ///< LCM events in the log
   std::int64_t foreign = 0;                  ///< events of channels that are not SEAM.*
+  std::int32_t foreign_protocol = 0;         ///< of a room that another version recorded; 0: none
   std::int64_t undecodable = 0;              ///< events of SEAM.* that did not decode
   std::int64_t skipped_bytes = 0;            ///< damaged bytes of the log
   std::int64_t duplicates = 0;               ///< events heard twice, kept once
@@ -61,7 +62,7 @@ class RecordingBuilder {
     std::uint64_t mask = 0;                  ///< bit i: highest - i has come
     std::array<std::uint64_t, 64> hashes{};  ///< of the bytes, at sequence % 64
   };
-  bool IsDuplicate(const std::string& channel, std::int32_t sequence, ByteView message);
+  bool IsDuplicate(const std::string& channel, std::int64_t sequence, ByteView message);
   void CountGaps(const std::string& channel, std::int64_t more);
   bool Keep(Room& room);
   bool Keep(Inputs& inputs);

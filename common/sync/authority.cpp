@@ -5,13 +5,6 @@
 #include "common/base/check.h"
 
 namespace seam {
-namespace {
-
-/// Entries of 9 bytes each that fit kMessageBytesMax with the header.
-constexpr std::size_t kGrantsPerMessage = 100;
-
-}  // namespace
-
 AuthorityTable::AuthorityTable(const Composition& composition) {
   for (const Mechanism& m : composition.mechanisms) ids_.push_back(m.id);
   records_.resize(ids_.size());
@@ -38,11 +31,12 @@ void AuthorityTable::Remap(const Composition& composition,
         continue;
       }
       h.epoch = std::max(h.epoch, then.epoch);
-      h.secondaries |= then.secondaries | std::uint32_t{1} << then.authority;
+      h.secondaries.Add(then.secondaries);
+      h.secondaries.Add(then.authority);
     }
     if (from[m].size() > 1) {
       h.epoch += 1;
-      h.secondaries &= ~(std::uint32_t{1} << h.authority);
+      h.secondaries.Remove(h.authority);
     }
     records.push_back(h);
   }
@@ -51,14 +45,15 @@ void AuthorityTable::Remap(const Composition& composition,
 
 std::vector<int> AuthorityTable::Apply(const Grants& grants) {
   std::vector<int> changed;
+  std::size_t follower = 0;
   for (std::size_t i = 0; i < grants.mechanism.size(); ++i) {
-    const auto found = std::lower_bound(ids_.begin(), ids_.end(), grants.mechanism[i]);
-    if (found == ids_.end() || *found != grants.mechanism[i]) continue;
-    const auto index = static_cast<std::size_t>(found - ids_.begin());
     AuthorityRecord next;
     next.authority = grants.authority[i];
     next.epoch = grants.epoch[i];
-    next.secondaries = static_cast<std::uint32_t>(grants.secondaries[i]);
+    for (int n = 0; n < grants.followers[i]; ++n) next.secondaries.Add(grants.follower[follower++]);
+    const auto found = std::lower_bound(ids_.begin(), ids_.end(), grants.mechanism[i]);
+    if (found == ids_.end() || *found != grants.mechanism[i]) continue;
+    const auto index = static_cast<std::size_t>(found - ids_.begin());
     AuthorityRecord& now = records_[index];
     if (next.epoch < now.epoch) continue;
     if (next.authority == now.authority && next.epoch == now.epoch &&
@@ -75,16 +70,23 @@ std::vector<Grants> AuthorityTable::Export(std::int64_t utime, std::int64_t tick
                                            const std::vector<int>& mechanisms) const {
   std::vector<Grants> out;
   for (int m : mechanisms) {
-    if (out.empty() || out.back().mechanism.size() >= kGrantsPerMessage) {
+    const AuthorityRecord& record = at(m);
+    const auto followers = static_cast<std::size_t>(record.secondaries.size());
+    const bool full = out.empty() || out.back().mechanism.size() >= kGrantsMax ||
+                      out.back().follower.size() + followers > kGrantFollowersMax;
+    if (full) {
       out.emplace_back();
       out.back().utime = utime;
       out.back().tick = tick;
     }
     Grants& g = out.back();
     g.mechanism.push_back(static_cast<std::int16_t>(id(m)));
-    g.authority.push_back(static_cast<std::int8_t>(at(m).authority));
-    g.epoch.push_back(static_cast<std::int16_t>(at(m).epoch));
-    g.secondaries.push_back(static_cast<std::int32_t>(at(m).secondaries));
+    g.authority.push_back(static_cast<std::int16_t>(record.authority));
+    g.epoch.push_back(record.epoch);
+    g.followers.push_back(static_cast<std::int16_t>(followers));
+    for (int peer = 0; peer < kPeersMax; ++peer) {
+      if (record.secondaries.Has(peer)) g.follower.push_back(static_cast<std::int16_t>(peer));
+    }
   }
   return out;
 }

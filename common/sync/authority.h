@@ -7,13 +7,14 @@
 
 #include "common/codec/messages.h"
 #include "common/scene/assembly.h"
+#include "common/sync/peer_set.h"
 
 namespace seam {
 
 struct AuthorityRecord {
   int authority = 0;
   int epoch = 0;
-  std::uint32_t secondaries = 0;  ///< bit p: peer p is secondary
+  PeerSet secondaries;
 };
 
 /// One entry per mechanism of the composition, by index. At first the server has everything.

@@ -10,8 +10,8 @@ EditOrder ToOrder(const Edit& edit) {
   order.cause = static_cast<std::int8_t>(edit.cause);
   order.a = static_cast<std::int16_t>(edit.a);
   order.b = static_cast<std::int16_t>(edit.b);
-  order.joint = static_cast<std::int16_t>(edit.joint);
-  order.player = static_cast<std::int8_t>(edit.player);
+  order.joint = edit.joint;
+  order.player = static_cast<std::int16_t>(edit.player);
   order.value = {edit.x, edit.y, edit.angle, edit.amount};
   order.text = edit.text;
   return order;

@@ -13,23 +13,33 @@ std::vector<T> Slice(const std::vector<T>& v, std::size_t first, std::size_t las
 
 }  // namespace
 
-template <typename Message>
-void Publisher::Number(Message& message, const char* kind, int peer) {
-  const std::string channel = ChannelName(room_, kind, peer);
+template <class Message>
+void Publisher::Number(Message& message) {
+  using Traits = MessageTraits<Message>;
+  static_assert(Traits::kTravels != Travels::kEdge);
+  int whose = -1;
+  if constexpr (Traits::kTravels == Travels::kBusPeer) whose = message.peer;
+  if constexpr (Traits::kTravels == Travels::kBusPlayer) whose = message.player;
+  const std::string channel = ChannelName(room_, Traits::kKind, whose);
   message.sequence = sequence_[channel]++;
   const Bytes bytes = Encode(message);
   recorder_.Publish(channel, message.utime, bytes);
 }
 
-void Publisher::Publish(Room message) { Number(message, "scene", -1); }
-void Publisher::Publish(Inputs message) { Number(message, "inputs", message.player); }
-void Publisher::Publish(States message) { Number(message, "states", message.peer); }
-void Publisher::Publish(Grants message) { Number(message, "grants", -1); }
-void Publisher::Publish(EditOrder message) { Number(message, "edit", -1); }
-void Publisher::Publish(Meta message) { Number(message, "meta", -1); }
-void Publisher::Publish(Impacts message) { Number(message, "impacts", message.peer); }
-void Publisher::Publish(Stats message) { Number(message, "stats", message.peer); }
-void Publisher::Publish(Event message) { Number(message, "event", message.peer); }
+template <class Message>
+void Publisher::Publish(Message message) {
+  Number(message);
+}
+
+template void Publisher::Publish(Room);
+template void Publisher::Publish(Inputs);
+template void Publisher::Publish(States);
+template void Publisher::Publish(Grants);
+template void Publisher::Publish(EditOrder);
+template void Publisher::Publish(Meta);
+template void Publisher::Publish(Impacts);
+template void Publisher::Publish(Stats);
+template void Publisher::Publish(Event);
 
 void Publisher::Publish(const View& message) {
   const std::size_t count = message.id.size();
@@ -53,7 +63,7 @@ void Publisher::Publish(const View& message) {
     piece.vx = Slice(message.vx, a, b);
     piece.vy = Slice(message.vy, a, b);
     piece.spin = Slice(message.spin, a, b);
-    Number(piece, "view", message.peer);
+    Number(piece);
   }
 }
 

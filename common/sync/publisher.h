@@ -13,25 +13,19 @@ class Publisher {
  public:
   Publisher(Recorder& recorder, std::string room) : recorder_(recorder), room_(std::move(room)) {}
 
-  void Publish(Room message);
-  void Publish(Inputs message);
-  void Publish(States message);
-  void Publish(Grants message);
-  void Publish(EditOrder message);
-  void Publish(Meta message);
+  /// Requires a message that travels on the bus (message_list.h).
+  template <class Message>
+  void Publish(Message message);
   /// Splits views of more than kViewBodiesMax bodies.
   void Publish(const View& message);
-  void Publish(Impacts message);
-  void Publish(Stats message);
-  void Publish(Event message);
 
  private:
-  template <typename Message>
-  void Number(Message& message, const char* kind, int peer);
+  template <class Message>
+  void Number(Message& message);
 
   Recorder& recorder_;
   std::string room_;
-  std::map<std::string, std::int32_t> sequence_;
+  std::map<std::string, std::int64_t> sequence_;
 };
 
 }  // namespace seam

@@ -55,7 +55,7 @@ std::vector<States> Pack(const States& header, const std::vector<PackedBody>& bo
     }
     States& s = out.back();
     s.id.push_back(static_cast<std::int16_t>(body.id));
-    s.epoch.push_back(static_cast<std::int16_t>(body.epoch));
+    s.epoch.push_back(body.epoch);
     s.flags.push_back(body.flags);
     s.x.push_back(ToInt16((static_cast<double>(q.position.x()) - s.origin_x) * 512));
     s.y.push_back(ToInt16((static_cast<double>(q.position.y()) - s.origin_y) * 512));

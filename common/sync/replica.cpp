@@ -62,7 +62,7 @@ std::int8_t Replica::RoleOf(int mechanism) const {
     const int owner = world_.composition().mechanisms[static_cast<std::size_t>(mechanism)].owner;
     return own_player_ >= 0 && owner == own_player_ ? kRoleSecondary : kRoleRemote;
   }
-  if (config_.mode == Mode::kBuffer && ((h.secondaries >> self_) & 1U) != 0) return kRoleSecondary;
+  if (config_.mode == Mode::kBuffer && h.secondaries.Has(self_)) return kRoleSecondary;
   return kRoleRemote;
 }
 

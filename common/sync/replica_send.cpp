@@ -112,7 +112,7 @@ View Replica::MakeView() const {
     const BodyState s = world_.Read(body);
     view.id.push_back(static_cast<std::int16_t>(world_.id(body)));
     view.role.push_back(RoleOf(m));
-    view.authority.push_back(static_cast<std::int8_t>(table_.at(m).authority));
+    view.authority.push_back(static_cast<std::int16_t>(table_.at(m).authority));
     view.x.push_back(s.position.x() + smoother_.offset(body).x());
     view.y.push_back(s.position.y() + smoother_.offset(body).y());
     view.angle.push_back(s.angle + smoother_.angle_offset(body));

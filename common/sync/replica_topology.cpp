@@ -86,7 +86,7 @@ void Replica::Remap(const BodyRemap& change) {
   }
   last_coupled_tick_ = coupled;
   AuthorityRecord fresh;
-  fresh.secondaries = config_.mode == Mode::kBuffer ? 1 : 0;
+  if (config_.mode == Mode::kBuffer) fresh.secondaries.Add(0);
   table_.Remap(world_.composition(), change.mechanisms, fresh);
   barriers_.clear();  // of other bodies
   replay_from_ = -1;

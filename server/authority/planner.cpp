@@ -87,17 +87,16 @@ std::vector<PlannedAuthority> Planner::Plan(const World& world, const AuthorityT
     const int peer = peer_of_player[p];
     if (peer <= 0) continue;
     const Player& player = scene_.players[p];
-    const std::uint32_t bit = std::uint32_t{1} << peer;
     for (std::size_t m = 0; m < count; ++m) {
       if (plan[m].authority == peer) continue;
-      const bool follows = (table.at(static_cast<int>(m)).secondaries & bit) != 0;
+      const bool follows = table.at(static_cast<int>(m)).secondaries.Has(peer);
       const float reach = scene_.buffer_m + (follows ? kHysteresis : 0.0f);
       bool near = player.has_region &&
                   DistanceToBox(positions[m], player.region_min, player.region_max) <= reach;
       for (std::size_t o = 0; o < count && !near; ++o) {
         near = plan[o].authority == peer && (positions[o] - positions[m]).norm() <= reach;
       }
-      if (near) plan[m].secondaries |= bit;
+      if (near) plan[m].secondaries.Add(peer);
     }
   }
   return plan;

@@ -14,7 +14,7 @@ namespace seam {
 /// Who should have authority over one mechanism, and who should follow it.
 struct PlannedAuthority {
   int authority = 0;
-  std::uint32_t secondaries = 0;
+  PeerSet secondaries;
 };
 
 /// One entry per mechanism, by its index.

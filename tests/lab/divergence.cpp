@@ -17,12 +17,6 @@ constexpr FloatField kFloatFields[] = {
     {"x", "m", &View::x},     {"y", "m", &View::y},     {"angle", "rad", &View::angle},
     {"vx", "m/s", &View::vx}, {"vy", "m/s", &View::vy}, {"spin", "rad/s", &View::spin}};
 
-struct WholeField {
-  const char* name;
-  std::vector<std::int8_t> View::*values;
-};
-constexpr WholeField kWholeFields[] = {{"role", &View::role}, {"authority", &View::authority}};
-
 bool SameBits(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 /// Of body i of `a` and body j of `b`: fills field, unit and values of `d`. True when they differ.
@@ -36,14 +30,15 @@ bool BodyDiffers(const View& a, std::size_t i, const View& b, std::size_t j, Div
     d->b = right;
     return true;
   }
-  for (const WholeField& field : kWholeFields) {
-    const int left = (a.*field.values)[i], right = (b.*field.values)[j];
-    if (left == right) continue;
-    d->field = field.name;
+  const auto whole_differs = [d](const char* field, int left, int right) {
+    if (left == right) return false;
+    d->field = field;
     d->a = left;
     d->b = right;
     return true;
-  }
+  };
+  if (whole_differs("role", a.role[i], b.role[j])) return true;
+  if (whole_differs("authority", a.authority[i], b.authority[j])) return true;
   return false;
 }
 

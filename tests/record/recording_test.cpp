@@ -31,7 +31,7 @@ View MakeView(int peer, std::int64_t tick, std::size_t count = 2, std::int16_t f
     view.id.push_back(static_cast<std::int16_t>(first_id + static_cast<int>(i)));
   }
   view.role.assign(count, kRoleAuthority);
-  view.authority.assign(count, static_cast<std::int8_t>(peer));
+  view.authority.assign(count, static_cast<std::int16_t>(peer));
   view.x = view.y = view.angle = std::vector<float>(count, static_cast<float>(tick));
   view.vx = view.vy = view.spin = view.x;
   return view;
@@ -72,6 +72,7 @@ TEST(Recording, KeepsEveryKindOfMessage) {
   MemoryRecorder recorder;
   const auto publish = [&](const char* kind, auto message) {
     random.Fill(message);
+    if constexpr (std::is_same_v<decltype(message), Room>) message.protocol = kProtocolVersion;
     recorder.Publish(ChannelName("r", kind), 0, Encode(message));
     return message;
   };
@@ -128,7 +129,7 @@ TEST(Recording, PutsThePartsOfAViewTogetherInAnyOrder) {
       EXPECT_EQ(v, std::vector<float>(12, 50.0f));
     }
     EXPECT_EQ(whole.role.size(), 12u);
-    EXPECT_EQ(whole.authority, std::vector<std::int8_t>(12, 1));
+    EXPECT_EQ(whole.authority, std::vector<std::int16_t>(12, 1));
     EXPECT_EQ(heard.recording().bus_gaps, 0);
   }
 }
@@ -215,6 +216,28 @@ TEST(Recording, KeepsTheFirstRoomAndRefusesAnotherSession) {
   EXPECT_EQ(heard.recording().room.seed, 7);
   EXPECT_EQ(heard.recording().room.utime, 0);
   EXPECT_EQ(heard.recording().foreign, 1);
+}
+
+TEST(Recording, ALogOfAnotherProtocolIsRefusedNamingBoth) {
+  const TemporaryFile file;
+  const auto refusal = [&](const Bytes& room) {
+    LogWriter(file.path(), true).Publish(ChannelName("r", "scene"), 0, ByteView(room));
+    try {
+      ReadRecording(file.path());
+    } catch (const OperatorError& e) {
+      return std::string(e.what());
+    }
+    return std::string("read");
+  };
+  Room newer = MakeRoom();
+  newer.protocol = 4;
+  EXPECT_EQ(refusal(Encode(newer)),
+            file.path() + ": recorded with protocol 4; this program reads protocol 3");
+  // The beginning of protocol 2's room_t: hash, utime, sequence, protocol.
+  const Bytes older = {0xfc, 0x29, 0x58, 0x2c, 0x30, 0xd1, 0x35, 0x4e, 0, 0, 0, 0, 0, 0,   0,
+                       1,    0,    0,    0,    0,    0,    0,    0,    2, 0, 0, 0, 2, 'r', 0};
+  EXPECT_EQ(refusal(older),
+            file.path() + ": recorded with protocol 2; this program reads protocol 3");
 }
 
 TEST(Recording, SeparatesRoomsAndCountsWhatIsForeign) {

@@ -22,7 +22,7 @@ class FollowedCopy {
       AuthorityRecord record;
       record.epoch = 1;
       for (const int mine : own) record.authority = mine == m ? 1 : record.authority;
-      record.secondaries = 1u << 1;
+      record.secondaries.Add(1);
       copy.authority().Set(m, record);
     }
     copy.RolesChanged();

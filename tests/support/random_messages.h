@@ -1,13 +1,14 @@
 #pragma once
 /// Random valid messages of every type, and their comparison field by field: for tests.
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <tuple>
 #include <vector>
 
 #include "common/base/random.h"
-#include "common/codec/messages.h"
+#include "common/codec/message_list.h"
 
 namespace seam {
 
@@ -26,8 +27,15 @@ class RandomMessages {
   }
 
   void Fill(Hello& m) { Common(m), m.protocol = Int32(), m.name = Name(); }
+  void Fill(Challenge& m) { Common(m), m.token = static_cast<std::int64_t>(random_.Next()); }
+  void Fill(Join& m) {
+    Common(m), m.protocol = Int32(), m.token = static_cast<std::int64_t>(random_.Next());
+    m.key = static_cast<std::int64_t>(random_.Next()), m.name = Name();
+  }
+  void Fill(Ready& m) { Common(m); }
   void Fill(Welcome& m) {
     Common(m), Set(m.peer, 1, 31), Set(m.player, -1, 31), Set(m.room_bytes, 1, 60000);
+    m.key = static_cast<std::int64_t>(random_.Next());
   }
   void Fill(Chunk& m) {
     Common(m), Set(m.offset_bytes, 0, 59000), Vector(m.data, Count(1, kChunkBytesMax), 0, 255);
@@ -52,19 +60,29 @@ class RandomMessages {
     Common(m), Sequence(m), Set(m.peer, 0, 31), m.tick = Tick();
     Set(m.revision, 0, INT32_MAX), m.composition = static_cast<std::int64_t>(random_.Next());
     Set(m.origin_x, -kOriginMax, kOriginMax), Set(m.origin_y, -kOriginMax, kOriginMax);
-    Ids(m.id, count), Any(m.epoch, count), Vector(m.flags, count, 0, 3), Any(m.x, count);
+    Ids(m.id, count), Vector(m.epoch, count, 0, INT32_MAX), Vector(m.flags, count, 0, 3),
+        Any(m.x, count);
     Any(m.y, count), Any(m.angle, count), Any(m.vx, count), Any(m.vy, count), Any(m.spin, count);
   }
   void Fill(States& m) { Fill(m, Count(0, kStatesBodiesMax)); }
   void Fill(Grants& m, std::size_t count) {
     Common(m), Sequence(m), m.tick = Tick(), Vector(m.mechanism, count, 0, INT16_MAX);
-    Vector(m.authority, count, 0, 31), Any(m.epoch, count), Any(m.secondaries, count);
+    Vector(m.authority, count, 0, 31), Vector(m.epoch, count, 0, INT32_MAX);
+    Vector(m.followers, count, 0, 1);
+    Vector(m.follower,
+           static_cast<std::size_t>(std::count(m.followers.begin(), m.followers.end(), 1)), 0, 31);
+  }
+  void Fill(Release& m) {
+    const std::size_t count = Count(1, kGrantsMax);
+    Common(m), m.tick = Tick(), Vector(m.mechanism, count, 0, INT16_MAX);
+    Vector(m.epoch, count, 0, INT32_MAX);
   }
   void Fill(Grants& m) { Fill(m, Count(0, kGrantsMax)); }
   void Fill(EditOrder& m) {
     Common(m), Sequence(m), Set(m.number, -1, INT32_MAX), m.tick = Tick();
     Set(m.kind, 0, kEditKindsMax), Set(m.cause, 0, 1), Set(m.player, -1, 31);
-    for (auto* id : {&m.a, &m.b, &m.joint}) Set(*id, -1, INT16_MAX);
+    for (auto* id : {&m.a, &m.b}) Set(*id, -1, INT16_MAX);
+    Set(m.joint, -1, INT32_MAX);
     Floats(m.value, 4), m.text = Text(300);
   }
   void Fill(Meta& m, std::size_t count) {
@@ -112,7 +130,7 @@ class RandomMessages {
   }
   template <class M>
   void Sequence(M& m) {
-    Set(m.sequence, 0, INT32_MAX);
+    Set(m.sequence, 0, INT64_MAX - 1);
   }
   template <class T>
   void Set(T& value, std::int64_t low, std::int64_t high) {
@@ -155,46 +173,10 @@ class RandomMessages {
   Random random_;
 };
 
-inline auto Fields(const Hello& m) { return std::tie(m.utime, m.protocol, m.name); }
-inline auto Fields(const Welcome& m) { return std::tie(m.utime, m.peer, m.player, m.room_bytes); }
-inline auto Fields(const Chunk& m) { return std::tie(m.utime, m.offset_bytes, m.data); }
-inline auto Fields(const Room& m) {
-  return std::tie(m.utime, m.sequence, m.protocol, m.room, m.scene_name, m.scene_text, m.mode,
-                  m.reconcile, m.impair, m.seed, m.tick_hz, m.send_hz);
+/// The fields of a message, tied: what comparison goes by.
+template <class Message>
+auto Fields(const Message& m) {
+  return MessageTraits<Message>::Fields(m);
 }
-inline auto Fields(const Ping& m) { return std::tie(m.utime, m.revision, m.composition); }
-inline auto Fields(const Pong& m) { return std::tie(m.utime, m.client_us, m.tick0_us); }
-inline auto Fields(const Inputs& m) {
-  return std::tie(m.utime, m.sequence, m.player, m.first_tick, m.drive, m.lift, m.buttons);
-}
-inline auto Fields(const States& m) {
-  return std::tie(m.utime, m.sequence, m.peer, m.tick, m.revision, m.composition, m.origin_x,
-                  m.origin_y, m.id, m.epoch, m.flags, m.x, m.y, m.angle, m.vx, m.vy, m.spin);
-}
-inline auto Fields(const Grants& m) {
-  return std::tie(m.utime, m.sequence, m.tick, m.mechanism, m.authority, m.epoch, m.secondaries);
-}
-inline auto Fields(const EditOrder& m) {
-  return std::tie(m.utime, m.sequence, m.number, m.tick, m.kind, m.cause, m.a, m.b, m.joint,
-                  m.player, m.text, m.value);
-}
-inline auto Fields(const Meta& m) {
-  return std::tie(m.utime, m.sequence, m.tick, m.kind, m.id, m.key, m.value);
-}
-inline auto Fields(const View& m) {
-  return std::tie(m.utime, m.sequence, m.peer, m.tick, m.revision, m.part, m.parts, m.id, m.role,
-                  m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin);
-}
-inline auto Fields(const Impacts& m) {
-  return std::tie(m.utime, m.sequence, m.peer, m.tick, m.id_a, m.id_b, m.x, m.y, m.dv);
-}
-inline auto Fields(const Stats& m) {
-  return std::tie(m.utime, m.sequence, m.peer, m.tick, m.bytes_out, m.bytes_in, m.datagrams_out,
-                  m.datagrams_in, m.dropped_malformed, m.dropped_stale, m.dropped_right,
-                  m.dropped_implausible, m.cpu_us, m.rtt_us, m.loss_ppm, m.tick_late_us,
-                  m.clock_offset_us);
-}
-inline auto Fields(const Event& m) { return std::tie(m.utime, m.sequence, m.peer, m.tick, m.text); }
-inline auto Fields(const Bye& m) { return std::tie(m.utime, m.reason); }
 
 }  // namespace seam

@@ -24,7 +24,7 @@ float WorstAfterBounces(float lower, std::int64_t late) {
   Replica copy(scene, MakeSyncConfig("buffer", "retrospect"), 1, -1);
   AuthorityRecord record;
   record.epoch = 1;
-  record.secondaries = 1u << 1;
+  record.secondaries.Add(1);
   copy.authority().Set(0, record);
   copy.RolesChanged();
   copy.StartAt(0);

@@ -1,0 +1,71 @@
+#pragma once
+/// The one list of messages. Encode, Decode, the numbering on the bus and the recording's table
+/// follow from it: a new message is its .lcm file, its struct in messages.h with a Valid in
+/// validate.cpp, and a line here.
+
+#include <tuple>
+
+#include "common/codec/messages.h"
+
+/// X(struct, LCM type, where it travels, kind in the channel, fields of `m` in the .lcm's order)
+///
+///   kEdge       between server and client alone; on the bus it is foreign
+///   kBusRoom    on the bus too, channel SEAM.<room>.<kind>
+///   kBusPeer    on the bus too, channel SEAM.<room>.<kind>.<peer>
+///   kBusPlayer  on the bus too, channel SEAM.<room>.<kind>.<player>
+#define SEAM_MESSAGES(X)                                                                          \
+  X(Hello, hello_t, kEdge, "", m.utime, m.protocol, m.name)                                       \
+  X(Challenge, challenge_t, kEdge, "", m.utime, m.token)                                          \
+  X(Join, join_t, kEdge, "", m.utime, m.protocol, m.token, m.key, m.name)                         \
+  X(Welcome, welcome_t, kEdge, "", m.utime, m.peer, m.player, m.room_bytes, m.key)                \
+  X(Chunk, chunk_t, kEdge, "", m.utime, m.offset_bytes, m.data)                                   \
+  X(Ready, ready_t, kEdge, "", m.utime)                                                           \
+  X(Room, room_t, kBusRoom, "scene", m.utime, m.sequence, m.protocol, m.room, m.scene_name,       \
+    m.scene_text, m.mode, m.reconcile, m.impair, m.seed, m.tick_hz, m.send_hz)                    \
+  X(Ping, ping_t, kEdge, "", m.utime, m.revision, m.composition)                                  \
+  X(Pong, pong_t, kEdge, "", m.utime, m.client_us, m.tick0_us)                                    \
+  X(Inputs, inputs_t, kBusPlayer, "inputs", m.utime, m.sequence, m.player, m.first_tick, m.drive, \
+    m.lift, m.buttons)                                                                            \
+  X(States, states_t, kBusPeer, "states", m.utime, m.sequence, m.peer, m.tick, m.revision,        \
+    m.composition, m.origin_x, m.origin_y, m.id, m.epoch, m.flags, m.x, m.y, m.angle, m.vx, m.vy, \
+    m.spin)                                                                                       \
+  X(Grants, grants_t, kBusRoom, "grants", m.utime, m.sequence, m.tick, m.mechanism, m.authority,  \
+    m.epoch, m.followers, m.follower)                                                             \
+  X(Release, release_t, kEdge, "", m.utime, m.tick, m.mechanism, m.epoch)                         \
+  X(EditOrder, edit_t, kBusRoom, "edit", m.utime, m.sequence, m.number, m.tick, m.kind, m.cause,  \
+    m.a, m.b, m.joint, m.player, m.text, m.value)                                                 \
+  X(Meta, meta_t, kBusRoom, "meta", m.utime, m.sequence, m.tick, m.kind, m.id, m.key, m.value)    \
+  X(View, view_t, kBusPeer, "view", m.utime, m.sequence, m.peer, m.tick, m.revision, m.part,      \
+    m.parts, m.id, m.role, m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin)                    \
+  X(Impacts, impacts_t, kBusPeer, "impacts", m.utime, m.sequence, m.peer, m.tick, m.id_a, m.id_b, \
+    m.x, m.y, m.dv)                                                                               \
+  X(Stats, stats_t, kBusPeer, "stats", m.utime, m.sequence, m.peer, m.tick, m.bytes_out,          \
+    m.bytes_in, m.datagrams_out, m.datagrams_in, m.dropped_malformed, m.dropped_stale,            \
+    m.dropped_right, m.dropped_implausible, m.cpu_us, m.rtt_us, m.loss_ppm, m.tick_late_us,       \
+    m.clock_offset_us)                                                                            \
+  X(Event, event_t, kBusPeer, "event", m.utime, m.sequence, m.peer, m.tick, m.text)               \
+  X(Bye, bye_t, kEdge, "", m.utime, m.reason)
+
+namespace seam {
+
+/// Where a message travels.
+enum class Travels { kEdge, kBusRoom, kBusPeer, kBusPlayer };
+
+template <class Message>
+struct MessageTraits;
+
+// What the list says of each message: kTravels, kKind, and Fields(m): its fields, tied.
+#define SEAM_MESSAGE_TRAITS(Struct, lcm_type, travels, kind, ...) \
+  template <>                                                     \
+  struct MessageTraits<Struct> {                                  \
+    static constexpr Travels kTravels = Travels::travels;         \
+    static constexpr const char* kKind = kind;                    \
+    template <class M>                                            \
+    static auto Fields(M& m) {                                    \
+      return std::tie(__VA_ARGS__);                               \
+    }                                                             \
+  };
+SEAM_MESSAGES(SEAM_MESSAGE_TRAITS)
+#undef SEAM_MESSAGE_TRAITS
+
+}  // namespace seam
