@@ -51,7 +51,7 @@ class Server {
   const Replica& replica() const { return replica_; }
   World& world() { return replica_.world(); }
   /// Orders an edit at the next tick, or as soon as its parts are in one hand. One that cannot be
-  /// is dropped; Topology::Complaint tells beforehand.
+  /// is dropped; Topology::Validate tells beforehand.
   void Order(const Edit& edit);
   /// What it decides of health, scores and scripts; nullptr when the scene has nothing of it.
   const Rules* rules() const { return rules_.get(); }

@@ -35,7 +35,7 @@ void Server::OnProposal(Session& session, const EditOrder& order) {
   }
   const Edit edit = ToEdit(order);
   const Topology& topology = replica_.world().topology();
-  if (!topology.Complaint(edit).empty()) {
+  if (!topology.Validate(edit).ok()) {
     ++stats_.dropped_stale;  // somebody else's came first
     return;
   }
@@ -106,7 +106,7 @@ void Server::OrderPending(std::int64_t now_us) {
   std::vector<EditOrder> ordered;
   std::vector<PartId> taken;  // parts that an edit of this batch is about
   for (Pending& pending : pending_) {
-    if (!topology.Complaint(pending.edit).empty()) {
+    if (!topology.Validate(pending.edit).ok()) {
       if (pending.peer > 0) ++stats_.dropped_stale;
       continue;
     }
@@ -114,7 +114,7 @@ void Server::OrderPending(std::int64_t now_us) {
     const bool again = std::any_of(parts.begin(), parts.end(), [&](PartId part) {
       return std::find(taken.begin(), taken.end(), part) != taken.end();
     });
-    const bool bond = pending.edit.kind == EditKind::kBond;
+    const bool bond = pending.edit.As<BondEdit>() != nullptr;
     if ((bond && again) || !InOneHand(MechanismsOf(pending.edit))) {
       if (replica_.tick() - pending.since < patience) waiting.push_back(pending);
       continue;

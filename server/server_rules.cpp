@@ -17,44 +17,16 @@ class Server::Commands : public RoomCommands {
  public:
   explicit Commands(Server& server) : server_(server) {}
 
-  void RemovePart(PartId part) override {
-    Edit edit;
-    edit.kind = EditKind::kRemove;
-    edit.a = part;
-    Ask(edit);
-  }
-  void BreakJoint(int joint) override {
-    Edit edit;
-    edit.kind = EditKind::kBreak;
-    edit.joint = joint;
-    Ask(edit);
-  }
+  void RemovePart(PartId part) override { Ask(RemoveEdit{part}); }
+  void BreakJoint(int joint) override { Ask(BreakEdit{joint}); }
   void Bond(PartId a, PartId b, float strength) override {
     Ask(BondAsTheyAre(server_.replica_.world(), a, b, strength));
   }
-  void Push(PartId part, const Vec2& impulse) override {
-    Edit edit;
-    edit.kind = EditKind::kPush;
-    edit.a = part;
-    edit.x = impulse.x();
-    edit.y = impulse.y();
-    Ask(edit);
-  }
+  void Push(PartId part, const Vec2& impulse) override { Ask(PushEdit{part, impulse}); }
   void Blast(const Vec2& centre, float radius, float speed) override {
-    Edit edit;
-    edit.kind = EditKind::kBlast;
-    edit.x = centre.x();
-    edit.y = centre.y();
-    edit.amount = radius;
-    edit.angle = speed;
-    Ask(edit);
+    Ask(BlastEdit{centre, radius, speed});
   }
-  void Insert(const std::string& text) override {
-    Edit edit;
-    edit.kind = EditKind::kInsert;
-    edit.text = text;
-    Ask(edit);
-  }
+  void Insert(const std::string& text) override { Ask(InsertEdit{text}); }
   void Say(const std::string& text) override { server_.Say(server_.rules_us_, text); }
   bool Present(int player) const override {
     return server_.PeerOfPlayer()[static_cast<std::size_t>(player)] >= 0;
@@ -64,10 +36,10 @@ class Server::Commands : public RoomCommands {
   }
 
  private:
-  void Ask(Edit edit) {
-    edit.cause = EditCause::kOutside;
-    const std::string complaint = server_.replica_.world().topology().Complaint(edit);
-    if (!complaint.empty()) throw ScriptRefusal(complaint);
+  void Ask(AnyEdit what) {
+    const Edit edit(std::move(what), EditCause::kOutside);
+    const Status status = server_.replica_.world().topology().Validate(edit);
+    if (!status.ok()) throw ScriptRefusal(status.why());
     server_.Order(edit);
   }
 

@@ -49,11 +49,7 @@ bool Server::GetIn(int player, int index) {
   const Seat& seat = world.scene().seats[static_cast<std::size_t>(index)];
   if (world.scene().parts[static_cast<std::size_t>(seat.part)].gone) return false;
   const PartId own = world.scene().players[static_cast<std::size_t>(player)].vehicle;
-  Edit sit;
-  sit.kind = EditKind::kSeat;
-  sit.cause = EditCause::kOutside;
-  sit.a = index;
-  sit.player = player;
+  const Edit sit(SeatEdit{index, player}, EditCause::kOutside);
   if (own < 0) {
     Order(sit);
     return true;
@@ -64,14 +60,7 @@ bool Server::GetIn(int player, int index) {
   const Vec2 place =
       vehicle.position + Vec2(c * seat.at.x() - s * seat.at.y(), s * seat.at.x() + c * seat.at.y());
   if ((PartPose(world, own).position - place).norm() > seat.reach) return false;
-  Edit bond;
-  bond.kind = EditKind::kBond;
-  bond.cause = EditCause::kOutside;
-  bond.a = seat.part;
-  bond.b = own;
-  bond.x = seat.at.x();
-  bond.y = seat.at.y();
-  bond.angle = seat.angle;
+  const Edit bond(BondEdit{seat.part, own, seat.at, seat.angle}, EditCause::kOutside);
   Order(bond);
   Order(sit);
   return true;
@@ -81,29 +70,16 @@ void Server::GetOut(int index) {
   const World& world = replica_.world();
   const Seat& seat = world.scene().seats[static_cast<std::size_t>(index)];
   const PartId own = world.scene().players[static_cast<std::size_t>(seat.player)].vehicle;
-  Edit stand;
-  stand.kind = EditKind::kSeat;
-  stand.cause = EditCause::kOutside;
-  stand.a = index;
-  stand.player = -1;
   for (std::size_t j = 0; own >= 0 && j < world.scene().joints.size(); ++j) {
     const Joint& joint = world.scene().joints[j];
     if (joint.gone || joint.kind != JointKind::kGlue || joint.a != seat.part || joint.b != own) {
       continue;
     }
-    Edit part;
-    part.kind = EditKind::kBreak;
-    part.cause = EditCause::kOutside;
-    part.joint = static_cast<std::int32_t>(j);
-    Order(part);
-    Edit hop;
-    hop.kind = EditKind::kPush;
-    hop.cause = EditCause::kOutside;
-    hop.a = own;
-    hop.y = kHop * PartMass(world.scene().parts[static_cast<std::size_t>(own)]);
-    Order(hop);
+    Order(Edit(BreakEdit{static_cast<std::int32_t>(j)}, EditCause::kOutside));
+    const float mass = PartMass(world.scene().parts[static_cast<std::size_t>(own)]);
+    Order(Edit(PushEdit{own, {0, kHop * mass}}, EditCause::kOutside));
   }
-  Order(stand);
+  Order(Edit(SeatEdit{index, -1}, EditCause::kOutside));
 }
 
 }  // namespace seam

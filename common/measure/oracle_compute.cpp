@@ -95,16 +95,24 @@ class Outside {
     }
     return -1;
   }
+  /// Ids of what came at run time, into the oracle's own.
   void Translate(int number, const Scene& now, Edit* edit) const {
-    if (edit->kind == EditKind::kSeat) return;  // `a` is no part
-    const auto came = [](std::int32_t id, std::size_t first) {
-      return id >= 0 && static_cast<std::size_t>(id) >= first;
+    const auto part = [&](PartId* id) {
+      if (*id < 0 || static_cast<std::size_t>(*id) < parts_) return;
+      *id = PartOf(recorded_.At(number)->scene(), *id, now);
     };
-    if (!came(edit->a, parts_) && !came(edit->b, parts_) && !came(edit->joint, joints_)) return;
-    const auto then = recorded_.At(number);
-    edit->a = PartOf(then->scene(), edit->a, now);
-    edit->b = PartOf(then->scene(), edit->b, now);
-    edit->joint = JointOf(then->scene(), edit->joint, now);
+    std::visit(
+        Overloaded{[&](BreakEdit& e) {
+                     if (e.joint < 0 || static_cast<std::size_t>(e.joint) < joints_) return;
+                     e.joint = JointOf(recorded_.At(number)->scene(), e.joint, now);
+                   },
+                   [&](BondEdit& e) {
+                     part(&e.a);
+                     part(&e.b);
+                   },
+                   [&](RemoveEdit& e) { part(&e.part); }, [&](FreeEdit& e) { part(&e.part); },
+                   [&](PushEdit& e) { part(&e.part); }, [](auto&) {}},
+        edit->what);
   }
 
   const RevisionHistory recorded_;

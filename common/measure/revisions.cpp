@@ -16,8 +16,9 @@ constexpr std::size_t kRevisionsMax = 64;
 /// A room has at most 8192 edits; a damaged number must not make a list of two thousand million.
 constexpr std::int32_t kNumbersMax = 65536;
 
-bool ChangesBodies(EditKind kind) {
-  return kind != EditKind::kNothing && kind != EditKind::kPush && kind != EditKind::kSeat;
+bool ChangesBodies(const Edit& edit) {
+  return edit.As<std::monostate>() == nullptr && edit.As<PushEdit>() == nullptr &&
+         edit.As<SeatEdit>() == nullptr;
 }
 
 }  // namespace
@@ -51,7 +52,7 @@ RevisionHistory::RevisionHistory(const Scene& scene, std::vector<Edit> edits)
     : edits_(std::move(edits)) {
   keys_.push_back(0);
   for (std::size_t n = 0; n < edits_.size(); ++n) {
-    keys_.push_back(ChangesBodies(edits_[n].kind) ? static_cast<int>(n) + 1 : keys_.back());
+    keys_.push_back(ChangesBodies(edits_[n]) ? static_cast<int>(n) + 1 : keys_.back());
   }
   revisions_[0] = std::make_shared<const SceneRevision>(Topology(scene));
 }

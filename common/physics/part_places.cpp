@@ -50,18 +50,16 @@ int MechanismOf(const World& world, PartId part) {
   return index < 0 ? -1 : world.composition().assemblies[static_cast<std::size_t>(index)].mechanism;
 }
 
-Edit BondAsTheyAre(const World& world, PartId a, PartId b, float strength) {
+BondEdit BondAsTheyAre(const World& world, PartId a, PartId b, float strength) {
   const BodyState at_a = PartPose(world, a), at_b = PartPose(world, b);
   const Vec2 apart = at_b.position - at_a.position;
   const float c = std::cos(at_a.angle), s = std::sin(at_a.angle);
-  Edit edit;
-  edit.kind = EditKind::kBond;
+  BondEdit edit;
   edit.a = a;
   edit.b = b;
-  edit.x = c * apart.x() + s * apart.y();
-  edit.y = c * apart.y() - s * apart.x();
-  edit.angle = at_b.angle - at_a.angle;
-  edit.amount = strength;
+  edit.position = {c * apart.x() + s * apart.y(), c * apart.y() - s * apart.x()};
+  edit.angle = std::remainder(at_b.angle - at_a.angle, 6.2831853f);
+  edit.strength = strength;
   return edit;
 }
 

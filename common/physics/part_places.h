@@ -18,6 +18,6 @@ int MechanismOf(const World& world, PartId part);
 
 /// The bond that makes b rigid with a where it is now, up to `strength` N (0: for ever). Requires
 /// parts that have not left.
-Edit BondAsTheyAre(const World& world, PartId a, PartId b, float strength);
+BondEdit BondAsTheyAre(const World& world, PartId a, PartId b, float strength);
 
 }  // namespace seam

@@ -137,7 +137,7 @@ class World {
   double Energy() const;
 
  private:
-  void Push(const Edit& edit);
+  void Push(const PushEdit& edit);
   void Follow(int player, const Input& input);
   struct Impl;
   std::unique_ptr<Impl> impl_;

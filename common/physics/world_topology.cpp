@@ -242,22 +242,24 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
     w.impacts.clear();
   }
   for (const Edit& edit : edits) {
-    if (edit.kind == EditKind::kPush && w.topology.Complaint(edit).empty()) Push(edit);
-    if (edit.kind == EditKind::kSeat && edit.player < 0 && w.topology.Complaint(edit).empty()) {
-      Follow(static_cast<int>(w.scene.players.size()) + edit.a, Input{});  // nobody drives on
+    const PushEdit* push = edit.As<PushEdit>();
+    if (push != nullptr && w.topology.Validate(edit).ok()) Push(*push);
+    const SeatEdit* seat = edit.As<SeatEdit>();
+    if (seat != nullptr && seat->player < 0 && w.topology.Validate(edit).ok()) {
+      Follow(static_cast<int>(w.scene.players.size()) + seat->seat, Input{});  // nobody drives on
     }
     for (const auto& stage : w.stages) stage->Edited(edit);
   }
   return out;
 }
 
-void World::Push(const Edit& edit) {
-  const int index = AssemblyIndex(composition(), edit.a);
+void World::Push(const PushEdit& edit) {
+  const int index = AssemblyIndex(composition(), edit.part);
   if (index < 0 || AssemblyOf(composition(), index).anchored) return;
   b2Body* body = impl_->built.bodies[static_cast<std::size_t>(index)];
   if (body->GetType() != b2_dynamicBody) return;
-  body->ApplyLinearImpulseToCenter(b2Vec2(edit.x, edit.y), true);
-  body->ApplyAngularImpulse(edit.angle, true);
+  body->ApplyLinearImpulseToCenter(ToB2(edit.impulse), true);
+  body->ApplyAngularImpulse(edit.turn, true);
 }
 
 }  // namespace seam

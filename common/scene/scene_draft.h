@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/status.h"
 #include "common/scene/connectors.h"
 #include "common/scene/part_rules.h"
 #include "common/scene/scene.h"
@@ -105,8 +106,8 @@ void ReadShape(const SceneReader& r, float size_max, Part* part);
 /// Nobody has to do what the permissions forbid. Throws OperatorError.
 void CheckPermissions(const Scene& scene, const std::string& file);
 
-/// Box2D's and our own demands on shapes; empty when they are met.
-std::string PolygonComplaint(const std::vector<Vec2>& points, float size_max);
-std::string ChainComplaint(const std::vector<Vec2>& points);
+/// Box2D's and our own demands on shapes.
+Status ValidatePolygon(const std::vector<Vec2>& points, float size_max);
+Status ValidateChain(const std::vector<Vec2>& points);
 
 }  // namespace seam

@@ -29,8 +29,8 @@ double TwiceArea(const std::vector<Vec2>& points) {
 }
 
 void CheckPolygon(const SceneReader& r, const char* key, float size_max, const Part& part) {
-  const std::string complaint = PolygonComplaint(part.points, size_max);
-  if (!complaint.empty()) r.FailAt(key, complaint);
+  const Status status = ValidatePolygon(part.points, size_max);
+  if (!status.ok()) r.FailAt(key, status.why());
 }
 
 void ReadCapsule(const SceneReader& r, float size_max, Part* part) {
@@ -62,8 +62,8 @@ void ReadLine(const SceneReader& r, const char* key, Part* part) {
   part->anchored = true;
   part->points = r.Points(key, kCoordinate, chain ? kChainPointsMax : 2);
   if (!chain && part->points.size() != 2) r.FailAt(key, "a segment has 2 points");
-  const std::string complaint = ChainComplaint(part->points);
-  if (!complaint.empty()) r.FailAt(key, complaint);
+  const Status status = ValidateChain(part->points);
+  if (!status.ok()) r.FailAt(key, status.why());
 }
 
 }  // namespace
@@ -97,26 +97,27 @@ void ReadShape(const SceneReader& r, float size_max, Part* part) {
   }
 }
 
-std::string PolygonComplaint(const std::vector<Vec2>& points, float size_max) {
+Status ValidatePolygon(const std::vector<Vec2>& points, float size_max) {
   const std::size_t n = points.size();
-  if (n < 3) return "a polygon needs 3 to " + std::to_string(kPolygonPointsMax) + " points";
+  if (n < 3)
+    return Status::Error("a polygon needs 3 to " + std::to_string(kPolygonPointsMax) + " points");
   Vec2 low = points[0], high = points[0];
   for (std::size_t i = 0; i < n; ++i) {
     low = low.cwiseMin(points[i]);
     high = high.cwiseMax(points[i]);
     for (std::size_t k = 0; k < i; ++k) {
       if ((points[i] - points[k]).norm() < kEdgeMin) {
-        return TooClose(k, i);
+        return Status::Error(TooClose(k, i));
       }
     }
   }
   if ((high - low).minCoeff() < kSizeMin || (high - low).maxCoeff() > size_max) {
-    return "a polygon's width and height must be from " + Decimal(kSizeMin) + " to " +
-           Decimal(size_max) + " m";
+    return Status::Error("a polygon's width and height must be from " + Decimal(kSizeMin) + " to " +
+                         Decimal(size_max) + " m");
   }
   const double area = TwiceArea(points) / 2;
   if (std::abs(area) < static_cast<double>(kAreaMin)) {
-    return "the area must be at least " + Decimal(kAreaMin) + " m^2";
+    return Status::Error("the area must be at least " + Decimal(kAreaMin) + " m^2");
   }
   // Every other point strictly on the inner side of every edge: convex, and wound only once.
   const double turn = area > 0 ? 1 : -1;
@@ -126,21 +127,22 @@ std::string PolygonComplaint(const std::vector<Vec2>& points, float size_max) {
       const std::size_t other = (i + k) % n;
       const double inside = turn * Cross(edge, points[other] - points[i]) / edge.norm();
       if (inside < static_cast<double>(kConvexMin)) {
-        return "not convex at point " + Number(other) + " (or three points in one line)";
+        return Status::Error("not convex at point " + Number(other) +
+                             " (or three points in one line)");
       }
     }
   }
-  return "";
+  return Status::Ok();
 }
 
-std::string ChainComplaint(const std::vector<Vec2>& points) {
-  if (points.size() < 2) return "a chain needs 2 points or more";
+Status ValidateChain(const std::vector<Vec2>& points) {
+  if (points.size() < 2) return Status::Error("a chain needs 2 points or more");
   for (std::size_t i = 1; i < points.size(); ++i) {
     if ((points[i] - points[i - 1]).norm() < kEdgeMin) {
-      return TooClose(i - 1, i);
+      return Status::Error(TooClose(i - 1, i));
     }
   }
-  return "";
+  return Status::Ok();
 }
 
 }  // namespace seam

@@ -32,7 +32,7 @@ std::unique_ptr<Stage> MakeGlueStage(const StageWorld& world);
 std::unique_ptr<Stage> MakeJoinStage(const StageWorld& world);
 
 /// Whether a bond may be one that resting parts make: of single bodies that no joint holds.
-bool MayGroup(const Scene& scene, const Composition& composition, const Edit& bond);
+bool MayGroup(const Scene& scene, const Composition& composition, const BondEdit& bond);
 
 /// Grouped: single bodies (no joint holds them) that have touched and been slower than kRestSpeed
 /// and kRestSpin for the scene's time. Undone: when the group moves or feels a change of velocity

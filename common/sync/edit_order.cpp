@@ -1,36 +1,66 @@
 #include "common/sync/edit_order.h"
 
 namespace seam {
+namespace {
 
 static_assert(kEditTextMax == kEditTextBytesMax && kEditKindMax == kEditKindsMax);
 
+std::int16_t Id(PartId part) { return static_cast<std::int16_t>(part); }
+
+}  // namespace
+
 EditOrder ToOrder(const Edit& edit) {
   EditOrder order;
-  order.kind = static_cast<std::int8_t>(edit.kind);
+  order.kind = static_cast<std::int8_t>(edit.what.index());
   order.cause = static_cast<std::int8_t>(edit.cause);
-  order.a = static_cast<std::int16_t>(edit.a);
-  order.b = static_cast<std::int16_t>(edit.b);
-  order.joint = edit.joint;
-  order.player = static_cast<std::int16_t>(edit.player);
-  order.value = {edit.x, edit.y, edit.angle, edit.amount};
-  order.text = edit.text;
+  std::visit(
+      Overloaded{[](const std::monostate&) {}, [&](const BreakEdit& e) { order.joint = e.joint; },
+                 [&](const BondEdit& e) {
+                   order.a = Id(e.a);
+                   order.b = Id(e.b);
+                   order.joint = static_cast<std::int32_t>(e.cause);
+                   order.value = {e.position.x(), e.position.y(), e.angle, e.strength};
+                 },
+                 [&](const InsertEdit& e) { order.text = e.text; },
+                 [&](const RemoveEdit& e) { order.a = Id(e.part); },
+                 [&](const FreeEdit& e) { order.a = Id(e.part); },
+                 [&](const PushEdit& e) {
+                   order.a = Id(e.part);
+                   order.value = {e.impulse.x(), e.impulse.y(), e.turn, 0};
+                 },
+                 [&](const SeatEdit& e) {
+                   order.a = Id(e.seat);
+                   order.player = static_cast<std::int16_t>(e.player);
+                 },
+                 [&](const BlastEdit& e) {
+                   order.value = {e.centre.x(), e.centre.y(), e.speed, e.radius};
+                 }},
+      edit.what);
   return order;
 }
 
 Edit ToEdit(const EditOrder& order) {
-  Edit edit;
-  edit.kind = static_cast<EditKind>(order.kind);
-  edit.cause = static_cast<EditCause>(order.cause);
-  edit.a = order.a;
-  edit.b = order.b;
-  edit.joint = order.joint;
-  edit.player = order.player;
-  edit.x = order.value[0];
-  edit.y = order.value[1];
-  edit.angle = order.value[2];
-  edit.amount = order.value[3];
-  edit.text = order.text;
-  return edit;
+  const Vec2 xy(order.value[0], order.value[1]);
+  const float angle = order.value[2], amount = order.value[3];
+  AnyEdit what;
+  switch (order.kind) {
+    case 1: what = BreakEdit{order.joint}; break;
+    case 2: {
+      const auto cause = order.joint == 0   ? BondCause::kConnectors
+                         : order.joint == 1 ? BondCause::kGroup
+                                            : BondCause::kGiven;
+      what = BondEdit{order.a, order.b, xy, angle, amount, cause};
+      break;
+    }
+    case 3: what = InsertEdit{order.text}; break;
+    case 4: what = RemoveEdit{order.a}; break;
+    case 5: what = FreeEdit{order.a}; break;
+    case 6: what = PushEdit{order.a, xy, angle}; break;
+    case 7: what = SeatEdit{order.a, order.player}; break;
+    case 8: what = BlastEdit{xy, amount, angle}; break;
+    default: break;
+  }
+  return Edit(what, static_cast<EditCause>(order.cause));
 }
 
 }  // namespace seam

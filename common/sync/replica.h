@@ -176,7 +176,7 @@ class Replica {
   std::vector<Edit> queued_;     // ordered, not yet applied
   std::vector<int> changed_at_;  // by body: edits there were when it was last changed
   std::vector<Edit> proposals_;
-  std::map<std::tuple<int, int, int, int>, std::int64_t> proposed_;  // when, by what
+  std::map<EditKey, std::int64_t> proposed_;  // when, by what
   std::deque<Acted> acted_;  // pushes that this peer did since the first barrier
 };
 

@@ -107,8 +107,7 @@ void Replica::NoteProposals() {
       }
       if (!mine) continue;
     }
-    const auto key = std::make_tuple(static_cast<int>(edit.kind), static_cast<int>(edit.joint),
-                                     static_cast<int>(edit.a), static_cast<int>(edit.b));
+    const EditKey key = KeyOf(edit);
     const auto again = static_cast<std::int64_t>(kProposeAgain * config_.tick_hz);
     const auto said = proposed_.find(key);
     if (said != proposed_.end() && tick() - said->second < again) continue;

@@ -3,47 +3,108 @@
 /// The authority proposes, the server orders, and every peer applies the same edits in the same
 /// order; so that all have the same assemblies with the same roots.
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
+#include <variant>
 
 #include "common/scene/types.h"
 
 namespace seam {
 
-enum class EditKind : std::int8_t {
-  kNothing = 0,
-  kBreak = 1,   ///< `joint` is gone; of glue or a weld: its assembly falls apart
-  kBond = 2,    ///< `b` becomes rigid with `a`: a glue joint of strength `amount` (0: endless),
-                ///< `b` at (x, y, angle) in the frame of `a`; `joint` is a BondKind
-  kInsert = 3,  ///< the [[part]]s and [[joint]]s in `text`, as a scene writes them
-  kRemove = 4,  ///< part `a` leaves, and all its joints
-  kFree = 5,    ///< part `a` is no longer anchored
-  kPush = 6,    ///< an impulse of (x, y) N s and `angle` N m s on the assembly of `a`, at its
-                ///< centre of mass; changes nobody's assembly
-  kSeat = 7,    ///< `player` (-1: nobody) drives what seat `a` drives
-  kBlast = 8,   ///< featherweight parts within `amount` m of (x, y) are set free, thrown
-                ///< outwards at `angle` m/s
+/// A joint is gone; of glue or a weld: its assembly falls apart.
+struct BreakEdit {
+  std::int32_t joint = -1;  ///< index into Scene::joints
 };
-constexpr std::int8_t kEditKindMax = 8;
 
-/// Why parts become rigid with each other; in Edit::joint of a bond.
-enum BondKind : std::int32_t { kBondGiven = -1, kBondConnectors = 0, kBondGroup = 1 };
+/// Why parts become rigid with each other.
+enum class BondCause : std::int8_t { kGiven = -1, kConnectors = 0, kGroup = 1 };
+
+/// `b` becomes rigid with `a`, by a glue joint.
+struct BondEdit {
+  PartId a = -1, b = -1;
+  Vec2 position{0, 0};  ///< m, of `b` in the frame of `a`
+  float angle = 0;      ///< rad, of `b` against `a`
+  float strength = 0;   ///< N; 0: nothing breaks it
+  BondCause cause = BondCause::kGiven;
+};
+
+/// [[part]]s and [[joint]]s as a scene writes them.
+struct InsertEdit {
+  std::string text;  ///< at most kEditTextMax bytes
+};
+
+/// A part leaves, and all its joints.
+struct RemoveEdit {
+  PartId part = -1;
+};
+
+/// A part is no longer anchored.
+struct FreeEdit {
+  PartId part = -1;
+};
+
+/// An impulse on the assembly of a part; changes nobody's assembly.
+struct PushEdit {
+  PartId part = -1;
+  Vec2 impulse{0, 0};  ///< N s, at the assembly's centre of mass
+  float turn = 0;      ///< N m s
+};
+
+/// A player drives what a seat drives.
+struct SeatEdit {
+  std::int32_t seat = -1;    ///< index into Scene::seats
+  std::int32_t player = -1;  ///< index into Scene::players; -1: nobody
+};
+
+/// Featherweight bricks are set free, and thrown outwards.
+struct BlastEdit {
+  Vec2 centre{0, 0};  ///< m
+  float radius = 0;   ///< m: bricks whose middle is within it
+  float speed = 0;    ///< m/s in the centre, falling to 0 at the radius
+};
+
+/// The place of a kind in the variant is its number in messages.
+using AnyEdit = std::variant<std::monostate, BreakEdit, BondEdit, InsertEdit, RemoveEdit, FreeEdit,
+                             PushEdit, SeatEdit, BlastEdit>;
+constexpr std::int8_t kEditKindMax = std::variant_size_v<AnyEdit> - 1;
 
 /// Who is to blame. An oracle finds out by itself what physics does, and is told the rest.
 enum class EditCause : std::int8_t { kPhysics = 0, kOutside = 1 };
 
 struct Edit {
-  EditKind kind = EditKind::kNothing;
+  Edit() = default;  ///< changes nothing
+  explicit Edit(AnyEdit edit, EditCause why = EditCause::kPhysics);
+
+  AnyEdit what;
   EditCause cause = EditCause::kPhysics;
-  PartId a = -1, b = -1;
-  std::int32_t joint = -1;  ///< index into Scene::joints; of a bond, its BondKind
-  std::int32_t player = -1;
-  float x = 0, y = 0, angle = 0;  ///< m, m, rad, or as the kind says
-  float amount = 0;
-  std::string text;  ///< kInsert; at most kEditTextMax bytes
+
+  /// The edit as the kind that it is; nullptr: it is another.
+  template <class Kind>
+  const Kind* As() const {
+    return std::get_if<Kind>(&what);
+  }
+  template <class Kind>
+  Kind* As() {
+    return std::get_if<Kind>(&what);
+  }
 };
 
-/// Bytes of Edit::text: the message must fit one datagram.
+/// What an edit is about: its number in AnyEdit, then joint (of a bond: why), a, b; -1 where it has
+/// none. Two proposals of one key are one.
+using EditKey = std::array<std::int32_t, 4>;
+EditKey KeyOf(const Edit& edit);
+
+/// Calls what is written for the edit's kind: Overloaded{[](const BreakEdit&) ..., ...}.
+template <class... Functions>
+struct Overloaded : Functions... {
+  using Functions::operator()...;
+};
+template <class... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;
+
+/// Bytes of InsertEdit::text: the message must fit one datagram.
 constexpr std::size_t kEditTextMax = 900;
 
 }  // namespace seam

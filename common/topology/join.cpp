@@ -61,27 +61,25 @@ std::vector<FreeConnector> FreeConnectors(const Scene& scene, const Composition&
   return free;
 }
 
-Edit JoinOf(const Part& a, int outlet, const Part& b, int inlet) {
+BondEdit JoinOf(const Part& a, int outlet, const Part& b, int inlet) {
   const Connector& out = a.connectors->outlets[static_cast<std::size_t>(outlet)];
   const Connector& in = b.connectors->inlets[static_cast<std::size_t>(inlet)];
   const double turn =
       std::remainder(static_cast<double>(out.angle) + kPi - static_cast<double>(in.angle), 2 * kPi);
   const Vec2 place = out.at - Turned(in.at, turn);
-  Edit edit;
-  edit.kind = EditKind::kBond;
-  edit.joint = kBondConnectors;
+  BondEdit edit;
+  edit.cause = BondCause::kConnectors;
   edit.a = a.id;
   edit.b = b.id;
-  edit.x = place.x();
-  edit.y = place.y();
+  edit.position = place;
   edit.angle = static_cast<float>(turn);
   const float one = a.connectors->strength, other = b.connectors->strength;
-  edit.amount = one > 0 && other > 0 ? std::min(one, other) : std::max(one, other);
+  edit.strength = one > 0 && other > 0 ? std::min(one, other) : std::max(one, other);
   return edit;
 }
 
-bool IsJoin(const Scene& scene, const Composition& composition, const Edit& bond) {
-  if (bond.kind != EditKind::kBond || bond.joint != kBondConnectors) return false;
+bool IsJoin(const Scene& scene, const Composition& composition, const BondEdit& bond) {
+  if (bond.cause != BondCause::kConnectors) return false;
   const Part& a = scene.parts[static_cast<std::size_t>(bond.a)];
   const Part& b = scene.parts[static_cast<std::size_t>(bond.b)];
   const std::vector<FreeConnector> free = FreeConnectors(scene, composition);
@@ -89,10 +87,11 @@ bool IsJoin(const Scene& scene, const Composition& composition, const Edit& bond
     if (out.part != a.id || out.inlet) continue;
     for (const FreeConnector& in : free) {
       if (in.part != b.id || !in.inlet) continue;
-      const Edit exact = JoinOf(a, out.index, b, in.index);
-      const bool same = std::fabs(exact.x - bond.x) < kExact &&
-                        std::fabs(exact.y - bond.y) < kExact &&
-                        std::fabs(exact.angle - bond.angle) < kExact && exact.amount == bond.amount;
+      const BondEdit exact = JoinOf(a, out.index, b, in.index);
+      const Vec2 off = (exact.position - bond.position).cwiseAbs();
+      const bool same = off.x() < kExact && off.y() < kExact &&
+                        std::fabs(exact.angle - bond.angle) < kExact &&
+                        exact.strength == bond.strength;
       if (same) return true;
     }
   }

@@ -23,9 +23,9 @@ struct FreeConnector {
 std::vector<FreeConnector> FreeConnectors(const Scene& scene, const Composition& composition);
 
 /// The bond by which `b`'s inlet takes `a`'s outlet: at one place, looking at each other.
-Edit JoinOf(const Part& a, int outlet, const Part& b, int inlet);
+BondEdit JoinOf(const Part& a, int outlet, const Part& b, int inlet);
 
 /// Whether a bond is what two free connectors of its parts would make.
-bool IsJoin(const Scene& scene, const Composition& composition, const Edit& bond);
+bool IsJoin(const Scene& scene, const Composition& composition, const BondEdit& bond);
 
 }  // namespace seam

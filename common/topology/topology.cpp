@@ -29,7 +29,12 @@ struct Place {
   }
 };
 
-Blast BlastOf(const Edit& edit) { return {Vec2(edit.x, edit.y), edit.amount, edit.angle}; }
+Blast BlastOf(const BlastEdit& edit) { return {edit.centre, edit.radius, edit.speed}; }
+
+/// A bond over more than this, m, is nonsense: no assembly is so large.
+constexpr float kBondDistanceMax = 1000;
+/// A bond's angle may be a turn off, not more: sines of huge angles are noise, and Box2D asserts.
+constexpr float kBondAngleMax = 6.2831853f;
 
 Place PlaceOf(const Part& part) {
   return {part.position.cast<double>(), static_cast<double>(part.angle)};
@@ -50,68 +55,77 @@ void Topology::UpdateComposition() {
   composition_ = Compose(scene_);
 }
 
-std::string Topology::Complaint(const Edit& edit) const {
-  switch (edit.kind) {
-    case EditKind::kBreak: {
-      const bool known =
-          edit.joint >= 0 && edit.joint < static_cast<std::int32_t>(scene_.joints.size());
-      if (!known || scene_.joints[static_cast<std::size_t>(edit.joint)].gone) {
-        return "there is no such joint";
-      }
-      return "";
-    }
-    case EditKind::kBond: {
-      if (!Has(edit.a) || !Has(edit.b)) return "there is no such part";
-      if (!std::isfinite(edit.x) || !std::isfinite(edit.y) || !std::isfinite(edit.angle) ||
-          std::fabs(edit.x) > 1000 || std::fabs(edit.y) > 1000 || edit.amount < 0 ||
-          !std::isfinite(edit.amount)) {
-        return "a bond over such a distance is not possible";
-      }
-      const int a = composition_.assembly_of_part[static_cast<std::size_t>(edit.a)];
-      const int b = composition_.assembly_of_part[static_cast<std::size_t>(edit.b)];
-      if (a == b) return "they are one body already";
-      const auto& all = composition_.assemblies;
-      if (all[static_cast<std::size_t>(a)].anchored && all[static_cast<std::size_t>(b)].anchored) {
-        return "both are anchored";
-      }
-      return "";
-    }
-    case EditKind::kInsert: {
-      if (edit.text.size() > kEditTextMax) return "the text is too long";
-      Scene scene = scene_;
-      try {
-        AddToScene(edit.text, &scene);
-      } catch (const OperatorError& e) {
-        return e.what();
-      }
-      return "";
-    }
-    case EditKind::kRemove:
-    case EditKind::kFree:
-    case EditKind::kPush:
-      if (!Has(edit.a)) return "there is no such part";
-      if (!std::isfinite(edit.x) || !std::isfinite(edit.y) || !std::isfinite(edit.angle)) {
-        return "the impulse is not finite";
-      }
-      return "";
-    case EditKind::kSeat: {
-      if (edit.a < 0 || edit.a >= static_cast<PartId>(scene_.seats.size())) {
-        return "there is no such seat";
-      }
-      if (edit.player < -1 || edit.player >= static_cast<int>(scene_.players.size())) {
-        return "there is no such player";
-      }
-      return "";
-    }
-    case EditKind::kBlast: {
-      if (!Possible(BlastOf(edit))) return "the blast is too large or too fast";
-      if (scene_.bricks.empty()) return "there are no bricks";
-      if (scene_.parts.size() + kBlastPiecesMax > kPartsMax) return "there are too many parts";
-      return "";
-    }
-    case EditKind::kNothing: break;
+bool Topology::HasJoint(std::int32_t joint) const {
+  return joint >= 0 && static_cast<std::size_t>(joint) < scene_.joints.size();
+}
+
+Status Topology::ValidateBond(const BondEdit& bond) const {
+  if (!Has(bond.a) || !Has(bond.b)) return Status::Error("there is no such part");
+  const bool finite = bond.position.allFinite() && std::isfinite(bond.strength);
+  if (!finite || bond.position.cwiseAbs().maxCoeff() > kBondDistanceMax || bond.strength < 0) {
+    return Status::Error("a bond over such a distance is not possible");
   }
-  return "it is no edit";
+  if (!(std::fabs(bond.angle) <= kBondAngleMax)) {
+    return Status::Error("a bond's angle is at most a turn");
+  }
+  const int a = composition_.assembly_of_part[static_cast<std::size_t>(bond.a)];
+  const int b = composition_.assembly_of_part[static_cast<std::size_t>(bond.b)];
+  if (a == b) return Status::Error("they are one body already");
+  const auto& all = composition_.assemblies;
+  if (all[static_cast<std::size_t>(a)].anchored && all[static_cast<std::size_t>(b)].anchored) {
+    return Status::Error("both are anchored");
+  }
+  return Status::Ok();
+}
+
+Status Topology::ValidateInsert(const InsertEdit& insert) const {
+  if (insert.text.size() > kEditTextMax) return Status::Error("the text is too long");
+  Scene scene = scene_;
+  try {
+    AddToScene(insert.text, &scene);
+  } catch (const OperatorError& e) {
+    return Status::Error(e.what());
+  }
+  return Status::Ok();
+}
+
+Status Topology::Validate(const Edit& edit) const {
+  const auto has = [this](PartId part) {
+    return Has(part) ? Status::Ok() : Status::Error("there is no such part");
+  };
+  return std::visit(
+      Overloaded{[&](const std::monostate&) { return Status::Error("it is no edit"); },
+                 [&](const BreakEdit& broken) {
+                   const bool there = HasJoint(broken.joint) &&
+                                      !scene_.joints[static_cast<std::size_t>(broken.joint)].gone;
+                   return there ? Status::Ok() : Status::Error("there is no such joint");
+                 },
+                 [&](const BondEdit& bond) { return ValidateBond(bond); },
+                 [&](const InsertEdit& insert) { return ValidateInsert(insert); },
+                 [&](const RemoveEdit& remove) { return has(remove.part); },
+                 [&](const FreeEdit& free) { return has(free.part); },
+                 [&](const PushEdit& push) {
+                   const bool finite = push.impulse.allFinite() && std::isfinite(push.turn);
+                   return finite ? has(push.part) : Status::Error("the impulse is not finite");
+                 },
+                 [&](const SeatEdit& seat) {
+                   if (seat.seat < 0 ||
+                       static_cast<std::size_t>(seat.seat) >= scene_.seats.size()) {
+                     return Status::Error("there is no such seat");
+                   }
+                   const auto players = static_cast<std::int32_t>(scene_.players.size());
+                   const bool known = seat.player >= -1 && seat.player < players;
+                   return known ? Status::Ok() : Status::Error("there is no such player");
+                 },
+                 [&](const BlastEdit& blast) {
+                   if (!Possible(BlastOf(blast))) {
+                     return Status::Error("the blast is too large or too fast");
+                   }
+                   if (scene_.bricks.empty()) return Status::Error("there are no bricks");
+                   const bool room = scene_.parts.size() + kBlastPiecesMax <= kPartsMax;
+                   return room ? Status::Ok() : Status::Error("there are too many parts");
+                 }},
+      edit.what);
 }
 
 std::vector<PartId> Topology::PartsOf(const Edit& edit) const {
@@ -119,90 +133,91 @@ std::vector<PartId> Topology::PartsOf(const Edit& edit) const {
   const auto add = [&](PartId part) {
     if (Has(part)) parts.push_back(part);
   };
-  if (edit.kind == EditKind::kBreak) {
-    if (edit.joint < 0 || edit.joint >= static_cast<std::int32_t>(scene_.joints.size())) return {};
-    const Joint& joint = scene_.joints[static_cast<std::size_t>(edit.joint)];
+  const auto add_both = [&](const Joint& joint) {
     add(joint.a);
     add(joint.b);
-  } else if (edit.kind != EditKind::kSeat && edit.kind != EditKind::kBlast) {
-    add(edit.a);
-    add(edit.b);
-  }
-  if (edit.kind == EditKind::kInsert) {
-    Scene scene = scene_;
-    try {
-      AddToScene(edit.text, &scene);
-    } catch (const OperatorError&) {
-      return parts;
-    }
-    for (std::size_t j = scene_.joints.size(); j < scene.joints.size(); ++j) {
-      add(scene.joints[j].a);
-      add(scene.joints[j].b);
-    }
-  }
+  };
+  std::visit(
+      Overloaded{[](const std::monostate&) {}, [](const SeatEdit&) {}, [](const BlastEdit&) {},
+                 [&](const BreakEdit& broken) {
+                   if (!HasJoint(broken.joint)) return;
+                   add_both(scene_.joints[static_cast<std::size_t>(broken.joint)]);
+                 },
+                 [&](const BondEdit& bond) {
+                   add(bond.a);
+                   add(bond.b);
+                 },
+                 [&](const RemoveEdit& remove) { add(remove.part); },
+                 [&](const FreeEdit& free) { add(free.part); },
+                 [&](const PushEdit& push) { add(push.part); },
+                 [&](const InsertEdit& insert) {
+                   Scene scene = scene_;
+                   try {
+                     AddToScene(insert.text, &scene);
+                   } catch (const OperatorError&) {
+                     return;
+                   }
+                   for (std::size_t j = scene_.joints.size(); j < scene.joints.size(); ++j) {
+                     add_both(scene.joints[j]);
+                   }
+                 }},
+      edit.what);
   return parts;
 }
 
-std::vector<std::string> Topology::Apply(const std::vector<Edit>& edits) {
-  std::vector<std::string> complaints;
+std::vector<Status> Topology::Apply(const std::vector<Edit>& edits) {
+  std::vector<Status> results;
   for (const Edit& edit : edits) {
     ++revision_;
-    std::string complaint = ApplyOne(edit);
-    complaints.push_back(std::move(complaint));
+    results.push_back(ApplyOne(edit));
   }
   UpdateComposition();
-  return complaints;
+  return results;
 }
 
-std::string Topology::ApplyOne(const Edit& edit) {
+Status Topology::ApplyOne(const Edit& edit) {
   // Only bonds look at who is one body with whom.
-  if (edit.kind == EditKind::kBond) UpdateComposition();
-  if (edit.kind != EditKind::kInsert) {
-    std::string complaint = Complaint(edit);
-    if (!complaint.empty()) return complaint;
-  }
-  switch (edit.kind) {
-    case EditKind::kBreak:
-      scene_.joints[static_cast<std::size_t>(edit.joint)].gone = true;
-      stale_ = true;
-      break;
-    case EditKind::kBond: return Bond(edit);
-    case EditKind::kInsert: return Insert(edit);
-    case EditKind::kRemove:
-      Remove(edit.a);
-      stale_ = true;
-      break;
-    case EditKind::kFree:
-      scene_.parts[static_cast<std::size_t>(edit.a)].anchored = false;
-      stale_ = true;
-      break;
-    case EditKind::kSeat:
-      scene_.seats[static_cast<std::size_t>(edit.a)].player = edit.player;
-      break;
-    case EditKind::kBlast: {
-      const std::vector<Brick> gone = FreedBricks(scene_.bricks, scene_.parts);
-      for (Part& part : BlastBricks(scene_.bricks, gone, BlastOf(edit)).parts) {
-        part.id = static_cast<PartId>(scene_.parts.size());
-        scene_.parts.push_back(std::move(part));
-        stale_ = true;
-      }
-      break;
-    }
-    case EditKind::kPush:
-    case EditKind::kNothing: break;
-  }
-  return "";
+  if (edit.As<BondEdit>() != nullptr) UpdateComposition();
+  if (const InsertEdit* insert = edit.As<InsertEdit>()) return Insert(*insert);
+  Status status = Validate(edit);
+  if (!status.ok()) return status;
+  std::visit(
+      Overloaded{[](const std::monostate&) {}, [](const InsertEdit&) {}, [](const PushEdit&) {},
+                 [&](const BreakEdit& broken) {
+                   scene_.joints[static_cast<std::size_t>(broken.joint)].gone = true;
+                   stale_ = true;
+                 },
+                 [&](const BondEdit& bond) { Bond(bond); },
+                 [&](const RemoveEdit& remove) { Remove(remove.part); },
+                 [&](const FreeEdit& free) {
+                   scene_.parts[static_cast<std::size_t>(free.part)].anchored = false;
+                   stale_ = true;
+                 },
+                 [&](const SeatEdit& seat) {
+                   scene_.seats[static_cast<std::size_t>(seat.seat)].player = seat.player;
+                 },
+                 [&](const BlastEdit& blast) { FreeBricks(blast); }},
+      edit.what);
+  return status;
 }
 
-std::string Topology::Bond(const Edit& edit) {
+void Topology::FreeBricks(const BlastEdit& blast) {
+  const std::vector<Brick> gone = FreedBricks(scene_.bricks, scene_.parts);
+  for (Part& part : BlastBricks(scene_.bricks, gone, BlastOf(blast)).parts) {
+    part.id = static_cast<PartId>(scene_.parts.size());
+    scene_.parts.push_back(std::move(part));
+    stale_ = true;
+  }
+}
+
+void Topology::Bond(const BondEdit& edit) {
   const Part& a = scene_.parts[static_cast<std::size_t>(edit.a)];
   const Part& b = scene_.parts[static_cast<std::size_t>(edit.b)];
   const int assembly_a = composition_.assembly_of_part[static_cast<std::size_t>(edit.a)];
   const int assembly_b = composition_.assembly_of_part[static_cast<std::size_t>(edit.b)];
   // The places of the side that is not anchored move; b's if neither is.
   const bool move_a = composition_.assemblies[static_cast<std::size_t>(assembly_b)].anchored;
-  const Place apart{{static_cast<double>(edit.x), static_cast<double>(edit.y)},
-                    static_cast<double>(edit.angle)};
+  const Place apart{edit.position.cast<double>(), static_cast<double>(edit.angle)};
   const Place wanted_b = PlaceOf(a).Then(apart);
   const Place b_moves = wanted_b.Then(PlaceOf(b).Inverse());
   const Place moves = move_a ? b_moves.Inverse() : b_moves;
@@ -238,22 +253,21 @@ std::string Topology::Bond(const Edit& edit) {
   glue.a = edit.a;
   glue.b = edit.b;
   glue.anchor_a = glue.anchor_b = b.position;
-  glue.strength = edit.amount;
-  glue.grouped = edit.joint == kBondGroup;
+  glue.strength = edit.strength;
+  glue.grouped = edit.cause == BondCause::kGroup;
   scene_.joints.push_back(glue);
   stale_ = true;
-  return "";
 }
 
-std::string Topology::Insert(const Edit& edit) {
-  if (edit.text.size() > kEditTextMax) return "the text is too long";
+Status Topology::Insert(const InsertEdit& edit) {
+  if (edit.text.size() > kEditTextMax) return Status::Error("the text is too long");
   try {
     AddToScene(edit.text, &scene_);
   } catch (const OperatorError& e) {
-    return e.what();
+    return Status::Error(e.what());
   }
   stale_ = true;
-  return "";
+  return Status::Ok();
 }
 
 void Topology::Remove(PartId part) {
@@ -261,6 +275,7 @@ void Topology::Remove(PartId part) {
   for (Joint& joint : scene_.joints) {
     if (joint.a == part || joint.b == part) joint.gone = true;
   }
+  stale_ = true;
 }
 
 }  // namespace seam

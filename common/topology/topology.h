@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/status.h"
 #include "common/scene/assembly.h"
 #include "common/scene/scene.h"
 #include "common/topology/edit.h"
@@ -25,21 +26,25 @@ class Topology {
   int revision() const { return revision_; }
 
   /// Applies edits in their order. An edit that cannot be (its part has left, its text is wrong)
-  /// counts but does nothing: the same on every peer. Returns what was wrong with each, or "".
-  std::vector<std::string> Apply(const std::vector<Edit>& edits);
+  /// counts but does nothing: the same on every peer. Returns what became of each.
+  std::vector<Status> Apply(const std::vector<Edit>& edits);
 
-  /// Whether the edit could be applied now; "" if so. Does not look at distances.
-  std::string Complaint(const Edit& edit) const;
+  /// Whether the edit could be applied now. Does not look at distances.
+  Status Validate(const Edit& edit) const;
 
   /// Parts that an edit is about, as far as they exist; none for kInsert's own.
   std::vector<PartId> PartsOf(const Edit& edit) const;
 
  private:
-  std::string ApplyOne(const Edit& edit);
-  std::string Bond(const Edit& edit);
-  std::string Insert(const Edit& edit);
+  Status ValidateBond(const BondEdit& bond) const;
+  Status ValidateInsert(const InsertEdit& insert) const;
+  Status ApplyOne(const Edit& edit);
+  void Bond(const BondEdit& edit);
+  Status Insert(const InsertEdit& edit);
   void Remove(PartId part);
+  void FreeBricks(const BlastEdit& blast);
   bool Has(PartId part) const;
+  bool HasJoint(std::int32_t joint) const;
   void UpdateComposition();
 
   Scene scene_;

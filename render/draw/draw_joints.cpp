@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "common/sync/edit_order.h"
 #include "render/canvas/palette.h"
 
 namespace seam {
@@ -82,11 +83,14 @@ void DrawBreaks(DrawList& list, const Viewport& viewport, const Playback& playba
     if (number >= moment.before->revision) break;
     const double age = tick - static_cast<double>(edit.tick);
     const bool recent = age >= 0 && age < span;
-    if (!recent || edit.kind != static_cast<std::int8_t>(EditKind::kBreak)) continue;
+    const Edit decoded = ToEdit(edit);
+    const BreakEdit* broken = decoded.As<BreakEdit>();
+    if (!recent || broken == nullptr || broken->joint < 0) continue;
     const auto world = playback.WorldOf(moment);
     const auto& joints = world->scene().joints;
-    if (edit.joint < 0 || static_cast<std::size_t>(edit.joint) >= joints.size()) continue;
-    const Joint& joint = joints[static_cast<std::size_t>(edit.joint)];
+    const auto index = static_cast<std::size_t>(broken->joint);
+    if (index >= joints.size()) continue;
+    const Joint& joint = joints[index];
     const auto crack = CrackOf(playback, moment, joint, world->scene());
     if (!crack || !viewport.Sees(crack->at, kCrack_m)) continue;
     const Vec2 middle = viewport.ToPx(crack->at);

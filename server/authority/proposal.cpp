@@ -11,25 +11,31 @@ namespace {
 
 /// How far from where a bond puts them parts may be in our copy, m: two copies of fast things.
 constexpr float kBondReach = 2;
+/// And how far turned, rad.
+constexpr float kBondTurn = 1;
 
 }  // namespace
 
 bool MayPropose(const Topology& topology, const Edit& edit) {
   if (edit.cause != EditCause::kPhysics) return false;
-  if (edit.kind == EditKind::kBreak) {
-    const Joint& joint = topology.scene().joints[static_cast<std::size_t>(edit.joint)];
+  if (const BreakEdit* broken = edit.As<BreakEdit>()) {
+    const Joint& joint = topology.scene().joints[static_cast<std::size_t>(broken->joint)];
     return joint.kind == JointKind::kGlue && (joint.strength > 0 || joint.grouped);
   }
-  return IsJoin(topology.scene(), topology.composition(), edit) ||
-         MayGroup(topology.scene(), topology.composition(), edit);
+  const BondEdit* bond = edit.As<BondEdit>();
+  return bond != nullptr && (IsJoin(topology.scene(), topology.composition(), *bond) ||
+                             MayGroup(topology.scene(), topology.composition(), *bond));
 }
 
 bool PlausibleProposal(const World& world, const Edit& edit) {
-  if (edit.kind != EditKind::kBond) return true;
-  const BodyState a = PartPose(world, edit.a), b = PartPose(world, edit.b);
+  const BondEdit* bond = edit.As<BondEdit>();
+  if (bond == nullptr) return true;
+  const BodyState a = PartPose(world, bond->a), b = PartPose(world, bond->b);
   const float c = std::cos(a.angle), s = std::sin(a.angle);
-  const Vec2 wanted = a.position + Vec2(c * edit.x - s * edit.y, s * edit.x + c * edit.y);
-  return (wanted - b.position).norm() < kBondReach;
+  const Vec2& at = bond->position;
+  const Vec2 wanted = a.position + Vec2(c * at.x() - s * at.y(), s * at.x() + c * at.y());
+  const float turned = std::remainder(a.angle + bond->angle - b.angle, 6.2831853f);
+  return (wanted - b.position).norm() < kBondReach && std::fabs(turned) < kBondTurn;
 }
 
 }  // namespace seam

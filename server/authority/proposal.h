@@ -8,7 +8,7 @@
 namespace seam {
 
 /// Whether physics could have found this edit, by what the scene says: glue that can break, parts
-/// that can join. Requires topology.Complaint(edit) to be empty.
+/// that can join. Requires topology.Validate(edit).ok().
 bool MayPropose(const Topology& topology, const Edit& edit);
 
 /// Whether the parts of a bond are about where it puts them, in our copy; true for other edits.

@@ -42,13 +42,7 @@ position = [3, 0.42]
 friction = 0.3
 )";
 
-Edit Break(int joint) {
-  Edit edit;
-  edit.kind = EditKind::kBreak;
-  edit.cause = EditCause::kOutside;
-  edit.joint = joint;
-  return edit;
-}
+Edit Break(int joint) { return Edit(BreakEdit{joint}, EditCause::kOutside); }
 
 PartId PartNamed(const Scene& scene, const std::string& name) {
   for (const Part& part : scene.parts) {
@@ -58,9 +52,7 @@ PartId PartNamed(const Scene& scene, const std::string& name) {
 }
 
 Edit BondNow(const World& world, PartId a, PartId b) {
-  Edit edit = BondAsTheyAre(world, a, b, 0);
-  edit.cause = EditCause::kOutside;
-  return edit;
+  return Edit(BondAsTheyAre(world, a, b, 0), EditCause::kOutside);
 }
 
 /// Every instant: whoever thinks it has a mechanism at the server's epoch is who the server thinks.
@@ -97,25 +89,14 @@ TEST_P(TopologyUnder, EditsKeepTheirOrderAndEndTheSameEverywhere) {
     server.Order(Break(1));
     cluster.RunToTick(130);
     const PartId crate = PartNamed(server.world().scene(), "crate");
-    Edit insert;
-    insert.kind = EditKind::kInsert;
-    insert.cause = EditCause::kOutside;
-    insert.text = "[[part]]\nname = \"late\"\nbox = [0.5, 0.5]\nposition = [-2, 4]\n";
-    server.Order(insert);
-    Edit push;
-    push.kind = EditKind::kPush;
-    push.cause = EditCause::kOutside;
-    push.a = crate;
-    push.y = 1;
-    server.Order(push);
+    const InsertEdit late{"[[part]]\nname = \"late\"\nbox = [0.5, 0.5]\nposition = [-2, 4]\n"};
+    server.Order(Edit(late, EditCause::kOutside));
+    server.Order(Edit(PushEdit{crate, {0, 1}}, EditCause::kOutside));
     cluster.RunToTick(160);
     // The crate and the front half, whoever has them: they come into one hand first.
     server.Order(BondNow(server.world(), 4, crate));
     cluster.RunToTick(260);
-    Edit remove;
-    remove.kind = EditKind::kRemove;
-    remove.a = 1;
-    server.Order(remove);
+    server.Order(Edit(RemoveEdit{1}));
     cluster.Run();
     const Replica& truth = server.replica();
     EXPECT_EQ(truth.revision(), 5) << "seed " << seed;
@@ -205,13 +186,8 @@ TEST(TopologyCluster, AClientMayNotEditWhatIsNotItsOwnNorWhatPhysicsCouldNotFind
   Cluster cluster(config);
   cluster.RunToTick(30);  // the bar is ann's
   const Topology& topology = cluster.server().world().topology();
-  Edit free;
-  free.kind = EditKind::kFree;
-  free.a = 0;
-  EXPECT_FALSE(MayPropose(topology, free));
-  Edit remove = free;
-  remove.kind = EditKind::kRemove;
-  EXPECT_FALSE(MayPropose(topology, remove));
+  EXPECT_FALSE(MayPropose(topology, Edit(FreeEdit{0})));
+  EXPECT_FALSE(MayPropose(topology, Edit(RemoveEdit{0})));
   EXPECT_FALSE(MayPropose(topology, Break(0))) << "not said to be physics";
   Edit physics = Break(0);
   physics.cause = EditCause::kPhysics;

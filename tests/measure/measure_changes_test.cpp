@@ -56,32 +56,16 @@ strength = 10000
 )";
 constexpr PartId kHeavy = 1, kLight = 2, kAlone = 3, kFirstNew = 4;
 
-Edit MakeEdit(EditKind kind, EditCause cause) {
-  Edit edit;
-  edit.kind = kind;
-  edit.cause = cause;
-  return edit;
-}
-
-Edit BreakGlue(EditCause cause) {
-  Edit edit = MakeEdit(EditKind::kBreak, cause);
-  edit.joint = 0;
-  return edit;
-}
+Edit BreakGlue(EditCause cause) { return Edit(BreakEdit{0}, cause); }
 
 Edit Insert(const std::string& name, double x, EditCause cause) {
-  Edit edit = MakeEdit(EditKind::kInsert, cause);
-  edit.text = "[[part]]\nname = \"" + name + "\"\nbox = [1, 1]\nposition = [" + std::to_string(x) +
-              ", 20]\nvelocity = [0, 2]\n";
-  return edit;
+  return Edit(InsertEdit{"[[part]]\nname = \"" + name + "\"\nbox = [1, 1]\nposition = [" +
+                         std::to_string(x) + ", 20]\nvelocity = [0, 2]\n"},
+              cause);
 }
 
-Edit OnPart(EditKind kind, PartId part) {
-  Edit edit = MakeEdit(kind, EditCause::kOutside);
-  edit.a = part;
-  edit.x = 4;
-  return edit;
-}
+Edit Push(PartId part) { return Edit(PushEdit{part, {4, 0}}, EditCause::kOutside); }
+Edit Remove(PartId part) { return Edit(RemoveEdit{part}, EditCause::kOutside); }
 
 /// Edits and the tick after whose step they are made.
 using Timed = std::vector<std::pair<std::int64_t, Edit>>;
@@ -131,9 +115,9 @@ Recording Simulate(const Timed& edits) {
 
 Timed Eventful() {
   return {{20, BreakGlue(EditCause::kOutside)},
-          {20, OnPart(EditKind::kPush, kLight)},
+          {20, Push(kLight)},
           {30, Insert("crate", 3, EditCause::kOutside)},
-          {50, OnPart(EditKind::kRemove, kAlone)}};
+          {50, Remove(kAlone)}};
 }
 
 TEST(MeasureChanges, TheOracleDoesWhatWasDoneFromOutside) {
@@ -187,7 +171,7 @@ TEST(MeasureChanges, WhatPhysicsBreaksTheOracleMustFindByItself) {
 TEST(MeasureChanges, PartsThatCameAreKnownByTheirNames) {
   const Recording recording = Simulate({{10, Insert("debris", -3, EditCause::kPhysics)},
                                         {20, Insert("crate", 3, EditCause::kOutside)},
-                                        {60, OnPart(EditKind::kRemove, kFirstNew + 1)}});
+                                        {60, Remove(kFirstNew + 1)}});
   const Oracle oracle = ComputeOracle(recording);
   EXPECT_FALSE(oracle.At(40, kFirstNew).has_value());  // the oracle knows no debris
   EXPECT_NEAR(oracle.At(40, kFirstNew + 1).value().position.x(), 3, 1e-6);
@@ -259,7 +243,7 @@ TEST(MeasureChanges, ARevisionIsTheSameHoweverOftenItIsAskedFor) {
   for (int i = 0; i < 300; ++i) {  // more than are kept
     edits.push_back(Insert("n" + std::to_string(i), i, EditCause::kOutside));
   }
-  edits.push_back(OnPart(EditKind::kPush, kAlone));
+  edits.push_back(Push(kAlone));
   const Scene scene = ParseScene(kScene, "bar.toml");
   const RevisionHistory revisions(scene, edits);
   EXPECT_EQ(revisions.Key(301), 300);  // a push changes no body

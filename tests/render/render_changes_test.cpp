@@ -44,11 +44,7 @@ TEST(RenderChanges, EachViewIsDrawnByItsOwnTopology) {
   config.impair = "4g";
   Cluster cluster(config);
   cluster.RunToTick(60);
-  Edit edit;
-  edit.kind = EditKind::kBreak;
-  edit.cause = EditCause::kOutside;
-  edit.joint = 0;
-  cluster.server().Order(edit);
+  cluster.server().Order(Edit(BreakEdit{0}, EditCause::kOutside));
   cluster.Run();
   const Recording& recording = cluster.recording();
   const Playback playback(recording, ComputeOracle(recording));

@@ -231,21 +231,16 @@ TEST(Feather, ASleeperKeepsItsGroundUnderAFarTraveller) {
 
 TEST(Feather, ABlastInTwoWorldsIsTheSameBitForBit) {
   World one(City(30)), two(City(30));
-  Edit blast;
-  blast.kind = EditKind::kBlast;
-  blast.x = -296;
-  blast.y = 3;
-  blast.amount = 2.5f;
-  blast.angle = 25;
+  BlastEdit blast{{-296, 3}, 2.5f, 25};
   for (int t = 0; t < 300; ++t) {
     if (t == 60 || t == 150) {
       for (World* world : {&one, &two}) {
         const int before = world->body_count();
-        ASSERT_TRUE(world->Apply({blast}).has_value());
+        ASSERT_TRUE(world->Apply({Edit(blast)}).has_value());
         EXPECT_GT(world->body_count(), before + 5);
         EXPECT_LE(world->body_count(), before + kBlastPiecesMax);
       }
-      blast.y += 2;
+      blast.centre.y() += 2;
     }
     one.Step();
     two.Step();

@@ -78,7 +78,7 @@ TEST(Glue, TheTopmostBondOfAHangingChainBreaksFirstAtTheWeightBelow) {
   breaks->Step();
   const std::vector<Edit> proposed = breaks->ProposeEdits();
   ASSERT_EQ(proposed.size(), 1u);
-  EXPECT_EQ(breaks->scene().joints[static_cast<std::size_t>(proposed[0].joint)].name, "box.h.0");
+  EXPECT_EQ(breaks->scene().joints[static_cast<std::size_t>(proposed[0].As<BreakEdit>()->joint)].name, "box.h.0");
 }
 
 TEST(Glue, ACantileverOnAWallBreaksAtTheWall) {
@@ -158,7 +158,7 @@ TEST(Glue, TheSameBondsBreakAgainAfterGoingBack) {
     std::vector<int> joints;
     for (int i = 0; i < 20; ++i) {
       world->Step();
-      for (const Edit& edit : world->ProposeEdits()) joints.push_back(edit.joint);
+      for (const Edit& edit : world->ProposeEdits()) joints.push_back(edit.As<BreakEdit>()->joint);
     }
     return joints;
   };

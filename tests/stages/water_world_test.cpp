@@ -175,10 +175,7 @@ TEST(WaterWorld, WhatBreaksApartFloatsOrSinksEachForItself) {
   ASSERT_EQ(world.body_count(), 1);
   EXPECT_NEAR(world.Read(0).position.y() + 0.25, 0.75 - 1.6 / 2, 0.5) << "together they float";
   EXPECT_GT(world.Read(0).position.y(), -1);
-  Edit part;
-  part.kind = EditKind::kBreak;
-  part.joint = 0;
-  world.Apply({part});
+  world.Apply({Edit(BreakEdit{0})});
   ASSERT_EQ(world.body_count(), 2);
   Steps(&world, 60 * 10);
   EXPECT_NEAR(world.Read(0).position.y(), 0.5 - 0.2, 0.01);

@@ -69,10 +69,7 @@ TEST(Join, WhatWasTornApartJoinsAgainOnlyAfterASecond) {
           "[[joint]]\nname = \"glue\"\nkind = \"glue\"\na = \"a\"\nb = \"b\"\nstrength = 5\n",
       "", kNoGravity);
   EXPECT_TRUE(Live(world.get(), 10).empty()) << "its connectors are taken";
-  Edit edit;
-  edit.kind = EditKind::kBreak;
-  edit.joint = 0;
-  world->Apply({edit});
+  world->Apply({Edit(BreakEdit{0})});
   ASSERT_EQ(world->body_count(), 2);
   const auto push_together = [&world] {
     world->Write(0, BodyState{});
@@ -91,20 +88,20 @@ TEST(Join, OnlyWhatConnectorsWouldDoMayBeProposed) {
                               "[[part]]\nname = \"plain\"\nbox = [1, 1]\nposition = [6, 0]\n",
                           "", kNoGravity);
   const Topology& topology = world->topology();
-  Edit join = JoinOf(topology.scene().parts[0], 0, topology.scene().parts[1], 0);
-  EXPECT_TRUE(MayPropose(topology, join));
-  Edit wrong = join;
-  wrong.x += 0.1f;
-  EXPECT_FALSE(MayPropose(topology, wrong));
+  const BondEdit join = JoinOf(topology.scene().parts[0], 0, topology.scene().parts[1], 0);
+  EXPECT_TRUE(MayPropose(topology, Edit(join)));
+  BondEdit wrong = join;
+  wrong.position.x() += 0.1f;
+  EXPECT_FALSE(MayPropose(topology, Edit(wrong)));
   wrong = join;
-  wrong.amount = 1;
-  EXPECT_FALSE(MayPropose(topology, wrong));
+  wrong.strength = 1;
+  EXPECT_FALSE(MayPropose(topology, Edit(wrong)));
   wrong = join;
   wrong.b = 2;
-  EXPECT_FALSE(MayPropose(topology, wrong));
+  EXPECT_FALSE(MayPropose(topology, Edit(wrong)));
   wrong = join;
-  wrong.joint = kBondGroup;
-  EXPECT_FALSE(MayPropose(topology, wrong)) << "this scene does not group";
+  wrong.cause = BondCause::kGroup;
+  EXPECT_FALSE(MayPropose(topology, Edit(wrong))) << "this scene does not group";
 }
 
 }  // namespace

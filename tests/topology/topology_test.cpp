@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "common/scene/mass.h"
 #include "tests/support/small_world.h"
@@ -26,22 +27,10 @@ std::string Joint(const std::string& kind, const std::string& a, const std::stri
 
 const char* const kNoGravity = "gravity = [0, 0]";
 
-Edit Break(int joint) {
-  Edit edit;
-  edit.kind = EditKind::kBreak;
-  edit.joint = joint;
-  return edit;
-}
+Edit Break(int joint) { return Edit(BreakEdit{joint}); }
 
 Edit Bond(PartId a, PartId b, float x, float y, float angle) {
-  Edit edit;
-  edit.kind = EditKind::kBond;
-  edit.a = a;
-  edit.b = b;
-  edit.x = x;
-  edit.y = y;
-  edit.angle = angle;
-  return edit;
+  return Edit(BondEdit{a, b, {x, y}, angle});
 }
 
 /// Momentum, and angular momentum about the origin, of all moving bodies.
@@ -200,18 +189,26 @@ TEST(Topology, AStackStandsOnThroughAnEditElsewhere) {
 TEST(Topology, EditsThatCannotBeCountAndDoNothing) {
   auto world = Thrown();
   const std::uint64_t hash = world->composition().hash;
-  Edit insert;
-  insert.kind = EditKind::kInsert;
-  insert.text = "[[part]]\nname = \"a\"\nbox = [1, 1]\n";  // a name that is taken
-  Edit remove;
-  remove.kind = EditKind::kRemove;
-  remove.a = 99;
+  const Edit insert(InsertEdit{"[[part]]\nname = \"a\"\nbox = [1, 1]\n"});  // a name that is taken
+  const Edit remove(RemoveEdit{99});
   EXPECT_FALSE(world
                    ->Apply({Break(7), Break(-1), Bond(0, 1, 0, 0, 0), Bond(0, 9, 0, 0, 0), insert,
                             remove, Edit{}})
                    .has_value());
   EXPECT_EQ(world->topology().revision(), 7);
   EXPECT_EQ(world->composition().hash, hash);
+}
+
+TEST(Topology, ABondThatIsNotFiniteOrTurnsWithoutEndIsRefused) {
+  auto world = Thrown();
+  const float inf = std::numeric_limits<float>::infinity();
+  for (const float angle : {3e38f, inf, -inf, std::nanf(""), 6.3f}) {
+    EXPECT_FALSE(world->topology().Validate(Bond(2, 0, 1, 0.5f, angle)).ok()) << angle;
+    world->Apply({Bond(2, 0, 1, 0.5f, angle)});
+    world->Step();   // an angle of 3e38 aborted the engine here
+  }
+  EXPECT_FALSE(world->topology().Validate(Bond(2, 0, inf, 0, 0)).ok());
+  EXPECT_FALSE(world->topology().Validate(Bond(2, 0, 0, std::nanf(""), 0)).ok());
 }
 
 TEST(Topology, TheSameEditsGiveTheSameCompositionWhetherAtOnceOrOneByOne) {
@@ -225,17 +222,14 @@ TEST(Topology, TheSameEditsGiveTheSameCompositionWhetherAtOnceOrOneByOne) {
 
 TEST(Topology, PartsComeAndGo) {
   auto world = SmallWorld(Part("a", 1, 1, 0, 0), "", kNoGravity);
-  Edit insert;
-  insert.kind = EditKind::kInsert;
-  insert.text = Part("new", 0.5, 0.5, 3, 0, "velocity = [1, 0]") +
-                Joint("revolute", "a", "new", "local_a = [1, 0]\nlocal_b = [-2, 0]");
+  const Edit insert(
+      InsertEdit{Part("new", 0.5, 0.5, 3, 0, "velocity = [1, 0]") +
+                 Joint("revolute", "a", "new", "local_a = [1, 0]\nlocal_b = [-2, 0]")});
   ASSERT_TRUE(world->Apply({insert}).has_value());
   ASSERT_EQ(world->body_count(), 2);
   EXPECT_EQ(world->mechanism(0), world->mechanism(1));
   EXPECT_EQ(world->Read(1).velocity, Vec2(1, 0));
-  Edit remove;
-  remove.kind = EditKind::kRemove;
-  remove.a = 0;
+  const Edit remove(RemoveEdit{0});
   ASSERT_TRUE(world->Apply({remove}).has_value());
   ASSERT_EQ(world->body_count(), 1);
   EXPECT_EQ(world->id(0), 1);
@@ -248,9 +242,7 @@ TEST(Topology, WhatIsFreedFalls) {
   auto world = SmallWorld(Part("held", 1, 1, 0, 5, "anchored = true") + Part("hung", 1, 1, 1, 5) +
                           Joint("weld", "held", "hung"));
   EXPECT_EQ(world->body_count(), 0);
-  Edit free;
-  free.kind = EditKind::kFree;
-  free.a = 0;
+  const Edit free(FreeEdit{0});
   ASSERT_TRUE(world->Apply({free}).has_value());
   ASSERT_EQ(world->body_count(), 1);
   Steps(world.get(), 30);
@@ -261,11 +253,7 @@ TEST(Topology, WhatIsFreedFalls) {
 
 TEST(Topology, APushChangesTheVelocityByImpulseOverMass) {
   auto world = SmallWorld(Part("a", 2, 1, 0, 0), "", kNoGravity);
-  Edit push;
-  push.kind = EditKind::kPush;
-  push.a = 0;
-  push.x = 4;
-  push.angle = 1;
+  const Edit push(PushEdit{0, {4, 0}, 1});
   EXPECT_FALSE(world->Apply({push}).has_value());
   EXPECT_FLOAT_EQ(world->Read(0).velocity.x(), 2);
   EXPECT_NEAR(world->Read(0).spin, 1 / (2 * 5.0 / 12), 1e-6);

@@ -217,10 +217,7 @@ void GlueStage::AfterTick() {
 void GlueStage::ProposeEdits(std::vector<Edit>* edits) {
   for (const int joint : breaking_) {
     if (w_.scene.joints[static_cast<std::size_t>(joint)].gone) continue;
-    Edit edit;
-    edit.kind = EditKind::kBreak;
-    edit.joint = joint;
-    edits->push_back(edit);
+    edits->emplace_back(BreakEdit{joint});
   }
 }
 

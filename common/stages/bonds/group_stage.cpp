@@ -40,7 +40,7 @@ class GroupStage : public Stage {
   bool Moves(int body) const;
   bool MayJoin(int body) const;
   void Undo(int body);
-  Edit BondOf(int body, int other) const;
+  BondEdit BondOf(int body, int other) const;
 
   const StageWorld w_;
   bool stale_ = true;
@@ -132,28 +132,23 @@ void GroupStage::AfterTick() {
 }
 
 /// As they lie.
-Edit GroupStage::BondOf(int body, int other) const {
+BondEdit GroupStage::BondOf(int body, int other) const {
   const MovingBody& a = w_.built.moving[static_cast<std::size_t>(body)];
   const MovingBody& b = w_.built.moving[static_cast<std::size_t>(other)];
   const b2Vec2 place = a.body->GetLocalPoint(b.body->GetPosition());
-  Edit edit;
-  edit.kind = EditKind::kBond;
-  edit.joint = kBondGroup;
+  BondEdit edit;
+  edit.cause = BondCause::kGroup;
   edit.a = a.id;
   edit.b = b.id;
-  edit.x = place.x;
-  edit.y = place.y;
-  edit.angle = b.body->GetAngle() - a.body->GetAngle();
+  edit.position = FromB2(place);
+  edit.angle = std::remainder(b.body->GetAngle() - a.body->GetAngle(), 6.2831853f);
   return edit;
 }
 
 void GroupStage::ProposeEdits(std::vector<Edit>* edits) {
   for (const int joint : undone_) {
     if (w_.scene.joints[static_cast<std::size_t>(joint)].gone) continue;
-    Edit edit;
-    edit.kind = EditKind::kBreak;
-    edit.joint = joint;
-    edits->push_back(edit);
+    edits->emplace_back(BreakEdit{joint});
   }
   if (stale_) return;  // the bodies are others already
   // Of all that touch, only so many that each is held once.
@@ -167,15 +162,16 @@ void GroupStage::ProposeEdits(std::vector<Edit>* edits) {
     const int one = name(body), two = name(other);
     if (one == two) continue;
     group[static_cast<std::size_t>(std::max(one, two))] = std::min(one, two);
-    edits->push_back(BondOf(body, other));
+    edits->emplace_back(BondOf(body, other));
   }
 }
 
 void GroupStage::Edited(const Edit& edit) {
   stale_ = true;
-  if (edit.kind != EditKind::kBreak || edit.joint < 0) return;
-  if (edit.joint >= static_cast<int>(w_.scene.joints.size())) return;
-  const Joint& joint = w_.scene.joints[static_cast<std::size_t>(edit.joint)];
+  const BreakEdit* broken = edit.As<BreakEdit>();
+  if (broken == nullptr || broken->joint < 0) return;
+  if (broken->joint >= static_cast<int>(w_.scene.joints.size())) return;
+  const Joint& joint = w_.scene.joints[static_cast<std::size_t>(broken->joint)];
   if (!joint.grouped) return;
   for (const PartId part : {joint.a, joint.b}) {
     const int assembly = w_.composition.assembly_of_part[static_cast<std::size_t>(part)];
@@ -190,9 +186,9 @@ std::size_t GroupStage::Load(const float* memory) { return LoadTicks(memory, &qu
 
 }  // namespace
 
-bool MayGroup(const Scene& scene, const Composition& composition, const Edit& bond) {
-  if (bond.kind != EditKind::kBond || bond.joint != kBondGroup) return false;
-  if (!(scene.grouping->after > 0) || bond.amount != 0) return false;
+bool MayGroup(const Scene& scene, const Composition& composition, const BondEdit& bond) {
+  if (bond.cause != BondCause::kGroup) return false;
+  if (!(scene.grouping->after > 0) || bond.strength != 0) return false;
   const std::set<int> held = HeldAssemblies(scene, composition);
   for (const PartId part : {bond.a, bond.b}) {
     const int index = composition.assembly_of_part[static_cast<std::size_t>(part)];

@@ -97,9 +97,10 @@ void JoinStage::BeforeTick() {
 
 void JoinStage::Edited(const Edit& edit) {
   stale_ = true;
-  if (edit.kind != EditKind::kBreak) return;
-  if (edit.joint < 0 || edit.joint >= static_cast<int>(w_.scene.joints.size())) return;
-  const Joint& joint = w_.scene.joints[static_cast<std::size_t>(edit.joint)];
+  const BreakEdit* broken = edit.As<BreakEdit>();
+  if (broken == nullptr || broken->joint < 0) return;
+  if (broken->joint >= static_cast<int>(w_.scene.joints.size())) return;
+  const Joint& joint = w_.scene.joints[static_cast<std::size_t>(broken->joint)];
   const auto ticks = static_cast<int>(kJoinAgain * static_cast<float>(w_.scene.solver.tick_hz));
   for (const PartId part : {joint.a, joint.b}) {
     if (!w_.scene.parts[static_cast<std::size_t>(part)].connectors->empty()) waiting_[part] = ticks;
@@ -154,8 +155,8 @@ void JoinStage::ProposeEdits(std::vector<Edit>* edits) {
     const int other = w_.composition.assembly_of_part[static_cast<std::size_t>(b)];
     if (one == other || one < 0 || other < 0 || busy.count(one) + busy.count(other) > 0) continue;
     busy.insert({one, other});
-    edits->push_back(JoinOf(w_.scene.parts[static_cast<std::size_t>(a)], outlet,
-                            w_.scene.parts[static_cast<std::size_t>(b)], inlet));
+    edits->emplace_back(JoinOf(w_.scene.parts[static_cast<std::size_t>(a)], outlet,
+                             w_.scene.parts[static_cast<std::size_t>(b)], inlet));
   }
 }
 

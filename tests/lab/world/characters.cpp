@@ -38,12 +38,8 @@ void Steps(World* world, int ticks) {
 bool Recovers(const Scene& scene, float impulse) {
   World world(scene);
   Steps(&world, 120);
-  Edit push;
-  push.kind = EditKind::kPush;
-  push.cause = EditCause::kOutside;
-  push.a = Named(world, "c0.torso");
-  push.x = impulse;
-  world.Apply({push});
+  const PushEdit push{Named(world, "c0.torso"), {impulse, 0}};
+  world.Apply({Edit(push, EditCause::kOutside)});
   const PartId head = Named(world, "c0.head");
   for (int tick = 0; tick < 240; ++tick) {
     world.Step();
