@@ -49,7 +49,7 @@ class Server {
   int client_count() const { return static_cast<int>(sessions_.size()); }
   const Stats& stats() const { return stats_; }
   const Replica& replica() const { return replica_; }
-  World& world() { return replica_.world(); }
+  const World& world() const { return replica_.world(); }
   /// Orders an edit at the next tick, or as soon as its parts are in one hand. One that cannot be
   /// is dropped; Topology::Validate tells beforehand.
   void Order(const Edit& edit);

@@ -7,7 +7,7 @@
 
 namespace seam {
 
-/// DESIGN: who simulates what. kOracle: every peer simulates everything alone, with all inputs.
+/// Who simulates what (Roles). kOracle: every peer simulates everything alone, with all inputs.
 enum class Mode { kOracle, kCentral, kStrict, kBuffer };
 
 struct SyncConfig {

@@ -1,6 +1,6 @@
 #pragma once
-/// Received states by tick, for what is displayed rather than simulated: the snapshot
-/// interpolation of modes strict and central, and dead reckoning beyond the buffer zone.
+/// Received states by tick: for what is displayed rather than simulated (the snapshot interpolation
+/// of modes strict and central, dead reckoning beyond the buffer zone), for pulls and for replays.
 
 #include <cstdint>
 #include <deque>
@@ -10,6 +10,10 @@
 #include "common/topology/body_remap.h"
 
 namespace seam {
+
+/// Dead reckoning of what is displayed goes no further than this, s. Shorter than the age of what
+/// is heard, and a fast body stops and jumps; longer shows more of what is not so.
+constexpr float kReckonMax = 1.0f;
 
 /// The last few states heard of each body.
 class Snapshots {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/sync/replica.h"
+#include "tests/support/replica_test_access.h"
 
 namespace seam {
 
@@ -51,7 +52,11 @@ class FollowedCopy {
     const View view = copy.MakeView();
     return {view.x[static_cast<std::size_t>(body)], view.y[static_cast<std::size_t>(body)]};
   }
-  const World& copy_world() const { return const_cast<Replica&>(copy).world(); }
+  const World& copy_world() const { return copy.world(); }
+  /// Behind the replica's back: its copy of a body is elsewhere, or moves otherwise.
+  void PutCopy(int body, const BodyState& state) {
+    ReplicaTestAccess::world(copy).Write(body, state);
+  }
 
   World truth;
   Replica copy;

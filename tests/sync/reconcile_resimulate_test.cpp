@@ -1,9 +1,9 @@
 /// resimulate: exact to the wire's rounding wherever both worlds felt the same.
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "common/sync/quantize.h"
 #include "tests/support/followed_copy.h"
@@ -16,7 +16,7 @@ namespace {
 float WorstAfter(FollowedCopy* f, const BodyState& by, int ticks) {
   f->Steps(30);
   const int last = f->truth.body_count() - 1;
-  f->copy.world().Write(last, PlusScaled(f->copy.world().Read(last), by, 1));
+  f->PutCopy(last, PlusScaled(f->copy.world().Read(last), by, 1));
   float worst = 0;
   for (int t = 31; t <= ticks; ++t) {
     f->Step();
@@ -107,7 +107,7 @@ TEST(Resimulate, OneReplayFromTheOldestOfManyMessages) {
   FollowedCopy f(kRampage, "resimulate", 4);
   f.Steps(20);
   f.talking = false;
-  f.copy.world().Write(3, PlusScaled(f.copy.world().Read(3), By(0.3f, 1), 1));
+  f.PutCopy(3, PlusScaled(f.copy.world().Read(3), By(0.3f, 1), 1));
   f.Steps(30);
   EXPECT_GT(f.Apart(3).norm(), 0.1f);
   f.talking = true;
@@ -132,7 +132,7 @@ TEST(Resimulate, OwnBodiesStayWhereTheyAreWhileOthersAreSteppedAgain) {
   // Peer 1 has the ram itself; what it told of it stays true through every replay.
   FollowedCopy f(kRampage, "resimulate", 12, {3});
   f.Steps(30);
-  f.copy.world().Write(0, PlusScaled(f.copy.world().Read(0), By(0.05f, 0.2f), 1));
+  f.PutCopy(0, PlusScaled(f.copy.world().Read(0), By(0.05f, 0.2f), 1));
   BodyState before = f.copy.world().Read(3);
   float worst = 0;
   for (int t = 0; t < 90; ++t) {

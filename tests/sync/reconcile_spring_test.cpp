@@ -1,9 +1,9 @@
 /// spring: the damped oscillator it is, its cap, and that it gives way.
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "common/sync/reconcile/reconcile.h"
 #include "tests/support/followed_copy.h"
@@ -35,7 +35,7 @@ TEST(Spring, ConvergesAsTheDampedOscillatorDoes) {
   f.Steps(20);
   BodyState moved = f.copy.world().Read(0);
   moved.position.x() += 2;
-  f.copy.world().Write(0, moved);
+  f.PutCopy(0, moved);
   // Per tick: v += (-k x - c v) h, x += v h. That map, iterated in double, is the exact answer...
   double x = 2, v = 0;
   const double h = 1.0 / 60;
@@ -139,7 +139,7 @@ TEST(Spring, StandingOnTheGroundIsNotBeingBlocked) {
   f.Steps(20);
   BodyState moved = f.copy.world().Read(0);
   moved.position.x() += 1;
-  f.copy.world().Write(0, moved);
+  f.PutCopy(0, moved);
   f.Steps(240);
   EXPECT_NEAR(f.Apart(0).x(), 0, 0.05);
 }

@@ -84,7 +84,7 @@ struct NamedReconciler {
   Reconciler rule;
   const char* about;
   Puller pull = nullptr;     ///< also acts in every tick
-  bool resimulates = false;  ///< the replica goes back and steps again (ReplayFrom)
+  bool resimulates = false;  ///< the replica goes back and steps again (Replay)
 };
 const std::vector<NamedReconciler>& Reconcilers();
 /// Throws OperatorError naming the known ones.

@@ -1,7 +1,7 @@
 /// resimulate: go back to the tick of the message, put the authority's state in, and step again to
-/// now with the inputs as they are known by now (replica_resimulate.cpp). After the rollback of
-/// fighting games (T. Cannon, GGPO, 2009), here with bodies of several authorities: our own follow
-/// what we told the others.
+/// now with the inputs as they are known by now (replay.cpp). After the rollback of fighting games
+/// (T. Cannon, GGPO, 2009), here with bodies of several authorities: our own are stepped again,
+/// too, unless they press against another authority's.
 ///
 /// What is here is the rule for what cannot be gone back to: a message older than the barriers that
 /// are kept, or a copy that was not simulated then. Only what is far off is placed.

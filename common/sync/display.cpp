@@ -1,8 +1,8 @@
-/// Replica: bodies that are displayed, not simulated, follow what was heard of them.
+#include "common/sync/display.h"
 
 #include <cmath>
 
-#include "common/sync/replica.h"
+#include "common/sync/reconcile/reconcile.h"
 
 namespace seam {
 namespace {
@@ -16,7 +16,27 @@ float TurnTo(float from, float to) { return std::remainder(to - from, 6.2831853f
 
 }  // namespace
 
-void Replica::DriveKinematic(std::int64_t next) {
+Display::Display(const SyncConfig& config, World& world, const Snapshots& snapshots)
+    : config_(config),
+      world_(world),
+      snapshots_(snapshots),
+      smoother_(world.body_count(), config.smooth),
+      delay_(config.send_every()) {}
+
+void Display::Remap(const BodyRemap& change) {
+  std::vector<int> from;
+  for (const BodyOrigin& origin : change.bodies) from.push_back(origin.body);
+  smoother_.Remap(from);
+}
+
+void Display::Glide() {
+  for (int body = 0; body < world_.body_count(); ++body) {
+    smoother_.Advance(body, world_.dt(), world_.Read(body).velocity.norm());
+  }
+}
+
+void Display::Drive(std::int64_t next) {
+  if (config_.mode == Mode::kOracle) return;  // nothing is only displayed
   const double delay = delay_.Advance();
   for (int body = 0; body < world_.body_count(); ++body) {
     if (world_.motion(body) != Motion::kKinematic) continue;
@@ -36,9 +56,9 @@ void Replica::DriveKinematic(std::int64_t next) {
 }
 
 /// In the past, between snapshots: the path has no jumps, so its steps are the velocity.
-BodyState Replica::AlongSnapshots(int body, const BodyState& target, BodyState state) {
+BodyState Display::AlongSnapshots(int body, const BodyState& target, BodyState state) {
   state.velocity = (target.position - state.position) / world_.dt();
-  if (state.velocity.norm() > scene().speed_limit) {
+  if (state.velocity.norm() > world_.scene().speed_limit) {
     // Too far to travel in a tick: it is placed there at once.
     BodyState jump;
     jump.position = target.position - state.position;
@@ -57,7 +77,7 @@ BodyState Replica::AlongSnapshots(int body, const BodyState& target, BodyState s
 
 /// In the present, by dead reckoning: each message begins another path. The body is placed on it
 /// and moves with the path's velocity, not with that of the jump; the view glides over.
-BodyState Replica::AlongReckoned(int body, std::int64_t next, BodyState state) {
+BodyState Display::AlongReckoned(int body, std::int64_t next, BodyState state) {
   const BodyState here = snapshots_.Extrapolate(body, next - 1, world_.dt(), kReckonMax);
   const BodyState there = snapshots_.Extrapolate(body, next, world_.dt(), kReckonMax);
   BodyState along = here;
@@ -69,6 +89,27 @@ BodyState Replica::AlongReckoned(int body, std::int64_t next, BodyState state) {
   jump.spin = 0;
   smoother_.Moved(body, jump);
   return along;
+}
+
+View Display::MakeView(const Roles& roles) const {
+  View view;
+  view.peer = roles.self();
+  view.tick = world_.tick();
+  view.revision = world_.topology().revision();
+  for (int body = 0; body < world_.body_count(); ++body) {
+    const int m = world_.mechanism(body);
+    const BodyState s = world_.Read(body);
+    view.id.push_back(static_cast<std::int16_t>(world_.id(body)));
+    view.role.push_back(roles.RoleOf(m));
+    view.authority.push_back(static_cast<std::int16_t>(roles.table().at(m).authority));
+    view.x.push_back(s.position.x() + smoother_.offset(body).x());
+    view.y.push_back(s.position.y() + smoother_.offset(body).y());
+    view.angle.push_back(s.angle + smoother_.angle_offset(body));
+    view.vx.push_back(s.velocity.x());
+    view.vy.push_back(s.velocity.y());
+    view.spin.push_back(s.spin);
+  }
+  return view;
 }
 
 }  // namespace seam

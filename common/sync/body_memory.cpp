@@ -1,0 +1,102 @@
+#include "common/sync/body_memory.h"
+
+#include <algorithm>
+
+namespace seam {
+namespace {
+
+/// Ticks of history: 2 s at 60 Hz. A state older than that is corrected without looking back.
+constexpr int kHistoryTicks = 120;
+/// Mechanisms stay coupled for 1 s / kCoupledPart after they last touched: contact flickers.
+constexpr int kCoupledPart = 4;
+
+}  // namespace
+
+BodyMemory::BodyMemory(const SyncConfig& config, const World& world)
+    : config_(config),
+      world_(world),
+      history_(world.body_count(), kHistoryTicks),
+      snapshots_(world.body_count()),
+      bodies_(static_cast<std::size_t>(world.body_count())),
+      mechanisms_(world.composition().mechanisms.size()) {
+  for (int body = 0; body < world.body_count(); ++body) snapshots_.Add(body, 0, world.Read(body));
+}
+
+const BodyState* BodyMemory::ComparablePast(int body, std::int64_t tick) const {
+  if (tick < track(body).dynamic_since) return nullptr;
+  return history_.At(tick, body);
+}
+
+bool BodyMemory::Coupled(int mechanism) const {
+  return mechanisms_[static_cast<std::size_t>(mechanism)].last_coupled_tick >=
+         world_.tick() - config_.tick_hz / kCoupledPart;
+}
+
+bool BodyMemory::Struck(int body) const {
+  return world_.tick() - track(body).last_impact_tick < config_.tick_hz;
+}
+
+void BodyMemory::NoteContacts(const AuthorityTable& table) {
+  for (const Impact& impact : world_.impacts()) {
+    if (impact.dv < kMajorImpact) continue;
+    for (const int body : {impact.body_a, impact.body_b}) {
+      if (body >= 0) track(body).last_impact_tick = world_.tick();
+    }
+  }
+  for (const Touch& touch : world_.touches()) {
+    const int a = world_.mechanism(touch.body_a);
+    const int b = world_.mechanism(touch.body_b);
+    if (table.at(a).authority == table.at(b).authority) continue;
+    mechanisms_[static_cast<std::size_t>(a)].last_coupled_tick = world_.tick();
+    mechanisms_[static_cast<std::size_t>(b)].last_coupled_tick = world_.tick();
+  }
+}
+
+void BodyMemory::Record() {
+  std::vector<BodyState> states;
+  states.reserve(bodies_.size());
+  for (int body = 0; body < world_.body_count(); ++body) states.push_back(world_.Read(body));
+  history_.Record(world_.tick(), states);
+}
+
+void BodyMemory::StartAnew() {
+  for (BodyTrack& body : bodies_) body.placed = false;
+  history_.Clear();
+}
+
+void BodyMemory::Remap(const BodyRemap& change) {
+  std::vector<BodyState> now;
+  for (int body = 0; body < world_.body_count(); ++body) now.push_back(world_.Read(body));
+  history_.Remap(change.bodies, now);
+  snapshots_.Remap(change.bodies);
+
+  std::vector<BodyTrack> bodies;
+  for (std::size_t i = 0; i < change.bodies.size(); ++i) {
+    const BodyOrigin& origin = change.bodies[i];
+    bodies.push_back(origin.body < 0 ? BodyTrack{} : track(origin.body));
+    if (origin.body >= 0 && origin.same) continue;
+    BodyTrack& changed = bodies.back();
+    changed.changed_at = world_.topology().revision();
+    // Ours now and theirs then were other bodies: nothing to compare until both are the same.
+    changed.dynamic_since = world_.tick();
+    changed.pull = PullTrack{};
+    changed.asleep_since = -1;
+    const int body = static_cast<int>(i);
+    if (!snapshots_.has(body)) snapshots_.Add(body, world_.tick(), now[i]);
+    if (BodyState* past = history_.At(world_.tick(), body)) *past = now[i];
+  }
+  bodies_ = std::move(bodies);
+
+  std::vector<MechanismTrack> mechanisms;
+  for (const std::vector<int>& from : change.mechanisms) {
+    MechanismTrack joined;
+    for (const int then : from) {
+      joined.last_coupled_tick = std::max(
+          joined.last_coupled_tick, mechanisms_[static_cast<std::size_t>(then)].last_coupled_tick);
+    }
+    mechanisms.push_back(joined);
+  }
+  mechanisms_ = std::move(mechanisms);
+}
+
+}  // namespace seam

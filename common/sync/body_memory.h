@@ -1,0 +1,89 @@
+#pragma once
+/// What a peer remembers of the bodies of its world: where they were, what it heard of them, and
+/// what happened to them. A remap carries all of it at once.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/physics/history.h"
+#include "common/physics/world.h"
+#include "common/sync/authority.h"
+#include "common/sync/mode.h"
+#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/snapshots.h"
+
+namespace seam {
+
+/// In place of the tick of what never happened: so long ago that it no longer counts.
+constexpr std::int64_t kLongAgo = -1000000;
+
+/// What rules that act in every tick go by between two messages.
+struct PullTrack {
+  std::int64_t arrived = -1;  ///< tick of the newest message's arrival, -1 none
+  BodyState arrival;          ///< our copy then
+  BodyState target_then;      ///< where the authority's was thought to be then
+  PullMemory memory;
+};
+
+/// What is remembered of one body besides its past and what was heard of it.
+struct BodyTrack {
+  std::int64_t last_impact_tick = kLongAgo;  ///< of a major impact
+  std::int64_t heard_tick = -1;              ///< tick of the newest state received, -1 never
+  std::int64_t dynamic_since = 0;  ///< from this tick on its past is comparable with another's:
+                                   ///< it was simulated here and was this same body
+  bool placed = true;              ///< its pose is known
+  float priority = 0;              ///< grows until it is sent
+  std::int64_t asleep_since = -1;  ///< tick, as far as sending noticed; -1 awake
+  int changed_at = 0;              ///< edits there were when it was last changed
+  PullTrack pull;
+};
+
+/// What is remembered of one mechanism.
+struct MechanismTrack {
+  std::int64_t last_coupled_tick = kLongAgo;  ///< it touched one of another authority
+};
+
+class BodyMemory {
+ public:
+  /// Where everything is at tick 0 and how it moves is known from the scene: it counts as heard.
+  /// The world must outlive this.
+  BodyMemory(const SyncConfig& config, const World& world);
+
+  BodyTrack& track(int body) { return bodies_[static_cast<std::size_t>(body)]; }
+  const BodyTrack& track(int body) const { return bodies_[static_cast<std::size_t>(body)]; }
+  History& history() { return history_; }
+  const History& history() const { return history_; }
+  Snapshots& snapshots() { return snapshots_; }
+  const Snapshots& snapshots() const { return snapshots_; }
+
+  /// Our copy at a tick, if it is comparable with the authority's; else nullptr.
+  const BodyState* ComparablePast(int body, std::int64_t tick) const;
+  /// Whether the mechanism touches, or touched a moment ago, one of another authority.
+  bool Coupled(int mechanism) const;
+  /// Whether the body had a major impact within the last second.
+  bool Struck(int body) const;
+
+  /// After a step: major impacts, and what touches across authorities.
+  void NoteContacts(const AuthorityTable& table);
+  /// At the end of a tick: all poses become past.
+  void Record();
+  /// The world was set to another tick: no pose is known any more.
+  void StartAnew();
+  /// The world's bodies are others now; what is known is carried over to what they became.
+  void Remap(const BodyRemap& change);
+
+ private:
+  const SyncConfig& config_;
+  const World& world_;
+  History history_;
+  Snapshots snapshots_;
+  std::vector<BodyTrack> bodies_;
+  std::vector<MechanismTrack> mechanisms_;
+};
+
+/// A change of velocity that counts as a major impact, m/s. A driven wheel feels up to 2.6 m/s from
+/// the ground in every tick: lower lets it count as colliding all the time; higher lets real
+/// collisions be overruled by old news.
+constexpr float kMajorImpact = 3.0f;
+
+}  // namespace seam

@@ -1,0 +1,85 @@
+#pragma once
+/// The one place that corrects the bodies that are simulated here by what was heard of them.
+/// Besides it only physics moves them, a replay (which it asks for), and SendScheduler, which
+/// rounds the pose of own bodies at rest.
+///
+///   States --> corrector_receive   which are new, and of whom
+///                corrector_correct   the room's rule: what to add to a secondary's copy now
+///                corrector_pull      ...and before every step, by rules that ask for it
+///                corrector_predict   mode central: the own vehicle, from the server's state on
+///   roles  --> corrector_roles     what is simulated from now on begins as the authority's
+
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "common/codec/messages.h"
+#include "common/physics/world.h"
+#include "common/sync/body_memory.h"
+#include "common/sync/display.h"
+#include "common/sync/input_track.h"
+#include "common/sync/mode.h"
+#include "common/sync/replay.h"
+#include "common/sync/roles.h"
+
+namespace seam {
+
+/// What became of the bodies of a States message.
+struct Received {
+  int used = 0;
+  int stale = 0;    ///< older than what is known, or of an old epoch
+  int unknown = 0;  ///< no such body, or this peer's own
+};
+
+class Corrector {
+ public:
+  /// All must outlive this. `inputs`: by player.
+  Corrector(const SyncConfig& config, World& world, const Roles& roles, BodyMemory& memory,
+            Display& display, Replay& replay, const std::vector<InputTrack>& inputs);
+
+  /// States of another peer's bodies. Those of ticks or edits still to come wait for them.
+  Received Receive(const States& states);
+  /// After a step: what waited is received again.
+  void ReceiveWaiting();
+  /// Takes poses as they are, of bodies whose pose is not known yet.
+  void Place(const States& states);
+  /// Before a step: pulls copies on, if the room's rule acts in every tick.
+  void PullCopies();
+  /// After a change of roles: bodies become dynamic or kinematic.
+  void FollowRoles();
+
+ private:
+  /// An entry of a States message, and the body that it is of.
+  using Entry = std::pair<std::size_t, int>;
+
+  /// Whether an entry is news; counts it.
+  bool IsNews(const States& states, std::size_t i, int body, Received* result) const;
+  /// Notes one entry; true if its body is simulated here and to be corrected.
+  bool ReceiveOne(const States& states, std::size_t i, int body);
+  void PlaceBody(int body, const BodyState& state, bool asleep);
+  /// Mass-weighted mean of Xr(t1) - Xl(t1) by mechanism.
+  std::map<int, BodyState> CommonDifferences(const States& states,
+                                             const std::vector<Entry>& entries) const;
+  /// Our comparable past at `tick`, with the velocity of the near tick at which our copy moved most
+  /// like `remote`. Requires that there is one.
+  BodyState LikePast(int body, std::int64_t tick, const BodyState& remote) const;
+  void Correct(int body, const States& states, std::size_t i, const BodyState& common);
+  void TakeRest(int body, const BodyState& local, const BodyState& remote);
+  void Blend(int body, const BodyState& local, const Correction& c, std::int64_t from);
+  void Predict(const States& states);
+  void PredictTick();
+  BodyState PullTarget(int body, std::int64_t at) const;
+  void NoteArrival(int body);
+
+  const SyncConfig& config_;
+  World& world_;
+  const Roles& roles_;
+  BodyMemory& memory_;
+  Display& display_;
+  Replay& replay_;
+  const std::vector<InputTrack>& inputs_;
+  std::vector<States> waiting_;  // of ticks or edits still to come
+};
+
+}  // namespace seam

@@ -1,0 +1,147 @@
+/// Corrector: the room's rule decides what a secondary's copy is moved by, and here it is moved.
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/sync/corrector.h"
+#include "common/sync/quantize.h"
+#include "common/sync/state_limits.h"
+
+namespace seam {
+namespace {
+
+/// A copy slower than this may be taken to its authority's pose of rest at once, m/s and rad/s.
+constexpr float kQuiet = 0.1f;
+/// The same collision happens a tick or two apart at two peers. In between their velocities differ
+/// by the whole blow, and carrying that difference on would strike twice. So a difference beyond
+/// kOtherImpact, m/s, is looked for within this many ticks: the least one counts. 5 ticks see other
+/// collisions too; 2 miss some of the same.
+constexpr std::int64_t kImpactShift = 3;
+constexpr float kOtherImpact = 1;
+/// Directions in which a mechanism is blocked that are nearer to each other than this count as one:
+/// cosine of the angle between them.
+constexpr float kSameDirection = 0.9f;
+
+/// The largest share of a difference that may be corrected at once when peers correct towards each
+/// other with `dt` s of delay, `send_hz` times a second.
+float GainFor(float dt, int send_hz) {
+  // A pure correction delayed by d updates is stable below 2 sin(pi / (2 (2 d + 1))).
+  const double d = std::ceil(static_cast<double>(dt) * send_hz);
+  const double limit = 2 * std::sin(3.14159265358979 / (2 * (2 * d + 1)));
+  constexpr double kShareOfLimit = 0.25;  // above 0.4 a tall stack never rests at 200 ms
+  return static_cast<float>(std::min(1.0, kShareOfLimit * limit));
+}
+
+void FindBlockedDirections(const World& world, int mechanism, ReconcileInput* in) {
+  for (const BlockedDirection& blocked : world.blocked_directions()) {
+    if (world.mechanism(blocked.body) != mechanism || in->blocked_count == 2) continue;
+    const bool known = in->blocked_count == 1 &&
+                       std::fabs(blocked.normal.dot(in->blocked_directions[0])) > kSameDirection;
+    if (!known) in->blocked_directions[in->blocked_count++] = blocked.normal;
+  }
+}
+
+}  // namespace
+
+std::map<int, BodyState> Corrector::CommonDifferences(const States& states,
+                                                      const std::vector<Entry>& entries) const {
+  std::map<int, BodyState> sums;
+  std::map<int, float> masses;
+  for (const auto& [i, body] : entries) {
+    const int m = world_.mechanism(body);
+    BodyState& sum = sums[m];
+    const BodyState* then = memory_.ComparablePast(body, states.tick);
+    if (then == nullptr) continue;
+    const BodyState remote = Unpack(states, i, then->angle);
+    sum = PlusScaled(sum, Minus(remote, LikePast(body, states.tick, remote)), world_.mass(body));
+    masses[m] += world_.mass(body);
+  }
+  for (auto& [m, sum] : sums) {
+    if (masses[m] > 0) sum = PlusScaled(BodyState{}, sum, 1 / masses[m]);
+  }
+  return sums;
+}
+
+BodyState Corrector::LikePast(int body, std::int64_t tick, const BodyState& remote) const {
+  BodyState like = *memory_.ComparablePast(body, tick);
+  float least = (remote.velocity - like.velocity).norm();
+  if (least < kOtherImpact) return like;
+  for (std::int64_t t = tick - kImpactShift; t <= tick + kImpactShift; ++t) {
+    const BodyState* past = t <= world_.tick() ? memory_.ComparablePast(body, t) : nullptr;
+    if (past == nullptr) continue;
+    const float difference = (remote.velocity - past->velocity).norm();
+    if (difference >= least) continue;
+    least = difference;
+    like.velocity = past->velocity;
+    like.spin = past->spin;
+  }
+  return like;
+}
+
+void Corrector::Correct(int body, const States& states, std::size_t i, const BodyState& common) {
+  const int mechanism = world_.mechanism(body);
+  ReconcileInput in;
+  in.local = world_.Read(body);
+  const BodyState* then = memory_.ComparablePast(body, states.tick);
+  in.dt = static_cast<float>(world_.tick() - states.tick) * world_.dt();
+  // The wire's angle has lost its revolutions: it is the one nearest to where our copy was.
+  const float angle_then = then != nullptr ? then->angle : in.local.angle - in.dt * in.local.spin;
+  in.remote = Unpack(states, i, angle_then);
+  const bool quiet = in.local.velocity.norm() < kQuiet && std::fabs(in.local.spin) < kQuiet;
+  if ((states.flags[i] & kStateAsleep) != 0 && quiet) {
+    TakeRest(body, in.local, in.remote);
+    return;
+  }
+  if (replay_.Ask(body, states.tick)) return;
+  BodyState like;
+  if (then != nullptr) {
+    like = LikePast(body, states.tick, in.remote);
+    in.local_then = &like;
+  }
+  in.since_impact =
+      static_cast<float>(world_.tick() - memory_.track(body).last_impact_tick) * world_.dt();
+  in.coupled = memory_.Coupled(mechanism);
+  in.gain = GainFor(in.dt, config_.send_hz);
+  in.common = common;
+  in.alone =
+      world_.composition().mechanisms[static_cast<std::size_t>(mechanism)].assemblies.size() == 1;
+  FindBlockedDirections(world_, mechanism, &in);
+  const Correction c = config_.reconcile(in);
+  if (!Negligible(c.now)) Blend(body, in.local, c, states.tick);
+  NoteArrival(body);
+}
+
+/// At rest as far as the authority knows: take its pose bit for bit, so that all peers end with
+/// the same numbers. Our copy is neither woken nor put to sleep by it: either would start the
+/// engine's time to sleep again, for all that it touches.
+void Corrector::TakeRest(int body, const BodyState& local, const BodyState& remote) {
+  memory_.track(body).pull.arrived = -1;
+  if (remote.position == local.position && remote.angle == local.angle) return;
+  BodyState moved = Minus(remote, local);
+  moved.velocity.setZero();
+  moved.spin = 0;
+  display_.Moved(body, moved);
+  world_.Write(body, remote, false);
+  *memory_.history().At(world_.tick(), body) = world_.Read(body);
+}
+
+/// Moves the copy by what the rule said of a message of tick `from`.
+void Corrector::Blend(int body, const BodyState& local, const Correction& c, std::int64_t from) {
+  const std::int64_t now = world_.tick();
+  const BodyState corrected = WithinLimits(PlusScaled(local, c.now, 1), world_.scene().speed_limit);
+  if (c.rewrites_history) {
+    // The past is corrected too, so that the next message is compared with what we now believe.
+    const float steps = static_cast<float>(std::max<std::int64_t>(1, now - from));
+    for (std::int64_t t = from; t < now; ++t) {
+      BodyState* past = memory_.history().At(t, body);
+      if (past == nullptr) continue;
+      const float s = static_cast<float>(t - from) / steps;
+      *past = PlusScaled(*past, PlusScaled(c.then, Minus(c.now, c.then), s), 1);
+    }
+  }
+  world_.Write(body, corrected);
+  *memory_.history().At(now, body) = corrected;
+  display_.Moved(body, Minus(corrected, local));
+}
+
+}  // namespace seam

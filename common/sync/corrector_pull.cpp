@@ -1,0 +1,62 @@
+/// Corrector: copies that are pulled in every tick between two messages, by rules that ask for it.
+
+#include "common/sync/corrector.h"
+#include "common/sync/state_limits.h"
+
+namespace seam {
+namespace {
+
+/// The authority's state is moved on by this at most, s (BeamMP's). Farther, a car that braked is
+/// looked for in the next street.
+constexpr float kPullReckonMax = 0.3f;
+
+}  // namespace
+
+BodyState Corrector::PullTarget(int body, std::int64_t at) const {
+  BodyState target = memory_.snapshots().Extrapolate(body, at, world_.dt(), kPullReckonMax);
+  target.angle = Unwrapped(target.angle, world_.Read(body).angle);
+  return target;
+}
+
+void Corrector::NoteArrival(int body) {
+  if (config_.pull == nullptr) return;
+  PullTrack& pull = memory_.track(body).pull;
+  pull.arrived = world_.tick();
+  pull.arrival = world_.Read(body);
+  pull.target_then = PullTarget(body, world_.tick());
+}
+
+void Corrector::PullCopies() {
+  if (config_.pull == nullptr) return;
+  const std::int64_t now = world_.tick();
+  PullInput in;
+  const float dt = world_.dt();
+  const auto n = static_cast<float>(world_.scene().solver.substeps);
+  in.drift.velocity = dt * world_.scene().gravity;
+  in.drift.position =
+      dt * dt * (n + 1) / (2 * n) * world_.scene().gravity;  // velocity first, then place
+  in.interval = static_cast<float>(config_.send_every()) * dt;
+  in.step = dt;
+  for (int body = 0; body < world_.body_count(); ++body) {
+    BodyTrack& track = memory_.track(body);
+    PullTrack& pull = track.pull;
+    if (pull.arrived < track.dynamic_since) continue;
+    if (pull.arrived < 0 || roles_.RoleOfBody(body) != kRoleSecondary) continue;
+    // News from before a blow would undo it.
+    if (memory_.snapshots().newest_tick(body) <= track.last_impact_tick) continue;
+    in.coupled = memory_.Coupled(world_.mechanism(body));
+    in.local = world_.Read(body);
+    in.arrival = pull.arrival;
+    in.target = PullTarget(body, now);
+    in.target_next = PullTarget(body, now + 1);
+    in.target_then = pull.target_then;
+    in.since_arrival = static_cast<float>(now - pull.arrived) * dt;
+    if (Negligible(Minus(in.target, in.local))) continue;
+    const Correction c = config_.pull(in, &pull.memory);
+    pull.memory.before = in.local.velocity;
+    pull.memory.asked = c.now.velocity;
+    world_.Write(body, WithinLimits(PlusScaled(in.local, c.now, 1), world_.scene().speed_limit));
+  }
+}
+
+}  // namespace seam

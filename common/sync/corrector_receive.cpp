@@ -1,0 +1,117 @@
+/// Corrector, incoming: other peers' states become snapshots, corrections or a replay.
+
+#include "common/sync/corrector.h"
+#include "common/sync/quantize.h"
+#include "common/sync/state_limits.h"
+
+namespace seam {
+namespace {
+
+/// States of ticks still to come that may wait; a hostile peer could send many.
+constexpr std::size_t kWaitingMax = 64;
+constexpr std::int64_t kWaitingTicksMax = 120;
+
+}  // namespace
+
+Corrector::Corrector(const SyncConfig& config, World& world, const Roles& roles, BodyMemory& memory,
+                     Display& display, Replay& replay, const std::vector<InputTrack>& inputs)
+    : config_(config),
+      world_(world),
+      roles_(roles),
+      memory_(memory),
+      display_(display),
+      replay_(replay),
+      inputs_(inputs) {}
+
+Received Corrector::Receive(const States& states) {
+  const std::int64_t now = world_.tick();
+  Received result;
+  if (states.tick > now || states.revision > world_.topology().revision()) {
+    if (waiting_.size() < kWaitingMax && states.tick <= now + kWaitingTicksMax &&
+        states.tick > now - kWaitingTicksMax) {
+      waiting_.push_back(states);
+      result.used = static_cast<int>(states.id.size());
+    } else {
+      result.stale = static_cast<int>(states.id.size());
+    }
+    return result;
+  }
+  bool predicted = false;
+  std::vector<Entry> to_correct;
+  for (std::size_t i = 0; i < states.id.size(); ++i) {
+    const int body = world_.BodyOfId(states.id[i]);
+    if (!IsNews(states, i, body, &result)) continue;
+    memory_.track(body).heard_tick = states.tick;
+    if (config_.mode == Mode::kCentral && roles_.RoleOfBody(body) == kRoleSecondary) {
+      predicted = true;
+    }
+    if (ReceiveOne(states, i, body)) to_correct.emplace_back(i, body);
+  }
+  const std::map<int, BodyState> common = CommonDifferences(states, to_correct);
+  for (const auto& [i, body] : to_correct) {
+    Correct(body, states, i, common.at(world_.mechanism(body)));
+  }
+  if (result.used > 0) display_.AddAge(now - states.tick);
+  if (predicted) Predict(states);
+  return result;
+}
+
+void Corrector::ReceiveWaiting() {
+  std::vector<States> waiting;
+  waiting.swap(waiting_);
+  for (const States& states : waiting) Receive(states);
+}
+
+bool Corrector::IsNews(const States& states, std::size_t i, int body, Received* result) const {
+  if (body < 0) {
+    ++result->unknown;
+    return false;
+  }
+  const BodyTrack& track = memory_.track(body);
+  if (states.revision < track.changed_at) {
+    ++result->stale;  // of another body of the same root
+    return false;
+  }
+  const AuthorityRecord& record = roles_.table().at(world_.mechanism(body));
+  if (track.placed && (record.authority == roles_.self() || states.peer == roles_.self())) {
+    ++result->unknown;
+    return false;
+  }
+  if (states.epoch[i] < record.epoch || states.tick <= track.heard_tick) {
+    ++result->stale;
+    return false;
+  }
+  ++result->used;
+  return true;
+}
+
+bool Corrector::ReceiveOne(const States& states, std::size_t i, int body) {
+  const BodyState remote = Unpack(states, i, world_.Read(body).angle);
+  memory_.snapshots().Add(body, states.tick, remote);
+  if (!memory_.track(body).placed) {
+    PlaceBody(body, remote, false);
+    return false;
+  }
+  return config_.mode == Mode::kBuffer && roles_.RoleOfBody(body) == kRoleSecondary;
+}
+
+void Corrector::Place(const States& states) {
+  for (std::size_t i = 0; i < states.id.size(); ++i) {
+    const int body = world_.BodyOfId(states.id[i]);
+    if (body < 0 || memory_.track(body).placed) continue;
+    const BodyState remote = Unpack(states, i, world_.Read(body).angle);
+    memory_.snapshots().Add(body, states.tick, remote);
+    PlaceBody(body, remote, (states.flags[i] & kStateAsleep) != 0);
+  }
+}
+
+void Corrector::PlaceBody(int body, const BodyState& state, bool asleep) {
+  memory_.track(body).placed = true;
+  replay_.Forget();  // it was not there before
+  world_.Write(body, WithinLimits(state, world_.scene().speed_limit));
+  if (asleep) world_.SetAwake(body, false);
+  *memory_.history().At(world_.tick(), body) = world_.Read(body);
+  display_.Reset(body);
+}
+
+}  // namespace seam

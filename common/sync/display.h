@@ -1,0 +1,50 @@
+#pragma once
+/// What a peer shows. Bodies that it does not simulate are driven along what was heard of them;
+/// corrections of those that it does are kept out of sight.
+
+#include <cstdint>
+
+#include "common/codec/messages.h"
+#include "common/physics/world.h"
+#include "common/sync/mode.h"
+#include "common/sync/roles.h"
+#include "common/sync/smoother.h"
+#include "common/sync/snapshots.h"
+
+namespace seam {
+
+class Display {
+ public:
+  /// Config, world and snapshots must outlive this.
+  Display(const SyncConfig& config, World& world, const Snapshots& snapshots);
+
+  /// Before the step to `next`: gives each kinematic body the pose and velocity that take it where
+  /// it is to be shown then.
+  void Drive(std::int64_t next);
+  /// After a step: lets the visual offsets return for a tick.
+  void Glide();
+
+  /// The physics state of `body` was changed by this much; the view stays where it was.
+  void Moved(int body, const BodyState& by) { smoother_.Moved(body, by); }
+  /// The body was placed anew: it is shown there at once.
+  void Reset(int body) { smoother_.Reset(body); }
+  /// News was this old when it came.
+  void AddAge(std::int64_t age_ticks) { delay_.AddAge(age_ticks); }
+  /// The bodies are others now: visual offsets stay with what a body became.
+  void Remap(const BodyRemap& change);
+
+  /// All bodies as they are shown now. utime is left 0.
+  View MakeView(const Roles& roles) const;
+
+ private:
+  BodyState AlongSnapshots(int body, const BodyState& target, BodyState state);
+  BodyState AlongReckoned(int body, std::int64_t next, BodyState state);
+
+  const SyncConfig& config_;
+  World& world_;
+  const Snapshots& snapshots_;
+  Smoother smoother_;
+  DisplayDelay delay_;
+};
+
+}  // namespace seam

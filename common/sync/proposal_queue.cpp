@@ -1,0 +1,30 @@
+#include "common/sync/proposal_queue.h"
+
+#include <utility>
+
+namespace seam {
+namespace {
+
+/// A proposal that nothing came of is made again after this, s.
+constexpr double kProposeAgain = 0.5;
+/// Proposals that are remembered; beyond it all are forgotten, and some are made again too early.
+constexpr std::size_t kProposedMax = 4096;
+
+}  // namespace
+
+ProposalQueue::ProposalQueue(int tick_hz)
+    : again_ticks_(static_cast<std::int64_t>(kProposeAgain * tick_hz)) {}
+
+bool ProposalQueue::Add(Edit edit, std::int64_t tick) {
+  const EditKey key = KeyOf(edit);
+  const auto said = proposed_.find(key);
+  if (said != proposed_.end() && tick - said->second < again_ticks_) return false;
+  if (proposed_.size() > kProposedMax) proposed_.clear();
+  proposed_[key] = tick;
+  waiting_.push_back(std::move(edit));
+  return true;
+}
+
+std::vector<Edit> ProposalQueue::Take() { return std::exchange(waiting_, {}); }
+
+}  // namespace seam

@@ -1,0 +1,29 @@
+#pragma once
+/// What physics gave reason to change and this peer is to propose: each edit once, and again only
+/// when nothing came of it for a while.
+
+#include <cstdint>
+#include <map>
+#include <vector>
+
+#include "common/topology/edit.h"
+
+namespace seam {
+
+class ProposalQueue {
+ public:
+  explicit ProposalQueue(int tick_hz);
+
+  /// Queues an edit found at `tick`, unless one of the same kind, joint and parts was queued within
+  /// the last 0.5 s. Returns whether it was.
+  bool Add(Edit edit, std::int64_t tick);
+  /// All that was queued since the last call, in its order.
+  std::vector<Edit> Take();
+
+ private:
+  std::int64_t again_ticks_;
+  std::map<EditKey, std::int64_t> proposed_;  // when last
+  std::vector<Edit> waiting_;
+};
+
+}  // namespace seam

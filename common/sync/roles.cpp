@@ -1,0 +1,64 @@
+#include "common/sync/roles.h"
+
+#include <algorithm>
+
+#include "common/physics/part_places.h"
+
+namespace seam {
+
+Roles::Roles(const SyncConfig& config, int self, int own_player, const World& world)
+    : config_(config),
+      self_(self),
+      own_player_(own_player),
+      world_(world),
+      table_(world.composition()) {}
+
+std::int8_t Roles::RoleOf(int mechanism) const {
+  const AuthorityRecord& h = table_.at(mechanism);
+  if (config_.mode == Mode::kOracle) return self_ == 0 ? kRoleAuthority : kRoleSecondary;
+  if (h.authority == self_) return kRoleAuthority;
+  if (config_.mode == Mode::kCentral) {
+    const int owner = world_.composition().mechanisms[static_cast<std::size_t>(mechanism)].owner;
+    return own_player_ >= 0 && owner == own_player_ ? kRoleSecondary : kRoleRemote;
+  }
+  if (config_.mode == Mode::kBuffer && h.secondaries.Has(self_)) return kRoleSecondary;
+  return kRoleRemote;
+}
+
+bool Roles::Proposes(const Edit& edit) const {
+  if (config_.mode == Mode::kOracle) return true;
+  for (const PartId part : world_.topology().PartsOf(edit)) {
+    const int m = MechanismOf(world_, part);
+    if (m >= 0) return IsAuthority(m);
+  }
+  return false;
+}
+
+std::vector<int> Roles::Apply(const Grants& grants) {
+  std::vector<int> before;
+  for (int m = 0; m < table_.count(); ++m) before.push_back(table_.at(m).authority);
+  std::vector<int> changed = table_.Apply(grants);
+  changed.erase(
+      std::remove_if(
+          changed.begin(), changed.end(),
+          [&](int m) { return before[static_cast<std::size_t>(m)] == table_.at(m).authority; }),
+      changed.end());
+  return changed;
+}
+
+void Roles::ReleaseAll() {
+  for (int m = 0; m < table_.count(); ++m) {
+    AuthorityRecord h = table_.at(m);
+    if (h.authority != self_) continue;
+    h.authority = 0;
+    table_.Set(m, h);
+  }
+}
+
+void Roles::Remap(const std::vector<std::vector<int>>& from) {
+  AuthorityRecord fresh;
+  if (config_.mode == Mode::kBuffer) fresh.secondaries.Add(0);
+  table_.Remap(world_.composition(), from, fresh);
+}
+
+}  // namespace seam

@@ -1,0 +1,51 @@
+#pragma once
+/// What this peer is to each mechanism: its authority, a secondary or remote. Nobody else says so.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/physics/world.h"
+#include "common/sync/authority.h"
+#include "common/sync/mode.h"
+
+namespace seam {
+
+class Roles {
+ public:
+  /// `self`: peer number. `own_player`: the player whose vehicle this peer predicts in mode
+  /// central, or -1. Config and world must outlive this.
+  Roles(const SyncConfig& config, int self, int own_player, const World& world);
+
+  int self() const { return self_; }
+  int own_player() const { return own_player_; }
+  const AuthorityTable& table() const { return table_; }
+  AuthorityTable& table() { return table_; }
+
+  /// kRoleAuthority, kRoleSecondary or kRoleRemote of this peer for a mechanism.
+  std::int8_t RoleOf(int mechanism) const;
+  /// The same for the mechanism of a body.
+  std::int8_t RoleOfBody(int body) const { return RoleOf(world_.mechanism(body)); }
+  /// Whether this peer steps the body itself; else it only displays it.
+  bool Simulates(int body) const { return RoleOfBody(body) != kRoleRemote; }
+  /// Whether the table names this peer, in any mode.
+  bool IsAuthority(int mechanism) const { return table_.at(mechanism).authority == self_; }
+  /// Whether this peer is to propose an edit that physics found: the authority of the first part
+  /// concerned that is in a mechanism; in mode oracle every peer.
+  bool Proposes(const Edit& edit) const;
+
+  /// Takes over a message. Returns the mechanisms whose authority changed hands.
+  std::vector<int> Apply(const Grants& grants);
+  /// Gives all that this peer has back to the server.
+  void ReleaseAll();
+  /// The mechanisms are others now; `from` as in BodyRemap::mechanisms.
+  void Remap(const std::vector<std::vector<int>>& from);
+
+ private:
+  const SyncConfig& config_;
+  int self_;
+  int own_player_;
+  const World& world_;
+  AuthorityTable table_;
+};
+
+}  // namespace seam

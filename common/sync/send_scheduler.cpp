@@ -1,0 +1,109 @@
+#include "common/sync/send_scheduler.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace seam {
+namespace {
+
+/// Bodies per send: one datagram. More bodies than that take turns by priority.
+constexpr std::size_t kBodiesPerSend = kStatesBodiesMax;
+/// Growth of the priority per send (after Fiedler, "State Synchronization", 2015): what just
+/// collided is interesting, what sleeps is repeated seldom.
+constexpr float kPriorityImpact = 10;
+constexpr float kPriorityAwake = 1;
+/// Sleeping bodies are repeated this often, s: final poses arrive in spite of loss.
+constexpr double kAsleepRepeat = 0.5;
+/// ...and at once this many times when they fall asleep.
+constexpr int kAsleepBurst = 4;
+
+}  // namespace
+
+SendScheduler::SendScheduler(const SyncConfig& config, World& world, const Roles& roles,
+                             BodyMemory& memory)
+    : config_(config), world_(world), roles_(roles), memory_(memory) {}
+
+void SendScheduler::Collect() {
+  outgoing_.clear();
+  if (config_.mode == Mode::kOracle || world_.tick() % config_.send_every() != 0) return;
+  std::vector<PackedBody> told;
+  for (const int body : ChooseBodies()) told.push_back(Tell(body));
+  outgoing_ = Pack(Header(), told);
+}
+
+std::vector<States> SendScheduler::Take() { return std::exchange(outgoing_, {}); }
+
+bool SendScheduler::Due(int body) {
+  BodyTrack& track = memory_.track(body);
+  if (world_.awake(body)) {
+    track.asleep_since = -1;
+    return true;
+  }
+  if (track.asleep_since < 0) track.asleep_since = world_.tick();
+  const std::int64_t slept = world_.tick() - track.asleep_since;
+  const auto repeat = static_cast<std::int64_t>(kAsleepRepeat * config_.tick_hz);
+  return slept < kAsleepBurst * config_.send_every() ||
+         (slept + body) % repeat < config_.send_every();
+}
+
+/// Ascending.
+std::vector<int> SendScheduler::ChooseBodies() {
+  std::vector<int> due;
+  for (int body = 0; body < world_.body_count(); ++body) {
+    BodyTrack& track = memory_.track(body);
+    if (!roles_.IsAuthority(world_.mechanism(body)) || !track.placed || !Due(body)) continue;
+    const bool hit = world_.awake(body) && memory_.Struck(body);
+    track.priority += hit ? kPriorityImpact : kPriorityAwake;
+    due.push_back(body);
+  }
+  std::stable_sort(due.begin(), due.end(), [&](int a, int b) {
+    return memory_.track(a).priority > memory_.track(b).priority;
+  });
+  if (due.size() > kBodiesPerSend) due.resize(kBodiesPerSend);
+  std::sort(due.begin(), due.end());
+  return due;
+}
+
+PackedBody SendScheduler::Describe(int body) const {
+  PackedBody packed;
+  packed.id = world_.id(body);
+  packed.epoch = roles_.table().at(world_.mechanism(body)).epoch;
+  packed.flags = world_.awake(body) ? std::int8_t{0} : kStateAsleep;
+  packed.state = world_.Read(body);
+  return packed;
+}
+
+PackedBody SendScheduler::Tell(int body) {
+  memory_.track(body).priority = 0;
+  PackedBody packed = Describe(body);
+  const bool awake = world_.awake(body);
+  if (memory_.Struck(body)) packed.flags |= kStateImpact;
+  if (!awake) {
+    packed.state.velocity.setZero();
+    packed.state.spin = 0;
+  }
+  packed.state = Quantised(packed.state);
+  // At rest the sender takes what it sends, so that all peers end with the same numbers. In
+  // motion it does not: writing the rounded pose back 30 times a second topples a stack of ten
+  // boxes even in a world of its own (docs/architecture.md), and a receiver's error of half a
+  // quantum does nothing.
+  if (!awake) world_.Write(body, packed.state, false);
+  return packed;
+}
+
+std::vector<States> SendScheduler::Everything() const {
+  std::vector<PackedBody> bodies;
+  for (int body = 0; body < world_.body_count(); ++body) bodies.push_back(Describe(body));
+  return Pack(Header(), bodies);
+}
+
+States SendScheduler::Header() const {
+  States header;
+  header.peer = roles_.self();
+  header.tick = world_.tick();
+  header.revision = world_.topology().revision();
+  header.composition = static_cast<std::int64_t>(world_.composition().hash);
+  return header;
+}
+
+}  // namespace seam

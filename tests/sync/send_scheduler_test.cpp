@@ -1,0 +1,104 @@
+#include "common/sync/send_scheduler.h"
+
+#include <algorithm>
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/support/small_world.h"
+
+namespace seam {
+namespace {
+
+/// Boxes in a row, in free fall, 2 m apart; peer 0 has them all.
+class Row {
+ public:
+  explicit Row(int count)
+      : world(SmallWorld(
+            "[[part]]\nname = \"box\"\nbox = [1, 1]\nposition = [0, 0]\nrepeat = {count = " +
+            std::to_string(count) + ", step = [2, 0]}\n")) {}
+
+  /// Steps to the next send. Returns the ids that are told, ascending.
+  std::vector<int> NextSend() {
+    for (int i = 0; i < config.send_every(); ++i) {
+      world->Step();
+      scheduler.Collect();
+    }
+    std::vector<int> told;
+    for (const States& states : scheduler.Take()) {
+      told.insert(told.end(), states.id.begin(), states.id.end());
+    }
+    std::sort(told.begin(), told.end());
+    return told;
+  }
+
+  std::unique_ptr<World> world;
+  SyncConfig config = MakeSyncConfig("buffer", "retrospect");
+  Roles roles{config, 0, -1, *world};
+  BodyMemory memory{config, *world};
+  SendScheduler scheduler{config, *world, roles, memory};
+};
+
+TEST(SendScheduler, BodiesTakeTurnsWhenThereAreMoreThanOneDatagramHolds) {
+  constexpr int kBodies = 60;
+  Row row(kBodies);
+  std::set<int> waiting;
+  for (int send = 0; send < 10; ++send) {
+    const std::vector<int> told = row.NextSend();
+    const std::set<int> distinct(told.begin(), told.end());
+    ASSERT_EQ(distinct.size(), kStatesBodiesMax) << send;
+    for (const int id : waiting) EXPECT_EQ(distinct.count(id), 1u) << id << " waited twice";
+    waiting.clear();
+    for (int id = 0; id < kBodies; ++id) {
+      if (distinct.count(id) == 0) waiting.insert(id);
+    }
+    EXPECT_EQ(waiting.size(), kBodies - kStatesBodiesMax);
+  }
+}
+
+TEST(SendScheduler, WhatWasJustStruckGoesFirst) {
+  Row row(60);
+  row.memory.track(59).last_impact_tick = 0;
+  const std::vector<int> told = row.NextSend();
+  EXPECT_EQ(told.back(), 59);
+  EXPECT_EQ(told[told.size() - 2], 46);
+}
+
+TEST(SendScheduler, TellsNothingOfOthersBodiesNorOfThoseNotYetPlaced) {
+  Row row(4);
+  AuthorityRecord other;
+  other.authority = 2;
+  row.roles.table().Set(row.world->mechanism(1), other);
+  row.memory.track(2).placed = false;
+  EXPECT_EQ(row.NextSend(), (std::vector<int>{0, 3}));
+}
+
+TEST(SendScheduler, BetweenTwoSendsThereIsNothingToTake) {
+  Row row(2);
+  row.world->Step();
+  row.scheduler.Collect();
+  EXPECT_TRUE(row.scheduler.Take().empty());
+  row.world->Step();
+  row.scheduler.Collect();
+  EXPECT_FALSE(row.scheduler.Take().empty());
+  EXPECT_TRUE(row.scheduler.Take().empty());
+}
+
+TEST(SendScheduler, ABodyAtRestIsToldFourTimesAndThenTwiceASecondAndLiesWhereItWasTold) {
+  Row row(1);
+  BodyState rest = row.world->Read(0);
+  rest.position.x() = 0.3001f;  // between two quanta
+  row.world->Write(0, rest);
+  row.world->SetAwake(0, false);
+  int told = 0;
+  for (int send = 0; send < 4; ++send) told += static_cast<int>(row.NextSend().size());
+  EXPECT_EQ(told, 4);
+  EXPECT_EQ(row.world->Read(0).position, Quantised(rest).position);
+  EXPECT_NE(row.world->Read(0).position, rest.position);
+  for (int send = 0; send < 30; ++send) told += static_cast<int>(row.NextSend().size());
+  EXPECT_EQ(told, 6);
+}
+
+}  // namespace
+}  // namespace seam
