@@ -1,12 +1,14 @@
 /// Rules in the real server with real clients: what is decided once is known to all, whatever the
 /// network does.
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <map>
 
 #include "server/rules/rules.h"
+#include "tests/support/soak.h"
 #include "tests/support/two_sides.h"
 
 namespace seam {
@@ -76,7 +78,7 @@ std::map<std::string, int> Said(const Recording& recording) {
 
 TEST(RulesCluster, EachPickupIsGivenOnceAndAllPeersKnowTheSameAtTheEnd) {
   for (const char* mode : {"buffer", "strict", "central", "oracle"}) {
-    for (const std::int64_t seed : {1, 2}) {
+    for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
       Cluster cluster(With(Race(Coins()), mode, "4g", seed));
       cluster.Run();
       const std::map<std::string, int> said = Said(cluster.recording());
