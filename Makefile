@@ -185,10 +185,11 @@ lint: build/.deps-lint compile_commands.json $(GEN)/.stamp   ## clang-tidy by .c
 # For clangd, clang-tidy and editors.
 compile_commands.json:               ## how each .cpp is compiled, for editors
 	@printf '%s\n' $(SOURCES) | awk -v dir='$(CURDIR)' -v out='$(OUT)' \
-	  -v command='$(subst ','\'',$(subst \,\\\\,$(subst ",\\",$(strip $(CXX) $(ALL_CXXFLAGS)))))' \
+	  -v command='$(subst ','\'',$(subst ",\\",$(subst \,\\\\,$(strip $(CXX) $(ALL_CXXFLAGS)))))' \
 	  'BEGIN { print "[" } { object = $$0; sub(/cpp$$/, "o", object); \
-	  printf "%s{\"directory\": \"%s\", \"file\": \"%s\", \"command\": \"%s%s -c %s -o %s/%s\"}", NR > 1 ? ",\n" : "", \
-	    dir, $$0, command, /^common\/codec\// ? " $(CODEC_CXXFLAGS)" : "", $$0, out, object } END { print "\n]" }' > $@
+	  gen = ($$0 ~ /^common\/codec\//) ? " $(CODEC_CXXFLAGS)" : ""; \
+	  printf "%s{\"directory\": \"%s\", \"file\": \"%s\", \"command\": \"%s%s -c %s -o %s/%s\"}", \
+	    (NR > 1 ? ",\n" : ""), dir, $$0, command, gen, $$0, out, object } END { print "\n]" }' > $@
 
 demo: all                            ## run the main job and draw it, into out/demo/
 	SEAM_BIN=$(OUT) tests/demo.sh out/demo

@@ -1,11 +1,10 @@
 #include "render/commands.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-
-#include <fmt/format.h>
-
 #include <thread>
 
 #include "common/base/check.h"

@@ -1,16 +1,13 @@
 #include "render/output.h"
 
-#include <cstdlib>
-#include <filesystem>
-
 #include <fmt/format.h>
 #include <spawn.h>
-
-#include <sstream>
-
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
 #include <vector>
 
 #include "common/base/check.h"

@@ -1,9 +1,9 @@
 #include "common/base/progress_line.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdio>
-
-#include <unistd.h>
 
 #include "common/base/check.h"
 

@@ -1,12 +1,12 @@
 #include "render/canvas/png_writer.h"
 
+#include <png.h>
+
 #include <cerrno>
 #include <csetjmp>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
-
-#include <png.h>
 
 #include "common/base/check.h"
 

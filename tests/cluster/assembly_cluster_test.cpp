@@ -1,9 +1,9 @@
 /// scenes/titanic.toml and scenes/gluehouse.toml over a bad network: what breaks and joins, breaks
 /// and joins for everybody.
 
-#include <algorithm>
-
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "tests/support/soak.h"
 #include "tests/support/two_sides.h"

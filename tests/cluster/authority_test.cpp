@@ -1,9 +1,8 @@
 /// Who has authority over what, when, in clusters whose network loses a lot: never two at once.
 
-#include <algorithm>
-
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 

@@ -1,10 +1,9 @@
 /// Rules in the real server with real clients: what is decided once is known to all, whatever the
 /// network does.
 
-#include <algorithm>
-
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 
 #include "server/rules/rules.h"

@@ -1,10 +1,9 @@
 #include "common/codec/codec.h"
 
-#include <cmath>
-#include <cstdint>
-
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <set>
 

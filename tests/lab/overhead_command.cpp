@@ -1,8 +1,7 @@
-#include <algorithm>
-#include <cstdio>
-
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdio>
 #include <memory>
 
 #include "common/base/find_scene.h"

@@ -8,7 +8,7 @@ namespace {
 
 TEST_F(BadInput, ScenesAreRefusedByFileAndLine) {
   std::vector<Mistake> mistakes = {Server({"missing.toml"}, "missing.toml: no such"),
-                                   Server({"folder"}, "folder: "),
+                                   Server({"folder"}, "no scene \"folder\""),
                                    Server({"two\nlines.toml"}, "two?lines.toml"),
                                    Server({"good.lcm"}, "good.lcm"), Server({}, "which scene?")};
   for (const BadScene& scene : BadScenes()) {

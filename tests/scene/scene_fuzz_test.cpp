@@ -1,11 +1,10 @@
 /// Damaged and random scenes: each either is refused with an OperatorError or can be simulated.
 /// Box2D's assertions abort the process, so that a scene that should have been refused shows.
 
-#include <cmath>
-#include <fstream>
-
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <fstream>
 #include <sstream>
 
 #include "common/base/check.h"
@@ -154,7 +153,8 @@ TEST(SceneFuzz, RandomScenesThatPassNeverMakeBox2DAbort) {
   RecordProperty("seed", std::to_string(kSeed));
   Random random(kSeed);
   int good = 0;
-  for (int round = 0; round < Soak(6000); ++round) good += Survives(RandomScene(&random), 20) ? 1 : 0;
+  for (int round = 0; round < Soak(6000); ++round)
+    good += Survives(RandomScene(&random), 20) ? 1 : 0;
   EXPECT_GT(good, 1000);
 }
 

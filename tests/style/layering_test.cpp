@@ -1,11 +1,10 @@
 /// Enforces the table of docs/architecture.md: which room may include which, which file opens the
 /// door to which library, and how large a room may be. Reads the sources of the repository.
 
-#include <algorithm>
-
 #include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <utility>

@@ -2,10 +2,9 @@
 
 #include "common/topology/feather_store.h"
 
-#include <algorithm>
-
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <tuple>
