@@ -124,6 +124,16 @@ $(OUT)/.flags:
 	@mkdir -p $(@D)
 	@printf '%s\n' '$(subst ','\'',$(FLAGS))' > $@
 
+# Which sources there are: without it a deleted one would stay in what is linked.
+ifneq ($(file <$(OUT)/.sources),$(SOURCES))
+$(OUT)/.sources: force
+endif
+$(OUT)/.sources:
+	@mkdir -p $(@D)
+	@printf '%s\n' '$(SOURCES)' > $@
+$(PROGRAMS) $(addprefix $(OUT)/,seam-tests libseam.a libseam-common.a): $(OUT)/.sources
+LINKED = $(filter-out %/.sources,$^)
+
 $(CODEC): private ALL_CXXFLAGS += $(CODEC_CXXFLAGS)
 $(CODEC): $(GEN)/.stamp
 $(OUT)/%.o: %.cpp $(OUT)/.flags | build/.deps-build
@@ -135,9 +145,9 @@ $(OUT)/libseam-common.a: $(COMMON)
 $(OUT)/libseam.a: $(COMMON) $(SERVER) $(CLIENT)
 $(OUT)/%.a:
 	@rm -f $@
-	@ar qcs $@ $^
+	@ar qcs $@ $(LINKED)
 
-LINK = $(CXX) $(ALL_CXXFLAGS) $(LDFLAGS) $^
+LINK = $(CXX) $(ALL_CXXFLAGS) $(LDFLAGS) $(LINKED)
 $(OUT)/seam-server: $(OUT)/server/main.o $(SERVER) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
 $(OUT)/seam-client: $(OUT)/client/main.o $(CLIENT) $(OUT)/libseam-common.a
@@ -166,8 +176,8 @@ soak: FILTER := $(SOAKED)
 soak: tests                          ## SOAK=300: so many times the seeds of cluster and fuzz tests: half an hour
 	SEAM_SOAK=$(SOAK) $(run-tests)
 
-# No gate: what fails is named and the table comes all the same. libgcov's own complaints (inline
-# functions that two programs compiled differently) go to a file, since tests read stderr.
+# No gate: what fails is named and the table comes all the same. What libgcov itself has to say goes
+# to a file, since tests read stderr.
 coverage: build/.deps-coverage       ## tests (or FILTER) under gcov: covered lines of each folder
 	@$(MAKE) --no-print-directory BUILD=coverage tests
 	@find build/coverage -name '*.gcda' -delete
