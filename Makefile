@@ -193,7 +193,7 @@ format: build/.deps-format           ## lay out every source by .clang-format
 
 lint: build/.deps-lint compile_commands.json $(GEN)/.stamp   ## clang-tidy by .clang-tidy: advice, no gate (FILES=...)
 	@$(if $(FILES),echo $(FILES),git ls-files '*.cpp') | xargs -n 4 -P $(shell nproc) clang-tidy -p . --quiet 2>/dev/null \
-	  | sed 's|^$(CURDIR)/||; s|^\./||' | awk '/(warning|error): / && !seen[$$0]++'
+	  | sed -u 's|^$(CURDIR)/||; s|^\./||' | awk '/(warning|error): / && !seen[$$0]++ { print; fflush() }'
 
 # For clangd, clang-tidy and editors.
 compile_commands.json:               ## how each .cpp is compiled, for editors
