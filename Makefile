@@ -1,8 +1,9 @@
 # Seam2D. `make help` lists what there is to do.
 #
-# Layout: every .cpp under common/ goes into libseam.a; server/, client/ and render/ each hold one
-# program's files with main in main.cpp (render/ holds seam-measure's main too); tests/ is one
+# Layout: every .cpp under common/ goes into libseam-common.a; server/, client/ and render/ each hold
+# one program's files with main in main.cpp (render/ holds seam-measure's main too); tests/ is one
 # GoogleTest program, tests/lab/ is seam-lab, which alone has server and clients in one process.
+# libseam.a, for other programs, is common/, server/ and client/ without their mains.
 # lcmtypes/*.lcm become headers under build/gen/, hardened by lcmtypes/harden.awk.
 
 # All cores, unless -j says otherwise.
@@ -17,87 +18,191 @@ GEN := build/gen
 
 CXX ?= g++
 WARN := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
+# What a program linked with the objects needs too.
+INSTRUMENT_asan := -fsanitize=address,undefined
+INSTRUMENT_tsan := -fsanitize=thread
+INSTRUMENT_coverage := --coverage
 CXXFLAGS_release := -O2 -g1
 CXXFLAGS_debug := -O0 -g
-CXXFLAGS_asan := -O1 -g1 -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
-CXXFLAGS_tsan := -O1 -g1 -fsanitize=thread
+CXXFLAGS_asan := -O1 -g1 $(INSTRUMENT_asan) -fno-sanitize-recover=all -fno-omit-frame-pointer
+CXXFLAGS_tsan := -O1 -g1 $(INSTRUMENT_tsan)
+# Signals and threads end programs at any time: counters are added atomically.
+CXXFLAGS_coverage := -O1 -g1 $(INSTRUMENT_coverage) -fprofile-update=atomic
 ifeq ($(CXXFLAGS_$(BUILD)),)
-$(error BUILD must be release, debug, asan or tsan, not "$(BUILD)")
+$(error BUILD must be release, debug, asan, tsan or coverage, not "$(BUILD)")
 endif
+EIGEN := /usr/include/eigen3
 # -ffp-contract=off is part of the determinism contract: no fused multiply-add.
 ALL_CXXFLAGS := -std=c++17 $(CXXFLAGS_$(BUILD)) -ffp-contract=off $(WARN) -MMD -MP -I. \
-	-isystem $(GEN) -isystem /usr/include/eigen3 -isystem /usr/include/freetype2 -pthread $(CXXFLAGS)
+	-isystem $(EIGEN) -isystem /usr/include/freetype2 -pthread $(CXXFLAGS)
+# Only common/codec/ reads generated headers (tests/style/layering_test.cpp).
+CODEC_CXXFLAGS := -isystem $(GEN)
 LIBS := -llcm -lbox2d -lfmt -pthread
 RENDER_LIBS := -lOSMesa -lpng -lfreetype
 SERVER_LIBS := -llua5.4
 
-DEBS := g++ make pkg-config liblcm-dev liblcm-bin libbox2d-dev libeigen3-dev libosmesa6-dev \
+# Debian packages: build/.deps-NAME stands for DEBS_NAME being installed.
+DEBS_build := g++ make pkg-config liblcm-dev liblcm-bin libbox2d-dev libeigen3-dev libosmesa6-dev \
 	liblua5.4-dev libcli11-dev libtoml11-dev libfmt-dev libpng-dev libfreetype-dev fonts-dejavu-core \
 	libgtest-dev iproute2 util-linux
+DEBS_report := gnuplot-nox
+DEBS_coverage := gcovr
+DEBS_format := clang-format git
+DEBS_lint := clang-tidy git
 
 # All .cpp below a folder; and their objects.
 below = $(sort $(shell find $(1) -name '*.cpp'))
 obj = $(patsubst %.cpp,$(OUT)/%.o,$(1))
 MAINS := server/main.cpp client/main.cpp render/main.cpp render/measure_main.cpp tests/lab/main.cpp
-COMMON := $(call obj,$(call below,common))
-SERVER := $(call obj,$(filter-out $(MAINS),$(call below,server)))
-CLIENT := $(call obj,$(filter-out $(MAINS),$(call below,client)))
-RENDER := $(call obj,$(filter-out $(MAINS),$(call below,render)))
-LAB := $(call obj,$(filter-out $(MAINS) %_test.cpp,$(call below,tests/lab)))
-TESTS := $(call obj,$(filter %_test.cpp tests/support/%,$(call below,tests)))
+SOURCES := $(call below,common server client render tests)
+COMMON := $(call obj,$(filter common/%,$(SOURCES)))
+SERVER := $(call obj,$(filter-out $(MAINS),$(filter server/%,$(SOURCES))))
+CLIENT := $(call obj,$(filter-out $(MAINS),$(filter client/%,$(SOURCES))))
+RENDER := $(call obj,$(filter-out $(MAINS),$(filter render/%,$(SOURCES))))
+LAB := $(call obj,$(filter-out $(MAINS) %_test.cpp,$(filter tests/lab/%,$(SOURCES))))
+TESTS := $(call obj,$(filter %_test.cpp tests/support/%,$(filter tests/%,$(SOURCES))))
+CODEC := $(filter $(OUT)/common/codec/%,$(COMMON))
+OBJECTS := $(call obj,$(SOURCES))
 PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-render seam-measure seam-lab)
 LCM_TYPES := $(sort $(wildcard lcmtypes/*.lcm))
+VERSION := $(shell sed -n 's/.*kVersion = "\(.*\)".*/\1/p' common/base/version.h)
+
+# Processes and long simulations: what `make check-fast` leaves out.
+SLOW := Comings*:EndToEnd*:Bombarded*:BusInNamespace*:NoRoute*:BadInput*:Installed*:RenderL*:Mea*Program* \
+	:Hard*Invariant*:HardExactRuns*:LabPhysics*:LabSweep*:*Cluster*:*WorldScene*:RuleSessions*:SceneFuzz*
+# The tests that SEAM_SOAK multiplies (tests/support/soak.h).
+SOAKED := *Cluster*:Authority*:*TopologyUnder*:SceneFuzz*:Codec*:FeatherOutline*
+SOAK ?= 300
 
 .DEFAULT_GOAL := all
-.PHONY: all help deps demo bench report test tests install clean
+.DELETE_ON_ERROR:
+.PHONY: all help deps demo bench report test tests check-fast run-tests coverage soak format lint \
+	compile_commands.json install install-built clean force
 
-all: deps $(PROGRAMS)                ## build the programs
+all: build/.deps-build $(PROGRAMS)   ## build the programs
 
 help:                                ## this list
 	@echo "make targets (BUILD=release|debug|asan|tsan, default release; PREFIX=/usr/local):"
-	@sed -n 's/^\([a-z]*\):.*## \(.*\)/  \1	\2/p' Makefile | expand -t 12
+	@sed -n 's/^\([a-z][a-z._-]*\):.*## \(.*\)/  \1	\2/p' Makefile | expand -t 26
+
+# $(call install_missing,PACKAGES): installs those that are missing, one make at a time.
+define install_missing
+@mkdir -p build; exec 9>build/.deps.lock; flock 9; \
+missing=""; for p in $(1); do \
+  dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q "ok installed" || missing="$$missing $$p"; done; \
+if [ -n "$$missing" ]; then \
+  command -v apt-get >/dev/null || { echo "make deps: this is not Debian; please install:$$missing" >&2; exit 1; }; \
+  SUDO=""; [ "$$(id -u)" = 0 ] || SUDO=sudo; \
+  [ -z "$$SUDO" ] || command -v sudo >/dev/null || { echo "make deps: not root and no sudo; as root run: apt-get install$$missing" >&2; exit 1; }; \
+  echo "installing:$$missing"; \
+  { $$SUDO apt-get update -qq && $$SUDO env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $$missing; } >/dev/null 9>&- \
+  || { echo "make deps: apt-get failed; by hand: apt-get install$$missing" >&2; exit 1; }; fi
+endef
 
 deps:                                ## install the Debian packages that are missing
-	@missing=""; for p in $(DEBS); do \
-	  dpkg-query -W -f='$${Status}' $$p 2>/dev/null | grep -q "ok installed" || missing="$$missing $$p"; done; \
-	if [ -n "$$missing" ]; then \
-	  command -v apt-get >/dev/null || { echo "make deps: this is not Debian; please install:$$missing" >&2; exit 1; }; \
-	  SUDO=""; [ "$$(id -u)" = 0 ] || SUDO=sudo; \
-	  [ -z "$$SUDO" ] || command -v sudo >/dev/null || { echo "make deps: not root and no sudo; as root run: apt-get install$$missing" >&2; exit 1; }; \
-	  echo "installing:$$missing"; \
-	  $$SUDO apt-get update -qq && $$SUDO env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $$missing >/dev/null \
-	  || { echo "make deps: apt-get failed; by hand: apt-get install$$missing" >&2; exit 1; }; fi
+	$(call install_missing,$(DEBS_build) $(DEBS_report))
 
-$(GEN)/.stamp: $(LCM_TYPES) lcmtypes/harden.awk | deps
+# Looked at once, and again when the lists above may have changed.
+build/.deps-%: Makefile
+	$(call install_missing,$(DEBS_$*))
+	@touch $@
+.PRECIOUS: build/.deps-%
+
+$(GEN)/.stamp: $(LCM_TYPES) lcmtypes/harden.awk | build/.deps-build
 	@rm -rf $(GEN) && mkdir -p $(GEN)
 	lcm-gen --cpp --cpp-std c++11 --cpp-hpath $(GEN) $(LCM_TYPES)
 	@for h in $(GEN)/seam/*.hpp; do awk -f lcmtypes/harden.awk $$h > $$h.tmp && mv $$h.tmp $$h || exit 1; done
 	@touch $@
 
-$(OUT)/%.o: %.cpp $(GEN)/.stamp
+# What every object is made with. Written when it differs, so that other flags rebuild everything,
+# and an interrupted rebuild goes on where it was.
+FLAGS := $(strip $(CXX) $(ALL_CXXFLAGS) $(CODEC_CXXFLAGS) $(LDFLAGS))
+ifneq ($(file <$(OUT)/.flags),$(FLAGS))
+$(OUT)/.flags: force
+endif
+$(OUT)/.flags:
+	@mkdir -p $(@D)
+	@printf '%s\n' '$(subst ','\'',$(FLAGS))' > $@
+
+# Which sources there are: without it a deleted one would stay in what is linked.
+ifneq ($(file <$(OUT)/.sources),$(SOURCES))
+$(OUT)/.sources: force
+endif
+$(OUT)/.sources:
+	@mkdir -p $(@D)
+	@printf '%s\n' '$(SOURCES)' > $@
+$(PROGRAMS) $(addprefix $(OUT)/,seam-tests libseam.a libseam-common.a): $(OUT)/.sources
+LINKED = $(filter-out %/.sources,$^)
+
+$(CODEC): private ALL_CXXFLAGS += $(CODEC_CXXFLAGS)
+$(CODEC): $(GEN)/.stamp
+$(OUT)/%.o: %.cpp $(OUT)/.flags | build/.deps-build
 	@mkdir -p $(@D)
 	$(CXX) $(ALL_CXXFLAGS) -c $< -o $@
 
-$(OUT)/libseam.a: $(COMMON)
+# Appended to nothing: two members may have the same name.
+$(OUT)/libseam-common.a: $(COMMON)
+$(OUT)/libseam.a: $(COMMON) $(SERVER) $(CLIENT)
+$(OUT)/%.a:
 	@rm -f $@
-	@ar rcs $@ $^
-$(OUT)/seam-server: $(OUT)/server/main.o $(SERVER) $(OUT)/libseam.a
-	$(CXX) $(ALL_CXXFLAGS) $^ $(LIBS) $(SERVER_LIBS) -o $@
-$(OUT)/seam-client: $(OUT)/client/main.o $(CLIENT) $(OUT)/libseam.a
-	$(CXX) $(ALL_CXXFLAGS) $^ $(LIBS) -o $@
-$(OUT)/seam-render: $(OUT)/render/main.o $(RENDER) $(OUT)/libseam.a
-	$(CXX) $(ALL_CXXFLAGS) $^ $(LIBS) $(RENDER_LIBS) -o $@
-$(OUT)/seam-measure: $(OUT)/render/measure_main.o $(OUT)/libseam.a
-	$(CXX) $(ALL_CXXFLAGS) $^ $(LIBS) -o $@
-$(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(SERVER) $(CLIENT) $(OUT)/libseam.a
-	$(CXX) $(ALL_CXXFLAGS) $^ $(LIBS) $(SERVER_LIBS) -o $@
-$(OUT)/seam-tests: $(TESTS) $(LAB) $(SERVER) $(CLIENT) $(RENDER) $(OUT)/libseam.a
-	$(CXX) $(ALL_CXXFLAGS) $^ $(LIBS) $(RENDER_LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
+	@ar qcs $@ $(LINKED)
 
-tests: deps $(OUT)/seam-tests $(PROGRAMS)   ## build the tests
+LINK = $(CXX) $(ALL_CXXFLAGS) $(LDFLAGS) $(LINKED)
+$(OUT)/seam-server: $(OUT)/server/main.o $(SERVER) $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
+$(OUT)/seam-client: $(OUT)/client/main.o $(CLIENT) $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) -o $@
+$(OUT)/seam-render: $(OUT)/render/main.o $(RENDER) $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) $(RENDER_LIBS) -o $@
+$(OUT)/seam-measure: $(OUT)/render/measure_main.o $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) -o $@
+$(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
+$(OUT)/seam-tests: $(TESTS) $(LAB) $(SERVER) $(CLIENT) $(RENDER) $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) $(RENDER_LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
-test: tests                          ## build and run all tests
-	SEAM_BIN=$(OUT) $(OUT)/seam-tests
+tests: build/.deps-build build/.deps-report $(OUT)/seam-tests $(PROGRAMS) $(OUT)/libseam.a   ## build the tests
+
+run-tests = SEAM_BIN=$(OUT) $(OUT)/seam-tests $(if $(FILTER),--gtest_filter='$(FILTER)')
+
+test: tests                          ## build and run all tests, or FILTER='Suite.*'
+	$(run-tests)
+
+check-fast: FILTER := -$(subst $() ,,$(SLOW))
+check-fast: tests                    ## build and run the tests that take no processes or long simulations
+	$(run-tests) --gtest_brief=1
+
+soak: FILTER := $(SOAKED)
+soak: tests                          ## SOAK=300: so many times the seeds of cluster and fuzz tests: half an hour
+	SEAM_SOAK=$(SOAK) $(run-tests)
+
+# No gate: what fails is named and the table comes all the same. What libgcov itself has to say goes
+# to a file, since tests read stderr.
+coverage: build/.deps-coverage       ## tests (or FILTER) under gcov: covered lines of each folder
+	@$(MAKE) --no-print-directory BUILD=coverage tests
+	@find build/coverage -name '*.gcda' -delete
+	-@GCOV_ERROR_FILE='$(CURDIR)/build/coverage/gcov.log' $(MAKE) --no-print-directory BUILD=coverage test
+	@gcovr --root . --object-directory build/coverage --filter '(common|server|client|render)/' \
+	  --csv build/coverage/lines.csv build/coverage
+	@awk -F, 'NR > 1 { d = $$1; sub(/\/[^\/]*$$/, "", d); all[d] += $$2; hit[d] += $$3; A += $$2; H += $$3 } \
+	  END { for (d in all) printf "%-28s %5d of %5d lines  %5.1f %%\n", d, hit[d], all[d], 100 * hit[d] / all[d] | "sort"; \
+	  close("sort"); printf "%-28s %5d of %5d lines  %5.1f %%\n", "all", H, A, 100 * H / A }' build/coverage/lines.csv
+
+format: build/.deps-format           ## lay out every source by .clang-format
+	git ls-files '*.h' '*.cpp' | xargs clang-format -i
+
+lint: build/.deps-lint compile_commands.json $(GEN)/.stamp   ## clang-tidy by .clang-tidy: advice, no gate (FILES=...)
+	@$(if $(FILES),echo $(FILES),git ls-files '*.cpp') | xargs -n 4 -P $(shell nproc) clang-tidy -p . --quiet 2>/dev/null \
+	  | sed -u 's|^$(CURDIR)/||; s|^\./||' | awk '/(warning|error): / && !seen[$$0]++ { print; fflush() }'
+
+# For clangd, clang-tidy and editors.
+compile_commands.json:               ## how each .cpp is compiled, for editors
+	@printf '%s\n' $(SOURCES) | awk -v dir='$(CURDIR)' -v out='$(OUT)' \
+	  -v command='$(subst ','\'',$(subst ",\\",$(subst \,\\\\,$(strip $(CXX) $(ALL_CXXFLAGS)))))' \
+	  'BEGIN { print "[" } { object = $$0; sub(/cpp$$/, "o", object); \
+	  gen = ($$0 ~ /^common\/codec\//) ? " $(CODEC_CXXFLAGS)" : ""; \
+	  printf "%s{\"directory\": \"%s\", \"file\": \"%s\", \"command\": \"%s%s -c %s -o %s/%s\"}", \
+	    (NR > 1 ? ",\n" : ""), dir, $$0, command, gen, $$0, out, object } END { print "\n]" }' > $@
 
 demo: all                            ## run the main job and draw it, into out/demo/
 	SEAM_BIN=$(OUT) tests/demo.sh out/demo
@@ -108,18 +213,37 @@ bench: all                           ## cost of a step beside Box2D, hard cases:
 	$(OUT)/seam-lab physics --grid quick -o out/bench/physics.csv --force
 
 # QUICK=1: fewer seeds and settings, in two minutes.
-report tests test: DEBS += gnuplot-nox
-report: all                          ## speed against error: all the measurements, into out/report/ (QUICK=1)
+report: build/.deps-report all       ## speed against error: all the measurements, into out/report/ (QUICK=1)
 	SEAM_BIN=$(OUT) FORCE=$(FORCE) tests/report.sh out/report $(if $(QUICK),quick)
 
-install: all                         ## install the programs under PREFIX
-	install -d $(DESTDIR)$(PREFIX)/bin $(DESTDIR)$(PREFIX)/share/seam2d/scenes
-	install -m 755 $(PROGRAMS) $(DESTDIR)$(PREFIX)/bin
-	install -d $(DESTDIR)$(PREFIX)/share/seam2d/scenes/hard
-	install -m 644 $(wildcard scenes/*.toml) $(DESTDIR)$(PREFIX)/share/seam2d/scenes
-	install -m 644 $(wildcard scenes/hard/*.toml) $(DESTDIR)$(PREFIX)/share/seam2d/scenes/hard
+install: all $(OUT)/libseam.a        ## programs, scenes, library and headers under PREFIX (DESTDIR)
+	@$(MAKE) --no-print-directory install-built
+
+DEST := $(DESTDIR)$(PREFIX)
+define PKG_CONFIG_FILE
+prefix=$${pcfiledir}/../..
+libdir=$${prefix}/lib
+includedir=$${prefix}/include
+
+Name: seam2d
+Description: A distributed 2D physics runtime: server, client, world
+Version: $(VERSION)
+Cflags: -std=c++17 -ffp-contract=off -pthread -I$${includedir}/seam2d -I$(EIGEN)
+Libs: -L$${libdir} -lseam $(LIBS) $(SERVER_LIBS) $(INSTRUMENT_$(BUILD))
+endef
+
+install-built: export TEXT = $(PKG_CONFIG_FILE)
+install-built:                       ## the same, of what is built: builds nothing
+	install -d '$(DEST)/bin' '$(DEST)/lib/pkgconfig' '$(DEST)/share/seam2d/scenes/hard'
+	install -s -m 755 $(PROGRAMS) '$(DEST)/bin'
+	install -m 644 scenes/*.toml '$(DEST)/share/seam2d/scenes'
+	install -m 644 scenes/hard/*.toml '$(DEST)/share/seam2d/scenes/hard'
+	install -m 644 $(OUT)/libseam.a '$(DEST)/lib'
+	strip --strip-debug '$(DEST)/lib/libseam.a'
+	find common server client -name '*.h' -exec install -D -m 644 '{}' '$(DEST)/include/seam2d/{}' ';'
+	@echo "$$TEXT" > '$(DEST)/lib/pkgconfig/seam2d.pc'
 
 clean:                               ## remove build/ and out/
 	rm -rf build out
 
--include $(shell find $(OUT) -name '*.d' 2>/dev/null)
+-include $(wildcard $(OBJECTS:.o=.d))

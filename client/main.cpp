@@ -1,6 +1,5 @@
 /// seam-client: one player (or spectator) of a room, over UDP. `seam-client --help`.
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <cmath>
@@ -10,7 +9,10 @@
 
 #include "client/client.h"
 #include "client/keyboard.h"
+#include "common/base/command_line.h"
 #include "common/base/process.h"
+#include "common/base/progress_line.h"
+#include "common/codec/version_line.h"
 #include "common/net/farewell.h"
 #include "common/net/impair.h"
 #include "common/net/udp.h"
@@ -96,6 +98,18 @@ std::string Seconds(double seconds) {
   return text;
 }
 
+/// "ann: 12 s, peer 1, tick 750, round trip 100 ms, loss 1.0 %, 0 rejoin(s)".
+std::string Progress(const Flags& f, const Client& client, double elapsed_s) {
+  char line[160];
+  std::snprintf(line, sizeof line,
+                "%s: %.0f s, peer %d, tick %lld, round trip %.0f ms, loss %.1f %%, %lld rejoin(s)",
+                f.name.c_str(), elapsed_s, client.peer(),
+                static_cast<long long>(client.replica()->tick()),
+                std::max(0, client.stats().rtt_us) / 1000.0, client.stats().loss_ppm / 10000.0,
+                static_cast<long long>(client.rejoins()));
+  return line;
+}
+
 int Play(const Flags& f) {
   if (f.server.empty()) {
     throw OperatorError("which server? for example: seam-client 127.0.0.1:7777");
@@ -110,7 +124,7 @@ int Play(const Flags& f) {
   Client client(config, net, sink);
   StopOnSignals();
   const std::int64_t begin = SteadyClockUs();
-  std::int64_t next_line_us = 0;
+  ProgressLine line(f.quiet);
   while (g_stop == 0 && !client.closed() && client.fatal().empty()) {
     const std::int64_t now = SteadyClockUs();
     if (keyboard != nullptr) {
@@ -126,22 +140,18 @@ int Play(const Flags& f) {
                           ToString(config.server) + "; gave up after " + Seconds(f.join_s) +
                           " s (--join-timeout)");
     }
-    if (!f.quiet && client.running() && now >= next_line_us) {
-      next_line_us = now + 1000000;
-      std::fprintf(stderr, "\r%s: peer %d, tick %lld, %lld rejoin(s)   ", f.name.c_str(),
-                   client.peer(), static_cast<long long>(client.replica()->tick()),
-                   static_cast<long long>(client.rejoins()));
-    }
+    if (client.running() && line.Due(now)) line.Show(now, Progress(f, client, elapsed_s));
     const std::int64_t wake = std::min({client.next_tick_us(now), net.next_due_us(), now + 20000});
     udp.Wait(std::max<std::int64_t>(0, wake - SteadyClockUs()), keyboard ? keyboard->fd() : -1);
   }
+  line.End();
   if (client.fatal().empty() || client.peer() >= 0) client.Shutdown(SteadyClockUs());
   LetThrough(udp, net);
   if (!client.fatal().empty()) throw OperatorError(client.fatal());
   sink.Flush();
   const Stats& s = client.stats();
   std::fprintf(stderr,
-               "\nseam-client: %s; %lld datagrams in, %lld out, %lld bad, %lld stale bodies; "
+               "seam-client: %s; %lld datagrams in, %lld out, %lld bad, %lld stale bodies; "
                "%lld bus failures\n",
                client.closed() ? "the server closed the room" : "left",
                static_cast<long long>(s.datagrams_in), static_cast<long long>(s.datagrams_out),
@@ -153,18 +163,10 @@ int Play(const Flags& f) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return RunMain("seam-client", [&] {
-    CLI::App app{"seam-client: simulate and show one player's part of a room"};
-    Flags flags;
-    Define(app, flags);
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-      std::printf("%s", app.help().c_str());
-      return 0;
-    } catch (const CLI::ParseError& e) {
-      throw OperatorError(std::string(e.what()) + " (see seam-client --help)");
-    }
-    return Play(flags);
-  });
+  Flags flags;
+  const ProgramText text{"seam-client",
+                         "seam-client: simulate and show one player's part of a room",
+                         VersionLine("seam-client"), ""};
+  return RunCommandLine(
+      text, argc, argv, [&](CLI::App& app) { Define(app, flags); }, [&] { return Play(flags); });
 }

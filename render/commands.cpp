@@ -1,18 +1,18 @@
 #include "render/commands.h"
 
-#include <algorithm>
-#include <chrono>
-#include <cmath>
-#include <cstdio>
-
 #include <fmt/format.h>
-
-#include <thread>
-
 #include <unistd.h>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <thread>
+
 #include "common/base/check.h"
+#include "common/base/command_line.h"
 #include "common/base/process.h"
+#include "common/base/progress_line.h"
+#include "common/codec/version_line.h"
 #include "render/canvas/canvas.h"
 #include "render/canvas/palette.h"
 #include "render/canvas/png_writer.h"
@@ -24,32 +24,30 @@
 namespace seam {
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-double Since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-/// On a terminal a line that renews itself; elsewhere silent until the end.
-class ProgressLine {
+/// Says how far a sequence is, and at the end how fast it was.
+class FrameCount {
  public:
-  ProgressLine(int total, const std::string& path) : total_(total), path_(path) {}
+  FrameCount(int total, const std::string& path) : total_(total), path_(path) {}
   void operator()(int done) {
-    if (isatty(STDERR_FILENO) == 0 || (done != total_ && done % 10 != 0)) return;
-    std::fprintf(stderr, "\r%d of %d frames, %.0f frames/s ", done, total_,
-                 done / std::max(Since(start_), 1e-3));
+    const std::int64_t now_us = SteadyClockUs();
+    if (!line_.Due(now_us)) return;
+    line_.Show(now_us, fmt::format("{} of {} frames, {:.0f} frames/s", done, total_, Rate(done)));
   }
-  void Finish(int fps) const {
-    const double rate = total_ / std::max(Since(start_), 1e-3);
-    std::fprintf(stderr, "%s%d frames in %s, %.0f frames/s, %.1f x real time at %d fps\n",
-                 isatty(STDERR_FILENO) != 0 ? "\r" : "", total_, path_.c_str(), rate, rate / fps,
-                 fps);
+  void Finish(int fps) {
+    line_.End();
+    const double rate = Rate(total_);
+    std::fprintf(stderr, "%d frames in %s, %.0f frames/s, %.1f x real time at %d fps\n", total_,
+                 path_.c_str(), rate, rate / fps, fps);
   }
 
  private:
+  double Rate(int frames) const {
+    return frames / std::max(static_cast<double>(SteadyClockUs() - begin_us_) * 1e-6, 1e-3);
+  }
   int total_;
   std::string path_;
-  Clock::time_point start_ = Clock::now();
+  ProgressLine line_{false, 200000};
+  std::int64_t begin_us_ = SteadyClockUs();
 };
 
 int ThreadsOf(const RenderOptions& options) {
@@ -85,10 +83,10 @@ void RenderSequence(const RenderOptions& options) {
   page.height_px = options.height_px;
   const std::vector<double> times = TimesOf(options, page);
   folder.Prepare();
-  ProgressLine line(static_cast<int>(times.size()), folder.path());
+  FrameCount count(static_cast<int>(times.size()), folder.path());
   WriteSequence(page, font, times, std::min(ThreadsOf(options), static_cast<int>(times.size())),
-                folder, [&line](int done) { line(done); });
-  line.Finish(options.fps);
+                folder, [&count](int done) { count(done); });
+  count.Finish(options.fps);
   if (!options.video.empty()) EncodeVideo(folder, options.fps, options.video);
 }
 
@@ -116,18 +114,23 @@ void RenderStrobe(const RenderOptions& options) {
 }
 
 int RenderMain(int argc, const char* const* argv) {
-  return RunMain("seam-render", [&] {
-    RenderOptions options;
-    if (!ParseRenderOptions(argc, argv, &options)) return 0;
-    if (options.live) {
-      RenderLive(options);
-    } else if (options.strobe) {
-      RenderStrobe(options);
-    } else {
-      RenderSequence(options);
-    }
-    return 0;
-  });
+  RenderOptions options;
+  const ProgramText text{"seam-render",
+                         "Draws recordings of Seam2D sessions as PNG pictures, without a display.",
+                         VersionLine("seam-render"), kRenderExamples};
+  return RunCommandLine(
+      text, argc, argv, [&](CLI::App& app) { DefineRenderOptions(&app, &options); },
+      [&] {
+        CheckRenderOptions(&options);
+        if (options.live) {
+          RenderLive(options);
+        } else if (options.strobe) {
+          RenderStrobe(options);
+        } else {
+          RenderSequence(options);
+        }
+        return 0;
+      });
 }
 
 }  // namespace seam

@@ -1,13 +1,13 @@
 /// seam-measure: numbers from recordings. docs/metrics.md says what each of them means.
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "common/base/check.h"
-#include "common/base/process.h"
+#include "common/base/command_line.h"
+#include "common/codec/version_line.h"
 #include "common/measure/table.h"
 #include "common/record/recording.h"
 
@@ -134,36 +134,37 @@ void Run(const Options& options) {
   if (options.floor) PrintFloor(Read(options.logs.front()));
 }
 
-}  // namespace
-}  // namespace seam
-
-int main(int argc, char** argv) {
-  seam::Options options;
-  CLI::App app{"Measures recordings against the truth: error, stutter, rebound, cost."};
+void Define(CLI::App& app, Options& options) {
   app.add_option("LOG", options.logs, "recordings (LCM logs)");
   app.add_option("--oracle", options.oracle,
                  "a recording made with --mode oracle; without it the oracle is computed");
-  const auto* csv = app.add_option("--csv", options.csv, "write the table as CSV to this file too");
+  app.add_option("--csv", options.csv, "write the table as CSV to this file too");
   app.add_flag("--append", options.append, "add to the CSV file instead of replacing it");
   app.add_option("--names", options.names, "what to call the runs, in the order of the logs")
       ->delimiter(',')
       ->allow_extra_args(false);  // the logs may follow it
   app.add_flag("--floor", options.floor, "also print what chaos alone does to the first log");
   app.add_flag("--more", options.more, "print the further measures");
-  return seam::RunMain("seam-measure", [&] {
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::CallForHelp& help) {
-      return app.exit(help);
-    } catch (const CLI::ParseError& error) {
-      throw seam::OperatorError(std::string(error.what()) + " (see seam-measure --help)");
-    }
-    if (options.logs.empty()) {
-      throw seam::OperatorError("which log? for example: seam-measure session.lcm");
-    }
-    if (options.append && csv->empty()) throw seam::OperatorError("--append needs --csv");
-    seam::Run(options);
-    if (std::fflush(stdout) != 0) throw seam::OperatorError("stdout: disk full?");
-    return 0;
-  });
+}
+
+}  // namespace
+}  // namespace seam
+
+int main(int argc, char** argv) {
+  using namespace seam;
+  Options options;
+  const ProgramText text{"seam-measure",
+                         "Measures recordings against the truth: error, stutter, rebound, cost.",
+                         VersionLine("seam-measure"), ""};
+  return RunCommandLine(
+      text, argc, argv, [&](CLI::App& app) { Define(app, options); },
+      [&] {
+        if (options.logs.empty()) {
+          throw OperatorError("which log? for example: seam-measure session.lcm");
+        }
+        if (options.append && options.csv.empty()) throw OperatorError("--append needs --csv");
+        Run(options);
+        if (std::fflush(stdout) != 0) throw OperatorError("stdout: disk full?");
+        return 0;
+      });
 }

@@ -68,51 +68,43 @@ void Check(const RenderOptions& o) {
 
 }  // namespace
 
-bool ParseRenderOptions(int argc, const char* const* argv, RenderOptions* options) {
+const char* const kRenderExamples =
+    "examples:\n"
+    "  seam-render session.lcm -o frames/                      one peer's view\n"
+    "  seam-render session.lcm -o frames/ --view all           all peers side by side\n"
+    "  seam-render --compare a.lcm b.lcm c.lcm -o frames/      runs in step\n"
+    "  seam-render --strobe a.lcm -o hit.png                   one collision in one picture\n"
+    "  seam-render --strobe --compare a.lcm b.lcm -o hits.png  a row for each run\n"
+    "  seam-render --live -o frames/                           what the LCM bus brings";
+
+void DefineRenderOptions(CLI::App* app, RenderOptions* options) {
   RenderOptions& o = *options;
   o.fonts = kFontFolder;
-  std::string size, view;
-  CLI::App app{"Draws recordings of Seam2D sessions as PNG pictures, without a display."};
-  app.name("seam-render");
-  app.footer(
-      "examples:\n"
-      "  seam-render session.lcm -o frames/                      one peer's view\n"
-      "  seam-render session.lcm -o frames/ --view all           all peers side by side\n"
-      "  seam-render --compare a.lcm b.lcm c.lcm -o frames/      runs in step\n"
-      "  seam-render --strobe a.lcm -o hit.png                   one collision in one picture\n"
-      "  seam-render --strobe --compare a.lcm b.lcm -o hits.png  a row for each run\n"
-      "  seam-render --live -o frames/                           what the LCM bus brings");
-  app.add_option("logs", o.logs, "LCM logs of sessions");
-  app.add_option("-o,--out", o.out, "folder for frames, or the .png file of --strobe");
-  app.add_flag("--compare", o.compare, "several logs in one picture, in step by tick");
-  app.add_flag("--strobe", o.strobe, "many exposures of one collision in one picture");
-  app.add_flag("--live", o.live, "draw what the LCM bus brings");
-  app.add_flag("--force", o.force, "write even where other files are");
-  app.add_option("--fps", o.fps, "frames per second of the session (30)");
-  app.add_option("--size", size, "WIDTHxHEIGHT in pixels (1280x720)");
-  app.add_option("--from", o.from_s, "first moment, s");
-  app.add_option("--to", o.to_s, "last moment, s");
-  app.add_option("--view", view, "whose view: a peer's number, or all (0, the server)");
-  app.add_option("--oracle", o.oracle, "log of the same scene made in mode oracle (computed)");
-  app.add_option("--threads", o.threads, "frames drawn at a time (number of cores)");
-  app.add_option("--every", o.every_ticks, "--strobe: ticks between exposures");
-  app.add_option("--lcm-url", o.lcm_url, "--live: the bus (LCM_DEFAULT_URL)");
-  app.add_option("--room", o.room, "which room, if there are several");
-  app.add_option("--seconds", o.seconds, "--live: stop after so long (when quiet for 2 s)");
-  app.add_option("--video", o.video, "also make this .mp4 of the frames, by ffmpeg");
-  app.add_option("--fonts", o.fonts, "folder of DejaVuSans.ttf and DejaVuSans-Bold.ttf");
-  try {
-    app.parse(argc, argv);
-  } catch (const CLI::CallForHelp&) {
-    std::fputs(app.help().c_str(), stdout);
-    return false;
-  } catch (const CLI::ParseError& error) {
-    throw OperatorError(std::string(error.what()) + " (seam-render --help)");
-  }
-  if (!size.empty()) ParseSize(size, options);
-  if (!view.empty()) ParseView(view, options);
-  Check(o);
-  return true;
+  app->add_option("logs", o.logs, "LCM logs of sessions");
+  app->add_option("-o,--out", o.out, "folder for frames, or the .png file of --strobe");
+  app->add_flag("--compare", o.compare, "several logs in one picture, in step by tick");
+  app->add_flag("--strobe", o.strobe, "many exposures of one collision in one picture");
+  app->add_flag("--live", o.live, "draw what the LCM bus brings");
+  app->add_flag("--force", o.force, "write even where other files are");
+  app->add_option("--fps", o.fps, "frames per second of the session (30)");
+  app->add_option("--size", o.size_text, "WIDTHxHEIGHT in pixels (1280x720)");
+  app->add_option("--from", o.from_s, "first moment, s");
+  app->add_option("--to", o.to_s, "last moment, s");
+  app->add_option("--view", o.view_text, "whose view: a peer's number, or all (0, the server)");
+  app->add_option("--oracle", o.oracle, "log of the same scene made in mode oracle (computed)");
+  app->add_option("--threads", o.threads, "frames drawn at a time (number of cores)");
+  app->add_option("--every", o.every_ticks, "--strobe: ticks between exposures");
+  app->add_option("--lcm-url", o.lcm_url, "--live: the bus (LCM_DEFAULT_URL)");
+  app->add_option("--room", o.room, "which room, if there are several");
+  app->add_option("--seconds", o.seconds, "--live: stop after so long (when quiet for 2 s)");
+  app->add_option("--video", o.video, "also make this .mp4 of the frames, by ffmpeg");
+  app->add_option("--fonts", o.fonts, "folder of DejaVuSans.ttf and DejaVuSans-Bold.ttf");
+}
+
+void CheckRenderOptions(RenderOptions* options) {
+  if (!options->size_text.empty()) ParseSize(options->size_text, options);
+  if (!options->view_text.empty()) ParseView(options->view_text, options);
+  Check(*options);
 }
 
 }  // namespace seam

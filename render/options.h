@@ -5,6 +5,10 @@
 #include <string>
 #include <vector>
 
+namespace CLI {
+class App;
+}
+
 namespace seam {
 
 struct RenderOptions {
@@ -24,11 +28,18 @@ struct RenderOptions {
   std::string lcm_url, room;
   double seconds = 0;  ///< live: at most this long; 0: until quiet
   std::string video;
+  std::string size_text, view_text;  ///< as given, until CheckRenderOptions
   std::string fonts;
 };
 
-/// False when only help was wanted (printed to stdout). Throws OperatorError, one line, on a flag
-/// that is unknown, malformed, or does not go with the others.
-bool ParseRenderOptions(int argc, const char* const* argv, RenderOptions* options);
+/// The last lines of --help.
+extern const char* const kRenderExamples;
+
+/// Says which flags there are; what is parsed goes to `options`, which must outlive `app`.
+void DefineRenderOptions(CLI::App* app, RenderOptions* options);
+
+/// After parsing. Throws OperatorError, one line, on a flag that is malformed or does not go with
+/// the others.
+void CheckRenderOptions(RenderOptions* options);
 
 }  // namespace seam

@@ -19,9 +19,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "frame_" and at least five digits and ".png".
-bool IsFrameName(const std::string& name) {
-  const std::string head = "frame_", tail = ".png";
+/// "frame_" and at least five digits and ".png"; or that with ".tmp", which an interrupted run
+/// left.
+bool IsFrameName(std::string name) {
+  const std::string head = "frame_", tail = ".png", unfinished = ".png.tmp";
+  if (name.size() > unfinished.size() &&
+      name.compare(name.size() - unfinished.size(), unfinished.size(), unfinished) == 0) {
+    name.resize(name.size() - 4);
+  }
   if (name.size() < head.size() + 5 + tail.size()) return false;
   if (name.compare(0, head.size(), head) != 0) return false;
   if (name.compare(name.size() - tail.size(), tail.size(), tail) != 0) return false;

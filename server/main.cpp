@@ -1,12 +1,15 @@
 /// seam-server: a room over UDP. `seam-server --help`.
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
 
+#include "common/base/command_line.h"
+#include "common/base/find_scene.h"
 #include "common/base/process.h"
+#include "common/base/progress_line.h"
+#include "common/codec/version_line.h"
 #include "common/net/farewell.h"
 #include "common/net/impair.h"
 #include "common/net/udp.h"
@@ -48,7 +51,7 @@ std::string ProfilesText() {
 }
 
 void Define(CLI::App& app, Flags& f) {
-  app.add_option("scene", f.scene, "scene file (scenes/*.toml)");
+  app.add_option("scene", f.scene, "scene file, or the name of a scene");
   app.add_option("--port", f.port, "UDP port")->check(CLI::Range(1, 65535));
   app.add_option("--bind", f.bind, "address to listen on");
   app.add_option("--mode", f.mode, "oracle | central | strict | buffer");
@@ -93,12 +96,32 @@ int PlayersToWaitFor(const Flags& f, const Scene& scene) {
   return f.wait >= 0 ? f.wait : players;
 }
 
-int Serve(const Flags& f) {
-  if (f.scene.empty()) {
-    throw OperatorError("which scene? for example: seam-server scenes/crossing.toml");
+/// "which scene? ..." with the names that would do.
+std::string WhichScene() {
+  std::string line = "which scene? for example: seam-server scenes/crossing.toml";
+  const char* before = "; by name: ";
+  for (const std::string& name : SceneNames()) {
+    line += before + name;
+    before = ", ";
   }
+  return line;
+}
+
+/// "12 s, tick 750, 2 of 2 player(s), worst round trip 53 ms, loss 1.2 %".
+std::string Progress(const Server& server, const Scene& scene) {
+  char line[160];
+  std::snprintf(line, sizeof line,
+                "%.0f s, tick %lld, %d of %zu player(s), worst round trip %.0f ms, loss %.1f %%",
+                static_cast<double>(server.tick()) / scene.solver.tick_hz,
+                static_cast<long long>(server.tick()), server.player_count(), scene.players.size(),
+                std::max(0, server.stats().rtt_us) / 1000.0, server.stats().loss_ppm / 10000.0);
+  return line;
+}
+
+int Serve(const Flags& f) {
+  if (f.scene.empty()) throw OperatorError(WhichScene());
   CheckRoomName(f.room);
-  const Scene scene = LoadScene(f.scene);
+  const Scene scene = LoadScene(FindScene(f.scene));
   ServerConfig config;
   config.sync = MakeSyncConfig(f.mode, f.reconcile);
   config.sync.tick_hz = scene.solver.tick_hz;
@@ -122,27 +145,23 @@ int Serve(const Flags& f) {
                scene.name.c_str(), f.mode.c_str(), config.sync.reconcile_name.empty() ? "" : " ",
                config.sync.reconcile_name.c_str(), f.impair.c_str(), ToString(udp.local()).c_str(),
                config.wait_players);
-  std::int64_t next_line_us = 0;
+  ProgressLine line(f.quiet);
   while (g_stop == 0 && (last_tick == 0 || server.tick() < last_tick)) {
     const std::int64_t now = SteadyClockUs();
     server.Tick(now, CpuUs());
     sink.Poll();
-    if (!f.quiet && server.started() && now >= next_line_us) {
-      next_line_us = now + 1000000;
-      std::fprintf(stderr, "\rtick %lld, %d client(s), worst round trip %.0f ms   ",
-                   static_cast<long long>(server.tick()), server.client_count(),
-                   std::max(0, server.stats().rtt_us) / 1000.0);
-    }
+    if (server.started() && line.Due(now)) line.Show(now, Progress(server, scene));
     const std::int64_t wake = std::min({server.next_tick_us(), net.next_due_us(), now + 20000});
     udp.Wait(std::max<std::int64_t>(0, wake - SteadyClockUs()));
   }
+  line.End();
   server.Shutdown(SteadyClockUs(), "the server stops");
   LetThrough(udp, net);
   sink.Poll();
   sink.Flush();
   const Stats& s = server.stats();
   std::fprintf(stderr,
-               "\nseam-server: %lld ticks; dropped %lld malformed, %lld stale, %lld without right, "
+               "seam-server: %lld ticks; dropped %lld malformed, %lld stale, %lld without right, "
                "%lld implausible; %lld bus failures\n",
                static_cast<long long>(server.tick()), static_cast<long long>(s.dropped_malformed),
                static_cast<long long>(s.dropped_stale), static_cast<long long>(s.dropped_right),
@@ -154,24 +173,16 @@ int Serve(const Flags& f) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return RunMain("seam-server", [&] {
-    CLI::App app{"seam-server: one room of a distributed 2D world, over UDP and the LCM bus"};
-    Flags flags;
-    Define(app, flags);
-    app.footer(ProfilesText());
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-      std::printf("%s", app.help().c_str());
-      return 0;
-    } catch (const CLI::ParseError& e) {
-      throw OperatorError(std::string(e.what()) + " (see seam-server --help)");
-    }
-    if (flags.doctor) {
-      const DoctorReport report = RunDoctor(flags.lcm_url);
-      for (const std::string& line : report.lines) std::printf("%s\n", line.c_str());
-      return report.healthy ? 0 : 1;
-    }
-    return Serve(flags);
-  });
+  Flags flags;
+  const ProgramText text{
+      "seam-server", "seam-server: one room of a distributed 2D world, over UDP and the LCM bus",
+      VersionLine("seam-server"), ProfilesText()};
+  return RunCommandLine(
+      text, argc, argv, [&](CLI::App& app) { Define(app, flags); },
+      [&] {
+        if (!flags.doctor) return Serve(flags);
+        const DoctorReport report = RunDoctor(flags.lcm_url);
+        for (const std::string& line : report.lines) std::printf("%s\n", line.c_str());
+        return report.healthy ? 0 : 1;
+      });
 }

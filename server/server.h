@@ -47,6 +47,8 @@ class Server {
   bool started() const { return tick0_us_ >= 0; }
   std::int64_t tick() const { return replica_.tick(); }
   int client_count() const { return static_cast<int>(sessions_.size()); }
+  /// Players of the scene who are in the room.
+  int player_count() const;
   const Stats& stats() const { return stats_; }
   const Replica& replica() const { return replica_; }
   const World& world() const { return replica_.world(); }

@@ -104,6 +104,11 @@ std::vector<int> Server::PeerOfPlayer() const {
   return peers;
 }
 
+int Server::player_count() const {
+  const std::vector<int> peers = PeerOfPlayer();
+  return static_cast<int>(std::count_if(peers.begin(), peers.end(), [](int p) { return p >= 0; }));
+}
+
 bool Server::EvictUnproven(std::int64_t now_us) {
   auto oldest = sessions_.end();
   for (auto it = sessions_.begin(); it != sessions_.end(); ++it) {

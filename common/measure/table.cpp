@@ -1,8 +1,8 @@
 #include "common/measure/table.h"
 
-#include <algorithm>
-
 #include <fmt/format.h>
+
+#include <algorithm>
 
 namespace seam {
 namespace {

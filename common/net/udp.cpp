@@ -1,19 +1,17 @@
 #include "common/net/udp.h"
 
-#include <algorithm>
-
 #include <arpa/inet.h>
-
-#include <array>
-#include <cerrno>
-#include <cstring>
-#include <ctime>
-
 #include <netdb.h>
 #include <netinet/in.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <ctime>
 
 #include "common/base/check.h"
 

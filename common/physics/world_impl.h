@@ -1,10 +1,9 @@
 #pragma once
 /// What a World is made of; for its own files.
 
-#include <algorithm>
-
 #include <box2d/box2d.h>
 
+#include <algorithm>
 #include <cfloat>
 #include <optional>
 #include <vector>

@@ -13,6 +13,8 @@
 namespace seam {
 namespace {
 
+namespace fs = std::filesystem;
+
 void Quiet(png_structp, png_const_charp) {}
 
 /// libpng leaves by longjmp, so nothing with a destructor may live in here.
@@ -41,15 +43,18 @@ bool Encode(std::FILE* file, const Image& image, int level) {
 
 void WritePng(const std::string& path, const Image& image, int level) {
   SEAM_ASSERT(image.width_px > 0 && image.height_px > 0);
-  std::FILE* file = std::fopen(path.c_str(), "wb");
+  std::error_code ignored;
+  const fs::file_status there = fs::symlink_status(path, ignored);
+  const bool renamed = !fs::exists(there) || fs::is_regular_file(there);
+  const std::string written = renamed ? path + ".tmp" : path;
+  std::FILE* file = std::fopen(written.c_str(), "wb");
   if (file == nullptr) throw OperatorError(path + ": " + std::strerror(errno));
   errno = 0;
   const bool encoded = Encode(file, image, level);
   const bool closed = std::fclose(file) == 0;
-  if (encoded && closed) return;
+  if (encoded && closed && (!renamed || std::rename(written.c_str(), path.c_str()) == 0)) return;
   const std::string why = errno != 0 ? std::strerror(errno) : "write failed";
-  std::error_code ignored;  // a device or a pipe is not ours to remove
-  if (std::filesystem::is_regular_file(path, ignored)) std::filesystem::remove(path, ignored);
+  if (renamed) fs::remove(written, ignored);
   throw OperatorError(path + ": " + why);
 }
 

@@ -8,7 +8,9 @@
 namespace seam {
 
 /// 8-bit RGB, no filter, no time stamp: the same image gives the same bytes. `level`: zlib's, 1..9.
-/// Throws OperatorError when the file cannot be written; a half-written one is removed.
+/// The file appears whole or not at all: it is written as `path`.tmp and then renamed, unless
+/// `path` is a device, a pipe or a link. Throws OperatorError when it cannot be written; what was
+/// there stays.
 void WritePng(const std::string& path, const Image& image, int level = 3);
 
 /// Reads an 8-bit RGB file as WritePng makes it. Throws OperatorError when it is none.

@@ -1,14 +1,14 @@
 /// Who has authority over what, when, in clusters whose network loses a lot: never two at once.
 
-#include <algorithm>
-
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
 #include "common/measure/measure.h"
 #include "tests/lab/cluster.h"
+#include "tests/support/soak.h"
 
 namespace seam {
 namespace {
@@ -97,7 +97,7 @@ TEST(Authority, NeverTwoAuthoritiesAtOnceUnderTwentyPercentLoss) {
   config.scene = "shuttle.toml";
   config.scene_text = kShuttle;
   config.impair = "delay=50ms,jitter=10ms,loss=20%";
-  for (std::int64_t seed = 1; seed <= 5; ++seed) {
+  for (std::int64_t seed = 1; seed <= Soak(5); ++seed) {
     config.seed = seed;
     Cluster cluster(config);
     Watcher watcher;

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "server/rules/rules.h"
+#include "tests/support/soak.h"
 #include "tests/support/two_sides.h"
 
 namespace seam {
@@ -76,7 +77,7 @@ std::map<std::string, int> Said(const Recording& recording) {
 
 TEST(RulesCluster, EachPickupIsGivenOnceAndAllPeersKnowTheSameAtTheEnd) {
   for (const char* mode : {"buffer", "strict", "central", "oracle"}) {
-    for (const std::int64_t seed : {1, 2}) {
+    for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
       Cluster cluster(With(Race(Coins()), mode, "4g", seed));
       cluster.Run();
       const std::map<std::string, int> said = Said(cluster.recording());

@@ -8,6 +8,7 @@
 #include "common/physics/part_places.h"
 #include "common/sync/edit_order.h"
 #include "server/authority/proposal.h"
+#include "tests/support/soak.h"
 #include "tests/support/two_sides.h"
 
 namespace seam {
@@ -76,7 +77,7 @@ void ExpectOneAuthority(Cluster* cluster) {
 class TopologyUnder : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(TopologyUnder, EditsKeepTheirOrderAndEndTheSameEverywhere) {
-  for (std::int64_t seed = 1; seed <= 3; ++seed) {
+  for (std::int64_t seed = 1; seed <= Soak(3); ++seed) {
     ClusterConfig config;
     config.scene_text = kBar;
     config.reconcile = "retrospect";

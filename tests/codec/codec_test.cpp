@@ -1,10 +1,9 @@
 #include "common/codec/codec.h"
 
-#include <cmath>
-#include <cstdint>
-
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <set>
@@ -14,6 +13,7 @@
 #include "common/net/link.h"
 #include "tests/support/count_allocations.h"
 #include "tests/support/random_messages.h"
+#include "tests/support/soak.h"
 
 namespace seam {
 namespace {
@@ -67,7 +67,7 @@ TYPED_TEST(Codec, RoundTripsRandomContents) {
 }
 
 TYPED_TEST(Codec, RejectsEveryTruncationAndEveryTrailingByte) {
-  for (std::uint64_t seed = 0; seed < 5; ++seed) {
+  for (std::uint64_t seed = 0; seed < static_cast<std::uint64_t>(Soak(5)); ++seed) {
     const Bytes bytes = Encode(Small<TypeParam>(seed));
     for (std::size_t size = 0; size < bytes.size(); ++size) {
       EXPECT_TRUE(Rejected(Bytes(bytes.begin(), bytes.begin() + static_cast<long>(size))));
@@ -93,7 +93,7 @@ TYPED_TEST(Codec, SurvivesEveryCorruptionOfOneByte) {
 TYPED_TEST(Codec, SurvivesRandomBytesAfterTheRightHash) {
   Random random(4);
   const Bytes good = Encode(Small<TypeParam>(4));
-  for (int i = 0; i < 5000; ++i) {
+  for (int i = 0; i < Soak(5000); ++i) {
     Bytes bytes(good.begin(), good.begin() + 8);
     const std::size_t size = random.Next() % 300;
     const bool mostly_zero = random.Chance(0.5);

@@ -1,12 +1,13 @@
 /// seam-lab: sessions of the real server and clients in virtual time, compared and swept.
 /// docs/lab.md.
 
-#include <CLI/CLI.hpp>
-#include <cstdio>
+#include <functional>
 #include <string>
+#include <utility>
+#include <vector>
 
-#include "common/base/check.h"
-#include "common/base/process.h"
+#include "common/base/command_line.h"
+#include "common/codec/version_line.h"
 #include "tests/lab/commands.h"
 
 namespace {
@@ -16,7 +17,7 @@ using namespace seam;
 CLI::App* DefineRun(CLI::App& app, RunCommand& c) {
   CLI::App* run = app.add_subcommand("run", "record one session in virtual time");
   SessionSettings& s = c.settings;
-  run->add_option("SCENE", s.scene, "scene file (scenes/*.toml)")->required();
+  run->add_option("SCENE", s.scene, "scene file, or the name of a scene")->required();
   run->add_option("-o,--output", c.log, "LCM log to write")->required();
   run->add_option("--mode", s.mode, "oracle | central | strict | buffer");
   run->add_option("--reconcile", s.reconcile, "rule for mode buffer (default retrospect)");
@@ -75,7 +76,7 @@ CLI::App* DefinePhysics(CLI::App& app, PhysicsCommand& c) {
 
 CLI::App* DefineTune(CLI::App& app, TuneCommand& c) {
   CLI::App* tune = app.add_subcommand("tune", "the cheapest solver setting below an error");
-  tune->add_option("SCENE", c.scene, "scene file (scenes/*.toml, scenes/hard/*.toml)")->required();
+  tune->add_option("SCENE", c.scene, "scene file, or the name of a scene")->required();
   tune->add_option("--error", c.error, "most error: a hard case's own measure, else RMS metres")
       ->required()
       ->check(CLI::Range(0.0, 1e9));
@@ -119,41 +120,34 @@ CLI::App* DefineReport(CLI::App& app, ReportCommand& c) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return RunMain("seam-lab", [&] {
-    CLI::App app{"seam-lab: sessions of the real server and clients in virtual time"};
+  RunCommand run;
+  DivergenceCommand divergence;
+  SweepCommand sweep;
+  PhysicsCommand physics;
+  TuneCommand tune;
+  OverheadCommand overhead;
+  WorldCommand world;
+  ReportCommand report;
+  // The subcommands, each with what it runs.
+  std::vector<std::pair<const CLI::App*, std::function<int()>>> commands;
+  const auto define = [&](CLI::App& app) {
     app.require_subcommand(1);
-    RunCommand run;
-    DivergenceCommand divergence;
-    SweepCommand sweep;
-    PhysicsCommand physics;
-    TuneCommand tune;
-    OverheadCommand overhead;
-    WorldCommand world;
-    ReportCommand report;
-    const CLI::App* run_app = DefineRun(app, run);
-    const CLI::App* divergence_app = DefineDivergence(app, divergence);
-    const CLI::App* sweep_app = DefineSweep(app, sweep);
-    const CLI::App* physics_app = DefinePhysics(app, physics);
-    const CLI::App* tune_app = DefineTune(app, tune);
-    const CLI::App* overhead_app = DefineOverhead(app, overhead);
-    const CLI::App* world_app = DefineWorld(app, world);
-    const CLI::App* report_app = DefineReport(app, report);
-    try {
-      app.parse(argc, argv);
-    } catch (const CLI::CallForHelp&) {
-      std::printf("%s", app.help().c_str());
-      return 0;
-    } catch (const CLI::ParseError& e) {
-      throw OperatorError(std::string(e.what()) + " (see seam-lab --help)");
+    commands = {{DefineRun(app, run), [&] { return RunLog(run); }},
+                {DefineDivergence(app, divergence), [&] { return FirstDivergence(divergence); }},
+                {DefineSweep(app, sweep), [&] { return RunSweep(sweep); }},
+                {DefinePhysics(app, physics), [&] { return RunPhysics(physics); }},
+                {DefineTune(app, tune), [&] { return RunTune(tune); }},
+                {DefineOverhead(app, overhead), [&] { return RunOverhead(overhead); }},
+                {DefineWorld(app, world), [&] { return RunWorld(world); }},
+                {DefineReport(app, report), [&] { return RunReport(report); }}};
+  };
+  const ProgramText text{"seam-lab",
+                         "seam-lab: sessions of the real server and clients in virtual time",
+                         VersionLine("seam-lab"), ""};
+  return RunCommandLine(text, argc, argv, define, [&] {
+    for (const auto& [app, command] : commands) {
+      if (app->parsed()) return command();
     }
-    if (run_app->parsed()) return RunLog(run);
-    if (divergence_app->parsed()) return FirstDivergence(divergence);
-    if (sweep_app->parsed()) return RunSweep(sweep);
-    if (physics_app->parsed()) return RunPhysics(physics);
-    if (tune_app->parsed()) return RunTune(tune);
-    if (overhead_app->parsed()) return RunOverhead(overhead);
-    if (world_app->parsed()) return RunWorld(world);
-    if (report_app->parsed()) return RunReport(report);
     return 2;
   });
 }

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "common/base/find_scene.h"
 #include "common/base/process.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/grid.h"
@@ -28,7 +29,7 @@ int RunOverhead(const OverheadCommand& command) {
   std::vector<Scene> scenes;
   std::vector<std::string> keys;
   for (const std::string& path : command.scenes) {
-    scenes.push_back(LoadScene(path));
+    scenes.push_back(LoadScene(FindScene(path)));
     keys.push_back(CsvField(path));
   }
   std::unique_ptr<SweepTable> table;

@@ -1,9 +1,6 @@
 #include "tests/lab/progress.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include <cstdio>
 
 #include "common/base/process.h"
 
@@ -20,25 +17,14 @@ std::string Span(double seconds) {
 }  // namespace
 
 Progress::Progress(std::size_t total, bool quiet)
-    : total_(total),
-      quiet_(quiet),
-      terminal_(isatty(STDERR_FILENO) != 0),
-      begin_us_(SteadyClockUs()),
-      last_us_(begin_us_) {}
-
-Progress::~Progress() {
-  if (shown_ && terminal_) std::fputc('\n', stderr);
-}
+    : total_(total), line_(quiet, 200000), begin_us_(SteadyClockUs()) {}
 
 void Progress::operator()(std::size_t done) {
   const std::int64_t now_us = SteadyClockUs();
-  if (quiet_ || now_us - last_us_ < (terminal_ ? 200000 : 60000000)) return;
-  last_us_ = now_us;
+  if (!line_.Due(now_us)) return;
   const double pace = static_cast<double>(now_us - begin_us_) / static_cast<double>(done);
-  std::fprintf(stderr, "%s%zu of %zu runs, about %s left%s", terminal_ ? "\r" : "", done, total_,
-               Span(pace * static_cast<double>(total_ - done) * 1e-6).c_str(),
-               terminal_ ? "      " : "\n");
-  shown_ = true;
+  line_.Show(now_us, fmt::format("{} of {} runs, about {} left", done, total_,
+                                 Span(pace * static_cast<double>(total_ - done) * 1e-6)));
 }
 
 }  // namespace seam

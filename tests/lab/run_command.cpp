@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "common/base/check.h"
+#include "common/base/find_scene.h"
 #include "common/base/process.h"
 #include "common/measure/measure.h"
 #include "common/record/log_file.h"
@@ -31,6 +32,7 @@ std::string Summary(const Recording& recording) {
 
 int RunLog(const RunCommand& command) {
   SessionSettings settings = command.settings;
+  settings.scene = FindScene(settings.scene);
   settings.smooth = command.smooth == "on";
   for (const std::string& each : command.set) settings.set.push_back(each);
   if (command.buffer_m) settings.set.push_back(fmt::format("buffer={}", *command.buffer_m));

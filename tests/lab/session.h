@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "common/base/version.h"
 #include "common/record/recorder.h"
 #include "tests/lab/cluster.h"
 
 namespace seam {
 
-/// The program's behaviour, for rows that must be comparable: raised by hand whenever a commit
-/// changes what a session does or how it is measured.
-constexpr const char* kLabVersion = "seam2d-0.3";
+/// The program's behaviour, for rows that must be comparable: "seam2d-" and the version.
+inline const std::string kLabVersion = std::string("seam2d-") + kVersion;
 
 /// What a session depends on; equal settings give equal bytes.
 struct SessionSettings {

@@ -1,13 +1,13 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-
-#include <fmt/format.h>
-
 #include <memory>
 
 #include "common/base/check.h"
+#include "common/base/find_scene.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/hard/observe.h"
 #include "tests/lab/hard/settings.h"
@@ -99,7 +99,9 @@ void PrintTrial(const char* mark, const Trial& trial) {
 
 }  // namespace
 
-int RunTune(const TuneCommand& command) {
+int RunTune(const TuneCommand& given) {
+  TuneCommand command = given;
+  command.scene = FindScene(given.scene);
   Target target = TargetOf(command);
   Introduce(command, &target);
   const Scene stock = WithSolver(target.scene, StockSolver());

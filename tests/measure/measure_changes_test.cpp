@@ -1,10 +1,9 @@
 /// Measures of worlds whose bodies come, go, split and merge: by part, against arithmetic.
 
-#include <algorithm>
-#include <cmath>
-
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <string>
 #include <utility>
 #include <vector>

@@ -1,10 +1,9 @@
 /// The named profiles keep the averages that they promise, and specs are read or refused.
 
-#include <algorithm>
-#include <cmath>
-
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
 

@@ -4,19 +4,17 @@
 ///   SEAM_GOLDEN=write build/release/seam-tests --gtest_filter='Determinism.*'
 /// look at the difference, and say in the commit message which hash changed and why.
 
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
 #include <cinttypes>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
-
-#include <gtest/gtest.h>
-
 #include <map>
 #include <memory>
-
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include "tests/support/scripted_world.h"
 

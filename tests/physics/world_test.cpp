@@ -2,9 +2,9 @@
 
 #include "common/physics/world.h"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "tests/support/scripted_world.h"
 

@@ -1,13 +1,11 @@
 /// Who comes, goes, vanishes and steers, with real processes.
 
-#include <algorithm>
-
 #include <gtest/gtest.h>
-
-#include <set>
-
 #include <signal.h>
 #include <unistd.h>
+
+#include <algorithm>
+#include <set>
 
 #include "tests/support/in_namespace.h"
 #include "tests/support/live_session.h"

@@ -10,6 +10,7 @@
 #include "common/base/check.h"
 #include "common/base/random.h"
 #include "common/physics/world.h"
+#include "tests/support/soak.h"
 
 namespace seam {
 namespace {
@@ -64,7 +65,7 @@ TEST(SceneFuzz, RandomBytesAreRefusedOrHarmless) {
   int good = 0, bad = 0;
   for (const char* name : kShipped) {
     const std::string text = ReadText(name);
-    for (int round = 0; round < 1500; ++round) {
+    for (int round = 0; round < Soak(1500); ++round) {
       std::string damaged = text;
       const auto edits = 1 + random.Next() % 4;
       for (std::uint64_t i = 0; i < edits && !damaged.empty(); ++i) {
@@ -152,7 +153,8 @@ TEST(SceneFuzz, RandomScenesThatPassNeverMakeBox2DAbort) {
   RecordProperty("seed", std::to_string(kSeed));
   Random random(kSeed);
   int good = 0;
-  for (int round = 0; round < 6000; ++round) good += Survives(RandomScene(&random), 20) ? 1 : 0;
+  for (int round = 0; round < Soak(6000); ++round)
+    good += Survives(RandomScene(&random), 20) ? 1 : 0;
   EXPECT_GT(good, 1000);
 }
 

@@ -2,9 +2,9 @@
 
 #include "server/rules/rules.h"
 
-#include <algorithm>
-
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "server/rules/part_owner.h"
 #include "server/rules/script_room.h"

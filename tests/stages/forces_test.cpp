@@ -2,9 +2,9 @@
 
 #include "common/scene/forces.h"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "tests/support/small_world.h"
 

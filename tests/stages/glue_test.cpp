@@ -1,9 +1,8 @@
 /// Glue that breaks: forces by arithmetic.
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
 #include "common/stages/bonds/bond_net.h"
@@ -78,7 +77,9 @@ TEST(Glue, TheTopmostBondOfAHangingChainBreaksFirstAtTheWeightBelow) {
   breaks->Step();
   const std::vector<Edit> proposed = breaks->ProposeEdits();
   ASSERT_EQ(proposed.size(), 1u);
-  EXPECT_EQ(breaks->scene().joints[static_cast<std::size_t>(proposed[0].As<BreakEdit>()->joint)].name, "box.h.0");
+  EXPECT_EQ(
+      breaks->scene().joints[static_cast<std::size_t>(proposed[0].As<BreakEdit>()->joint)].name,
+      "box.h.0");
 }
 
 TEST(Glue, ACantileverOnAWallBreaksAtTheWall) {

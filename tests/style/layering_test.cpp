@@ -222,7 +222,7 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
   ExpectOnlyIn("render/canvas/png[^/]*", kCode, "png\\.h|spng\\.h");
   ExpectOnlyIn("render/canvas/font[^/]*", kCode, "ft2build\\.h|freetype/.*");
   ExpectOnlyIn("common/scene/toml_tree\\.cpp", kProduct, "toml\\.hpp|toml[^/]*/.*");
-  ExpectOnlyIn("(server|client|render)/.*", kProduct, "CLI/.*");
+  ExpectOnlyIn("render/options\\.cpp|common/base/command_line\\.h", kProduct, "CLI/.*");
   ExpectOnlyIn("server/script/script_lua[^/]*", kCode, "(.*/)?(lua|lauxlib|lualib)\\.h(pp)?");
   ExpectOnlyIn("none", kProduct, "gtest/.*");
   ExpectOnlyIn("common/net/udp[^/]*", kProduct, "sys/socket\\.h|netinet/.*|arpa/.*|netdb\\.h");

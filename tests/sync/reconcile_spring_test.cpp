@@ -1,9 +1,9 @@
 /// spring: the damped oscillator it is, its cap, and that it gives way.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
-
-#include <gtest/gtest.h>
 
 #include "common/sync/reconcile/reconcile.h"
 #include "tests/support/followed_copy.h"

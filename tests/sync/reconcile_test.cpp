@@ -2,9 +2,9 @@
 
 #include "common/sync/reconcile/reconcile.h"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "common/base/check.h"
 

@@ -1,10 +1,10 @@
 /// A replica that corrects a copy, against the authority's world, message by message.
 
+#include <gtest/gtest.h>
+
 #include <algorithm>
 #include <cmath>
 #include <deque>
-
-#include <gtest/gtest.h>
 
 #include "common/sync/replica.h"
 

@@ -1,9 +1,8 @@
 #include "common/sync/send_scheduler.h"
 
-#include <algorithm>
-
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "tests/support/small_world.h"

@@ -1,8 +1,8 @@
 /// The small parts of common/sync, each against what it promises.
 
-#include <cmath>
-
 #include <gtest/gtest.h>
+
+#include <cmath>
 
 #include "client/clock_filter.h"
 #include "common/base/check.h"

@@ -2,9 +2,9 @@
 
 #include "common/topology/feather_blast.h"
 
-#include <algorithm>
-
 #include <gtest/gtest.h>
+
+#include <algorithm>
 
 #include "common/scene/bricks.h"
 #include "common/scene/mass.h"

@@ -2,10 +2,9 @@
 
 #include "common/topology/feather_store.h"
 
-#include <algorithm>
-
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <set>
 #include <tuple>
@@ -13,6 +12,7 @@
 #include "common/base/random.h"
 #include "common/scene/bricks.h"
 #include "common/stages/bricks/feather_outline.h"
+#include "tests/support/soak.h"
 
 namespace seam {
 namespace {
@@ -157,7 +157,7 @@ TEST(FeatherOutline, AWallOverManyCellsHasOneLinePerCellAndNoInnerEdge) {
 }
 
 TEST(FeatherOutline, AllCellsTogetherAreTheBoundaryOfTheUnion) {
-  for (int seed = 0; seed < 40; ++seed) {
+  for (int seed = 0; seed < Soak(40); ++seed) {
     Random random(static_cast<std::uint64_t>(seed));
     std::vector<BrickField> fields;
     for (int i = 0; i < 12; ++i) {  // also overlapping, touching at corners, reaching over borders

@@ -205,7 +205,7 @@ TEST(Topology, ABondThatIsNotFiniteOrTurnsWithoutEndIsRefused) {
   for (const float angle : {3e38f, inf, -inf, std::nanf(""), 6.3f}) {
     EXPECT_FALSE(world->topology().Validate(Bond(2, 0, 1, 0.5f, angle)).ok()) << angle;
     world->Apply({Bond(2, 0, 1, 0.5f, angle)});
-    world->Step();   // an angle of 3e38 aborted the engine here
+    world->Step();  // an angle of 3e38 aborted the engine here
   }
   EXPECT_FALSE(world->topology().Validate(Bond(2, 0, inf, 0, 0)).ok());
   EXPECT_FALSE(world->topology().Validate(Bond(2, 0, 0, std::nanf(""), 0)).ok());

@@ -156,7 +156,7 @@ void JoinStage::ProposeEdits(std::vector<Edit>* edits) {
     if (one == other || one < 0 || other < 0 || busy.count(one) + busy.count(other) > 0) continue;
     busy.insert({one, other});
     edits->emplace_back(JoinOf(w_.scene.parts[static_cast<std::size_t>(a)], outlet,
-                             w_.scene.parts[static_cast<std::size_t>(b)], inlet));
+                               w_.scene.parts[static_cast<std::size_t>(b)], inlet));
   }
 }
 

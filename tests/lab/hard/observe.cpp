@@ -1,10 +1,9 @@
 #include "tests/lab/hard/observe.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <numeric>
 
 #include "common/base/check.h"

@@ -1,9 +1,9 @@
 #include "tests/lab/hard/physics_plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-
-#include <fmt/format.h>
 
 #include "tests/lab/hard/script_player.h"
 

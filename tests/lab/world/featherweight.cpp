@@ -1,13 +1,11 @@
 /// A city of anchored bricks under 100 moving bodies: as featherweight bricks, as ordinary static
 /// bodies, and not there at all.
 
-#include <cstdio>
-
 #include <malloc.h>
-
-#include <memory>
-
 #include <unistd.h>
+
+#include <cstdio>
+#include <memory>
 
 #include "common/physics/world.h"
 #include "common/scene/bricks.h"

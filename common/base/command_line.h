@@ -1,0 +1,40 @@
+#pragma once
+/// What the five mains share: a command line is parsed, help and version are printed, a mistake in
+/// it is one line and status 2. For mains only: it brings CLI11.
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "common/base/process.h"
+
+namespace seam {
+
+struct ProgramText {
+  const char* name;     ///< "seam-server"
+  std::string about;    ///< the first line of --help
+  std::string version;  ///< what --version prints
+  std::string footer;   ///< the last lines of --help
+};
+
+/// Parses the command line as `define(CLI::App&)` says, then returns `run()`, within RunMain.
+/// --help (of a subcommand too) and --version print to stdout and return 0 without running.
+template <typename Define, typename Run>
+int RunCommandLine(const ProgramText& text, int argc, const char* const* argv, Define define,
+                   Run run) {
+  return RunMain(text.name, [&] {
+    CLI::App app(text.about, text.name);
+    app.footer(text.footer);
+    app.set_version_flag("--version", text.version);
+    define(app);
+    try {
+      app.parse(argc, argv);
+    } catch (const CLI::Success& wish) {
+      return app.exit(wish);
+    } catch (const CLI::ParseError& e) {
+      throw OperatorError(std::string(e.what()) + " (see " + text.name + " --help)");
+    }
+    return run();
+  });
+}
+
+}  // namespace seam

@@ -1,0 +1,16 @@
+#pragma once
+/// What `--version` says: the program, its version, and who it can talk to.
+
+#include <string>
+
+#include "common/base/version.h"
+#include "common/codec/messages.h"
+
+namespace seam {
+
+/// "seam-server 0.4.0 (protocol 2)".
+inline std::string VersionLine(const std::string& program) {
+  return program + " " + kVersion + " (protocol " + std::to_string(kProtocolVersion) + ")";
+}
+
+}  // namespace seam

@@ -1,0 +1,140 @@
+/// What `make install` puts somewhere works from there: programs, scenes by name, the library.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <memory>
+
+#include "common/base/version.h"
+#include "common/codec/messages.h"
+#include "tests/support/program.h"
+#include "tests/support/source_tree.h"
+
+namespace seam {
+namespace {
+
+namespace fs = std::filesystem;
+using Words = std::vector<std::string>;
+
+/// Installed once, below a DESTDIR of its own; nothing is built.
+class Installed : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    made_ = std::make_unique<Workspace>();
+    const fs::path bin = fs::path(BuiltProgram("seam-server")).parent_path();
+    Program make(
+        {"env", "-u", "MAKEFLAGS", "-u", "MAKELEVEL", "make", "install-built",
+         "BUILD=" + bin.filename().string(), "DESTDIR=" + *made_ / "dest", "PREFIX=/opt/seam"},
+        Root().string());
+    ASSERT_TRUE(make.Wait(60) && make.status() == 0) << make.Story();
+  }
+  static void TearDownTestSuite() { made_.reset(); }
+
+  static std::string At(const std::string& path) { return *made_ / ("dest/opt/seam/" + path); }
+
+  /// Runs `words` in `folder`, with pkg-config looking at what was installed.
+  static std::unique_ptr<Program> Run(Words words, const Workspace& folder) {
+    words.insert(words.begin(), {"env", "PKG_CONFIG_PATH=" + At("lib/pkgconfig")});
+    auto program = std::make_unique<Program>(words, folder.path());
+    EXPECT_TRUE(program->Wait(120)) << "hangs";
+    return program;
+  }
+
+  /// A tenth of a second of a room that waits for nobody.
+  static Words ServerWords(const std::string& scene) {
+    return {At("bin/seam-server"), scene, "--bind",    "127.0.0.1:0", "--wait", "0",
+            "--duration",          "0.1", "--lcm-url", "none"};
+  }
+
+ private:
+  inline static std::unique_ptr<Workspace> made_;
+};
+
+/// What stands between `begin` and the next `end`; "" when there is no such place.
+std::string Between(const std::string& text, const std::string& begin, const std::string& end) {
+  const std::size_t at = text.find(begin);
+  if (at == std::string::npos) return "";
+  const std::size_t from = at + begin.size(), to = text.find(end, from);
+  return to == std::string::npos ? "" : text.substr(from, to - from);
+}
+
+TEST_F(Installed, TheProgramOfTheEmbeddingPageCompilesAndPrintsWhatThePageSays) {
+  std::ifstream file(Root() / "docs/embedding.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  const std::string code = Between(page, "```cpp\n", "```");
+  const std::string printed = Between(page, "\nprints `", "`");
+  ASSERT_FALSE(code.empty() || printed.empty());
+  const Workspace folder;
+  folder.Write("slide.cpp", code);
+  const auto compile = Run({"sh", "-c",
+                            "g++ -Wall -Wextra -Werror slide.cpp "
+                            "$(pkg-config --cflags --libs seam2d) -o slide"},
+                           folder);
+  ASSERT_EQ(compile->status(), 0) << compile->Story();
+  const auto slide = Run({"./slide"}, folder);
+  EXPECT_EQ(slide->status(), 0);
+  EXPECT_EQ(slide->output(), printed + "\n");
+}
+
+TEST_F(Installed, PkgConfigAndEveryProgramSayTheVersion) {
+  const Workspace folder;
+  EXPECT_EQ(Run({"pkg-config", "--modversion", "seam2d"}, folder)->output(),
+            std::string(kVersion) + "\n");
+  for (const char* name :
+       {"seam-server", "seam-client", "seam-render", "seam-measure", "seam-lab"}) {
+    const auto program = Run({At(std::string("bin/") + name), "--version"}, folder);
+    EXPECT_EQ(program->status(), 0) << program->Story();
+    EXPECT_EQ(program->errors(), "");
+    EXPECT_EQ(program->output(), std::string(name) + " " + kVersion + " (protocol " +
+                                     std::to_string(kProtocolVersion) + ")\n");
+  }
+}
+
+TEST_F(Installed, ScenesAreFoundByNameFromAnyFolder) {
+  const Workspace folder;
+  for (const char* scene : {"crossing", "arch"}) {  // one of them lies in scenes/hard
+    const auto server = Run(ServerWords(scene), folder);
+    EXPECT_EQ(server->status(), 0) << server->Story();
+  }
+  const auto lab = Run(
+      {At("bin/seam-lab"), "run", "crossing", "-o", "run.lcm", "--no-floor", "--duration", "0.1"},
+      folder);
+  EXPECT_EQ(lab->status(), 0) << lab->Story();
+  const auto none = Run({At("bin/seam-server")}, folder);
+  EXPECT_EQ(none->status(), 2);
+  EXPECT_NE(none->errors().find("by name: conveyor, "), std::string::npos) << none->Story();
+}
+
+TEST_F(Installed, ASceneOfTheCurrentFolderComesBeforeAnInstalledOne) {
+  const Workspace folder;
+  fs::create_directory(folder / "scenes");
+  folder.Write("scenes/crossing.toml", "nonsense = 1\n");
+  const auto scenes = Run(ServerWords("crossing"), folder);
+  EXPECT_EQ(scenes->errors().rfind("seam-server: scenes/crossing.toml:1: ", 0), 0u)
+      << scenes->Story();
+  folder.Write("crossing", "nonsense = 1\n");  // the file itself before both
+  const auto file = Run(ServerWords("crossing"), folder);
+  EXPECT_EQ(file->errors().rfind("seam-server: crossing:1: ", 0), 0u) << file->Story();
+}
+
+TEST_F(Installed, AScenesNameThatIsNowhereIsOneLineThatSaysWhereItLooked) {
+  const Workspace folder;
+  const auto server = Run(ServerWords("crosing"), folder);
+  EXPECT_EQ(server->status(), 2);
+  const std::string line = server->errors();
+  EXPECT_EQ(std::count(line.begin(), line.end(), '\n'), 1) << line;
+  for (const std::string& place :
+       {std::string("no scene \"crosing\""), std::string(" scenes/crosing.toml"),
+        std::string(" scenes/hard/crosing.toml"), At("share/seam2d/scenes/crosing.toml"),
+        At("share/seam2d/scenes/hard/crosing.toml")}) {
+    EXPECT_NE(line.find(place), std::string::npos) << line << "does not name " << place;
+  }
+  const auto path = Run(ServerWords("./crossing"), folder);
+  EXPECT_EQ(path->errors().rfind("seam-server: ./crossing: no such", 0), 0u) << path->Story();
+}
+
+}  // namespace
+}  // namespace seam
