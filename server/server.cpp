@@ -13,8 +13,6 @@ namespace {
 constexpr int kStepsMax = 8;
 /// Remote mechanisms are relayed every so many sends.
 constexpr std::int64_t kFarEvery = 3;
-/// Plans of who simulates what: more often follows faster bodies, and costs more with many.
-constexpr int kPlansPerSecond = 10;
 
 }  // namespace
 
@@ -24,18 +22,9 @@ Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorde
       net_(net),
       publisher_(recorder, config.room),
       replica_(scene_, config.sync, 0, -1),
-      planner_(scene_, config.sync) {
+      authority_(scene_, config.sync, replica_) {
   hash_after_[0] = replica_.world().composition().hash;
-  revoking_.assign(static_cast<std::size_t>(replica_.authority().count()), false);
   accepted_.resize(static_cast<std::size_t>(replica_.world().body_count()));
-  if (config_.sync.mode == Mode::kBuffer) {
-    // The server follows everything, so that it can take over at any moment.
-    for (int m = 0; m < replica_.authority().count(); ++m) {
-      AuthorityRecord h;
-      h.secondaries.Add(0);
-      replica_.authority().Set(m, h);
-    }
-  }
   MakeRules();
 }
 
@@ -73,7 +62,7 @@ void Server::StartIfReady(std::int64_t now_us) {
   if (ready < config_.wait_players) return;
   tick0_us_ = now_us + (config_.wait_players > 0 ? kLeadInUs : 0);
   // Whoever is here from the start has its mechanisms from tick 0 on: plan once, now.
-  PlanAuthority(now_us);
+  UpdateAuthority(now_us);
   View view = replica_.MakeView();
   view.utime = now_us;
   publisher_.Publish(view);
@@ -98,7 +87,7 @@ void Server::StepOnce(std::int64_t now_us) {
   replica_.Step();
   for (const Edit& edit : replica_.TakeProposals()) Order(edit);
   UpdateSeats();
-  PlanAuthority(now_us);
+  UpdateAuthority(now_us);
   for (States& states : replica_.TakeStates()) {
     states.utime = now_us;
     Relay(states, 0);
@@ -113,58 +102,16 @@ void Server::StepOnce(std::int64_t now_us) {
   RunRules(now_us);
 }
 
-void Server::PlanAuthority(std::int64_t now_us) {
-  if (plan_due_ || replica_.tick() % std::max(1, config_.sync.tick_hz / kPlansPerSecond) == 0) {
-    plan_due_ = false;
-    plan_ = planner_.Plan(replica_.world(), replica_.authority(), PeerOfPlayer());
-    if (config_.sync.mode != Mode::kOracle) BringTogether(&plan_);
-    ForbidPlanned();
+void Server::UpdateAuthority(std::int64_t now_us) {
+  AuthorityManager::Situation situation;
+  situation.peer_of_player = PeerOfPlayer();
+  for (const auto& [address, session] : sessions_) {
+    if (!session->link.reliable_pending()) situation.confirmed.Add(session->peer);
   }
-  std::vector<int> changed;
-  std::vector<Grants> revocations;
-  for (int m = 0; m < replica_.authority().count(); ++m) {
-    const auto index = static_cast<std::size_t>(m);
-    AuthorityRecord h = replica_.authority().at(m);
-    const PlannedAuthority& planned = plan_[index];
-    if (revoking_[index]) {
-      // One authority at a time: the server takes over only once the holder has confirmed.
-      const bool confirmed = std::any_of(sessions_.begin(), sessions_.end(), [&](const auto& s) {
-        return s.second->peer == h.authority && !s.second->link.reliable_pending();
-      });
-      if (!confirmed) continue;
-      revoking_[index] = false;
-      h = WithoutHolder(h);
-      replica_.authority().Set(m, h);
-    }
-    PeerSet secondaries = planned.secondaries;
-    if (config_.sync.mode == Mode::kBuffer) secondaries.Add(0);
-    if (h.authority != 0 && planned.authority != h.authority) {
-      revoking_[index] = true;
-      AuthorityTable told = replica_.authority();
-      told.Set(m, WithoutHolder(h));
-      for (const Grants& g : told.Export(now_us, replica_.tick(), {m})) revocations.push_back(g);
-      continue;
-    }
-    if (planned.authority == h.authority && secondaries == h.secondaries) continue;
-    if (planned.authority != h.authority) h.epoch += 1;
-    h.authority = planned.authority;
-    h.secondaries = secondaries;
-    replica_.authority().Set(m, h);
-    changed.push_back(m);
+  for (const Pending& pending : pending_) {
+    situation.together.push_back(MechanismsOf(pending.edit));
   }
-  if (!revocations.empty()) Announce(revocations);
-  if (!changed.empty()) {
-    replica_.RolesChanged();
-    Announce(replica_.authority().Export(now_us, replica_.tick(), changed));
-  }
-}
-
-AuthorityRecord Server::WithoutHolder(AuthorityRecord h) const {
-  // Who lets go goes on simulating until the next grant: its copy is the best there is.
-  if (config_.sync.mode == Mode::kBuffer) h.secondaries.Add(h.authority);
-  h.authority = 0;
-  h.epoch += 1;
-  return h;
+  Announce(authority_.Update(now_us, situation));
 }
 
 void Server::Announce(const std::vector<Grants>& messages) {
@@ -191,8 +138,7 @@ void Server::Relay(const States& states, int from_peer) {
     for (std::size_t i = 0; i < states.id.size() && !near; ++i) {
       const int body = replica_.world().BodyOfId(states.id[i]);
       if (body < 0) continue;  // it has left meanwhile
-      const AuthorityRecord& h = replica_.authority().at(replica_.world().mechanism(body));
-      near = h.secondaries.Has(session->peer);
+      near = authority_.Follows(session->peer, body);
     }
     if (near || send % kFarEvery == 0) session->link.SendUnreliable(bytes);
   }

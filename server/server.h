@@ -14,7 +14,7 @@
 #include "common/record/recorder.h"
 #include "common/sync/publisher.h"
 #include "common/sync/replica.h"
-#include "server/authority/planner.h"
+#include "server/authority/authority_manager.h"
 #include "server/session.h"
 
 namespace seam {
@@ -70,9 +70,6 @@ class Server {
   // server_edits.cpp
   void OnProposal(Session& session, const EditOrder& order);
   std::vector<int> MechanismsOf(const Edit& edit) const;
-  bool InOneHand(const std::vector<int>& mechanisms) const;
-  /// Lets mechanisms that are to be joined planned for the same authority.
-  void BringTogether(std::vector<PlannedAuthority>* plan) const;
   void OrderPending(std::int64_t now_us);
   void FollowTopology(const std::optional<BodyRemap>& change);
   void CheckComposition(std::int64_t now_us, Session& session, const Ping& ping);
@@ -103,8 +100,6 @@ class Server {
   bool EvictUnproven(std::int64_t now_us);
   void DropSilent(std::int64_t now_us);
   void Drop(std::int64_t now_us, const Address& address, const std::string& why);
-  /// The server has the dropped peer's mechanisms from now on.
-  void TakeBack(std::int64_t now_us, int peer);
   void FlushAll(std::int64_t now_us);
   std::vector<int> PeerOfPlayer() const;
 
@@ -113,15 +108,11 @@ class Server {
   void MakeRules();
   void RunRules(std::int64_t now_us);
   void SendRules(std::int64_t now_us, Session& session);
-  /// Who may not push a part does not get its authority.
-  void ForbidPlanned();
 
   // server.cpp
   void StartIfReady(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);
-  void PlanAuthority(std::int64_t now_us);
-  /// The record while nobody has it: the server next, an epoch on.
-  AuthorityRecord WithoutHolder(AuthorityRecord h) const;
+  void UpdateAuthority(std::int64_t now_us);
   void Announce(const std::vector<Grants>& messages);
   /// Reliably, to everyone who has proved its address; who never acknowledges has to leave.
   void SendToAll(const Bytes& message);
@@ -135,14 +126,11 @@ class Server {
   Net& net_;
   Publisher publisher_;
   Replica replica_;
-  Planner planner_;
+  AuthorityManager authority_;
   Sessions sessions_;
   std::unique_ptr<RoomCommands> commands_;
-  std::unique_ptr<Rules> rules_;        // null: the scene has nothing to decide
-  std::int64_t rules_us_ = 0;           // the time of the tick they look at
-  std::vector<PlannedAuthority> plan_;  // of the last plan
-  bool plan_due_ = true;                // somebody came or went
-  std::vector<bool> revoking_;          // by mechanism: told to let go, not yet confirmed
+  std::unique_ptr<Rules> rules_;  // null: the scene has nothing to decide
+  std::int64_t rules_us_ = 0;     // the time of the tick they look at
   struct Pending {
     Edit edit;
     int peer = 0;            // who proposed it

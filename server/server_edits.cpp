@@ -43,7 +43,7 @@ void Server::OnProposal(Session& session, const EditOrder& order) {
   const bool right = !parts.empty() && MayPropose(topology, edit) &&
                      std::any_of(parts.begin(), parts.end(), [&](PartId part) {
                        const int m = MechanismOf(replica_.world(), part);
-                       return m >= 0 && replica_.authority().at(m).authority == session.peer;
+                       return m >= 0 && authority_.Has(session.peer, m);
                      });
   if (!right) {
     ++stats_.dropped_right;
@@ -65,40 +65,6 @@ std::vector<int> Server::MechanismsOf(const Edit& edit) const {
   return mechanisms;
 }
 
-bool Server::InOneHand(const std::vector<int>& mechanisms) const {
-  for (const int m : mechanisms) {
-    if (revoking_[static_cast<std::size_t>(m)]) return false;
-    if (replica_.authority().at(m).authority !=
-        replica_.authority().at(mechanisms.front()).authority) {
-      return false;
-    }
-  }
-  return true;
-}
-
-void Server::BringTogether(std::vector<PlannedAuthority>* plan) const {
-  for (const Pending& pending : pending_) {
-    const std::vector<int> mechanisms = MechanismsOf(pending.edit);
-    if (mechanisms.size() < 2) continue;
-    // To whom the owner of either plays; else to whom has the first.
-    int to = (*plan)[static_cast<std::size_t>(mechanisms.front())].authority;
-    for (const int m : mechanisms) {
-      const Mechanism& mechanism =
-          replica_.world().composition().mechanisms[static_cast<std::size_t>(m)];
-      if (mechanism.owner >= 0) {
-        to = (*plan)[static_cast<std::size_t>(m)].authority;
-        break;
-      }
-    }
-    for (const int m : mechanisms) {
-      PlannedAuthority& planned = (*plan)[static_cast<std::size_t>(m)];
-      if (planned.authority != to) planned.secondaries.Add(planned.authority);
-      planned.authority = to;
-      planned.secondaries.Remove(to);
-    }
-  }
-}
-
 void Server::OrderPending(std::int64_t now_us) {
   const Topology& topology = replica_.world().topology();
   const auto patience = static_cast<std::int64_t>(kPatience * config_.sync.tick_hz);
@@ -115,7 +81,7 @@ void Server::OrderPending(std::int64_t now_us) {
       return std::find(taken.begin(), taken.end(), part) != taken.end();
     });
     const bool bond = pending.edit.kind == EditKind::kBond;
-    if ((bond && again) || !InOneHand(MechanismsOf(pending.edit))) {
+    if ((bond && again) || !authority_.InOneHand(MechanismsOf(pending.edit))) {
       if (replica_.tick() - pending.since < patience) waiting.push_back(pending);
       continue;
     }
@@ -147,19 +113,13 @@ void Server::OrderPending(std::int64_t now_us) {
 void Server::FollowTopology(const std::optional<BodyRemap>& change) {
   hash_after_[replica_.revision()] = replica_.world().composition().hash;
   if (!change) return;
-  std::vector<bool> revoking;
-  for (const std::vector<int>& from : change->mechanisms) {
-    revoking.push_back(!from.empty() && revoking_[static_cast<std::size_t>(from.front())]);
-  }
-  revoking_ = revoking;
   std::vector<LastAccepted> accepted;
   for (const BodyOrigin& origin : change->bodies) {
     accepted.push_back(origin.same ? accepted_[static_cast<std::size_t>(origin.body)]
                                    : LastAccepted{});
   }
   accepted_ = accepted;
-  planner_.Remap(change->mechanisms);
-  plan_due_ = true;
+  authority_.Remap(change->mechanisms);
 }
 
 void Server::CheckComposition(std::int64_t now_us, Session& session, const Ping& ping) {
@@ -185,9 +145,7 @@ void Server::CheckComposition(std::int64_t now_us, Session& session, const Ping&
 
 void Server::SendWorld(std::int64_t now_us, Session& session) {
   for (const EditOrder& order : edits_) session.link.SendReliable(Encode(order));
-  std::vector<int> all;
-  for (int m = 0; m < replica_.authority().count(); ++m) all.push_back(m);
-  for (const Grants& g : replica_.authority().Export(now_us, replica_.tick(), all)) {
+  for (const Grants& g : authority_.Export(now_us)) {
     session.link.SendReliable(Encode(g));
   }
   if (!started()) return;

@@ -86,7 +86,7 @@ void Server::OnHello(std::int64_t now_us, Session& session, const Hello& hello) 
     if (session.stage == SessionStage::kLoading) {
       session.stage = SessionStage::kReady;
       if (rules_ != nullptr && session.player >= 0) rules_->OnJoin(session.player);
-      plan_due_ = true;
+      authority_.PlanSoon();
       Say(now_us, session.name + " is ready as peer " + std::to_string(session.peer));
     }
     return;
@@ -206,13 +206,9 @@ void Server::OnStates(std::int64_t now_us, Session& session, const States& state
       ++stats_.dropped_stale;
       continue;
     }
-    const AuthorityRecord& h = replica_.authority().at(replica_.world().mechanism(body));
-    if (h.authority != session.peer) {
-      ++(states.epoch[i] < h.epoch ? stats_.dropped_stale : stats_.dropped_right);
-      continue;
-    }
-    if (states.epoch[i] != h.epoch) {
-      ++stats_.dropped_stale;
+    const auto right = authority_.RightToMove(session.peer, body, states.epoch[i]);
+    if (right != AuthorityManager::Right::kYes) {
+      ++(right == AuthorityManager::Right::kStale ? stats_.dropped_stale : stats_.dropped_right);
       continue;
     }
     const BodyState state = Unpack(states, i, 0);

@@ -97,19 +97,4 @@ void Server::SendRules(std::int64_t now_us, Session& session) {
   }
 }
 
-void Server::ForbidPlanned() {
-  const std::vector<Part>& parts = replica_.world().scene().parts;
-  const std::vector<int> peers = PeerOfPlayer();
-  for (const Part& part : parts) {
-    if (part.rules->push == kEveryPlayer) continue;
-    const int mechanism = MechanismOf(replica_.world(), part.id);
-    if (mechanism < 0 || static_cast<std::size_t>(mechanism) >= plan_.size()) continue;
-    PlannedAuthority& planned = plan_[static_cast<std::size_t>(mechanism)];
-    for (std::size_t p = 0; p < peers.size(); ++p) {
-      const bool has = planned.authority > 0 && peers[p] == planned.authority;
-      if (has && !Allows(part.rules->push, static_cast<int>(p))) planned.authority = 0;
-    }
-  }
-}
-
 }  // namespace seam

@@ -142,26 +142,7 @@ void Server::Drop(std::int64_t now_us, const Address& address, const std::string
   const bool played = found->second->player >= 0 && found->second->stage == SessionStage::kReady;
   if (rules_ != nullptr && played) rules_->OnLeave(found->second->player);
   sessions_.erase(found);
-  TakeBack(now_us, peer);
-}
-
-void Server::TakeBack(std::int64_t now_us, int peer) {
-  plan_due_ = true;
-  // Whoever is dropped for silence has let go by its own clock already (Client::kSilentUs).
-  std::vector<int> changed;
-  for (int m = 0; m < replica_.authority().count(); ++m) {
-    AuthorityRecord h = replica_.authority().at(m);
-    if (h.authority != peer) continue;
-    h.authority = 0;
-    h.epoch += revoking_[static_cast<std::size_t>(m)] ? 2 : 1;  // a revocation has used up one
-    h.secondaries.Remove(peer);
-    revoking_[static_cast<std::size_t>(m)] = false;
-    replica_.authority().Set(m, h);
-    changed.push_back(m);
-  }
-  if (changed.empty()) return;
-  replica_.RolesChanged();
-  Announce(replica_.authority().Export(now_us, replica_.tick(), changed));
+  Announce(authority_.TakeBack(now_us, peer));
 }
 
 void Server::FlushAll(std::int64_t now_us) {
