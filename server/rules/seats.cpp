@@ -1,10 +1,8 @@
-/// Server, seats: who presses a seat's button beside it gets in, who presses it in there gets out.
-/// Decided here alone, from the server's own world.
+#include "server/rules/seats.h"
 
 #include <cmath>
 
 #include "common/physics/part_places.h"
-#include "server/server.h"
 
 namespace seam {
 namespace {
@@ -12,40 +10,15 @@ namespace {
 /// Who gets out is pushed upwards by this much, m/s, so as not to fall back in.
 constexpr float kHop = 2;
 
-}  // namespace
-
-void Server::UpdateSeats() {
-  const Scene& scene = replica_.world().scene();
-  if (scene.seats.empty()) return;
-  for (std::size_t p = 0; p < scene.players.size(); ++p) {
-    const int player = static_cast<int>(p);
-    const int pressed = replica_.TakePressed(player);
-    if (pressed == 0) continue;
-    bool left = false;
-    for (std::size_t s = 0; s < scene.seats.size(); ++s) {
-      const Seat& seat = scene.seats[s];
-      if (seat.player != player || ((pressed >> seat.button) & 1) == 0) continue;
-      GetOut(static_cast<int>(s));
-      left = true;
-    }
-    if (left || PlayerSits(player)) continue;
-    for (std::size_t s = 0; s < scene.seats.size(); ++s) {
-      const Seat& seat = scene.seats[s];
-      if (seat.player >= 0 || ((pressed >> seat.button) & 1) == 0) continue;
-      if (GetIn(player, static_cast<int>(s))) break;
-    }
-  }
-}
-
-bool Server::PlayerSits(int player) const {
-  for (const Seat& seat : replica_.world().scene().seats) {
+bool PlayerSits(const World& world, int player) {
+  for (const Seat& seat : world.scene().seats) {
     if (seat.player == player) return true;
   }
   return false;
 }
 
-bool Server::GetIn(int player, int index) {
-  const World& world = replica_.world();
+/// False, and nothing: it cannot be.
+bool GetIn(const World& world, int player, int index, std::vector<Edit>* edits) {
   const Seat& seat = world.scene().seats[static_cast<std::size_t>(index)];
   if (world.scene().parts[static_cast<std::size_t>(seat.part)].gone) return false;
   const PartId own = world.scene().players[static_cast<std::size_t>(player)].vehicle;
@@ -55,7 +28,7 @@ bool Server::GetIn(int player, int index) {
   sit.a = index;
   sit.player = player;
   if (own < 0) {
-    Order(sit);
+    edits->push_back(sit);
     return true;
   }
   if (world.scene().parts[static_cast<std::size_t>(own)].gone) return false;
@@ -72,13 +45,12 @@ bool Server::GetIn(int player, int index) {
   bond.x = seat.at.x();
   bond.y = seat.at.y();
   bond.angle = seat.angle;
-  Order(bond);
-  Order(sit);
+  edits->push_back(bond);
+  edits->push_back(sit);
   return true;
 }
 
-void Server::GetOut(int index) {
-  const World& world = replica_.world();
+void GetOut(const World& world, int index, std::vector<Edit>* edits) {
   const Seat& seat = world.scene().seats[static_cast<std::size_t>(index)];
   const PartId own = world.scene().players[static_cast<std::size_t>(seat.player)].vehicle;
   Edit stand;
@@ -95,15 +67,35 @@ void Server::GetOut(int index) {
     part.kind = EditKind::kBreak;
     part.cause = EditCause::kOutside;
     part.joint = static_cast<std::int32_t>(j);
-    Order(part);
+    edits->push_back(part);
     Edit hop;
     hop.kind = EditKind::kPush;
     hop.cause = EditCause::kOutside;
     hop.a = own;
     hop.y = kHop * PartMass(world.scene().parts[static_cast<std::size_t>(own)]);
-    Order(hop);
+    edits->push_back(hop);
   }
-  Order(stand);
+  edits->push_back(stand);
+}
+
+}  // namespace
+
+std::vector<Edit> SeatEdits(const World& world, int player, int pressed) {
+  std::vector<Edit> edits;
+  if (pressed == 0) return edits;
+  const Scene& scene = world.scene();
+  for (std::size_t s = 0; s < scene.seats.size(); ++s) {
+    const Seat& seat = scene.seats[s];
+    if (seat.player != player || ((pressed >> seat.button) & 1) == 0) continue;
+    GetOut(world, static_cast<int>(s), &edits);
+  }
+  if (!edits.empty() || PlayerSits(world, player)) return edits;
+  for (std::size_t s = 0; s < scene.seats.size(); ++s) {
+    const Seat& seat = scene.seats[s];
+    if (seat.player >= 0 || ((pressed >> seat.button) & 1) == 0) continue;
+    if (GetIn(world, player, static_cast<int>(s), &edits)) break;
+  }
+  return edits;
 }
 
 }  // namespace seam
