@@ -6,6 +6,7 @@
 #include "common/base/check.h"
 #include "common/sync/edit_order.h"
 #include "common/sync/input_source.h"
+#include "common/sync/lease.h"
 
 namespace seam {
 namespace {
@@ -19,6 +20,9 @@ constexpr std::int64_t kGiveUpTicks = 300;
 /// Mode central: inputs should arrive this long before the server needs them, us.
 constexpr double kInputMarginUs = 35000;
 
+static_assert(static_cast<std::size_t>(Client::kInputsRedundant) <= kInputsMax,
+              "the server would reject our inputs as malformed");
+
 }  // namespace
 
 Client::Client(const ClientConfig& config, Net& net, Recorder& recorder)
@@ -31,12 +35,12 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   ReceiveAll(now_us);
   if (closed_ || !fatal_.empty()) return;
   const std::int64_t silence_us = now_us - answered_us_;
-  if (silence_us > kSilentUs && replica_ != nullptr && !released_) {
+  if (silence_us > kLeaseUs && replica_ != nullptr && !released_) {
     replica_->ReleaseAll();
     released_ = true;
   }
   // What we let go of we do not take up again as the same session: the server may have given it on.
-  if (silence_us > kLostUs || (released_ && silence_us < kSilentUs)) {
+  if (silence_us > kLostUs || (released_ && silence_us < kLeaseUs)) {
     ++rejoins_;
     Join(now_us);
   }

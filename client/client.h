@@ -62,10 +62,6 @@ class Client {
   const Stats& stats() const { return stats_; }
   std::int64_t rejoins() const { return rejoins_; }
 
-  /// A lease: when the newest ping that the server answered is older than this, we let go of our
-  /// mechanisms. Below Server::kSilentUs, so that nobody simulates with authority what the server
-  /// is about to take back, whichever direction of the path fails.
-  static constexpr std::int64_t kSilentUs = 2000000;
   /// Age of the newest answered ping after which we try to join anew.
   static constexpr std::int64_t kLostUs = 4000000;
   static constexpr int kInputsRedundant = 16;  ///< ticks of input repeated in every message

@@ -5,38 +5,63 @@
 
 #include "common/sync/input_source.h"
 #include "server/rules/rules.h"
+#include "server/rules/seats.h"
+#include "server/server_commands.h"
 
 namespace seam {
 namespace {
 
 /// Most ticks stepped in one call: a server that was suspended catches up without starving the net.
 constexpr int kStepsMax = 8;
-/// Remote mechanisms are relayed every so many sends.
-constexpr std::int64_t kFarEvery = 3;
-/// Plans of who simulates what: more often follows faster bodies, and costs more with many.
-constexpr int kPlansPerSecond = 10;
+
+Room MakeRoom(const Scene& scene, const ServerConfig& config) {
+  Room room;
+  room.room = config.room;
+  room.scene_name = scene.name;
+  room.scene_text = scene.text;
+  room.mode = ToString(config.sync.mode);
+  room.reconcile = config.sync.reconcile_name;
+  room.impair = config.impair;
+  room.seed = config.seed;
+  room.tick_hz = config.sync.tick_hz;
+  room.send_hz = config.sync.send_hz;
+  return room;
+}
+
+template <class Message>
+Message At(std::int64_t now_us, Message message) {
+  message.utime = now_us;
+  return message;
+}
+
+/// Mode oracle: what the scene's scripts do with a player in a tick.
+Inputs Scripted(const Scene& scene, int player, std::int64_t tick) {
+  const Input in = ScriptedInput(scene, player, tick);
+  Inputs inputs;
+  inputs.player = player;
+  inputs.first_tick = tick;
+  inputs.drive.push_back(in.drive);
+  inputs.lift.push_back(in.lift);
+  inputs.buttons.push_back(in.buttons);
+  return inputs;
+}
 
 }  // namespace
 
 Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorder& recorder)
     : scene_(scene),
       config_(config),
+      room_(MakeRoom(scene_, config_)),
       net_(net),
-      publisher_(recorder, config.room),
       replica_(scene_, config.sync, 0, -1),
-      planner_(scene_, config.sync) {
-  hash_after_[0] = replica_.world().composition().hash;
-  revoking_.assign(static_cast<std::size_t>(replica_.authority().count()), false);
-  accepted_.resize(static_cast<std::size_t>(replica_.world().body_count()));
-  if (config_.sync.mode == Mode::kBuffer) {
-    // The server follows everything, so that it can take over at any moment.
-    for (int m = 0; m < replica_.authority().count(); ++m) {
-      AuthorityRecord h;
-      h.secondaries.Add(0);
-      replica_.authority().Set(m, h);
-    }
-  }
-  MakeRules();
+      sessions_(scene_, Encode(room_), net),
+      authority_(scene_, config.sync, replica_),
+      edits_(replica_.world(), authority_, config.sync.tick_hz),
+      filter_(scene_, replica_, authority_, edits_, stats_.counters),
+      broadcast_(recorder, config.room, config.sync, replica_, authority_, sessions_) {
+  if (!Rules::Needed(scene_)) return;
+  commands_ = std::make_unique<ServerCommands>(replica_, edits_, sessions_);
+  rules_ = std::make_unique<Rules>(replica_.world(), config_.seed, *commands_);
 }
 
 Server::~Server() = default;
@@ -44,19 +69,24 @@ Server::~Server() = default;
 void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   net_.Advance(now_us);
   ReceiveAll(now_us);
-  DropSilent(now_us);
-  for (auto& [address, session] : sessions_) Advance(now_us, *session);
+  sessions_.DropSilent(now_us);
+  FollowSessions(now_us);
+  sessions_.Advance(now_us);
+  FollowSessions(now_us);
   StartIfReady(now_us);
   if (now_us - last_room_us_ >= 1000000) {
     last_room_us_ = now_us;
-    publisher_.Publish(MakeRoom(now_us));
+    broadcast_.Publish(At(now_us, room_));
   }
   for (int steps = 0; steps < kStepsMax && now_us >= next_tick_us(); ++steps) {
-    worst_late_us_ = std::max(worst_late_us_, now_us - next_tick_us());
+    stats_.NoteLate(now_us - next_tick_us());
     StepOnce(now_us);
   }
-  if (now_us - last_stats_us_ >= 1000000) PublishStats(now_us, cpu_us);
-  FlushAll(now_us);
+  if (stats_.Due(now_us)) {
+    broadcast_.Publish(stats_.Report(now_us, replica_.tick(), cpu_us, sessions_.WorstRttUs(),
+                                     sessions_.WorstLossPpm()));
+  }
+  sessions_.Flush(now_us, &stats_.counters);
 }
 
 std::int64_t Server::next_tick_us() const {
@@ -64,178 +94,120 @@ std::int64_t Server::next_tick_us() const {
   return tick0_us_ + (replica_.tick() + 1) * 1000000 / config_.sync.tick_hz;
 }
 
+void Server::FollowSessions(std::int64_t now_us) {
+  for (const SessionEvent& event : sessions_.TakeEvents()) {
+    const std::string peer = "peer " + std::to_string(event.peer);
+    switch (event.kind) {
+      case SessionEvent::Kind::kJoined:
+        broadcast_.Say(now_us,
+                       event.name + " joins from " + ToString(event.address) + " as " + peer);
+        break;
+      case SessionEvent::Kind::kProven: {
+        Session& session = *sessions_.Find(event.address);
+        SendWorld(now_us, session);
+        if (rules_ == nullptr) break;
+        for (const Meta& meta : rules_->metadata().Export(now_us, replica_.tick())) {
+          session.link.SendReliable(Encode(meta));
+        }
+        break;
+      }
+      case SessionEvent::Kind::kReady:
+        if (rules_ != nullptr && event.player >= 0) rules_->OnJoin(event.player);
+        authority_.PlanSoon();
+        broadcast_.Say(now_us, event.name + " is ready as " + peer);
+        break;
+      case SessionEvent::Kind::kLeft:
+        broadcast_.Say(now_us, event.name + " (" + peer + ") is gone: " + event.why);
+        if (rules_ != nullptr && event.player >= 0 && event.was_ready) {
+          rules_->OnLeave(event.player);
+        }
+        broadcast_.ToAll(authority_.TakeBack(now_us, event.peer));
+        break;
+    }
+  }
+}
+
+void Server::SendWorld(std::int64_t now_us, Session& session) {
+  for (const EditOrder& order : edits_.History()) session.link.SendReliable(Encode(order));
+  for (const Grants& g : authority_.Export(now_us)) session.link.SendReliable(Encode(g));
+  if (!started()) return;
+  for (const States& states : replica_.Everything()) {
+    session.link.SendReliable(Encode(At(now_us, states)));
+  }
+}
+
 void Server::StartIfReady(std::int64_t now_us) {
   if (started()) return;
-  int ready = 0;
-  for (const auto& [address, session] : sessions_) {
-    if (session->stage == SessionStage::kReady && session->player >= 0) ++ready;
-  }
+  const std::vector<int> peers = sessions_.PeerOfPlayer();
+  const auto ready = std::count_if(peers.begin(), peers.end(), [](int peer) { return peer > 0; });
   if (ready < config_.wait_players) return;
   tick0_us_ = now_us + (config_.wait_players > 0 ? kLeadInUs : 0);
   // Whoever is here from the start has its mechanisms from tick 0 on: plan once, now.
-  PlanAuthority(now_us);
-  View view = replica_.MakeView();
-  view.utime = now_us;
-  publisher_.Publish(view);
-  Say(now_us, "the room starts with " + std::to_string(ready) + " players");
+  UpdateAuthority(now_us);
+  broadcast_.Publish(At(now_us, replica_.MakeView()));
+  broadcast_.Say(now_us, "the room starts with " + std::to_string(ready) + " players");
 }
 
 void Server::StepOnce(std::int64_t now_us) {
-  if (config_.sync.mode == Mode::kOracle) {
-    for (std::size_t p = 0; p < scene_.players.size(); ++p) {
-      Inputs inputs;
-      inputs.utime = now_us;
-      inputs.player = static_cast<int>(p);
-      inputs.first_tick = replica_.tick() + 1;
-      const Input in = ScriptedInput(scene_, inputs.player, inputs.first_tick);
-      inputs.drive.push_back(in.drive);
-      inputs.lift.push_back(in.lift);
-      inputs.buttons.push_back(in.buttons);
-      publisher_.Publish(inputs);
-    }
+  const auto players = static_cast<int>(scene_.players.size());
+  for (int p = 0; config_.sync.mode == Mode::kOracle && p < players; ++p) {
+    broadcast_.Publish(At(now_us, Scripted(scene_, p, replica_.tick() + 1)));
   }
-  OrderPending(now_us);
+  ApplyEdits(now_us);
   replica_.Step();
-  for (const Edit& edit : replica_.TakeProposals()) Order(edit);
-  UpdateSeats();
-  PlanAuthority(now_us);
+  for (const Edit& edit : replica_.TakeProposals()) edits_.Add(edit);
+  for (int p = 0; !replica_.world().scene().seats.empty() && p < players; ++p) {
+    const int pressed = replica_.TakePressed(p);
+    for (const Edit& edit : SeatEdits(replica_.world(), p, pressed)) edits_.Add(edit);
+  }
+  UpdateAuthority(now_us);
   for (States& states : replica_.TakeStates()) {
     states.utime = now_us;
-    Relay(states, 0);
-    publisher_.Publish(states);
+    broadcast_.Relay(states, 0);
+    broadcast_.Publish(states);
   }
-  View view = replica_.MakeView();
-  view.utime = now_us;
-  publisher_.Publish(view);
-  Impacts impacts = replica_.MakeImpacts();
-  impacts.utime = now_us;
-  if (!impacts.id_a.empty()) publisher_.Publish(impacts);
+  broadcast_.Publish(At(now_us, replica_.MakeView()));
+  const Impacts impacts = replica_.MakeImpacts();
+  if (!impacts.id_a.empty()) broadcast_.Publish(At(now_us, impacts));
   RunRules(now_us);
 }
 
-void Server::PlanAuthority(std::int64_t now_us) {
-  if (plan_due_ || replica_.tick() % std::max(1, config_.sync.tick_hz / kPlansPerSecond) == 0) {
-    plan_due_ = false;
-    plan_ = planner_.Plan(replica_.world(), replica_.authority(), PeerOfPlayer());
-    if (config_.sync.mode != Mode::kOracle) BringTogether(&plan_);
-    ForbidPlanned();
+void Server::ApplyEdits(std::int64_t now_us) {
+  const EditLog::Batch batch = edits_.OrderPending(now_us);
+  stats_.counters.dropped_stale += batch.stale;
+  if (batch.just_full) {
+    broadcast_.Say(now_us, "no more edits: the room has had " + std::to_string(EditLog::kEditsMax));
   }
-  std::vector<int> changed;
-  std::vector<Grants> revocations;
-  for (int m = 0; m < replica_.authority().count(); ++m) {
-    const auto index = static_cast<std::size_t>(m);
-    AuthorityRecord h = replica_.authority().at(m);
-    const PlannedAuthority& planned = plan_[index];
-    if (revoking_[index]) {
-      // One authority at a time: the server takes over only once the holder has confirmed.
-      const bool confirmed = std::any_of(sessions_.begin(), sessions_.end(), [&](const auto& s) {
-        return s.second->peer == h.authority && !s.second->link.reliable_pending();
-      });
-      if (!confirmed) continue;
-      revoking_[index] = false;
-      h = WithoutHolder(h);
-      replica_.authority().Set(m, h);
-    }
-    PeerSet secondaries = planned.secondaries;
-    if (config_.sync.mode == Mode::kBuffer) secondaries.Add(0);
-    if (h.authority != 0 && planned.authority != h.authority) {
-      revoking_[index] = true;
-      AuthorityTable told = replica_.authority();
-      told.Set(m, WithoutHolder(h));
-      for (const Grants& g : told.Export(now_us, replica_.tick(), {m})) revocations.push_back(g);
-      continue;
-    }
-    if (planned.authority == h.authority && secondaries == h.secondaries) continue;
-    if (planned.authority != h.authority) h.epoch += 1;
-    h.authority = planned.authority;
-    h.secondaries = secondaries;
-    replica_.authority().Set(m, h);
-    changed.push_back(m);
+  for (const EditOrder& order : batch.orders) {
+    broadcast_.ToAll(order);
+    replica_.Queue(order);
   }
-  if (!revocations.empty()) Announce(revocations);
-  if (!changed.empty()) {
-    replica_.RolesChanged();
-    Announce(replica_.authority().Export(now_us, replica_.tick(), changed));
+  while (replica_.has_queued()) {
+    const std::optional<BodyRemap> change = replica_.ApplyNextEdit();
+    edits_.NoteComposition(replica_.revision());
+    if (!change) continue;
+    authority_.Remap(change->mechanisms);
+    filter_.Remap(change->bodies);
   }
 }
 
-AuthorityRecord Server::WithoutHolder(AuthorityRecord h) const {
-  // Who lets go goes on simulating until the next grant: its copy is the best there is.
-  if (config_.sync.mode == Mode::kBuffer) h.secondaries.Add(h.authority);
-  h.authority = 0;
-  h.epoch += 1;
-  return h;
+void Server::UpdateAuthority(std::int64_t now_us) {
+  AuthorityManager::Situation situation;
+  situation.peer_of_player = sessions_.PeerOfPlayer();
+  situation.confirmed = sessions_.Confirmed();
+  situation.together = edits_.WaitingMechanisms();
+  broadcast_.ToAll(authority_.Update(now_us, situation));
 }
 
-void Server::Announce(const std::vector<Grants>& messages) {
-  for (const Grants& g : messages) {
-    publisher_.Publish(g);
-    SendToAll(Encode(g));
-  }
+void Server::RunRules(std::int64_t now_us) {
+  if (rules_ == nullptr) return;
+  rules_->AfterTick();
+  for (const std::string& text : commands_->TakeSaid()) broadcast_.Say(now_us, text);
+  for (const Meta& meta : rules_->TakeChanges(now_us)) broadcast_.ToAll(meta);
 }
 
-void Server::SendToAll(const Bytes& message) {
-  for (auto& [address, session] : sessions_) {
-    if (session->stage == SessionStage::kGreeted || session->link.SendReliable(message)) continue;
-    session->leaving = true;
-    session->leaving_why = "does not acknowledge";
-  }
-}
-
-void Server::Relay(const States& states, int from_peer) {
-  const Bytes bytes = Encode(states);
-  const std::int64_t send = states.tick / config_.sync.send_every();
-  for (auto& [address, session] : sessions_) {
-    if (session->peer == from_peer || session->stage != SessionStage::kReady) continue;
-    bool near = config_.sync.mode != Mode::kBuffer;
-    for (std::size_t i = 0; i < states.id.size() && !near; ++i) {
-      const int body = replica_.world().BodyOfId(states.id[i]);
-      if (body < 0) continue;  // it has left meanwhile
-      const AuthorityRecord& h = replica_.authority().at(replica_.world().mechanism(body));
-      near = h.secondaries.Has(session->peer);
-    }
-    if (near || send % kFarEvery == 0) session->link.SendUnreliable(bytes);
-  }
-}
-
-void Server::Say(std::int64_t now_us, const std::string& text) {
-  Event event;
-  event.utime = now_us;
-  event.tick = replica_.tick();
-  event.text = text;
-  publisher_.Publish(event);
-}
-
-void Server::PublishStats(std::int64_t now_us, std::int64_t cpu_us) {
-  last_stats_us_ = now_us;
-  stats_.utime = now_us;
-  stats_.tick = replica_.tick();
-  stats_.cpu_us = cpu_us;
-  stats_.tick_late_us = static_cast<std::int32_t>(std::min<std::int64_t>(worst_late_us_, 1 << 30));
-  worst_late_us_ = 0;
-  stats_.rtt_us = -1;
-  std::int64_t loss = 0;
-  for (const auto& [address, session] : sessions_) {
-    stats_.rtt_us = std::max(stats_.rtt_us, static_cast<std::int32_t>(session->link.rtt_us()));
-    loss = std::max(loss, session->link.loss_ppm());
-  }
-  stats_.loss_ppm = static_cast<std::int32_t>(loss);
-  publisher_.Publish(stats_);
-}
-
-Room Server::MakeRoom(std::int64_t utime) const {
-  Room room;
-  room.utime = utime;
-  room.room = config_.room;
-  room.scene_name = scene_.name;
-  room.scene_text = scene_.text;
-  room.mode = ToString(config_.sync.mode);
-  room.reconcile = config_.sync.reconcile_name;
-  room.impair = config_.impair;
-  room.seed = config_.seed;
-  room.tick_hz = config_.sync.tick_hz;
-  room.send_hz = config_.sync.send_hz;
-  return room;
+void Server::Shutdown(std::int64_t now_us, const std::string& reason) {
+  sessions_.Close(now_us, reason, &stats_.counters);
 }
 
 }  // namespace seam

@@ -68,7 +68,7 @@ class AssemblyCluster : public ::testing::TestWithParam<int> {};
 TEST_P(AssemblyCluster, TheShipLosesItsBowForAllPeersAlike) {
   const auto cluster = Played("titanic", GetParam());
   ExpectAgreement(cluster.get());
-  const World& world = cluster->server().world();
+  const World& world = cluster->server().replica().world();
   EXPECT_GE(Count(world.scene(), IsBroken), 10);
   const auto assembly = [&world](const std::string& name) {
     for (const Part& part : world.scene().parts) {
@@ -85,8 +85,8 @@ TEST_P(AssemblyCluster, TheShipLosesItsBowForAllPeersAlike) {
 TEST_P(AssemblyCluster, TheHouseFallsToPiecesAndPiecesJoinForAllPeersAlike) {
   const auto cluster = Played("gluehouse", GetParam());
   ExpectAgreement(cluster.get());
-  EXPECT_GE(Count(cluster->server().world().scene(), IsBroken), 3);
-  EXPECT_GE(Count(cluster->server().world().scene(), IsBonded), 1);
+  EXPECT_GE(Count(cluster->server().replica().world().scene(), IsBroken), 3);
+  EXPECT_GE(Count(cluster->server().replica().world().scene(), IsBonded), 1);
 }
 
 /// Stacks on both sides; ann's ball rolls into the one on bob's side after they have been grouped.
@@ -116,7 +116,7 @@ spin = -10
 TEST_P(AssemblyCluster, GroupsAreMadeAndUndoneForAllPeersAlike) {
   const auto cluster = Played("stacks", GetParam(), kStacks);
   ExpectAgreement(cluster.get());
-  const Scene& scene = cluster->server().world().scene();
+  const Scene& scene = cluster->server().replica().world().scene();
   EXPECT_GE(Count(scene, IsBonded), 4) << "both stacks were grouped";
   EXPECT_GE(Count(scene, IsBroken), 2) << "the one that was hit was undone";
 }

@@ -102,10 +102,10 @@ TEST(RulesCluster, EachPickupIsGivenOnceAndAllPeersKnowTheSameAtTheEnd) {
       for (int c = 0; c < cluster.client_count(); ++c) {
         EXPECT_EQ(cluster.client(c)->metadata().values(), server.values()) << mode << " " << c;
         EXPECT_EQ(cluster.client(c)->replica()->world().composition().hash,
-                  cluster.server().world().composition().hash)
+                  cluster.server().replica().world().composition().hash)
             << mode << " " << c;
       }
-      const Composition& left = cluster.server().world().composition();
+      const Composition& left = cluster.server().replica().world().composition();
       EXPECT_EQ(std::count(left.assembly_of_part.begin(), left.assembly_of_part.end(), -1), 12)
           << mode << ": the coins are gone";
       MetaTable recorded;
@@ -137,7 +137,7 @@ TEST(RulesCluster, WhoMayNotPushAPartDoesNotGetItsAuthority) {
     text.insert(text.find("vehicle = \"a\""), region);
     Cluster cluster(With(text, "buffer", "demo"));
     cluster.RunToTick(120);
-    const World& world = cluster.server().world();
+    const World& world = cluster.server().replica().world();
     const int mechanism = world.mechanism(world.BodyOfId(2));
     EXPECT_EQ(cluster.server().replica().authority().at(mechanism).authority, allowed ? 1 : 0);
   }
@@ -187,7 +187,7 @@ end
     Cluster cluster(With(Race(code), mode, "4g"));
     cluster.Run();
     EXPECT_EQ(Said(cluster.recording())["box true true"], 1) << mode;
-    const World& world = cluster.server().world();
+    const World& world = cluster.server().replica().world();
     EXPECT_EQ(world.body_count(), 3) << mode;
     for (int c = 0; c < cluster.client_count(); ++c) {
       const World& copy = cluster.client(c)->replica()->world();
@@ -223,7 +223,7 @@ function on_tick() if world.tick() == 100 then world.blast(2.9, 5, 1.2, 8) end e
 )";
   Cluster cluster(With(Race(wall), "buffer", "4g"));
   cluster.RunToTick(90);
-  const World& world = cluster.server().world();
+  const World& world = cluster.server().replica().world();
   const int before = world.body_count();
   cluster.Run();
   EXPECT_GT(world.body_count(), before + 5);
@@ -265,7 +265,7 @@ health = 20
     config.reconcile = rule;
     Cluster cluster(config);
     cluster.RunToTick(90);
-    const World& world = cluster.server().world();
+    const World& world = cluster.server().replica().world();
     EXPECT_EQ(world.body_count(), 12);
     EXPECT_EQ(world.composition().mechanisms.size(), 1u) << "alive after 1.5 s";
     cluster.Run();

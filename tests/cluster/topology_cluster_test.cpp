@@ -7,7 +7,7 @@
 
 #include "common/physics/part_places.h"
 #include "common/sync/edit_order.h"
-#include "server/authority/proposal.h"
+#include "server/edits/proposal.h"
 #include "tests/support/soak.h"
 #include "tests/support/two_sides.h"
 
@@ -89,13 +89,13 @@ TEST_P(TopologyUnder, EditsKeepTheirOrderAndEndTheSameEverywhere) {
     Server& server = cluster.server();
     server.Order(Break(1));
     cluster.RunToTick(130);
-    const PartId crate = PartNamed(server.world().scene(), "crate");
+    const PartId crate = PartNamed(server.replica().world().scene(), "crate");
     const InsertEdit late{"[[part]]\nname = \"late\"\nbox = [0.5, 0.5]\nposition = [-2, 4]\n"};
     server.Order(Edit(late, EditCause::kOutside));
     server.Order(Edit(PushEdit{crate, {0, 1}}, EditCause::kOutside));
     cluster.RunToTick(160);
     // The crate and the front half, whoever has them: they come into one hand first.
-    server.Order(BondNow(server.world(), 4, crate));
+    server.Order(BondNow(server.replica().world(), 4, crate));
     cluster.RunToTick(260);
     server.Order(Edit(RemoveEdit{1}));
     cluster.Run();
@@ -140,18 +140,18 @@ TEST(TopologyCluster, APeerThatWentAstrayIsFoundAndRepaired) {
   ASSERT_TRUE(bob->Queue(wrong));
   cluster.RunToTick(63);
   ASSERT_NE(cluster.client(1)->replica()->world().composition().hash,
-            cluster.server().world().composition().hash);
+            cluster.server().replica().world().composition().hash);
   cluster.server().Order(Break(0));
   cluster.Run();
   EXPECT_EQ(cluster.client(1)->replica()->revision(), 1);
   EXPECT_EQ(cluster.client(1)->replica()->world().composition().hash,
-            cluster.server().world().composition().hash);
+            cluster.server().replica().world().composition().hash);
   bool said = false;
   for (const Event& event : cluster.recording().events) {
     said = said || event.text.find("another composition") != std::string::npos;
   }
   EXPECT_TRUE(said);
-  const World& truth = cluster.server().world();
+  const World& truth = cluster.server().replica().world();
   for (int b = 0; b < truth.body_count(); ++b) {
     EXPECT_LT(
         (cluster.client(1)->replica()->world().Read(b).position - truth.Read(b).position).norm(),
@@ -176,7 +176,7 @@ TEST(TopologyCluster, WhoJoinsLateGetsAllEdits) {
   ASSERT_TRUE(bob->running());
   EXPECT_EQ(bob->replica()->revision(), 2);
   EXPECT_EQ(bob->replica()->world().composition().hash,
-            cluster.server().world().composition().hash);
+            cluster.server().replica().world().composition().hash);
 }
 
 TEST(TopologyCluster, AClientMayNotEditWhatIsNotItsOwnNorWhatPhysicsCouldNotFind) {
@@ -186,7 +186,7 @@ TEST(TopologyCluster, AClientMayNotEditWhatIsNotItsOwnNorWhatPhysicsCouldNotFind
   config.impair = "perfect";
   Cluster cluster(config);
   cluster.RunToTick(30);  // the bar is ann's
-  const Topology& topology = cluster.server().world().topology();
+  const Topology& topology = cluster.server().replica().world().topology();
   EXPECT_FALSE(MayPropose(topology, Edit(FreeEdit{0})));
   EXPECT_FALSE(MayPropose(topology, Edit(RemoveEdit{0})));
   EXPECT_FALSE(MayPropose(topology, Break(0))) << "not said to be physics";
@@ -254,7 +254,7 @@ button = 3
   config.impair = "4g";
   Cluster cluster(config);
   cluster.each_instant = [&] { ExpectOneAuthority(&cluster); };
-  const World& world = cluster.server().world();
+  const World& world = cluster.server().replica().world();
   const auto mechanism_of = [&](const std::string& name) {
     const Composition& c = world.composition();
     const auto part = static_cast<std::size_t>(PartNamed(world.scene(), name));

@@ -68,8 +68,8 @@ const std::vector<Room>& Rooms() {
       {"common/physics", {"common/base", "common/scene", "common/topology"}},
       {"common/stages", {"common/base", "common/scene", "common/topology", "common/physics"}},
       {"common/sync",
-       {"common/base", "common/codec", "common/record", "common/scene", "common/topology",
-        "common/physics", "common/stages"}},
+       {"common/base", "common/net", "common/codec", "common/record", "common/scene",
+        "common/topology", "common/physics", "common/stages"}},
       {"common/measure",
        {"common/base", "common/codec", "common/record", "common/scene", "common/topology",
         "common/physics", "common/stages", "common/sync"}},
@@ -152,6 +152,8 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"common/sync/reconcile", "none"},
       {"common/stages/(bonds|bricks|character|water)", "common/stages"},
       {"server/authority", "none"},
+      {"server/edits", "server/authority"},
+      {"server/sessions", "none"},
       {"server/script", "none"},
       {"server/rules", "server/script"},
       {"render/canvas", "none"},
@@ -226,6 +228,10 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
   ExpectOnlyIn("server/script/script_lua[^/]*", kCode, "(.*/)?(lua|lauxlib|lualib)\\.h(pp)?");
   ExpectOnlyIn("none", kProduct, "gtest/.*");
   ExpectOnlyIn("common/net/udp[^/]*", kProduct, "sys/socket\\.h|netinet/.*|arpa/.*|netdb\\.h");
+}
+
+TEST(Layering, SyncKnowsOfTheNetOnlyHowLargeItsMessagesMayBe) {
+  ExpectOnlyIn("common/sync/limits\\.h", {"common/sync"}, "common/net/.*");
 }
 
 TEST(Layering, PhysicsKnowsNoClockSocketOrUnseededChance) {

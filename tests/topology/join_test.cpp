@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "common/physics/part_places.h"
-#include "server/authority/proposal.h"
+#include "server/edits/proposal.h"
 #include "tests/support/living_world.h"
 
 namespace seam {

@@ -1,4 +1,4 @@
-#include "server/authority/proposal.h"
+#include "server/edits/proposal.h"
 
 #include <cmath>
 

@@ -1,0 +1,3 @@
+/// The assertions of the header are checked whenever the library is built.
+
+#include "common/sync/limits.h"

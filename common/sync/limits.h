@@ -1,0 +1,68 @@
+#pragma once
+/// Sizes that must agree, held beside each other: what a message can grow to against what carries
+/// it, and how long one text may be in different rooms. Whoever changes one of them finds out here.
+
+#include <climits>
+#include <cstddef>
+
+#include "common/codec/messages.h"
+#include "common/net/datagram.h"
+#include "common/net/link.h"
+#include "common/net/net.h"
+#include "common/scene/part_rules.h"
+#include "common/scene/scene_text.h"
+
+namespace seam {
+
+/// Encoded bytes of a message with nothing in its lists and texts, and what each element adds, as
+/// the .lcm files have it: 8 bytes of type, the fields, a count of 2 bytes before lists, 5 bytes
+/// for an empty string.
+struct MessageBytes {
+  std::size_t empty;
+  std::size_t each;
+};
+constexpr MessageBytes kStatesBytes{58, 19};
+constexpr MessageBytes kGrantsBytes{36, 10};  ///< and kFollowerBytes for each follower
+constexpr std::size_t kFollowerBytes = 2;
+constexpr MessageBytes kReleaseBytes{26, 6};
+constexpr MessageBytes kMetaBytes{34, 8};
+constexpr MessageBytes kInputsBytes{38, 4};
+constexpr MessageBytes kChunkBytes{22, 1};
+constexpr MessageBytes kEditBytes{71, 1};  ///< a byte of text; it always has its four numbers
+constexpr MessageBytes kViewBytes{50, 29};
+constexpr MessageBytes kImpactsBytes{38, 16};
+constexpr MessageBytes kRoomBytes{74, 1};  ///< a byte of any of its texts
+
+constexpr std::size_t Largest(const MessageBytes& bytes, std::size_t count) {
+  return bytes.empty + bytes.each * count;
+}
+
+// Between peers: a message, with the headers of link.h, fits one datagram.
+static_assert(kDatagramHeaderBytes + 4 + kMessageBytesMax <= kDatagramBytesMax,
+              "a message would not fit a datagram");
+static_assert(Largest(kStatesBytes, kStatesBodiesMax) <= kMessageBytesMax, "States too large");
+static_assert(Largest(kGrantsBytes, kGrantsMax) + kFollowerBytes * kGrantFollowersMax <=
+                  kMessageBytesMax,
+              "Grants too large");
+static_assert(kGrantFollowersMax >= static_cast<std::size_t>(kPeersMax),
+              "one mechanism's followers must fit one Grants");
+static_assert(Largest(kReleaseBytes, kGrantsMax) <= kMessageBytesMax, "Release too large");
+static_assert(Largest(kMetaBytes, kMetaMax) <= kMessageBytesMax, "Meta too large");
+static_assert(Largest(kInputsBytes, kInputsMax) <= kMessageBytesMax, "Inputs too large");
+static_assert(Largest(kChunkBytes, kChunkBytesMax) <= kMessageBytesMax, "Chunk too large");
+static_assert(Largest(kEditBytes, kEditTextBytesMax) <= kMessageBytesMax, "EditOrder too large");
+
+// On the bus.
+static_assert(Largest(kViewBytes, kViewBodiesMax) <= kBusMessageBytesMax, "View too large");
+static_assert(Largest(kImpactsBytes, kImpactsMax) <= kBusMessageBytesMax, "Impacts too large");
+static_assert(Largest(kRoomBytes, kSceneTextBytesMax + 4 * kLabelBytesMax + kImpairBytesMax) <=
+                  kBusMessageBytesMax,
+              "a Room with the longest scene could neither be published nor joined");
+
+// Texts and numbers of the scene.
+static_assert(kSceneBytesMax <= kSceneTextBytesMax,
+              "a scene that can be loaded could not be sent to those who join");
+static_assert(kPeersMax <= static_cast<int>(sizeof(PlayerMask) * CHAR_BIT),
+              "permissions have a bit for each player");
+
+}  // namespace seam

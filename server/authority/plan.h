@@ -1,0 +1,62 @@
+#pragma once
+/// Who should have authority over each mechanism, and who should follow it in its buffer zone: a
+/// pure function of what planning looks at. Static regions from the scene.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/scene/part_rules.h"
+#include "common/sync/authority.h"
+#include "common/sync/mode.h"
+
+namespace seam {
+
+/// Who should have authority over one mechanism, and who should follow it.
+struct PlannedAuthority {
+  int authority = 0;
+  PeerSet secondaries;
+};
+
+/// One entry per mechanism, by its index.
+using AuthorityPlan = std::vector<PlannedAuthority>;
+
+/// A player, as planning sees it.
+struct PlayerView {
+  int peer = -1;  ///< that drives it; -1: nobody is ready to
+  bool has_region = false;
+  Vec2 region_min{0, 0}, region_max{0, 0};  ///< m
+};
+
+/// A mechanism, as planning sees it.
+struct MechanismView {
+  Vec2 position{0, 0};  ///< m, of its root
+  int owner = -1;       ///< the player whose vehicle it is; -1: nobody's
+  AuthorityRecord now;
+  std::int64_t held_ticks = 0;         ///< since its authority changed
+  PlayerMask may_have = kEveryPlayer;  ///< players whose peers may have its authority
+};
+
+/// All that planning looks at. The memory of when what changed (dwell) is in it too, as data.
+struct AuthorityView {
+  Mode mode = Mode::kBuffer;
+  int tick_hz = 60;
+  float buffer_m = 0;  ///< width of the buffer zone
+  std::vector<PlayerView> players;
+  std::vector<MechanismView> mechanisms;
+  /// Mechanisms that an edit is about to join: those of each entry should be in one hand.
+  std::vector<std::vector<int>> together;
+};
+
+/// One planned per mechanism of the view.
+///
+///   authority: the owner's peer if it is here; else the peer in whose region the mechanism's root
+///   is (with kHysteresis before it leaves the one that has it, and kDwell between changes); else
+///   the server. Mechanisms that are to be joined go to one peer; a peer whose player may not have
+///   a mechanism gives way to the server. Secondary (mode buffer): peers whose region, or whose
+///   mechanisms, are within the scene's buffer width. Modes oracle and central: all the server's.
+AuthorityPlan PlanAuthority(const AuthorityView& view);
+
+constexpr float kHysteresis = 2.0f;  ///< m beyond the border before a hand-over
+constexpr double kDwell = 0.5;       ///< s an authority lasts at least
+
+}  // namespace seam

@@ -1,0 +1,54 @@
+#pragma once
+/// What everyone is told: numbered on the bus, and to the sessions that it concerns.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "common/sync/publisher.h"
+#include "common/sync/replica.h"
+#include "server/authority/authority_manager.h"
+#include "server/sessions/session_table.h"
+
+namespace seam {
+
+class Broadcast {
+ public:
+  /// All must outlive it.
+  Broadcast(Recorder& recorder, const std::string& room, const SyncConfig& config,
+            const Replica& replica, const AuthorityManager& authority, SessionTable& sessions)
+      : publisher_(recorder, room),
+        config_(config),
+        replica_(replica),
+        authority_(authority),
+        sessions_(sessions) {}
+
+  /// On the bus only.
+  template <class Message>
+  void Publish(const Message& message) {
+    publisher_.Publish(message);
+  }
+  /// On the bus and, reliably, to everyone who has proved its address.
+  template <class Message>
+  void ToAll(const Message& message) {
+    publisher_.Publish(message);
+    sessions_.SendToAll(Encode(message));
+  }
+  void ToAll(const std::vector<Grants>& messages) {
+    for (const Grants& grants : messages) ToAll(grants);
+  }
+  /// To those of the other peers that need it now: all that follow one of its bodies, the rest now
+  /// and then. Not on the bus.
+  void Relay(const States& states, int from_peer);
+  /// Something a person wants to read; on the bus only.
+  void Say(std::int64_t now_us, const std::string& text);
+
+ private:
+  Publisher publisher_;
+  const SyncConfig config_;
+  const Replica& replica_;
+  const AuthorityManager& authority_;
+  SessionTable& sessions_;
+};
+
+}  // namespace seam

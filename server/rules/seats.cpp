@@ -1,0 +1,76 @@
+#include "server/rules/seats.h"
+
+#include <cmath>
+
+#include "common/physics/part_places.h"
+
+namespace seam {
+namespace {
+
+/// Who gets out is pushed upwards by this much, m/s, so as not to fall back in.
+constexpr float kHop = 2;
+
+bool PlayerSits(const World& world, int player) {
+  for (const Seat& seat : world.scene().seats) {
+    if (seat.player == player) return true;
+  }
+  return false;
+}
+
+/// False, and nothing: it cannot be.
+bool GetIn(const World& world, int player, int index, std::vector<Edit>* edits) {
+  const Seat& seat = world.scene().seats[static_cast<std::size_t>(index)];
+  if (world.scene().parts[static_cast<std::size_t>(seat.part)].gone) return false;
+  const PartId own = world.scene().players[static_cast<std::size_t>(player)].vehicle;
+  const Edit sit(SeatEdit{index, player}, EditCause::kOutside);
+  if (own < 0) {
+    edits->push_back(sit);
+    return true;
+  }
+  if (world.scene().parts[static_cast<std::size_t>(own)].gone) return false;
+  const BodyState vehicle = PartPose(world, seat.part);
+  const float c = std::cos(vehicle.angle), s = std::sin(vehicle.angle);
+  const Vec2 place =
+      vehicle.position + Vec2(c * seat.at.x() - s * seat.at.y(), s * seat.at.x() + c * seat.at.y());
+  if ((PartPose(world, own).position - place).norm() > seat.reach) return false;
+  edits->emplace_back(BondEdit{seat.part, own, seat.at, seat.angle}, EditCause::kOutside);
+  edits->push_back(sit);
+  return true;
+}
+
+void GetOut(const World& world, int index, std::vector<Edit>* edits) {
+  const Seat& seat = world.scene().seats[static_cast<std::size_t>(index)];
+  const PartId own = world.scene().players[static_cast<std::size_t>(seat.player)].vehicle;
+  for (std::size_t j = 0; own >= 0 && j < world.scene().joints.size(); ++j) {
+    const Joint& joint = world.scene().joints[j];
+    if (joint.gone || joint.kind != JointKind::kGlue || joint.a != seat.part || joint.b != own) {
+      continue;
+    }
+    edits->emplace_back(BreakEdit{static_cast<std::int32_t>(j)}, EditCause::kOutside);
+    const float mass = PartMass(world.scene().parts[static_cast<std::size_t>(own)]);
+    edits->emplace_back(PushEdit{own, {0, kHop * mass}}, EditCause::kOutside);
+  }
+  edits->emplace_back(SeatEdit{index, -1}, EditCause::kOutside);
+}
+
+}  // namespace
+
+std::vector<Edit> SeatEdits(const World& world, int player, int pressed) {
+  std::vector<Edit> edits;
+  if (pressed == 0) return edits;
+  const Scene& scene = world.scene();
+  for (std::size_t s = 0; s < scene.seats.size(); ++s) {
+    const Seat& seat = scene.seats[s];
+    if (seat.player != player || ((pressed >> seat.button) & 1) == 0) continue;
+    GetOut(world, static_cast<int>(s), &edits);
+  }
+  if (!edits.empty() || PlayerSits(world, player)) return edits;
+  for (std::size_t s = 0; s < scene.seats.size(); ++s) {
+    const Seat& seat = scene.seats[s];
+    if (seat.player >= 0 || ((pressed >> seat.button) & 1) == 0) continue;
+    if (GetIn(world, player, static_cast<int>(s), &edits)) break;
+  }
+  return edits;
+}
+
+}  // namespace seam

@@ -1,0 +1,43 @@
+#include "server/server_commands.h"
+
+#include <utility>
+
+#include "common/physics/part_places.h"
+#include "server/script/script_host.h"
+
+namespace seam {
+
+void ServerCommands::RemovePart(PartId part) { Ask(RemoveEdit{part}); }
+
+void ServerCommands::BreakJoint(int joint) { Ask(BreakEdit{joint}); }
+
+void ServerCommands::Bond(PartId a, PartId b, float strength) {
+  Ask(BondAsTheyAre(replica_.world(), a, b, strength));
+}
+
+void ServerCommands::Push(PartId part, const Vec2& impulse) { Ask(PushEdit{part, impulse}); }
+
+void ServerCommands::Blast(const Vec2& centre, float radius, float speed) {
+  Ask(BlastEdit{centre, radius, speed});
+}
+
+void ServerCommands::Insert(const std::string& text) { Ask(InsertEdit{text}); }
+
+void ServerCommands::Say(const std::string& text) { said_.push_back(text); }
+
+bool ServerCommands::Present(int player) const {
+  return sessions_.PeerOfPlayer()[static_cast<std::size_t>(player)] >= 0;
+}
+
+Input ServerCommands::ReadInput(int player) const {
+  return replica_.inputs(player).At(replica_.tick());
+}
+
+void ServerCommands::Ask(AnyEdit what) {
+  const Edit edit(std::move(what), EditCause::kOutside);
+  const Status status = replica_.world().topology().Validate(edit);
+  if (!status.ok()) throw ScriptRefusal(status.why());
+  edits_.Add(edit);
+}
+
+}  // namespace seam

@@ -1,0 +1,44 @@
+#pragma once
+/// What a room's rules may do: it becomes edits, in the server's order and for outside causes: an
+/// oracle cannot find them out by itself.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "common/sync/replica.h"
+#include "server/edits/edit_log.h"
+#include "server/rules/rules.h"
+#include "server/sessions/session_table.h"
+
+namespace seam {
+
+class ServerCommands : public RoomCommands {
+ public:
+  /// All must outlive it.
+  ServerCommands(Replica& replica, EditLog& edits, const SessionTable& sessions)
+      : replica_(replica), edits_(edits), sessions_(sessions) {}
+
+  void RemovePart(PartId part) override;
+  void BreakJoint(int joint) override;
+  void Bond(PartId a, PartId b, float strength) override;
+  void Push(PartId part, const Vec2& impulse) override;
+  void Blast(const Vec2& centre, float radius, float speed) override;
+  void Insert(const std::string& text) override;
+  void Say(const std::string& text) override;
+  bool Present(int player) const override;
+  Input ReadInput(int player) const override;
+
+  /// What was said since the last call.
+  std::vector<std::string> TakeSaid() { return std::exchange(said_, {}); }
+
+ private:
+  void Ask(AnyEdit what);
+
+  Replica& replica_;
+  EditLog& edits_;
+  const SessionTable& sessions_;
+  std::vector<std::string> said_;
+};
+
+}  // namespace seam

@@ -1,0 +1,40 @@
+#pragma once
+/// What the server counts, and how late it was.
+
+#include <algorithm>
+#include <cstdint>
+
+#include "common/codec/messages.h"
+
+namespace seam {
+
+struct ServerStats {
+  Stats counters;                  ///< since the start
+  std::int64_t worst_late_us = 0;  ///< of a tick, since the last report
+  std::int64_t discarded = 0;      ///< by the net, as far as counted
+  std::int64_t reported_us = -1000000000;
+
+  bool Due(std::int64_t now_us) const { return now_us - reported_us >= 1000000; }
+  void NoteLate(std::int64_t late_us) { worst_late_us = std::max(worst_late_us, late_us); }
+  /// `total`: what the net has discarded since the start.
+  void NoteDiscarded(std::int64_t total) {
+    counters.dropped_malformed += total - discarded;
+    discarded = total;
+  }
+  /// The counters with what is known only now, for a report; begins the next one.
+  const Stats& Report(std::int64_t now_us, std::int64_t tick, std::int64_t cpu_us,
+                      std::int64_t rtt_us, std::int64_t loss_ppm) {
+    reported_us = now_us;
+    counters.utime = now_us;
+    counters.tick = tick;
+    counters.cpu_us = cpu_us;
+    counters.tick_late_us =
+        static_cast<std::int32_t>(std::min<std::int64_t>(worst_late_us, 1 << 30));
+    counters.rtt_us = static_cast<std::int32_t>(rtt_us);
+    counters.loss_ppm = static_cast<std::int32_t>(loss_ppm);
+    worst_late_us = 0;
+    return counters;
+  }
+};
+
+}  // namespace seam

@@ -1,0 +1,73 @@
+/// SessionTable, what concerns many sessions at once.
+
+#include <algorithm>
+
+#include "server/sessions/session_table.h"
+
+namespace seam {
+
+Session* SessionTable::Find(const Address& address) {
+  const auto found = sessions_.find(address);
+  return found == sessions_.end() ? nullptr : found->second.get();
+}
+
+int SessionTable::player_count() const {
+  const std::vector<int> peers = PeerOfPlayer();
+  return static_cast<int>(std::count_if(peers.begin(), peers.end(), [](int p) { return p >= 0; }));
+}
+
+std::vector<int> SessionTable::PeerOfPlayer() const {
+  std::vector<int> peers(scene_.players.size(), -1);
+  for (const auto& [address, session] : sessions_) {
+    if (session->player >= 0 && session->stage == SessionStage::kReady) {
+      peers[static_cast<std::size_t>(session->player)] = session->peer;
+    }
+  }
+  return peers;
+}
+
+PeerSet SessionTable::Confirmed() const {
+  PeerSet confirmed;
+  for (const auto& [address, session] : sessions_) {
+    if (!session->link.reliable_pending()) confirmed.Add(session->peer);
+  }
+  return confirmed;
+}
+
+std::int64_t SessionTable::WorstRttUs() const {
+  std::int64_t worst = -1;
+  for (const auto& [address, session] : sessions_) {
+    worst = std::max(worst, session->link.rtt_us());
+  }
+  return worst;
+}
+
+std::int64_t SessionTable::WorstLossPpm() const {
+  std::int64_t worst = 0;
+  for (const auto& [address, session] : sessions_) {
+    worst = std::max(worst, session->link.loss_ppm());
+  }
+  return worst;
+}
+
+void SessionTable::SendToAll(const Bytes& message) {
+  for (auto& [address, session] : sessions_) {
+    if (session->stage == SessionStage::kGreeted || session->link.SendReliable(message)) continue;
+    session->leaving = true;
+    session->leaving_why = "does not acknowledge";
+  }
+}
+
+void SessionTable::Flush(std::int64_t now_us, Stats* stats) {
+  for (auto& [address, session] : sessions_) {
+    const Address to = address;
+    session->link.Flush(now_us, [&](ByteView datagram) {
+      stats->bytes_out += static_cast<std::int64_t>(datagram.size);
+      stats->datagrams_out += 1;
+      net_.Send(to, datagram);
+    });
+  }
+  net_.Flush();
+}
+
+}  // namespace seam

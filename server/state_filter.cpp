@@ -1,0 +1,111 @@
+#include "server/state_filter.h"
+
+#include <algorithm>
+
+namespace seam {
+namespace {
+
+/// States this far in the past or future are nonsense, s.
+constexpr double kStatesPast = 2.0;
+constexpr double kStatesFuture = 0.5;
+/// A body may move this much more than its speed explains between two states, m: a hard correction.
+constexpr float kJumpSlack = 5.0f;
+
+}  // namespace
+
+StateFilter::StateFilter(const Scene& scene, const Replica& replica,
+                         const AuthorityManager& authority, const EditLog& edits, Stats& stats)
+    : scene_(scene), replica_(replica), authority_(authority), edits_(edits), stats_(stats) {
+  accepted_.resize(static_cast<std::size_t>(replica_.world().body_count()));
+}
+
+bool StateFilter::MayLookAt(int peer, const States& states) {
+  const double hz = scene_.solver.tick_hz;
+  const auto age = static_cast<double>(replica_.tick() - states.tick);
+  if (states.peer != peer) {
+    ++stats_.dropped_right;
+    return false;
+  }
+  if (age > kStatesPast * hz || age < -kStatesFuture * hz) {
+    ++stats_.dropped_stale;
+    return false;
+  }
+  if (edits_.Differs(states.revision, states.composition) ||
+      states.revision > replica_.revision()) {
+    ++stats_.dropped_implausible;  // its next ping has it repaired
+    return false;
+  }
+  return true;
+}
+
+bool StateFilter::Plausible(int body, std::int64_t tick, const BodyState& state) const {
+  const Vec2& p = state.position;
+  if ((p.array() < scene_.bounds_min.array()).any()) return false;
+  if ((p.array() > scene_.bounds_max.array()).any()) return false;
+  if (state.velocity.norm() > scene_.speed_limit) return false;
+  const LastAccepted& last = accepted_[static_cast<std::size_t>(body)];
+  if (last.tick < 0) return true;
+  const float seconds =
+      static_cast<float>(std::max<std::int64_t>(1, tick - last.tick)) * replica_.world().dt();
+  return (p - last.position).norm() <= scene_.speed_limit * seconds + kJumpSlack;
+}
+
+bool StateFilter::MayMove(int body, const States& states, std::size_t i) {
+  if (body < 0) {
+    ++(states.revision < replica_.revision() ? stats_.dropped_stale : stats_.dropped_right);
+    return false;
+  }
+  if (!replica_.SameBody(body, states.revision)) {
+    ++stats_.dropped_stale;
+    return false;
+  }
+  switch (authority_.RightToMove(states.peer, body, states.epoch[i])) {
+    case AuthorityManager::Right::kYes: break;
+    case AuthorityManager::Right::kStale: ++stats_.dropped_stale; return false;
+    case AuthorityManager::Right::kNo: ++stats_.dropped_right; return false;
+  }
+  if (!Plausible(body, states.tick, Unpack(states, i, 0))) {
+    ++stats_.dropped_implausible;
+    return false;
+  }
+  return true;
+}
+
+States StateFilter::Keep(std::int64_t now_us, int peer, const States& states) {
+  States kept;
+  if (!MayLookAt(peer, states)) return kept;
+  kept.utime = now_us;
+  kept.peer = states.peer;
+  kept.tick = states.tick;
+  kept.revision = states.revision;
+  kept.composition = states.composition;
+  kept.origin_x = states.origin_x;
+  kept.origin_y = states.origin_y;
+  for (std::size_t i = 0; i < states.id.size(); ++i) {
+    const int body = replica_.world().BodyOfId(states.id[i]);
+    if (!MayMove(body, states, i)) continue;
+    LastAccepted& last = accepted_[static_cast<std::size_t>(body)];
+    if (states.tick > last.tick) last = {states.tick, Unpack(states, i, 0).position};
+    kept.id.push_back(states.id[i]);
+    kept.epoch.push_back(states.epoch[i]);
+    kept.flags.push_back(states.flags[i]);
+    kept.x.push_back(states.x[i]);
+    kept.y.push_back(states.y[i]);
+    kept.angle.push_back(states.angle[i]);
+    kept.vx.push_back(states.vx[i]);
+    kept.vy.push_back(states.vy[i]);
+    kept.spin.push_back(states.spin[i]);
+  }
+  return kept;
+}
+
+void StateFilter::Remap(const std::vector<BodyOrigin>& bodies) {
+  std::vector<LastAccepted> accepted;
+  for (const BodyOrigin& origin : bodies) {
+    accepted.push_back(origin.same ? accepted_[static_cast<std::size_t>(origin.body)]
+                                   : LastAccepted{});
+  }
+  accepted_ = std::move(accepted);
+}
+
+}  // namespace seam

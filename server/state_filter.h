@@ -1,0 +1,46 @@
+#pragma once
+/// What of a peer's states is believed: said by who may say it, of now, and likely. The rest is
+/// dropped and counted by reason.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/codec/messages.h"
+#include "common/sync/replica.h"
+#include "server/authority/authority_manager.h"
+#include "server/edits/edit_log.h"
+
+namespace seam {
+
+class StateFilter {
+ public:
+  /// All must outlive it. Dropped things are counted in `stats`.
+  StateFilter(const Scene& scene, const Replica& replica, const AuthorityManager& authority,
+              const EditLog& edits, Stats& stats);
+
+  /// What is kept of a message of `peer`, which is ready; without bodies when it is nothing.
+  States Keep(std::int64_t now_us, int peer, const States& states);
+  /// The bodies are others now.
+  void Remap(const std::vector<BodyOrigin>& bodies);
+
+ private:
+  /// Whether the message as a whole may be looked at.
+  bool MayLookAt(int peer, const States& states);
+  /// Whether the i-th body of the message may be moved.
+  bool MayMove(int body, const States& states, std::size_t i);
+  bool Plausible(int body, std::int64_t tick, const BodyState& state) const;
+
+  struct LastAccepted {
+    std::int64_t tick = -1;
+    Vec2 position{0, 0};
+  };
+
+  const Scene& scene_;
+  const Replica& replica_;
+  const AuthorityManager& authority_;
+  const EditLog& edits_;
+  Stats& stats_;
+  std::vector<LastAccepted> accepted_;  // by body
+};
+
+}  // namespace seam
