@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/geometry.h"
 #include "common/measure/parts.h"
 
 namespace seam {
 namespace {
-
-constexpr double kTurn = 6.283185307179586;  // rad
 
 /// Sum of squares and count, for a root mean square.
 struct Squares {
@@ -48,7 +47,7 @@ void MeasureError(const Recording& recording, const Oracle& oracle, Measures* me
         const double dx = double{view.x[i]} - double{truth->position.x()};
         const double dy = double{view.y[i]} - double{truth->position.y()};
         const double squared = dx * dx + dy * dy;
-        const double turned = std::remainder(double{view.angle[i]} - double{truth->angle}, kTurn);
+        const double turned = WrapAngle(double{view.angle[i]} - double{truth->angle});
         all.Add(squared);
         of_peer.Add(squared);
         angles.Add(turned * turned);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/geometry.h"
 #include "common/sync/quantize.h"
 
 namespace seam {
@@ -25,9 +26,6 @@ inline BodyState WithinLimits(BodyState state, float speed_limit) {
   return state;
 }
 
-/// `angle` plus the whole turns that bring it nearest to `near`.
-inline float Unwrapped(float angle, float near) {
-  return near + std::remainder(angle - near, 6.2831853f);
-}
+inline float Unwrapped(float angle, float near) { return UnwrapAngle(angle, near); }
 
 }  // namespace seam
