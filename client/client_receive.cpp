@@ -9,7 +9,6 @@
 namespace seam {
 namespace {
 
-constexpr std::size_t kRoomBytesMax = 60000;
 constexpr std::size_t kHeldMax = 256;
 /// A refused join is repeated for this long, us.
 constexpr std::int64_t kInsistUs = 3000000;
@@ -36,7 +35,7 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
   if (const auto* welcome = std::get_if<Welcome>(&any)) {
     if (peer_ >= 0) return;
     if (welcome->peer < 1 || welcome->room_bytes < 1 ||
-        static_cast<std::size_t>(welcome->room_bytes) > kRoomBytesMax) {
+        static_cast<std::size_t>(welcome->room_bytes) > kBusMessageBytesMax) {
       fatal_ = "the server's welcome makes no sense";
       return;
     }
@@ -94,6 +93,7 @@ void Client::OnEdit(const EditOrder& order) {
 
 void Client::MakeReplica() {
   SyncConfig sync = MakeSyncConfig(room_.mode, room_.reconcile);
+  mode_ = sync.mode;
   sync.tick_hz = room_.tick_hz;
   sync.send_hz = room_.send_hz;
   sync.smooth = config_.smooth;

@@ -2,8 +2,6 @@
 
 namespace seam {
 
-static_assert(kEditTextMax == kEditTextBytesMax && kEditKindMax == kEditKindsMax);
-
 EditOrder ToOrder(const Edit& edit) {
   EditOrder order;
   order.kind = static_cast<std::int8_t>(edit.kind);

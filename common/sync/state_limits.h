@@ -5,12 +5,13 @@
 #include <cmath>
 
 #include "common/base/geometry.h"
+#include "common/scene/scene_limits.h"
 #include "common/sync/quantize.h"
 
 namespace seam {
 
 /// Speeds written to the world stay within what the engine itself can move, rad/s.
-constexpr float kSpinSpeedMax = 94.0f;
+constexpr float kSpinSpeedMax = kSpinMax;
 
 /// A difference that the wire's rounding explains.
 inline bool Negligible(const BodyState& d) {
