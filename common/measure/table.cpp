@@ -1,8 +1,8 @@
 #include "common/measure/table.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+
+#include <fmt/format.h>
 
 namespace seam {
 namespace {
@@ -35,13 +35,6 @@ std::vector<std::string> Values(const MeasuredRun& run) {
           Number(m.rebound.value_or(0), m.rebound.has_value()),
           Number(m.bytes_per_s, m.bytes_per_s > 0),
           Number(m.cpu_us_per_s, m.cpu_us_per_s > 0)};
-}
-
-std::string Quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
 }
 
 /// "0.01 m at most (the oracle's own: 0.002)", or "does not apply".
@@ -102,6 +95,13 @@ std::string More(const MeasuredRun& run) {
 
 }  // namespace
 
+std::string CsvField(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
 std::string CsvHeader() {
   std::string line;
   for (const char* column : kColumns) line += (line.empty() ? "" : ",") + std::string(column);
@@ -112,7 +112,7 @@ std::string CsvLine(const MeasuredRun& run) {
   std::string line;
   bool first = true;
   for (const std::string& value : Values(run)) {
-    line += (first ? "" : ",") + Quoted(value);
+    line += (first ? "" : ",") + CsvField(value);
     first = false;
   }
   return line;

@@ -1,19 +1,22 @@
 /// seam-lab physics: what is observed of runs whose course is known, and its table.
 
+#include <algorithm>
+#include <cmath>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <unistd.h>
 
-#include <algorithm>
-#include <cmath>
 #include <sstream>
+
+#include <unistd.h>
 
 #include "common/base/check.h"
 #include "tests/lab/hard/observe.h"
 #include "tests/lab/hard/physics_plan.h"
 #include "tests/lab/hard/settings.h"
 #include "tests/lab/physics_row.h"
+#include "tests/lab/report/csv_table.h"
 #include "tests/lab/sweep_table.h"
 #include "tests/support/child_process.h"
 #include "tests/support/lab_workspace.h"

@@ -1,10 +1,12 @@
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdio>
+
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "common/base/process.h"
+#include "common/measure/table.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/grid.h"
 #include "tests/lab/hard/overhead.h"
