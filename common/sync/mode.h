@@ -1,13 +1,15 @@
 #pragma once
 /// How a room is synchronised: mode, reconciler and rates, as flags and messages say it.
 
+#include <optional>
 #include <string>
 
 #include "common/sync/reconcile/reconcile.h"
 
 namespace seam {
 
-/// DESIGN: who simulates what. kOracle: every peer simulates everything alone, with all inputs.
+/// Who simulates what (docs/architecture.md). kOracle: every peer simulates everything alone,
+/// with all inputs.
 enum class Mode { kOracle, kCentral, kStrict, kBuffer };
 
 struct SyncConfig {
@@ -26,6 +28,8 @@ struct SyncConfig {
 };
 
 const char* ToString(Mode mode);
+/// Nothing for an unknown name: recordings may say anything.
+std::optional<Mode> FindMode(const std::string& name);
 /// Throws OperatorError naming the known ones.
 Mode ParseMode(const std::string& name);
 /// Fills mode and reconciler from their names. An empty reconciler in mode buffer means
