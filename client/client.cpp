@@ -1,7 +1,6 @@
 #include "client/client.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/base/check.h"
 #include "common/sync/edit_order.h"

@@ -1,7 +1,6 @@
 #include "common/measure/energy.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "common/base/check.h"

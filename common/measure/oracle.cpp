@@ -1,7 +1,6 @@
 #include "common/measure/oracle.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "common/measure/pose.h"

@@ -124,6 +124,11 @@ std::vector<Edit> EditsOf(const Recording& recording) {
   return edits;
 }
 
+const View* FindView(const std::map<std::int64_t, View>& views, std::int64_t tick) {
+  const auto found = views.find(tick);
+  return found == views.end() ? nullptr : &found->second;
+}
+
 int IndexOf(const View& view, PartId id) {
   const auto found = std::lower_bound(view.id.begin(), view.id.end(), id);
   if (found == view.id.end() || *found != id) return -1;

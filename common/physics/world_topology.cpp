@@ -7,7 +7,6 @@
 ///   v = sum m_k v_k / sum m_k,  w = sum (I_k w_k + m_k r_k x v_k) / I
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "common/base/geometry.h"

@@ -1,7 +1,5 @@
 #include "common/scene/character_body.h"
 
-#include <cmath>
-
 #include "common/base/geometry.h"
 #include "common/scene/character.h"
 

@@ -1,6 +1,4 @@
-#include <cmath>
 #include <fstream>
-#include <sstream>
 
 #include "common/base/check.h"
 #include "common/scene/scene.h"

@@ -1,7 +1,6 @@
 #include "common/scene/scene_reader.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include "common/base/check.h"

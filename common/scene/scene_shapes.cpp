@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include "common/base/geometry.h"
 #include "common/scene/scene_draft.h"

@@ -3,10 +3,9 @@
 
 #include "tests/lab/cluster.h"
 
-#include <gtest/gtest.h>
-
 #include <chrono>
-#include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "common/measure/measure.h"
 

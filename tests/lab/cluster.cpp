@@ -13,6 +13,9 @@ constexpr std::int64_t kStepLeastUs = 200;
 /// Without a tick for so long, nobody plays.
 constexpr std::int64_t kPatienceUs = 30000000;
 
+// A client lets go of what it simulates before the server gives it to somebody else.
+static_assert(Client::kSilentUs < Server::kSilentUs);
+
 }  // namespace
 
 void Cluster::Tap::Publish(const std::string& channel, std::int64_t, ByteView message) {

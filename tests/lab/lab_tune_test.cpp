@@ -1,10 +1,10 @@
 /// seam-lab tune and overhead: the cheapest setting of a known problem is found; the core and the
 /// engine alone end alike.
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <set>
 

@@ -1,7 +1,6 @@
 #include "tests/lab/physics_row.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include <fmt/format.h>

@@ -1,13 +1,12 @@
 /// A seam-server and its clients on a path that somebody else writes on as well: real UDP, and a
 /// relay between client and server that adds, damages and forges datagrams under their addresses.
 
-#include <gtest/gtest.h>
-#include <poll.h>
-
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <functional>
+
+#include <gtest/gtest.h>
+#include <poll.h>
 
 #include "common/base/process.h"
 #include "common/base/random.h"

@@ -1,12 +1,13 @@
 #include "common/record/bus.h"
 
+#include <cstdlib>
+
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <unistd.h>
 
-#include <cstdlib>
-#include <map>
 #include <stdexcept>
+
+#include <unistd.h>
 
 #include "common/base/check.h"
 #include "common/base/random.h"

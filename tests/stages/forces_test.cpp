@@ -2,8 +2,6 @@
 
 #include "common/scene/forces.h"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include "tests/support/small_world.h"

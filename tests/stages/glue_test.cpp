@@ -1,10 +1,6 @@
 /// Glue that breaks: forces by arithmetic.
 
-#include <cmath>
-
 #include <gtest/gtest.h>
-
-#include <numeric>
 
 #include "common/stages/bonds/bond_net.h"
 #include "tests/support/living_world.h"

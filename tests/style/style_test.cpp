@@ -1,11 +1,13 @@
 /// How files are written: columns, lengths, names, promises, units of messages.
 
+#include <functional>
+
 #include <gtest/gtest.h>
+
+#include <string>
+
 #include <unistd.h>
 
-#include <algorithm>
-#include <functional>
-#include <string>
 #include <vector>
 
 #include "tests/support/child_process.h"

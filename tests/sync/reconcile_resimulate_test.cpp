@@ -1,9 +1,8 @@
 /// resimulate: exact to the wire's rounding wherever both worlds felt the same.
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
-#include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "common/sync/quantize.h"
 #include "tests/support/followed_copy.h"

@@ -2,8 +2,6 @@
 
 #include "common/sync/reconcile/reconcile.h"
 
-#include <cmath>
-
 #include <gtest/gtest.h>
 
 #include "common/base/check.h"

@@ -3,7 +3,6 @@
 #include <map>
 #include <set>
 #include <tuple>
-#include <utility>
 
 #include "common/base/geometry.h"
 #include "common/scene/connectors.h"

@@ -1,10 +1,9 @@
 /// The hard cases with an answer, run: the scene's own setting against the stock one, and the step
 /// made small.
 
-#include <gtest/gtest.h>
-
-#include <algorithm>
 #include <cmath>
+
+#include <gtest/gtest.h>
 
 #include "tests/lab/hard/hard_case.h"
 #include "tests/support/hard_case_named.h"

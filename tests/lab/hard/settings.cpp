@@ -1,6 +1,5 @@
 #include "tests/lab/hard/settings.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>

@@ -1,13 +1,14 @@
 #include "tests/lab/report/gnuplot.h"
 
-#include <fcntl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
+
+#include <fcntl.h>
+
 #include <fstream>
+
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include "common/base/check.h"
 #include "tests/lab/jobs.h"

@@ -1,9 +1,8 @@
 /// What an active character can do by its joints' torques alone, and its cost beside a limp one.
 
-#include <fmt/format.h>
-
 #include <algorithm>
-#include <cmath>
+
+#include <fmt/format.h>
 
 #include "common/physics/part_places.h"
 #include "tests/lab/world/bench.h"
