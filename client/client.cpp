@@ -1,7 +1,6 @@
 #include "client/client.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/base/check.h"
 #include "common/sync/edit_order.h"
@@ -114,7 +113,7 @@ std::int64_t Client::LeadTarget() const {
 
 std::int64_t Client::RoomTime(std::int64_t now_us) {
   std::int64_t time = clock_.ServerTime(now_us) - tick0_us_;
-  if (room_.mode == "central") {
+  if (mode_ == Mode::kCentral) {
     if (lead_us_ < 0) lead_us_ = static_cast<double>(LeadTarget());
     time += static_cast<std::int64_t>(lead_us_);
   }
@@ -178,9 +177,9 @@ void Client::NoteOwnInput() {
 void Client::StepOnce(std::int64_t now_us) {
   NoteOwnInput();
   replica_->Step();
-  const bool central = room_.mode == "central";
+  const bool central = mode_ == Mode::kCentral;
   const std::int64_t every = central ? 1 : std::max(1, room_.tick_hz / room_.send_hz);
-  if (player_ >= 0 && room_.mode != "oracle" && replica_->tick() % every == 0) {
+  if (player_ >= 0 && mode_ != Mode::kOracle && replica_->tick() % every == 0) {
     Inputs inputs = replica_->inputs(player_).Export(player_, kInputsRedundant);
     inputs.utime = now_us;
     link_->SendUnreliable(Encode(inputs));
@@ -204,7 +203,7 @@ void Client::StepOnce(std::int64_t now_us) {
 }
 
 std::int64_t Client::next_tick_us(std::int64_t now_us) {
-  // A twentieth of a second is often enough while joining; then as the timeline says.
+  // A hundredth of a second is often enough while joining; then as the timeline says.
   if (!started_) return now_us + 10000;
   const std::int64_t time = RoomTime(now_us);
   const std::int64_t next = (replica_->tick() + 1) * 1000000 / room_.tick_hz;

@@ -96,7 +96,8 @@ class Client {
   ClockFilter clock_;
   MetaTable metadata_;
   Room room_;
-  std::vector<Bytes> held_;  // grants and states that came before the replica was built
+  Mode mode_ = Mode::kBuffer;  // room_.mode, once its scene is loaded
+  std::vector<Bytes> held_;    // grants and states that came before the replica was built
   Bytes room_bytes_;
   std::size_t room_size_ = 0;
   int peer_ = -1;

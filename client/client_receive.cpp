@@ -93,6 +93,7 @@ void Client::OnEdit(const EditOrder& order) {
 
 void Client::MakeReplica() {
   SyncConfig sync = MakeSyncConfig(room_.mode, room_.reconcile);
+  mode_ = sync.mode;
   sync.tick_hz = room_.tick_hz;
   sync.send_hz = room_.send_hz;
   sync.smooth = config_.smooth;

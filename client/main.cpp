@@ -1,7 +1,6 @@
 /// seam-client: one player (or spectator) of a room, over UDP. `seam-client --help`.
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <memory>
@@ -10,6 +9,7 @@
 #include "client/client.h"
 #include "client/keyboard.h"
 #include "common/base/command_line.h"
+#include "common/base/names.h"
 #include "common/base/process.h"
 #include "common/base/progress_line.h"
 #include "common/codec/version_line.h"
@@ -59,10 +59,7 @@ void Define(CLI::App& app, Flags& f) {
 }
 
 void CheckName(const std::string& flag, const std::string& name) {
-  const bool good = !name.empty() && name.size() <= 32 &&
-                    std::all_of(name.begin(), name.end(), [](unsigned char c) {
-                      return std::isalnum(c) != 0 || c == '_' || c == '-';
-                    });
+  const bool good = IsName(name);
   if (!good) throw OperatorError(flag + " takes 1 to 32 letters, digits, - or _");
 }
 

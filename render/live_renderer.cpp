@@ -85,7 +85,8 @@ void LiveRenderer::DrawDue() {
 void LiveRenderer::Begin() {
   std::optional<Oracle> oracle;
   if (truth_) {
-    RequireSameScene(*truth_, builder_.recording().room, "the session on the bus");
+    RequireOracleOf(truth_->room, truth_->path, builder_.recording().room,
+                    "the session on the bus");
     oracle = truth_->oracle;
   }
   playback_.emplace(&builder_.recording(), std::move(oracle));

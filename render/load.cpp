@@ -1,6 +1,7 @@
 #include "render/load.h"
 
 #include "common/base/check.h"
+#include "common/sync/mode.h"
 
 namespace seam {
 namespace {
@@ -13,9 +14,9 @@ Playback Load(const std::string& path, const RenderOptions& options) {
   std::optional<Oracle> oracle;
   if (!options.oracle.empty()) {
     GivenOracle truth = LoadOracle(options.oracle);
-    RequireSameScene(truth, recording.room, path);
+    RequireOracleOf(truth.room, truth.path, recording.room, path);
     oracle = std::move(truth.oracle);
-  } else if (recording.room.mode == "oracle") {
+  } else if (FindMode(recording.room.mode) == Mode::kOracle) {
     oracle = OracleFromRecording(recording);
   } else {
     oracle = ComputeOracle(recording);
@@ -33,22 +34,12 @@ std::vector<Playback> LoadPlaybacks(const RenderOptions& options) {
 
 GivenOracle LoadOracle(const std::string& path) {
   const Recording recording = ReadRecording(path);
-  if (recording.room.mode != "oracle")
-    throw OperatorError(path + ": made in mode " + recording.room.mode +
-                        ", so it is no oracle (seam-server --mode oracle)");
+  RequireOracleOf(recording.room, path, recording.room, path);  // of itself, if of any
   return {path, recording.room, OracleFromRecording(recording)};
 }
 
-void RequireSameScene(const GivenOracle& truth, const Room& room, const std::string& what) {
-  if (truth.room.scene_text != room.scene_text)
-    throw OperatorError(what + ": its scene (" + room.scene_name + ") is not the one of " +
-                        truth.path + " (" + truth.room.scene_name + ")");
-  if (truth.room.tick_hz != room.tick_hz)
-    throw OperatorError(what + ": its tick rate is not the one of " + truth.path);
-}
-
 void RequirePeer(const Playback& playback, int peer) {
-  if (playback.PeerOr(peer) == peer || playback.recording().room.mode == "oracle") return;
+  if (playback.PeerOr(peer) == peer || playback.mode() == Mode::kOracle) return;
   std::string known;
   for (int p : playback.peers()) known += (known.empty() ? "" : ", ") + std::to_string(p);
   throw OperatorError("--view " + std::to_string(peer) + ": the recording has views of " + known);

@@ -22,9 +22,6 @@ struct GivenOracle {
 /// Throws OperatorError when the log is another mode's.
 GivenOracle LoadOracle(const std::string& path);
 
-/// Throws OperatorError, naming both, unless `truth` simulated the scene of the room `what`.
-void RequireSameScene(const GivenOracle& truth, const Room& room, const std::string& what);
-
 /// Throws OperatorError naming the peers there are when `peer` showed nothing.
 void RequirePeer(const Playback& playback, int peer);
 

@@ -50,12 +50,7 @@ Recording Read(const std::string& path) {
 /// The oracle given by --oracle; it must have simulated what `recording` did.
 Oracle GivenOracle(const Recording& truth, const Recording& recording, const Options& options,
                    const std::string& path) {
-  if (truth.room.scene_text != recording.room.scene_text) {
-    throw OperatorError(path + ": its scene is not the one of " + options.oracle);
-  }
-  if (truth.room.tick_hz != recording.room.tick_hz) {
-    throw OperatorError(path + ": its tick rate is not the one of " + options.oracle);
-  }
+  RequireOracleOf(truth.room, options.oracle, recording.room, path);
   return OracleFromRecording(truth);
 }
 

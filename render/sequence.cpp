@@ -1,7 +1,6 @@
 #include "render/sequence.h"
 
 #include <atomic>
-#include <cmath>
 #include <exception>
 #include <mutex>
 #include <thread>

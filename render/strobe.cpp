@@ -88,11 +88,12 @@ void DrawPanel(DrawList& list, const Rect& area, const Playback& playback, int p
   list.StrokeRect({area.x + 0.5f, area.y + 0.5f, area.width - 1, area.height - 1}, {1, kFrame, 0});
 }
 
-std::string Explained(const std::string& mode) {
-  if (mode == "oracle") return "one world: the truth";
-  if (mode == "strict") return "no buffer zone";
-  if (mode == "central") return "server simulates all";
-  return "mode " + mode;
+std::string Explained(const std::string& name) {
+  const std::optional<Mode> mode = FindMode(name);
+  if (mode == Mode::kOracle) return "one world: the truth";
+  if (mode == Mode::kStrict) return "no buffer zone";
+  if (mode == Mode::kCentral) return "server simulates all";
+  return "mode " + name;
 }
 
 /// Mode, reconciler and the run's key figures, left of its row.
@@ -110,7 +111,7 @@ void DrawRowLabel(DrawList& list, const Rect& area, const Playback& playback) {
     list.Text(area.x, y, TextStyle::kBody, name, kFaintInk);
     list.Text(area.right(), y, TextStyle::kStrong, value, kInk, Align::kRight);
   };
-  if (!playback.measures() || room.mode == "oracle") return;
+  if (!playback.measures() || playback.mode() == Mode::kOracle) return;
   const Measures& measures = *playback.measures();
   if (measures.rebound) figure("rebound", FormatNumber(*measures.rebound, 2));
   figure("error RMS", FormatLength(measures.error_rms_m));

@@ -1,12 +1,12 @@
 /// seam-server: a room over UDP. `seam-server --help`.
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 
 #include "common/base/command_line.h"
 #include "common/base/find_scene.h"
+#include "common/base/names.h"
 #include "common/base/process.h"
 #include "common/base/progress_line.h"
 #include "common/codec/version_line.h"
@@ -72,10 +72,7 @@ void Define(CLI::App& app, Flags& f) {
 }
 
 void CheckRoomName(const std::string& room) {
-  const bool good = !room.empty() && room.size() <= 32 &&
-                    std::all_of(room.begin(), room.end(), [](unsigned char c) {
-                      return std::isalnum(c) != 0 || c == '_' || c == '-';
-                    });
+  const bool good = IsName(room);
   if (!good) throw OperatorError("--room takes 1 to 32 letters, digits, - or _");
 }
 

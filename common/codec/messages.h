@@ -8,6 +8,8 @@
 #include <string>
 #include <vector>
 
+#include "common/base/limits.h"
+
 namespace seam {
 
 /// Bumped when any message changes: peers of different versions do not talk.
@@ -17,28 +19,34 @@ constexpr std::int32_t kProtocolVersion = 3;
 constexpr std::size_t kBusMessageBytesMax = 60000;
 /// Most bodies in one States message: 54 + 19 bytes each must fit a datagram of 1200 bytes.
 constexpr std::size_t kStatesBodiesMax = 48;
+static_assert(54 + 19 * kStatesBodiesMax <= kMessageBytesMax);
 /// Most bodies in one View message: 29 bytes each within kBusMessageBytesMax.
 constexpr std::size_t kViewBodiesMax = 1900;
+static_assert(29 * kViewBodiesMax <= kBusMessageBytesMax);
 
 /// Most views' parts: 32768 ids in views of kViewBodiesMax need 18.
 constexpr std::int32_t kViewPartsMax = 32;
+static_assert(32768 <= kViewBodiesMax * kViewPartsMax);
 /// Most ticks in one Inputs message.
 constexpr std::size_t kInputsMax = 64;
 /// Most mechanisms in one Grants or Release message, and most followers in one Grants: 38 + 10
-/// bytes each + 2 bytes a follower must fit Link's kMessageBytesMax.
+/// bytes each + 2 bytes a follower must fit kMessageBytesMax.
 constexpr std::size_t kGrantsMax = 80, kGrantFollowersMax = 150;
-/// Most values in one Meta message: 34 + 8 bytes each must fit Link's kMessageBytesMax.
+static_assert(38 + 10 * kGrantsMax + 2 * kGrantFollowersMax <= kMessageBytesMax);
+/// Most values in one Meta message: 34 + 8 bytes each must fit kMessageBytesMax.
 constexpr std::size_t kMetaMax = 120;
+static_assert(34 + 8 * kMetaMax <= kMessageBytesMax);
 /// Most impacts in one Impacts message: 16 bytes each within kBusMessageBytesMax.
 constexpr std::size_t kImpactsMax = 3000;
+static_assert(16 * kImpactsMax < kBusMessageBytesMax);
 /// Most bytes in one Chunk.
 constexpr std::size_t kChunkBytesMax = 1000;
+static_assert(kChunkBytesMax < kMessageBytesMax);
 /// Longest scene file that a Room can carry; a longer one cannot be played.
 constexpr std::size_t kSceneTextBytesMax = 51200;
+static_assert(kSceneTextBytesMax < kBusMessageBytesMax);
 /// Longest names of modes, reconcilers, scenes; longest network profile; longest event or reason.
 constexpr std::size_t kLabelBytesMax = 64, kImpairBytesMax = 200, kTextBytesMax = 1000;
-/// Peers 0..31 and players 0..31.
-constexpr std::int32_t kPeersMax = 32;
 /// Ticks are below this (580 years at 60 Hz), times below kTimeMaxUs (285 years) either side of 0:
 /// sums and differences of what a message says cannot overflow.
 constexpr std::int64_t kTickMax = std::int64_t{1} << 40;
@@ -190,8 +198,9 @@ struct EditOrder {
   std::string text;                         ///< at most kEditTextBytesMax
   std::vector<float> value = {0, 0, 0, 0};  ///< x, y, angle, amount
 };
-/// The whole must fit Link's kMessageBytesMax.
+/// The whole must fit kMessageBytesMax.
 constexpr std::size_t kEditTextBytesMax = 900;
+static_assert(kEditTextBytesMax < kMessageBytesMax);
 constexpr std::int8_t kEditKindsMax = 8;
 
 /// Server -> everyone, reliable and ordered: what parts and players have and are worth, changes
@@ -212,7 +221,7 @@ constexpr std::int8_t kMetaCheckpoint = 2;  ///< the highest checkpoint reached 
 constexpr std::int8_t kMetaLaps = 3;        ///< times that all checkpoints were reached in order
 constexpr std::int8_t kMetaTaken = 4;       ///< of a pickup's part: 1 + the player who took it
 constexpr std::int8_t kMetaScripts = 16;    ///< 16..25: "value0".."value9", for scripts alone
-constexpr std::int8_t kMetaKeyMax = 25;
+constexpr std::int8_t kMetaKeyMax = kMetaScripts + 9;
 
 /// Bus only: what a peer shows at a tick. This is what is measured and drawn.
 struct View {

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <numeric>
 
+#include "common/base/names.h"
+
 namespace seam {
 namespace {
 
@@ -66,13 +68,6 @@ std::size_t SequenceBytes(const std::string& text, std::size_t at) {
 
 }  // namespace
 
-bool IsName(const std::string& text) {
-  return Within(text.size(), 1, 32) && std::all_of(text.begin(), text.end(), [](char c) {
-           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                  c == '_' || c == '-';
-         });
-}
-
 bool IsPrintable(const std::string& text, std::size_t bytes_max, bool lines) {
   if (text.size() > bytes_max) return false;
   for (std::size_t at = 0; at < text.size();) {
@@ -109,7 +104,7 @@ bool Valid(const Room& m) {
          IsPrintable(m.scene_name, kLabelBytesMax) &&
          IsPrintable(m.scene_text, kSceneTextBytesMax, true) &&
          IsPrintable(m.mode, kLabelBytesMax) && IsPrintable(m.reconcile, kLabelBytesMax) &&
-         IsPrintable(m.impair, kImpairBytesMax) && Within(m.tick_hz, 10, 960) &&
+         IsPrintable(m.impair, kImpairBytesMax) && Within(m.tick_hz, kTickHzMin, kTickHzMax) &&
          Within(m.send_hz, 1, m.tick_hz);
 }
 

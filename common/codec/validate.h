@@ -8,9 +8,6 @@
 
 namespace seam {
 
-/// 1..32 characters of [A-Za-z0-9_-]: names of players and rooms.
-bool IsName(const std::string& text);
-
 /// At most `bytes_max` bytes of well-formed UTF-8 (RFC 3629) without control characters;
 /// `lines` allows newline, carriage return and tab.
 bool IsPrintable(const std::string& text, std::size_t bytes_max, bool lines = false);

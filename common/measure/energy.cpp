@@ -1,19 +1,14 @@
 #include "common/measure/energy.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "common/base/check.h"
+#include "common/base/geometry.h"
 #include "common/scene/water.h"
 #include "common/stages/water/water_push.h"
 
 namespace seam {
-namespace {
-
-constexpr double kTurn = 6.283185307179586;  // rad
-
-}  // namespace
 
 EnergyMeter::EnergyMeter(const Scene& scene, const Composition& composition)
     : waters_(scene.waters), gravity_(scene.gravity.cast<double>()), imposed_(scene, composition) {
@@ -35,7 +30,7 @@ EnergyMeter::EnergyMeter(const Scene& scene, const Composition& composition)
     const bool turns = ends.kind == JointKind::kWeld;
     const double a = load(ends.a, turns), b = load(ends.b, turns);
     const double reduced = a > 0 && b > 0 ? a * b / (a + b) : a + b;
-    const double omega = kTurn * ends.frequency_hz;
+    const double omega = 2 * kPi * ends.frequency_hz;
     springs_.push_back({ends, reduced * omega * omega});
   }
 }
@@ -47,8 +42,7 @@ double EnergyMeter::InWater(const std::vector<BodyState>& moving) const {
   for (std::size_t i = 0; i < wet_shapes_.size(); ++i) {
     FloatingBody body;
     body.position = moving[i].position.cast<double>();
-    body.cosine = std::cos(static_cast<double>(moving[i].angle));
-    body.sine = std::sin(static_cast<double>(moving[i].angle));
+    body.rotation = Rotation<double>(static_cast<double>(moving[i].angle));
     for (const Water& water : waters_) {
       const Bounds bounds = BoundsOf(water);
       const AreaMoments wet = Displaced(wet_shapes_[i], nullptr, body, bounds);
@@ -83,7 +77,7 @@ double EnergyMeter::Of(const std::vector<BodyState>& moving, std::int64_t tick) 
     const double spin = double{state.spin};
     energy += masses_[i].mass * state.velocity.cast<double>().squaredNorm() / 2;
     energy += masses_[i].inertia * spin * spin / 2;
-    energy -= masses_[i].mass * gravity_.dot(Pose(state).ToWorld(masses_[i].centre));
+    energy -= masses_[i].mass * gravity_.dot(RootFrame(state).ToWorld(masses_[i].centre));
   }
   if (springs_.empty()) return energy;
   const std::vector<BodyState> states = AllStates(moving, imposed_, tick);

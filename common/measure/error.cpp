@@ -3,23 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/geometry.h"
+#include "common/measure/mean_square.h"
 #include "common/measure/parts.h"
 
 namespace seam {
 namespace {
-
-constexpr double kTurn = 6.283185307179586;  // rad
-
-/// Sum of squares and count, for a root mean square.
-struct Squares {
-  double sum = 0;
-  std::int64_t count = 0;
-  void Add(double squared) {
-    sum += squared;
-    ++count;
-  }
-  double Rms() const { return count == 0 ? 0 : std::sqrt(sum / static_cast<double>(count)); }
-};
 
 /// Nearest rank: the least value that at least `share` of all values do not exceed.
 double Percentile(std::vector<double>& values, double share) {
@@ -36,11 +25,11 @@ double Percentile(std::vector<double>& values, double share) {
 void MeasureError(const Recording& recording, const Oracle& oracle, Measures* measures) {
   measures->first_tick = recording.first_tick;
   const std::int64_t ticks = recording.last_tick - recording.first_tick + 1;
-  std::vector<Squares> by_tick(static_cast<std::size_t>(std::max<std::int64_t>(0, ticks)));
+  std::vector<MeanSquare> by_tick(static_cast<std::size_t>(std::max<std::int64_t>(0, ticks)));
   std::vector<double> distances;
-  Squares all, angles;
+  MeanSquare all, angles;
   for (const auto& [peer, views] : recording.views) {
-    Squares of_peer;
+    MeanSquare of_peer;
     for (const auto& [tick, view] : views) {
       for (std::size_t i = 0; i < view.id.size(); ++i) {
         const std::optional<BodyState> truth = oracle.At(tick, view.id[i]);
@@ -48,7 +37,7 @@ void MeasureError(const Recording& recording, const Oracle& oracle, Measures* me
         const double dx = double{view.x[i]} - double{truth->position.x()};
         const double dy = double{view.y[i]} - double{truth->position.y()};
         const double squared = dx * dx + dy * dy;
-        const double turned = std::remainder(double{view.angle[i]} - double{truth->angle}, kTurn);
+        const double turned = WrapAngle(double{view.angle[i]} - double{truth->angle});
         all.Add(squared);
         of_peer.Add(squared);
         angles.Add(turned * turned);
@@ -56,16 +45,17 @@ void MeasureError(const Recording& recording, const Oracle& oracle, Measures* me
         by_tick[static_cast<std::size_t>(tick - recording.first_tick)].Add(squared);
       }
     }
-    if (of_peer.count > 0) measures->error_rms_by_peer_m[peer] = of_peer.Rms();
+    if (of_peer.count > 0) measures->error_rms_by_peer_m[peer] = of_peer.RootOrZero();
   }
   measures->compared = all.count;
-  measures->error_rms_m = all.Rms();
-  measures->error_rms_rad = angles.Rms();
+  measures->error_rms_m = all.RootOrZero();
+  measures->error_rms_rad = angles.RootOrZero();
   measures->error_p95_m = Percentile(distances, 0.95);
   if (!distances.empty()) {
     measures->error_max_m = *std::max_element(distances.begin(), distances.end());
   }
-  for (const Squares& of_tick : by_tick) measures->error_by_tick_m.push_back(of_tick.Rms());
+  for (const MeanSquare& of_tick : by_tick)
+    measures->error_by_tick_m.push_back(of_tick.RootOrZero());
 }
 
 }  // namespace seam

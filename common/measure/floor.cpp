@@ -1,9 +1,9 @@
 /// The floor under all errors: what chaos alone makes of a micrometre.
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 
+#include "common/measure/mean_square.h"
 #include "common/measure/measure.h"
 
 namespace seam {
@@ -11,8 +11,7 @@ namespace {
 
 /// RMS distance over all bodies and the ticks that both have, m.
 double Distance(const Oracle& a, const Oracle& b) {
-  double sum = 0;
-  std::int64_t count = 0;
+  MeanSquare apart;
   for (std::size_t row = 0; row < b.ticks.size(); ++row) {
     const std::int64_t tick = b.first_tick + static_cast<std::int64_t>(row);
     const std::vector<PartId>& ids = b.IdsOf(row);
@@ -20,11 +19,10 @@ double Distance(const Oracle& a, const Oracle& b) {
       if (ids[i] >= b.inserted_from) continue;  // may be another part in `a`
       const std::optional<BodyState> other = a.At(tick, ids[i]);
       if (!other) continue;
-      sum += (other->position - b.ticks[row][i].position).cast<double>().squaredNorm();
-      ++count;
+      apart.Add((other->position - b.ticks[row][i].position).cast<double>().squaredNorm());
     }
   }
-  return count == 0 ? 0 : std::sqrt(sum / static_cast<double>(count));
+  return apart.RootOrZero();
 }
 
 }  // namespace

@@ -28,9 +28,9 @@ std::vector<JointEnds> FindJointEnds(const Scene& scene, const Composition& comp
     e.axis = axis.cast<double>().normalized();
     if (e.moving < 0) return e;
     const PartId root = composition.assemblies[static_cast<std::size_t>(e.assembly)].id;
-    const Pose pose(scene.parts[static_cast<std::size_t>(root)]);
-    e.point = pose.ToLocal(e.point);
-    e.axis = pose.TurnBack(e.axis);
+    const RootFrame frame(scene.parts[static_cast<std::size_t>(root)]);
+    e.point = frame.ToLocal(e.point);
+    e.axis = frame.rotation.Back(e.axis);
     return e;
   };
   std::vector<JointEnds> all;

@@ -14,10 +14,10 @@ struct JointEnd {
   Eigen::Vector2d axis{0, 1};   ///< unit, likewise
 
   Eigen::Vector2d PointNow(const std::vector<BodyState>& states) const {
-    return moving < 0 ? point : Pose(states[static_cast<std::size_t>(moving)]).ToWorld(point);
+    return moving < 0 ? point : RootFrame(states[static_cast<std::size_t>(moving)]).ToWorld(point);
   }
   Eigen::Vector2d AxisNow(const std::vector<BodyState>& states) const {
-    return moving < 0 ? axis : Pose(states[static_cast<std::size_t>(moving)]).Turn(axis);
+    return moving < 0 ? axis : RootFrame(states[static_cast<std::size_t>(moving)]).rotation(axis);
   }
 };
 

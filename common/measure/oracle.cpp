@@ -1,7 +1,6 @@
 #include "common/measure/oracle.h"
 
 #include <algorithm>
-#include <cmath>
 #include <string>
 
 #include "common/measure/pose.h"
@@ -19,7 +18,7 @@ BodyState Placed(const Oracle::Place& place, const std::vector<BodyState>& movin
     return state;
   }
   state = moving[static_cast<std::size_t>(place.body)];
-  state.position = Pose(state).ToWorld({double{place.x}, double{place.y}}).cast<float>();
+  state.position = RootFrame(state).ToWorld({double{place.x}, double{place.y}}).cast<float>();
   state.angle = static_cast<float>(double{state.angle} + double{place.angle});
   return state;
 }

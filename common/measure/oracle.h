@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "common/record/recording.h"
@@ -90,6 +91,14 @@ double ErrorFloor(const Recording& recording, const Oracle& oracle, float nudge 
 /// Most ticks times bodies that ComputeOracle keeps: 24 bytes each. Where bodies change, a table of
 /// all parts counts as well.
 constexpr std::int64_t kOracleStatesMax = 50'000'000;
+
+/// Why a recording made in the room `truth` is no oracle of one made in `measured`, a line for each
+/// reason: another mode than oracle, another scene, another tick rate. Empty: it is one.
+std::vector<std::string> OracleMismatches(const Room& truth, const std::string& truth_path,
+                                          const Room& measured, const std::string& path);
+/// Throws OperatorError with all that OracleMismatches finds, in one line.
+void RequireOracleOf(const Room& truth, const std::string& truth_path, const Room& measured,
+                     const std::string& path);
 
 /// The displayed path of peer 0 in a recording made with --mode oracle. Throws OperatorError for a
 /// recording of another mode, or without views of peer 0. `measured`: the recording that it is to

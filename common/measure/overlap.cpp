@@ -70,7 +70,7 @@ void OverlapMeter::AddPart(const Part& part, const Part& root, int assembly, int
   const int imposed = imposed_.IndexOf(assembly);
   for (Vector2d& corner : corners) {
     corner = ToRootFrame(part, root, corner);
-    if (moving < 0 && imposed < 0) corner = Pose(root).ToWorld(corner);
+    if (moving < 0 && imposed < 0) corner = RootFrame(root).ToWorld(corner);
   }
   Solid solid;
   solid.imposed = imposed;
@@ -146,12 +146,12 @@ std::vector<std::pair<int, int>> OverlapMeter::NearPairs(const Placed& placed) c
 
 double OverlapMeter::Deepest(const std::vector<BodyState>& moving, std::int64_t tick) const {
   SEAM_ASSERT(moving.size() == moving_count_);
-  std::vector<Pose> poses;
+  std::vector<RootFrame> poses;
   for (const BodyState& state : moving) {
     if (!IsFinite(state)) return kFar;
     poses.emplace_back(state);
   }
-  std::vector<Pose> imposed;
+  std::vector<RootFrame> imposed;
   for (int i = 0; i < imposed_.count(); ++i) {
     imposed.emplace_back(imposed_.At(i, static_cast<double>(tick)));
   }

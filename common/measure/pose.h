@@ -5,29 +5,23 @@
 #include <cmath>
 #include <vector>
 
+#include "common/base/geometry.h"
 #include "common/scene/assembly.h"
 
 namespace seam {
 
-/// A frame in the world: a turn, then a shift.
-struct Pose {
+/// A frame in the world: a rotation, then a shift.
+struct RootFrame {
   Eigen::Vector2d position{0, 0};  ///< m
-  double c = 1, s = 0;             ///< cosine and sine of the angle
+  Rotation<double> rotation;
 
-  Pose() = default;
-  Pose(const Vec2& at, float angle)
-      : position(at.cast<double>()), c(std::cos(double{angle})), s(std::sin(double{angle})) {}
-  explicit Pose(const BodyState& state) : Pose(state.position, state.angle) {}
-  explicit Pose(const Part& root) : Pose(root.position, root.angle) {}
+  RootFrame() = default;
+  RootFrame(const Vec2& at, float angle) : position(at.cast<double>()), rotation(double{angle}) {}
+  explicit RootFrame(const BodyState& state) : RootFrame(state.position, state.angle) {}
+  explicit RootFrame(const Part& root) : RootFrame(root.position, root.angle) {}
 
-  Eigen::Vector2d Turn(const Eigen::Vector2d& p) const {
-    return {c * p.x() - s * p.y(), s * p.x() + c * p.y()};
-  }
-  Eigen::Vector2d ToWorld(const Eigen::Vector2d& local) const { return position + Turn(local); }
-  Eigen::Vector2d TurnBack(const Eigen::Vector2d& p) const {
-    return {c * p.x() + s * p.y(), c * p.y() - s * p.x()};
-  }
-  Eigen::Vector2d ToLocal(const Eigen::Vector2d& p) const { return TurnBack(p - position); }
+  Eigen::Vector2d ToWorld(const Eigen::Vector2d& local) const { return position + rotation(local); }
+  Eigen::Vector2d ToLocal(const Eigen::Vector2d& p) const { return rotation.Back(p - position); }
 };
 
 inline bool IsFinite(const BodyState& state) {

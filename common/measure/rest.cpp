@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstring>
 
+#include "common/measure/mean_square.h"
 #include "common/measure/parts.h"
 
 namespace seam {
@@ -85,8 +86,7 @@ std::optional<double> RestJitter(const Recording& recording, const Oracle& oracl
   if (!rest) return std::nullopt;
   const double h = TickSeconds(recording);
   const std::int64_t begin = *rest + std::llround(kSettle / h);
-  double sum = 0;
-  std::int64_t count = 0;
+  MeanSquare speed;
   for (const auto& [peer, views] : recording.views) {
     for (auto now = views.upper_bound(begin); now != views.end(); ++now) {
       const auto before = views.find(now->first - 1);
@@ -97,13 +97,11 @@ std::optional<double> RestJitter(const Recording& recording, const Oracle& oracl
         const auto index = static_cast<std::size_t>(k);
         const double dx = double{now->second.x[i]} - double{before->second.x[index]};
         const double dy = double{now->second.y[i]} - double{before->second.y[index]};
-        sum += (dx * dx + dy * dy) / (h * h);
-        ++count;
+        speed.Add((dx * dx + dy * dy) / (h * h));
       }
     }
   }
-  if (count == 0) return std::nullopt;
-  return std::sqrt(sum / static_cast<double>(count));
+  return speed.Root();
 }
 
 }  // namespace seam

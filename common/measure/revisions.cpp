@@ -43,7 +43,7 @@ BodyState StateOfPart(const Scene& scene, const Assembly& assembly, PartId part,
   const Part& root = scene.parts[static_cast<std::size_t>(assembly.id)];
   const Eigen::Vector2d place = ToRootFrame(own, root, Eigen::Vector2d(0, 0));
   BodyState state = body;
-  state.position = Pose(body).ToWorld(place).cast<float>();
+  state.position = RootFrame(body).ToWorld(place).cast<float>();
   state.angle = static_cast<float>(double{body.angle} + double{own.angle} - double{root.angle});
   return state;
 }
@@ -123,6 +123,11 @@ std::vector<Edit> EditsOf(const Recording& recording) {
     edits.back() = ToEdit(order);
   }
   return edits;
+}
+
+const View* FindView(const std::map<std::int64_t, View>& views, std::int64_t tick) {
+  const auto found = views.find(tick);
+  return found == views.end() ? nullptr : &found->second;
 }
 
 int IndexOf(const View& view, PartId id) {

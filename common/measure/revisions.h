@@ -64,6 +64,8 @@ std::vector<Edit> EditsOf(const Recording& recording);
 
 /// The place of a body in a view, -1 if it is not shown.
 int IndexOf(const View& view, PartId id);
+/// nullptr when there is none of the tick.
+const View* FindView(const std::map<std::int64_t, View>& views, std::int64_t tick);
 /// Body i of a view.
 BodyState StateIn(const View& view, std::size_t i);
 

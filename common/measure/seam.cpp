@@ -1,19 +1,13 @@
 /// The seam itself: how far what a peer shows is from what the authority shows at the same tick.
 /// The oracle is not asked, so chaos does not blur it.
 
-#include <cmath>
-
+#include "common/measure/mean_square.h"
 #include "common/measure/parts.h"
 
 namespace seam {
 namespace {
 
 using Views = std::map<std::int64_t, View>;
-
-const View* Find(const Views& views, std::int64_t tick) {
-  const auto found = views.find(tick);
-  return found == views.end() ? nullptr : &found->second;
-}
 
 /// Displayed minus the authority's.
 struct Distance {
@@ -29,7 +23,7 @@ std::optional<Distance> Apart(const Recording& recording, int peer, const View& 
   if (authority == peer) return std::nullopt;
   const auto views = recording.views.find(authority);
   if (views == recording.views.end()) return std::nullopt;
-  const View* own = Find(views->second, view.tick);
+  const View* own = FindView(views->second, view.tick);
   if (own == nullptr) return std::nullopt;
   const int k = IndexOf(*own, view.id[i]);
   std::size_t index = 0;
@@ -48,24 +42,11 @@ std::optional<Distance> Apart(const Recording& recording, int peer, const View& 
 
 std::optional<Distance> ApartAt(const Recording& recording, int peer, const Views& views,
                                 std::int64_t tick, PartId id, const RevisionHistory* revisions) {
-  const View* view = Find(views, tick);
+  const View* view = FindView(views, tick);
   const int i = view == nullptr ? -1 : IndexOf(*view, id);
   if (i < 0) return std::nullopt;
   return Apart(recording, peer, *view, static_cast<std::size_t>(i), revisions);
 }
-
-struct Mean {
-  double sum = 0;
-  std::int64_t count = 0;
-  void Add(double square) {
-    sum += square;
-    ++count;
-  }
-  std::optional<double> Root() const {
-    if (count == 0) return std::nullopt;
-    return std::sqrt(sum / static_cast<double>(count));
-  }
-};
 
 }  // namespace
 
@@ -75,7 +56,7 @@ void MeasureSeam(const Recording& recording, const RevisionHistory* revisions, M
     return revisions == nullptr || (revisions->SameBody(a.revision, b.revision, id) &&
                                     revisions->SameBody(a.of_authority, b.of_authority, id));
   };
-  Mean apart, jerk;
+  MeanSquare apart, jerk;
   for (const auto& [peer, views] : recording.views) {
     for (const auto& [tick, view] : views) {
       for (std::size_t i = 0; i < view.id.size(); ++i) {

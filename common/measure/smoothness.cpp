@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/measure/mean_square.h"
 #include "common/measure/parts.h"
 
 namespace seam {
@@ -31,11 +32,6 @@ bool IsBackstep(const Point& a, const Point& b, double vx, double vy) {
 }
 
 /// The view of `tick`, nullptr if there is none.
-const View* Find(const std::map<std::int64_t, View>& views, std::int64_t tick) {
-  const auto found = views.find(tick);
-  return found == views.end() ? nullptr : &found->second;
-}
-
 }  // namespace
 
 void MeasureSmoothness(const Recording& recording, const Oracle& oracle,
@@ -46,13 +42,12 @@ void MeasureSmoothness(const Recording& recording, const Oracle& oracle,
     if (revisions != nullptr && !revisions->SameBody(now.revision, then.revision, id)) return false;
     return oracle.SameBody(now.tick, then.tick, id);
   };
-  double sum = 0;
-  std::int64_t count = 0;
+  MeanSquare stutter;
   for (const auto& [peer, views] : recording.views) {
     for (const auto& [tick, view] : views) {
-      const View* before = Find(views, tick - 1);
+      const View* before = FindView(views, tick - 1);
       if (before == nullptr) continue;
-      const View* earlier = Find(views, tick - 2);
+      const View* earlier = FindView(views, tick - 2);
       for (std::size_t i = 0; i < view.id.size(); ++i) {
         const PartId id = view.id[i];
         const std::optional<BodyState> truth = oracle.At(tick, id);
@@ -71,12 +66,11 @@ void MeasureSmoothness(const Recording& recording, const Oracle& oracle,
         const Point r = Shown(*earlier, j), m = At(*truth_earlier);
         const double ax = (p.x - 2 * q.x + r.x) - (o.x - 2 * n.x + m.x);
         const double ay = (p.y - 2 * q.y + r.y) - (o.y - 2 * n.y + m.y);
-        sum += (ax * ax + ay * ay) / (h * h * h * h);
-        ++count;
+        stutter.Add((ax * ax + ay * ay) / (h * h * h * h));
       }
     }
   }
-  measures->stutter_mps2 = count == 0 ? 0 : std::sqrt(sum / static_cast<double>(count));
+  measures->stutter_mps2 = stutter.RootOrZero();
 }
 
 }  // namespace seam

@@ -37,13 +37,6 @@ std::vector<std::string> Values(const MeasuredRun& run) {
           Number(m.cpu_us_per_s, m.cpu_us_per_s > 0)};
 }
 
-std::string Quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
-
 /// "0.01 m at most (the oracle's own: 0.002)", or "does not apply".
 std::string Beside(const std::optional<double>& value, const std::optional<double>& oracle,
                    const char* unit) {
@@ -102,6 +95,13 @@ std::string More(const MeasuredRun& run) {
 
 }  // namespace
 
+std::string CsvField(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return out + '"';
+}
+
 std::string CsvHeader() {
   std::string line;
   for (const char* column : kColumns) line += (line.empty() ? "" : ",") + std::string(column);
@@ -112,7 +112,7 @@ std::string CsvLine(const MeasuredRun& run) {
   std::string line;
   bool first = true;
   for (const std::string& value : Values(run)) {
-    line += (first ? "" : ",") + Quoted(value);
+    line += (first ? "" : ",") + CsvField(value);
     first = false;
   }
   return line;

@@ -22,8 +22,11 @@ struct MeasuredRun {
 /// rebound,bytes_per_s,cpu_us_per_s
 std::string CsvHeader();
 
+/// A field as RFC 4180 wants it: text with commas, quotes or line ends gets quotes around it.
+std::string CsvField(const std::string& text);
+
 /// One line of values, without a line end; empty where a column does not apply. Six significant
-/// digits; text with commas or quotes is quoted as in RFC 4180.
+/// digits.
 std::string CsvLine(const MeasuredRun& run);
 
 /// The same columns, aligned, a line per run and one of names. `more`: then the further measures,

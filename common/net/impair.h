@@ -38,7 +38,7 @@ struct ImpairProfile {
   double outage_loss = 0;                             ///< ... this share is lost besides
 };
 
-/// The named profiles (docs/network-profiles in --help); `demo` is 50 ms each way, 10 ms jitter,
+/// The named profiles (`seam-server --help` lists them); `demo` is 50 ms each way, 10 ms jitter,
 /// 1 % loss. Also reads a list in place of a name, of any of
 ///   delay=50ms  jitter=10ms  loss=1%  reorder=2%:30ms  duplicate=1%  corrupt=0.1%  rate=5Mb
 ///   spikes=0.1:100ms:600ms (per second, shortest, longest)  burst=1.02%:50% (p:r, all lost in bad)

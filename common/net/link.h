@@ -12,12 +12,11 @@
 #include <memory>
 
 #include "common/base/bytes.h"
+#include "common/base/limits.h"
 #include "common/net/net.h"
 
 namespace seam {
 
-/// Largest message of either kind, so that it fits one datagram with its headers.
-constexpr std::size_t kMessageBytesMax = 1150;
 /// Reliable messages in flight; more wait in a queue.
 constexpr int kReliableWindow = 64;
 

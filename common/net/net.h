@@ -5,11 +5,9 @@
 #include <string>
 
 #include "common/base/bytes.h"
+#include "common/base/limits.h"
 
 namespace seam {
-
-/// Largest datagram we send: below every common path MTU, so that IP never fragments it.
-constexpr std::size_t kDatagramBytesMax = 1200;
 
 /// An IPv4 endpoint, both in host byte order.
 struct Address {

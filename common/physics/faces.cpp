@@ -6,6 +6,7 @@
 #include <set>
 #include <tuple>
 
+#include "common/base/geometry.h"
 #include "common/scene/forces.h"
 
 namespace seam {
@@ -15,11 +16,6 @@ using Eigen::Vector2d;
 
 /// What counts as the same place, m.
 constexpr double kSame = 1e-3;
-
-Vector2d Turned(const Vector2d& v, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
-}
 
 /// Boxes that may become one: angle, friction, restitution, group, conveyor.
 using Kind = std::tuple<float, float, float, int, float, int, int>;

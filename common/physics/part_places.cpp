@@ -1,8 +1,7 @@
 #include "common/physics/part_places.h"
 
-#include <cmath>
-
 #include "common/base/check.h"
+#include "common/base/geometry.h"
 #include "common/scene/mass.h"
 
 namespace seam {
@@ -30,10 +29,8 @@ bool ReadPart(const World& world, PartId part, BodyState* state) {
   const Part& root = parts[static_cast<std::size_t>(assembly.id)];
   *state = world.Read(world.BodyOfId(assembly.id));
   const Eigen::Vector2d local = ToRootFrame(own, root, Eigen::Vector2d(0, 0));
-  const double angle = static_cast<double>(state->angle);
-  const double c = std::cos(angle), s = std::sin(angle);
-  const Eigen::Vector2d arm(c * local.x() - s * local.y(), s * local.x() + c * local.y());
-  state->position = (state->position.cast<double>() + arm).cast<float>();
+  const Transform2 placed{state->position.cast<double>(), static_cast<double>(state->angle)};
+  state->position = placed(local).cast<float>();
   state->angle += own.angle - root.angle;
   return true;
 }
@@ -52,13 +49,11 @@ int MechanismOf(const World& world, PartId part) {
 
 BondEdit BondAsTheyAre(const World& world, PartId a, PartId b, float strength) {
   const BodyState at_a = PartPose(world, a), at_b = PartPose(world, b);
-  const Vec2 apart = at_b.position - at_a.position;
-  const float c = std::cos(at_a.angle), s = std::sin(at_a.angle);
   BondEdit edit;
   edit.a = a;
   edit.b = b;
-  edit.position = {c * apart.x() + s * apart.y(), c * apart.y() - s * apart.x()};
-  edit.angle = std::remainder(at_b.angle - at_a.angle, 6.2831853f);
+  edit.position = Rotation<float>(at_a.angle).Back(at_b.position - at_a.position);
+  edit.angle = WrapAngle(at_b.angle - at_a.angle);
   edit.strength = strength;
   return edit;
 }

@@ -6,6 +6,7 @@
 
 #include "common/base/bytes.h"
 #include "common/base/check.h"
+#include "common/base/geometry.h"
 #include "common/physics/world_impl.h"
 
 namespace seam {
@@ -178,10 +179,8 @@ double World::Energy() const {
   double energy = 0;
   for (const MovingBody& m : impl_->built.moving) {
     const Eigen::Vector2d local = FromB2(m.mass.center).cast<double>();
-    const double angle = static_cast<double>(m.body->GetAngle());
-    const double c = std::cos(angle), s = std::sin(angle);
-    const Eigen::Vector2d arm(c * local.x() - s * local.y(), s * local.x() + c * local.y());
-    const Eigen::Vector2d centre = FromB2(m.body->GetPosition()).cast<double>() + arm;
+    const Eigen::Vector2d centre = Transform2{FromB2(m.body->GetPosition()).cast<double>(),
+                                              static_cast<double>(m.body->GetAngle())}(local);
     const Eigen::Vector2d velocity = FromB2(m.body->GetLinearVelocity()).cast<double>();
     const double spin = static_cast<double>(m.body->GetAngularVelocity());
     const double mass = static_cast<double>(m.mass.mass);

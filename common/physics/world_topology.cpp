@@ -7,9 +7,9 @@
 ///   v = sum m_k v_k / sum m_k,  w = sum (I_k w_k + m_k r_k x v_k) / I
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
+#include "common/base/geometry.h"
 #include "common/physics/world_impl.h"
 #include "common/scene/mass.h"
 
@@ -17,13 +17,6 @@ namespace seam {
 namespace {
 
 using Eigen::Vector2d;
-
-Vector2d Turned(const Vector2d& v, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
-}
-
-double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 const Assembly& AssemblyOf(const Composition& c, int index) {
   return c.assemblies[static_cast<std::size_t>(index)];

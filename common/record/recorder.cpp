@@ -1,7 +1,7 @@
 #include "common/record/recorder.h"
 
 #include "common/base/check.h"
-#include "common/codec/validate.h"
+#include "common/base/names.h"
 
 namespace seam {
 

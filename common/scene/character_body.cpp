@@ -1,7 +1,6 @@
 #include "common/scene/character_body.h"
 
-#include <cmath>
-
+#include "common/base/geometry.h"
 #include "common/scene/character.h"
 
 namespace seam {
@@ -60,9 +59,8 @@ constexpr float kGravity = 10;   ///< m/s^2; of the bounds of torque, in every s
 /// From the body's frame, facing right and 1.8 m, to the world.
 Vec2 ToWorld(const CharacterDraft& draft, float x, float y) {
   const float scale = draft.character.height / kHeight;
-  const float c = std::cos(draft.angle), s = std::sin(draft.angle);
-  const float u = draft.character.facing * scale * x, v = scale * y;
-  return draft.position + Vec2(c * u - s * v, s * u + c * v);
+  const Vec2 local(draft.character.facing * scale * x, scale * y);
+  return draft.position + Turned(local, draft.angle);
 }
 
 }  // namespace

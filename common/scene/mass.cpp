@@ -2,14 +2,10 @@
 
 #include <cmath>
 
+#include "common/base/geometry.h"
+
 namespace seam {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
-
-double Cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
 
 /// Sums over the triangles that the first point makes with each edge. A triangle with corners 0, a
 /// and b has the centroid (a + b)/3 and, about corner 0, the moment (a.a + a.b + b.b)/6 per mass.
@@ -72,12 +68,8 @@ Eigen::Vector2d ToRootFrame(const Part& part, const Part& root, const Eigen::Vec
   if (part.id == root.id && part.position == root.position) return point;
   const double turn = static_cast<double>(part.angle);
   const double back = -static_cast<double>(root.angle);
-  const auto rotate = [](const Eigen::Vector2d& p, double angle) {
-    const double c = std::cos(angle), s = std::sin(angle);
-    return Eigen::Vector2d(c * p.x() - s * p.y(), s * p.x() + c * p.y());
-  };
   const Eigen::Vector2d apart = part.position.cast<double>() - root.position.cast<double>();
-  return rotate(apart + rotate(point, turn), back);
+  return Turned(apart + Turned(point, turn), back);
 }
 
 MassProperties AssemblyProperties(const Scene& scene, const Assembly& assembly) {

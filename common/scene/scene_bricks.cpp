@@ -56,7 +56,8 @@ void ReadCount(const SceneReader& r, BrickField* field) {
 
 /// How many there are now; complains when they are too many or too far away.
 std::size_t Counted(const SceneReader& r, const BrickField& field, std::size_t before) {
-  constexpr int kFar = 600000;  // units: 30 km, kCoordinate
+  constexpr int kFar = 600000;  // units: 30 km
+  static_assert(kFar / 20 == kCoordinate.max && kFar / 20 == -kCoordinate.min);
   std::size_t count = before;
   EachBrick(field, [&](int x, int y) {
     ++count;

@@ -1,4 +1,3 @@
-#include <algorithm>
 
 #include "common/scene/assembly.h"
 #include "common/scene/character.h"

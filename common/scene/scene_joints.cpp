@@ -2,6 +2,7 @@
 #include <cctype>
 #include <cmath>
 
+#include "common/base/geometry.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
 
@@ -157,10 +158,8 @@ void ReadLocal(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
     if (r.Has("anchor")) r.FailAt(key, std::string("has both anchor and ") + key);
     const Part& part = draft.scene.parts[static_cast<std::size_t>(id)];
     const Eigen::Vector2d local = r.Vector(key, {-1000, 1000}).cast<double>();
-    const double c = std::cos(static_cast<double>(part.angle));
-    const double s = std::sin(static_cast<double>(part.angle));
-    const Eigen::Vector2d turned(c * local.x() - s * local.y(), s * local.x() + c * local.y());
-    *anchor = (part.position.cast<double>() + turned).cast<float>();
+    const Transform2 placed{part.position.cast<double>(), static_cast<double>(part.angle)};
+    *anchor = placed(local).cast<float>();
   };
   if (r.Has("local_a") != r.Has("local_b")) r.Fail("needs local_a and local_b, or neither");
   place(joint->a, "local_a", &joint->anchor_a);

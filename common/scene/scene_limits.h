@@ -2,10 +2,12 @@
 /// What a scene may say, in SI units. Within these limits Box2D 2.4.1 neither asserts nor loses its
 /// footing; docs/scenes.md repeats them.
 
+#include "common/base/limits.h"
 #include "common/scene/scene_reader.h"
 
 namespace seam {
 
+constexpr Range kTickHz{kTickHzMin, kTickHzMax};
 /// Coordinates, m. Single precision is good to 2 mm at 30 km; piles shake from 100 km.
 constexpr Range kCoordinate{-30000, 30000};
 /// Size of a moving thing, m; `size_max` may raise the upper limit up to kSizeMaxMax, which is also
@@ -32,8 +34,10 @@ constexpr Range kSkinRange{0.0025, 0.01};
 /// Width and height of water, m, and its flow, m/s.
 constexpr float kWaterSizeMax = 20000, kFlowMax = 50;
 constexpr std::size_t kWatersMax = 64;
-/// Numbers of things. Parts: what two views of bodies carry; players: peers 1..31.
-constexpr std::size_t kPartsMax = 4096, kJointsMax = 4096, kPlayersMax = 31, kActionsMax = 15;
+/// Numbers of things. Players: every peer but the server.
+constexpr std::size_t kPartsMax = 4096, kJointsMax = 4096, kPlayersMax = kPeersMax - 1;
+/// Of a player.
+constexpr std::size_t kActionsMax = 15;
 constexpr std::size_t kScriptMax = 2000, kWatchMax = 16, kThrustsMax = 256;
 /// Inlets, and outlets, of one part.
 constexpr std::size_t kConnectorsMax = 16;

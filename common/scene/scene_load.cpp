@@ -1,6 +1,4 @@
-#include <cmath>
 #include <fstream>
-#include <sstream>
 
 #include "common/base/check.h"
 #include "common/scene/scene.h"
@@ -27,7 +25,7 @@ void ReadSolver(const SceneReader& root, const std::string& file, Solver* solver
   const SceneReader r(*table, file, "solver",
                       {"tick_hz", "substeps", "velocity_iterations", "position_iterations", "sleep",
                        "continuous", "warm_starting", "skin", "welds", "faces"});
-  solver->tick_hz = r.Integer("tick_hz", {10, 960}, solver->tick_hz);
+  solver->tick_hz = r.Integer("tick_hz", kTickHz, solver->tick_hz);
   solver->substeps = r.Integer("substeps", {1, 32}, solver->substeps);
   solver->velocity_iterations =
       r.Integer("velocity_iterations", {1, 64}, solver->velocity_iterations);

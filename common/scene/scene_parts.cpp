@@ -1,4 +1,3 @@
-#include <cmath>
 
 #include "common/scene/connectors.h"
 #include "common/scene/scene_draft.h"

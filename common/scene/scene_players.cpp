@@ -65,7 +65,9 @@ void ReadActions(const SceneReader& r, const SceneDraft& draft, Player* player) 
     action.button = a.Integer("button", {0, kButtons - 1});
     action.part = FindPart(a, "part", draft);
     action.impulse = a.Vector("impulse", {-1e7, 1e7});
-    if (player->actions.size() == kActionsMax) a.Fail("a player may have at most 15 actions");
+    if (player->actions.size() == kActionsMax) {
+      a.Fail("a player may have at most " + std::to_string(kActionsMax) + " actions");
+    }
     player->actions.push_back(action);
   }
 }

@@ -1,10 +1,10 @@
 #include "common/scene/scene_reader.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include "common/base/check.h"
+#include "common/base/names.h"
 #include "common/scene/scene_text.h"
 
 namespace seam {
@@ -168,12 +168,7 @@ bool SceneReader::IsText(const char* key) const {
 
 std::string SceneReader::Name(const char* key) const {
   const std::string name = Text(key);
-  const auto plain = [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-  };
-  bool good = !name.empty() && name.size() <= 32 && plain(name[0]);
-  for (const char c : name) good = good && (plain(c) || c == '_' || c == '-');
-  if (!good) {
+  if (!IsName(name) || name[0] == '_' || name[0] == '-') {
     FailAt(key, std::string(key) + " '" + Printable(name) +
                     "' must be 1 to 32 letters, digits, '_' or '-', a letter or digit first");
   }

@@ -1,15 +1,10 @@
-#include <algorithm>
 
+#include "common/base/geometry.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
 
 namespace seam {
 namespace {
-
-double Cross(const Vec2& a, const Vec2& b) {
-  return static_cast<double>(a.x()) * static_cast<double>(b.y()) -
-         static_cast<double>(a.y()) * static_cast<double>(b.x());
-}
 
 /// Points are counted from 1 in messages.
 std::string Number(std::size_t i) { return std::to_string(i + 1); }
@@ -23,7 +18,7 @@ std::string TooClose(std::size_t i, std::size_t k) {
 double TwiceArea(const std::vector<Vec2>& points) {
   double sum = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
-    sum += Cross(points[i], points[(i + 1) % points.size()]);
+    sum += Cross(points[i].cast<double>(), points[(i + 1) % points.size()].cast<double>());
   }
   return sum;
 }
@@ -125,7 +120,8 @@ Status ValidatePolygon(const std::vector<Vec2>& points, float size_max) {
     const Vec2 edge = points[(i + 1) % n] - points[i];
     for (std::size_t k = 2; k < n; ++k) {
       const std::size_t other = (i + k) % n;
-      const double inside = turn * Cross(edge, points[other] - points[i]) / edge.norm();
+      const Vec2 way = points[other] - points[i];
+      const double inside = turn * Cross(edge.cast<double>(), way.cast<double>()) / edge.norm();
       if (inside < static_cast<double>(kConvexMin)) {
         return Status::Error("not convex at point " + Number(other) +
                              " (or three points in one line)");

@@ -1,8 +1,7 @@
 #pragma once
 /// Which parts a contact pushes, and how hard.
 
-#include <cmath>
-
+#include "common/base/geometry.h"
 #include "common/physics/faces.h"
 #include "common/physics/stage.h"
 #include "common/physics/world_shapes.h"
@@ -23,11 +22,8 @@ inline PartId PartAt(const StageWorld& w, PartId fixture, const b2Vec2& point) {
   const int assembly = w.composition.assembly_of_part[static_cast<std::size_t>(fixture)];
   const Assembly& whole = w.composition.assemblies[static_cast<std::size_t>(assembly)];
   const Part& root = w.scene.parts[static_cast<std::size_t>(whole.id)];
-  const Eigen::Vector2d local = FromB2(point).cast<double>();
-  const double angle = static_cast<double>(root.angle);
-  const double c = std::cos(angle), s = std::sin(angle);
-  const Eigen::Vector2d turned(c * local.x() - s * local.y(), s * local.x() + c * local.y());
-  return NearestPart(w.scene, merged->second, root.position.cast<double>() + turned);
+  const Transform2 placed{root.position.cast<double>(), static_cast<double>(root.angle)};
+  return NearestPart(w.scene, merged->second, placed(FromB2(point).cast<double>()));
 }
 
 /// visit(push) for both sides of each point of a contact that was solved, but not for what stages

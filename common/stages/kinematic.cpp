@@ -4,19 +4,13 @@
 #include <cmath>
 #include <optional>
 
+#include "common/base/geometry.h"
 #include "common/physics/stage.h"
 
 namespace seam {
 namespace {
 
 using Eigen::Vector2d;
-
-constexpr double kPi = 3.14159265358979323846;
-
-Vector2d Turned(const Vector2d& p, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  return {c * p.x() - s * p.y(), s * p.x() + c * p.y()};
-}
 
 class KinematicStage : public Stage {
  public:

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "common/base/geometry.h"
+
 #include "common/sync/reconcile/reconcile.h"
 
 namespace seam {
@@ -12,7 +14,7 @@ constexpr float kSpinDrivenMax = 90.0f;
 /// A turn of more than this within a tick is taken for a fast wheel's, whose angle nobody follows.
 constexpr float kTurnSeen = 0.5f;
 
-float TurnTo(float from, float to) { return std::remainder(to - from, 6.2831853f); }
+float TurnTo(float from, float to) { return WrapAngle(to - from); }
 
 }  // namespace
 

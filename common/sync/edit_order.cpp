@@ -3,8 +3,6 @@
 namespace seam {
 namespace {
 
-static_assert(kEditTextMax == kEditTextBytesMax && kEditKindMax == kEditKindsMax);
-
 std::int16_t Id(PartId part) { return static_cast<std::int16_t>(part); }
 
 }  // namespace

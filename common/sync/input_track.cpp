@@ -1,7 +1,5 @@
 #include "common/sync/input_track.h"
 
-#include <algorithm>
-
 namespace seam {
 
 void InputTrack::Note(std::int64_t tick, const Input& input) {

@@ -14,10 +14,15 @@ const char* ToString(Mode mode) {
   return "?";
 }
 
-Mode ParseMode(const std::string& name) {
+std::optional<Mode> FindMode(const std::string& name) {
   for (Mode mode : {Mode::kOracle, Mode::kCentral, Mode::kStrict, Mode::kBuffer}) {
     if (name == ToString(mode)) return mode;
   }
+  return std::nullopt;
+}
+
+Mode ParseMode(const std::string& name) {
+  if (const std::optional<Mode> mode = FindMode(name)) return *mode;
   throw OperatorError("unknown mode \"" + name + "\": use oracle, central, strict or buffer");
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// How a room is synchronised: mode, reconciler and rates, as flags and messages say it.
 
+#include <optional>
 #include <string>
 
 #include "common/sync/reconcile/reconcile.h"
@@ -26,6 +27,8 @@ struct SyncConfig {
 };
 
 const char* ToString(Mode mode);
+/// Nothing for an unknown name: recordings may say anything.
+std::optional<Mode> FindMode(const std::string& name);
 /// Throws OperatorError naming the known ones.
 Mode ParseMode(const std::string& name);
 /// Fills mode and reconciler from their names. An empty reconciler in mode buffer means

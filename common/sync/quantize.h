@@ -3,14 +3,15 @@
 
 #include <vector>
 
+#include "common/base/geometry.h"
 #include "common/codec/messages.h"
 #include "common/scene/types.h"
 
 namespace seam {
 
-constexpr float kPositionQuantum = 1.0f / 512;               ///< m
-constexpr float kVelocityQuantum = 1.0f / 256;               ///< m/s and rad/s
-constexpr double kAngleQuantum = 6.283185307179586 / 65536;  ///< rad
+constexpr float kPositionQuantum = 1.0f / 512;     ///< m
+constexpr float kVelocityQuantum = 1.0f / 256;     ///< m/s and rad/s
+constexpr double kAngleQuantum = 2 * kPi / 65536;  ///< rad
 
 /// The state a receiver will hold: every field rounded to its quantum. Idempotent. The angle keeps
 /// its revolutions. Speeds beyond the int16 range (128 m/s, 128 rad/s) are clamped to it.

@@ -18,12 +18,12 @@
 
 #include "common/physics/world.h"
 #include "common/sync/body_memory.h"
-#include "common/sync/corrector.h"
+#include "common/sync/correct/corrector.h"
+#include "common/sync/correct/replay.h"
 #include "common/sync/display.h"
 #include "common/sync/input_track.h"
 #include "common/sync/mode.h"
 #include "common/sync/proposal_queue.h"
-#include "common/sync/replay.h"
 #include "common/sync/roles.h"
 #include "common/sync/send_scheduler.h"
 

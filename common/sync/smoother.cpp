@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/geometry.h"
+
 namespace seam {
 namespace {
 
@@ -48,7 +50,7 @@ void Smoother::Moved(int body, const BodyState& by) {
   Offset& o = offsets_[static_cast<std::size_t>(body)];
   o.position -= by.position;
   o.velocity -= kVelocityShare * by.velocity;
-  o.angle = std::remainder(o.angle - by.angle, 6.2831853f);
+  o.angle = WrapAngle(o.angle - by.angle);
   o.spin -= kVelocityShare * by.spin;
   if (o.position.norm() > kGiveUp) o = Offset{};
 }

@@ -1,7 +1,6 @@
 #include "common/sync/snapshots.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/base/check.h"
 #include "common/sync/reconcile/reconcile.h"

@@ -4,12 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/geometry.h"
+#include "common/scene/scene_limits.h"
 #include "common/sync/quantize.h"
 
 namespace seam {
-
-/// Speeds written to the world stay within what the engine itself can move, rad/s.
-constexpr float kSpinSpeedMax = 94.0f;
 
 /// A difference that the wire's rounding explains.
 inline bool Negligible(const BodyState& d) {
@@ -21,13 +20,8 @@ inline bool Negligible(const BodyState& d) {
 inline BodyState WithinLimits(BodyState state, float speed_limit) {
   const float speed = state.velocity.norm();
   if (speed > speed_limit) state.velocity *= speed_limit / speed;
-  state.spin = std::clamp(state.spin, -kSpinSpeedMax, kSpinSpeedMax);
+  state.spin = std::clamp(state.spin, -kSpinMax, kSpinMax);
   return state;
-}
-
-/// `angle` plus the whole turns that bring it nearest to `near`.
-inline float Unwrapped(float angle, float near) {
-  return near + std::remainder(angle - near, 6.2831853f);
 }
 
 }  // namespace seam

@@ -3,28 +3,27 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/geometry.h"
 #include "common/scene/connectors.h"
 
 namespace seam {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// Two connectors within this of each other are joined: m, rad.
 constexpr float kJoinedAt = 0.005f, kJoinedAngle = 0.02f;
 /// How exactly a proposal must say where a bond puts its parts: m and rad.
 constexpr float kExact = 1e-3f;
 
-Vec2 Turned(const Vec2& v, double angle) {
-  const double c = std::cos(angle), s = std::sin(angle);
-  const Eigen::Vector2d d = v.cast<double>();
-  return Vec2(static_cast<float>(c * d.x() - s * d.y()), static_cast<float>(s * d.x() + c * d.y()));
+/// In double precision, then rounded.
+Vec2 TurnedExactly(const Vec2& v, double angle) {
+  return Turned(v.cast<double>(), angle).cast<float>();
 }
 
 void AddConnectors(const Part& part, bool inlet, std::vector<FreeConnector>* all) {
   const std::vector<Connector>& own = inlet ? part.connectors->inlets : part.connectors->outlets;
   for (std::size_t i = 0; i < own.size(); ++i) {
     all->push_back({part.id, inlet, static_cast<int>(i),
-                    part.position + Turned(own[i].at, static_cast<double>(part.angle)),
+                    part.position + TurnedExactly(own[i].at, static_cast<double>(part.angle)),
                     part.angle + own[i].angle});
   }
 }
@@ -32,7 +31,7 @@ void AddConnectors(const Part& part, bool inlet, std::vector<FreeConnector>* all
 bool Joined(const FreeConnector& x, const FreeConnector& y) {
   const double apart = static_cast<double>(x.angle) - static_cast<double>(y.angle) - kPi;
   return x.inlet != y.inlet && x.part != y.part && (x.at - y.at).norm() < kJoinedAt &&
-         std::fabs(std::remainder(apart, 2 * kPi)) < static_cast<double>(kJoinedAngle);
+         std::fabs(WrapAngle(apart)) < static_cast<double>(kJoinedAngle);
 }
 
 }  // namespace
@@ -65,8 +64,8 @@ BondEdit JoinOf(const Part& a, int outlet, const Part& b, int inlet) {
   const Connector& out = a.connectors->outlets[static_cast<std::size_t>(outlet)];
   const Connector& in = b.connectors->inlets[static_cast<std::size_t>(inlet)];
   const double turn =
-      std::remainder(static_cast<double>(out.angle) + kPi - static_cast<double>(in.angle), 2 * kPi);
-  const Vec2 place = out.at - Turned(in.at, turn);
+      WrapAngle(static_cast<double>(out.angle) + kPi - static_cast<double>(in.angle));
+  const Vec2 place = out.at - TurnedExactly(in.at, turn);
   BondEdit edit;
   edit.cause = BondCause::kConnectors;
   edit.a = a.id;

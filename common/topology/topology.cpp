@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/base/geometry.h"
 #include "common/scene/bricks.h"
 #include "common/scene/mass.h"
 #include "common/scene/scene_limits.h"
@@ -12,23 +13,6 @@
 namespace seam {
 namespace {
 
-/// A rigid motion of the plane, in double precision: x -> turn(angle) x + shift.
-struct Place {
-  Eigen::Vector2d shift{0, 0};
-  double angle = 0;
-
-  Eigen::Vector2d Turned(const Eigen::Vector2d& v) const {
-    const double c = std::cos(angle), s = std::sin(angle);
-    return {c * v.x() - s * v.y(), s * v.x() + c * v.y()};
-  }
-  Eigen::Vector2d operator()(const Eigen::Vector2d& v) const { return shift + Turned(v); }
-  Place Then(const Place& inner) const { return {(*this)(inner.shift), angle + inner.angle}; }
-  Place Inverse() const {
-    const Place back{{0, 0}, -angle};
-    return {-back.Turned(shift), -angle};
-  }
-};
-
 Blast BlastOf(const BlastEdit& edit) { return {edit.centre, edit.radius, edit.speed}; }
 
 /// A bond over more than this, m, is nonsense: no assembly is so large.
@@ -36,7 +20,7 @@ constexpr float kBondDistanceMax = 1000;
 /// A bond's angle may be a turn off, not more: sines of huge angles are noise, and Box2D asserts.
 constexpr float kBondAngleMax = 6.2831853f;
 
-Place PlaceOf(const Part& part) {
+Transform2 TransformOf(const Part& part) {
   return {part.position.cast<double>(), static_cast<double>(part.angle)};
 }
 
@@ -217,17 +201,17 @@ void Topology::Bond(const BondEdit& edit) {
   const int assembly_b = composition_.assembly_of_part[static_cast<std::size_t>(edit.b)];
   // The places of the side that is not anchored move; b's if neither is.
   const bool move_a = composition_.assemblies[static_cast<std::size_t>(assembly_b)].anchored;
-  const Place apart{edit.position.cast<double>(), static_cast<double>(edit.angle)};
-  const Place wanted_b = PlaceOf(a).Then(apart);
-  const Place b_moves = wanted_b.Then(PlaceOf(b).Inverse());
-  const Place moves = move_a ? b_moves.Inverse() : b_moves;
+  const Transform2 apart{edit.position.cast<double>(), static_cast<double>(edit.angle)};
+  const Transform2 wanted_b = TransformOf(a).Then(apart);
+  const Transform2 b_moves = wanted_b.Then(TransformOf(b).Inverse());
+  const Transform2 moves = move_a ? b_moves.Inverse() : b_moves;
   const int moved = move_a ? assembly_a : assembly_b;
   const auto of_moved = [&](PartId part) {
     return composition_.assembly_of_part[static_cast<std::size_t>(part)] == moved;
   };
   for (const PartId id : composition_.assemblies[static_cast<std::size_t>(moved)].parts) {
     Part& part = scene_.parts[static_cast<std::size_t>(id)];
-    const Place place = moves.Then(PlaceOf(part));
+    const Transform2 place = moves.Then(TransformOf(part));
     part.position = place.shift.cast<float>();
     part.angle = static_cast<float>(place.angle);
   }

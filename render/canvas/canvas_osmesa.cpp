@@ -7,9 +7,7 @@
 
 #include <cstddef>
 #include <cstdlib>
-#include <cstring>
 #include <mutex>
-#include <string>
 #include <vector>
 
 #include "common/base/check.h"

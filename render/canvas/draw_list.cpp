@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/base/geometry.h"
 
 namespace seam {
 namespace {
@@ -234,7 +235,7 @@ std::vector<Vec2> CirclePoints(const Vec2& centre, float radius) {
   std::vector<Vec2> points;
   points.reserve(static_cast<std::size_t>(n));
   for (int i = 0; i < n; ++i) {
-    const float a = 6.2831853f * static_cast<float>(i) / static_cast<float>(n);
+    const float a = 2 * kPiFloat * static_cast<float>(i) / static_cast<float>(n);
     points.emplace_back(centre.x() + radius * std::cos(a), centre.y() + radius * std::sin(a));
   }
   return points;

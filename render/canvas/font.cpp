@@ -111,8 +111,6 @@ float Font::Width(TextStyle style, const std::string& utf8) const {
   return width;
 }
 
-float Font::CapHeight(TextStyle style) const { return static_cast<float>(Find(style, 'H').top); }
-
 std::vector<std::uint32_t> Codepoints(const std::string& utf8) {
   std::vector<std::uint32_t> out;
   for (std::size_t i = 0; i < utf8.size();) {

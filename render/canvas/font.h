@@ -35,8 +35,6 @@ class Font {
   /// The replacement "?" when the letter is not in the atlas.
   const Glyph& Find(TextStyle style, std::uint32_t codepoint) const;
   float Width(TextStyle style, const std::string& utf8) const;  ///< px
-  /// Height of a capital letter, px.
-  float CapHeight(TextStyle style) const;
   float scale() const { return scale_; }
 
   int atlas_width() const { return atlas_width_; }

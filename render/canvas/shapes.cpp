@@ -4,13 +4,13 @@
 #include <cmath>
 #include <utility>
 
+#include "common/base/geometry.h"
+
 namespace seam {
 namespace {
 
 Vec2 Into(const Pose& frame, const Vec2& world) {
-  const float c = std::cos(frame.angle), s = std::sin(frame.angle);
-  const Vec2 d = world - frame.position;
-  return {c * d.x() + s * d.y(), c * d.y() - s * d.x()};
+  return Rotation<float>(frame.angle).Back(world - frame.position);
 }
 
 Pose PoseOf(const Part& part) { return {part.position, part.angle}; }
@@ -27,8 +27,8 @@ std::vector<Vec2> CapsulePoints(const Part& part) {
   std::vector<Vec2> points;
   for (int end = 0; end < 2; ++end) {
     for (int i = 0; i <= kSides; ++i) {
-      const float turn = 3.14159265f * (0.5f + static_cast<float>(end) +
-                                        static_cast<float>(i) / static_cast<float>(kSides));
+      const float turn = kPiFloat * (0.5f + static_cast<float>(end) +
+                                     static_cast<float>(i) / static_cast<float>(kSides));
       points.push_back(part.points[static_cast<std::size_t>(end)] +
                        part.radius * Vec2(std::cos(heading + turn), std::sin(heading + turn)));
     }
@@ -69,7 +69,7 @@ std::vector<Vec2> CornersOf(const Outline& outline) {
   if (outline.kind != ShapeKind::kCircle) return outline.points;
   std::vector<Vec2> corners;
   for (int i = 0; i < 12; ++i) {
-    const float turn = 0.52359878f * static_cast<float>(i);
+    const float turn = kPiFloat / 6 * static_cast<float>(i);
     corners.push_back(outline.points[0] + outline.radius * Vec2(std::cos(turn), std::sin(turn)));
   }
   return corners;
@@ -79,7 +79,7 @@ float SignedArea(const std::vector<Vec2>& corners) {
   float twice = 0;
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
-    twice += a.x() * b.y() - a.y() * b.x();
+    twice += Cross(a, b);
   }
   return twice / 2;
 }
@@ -89,7 +89,7 @@ bool Covers(const std::vector<Vec2>& corners, const Vec2& p) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const Vec2 &a = corners[i], &b = corners[(i + 1) % corners.size()];
     const Vec2 along = b - a, to = p - a;
-    if (along.x() * to.y() - along.y() * to.x() < 0) return false;
+    if (Cross(along, to) < 0) return false;
   }
   return true;
 }
@@ -163,8 +163,7 @@ std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composit
 
 Pose FrameBehind(const Pose& at, const Pose& place) {
   const Pose frame{at.position, at.angle - place.angle};
-  const Vec2 turned = Frame2({{0, 0}, frame.angle})(place.position);
-  return {at.position - turned, frame.angle};
+  return {at.position - Turned(place.position, frame.angle), frame.angle};
 }
 
 DrawnRevision RevisionOf(const Scene& scene, const Composition& composition) {

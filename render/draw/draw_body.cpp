@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/geometry.h"
 #include "render/canvas/palette.h"
 
 namespace seam {
@@ -144,14 +145,14 @@ void DrawGhost(DrawList& list, const Viewport& viewport, const BodyShapes& body,
 void DrawSpark(DrawList& list, const Vec2& at, float radius, float reach, const Line& line) {
   list.Ring(at, radius, line);
   for (int ray = 0; ray < 8; ++ray) {
-    const float a = 0.7853982f * static_cast<float>(ray) + 0.3926991f;
+    const float a = kPiFloat / 4 * static_cast<float>(ray) + kPiFloat / 8;
     const Vec2 way(std::cos(a), std::sin(a));
     list.Stroke({at + way * (radius + 0.3f * reach), at + way * (radius + reach)}, false, line);
   }
 }
 
 float PixelsApart(const Viewport& viewport, const BodyShapes& body, const Pose& a, const Pose& b) {
-  const float turn = body.round ? 0 : std::abs(std::remainder(a.angle - b.angle, 6.2831853f));
+  const float turn = body.round ? 0 : std::abs(WrapAngle(a.angle - b.angle));
   return ((a.position - b.position).norm() + turn * body.reach) * viewport.px_per_m;
 }
 

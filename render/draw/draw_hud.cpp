@@ -55,7 +55,7 @@ void DrawLegend(DrawList& list, const Rect& area, const Playback& playback, bool
   for (std::size_t i = 0; i < peers.size() && i < 6; ++i)
     entry(LookOf(peers[i], kRoleAuthority), playback.PeerName(peers[i]));
   if (peers.size() > 6) x += list.Text(x, base, TextStyle::kSmall, "…", kInk) + 16 * scale;
-  if (playback.recording().room.mode != "oracle") {
+  if (playback.mode() != Mode::kOracle) {
     gap();
     entry(LookOf(0, kRoleAuthority), "simulated with authority");
     entry(LookOf(0, kRoleSecondary), "secondary copy");

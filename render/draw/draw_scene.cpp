@@ -33,9 +33,9 @@ Rect Box(const Viewport& viewport, const Vec2& min, const Vec2& max) {
 
 std::vector<Region> RegionsOf(const Viewport& viewport, const Playback& playback) {
   std::vector<Region> regions;
-  const Room& room = playback.recording().room;
-  if (room.mode != "strict" && room.mode != "buffer") return regions;
-  const float band = room.mode == "buffer" ? playback.scene().buffer_m : 0;
+  const std::optional<Mode> mode = playback.mode();
+  if (mode != Mode::kStrict && mode != Mode::kBuffer) return regions;
+  const float band = mode == Mode::kBuffer ? playback.scene().buffer_m : 0;
   for (int peer : playback.peers()) {
     const int index = playback.PlayerOf(peer);
     if (index < 0) continue;

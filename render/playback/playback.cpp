@@ -175,7 +175,7 @@ int Playback::PlayerOf(int peer) const {
 }
 
 std::string Playback::PeerName(int peer) const {
-  if (peer == 0) return recording_->room.mode == "oracle" ? "oracle" : "server";
+  if (peer == 0) return mode() == Mode::kOracle ? "oracle" : "server";
   const int player = PlayerOf(peer);
   const std::string number = "peer " + std::to_string(peer);
   if (player < 0) return number;

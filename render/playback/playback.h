@@ -14,6 +14,7 @@
 #include "common/scene/assembly.h"
 #include "common/scene/scene.h"
 #include "common/stages/kinematic.h"
+#include "common/sync/mode.h"
 #include "common/topology/feather_store.h"
 #include "render/canvas/shapes.h"
 
@@ -63,6 +64,8 @@ class Playback {
   bool has_oracle() const { return oracle_.has_value(); }
   const Oracle& oracle() const { return *oracle_; }
 
+  /// Nothing when the recording names one that we do not know.
+  std::optional<Mode> mode() const { return FindMode(recording_->room.mode); }
   int tick_hz() const { return recording_->room.tick_hz; }
   /// The tick of a time; a whole number where rounding alone keeps it from one.
   double TickAt(double seconds) const;
@@ -124,7 +127,6 @@ class Playback {
   std::shared_ptr<KnownRevisions> revisions_;
   std::shared_ptr<const FeatherStore> bricks_;
   std::optional<ImposedMotions> imposed_;
-  std::map<int, int> player_of_peer_;
   std::optional<Measures> measures_;
   std::map<int, std::vector<double>> errors_;  // by peer; -1: all
   std::int64_t error_first_tick_ = 0;

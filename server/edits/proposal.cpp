@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/base/geometry.h"
 #include "common/physics/part_places.h"
 #include "common/stages/make_stages.h"
 #include "common/topology/join.h"
@@ -31,10 +32,8 @@ bool PlausibleProposal(const World& world, const Edit& edit) {
   const BondEdit* bond = edit.As<BondEdit>();
   if (bond == nullptr) return true;
   const BodyState a = PartPose(world, bond->a), b = PartPose(world, bond->b);
-  const float c = std::cos(a.angle), s = std::sin(a.angle);
-  const Vec2& at = bond->position;
-  const Vec2 wanted = a.position + Vec2(c * at.x() - s * at.y(), s * at.x() + c * at.y());
-  const float turned = std::remainder(a.angle + bond->angle - b.angle, 6.2831853f);
+  const Vec2 wanted = a.position + Turned(bond->position, a.angle);
+  const float turned = WrapAngle(a.angle + bond->angle - b.angle);
   return (wanted - b.position).norm() < kBondReach && std::fabs(turned) < kBondTurn;
 }
 

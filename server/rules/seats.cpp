@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/base/geometry.h"
 #include "common/physics/part_places.h"
 
 namespace seam {
@@ -29,9 +30,7 @@ bool GetIn(const World& world, int player, int index, std::vector<Edit>* edits) 
   }
   if (world.scene().parts[static_cast<std::size_t>(own)].gone) return false;
   const BodyState vehicle = PartPose(world, seat.part);
-  const float c = std::cos(vehicle.angle), s = std::sin(vehicle.angle);
-  const Vec2 place =
-      vehicle.position + Vec2(c * seat.at.x() - s * seat.at.y(), s * seat.at.x() + c * seat.at.y());
+  const Vec2 place = vehicle.position + Turned(seat.at, vehicle.angle);
   if ((PartPose(world, own).position - place).norm() > seat.reach) return false;
   edits->emplace_back(BondEdit{seat.part, own, seat.at, seat.angle}, EditCause::kOutside);
   edits->push_back(sit);

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "common/measure/measure.h"
 #include "tests/lab/cluster.h"
 

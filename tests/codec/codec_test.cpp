@@ -250,10 +250,6 @@ TEST(CodecText, OnlyPrintableUtf8Passes) {
   EXPECT_FALSE(IsPrintable("cut \xe2\x82", 64));
   EXPECT_FALSE(IsPrintable("\x80", 64));
   EXPECT_FALSE(IsPrintable("12345", 4));
-  EXPECT_TRUE(IsName("Ann_2-x"));
-  EXPECT_FALSE(IsName(""));
-  EXPECT_FALSE(IsName("a.b"));
-  EXPECT_FALSE(IsName(std::string(33, 'a')));
 }
 
 TEST(CodecWire, TypeHashesArePinnedToTheProtocolVersion) {

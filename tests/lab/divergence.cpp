@@ -1,6 +1,5 @@
 #include "tests/lab/divergence.h"
 
-#include <algorithm>
 #include <cstring>
 #include <set>
 #include <utility>

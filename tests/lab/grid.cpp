@@ -6,6 +6,7 @@
 
 #include "common/base/bytes.h"
 #include "common/base/check.h"
+#include "common/measure/table.h"
 #include "tests/lab/scene_settings.h"
 #include "tests/lab/sweep_file.h"
 
@@ -54,13 +55,6 @@ void AddPoints(const SweepFile& file, GridPoint point, std::vector<GridPoint>* p
 }
 
 }  // namespace
-
-std::string CsvField(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return out + '"';
-}
 
 std::string GridHeader() {
   return "version,scene,scene_hash,set,mode,reconcile,impair,send_hz,drive,smooth,duration_s,seed";

@@ -44,7 +44,4 @@ std::string PointValues(const GridPoint& point);
 /// what it returns can be run.
 Grid ReadGrid(const std::string& path);
 
-/// A CSV field as RFC 4180 wants it.
-std::string CsvField(const std::string& text);
-
 }  // namespace seam

@@ -14,6 +14,7 @@
 #include "tests/lab/hard/physics_plan.h"
 #include "tests/lab/hard/settings.h"
 #include "tests/lab/physics_row.h"
+#include "tests/lab/report/csv_table.h"
 #include "tests/lab/sweep_table.h"
 #include "tests/support/child_process.h"
 #include "tests/support/lab_workspace.h"

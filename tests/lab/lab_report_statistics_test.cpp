@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "common/base/check.h"
+#include "common/measure/table.h"
 #include "tests/lab/report/csv_table.h"
 #include "tests/lab/report/figure.h"
 #include "tests/lab/report/statistics.h"
@@ -143,6 +144,16 @@ TEST(Digits, AreThreeThatCount) {
   EXPECT_EQ(Digits(Quartiles{1, 2, 3.5, 20}), "2 (1–3.5)");
   EXPECT_EQ(Digits(Quartiles{2, 2, 2, 20}), "2");
   EXPECT_EQ(Digits(std::optional<Quartiles>()), "–");
+}
+
+TEST(Csv, ALineIsReadAsItWasWritten) {
+  const std::vector<std::string> fields = {"a", "", "b, c", "say \"no\"", "two\nlines", "1.5"};
+  std::string line;
+  for (const std::string& field : fields) line += (line.empty() ? "" : ",") + CsvField(field);
+  EXPECT_EQ(CsvFields(line), fields);
+  EXPECT_EQ(CsvFields(""), std::vector<std::string>{""});
+  EXPECT_THROW(CsvFields("a,\"b"), OperatorError) << "the quote does not close";
+  EXPECT_THROW(CsvFields("a\nb"), OperatorError) << "two lines";
 }
 
 }  // namespace

@@ -3,11 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
-
 #include "common/base/check.h"
 #include "common/measure/measure.h"
 #include "common/record/log_file.h"

@@ -6,6 +6,7 @@
 
 #include "common/base/find_scene.h"
 #include "common/base/process.h"
+#include "common/measure/table.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/grid.h"
 #include "tests/lab/hard/overhead.h"

@@ -3,11 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
 
 #include "common/base/bytes.h"
+#include "common/measure/table.h"
 #include "tests/lab/grid.h"
+#include "tests/lab/report/csv_table.h"
 #include "tests/lab/session.h"
 #include "tests/lab/sweep_table.h"
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/base/limits.h"
 #include "common/base/version.h"
 #include "common/record/recorder.h"
 #include "tests/lab/cluster.h"
@@ -28,10 +29,8 @@ struct SessionSettings {
   std::vector<std::string> set;  ///< of the scene: "solver.substeps=2", "buffer=5"
 };
 
-/// Largest values of --seed and --duration, as seam-server's.
+/// Largest value of --seed, as seam-server's.
 constexpr std::int64_t kSeedMax = 1000000000;
-constexpr double kDurationMax = 1e6;
-constexpr int kSendHzMax = 240;
 
 /// Reads the scene, with its settings, and checks everything that can be wrong before anything is
 /// run or written. Throws OperatorError. The recorder is not set.

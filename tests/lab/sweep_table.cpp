@@ -7,20 +7,20 @@
 #include <sstream>
 
 #include "common/base/check.h"
+#include "tests/lab/report/csv_table.h"
 
 namespace seam {
 namespace {
 
-/// Where each field of a CSV line ends: the places of its commas outside quotes, and its size.
-std::vector<std::size_t> FieldEnds(const std::string& line) {
-  std::vector<std::size_t> ends;
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"') quoted = !quoted;
-    if (line[i] == ',' && !quoted) ends.push_back(i);
+using Fields = std::vector<std::string>;
+
+/// Empty for a damaged line.
+Fields FieldsOr(const std::string& line) {
+  try {
+    return CsvFields(line);
+  } catch (const OperatorError&) {
+    return {};
   }
-  ends.push_back(line.size());
-  return ends;
 }
 
 [[noreturn]] void Refuse(const std::string& path, const std::string& why) {
@@ -32,23 +32,6 @@ std::vector<std::size_t> FieldEnds(const std::string& line) {
 }
 
 }  // namespace
-
-std::vector<std::string> CsvFields(const std::string& line) {
-  std::vector<std::string> fields;
-  std::size_t begin = 0;
-  for (const std::size_t end : FieldEnds(line)) {
-    std::string field = line.substr(begin, end - begin);
-    begin = end + 1;
-    if (field.size() >= 2 && field.front() == '"') {
-      field = field.substr(1, field.size() - 2);
-      for (std::size_t at = 0; (at = field.find("\"\"", at)) != std::string::npos; ++at) {
-        field.erase(at, 1);
-      }
-    }
-    fields.push_back(std::move(field));
-  }
-  return fields;
-}
 
 SweepTable::SweepTable(const std::string& path, const std::string& header, int key_columns,
                        const std::vector<std::string>& keys, bool force)
@@ -66,10 +49,9 @@ SweepTable::~SweepTable() {
 
 void SweepTable::Load(const std::string& text, int key_columns,
                       const std::vector<std::string>& keys) {
-  std::map<std::string, std::size_t> rows;
-  for (std::size_t i = 0; i < keys.size(); ++i) rows[keys[i]] = i;
-  const std::size_t columns = FieldEnds(header_).size();
-  const auto last_of_key = static_cast<std::size_t>(key_columns - 1);
+  std::map<Fields, std::size_t> rows;
+  for (std::size_t i = 0; i < keys.size(); ++i) rows[CsvFields(keys[i])] = i;
+  const std::size_t columns = CsvFields(header_).size();
   std::size_t at = text.find('\n');
   const std::string first = text.substr(0, at);
   if (at == std::string::npos ? header_.rfind(first, 0) != 0 : first != header_) {
@@ -80,9 +62,10 @@ void SweepTable::Load(const std::string& text, int key_columns,
     at = text.find('\n', begin);
     if (at == std::string::npos) break;  // half-written, or the end
     const std::string line = text.substr(begin, at - begin);
-    const std::vector<std::size_t> ends = FieldEnds(line);
-    const bool whole = ends.size() == columns;
-    const auto row = whole ? rows.find(line.substr(0, ends[last_of_key])) : rows.end();
+    Fields fields = FieldsOr(line);
+    const bool whole = fields.size() == columns;
+    if (whole) fields.resize(static_cast<std::size_t>(key_columns));
+    const auto row = whole ? rows.find(fields) : rows.end();
     if (row == rows.end() || Has(row->second)) {
       Refuse(path_, "line " + std::to_string(number) +
                         " is not of this sweep (scene, settings or version differ)");

@@ -39,7 +39,4 @@ class SweepTable {
   std::FILE* file_ = nullptr;  // open to append
 };
 
-/// The values of a CSV line, without the quotes around and within them.
-std::vector<std::string> CsvFields(const std::string& line);
-
 }  // namespace seam

@@ -4,6 +4,7 @@
 
 #include "common/base/check.h"
 #include "common/base/process.h"
+#include "common/measure/table.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/grid.h"
 #include "tests/lab/world/bench.h"

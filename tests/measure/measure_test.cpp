@@ -163,6 +163,35 @@ TEST(Oracle, OfARecordingNeedsModeOracleAndTheServersViews) {
   EXPECT_THROW((void)OracleFromRecording(run), OperatorError);
 }
 
+TEST(Oracle, IsOfARecordingOfTheSameSceneAndTickRateOnly) {
+  Room truth;
+  truth.mode = "oracle";
+  truth.scene_name = "wall";
+  truth.scene_text = "[[part]]";
+  Room room = truth;
+  room.mode = "buffer";
+  EXPECT_TRUE(OracleMismatches(truth, "o.lcm", room, "b.lcm").empty());
+  EXPECT_NO_THROW(RequireOracleOf(truth, "o.lcm", room, "b.lcm"));
+  room.scene_name = "stack";
+  EXPECT_TRUE(OracleMismatches(truth, "o.lcm", room, "b.lcm").empty()) << "a name is no scene";
+
+  truth.mode = "central";
+  room.scene_text += "# changed";
+  room.tick_hz = 120;
+  const std::vector<std::string> lines = OracleMismatches(truth, "o.lcm", room, "b.lcm");
+  ASSERT_EQ(lines.size(), 3u);
+  EXPECT_EQ(lines[0],
+            "o.lcm: made in mode central, so it is no oracle (seam-server --mode oracle)");
+  EXPECT_EQ(lines[1], "b.lcm: its scene (stack) is not the one of o.lcm (wall)");
+  EXPECT_EQ(lines[2], "b.lcm: its tick rate (120) is not the one of o.lcm (60)");
+  try {
+    RequireOracleOf(truth, "o.lcm", room, "b.lcm");
+    FAIL() << "it is no oracle";
+  } catch (const OperatorError& error) {
+    EXPECT_EQ(error.what(), lines[0] + "; " + lines[1] + "; " + lines[2]);
+  }
+}
+
 TEST(Table, HasExactlyTheAgreedColumns) {
   EXPECT_EQ(CsvHeader(),
             "scene,run,mode,reconcile,impair,seed,error_rms_m,error_p95_m,error_max_m,stutter_mps2,"

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "common/base/geometry.h"
 #include "common/measure/energy.h"
 #include "common/measure/joint_drift.h"
 #include "tests/support/small_world.h"
@@ -11,7 +12,6 @@
 namespace seam {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
 const char* kPost = "[[part]]\nname = \"post\"\nbox = [0.2, 0.2]\nanchored = true\n";
 const char* kDriver = "[[player]]\nname = \"ann\"\n";
 const char* kWeightless = "gravity = [0, 0]\n";

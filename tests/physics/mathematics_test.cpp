@@ -3,12 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include "common/base/geometry.h"
 #include "tests/support/small_world.h"
 
 namespace seam {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr double kG = 10;
 
 /// Complete elliptic integral of the first kind by the arithmetic-geometric mean (Gauss 1799).

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "common/base/geometry.h"
 #include "common/physics/world.h"
 #include "common/scene/mass.h"
 #include "tests/support/small_world.h"
@@ -12,7 +13,6 @@
 namespace seam {
 namespace {
 
-constexpr double kPi = 3.141592653589793;
 const char* kGround = "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [50, 0]]\n";
 
 /// `corners` of a regular polygon around the origin, as a scene writes them.

@@ -6,12 +6,11 @@
 
 #include <cmath>
 
+#include "common/base/geometry.h"
 #include "tests/support/scripted_world.h"
 
 namespace seam {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 ScriptedWorld Simulate(const std::string& text) {
   return ScriptedWorld(ParseScene(text, "test.toml"));
@@ -179,7 +178,7 @@ TEST(World, AMotorIsNoStrongerThanItsTorque) {
   run.world.SetInput(0, Input{127, 0, 0});
   run.world.Step();
   // torque / inertia / 60, inertia = pi r^4 / 2.
-  const float inertia = kPi * 0.0625f / 2;
+  const float inertia = kPiFloat * 0.0625f / 2;
   EXPECT_NEAR(run.Read("hers").spin, -5 / inertia / 60, 1e-3);
 }
 

@@ -5,7 +5,6 @@
 #include <unistd.h>
 
 #include <cstdlib>
-#include <map>
 #include <stdexcept>
 
 #include "common/base/check.h"

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/geometry.h"
 #include "common/scene/mass.h"
 #include "common/stages/bonds/bond_net.h"
 #include "common/stages/contact_force.h"
@@ -180,8 +181,7 @@ void GlueStage::Strain(Glued* glued) {
   }
   Vector2d sum(0, 0);
   for (const Vector2d& pushed : glued->pushed) sum += hz * pushed;
-  const double angle = static_cast<double>(body->GetAngle());
-  const double c = std::cos(angle), s = std::sin(angle);
+  const Rotation<double> rotation(static_cast<double>(body->GetAngle()));
   std::vector<Vector2d> forces;
   for (std::size_t n = 0; n < glued->pushed.size(); ++n) {
     Vector2d force = hz * glued->pushed[n];
@@ -189,8 +189,7 @@ void GlueStage::Strain(Glued* glued) {
       force += glued->mass[n] * gravity;
     } else {
       // Less mass times acceleration; what moves all alike cancels.
-      const Vector2d& r = glued->arm[n];
-      const Vector2d arm(c * r.x() - s * r.y(), s * r.x() + c * r.y());
+      const Vector2d arm = rotation(glued->arm[n]);
       force -= glued->mass[n] / glued->whole * sum;
       force -= glued->mass[n] * (turning * Vector2d(-arm.y(), arm.x()) - spin * spin * arm);
     }

@@ -3,8 +3,8 @@
 #include <map>
 #include <set>
 #include <tuple>
-#include <utility>
 
+#include "common/base/geometry.h"
 #include "common/scene/connectors.h"
 #include "common/scene/mass.h"
 #include "common/stages/make_stages.h"
@@ -13,8 +13,6 @@
 
 namespace seam {
 namespace {
-
-constexpr float kPi = 3.14159265f;
 
 /// A free connector on a body.
 struct Open {
@@ -119,7 +117,7 @@ bool JoinStage::Meet(const Where& outlet, const Where& inlet) const {
   const Connectors& one = *PartWith(*outlet.open).connectors;
   const Connectors& other = *PartWith(*inlet.open).connectors;
   if ((outlet.at - inlet.at).Length() > std::min(one.reach, other.reach)) return false;
-  const float away = std::remainder(outlet.angle - inlet.angle - kPi, 2 * kPi);
+  const float away = WrapAngle(outlet.angle - inlet.angle - kPiFloat);
   return std::fabs(away) <= std::min(one.angle, other.angle);
 }
 

@@ -93,8 +93,6 @@ void CharacterLimbs::SenseLeg(int side, LegSense* leg) const {
   leg->hip = Own(hip->GetAnchorA());
   leg->knee = Own(joints_[Knee(side)]->GetAnchorA());
   leg->ankle = Own(ankle->GetAnchorA());
-  leg->ankle_velocity =
-      Own(ankle->GetBodyA()->GetLinearVelocityFromWorldPoint(ankle->GetAnchorA()));
   leg->thigh = facing_ * hip->GetBodyB()->GetAngle();
   leg->shank = facing_ * ankle->GetBodyA()->GetAngle();
   leg->foot = facing_ * ankle->GetBodyB()->GetAngle();

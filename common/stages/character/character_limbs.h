@@ -14,7 +14,6 @@ namespace seam {
 
 struct LegSense {
   b2Vec2 hip{0, 0}, knee{0, 0}, ankle{0, 0};  ///< m
-  b2Vec2 ankle_velocity{0, 0};                ///< m/s
   float thigh = 0, shank = 0, foot = 0;       ///< rad, absolute; 0 hangs straight down or lies flat
   bool down = false;                          ///< the foot touches something
   b2Vec2 ground_velocity{0, 0};               ///< m/s, of what it touches

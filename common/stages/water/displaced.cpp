@@ -4,15 +4,13 @@
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/base/geometry.h"
 
 namespace seam {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// Each of the four cuts adds at most one corner to a convex polygon.
 constexpr int kCornersMax = kCutCornersMax + 4;
-
-double Cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 /// Keeps what has sign * (coordinate - limit) <= 0; returns the number of corners left.
 int Cut(const Vec2d* in, int count, int axis, double limit, double sign, Vec2d* out) {

@@ -3,14 +3,11 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "common/scene/water.h"
 
 namespace seam {
 namespace {
-
-double Cross(const Vec2d& a, const Vec2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
 bool Apart(const Vec2d& centre, double reach, const Bounds& b) {
   return centre.x() + reach <= b.min.x() || centre.x() - reach >= b.max.x() ||
@@ -37,8 +34,8 @@ AreaMoments DisplacedExactly(const WetPart& part, const FloatingBody& body, cons
 
 /// Each cell is under water by the share of its height that is below the level.
 AreaMoments DisplacedByCells(const WetCells& cells, const FloatingBody& body, const Bounds& water) {
-  const double height =
-      std::fabs(body.sine) * cells.size.x() + std::fabs(body.cosine) * cells.size.y();
+  const double height = std::fabs(body.rotation.sine) * cells.size.x() +
+                        std::fabs(body.rotation.cosine) * cells.size.y();
   AreaMoments sum;
   for (const AreaMoments& piece : cells.pieces) {
     const Vec2d centre = body.ToWorld(piece.centre);
@@ -103,7 +100,7 @@ void WaterSum::Resist(const Vec2d& arm, const Vec2d& way, double speed, double f
 void WaterSum::AddEdge(const WetEdge& edge, const Bounds& bounds, const Water& water) {
   Vec2d from = body_.ToWorld(edge.from), to = body_.ToWorld(edge.to);
   if (!Shorten(bounds, &from, &to)) return;
-  const Vec2d normal = body_.Turned(edge.normal), along(-normal.y(), normal.x());
+  const Vec2d normal = body_.rotation(edge.normal), along(-normal.y(), normal.x());
   const Vec2d middle = (from + to) / 2 - body_.centre, half = (to - from) / 2;
   const double length = 2 * half.norm(), rho = static_cast<double>(water.density) / 2;
 

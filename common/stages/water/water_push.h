@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 
+#include "common/base/geometry.h"
 #include "common/scene/water.h"
 #include "common/stages/water/wet_shape.h"
 
@@ -12,16 +13,13 @@ namespace seam {
 /// A rigid body as water sees it.
 struct FloatingBody {
   Vec2d position{0, 0};          ///< m; of the shape's frame
-  double cosine = 1, sine = 0;   ///< of its angle
+  Rotation<double> rotation;     ///< by its angle
   Vec2d centre{0, 0};            ///< m; of mass, in the world
   Vec2d velocity{0, 0};          ///< m/s; of the centre of mass
   double spin = 0;               ///< rad/s
   double mass = 0, inertia = 0;  ///< kg, kg m^2 about the centre of mass
 
-  Vec2d ToWorld(const Vec2d& p) const { return position + Turned(p); }
-  Vec2d Turned(const Vec2d& p) const {
-    return {cosine * p.x() - sine * p.y(), sine * p.x() + cosine * p.y()};
-  }
+  Vec2d ToWorld(const Vec2d& p) const { return position + rotation(p); }
 };
 
 Bounds BoundsOf(const Water& water);

@@ -150,8 +150,7 @@ FloatingBody AsFloating(const b2Body& b) {
   const auto mass = static_cast<double>(b.GetMass());
   const Vec2d local = FromB2(b.GetLocalCenter()).cast<double>();
   return {FromB2(pose.p).cast<double>(),
-          static_cast<double>(pose.q.c),
-          static_cast<double>(pose.q.s),
+          {static_cast<double>(pose.q.c), static_cast<double>(pose.q.s)},
           FromB2(b.GetWorldCenter()).cast<double>(),
           FromB2(b.GetLinearVelocity()).cast<double>(),
           static_cast<double>(b.GetAngularVelocity()),

@@ -4,12 +4,12 @@
 #include <cmath>
 #include <utility>
 
+#include "common/base/geometry.h"
 #include "common/scene/mass.h"
 
 namespace seam {
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 /// How far outside of an edge one looks for another part, and by how much less than that part
 /// counts larger than it is: faces up to 1.5 mm apart touch, and of two edges that lie on one
 /// another and face the same way neither covers the other. m
@@ -31,7 +31,7 @@ std::vector<Vec2d> LocalCorners(const Part& part) {
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const Vec2d& a = corners[i];
       const Vec2d& b = corners[(i + 1) % corners.size()];
-      twice += a.x() * b.y() - a.y() * b.x();
+      twice += Cross(a, b);
     }
     if (twice < 0) std::reverse(corners.begin(), corners.end());
   }

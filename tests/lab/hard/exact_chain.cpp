@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "common/base/geometry.h"
 #include "tests/lab/hard/exact_judge.h"
 
 namespace seam {
@@ -12,9 +13,7 @@ Eigen::Vector2d Carried(const World& world, int body, const Part& root, const Ve
   const BodyState state = world.Read(body);
   const double turn = static_cast<double>(state.angle) - static_cast<double>(root.angle);
   const Eigen::Vector2d arm = (at - root.position).cast<double>();
-  const double c = std::cos(turn), s = std::sin(turn);
-  return state.position.cast<double>() +
-         Eigen::Vector2d(c * arm.x() - s * arm.y(), s * arm.x() + c * arm.y());
+  return state.position.cast<double>() + Turned(arm, turn);
 }
 
 /// n equal rigid links between two hinges of one height. The tension's horizontal part is the same

@@ -1,6 +1,5 @@
 /// Newton's cradle: what the first ball brings, the last takes away, and the rest hang still.
 
-#include <algorithm>
 #include <cmath>
 
 #include "common/scene/mass.h"

@@ -27,10 +27,6 @@ int BodyOf(const Scene& scene, PartId part) {
                                         [](const Assembly& a) { return !a.anchored; }));
 }
 
-int BodyNamed(const Scene& scene, const std::string& name) {
-  return BodyOf(scene, PartNamed(scene, name).id);
-}
-
 double Seconds(const World& world) {
   return static_cast<double>(world.tick()) / world.scene().solver.tick_hz;
 }

@@ -44,7 +44,6 @@ std::unique_ptr<Judge> MakeJudge(const Scene& scene) {
 const Part& PartNamed(const Scene& scene, const std::string& name);
 /// World's index of the moving assembly that this part belongs to. Asserts that there is one.
 int BodyOf(const Scene& scene, PartId part);
-int BodyNamed(const Scene& scene, const std::string& name);
 
 /// s since tick 0.
 double Seconds(const World& world);

@@ -2,8 +2,6 @@
 
 #include <box2d/box2d.h>
 
-#include <algorithm>
-
 #include "common/base/bytes.h"
 #include "common/physics/world_build.h"
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 namespace seam {
@@ -18,7 +17,7 @@ struct Levers {
 };
 
 /// One lever at a time from the stock setting, then with it the skin; after that what costs as much
-/// as stock or little more in other ways; dear ones last. HARD_CASES' 4/1x2 and 2/1x4 are there.
+/// as stock or little more in other ways; dear ones last.
 const std::vector<Levers> kReportLevers = {
     {60, 1, 8, 3, kSmallSkin, true},  {60, 2, 4, 1, kSmallSkin, true},
     {60, 4, 2, 1, kSmallSkin, true},  {60, 2, 8, 3, kSmallSkin, true},

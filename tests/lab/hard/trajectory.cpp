@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "common/base/check.h"
+#include "common/base/geometry.h"
 #include "common/scene/mass.h"
 
 namespace seam {
@@ -32,10 +33,8 @@ void Trajectory::See(const World& world) {
   sample.reserve(tracked_.size());
   for (const Tracked& tracked : tracked_) {
     const BodyState state = world.Read(world.BodyOfId(tracked.assembly));
-    const double angle = static_cast<double>(state.angle);
-    const double c = std::cos(angle), s = std::sin(angle);
-    const double x = tracked.local.x(), y = tracked.local.y();
-    sample.push_back(state.position.cast<double>() + Eigen::Vector2d(c * x - s * y, s * x + c * y));
+    const Transform2 placed{state.position.cast<double>(), static_cast<double>(state.angle)};
+    sample.push_back(placed(tracked.local));
   }
 }
 

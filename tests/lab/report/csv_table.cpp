@@ -66,6 +66,14 @@ class Reader {
 
 }  // namespace
 
+std::vector<std::string> CsvFields(const std::string& line) {
+  const std::string text = line + '\n', path = "a CSV line";
+  Reader reader(text, path);
+  std::vector<std::string> fields = reader.Record();
+  if (!reader.done()) Fail(path, reader.line(), "there is a second line");
+  return fields;
+}
+
 CsvTable CsvTable::Load(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   std::ostringstream text;

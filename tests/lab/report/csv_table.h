@@ -1,5 +1,6 @@
 #pragma once
-/// A CSV file (RFC 4180) with a header, its columns found by name: what is damaged is said once.
+/// Reads CSV (RFC 4180): a line, or a file with a header, its columns found by name. What is
+/// damaged is said once.
 
 #include <map>
 #include <optional>
@@ -7,6 +8,10 @@
 #include <vector>
 
 namespace seam {
+
+/// The values of a CSV line without its end. Throws OperatorError for a quote that does not close,
+/// or more than one line.
+std::vector<std::string> CsvFields(const std::string& line);
 
 class CsvTable {
  public:

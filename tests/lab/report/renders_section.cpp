@@ -5,6 +5,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "tests/lab/report/files.h"
 #include "tests/lab/report/report.h"
 
 namespace seam {
@@ -38,12 +39,10 @@ Section RendersSection(const std::string& out) {
       "Rendered from the recordings of single runs: colour is who has authority, dashed outlines "
       "are where the oracle has the body. Each opens large.";
   const fs::path renders = fs::path(out) / "renders";
-  std::vector<fs::path> names;
   std::error_code error;
-  for (fs::directory_iterator i(renders, error), end; !error && i != end; i.increment(error)) {
-    if (i->path().extension() == ".txt") names.push_back(i->path().stem());
-  }
-  std::sort(names.begin(), names.end());
+  std::vector<fs::path> names;
+  for (const fs::path& file : FilesIn(renders, ".txt", &error)) names.push_back(file.stem());
+  std::sort(names.begin(), names.end());  // "a" before "a-b", which "a.txt" is not
   for (const fs::path& name : names) {
     Thumbnail thumbnail;
     thumbnail.title = name.string();

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 
 #include "common/base/check.h"
+#include "tests/lab/report/files.h"
 #include "tests/lab/report/physics_section.h"
 #include "tests/lab/report/sweep_section.h"
 
@@ -14,15 +14,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Files of the folder with this extension, by name.
-std::vector<fs::path> FilesIn(const fs::path& folder, const std::string& extension) {
-  std::vector<fs::path> files;
+/// Throws OperatorError for a folder that cannot be read.
+std::vector<fs::path> FilesOf(const fs::path& folder, const std::string& extension) {
   std::error_code error;
-  for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
-    if (i->path().extension() == extension) files.push_back(i->path());
-  }
+  std::vector<fs::path> files = FilesIn(folder, extension, &error);
   if (error) throw OperatorError(folder.string() + ": " + error.message());
-  std::sort(files.begin(), files.end());
   return files;
 }
 
@@ -87,7 +83,7 @@ void AddSweeps(const std::vector<Sweep>& sweeps, std::vector<Section>* sections)
 std::vector<Section> BuildReport(const ReportInput& input) {
   std::vector<Sweep> sweeps;
   const fs::path data = input.data;
-  for (const fs::path& path : FilesIn(data, ".csv")) {
+  for (const fs::path& path : FilesOf(data, ".csv")) {
     const std::string name = path.stem().string();
     if (name == "physics" || name == "overhead") continue;
     const std::string command = fmt::format("seam-lab sweep {} -o {} && seam-lab report {}",

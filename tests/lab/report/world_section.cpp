@@ -1,9 +1,9 @@
-#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <vector>
 
 #include "tests/lab/report/csv_table.h"
+#include "tests/lab/report/files.h"
 #include "tests/lab/report/report.h"
 
 namespace seam {
@@ -41,13 +41,9 @@ Section WorldSection(const std::string& folder) {
   section.intro =
       "Each table is one run: the feature and what it is compared with take turns, and ratios are "
       "medians over pairs of turns. Errors are against mathematics.";
-  std::vector<fs::path> files;
   std::error_code error;
-  for (fs::directory_iterator i(folder, error), end; !error && i != end; i.increment(error)) {
-    if (i->path().extension() == ".csv") files.push_back(i->path());
-  }
-  std::sort(files.begin(), files.end());
-  for (const fs::path& file : files) section.items.emplace_back(LoadBench(file));
+  for (const fs::path& file : FilesIn(folder, ".csv", &error))
+    section.items.emplace_back(LoadBench(file));
   return section;
 }
 

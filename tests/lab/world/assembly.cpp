@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "common/base/geometry.h"
 #include "common/physics/faces.h"
 #include "common/physics/part_places.h"
 #include "common/physics/world.h"
@@ -53,13 +54,12 @@ double Bend(const World& world) {
   const Vec2 found = last.position - first.position;
   const double turn = std::atan2(static_cast<double>(found.y()), static_cast<double>(found.x())) -
                       std::atan2(static_cast<double>(built.y()), static_cast<double>(built.x()));
-  const double c = std::cos(turn), s = std::sin(turn);
+  const Rotation<double> rotation(turn);
   double most = 0;
   for (std::size_t p = 1; p < parts.size(); ++p) {
     const Eigen::Vector2d at = (parts[p].position - parts[1].position).cast<double>();
-    const Eigen::Vector2d rigid(c * at.x() - s * at.y(), s * at.x() + c * at.y());
     const Vec2 now = PartPose(world, static_cast<PartId>(p)).position - first.position;
-    most = std::max(most, (now.cast<double>() - rigid).norm());
+    most = std::max(most, (now.cast<double>() - rotation(at)).norm());
   }
   return most;
 }

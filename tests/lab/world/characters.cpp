@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "common/physics/part_places.h"
 #include "tests/lab/world/bench.h"

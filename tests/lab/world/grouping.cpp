@@ -1,7 +1,6 @@
 /// What grouping and sleep save where things lie about, and what they change.
 
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <string>
 

@@ -5,14 +5,13 @@
 #include <memory>
 #include <string>
 
+#include "common/base/geometry.h"
 #include "common/measure/energy.h"
 #include "common/physics/world.h"
 #include "tests/lab/world/bench.h"
 
 namespace seam {
 namespace {
-
-constexpr double kPi = 3.14159265358979323846;
 
 struct Method {
   const char* name;

@@ -1,6 +1,7 @@
 /// Corrector: copies that are pulled in every tick between two messages, by rules that ask for it.
 
-#include "common/sync/corrector.h"
+#include "common/base/geometry.h"
+#include "common/sync/correct/corrector.h"
 #include "common/sync/state_limits.h"
 
 namespace seam {
@@ -14,7 +15,7 @@ constexpr float kPullReckonMax = 0.3f;
 
 BodyState Corrector::PullTarget(int body, std::int64_t at) const {
   BodyState target = memory_.snapshots().Extrapolate(body, at, world_.dt(), kPullReckonMax);
-  target.angle = Unwrapped(target.angle, world_.Read(body).angle);
+  target.angle = UnwrapAngle(target.angle, world_.Read(body).angle);
   return target;
 }
 

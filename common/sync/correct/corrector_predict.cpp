@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "common/sync/corrector.h"
+#include "common/sync/correct/corrector.h"
 #include "common/sync/quantize.h"
 
 namespace seam {

@@ -17,10 +17,10 @@
 #include "common/codec/messages.h"
 #include "common/physics/world.h"
 #include "common/sync/body_memory.h"
+#include "common/sync/correct/replay.h"
 #include "common/sync/display.h"
 #include "common/sync/input_track.h"
 #include "common/sync/mode.h"
-#include "common/sync/replay.h"
 #include "common/sync/roles.h"
 
 namespace seam {

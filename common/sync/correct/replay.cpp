@@ -1,7 +1,8 @@
-#include "common/sync/replay.h"
+#include "common/sync/correct/replay.h"
 
 #include <utility>
 
+#include "common/base/geometry.h"
 #include "common/sync/state_limits.h"
 
 namespace seam {
@@ -34,7 +35,7 @@ bool Replay::Ask(int body, std::int64_t tick) {
   if (known == nullptr) return true;  // a newer one was there before this
   const BodyState& then = *memory_.history().At(tick, body);
   BodyState heard = *known;
-  heard.angle = Unwrapped(heard.angle, then.angle);
+  heard.angle = UnwrapAngle(heard.angle, then.angle);
   if (Negligible(Minus(heard, then))) return true;
   if (from_ < 0 || tick < from_) from_ = tick;
   return true;
@@ -93,7 +94,7 @@ void Replay::PutIn() {
     const BodyState* heard = memory_.snapshots().At(body, world_.tick());
     if (heard != nullptr && roles_.RoleOfBody(body) == kRoleSecondary) {
       BodyState state = *heard;
-      state.angle = Unwrapped(state.angle, local.angle);
+      state.angle = UnwrapAngle(state.angle, local.angle);
       const bool moves = state.velocity.squaredNorm() > 0 || state.spin != 0;
       const bool pressed = pressed_[static_cast<std::size_t>(world_.mechanism(body))];
       state = PlusScaled(local, Minus(state, local), pressed ? kPressedShare : 1.0f);

@@ -1,6 +1,6 @@
 /// Corrector, incoming: other peers' states become snapshots, corrections or a replay.
 
-#include "common/sync/corrector.h"
+#include "common/sync/correct/corrector.h"
 #include "common/sync/quantize.h"
 #include "common/sync/state_limits.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/sync/corrector.h"
+#include "common/sync/correct/corrector.h"
 #include "common/sync/quantize.h"
 #include "common/sync/state_limits.h"
 

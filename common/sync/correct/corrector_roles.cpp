@@ -1,7 +1,8 @@
 /// Corrector: bodies whose role changed. What is simulated from now on begins as the authority's,
 /// what is displayed from now on goes on from where it is.
 
-#include "common/sync/corrector.h"
+#include "common/base/geometry.h"
+#include "common/sync/correct/corrector.h"
 #include "common/sync/state_limits.h"
 
 namespace seam {
@@ -20,7 +21,7 @@ void Corrector::FollowRoles() {
     // authority's.
     const BodyState before = world_.Read(body);
     BodyState state = memory_.snapshots().Extrapolate(body, now, world_.dt(), kReckonMax);
-    state.angle = Unwrapped(state.angle, before.angle);
+    state.angle = UnwrapAngle(state.angle, before.angle);
     world_.Write(body, state);
     display_.Moved(body, Minus(state, before));
     memory_.track(body).dynamic_since = now;

@@ -1,0 +1,24 @@
+#pragma once
+/// Numbers that rooms which do not know each other must agree on.
+
+#include <cstddef>
+#include <cstdint>
+
+namespace seam {
+
+/// Peers are 0..kPeersMax - 1; 0 is the server, so there is one player less.
+constexpr std::int32_t kPeersMax = 32;
+
+/// Ticks per second that a scene may ask for. Slower ones tunnel, faster ones are not worth it.
+constexpr int kTickHzMin = 10, kTickHzMax = 960;
+/// Most States per second that a peer may be asked for.
+constexpr int kSendHzMax = 240;
+/// Longest session, s.
+constexpr double kDurationMax = 1e6;
+
+/// Largest datagram we send: below every common path MTU, so that IP never fragments it.
+constexpr std::size_t kDatagramBytesMax = 1200;
+/// Largest message of a Link, so that it fits one datagram with its headers.
+constexpr std::size_t kMessageBytesMax = 1150;
+
+}  // namespace seam

@@ -1,0 +1,26 @@
+#pragma once
+/// Root mean squares, summed value by value.
+
+#include <cmath>
+#include <cstdint>
+#include <optional>
+
+namespace seam {
+
+struct MeanSquare {
+  double sum = 0;
+  std::int64_t count = 0;
+
+  void Add(double squared) {
+    sum += squared;
+    ++count;
+  }
+  /// Nothing of nothing.
+  std::optional<double> Root() const {
+    if (count == 0) return std::nullopt;
+    return std::sqrt(sum / static_cast<double>(count));
+  }
+  double RootOrZero() const { return Root().value_or(0); }
+};
+
+}  // namespace seam
