@@ -147,6 +147,10 @@ int Serve(const Flags& f) {
     const std::int64_t now = SteadyClockUs();
     server.Tick(now, CpuUs());
     sink.Poll();
+    for (const std::string& warning : server.TakeWarnings()) {
+      line.End();
+      PrintError("seam-server", warning);
+    }
     if (server.started() && line.Due(now)) line.Show(now, Progress(server, scene));
     const std::int64_t wake = std::min({server.next_tick_us(), net.next_due_us(), now + 20000});
     udp.Wait(std::max<std::int64_t>(0, wake - SteadyClockUs()));

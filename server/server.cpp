@@ -206,6 +206,10 @@ void Server::RunRules(std::int64_t now_us) {
   for (const Meta& meta : rules_->TakeChanges(now_us)) broadcast_.ToAll(meta);
 }
 
+std::vector<std::string> Server::TakeWarnings() {
+  return commands_ == nullptr ? std::vector<std::string>{} : commands_->TakeWarnings();
+}
+
 void Server::Shutdown(std::int64_t now_us, const std::string& reason) {
   sessions_.Close(now_us, reason, &stats_.counters);
 }

@@ -53,6 +53,8 @@ class Server {
   const Replica& replica() const { return replica_; }
   /// An edit from outside; see EditLog::Add.
   void Order(const Edit& edit) { edits_.Add(edit); }
+  /// What the operator should read since the last call: a script was stopped. One line each.
+  std::vector<std::string> TakeWarnings();
   /// What it decides of health, scores and scripts; nullptr when the scene has nothing of it.
   const Rules* rules() const { return rules_.get(); }
 

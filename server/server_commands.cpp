@@ -25,6 +25,11 @@ void ServerCommands::Insert(const std::string& text) { Ask(InsertEdit{text}); }
 
 void ServerCommands::Say(const std::string& text) { said_.push_back(text); }
 
+void ServerCommands::Warn(const std::string& text) {
+  said_.push_back(text);
+  warnings_.push_back(text);
+}
+
 bool ServerCommands::Present(int player) const {
   return sessions_.PeerOfPlayer()[static_cast<std::size_t>(player)] >= 0;
 }

@@ -26,11 +26,13 @@ class ServerCommands : public RoomCommands {
   void Blast(const Vec2& centre, float radius, float speed) override;
   void Insert(const std::string& text) override;
   void Say(const std::string& text) override;
+  void Warn(const std::string& text) override;
   bool Present(int player) const override;
   Input ReadInput(int player) const override;
 
-  /// What was said since the last call.
+  /// What was said since the last call, warnings included.
   std::vector<std::string> TakeSaid() { return std::exchange(said_, {}); }
+  std::vector<std::string> TakeWarnings() { return std::exchange(warnings_, {}); }
 
  private:
   void Ask(AnyEdit what);
@@ -38,7 +40,7 @@ class ServerCommands : public RoomCommands {
   Replica& replica_;
   EditLog& edits_;
   const SessionTable& sessions_;
-  std::vector<std::string> said_;
+  std::vector<std::string> said_, warnings_;
 };
 
 }  // namespace seam

@@ -33,6 +33,8 @@ class RoomCommands {
   /// [[part]] and [[joint]] as a scene writes them.
   virtual void Insert(const std::string& text) = 0;
   virtual void Say(const std::string& text) = 0;
+  /// Like Say, and the operator reads it in the terminal.
+  virtual void Warn(const std::string& text) = 0;
   virtual bool Present(int player) const = 0;
   virtual Input ReadInput(int player) const = 0;
 };

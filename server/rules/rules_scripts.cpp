@@ -42,7 +42,7 @@ void Rules::RunScripts() {
 
 void Rules::SayStopped(Script& script) {
   if (!stopped_said_.insert(script.name()).second) return;
-  Say("script " + script.name() + " is stopped: " + script.error());
+  commands_.Warn("script " + script.name() + " is stopped: " + script.error());
 }
 
 }  // namespace seam

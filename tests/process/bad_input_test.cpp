@@ -192,6 +192,20 @@ TEST_F(BadInput, HelpIsNoMistake) {
   }
 }
 
+TEST(ServerProgram, SaysOnItsTerminalWhyAScriptWasStopped) {
+  const Workspace folder;
+  folder.Write("s.toml",
+               "[[part]]\nname = \"a\"\nbox = [1, 1]\n[[script]]\nname = \"bad\"\n"
+               "code = \"function on_tick(t) error('no') end\"\n");
+  Program run({BuiltProgram("seam-server"), "s.toml", "--bind", "127.0.0.1:0", "--wait", "0",
+               "--duration", "0.2", "--lcm-url", "none"},
+              folder.path());
+  ASSERT_TRUE(run.Wait(30)) << run.Story();
+  EXPECT_EQ(run.status(), 0) << run.Story();
+  EXPECT_NE(run.errors().find("seam-server: script bad is stopped: s.toml:6: "), std::string::npos)
+      << run.Story();
+}
+
 TEST_F(BadInput, AFullDiskIsCountedAndTheRoomRunsOn) {
   const Workspace folder;
   // At 1 kB. GCOV_PREFIX: under coverage its counters go elsewhere, not half into everybody's

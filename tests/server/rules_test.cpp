@@ -33,6 +33,7 @@ class FakeRoomCommands : public RoomCommands {
   }
   void Insert(const std::string& text) override { asked.push_back(text); }
   void Say(const std::string& text) override { said.push_back(text); }
+  void Warn(const std::string& text) override { said.push_back(text); }
   bool Present(int player) const override { return player == 0; }
   Input ReadInput(int) const override { return {}; }
 };
