@@ -5,6 +5,7 @@
 
 #include "common/base/check.h"
 #include "common/base/geometry.h"
+#include "common/scene/joint_kinds.h"
 #include "common/scene/water.h"
 #include "common/stages/water/water_push.h"
 
@@ -27,7 +28,7 @@ EnergyMeter::EnergyMeter(const Scene& scene, const Composition& composition)
     if (ends.frequency_hz <= 0) continue;
     // As b2LinearStiffness and b2AngularStiffness: of the reduced mass or moment, where an anchored
     // side weighs endlessly.
-    const bool turns = ends.kind == JointKind::kWeld;
+    const bool turns = SpringOf(ends.kind) == JointSpring::kAngle;
     const double a = load(ends.a, turns), b = load(ends.b, turns);
     const double reduced = a > 0 && b > 0 ? a * b / (a + b) : a + b;
     const double omega = 2 * kPi * ends.frequency_hz;
@@ -55,15 +56,15 @@ double EnergyMeter::InWater(const std::vector<BodyState>& moving) const {
 
 double EnergyMeter::Stretch(const Spring& spring, const std::vector<BodyState>& states) const {
   const JointEnds& ends = spring.ends;
-  if (ends.kind == JointKind::kWeld) {
+  if (SpringOf(ends.kind) == JointSpring::kAngle) {
     const auto angle = [&](const JointEnd& end) {
       return end.moving < 0 ? 0 : double{states[static_cast<std::size_t>(end.moving)].angle};
     };
     return angle(ends.b) - angle(ends.a) - ends.angle;
   }
   const Eigen::Vector2d apart = ends.b.PointNow(states) - ends.a.PointNow(states);
-  return ends.kind == JointKind::kWheel ? apart.dot(ends.a.AxisNow(states))
-                                        : apart.norm() - ends.length;
+  return SpringOf(ends.kind) == JointSpring::kAxis ? apart.dot(ends.a.AxisNow(states))
+                                                   : apart.norm() - ends.length;
 }
 
 double EnergyMeter::Of(const std::vector<BodyState>& moving, std::int64_t tick) const {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/scene/joint_kinds.h"
+
 namespace seam {
 namespace {
 
@@ -16,7 +18,7 @@ double Beyond(double value, double lower, double upper) {
 double AlongAxis(const JointEnds& joint, const Eigen::Vector2d& apart,
                  const Eigen::Vector2d& axis) {
   const double off = std::abs(axis.x() * apart.y() - axis.y() * apart.x());
-  const bool free = joint.kind == JointKind::kPrismatic || joint.frequency_hz > 0;
+  const bool free = HoldOf(joint.kind) == JointHold::kAxis || joint.frequency_hz > 0;
   if (free && !joint.limited) return off;
   const double along = axis.dot(apart);
   return std::hypot(off, joint.limited ? Beyond(along, joint.lower, joint.upper) : along);

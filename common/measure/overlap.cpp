@@ -5,6 +5,7 @@
 
 #include "common/base/check.h"
 #include "common/measure/pose.h"
+#include "common/scene/joint_kinds.h"
 #include "common/scene/mass.h"
 
 namespace seam {
@@ -59,7 +60,7 @@ OverlapMeter::OverlapMeter(const Scene& scene, const Composition& composition)
     if (joint.gone) continue;
     const int a = composition.assembly_of_part[static_cast<std::size_t>(joint.a)];
     const int b = composition.assembly_of_part[static_cast<std::size_t>(joint.b)];
-    const bool collide = joint.collide || joint.kind == JointKind::kKinematic;
+    const bool collide = joint.collide || HoldOf(joint.kind) == JointHold::kImposed;
     if (!collide) joined_.push_back(Ordered(a, b));
   }
   std::sort(joined_.begin(), joined_.end());

@@ -3,6 +3,7 @@
 #include "common/base/check.h"
 #include "common/physics/faces.h"
 #include "common/physics/world_shapes.h"
+#include "common/scene/joint_kinds.h"
 
 namespace seam {
 namespace {
@@ -50,7 +51,7 @@ b2Joint* AddJoint(const Scene& scene, const Joint& joint, b2Body* a, b2Body* b, 
     built->motors.push_back(MotorOf(joint, made, static_cast<int>(built->joints.size())));
   }
   const bool anchored = IndexOf(a) < 0 || IndexOf(b) < 0;
-  const bool line = joint.kind == JointKind::kDistance || joint.kind == JointKind::kRope;
+  const bool line = HoldOf(joint.kind) == JointHold::kLine;
   if (line && joint.frequency_hz <= 0 && anchored) {
     built->tethers.push_back(static_cast<b2DistanceJoint*>(made));
   }

@@ -4,6 +4,7 @@
 
 #include "common/base/check.h"
 #include "common/physics/world_build.h"
+#include "common/scene/joint_kinds.h"
 
 namespace seam {
 namespace {
@@ -128,7 +129,8 @@ b2Joint* MakeJoint(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
 }
 
 bool HasMotor(const Joint& joint) {
-  return joint.motor_torque > 0 || (joint.kind == JointKind::kMotor && joint.motor_player >= 0);
+  return joint.motor_torque > 0 ||
+         (HoldOf(joint.kind) == JointHold::kPose && joint.motor_player >= 0);
 }
 
 Motor MotorOf(const Joint& joint, b2Joint* made, int index) {
@@ -138,7 +140,7 @@ Motor MotorOf(const Joint& joint, b2Joint* made, int index) {
   motor.player = joint.motor_player;
   motor.axis = joint.motor_axis;
   motor.speed = joint.motor_speed;
-  if (joint.kind != JointKind::kMotor) return motor;
+  if (HoldOf(joint.kind) != JointHold::kPose) return motor;
   const auto& pose = *static_cast<b2MotorJoint*>(made);
   motor.speed = 1;
   motor.offset = pose.GetLinearOffset();

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "common/base/bytes.h"
+#include "common/scene/joint_kinds.h"
 #include "common/scene/mass.h"
 
 namespace seam {
@@ -142,7 +143,7 @@ Composition Compose(const Scene& scene) {
   }
   JoinAssemblies(scene, &composition);
   for (std::size_t i = 0; i < scene.joints.size(); ++i) {
-    if (scene.joints[i].gone || scene.joints[i].kind != JointKind::kKinematic) continue;
+    if (scene.joints[i].gone || HoldOf(scene.joints[i].kind) != JointHold::kImposed) continue;
     const auto part = static_cast<std::size_t>(scene.joints[i].b);
     const auto assembly = static_cast<std::size_t>(composition.assembly_of_part[part]);
     if (composition.assembly_of_part[part] < 0) continue;

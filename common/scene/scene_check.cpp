@@ -1,6 +1,7 @@
 #include "common/base/check.h"
 #include "common/scene/assembly.h"
 #include "common/scene/forces.h"
+#include "common/scene/joint_kinds.h"
 #include "common/scene/mass.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
@@ -71,7 +72,7 @@ void CheckJoints(const Checked& c) {
     const Assembly& a = c.assembly_of(joint.a);
     const Assembly& b = c.assembly_of(joint.b);
     const std::string name = "joint '" + joint.name + "': ";
-    if (joint.kind == JointKind::kKinematic) {
+    if (HoldOf(joint.kind) == JointHold::kImposed) {
       if (!b.anchored) c.Fail(joint.line, name + "'" + c.part(joint.b).name + "' is not anchored");
       const int other = b.kinematic;
       if (other == static_cast<int>(i)) continue;

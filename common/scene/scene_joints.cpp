@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/base/geometry.h"
+#include "common/scene/joint_kinds.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
 
@@ -65,9 +66,10 @@ const Kind& ReadKind(const SceneReader& r) {
 void ReadLimits(const SceneReader& r, Joint* joint) {
   if (!r.Has("limits")) return;
   const Range angles{-100, 100}, lengths{kEdgeMin, 10000}, shifts{-1000, 1000};
-  const Vec2 limits = r.Vector("limits", joint->kind == JointKind::kRevolute   ? angles
-                                         : joint->kind == JointKind::kDistance ? lengths
-                                                                               : shifts);
+  const JointLimits of = LimitsOf(joint->kind);
+  const Vec2 limits = r.Vector("limits", of == JointLimits::kAngle    ? angles
+                                         : of == JointLimits::kLength ? lengths
+                                                                      : shifts);
   joint->limited = true;
   joint->lower = limits.x();
   joint->upper = limits.y();
@@ -89,7 +91,7 @@ void ReadSpring(const SceneReader& r, Joint* joint) {
 void ReadMotor(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
   const TomlNode* table = r.Table("motor");
   if (table == nullptr) return;
-  const char* most = joint->kind == JointKind::kPrismatic ? "force" : "torque";
+  const char* most = HoldOf(joint->kind) == JointHold::kAxis ? "force" : "torque";
   const SceneReader m(*table, draft.file, r.what() + ": motor", {"player", "axis", "speed", most});
   joint->motor_speed = m.Number("speed", {-1000, 1000});
   joint->motor_torque = m.Number(most, {1e-6, 1e7});
@@ -266,7 +268,7 @@ void ReadJoint(const TomlNode& node, SceneDraft* draft) {
   r.Rename("joint '" + joint.name + "'");
   joint.kind = ReadKind(r).kind;
   joint.b = FindPart(r, "b", *draft);
-  if (joint.kind == JointKind::kKinematic) {
+  if (HoldOf(joint.kind) == JointHold::kImposed) {
     joint.a = joint.b;
   } else {
     joint.a = FindPart(r, "a", *draft);

@@ -4,6 +4,7 @@
 #include "common/scene/bricks.h"
 #include "common/scene/forces.h"
 #include "common/scene/grouping.h"
+#include "common/scene/joint_kinds.h"
 #include "common/scene/water.h"
 #include "common/stages/kinematic.h"
 #include "common/stages/make_stages.h"
@@ -17,7 +18,8 @@ std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world) {
   };
   // A stage for each feature that the scene uses, and no other.
   std::vector<std::unique_ptr<Stage>> stages;
-  if (any(world.scene.joints, [](const Joint& j) { return j.kind == JointKind::kKinematic; })) {
+  if (any(world.scene.joints,
+          [](const Joint& j) { return HoldOf(j.kind) == JointHold::kImposed; })) {
     stages.push_back(MakeKinematicStage(world));
   }
   if (any(world.scene.parts, [](const Part& p) { return p.conveyor->speed != 0; })) {

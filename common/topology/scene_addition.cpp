@@ -1,6 +1,7 @@
 /// A piece of a scene that is added while the room runs: the same reader, the same checks.
 
 #include "common/base/check.h"
+#include "common/scene/joint_kinds.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
 #include "common/scene/scene_text.h"
@@ -35,7 +36,8 @@ void AddToScene(const std::string& text, Scene* scene) {
   }
   for (std::size_t j = joints; j < draft.scene.joints.size(); ++j) {
     const Joint& joint = draft.scene.joints[j];
-    const bool rigid = IsRigid(joint, draft.scene.solver) || joint.kind == JointKind::kKinematic;
+    const bool rigid =
+        IsRigid(joint, draft.scene.solver) || HoldOf(joint.kind) == JointHold::kImposed;
     const int a = composition.assembly_of_part[static_cast<std::size_t>(joint.a)];
     const int b = composition.assembly_of_part[static_cast<std::size_t>(joint.b)];
     if (!rigid && a == b) root.Fail("joint '" + joint.name + "': its parts are welded together");

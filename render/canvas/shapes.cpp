@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "common/base/geometry.h"
+#include "common/scene/joint_kinds.h"
 
 namespace seam {
 namespace {
@@ -178,9 +179,10 @@ std::vector<DrawnJoint> JointsOf(const Scene& scene, const Composition& composit
     return composition.assemblies.at(static_cast<std::size_t>(index));
   };
   for (const Joint& joint : scene.joints) {
-    const bool bond = joint.kind == JointKind::kWeld || joint.kind == JointKind::kGlue;
-    const bool unseen = joint.kind == JointKind::kMotor || joint.kind == JointKind::kKinematic;
-    if (joint.gone || bond || unseen) continue;
+    const JointHold hold = HoldOf(joint.kind);
+    const bool unseen =
+        hold == JointHold::kBond || hold == JointHold::kPose || hold == JointHold::kImposed;
+    if (joint.gone || unseen) continue;
     const Assembly& a = assembly_of(joint.a);
     const Assembly& b = assembly_of(joint.b);
     DrawnJoint drawn;
@@ -190,8 +192,8 @@ std::vector<DrawnJoint> JointsOf(const Scene& scene, const Composition& composit
     drawn.b_anchored = b.anchored;
     drawn.anchor_a = Into(PoseOf(PartOf(scene, a.id)), joint.anchor_a);
     drawn.anchor_b = Into(PoseOf(PartOf(scene, b.id)), joint.anchor_b);
-    drawn.rod = joint.kind == JointKind::kDistance || joint.kind == JointKind::kRope;
-    if (joint.kind == JointKind::kPrismatic) {  // what slides carries the pin
+    drawn.rod = hold == JointHold::kLine;
+    if (hold == JointHold::kAxis) {  // what slides carries the pin
       std::swap(drawn.a, drawn.b);
       std::swap(drawn.anchor_a, drawn.anchor_b);
       std::swap(drawn.a_anchored, drawn.b_anchored);

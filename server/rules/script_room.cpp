@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/scene/bricks.h"
+#include "common/scene/joint_kinds.h"
 #include "common/scene/part_rules.h"
 #include "common/scene/scene_text.h"
 #include "server/rules/part_owner.h"
@@ -91,7 +92,7 @@ void ScriptRoom::Unweld(const std::string& a, const std::string& b) {
   bool any = false;
   for (std::size_t j = 0; j < joints.size(); ++j) {
     const Joint& joint = joints[j];
-    const bool rigid = joint.kind == JointKind::kWeld || joint.kind == JointKind::kGlue;
+    const bool rigid = HoldOf(joint.kind) == JointHold::kBond;
     const bool between =
         (joint.a == first && joint.b == second) || (joint.a == second && joint.b == first);
     if (joint.gone || !rigid || !between) continue;
