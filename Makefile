@@ -68,7 +68,7 @@ LCM_TYPES := $(sort $(wildcard lcmtypes/*.lcm))
 VERSION := $(shell sed -n 's/.*kVersion = "\(.*\)".*/\1/p' common/base/version.h)
 
 # Processes and long simulations: what `make check-fast` leaves out.
-SLOW := Comings*:EndToEnd*:Bombarded*:BusInNamespace*:NoRoute*:BadInput*:Installed*:RenderL*:Mea*Program* \
+SLOW := JoinLeave*:ServerProgram*:EndToEnd*:Bombarded*:BusInNamespace*:NoRoute*:BadInput*:Installed*:RenderL*:Mea*Program* \
 	:Hard*Invariant*:HardExactRuns*:LabPhysics*:LabSweep*:*Cluster*:*WorldScene*:RuleSessions*:SceneFuzz*
 # The tests that SEAM_SOAK multiplies (tests/support/soak.h).
 SOAKED := *Cluster*:Authority*:*TopologyUnder*:SceneFuzz*:Codec*:FeatherOutline*
