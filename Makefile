@@ -69,7 +69,7 @@ VERSION := $(shell sed -n 's/.*kVersion = "\(.*\)".*/\1/p' common/base/version.h
 
 # Processes and long simulations: what `make check-fast` leaves out.
 SLOW := JoinLeave*:ServerProgram*:EndToEnd*:Bombarded*:BusInNamespace*:NoRoute*:BadInput*:Installed*:RenderL*:Mea*Program* \
-	:Hard*Invariant*:HardExactRuns*:LabPhysics*:LabSweep*:*Cluster*:*WorldScene*:RuleSessions*:SceneFuzz*
+	:RecordFailure*:SpecialFiles*:Hard*Invariant*:HardExactRuns*:LabPhysics*:LabSweep*:*Cluster*:*WorldScene*:RuleSessions*:SceneFuzz*
 # The tests that SEAM_SOAK multiplies (tests/support/soak.h).
 SOAKED := *Cluster*:Authority*:*TopologyUnder*:SceneFuzz*:Codec*:FeatherOutline*
 SOAK ?= 300

@@ -17,6 +17,7 @@
 #include "common/net/impair.h"
 #include "common/net/udp.h"
 #include "common/record/sink.h"
+#include "common/record/trouble_report.h"
 
 namespace {
 
@@ -122,6 +123,7 @@ int Play(const Flags& f) {
   StopOnSignals();
   const std::int64_t begin = SteadyClockUs();
   ProgressLine line(f.quiet);
+  TroubleReport recording("seam-client", "the game goes on");
   while (g_stop == 0 && !client.closed() && client.fatal().empty()) {
     const std::int64_t now = SteadyClockUs();
     if (keyboard != nullptr) {
@@ -130,6 +132,7 @@ int Play(const Flags& f) {
     }
     client.Tick(now, CpuUs());
     sink.Poll();
+    recording.Look(sink.trouble(), line);
     const double elapsed_s = static_cast<double>(now - begin) * 1e-6;
     if (f.duration_s > 0 && elapsed_s > f.duration_s) break;
     if (static_cast<double>(client.joining_us(now)) * 1e-6 > f.join_s) {
@@ -146,6 +149,7 @@ int Play(const Flags& f) {
   LetThrough(udp, net);
   if (!client.fatal().empty()) throw OperatorError(client.fatal());
   sink.Flush();
+  recording.Look(sink.trouble(), line);
   const Stats& s = client.stats();
   std::fprintf(stderr,
                "seam-client: %s; %lld datagrams in, %lld out, %lld bad, %lld stale bodies; "
@@ -154,7 +158,7 @@ int Play(const Flags& f) {
                static_cast<long long>(s.datagrams_in), static_cast<long long>(s.datagrams_out),
                static_cast<long long>(s.dropped_malformed), static_cast<long long>(s.dropped_stale),
                static_cast<long long>(sink.failures()));
-  return 0;
+  return recording.End(sink.trouble());
 }
 
 }  // namespace

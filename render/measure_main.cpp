@@ -7,6 +7,7 @@
 
 #include "common/base/check.h"
 #include "common/base/command_line.h"
+#include "common/base/plain_file.h"
 #include "common/codec/version_line.h"
 #include "common/measure/table.h"
 #include "common/record/recording.h"
@@ -74,7 +75,7 @@ MeasuredRun MeasureLog(const std::string& path, const std::string& name, const O
 
 /// The first line of a file (of it, 1000 bytes); empty when there is no such file.
 std::string FirstLine(const std::string& path) {
-  std::FILE* file = std::fopen(path.c_str(), "r");
+  std::FILE* file = OpenPlainFile(path, FileUse::kRead);
   if (file == nullptr) return "";
   std::string line;
   for (int c = 0; line.size() < 1000 && (c = std::fgetc(file)) != EOF && c != '\n';) {
@@ -95,7 +96,8 @@ void CheckCsv(const Options& options) {
 
 void WriteCsv(const std::vector<MeasuredRun>& runs, const Options& options) {
   const std::string header = options.append ? FirstLine(options.csv) : "";
-  std::FILE* file = std::fopen(options.csv.c_str(), options.append ? "a" : "w");
+  std::FILE* file =
+      OpenPlainFile(options.csv, options.append ? FileUse::kAppend : FileUse::kReplace);
   if (file == nullptr) throw OperatorError(options.csv + ": cannot be written");
   std::string text = header.empty() ? CsvHeader() + '\n' : "";
   for (const MeasuredRun& run : runs) text += CsvLine(run) + '\n';

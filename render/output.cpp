@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "common/base/check.h"
+#include "common/base/plain_file.h"
 
 extern char** environ;
 
@@ -71,7 +72,7 @@ void CheckOutputFile(const std::string& path, const std::string& ending, bool fo
   std::error_code error;
   const fs::path folder = file.has_parent_path() ? file.parent_path() : fs::path(".");
   if (!fs::is_directory(folder, error)) throw OperatorError(folder.string() + ": no such folder");
-  if (fs::is_directory(file, error)) throw OperatorError(path + " is a folder");
+  RequirePlainFile(path);
   if (fs::exists(file, error) && !force)
     throw OperatorError(path + " exists: choose another name or give --force");
 }

@@ -15,6 +15,7 @@
 #include "common/net/udp.h"
 #include "common/record/doctor.h"
 #include "common/record/sink.h"
+#include "common/record/trouble_report.h"
 #include "server/server.h"
 
 namespace {
@@ -143,6 +144,7 @@ int Serve(const Flags& f) {
                config.sync.reconcile_name.c_str(), f.impair.c_str(), ToString(udp.local()).c_str(),
                config.wait_players);
   ProgressLine line(f.quiet);
+  TroubleReport recording("seam-server", "the room runs on");
   while (g_stop == 0 && (last_tick == 0 || server.tick() < last_tick)) {
     const std::int64_t now = SteadyClockUs();
     server.Tick(now, CpuUs());
@@ -151,6 +153,7 @@ int Serve(const Flags& f) {
       line.End();
       PrintError("seam-server", warning);
     }
+    recording.Look(sink.trouble(), line);
     if (server.started() && line.Due(now)) line.Show(now, Progress(server, scene));
     const std::int64_t wake = std::min({server.next_tick_us(), net.next_due_us(), now + 20000});
     udp.Wait(std::max<std::int64_t>(0, wake - SteadyClockUs()));
@@ -160,6 +163,7 @@ int Serve(const Flags& f) {
   LetThrough(udp, net);
   sink.Poll();
   sink.Flush();
+  recording.Look(sink.trouble(), line);
   const Stats& s = server.stats();
   std::fprintf(stderr,
                "seam-server: %lld ticks; dropped %lld malformed, %lld stale, %lld without right, "
@@ -168,7 +172,7 @@ int Serve(const Flags& f) {
                static_cast<long long>(s.dropped_stale), static_cast<long long>(s.dropped_right),
                static_cast<long long>(s.dropped_implausible),
                static_cast<long long>(sink.failures()));
-  return 0;
+  return recording.End(sink.trouble());
 }
 
 }  // namespace

@@ -52,6 +52,7 @@ inline void StopOnSignals() {
   sigaction(SIGHUP, nullptr, &hang_up);
   if (hang_up.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
   std::signal(SIGPIPE, SIG_IGN);
+  std::signal(SIGXFSZ, SIG_IGN);  // a file at `ulimit -f`: the write fails, as on a full disk
 }
 
 /// Writes "program: text" to stderr as one line, whatever is in the text: a file's name may hold

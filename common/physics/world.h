@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "common/base/status.h"
 #include "common/scene/assembly.h"
 #include "common/scene/scene.h"
 #include "common/topology/body_remap.h"
@@ -55,6 +56,7 @@ struct WorldSnapshot {
     float normal = 0, tangent = 0;  ///< N s
   };
   std::int64_t tick = 0;
+  std::uint64_t composition = 0;  ///< hash of who was one body with whom
   std::vector<Body> bodies;
   std::vector<Point> points;               ///< ascending by pair, feature
   std::vector<std::vector<float>> joints;  ///< impulses, N s and N m s, by the scene's joints
@@ -127,7 +129,9 @@ class World {
   WorldSnapshot Barrier();
   /// Goes back to a state that Barrier returned. Motions and motors stay as they are now. With the
   /// same calls after it, the world does again, bit for bit, what it did then.
-  void Restore(const WorldSnapshot& snapshot);
+  /// Only while bodies and joints are those of the snapshot, that is, while Apply has returned
+  /// nullopt since: else an error, one line, and nothing has changed.
+  Status Restore(const WorldSnapshot& snapshot);
 
   /// FNV-1a over tick, poses, velocities and sleep flags of all bodies, bit for bit.
   std::uint64_t Hash() const;

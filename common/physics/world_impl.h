@@ -75,6 +75,8 @@ struct World::Impl {
   };
   Kept Keep() const;
   std::vector<float> Speeds() const;  ///< of motors, by the scene's joints
+  /// Whether its bodies and joints are those that are there now.
+  Status ValidateSnapshot(const WorldSnapshot& snapshot) const;
   /// Makes everything anew, in the states of the snapshot. What it has of joints that are no more
   /// is left out. The snapshot of stages may be empty: they begin anew, too.
   void Rebuild(const WorldSnapshot& snapshot, const std::vector<bool>& kinematic,

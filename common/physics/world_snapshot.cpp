@@ -4,6 +4,7 @@
 /// from the snapshot at the tick it takes one (the barrier, docs/architecture.md).
 
 #include <algorithm>
+#include <string>
 #include <tuple>
 
 #include "common/physics/world_impl.h"
@@ -112,6 +113,7 @@ World::Impl::Kept World::Impl::Keep() const {
   Kept kept;
   WorldSnapshot& out = kept.snapshot;
   out.tick = tick;
+  out.composition = composition.hash;
   for (const MovingBody& m : built.moving) {
     WorldSnapshot::Body body;
     body.state = {FromB2(m.body->GetPosition()), m.body->GetAngle(),
@@ -201,16 +203,33 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<bool>
 
 WorldSnapshot World::Barrier() {
   WorldSnapshot snapshot = impl_->Keep().snapshot;
-  Restore(snapshot);
+  SEAM_ASSERT(Restore(snapshot).ok());
   return snapshot;
 }
 
-void World::Restore(const WorldSnapshot& snapshot) {
+Status World::Impl::ValidateSnapshot(const WorldSnapshot& snapshot) const {
+  if (snapshot.composition != composition.hash || snapshot.bodies.size() != built.moving.size()) {
+    return Status::Error("the world cannot go back to tick " + std::to_string(snapshot.tick) +
+                         ": since then an edit has changed its bodies");
+  }
+  bool same = snapshot.joints.size() == built.joints.size();
+  for (std::size_t j = 0; same && j < built.joints.size(); ++j) {
+    same = snapshot.joints[j].empty() == (built.joints[j] == nullptr);
+  }
+  if (same) return Status::Ok();
+  return Status::Error("the world cannot go back to tick " + std::to_string(snapshot.tick) +
+                       ": since then an edit has changed its joints");
+}
+
+Status World::Restore(const WorldSnapshot& snapshot) {
+  const Status good = impl_->ValidateSnapshot(snapshot);
+  if (!good.ok()) return good;
   std::vector<bool> kinematic;
   for (int body = 0; body < body_count(); ++body) {
     kinematic.push_back(motion(body) == Motion::kKinematic);
   }
   impl_->Rebuild(snapshot, kinematic, impl_->Speeds());
+  return Status::Ok();
 }
 
 }  // namespace seam

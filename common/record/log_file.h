@@ -10,6 +10,7 @@
 #include <string>
 
 #include "common/base/bytes.h"
+#include "common/base/status.h"
 #include "common/record/recorder.h"
 
 namespace seam {
@@ -25,7 +26,8 @@ class LogWriter : public Recorder {
  public:
   /// What the constructor would throw, without touching the file: for a log that begins later.
   static void Check(const std::string& path, bool force);
-  /// Throws OperatorError when the file cannot be created, or exists and `force` is not given.
+  /// Throws OperatorError when the file cannot be created, exists and `force` is not given, or is
+  /// no regular file.
   explicit LogWriter(const std::string& path, bool force = false);
   ~LogWriter() override;
   LogWriter(const LogWriter&) = delete;
@@ -34,10 +36,17 @@ class LogWriter : public Recorder {
   /// channel is empty or longer than kChannelBytesMax, or the message exceeds kLogDataBytesMax.
   void Publish(const std::string& channel, std::int64_t utime, ByteView message) override;
   std::int64_t failures() const override { return failures_; }
+  /// The first failure: "PATH: cannot be written: No space left on device". What is written comes
+  /// to the disk some kilobytes at a time, or at Flush: a failure shows then.
+  const Status& trouble() const { return trouble_; }
   /// Hands what is buffered to the operating system; a failure is counted.
   void Flush();
 
  private:
+  void Fail(const std::string& why);
+
+  std::string path_;
+  Status trouble_;
   std::FILE* file_ = nullptr;
   std::int64_t number_ = 0;
   std::int64_t failures_ = 0;
@@ -59,7 +68,8 @@ struct LogEvent {
 /// own lengths are damaged may come out cut short or run together: decode what it carries.
 class LogReader {
  public:
-  /// Throws OperatorError when the file cannot be opened or has no event at all ("not an LCM log").
+  /// Throws OperatorError when the file cannot be opened, is no regular file, or has no event at
+  /// all ("not an LCM log").
   /// Reads what the file holds now, not what is appended later.
   explicit LogReader(const std::string& path);
   ~LogReader();

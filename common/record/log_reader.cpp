@@ -6,6 +6,7 @@
 #include <cstring>
 
 #include "common/base/check.h"
+#include "common/base/plain_file.h"
 #include "common/record/log_file.h"
 
 namespace seam {
@@ -30,14 +31,13 @@ struct LogReader::Header {
 };
 
 LogReader::LogReader(const std::string& path) {
-  file_ = std::fopen(path.c_str(), "rb");
+  file_ = OpenPlainFile(path, FileUse::kRead);
   if (file_ == nullptr) throw OperatorError(path + ": cannot be opened: " + std::strerror(errno));
   struct stat status = {};
-  const bool regular = fstat(fileno(file_), &status) == 0 && S_ISREG(status.st_mode);
-  size_bytes_ = regular ? static_cast<std::int64_t>(status.st_size) : 0;
+  if (fstat(fileno(file_), &status) == 0) size_bytes_ = static_cast<std::int64_t>(status.st_size);
   if (FindHeader(0, size_bytes_) == size_bytes_) {
     std::fclose(file_);
-    throw OperatorError(path + (regular ? ": not an LCM log: no event in it" : ": not a file"));
+    throw OperatorError(path + ": not an LCM log: no event in it");
   }
 }
 

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "common/base/check.h"
+#include "common/base/plain_file.h"
 #include "common/record/log_file.h"
 
 namespace seam {
@@ -33,7 +34,7 @@ void LogWriter::Check(const std::string& path, bool force) {
   const std::filesystem::file_status status = std::filesystem::status(path, error);
   if (std::filesystem::exists(status)) {
     if (!force) ThrowExists(path);
-    if (std::filesystem::is_directory(status)) ThrowNotCreated(path, EISDIR);
+    RequirePlainFile(path);
     if (access(path.c_str(), W_OK) != 0) ThrowNotCreated(path, errno);
     return;
   }
@@ -42,8 +43,8 @@ void LogWriter::Check(const std::string& path, bool force) {
   if (access(folder.c_str(), W_OK | X_OK) != 0) ThrowNotCreated(path, errno);
 }
 
-LogWriter::LogWriter(const std::string& path, bool force) {
-  file_ = std::fopen(path.c_str(), force ? "wb" : "wbx");
+LogWriter::LogWriter(const std::string& path, bool force) : path_(path) {
+  file_ = OpenPlainFile(path, force ? FileUse::kReplace : FileUse::kCreate);
   if (file_ != nullptr) return;
   if (errno == EEXIST) ThrowExists(path);
   ThrowNotCreated(path, errno);
@@ -53,9 +54,10 @@ LogWriter::~LogWriter() { std::fclose(file_); }
 
 void LogWriter::Publish(const std::string& channel, std::int64_t utime, ByteView message) {
   if (channel.empty() || channel.size() > kChannelBytesMax || message.size > kLogDataBytesMax) {
-    ++failures_;
+    Fail("a message of " + std::to_string(message.size) + " bytes does not fit a log");
     return;
   }
+  errno = 0;
   std::uint8_t header[kLogHeaderBytes];
   std::uint8_t* to = PutBigEndian(header, kLogMagic);
   to = PutBigEndian(to, static_cast<std::uint64_t>(number_));
@@ -68,12 +70,17 @@ void LogWriter::Publish(const std::string& channel, std::int64_t utime, ByteView
   if (written) {
     ++number_;
   } else {
-    ++failures_;
+    Fail(std::strerror(errno));
   }
 }
 
+void LogWriter::Fail(const std::string& why) {
+  ++failures_;
+  if (trouble_.ok()) trouble_ = Status::Error(path_ + ": cannot be written: " + why);
+}
+
 void LogWriter::Flush() {
-  if (std::fflush(file_) != 0) ++failures_;
+  if (std::fflush(file_) != 0) Fail(std::strerror(errno));
 }
 
 }  // namespace seam

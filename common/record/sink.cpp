@@ -27,13 +27,17 @@ Sink::Sink(const std::string& lcm_url, const std::string& record_path, bool forc
 void Sink::OpenLog() {
   try {
     log_ = std::make_unique<LogWriter>(record_path_, force_);
-  } catch (const OperatorError&) {
-    ++open_failures_;  // somebody was quicker: it was possible when we looked
+  } catch (const OperatorError& error) {
+    // Somebody was quicker, or the place takes no files: it seemed possible when we looked.
+    not_opened_ = Status::Error(error.what());
   }
 }
 
 void Sink::Publish(const std::string& channel, std::int64_t utime, ByteView message) {
-  if (log_ == nullptr && !record_path_.empty()) OpenLog();
+  if (log_ == nullptr && !record_path_.empty()) {
+    if (not_opened_.ok()) OpenLog();
+    if (!not_opened_.ok()) ++lost_;
+  }
   if (log_ != nullptr) {
     own_channels_[channel] = true;
     log_->Publish(channel, utime, message);
@@ -43,8 +47,10 @@ void Sink::Publish(const std::string& channel, std::int64_t utime, ByteView mess
 
 std::int64_t Sink::failures() const {
   return (bus_ != nullptr ? bus_->failures() : 0) + (log_ != nullptr ? log_->failures() : 0) +
-         open_failures_;
+         lost_;
 }
+
+const Status& Sink::trouble() const { return log_ != nullptr ? log_->trouble() : not_opened_; }
 
 void Sink::Flush() {
   if (log_ != nullptr) log_->Flush();

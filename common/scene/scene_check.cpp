@@ -1,5 +1,6 @@
 #include "common/base/check.h"
 #include "common/scene/assembly.h"
+#include "common/scene/crowding.h"
 #include "common/scene/forces.h"
 #include "common/scene/joint_kinds.h"
 #include "common/scene/mass.h"
@@ -153,6 +154,7 @@ void CheckScene(const Scene& scene, const std::string& file) {
   CheckOwners(checked);
   CheckPlayers(checked);
   CheckWatch(checked);
+  CheckCrowding(scene, composition, file);
 }
 
 }  // namespace seam

@@ -1,6 +1,8 @@
+#include <cmath>
 #include <fstream>
 
 #include "common/base/check.h"
+#include "common/base/plain_file.h"
 #include "common/scene/scene.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
@@ -102,14 +104,8 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
 }
 
 Scene LoadScene(const std::string& path) {
-  std::ifstream in(path, std::ios::binary);
-  if (!in) throw OperatorError(path + ": no such scene file");
   // One byte more than allowed, so that a huge file is refused without being read.
-  std::string text(kSceneBytesMax + 1, '\0');
-  in.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (in.bad()) throw OperatorError(path + ": cannot be read");
-  text.resize(static_cast<std::size_t>(in.gcount()));
-  return ParseScene(text, path);
+  return ParseScene(ReadPlainFile(path, kSceneBytesMax + 1, "no such scene file"), path);
 }
 
 }  // namespace seam

@@ -1,6 +1,7 @@
 /// A piece of a scene that is added while the room runs: the same reader, the same checks.
 
 #include "common/base/check.h"
+#include "common/scene/crowding.h"
 #include "common/scene/joint_kinds.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
@@ -42,6 +43,7 @@ void AddToScene(const std::string& text, Scene* scene) {
     const int b = composition.assembly_of_part[static_cast<std::size_t>(joint.b)];
     if (!rigid && a == b) root.Fail("joint '" + joint.name + "': its parts are welded together");
   }
+  CheckCrowding(draft.scene, composition, file, static_cast<PartId>(parts));
   *scene = std::move(draft.scene);
 }
 

@@ -57,7 +57,8 @@ class Topology {
 constexpr std::size_t kPartsEver = 30000;
 
 /// Adds the [[part]]s and [[joint]]s of `text` to a scene. Throws OperatorError, with the scene
-/// unchanged, "insert:LINE: what". Joints may name parts of the scene.
+/// unchanged, "insert:LINE: what". Joints may name parts of the scene. What is added is held to the
+/// limits of crowding.h: among itself and with what never moves.
 void AddToScene(const std::string& text, Scene* scene);
 
 }  // namespace seam

@@ -9,6 +9,7 @@
 #include <filesystem>
 
 #include "common/base/check.h"
+#include "common/base/plain_file.h"
 
 namespace seam {
 namespace {
@@ -47,7 +48,8 @@ void WritePng(const std::string& path, const Image& image, int level) {
   const fs::file_status there = fs::symlink_status(path, ignored);
   const bool renamed = !fs::exists(there) || fs::is_regular_file(there);
   const std::string written = renamed ? path + ".tmp" : path;
-  std::FILE* file = std::fopen(written.c_str(), "wb");
+  RequirePlainFile(path);
+  std::FILE* file = OpenPlainFile(written, FileUse::kReplace);
   if (file == nullptr) throw OperatorError(path + ": " + std::strerror(errno));
   errno = 0;
   const bool encoded = Encode(file, image, level);

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "common/base/check.h"
+#include "common/base/plain_file.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/report/gnuplot.h"
 #include "tests/lab/report/report.h"
@@ -21,17 +22,14 @@ namespace {
 namespace fs = std::filesystem;
 
 void WriteText(const fs::path& path, const std::string& text) {
+  RequirePlainFile(path.string());
   std::ofstream file(path, std::ios::binary);
   file << text;
   file.close();
   if (!file) throw OperatorError(path.string() + ": cannot be written: " + std::strerror(errno));
 }
 
-std::string ReadText(const fs::path& path) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) throw OperatorError(path.string() + ": cannot be read");
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+std::string ReadText(const fs::path& path) { return ReadPlainFile(path.string(), kTableBytesMax); }
 
 /// A folder without the files that an earlier run left there.
 fs::path FreshFolder(const fs::path& folder, const std::set<std::string>& extensions) {

@@ -45,7 +45,7 @@ int RunLog(const RunCommand& command) {
   Recording recording;
   const SessionResult result = RunSession(config, &recording);
   log.Flush();
-  if (log.failures() > 0) throw OperatorError(command.log + ": not all was written: disk full?");
+  if (!log.trouble().ok()) throw OperatorError(log.trouble().why());
   const double wall_s = static_cast<double>(SteadyClockUs() - begin_us) * 1e-6;
   std::printf("%s: %lld ticks, %.3f s simulated in %.3f s: %.1f x real time\n", command.log.c_str(),
               static_cast<long long>(result.ticks), result.simulated_s, wall_s,

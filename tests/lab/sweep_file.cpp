@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <fstream>
 #include <sstream>
 
 #include "common/base/check.h"
+#include "common/base/plain_file.h"
 #include "common/scene/scene_reader.h"
 #include "common/scene/scene_text.h"
 #include "tests/lab/grid.h"
@@ -26,12 +26,7 @@ constexpr ScenesKey kScenesKeys[] = {{"tick_hz", "solver.tick_hz"},
                                      {"skin", "solver.skin"},
                                      {"buffer_m", "buffer"}};
 
-std::string ReadText(const std::string& path) {
-  std::ifstream file(path);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf())) throw OperatorError(path + ": cannot be read");
-  return text.str();
-}
+std::string ReadText(const std::string& path) { return ReadPlainFile(path, kSceneBytesMax + 1); }
 
 std::vector<std::string> Texts(const SceneReader& r, const char* key, const char* fallback) {
   std::vector<std::string> texts = r.Texts(key);

@@ -1,12 +1,13 @@
 #include "tests/lab/sweep_table.h"
 
+#include <unistd.h>
+
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <map>
-#include <sstream>
 
 #include "common/base/check.h"
+#include "common/base/plain_file.h"
 #include "tests/lab/report/csv_table.h"
 
 namespace seam {
@@ -36,10 +37,9 @@ Fields FieldsOr(const std::string& line) {
 SweepTable::SweepTable(const std::string& path, const std::string& header, int key_columns,
                        const std::vector<std::string>& keys, bool force)
     : path_(path), header_(header), lines_(keys.size()) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (file && !force) text << file.rdbuf();
-  Load(text.str(), key_columns, keys);
+  RequirePlainFile(path);
+  const bool there = access(path.c_str(), F_OK) == 0;
+  Load(there && !force ? ReadPlainFile(path, kTableBytesMax) : "", key_columns, keys);
   Rewrite();
 }
 
@@ -85,7 +85,7 @@ void SweepTable::Rewrite() {
     text += lines_[i] + '\n';
     end_ = i + 1;
   }
-  std::FILE* file = std::fopen(draft.c_str(), "wb");
+  std::FILE* file = OpenPlainFile(draft, FileUse::kReplace);
   if (file == nullptr) CannotWrite(path_);
   const bool written = std::fwrite(text.data(), 1, text.size(), file) == text.size();
   const bool closed = std::fclose(file) == 0;
@@ -95,7 +95,7 @@ void SweepTable::Rewrite() {
     errno = error;
     CannotWrite(path_);
   }
-  file_ = std::fopen(path_.c_str(), "ab");
+  file_ = OpenPlainFile(path_, FileUse::kAppend);
   if (file_ == nullptr) CannotWrite(path_);
 }
 

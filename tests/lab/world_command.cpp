@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "common/base/check.h"
+#include "common/base/plain_file.h"
 #include "common/base/process.h"
 #include "common/measure/table.h"
 #include "tests/lab/commands.h"
@@ -11,6 +12,13 @@
 
 namespace seam {
 namespace {
+
+void WriteText(const std::string& text, const std::string& path) {
+  RequirePlainFile(path);
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  if (!file.flush()) throw OperatorError(path + ": cannot be written");
+}
 
 void WriteCsv(const TextTable& table, const std::string& path) {
   const auto line = [](const std::vector<std::string>& fields) {
@@ -22,9 +30,7 @@ void WriteCsv(const TextTable& table, const std::string& path) {
   };
   std::string text = line(table.header);
   for (const std::vector<std::string>& row : table.rows) text += line(row);
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  if (!file.flush()) throw OperatorError(path + ": cannot be written");
+  WriteText(text, path);
 }
 
 }  // namespace
@@ -46,10 +52,9 @@ int RunWorld(const WorldCommand& command) {
     std::fflush(stdout);
     if (command.folder.empty()) continue;
     WriteCsv(table, command.folder + "/" + bench.name + ".csv");
-    std::ofstream(command.folder + "/" + bench.name + ".md") << Markdown(table);
+    WriteText(Markdown(table), command.folder + "/" + bench.name + ".md");
     // What a CSV has no place for, for the report.
-    std::ofstream(command.folder + "/" + bench.name + ".txt") << table.title << "\n"
-                                                              << table.note << "\n";
+    WriteText(table.title + "\n" + table.note + "\n", command.folder + "/" + bench.name + ".txt");
   }
   return g_stop == 0 ? 0 : 1;
 }

@@ -292,7 +292,7 @@ int TicksThatDiffer(const std::string& joint) {
     if (world.tick() % 3 == 0) barriers.push_back(world.Barrier());
     hashes.push_back(world.Hash());
   }
-  world.Restore(barriers[7]);
+  EXPECT_TRUE(world.Restore(barriers[7]).ok());
   int different = 0;
   while (world.tick() < 150) {
     step();

@@ -176,7 +176,7 @@ TEST(Shapes, PiecesOfOnePartHaveImpulsesOfTheirOwnInABarrier) {
     if (t % 2 == 0) barriers.push_back(world.Barrier());
     hashes.push_back(world.Hash());
   }
-  world.Restore(barriers[9]);
+  EXPECT_TRUE(world.Restore(barriers[9]).ok());
   while (world.tick() < 120) {
     world.Step();
     if (world.tick() % 2 == 0) world.Barrier();

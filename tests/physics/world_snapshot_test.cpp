@@ -24,7 +24,7 @@ int DifferentTicks(const Scene& scene, int ticks, int every, int again) {
   }
   int different = 0;
   for (const WorldSnapshot& barrier : barriers) {
-    world.Restore(barrier);
+    EXPECT_TRUE(world.Restore(barrier).ok());
     if (world.Hash() != hashes[static_cast<std::size_t>(barrier.tick)]) ++different;
     for (int i = 1; i <= again && world.tick() < ticks; ++i) {
       world.Step();
@@ -54,7 +54,7 @@ TEST(Snapshot, WithoutTheBarrierAReplayGoesAnotherWay) {
   live.StepTo(300);
   other.StepTo(300);
   EXPECT_NE(live.world.Hash(), other.world.Hash());
-  other.world.Restore(then);
+  EXPECT_TRUE(other.world.Restore(then).ok());
   EXPECT_EQ(other.world.tick(), 240);
 }
 
@@ -109,6 +109,56 @@ TEST(Snapshot, KinematicBodiesAndMotorsStayAsTheyAre) {
   const float before = world.Read(0).position.x();
   Steps(&world, 60);
   EXPECT_GT(std::fabs(world.Read(0).position.x() - before), 1) << "it goes on driving";
+}
+
+/// Two boxes that are one, two on a hinge, and one on a rope from the ceiling.
+const char* kBound =
+    "[[part]]\nname = \"ceiling\"\nbox = [20, 1]\nposition = [0, 9]\nanchored = true\n"
+    "[[part]]\nname = \"a\"\nbox = [1, 1]\nposition = [0, 0]\n"
+    "[[part]]\nname = \"b\"\nbox = [1, 1]\nposition = [1, 0]\n"
+    "[[part]]\nname = \"c\"\nbox = [1, 1]\nposition = [5, 0]\n"
+    "[[part]]\nname = \"d\"\nbox = [1, 1]\nposition = [6, 0]\n"
+    "[[part]]\nname = \"e\"\nbox = [1, 1]\nposition = [-5, 3]\n"
+    "[[joint]]\nname = \"weld\"\nkind = \"weld\"\na = \"a\"\nb = \"b\"\n"
+    "[[joint]]\nname = \"hinge\"\nkind = \"revolute\"\na = \"c\"\nb = \"d\"\nanchor = [5.5, 0]\n"
+    "[[joint]]\nname = \"rope\"\nkind = \"distance\"\na = \"ceiling\"\nb = \"e\"\n"
+    "anchor_a = [-5, 8.5]\nanchor_b = [-5, 3.5]\n";
+
+TEST(Snapshot, RestoreAcrossABrokenJointIsRefusedAndChangesNothing) {
+  for (const std::int32_t joint : {0, 1, 2}) {
+    World world(ParseScene(kBound, "bound.toml"));
+    Steps(&world, 10);
+    const WorldSnapshot before = world.Barrier();
+    EXPECT_TRUE(world.Restore(before).ok());
+    Steps(&world, 5);
+    ASSERT_TRUE(world.Apply({Edit{BreakEdit{joint}}}).has_value()) << joint;
+    const std::uint64_t hash = world.Hash();
+    const Status back = world.Restore(before);
+    EXPECT_FALSE(back.ok()) << joint;
+    EXPECT_NE(back.why().find("cannot go back to tick 10"), std::string::npos) << back.why();
+    EXPECT_EQ(back.why().find('\n'), std::string::npos);
+    EXPECT_EQ(world.Hash(), hash);
+    EXPECT_EQ(world.tick(), 15);
+    Steps(&world, 5);
+    EXPECT_TRUE(world.Restore(world.Barrier()).ok()) << "a new one is good";
+  }
+}
+
+TEST(Snapshot, RestoreAcrossAnInsertIsRefusedAndAcrossAPushItGoesBack) {
+  World world(ParseScene(kBound, "bound.toml"));
+  const WorldSnapshot before = world.Barrier();
+  const std::uint64_t hash = world.Hash();
+  PushEdit push;
+  push.part = 1;
+  push.impulse = Vec2(3, 0);
+  EXPECT_FALSE(world.Apply({Edit{push}}).has_value());
+  EXPECT_NE(world.Hash(), hash);
+  EXPECT_TRUE(world.Restore(before).ok());
+  EXPECT_EQ(world.Hash(), hash);
+  InsertEdit insert;
+  insert.text = "[[part]]\nname = \"new\"\nbox = [1, 1]\nposition = [12, 0]\n";
+  ASSERT_TRUE(world.Apply({Edit{insert}}).has_value());
+  EXPECT_FALSE(world.Restore(before).ok());
 }
 
 TEST(Snapshot, SaysWhatABarrierCosts) {

@@ -1,7 +1,10 @@
 #include <gtest/gtest.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <csignal>
 #include <filesystem>
 
 #include "common/base/check.h"
@@ -139,11 +142,33 @@ TEST(Log, CountsWhatItCannotWrite) {
 }
 
 TEST(Log, CountsWhatAFullDiskDoesNotTake) {
-  if (!std::filesystem::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full";
-  LogWriter full("/dev/full", true);
+  TemporaryFile file;
+  LogWriter full(file.path());
+  EXPECT_TRUE(full.trouble().ok());
+  rlimit before{};
+  getrlimit(RLIMIT_FSIZE, &before);
+  const auto handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit little = before;
+  little.rlim_cur = 10;
+  setrlimit(RLIMIT_FSIZE, &little);
   full.Publish("A", 0, Bytes{1});
   full.Flush();
+  setrlimit(RLIMIT_FSIZE, &before);
+  std::signal(SIGXFSZ, handler);
   EXPECT_EQ(full.failures(), 1);
+  EXPECT_EQ(full.trouble().why(), file.path() + ": cannot be written: File too large");
+}
+
+TEST(Log, WritesAndReadsRegularFilesOnly) {
+  for (const bool force : {false, true}) {
+    EXPECT_THROW(LogWriter("/dev/full", force), OperatorError);
+    EXPECT_THROW(LogWriter("/tmp", force), OperatorError);
+  }
+  TemporaryFile file;
+  ASSERT_EQ(mkfifo(file.path().c_str(), 0600), 0);
+  EXPECT_THROW(LogWriter(file.path(), true), OperatorError);
+  EXPECT_THROW(LogWriter::Check(file.path(), true), OperatorError);
+  EXPECT_THROW(LogReader(file.path()), OperatorError);
 }
 
 TEST(Log, WhatIsNoLogIsAnOperatorsMistake) {

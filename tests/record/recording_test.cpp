@@ -26,7 +26,7 @@ View MakeView(int peer, std::int64_t tick, std::size_t count = 2, std::int16_t f
   View view;
   view.peer = peer;
   view.tick = tick;
-  view.sequence = static_cast<std::int32_t>(tick);
+  view.sequence = tick;
   for (std::size_t i = 0; i < count; ++i) {
     view.id.push_back(static_cast<std::int16_t>(first_id + static_cast<int>(i)));
   }
@@ -41,7 +41,7 @@ Stats MakeStats(int peer, std::int64_t tick) {
   Stats stats;
   stats.peer = peer;
   stats.tick = tick;
-  stats.sequence = static_cast<std::int32_t>(tick);
+  stats.sequence = tick;
   return stats;
 }
 

@@ -186,7 +186,7 @@ TEST(ActiveCharacter, ABarrierReplaysItBitForBit) {
       run.Step();
       first.push_back(run.world.Hash());
     }
-    run.world.Restore(snapshot);
+    EXPECT_TRUE(run.world.Restore(snapshot).ok());
     for (int tick = 0; tick < 120; ++tick) {
       run.Step();
       ASSERT_EQ(run.world.Hash(), first[static_cast<std::size_t>(tick)]) << at << " + " << tick;

@@ -203,7 +203,7 @@ TEST(Feather, ReplayFromABarrierIsBitExact) {
     hashes.push_back(world.Hash());
   }
   for (const WorldSnapshot& barrier : barriers) {
-    world.Restore(barrier);
+    EXPECT_TRUE(world.Restore(barrier).ok());
     ASSERT_EQ(world.Hash(), hashes[static_cast<std::size_t>(barrier.tick - 1)]);
     for (int i = 0; i < 45 && world.tick() < 300; ++i) {
       world.Step();
@@ -244,7 +244,9 @@ TEST(Feather, ABlastInTwoWorldsIsTheSameBitForBit) {
     }
     one.Step();
     two.Step();
-    if (t % 30 == 7) two.Restore(two.Barrier());
+    if (t % 30 == 7) {
+      EXPECT_TRUE(two.Restore(two.Barrier()).ok());
+    }
     if (t % 30 == 7) one.Barrier();
     ASSERT_EQ(one.Hash(), two.Hash()) << t;
   }

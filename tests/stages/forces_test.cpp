@@ -164,7 +164,7 @@ TEST(Forces, ReplayBitForBitFromABarrier) {
     if (world.tick() % 3 == 0) barriers.push_back(world.Barrier());
     hashes.push_back(world.Hash());
   }
-  world.Restore(barriers[9]);
+  EXPECT_TRUE(world.Restore(barriers[9]).ok());
   while (world.tick() < 150) {
     step();
     if (world.tick() % 3 == 0) world.Barrier();

@@ -165,7 +165,7 @@ TEST(Glue, TheSameBondsBreakAgainAfterGoingBack) {
   };
   const std::vector<int> first = proposed();
   EXPECT_FALSE(first.empty());
-  world->Restore(snapshot);
+  EXPECT_TRUE(world->Restore(snapshot).ok());
   EXPECT_EQ(proposed(), first);
 }
 

@@ -136,7 +136,7 @@ TEST(Kinematic, ReplaysBitForBitFromABarrier) {
     hashes.push_back(world.Hash());
   }
   for (const std::size_t from : {5, 40}) {
-    world.Restore(barriers[from]);
+    EXPECT_TRUE(world.Restore(barriers[from]).ok());
     while (world.tick() < 300) {
       world.Step();
       if (world.tick() % 4 == 0) world.Barrier();

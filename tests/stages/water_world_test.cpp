@@ -100,7 +100,7 @@ TEST(WaterWorld, ReplaysFromABarrierAreBitExact) {
     hashes.push_back(world.Hash());
   }
   for (const WorldSnapshot& barrier : barriers) {
-    world.Restore(barrier);
+    EXPECT_TRUE(world.Restore(barrier).ok());
     for (int i = 0; i < 60 && world.tick() < 400; ++i) {
       world.Step();
       if (world.tick() % 10 == 0) world.Barrier();

@@ -138,7 +138,7 @@ void Replay::Run() {
     was_awake.push_back(world_.awake(body));
   }
   FindPressed(from);
-  world_.Restore(barriers_.back());
+  if (!world_.Restore(barriers_.back()).ok()) return Forget();  // edited since
   PutIn();
   while (world_.tick() < now) {
     StepAgain();

@@ -3,10 +3,9 @@
 #include <fmt/format.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 
 #include "common/base/check.h"
+#include "common/base/plain_file.h"
 
 namespace seam {
 namespace {
@@ -75,10 +74,7 @@ std::vector<std::string> CsvFields(const std::string& line) {
 }
 
 CsvTable CsvTable::Load(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  if (!file || !(text << file.rdbuf())) throw OperatorError(path + ": cannot be read, or is empty");
-  return Parse(text.str(), path);
+  return Parse(ReadPlainFile(path, kTableBytesMax), path);
 }
 
 CsvTable CsvTable::Parse(const std::string& text, const std::string& path) {

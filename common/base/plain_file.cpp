@@ -1,0 +1,102 @@
+#include "common/base/plain_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include "common/base/check.h"
+
+namespace seam {
+namespace {
+
+/// Read at once, bytes.
+constexpr std::size_t kReadBytes = 65536;
+
+void RequirePlain(const std::string& path, mode_t mode) {
+  if (S_ISREG(mode)) return;
+  const char* kind = S_ISFIFO(mode)   ? "a FIFO"
+                     : S_ISSOCK(mode) ? "a socket"
+                     : S_ISDIR(mode)  ? "a folder"
+                                      : "a device";
+  throw OperatorError(path + ": is " + kind + ", not a regular file");
+}
+
+int FlagsOf(FileUse use) {
+  switch (use) {
+    case FileUse::kRead: return O_RDONLY;
+    case FileUse::kReplace:
+      return O_WRONLY | O_CREAT;  // emptied when it is known to be a regular file
+    case FileUse::kCreate: return O_WRONLY | O_CREAT | O_EXCL;
+    case FileUse::kAppend: return O_WRONLY | O_CREAT | O_APPEND;
+  }
+  SEAM_ASSERT(false);
+  return 0;
+}
+
+const char* ModeOf(FileUse use) {
+  return use == FileUse::kRead ? "rb" : use == FileUse::kAppend ? "ab" : "wb";
+}
+
+/// Closes the descriptor unless it was let go.
+struct Descriptor {
+  explicit Descriptor(int number) : fd(number) {}
+  ~Descriptor() {
+    const int error = errno;
+    if (fd >= 0) close(fd);
+    errno = error;
+  }
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  int fd;
+};
+
+}  // namespace
+
+void RequirePlainFile(const std::string& path) {
+  struct stat status {};
+  if (stat(path.c_str(), &status) == 0) RequirePlain(path, status.st_mode);
+}
+
+std::FILE* OpenPlainFile(const std::string& path, FileUse use) {
+  // Before it is opened: opening a device may do something.
+  if (use != FileUse::kCreate) RequirePlainFile(path);
+  // And after: it may have become another. With O_NONBLOCK a FIFO does not wait for its other end;
+  // regular files do not look at it.
+  Descriptor opened(open(path.c_str(), FlagsOf(use) | O_NONBLOCK | O_CLOEXEC, 0666));
+  if (opened.fd < 0) return nullptr;
+  struct stat status {};
+  if (fstat(opened.fd, &status) != 0) return nullptr;
+  RequirePlain(path, status.st_mode);
+  if (use == FileUse::kReplace && ftruncate(opened.fd, 0) != 0) return nullptr;
+  std::FILE* file = fdopen(opened.fd, ModeOf(use));
+  if (file != nullptr) opened.fd = -1;
+  return file;
+}
+
+std::string ReadPlainFile(const std::string& path, std::size_t bytes_max, const char* absent) {
+  errno = 0;
+  std::FILE* file = OpenPlainFile(path, FileUse::kRead);
+  if (file == nullptr) {
+    const bool missing = absent != nullptr && (errno == ENOENT || errno == ENOTDIR);
+    throw OperatorError(path + ": " +
+                        (missing ? absent : std::string("cannot be read: ") + strerror(errno)));
+  }
+  std::string text;
+  while (text.size() < bytes_max) {
+    const std::size_t before = text.size(), wanted = std::min(kReadBytes, bytes_max - before);
+    text.resize(before + wanted);
+    const std::size_t got = std::fread(text.data() + before, 1, wanted, file);
+    text.resize(before + got);
+    if (got < wanted) break;
+  }
+  const bool failed = std::ferror(file) != 0;
+  std::fclose(file);
+  if (failed) throw OperatorError(path + ": cannot be read");
+  return text;
+}
+
+}  // namespace seam

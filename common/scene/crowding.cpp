@@ -1,0 +1,236 @@
+#include "common/scene/crowding.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include "common/base/check.h"
+#include "common/scene/scene_limits.h"
+
+namespace seam {
+namespace {
+
+/// What may overlap without counting, m: things that touch and are rounded the wrong way. The
+/// engine lets things overlap by as much.
+constexpr float kSlop = 0.005f;
+
+/// A part's box along the world's axes, m.
+struct Box {
+  Vec2 min{0, 0}, max{0, 0};
+  PartId part = 0;
+  int assembly = 0;
+  int pieces = 1;
+  bool moves = false;
+  bool bullet = false;
+};
+
+struct Limits {
+  Vec2 min{1e30f, 1e30f}, max{-1e30f, -1e30f};
+  void Add(const Vec2& point, float radius) {
+    min = min.cwiseMin((point.array() - radius).matrix());
+    max = max.cwiseMax((point.array() + radius).matrix());
+  }
+};
+
+Vec2 InWorld(const Part& part, const Vec2& local) {
+  const float c = std::cos(part.angle), s = std::sin(part.angle);
+  return part.position + Vec2(c * local.x() - s * local.y(), s * local.x() + c * local.y());
+}
+
+Limits LimitsOf(const Part& part) {
+  Limits limits;
+  switch (part.kind) {
+    case ShapeKind::kBox:
+      for (const float x : {-0.5f, 0.5f}) {
+        for (const float y : {-0.5f, 0.5f}) {
+          limits.Add(InWorld(part, Vec2(x * part.size.x(), y * part.size.y())), 0);
+        }
+      }
+      break;
+    case ShapeKind::kCircle: limits.Add(part.position, part.radius); break;
+    case ShapeKind::kCapsule:
+      for (const Vec2& p : part.points) limits.Add(InWorld(part, p), part.radius);
+      break;
+    case ShapeKind::kPolygon:
+    case ShapeKind::kChain:
+    case ShapeKind::kSegment:
+      for (const Vec2& p : part.points) limits.Add(InWorld(part, p), 0);
+      break;
+  }
+  return limits;
+}
+
+/// How many shapes the engine gets for a part that is no chain, at most.
+int PiecesOf(const Part& part) {
+  if (part.kind == ShapeKind::kCapsule) return 3;
+  const auto points = static_cast<int>(part.points.size());
+  return part.kind == ShapeKind::kPolygon && points > 8 ? (points + 3) / 4 : 1;
+}
+
+bool Overlap(const Limits& a, const Box& b) {
+  return ((a.max - b.min).array() > kSlop).all() && ((b.max - a.min).array() > kSlop).all();
+}
+
+/// Segments of a chain that overlap a box.
+int SegmentsIn(const Part& chain, const Box& box) {
+  int count = 0;
+  for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
+    Limits limits;
+    limits.Add(InWorld(chain, chain.points[i]), kSlop);
+    limits.Add(InWorld(chain, chain.points[i + 1]), kSlop);
+    count += Overlap(limits, box) ? 1 : 0;
+  }
+  return count;
+}
+
+class Count {
+ public:
+  Count(const Scene& scene, const Composition& composition, PartId first)
+      : scene_(scene), composition_(composition), first_(first) {
+    for (const Joint& joint : scene.joints) {
+      if (joint.gone || joint.collide || joint.kind == JointKind::kKinematic) continue;
+      const int a = AssemblyOf(joint.a), b = AssemblyOf(joint.b);
+      joined_.insert({std::min(a, b), std::max(a, b)});
+    }
+    of_part_.assign(scene.parts.size(), 0);
+    bullets_of_part_.assign(scene.parts.size(), 0);
+  }
+
+  Crowding Run() {
+    std::vector<Box> boxes = Boxes();
+    const int axis = Axis(boxes);
+    std::sort(boxes.begin(), boxes.end(),
+              [&](const Box& a, const Box& b) { return a.min[axis] < b.min[axis]; });
+    std::vector<const Box*> moving, still;  // that may reach the next box
+    for (const Box& box : boxes) {
+      Meet(box, axis, &moving);
+      if (box.moves) Meet(box, axis, &still);
+      (box.moves ? moving : still).push_back(&box);
+    }
+    out_.part = Most(of_part_);
+    out_.bullet_part = Most(bullets_of_part_);
+    return out_;
+  }
+
+ private:
+  int AssemblyOf(PartId part) const {
+    return composition_.assembly_of_part[static_cast<std::size_t>(part)];
+  }
+
+  std::vector<Box> Boxes() const {
+    std::vector<bool> bullet(composition_.assemblies.size(), false);
+    for (const Part& part : scene_.parts) {
+      if (part.bullet && !part.gone) bullet[static_cast<std::size_t>(AssemblyOf(part.id))] = true;
+    }
+    std::vector<Box> boxes;
+    for (const Part& part : scene_.parts) {
+      if (part.gone) continue;
+      const auto index = static_cast<std::size_t>(AssemblyOf(part.id));
+      const Assembly& assembly = composition_.assemblies[index];
+      const bool stays = assembly.anchored && assembly.kinematic < 0;
+      if (part.id < first_ && !stays) continue;
+      const Limits limits = LimitsOf(part);
+      boxes.push_back({limits.min, limits.max, part.id, static_cast<int>(index), PiecesOf(part),
+                       !assembly.anchored, bullet[index]});
+    }
+    return boxes;
+  }
+
+  /// The one along which the boxes are spread more.
+  static int Axis(const std::vector<Box>& boxes) {
+    Eigen::Array2d sum(0, 0), squares(0, 0);
+    for (const Box& box : boxes) {
+      const Eigen::Array2d centre = (box.min + box.max).cast<double>().array() / 2;
+      sum += centre;
+      squares += centre * centre;
+    }
+    const double n = std::max(1.0, static_cast<double>(boxes.size()));
+    const Eigen::Array2d spread = squares / n - (sum / n) * (sum / n);
+    return spread.y() > spread.x() ? 1 : 0;
+  }
+
+  /// Counts `box` with those of `open` that it overlaps; drops those that end before it.
+  void Meet(const Box& box, int axis, std::vector<const Box*>* open) {
+    std::size_t kept = 0;
+    for (const Box* other : *open) {
+      if (other->max[axis] - box.min[axis] <= kSlop) continue;
+      (*open)[kept++] = other;
+      const Limits limits{other->min, other->max};
+      if (Overlap(limits, box) && MayCollide(*other, box)) Add(*other, box);
+    }
+    open->resize(kept);
+  }
+
+  bool MayCollide(const Box& a, const Box& b) const {
+    if (a.assembly == b.assembly || std::max(a.part, b.part) < first_) return false;
+    const int group = scene_.parts[static_cast<std::size_t>(a.part)].group;
+    if (group < 0 && group == scene_.parts[static_cast<std::size_t>(b.part)].group) return false;
+    if (joined_.empty()) return true;
+    return joined_.count({std::min(a.assembly, b.assembly), std::max(a.assembly, b.assembly)}) == 0;
+  }
+
+  int PiecesIn(const Box& box, const Box& other) const {
+    const Part& part = scene_.parts[static_cast<std::size_t>(box.part)];
+    return part.kind == ShapeKind::kChain ? SegmentsIn(part, other) : box.pieces;
+  }
+
+  void Add(const Box& a, const Box& b) {
+    const std::int64_t pairs = std::int64_t{PiecesIn(a, b)} * PiecesIn(b, a);
+    const bool bullet = (a.bullet || b.bullet) && a.moves && b.moves;
+    (bullet ? out_.bullet_pairs : out_.pairs) += pairs;
+    for (const Box* box : {&a, &b}) {
+      (bullet ? bullets_of_part_ : of_part_)[static_cast<std::size_t>(box->part)] += pairs;
+    }
+  }
+
+  /// The part from `first_` on with the largest number; -1 if all are 0.
+  PartId Most(const std::vector<std::int64_t>& numbers) const {
+    const auto begin =
+        numbers.begin() + std::min<std::ptrdiff_t>(first_, std::ptrdiff_t(numbers.size()));
+    const auto most = std::max_element(begin, numbers.end());
+    if (most == numbers.end() || *most == 0) return -1;
+    return static_cast<PartId>(most - numbers.begin());
+  }
+
+  const Scene& scene_;
+  const Composition& composition_;
+  const PartId first_;
+  std::set<std::pair<int, int>> joined_;  // assemblies that a joint keeps from colliding
+  std::vector<std::int64_t> of_part_, bullets_of_part_;
+  Crowding out_;
+};
+
+[[noreturn]] void Refuse(const Scene& scene, const std::string& file, PartId id, std::int64_t pairs,
+                         std::int64_t limit, const char* what) {
+  const Part& part = scene.parts[static_cast<std::size_t>(id)];
+  char where[64];
+  std::snprintf(where, sizeof where, "[%g, %g]", static_cast<double>(part.position.x()),
+                static_cast<double>(part.position.y()));
+  throw OperatorError(file + ":" + std::to_string(part.line) + ": part '" + part.name +
+                      "': too much begins in one place, most of it around " + where + ": " +
+                      std::to_string(pairs) + " pairs of " + what + " overlap, of at most " +
+                      std::to_string(limit));
+}
+
+}  // namespace
+
+Crowding CrowdingOf(const Scene& scene, const Composition& composition, PartId first) {
+  return Count(scene, composition, first).Run();
+}
+
+void CheckCrowding(const Scene& scene, const Composition& composition, const std::string& file,
+                   PartId first) {
+  const Crowding crowding = CrowdingOf(scene, composition, first);
+  if (crowding.bullet_pairs > kBulletCrowdMax) {
+    Refuse(scene, file, crowding.bullet_part, crowding.bullet_pairs, kBulletCrowdMax,
+           "shapes with a bullet");
+  }
+  if (crowding.pairs > kCrowdMax) {
+    Refuse(scene, file, crowding.part, crowding.pairs, kCrowdMax, "shapes");
+  }
+}
+
+}  // namespace seam
