@@ -123,6 +123,18 @@ TEST(Release, WhoAcknowledgesNothingAnyMoreKeepsNothing) {
   EXPECT_GT(longest_us, kReleasePatienceUs - 100000) << "the test would show nothing";
 }
 
+TEST(Release, NobodyHonestIsAccusedOnATerribleNetwork) {
+  for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
+    ClusterConfig config = Shuttle("terrible");
+    config.scene_text = Pendulums(60);
+    config.seed = seed;
+    const Recording recording = RunCluster(config);
+    EXPECT_EQ(Said(recording, "is gone"), 0) << "seed " << seed;
+    EXPECT_GT(HandOverMs(recording).size(), 60u);
+    EXPECT_LT(LongestHandOverUs(recording), kReleasePatienceUs * 3 / 4) << "seed " << seed;
+  }
+}
+
 TEST(Release, LateAnswersDelayAHandOverAndNeverMakeTwoAuthorities) {
   for (std::int64_t seed = 1; seed <= Soak(3); ++seed) {
     ClusterConfig config = Shuttle("delay=50ms,jitter=10ms,loss=20%,reorder=5%:50ms");
