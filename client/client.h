@@ -72,6 +72,7 @@ class Client {
   void OnMessage(std::int64_t now_us, ByteView bytes);
   void OnChunk(const Chunk& chunk);
   void OnEdit(const EditOrder& order);
+  void OnGrants(std::int64_t now_us, const Grants& grants);
   void MakeReplica();
   void Build();
   void BeginConversation();

@@ -50,7 +50,7 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
     clock_.AddSample(pong->client_us, pong->utime, now_us);
     if (pong->tick0_us >= 0) tick0_us_ = pong->tick0_us;
   } else if (const auto* grants = std::get_if<Grants>(&any)) {
-    if (replica_ != nullptr && !released_) replica_->ApplyGrants(*grants);
+    OnGrants(now_us, *grants);
   } else if (const auto* order = std::get_if<EditOrder>(&any)) {
     OnEdit(*order);
   } else if (const auto* meta = std::get_if<Meta>(&any)) {
@@ -77,6 +77,20 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
   } else {
     ++stats_.dropped_malformed;
   }
+}
+
+/// The server waits for our word before it gives on what we had.
+void Client::OnGrants(std::int64_t now_us, const Grants& grants) {
+  if (replica_ == nullptr || released_) return;
+  Release release;
+  for (const int m : replica_->ApplyGrants(grants)) {
+    release.mechanism.push_back(static_cast<std::int16_t>(replica_->authority().id(m)));
+    release.epoch.push_back(replica_->authority().at(m).epoch);
+  }
+  if (release.mechanism.empty()) return;
+  release.utime = now_us;
+  release.tick = replica_->tick();
+  link_->SendReliable(Encode(release));
 }
 
 void Client::OnEdit(const EditOrder& order) {

@@ -194,9 +194,14 @@ void Server::ApplyEdits(std::int64_t now_us) {
 void Server::UpdateAuthority(std::int64_t now_us) {
   AuthorityManager::Situation situation;
   situation.peer_of_player = sessions_.PeerOfPlayer();
-  situation.confirmed = sessions_.Confirmed();
   situation.together = edits_.WaitingMechanisms();
   broadcast_.ToAll(authority_.Update(now_us, situation));
+  const PeerSet withholding = authority_.Withholding(now_us);
+  sessions_.ForEachReady(0, [&](Session& session) {
+    if (!withholding.Has(session.peer)) return;
+    session.leaving = true;
+    session.leaving_why = "does not let go";
+  });
 }
 
 void Server::RunRules(std::int64_t now_us) {

@@ -57,6 +57,8 @@ void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
     OnInputs(now_us, session, *inputs);
   } else if (const auto* ping = std::get_if<Ping>(&any)) {
     OnPing(now_us, session, *ping);
+  } else if (const auto* release = std::get_if<Release>(&any)) {
+    OnRelease(session, *release);
   } else if (const auto* proposal = std::get_if<EditOrder>(&any)) {
     OnProposal(session, *proposal);
   } else if (std::holds_alternative<Hello>(any)) {
@@ -117,6 +119,16 @@ void Server::OnStates(std::int64_t now_us, Session& session, const States& state
   stats_.counters.dropped_stale += replica_.Receive(kept).stale;
   broadcast_.Relay(kept, session.peer);
   broadcast_.Publish(kept);
+}
+
+void Server::OnRelease(const Session& session, const Release& release) {
+  for (std::size_t i = 0; i < release.mechanism.size(); ++i) {
+    switch (authority_.NoteRelease(session.peer, release.mechanism[i], release.epoch[i])) {
+      case AuthorityManager::Right::kYes: break;
+      case AuthorityManager::Right::kStale: ++stats_.counters.dropped_stale; break;
+      case AuthorityManager::Right::kNo: ++stats_.counters.dropped_right; break;
+    }
+  }
 }
 
 void Server::OnProposal(Session& session, const EditOrder& proposal) {

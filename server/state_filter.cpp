@@ -64,6 +64,10 @@ bool StateFilter::MayMove(int body, const States& states, std::size_t i) {
     case AuthorityManager::Right::kStale: ++stats_.dropped_stale; return false;
     case AuthorityManager::Right::kNo: ++stats_.dropped_right; return false;
   }
+  if (states.tick <= accepted_[static_cast<std::size_t>(body)].tick) {
+    ++stats_.dropped_stale;
+    return false;
+  }
   if (!Plausible(body, states.tick, Unpack(states, i, 0))) {
     ++stats_.dropped_implausible;
     return false;
@@ -84,8 +88,7 @@ States StateFilter::Keep(std::int64_t now_us, int peer, const States& states) {
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(states.id[i]);
     if (!MayMove(body, states, i)) continue;
-    LastAccepted& last = accepted_[static_cast<std::size_t>(body)];
-    if (states.tick > last.tick) last = {states.tick, Unpack(states, i, 0).position};
+    accepted_[static_cast<std::size_t>(body)] = {states.tick, Unpack(states, i, 0).position};
     kept.id.push_back(states.id[i]);
     kept.epoch.push_back(states.epoch[i]);
     kept.flags.push_back(states.flags[i]);

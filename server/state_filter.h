@@ -1,6 +1,7 @@
 #pragma once
-/// What of a peer's states is believed: said by who may say it, of now, and likely. The rest is
-/// dropped and counted by reason.
+/// What of a peer's states is believed: said by who may say it, of now, newer than all that was
+/// believed of that body, and likely. The rest is dropped and counted by reason, before anybody
+/// else hears of it.
 
 #include <cstdint>
 #include <vector>

@@ -10,6 +10,11 @@ AuthorityTable::AuthorityTable(const Composition& composition) {
   records_.resize(ids_.size());
 }
 
+int AuthorityTable::IndexOf(PartId id) const {
+  const auto found = std::lower_bound(ids_.begin(), ids_.end(), id);
+  return found == ids_.end() || *found != id ? -1 : static_cast<int>(found - ids_.begin());
+}
+
 void AuthorityTable::Set(int mechanism, const AuthorityRecord& record) {
   SEAM_ASSERT(record.epoch >= at(mechanism).epoch);
   records_[static_cast<std::size_t>(mechanism)] = record;
@@ -51,17 +56,16 @@ std::vector<int> AuthorityTable::Apply(const Grants& grants) {
     next.authority = grants.authority[i];
     next.epoch = grants.epoch[i];
     for (int n = 0; n < grants.followers[i]; ++n) next.secondaries.Add(grants.follower[follower++]);
-    const auto found = std::lower_bound(ids_.begin(), ids_.end(), grants.mechanism[i]);
-    if (found == ids_.end() || *found != grants.mechanism[i]) continue;
-    const auto index = static_cast<std::size_t>(found - ids_.begin());
-    AuthorityRecord& now = records_[index];
+    const int index = IndexOf(grants.mechanism[i]);
+    if (index < 0) continue;
+    AuthorityRecord& now = records_[static_cast<std::size_t>(index)];
     if (next.epoch < now.epoch) continue;
     if (next.authority == now.authority && next.epoch == now.epoch &&
         next.secondaries == now.secondaries) {
       continue;
     }
     now = next;
-    changed.push_back(static_cast<int>(index));
+    changed.push_back(index);
   }
   return changed;
 }

@@ -13,7 +13,7 @@ namespace seam {
 
 struct AuthorityRecord {
   int authority = 0;
-  int epoch = 0;
+  std::int32_t epoch = 0;
   PeerSet secondaries;
 };
 
@@ -27,6 +27,8 @@ class AuthorityTable {
     return records_[static_cast<std::size_t>(mechanism)];
   }
   PartId id(int mechanism) const { return ids_[static_cast<std::size_t>(mechanism)]; }
+  /// The mechanism of that id, -1: none.
+  int IndexOf(PartId id) const;
 
   /// Sets one entry (the server plans with this).
   void Set(int mechanism, const AuthorityRecord& record);

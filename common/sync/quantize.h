@@ -20,7 +20,7 @@ BodyState Quantised(const BodyState& state);
 /// One body's entry in a States message.
 struct PackedBody {
   PartId id = 0;
-  int epoch = 0;
+  std::int32_t epoch = 0;
   std::int8_t flags = 0;
   BodyState state;
 };

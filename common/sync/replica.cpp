@@ -85,9 +85,9 @@ void Replica::ApplyPresses(int player, int pressed, std::int64_t next) {
 
 std::vector<int> Replica::ApplyGrants(const Grants& grants) {
   ApplyEdits();  // the grants are about what is there after them
-  std::vector<int> changed = roles_.Apply(grants);
+  std::vector<int> let_go = roles_.Apply(grants);
   corrector_.FollowRoles();
-  return changed;
+  return let_go;
 }
 
 void Replica::ReleaseAll() {

@@ -47,7 +47,8 @@ class Replica {
   AuthorityTable& authority() { return roles_.table(); }
   /// After Set on authority(): lets motion types follow the roles.
   void RolesChanged() { corrector_.FollowRoles(); }
-  /// Follows the server's word. Returns the mechanisms whose authority changed hands.
+  /// Follows the server's word. Returns the mechanisms that this peer had authority over and has no
+  /// longer.
   std::vector<int> ApplyGrants(const Grants& grants);
   /// Gives up every authority (the server has not been heard for too long).
   void ReleaseAll();

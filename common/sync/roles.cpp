@@ -35,15 +35,13 @@ bool Roles::Proposes(const Edit& edit) const {
 }
 
 std::vector<int> Roles::Apply(const Grants& grants) {
-  std::vector<int> before;
-  for (int m = 0; m < table_.count(); ++m) before.push_back(table_.at(m).authority);
-  std::vector<int> changed = table_.Apply(grants);
-  changed.erase(
-      std::remove_if(
-          changed.begin(), changed.end(),
-          [&](int m) { return before[static_cast<std::size_t>(m)] == table_.at(m).authority; }),
-      changed.end());
-  return changed;
+  std::vector<bool> had;
+  for (int m = 0; m < table_.count(); ++m) had.push_back(IsAuthority(m));
+  std::vector<int> let_go;
+  for (const int m : table_.Apply(grants)) {
+    if (had[static_cast<std::size_t>(m)] && !IsAuthority(m)) let_go.push_back(m);
+  }
+  return let_go;
 }
 
 void Roles::ReleaseAll() {

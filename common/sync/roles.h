@@ -33,7 +33,7 @@ class Roles {
   /// concerned that is in a mechanism; in mode oracle every peer.
   bool Proposes(const Edit& edit) const;
 
-  /// Takes over a message. Returns the mechanisms whose authority changed hands.
+  /// Takes over a message. Returns the mechanisms that this peer had and has no longer.
   std::vector<int> Apply(const Grants& grants);
   /// Gives all that this peer has back to the server.
   void ReleaseAll();

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/physics/part_places.h"
+#include "common/sync/lease.h"
 
 namespace seam {
 namespace {
@@ -70,21 +71,32 @@ std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const Situatio
   }
   std::vector<int> changed;
   std::vector<Grants> grants;  // revocations first
+  bool taken_over = false;
   for (int m = 0; m < table().count(); ++m) {
     Memory& memory = memory_[static_cast<std::size_t>(m)];
     AuthorityRecord record = table().at(m);
     const PlannedAuthority& planned = plan_[static_cast<std::size_t>(m)];
-    if (memory.revoking) {
-      // One authority at a time: the server takes over only once the holder has confirmed.
-      if (!Released(m, situation)) continue;
-      memory.revoking = false;
+    // One authority at a time: the server takes over only once the holder has let go.
+    if (memory.hand_over == HandOver::kRevoking) continue;
+    if (memory.hand_over == HandOver::kOvertaken) {
+      memory.hand_over = HandOver::kNone;
+      record.epoch += 2;  // past all that anybody was told
+      replica_.authority().Set(m, record);
+      changed.push_back(m);
+      continue;
+    }
+    if (memory.hand_over == HandOver::kReleased) {
+      memory.hand_over = HandOver::kNone;
       record = WithoutHolder(record);
       replica_.authority().Set(m, record);
+      taken_over = true;
     }
     PeerSet secondaries = planned.secondaries;
     if (config_.mode == Mode::kBuffer) secondaries.Add(0);
     if (record.authority != 0 && planned.authority != record.authority) {
-      memory.revoking = true;
+      memory.hand_over = HandOver::kRevoking;
+      memory.revoked_us = now_us;
+      memory.revoked_id = table().id(m);
       AuthorityTable told = table();
       told.Set(m, WithoutHolder(record));
       Append(told.Export(now_us, replica_.tick(), {m}), &grants);
@@ -97,14 +109,33 @@ std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const Situatio
     replica_.authority().Set(m, record);
     changed.push_back(m);
   }
-  if (changed.empty()) return grants;
+  if (changed.empty() && !taken_over) return grants;
   replica_.RolesChanged();
   Append(table().Export(now_us, replica_.tick(), changed), &grants);
   return grants;
 }
 
-bool AuthorityManager::Released(int mechanism, const Situation& situation) const {
-  return situation.confirmed.Has(table().at(mechanism).authority);
+AuthorityManager::Right AuthorityManager::NoteRelease(int peer, PartId mechanism,
+                                                      std::int32_t epoch) {
+  const int m = table().IndexOf(mechanism);
+  if (m < 0) return Right::kNo;
+  const AuthorityRecord& record = table().at(m);
+  Memory& memory = memory_[static_cast<std::size_t>(m)];
+  if (epoch <= record.epoch) return Right::kStale;
+  const bool asked = memory.hand_over == HandOver::kRevoking && record.authority == peer;
+  if (!asked || epoch != WithoutHolder(record).epoch) return Right::kNo;
+  memory.hand_over = HandOver::kReleased;
+  return Right::kYes;
+}
+
+PeerSet AuthorityManager::Withholding(std::int64_t now_us) const {
+  PeerSet peers;
+  for (int m = 0; m < table().count(); ++m) {
+    const Memory& memory = memory_[static_cast<std::size_t>(m)];
+    if (memory.hand_over != HandOver::kRevoking) continue;
+    if (now_us - memory.revoked_us > kReleasePatienceUs) peers.Add(table().at(m).authority);
+  }
+  return peers;
 }
 
 AuthorityRecord AuthorityManager::WithoutHolder(AuthorityRecord record) const {
@@ -123,9 +154,9 @@ std::vector<Grants> AuthorityManager::TakeBack(std::int64_t now_us, int peer) {
     if (record.authority != peer) continue;
     Memory& memory = memory_[static_cast<std::size_t>(m)];
     record.authority = 0;
-    record.epoch += memory.revoking ? 2 : 1;  // a revocation has used up one
+    record.epoch += memory.hand_over != HandOver::kNone ? 2 : 1;  // a revocation has used up one
     record.secondaries.Remove(peer);
-    memory.revoking = false;
+    memory.hand_over = HandOver::kNone;
     replica_.authority().Set(m, record);
     changed.push_back(m);
   }
@@ -137,16 +168,28 @@ std::vector<Grants> AuthorityManager::TakeBack(std::int64_t now_us, int peer) {
 void AuthorityManager::Remap(const std::vector<std::vector<int>>& from) {
   std::vector<Memory> memory;
   for (const std::vector<int>& then : from) {
+    const int m = static_cast<int>(memory.size());
     memory.push_back(then.empty() ? Memory{} : memory_[static_cast<std::size_t>(then.front())]);
+    for (const int old : then) {
+      const Memory& before = memory_[static_cast<std::size_t>(old)];
+      const bool same = then.size() == 1 && before.revoked_id == table().id(m);
+      const bool overtaken = before.hand_over != HandOver::kNone && !same;
+      if (overtaken) memory.back().hand_over = HandOver::kOvertaken;
+    }
   }
   memory_ = std::move(memory);
   plan_due_ = true;
 }
 
 std::vector<Grants> AuthorityManager::Export(std::int64_t now_us) const {
+  AuthorityTable told = table();
   std::vector<int> all;
-  for (int m = 0; m < table().count(); ++m) all.push_back(m);
-  return table().Export(now_us, replica_.tick(), all);
+  for (int m = 0; m < table().count(); ++m) {
+    const bool moving = memory_[static_cast<std::size_t>(m)].hand_over != HandOver::kNone;
+    if (moving) told.Set(m, WithoutHolder(table().at(m)));
+    all.push_back(m);
+  }
+  return told.Export(now_us, replica_.tick(), all);
 }
 
 bool AuthorityManager::Follows(int peer, int body) const {
@@ -155,13 +198,14 @@ bool AuthorityManager::Follows(int peer, int body) const {
 
 bool AuthorityManager::InOneHand(const std::vector<int>& mechanisms) const {
   for (const int m : mechanisms) {
-    if (memory_[static_cast<std::size_t>(m)].revoking) return false;
+    if (memory_[static_cast<std::size_t>(m)].hand_over != HandOver::kNone) return false;
     if (table().at(m).authority != table().at(mechanisms.front()).authority) return false;
   }
   return true;
 }
 
-AuthorityManager::Right AuthorityManager::RightToMove(int peer, int body, int epoch) const {
+AuthorityManager::Right AuthorityManager::RightToMove(int peer, int body,
+                                                      std::int32_t epoch) const {
   const AuthorityRecord& record = table().at(replica_.world().mechanism(body));
   if (record.authority == peer) return epoch == record.epoch ? Right::kYes : Right::kStale;
   return epoch < record.epoch ? Right::kStale : Right::kNo;

@@ -18,22 +18,24 @@ class AuthorityManager {
 
   /// What it cannot know by itself.
   struct Situation {
-    std::vector<int> peer_of_player;  ///< -1: nobody is ready to drive it
-    PeerSet confirmed;                ///< peers that have received all that they were told reliably
+    std::vector<int> peer_of_player;         ///< -1: nobody is ready to drive it
     std::vector<std::vector<int>> together;  ///< see AuthorityView
   };
 
   /// After each tick: plans when that is due, and takes every hand-over as far as it can go.
   /// Returns what everyone is to be told, in this order.
   std::vector<Grants> Update(std::int64_t now_us, const Situation& situation);
+  /// Peers that were told to let go of something kReleasePatienceUs ago and have not answered. They
+  /// have to leave; TakeBack follows.
+  PeerSet Withholding(std::int64_t now_us) const;
   /// Somebody came or went: the next Update plans.
   void PlanSoon() { plan_due_ = true; }
-  /// The server has what a peer that is gone had. Requires that its lease has ended (lease.h).
+  /// The server has what a peer that is gone had. States of the epochs it had count no more.
   std::vector<Grants> TakeBack(std::int64_t now_us, int peer);
   /// The mechanisms are others now; see BodyRemap.
   void Remap(const std::vector<std::vector<int>>& from);
 
-  /// Everything, for one who joins.
+  /// Everything, for one who joins: what is being revoked is nobody's, as the others were told.
   std::vector<Grants> Export(std::int64_t now_us) const;
   /// Whether the peer has authority over the mechanism, as far as everyone was told.
   bool Has(int peer, int mechanism) const { return table().at(mechanism).authority == peer; }
@@ -48,20 +50,30 @@ class AuthorityManager {
     kNo,
   };
   /// Whether a peer may say, in an epoch, where a body is.
-  Right RightToMove(int peer, int body, int epoch) const;
+  Right RightToMove(int peer, int body, std::int32_t epoch) const;
+  /// A peer says that it has let go of a mechanism (by its id), as the grant of that epoch told it.
+  /// Believed only of the holder and of exactly that grant; the next Update acts on it.
+  Right NoteRelease(int peer, PartId mechanism, std::int32_t epoch);
 
  private:
+  /// How far a mechanism is on its way from its holder, whom the table names until the end.
+  enum class HandOver {
+    kNone,
+    kRevoking,   // the holder is told to let go
+    kReleased,   // and has answered
+    kOvertaken,  // an edit made another mechanism of it meanwhile: its holder gets it anew
+  };
   /// What is remembered of a mechanism besides its record.
   struct Memory {
-    bool revoking = false;                 // its holder is told to let go, and has not confirmed
+    HandOver hand_over = HandOver::kNone;
+    std::int64_t revoked_us = 0;           // when the holder was told to let go
+    PartId revoked_id = 0;                 // of what
     int last_authority = 0;                // when it was planned last
     std::int64_t changed_tick = -1000000;  // when a plan first saw that authority
   };
 
   const AuthorityTable& table() const { return replica_.authority(); }
   AuthorityView Look(const Situation& situation);
-  /// Whether the holder of a mechanism that is revoked has let go. The one place that decides it.
-  bool Released(int mechanism, const Situation& situation) const;
   /// The record while nobody has it: the server next, an epoch on.
   AuthorityRecord WithoutHolder(AuthorityRecord record) const;
 

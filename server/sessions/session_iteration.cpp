@@ -26,14 +26,6 @@ std::vector<int> SessionTable::PeerOfPlayer() const {
   return peers;
 }
 
-PeerSet SessionTable::Confirmed() const {
-  PeerSet confirmed;
-  for (const auto& [address, session] : sessions_) {
-    if (!session->link.reliable_pending()) confirmed.Add(session->peer);
-  }
-  return confirmed;
-}
-
 std::int64_t SessionTable::WorstRttUs() const {
   std::int64_t worst = -1;
   for (const auto& [address, session] : sessions_) {

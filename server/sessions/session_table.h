@@ -12,7 +12,6 @@
 #include "common/codec/codec.h"
 #include "common/net/net.h"
 #include "common/scene/scene.h"
-#include "common/sync/peer_set.h"
 #include "server/sessions/session.h"
 
 namespace seam {
@@ -61,8 +60,6 @@ class SessionTable {
   /// By player: the peer that is ready to drive it, or -1.
   std::vector<int> PeerOfPlayer() const;
   int player_count() const;  ///< players who are ready
-  /// Peers whose link has nothing pending: they have received all they were told reliably.
-  PeerSet Confirmed() const;
   std::int64_t WorstRttUs() const;  ///< -1: unknown
   std::int64_t WorstLossPpm() const;
 

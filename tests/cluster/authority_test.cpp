@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <map>
 #include <utility>
 
 #include "common/measure/measure.h"
 #include "tests/lab/cluster.h"
+#include "tests/support/authority_watch.h"
 #include "tests/support/soak.h"
 
 namespace seam {
@@ -61,37 +61,6 @@ ClusterConfig Cradle() {
   return config;
 }
 
-/// Watches, at every virtual instant, who believes to have authority.
-struct Watcher {
-  std::int64_t instants = 0, one = 0, none = 0, several = 0;
-  std::map<std::pair<int, int>, int> holder_of_epoch;  // (mechanism, epoch) -> peer
-  int two_holders_of_an_epoch = 0;
-  int longest_none = 0, current_none = 0;
-
-  void Look(Cluster& cluster) {
-    if (!cluster.server().started()) return;
-    const AuthorityTable& table = cluster.server().replica().authority();
-    bool any_none = false;
-    for (int m = 0; m < table.count(); ++m) {
-      int believers = table.at(m).authority == 0 ? 1 : 0;
-      for (int c = 0; c < cluster.client_count(); ++c) {
-        const Client* client = cluster.client(c);
-        if (client == nullptr || !client->running()) continue;
-        const AuthorityRecord& h = client->replica()->authority().at(m);
-        if (h.authority != client->peer()) continue;
-        ++believers;
-        const auto [it, fresh] = holder_of_epoch.emplace(std::pair(m, h.epoch), client->peer());
-        if (!fresh && it->second != client->peer()) ++two_holders_of_an_epoch;
-      }
-      ++instants;
-      ++(believers == 1 ? one : believers == 0 ? none : several);
-      any_none = any_none || believers == 0;
-    }
-    current_none = any_none ? current_none + 1 : 0;
-    longest_none = std::max(longest_none, current_none);
-  }
-};
-
 TEST(Authority, NeverTwoAuthoritiesAtOnceUnderTwentyPercentLoss) {
   ClusterConfig config;
   config.scene = "shuttle.toml";
@@ -100,13 +69,14 @@ TEST(Authority, NeverTwoAuthoritiesAtOnceUnderTwentyPercentLoss) {
   for (std::int64_t seed = 1; seed <= Soak(5); ++seed) {
     config.seed = seed;
     Cluster cluster(config);
-    Watcher watcher;
+    AuthorityWatch watcher;
     cluster.each_instant = [&] { watcher.Look(cluster); };
     cluster.Run();
     const Measures m = Measure(cluster.recording(), ComputeOracle(cluster.recording()));
     EXPECT_GT(m.handovers, 4) << "nothing changed hands: the test would show nothing";
     EXPECT_EQ(watcher.several, 0) << "seed " << seed;
     EXPECT_EQ(watcher.two_holders_of_an_epoch, 0) << "seed " << seed;
+    EXPECT_EQ(watcher.two_named_in_an_epoch, 0) << "seed " << seed;
     // While a hand-over is under way nobody holds it, and everybody simulates it on.
     EXPECT_LT(static_cast<double>(watcher.none) / static_cast<double>(watcher.instants), 0.2);
     EXPECT_GT(watcher.one, 0);
@@ -150,7 +120,7 @@ TEST(Authority, AVanishedClientsMechanismsGoBackAndItCanRejoin) {
   ClusterConfig config = Cradle();
   config.impair = "demo";
   Cluster cluster(config);
-  Watcher watcher;
+  AuthorityWatch watcher;
   cluster.each_instant = [&] { watcher.Look(cluster); };
   cluster.RunToTick(120);
   const auto held_by = [&](int peer) {
@@ -177,7 +147,7 @@ TEST(Authority, AVanishedClientsMechanismsGoBackAndItCanRejoin) {
 TEST(Authority, ACutOfFiveSecondsEndsInARejoinWithoutTwoAuthorities) {
   ClusterConfig config = Cradle();
   Cluster cluster(config);
-  Watcher watcher;
+  AuthorityWatch watcher;
   cluster.each_instant = [&] { watcher.Look(cluster); };
   cluster.RunToTick(120);
   cluster.server_net().Cut(true);

@@ -19,7 +19,7 @@ namespace seam {
 namespace {
 
 using Messages = ::testing::Types<Hello, Welcome, Chunk, Room, Ping, Pong, Inputs, States, Grants,
-                                  EditOrder, Meta, View, Impacts, Stats, Event, Bye>;
+                                  Release, EditOrder, Meta, View, Impacts, Stats, Event, Bye>;
 
 template <class Message>
 class Codec : public ::testing::Test {};
@@ -230,6 +230,28 @@ TEST(CodecBounds, WhatBreaksABoundIsNotValid) {
   EXPECT_TRUE(broken([](View& v) { v.authority[2] = 32; }));
   EXPECT_TRUE(broken([](View& v) { v.spin.pop_back(); }));
   EXPECT_TRUE(broken([](View& v) { v.vx[1] = std::nanf(""); }));
+}
+
+TEST(CodecBounds, EpochsHaveThirtyTwoBitsAndAreNeverNegative) {
+  RandomMessages random(11);
+  States states;
+  Grants grants;
+  random.Fill(states, 1), random.Fill(grants, 1);
+  Release release;
+  release.mechanism = {3};
+  release.epoch = {7};
+  const Bytes said = Encode(release);
+  // Where the epoch of a message with one body or mechanism is, by the .lcm files.
+  const std::pair<Bytes, std::size_t> cases[] = {
+      {Encode(states), 60}, {Encode(grants), 38}, {said, said.size() - 4}};
+  for (const auto& [bytes, at] : cases) {
+    for (const std::uint32_t epoch : {0x8000u, 0x10000u, 0x7fffffffu}) {
+      EXPECT_FALSE(Rejected(With(bytes, at, 4, epoch))) << epoch;
+    }
+    for (const std::uint32_t epoch : {0xffffffffu, 0x80000000u}) {
+      EXPECT_TRUE(Rejected(With(bytes, at, 4, epoch))) << epoch;
+    }
+  }
 }
 
 TEST(CodecText, OnlyPrintableUtf8Passes) {

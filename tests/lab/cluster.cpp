@@ -1,6 +1,7 @@
 #include "tests/lab/cluster.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/base/check.h"
 
@@ -50,6 +51,7 @@ void Cluster::StartClient(std::size_t i) {
   Peer& peer = clients_[i];
   peer.client.reset();
   peer.endpoint = network_.Attach(Address{0x7f000001, next_port_++});
+  if (config_.client_net) peer.endpoint = config_.client_net(i, std::move(peer.endpoint));
   // Every machine's clock is off by something else.
   peer.clock_offset_us = 12345678 + 3777777 * static_cast<std::int64_t>(next_port_ - 20000);
   ClientConfig config;

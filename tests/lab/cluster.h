@@ -27,6 +27,8 @@ struct ClusterConfig {
   bool smooth = true;
   Recorder* recorder = nullptr;  ///< also gets every message, at now_us()
   bool keep = true;              ///< recording() has everything; false saves its memory
+  /// If set, what each client's network (by the scene's order of players) is replaced by.
+  std::function<std::unique_ptr<Net>(std::size_t, std::unique_ptr<Net>)> client_net;
 };
 
 class Cluster {

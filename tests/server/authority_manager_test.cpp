@@ -5,12 +5,18 @@
 
 #include <gtest/gtest.h>
 
+#include <utility>
+
 #include "common/scene/scene.h"
+#include "common/sync/lease.h"
 
 namespace seam {
 namespace {
 
+using Right = AuthorityManager::Right;
+
 constexpr int kAnn = 1, kBob = 2;
+constexpr PartId kBall = 0;
 
 class AuthorityManagerTest : public ::testing::Test {
  protected:
@@ -71,14 +77,88 @@ TEST_F(AuthorityManagerTest, AHandOverWaitsUntilTheHolderHasConfirmed) {
   EXPECT_EQ(revocation[0].epoch.at(0), 2);
   EXPECT_TRUE(manager_.Has(kAnn, 0)) << "told to let go, but not known to have done so";
   EXPECT_FALSE(manager_.InOneHand({0}));
-  situation_.confirmed.Add(kBob);
-  EXPECT_TRUE(Update().empty()) << "it is not bob's word that counts";
+  EXPECT_EQ(manager_.NoteRelease(kBob, kBall, 2), Right::kNo) << "not bob's word counts";
+  EXPECT_TRUE(Update().empty());
   EXPECT_TRUE(manager_.Has(kAnn, 0));
-  situation_.confirmed.Add(kAnn);
+  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 2), Right::kYes);
   Update();
   EXPECT_TRUE(manager_.Has(0, 0));
   EXPECT_EQ(Ball().epoch, 2) << "the epoch that the revocation named";
   EXPECT_TRUE(manager_.InOneHand({0}));
+}
+
+TEST_F(AuthorityManagerTest, AReleaseCountsOnlyForTheGrantThatAskedForIt) {
+  Update();
+  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 1), Right::kStale) << "the grant that gave it";
+  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 2), Right::kNo) << "nobody asked";
+  situation_.peer_of_player = {-1, kBob};
+  Update();
+  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 1), Right::kStale);
+  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 3), Right::kNo) << "an epoch still to come";
+  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, -1), Right::kStale);
+  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall + 1, 2), Right::kNo) << "no such mechanism";
+  EXPECT_EQ(manager_.NoteRelease(kBob, kBall, 2), Right::kNo);
+  EXPECT_TRUE(Update().empty());
+  EXPECT_TRUE(manager_.Has(kAnn, 0)) << "none of them counted";
+  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 2), Right::kYes);
+  Update();
+  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 2), Right::kStale) << "said again";
+}
+
+TEST_F(AuthorityManagerTest, WhoDoesNotAnswerIsNamedWhenPatienceEndsAndLosesItTwoEpochsOn) {
+  Update();
+  situation_.peer_of_player = {-1, kBob};
+  Update();
+  const std::int64_t told_us = 1;
+  EXPECT_EQ(manager_.Withholding(told_us + kReleasePatienceUs), PeerSet());
+  PeerSet ann;
+  ann.Add(kAnn);
+  EXPECT_EQ(manager_.Withholding(told_us + kReleasePatienceUs + 1), ann);
+  EXPECT_TRUE(manager_.Has(kAnn, 0)) << "one authority, until it is taken back";
+  manager_.TakeBack(2, kAnn);
+  EXPECT_EQ(manager_.Withholding(2 * kReleasePatienceUs), PeerSet());
+  EXPECT_TRUE(manager_.Has(0, 0));
+  EXPECT_EQ(Ball().epoch, 3);
+  EXPECT_EQ(manager_.RightToMove(kAnn, 0, 1), Right::kStale);
+  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 2), Right::kStale) << "too late";
+}
+
+TEST_F(AuthorityManagerTest, WhoAnsweredInTimeIsNotAccusedBeforeTheNextPlan) {
+  Update();
+  situation_.peer_of_player = {-1, kBob};
+  Update();
+  manager_.NoteRelease(kAnn, kBall, 2);
+  EXPECT_EQ(manager_.Withholding(2 * kReleasePatienceUs), PeerSet());
+}
+
+TEST_F(AuthorityManagerTest, WhoJoinsDuringARevocationIsToldWhatTheOthersWere) {
+  Update();
+  situation_.peer_of_player = {-1, kBob};
+  Update();
+  const std::vector<Grants> told = manager_.Export(2);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].authority.at(0), 0) << "else one whose world is repaired would hold it again";
+  EXPECT_EQ(told[0].epoch.at(0), 2);
+}
+
+TEST_F(AuthorityManagerTest, EpochsGoOnPastSixteenBits) {
+  constexpr int kHandOvers = 70000;
+  AuthorityTable client(replica_.world().composition());
+  int holder = kAnn;
+  for (int n = 0; n < kHandOvers; ++n) {
+    situation_.peer_of_player = {holder, -1};
+    for (const Grants& g : Update()) client.Apply(g);  // revocation, but for the first time
+    const AuthorityRecord record = Ball();
+    if (record.authority != holder) {
+      ASSERT_EQ(manager_.NoteRelease(record.authority, kBall, record.epoch + 1), Right::kYes);
+      for (const Grants& g : Update()) client.Apply(g);
+    }
+    ASSERT_EQ(Ball().authority, holder) << n;
+    ASSERT_EQ(client.at(0).authority, holder) << n;
+    ASSERT_EQ(client.at(0).epoch, 2 * n + 1);
+    holder = holder == kAnn ? kBob : kAnn;
+  }
+  EXPECT_GT(Ball().epoch, 1 << 16);
 }
 
 TEST_F(AuthorityManagerTest, WhatWasTakenBackHasAnEpochThatNobodyWasPromised) {
@@ -102,7 +182,6 @@ TEST_F(AuthorityManagerTest, TakingBackDuringARevocationUsesTheNextEpoch) {
 }
 
 TEST_F(AuthorityManagerTest, OnlyTheHolderMayMoveABodyAndOnlyInItsEpoch) {
-  using Right = AuthorityManager::Right;
   Update();
   const int epoch = Ball().epoch;
   EXPECT_EQ(manager_.RightToMove(kAnn, 0, epoch), Right::kYes);

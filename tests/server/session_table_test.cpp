@@ -187,18 +187,5 @@ TEST_F(SessionTableTest, WhoHasNotProvedItsAddressIsDroppedWhenOthersWantItsPlac
   EXPECT_EQ(PeerOf(*forged.front()), -1) << "the oldest gave way";
 }
 
-TEST_F(SessionTableTest, OnlyWhoHasAcknowledgedEverythingHasConfirmed) {
-  Guest bob(&network_, 2, "bob");
-  GetReady(&bob);
-  for (int n = 0; n < 3; ++n) Later(&bob);
-  EXPECT_TRUE(table_.Confirmed().Has(2));
-  Event event;
-  event.text = "anything";
-  table_.SendToAll(Encode(event));
-  EXPECT_FALSE(table_.Confirmed().Has(2));
-  for (int n = 0; n < 3; ++n) Later(&bob);
-  EXPECT_TRUE(table_.Confirmed().Has(2));
-}
-
 }  // namespace
 }  // namespace seam

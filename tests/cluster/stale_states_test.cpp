@@ -1,0 +1,54 @@
+/// States that were told before: they reach nobody.
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <utility>
+#include <variant>
+
+#include "tests/lab/cluster.h"
+#include "tests/support/pendulums.h"
+#include "tests/support/rewriting_net.h"
+
+namespace seam {
+namespace {
+
+TEST(StaleStates, AReplayedMessageReachesNeitherOtherClientsNorTheBus) {
+  ClusterConfig config;
+  config.scene = "pendulums.toml";
+  config.scene_text = Pendulums(4);
+  config.impair = "perfect";
+  config.duration_s = 1.5;
+  Bytes first;
+  int sent = 0, replayed = 0;
+  config.client_net = [&](std::size_t client, std::unique_ptr<Net> net) -> std::unique_ptr<Net> {
+    if (client != 0) return net;
+    return std::make_unique<RewritingNet>(std::move(net), [&](std::int64_t, Bytes* message) {
+      if (!std::holds_alternative<States>(Decode(*message))) return true;
+      if (first.empty()) first = *message;
+      if (++sent % 3 != 0) return true;
+      *message = first;
+      ++replayed;
+      return true;
+    });
+  };
+  Cluster cluster(config);
+  cluster.Run();
+  EXPECT_GT(replayed, 10);
+  std::map<std::pair<int, int>, std::int64_t> newest;  // (peer, body) -> tick
+  int again = 0;
+  for (const States& states : cluster.recording().states) {
+    for (const std::int16_t id : states.id) {
+      const auto [it, fresh] = newest.emplace(std::pair(states.peer, id), states.tick);
+      if (fresh) continue;
+      again += states.tick <= it->second ? 1 : 0;
+      it->second = states.tick;
+    }
+  }
+  EXPECT_EQ(again, 0) << "on the bus";
+  EXPECT_EQ(cluster.client(1)->stats().dropped_stale, 0) << "to bob";
+  EXPECT_GE(cluster.server().stats().dropped_stale, replayed) << "dropped without being counted";
+}
+
+}  // namespace
+}  // namespace seam

@@ -1,0 +1,54 @@
+#pragma once
+/// Watches, at every virtual instant of a cluster, who believes to have authority and whom the
+/// server names.
+
+#include <algorithm>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "tests/lab/cluster.h"
+
+namespace seam {
+
+struct AuthorityWatch {
+  std::int64_t instants = 0, one = 0, none = 0, several = 0;  ///< who believes to have a mechanism
+  int two_holders_of_an_epoch = 0;  ///< clients that believed to have the same epoch
+  int two_named_in_an_epoch = 0;    ///< peers that the server's own table named in the same epoch
+  int longest_none = 0, current_none = 0;
+
+  void Look(Cluster& cluster) {
+    if (!cluster.server().started()) return;
+    const AuthorityTable& table = cluster.server().replica().authority();
+    bool any_none = false;
+    for (int m = 0; m < table.count(); ++m) {
+      int believers = table.at(m).authority == 0 ? 1 : 0;
+      two_named_in_an_epoch += Contradicts(&named_, m, table.at(m).epoch, table.at(m).authority);
+      for (int c = 0; c < cluster.client_count(); ++c) {
+        const Client* client = cluster.client(c);
+        if (client == nullptr || !client->running()) continue;
+        const AuthorityRecord& h = client->replica()->authority().at(m);
+        if (h.authority != client->peer()) continue;
+        ++believers;
+        two_holders_of_an_epoch += Contradicts(&believed_, m, h.epoch, client->peer());
+      }
+      ++instants;
+      ++(believers == 1 ? one : believers == 0 ? none : several);
+      any_none = any_none || believers == 0;
+    }
+    current_none = any_none ? current_none + 1 : 0;
+    longest_none = std::max(longest_none, current_none);
+  }
+
+ private:
+  using HolderOfEpoch = std::map<std::pair<int, std::int64_t>, int>;  // (mechanism, epoch) -> peer
+
+  static int Contradicts(HolderOfEpoch* known, int mechanism, std::int64_t epoch, int peer) {
+    const auto [it, fresh] = known->emplace(std::pair(mechanism, epoch), peer);
+    return !fresh && it->second != peer ? 1 : 0;
+  }
+
+  HolderOfEpoch believed_, named_;
+};
+
+}  // namespace seam
