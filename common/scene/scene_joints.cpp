@@ -176,7 +176,7 @@ void Add(const SceneReader& r, const Joint& joint, SceneDraft* draft) {
       r.FailAt("name", "there is another joint of this name");
     }
   }
-  if (draft->scene.joints.size() == kJointsMax) {
+  if (Full(draft->scene.joints, kJointsMax)) {
     r.Fail("a scene may have at most " + std::to_string(kJointsMax) + " joints");
   }
   draft->scene.joints.push_back(joint);

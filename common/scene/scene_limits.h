@@ -2,6 +2,8 @@
 /// What a scene may say, in SI units. Within these limits Box2D 2.4.1 neither asserts nor loses its
 /// footing; docs/scenes.md repeats them.
 
+#include <cstddef>
+
 #include "common/base/limits.h"
 #include "common/scene/scene_reader.h"
 
@@ -44,6 +46,18 @@ constexpr std::size_t kConnectorsMax = 16;
 /// m; smaller ones would have parts below kSizeMin.
 constexpr Range kCharacterHeight{1, 5};
 constexpr std::size_t kCharactersMax = 64;
+/// Of parts or joints, those that are still there.
+template <class Things>
+std::size_t CountLiving(const Things& things) {
+  std::size_t living = 0;
+  for (const auto& thing : things) living += thing.gone ? 0 : 1;
+  return living;
+}
+/// Whether there are as many as there may be.
+template <class Things>
+bool Full(const Things& things, std::size_t most) {
+  return things.size() >= most && CountLiving(things) >= most;
+}
 /// Welded parts farther than this from their root would lose their edges to rounding, m.
 constexpr float kWeldReachMax = 1000;
 
