@@ -172,7 +172,7 @@ void ReadLocal(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
 
 void Add(const SceneReader& r, const Joint& joint, SceneDraft* draft) {
   for (const Joint& other : draft->scene.joints) {
-    if (other.name == joint.name) {
+    if (!other.gone && other.name == joint.name) {
       r.FailAt("name", "there is another joint of this name");
     }
   }

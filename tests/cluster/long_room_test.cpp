@@ -3,16 +3,19 @@
 
 #include <gtest/gtest.h>
 
+#include "common/codec/codec.h"
 #include "common/physics/part_places.h"
 #include "common/sync/edit_order.h"
+#include "common/sync/topology_snapshot.h"
+#include "common/topology/topology_fold.h"
 #include "tests/support/two_sides.h"
 
 namespace seam {
 namespace {
 
 /// Two players, and forty boxes in pairs that nobody is near to.
-const std::string kPairs = std::string("duration = 60\nbuffer = 8\ngravity = [0, 0]\n") +
-                           kTwoSides + R"(
+const std::string kPairs =
+    std::string("duration = 60\nbuffer = 8\ngravity = [0, 0]\n") + kTwoSides + R"(
 [[part]]
 name = "floor"
 box = [80, 1]
@@ -26,6 +29,34 @@ repeat = {count = [20, 2], step = [1.5, 0.6]}
 )";
 constexpr PartId kFirst = 1;
 constexpr int kPairCount = 20;
+
+/// What one who joins now is sent of the past, bytes: of all edits, and of what they have left.
+struct JoinBytes {
+  std::size_t edits = 0, snapshot = 0;
+};
+
+JoinBytes BytesToJoin(Cluster* cluster) {
+  const World& world = cluster->server().replica().world();
+  Topology topology(cluster->scene());
+  TopologyFold fold(topology);
+  JoinBytes bytes;
+  for (const auto& [number, order] : cluster->recording().edits) {
+    topology.Apply({ToEdit(order)});
+    fold.Note(ToEdit(order), topology);
+    bytes.edits += Encode(order).size();
+  }
+  EXPECT_EQ(topology.composition().hash, world.composition().hash) << "the log has it all";
+  const std::vector<Snapshot> parts = ToSnapshots(topology.revision(), fold.Entries(topology));
+  SnapshotReader reader(cluster->scene());
+  for (const Snapshot& part : parts) {
+    bytes.snapshot += Encode(part).size();
+    const Status status = reader.Take(part);
+    EXPECT_TRUE(status.ok()) << status.why();
+  }
+  EXPECT_TRUE(reader.complete());
+  EXPECT_EQ(reader.topology().composition().hash, world.composition().hash);
+  return bytes;
+}
 
 /// Bonds and breaks every pair `cycles` times, two ticks each.
 void BondAndBreak(Cluster* cluster, int cycles) {
@@ -98,6 +129,29 @@ TEST(LongRoom, GlueThatFormsAndBreaksForEverDoesNotGrowIt) {
   EXPECT_EQ(truth.revision(), 20000) << "ten thousand of each";
   EXPECT_LE(truth.world().scene().joints.size(), static_cast<std::size_t>(kPairCount));
   ExpectLateJoinerIsTheSame(&cluster);
+  const JoinBytes bytes = BytesToJoin(&cluster);
+  EXPECT_LT(bytes.snapshot, 2000u);
+  EXPECT_GT(bytes.edits, 1000000u);
+  RecordProperty("edits_bytes", static_cast<int>(bytes.edits));
+  RecordProperty("snapshot_bytes", static_cast<int>(bytes.snapshot));
+}
+
+/// Whatever the worlds do to themselves while they are played can be told in short.
+TEST(LongRoom, ASnapshotOfAPlayedWorldIsTheWorldAndShorterThanItsEdits) {
+  for (const char* scene : {"gluehouse", "playground", "conveyor", "harbour", "obstacle"}) {
+    SCOPED_TRACE(scene);
+    ClusterConfig config;
+    config.scene = scene;
+    config.duration_s = 6;
+    config.impair = "4g";
+    config.seed = 3;
+    Cluster cluster(config);
+    cluster.Run();
+    const JoinBytes bytes = BytesToJoin(&cluster);
+    EXPECT_LE(bytes.snapshot, bytes.edits + 100);
+    RecordProperty(std::string(scene) + "_edits_bytes", static_cast<int>(bytes.edits));
+    RecordProperty(std::string(scene) + "_snapshot_bytes", static_cast<int>(bytes.snapshot));
+  }
 }
 
 TEST(LongRoom, WhoJoinsDuringManyEditsUnderLossEndsTheSame) {
