@@ -62,6 +62,7 @@ void Client::Join(std::int64_t now_us) {
   BeginConversation();
   replica_.reset();
   scene_.reset();
+  snapshot_.reset();
   held_.clear();
   room_bytes_.clear();
   room_size_ = 0;
@@ -188,6 +189,7 @@ void Client::StepOnce(std::int64_t now_us) {
     EditOrder proposal = ToOrder(edit);
     proposal.utime = now_us;
     proposal.tick = replica_->tick();
+    proposal.sequence = replica_->revision();
     if (!released_) link_->SendReliable(Encode(proposal));
   }
   for (States& states : replica_->TakeStates()) {

@@ -15,6 +15,7 @@
 #include "common/sync/metadata.h"
 #include "common/sync/publisher.h"
 #include "common/sync/replica.h"
+#include "common/sync/topology_snapshot.h"
 
 namespace seam {
 
@@ -67,13 +68,17 @@ class Client {
   static constexpr int kInputsRedundant = 16;  ///< ticks of input repeated in every message
 
  private:
+  friend struct ClientTestAccess;
+
   void Join(std::int64_t now_us);
   void ReceiveAll(std::int64_t now_us);
   void OnMessage(std::int64_t now_us, ByteView bytes);
   void OnChunk(const Chunk& chunk);
   void OnEdit(const EditOrder& order);
   void OnGrants(std::int64_t now_us, const Grants& grants);
-  void MakeReplica();
+  void OnSnapshot(const Snapshot& part);
+  /// Of the scene as it is, or as it has become.
+  void MakeReplica(const Topology* become = nullptr);
   void Build();
   void BeginConversation();
   void Greet(std::int64_t now_us);
@@ -97,8 +102,9 @@ class Client {
   ClockFilter clock_;
   MetaTable metadata_;
   Room room_;
-  Mode mode_ = Mode::kBuffer;  // room_.mode, once its scene is loaded
-  std::vector<Bytes> held_;    // grants and states that came before the replica was built
+  Mode mode_ = Mode::kBuffer;                 // room_.mode, once its scene is loaded
+  std::unique_ptr<SnapshotReader> snapshot_;  // one that comes in its parts
+  std::vector<Bytes> held_;  // grants and states that came before the replica was built
   Bytes room_bytes_;
   std::size_t room_size_ = 0;
   int peer_ = -1;

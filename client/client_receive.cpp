@@ -53,6 +53,8 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
     OnGrants(now_us, *grants);
   } else if (const auto* order = std::get_if<EditOrder>(&any)) {
     OnEdit(*order);
+  } else if (const auto* snapshot = std::get_if<Snapshot>(&any)) {
+    OnSnapshot(*snapshot);
   } else if (const auto* meta = std::get_if<Meta>(&any)) {
     metadata_.Apply(*meta);
   } else if (const auto* states = std::get_if<States>(&any)) {
@@ -105,14 +107,30 @@ void Client::OnEdit(const EditOrder& order) {
   if (started_) replica_->StartAt(tick);
 }
 
-void Client::MakeReplica() {
+void Client::OnSnapshot(const Snapshot& part) {
+  if (replica_ == nullptr || released_) return;
+  if (snapshot_ == nullptr || part.part == 0) snapshot_ = std::make_unique<SnapshotReader>(*scene_);
+  const Status status = snapshot_->Take(part);
+  if (!status.ok()) {
+    fatal_ = "cannot use the server's world: " + status.why();
+    return;
+  }
+  if (!snapshot_->complete()) return;
+  const std::int64_t tick = replica_->tick();
+  MakeReplica(&snapshot_->topology());
+  snapshot_.reset();
+  if (started_) replica_->StartAt(tick);
+}
+
+void Client::MakeReplica(const Topology* become) {
   SyncConfig sync = MakeSyncConfig(room_.mode, room_.reconcile);
   mode_ = sync.mode;
   sync.tick_hz = room_.tick_hz;
   sync.send_hz = room_.send_hz;
   sync.smooth = config_.smooth;
   sync.seed = room_.seed;
-  replica_ = std::make_unique<Replica>(*scene_, sync, peer_, player_);
+  const Topology topology = become != nullptr ? *become : Topology(*scene_);
+  replica_ = std::make_unique<Replica>(topology, sync, peer_, player_);
 }
 
 void Client::OnChunk(const Chunk& chunk) {

@@ -105,10 +105,6 @@ void Server::FollowSessions(std::int64_t now_us) {
       case SessionEvent::Kind::kProven: {
         Session& session = *sessions_.Find(event.address);
         SendWorld(now_us, session);
-        if (rules_ == nullptr) break;
-        for (const Meta& meta : rules_->metadata().Export(now_us, replica_.tick())) {
-          session.link.SendReliable(Encode(meta));
-        }
         break;
       }
       case SessionEvent::Kind::kReady:
@@ -128,12 +124,24 @@ void Server::FollowSessions(std::int64_t now_us) {
 }
 
 void Server::SendWorld(std::int64_t now_us, Session& session) {
-  for (const EditOrder& order : edits_.History()) session.link.SendReliable(Encode(order));
-  for (const Grants& g : authority_.Export(now_us)) session.link.SendReliable(Encode(g));
-  if (!started()) return;
-  for (const States& states : replica_.Everything()) {
-    session.link.SendReliable(Encode(At(now_us, states)));
+  // Half a world would be another one: who cannot be sent all of it has to leave.
+  bool sent = true;
+  const auto send = [&](const auto& message) {
+    sent = sent && session.link.SendReliable(Encode(message));
+  };
+  const std::vector<Snapshot> history = edits_.History(now_us);
+  if (history.size() > static_cast<std::size_t>(kSnapshotPartsMax)) sent = false;
+  for (std::size_t i = 0; sent && i < history.size(); ++i) send(history[i]);
+  for (const Grants& grants : authority_.Export(now_us)) send(grants);
+  if (started()) {
+    for (const States& states : replica_.Everything()) send(At(now_us, states));
   }
+  if (rules_ != nullptr) {
+    for (const Meta& meta : rules_->metadata().Export(now_us, replica_.tick())) send(meta);
+  }
+  if (sent) return;
+  session.leaving = true;
+  session.leaving_why = "the world is more than can be sent to it";
 }
 
 void Server::StartIfReady(std::int64_t now_us) {
@@ -175,16 +183,13 @@ void Server::StepOnce(std::int64_t now_us) {
 void Server::ApplyEdits(std::int64_t now_us) {
   const EditLog::Batch batch = edits_.OrderPending(now_us);
   stats_.counters.dropped_stale += batch.stale;
-  if (batch.just_full) {
-    broadcast_.Say(now_us, "no more edits: the room has had " + std::to_string(EditLog::kEditsMax));
-  }
   for (const EditOrder& order : batch.orders) {
     broadcast_.ToAll(order);
     replica_.Queue(order);
   }
   while (replica_.has_queued()) {
     const std::optional<BodyRemap> change = replica_.ApplyNextEdit();
-    edits_.NoteComposition(replica_.revision());
+    edits_.NoteApplied();
     if (!change) continue;
     authority_.Remap(change->mechanisms);
     filter_.Remap(change->bodies);

@@ -52,7 +52,7 @@ class Server {
   const Stats& stats() const { return stats_.counters; }
   const Replica& replica() const { return replica_; }
   /// An edit from outside; see EditLog::Add.
-  void Order(const Edit& edit) { edits_.Add(edit); }
+  bool Order(const Edit& edit) { return edits_.Add(edit); }
   /// What the operator should read since the last call: a script was stopped. One line each.
   std::vector<std::string> TakeWarnings();
   /// What it decides of health, scores and scripts; nullptr when the scene has nothing of it.
@@ -76,7 +76,8 @@ class Server {
   // server.cpp
   /// Draws the conclusions from who joined, got ready and left.
   void FollowSessions(std::int64_t now_us);
-  /// Edits, grants and states: all that a peer needs to have our world.
+  /// Edits, grants, states and values: all that a peer needs to have our world. One that cannot be
+  /// sent all of it is leaving.
   void SendWorld(std::int64_t now_us, Session& session);
   void StartIfReady(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);

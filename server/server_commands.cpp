@@ -42,7 +42,7 @@ void ServerCommands::Ask(AnyEdit what) {
   const Edit edit(std::move(what), EditCause::kOutside);
   const Status status = replica_.world().topology().Validate(edit);
   if (!status.ok()) throw ScriptRefusal(status.why());
-  edits_.Add(edit);
+  if (!edits_.Add(edit)) throw ScriptRefusal("too many edits are waiting");
 }
 
 }  // namespace seam

@@ -78,7 +78,8 @@ void Server::OnPing(std::int64_t now_us, Session& session, const Ping& ping) {
   pong.client_us = ping.utime;
   pong.tick0_us = tick0_us_;
   session.link.SendUnreliable(Encode(pong));
-  if (session.stage != SessionStage::kReady || !edits_.NeedsRepair(ping)) return;
+  const bool more = session.link.reliable_pending();
+  if (session.stage != SessionStage::kReady || !edits_.NeedsRepair(ping, more)) return;
   // Once for each time it was repaired: what is under way must arrive first.
   if (now_us - session.repaired_us < kRepairAgainUs) return;
   session.repaired_us = now_us;
@@ -141,6 +142,7 @@ void Server::OnProposal(Session& session, const EditOrder& proposal) {
     case EditLog::Verdict::kTaken: break;
     case EditLog::Verdict::kStale: ++stats.dropped_stale; break;
     case EditLog::Verdict::kNoRight: ++stats.dropped_right; break;
+    case EditLog::Verdict::kTooMany:
     case EditLog::Verdict::kImplausible: ++stats.dropped_implausible; break;
   }
 }

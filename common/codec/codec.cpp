@@ -20,6 +20,7 @@
 #include "seam/ready_t.hpp"
 #include "seam/release_t.hpp"
 #include "seam/room_t.hpp"
+#include "seam/snapshot_t.hpp"
 #include "seam/states_t.hpp"
 #include "seam/stats_t.hpp"
 #include "seam/view_t.hpp"

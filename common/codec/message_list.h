@@ -34,6 +34,8 @@
   X(Release, release_t, kEdge, "", m.utime, m.tick, m.mechanism, m.epoch)                         \
   X(EditOrder, edit_t, kBusRoom, "edit", m.utime, m.sequence, m.number, m.tick, m.kind, m.cause,  \
     m.a, m.b, m.joint, m.player, m.text, m.value)                                                 \
+  X(Snapshot, snapshot_t, kEdge, "", m.utime, m.number, m.part, m.parts, m.text, m.kind, m.joint, \
+    m.a, m.b, m.value)                                                                            \
   X(Meta, meta_t, kBusRoom, "meta", m.utime, m.sequence, m.tick, m.kind, m.id, m.key, m.value)    \
   X(View, view_t, kBusPeer, "view", m.utime, m.sequence, m.peer, m.tick, m.revision, m.part,      \
     m.parts, m.id, m.role, m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin)                    \

@@ -187,6 +187,8 @@ struct Release {
 /// everyone.
 struct EditOrder {
   std::int64_t utime = 0;
+  /// On the bus, counts; of a proposal: how many edits its proposer had applied, so that nobody
+  /// takes what it says of a joint for another joint in its place.
   std::int64_t sequence = 0;
   std::int32_t number = -1;  ///< place in the order; -1: a proposal, or (server) begin anew
   std::int64_t tick = 0;     ///< the server's when ordered; a proposer's own
@@ -202,6 +204,24 @@ struct EditOrder {
 constexpr std::size_t kEditTextBytesMax = 900;
 static_assert(kEditTextBytesMax < kMessageBytesMax);
 constexpr std::int8_t kEditKindsMax = 8;
+
+/// Server -> one client, reliable and ordered: what makes of the scene the world as it has become;
+/// common/topology/topology_entry.h says what an entry is.
+struct Snapshot {
+  std::int64_t utime = 0;
+  std::int32_t number = 0;  ///< edits that the world has had
+  std::int32_t part = 0;    ///< part of parts
+  std::int32_t parts = 1;
+  std::string text;  ///< of the entries that insert, one after another
+  std::vector<std::int8_t> kind;
+  std::vector<std::int32_t> joint;
+  std::vector<std::int16_t> a, b;
+  std::vector<float> value;  ///< of the entries in their order
+};
+/// Parts of one snapshot, the most: fewer than a Link keeps waiting.
+constexpr std::int32_t kSnapshotPartsMax = 3900;
+/// The bytes of a Snapshot but for its arrays; of an entry; of a number.
+constexpr std::size_t kSnapshotBytes = 37, kSnapshotEntryBytes = 9, kSnapshotValueBytes = 4;
 
 /// Server -> everyone, reliable and ordered: what parts and players have and are worth, changes
 /// only. The server alone decides it.

@@ -151,6 +151,17 @@ bool Valid(const EditOrder& m) {
          Finite(m.value) && IsPrintable(m.text, kEditTextBytesMax, true);
 }
 
+bool Valid(const Snapshot& m) {
+  const std::size_t bytes = kSnapshotBytes + kSnapshotEntryBytes * m.kind.size() +
+                            kSnapshotValueBytes * m.value.size() + m.text.size();
+  return Time(m.utime) && m.number >= 0 && Within(m.parts, 1, kSnapshotPartsMax) &&
+         Within(m.part, 0, m.parts - 1) && bytes <= kMessageBytesMax &&
+         Lengths(m.kind.size(), m.joint, m.a, m.b) && AllWithin(m.kind, 1, INT8_MAX) &&
+         AllWithin(m.joint, -1, INT32_MAX) && AllWithin(m.a, -1, INT16_MAX) &&
+         AllWithin(m.b, -1, INT16_MAX) && Finite(m.value) &&
+         IsPrintable(m.text, kEditTextBytesMax, true);
+}
+
 bool Valid(const Meta& m) {
   return Time(m.utime) && m.sequence >= 0 && Tick(m.tick) && m.id.size() <= kMetaMax &&
          Lengths(m.id.size(), m.kind, m.key, m.value) &&

@@ -13,8 +13,9 @@ namespace {
 /// RevisionHistory kept; one of a thousand parts takes half a megabyte. More are made again when
 /// needed.
 constexpr std::size_t kRevisionsMax = 64;
-/// A room has at most 8192 edits; a damaged number must not make a list of two thousand million.
-constexpr std::int32_t kNumbersMax = 65536;
+/// A damaged number must not make a list of two thousand million: no more numbers are believed than
+/// this, and as many for each edit that there is. A log lacks a few, not most of them.
+constexpr std::size_t kNumbersSlack = 65536, kNumbersPerEdit = 16;
 
 bool ChangesBodies(const Edit& edit) {
   return edit.As<std::monostate>() == nullptr && edit.As<PushEdit>() == nullptr &&
@@ -117,8 +118,9 @@ std::optional<BodyState> RevisionHistory::InView(const View& view, PartId part,
 
 std::vector<Edit> EditsOf(const Recording& recording) {
   std::vector<Edit> edits;
+  const std::size_t most = kNumbersSlack + kNumbersPerEdit * recording.edits.size();
   for (const auto& [number, order] : recording.edits) {
-    if (number < 0 || number >= kNumbersMax) continue;
+    if (number < 0 || static_cast<std::size_t>(number) >= most) continue;
     edits.resize(static_cast<std::size_t>(number) + 1);
     edits.back() = ToEdit(order);
   }

@@ -68,6 +68,8 @@ struct WorldSnapshot {
 class World {
  public:
   explicit World(const Scene& scene);
+  /// A scene as it has become by edits, everything where its assembly's root part is placed.
+  explicit World(const Topology& topology);
   ~World();
   World(const World&) = delete;
   World& operator=(const World&) = delete;

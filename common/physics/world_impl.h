@@ -18,7 +18,7 @@
 namespace seam {
 
 struct World::Impl {
-  explicit Impl(const Scene& s) : topology(s) {
+  explicit Impl(const Topology& begin) : topology(begin) {
     Empty();
     Build();
     FindStages();

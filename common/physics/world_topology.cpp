@@ -199,8 +199,11 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
     if (!a.anchored) before.properties.push_back(AssemblyProperties(w.scene, a));
   }
   const Impl::Kept kept = w.Keep();
-  w.topology.Apply(edits);
+  const std::vector<Status> results = w.topology.Apply(edits);
   bool changed = w.composition.hash != hash || w.scene.joints.size() != joints_before;
+  for (std::size_t i = 0; i < edits.size(); ++i) {  // in the place of one that is gone
+    changed = changed || (edits[i].As<BondEdit>() != nullptr && results[i].ok());
+  }
   for (std::size_t j = 0; j < joints_before; ++j) {
     changed = changed || (held[j] && w.scene.joints[j].gone);
   }

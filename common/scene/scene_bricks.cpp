@@ -80,7 +80,7 @@ void AddAsParts(const SceneReader& r, const BrickField& field, SceneDraft* draft
   }
   std::vector<PartId>& group = draft->group_of_name[field.name];
   EachBrick(field, [&](int x, int y) {
-    if (draft->scene.parts.size() == kPartsMax) {
+    if (Full(draft->scene.parts, kPartsMax)) {
       r.FailAt("featherweight", "a scene may have at most " + std::to_string(kPartsMax) + " parts");
     }
     Part part = BrickPart(field, x, y);

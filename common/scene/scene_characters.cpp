@@ -67,7 +67,7 @@ void AddParts(const SceneReader& r, CharacterDraft* draft, SceneDraft* out) {
     const bool inside = (part.position.array() >= scene.bounds_min.array()).all() &&
                         (part.position.array() <= scene.bounds_max.array()).all();
     if (!inside) r.FailAt("position", "'" + part.name + "' lies outside the bounds");
-    if (scene.parts.size() == kPartsMax) {
+    if (Full(scene.parts, kPartsMax)) {
       r.Fail("a scene may have at most " + std::to_string(kPartsMax) + " parts");
     }
     part.id = static_cast<PartId>(scene.parts.size());

@@ -174,11 +174,11 @@ void ReadLocal(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
 
 void Add(const SceneReader& r, const Joint& joint, SceneDraft* draft) {
   for (const Joint& other : draft->scene.joints) {
-    if (other.name == joint.name) {
+    if (!other.gone && other.name == joint.name) {
       r.FailAt("name", "there is another joint of this name");
     }
   }
-  if (draft->scene.joints.size() == kJointsMax) {
+  if (Full(draft->scene.joints, kJointsMax)) {
     r.Fail("a scene may have at most " + std::to_string(kJointsMax) + " joints");
   }
   draft->scene.joints.push_back(joint);

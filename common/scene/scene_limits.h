@@ -2,6 +2,7 @@
 /// What a scene may say, in SI units. Within these limits Box2D 2.4.1 neither asserts nor loses its
 /// footing; docs/scenes.md repeats them.
 
+#include <cstddef>
 #include <cstdint>
 
 #include "common/base/limits.h"
@@ -53,6 +54,18 @@ constexpr std::int64_t kCrowdMax = 50000;
 /// The same with a bullet in the pair, normal 0: each impact of a bullet looks through all contacts
 /// again. At the limit a first step takes .1 to 1.3 s; with 5 times as many up to 8 s.
 constexpr std::int64_t kBulletCrowdMax = 1000;
+/// Of parts or joints, those that are still there.
+template <class Things>
+std::size_t CountLiving(const Things& things) {
+  std::size_t living = 0;
+  for (const auto& thing : things) living += thing.gone ? 0 : 1;
+  return living;
+}
+/// Whether there are as many as there may be.
+template <class Things>
+bool Full(const Things& things, std::size_t most) {
+  return things.size() >= most && CountLiving(things) >= most;
+}
 /// Welded parts farther than this from their root would lose their edges to rounding, m.
 constexpr float kWeldReachMax = 1000;
 

@@ -42,7 +42,7 @@ void Place(const SceneReader& r, Part part, const std::string& name, SceneDraft*
   const bool inside = (part.position.array() >= scene.bounds_min.array()).all() &&
                       (part.position.array() <= scene.bounds_max.array()).all();
   if (!part.anchored && !inside) r.FailAt("position", "'" + name + "' lies outside the bounds");
-  if (scene.parts.size() == kPartsMax) {
+  if (Full(scene.parts, kPartsMax)) {
     r.Fail("a scene may have at most " + std::to_string(kPartsMax) + " parts");
   }
   part.id = static_cast<PartId>(scene.parts.size());
@@ -58,7 +58,7 @@ void JoinCopies(const SceneReader& r, const Repeat& repeat, const std::string& n
     return group[static_cast<std::size_t>(column * repeat.rows + row)];
   };
   const auto join = [&](const char* way, int column, int row, PartId to) {
-    if (draft->scene.joints.size() == kJointsMax) {
+    if (Full(draft->scene.joints, kJointsMax)) {
       r.FailAt("repeat", "a scene may have at most " + std::to_string(kJointsMax) + " joints");
     }
     Joint joint;

@@ -20,6 +20,8 @@ BodyMemory::BodyMemory(const SyncConfig& config, const World& world)
       bodies_(static_cast<std::size_t>(world.body_count())),
       mechanisms_(world.composition().mechanisms.size()) {
   for (int body = 0; body < world.body_count(); ++body) snapshots_.Add(body, 0, world.Read(body));
+  // Of a world that begins as it has become nobody knows when each body did.
+  for (BodyTrack& track : bodies_) track.changed_at = world.topology().revision();
 }
 
 const BodyState* BodyMemory::ComparablePast(int body, std::int64_t tick) const {

@@ -17,6 +17,8 @@ class ProposalQueue {
   /// Queues an edit found at `tick`, unless one of the same kind, joint and parts was queued within
   /// the last 0.5 s. Returns whether it was.
   bool Add(Edit edit, std::int64_t tick);
+  /// An edit of this key was ordered: what is found from now on is another.
+  void Forget(const EditKey& key) { proposed_.erase(key); }
   /// All that was queued since the last call, in its order.
   std::vector<Edit> Take();
 

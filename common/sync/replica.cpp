@@ -10,18 +10,18 @@ constexpr std::size_t kImpactsToldMax = 64;
 
 }  // namespace
 
-Replica::Replica(const Scene& scene, const SyncConfig& config, int self, int own_player)
+Replica::Replica(const Topology& topology, const SyncConfig& config, int self, int own_player)
     : config_(config),
-      world_(scene),
+      world_(topology),
       roles_(config_, self, own_player, world_),
       memory_(config_, world_),
-      inputs_(scene.players.size()),
+      inputs_(topology.scene().players.size()),
       display_(config_, world_, memory_.snapshots()),
       replay_(config_, world_, roles_, memory_, display_, inputs_),
       corrector_(config_, world_, roles_, memory_, display_, replay_, inputs_),
       scheduler_(config_, world_, roles_, memory_),
       proposals_(config_.tick_hz),
-      pressed_now_(scene.players.size(), 0) {
+      pressed_now_(topology.scene().players.size(), 0) {
   corrector_.FollowRoles();
   memory_.Record();
 }

@@ -33,7 +33,10 @@ class Replica {
  public:
   /// `self`: peer number. `own_player`: the player whose vehicle this peer predicts in mode
   /// central, or -1.
-  Replica(const Scene& scene, const SyncConfig& config, int self, int own_player);
+  Replica(const Scene& scene, const SyncConfig& config, int self, int own_player)
+      : Replica(Topology(scene), config, self, own_player) {}
+  /// Begins with a scene as it has become by edits.
+  Replica(const Topology& topology, const SyncConfig& config, int self, int own_player);
 
   /// Begins (or, after an absence, goes on) at `tick`. Beginning at 0 all bodies are where the
   /// scene puts them; later, each body waits for its first state and is placed there.
@@ -93,6 +96,8 @@ class Replica {
 
   void ApplyEdits();
   void Remap(const BodyRemap& change);
+  /// Of joints that the edit takes away: a later bond may take their places, and break at once.
+  void ForgetProposals(const Edit& edit);
   void ApplyInputs(std::int64_t next);
   void ApplyPresses(int player, int pressed, std::int64_t next);
 

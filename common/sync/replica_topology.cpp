@@ -20,8 +20,19 @@ std::optional<BodyRemap> Replica::ApplyNextEdit() {
   const Edit edit = queued_.front();
   queued_.erase(queued_.begin());
   std::optional<BodyRemap> change = world_.Apply({edit});
+  ForgetProposals(edit);
   if (change) Remap(*change);
   return change;
+}
+
+void Replica::ForgetProposals(const Edit& edit) {
+  if (edit.As<BreakEdit>() != nullptr) proposals_.Forget(KeyOf(edit));
+  const RemoveEdit* removed = edit.As<RemoveEdit>();
+  const std::vector<Joint>& joints = world_.scene().joints;
+  for (std::size_t j = 0; removed != nullptr && j < joints.size(); ++j) {
+    if (joints[j].a != removed->part && joints[j].b != removed->part) continue;
+    proposals_.Forget(KeyOf(Edit(BreakEdit{static_cast<std::int32_t>(j)})));
+  }
 }
 
 void Replica::Remap(const BodyRemap& change) {

@@ -9,8 +9,45 @@
 #include "common/topology/topology.h"
 
 namespace seam {
+namespace {
 
-void AddToScene(const std::string& text, Scene* scene) {
+/// What only shows when it is known who is one body with whom; of the parts and joints from
+/// `parts` and `joints` on.
+void CheckTogether(const SceneReader& root, const Scene& scene, const std::string& file,
+                   std::size_t parts, std::size_t joints) {
+  const Composition composition = Compose(scene);
+  const auto assembly_of = [&](std::size_t part) {
+    return static_cast<std::size_t>(composition.assembly_of_part[part]);
+  };
+  std::vector<bool> grown(composition.assemblies.size(), false);  // by assembly
+  for (std::size_t p = parts; p < scene.parts.size(); ++p) grown[assembly_of(p)] = true;
+  for (std::size_t j = joints; j < scene.joints.size(); ++j) {
+    grown[assembly_of(static_cast<std::size_t>(scene.joints[j].a))] = true;
+    grown[assembly_of(static_cast<std::size_t>(scene.joints[j].b))] = true;
+  }
+  for (std::size_t p = 0; p < scene.parts.size(); ++p) {
+    const Part& part = scene.parts[p];
+    if (part.gone || !grown[assembly_of(p)]) continue;
+    const Assembly& assembly = composition.assemblies[assembly_of(p)];
+    const Part& first = scene.parts[static_cast<std::size_t>(assembly.id)];
+    const float most = p < parts ? 2 * kWeldReachMax : kWeldReachMax;
+    if ((part.position - first.position).norm() > most) {
+      root.Fail("part '" + part.name + "': is welded over more than " + Decimal(most) + " m");
+    }
+  }
+  for (std::size_t j = joints; j < scene.joints.size(); ++j) {
+    const Joint& joint = scene.joints[j];
+    const bool rigid = IsRigid(joint, scene.solver) || HoldOf(joint.kind) == JointHold::kImposed;
+    const bool same = assembly_of(static_cast<std::size_t>(joint.a)) ==
+                      assembly_of(static_cast<std::size_t>(joint.b));
+    if (!rigid && same) root.Fail("joint '" + joint.name + "': its parts are welded together");
+  }
+  CheckCrowding(scene, composition, file, static_cast<PartId>(parts));
+}
+
+}  // namespace
+
+void AddToScene(const std::string& text, Scene* scene, bool whole) {
   const std::string file = "insert";
   CheckSceneText(text, file);
   const TomlNode tree = ParseToml(text, file);
@@ -23,27 +60,9 @@ void AddToScene(const std::string& text, Scene* scene) {
   if (!root.Has("part") && !root.Has("joint")) root.Fail("needs a [[part]] or a [[joint]]");
   if (root.Has("part")) ReadParts(root, &draft);
   ReadJoints(root, &draft);
-  if (draft.scene.parts.size() > kPartsEver) root.Fail("there are too many parts");
-  const Composition composition = Compose(draft.scene);
-  for (std::size_t p = parts; p < draft.scene.parts.size(); ++p) {
-    const Part& part = draft.scene.parts[p];
-    const int index = composition.assembly_of_part[p];
-    const Assembly& assembly = composition.assemblies[static_cast<std::size_t>(index)];
-    const Part& first = draft.scene.parts[static_cast<std::size_t>(assembly.id)];
-    if ((part.position - first.position).norm() > kWeldReachMax) {
-      root.Fail("part '" + part.name + "': is welded over more than " + Decimal(kWeldReachMax) +
-                " m");
-    }
-  }
-  for (std::size_t j = joints; j < draft.scene.joints.size(); ++j) {
-    const Joint& joint = draft.scene.joints[j];
-    const bool rigid =
-        IsRigid(joint, draft.scene.solver) || HoldOf(joint.kind) == JointHold::kImposed;
-    const int a = composition.assembly_of_part[static_cast<std::size_t>(joint.a)];
-    const int b = composition.assembly_of_part[static_cast<std::size_t>(joint.b)];
-    if (!rigid && a == b) root.Fail("joint '" + joint.name + "': its parts are welded together");
-  }
-  CheckCrowding(draft.scene, composition, file, static_cast<PartId>(parts));
+  if (draft.scene.parts.size() > kPartsEver) root.Fail("there have been too many parts");
+  if (draft.scene.joints.size() > kJointsEver) root.Fail("there have been too many joints");
+  if (whole) CheckTogether(root, draft.scene, file, parts, joints);
   *scene = std::move(draft.scene);
 }
 

@@ -17,6 +17,9 @@ Blast BlastOf(const BlastEdit& edit) { return {edit.centre, edit.radius, edit.sp
 
 /// A bond over more than this, m, is nonsense: no assembly is so large.
 constexpr float kBondDistanceMax = 1000;
+/// Parts of one body are within this of its root after a bond, m: shapes far from their body's
+/// origin lose their edges to rounding.
+constexpr float kBondReachMax = 2 * kWeldReachMax;
 /// A bond's angle may be a turn off, not more: sines of huge angles are noise, and Box2D asserts.
 constexpr float kBondAngleMax = 6.2831853f;
 
@@ -24,9 +27,59 @@ Transform2 TransformOf(const Part& part) {
   return {part.position.cast<double>(), static_cast<double>(part.angle)};
 }
 
+/// What a bond moves, and how.
+struct BondMove {
+  int assembly = 0;  ///< index; the side that is not anchored; b's if neither is
+  Transform2 moves;
+};
+
+BondMove MoveOf(const Scene& scene, const Composition& composition, const BondEdit& bond) {
+  const Part& a = scene.parts[static_cast<std::size_t>(bond.a)];
+  const Part& b = scene.parts[static_cast<std::size_t>(bond.b)];
+  const int assembly_a = composition.assembly_of_part[static_cast<std::size_t>(bond.a)];
+  const int assembly_b = composition.assembly_of_part[static_cast<std::size_t>(bond.b)];
+  const bool move_a = composition.assemblies[static_cast<std::size_t>(assembly_b)].anchored;
+  const Transform2 apart{bond.position.cast<double>(), static_cast<double>(bond.angle)};
+  const Transform2 wanted_b = TransformOf(a).Then(apart);
+  const Transform2 b_moves = wanted_b.Then(TransformOf(b).Inverse());
+  return {move_a ? assembly_a : assembly_b, move_a ? b_moves.Inverse() : b_moves};
+}
+
+/// Whether all parts of both sides stay where shapes are sound.
+bool FitsTogether(const Scene& scene, const Composition& composition, const BondEdit& bond) {
+  const BondMove move = MoveOf(scene, composition, bond);
+  const auto part_of = [&](PartId id) -> const Part& {
+    return scene.parts[static_cast<std::size_t>(id)];
+  };
+  const auto assembly_of = [&](PartId part) -> const Assembly& {
+    const int index = composition.assembly_of_part[static_cast<std::size_t>(part)];
+    return composition.assemblies[static_cast<std::size_t>(index)];
+  };
+  const auto place_of = [&](PartId id) {
+    const bool moved = composition.assembly_of_part[static_cast<std::size_t>(id)] == move.assembly;
+    return moved ? move.moves.Then(TransformOf(part_of(id))) : TransformOf(part_of(id));
+  };
+  const PartId roots[] = {assembly_of(bond.a).id, assembly_of(bond.b).id};
+  const float masses[] = {PartMass(part_of(roots[0])), PartMass(part_of(roots[1]))};
+  const bool same = masses[0] == masses[1];
+  const bool first = same ? roots[0] < roots[1] : masses[0] > masses[1];
+  const Eigen::Vector2d root = place_of(first ? roots[0] : roots[1]).shift;
+  for (const PartId end : {bond.a, bond.b}) {
+    for (const PartId id : assembly_of(end).parts) {
+      const Transform2 place = place_of(id);
+      const bool near = (place.shift - root).norm() <= static_cast<double>(kBondReachMax) &&
+                        place.shift.cwiseAbs().maxCoeff() <= static_cast<double>(kPlaceMax) &&
+                        std::fabs(place.angle) <= static_cast<double>(kTurnMax);
+      if (!near) return false;
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
-Topology::Topology(const Scene& scene) : scene_(scene), composition_(Compose(scene_)) {}
+Topology::Topology(const Scene& scene)
+    : scene_(scene), composition_(Compose(scene_)), slots_(scene.joints.size()) {}
 
 bool Topology::Has(PartId part) const {
   return part >= 0 && part < static_cast<PartId>(scene_.parts.size()) &&
@@ -58,6 +111,9 @@ Status Topology::ValidateBond(const BondEdit& bond) const {
   const auto& all = composition_.assemblies;
   if (all[static_cast<std::size_t>(a)].anchored && all[static_cast<std::size_t>(b)].anchored) {
     return Status::Error("both are anchored");
+  }
+  if (!FitsTogether(scene_, composition_, bond)) {
+    return Status::Error("a bond over such a distance is not possible");
   }
   return Status::Ok();
 }
@@ -106,7 +162,8 @@ Status Topology::Validate(const Edit& edit) const {
                      return Status::Error("the blast is too large or too fast");
                    }
                    if (scene_.bricks.empty()) return Status::Error("there are no bricks");
-                   const bool room = scene_.parts.size() + kBlastPiecesMax <= kPartsMax;
+                   const bool room = CountLiving(scene_.parts) + kBlastPiecesMax <= kPartsMax &&
+                                     scene_.parts.size() + kBlastPiecesMax <= kPartsEver;
                    return room ? Status::Ok() : Status::Error("there are too many parts");
                  }},
       edit.what);
@@ -168,7 +225,7 @@ Status Topology::ApplyOne(const Edit& edit) {
   std::visit(
       Overloaded{[](const std::monostate&) {}, [](const InsertEdit&) {}, [](const PushEdit&) {},
                  [&](const BreakEdit& broken) {
-                   scene_.joints[static_cast<std::size_t>(broken.joint)].gone = true;
+                   Break(broken.joint);
                    stale_ = true;
                  },
                  [&](const BondEdit& bond) { Bond(bond); },
@@ -195,18 +252,8 @@ void Topology::FreeBricks(const BlastEdit& blast) {
 }
 
 void Topology::Bond(const BondEdit& edit) {
-  const Part& a = scene_.parts[static_cast<std::size_t>(edit.a)];
-  const Part& b = scene_.parts[static_cast<std::size_t>(edit.b)];
-  const int assembly_a = composition_.assembly_of_part[static_cast<std::size_t>(edit.a)];
-  const int assembly_b = composition_.assembly_of_part[static_cast<std::size_t>(edit.b)];
-  // The places of the side that is not anchored move; b's if neither is.
-  const bool move_a = composition_.assemblies[static_cast<std::size_t>(assembly_b)].anchored;
-  const Transform2 apart{edit.position.cast<double>(), static_cast<double>(edit.angle)};
-  const Transform2 wanted_b = TransformOf(a).Then(apart);
-  const Transform2 b_moves = wanted_b.Then(TransformOf(b).Inverse());
-  const Transform2 moves = move_a ? b_moves.Inverse() : b_moves;
-  const int moved = move_a ? assembly_a : assembly_b;
-  const auto of_moved = [&](PartId part) {
+  const auto [moved, moves] = MoveOf(scene_, composition_, edit);
+  const auto of_moved = [&, moved = moved](PartId part) {
     return composition_.assembly_of_part[static_cast<std::size_t>(part)] == moved;
   };
   for (const PartId id : composition_.assemblies[static_cast<std::size_t>(moved)].parts) {
@@ -215,7 +262,9 @@ void Topology::Bond(const BondEdit& edit) {
     part.position = place.shift.cast<float>();
     part.angle = static_cast<float>(place.angle);
   }
-  const auto move = [&](Vec2* point) { *point = moves(point->cast<double>()).cast<float>(); };
+  const auto move = [&, moves = moves](Vec2* point) {
+    *point = moves(point->cast<double>()).cast<float>();
+  };
   const float turn = static_cast<float>(moves.angle);
   for (Joint& joint : scene_.joints) {
     if (joint.gone) continue;
@@ -231,16 +280,29 @@ void Topology::Bond(const BondEdit& edit) {
       joint.turn += turn;
     }
   }
-  Joint glue;
-  glue.name = "bond." + std::to_string(scene_.joints.size());
-  glue.kind = JointKind::kGlue;
-  glue.a = edit.a;
-  glue.b = edit.b;
-  glue.anchor_a = glue.anchor_b = b.position;
-  glue.strength = edit.strength;
-  glue.grouped = edit.cause == BondCause::kGroup;
-  scene_.joints.push_back(glue);
+  auto slot = static_cast<std::int32_t>(scene_.joints.size());
+  if (!free_bonds_.empty()) {
+    slot = *free_bonds_.begin();
+    free_bonds_.erase(free_bonds_.begin());
+  } else {
+    scene_.joints.emplace_back();
+    slots_.emplace_back();
+  }
+  PutBond(slot, edit.a, edit.b, edit.strength, edit.cause == BondCause::kGroup);
   stale_ = true;
+}
+
+void Topology::PutBond(std::int32_t slot, PartId a, PartId b, float strength, bool grouped) {
+  Joint glue;
+  glue.name = "bond." + std::to_string(slot);
+  glue.kind = JointKind::kGlue;
+  glue.a = a;
+  glue.b = b;
+  glue.anchor_a = glue.anchor_b = scene_.parts[static_cast<std::size_t>(b)].position;
+  glue.strength = strength;
+  glue.grouped = grouped;
+  scene_.joints[static_cast<std::size_t>(slot)] = glue;
+  slots_[static_cast<std::size_t>(slot)] = {revision_, true};
 }
 
 Status Topology::Insert(const InsertEdit& edit) {
@@ -250,14 +312,22 @@ Status Topology::Insert(const InsertEdit& edit) {
   } catch (const OperatorError& e) {
     return Status::Error(e.what());
   }
+  slots_.resize(scene_.joints.size(), Slot{revision_, false});
   stale_ = true;
   return Status::Ok();
 }
 
+void Topology::Break(std::int32_t joint) {
+  scene_.joints[static_cast<std::size_t>(joint)].gone = true;
+  if (IsBond(joint)) free_bonds_.insert(joint);
+}
+
 void Topology::Remove(PartId part) {
   scene_.parts[static_cast<std::size_t>(part)].gone = true;
-  for (Joint& joint : scene_.joints) {
-    if (joint.a == part || joint.b == part) joint.gone = true;
+  for (std::size_t j = 0; j < scene_.joints.size(); ++j) {
+    const Joint& joint = scene_.joints[j];
+    const bool held = joint.a == part || joint.b == part;
+    if (held && !joint.gone) Break(static_cast<std::int32_t>(j));
   }
   stale_ = true;
 }

@@ -2,6 +2,9 @@
 /// A scene as it has become by edits: its parts and joints, and who is one body with whom. The same
 /// scene and edits give the same topology, bit for bit, on every peer and in every program.
 
+#include <cstddef>
+#include <cstdint>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,8 +16,9 @@
 namespace seam {
 
 /// Parts and joints are never renumbered: what leaves stays in its place with `gone` set, what
-/// comes is appended. Where the scene puts a part (position, angle) is its place within its
-/// assembly: a bond moves the places of all parts of one side, so that the assembly fits together.
+/// comes is appended; but a bond takes the lowest place that a bond before it has left. Where the
+/// scene puts a part (position, angle) is its place within its assembly: a bond moves the places of
+/// all parts of one side, so that the assembly fits together.
 class Topology {
  public:
   /// Requires a scene that ParseScene accepted, or one as good.
@@ -35,30 +39,60 @@ class Topology {
   /// Parts that an edit is about, as far as they exist; none for kInsert's own.
   std::vector<PartId> PartsOf(const Edit& edit) const;
 
+  /// Whether there is, or was, a joint of this number.
+  bool HasJoint(std::int32_t joint) const;
+  /// Whether the joint's place is one that bonds take. Requires HasJoint.
+  bool IsBond(std::int32_t joint) const { return slots_[static_cast<std::size_t>(joint)].bond; }
+  /// The revision at which the joint of this number was made; 0: the scene has it. What somebody
+  /// says of a joint at an earlier revision is about another one. Requires HasJoint.
+  int JointMadeAt(std::int32_t joint) const {
+    return slots_[static_cast<std::size_t>(joint)].made_at;
+  }
+
  private:
+  friend class TopologyBuilder;
+
+  /// What is known of a joint's place besides the joint.
+  struct Slot {
+    int made_at = 0;    // revision
+    bool bond = false;  // a bond made it: once it is gone, the next bond takes its place
+  };
+
   Status ValidateBond(const BondEdit& bond) const;
   Status ValidateInsert(const InsertEdit& insert) const;
   Status ApplyOne(const Edit& edit);
   void Bond(const BondEdit& edit);
+  /// Glue in a place that bonds take.
+  void PutBond(std::int32_t slot, PartId a, PartId b, float strength, bool grouped);
   Status Insert(const InsertEdit& edit);
+  void Break(std::int32_t joint);
   void Remove(PartId part);
   void FreeBricks(const BlastEdit& blast);
   bool Has(PartId part) const;
-  bool HasJoint(std::int32_t joint) const;
   void UpdateComposition();
 
   Scene scene_;
   Composition composition_;
-  bool stale_ = false;  // composition_ is older than scene_
+  std::vector<Slot> slots_;            // by joint
+  std::set<std::int32_t> free_bonds_;  // places of bonds that are gone
+  bool stale_ = false;                 // composition_ is older than scene_
   int revision_ = 0;
 };
 
 /// Parts that may come to be while a room runs, gone ones included: ids on the wire are int16.
 constexpr std::size_t kPartsEver = 30000;
+/// The same of joints; those that bonds make are fewer than the parts that are there.
+constexpr std::size_t kJointsEver = 30000;
+
+/// Welded parts may be this far from their root, m, by bonds and inserts in their turn.
+constexpr float kReachEver = 4000;
+/// Places of parts and ends of joints stay within this, m and rad, however often bonds move them.
+constexpr float kPlaceMax = 1e5f, kTurnMax = 1e6f;
 
 /// Adds the [[part]]s and [[joint]]s of `text` to a scene. Throws OperatorError, with the scene
 /// unchanged, "insert:LINE: what". Joints may name parts of the scene. What is added is held to the
-/// limits of crowding.h: among itself and with what never moves.
-void AddToScene(const std::string& text, Scene* scene);
+/// limits of crowding.h: among itself and with what never moves. `whole` false leaves out that, and
+/// what has to do with who is one body with whom.
+void AddToScene(const std::string& text, Scene* scene, bool whole = true);
 
 }  // namespace seam

@@ -1,8 +1,10 @@
 #include "server/edits/edit_log.h"
 
 #include <algorithm>
+#include <set>
 
 #include "common/physics/part_places.h"
+#include "common/sync/topology_snapshot.h"
 #include "server/edits/proposal.h"
 
 namespace seam {
@@ -10,36 +12,78 @@ namespace {
 
 /// A proposal that cannot be ordered yet (its parts are changing hands) is forgotten after this, s.
 constexpr double kPendingSeconds = 3;
-/// Proposals that may wait; a hostile peer could send many.
-constexpr std::size_t kPendingMax = 1024;
+
+/// Joints that the edits of a batch take away, before any of them is applied. A bond after them may
+/// take their places: what breaks "them" once more would break it.
+class TakenAway {
+ public:
+  explicit TakenAway(const Topology& topology) : topology_(topology) {}
+
+  /// Whether the edit would break what another of the batch has put in a joint's place.
+  bool Misses(const Edit& edit) const {
+    const BreakEdit* broken = edit.As<BreakEdit>();
+    if (broken == nullptr || !bond_) return false;
+    const Joint& joint = topology_.scene().joints[static_cast<std::size_t>(broken->joint)];
+    return joints_.count(broken->joint) + parts_.count(joint.a) + parts_.count(joint.b) > 0;
+  }
+  void Add(const Edit& edit) {
+    bond_ = bond_ || edit.As<BondEdit>() != nullptr;
+    if (const BreakEdit* broken = edit.As<BreakEdit>()) joints_.insert(broken->joint);
+    if (const RemoveEdit* removed = edit.As<RemoveEdit>()) parts_.insert(removed->part);
+  }
+
+ private:
+  const Topology& topology_;
+  std::set<std::int32_t> joints_;
+  std::set<PartId> parts_;
+  bool bond_ = false;
+};
 
 }  // namespace
 
 EditLog::EditLog(const World& world, const AuthorityManager& authority, int tick_hz)
-    : world_(world), authority_(authority), tick_hz_(tick_hz) {
-  NoteComposition(0);
+    : world_(world), authority_(authority), tick_hz_(tick_hz), fold_(world.topology()) {
+  hash_after_[0] = world_.composition().hash;
 }
 
-void EditLog::Wait(const Edit& edit, int peer) {
-  if (pending_.size() < kPendingMax) pending_.push_back({edit, peer, world_.tick()});
-}
-
-void EditLog::Add(const Edit& edit) { Wait(edit, 0); }
-
-EditLog::Verdict EditLog::Propose(int peer, const EditOrder& proposal) {
-  const Edit edit = ToEdit(proposal);
+bool EditLog::Wait(const Edit& edit, int peer) {
+  int& waiting = waiting_of_peer_[static_cast<std::size_t>(peer)];
+  if (waiting == kWaitingMax) return false;
+  ++waiting;
+  Pending pending{edit, peer, world_.tick(), 0};
+  const BreakEdit* broken = edit.As<BreakEdit>();
   const Topology& topology = world_.topology();
-  if (!topology.Validate(edit).ok()) return Verdict::kStale;
+  if (broken != nullptr && topology.HasJoint(broken->joint)) {
+    pending.made_at = topology.JointMadeAt(broken->joint);
+  }
+  pending_.push_back(std::move(pending));
+  return true;
+}
+
+bool EditLog::Add(const Edit& edit) { return Wait(edit, 0); }
+
+/// In this order, so that nothing a peer says is read, parsed or copied before it is clear that the
+/// peer may say such a thing.
+EditLog::Verdict EditLog::Propose(int peer, const EditOrder& proposal) {
+  const Topology& topology = world_.topology();
+  const Edit edit = ToEdit(proposal);
+  const BreakEdit* broken = edit.As<BreakEdit>();
+  const bool physics = edit.cause == EditCause::kPhysics;
+  if (!physics || (broken == nullptr && edit.As<BondEdit>() == nullptr)) return Verdict::kNoRight;
   const std::vector<PartId> parts = topology.PartsOf(edit);
-  const bool right = !parts.empty() && MayPropose(topology, edit) &&
-                     std::any_of(parts.begin(), parts.end(), [&](PartId part) {
-                       const int m = MechanismOf(world_, part);
-                       return m >= 0 && authority_.Has(peer, m);
-                     });
+  if (parts.empty()) return Verdict::kStale;
+  const bool right = std::any_of(parts.begin(), parts.end(), [&](PartId part) {
+    const int m = MechanismOf(world_, part);
+    return m >= 0 && authority_.Has(peer, m);
+  });
   if (!right) return Verdict::kNoRight;
+  if (broken != nullptr && topology.JointMadeAt(broken->joint) > proposal.sequence) {
+    return Verdict::kStale;  // it means the one that was there before
+  }
+  if (!topology.Validate(edit).ok()) return Verdict::kStale;
+  if (!MayPropose(topology, edit)) return Verdict::kNoRight;
   if (!PlausibleProposal(world_, edit)) return Verdict::kImplausible;
-  Wait(edit, peer);
-  return Verdict::kTaken;
+  return Wait(edit, peer) ? Verdict::kTaken : Verdict::kTooMany;
 }
 
 std::vector<int> EditLog::MechanismsOf(const Edit& edit) const {
@@ -57,14 +101,22 @@ std::vector<std::vector<int>> EditLog::WaitingMechanisms() const {
   return all;
 }
 
+bool EditLog::IsStale(const Pending& pending) const {
+  const Topology& topology = world_.topology();
+  if (!topology.Validate(pending.edit).ok()) return true;
+  const BreakEdit* broken = pending.edit.As<BreakEdit>();
+  return broken != nullptr && topology.JointMadeAt(broken->joint) != pending.made_at;
+}
+
 EditLog::Batch EditLog::OrderPending(std::int64_t now_us) {
   const Topology& topology = world_.topology();
   const auto patience = static_cast<std::int64_t>(kPendingSeconds * tick_hz_);
   std::vector<Pending> waiting;
   Batch batch;
   std::vector<PartId> taken;  // parts that an edit of this batch is about
+  TakenAway taken_away(topology);
   for (Pending& pending : pending_) {
-    if (!topology.Validate(pending.edit).ok()) {
+    if (IsStale(pending) || taken_away.Misses(pending.edit)) {
       if (pending.peer > 0) ++batch.stale;
       continue;
     }
@@ -79,34 +131,41 @@ EditLog::Batch EditLog::OrderPending(std::int64_t now_us) {
     }
     const bool found = pending.edit.cause == EditCause::kPhysics;
     if (found && !PlausibleProposal(world_, pending.edit)) continue;  // it has moved on
-    if (ordered_.size() == kEditsMax) {
-      batch.just_full = batch.just_full || !full_;
-      full_ = true;
-      continue;
-    }
     taken.insert(taken.end(), parts.begin(), parts.end());
+    taken_away.Add(pending.edit);
     EditOrder order = ToOrder(pending.edit);
     order.utime = now_us;
     order.tick = world_.tick();
-    order.number = static_cast<std::int32_t>(ordered_.size());
-    ordered_.push_back(order);
+    order.number = ordered_++;
+    unapplied_.push_back(pending.edit);
     batch.orders.push_back(order);
   }
   pending_ = std::move(waiting);
+  waiting_of_peer_.fill(0);
+  for (const Pending& pending : pending_) {
+    ++waiting_of_peer_[static_cast<std::size_t>(pending.peer)];
+  }
   return batch;
 }
 
-void EditLog::NoteComposition(int revision) { hash_after_[revision] = world_.composition().hash; }
+void EditLog::NoteApplied() {
+  const Topology& topology = world_.topology();
+  fold_.Note(unapplied_.front(), topology);
+  unapplied_.pop_front();
+  hash_after_[topology.revision()] = topology.composition().hash;
+  if (hash_after_.size() > kHashesMax) hash_after_.erase(hash_after_.begin());
+}
 
 bool EditLog::Differs(int revision, std::int64_t composition) const {
   const auto known = hash_after_.find(revision);
   return known != hash_after_.end() && known->second != static_cast<std::uint64_t>(composition);
 }
 
-bool EditLog::NeedsRepair(const Ping& ping) const {
+bool EditLog::NeedsRepair(const Ping& ping, bool more_under_way) const {
   if (ping.revision < 0) return false;  // has no world yet
-  const bool never = ping.revision > static_cast<std::int32_t>(ordered_.size());
-  return never || Differs(ping.revision, ping.composition);
+  const bool never = ping.revision > ordered_;
+  const bool lost = !more_under_way && ping.revision < hash_after_.begin()->first;
+  return never || lost || Differs(ping.revision, ping.composition);
 }
 
 EditOrder EditLog::BeginAnew(std::int64_t now_us) const {
@@ -114,6 +173,14 @@ EditOrder EditLog::BeginAnew(std::int64_t now_us) const {
   anew.utime = now_us;
   anew.tick = std::max<std::int64_t>(0, world_.tick());
   return anew;
+}
+
+std::vector<Snapshot> EditLog::History(std::int64_t now_us) const {
+  const Topology& topology = world_.topology();
+  if (topology.revision() == 0) return {};
+  std::vector<Snapshot> all = ToSnapshots(topology.revision(), fold_.Entries(topology));
+  for (Snapshot& part : all) part.utime = now_us;
+  return all;
 }
 
 }  // namespace seam

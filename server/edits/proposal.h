@@ -11,7 +11,9 @@ namespace seam {
 /// that can join. Requires topology.Validate(edit).ok().
 bool MayPropose(const Topology& topology, const Edit& edit);
 
-/// Whether the parts of a bond are about where it puts them, in our copy; true for other edits.
+/// Whether the parts of a bond are about where it puts them, in our copy. Glue that breaks is
+/// always likely: its parts are one rigid body in every copy, so there is no distance between them
+/// to be measured, and the blow that broke it was felt by the authority alone.
 bool PlausibleProposal(const World& world, const Edit& edit);
 
 }  // namespace seam

@@ -72,6 +72,13 @@ class RandomMessages {
     Vector(m.follower,
            static_cast<std::size_t>(std::count(m.followers.begin(), m.followers.end(), 1)), 0, 31);
   }
+  void Fill(Snapshot& m) {
+    Common(m), Set(m.number, 0, INT32_MAX), Set(m.parts, 1, 3900), Set(m.part, 0, m.parts - 1);
+    const std::size_t count = Count(0, 50);
+    m.text = Text(60), Vector(m.kind, count, 1, 127), Vector(m.joint, count, -1, INT32_MAX);
+    Vector(m.a, count, -1, INT16_MAX), Vector(m.b, count, -1, INT16_MAX);
+    Floats(m.value, Count(0, 80));
+  }
   void Fill(Release& m) {
     const std::size_t count = Count(1, kGrantsMax);
     Common(m), m.tick = Tick(), Vector(m.mechanism, count, 0, INT16_MAX);

@@ -1,0 +1,17 @@
+#pragma once
+/// A client's own voice, to say with it what no client of ours would say.
+
+#include "client/client.h"
+#include "common/codec/codec.h"
+
+namespace seam {
+
+struct ClientTestAccess {
+  /// Reliably, in its session, with its next Flush.
+  template <class Message>
+  static void Say(Client* client, const Message& message) {
+    client->link_->SendReliable(Encode(message));
+  }
+};
+
+}  // namespace seam
