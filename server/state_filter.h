@@ -1,6 +1,6 @@
 #pragma once
-/// What of a peer's states is believed: said by who may say it, of now, and likely. The rest is
-/// dropped and counted by reason.
+/// Which of a peer's states are accepted: from a peer with the right, recent, and plausible. The
+/// rest is dropped and counted by reason.
 
 #include <cstdint>
 #include <vector>
@@ -20,7 +20,7 @@ class StateFilter {
 
   /// What is kept of a message of `peer`, which is ready; without bodies when it is nothing.
   States Keep(std::int64_t now_us, int peer, const States& states);
-  /// The bodies are others now.
+  /// The bodies have changed.
   void Remap(const std::vector<BodyOrigin>& bodies);
 
  private:

@@ -12,9 +12,9 @@
 
 namespace seam {
 
-/// Parts and joints are never renumbered: what leaves stays in its place with `gone` set, what
-/// comes is appended. Where the scene puts a part (position, angle) is its place within its
-/// assembly: a bond moves the places of all parts of one side, so that the assembly fits together.
+/// Parts and joints are never renumbered: what leaves keeps its index with `gone` set, what
+/// comes is appended. Where the scene puts a part (position, angle) is its pose within its
+/// assembly: a bond moves the poses of all parts of one side, so that the assembly fits together.
 class Topology {
  public:
   /// Requires a scene that ParseScene accepted, or one as good.

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -60,26 +61,32 @@ std::string Output(Names words) {
   return program.output();
 }
 
-/// The first words of the indented lines of a --help below the title, "Options" or "Subcommands"
-/// (in whatever case this CLI11 writes it): of flags each spelling.
+/// What stands at the beginning of the lines of a --help below the title, "options" or
+/// "subcommands": of flags each spelling. CLI11 has changed the case of its titles and the columns
+/// of its flags: "  -o,--out TEXT", "  -o,     --out TEXT", "          --out TEXT".
 Names Below(const std::string& help, const std::string& title) {
+  constexpr std::size_t kIndentMax = 12;  // what is further in goes on with a description
   Names names;
   bool below = false;
   for (const std::string& line : Split(help, '\n')) {
-    if (line.empty()) continue;
-    if (line[0] != ' ') {
+    const std::size_t indent = line.find_first_not_of(' ');
+    if (indent == std::string::npos) continue;
+    if (indent == 0) {
       std::string lower = line;
       std::transform(lower.begin(), lower.end(), lower.begin(),
                      [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
       below = lower == title + ":";
-    } else if (below && line.size() > 2 && line[2] != ' ') {
-      std::istringstream in(line);
-      std::string word;
+      continue;
+    }
+    if (!below || indent > kIndentMax) continue;
+    std::istringstream in(line);
+    std::string word;
+    do {
       in >> word;
       for (const std::string& name : Split(word, ',')) {
         names.push_back(name.substr(0, name.find('{')));  // --no-floor{false}
       }
-    }
+    } while (word.back() == ',' && in);
   }
   return names;
 }
@@ -136,33 +143,33 @@ void AddScenes(Interface* interface) {
   const std::string ball = "[[part]]\nname = \"p\"\ncircle = 1\n";
   const std::string two = ball + "[[part]]\nname = \"q\"\ncircle = 1\nposition = [5, 0]\n";
   const std::string joint = two + "[[joint]]\nname = \"j\"\na = \"p\"\nb = \"q\"\nkind = ";
-  const std::string bricks = "[[bricks]]\nname = \"b\"\nbrick = [1, 1]\n";
-  const std::string who = "[[character]]\nname = \"c\"\nposition = [0, 0]\n";
+  const std::string bricks = ball + "[[bricks]]\nname = \"b\"\nbrick = [1, 1]\n";
+  const std::string who = ball + "[[character]]\nname = \"c\"\nposition = [0, 0]\n";
   const std::pair<const char*, std::string> tables[] = {
       {"", ""},
       {"[solver]", "[solver]"},
-      {"[camera]", "[camera]"},
-      {"[grouping]", "[grouping]"},
+      {"[camera]", ball + "[camera]"},
+      {"[grouping]", ball + "[grouping]"},
       {"[[part]]", "[[part]]"},
       {"[[part]] repeat", ball + "[part.repeat]"},
       {"[[part]] conveyor", ball + "[part.conveyor]"},
-      {"[[part]] damage", ball + "[part.damage]"},
+      {"[[part]] damage", ball + "health = 1\n[part.damage]"},
       {"[[part]] permissions", ball + "[part.permissions]"},
-      {"[[bricks]]", "[[bricks]]"},
+      {"[[bricks]]", ball + "[[bricks]]"},
       {"[[bricks]] towers", bricks + "[bricks.towers]"},
-      {"[[character]]", "[[character]]"},
+      {"[[character]]", ball + "[[character]]"},
       {"[[character]] torque", who + "[character.torque]"},
       {"[[joint]]", two + "[[joint]]"},
       {"[[joint]] motor (hinge)", joint + "\"hinge\"\n[joint.motor]"},
       {"[[joint]] motor (prismatic)", joint + "\"prismatic\"\n[joint.motor]"},
       {"[[joint]] follow", joint + "\"motor\"\nforce = 1\ntorque = 1\n[joint.follow]"},
       {"[[thrust]]", ball + "[[thrust]]"},
-      {"[[water]]", "[[water]]"},
+      {"[[water]]", ball + "[[water]]"},
       {"[[player]]", "[[player]]"},
-      {"[[player]] actions", ann + "[[player.actions]]"},
+      {"[[player]] actions", ball + ann + "[[player.actions]]"},
       {"[[seat]]", ball + "[[seat]]"},
       {"[[trigger]]", ball + "[[trigger]]"},
-      {"[[script]]", "[[script]]"},
+      {"[[script]]", ball + "[[script]]"},
       {"[[watch]]", ball + "[[watch]]"}};
   for (const auto& [name, text] : tables) {
     interface->Add("scene key " + std::string(name), KnownKeys(text));
@@ -216,11 +223,12 @@ TEST(Interface, WhatScriptsDependOnIsWhatTheFileSays) {
   EXPECT_TRUE(pinned == found.lines()) << "the same names in another order, or some twice";
 }
 
-TEST(Interface, HelpIsReadWhateverTheCaseOfItsTitles) {
+TEST(Interface, HelpIsReadHoweverItIsLaidOut) {
   const std::string help =
-      "about\nUsage: x\n\nOPTIONS:\n  -o,--out TEXT  where\n      --not-this\n  --no-floor{false}  "
-      "no\n\nSubcommands:\n  run  runs\n";
-  EXPECT_EQ(Below(help, "options"), (Names{"-o", "--out", "--no-floor"}));
+      "about\nUsage: x\n\nOPTIONS:\n  -o,--out TEXT  where\n  -h,     --help\n"
+      "          --bind TEXT\n                   --not-this\n  --no-floor{false}  no\n\n"
+      "Subcommands:\n  run  runs\n";
+  EXPECT_EQ(Below(help, "options"), (Names{"-o", "--out", "-h", "--help", "--bind", "--no-floor"}));
   EXPECT_EQ(Below(help, "subcommands"), (Names{"run"}));
 }
 
