@@ -1,6 +1,6 @@
 #pragma once
-/// Frames of a session while it arrives, message by message, from a bus that is not this file's
-/// business.
+/// Frames of a session while it arrives, message by message, whatever bus they come
+/// from.
 
 #include <memory>
 #include <optional>

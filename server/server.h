@@ -1,6 +1,6 @@
 #pragma once
 /// The room's loop: receives, steps the ticks that are due, sends. What follows from a tick, a
-/// message or a client's coming is decided by its members, each for itself. A function of the time
+/// message or a join is decided by its members, one question each. A function of the time
 /// and the datagrams it is given: the same Server runs over UDP and in virtual time.
 
 #include <cstdint>
@@ -74,7 +74,7 @@ class Server {
   void OnProposal(Session& session, const EditOrder& proposal);
 
   // server.cpp
-  /// Draws the conclusions from who joined, got ready and left.
+  /// Acts on who joined, became ready and left.
   void FollowSessions(std::int64_t now_us);
   /// Edits, grants, states and values: all that a peer needs to have our world. One that cannot be
   /// sent all of it is leaving.

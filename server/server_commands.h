@@ -1,6 +1,6 @@
 #pragma once
-/// What a room's rules may do: it becomes edits, in the server's order and for outside causes: an
-/// oracle cannot find them out by itself.
+/// What a room's rules may do. It becomes edits in the server's order, with an outside cause, since
+/// an oracle cannot find them by itself.
 
 #include <string>
 #include <utility>

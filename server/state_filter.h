@@ -21,7 +21,7 @@ class StateFilter {
 
   /// What is kept of a message of `peer`, which is ready; without bodies when it is nothing.
   States Keep(std::int64_t now_us, int peer, const States& states);
-  /// The bodies are others now.
+  /// The bodies have changed.
   void Remap(const std::vector<BodyOrigin>& bodies);
 
  private:

@@ -1,6 +1,6 @@
 #pragma once
 /// What to do about errors: assert our own bugs in every build, throw an operator's mistakes.
-/// What the network or a log does wrong is neither: it is dropped and counted where it is read.
+/// Wrong bytes from the network or a log are neither: they are dropped and counted where read.
 
 #include <cstdio>
 #include <cstdlib>

@@ -9,7 +9,7 @@ namespace seam {
 /// Peers are 0..kPeersMax - 1; 0 is the server, so there is one player less.
 constexpr std::int32_t kPeersMax = 32;
 
-/// Ticks per second that a scene may ask for. Slower ones tunnel, faster ones are not worth it.
+/// Ticks per second that a scene may ask for. With fewer, bodies tunnel; more gain nothing.
 constexpr int kTickHzMin = 10, kTickHzMax = 960;
 /// Most States per second that a peer may be asked for.
 constexpr int kSendHzMax = 240;

@@ -17,7 +17,7 @@ constexpr std::int32_t kProtocolVersion = 3;
 
 /// Largest encoded message on the bus; larger ones overflow stock lcm-logger's socket buffer.
 constexpr std::size_t kBusMessageBytesMax = 60000;
-/// Most bodies in one States message: 54 + 19 bytes each must fit a datagram of 1200 bytes.
+/// Most bodies in one States message: 58 + 19 bytes each must fit kMessageBytesMax.
 constexpr std::size_t kStatesBodiesMax = 48;
 static_assert(54 + 19 * kStatesBodiesMax <= kMessageBytesMax);
 /// Most bodies in one View message: 29 bytes each within kBusMessageBytesMax.
@@ -29,7 +29,7 @@ constexpr std::int32_t kViewPartsMax = 32;
 static_assert(32768 <= kViewBodiesMax * kViewPartsMax);
 /// Most ticks in one Inputs message.
 constexpr std::size_t kInputsMax = 64;
-/// Most mechanisms in one Grants or Release message, and most followers in one Grants: 38 + 10
+/// Most mechanisms in one Grants or Release message, and most followers in one Grants: 36 + 10
 /// bytes each + 2 bytes a follower must fit kMessageBytesMax.
 constexpr std::size_t kGrantsMax = 80, kGrantFollowersMax = 150;
 static_assert(38 + 10 * kGrantsMax + 2 * kGrantFollowersMax <= kMessageBytesMax);
@@ -63,7 +63,7 @@ struct Hello {
 };
 
 /// Server -> client, the answer to a Hello of an unknown address. The server remembers nothing of
-/// it: who can repeat the token receives at this address.
+/// it: a peer that repeats the token does receive at this address.
 struct Challenge {
   std::int64_t utime = 0;
   std::int64_t token = 0;
@@ -74,7 +74,7 @@ struct Join {
   std::int64_t utime = 0;
   std::int32_t protocol = kProtocolVersion;
   std::int64_t token = 0;  ///< of the Challenge
-  std::int64_t key = 0;    ///< of an earlier Welcome, to have its place back; 0: none
+  std::int64_t key = 0;    ///< of an earlier Welcome, to play the same player again; 0: none
   std::string name;        ///< 1..32 characters of [A-Za-z0-9_-]
 };
 
@@ -119,7 +119,7 @@ struct Room {
 struct Ping {
   std::int64_t utime = 0;        ///< client's clock when sent
   std::int32_t revision = -1;    ///< edits applied so far, -1 before there is a world
-  std::int64_t composition = 0;  ///< hash of the assemblies' make-up after them
+  std::int64_t composition = 0;  ///< hash of the composition after them
 };
 
 /// Server -> client: the answer.
@@ -148,7 +148,7 @@ struct States {
   std::int32_t peer = 0;  ///< the authority
   std::int64_t tick = 0;
   std::int32_t revision = 0;         ///< edits that the sender had applied
-  std::int64_t composition = 0;      ///< hash of the assemblies' make-up after them
+  std::int64_t composition = 0;      ///< hash of the composition after them
   std::int32_t origin_x = 0;         ///< whole metres
   std::int32_t origin_y = 0;         ///< whole metres
   std::vector<std::int16_t> id;      ///< assembly ids, ascending; all vectors of one length
@@ -190,7 +190,7 @@ struct EditOrder {
   /// On the bus, counts; of a proposal: how many edits its proposer had applied, so that nobody
   /// takes what it says of a joint for another joint in its place.
   std::int64_t sequence = 0;
-  std::int32_t number = -1;  ///< place in the order; -1: a proposal, or (server) begin anew
+  std::int32_t number = -1;  ///< position in the order; -1: a proposal, or (server) begin anew
   std::int64_t tick = 0;     ///< the server's when ordered; a proposer's own
   std::int8_t kind = 0;
   std::int8_t cause = 0;
@@ -230,7 +230,7 @@ struct Meta {
   std::int64_t sequence = 0;
   std::int64_t tick = 0;
   std::vector<std::int8_t> kind;  ///< kMetaPart | kMetaPlayer
-  std::vector<std::int16_t> id;   ///< part id, or the player's place in the scene
+  std::vector<std::int16_t> id;   ///< part id, or the player's index in the scene
   std::vector<std::int8_t> key;   ///< kMetaHealth...
   std::vector<float> value;
 };

@@ -36,8 +36,8 @@ EnergyMeter::EnergyMeter(const Scene& scene, const Composition& composition)
   }
 }
 
-/// Lifting an area of water from its place to the level: its weight times the depth of its middle.
-/// The slope of this by a thing's height is the buoyancy, and by its angle the torque.
+/// Lifting an area of water from its position to the level: its weight times the depth of its
+/// middle. The slope of this by a thing's height is the buoyancy, and by its angle the torque.
 double EnergyMeter::InWater(const std::vector<BodyState>& moving) const {
   double energy = 0;
   for (std::size_t i = 0; i < wet_shapes_.size(); ++i) {

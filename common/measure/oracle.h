@@ -20,7 +20,7 @@ struct SceneRevision;
 
 /// Poses of every moving body after every tick.
 struct Oracle {
-  /// A part's place in its body's frame, or in the world; m, rad.
+  /// A part's pose in its body's frame, or in the world; m, rad.
   struct Place {
     int body = -1;  ///< index into the span's ids; -1: anchored, -2: not there
     float x = 0, y = 0, angle = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// How deep things are in one another, by the true shapes in double precision: independent of the
+/// How deep bodies overlap, by the true shapes in double precision: independent of the
 /// physics engine, whose contacts begin at a rim around the shapes.
 
 #include <utility>

@@ -29,7 +29,7 @@ inline bool IsFinite(const BodyState& state) {
          std::isfinite(state.spin);
 }
 
-/// By index into composition.assemblies: the place among the moving ones (ascending by id, as
+/// By index into composition.assemblies: the index among the moving ones (ascending by id, as
 /// World counts bodies), or -1 for an anchored one.
 inline std::vector<int> MovingIndices(const Composition& composition) {
   std::vector<int> indices;

@@ -24,7 +24,7 @@ struct SceneRevision {
   int AssemblyOf(PartId part) const;
 
   Topology topology;
-  std::vector<int> moving;  ///< by assembly: place among the moving ones, -1: anchored
+  std::vector<int> moving;  ///< by assembly: index among the moving ones, -1: anchored
   std::vector<PartId> ids;  ///< of the moving assemblies, ascending
 };
 
@@ -62,7 +62,7 @@ class RevisionHistory {
 /// The edits of a recording in their order; those that the log lacks do nothing.
 std::vector<Edit> EditsOf(const Recording& recording);
 
-/// The place of a body in a view, -1 if it is not shown.
+/// The index of a body in a view, -1 if it is not shown.
 int IndexOf(const View& view, PartId id);
 /// nullptr when there is none of the tick.
 const View* FindView(const std::map<std::int64_t, View>& views, std::int64_t tick);

@@ -14,7 +14,7 @@ namespace seam {
 constexpr std::int64_t kFarewellUsMax = 3000000;
 
 /// Lets what was sent through the simulated network before the program ends: without this a
-/// goodbye would never leave. Takes as long as the profile delays, at most kFarewellUsMax; what
+/// goodbye would not be sent. Takes as long as the profile delays, at most kFarewellUsMax; what
 /// arrives meanwhile is of no interest any more.
 inline void LetThrough(UdpNet& udp, ImpairedNet& net) {
   const std::int64_t deadline = SteadyClockUs() + kFarewellUsMax;

@@ -53,7 +53,7 @@ const std::vector<ImpairProfile>& Profiles();
 ///
 /// What happens to a datagram depends on the seed, the peer's address, the direction and the sizes
 /// and times (of the last Advance) of the datagrams before it on that path: on nothing else. Two
-/// clients of one process that talk to the same server need two seeds, or suffer alike.
+/// clients of one process with the same server need two seeds, or get the same impairments.
 ///
 /// Memory is bounded: a path holds at most kPathBytesMax, all paths together kQueueBytesMax, and
 /// at a rate limit a backlog of more than kBacklogUsMax is not accepted; the rest is lost.

@@ -44,7 +44,7 @@ class MemoryEndpoint : public Net {
   }
 
  private:
-  /// nullptr once another endpoint has taken this one's place.
+  /// nullptr once another endpoint has replaced this one.
   MemoryNetwork::Datagrams* Inbox() {
     const auto found = network_.inbox_.find(address_);
     if (found == network_.inbox_.end() || found->second.endpoint != number_) return nullptr;

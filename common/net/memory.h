@@ -1,5 +1,5 @@
 #pragma once
-/// A network inside one process and in virtual time: what a test or experiment runs on.
+/// A network inside one process and in virtual time, for tests and experiments.
 
 #include <cstdint>
 #include <deque>
@@ -16,7 +16,7 @@ namespace seam {
 class MemoryNetwork {
  public:
   /// An endpoint bound to `address`; owned by the caller, must not outlive the network.
-  /// A second endpoint of the same address takes the first one's place (a restarted process).
+  /// A second endpoint of the same address replaces the first one (a restarted process).
   std::unique_ptr<Net> Attach(const Address& address);
 
  private:

@@ -1,5 +1,5 @@
 #pragma once
-/// Datagrams, and nothing else: what a Server or Client needs of the world outside.
+/// The interface to datagrams: all that a Server or Client needs of the operating system.
 
 #include <cstdint>
 #include <string>

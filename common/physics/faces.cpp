@@ -14,7 +14,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// What counts as the same place, m.
+/// What counts as the same position, m.
 constexpr double kSame = 1e-3;
 
 /// Boxes that may become one: angle, friction, restitution, group, conveyor.

@@ -1,6 +1,6 @@
 #pragma once
-/// The shapes that an assembly collides with: of many aligned boxes few rectangles, so that faces
-/// inside of it cost nothing and nothing catches in its seams.
+/// The shapes that an assembly collides with: few rectangles instead of many aligned boxes, so that
+/// inner faces cost nothing and bodies do not catch at its seams.
 
 #include <vector>
 
@@ -20,7 +20,7 @@ struct Face {
 /// group, and share a whole side, to a millimetre.
 std::vector<Face> FacesOf(const Scene& scene, const Assembly& assembly);
 
-/// That of `parts` which is nearest to a point of their common frame (the scene's places), m.
+/// That of `parts` which is nearest to a point of their common frame (the scene's poses), m.
 PartId NearestPart(const Scene& scene, const std::vector<PartId>& parts,
                    const Eigen::Vector2d& point);
 

@@ -23,8 +23,8 @@ class History {
   std::int64_t newest() const;  ///< -1 when empty
   std::int64_t oldest() const;  ///< -1 when empty
   void Clear();
-  /// The bodies are others now: each one's past is that of where it came from, moved rigidly; of
-  /// what is new there is none, and `now` fills its place.
+  /// The bodies have changed: each one's past is that of where it came from, moved rigidly; of
+  /// what is new there is none, and `now` is taken instead.
   void Remap(const std::vector<BodyOrigin>& origins, const std::vector<BodyState>& now);
 
  private:

@@ -41,8 +41,8 @@ struct BlockedDirection {
 
 enum class Motion { kDynamic, kKinematic };
 
-/// All that decides how a world goes on from a tick, but for the order of its contacts and its
-/// actions. Only a world that did a Barrier at that tick goes on the same.
+/// All that decides how a world goes on from a tick, except the order of its contacts and its
+/// actions. Only a world that did a Barrier at that tick continues with the same bits.
 struct WorldSnapshot {
   struct Body {
     BodyState state;
@@ -150,7 +150,8 @@ class World {
 };
 
 /// Impacts below this change of velocity are not recorded, m/s. A body resting under g = 10 feels
-/// 0.17 each tick of 1/60 s, and as much more for each that lies on it: lower makes piles dear.
+/// 0.17 each tick of 1/60 s, and as much more for each that lies on it: lower makes piles
+/// expensive.
 constexpr float kImpactRecordMin = 1.5f;
 
 }  // namespace seam

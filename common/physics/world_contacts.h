@@ -11,7 +11,8 @@ namespace seam {
 /// Listens to Box2D and sums the normal impulses of a tick's substeps by pair of bodies.
 class ImpulseMeter : public b2ContactListener {
  public:
-  /// `substeps` per tick: how finely a blow may be divided. `lightest`: least mass that moves, kg.
+  /// `substeps` per tick: into how many parts a blow may be divided. `lightest`: least mass that
+  /// moves, kg.
   void Set(int substeps, float lightest) {
     counts_from_ = kImpactRecordMin / (kShares * static_cast<float>(substeps));
     least_ = counts_from_ * lightest;
@@ -23,8 +24,8 @@ class ImpulseMeter : public b2ContactListener {
   void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
 
  private:
-  /// A contact's impulse counts from this share of an impact's least one in each substep: what lies
-  /// still costs next to nothing, and three shapes of one body must share a blow to be overlooked.
+  /// A contact's impulse counts from this share of the least impact in each substep: resting bodies
+  /// cost almost nothing, and a blow is overlooked only if three shapes of one body share it.
   static constexpr float kShares = 2;
   struct Felt {
     int body_a = -1, body_b = -1;  // a < b

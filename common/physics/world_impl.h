@@ -77,7 +77,7 @@ struct World::Impl {
   std::vector<float> Speeds() const;  ///< of motors, by the scene's joints
   /// Whether its bodies and joints are those that are there now.
   Status ValidateSnapshot(const WorldSnapshot& snapshot) const;
-  /// Makes everything anew, in the states of the snapshot. What it has of joints that are no more
+  /// Makes everything anew, in the states of the snapshot. What it has of joints that are gone
   /// is left out. The snapshot of stages may be empty: they begin anew, too.
   void Rebuild(const WorldSnapshot& snapshot, const std::vector<bool>& kinematic,
                const std::vector<float>& speeds);
@@ -97,7 +97,7 @@ struct World::Impl {
   std::vector<std::unique_ptr<Stage>> stages;  // in their order of action
   std::optional<ContactHub> hub;               // only when a stage listens
   std::vector<Impact> impacts;
-  // Looked up when asked for: a world that nobody asks pays nothing.
+  // Computed when asked for, so that a world that nobody asks has no cost.
   std::optional<std::vector<Touch>> touches;
   std::optional<std::vector<BlockedDirection>> blocked_directions;
 };

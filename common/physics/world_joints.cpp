@@ -16,7 +16,7 @@ void SetCommon(const Joint& joint, Def* def) {
   def->collideConnected = joint.collide;
 }
 
-/// Where bonds have moved an end's place, the ends are no longer one point of the scene.
+/// Where bonds have moved an end, the two ends are no longer one point of the scene.
 template <typename Def>
 void SetEnds(const Joint& joint, b2Body* b, Def* def) {
   def->localAnchorB = b->GetLocalPoint(ToB2(joint.anchor_b));

@@ -14,7 +14,7 @@ struct Motor {
   int player = -1;                     ///< -1: turns constantly
   InputAxis axis = InputAxis::kDrive;  ///< of the player
   float speed = 0;                     ///< rad/s or m/s at full drive; motor joint: 1
-  b2Vec2 offset{0, 0}, reach{0, 0};    ///< motor joint, m: b's place in a's frame; per speed
+  b2Vec2 offset{0, 0}, reach{0, 0};    ///< motor joint, m: b's position in a's frame; per speed
   float angle = 0, swing = 0;          ///< motor joint, rad: likewise
   float held = 0;                      ///< motor joint: its speed now
 

@@ -1,7 +1,7 @@
 /// World: going back in time. In this engine a snapshot of poses, velocities and impulses alone
 /// does not replay, because the order in which contacts are solved is history, too, and cannot be
 /// set. So the world that goes on takes the same way as the one that goes back: it is built anew
-/// from the snapshot at the tick it takes one (the barrier, docs/architecture.md).
+/// from the snapshot at the tick it takes one (the barrier, docs/lessons.md).
 
 #include <algorithm>
 #include <string>

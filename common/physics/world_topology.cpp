@@ -30,7 +30,7 @@ int AssemblyIndex(const Composition& c, PartId part) {
 /// What the world was before the edits.
 struct Before {
   Composition composition;
-  std::vector<Part> parts;                 // places within their assemblies
+  std::vector<Part> parts;                 // poses within their assemblies
   std::vector<BodyState> states;           // by body
   std::vector<int> body_of_assembly;       // -1: anchored
   std::vector<MassProperties> properties;  // by body, in the root's frame

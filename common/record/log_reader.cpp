@@ -88,7 +88,7 @@ bool LogReader::ReadHeader(std::int64_t at, bool magic_matters, Header* header) 
                                            [](std::uint8_t c) { return c >= 0x20 && c < 0x7f; });
 }
 
-/// The first place in [from, to) where an event may begin; `to` when there is none.
+/// The first position in [from, to) where an event may begin; `to` when there is none.
 std::int64_t LogReader::FindHeader(std::int64_t from, std::int64_t to) {
   constexpr std::uint8_t kFirst = kLogMagic >> 24;
   while (from < to) {

@@ -1,5 +1,5 @@
 #pragma once
-/// Where a peer's messages go to be seen: the LCM bus, a log file, or memory.
+/// Where a peer's messages are published: the LCM bus, a log file, or memory.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,8 +21,8 @@ class Recorder {
 };
 
 /// "SEAM.<room>.<kind>" or "SEAM.<room>.<kind>.<peer>" when peer >= 0. kind is lower case: scene,
-/// inputs, states, grants, meta, view, impacts, stats, event; docs/recordings.md lists them. Throws
-/// OperatorError when `room` is not a name (1..32 characters of [A-Za-z0-9_-]).
+/// inputs, states, grants, edit, meta, view, impacts, stats, event; docs/recordings.md lists them.
+/// Throws OperatorError when `room` is not a name (1..32 characters of [A-Za-z0-9_-]).
 std::string ChannelName(const std::string& room, const std::string& kind, int peer = -1);
 
 }  // namespace seam

@@ -41,7 +41,7 @@ struct Recording {
 /// there is no such file or no room in it; damage is counted, not fatal.
 Recording ReadRecording(const std::string& path, const std::string& room = "");
 
-/// Adds one message to a recording (a live bus, a log). Bears a late start, duplicates, and
+/// Adds one message to a recording (a live bus, a log). Accepts a late start, duplicates, and
 /// messages out of order; a hostile log costs memory in proportion to its size, no more.
 class RecordingBuilder {
  public:

@@ -18,7 +18,7 @@
 
 namespace seam {
 
-/// Places in Character::parts. Left and right are the same in two dimensions; the right one is
+/// Indices into Character::parts. Left and right are the same in two dimensions; the right one is
 /// numbered after the left one.
 enum CharacterPart {
   kHead,
@@ -36,7 +36,7 @@ enum CharacterPart {
   kCharacterParts
 };
 
-/// Places in Character::joints.
+/// Indices into Character::joints.
 enum CharacterJoint {
   kNeck,
   kShoulderLeft,
@@ -55,7 +55,7 @@ enum CharacterJoint {
 struct Character {
   std::string name;     ///< its parts are "name.head", its joints "name.neck" and so on
   bool active = false;  ///< its joints have motors that a controller turns
-  int player = -1;      ///< whose axes drive it; -1: it only keeps standing
+  int player = -1;      ///< whose axes drive it; -1: it only stands
   float facing = 1;     ///< 1: toes to the right, -1: to the left
   float height = 1.8f;  ///< m
   std::array<PartId, kCharacterParts> parts{};

@@ -1,5 +1,5 @@
 #pragma once
-/// Of what a character is made: its parts and hinges, upright at tick 0 or turned by an angle.
+/// What a character is made of: its parts and hinges, upright at tick 0 or turned by an angle.
 
 #include <string>
 #include <vector>

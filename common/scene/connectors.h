@@ -1,5 +1,5 @@
 #pragma once
-/// Places by which a part joins others: an outlet of one meets an inlet of another.
+/// Positions by which a part joins others: an outlet of one meets an inlet of another.
 
 #include <vector>
 
@@ -12,7 +12,7 @@ struct Connector {
   float angle = 0;  ///< rad; the way out of the part
 };
 
-/// An inlet takes one outlet. Joined, the two are at one place and look at each other.
+/// An inlet takes one outlet. Joined, the two are at one position and face each other.
 struct Connectors {
   std::vector<Connector> inlets, outlets;
   float strength = 0;  ///< N that break the joint; 0: none does. The weaker part's
@@ -22,12 +22,12 @@ struct Connectors {
   bool empty() const { return inlets.empty() && outlets.empty(); }
 };
 
-/// What comes together more slowly does not join, m/s: what a blow has cracked would heal where it
-/// stands.
+/// Parts that come together more slowly do not join, m/s: otherwise a cracked bond would join again
+/// at once.
 constexpr float kJoinClosing = 0.1f;
 
-/// Least time between a break and the next joint of the parts concerned, s: or what is torn apart
-/// would join again before it is away.
+/// Least time between a break and the next joint of the parts concerned, s: else parts torn apart
+/// would join again before they are away.
 constexpr float kJoinAgain = 1;
 
 }  // namespace seam

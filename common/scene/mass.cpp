@@ -64,7 +64,7 @@ MassProperties PartProperties(const Part& part) {
 
 Eigen::Vector2d ToRootFrame(const Part& part, const Part& root, const Eigen::Vector2d& point) {
   // Exact for the root itself: no rounding may move a lone part's shape. (A merged face has the
-  // number of one of its parts, but another place.)
+  // number of one of its parts, but another pose.)
   if (part.id == root.id && part.position == root.position) return point;
   const double turn = static_cast<double>(part.angle);
   const double back = -static_cast<double>(root.angle);

@@ -32,7 +32,7 @@ inline bool Allows(PlayerMask mask, int player) {
   return mask == kEveryPlayer || (player >= 0 && ((mask >> player) & 1U) != 0);
 }
 
-/// What a part is worth, stands and allows.
+/// A part's score, health and permissions.
 struct PartRules {
   float health = 0;                 ///< at the start; 0: nothing hurts it
   float hurt_above = 5;             ///< m/s: a blow that changes its velocity by more hurts
@@ -45,15 +45,15 @@ struct PartRules {
 
 enum class TriggerKind { kArea, kCheckpoint, kPickup, kHazard };
 
-/// Where something happens to what comes there. A part is there when its position is.
+/// A box in which something happens to parts. A part is in it when its position is.
 struct Trigger {
   std::string name;  ///< unique
   TriggerKind kind = TriggerKind::kArea;
   Vec2 position{0, 0};                ///< m, of its centre; from `part`, if there is one
   Vec2 size{1, 1};                    ///< m, full width and height, along the world's axes
   PartId part = -1;                   ///< moves with it (without turning), ends with it; -1: stays
-  std::vector<PartId> parts;          ///< whom it looks at
-  PlayerMask players = kEveryPlayer;  ///< whose parts; anybody's, also nobody's
+  std::vector<PartId> parts;          ///< the parts that it looks for
+  PlayerMask players = kEveryPlayer;  ///< whose parts; all: nobody's too
   bool once = false;                  ///< ends with the first part that enters (a pickup always)
   int order = 0;                      ///< kCheckpoint: from 1
   float score = 0;                    ///< points for the player of who enters

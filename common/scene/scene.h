@@ -85,17 +85,17 @@ struct Joint {
   float strength = 0;          ///< kGlue: N, the force at which it breaks; 0: never
   bool collide = false;        ///< the joined bodies collide with each other
   bool grouped = false;        ///< kGlue: made because its parts rest; a touch undoes it
-  float turn = 0;              ///< rad; by how much bonds have turned the place of b, less a's
+  float turn = 0;              ///< rad; by how much bonds have turned the pose of b, less a's
   bool gone = false;           ///< broken or removed at run time
   int motor_player = -1;       ///< whose axis turns the motor; -1: a constant motor
   InputAxis motor_axis = InputAxis::kDrive;
   float motor_speed = 0;   ///< rad/s (kPrismatic: m/s) at full drive
   float motor_torque = 0;  ///< N m (kPrismatic: N), the most it can do; 0: no motor
-  float force_max = 0;     ///< kMotor: N, with which it holds b's place in a's frame
+  float force_max = 0;     ///< kMotor: N, with which it holds b's position in a's frame
   float torque_max = 0;    ///< kMotor: N m, with which it holds b's angle against a's
-  Vec2 reach{0, 0};        ///< kMotor: m, how far the player's full axis moves that place
+  Vec2 reach{0, 0};        ///< kMotor: m, how far the player's full axis moves that position
   float swing = 0;         ///< kMotor: rad, and turns that angle
-  std::vector<Vec2> path;  ///< kKinematic: m from its place, visited in turn, for ever
+  std::vector<Vec2> path;  ///< kKinematic: m from its position, visited in turn, for ever
   double period_s = 0;     ///< kKinematic: of the whole path and back to its first point
   double phase = 0;        ///< kKinematic: share of the path that is behind it at tick 0
   bool ease = false;       ///< kKinematic: it stands still for a moment at each point
@@ -127,7 +127,7 @@ struct Player {
   int line = 0;                   ///< in the scene file
 };
 
-/// A place from which something is driven: motors and thrusts that name the seat as their player
+/// A seat from which something is driven: motors and thrusts that name the seat as their player
 /// follow whoever sits there. Inputs of seat s are those of player `players.size() + s`.
 struct Seat {
   std::string name;  ///< not a player's

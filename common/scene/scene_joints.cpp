@@ -153,7 +153,7 @@ void ReadDistance(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
 }
 
 /// Ends given in the parts' own frames, and the angle between the parts at which the joint is at
-/// rest: for what is joined while it moves, where the places in the scene say nothing.
+/// rest: for parts joined while they move, whose poses in the scene mean nothing.
 void ReadLocal(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
   const auto place = [&](PartId id, const char* key, Vec2* anchor) {
     if (!r.Has(key)) return;

@@ -1,6 +1,6 @@
 #pragma once
-/// What a scene may say, in SI units. Within these limits Box2D 2.4.1 neither asserts nor loses its
-/// footing; docs/scenes.md repeats them.
+/// What a scene may say, in SI units. Within these limits Box2D 2.4.1 does not assert and stays
+/// stable; docs/scenes.md repeats them.
 
 #include <cstddef>
 #include <cstdint>

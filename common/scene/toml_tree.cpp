@@ -103,7 +103,7 @@ TomlNode ParseToml(const std::string& text, const std::string& file) {
     const auto [line, what] = Explain(e);
     throw OperatorError(file + ":" + std::to_string(line) + ": " + FirstLine(what));
   } catch (const std::exception& e) {
-    // Some mistakes (a number that does not fit) reach us without a place.
+    // Some mistakes (a number that does not fit) reach us without a position.
     throw OperatorError(file + ":1: not valid TOML: " + FirstLine(e.what()));
   }
 }

@@ -8,7 +8,7 @@ namespace seam {
 
 using Vec2 = Eigen::Vector2f;
 
-/// A part's number: its place among the scene's parts, from 0.
+/// A part's number: its index among the scene's parts, from 0.
 using PartId = std::int32_t;
 
 /// Pose and velocity of one assembly. `position` is the root part's centre of its shape frame.

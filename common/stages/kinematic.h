@@ -1,6 +1,6 @@
 #pragma once
-/// Anchored parts that move all the same: along a path or turning, as a function of time alone, so
-/// that every peer has them at the same place without a word about them.
+/// Anchored parts that are moved: along a path or turning, as a function of time alone, so
+/// that every peer has them in the same pose without any message.
 
 #include <memory>
 #include <vector>
@@ -27,7 +27,7 @@ class ImposedMotions {
   struct Motion {
     int assembly = 0;
     Eigen::Vector2d pivot{0, 0};        // m, where the path's origin is; it turns about it
-    Eigen::Vector2d arm{0, 0};          // m, from there to the root's place
+    Eigen::Vector2d arm{0, 0};          // m, from there to the root's position
     double angle = 0, turning = 0;      // rad, rad/s
     std::vector<Eigen::Vector2d> path;  // m, from the pivot
     std::vector<double> ends;           // m along the path, where each leg ends

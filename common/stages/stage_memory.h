@@ -1,5 +1,5 @@
 #pragma once
-/// What several stages remember alike, as the numbers of Stage::Save and Load.
+/// What several stages remember in the same way, as the numbers of Stage::Save and Load.
 
 #include <map>
 #include <vector>

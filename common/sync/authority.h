@@ -32,7 +32,7 @@ class AuthorityTable {
 
   /// Sets one entry (the server plans with this).
   void Set(int mechanism, const AuthorityRecord& record);
-  /// The mechanisms are others now. Each takes what the first of those it comes from had, or
+  /// The mechanisms have changed. Each takes what the first of those it comes from had, or
   /// `fresh` if it is new; of several the highest epoch, one on: earlier states are of others.
   void Remap(const Composition& composition, const std::vector<std::vector<int>>& from,
              const AuthorityRecord& fresh);

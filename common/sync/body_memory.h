@@ -14,7 +14,7 @@
 
 namespace seam {
 
-/// In place of the tick of what never happened: so long ago that it no longer counts.
+/// Stands for the tick of what never happened: so long ago that it no longer counts.
 constexpr std::int64_t kLongAgo = -1000000;
 
 /// What rules that act in every tick go by between two messages.
@@ -69,7 +69,7 @@ class BodyMemory {
   void Record();
   /// The world was set to another tick: no pose is known any more.
   void StartAnew();
-  /// The world's bodies are others now; what is known is carried over to what they became.
+  /// The world's bodies have changed; what is known is carried over to what they became.
   void Remap(const BodyRemap& change);
 
  private:
@@ -82,8 +82,8 @@ class BodyMemory {
 };
 
 /// A change of velocity that counts as a major impact, m/s. A driven wheel feels up to 2.6 m/s from
-/// the ground in every tick: lower lets it count as colliding all the time; higher lets real
-/// collisions be overruled by old news.
+/// the ground in every tick: a lower limit counts it as colliding all the time; a higher one lets
+/// old states overrule real collisions.
 constexpr float kMajorImpact = 3.0f;
 
 }  // namespace seam

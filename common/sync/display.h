@@ -28,9 +28,9 @@ class Display {
   void Moved(int body, const BodyState& by) { smoother_.Moved(body, by); }
   /// The body was placed anew: it is shown there at once.
   void Reset(int body) { smoother_.Reset(body); }
-  /// News was this old when it came.
+  /// A state was this many ticks old when it was received.
   void AddAge(std::int64_t age_ticks) { delay_.AddAge(age_ticks); }
-  /// The bodies are others now: visual offsets stay with what a body became.
+  /// The bodies have changed: visual offsets stay with what a body became.
   void Remap(const BodyRemap& change);
 
   /// All bodies as they are shown now. utime is left 0.

@@ -1,5 +1,5 @@
 #pragma once
-/// What a peer knows of one player's inputs: exact for the ticks it has heard of, held after that.
+/// What a peer knows of one player's inputs: exact for the ticks received, held after the newest.
 
 #include <cstdint>
 #include <map>

@@ -14,7 +14,7 @@ namespace seam {
 static_assert(kSceneBytesMax <= kSceneTextBytesMax);
 // Edits go through the wire unchanged.
 static_assert(kEditTextMax == kEditTextBytesMax && kEditKindMax == kEditKindsMax);
-// All parts there can ever be have ids on the wire (int16) and a place in some View.
+// All parts there can ever be have ids on the wire (int16) and fit into some View.
 static_assert(kPartsMax <= kPartsEver && kPartsEver <= INT16_MAX);
 static_assert(kPartsEver <= kViewBodiesMax * kViewPartsMax);
 // A player's number is on the wire as a peer's.

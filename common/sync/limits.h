@@ -1,6 +1,6 @@
 #pragma once
 /// Sizes that must agree, held beside each other: what a message can grow to against what carries
-/// it, and how long one text may be in different rooms. Whoever changes one of them finds out here.
+/// it, and how long one text may be in different rooms. A change that breaks this does not compile.
 
 #include <climits>
 #include <cstddef>

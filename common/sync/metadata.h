@@ -1,5 +1,5 @@
 #pragma once
-/// What parts and players have and are worth: health, score, checkpoints. The server decides and
+/// Values of parts and players: health, score, checkpoints. The server decides and
 /// announces; clients keep what they are told.
 
 #include <cstdint>
@@ -15,7 +15,7 @@ namespace seam {
 /// One value's name.
 struct MetaKey {
   std::int8_t kind = kMetaPart;  ///< kMetaPart | kMetaPlayer
-  std::int16_t id = 0;           ///< part id, or the player's place in the scene
+  std::int16_t id = 0;           ///< part id, or the player's index in the scene
   std::int8_t key = kMetaHealth;
 
   bool operator<(const MetaKey& o) const {

@@ -1,6 +1,6 @@
 #pragma once
-/// What physics gave reason to change and this peer is to propose: each edit once, and again only
-/// when nothing came of it for a while.
+/// Edits that physics found and this peer is to propose: each edit once, and again only when it was
+/// not ordered for a while.
 
 #include <cstdint>
 #include <map>

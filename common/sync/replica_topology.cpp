@@ -1,5 +1,5 @@
 /// Replica: edits, and bodies that split and merge by them. What is known of a body (its past, what
-/// was heard of it, its place in the view) is carried over to what it becomes.
+/// was heard of it, its pose in the view) is carried over to what it becomes.
 
 #include "common/sync/edit_order.h"
 #include "common/sync/replica.h"

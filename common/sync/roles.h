@@ -1,5 +1,5 @@
 #pragma once
-/// What this peer is to each mechanism: its authority, a secondary or remote. Nobody else says so.
+/// What this peer is to each mechanism: its authority, a secondary or remote. Only this class says.
 
 #include <cstdint>
 #include <vector>
@@ -37,7 +37,7 @@ class Roles {
   std::vector<int> Apply(const Grants& grants);
   /// Gives all that this peer has back to the server.
   void ReleaseAll();
-  /// The mechanisms are others now; `from` as in BodyRemap::mechanisms.
+  /// The mechanisms have changed; `from` as in BodyRemap::mechanisms.
   void Remap(const std::vector<std::vector<int>>& from);
 
  private:

@@ -85,7 +85,7 @@ PackedBody SendScheduler::Tell(int body) {
   packed.state = Quantised(packed.state);
   // At rest the sender takes what it sends, so that all peers end with the same numbers. In
   // motion it does not: writing the rounded pose back 30 times a second topples a stack of ten
-  // boxes even in a world of its own (docs/architecture.md), and a receiver's error of half a
+  // boxes even in a world of its own (docs/lessons.md), and a receiver's error of half a
   // quantum does nothing.
   if (!awake) world_.Write(body, packed.state, false);
   return packed;

@@ -1,6 +1,6 @@
 #pragma once
-/// Which of its own bodies a peer tells about in its next States: those of the highest priority,
-/// as many as fit one datagram; the rest wait and gain priority. Bodies at rest are told seldom.
+/// Which of its own bodies a peer sends in its next States: those of the highest priority, as many
+/// as fit one datagram; the rest wait and gain priority. Bodies at rest are sent seldom.
 
 #include <vector>
 

@@ -9,7 +9,7 @@ namespace seam {
 namespace {
 
 /// Rate of the critically damped return, 1/s: 0.1 s is its time constant. Faster shows corrections
-/// as jerks, slower shows stale poses for longer (measured: docs/architecture.md).
+/// as jerks, slower shows stale poses for longer (measured: docs/lessons.md).
 constexpr float kRate = 10;
 /// Share of a correction of velocity that the offset takes. All of it hides a collision that our
 /// copy only heard of, but what contacts undo at once would show; none shows every velocity jump.

@@ -11,8 +11,8 @@ namespace seam {
 /// the offset takes -d, so the view stays where it was, and then comes back to zero like a
 /// critically damped spring: its velocity is continuous too, where plain exponential decay (after
 /// Fiedler, "State Synchronization", 2015) begins each glide with a jerk. Of a correction of
-/// velocity the offset takes a share, with a cap on the speed of the glide, because that of a large
-/// offset shows as a burst.
+/// velocity the offset takes a share, with a cap on the speed of the glide, because a large
+/// offset would glide too fast.
 class Smoother {
  public:
   Smoother(int body_count, bool enabled);
@@ -24,7 +24,7 @@ class Smoother {
   /// Lets a frame pass. `speed` of the body (m/s) widens the cap: a fast body hides a fast glide.
   void Advance(int body, float dt, float speed);
 
-  /// The bodies are others now; origins[i] is the body before that body i comes from, -1 for none.
+  /// The bodies have changed; origins[i] is the body before that body i comes from, -1 for none.
   void Remap(const std::vector<int>& origins);
 
   const Vec2& offset(int body) const;

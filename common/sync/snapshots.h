@@ -11,8 +11,8 @@
 
 namespace seam {
 
-/// Dead reckoning of what is displayed goes no further than this, s. Shorter than the age of what
-/// is heard, and a fast body stops and jumps; longer shows more of what is not so.
+/// Dead reckoning of what is displayed goes no further than this, s. If it is shorter than the age
+/// of the states, a fast body stops and jumps; longer shows more that is wrong.
 constexpr float kReckonMax = 1.0f;
 
 /// The last few states heard of each body.
@@ -22,7 +22,7 @@ class Snapshots {
 
   /// Keeps the state if it is newer than what it has of this body.
   void Add(int body, std::int64_t tick, const BodyState& state);
-  /// The bodies are others now: what was heard of those they come from is carried over.
+  /// The bodies have changed: what was heard of those they come from is carried over.
   void Remap(const std::vector<BodyOrigin>& origins);
   bool has(int body) const { return !rings_[static_cast<std::size_t>(body)].empty(); }
   std::int64_t newest_tick(int body) const;  ///< -1 when none
@@ -45,7 +45,8 @@ class Snapshots {
 };
 
 /// How far in the past to display so that the next snapshot has nearly always arrived: the age
-/// that 19 of 20 snapshots stay below, plus one interval. Slews, because a jump of it is a stutter.
+/// that 19 of 20 snapshots stay below, plus one interval. Changes slowly, because a jump of it is a
+/// stutter.
 class DisplayDelay {
  public:
   explicit DisplayDelay(int interval_ticks) : interval_ticks_(interval_ticks) {}

@@ -1,5 +1,5 @@
 #pragma once
-/// What a correction may write, and what it need not.
+/// The limits of what a correction writes: speed and spin, and what is too small to correct.
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 #pragma once
-/// How the bodies after a change of topology come from those before it.
+/// How the bodies after a change of topology come from the bodies before it.
 
 #include <Eigen/Core>
 #include <vector>

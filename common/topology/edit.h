@@ -65,12 +65,12 @@ struct BlastEdit {
   float speed = 0;    ///< m/s in the centre, falling to 0 at the radius
 };
 
-/// The place of a kind in the variant is its number in messages.
+/// The index of a kind in the variant is its number in messages.
 using AnyEdit = std::variant<std::monostate, BreakEdit, BondEdit, InsertEdit, RemoveEdit, FreeEdit,
                              PushEdit, SeatEdit, BlastEdit>;
 constexpr std::int8_t kEditKindMax = std::variant_size_v<AnyEdit> - 1;
 
-/// Who is to blame. An oracle finds out by itself what physics does, and is told the rest.
+/// What caused an edit. An oracle finds by itself what physics does; it is told the rest.
 enum class EditCause : std::int8_t { kPhysics = 0, kOutside = 1 };
 
 struct Edit {

@@ -20,7 +20,7 @@ Vector2d MiddleOf(const BrickField& field, int x, int y, int columns, int rows) 
   return Vector2d(2 * x + columns * field.width, 2 * y + rows * field.height) * (kUnit / 2);
 }
 
-/// m/s outwards at a place.
+/// m/s outwards at a position.
 Vector2d SpeedAt(const Blast& blast, const Vector2d& place) {
   const Vector2d out = place - blast.centre.cast<double>();
   const double distance = std::sqrt(out.x() * out.x() + out.y() * out.y());

@@ -22,7 +22,7 @@ struct FreeConnector {
 /// Those that no counterpart of the same assembly is at, ascending by part.
 std::vector<FreeConnector> FreeConnectors(const Scene& scene, const Composition& composition);
 
-/// The bond by which `b`'s inlet takes `a`'s outlet: at one place, looking at each other.
+/// The bond by which `b`'s inlet takes `a`'s outlet: at one position, facing each other.
 BondEdit JoinOf(const Part& a, int outlet, const Part& b, int inlet);
 
 /// Whether a bond is what two free connectors of its parts would make.

@@ -7,7 +7,7 @@
 
 namespace seam {
 
-/// Before the bodies. What was taken is not drawn.
+/// Before the bodies. Taken pickups are not drawn.
 void DrawTriggers(DrawList& list, const Viewport& viewport, const Playback& playback,
                   const Moment& moment, double tick);
 /// After the bodies: a bar for each part that has less than all its health, or more than none.

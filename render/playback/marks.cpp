@@ -21,7 +21,7 @@ struct Push {
   Mark mark;
 };
 
-/// The strongest, and of those near each other in place and time only one.
+/// The strongest, and of those near each other in position and time only one.
 std::vector<Mark> Thinned(std::vector<Mark> marks, double same_ticks) {
   std::stable_sort(marks.begin(), marks.end(),
                    [](const Mark& a, const Mark& b) { return a.dv > b.dv; });

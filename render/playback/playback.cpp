@@ -9,7 +9,7 @@
 namespace seam {
 namespace {
 
-/// The body's place in a view, or npos.
+/// The body's index in a view, or npos.
 std::size_t PlaceOf(const View& view, PartId id) {
   const int i = IndexOf(view, id);
   return i < 0 ? std::string::npos : static_cast<std::size_t>(i);

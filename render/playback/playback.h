@@ -44,7 +44,7 @@ class Playback {
   Playback(Recording recording, std::optional<Oracle> oracle);
   /// The same for a scene that needs no parsing.
   Playback(Recording recording, Scene scene, std::optional<Oracle> oracle);
-  /// Of a recording that still grows and stays somebody else's. Its errors are not measured at
+  /// Of a recording that still grows and that the caller owns. Its errors are not measured at
   /// once; MeasureTick adds them.
   Playback(const Recording* growing, std::optional<Oracle> oracle);
 
@@ -114,7 +114,7 @@ class Playback {
   std::shared_ptr<const Recording> recording_;
   Scene scene_;
   std::optional<Oracle> oracle_;
-  /// Shapes by topology, as many as are worth keeping. Frames are drawn by several threads.
+  /// Shapes by revision, a bounded number of them. Frames are drawn by several threads.
   struct KnownRevisions {
     std::mutex mutex;
     std::size_t edits = 0;  // of the recording, when `all` was made

@@ -1,11 +1,11 @@
 #pragma once
-/// Whose the things of a world are.
+/// Which player owns a part or mechanism.
 
 #include "common/physics/part_places.h"
 
 namespace seam {
 
-/// Whose a mechanism is: the player whose vehicle is part of it, else its owner; -1 nobody's.
+/// The owner of a mechanism: the player whose vehicle is part of it, else its owner; -1 nobody's.
 inline int PlayerOf(const World& world, int mechanism) {
   if (mechanism < 0) return -1;
   const std::vector<Player>& players = world.scene().players;

@@ -1,6 +1,6 @@
 #pragma once
 /// What the server decides in a room beyond motion: triggers, damage, scores, scripts. From its own
-/// world alone, once per tick; what is to change in the world it asks of the room's commands.
+/// world alone, once per tick; what is to change in the world it asks for through RoomCommands.
 
 #include <cstdint>
 #include <map>
@@ -45,7 +45,7 @@ class Rules {
   static bool Needed(const Scene& scene);
 
   /// `world` and `commands` must outlive it. Scripts are loaded; one that is wrong is stopped at
-  /// once, and said to be when the first tick is done.
+  /// once, and reported after the first tick.
   Rules(const World& world, std::int64_t seed, RoomCommands& commands);
   ~Rules();
 

@@ -1,5 +1,5 @@
 #pragma once
-/// A room as its scripts see it: names instead of numbers, refusals instead of wrong requests.
+/// A room as its scripts see it: by names instead of numbers; wrong requests throw ScriptRefusal.
 
 #include <map>
 #include <string>

@@ -1,5 +1,5 @@
 #pragma once
-/// Who is in which trigger of a scene. A function of the places it is told, in the order of ticks.
+/// Who is in which trigger of a scene. A function of the poses it is told, in the order of ticks.
 
 #include <functional>
 #include <optional>

@@ -21,7 +21,7 @@ class Script {
   Script(const Script&) = delete;
   Script& operator=(const Script&) = delete;
 
-  /// The work of a tick may begin anew.
+  /// A tick begins: the limit of work is full again.
   void BeginTick();
   /// The callbacks; each does nothing when the script has no such function or is stopped.
   void OnTick(double t);

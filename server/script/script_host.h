@@ -1,5 +1,5 @@
 #pragma once
-/// What a script can see and do of a room: the door between Lua and the server.
+/// What a script can see and do of a room: the interface between Lua and the server.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace seam {
 
-/// What a script asked for cannot be had: it becomes an error in the script, at its line.
+/// A request of a script that cannot be done; it becomes an error in the script, at its line.
 class ScriptRefusal : public std::runtime_error {
  public:
   explicit ScriptRefusal(const std::string& what) : std::runtime_error(what) {}

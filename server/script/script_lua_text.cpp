@@ -89,7 +89,7 @@ int Find(lua_State* L) {
   lua_Integer from = luaL_optinteger(L, 3, 1);
   if (from < 0) from = size + from + 1;
   from = std::max<lua_Integer>(from, 1);
-  // At worst all of it is compared at every place.
+  // At worst all of it is compared at every position.
   ChargeBytes(L, bytes * std::max<std::size_t>(wanted, 1));
   if (from > size + 1) return 0;
   const char* at = std::search(text + from - 1, text + bytes, what, what + wanted);

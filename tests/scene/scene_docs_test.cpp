@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/support/known_keys.h"
 #include "tests/support/scripted_world.h"
 
 namespace seam {
@@ -37,22 +38,6 @@ TEST(SceneDocs, TheWorkedExampleDoesWhatItsTitleSays) {
     highest = std::max(highest, run.Read("crate.0").position.y());
   }
   EXPECT_GT(highest, rest + 5);
-}
-
-/// The keys that the loader says it knows, when it meets one that it does not.
-std::vector<std::string> KnownKeys(const std::string& table) {
-  try {
-    ParseScene(table + "\nzzzzzzzzzzzzzzzz = 1\n", "s.toml");
-  } catch (const std::exception& e) {
-    const std::string what = e.what(), begin = "known are ";
-    const auto at = what.find(begin);
-    if (at == std::string::npos) return {};
-    std::istringstream in(what.substr(at + begin.size(), what.size() - at - begin.size() - 1));
-    std::vector<std::string> keys;
-    for (std::string key; in >> key;) keys.push_back(key);
-    return keys;
-  }
-  return {};
 }
 
 TEST(SceneDocs, EveryKeyIsOnThePage) {

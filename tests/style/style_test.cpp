@@ -1,10 +1,12 @@
 /// How files are written: columns, lengths, names, promises, units of messages.
 
+#include <glob.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "tests/support/child_process.h"
@@ -65,6 +67,137 @@ TEST(Style, NamesOfFilesAreSnakeCase) {
     if (!snake_case.Matches(source.path)) offenders += source.path + "\n";
   }
   EXPECT_TRUE(offenders.empty()) << offenders;
+}
+
+/// Lines of a page that are too wide, without tables, code, and what a program writes there.
+std::string WideLines(const Source& page, std::size_t columns) {
+  std::string wide;
+  bool code = false, written = false;
+  for (std::size_t i = 0; i < page.lines.size(); ++i) {
+    const std::string& line = page.lines[i];
+    if (line.rfind("```", 0) == 0) code = !code;
+    if (line.rfind("<!-- report:", 0) == 0) written = true;
+    if (line.rfind("<!-- /report:", 0) == 0) written = false;
+    if (code || written || line.rfind('|', 0) == 0 || line.rfind("    ", 0) == 0) continue;
+    if (Columns(line) > columns) wide += page.path + ":" + std::to_string(i + 1) + "\n";
+  }
+  return wide;
+}
+
+/// README.md, CHANGELOG.md and docs/*.md.
+std::vector<Source> Pages() {
+  std::vector<Source> pages = Sources({"docs"}, {".md"});
+  for (const char* name : {"README.md", "CHANGELOG.md"}) {
+    Source page;
+    page.path = name;
+    page.lines = Lines(Root() / name);
+    pages.push_back(std::move(page));
+  }
+  return pages;
+}
+
+TEST(Docs, EveryPageBeginsWithItsTitle) {
+  std::string offenders;
+  for (const Source& page : Pages()) {
+    // A formatter for C++ that is let loose on a page turns "# Title" into "#Title".
+    const bool titled = !page.lines.empty() && page.lines[0].rfind("# ", 0) == 0;
+    if (!titled) offenders += page.path + "\n";
+  }
+  EXPECT_EQ(offenders, "");
+}
+
+TEST(Docs, NoLineIsLongerThan120ColumnsButInTablesAndCode) {
+  std::string wide;
+  for (const Source& page : Pages()) wide += WideLines(page, 120);
+  EXPECT_EQ(wide, "");
+  Source page;
+  page.path = "a.md";
+  page.lines = {"12345", "1234 6", "| 4 6 |", "    4 6", "```", "1234 6", "```", "µµµµµ"};
+  EXPECT_EQ(WideLines(page, 5), "a.md:2\n");
+}
+
+/// Words in backticks that name a file or folder, and files of ours that are linked to.
+std::vector<std::string> PathsIn(const std::string& line) {
+  std::vector<std::string> paths;
+  const auto add = [&](const std::string& text) {
+    if (text.find_first_of(" =$<>(\\\"'") != std::string::npos) return;
+    if (text.rfind("build/", 0) == 0 || text.rfind("out/", 0) == 0) return;  // are made
+    if (text.find("://") != std::string::npos || text[0] == '#' || text[0] == '-') return;
+    const Regex file(".*/.*|.*\\.(cpp|h|md|toml|lcm|sh)");
+    if (file.Matches(text)) paths.push_back(text);
+  };
+  for (std::size_t at = line.find('`'); at != std::string::npos;) {
+    const std::size_t end = line.find('`', at + 1);
+    if (end == std::string::npos) break;
+    add(line.substr(at + 1, end - at - 1));
+    at = line.find('`', end + 1);
+  }
+  for (std::size_t at = line.find("]("); at != std::string::npos; at = line.find("](", at + 1)) {
+    const std::size_t end = line.find(')', at);
+    if (end != std::string::npos) add(line.substr(at + 2, end - at - 2));
+  }
+  return paths;
+}
+
+/// Whether a path from `folder` or from the root is there; "*", and NAME, stand for any letters.
+bool Exists(const std::string& path, const fs::path& folder) {
+  std::string pattern = path.substr(0, path.find('#'));
+  for (std::size_t at; (at = pattern.find("NAME")) != std::string::npos;) {
+    pattern.replace(at, 4, "*");
+  }
+  for (const fs::path& from : {Root(), folder}) {
+    glob_t found{};
+    const int status = glob((from / pattern).c_str(), 0, nullptr, &found);
+    globfree(&found);
+    if (status == 0) return true;
+  }
+  return false;
+}
+
+/// "PAGE: PATH" for each path of a page (of its tables) that is not there, and how many there are.
+std::pair<std::string, int> MissingPaths(const Source& page, bool tables_only) {
+  std::pair<std::string, int> missing{"", 0};
+  for (const std::string& line : page.lines) {
+    if (tables_only && line.rfind('|', 0) != 0) continue;
+    for (const std::string& path : PathsIn(line)) {
+      ++missing.second;
+      const bool there = Exists(path, (Root() / page.path).parent_path());
+      if (!there) missing.first += page.path + ": " + path + "\n";
+    }
+  }
+  return missing;
+}
+
+TEST(Docs, EveryPathInTheReadmesTablesAndInContributingAndArchitectureIsThere) {
+  for (const Source& page : Pages()) {
+    const bool readme = page.path == "README.md";
+    const bool all = page.path == "docs/contributing.md" || page.path == "docs/architecture.md";
+    if (!readme && !all) continue;
+    const auto [missing, count] = MissingPaths(page, readme);
+    EXPECT_EQ(missing, "");
+    EXPECT_GT(count, 20) << page.path;
+  }
+  Source page;
+  page.path = "docs/a.md";
+  page.lines = {"| `common/*/reconcile.cpp` `server/no.cpp` [a](lab.md) [b](no.md) |",
+                "`make check`, `build/x/y`, `-o a/b`, `--out`, `Makefile`", "`no/NAME.h`"};
+  EXPECT_EQ(MissingPaths(page, true).first,
+            "docs/a.md: common/*/reconcile.cpp\ndocs/a.md: server/no.cpp\ndocs/a.md: no.md\n");
+  EXPECT_EQ(MissingPaths(page, false).second, 5);
+}
+
+TEST(Docs, AQuestionOfTheReadmeThatAsksWhereIsAnsweredByAtMostTwoFiles) {
+  std::string offenders;
+  bool below = false;
+  int rows = 0;
+  for (const std::string& line : Lines(Root() / "README.md")) {
+    if (line.rfind("## ", 0) == 0) below = line.rfind("## Where is", 0) == 0;
+    if (!below || line.rfind('|', 0) != 0) continue;
+    ++rows;
+    if (PathsIn(line).size() > 2) offenders += line + "\n";
+  }
+  EXPECT_EQ(offenders, "");
+  EXPECT_GT(rows, 20);
 }
 
 TEST(LcmTypes, EveryFieldHasACommentWithItsUnit) {

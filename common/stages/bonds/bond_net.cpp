@@ -10,7 +10,7 @@ namespace {
 /// Residual at which the shifts are good enough, relative to the forces.
 constexpr double kResidual = 1e-10;
 
-/// Names of sets by the lowest place in them.
+/// Names of sets by the lowest index in them.
 int NameOf(std::vector<int>* of, int i) {
   while ((*of)[static_cast<std::size_t>(i)] != i) i = (*of)[static_cast<std::size_t>(i)];
   return i;

@@ -1,6 +1,6 @@
 #pragma once
-/// What passes through the glue within one body: a network of equal springs between parts that
-/// cannot come apart. Pure arithmetic.
+/// The forces through the glue within one body, found by a network of equal springs between its
+/// parts. Pure arithmetic.
 
 #include <Eigen/Core>
 #include <vector>
@@ -18,7 +18,7 @@ struct BondNet {
     double strength = 0;  ///< N
   };
   std::vector<PartId> parts;  ///< of the assembly, ascending
-  std::vector<int> node_of;   ///< by place in `parts`
+  std::vector<int> node_of;   ///< by index in `parts`
   int nodes = 0;
   int anchor = -1;          ///< the node that is anchored; -1: none
   std::vector<Bond> bonds;  ///< ascending by joint
@@ -36,8 +36,8 @@ BondNet NetOf(const Scene& scene, const Assembly& assembly, const std::vector<in
 /// the whole, already taken off: they sum to zero, or else the anchored node takes the rest. All
 /// bonds are equal springs: with u the nodes' shifts, the sum of (u_i - u_j) over the bonds of node
 /// i is its force (the random fuse model; de Arcangelis, Redner, Herrmann 1985, for x and y alike).
-/// Exact where bonds form a tree; parallel bonds share alike. Bending and the bonds' places do not
-/// count: a long arm breaks no sooner than a short one.
+/// Exact where bonds form a tree; parallel bonds share alike. Bending and the bonds' positions do
+/// not count: a long arm breaks no sooner than a short one.
 std::vector<double> BondLoads(const BondNet& net, const std::vector<Eigen::Vector2d>& forces);
 
 }  // namespace seam

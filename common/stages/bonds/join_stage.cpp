@@ -146,7 +146,7 @@ void JoinStage::AfterTick() {
 }
 
 void JoinStage::ProposeEdits(std::vector<Edit>* edits) {
-  // The places of assemblies that have been bonded in this tick are not yet known: one at a time.
+  // The poses of assemblies that were bonded in this tick are not known yet: one bond at a time.
   std::set<int> busy;
   for (const auto& [distance, a, outlet, b, inlet] : met_) {
     const int one = w_.composition.assembly_of_part[static_cast<std::size_t>(a)];

@@ -7,7 +7,7 @@
 ///                corrector_correct   the room's rule: what to add to a secondary's copy now
 ///                corrector_pull      ...and before every step, by rules that ask for it
 ///                corrector_predict   mode central: the own vehicle, from the server's state on
-///   roles  --> corrector_roles     what is simulated from now on begins as the authority's
+///   roles  --> corrector_roles     a body simulated from now on begins at the authority's state
 
 #include <cstdint>
 #include <map>

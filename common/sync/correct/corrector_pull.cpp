@@ -35,7 +35,7 @@ void Corrector::PullCopies() {
   const auto n = static_cast<float>(world_.scene().solver.substeps);
   in.drift.velocity = dt * world_.scene().gravity;
   in.drift.position =
-      dt * dt * (n + 1) / (2 * n) * world_.scene().gravity;  // velocity first, then place
+      dt * dt * (n + 1) / (2 * n) * world_.scene().gravity;  // velocity first, then position
   in.interval = static_cast<float>(config_.send_every()) * dt;
   in.step = dt;
   for (int body = 0; body < world_.body_count(); ++body) {

@@ -40,7 +40,7 @@ class Replay {
   void TakeBarrier();
   /// This peer did a player's action (index) before the step to `tick`; a replay repeats it.
   void NoteAction(std::int64_t tick, int player, int action);
-  /// There is no way back to before now: a body is new, or the bodies are others.
+  /// There is no way back to before now: a body is new, or the bodies have changed.
   void Forget();
 
  private:
