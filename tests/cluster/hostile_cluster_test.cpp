@@ -179,6 +179,8 @@ TEST(Hostile, AFlooderIsDecodedWithinItsBudgetAndHasToLeave) {
   Guest flooder = GuestOf(&cluster, "flood");
   RunWith(&cluster, &flooder, 10);
   ASSERT_TRUE(flooder.welcomed);
+  flooder.link.SendReliable(Encode(Ready()));
+  RunWith(&cluster, &flooder, 10);
   const auto flood = [&](int datagrams) {
     const Bytes one(1, 0);
     for (int m = 0; m < datagrams * 392; ++m) {
