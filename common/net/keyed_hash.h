@@ -6,10 +6,13 @@
 #include <cstdint>
 
 #include "common/base/bytes.h"
+#include "common/base/entropy.h"
 
 namespace seam {
 
 using HashKey = std::array<std::uint8_t, 16>;
+
+HashKey DrawHashKey(Entropy& entropy);
 
 /// Without the key it cannot be told from random bits, whatever else was hashed with the key.
 std::uint64_t KeyedHash(const HashKey& key, ByteView bytes);

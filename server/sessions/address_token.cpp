@@ -10,11 +10,6 @@ std::uint8_t* Put(std::uint8_t* at, std::uint64_t value, int bytes) {
 
 }  // namespace
 
-AddressToken::AddressToken(Entropy& entropy) : secret_{} {
-  std::uint8_t* at = Put(secret_.data(), entropy.Next(), 8);
-  Put(at, entropy.Next(), 8);
-}
-
 std::int64_t AddressToken::InSlot(std::int64_t slot, const Address& address,
                                   std::uint64_t session) const {
   std::uint8_t bytes[4 + 2 + 8 + 8];

@@ -13,7 +13,7 @@ namespace seam {
 class AddressToken {
  public:
   /// Draws the secret.
-  explicit AddressToken(Entropy& entropy);
+  explicit AddressToken(Entropy& entropy) : secret_(DrawHashKey(entropy)) {}
 
   /// A keyed hash of the address, the session's number and the time slot.
   std::int64_t Make(std::int64_t now_us, const Address& address, std::uint64_t session) const;
@@ -28,7 +28,7 @@ class AddressToken {
  private:
   std::int64_t InSlot(std::int64_t slot, const Address& address, std::uint64_t session) const;
 
-  HashKey secret_;
+  const HashKey secret_;
 };
 
 }  // namespace seam

@@ -4,13 +4,6 @@
 
 namespace seam {
 
-ByteCredit::ByteCredit(Entropy& entropy) {
-  for (std::size_t i = 0; i < key_.size(); i += 8) {
-    const std::uint64_t bits = entropy.Next();
-    for (std::size_t j = 0; j < 8; ++j) key_[i + j] = static_cast<std::uint8_t>(bits >> (8 * j));
-  }
-}
-
 bool ByteCredit::Draw(const Address& address, std::size_t sent_bytes, std::size_t wanted_bytes) {
   std::uint8_t bytes[6];
   for (int i = 0; i < 4; ++i) bytes[i] = static_cast<std::uint8_t>(address.ip >> (8 * i));

@@ -13,7 +13,7 @@ namespace seam {
 
 class ByteCredit {
  public:
-  explicit ByteCredit(Entropy& entropy);
+  explicit ByteCredit(Entropy& entropy) : key_(DrawHashKey(entropy)) {}
 
   /// The address has sent so many bytes, and wants so many in answer: true if all that it has drawn
   /// stays within all that it has sent; they count as drawn then.
@@ -28,7 +28,7 @@ class ByteCredit {
     Address address;
     std::size_t bytes = 0;
   };
-  HashKey key_{};  // so that nobody can choose whose place he takes
+  const HashKey key_;  // so that nobody can choose whose place he takes
   std::array<Entry, kAddresses> entries_{};
 };
 
