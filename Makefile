@@ -37,14 +37,14 @@ ALL_CXXFLAGS := -std=c++17 $(CXXFLAGS_$(BUILD)) -ffp-contract=off $(WARN) -MMD -
 	-isystem $(EIGEN) -isystem /usr/include/freetype2 -pthread $(CXXFLAGS)
 # Only common/codec/ reads generated headers (tests/style/layering_test.cpp).
 CODEC_CXXFLAGS := -isystem $(GEN)
-LIBS := -llcm -lbox2d -lfmt -pthread
+LIBS := -llcm -lbox2d -lfmt -lsodium -pthread
 RENDER_LIBS := -lOSMesa -lpng -lfreetype
 SERVER_LIBS := -llua5.4
 
 # Debian packages: build/.deps-NAME stands for DEBS_NAME being installed.
 DEBS_build := g++ make pkg-config liblcm-dev liblcm-bin libbox2d-dev libeigen3-dev libosmesa6-dev \
 	liblua5.4-dev libcli11-dev libtoml11-dev libfmt-dev libpng-dev libfreetype-dev fonts-dejavu-core \
-	libgtest-dev iproute2 util-linux
+	libgtest-dev libsodium-dev iproute2 util-linux
 DEBS_report := gnuplot-nox
 DEBS_coverage := gcovr
 DEBS_format := clang-format git

@@ -12,7 +12,6 @@ namespace {
 
 constexpr std::int64_t kPingFastUs = 50000;  // until the clock has settled and the room started
 constexpr std::int64_t kPingSlowUs = 100000;
-constexpr std::int64_t kHelloUs = 100000;
 /// Most ticks stepped in one call; further behind than kGiveUpTicks we rejoin.
 constexpr int kStepsMax = 20;
 constexpr std::int64_t kGiveUpTicks = 300;
@@ -24,8 +23,8 @@ static_assert(static_cast<std::size_t>(Client::kInputsRedundant) <= kInputsMax,
 
 }  // namespace
 
-Client::Client(const ClientConfig& config, Net& net, Recorder& recorder)
-    : config_(config), net_(net), recorder_(recorder), random_(config.session_seed) {}
+Client::Client(const ClientConfig& config, Net& net, Recorder& recorder, Entropy& entropy)
+    : config_(config), net_(net), recorder_(recorder), entropy_(entropy), key_(config.key) {}
 
 void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   net_.Advance(now_us);
@@ -39,11 +38,15 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
     released_ = true;
   }
   // What we let go of we do not take up again as the same session: the server may have given it on.
-  if (silence_us > kLostUs || (released_ && silence_us < kLeaseUs)) {
+  if (peer_ >= 0 && (silence_us > kLostUs || (released_ && silence_us < kLeaseUs))) {
     ++rejoins_;
     Join(now_us);
   }
-  Greet(now_us);
+  if (peer_ < 0) {
+    Knock(now_us);
+  } else {
+    SendReadyAndPing(now_us);
+  }
   StartIfDue(now_us);
   if (started_) StepDue(now_us);
   const bool stats_due = now_us - last_stats_us_ >= 1000000;
@@ -51,49 +54,12 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   Flush(now_us);
 }
 
-void Client::BeginConversation() {
-  std::uint64_t number = random_.Next();
-  if (number == 0) number = 1;
-  link_ = std::make_unique<Link>(number);
-  refused_ = false;
-}
-
-void Client::Join(std::int64_t now_us) {
-  BeginConversation();
-  replica_.reset();
-  scene_.reset();
-  snapshot_.reset();
-  held_.clear();
-  room_bytes_.clear();
-  room_size_ = 0;
-  clock_ = ClockFilter();
-  metadata_ = MetaTable();
-  if (peer_ >= 0 || joining_since_us_ == 0) joining_since_us_ = now_us;
-  peer_ = player_ = -1;
-  said_ready_ = started_ = released_ = false;
-  tick0_us_ = -1;
-  lead_us_ = -1;
-  answered_us_ = now_us;
-  refused_us_ = -1;
-}
-
-void Client::Greet(std::int64_t now_us) {
-  Hello hello;
-  hello.utime = now_us;
-  hello.name = config_.name;
-  if (peer_ < 0) {
-    if (now_us - last_hello_us_ >= kHelloUs) {
-      last_hello_us_ = now_us;
-      // The server forgets whom it refuses: to say more in that conversation, with its refusal
-      // acknowledged, would be to acknowledge what it never sent.
-      if (refused_) BeginConversation();
-      link_->SendUnreliable(Encode(hello));
-    }
-    return;
-  }
+void Client::SendReadyAndPing(std::int64_t now_us) {
   if (!said_ready_ && replica_ != nullptr && clock_.settled()) {
     said_ready_ = true;
-    link_->SendReliable(Encode(hello));
+    Ready ready;
+    ready.utime = now_us;
+    link_->SendReliable(Encode(ready));
   }
   const bool settled = clock_.settled() && tick0_us_ >= 0;
   if (now_us - last_ping_us_ >= (settled ? kPingSlowUs : kPingFastUs)) {
@@ -213,6 +179,8 @@ std::int64_t Client::next_tick_us(std::int64_t now_us) {
 }
 
 void Client::Flush(std::int64_t now_us) {
+  // Before the server has a session for us, nothing of a link means anything to it.
+  if (link_->last_receive_us() < 0) return net_.Flush();
   link_->Flush(now_us, [&](ByteView datagram) {
     stats_.bytes_out += static_cast<std::int64_t>(datagram.size);
     stats_.datagrams_out += 1;

@@ -4,11 +4,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "client/clock_filter.h"
-#include "common/base/random.h"
+#include "common/base/entropy.h"
 #include "common/net/link.h"
 #include "common/net/net.h"
 #include "common/record/recorder.h"
@@ -26,15 +27,15 @@ struct ClientConfig {
   Address server;
   std::string name = "guest";
   Drive drive = Drive::kNone;
-  std::string script_of;           ///< kScript: the scene's player whose script it plays
-  std::uint64_t session_seed = 1;  ///< drawn at random by main, fixed in tests
+  std::string script_of;  ///< kScript: the scene's player whose script it plays
+  std::int64_t key = 0;   ///< of an earlier Welcome, to have its place back; 0: none
   bool smooth = true;
 };
 
 class Client {
  public:
-  /// `net` and `recorder` must outlive the client.
-  Client(const ClientConfig& config, Net& net, Recorder& recorder);
+  /// `net`, `recorder` and `entropy` must outlive the client.
+  Client(const ClientConfig& config, Net& net, Recorder& recorder, Entropy& entropy);
 
   /// Receives, steps the ticks that are due on the server's timeline, sends.
   void Tick(std::int64_t now_us, std::int64_t cpu_us);
@@ -56,6 +57,8 @@ class Client {
   }
   bool running() const { return replica_ != nullptr && started_; }
   int peer() const { return peer_; }
+  /// Secret of our place in the room: with it, it is ours again in a new session. 0: none yet.
+  std::int64_t key() const { return key_; }
   const Replica* replica() const { return replica_.get(); }
   /// Health, scores, ... as the server has told them.
   const MetaTable& metadata() const { return metadata_; }
@@ -70,7 +73,17 @@ class Client {
  private:
   friend struct ClientTestAccess;
 
+  // client_join.cpp
   void Join(std::int64_t now_us);
+  /// Until welcomed: a Hello, or a Join once there is a token.
+  void Knock(std::int64_t now_us);
+  void SendLoose(const Bytes& message);
+  /// Takes a datagram of the handshake; false when it is none.
+  bool OnHandshake(std::int64_t now_us, const Bytes& datagram);
+  void OnRefusal(std::int64_t now_us, const std::string& reason);
+  void OnWelcome(std::int64_t now_us, const Welcome& welcome);
+
+  // client_receive.cpp
   void ReceiveAll(std::int64_t now_us);
   void OnMessage(std::int64_t now_us, ByteView bytes);
   void OnChunk(const Chunk& chunk);
@@ -80,8 +93,9 @@ class Client {
   /// Of the scene as it is, or as it has become.
   void MakeReplica(const Topology* become = nullptr);
   void Build();
-  void BeginConversation();
-  void Greet(std::int64_t now_us);
+
+  // client.cpp
+  void SendReadyAndPing(std::int64_t now_us);
   void StartIfDue(std::int64_t now_us);
   void StepDue(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);
@@ -94,7 +108,11 @@ class Client {
   ClientConfig config_;
   Net& net_;
   Recorder& recorder_;
-  Random random_;
+  Entropy& entropy_;
+  std::uint64_t session_ = 0;
+  std::optional<std::int64_t> token_;  // the server's newest, for this session
+  bool token_fresh_ = false;           // not in a Join yet
+  std::int64_t key_ = 0;
   std::unique_ptr<Link> link_;
   std::unique_ptr<Publisher> publisher_;
   std::unique_ptr<Scene> scene_;
@@ -119,7 +137,6 @@ class Client {
   std::int64_t answered_us_ = 0;  // when we sent the newest ping that was answered
   std::int64_t joining_since_us_ = 0;
   std::int64_t refused_us_ = -1;  // of the first refusal since we began to join
-  bool refused_ = false;          // the last hello was
   std::int64_t last_ping_us_ = -1000000000;
   std::int64_t last_hello_us_ = -1000000000;
   std::int64_t last_stats_us_ = -1000000000;

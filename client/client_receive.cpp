@@ -10,8 +10,6 @@ namespace seam {
 namespace {
 
 constexpr std::size_t kHeldMax = 256;
-/// A refused join is repeated for this long, us.
-constexpr std::int64_t kInsistUs = 3000000;
 
 }  // namespace
 
@@ -23,7 +21,8 @@ void Client::ReceiveAll(std::int64_t now_us) {
     stats_.datagrams_in += 1;
     const bool good =
         from == config_.server &&
-        link_->Receive(now_us, datagram, [&](ByteView message) { OnMessage(now_us, message); });
+        (OnHandshake(now_us, datagram) ||
+         link_->Receive(now_us, datagram, [&](ByteView message) { OnMessage(now_us, message); }));
     if (!good) ++stats_.dropped_malformed;
   }
   stats_.dropped_malformed += net_.discarded() - discarded_;
@@ -33,15 +32,7 @@ void Client::ReceiveAll(std::int64_t now_us) {
 void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
   const AnyMessage any = Decode(bytes);
   if (const auto* welcome = std::get_if<Welcome>(&any)) {
-    if (peer_ >= 0) return;
-    if (welcome->peer < 1 || welcome->room_bytes < 1 ||
-        static_cast<std::size_t>(welcome->room_bytes) > kBusMessageBytesMax) {
-      fatal_ = "the server's welcome makes no sense";
-      return;
-    }
-    peer_ = welcome->peer;
-    player_ = welcome->player;
-    room_size_ = static_cast<std::size_t>(welcome->room_bytes);
+    OnWelcome(now_us, *welcome);
   } else if (const auto* chunk = std::get_if<Chunk>(&any)) {
     OnChunk(*chunk);
   } else if (const auto* pong = std::get_if<Pong>(&any)) {
@@ -68,14 +59,8 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
                        static_cast<std::size_t>(inputs->player) < scene_->players.size();
     if (known) replica_->inputs(inputs->player).Note(*inputs);
   } else if (const auto* bye = std::get_if<Bye>(&any)) {
-    if (peer_ < 0) {
-      // Our own earlier session may still hold the name: insist for a while.
-      refused_ = true;
-      if (refused_us_ < 0) refused_us_ = now_us;
-      if (now_us - refused_us_ > kInsistUs) fatal_ = "the server refuses: " + bye->reason;
-    } else {
-      closed_ = true;
-    }
+    if (peer_ < 0) return OnRefusal(now_us, bye->reason);
+    closed_ = true;
   } else {
     ++stats_.dropped_malformed;
   }

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdio>
 #include <memory>
-#include <random>
 
 #include "client/client.h"
+#include "client/key_file.h"
 #include "client/keyboard.h"
 #include "common/base/command_line.h"
 #include "common/base/names.h"
@@ -32,6 +32,7 @@ struct Flags {
   std::string smooth = "on";
   double duration_s = 0;
   double join_s = 10;
+  std::string key;
   std::string record;
   bool force = false;
   std::string room = "main";
@@ -52,6 +53,9 @@ void Define(CLI::App& app, Flags& f) {
       ->check(CLI::Range(0.0, 1e6));
   app.add_option("--join-timeout", f.join_s, "seconds to try to join, at first or again")
       ->check(CLI::Range(0.1, 1e6));
+  app.add_option("--key", f.key,
+                 "keep the secret of our place in this file (mode 0600): after a restart the "
+                 "place, with its car, is ours again at once");
   app.add_option("--record", f.record, "write an LCM log of the bus to this file");
   app.add_flag("--force", f.force, "overwrite the --record file");
   app.add_option("--room", f.room, "name of the room (for --record)");
@@ -76,8 +80,6 @@ ClientConfig Configure(const Flags& f) {
   }
   config.name = f.name;
   config.smooth = f.smooth == "on";
-  config.session_seed =
-      (static_cast<std::uint64_t>(std::random_device{}()) << 32) ^ std::random_device{}();
   if (f.drive == "bot") {
     config.drive = Drive::kBot;
   } else if (f.drive == "keyboard") {
@@ -112,14 +114,18 @@ int Play(const Flags& f) {
   if (f.server.empty()) {
     throw OperatorError("which server? for example: seam-client 127.0.0.1:7777");
   }
-  const ClientConfig config = Configure(f);
+  ClientConfig config = Configure(f);
+  std::unique_ptr<KeyFile> key_file;
+  if (!f.key.empty()) key_file = std::make_unique<KeyFile>(f.key);
+  if (key_file != nullptr) config.key = key_file->key();
   const ImpairProfile profile = FindProfile(f.impair);
   std::unique_ptr<Keyboard> keyboard;
   if (config.drive == Drive::kLive) keyboard = std::make_unique<Keyboard>();
   UdpNet udp(Address{0, 0});
   ImpairedNet net(udp, profile, profile, static_cast<std::uint64_t>(f.seed) + 7);
   Sink sink(f.lcm_url, f.record, f.force, f.room);
-  Client client(config, net, sink);
+  OsEntropy entropy;
+  Client client(config, net, sink, entropy);
   StopOnSignals();
   const std::int64_t begin = SteadyClockUs();
   ProgressLine line(f.quiet);
@@ -131,6 +137,7 @@ int Play(const Flags& f) {
       if (keyboard->quit()) break;
     }
     client.Tick(now, CpuUs());
+    if (key_file != nullptr && client.key() != key_file->key()) key_file->Write(client.key());
     sink.Poll();
     recording.Look(sink.trouble(), line);
     const double elapsed_s = static_cast<double>(now - begin) * 1e-6;

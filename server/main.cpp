@@ -136,7 +136,8 @@ int Serve(const Flags& f) {
   UdpNet udp(local);
   ImpairedNet net(udp, profile, profile, static_cast<std::uint64_t>(f.seed));
   Sink sink(f.lcm_url, f.record, f.force, f.room);
-  Server server(scene, config, net, sink);
+  OsEntropy entropy;
+  Server server(scene, config, net, sink, entropy);
   StopOnSignals();
   std::fprintf(stderr,
                "seam-server: %s, mode %s%s%s, network %s, on %s; waiting for %d player(s)\n",
@@ -167,11 +168,11 @@ int Serve(const Flags& f) {
   const Stats& s = server.stats();
   std::fprintf(stderr,
                "seam-server: %lld ticks; dropped %lld malformed, %lld stale, %lld without right, "
-               "%lld implausible; %lld bus failures\n",
+               "%lld implausible, %lld over budget; %lld bus failures\n",
                static_cast<long long>(server.tick()), static_cast<long long>(s.dropped_malformed),
                static_cast<long long>(s.dropped_stale), static_cast<long long>(s.dropped_right),
                static_cast<long long>(s.dropped_implausible),
-               static_cast<long long>(sink.failures()));
+               static_cast<long long>(s.dropped_budget), static_cast<long long>(sink.failures()));
   return recording.End(sink.trouble());
 }
 

@@ -48,13 +48,15 @@ Inputs Scripted(const Scene& scene, int player, std::int64_t tick) {
 
 }  // namespace
 
-Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorder& recorder)
+Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorder& recorder,
+               Entropy& entropy)
     : scene_(scene),
       config_(config),
       room_(MakeRoom(scene_, config_)),
       net_(net),
       replica_(scene_, config.sync, 0, -1),
-      sessions_(scene_, Encode(room_), net),
+      sessions_(scene_, Encode(room_), AllowedTraffic(config.sync.tick_hz, config.sync.send_hz),
+                net, entropy),
       authority_(scene_, config.sync, replica_),
       edits_(replica_.world(), authority_, config.sync.tick_hz),
       filter_(scene_, replica_, authority_, edits_, stats_.counters),
@@ -102,8 +104,8 @@ void Server::FollowSessions(std::int64_t now_us) {
         broadcast_.Say(now_us,
                        event.name + " joins from " + ToString(event.address) + " as " + peer);
         break;
-      case SessionEvent::Kind::kProven: {
-        Session& session = *sessions_.Find(event.address);
+      case SessionEvent::Kind::kLoading: {
+        Session& session = *sessions_.Find(event.peer);
         SendWorld(now_us, session);
         break;
       }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "common/base/entropy.h"
 #include "common/net/net.h"
 #include "common/record/recorder.h"
 #include "common/sync/replica.h"
@@ -32,8 +33,10 @@ struct ServerConfig {
 
 class Server {
  public:
-  /// `net` and `recorder` must outlive the server.
-  Server(const Scene& scene, const ServerConfig& config, Net& net, Recorder& recorder);
+  /// `net`, `recorder` and `entropy` must outlive the server. Who can guess what `entropy` gives
+  /// can take any player's place.
+  Server(const Scene& scene, const ServerConfig& config, Net& net, Recorder& recorder,
+         Entropy& entropy);
   ~Server();
 
   /// Receives, steps the ticks that are due, sends. `now_us`: any clock that never runs backwards;
@@ -50,6 +53,8 @@ class Server {
   /// Players of the scene who are in the room.
   int player_count() const { return sessions_.player_count(); }
   const Stats& stats() const { return stats_.counters; }
+  /// Messages of sessions that were decoded, since the start.
+  std::int64_t decoded() const { return stats_.decoded; }
   const Replica& replica() const { return replica_; }
   /// An edit from outside; see EditLog::Add.
   bool Order(const Edit& edit) { return edits_.Add(edit); }

@@ -44,12 +44,14 @@ void Server::ReceiveAll(std::int64_t now_us) {
         [&](Session& session, ByteView message) { OnMessage(now_us, session, message); });
     if (verdict == SessionTable::Verdict::kMalformed) ++stats.dropped_malformed;
     if (verdict == SessionTable::Verdict::kNoRight) ++stats.dropped_right;
+    if (verdict == SessionTable::Verdict::kOverBudget) ++stats.dropped_budget;
     FollowSessions(now_us);
   }
   stats_.NoteDiscarded(net_.discarded());
 }
 
 void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
+  ++stats_.decoded;
   const AnyMessage any = Decode(bytes);
   if (const auto* states = std::get_if<States>(&any)) {
     OnStates(now_us, session, *states);
@@ -61,11 +63,11 @@ void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
     OnRelease(session, *release);
   } else if (const auto* proposal = std::get_if<EditOrder>(&any)) {
     OnProposal(session, *proposal);
-  } else if (std::holds_alternative<Hello>(any)) {
-    sessions_.NoteHello(session);
+  } else if (std::holds_alternative<Ready>(any)) {
+    sessions_.NoteReady(session);
     FollowSessions(now_us);
   } else if (std::holds_alternative<Bye>(any)) {
-    session.leaving = true;
+    session.leaving = session.goodbye = true;
     session.leaving_why = "left";
   } else {
     ++stats_.counters.dropped_malformed;
@@ -92,7 +94,8 @@ void Server::OnPing(std::int64_t now_us, Session& session, const Ping& ping) {
 }
 
 void Server::OnInputs(std::int64_t now_us, Session& session, const Inputs& inputs) {
-  if (session.player < 0 || inputs.player != session.player) {
+  const bool ready = session.stage == SessionStage::kReady;
+  if (!ready || session.player < 0 || inputs.player != session.player) {
     ++stats_.counters.dropped_right;
     return;
   }

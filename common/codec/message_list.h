@@ -43,8 +43,8 @@
     m.x, m.y, m.dv)                                                                               \
   X(Stats, stats_t, kBusPeer, "stats", m.utime, m.sequence, m.peer, m.tick, m.bytes_out,          \
     m.bytes_in, m.datagrams_out, m.datagrams_in, m.dropped_malformed, m.dropped_stale,            \
-    m.dropped_right, m.dropped_implausible, m.cpu_us, m.rtt_us, m.loss_ppm, m.tick_late_us,       \
-    m.clock_offset_us)                                                                            \
+    m.dropped_right, m.dropped_implausible, m.dropped_budget, m.cpu_us, m.rtt_us, m.loss_ppm,     \
+    m.tick_late_us, m.clock_offset_us)                                                            \
   X(Event, event_t, kBusPeer, "event", m.utime, m.sequence, m.peer, m.tick, m.text)               \
   X(Bye, bye_t, kEdge, "", m.utime, m.reason)
 

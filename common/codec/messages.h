@@ -285,6 +285,7 @@ struct Stats {
   std::int64_t dropped_stale = 0;        ///< old epoch or old tick
   std::int64_t dropped_right = 0;        ///< sender had no right to say it
   std::int64_t dropped_implausible = 0;  ///< not finite, too fast, out of the world
+  std::int64_t dropped_budget = 0;       ///< datagrams beyond what their sender may send
   std::int64_t cpu_us = 0;               ///< CPU time of the process (0 in virtual time)
   std::int32_t rtt_us = 0;               ///< least round trip of the last window, -1 unknown
   std::int32_t loss_ppm = 0;             ///< datagrams lost on the way in, per million

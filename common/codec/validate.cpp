@@ -189,8 +189,8 @@ bool Valid(const Stats& m) {
   return Time(m.utime) && m.sequence >= 0 && Peer(m.peer) && TickOrBefore(m.tick) &&
          Counter(m.bytes_out) && Counter(m.bytes_in) && Counter(m.datagrams_out) &&
          Counter(m.datagrams_in) && Counter(m.dropped_malformed) && Counter(m.dropped_stale) &&
-         Counter(m.dropped_right) && Counter(m.dropped_implausible) && Counter(m.cpu_us) &&
-         m.rtt_us >= -1 && Within(m.loss_ppm, 0, 1000000);
+         Counter(m.dropped_right) && Counter(m.dropped_implausible) && Counter(m.dropped_budget) &&
+         Counter(m.cpu_us) && m.rtt_us >= -1 && Within(m.loss_ppm, 0, 1000000);
 }
 
 bool Valid(const Event& m) {

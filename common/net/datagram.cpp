@@ -1,5 +1,7 @@
 #include "common/net/datagram.h"
 
+#include <algorithm>
+
 #include "common/base/check.h"
 #include "common/net/crc32c.h"
 #include "common/net/link.h"
@@ -60,6 +62,22 @@ bool ReadHeader(ByteView datagram, DatagramHeader* header) {
   header->ack = static_cast<std::uint16_t>(Get(datagram.data + 18, 2));
   header->ack_bits = static_cast<std::uint32_t>(Get(datagram.data + 20, 4));
   return header->session != 0;
+}
+
+ByteView FirstUnreliable(ByteView datagram) {
+  constexpr std::size_t kAt = kDatagramHeaderBytes + 2;
+  if (datagram.size <= kAt) return {};
+  const auto bytes = static_cast<std::size_t>(Get(datagram.data + kDatagramHeaderBytes, 2));
+  if (bytes > std::min(datagram.size - kAt, kMessageBytesMax)) return {};
+  return {datagram.data + kAt, bytes};
+}
+
+Bytes LooseDatagram(std::uint64_t session, ByteView message) {
+  DatagramWriter writer;
+  writer.Append({false, 0, message});
+  DatagramHeader header;
+  header.session = session;
+  return writer.Finish(header);
 }
 
 bool ReadMessages(ByteView datagram, std::vector<DatagramMessage>* messages) {

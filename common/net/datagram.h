@@ -26,6 +26,9 @@ struct DatagramHeader {
   std::uint16_t sequence = 0;
   std::uint16_t ack = 0;       ///< a sequence number that arrived
   std::uint32_t ack_bits = 0;  ///< bit i: ack - 1 - i arrived too
+
+  /// Outside of any session: part of the handshake, or a refusal. No Link takes it.
+  bool loose() const { return sequence == 0 && ack == 0 && ack_bits == 0; }
 };
 
 struct DatagramMessage {
@@ -59,5 +62,11 @@ bool ReadHeader(ByteView datagram, DatagramHeader* header);
 /// Splits what follows the header. False when a length is 0, too large or beyond the end; then
 /// `messages` is of no use.
 bool ReadMessages(ByteView datagram, std::vector<DatagramMessage>* messages);
+
+/// The first message of a datagram whose header is good, if it is unreliable and whole; else empty.
+ByteView FirstUnreliable(ByteView datagram);
+
+/// A datagram of one unreliable message outside of any session; see DatagramHeader::loose.
+Bytes LooseDatagram(std::uint64_t session, ByteView message);
 
 }  // namespace seam

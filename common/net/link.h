@@ -20,10 +20,6 @@ namespace seam {
 /// Reliable messages in flight; more wait in a queue.
 constexpr int kReliableWindow = 64;
 
-/// Reads the session of a datagram without a Link; 0 when it is not one of ours (too short, too
-/// long, another magic, a wrong checksum).
-std::uint64_t PeekSession(ByteView datagram);
-
 class Link {
  public:
   /// Both ends must have the same session number (not 0); the client draws it at random.
@@ -50,6 +46,10 @@ class Link {
   /// when it is malformed, of another session, a duplicate or too old; nothing is delivered then.
   /// `deliver` may send on this link, but must neither destroy it nor call Receive.
   bool Receive(std::int64_t now_us, ByteView datagram, const Sink& deliver);
+  /// Asked for a datagram that is good and new, before anything follows from it: may so many
+  /// messages come? If not, it is as if the datagram had been lost.
+  using Gate = std::function<bool(std::size_t messages)>;
+  bool Receive(std::int64_t now_us, ByteView datagram, const Gate& gate, const Sink& deliver);
 
   std::int64_t last_receive_us() const;  ///< -1 before the first
   /// Smoothed (RFC 6298), with the time the peer lets pass until its next datagram; -1 before the

@@ -6,28 +6,40 @@
 
 #include "common/net/link.h"
 #include "common/net/net.h"
+#include "server/sessions/traffic_budget.h"
 
 namespace seam {
 
 enum class SessionStage {
-  kGreeted,  ///< Welcome sent; its acknowledgement proves the address before much is sent there
-  kLoading,  ///< the Room is under way
-  kReady,    ///< simulates (or will from tick 0)
+  kAdmitted,  ///< has proved its address; the Welcome waits, and the Room comes next
+  kLoading,   ///< the Room is under way
+  kReady,     ///< simulates (or will from tick 0)
+};
+
+/// Who sends: one address may hold several conversations.
+struct SessionId {
+  Address address;
+  std::uint64_t number = 0;  ///< drawn by the client
+  bool operator<(const SessionId& o) const {
+    return address != o.address ? address < o.address : number < o.number;
+  }
 };
 
 struct Session {
-  explicit Session(std::uint64_t session) : number(session), link(session) {}
+  Session(const SessionId& session, const TrafficRate& allowed)
+      : id(session), link(session.number), budget(allowed) {}
 
-  std::uint64_t number;  ///< drawn by the client
+  SessionId id;
   Link link;
-  Address address;
+  TrafficBudget budget;
   std::string name;
   int peer = 0;
   int player = -1;
-  SessionStage stage = SessionStage::kGreeted;
+  SessionStage stage = SessionStage::kAdmitted;
   std::int64_t created_us = 0;
   std::int64_t repaired_us = -1000000000;
   bool leaving = false;  ///< to be dropped at the next opportunity
+  bool goodbye = false;  ///< it said so itself
   std::string leaving_why;
 };
 

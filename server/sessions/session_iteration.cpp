@@ -6,8 +6,9 @@
 
 namespace seam {
 
-Session* SessionTable::Find(const Address& address) {
-  const auto found = sessions_.find(address);
+Session* SessionTable::Find(int peer) {
+  const auto found = std::find_if(sessions_.begin(), sessions_.end(),
+                                  [&](const auto& entry) { return entry.second->peer == peer; });
   return found == sessions_.end() ? nullptr : found->second.get();
 }
 
@@ -18,7 +19,7 @@ int SessionTable::player_count() const {
 
 std::vector<int> SessionTable::PeerOfPlayer() const {
   std::vector<int> peers(scene_.players.size(), -1);
-  for (const auto& [address, session] : sessions_) {
+  for (const auto& [id, session] : sessions_) {
     if (session->player >= 0 && session->stage == SessionStage::kReady) {
       peers[static_cast<std::size_t>(session->player)] = session->peer;
     }
@@ -28,7 +29,7 @@ std::vector<int> SessionTable::PeerOfPlayer() const {
 
 std::int64_t SessionTable::WorstRttUs() const {
   std::int64_t worst = -1;
-  for (const auto& [address, session] : sessions_) {
+  for (const auto& [id, session] : sessions_) {
     worst = std::max(worst, session->link.rtt_us());
   }
   return worst;
@@ -36,29 +37,30 @@ std::int64_t SessionTable::WorstRttUs() const {
 
 std::int64_t SessionTable::WorstLossPpm() const {
   std::int64_t worst = 0;
-  for (const auto& [address, session] : sessions_) {
+  for (const auto& [id, session] : sessions_) {
     worst = std::max(worst, session->link.loss_ppm());
   }
   return worst;
 }
 
 void SessionTable::SendToAll(const Bytes& message) {
-  for (auto& [address, session] : sessions_) {
-    if (session->stage == SessionStage::kGreeted || session->link.SendReliable(message)) continue;
+  for (auto& [id, session] : sessions_) {
+    if (session->stage == SessionStage::kAdmitted || session->link.SendReliable(message)) continue;
     session->leaving = true;
     session->leaving_why = "does not acknowledge";
   }
 }
 
 void SessionTable::Flush(std::int64_t now_us, Stats* stats) {
-  for (auto& [address, session] : sessions_) {
-    const Address to = address;
+  for (auto& [id, session] : sessions_) {
+    const Address to = id.address;
     session->link.Flush(now_us, [&](ByteView datagram) {
       stats->bytes_out += static_cast<std::int64_t>(datagram.size);
       stats->datagrams_out += 1;
       net_.Send(to, datagram);
     });
   }
+  handshake_.Count(stats);
   net_.Flush();
 }
 

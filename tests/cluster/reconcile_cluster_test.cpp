@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "common/measure/measure.h"
 #include "tests/lab/cluster.h"
 
@@ -15,9 +18,17 @@ ClusterConfig With(const std::string& scene, const std::string& reconcile) {
   return config;
 }
 
+/// The median of five seeds: after a collision one network's dice say little of a rule.
 double ErrorOf(const std::string& scene, const std::string& reconcile) {
-  const Recording recording = RunCluster(With(scene, reconcile));
-  return Measure(recording, ComputeOracle(recording)).error_rms_m;
+  std::vector<double> errors;
+  for (int seed = 1; seed <= 5; ++seed) {
+    ClusterConfig config = With(scene, reconcile);
+    config.seed = seed;
+    const Recording recording = RunCluster(config);
+    errors.push_back(Measure(recording, ComputeOracle(recording)).error_rms_m);
+  }
+  std::nth_element(errors.begin(), errors.begin() + 2, errors.end());
+  return errors[2];
 }
 
 /// Bounds are twice what was measured, m.

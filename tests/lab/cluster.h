@@ -45,12 +45,19 @@ class Cluster {
   /// Called after every virtual instant.
   std::function<void()> each_instant;
 
-  /// The client's process dies (nothing more is sent), or a new one starts under its name.
+  /// The client's process dies (nothing more is sent), or a new one starts under its name and with
+  /// its key.
   void Kill(int client);
   void Revive(int client);
+  /// The client's process is stopped, or goes on.
+  void Pause(int client, bool paused) {
+    clients_[static_cast<std::size_t>(client)].paused = paused;
+  }
 
   Server& server() { return *server_; }
   Client* client(int i) { return clients_[static_cast<std::size_t>(i)].client.get(); }
+  /// The key that a revived client would show.
+  std::int64_t key(int i) const { return clients_[static_cast<std::size_t>(i)].key; }
   int client_count() const { return static_cast<int>(clients_.size()); }
   std::int64_t now_us() const { return now_us_; }
   const Recording& recording() { return recorder_.memory.builder.recording(); }
@@ -74,8 +81,11 @@ class Cluster {
   };
   struct Peer {
     std::unique_ptr<Net> endpoint;
+    std::unique_ptr<Entropy> entropy;
     std::unique_ptr<Client> client;
     std::int64_t clock_offset_us = 0;
+    std::int64_t key = 0;  // what seam-client keeps in its --key file
+    bool paused = false;
   };
   void StartClient(std::size_t i);
   void Instant();
@@ -87,6 +97,7 @@ class Cluster {
   Address server_address_{0x7f000001, 7777};
   std::unique_ptr<Net> server_endpoint_;
   std::unique_ptr<ImpairedNet> server_net_;
+  std::unique_ptr<Entropy> server_entropy_;
   std::unique_ptr<Server> server_;
   std::vector<Peer> clients_;
   std::int64_t now_us_ = 1000000;

@@ -150,7 +150,8 @@ std::set<int> MechanismsOf(const Recording& recording, int peer, std::int64_t ti
 
 TEST_F(JoinLeave, AKilledClientsMechanismsAreTakenBackAndGivenToItsSuccessor) {
   SEAM_INSIDE_ONLY();
-  const std::vector<std::string> flags = {"--drive", "ann", "--quiet"};
+  const std::vector<std::string> flags = {"--drive", "ann", "--quiet", "--key",
+                                          folder_ / "ann.key"};
   SessionPlan plan = Plan("killed");
   plan.server_flags = {"--quiet"};
   plan.clients = {{"ann", flags}, {"bob", {"--quiet"}}};
@@ -188,14 +189,14 @@ TEST_F(JoinLeave, AKilledClientsMechanismsAreTakenBackAndGivenToItsSuccessor) {
   EXPECT_TRUE(session.WaitUntil(
       [&](const Recording& r) { return has_them(r) && ShowsAfter(r, 1, taken_back + 30); }, 15))
       << session.Story();
-  // And when she comes back before she is missed, under a name that the dead one still holds.
+  // And when she comes back before she is missed, while the dead one still has the place.
   session.client("ann").Signal(SIGKILL);
   ASSERT_TRUE(session.client("ann").Wait(10));
   const std::int64_t again = session.Captured().last_tick;
   session.Join("ann", flags);
   EXPECT_TRUE(session.WaitUntil(
       [&](const Recording& r) {
-        return Says(r, "replaced by a new session of the same name") && has_them(r) &&
+        return Says(r, "replaced by a new session with its key") && has_them(r) &&
                ShowsAfter(r, 1, again + 2 * kHz);
       },
       15))

@@ -4,8 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "common/net/memory.h"
 #include "common/sync/lease.h"
+#include "tests/support/session_guest.h"
 
 namespace seam {
 namespace {
@@ -20,71 +20,54 @@ name = "ann"
 name = "bob"
 )";
 
-/// The far end: a link that says Hello and acknowledges.
-struct Guest {
-  Guest(MemoryNetwork* network, std::uint16_t port, const std::string& guest)
-      : address{0x7f000001, port}, net(network->Attach(address)), link(port), name(guest) {}
-
-  Address address;
-  std::unique_ptr<Net> net;
-  Link link;
-  std::string name;
-  std::string refusal;
-};
-
 class SessionTableTest : public ::testing::Test {
  protected:
   using Kind = SessionEvent::Kind;
 
-  /// What the guests send arrives, the table answers, and the guests read it.
+  /// What the guests send arrives, and the table answers.
   void Exchange() {
     Address from;
     Bytes datagram;
     while (net_->Receive(&from, &datagram)) {
-      table_.Receive(now_us_, from, datagram, [&](Session& session, ByteView message) {
+      verdict_ = table_.Receive(now_us_, from, datagram, [&](Session& session, ByteView message) {
+        ++delivered_;
         const AnyMessage any = Decode(message);
-        if (std::holds_alternative<Hello>(any)) table_.NoteHello(session);
+        if (std::holds_alternative<Ready>(any)) table_.NoteReady(session);
       });
     }
     table_.DropSilent(now_us_);
     table_.Advance(now_us_);
-    Stats stats;
-    table_.Flush(now_us_, &stats);
+    table_.Flush(now_us_, &stats_);
     for (const SessionEvent& event : table_.TakeEvents()) events_.push_back(event);
   }
-  void Say(Guest* guest, std::int32_t protocol = kProtocolVersion) {
-    Hello hello;
-    hello.name = guest->name;
-    hello.protocol = protocol;
-    guest->link.SendUnreliable(Encode(hello));
-    Listen(guest);
-  }
-  /// Reads what came and acknowledges it.
-  void Listen(Guest* guest) {
-    guest->link.Flush(now_us_, [&](ByteView datagram) { guest->net->Send({1, 7777}, datagram); });
+  /// Says Hello, and Join with the token that came.
+  void Enter(Guest* guest) {
+    guest->SayHello();
     Exchange();
-    Address from;
-    Bytes datagram;
-    while (guest->net->Receive(&from, &datagram)) {
-      guest->link.Receive(now_us_, datagram, [&](ByteView message) {
-        const AnyMessage any = Decode(message);
-        if (const auto* bye = std::get_if<Bye>(&any)) guest->refusal = bye->reason;
-      });
-    }
+    guest->Read(now_us_);
+    guest->SayJoin();
+    Exchange();
+    guest->Read(now_us_);
   }
-  /// Joins, proves its address, and gets ready.
+  /// Enters, loads, and is ready.
   void GetReady(Guest* guest) {
-    Say(guest);
+    Enter(guest);
+    guest->link.SendReliable(Encode(Ready()));
     for (int n = 0; n < 3; ++n) Later(guest);
-    Say(guest);
   }
   void Later(Guest* guest) {
     now_us_ += 150000;
-    Listen(guest);
+    guest->Flush(now_us_);
+    Exchange();
+    guest->Read(now_us_);
   }
-  int PeerOf(const Guest& guest) {
-    const Session* session = table_.Find(guest.address);
-    return session == nullptr ? -1 : session->peer;
+  /// The peer of the session of this name; -1: there is none.
+  int PeerOf(const std::string& name) {
+    for (int peer = 1; peer < kPeersMax; ++peer) {
+      const Session* session = table_.Find(peer);
+      if (session != nullptr && session->name == name) return peer;
+    }
+    return -1;
   }
   std::vector<Kind> Kinds() const {
     std::vector<Kind> kinds;
@@ -94,54 +77,197 @@ class SessionTableTest : public ::testing::Test {
 
   Scene scene_ = ParseScene(kTwoPlayers, "test.toml");
   MemoryNetwork network_;
-  std::unique_ptr<Net> net_ = network_.Attach({1, 7777});
-  SessionTable table_{scene_, Bytes(2500, 1), *net_};
+  std::unique_ptr<Net> net_ = network_.Attach(Guest::kServer);
+  SeededEntropy entropy_{1};
+  SessionTable table_{scene_, Bytes(2500, 1), AllowedTraffic(60, 30), *net_, entropy_};
   std::int64_t now_us_ = 1000000;
   std::vector<SessionEvent> events_;
+  SessionTable::Verdict verdict_ = SessionTable::Verdict::kTaken;
+  int delivered_ = 0;
+  Stats stats_;
 };
 
 TEST_F(SessionTableTest, PlayerPIsPeerPPlusOneAndSpectatorsComeAfterThePlayers) {
   Guest guest(&network_, 1, "guest"), bob(&network_, 2, "bob"), ann(&network_, 3, "ann");
-  Say(&guest), Say(&bob), Say(&ann);
-  EXPECT_EQ(PeerOf(guest), 3);
-  EXPECT_EQ(PeerOf(bob), 2);
-  EXPECT_EQ(PeerOf(ann), 1);
-  EXPECT_EQ(table_.Find(guest.address)->player, -1);
-  EXPECT_EQ(table_.Find(bob.address)->player, 1);
+  Enter(&guest), Enter(&bob), Enter(&ann);
+  EXPECT_EQ(PeerOf("guest"), 3);
+  EXPECT_EQ(PeerOf("bob"), 2);
+  EXPECT_EQ(PeerOf("ann"), 1);
+  EXPECT_EQ(table_.Find(3)->player, -1);
+  EXPECT_EQ(table_.Find(2)->player, 1);
 }
 
-TEST_F(SessionTableTest, JoiningProvingAndGettingReadyAreSaidInThisOrder) {
+TEST_F(SessionTableTest, JoiningLoadingAndGettingReadyAreSaidInThisOrder) {
   Guest bob(&network_, 2, "bob");
-  Say(&bob);
-  EXPECT_EQ(Kinds(), std::vector<Kind>{Kind::kJoined});
+  Enter(&bob);
+  EXPECT_EQ(Kinds(), (std::vector<Kind>{Kind::kJoined, Kind::kLoading}));
   EXPECT_EQ(table_.PeerOfPlayer(), (std::vector<int>{-1, -1})) << "joined is not ready";
-  Say(&bob);
-  EXPECT_EQ(Kinds(), (std::vector<Kind>{Kind::kJoined, Kind::kProven}))
-      << "a Hello before the room was sent is no readiness";
-  Say(&bob);
-  EXPECT_EQ(Kinds(), (std::vector<Kind>{Kind::kJoined, Kind::kProven, Kind::kReady}));
+  bob.link.SendReliable(Encode(Ready()));
+  Later(&bob);
+  EXPECT_EQ(Kinds(), (std::vector<Kind>{Kind::kJoined, Kind::kLoading, Kind::kReady}));
   EXPECT_EQ(table_.PeerOfPlayer(), (std::vector<int>{-1, 2}));
 }
 
-TEST_F(SessionTableTest, ANameInUseIsRefusedAndFreeWhenItsOwnerWasSilentForAWhile) {
-  Guest bob(&network_, 2, "bob"), other(&network_, 3, "bob");
-  Say(&bob), Say(&other);
-  EXPECT_EQ(PeerOf(other), -1);
-  EXPECT_EQ(other.refusal, "the name bob is in use");
-  now_us_ += 1500000;
-  Guest again(&network_, 4, "bob");
-  Say(&again);
-  EXPECT_EQ(PeerOf(again), 2) << "his number too";
-  EXPECT_EQ(PeerOf(bob), -1);
-  EXPECT_EQ(events_.back().kind, Kind::kJoined);
-  EXPECT_EQ(events_[events_.size() - 2].kind, Kind::kLeft);
+TEST_F(SessionTableTest, AHelloBuildsNothingAndDrawsLessThanItself) {
+  Guest bob(&network_, 2, "b");
+  bob.SayHello();
+  Exchange();
+  bob.Read(now_us_);
+  EXPECT_TRUE(bob.token.has_value());
+  EXPECT_EQ(table_.count(), 0);
+  EXPECT_TRUE(events_.empty());
+  Hello shortest;
+  shortest.name = "b";
+  EXPECT_LE(bob.bytes_in, LooseDatagram(1, Encode(shortest)).size());
+  EXPECT_EQ(stats_.bytes_out, static_cast<std::int64_t>(bob.bytes_in));
 }
 
-TEST_F(SessionTableTest, AnotherProtocolIsRefused) {
+TEST_F(SessionTableTest, OnlyTheAddressAndSessionThatWereChallengedMayJoinAndNotForEver) {
+  Guest bob(&network_, 2, "bob"), thief(&network_, 3, "bob");
+  bob.SayHello();
+  Exchange();
+  bob.Read(now_us_);
+  thief.token = bob.token;
+  thief.SayJoin();
+  Exchange();
+  EXPECT_EQ(table_.count(), 0) << "another address";
+  bob.number = 77;
+  bob.SayJoin();
+  Exchange();
+  EXPECT_EQ(table_.count(), 0) << "another session";
+  bob.number = 2;
+  now_us_ += 2 * AddressToken::kSlotUs;
+  bob.SayJoin();
+  Exchange();
+  EXPECT_EQ(table_.count(), 0) << "too old";
+  const std::optional<std::int64_t> old = bob.token;
+  bob.Read(now_us_);
+  EXPECT_NE(bob.token, old) << "a new one came";
+  now_us_ += AddressToken::kSlotUs;
+  bob.SayJoin();
+  Exchange();
+  EXPECT_EQ(table_.count(), 1) << "of the slot before";
+}
+
+TEST_F(SessionTableTest, AJoinThatIsRepeatedIsOneSession) {
   Guest bob(&network_, 2, "bob");
-  Say(&bob, kProtocolVersion + 1);
+  Enter(&bob);
+  bob.SayJoin();
+  bob.SayHello();
+  Exchange();
+  EXPECT_EQ(verdict_, SessionTable::Verdict::kTaken);
+  EXPECT_EQ(table_.count(), 1);
+  EXPECT_EQ(delivered_, 0);
+}
+
+TEST_F(SessionTableTest, ANameInUseIsRefusedUntil30SecondsAfterItsOwnerWasLastHeard) {
+  Guest bob(&network_, 2, "bob"), other(&network_, 3, "bob");
+  GetReady(&bob);
+  const std::int64_t heard_us = now_us_;
+  Enter(&other);
+  EXPECT_EQ(other.refusal, "the name bob is in use");
+  now_us_ = heard_us + PlaceTable::kNameHeldUs - 1;
+  Exchange();
+  EXPECT_EQ(table_.count(), 0) << "gone, but his place is held";
+  other.refusal.clear();
+  Enter(&other);
+  EXPECT_FALSE(other.welcomed);
+  EXPECT_EQ(other.refusal, "the name bob is in use");
+  now_us_ = heard_us + PlaceTable::kNameHeldUs;
+  Enter(&other);
+  EXPECT_TRUE(other.welcomed);
+  EXPECT_EQ(PeerOf("bob"), 2) << "his number too";
+  EXPECT_NE(other.key, bob.key);
+}
+
+TEST_F(SessionTableTest, TheKeyGivesThePlaceBackAtOnceAndEndsTheOldSession) {
+  Guest bob(&network_, 2, "bob");
+  GetReady(&bob);
+  Guest again(&network_, 4, "bob");
+  again.key = bob.key;
+  events_.clear();
+  Enter(&again);
+  EXPECT_TRUE(again.welcomed);
+  EXPECT_EQ(again.key, bob.key) << "drawn once";
+  EXPECT_EQ(table_.count(), 1);
+  EXPECT_EQ(PeerOf("bob"), 2);
+  EXPECT_EQ(table_.Find(2)->player, 1);
+  EXPECT_EQ(Kinds(), (std::vector<Kind>{Kind::kLeft, Kind::kJoined, Kind::kLoading}));
+  // Also when the old session is long gone.
+  now_us_ += 2 * kPatienceUs;
+  Exchange();
   EXPECT_EQ(table_.count(), 0);
-  EXPECT_FALSE(bob.refusal.empty());
+  Guest third(&network_, 5, "bob");
+  third.key = bob.key;
+  Enter(&third);
+  EXPECT_EQ(PeerOf("bob"), 2);
+}
+
+TEST_F(SessionTableTest, AJoinOfASessionThatIsOverDoesNotEndTheOneThatCameAfterIt) {
+  Guest bob(&network_, 2, "bob");
+  GetReady(&bob);
+  Guest again(&network_, 4, "bob");
+  again.key = bob.key;
+  Enter(&again);
+  bob.SayJoin();
+  Exchange();
+  EXPECT_EQ(table_.count(), 1);
+  EXPECT_EQ(table_.Find(2)->id.number, again.number);
+}
+
+TEST_F(SessionTableTest, AnotherKeyIsNone) {
+  Guest bob(&network_, 2, "bob"), other(&network_, 3, "bob");
+  GetReady(&bob);
+  other.key = bob.key + 1;
+  Enter(&other);
+  EXPECT_FALSE(other.welcomed);
+  EXPECT_EQ(table_.Find(2)->id.number, bob.number);
+}
+
+TEST_F(SessionTableTest, WhoSaysGoodbyeOrNeverGotReadyHoldsNoName) {
+  Guest bob(&network_, 2, "bob"), other(&network_, 3, "bob");
+  GetReady(&bob);
+  table_.Find(2)->leaving = table_.Find(2)->goodbye = true;
+  Enter(&other);
+  EXPECT_TRUE(other.welcomed);
+  now_us_ += kPatienceUs + 1;
+  Exchange();
+  Guest third(&network_, 4, "bob");
+  Enter(&third);
+  EXPECT_TRUE(third.welcomed);
+}
+
+TEST_F(SessionTableTest, OneAddressMayHoldSeveralSessionsAndNoneDisturbsTheOther) {
+  Guest bob(&network_, 2, "bob");
+  GetReady(&bob);
+  now_us_ += 600000;
+  DatagramWriter header_alone;
+  bob.net->Send(Guest::kServer, header_alone.Finish({999, 1, 0, 0}));
+  Exchange();
+  EXPECT_EQ(verdict_, SessionTable::Verdict::kNoRight);
+  EXPECT_EQ(table_.count(), 1);
+  bob.number = 1000;
+  bob.name = "guest";
+  Enter(&bob);
+  EXPECT_EQ(table_.count(), 2);
+  EXPECT_EQ(PeerOf("bob"), 2);
+  EXPECT_EQ(PeerOf("guest"), 3);
+}
+
+TEST_F(SessionTableTest, AnotherProtocolIsRefusedWithBothVersionsWithinTheByteCredit) {
+  Guest bob(&network_, 2, "bob");
+  std::size_t sent = 0;
+  for (int n = 0; n < 10 && bob.refusal.empty(); ++n) {
+    bob.SayHello(2);
+    Hello hello;
+    hello.name = "bob";
+    sent += LooseDatagram(1, Encode(hello)).size();
+    Exchange();
+    bob.Read(now_us_);
+    EXPECT_LE(bob.bytes_in, sent);
+  }
+  EXPECT_EQ(bob.refusal, "protocol 3 is spoken here, you speak 2");
+  EXPECT_EQ(table_.count(), 0);
   EXPECT_TRUE(events_.empty());
 }
 
@@ -160,31 +286,46 @@ TEST_F(SessionTableTest, WhoIsSilentLongerThanTheServersPatienceIsGone) {
   EXPECT_TRUE(events_.back().was_ready);
 }
 
-TEST_F(SessionTableTest, WhoHasNotProvedItsAddressIsDroppedWhenOthersWantItsPlace) {
-  std::vector<std::unique_ptr<Guest>> forged;
-  const auto fill = [&](int n) {
-    const auto port = static_cast<std::uint16_t>(100 + n);
-    forged.push_back(std::make_unique<Guest>(&network_, port, "forged" + std::to_string(n)));
-    Guest& guest = *forged.back();
-    Hello hello;
-    hello.name = guest.name;
-    guest.link.SendUnreliable(Encode(hello));
-    guest.link.Flush(now_us_, [&](ByteView datagram) { guest.net->Send({1, 7777}, datagram); });
-    Exchange();
+TEST_F(SessionTableTest, AHeldPlaceOfASpectatorGivesWayWhenTheRoomIsFull) {
+  std::vector<std::unique_ptr<Guest>> guests;
+  const auto add = [&](int n) {
+    guests.push_back(std::make_unique<Guest>(&network_, static_cast<std::uint16_t>(100 + n),
+                                             "guest" + std::to_string(n)));
+    GetReady(guests.back().get());
+    return guests.back()->welcomed;
   };
-  for (int n = 0; n < 40; ++n) fill(n);
-  EXPECT_LT(table_.count(), kPeersMax);
-  EXPECT_EQ(PeerOf(*forged.back()), -1) << "the room is full";
-  Guest ann(&network_, 1, "ann"), bob(&network_, 2, "bob"), guest(&network_, 3, "guest");
-  GetReady(&ann), GetReady(&bob);
-  EXPECT_EQ(PeerOf(bob), 2) << "players have places of their own";
-  Say(&guest);
-  EXPECT_EQ(PeerOf(guest), -1) << "the forged ones still have time to prove themselves";
-  now_us_ += 1000000;
-  Guest again(&network_, 4, "guest");
-  Say(&again);
-  EXPECT_EQ(PeerOf(again), 3) << again.refusal;
-  EXPECT_EQ(PeerOf(*forged.front()), -1) << "the oldest gave way";
+  // Each stays silent after it got ready: the first are gone before the last come.
+  for (int n = 0; n < kPeersMax - 3; ++n) EXPECT_TRUE(add(n)) << n;
+  EXPECT_TRUE(add(50)) << "the one that was left first gave way";
+  Guest ann(&network_, 1, "ann");
+  GetReady(&ann);
+  EXPECT_EQ(PeerOf("ann"), 1) << "players have places of their own";
+}
+
+TEST_F(SessionTableTest, WhatIsBeyondTheBudgetIsNotDeliveredAndWhoInsistsHasToLeave) {
+  Guest bob(&network_, 2, "bob");
+  GetReady(&bob);
+  const int before = delivered_;
+  const Bytes one(1, 0);
+  int over = 0;
+  // 60 ticks a second, in each five full datagrams of the smallest messages there are.
+  for (int tick = 0; tick < 12 * 60 && table_.count() == 1; ++tick) {
+    now_us_ += 16667;
+    for (int n = 0; n < 5; ++n) {
+      for (int m = 0; m < 392; ++m) bob.link.SendUnreliable(one);
+      bob.Flush(now_us_);
+      Exchange();
+      over += verdict_ == SessionTable::Verdict::kOverBudget ? 1 : 0;
+      bob.Read(now_us_);
+    }
+  }
+  EXPECT_GT(over, 1000);
+  const double seconds = static_cast<double>(now_us_) / 1e6;
+  EXPECT_LE(delivered_ - before, AllowedTraffic(60, 30).messages * (seconds + kBudgetBurst));
+  EXPECT_EQ(table_.count(), 0);
+  EXPECT_EQ(events_.back().why, "sent more than it may for 10 s");
+  std::printf("[          ] %d of %d messages delivered\n", delivered_ - before,
+              static_cast<int>(seconds * 60) * 5 * 392);
 }
 
 }  // namespace

@@ -227,6 +227,7 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
   ExpectOnlyIn("common/scene/toml_tree\\.cpp", kProduct, "toml\\.hpp|toml[^/]*/.*");
   ExpectOnlyIn("render/options\\.cpp|common/base/command_line\\.h", kProduct, "CLI/.*");
   ExpectOnlyIn("server/script/script_lua[^/]*", kCode, "(.*/)?(lua|lauxlib|lualib)\\.h(pp)?");
+  ExpectOnlyIn("common/net/keyed_hash\\.cpp", kCode, "sodium\\.h|sodium/.*");
   ExpectOnlyIn("none", kProduct, "gtest/.*");
   ExpectOnlyIn("common/net/udp[^/]*", kProduct, "sys/socket\\.h|netinet/.*|arpa/.*|netdb\\.h");
 }

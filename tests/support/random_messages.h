@@ -114,9 +114,9 @@ class RandomMessages {
   void Fill(Impacts& m) { Fill(m, Count(0, 60)); }
   void Fill(Stats& m) {
     Common(m), Sequence(m), Set(m.peer, 0, 31), m.tick = Tick();
-    for (auto* n :
-         {&m.bytes_out, &m.bytes_in, &m.datagrams_out, &m.datagrams_in, &m.dropped_malformed,
-          &m.dropped_stale, &m.dropped_right, &m.dropped_implausible, &m.cpu_us}) {
+    for (auto* n : {&m.bytes_out, &m.bytes_in, &m.datagrams_out, &m.datagrams_in,
+                    &m.dropped_malformed, &m.dropped_stale, &m.dropped_right,
+                    &m.dropped_implausible, &m.dropped_budget, &m.cpu_us}) {
       Set(*n, 0, kTimeMaxUs - 1);
     }
     Set(m.rtt_us, -1, INT32_MAX), Set(m.loss_ppm, 0, 1000000), m.tick_late_us = Int32();

@@ -1,0 +1,34 @@
+#pragma once
+/// Proof that somebody receives at an address: a number that only this server can compute, sent
+/// there and repeated from there. The server remembers nothing of it.
+
+#include <cstdint>
+
+#include "common/base/entropy.h"
+#include "common/net/keyed_hash.h"
+#include "common/net/net.h"
+
+namespace seam {
+
+class AddressToken {
+ public:
+  /// Draws the secret.
+  explicit AddressToken(Entropy& entropy) : secret_(DrawHashKey(entropy)) {}
+
+  /// A keyed hash of the address, the session's number and the time slot.
+  std::int64_t Make(std::int64_t now_us, const Address& address, std::uint64_t session) const;
+  /// It was made for this address and session in this slot or the one before.
+  bool Good(std::int64_t now_us, const Address& address, std::uint64_t session,
+            std::int64_t token) const;
+
+  /// Length of a time slot, us: a token is good for at least one and at most two of them. Long
+  /// enough for the slowest path, short enough that a recorded one is soon worthless.
+  static constexpr std::int64_t kSlotUs = 10000000;
+
+ private:
+  std::int64_t InSlot(std::int64_t slot, const Address& address, std::uint64_t session) const;
+
+  const HashKey secret_;
+};
+
+}  // namespace seam

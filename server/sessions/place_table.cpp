@@ -1,0 +1,78 @@
+#include "server/sessions/place_table.h"
+
+#include <algorithm>
+
+namespace seam {
+
+PlaceTable::Answer PlaceTable::Claim(std::int64_t now_us, const std::string& name,
+                                     std::uint64_t key, std::uint64_t session) {
+  const int own = FindName(name);
+  if (own > 0) {
+    Place& place = At(own);
+    if (place.key == key) {
+      // A Join that was long under way, or recorded, must not end the session that came after it.
+      if (session == place.previous) return {};
+      place.key_known = true;
+      return {own, ""};
+    }
+    if (now_us - place.heard_us < kNameHeldUs) return {-1, "the name " + name + " is in use"};
+    place = Place();
+  }
+  int player = -1;
+  for (std::size_t p = 0; p < scene_.players.size(); ++p) {
+    if (scene_.players[p].name == name) player = static_cast<int>(p);
+  }
+  const int peer = ChoosePeer(player);
+  if (peer < 0) return {-1, "the room is full"};
+  Place& place = At(peer);
+  place = Place();
+  place.name = name;
+  place.player = player;
+  do {
+    place.key = entropy_.Next();
+  } while (place.key == 0);
+  return {peer, ""};
+}
+
+int PlaceTable::FindName(const std::string& name) const {
+  const auto found = std::find_if(places_.begin() + 1, places_.end(),
+                                  [&](const Place& place) { return place.name == name; });
+  return found == places_.end() ? -1 : static_cast<int>(found - places_.begin());
+}
+
+int PlaceTable::ChoosePeer(int player) const {
+  // Player p is peer p + 1 wherever possible, so that recordings of a scene agree on who is who;
+  // spectators come after the players.
+  const auto free = [](const Place& place) { return place.name.empty(); };
+  if (player >= 0 && free(at(player + 1))) return player + 1;
+  const auto first =
+      places_.begin() +
+      std::min<std::ptrdiff_t>(static_cast<std::ptrdiff_t>(scene_.players.size()) + 1, kPeersMax);
+  auto best = std::find_if(first, places_.end(), free);
+  // Else of those that are only held for their owners the one that was left first.
+  for (auto it = first; it != places_.end() && (best == places_.end() || !free(*best)); ++it) {
+    const bool earlier = best == places_.end() || it->heard_us < best->heard_us;
+    if (!it->occupied && earlier) best = it;
+  }
+  return best == places_.end() ? -1 : static_cast<int>(best - places_.begin());
+}
+
+void PlaceTable::Enter(int peer, std::int64_t now_us) {
+  At(peer).occupied = true;
+  At(peer).heard_us = now_us;
+}
+
+void PlaceTable::Heard(int peer, std::int64_t now_us, bool ready) {
+  At(peer).heard_us = now_us;
+  At(peer).key_known = At(peer).key_known || ready;
+}
+
+void PlaceTable::Leave(int peer, std::uint64_t session, bool goodbye) {
+  Place& place = At(peer);
+  place.occupied = false;
+  place.previous = session;
+  // Who never learned the key could not come back with it.
+  if (goodbye || !place.key_known) place = Place();
+}
+
+}  // namespace seam

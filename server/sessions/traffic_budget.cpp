@@ -1,0 +1,76 @@
+#include "server/sessions/traffic_budget.h"
+
+#include <algorithm>
+
+#include "common/net/datagram.h"
+#include "common/sync/limits.h"
+
+namespace seam {
+namespace {
+
+/// Ticks of input in one Inputs message, at most, as clients send them (client.h).
+constexpr std::size_t kInputsUsual = 16;
+/// Pings a second while the clock settles, and their bytes.
+constexpr double kPingsPerSecond = 20;
+constexpr std::size_t kPingBytes = 28;
+/// Messages that the States of one send are split into, at most in any scene of ours: one for each
+/// 120 m of its bodies. (Bodies a send: kStatesBodiesMax.)
+constexpr std::size_t kStatesPerSend = 8;
+/// Reliable messages a second (proposals, releases; a whole window), and bytes of one.
+constexpr double kReliablePerSecond = 64;
+constexpr std::size_t kReliableBytes = 128;
+
+double Framed(std::size_t bytes, bool reliable = false) {
+  return static_cast<double>(FramedBytes(bytes, reliable));
+}
+
+}  // namespace
+
+TrafficRate HonestTraffic(int tick_hz, int send_hz) {
+  TrafficRate rate;
+  const double per_send = static_cast<double>(kStatesPerSend);
+  // A datagram a tick, and one for the acknowledgement of each reliable message.
+  const double datagrams = tick_hz + kReliablePerSecond;
+  rate.messages = datagrams + tick_hz + kPingsPerSecond + send_hz * per_send + kReliablePerSecond;
+  rate.bytes = datagrams * static_cast<double>(kDatagramHeaderBytes) +
+               tick_hz * Framed(Largest(kInputsBytes, kInputsUsual)) +
+               kPingsPerSecond * Framed(kPingBytes) +
+               send_hz * (per_send * Framed(kStatesBytes.empty) +
+                          static_cast<double>(kStatesBytes.each * kStatesBodiesMax)) +
+               kReliablePerSecond * Framed(kReliableBytes, true);
+  return rate;
+}
+
+TrafficRate AllowedTraffic(int tick_hz, int send_hz) {
+  const TrafficRate honest = HonestTraffic(tick_hz, send_hz);
+  return {honest.bytes * kBudgetMargin, honest.messages * kBudgetMargin};
+}
+
+TrafficBudget::TrafficBudget(const TrafficRate& allowed)
+    : allowed_(allowed), left_{allowed.bytes * kBudgetBurst, allowed.messages * kBudgetBurst} {}
+
+bool TrafficBudget::Take(std::int64_t now_us, std::size_t bytes, std::size_t messages) {
+  const double passed =
+      filled_us_ < 0 ? 0
+                     : static_cast<double>(std::max<std::int64_t>(0, now_us - filled_us_)) / 1e6;
+  filled_us_ = now_us;
+  left_.bytes = std::min(allowed_.bytes * kBudgetBurst, left_.bytes + passed * allowed_.bytes);
+  left_.messages =
+      std::min(allowed_.messages * kBudgetBurst, left_.messages + passed * allowed_.messages);
+  const auto weight = static_cast<double>(messages + 1);
+  if (static_cast<double>(bytes) <= left_.bytes && weight <= left_.messages) {
+    left_.bytes -= static_cast<double>(bytes);
+    left_.messages -= weight;
+    return true;
+  }
+  if (over_us(now_us) == 0) over_since_us_ = now_us;
+  refused_us_ = now_us;
+  return false;
+}
+
+std::int64_t TrafficBudget::over_us(std::int64_t now_us) const {
+  const bool over = refused_us_ >= 0 && now_us - refused_us_ < kBudgetCalmUs;
+  return over ? std::max<std::int64_t>(1, now_us - over_since_us_) : 0;
+}
+
+}  // namespace seam

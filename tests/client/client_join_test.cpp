@@ -1,0 +1,139 @@
+/// How a client gets in, and what it says when it cannot: against a server written by hand.
+
+#include <gtest/gtest.h>
+
+#include "client/client.h"
+#include "common/net/datagram.h"
+#include "common/net/memory.h"
+
+namespace seam {
+namespace {
+
+class ClientJoin : public ::testing::Test {
+ protected:
+  struct NoRecorder : Recorder {
+    void Publish(const std::string&, std::int64_t, ByteView) override {}
+  };
+
+  static ClientConfig Config() {
+    ClientConfig config;
+    config.server = {1, 7777};
+    config.name = "ann";
+    config.key = 99;
+    return config;
+  }
+  /// Lets so much time pass, and returns the last message that the client sent outside a session.
+  AnyMessage Next(std::int64_t us) {
+    now_us_ += us;
+    client_.Tick(now_us_, 0);
+    AnyMessage last;
+    Address from;
+    Bytes datagram;
+    while (server_->Receive(&from, &datagram)) {
+      DatagramHeader header;
+      EXPECT_TRUE(ReadHeader(datagram, &header));
+      EXPECT_TRUE(header.loose());
+      session_ = header.session;
+      last = Decode(FirstUnreliable(datagram));
+    }
+    return last;
+  }
+  void Answer(const Bytes& message) { server_->Send({2, 1}, LooseDatagram(session_, message)); }
+  static Bytes Refusal(const std::string& reason) {
+    Bye bye;
+    bye.reason = reason;
+    return Encode(bye);
+  }
+
+  MemoryNetwork network_;
+  std::unique_ptr<Net> server_ = network_.Attach({1, 7777});
+  std::unique_ptr<Net> net_ = network_.Attach({2, 1});
+  SeededEntropy entropy_{1};
+  NoRecorder recorder_;
+  Client client_{Config(), *net_, recorder_, entropy_};
+  std::int64_t now_us_ = 1000000;
+  std::uint64_t session_ = 0;
+};
+
+TEST_F(ClientJoin, SaysHelloUntilChallengedThenJoinsWithTokenAndKey) {
+  EXPECT_TRUE(std::holds_alternative<Hello>(Next(0)));
+  EXPECT_TRUE(std::holds_alternative<std::monostate>(Next(50000))) << "ten times a second";
+  EXPECT_TRUE(std::holds_alternative<Hello>(Next(50000)));
+  Challenge challenge;
+  challenge.token = 1234;
+  Answer(Encode(challenge));
+  const AnyMessage any = Next(10000);
+  const Join* join = std::get_if<Join>(&any);
+  ASSERT_NE(join, nullptr) << "at once";
+  EXPECT_EQ(join->token, 1234);
+  EXPECT_EQ(join->key, 99);
+  EXPECT_EQ(join->name, "ann");
+  challenge.token = 5678;
+  Answer(Encode(challenge));
+  const AnyMessage again = Next(10000);
+  ASSERT_TRUE(std::holds_alternative<Join>(again));
+  EXPECT_EQ(std::get<Join>(again).token, 5678) << "the newest";
+}
+
+TEST_F(ClientJoin, KeepsItsSessionNumberForAsLongAsNobodyAnswers) {
+  Next(0);
+  const std::uint64_t first = session_;
+  for (int n = 0; n < 100; ++n) Next(100000);
+  EXPECT_EQ(session_, first);
+  EXPECT_EQ(client_.rejoins(), 0);
+}
+
+TEST_F(ClientJoin, NamesBothProtocolsWhenTheServerSpeaksAnOlderOne) {
+  Next(0);
+  // As protocol 2 refuses: in a numbered datagram, without our version.
+  Link old(session_);
+  old.SendUnreliable(Refusal("protocol 2 is spoken here"));
+  old.Flush(now_us_, [&](ByteView datagram) { server_->Send({2, 1}, datagram); });
+  Next(10000);
+  EXPECT_EQ(client_.fatal(),
+            "the server speaks protocol 2, this client speaks 3: they need the same version");
+}
+
+TEST_F(ClientJoin, NamesBothProtocolsWhenTheServerSpeaksANewerOne) {
+  Next(0);
+  Answer(Refusal("protocol 4 is spoken here, you speak 3"));
+  Next(10000);
+  EXPECT_EQ(client_.fatal(),
+            "the server speaks protocol 4, this client speaks 3: they need the same version");
+}
+
+TEST_F(ClientJoin, InsistsForThreeSecondsOnAnyOtherRefusal) {
+  Next(0);
+  for (int n = 0; n < 31; ++n) {
+    EXPECT_EQ(client_.fatal(), "") << n;
+    Answer(Refusal("the name ann is in use"));
+    Next(100000);
+  }
+  Answer(Refusal("the name ann is in use"));
+  Next(100000);
+  EXPECT_EQ(client_.fatal(), "the server refuses: the name ann is in use");
+}
+
+TEST_F(ClientJoin, ARefusalThatComesAfterTheWelcomeIsTooLate) {
+  Next(0);
+  Link server(session_);
+  Welcome welcome;
+  welcome.peer = 1;
+  welcome.room_bytes = 1000;
+  welcome.key = 7;
+  server.SendReliable(Encode(welcome));
+  server.Flush(now_us_, [&](ByteView datagram) { server_->Send({2, 1}, datagram); });
+  now_us_ += 10000;
+  client_.Tick(now_us_, 0);
+  EXPECT_EQ(client_.peer(), 1);
+  EXPECT_EQ(client_.key(), 7);
+  Answer(Refusal("the name ann is in use"));
+  now_us_ += 10000;
+  client_.Tick(now_us_, 0);
+  EXPECT_FALSE(client_.closed());
+  EXPECT_EQ(client_.peer(), 1);
+  EXPECT_EQ(client_.stats().dropped_malformed, 0);
+}
+
+}  // namespace
+}  // namespace seam
