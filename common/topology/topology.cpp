@@ -8,6 +8,7 @@
 #include "common/scene/bricks.h"
 #include "common/scene/mass.h"
 #include "common/scene/scene_limits.h"
+#include "common/topology/bond_move.h"
 #include "common/topology/feather_blast.h"
 
 namespace seam {
@@ -17,64 +18,8 @@ Blast BlastOf(const BlastEdit& edit) { return {edit.centre, edit.radius, edit.sp
 
 /// A bond over more than this, m, is nonsense: no assembly is so large.
 constexpr float kBondDistanceMax = 1000;
-/// Parts of one body are within this of its root after a bond, m: shapes far from their body's
-/// origin lose their edges to rounding.
-constexpr float kBondReachMax = 2 * kWeldReachMax;
 /// A bond's angle may be a turn off, not more: sines of huge angles are noise, and Box2D asserts.
 constexpr float kBondAngleMax = 6.2831853f;
-
-Transform2 TransformOf(const Part& part) {
-  return {part.position.cast<double>(), static_cast<double>(part.angle)};
-}
-
-/// What a bond moves, and how.
-struct BondMove {
-  int assembly = 0;  ///< index; the side that is not anchored; b's if neither is
-  Transform2 moves;
-};
-
-BondMove MoveOf(const Scene& scene, const Composition& composition, const BondEdit& bond) {
-  const Part& a = scene.parts[static_cast<std::size_t>(bond.a)];
-  const Part& b = scene.parts[static_cast<std::size_t>(bond.b)];
-  const int assembly_a = composition.assembly_of_part[static_cast<std::size_t>(bond.a)];
-  const int assembly_b = composition.assembly_of_part[static_cast<std::size_t>(bond.b)];
-  const bool move_a = composition.assemblies[static_cast<std::size_t>(assembly_b)].anchored;
-  const Transform2 apart{bond.position.cast<double>(), static_cast<double>(bond.angle)};
-  const Transform2 wanted_b = TransformOf(a).Then(apart);
-  const Transform2 b_moves = wanted_b.Then(TransformOf(b).Inverse());
-  return {move_a ? assembly_a : assembly_b, move_a ? b_moves.Inverse() : b_moves};
-}
-
-/// Whether all parts of both sides stay where shapes are sound.
-bool FitsTogether(const Scene& scene, const Composition& composition, const BondEdit& bond) {
-  const BondMove move = MoveOf(scene, composition, bond);
-  const auto part_of = [&](PartId id) -> const Part& {
-    return scene.parts[static_cast<std::size_t>(id)];
-  };
-  const auto assembly_of = [&](PartId part) -> const Assembly& {
-    const int index = composition.assembly_of_part[static_cast<std::size_t>(part)];
-    return composition.assemblies[static_cast<std::size_t>(index)];
-  };
-  const auto place_of = [&](PartId id) {
-    const bool moved = composition.assembly_of_part[static_cast<std::size_t>(id)] == move.assembly;
-    return moved ? move.moves.Then(TransformOf(part_of(id))) : TransformOf(part_of(id));
-  };
-  const PartId roots[] = {assembly_of(bond.a).id, assembly_of(bond.b).id};
-  const float masses[] = {PartMass(part_of(roots[0])), PartMass(part_of(roots[1]))};
-  const bool same = masses[0] == masses[1];
-  const bool first = same ? roots[0] < roots[1] : masses[0] > masses[1];
-  const Eigen::Vector2d root = place_of(first ? roots[0] : roots[1]).shift;
-  for (const PartId end : {bond.a, bond.b}) {
-    for (const PartId id : assembly_of(end).parts) {
-      const Transform2 place = place_of(id);
-      const bool near = (place.shift - root).norm() <= static_cast<double>(kBondReachMax) &&
-                        place.shift.cwiseAbs().maxCoeff() <= static_cast<double>(kPlaceMax) &&
-                        std::fabs(place.angle) <= static_cast<double>(kTurnMax);
-      if (!near) return false;
-    }
-  }
-  return true;
-}
 
 }  // namespace
 
@@ -258,7 +203,7 @@ void Topology::Bond(const BondEdit& edit) {
   };
   for (const PartId id : composition_.assemblies[static_cast<std::size_t>(moved)].parts) {
     Part& part = scene_.parts[static_cast<std::size_t>(id)];
-    const Transform2 place = moves.Then(TransformOf(part));
+    const Transform2 place = moves.Then(PlaceOf(part));
     part.position = place.shift.cast<float>();
     part.angle = static_cast<float>(place.angle);
   }

@@ -253,5 +253,17 @@ TEST(MeasureChanges, ARevisionIsTheSameHoweverOftenItIsAskedFor) {
   EXPECT_TRUE(revisions.SameBody(0, 300, kLight));
 }
 
+TEST(Changes, ALongRoomsEditsAreAllReadAndADamagedNumberCostsNoMemory) {
+  Recording recording;
+  const EditOrder push = ToOrder(Edit(PushEdit{0, {1, 0}, 0}));
+  for (std::int32_t n = 0; n < 100000; ++n) recording.edits[n] = push;
+  EXPECT_EQ(EditsOf(recording).size(), 100000u);
+  recording.edits[INT32_MAX] = push;
+  EXPECT_EQ(EditsOf(recording).size(), 100000u);
+  Recording damaged;
+  damaged.edits[1000000000] = push;
+  EXPECT_TRUE(EditsOf(damaged).empty());
+}
+
 }  // namespace
 }  // namespace seam
