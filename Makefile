@@ -112,6 +112,7 @@ $(GEN)/.stamp: $(LCM_TYPES) lcmtypes/harden.awk | build/.deps-build
 	@rm -rf $(GEN) && mkdir -p $(GEN)
 	lcm-gen --cpp --cpp-std c++11 --cpp-hpath $(GEN) $(LCM_TYPES)
 	@for h in $(GEN)/seam/*.hpp; do awk -f lcmtypes/harden.awk $$h > $$h.tmp && mv $$h.tmp $$h || exit 1; done
+	@for h in $(GEN)/seam/*_t.hpp; do echo "#include \"seam/$${h##*/}\""; done > $(GEN)/seam/all_types.hpp
 	@touch $@
 
 # What every object is made with. Written when it differs, so that other flags rebuild everything,

@@ -4,27 +4,7 @@
 
 #include "common/base/check.h"
 #include "common/codec/validate.h"
-#include "seam/bye_t.hpp"
-#include "seam/challenge_t.hpp"
-#include "seam/chunk_t.hpp"
-#include "seam/edit_t.hpp"
-#include "seam/event_t.hpp"
-#include "seam/grants_t.hpp"
-#include "seam/hello_t.hpp"
-#include "seam/impacts_t.hpp"
-#include "seam/inputs_t.hpp"
-#include "seam/join_t.hpp"
-#include "seam/meta_t.hpp"
-#include "seam/ping_t.hpp"
-#include "seam/pong_t.hpp"
-#include "seam/ready_t.hpp"
-#include "seam/release_t.hpp"
-#include "seam/room_t.hpp"
-#include "seam/snapshot_t.hpp"
-#include "seam/states_t.hpp"
-#include "seam/stats_t.hpp"
-#include "seam/view_t.hpp"
-#include "seam/welcome_t.hpp"
+#include "seam/all_types.hpp"  // each LCM type's header; made by the Makefile
 
 namespace seam {
 namespace {

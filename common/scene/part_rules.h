@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "common/scene/player_mask.h"
 #include "common/scene/types.h"
 
 namespace seam {
@@ -24,13 +25,6 @@ struct ScriptSource {
   int line = 1;  ///< of the scene file, on which the code begins
   ScriptLimits limits;
 };
-
-/// Players as bits: bit p is player p.
-using PlayerMask = std::uint32_t;
-constexpr PlayerMask kEveryPlayer = ~PlayerMask{0};
-inline bool Allows(PlayerMask mask, int player) {
-  return mask == kEveryPlayer || (player >= 0 && ((mask >> player) & 1U) != 0);
-}
 
 /// A part's score, health and permissions.
 struct PartRules {

@@ -2,7 +2,10 @@
 
 #include "common/sync/limits.h"
 
+#include <climits>
+
 #include "common/codec/messages.h"
+#include "common/scene/player_mask.h"
 #include "common/scene/scene_limits.h"
 #include "common/scene/scene_text.h"
 #include "common/topology/edit.h"
@@ -11,7 +14,10 @@
 namespace seam {
 
 // A scene that parses fits a Room. (A Room may be larger: it is checked before anything parses it.)
-static_assert(kSceneBytesMax <= kSceneTextBytesMax);
+static_assert(kSceneBytesMax <= kSceneTextBytesMax,
+              "a scene that can be loaded could not be sent to those who join");
+// Permissions have a bit for each player.
+static_assert(kPeersMax <= static_cast<int>(sizeof(PlayerMask) * CHAR_BIT));
 // Edits go through the wire unchanged.
 static_assert(kEditTextMax == kEditTextBytesMax && kEditKindMax == kEditKindsMax);
 // All parts there can ever be have ids on the wire (int16) and fit into some View.

@@ -2,15 +2,12 @@
 /// Sizes that must agree, held beside each other: what a message can grow to against what carries
 /// it, and how long one text may be in different rooms. A change that breaks this does not compile.
 
-#include <climits>
 #include <cstddef>
 
 #include "common/codec/messages.h"
 #include "common/net/datagram.h"
 #include "common/net/link.h"
 #include "common/net/net.h"
-#include "common/scene/part_rules.h"
-#include "common/scene/scene_text.h"
 
 namespace seam {
 
@@ -58,11 +55,5 @@ static_assert(Largest(kImpactsBytes, kImpactsMax) <= kBusMessageBytesMax, "Impac
 static_assert(Largest(kRoomBytes, kSceneTextBytesMax + 4 * kLabelBytesMax + kImpairBytesMax) <=
                   kBusMessageBytesMax,
               "a Room with the longest scene could neither be published nor joined");
-
-// Texts and numbers of the scene.
-static_assert(kSceneBytesMax <= kSceneTextBytesMax,
-              "a scene that can be loaded could not be sent to those who join");
-static_assert(kPeersMax <= static_cast<int>(sizeof(PlayerMask) * CHAR_BIT),
-              "permissions have a bit for each player");
 
 }  // namespace seam

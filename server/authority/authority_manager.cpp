@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/physics/part_places.h"
+#include "common/scene/part_rules.h"
 #include "common/sync/lease.h"
 
 namespace seam {

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "common/scene/part_rules.h"
+#include "common/scene/player_mask.h"
 #include "common/sync/authority.h"
 #include "common/sync/mode.h"
 

@@ -221,7 +221,7 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
                "box2d/.*|Box2D/.*");
   ExpectOnlyIn("render/canvas/canvas[^/]*", kCode, "GL/.*|EGL/.*");
   ExpectOnlyIn("common/record/bus\\.cpp", kCode, "lcm/.*");
-  ExpectOnlyIn("common/codec/codec[^/]*\\.cpp", kCode, "seam/[a-z]+_t\\.hpp");
+  ExpectOnlyIn("common/codec/codec[^/]*\\.cpp", kCode, "seam/[a-z_]+\\.hpp");
   ExpectOnlyIn("render/canvas/png[^/]*", kCode, "png\\.h|spng\\.h");
   ExpectOnlyIn("render/canvas/font[^/]*", kCode, "ft2build\\.h|freetype/.*");
   ExpectOnlyIn("common/scene/toml_tree\\.cpp", kProduct, "toml\\.hpp|toml[^/]*/.*");
