@@ -108,7 +108,7 @@ build/.deps-%: Makefile
 	@touch $@
 .PRECIOUS: build/.deps-%
 
-$(GEN)/.stamp: $(LCM_TYPES) lcmtypes/harden.awk | build/.deps-build
+$(GEN)/.stamp: $(LCM_TYPES) lcmtypes/harden.awk Makefile | build/.deps-build
 	@rm -rf $(GEN) && mkdir -p $(GEN)
 	lcm-gen --cpp --cpp-std c++11 --cpp-hpath $(GEN) $(LCM_TYPES)
 	@for h in $(GEN)/seam/*.hpp; do awk -f lcmtypes/harden.awk $$h > $$h.tmp && mv $$h.tmp $$h || exit 1; done
