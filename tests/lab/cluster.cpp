@@ -8,11 +8,11 @@
 namespace seam {
 namespace {
 
-/// Virtual time advances in steps of at most this and at least kStepLeastUs.
-constexpr std::int64_t kStepMostUs = 5000;
-constexpr std::int64_t kStepLeastUs = 200;
+/// Virtual time advances in steps of at most this and at least kStepMinUs.
+constexpr std::int64_t kStepMaxUs = 5000;
+constexpr std::int64_t kStepMinUs = 200;
 /// Without a tick for so long, nobody plays.
-constexpr std::int64_t kPatienceUs = 30000000;
+constexpr std::int64_t kStandstillUs = 30000000;
 
 }  // namespace
 
@@ -68,14 +68,14 @@ void Cluster::StartClient(std::size_t i) {
 }
 
 void Cluster::Instant() {
-  std::int64_t next = now_us_ + kStepMostUs;
+  std::int64_t next = now_us_ + kStepMaxUs;
   next = std::min({next, server_->next_tick_us(), server_net_->next_due_us()});
   for (Peer& peer : clients_) {
     if (peer.client == nullptr || peer.paused) continue;
     const std::int64_t local = now_us_ + peer.clock_offset_us;
     next = std::min(next, peer.client->next_tick_us(local) - peer.clock_offset_us);
   }
-  now_us_ = std::max(next, now_us_ + kStepLeastUs);
+  now_us_ = std::max(next, now_us_ + kStepMinUs);
   server_->Tick(now_us_, 0);
   for (Peer& peer : clients_) {
     if (peer.client == nullptr || peer.paused) continue;
@@ -93,7 +93,7 @@ void Cluster::RunToTick(std::int64_t tick) {
       last_tick = server_->tick();
       last_progress_us = now_us_;
     }
-    if (now_us_ - last_progress_us > kPatienceUs) {
+    if (now_us_ - last_progress_us > kStandstillUs) {
       throw OperatorError(scene_.name + ": no tick within 30 s of virtual time: can its players " +
                           "join over the network \"" + config_.impair + "\"?");
     }

@@ -25,12 +25,12 @@ constexpr std::array<Rate, 4> kRates = {{{30, "30 Hz", "#a6cee3"},
 
 /// Ratios below are drawn as zero: what a formula gives to rounding would leave no room for the
 /// rest.
-constexpr double kLeastRatio = 1e-4;
-constexpr const char* kLeastRatioText = "< 10⁻⁴";
+constexpr double kRatioMin = 1e-4;
+constexpr const char* kRatioMinText = "< 10⁻⁴";
 
 double ShownRatio(const PhysicsCase& c) {
   const double ratio = ErrorRatio(*c.scene, *c.stock);
-  return ratio < kLeastRatio ? 0 : ratio;
+  return ratio < kRatioMin ? 0 : ratio;
 }
 
 PlotCurve PointsOnly(const std::string& name, const std::string& colour, int point, double size) {
@@ -163,7 +163,7 @@ Figure PhysicsList(const std::vector<PhysicsCase>& cases, const std::string& com
     return ErrorRatio(*a->scene, *a->stock) < ErrorRatio(*b->scene, *b->stock);
   });
   PlotPanel panel;
-  panel.x = {"ratio to stock: left of the line is better", true, {}, "fails", kLeastRatioText, {}};
+  panel.x = {"ratio to stock: left of the line is better", true, {}, "fails", kRatioMinText, {}};
   panel.uprights.push_back({1, ""});
   PlotCurve error = PointsOnly("error", kSceneColour, 7, 0.9);
   PlotCurve rescued = PointsOnly("error; stock fails", "#0072b2", 9, 1.0);
@@ -198,7 +198,7 @@ Figure PhysicsSummary(const std::vector<PhysicsCase>& cases, const std::string& 
   figure.panel_height_px = 680;
   PlotPanel panel;
   panel.x = {"CPU time, ratio to stock", true, {}, "crashed", "0", {}};
-  panel.y = {"error, ratio to stock", true, {}, "fails", kLeastRatioText, {}};
+  panel.y = {"error, ratio to stock", true, {}, "fails", kRatioMinText, {}};
   panel.uprights.push_back({1, "stock's cost"});
   panel.levels.push_back({1, "stock's error"});
   PlotCurve held = PointsOnly("both hold", kSceneColour, 7, 0.9);
