@@ -11,12 +11,18 @@ namespace seam {
 /// Who simulates what (Roles). kOracle: every peer simulates everything alone, with all inputs.
 enum class Mode { kOracle, kCentral, kStrict, kBuffer };
 
+/// Mode central: what a client simulates ahead of the server's states. kOwn: what its player
+/// drives, the rest is interpolated. kAll: everything, with all inputs that it knows.
+enum class Predict { kOwn, kAll };
+
 struct SyncConfig {
   Mode mode = Mode::kBuffer;
   Reconciler reconcile = nullptr;  ///< not null exactly when mode is kBuffer
   Puller pull = nullptr;           ///< of the reconciler, if it acts in every tick
   bool resimulates = false;        ///< the reconciler goes back and steps again
   std::string reconcile_name;
+  Predict predict = Predict::kAll;  ///< mode central
+  int input_delay_ticks = 0;        ///< own inputs act this much later, at every peer; 0..12
   int tick_hz = 60;
   int send_hz = 30;       ///< States per second from each peer; <= tick_hz
   bool smooth = true;     ///< hide corrections in the view
