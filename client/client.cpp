@@ -138,7 +138,7 @@ void Client::NoteOwnInput() {
     case Drive::kBot: input = BotInput(room_.seed, player_, next, room_.tick_hz); break;
     case Drive::kLive: input = live_; break;
   }
-  replica_->inputs(player_).Note(next, input);
+  replica_->NoteInput(player_, next, input);
 }
 
 void Client::StepOnce(std::int64_t now_us) {

@@ -57,7 +57,7 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
   } else if (const auto* inputs = std::get_if<Inputs>(&any)) {
     const bool known = scene_ != nullptr && inputs->player >= 0 && inputs->player != player_ &&
                        static_cast<std::size_t>(inputs->player) < scene_->players.size();
-    if (known) replica_->inputs(inputs->player).Note(*inputs);
+    if (known) replica_->NoteInputs(*inputs);
   } else if (const auto* bye = std::get_if<Bye>(&any)) {
     if (peer_ < 0) return OnRefusal(now_us, bye->reason);
     closed_ = true;

@@ -21,7 +21,11 @@ std::optional<BodyRemap> Replica::ApplyNextEdit() {
   queued_.erase(queued_.begin());
   std::optional<BodyRemap> change = world_.Apply({edit});
   ForgetProposals(edit);
-  if (change) Remap(*change);
+  if (change) {
+    Remap(*change);
+  } else {
+    corrector_.FollowRoles();  // who sits in a seat decides what is predicted
+  }
   return change;
 }
 
