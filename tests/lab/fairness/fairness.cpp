@@ -1,4 +1,4 @@
-#include "tests/lab/fairness.h"
+#include "tests/lab/fairness/fairness.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include "common/base/check.h"
 #include "common/measure/oracle.h"
 #include "common/scene/assembly.h"
-#include "tests/lab/lagging_net.h"
+#include "tests/lab/fairness/lagging_net.h"
 
 namespace seam {
 namespace {
