@@ -92,6 +92,22 @@ struct WorldCommand {
 /// Prints what the features of a scene cost and err beside their baselines. 1: a signal came.
 int RunWorld(const WorldCommand& command);
 
+struct FairnessCommand {
+  std::string scene = "headon";                     ///< two players with a vehicle each, mirrored
+  std::vector<std::string> methods;                 ///< "strict", "buffer/fade"; empty: all
+  std::string near_path = "delay=20ms,jitter=5ms";  ///< network of the near player, either way
+  std::string far_path = "delay=120ms,jitter=5ms";
+  int seeds = 8;       ///< from 1; each with both assignments
+  std::string table;   ///< CSV file to write or complete
+  int jobs = 0;        ///< runs at a time; 0: as many as there are cores
+  bool force = false;  ///< begin the table anew
+  bool quiet = false;  ///< no progress line
+};
+
+/// Runs a mirrored crash with either player near the server, and prints who receives how much of
+/// it. 1: some runs failed, more than a tenth of the rows are not valid, or a signal came.
+int RunFairnessTable(const FairnessCommand& command);
+
 struct ReportCommand {
   std::string data = "out/report/data";     ///< folder of the tables
   std::string out = "out/report";           ///< folder to write

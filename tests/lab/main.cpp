@@ -107,6 +107,24 @@ CLI::App* DefineWorld(CLI::App& app, WorldCommand& c) {
   return world;
 }
 
+CLI::App* DefineFairness(CLI::App& app, FairnessCommand& c) {
+  CLI::App* fairness =
+      app.add_subcommand("fairness", "a mirrored crash between a near and a far player");
+  fairness->add_option("-o,--output", c.table, "CSV table to write, or to complete")->required();
+  fairness->add_option("--scene", c.scene, "two players' cars that meet (default: headon)");
+  fairness->add_option("--methods", c.methods, "strict, buffer/fade, ... (default: all)")
+      ->delimiter(',');
+  fairness->add_option("--near", c.near_path, "the near player's network, either way");
+  fairness->add_option("--far", c.far_path, "the far player's network, either way");
+  fairness->add_option("--seeds", c.seeds, "from 1, each both ways round (default: 8)")
+      ->check(CLI::Range(1, 1000));
+  fairness->add_option("--jobs", c.jobs, "runs at a time (default: one a core)")
+      ->check(CLI::Range(1, 256));
+  fairness->add_flag("--force", c.force, "begin the table anew");
+  fairness->add_flag("--quiet", c.quiet, "no progress line");
+  return fairness;
+}
+
 CLI::App* DefineReport(CLI::App& app, ReportCommand& c) {
   CLI::App* report = app.add_subcommand("report", "plots and tables of what was swept, as a page");
   report->add_option("DATA", c.data, "folder of CSV tables (default out/report/data)");
@@ -127,6 +145,7 @@ int main(int argc, char** argv) {
   TuneCommand tune;
   OverheadCommand overhead;
   WorldCommand world;
+  FairnessCommand fairness;
   ReportCommand report;
   // The subcommands, each with what it runs.
   std::vector<std::pair<const CLI::App*, std::function<int()>>> commands;
@@ -139,6 +158,7 @@ int main(int argc, char** argv) {
                 {DefineTune(app, tune), [&] { return RunTune(tune); }},
                 {DefineOverhead(app, overhead), [&] { return RunOverhead(overhead); }},
                 {DefineWorld(app, world), [&] { return RunWorld(world); }},
+                {DefineFairness(app, fairness), [&] { return RunFairnessTable(fairness); }},
                 {DefineReport(app, report), [&] { return RunReport(report); }}};
   };
   const ProgramText text{"seam-lab",
