@@ -92,7 +92,8 @@ void Replica::ApplyInputs(std::int64_t next) {
   for (std::size_t p = 0; p < inputs_.size(); ++p) {
     const int player = static_cast<int>(p);
     if (config_.mode == Mode::kOracle) {
-      inputs_[p].Note(next, ScriptedInput(world_.scene(), player, next));
+      inputs_[p].Note(next,
+                      ScriptedInput(world_.scene(), player, next - config_.input_delay_ticks));
     }
     world_.SetInput(player, inputs_[p].At(next));
     ApplyPresses(player, next);

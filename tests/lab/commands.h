@@ -12,12 +12,13 @@ namespace seam {
 
 struct RunCommand {
   SessionSettings settings;
-  std::string smooth = "on";       ///< on | off
-  std::string log;                 ///< file to write
-  bool force = false;              ///< overwrite it
-  std::vector<std::string> set;    ///< --set, each one or several with ';' between them
-  std::optional<double> buffer_m;  ///< --buffer
-  bool floor = true;               ///< also measure, and compute the floor
+  std::string smooth = "on";             ///< on | off
+  std::string log;                       ///< file to write
+  bool force = false;                    ///< overwrite it
+  std::vector<std::string> set;          ///< --set, each one or several with ';' between them
+  std::optional<double> buffer_m;        ///< --buffer
+  std::optional<int> input_delay_ticks;  ///< --input-delay
+  bool floor = true;                     ///< also measure, and compute the floor
 };
 
 /// Records a session and prints its simulated and wall seconds in one line, and its error beside

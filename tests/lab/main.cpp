@@ -21,6 +21,7 @@ CLI::App* DefineRun(CLI::App& app, RunCommand& c) {
   run->add_option("-o,--output", c.log, "LCM log to write")->required();
   run->add_option("--mode", s.mode, "oracle | central | strict | buffer");
   run->add_option("--reconcile", s.reconcile, "rule for mode buffer (default retrospect)");
+  run->add_option("--predict", s.predict, "of mode central's clients: own | all (default all)");
   run->add_option("--impair", s.impair, "network, both directions: a profile's name or a list");
   run->add_option("--seed", s.seed, "of network and bots")->check(CLI::Range(0, 1000000000));
   run->add_option("--send-hz", s.send_hz, "state messages per second")
@@ -33,6 +34,9 @@ CLI::App* DefineRun(CLI::App& app, RunCommand& c) {
   run->add_option("--set", c.set, "KEY=VALUE of the scene: solver.substeps=2 (repeatable)")
       ->allow_extra_args(false);
   run->add_option("--buffer", c.buffer_m, "width of the buffer zone, m (as --set buffer=M)");
+  run->add_option("--input-delay", c.input_delay_ticks,
+                  "ticks from an input to its acting (as --set input_delay=N)")
+      ->check(CLI::Range(0, kInputDelayTicksMax));
   run->add_flag("--force", c.force, "overwrite the log");
   run->add_flag("!--no-floor", c.floor, "do not measure the run and its floor");
   return run;
