@@ -206,6 +206,11 @@ void Server::ApplyEdits(std::int64_t now_us) {
 void Server::UpdateAuthority(std::int64_t now_us) {
   AuthorityManager::Situation situation;
   situation.peer_of_player = sessions_.PeerOfPlayer();
+  for (const int peer : situation.peer_of_player) {
+    const Session* session = peer > 0 ? sessions_.Find(peer) : nullptr;
+    const std::int64_t rtt_us = session != nullptr ? session->link.rtt_us() : 0;
+    situation.one_way_s.push_back(static_cast<float>(std::max<std::int64_t>(0, rtt_us)) * 0.5e-6f);
+  }
   situation.together = edits_.WaitingMechanisms();
   broadcast_.ToAll(authority_.Update(now_us, situation));
   const PeerSet withholding = authority_.Withholding(now_us);

@@ -27,6 +27,7 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       pressed_missed_(topology.scene().players.size(), 0) {
   corrector_.FollowRoles();
   memory_.Record();
+  replay_.TakeBarrier(true);  // the inputs of the first ticks come late, too
 }
 
 void Replica::StartAt(std::int64_t tick) {
