@@ -44,8 +44,13 @@ void Replica::Step() {
   world_.Step();
   memory_.NoteContacts(roles_.table());
   for (Edit& edit : world_.ProposeEdits()) {
-    if (roles_.Proposes(edit)) proposals_.Add(std::move(edit), tick());
+    if (config_.mode == Mode::kOracle) {
+      queued_.push_back(std::move(edit));
+    } else if (roles_.Proposes(edit)) {
+      proposals_.Add(std::move(edit), tick());
+    }
   }
+  QueueAppointed();
   scheduler_.Collect();
   memory_.Record();
   replay_.TakeBarrier();

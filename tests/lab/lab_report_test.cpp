@@ -309,6 +309,7 @@ TEST(Report, TheSweepsItRunsCanBeRunAndLeaveNoReconcilerOut) {
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
       if (entry.path().extension() != ".toml") continue;
       if (entry.path().stem() == "worlds") continue;  // dear: a few methods have to do
+      if (entry.path().stem() == "floors") continue;  // of the measure itself, not of methods
       ++count;
       std::set<std::string> rules;
       for (const GridPoint& point : ReadGrid(entry.path().string()).points) {

@@ -149,11 +149,27 @@ SweepFile ReadSweepFile(const std::string& path) {
   const std::string text = ReadText(path);
   CheckSceneText(text, path);
   const TomlNode tree = ParseToml(text, path);
-  const SceneReader r(
-      tree, path, "sweep",
-      {"scenes", "set", "tick_hz", "substeps", "velocity_iterations", "position_iterations", "skin",
-       "buffer_m", "methods", "impair", "one_way_ms", "jitter_ms", "loss_percent", "send_hz",
-       "drive", "smooth", "duration", "seeds", "floor"});
+  const SceneReader r(tree, path, "sweep",
+                      {"scenes",
+                       "set",
+                       "tick_hz",
+                       "substeps",
+                       "velocity_iterations",
+                       "position_iterations",
+                       "skin",
+                       "buffer_m",
+                       "methods",
+                       "impair",
+                       "one_way_ms",
+                       "jitter_ms",
+                       "loss_percent",
+                       "send_hz",
+                       "drive",
+                       "smooth",
+                       "duration",
+                       "seeds",
+                       "floor",
+                       "limit"});
   SweepFile file;
   file.scenes = Texts(r, "scenes", nullptr);
   if (file.scenes.empty()) r.Fail("which scenes? for example: scenes = [\"scenes/wall.toml\"]");
@@ -170,6 +186,7 @@ SweepFile ReadSweepFile(const std::string& path) {
   file.seeds = Seeds(r, tree, path);
   file.duration_s = r.Seconds("duration", {0, kDurationMax}, 0.0);
   file.floor = r.Flag("floor", true);
+  file.limit = r.Flag("limit", false);
   return file;
 }
 
