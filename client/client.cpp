@@ -150,6 +150,7 @@ void Client::NoteOwnInput() {
 void Client::StepOnce(std::int64_t now_us) {
   NoteOwnInput();
   replica_->Step();
+  if (mode_ == Mode::kOracle) replica_->ApplyEdits();  // in the tick in which they were found
   const bool central = mode_ == Mode::kCentral;
   const std::int64_t every = central ? 1 : std::max(1, room_.tick_hz / room_.send_hz);
   if (player_ >= 0 && mode_ != Mode::kOracle && replica_->tick() % every == 0) {

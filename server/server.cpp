@@ -14,6 +14,9 @@ namespace {
 
 /// Most ticks stepped in one call: a server that was suspended catches up without starving the net.
 constexpr int kStepsMax = 8;
+/// Mode oracle: what is decided outside the physics (a seat, a rule, a script) acts so much later,
+/// s, at every peer in the same tick. Longer than an order is under way, or that peer is behind.
+constexpr double kAppointSeconds = 0.25;
 
 Room MakeRoom(const Scene& scene, const ServerConfig& config) {
   Room room;
@@ -170,6 +173,7 @@ void Server::StepOnce(std::int64_t now_us) {
   }
   ApplyEdits(now_us);
   replica_.Step();
+  if (config_.sync.mode == Mode::kOracle) ApplyQueued(now_us);
   for (const Edit& edit : replica_.TakeProposals()) edits_.Add(edit);
   for (int p = 0; !replica_.world().scene().seats.empty() && p < players; ++p) {
     const int pressed = replica_.TakePressed(p);
@@ -187,16 +191,43 @@ void Server::StepOnce(std::int64_t now_us) {
   RunRules(now_us);
 }
 
+/// Mode oracle: every peer applies them alone, after the same tick.
+void Server::AppointEdits(std::int64_t now_us) {
+  const auto ahead = static_cast<std::int64_t>(kAppointSeconds * config_.sync.tick_hz);
+  for (const Edit& edit : edits_.TakePending()) {
+    EditOrder order = ToOrder(edit);
+    order.utime = now_us;
+    order.tick = std::max<std::int64_t>(0, replica_.tick()) + ahead;
+    order.number = 0;  // that it is no new beginning; they are counted as they are applied
+    sessions_.SendToAll(Encode(order));
+    replica_.Queue(order);
+  }
+}
+
 void Server::ApplyEdits(std::int64_t now_us) {
+  if (config_.sync.mode == Mode::kOracle) {
+    AppointEdits(now_us);
+    ApplyQueued(now_us);
+    return;
+  }
   const EditLog::Batch batch = edits_.OrderPending(now_us);
   stats_.counters.dropped_stale += batch.stale;
   for (const EditOrder& order : batch.orders) {
     broadcast_.ToAll(order);
     replica_.Queue(order);
   }
+  ApplyQueued(now_us);
+}
+
+void Server::ApplyQueued(std::int64_t now_us) {
   while (replica_.has_queued()) {
+    const Edit edit = replica_.next_queued();
     const std::optional<BodyRemap> change = replica_.ApplyNextEdit();
-    edits_.NoteApplied();
+    if (config_.sync.mode == Mode::kOracle) {
+      broadcast_.Publish(edits_.NoteAlone(edit, now_us));
+    } else {
+      edits_.NoteApplied();
+    }
     if (!change) continue;
     authority_.Remap(change->mechanisms);
     filter_.Remap(change->bodies);

@@ -87,6 +87,8 @@ class Server {
   void StartIfReady(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);
   void ApplyEdits(std::int64_t now_us);
+  void AppointEdits(std::int64_t now_us);
+  void ApplyQueued(std::int64_t now_us);
   void UpdateAuthority(std::int64_t now_us);
   void RunRules(std::int64_t now_us);
 

@@ -81,6 +81,7 @@ void Server::OnPing(std::int64_t now_us, Session& session, const Ping& ping) {
   pong.tick0_us = tick0_us_;
   session.link.SendUnreliable(Encode(pong));
   const bool more = session.link.reliable_pending();
+  if (config_.sync.mode == Mode::kOracle) return;  // each peer edits by its own clock
   if (session.stage != SessionStage::kReady || !edits_.NeedsRepair(ping, more)) return;
   // Once for each time it was repaired: what is under way must arrive first.
   if (now_us - session.repaired_us < kRepairAgainUs) return;

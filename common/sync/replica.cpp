@@ -48,8 +48,13 @@ void Replica::Step() {
   world_.Step();
   memory_.NoteContacts(roles_.table());
   for (Edit& edit : world_.ProposeEdits()) {
-    if (roles_.Proposes(edit)) proposals_.Add(std::move(edit), tick());
+    if (config_.mode == Mode::kOracle) {
+      queued_.push_back(std::move(edit));
+    } else if (roles_.Proposes(edit)) {
+      proposals_.Add(std::move(edit), tick());
+    }
   }
+  QueueAppointed();
   const bool goes_back = config_.GoesBack(roles_.self());
   if (goes_back && next % config_.send_every() == 0) reach_.Look();
   scheduler_.Collect();
