@@ -9,6 +9,7 @@
 #include "common/base/bytes.h"
 #include "common/base/process.h"
 #include "common/measure/measure.h"
+#include "common/measure/screen/response.h"
 
 namespace seam {
 namespace {
@@ -46,7 +47,19 @@ std::vector<Column> Columns(const Measures& m, std::optional<double> floor_m,
     return applies ? std::optional<double>(value) : std::nullopt;
   };
   const bool any = m.compared > 0;
-  return {{"error_rms_m", given(any, m.error_rms_m)},
+  return {{"error_others_m", m.error_others_m},
+          {"error_own_m", m.error_own_m},
+          {"error_server_m", m.error_server_m},
+          {"path_error_rms_m", m.path_error_rms_m},
+          {"view_age_ms", m.view_age_ms},
+          {"response_own_ms", m.response_own_ms},
+          {"response_server_ms", m.response_server_ms},
+          {"response_other_ms", m.response_other_ms},
+          {"seen", m.seen},
+          {"energy_ratio_min", m.energy_ratio_min},
+          {"energy_ratio_max", m.energy_ratio_max},
+          {"hottest_ratio", m.hottest_ratio},
+          {"error_rms_m", given(any, m.error_rms_m)},
           {"error_p95_m", given(any, m.error_p95_m)},
           {"error_max_m", given(any, m.error_max_m)},
           {"error_rms_rad", given(any, m.error_rms_rad)},
@@ -66,6 +79,8 @@ std::vector<Column> Columns(const Measures& m, std::optional<double> floor_m,
           {"handover_jump_m", given(m.handovers > 0, m.handover_jump_m)},
           {"handover_gap_m", m.handover_gap_m},
           {"handover_dv_mps", m.handover_dv_mps},
+          {"handover_gap_p95_m", m.handover_gap_p95_m},
+          {"handover_dv_p95_mps", m.handover_dv_p95_mps},
           {"topology_lag_s", m.topology_lag_s},
           {"lost", m.lost ? std::optional<double>(static_cast<double>(*m.lost)) : std::nullopt},
           {"floor_m", floor_m},
@@ -82,8 +97,10 @@ std::string Values(const Recording& recording, bool floor) {
     floor_m = ErrorFloor(recording, oracle, kNudge);
     floor_wire_m = ErrorFloor(recording, oracle, kWireNudge);
   }
+  Measures measures = Measure(recording, oracle);
+  MeasureResponse(recording, oracle, 0, &measures);
   std::string line;
-  for (const Column& column : Columns(Measure(recording, oracle), floor_m, floor_wire_m)) {
+  for (const Column& column : Columns(measures, floor_m, floor_wire_m)) {
     line += column.value ? Number(*column.value) : ",";
   }
   return line;
