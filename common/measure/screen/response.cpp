@@ -16,10 +16,13 @@ namespace {
 constexpr int kChangesMax = 16;     ///< of each player
 constexpr double kHorizon = 1;      ///< s: how long an answer is waited for
 constexpr double kEffectMin = 0.2;  ///< m/s: weaker inputs are left out
-/// A body answers when it has this share of the effect that the input will have, and keeps it for
-/// so many ticks.
-constexpr double kShare = 0.25;
+/// A body answers when it has this share of the effect that the input will have, but at least and
+/// at most so much, m/s (of a strong effect the first of it tells most), and keeps it for so many
+/// ticks.
+constexpr double kShare = 0.25, kAnswerMin = 0.1, kAnswerMax = 0.5;
 constexpr std::int64_t kKept = 3;
+/// Where the oracle's own answer takes longer, what is late has caught up before it can be seen, s.
+constexpr double kOnsetMax = 0.25;
 /// The view's age and its error before the change are taken over so long, s.
 constexpr double kBefore = 0.25;
 constexpr double kNever = std::numeric_limits<double>::infinity();
@@ -46,7 +49,7 @@ struct Question {
   }
 };
 
-std::optional<Question> Ask(const InputChange& change, Effect effect) {
+std::optional<Question> Ask(const InputChange& change, Effect effect, double h) {
   if (effect.id < 0) return std::nullopt;
   Question question{change, std::move(effect), {0, 0, 0}, 0, 0};
   double most = 0;
@@ -55,8 +58,10 @@ std::optional<Question> Ask(const InputChange& change, Effect effect) {
     most = d.norm();
     question.way = d / most;
   }
-  question.due = std::max(kShare * most, kEffectMin / 2);
-  for (std::size_t t = 0; t < question.effect.velocity.size(); ++t) {
+  question.due = std::clamp(kShare * most, kAnswerMin, kAnswerMax);
+  const auto onset_max = static_cast<std::size_t>(std::llround(kOnsetMax / h));
+  const std::size_t known = question.effect.velocity.size();
+  for (std::size_t t = 0; t < std::min(known, onset_max); ++t) {
     if (question.effect.velocity[t].dot(question.way) < question.due) continue;
     question.truth_tick = change.tick + static_cast<std::int64_t>(t);
     return question;
@@ -120,8 +125,7 @@ std::optional<double> AnswerTick(const Question& question, const Difference& scr
   std::int64_t kept = 0;
   for (std::int64_t tick = first; tick < end; ++tick) {
     const std::optional<double> off = screen.At(tick);
-    if (!off) break;
-    kept = *off >= question.due ? kept + 1 : 0;
+    kept = off && *off >= question.due ? kept + 1 : 0;
     if (kept < kKept) continue;
     const std::int64_t answer = tick - kKept + 1;
     if (answer < question.truth_tick - 1) return std::nullopt;
@@ -167,7 +171,7 @@ void MeasureResponse(const Recording& recording, const Oracle& oracle, int input
     const std::optional<double> read_us =
         HeardUs(recording, player_peer, change.tick - input_delay_ticks);
     if (!read_us) continue;
-    const std::optional<Question> question = Ask(change, worlds.Of(change, horizon, kEffectMin));
+    const std::optional<Question> question = Ask(change, worlds.Of(change, horizon, kEffectMin), h);
     if (!question) continue;
     const BodyPath truth = TruePath(recording, oracle, question->effect.id);
     for (const auto& [peer, of_peer] : views) {
