@@ -9,6 +9,7 @@
 
 #include "common/measure/screen/noticed.h"
 #include "common/measure/screen/thresholds.h"
+#include "tests/lab/cluster.h"
 #include "tests/support/made_recording.h"
 
 namespace seam {
@@ -249,6 +250,29 @@ anchor = [-2.5, 0]
     EXPECT_EQ(*Measure(run, OracleFromRecording(truth)).seen > 0, gap > 0.09) << gap;
   }
 }
+
+Measures Session(const std::string& scene, const std::string& mode, const std::string& impair) {
+  ClusterConfig config;
+  config.scene = scene;
+  config.mode = mode;
+  config.impair = impair;
+  config.duration_s = 6;
+  const Recording recording = RunCluster(config);
+  return Measure(recording, ComputeOracle(recording));
+}
+
+TEST(Seen, NothingIsOfAnOraclesSession) {
+  for (const char* scene : {"crossing", "cradle", "ragdolls"}) {
+    const Measures m = Session(scene, "oracle", "perfect");
+    EXPECT_EQ(m.seen, 0) << scene;
+    EXPECT_EQ(m.error_others_m, 0) << scene;
+    EXPECT_EQ(m.path_error_rms_m, 0) << scene;
+    EXPECT_EQ(m.energy_ratio_max, 1) << scene;
+    EXPECT_EQ(m.energy_ratio_min, 1) << scene;
+  }
+}
+
+TEST(Seen, TheRubberWallIs) { EXPECT_GT(Session("crossing", "strict", "demo").seen.value(), 0.3); }
 
 TEST(Kinetic, IsTheRatioOfWhatIsShownToTheOracles) {
   Recording run = Blow(2, 0);

@@ -27,13 +27,15 @@ class Blows {
   struct Blow {
     PartId id = 0;
     std::int64_t tick = 0;
-    Eigen::Vector2d position{0, 0};      // m
-    Eigen::Vector2d before{0, 0};        // m/s, velocity before it
-    Eigen::Vector2d change{0, 0};        // m/s
-    double radius = 0;                   // m
-    std::map<int, std::int64_t> answer;  // tick by peer; -1: never
+    Eigen::Vector2d position{0, 0};    // m
+    Eigen::Vector2d before{0, 0};      // m/s, velocity before it
+    Eigen::Vector2d change{0, 0};      // m/s
+    double radius = 0;                 // m
+    std::int64_t answer_due = 0;       // tick of the oracle's own answer
+    std::map<int, std::int64_t> late;  // ticks after that, by peer; kNever
   };
-  std::int64_t Answer(const Blow& blow, const BodyPath& shown) const;
+  /// The tick in which a path has made half of the blow's change; nullopt: never.
+  std::optional<std::int64_t> Answer(const Blow& blow, const BodyPath& path) const;
 
   double h_;
   std::vector<Blow> blows_;
