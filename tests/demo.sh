@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # make demo: real processes over loopback UDP and the LCM bus, one session per scene and method,
 # captured by the stock lcm-logger, then drawn and measured. Usage: demo.sh OUTPUT_DIR
-# Then one session of each of the large worlds, over 4g. Environment: SEAM_BIN (folder of the programs),
+# Then one session of each of the large worlds and of the players' scenes, over 4g. Environment: SEAM_BIN (folder of the programs),
 # IMPAIR (network profile of the first part, default demo), SEED, SCENES and WORLDS (which scenes; "": none).
 set -euo pipefail
 
