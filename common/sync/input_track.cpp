@@ -24,6 +24,15 @@ Input InputTrack::At(std::int64_t tick) const {
   return input;
 }
 
+bool InputTrack::Surprises(std::int64_t from) const {
+  for (auto it = known_.lower_bound(from); it != known_.end(); ++it) {
+    Input guess = it == known_.begin() ? Input{} : std::prev(it)->second;
+    guess.buttons = 0;
+    if (!(it->second == guess)) return true;
+  }
+  return false;
+}
+
 std::int16_t InputTrack::TakePresses(std::int64_t tick) {
   int pressed = 0;
   for (auto it = known_.upper_bound(presses_taken_until_); it != known_.end() && it->first <= tick;

@@ -18,13 +18,16 @@ class InputTrack {
   bool knows(std::int64_t tick) const { return known_.count(tick) != 0; }
   /// The input of `tick`; where unknown, the newest known one before it with no buttons pressed.
   Input At(std::int64_t tick) const;
+  /// Whether a known input of `from` or later is another than who knows only those before it would
+  /// take it to be.
+  bool Surprises(std::int64_t from) const;
   std::int64_t newest() const { return known_.empty() ? -1 : known_.rbegin()->first; }
 
   /// Buttons that went down in ticks heard of and <= `tick`, each reported once. They may be late:
   /// a relayed input arrives after its tick.
   std::int16_t TakePresses(std::int64_t tick);
 
-  /// The last `count` known successive ticks up to `newest()`, for the wire.
+  /// The last `count` known successive ticks up to `newest()`, for the wire; all if there are less.
   Inputs Export(int player, int count) const;
 
   static constexpr std::int64_t kKeepTicks = 600;

@@ -73,6 +73,7 @@ class Replica {
   int revision() const { return world_.topology().revision(); }
 
   InputTrack& inputs(int player) { return inputs_[static_cast<std::size_t>(player)]; }
+  const InputTrack& inputs(int player) const { return inputs_[static_cast<std::size_t>(player)]; }
   /// Buttons of this player that went down since the last call, as far as heard of.
   int TakePressed(int player) {
     return std::exchange(pressed_now_[static_cast<std::size_t>(player)], 0);
