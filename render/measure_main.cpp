@@ -67,7 +67,7 @@ MeasuredRun MeasureLog(const std::string& path, const std::string& name, const O
   run.run = name;
   run.room = recording.room;
   run.measures = Measure(recording, oracle);
-  MeasureResponse(recording, oracle, 0, &run.measures);
+  MeasureResponse(recording, oracle, recording.room.input_delay_ticks, &run.measures);
   run.gaps = recording.bus_gaps;
   run.skipped_bytes = recording.skipped_bytes;
   if (run.measures.compared == 0) {

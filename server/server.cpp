@@ -95,6 +95,7 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
     broadcast_.Publish(stats_.Report(now_us, replica_.tick(), cpu_us, sessions_.WorstRttUs(),
                                      sessions_.WorstLossPpm()));
   }
+  RelayInputs(now_us);
   sessions_.Flush(now_us, &stats_.counters);
 }
 

@@ -74,6 +74,8 @@ class Server {
   void OnMessage(std::int64_t now_us, Session& session, ByteView bytes);
   void OnPing(std::int64_t now_us, Session& session, const Ping& ping);
   void OnInputs(std::int64_t now_us, Session& session, const Inputs& inputs);
+  void RelayInputs(std::int64_t now_us);
+  Inputs TakeFresh(std::int64_t now_us, const Inputs& inputs);
   void OnStates(std::int64_t now_us, Session& session, const States& states);
   void OnRelease(const Session& session, const Release& release);
   void OnProposal(Session& session, const EditOrder& proposal);

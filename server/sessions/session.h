@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "common/net/link.h"
 #include "common/net/net.h"
+#include "common/sync/input_feed.h"
 #include "server/sessions/traffic_budget.h"
 
 namespace seam {
@@ -32,6 +34,7 @@ struct Session {
   SessionId id;
   Link link;
   TrafficBudget budget;
+  std::vector<InputFeed> feeds;  ///< of the others' inputs, by player
   std::string name;
   int peer = 0;
   int player = -1;
