@@ -8,6 +8,8 @@
 #include "common/physics/world.h"
 #include "common/sync/mode.h"
 #include "common/sync/roles.h"
+#include "common/sync/show/joint_closer.h"
+#include "common/sync/show/reckoner.h"
 #include "common/sync/smoother.h"
 #include "common/sync/snapshots.h"
 
@@ -33,18 +35,22 @@ class Display {
   /// The bodies have changed: visual offsets stay with what a body became.
   void Remap(const BodyRemap& change);
 
-  /// All bodies as they are shown now. utime is left 0.
+  /// All bodies as they are shown now, joints closed. utime is left 0.
   View MakeView(const Roles& roles) const;
 
  private:
   BodyState AlongSnapshots(int body, const BodyState& target, BodyState state);
-  BodyState AlongReckoned(int body, std::int64_t next, BodyState state);
+  BodyState AlongReckoned(int body, BodyState state);
+  /// Of all bodies, in the view; velocities are those of physics.
+  std::vector<BodyState> ShownPoses(const Roles& roles) const;
 
   const SyncConfig& config_;
   World& world_;
   const Snapshots& snapshots_;
   Smoother smoother_;
   DisplayDelay delay_;
+  JointCloser joints_;
+  Reckoner reckoner_;
 };
 
 }  // namespace seam
