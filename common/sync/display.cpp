@@ -14,6 +14,9 @@ constexpr float kSpinDrivenMax = 90.0f;
 /// A turn of more than this within a tick is taken for a fast wheel's, whose angle nobody follows.
 constexpr float kTurnSeen = 0.5f;
 
+/// So long after a correction the engine may still be closing what it has torn, ticks.
+constexpr int kCorrectedTicks = 10;
+
 float TurnTo(float from, float to) { return WrapAngle(to - from); }
 
 }  // namespace
@@ -25,19 +28,33 @@ Display::Display(const SyncConfig& config, World& world, const Snapshots& snapsh
       smoother_(world.body_count(), config.smooth),
       delay_(config.send_every()),
       joints_(world),
-      reckoner_(world, snapshots, joints_) {}
+      reckoner_(world, snapshots, joints_),
+      corrected_ticks_(world.composition().mechanisms.size(), 0) {}
+
+void Display::Moved(int body, const BodyState& by) {
+  smoother_.Moved(body, by);
+  corrected_ticks_[static_cast<std::size_t>(world_.mechanism(body))] = kCorrectedTicks;
+}
 
 void Display::Remap(const BodyRemap& change) {
   std::vector<int> from;
   for (const BodyOrigin& origin : change.bodies) from.push_back(origin.body);
   smoother_.Remap(from);
   joints_.Rebuild();
+  corrected_ticks_.assign(world_.composition().mechanisms.size(), 0);
 }
 
 void Display::Glide() {
   const int mechanisms = static_cast<int>(world_.composition().mechanisms.size());
   for (int m = 0; m < mechanisms; ++m) {
     const std::vector<int>& bodies = joints_.bodies(m);
+    int& corrected = corrected_ticks_[static_cast<std::size_t>(m)];
+    if (IsOff(m)) {
+      joints_.Follow(m);
+    } else {
+      joints_.Forget(m);
+    }
+    corrected = std::max(0, corrected - 1);
     if (bodies.size() == 1) {
       const int body = bodies.front();
       smoother_.Advance(body, world_.dt(), world_.Read(body).velocity.norm());
@@ -103,6 +120,13 @@ BodyState Display::AlongReckoned(int body, BodyState state) {
   return along;
 }
 
+bool Display::IsOff(int mechanism) const {
+  const std::vector<int>& bodies = joints_.bodies(mechanism);
+  return corrected_ticks_[static_cast<std::size_t>(mechanism)] > 0 ||
+         std::any_of(bodies.begin(), bodies.end(),
+                     [&](int body) { return smoother_.active(body); });
+}
+
 std::vector<BodyState> Display::ShownPoses(const Roles& roles) const {
   std::vector<BodyState> poses;
   for (int body = 0; body < world_.body_count(); ++body) {
@@ -114,12 +138,9 @@ std::vector<BodyState> Display::ShownPoses(const Roles& roles) const {
   const int mechanisms = static_cast<int>(world_.composition().mechanisms.size());
   for (int m = 0; m < mechanisms; ++m) {
     if (!joints_.jointed(m)) continue;
-    const std::vector<int>& bodies = joints_.bodies(m);
-    const bool simulated = roles.Simulates(bodies.front());
-    const bool off =
-        std::any_of(bodies.begin(), bodies.end(), [&](int body) { return smoother_.active(body); });
+    const bool simulated = roles.Simulates(joints_.bodies(m).front());
     // What physics made of a simulated mechanism is shown as it is.
-    if (!simulated || off) joints_.Close(m, simulated, &poses);
+    if (!simulated || IsOff(m)) joints_.Close(m, simulated, &poses);
   }
   return poses;
 }

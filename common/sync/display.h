@@ -27,7 +27,7 @@ class Display {
   void Glide();
 
   /// The physics state of `body` was changed by this much; the view stays where it was.
-  void Moved(int body, const BodyState& by) { smoother_.Moved(body, by); }
+  void Moved(int body, const BodyState& by);
   /// The body was placed anew: it is shown there at once.
   void Reset(int body) { smoother_.Reset(body); }
   /// A state was this many ticks old when it was received.
@@ -41,6 +41,8 @@ class Display {
  private:
   BodyState AlongSnapshots(int body, const BodyState& target, BodyState state);
   BodyState AlongReckoned(int body, BodyState state);
+  /// Whether a simulated mechanism may be shown other than physics made it.
+  bool IsOff(int mechanism) const;
   /// Of all bodies, in the view; velocities are those of physics.
   std::vector<BodyState> ShownPoses(const Roles& roles) const;
 
@@ -51,6 +53,7 @@ class Display {
   DisplayDelay delay_;
   JointCloser joints_;
   Reckoner reckoner_;
+  std::vector<int> corrected_ticks_;  // by mechanism: how much longer it may be torn in physics
 };
 
 }  // namespace seam

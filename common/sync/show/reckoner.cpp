@@ -5,10 +5,9 @@
 #include "common/base/geometry.h"
 
 namespace seam {
-namespace {
 
 /// A body as it was last heard of, by its centre of mass.
-struct Heard {
+struct Reckoner::Heard {
   int body = -1;
   MassPoint mass;
   BodyState state;
@@ -17,13 +16,14 @@ struct Heard {
 };
 
 /// What the centres of bodies have in common: the motion of a rigid body.
-struct Common {
+struct Reckoner::Common {
   Vec2 centre{0, 0}, velocity{0, 0};
   Vec2 acceleration{0, 0};
   float spin = 0;
 };
 
-Common CommonOf(const std::vector<Heard>& heard, const Snapshots& snapshots, float dt) {
+Reckoner::Common Reckoner::CommonOf(const std::vector<Heard>& heard, const Snapshots& snapshots,
+                                    float dt) {
   Common common;
   float mass = 0;
   for (const Heard& h : heard) {
@@ -35,7 +35,12 @@ Common CommonOf(const std::vector<Heard>& heard, const Snapshots& snapshots, flo
   common.centre /= mass;
   common.velocity /= mass;
   common.acceleration /= mass;
-  float moment = 0, inertia = 0;
+  // The body that is hardest to turn counts with its own spin: without it centres that lie near
+  // each other would spin at random. Wheels do not: they spin for themselves.
+  const auto root = std::max_element(
+      heard.begin(), heard.end(),
+      [](const Heard& a, const Heard& b) { return a.mass.inertia < b.mass.inertia; });
+  float moment = root->mass.inertia * root->state.spin, inertia = root->mass.inertia;
   for (const Heard& h : heard) {
     const Vec2 arm = h.centre - common.centre;
     moment += h.mass.mass * Cross(arm, h.state.velocity);
@@ -44,8 +49,6 @@ Common CommonOf(const std::vector<Heard>& heard, const Snapshots& snapshots, flo
   common.spin = inertia > 0 ? moment / inertia : 0;
   return common;
 }
-
-}  // namespace
 
 void Reckoner::Begin(std::int64_t next) {
   next_ = next;
@@ -67,8 +70,10 @@ const Reckoner::Paths& Reckoner::Reckoned(int body) {
 
 void Reckoner::Reckon(int mechanism, std::int64_t tick, std::vector<BodyState>* states) const {
   // Those of the newest tick move on as one. Older states are moved on one by one: what they had in
-  // common with the others then is not known now.
+  // common with the others then is not known now. So are those of a mechanism that is tied to
+  // something: that takes its momentum.
   std::int64_t newest = -1;
+  const bool free = !joints_.anchored(mechanism);
   for (const int body : joints_.bodies(mechanism)) {
     newest = std::max(newest, snapshots_.newest_tick(body));
   }
@@ -77,7 +82,7 @@ void Reckoner::Reckon(int mechanism, std::int64_t tick, std::vector<BodyState>* 
     BodyState& state = (*states)[static_cast<std::size_t>(body)];
     if (!snapshots_.has(body)) {
       state = world_.Read(body);
-    } else if (snapshots_.newest_tick(body) != newest) {
+    } else if (!free || snapshots_.newest_tick(body) != newest) {
       state = snapshots_.Extrapolate(body, tick, world_.dt(), kReckonMax);
     } else {
       Heard h{body, world_.mass_point(body), *snapshots_.At(body, newest), newest, Vec2(0, 0)};
@@ -85,7 +90,12 @@ void Reckoner::Reckon(int mechanism, std::int64_t tick, std::vector<BodyState>* 
       together.push_back(h);
     }
   }
-  if (together.empty()) return;
+  if (!together.empty()) MoveOn(together, newest, tick, states);
+  if (joints_.jointed(mechanism)) joints_.Close(mechanism, false, states);
+}
+
+void Reckoner::MoveOn(const std::vector<Heard>& together, std::int64_t newest, std::int64_t tick,
+                      std::vector<BodyState>* states) const {
   const Common common = CommonOf(together, snapshots_, world_.dt());
   const float forward = snapshots_.Forward(newest, tick, world_.dt(), kReckonMax);
   const Rotation<float> turn(common.spin * forward);
@@ -101,7 +111,6 @@ void Reckoner::Reckon(int mechanism, std::int64_t tick, std::vector<BodyState>* 
     state.position = centre + turn(Vec2(arm + forward * own)) - Turned(h.mass.centre, state.angle);
     state.velocity = common.velocity + gained + turn(Vec2(h.state.velocity - common.velocity));
   }
-  if (joints_.jointed(mechanism)) joints_.Close(mechanism, false, states);
 }
 
 }  // namespace seam

@@ -31,8 +31,13 @@ class Reckoner {
   struct Paths {
     std::vector<BodyState> here, there;  // by body
   };
+  struct Heard;
+  struct Common;
+  static Common CommonOf(const std::vector<Heard>& heard, const Snapshots& snapshots, float dt);
   const Paths& Reckoned(int body);
   void Reckon(int mechanism, std::int64_t tick, std::vector<BodyState>* states) const;
+  void MoveOn(const std::vector<Heard>& together, std::int64_t newest, std::int64_t tick,
+              std::vector<BodyState>* states) const;
 
   const World& world_;
   const Snapshots& snapshots_;
