@@ -27,7 +27,7 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       pressed_missed_(topology.scene().players.size(), 0) {
   corrector_.FollowRoles();
   memory_.Record();
-  replay_.TakeBarrier(true);  // the inputs of the first ticks come late, too
+  replay_.TakeBarrier();  // the inputs of the first ticks come late, too
 }
 
 void Replica::StartAt(std::int64_t tick) {
@@ -55,11 +55,10 @@ void Replica::Step() {
     }
   }
   QueueAppointed();
-  const bool goes_back = config_.GoesBack(roles_.self());
-  if (goes_back && next % config_.send_every() == 0) reach_.Look();
+  if (config_.rolls_back && next % config_.send_every() == 0) reach_.Look();
   scheduler_.Collect();
   memory_.Record();
-  if (goes_back) replay_.TakeBarrier(reach_.MayGoBack());
+  replay_.TakeBarrier();
   display_.Glide();
   corrector_.ReceiveWaiting();
 }

@@ -79,9 +79,8 @@ void Replay::AskFrom(std::int64_t tick) {
   if (from_ < 0 || tick < from_) from_ = tick;
 }
 
-void Replay::TakeBarrier(bool needed) {
+void Replay::TakeBarrier() {
   if (!config_.GoesBack(roles_.self()) || world_.tick() % config_.send_every() != 0) return;
-  if (!needed) return Forget();
   barriers_.push_back(world_.Barrier());
   while (barriers_.front().tick < world_.tick() - kReplayMax * config_.tick_hz) {
     barriers_.pop_front();
@@ -213,7 +212,7 @@ void Replay::Run() {
   while (world_.tick() < now) {
     StepAgain();
     PutIn();
-    TakeBarrier(true);
+    TakeBarrier();
   }
   for (int body = 0; body < world_.body_count(); ++body) {
     const auto b = static_cast<std::size_t>(body);
