@@ -23,6 +23,7 @@ constexpr std::size_t kReliableFlushBytes = 8 * kMessageBytesMax;
 constexpr std::size_t kSentRecords = 1024;
 /// Silence after which acks are sent by themselves, us.
 constexpr std::int64_t kIdleUs = 100'000;
+constexpr std::int64_t kIdleQuietUs = 1'500'000;
 /// Time before a reliable message is repeated: before the round trip is known, and at least, us.
 constexpr std::int64_t kFirstResendUs = 250'000;
 constexpr std::int64_t kResendUsMin = 50'000;
@@ -57,6 +58,7 @@ struct Link::Impl {
   std::deque<SentRecord> sent;  // of successive sequence numbers up to the newest
   std::int64_t srtt_us = -1;
   bool ever_acked = false;
+  bool quiet = false;
 
   SequenceWindow window;
   std::int64_t flushed_newest = -1;     // window.newest() at the last Flush
@@ -148,7 +150,7 @@ struct Link::Impl {
     for (const Bytes& message : unreliable) Pack(packing, {false, 0, message});
     unreliable.clear();
     if (!packing.writer.empty()) Emit(packing);
-    const bool idle = last_send_us < 0 || now_us - last_send_us >= kIdleUs;
+    const bool idle = last_send_us < 0 || now_us - last_send_us >= (quiet ? kIdleQuietUs : kIdleUs);
     if (idle || ack_owed) Emit(packing);
     while (packing.datagrams > 0 && packing.datagrams < packing.acks.size()) Emit(packing);
     if (packing.datagrams > 0) flushed_newest = window.newest();
@@ -169,7 +171,7 @@ struct Link::Impl {
     SentRecord& record = sent[sent.size() - 1 - age];
     if (record.acked) return;
     record.acked = ever_acked = true;
-    if (sample) SampleRtt(now_us - record.sent_us);
+    if (sample && !quiet) SampleRtt(now_us - record.sent_us);
     for (const std::int64_t id : record.ids) {
       const std::int64_t index = reliable.empty() ? -1 : id - reliable.front().id;
       const bool waiting = index >= 0 && index < static_cast<std::int64_t>(reliable.size());
@@ -270,6 +272,8 @@ bool Link::Receive(std::int64_t now_us, ByteView datagram, const Gate& gate, con
   if (!accepted) ++impl_->rejected;
   return accepted;
 }
+
+void Link::SetQuiet(bool quiet) { impl_->quiet = quiet; }
 
 std::int64_t Link::last_receive_us() const { return impl_->last_receive_us; }
 std::int64_t Link::rtt_us() const { return impl_->srtt_us; }

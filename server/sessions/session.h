@@ -6,6 +6,7 @@
 
 #include "common/net/link.h"
 #include "common/net/net.h"
+#include "common/sync/rest/rest_agreement.h"
 #include "server/sessions/traffic_budget.h"
 
 namespace seam {
@@ -32,6 +33,7 @@ struct Session {
   SessionId id;
   Link link;
   TrafficBudget budget;
+  RestAgreement rest;  ///< with what the client knows to rest
   std::string name;
   int peer = 0;
   int player = -1;

@@ -18,8 +18,9 @@
 namespace seam {
 namespace {
 
-using Messages = ::testing::Types<Hello, Welcome, Chunk, Room, Ping, Pong, Inputs, States, Grants,
-                                  Release, EditOrder, Meta, View, Impacts, Stats, Event, Bye>;
+using Messages =
+    ::testing::Types<Hello, Welcome, Chunk, Room, Ping, Pong, Inputs, States, Rest, Grants, Release,
+                     EditOrder, Meta, View, Impacts, Stats, Event, Bye>;
 
 template <class Message>
 class Codec : public ::testing::Test {};
@@ -182,6 +183,9 @@ TEST(CodecBounds, TheLargestMessagesFitTheirCarriers) {
   States states;
   random.Fill(states, kStatesBodiesMax);
   EXPECT_LE(Encode(states).size(), kMessageBytesMax);
+  Rest rest;
+  random.Fill(rest, kRestBodiesMax);
+  EXPECT_LE(Encode(rest).size(), kMessageBytesMax);
   Grants grants;
   random.Fill(grants, kGrantsMax);
   EXPECT_LE(Encode(grants).size(), kMessageBytesMax);

@@ -76,6 +76,7 @@ void Replay::FindPressed(std::int64_t from) {
 /// told of it.
 bool Replay::FollowsHistory(int body, std::int64_t tick) const {
   if (!roles_.Simulates(body)) return true;
+  if (memory_.track(body).at_rest) return true;  // committed, here too
   if (tick <= memory_.track(body).dynamic_since) return true;
   if (roles_.RoleOfBody(body) != kRoleAuthority) return false;
   // What was told of a body at rest is bit for bit where it lies.
