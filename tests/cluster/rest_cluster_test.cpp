@@ -40,15 +40,17 @@ anchored = true
 friction = 0.8
 )";
   for (int i = 0; i < count; ++i) {
-    const double row = i / 6, column = i % 6 - 2.5;
-    const double x = 0.9 * column + 0.3 * (random.Uniform() - 0.5);
-    const bool crosses = i == 0 || i == 5;
+    // The first two fly over the others to the other side.
+    const bool flies = i < 2;
+    const int side = i == 0 ? -1 : 1;
+    const double rows = count / 6.0, row = (i - 2) / 6, column = (i - 2) % 6 - 2.5;
+    const double x = flies ? 3.5 * side : 0.9 * column;
+    const double y = flies ? 2.2 + 1.1 * rows + i : 1.0 + 1.1 * row;
     char line[300];
     std::snprintf(line, sizeof line,
                   "[[part]]\nname = \"box%d\"\nbox = [0.8, 0.8]\nposition = [%.4f, %.4f]\n"
                   "velocity = [%.2f, 0]\nfriction = 0.6\n",
-                  i, crosses ? 3.0 * x / (0.9 * 2.5) : x, 1.0 + 1.1 * row + (crosses ? 1.5 : 0),
-                  crosses ? -4.0 * column / 2.5 : 0.0);
+                  i, x + random.Uniform(-0.15, 0.15), y, flies ? -7.0 * side : 0.0);
     text += line;
   }
   return text;
