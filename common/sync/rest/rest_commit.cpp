@@ -106,6 +106,7 @@ void RestCommit::BeforeStep() {
     if (d.freed_tick >= 0 && world_.tick() - d.freed_tick >= Ticks(kBackAfter)) {
       d.freed_tick = -1;
       memory_.track(body).at_rest = table_.at(body).committed;
+      if (Holds(body)) Put(body);
     }
     if (!Holds(body)) continue;
     const BodyState now = world_.Read(body);
