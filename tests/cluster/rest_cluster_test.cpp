@@ -34,16 +34,16 @@ std::string Falling(int count, std::int64_t seed) {
   std::string text = std::string("duration = 60\nbuffer = 8\n") + kTwoSides + R"(
 [[part]]
 name = "floor"
-box = [80, 1]
-position = [0, -0.5]
+box = [80, 20]
+position = [0, -10]
 anchored = true
 friction = 0.8
 [[part]]
 name = "wall"
-box = [1, 30]
-position = [-9, 14]
+box = [20, 50]
+position = [-18, 24]
 anchored = true
-repeat = {count = 2, step = [18, 0]}
+repeat = {count = 2, step = [36, 0]}
 )";
   for (int i = 0; i < count; ++i) {
     // The first two fly over the others to the other side.

@@ -36,6 +36,7 @@ bool RestCommit::MayCommit(const std::vector<int>& island, const std::vector<int
   if (!each(island, [&](int b) { return !Driven(b); })) return false;
   if (each(own, [&](int b) { return watch_.still(b) >= Ticks(kStillFor); })) return true;
   const auto slow = [&](double seconds) {
+    if (!each(own, [&](int b) { return watch_.still(b) > config_.send_every(); })) return false;
     return each(island, [&](int b) { return watch_.slow(b) >= Ticks(seconds); });
   };
   const bool lowest = each(island, [&](int b) {
