@@ -154,7 +154,13 @@ void Client::NoteOwnInput() {
     case Drive::kBot: input = BotInput(room_.seed, player_, next, room_.tick_hz); break;
     case Drive::kLive: input = live_; break;
   }
-  replica_->inputs(player_).Note(next, input);
+  // What is read for this tick acts in a later one; in those before the first, nobody drives.
+  const std::int64_t acts = next + room_.input_delay_ticks;
+  const InputTrack& track = replica_->inputs(player_);
+  for (std::int64_t tick = std::max(next, track.newest() + 1); tick < acts; ++tick) {
+    replica_->NoteInput(player_, tick, Input{});
+  }
+  replica_->NoteInput(player_, acts, input);
   if (!(input == Input{})) idle_since_ = next;
 }
 

@@ -5,6 +5,7 @@
 
 #include "client/client.h"
 #include "common/base/check.h"
+#include "common/sync/method.h"
 
 namespace seam {
 namespace {
@@ -60,7 +61,7 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
   } else if (const auto* inputs = std::get_if<Inputs>(&any)) {
     const bool known = scene_ != nullptr && inputs->player >= 0 && inputs->player != player_ &&
                        static_cast<std::size_t>(inputs->player) < scene_->players.size();
-    if (known) replica_->inputs(inputs->player).Note(*inputs);
+    if (known) replica_->NoteInputs(*inputs);
   } else if (const auto* bye = std::get_if<Bye>(&any)) {
     if (peer_ < 0) return OnRefusal(now_us, bye->reason);
     closed_ = true;
@@ -125,14 +126,19 @@ void Client::OnSnapshot(const Snapshot& part) {
 }
 
 void Client::MakeReplica(const Topology* become) {
-  SyncConfig sync = MakeSyncConfig(room_.mode, room_.reconcile);
+  SyncConfig sync = MakeSyncConfig(MethodNames{room_.mode, room_.reconcile, room_.predict});
   mode_ = sync.mode;
   sync.tick_hz = room_.tick_hz;
   sync.send_hz = room_.send_hz;
   sync.smooth = config_.smooth;
   sync.seed = room_.seed;
+  sync.input_delay_ticks = room_.input_delay_ticks;
   const Topology topology = become != nullptr ? *become : Topology(*scene_);
+  // Of our own inputs, those of the next ticks may be noted and sent already.
+  const bool played = replica_ != nullptr && player_ >= 0;
+  const InputTrack own = played ? replica_->inputs(player_) : InputTrack();
   replica_ = std::make_unique<Replica>(topology, sync, peer_, player_);
+  if (played) replica_->NoteInputs(own.Export(player_, InputTrack::kKeepTicks));
 }
 
 void Client::OnChunk(const Chunk& chunk) {

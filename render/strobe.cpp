@@ -104,7 +104,8 @@ void DrawRowLabel(DrawList& list, const Rect& area, const Playback& playback) {
   list.Text(area.x, y, TextStyle::kNumber, room.reconcile.empty() ? room.mode : room.reconcile,
             kInk);
   y += 16 * scale;
-  list.Text(area.x, y, TextStyle::kBody, Explained(room.mode), kFaintInk);
+  const std::string predicts = room.predict.empty() ? "" : ", predict " + room.predict;
+  list.Text(area.x, y, TextStyle::kBody, Explained(room.mode) + predicts, kFaintInk);
   y += 4 * scale;
   const auto figure = [&](const std::string& name, const std::string& value) {
     y += 16 * scale;

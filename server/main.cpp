@@ -16,6 +16,7 @@
 #include "common/record/doctor.h"
 #include "common/record/sink.h"
 #include "common/record/trouble_report.h"
+#include "common/sync/method.h"
 #include "server/server.h"
 
 namespace {
@@ -28,6 +29,8 @@ struct Flags {
   std::string bind = "0.0.0.0";
   std::string mode = "buffer";
   std::string reconcile;
+  std::string predict;
+  int input_delay_ticks = -1;  // -1: the scene's
   std::string impair = "perfect";
   std::int64_t seed = 1;
   int send_hz = 30;
@@ -57,6 +60,11 @@ void Define(CLI::App& app, Flags& f) {
   app.add_option("--bind", f.bind, "address to listen on");
   app.add_option("--mode", f.mode, "oracle | central | strict | buffer");
   app.add_option("--reconcile", f.reconcile, "rule for mode buffer (default retrospect)");
+  app.add_option("--predict", f.predict,
+                 "what clients of mode central simulate ahead: own | all (default all)");
+  app.add_option("--input-delay", f.input_delay_ticks,
+                 "ticks from reading an input to its acting, at every peer (default: the scene's)")
+      ->check(CLI::Range(0, kInputDelayTicksMax));
   app.add_option("--impair", f.impair, "impair the network in both directions by a profile");
   app.add_option("--seed", f.seed, "of impairments and bots")->check(CLI::Range(0, 1000000000));
   app.add_option("--send-hz", f.send_hz, "state messages per second")->check(CLI::Range(1, 240));
@@ -121,7 +129,9 @@ int Serve(const Flags& f) {
   CheckRoomName(f.room);
   const Scene scene = LoadScene(FindScene(f.scene));
   ServerConfig config;
-  config.sync = MakeSyncConfig(f.mode, f.reconcile);
+  config.sync = MakeSyncConfig(MethodNames{f.mode, f.reconcile, f.predict});
+  config.sync.input_delay_ticks =
+      f.input_delay_ticks >= 0 ? f.input_delay_ticks : scene.input_delay_ticks;
   config.sync.tick_hz = scene.solver.tick_hz;
   config.sync.send_hz = std::min(f.send_hz, scene.solver.tick_hz);
   config.sync.seed = f.seed;
@@ -139,11 +149,11 @@ int Serve(const Flags& f) {
   OsEntropy entropy;
   Server server(scene, config, net, sink, entropy);
   StopOnSignals();
+  const std::string variant = VariantOf(NamesOf(config.sync));
   std::fprintf(stderr,
                "seam-server: %s, mode %s%s%s, network %s, on %s; waiting for %d player(s)\n",
-               scene.name.c_str(), f.mode.c_str(), config.sync.reconcile_name.empty() ? "" : " ",
-               config.sync.reconcile_name.c_str(), f.impair.c_str(), ToString(udp.local()).c_str(),
-               config.wait_players);
+               scene.name.c_str(), f.mode.c_str(), variant.empty() ? "" : " ", variant.c_str(),
+               f.impair.c_str(), ToString(udp.local()).c_str(), config.wait_players);
   ProgressLine line(f.quiet);
   TroubleReport recording("seam-server", "the room runs on");
   while (g_stop == 0 && (last_tick == 0 || server.tick() < last_tick)) {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "common/sync/input_source.h"
+#include "common/sync/method.h"
 #include "server/rules/rules.h"
 #include "server/rules/seats.h"
 #include "server/server_commands.h"
@@ -19,12 +20,15 @@ Room MakeRoom(const Scene& scene, const ServerConfig& config) {
   room.room = config.room;
   room.scene_name = scene.name;
   room.scene_text = scene.text;
-  room.mode = ToString(config.sync.mode);
-  room.reconcile = config.sync.reconcile_name;
+  const MethodNames names = NamesOf(config.sync);
+  room.mode = names.mode;
+  room.reconcile = names.reconcile;
+  room.predict = names.predict;
   room.impair = config.impair;
   room.seed = config.seed;
   room.tick_hz = config.sync.tick_hz;
   room.send_hz = config.sync.send_hz;
+  room.input_delay_ticks = config.sync.input_delay_ticks;
   return room;
 }
 
@@ -34,9 +38,9 @@ Message At(std::int64_t now_us, Message message) {
   return message;
 }
 
-/// Mode oracle: what the scene's scripts do with a player in a tick.
-Inputs Scripted(const Scene& scene, int player, std::int64_t tick) {
-  const Input in = ScriptedInput(scene, player, tick);
+/// Mode oracle: what the scene's scripts do with a player in a tick, `delay` ticks after they say.
+Inputs Scripted(const Scene& scene, int player, std::int64_t tick, int delay) {
+  const Input in = ScriptedInput(scene, player, tick - delay);
   Inputs inputs;
   inputs.player = player;
   inputs.first_tick = tick;
@@ -177,7 +181,8 @@ void Server::StartIfReady(std::int64_t now_us) {
 void Server::StepOnce(std::int64_t now_us) {
   const auto players = static_cast<int>(scene_.players.size());
   for (int p = 0; config_.sync.mode == Mode::kOracle && p < players; ++p) {
-    broadcast_.Publish(At(now_us, Scripted(scene_, p, replica_.tick() + 1)));
+    broadcast_.Publish(
+        At(now_us, Scripted(scene_, p, replica_.tick() + 1, config_.sync.input_delay_ticks)));
   }
   ApplyEdits(now_us);
   replica_.Step();

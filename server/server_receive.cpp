@@ -110,11 +110,10 @@ void Server::OnInputs(std::int64_t now_us, Session& session, const Inputs& input
     ++stats_.counters.dropped_implausible;
     return;
   }
-  InputTrack& track = replica_.inputs(session.player);
-  Inputs fresh = Fresh(inputs, track);
+  Inputs fresh = Fresh(inputs, replica_.inputs(session.player));
   if (fresh.drive.empty()) return;
   fresh.utime = now_us;
-  track.Note(fresh);
+  replica_.NoteInputs(fresh);
   broadcast_.Publish(fresh);
   const Bytes bytes = Encode(inputs);
   sessions_.ForEachReady(session.peer, [&](Session& other) { other.link.SendUnreliable(bytes); });

@@ -12,6 +12,7 @@ seed=${SEED:-1}
 scenes=${SCENES-crossing wall stack cradle}
 worlds=
 all="titanic skyline regatta harbour ragdolls obstacle crane gluehouse conveyor playground"
+all="$all headon rally seesaw scrum heap train gas"
 for world in ${WORLDS-$all}; do
   [ ! -f "scenes/$world.toml" ] || worlds="$worlds $world"
 done

@@ -43,6 +43,10 @@ for file in "$sweeps"/*.toml; do
   step "sweep $file"
   try "$bin/seam-lab" sweep "$file" -o "$data/$name.csv" "${jobs[@]}"
 done
+step "fairness"
+fairness=()
+[ "${2:-}" != quick ] || fairness=(--seeds 2)
+try "$bin/seam-lab" fairness "${fairness[@]}" -o "$data/fairness.csv" "${jobs[@]}"
 step "hard cases"
 try "$bin/seam-lab" physics --grid "$grid" -o "$data/physics.csv" "${jobs[@]}" >"$data/physics.txt"
 

@@ -13,6 +13,8 @@ constexpr std::int32_t kPeersMax = 32;
 constexpr int kTickHzMin = 10, kTickHzMax = 960;
 /// Most States per second that a peer may be asked for.
 constexpr int kSendHzMax = 240;
+/// Longest delay between reading an input and its tick: 0.2 s at 60 Hz, with more nobody can drive.
+constexpr int kInputDelayTicksMax = 12;
 /// Longest session, s.
 constexpr double kDurationMax = 1e6;
 

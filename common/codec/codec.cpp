@@ -138,13 +138,17 @@ const std::vector<MessageType>& MessageTypes() {
 }
 
 std::int32_t ForeignProtocol(ByteView bytes) {
-  // Protocols 1 and 2: the type's hash, utime (8 bytes), sequence (4), protocol (4).
+  // The type's hash, utime (8 bytes), sequence (4 in protocols 1 and 2, then 8), protocol (4).
   constexpr std::uint64_t kRoomHashBefore3 = 0xfc29582c30d1354e;
-  constexpr std::size_t kProtocolAt = 20;
-  if (bytes.size < kProtocolAt + 4 || HashOf(bytes) != kRoomHashBefore3) return 0;
+  constexpr std::uint64_t kRoomHashOf3 = 0xc7e41b86538767b7;
+  const std::uint64_t hash = bytes.size < 8 ? 0 : HashOf(bytes);
+  if (hash != kRoomHashBefore3 && hash != kRoomHashOf3) return 0;
+  const std::size_t at = hash == kRoomHashOf3 ? 24 : 20;
+  if (bytes.size < at + 4) return 0;
   std::uint32_t protocol = 0;
-  for (std::size_t i = 0; i < 4; ++i) protocol = protocol << 8 | bytes.data[kProtocolAt + i];
-  return protocol == 1 || protocol == 2 ? static_cast<std::int32_t>(protocol) : 0;
+  for (std::size_t i = 0; i < 4; ++i) protocol = protocol << 8 | bytes.data[at + i];
+  const bool known = hash == kRoomHashOf3 ? protocol == 3 : protocol == 1 || protocol == 2;
+  return known ? static_cast<std::int32_t>(protocol) : 0;
 }
 
 }  // namespace seam

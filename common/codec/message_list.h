@@ -21,7 +21,8 @@
   X(Chunk, chunk_t, kEdge, "", m.utime, m.offset_bytes, m.data)                                   \
   X(Ready, ready_t, kEdge, "", m.utime)                                                           \
   X(Room, room_t, kBusRoom, "scene", m.utime, m.sequence, m.protocol, m.room, m.scene_name,       \
-    m.scene_text, m.mode, m.reconcile, m.impair, m.seed, m.tick_hz, m.send_hz)                    \
+    m.scene_text, m.mode, m.reconcile, m.predict, m.impair, m.seed, m.tick_hz, m.send_hz,         \
+    m.input_delay_ticks)                                                                          \
   X(Ping, ping_t, kEdge, "", m.utime, m.revision, m.composition, m.rest)                          \
   X(Pong, pong_t, kEdge, "", m.utime, m.client_us, m.tick0_us, m.rest)                            \
   X(Inputs, inputs_t, kBusPlayer, "inputs", m.utime, m.sequence, m.player, m.first_tick, m.drive, \

@@ -112,10 +112,12 @@ struct Room {
   std::string scene_text;  ///< the whole scene file
   std::string mode;        ///< oracle | central | strict | buffer
   std::string reconcile;   ///< snap | interleave | ... ; empty unless mode is buffer
+  std::string predict;     ///< own | all; empty unless mode is central
   std::string impair;      ///< name of the network profile
   std::int64_t seed = 0;
   std::int32_t tick_hz = 60;
-  std::int32_t send_hz = 30;  ///< rate of States from each peer
+  std::int32_t send_hz = 30;           ///< rate of States from each peer
+  std::int32_t input_delay_ticks = 0;  ///< from reading an input to its tick, everywhere
 };
 
 /// Client -> server: asks for the server's time.

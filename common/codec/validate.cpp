@@ -104,8 +104,9 @@ bool Valid(const Room& m) {
          IsPrintable(m.scene_name, kLabelBytesMax) &&
          IsPrintable(m.scene_text, kSceneTextBytesMax, true) &&
          IsPrintable(m.mode, kLabelBytesMax) && IsPrintable(m.reconcile, kLabelBytesMax) &&
-         IsPrintable(m.impair, kImpairBytesMax) && Within(m.tick_hz, kTickHzMin, kTickHzMax) &&
-         Within(m.send_hz, 1, m.tick_hz);
+         IsPrintable(m.predict, kLabelBytesMax) && IsPrintable(m.impair, kImpairBytesMax) &&
+         Within(m.input_delay_ticks, 0, kInputDelayTicksMax) &&
+         Within(m.tick_hz, kTickHzMin, kTickHzMax) && Within(m.send_hz, 1, m.tick_hz);
 }
 
 bool Valid(const Ping& m) { return Time(m.utime) && m.revision >= -1; }

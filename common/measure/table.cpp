@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "common/sync/method.h"
+
 namespace seam {
 namespace {
 
@@ -24,7 +26,7 @@ std::vector<std::string> Values(const MeasuredRun& run) {
   return {run.room.scene_name,
           run.run,
           run.room.mode,
-          run.room.reconcile,
+          VariantOf(run.room),
           run.room.impair,
           std::to_string(run.room.seed),
           Number(m.error_rms_m, any),

@@ -20,6 +20,7 @@ struct MeasuredRun {
 /// The column names, without a line end:
 /// scene,run,mode,reconcile,impair,seed,error_rms_m,error_p95_m,error_max_m,stutter_mps2,backsteps,
 /// rebound,bytes_per_s,cpu_us_per_s
+/// In mode central, reconcile says what is predicted: own or all.
 std::string CsvHeader();
 
 /// A field as RFC 4180 wants it: text with commas, quotes or line ends gets quotes around it.

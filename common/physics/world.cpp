@@ -74,24 +74,21 @@ void World::Write(int body, const BodyState& state, bool wake) {
 bool World::awake(int body) const { return impl_->moving(body).body->IsAwake(); }
 void World::SetAwake(int body, bool awake) { impl_->moving(body).body->SetAwake(awake); }
 
-void World::SetMotion(int body, Motion motion) {
-  if (this->motion(body) == motion) return;  // a change would destroy the contacts
-  touches();                                 // as they are after the last tick
-  blocked_directions();
-  const MovingBody& m = impl_->moving(body);
-  const b2Vec2 origin_velocity = m.body->GetLinearVelocityFromLocalPoint(b2Vec2(0, 0));
-  if (motion == Motion::kKinematic) {
-    m.body->SetType(b2_kinematicBody);  // forgets the centre of mass
-    m.body->SetLinearVelocity(origin_velocity);
-  } else {
-    m.body->SetType(b2_dynamicBody);
-    m.body->SetMassData(&m.mass);  // carries the velocity over to the centre of mass
+std::pair<Vec2, Vec2> World::Bounds(int body) const {
+  const b2Body* b = impl_->moving(body).body;
+  b2AABB all;
+  all.lowerBound = all.upperBound = b->GetPosition();
+  bool first = true;
+  for (const b2Fixture* f = b->GetFixtureList(); f != nullptr; f = f->GetNext()) {
+    for (int32 child = 0; child < f->GetShape()->GetChildCount(); ++child) {
+      b2AABB one;
+      f->GetShape()->ComputeAABB(&one, b->GetTransform(), child);
+      if (first) all = one;
+      first = false;
+      all.Combine(one);
+    }
   }
-}
-
-Motion World::motion(int body) const {
-  return impl_->moving(body).body->GetType() == b2_dynamicBody ? Motion::kDynamic
-                                                               : Motion::kKinematic;
+  return {FromB2(all.lowerBound), FromB2(all.upperBound)};
 }
 
 void World::SetInput(int player, const Input& input) {
@@ -133,7 +130,9 @@ void World::Step() {
   for (const auto& stage : w.stages) stage->BeforeTick();
   for (int i = 0; i < solver.substeps; ++i) {
     for (const auto& stage : w.stages) stage->BeforeStep(h);
+    if (w.led_count > 0) w.LetLedBodiesMove();
     w.world->Step(h, solver.velocity_iterations, solver.position_iterations);
+    if (w.led_count > 0) w.PutLedBodiesOnTheirPath(h);
   }
   ++w.tick;
   for (const auto& stage : w.stages) stage->AfterTick();

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/base/status.h"
@@ -39,7 +40,12 @@ struct BlockedDirection {
   Vec2 normal{0, 1};  ///< unit
 };
 
-enum class Motion { kDynamic, kKinematic };
+/// How a body takes part in a step.
+enum class Motion {
+  kDynamic,    ///< contacts and joints move it
+  kKinematic,  ///< as if it had infinite mass: it moves by its velocity and feels nothing
+  kLed,        ///< others feel its real mass; after the step it is where its velocity takes it
+};
 
 /// All that decides how a world goes on from a tick, except the order of its contacts and its
 /// actions. Only a world that did a Barrier at that tick continues with the same bits.
@@ -95,9 +101,8 @@ class World {
   bool awake(int body) const;
   void SetAwake(int body, bool awake);
 
-  /// Kinematic bodies move by their velocity and feel nothing; theirs is the velocity of
-  /// `position`, not of the centre of mass. A change carries the motion over and drops the body's
-  /// contacts.
+  /// The velocity of kinematic and led bodies is that of `position`, not of the centre of mass. A
+  /// change carries the motion over; to or from kKinematic it drops the body's contacts.
   void SetMotion(int body, Motion motion);
   Motion motion(int body) const;
 
@@ -122,6 +127,9 @@ class World {
 
   /// The same by part, ascending; also of what is anchored. Looked up at every call.
   std::vector<PartTouch> PartTouches() const;
+
+  /// The box around the body's shapes as it lies now, m: lower and upper corner.
+  std::pair<Vec2, Vec2> Bounds(int body) const;
 
   /// After the last tick, ascending by body; at most two per body.
   const std::vector<BlockedDirection>& blocked_directions() const;

@@ -28,6 +28,8 @@ struct World::Impl {
 
   void Build() {
     built = BuildScene(scene, composition, &*world);
+    motions.assign(built.moving.size(), Motion::kDynamic);
+    led_count = 0;
     float lightest = FLT_MAX;
     for (const MovingBody& m : built.moving) lightest = std::min(lightest, m.mass.mass);
     meter.Set(scene.solver.substeps, lightest);
@@ -79,8 +81,13 @@ struct World::Impl {
   Status ValidateSnapshot(const WorldSnapshot& snapshot) const;
   /// Makes everything anew, in the states of the snapshot. What it has of joints that are gone
   /// is left out. The snapshot of stages may be empty: they begin anew, too.
-  void Rebuild(const WorldSnapshot& snapshot, const std::vector<bool>& kinematic,
+  /// `new_motions`: by body of the snapshot.
+  void Rebuild(const WorldSnapshot& snapshot, const std::vector<Motion>& new_motions,
                const std::vector<float>& speeds);
+
+  /// Before and after one of the engine's steps of h seconds.
+  void LetLedBodiesMove();
+  void PutLedBodiesOnTheirPath(float h);
 
   const MovingBody& moving(int body) const {
     SEAM_ASSERT(body >= 0 && body < static_cast<int>(built.moving.size()));
@@ -93,6 +100,9 @@ struct World::Impl {
   ImpulseMeter meter;
   std::optional<b2World> world;  // rebuilt by Barrier and Restore
   BuiltScene built;
+  std::vector<Motion> motions;      // by moving body
+  int led_count = 0;                // of them kLed
+  std::vector<BodyState> led_path;  // by moving body: of led ones, where the step began
   std::int64_t tick = 0;
   std::vector<std::unique_ptr<Stage>> stages;  // in their order of action
   std::optional<ContactHub> hub;               // only when a stage listens

@@ -146,7 +146,7 @@ std::vector<float> World::Impl::Speeds() const {
   return speeds;
 }
 
-void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<bool>& kinematic,
+void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motion>& new_motions,
                           const std::vector<float>& speeds) {
   Empty();
   tick = snapshot.tick;  // stages put things where they are then
@@ -163,7 +163,9 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<bool>
   }
   for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
     b2Body* b = built.moving[i].body;
-    if (kinematic[i]) b->SetType(b2_kinematicBody);
+    motions[i] = new_motions[i];
+    if (motions[i] == Motion::kKinematic) b->SetType(b2_kinematicBody);
+    if (motions[i] == Motion::kLed) ++led_count;
     const BodyState& state = snapshot.bodies[i].state;
     b->SetTransform(ToB2(state.position), state.angle);
   }
@@ -224,11 +226,8 @@ Status World::Impl::ValidateSnapshot(const WorldSnapshot& snapshot) const {
 Status World::Restore(const WorldSnapshot& snapshot) {
   const Status good = impl_->ValidateSnapshot(snapshot);
   if (!good.ok()) return good;
-  std::vector<bool> kinematic;
-  for (int body = 0; body < body_count(); ++body) {
-    kinematic.push_back(motion(body) == Motion::kKinematic);
-  }
-  impl_->Rebuild(snapshot, kinematic, impl_->Speeds());
+  const std::vector<Motion> motions = impl_->motions;  // Rebuild begins them anew
+  impl_->Rebuild(snapshot, motions, impl_->Speeds());
   return Status::Ok();
 }
 

@@ -212,13 +212,13 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
     out.emplace();
     WorldSnapshot snapshot;
     snapshot.tick = w.tick;
-    std::vector<bool> kinematic;
+    std::vector<Motion> motions;
     for (const Assembly& now : w.composition.assemblies) {
       if (now.anchored) continue;
       const BodyOrigin origin = OriginOf(before, w.scene, now);
       WorldSnapshot::Body body;
       body.state = StateOf(before, w.scene, now, origin);
-      kinematic.push_back(origin.body >= 0 && motion(origin.body) == Motion::kKinematic);
+      motions.push_back(origin.body >= 0 ? motion(origin.body) : Motion::kDynamic);
       if (origin.same) {
         const WorldSnapshot::Body& then =
             kept.snapshot.bodies[static_cast<std::size_t>(origin.body)];
@@ -234,7 +234,7 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
     const std::size_t stages = w.stages.size();
     w.FindStages();
     if (w.stages.size() == stages) snapshot.stages = kept.snapshot.stages;
-    w.Rebuild(snapshot, kinematic, kept.speeds);
+    w.Rebuild(snapshot, motions, kept.speeds);
     w.impacts.clear();
   }
   for (const Edit& edit : edits) {

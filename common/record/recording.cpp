@@ -29,8 +29,8 @@ std::string RoomOf(const std::string& channel) {
 
 bool SameSession(const Room& a, const Room& b) {
   const auto tie = [](const Room& r) {
-    return std::tie(r.protocol, r.scene_name, r.scene_text, r.mode, r.reconcile, r.impair, r.seed,
-                    r.tick_hz, r.send_hz);
+    return std::tie(r.protocol, r.scene_name, r.scene_text, r.mode, r.reconcile, r.predict,
+                    r.impair, r.seed, r.tick_hz, r.send_hz, r.input_delay_ticks);
   };
   return tie(a) == tie(b);
 }

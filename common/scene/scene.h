@@ -183,6 +183,7 @@ struct Scene {
   Solver solver;
   double duration_s = 10;                                 ///< length of the demo
   float buffer_m = 10;                                    ///< width of the buffer zone
+  int input_delay_ticks = 0;                              ///< from reading an input to its tick
   float speed_limit = 120;                                ///< m/s: states beyond are implausible
   Vec2 bounds_min{-1000, -1000}, bounds_max{1000, 1000};  ///< states beyond are implausible
   std::vector<Part> parts;

@@ -5,8 +5,8 @@
 namespace seam {
 namespace {
 
-/// Ticks of history: 2 s at 60 Hz. A state older than that is corrected without looking back.
-constexpr int kHistoryTicks = 120;
+/// Length of the history, s. A state older than that is corrected without looking back.
+constexpr int kHistory = 2;
 /// Mechanisms stay coupled for 1 s / kCoupledPart after they last touched: contact flickers.
 constexpr int kCoupledPart = 4;
 
@@ -15,7 +15,7 @@ constexpr int kCoupledPart = 4;
 BodyMemory::BodyMemory(const SyncConfig& config, const World& world)
     : config_(config),
       world_(world),
-      history_(world.body_count(), kHistoryTicks),
+      history_(world.body_count(), kHistory * config.tick_hz),
       snapshots_(world.body_count()),
       bodies_(static_cast<std::size_t>(world.body_count())),
       mechanisms_(world.composition().mechanisms.size()) {

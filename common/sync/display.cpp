@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "common/base/geometry.h"
-
 #include "common/sync/reconcile/reconcile.h"
 
 namespace seam {
@@ -41,7 +40,7 @@ void Display::Drive(std::int64_t next) {
   if (config_.mode == Mode::kOracle) return;  // nothing is only displayed
   const double delay = delay_.Advance();
   for (int body = 0; body < world_.body_count(); ++body) {
-    if (world_.motion(body) != Motion::kKinematic) continue;
+    if (world_.motion(body) == Motion::kDynamic) continue;
     BodyState state = world_.Read(body);
     if (!snapshots_.has(body)) {
       state.velocity.setZero();

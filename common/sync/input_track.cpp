@@ -35,6 +35,13 @@ std::int16_t InputTrack::TakePresses(std::int64_t tick) {
   return static_cast<std::int16_t>(pressed);
 }
 
+std::int16_t InputTrack::PressedAt(std::int64_t tick) const {
+  const auto now = known_.find(tick);
+  if (now == known_.end()) return 0;
+  const int before = now == known_.begin() ? 0 : std::prev(now)->second.buttons;
+  return static_cast<std::int16_t>(now->second.buttons & ~before);
+}
+
 Inputs InputTrack::Export(int player, int count) const {
   Inputs out;
   out.player = player;

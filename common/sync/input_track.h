@@ -24,6 +24,9 @@ class InputTrack {
   /// a relayed input arrives after its tick.
   std::int16_t TakePresses(std::int64_t tick);
 
+  /// Buttons that went down at exactly this tick, as far as it is known.
+  std::int16_t PressedAt(std::int64_t tick) const;
+
   /// The last `count` known successive ticks up to `newest()`, for the wire.
   Inputs Export(int player, int count) const;
 

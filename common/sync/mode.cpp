@@ -33,13 +33,16 @@ SyncConfig MakeSyncConfig(const std::string& mode, const std::string& reconcile)
     if (!reconcile.empty()) {
       throw OperatorError("--reconcile belongs to --mode buffer, not to --mode " + mode);
     }
+    // A client of mode central goes back to the server's states; its server has none to go back to.
+    if (config.mode == Mode::kCentral) config.reconcile = ReconcileResimulate;
     return config;
   }
-  config.reconcile_name = reconcile.empty() ? "retrospect" : reconcile;
+  config.reconcile_name = reconcile.empty() ? kDefaultReconciler : reconcile;
   const NamedReconciler& rule = FindReconciler(config.reconcile_name);
   config.reconcile = rule.rule;
   config.pull = rule.pull;
   config.resimulates = rule.resimulates;
+  config.rolls_back = rule.rolls_back;
   return config;
 }
 

@@ -17,9 +17,10 @@ enum class Predict { kOwn, kAll };
 
 struct SyncConfig {
   Mode mode = Mode::kBuffer;
-  Reconciler reconcile = nullptr;  ///< not null exactly when mode is kBuffer
+  Reconciler reconcile = nullptr;  ///< not null in modes kBuffer and kCentral
   Puller pull = nullptr;           ///< of the reconciler, if it acts in every tick
   bool resimulates = false;        ///< the reconciler goes back and steps again
+  bool rolls_back = false;         ///< ...and for late inputs, too: see NamedReconciler
   std::string reconcile_name;
   Predict predict = Predict::kAll;  ///< mode central
   int input_delay_ticks = 0;        ///< own inputs act this much later, at every peer; 0..12
@@ -28,9 +29,19 @@ struct SyncConfig {
   bool smooth = true;     ///< hide corrections in the view
   std::int64_t seed = 0;  ///< of bots
 
+  /// Whether the peer goes back and steps again when it was wrong.
+  bool GoesBack(int self) const { return resimulates || (mode == Mode::kCentral && self > 0); }
+  /// Whether inputs act at the tick that they are of at every peer that simulates what they move,
+  /// and one that arrives late is a reason to go back. Else only the authority acts on buttons,
+  /// when it hears of them.
+  bool StampsInputs(int self) const { return rolls_back || (mode == Mode::kCentral && self > 0); }
+
   /// Ticks between two States of a peer.
   int send_every() const { return tick_hz / send_hz > 0 ? tick_hz / send_hz : 1; }
 };
+
+/// Of mode buffer, when none is named.
+constexpr const char* kDefaultReconciler = "rollback";
 
 const char* ToString(Mode mode);
 /// Nothing for an unknown name: recordings may say anything.
@@ -38,7 +49,8 @@ std::optional<Mode> FindMode(const std::string& name);
 /// Throws OperatorError naming the known ones.
 Mode ParseMode(const std::string& name);
 /// Fills mode and reconciler from their names. An empty reconciler in mode buffer means
-/// "retrospect". Throws OperatorError when unknown or when a reconciler is given in another mode.
+/// kDefaultReconciler. Throws OperatorError when unknown or when a reconciler is given in another
+/// mode.
 SyncConfig MakeSyncConfig(const std::string& mode, const std::string& reconcile);
 
 }  // namespace seam

@@ -1,5 +1,6 @@
 #include "common/sync/replica.h"
 
+#include "common/sync/correct/presses.h"
 #include "common/sync/input_source.h"
 
 namespace seam {
@@ -18,11 +19,13 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       inputs_(topology.scene().players.size()),
       display_(config_, world_, memory_.snapshots()),
       replay_(config_, world_, roles_, memory_, display_, inputs_),
-      corrector_(config_, world_, roles_, memory_, display_, replay_, inputs_),
+      corrector_(config_, world_, roles_, memory_, display_, replay_),
       rest_(config_, world_, roles_, memory_, display_, inputs_),
-      scheduler_(config_, world_, roles_, memory_),
+      reach_(config_, world_, roles_, inputs_),
+      scheduler_(config_, world_, roles_, memory_, reach_, replay_),
       proposals_(config_.tick_hz),
-      pressed_now_(topology.scene().players.size(), 0) {
+      pressed_now_(topology.scene().players.size(), 0),
+      pressed_missed_(topology.scene().players.size(), 0) {
   corrector_.FollowRoles();
   memory_.Record();
 }
@@ -50,41 +53,73 @@ void Replica::Step() {
   for (Edit& edit : world_.ProposeEdits()) {
     if (roles_.Proposes(edit)) proposals_.Add(std::move(edit), tick());
   }
+  const bool goes_back = config_.GoesBack(roles_.self());
+  if (goes_back && next % config_.send_every() == 0) reach_.Look();
   scheduler_.Collect();
   memory_.Record();
-  replay_.TakeBarrier();
+  if (goes_back) replay_.TakeBarrier(reach_.MayGoBack());
   display_.Glide();
   corrector_.ReceiveWaiting();
+}
+
+void Replica::NoteInput(int player, std::int64_t tick, const Input& input) {
+  Inputs one;
+  one.player = player;
+  one.first_tick = tick;
+  one.drive.push_back(input.drive);
+  one.lift.push_back(input.lift);
+  one.buttons.push_back(input.buttons);
+  NoteInputs(one);
+}
+
+void Replica::NoteInputs(const Inputs& inputs) {
+  InputTrack& track = inputs_[static_cast<std::size_t>(inputs.player)];
+  std::vector<std::int64_t> late;  // ticks that were stepped without knowing them
+  std::int64_t wrong = -1;
+  for (std::size_t i = 0; i < inputs.drive.size(); ++i) {
+    const std::int64_t t = inputs.first_tick + static_cast<std::int64_t>(i);
+    if (t > tick() || track.knows(t)) continue;
+    late.push_back(t);
+    const Input is{inputs.drive[i], inputs.lift[i], inputs.buttons[i]};
+    if (wrong < 0 && !(track.At(t) == is)) wrong = t;
+  }
+  track.Note(inputs);
+  if (!config_.StampsInputs(roles_.self())) return;
+  if (wrong >= 0) replay_.AskFrom(wrong - 1);
+  for (const std::int64_t t : late) {
+    if (t > replay_.oldest()) continue;
+    pressed_missed_[static_cast<std::size_t>(inputs.player)] |= track.PressedAt(t);
+  }
 }
 
 void Replica::ApplyInputs(std::int64_t next) {
   for (std::size_t p = 0; p < inputs_.size(); ++p) {
     const int player = static_cast<int>(p);
     if (config_.mode == Mode::kOracle) {
-      inputs_[p].Note(next, ScriptedInput(world_.scene(), player, next));
+      inputs_[p].Note(next,
+                      ScriptedInput(world_.scene(), player, next - config_.input_delay_ticks));
     }
     world_.SetInput(player, inputs_[p].At(next));
-    const std::int16_t pressed = inputs_[p].TakePresses(next);
-    pressed_now_[p] |= pressed;
-    ApplyPresses(player, pressed, next);
+    ApplyPresses(player, next);
   }
 }
 
-/// Exactly one peer pushes: the authority, when it hears of it (all of them in the oracle).
-void Replica::ApplyPresses(int player, int pressed, std::int64_t next) {
-  const Composition& composition = world_.composition();
-  const std::vector<Action>& actions =
-      world_.scene().players[static_cast<std::size_t>(player)].actions;
-  for (std::size_t a = 0; a < actions.size(); ++a) {
-    if (((pressed >> actions[a].button) & 1) == 0) continue;
-    const int assembly = composition.assembly_of_part[static_cast<std::size_t>(actions[a].part)];
-    if (assembly < 0) continue;  // the part has left
-    const int m = composition.assemblies[static_cast<std::size_t>(assembly)].mechanism;
-    const bool alone = config_.mode == Mode::kOracle;
-    if (!alone && (m < 0 || !roles_.IsAuthority(m))) continue;
-    world_.Act(player, static_cast<int>(a));
-    replay_.NoteAction(next, player, static_cast<int>(a));
-  }
+/// Where inputs are stamped, every peer that simulates what is pushed pushes it, at that tick;
+/// else exactly one peer: the authority, when it hears of it (all of them in the oracle).
+void Replica::ApplyPresses(int player, std::int64_t next) {
+  const auto p = static_cast<std::size_t>(player);
+  const std::int16_t heard = inputs_[p].TakePresses(next);
+  pressed_now_[p] |= heard;
+  const bool stamped = config_.StampsInputs(roles_.self());
+  EachAction(world_, player, stamped ? inputs_[p].PressedAt(next) : heard, [&](int a, int m) {
+    const bool all = config_.mode == Mode::kOracle;
+    if (stamped ? roles_.RoleOf(m) == kRoleRemote : !all && !roles_.IsAuthority(m)) return;
+    world_.Act(player, a);
+    replay_.NoteAction(next, player, a);
+  });
+  EachAction(world_, player, std::exchange(pressed_missed_[p], 0), [&](int a, int m) {
+    if (roles_.IsAuthority(m)) world_.Act(player, a);
+  });
 }
 
 std::vector<int> Replica::ApplyGrants(const Grants& grants) {

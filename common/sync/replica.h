@@ -2,14 +2,15 @@
 /// One peer's copy of a room: a world, what it knows of the others, and the rules that keep the
 /// copy near theirs. Server and clients each have one; it knows nothing of time, sockets or files.
 ///
-///   Queue, ApplyGrants, Receive, inputs(player).Note      between steps
+///   Queue, ApplyGrants, Receive, NoteInputs      between steps
 ///   Step: edits -> replay -> inputs -> displayed bodies -> pulls -> World::Step -> contacts noted,
 ///         proposals, own States collected -> history -> States that waited
 ///   TakeStates, TakeProposals, MakeView, MakeImpacts      after it
 ///
 /// Its parts: Roles (what it is to each mechanism), BodyMemory (what it remembers of its bodies),
-/// Display, Corrector and Replay (which move bodies), SendScheduler and ProposalQueue (what it
-/// tells). This class calls them in order and has no rule of its own.
+/// Display, Corrector and Replay (which move bodies), Reach (what inputs that are still unknown can
+/// have changed), SendScheduler and ProposalQueue (what it tells). This class calls them in order
+/// and has no rule of its own.
 
 #include <cstdint>
 #include <optional>
@@ -24,6 +25,7 @@
 #include "common/sync/input_track.h"
 #include "common/sync/mode.h"
 #include "common/sync/proposal_queue.h"
+#include "common/sync/reach/reach.h"
 #include "common/sync/rest/rest_commit.h"
 #include "common/sync/roles.h"
 #include "common/sync/send_scheduler.h"
@@ -76,7 +78,10 @@ class Replica {
   /// Edits applied so far.
   int revision() const { return world_.topology().revision(); }
 
-  InputTrack& inputs(int player) { return inputs_[static_cast<std::size_t>(player)]; }
+  const InputTrack& inputs(int player) const { return inputs_[static_cast<std::size_t>(player)]; }
+  /// What a player does in a tick still to come, or did in one that is known late.
+  void NoteInput(int player, std::int64_t tick, const Input& input);
+  void NoteInputs(const Inputs& inputs);
   /// Buttons of this player that went down since the last call, as far as heard of.
   int TakePressed(int player) {
     return std::exchange(pressed_now_[static_cast<std::size_t>(player)], 0);
@@ -109,7 +114,7 @@ class Replica {
   /// Of joints that the edit takes away: a later bond may take their places, and break at once.
   void ForgetProposals(const Edit& edit);
   void ApplyInputs(std::int64_t next);
-  void ApplyPresses(int player, int pressed, std::int64_t next);
+  void ApplyPresses(int player, std::int64_t next);
 
   // In this order: each uses those above it.
   SyncConfig config_;
@@ -121,10 +126,12 @@ class Replica {
   Replay replay_;
   Corrector corrector_;
   RestCommit rest_;
+  Reach reach_;
   SendScheduler scheduler_;
   ProposalQueue proposals_;
-  std::vector<int> pressed_now_;  // by player
-  std::vector<Edit> queued_;      // ordered, not yet applied
+  std::vector<int> pressed_now_;     // by player
+  std::vector<int> pressed_missed_;  // by player: heard of too late to go back to
+  std::vector<Edit> queued_;         // ordered, not yet applied
 };
 
 }  // namespace seam

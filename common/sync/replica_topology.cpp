@@ -22,7 +22,11 @@ std::optional<BodyRemap> Replica::ApplyNextEdit() {
   std::optional<BodyRemap> change = world_.Apply({edit});
   ForgetProposals(edit);
   rest_.NoteEdit();
-  if (change) Remap(*change);
+  if (change) {
+    Remap(*change);
+  } else {
+    corrector_.FollowRoles();  // who sits in a seat decides what is predicted
+  }
   return change;
 }
 

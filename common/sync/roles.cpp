@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/physics/part_places.h"
+#include "common/sync/reach/driven.h"
 
 namespace seam {
 
@@ -18,11 +19,21 @@ std::int8_t Roles::RoleOf(int mechanism) const {
   if (config_.mode == Mode::kOracle) return self_ == 0 ? kRoleAuthority : kRoleSecondary;
   if (h.authority == self_) return kRoleAuthority;
   if (config_.mode == Mode::kCentral) {
-    const int owner = world_.composition().mechanisms[static_cast<std::size_t>(mechanism)].owner;
-    return own_player_ >= 0 && owner == own_player_ ? kRoleSecondary : kRoleRemote;
+    if (own_player_ < 0) return kRoleRemote;
+    if (config_.predict == Predict::kAll) return kRoleSecondary;
+    return Own()[static_cast<std::size_t>(mechanism)] ? kRoleSecondary : kRoleRemote;
   }
   if (config_.mode == Mode::kBuffer && h.secondaries.Has(self_)) return kRoleSecondary;
   return kRoleRemote;
+}
+
+const std::vector<bool>& Roles::Own() const {
+  const int revision = world_.topology().revision();
+  if (own_of_revision_ != revision) {
+    own_of_revision_ = revision;
+    own_ = DrivenMechanisms(world_, own_player_, false);
+  }
+  return own_;
 }
 
 bool Roles::Proposes(const Edit& edit) const {

@@ -41,11 +41,16 @@ class Roles {
   void Remap(const std::vector<std::vector<int>>& from);
 
  private:
+  /// By mechanism: what the own player drives.
+  const std::vector<bool>& Own() const;
+
   const SyncConfig& config_;
   int self_;
   int own_player_;
   const World& world_;
   AuthorityTable table_;
+  mutable std::vector<bool> own_;  // as of that revision
+  mutable int own_of_revision_ = -1;
 };
 
 }  // namespace seam

@@ -1,6 +1,7 @@
 #include "common/sync/send_scheduler.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 namespace seam {
@@ -20,15 +21,34 @@ constexpr int kAsleepBurst = 4;
 }  // namespace
 
 SendScheduler::SendScheduler(const SyncConfig& config, World& world, const Roles& roles,
-                             BodyMemory& memory)
-    : config_(config), world_(world), roles_(roles), memory_(memory) {}
+                             BodyMemory& memory, const Reach& reach, const Replay& replay)
+    : config_(config),
+      world_(world),
+      roles_(roles),
+      memory_(memory),
+      reach_(reach),
+      replay_(replay) {}
 
 void SendScheduler::Collect() {
   outgoing_.clear();
   if (config_.mode == Mode::kOracle || world_.tick() % config_.send_every() != 0) return;
-  std::vector<PackedBody> told;
-  for (const int body : ChooseBodies()) told.push_back(Tell(body));
-  outgoing_ = Pack(Header(), told);
+  std::map<std::int64_t, std::vector<PackedBody>> told;  // by tick
+  for (const int body : ChooseBodies()) told[ToldTick(body)].push_back(Tell(body));
+  for (const auto& [tick, bodies] : told) {
+    States header = Header();
+    header.tick = tick;
+    for (States& states : Pack(header, bodies)) outgoing_.push_back(std::move(states));
+  }
+}
+
+/// A body that inputs still unknown can have reached is told of as it was at the newest tick that
+/// they cannot have changed: an assumption of ours must not overwrite what others know better.
+std::int64_t SendScheduler::ToldTick(int body) const {
+  const std::int64_t now = world_.tick();
+  if (!config_.rolls_back || !world_.awake(body)) return now;
+  const std::int64_t complete =
+      std::min(reach_.CompleteTick(world_.mechanism(body)), replay_.settled());
+  return memory_.ComparablePast(body, complete) != nullptr ? complete : now;
 }
 
 std::vector<States> SendScheduler::Take() { return std::exchange(outgoing_, {}); }
@@ -83,6 +103,8 @@ PackedBody SendScheduler::Tell(int body) {
     packed.state.velocity.setZero();
     packed.state.spin = 0;
   }
+  const std::int64_t tick = ToldTick(body);
+  if (tick < world_.tick()) packed.state = *memory_.ComparablePast(body, tick);
   // The sender goes on from its own numbers, in motion and at rest: writing the rounded pose back
   // topples a stack of ten boxes even in a world of its own (docs/lessons.md).
   return packed;

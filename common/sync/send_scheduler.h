@@ -8,16 +8,20 @@
 #include "common/codec/messages.h"
 #include "common/physics/world.h"
 #include "common/sync/body_memory.h"
+#include "common/sync/correct/replay.h"
 #include "common/sync/mode.h"
 #include "common/sync/quantize.h"
+#include "common/sync/reach/reach.h"
 #include "common/sync/roles.h"
 
 namespace seam {
 
 class SendScheduler {
  public:
-  /// All four must outlive this.
-  SendScheduler(const SyncConfig& config, World& world, const Roles& roles, BodyMemory& memory);
+  /// All must outlive this. Where the peer goes back for late inputs, `reach` has looked before
+  /// Collect.
+  SendScheduler(const SyncConfig& config, World& world, const Roles& roles, BodyMemory& memory,
+                const Reach& reach, const Replay& replay);
 
   /// After a step. If a send is due, collects what is to be told. What was not taken since the last
   /// call is dropped.
@@ -33,12 +37,16 @@ class SendScheduler {
   std::vector<int> ChooseBodies();
   PackedBody Describe(int body) const;
   PackedBody Tell(int body);
+  /// The tick of which a body's state is told.
+  std::int64_t ToldTick(int body) const;
   States Header() const;
 
   const SyncConfig& config_;
   World& world_;
   const Roles& roles_;
   BodyMemory& memory_;
+  const Reach& reach_;
+  const Replay& replay_;
   std::vector<States> outgoing_;
 };
 

@@ -98,8 +98,12 @@ void DrawCaption(DrawList& list, const Rect& panel, const std::string& left,
 
 std::string RunDescription(const Playback& playback) {
   const Room& room = playback.recording().room;
-  std::string text = room.reconcile.empty() ? "mode " + room.mode
-                                            : "mode " + room.mode + ", reconcile " + room.reconcile;
+  std::string text = "mode " + room.mode;
+  if (!room.reconcile.empty()) text += ", reconcile " + room.reconcile;
+  if (!room.predict.empty()) text += ", predict " + room.predict;
+  if (room.input_delay_ticks > 0) {
+    text += "  ·  inputs delayed by " + std::to_string(room.input_delay_ticks) + " ticks";
+  }
   if (!room.impair.empty()) text += "  ·  network " + room.impair;
   text += "  ·  " + std::to_string(room.tick_hz) + " Hz, states at " +
           std::to_string(room.send_hz) + " Hz";

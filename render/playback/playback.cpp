@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/scene/bricks.h"
+#include "common/sync/method.h"
 
 namespace seam {
 namespace {
@@ -185,7 +186,8 @@ std::string Playback::PeerName(int peer) const {
 
 std::string Playback::Label() const {
   const Room& room = recording_->room;
-  return room.reconcile.empty() ? room.mode : room.mode + " · " + room.reconcile;
+  const std::string variant = VariantOf(room);
+  return variant.empty() ? room.mode : room.mode + " · " + variant;
 }
 
 Moment Playback::MomentAt(int peer, double tick) const {

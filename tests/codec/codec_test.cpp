@@ -206,7 +206,7 @@ TEST(CodecBounds, TheLargestMessagesFitTheirCarriers) {
   EXPECT_LE(Encode(impacts).size(), kBusMessageBytesMax);
   Room room;
   room.scene_text.assign(kSceneTextBytesMax, '#');
-  room.scene_name = room.mode = room.reconcile = std::string(kLabelBytesMax, 'x');
+  room.scene_name = room.mode = room.reconcile = room.predict = std::string(kLabelBytesMax, 'x');
   room.impair.assign(kImpairBytesMax, 'x');
   EXPECT_LE(Encode(room).size(), kBusMessageBytesMax);
 }
@@ -290,7 +290,7 @@ TEST(CodecWire, TypeHashesArePinnedToTheProtocolVersion) {
       {"inputs_t", 0x61098e4e073aa192u},   {"join_t", 0xffa834d7c6717a6bu},
       {"meta_t", 0x3a5fc11a81261d9eu},     {"ping_t", 0xe2a1dde976c1ea91u},
       {"pong_t", 0xb2cacdee7d5215e5u},     {"ready_t", 0x4d0d41c1f105b12fu},
-      {"release_t", 0x654111b44224cc72u},  {"room_t", 0xc7e41b86538767b7u},
+      {"release_t", 0x654111b44224cc72u},  {"room_t", 0x3b1556dd65c2c546u},
       {"snapshot_t", 0x05694f6d14ffdcafu}, {"states_t", 0x7dea382c607b86bfu},
       {"stats_t", 0x6821d564e8a2a471u},    {"view_t", 0x8388179d59cd2870u},
       {"welcome_t", 0x01d175a91807bb13u},

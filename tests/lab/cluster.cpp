@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/base/check.h"
+#include "common/sync/method.h"
 
 namespace seam {
 namespace {
@@ -32,7 +33,8 @@ Cluster::Cluster(const ClusterConfig& config)
   server_net_ = std::make_unique<ImpairedNet>(*server_endpoint_, profile, profile,
                                               static_cast<std::uint64_t>(config.seed));
   ServerConfig server;
-  server.sync = MakeSyncConfig(config.mode, config.reconcile);
+  server.sync = MakeSyncConfig(MethodNames{config.mode, config.reconcile, config.predict});
+  server.sync.input_delay_ticks = scene_.input_delay_ticks;
   server.sync.tick_hz = scene_.solver.tick_hz;
   server.sync.send_hz = std::min(config.send_hz, scene_.solver.tick_hz);
   server.sync.seed = config.seed;

@@ -19,6 +19,7 @@ struct ClusterConfig {
   std::string scene_text;          ///< instead of a file, if not empty
   std::string mode = "buffer";
   std::string reconcile;
+  std::string predict;
   std::string impair = "demo";
   std::int64_t seed = 1;
   double duration_s = 0;  ///< ticks after tick 0; 0: the scene's own

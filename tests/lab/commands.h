@@ -12,12 +12,13 @@ namespace seam {
 
 struct RunCommand {
   SessionSettings settings;
-  std::string smooth = "on";       ///< on | off
-  std::string log;                 ///< file to write
-  bool force = false;              ///< overwrite it
-  std::vector<std::string> set;    ///< --set, each one or several with ';' between them
-  std::optional<double> buffer_m;  ///< --buffer
-  bool floor = true;               ///< also measure, and compute the floor
+  std::string smooth = "on";             ///< on | off
+  std::string log;                       ///< file to write
+  bool force = false;                    ///< overwrite it
+  std::vector<std::string> set;          ///< --set, each one or several with ';' between them
+  std::optional<double> buffer_m;        ///< --buffer
+  std::optional<int> input_delay_ticks;  ///< --input-delay
+  bool floor = true;                     ///< also measure, and compute the floor
 };
 
 /// Records a session and prints its simulated and wall seconds in one line, and its error beside
@@ -91,6 +92,22 @@ struct WorldCommand {
 
 /// Prints what the features of a scene cost and err beside their baselines. 1: a signal came.
 int RunWorld(const WorldCommand& command);
+
+struct FairnessCommand {
+  std::string scene = "headon";                     ///< two players with a vehicle each, mirrored
+  std::vector<std::string> methods;                 ///< "strict", "buffer/fade"; empty: all
+  std::string near_path = "delay=20ms,jitter=5ms";  ///< network of the near player, either way
+  std::string far_path = "delay=120ms,jitter=5ms";
+  int seeds = 8;       ///< from 1; each with both assignments
+  std::string table;   ///< CSV file to write or complete
+  int jobs = 0;        ///< runs at a time; 0: as many as there are cores
+  bool force = false;  ///< begin the table anew
+  bool quiet = false;  ///< no progress line
+};
+
+/// Runs a mirrored crash with either player near the server, and prints who receives how much of
+/// it. 1: some runs failed, more than a tenth of the rows are not valid, or a signal came.
+int RunFairnessTable(const FairnessCommand& command);
 
 struct ReportCommand {
   std::string data = "out/report/data";     ///< folder of the tables

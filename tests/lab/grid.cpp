@@ -7,6 +7,7 @@
 #include "common/base/bytes.h"
 #include "common/base/check.h"
 #include "common/measure/table.h"
+#include "common/sync/method.h"
 #include "tests/lab/scene_settings.h"
 #include "tests/lab/sweep_file.h"
 
@@ -18,16 +19,16 @@ std::string Key(const GridPoint& point) {
   const std::string& text = point.scene->text;
   return fmt::format("{},{},{:016x},{},{},{},{},{},{},{},{},{}", kLabVersion, CsvField(s.scene),
                      Fnv1a(text.data(), text.size()), CsvField(JoinSettings(s.set)), s.mode,
-                     s.reconcile, CsvField(s.impair), s.send_hz, s.drive, s.smooth ? "on" : "off",
-                     s.duration_s, s.seed);
+                     VariantOf(MethodNames{s.mode, s.reconcile, s.predict}), CsvField(s.impair),
+                     s.send_hz, s.drive, s.smooth ? "on" : "off", s.duration_s, s.seed);
 }
 
-/// Mode and reconciler from "buffer/fade" or "strict", the rule by its full name.
+/// The names in "buffer/fade", "central/own" or "strict", in full.
 void SetMethod(const std::string& method, SessionSettings* settings) {
-  const std::size_t slash = method.find('/');
-  settings->mode = method.substr(0, slash);
-  const std::string rule = slash == std::string::npos ? "" : method.substr(slash + 1);
-  settings->reconcile = MakeSyncConfig(settings->mode, rule).reconcile_name;
+  const MethodNames names = NamesOf(MakeSyncConfig(SplitMethod(method)));
+  settings->mode = names.mode;
+  settings->reconcile = names.reconcile;
+  settings->predict = names.predict;
 }
 
 /// All combinations for one scene and method, appended.
@@ -62,7 +63,7 @@ std::string GridHeader() {
 
 std::string PointHeader() {
   return "one_way_ms,jitter_ms,loss_percent,tick_hz,substeps,velocity_iterations,"
-         "position_iterations,skin_m,buffer_m";
+         "position_iterations,skin_m,buffer_m,input_delay_ticks";
 }
 
 std::string PointValues(const GridPoint& point) {
@@ -72,11 +73,12 @@ std::string PointValues(const GridPoint& point) {
   const double bad = swaps > 0 ? net.loss_good_to_bad / swaps : 0;
   const double loss = bad * net.loss_in_bad + (1 - bad) * net.loss_in_good;
   const Solver& solver = point.scene->solver;
-  return fmt::format(
-      ",{:g},{:g},{:g},{},{},{},{},{},{:g}", static_cast<double>(net.delay_us) * 1e-3,
-      static_cast<double>(net.jitter_mean_us) * 1e-3, 100 * loss, solver.tick_hz, solver.substeps,
-      solver.velocity_iterations, solver.position_iterations,
-      solver.skin > 0 ? fmt::format("{:g}", solver.skin) : "", point.scene->buffer_m);
+  return fmt::format(",{:g},{:g},{:g},{},{},{},{},{},{:g},{}",
+                     static_cast<double>(net.delay_us) * 1e-3,
+                     static_cast<double>(net.jitter_mean_us) * 1e-3, 100 * loss, solver.tick_hz,
+                     solver.substeps, solver.velocity_iterations, solver.position_iterations,
+                     solver.skin > 0 ? fmt::format("{:g}", solver.skin) : "", point.scene->buffer_m,
+                     point.scene->input_delay_ticks);
 }
 
 Grid ReadGrid(const std::string& path) {

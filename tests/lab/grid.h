@@ -34,8 +34,8 @@ constexpr std::size_t kGridScenesMax = 10000;
 
 /// What a network and a scene are in numbers, for plots:
 /// one_way_ms,jitter_ms,loss_percent,tick_hz,substeps,velocity_iterations,position_iterations,
-/// skin_m,buffer_m. Loss is the mean without stalls and outages, skin empty where the scene leaves
-/// it to the engine.
+/// skin_m,buffer_m,input_delay_ticks. Loss is the mean without stalls and outages, skin empty where
+/// the scene leaves it to the engine.
 std::string PointHeader();
 /// The values, with a comma before each.
 std::string PointValues(const GridPoint& point);

@@ -51,6 +51,31 @@ floor = false
                 ",,strict,,\"delay=50ms,loss=1%,jitter=5ms\",20,script,on,2.5,7");
 }
 
+TEST(Grid, WhatCentralPredictsIsPartOfItsMethodAndOfTheKey) {
+  const LabWorkspace files;
+  const Grid grid = GridOf(files,
+                           "scenes = \"scenes/crossing.toml\"\n"
+                           "methods = [\"central/own\", \"central\"]\n"
+                           "input_delay = [0, 4]\n");
+  ASSERT_EQ(grid.points.size(), 4u);
+  EXPECT_EQ(grid.points[0].settings.predict, "own");
+  EXPECT_EQ(grid.points[1].settings.predict, "all") << "the default has its name";
+  EXPECT_EQ(grid.points[1].settings.reconcile, "");
+  EXPECT_NE(grid.points[0].key.find(",central,own,"), std::string::npos) << grid.points[0].key;
+  EXPECT_NE(grid.points[1].key.find(",central,all,"), std::string::npos) << grid.points[1].key;
+  EXPECT_EQ(grid.points[0].scene->input_delay_ticks, 0);
+  EXPECT_EQ(grid.points[2].scene->input_delay_ticks, 4);
+  const std::string values = PointValues(grid.points[2]);
+  EXPECT_EQ(values.substr(values.rfind(',')), ",4") << "input_delay_ticks is the last column";
+  for (const char* wrong : {"[\"central/most\"]", "[\"strict/own\"]", "[\"buffer/own\"]",
+                            "[\"central/fade\"]", "[\"central\", \"central/all\"]"}) {
+    EXPECT_THROW(
+        GridOf(files, std::string("scenes = \"scenes/crossing.toml\"\nmethods = ") + wrong),
+        OperatorError)
+        << wrong;
+  }
+}
+
 TEST(Grid, SetsTheScenesNumbersAndComposesTheNetwork) {
   const LabWorkspace files;
   const Grid grid = GridOf(files, R"(
@@ -80,10 +105,10 @@ loss_percent = [2.5]
                                     "solver.skin=0.0025;buffer=5\",buffer,retrospect,"),
             std::string::npos)
       << grid.points[8].key;
-  EXPECT_EQ(PointValues(grid.points[15]), ",50,12,2.5,60,4,8,3,0.0025,7.5");
+  EXPECT_EQ(PointValues(grid.points[15]), ",50,12,2.5,60,4,8,3,0.0025,7.5,0");
   const Grid named = GridOf(files, "scenes = \"scenes/crossing.toml\"\nimpair = \"4g\"");
   // 4g: p = 0.0115 and r = 0.25 lose (0.0115 * 0.8 + 0.25 * 0.005) / 0.2615 of all.
-  EXPECT_EQ(PointValues(named.points[0]), ",50,20,3.99618,60,1,8,3,,25");
+  EXPECT_EQ(PointValues(named.points[0]), ",50,20,3.99618,60,1,8,3,,25,0");
 }
 
 TEST(Grid, DefaultsAreThoseOfRunWithTheScenesOwnDuration) {
@@ -130,6 +155,8 @@ TEST(Grid, MistakesAreSaidBeforeAnythingRuns) {
                               "tick_hz = [7]",
                               "buffer_m = [-1]",
                               "buffer_m = 5",
+                              "input_delay = [13]",
+                              "input_delay = [0.5]",
                               "loss_percent = [1]\nimpair = [\"burst=1%:50%\"]",
                               "jitter_ms = [1]\nimpair = [\"jitter=1ms\"]",
                               "set = [\"solver.magic=1\"]",

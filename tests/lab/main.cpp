@@ -21,6 +21,7 @@ CLI::App* DefineRun(CLI::App& app, RunCommand& c) {
   run->add_option("-o,--output", c.log, "LCM log to write")->required();
   run->add_option("--mode", s.mode, "oracle | central | strict | buffer");
   run->add_option("--reconcile", s.reconcile, "rule for mode buffer (default retrospect)");
+  run->add_option("--predict", s.predict, "of mode central's clients: own | all (default all)");
   run->add_option("--impair", s.impair, "network, both directions: a profile's name or a list");
   run->add_option("--seed", s.seed, "of network and bots")->check(CLI::Range(0, 1000000000));
   run->add_option("--send-hz", s.send_hz, "state messages per second")
@@ -33,6 +34,9 @@ CLI::App* DefineRun(CLI::App& app, RunCommand& c) {
   run->add_option("--set", c.set, "KEY=VALUE of the scene: solver.substeps=2 (repeatable)")
       ->allow_extra_args(false);
   run->add_option("--buffer", c.buffer_m, "width of the buffer zone, m (as --set buffer=M)");
+  run->add_option("--input-delay", c.input_delay_ticks,
+                  "ticks from an input to its acting (as --set input_delay=N)")
+      ->check(CLI::Range(0, kInputDelayTicksMax));
   run->add_flag("--force", c.force, "overwrite the log");
   run->add_flag("!--no-floor", c.floor, "do not measure the run and its floor");
   return run;
@@ -107,6 +111,24 @@ CLI::App* DefineWorld(CLI::App& app, WorldCommand& c) {
   return world;
 }
 
+CLI::App* DefineFairness(CLI::App& app, FairnessCommand& c) {
+  CLI::App* fairness =
+      app.add_subcommand("fairness", "a mirrored crash between a near and a far player");
+  fairness->add_option("-o,--output", c.table, "CSV table to write, or to complete")->required();
+  fairness->add_option("--scene", c.scene, "two players' cars that meet (default: headon)");
+  fairness->add_option("--methods", c.methods, "strict, buffer/fade, ... (default: all)")
+      ->delimiter(',');
+  fairness->add_option("--near", c.near_path, "the near player's network, either way");
+  fairness->add_option("--far", c.far_path, "the far player's network, either way");
+  fairness->add_option("--seeds", c.seeds, "from 1, each both ways round (default: 8)")
+      ->check(CLI::Range(1, 1000));
+  fairness->add_option("--jobs", c.jobs, "runs at a time (default: one a core)")
+      ->check(CLI::Range(1, 256));
+  fairness->add_flag("--force", c.force, "begin the table anew");
+  fairness->add_flag("--quiet", c.quiet, "no progress line");
+  return fairness;
+}
+
 CLI::App* DefineReport(CLI::App& app, ReportCommand& c) {
   CLI::App* report = app.add_subcommand("report", "plots and tables of what was swept, as a page");
   report->add_option("DATA", c.data, "folder of CSV tables (default out/report/data)");
@@ -127,6 +149,7 @@ int main(int argc, char** argv) {
   TuneCommand tune;
   OverheadCommand overhead;
   WorldCommand world;
+  FairnessCommand fairness;
   ReportCommand report;
   // The subcommands, each with what it runs.
   std::vector<std::pair<const CLI::App*, std::function<int()>>> commands;
@@ -139,6 +162,7 @@ int main(int argc, char** argv) {
                 {DefineTune(app, tune), [&] { return RunTune(tune); }},
                 {DefineOverhead(app, overhead), [&] { return RunOverhead(overhead); }},
                 {DefineWorld(app, world), [&] { return RunWorld(world); }},
+                {DefineFairness(app, fairness), [&] { return RunFairnessTable(fairness); }},
                 {DefineReport(app, report), [&] { return RunReport(report); }}};
   };
   const ProgramText text{"seam-lab",

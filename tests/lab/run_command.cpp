@@ -36,6 +36,9 @@ int RunLog(const RunCommand& command) {
   settings.smooth = command.smooth == "on";
   for (const std::string& each : command.set) settings.set.push_back(each);
   if (command.buffer_m) settings.set.push_back(fmt::format("buffer={}", *command.buffer_m));
+  if (command.input_delay_ticks) {
+    settings.set.push_back(fmt::format("input_delay={}", *command.input_delay_ticks));
+  }
   settings.set = SplitSettings(JoinSettings(settings.set));
   ClusterConfig config = Configure(settings);
   LogWriter log(command.log, command.force);

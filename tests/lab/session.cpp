@@ -1,6 +1,7 @@
 #include "tests/lab/session.h"
 
 #include "common/base/check.h"
+#include "common/sync/method.h"
 #include "tests/lab/scene_settings.h"
 
 namespace seam {
@@ -28,7 +29,7 @@ ClusterConfig Configure(const SessionSettings& settings, const Scene& scene) {
   CheckRange("seed", static_cast<double>(settings.seed), 0, static_cast<double>(kSeedMax));
   CheckRange("send_hz", settings.send_hz, 1, kSendHzMax);
   CheckRange("duration", settings.duration_s, 0, kDurationMax);
-  MakeSyncConfig(settings.mode, settings.reconcile);
+  MakeSyncConfig(MethodNames{settings.mode, settings.reconcile, settings.predict});
   FindProfile(settings.impair);
   if (settings.impair.size() > kImpairBytesMax) {
     throw OperatorError("the network profile is longer than " + std::to_string(kImpairBytesMax) +
@@ -39,6 +40,7 @@ ClusterConfig Configure(const SessionSettings& settings, const Scene& scene) {
   config.scene_text = scene.text;
   config.mode = settings.mode;
   config.reconcile = settings.reconcile;
+  config.predict = settings.predict;
   config.impair = settings.impair;
   config.seed = settings.seed;
   config.duration_s = settings.duration_s;

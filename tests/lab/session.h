@@ -20,6 +20,7 @@ struct SessionSettings {
   std::string scene;  ///< path of a scene file
   std::string mode = "buffer";
   std::string reconcile;  ///< "": the mode's default
+  std::string predict;    ///< "": the mode's default
   std::string impair = "demo";
   std::int64_t seed = 1;
   int send_hz = 30;              ///< at most the scene's tick_hz is used

@@ -24,7 +24,8 @@ constexpr ScenesKey kScenesKeys[] = {{"tick_hz", "solver.tick_hz"},
                                      {"velocity_iterations", "solver.velocity_iterations"},
                                      {"position_iterations", "solver.position_iterations"},
                                      {"skin", "solver.skin"},
-                                     {"buffer_m", "buffer"}};
+                                     {"buffer_m", "buffer"},
+                                     {"input_delay", "input_delay"}};
 
 std::string ReadText(const std::string& path) { return ReadPlainFile(path, kSceneBytesMax + 1); }
 
@@ -149,11 +150,11 @@ SweepFile ReadSweepFile(const std::string& path) {
   const std::string text = ReadText(path);
   CheckSceneText(text, path);
   const TomlNode tree = ParseToml(text, path);
-  const SceneReader r(
-      tree, path, "sweep",
-      {"scenes", "set", "tick_hz", "substeps", "velocity_iterations", "position_iterations", "skin",
-       "buffer_m", "methods", "impair", "one_way_ms", "jitter_ms", "loss_percent", "send_hz",
-       "drive", "smooth", "duration", "seeds", "floor"});
+  const SceneReader r(tree, path, "sweep",
+                      {"scenes", "set",        "tick_hz",     "substeps", "velocity_iterations",
+                       "skin",   "buffer_m",   "input_delay", "methods",  "position_iterations",
+                       "impair", "one_way_ms", "jitter_ms",   "send_hz",  "loss_percent",
+                       "drive",  "smooth",     "duration",    "seeds",    "floor"});
   SweepFile file;
   file.scenes = Texts(r, "scenes", nullptr);
   if (file.scenes.empty()) r.Fail("which scenes? for example: scenes = [\"scenes/wall.toml\"]");

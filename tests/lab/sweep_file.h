@@ -12,7 +12,7 @@ struct SweepFile {
   /// What is set in the scenes, every combination: {"solver.substeps=2", "buffer=5"}. At least one,
   /// which may be empty.
   std::vector<std::vector<std::string>> settings;
-  std::vector<std::string> methods;   ///< "strict", "buffer/fade"
+  std::vector<std::string> methods;   ///< "strict", "buffer/fade", "central/own"
   std::vector<std::string> networks;  ///< every combination, as FindProfile reads them
   std::vector<std::int64_t> send_hz, seeds;
   std::vector<std::string> drive, smooth;

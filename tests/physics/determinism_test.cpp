@@ -22,7 +22,9 @@ namespace seam {
 namespace {
 
 constexpr const char* kScenes[] = {"crossing", "wall",    "stack",   "cradle",  "relay",
-                                   "harbour",  "regatta", "skyline", "titanic", "gluehouse"};
+                                   "harbour",  "regatta", "skyline", "titanic", "gluehouse",
+                                   "headon",   "rally",   "seesaw",  "scrum",   "heap",
+                                   "train",    "gas"};
 constexpr const char* kGoldenFile = "tests/physics/golden_hashes.txt";
 constexpr std::int64_t kTicks = 600, kHardTicks = 120;
 

@@ -161,6 +161,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"render/canvas", "none"},
       {"render/playback", "render/canvas"},
       {"render/draw", "render/(canvas|playback)"},
+      {"tests/lab/fairness", "tests/lab(/report)?"},
       {"tests/lab/hard", "none"},
       {"tests/lab/report", "tests/lab"},
       {"tests/lab/world", "tests/lab(/report)?"}};

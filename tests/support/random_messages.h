@@ -45,6 +45,7 @@ class RandomMessages {
     m.scene_text = Text(300) + "\n\t" + Text(99), m.reconcile = Text(64), m.impair = Text(200);
     m.seed = static_cast<std::int64_t>(random_.Next()), Set(m.tick_hz, 10, 960);
     Set(m.send_hz, 1, m.tick_hz), Sequence(m);
+    m.predict = Text(64), Set(m.input_delay_ticks, 0, kInputDelayTicksMax);
   }
   void Fill(Ping& m) {
     Common(m), Set(m.revision, -1, INT32_MAX);

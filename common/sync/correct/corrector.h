@@ -6,7 +6,6 @@
 ///   States --> corrector_receive   which are new, and of whom
 ///                corrector_correct   the room's rule: what to add to a secondary's copy now
 ///                corrector_pull      ...and before every step, by rules that ask for it
-///                corrector_predict   mode central: the own vehicle, from the server's state on
 ///   roles  --> corrector_roles     a body simulated from now on begins at the authority's state
 
 #include <cstdint>
@@ -19,7 +18,6 @@
 #include "common/sync/body_memory.h"
 #include "common/sync/correct/replay.h"
 #include "common/sync/display.h"
-#include "common/sync/input_track.h"
 #include "common/sync/mode.h"
 #include "common/sync/roles.h"
 
@@ -34,9 +32,9 @@ struct Received {
 
 class Corrector {
  public:
-  /// All must outlive this. `inputs`: by player.
+  /// All must outlive this.
   Corrector(const SyncConfig& config, World& world, const Roles& roles, BodyMemory& memory,
-            Display& display, Replay& replay, const std::vector<InputTrack>& inputs);
+            Display& display, Replay& replay);
 
   /// States of another peer's bodies. Those of ticks or edits still to come wait for them.
   Received Receive(const States& states);
@@ -67,8 +65,8 @@ class Corrector {
   void Correct(int body, const States& states, std::size_t i, const BodyState& common);
   void TakeRest(int body, const BodyState& local, const BodyState& remote);
   void Blend(int body, const BodyState& local, const Correction& c, std::int64_t from);
-  void Predict(const States& states);
-  void PredictTick();
+  Motion WantedMotion(int body) const;
+  void BeginToSimulate(int body);
   BodyState PullTarget(int body, std::int64_t at) const;
   void NoteArrival(int body);
 
@@ -78,7 +76,6 @@ class Corrector {
   BodyMemory& memory_;
   Display& display_;
   Replay& replay_;
-  const std::vector<InputTrack>& inputs_;
   std::vector<States> waiting_;  // of ticks or edits still to come
 };
 

@@ -14,14 +14,13 @@ constexpr std::int64_t kWaitingTicksMax = 120;
 }  // namespace
 
 Corrector::Corrector(const SyncConfig& config, World& world, const Roles& roles, BodyMemory& memory,
-                     Display& display, Replay& replay, const std::vector<InputTrack>& inputs)
+                     Display& display, Replay& replay)
     : config_(config),
       world_(world),
       roles_(roles),
       memory_(memory),
       display_(display),
-      replay_(replay),
-      inputs_(inputs) {}
+      replay_(replay) {}
 
 Received Corrector::Receive(const States& states) {
   const std::int64_t now = world_.tick();
@@ -36,15 +35,11 @@ Received Corrector::Receive(const States& states) {
     }
     return result;
   }
-  bool predicted = false;
   std::vector<Entry> to_correct;
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = world_.BodyOfId(states.id[i]);
     if (!IsNews(states, i, body, &result)) continue;
     memory_.track(body).heard_tick = states.tick;
-    if (config_.mode == Mode::kCentral && roles_.RoleOfBody(body) == kRoleSecondary) {
-      predicted = true;
-    }
     if (ReceiveOne(states, i, body)) to_correct.emplace_back(i, body);
   }
   const std::map<int, BodyState> common = CommonDifferences(states, to_correct);
@@ -52,7 +47,6 @@ Received Corrector::Receive(const States& states) {
     Correct(body, states, i, common.at(world_.mechanism(body)));
   }
   if (result.used > 0) display_.AddAge(now - states.tick);
-  if (predicted) Predict(states);
   return result;
 }
 
@@ -92,7 +86,7 @@ bool Corrector::ReceiveOne(const States& states, std::size_t i, int body) {
     PlaceBody(body, remote, false);
     return false;
   }
-  return config_.mode == Mode::kBuffer && roles_.RoleOfBody(body) == kRoleSecondary;
+  return config_.reconcile != nullptr && roles_.RoleOfBody(body) == kRoleSecondary;
 }
 
 void Corrector::Place(const States& states) {

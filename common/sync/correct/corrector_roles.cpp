@@ -7,26 +7,40 @@
 
 namespace seam {
 
+/// What is displayed has its real mass, so that it neither is a wall to what is simulated nor pumps
+/// energy into it. Strict shows what comes of infinite mass, and interpolated paths of the past
+/// are nothing to lean on.
+Motion Corrector::WantedMotion(int body) const {
+  if (roles_.Simulates(body)) return Motion::kDynamic;
+  return config_.mode == Mode::kBuffer ? Motion::kLed : Motion::kKinematic;
+}
+
 void Corrector::FollowRoles() {
   const std::int64_t now = world_.tick();
   for (int body = 0; body < world_.body_count(); ++body) {
-    const Motion wanted = roles_.Simulates(body) ? Motion::kDynamic : Motion::kKinematic;
+    const Motion wanted = WantedMotion(body);
     if (world_.motion(body) == wanted) continue;
     // What was simulated here is from now on reckoned from where it is, not from what was last
     // heard of it, which may be from before this peer had the authority.
-    if (wanted == Motion::kKinematic) memory_.snapshots().Add(body, now, world_.Read(body));
+    if (wanted != Motion::kDynamic) memory_.snapshots().Add(body, now, world_.Read(body));
     world_.SetMotion(body, wanted);
-    if (wanted != Motion::kDynamic || !memory_.snapshots().has(body)) continue;
-    // What was only displayed had the velocity of its display, not of a body: start from the
-    // authority's.
-    const BodyState before = world_.Read(body);
-    BodyState state = memory_.snapshots().Extrapolate(body, now, world_.dt(), kReckonMax);
-    state.angle = UnwrapAngle(state.angle, before.angle);
-    world_.Write(body, state);
-    display_.Moved(body, Minus(state, before));
-    memory_.track(body).dynamic_since = now;
-    if (BodyState* past = memory_.history().At(now, body)) *past = state;
+    if (wanted == Motion::kDynamic && memory_.snapshots().has(body)) BeginToSimulate(body);
   }
+}
+
+/// What was only displayed had the velocity of its display, not of a body: it starts from the
+/// authority's. Where there is a way back, from the very state that was heard.
+void Corrector::BeginToSimulate(int body) {
+  const std::int64_t now = world_.tick();
+  const BodyState before = world_.Read(body);
+  BodyState state = memory_.snapshots().Extrapolate(body, now, world_.dt(), kReckonMax);
+  state.angle = UnwrapAngle(state.angle, before.angle);
+  world_.Write(body, state);
+  display_.Moved(body, Minus(state, before));
+  memory_.track(body).dynamic_since = now;
+  if (BodyState* past = memory_.history().At(now, body)) *past = state;
+  const std::int64_t heard = memory_.snapshots().newest_tick(body);
+  if (heard < now) replay_.Ask(body, heard);
 }
 
 }  // namespace seam

@@ -1,21 +1,33 @@
 #include "common/sync/correct/replay.h"
 
+#include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/base/geometry.h"
+#include "common/sync/correct/presses.h"
 #include "common/sync/state_limits.h"
 
 namespace seam {
 namespace {
 
-/// Most ticks that are stepped again, 1 s at 60 Hz: a message that was longer under way is not
-/// worth it. Less than the history.
-constexpr std::int64_t kReplayMax = 60;
+/// Most that is stepped again, s: a message that was longer under way is not worth it. Less than
+/// the history.
+constexpr int kReplayMax = 1;
 /// Of the difference, where bodies of several authorities press against each other. All of it
 /// doubles the error of a shoved stack; much less is no longer a correction.
 constexpr float kPressedShare = 0.3f;
 /// What moves faster than this, m/s, or was struck, does not count as pressed.
 constexpr float kPressedSpeed = 2;
+/// A blow in a replay that wakes what is committed to rest, m/s, as one does when it happens.
+constexpr float kRestBlow = 0.5f;
+/// Budget: ticks stepped again for each tick, in the long run, and how many may be saved up.
+constexpr double kAgainPerTick = 4, kAgainSaved = 240;
+/// With the same inputs both sides come to nearly the same. Up to these differences it stays: half
+/// a quantum came from the wire, and writing it would set both sides on slightly other ways again.
+constexpr float kAgreesPosition = 4 * kPositionQuantum;     // m
+constexpr float kAgreesVelocity = 16 * kVelocityQuantum;    // m/s
+constexpr float kAgreesAngle = 0.005f, kAgreesSpin = 0.1f;  // rad, rad/s
 
 }  // namespace
 
@@ -28,28 +40,62 @@ Replay::Replay(const SyncConfig& config, World& world, const Roles& roles, BodyM
       display_(display),
       inputs_(inputs) {}
 
+bool Replay::Agrees(const BodyState& d) const {
+  if (Negligible(d)) return true;
+  return config_.StampsInputs(roles_.self()) && d.position.norm() < kAgreesPosition &&
+         d.velocity.norm() < kAgreesVelocity && std::fabs(d.angle) < kAgreesAngle &&
+         std::fabs(d.spin) < kAgreesSpin;
+}
+
 bool Replay::Ask(int body, std::int64_t tick) {
   if (barriers_.empty() || tick < barriers_.front().tick) return false;
-  if (tick < memory_.track(body).dynamic_since) return false;
+  if (tick < memory_.track(body).dynamic_since) return BeginsEarlier(body, tick);
   const BodyState* known = memory_.snapshots().At(body, tick);
   if (known == nullptr) return true;  // a newer one was there before this
   const BodyState& then = *memory_.history().At(tick, body);
   BodyState heard = *known;
   heard.angle = UnwrapAngle(heard.angle, then.angle);
-  if (Negligible(Minus(heard, then))) return true;
-  if (from_ < 0 || tick < from_) from_ = tick;
+  if (!Agrees(Minus(heard, then))) AskFrom(tick);
   return true;
 }
 
-void Replay::TakeBarrier() {
-  if (!config_.resimulates || world_.tick() % config_.send_every() != 0) return;
+/// A state from before the copy was simulated: it is simulated from there on, so that what was
+/// under way when it began to be is not lost.
+bool Replay::BeginsEarlier(int body, std::int64_t tick) {
+  if (!config_.StampsInputs(roles_.self())) return false;
+  const BodyState* known = memory_.snapshots().At(body, tick);
+  BodyState* past = memory_.history().At(tick, body);
+  if (known == nullptr || past == nullptr) return false;
+  BodyState heard = *known;
+  heard.angle = UnwrapAngle(heard.angle, past->angle);
+  *past = heard;
+  memory_.track(body).dynamic_since = tick;
+  AskFrom(tick);
+  return true;
+}
+
+void Replay::AskFrom(std::int64_t tick) {
+  if (barriers_.empty()) return;
+  tick = std::max(tick, barriers_.front().tick);
+  if (tick >= world_.tick()) return;
+  if (from_ < 0 || tick < from_) from_ = tick;
+}
+
+void Replay::TakeBarrier(bool needed) {
+  if (!config_.GoesBack(roles_.self()) || world_.tick() % config_.send_every() != 0) return;
+  if (!needed) return Forget();
   barriers_.push_back(world_.Barrier());
-  while (barriers_.front().tick < world_.tick() - kReplayMax) barriers_.pop_front();
+  while (barriers_.front().tick < world_.tick() - kReplayMax * config_.tick_hz) {
+    barriers_.pop_front();
+  }
   while (!actions_.empty() && actions_.front().tick < barriers_.front().tick) actions_.pop_front();
 }
 
 void Replay::NoteAction(std::int64_t tick, int player, int action) {
-  if (config_.resimulates) actions_.push_back({tick, player, action});
+  const int self = roles_.self();
+  if (config_.GoesBack(self) && !config_.StampsInputs(self)) {
+    actions_.push_back({tick, player, action});
+  }
 }
 
 void Replay::Forget() {
@@ -59,9 +105,10 @@ void Replay::Forget() {
 
 /// By mechanism: whether it touches bodies of other authorities, without a blow since `from`.
 void Replay::FindPressed(std::int64_t from) {
-  pressed_.clear();
-  for (std::size_t m = 0; m < world_.composition().mechanisms.size(); ++m) {
-    pressed_.push_back(memory_.Coupled(static_cast<int>(m)));
+  pressed_.assign(world_.composition().mechanisms.size(), false);
+  if (config_.StampsInputs(roles_.self())) return;
+  for (std::size_t m = 0; m < pressed_.size(); ++m) {
+    pressed_[m] = memory_.Coupled(static_cast<int>(m));
   }
   for (int body = 0; body < world_.body_count(); ++body) {
     if (memory_.track(body).last_impact_tick < from &&
@@ -79,31 +126,51 @@ bool Replay::FollowsHistory(int body, std::int64_t tick) const {
   if (memory_.track(body).at_rest) return true;  // committed, here too
   if (tick <= memory_.track(body).dynamic_since) return true;
   if (roles_.RoleOfBody(body) != kRoleAuthority) return false;
+  if (config_.StampsInputs(roles_.self())) return false;
   // What was told of a body at rest is bit for bit where it lies.
   return pressed_[static_cast<std::size_t>(world_.mechanism(body))] || !world_.awake(body);
 }
 
 /// After the step to the world's tick: what is known of it.
 void Replay::PutIn() {
-  for (int body = 0; body < world_.body_count(); ++body) {
-    BodyState* past = memory_.history().At(world_.tick(), body);
-    if (FollowsHistory(body, world_.tick())) {
-      world_.Write(body, *past, false);
-      continue;
-    }
+  for (int body = 0; body < world_.body_count(); ++body) PutIn(body);
+}
+
+void Replay::PutIn(int body) {
+  BodyState* past = memory_.history().At(world_.tick(), body);
+  const bool dynamic = roles_.Simulates(body) && world_.tick() > memory_.track(body).dynamic_since;
+  const Vec2 struck = world_.Read(body).velocity - past->velocity;
+  if (dynamic && struck.norm() > kRestBlow) memory_.track(body).at_rest = false;
+  if (FollowsHistory(body, world_.tick())) {
+    world_.Write(body, *past, false);
+    return;
+  }
+  const BodyState* heard = memory_.snapshots().At(body, world_.tick());
+  if (heard != nullptr && roles_.RoleOfBody(body) == kRoleSecondary) {
     const BodyState local = world_.Read(body);
-    const BodyState* heard = memory_.snapshots().At(body, world_.tick());
-    if (heard != nullptr && roles_.RoleOfBody(body) == kRoleSecondary) {
-      BodyState state = *heard;
-      state.angle = UnwrapAngle(state.angle, local.angle);
-      const bool moves = state.velocity.squaredNorm() > 0 || state.spin != 0;
-      const bool pressed = pressed_[static_cast<std::size_t>(world_.mechanism(body))];
-      state = PlusScaled(local, Minus(state, local), pressed ? kPressedShare : 1.0f);
-      if (!Negligible(Minus(state, local))) {
-        world_.Write(body, WithinLimits(state, world_.scene().speed_limit), moves);
-      }
+    BodyState state = *heard;
+    state.angle = UnwrapAngle(state.angle, local.angle);
+    const bool moves = state.velocity.squaredNorm() > 0 || state.spin != 0;
+    const bool pressed = pressed_[static_cast<std::size_t>(world_.mechanism(body))];
+    state = PlusScaled(local, Minus(state, local), pressed ? kPressedShare : 1.0f);
+    if (!Agrees(Minus(state, local))) {
+      world_.Write(body, WithinLimits(state, world_.scene().speed_limit), moves);
     }
-    *past = world_.Read(body);
+  }
+  *past = world_.Read(body);
+}
+
+/// Buttons: as they are stamped, or as this peer acted on them.
+void Replay::ActAgain(std::int64_t next) {
+  for (const Action& act : actions_) {
+    if (act.tick == next) world_.Act(act.player, act.action);
+  }
+  if (!config_.StampsInputs(roles_.self())) return;
+  for (std::size_t p = 0; p < inputs_.size(); ++p) {
+    const int player = static_cast<int>(p);
+    EachAction(world_, player, inputs_[p].PressedAt(next), [&](int action, int mechanism) {
+      if (roles_.RoleOf(mechanism) != kRoleRemote) world_.Act(player, action);
+    });
   }
 }
 
@@ -113,25 +180,33 @@ void Replay::StepAgain() {
     world_.SetInput(static_cast<int>(p), inputs_[p].At(next));
   }
   for (int body = 0; body < world_.body_count(); ++body) {
-    if (world_.motion(body) != Motion::kKinematic) continue;
-    BodyState state = *memory_.history().At(world_.tick(), body);
+    if (world_.motion(body) == Motion::kDynamic) continue;
+    // Paths that are displayed jump from message to message: what hits others is the velocity that
+    // was displayed, not that of a jump.
     const BodyState& after = *memory_.history().At(next, body);
-    state.velocity = (after.position - state.position) / world_.dt();
-    state.spin = (after.angle - state.angle) / world_.dt();
-    world_.Write(body, WithinLimits(state, world_.scene().speed_limit), state.velocity.norm() > 0);
+    BodyState before = after;
+    before.position -= world_.dt() * after.velocity;
+    before.angle -= world_.dt() * after.spin;
+    const bool moves = after.velocity.squaredNorm() > 0 || after.spin != 0;
+    world_.Write(body, WithinLimits(before, world_.scene().speed_limit), moves);
   }
-  for (const Action& act : actions_) {
-    if (act.tick == next) world_.Act(act.player, act.action);
-  }
+  ActAgain(next);
   world_.Step();
+  ++stepped_again_;
 }
 
 void Replay::Run() {
+  credit_ = std::min(kAgainSaved, credit_ + kAgainPerTick);
   if (from_ < 0) return;
+  if (credit_ <= 0) {
+    ++deferred_;
+    return;
+  }
   const std::int64_t from = std::exchange(from_, -1);
   const std::int64_t now = world_.tick();
   while (!barriers_.empty() && barriers_.back().tick > from) barriers_.pop_back();
   if (barriers_.empty()) return;
+  credit_ -= static_cast<double>(now - barriers_.back().tick);
   std::vector<BodyState> shown;
   std::vector<bool> was_awake;
   for (int body = 0; body < world_.body_count(); ++body) {
@@ -144,7 +219,7 @@ void Replay::Run() {
   while (world_.tick() < now) {
     StepAgain();
     PutIn();
-    TakeBarrier();
+    TakeBarrier(true);
   }
   for (int body = 0; body < world_.body_count(); ++body) {
     const auto b = static_cast<std::size_t>(body);

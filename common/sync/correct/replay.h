@@ -7,9 +7,13 @@
 ///
 /// The authority's states are put in at every tick of which one is known, so what was heard before
 /// is not forgotten. Our own bodies are stepped again, too: a collision that was otherwise than we
-/// thought was so for both. Only where bodies of several authorities press against each other
-/// without a blow, ours follow their history and the others' are corrected by a share: there each
-/// peer would correct towards what the other corrected.
+/// thought was so for both.
+///
+/// Where rules that only look at states (resimulate) have bodies of several authorities press
+/// against each other without a blow, ours follow their history and the others' are corrected by a
+/// share: there each peer would correct towards what the other corrected. Rules that stamp inputs
+/// (rollback, and clients of mode central) need none of this: both sides come to the same with the
+/// same inputs, and what agrees within a few quanta is left alone.
 
 #include <cstdint>
 #include <deque>
@@ -24,7 +28,7 @@
 
 namespace seam {
 
-/// Does nothing unless the room's rule resimulates.
+/// Does nothing at peers that do not go back (SyncConfig::GoesBack).
 class Replay {
  public:
   /// All must outlive this. `inputs`: by player.
@@ -34,14 +38,29 @@ class Replay {
   /// Asks for a replay from `tick`, of which a state of `body` came; none is needed if it agrees
   /// with our past. False: there is no way back to that tick.
   bool Ask(int body, std::int64_t tick);
-  /// Goes back to the oldest tick asked for and steps again to now.
+  /// Asks for a replay from `tick`, or from the oldest to which there is a way.
+  void AskFrom(std::int64_t tick);
+  /// The oldest tick to which there is a way; now, if there is none.
+  std::int64_t oldest() const { return barriers_.empty() ? world_.tick() : barriers_.front().tick; }
+  /// All before this tick is as it will stay, as far as is known: a replay that waits begins here.
+  /// The world's tick if none waits.
+  std::int64_t settled() const { return from_ < 0 ? world_.tick() : from_; }
+
+  /// Goes back to the oldest tick asked for and steps again to now; or, when the budget is used up,
+  /// leaves it for the next call.
   void Run();
-  /// After a step to a tick of which States are sent: makes it one to go back to.
-  void TakeBarrier();
-  /// This peer did a player's action (index) before the step to `tick`; a replay repeats it.
+  /// After a step to a tick of which States are sent: makes it one to go back to. `needed` false:
+  /// nothing here can turn out to be wrong, and the way back is given up.
+  void TakeBarrier(bool needed);
+  /// This peer did a player's action (index) before the step to `tick`; a replay repeats it. Not
+  /// for rules that stamp inputs.
   void NoteAction(std::int64_t tick, int player, int action);
   /// There is no way back to before now: a body is new, or the bodies have changed.
   void Forget();
+
+  std::int64_t ticks_stepped_again() const { return stepped_again_; }
+  /// Calls of Run that left their replay for the next.
+  std::int64_t deferred() const { return deferred_; }
 
  private:
   struct Action {
@@ -49,10 +68,15 @@ class Replay {
     int player = 0, action = 0;
   };
 
+  bool BeginsEarlier(int body, std::int64_t tick);
   void FindPressed(std::int64_t from);
   bool FollowsHistory(int body, std::int64_t tick) const;
+  /// Whether a difference is one that stays as it is.
+  bool Agrees(const BodyState& difference) const;
   void PutIn();
+  void PutIn(int body);
   void StepAgain();
+  void ActAgain(std::int64_t next);
 
   const SyncConfig& config_;
   World& world_;
@@ -64,6 +88,9 @@ class Replay {
   std::deque<Action> actions_;          // since the first barrier
   std::int64_t from_ = -1;              // oldest tick asked for, -1 none
   std::vector<bool> pressed_;           // by mechanism, of the replay that runs
+  double credit_ = 0;                   // ticks that may be stepped again
+  std::int64_t stepped_again_ = 0;
+  std::int64_t deferred_ = 0;
 };
 
 }  // namespace seam

@@ -13,6 +13,8 @@ const std::vector<NamedReconciler>& Reconcilers() {
       {"retrospect", ReconcileRetrospect, "add what our own past differed by at the same tick"},
       {"resimulate", ReconcileResimulate, "go back to the authority's state and step again",
        nullptr, true},
+      {"rollback", ReconcileResimulate, "the same on late inputs, from input-complete states",
+       nullptr, true, true},
       {"pvb", ReconcilePvb, "blend velocities, and the paths that they lead to", PullPvb},
       {"spring", ReconcileSpring, "a damped spring to the authority's moved-on state", PullSpring},
   };

@@ -85,6 +85,9 @@ struct NamedReconciler {
   const char* about;
   Puller pull = nullptr;     ///< also acts in every tick
   bool resimulates = false;  ///< the replica goes back and steps again (Replay)
+  /// Late inputs are a reason to go back, states are those of input-complete ticks, and what agrees
+  /// within a few quanta is left alone.
+  bool rolls_back = false;
 };
 const std::vector<NamedReconciler>& Reconcilers();
 /// Throws OperatorError naming the known ones.

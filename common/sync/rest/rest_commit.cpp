@@ -81,7 +81,7 @@ void RestCommit::Put(int body) {
 }
 
 void RestCommit::PutBack() {
-  if (Off()) return;
+  if (Off() || edited_) return;  // an edit's push is not to be lost
   for (int body = 0; body < world_.body_count(); ++body) {
     if (Holds(body)) Put(body);
   }
@@ -107,6 +107,9 @@ void RestCommit::BeforeStep() {
       d.freed_tick = -1;
       memory_.track(body).at_rest = table_.at(body).committed;
       if (Holds(body)) Put(body);
+    }
+    if (!Holds(body) && table_.at(body).committed && d.freed_tick < 0) {
+      LetGo(body);  // a replay found a blow
     }
     if (!Holds(body)) continue;
     const BodyState now = world_.Read(body);

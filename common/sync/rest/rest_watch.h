@@ -19,7 +19,7 @@ class RestWatch {
   std::int64_t asleep(int body) const { return Since(of(body).asleep_since); }
   /// Ticks for which it has been within 5 mm and .01 rad of one pose.
   std::int64_t still(int body) const { return Since(of(body).still.since); }
-  /// Ticks for which it has been within 50 mm and .1 rad of one pose.
+  /// Ticks for which it has been within 20 mm and .04 rad of one pose.
   std::int64_t slow(int body) const { return Since(of(body).slow.since); }
   /// The bodies have changed, or the tick: all begins anew.
   void StartAnew();

@@ -15,10 +15,12 @@ struct Known {
 
 /// Colours of Okabe and Ito ("Color Universal Design", 2008), without their yellow, which is
 /// too light for a line on white; no two have colour and dash in common.
-const std::array<Known, 12>& Methods() {
-  static const std::array<Known, 12> methods = {{
+const std::array<Known, 14>& Methods() {
+  static const std::array<Known, 14> methods = {{
       {"oracle", {"#999999", "solid", 1.0, 0, 0.6}},
       {"central", {"#000000", "solid", 1.5, 4, 0.7}},
+      {"central/own", {"#000000", "(6,3)", 1.5, 4, 0.7}},
+      {"central/all", {"#000000", "solid", 2.0, 3, 0.7}},
       {"strict", {"#000000", "(2,3)", 1.5, 1, 0.7}},
       {"snap", {"#999999", "(6,3)", 1.5, 2, 0.7}},
       {"interleave", {"#56b4e9", "(8,4)", 1.5, 6, 0.6}},

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "common/base/check.h"
+#include "tests/lab/report/fairness_section.h"
 #include "tests/lab/report/files.h"
 #include "tests/lab/report/physics_section.h"
 #include "tests/lab/report/sweep_section.h"
@@ -86,6 +87,7 @@ std::vector<Section> BuildReport(const ReportInput& input) {
   for (const fs::path& path : FilesOf(data, ".csv")) {
     const std::string name = path.stem().string();
     if (name == "physics" || name == "overhead") continue;
+    if (name == "fairness") continue;
     const std::string command = fmt::format("seam-lab sweep {} -o {} && seam-lab report {}",
                                             (fs::path(input.sweeps) / (name + ".toml")).string(),
                                             path.string(), input.data);
@@ -107,6 +109,11 @@ std::vector<Section> BuildReport(const ReportInput& input) {
     sections.push_back(PhysicsSection(
         CsvTable::Load(physics.string()),
         fmt::format("seam-lab physics -o {} && seam-lab report {}", physics.string(), input.data)));
+  }
+  const fs::path fairness = data / "fairness.csv";
+  if (fs::exists(fairness)) {
+    sections.push_back(FairnessSection(CsvTable::Load(fairness.string()),
+                                       "seam-lab fairness -o " + fairness.string()));
   }
   AddSweeps(sweeps, &sections);
   if (sections.empty()) throw OperatorError(input.data + ": has no tables (*.csv) to report");

@@ -18,13 +18,14 @@ namespace {
 using Keys = std::map<std::string, std::string>;
 
 /// Names of the axes we know; others are called as their column.
-const std::array<SweepAxis, 11>& Axes() {
-  static const std::array<SweepAxis, 11> axes = {{
+const std::array<SweepAxis, 12>& Axes() {
+  static const std::array<SweepAxis, 12> axes = {{
       {"one_way_ms", "one-way latency", "ms", false},
       {"loss_percent", "loss", "%", false},
       {"jitter_ms", "jitter, mean of the exponential", "ms", false},
       {"send_hz", "updates", "Hz", true},
       {"buffer_m", "buffer width", "m", true},
+      {"input_delay_ticks", "input delay", "ticks", true},
       {"substeps", "substeps", "", true},
       {"tick_hz", "ticks", "Hz", true},
       {"velocity_iterations", "velocity iterations", "", true},
@@ -62,7 +63,7 @@ std::string OtherSettings(const CsvTable& table, const std::string& set) {
     std::string name = item.substr(0, item.find('='));
     name = name.substr(name.rfind('.') + 1);
     name = name.substr(0, name.find(' '));
-    if (table.Has(name) || table.Has(name + "_m")) continue;
+    if (table.Has(name) || table.Has(name + "_m") || table.Has(name + "_ticks")) continue;
     rest += (rest.empty() ? "" : "; ") + item;
   }
   return rest;
@@ -144,7 +145,9 @@ std::string ChooseAxis(const Values& values) {
 
 std::string Method(const CsvTable& table, std::size_t row) {
   const std::string& rule = table.Text(row, "reconcile");
-  return rule.empty() ? table.Text(row, "mode") : rule;
+  const std::string& mode = table.Text(row, "mode");
+  if (rule.empty()) return mode;
+  return mode == "central" ? mode + "/" + rule : rule;
 }
 
 SweepGroup* GroupOf(const CsvTable& table, std::size_t row, SweepView* view) {

@@ -1,0 +1,71 @@
+/// World: bodies that are displayed and not simulated. A kinematic body hits like a wall of
+/// infinite mass, and in a closed room that pumps energy into all that it touches. A led one is
+/// solved like any other, with its own mass, and only then put where its path takes it.
+
+#include "common/physics/world_impl.h"
+
+namespace seam {
+namespace {
+
+/// From the velocity of the body's origin to that of its centre of mass.
+b2Vec2 AtCentre(const b2Body& body, const b2Vec2& at_origin) {
+  const b2Vec2 arm = body.GetWorldCenter() - body.GetPosition();
+  return at_origin + b2Cross(body.GetAngularVelocity(), arm);
+}
+
+}  // namespace
+
+void World::SetMotion(int body, Motion motion) {
+  if (this->motion(body) == motion) return;  // a change would destroy the contacts
+  touches();                                 // as they are after the last tick
+  blocked_directions();
+  const MovingBody& m = impl_->moving(body);
+  Motion& now = impl_->motions[static_cast<std::size_t>(body)];
+  b2Vec2 origin_velocity = m.body->GetLinearVelocity();  // of what is kinematic or led
+  if (now == Motion::kDynamic) {
+    origin_velocity = m.body->GetLinearVelocityFromLocalPoint(b2Vec2(0, 0));
+  }
+  if (motion == Motion::kKinematic) {
+    m.body->SetType(b2_kinematicBody);  // forgets the centre of mass
+    m.body->SetLinearVelocity(origin_velocity);
+  } else {
+    if (now == Motion::kKinematic) {
+      m.body->SetType(b2_dynamicBody);
+      m.body->SetMassData(&m.mass);
+    }
+    const bool led = motion == Motion::kLed;
+    m.body->SetLinearVelocity(led ? origin_velocity : AtCentre(*m.body, origin_velocity));
+  }
+  impl_->led_count += (motion == Motion::kLed ? 1 : 0) - (now == Motion::kLed ? 1 : 0);
+  now = motion;
+}
+
+Motion World::motion(int body) const {
+  impl_->moving(body);  // in range
+  return impl_->motions[static_cast<std::size_t>(body)];
+}
+
+void World::Impl::LetLedBodiesMove() {
+  led_path.resize(built.moving.size());
+  for (std::size_t i = 0; i < built.moving.size(); ++i) {
+    if (motions[i] != Motion::kLed) continue;
+    b2Body* body = built.moving[i].body;
+    const b2Vec2 velocity = body->GetLinearVelocity();
+    led_path[i] = {FromB2(body->GetPosition()), body->GetAngle(), FromB2(velocity),
+                   body->GetAngularVelocity()};
+    if (body->IsAwake()) body->SetLinearVelocity(AtCentre(*body, velocity));
+  }
+}
+
+void World::Impl::PutLedBodiesOnTheirPath(float h) {
+  for (std::size_t i = 0; i < built.moving.size(); ++i) {
+    b2Body* body = built.moving[i].body;
+    if (motions[i] != Motion::kLed || !body->IsAwake()) continue;
+    const BodyState& from = led_path[i];
+    body->SetTransform(ToB2(from.position + h * from.velocity), from.angle + h * from.spin);
+    body->SetLinearVelocity(ToB2(from.velocity));
+    body->SetAngularVelocity(from.spin);
+  }
+}
+
+}  // namespace seam

@@ -1,0 +1,67 @@
+#include "common/sync/reach/reach.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "common/sync/reach/driven.h"
+
+namespace seam {
+namespace {
+
+/// A player of whom nothing was heard for so long is not there: nobody waits for it. s
+constexpr double kSilent = 1.0;
+
+}  // namespace
+
+std::vector<MovingBox> BoxesOf(const World& world) {
+  std::vector<MovingBox> boxes;
+  boxes.reserve(static_cast<std::size_t>(world.body_count()));
+  for (int body = 0; body < world.body_count(); ++body) {
+    MovingBox box;
+    std::tie(box.min, box.max) = world.Bounds(body);
+    box.velocity = world.Read(body).velocity;
+    box.group = world.mechanism(body);
+    boxes.push_back(box);
+  }
+  return boxes;
+}
+
+void Reach::Look() {
+  const std::int64_t now = world_.tick();
+  const std::size_t count = world_.composition().mechanisms.size();
+  complete_.assign(count, now);
+  // By player: how much of the past is not known; -1: own, or not there.
+  std::vector<std::int64_t> missing(inputs_.size(), -1);
+  std::int64_t longest = 0;
+  for (std::size_t p = 0; p < inputs_.size(); ++p) {
+    const std::int64_t newest = inputs_[p].newest();
+    if (static_cast<int>(p) == roles_.own_player() || newest < 0) continue;
+    if (newest < now - static_cast<std::int64_t>(kSilent * config_.tick_hz)) continue;
+    missing[p] = std::max<std::int64_t>(0, now - newest);
+    longest = std::max(longest, missing[p]);
+  }
+  const float seconds = static_cast<float>(longest + 2 * config_.send_every()) * world_.dt();
+  const std::vector<int> island =
+      Components(static_cast<int>(count), MeetingGroups(BoxesOf(world_), seconds));
+  std::vector<std::int64_t> of_island(count, now);
+  std::vector<bool> reached(count, false);
+  for (std::size_t p = 0; p < inputs_.size(); ++p) {
+    if (missing[p] < 0) continue;
+    const std::vector<bool> driven = DrivenMechanisms(world_, static_cast<int>(p), true);
+    for (std::size_t m = 0; m < count; ++m) {
+      if (!driven[m]) continue;
+      const auto i = static_cast<std::size_t>(island[m]);
+      of_island[i] = std::min(of_island[i], now - missing[p]);
+      reached[i] = true;
+    }
+  }
+  may_go_back_ = false;
+  for (std::size_t m = 0; m < count; ++m) {
+    const auto i = static_cast<std::size_t>(island[m]);
+    complete_[m] = of_island[i];
+    const std::int8_t role = roles_.RoleOf(static_cast<int>(m));
+    if (role == kRoleSecondary || (role == kRoleAuthority && reached[i])) may_go_back_ = true;
+  }
+}
+
+}  // namespace seam

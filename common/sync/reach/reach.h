@@ -1,0 +1,48 @@
+#pragma once
+/// How far the inputs that are not known here yet can reach: for each mechanism, the newest tick
+/// that is input-complete, that is, for which the inputs of all players who can influence it are
+/// known.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/physics/world.h"
+#include "common/sync/input_track.h"
+#include "common/sync/mode.h"
+#include "common/sync/reach/zones.h"
+#include "common/sync/roles.h"
+
+namespace seam {
+
+class Reach {
+ public:
+  /// All must outlive this. `inputs`: by player.
+  Reach(const SyncConfig& config, const World& world, const Roles& roles,
+        const std::vector<InputTrack>& inputs)
+      : config_(config), world_(world), roles_(roles), inputs_(inputs) {}
+
+  /// After a step: looks at what may have met within the time of which inputs are missing.
+  void Look();
+
+  /// Newest input-complete tick, at most the world's. Requires that Look was called since the
+  /// bodies changed.
+  std::int64_t CompleteTick(int mechanism) const {
+    return complete_[static_cast<std::size_t>(mechanism)];
+  }
+  /// Whether a replay may be needed: something that is simulated here follows another peer, or can
+  /// be reached by inputs of a player of another peer.
+  bool MayGoBack() const { return may_go_back_; }
+
+ private:
+  const SyncConfig& config_;
+  const World& world_;
+  const Roles& roles_;
+  const std::vector<InputTrack>& inputs_;
+  std::vector<std::int64_t> complete_;  // by mechanism
+  bool may_go_back_ = true;
+};
+
+/// The boxes of a world's bodies, grouped by mechanism.
+std::vector<MovingBox> BoxesOf(const World& world);
+
+}  // namespace seam

@@ -1,0 +1,68 @@
+#include "common/sync/reach/zones.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace seam {
+
+float Gap(const MovingBox& a, const MovingBox& b) {
+  const Vec2 apart = (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(Vec2(0, 0));
+  return apart.norm();
+}
+
+float ZoneSlack(float seconds) { return kZoneSlack + kZoneAcceleration * seconds * seconds / 2; }
+
+bool MayMeet(const MovingBox& a, const MovingBox& b, float seconds) {
+  return Gap(a, b) <= (a.velocity - b.velocity).norm() * seconds + ZoneSlack(seconds);
+}
+
+std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& boxes, float seconds) {
+  // Each box grown by the way it can make itself: two that may meet overlap then.
+  struct Span {
+    float from, to;
+    std::size_t box;
+  };
+  std::vector<Span> spans;
+  spans.reserve(boxes.size());
+  const float slack = ZoneSlack(seconds) / 2;
+  for (std::size_t i = 0; i < boxes.size(); ++i) {
+    const float grown = boxes[i].velocity.norm() * seconds + slack;
+    spans.push_back({boxes[i].min.x() - grown, boxes[i].max.x() + grown, i});
+  }
+  std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) {
+    return a.from != b.from ? a.from < b.from : a.box < b.box;
+  });
+  std::vector<std::pair<int, int>> pairs;
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    const MovingBox& a = boxes[spans[i].box];
+    for (std::size_t j = i + 1; j < spans.size() && spans[j].from <= spans[i].to; ++j) {
+      const MovingBox& b = boxes[spans[j].box];
+      if (a.group == b.group || !MayMeet(a, b, seconds)) continue;
+      pairs.emplace_back(std::min(a.group, b.group), std::max(a.group, b.group));
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+  return pairs;
+}
+
+std::vector<int> Components(int count, const std::vector<std::pair<int, int>>& pairs) {
+  std::vector<int> parent(static_cast<std::size_t>(count));
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto find = [&](int group) {
+    while (parent[static_cast<std::size_t>(group)] != group) {
+      int& up = parent[static_cast<std::size_t>(group)];
+      up = parent[static_cast<std::size_t>(up)];
+      group = up;
+    }
+    return group;
+  };
+  for (const auto& [a, b] : pairs) {
+    const int x = find(a), y = find(b);
+    parent[static_cast<std::size_t>(std::max(x, y))] = std::min(x, y);
+  }
+  for (int group = 0; group < count; ++group) parent[static_cast<std::size_t>(group)] = find(group);
+  return parent;
+}
+
+}  // namespace seam

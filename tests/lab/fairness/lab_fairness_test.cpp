@@ -1,0 +1,152 @@
+/// seam-lab fairness: its crash, its arithmetic, and the network that it gives each player.
+
+#include <gtest/gtest.h>
+
+#include "common/base/check.h"
+#include "common/net/memory.h"
+#include "tests/lab/commands.h"
+#include "tests/lab/fairness/fairness.h"
+#include "tests/lab/fairness/lagging_net.h"
+#include "tests/lab/report/fairness_section.h"
+#include "tests/support/lab_workspace.h"
+
+namespace seam {
+namespace {
+
+FairnessRun Headon(const std::string& mode, const std::string& reconcile = "") {
+  FairnessRun run;
+  run.session.scene = "scenes/headon.toml";
+  run.session.mode = mode;
+  run.session.reconcile = reconcile;
+  run.session.duration_s = 2.5;
+  return run;
+}
+
+TEST(Fairness, InModeOracleBothReceiveWhatMechanicsSays) {
+  for (const int near : {0, 1}) {
+    FairnessRun run = Headon("oracle");
+    run.near = near;
+    const FairnessResult r = RunFairness(run);
+    ASSERT_EQ(r.invalid, "");
+    // Two of 7.14 kg that end at rest: each loses half of the closing speed. The motors, which pull
+    // for half a second more, are in it with less than 20 N each.
+    EXPECT_NEAR(r.oracle_ns, 7.14 * r.closing_mps / 2, 7.14 * 2.9 * 0.2);
+    for (const int side : {0, 1}) {
+      const auto i = static_cast<std::size_t>(side);
+      EXPECT_NEAR(r.own_ns[i], r.oracle_ns, 0.01);
+      EXPECT_NEAR(r.server_ns[i], r.oracle_ns, 0.01);
+    }
+  }
+}
+
+TEST(Fairness, WhoIsNearDecidesWhichCarIsWhichAndNothingElse) {
+  ClusterConfig config;
+  config.scene = "headon";
+  config.reconcile = "snap";
+  config.duration_s = 2.5;
+  const Recording recording = RunCluster(config);
+  const FairnessResult a = JudgeFairness(recording, 0), b = JudgeFairness(recording, 1);
+  ASSERT_EQ(a.invalid, "");
+  EXPECT_NE(a.own_ns[0], a.own_ns[1]);
+  EXPECT_EQ(a.own_ns[0], b.own_ns[1]);
+  EXPECT_EQ(a.own_ns[1], b.own_ns[0]);
+  EXPECT_EQ(a.server_ns[0], b.server_ns[1]);
+  EXPECT_DOUBLE_EQ(a.advantage_own_ns(), -b.advantage_own_ns());
+}
+
+TEST(Fairness, InModeStrictBothReceiveWhatAWallWouldGive) {
+  // Mode strict takes the other car where it was told to be, a thing that nothing can push: each
+  // receives what a wall would give.
+  const FairnessResult r = RunFairness(Headon("strict"));
+  ASSERT_EQ(r.invalid, "");
+  EXPECT_GT(r.own_ns[0], 1.5 * r.oracle_ns);
+}
+
+TEST(Fairness, ARunWithoutTheCrashOrItsEndIsNotValid) {
+  FairnessRun run = Headon("buffer");
+  run.session.duration_s = 1;
+  EXPECT_EQ(RunFairness(run).invalid, "the cars did not meet");
+  run.session.duration_s = 1.6;
+  EXPECT_EQ(RunFairness(run).invalid, "views about the crash are missing");
+}
+
+TEST(Fairness, IsForTwoPlayersWithAVehicleEach) {
+  FairnessRun run = Headon("buffer");
+  run.session.scene = "scenes/relay.toml";
+  run.session.duration_s = 0.5;
+  EXPECT_THROW(RunFairness(run), OperatorError);
+  run.session.scene = "scenes/scrum.toml";
+  EXPECT_THROW(RunFairness(run), OperatorError);
+}
+
+TEST(Fairness, EachPlayersPathIsSlowBothWays) {
+  MemoryNetwork network;
+  const Address here{1, 1}, there{2, 2};
+  LaggingNet lagging(network.Attach(here), "delay=20ms", 1);
+  const std::unique_ptr<Net> other = network.Attach(there);
+  const auto come = [](Net* net, std::int64_t now_us) {
+    Address from;
+    Bytes datagram;
+    net->Advance(now_us);
+    return net->Receive(&from, &datagram);
+  };
+  const Bytes datagram = {1, 2, 3};
+  lagging.Advance(0);
+  lagging.Send(there, datagram);
+  lagging.Flush();
+  EXPECT_FALSE(come(other.get(), 0));
+  lagging.Advance(20001);
+  lagging.Flush();
+  EXPECT_TRUE(come(other.get(), 20001));
+  other->Send(here, datagram);
+  other->Flush();
+  EXPECT_FALSE(come(&lagging, 20002));
+  EXPECT_FALSE(come(&lagging, 39000));
+  EXPECT_TRUE(come(&lagging, 40100));
+}
+
+const char* const kColumns =
+    "version,scene,scene_hash,method,near_path,far_path,near,seed,valid,crash_tick,closing_mps,"
+    "momentum_oracle_ns,momentum_near_own_ns,momentum_far_own_ns,momentum_near_server_ns,"
+    "momentum_far_server_ns,advantage_own_ns,advantage_server_ns\n";
+
+TEST(FairnessTable, HasMeansAndThe95thPercentileOfSizesAndSaysWhatIsNotValid) {
+  const std::string key = "v,headon,0,";
+  const std::string paths = ",delay=20ms,delay=120ms,ann,1,";
+  const CsvTable csv =
+      CsvTable::Parse(kColumns + key + "strict" + paths + ",87,30,100,100,104,100,98,4,-2\n" + key +
+                          "strict" + paths + ",87,30,100,100,94,100,102,-6,2\n" + key +
+                          "buffer/fade" + paths + "the cars did not meet,,,,,,,,,\n",
+                      "fairness.csv");
+  EXPECT_EQ(InvalidRows(csv), 1u);
+  const TextTable table = FairnessTable(csv, "seam-lab fairness");
+  ASSERT_EQ(table.rows.size(), 2u);
+  const std::vector<std::string> strict = {"strict", "2", "100", "100 / 99", "−1", "6", "+0", "2"};
+  EXPECT_EQ(table.rows[0], strict);
+  EXPECT_EQ(table.rows[1][2], "not valid: the cars did not meet");
+  EXPECT_NE(table.note.find("1 of 3 rows are not valid"), std::string::npos) << table.note;
+}
+
+TEST(FairnessCommand, WritesARowForEachSeedAndAssignmentAndGoesOnWhereItWas) {
+  const LabWorkspace work;
+  FairnessCommand command;
+  command.methods = {"buffer/fade"};
+  command.seeds = 1;
+  command.table = work / "fairness.csv";
+  command.jobs = 1;
+  command.quiet = true;
+  EXPECT_EQ(RunFairnessTable(command), 0);
+  const std::string first = work.Read("fairness.csv");
+  const CsvTable csv = CsvTable::Parse(first, "fairness.csv");
+  ASSERT_EQ(csv.rows(), 2u);
+  EXPECT_EQ(csv.Text(0, "near"), "ann");
+  EXPECT_EQ(csv.Text(1, "near"), "bob");
+  EXPECT_EQ(InvalidRows(csv), 0u);
+  EXPECT_EQ(RunFairnessTable(command), 0);
+  EXPECT_EQ(work.Read("fairness.csv"), first);
+  command.methods = {"buffer/none-such"};
+  EXPECT_THROW(RunFairnessTable(command), OperatorError);
+}
+
+}  // namespace
+}  // namespace seam

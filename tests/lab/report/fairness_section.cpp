@@ -1,0 +1,119 @@
+#include "tests/lab/report/fairness_section.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <optional>
+#include <vector>
+
+namespace seam {
+namespace {
+
+/// The figures of one method's valid rows.
+struct Advantages {
+  std::size_t rows = 0;
+  std::string why;  // of an invalid row
+  std::vector<double> near_own, far_own, oracle;
+  std::vector<double> own, server;  // signed: far less near
+};
+
+double Mean(const std::vector<double>& values) {
+  double sum = 0;
+  for (const double value : values) sum += value;
+  return sum / static_cast<double>(values.size());
+}
+
+/// The nearest-rank percentile of the sizes: number ceil(0.95 n).
+double Percentile95(const std::vector<double>& values) {
+  std::vector<double> sizes;
+  for (const double value : values) sizes.push_back(std::abs(value));
+  std::sort(sizes.begin(), sizes.end());
+  return sizes[(sizes.size() * 95 + 99) / 100 - 1];
+}
+
+std::vector<std::string> Fields(const std::string& method, const Advantages& a) {
+  if (a.own.empty()) return {method, "0", "not valid: " + a.why, "–", "–", "–", "–", "–"};
+  const std::string sign = Mean(a.own) < 0 ? "−" : "+";
+  const std::string server_sign = Mean(a.server) < 0 ? "−" : "+";
+  return {method,
+          std::to_string(a.own.size()),
+          Digits(Mean(a.oracle)),
+          Digits(Mean(a.near_own)) + " / " + Digits(Mean(a.far_own)),
+          sign + Digits(std::abs(Mean(a.own))),
+          Digits(Percentile95(a.own)),
+          server_sign + Digits(std::abs(Mean(a.server))),
+          Digits(Percentile95(a.server))};
+}
+
+}  // namespace
+
+std::size_t InvalidRows(const CsvTable& csv) {
+  std::size_t invalid = 0;
+  for (std::size_t row = 0; row < csv.rows(); ++row)
+    invalid += csv.Text(row, "valid").empty() ? 0 : 1;
+  return invalid;
+}
+
+TextTable FairnessTable(const CsvTable& csv, const std::string& command) {
+  csv.Require({"method", "near_path", "far_path", "valid", "momentum_oracle_ns",
+               "momentum_near_own_ns", "momentum_far_own_ns", "advantage_own_ns",
+               "advantage_server_ns"});
+  std::vector<std::string> methods;
+  std::map<std::string, Advantages> by_method;
+  for (std::size_t row = 0; row < csv.rows(); ++row) {
+    const std::string& method = csv.Text(row, "method");
+    if (by_method.count(method) == 0) methods.push_back(method);
+    Advantages& a = by_method[method];
+    ++a.rows;
+    if (!csv.Text(row, "valid").empty()) {
+      a.why = csv.Text(row, "valid");
+      continue;
+    }
+    const auto take = [&](const char* column, std::vector<double>* values) {
+      if (const std::optional<double> value = csv.Number(row, column)) values->push_back(*value);
+    };
+    take("momentum_oracle_ns", &a.oracle);
+    take("momentum_near_own_ns", &a.near_own);
+    take("momentum_far_own_ns", &a.far_own);
+    take("advantage_own_ns", &a.own);
+    take("advantage_server_ns", &a.server);
+  }
+  TextTable table;
+  table.name = "fairness";
+  table.title = "Fairness: momentum that two players receive of a mirrored crash";
+  table.header = {"method",
+                  "runs",
+                  "without a network (N s)",
+                  "near / far, own screens (N s)",
+                  "far − near, own screens: mean (N s)",
+                  "p95 of its size (N s)",
+                  "far − near, server: mean (N s)",
+                  "p95 of its size (N s)"};
+  for (const std::string& method : methods) {
+    table.rows.push_back(Fields(method, by_method[method]));
+  }
+  if (csv.rows() > 0) {
+    table.note = fmt::format(
+        "The near player's path: {}, the far one's: {}, either way; each seed with both "
+        "assignments. Above 0: the far player is hit harder. {} of {} rows are not valid.",
+        csv.Text(0, "near_path"), csv.Text(0, "far_path"), InvalidRows(csv), csv.rows());
+  }
+  table.command = command;
+  table.open = true;
+  return table;
+}
+
+Section FairnessSection(const CsvTable& csv, const std::string& command) {
+  Section section;
+  section.id = "fairness";
+  section.title = "Fairness: who pays for whose latency";
+  section.intro =
+      "Two equal cars meet head on; one player is near the server, the other far from it, and then "
+      "the other way round. Without a network both receive the same momentum.";
+  section.items.emplace_back(FairnessTable(csv, command));
+  return section;
+}
+
+}  // namespace seam
