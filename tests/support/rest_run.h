@@ -44,21 +44,7 @@ class RestWatcher {
       if (both && static_cast<double>(now() - since) >= quiet_s * 60) break;
     }
     run_.agreed = Agreed();
-    if (getenv("REST_DEBUG")) Debug();
     return run_;
-  }
-
-  void Debug() {
-    const Replica& server = cluster_.server().replica();
-    for (const Replica* r : All()) {
-      printf("peer tick %ld hash %lx all %d rejoins\n", (long)r->tick(), (long)r->rest().Hash(), r->rest().all());
-      for (int b = 0; b < server.world().body_count(); ++b) {
-        const BodyState s = r->world().Read(b);
-        printf("  %d auth %d epoch %d held %d awake %d  %.6f %.6f %.6f v %.4f %.4f\n", b,
-               r->authority().at(r->world().mechanism(b)).authority, r->authority().at(r->world().mechanism(b)).epoch, r->rest().Holds(b), r->world().awake(b),
-               s.position.x(), s.position.y(), s.angle, s.velocity.norm(), s.spin);
-      }
-    }
   }
 
  private:

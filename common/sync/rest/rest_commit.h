@@ -29,7 +29,8 @@ namespace seam {
 
 class RestCommit {
  public:
-  /// All must outlive this. `inputs`: by player. Does nothing in mode oracle.
+  /// All must outlive this. `inputs`: by player. Does nothing in mode oracle, and where
+  /// the scene lets nothing sleep.
   RestCommit(const SyncConfig& config, World& world, const Roles& roles, BodyMemory& memory,
              Display& display, const std::vector<InputTrack>& inputs);
 
@@ -69,7 +70,7 @@ class RestCommit {
     int times = 0;                 ///< it gave way to pushes since its authority last spoke of it
   };
 
-  bool Off() const { return config_.mode == Mode::kOracle; }
+  bool Off() const { return config_.mode == Mode::kOracle || !world_.scene().solver.sleep; }
   bool Own(int body) const { return roles_.IsAuthority(world_.mechanism(body)); }
   Disturbance& disturbed(int body) { return disturbed_[static_cast<std::size_t>(body)]; }
   std::int64_t Ticks(double seconds) const;
