@@ -36,7 +36,11 @@ class Row {
   SyncConfig config = MakeSyncConfig("buffer", "retrospect");
   Roles roles{config, 0, -1, *world};
   BodyMemory memory{config, *world};
-  SendScheduler scheduler{config, *world, roles, memory};
+  std::vector<InputTrack> inputs;
+  Display display{config, *world, memory.snapshots()};
+  Replay replay{config, *world, roles, memory, display, inputs};
+  Reach reach{config, *world, roles, inputs};
+  SendScheduler scheduler{config, *world, roles, memory, reach, replay};
 };
 
 TEST(SendScheduler, BodiesTakeTurnsWhenThereAreMoreThanOneDatagramHolds) {

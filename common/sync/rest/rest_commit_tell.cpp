@@ -57,8 +57,10 @@ void RestCommit::CommitIsland(const std::vector<int>& island) {
 }
 
 void RestCommit::Commit(int body) {
-  table_.Commit(body, roles_.table().at(world_.mechanism(body)).epoch, world_.tick(),
-                world_.Read(body));
+  // Later than all that another authority can have said of it, whose clock may be a tick ahead.
+  const std::int64_t tick =
+      std::max({world_.tick(), table_.at(body).tick + 1, memory_.track(body).heard_tick});
+  table_.Commit(body, roles_.table().at(world_.mechanism(body)).epoch, tick, world_.Read(body));
   memory_.track(body).at_rest = true;
   disturbed(body).pushed_ticks = 0;
   disturbed(body).freed_tick = -1;
