@@ -24,9 +24,6 @@ constexpr std::int64_t kGiveUpTicks = 300;
 /// Mode central: inputs should arrive this long before the server needs them, us.
 constexpr double kInputMarginUs = 35000;
 
-static_assert(static_cast<std::size_t>(Client::kInputsRedundant) <= kInputsMax,
-              "the server would reject our inputs as malformed");
-
 }  // namespace
 
 Client::Client(const ClientConfig& config, Net& net, Recorder& recorder, Entropy& entropy)
@@ -57,6 +54,7 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   if (started_) StepDue(now_us);
   const bool stats_due = now_us - last_stats_us_ >= 1000000;
   if (publisher_ != nullptr && peer_ >= 0 && stats_due) PublishStats(now_us, cpu_us);
+  if (started_) SendInputs(now_us);
   Flush(now_us);
 }
 
@@ -177,16 +175,20 @@ void Client::TellRest(std::int64_t now_us) {
   }
 }
 
+void Client::SendInputs(std::int64_t now_us) {
+  if (player_ < 0 || mode_ == Mode::kOracle || Quiet()) return;
+  const InputTrack& track = replica_->inputs(player_);
+  std::optional<Inputs> inputs =
+      feed_.Take(track, player_, link_->acked(player_), replica_->tick(), link_->Sends(now_us));
+  if (!inputs) return;
+  inputs->utime = now_us;
+  link_->SendUnreliable(Encode(*inputs), player_, track.newest());
+}
+
 void Client::StepOnce(std::int64_t now_us) {
   NoteOwnInput();
   replica_->Step();
-  const bool central = mode_ == Mode::kCentral;
-  const std::int64_t every = central ? 1 : std::max(1, room_.tick_hz / room_.send_hz);
-  if (player_ >= 0 && mode_ != Mode::kOracle && replica_->tick() % every == 0 && !Quiet()) {
-    Inputs inputs = replica_->inputs(player_).Export(player_, kInputsRedundant);
-    inputs.utime = now_us;
-    link_->SendUnreliable(Encode(inputs));
-  }
+  if (mode_ == Mode::kOracle) replica_->ApplyEdits();  // in the tick in which they were found
   for (const Edit& edit : replica_->TakeProposals()) {
     EditOrder proposal = ToOrder(edit);
     proposal.utime = now_us;

@@ -13,6 +13,7 @@
 #include "common/net/link.h"
 #include "common/net/net.h"
 #include "common/record/recorder.h"
+#include "common/sync/input_feed.h"
 #include "common/sync/metadata.h"
 #include "common/sync/publisher.h"
 #include "common/sync/replica.h"
@@ -69,7 +70,6 @@ class Client {
 
   /// Age of the newest answered ping after which we try to join anew.
   static constexpr std::int64_t kLostUs = 5000000;
-  static constexpr int kInputsRedundant = 16;  ///< ticks of input repeated in every message
 
  private:
   friend struct ClientTestAccess;
@@ -106,6 +106,7 @@ class Client {
   /// Whether all lies still, here and at the server, and nobody here does anything: until it does,
   /// a ping a second is enough.
   bool Quiet() const;
+  void SendInputs(std::int64_t now_us);
   void PublishStats(std::int64_t now_us, std::int64_t cpu_us);
   void Flush(std::int64_t now_us);
   std::int64_t RoomTime(std::int64_t now_us);
@@ -151,6 +152,7 @@ class Client {
   std::int64_t worst_late_us_ = 0;
   std::int64_t rejoins_ = 0;
   Input live_;
+  InputFeed feed_;
   std::int64_t discarded_ = 0;  // by the net, as far as counted in stats_
   Stats stats_;
 };

@@ -40,6 +40,7 @@ void Client::Join(std::int64_t now_us) {
   room_bytes_.clear();
   room_size_ = 0;
   clock_ = ClockFilter();
+  feed_ = InputFeed();
   metadata_ = MetaTable();
   if (peer_ >= 0 || joining_since_us_ == 0) joining_since_us_ = now_us;
   peer_ = player_ = -1;

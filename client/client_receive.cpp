@@ -134,11 +134,14 @@ void Client::MakeReplica(const Topology* become) {
   sync.seed = room_.seed;
   sync.input_delay_ticks = room_.input_delay_ticks;
   const Topology topology = become != nullptr ? *become : Topology(*scene_);
-  // Of our own inputs, those of the next ticks may be noted and sent already.
-  const bool played = replica_ != nullptr && player_ >= 0;
-  const InputTrack own = played ? replica_->inputs(player_) : InputTrack();
+  const std::unique_ptr<Replica> before = std::move(replica_);
   replica_ = std::make_unique<Replica>(topology, sync, peer_, player_);
-  if (played) replica_->NoteInputs(own.Export(player_, InputTrack::kKeepTicks));
+  if (before == nullptr) return;
+  // What is known of inputs stays known: our own of the next ticks may have been sent, and nobody
+  // repeats what we acknowledged.
+  for (int p = 0; p < static_cast<int>(scene_->players.size()); ++p) {
+    replica_->NoteInputs(before->inputs(p).Export(p, InputTrack::kKeepTicks));
+  }
 }
 
 void Client::OnChunk(const Chunk& chunk) {

@@ -19,7 +19,7 @@ Playback Load(const std::string& path, const RenderOptions& options) {
   } else if (FindMode(recording.room.mode) == Mode::kOracle) {
     oracle = OracleFromRecording(recording);
   } else {
-    oracle = ComputeOracle(recording);
+    oracle = ComputeOracle(recording, JudgeOf(recording.room));
   }
   return Playback(std::move(recording), std::move(oracle));
 }

@@ -9,6 +9,8 @@
 #include "common/base/command_line.h"
 #include "common/base/plain_file.h"
 #include "common/codec/version_line.h"
+#include "common/measure/limit/information_limit.h"
+#include "common/measure/screen/response.h"
 #include "common/measure/table.h"
 #include "common/record/recording.h"
 
@@ -22,6 +24,7 @@ struct Options {
   bool append = false;
   bool more = false;
   bool floor = false;
+  bool limit = false;
   std::vector<std::string> names;
 };
 
@@ -58,12 +61,13 @@ Oracle GivenOracle(const Recording& truth, const Recording& recording, const Opt
 MeasuredRun MeasureLog(const std::string& path, const std::string& name, const Options& options,
                        const std::optional<Recording>& truth) {
   const Recording recording = Read(path);
-  const Oracle oracle =
-      truth ? GivenOracle(*truth, recording, options, path) : ComputeOracle(recording);
+  const Oracle oracle = truth ? GivenOracle(*truth, recording, options, path)
+                              : ComputeOracle(recording, JudgeOf(recording.room));
   MeasuredRun run;
   run.run = name;
   run.room = recording.room;
   run.measures = Measure(recording, oracle);
+  MeasureResponse(recording, oracle, recording.room.input_delay_ticks, &run.measures);
   run.gaps = recording.bus_gaps;
   run.skipped_bytes = recording.skipped_bytes;
   if (run.measures.compared == 0) {
@@ -105,6 +109,19 @@ void WriteCsv(const std::vector<MeasuredRun>& runs, const Options& options) {
   if (std::fclose(file) != 0 || !written) throw OperatorError(options.csv + ": disk full?");
 }
 
+void PrintLimit(const Recording& recording) {
+  const std::optional<double> limit = InformationLimit(recording);
+  if (!limit) {
+    std::printf("information limit of %s: no player lacks an input of another one\n",
+                recording.room.scene_name.c_str());
+    return;
+  }
+  std::printf(
+      "information limit of %s: %.3g m RMS (exact physics, others' inputs held since the newest "
+      "that can be known)\n",
+      recording.room.scene_name.c_str(), *limit);
+}
+
 void PrintFloor(const Recording& recording) {
   std::printf(
       "floor of %s: %.3g m RMS (the oracle against itself, one body moved by 1e-6 m; "
@@ -129,6 +146,7 @@ void Run(const Options& options) {
   if (!options.csv.empty()) WriteCsv(runs, options);
   std::fputs(FormatTable(runs, options.more).c_str(), stdout);
   if (options.floor) PrintFloor(Read(options.logs.front()));
+  if (options.limit) PrintLimit(Read(options.logs.front()));
 }
 
 void Define(CLI::App& app, Options& options) {
@@ -141,6 +159,8 @@ void Define(CLI::App& app, Options& options) {
       ->delimiter(',')
       ->allow_extra_args(false);  // the logs may follow it
   app.add_flag("--floor", options.floor, "also print what chaos alone does to the first log");
+  app.add_flag("--limit", options.limit,
+               "also print what nobody could show better over the first log's network");
   app.add_flag("--more", options.more, "print the further measures");
 }
 

@@ -14,6 +14,9 @@ namespace {
 
 /// Most ticks stepped in one call: a server that was suspended catches up without starving the net.
 constexpr int kStepsMax = 8;
+/// Mode oracle: what is decided outside the physics (a seat, a rule, a script) acts so much later,
+/// s, at every peer in the same tick. Longer than an order is under way, or that peer is behind.
+constexpr double kAppointSeconds = 0.25;
 
 Room MakeRoom(const Scene& scene, const ServerConfig& config) {
   Room room;
@@ -92,6 +95,7 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
     broadcast_.Publish(stats_.Report(now_us, replica_.tick(), cpu_us, sessions_.WorstRttUs(),
                                      sessions_.WorstLossPpm()));
   }
+  RelayInputs(now_us);
   sessions_.Flush(now_us, &stats_.counters);
 }
 
@@ -186,6 +190,7 @@ void Server::StepOnce(std::int64_t now_us) {
   }
   ApplyEdits(now_us);
   replica_.Step();
+  if (config_.sync.mode == Mode::kOracle) ApplyQueued(now_us);
   for (const Edit& edit : replica_.TakeProposals()) edits_.Add(edit);
   for (int p = 0; !replica_.world().scene().seats.empty() && p < players; ++p) {
     const int pressed = replica_.TakePressed(p);
@@ -204,16 +209,43 @@ void Server::StepOnce(std::int64_t now_us) {
   RunRules(now_us);
 }
 
+/// Mode oracle: every peer applies them alone, after the same tick.
+void Server::AppointEdits(std::int64_t now_us) {
+  const auto ahead = static_cast<std::int64_t>(kAppointSeconds * config_.sync.tick_hz);
+  for (const Edit& edit : edits_.TakePending()) {
+    EditOrder order = ToOrder(edit);
+    order.utime = now_us;
+    order.tick = std::max<std::int64_t>(0, replica_.tick()) + ahead;
+    order.number = 0;  // that it is no new beginning; they are counted as they are applied
+    sessions_.SendToAll(Encode(order));
+    replica_.Queue(order);
+  }
+}
+
 void Server::ApplyEdits(std::int64_t now_us) {
+  if (config_.sync.mode == Mode::kOracle) {
+    AppointEdits(now_us);
+    ApplyQueued(now_us);
+    return;
+  }
   const EditLog::Batch batch = edits_.OrderPending(now_us);
   stats_.counters.dropped_stale += batch.stale;
   for (const EditOrder& order : batch.orders) {
     broadcast_.ToAll(order);
     replica_.Queue(order);
   }
+  ApplyQueued(now_us);
+}
+
+void Server::ApplyQueued(std::int64_t now_us) {
   while (replica_.has_queued()) {
+    const Edit edit = replica_.next_queued();
     const std::optional<BodyRemap> change = replica_.ApplyNextEdit();
-    edits_.NoteApplied();
+    if (config_.sync.mode == Mode::kOracle) {
+      broadcast_.Publish(edits_.NoteAlone(edit, now_us));
+    } else {
+      edits_.NoteApplied();
+    }
     if (!change) continue;
     authority_.Remap(change->mechanisms);
     filter_.Remap(change->bodies);
@@ -223,6 +255,11 @@ void Server::ApplyEdits(std::int64_t now_us) {
 void Server::UpdateAuthority(std::int64_t now_us) {
   AuthorityManager::Situation situation;
   situation.peer_of_player = sessions_.PeerOfPlayer();
+  for (const int peer : situation.peer_of_player) {
+    const Session* session = peer > 0 ? sessions_.Find(peer) : nullptr;
+    const std::int64_t rtt_us = session != nullptr ? session->link.rtt_us() : 0;
+    situation.one_way_s.push_back(static_cast<float>(std::max<std::int64_t>(0, rtt_us)) * 0.5e-6f);
+  }
   situation.together = edits_.WaitingMechanisms();
   broadcast_.ToAll(authority_.Update(now_us, situation));
   const PeerSet withholding = authority_.Withholding(now_us);

@@ -74,6 +74,8 @@ class Server {
   void OnMessage(std::int64_t now_us, Session& session, ByteView bytes);
   void OnPing(std::int64_t now_us, Session& session, const Ping& ping);
   void OnInputs(std::int64_t now_us, Session& session, const Inputs& inputs);
+  void RelayInputs(std::int64_t now_us);
+  Inputs TakeFresh(std::int64_t now_us, const Inputs& inputs);
   void OnStates(std::int64_t now_us, Session& session, const States& states);
   void OnRest(std::int64_t now_us, Session& session, const Rest& rest);
   void OnRelease(const Session& session, const Release& release);
@@ -92,6 +94,8 @@ class Server {
   void StartIfReady(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);
   void ApplyEdits(std::int64_t now_us);
+  void AppointEdits(std::int64_t now_us);
+  void ApplyQueued(std::int64_t now_us);
   void UpdateAuthority(std::int64_t now_us);
   void RunRules(std::int64_t now_us);
 

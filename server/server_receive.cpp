@@ -13,23 +13,6 @@ constexpr std::int64_t kInputTicksMax = 600;
 /// Datagrams taken in one call: a flood must not keep the room from stepping.
 constexpr int kDatagramsMax = 4096;
 
-/// The ticks of a message that are not known yet, as one run.
-Inputs Fresh(const Inputs& inputs, const InputTrack& track) {
-  Inputs fresh;
-  fresh.player = inputs.player;
-  for (std::size_t i = 0; i < inputs.drive.size(); ++i) {
-    const std::int64_t tick = inputs.first_tick + static_cast<std::int64_t>(i);
-    if (track.knows(tick)) continue;
-    if (fresh.drive.empty()) fresh.first_tick = tick;
-    // A gap inside one message would need two; redundancy makes it one run in practice.
-    if (tick != fresh.first_tick + static_cast<std::int64_t>(fresh.drive.size())) break;
-    fresh.drive.push_back(inputs.drive[i]);
-    fresh.lift.push_back(inputs.lift[i]);
-    fresh.buttons.push_back(inputs.buttons[i]);
-  }
-  return fresh;
-}
-
 }  // namespace
 
 void Server::ReceiveAll(std::int64_t now_us) {
@@ -88,6 +71,7 @@ void Server::OnPing(std::int64_t now_us, Session& session, const Ping& ping) {
   const bool lost = session.rest.Lost(now_us, ours, static_cast<std::uint64_t>(ping.rest));
   if (ready && lost) SendRest(now_us, session);
   const bool more = session.link.reliable_pending();
+  if (config_.sync.mode == Mode::kOracle) return;  // each peer edits by its own clock
   if (session.stage != SessionStage::kReady || !edits_.NeedsRepair(ping, more)) return;
   // Once for each time it was repaired: what is under way must arrive first.
   if (now_us - session.repaired_us < kRepairAgainUs) return;
@@ -100,6 +84,27 @@ void Server::OnPing(std::int64_t now_us, Session& session, const Ping& ping) {
   SendWorld(now_us, session);
 }
 
+/// From the first to the last tick of a message that was not known yet, noted, as it is known now.
+Inputs Server::TakeFresh(std::int64_t now_us, const Inputs& inputs) {
+  const InputTrack& track = replica_.inputs(inputs.player);
+  std::int64_t from = inputs.first_tick;
+  std::int64_t to = from + static_cast<std::int64_t>(inputs.drive.size());
+  while (from < to && track.knows(from)) ++from;
+  while (to > from && track.knows(to - 1)) --to;
+  replica_.NoteInputs(inputs);
+  Inputs fresh;
+  fresh.utime = now_us;
+  fresh.player = inputs.player;
+  fresh.first_tick = from;
+  for (std::int64_t tick = from; tick < to; ++tick) {
+    const Input input = track.At(tick);
+    fresh.drive.push_back(input.drive);
+    fresh.lift.push_back(input.lift);
+    fresh.buttons.push_back(input.buttons);
+  }
+  return fresh;
+}
+
 void Server::OnInputs(std::int64_t now_us, Session& session, const Inputs& inputs) {
   const bool ready = session.stage == SessionStage::kReady;
   if (!ready || session.player < 0 || inputs.player != session.player) {
@@ -110,13 +115,26 @@ void Server::OnInputs(std::int64_t now_us, Session& session, const Inputs& input
     ++stats_.counters.dropped_implausible;
     return;
   }
-  Inputs fresh = Fresh(inputs, replica_.inputs(session.player));
+  const Inputs fresh = TakeFresh(now_us, inputs);
   if (fresh.drive.empty()) return;
-  fresh.utime = now_us;
-  replica_.NoteInputs(fresh);
   broadcast_.Publish(fresh);
-  const Bytes bytes = Encode(inputs);
-  sessions_.ForEachReady(session.peer, [&](Session& other) { other.link.SendUnreliable(bytes); });
+}
+
+/// In the same call as they came, since everything is flushed at its end.
+void Server::RelayInputs(std::int64_t now_us) {
+  const int players = static_cast<int>(scene_.players.size());
+  sessions_.ForEachReady(0, [&](Session& session) {
+    session.feeds.resize(static_cast<std::size_t>(players));
+    for (int p = 0; p < players; ++p) {
+      const InputTrack& track = replica_.inputs(p);
+      if (p == session.player || track.newest() < 0) continue;
+      std::optional<Inputs> inputs = session.feeds[static_cast<std::size_t>(p)].Take(
+          track, p, session.link.acked(p), replica_.tick(), session.link.Sends(now_us));
+      if (!inputs) continue;
+      inputs->utime = now_us;
+      session.link.SendUnreliable(Encode(*inputs), p, track.newest());
+    }
+  });
 }
 
 void Server::OnStates(std::int64_t now_us, Session& session, const States& states) {

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # make demo: real processes over loopback UDP and the LCM bus, one session per scene and method,
 # captured by the stock lcm-logger, then drawn and measured. Usage: demo.sh OUTPUT_DIR
-# Then one session of each of the large worlds, over 4g. Environment: SEAM_BIN (folder of the programs),
+# Then one session of each of the large worlds and of the players' scenes, over 4g.
+# Environment: SEAM_BIN (folder of the programs),
 # IMPAIR (network profile of the first part, default demo), SEED, SCENES and WORLDS (which scenes; "": none).
 set -euo pipefail
 
@@ -65,7 +66,7 @@ run_session() {
     clients=()
     for name in $(players "$scene"); do
       "$bin/seam-client" "127.0.0.1:$port" --name "$name" --drive "$name" --lcm-url "$url" \
-        --duration 60 --quiet >"$log-$name.log" 2>&1 &
+        --duration 90 --quiet >"$log-$name.log" 2>&1 &
       clients+=($!)
     done
     status=0

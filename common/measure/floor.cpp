@@ -7,10 +7,8 @@
 #include "common/measure/measure.h"
 
 namespace seam {
-namespace {
 
-/// RMS distance over all bodies and the ticks that both have, m.
-double Distance(const Oracle& a, const Oracle& b) {
+double OracleDistance(const Oracle& a, const Oracle& b) {
   MeanSquare apart;
   for (std::size_t row = 0; row < b.ticks.size(); ++row) {
     const std::int64_t tick = b.first_tick + static_cast<std::int64_t>(row);
@@ -25,15 +23,16 @@ double Distance(const Oracle& a, const Oracle& b) {
   return apart.RootOrZero();
 }
 
-}  // namespace
-
 double ErrorFloor(const Recording& recording, const Oracle& oracle, float nudge, int bodies) {
   const int all = static_cast<int>(oracle.ids.size());
   const int chosen = std::min(bodies, all);
   if (chosen < 1) return 0;
   std::vector<double> distances;
   for (int k = 0; k < chosen; ++k) {
-    distances.push_back(Distance(oracle, ComputeOracle(recording, k * all / chosen, nudge)));
+    OracleOptions options;
+    options.nudged_body = k * all / chosen;
+    options.nudge = nudge;
+    distances.push_back(OracleDistance(oracle, ComputeOracle(recording, options)));
   }
   const auto middle = distances.begin() + chosen / 2;
   std::nth_element(distances.begin(), middle, distances.end());

@@ -46,6 +46,9 @@ struct Oracle {
   /// Parts from here on came at run time and may have another id in the recording.
   PartId inserted_from = std::numeric_limits<PartId>::max();
   std::map<PartId, PartId> own_id;  ///< of parts that came, by id in the recording
+  /// Bodies of two players touched (by whose they are at tick 0: Part::owner, a player's vehicle,
+  /// or in whose region). Only looked for in scenes that expect it.
+  bool contact = false;
 
   /// State of a part, by its id in the recording: the pose of the part, the velocity of the body
   /// it is in. nullopt when the tick or the part is not known, or it has left.
@@ -73,18 +76,35 @@ constexpr float kNudge = 1e-6f;
 /// The same at the resolution of the wire, whose positions are whole 1/512 m: half of that.
 constexpr float kWireNudge = 1.0f / 1024;
 
+/// How the truth is simulated.
+struct OracleOptions {
+  int nudged_body = -1;   ///< an index into ids: moved by `nudge` m along x at the start, at
+  float nudge = kNudge;   ///< least to the next float; -1: none
+  int barrier_every = 0;  ///< World::Barrier() after each tick that this divides; 0: never
+};
+
+/// Whether a method is judged by the oracle with barriers: one that goes back and steps again has a
+/// barrier at every send tick, and rebuilding the world is a rounding of its own. All others, mode
+/// central included, are judged by the one without.
+bool JudgedByBarriers(const Room& room);
+/// A barrier at every send tick of the room, whatever its method.
+OracleOptions WithBarriers(const Room& room);
+/// With or without, as JudgedByBarriers says.
+OracleOptions JudgeOf(const Room& room);
+
 /// Simulates the recording's scene alone from tick 0 to the recording's last tick, with the inputs
 /// it recorded: each in the tick it names, axes held over ticks without one, buttons acting on the
 /// tick they go down; and with the edits whose cause is outside the physics, each after its tick.
 /// What physics itself breaks, bonds and inserts it finds by itself. Throws OperatorError when the
 /// scene does not parse or the session is too long (kOracleStatesMax).
-/// `nudged_body` >= 0: with that body (an index into ids) moved by `nudge` m along x at the start,
-/// at least to the next float.
-Oracle ComputeOracle(const Recording& recording, int nudged_body = -1, float nudge = kNudge);
+Oracle ComputeOracle(const Recording& recording, const OracleOptions& options = {});
+
+/// RMS distance in m of two oracles of one recording, over all bodies and the ticks that both have.
+double OracleDistance(const Oracle& a, const Oracle& b);
 
 /// The oracle's own sensitivity: RMS distance in m between it and itself with one body nudged, the
-/// median over at most `bodies` bodies, evenly chosen. No method can be expected to be better:
-/// where the floor is a metre, errors of a metre say nothing.
+/// median over at most `bodies` bodies, evenly chosen. Requires an oracle without barriers. No
+/// method can be expected to be better: where the floor is a metre, errors of a metre say nothing.
 double ErrorFloor(const Recording& recording, const Oracle& oracle, float nudge = kNudge,
                   int bodies = 7);
 

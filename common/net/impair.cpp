@@ -1,6 +1,7 @@
 #include "common/net/impair.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <vector>
@@ -42,6 +43,8 @@ class Direction {
   void Enter(const Address& peer, ByteView data, std::int64_t now_us) {
     Path& path = Find(peer);
     const Fate fate = path.impair.Next(now_us, data.size);
+    ++traffic_.offered;
+    traffic_.lost += fate.count == 0 ? 1 : 0;
     for (int i = 0; i < fate.count; ++i) {
       if (path.bytes + data.size > ImpairedNet::kPathBytesMax) continue;
       if (bytes_ + data.size > ImpairedNet::kQueueBytesMax) continue;
@@ -82,6 +85,8 @@ class Direction {
     return heap_.empty() ? std::numeric_limits<std::int64_t>::max() : heap_.front().due_us;
   }
 
+  const ImpairedTraffic& traffic() const { return traffic_; }
+
  private:
   struct Path {
     ImpairPath impair;
@@ -104,9 +109,27 @@ class Direction {
   std::vector<Waiting> heap_;
   std::uint64_t entered_ = 0;
   std::size_t bytes_ = 0;
+  ImpairedTraffic traffic_;
 };
 
 }  // namespace
+
+double MeanLoss(const ImpairProfile& profile) {
+  const double both = profile.loss_good_to_bad + profile.loss_bad_to_good;
+  const double bad = both > 0 ? profile.loss_good_to_bad / both : 0;
+  return bad * profile.loss_in_bad + (1 - bad) * profile.loss_in_good;
+}
+
+double LossDeviation(const ImpairProfile& profile, std::int64_t count) {
+  const double both = profile.loss_good_to_bad + profile.loss_bad_to_good;
+  const double bad = both > 0 ? profile.loss_good_to_bad / both : 0;
+  const double mean = MeanLoss(profile);
+  // The states are a chain whose correlation falls by `kept` from datagram to datagram.
+  const double kept = std::clamp(1 - both, 0.0, 0.999);
+  const double apart = profile.loss_in_bad - profile.loss_in_good;
+  const double bursts = 2 * bad * (1 - bad) * apart * apart * kept / (1 - kept);
+  return std::sqrt(static_cast<double>(count) * (mean * (1 - mean) + bursts));
+}
 
 struct ImpairedNet::Impl {
   Impl(Net& inner_net, const ImpairProfile& out_profile, const ImpairProfile& in_profile,
@@ -174,6 +197,11 @@ void ImpairedNet::Cut(bool cut) {
   if (!cut) return;
   impl_->in.Clear();
   impl_->out.Clear();
+}
+
+ImpairedTraffic ImpairedNet::traffic() const {
+  const ImpairedTraffic &in = impl_->in.traffic(), &out = impl_->out.traffic();
+  return {in.offered + out.offered, in.lost + out.lost};
 }
 
 std::int64_t ImpairedNet::next_due_us() const {

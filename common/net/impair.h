@@ -38,6 +38,17 @@ struct ImpairProfile {
   double outage_loss = 0;                             ///< ... this share is lost besides
 };
 
+/// Share of the datagrams that chance takes in the long run, by the Gilbert-Elliott model; without
+/// outages and what a rate limit takes.
+double MeanLoss(const ImpairProfile& profile);
+/// Standard deviation of how many of `count` datagrams are lost, by the same model.
+double LossDeviation(const ImpairProfile& profile, std::int64_t count);
+
+/// What was offered to an impaired network, and what of it never arrives; in datagrams.
+struct ImpairedTraffic {
+  std::int64_t offered = 0, lost = 0;
+};
+
 /// The named profiles (`seam-server --help` lists them); `demo` is 50 ms each way, 10 ms jitter,
 /// 1 % loss. Also reads a list in place of a name, of any of
 ///   delay=50ms  jitter=10ms  loss=1%  reorder=2%:30ms  duplicate=1%  corrupt=0.1%  rate=5Mb
@@ -75,6 +86,8 @@ class ImpairedNet : public Net {
 
   /// Nothing passes either way while cut (what is under way is lost).
   void Cut(bool cut);
+  /// Of both directions since the start, without what a cut took.
+  ImpairedTraffic traffic() const;
   /// When the next delayed datagram is due, INT64_MAX if none: how long a main may sleep.
   std::int64_t next_due_us() const;
   /// Something that was sent is still under way.

@@ -1,6 +1,7 @@
 #include "common/net/link.h"
 
 #include <algorithm>
+#include <array>
 #include <deque>
 #include <map>
 #include <vector>
@@ -38,11 +39,23 @@ struct Outgoing {
   Bytes bytes;
 };
 
+struct Receipt {
+  int slot = -1;  // -1: nobody wants one
+  std::int64_t number = -1;
+};
+
+/// An unreliable message that waits for a Flush.
+struct Passing {
+  Bytes bytes;
+  Receipt receipt;
+};
+
 /// What a datagram carried.
 struct SentRecord {
   std::int64_t sent_us = 0;
   bool acked = false;
   std::vector<std::int64_t> ids;
+  std::vector<Receipt> receipts;
 };
 
 }  // namespace
@@ -52,7 +65,8 @@ struct Link::Impl {
 
   std::int64_t sequence = 0;  // of the newest datagram sent; the first is 1
   std::int64_t last_send_us = -1;
-  std::deque<Bytes> unreliable;
+  std::deque<Passing> unreliable;
+  std::array<std::int64_t, kReceiptSlots> arrived;  // by slot, the largest number
   std::deque<Outgoing> reliable;  // the first kReliableWindow of them are the window
   std::int64_t next_id = 0;
   std::deque<SentRecord> sent;  // of successive sequence numbers up to the newest
@@ -68,7 +82,7 @@ struct Link::Impl {
   std::int64_t last_receive_us = -1;
   std::int64_t rejected = 0;
 
-  explicit Impl(std::uint64_t number) : session(number) {}
+  explicit Impl(std::uint64_t number) : session(number) { arrived.fill(-1); }
 
   std::int64_t ResendUs() const {
     return srtt_us < 0 ? kFirstResendUs : std::max(srtt_us + srtt_us / 4, kResendUsMin);
@@ -84,6 +98,7 @@ struct Link::Impl {
     std::size_t datagrams = 0;
     DatagramWriter writer{};
     std::vector<std::int64_t> ids{};
+    std::vector<Receipt> receipts{};
   };
 
   /// The ack fields that together cover all that arrived since the last Flush. One is the rule;
@@ -114,11 +129,12 @@ struct Link::Impl {
       header.ack_bits = window.BitsBefore(ack);
     }
     if (sent.size() >= kSentRecords) sent.pop_front();
-    sent.push_back({packing.now_us, false, std::move(packing.ids)});
+    sent.push_back({packing.now_us, false, std::move(packing.ids), std::move(packing.receipts)});
     packing.send(packing.writer.Finish(header));
     ++packing.datagrams;
     packing.writer = DatagramWriter();
     packing.ids.clear();
+    packing.receipts.clear();
     last_send_us = packing.now_us;
     ack_owed = false;
   }
@@ -129,13 +145,30 @@ struct Link::Impl {
     packing.writer.Append(message);
   }
 
+  bool Due(const Outgoing& message, std::int64_t now_us) const {
+    const bool waits = message.sent_us >= 0 && now_us - message.sent_us < ResendUs();
+    return !message.acked && !waits;
+  }
+
+  /// Whether a datagram goes out even without messages.
+  bool OwesDatagram(std::int64_t now_us) const {
+    return ack_owed || last_send_us < 0 ||
+           now_us - last_send_us >= (quiet ? kIdleQuietUs : kIdleUs);
+  }
+
+  bool Sends(std::int64_t now_us) const {
+    if (!unreliable.empty() || OwesDatagram(now_us)) return true;
+    const std::size_t count = std::min<std::size_t>(reliable.size(), kReliableWindow);
+    return std::any_of(reliable.begin(), reliable.begin() + static_cast<std::ptrdiff_t>(count),
+                       [&](const Outgoing& message) { return Due(message, now_us); });
+  }
+
   void PackReliable(Packing& packing) {
     std::size_t budget = kReliableFlushBytes;
     const std::size_t count = std::min<std::size_t>(reliable.size(), kReliableWindow);
     for (std::size_t i = 0; i < count; ++i) {
       Outgoing& message = reliable[i];
-      const bool waits = message.sent_us >= 0 && packing.now_us - message.sent_us < ResendUs();
-      if (message.acked || waits) continue;
+      if (!Due(message, packing.now_us)) continue;
       if (message.bytes.size() > budget) break;
       budget -= message.bytes.size();
       Pack(packing, {true, static_cast<std::uint16_t>(message.id), message.bytes});
@@ -147,11 +180,13 @@ struct Link::Impl {
   void Flush(std::int64_t now_us, const Sink& send) {
     Packing packing{now_us, send, AckPoints()};
     PackReliable(packing);
-    for (const Bytes& message : unreliable) Pack(packing, {false, 0, message});
+    for (const Passing& message : unreliable) {
+      Pack(packing, {false, 0, message.bytes});
+      if (message.receipt.slot >= 0) packing.receipts.push_back(message.receipt);
+    }
     unreliable.clear();
     if (!packing.writer.empty()) Emit(packing);
-    const bool idle = last_send_us < 0 || now_us - last_send_us >= (quiet ? kIdleQuietUs : kIdleUs);
-    if (idle || ack_owed) Emit(packing);
+    if (OwesDatagram(now_us)) Emit(packing);
     while (packing.datagrams > 0 && packing.datagrams < packing.acks.size()) Emit(packing);
     if (packing.datagrams > 0) flushed_newest = window.newest();
   }
@@ -172,6 +207,10 @@ struct Link::Impl {
     if (record.acked) return;
     record.acked = ever_acked = true;
     if (sample && !quiet) SampleRtt(now_us - record.sent_us);
+    for (const Receipt& receipt : record.receipts) {
+      std::int64_t& largest = arrived[static_cast<std::size_t>(receipt.slot)];
+      largest = std::max(largest, receipt.number);
+    }
     for (const std::int64_t id : record.ids) {
       const std::int64_t index = reliable.empty() ? -1 : id - reliable.front().id;
       const bool waiting = index >= 0 && index < static_cast<std::int64_t>(reliable.size());
@@ -250,7 +289,13 @@ Link& Link::operator=(Link&&) noexcept = default;
 void Link::SendUnreliable(ByteView message) {
   SEAM_ASSERT(message.size >= 1 && message.size <= kMessageBytesMax);
   if (impl_->unreliable.size() >= kUnreliableQueueMax) impl_->unreliable.pop_front();
-  impl_->unreliable.emplace_back(message.begin(), message.end());
+  impl_->unreliable.push_back({Bytes(message.begin(), message.end()), {}});
+}
+
+void Link::SendUnreliable(ByteView message, int slot, std::int64_t number) {
+  SEAM_ASSERT(slot >= 0 && slot < kReceiptSlots);
+  SendUnreliable(message);
+  impl_->unreliable.back().receipt = {slot, number};
 }
 
 bool Link::SendReliable(ByteView message) {
@@ -275,6 +320,11 @@ bool Link::Receive(std::int64_t now_us, ByteView datagram, const Gate& gate, con
 
 void Link::SetQuiet(bool quiet) { impl_->quiet = quiet; }
 
+std::int64_t Link::acked(int slot) const {
+  SEAM_ASSERT(slot >= 0 && slot < kReceiptSlots);
+  return impl_->arrived[static_cast<std::size_t>(slot)];
+}
+bool Link::Sends(std::int64_t now_us) const { return impl_->Sends(now_us); }
 std::int64_t Link::last_receive_us() const { return impl_->last_receive_us; }
 std::int64_t Link::rtt_us() const { return impl_->srtt_us; }
 std::int64_t Link::loss_ppm() const { return impl_->window.loss_ppm(); }

@@ -20,6 +20,9 @@ namespace seam {
 /// Reliable messages in flight; more wait in a queue.
 constexpr int kReliableWindow = 64;
 
+/// Kinds of unreliable messages whose arrival can be asked for.
+constexpr int kReceiptSlots = kPeersMax;
+
 class Link {
  public:
   /// Both ends must have the same session number (not 0); the client draws it at random.
@@ -31,6 +34,9 @@ class Link {
   /// Sent once with the next Flush. Requires 1..kMessageBytesMax bytes. Of more than 1024 without a
   /// Flush the oldest are forgotten.
   void SendUnreliable(ByteView message);
+  /// The same, with a receipt: once a datagram that carried such a message of `slot` has been
+  /// acknowledged, acked(slot) is at least its `number`. Requires a slot below kReceiptSlots.
+  void SendUnreliable(ByteView message, int slot, std::int64_t number);
   /// Repeated until acknowledged, delivered once and in order. Requires 1..kMessageBytesMax bytes.
   /// False when 4096 are waiting: the peer is gone or hostile, drop it.
   bool SendReliable(ByteView message);
@@ -54,6 +60,11 @@ class Link {
   /// messages come? If not, it is as if the datagram had been lost.
   using Gate = std::function<bool(std::size_t messages)>;
   bool Receive(std::int64_t now_us, ByteView datagram, const Gate& gate, const Sink& deliver);
+
+  /// Largest number of the slot's messages that arrived, as far as we know; -1: none.
+  std::int64_t acked(int slot) const;
+  /// Whether Flush would send anything now.
+  bool Sends(std::int64_t now_us) const;
 
   std::int64_t last_receive_us() const;  ///< -1 before the first
   /// Smoothed (RFC 6298), with the time the peer lets pass until its next datagram; -1 before the

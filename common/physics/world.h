@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/base/status.h"
+#include "common/physics/pin.h"
 #include "common/scene/assembly.h"
 #include "common/scene/scene.h"
 #include "common/topology/body_remap.h"
@@ -88,12 +89,19 @@ class World {
   int BodyOfId(PartId assembly) const;  ///< -1 if there is no such moving assembly
   int mechanism(int body) const;        ///< index into composition().mechanisms
   float mass(int body) const;           ///< kg
+  MassPoint mass_point(int body) const;
 
   std::int64_t tick() const;        ///< ticks stepped so far
   void SetTick(std::int64_t tick);  ///< for a peer that joins later
   float dt() const;                 ///< s per tick
 
   BodyState Read(int body) const;
+  /// The same of any assembly, by its index in composition(): also of what is anchored or
+  /// kinematic.
+  BodyState ReadAssembly(int assembly) const;
+  /// What its joints hold now, in the scene's order. They stay the same until Apply returns a
+  /// change.
+  std::vector<Pin> Pins() const;
   /// Sets pose and velocity. Requires finite values (asserted). Wakes the body if `wake`; else a
   /// sleeping body takes the pose and sleeps on, without velocity. Contact caches survive when the
   /// move is small; bit-equal values change nothing.

@@ -14,6 +14,7 @@ struct Character;     // character.h
 struct Connectors;    // connectors.h
 struct Conveyor;      // forces.h
 struct Thrust;        // forces.h
+struct Expected;      // expected.h
 struct Grouping;      // grouping.h
 struct PartRules;     // part_rules.h
 struct ScriptSource;  // part_rules.h
@@ -198,6 +199,7 @@ struct Scene {
   FeatureList<Trigger> triggers;      ///< the server's
   FeatureList<ScriptSource> scripts;  ///< the server's
   std::vector<WatchCollision> watch;
+  Feature<Expected> expected;
   Camera camera;
   std::string text;  ///< the file itself
 };

@@ -3,6 +3,7 @@
 
 #include "common/base/check.h"
 #include "common/base/plain_file.h"
+#include "common/scene/expected.h"
 #include "common/scene/scene.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
@@ -60,6 +61,21 @@ void ReadBounds(const SceneReader& root, Scene* scene) {
   }
 }
 
+void ReadExpected(const SceneReader& root, Scene* scene) {
+  Expected expected;
+  for (const std::string& text : root.Texts("expect")) {
+    bool* happens = text == "contact"     ? &expected.contact
+                    : text == "hand-over" ? &expected.hand_over
+                    : text == "edit"      ? &expected.edit
+                                          : nullptr;
+    if (happens == nullptr) {
+      root.FailAt("expect", "expect must name 'contact', 'hand-over' or 'edit'");
+    }
+    *happens = true;
+  }
+  if (root.Has("expect")) scene->expected.Set(expected);
+}
+
 }  // namespace
 
 Scene ParseScene(const std::string& text, const std::string& file_name) {
@@ -72,9 +88,9 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
 
   const SceneReader root(
       tree, file_name, "scene",
-      {"title", "gravity", "duration",  "buffer", "speed_limit", "size_max",   "bounds", "solver",
-       "part",  "bricks",  "character", "joint",  "thrust",      "water",      "player", "seat",
-       "watch", "camera",  "trigger",   "script", "grouping",    "input_delay"});
+      {"title", "gravity", "duration",  "buffer", "speed_limit", "size_max",    "bounds", "solver",
+       "part",  "bricks",  "character", "joint",  "thrust",      "water",       "player", "seat",
+       "watch", "camera",  "trigger",   "script", "grouping",    "input_delay", "expect"});
   scene.title = root.Text("title", scene.name);
   scene.gravity = root.Vector("gravity", {-100, 100}, scene.gravity);
   scene.duration_s = root.Seconds("duration", {0.1, 86400}, scene.duration_s);
@@ -83,6 +99,7 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   scene.speed_limit = root.Number("speed_limit", {1, kSpeedMax}, scene.speed_limit);
   draft.size_max = root.Number("size_max", {kSizeMin, kSizeMaxMax}, kSizeMaxDefault);
   ReadBounds(root, &scene);
+  ReadExpected(root, &scene);
   ReadSolver(root, file_name, &scene.solver);
   ReadPlayerNames(root, &draft);
   ReadSeatNames(root, &draft);

@@ -1,5 +1,6 @@
 #include "common/sync/display.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/base/geometry.h"
@@ -13,6 +14,9 @@ constexpr float kSpinDrivenMax = 90.0f;
 /// A turn of more than this within a tick is taken for a fast wheel's, whose angle nobody follows.
 constexpr float kTurnSeen = 0.5f;
 
+/// So long after a correction the engine may still be closing what it has torn, ticks.
+constexpr int kCorrectedTicks = 10;
+
 float TurnTo(float from, float to) { return WrapAngle(to - from); }
 
 }  // namespace
@@ -22,23 +26,48 @@ Display::Display(const SyncConfig& config, World& world, const Snapshots& snapsh
       world_(world),
       snapshots_(snapshots),
       smoother_(world.body_count(), config.smooth),
-      delay_(config.send_every()) {}
+      delay_(config.send_every()),
+      joints_(world),
+      reckoner_(world, snapshots, joints_),
+      corrected_ticks_(world.composition().mechanisms.size(), 0) {}
+
+void Display::Moved(int body, const BodyState& by) {
+  smoother_.Moved(body, by);
+  corrected_ticks_[static_cast<std::size_t>(world_.mechanism(body))] = kCorrectedTicks;
+}
 
 void Display::Remap(const BodyRemap& change) {
   std::vector<int> from;
   for (const BodyOrigin& origin : change.bodies) from.push_back(origin.body);
   smoother_.Remap(from);
+  joints_.Rebuild();
+  corrected_ticks_.assign(world_.composition().mechanisms.size(), 0);
 }
 
 void Display::Glide() {
-  for (int body = 0; body < world_.body_count(); ++body) {
-    smoother_.Advance(body, world_.dt(), world_.Read(body).velocity.norm());
+  const int mechanisms = static_cast<int>(world_.composition().mechanisms.size());
+  for (int m = 0; m < mechanisms; ++m) {
+    const std::vector<int>& bodies = joints_.bodies(m);
+    int& corrected = corrected_ticks_[static_cast<std::size_t>(m)];
+    if (IsOff(m)) {
+      joints_.Follow(m);
+    } else {
+      joints_.Forget(m);
+    }
+    corrected = std::max(0, corrected - 1);
+    if (bodies.size() == 1) {
+      const int body = bodies.front();
+      smoother_.Advance(body, world_.dt(), world_.Read(body).velocity.norm());
+    } else {
+      smoother_.AdvanceTogether(world_, bodies);
+    }
   }
 }
 
 void Display::Drive(std::int64_t next) {
   if (config_.mode == Mode::kOracle) return;  // nothing is only displayed
   const double delay = delay_.Advance();
+  reckoner_.Begin(next);
   for (int body = 0; body < world_.body_count(); ++body) {
     if (world_.motion(body) == Motion::kDynamic) continue;
     BodyState state = world_.Read(body);
@@ -46,7 +75,7 @@ void Display::Drive(std::int64_t next) {
       state.velocity.setZero();
       state.spin = 0;
     } else if (config_.mode == Mode::kBuffer) {
-      state = AlongReckoned(body, next, state);
+      state = AlongReckoned(body, state);
     } else {
       state = AlongSnapshots(body, snapshots_.Interpolate(body, static_cast<double>(next) - delay),
                              state);
@@ -78,9 +107,8 @@ BodyState Display::AlongSnapshots(int body, const BodyState& target, BodyState s
 
 /// In the present, by dead reckoning: each message begins another path. The body is placed on it
 /// and moves with the path's velocity, not with that of the jump; the view glides over.
-BodyState Display::AlongReckoned(int body, std::int64_t next, BodyState state) {
-  const BodyState here = snapshots_.Extrapolate(body, next - 1, world_.dt(), kReckonMax);
-  const BodyState there = snapshots_.Extrapolate(body, next, world_.dt(), kReckonMax);
+BodyState Display::AlongReckoned(int body, BodyState state) {
+  const BodyState here = reckoner_.Here(body), there = reckoner_.There(body);
   BodyState along = here;
   along.angle = state.angle + TurnTo(state.angle, here.angle);
   along.velocity = (there.position - here.position) / world_.dt();
@@ -92,20 +120,46 @@ BodyState Display::AlongReckoned(int body, std::int64_t next, BodyState state) {
   return along;
 }
 
+bool Display::IsOff(int mechanism) const {
+  const std::vector<int>& bodies = joints_.bodies(mechanism);
+  return corrected_ticks_[static_cast<std::size_t>(mechanism)] > 0 ||
+         std::any_of(bodies.begin(), bodies.end(),
+                     [&](int body) { return smoother_.active(body); });
+}
+
+std::vector<BodyState> Display::ShownPoses(const Roles& roles) const {
+  std::vector<BodyState> poses;
+  for (int body = 0; body < world_.body_count(); ++body) {
+    BodyState pose = world_.Read(body);
+    pose.position += smoother_.offset(body);
+    pose.angle += smoother_.angle_offset(body);
+    poses.push_back(pose);
+  }
+  const int mechanisms = static_cast<int>(world_.composition().mechanisms.size());
+  for (int m = 0; m < mechanisms; ++m) {
+    if (!joints_.jointed(m)) continue;
+    const bool simulated = roles.Simulates(joints_.bodies(m).front());
+    // What physics made of a simulated mechanism is shown as it is.
+    if (!simulated || IsOff(m)) joints_.Close(m, simulated, &poses);
+  }
+  return poses;
+}
+
 View Display::MakeView(const Roles& roles) const {
+  const std::vector<BodyState> poses = ShownPoses(roles);
   View view;
   view.peer = roles.self();
   view.tick = world_.tick();
   view.revision = world_.topology().revision();
   for (int body = 0; body < world_.body_count(); ++body) {
     const int m = world_.mechanism(body);
-    const BodyState s = world_.Read(body);
+    const BodyState& s = poses[static_cast<std::size_t>(body)];
     view.id.push_back(static_cast<std::int16_t>(world_.id(body)));
     view.role.push_back(roles.RoleOf(m));
     view.authority.push_back(static_cast<std::int16_t>(roles.table().at(m).authority));
-    view.x.push_back(s.position.x() + smoother_.offset(body).x());
-    view.y.push_back(s.position.y() + smoother_.offset(body).y());
-    view.angle.push_back(s.angle + smoother_.angle_offset(body));
+    view.x.push_back(s.position.x());
+    view.y.push_back(s.position.y());
+    view.angle.push_back(s.angle);
     view.vx.push_back(s.velocity.x());
     view.vy.push_back(s.velocity.y());
     view.spin.push_back(s.spin);

@@ -8,6 +8,8 @@
 #include "common/physics/world.h"
 #include "common/sync/mode.h"
 #include "common/sync/roles.h"
+#include "common/sync/show/joint_closer.h"
+#include "common/sync/show/reckoner.h"
 #include "common/sync/smoother.h"
 #include "common/sync/snapshots.h"
 
@@ -25,7 +27,7 @@ class Display {
   void Glide();
 
   /// The physics state of `body` was changed by this much; the view stays where it was.
-  void Moved(int body, const BodyState& by) { smoother_.Moved(body, by); }
+  void Moved(int body, const BodyState& by);
   /// The body was placed anew: it is shown there at once.
   void Reset(int body) { smoother_.Reset(body); }
   /// A state was this many ticks old when it was received.
@@ -33,18 +35,25 @@ class Display {
   /// The bodies have changed: visual offsets stay with what a body became.
   void Remap(const BodyRemap& change);
 
-  /// All bodies as they are shown now. utime is left 0.
+  /// All bodies as they are shown now, joints closed. utime is left 0.
   View MakeView(const Roles& roles) const;
 
  private:
   BodyState AlongSnapshots(int body, const BodyState& target, BodyState state);
-  BodyState AlongReckoned(int body, std::int64_t next, BodyState state);
+  BodyState AlongReckoned(int body, BodyState state);
+  /// Whether a simulated mechanism may be shown other than physics made it.
+  bool IsOff(int mechanism) const;
+  /// Of all bodies, in the view; velocities are those of physics.
+  std::vector<BodyState> ShownPoses(const Roles& roles) const;
 
   const SyncConfig& config_;
   World& world_;
   const Snapshots& snapshots_;
   Smoother smoother_;
   DisplayDelay delay_;
+  JointCloser joints_;
+  Reckoner reckoner_;
+  std::vector<int> corrected_ticks_;  // by mechanism: how much longer it may be torn in physics
 };
 
 }  // namespace seam

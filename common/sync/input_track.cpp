@@ -18,10 +18,15 @@ void InputTrack::Note(const Inputs& inputs) {
 Input InputTrack::At(std::int64_t tick) const {
   auto after = known_.upper_bound(tick);
   if (after == known_.begin()) return Input{};
-  --after;
-  Input input = after->second;
-  if (after->first != tick) input.buttons = 0;
-  return input;
+  return std::prev(after)->second;
+}
+
+bool InputTrack::Surprises(std::int64_t from) const {
+  for (auto it = known_.lower_bound(from); it != known_.end(); ++it) {
+    const Input guess = it == known_.begin() ? Input{} : std::prev(it)->second;
+    if (!(it->second == guess)) return true;
+  }
+  return false;
 }
 
 std::int16_t InputTrack::TakePresses(std::int64_t tick) {

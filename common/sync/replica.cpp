@@ -28,6 +28,7 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       pressed_missed_(topology.scene().players.size(), 0) {
   corrector_.FollowRoles();
   memory_.Record();
+  replay_.TakeBarrier(true);  // the inputs of the first ticks come late, too
 }
 
 void Replica::StartAt(std::int64_t tick) {
@@ -51,8 +52,13 @@ void Replica::Step() {
   memory_.NoteContacts(roles_.table());
   rest_.AfterStep();
   for (Edit& edit : world_.ProposeEdits()) {
-    if (roles_.Proposes(edit)) proposals_.Add(std::move(edit), tick());
+    if (config_.mode == Mode::kOracle) {
+      queued_.push_back(std::move(edit));
+    } else if (roles_.Proposes(edit)) {
+      proposals_.Add(std::move(edit), tick());
+    }
   }
+  QueueAppointed();
   const bool goes_back = config_.GoesBack(roles_.self());
   if (goes_back && next % config_.send_every() == 0) reach_.Look();
   scheduler_.Collect();

@@ -13,6 +13,7 @@
 /// and has no rule of its own.
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -64,8 +65,15 @@ class Replica {
 
   /// Edits that the server ordered, in their order; they are applied before anything else is done.
   /// False, and ignored: it is not the next one.
+  /// In mode oracle every peer edits alone: what physics found is queued by Step, the server's
+  /// order of the same edit is ignored, and one from outside is queued by the Step of the tick it
+  /// names.
   bool Queue(const EditOrder& order);
   bool has_queued() const { return !queued_.empty(); }
+  /// The next to be applied. Requires has_queued().
+  const Edit& next_queued() const { return queued_.front(); }
+  /// Applies all that is queued.
+  void ApplyEdits();
   /// Applies the next that is queued. What became of the bodies; nullopt: they are what they were.
   /// Each merger of mechanisms begins a new epoch, so all peers apply edits one by one: one that
   /// applied two at once would stay an epoch behind. Requires has_queued().
@@ -109,7 +117,7 @@ class Replica {
  private:
   friend struct ReplicaTestAccess;
 
-  void ApplyEdits();
+  void QueueAppointed();
   void Remap(const BodyRemap& change);
   /// Of joints that the edit takes away: a later bond may take their places, and break at once.
   void ForgetProposals(const Edit& edit);
@@ -132,6 +140,7 @@ class Replica {
   std::vector<int> pressed_now_;     // by player
   std::vector<int> pressed_missed_;  // by player: heard of too late to go back to
   std::vector<Edit> queued_;         // ordered, not yet applied
+  std::map<std::int64_t, std::vector<Edit>> appointed_;  // mode oracle: from outside, by tick
 };
 
 }  // namespace seam

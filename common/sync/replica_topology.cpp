@@ -7,9 +7,21 @@
 namespace seam {
 
 bool Replica::Queue(const EditOrder& order) {
+  if (config_.mode == Mode::kOracle) {
+    const Edit edit = ToEdit(order);
+    if (edit.cause == EditCause::kOutside) appointed_[order.tick].push_back(edit);
+    return true;
+  }
   if (order.number != revision() + static_cast<int>(queued_.size())) return false;
   queued_.push_back(ToEdit(order));
   return true;
+}
+
+void Replica::QueueAppointed() {
+  while (!appointed_.empty() && appointed_.begin()->first <= tick()) {
+    for (Edit& edit : appointed_.begin()->second) queued_.push_back(std::move(edit));
+    appointed_.erase(appointed_.begin());
+  }
 }
 
 void Replica::ApplyEdits() {

@@ -3,7 +3,9 @@
 
 #include <vector>
 
+#include "common/physics/world.h"
 #include "common/scene/types.h"
+#include "common/sync/show/visual_offset.h"
 
 namespace seam {
 
@@ -22,23 +24,24 @@ class Smoother {
   /// The body was placed anew (joined, hand-over of the unknown): show it there at once.
   void Reset(int body);
   /// Lets a frame pass. `speed` of the body (m/s) widens the cap: a fast body hides a fast glide.
-  void Advance(int body, float dt, float speed);
+  void Advance(int body, float dt, float speed) { ReturnAlone(dt, speed, &At(body)); }
+  /// The same for all bodies of a mechanism of more than one. Where one jump has moved all of them
+  /// rigidly, the view comes back rigidly.
+  void AdvanceTogether(const World& world, const std::vector<int>& bodies);
 
   /// The bodies have changed; origins[i] is the body before that body i comes from, -1 for none.
   void Remap(const std::vector<int>& origins);
 
   const Vec2& offset(int body) const;
   float angle_offset(int body) const;
+  /// Whether the body is shown anywhere but where physics has it.
+  bool active(int body) const { return angle_offset(body) != 0 || offset(body) != Vec2(0, 0); }
 
  private:
-  struct Offset {
-    Vec2 position{0, 0};  // m
-    Vec2 velocity{0, 0};  // m/s
-    float angle = 0;      // rad
-    float spin = 0;       // rad/s
-  };
+  VisualOffset& At(int body) { return offsets_[static_cast<std::size_t>(body)]; }
+
   bool enabled_;
-  std::vector<Offset> offsets_;
+  std::vector<VisualOffset> offsets_;
 };
 
 }  // namespace seam

@@ -17,6 +17,15 @@ constexpr double kSlewPerTick = 0.02;  // ticks of delay per tick: 2 % slower or
 
 }  // namespace
 
+Vec2 SpeedGained(const Vec2& acceleration, float forward) {
+  return acceleration * std::min(forward, kAccelerationLasts);
+}
+
+Vec2 ShiftGained(const Vec2& acceleration, float forward) {
+  const float lasts = std::min(forward, kAccelerationLasts);
+  return acceleration * (lasts * (forward - lasts / 2));
+}
+
 Snapshots::Snapshots(int body_count) : rings_(static_cast<std::size_t>(body_count)) {}
 
 void Snapshots::Add(int body, std::int64_t tick, const BodyState& state) {
@@ -63,20 +72,28 @@ BodyState Snapshots::Interpolate(int body, double tick) const {
   return ring.front().state;
 }
 
-BodyState Snapshots::Extrapolate(int body, std::int64_t tick, float dt, float max_s) const {
+float Snapshots::Forward(std::int64_t from, std::int64_t tick, float dt, float max_s) {
+  return std::min(static_cast<float>(std::max<std::int64_t>(0, tick - from)) * dt, max_s);
+}
+
+Vec2 Snapshots::Acceleration(int body, std::int64_t tick, float dt) const {
   const std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
-  SEAM_ASSERT(!ring.empty());
-  const float age = static_cast<float>(std::max<std::int64_t>(0, tick - ring.back().tick)) * dt;
-  const float forward = std::min(age, max_s);
-  BodyState out = seam::Extrapolate(ring.back().state, forward);
-  if (ring.size() < 2) return out;
+  if (ring.size() < 2 || ring.back().tick != tick) return {0, 0};
   const Stamped& before = ring[ring.size() - 2];
   const float between = static_cast<float>(ring.back().tick - before.tick) * dt;
   const Vec2 acceleration = (ring.back().state.velocity - before.state.velocity) / between;
-  if (between > kAccelerationSpan || acceleration.norm() > kAccelerationMax) return out;
-  const float lasts = std::min(forward, kAccelerationLasts);
-  out.velocity += acceleration * lasts;
-  out.position += acceleration * (lasts * (forward - lasts / 2));
+  if (between > kAccelerationSpan || acceleration.norm() > kAccelerationMax) return {0, 0};
+  return acceleration;
+}
+
+BodyState Snapshots::Extrapolate(int body, std::int64_t tick, float dt, float max_s) const {
+  const std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
+  SEAM_ASSERT(!ring.empty());
+  const float forward = Forward(ring.back().tick, tick, dt, max_s);
+  BodyState out = seam::Extrapolate(ring.back().state, forward);
+  const Vec2 acceleration = Acceleration(body, ring.back().tick, dt);
+  out.velocity += SpeedGained(acceleration, forward);
+  out.position += ShiftGained(acceleration, forward);
   return out;
 }
 

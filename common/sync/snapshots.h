@@ -15,6 +15,11 @@ namespace seam {
 /// of the states, a fast body stops and jumps; longer shows more that is wrong.
 constexpr float kReckonMax = 1.0f;
 
+/// By how much a moderate acceleration changes the velocity (m/s) and the position (m) of what is
+/// reckoned for `forward` s: it is thought to last for a moment only.
+Vec2 SpeedGained(const Vec2& acceleration, float forward);
+Vec2 ShiftGained(const Vec2& acceleration, float forward);
+
 /// The last few states heard of each body.
 class Snapshots {
  public:
@@ -32,9 +37,14 @@ class Snapshots {
   /// Interpolated at a (fractional) tick; the oldest or newest kept state outside of what is known:
   /// never extrapolated. Requires has(body).
   BodyState Interpolate(int body, double tick) const;
+  /// As between the last two states, m/s^2; 0 when it is too large to go on, when they are far
+  /// apart, or when the newest is not of `tick`.
+  Vec2 Acceleration(int body, std::int64_t tick, float dt) const;
   /// The newest state moved on by its velocity for at most `max_s`, and by a moderate acceleration
   /// as between the last two states. Requires has(body).
   BodyState Extrapolate(int body, std::int64_t tick, float dt, float max_s) const;
+  /// For how long a state of `from` is moved on to `tick`, s.
+  static float Forward(std::int64_t from, std::int64_t tick, float dt, float max_s);
 
  private:
   struct Stamped {

@@ -5,6 +5,7 @@
 #include "common/physics/part_places.h"
 #include "common/scene/part_rules.h"
 #include "common/sync/lease.h"
+#include "common/sync/reach/reach.h"
 
 namespace seam {
 namespace {
@@ -37,8 +38,8 @@ AuthorityView AuthorityManager::Look(const Situation& situation) {
   view.together = situation.together;
   for (std::size_t p = 0; p < scene_.players.size(); ++p) {
     const Player& player = scene_.players[p];
-    view.players.push_back(
-        {situation.peer_of_player[p], player.has_region, player.region_min, player.region_max});
+    view.players.push_back({situation.peer_of_player[p], situation.one_way_s[p], player.has_region,
+                            player.region_min, player.region_max});
   }
   const World& world = replica_.world();
   for (int m = 0; m < table().count(); ++m) {
@@ -55,6 +56,7 @@ AuthorityView AuthorityManager::Look(const Situation& situation) {
     seen.held_ticks = world.tick() - memory.changed_tick;
     view.mechanisms.push_back(seen);
   }
+  if (config_.mode == Mode::kBuffer) view.boxes = BoxesOf(world);
   // Who may not push a part does not get its authority.
   for (const Part& part : world.scene().parts) {
     if (part.rules->push == kEveryPlayer) continue;

@@ -1,5 +1,7 @@
 #include "server/authority/plan.h"
 
+#include <algorithm>
+
 namespace seam {
 namespace {
 
@@ -47,23 +49,71 @@ int PlannedHolder(const AuthorityView& view, const MechanismView& mechanism) {
   return peer < 0 ? 0 : peer;
 }
 
+/// By mechanism, the lowest of those that may come into contact with it, directly or through
+/// others, within the time of their peers and `more` seconds.
+std::vector<int> ContactGroups(const AuthorityView& view, const AuthorityPlan& plan, float more) {
+  std::vector<float> one_way(plan.size(), 0);
+  float longest = 0;
+  for (const PlayerView& player : view.players) {
+    longest = std::max(longest, player.one_way_s);
+    for (std::size_t m = 0; m < plan.size(); ++m) {
+      if (player.peer > 0 && plan[m].authority == player.peer) one_way[m] = player.one_way_s;
+    }
+  }
+  const auto seconds_of = [&](int a, int b) {
+    return more +
+           ZoneSeconds(one_way[static_cast<std::size_t>(a)], one_way[static_cast<std::size_t>(b)]);
+  };
+  return Components(static_cast<int>(plan.size()),
+                    MeetingGroups(view.boxes, more + ZoneSeconds(longest, longest), seconds_of));
+}
+
+/// By mechanism: whether it is in a group with one of the peer's.
+std::vector<bool> WithThoseOf(int peer, const AuthorityPlan& plan, const std::vector<int>& group) {
+  std::vector<bool> has(plan.size(), false), with(plan.size(), false);
+  for (std::size_t m = 0; m < plan.size(); ++m) {
+    if (plan[m].authority == peer) has[static_cast<std::size_t>(group[m])] = true;
+  }
+  for (std::size_t m = 0; m < plan.size(); ++m) with[m] = has[static_cast<std::size_t>(group[m])];
+  return with;
+}
+
+/// By mechanism: how far its nearest box is from the player's region or from a box of the peer's,
+/// m. Nothing is measured beyond `most`.
+std::vector<float> Distances(const AuthorityView& view, const PlayerView& player,
+                             const AuthorityPlan& plan, float most) {
+  std::vector<float> nearest(plan.size(), 2 * most + 1);
+  std::vector<const MovingBox*> own;
+  for (const MovingBox& box : view.boxes) {
+    if (plan[static_cast<std::size_t>(box.group)].authority == player.peer) own.push_back(&box);
+  }
+  const MovingBox region{player.region_min, player.region_max, {0, 0}, 0, -1};
+  for (const MovingBox& box : view.boxes) {
+    float& least = nearest[static_cast<std::size_t>(box.group)];
+    if (player.has_region) least = std::min(least, Gap(box, region));
+    for (std::size_t o = 0; o < own.size() && least > most; ++o) {
+      least = std::min(least, Gap(box, *own[o]));
+    }
+  }
+  return nearest;
+}
+
 /// Adds to each mechanism the peers in whose buffer zone it is.
 void AddFollowers(const AuthorityView& view, AuthorityPlan* plan) {
-  const std::size_t count = plan->size();
+  const std::vector<int> soon = ContactGroups(view, *plan, 0);
+  const std::vector<int> later = ContactGroups(view, *plan, kZoneKeep);
   for (const PlayerView& player : view.players) {
     if (player.peer <= 0) continue;
-    for (std::size_t m = 0; m < count; ++m) {
+    const std::vector<bool> meets_soon = WithThoseOf(player.peer, *plan, soon);
+    const std::vector<bool> meets_later = WithThoseOf(player.peer, *plan, later);
+    const std::vector<float> distance = Distances(view, player, *plan, view.buffer_m + kHysteresis);
+    for (std::size_t m = 0; m < plan->size(); ++m) {
       PlannedAuthority& planned = (*plan)[m];
       if (planned.authority == player.peer) continue;
-      const MechanismView& mechanism = view.mechanisms[m];
-      const bool follows = mechanism.now.secondaries.Has(player.peer);
+      const bool follows = view.mechanisms[m].now.secondaries.Has(player.peer);
       const float reach = view.buffer_m + (follows ? kHysteresis : 0.0f);
-      bool near = player.has_region && DistanceToRegion(mechanism.position, player) <= reach;
-      for (std::size_t o = 0; o < count && !near; ++o) {
-        near = (*plan)[o].authority == player.peer &&
-               (view.mechanisms[o].position - mechanism.position).norm() <= reach;
-      }
-      if (near) planned.secondaries.Add(player.peer);
+      const bool meets = follows ? meets_later[m] : meets_soon[m];
+      if (meets || distance[m] <= reach) planned.secondaries.Add(player.peer);
     }
   }
 }

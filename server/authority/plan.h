@@ -8,6 +8,7 @@
 #include "common/scene/player_mask.h"
 #include "common/sync/authority.h"
 #include "common/sync/mode.h"
+#include "common/sync/reach/zones.h"
 
 namespace seam {
 
@@ -22,7 +23,8 @@ using AuthorityPlan = std::vector<PlannedAuthority>;
 
 /// A player, as planning sees it.
 struct PlayerView {
-  int peer = -1;  ///< that drives it; -1: nobody is ready to
+  int peer = -1;        ///< that drives it; -1: nobody is ready to
+  float one_way_s = 0;  ///< from the server to it
   bool has_region = false;
   Vec2 region_min{0, 0}, region_max{0, 0};  ///< m
 };
@@ -43,6 +45,7 @@ struct AuthorityView {
   float buffer_m = 0;  ///< width of the buffer zone
   std::vector<PlayerView> players;
   std::vector<MechanismView> mechanisms;
+  std::vector<MovingBox> boxes;  ///< of all bodies; group: the mechanism's index
   /// Mechanisms that an edit is about to join: those of each entry should be in one hand.
   std::vector<std::vector<int>> together;
 };
@@ -53,10 +56,19 @@ struct AuthorityView {
 ///   is (with kHysteresis before it leaves the one that has it, and kDwell between changes); else
 ///   the server. Mechanisms that are to be joined go to one peer; a peer whose player may not have
 ///   a mechanism gives way to the server. Secondary (mode buffer): peers whose region, or whose
-///   mechanisms, are within the scene's buffer width. Modes oracle and central: all the server's.
+///   mechanisms, are within the scene's buffer width of its boxes, or with whose mechanisms it may
+///   come into contact, directly or through others, before a grant could tell them (ZoneSeconds).
+///   Modes oracle and central: all the server's.
 AuthorityPlan PlanAuthority(const AuthorityView& view);
 
 constexpr float kHysteresis = 2.0f;  ///< m beyond the border before a hand-over
-constexpr double kDwell = 0.5;       ///< s an authority lasts at least
+/// How far ahead contacts between mechanisms of two peers are looked for, s: until the next plan
+/// and the grant's arrival, and as long as states of one take to the other, twice, because either
+/// may be lost once.
+constexpr float ZoneSeconds(float one_way_a_s, float one_way_b_s) {
+  return 0.25f + 2 * (one_way_a_s + one_way_b_s);
+}
+constexpr float kZoneKeep = 0.5f;  ///< s more before who follows ceases to
+constexpr double kDwell = 0.5;     ///< s an authority lasts at least
 
 }  // namespace seam

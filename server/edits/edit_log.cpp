@@ -156,6 +156,26 @@ void EditLog::NoteApplied() {
   if (hash_after_.size() > kHashesMax) hash_after_.erase(hash_after_.begin());
 }
 
+std::vector<Edit> EditLog::TakePending() {
+  std::vector<Edit> edits;
+  for (Pending& pending : pending_) {
+    if (!IsStale(pending)) edits.push_back(std::move(pending.edit));
+  }
+  pending_.clear();
+  waiting_of_peer_.fill(0);
+  return edits;
+}
+
+EditOrder EditLog::NoteAlone(const Edit& edit, std::int64_t now_us) {
+  EditOrder order = ToOrder(edit);
+  order.utime = now_us;
+  order.tick = world_.tick();
+  order.number = ordered_++;
+  unapplied_.push_back(edit);
+  NoteApplied();
+  return order;
+}
+
 bool EditLog::Differs(int revision, std::int64_t composition) const {
   const auto known = hash_after_.find(revision);
   return known != hash_after_.end() && known->second != static_cast<std::uint64_t>(composition);

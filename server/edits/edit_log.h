@@ -49,6 +49,13 @@ class EditLog {
 
   /// To be called after each edit was applied.
   void NoteApplied();
+
+  // Mode oracle, where every peer applies its edits alone, in the tick in which they are found:
+  /// What waits, instead of OrderPending; without numbers, and nothing waits any more.
+  std::vector<Edit> TakePending();
+  /// After an edit was applied, instead of NoteApplied: its order, for the record.
+  EditOrder NoteAlone(const Edit& edit, std::int64_t now_us);
+
   /// Whether it is known that after `revision` edits the world is not made of `composition`.
   bool Differs(int revision, std::int64_t composition) const;
   /// Whether a peer that says so of itself has to be repaired: it differs, or has applied edits

@@ -3,9 +3,11 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "common/net/link.h"
 #include "common/net/net.h"
+#include "common/sync/input_feed.h"
 #include "common/sync/rest/rest_agreement.h"
 #include "server/sessions/traffic_budget.h"
 
@@ -33,7 +35,8 @@ struct Session {
   SessionId id;
   Link link;
   TrafficBudget budget;
-  RestAgreement rest;  ///< with what the client knows to rest
+  std::vector<InputFeed> feeds;  ///< of the others' inputs, by player
+  RestAgreement rest;            ///< with what the client knows to rest
   std::string name;
   int peer = 0;
   int player = -1;

@@ -68,17 +68,13 @@ std::string PointHeader() {
 
 std::string PointValues(const GridPoint& point) {
   const ImpairProfile net = FindProfile(point.settings.impair);
-  // Gilbert-Elliott: the share of time in the bad state is p / (p + r).
-  const double swaps = net.loss_good_to_bad + net.loss_bad_to_good;
-  const double bad = swaps > 0 ? net.loss_good_to_bad / swaps : 0;
-  const double loss = bad * net.loss_in_bad + (1 - bad) * net.loss_in_good;
   const Solver& solver = point.scene->solver;
-  return fmt::format(",{:g},{:g},{:g},{},{},{},{},{},{:g},{}",
-                     static_cast<double>(net.delay_us) * 1e-3,
-                     static_cast<double>(net.jitter_mean_us) * 1e-3, 100 * loss, solver.tick_hz,
-                     solver.substeps, solver.velocity_iterations, solver.position_iterations,
-                     solver.skin > 0 ? fmt::format("{:g}", solver.skin) : "", point.scene->buffer_m,
-                     point.scene->input_delay_ticks);
+  return fmt::format(
+      ",{:g},{:g},{:g},{},{},{},{},{},{:g},{}", static_cast<double>(net.delay_us) * 1e-3,
+      static_cast<double>(net.jitter_mean_us) * 1e-3, 100 * MeanLoss(net), solver.tick_hz,
+      solver.substeps, solver.velocity_iterations, solver.position_iterations,
+      solver.skin > 0 ? fmt::format("{:g}", solver.skin) : "", point.scene->buffer_m,
+      point.scene->input_delay_ticks);
 }
 
 Grid ReadGrid(const std::string& path) {
@@ -95,6 +91,7 @@ Grid ReadGrid(const std::string& path) {
   }
   Grid grid;
   grid.floor = file.floor;
+  grid.limit = file.limit;
   for (const std::string& scene : file.scenes) {
     for (const std::vector<std::string>& set : file.settings) {
       GridPoint point;

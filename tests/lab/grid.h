@@ -22,6 +22,7 @@ struct GridPoint {
 struct Grid {
   std::vector<GridPoint> points;  ///< seeds vary fastest, scenes slowest
   bool floor = true;              ///< compute the floor too
+  bool limit = false;             ///< compute the information limit too
 };
 
 /// version,scene,scene_hash,set,mode,reconcile,impair,send_hz,drive,smooth,duration_s,seed

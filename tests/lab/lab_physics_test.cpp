@@ -226,7 +226,14 @@ TEST(PhysicsRow, IsAFunctionOfThePointButForItsCpuColumns) {
   EXPECT_EQ(fields[15], "left, \"far\"");
   EXPECT_EQ(WithoutCpu(PhysicsRow(point, nullptr)), WithoutCpu(row));
   const Reference reference = MakeReference(point.scene, 1);
-  EXPECT_NE(CsvFields(PhysicsRow(point, &reference)).back(), "");
+  EXPECT_EQ(names[24], "reference_change");
+  EXPECT_NE(CsvFields(PhysicsRow(point, &reference))[24], "");
+  EXPECT_EQ(names.back(), "valid");
+  EXPECT_EQ(CsvFields(PhysicsRow(point, &reference)).back(), "");
+  hard.truth = Truth::kConverged;
+  const std::vector<std::string> unknown = CsvFields(PhysicsRow(point, nullptr));
+  EXPECT_EQ(unknown.back(), "no converged run");
+  EXPECT_EQ(unknown[14], "");
 }
 
 TEST(PhysicsPlan, SpendsACasesBudgetOnWhatIsAwake) {

@@ -310,6 +310,7 @@ TEST(Report, TheSweepsItRunsCanBeRunAndLeaveNoReconcilerOut) {
       if (entry.path().extension() != ".toml") continue;
       const std::string stem = entry.path().stem();
       if (stem == "worlds" || stem == "crowds") continue;  // dear: a few methods have to do
+      if (stem == "floors") continue;                      // of the measure itself, not of methods
       ++count;
       std::set<std::string> rules;
       for (const GridPoint& point : ReadGrid(entry.path().string()).points) {

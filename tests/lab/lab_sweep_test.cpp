@@ -241,7 +241,7 @@ std::string ColumnOf(const std::string& row, const std::string& column) {
 TEST(LabSweep, ARowHoldsWhatMeasuringTheSameRunGives) {
   const LabWorkspace files;
   const Grid grid = GridOf(files, "scenes = \"scenes/crossing.toml\"\nmethods = \"buffer/fade\"");
-  const std::string row = SweepRow(grid.points[0], true);
+  const std::string row = SweepRow(grid.points[0], {true, false});
   const Recording recording = RunCluster(Configure(grid.points[0].settings));
   const Oracle oracle = ComputeOracle(recording);
   const Measures m = Measure(recording, oracle);

@@ -193,7 +193,7 @@ TEST(LabOverhead, WritesARowForEachSceneAndGoesOnWhereItStopped) {
   const LabWorkspace files;
   OutputOf({"overhead", "scenes/cradle.toml", "-o", files / "o.csv", "--repeats", "1"}, 0);
   const std::string one = files.Read("o.csv");
-  EXPECT_EQ(one.rfind("scene,bodies,raw_us_per_step,core_us_per_step,ratio\n"
+  EXPECT_EQ(one.rfind("scene,bodies,raw_us_per_step,core_us_per_step,ratio,valid\n"
                       "scenes/cradle.toml,5,",
                       0),
             0u)

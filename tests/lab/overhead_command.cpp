@@ -15,7 +15,7 @@
 namespace seam {
 namespace {
 
-const char* const kHeader = "scene,bodies,raw_us_per_step,core_us_per_step,ratio";
+const char* const kHeader = "scene,bodies,raw_us_per_step,core_us_per_step,ratio,valid";
 
 /// The scene's duration, or less of it where there is much to simulate.
 int TicksFor(const Scene& scene) {
@@ -49,7 +49,11 @@ int RunOverhead(const OverheadCommand& command) {
                 o.equal ? "" : "  they end differently: not the same simulation");
     std::fflush(stdout);
     if (!table) continue;
-    table->Add(i, fmt::format("{},{},{:.4g},{:.4g},{:.4f}", keys[i], o.bodies, o.raw_us_per_step,
+    if (!o.equal) {
+      table->Add(i, keys[i] + ",,,,,core and raw Box2D end differently");
+      continue;
+    }
+    table->Add(i, fmt::format("{},{},{:.4g},{:.4g},{:.4f},", keys[i], o.bodies, o.raw_us_per_step,
                               o.core_us_per_step, o.ratio()));
   }
   return equal && g_stop == 0 ? 0 : 1;

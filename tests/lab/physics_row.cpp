@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 
 #include "common/base/bytes.h"
@@ -33,13 +34,22 @@ std::string Number(double value) { return fmt::format("{:.6g}", value); }
 
 std::string Maybe(const std::optional<double>& value) { return value ? Number(*value) : ""; }
 
+/// Why the error says nothing; no comma. What went wrong in the run itself is its failure.
+std::string WhyNotValid(const HardCase& hard, const Observation& seen, const Reference* reference) {
+  if (hard.truth == Truth::kConverged && reference == nullptr) return "no converged run";
+  if (reference != nullptr && !std::isfinite(reference->change_m)) {
+    return "the converged run diverged";
+  }
+  return seen.seconds <= 0 && seen.failure.empty() ? "nothing was simulated" : "";
+}
+
 }  // namespace
 
 std::string PhysicsHeader() {
   return "version,case,truth,unit,role,tick_hz,substeps,velocity_iterations,position_iterations,"
          "warm_starting,skin,continuous,welds,seconds,error,failure,penetration_m,joint_drift_m,"
          "energy_gain,jitter_mps,asleep_s,cpu_us_per_s,stock_cpu_us_per_s,cost_ratio,"
-         "reference_change";
+         "reference_change,valid";
 }
 
 std::string PhysicsKey(const PhysicsPoint& point) {
@@ -61,7 +71,9 @@ std::string PhysicsRow(const PhysicsPoint& point, const Reference* reference) {
   // A run that lost a body costs what it cost until then; the engine may not survive more of it.
   const double seconds = std::max(seen.seconds, 1.0 / point.scene.solver.tick_hz);
   const Cost cost = CompareCost(point.scene, WithSolver(point.scene, StockSolver()), seconds);
-  return PhysicsKey(point) + fmt::format(",{},{},{},{},{},{},{},{:.5g},{:.5g},{:.4f},{}",
+  const std::string valid = WhyNotValid(hard, seen, reference);
+  if (!valid.empty()) return PhysicsKey(point) + ",,,,,,,,,,,," + valid;
+  return PhysicsKey(point) + fmt::format(",{},{},{},{},{},{},{},{:.5g},{:.5g},{:.4f},{},",
                                          Number(seen.error), CsvField(seen.failure),
                                          Number(seen.penetration_m), Number(seen.joint_drift_m),
                                          Maybe(seen.energy_gain), Number(seen.jitter_mps),
@@ -70,7 +82,7 @@ std::string PhysicsRow(const PhysicsPoint& point, const Reference* reference) {
 }
 
 std::string CrashedRow(const PhysicsPoint& point, const std::string& why) {
-  return PhysicsKey(point) + ",inf," + CsvField(why) + ",,,,,,,,,";
+  return PhysicsKey(point) + ",inf," + CsvField(why) + ",,,,,,,,,,";
 }
 
 void PrintPhysics(const PhysicsPlan& plan, const std::vector<std::string>& lines) {
@@ -90,6 +102,7 @@ void PrintPhysics(const PhysicsPlan& plan, const std::vector<std::string>& lines
       if (plan.points[k].role == "scene") scene = fields;
     }
     if (stock.empty() || scene.empty()) continue;
+    if (stock[kError].empty() || scene[kError].empty()) continue;  // not valid
     const double before = std::stod(stock[kError]), after = std::stod(scene[kError]);
     const double ratio = before == after ? 1 : after / before;
     const std::string cost = scene[kCostRatio].empty() ? "-" : scene[kCostRatio];

@@ -15,6 +15,7 @@
 #include "tests/lab/commands.h"
 #include "tests/lab/report/gnuplot.h"
 #include "tests/lab/report/report.h"
+#include "tests/lab/report/validity.h"
 
 namespace seam {
 namespace {
@@ -109,7 +110,9 @@ int RunReport(const ReportCommand& command) {
     std::printf("%s: %s: not among the tables, left as it was\n", command.markdown.c_str(),
                 name.c_str());
   }
-  return 0;
+  const std::vector<std::string> not_valid = TablesNotValid(command.data);
+  for (const std::string& line : not_valid) std::fprintf(stderr, "%s\n", line.c_str());
+  return not_valid.empty() ? 0 : 1;
 }
 
 }  // namespace seam

@@ -13,7 +13,9 @@ int RunSweep(const SweepCommand& command) {
   SweepTable table(command.table, SweepHeader(), kGridColumns, keys, command.force);
   StopOnSignals();
   RowMaker maker;
-  maker.make = [&](std::size_t row) { return SweepRow(grid.points[row], grid.floor); };
+  maker.make = [&](std::size_t row) {
+    return SweepRow(grid.points[row], {grid.floor, grid.limit});
+  };
   const RowsDone done = MakeRows(keys, MissingRows(table, keys.size()), maker, JobsOr(command.jobs),
                                  command.quiet, &table);
   return PrintRows(command.table, table, keys.size(), done);

@@ -154,7 +154,8 @@ SweepFile ReadSweepFile(const std::string& path) {
                       {"scenes", "set",        "tick_hz",     "substeps", "velocity_iterations",
                        "skin",   "buffer_m",   "input_delay", "methods",  "position_iterations",
                        "impair", "one_way_ms", "jitter_ms",   "send_hz",  "loss_percent",
-                       "drive",  "smooth",     "duration",    "seeds",    "floor"});
+                       "drive",  "smooth",     "duration",    "seeds",    "floor",
+                       "limit"});
   SweepFile file;
   file.scenes = Texts(r, "scenes", nullptr);
   if (file.scenes.empty()) r.Fail("which scenes? for example: scenes = [\"scenes/wall.toml\"]");
@@ -171,6 +172,7 @@ SweepFile ReadSweepFile(const std::string& path) {
   file.seeds = Seeds(r, tree, path);
   file.duration_s = r.Seconds("duration", {0, kDurationMax}, 0.0);
   file.floor = r.Flag("floor", true);
+  file.limit = r.Flag("limit", false);
   return file;
 }
 

@@ -18,6 +18,7 @@ struct SweepFile {
   std::vector<std::string> drive, smooth;
   double duration_s = 0;  ///< 0: each scene's own
   bool floor = true;
+  bool limit = false;
 };
 
 /// Throws OperatorError "file:line: ..." for what is wrong with the file by itself; scenes are not

@@ -8,7 +8,11 @@
 
 #include "common/base/bytes.h"
 #include "common/base/process.h"
+#include "common/measure/limit/information_limit.h"
 #include "common/measure/measure.h"
+#include "common/measure/screen/response.h"
+#include "common/measure/table.h"
+#include "tests/lab/validity/preconditions.h"
 
 namespace seam {
 namespace {
@@ -39,14 +43,31 @@ struct Column {
   std::optional<double> value;
 };
 
+/// What is computed beside the measures: of the oracles alone, so the same for all methods.
+struct Floors {
+  std::optional<double> floor_m, wire_m, barrier_m;
+  std::optional<double> limit_m;  ///< of this recording's network
+};
+
 /// All columns of the measures, in order.
-std::vector<Column> Columns(const Measures& m, std::optional<double> floor_m,
-                            std::optional<double> floor_wire_m) {
+std::vector<Column> Columns(const Measures& m, const Floors& floors) {
   const auto given = [](bool applies, double value) {
     return applies ? std::optional<double>(value) : std::nullopt;
   };
   const bool any = m.compared > 0;
-  return {{"error_rms_m", given(any, m.error_rms_m)},
+  return {{"error_others_m", m.error_others_m},
+          {"error_own_m", m.error_own_m},
+          {"error_server_m", m.error_server_m},
+          {"path_error_rms_m", m.path_error_rms_m},
+          {"view_age_ms", m.view_age_ms},
+          {"response_own_ms", m.response_own_ms},
+          {"response_server_ms", m.response_server_ms},
+          {"response_other_ms", m.response_other_ms},
+          {"seen", m.seen},
+          {"energy_ratio_min", m.energy_ratio_min},
+          {"energy_ratio_max", m.energy_ratio_max},
+          {"hottest_ratio", m.hottest_ratio},
+          {"error_rms_m", given(any, m.error_rms_m)},
           {"error_p95_m", given(any, m.error_p95_m)},
           {"error_max_m", given(any, m.error_max_m)},
           {"error_rms_rad", given(any, m.error_rms_rad)},
@@ -66,38 +87,62 @@ std::vector<Column> Columns(const Measures& m, std::optional<double> floor_m,
           {"handover_jump_m", given(m.handovers > 0, m.handover_jump_m)},
           {"handover_gap_m", m.handover_gap_m},
           {"handover_dv_mps", m.handover_dv_mps},
+          {"handover_gap_p95_m", m.handover_gap_p95_m},
+          {"handover_dv_p95_mps", m.handover_dv_p95_mps},
           {"topology_lag_s", m.topology_lag_s},
           {"lost", m.lost ? std::optional<double>(static_cast<double>(*m.lost)) : std::nullopt},
-          {"floor_m", floor_m},
-          {"floor_wire_m", floor_wire_m},
+          {"floor_m", floors.floor_m},
+          {"floor_wire_m", floors.wire_m},
+          {"floor_barrier_m", floors.barrier_m},
+          {"info_limit_m", floors.limit_m},
           {"bytes_per_s", given(m.bytes_per_s > 0, m.bytes_per_s)},
           {"sent_bytes_per_s", given(m.sent_bytes_per_s > 0, m.sent_bytes_per_s)},
           {"compared", static_cast<double>(m.compared)}};
 }
 
-std::string Values(const Recording& recording, bool floor) {
-  const Oracle oracle = ComputeOracle(recording);
-  std::optional<double> floor_m, floor_wire_m;
-  if (floor) {
-    floor_m = ErrorFloor(recording, oracle, kNudge);
-    floor_wire_m = ErrorFloor(recording, oracle, kWireNudge);
-  }
+/// `valid` empty: with their figures.
+std::string Values(const Measures& measures, const Floors& floors, const std::string& valid) {
   std::string line;
-  for (const Column& column : Columns(Measure(recording, oracle), floor_m, floor_wire_m)) {
-    line += column.value ? Number(*column.value) : ",";
+  for (const Column& column : Columns(measures, floors)) {
+    line += column.value && valid.empty() ? Number(*column.value) : ",";
   }
   return line;
+}
+
+/// The measures of a run, whether they mean anything, and by which oracle.
+std::string Judged(const GridPoint& point, const SweepOptions& options, Cluster* cluster) {
+  const Recording& recording = cluster->recording();
+  const bool barriers = JudgedByBarriers(recording.room);
+  const Oracle plain = ComputeOracle(recording);
+  std::optional<Oracle> with_barriers;
+  if (barriers || options.floor) {
+    with_barriers = ComputeOracle(recording, WithBarriers(recording.room));
+  }
+  const Oracle& oracle = barriers ? *with_barriers : plain;
+  Measures measures = Measure(recording, oracle);
+  MeasureResponse(recording, oracle, recording.room.input_delay_ticks, &measures);
+  const std::string reason =
+      InvalidReason({*point.scene, recording, oracle, measures, FindProfile(point.settings.impair),
+                     cluster->server_net().traffic()});
+  Floors floors;
+  if (options.floor && reason.empty()) {
+    floors.floor_m = ErrorFloor(recording, plain, kNudge);
+    floors.wire_m = ErrorFloor(recording, plain, kWireNudge);
+    floors.barrier_m = OracleDistance(plain, *with_barriers);
+  }
+  if (options.limit && reason.empty()) floors.limit_m = InformationLimit(recording);
+  return Values(measures, floors, reason) + (barriers ? ",barrier," : ",plain,") + CsvField(reason);
 }
 
 }  // namespace
 
 std::string SweepHeader() {
   std::string header = GridHeader() + "," + PointHeader();
-  for (const Column& column : Columns({}, {}, {})) header += std::string(",") + column.name;
-  return header + ",digest,cpu_s";
+  for (const Column& column : Columns({}, {})) header += std::string(",") + column.name;
+  return header + ",oracle,valid,digest,cpu_s";
 }
 
-std::string SweepRow(const GridPoint& point, bool floor) {
+std::string SweepRow(const GridPoint& point, const SweepOptions& options) {
   ClusterConfig config = Configure(point.settings, *point.scene);
   Digest digest;
   config.recorder = &digest;
@@ -105,7 +150,7 @@ std::string SweepRow(const GridPoint& point, bool floor) {
   Cluster cluster(config);
   cluster.Run();
   const double cpu_s = static_cast<double>(CpuUs() - begin_us) * 1e-6;
-  return point.key + PointValues(point) + Values(cluster.recording(), floor) +
+  return point.key + PointValues(point) + Judged(point, options, &cluster) +
          fmt::format(",{:016x},{:.4f}", digest.value(), cpu_s);
 }
 

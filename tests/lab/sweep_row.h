@@ -7,11 +7,19 @@
 
 namespace seam {
 
-/// The grid's columns, the same in numbers, then the measures of docs/metrics.md, digest and cpu_s.
+/// What a row has beside the measures; each costs oracles.
+struct SweepOptions {
+  bool floor = true;   ///< what chaos alone does
+  bool limit = false;  ///< what nobody could know
+};
+
+/// The grid's columns, the same in numbers, then the measures of docs/metrics.md, by which oracle,
+/// whether they are valid, digest and cpu_s.
 std::string SweepHeader();
 
 /// Runs and measures; the line without its end. Everything but the last column, cpu_s, depends on
-/// the point alone. Throws OperatorError when nobody can join.
-std::string SweepRow(const GridPoint& point, bool floor);
+/// the point alone. A row that is not valid has no figures. Throws OperatorError when nobody can
+/// join.
+std::string SweepRow(const GridPoint& point, const SweepOptions& options);
 
 }  // namespace seam

@@ -20,6 +20,14 @@ void WriteText(const std::string& text, const std::string& path) {
   if (!file.flush()) throw OperatorError(path + ": cannot be written");
 }
 
+/// A figure that was to be measured and was not; a bench writes "–" where one does not apply.
+std::string WhyNotValid(const std::vector<std::string>& row) {
+  for (const std::string& field : row) {
+    if (field.find("failed") != std::string::npos || field == "nan") return "a figure is missing";
+  }
+  return "";
+}
+
 void WriteCsv(const TextTable& table, const std::string& path) {
   const auto line = [](const std::vector<std::string>& fields) {
     std::string text;
@@ -28,8 +36,12 @@ void WriteCsv(const TextTable& table, const std::string& path) {
     }
     return text + "\n";
   };
-  std::string text = line(table.header);
-  for (const std::vector<std::string>& row : table.rows) text += line(row);
+  const auto with = [&](std::vector<std::string> fields, const std::string& valid) {
+    fields.push_back(valid);
+    return line(fields);
+  };
+  std::string text = with(table.header, "valid");
+  for (const std::vector<std::string>& row : table.rows) text += with(row, WhyNotValid(row));
   WriteText(text, path);
 }
 

@@ -14,6 +14,11 @@ constexpr double kSilent = 1.0;
 }  // namespace
 
 std::vector<MovingBox> BoxesOf(const World& world) {
+  std::vector<bool> driven(world.composition().mechanisms.size(), false);
+  for (std::size_t p = 0; p < world.scene().players.size(); ++p) {
+    const std::vector<bool> by_player = DrivenMechanisms(world, static_cast<int>(p), false);
+    for (std::size_t m = 0; m < driven.size(); ++m) driven[m] = driven[m] || by_player[m];
+  }
   std::vector<MovingBox> boxes;
   boxes.reserve(static_cast<std::size_t>(world.body_count()));
   for (int body = 0; body < world.body_count(); ++body) {
@@ -21,6 +26,7 @@ std::vector<MovingBox> BoxesOf(const World& world) {
     std::tie(box.min, box.max) = world.Bounds(body);
     box.velocity = world.Read(body).velocity;
     box.group = world.mechanism(body);
+    if (driven[static_cast<std::size_t>(box.group)]) box.acceleration = kDrivenAcceleration;
     boxes.push_back(box);
   }
   return boxes;

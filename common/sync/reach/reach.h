@@ -42,7 +42,7 @@ class Reach {
   bool may_go_back_ = true;
 };
 
-/// The boxes of a world's bodies, grouped by mechanism.
+/// The boxes of a world's bodies, grouped by mechanism. What any player drives can accelerate.
 std::vector<MovingBox> BoxesOf(const World& world);
 
 }  // namespace seam

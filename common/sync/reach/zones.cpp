@@ -10,13 +10,18 @@ float Gap(const MovingBox& a, const MovingBox& b) {
   return apart.norm();
 }
 
-float ZoneSlack(float seconds) { return kZoneSlack + kZoneAcceleration * seconds * seconds / 2; }
-
 bool MayMeet(const MovingBox& a, const MovingBox& b, float seconds) {
-  return Gap(a, b) <= (a.velocity - b.velocity).norm() * seconds + ZoneSlack(seconds);
+  const float slack = kZoneSlack + (a.acceleration + b.acceleration) * seconds * seconds / 2;
+  return Gap(a, b) <= (a.velocity - b.velocity).norm() * seconds + slack;
 }
 
 std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& boxes, float seconds) {
+  return MeetingGroups(boxes, seconds, [seconds](int, int) { return seconds; });
+}
+
+std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& boxes,
+                                               float seconds_max,
+                                               const std::function<float(int, int)>& seconds_of) {
   // Each box grown by the way it can make itself: two that may meet overlap then.
   struct Span {
     float from, to;
@@ -24,9 +29,9 @@ std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& box
   };
   std::vector<Span> spans;
   spans.reserve(boxes.size());
-  const float slack = ZoneSlack(seconds) / 2;
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const float grown = boxes[i].velocity.norm() * seconds + slack;
+    const float grown = boxes[i].velocity.norm() * seconds_max + kZoneSlack / 2 +
+                        boxes[i].acceleration * seconds_max * seconds_max / 2;
     spans.push_back({boxes[i].min.x() - grown, boxes[i].max.x() + grown, i});
   }
   std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) {
@@ -37,7 +42,8 @@ std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& box
     const MovingBox& a = boxes[spans[i].box];
     for (std::size_t j = i + 1; j < spans.size() && spans[j].from <= spans[i].to; ++j) {
       const MovingBox& b = boxes[spans[j].box];
-      if (a.group == b.group || !MayMeet(a, b, seconds)) continue;
+      if (a.group == b.group) continue;
+      if (!MayMeet(a, b, std::min(seconds_max, seconds_of(a.group, b.group)))) continue;
       pairs.emplace_back(std::min(a.group, b.group), std::max(a.group, b.group));
     }
   }

@@ -2,9 +2,10 @@
 /// Who may meet whom soon: a function of boxes, speeds and times alone.
 ///
 ///      +---+  v_a                      v_b  +---+       they may meet within t when
-///      | a |----->  ..... gap .....  <------| b |       gap <= |v_a - v_b| t + slack(t)
-///      +---+                                +---+
+///      | a |----->  ..... gap .....  <------| b |       gap <= |v_a - v_b| t + slack
+///      +---+                                +---+       slack = kZoneSlack + (a_a + a_b) t^2 / 2
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -16,23 +17,28 @@ namespace seam {
 struct MovingBox {
   Vec2 min{0, 0}, max{0, 0};  ///< m, corners of the box around it
   Vec2 velocity{0, 0};        ///< m/s
+  float acceleration = 0;     ///< m/s^2, that a player can give it
   int group = 0;              ///< boxes of one group are not compared: a mechanism's
 };
+
+/// What a player's throttle and brakes do, m/s^2: tyres on a road.
+constexpr float kDrivenAcceleration = 10;
+/// What is this near counts as touching, m: resting things have gaps, and a tick goes by.
+constexpr float kZoneSlack = 0.25f;
 
 /// Distance of two boxes, m; 0 where they overlap.
 float Gap(const MovingBox& a, const MovingBox& b);
 
-/// What velocities alone do not tell, m: kZoneSlack, and what an acceleration of kZoneAcceleration
-/// on either side makes of it within `seconds`.
-float ZoneSlack(float seconds);
-constexpr float kZoneSlack = 0.25f;         ///< m
-constexpr float kZoneAcceleration = 10.0f;  ///< m/s^2: brakes, throttle, gravity
-
 /// Whether the two may touch within `seconds`.
 bool MayMeet(const MovingBox& a, const MovingBox& b, float seconds);
 
-/// All pairs of groups of which a box of each may touch within `seconds`, each once, the lower
-/// first, ascending. Found by a sweep along x: n log n for what does not crowd.
+/// All pairs of groups of which a box of each may touch, each once, the lower first, ascending.
+/// `seconds_of` (two groups) is how far ahead to look for that pair, at most `seconds_max`. Found
+/// by a sweep along x: n log n for what does not crowd.
+std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& boxes,
+                                               float seconds_max,
+                                               const std::function<float(int, int)>& seconds_of);
+/// The same for all pairs alike.
 std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& boxes, float seconds);
 
 /// The connected components that pairs make of `count` groups: by group, the lowest of its own.

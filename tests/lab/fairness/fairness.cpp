@@ -8,6 +8,7 @@
 #include "common/measure/oracle.h"
 #include "common/scene/assembly.h"
 #include "tests/lab/fairness/lagging_net.h"
+#include "tests/lab/fairness/mirrored_script.h"
 
 namespace seam {
 namespace {
@@ -150,6 +151,11 @@ FairnessResult RunFairness(const FairnessRun& run) {
   SessionSettings session = run.session;
   session.impair = "perfect";
   ClusterConfig config = Configure(session);
+  if (run.random) {
+    const Scene scene = ParseScene(config.scene_text, session.scene);
+    const double seconds = session.duration_s > 0 ? session.duration_s : scene.duration_s;
+    config.scene_text = WithMirroredBots(scene, session.seed, seconds);
+  }
   FindProfile(run.near_path);
   FindProfile(run.far_path);
   config.client_net = [&run](std::size_t player, std::unique_ptr<Net> net) {

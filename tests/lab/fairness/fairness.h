@@ -16,6 +16,7 @@ struct FairnessRun {
   int near = 0;             ///< which of the two players is near, 0 or 1
   std::string near_path = "delay=20ms,jitter=5ms";  ///< either way
   std::string far_path = "delay=120ms,jitter=5ms";
+  bool random = false;  ///< both do the same at random, by the seed, instead of their scripts
 };
 
 /// Momentum that each player's car loses in the crash, along x towards the other car, N s.

@@ -16,8 +16,8 @@
 namespace seam {
 namespace {
 
-const char* const kKeyHeader = "version,scene,scene_hash,method,near_path,far_path,near,seed";
-constexpr int kKeyColumns = 8;
+const char* const kKeyHeader = "version,scene,scene_hash,method,near_path,far_path,drive,near,seed";
+constexpr int kKeyColumns = 9;
 const char* const kHeader =
     ",valid,crash_tick,closing_mps,momentum_oracle_ns,momentum_near_own_ns,momentum_far_own_ns,"
     "momentum_near_server_ns,momentum_far_server_ns,advantage_own_ns,advantage_server_ns";
@@ -32,8 +32,10 @@ std::vector<std::string> AllMethods() {
   return methods;
 }
 
-FairnessRun MakeRun(const FairnessCommand& command, const std::string& method, int near, int seed) {
+FairnessRun MakeRun(const FairnessCommand& command, const std::string& method, bool random,
+                    int near, int seed) {
   FairnessRun run;
+  run.random = random;
   run.near_path = command.near_path;
   run.far_path = command.far_path;
   run.near = near;
@@ -58,16 +60,19 @@ int RunFairnessTable(const FairnessCommand& command) {
   const Scene scene = LoadSceneWith(FindScene(command.scene), {});
   std::vector<FairnessRun> runs;
   std::vector<std::string> keys;
-  for (const std::string& method : command.methods.empty() ? AllMethods() : command.methods) {
-    for (int seed = 1; seed <= command.seeds; ++seed) {
-      for (const int near : {0, 1}) {
-        runs.push_back(MakeRun(command, method, near, seed));
-        Configure(runs.back().session, scene);  // throws what is wrong with the method
-        keys.push_back(fmt::format("{},{},{:016x},{},{},{},{},{}", kLabVersion,
-                                   CsvField(command.scene),
-                                   Fnv1a(scene.text.data(), scene.text.size()), CsvField(method),
-                                   CsvField(command.near_path), CsvField(command.far_path),
-                                   scene.players.at(static_cast<std::size_t>(near)).name, seed));
+  const auto hash = Fnv1a(scene.text.data(), scene.text.size());
+  const auto add = [&](const std::string& method, bool random, int seed, int near) {
+    runs.push_back(MakeRun(command, method, random, near, seed));
+    Configure(runs.back().session, scene);  // throws what is wrong with the method
+    keys.push_back(fmt::format(
+        "{},{},{:016x},{},{},{},{},{},{}", kLabVersion, CsvField(command.scene), hash,
+        CsvField(method), CsvField(command.near_path), CsvField(command.far_path),
+        random ? "random" : "script", scene.players.at(static_cast<std::size_t>(near)).name, seed));
+  };
+  for (const bool random : {false, true}) {
+    for (const std::string& method : command.methods.empty() ? AllMethods() : command.methods) {
+      for (int seed = 1; seed <= command.seeds; ++seed) {
+        for (const int near : {0, 1}) add(method, random, seed, near);
       }
     }
   }
@@ -80,7 +85,10 @@ int RunFairnessTable(const FairnessCommand& command) {
                                  command.quiet, &table);
   const int status = PrintRows(command.table, table, keys.size(), done);
   const CsvTable csv = CsvTable::Load(command.table);
-  std::printf("\n%s", Markdown(FairnessTable(csv, "seam-lab fairness")).c_str());
+  for (const char* drive : {"script", "random"}) {
+    const TextTable shown = FairnessTable(csv, drive, "seam-lab fairness -o " + command.table);
+    std::printf("\n%s\n\n%s", shown.title.c_str(), Markdown(shown).c_str());
+  }
   const std::size_t invalid = InvalidRows(csv);
   if (static_cast<double>(invalid) <= kInvalidShareMax * static_cast<double>(csv.rows())) {
     return status;

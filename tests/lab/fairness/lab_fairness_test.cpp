@@ -4,9 +4,11 @@
 
 #include "common/base/check.h"
 #include "common/net/memory.h"
+#include "common/sync/input_source.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/fairness/fairness.h"
 #include "tests/lab/fairness/lagging_net.h"
+#include "tests/lab/fairness/mirrored_script.h"
 #include "tests/lab/report/fairness_section.h"
 #include "tests/support/lab_workspace.h"
 
@@ -79,6 +81,26 @@ TEST(Fairness, IsForTwoPlayersWithAVehicleEach) {
   EXPECT_THROW(RunFairness(run), OperatorError);
 }
 
+TEST(Fairness, BothDoWhatOneBotDoesAndStayEachOthersMirrorImage) {
+  for (const char* name : {"headon", "seesaw"}) {  // scripts of one line and of several
+    const Scene scene = LoadScene("scenes/" + std::string(name) + ".toml");
+    const Scene same = ParseScene(WithMirroredBots(scene, 7, 4), "mirrored.toml");
+    ASSERT_EQ(same.parts.size(), scene.parts.size());
+    for (std::int64_t tick = 0; tick <= 240; ++tick) {
+      for (const int player : {0, 1}) {
+        ASSERT_TRUE(ScriptedInput(same, player, tick) == BotInput(7, 0, tick, 60)) << tick;
+      }
+    }
+  }
+  FairnessRun run = Headon("oracle");
+  run.random = true;
+  run.session.seed = 3;
+  const FairnessResult r = RunFairness(run);
+  ASSERT_EQ(r.invalid, "");
+  EXPECT_NEAR(r.own_ns[0], r.own_ns[1], 0.02 * r.oracle_ns);
+  EXPECT_LT(r.closing_mps, 30) << "slower than at full throttle";
+}
+
 TEST(Fairness, EachPlayersPathIsSlowBothWays) {
   MemoryNetwork network;
   const Address here{1, 1}, there{2, 2};
@@ -106,25 +128,26 @@ TEST(Fairness, EachPlayersPathIsSlowBothWays) {
 }
 
 const char* const kColumns =
-    "version,scene,scene_hash,method,near_path,far_path,near,seed,valid,crash_tick,closing_mps,"
+    "version,scene,scene_hash,method,near_path,far_path,drive,near,seed,valid,crash_tick,closing_"
+    "mps,"
     "momentum_oracle_ns,momentum_near_own_ns,momentum_far_own_ns,momentum_near_server_ns,"
     "momentum_far_server_ns,advantage_own_ns,advantage_server_ns\n";
 
 TEST(FairnessTable, HasMeansAndThe95thPercentileOfSizesAndSaysWhatIsNotValid) {
   const std::string key = "v,headon,0,";
-  const std::string paths = ",delay=20ms,delay=120ms,ann,1,";
+  const std::string paths = ",delay=20ms,delay=120ms,script,ann,1,";
   const CsvTable csv =
       CsvTable::Parse(kColumns + key + "strict" + paths + ",87,30,100,100,104,100,98,4,-2\n" + key +
                           "strict" + paths + ",87,30,100,100,94,100,102,-6,2\n" + key +
                           "buffer/fade" + paths + "the cars did not meet,,,,,,,,,\n",
                       "fairness.csv");
   EXPECT_EQ(InvalidRows(csv), 1u);
-  const TextTable table = FairnessTable(csv, "seam-lab fairness");
+  const TextTable table = FairnessTable(csv, "script", "seam-lab fairness");
   ASSERT_EQ(table.rows.size(), 2u);
   const std::vector<std::string> strict = {"strict", "2", "100", "100 / 99", "−1", "6", "+0", "2"};
   EXPECT_EQ(table.rows[0], strict);
   EXPECT_EQ(table.rows[1][2], "not valid: the cars did not meet");
-  EXPECT_NE(table.note.find("1 of 3 rows are not valid"), std::string::npos) << table.note;
+  EXPECT_NE(table.note.find("Of all 3 rows 1 are not valid"), std::string::npos) << table.note;
 }
 
 TEST(FairnessCommand, WritesARowForEachSeedAndAssignmentAndGoesOnWhereItWas) {
@@ -138,9 +161,11 @@ TEST(FairnessCommand, WritesARowForEachSeedAndAssignmentAndGoesOnWhereItWas) {
   EXPECT_EQ(RunFairnessTable(command), 0);
   const std::string first = work.Read("fairness.csv");
   const CsvTable csv = CsvTable::Parse(first, "fairness.csv");
-  ASSERT_EQ(csv.rows(), 2u);
+  ASSERT_EQ(csv.rows(), 4u);
   EXPECT_EQ(csv.Text(0, "near"), "ann");
   EXPECT_EQ(csv.Text(1, "near"), "bob");
+  EXPECT_EQ(csv.Text(1, "drive"), "script");
+  EXPECT_EQ(csv.Text(2, "drive"), "random");
   EXPECT_EQ(InvalidRows(csv), 0u);
   EXPECT_EQ(RunFairnessTable(command), 0);
   EXPECT_EQ(work.Read("fairness.csv"), first);

@@ -13,7 +13,6 @@ namespace {
 
 /// The figures of one method's valid rows.
 struct Advantages {
-  std::size_t rows = 0;
   std::string why;  // of an invalid row
   std::vector<double> near_own, far_own, oracle;
   std::vector<double> own, server;  // signed: far less near
@@ -56,17 +55,17 @@ std::size_t InvalidRows(const CsvTable& csv) {
   return invalid;
 }
 
-TextTable FairnessTable(const CsvTable& csv, const std::string& command) {
-  csv.Require({"method", "near_path", "far_path", "valid", "momentum_oracle_ns",
+TextTable FairnessTable(const CsvTable& csv, const std::string& drive, const std::string& command) {
+  csv.Require({"method", "drive", "near_path", "far_path", "valid", "momentum_oracle_ns",
                "momentum_near_own_ns", "momentum_far_own_ns", "advantage_own_ns",
                "advantage_server_ns"});
   std::vector<std::string> methods;
   std::map<std::string, Advantages> by_method;
   for (std::size_t row = 0; row < csv.rows(); ++row) {
+    if (csv.Text(row, "drive") != drive) continue;
     const std::string& method = csv.Text(row, "method");
     if (by_method.count(method) == 0) methods.push_back(method);
     Advantages& a = by_method[method];
-    ++a.rows;
     if (!csv.Text(row, "valid").empty()) {
       a.why = csv.Text(row, "valid");
       continue;
@@ -81,8 +80,9 @@ TextTable FairnessTable(const CsvTable& csv, const std::string& command) {
     take("advantage_server_ns", &a.server);
   }
   TextTable table;
-  table.name = "fairness";
-  table.title = "Fairness: momentum that two players receive of a mirrored crash";
+  table.name = "fairness-" + drive;
+  table.title = drive == "script" ? "A mirrored crash at full throttle"
+                                  : "A mirrored crash, both throttle and brake alike at random";
   table.header = {"method",
                   "runs",
                   "without a network (N s)",
@@ -97,8 +97,8 @@ TextTable FairnessTable(const CsvTable& csv, const std::string& command) {
   if (csv.rows() > 0) {
     table.note = fmt::format(
         "The near player's path: {}, the far one's: {}, either way; each seed with both "
-        "assignments. Above 0: the far player is hit harder. {} of {} rows are not valid.",
-        csv.Text(0, "near_path"), csv.Text(0, "far_path"), InvalidRows(csv), csv.rows());
+        "assignments. Above 0: the far player is hit harder. Of all {} rows {} are not valid.",
+        csv.Text(0, "near_path"), csv.Text(0, "far_path"), csv.rows(), InvalidRows(csv));
   }
   table.command = command;
   table.open = true;
@@ -112,7 +112,9 @@ Section FairnessSection(const CsvTable& csv, const std::string& command) {
   section.intro =
       "Two equal cars meet head on; one player is near the server, the other far from it, and then "
       "the other way round. Without a network both receive the same momentum.";
-  section.items.emplace_back(FairnessTable(csv, command));
+  for (const char* drive : {"script", "random"}) {
+    section.items.emplace_back(FairnessTable(csv, drive, command));
+  }
   return section;
 }
 

@@ -9,9 +9,9 @@
 
 namespace seam {
 
-/// A row for each method, in the order of the table. Throws OperatorError when it is another kind
-/// of table.
-TextTable FairnessTable(const CsvTable& csv, const std::string& command);
+/// A row for each method, in the order of the table, of the runs with that `drive`: "script" or
+/// "random". Throws OperatorError when it is another kind of table.
+TextTable FairnessTable(const CsvTable& csv, const std::string& drive, const std::string& command);
 Section FairnessSection(const CsvTable& csv, const std::string& command);
 
 /// Rows that say in their column `valid` why they have no figures.

@@ -55,6 +55,7 @@ std::vector<PhysicsCase> ViewPhysics(const CsvTable& table) {
                  "failure", "cost_ratio"});
   std::vector<PhysicsCase> cases;
   for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (!table.Text(row, "valid").empty()) continue;  // without figures
     const std::string& name = table.Text(row, "case");
     auto found = std::find_if(cases.begin(), cases.end(),
                               [&](const PhysicsCase& c) { return c.name == name; });

@@ -75,6 +75,9 @@ void AddSweeps(const std::vector<Sweep>& sweeps, std::vector<Section>* sections)
   TextTable fronts = FrontTable(sweeps);
   fronts.open = true;
   if (!fronts.rows.empty()) network.items.emplace_back(std::move(fronts));
+  TextTable floors = FloorTable(sweeps);
+  floors.open = true;
+  if (!floors.rows.empty()) network.items.emplace_back(std::move(floors));
   sections->push_back(std::move(network));
   for (const Sweep& sweep : sweeps) sections->push_back(SweepSection(sweep));
 }

@@ -17,6 +17,13 @@ SweepMeasure Column(const char* id, const char* name, const char* unit, bool log
 
 const std::vector<SweepMeasure>& SweepMeasures() {
   static const std::vector<SweepMeasure> measures = {
+      Column("others", "error of others' bodies, RMS", "m", true, "error_others_m"),
+      Column("own", "error of own bodies, RMS", "m", true, "error_own_m"),
+      Column("path", "error of the path shown, RMS", "m", true, "path_error_rms_m"),
+      Column("age", "age of what is shown", "ms", false, "view_age_ms"),
+      Column("response-own", "response, own screen", "ms", false, "response_own_ms"),
+      Column("response-other", "response, others' screens", "ms", false, "response_other_ms"),
+      Column("seen", "seen, share of body-seconds", "1 is all", false, "seen"),
       Column("error", "error, RMS", "m", true, "error_rms_m"),
       Column("seam", "seam: peer against authority, RMS", "m", true, "seam_rms_m"),
       Column("stutter", "stutter, RMS", "m/s²", true, "stutter_mps2"),
@@ -43,8 +50,22 @@ const SweepMeasure& CpuMeasure() {
 const std::vector<SweepMeasure>& FloorMeasures() {
   static const std::vector<SweepMeasure> floors = {
       Column("floor", "floor", "m", true, "floor_m"),
-      Column("floor-wire", "floor of the wire", "m", true, "floor_wire_m")};
+      Column("floor-wire", "floor of the wire", "m", true, "floor_wire_m"),
+      Column("floor-barrier", "what barriers change", "m", true, "floor_barrier_m"),
+      Column("info-limit", "information limit", "m", true, "info_limit_m")};
   return floors;
+}
+
+const SweepMeasure& LimitMeasure() {
+  static const SweepMeasure limit = {
+      "limit", "error of others' bodies, by the information limit", "1 is the limit", true,
+      [](const CsvTable& table, std::size_t row) -> std::optional<double> {
+        const std::optional<double> limit_m = table.Number(row, "info_limit_m");
+        std::optional<double> error_m = table.Number(row, "error_others_m");
+        if (!limit_m || !error_m || *limit_m <= 0) return std::nullopt;
+        return *error_m / *limit_m;
+      }};
+  return limit;
 }
 
 const SweepMeasure& OraclesPenetration() {

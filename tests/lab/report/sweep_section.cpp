@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "tests/lab/report/method_look.h"
+#include "tests/lab/report/validity.h"
 
 namespace seam {
 namespace {
@@ -114,8 +115,12 @@ TextTable AlongTable(const Sweep& sweep, const SweepGroup& group, const SweepMea
     for (const double x : group.xs) {
       const auto& points = group.runs.at(method);
       const auto found = points.find(x);
-      row.push_back(found == points.end() ? "–"
-                                          : Digits(Summary(sweep.table, measure, found->second)));
+      if (found == points.end()) {
+        row.push_back("–");
+        continue;
+      }
+      row.push_back(WithValidity(Digits(Summary(sweep.table, measure, found->second)),
+                                 FindValidity(sweep.table, found->second)));
     }
     table.rows.push_back(std::move(row));
   }
@@ -146,9 +151,12 @@ TextTable MeasuresTable(const Sweep& sweep, const SweepGroup& group) {
     const auto found = group.runs.at(method).find(x);
     if (found == group.runs.at(method).end()) continue;
     std::vector<std::string> row = {method};
+    const Validity validity = FindValidity(sweep.table, found->second);
     for (const SweepMeasure& measure : measures) {
       const auto q = Summary(sweep.table, measure, found->second);
-      row.push_back(q ? Digits(q->median) : "–");
+      const bool first = row.size() == 1;  // said once
+      row.push_back(first ? WithValidity(q ? Digits(q->median) : "–", validity)
+                          : (q ? Digits(q->median) : "–"));
     }
     table.rows.push_back(std::move(row));
   }
@@ -246,6 +254,9 @@ Section SweepSection(const Sweep& sweep) {
     section.items.emplace_back(AlongTable(sweep, group, MeasureNamed("error")));
     if (Summary(sweep.table, MeasureNamed("seam"), group)) {
       section.items.emplace_back(AlongTable(sweep, group, MeasureNamed("seam")));
+    }
+    if (Summary(sweep.table, LimitMeasure(), group)) {
+      section.items.emplace_back(AlongTable(sweep, group, LimitMeasure()));
     }
     section.items.emplace_back(MeasuresTable(sweep, group));
   }

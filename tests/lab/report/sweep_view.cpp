@@ -45,13 +45,6 @@ bool IsMeasureOrIdentity(const std::string& column) {
 
 std::string Number(double value) { return fmt::format("{:g}", std::round(value * 1e6) / 1e6); }
 
-/// Share of datagrams lost in the long run, by the Gilbert-Elliott model.
-double LossShare(const ImpairProfile& p) {
-  const double both = p.loss_good_to_bad + p.loss_bad_to_good;
-  const double bad = both > 0 ? p.loss_good_to_bad / both : 0;
-  return bad * p.loss_in_bad + (1 - bad) * p.loss_in_good;
-}
-
 /// "a=1; solver.substeps=2" without what has a column of its own.
 std::string OtherSettings(const CsvTable& table, const std::string& set) {
   std::string rest;
@@ -78,7 +71,7 @@ Keys KeysOf(const CsvTable& table, std::size_t row, const std::vector<std::strin
   const ImpairProfile profile = FindProfile(table.Text(row, "impair"));
   keys["one_way_ms"] = Number(static_cast<double>(profile.delay_us) * 1e-3);
   keys["jitter_ms"] = Number(static_cast<double>(profile.jitter_mean_us) * 1e-3);
-  keys["loss_percent"] = Number(LossShare(profile) * 100);
+  keys["loss_percent"] = Number(MeanLoss(profile) * 100);
   return keys;
 }
 
@@ -86,7 +79,7 @@ Keys KeysOf(const CsvTable& table, std::size_t row, const std::vector<std::strin
 std::vector<std::string> KeyColumns(const CsvTable& table) {
   std::vector<std::string> columns;
   for (const std::string& column : table.header()) {
-    if (column == "error_rms_m") break;
+    if (column.rfind("error_", 0) == 0) break;
     if (!IsMeasureOrIdentity(column)) columns.push_back(column);
   }
   return columns;

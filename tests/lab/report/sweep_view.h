@@ -49,8 +49,11 @@ struct SweepMeasure {
 const std::vector<SweepMeasure>& SweepMeasures();
 /// CPU time of server and clients, ms per second of the session.
 const SweepMeasure& CpuMeasure();
-/// The scene's own sensitivity, to a micrometre and to the wire's resolution.
+/// What no method is expected to beat: the scene's own sensitivity, to a micrometre, to the wire's
+/// resolution and to barriers, and the information limit.
 const std::vector<SweepMeasure>& FloorMeasures();
+/// Error of what clients see of others as a multiple of the information limit.
+const SweepMeasure& LimitMeasure();
 /// What overlap the truth itself has.
 const SweepMeasure& OraclesPenetration();
 /// One of the above by its id, or "cpu".

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <vector>
@@ -18,9 +19,16 @@ TextTable LoadBench(const fs::path& csv_path) {
   table.name = "world-" + csv_path.stem().string();
   table.title = csv_path.stem().string();
   table.header = csv.header();
+  const auto valid = std::find(table.header.begin(), table.header.end(), "valid");
+  if (valid != table.header.end()) table.header.erase(valid);
   for (std::size_t row = 0; row < csv.rows(); ++row) {
     std::vector<std::string> fields;
     for (const std::string& column : table.header) fields.push_back(csv.Text(row, column));
+    const std::string& reason = csv.Text(row, "valid");
+    if (!reason.empty() && fields.size() > 1) {
+      std::fill(fields.begin() + 1, fields.end(), "–");
+      fields[1] = "not valid: " + reason;
+    }
     table.rows.push_back(std::move(fields));
   }
   std::ifstream words(fs::path(csv_path).replace_extension(".txt"));

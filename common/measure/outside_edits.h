@@ -1,0 +1,35 @@
+#pragma once
+/// The edits of a recording whose cause is outside the physics, said in the numbers of a world that
+/// found the other edits by itself.
+
+#include <cstdint>
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "common/measure/revisions.h"
+#include "common/record/recording.h"
+#include "common/scene/scene.h"
+#include "common/topology/edit.h"
+
+namespace seam {
+
+class OutsideEdits {
+ public:
+  /// `scene`: as it was at first.
+  OutsideEdits(const Recording& recording, const Scene& scene);
+
+  /// Those of the ticks up to this one that were not taken yet; `now`: the world's scene.
+  std::vector<Edit> Take(std::int64_t tick, const Scene& now);
+
+ private:
+  PartId PartOf(const Scene& then, PartId part, const Scene& now) const;
+  std::int32_t JointOf(const Scene& then, std::int32_t joint, const Scene& now) const;
+  void Translate(int number, const Scene& now, Edit* edit) const;
+
+  const RevisionHistory recorded_;
+  const std::size_t parts_, joints_;  // that the scene has itself
+  std::map<std::int64_t, std::vector<std::pair<int, Edit>>> by_tick_;
+};
+
+}  // namespace seam

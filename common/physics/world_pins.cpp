@@ -1,0 +1,108 @@
+/// World: its joints as pins. Springs and motors that yield are none, only their limits are.
+
+#include <cfloat>
+#include <limits>
+
+#include "common/physics/world_impl.h"
+
+namespace seam {
+namespace {
+
+constexpr float kNoEnd = std::numeric_limits<float>::infinity();
+
+void TurnsFreely(Pin* pin) {
+  pin->angle_lower = -kNoEnd;
+  pin->angle_upper = kNoEnd;
+}
+
+void KeepsAngle(float angle, Pin* pin) { pin->angle_lower = pin->angle_upper = angle; }
+
+template <class Made>
+void SetPoints(const Made& made, Pin* pin) {
+  pin->a.point = FromB2(made.GetLocalAnchorA());
+  pin->b.point = FromB2(made.GetLocalAnchorB());
+}
+
+void SetRevolute(const b2RevoluteJoint& made, Pin* pin) {
+  SetPoints(made, pin);
+  TurnsFreely(pin);
+  if (!made.IsLimitEnabled()) return;
+  pin->angle_lower = made.GetReferenceAngle() + made.GetLowerLimit();
+  pin->angle_upper = made.GetReferenceAngle() + made.GetUpperLimit();
+}
+
+void SetWeld(const b2WeldJoint& made, Pin* pin) {
+  SetPoints(made, pin);
+  TurnsFreely(pin);
+  if (made.GetStiffness() <= 0) KeepsAngle(made.GetReferenceAngle(), pin);
+}
+
+template <class Made>
+void SetLine(const Made& made, Pin* pin) {
+  SetPoints(made, pin);
+  pin->axis = FromB2(made.GetLocalAxisA());
+  pin->lower = made.IsLimitEnabled() ? made.GetLowerLimit() : -kNoEnd;
+  pin->upper = made.IsLimitEnabled() ? made.GetUpperLimit() : kNoEnd;
+}
+
+void SetDistance(const b2DistanceJoint& made, Pin* pin) {
+  SetPoints(made, pin);
+  TurnsFreely(pin);
+  pin->by_distance = true;
+  pin->lower = made.GetMinLength();
+  pin->upper = made.GetMaxLength() < FLT_MAX ? made.GetMaxLength() : kNoEnd;
+}
+
+/// False: it holds no geometry.
+bool SetHold(b2Joint* made, Pin* pin) {
+  switch (made->GetType()) {
+    case e_revoluteJoint: SetRevolute(*static_cast<b2RevoluteJoint*>(made), pin); return true;
+    case e_weldJoint: SetWeld(*static_cast<b2WeldJoint*>(made), pin); return true;
+    case e_wheelJoint:
+      SetLine(*static_cast<b2WheelJoint*>(made), pin);
+      TurnsFreely(pin);
+      return true;
+    case e_prismaticJoint: {
+      const auto& slide = *static_cast<b2PrismaticJoint*>(made);
+      SetLine(slide, pin);
+      KeepsAngle(slide.GetReferenceAngle(), pin);
+      return true;
+    }
+    case e_distanceJoint: SetDistance(*static_cast<b2DistanceJoint*>(made), pin); return true;
+    default: return false;
+  }
+}
+
+}  // namespace
+
+std::vector<Pin> World::Pins() const {
+  const Composition& composition = impl_->composition;
+  std::vector<Pin> pins;
+  for (std::size_t j = 0; j < impl_->built.joints.size(); ++j) {
+    b2Joint* made = impl_->built.joints[j];
+    if (made == nullptr) continue;
+    Pin pin;
+    if (!SetHold(made, &pin)) continue;
+    const Joint& joint = impl_->scene.joints[j];
+    pin.a.body = IndexOf(made->GetBodyA());
+    pin.b.body = IndexOf(made->GetBodyB());
+    pin.a.assembly = composition.assembly_of_part[static_cast<std::size_t>(joint.a)];
+    pin.b.assembly = composition.assembly_of_part[static_cast<std::size_t>(joint.b)];
+    pins.push_back(pin);
+  }
+  return pins;
+}
+
+MassPoint World::mass_point(int body) const {
+  const b2MassData& mass = impl_->moving(body).mass;
+  return {mass.mass, mass.I - mass.mass * b2Dot(mass.center, mass.center), FromB2(mass.center)};
+}
+
+BodyState World::ReadAssembly(int assembly) const {
+  SEAM_ASSERT(assembly >= 0 && assembly < static_cast<int>(impl_->built.bodies.size()));
+  const b2Body* b = impl_->built.bodies[static_cast<std::size_t>(assembly)];
+  return {FromB2(b->GetPosition()), b->GetAngle(), FromB2(b->GetLinearVelocity()),
+          b->GetAngularVelocity()};
+}
+
+}  // namespace seam

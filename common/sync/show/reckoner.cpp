@@ -1,0 +1,116 @@
+#include "common/sync/show/reckoner.h"
+
+#include <algorithm>
+
+#include "common/base/geometry.h"
+
+namespace seam {
+
+/// A body as it was last heard of, by its centre of mass.
+struct Reckoner::Heard {
+  int body = -1;
+  MassPoint mass;
+  BodyState state;
+  std::int64_t tick = 0;
+  Vec2 centre{0, 0};
+};
+
+/// What the centres of bodies have in common: the motion of a rigid body.
+struct Reckoner::Common {
+  Vec2 centre{0, 0}, velocity{0, 0};
+  Vec2 acceleration{0, 0};
+  float spin = 0;
+};
+
+Reckoner::Common Reckoner::CommonOf(const std::vector<Heard>& heard, const Snapshots& snapshots,
+                                    float dt) {
+  Common common;
+  float mass = 0;
+  for (const Heard& h : heard) {
+    mass += h.mass.mass;
+    common.centre += h.mass.mass * h.centre;
+    common.velocity += h.mass.mass * h.state.velocity;
+    common.acceleration += h.mass.mass * snapshots.Acceleration(h.body, h.tick, dt);
+  }
+  common.centre /= mass;
+  common.velocity /= mass;
+  common.acceleration /= mass;
+  // The body that is hardest to turn counts with its own spin: without it centres that lie near
+  // each other would spin at random. Wheels do not: they spin for themselves.
+  const auto root = std::max_element(
+      heard.begin(), heard.end(),
+      [](const Heard& a, const Heard& b) { return a.mass.inertia < b.mass.inertia; });
+  float moment = root->mass.inertia * root->state.spin, inertia = root->mass.inertia;
+  for (const Heard& h : heard) {
+    const Vec2 arm = h.centre - common.centre;
+    moment += h.mass.mass * Cross(arm, h.state.velocity);
+    inertia += h.mass.mass * arm.squaredNorm();
+  }
+  common.spin = inertia > 0 ? moment / inertia : 0;
+  return common;
+}
+
+void Reckoner::Begin(std::int64_t next) {
+  next_ = next;
+  const auto bodies = static_cast<std::size_t>(world_.body_count());
+  done_.assign(world_.composition().mechanisms.size(), false);
+  paths_.here.resize(bodies);
+  paths_.there.resize(bodies);
+}
+
+const Reckoner::Paths& Reckoner::Reckoned(int body) {
+  const int m = world_.mechanism(body);
+  if (!done_[static_cast<std::size_t>(m)]) {
+    done_[static_cast<std::size_t>(m)] = true;
+    Reckon(m, next_ - 1, &paths_.here);
+    Reckon(m, next_, &paths_.there);
+  }
+  return paths_;
+}
+
+void Reckoner::Reckon(int mechanism, std::int64_t tick, std::vector<BodyState>* states) const {
+  // Those of the newest tick move on as one. Older states are moved on one by one: what they had in
+  // common with the others then is not known now. So are those of a mechanism that is tied to
+  // something: that takes its momentum.
+  std::int64_t newest = -1;
+  const bool free = !joints_.anchored(mechanism);
+  for (const int body : joints_.bodies(mechanism)) {
+    newest = std::max(newest, snapshots_.newest_tick(body));
+  }
+  std::vector<Heard> together;
+  for (const int body : joints_.bodies(mechanism)) {
+    BodyState& state = (*states)[static_cast<std::size_t>(body)];
+    if (!snapshots_.has(body)) {
+      state = world_.Read(body);
+    } else if (!free || snapshots_.newest_tick(body) != newest) {
+      state = snapshots_.Extrapolate(body, tick, world_.dt(), kReckonMax);
+    } else {
+      Heard h{body, world_.mass_point(body), *snapshots_.At(body, newest), newest, Vec2(0, 0)};
+      h.centre = h.state.position + Turned(h.mass.centre, h.state.angle);
+      together.push_back(h);
+    }
+  }
+  if (!together.empty()) MoveOn(together, newest, tick, states);
+  if (joints_.jointed(mechanism)) joints_.Close(mechanism, false, states);
+}
+
+void Reckoner::MoveOn(const std::vector<Heard>& together, std::int64_t newest, std::int64_t tick,
+                      std::vector<BodyState>* states) const {
+  const Common common = CommonOf(together, snapshots_, world_.dt());
+  const float forward = snapshots_.Forward(newest, tick, world_.dt(), kReckonMax);
+  const Rotation<float> turn(common.spin * forward);
+  const Vec2 gained = SpeedGained(common.acceleration, forward);
+  const Vec2 centre =
+      common.centre + forward * common.velocity + ShiftGained(common.acceleration, forward);
+  for (const Heard& h : together) {
+    const Vec2 arm = h.centre - common.centre;
+    const Vec2 own = h.state.velocity - common.velocity - common.spin * Vec2(-arm.y(), arm.x());
+    BodyState& state = (*states)[static_cast<std::size_t>(h.body)];
+    state = h.state;
+    state.angle += forward * h.state.spin;
+    state.position = centre + turn(Vec2(arm + forward * own)) - Turned(h.mass.centre, state.angle);
+    state.velocity = common.velocity + gained + turn(Vec2(h.state.velocity - common.velocity));
+  }
+}
+
+}  // namespace seam

@@ -1,0 +1,50 @@
+#pragma once
+/// Dead reckoning of what is displayed: of single bodies, and of mechanisms, which move on as one.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/sync/show/joint_closer.h"
+#include "common/sync/snapshots.h"
+
+namespace seam {
+
+/// A mechanism's centre of mass goes on with its momentum, its bodies turn about that with its
+/// angular momentum (that of their centres), each turns with its own spin and drifts with what is
+/// left of its velocity; then its joints are closed. So wheels go on turning and limbs swinging.
+class Reckoner {
+ public:
+  /// All must outlive this.
+  Reckoner(const World& world, const Snapshots& snapshots, const JointCloser& joints)
+      : world_(world), snapshots_(snapshots), joints_(joints) {}
+
+  /// From now on what is asked for is computed anew: a tick has passed, states have come or bodies
+  /// have changed.
+  void Begin(std::int64_t next);
+  /// Where the body is at the tick before `next`, and at `next`. Angles go on from the newest
+  /// snapshot's. Requires that it has been heard of, and Begin. Of a mechanism, what has not been
+  /// heard of is where the world has it.
+  const BodyState& Here(int body) { return Reckoned(body).here[static_cast<std::size_t>(body)]; }
+  const BodyState& There(int body) { return Reckoned(body).there[static_cast<std::size_t>(body)]; }
+
+ private:
+  struct Paths {
+    std::vector<BodyState> here, there;  // by body
+  };
+  struct Heard;
+  struct Common;
+  static Common CommonOf(const std::vector<Heard>& heard, const Snapshots& snapshots, float dt);
+  const Paths& Reckoned(int body);
+  void Reckon(int mechanism, std::int64_t tick, std::vector<BodyState>* states) const;
+  void MoveOn(const std::vector<Heard>& together, std::int64_t newest, std::int64_t tick,
+              std::vector<BodyState>* states) const;
+
+  const World& world_;
+  const Snapshots& snapshots_;
+  const JointCloser& joints_;
+  std::int64_t next_ = 0;
+  std::vector<bool> done_;  // by mechanism
+  Paths paths_;
+};
+
+}  // namespace seam

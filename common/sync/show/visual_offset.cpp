@@ -1,0 +1,218 @@
+#include "common/sync/show/visual_offset.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/geometry.h"
+
+namespace seam {
+namespace {
+
+/// Rate of the critically damped return, 1/s: 0.1 s is its time constant. Faster shows corrections
+/// as jerks, slower shows stale poses for longer (measured: docs/lessons.md).
+constexpr float kRate = 10;
+/// Speed of the glide, m/s: at least kGlideMin, or kGlideShare of the body's own speed.
+constexpr float kGlideMin = 4.0f;
+constexpr float kGlideShare = 0.35f;
+constexpr float kSpinCap = 6.0f;  // rad/s
+/// Beyond this the view jumps: nobody can glide through it without lying for seconds. m
+constexpr float kGiveUp = 15.0f;
+/// Offsets below these are over: m (rad) and m/s (rad/s).
+constexpr float kOver = 1e-5f, kOverSpeed = 1e-4f;
+
+/// One step of a critically damped spring of rate kRate towards zero, exactly.
+template <typename T>
+void Return(float dt, T* offset, T* velocity) {
+  const float decay = std::exp(-kRate * dt);
+  const T slope = *velocity + kRate * *offset;
+  *offset = (*offset + slope * dt) * decay;
+  *velocity = (*velocity - slope * (kRate * dt)) * decay;
+}
+
+float GlideMax(float speed) { return std::max(kGlideMin, kGlideShare * speed); }
+
+Vec2 Crossed(float spin, const Vec2& arm) { return {-spin * arm.y(), spin * arm.x()}; }
+
+/// The shares of a mechanism's offsets: one rigid motion, and the rest of each body.
+struct Split {
+  VisualOffset common;             // of the centre of mass; the turn about it
+  Vec2 middle{0, 0};               // the centre of mass in physics
+  std::vector<Vec2> arms;          // of the bodies' centres about it
+  std::vector<VisualOffset> rest;  // of the bodies' centres
+};
+
+Split SplitOffsets(const std::vector<OffsetBody>& bodies) {
+  Split split;
+  float mass = 0;
+  std::vector<Vec2> velocities;
+  for (const OffsetBody& b : bodies) {
+    const VisualOffset& o = *b.offset;
+    const Vec2 arm = Turned(b.mass.centre, b.pose.angle);
+    const Vec2 shown = Turned(b.mass.centre, b.pose.angle + o.angle);
+    split.arms.push_back(b.pose.position + arm);
+    VisualOffset rest = o;
+    rest.position += shown - arm;
+    split.rest.push_back(rest);
+    mass += b.mass.mass;
+    split.middle += b.mass.mass * split.arms.back();
+    split.common.position += b.mass.mass * rest.position;
+    split.common.velocity += b.mass.mass * rest.velocity;
+  }
+  split.middle /= mass;
+  split.common.position /= mass;
+  split.common.velocity /= mass;
+  // The turn that is nearest to all offsets, by least squares.
+  float sine = 0, cosine = 0, moment = 0, inertia = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const MassPoint& m = bodies[i].mass;
+    VisualOffset& rest = split.rest[i];
+    rest.position -= split.common.position;
+    rest.velocity -= split.common.velocity;
+    Vec2& arm = split.arms[i];
+    arm -= split.middle;
+    const Vec2 shown = arm + rest.position;
+    sine += m.mass * Cross(arm, shown) + m.inertia * std::sin(rest.angle);
+    cosine += m.mass * arm.dot(shown) + m.inertia * std::cos(rest.angle);
+    moment += m.mass * Cross(shown, rest.velocity) + m.inertia * rest.spin;
+    inertia += m.mass * shown.squaredNorm() + m.inertia;
+  }
+  split.common.angle = std::atan2(sine, cosine);
+  split.common.spin = inertia > 0 ? moment / inertia : 0;
+  const Rotation<float> turn(split.common.angle);
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    VisualOffset& rest = split.rest[i];
+    const Vec2 shown = split.arms[i] + rest.position;
+    rest.position = shown - turn(split.arms[i]);
+    rest.velocity -= Crossed(split.common.spin, shown);
+    rest.angle = WrapAngle(rest.angle - split.common.angle);
+    rest.spin -= split.common.spin;
+  }
+  return split;
+}
+
+/// The step of `offset`, at most as fast as allowed; `share` of it is made.
+struct Step {
+  VisualOffset from, to;
+  float share = 1;
+
+  Step(float dt, const VisualOffset& offset) : from(offset), to(offset) {
+    Return(dt, &to.position, &to.velocity);
+    Return(dt, &to.angle, &to.spin);
+  }
+  void Limit(float size, float size_max) {
+    if (size > size_max) share = std::min(share, size_max / size);
+  }
+  VisualOffset Taken(float dt) const {
+    if (share >= 1) return to;
+    VisualOffset taken;
+    const Vec2 shift = share * (to.position - from.position);
+    const float turn = share * (to.angle - from.angle);
+    taken.position = from.position + shift;
+    taken.velocity = shift / dt;
+    taken.angle = from.angle + turn;
+    taken.spin = turn / dt;
+    return taken;
+  }
+};
+
+void ReturnCommon(float dt, float speed, float reach, VisualOffset* common) {
+  VisualOffset shift = *common, turn = *common;
+  shift.angle = shift.spin = 0;
+  turn.position.setZero();
+  turn.velocity.setZero();
+  Step shifting(dt, shift), turning(dt, turn);
+  shifting.Limit((shifting.to.position - shift.position).norm(), GlideMax(speed) * dt);
+  const float angle = std::fabs(turning.to.angle - turn.angle);
+  turning.Limit(angle, kSpinCap * dt);
+  turning.Limit(angle * reach, GlideMax(speed) * dt);
+  shift = shifting.Taken(dt);
+  turn = turning.Taken(dt);
+  *common = {shift.position, shift.velocity, turn.angle, turn.spin};
+}
+
+/// All by the same share, so that a body does not run ahead of those it hangs on.
+void ReturnRest(float dt, float speed, std::vector<VisualOffset>* rest) {
+  std::vector<Step> steps;
+  float share = 1;
+  for (const VisualOffset& offset : *rest) {
+    Step step(dt, offset);
+    step.Limit((step.to.position - offset.position).norm(), GlideMax(speed) * dt);
+    step.Limit(std::fabs(step.to.angle - offset.angle), kSpinCap * dt);
+    share = std::min(share, step.share);
+    steps.push_back(step);
+  }
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    steps[i].share = share;
+    (*rest)[i] = steps[i].Taken(dt);
+  }
+}
+
+bool Over(const VisualOffset& o) {
+  return o.position.norm() < kOver && o.velocity.norm() < kOverSpeed &&
+         std::fabs(o.angle) < kOver && std::fabs(o.spin) < kOverSpeed;
+}
+
+}  // namespace
+
+void ReturnAlone(float dt, float speed, VisualOffset* offset) {
+  VisualOffset& o = *offset;
+  if (o.position.norm() > kGiveUp) o = VisualOffset{};
+  const Vec2 was = o.position;
+  Return(dt, &o.position, &o.velocity);
+  const Vec2 move = o.position - was;
+  const float most = GlideMax(speed) * dt;
+  if (move.norm() > most) {
+    const Vec2 capped = move * (most / move.norm());
+    o.position = was + capped;
+    o.velocity = capped / dt;
+  }
+  if (o.position.norm() < kOver && o.velocity.norm() < kOverSpeed) {
+    o.position.setZero();
+    o.velocity.setZero();
+  }
+  const float angle_was = o.angle;
+  Return(dt, &o.angle, &o.spin);
+  if (std::fabs(o.angle - angle_was) > kSpinCap * dt) {
+    o.spin = std::copysign(kSpinCap, o.angle - angle_was);
+    o.angle = angle_was + o.spin * dt;
+  }
+  if (std::fabs(o.angle) < kOver && std::fabs(o.spin) < kOverSpeed) o.angle = o.spin = 0;
+}
+
+void ReturnTogether(float dt, const std::vector<OffsetBody>& bodies) {
+  Split split = SplitOffsets(bodies);
+  if (split.common.position.norm() > kGiveUp) {
+    for (const OffsetBody& b : bodies) *b.offset = VisualOffset{};
+    return;
+  }
+  Vec2 momentum(0, 0);
+  float mass = 0, reach = 0;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    momentum += bodies[i].mass.mass * bodies[i].pose.velocity;
+    mass += bodies[i].mass.mass;
+    reach = std::max(reach, split.arms[i].norm());
+  }
+  const float speed = (momentum / mass).norm();
+  ReturnCommon(dt, speed, reach, &split.common);
+  ReturnRest(dt, speed, &split.rest);
+  const Rotation<float> turn(split.common.angle);
+  bool over = true;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const OffsetBody& b = bodies[i];
+    const VisualOffset &common = split.common, &rest = split.rest[i];
+    VisualOffset& o = *b.offset;
+    const Vec2 turned = turn(split.arms[i]);
+    const Vec2 centre = common.position + turned - split.arms[i] + rest.position;
+    o.angle = WrapAngle(common.angle + rest.angle);
+    o.spin = common.spin + rest.spin;
+    const Vec2 shown = Turned(b.mass.centre, b.pose.angle + o.angle);
+    o.position = centre - (shown - Turned(b.mass.centre, b.pose.angle));
+    o.velocity =
+        common.velocity + Crossed(common.spin, Vec2(turned + rest.position)) + rest.velocity;
+    over = over && Over(o);
+  }
+  if (!over) return;
+  for (const OffsetBody& b : bodies) *b.offset = VisualOffset{};
+}
+
+}  // namespace seam

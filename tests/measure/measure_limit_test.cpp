@@ -1,0 +1,200 @@
+/// The two oracles, and the information limit: what nobody could know of the others' inputs.
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "common/measure/limit/information_limit.h"
+#include "common/measure/measure.h"
+#include "common/scene/expected.h"
+#include "tests/lab/cluster.h"
+
+namespace seam {
+namespace {
+
+constexpr std::int64_t kTickUs = 16667;
+
+/// Two sleds on a floor without friction, one of each player, each pushed along by its motor.
+const char* const kSleds = R"(
+gravity = [0, 0]
+[[player]]
+name = "ann"
+vehicle = "a"
+region = [[-100, -100], [-0.1, 100]]
+[[player]]
+name = "bob"
+vehicle = "b"
+region = [[0, -100], [100, 100]]
+[[part]]
+name = "a"
+box = [1, 1]
+position = [-5, 0]
+[[part]]
+name = "b"
+box = [1, 1]
+position = [5, 0]
+[[thrust]]
+name = "ta"
+part = "a"
+player = "ann"
+force = [10, 0]
+[[thrust]]
+name = "tb"
+part = "b"
+player = "bob"
+force = [10, 0]
+)";
+
+/// Both drive at full throttle, but that bob's lasts until `bob_until`. Every input comes to the
+/// server `late_us` after its tick, one message for each.
+Recording Drive(std::int64_t bob_until, std::int64_t late_us) {
+  Recording recording;
+  recording.room.scene_name = "sleds";
+  recording.room.scene_text = kSleds;
+  recording.room.tick_hz = 60;
+  recording.last_tick = 200;
+  for (std::int64_t tick = 0; tick <= 200; ++tick) {
+    View& view = recording.views[0][tick];
+    view.tick = tick;
+    view.utime = 1000000 + tick * kTickUs;
+    for (const int player : {0, 1}) {
+      Inputs& inputs = recording.inputs[player][tick];
+      inputs.player = player;
+      inputs.first_tick = tick;
+      inputs.utime = view.utime + late_us;
+      inputs.drive = {static_cast<std::int8_t>(player == 1 && tick > bob_until ? 0 : 127)};
+      inputs.lift = {0};
+      inputs.buttons = {0};
+    }
+  }
+  return recording;
+}
+
+TEST(InputAges, AreTheWayToTheServerAndTheWayFromIt) {
+  for (const int ticks : {0, 3, 12}) {
+    const auto ages = FindInputAges(Drive(200, ticks * kTickUs));
+    ASSERT_EQ(ages.size(), 2u);
+    EXPECT_EQ(ages.at({0, 1}), 2 * ticks);
+    EXPECT_EQ(ages.at({1, 0}), 2 * ticks);
+  }
+}
+
+TEST(InputAges, CountHowFarAClientRunsAheadAsTheRoundTripTells) {
+  // The input of tick t is there two ticks before the server makes t, after four ticks on the way:
+  // the clients are six ticks ahead. What comes back after four is for a screen of ten ticks later.
+  Recording recording = Drive(200, -2 * kTickUs);
+  for (const int peer : {1, 2}) {
+    Stats stats;
+    stats.rtt_us = 8 * kTickUs;
+    recording.stats[peer] = {stats};
+  }
+  const auto ages = FindInputAges(recording);
+  EXPECT_EQ(ages.at({0, 1}), 8);
+  EXPECT_EQ(ages.at({1, 0}), 8);
+}
+
+TEST(InputAges, HoldWhatIsWaitedForTheNextMessage) {
+  Recording recording = Drive(200, 3 * kTickUs);
+  auto& bob = recording.inputs[1];  // only every fourth tick is said, with all before it
+  for (auto piece = bob.begin(); piece != bob.end();) {
+    piece = piece->first % 4 == 0 ? std::next(piece) : bob.erase(piece);
+  }
+  const auto ages = FindInputAges(recording);
+  EXPECT_EQ(ages.at({0, 1}), 6);
+  EXPECT_GE(ages.at({1, 0}), 7);  // 6 to 9, in the median
+  EXPECT_LE(ages.at({1, 0}), 8);
+}
+
+TEST(InputAges, AreUnknownWithoutTheServersViews) {
+  Recording recording = Drive(200, kTickUs);
+  recording.views.clear();
+  EXPECT_TRUE(FindInputAges(recording).empty());
+  EXPECT_FALSE(InformationLimit(recording).has_value());
+}
+
+TEST(InformationLimit, IsExactlyZeroWhereWhatWasHeldWasRight) {
+  EXPECT_EQ(InformationLimit(Drive(200, 6 * kTickUs)).value(), 0);
+}
+
+TEST(InformationLimit, IsWhatTheUnknownInputsDoInTheTicksTheyAreUnknown) {
+  // bob's sled, 1 kg under 10 N: held on for n unknown ticks of 1/60 s after he let go, it is
+  // h^2 10 n(n+1)/2 too far. ann sees that of the tenth tick that falls into the unknown ones.
+  const auto expected = [](std::int64_t until, std::int64_t age) {
+    double sum = 0;
+    int count = 0;
+    for (std::int64_t from = 0; from + age <= 200; from += 10) {
+      const auto wrong =
+          static_cast<double>(std::max<std::int64_t>(0, from + age - std::max(from, until)));
+      const bool known = until <= from;  // the letting go itself is known from tick until + 1
+      const double n = known ? 0 : wrong;
+      const double apart = 10 * n * (n + 1) / 2 / 3600;
+      sum += apart * apart;
+      ++count;
+    }
+    return std::sqrt(sum / (2 * count));  // bob, who knows ann's, sees no error
+  };
+  const Recording recording = Drive(95, 6 * kTickUs);
+  EXPECT_NEAR(InformationLimit(recording).value(), expected(95, 12), 2e-3 * expected(95, 12));
+  EXPECT_GT(InformationLimit(Drive(95, 12 * kTickUs)).value(),
+            3 * InformationLimit(recording).value());
+}
+
+TEST(InformationLimit, NeedsASecondPlayer) {
+  Recording recording = Drive(95, 6 * kTickUs);
+  recording.inputs.erase(1);
+  EXPECT_FALSE(InformationLimit(recording).has_value());
+}
+
+TEST(InformationLimit, OfAScriptedCrashIsFarBelowTheErrorsOfAMethod) {
+  ClusterConfig config;
+  config.scene = "crossing";
+  config.mode = "strict";
+  const Recording recording = RunCluster(config);
+  const double limit = InformationLimit(recording).value();
+  EXPECT_GT(limit, 0);
+  EXPECT_LT(limit, 0.1 * Measure(recording, ComputeOracle(recording)).error_rms_m);
+}
+
+TEST(Oracles, OnlyRulesThatGoBackAreJudgedByTheOneWithBarriers) {
+  Room room;
+  room.send_hz = 20;
+  room.tick_hz = 60;
+  room.mode = "buffer";
+  for (const NamedReconciler& rule : Reconcilers()) {
+    room.reconcile = rule.name;
+    EXPECT_EQ(JudgedByBarriers(room), rule.resimulates) << rule.name;
+    EXPECT_EQ(JudgeOf(room).barrier_every, rule.resimulates ? 3 : 0) << rule.name;
+  }
+  room.reconcile = "resimulate";
+  EXPECT_TRUE(JudgedByBarriers(room));
+  for (const char* mode : {"central", "strict", "oracle", "nonsense"}) {
+    room.mode = mode;
+    EXPECT_FALSE(JudgedByBarriers(room)) << mode;
+  }
+}
+
+TEST(Oracles, BarriersChangeNothingForWhatIsFreeAndMetresOfAChaoticWall) {
+  const Recording sleds = Drive(95, 0);
+  EXPECT_EQ(OracleDistance(ComputeOracle(sleds), ComputeOracle(sleds, WithBarriers(sleds.room))),
+            0);
+  ClusterConfig config;
+  config.scene = "wall";
+  config.mode = "oracle";
+  config.impair = "perfect";
+  const Recording wall = RunCluster(config);
+  const Oracle plain = ComputeOracle(wall), rebuilt = ComputeOracle(wall, WithBarriers(wall.room));
+  EXPECT_GT(OracleDistance(plain, rebuilt), 0.001);
+  EXPECT_EQ(OracleDistance(rebuilt, ComputeOracle(wall, WithBarriers(wall.room))), 0);
+}
+
+TEST(Oracles, LookForAContactOfTwoPlayersWhereTheSceneExpectsOne) {
+  Recording recording = Drive(0, 0);  // ann drives into bob's sled, which stands
+  EXPECT_FALSE(ComputeOracle(recording).contact) << "nobody asked";
+  recording.room.scene_text = "expect = 'contact'\n" + std::string(kSleds);
+  EXPECT_TRUE(ComputeOracle(recording).contact);
+  recording.last_tick = 20;  // it is not there yet
+  EXPECT_FALSE(ComputeOracle(recording).contact);
+}
+
+}  // namespace
+}  // namespace seam

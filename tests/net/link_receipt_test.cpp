@@ -1,0 +1,64 @@
+/// What a Link knows of the arrival of its unreliable messages.
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "common/net/link.h"
+
+namespace seam {
+namespace {
+
+constexpr std::uint64_t kSession = 7;
+
+std::vector<Bytes> Drain(Link& link, std::int64_t now_us) {
+  std::vector<Bytes> datagrams;
+  link.Flush(now_us, [&](ByteView d) { datagrams.emplace_back(d.begin(), d.end()); });
+  return datagrams;
+}
+
+TEST(LinkReceipts, TellTheLargestNumberThatArrivedOfEachSlot) {
+  Link here(kSession), there(kSession);
+  const Bytes message = {1, 2, 3};
+  const auto ignore = [](ByteView) {};
+  EXPECT_EQ(here.acked(0), -1);
+  std::int64_t now_us = 0;
+  std::vector<Bytes> sent;
+  for (const std::int64_t number : {5, 6, 7}) {
+    here.SendUnreliable(message, 0, number);
+    here.SendUnreliable(message, 1, number * 10);
+    here.SendUnreliable(message);
+    sent.push_back(Drain(here, now_us += 1000).at(0));
+  }
+  const auto answer = [&](std::size_t datagram) {
+    now_us += 1000;
+    there.Receive(now_us, sent[datagram], ignore);
+    there.SendUnreliable(message);
+    here.Receive(now_us, Drain(there, now_us).at(0), ignore);
+  };
+  EXPECT_EQ(here.acked(0), -1) << "sent is not arrived";
+  answer(1);
+  EXPECT_EQ(here.acked(0), 6);
+  EXPECT_EQ(here.acked(1), 60);
+  EXPECT_EQ(here.acked(2), -1);
+  answer(0);
+  EXPECT_EQ(here.acked(0), 6) << "an older one does not take it back";
+  answer(2);
+  EXPECT_EQ(here.acked(1), 70);
+}
+
+TEST(LinkReceipts, SendsSaysWhetherAFlushWouldSend) {
+  Link link(kSession);
+  const Bytes message = {1};
+  EXPECT_TRUE(link.Sends(0)) << "the first datagram";
+  for (std::int64_t now_us = 0; now_us < 3000000; now_us += 7000) {
+    if (now_us == 70000) link.SendUnreliable(message);
+    if (now_us == 700000) link.SendReliable(message);  // nobody answers: it is repeated
+    const bool sends = link.Sends(now_us);
+    EXPECT_EQ(sends, !Drain(link, now_us).empty()) << now_us;
+    EXPECT_FALSE(link.Sends(now_us)) << "all is sent";
+  }
+}
+
+}  // namespace
+}  // namespace seam

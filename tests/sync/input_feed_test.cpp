@@ -1,0 +1,67 @@
+#include "common/sync/input_feed.h"
+
+#include <gtest/gtest.h>
+
+namespace seam {
+namespace {
+
+/// A player's inputs, and what is sent of them to a peer in each tick.
+struct InputFeedTest : ::testing::Test {
+  /// The next tick's input; what is sent then.
+  std::optional<Inputs> Step(const Input& input, bool rides = false) {
+    track.Note(++tick, input);
+    return feed.Take(track, 0, acked, tick, rides);
+  }
+  static Input Drive(int drive) { return {static_cast<std::int8_t>(drive), 0, 0}; }
+
+  InputTrack track;
+  InputFeed feed;
+  std::int64_t tick = 0, acked = -1;
+};
+
+TEST_F(InputFeedTest, SendsAChangeInEveryTickUntilItIsAcknowledged) {
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(Step({})) << "nobody would guess otherwise";
+  for (int i = 0; i < 4; ++i) EXPECT_TRUE(Step(Drive(9))) << "tick " << tick;
+  acked = 6;  // the tick of the change
+  EXPECT_FALSE(Step(Drive(9)));
+  EXPECT_TRUE(Step(Drive(8))) << "the next change";
+}
+
+TEST_F(InputFeedTest, SendsWhatIsHeldAlongWithOtherMessages) {
+  acked = 0;
+  for (int i = 0; i < 4; ++i) EXPECT_FALSE(Step({}, false));
+  const std::optional<Inputs> inputs = Step({}, true);
+  ASSERT_TRUE(inputs);
+  EXPECT_EQ(inputs->first_tick, 1) << "all that are not acknowledged";
+  EXPECT_EQ(inputs->drive.size(), 5u);
+  EXPECT_FALSE(feed.Take(track, 0, acked, tick + 1, true)) << "nothing new, and no change";
+}
+
+TEST_F(InputFeedTest, SendsNoMoreThanIsUnacknowledgedButAFewTicks) {
+  for (int i = 0; i < 40; ++i) Step({});
+  EXPECT_EQ(Step(Drive(1))->drive.size(), 16u) << "the most";
+  acked = tick - 7;
+  EXPECT_EQ(Step(Drive(2))->drive.size(), 8u);
+  acked = tick;
+  EXPECT_EQ(Step(Drive(3))->drive.size(), static_cast<std::size_t>(kInputsAtLeast));
+}
+
+TEST_F(InputFeedTest, AButtonHeldIsNewsInEveryTick) {
+  // Who does not know takes it to be released.
+  for (int i = 0; i < 5; ++i) {
+    EXPECT_TRUE(Step({0, 0, 1}));
+    acked = tick;
+  }
+  EXPECT_TRUE(Step({0, 0, 0}) == std::nullopt) << "released, as everyone guesses";
+}
+
+TEST_F(InputFeedTest, SendsOnceATickUnlessSomethingNewComes) {
+  EXPECT_TRUE(Step(Drive(5)));
+  EXPECT_FALSE(feed.Take(track, 0, acked, tick, true)) << "the same tick again";
+  track.Note(tick + 1, Drive(6));
+  EXPECT_TRUE(feed.Take(track, 0, acked, tick, false)) << "news, in the same tick of ours";
+  EXPECT_TRUE(feed.Take(track, 0, acked, tick + 1, false)) << "again: not acknowledged";
+}
+
+}  // namespace
+}  // namespace seam
