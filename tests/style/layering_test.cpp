@@ -152,6 +152,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"common/sync/reconcile", "none"},
       {"common/sync/correct", "common/sync(/reconcile)?"},
       {"common/sync/rest", "common/sync(/reconcile)?"},
+      {"common/measure/screen", "common/measure"},
       {"common/stages/(bonds|bricks|character|water)", "common/stages"},
       {"server/authority", "none"},
       {"server/edits", "server/authority"},
