@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
 #include "common/measure/measure.h"
 #include "tests/lab/cluster.h"
 
@@ -17,7 +15,7 @@ duration = 7
 buffer = 6
 
 [solver]
-substeps = 2
+substeps = 8
 
 [[player]]
 name = "ann"
@@ -123,7 +121,6 @@ TEST(MechanismViews, JointsAreNoFurtherOpenThanInTheOracle) {
       EXPECT_LE(*m.joint_drift_m, *m.oracle_joint_drift_m + network.allowed_m)
           << method.mode << " " << method.reconcile << " " << network.impair << ": the oracle has "
           << *m.oracle_joint_drift_m;
-      if (std::getenv("SHOW")) printf("%s %s %s %.4f %.4f err %.3f\n", method.mode, method.reconcile, network.impair, *m.joint_drift_m, *m.oracle_joint_drift_m, m.error_rms_m);
     }
   }
 }

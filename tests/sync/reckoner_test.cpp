@@ -45,12 +45,24 @@ anchor = [-1.5, 0]
 sleep = false
 )";
 
-/// Everything turns about the origin at `spin` and moves by `velocity`; the wheel spins at 20.
+Vec2 CentreOf(const World& world) {
+  Vec2 sum(0, 0);
+  float mass = 0;
+  for (int body = 0; body < world.body_count(); ++body) {
+    sum += world.mass(body) * world.Read(body).position;
+    mass += world.mass(body);
+  }
+  return sum / mass;
+}
+
+/// Everything turns about the centre of mass at `spin` and moves by `velocity`; the wheel spins
+/// at 20.
 std::vector<BodyState> Turning(const World& world, float spin, const Vec2& velocity) {
   std::vector<BodyState> states;
   for (int body = 0; body < world.body_count(); ++body) {
     BodyState s = world.Read(body);
-    s.velocity = velocity + spin * Vec2(-s.position.y(), s.position.x());
+    const Vec2 arm = s.position - CentreOf(world);
+    s.velocity = velocity + spin * Vec2(-arm.y(), arm.x());
     s.spin = body == 2 ? 20 : spin;
     states.push_back(s);
   }
@@ -73,7 +85,8 @@ TEST(Reckoner, AMechanismGoesOnAsOneAndItsWheelGoesOnTurning) {
   for (int body = 0; body < 3; ++body) there.push_back(reckoner.There(body));
   for (int body = 0; body < 3; ++body) {
     const BodyState& start = states[static_cast<std::size_t>(body)];
-    const Vec2 expected = t * Vec2(5, -1) + Turned(start.position, 3 * t);
+    const Vec2 centre = CentreOf(world);
+    const Vec2 expected = centre + t * Vec2(5, -1) + Turned(Vec2(start.position - centre), 3 * t);
     EXPECT_LT((there[static_cast<std::size_t>(body)].position - expected).norm(), 1e-3f) << body;
   }
   EXPECT_NEAR(there[0].angle, 3 * t, 1e-3);
