@@ -9,7 +9,7 @@ namespace seam {
 namespace {
 
 /// What is off by centimetres takes a few sweeps; a chain of a dozen links that is off by half a
-/// metre everywhere takes about a hundred. What is left after these is seen as a joint that is open.
+/// metre everywhere takes about a hundred. What is left after these is seen as an open joint.
 constexpr int kRoundsMax = 120;
 /// What the engine leaves open of a joint is believed up to kSlackStart at once, and beyond that as
 /// it grows by kSlackPerTick, m and rad: a load opens joints slowly, a correction in a tick.
