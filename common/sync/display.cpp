@@ -44,13 +44,13 @@ void Display::Remap(const BodyRemap& change) {
   corrected_ticks_.assign(world_.composition().mechanisms.size(), 0);
 }
 
-void Display::Glide() {
+void Display::Glide(const Roles& roles) {
   const int mechanisms = static_cast<int>(world_.composition().mechanisms.size());
   for (int m = 0; m < mechanisms; ++m) {
     const std::vector<int>& bodies = joints_.bodies(m);
     int& corrected = corrected_ticks_[static_cast<std::size_t>(m)];
     if (IsOff(m)) {
-      joints_.Follow(m);
+      joints_.Follow(m, corrected > 0);
     } else {
       joints_.Forget(m);
     }
@@ -61,6 +61,17 @@ void Display::Glide() {
     } else {
       smoother_.AdvanceTogether(world_, bodies);
     }
+  }
+  KeepClosed(roles);
+}
+
+/// What closing has moved becomes part of the offset and returns with it: closed anew from torn
+/// poses in every tick, the view would jump whenever physics does.
+void Display::KeepClosed(const Roles& roles) {
+  const std::vector<BodyState> poses = ShownPoses(roles);
+  for (int body = 0; body < world_.body_count(); ++body) {
+    if (!joints_.jointed(world_.mechanism(body))) continue;
+    smoother_.Set(body, Minus(poses[static_cast<std::size_t>(body)], world_.Read(body)));
   }
 }
 

@@ -24,7 +24,7 @@ class Display {
   /// it is to be shown then.
   void Drive(std::int64_t next);
   /// After a step: lets the visual offsets return for a tick.
-  void Glide();
+  void Glide(const Roles& roles);
 
   /// The physics state of `body` was changed by this much; the view stays where it was.
   void Moved(int body, const BodyState& by);
@@ -41,6 +41,7 @@ class Display {
  private:
   BodyState AlongSnapshots(int body, const BodyState& target, BodyState state);
   BodyState AlongReckoned(int body, BodyState state);
+  void KeepClosed(const Roles& roles);
   /// Whether a simulated mechanism may be shown other than physics made it.
   bool IsOff(int mechanism) const;
   /// Of all bodies, in the view; velocities are those of physics.

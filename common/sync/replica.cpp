@@ -63,7 +63,7 @@ void Replica::Step() {
   scheduler_.Collect();
   memory_.Record();
   replay_.TakeBarrier();
-  display_.Glide();
+  display_.Glide(roles_);
   corrector_.ReceiveWaiting();
 }
 

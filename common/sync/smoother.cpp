@@ -31,6 +31,12 @@ void Smoother::Moved(int body, const BodyState& by) {
   o.spin -= kVelocityShare * by.spin;
 }
 
+void Smoother::Set(int body, const BodyState& beside) {
+  if (!enabled_) return;
+  At(body).position = beside.position;
+  At(body).angle = WrapAngle(beside.angle);
+}
+
 void Smoother::Reset(int body) { At(body) = VisualOffset{}; }
 
 void Smoother::AdvanceTogether(const World& world, const std::vector<int>& bodies) {

@@ -21,6 +21,8 @@ class Smoother {
 
   /// The physics state of `body` was changed by this much.
   void Moved(int body, const BodyState& by);
+  /// The view was moved: the body is shown this far beside physics now. The glide goes on as fast.
+  void Set(int body, const BodyState& beside);
   /// The body was placed anew (joined, hand-over of the unknown): show it there at once.
   void Reset(int body);
   /// Lets a frame pass. `speed` of the body (m/s) widens the cap: a fast body hides a fast glide.

@@ -153,6 +153,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"common/sync/correct", "common/sync(/reconcile)?"},
       {"common/sync/rest", "common/sync(/reconcile)?"},
       {"common/measure/screen", "common/measure"},
+      {"common/sync/show", "common/sync"},
       {"common/stages/(bonds|bricks|character|water)", "common/stages"},
       {"server/authority", "none"},
       {"server/edits", "server/authority"},

@@ -8,12 +8,11 @@
 namespace seam {
 namespace {
 
-/// A chain of n bodies, of which one is far off, needs about n sweeps; what is left after these is
-/// seen as a joint that is open.
-constexpr int kRoundsMax = 60;
-/// What the engine leaves open is believed up to kSlackStart at once, and beyond that when it grows
-/// no faster than kSlackPerTick, m and rad: a load that grows opens joints slowly, a correction
-/// tears them in a tick.
+/// What is off by centimetres takes a few sweeps; a chain of a dozen links that is off by half a
+/// metre everywhere takes about a hundred. What is left after these is seen as an open joint.
+constexpr int kRoundsMax = 120;
+/// What the engine leaves open of a joint is believed up to kSlackStart at once, and beyond that as
+/// it grows by kSlackPerTick, m and rad: a load opens joints slowly, a correction in a tick.
 constexpr float kSlackStart = 0.003f, kSlackPerTick = 0.001f;
 
 float Followed(float slack, float open) {
@@ -85,7 +84,7 @@ void JointCloser::Rebuild() {
   }
 }
 
-void JointCloser::Follow(int mechanism) {
+void JointCloser::Follow(int mechanism, bool corrected) {
   Jointed& jointed = mechanisms_[static_cast<std::size_t>(mechanism)];
   if (jointed.pins.empty()) return;
   jointed.slacks.resize(jointed.pins.size(), PinSlack{kSlackStart, kSlackStart});
@@ -93,8 +92,10 @@ void JointCloser::Follow(int mechanism) {
   for (std::size_t i = 0; i < jointed.pins.size(); ++i) {
     const PinGap gap = real.Gap(i);
     PinSlack& slack = jointed.slacks[i];
-    slack.shift = Followed(slack.shift, std::max(kSlackStart, gap.excess.norm()));
-    slack.turn = Followed(slack.turn, std::max(kSlackStart, std::fabs(gap.turn)));
+    const float shift = corrected ? 0 : gap.excess.norm();
+    const float turn = corrected ? 0 : std::fabs(gap.turn);
+    slack.shift = Followed(slack.shift, std::max(kSlackStart, shift));
+    slack.turn = Followed(slack.turn, std::max(kSlackStart, turn));
   }
 }
 

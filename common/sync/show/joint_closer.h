@@ -31,9 +31,9 @@ class JointCloser {
   void Close(int mechanism, bool simulated, std::vector<BodyState>* poses) const;
 
   /// After each step for which a mechanism is to be closed as a simulated one: looks at how far the
-  /// engine leaves its joints open. What opens all at once was torn by a correction and does not
-  /// count.
-  void Follow(int mechanism);
+  /// engine leaves its joints open. Of one that was `corrected` a moment ago nothing is learnt:
+  /// what is open was torn.
+  void Follow(int mechanism, bool corrected);
   /// There was nothing to close after this step.
   void Forget(int mechanism);
 

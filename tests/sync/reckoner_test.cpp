@@ -1,0 +1,148 @@
+/// Mechanisms that are reckoned on and whose visual offsets return, as one.
+
+#include "common/sync/show/reckoner.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/base/geometry.h"
+#include "common/measure/joint_drift.h"
+#include "common/sync/smoother.h"
+#include "tests/support/small_world.h"
+
+namespace seam {
+namespace {
+
+/// Two rods on a hinge; `wheel` on the first.
+const char* kRods = R"(gravity = [0, 0]
+[[part]]
+name = "left"
+box = [2, 0.2]
+position = [-1, 0]
+[[part]]
+name = "right"
+box = [2, 0.2]
+position = [1, 0]
+[[part]]
+name = "wheel"
+circle = 0.3
+position = [-1.5, 0]
+[[joint]]
+name = "hinge"
+kind = "revolute"
+a = "left"
+b = "right"
+anchor = [0, 0]
+[[joint]]
+name = "axle"
+kind = "wheel"
+a = "left"
+b = "wheel"
+axis = [0, 1]
+anchor = [-1.5, 0]
+[solver]
+sleep = false
+)";
+
+Vec2 CentreOf(const World& world) {
+  Vec2 sum(0, 0);
+  float mass = 0;
+  for (int body = 0; body < world.body_count(); ++body) {
+    sum += world.mass(body) * world.Read(body).position;
+    mass += world.mass(body);
+  }
+  return sum / mass;
+}
+
+/// Everything turns about the centre of mass at `spin` and moves by `velocity`; the wheel spins
+/// at 20.
+std::vector<BodyState> Turning(const World& world, float spin, const Vec2& velocity) {
+  std::vector<BodyState> states;
+  for (int body = 0; body < world.body_count(); ++body) {
+    BodyState s = world.Read(body);
+    const Vec2 arm = s.position - CentreOf(world);
+    s.velocity = velocity + spin * Vec2(-arm.y(), arm.x());
+    s.spin = body == 2 ? 20 : spin;
+    states.push_back(s);
+  }
+  return states;
+}
+
+TEST(Reckoner, AMechanismGoesOnAsOneAndItsWheelGoesOnTurning) {
+  World world(ParseScene(kRods, "test.toml"));
+  ASSERT_EQ(world.body_count(), 3);
+  Snapshots snapshots(3);
+  const std::vector<BodyState> states = Turning(world, 3, Vec2(5, -1));
+  for (int body = 0; body < 3; ++body) {
+    snapshots.Add(body, 0, states[static_cast<std::size_t>(body)]);
+  }
+  const JointCloser joints(world);
+  Reckoner reckoner(world, snapshots, joints);
+  reckoner.Begin(24);
+  const float t = 0.4f;  // s: turned by 1.2 rad
+  std::vector<BodyState> there;
+  for (int body = 0; body < 3; ++body) there.push_back(reckoner.There(body));
+  for (int body = 0; body < 3; ++body) {
+    const BodyState& start = states[static_cast<std::size_t>(body)];
+    const Vec2 centre = CentreOf(world);
+    const Vec2 expected = centre + t * Vec2(5, -1) + Turned(Vec2(start.position - centre), 3 * t);
+    EXPECT_LT((there[static_cast<std::size_t>(body)].position - expected).norm(), 1e-3f) << body;
+  }
+  EXPECT_NEAR(there[0].angle, 3 * t, 1e-3);
+  EXPECT_NEAR(there[2].angle, 20 * t, 1e-3);
+  const JointMeter meter(world.scene(), world.composition());
+  EXPECT_LT(meter.Worst(there), 1e-3);
+  // One by one they would come apart.
+  std::vector<BodyState> apart;
+  for (int body = 0; body < 3; ++body) {
+    apart.push_back(snapshots.Extrapolate(body, 24, world.dt(), kReckonMax));
+  }
+  EXPECT_GT(meter.Worst(apart), 0.3);
+}
+
+TEST(Reckoner, StatesOfDifferentTicksDoNotTearIt) {
+  World world(ParseScene(kRods, "test.toml"));
+  Snapshots snapshots(3);
+  const std::vector<BodyState> states = Turning(world, 1, Vec2(0, 0));
+  snapshots.Add(0, 6, states[0]);
+  snapshots.Add(1, 0, states[1]);
+  snapshots.Add(2, 3, states[2]);
+  const JointCloser joints(world);
+  Reckoner reckoner(world, snapshots, joints);
+  reckoner.Begin(20);
+  std::vector<BodyState> here;
+  for (int body = 0; body < 3; ++body) here.push_back(reckoner.Here(body));
+  EXPECT_LT(JointMeter(world.scene(), world.composition()).Worst(here), 1e-3);
+}
+
+TEST(Smoother, ARigidJumpOfAMechanismReturnsRigidly) {
+  World world(ParseScene(kRods, "test.toml"));
+  Smoother smoother(3, true);
+  for (int body = 0; body < 3; ++body) {
+    // Where physics is now, less where the view is: turned by 1 rad about a point, and moved.
+    const BodyState s = world.Read(body);
+    BodyState by;
+    by.angle = 1;
+    by.position = s.position - Turned(Vec2(s.position - Vec2(1, 1)), -1.0f) - Vec2(2, 1);
+    smoother.Moved(body, by);
+  }
+  const JointMeter meter(world.scene(), world.composition());
+  const float far = smoother.offset(0).norm();
+  for (int frame = 0; frame < 120; ++frame) {
+    std::vector<BodyState> shown;
+    for (int body = 0; body < 3; ++body) {
+      BodyState s = world.Read(body);
+      s.position += smoother.offset(body);
+      s.angle += smoother.angle_offset(body);
+      shown.push_back(s);
+    }
+    ASSERT_LT(meter.Worst(shown), 1e-4) << frame;
+    smoother.AdvanceTogether(world, {0, 1, 2});
+  }
+  EXPECT_GT(far, 1);
+  EXPECT_LT(smoother.offset(0).norm(), 0.01f);
+}
+
+}  // namespace
+}  // namespace seam
