@@ -37,6 +37,8 @@ std::string Counts(const SweepGroup& group) {
   return least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
 }
 
+bool DelaysInputs(const Sweep& sweep) { return sweep.view.axis.key == "input_delay_ticks"; }
+
 PlotPanel MeasurePanel(const Sweep& sweep, const SweepGroup& group, const SweepMeasure& measure) {
   PlotPanel panel;
   panel.x.label = sweep.view.axis.name +
@@ -171,7 +173,7 @@ PlotPanel FrontPanel(const Sweep& sweep, const SweepGroup& group, const SweepMea
   const std::vector<MethodTrial> trials = Trials(sweep, group, cost, error);
   PlotPanel panel;
   panel.x.label = cost.Label();
-  panel.x.log = true;
+  panel.x.log = cost.id != "response-own";  // it may be 0
   panel.y.label = error.Label();
   panel.y.log = true;
   std::vector<CostError> all;
@@ -211,8 +213,11 @@ Figure FrontsOf(const Sweep& sweep, const SweepGroup& group) {
   figure.columns = 2;
   figure.panel_width_px = 560;
   figure.panel_height_px = 400;
-  for (const char* error : {"error", "seam"}) {
-    for (const char* cost : {"cpu", "bytes"}) {
+  // A delay of inputs is paid for with the own response.
+  using Ids = std::vector<const char*>;
+  const bool delay = DelaysInputs(sweep);
+  for (const char* error : delay ? Ids{"others", "error"} : Ids{"error", "seam"}) {
+    for (const char* cost : delay ? Ids{"response-own"} : Ids{"cpu", "bytes"}) {
       PlotPanel panel = FrontPanel(sweep, group, MeasureNamed(cost), MeasureNamed(error));
       if (panel.curves.size() > 1) figure.panels.push_back(std::move(panel));
     }
@@ -251,6 +256,10 @@ Section SweepSection(const Sweep& sweep) {
     Figure fronts = FrontsOf(sweep, group);
     const bool any = sweep.view.axis.ours && !fronts.panels.empty();
     if (any) section.items.emplace_back(std::move(fronts));
+    if (DelaysInputs(sweep)) {
+      section.items.emplace_back(AlongTable(sweep, group, MeasureNamed("others")));
+      section.items.emplace_back(AlongTable(sweep, group, MeasureNamed("response-own")));
+    }
     section.items.emplace_back(AlongTable(sweep, group, MeasureNamed("error")));
     if (Summary(sweep.table, MeasureNamed("seam"), group)) {
       section.items.emplace_back(AlongTable(sweep, group, MeasureNamed("seam")));
