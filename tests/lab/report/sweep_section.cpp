@@ -37,8 +37,6 @@ std::string Counts(const SweepGroup& group) {
   return least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
 }
 
-bool DelaysInputs(const Sweep& sweep) { return sweep.view.axis.key == "input_delay_ticks"; }
-
 PlotPanel MeasurePanel(const Sweep& sweep, const SweepGroup& group, const SweepMeasure& measure) {
   PlotPanel panel;
   panel.x.label = sweep.view.axis.name +
@@ -231,6 +229,8 @@ Figure FrontsOf(const Sweep& sweep, const SweepGroup& group) {
 }
 
 }  // namespace
+
+bool DelaysInputs(const Sweep& sweep) { return sweep.view.axis.key == "input_delay_ticks"; }
 
 std::vector<MethodTrial> Trials(const Sweep& sweep, const SweepGroup& group,
                                 const SweepMeasure& cost, const SweepMeasure& error_measure) {
