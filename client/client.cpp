@@ -12,6 +12,12 @@ namespace {
 
 constexpr std::int64_t kPingFastUs = 50000;  // until the clock has settled and the room started
 constexpr std::int64_t kPingSlowUs = 100000;
+constexpr std::int64_t kPingQuietUs = 1000000;  // while everything rests
+/// A ping of a quiet room that is not answered in its usual time and this is repeated, us: after
+/// the lease nobody would know who holds what.
+constexpr std::int64_t kPingAgainUs = 50000;
+/// A neutral input that has been sent for so long, s, is known in spite of loss.
+constexpr std::int64_t kInputKnownAfter = 2;
 /// Most ticks stepped in one call; further behind than kGiveUpTicks we rejoin.
 constexpr int kStepsMax = 20;
 constexpr std::int64_t kGiveUpTicks = 300;
@@ -60,13 +66,22 @@ void Client::SendReadyAndPing(std::int64_t now_us) {
     link_->SendReliable(Encode(ready));
   }
   const bool settled = clock_.settled() && tick0_us_ >= 0;
-  if (now_us - last_ping_us_ >= (settled ? kPingSlowUs : kPingFastUs)) {
+  std::int64_t every_us = settled ? kPingSlowUs : kPingFastUs;
+  if (Quiet()) {
+    const bool answered = answered_us_ >= last_ping_us_;
+    const std::int64_t wait_us = clock_.rtt_p90_us() + kPingAgainUs;
+    const bool again = !answered && now_us - answered_us_ >= kPingQuietUs + wait_us;
+    every_us = again ? kPingAgainUs : kPingQuietUs;
+  }
+  link_->SetQuiet(Quiet());
+  if (now_us - last_ping_us_ >= every_us) {
     last_ping_us_ = now_us;
     Ping ping;
     ping.utime = now_us;
     if (replica_ != nullptr && started_) {
       ping.revision = replica_->revision();
       ping.composition = static_cast<std::int64_t>(replica_->world().composition().hash);
+      ping.rest = static_cast<std::int64_t>(replica_->rest().Hash());
     }
     link_->SendUnreliable(Encode(ping));
   }
@@ -96,6 +111,7 @@ void Client::StartIfDue(std::int64_t now_us) {
   for (const Bytes& bytes : held_) {
     const AnyMessage any = Decode(bytes);
     if (const auto* states = std::get_if<States>(&any)) replica_->Place(*states);
+    if (const auto* rest = std::get_if<Rest>(&any)) replica_->Receive(*rest);
   }
   held_.clear();
 }
@@ -143,10 +159,24 @@ void Client::NoteOwnInput() {
     replica_->NoteInput(player_, tick, Input{});
   }
   replica_->NoteInput(player_, acts, input);
+  if (!(input == Input{})) idle_since_ = next;
+}
+
+bool Client::Quiet() const {
+  if (replica_ == nullptr || !started_ || !rest_.agrees() || !replica_->rest().all()) return false;
+  const bool idle = replica_->tick() - idle_since_ > kInputKnownAfter * room_.tick_hz;
+  return idle && !link_->reliable_pending();
+}
+
+void Client::TellRest(std::int64_t now_us) {
+  for (Rest& rest : replica_->rest().Take()) {
+    rest.utime = now_us;
+    if (!released_) link_->SendReliable(Encode(rest));
+  }
 }
 
 void Client::SendInputs(std::int64_t now_us) {
-  if (player_ < 0 || mode_ == Mode::kOracle) return;
+  if (player_ < 0 || mode_ == Mode::kOracle || Quiet()) return;
   const InputTrack& track = replica_->inputs(player_);
   std::optional<Inputs> inputs =
       feed_.Take(track, player_, link_->acked(player_), replica_->tick(), link_->Sends(now_us));
@@ -170,6 +200,7 @@ void Client::StepOnce(std::int64_t now_us) {
     states.utime = now_us;
     if (!released_) link_->SendUnreliable(Encode(states));
   }
+  TellRest(now_us);
   View view = replica_->MakeView();
   view.utime = now_us;
   publisher_->Publish(view);

@@ -17,6 +17,7 @@
 #include "common/sync/metadata.h"
 #include "common/sync/publisher.h"
 #include "common/sync/replica.h"
+#include "common/sync/rest/rest_agreement.h"
 #include "common/sync/topology_snapshot.h"
 
 namespace seam {
@@ -68,7 +69,7 @@ class Client {
   std::int64_t rejoins() const { return rejoins_; }
 
   /// Age of the newest answered ping after which we try to join anew.
-  static constexpr std::int64_t kLostUs = 4000000;
+  static constexpr std::int64_t kLostUs = 5000000;
 
  private:
   friend struct ClientTestAccess;
@@ -100,6 +101,11 @@ class Client {
   void StepDue(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);
   void NoteOwnInput();
+  void TellRest(std::int64_t now_us);
+  void OnPong(std::int64_t now_us, const Pong& pong);
+  /// Whether all lies still, here and at the server, and nobody here does anything: until it does,
+  /// a ping a second is enough.
+  bool Quiet() const;
   void SendInputs(std::int64_t now_us);
   void PublishStats(std::int64_t now_us, std::int64_t cpu_us);
   void Flush(std::int64_t now_us);
@@ -134,6 +140,8 @@ class Client {
   bool closed_ = false;
   std::string fatal_;
   std::int64_t tick0_us_ = -1;    // on the server's clock
+  RestAgreement rest_;            // with what the server knows to rest
+  std::int64_t idle_since_ = 0;   // tick from which on our input has been neutral
   double lead_us_ = -1;           // mode central: how far ahead of the server we simulate
   std::int64_t answered_us_ = 0;  // when we sent the newest ping that was answered
   std::int64_t joining_since_us_ = 0;

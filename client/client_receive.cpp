@@ -37,10 +37,7 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
   } else if (const auto* chunk = std::get_if<Chunk>(&any)) {
     OnChunk(*chunk);
   } else if (const auto* pong = std::get_if<Pong>(&any)) {
-    if (pong->client_us > now_us || pong->client_us < now_us - 10000000) return;
-    answered_us_ = std::max(answered_us_, pong->client_us);
-    clock_.AddSample(pong->client_us, pong->utime, now_us);
-    if (pong->tick0_us >= 0) tick0_us_ = pong->tick0_us;
+    OnPong(now_us, *pong);
   } else if (const auto* grants = std::get_if<Grants>(&any)) {
     OnGrants(now_us, *grants);
   } else if (const auto* order = std::get_if<EditOrder>(&any)) {
@@ -55,6 +52,12 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
     } else if (held_.size() < kHeldMax) {
       held_.emplace_back(bytes.begin(), bytes.end());
     }
+  } else if (const auto* rest = std::get_if<Rest>(&any)) {
+    if (started_) {
+      replica_->Receive(*rest);
+    } else if (held_.size() < kHeldMax) {
+      held_.emplace_back(bytes.begin(), bytes.end());
+    }
   } else if (const auto* inputs = std::get_if<Inputs>(&any)) {
     const bool known = scene_ != nullptr && inputs->player >= 0 && inputs->player != player_ &&
                        static_cast<std::size_t>(inputs->player) < scene_->players.size();
@@ -64,6 +67,20 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
     closed_ = true;
   } else {
     ++stats_.dropped_malformed;
+  }
+}
+
+void Client::OnPong(std::int64_t now_us, const Pong& pong) {
+  if (pong.client_us > now_us || pong.client_us < now_us - 10000000) return;
+  answered_us_ = std::max(answered_us_, pong.client_us);
+  clock_.AddSample(pong.client_us, pong.utime, now_us);
+  if (pong.tick0_us >= 0) tick0_us_ = pong.tick0_us;
+  if (replica_ == nullptr || !started_) return;
+  const RestCommit& rest = replica_->rest();
+  if (!rest_.Lost(now_us, rest.Hash(), static_cast<std::uint64_t>(pong.rest))) return;
+  for (Rest& own : replica_->rest().Everything(true)) {
+    own.utime = now_us;
+    if (!released_) link_->SendReliable(Encode(own));
   }
 }
 

@@ -145,6 +145,7 @@ void Server::SendWorld(std::int64_t now_us, Session& session) {
   for (const Grants& grants : authority_.Export(now_us)) send(grants);
   if (started()) {
     for (const States& states : replica_.Everything()) send(At(now_us, states));
+    for (const Rest& rest : replica_.rest().Everything(false)) send(At(now_us, rest));
   }
   if (rules_ != nullptr) {
     for (const Meta& meta : rules_->metadata().Export(now_us, replica_.tick())) send(meta);
@@ -152,6 +153,21 @@ void Server::SendWorld(std::int64_t now_us, Session& session) {
   if (sent) return;
   session.leaving = true;
   session.leaving_why = "the world is more than can be sent to it";
+}
+
+void Server::SendRest(std::int64_t now_us, Session& session) {
+  for (const Rest& rest : replica_.rest().Everything(false)) {
+    session.link.SendReliable(Encode(At(now_us, rest)));
+  }
+}
+
+void Server::TellRest(std::int64_t now_us) {
+  for (const Rest& rest : replica_.rest().Take()) {
+    sessions_.SendToAll(Encode(At(now_us, rest)));
+  }
+  const bool quiet = replica_.rest().all();
+  sessions_.ForEachReady(
+      0, [&](Session& session) { session.link.SetQuiet(quiet && session.rest.agrees()); });
 }
 
 void Server::StartIfReady(std::int64_t now_us) {
@@ -186,6 +202,7 @@ void Server::StepOnce(std::int64_t now_us) {
     broadcast_.Relay(states, 0);
     broadcast_.Publish(states);
   }
+  TellRest(now_us);
   broadcast_.Publish(At(now_us, replica_.MakeView()));
   const Impacts impacts = replica_.MakeImpacts();
   if (!impacts.id_a.empty()) broadcast_.Publish(At(now_us, impacts));

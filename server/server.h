@@ -77,6 +77,7 @@ class Server {
   void RelayInputs(std::int64_t now_us);
   Inputs TakeFresh(std::int64_t now_us, const Inputs& inputs);
   void OnStates(std::int64_t now_us, Session& session, const States& states);
+  void OnRest(std::int64_t now_us, Session& session, const Rest& rest);
   void OnRelease(const Session& session, const Release& release);
   void OnProposal(Session& session, const EditOrder& proposal);
 
@@ -86,6 +87,10 @@ class Server {
   /// Edits, grants, states and values: all that a peer needs to have our world. One that cannot be
   /// sent all of it is leaving.
   void SendWorld(std::int64_t now_us, Session& session);
+  /// All that rests, to one who has not heard of it.
+  void SendRest(std::int64_t now_us, Session& session);
+  /// What came to rest in the last step, and whether the room is quiet.
+  void TellRest(std::int64_t now_us);
   void StartIfReady(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);
   void ApplyEdits(std::int64_t now_us);

@@ -42,6 +42,8 @@ void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
     OnInputs(now_us, session, *inputs);
   } else if (const auto* ping = std::get_if<Ping>(&any)) {
     OnPing(now_us, session, *ping);
+  } else if (const auto* rest = std::get_if<Rest>(&any)) {
+    OnRest(now_us, session, *rest);
   } else if (const auto* release = std::get_if<Release>(&any)) {
     OnRelease(session, *release);
   } else if (const auto* proposal = std::get_if<EditOrder>(&any)) {
@@ -62,7 +64,12 @@ void Server::OnPing(std::int64_t now_us, Session& session, const Ping& ping) {
   pong.utime = now_us;
   pong.client_us = ping.utime;
   pong.tick0_us = tick0_us_;
+  const std::uint64_t ours = replica_.rest().Hash();
+  pong.rest = static_cast<std::int64_t>(ours);
   session.link.SendUnreliable(Encode(pong));
+  const bool ready = session.stage == SessionStage::kReady;
+  const bool lost = session.rest.Lost(now_us, ours, static_cast<std::uint64_t>(ping.rest));
+  if (ready && lost) SendRest(now_us, session);
   const bool more = session.link.reliable_pending();
   if (config_.sync.mode == Mode::kOracle) return;  // each peer edits by its own clock
   if (session.stage != SessionStage::kReady || !edits_.NeedsRepair(ping, more)) return;
@@ -140,6 +147,17 @@ void Server::OnStates(std::int64_t now_us, Session& session, const States& state
   stats_.counters.dropped_stale += replica_.Receive(kept).stale;
   broadcast_.Relay(kept, session.peer);
   broadcast_.Publish(kept);
+}
+
+void Server::OnRest(std::int64_t now_us, Session& session, const Rest& rest) {
+  if (session.stage != SessionStage::kReady) {
+    ++stats_.counters.dropped_right;
+    return;
+  }
+  const Rest kept = filter_.Keep(now_us, session.peer, rest);
+  if (kept.id.empty()) return;
+  replica_.Receive(kept);
+  sessions_.SendToAll(Encode(kept), session.peer);
 }
 
 void Server::OnRelease(const Session& session, const Release& release) {

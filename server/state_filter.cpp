@@ -51,24 +51,29 @@ bool StateFilter::Plausible(int body, std::int64_t tick, const BodyState& state)
 }
 
 bool StateFilter::MayMove(int body, const States& states, std::size_t i) {
+  return MayMove(
+      body, {states.peer, states.tick, states.revision, states.epoch[i], Unpack(states, i, 0)});
+}
+
+bool StateFilter::MayMove(int body, const Claim& claim) {
   if (body < 0) {
-    ++(states.revision < replica_.revision() ? stats_.dropped_stale : stats_.dropped_right);
+    ++(claim.revision < replica_.revision() ? stats_.dropped_stale : stats_.dropped_right);
     return false;
   }
-  if (!replica_.SameBody(body, states.revision)) {
+  if (!replica_.SameBody(body, claim.revision)) {
     ++stats_.dropped_stale;
     return false;
   }
-  switch (authority_.RightToMove(states.peer, body, states.epoch[i])) {
+  switch (authority_.RightToMove(claim.peer, body, claim.epoch)) {
     case AuthorityManager::Right::kYes: break;
     case AuthorityManager::Right::kStale: ++stats_.dropped_stale; return false;
     case AuthorityManager::Right::kNo: ++stats_.dropped_right; return false;
   }
-  if (states.tick <= accepted_[static_cast<std::size_t>(body)].tick) {
+  if (claim.tick <= accepted_[static_cast<std::size_t>(body)].tick) {
     ++stats_.dropped_stale;
     return false;
   }
-  if (!Plausible(body, states.tick, Unpack(states, i, 0))) {
+  if (!Plausible(body, claim.tick, claim.state)) {
     ++stats_.dropped_implausible;
     return false;
   }
@@ -98,6 +103,37 @@ States StateFilter::Keep(std::int64_t now_us, int peer, const States& states) {
     kept.vx.push_back(states.vx[i]);
     kept.vy.push_back(states.vy[i]);
     kept.spin.push_back(states.spin[i]);
+  }
+  return kept;
+}
+
+Rest StateFilter::Keep(std::int64_t now_us, int peer, const Rest& rest) {
+  Rest kept;
+  if (rest.peer != peer) {
+    ++stats_.dropped_right;
+    return kept;
+  }
+  const double ahead = static_cast<double>(rest.tick - replica_.tick());
+  if (rest.revision > replica_.revision() || edits_.Differs(rest.revision, rest.composition) ||
+      ahead > kStatesFuture * scene_.solver.tick_hz) {
+    ++stats_.dropped_implausible;
+    return kept;
+  }
+  kept = rest;
+  kept.utime = now_us;
+  kept.id.clear(), kept.epoch.clear(), kept.x.clear(), kept.y.clear(), kept.angle.clear();
+  for (std::size_t i = 0; i < rest.id.size(); ++i) {
+    const int body = replica_.world().BodyOfId(rest.id[i]);
+    BodyState pose;
+    pose.position = Vec2(rest.x[i], rest.y[i]);
+    pose.angle = rest.angle[i];
+    if (!MayMove(body, {peer, rest.tick, rest.revision, rest.epoch[i], pose})) continue;
+    accepted_[static_cast<std::size_t>(body)] = {rest.tick, pose.position};
+    kept.id.push_back(rest.id[i]);
+    kept.epoch.push_back(rest.epoch[i]);
+    kept.x.push_back(rest.x[i]);
+    kept.y.push_back(rest.y[i]);
+    kept.angle.push_back(rest.angle[i]);
   }
   return kept;
 }

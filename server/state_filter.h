@@ -21,6 +21,8 @@ class StateFilter {
 
   /// What is kept of a message of `peer`, which is ready; without bodies when it is nothing.
   States Keep(std::int64_t now_us, int peer, const States& states);
+  /// The same of a commitment to rest; it may be old, as reliable messages are under loss.
+  Rest Keep(std::int64_t now_us, int peer, const Rest& rest);
   /// The bodies have changed.
   void Remap(const std::vector<BodyOrigin>& bodies);
 
@@ -29,6 +31,14 @@ class StateFilter {
   bool MayLookAt(int peer, const States& states);
   /// Whether the i-th body of the message may be moved.
   bool MayMove(int body, const States& states, std::size_t i);
+  /// Whether a body may be where a message of that peer, tick, revision and epoch says, in `state`.
+  struct Claim {
+    int peer = 0;
+    std::int64_t tick = 0;
+    std::int32_t revision = 0, epoch = 0;
+    BodyState state;
+  };
+  bool MayMove(int body, const Claim& claim);
   bool Plausible(int body, std::int64_t tick, const BodyState& state) const;
 
   struct LastAccepted {

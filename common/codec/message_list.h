@@ -23,13 +23,15 @@
   X(Room, room_t, kBusRoom, "scene", m.utime, m.sequence, m.protocol, m.room, m.scene_name,       \
     m.scene_text, m.mode, m.reconcile, m.predict, m.impair, m.seed, m.tick_hz, m.send_hz,         \
     m.input_delay_ticks)                                                                          \
-  X(Ping, ping_t, kEdge, "", m.utime, m.revision, m.composition)                                  \
-  X(Pong, pong_t, kEdge, "", m.utime, m.client_us, m.tick0_us)                                    \
+  X(Ping, ping_t, kEdge, "", m.utime, m.revision, m.composition, m.rest)                          \
+  X(Pong, pong_t, kEdge, "", m.utime, m.client_us, m.tick0_us, m.rest)                            \
   X(Inputs, inputs_t, kBusPlayer, "inputs", m.utime, m.sequence, m.player, m.first_tick, m.drive, \
     m.lift, m.buttons)                                                                            \
   X(States, states_t, kBusPeer, "states", m.utime, m.sequence, m.peer, m.tick, m.revision,        \
     m.composition, m.origin_x, m.origin_y, m.id, m.epoch, m.flags, m.x, m.y, m.angle, m.vx, m.vy, \
     m.spin)                                                                                       \
+  X(Rest, rest_t, kEdge, "", m.utime, m.peer, m.number, m.tick, m.revision, m.composition, m.id,  \
+    m.epoch, m.x, m.y, m.angle)                                                                   \
   X(Grants, grants_t, kBusRoom, "grants", m.utime, m.sequence, m.tick, m.mechanism, m.authority,  \
     m.epoch, m.followers, m.follower)                                                             \
   X(Release, release_t, kEdge, "", m.utime, m.tick, m.mechanism, m.epoch)                         \

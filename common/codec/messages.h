@@ -33,6 +33,9 @@ constexpr std::size_t kInputsMax = 64;
 /// bytes each + 2 bytes a follower must fit kMessageBytesMax.
 constexpr std::size_t kGrantsMax = 80, kGrantFollowersMax = 150;
 static_assert(38 + 10 * kGrantsMax + 2 * kGrantFollowersMax <= kMessageBytesMax);
+/// Most bodies in one Rest message: 50 + 18 bytes each must fit kMessageBytesMax.
+constexpr std::size_t kRestBodiesMax = 60;
+static_assert(50 + 18 * kRestBodiesMax <= kMessageBytesMax);
 /// Most values in one Meta message: 34 + 8 bytes each must fit kMessageBytesMax.
 constexpr std::size_t kMetaMax = 120;
 static_assert(34 + 8 * kMetaMax <= kMessageBytesMax);
@@ -122,6 +125,7 @@ struct Ping {
   std::int64_t utime = 0;        ///< client's clock when sent
   std::int32_t revision = -1;    ///< edits applied so far, -1 before there is a world
   std::int64_t composition = 0;  ///< hash of the composition after them
+  std::int64_t rest = 0;         ///< hash of the bodies at rest, 0 for none
 };
 
 /// Server -> client: the answer.
@@ -129,6 +133,7 @@ struct Pong {
   std::int64_t utime = 0;      ///< server's clock when it answers
   std::int64_t client_us = 0;  ///< Ping::utime, returned
   std::int64_t tick0_us = -1;  ///< server's clock at tick 0; -1 while the room waits for players
+  std::int64_t rest = 0;       ///< hash of the bodies at rest, 0 for none
 };
 
 /// A player's inputs for successive ticks.
@@ -163,6 +168,21 @@ struct States {
 };
 constexpr std::int8_t kStateAsleep = 1;
 constexpr std::int8_t kStateImpact = 2;  ///< a major impact in the last second, on the authority
+
+/// Reliable: bodies that have come to rest at the peer that has authority over them, as they lie
+/// after `tick`, bit for bit. They hold until a newer state of the body.
+struct Rest {
+  std::int64_t utime = 0;
+  std::int32_t peer = 0;    ///< the authority
+  std::int64_t number = 0;  ///< counts that peer's messages of this type
+  std::int64_t tick = 0;
+  std::int32_t revision = 0;        ///< edits that the authority had applied
+  std::int64_t composition = 0;     ///< hash of the composition after them
+  std::vector<std::int16_t> id;     ///< assembly ids, ascending
+  std::vector<std::int32_t> epoch;  ///< changes of authority over the body's mechanism
+  std::vector<float> x, y;          ///< m
+  std::vector<float> angle;         ///< rad, unwrapped
+};
 
 /// Server -> everyone, reliable and ordered: who has authority over a mechanism from `tick` on.
 struct Grants {

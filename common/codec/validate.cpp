@@ -129,6 +129,12 @@ bool Valid(const States& m) {
          Within(m.origin_x, -kOriginMax, kOriginMax) && Within(m.origin_y, -kOriginMax, kOriginMax);
 }
 
+bool Valid(const Rest& m) {
+  return Time(m.utime) && Counter(m.number) && m.revision >= 0 && Peer(m.peer) && Tick(m.tick) &&
+         m.id.size() <= kRestBodiesMax && Lengths(m.id.size(), m.epoch, m.x, m.y, m.angle) &&
+         Ascending(m.id) && AllWithin(m.epoch, 0, INT32_MAX) && Finite(m.x, m.y, m.angle);
+}
+
 bool Valid(const Grants& m) {
   return Time(m.utime) && m.sequence >= 0 && Tick(m.tick) && m.mechanism.size() <= kGrantsMax &&
          Lengths(m.mechanism.size(), m.authority, m.epoch, m.followers) &&

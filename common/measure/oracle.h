@@ -80,7 +80,7 @@ constexpr float kWireNudge = 1.0f / 1024;
 struct OracleOptions {
   int nudged_body = -1;   ///< an index into ids: moved by `nudge` m along x at the start, at
   float nudge = kNudge;   ///< least to the next float; -1: none
-  int barrier_every = 0;  ///< World::Barrier() after each tick that this divides; 0: never
+  int barrier_every = 0;  ///< World::Barrier() at tick 0 and after each that this divides; 0: never
 };
 
 /// Whether a method is judged by the oracle with barriers: one that goes back and steps again has a

@@ -94,6 +94,7 @@ Oracle ComputeOracle(const Recording& recording, const OracleOptions& options) {
   OutsideEdits outside(recording, scene);
   Change(outside.Take(0, world.scene()), 0, &world, &oracle);
   oracle.ticks.push_back(ReadAll(world));
+  if (options.barrier_every > 0) world.Barrier();
   std::int64_t kept = 0;
   for (std::int64_t tick = 1; tick <= recording.last_tick; ++tick) {
     for (const int player : inputs.players()) inputs.Apply(&world, player, tick);

@@ -24,6 +24,7 @@ constexpr std::size_t kReliableFlushBytes = 8 * kMessageBytesMax;
 constexpr std::size_t kSentRecords = 1024;
 /// Silence after which acks are sent by themselves, us.
 constexpr std::int64_t kIdleUs = 100'000;
+constexpr std::int64_t kIdleQuietUs = 1'500'000;
 /// Time before a reliable message is repeated: before the round trip is known, and at least, us.
 constexpr std::int64_t kFirstResendUs = 250'000;
 constexpr std::int64_t kResendUsMin = 50'000;
@@ -71,6 +72,7 @@ struct Link::Impl {
   std::deque<SentRecord> sent;  // of successive sequence numbers up to the newest
   std::int64_t srtt_us = -1;
   bool ever_acked = false;
+  bool quiet = false;
 
   SequenceWindow window;
   std::int64_t flushed_newest = -1;     // window.newest() at the last Flush
@@ -150,7 +152,8 @@ struct Link::Impl {
 
   /// Whether a datagram goes out even without messages.
   bool OwesDatagram(std::int64_t now_us) const {
-    return ack_owed || last_send_us < 0 || now_us - last_send_us >= kIdleUs;
+    return ack_owed || last_send_us < 0 ||
+           now_us - last_send_us >= (quiet ? kIdleQuietUs : kIdleUs);
   }
 
   bool Sends(std::int64_t now_us) const {
@@ -203,7 +206,7 @@ struct Link::Impl {
     SentRecord& record = sent[sent.size() - 1 - age];
     if (record.acked) return;
     record.acked = ever_acked = true;
-    if (sample) SampleRtt(now_us - record.sent_us);
+    if (sample && !quiet) SampleRtt(now_us - record.sent_us);
     for (const Receipt& receipt : record.receipts) {
       std::int64_t& largest = arrived[static_cast<std::size_t>(receipt.slot)];
       largest = std::max(largest, receipt.number);
@@ -314,6 +317,8 @@ bool Link::Receive(std::int64_t now_us, ByteView datagram, const Gate& gate, con
   if (!accepted) ++impl_->rejected;
   return accepted;
 }
+
+void Link::SetQuiet(bool quiet) { impl_->quiet = quiet; }
 
 std::int64_t Link::acked(int slot) const {
   SEAM_ASSERT(slot >= 0 && slot < kReceiptSlots);

@@ -41,6 +41,10 @@ class Link {
   /// False when 4096 are waiting: the peer is gone or hostile, drop it.
   bool SendReliable(ByteView message);
 
+  /// Nothing happens in the room: acks by themselves can wait for a second and a half, and what the
+  /// peer then lets pass until its next datagram is no round trip.
+  void SetQuiet(bool quiet);
+
   using Sink = std::function<void(ByteView)>;
   /// Packs what is queued into datagrams of at most kDatagramBytesMax and gives them to `send`.
   /// Unacknowledged reliable messages ride along first, spaced by the round trip so that they do

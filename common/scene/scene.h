@@ -182,8 +182,11 @@ struct Scene {
   std::string title;
   Vec2 gravity{0, -10};
   Solver solver;
-  double duration_s = 10;                                 ///< length of the demo
-  float buffer_m = 10;                                    ///< width of the buffer zone
+  double duration_s = 10;  ///< length of the demo
+  float buffer_m = 10;     ///< width of the buffer zone
+  /// Bodies that a peer may step so as not to reckon them from what was heard: beyond its buffer
+  /// zone it follows the nearest until it steps so many, its own included.
+  int follow_bodies = 256;
   int input_delay_ticks = 0;                              ///< from reading an input to its tick
   float speed_limit = 120;                                ///< m/s: states beyond are implausible
   Vec2 bounds_min{-1000, -1000}, bounds_max{1000, 1000};  ///< states beyond are implausible

@@ -36,6 +36,7 @@ struct BodyTrack {
   std::int64_t asleep_since = -1;  ///< tick, as far as sending noticed; -1 awake
   int changed_at = 0;              ///< edits there were when it was last changed
   PullTrack pull;
+  bool at_rest = false;  ///< its authority has committed it to rest, and it lies there (RestCommit)
 };
 
 /// What is remembered of one mechanism.

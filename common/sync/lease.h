@@ -9,10 +9,10 @@ namespace seam {
 
 /// The client's lease, us: when the newest ping that the server answered is older than this, it
 /// lets go of its mechanisms, whichever direction of the path failed.
-constexpr std::int64_t kLeaseUs = 2000000;
+constexpr std::int64_t kLeaseUs = 3000000;
 /// The server's patience, us: a client not heard for this long is gone, and the server takes its
 /// mechanisms back.
-constexpr std::int64_t kPatienceUs = 3000000;
+constexpr std::int64_t kPatienceUs = 4000000;
 static_assert(kLeaseUs < kPatienceUs,
               "the server would take a mechanism back while its client still holds it: two "
               "authorities over one body");
@@ -20,7 +20,7 @@ static_assert(kLeaseUs < kPatienceUs,
 /// round trip; with the network "terrible" (200 ms, 20 % lost each way) about one answer in ten
 /// million takes longer than this. Shorter drops honest clients there; longer lets one that
 /// withholds its answer keep a mechanism from the others.
-constexpr std::int64_t kReleasePatienceUs = 4000000;
+constexpr std::int64_t kReleasePatienceUs = 5000000;
 static_assert(
     kLeaseUs < kReleasePatienceUs,
     "a client that hears nothing must have let go by itself before the server takes back");

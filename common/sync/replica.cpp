@@ -20,6 +20,7 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       display_(config_, world_, memory_.snapshots()),
       replay_(config_, world_, roles_, memory_, display_, inputs_),
       corrector_(config_, world_, roles_, memory_, display_, replay_),
+      rest_(config_, world_, roles_, memory_, display_, inputs_),
       reach_(config_, world_, roles_, inputs_),
       scheduler_(config_, world_, roles_, memory_, reach_, replay_),
       proposals_(config_.tick_hz),
@@ -27,13 +28,14 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       pressed_missed_(topology.scene().players.size(), 0) {
   corrector_.FollowRoles();
   memory_.Record();
-  replay_.TakeBarrier(true);  // the inputs of the first ticks come late, too
+  replay_.TakeBarrier();  // the inputs of the first ticks come late, too
 }
 
 void Replica::StartAt(std::int64_t tick) {
   if (tick == world_.tick()) return;
   world_.SetTick(tick);
   memory_.StartAnew();
+  rest_.StartAnew();
   replay_.Forget();
   memory_.Record();
 }
@@ -45,8 +47,10 @@ void Replica::Step() {
   ApplyInputs(next);
   display_.Drive(next);
   corrector_.PullCopies();
+  rest_.BeforeStep();
   world_.Step();
   memory_.NoteContacts(roles_.table());
+  rest_.AfterStep();
   for (Edit& edit : world_.ProposeEdits()) {
     if (config_.mode == Mode::kOracle) {
       queued_.push_back(std::move(edit));
@@ -55,11 +59,10 @@ void Replica::Step() {
     }
   }
   QueueAppointed();
-  const bool goes_back = config_.GoesBack(roles_.self());
-  if (goes_back && next % config_.send_every() == 0) reach_.Look();
+  if (config_.rolls_back && next % config_.send_every() == 0) reach_.Look();
   scheduler_.Collect();
   memory_.Record();
-  if (goes_back) replay_.TakeBarrier(reach_.MayGoBack());
+  replay_.TakeBarrier();
   display_.Glide();
   corrector_.ReceiveWaiting();
 }
@@ -127,18 +130,23 @@ void Replica::ApplyPresses(int player, std::int64_t next) {
 std::vector<int> Replica::ApplyGrants(const Grants& grants) {
   ApplyEdits();  // the grants are about what is there after them
   std::vector<int> let_go = roles_.Apply(grants);
-  corrector_.FollowRoles();
+  RolesChanged();
   return let_go;
 }
 
 void Replica::ReleaseAll() {
   roles_.ReleaseAll();
-  corrector_.FollowRoles();
+  RolesChanged();
 }
 
 Received Replica::Receive(const States& states) {
   ApplyEdits();
   return corrector_.Receive(states);
+}
+
+void Replica::Receive(const Rest& rest) {
+  ApplyEdits();
+  if (rest_.Receive(rest)) replay_.Forget();  // there is no way back to before it
 }
 
 void Replica::Place(const States& states) {

@@ -27,6 +27,7 @@
 #include "common/sync/mode.h"
 #include "common/sync/proposal_queue.h"
 #include "common/sync/reach/reach.h"
+#include "common/sync/rest/rest_commit.h"
 #include "common/sync/roles.h"
 #include "common/sync/send_scheduler.h"
 
@@ -52,7 +53,10 @@ class Replica {
   /// The server plans here; clients only follow grants.
   AuthorityTable& authority() { return roles_.table(); }
   /// After Set on authority(): lets motion types follow the roles.
-  void RolesChanged() { corrector_.FollowRoles(); }
+  void RolesChanged() {
+    corrector_.FollowRoles();
+    rest_.PutBack();
+  }
   /// Follows the server's word. Returns the mechanisms that this peer had authority over and has no
   /// longer.
   std::vector<int> ApplyGrants(const Grants& grants);
@@ -98,8 +102,14 @@ class Replica {
 
   /// What this peer has to tell after the last Step: empty unless a send is due. utime is left 0.
   std::vector<States> TakeStates() { return scheduler_.Take(); }
-  /// The current state of all bodies, for one who joins late.
+  /// The current state of all bodies that are not committed to rest, for one who joins late.
   std::vector<States> Everything() const { return scheduler_.Everything(); }
+  /// What its authorities have committed to rest (RestCommit): received, to be told after a step,
+  /// and for comparison with another peer's.
+  RestCommit& rest() { return rest_; }
+  const RestCommit& rest() const { return rest_; }
+  /// Takes what another peer's authority has committed to rest.
+  void Receive(const Rest& rest);
   View MakeView() const { return display_.MakeView(roles_); }
   /// Impacts of the last tick above kMajorImpact, the first 64; ids empty when there were none.
   Impacts MakeImpacts() const;
@@ -123,6 +133,7 @@ class Replica {
   Display display_;
   Replay replay_;
   Corrector corrector_;
+  RestCommit rest_;
   Reach reach_;
   SendScheduler scheduler_;
   ProposalQueue proposals_;

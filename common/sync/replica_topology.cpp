@@ -33,6 +33,7 @@ std::optional<BodyRemap> Replica::ApplyNextEdit() {
   queued_.erase(queued_.begin());
   std::optional<BodyRemap> change = world_.Apply({edit});
   ForgetProposals(edit);
+  rest_.NoteEdit();
   if (change) {
     Remap(*change);
   } else {
@@ -56,6 +57,7 @@ void Replica::Remap(const BodyRemap& change) {
   display_.Remap(change);
   roles_.Remap(change.mechanisms);
   replay_.Forget();  // its barriers are of other bodies
+  rest_.Remap(change);
   corrector_.FollowRoles();
 }
 

@@ -55,6 +55,7 @@ std::vector<States> SendScheduler::Take() { return std::exchange(outgoing_, {});
 
 bool SendScheduler::Due(int body) {
   BodyTrack& track = memory_.track(body);
+  if (track.at_rest) return false;  // a Rest has told of it
   if (world_.awake(body)) {
     track.asleep_since = -1;
     return true;
@@ -104,18 +105,16 @@ PackedBody SendScheduler::Tell(int body) {
   }
   const std::int64_t tick = ToldTick(body);
   if (tick < world_.tick()) packed.state = *memory_.ComparablePast(body, tick);
-  packed.state = Quantised(packed.state);
-  // At rest the sender takes what it sends, so that all peers end with the same numbers. In
-  // motion it does not: writing the rounded pose back 30 times a second topples a stack of ten
-  // boxes even in a world of its own (docs/lessons.md), and a receiver's error of half a
-  // quantum does nothing.
-  if (!awake) world_.Write(body, packed.state, false);
+  // The sender goes on from its own numbers, in motion and at rest: writing the rounded pose back
+  // topples a stack of ten boxes even in a world of its own (docs/lessons.md).
   return packed;
 }
 
 std::vector<States> SendScheduler::Everything() const {
   std::vector<PackedBody> bodies;
-  for (int body = 0; body < world_.body_count(); ++body) bodies.push_back(Describe(body));
+  for (int body = 0; body < world_.body_count(); ++body) {
+    if (!memory_.track(body).at_rest) bodies.push_back(Describe(body));
+  }
   return Pack(Header(), bodies);
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// Which of its own bodies a peer sends in its next States: those of the highest priority, as many
-/// as fit one datagram; the rest wait and gain priority. Bodies at rest are sent seldom.
+/// as fit one datagram; the rest wait and gain priority. Bodies that fall asleep are sent a few
+/// times, and no more once they are committed to rest (RestCommit).
 
 #include <vector>
 
@@ -22,12 +23,13 @@ class SendScheduler {
   SendScheduler(const SyncConfig& config, World& world, const Roles& roles, BodyMemory& memory,
                 const Reach& reach, const Replay& replay);
 
-  /// After a step. If a send is due, collects what is to be told, and puts own bodies at rest
-  /// exactly where the message says. What was not taken since the last call is dropped.
+  /// After a step. If a send is due, collects what is to be told. What was not taken since the last
+  /// call is dropped.
   void Collect();
   /// What Collect found, if anything; utime is left 0.
   std::vector<States> Take();
-  /// The current state of all bodies, whoever has them, for one who joins; utime is left 0.
+  /// The current state of all bodies, whoever has them, for one who joins, but of those that are
+  /// committed to rest; utime is left 0.
   std::vector<States> Everything() const;
 
  private:

@@ -35,6 +35,7 @@ AuthorityView AuthorityManager::Look(const Situation& situation) {
   view.mode = config_.mode;
   view.tick_hz = config_.tick_hz;
   view.buffer_m = scene_.buffer_m;
+  view.follow_bodies = scene_.follow_bodies;
   view.together = situation.together;
   for (std::size_t p = 0; p < scene_.players.size(); ++p) {
     const Player& player = scene_.players[p];

@@ -1,6 +1,8 @@
 #include "server/authority/plan.h"
 
 #include <algorithm>
+#include <cfloat>
+#include <utility>
 
 namespace seam {
 namespace {
@@ -79,23 +81,57 @@ std::vector<bool> WithThoseOf(int peer, const AuthorityPlan& plan, const std::ve
 }
 
 /// By mechanism: how far its nearest box is from the player's region or from a box of the peer's,
-/// m. Nothing is measured beyond `most`.
+/// m. Of what is farther than `near` only the distance from the box around all of the peer's is
+/// known.
 std::vector<float> Distances(const AuthorityView& view, const PlayerView& player,
-                             const AuthorityPlan& plan, float most) {
-  std::vector<float> nearest(plan.size(), 2 * most + 1);
+                             const AuthorityPlan& plan, float near) {
+  std::vector<float> nearest(plan.size(), FLT_MAX);
   std::vector<const MovingBox*> own;
+  MovingBox all;
   for (const MovingBox& box : view.boxes) {
-    if (plan[static_cast<std::size_t>(box.group)].authority == player.peer) own.push_back(&box);
+    if (plan[static_cast<std::size_t>(box.group)].authority != player.peer) continue;
+    all.min = own.empty() ? box.min : all.min.cwiseMin(box.min);
+    all.max = own.empty() ? box.max : all.max.cwiseMax(box.max);
+    own.push_back(&box);
   }
   const MovingBox region{player.region_min, player.region_max, {0, 0}, 0, -1};
   for (const MovingBox& box : view.boxes) {
-    float& least = nearest[static_cast<std::size_t>(box.group)];
-    if (player.has_region) least = std::min(least, Gap(box, region));
-    for (std::size_t o = 0; o < own.size() && least > most; ++o) {
-      least = std::min(least, Gap(box, *own[o]));
+    float least = player.has_region ? Gap(box, region) : FLT_MAX;
+    const float around = own.empty() ? FLT_MAX : Gap(box, all);
+    if (around > near) {
+      least = std::min(least, around);
+    } else {
+      for (std::size_t o = 0; o < own.size() && least > 0; ++o) {
+        least = std::min(least, Gap(box, *own[o]));
+      }
     }
+    float& of_mechanism = nearest[static_cast<std::size_t>(box.group)];
+    of_mechanism = std::min(of_mechanism, least);
   }
   return nearest;
+}
+
+/// Adds the peer to the nearest of what it does not follow yet, until it steps follow_bodies.
+void FollowNearest(const AuthorityView& view, int peer, const std::vector<float>& distance,
+                   AuthorityPlan* plan) {
+  std::vector<int> bodies(plan->size(), 0);
+  for (const MovingBox& box : view.boxes) ++bodies[static_cast<std::size_t>(box.group)];
+  int steps = 0;
+  std::vector<std::pair<float, std::size_t>> others;
+  for (std::size_t m = 0; m < plan->size(); ++m) {
+    if ((*plan)[m].authority == peer || (*plan)[m].secondaries.Has(peer)) {
+      steps += bodies[m];
+      continue;
+    }
+    const bool follows = view.mechanisms[m].now.secondaries.Has(peer);
+    others.emplace_back(distance[m] - (follows ? kHysteresis : 0), m);
+  }
+  std::sort(others.begin(), others.end());
+  for (const auto& [far, m] : others) {
+    steps += bodies[m];
+    if (steps > view.follow_bodies) return;
+    (*plan)[m].secondaries.Add(peer);
+  }
 }
 
 /// Adds to each mechanism the peers in whose buffer zone it is.
@@ -115,6 +151,7 @@ void AddFollowers(const AuthorityView& view, AuthorityPlan* plan) {
       const bool meets = follows ? meets_later[m] : meets_soon[m];
       if (meets || distance[m] <= reach) planned.secondaries.Add(player.peer);
     }
+    FollowNearest(view, player.peer, distance, plan);
   }
 }
 

@@ -42,7 +42,8 @@ struct MechanismView {
 struct AuthorityView {
   Mode mode = Mode::kBuffer;
   int tick_hz = 60;
-  float buffer_m = 0;  ///< width of the buffer zone
+  float buffer_m = 0;     ///< width of the buffer zone
+  int follow_bodies = 0;  ///< see Scene::follow_bodies
   std::vector<PlayerView> players;
   std::vector<MechanismView> mechanisms;
   std::vector<MovingBox> boxes;  ///< of all bodies; group: the mechanism's index
@@ -57,7 +58,8 @@ struct AuthorityView {
 ///   the server. Mechanisms that are to be joined go to one peer; a peer whose player may not have
 ///   a mechanism gives way to the server. Secondary (mode buffer): peers whose region, or whose
 ///   mechanisms, are within the scene's buffer width of its boxes, or with whose mechanisms it may
-///   come into contact, directly or through others, before a grant could tell them (ZoneSeconds).
+///   come into contact, directly or through others, before a grant could tell them (ZoneSeconds);
+///   then those that are nearest, as long as a peer steps no more than follow_bodies.
 ///   Modes oracle and central: all the server's.
 AuthorityPlan PlanAuthority(const AuthorityView& view);
 

@@ -8,6 +8,7 @@
 #include "common/net/link.h"
 #include "common/net/net.h"
 #include "common/sync/input_feed.h"
+#include "common/sync/rest/rest_agreement.h"
 #include "server/sessions/traffic_budget.h"
 
 namespace seam {
@@ -35,6 +36,7 @@ struct Session {
   Link link;
   TrafficBudget budget;
   std::vector<InputFeed> feeds;  ///< of the others' inputs, by player
+  RestAgreement rest;            ///< with what the client knows to rest
   std::string name;
   int peer = 0;
   int player = -1;

@@ -43,8 +43,9 @@ std::int64_t SessionTable::WorstLossPpm() const {
   return worst;
 }
 
-void SessionTable::SendToAll(const Bytes& message) {
+void SessionTable::SendToAll(const Bytes& message, int but_peer) {
   for (auto& [id, session] : sessions_) {
+    if (session->peer == but_peer) continue;
     if (session->stage == SessionStage::kAdmitted || session->link.SendReliable(message)) continue;
     session->leaving = true;
     session->leaving_why = "does not acknowledge";

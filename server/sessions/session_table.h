@@ -67,8 +67,9 @@ class SessionTable {
   std::int64_t WorstRttUs() const;  ///< -1: unknown
   std::int64_t WorstLossPpm() const;
 
-  /// Reliably, to everyone to whom the room was sent; who never acknowledges has to leave.
-  void SendToAll(const Bytes& message);
+  /// Reliably, to everyone to whom the room was sent; who never acknowledges has to leave. Not to
+  /// peer `but_peer`.
+  void SendToAll(const Bytes& message, int but_peer = -1);
   /// Calls `visit(Session&)` for all that are ready but one peer.
   template <class Visit>
   void ForEachReady(int but_peer, Visit visit) {

@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kInputsUsual = 16;
 /// Pings a second while the clock settles, and their bytes.
 constexpr double kPingsPerSecond = 20;
-constexpr std::size_t kPingBytes = 28;
+constexpr std::size_t kPingBytes = 36;
 /// Messages that the States of one send are split into, at most in any scene of ours: one for each
 /// 120 m of its bodies. (Bodies a send: kStatesBodiesMax.)
 constexpr std::size_t kStatesPerSend = 8;

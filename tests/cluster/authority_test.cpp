@@ -132,12 +132,12 @@ TEST(Authority, AVanishedClientsMechanismsGoBackAndItCanRejoin) {
   const int before = held_by(2);
   ASSERT_GT(before, 0);
   cluster.Kill(1);
-  cluster.RunToTick(120 + 60 * 4);
+  cluster.RunToTick(120 + 60 * 5);
   EXPECT_EQ(held_by(2), 0);
   EXPECT_EQ(held_by(0), before);
   EXPECT_EQ(cluster.server().client_count(), 1);
   cluster.Revive(1);
-  cluster.RunToTick(120 + 60 * 8);
+  cluster.RunToTick(120 + 60 * 9);
   EXPECT_EQ(held_by(2), before) << "ann is back: what is hers is hers again";
   EXPECT_EQ(cluster.client(1)->peer(), 2);
   EXPECT_TRUE(cluster.client(1)->running());

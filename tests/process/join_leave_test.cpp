@@ -163,7 +163,7 @@ TEST_F(JoinLeave, AKilledClientsMechanismsAreTakenBackAndGivenToItsSuccessor) {
   ASSERT_TRUE(session.client("ann").Wait(10));
   Program impostor(
       {BuiltProgram("seam-client"), session.address(), "--name", "bob", "--lcm-url", "none"});
-  const std::string gone = "ann (peer 1) is gone: not heard for 3 s";
+  const std::string gone = "ann (peer 1) is gone: not heard for 4 s";
   ASSERT_TRUE(session.WaitUntil(
       [&](const Recording& r) { return Says(r, gone) && MechanismsOf(r, 1, r.last_tick).empty(); },
       10))

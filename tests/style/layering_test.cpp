@@ -151,6 +151,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
   const std::vector<std::pair<const char*, const char*>> table = {
       {"common/sync/reconcile", "none"},
       {"common/sync/correct", "common/sync(/reconcile)?"},
+      {"common/sync/rest", "common/sync(/reconcile)?"},
       {"common/stages/(bonds|bricks|character|water)", "common/stages"},
       {"server/authority", "none"},
       {"server/edits", "server/authority"},

@@ -50,8 +50,12 @@ class RandomMessages {
   void Fill(Ping& m) {
     Common(m), Set(m.revision, -1, INT32_MAX);
     m.composition = static_cast<std::int64_t>(random_.Next());
+    m.rest = static_cast<std::int64_t>(random_.Next());
   }
-  void Fill(Pong& m) { Common(m), m.client_us = Time(), m.tick0_us = Time(); }
+  void Fill(Pong& m) {
+    Common(m), m.client_us = Time(), m.tick0_us = Time();
+    m.rest = static_cast<std::int64_t>(random_.Next());
+  }
   void Fill(Inputs& m, std::size_t count) {
     Common(m), Sequence(m), Set(m.player, 0, 31), m.first_tick = Tick();
     Vector(m.drive, count, -127, 127), Vector(m.lift, count, -127, 127), Any(m.buttons, count);
@@ -66,6 +70,13 @@ class RandomMessages {
     Any(m.y, count), Any(m.angle, count), Any(m.vx, count), Any(m.vy, count), Any(m.spin, count);
   }
   void Fill(States& m) { Fill(m, Count(0, kStatesBodiesMax)); }
+  void Fill(Rest& m, std::size_t count) {
+    Common(m), Set(m.peer, 0, 31), Set(m.number, 0, kTimeMaxUs - 1), m.tick = Tick();
+    Set(m.revision, 0, INT32_MAX), m.composition = static_cast<std::int64_t>(random_.Next());
+    Ids(m.id, count), Vector(m.epoch, count, 0, INT32_MAX);
+    Floats(m.x, count), Floats(m.y, count), Floats(m.angle, count);
+  }
+  void Fill(Rest& m) { Fill(m, Count(0, kRestBodiesMax)); }
   void Fill(Grants& m, std::size_t count) {
     Common(m), Sequence(m), m.tick = Tick(), Vector(m.mechanism, count, 0, INT16_MAX);
     Vector(m.authority, count, 0, 31), Vector(m.epoch, count, 0, INT32_MAX);

@@ -21,6 +21,7 @@ void ExpectBytes(const MessageBytes& bytes, std::size_t count) {
 TEST(Limits, MessagesAreAsLargeAsIsReckoned) {
   for (const std::size_t count : {1, 7}) {
     ExpectBytes<States>(kStatesBytes, count);
+    ExpectBytes<Rest>(kRestBytes, count);
     ExpectBytes<Meta>(kMetaBytes, count);
     ExpectBytes<Inputs>(kInputsBytes, count);
     ExpectBytes<View>(kViewBytes, count);

@@ -36,7 +36,11 @@ class Row {
   SyncConfig config = MakeSyncConfig("buffer", "retrospect");
   Roles roles{config, 0, -1, *world};
   BodyMemory memory{config, *world};
-  SendScheduler scheduler{config, *world, roles, memory};
+  std::vector<InputTrack> inputs;
+  Display display{config, *world, memory.snapshots()};
+  Replay replay{config, *world, roles, memory, display, inputs};
+  Reach reach{config, *world, roles, inputs};
+  SendScheduler scheduler{config, *world, roles, memory, reach, replay};
 };
 
 TEST(SendScheduler, BodiesTakeTurnsWhenThereAreMoreThanOneDatagramHolds) {
@@ -84,7 +88,7 @@ TEST(SendScheduler, BetweenTwoSendsThereIsNothingToTake) {
   EXPECT_TRUE(row.scheduler.Take().empty());
 }
 
-TEST(SendScheduler, ABodyAtRestIsToldFourTimesAndThenTwiceASecondAndLiesWhereItWasTold) {
+TEST(SendScheduler, ABodyThatFellAsleepIsToldAndLiesWhereItLay) {
   Row row(1);
   BodyState rest = row.world->Read(0);
   rest.position.x() = 0.3001f;  // between two quanta
@@ -93,10 +97,18 @@ TEST(SendScheduler, ABodyAtRestIsToldFourTimesAndThenTwiceASecondAndLiesWhereItW
   int told = 0;
   for (int send = 0; send < 4; ++send) told += static_cast<int>(row.NextSend().size());
   EXPECT_EQ(told, 4);
-  EXPECT_EQ(row.world->Read(0).position, Quantised(rest).position);
-  EXPECT_NE(row.world->Read(0).position, rest.position);
-  for (int send = 0; send < 30; ++send) told += static_cast<int>(row.NextSend().size());
-  EXPECT_EQ(told, 6);
+  EXPECT_EQ(row.world->Read(0).position, rest.position) << "the wire's rounding is not its own";
+  EXPECT_NE(row.world->Read(0).position, Quantised(rest).position);
+}
+
+TEST(SendScheduler, WhatIsCommittedToRestIsToldNoMore) {
+  Row row(2);
+  row.world->SetAwake(0, false);
+  row.memory.track(0).at_rest = true;
+  for (int send = 0; send < 60; ++send) EXPECT_EQ(row.NextSend(), std::vector<int>{1});
+  const std::vector<States> everything = row.scheduler.Everything();
+  ASSERT_EQ(everything.size(), 1u);
+  EXPECT_EQ(everything[0].id, std::vector<std::int16_t>{1}) << "a Rest says where the other lies";
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 #pragma once
 /// The one place that corrects the bodies that are simulated here by what was heard of them.
-/// Besides it only physics moves them, a replay (which it asks for), and SendScheduler, which
-/// rounds the pose of own bodies at rest.
+/// Besides it only physics moves them, a replay (which it asks for), and RestCommit, which puts
+/// bodies at rest where they lie at their authority.
 ///
 ///   States --> corrector_receive   which are new, and of whom
 ///                corrector_correct   the room's rule: what to add to a secondary's copy now

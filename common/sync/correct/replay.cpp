@@ -19,6 +19,8 @@ constexpr int kReplayMax = 1;
 constexpr float kPressedShare = 0.3f;
 /// What moves faster than this, m/s, or was struck, does not count as pressed.
 constexpr float kPressedSpeed = 2;
+/// A blow in a replay that wakes what is committed to rest, m/s, as one does when it happens.
+constexpr float kRestBlow = 0.5f;
 /// Budget: ticks stepped again for each tick, in the long run, and how many may be saved up.
 constexpr double kAgainPerTick = 4, kAgainSaved = 240;
 /// With the same inputs both sides come to nearly the same. Up to these differences it stays: half
@@ -79,9 +81,8 @@ void Replay::AskFrom(std::int64_t tick) {
   if (from_ < 0 || tick < from_) from_ = tick;
 }
 
-void Replay::TakeBarrier(bool needed) {
+void Replay::TakeBarrier() {
   if (!config_.GoesBack(roles_.self()) || world_.tick() % config_.send_every() != 0) return;
-  if (!needed) return Forget();
   barriers_.push_back(world_.Barrier());
   while (barriers_.front().tick < world_.tick() - kReplayMax * config_.tick_hz) {
     barriers_.pop_front();
@@ -121,6 +122,7 @@ void Replay::FindPressed(std::int64_t from) {
 /// told of it.
 bool Replay::FollowsHistory(int body, std::int64_t tick) const {
   if (!roles_.Simulates(body)) return true;
+  if (memory_.track(body).at_rest) return true;  // committed, here too
   if (tick <= memory_.track(body).dynamic_since) return true;
   if (roles_.RoleOfBody(body) != kRoleAuthority) return false;
   if (config_.StampsInputs(roles_.self())) return false;
@@ -135,6 +137,9 @@ void Replay::PutIn() {
 
 void Replay::PutIn(int body) {
   BodyState* past = memory_.history().At(world_.tick(), body);
+  const bool dynamic = roles_.Simulates(body) && world_.tick() > memory_.track(body).dynamic_since;
+  const Vec2 struck = world_.Read(body).velocity - past->velocity;
+  if (dynamic && struck.norm() > kRestBlow) memory_.track(body).at_rest = false;
   if (FollowsHistory(body, world_.tick())) {
     world_.Write(body, *past, false);
     return;
@@ -213,7 +218,7 @@ void Replay::Run() {
   while (world_.tick() < now) {
     StepAgain();
     PutIn();
-    TakeBarrier(true);
+    TakeBarrier();
   }
   for (int body = 0; body < world_.body_count(); ++body) {
     const auto b = static_cast<std::size_t>(body);

@@ -49,9 +49,9 @@ class Replay {
   /// Goes back to the oldest tick asked for and steps again to now; or, when the budget is used up,
   /// leaves it for the next call.
   void Run();
-  /// After a step to a tick of which States are sent: makes it one to go back to. `needed` false:
-  /// nothing here can turn out to be wrong, and the way back is given up.
-  void TakeBarrier(bool needed);
+  /// After a step to a tick of which States are sent: makes it one to go back to. At every such
+  /// tick, needed or not: worlds that are to come to the same bits are built anew at the same ticks.
+  void TakeBarrier();
   /// This peer did a player's action (index) before the step to `tick`; a replay repeats it. Not
   /// for rules that stamp inputs.
   void NoteAction(std::int64_t tick, int player, int action);

@@ -50,7 +50,6 @@ void Reach::Look() {
   const std::vector<int> island =
       Components(static_cast<int>(count), MeetingGroups(BoxesOf(world_), seconds));
   std::vector<std::int64_t> of_island(count, now);
-  std::vector<bool> reached(count, false);
   for (std::size_t p = 0; p < inputs_.size(); ++p) {
     if (missing[p] < 0) continue;
     const std::vector<bool> driven = DrivenMechanisms(world_, static_cast<int>(p), true);
@@ -58,15 +57,10 @@ void Reach::Look() {
       if (!driven[m]) continue;
       const auto i = static_cast<std::size_t>(island[m]);
       of_island[i] = std::min(of_island[i], now - missing[p]);
-      reached[i] = true;
     }
   }
-  may_go_back_ = false;
   for (std::size_t m = 0; m < count; ++m) {
-    const auto i = static_cast<std::size_t>(island[m]);
-    complete_[m] = of_island[i];
-    const std::int8_t role = roles_.RoleOf(static_cast<int>(m));
-    if (role == kRoleSecondary || (role == kRoleAuthority && reached[i])) may_go_back_ = true;
+    complete_[m] = of_island[static_cast<std::size_t>(island[m])];
   }
 }
 

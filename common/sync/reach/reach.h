@@ -29,9 +29,6 @@ class Reach {
   std::int64_t CompleteTick(int mechanism) const {
     return complete_[static_cast<std::size_t>(mechanism)];
   }
-  /// Whether a replay may be needed: something that is simulated here follows another peer, or can
-  /// be reached by inputs of a player of another peer.
-  bool MayGoBack() const { return may_go_back_; }
 
  private:
   const SyncConfig& config_;
@@ -39,7 +36,6 @@ class Reach {
   const Roles& roles_;
   const std::vector<InputTrack>& inputs_;
   std::vector<std::int64_t> complete_;  // by mechanism
-  bool may_go_back_ = true;
 };
 
 /// The boxes of a world's bodies, grouped by mechanism. What any player drives can accelerate.

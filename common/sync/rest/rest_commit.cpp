@@ -1,0 +1,215 @@
+#include "common/sync/rest/rest_commit.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/geometry.h"
+#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/rest/rest_islands.h"
+#include "common/sync/state_limits.h"
+
+namespace seam {
+namespace {
+
+/// The engine's speeds below which a body may sleep, m/s and rad/s, and how much more wakes a body
+/// that is committed.
+constexpr float kSleepSpeed = 0.01f, kSleepSpin = 0.035f, kWakeShare = 1.4f;
+/// ...if it is more for this long on end, s: a copy beside it that is corrected pushes for a tick
+/// or two. Each time that a push turned out to be nothing, twice as long: two peers whose copies
+/// lie otherwise would wake each other's for ever.
+constexpr double kPushedFor = 0.1;
+constexpr int kDoublings = 5;
+/// A blow, m/s and rad/s: it wakes at once.
+constexpr float kBlow = 0.5f;
+/// A copy that was woken goes back when its authority has not said for so long that it moves, s: a
+/// slow path's round trip and more.
+constexpr double kBackAfter = 0.75;
+
+}  // namespace
+
+RestCommit::RestCommit(const SyncConfig& config, World& world, const Roles& roles,
+                       BodyMemory& memory, Display& display, const std::vector<InputTrack>& inputs)
+    : config_(config),
+      world_(world),
+      roles_(roles),
+      memory_(memory),
+      display_(display),
+      inputs_(inputs),
+      table_(world.body_count()),
+      watch_(world),
+      disturbed_(static_cast<std::size_t>(world.body_count())),
+      driven_(inputs.size(), false) {}
+
+std::int64_t RestCommit::Ticks(double seconds) const {
+  return static_cast<std::int64_t>(seconds * config_.tick_hz);
+}
+
+void RestCommit::FindDriven() {
+  for (std::size_t p = 0; p < inputs_.size(); ++p) {
+    driven_[p] = !(inputs_[p].At(world_.tick() + 1) == Input{});
+  }
+}
+
+bool RestCommit::Driven(int body) const {
+  const auto m = static_cast<std::size_t>(world_.mechanism(body));
+  const int owner = world_.composition().mechanisms[m].owner;
+  return owner >= 0 && driven_[static_cast<std::size_t>(owner)];
+}
+
+/// The authority sends no states of what it has committed: a newer one is the end of it.
+void RestCommit::EndOutdated() {
+  for (int body = 0; body < world_.body_count(); ++body) {
+    const RestRecord& record = table_.at(body);
+    if (!record.committed) continue;
+    const bool own = Own(body);
+    if (own ? Holds(body) : memory_.track(body).heard_tick <= record.tick) continue;
+    table_.End(body);
+    memory_.track(body).at_rest = false;
+    disturbed(body) = Disturbance{};
+  }
+}
+
+void RestCommit::Put(int body) {
+  const BodyState& pose = table_.at(body).pose;
+  const BodyState now = world_.Read(body);
+  BodyState moved = Minus(pose, now);
+  moved.velocity.setZero();
+  moved.spin = 0;
+  if (!Negligible(moved)) display_.Moved(body, moved);
+  world_.Write(body, pose, false);
+  if (world_.awake(body)) world_.SetAwake(body, false);
+}
+
+void RestCommit::PutBack() {
+  if (Off() || edited_) return;  // an edit's push is not to be lost
+  for (int body = 0; body < world_.body_count(); ++body) {
+    if (Holds(body)) Put(body);
+  }
+}
+
+void RestCommit::LetGo(int body) {
+  memory_.track(body).at_rest = false;
+  if (Own(body)) {
+    table_.End(body);
+    disturbed(body).pushed_ticks = 0;
+  } else {
+    disturbed(body).freed_tick = world_.tick();
+  }
+}
+
+void RestCommit::BeforeStep() {
+  if (Off()) return;
+  FindDriven();
+  EndOutdated();
+  for (int body = 0; body < world_.body_count(); ++body) {
+    Disturbance& d = disturbed(body);
+    if (d.freed_tick >= 0 && world_.tick() - d.freed_tick >= Ticks(kBackAfter)) {
+      d.freed_tick = -1;
+      memory_.track(body).at_rest = table_.at(body).committed;
+      if (Holds(body)) Put(body);
+    }
+    if (!Holds(body) && table_.at(body).committed && d.freed_tick < 0) {
+      LetGo(body);  // a replay found a blow
+    }
+    if (!Holds(body)) continue;
+    const BodyState now = world_.Read(body);
+    const bool simulated = world_.motion(body) == Motion::kDynamic && world_.awake(body);
+    const bool moved = now.velocity.squaredNorm() > 0 || now.spin != 0;
+    if (simulated && (edited_ || moved || Driven(body))) {
+      LetGo(body);
+    } else {
+      Put(body);
+    }
+  }
+  edited_ = false;
+}
+
+/// Whether a body that is held, and was pushed in the last step, is to be let go.
+bool RestCommit::GivesWay(int body) {
+  const BodyState now = world_.Read(body);
+  const float speed = now.velocity.norm(), spin = std::fabs(now.spin);
+  if (speed > kBlow || spin > kBlow) return true;
+  Disturbance& d = disturbed(body);
+  const bool pushed = speed > kWakeShare * kSleepSpeed || spin > kWakeShare * kSleepSpin;
+  d.pushed_ticks = pushed ? d.pushed_ticks + 1 : 0;
+  if (d.pushed_ticks < Ticks(kPushedFor) << std::min(d.times, kDoublings)) return false;
+  ++d.times;
+  d.pushed_ticks = 0;
+  return true;
+}
+
+/// What the engine has woken in an island in the last step. An own body that only own ones touch is
+/// awake: nobody else's word is needed for it.
+void RestCommit::HoldIsland(const std::vector<int>& island) {
+  bool own_awake = false, others_awake = false, driven = false;
+  for (const int body : island) {
+    driven = driven || Driven(body);
+    if (Holds(body) || !world_.awake(body)) continue;
+    (Own(body) ? own_awake : others_awake) = true;
+  }
+  for (const int body : island) {
+    if (!Holds(body) || !world_.awake(body)) continue;
+    const bool by_own = Own(body) && (own_awake || !others_awake);
+    const bool moves = world_.motion(body) == Motion::kDynamic;
+    if (moves && (by_own || driven || GivesWay(body))) {
+      LetGo(body);
+    } else {
+      Put(body);
+    }
+  }
+}
+
+void RestCommit::AfterStep() {
+  if (Off()) return;
+  bool woken = false, open = false;
+  for (int body = 0; body < world_.body_count(); ++body) {
+    woken = woken || (Holds(body) && world_.awake(body));
+    open = open || (!Holds(body) && Own(body));
+    const bool anew = Own(body) && Holds(body) &&
+                      table_.at(body).epoch != roles_.table().at(world_.mechanism(body)).epoch;
+    if (anew && !world_.awake(body)) Commit(body);  // it was another's
+  }
+  if (woken) {
+    for (const std::vector<int>& island : FindIslands(world_)) HoldIsland(island);
+  }
+  watch_.Look();
+  if (open && world_.tick() % config_.send_every() == 0) {
+    for (const std::vector<int>& island : FindIslands(world_)) CommitIsland(island);
+  }
+  std::vector<Rest> waiting;
+  waiting.swap(waiting_);
+  for (const Rest& rest : waiting) Receive(rest);
+}
+
+void RestCommit::Remap(const BodyRemap& change) {
+  table_.Remap(change.bodies);
+  std::vector<Disturbance> disturbed;
+  for (const BodyOrigin& origin : change.bodies) {
+    const bool same = origin.body >= 0 && origin.same;
+    disturbed.push_back(same ? disturbed_[static_cast<std::size_t>(origin.body)] : Disturbance{});
+  }
+  disturbed_ = std::move(disturbed);
+  for (int body = 0; body < world_.body_count(); ++body) {
+    memory_.track(body).at_rest = table_.at(body).committed && this->disturbed(body).freed_tick < 0;
+  }
+  watch_.StartAnew();
+  committed_.clear();
+}
+
+void RestCommit::StartAnew() {
+  table_.Clear();
+  watch_.StartAnew();
+  disturbed_.assign(disturbed_.size(), Disturbance{});
+  for (int body = 0; body < world_.body_count(); ++body) memory_.track(body).at_rest = false;
+  committed_.clear();
+  waiting_.clear();
+}
+
+bool RestCommit::all() const {
+  for (int body = 0; body < world_.body_count(); ++body) {
+    if (!Holds(body)) return false;
+  }
+  return !Off();
+}
+
+}  // namespace seam

@@ -1,0 +1,109 @@
+#pragma once
+/// Rest that is the same everywhere. An island that has slept for a quarter of a second is
+/// committed by its bodies' authorities: each sends its own bodies' exact poses, reliably; the
+/// others write them unconditionally and hold them there until the authority says otherwise.
+///
+///   authority   asleep .25 s --> commit --> Rest --> server (right, epoch) --> everyone else
+///   receivers   Rest --> written, asleep, held --> a newer state of the authority's ends it
+///
+/// Small disturbances do not wake what is held: kWakeShare times the engine's threshold, for some
+/// ticks on end, a blow, an edit or an input does. A copy that was woken here while its authority
+/// says nothing goes back to rest. Where an island has several owners their copies differ, and the
+/// engine may never let them sleep: there a peer commits its own bodies when they have lain still
+/// whatever the copies do, and if that does not come about, the lowest peer's and then everybody's.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/codec/messages.h"
+#include "common/physics/world.h"
+#include "common/sync/body_memory.h"
+#include "common/sync/display.h"
+#include "common/sync/input_track.h"
+#include "common/sync/mode.h"
+#include "common/sync/rest/rest_table.h"
+#include "common/sync/rest/rest_watch.h"
+#include "common/sync/roles.h"
+
+namespace seam {
+
+class RestCommit {
+ public:
+  /// All must outlive this. `inputs`: by player. Does nothing in mode oracle, and where
+  /// the scene lets nothing sleep.
+  RestCommit(const SyncConfig& config, World& world, const Roles& roles, BodyMemory& memory,
+             Display& display, const std::vector<InputTrack>& inputs);
+
+  /// Immediately before a step: what is held is exactly where it rests.
+  void BeforeStep();
+  /// After a step, its contacts noted: what was woken is held or let go, what has come to rest is
+  /// committed.
+  void AfterStep();
+  /// After a change of roles, which makes bodies anew: what is held is where it rests, and asleep.
+  void PutBack();
+  /// An edit was applied: what is awake before the next step was woken by it.
+  void NoteEdit() { edited_ = true; }
+  void Remap(const BodyRemap& change);
+  /// Nothing is known to rest any more.
+  void StartAnew();
+
+  /// What other peers' authorities have committed. What is older than a newer state or commitment
+  /// is ignored; what is of a tick still to come waits for it. True: it was the first to say where
+  /// a body is.
+  bool Receive(const Rest& rest);
+  /// What this peer committed in the last step; `utime` is left 0.
+  std::vector<Rest> Take();
+  /// All that rests, for one who joins or has lost it; only this peer's own bodies if `own`.
+  std::vector<Rest> Everything(bool own) const;
+
+  /// Whether the body lies committed, and is to be corrected, replayed and driven by nothing.
+  bool Holds(int body) const { return memory_.track(body).at_rest; }
+  /// Whether every body lies so.
+  bool all() const;
+  std::uint64_t Hash() const { return table_.Hash(world_); }
+
+ private:
+  /// What disturbed a body that is held.
+  struct Disturbance {
+    std::int64_t freed_tick = -1;  ///< it was let go here, its authority has not said so
+    int pushed_ticks = 0;          ///< on end
+    int times = 0;                 ///< it gave way to pushes since its authority last spoke of it
+  };
+
+  bool Off() const { return config_.mode == Mode::kOracle || !world_.scene().solver.sleep; }
+  bool Own(int body) const { return roles_.IsAuthority(world_.mechanism(body)); }
+  Disturbance& disturbed(int body) { return disturbed_[static_cast<std::size_t>(body)]; }
+  std::int64_t Ticks(double seconds) const;
+  void FindDriven();
+  bool Driven(int body) const;
+  void EndOutdated();
+  /// Where and as it rests, its view gliding there.
+  void Put(int body);
+  /// The disturbance is real: an own body's rest is over, another's copy goes on until its
+  /// authority speaks, or it goes back.
+  void LetGo(int body);
+  bool GivesWay(int body);
+  void HoldIsland(const std::vector<int>& island);
+  void CommitIsland(const std::vector<int>& island);
+  bool MayCommit(const std::vector<int>& island, const std::vector<int>& own) const;
+  void Commit(int body);
+  bool ReceiveOne(const Rest& rest, std::size_t i);
+  void WakeNeighbours(int body);
+
+  const SyncConfig& config_;
+  World& world_;
+  const Roles& roles_;
+  BodyMemory& memory_;
+  Display& display_;
+  const std::vector<InputTrack>& inputs_;
+  RestTable table_;
+  RestWatch watch_;
+  std::vector<Disturbance> disturbed_;  // by body
+  std::vector<bool> driven_;            // by player: its input of this step is not neutral
+  bool edited_ = false;
+  std::vector<int> committed_;  // in the last step
+  std::int64_t number_ = 0;     // of the next Rest
+  std::vector<Rest> waiting_;   // of ticks still to come
+};
+
+}  // namespace seam

@@ -1,0 +1,148 @@
+/// RestCommit: what this peer commits, and what others have committed.
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/base/geometry.h"
+#include "common/sync/reconcile/reconcile.h"
+#include "common/sync/rest/rest_commit.h"
+
+namespace seam {
+namespace {
+
+/// From an island's falling asleep to its commitment, s.
+constexpr double kAsleepFor = 0.25;
+/// Own bodies of an island of several owners: still for the engine's half second and that quarter;
+/// hardly moving for so long that the peers must disagree, the lowest peer's; or anybody's. s
+constexpr double kStillFor = 0.75, kSlowFor = 1.5, kSlowForAnybody = 3;
+/// A copy that is put farther than this, m and rad, may have been what own bodies lay on.
+constexpr float kMoved = 0.005f;
+/// Own bodies at rest are woken for it so many times: then they are as right as the other's.
+constexpr int kMovedTimes = 3;
+/// Messages of ticks still to come that may wait, and how far in the future they may be, s.
+constexpr std::size_t kWaitingMax = 64;
+constexpr double kWaitingFor = 2;
+
+}  // namespace
+
+bool RestCommit::MayCommit(const std::vector<int>& island, const std::vector<int>& own) const {
+  const auto each = [](const std::vector<int>& bodies, const auto& holds) {
+    return std::all_of(bodies.begin(), bodies.end(), holds);
+  };
+  const auto asleep = [&](int b) { return watch_.asleep(b) >= Ticks(kAsleepFor); };
+  if (each(own, asleep)) return true;
+  if (each(island, [&](int b) { return Own(b); })) return false;
+  if (!each(island, [&](int b) { return !Driven(b); })) return false;
+  if (each(own, [&](int b) { return watch_.still(b) >= Ticks(kStillFor); })) return true;
+  const auto slow = [&](double seconds) {
+    if (!each(own, [&](int b) { return watch_.still(b) > config_.send_every(); })) return false;
+    return each(island, [&](int b) { return watch_.slow(b) >= Ticks(seconds); });
+  };
+  const bool lowest = each(island, [&](int b) {
+    return Holds(b) || roles_.table().at(world_.mechanism(b)).authority >= roles_.self();
+  });
+  return slow(kSlowForAnybody) || (lowest && slow(kSlowFor));
+}
+
+void RestCommit::CommitIsland(const std::vector<int>& island) {
+  std::vector<int> own;
+  for (const int body : island) {
+    if (!Own(body) || Holds(body)) continue;
+    if (!memory_.track(body).placed || world_.motion(body) != Motion::kDynamic) return;
+    own.push_back(body);
+  }
+  if (own.empty() || !MayCommit(island, own)) return;
+  for (const int body : own) Commit(body);
+}
+
+void RestCommit::Commit(int body) {
+  // Later than all that another authority can have said of it, whose clock may be a tick ahead.
+  const std::int64_t tick =
+      std::max({world_.tick(), table_.at(body).tick + 1, memory_.track(body).heard_tick});
+  table_.Commit(body, roles_.table().at(world_.mechanism(body)).epoch, tick, world_.Read(body));
+  memory_.track(body).at_rest = true;
+  disturbed(body).pushed_ticks = 0;
+  disturbed(body).freed_tick = -1;
+  Put(body);
+  committed_.push_back(body);
+}
+
+std::vector<Rest> RestCommit::Take() {
+  std::vector<int> bodies;
+  for (const int body : std::exchange(committed_, {})) {
+    if (table_.at(body).committed && Own(body)) bodies.push_back(body);
+  }
+  std::sort(bodies.begin(), bodies.end());
+  std::vector<Rest> out = table_.Pack(world_, roles_.self(), bodies);
+  for (Rest& rest : out) rest.number = number_++;
+  return out;
+}
+
+std::vector<Rest> RestCommit::Everything(bool own) const {
+  std::vector<int> bodies;
+  for (int body = 0; body < world_.body_count(); ++body) {
+    if (table_.at(body).committed && (!own || Own(body))) bodies.push_back(body);
+  }
+  return table_.Pack(world_, roles_.self(), bodies);
+}
+
+bool RestCommit::Receive(const Rest& rest) {
+  if (Off()) return false;
+  if (rest.tick > world_.tick()) {
+    const bool soon = rest.tick <= world_.tick() + Ticks(kWaitingFor);
+    if (soon && waiting_.size() < kWaitingMax) waiting_.push_back(rest);
+    return false;
+  }
+  bool placed = false;
+  for (std::size_t i = 0; i < rest.id.size(); ++i) placed = ReceiveOne(rest, i) || placed;
+  return placed;
+}
+
+bool RestCommit::ReceiveOne(const Rest& rest, std::size_t i) {
+  const int body = world_.BodyOfId(rest.id[i]);
+  if (body < 0) return false;
+  BodyTrack& track = memory_.track(body);
+  const bool places = !track.placed;
+  if (!places && Own(body)) return false;
+  if (rest.revision < track.changed_at || rest.tick < track.heard_tick) return false;
+  if (table_.at(body).committed && rest.tick < table_.at(body).tick) return false;
+  BodyState pose;
+  pose.position = Vec2(rest.x[i], rest.y[i]);
+  pose.angle = rest.angle[i];
+  const BodyState moved = Minus(pose, world_.Read(body));
+  table_.Commit(body, rest.epoch[i], rest.tick, pose);
+  track.at_rest = track.placed = true;
+  track.heard_tick = rest.tick;
+  track.asleep_since = world_.tick();
+  track.pull.arrived = -1;
+  disturbed(body) = Disturbance{};
+  memory_.snapshots().Add(body, rest.tick, pose);
+  for (std::int64_t tick = rest.tick; tick <= world_.tick(); ++tick) {
+    if (BodyState* past = memory_.history().At(tick, body)) *past = pose;
+  }
+  Put(body);
+  if (places) {
+    display_.Reset(body);
+    return true;
+  }
+  if (moved.position.norm() > kMoved || std::fabs(WrapAngle(moved.angle)) > kMoved)
+    WakeNeighbours(body);
+  return false;
+}
+
+/// What lay on the copy, or held it, may have lost what it lay on.
+void RestCommit::WakeNeighbours(int body) {
+  for (const Touch& touch : world_.touches()) {
+    if (touch.body_a != body && touch.body_b != body) continue;
+    const int other = touch.body_a == body ? touch.body_b : touch.body_a;
+    if (!Own(other) || world_.motion(other) != Motion::kDynamic) continue;
+    if (Holds(other)) {
+      if (++disturbed(other).times > kMovedTimes) continue;
+      LetGo(other);
+    }
+    world_.SetAwake(other, true);
+  }
+}
+
+}  // namespace seam

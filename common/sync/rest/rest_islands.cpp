@@ -1,0 +1,42 @@
+#include "common/sync/rest/rest_islands.h"
+
+#include <numeric>
+
+namespace seam {
+namespace {
+
+/// The mechanism that stands for the island of `m` (union-find with halved paths).
+int Leader(std::vector<int>* leaders, int m) {
+  std::vector<int>& up = *leaders;
+  while (up[static_cast<std::size_t>(m)] != m) {
+    int& next = up[static_cast<std::size_t>(m)];
+    next = up[static_cast<std::size_t>(next)];
+    m = next;
+  }
+  return m;
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> FindIslands(const World& world) {
+  std::vector<int> leaders(world.composition().mechanisms.size());
+  std::iota(leaders.begin(), leaders.end(), 0);
+  for (const Touch& touch : world.touches()) {
+    const int a = Leader(&leaders, world.mechanism(touch.body_a));
+    const int b = Leader(&leaders, world.mechanism(touch.body_b));
+    leaders[static_cast<std::size_t>(a)] = b;
+  }
+  std::vector<int> place(leaders.size(), -1);
+  std::vector<std::vector<int>> islands;
+  for (int body = 0; body < world.body_count(); ++body) {
+    const auto leader = static_cast<std::size_t>(Leader(&leaders, world.mechanism(body)));
+    if (place[leader] < 0) {
+      place[leader] = static_cast<int>(islands.size());
+      islands.emplace_back();
+    }
+    islands[static_cast<std::size_t>(place[leader])].push_back(body);
+  }
+  return islands;
+}
+
+}  // namespace seam

@@ -1,0 +1,47 @@
+#include "common/sync/rest/rest_watch.h"
+
+#include <cmath>
+
+namespace seam {
+namespace {
+
+/// m. The engine lets a body sleep that creeps by 5 mm within its half second.
+constexpr float kStill = 0.005f, kSlow = 0.02f;
+/// rad for each metre of these: a box of 1 m then moves a corner as far as it may move itself.
+constexpr float kTurn = 2;
+
+}  // namespace
+
+RestWatch::RestWatch(const World& world) : world_(world) { StartAnew(); }
+
+void RestWatch::StartAnew() {
+  tracks_.assign(static_cast<std::size_t>(world_.body_count()), Track{});
+  for (int body = 0; body < world_.body_count(); ++body) {
+    Track& track = tracks_[static_cast<std::size_t>(body)];
+    track.still = track.slow = {world_.Read(body), world_.tick()};
+  }
+}
+
+void RestWatch::Follow(const BodyState& now, float distance, Near* near) const {
+  if ((now.position - near->pose.position).norm() <= distance &&
+      std::fabs(now.angle - near->pose.angle) <= kTurn * distance) {
+    return;
+  }
+  *near = {now, world_.tick()};
+}
+
+void RestWatch::Look() {
+  for (int body = 0; body < world_.body_count(); ++body) {
+    Track& track = tracks_[static_cast<std::size_t>(body)];
+    if (world_.awake(body)) {
+      track.asleep_since = -1;
+    } else if (track.asleep_since < 0) {
+      track.asleep_since = world_.tick();
+    }
+    const BodyState now = world_.Read(body);
+    Follow(now, kStill, &track.still);
+    Follow(now, kSlow, &track.slow);
+  }
+}
+
+}  // namespace seam

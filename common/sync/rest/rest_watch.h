@@ -1,0 +1,44 @@
+#pragma once
+/// For how long each body has been asleep, has lain still, or has hardly moved: by where it is, not
+/// by its speed, which small corrections disturb again and again.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/physics/world.h"
+
+namespace seam {
+
+class RestWatch {
+ public:
+  explicit RestWatch(const World& world);
+
+  /// After a step.
+  void Look();
+  /// Ticks for which the body has been asleep; 0: it is awake.
+  std::int64_t asleep(int body) const { return Since(of(body).asleep_since); }
+  /// Ticks for which it has been within 5 mm and .01 rad of one pose.
+  std::int64_t still(int body) const { return Since(of(body).still.since); }
+  /// Ticks for which it has been within 20 mm and .04 rad of one pose.
+  std::int64_t slow(int body) const { return Since(of(body).slow.since); }
+  /// The bodies have changed, or the tick: all begins anew.
+  void StartAnew();
+
+ private:
+  struct Near {
+    BodyState pose;
+    std::int64_t since = 0;
+  };
+  struct Track {
+    std::int64_t asleep_since = -1;
+    Near still, slow;
+  };
+  const Track& of(int body) const { return tracks_[static_cast<std::size_t>(body)]; }
+  std::int64_t Since(std::int64_t tick) const { return tick < 0 ? 0 : world_.tick() - tick; }
+  void Follow(const BodyState& now, float distance, Near* near) const;
+
+  const World& world_;
+  std::vector<Track> tracks_;
+};
+
+}  // namespace seam

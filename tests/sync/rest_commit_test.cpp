@@ -1,0 +1,188 @@
+/// RestCommit in one peer: what is committed, what is held, what wakes it.
+
+#include "common/sync/rest/rest_commit.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "common/scene/scene.h"
+#include "common/sync/rest/rest_agreement.h"
+
+namespace seam {
+namespace {
+
+/// Two boxes side by side on the ground; this is peer 0, who has them all at first.
+class OnTheGround {
+ public:
+  OnTheGround() {
+    world->SetAwake(0, false);
+    world->SetAwake(1, false);
+  }
+  void Step() {
+    rest.BeforeStep();
+    world->Step();
+    memory.NoteContacts(roles.table());
+    rest.AfterStep();
+    memory.Record();
+  }
+  /// Steps so often; returns what was committed meanwhile.
+  std::vector<Rest> Steps(int ticks) {
+    std::vector<Rest> all;
+    for (int i = 0; i < ticks; ++i) {
+      Step();
+      for (const Rest& one : rest.Take()) all.push_back(one);
+    }
+    return all;
+  }
+  void Give(int body, int peer) {
+    AuthorityRecord record = roles.table().at(world->mechanism(body));
+    record.authority = peer;
+    record.epoch += 1;
+    record.secondaries.Add(0);
+    roles.table().Set(world->mechanism(body), record);
+  }
+  /// Another's word that a box lies at x, after this tick.
+  Rest Lies(int body, float x) {
+    Rest told;
+    told.peer = 1;
+    told.tick = world->tick();
+    told.id = {static_cast<std::int16_t>(world->id(body))};
+    told.epoch = {1};
+    told.x = {x};
+    told.y = {0.5f};
+    told.angle = {0};
+    return told;
+  }
+
+  std::unique_ptr<World> world = std::make_unique<World>(ParseScene(R"(
+[[part]]
+name = "floor"
+box = [80, 1]
+position = [0, -0.5]
+anchored = true
+[[part]]
+name = "box"
+box = [1, 1]
+position = [0, 0.5]
+repeat = {count = 2, step = [5, 0]}
+)",
+                                                                    "test.toml"));
+  SyncConfig config = MakeSyncConfig("buffer", "retrospect");
+  Roles roles{config, 0, -1, *world};
+  BodyMemory memory{config, *world};
+  Display display{config, *world, memory.snapshots()};
+  std::vector<InputTrack> inputs;
+  RestCommit rest{config, *world, roles, memory, display, inputs};
+};
+
+TEST(RestCommit, CommitsAQuarterOfASecondAfterFallingAsleepAndOnce) {
+  OnTheGround room;
+  EXPECT_TRUE(room.Steps(14).empty());
+  const std::vector<Rest> told = room.Steps(20);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].id.size(), 2u);
+  EXPECT_EQ(told[0].x[1], room.world->Read(1).position.x()) << "bit for bit";
+  EXPECT_TRUE(room.rest.all());
+  EXPECT_TRUE(room.Steps(300).empty());
+}
+
+TEST(RestCommit, TheHashIsOfWhatLiesWhereAndNothingElse) {
+  OnTheGround one, other;
+  EXPECT_EQ(one.rest.Hash(), 0u);
+  one.Steps(30);
+  other.Steps(90);
+  EXPECT_NE(one.rest.Hash(), 0u);
+  EXPECT_EQ(one.rest.Hash(), other.rest.Hash());
+  OnTheGround third;
+  BodyState moved = third.world->Read(1);
+  moved.position.x() = std::nextafter(moved.position.x(), 10.0f);
+  third.world->Write(1, moved, false);
+  third.Steps(30);
+  EXPECT_NE(third.rest.Hash(), one.rest.Hash());
+}
+
+TEST(RestCommit, WritesWhatAnAuthoritySaysAndHoldsItAgainstSmallPushes) {
+  OnTheGround room;
+  room.Give(1, 1);
+  room.Steps(30);
+  room.rest.Receive(room.Lies(1, 5.25f));
+  EXPECT_TRUE(room.rest.Holds(1));
+  for (int tick = 0; tick < 60; ++tick) {
+    room.world->SetAwake(1, true);
+    room.Step();
+    EXPECT_EQ(room.world->Read(1).position.x(), 5.25f) << tick;
+    EXPECT_FALSE(room.world->awake(1)) << tick;
+  }
+}
+
+TEST(RestCommit, ACopyThatWasStruckGoesBackWhenItsAuthoritySaysNothing) {
+  OnTheGround room;
+  room.Give(1, 1);
+  room.rest.Receive(room.Lies(1, 5.25f));
+  BodyState struck = room.world->Read(1);
+  struck.velocity = Vec2(2, 0);
+  room.world->Write(1, struck);
+  room.Steps(30);
+  EXPECT_FALSE(room.rest.Holds(1));
+  EXPECT_GT(room.world->Read(1).position.x(), 5.3f);
+  room.Steps(30);
+  EXPECT_TRUE(room.rest.Holds(1));
+  EXPECT_EQ(room.world->Read(1).position.x(), 5.25f);
+}
+
+TEST(RestCommit, ANewerStateEndsItAndAnOlderWordDoesNotBringItBack) {
+  OnTheGround room;
+  room.Give(1, 1);
+  const Rest then = room.Lies(1, 5.25f);
+  room.rest.Receive(then);
+  room.Steps(3);
+  room.memory.track(1).heard_tick = room.world->tick();
+  room.Steps(1);
+  EXPECT_FALSE(room.rest.Holds(1));
+  room.rest.Receive(then);
+  EXPECT_FALSE(room.rest.Holds(1));
+}
+
+TEST(RestCommit, ANewAuthorityCommitsWhatItWasGivenAtRestUnderItsEpoch) {
+  OnTheGround room;
+  room.Steps(30);
+  room.Give(1, 1);
+  room.Give(1, 0);
+  const std::vector<Rest> told = room.Steps(2);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].epoch, std::vector<std::int32_t>{2});
+}
+
+TEST(RestCommit, AnOwnBodyThatIsMovedIsAwakeAndCommittedAnew) {
+  OnTheGround room;
+  room.Steps(30);
+  BodyState moving = room.world->Read(0);
+  moving.velocity = Vec2(1, 0);
+  room.world->Write(0, moving);
+  room.Steps(2);
+  EXPECT_FALSE(room.rest.Holds(0));
+  EXPECT_TRUE(room.world->awake(0));
+  EXPECT_TRUE(room.rest.Holds(1));
+  const std::vector<Rest> told = room.Steps(240);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_GT(told[0].x[0], 0.01f);
+}
+
+TEST(RestAgreement, SaysItAgainOnlyWhenTheSameDifferenceLasts) {
+  RestAgreement agreement;
+  EXPECT_FALSE(agreement.Lost(0, 1, 2));
+  EXPECT_FALSE(agreement.Lost(900000, 1, 2));
+  EXPECT_FALSE(agreement.Lost(1000000, 1, 3)) << "another one: something came";
+  EXPECT_FALSE(agreement.Lost(1900000, 1, 3));
+  EXPECT_TRUE(agreement.Lost(2000000, 1, 3));
+  EXPECT_FALSE(agreement.Lost(2100000, 1, 3)) << "it is under way";
+  EXPECT_FALSE(agreement.agrees());
+  EXPECT_FALSE(agreement.Lost(2200000, 3, 3));
+  EXPECT_TRUE(agreement.agrees());
+}
+
+}  // namespace
+}  // namespace seam
