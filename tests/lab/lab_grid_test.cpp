@@ -42,7 +42,7 @@ floor = false
   EXPECT_EQ(grid.points[48].settings.impair, "delay=50ms,loss=1%,jitter=5ms");
   EXPECT_EQ(grid.points[0].settings.mode, "strict");
   EXPECT_EQ(grid.points[96].settings.reconcile, "fade");
-  EXPECT_EQ(grid.points[192].settings.reconcile, "retrospect") << "the default has its name";
+  EXPECT_EQ(grid.points[192].settings.reconcile, "rollback") << "the default has its name";
   EXPECT_EQ(grid.points[288].settings.scene, "scenes/cradle.toml");
   const std::string hash = fmt::format(
       "{:016x}", Fnv1a(grid.points[48].scene->text.data(), grid.points[48].scene->text.size()));
@@ -102,7 +102,7 @@ loss_percent = [2.5]
             (std::vector<std::string>{"solver.continuous=false", "gravity=[0, -9]",
                                       "solver.substeps=1", "solver.skin=0.0025", "buffer=5"}));
   EXPECT_NE(grid.points[8].key.find(",\"solver.continuous=false;gravity=[0, -9];solver.substeps=1;"
-                                    "solver.skin=0.0025;buffer=5\",buffer,retrospect,"),
+                                    "solver.skin=0.0025;buffer=5\",buffer,rollback,"),
             std::string::npos)
       << grid.points[8].key;
   EXPECT_EQ(PointValues(grid.points[15]), ",50,12,2.5,60,4,8,3,0.0025,7.5,0");
@@ -145,7 +145,7 @@ TEST(Grid, MistakesAreSaidBeforeAnythingRuns) {
                               "one_way_ms = [50]\nimpair = [\"demo\"]",
                               "one_way_ms = [5]\nimpair = [\"delay=1ms\"]",
                               "floor = 1",
-                              "methods = [\"buffer\", \"buffer/retrospect\"]",
+                              "methods = [\"buffer\", \"buffer/rollback\"]",
                               "loss_percent = [101]",
                               "loss_percent = [\"1%\"]",
                               "jitter_ms = []",

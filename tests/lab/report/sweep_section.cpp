@@ -171,7 +171,7 @@ PlotPanel FrontPanel(const Sweep& sweep, const SweepGroup& group, const SweepMea
   const std::vector<MethodTrial> trials = Trials(sweep, group, cost, error);
   PlotPanel panel;
   panel.x.label = cost.Label();
-  panel.x.log = true;
+  panel.x.log = cost.id != "response-own";  // it may be 0
   panel.y.label = error.Label();
   panel.y.log = true;
   std::vector<CostError> all;
@@ -211,8 +211,11 @@ Figure FrontsOf(const Sweep& sweep, const SweepGroup& group) {
   figure.columns = 2;
   figure.panel_width_px = 560;
   figure.panel_height_px = 400;
-  for (const char* error : {"error", "seam"}) {
-    for (const char* cost : {"cpu", "bytes"}) {
+  // A delay of inputs is paid for with the own response.
+  using Ids = std::vector<const char*>;
+  const bool delay = DelaysInputs(sweep);
+  for (const char* error : delay ? Ids{"others", "error"} : Ids{"error", "seam"}) {
+    for (const char* cost : delay ? Ids{"response-own"} : Ids{"cpu", "bytes"}) {
       PlotPanel panel = FrontPanel(sweep, group, MeasureNamed(cost), MeasureNamed(error));
       if (panel.curves.size() > 1) figure.panels.push_back(std::move(panel));
     }
@@ -226,6 +229,8 @@ Figure FrontsOf(const Sweep& sweep, const SweepGroup& group) {
 }
 
 }  // namespace
+
+bool DelaysInputs(const Sweep& sweep) { return sweep.view.axis.key == "input_delay_ticks"; }
 
 std::vector<MethodTrial> Trials(const Sweep& sweep, const SweepGroup& group,
                                 const SweepMeasure& cost, const SweepMeasure& error_measure) {
@@ -251,6 +256,10 @@ Section SweepSection(const Sweep& sweep) {
     Figure fronts = FrontsOf(sweep, group);
     const bool any = sweep.view.axis.ours && !fronts.panels.empty();
     if (any) section.items.emplace_back(std::move(fronts));
+    if (DelaysInputs(sweep)) {
+      section.items.emplace_back(AlongTable(sweep, group, MeasureNamed("others")));
+      section.items.emplace_back(AlongTable(sweep, group, MeasureNamed("response-own")));
+    }
     section.items.emplace_back(AlongTable(sweep, group, MeasureNamed("error")));
     if (Summary(sweep.table, MeasureNamed("seam"), group)) {
       section.items.emplace_back(AlongTable(sweep, group, MeasureNamed("seam")));

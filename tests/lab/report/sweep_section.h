@@ -18,6 +18,9 @@ struct Sweep {
   SweepView view;
 };
 
+/// Whether the axis is the delay of inputs: paid for with the own response, not with CPU or bytes.
+bool DelaysInputs(const Sweep& sweep);
+
 Section SweepSection(const Sweep& sweep);
 
 /// The front of one group: what each method costs and errs at each x.

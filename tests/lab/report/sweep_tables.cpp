@@ -96,7 +96,7 @@ TextTable FrontTable(const std::vector<Sweep>& sweeps) {
   table.title = "Who is on a front";
   Cells cells;
   for (const Sweep& sweep : sweeps) {
-    if (!sweep.view.axis.ours) continue;
+    if (!sweep.view.axis.ours || DelaysInputs(sweep)) continue;
     for (const SweepGroup& group : sweep.view.groups) {
       for (const char* error : {"error", "seam"}) {
         for (const char* cost : {"cpu", "bytes"}) {
