@@ -1,6 +1,5 @@
 #include "common/physics/world_joints.h"
 
-
 #include "common/base/check.h"
 #include "common/physics/world_build.h"
 #include "common/scene/joint_kinds.h"
