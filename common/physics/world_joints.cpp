@@ -1,7 +1,5 @@
 #include "common/physics/world_joints.h"
 
-#include <cfloat>
-
 #include "common/base/check.h"
 #include "common/physics/world_build.h"
 #include "common/scene/joint_kinds.h"
@@ -65,6 +63,11 @@ b2Joint* AddWheel(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
   return world->CreateJoint(&def);
 }
 
+/// Longer than anything, m. Not FLT_MAX: the engine divides what is left to it by a step's seconds
+/// and multiplies by the mass, which is zero between two bodies that are not simulated: 0 times
+/// infinity is no number.
+constexpr float kNoLimit = 1e30f;
+
 b2Joint* AddDistance(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
   b2DistanceJointDef def;
   def.Initialize(a, b, ToB2(joint.anchor_a), ToB2(joint.anchor_b));
@@ -75,7 +78,7 @@ b2Joint* AddDistance(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
     // Box2D's spring works only between unequal limits.
     b2LinearStiffness(def.stiffness, def.damping, joint.frequency_hz, joint.damping_ratio, a, b);
     def.minLength = 0;
-    def.maxLength = FLT_MAX;
+    def.maxLength = kNoLimit;
   }
   if (joint.limited) {
     def.minLength = joint.lower;

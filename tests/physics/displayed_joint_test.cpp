@@ -1,0 +1,60 @@
+/// Joints between bodies that are not simulated: a peer that only displays a body moves it along a
+/// path, and whatever it hangs from must not mind.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/physics/world.h"
+
+namespace seam {
+namespace {
+
+TEST(DisplayedJoint, ASpringBetweenAnAnchorAndADisplayedBodyStaysFinite) {
+  const Scene scene = ParseScene(R"(
+[[part]]
+name = "foot"
+box = [0.6, 0.2]
+anchored = true
+
+[[part]]
+name = "plank"
+box = [4, 0.2]
+position = [0, 2]
+
+[[joint]]
+name = "spring"
+kind = "distance"
+a = "foot"
+b = "plank"
+frequency = 0.5
+)",
+                                 "spring.toml");
+  World world(scene);
+  world.SetMotion(0, Motion::kKinematic);
+  for (int i = 0; i < 30; ++i) world.Step();
+  EXPECT_EQ(world.Read(0).position, Vec2(0, 2));
+  EXPECT_EQ(world.Read(0).velocity, Vec2(0, 0));
+  // Simulated again it falls, and the spring carries it.
+  world.SetMotion(0, Motion::kDynamic);
+  for (int i = 0; i < 600; ++i) world.Step();
+  EXPECT_LT(world.Read(0).position.y(), 1.99f);
+  EXPECT_GT(world.Read(0).position.y(), 0.1f);
+}
+
+TEST(DisplayedJoint, WhollyDisplayedScenesStayFinite) {
+  for (const char* name : {"seesaw", "harbour", "crane", "obstacle", "train", "titanic"}) {
+    World world(LoadScene("scenes/" + std::string(name) + ".toml"));
+    for (int body = 0; body < world.body_count(); ++body) {
+      world.SetMotion(body, Motion::kKinematic);
+    }
+    for (int i = 0; i < 10; ++i) world.Step();
+    for (int body = 0; body < world.body_count(); ++body) {
+      ASSERT_TRUE(world.Read(body).position.allFinite()) << name << " " << body;
+      ASSERT_TRUE(std::isfinite(world.Read(body).angle)) << name << " " << body;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace seam
