@@ -6,22 +6,9 @@
 #include "common/base/geometry.h"
 #include "common/measure/mean_square.h"
 #include "common/measure/parts.h"
+#include "common/measure/percentile.h"
 
 namespace seam {
-namespace {
-
-/// Nearest rank: the least value that at least `share` of all values do not exceed.
-double Percentile(std::vector<double>& values, double share) {
-  if (values.empty()) return 0;
-  const double rank = std::ceil(share * static_cast<double>(values.size()));
-  const auto index = static_cast<std::size_t>(std::max(rank, 1.0)) - 1;
-  const auto nth = values.begin() + static_cast<std::ptrdiff_t>(index);
-  std::nth_element(values.begin(), nth, values.end());
-  return *nth;
-}
-
-}  // namespace
-
 void MeasureError(const Recording& recording, const Oracle& oracle, Measures* measures) {
   measures->first_tick = recording.first_tick;
   const std::int64_t ticks = recording.last_tick - recording.first_tick + 1;

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "common/measure/parts.h"
+#include "common/measure/percentile.h"
 
 namespace seam {
 namespace {
@@ -31,8 +32,13 @@ bool Claims(const View& view, PartId id) {
   return i >= 0 && view.role[static_cast<std::size_t>(i)] == kRoleAuthority;
 }
 
+/// How far apart two authorities were, at each hand-over.
+struct Gaps {
+  std::vector<double> positions, velocities;  // m, m/s
+};
+
 /// What two views show of a body, one minus the other.
-void Compare(const View& one, const View& other, PartId id, Measures* measures) {
+void Compare(const View& one, const View& other, PartId id, Gaps* gaps) {
   const int i = IndexOf(one, id), k = IndexOf(other, id);
   if (i < 0 || k < 0) return;
   const auto a = static_cast<std::size_t>(i), b = static_cast<std::size_t>(k);
@@ -40,12 +46,13 @@ void Compare(const View& one, const View& other, PartId id, Measures* measures) 
       std::hypot(double{one.x[a]} - double{other.x[b]}, double{one.y[a]} - double{other.y[b]});
   const double dv =
       std::hypot(double{one.vx[a]} - double{other.vx[b]}, double{one.vy[a]} - double{other.vy[b]});
-  measures->handover_gap_m = std::max(measures->handover_gap_m.value_or(0), gap);
-  measures->handover_dv_mps = std::max(measures->handover_dv_mps.value_or(0), dv);
+  gaps->positions.push_back(gap);
+  gaps->velocities.push_back(dv);
 }
 
 /// At the first tick at which another peer than before claims a body: both peers' ideas of it.
 void MeasureGaps(const Recording& recording, const RevisionHistory* revisions, Measures* measures) {
+  Gaps gaps;
   std::map<PartId, int> holders;
   for (std::int64_t tick = recording.first_tick; tick <= recording.last_tick; ++tick) {
     std::map<int, const View*> views;
@@ -63,11 +70,16 @@ void MeasureGaps(const Recording& recording, const RevisionHistory* revisions, M
         const bool same =
             old != views.end() && (revisions == nullptr ||
                                    revisions->SameBody(view->revision, old->second->revision, id));
-        if (same) Compare(*view, *old->second, id, measures);
+        if (same) Compare(*view, *old->second, id, &gaps);
         holders[id] = peer;
       }
     }
   }
+  if (gaps.positions.empty()) return;
+  measures->handover_gap_m = Percentile(gaps.positions, 1);
+  measures->handover_dv_mps = Percentile(gaps.velocities, 1);
+  measures->handover_gap_p95_m = Percentile(gaps.positions, 0.95);
+  measures->handover_dv_p95_mps = Percentile(gaps.velocities, 0.95);
 }
 
 }  // namespace

@@ -44,15 +44,25 @@ double Drift(const JointEnds& joint, const std::vector<BodyState>& states) {
 
 }  // namespace
 
+std::vector<double> JointMeter::Drifts(const std::vector<BodyState>& moving,
+                                       std::int64_t tick) const {
+  if (!std::all_of(moving.begin(), moving.end(), IsFinite)) {
+    return std::vector<double>(joints_.size(), std::numeric_limits<double>::infinity());
+  }
+  std::vector<double> drifts;
+  const std::vector<BodyState> all =
+      imposed_.count() > 0 ? AllStates(moving, imposed_, tick) : std::vector<BodyState>();
+  const std::vector<BodyState>& states = imposed_.count() > 0 ? all : moving;
+  for (const JointEnds& joint : joints_) drifts.push_back(Drift(joint, states));
+  return drifts;
+}
+
 double JointMeter::Worst(const std::vector<BodyState>& moving, std::int64_t tick) const {
   if (!std::all_of(moving.begin(), moving.end(), IsFinite)) {
     return std::numeric_limits<double>::infinity();
   }
   double worst = 0;
-  const std::vector<BodyState> all =
-      imposed_.count() > 0 ? AllStates(moving, imposed_, tick) : std::vector<BodyState>();
-  const std::vector<BodyState>& states = imposed_.count() > 0 ? all : moving;
-  for (const JointEnds& joint : joints_) worst = std::max(worst, Drift(joint, states));
+  for (const double drift : Drifts(moving, tick)) worst = std::max(worst, drift);
   return worst;
 }
 

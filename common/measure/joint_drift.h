@@ -20,6 +20,8 @@ class JointMeter {
   /// spring without limits; motor: 0, since it yields. `moving`: of the moving assemblies ascending
   /// by id. `tick`: where kinematic parts are. Infinite when a pose is not finite.
   double Worst(const std::vector<BodyState>& moving, std::int64_t tick = 0) const;
+  /// The same of each joint, in the order of FindJointEnds.
+  std::vector<double> Drifts(const std::vector<BodyState>& moving, std::int64_t tick = 0) const;
 
  private:
   std::vector<JointEnds> joints_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/measure/parts.h"
+#include "common/measure/screen/screen.h"
 #include "common/scene/assembly.h"
 
 namespace seam {
@@ -63,7 +64,11 @@ Measures Measure(const Recording& recording, const Oracle& oracle) {
     measures.rebound = MeanRebound(recording, oracle, scene, composition);
     MeasureDisplayed(recording, oracle, *revisions, &measures);
     MeasureChanges(recording, *revisions, &measures);
+    MeasureKinetic(recording, oracle, *revisions, &measures);
   }
+  Screen screen(recording, revisions ? &*revisions : nullptr);
+  MeasurePointError(recording, oracle, screen, &measures);
+  MeasureScreens(recording, oracle, revisions ? &*revisions : nullptr, screen, &measures);
   const RevisionHistory* changing = revisions && revisions->change() ? &*revisions : nullptr;
   MeasureSmoothness(recording, oracle, changing, &measures);
   MeasureSeam(recording, changing, &measures);

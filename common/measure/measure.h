@@ -18,6 +18,19 @@ struct Measures {
   // Pose errors over all peers' views, bodies and ticks that the oracle has.
   double error_rms_m = 0, error_p95_m = 0, error_max_m = 0;
   double error_rms_rad = 0;
+  // RMS of the largest displacement of a point of each body: of what clients see of others, of
+  // what they see of their own, and of the server's view. Empty where there is no such view.
+  std::optional<double> error_others_m, error_own_m, error_server_m;
+  // Of what clients see of others, against the oracle at the tick that is shown.
+  std::optional<double> path_error_rms_m;
+  std::optional<double> view_age_ms;  ///< how old that is; empty if nothing tells it
+  // From an input to motion by it, median: on the player's own screen, in the server's view, and on
+  // the other players' screens. Empty when nothing responds, or is not known by the clock.
+  std::optional<double> response_own_ms, response_server_ms, response_other_ms;
+  std::optional<double> seen;  ///< share of the body-seconds in which a person would notice
+  // Kinetic energy in windows of a second, of any peer, as displayed and of its physics, as a
+  // multiple of the oracle's; and of the hottest body as one of the oracle's hottest.
+  std::optional<double> energy_ratio_min, energy_ratio_max, hottest_ratio;
   double stutter_mps2 = 0;     ///< RMS of the second difference minus the oracle's
   std::int64_t backsteps = 0;  ///< displayed moves against the body's velocity
   // Between peers: displayed against the authority's display. Empty when nobody follows anybody.
@@ -35,6 +48,7 @@ struct Measures {
   std::int64_t handovers = 0;  ///< changes of authority over a mechanism
   // How far the new authority is from the old one when it takes up. Empty without a hand-over.
   std::optional<double> handover_gap_m, handover_dv_mps;
+  std::optional<double> handover_gap_p95_m, handover_dv_p95_mps;  ///< the same, nearest rank
   // Of worlds whose bodies change; empty without edits.
   std::optional<double> topology_lag_s;  ///< longest that a peer lacked an edit that was ordered
   std::optional<std::int64_t> lost;      ///< bodies too few or too many in views, over all ticks

@@ -99,8 +99,9 @@ OracleOptions JudgeOf(const Room& room);
 /// scene does not parse or the session is too long (kOracleStatesMax).
 Oracle ComputeOracle(const Recording& recording, const OracleOptions& options = {});
 
-/// RMS distance in m of two oracles of one recording, over all bodies and the ticks that both have.
-double OracleDistance(const Oracle& a, const Oracle& b);
+/// How far two oracles of a recording are apart, m: RMS of the largest displacement of a point of a
+/// body, over all bodies and the ticks that both have; the bodies are those of `b`.
+double OracleDistance(const Recording& recording, const Oracle& a, const Oracle& b);
 
 /// The oracle's own sensitivity: RMS distance in m between it and itself with one body nudged, the
 /// median over at most `bodies` bodies, evenly chosen. Requires an oracle without barriers. No

@@ -7,15 +7,36 @@
 namespace seam {
 namespace {
 
-const char* const kColumns[] = {"scene",       "run",          "mode",        "reconcile",
-                                "impair",      "seed",         "error_rms_m", "error_p95_m",
-                                "error_max_m", "stutter_mps2", "backsteps",   "rebound",
-                                "bytes_per_s", "cpu_us_per_s"};
+const char* const kColumns[] = {"scene",
+                                "run",
+                                "mode",
+                                "reconcile",
+                                "impair",
+                                "seed",
+                                "error_others_m",
+                                "error_own_m",
+                                "path_error_rms_m",
+                                "view_age_ms",
+                                "response_own_ms",
+                                "response_other_ms",
+                                "seen",
+                                "error_rms_m",
+                                "error_p95_m",
+                                "error_max_m",
+                                "stutter_mps2",
+                                "backsteps",
+                                "rebound",
+                                "bytes_per_s",
+                                "cpu_us_per_s"};
 /// Columns before this one are text and stand to the left.
 constexpr std::size_t kTextColumns = 5;
 
 std::string Number(double value, bool applies = true) {
   return applies ? fmt::format("{:.6g}", value) : "";
+}
+
+std::string Number(const std::optional<double>& value) {
+  return Number(value.value_or(0), value.has_value());
 }
 
 std::vector<std::string> Values(const MeasuredRun& run) {
@@ -27,6 +48,13 @@ std::vector<std::string> Values(const MeasuredRun& run) {
           run.room.reconcile,
           run.room.impair,
           std::to_string(run.room.seed),
+          Number(m.error_others_m),
+          Number(m.error_own_m),
+          Number(m.path_error_rms_m),
+          Number(m.view_age_ms),
+          Number(m.response_own_ms),
+          Number(m.response_other_ms),
+          Number(m.seen),
           Number(m.error_rms_m, any),
           Number(m.error_p95_m, any),
           Number(m.error_max_m, any),
@@ -54,6 +82,15 @@ std::string More(const MeasuredRun& run) {
   for (const auto& [peer, rms] : m.error_rms_by_peer_m) {
     out += fmt::format("  peer {:<2}          {:.6g} m RMS\n", peer, rms);
   }
+  out += fmt::format("  error            {}\n",
+                     Beside(m.error_server_m, std::nullopt, "m in the server's view"));
+  out += fmt::format("  response         {}\n",
+                     Beside(m.response_server_ms, std::nullopt, "ms in the server's view"));
+  if (m.energy_ratio_min && m.energy_ratio_max) {
+    out +=
+        fmt::format("  kinetic energy   {:.6g} to {:.6g} times the oracle's, hottest body {:.6g}\n",
+                    *m.energy_ratio_min, *m.energy_ratio_max, m.hottest_ratio.value_or(0));
+  }
   if (m.seam_rms_m) {
     out += fmt::format(
         "  seam             {:.6g} m RMS from the authority's view, stutter {:.6g} "
@@ -71,6 +108,10 @@ std::string More(const MeasuredRun& run) {
   if (m.handover_gap_m && m.handover_dv_mps) {
     out += fmt::format("; old and new authority at most {:.6g} m and {:.6g} m/s apart",
                        *m.handover_gap_m, *m.handover_dv_mps);
+  }
+  if (m.handover_gap_p95_m && m.handover_dv_p95_mps) {
+    out +=
+        fmt::format(" (p95 {:.6g} m, {:.6g} m/s)", *m.handover_gap_p95_m, *m.handover_dv_p95_mps);
   }
   out += '\n';
   out += m.rest_ticks ? fmt::format(

@@ -18,8 +18,9 @@ struct MeasuredRun {
 };
 
 /// The column names, without a line end:
-/// scene,run,mode,reconcile,impair,seed,error_rms_m,error_p95_m,error_max_m,stutter_mps2,backsteps,
-/// rebound,bytes_per_s,cpu_us_per_s
+/// scene,run,mode,reconcile,impair,seed,error_others_m,error_own_m,path_error_rms_m,view_age_ms,
+/// response_own_ms,response_other_ms,seen,error_rms_m,error_p95_m,error_max_m,stutter_mps2,
+/// backsteps,rebound,bytes_per_s,cpu_us_per_s
 std::string CsvHeader();
 
 /// A field as RFC 4180 wants it: text with commas, quotes or line ends gets quotes around it.

@@ -54,7 +54,8 @@ bool AppendByTick(std::vector<T>* to, T& message) {
 
 }  // namespace
 
-bool RecordingBuilder::Add(const std::string& channel, ByteView message) {
+bool RecordingBuilder::Add(const std::string& channel, ByteView message, std::int64_t heard_us) {
+  heard_us_ = heard_us;
   ++recording_.events_read;
   const std::string room = RoomOf(channel);
   if (room.empty() || (!wanted_room_.empty() && room != wanted_room_)) {
@@ -214,6 +215,7 @@ bool RecordingBuilder::KeepWhole(View& view) {
   const bool first = recording_.last_tick < 0;
   recording_.first_tick = first ? view.tick : std::min(recording_.first_tick, view.tick);
   recording_.last_tick = std::max(recording_.last_tick, view.tick);
+  if (heard_us_ >= 0) recording_.view_us[view.peer][view.tick] = heard_us_;
   recording_.views[view.peer][view.tick] = std::move(view);
   return true;
 }
@@ -258,15 +260,15 @@ void RecordingBuilder::DropStrayTicks() {
   }
 }
 
-void MemoryRecorder::Publish(const std::string& channel, std::int64_t, ByteView message) {
-  builder.Add(channel, message);
+void MemoryRecorder::Publish(const std::string& channel, std::int64_t utime, ByteView message) {
+  builder.Add(channel, message, utime);
 }
 
 Recording ReadRecording(const std::string& path, const std::string& room) {
   LogReader reader(path);
   RecordingBuilder builder(room);
   LogEvent event;
-  while (reader.Next(&event)) builder.Add(event.channel, event.data);
+  while (reader.Next(&event)) builder.Add(event.channel, event.data, event.timestamp_us);
   if (!builder.has_room()) {
     const std::int32_t other = builder.recording().foreign_protocol;
     if (other != 0) {

@@ -17,6 +17,9 @@ namespace seam {
 struct Recording {
   Room room;                                             ///< the first of the log
   std::map<int, std::map<std::int64_t, View>> views;     ///< by peer, by tick; complete ones only
+  /// When the bus heard each view, us: one clock for all peers. By peer, by tick; a recording that
+  /// was not told has none.
+  std::map<int, std::map<std::int64_t, std::int64_t>> view_us;
   std::map<int, std::map<std::int64_t, Inputs>> inputs;  ///< by player, by first_tick
   std::vector<States> states;                            ///< accepted ones, in log order
   std::vector<Grants> grants;                            ///< in log order
@@ -48,7 +51,8 @@ class RecordingBuilder {
   /// `room` "": the room of the first message that decodes.
   explicit RecordingBuilder(std::string room = "") : wanted_room_(std::move(room)) {}
   /// False when the message does not belong: foreign, undecodable, or a duplicate (each counted).
-  bool Add(const std::string& channel, ByteView message);
+  /// `heard_us`: when the bus heard it, by its own clock; -1: not known.
+  bool Add(const std::string& channel, ByteView message, std::int64_t heard_us = -1);
   /// Sorted by tick; the reference stays valid, but messages added later may be out of order in it
   /// until recording() is called again.
   Recording& recording();
@@ -78,6 +82,7 @@ class RecordingBuilder {
   void DropStrayTicks();
 
   std::string wanted_room_;
+  std::int64_t heard_us_ = -1;  // of the message that is being added
   bool has_room_ = false;
   bool sorted_ = true;
   Recording recording_;

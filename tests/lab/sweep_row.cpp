@@ -10,6 +10,7 @@
 #include "common/base/process.h"
 #include "common/measure/limit/information_limit.h"
 #include "common/measure/measure.h"
+#include "common/measure/screen/response.h"
 #include "common/measure/table.h"
 #include "tests/lab/validity/preconditions.h"
 
@@ -54,7 +55,19 @@ std::vector<Column> Columns(const Measures& m, const Floors& floors) {
     return applies ? std::optional<double>(value) : std::nullopt;
   };
   const bool any = m.compared > 0;
-  return {{"error_rms_m", given(any, m.error_rms_m)},
+  return {{"error_others_m", m.error_others_m},
+          {"error_own_m", m.error_own_m},
+          {"error_server_m", m.error_server_m},
+          {"path_error_rms_m", m.path_error_rms_m},
+          {"view_age_ms", m.view_age_ms},
+          {"response_own_ms", m.response_own_ms},
+          {"response_server_ms", m.response_server_ms},
+          {"response_other_ms", m.response_other_ms},
+          {"seen", m.seen},
+          {"energy_ratio_min", m.energy_ratio_min},
+          {"energy_ratio_max", m.energy_ratio_max},
+          {"hottest_ratio", m.hottest_ratio},
+          {"error_rms_m", given(any, m.error_rms_m)},
           {"error_p95_m", given(any, m.error_p95_m)},
           {"error_max_m", given(any, m.error_max_m)},
           {"error_rms_rad", given(any, m.error_rms_rad)},
@@ -74,6 +87,8 @@ std::vector<Column> Columns(const Measures& m, const Floors& floors) {
           {"handover_jump_m", given(m.handovers > 0, m.handover_jump_m)},
           {"handover_gap_m", m.handover_gap_m},
           {"handover_dv_mps", m.handover_dv_mps},
+          {"handover_gap_p95_m", m.handover_gap_p95_m},
+          {"handover_dv_p95_mps", m.handover_dv_p95_mps},
           {"topology_lag_s", m.topology_lag_s},
           {"lost", m.lost ? std::optional<double>(static_cast<double>(*m.lost)) : std::nullopt},
           {"floor_m", floors.floor_m},
@@ -104,7 +119,8 @@ std::string Judged(const GridPoint& point, const SweepOptions& options, Cluster*
     with_barriers = ComputeOracle(recording, WithBarriers(recording.room));
   }
   const Oracle& oracle = barriers ? *with_barriers : plain;
-  const Measures measures = Measure(recording, oracle);
+  Measures measures = Measure(recording, oracle);
+  MeasureResponse(recording, oracle, 0, &measures);
   const std::string reason =
       InvalidReason({*point.scene, recording, oracle, measures, FindProfile(point.settings.impair),
                      cluster->server_net().traffic()});
@@ -112,7 +128,7 @@ std::string Judged(const GridPoint& point, const SweepOptions& options, Cluster*
   if (options.floor && reason.empty()) {
     floors.floor_m = ErrorFloor(recording, plain, kNudge);
     floors.wire_m = ErrorFloor(recording, plain, kWireNudge);
-    floors.barrier_m = OracleDistance(plain, *with_barriers);
+    floors.barrier_m = OracleDistance(recording, plain, *with_barriers);
   }
   if (options.limit && reason.empty()) floors.limit_m = InformationLimit(recording);
   return Values(measures, floors, reason) + (barriers ? ",barrier," : ",plain,") + CsvField(reason);

@@ -140,7 +140,7 @@ TEST(Measure, TicksAndBodiesTheOracleDoesNotHaveAreLeftOut) {
   oracle.first_tick = 1000;
   const Measures m = Measure(run, oracle);
   EXPECT_EQ(m.compared, 0);
-  EXPECT_EQ(CsvLine({"r", run.room, m, 0, 0}), ",r,oracle,,,0,,,,,,,,");
+  EXPECT_EQ(CsvLine({"r", run.room, m, 0, 0}), ",r,oracle,,,0,,,,,,,,,,,,,,,");
 }
 
 // ---- oracles and tables
@@ -194,7 +194,9 @@ TEST(Oracle, IsOfARecordingOfTheSameSceneAndTickRateOnly) {
 
 TEST(Table, HasExactlyTheAgreedColumns) {
   EXPECT_EQ(CsvHeader(),
-            "scene,run,mode,reconcile,impair,seed,error_rms_m,error_p95_m,error_max_m,stutter_mps2,"
+            "scene,run,mode,reconcile,impair,seed,error_others_m,error_own_m,path_error_rms_m,"
+            "view_age_ms,response_own_ms,response_other_ms,seen,"
+            "error_rms_m,error_p95_m,error_max_m,stutter_mps2,"
             "backsteps,rebound,bytes_per_s,cpu_us_per_s");
   MeasuredRun run;
   run.run = "a \"b\"";
@@ -204,6 +206,9 @@ TEST(Table, HasExactlyTheAgreedColumns) {
   run.room.impair = "delay=50ms,loss=1%";
   run.room.seed = -3;
   run.measures.compared = 1;
+  run.measures.error_others_m = 0.25;
+  run.measures.view_age_ms = 150;
+  run.measures.seen = 0.75;
   run.measures.error_rms_m = 0.0123456789;
   run.measures.error_p95_m = 0.5;
   run.measures.error_max_m = 2;
@@ -211,9 +216,11 @@ TEST(Table, HasExactlyTheAgreedColumns) {
   run.measures.backsteps = 12;
   run.measures.rebound = 0.5;
   run.measures.bytes_per_s = 4096;
-  EXPECT_EQ(CsvLine(run),
-            "crossing,\"a \"\"b\"\"\",buffer,retrospect,\"delay=50ms,loss=1%\",-3,0.0123457,0.5,2,"
-            "1.23457e+06,12,0.5,4096,");
+  EXPECT_EQ(
+      CsvLine(run),
+      "crossing,\"a "
+      "\"\"b\"\"\",buffer,retrospect,\"delay=50ms,loss=1%\",-3,0.25,,,150,,,0.75,0.0123457,0.5,2,"
+      "1.23457e+06,12,0.5,4096,");
 }
 
 TEST(Table, IsAlignedAndShowsWhatDoesNotApplyAsADash) {

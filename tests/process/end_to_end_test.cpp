@@ -210,10 +210,27 @@ TEST_F(EndToEnd, TheMeasuresOfACaptureAreSane) {
 
   const auto rows = ReadCsv(csv);
   ASSERT_EQ(rows.size(), 5u);
-  const std::vector<std::string> columns = {
-      "scene",     "run",         "mode",        "reconcile",   "impair",
-      "seed",      "error_rms_m", "error_p95_m", "error_max_m", "stutter_mps2",
-      "backsteps", "rebound",     "bytes_per_s", "cpu_us_per_s"};
+  const std::vector<std::string> columns = {"scene",
+                                            "run",
+                                            "mode",
+                                            "reconcile",
+                                            "impair",
+                                            "seed",
+                                            "error_others_m",
+                                            "error_own_m",
+                                            "path_error_rms_m",
+                                            "view_age_ms",
+                                            "response_own_ms",
+                                            "response_other_ms",
+                                            "seen",
+                                            "error_rms_m",
+                                            "error_p95_m",
+                                            "error_max_m",
+                                            "stutter_mps2",
+                                            "backsteps",
+                                            "rebound",
+                                            "bytes_per_s",
+                                            "cpu_us_per_s"};
   EXPECT_EQ(rows[0], columns);
   std::map<std::string, std::map<std::string, double>> number;
   for (std::size_t i = 1; i < rows.size(); ++i) {
@@ -228,6 +245,9 @@ TEST_F(EndToEnd, TheMeasuresOfACaptureAreSane) {
   // The same scene and script give the same truth, tick by tick, whoever simulates it.
   EXPECT_EQ(number["oracle"]["error_max_m"], 0);
   EXPECT_EQ(number["oracle"]["rebound"], 1);
+  EXPECT_EQ(number["oracle"]["error_others_m"], 0);
+  EXPECT_EQ(number["oracle"]["seen"], 0);
+  EXPECT_GT(number["strict"]["seen"], 0.3);
   EXPECT_GT(number["retrospect"]["rebound"], 0.9) << "the brick gets what is due to it";
   EXPECT_LT(number["retrospect"]["rebound"], 1.1);
   EXPECT_GT(number["central"]["rebound"], 0.9);

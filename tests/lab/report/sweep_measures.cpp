@@ -17,6 +17,13 @@ SweepMeasure Column(const char* id, const char* name, const char* unit, bool log
 
 const std::vector<SweepMeasure>& SweepMeasures() {
   static const std::vector<SweepMeasure> measures = {
+      Column("others", "error of others' bodies, RMS", "m", true, "error_others_m"),
+      Column("own", "error of own bodies, RMS", "m", true, "error_own_m"),
+      Column("path", "error of the path shown, RMS", "m", true, "path_error_rms_m"),
+      Column("age", "age of what is shown", "ms", false, "view_age_ms"),
+      Column("response-own", "response, own screen", "ms", false, "response_own_ms"),
+      Column("response-other", "response, others' screens", "ms", false, "response_other_ms"),
+      Column("seen", "seen, share of body-seconds", "1 is all", false, "seen"),
       Column("error", "error, RMS", "m", true, "error_rms_m"),
       Column("seam", "seam: peer against authority, RMS", "m", true, "seam_rms_m"),
       Column("stutter", "stutter, RMS", "m/s²", true, "stutter_mps2"),

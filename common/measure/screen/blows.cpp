@@ -1,0 +1,105 @@
+#include "common/measure/screen/blows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "common/measure/screen/thresholds.h"
+
+namespace seam {
+namespace {
+
+using Eigen::Vector2d;
+
+/// A blow takes this many ticks, and is looked for before and after it for this many, to tell it
+/// from a force that goes on.
+constexpr std::int64_t kBlowTicks = 2, kAround = 2;
+/// A view is at most so much ahead of the oracle or behind it, s.
+constexpr double kEarly = 0.1, kLate = 1.0;
+/// Bodies touch as far apart as this, m.
+constexpr double kTouch = 0.1;
+constexpr std::int64_t kNever = std::numeric_limits<std::int64_t>::max() / 2;
+
+/// m/s, of the tick that leads to `tick`.
+Vector2d Velocity(const BodyPath& path, std::int64_t tick, double h) {
+  return (path.At(tick).position - path.At(tick - 1).position) / h;
+}
+
+}  // namespace
+
+void Blows::Begin(PartId id, const BodyPath& truth, double radius) {
+  begin_ = blows_.size();
+  const auto change = [&](std::int64_t tick) -> Vector2d {
+    return Velocity(truth, tick + kBlowTicks, h_) - Velocity(truth, tick, h_);
+  };
+  const std::int64_t reach = kBlowTicks + kAround;
+  for (std::int64_t tick = truth.first() + reach + 1; tick + 2 * reach <= truth.last(); ++tick) {
+    if (!truth.Whole(tick - reach - 1, tick + 2 * reach)) continue;
+    const Vector2d dv = change(tick);
+    const double usual = std::max(change(tick - reach).norm(), change(tick + reach).norm());
+    if (dv.norm() < kBlowMin + usual) continue;
+    if (change(tick + 1).norm() > dv.norm()) continue;  // it is just beginning
+    Blow blow;
+    blow.id = id;
+    blow.tick = tick + 1;
+    blow.position = truth.At(tick + 1).position;
+    blow.before = Velocity(truth, tick, h_);
+    blow.change = dv;
+    blow.radius = radius;
+    tick += reach;
+    const std::optional<std::int64_t> due = Answer(blow, truth);
+    if (!due) continue;  // the next blow takes back what this one gave
+    blow.answer_due = *due;
+    blows_.push_back(std::move(blow));
+  }
+}
+
+std::optional<std::int64_t> Blows::Answer(const Blow& blow, const BodyPath& path) const {
+  const Vector2d way = blow.change.normalized();
+  const double due = blow.change.norm() / 2;
+  const auto early = static_cast<std::int64_t>(std::llround(kEarly / h_));
+  const auto late = static_cast<std::int64_t>(std::llround(kLate / h_));
+  for (std::int64_t tick = blow.tick - early; tick <= blow.tick + late; ++tick) {
+    if (!path.Whole(tick - 1, tick + 1)) continue;
+    // Over two ticks: a jump forth and back in the next is no answer.
+    const Vector2d v = (path.At(tick + 1).position - path.At(tick - 1).position) / (2 * h_);
+    if ((v - blow.before).dot(way) >= due) return tick;
+  }
+  return std::nullopt;
+}
+
+void Blows::Show(int peer, const ShownBody& body) {
+  for (std::size_t b = begin_; b < blows_.size(); ++b) {
+    Blow& blow = blows_[b];
+    if (!body.shown.Has(blow.tick)) continue;
+    const std::optional<std::int64_t> answer = Answer(blow, body.shown);
+    blow.late[peer] = answer ? *answer - blow.answer_due : kNever;
+  }
+}
+
+void Blows::Notice(BodySeconds* seconds) const {
+  std::vector<const Blow*> order;
+  for (const Blow& blow : blows_) order.push_back(&blow);
+  std::stable_sort(order.begin(), order.end(),
+                   [](const Blow* a, const Blow* b) { return a->tick < b->tick; });
+  const auto delay = static_cast<std::int64_t>(std::floor(kContactDelay / h_ + 1e-9));
+  // Whether `a` answers later than `b`.
+  const auto compare = [&](const Blow& a, const Blow& b) {
+    for (const auto& [peer, late] : a.late) {
+      const auto other = b.late.find(peer);
+      if (other == b.late.end() || late <= other->second + delay) continue;
+      seconds->Notice(peer, a.id, b.answer_due + other->second + delay);
+    }
+  };
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t k = i + 1; k < order.size() && order[k]->tick <= order[i]->tick + 1; ++k) {
+      const Blow &a = *order[i], &b = *order[k];
+      const double apart = (a.position - b.position).norm();
+      if (a.id == b.id || apart > a.radius + b.radius + kTouch) continue;
+      compare(a, b);
+      compare(b, a);
+    }
+  }
+}
+
+}  // namespace seam

@@ -1,0 +1,94 @@
+#include <algorithm>
+
+#include "common/measure/screen/noticed.h"
+#include "common/measure/screen/thresholds.h"
+
+namespace seam {
+
+std::optional<double> BodySeconds::Share() const {
+  if (moved_.empty()) return std::nullopt;
+  std::int64_t both = 0;
+  for (const Key& key : moved_) both += noticed_.count(key) > 0 ? 1 : 0;
+  return static_cast<double>(both) / static_cast<double>(moved_.size());
+}
+
+double ShownBody::Due(std::int64_t tick) const {
+  return static_cast<double>(tick) - ages.TicksAt(tick);
+}
+
+std::optional<Place3> ShownBody::TrueWay(std::int64_t from, std::int64_t to,
+                                         std::int64_t aged) const {
+  const double age = ages.TicksAt(aged), begin = static_cast<double>(truth.first());
+  const double a = std::max(begin, static_cast<double>(from) - age);
+  const double b = std::max(begin, static_cast<double>(to) - age);
+  if (!truth.Whole(a, b)) return std::nullopt;
+  return Between(truth.At(a), truth.At(b), radius);
+}
+
+std::vector<std::int64_t> MovingTicks(const ShownBody& body) {
+  std::vector<std::int64_t> ticks;
+  const double step_min = kMovesMin * body.h;
+  for (std::int64_t tick = body.shown.first() + 1; tick <= body.shown.last(); ++tick) {
+    const auto moves = [&](const BodyPath& path) {
+      return path.Whole(tick - 1, tick) &&
+             Between(path.At(tick - 1), path.At(tick), body.radius).norm() >= step_min;
+    };
+    if (body.shown.Has(tick) && (moves(body.shown) || moves(body.truth))) ticks.push_back(tick);
+  }
+  return ticks;
+}
+
+namespace {
+
+/// Ticks of the windows: 1, 2, 4, ... and half a second.
+std::vector<std::int64_t> Windows(double h) {
+  const std::int64_t longest = std::max<std::int64_t>(1, std::llround(kVelocityLong / h));
+  std::vector<std::int64_t> windows;
+  for (std::int64_t n = 1; n < longest; n *= 2) windows.push_back(n);
+  windows.push_back(longest);
+  return windows;
+}
+
+/// Where the oracle's body is when it is shown, at every tick of a span of ticks, by one age.
+std::vector<double> TrueSteps(const ShownBody& body, std::int64_t from, std::int64_t to,
+                              std::int64_t aged) {
+  std::vector<double> steps;
+  for (std::int64_t tick = from; tick < to; ++tick) {
+    const std::optional<Place3> step = body.TrueWay(tick, tick + 1, aged);
+    if (step) steps.push_back(step->norm());
+  }
+  return steps;
+}
+
+bool IsWrong(const ShownBody& body, std::int64_t tick, std::int64_t n) {
+  if (!body.shown.Whole(tick - n, tick)) return false;
+  const std::optional<Place3> due = body.TrueWay(tick - n, tick, tick);
+  if (!due) return false;
+  Place3 apart = Between(body.shown.At(tick - n), body.shown.At(tick), body.radius) - *due;
+  // Both turns are known but for whole turns.
+  if (body.radius > 0) apart.z() = body.radius * WrapAngle(apart.z() / body.radius);
+  const double off = apart.norm();
+  const double tau = static_cast<double>(n) * body.h;
+  if (off <= kWayFloor || off <= kVelocityFloor * tau) return false;
+  // The oracle's speed: with a tick on either side, since a bounce within the window stops it.
+  double way = 0;
+  const std::vector<double> steps = TrueSteps(body, tick - n - 1, tick + 1, tick);
+  for (const double step : steps) way += step;
+  const double speed = steps.empty() ? 0 : way / (static_cast<double>(steps.size()) * body.h);
+  return off > VelocityShare(tau, body.h) * speed * tau;
+}
+
+}  // namespace
+
+std::vector<std::int64_t> WrongVelocities(const ShownBody& body) {
+  std::vector<std::int64_t> ticks;
+  const std::vector<std::int64_t> windows = Windows(body.h);
+  for (std::int64_t tick = body.shown.first() + 1; tick <= body.shown.last(); ++tick) {
+    const bool wrong = std::any_of(windows.begin(), windows.end(),
+                                   [&](std::int64_t n) { return IsWrong(body, tick, n); });
+    if (wrong) ticks.push_back(tick);
+  }
+  return ticks;
+}
+
+}  // namespace seam

@@ -1,0 +1,199 @@
+#include "common/measure/screen/response.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "common/measure/parts.h"
+#include "common/measure/percentile.h"
+#include "common/measure/screen/age.h"
+#include "common/measure/screen/counterfactual.h"
+
+namespace seam {
+namespace {
+
+constexpr int kChangesMax = 16;     ///< of each player
+constexpr double kHorizon = 1;      ///< s: how long an answer is waited for
+constexpr double kEffectMin = 0.2;  ///< m/s: weaker inputs are left out
+/// A body answers when it has this share of the effect that the input will have, but at least and
+/// at most so much, m/s (of a strong effect the first of it tells most), and keeps it for so many
+/// ticks.
+constexpr double kShare = 0.25, kAnswerMin = 0.1, kAnswerMax = 0.5;
+constexpr std::int64_t kKept = 3;
+/// Where the oracle's own answer takes longer, what is late has caught up before it can be seen, s.
+constexpr double kOnsetMax = 0.25;
+/// The view's age and its error before the change are taken over so long, s.
+constexpr double kBefore = 0.25;
+constexpr double kNever = std::numeric_limits<double>::infinity();
+
+/// One change and what it does, seen along one direction.
+struct Question {
+  InputChange change;
+  Effect effect;
+  Eigen::Vector3d way{0, 0, 0};  // unit
+  double due = 0;                // m/s along it: the answer
+  std::int64_t truth_tick = 0;   // the oracle's own answer
+
+  /// m/s along the way, of the oracle with the input less without; nullopt beyond what is known.
+  std::optional<double> At(double tick) const {
+    const double t = tick - static_cast<double>(change.tick);
+    if (t <= -1) return 0;
+    const auto last = static_cast<double>(effect.velocity.size()) - 1;
+    if (t > last) return std::nullopt;
+    const double low = std::floor(t);
+    const auto along = [&](double at) {
+      return at < 0 ? 0 : effect.velocity[static_cast<std::size_t>(at)].dot(way);
+    };
+    return along(low) + (t > low ? (t - low) * (along(low + 1) - along(low)) : 0);
+  }
+};
+
+std::optional<Question> Ask(const InputChange& change, Effect effect, double h) {
+  if (effect.id < 0) return std::nullopt;
+  Question question{change, std::move(effect), {0, 0, 0}, 0, 0};
+  double most = 0;
+  for (const Eigen::Vector3d& d : question.effect.velocity) {
+    if (d.norm() <= most) continue;
+    most = d.norm();
+    question.way = d / most;
+  }
+  question.due = std::clamp(kShare * most, kAnswerMin, kAnswerMax);
+  const auto onset_max = static_cast<std::size_t>(std::llround(kOnsetMax / h));
+  const std::size_t known = question.effect.velocity.size();
+  for (std::size_t t = 0; t < std::min(known, onset_max); ++t) {
+    if (question.effect.velocity[t].dot(question.way) < question.due) continue;
+    question.truth_tick = change.tick + static_cast<std::int64_t>(t);
+    return question;
+  }
+  return std::nullopt;
+}
+
+/// What one screen shows of the body, less what it would show without the input: along the way.
+class Difference {
+ public:
+  Difference(const Question& question, const BodyPath& shown, const BodyPath& truth, double h)
+      : question_(question), shown_(shown), truth_(truth), h_(h) {
+    const auto before = static_cast<std::int64_t>(std::llround(kBefore / h));
+    const std::int64_t tick = question.change.tick;
+    const std::int64_t first = std::max(shown.first(), tick - before);
+    const ViewAge age = FitAge(shown, truth, question.effect.radius, first, tick - 1,
+                               static_cast<int>(std::llround(1 / h)));
+    if (age.told) age_ = age.ticks;
+    double sum = 0;
+    std::int64_t count = 0;
+    for (std::int64_t t = first + 1; t < tick; ++t) {
+      const std::optional<double> off = Raw(t);
+      if (!off) continue;
+      sum += *off;
+      ++count;
+    }
+    if (count > 0) bias_ = sum / static_cast<double>(count);
+  }
+  double age() const { return age_; }
+  /// m/s, before the change; it is taken off.
+  double bias() const { return bias_; }
+  std::optional<double> At(std::int64_t tick) const {
+    const std::optional<double> raw = Raw(tick);
+    return raw ? std::optional<double>(*raw - bias_) : std::nullopt;
+  }
+
+ private:
+  std::optional<double> Raw(std::int64_t tick) const {
+    const double due = static_cast<double>(tick) - age_;
+    const std::optional<double> effect = question_.At(due);
+    if (!effect || !shown_.Whole(tick - 1, tick) || !truth_.Whole(due - 1, due)) {
+      return std::nullopt;
+    }
+    const double radius = question_.effect.radius;
+    const Eigen::Vector3d v = Between(shown_.At(tick - 1), shown_.At(tick), radius) / h_;
+    const Eigen::Vector3d u = Between(truth_.At(due - 1), truth_.At(due), radius) / h_;
+    return (v - u).dot(question_.way) + *effect;
+  }
+
+  const Question& question_;
+  const BodyPath &shown_, &truth_;
+  double h_, age_ = 0, bias_ = 0;
+};
+
+/// The tick in which the screen answers; kNever, or nullopt where nothing can be said: the body is
+/// not where the oracle has it, or it moves so before the input acts.
+std::optional<double> AnswerTick(const Question& question, const Difference& screen, double h) {
+  if (std::abs(screen.bias()) > question.due / 2) return std::nullopt;
+  const std::int64_t first = question.change.tick;
+  const auto end = first + std::llround(kHorizon / h) + std::llround(screen.age());
+  std::int64_t kept = 0;
+  for (std::int64_t tick = first; tick < end; ++tick) {
+    const std::optional<double> off = screen.At(tick);
+    kept = off && *off >= question.due ? kept + 1 : 0;
+    if (kept < kKept) continue;
+    const std::int64_t answer = tick - kKept + 1;
+    if (answer < question.truth_tick - 1) return std::nullopt;
+    return static_cast<double>(answer);
+  }
+  return kNever;
+}
+
+std::optional<double> Median(std::vector<double> values) {
+  if (values.empty()) return std::nullopt;
+  const double median = Percentile(values, 0.5);
+  return std::isfinite(median) ? std::optional<double>(median) : std::nullopt;
+}
+
+/// When the bus heard a view, us.
+std::optional<double> HeardUs(const Recording& recording, int peer, std::int64_t tick) {
+  const auto of_peer = recording.view_us.find(peer);
+  if (of_peer == recording.view_us.end()) return std::nullopt;
+  const auto heard = of_peer->second.find(tick);
+  if (heard == of_peer->second.end()) return std::nullopt;
+  return static_cast<double>(heard->second);
+}
+
+}  // namespace
+
+void MeasureResponse(const Recording& recording, const Oracle& oracle, int input_delay_ticks,
+                     Measures* measures) {
+  if (recording.room.scene_text.empty() || recording.view_us.empty()) return;
+  const Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
+  const RevisionHistory revisions(scene, recording);
+  const RevisionHistory* changing = revisions.change() ? &revisions : nullptr;
+  OwnBodies own(recording, &revisions);
+  const Counterfactual worlds(recording, oracle, revisions, &own);
+  const double h = TickSeconds(recording);
+  const auto horizon = static_cast<std::int64_t>(std::llround(kHorizon / h));
+  std::map<int, std::vector<const View*>> views;
+  for (const auto& [peer, of_peer] : recording.views) views[peer] = ViewsByTick(recording, peer);
+  std::vector<double> of_own, of_server, of_others;
+  const std::int64_t first = std::max(oracle.first_tick, recording.first_tick) + 1;
+  for (const InputChange& change :
+       ChangesOf(TapeOf(recording), first, recording.last_tick - horizon, kChangesMax)) {
+    const int player_peer = change.player + 1;
+    const std::optional<double> read_us =
+        HeardUs(recording, player_peer, change.tick - input_delay_ticks);
+    if (!read_us) continue;
+    const std::optional<Question> question = Ask(change, worlds.Of(change, horizon, kEffectMin), h);
+    if (!question) continue;
+    const BodyPath truth = TruePath(recording, oracle, question->effect.id);
+    for (const auto& [peer, of_peer] : views) {
+      const BodyPath shown = ShownPath(recording, of_peer, changing, question->effect.id);
+      const Difference screen(*question, shown, truth, h);
+      const std::optional<double> tick = AnswerTick(*question, screen, h);
+      if (!tick) continue;
+      std::vector<double>& kind = peer == 0 ? of_server : peer == player_peer ? of_own : of_others;
+      if (*tick == kNever) {
+        kind.push_back(kNever);
+        continue;
+      }
+      const auto seen_us = HeardUs(recording, peer, static_cast<std::int64_t>(*tick));
+      if (!seen_us) continue;
+      // The body's own inertia is no latency; the step in which the input acts is.
+      const auto inertia = static_cast<double>(question->truth_tick - change.tick - 1);
+      kind.push_back((*seen_us - *read_us) * 1e-3 - 1000 * inertia * h);
+    }
+  }
+  measures->response_own_ms = Median(of_own);
+  measures->response_server_ms = Median(of_server);
+  measures->response_other_ms = Median(of_others);
+}
+
+}  // namespace seam
