@@ -47,8 +47,8 @@ struct Oracle {
   PartId inserted_from = std::numeric_limits<PartId>::max();
   std::map<PartId, PartId> own_id;  ///< of parts that came, by id in the recording
   /// Bodies of two players touched (by whose they are at tick 0: Part::owner, a player's vehicle,
-  /// or in whose region). Only looked for in scenes that expect it.
-  bool contact = false;
+  /// or in whose region). nullopt: not looked for; ComputeOracle does in scenes that expect it.
+  std::optional<bool> contact;
 
   /// State of a part, by its id in the recording: the pose of the part, the velocity of the body
   /// it is in. nullopt when the tick or the part is not known, or it has left.

@@ -190,11 +190,11 @@ TEST(Oracles, BarriersChangeNothingForWhatIsFreeAndMetresOfAChaoticWall) {
 
 TEST(Oracles, LookForAContactOfTwoPlayersWhereTheSceneExpectsOne) {
   Recording recording = Drive(0, 0);  // ann drives into bob's sled, which stands
-  EXPECT_FALSE(ComputeOracle(recording).contact) << "nobody asked";
+  EXPECT_FALSE(ComputeOracle(recording).contact.has_value()) << "nobody asked";
   recording.room.scene_text = "expect = 'contact'\n" + std::string(kSleds);
-  EXPECT_TRUE(ComputeOracle(recording).contact);
+  EXPECT_TRUE(ComputeOracle(recording).contact.value());
   recording.last_tick = 20;  // it is not there yet
-  EXPECT_FALSE(ComputeOracle(recording).contact);
+  EXPECT_FALSE(ComputeOracle(recording).contact.value());
 }
 
 }  // namespace
