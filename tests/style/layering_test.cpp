@@ -151,6 +151,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
   const std::vector<std::pair<const char*, const char*>> table = {
       {"common/sync/reconcile", "none"},
       {"common/sync/correct", "common/sync(/reconcile)?"},
+      {"common/measure/screen", "common/measure"},
       {"common/stages/(bonds|bricks|character|water)", "common/stages"},
       {"server/authority", "none"},
       {"server/edits", "server/authority"},
@@ -160,7 +161,6 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"render/canvas", "none"},
       {"render/playback", "render/canvas"},
       {"render/draw", "render/(canvas|playback)"},
-      {"common/measure/screen", "common/measure"},
       {"common/measure/limit", "common/measure(/screen)?"},
       {"tests/lab/hard", "none"},
       {"tests/lab/report", "tests/lab"},

@@ -39,14 +39,12 @@ struct ShownBody {
   double radius = 0;  ///< m
   double h = 0;       ///< s per tick
 
-  /// The tick of the oracle that is shown.
-  double Due(std::int64_t tick) const;
   /// From `from` to `to`, the age being that at `to`; nullopt where the oracle is not known, or its
   /// body is not the same.
   std::optional<Place3> TrueWay(std::int64_t from, std::int64_t to, std::int64_t aged) const;
 };
 
-/// Ticks in which the body moves, on the screen or in the oracle.
+/// noticed.cpp: ticks in which the body moves, on the screen or in the oracle.
 std::vector<std::int64_t> MovingTicks(const ShownBody& body);
 /// noticed_velocity.cpp: ticks to which the velocity has been wrong.
 std::vector<std::int64_t> WrongVelocities(const ShownBody& body);

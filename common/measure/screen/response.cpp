@@ -140,6 +140,16 @@ std::optional<double> Median(std::vector<double> values) {
   return std::isfinite(median) ? std::optional<double>(median) : std::nullopt;
 }
 
+/// Whether the times tell anything: a bus without a clock gives all the same.
+bool TimesPass(const Recording& recording) {
+  for (const auto& [peer, times] : recording.view_us) {
+    const double ticks = static_cast<double>(times.rbegin()->first - times.begin()->first);
+    const double us = static_cast<double>(times.rbegin()->second - times.begin()->second);
+    if (ticks > 0 && us < ticks * TickSeconds(recording) * 1e6 / 2) return false;
+  }
+  return !recording.view_us.empty();
+}
+
 /// When the bus heard a view, us.
 std::optional<double> HeardUs(const Recording& recording, int peer, std::int64_t tick) {
   const auto of_peer = recording.view_us.find(peer);
@@ -153,7 +163,7 @@ std::optional<double> HeardUs(const Recording& recording, int peer, std::int64_t
 
 void MeasureResponse(const Recording& recording, const Oracle& oracle, int input_delay_ticks,
                      Measures* measures) {
-  if (recording.room.scene_text.empty() || recording.view_us.empty()) return;
+  if (recording.room.scene_text.empty() || !TimesPass(recording)) return;
   const Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
   const RevisionHistory revisions(scene, recording);
   const RevisionHistory* changing = revisions.change() ? &revisions : nullptr;
