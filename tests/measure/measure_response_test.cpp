@@ -9,6 +9,7 @@
 #include "common/measure/screen/counterfactual.h"
 #include "common/measure/screen/extent.h"
 #include "common/measure/screen/response.h"
+#include "tests/lab/cluster.h"
 #include "tests/support/made_recording.h"
 
 namespace seam {
@@ -157,6 +158,23 @@ TEST(Response, IsNotGivenWhereAScreenNeverAnswersOrThereAreNoTimes) {
   Measures none;
   MeasureResponse(run, oracle, 0, &none);
   EXPECT_FALSE(none.response_own_ms);
+}
+
+TEST(Response, InASessionItIsATickOnTheOwnScreenAndTheNetworksDelayOnOthers) {
+  for (const char* mode : {"buffer", "central"}) {
+    ClusterConfig config;
+    config.mode = mode;
+    config.impair = "demo";
+    config.drive = Drive::kBot;
+    const Recording run = RunCluster(config);
+    ASSERT_EQ(run.view_us.size(), 3u);
+    ASSERT_EQ(run.view_us.at(2).size(), run.views.at(2).size());
+    Measures m;
+    MeasureResponse(run, ComputeOracle(run), 0, &m);
+    EXPECT_NEAR(m.response_own_ms.value(), 17, 3) << mode;
+    EXPECT_GT(m.response_other_ms.value(), 100) << mode;  // 50 ms to the server and as many on
+    EXPECT_LT(m.response_other_ms.value(), 300) << mode;
+  }
 }
 
 TEST(Response, AreTheChangesThatWereRecordedEvenlyChosen) {

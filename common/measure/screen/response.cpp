@@ -16,11 +16,13 @@ namespace {
 constexpr int kChangesMax = 16;     ///< of each player
 constexpr double kHorizon = 1;      ///< s: how long an answer is waited for
 constexpr double kEffectMin = 0.2;  ///< m/s: weaker inputs are left out
-/// A body answers when it has this share of the effect that the input will have, but at least and
-/// at most so much, m/s (of a strong effect the first of it tells most), and keeps it for so many
-/// ticks.
-constexpr double kShare = 0.25, kAnswerMin = 0.1, kAnswerMax = 0.5;
+/// A body answers when the input has changed its velocity by so much, m/s, for so many ticks: the
+/// first of an effect tells most, since what is late catches up.
+constexpr double kAnswer = 0.1;
 constexpr std::int64_t kKept = 3;
+/// But by at least this many times what was wrong with the velocity before: its mean, and how much
+/// it varied.
+constexpr double kBiasFactor = 1.5, kNoiseFactor = 3;
 /// Where the oracle's own answer takes longer, what is late has caught up before it can be seen, s.
 constexpr double kOnsetMax = 0.25;
 /// The view's age and its error before the change are taken over so long, s.
@@ -32,8 +34,6 @@ struct Question {
   InputChange change;
   Effect effect;
   Eigen::Vector3d way{0, 0, 0};  // unit
-  double due = 0;                // m/s along it: the answer
-  std::int64_t truth_tick = 0;   // the oracle's own answer
 
   /// m/s along the way, of the oracle with the input less without; nullopt beyond what is known.
   std::optional<double> At(double tick) const {
@@ -49,22 +49,25 @@ struct Question {
   }
 };
 
-std::optional<Question> Ask(const InputChange& change, Effect effect, double h) {
+std::optional<Question> Ask(const InputChange& change, Effect effect) {
   if (effect.id < 0) return std::nullopt;
-  Question question{change, std::move(effect), {0, 0, 0}, 0, 0};
+  Question question{change, std::move(effect), {0, 0, 0}};
   double most = 0;
   for (const Eigen::Vector3d& d : question.effect.velocity) {
     if (d.norm() <= most) continue;
     most = d.norm();
     question.way = d / most;
   }
-  question.due = std::clamp(kShare * most, kAnswerMin, kAnswerMax);
+  return question;
+}
+
+/// The tick of the oracle's own answer, if it is one of that many m/s; nullopt: none in time.
+std::optional<std::int64_t> TrueAnswer(const Question& question, double due, double h) {
   const auto onset_max = static_cast<std::size_t>(std::llround(kOnsetMax / h));
   const std::size_t known = question.effect.velocity.size();
   for (std::size_t t = 0; t < std::min(known, onset_max); ++t) {
-    if (question.effect.velocity[t].dot(question.way) < question.due) continue;
-    question.truth_tick = change.tick + static_cast<std::int64_t>(t);
-    return question;
+    if (question.effect.velocity[t].dot(question.way) < due) continue;
+    return question.change.tick + static_cast<std::int64_t>(t);
   }
   return std::nullopt;
 }
@@ -80,19 +83,23 @@ class Difference {
     const ViewAge age = FitAge(shown, truth, question.effect.radius, first, tick - 1,
                                static_cast<int>(std::llround(1 / h)));
     if (age.told) age_ = age.ticks;
-    double sum = 0;
-    std::int64_t count = 0;
+    double sum = 0, squares = 0, count = 0;
     for (std::int64_t t = first + 1; t < tick; ++t) {
       const std::optional<double> off = Raw(t);
       if (!off) continue;
       sum += *off;
-      ++count;
+      squares += *off * *off;
+      count += 1;
     }
-    if (count > 0) bias_ = sum / static_cast<double>(count);
+    if (count == 0) return;
+    bias_ = sum / count;
+    noise_ = std::sqrt(std::max(0.0, squares / count - bias_ * bias_));
   }
   double age() const { return age_; }
-  /// m/s, before the change; it is taken off.
-  double bias() const { return bias_; }
+  /// m/s that stand out from what was wrong before the change, whose mean is taken off.
+  double due() const {
+    return std::max({kAnswer, kBiasFactor * std::abs(bias_), kNoiseFactor * noise_});
+  }
   std::optional<double> At(std::int64_t tick) const {
     const std::optional<double> raw = Raw(tick);
     return raw ? std::optional<double>(*raw - bias_) : std::nullopt;
@@ -113,25 +120,33 @@ class Difference {
 
   const Question& question_;
   const BodyPath &shown_, &truth_;
-  double h_, age_ = 0, bias_ = 0;
+  double h_, age_ = 0, bias_ = 0, noise_ = 0;
 };
 
-/// The tick in which the screen answers; kNever, or nullopt where nothing can be said: the body is
-/// not where the oracle has it, or it moves so before the input acts.
-std::optional<double> AnswerTick(const Question& question, const Difference& screen, double h) {
-  if (std::abs(screen.bias()) > question.due / 2) return std::nullopt;
+/// How many ticks later than the oracle a screen answers.
+struct Answer {
+  double tick = kNever;    // kNever: it does not
+  std::int64_t truth = 0;  // the oracle's tick
+};
+
+/// nullopt where nothing can be said: the body is so far off the oracle's motion that the input
+/// does not stand out, or it moves as if by the input before that acts.
+std::optional<Answer> AnswerOf(const Question& question, const Difference& screen, double h) {
+  const double due = screen.due();
+  const std::optional<std::int64_t> truth = TrueAnswer(question, due, h);
+  if (!truth) return std::nullopt;
   const std::int64_t first = question.change.tick;
   const auto end = first + std::llround(kHorizon / h) + std::llround(screen.age());
   std::int64_t kept = 0;
   for (std::int64_t tick = first; tick < end; ++tick) {
     const std::optional<double> off = screen.At(tick);
-    kept = off && *off >= question.due ? kept + 1 : 0;
+    kept = off && *off >= due ? kept + 1 : 0;
     if (kept < kKept) continue;
     const std::int64_t answer = tick - kKept + 1;
-    if (answer < question.truth_tick - 1) return std::nullopt;
-    return static_cast<double>(answer);
+    if (answer < *truth - 1) return std::nullopt;
+    return Answer{static_cast<double>(answer), *truth};
   }
-  return kNever;
+  return Answer{kNever, *truth};
 }
 
 std::optional<double> Median(std::vector<double> values) {
@@ -181,23 +196,23 @@ void MeasureResponse(const Recording& recording, const Oracle& oracle, int input
     const std::optional<double> read_us =
         HeardUs(recording, player_peer, change.tick - input_delay_ticks);
     if (!read_us) continue;
-    const std::optional<Question> question = Ask(change, worlds.Of(change, horizon, kEffectMin), h);
+    const std::optional<Question> question = Ask(change, worlds.Of(change, horizon, kEffectMin));
     if (!question) continue;
     const BodyPath truth = TruePath(recording, oracle, question->effect.id);
     for (const auto& [peer, of_peer] : views) {
       const BodyPath shown = ShownPath(recording, of_peer, changing, question->effect.id);
       const Difference screen(*question, shown, truth, h);
-      const std::optional<double> tick = AnswerTick(*question, screen, h);
-      if (!tick) continue;
+      const std::optional<Answer> answer = AnswerOf(*question, screen, h);
+      if (!answer) continue;
       std::vector<double>& kind = peer == 0 ? of_server : peer == player_peer ? of_own : of_others;
-      if (*tick == kNever) {
+      if (answer->tick == kNever) {
         kind.push_back(kNever);
         continue;
       }
-      const auto seen_us = HeardUs(recording, peer, static_cast<std::int64_t>(*tick));
+      const auto seen_us = HeardUs(recording, peer, static_cast<std::int64_t>(answer->tick));
       if (!seen_us) continue;
       // The body's own inertia is no latency; the step in which the input acts is.
-      const auto inertia = static_cast<double>(question->truth_tick - change.tick - 1);
+      const auto inertia = static_cast<double>(answer->truth - change.tick - 1);
       kind.push_back((*seen_us - *read_us) * 1e-3 - 1000 * inertia * h);
     }
   }
