@@ -10,6 +10,7 @@
 #include "common/base/plain_file.h"
 #include "common/codec/version_line.h"
 #include "common/measure/limit/information_limit.h"
+#include "common/measure/preconditions.h"
 #include "common/measure/screen/response.h"
 #include "common/measure/table.h"
 #include "common/record/recording.h"
@@ -68,6 +69,7 @@ MeasuredRun MeasureLog(const std::string& path, const std::string& name, const O
   run.room = recording.room;
   run.measures = Measure(recording, oracle);
   MeasureResponse(recording, oracle, recording.room.input_delay_ticks, &run.measures);
+  run.valid = WhyNotValid(recording, oracle, run.measures);
   run.gaps = recording.bus_gaps;
   run.skipped_bytes = recording.skipped_bytes;
   if (run.measures.compared == 0) {

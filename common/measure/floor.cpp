@@ -5,19 +5,28 @@
 
 #include "common/measure/mean_square.h"
 #include "common/measure/measure.h"
+#include "common/measure/screen/extent.h"
 
 namespace seam {
 
-double OracleDistance(const Oracle& a, const Oracle& b) {
+double OracleDistance(const Recording& recording, const Oracle& a, const Oracle& b) {
+  const Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
+  const RevisionHistory revisions(scene, b.edits);
+  Extents extents(&revisions);
   MeanSquare apart;
+  std::size_t span = 0;
   for (std::size_t row = 0; row < b.ticks.size(); ++row) {
+    while (span + 1 < b.spans.size() && b.spans[span + 1].first_row <= row) ++span;
+    const int edits = b.spans.empty() ? 0 : b.spans[span].edits;
     const std::int64_t tick = b.first_tick + static_cast<std::int64_t>(row);
     const std::vector<PartId>& ids = b.IdsOf(row);
     for (std::size_t i = 0; i < b.ticks[row].size(); ++i) {
       if (ids[i] >= b.inserted_from) continue;  // may be another part in `a`
       const std::optional<BodyState> other = a.At(tick, ids[i]);
       if (!other) continue;
-      apart.Add((other->position - b.ticks[row][i].position).cast<double>().squaredNorm());
+      const double moved =
+          extents.Of(edits, ids[i]).Displacement(Pose(*other), Pose(b.ticks[row][i]));
+      apart.Add(moved * moved);
     }
   }
   return apart.RootOrZero();
@@ -32,7 +41,7 @@ double ErrorFloor(const Recording& recording, const Oracle& oracle, float nudge,
     OracleOptions options;
     options.nudged_body = k * all / chosen;
     options.nudge = nudge;
-    distances.push_back(OracleDistance(oracle, ComputeOracle(recording, options)));
+    distances.push_back(OracleDistance(recording, oracle, ComputeOracle(recording, options)));
   }
   const auto middle = distances.begin() + chosen / 2;
   std::nth_element(distances.begin(), middle, distances.end());

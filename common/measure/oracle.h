@@ -47,8 +47,8 @@ struct Oracle {
   PartId inserted_from = std::numeric_limits<PartId>::max();
   std::map<PartId, PartId> own_id;  ///< of parts that came, by id in the recording
   /// Bodies of two players touched (by whose they are at tick 0: Part::owner, a player's vehicle,
-  /// or in whose region). Only looked for in scenes that expect it.
-  bool contact = false;
+  /// or in whose region). nullopt: not looked for; ComputeOracle does in scenes that expect it.
+  std::optional<bool> contact;
 
   /// State of a part, by its id in the recording: the pose of the part, the velocity of the body
   /// it is in. nullopt when the tick or the part is not known, or it has left.
@@ -99,8 +99,9 @@ OracleOptions JudgeOf(const Room& room);
 /// scene does not parse or the session is too long (kOracleStatesMax).
 Oracle ComputeOracle(const Recording& recording, const OracleOptions& options = {});
 
-/// RMS distance in m of two oracles of one recording, over all bodies and the ticks that both have.
-double OracleDistance(const Oracle& a, const Oracle& b);
+/// How far two oracles of a recording are apart, m: RMS of the largest displacement of a point of a
+/// body, over all bodies and the ticks that both have; the bodies are those of `b`.
+double OracleDistance(const Recording& recording, const Oracle& a, const Oracle& b);
 
 /// The oracle's own sensitivity: RMS distance in m between it and itself with one body nudged, the
 /// median over at most `bodies` bodies, evenly chosen. Requires an oracle without barriers. No

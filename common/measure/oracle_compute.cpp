@@ -89,6 +89,7 @@ Oracle ComputeOracle(const Recording& recording, const OracleOptions& options) {
   const RecordedInputs inputs(recording, scene);
   const bool watch = scene.expected->contact;
   const std::map<PartId, int> owners = watch ? FindOwners(world) : std::map<PartId, int>();
+  if (watch) oracle.contact = false;
   // In a recording with edits the views may be of other bodies than the oracle's from the start.
   if (!recording.edits.empty()) oracle.Begin(0, SceneRevision(world.topology()), 0);
   OutsideEdits outside(recording, scene);
@@ -99,7 +100,7 @@ Oracle ComputeOracle(const Recording& recording, const OracleOptions& options) {
   for (std::int64_t tick = 1; tick <= recording.last_tick; ++tick) {
     for (const int player : inputs.players()) inputs.Apply(&world, player, tick);
     world.Step();
-    oracle.contact = oracle.contact || (watch && OwnersTouch(world, owners));
+    if (watch && !*oracle.contact) oracle.contact = OwnersTouch(world, owners);
     const std::vector<Edit> found = world.ProposeEdits();
     if (options.barrier_every > 0 && tick % options.barrier_every == 0) world.Barrier();
     const std::size_t spans = oracle.spans.size(), row = oracle.ticks.size();

@@ -29,9 +29,12 @@ const char* const kColumns[] = {"scene",
                                 "backsteps",
                                 "rebound",
                                 "bytes_per_s",
-                                "cpu_us_per_s"};
+                                "cpu_us_per_s",
+                                "valid"};
 /// Columns before this one are text and stand to the left.
 constexpr std::size_t kTextColumns = 5;
+/// And before this one they say which session it was.
+constexpr std::size_t kIdentityColumns = 6;
 
 std::string Number(double value, bool applies = true) {
   return applies ? fmt::format("{:.6g}", value) : "";
@@ -44,27 +47,33 @@ std::string Number(const std::optional<double>& value) {
 std::vector<std::string> Values(const MeasuredRun& run) {
   const Measures& m = run.measures;
   const bool any = m.compared > 0;
-  return {run.room.scene_name,
-          run.run,
-          run.room.mode,
-          VariantOf(run.room),
-          run.room.impair,
-          std::to_string(run.room.seed),
-          Number(m.error_others_m),
-          Number(m.error_own_m),
-          Number(m.path_error_rms_m),
-          Number(m.view_age_ms),
-          Number(m.response_own_ms),
-          Number(m.response_other_ms),
-          Number(m.seen),
-          Number(m.error_rms_m, any),
-          Number(m.error_p95_m, any),
-          Number(m.error_max_m, any),
-          Number(m.stutter_mps2, any),
-          any ? std::to_string(m.backsteps) : "",
-          Number(m.rebound.value_or(0), m.rebound.has_value()),
-          Number(m.bytes_per_s, m.bytes_per_s > 0),
-          Number(m.cpu_us_per_s, m.cpu_us_per_s > 0)};
+  std::vector<std::string> values = {run.room.scene_name,
+                                     run.run,
+                                     run.room.mode,
+                                     VariantOf(run.room),
+                                     run.room.impair,
+                                     std::to_string(run.room.seed),
+                                     Number(m.error_others_m),
+                                     Number(m.error_own_m),
+                                     Number(m.path_error_rms_m),
+                                     Number(m.view_age_ms),
+                                     Number(m.response_own_ms),
+                                     Number(m.response_other_ms),
+                                     Number(m.seen),
+                                     Number(m.error_rms_m, any),
+                                     Number(m.error_p95_m, any),
+                                     Number(m.error_max_m, any),
+                                     Number(m.stutter_mps2, any),
+                                     any ? std::to_string(m.backsteps) : "",
+                                     Number(m.rebound.value_or(0), m.rebound.has_value()),
+                                     Number(m.bytes_per_s, m.bytes_per_s > 0),
+                                     Number(m.cpu_us_per_s, m.cpu_us_per_s > 0),
+                                     run.valid};
+  // Of a session that is not valid only what it was, and why.
+  for (std::size_t i = kIdentityColumns; !run.valid.empty() && i + 1 < values.size(); ++i) {
+    values[i].clear();
+  }
+  return values;
 }
 
 /// "0.01 m at most (the oracle's own: 0.002)", or "does not apply".
@@ -172,7 +181,8 @@ std::string FormatTable(const std::vector<MeasuredRun>& runs, bool more) {
   for (const auto& row : rows) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string value = row[i].empty() ? "-" : row[i];
+      const bool reason = i + 1 == row.size() && &row != &rows.front() && !row[i].empty();
+      const std::string value = row[i].empty() ? "-" : (reason ? "not valid: " : "") + row[i];
       line += i < kTextColumns ? fmt::format("{:<{}}  ", value, widths[i])
                                : fmt::format("{:>{}}  ", value, widths[i]);
     }

@@ -13,6 +13,7 @@ struct MeasuredRun {
   std::string run;  ///< what to call it
   Room room;        ///< of the recording
   Measures measures;
+  std::string valid;               ///< empty, or why the figures are left out (WhyNotValid)
   std::int64_t gaps = 0;           ///< messages missing by their sequence numbers
   std::int64_t skipped_bytes = 0;  ///< damaged bytes of the log
 };
@@ -20,7 +21,7 @@ struct MeasuredRun {
 /// The column names, without a line end:
 /// scene,run,mode,reconcile,impair,seed,error_others_m,error_own_m,path_error_rms_m,view_age_ms,
 /// response_own_ms,response_other_ms,seen,error_rms_m,error_p95_m,error_max_m,stutter_mps2,
-/// backsteps,rebound,bytes_per_s,cpu_us_per_s
+/// backsteps,rebound,bytes_per_s,cpu_us_per_s,valid
 /// In mode central, reconcile says what is predicted: own or all.
 std::string CsvHeader();
 

@@ -10,9 +10,10 @@
 #include "common/base/process.h"
 #include "common/measure/limit/information_limit.h"
 #include "common/measure/measure.h"
+#include "common/measure/preconditions.h"
 #include "common/measure/screen/response.h"
 #include "common/measure/table.h"
-#include "tests/lab/validity/preconditions.h"
+#include "tests/lab/validity/loss.h"
 
 namespace seam {
 namespace {
@@ -121,14 +122,16 @@ std::string Judged(const GridPoint& point, const SweepOptions& options, Cluster*
   const Oracle& oracle = barriers ? *with_barriers : plain;
   Measures measures = Measure(recording, oracle);
   MeasureResponse(recording, oracle, recording.room.input_delay_ticks, &measures);
-  const std::string reason =
-      InvalidReason({*point.scene, recording, oracle, measures, FindProfile(point.settings.impair),
-                     cluster->server_net().traffic()});
+  std::string reason = WhyNotValid(recording, oracle, measures);
+  const ImpairProfile network = FindProfile(point.settings.impair);
+  if (reason.empty() && LossTooSmall(network, cluster->server_net().traffic())) {
+    reason = "the network lost less than its profile says";
+  }
   Floors floors;
   if (options.floor && reason.empty()) {
     floors.floor_m = ErrorFloor(recording, plain, kNudge);
     floors.wire_m = ErrorFloor(recording, plain, kWireNudge);
-    floors.barrier_m = OracleDistance(plain, *with_barriers);
+    floors.barrier_m = OracleDistance(recording, plain, *with_barriers);
   }
   if (options.limit && reason.empty()) floors.limit_m = InformationLimit(recording);
   return Values(measures, floors, reason) + (barriers ? ",barrier," : ",plain,") + CsvField(reason);

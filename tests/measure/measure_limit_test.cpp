@@ -175,25 +175,26 @@ TEST(Oracles, OnlyRulesThatGoBackAreJudgedByTheOneWithBarriers) {
 
 TEST(Oracles, BarriersChangeNothingForWhatIsFreeAndMetresOfAChaoticWall) {
   const Recording sleds = Drive(95, 0);
-  EXPECT_EQ(OracleDistance(ComputeOracle(sleds), ComputeOracle(sleds, WithBarriers(sleds.room))),
-            0);
+  EXPECT_EQ(
+      OracleDistance(sleds, ComputeOracle(sleds), ComputeOracle(sleds, WithBarriers(sleds.room))),
+      0);
   ClusterConfig config;
   config.scene = "wall";
   config.mode = "oracle";
   config.impair = "perfect";
   const Recording wall = RunCluster(config);
   const Oracle plain = ComputeOracle(wall), rebuilt = ComputeOracle(wall, WithBarriers(wall.room));
-  EXPECT_GT(OracleDistance(plain, rebuilt), 0.001);
-  EXPECT_EQ(OracleDistance(rebuilt, ComputeOracle(wall, WithBarriers(wall.room))), 0);
+  EXPECT_GT(OracleDistance(wall, plain, rebuilt), 0.001);
+  EXPECT_EQ(OracleDistance(wall, rebuilt, ComputeOracle(wall, WithBarriers(wall.room))), 0);
 }
 
 TEST(Oracles, LookForAContactOfTwoPlayersWhereTheSceneExpectsOne) {
   Recording recording = Drive(0, 0);  // ann drives into bob's sled, which stands
-  EXPECT_FALSE(ComputeOracle(recording).contact) << "nobody asked";
+  EXPECT_FALSE(ComputeOracle(recording).contact.has_value()) << "nobody asked";
   recording.room.scene_text = "expect = 'contact'\n" + std::string(kSleds);
-  EXPECT_TRUE(ComputeOracle(recording).contact);
+  EXPECT_TRUE(ComputeOracle(recording).contact.value());
   recording.last_tick = 20;  // it is not there yet
-  EXPECT_FALSE(ComputeOracle(recording).contact);
+  EXPECT_FALSE(ComputeOracle(recording).contact.value());
 }
 
 }  // namespace

@@ -230,7 +230,8 @@ TEST_F(EndToEnd, TheMeasuresOfACaptureAreSane) {
                                             "backsteps",
                                             "rebound",
                                             "bytes_per_s",
-                                            "cpu_us_per_s"};
+                                            "cpu_us_per_s",
+                                            "valid"};
   EXPECT_EQ(rows[0], columns);
   std::map<std::string, std::map<std::string, double>> number;
   for (std::size_t i = 1; i < rows.size(); ++i) {

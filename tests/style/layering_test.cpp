@@ -164,7 +164,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"render/playback", "render/canvas"},
       {"render/draw", "render/(canvas|playback)"},
       {"tests/lab/fairness", "tests/lab(/report)?"},
-      {"common/measure/limit", "common/measure"},
+      {"common/measure/limit", "common/measure(/screen)?"},
       {"tests/lab/hard", "none"},
       {"tests/lab/report", "tests/lab"},
       {"tests/lab/validity", "tests/lab"},

@@ -9,7 +9,9 @@
 #include "common/measure/mean_square.h"
 #include "common/measure/outside_edits.h"
 #include "common/measure/recorded_inputs.h"
+#include "common/measure/screen/extent.h"
 #include "common/physics/world.h"
+#include "common/sync/mode.h"
 
 namespace seam {
 namespace {
@@ -34,7 +36,7 @@ class Guesser {
  public:
   Guesser(const Recording& recording, const Scene& scene, Ages ages)
       : world_(scene), inputs_(recording, scene), ages_(std::move(ages)) {
-    for (const int player : inputs_.players()) own_[player] = DrivenBy(world_, player);
+    LookAgain();
   }
 
   /// From the world as it is, which is left as it was.
@@ -59,13 +61,21 @@ class Guesser {
   void Apply(const std::vector<Edit>& edits) {
     if (edits.empty() || !world_.Apply(edits)) return;
     guesses_.clear();  // of other bodies
-    for (auto& [player, own] : own_) own = DrivenBy(world_, player);
+    LookAgain();
   }
 
   const World& world() const { return world_; }
   std::optional<double> rms() const { return apart_.Root(); }
 
  private:
+  /// At what the bodies are made of.
+  void LookAgain() {
+    for (const int player : inputs_.players()) own_[player] = DrivenBy(world_, player);
+    extents_.clear();
+    for (const Assembly& assembly : world_.composition().assemblies) {
+      if (!assembly.anchored) extents_.emplace_back(world_.scene(), assembly);
+    }
+  }
   void GoBackTo(const WorldSnapshot& snapshot) {
     const Status back = world_.Restore(snapshot);
     SEAM_ASSERT(back.ok());
@@ -99,8 +109,8 @@ class Guesser {
     for (int body = 0; body < world_.body_count(); ++body) {
       const auto b = static_cast<std::size_t>(body);
       if (own[b]) continue;
-      const Vec2 apart = guess.states[b].position - world_.Read(body).position;
-      apart_.Add(apart.cast<double>().squaredNorm());
+      const double apart = extents_[b].Displacement(Pose(guess.states[b]), Pose(world_.Read(body)));
+      apart_.Add(apart * apart);
     }
   }
 
@@ -108,6 +118,7 @@ class Guesser {
   const RecordedInputs inputs_;
   const Ages ages_;
   std::map<int, std::vector<bool>> own_;  // by player, by body
+  std::vector<Extent> extents_;           // by body
   std::vector<Guess> guesses_;
   MeanSquare apart_;
 };
@@ -116,6 +127,7 @@ class Guesser {
 
 std::optional<double> InformationLimit(const Recording& recording, int every) {
   SEAM_ASSERT(every >= 1);
+  if (FindMode(recording.room.mode) == Mode::kOracle) return std::nullopt;
   Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
   scene.solver.tick_hz = recording.room.tick_hz;
   const Ages ages = FindInputAges(recording);

@@ -25,8 +25,9 @@ std::map<std::pair<int, int>, std::int64_t> FindInputAges(const Recording& recor
 ///
 /// with L the greatest of these ages. The truth has a barrier at each of those ticks, so that the
 /// limit is exactly 0 where no held input differs. Ticks with an edit in between are left out.
-/// nullopt: nothing is unknown to anybody (one player, or no inputs), or there is no such tick.
-/// Costs one oracle, and for each player L ticks in `every`. Throws as ComputeOracle does.
+/// nullopt: nothing is unknown to anybody (mode oracle, one player, or no inputs), or there is no
+/// such tick. Costs one oracle, and for each player L ticks in `every`. Throws as ComputeOracle
+/// does.
 std::optional<double> InformationLimit(const Recording& recording, int every = 10);
 
 }  // namespace seam

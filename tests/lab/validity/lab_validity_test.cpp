@@ -5,10 +5,10 @@
 #include <filesystem>
 
 #include "tests/lab/commands.h"
-#include "tests/lab/validity/preconditions.h"
 #include "tests/lab/report/sweep_section.h"
 #include "tests/lab/report/validity.h"
 #include "tests/lab/sweep_row.h"
+#include "tests/lab/validity/loss.h"
 #include "tests/support/child_process.h"
 #include "tests/support/lab_workspace.h"
 
