@@ -130,16 +130,31 @@ bool Replay::FollowsHistory(int body, std::int64_t tick) const {
   return pressed_[static_cast<std::size_t>(world_.mechanism(body))] || !world_.awake(body);
 }
 
+/// A blow that turns out to have happened ends the rest of what was struck, and of what was awake
+/// with it.
+void Replay::WakeStruck() {
+  std::vector<int> resting;
+  bool struck = false;
+  for (int body = 0; body < world_.body_count(); ++body) {
+    const BodyTrack& track = memory_.track(body);
+    if (!track.at_rest || !roles_.Simulates(body) || !world_.awake(body)) continue;
+    if (world_.tick() <= track.dynamic_since) continue;
+    const BodyState& then = *memory_.history().At(world_.tick(), body);
+    struck = struck || (world_.Read(body).velocity - then.velocity).norm() > kRestBlow;
+    resting.push_back(body);
+  }
+  if (!struck) return;
+  for (const int body : resting) memory_.track(body).at_rest = false;
+}
+
 /// After the step to the world's tick: what is known of it.
 void Replay::PutIn() {
+  WakeStruck();
   for (int body = 0; body < world_.body_count(); ++body) PutIn(body);
 }
 
 void Replay::PutIn(int body) {
   BodyState* past = memory_.history().At(world_.tick(), body);
-  const bool dynamic = roles_.Simulates(body) && world_.tick() > memory_.track(body).dynamic_since;
-  const Vec2 struck = world_.Read(body).velocity - past->velocity;
-  if (dynamic && struck.norm() > kRestBlow) memory_.track(body).at_rest = false;
   if (FollowsHistory(body, world_.tick())) {
     world_.Write(body, *past, false);
     return;

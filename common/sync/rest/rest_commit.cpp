@@ -143,7 +143,8 @@ bool RestCommit::GivesWay(int body) {
 void RestCommit::HoldIsland(const std::vector<int>& island) {
   bool own_awake = false, others_awake = false, driven = false;
   for (const int body : island) {
-    driven = driven || Driven(body);
+    const bool struck = world_.awake(body) && world_.Read(body).velocity.norm() > kBlow;
+    driven = driven || struck || Driven(body);
     if (Holds(body) || !world_.awake(body)) continue;
     (Own(body) ? own_awake : others_awake) = true;
   }

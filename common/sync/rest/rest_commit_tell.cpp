@@ -13,9 +13,9 @@ namespace {
 
 /// From an island's falling asleep to its commitment, s.
 constexpr double kAsleepFor = 0.25;
-/// Own bodies of an island of several owners: still for the engine's half second and that quarter;
+/// Own bodies of an island of several owners: still for twice the engine's half second;
 /// hardly moving for so long that the peers must disagree, the lowest peer's; or anybody's. s
-constexpr double kStillFor = 0.75, kSlowFor = 1.5, kSlowForAnybody = 3;
+constexpr double kStillFor = 1, kSlowFor = 2.5, kSlowForAnybody = 4;
 /// A copy that is put farther than this, m and rad, may have been what own bodies lay on.
 constexpr float kMoved = 0.005f;
 /// Own bodies at rest are woken for it so many times: then they are as right as the other's.

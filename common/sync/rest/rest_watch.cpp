@@ -5,8 +5,9 @@
 namespace seam {
 namespace {
 
-/// m. The engine lets a body sleep that creeps by 5 mm within its half second.
-constexpr float kStill = 0.005f, kSlow = 0.02f;
+/// m. The engine lets a body sleep that creeps by 5 mm within its half second; a tall stack settles
+/// slower than that for seconds.
+constexpr float kStill = 0.001f, kSlow = 0.02f;
 /// rad for each metre of these: a box of 1 m then moves a corner as far as it may move itself.
 constexpr float kTurn = 2;
 

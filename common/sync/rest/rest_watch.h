@@ -17,7 +17,7 @@ class RestWatch {
   void Look();
   /// Ticks for which the body has been asleep; 0: it is awake.
   std::int64_t asleep(int body) const { return Since(of(body).asleep_since); }
-  /// Ticks for which it has been within 5 mm and .01 rad of one pose.
+  /// Ticks for which it has been within 1 mm and .002 rad of one pose.
   std::int64_t still(int body) const { return Since(of(body).still.since); }
   /// Ticks for which it has been within 20 mm and .04 rad of one pose.
   std::int64_t slow(int body) const { return Since(of(body).slow.since); }
