@@ -9,6 +9,7 @@
 #include "common/base/command_line.h"
 #include "common/base/plain_file.h"
 #include "common/codec/version_line.h"
+#include "common/measure/handover_list.h"
 #include "common/measure/table.h"
 #include "common/record/recording.h"
 
@@ -128,7 +129,18 @@ void Run(const Options& options) {
   }
   if (!options.csv.empty()) WriteCsv(runs, options);
   std::fputs(FormatTable(runs, options.more).c_str(), stdout);
+  for (std::size_t i = 0; options.more && i < runs.size(); ++i) {
+    PrintHandOvers(options.logs[i], runs[i].run);
+  }
   if (options.floor) PrintFloor(Read(options.logs.front()));
+}
+
+void PrintHandOvers(const std::string& path, const std::string& name) {
+  const Recording recording = Read(path);
+  const Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
+  const RevisionHistory revisions(scene, recording);
+  const std::string list = FormatHandOvers(ListHandOvers(recording, &revisions));
+  if (!list.empty()) std::printf("\nhand-overs of %s\n%s", name.c_str(), list.c_str());
 }
 
 void Define(CLI::App& app, Options& options) {

@@ -21,6 +21,8 @@ class StateFilter {
 
   /// What is kept of a message of `peer`, which is ready; without bodies when it is nothing.
   States Keep(std::int64_t now_us, int peer, const States& states);
+  /// What is kept of what a peer, which is ready, says of bodies that it has let go of.
+  ExactStates KeepExact(int peer, const ExactStates& exact);
   /// The bodies have changed.
   void Remap(const std::vector<BodyOrigin>& bodies);
 
@@ -28,6 +30,7 @@ class StateFilter {
   /// Whether the message as a whole may be looked at.
   bool MayLookAt(int peer, const States& states);
   /// Whether the i-th body of the message may be moved.
+  bool MayRelease(int peer, int body, const ExactStates& exact, std::size_t i);
   bool MayMove(int body, const States& states, std::size_t i);
   bool Plausible(int body, std::int64_t tick, const BodyState& state) const;
 

@@ -21,6 +21,7 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       corrector_(config_, world_, roles_, memory_, display_, replay_, inputs_),
       scheduler_(config_, world_, roles_, memory_),
       proposals_(config_.tick_hz),
+      impact_reporter_(world_, roles_),
       pressed_now_(topology.scene().players.size(), 0) {
   corrector_.FollowRoles();
   memory_.Record();
@@ -43,6 +44,7 @@ void Replica::Step() {
   corrector_.PullCopies();
   world_.Step();
   memory_.NoteContacts(roles_.table());
+  impact_reporter_.Note();
   for (Edit& edit : world_.ProposeEdits()) {
     if (roles_.Proposes(edit)) proposals_.Add(std::move(edit), tick());
   }
@@ -86,6 +88,8 @@ void Replica::ApplyPresses(int player, int pressed, std::int64_t next) {
 std::vector<int> Replica::ApplyGrants(const Grants& grants) {
   ApplyEdits();  // the grants are about what is there after them
   std::vector<int> let_go = roles_.Apply(grants);
+  // Before motion follows the roles: what the holder last simulated.
+  for (ExactStates& exact : MakeExact(let_go, 0)) released_.push_back(std::move(exact));
   corrector_.FollowRoles();
   return let_go;
 }

@@ -230,14 +230,14 @@ TEST(Recording, ALogOfAnotherProtocolIsRefusedNamingBoth) {
     return std::string("read");
   };
   Room newer = MakeRoom();
-  newer.protocol = 4;
+  newer.protocol = 5;
   EXPECT_EQ(refusal(Encode(newer)),
-            file.path() + ": recorded with protocol 4; this program reads protocol 3");
+            file.path() + ": recorded with protocol 5; this program reads protocol 4");
   // The beginning of protocol 2's room_t: hash, utime, sequence, protocol.
   const Bytes older = {0xfc, 0x29, 0x58, 0x2c, 0x30, 0xd1, 0x35, 0x4e, 0, 0, 0, 0, 0, 0,   0,
                        1,    0,    0,    0,    0,    0,    0,    0,    2, 0, 0, 0, 2, 'r', 0};
   EXPECT_EQ(refusal(older),
-            file.path() + ": recorded with protocol 2; this program reads protocol 3");
+            file.path() + ": recorded with protocol 2; this program reads protocol 4");
 }
 
 TEST(Recording, SeparatesRoomsAndCountsWhatIsForeign) {
