@@ -113,6 +113,14 @@ void PrintFloor(const Recording& recording) {
       recording.room.scene_name.c_str(), ErrorFloor(recording, ComputeOracle(recording)));
 }
 
+void PrintHandOvers(const std::string& path, const std::string& name) {
+  const Recording recording = Read(path);
+  const Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
+  const RevisionHistory revisions(scene, recording);
+  const std::string list = FormatHandOvers(ListHandOvers(recording, &revisions));
+  if (!list.empty()) std::printf("\nhand-overs of %s\n%s", name.c_str(), list.c_str());
+}
+
 void Run(const Options& options) {
   if (!options.names.empty() && options.names.size() != options.logs.size()) {
     throw OperatorError("--names has " + std::to_string(options.names.size()) + " names for " +
@@ -133,14 +141,6 @@ void Run(const Options& options) {
     PrintHandOvers(options.logs[i], runs[i].run);
   }
   if (options.floor) PrintFloor(Read(options.logs.front()));
-}
-
-void PrintHandOvers(const std::string& path, const std::string& name) {
-  const Recording recording = Read(path);
-  const Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
-  const RevisionHistory revisions(scene, recording);
-  const std::string list = FormatHandOvers(ListHandOvers(recording, &revisions));
-  if (!list.empty()) std::printf("\nhand-overs of %s\n%s", name.c_str(), list.c_str());
 }
 
 void Define(CLI::App& app, Options& options) {

@@ -6,10 +6,10 @@
 namespace seam {
 namespace {
 
-/// Speeds are looked for in this many ticks before the impact, and in this many after it: an
-/// authority tells a state every second tick, and late ones are missing. Longer lets a blow be
-/// explained by the speed before another one.
-constexpr std::int64_t kTicksBefore = 8, kTicksAfter = 2;
+/// Speeds are looked for in this many ticks before the impact: an authority tells a state every
+/// second tick. Longer lets a blow be explained by the speed before another one; the tick itself
+/// would let it explain itself.
+constexpr std::int64_t kTicksBefore = 4;
 /// A blow may change the velocity by this much more than momentum explains, m/s: rounding, weight,
 /// and the push of motors in one tick.
 constexpr float kSlack = 1.0f;
@@ -86,7 +86,7 @@ float RelativeSpeed(const Trail& one, float reach_one, const Trail& other, float
 }  // namespace
 
 bool Possible(const World& world, const StateTrail& trail, const Blow& blow, std::int64_t tick) {
-  const std::int64_t from = tick - kTicksBefore, to = tick + kTicksAfter;
+  const std::int64_t from = tick - kTicksBefore, to = tick - 1;
   const Trail struck = trail.Between(blow.body, from, to);
   if (struck.empty()) return false;
   const float reach = Reach(world, blow.body);

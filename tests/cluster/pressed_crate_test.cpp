@@ -15,7 +15,7 @@ namespace seam {
 namespace {
 
 /// ann's box comes from the left and bob's from the right, both push a crate between them for
-/// seconds, on ice.
+/// seconds, one now and then a little less.
 const char* const kPress = R"(
 title = "Press"
 duration = 8
@@ -24,45 +24,45 @@ buffer = 12
 name = "ann"
 vehicle = "left"
 region = [[-1000, -1000], [-0.001, 1000]]
-script = [[0.0, {drive = 1.0}], [3.0, {drive = 0.6}], [4.0, {drive = 1.0}]]
+script = [[0.0, {drive = 1.0}], [3.0, {drive = 0.9}], [4.0, {drive = 1.0}]]
 [[player]]
 name = "bob"
 vehicle = "right"
 region = [[0, -1000], [1000, 1000]]
-script = [[0.0, {drive = 1.0}], [2.0, {drive = 0.5}], [5.0, {drive = 1.0}]]
+script = [[0.0, {drive = 1.0}], [2.0, {drive = 0.9}], [5.0, {drive = 1.0}]]
 [[part]]
 name = "ground"
 chain = [[-100, 0], [100, 0]]
-friction = 0.1
+friction = 0.3
 [[part]]
 name = "left"
 box = [1.6, 1]
-position = [-3, 0.5]
-friction = 0.1
+position = [-1.31, 0.5]
+friction = 0.3
 owner = "ann"
 [[part]]
 name = "right"
 box = [1.6, 1]
-position = [3, 0.5]
-friction = 0.1
+position = [1.11, 0.5]
+friction = 0.3
 owner = "bob"
 [[part]]
 name = "crate"
 box = [0.8, 0.8]
 position = [-0.1, 0.4]
-friction = 0.1
-health = 30
+friction = 0.3
+health = 10
 damage = {above = 3, factor = 10}
 [[thrust]]
 name = "push"
 part = "left"
-force = [8, 0]
+force = [30, 0]
 player = "ann"
 axis = "drive"
 [[thrust]]
 name = "pull"
 part = "right"
-force = [-8, 0]
+force = [-30, 0]
 player = "bob"
 axis = "drive"
 )";

@@ -68,8 +68,8 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
 void Corrector::PutExact(int body, std::int64_t from, const BodyState& difference) {
   const std::int64_t now = world_.tick();
   BodyState off = difference;
-  // After a blow here the velocity of before it is over.
-  if (memory_.track(body).last_impact_tick > from) {
+  // What pressed or struck the body here since then has undone a difference of velocity.
+  if (memory_.track(body).last_impact_tick > from || memory_.Coupled(world_.mechanism(body))) {
     off.velocity.setZero();
     off.spin = 0;
   }
