@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "common/sync/input_source.h"
-#include "server/rules/authority_source.h"
+#include "server/authority_source.h"
 #include "server/rules/rules.h"
 #include "server/rules/seats.h"
 #include "server/server_commands.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "server/rules/authority_source.h"
+#include "server/authority_source.h"
 #include "server/server.h"
 
 namespace seam {

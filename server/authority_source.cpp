@@ -1,4 +1,4 @@
-#include "server/rules/authority_source.h"
+#include "server/authority_source.h"
 
 #include "common/sync/quantize.h"
 #include "server/rules/impact_check.h"
