@@ -55,7 +55,9 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
       largest.velocity = difference.velocity;
     if (then != nullptr && exact.tick <= now && replay_.Ask(body, from)) {
       replays = true;
-    } else {
+    } else if (!memory_.Coupled(world_.mechanism(body))) {
+      // Where two authorities press on it a difference would push it into one of them: there the
+      // rule goes on correcting.
       PutExact(body, then != nullptr ? from : now, difference);
     }
   }
@@ -68,8 +70,8 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
 void Corrector::PutExact(int body, std::int64_t from, const BodyState& difference) {
   const std::int64_t now = world_.tick();
   BodyState off = difference;
-  // What pressed or struck the body here since then has undone a difference of velocity.
-  if (memory_.track(body).last_impact_tick > from || memory_.Coupled(world_.mechanism(body))) {
+  // What struck the body here since then has undone a difference of velocity.
+  if (memory_.track(body).last_impact_tick > from) {
     off.velocity.setZero();
     off.spin = 0;
   }
