@@ -196,6 +196,10 @@ void Client::StepOnce(std::int64_t now_us) {
     proposal.sequence = replica_->revision();
     if (!released_) link_->SendReliable(Encode(proposal));
   }
+  for (ImpactReport& report : replica_->TakeImpactReports()) {
+    report.utime = now_us;
+    if (!released_) link_->SendReliable(Encode(report));
+  }
   for (States& states : replica_->TakeStates()) {
     states.utime = now_us;
     if (!released_) link_->SendUnreliable(Encode(states));

@@ -40,6 +40,8 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
     OnPong(now_us, *pong);
   } else if (const auto* grants = std::get_if<Grants>(&any)) {
     OnGrants(now_us, *grants);
+  } else if (const auto* exact = std::get_if<ExactStates>(&any)) {
+    if (replica_ != nullptr && started_ && !released_) replica_->TakeOver(*exact);
   } else if (const auto* order = std::get_if<EditOrder>(&any)) {
     OnEdit(*order);
   } else if (const auto* snapshot = std::get_if<Snapshot>(&any)) {
@@ -93,6 +95,10 @@ void Client::OnGrants(std::int64_t now_us, const Grants& grants) {
     release.epoch.push_back(replica_->authority().at(m).epoch);
   }
   if (release.mechanism.empty()) return;
+  for (ExactStates& exact : replica_->TakeReleased()) {
+    exact.utime = now_us;
+    link_->SendReliable(Encode(exact));
+  }
   release.utime = now_us;
   release.tick = replica_->tick();
   link_->SendReliable(Encode(release));

@@ -9,6 +9,7 @@
 #include "common/base/command_line.h"
 #include "common/base/plain_file.h"
 #include "common/codec/version_line.h"
+#include "common/measure/handover_list.h"
 #include "common/measure/limit/information_limit.h"
 #include "common/measure/preconditions.h"
 #include "common/measure/screen/response.h"
@@ -131,6 +132,14 @@ void PrintFloor(const Recording& recording) {
       recording.room.scene_name.c_str(), ErrorFloor(recording, ComputeOracle(recording)));
 }
 
+void PrintHandOvers(const std::string& path, const std::string& name) {
+  const Recording recording = Read(path);
+  const Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
+  const RevisionHistory revisions(scene, recording);
+  const std::string list = FormatHandOvers(ListHandOvers(recording, &revisions));
+  if (!list.empty()) std::printf("\nhand-overs of %s\n%s", name.c_str(), list.c_str());
+}
+
 void Run(const Options& options) {
   if (!options.names.empty() && options.names.size() != options.logs.size()) {
     throw OperatorError("--names has " + std::to_string(options.names.size()) + " names for " +
@@ -147,6 +156,9 @@ void Run(const Options& options) {
   }
   if (!options.csv.empty()) WriteCsv(runs, options);
   std::fputs(FormatTable(runs, options.more).c_str(), stdout);
+  for (std::size_t i = 0; options.more && i < runs.size(); ++i) {
+    PrintHandOvers(options.logs[i], runs[i].run);
+  }
   if (options.floor) PrintFloor(Read(options.logs.front()));
   if (options.limit) PrintLimit(Read(options.logs.front()));
 }

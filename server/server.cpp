@@ -5,6 +5,7 @@
 
 #include "common/sync/input_source.h"
 #include "common/sync/method.h"
+#include "server/authority_source.h"
 #include "server/rules/rules.h"
 #include "server/rules/seats.h"
 #include "server/server_commands.h"
@@ -70,7 +71,8 @@ Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorde
       broadcast_(recorder, config.room, config.sync, replica_, authority_, sessions_) {
   if (!Rules::Needed(scene_)) return;
   commands_ = std::make_unique<ServerCommands>(replica_, edits_, sessions_);
-  rules_ = std::make_unique<Rules>(replica_.world(), config_.seed, *commands_);
+  rule_source_ = std::make_unique<AuthoritySource>(replica_, authority_, stats_.counters);
+  rules_ = std::make_unique<Rules>(replica_.world(), config_.seed, *commands_, rule_source_.get());
 }
 
 Server::~Server() = default;
@@ -249,6 +251,7 @@ void Server::ApplyQueued(std::int64_t now_us) {
     if (!change) continue;
     authority_.Remap(change->mechanisms);
     filter_.Remap(change->bodies);
+    if (rule_source_ != nullptr) rule_source_->Remap(change->bodies);
   }
 }
 
@@ -261,7 +264,13 @@ void Server::UpdateAuthority(std::int64_t now_us) {
     situation.one_way_s.push_back(static_cast<float>(std::max<std::int64_t>(0, rtt_us)) * 0.5e-6f);
   }
   situation.together = edits_.WaitingMechanisms();
-  broadcast_.ToAll(authority_.Update(now_us, situation));
+  const std::vector<Grants> grants = authority_.Update(now_us, situation);
+  for (AuthorityManager::Given& given : authority_.TakeGiven()) {
+    given.exact.utime = now_us;
+    Session* session = sessions_.Find(given.peer);
+    if (session != nullptr) session->link.SendReliable(Encode(given.exact));
+  }
+  broadcast_.ToAll(grants);
   const PeerSet withholding = authority_.Withholding(now_us);
   sessions_.ForEachReady(0, [&](Session& session) {
     if (!withholding.Has(session.peer)) return;
@@ -272,6 +281,7 @@ void Server::UpdateAuthority(std::int64_t now_us) {
 
 void Server::RunRules(std::int64_t now_us) {
   if (rules_ == nullptr) return;
+  rule_source_->NoteTick();
   rules_->AfterTick();
   for (const std::string& text : commands_->TakeSaid()) broadcast_.Say(now_us, text);
   for (const Meta& meta : rules_->TakeChanges(now_us)) broadcast_.ToAll(meta);

@@ -20,6 +20,7 @@
 
 namespace seam {
 
+class AuthoritySource;
 class Rules;
 class ServerCommands;
 
@@ -78,7 +79,9 @@ class Server {
   Inputs TakeFresh(std::int64_t now_us, const Inputs& inputs);
   void OnStates(std::int64_t now_us, Session& session, const States& states);
   void OnRest(std::int64_t now_us, Session& session, const Rest& rest);
+  void OnExactStates(std::int64_t now_us, const Session& session, const ExactStates& exact);
   void OnRelease(const Session& session, const Release& release);
+  void OnImpactReport(const Session& session, const ImpactReport& report);
   void OnProposal(Session& session, const EditOrder& proposal);
 
   // server.cpp
@@ -111,6 +114,7 @@ class Server {
   StateFilter filter_;
   Broadcast broadcast_;
   std::unique_ptr<ServerCommands> commands_;
+  std::unique_ptr<AuthoritySource> rule_source_;
   std::unique_ptr<Rules> rules_;  // null: the scene has nothing to decide
   std::int64_t tick0_us_ = -1;
   std::int64_t last_room_us_ = -1000000000;

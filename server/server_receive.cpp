@@ -1,8 +1,10 @@
 /// Server, incoming: every byte is distrusted; what fails is dropped and counted by reason.
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 
+#include "server/authority_source.h"
 #include "server/server.h"
 
 namespace seam {
@@ -44,8 +46,12 @@ void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
     OnPing(now_us, session, *ping);
   } else if (const auto* rest = std::get_if<Rest>(&any)) {
     OnRest(now_us, session, *rest);
+  } else if (const auto* exact = std::get_if<ExactStates>(&any)) {
+    OnExactStates(now_us, session, *exact);
   } else if (const auto* release = std::get_if<Release>(&any)) {
     OnRelease(session, *release);
+  } else if (const auto* report = std::get_if<ImpactReport>(&any)) {
+    OnImpactReport(session, *report);
   } else if (const auto* proposal = std::get_if<EditOrder>(&any)) {
     OnProposal(session, *proposal);
   } else if (std::holds_alternative<Ready>(any)) {
@@ -145,6 +151,7 @@ void Server::OnStates(std::int64_t now_us, Session& session, const States& state
   const States kept = filter_.Keep(now_us, session.peer, states);
   if (kept.id.empty()) return;
   stats_.counters.dropped_stale += replica_.Receive(kept).stale;
+  if (rule_source_ != nullptr) rule_source_->NoteStates(kept);
   broadcast_.Relay(kept, session.peer);
   broadcast_.Publish(kept);
 }
@@ -160,6 +167,23 @@ void Server::OnRest(std::int64_t now_us, Session& session, const Rest& rest) {
   sessions_.SendToAll(Encode(kept), session.peer);
 }
 
+void Server::OnExactStates(std::int64_t now_us, const Session& session, const ExactStates& exact) {
+  ExactStates kept = filter_.KeepExact(session.peer, exact);
+  if (kept.id.empty()) return;
+  kept.utime = now_us;
+  const BodyState off = replica_.TakeOver(kept);
+  for (const std::int16_t id : kept.id) {
+    authority_.NoteJump(replica_.world().BodyOfId(id), off);
+  }
+  const Bytes bytes = Encode(kept);
+  sessions_.ForEachReady(session.peer, [&](Session& other) {
+    const bool awaits = std::any_of(kept.id.begin(), kept.id.end(), [&](std::int16_t id) {
+      return authority_.Awaits(other.peer, replica_.world().BodyOfId(id));
+    });
+    if (awaits) other.link.SendReliable(bytes);
+  });
+}
+
 void Server::OnRelease(const Session& session, const Release& release) {
   for (std::size_t i = 0; i < release.mechanism.size(); ++i) {
     switch (authority_.NoteRelease(session.peer, release.mechanism[i], release.epoch[i])) {
@@ -168,6 +192,14 @@ void Server::OnRelease(const Session& session, const Release& release) {
       case AuthorityManager::Right::kNo: ++stats_.counters.dropped_right; break;
     }
   }
+}
+
+void Server::OnImpactReport(const Session& session, const ImpactReport& report) {
+  if (session.stage != SessionStage::kReady || rule_source_ == nullptr) {
+    ++stats_.counters.dropped_right;
+    return;
+  }
+  rule_source_->NoteReport(session.peer, report);
 }
 
 void Server::OnProposal(Session& session, const EditOrder& proposal) {

@@ -1,6 +1,9 @@
 #include "server/state_filter.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "common/scene/scene_limits.h"
 
 namespace seam {
 namespace {
@@ -134,6 +137,54 @@ Rest StateFilter::Keep(std::int64_t now_us, int peer, const Rest& rest) {
     kept.x.push_back(rest.x[i]);
     kept.y.push_back(rest.y[i]);
     kept.angle.push_back(rest.angle[i]);
+  }
+  return kept;
+}
+
+bool StateFilter::MayRelease(int peer, int body, const ExactStates& exact, std::size_t i) {
+  if (body < 0 || !replica_.SameBody(body, exact.revision)) {
+    ++stats_.dropped_stale;
+    return false;
+  }
+  switch (authority_.RightToRelease(peer, body, exact.epoch[i])) {
+    case AuthorityManager::Right::kYes: break;
+    case AuthorityManager::Right::kStale: ++stats_.dropped_stale; return false;
+    case AuthorityManager::Right::kNo: ++stats_.dropped_right; return false;
+  }
+  if (exact.tick < accepted_[static_cast<std::size_t>(body)].tick) {
+    ++stats_.dropped_stale;
+    return false;
+  }
+  const BodyState state{
+      {exact.x[i], exact.y[i]}, exact.angle[i], {exact.vx[i], exact.vy[i]}, exact.spin[i]};
+  if (Plausible(body, exact.tick, state) && std::fabs(state.spin) <= kSpinMax) return true;
+  ++stats_.dropped_implausible;
+  return false;
+}
+
+ExactStates StateFilter::KeepExact(int peer, const ExactStates& exact) {
+  ExactStates kept;
+  const double hz = scene_.solver.tick_hz;
+  const auto age = static_cast<double>(replica_.tick() - exact.tick);
+  const bool now = age <= kStatesPast * hz && age >= -kStatesFuture * hz;
+  if (!now || exact.revision > replica_.revision()) {
+    ++stats_.dropped_stale;
+    return kept;
+  }
+  kept.tick = exact.tick;
+  kept.revision = exact.revision;
+  for (std::size_t i = 0; i < exact.id.size(); ++i) {
+    const int body = replica_.world().BodyOfId(exact.id[i]);
+    if (!MayRelease(peer, body, exact, i)) continue;
+    accepted_[static_cast<std::size_t>(body)] = {exact.tick, {exact.x[i], exact.y[i]}};
+    kept.id.push_back(exact.id[i]);
+    kept.epoch.push_back(exact.epoch[i]);
+    kept.x.push_back(exact.x[i]);
+    kept.y.push_back(exact.y[i]);
+    kept.angle.push_back(exact.angle[i]);
+    kept.vx.push_back(exact.vx[i]);
+    kept.vy.push_back(exact.vy[i]);
+    kept.spin.push_back(exact.spin[i]);
   }
   return kept;
 }

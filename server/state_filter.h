@@ -23,6 +23,8 @@ class StateFilter {
   States Keep(std::int64_t now_us, int peer, const States& states);
   /// The same of a commitment to rest; it may be old, as reliable messages are under loss.
   Rest Keep(std::int64_t now_us, int peer, const Rest& rest);
+  /// What is kept of what a peer, which is ready, says of bodies that it has let go of.
+  ExactStates KeepExact(int peer, const ExactStates& exact);
   /// The bodies have changed.
   void Remap(const std::vector<BodyOrigin>& bodies);
 
@@ -30,6 +32,7 @@ class StateFilter {
   /// Whether the message as a whole may be looked at.
   bool MayLookAt(int peer, const States& states);
   /// Whether the i-th body of the message may be moved.
+  bool MayRelease(int peer, int body, const ExactStates& exact, std::size_t i);
   bool MayMove(int body, const States& states, std::size_t i);
   /// Whether a body may be where a message of that peer, tick, revision and epoch says, in `state`.
   struct Claim {

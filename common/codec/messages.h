@@ -42,6 +42,12 @@ static_assert(34 + 8 * kMetaMax <= kMessageBytesMax);
 /// Most impacts in one Impacts message: 16 bytes each within kBusMessageBytesMax.
 constexpr std::size_t kImpactsMax = 3000;
 static_assert(16 * kImpactsMax < kBusMessageBytesMax);
+/// Most bodies in one ExactStates: 34 + 30 bytes each must fit kMessageBytesMax.
+constexpr std::size_t kExactBodiesMax = 36;
+static_assert(34 + 30 * kExactBodiesMax <= kMessageBytesMax);
+/// Most impacts in one ImpactReport: 34 + 20 bytes each; a peer has few in one tick.
+constexpr std::size_t kReportedImpactsMax = 32;
+static_assert(34 + 20 * kReportedImpactsMax <= kMessageBytesMax);
 /// Most bytes in one Chunk.
 constexpr std::size_t kChunkBytesMax = 1000;
 static_assert(kChunkBytesMax < kMessageBytesMax);
@@ -202,6 +208,31 @@ struct Release {
   std::int64_t tick = 0;
   std::vector<std::int16_t> mechanism;
   std::vector<std::int32_t> epoch;
+};
+
+/// Holder -> server -> who follows, reliable and before the Release: where a mechanism's bodies
+/// were, bit for bit, when their holder let go.
+struct ExactStates {
+  std::int64_t utime = 0;
+  std::int64_t tick = 0;            ///< that these are the states after
+  std::int32_t revision = 0;        ///< edits that the holder had applied
+  std::vector<std::int16_t> id;     ///< assembly ids
+  std::vector<std::int32_t> epoch;  ///< of the grant that took the authority away
+  std::vector<float> x, y, angle;   ///< m, m, rad (unwrapped)
+  std::vector<float> vx, vy, spin;  ///< m/s, m/s, rad/s
+};
+
+/// Client -> server, reliable: what struck bodies that the client has authority over, as far as it
+/// can hurt them.
+struct ImpactReport {
+  std::int64_t utime = 0;
+  std::int64_t tick = 0;            ///< in which it happened
+  std::int32_t revision = 0;        ///< edits that the client had applied
+  std::vector<std::int16_t> id;     ///< assembly that was struck, the client's
+  std::vector<std::int32_t> epoch;  ///< of the client's authority over it
+  std::vector<std::int16_t> by;     ///< assembly that struck it; -1: something anchored
+  std::vector<float> x, y;          ///< m, point of contact
+  std::vector<float> dv;            ///< m/s, change of velocity of the struck body, >= 0
 };
 
 /// A change of who is joined to whom, or of what there is; see common/topology/edit.h for the

@@ -151,6 +151,23 @@ bool Valid(const Release& m) {
          AllWithin(m.epoch, 0, INT32_MAX);
 }
 
+bool Valid(const ExactStates& m) {
+  return Time(m.utime) && Tick(m.tick) && m.revision >= 0 &&
+         Within(m.id.size(), 1, kExactBodiesMax) &&
+         Lengths(m.id.size(), m.epoch, m.x, m.y, m.angle, m.vx, m.vy, m.spin) &&
+         AllWithin(m.id, 0, INT16_MAX) && AllWithin(m.epoch, 0, INT32_MAX) &&
+         Finite(m.x, m.y, m.angle, m.vx, m.vy, m.spin);
+}
+
+bool Valid(const ImpactReport& m) {
+  return Time(m.utime) && Tick(m.tick) && m.revision >= 0 &&
+         Within(m.id.size(), 1, kReportedImpactsMax) &&
+         Lengths(m.id.size(), m.epoch, m.by, m.x, m.y, m.dv) && AllWithin(m.id, 0, INT16_MAX) &&
+         AllWithin(m.epoch, 0, INT32_MAX) && AllWithin(m.by, -1, INT16_MAX) &&
+         Finite(m.x, m.y, m.dv) &&
+         std::all_of(m.dv.begin(), m.dv.end(), [](float dv) { return dv >= 0; });
+}
+
 bool Valid(const EditOrder& m) {
   return Time(m.utime) && m.sequence >= 0 && m.number >= -1 && Tick(m.tick) &&
          Within(m.kind, 0, kEditKindsMax) && Within(m.cause, 0, 1) && m.a >= -1 && m.b >= -1 &&

@@ -8,7 +8,7 @@
 
 namespace seam {
 
-/// "seam-server 0.4.0 (protocol 3)".
+/// "seam-server 0.4.0 (protocol 4)".
 inline std::string VersionLine(const std::string& program) {
   return program + " " + kVersion + " (protocol " + std::to_string(kProtocolVersion) + ")";
 }

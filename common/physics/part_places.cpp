@@ -17,6 +17,12 @@ int AssemblyOf(const World& world, PartId part) {
 }  // namespace
 
 bool ReadPart(const World& world, PartId part, BodyState* state) {
+  return ReadPart(
+      world, part, [&world](int body) { return world.Read(body); }, state);
+}
+
+bool ReadPart(const World& world, PartId part, const std::function<BodyState(int body)>& read,
+              BodyState* state) {
   const int index = AssemblyOf(world, part);
   if (index < 0) return false;
   const Assembly& assembly = world.composition().assemblies[static_cast<std::size_t>(index)];
@@ -27,7 +33,7 @@ bool ReadPart(const World& world, PartId part, BodyState* state) {
     return true;
   }
   const Part& root = parts[static_cast<std::size_t>(assembly.id)];
-  *state = world.Read(world.BodyOfId(assembly.id));
+  *state = read(world.BodyOfId(assembly.id));
   const Eigen::Vector2d local = ToRootFrame(own, root, Eigen::Vector2d(0, 0));
   const Transform2 placed{state->position.cast<double>(), static_cast<double>(state->angle)};
   state->position = placed(local).cast<float>();

@@ -2,6 +2,8 @@
 /// Where every part of a world is, and what it belongs to: parts of one body from the pose of their
 /// root.
 
+#include <functional>
+
 #include "common/physics/world.h"
 #include "common/topology/edit.h"
 
@@ -9,6 +11,10 @@ namespace seam {
 
 /// Pose of a part, and the velocity of its body's centre of mass; false when it is gone.
 bool ReadPart(const World& world, PartId part, BodyState* state);
+
+/// The same, where the state of a moving body is what `read` says.
+bool ReadPart(const World& world, PartId part, const std::function<BodyState(int body)>& read,
+              BodyState* state);
 
 /// The same. Requires a part that has not left.
 BodyState PartPose(const World& world, PartId part);

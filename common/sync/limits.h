@@ -23,6 +23,8 @@ constexpr MessageBytes kGrantsBytes{36, 10};  ///< and kFollowerBytes for each f
 constexpr std::size_t kFollowerBytes = 2;
 constexpr MessageBytes kReleaseBytes{26, 6};
 constexpr MessageBytes kRestBytes{50, 18};
+constexpr MessageBytes kExactStatesBytes{30, 30};
+constexpr MessageBytes kImpactReportBytes{30, 20};
 constexpr MessageBytes kMetaBytes{34, 8};
 constexpr MessageBytes kInputsBytes{38, 4};
 constexpr MessageBytes kChunkBytes{22, 1};
@@ -46,6 +48,10 @@ static_assert(kGrantFollowersMax >= static_cast<std::size_t>(kPeersMax),
               "one mechanism's followers must fit one Grants");
 static_assert(Largest(kReleaseBytes, kGrantsMax) <= kMessageBytesMax, "Release too large");
 static_assert(Largest(kRestBytes, kRestBodiesMax) <= kMessageBytesMax, "Rest too large");
+static_assert(Largest(kExactStatesBytes, kExactBodiesMax) <= kMessageBytesMax,
+              "ExactStates too large");
+static_assert(Largest(kImpactReportBytes, kReportedImpactsMax) <= kMessageBytesMax,
+              "ImpactReport too large");
 static_assert(Largest(kMetaBytes, kMetaMax) <= kMessageBytesMax, "Meta too large");
 static_assert(Largest(kInputsBytes, kInputsMax) <= kMessageBytesMax, "Inputs too large");
 static_assert(Largest(kChunkBytes, kChunkBytesMax) <= kMessageBytesMax, "Chunk too large");

@@ -24,6 +24,7 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       reach_(config_, world_, roles_, inputs_),
       scheduler_(config_, world_, roles_, memory_, reach_, replay_),
       proposals_(config_.tick_hz),
+      impact_reporter_(world_, roles_),
       pressed_now_(topology.scene().players.size(), 0),
       pressed_missed_(topology.scene().players.size(), 0) {
   corrector_.FollowRoles();
@@ -51,6 +52,7 @@ void Replica::Step() {
   world_.Step();
   memory_.NoteContacts(roles_.table());
   rest_.AfterStep();
+  impact_reporter_.Note();
   for (Edit& edit : world_.ProposeEdits()) {
     if (config_.mode == Mode::kOracle) {
       queued_.push_back(std::move(edit));
@@ -130,6 +132,8 @@ void Replica::ApplyPresses(int player, std::int64_t next) {
 std::vector<int> Replica::ApplyGrants(const Grants& grants) {
   ApplyEdits();  // the grants are about what is there after them
   std::vector<int> let_go = roles_.Apply(grants);
+  // Before motion follows the roles: what the holder last simulated.
+  for (ExactStates& exact : MakeExact(let_go, 0)) released_.push_back(std::move(exact));
   RolesChanged();
   return let_go;
 }

@@ -23,6 +23,7 @@
 #include "common/sync/correct/corrector.h"
 #include "common/sync/correct/replay.h"
 #include "common/sync/display.h"
+#include "common/sync/impact_reporter.h"
 #include "common/sync/input_track.h"
 #include "common/sync/mode.h"
 #include "common/sync/proposal_queue.h"
@@ -60,6 +61,15 @@ class Replica {
   /// Follows the server's word. Returns the mechanisms that this peer had authority over and has no
   /// longer.
   std::vector<int> ApplyGrants(const Grants& grants);
+  /// Where the bodies of the mechanisms are that ApplyGrants took from this peer since the last
+  /// call, bit for bit as they were then. utime is left 0.
+  std::vector<ExactStates> TakeReleased() { return std::exchange(released_, {}); }
+  /// The same of mechanisms that this peer has now, with an epoch on from theirs: for who gets
+  /// them.
+  std::vector<ExactStates> MakeExact(const std::vector<int>& mechanisms,
+                                     std::int32_t epochs_on) const;
+  /// What another peer let go of. How far this copy was from it, at most; see Corrector::TakeOver.
+  BodyState TakeOver(const ExactStates& exact);
   /// Gives up every authority (the server has not been heard for too long).
   void ReleaseAll();
 
@@ -113,6 +123,8 @@ class Replica {
   View MakeView() const { return display_.MakeView(roles_); }
   /// Impacts of the last tick above kMajorImpact, the first 64; ids empty when there were none.
   Impacts MakeImpacts() const;
+  /// Of the steps since the last call: impacts that can hurt what this peer has authority over.
+  std::vector<ImpactReport> TakeImpactReports() { return impact_reporter_.Take(); }
 
  private:
   friend struct ReplicaTestAccess;
@@ -137,10 +149,12 @@ class Replica {
   Reach reach_;
   SendScheduler scheduler_;
   ProposalQueue proposals_;
+  ImpactReporter impact_reporter_;
   std::vector<int> pressed_now_;     // by player
   std::vector<int> pressed_missed_;  // by player: heard of too late to go back to
   std::vector<Edit> queued_;         // ordered, not yet applied
   std::map<std::int64_t, std::vector<Edit>> appointed_;  // mode oracle: from outside, by tick
+  std::vector<ExactStates> released_;                    // of what ApplyGrants took, not yet told
 };
 
 }  // namespace seam

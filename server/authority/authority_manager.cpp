@@ -79,7 +79,7 @@ std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const Situatio
   for (int m = 0; m < table().count(); ++m) {
     Memory& memory = memory_[static_cast<std::size_t>(m)];
     AuthorityRecord record = table().at(m);
-    const PlannedAuthority& planned = plan_[static_cast<std::size_t>(m)];
+    PlannedAuthority planned = plan_[static_cast<std::size_t>(m)];
     // One authority at a time: the server takes over only once the holder has let go.
     if (memory.hand_over == HandOver::kRevoking) continue;
     if (memory.hand_over == HandOver::kOvertaken) {
@@ -89,11 +89,17 @@ std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const Situatio
       changed.push_back(m);
       continue;
     }
+    bool released = false;
     if (memory.hand_over == HandOver::kReleased) {
+      released = true;
       memory.hand_over = HandOver::kNone;
       record = WithoutHolder(record);
       replica_.authority().Set(m, record);
       taken_over = true;
+    }
+    if (record.authority == 0 && replica_.tick() < memory.keep_until_tick) {
+      planned.secondaries.Add(planned.authority);
+      planned.authority = 0;
     }
     PeerSet secondaries = planned.secondaries;
     if (config_.mode == Mode::kBuffer) secondaries.Add(0);
@@ -107,7 +113,14 @@ std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const Situatio
       continue;
     }
     if (planned.authority == record.authority && secondaries == record.secondaries) continue;
-    if (planned.authority != record.authority) record.epoch += 1;
+    if (planned.authority != record.authority) {
+      if (!released && replica_.tick() > 0) {
+        for (ExactStates& exact : replica_.MakeExact({m}, 1)) {
+          given_.push_back({planned.authority, std::move(exact)});
+        }
+      }
+      record.epoch += 1;
+    }
     record.authority = planned.authority;
     record.secondaries = secondaries;
     replica_.authority().Set(m, record);
@@ -130,6 +143,29 @@ AuthorityManager::Right AuthorityManager::NoteRelease(int peer, PartId mechanism
   if (!asked || epoch != WithoutHolder(record).epoch) return Right::kNo;
   memory.hand_over = HandOver::kReleased;
   return Right::kYes;
+}
+
+AuthorityManager::Right AuthorityManager::RightToRelease(int peer, int body,
+                                                         std::int32_t epoch) const {
+  const int m = replica_.world().mechanism(body);
+  const AuthorityRecord& record = table().at(m);
+  if (epoch <= record.epoch) return Right::kStale;
+  const bool asked = memory_[static_cast<std::size_t>(m)].hand_over == HandOver::kRevoking &&
+                     record.authority == peer;
+  return asked && epoch == WithoutHolder(record).epoch ? Right::kYes : Right::kNo;
+}
+
+void AuthorityManager::NoteJump(int body, const BodyState& off) {
+  if (off.position.norm() <= kJump && off.velocity.norm() <= kJumpVelocity) return;
+  const int m = replica_.world().mechanism(body);
+  memory_[static_cast<std::size_t>(m)].keep_until_tick =
+      replica_.tick() + static_cast<std::int64_t>(kConvergeS * config_.tick_hz);
+}
+
+bool AuthorityManager::Awaits(int peer, int body) const {
+  const auto m = static_cast<std::size_t>(replica_.world().mechanism(body));
+  if (Follows(peer, body)) return true;
+  return m < plan_.size() && plan_[m].authority == peer;
 }
 
 PeerSet AuthorityManager::Withholding(std::int64_t now_us) const {

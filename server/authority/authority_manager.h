@@ -3,6 +3,7 @@
 /// one holder at a time, and says what is to be told to everyone; it sends nothing itself.
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "common/sync/replica.h"
@@ -26,6 +27,13 @@ class AuthorityManager {
   /// After each tick: plans when that is due, and takes every hand-over as far as it can go.
   /// Returns what everyone is to be told, in this order.
   std::vector<Grants> Update(std::int64_t now_us, const Situation& situation);
+  /// Where the bodies were that the last Update took from the server itself, for who gets them:
+  /// to be told before the grants.
+  struct Given {
+    int peer = 0;
+    ExactStates exact;
+  };
+  std::vector<Given> TakeGiven() { return std::exchange(given_, {}); }
   /// Peers that were told to let go of something kReleasePatienceUs ago and have not answered. They
   /// have to leave; TakeBack follows.
   PeerSet Withholding(std::int64_t now_us) const;
@@ -55,6 +63,18 @@ class AuthorityManager {
   /// A peer says that it has let go of a mechanism (by its id), as the grant of that epoch told it.
   /// Believed only of the holder and of exactly that grant; the next Update acts on it.
   Right NoteRelease(int peer, PartId mechanism, std::int32_t epoch);
+  /// Whether a peer may say where a body was when it let go, as the grant of that epoch told it.
+  Right RightToRelease(int peer, int body, std::int32_t epoch) const;
+  /// The server's copy of a body that changes hands was off by this much. If that is a lot, the
+  /// server keeps its mechanism for kConvergeS before the successor gets it.
+  void NoteJump(int body, const BodyState& off);
+  /// Whether the peer needs to hear where a mechanism's holder let go of it.
+  bool Awaits(int peer, int body) const;
+
+  /// Differences above these are shown as a jump, m and m/s. Copies glide to what they were
+  /// corrected to within kConvergeS, s; longer delays hand-overs, at most by half a second.
+  static constexpr float kJump = 0.05f, kJumpVelocity = 0.2f;
+  static constexpr double kConvergeS = 0.25;
 
  private:
   /// How far a mechanism is on its way from its holder, whom the table names until the end.
@@ -69,6 +89,7 @@ class AuthorityManager {
     HandOver hand_over = HandOver::kNone;
     std::int64_t revoked_us = 0;           // when the holder was told to let go
     PartId revoked_id = 0;                 // of what
+    std::int64_t keep_until_tick = 0;      // the server's, until its copies have converged
     int last_authority = 0;                // when it was planned last
     std::int64_t changed_tick = -1000000;  // when a plan first saw that authority
   };
@@ -82,6 +103,7 @@ class AuthorityManager {
   const SyncConfig config_;
   Replica& replica_;
   AuthorityPlan plan_;  // the last one
+  std::vector<Given> given_;
   bool plan_due_ = true;
   std::vector<Memory> memory_;  // by mechanism
 };

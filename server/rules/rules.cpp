@@ -15,9 +15,11 @@ bool Rules::Needed(const Scene& scene) {
                      [](const Part& part) { return part.rules->health > 0; });
 }
 
-Rules::Rules(const World& world, std::int64_t seed, RoomCommands& commands)
+Rules::Rules(const World& world, std::int64_t seed, RoomCommands& commands, RuleSource* source)
     : world_(world),
       commands_(commands),
+      own_world_(world),
+      source_(source != nullptr ? *source : own_world_),
       triggers_(world.scene().triggers),
       room_(std::make_unique<ScriptRoom>(*this)) {
   for (const Trigger& trigger : scene().triggers) {
@@ -27,9 +29,9 @@ Rules::Rules(const World& world, std::int64_t seed, RoomCommands& commands)
   // Errors name the file; Lua cuts names of more than 59 characters.
   const std::string file = scene().name.substr(0, 48) + ".toml";
   std::uint64_t number = 0;
-  for (const ScriptSource& source : scene().scripts) {
+  for (const ScriptSource& script : scene().scripts) {
     const std::uint64_t own = static_cast<std::uint64_t>(seed) * 64 + number++;
-    scripts_.push_back(std::make_unique<Script>(source, file, own, *room_));
+    scripts_.push_back(std::make_unique<Script>(script, file, own, *room_));
   }
 }
 
@@ -76,7 +78,8 @@ void Rules::RunTriggers() {
   if (scene().triggers.empty()) return;
   const auto place_of = [this](PartId part) -> std::optional<Vec2> {
     BodyState state;
-    if (!ReadPart(world_, part, &state)) return std::nullopt;
+    const auto read = [this](int body) { return source_.Read(body); };
+    if (!ReadPart(world_, part, read, &state)) return std::nullopt;
     return state.position;
   };
   const auto player_of = [this](PartId part) {

@@ -1,6 +1,7 @@
 #pragma once
-/// What the server decides in a room beyond motion: triggers, damage, scores, scripts. From its own
-/// world alone, once per tick; what is to change in the world it asks for through RoomCommands.
+/// What the server decides in a room beyond motion: triggers, damage, scores, scripts. From what
+/// its RuleSource says, once per tick; what is to change in the world it asks for through
+/// RoomCommands.
 
 #include <cstdint>
 #include <map>
@@ -12,6 +13,7 @@
 
 #include "common/physics/world.h"
 #include "common/sync/metadata.h"
+#include "server/rules/rule_source.h"
 #include "server/rules/triggers.h"
 
 namespace seam {
@@ -46,7 +48,9 @@ class Rules {
 
   /// `world` and `commands` must outlive it. Scripts are loaded; one that is wrong is stopped at
   /// once, and reported after the first tick.
-  Rules(const World& world, std::int64_t seed, RoomCommands& commands);
+  /// `source`, if there is one, must outlive it; else the rules go by `world` alone.
+  Rules(const World& world, std::int64_t seed, RoomCommands& commands,
+        RuleSource* source = nullptr);
   ~Rules();
 
   /// After each tick of the world.
@@ -76,7 +80,7 @@ class Rules {
   void RunHazards();
   // rules_damage.cpp
   void RunDamage();
-  void Blow(int body, int by, float dv, const Vec2& point);
+  void Strike(const Blow& blow);
   void Hurt(PartId part, float amount, int by_player);
   void RunDeaths();
   void Die(PartId part);
@@ -92,6 +96,8 @@ class Rules {
 
   const World& world_;
   RoomCommands& commands_;
+  WorldSource own_world_;
+  RuleSource& source_;
   Triggers triggers_;
   MetaTable table_;
   int last_checkpoint_ = 0;          // the highest order of all

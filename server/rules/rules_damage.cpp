@@ -10,37 +10,30 @@
 namespace seam {
 
 void Rules::RunDamage() {
-  for (const Impact& impact : world_.impacts()) {
-    Blow(impact.body_a, impact.body_b, impact.dv, impact.point);
-    Blow(impact.body_b, impact.body_a, impact.dv, impact.point);
-  }
+  for (const Blow& blow : source_.TakeBlows()) Strike(blow);
 }
 
-/// What a blow does to `body`. Of the two, the lighter one's velocity changes by `dv`; the impulse
-/// is the same, so the other's changes by dv times the ratio of masses.
-void Rules::Blow(int body, int by, float dv, const Vec2& point) {
-  if (body < 0) return;
-  const float mass = world_.mass(body);
-  if (by >= 0 && world_.mass(by) < mass) dv *= world_.mass(by) / mass;
+void Rules::Strike(const Blow& blow) {
   const Composition& c = world_.composition();
-  const int index = c.assembly_of_part[static_cast<std::size_t>(world_.id(body))];
+  const int index = c.assembly_of_part[static_cast<std::size_t>(world_.id(blow.body))];
   // It is the nearest part to the blow that is hurt, of those that can be.
   PartId hurt = -1;
   float nearest = std::numeric_limits<float>::max();
   for (const PartId id : c.assemblies[static_cast<std::size_t>(index)].parts) {
     if (scene().parts[static_cast<std::size_t>(id)].rules->health <= 0) continue;
     BodyState state;
-    ReadPart(world_, id, &state);
-    const float distance = (state.position - point).norm();
+    ReadPart(
+        world_, id, [this](int body) { return source_.Read(body); }, &state);
+    const float distance = (state.position - blow.point).norm();
     if (distance >= nearest) continue;
     nearest = distance;
     hurt = id;
   }
   if (hurt < 0) return;
   const PartRules& rules = *scene().parts[static_cast<std::size_t>(hurt)].rules;
-  if (dv <= rules.hurt_above) return;
-  const int player = by >= 0 ? PlayerOf(world_, world_.mechanism(by)) : -1;
-  Hurt(hurt, (dv - rules.hurt_above) * rules.hurt_factor, player);
+  if (blow.dv <= rules.hurt_above) return;
+  const int player = blow.by >= 0 ? PlayerOf(world_, world_.mechanism(blow.by)) : -1;
+  Hurt(hurt, (blow.dv - rules.hurt_above) * rules.hurt_factor, player);
 }
 
 void Rules::Hurt(PartId part, float amount, int by_player) {

@@ -5,9 +5,13 @@
 namespace seam {
 namespace {
 
+/// What is inside leaves only when it is this far outside, m: more than authorities differ at a
+/// hand-over, so that nothing enters twice for that.
+constexpr float kLeaveMargin = 0.05f;
+
 /// The sides belong to it.
-bool Within(const Vec2& place, const Vec2& centre, const Vec2& size) {
-  return ((place - centre).array().abs() <= size.array() / 2).all();
+bool Within(const Vec2& place, const Vec2& centre, const Vec2& size, float margin) {
+  return ((place - centre).array().abs() <= size.array() / 2 + margin).all();
 }
 
 }  // namespace
@@ -30,7 +34,7 @@ std::vector<TriggerEvent> Triggers::Update(const PlaceOf& place_of, const Player
       const bool was = inside_.count({index, part}) != 0;
       if (over_[t] && !was) continue;
       const std::optional<Vec2> place = place_of(part);
-      bool is = !over_[t] && place && Within(*place, centre, trigger.size);
+      bool is = !over_[t] && place && Within(*place, centre, trigger.size, was ? kLeaveMargin : 0);
       const int player = is || was ? player_of(part) : -1;
       is = is && (was || Allows(trigger.players, player));
       if (is == was) continue;

@@ -10,7 +10,7 @@
 namespace seam {
 namespace {
 
-/// "protocol 3 is spoken here, you speak 2". Clients of other versions read the first number.
+/// "protocol 4 is spoken here, you speak 3". Clients of other versions read the first number.
 std::string OtherProtocol(std::int32_t theirs) {
   return "protocol " + std::to_string(kProtocolVersion) + " is spoken here, you speak " +
          std::to_string(theirs);

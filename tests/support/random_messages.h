@@ -2,6 +2,7 @@
 /// Random valid messages of every type, and their comparison field by field: for tests.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <tuple>
@@ -96,6 +97,21 @@ class RandomMessages {
     Common(m), m.tick = Tick(), Vector(m.mechanism, count, 0, INT16_MAX);
     Vector(m.epoch, count, 0, INT32_MAX);
   }
+  void Fill(ExactStates& m, std::size_t count) {
+    Common(m), m.tick = Tick(), Set(m.revision, 0, INT32_MAX);
+    Vector(m.id, count, 0, INT16_MAX), Vector(m.epoch, count, 0, INT32_MAX);
+    Floats(m.x, count), Floats(m.y, count), Floats(m.angle, count);
+    Floats(m.vx, count), Floats(m.vy, count), Floats(m.spin, count);
+  }
+  void Fill(ExactStates& m) { Fill(m, Count(1, kExactBodiesMax)); }
+  void Fill(ImpactReport& m, std::size_t count) {
+    Common(m), m.tick = Tick(), Set(m.revision, 0, INT32_MAX);
+    Vector(m.id, count, 0, INT16_MAX), Vector(m.epoch, count, 0, INT32_MAX);
+    Vector(m.by, count, -1, INT16_MAX);
+    Floats(m.x, count), Floats(m.y, count), Floats(m.dv, count);
+    for (float& dv : m.dv) dv = std::fabs(dv);
+  }
+  void Fill(ImpactReport& m) { Fill(m, Count(1, kReportedImpactsMax)); }
   void Fill(Grants& m) { Fill(m, Count(0, kGrantsMax)); }
   void Fill(EditOrder& m) {
     Common(m), Sequence(m), Set(m.number, -1, INT32_MAX), m.tick = Tick();

@@ -6,6 +6,7 @@
 ///   States --> corrector_receive   which are new, and of whom
 ///                corrector_correct   the room's rule: what to add to a secondary's copy now
 ///                corrector_pull      ...and before every step, by rules that ask for it
+///   ExactStates --> corrector_take_over  copies of what changes hands are put right
 ///   roles  --> corrector_roles     a body simulated from now on begins at the authority's state
 
 #include <cstdint>
@@ -42,6 +43,9 @@ class Corrector {
   void ReceiveWaiting();
   /// Takes poses as they are, of bodies whose pose is not known yet.
   void Place(const States& states);
+  /// Where bodies were when their holder let go: copies are put right at once, so that who takes
+  /// over begins from there. The largest difference there was; zero of what is only displayed.
+  BodyState TakeOver(const ExactStates& exact);
   /// Before a step: pulls copies on, if the room's rule acts in every tick.
   void PullCopies();
   /// After a change of roles: bodies become dynamic or kinematic.
@@ -55,6 +59,7 @@ class Corrector {
   bool IsNews(const States& states, std::size_t i, int body, Received* result) const;
   /// Notes one entry; true if its body is simulated here and to be corrected.
   bool ReceiveOne(const States& states, std::size_t i, int body);
+  void PutExact(int body, std::int64_t from, const BodyState& difference);
   void PlaceBody(int body, const BodyState& state, bool asleep);
   /// Mass-weighted mean of Xr(t1) - Xl(t1) by mechanism.
   std::map<int, BodyState> CommonDifferences(const States& states,

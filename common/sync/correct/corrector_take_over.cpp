@@ -1,0 +1,96 @@
+/// Corrector: a mechanism changes hands. Its holder tells, bit for bit, where it was when it let
+/// go; copies are put there, at that tick, and moved on to now.
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/geometry.h"
+#include "common/sync/correct/corrector.h"
+#include "common/sync/state_limits.h"
+
+namespace seam {
+namespace {
+
+BodyState StateOf(const ExactStates& exact, std::size_t i) {
+  return {{exact.x[i], exact.y[i]}, exact.angle[i], {exact.vx[i], exact.vy[i]}, exact.spin[i]};
+}
+
+/// A difference of that long ago, moved on by its velocity, s.
+BodyState MovedOn(BodyState difference, float seconds) {
+  difference.position += seconds * difference.velocity;
+  difference.angle += seconds * difference.spin;
+  return difference;
+}
+
+}  // namespace
+
+BodyState Corrector::TakeOver(const ExactStates& exact) {
+  BodyState largest;
+  const std::int64_t now = world_.tick();
+  bool replays = false;
+  for (std::size_t i = 0; i < exact.id.size(); ++i) {
+    const int body = world_.BodyOfId(exact.id[i]);
+    if (body < 0 || exact.revision < memory_.track(body).changed_at) continue;
+    BodyTrack& track = memory_.track(body);
+    const AuthorityRecord& record = roles_.table().at(world_.mechanism(body));
+    // It comes before the grant that follows from it; of older changes it is no news.
+    const bool ours = record.authority == roles_.self() && roles_.self() != 0;
+    if (ours || exact.epoch[i] < record.epoch || exact.tick < track.heard_tick) continue;
+    BodyState there = WithinLimits(StateOf(exact, i), world_.scene().speed_limit);
+    memory_.snapshots().Add(body, exact.tick, there);
+    track.heard_tick = exact.tick;
+    const bool simulated = track.placed && world_.motion(body) == Motion::kDynamic;
+    if (!simulated) continue;
+    const std::int64_t from = std::min(exact.tick, now);
+    const BodyState* then = memory_.ComparablePast(body, from);
+    const float late = static_cast<float>(now - exact.tick) * world_.dt();
+    // Without a past the holder's own motion says where it is by now.
+    const BodyState here = then != nullptr ? *then : world_.Read(body);
+    if (then == nullptr || exact.tick > now) there = MovedOn(there, late);
+    there.angle = UnwrapAngle(there.angle, here.angle);
+    const BodyState difference = Minus(there, here);
+    if (difference.position.norm() > largest.position.norm())
+      largest.position = difference.position;
+    if (difference.velocity.norm() > largest.velocity.norm())
+      largest.velocity = difference.velocity;
+    if (then != nullptr && exact.tick <= now && replay_.Ask(body, from)) {
+      replays = true;
+    } else if (!memory_.Coupled(world_.mechanism(body))) {
+      // Where two authorities press on it a difference would push it into one of them: there the
+      // rule goes on correcting.
+      PutExact(body, then != nullptr ? from : now, difference);
+    }
+  }
+  // Now: the grant that comes next makes our own what a replay would correct.
+  if (replays) replay_.Run();
+  return largest;
+}
+
+/// Adds to the copy what it was off at tick `from`, then and since.
+void Corrector::PutExact(int body, std::int64_t from, const BodyState& difference) {
+  const std::int64_t now = world_.tick();
+  BodyState off = difference;
+  // What struck the body here since then has undone a difference of velocity.
+  if (memory_.track(body).last_impact_tick > from) {
+    off.velocity.setZero();
+    off.spin = 0;
+  }
+  for (std::int64_t t = from; t < now; ++t) {
+    BodyState* past = memory_.history().At(t, body);
+    const float seconds = static_cast<float>(t - from) * world_.dt();
+    if (past != nullptr) *past = PlusScaled(*past, MovedOn(off, seconds), 1);
+  }
+  const BodyState local = world_.Read(body);
+  const float seconds = static_cast<float>(now - from) * world_.dt();
+  const BodyState moved = PlusScaled(local, MovedOn(off, seconds), 1);
+  const bool same = off.position.squaredNorm() == 0 && off.velocity.squaredNorm() == 0 &&
+                    off.angle == 0 && off.spin == 0;
+  if (same) return;
+  const BodyState corrected = WithinLimits(moved, world_.scene().speed_limit);
+  const bool moves = corrected.velocity.squaredNorm() > 0 || corrected.spin != 0;
+  world_.Write(body, corrected, moves || world_.awake(body));
+  if (BodyState* past = memory_.history().At(now, body)) *past = world_.Read(body);
+  display_.Moved(body, Minus(corrected, local));
+}
+
+}  // namespace seam

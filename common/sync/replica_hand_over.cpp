@@ -1,0 +1,39 @@
+/// Replica: what changes hands, bit for bit.
+
+#include "common/sync/replica.h"
+
+namespace seam {
+
+std::vector<ExactStates> Replica::MakeExact(const std::vector<int>& mechanisms,
+                                            std::int32_t epochs_on) const {
+  std::vector<ExactStates> all;
+  const Composition& composition = world_.composition();
+  for (const int m : mechanisms) {
+    for (const int a : composition.mechanisms[static_cast<std::size_t>(m)].assemblies) {
+      if (all.empty() || all.back().id.size() >= kExactBodiesMax) {
+        all.emplace_back();
+        all.back().tick = tick();
+        all.back().revision = revision();
+      }
+      const PartId id = composition.assemblies[static_cast<std::size_t>(a)].id;
+      const BodyState state = world_.Read(world_.BodyOfId(id));
+      ExactStates& out = all.back();
+      out.id.push_back(static_cast<std::int16_t>(id));
+      out.epoch.push_back(roles_.table().at(m).epoch + epochs_on);
+      out.x.push_back(state.position.x());
+      out.y.push_back(state.position.y());
+      out.angle.push_back(state.angle);
+      out.vx.push_back(state.velocity.x());
+      out.vy.push_back(state.velocity.y());
+      out.spin.push_back(state.spin);
+    }
+  }
+  return all;
+}
+
+BodyState Replica::TakeOver(const ExactStates& exact) {
+  ApplyEdits();
+  return corrector_.TakeOver(exact);
+}
+
+}  // namespace seam

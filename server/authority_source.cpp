@@ -1,0 +1,106 @@
+#include "server/authority_source.h"
+
+#include "common/sync/quantize.h"
+#include "server/rules/impact_check.h"
+
+namespace seam {
+namespace {
+
+/// Reports this far in the past or future are nonsense, ticks. A report is repeated until it comes.
+constexpr std::int64_t kReportPast = 120, kReportFuture = 30;
+
+}  // namespace
+
+AuthoritySource::AuthoritySource(const Replica& replica, const AuthorityManager& authority,
+                                 Stats& stats)
+    : replica_(replica),
+      authority_(authority),
+      stats_(stats),
+      trail_(replica.world().body_count()) {}
+
+void AuthoritySource::NoteStates(const States& accepted) {
+  for (std::size_t i = 0; i < accepted.id.size(); ++i) {
+    const int body = replica_.world().BodyOfId(accepted.id[i]);
+    if (body < 0) continue;
+    // Of a turn too many or too few nobody here would know.
+    trail_.Add(body, accepted.tick, Unpack(accepted, i, replica_.world().Read(body).angle));
+  }
+}
+
+void AuthoritySource::NoteTick() {
+  const World& world = replica_.world();
+  for (int body = 0; body < world.body_count(); ++body) {
+    if (Mine(body)) trail_.Add(body, world.tick(), world.Read(body));
+  }
+  for (const Blow& blow : BlowsOf(world)) {
+    if (!Mine(blow.body)) continue;
+    // A copy that was corrected into what is ours strikes it as its authority never did.
+    const bool all_ours = blow.by < 0 || Mine(blow.by);
+    if (all_ours || Possible(world, trail_, blow, world.tick())) blows_.push_back(blow);
+  }
+  while (!counted_.empty() && std::get<0>(*counted_.begin()) < world.tick() - 2 * kReportPast) {
+    counted_.erase(counted_.begin());
+  }
+}
+
+void AuthoritySource::NoteReport(int peer, const ImpactReport& report) {
+  const std::int64_t age = replica_.tick() - report.tick;
+  if (age > kReportPast || age < -kReportFuture) {
+    ++stats_.dropped_stale;
+    return;
+  }
+  for (std::size_t i = 0; i < report.id.size(); ++i) {
+    if (MayReport(peer, report, i)) NoteReported(report, i);
+  }
+}
+
+bool AuthoritySource::MayReport(int peer, const ImpactReport& report, std::size_t i) {
+  const World& world = replica_.world();
+  const int body = world.BodyOfId(report.id[i]);
+  const int by = report.by[i] < 0 ? -1 : world.BodyOfId(report.by[i]);
+  const bool same = body >= 0 && replica_.SameBody(body, report.revision) &&
+                    (report.by[i] < 0 || (by >= 0 && replica_.SameBody(by, report.revision)));
+  if (!same || report.revision > replica_.revision()) {
+    ++stats_.dropped_stale;
+    return false;
+  }
+  switch (authority_.RightToMove(peer, body, report.epoch[i])) {
+    case AuthorityManager::Right::kYes: return true;
+    case AuthorityManager::Right::kStale: ++stats_.dropped_stale; return false;
+    case AuthorityManager::Right::kNo: ++stats_.dropped_right; return false;
+  }
+  return false;
+}
+
+void AuthoritySource::NoteReported(const ImpactReport& report, std::size_t i) {
+  const World& world = replica_.world();
+  const Blow blow{world.BodyOfId(report.id[i]),
+                  report.by[i] < 0 ? -1 : world.BodyOfId(report.by[i]),
+                  report.dv[i],
+                  {report.x[i], report.y[i]}};
+  if (!Possible(world, trail_, blow, report.tick)) {
+    ++stats_.dropped_implausible;
+  } else if (!counted_.insert({report.tick, report.id[i], report.by[i]}).second) {
+    ++stats_.dropped_stale;
+  } else {
+    blows_.push_back(blow);
+  }
+}
+
+void AuthoritySource::Remap(const std::vector<BodyOrigin>& bodies) {
+  trail_.Remap(bodies);
+  blows_.clear();  // of bodies that are others now
+}
+
+BodyState AuthoritySource::Read(int body) const {
+  const StateTrail::Seen* newest = trail_.Newest(body);
+  return Mine(body) || newest == nullptr ? replica_.world().Read(body) : newest->state;
+}
+
+std::vector<Blow> AuthoritySource::TakeBlows() {
+  std::vector<Blow> taken;
+  taken.swap(blows_);
+  return taken;
+}
+
+}  // namespace seam

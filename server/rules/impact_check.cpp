@@ -1,0 +1,113 @@
+#include "server/rules/impact_check.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace seam {
+namespace {
+
+/// Speeds are looked for in this many ticks before the impact: an authority tells a state every
+/// second tick. Longer lets a blow be explained by the speed before another one; the tick itself
+/// would let it explain itself.
+constexpr std::int64_t kTicksBefore = 4;
+/// A blow may change the velocity by this much more than momentum explains, m/s: rounding, weight,
+/// and the push of motors in one tick.
+constexpr float kSlack = 1.0f;
+/// The point may be this far from the bodies, m, besides what they move in kTicksBefore.
+constexpr float kNear = 0.5f;
+
+/// How far the body's matter reaches from its root's position, m.
+float Reach(const World& world, int body) {
+  const Composition& c = world.composition();
+  const std::vector<Part>& parts = world.scene().parts;
+  const Part& root = parts[static_cast<std::size_t>(world.id(body))];
+  float reach = 0;
+  for (const PartId id :
+       c.assemblies[static_cast<std::size_t>(c.assembly_of_part[static_cast<std::size_t>(root.id)])]
+           .parts) {
+    const Part& part = parts[static_cast<std::size_t>(id)];
+    float own = std::max(part.radius, part.kind == ShapeKind::kBox ? part.size.norm() / 2 : 0.0f);
+    for (const Vec2& point : part.points) own = std::max(own, point.norm() + part.radius);
+    reach = std::max(reach, (part.position - root.position).norm() + own);
+  }
+  return reach;
+}
+
+float LargestRestitution(const World& world, int body) {
+  const Composition& c = world.composition();
+  const int index = c.assembly_of_part[static_cast<std::size_t>(world.id(body))];
+  float largest = 0;
+  for (const PartId id : c.assemblies[static_cast<std::size_t>(index)].parts) {
+    const Part& part = world.scene().parts[static_cast<std::size_t>(id)];
+    largest = std::max(largest, part.material.restitution);
+  }
+  return largest;
+}
+
+float MechanismMass(const World& world, int body) {
+  float mass = 0;
+  const Composition& c = world.composition();
+  const int mechanism = world.mechanism(body);
+  for (const int index : c.mechanisms[static_cast<std::size_t>(mechanism)].assemblies) {
+    mass += world.mass(world.BodyOfId(c.assemblies[static_cast<std::size_t>(index)].id));
+  }
+  return mass;
+}
+
+/// Whether anything anchored moves: how fast it strikes is not looked up.
+bool HasMovers(const World& world) {
+  const std::vector<Assembly>& all = world.composition().assemblies;
+  return std::any_of(all.begin(), all.end(), [](const Assembly& a) { return a.kinematic >= 0; });
+}
+
+using Trail = std::vector<StateTrail::Seen>;
+
+bool IsNear(const Trail& trail, const Vec2& point, float reach, float dt) {
+  return std::any_of(trail.begin(), trail.end(), [&](const StateTrail::Seen& seen) {
+    const float moves = seen.state.velocity.norm() * dt * static_cast<float>(kTicksBefore);
+    return (seen.state.position - point).norm() <= reach + moves + kNear;
+  });
+}
+
+/// The largest relative speed of any two states, the turning of both included, m/s.
+float RelativeSpeed(const Trail& one, float reach_one, const Trail& other, float reach_other) {
+  float largest = 0;
+  for (const StateTrail::Seen& a : one) {
+    const float own = std::fabs(a.state.spin) * reach_one;
+    if (other.empty()) largest = std::max(largest, a.state.velocity.norm() + own);
+    for (const StateTrail::Seen& b : other) {
+      const float turning = own + std::fabs(b.state.spin) * reach_other;
+      largest = std::max(largest, (a.state.velocity - b.state.velocity).norm() + turning);
+    }
+  }
+  return largest;
+}
+
+}  // namespace
+
+bool Possible(const World& world, const StateTrail& trail, const Blow& blow, std::int64_t tick) {
+  const std::int64_t from = tick - kTicksBefore, to = tick - 1;
+  const Trail struck = trail.Between(blow.body, from, to);
+  if (struck.empty()) return false;
+  const float reach = Reach(world, blow.body);
+  if (!IsNear(struck, blow.point, reach, world.dt())) return false;
+  Trail striker;
+  float reach_by = 0, restitution = LargestRestitution(world, blow.body);
+  if (blow.by >= 0) {
+    striker = trail.Between(blow.by, from, to);
+    reach_by = Reach(world, blow.by);
+    if (striker.empty() || !IsNear(striker, blow.point, reach_by, world.dt())) return false;
+    restitution = std::max(restitution, LargestRestitution(world, blow.by));
+  } else {
+    if (HasMovers(world)) return true;
+    restitution = 1;  // of what is anchored there nothing is looked up
+  }
+  // Alone a body gains at most (1 + e) times the relative speed. Held by something else meanwhile,
+  // it passes on all the momentum that came, however heavy what brought it.
+  const float bringing = MechanismMass(world, blow.by >= 0 ? blow.by : blow.body);
+  const float ratio = std::max(1.0f, bringing / world.mass(blow.body));
+  const float speed = RelativeSpeed(struck, reach, striker, reach_by);
+  return blow.dv <= (1 + restitution) * speed * ratio + kSlack;
+}
+
+}  // namespace seam
