@@ -46,8 +46,8 @@ struct Session {
   Network network{};
   std::string name;  ///< as seam-lab run takes it
   SoakFindings found;
-  int authorities = 0;  ///< instants with two authorities, and epochs with two holders
-  std::string failure;  ///< it did not run
+  long authorities = 0;  ///< instants with two authorities, and epochs with two holders
+  std::string failure;   ///< it did not run
 };
 
 /// The n-th: every scene in turn, each time over another network, and with bots every other round.
