@@ -122,7 +122,7 @@ void Replay::FindPressed(std::int64_t from) {
 /// told of it.
 bool Replay::FollowsHistory(int body, std::int64_t tick) const {
   if (!roles_.Simulates(body)) return true;
-  if (memory_.track(body).at_rest) return true;  // committed, here too
+  if (memory_.track(body).at_rest && !config_.StampsInputs(roles_.self())) return true;
   if (tick <= memory_.track(body).dynamic_since) return true;
   if (roles_.RoleOfBody(body) != kRoleAuthority) return false;
   if (config_.StampsInputs(roles_.self())) return false;
@@ -130,9 +130,19 @@ bool Replay::FollowsHistory(int body, std::int64_t tick) const {
   return pressed_[static_cast<std::size_t>(world_.mechanism(body))] || !world_.awake(body);
 }
 
+/// Where inputs are stamped, what is committed to rest is stepped again, and rests on if it has come
+/// to rest again where it lay.
+bool Replay::RestsAsBefore(int body, const BodyState& pose) {
+  BodyTrack& track = memory_.track(body);
+  if (!track.at_rest) return false;
+  track.at_rest = !world_.awake(body) && Agrees(Minus(world_.Read(body), pose));
+  return track.at_rest;
+}
+
 /// A blow that turns out to have happened ends the rest of what was struck, and of what was awake
 /// with it.
 void Replay::WakeStruck() {
+  if (config_.StampsInputs(roles_.self())) return;  // it is stepped again like anything else
   std::vector<int> resting;
   bool struck = false;
   for (int body = 0; body < world_.body_count(); ++body) {
@@ -237,7 +247,7 @@ void Replay::Run() {
   }
   for (int body = 0; body < world_.body_count(); ++body) {
     const auto b = static_cast<std::size_t>(body);
-    if (FollowsHistory(body, now)) {
+    if (FollowsHistory(body, now) || RestsAsBefore(body, shown[b])) {
       world_.Write(body, shown[b], false);
       if (!was_awake[b]) world_.SetAwake(body, false);
     }

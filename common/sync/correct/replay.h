@@ -68,6 +68,7 @@ class Replay {
     int player = 0, action = 0;
   };
 
+  bool RestsAsBefore(int body, const BodyState& pose);
   bool BeginsEarlier(int body, std::int64_t tick);
   void FindPressed(std::int64_t from);
   bool FollowsHistory(int body, std::int64_t tick) const;

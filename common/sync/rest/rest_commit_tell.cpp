@@ -32,6 +32,7 @@ bool RestCommit::MayCommit(const std::vector<int>& island, const std::vector<int
   };
   const auto asleep = [&](int b) { return watch_.asleep(b) >= Ticks(kAsleepFor); };
   if (each(own, asleep)) return true;
+  if (Trusts()) return false;
   if (each(island, [&](int b) { return Own(b); })) return false;
   if (!each(island, [&](int b) { return !Driven(b); })) return false;
   if (each(own, [&](int b) { return watch_.still(b) >= Ticks(kStillFor); })) return true;
