@@ -49,7 +49,9 @@ void Display::Glide(const Roles& roles) {
   for (int m = 0; m < mechanisms; ++m) {
     const std::vector<int>& bodies = joints_.bodies(m);
     int& corrected = corrected_ticks_[static_cast<std::size_t>(m)];
-    if (IsOff(m)) {
+    if (IsOff(m) && config_.StampsInputs(roles.self())) {
+      joints_.Trust(m);
+    } else if (IsOff(m)) {
       joints_.Follow(m, corrected > 0);
     } else {
       joints_.Forget(m);
