@@ -98,6 +98,8 @@ void Corrector::Correct(int body, const States& states, std::size_t i, const Bod
   if (then != nullptr) {
     like = LikePast(body, states.tick, in.remote);
     in.local_then = &like;
+    const float gained = in.local.velocity.squaredNorm() - then->velocity.squaredNorm();
+    in.speed_max = std::sqrt(std::max(0.0f, in.remote.velocity.squaredNorm() + gained));
   }
   in.since_impact =
       static_cast<float>(world_.tick() - memory_.track(body).last_impact_tick) * world_.dt();

@@ -82,7 +82,7 @@ void Replay::AskFrom(std::int64_t tick) {
 }
 
 void Replay::TakeBarrier() {
-  if (!config_.GoesBack(roles_.self()) || world_.tick() % config_.send_every() != 0) return;
+  if (!config_.TakesBarriers(roles_.self()) || world_.tick() % config_.send_every() != 0) return;
   barriers_.push_back(world_.Barrier());
   while (barriers_.front().tick < world_.tick() - kReplayMax * config_.tick_hz) {
     barriers_.pop_front();
