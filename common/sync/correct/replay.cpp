@@ -206,6 +206,7 @@ void Replay::StepAgain() {
   }
   ActAgain(next);
   world_.Step();
+  on_stepped_again_();
   ++stepped_again_;
 }
 
