@@ -216,6 +216,7 @@ void Replay::StepAgain() {
   }
   ActAgain(next);
   world_.Step();
+  on_stepped_again_();
   ++stepped_again_;
 }
 
