@@ -114,15 +114,16 @@ void Corrector::Correct(int body, const States& states, std::size_t i, const Bod
   NoteArrival(body);
 }
 
-/// At rest as far as the authority knows: take its pose bit for bit, so that all peers end with
-/// the same numbers. Our copy is neither woken nor put to sleep by it: either would start the
-/// engine's time to sleep again, for all that it touches.
+/// At rest as far as the authority knows: take its pose, unless only the wire's rounding differs:
+/// that the Rest brings, and what is woken before it goes on from the same numbers. Our copy is
+/// neither woken nor put to sleep by it: either would start the engine's time to sleep again, for
+/// all that it touches.
 void Corrector::TakeRest(int body, const BodyState& local, const BodyState& remote) {
   memory_.track(body).pull.arrived = -1;
-  if (remote.position == local.position && remote.angle == local.angle) return;
   BodyState moved = Minus(remote, local);
   moved.velocity.setZero();
   moved.spin = 0;
+  if (Negligible(moved)) return;
   display_.Moved(body, moved);
   world_.Write(body, remote, false);
   *memory_.history().At(world_.tick(), body) = world_.Read(body);

@@ -6,6 +6,7 @@
 
 #include "common/base/geometry.h"
 #include "common/sync/correct/presses.h"
+#include "common/sync/rest/rest_disturbed.h"
 #include "common/sync/state_limits.h"
 
 namespace seam {
@@ -19,8 +20,6 @@ constexpr int kReplayMax = 1;
 constexpr float kPressedShare = 0.3f;
 /// What moves faster than this, m/s, or was struck, does not count as pressed.
 constexpr float kPressedSpeed = 2;
-/// A blow in a replay that wakes what is committed to rest, m/s, as one does when it happens.
-constexpr float kRestBlow = 0.5f;
 /// Budget: ticks stepped again for each tick, in the long run, and how many may be saved up.
 constexpr double kAgainPerTick = 4, kAgainSaved = 240;
 /// With the same inputs both sides come to nearly the same. Up to these differences it stays: half
@@ -139,27 +138,18 @@ bool Replay::RestsAsBefore(int body, const BodyState& pose) {
   return track.at_rest;
 }
 
-/// A blow that turns out to have happened ends the rest of what was struck, and of what was awake
-/// with it.
-void Replay::WakeStruck() {
+/// What turns out to have been disturbed rests no more.
+void Replay::EndRest() {
   if (config_.StampsInputs(roles_.self())) return;  // it is stepped again like anything else
-  std::vector<int> resting;
-  bool struck = false;
-  for (int body = 0; body < world_.body_count(); ++body) {
-    const BodyTrack& track = memory_.track(body);
-    if (!track.at_rest || !roles_.Simulates(body) || !world_.awake(body)) continue;
-    if (world_.tick() <= track.dynamic_since) continue;
-    const BodyState& then = *memory_.history().At(world_.tick(), body);
-    struck = struck || (world_.Read(body).velocity - then.velocity).norm() > kRestBlow;
-    resting.push_back(body);
+  for (const int body : DisturbedRest(world_, memory_, inputs_)) {
+    const bool held = world_.tick() <= memory_.track(body).dynamic_since;
+    if (roles_.Simulates(body) && !held) memory_.track(body).at_rest = false;
   }
-  if (!struck) return;
-  for (const int body : resting) memory_.track(body).at_rest = false;
 }
 
 /// After the step to the world's tick: what is known of it.
 void Replay::PutIn() {
-  WakeStruck();
+  EndRest();
   for (int body = 0; body < world_.body_count(); ++body) PutIn(body);
 }
 

@@ -78,7 +78,7 @@ class Replay {
   bool FollowsHistory(int body, std::int64_t tick) const;
   /// Whether a difference is one that stays as it is.
   bool Agrees(const BodyState& difference) const;
-  void WakeStruck();
+  void EndRest();
   void PutIn();
   void PutIn(int body);
   void StepAgain();
