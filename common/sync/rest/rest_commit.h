@@ -91,6 +91,7 @@ class RestCommit {
   void CommitIsland(const std::vector<int>& island);
   bool MayCommit(const std::vector<int>& island, const std::vector<int>& own) const;
   void Commit(int body);
+  bool WokenSince(int body, std::int64_t tick, const BodyState& pose) const;
   bool ReceiveOne(const Rest& rest, std::size_t i);
   void WakeNeighbours(int body);
 
