@@ -20,8 +20,8 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       display_(config_, world_, memory_.snapshots()),
       replay_(config_, world_, roles_, memory_, display_, inputs_),
       corrector_(config_, world_, roles_, memory_, display_, replay_),
-      rest_(config_, world_, roles_, memory_, display_, inputs_),
       reach_(config_, world_, roles_, inputs_),
+      rest_(config_, world_, roles_, memory_, display_, inputs_, reach_),
       scheduler_(config_, world_, roles_, memory_, reach_, replay_),
       proposals_(config_.tick_hz),
       impact_reporter_(world_, roles_),
@@ -52,6 +52,7 @@ void Replica::Step() {
   rest_.BeforeStep();
   world_.Step();
   memory_.NoteContacts(roles_.table());
+  if (config_.rolls_back && next % config_.send_every() == 0) reach_.Look();
   rest_.AfterStep();
   impact_reporter_.Note();
   for (Edit& edit : world_.ProposeEdits()) {
@@ -62,7 +63,6 @@ void Replica::Step() {
     }
   }
   QueueAppointed();
-  if (config_.rolls_back && next % config_.send_every() == 0) reach_.Look();
   scheduler_.Collect();
   memory_.Record();
   replay_.TakeBarrier();
