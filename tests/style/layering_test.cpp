@@ -152,6 +152,8 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"common/sync/reconcile", "none"},
       {"common/sync/correct", "common/sync(/reconcile)?"},
       {"common/sync/rest", "common/sync(/reconcile)?"},
+      {"common/sync/reach", "common/sync"},
+      {"common/sync/edits", "none"},
       {"common/measure/screen", "common/measure"},
       {"common/sync/show", "common/sync"},
       {"common/stages/(bonds|bricks|character|water)", "common/stages"},
