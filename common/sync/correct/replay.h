@@ -73,12 +73,13 @@ class Replay {
     int player = 0, action = 0;
   };
 
+  bool RestsAsBefore(int body, const BodyState& pose);
   bool BeginsEarlier(int body, std::int64_t tick);
   void FindPressed(std::int64_t from);
   bool FollowsHistory(int body, std::int64_t tick) const;
   /// Whether a difference is one that stays as it is.
   bool Agrees(const BodyState& difference) const;
-  void WakeStruck();
+  void EndRest();
   void PutIn();
   void PutIn(int body);
   void StepAgain();

@@ -115,7 +115,7 @@ void RestCommit::BeforeStep() {
     const BodyState now = world_.Read(body);
     const bool simulated = world_.motion(body) == Motion::kDynamic && world_.awake(body);
     const bool moved = now.velocity.squaredNorm() > 0 || now.spin != 0;
-    if (simulated && (edited_ || moved || Driven(body))) {
+    if (simulated && (Trusts() || edited_ || moved || Driven(body))) {
       LetGo(body);
     } else {
       Put(body);
@@ -152,7 +152,7 @@ void RestCommit::HoldIsland(const std::vector<int>& island) {
     if (!Holds(body) || !world_.awake(body)) continue;
     const bool by_own = Own(body) && (own_awake || !others_awake);
     const bool moves = world_.motion(body) == Motion::kDynamic;
-    if (moves && (by_own || driven || GivesWay(body))) {
+    if (moves && (Trusts() || by_own || driven || GivesWay(body))) {
       LetGo(body);
     } else {
       Put(body);
