@@ -180,7 +180,7 @@ TEST(Rollback, APressHeardLateActsOnceAndAtItsTickWithEveryPeer) {
 }
 
 TEST(Rollback, APressTooOldToGoBackToActsOnceAtTheAuthorityAndTheOthersFollow) {
-  constexpr std::int64_t kPress = 51, kHeard = 150;
+  constexpr std::int64_t kPress = 51, kHeard = 220;
   WiredReplicas room = OnlyAnn(Floating(), 3, kPress, kPress + 5, Input{0, 0, 2});
   // ann's lines are down for longer than there is a way back.
   room.held_up = [&](int from, int to) {
