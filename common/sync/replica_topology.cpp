@@ -1,7 +1,7 @@
 /// Replica: edits, and bodies that split and merge by them. What is known of a body (its past, what
 /// was heard of it, its pose in the view) is carried over to what it becomes.
 
-#include "common/sync/edit_order.h"
+#include "common/sync/edits/edit_order.h"
 #include "common/sync/replica.h"
 
 namespace seam {

@@ -12,8 +12,8 @@
 namespace seam {
 namespace {
 
-/// Most that is stepped again, s. At 200 ms one way, an input is known elsewhere after 0.4 s, and the
-/// state of the tick that it completed another 0.4 s later. Less than the history.
+/// Most that is stepped again, s. At 200 ms one way, an input is known elsewhere after 0.4 s, and
+/// the state of the tick that it completed another 0.4 s later. Less than the history.
 constexpr int kReplayMax = 2;
 /// Of the difference, where bodies of several authorities press against each other. All of it
 /// doubles the error of a shoved stack; much less is no longer a correction.
@@ -129,8 +129,8 @@ bool Replay::FollowsHistory(int body, std::int64_t tick) const {
   return pressed_[static_cast<std::size_t>(world_.mechanism(body))] || !world_.awake(body);
 }
 
-/// Where inputs are stamped, what is committed to rest is stepped again, and rests on if it has come
-/// to rest again where it lay.
+/// Where inputs are stamped, what is committed to rest is stepped again, and rests on if it has
+/// come to rest again where it lay.
 bool Replay::RestsAsBefore(int body, const BodyState& pose) {
   BodyTrack& track = memory_.track(body);
   if (!track.at_rest) return false;

@@ -54,7 +54,8 @@ class Replay {
   /// Called after each tick that is stepped again, with the world as it was stepped.
   void OnSteppedAgain(std::function<void()> call) { on_stepped_again_ = std::move(call); }
   /// After a step to a tick of which States are sent: makes it one to go back to. At every such
-  /// tick, needed or not: worlds that are to come to the same bits are built anew at the same ticks.
+  /// tick, needed or not: worlds that are to come to the same bits are built anew at the same
+  /// ticks.
   void TakeBarrier();
   /// This peer did a player's action (index) before the step to `tick`; a replay repeats it. Not
   /// for rules that stamp inputs.
