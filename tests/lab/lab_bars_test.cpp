@@ -19,7 +19,7 @@ std::string Row(const std::string& method, const std::string& rest, const std::s
   return "scenes/" + scene + ".toml," + set + "," + method + "," + rest + "\n";
 }
 
-std::string Run(const std::string& method, int seed, const std::string& others,
+std::string OneRun(const std::string& method, int seed, const std::string& others,
                 const std::string& rms) {
   return Row(
       method,
@@ -35,7 +35,7 @@ std::vector<CaseTable> TablesOf(const std::string& rows, const std::string& name
 std::string TwoMethods(const std::string& own, const std::string& rms, const std::string& central) {
   std::string rows;
   for (const int seed : {1, 2, 3}) {
-    rows += Run("buffer,rollback", seed, own, rms) + Run("central,all", seed, central, "0.01");
+    rows += OneRun("buffer,rollback", seed, own, rms) + OneRun("central,all", seed, central, "0.01");
   }
   return rows;
 }
@@ -58,7 +58,7 @@ TEST(Bars, AreHeldOrMissedAndSayByWhom) {
 TEST(Bars, AMethodThatDidNotRunMisses) {
   std::string rows;
   for (const int seed : {1, 2}) {
-    rows += Run("buffer,rollback", seed, "0.01", "0.01") + Run("buffer,fade", seed, "0.3", "0.3");
+    rows += OneRun("buffer,rollback", seed, "0.01", "0.01") + OneRun("buffer,fade", seed, "0.3", "0.3");
   }
   EXPECT_EQ(VerdictOf(rows), "missed: central/all");
 }
@@ -92,7 +92,7 @@ TEST(Cases, RunsThatAreNotValidAreLeftOutAndCounted) {
   EXPECT_EQ(glance.header, (std::vector<std::string>{"scene", "central/all", "rollback"}));
   EXPECT_EQ(glance.rows[0][1], "0.07");
   EXPECT_EQ(glance.rows[0][2], "✓ 0.05 (1 of 4 not valid)");
-  const std::vector<CaseTable> none = TablesOf(invalid + Run("central,all", 1, "0.1", "0.1"));
+  const std::vector<CaseTable> none = TablesOf(invalid + OneRun("central,all", 1, "0.1", "0.1"));
   EXPECT_EQ(GlanceTable(FindCases(none)).rows[0][2], "not valid: no contact");
 }
 
