@@ -27,6 +27,7 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       impact_reporter_(world_, roles_),
       pressed_now_(topology.scene().players.size(), 0),
       pressed_missed_(topology.scene().players.size(), 0) {
+  replay_.OnSteppedAgain([this] { impact_reporter_.Note(true); });
   corrector_.FollowRoles();
   memory_.Record();
   replay_.TakeBarrier();  // the inputs of the first ticks come late, too

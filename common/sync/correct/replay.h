@@ -17,6 +17,8 @@
 
 #include <cstdint>
 #include <deque>
+#include <functional>
+#include <utility>
 #include <vector>
 
 #include "common/physics/world.h"
@@ -49,6 +51,8 @@ class Replay {
   /// Goes back to the oldest tick asked for and steps again to now; or, when the budget is used up,
   /// leaves it for the next call.
   void Run();
+  /// Called after each tick that is stepped again, with the world as it was stepped.
+  void OnSteppedAgain(std::function<void()> call) { on_stepped_again_ = std::move(call); }
   /// After a step to a tick of which States are sent: makes it one to go back to. At every such
   /// tick, needed or not: worlds that are to come to the same bits are built anew at the same ticks.
   void TakeBarrier();
@@ -68,12 +72,13 @@ class Replay {
     int player = 0, action = 0;
   };
 
+  bool RestsAsBefore(int body, const BodyState& pose);
   bool BeginsEarlier(int body, std::int64_t tick);
   void FindPressed(std::int64_t from);
   bool FollowsHistory(int body, std::int64_t tick) const;
   /// Whether a difference is one that stays as it is.
   bool Agrees(const BodyState& difference) const;
-  void WakeStruck();
+  void EndRest();
   void PutIn();
   void PutIn(int body);
   void StepAgain();
@@ -90,6 +95,7 @@ class Replay {
   std::int64_t from_ = -1;              // oldest tick asked for, -1 none
   std::vector<bool> pressed_;           // by mechanism, of the replay that runs
   double credit_ = 0;                   // ticks that may be stepped again
+  std::function<void()> on_stepped_again_ = [] {};
   std::int64_t stepped_again_ = 0;
   std::int64_t deferred_ = 0;
 };

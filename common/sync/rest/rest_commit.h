@@ -11,6 +11,7 @@
 /// says nothing goes back to rest. Where an island has several owners their copies differ, and the
 /// engine may never let them sleep: there a peer commits its own bodies when they have lain still
 /// whatever the copies do, and if that does not come about, the lowest peer's and then everybody's.
+/// Rules that stamp inputs need neither: their copies are the same, so they wake and sleep alike.
 
 #include <cstdint>
 #include <vector>
@@ -71,6 +72,9 @@ class RestCommit {
   };
 
   bool Off() const { return config_.mode == Mode::kOracle || !world_.scene().solver.sleep; }
+  /// Where all peers come to the same by the same inputs, what the physics wakes is awake, and what
+  /// it lets sleep sleeps: nothing is held against it.
+  bool Trusts() const { return config_.StampsInputs(roles_.self()); }
   bool Own(int body) const { return roles_.IsAuthority(world_.mechanism(body)); }
   Disturbance& disturbed(int body) { return disturbed_[static_cast<std::size_t>(body)]; }
   std::int64_t Ticks(double seconds) const;
@@ -87,6 +91,7 @@ class RestCommit {
   void CommitIsland(const std::vector<int>& island);
   bool MayCommit(const std::vector<int>& island, const std::vector<int>& own) const;
   void Commit(int body);
+  bool WokenSince(int body, std::int64_t tick, const BodyState& pose) const;
   bool ReceiveOne(const Rest& rest, std::size_t i);
   void WakeNeighbours(int body);
 
