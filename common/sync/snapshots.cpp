@@ -11,7 +11,7 @@ namespace {
 /// Acceleration between the last two states is thought to go on for kAccelerationLasts, unless it
 /// is larger than gravity, brakes and drag make it, or the two are far apart. s, m/s^2, s
 constexpr float kAccelerationLasts = 0.3f, kAccelerationMax = 30, kAccelerationSpan = 0.5f;
-constexpr std::size_t kKeep = 64;      // states per body: about a second
+constexpr std::size_t kKeep = 96;      // states per body: about three seconds
 constexpr std::size_t kAges = 90;      // arrivals looked at for the delay
 constexpr double kSlewPerTick = 0.02;  // ticks of delay per tick: 2 % slower or faster
 
@@ -43,6 +43,11 @@ void Snapshots::Remap(const std::vector<BodyOrigin>& origins) {
     for (Stamped& stamped : rings[i]) stamped.state = Carried(origins[i], stamped.state);
   }
   rings_ = std::move(rings);
+}
+
+void Snapshots::ForgetAfter(int body, std::int64_t tick) {
+  std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
+  while (!ring.empty() && ring.back().tick > tick) ring.pop_back();
 }
 
 std::int64_t Snapshots::newest_tick(int body) const {

@@ -88,7 +88,8 @@ void Corrector::Correct(int body, const States& states, std::size_t i, const Bod
   const float angle_then = then != nullptr ? then->angle : in.local.angle - in.dt * in.local.spin;
   in.remote = Unpack(states, i, angle_then);
   const bool quiet = in.local.velocity.norm() < kQuiet && std::fabs(in.local.spin) < kQuiet;
-  if ((states.flags[i] & kStateAsleep) != 0 && quiet) {
+  const bool stamps = config_.StampsInputs(roles_.self());
+  if ((states.flags[i] & kStateAsleep) != 0 && quiet && !stamps) {
     TakeRest(body, in.local, in.remote);
     return;
   }
@@ -97,6 +98,8 @@ void Corrector::Correct(int body, const States& states, std::size_t i, const Bod
   if (then != nullptr) {
     like = LikePast(body, states.tick, in.remote);
     in.local_then = &like;
+    const float gained = in.local.velocity.squaredNorm() - then->velocity.squaredNorm();
+    in.speed_max = std::sqrt(std::max(0.0f, in.remote.velocity.squaredNorm() + gained));
   }
   in.since_impact =
       static_cast<float>(world_.tick() - memory_.track(body).last_impact_tick) * world_.dt();
