@@ -20,7 +20,7 @@ std::string Row(const std::string& method, const std::string& rest, const std::s
 }
 
 std::string OneRun(const std::string& method, int seed, const std::string& others,
-                const std::string& rms) {
+                   const std::string& rms) {
   return Row(
       method,
       "demo,bot,on," + std::to_string(seed) + "," + others + "," + rms + ",8,0.1,0.02,0.001,6,0.3,",
@@ -35,7 +35,8 @@ std::vector<CaseTable> TablesOf(const std::string& rows, const std::string& name
 std::string TwoMethods(const std::string& own, const std::string& rms, const std::string& central) {
   std::string rows;
   for (const int seed : {1, 2, 3}) {
-    rows += OneRun("buffer,rollback", seed, own, rms) + OneRun("central,all", seed, central, "0.01");
+    rows +=
+        OneRun("buffer,rollback", seed, own, rms) + OneRun("central,all", seed, central, "0.01");
   }
   return rows;
 }
@@ -58,7 +59,8 @@ TEST(Bars, AreHeldOrMissedAndSayByWhom) {
 TEST(Bars, AMethodThatDidNotRunMisses) {
   std::string rows;
   for (const int seed : {1, 2}) {
-    rows += OneRun("buffer,rollback", seed, "0.01", "0.01") + OneRun("buffer,fade", seed, "0.3", "0.3");
+    rows +=
+        OneRun("buffer,rollback", seed, "0.01", "0.01") + OneRun("buffer,fade", seed, "0.3", "0.3");
   }
   EXPECT_EQ(VerdictOf(rows), "missed: central/all");
 }
