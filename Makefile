@@ -215,7 +215,7 @@ bench: all                           ## cost of a step beside Box2D, hard cases:
 
 # QUICK=1: fewer seeds and settings, in two minutes.
 report: build/.deps-report all       ## speed against error: all the measurements, into out/report/ (QUICK=1)
-	SEAM_BIN=$(OUT) FORCE=$(FORCE) tests/report.sh out/report $(if $(QUICK),quick)
+	SEAM_BIN=$(OUT) FORCE=$(FORCE) FILL="$(FILL)" tests/report.sh out/report $(if $(QUICK),quick)
 
 install: all $(OUT)/libseam.a        ## programs, scenes, library and headers under PREFIX (DESTDIR)
 	@$(MAKE) --no-print-directory install-built

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/base/check.h"
-#include "common/sync/edit_order.h"
+#include "common/sync/edits/edit_order.h"
 #include "common/sync/input_source.h"
 #include "common/sync/lease.h"
 

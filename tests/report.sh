@@ -2,7 +2,7 @@
 # make report: sweeps over the simulated network and over solver settings, renderings, and the page
 # of it all. Usage: report.sh OUTPUT_DIR [quick]. Interrupted, the same command goes on where it was.
 # Environment: SEAM_BIN (folder of the programs), JOBS (default: one a core), FORCE (not empty: all
-# tables anew).
+# tables anew), FILL (pages of the docs into which the tables are put).
 set -euo pipefail
 
 out=${1:?usage: report.sh OUTPUT_DIR [quick]}
@@ -21,7 +21,21 @@ jobs=()
 [ -z "${JOBS:-}" ] || jobs=(--jobs "$JOBS")
 [ -z "${FORCE:-}" ] || rm -f "$data"/*.csv
 mkdir -p "$data" "$out/renders"
-step() { printf 'report: %4d s  %s\n' "$SECONDS" "$*"; }
+# What the steps take goes into the report. Going on after an interruption, a step that is done
+# takes nothing and keeps the time it took.
+times=$data/times.csv
+[ -e "$times" ] || echo step,seconds >"$times"
+last= begun=0
+step() {
+  local took=$((SECONDS - begun))
+  if [ -n "$last" ] && { [ "$took" -gt 0 ] || ! grep -q "^$last," "$times"; }; then
+    echo "$last,$took" >>"$times"
+  fi
+  last=$* begun=$SECONDS
+  printf 'report: %4d s  %s\n' "$SECONDS" "$*"
+}
+# Medians of what was there before, measured with the present measure.
+cp tests/lab/sweeps/before.csv "$data/before.csv"
 
 # Runs that fail leave no row and are named on stderr; the others are reported.
 failed=0
@@ -56,9 +70,9 @@ for scene in crossing wall cradle stack; do
   step "drawing $scene"
   strobe="$bin/seam-render --strobe --compare" frames="$bin/seam-render --compare"
   commands=
-  for method in oracle strict fade retrospect; do
+  for method in oracle strict central fade rollback; do
     case $method in
-      oracle | strict) how="--mode $method" ;;
+      oracle | strict | central) how="--mode $method" ;;
       *) how="--reconcile $method" ;;
     esac
     log=$out/renders/$scene-$method.lcm
@@ -82,6 +96,9 @@ for scene in crossing wall cradle stack; do
 done
 
 step "the page"
-"$bin/seam-lab" report "$data" -o "$out" --sweeps "$sweeps"
+try "$bin/seam-lab" report "$data" -o "$out" --sweeps "$sweeps"
+for page in ${FILL:-}; do  # pages of the docs with places for tables
+  try "$bin/seam-lab" report "$data" -o "$out" --sweeps "$sweeps" --markdown "$page"
+done
 step "done: open $out/index.html"
 exit "$failed"

@@ -84,8 +84,8 @@ struct OracleOptions {
 };
 
 /// Whether a method is judged by the oracle with barriers: one that goes back and steps again has a
-/// barrier at every send tick, and rebuilding the world is a rounding of its own. All others, mode
-/// central included, are judged by the one without.
+/// barrier at every send tick, and rebuilding the world is a rounding of its own; so has mode
+/// central where clients predict all. All others are judged by the one without.
 bool JudgedByBarriers(const Room& room);
 /// A barrier at every send tick of the room, whatever its method.
 OracleOptions WithBarriers(const Room& room);

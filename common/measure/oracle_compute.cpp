@@ -50,7 +50,9 @@ int SendEvery(const Room& room) {
 }  // namespace
 
 bool JudgedByBarriers(const Room& room) {
-  if (FindMode(room.mode) != Mode::kBuffer) return false;
+  const std::optional<Mode> mode = FindMode(room.mode);
+  if (mode == Mode::kCentral) return room.predict == "all";
+  if (mode != Mode::kBuffer) return false;
   for (const NamedReconciler& rule : Reconcilers()) {
     if (rule.name == room.reconcile) return rule.resimulates;
   }

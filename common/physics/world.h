@@ -67,6 +67,7 @@ struct WorldSnapshot {
   std::vector<Body> bodies;
   std::vector<Point> points;               ///< ascending by pair, feature
   std::vector<std::vector<float>> joints;  ///< impulses, N s and N m s, by the scene's joints
+  std::vector<float> speeds;               ///< of motors, rad/s or m/s, by the scene's joints
   std::vector<float> stages;               ///< what each stage remembers
 };
 
@@ -145,8 +146,9 @@ class World {
   /// Rebuilds the world, so that nothing is left in it of how it came to its state, and returns
   /// that state. Bodies, motions and motors stay; impulses of contacts and joints are carried over.
   WorldSnapshot Barrier();
-  /// Goes back to a state that Barrier returned. Motions and motors stay as they are now. With the
-  /// same calls after it, the world does again, bit for bit, what it did then.
+  /// Goes back to a state that Barrier returned. Motions stay as they are now; motors turn as they
+  /// did then, or the next input would wake what it changes nothing of. With the same calls after
+  /// it, the world does again, bit for bit, what it did then.
   /// Only while bodies and joints are those of the snapshot, that is, while Apply has returned
   /// nullopt since: else an error, one line, and nothing has changed.
   Status Restore(const WorldSnapshot& snapshot);

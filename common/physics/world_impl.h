@@ -71,19 +71,14 @@ struct World::Impl {
   }
 
   /// What survives when the bodies are made anew.
-  struct Kept {
-    WorldSnapshot snapshot;
-    std::vector<float> speeds;  ///< of motors, by the scene's joints
-  };
-  Kept Keep() const;
+  WorldSnapshot Keep() const;
   std::vector<float> Speeds() const;  ///< of motors, by the scene's joints
   /// Whether its bodies and joints are those that are there now.
   Status ValidateSnapshot(const WorldSnapshot& snapshot) const;
   /// Makes everything anew, in the states of the snapshot. What it has of joints that are gone
   /// is left out. The snapshot of stages may be empty: they begin anew, too.
   /// `new_motions`: by body of the snapshot.
-  void Rebuild(const WorldSnapshot& snapshot, const std::vector<Motion>& new_motions,
-               const std::vector<float>& speeds);
+  void Rebuild(const WorldSnapshot& snapshot, const std::vector<Motion>& new_motions);
 
   /// Before and after one of the engine's steps of h seconds.
   void LetLedBodiesMove();

@@ -109,9 +109,8 @@ void EachPoint(b2World* world, const Visit& visit) {
 
 }  // namespace
 
-World::Impl::Kept World::Impl::Keep() const {
-  Kept kept;
-  WorldSnapshot& out = kept.snapshot;
+WorldSnapshot World::Impl::Keep() const {
+  WorldSnapshot out;
   out.tick = tick;
   out.composition = composition.hash;
   for (const MovingBody& m : built.moving) {
@@ -134,8 +133,8 @@ World::Impl::Kept World::Impl::Keep() const {
     for (const float* impulse : ImpulsesOf(joint)) out.joints.back().push_back(*impulse);
   }
   for (const auto& stage : stages) stage->Save(&out.stages);
-  kept.speeds = Speeds();
-  return kept;
+  out.speeds = Speeds();
+  return out;
 }
 
 std::vector<float> World::Impl::Speeds() const {
@@ -146,8 +145,7 @@ std::vector<float> World::Impl::Speeds() const {
   return speeds;
 }
 
-void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motion>& new_motions,
-                          const std::vector<float>& speeds) {
+void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motion>& new_motions) {
   Empty();
   tick = snapshot.tick;  // stages put things where they are then
   // The engine scales the impulses it begins with by the ratio to its last step, which a new world
@@ -159,7 +157,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
   for (const auto& stage : stages) stage->Rebuilt(&*world);
   for (Motor& motor : built.motors) {
     const auto index = static_cast<std::size_t>(motor.index);
-    if (index < speeds.size()) motor.SetSpeed(speeds[index]);
+    if (index < snapshot.speeds.size()) motor.SetSpeed(snapshot.speeds[index]);
   }
   for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
     b2Body* b = built.moving[i].body;
@@ -204,7 +202,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
 }
 
 WorldSnapshot World::Barrier() {
-  WorldSnapshot snapshot = impl_->Keep().snapshot;
+  WorldSnapshot snapshot = impl_->Keep();
   SEAM_ASSERT(Restore(snapshot).ok());
   return snapshot;
 }
@@ -227,7 +225,7 @@ Status World::Restore(const WorldSnapshot& snapshot) {
   const Status good = impl_->ValidateSnapshot(snapshot);
   if (!good.ok()) return good;
   const std::vector<Motion> motions = impl_->motions;  // Rebuild begins them anew
-  impl_->Rebuild(snapshot, motions, impl_->Speeds());
+  impl_->Rebuild(snapshot, motions);
   return Status::Ok();
 }
 

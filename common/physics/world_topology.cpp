@@ -198,7 +198,7 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
   for (const Assembly& a : w.composition.assemblies) {
     if (!a.anchored) before.properties.push_back(AssemblyProperties(w.scene, a));
   }
-  const Impl::Kept kept = w.Keep();
+  const WorldSnapshot kept = w.Keep();
   const std::vector<Status> results = w.topology.Apply(edits);
   bool changed = w.composition.hash != hash || w.scene.joints.size() != joints_before;
   for (std::size_t i = 0; i < edits.size(); ++i) {  // in the place of one that is gone
@@ -220,8 +220,7 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
       body.state = StateOf(before, w.scene, now, origin);
       motions.push_back(origin.body >= 0 ? motion(origin.body) : Motion::kDynamic);
       if (origin.same) {
-        const WorldSnapshot::Body& then =
-            kept.snapshot.bodies[static_cast<std::size_t>(origin.body)];
+        const WorldSnapshot::Body& then = kept.bodies[static_cast<std::size_t>(origin.body)];
         body.awake = then.awake;
         body.quiet_s = then.quiet_s;
       }
@@ -229,12 +228,13 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
       out->bodies.push_back(origin);
     }
     out->mechanisms = MechanismsFrom(before, w.composition);
-    snapshot.points = kept.snapshot.points;
-    snapshot.joints = kept.snapshot.joints;
+    snapshot.points = kept.points;
+    snapshot.joints = kept.joints;
+    snapshot.speeds = kept.speeds;
     const std::size_t stages = w.stages.size();
     w.FindStages();
-    if (w.stages.size() == stages) snapshot.stages = kept.snapshot.stages;
-    w.Rebuild(snapshot, motions, kept.speeds);
+    if (w.stages.size() == stages) snapshot.stages = kept.stages;
+    w.Rebuild(snapshot, motions);
     w.impacts.clear();
   }
   for (const Edit& edit : edits) {

@@ -6,7 +6,7 @@ namespace seam {
 namespace {
 
 /// Length of the history, s. A state older than that is corrected without looking back.
-constexpr int kHistory = 2;
+constexpr int kHistory = 3;
 /// Mechanisms stay coupled for 1 s / kCoupledPart after they last touched: contact flickers.
 constexpr int kCoupledPart = 4;
 

@@ -14,6 +14,9 @@ constexpr float kSpinDrivenMax = 90.0f;
 /// A turn of more than this within a tick is taken for a fast wheel's, whose angle nobody follows.
 constexpr float kTurnSeen = 0.5f;
 
+/// A body that spins faster than this, rad/s, hides a jump of its angle by what it turns in
+/// kTurnsHidden ticks.
+constexpr float kSpinSeen = 6, kTurnsHidden = 1;
 /// So long after a correction the engine may still be closing what it has torn, ticks.
 constexpr int kCorrectedTicks = 10;
 
@@ -31,8 +34,19 @@ Display::Display(const SyncConfig& config, World& world, const Snapshots& snapsh
       reckoner_(world, snapshots, joints_),
       corrected_ticks_(world.composition().mechanisms.size(), 0) {}
 
+/// What a person could see of a jump: a wheel that spins turns by so much in every tick that
+/// nobody can tell a correction of less, and gliding over it would show it wrong for longer.
+BodyState Display::Visible(int body, BodyState jump) const {
+  const float spin = std::fabs(world_.Read(body).spin);
+  if (spin < kSpinSeen) return jump;
+  const float turn = kTurnsHidden * spin * world_.dt();
+  jump.angle -= std::clamp(jump.angle, -turn, turn);
+  jump.spin = 0;
+  return jump;
+}
+
 void Display::Moved(int body, const BodyState& by) {
-  smoother_.Moved(body, by);
+  smoother_.Moved(body, Visible(body, by));
   corrected_ticks_[static_cast<std::size_t>(world_.mechanism(body))] = kCorrectedTicks;
 }
 
@@ -49,7 +63,9 @@ void Display::Glide(const Roles& roles) {
   for (int m = 0; m < mechanisms; ++m) {
     const std::vector<int>& bodies = joints_.bodies(m);
     int& corrected = corrected_ticks_[static_cast<std::size_t>(m)];
-    if (IsOff(m)) {
+    if (IsOff(m) && config_.StampsInputs(roles.self())) {
+      joints_.Trust(m);
+    } else if (IsOff(m)) {
       joints_.Follow(m, corrected > 0);
     } else {
       joints_.Forget(m);

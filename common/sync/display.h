@@ -39,6 +39,7 @@ class Display {
   View MakeView(const Roles& roles) const;
 
  private:
+  BodyState Visible(int body, BodyState jump) const;
   BodyState AlongSnapshots(int body, const BodyState& target, BodyState state);
   BodyState AlongReckoned(int body, BodyState state);
   void KeepClosed(const Roles& roles);

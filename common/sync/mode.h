@@ -31,6 +31,11 @@ struct SyncConfig {
 
   /// Whether the peer goes back and steps again when it was wrong.
   bool GoesBack(int self) const { return resimulates || (mode == Mode::kCentral && self > 0); }
+  /// Whether the peer's world is built anew at every send tick. The server of predicting clients
+  /// never goes back, but theirs come to the same bits only if all do it at the same ticks.
+  bool TakesBarriers(int self) const {
+    return GoesBack(self) || (mode == Mode::kCentral && predict == Predict::kAll);
+  }
   /// Whether inputs act at the tick that they are of at every peer that simulates what they move,
   /// and one that arrives late is a reason to go back. Else only the authority acts on buttons,
   /// when it hears of them.

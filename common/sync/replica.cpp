@@ -22,13 +22,14 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       display_(config_, world_, memory_.snapshots()),
       replay_(config_, world_, roles_, memory_, display_, inputs_),
       corrector_(config_, world_, roles_, memory_, display_, replay_),
-      rest_(config_, world_, roles_, memory_, display_, inputs_),
       reach_(config_, world_, roles_, inputs_),
+      rest_(config_, world_, roles_, memory_, display_, inputs_, reach_),
       scheduler_(config_, world_, roles_, memory_, reach_, replay_),
       proposals_(config_.tick_hz),
       impact_reporter_(world_, roles_),
       pressed_now_(topology.scene().players.size(), 0),
       pressed_missed_(topology.scene().players.size(), 0) {
+  replay_.OnSteppedAgain([this] { impact_reporter_.Note(true); });
   corrector_.FollowRoles();
   memory_.Record();
   replay_.OnStep([this] { FindEdits(); });
@@ -54,11 +55,11 @@ void Replica::Step() {
   rest_.BeforeStep();
   world_.Step();
   memory_.NoteContacts(roles_.table());
+  if (config_.rolls_back && next % config_.send_every() == 0) reach_.Look();
   rest_.AfterStep();
   impact_reporter_.Note();
   FindEdits();
   QueueAppointed();
-  if (config_.rolls_back && next % config_.send_every() == 0) reach_.Look();
   scheduler_.Collect();
   memory_.Record();
   replay_.TakeBarrier();

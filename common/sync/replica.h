@@ -165,8 +165,8 @@ class Replica {
   Display display_;
   Replay replay_;
   Corrector corrector_;
-  RestCommit rest_;
   Reach reach_;
+  RestCommit rest_;
   SendScheduler scheduler_;
   ProposalQueue proposals_;
   ImpactReporter impact_reporter_;

@@ -5,7 +5,7 @@
 #include <set>
 
 #include "common/physics/part_places.h"
-#include "common/sync/edit_order.h"
+#include "common/sync/edits/edit_order.h"
 #include "common/sync/replica.h"
 
 namespace seam {

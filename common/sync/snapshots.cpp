@@ -11,7 +11,7 @@ namespace {
 /// Acceleration between the last two states is thought to go on for kAccelerationLasts, unless it
 /// is larger than gravity, brakes and drag make it, or the two are far apart. s, m/s^2, s
 constexpr float kAccelerationLasts = 0.3f, kAccelerationMax = 30, kAccelerationSpan = 0.5f;
-constexpr std::size_t kKeep = 64;      // states per body: about a second
+constexpr std::size_t kKeep = 96;      // states per body: about three seconds
 constexpr std::size_t kAges = 90;      // arrivals looked at for the delay
 constexpr double kSlewPerTick = 0.02;  // ticks of delay per tick: 2 % slower or faster
 

@@ -4,7 +4,7 @@
 #include <set>
 
 #include "common/physics/part_places.h"
-#include "common/sync/topology_snapshot.h"
+#include "common/sync/edits/topology_snapshot.h"
 #include "server/edits/proposal.h"
 
 namespace seam {

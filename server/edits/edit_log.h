@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/physics/world.h"
-#include "common/sync/edit_order.h"
+#include "common/sync/edits/edit_order.h"
 #include "common/topology/topology_fold.h"
 #include "server/authority/authority_manager.h"
 

@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <set>
 
 #include "common/base/check.h"
 #include "common/sync/reconcile/reconcile.h"
@@ -330,28 +329,6 @@ TEST(Report, AnInputDelayIsPaidForWithTheOwnResponse) {
   }
   EXPECT_TRUE(found);
   EXPECT_TRUE(FrontTable({sweep}).rows.empty()) << "it is no matter of CPU or bytes";
-}
-
-TEST(Report, TheSweepsItRunsCanBeRunAndLeaveNoReconcilerOut) {
-  for (const char* folder : {"tests/lab/sweeps", "tests/lab/sweeps/quick"}) {
-    std::size_t count = 0;
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-      if (entry.path().extension() != ".toml") continue;
-      const std::string stem = entry.path().stem();
-      if (stem == "worlds" || stem == "crowds") continue;  // dear: a few methods have to do
-      if (stem == "floors") continue;                      // of the measure itself, not of methods
-      if (stem == "input-delay") continue;                 // the best of each kind
-      ++count;
-      std::set<std::string> rules;
-      for (const GridPoint& point : ReadGrid(entry.path().string()).points) {
-        rules.insert(point.settings.reconcile);
-      }
-      for (const NamedReconciler& known : Reconcilers()) {
-        EXPECT_EQ(rules.count(known.name), 1u) << entry.path() << " leaves out " << known.name;
-      }
-    }
-    EXPECT_GE(count, 3u) << folder;
-  }
 }
 
 }  // namespace

@@ -10,19 +10,38 @@ namespace {
 constexpr int kAnn = 1, kBob = 2;
 constexpr std::int64_t kLong = 1000000;
 
-/// Mechanisms at these x, all the server's for long.
+/// A box of half a metre around `at`, at rest.
+MovingBox BoxAt(const Vec2& at, std::size_t mechanism) {
+  MovingBox box;
+  box.min = at - Vec2(0.25f, 0.25f);
+  box.max = at + Vec2(0.25f, 0.25f);
+  box.group = static_cast<int>(mechanism);
+  return box;
+}
+
+/// Mechanisms of one box each at these x, at rest, all the server's for long.
 AuthorityView TwoSides(const std::vector<float>& xs) {
   AuthorityView view;
   view.buffer_m = 4;
-  view.players.push_back({kAnn, true, {-100, -100}, {-0.001f, 100}});
-  view.players.push_back({kBob, true, {0, -100}, {100, 100}});
+  view.players.push_back({kAnn, 0.05f, true, {-100, -100}, {-0.001f, 100}});
+  view.players.push_back({kBob, 0.05f, true, {0, -100}, {100, 100}});
   for (const float x : xs) {
     MechanismView mechanism;
     mechanism.position = {x, 0};
     mechanism.held_ticks = kLong;
+    view.boxes.push_back(BoxAt(mechanism.position, view.mechanisms.size()));
     view.mechanisms.push_back(mechanism);
   }
   return view;
+}
+
+void Move(AuthorityView* view, std::size_t mechanism, float x) {
+  view->mechanisms[mechanism].position.x() = x;
+  view->boxes[mechanism] = BoxAt({x, 0}, mechanism);
+}
+
+bool Follows(const AuthorityView& view, std::size_t mechanism, int peer) {
+  return PlanAuthority(view)[mechanism].secondaries.Has(peer);
 }
 
 int HolderAt(float x, int now, std::int64_t held_ticks) {
@@ -79,10 +98,95 @@ TEST(PlanAuthority, PeersNearARegionOrAMechanismFollow) {
 
 TEST(PlanAuthority, WhoFollowsGoesOnALittleFurther) {
   AuthorityView view = TwoSides({5});
+  EXPECT_FALSE(Follows(view, 0, kAnn));
   view.mechanisms[0].now.secondaries.Add(kAnn);
-  EXPECT_TRUE(PlanAuthority(view)[0].secondaries.Has(kAnn));
-  view.mechanisms[0].position.x() = view.buffer_m + kHysteresis + 0.1f;
-  EXPECT_FALSE(PlanAuthority(view)[0].secondaries.Has(kAnn));
+  EXPECT_TRUE(Follows(view, 0, kAnn));
+  Move(&view, 0, view.buffer_m + kHysteresis + 0.35f);
+  EXPECT_FALSE(Follows(view, 0, kAnn));
+}
+
+TEST(PlanAuthority, TheBufferReachesToTheNearestBoxAndNotToTheRoot) {
+  AuthorityView view = TwoSides({30});
+  MovingBox nose = BoxAt({3, 0}, 0);  // a long train whose engine is 27 m behind its nose
+  view.boxes.push_back(nose);
+  EXPECT_TRUE(Follows(view, 0, kAnn));
+  view.boxes.back() = BoxAt({6, 0}, 0);
+  EXPECT_FALSE(Follows(view, 0, kAnn));
+}
+
+/// What ann has at -30 and bob at 30, coming together at `speed` m/s.
+AuthorityView Approach(float speed, float one_way_s) {
+  AuthorityView view = TwoSides({-30, 30});
+  view.boxes[0].velocity = {speed / 2, 0};
+  view.boxes[1].velocity = {-speed / 2, 0};
+  for (PlayerView& player : view.players) player.one_way_s = one_way_s;
+  return view;
+}
+
+TEST(PlanAuthority, AZoneIsAsWideAsTheTwoComeTogetherInTheirLatency) {
+  const float gap = 59.5f - kZoneSlack;
+  const float meets = gap / ZoneSeconds(0.1f, 0.1f);
+  EXPECT_TRUE(Follows(Approach(meets + 1, 0.1f), 0, kBob));
+  EXPECT_TRUE(Follows(Approach(meets + 1, 0.1f), 1, kAnn));
+  EXPECT_FALSE(Follows(Approach(meets - 1, 0.1f), 0, kBob));
+  EXPECT_FALSE(Follows(Approach(meets + 1, 0.05f), 0, kBob)) << "heard of sooner";
+  EXPECT_TRUE(Follows(Approach(meets - 1, 0.15f), 0, kBob)) << "heard of later";
+}
+
+TEST(PlanAuthority, TwoThatMoveAlikeDoNotMeetHoweverFast) {
+  AuthorityView view = Approach(0, 0.1f);
+  for (MovingBox& box : view.boxes) box.velocity = {200, 0};
+  EXPECT_FALSE(Follows(view, 0, kBob));
+}
+
+TEST(PlanAuthority, WhoFollowsWhatMayBeMetGoesOnForAWhile) {
+  const float gap = 59.5f - kZoneSlack;
+  AuthorityView view = Approach(gap / (ZoneSeconds(0.1f, 0.1f) + kZoneKeep / 2), 0.1f);
+  EXPECT_FALSE(Follows(view, 0, kBob));
+  view.mechanisms[0].now.secondaries.Add(kBob);
+  EXPECT_TRUE(Follows(view, 0, kBob));
+}
+
+TEST(PlanAuthority, WhatIsMetThroughOthersIsFollowedToo) {
+  AuthorityView view = TwoSides({-50, 20, 20.6f, 21.2f, 30});
+  view.mechanisms[1].owner = 0;  // ann's, among a row of bob's that touch
+  view.buffer_m = 0;
+  EXPECT_TRUE(Follows(view, 2, kAnn));
+  EXPECT_TRUE(Follows(view, 3, kAnn)) << "through the one between";
+  EXPECT_FALSE(Follows(view, 4, kAnn));
+}
+
+TEST(PlanAuthority, FollowBodiesTakesTheNearestAndStopsAtTheNumber) {
+  AuthorityView view = TwoSides({-50, 60, 20, 40, 30});
+  view.follow_bodies = 3;  // of which ann has one
+  EXPECT_FALSE(Follows(view, 1, kAnn));
+  EXPECT_TRUE(Follows(view, 2, kAnn));
+  EXPECT_FALSE(Follows(view, 3, kAnn));
+  EXPECT_TRUE(Follows(view, 4, kAnn));
+  view.follow_bodies = 0;
+  for (std::size_t m = 1; m < 5; ++m) EXPECT_FALSE(Follows(view, m, kAnn)) << m;
+}
+
+TEST(PlanAuthority, FollowBodiesCountsTheBodiesOfAMechanismAndNeverTakesAPart) {
+  AuthorityView view = TwoSides({-50, 20, 30});
+  for (int more = 0; more < 3; ++more)
+    view.boxes.push_back(BoxAt({20, static_cast<float>(more)}, 1));
+  view.follow_bodies = 4;
+  EXPECT_FALSE(Follows(view, 1, kAnn)) << "one of hers and four are five";
+  EXPECT_FALSE(Follows(view, 2, kAnn)) << "what is farther does not come first";
+  view.follow_bodies = 5;
+  EXPECT_TRUE(Follows(view, 1, kAnn));
+  EXPECT_FALSE(Follows(view, 2, kAnn));
+}
+
+TEST(PlanAuthority, OfTwoEquallyNearWhoFollowsOneKeepsIt) {
+  AuthorityView view = TwoSides({-50, 20, 20.5f});
+  view.follow_bodies = 2;
+  EXPECT_TRUE(Follows(view, 1, kAnn));
+  EXPECT_FALSE(Follows(view, 2, kAnn));
+  view.mechanisms[2].now.secondaries.Add(kAnn);
+  EXPECT_FALSE(Follows(view, 1, kAnn)) << "no change for half a metre";
+  EXPECT_TRUE(Follows(view, 2, kAnn));
 }
 
 TEST(PlanAuthority, OnlyModeBufferHasFollowersAndOnlyBufferAndStrictHavePeers) {

@@ -149,12 +149,27 @@ TEST(ClockFilter, IgnoresAnswersFromBeforeTheQuestion) {
   EXPECT_EQ(clock.rtt_min_us(), -1);
 }
 
-TEST(InputTrack, HoldsTheAxesButNotTheButtonsBeyondWhatItKnows) {
+TEST(InputTrack, HoldsAxesAndButtonsBeyondWhatItKnowsButReportsNoPressThere) {
   InputTrack track;
+  track.Note(9, Input{});
   track.Note(10, Input{100, -5, 3});
-  EXPECT_EQ(track.At(9), Input{});
+  EXPECT_EQ(track.At(8), Input{});
   EXPECT_EQ(track.At(10), (Input{100, -5, 3}));
-  EXPECT_EQ(track.At(15), (Input{100, -5, 0}));
+  EXPECT_EQ(track.At(15), (Input{100, -5, 3}));
+  EXPECT_EQ(track.PressedAt(10), 3);
+  EXPECT_EQ(track.PressedAt(11), 0) << "held, as far as is known";
+  EXPECT_EQ(track.TakePresses(15), 3);
+  EXPECT_EQ(track.TakePresses(16), 0);
+}
+
+TEST(InputTrack, APressMovesToItsTickWhenTheTicksBetweenAreHeardOfLate) {
+  InputTrack track;
+  track.Note(2, Input{});
+  track.Note(6, Input{0, 0, 1});
+  EXPECT_EQ(track.PressedAt(6), 1);
+  track.Note(4, Input{0, 0, 1});
+  EXPECT_EQ(track.PressedAt(4), 1);
+  EXPECT_EQ(track.PressedAt(6), 0);
 }
 
 TEST(InputTrack, ReportsEachPressOnceEvenWhenItComesLate) {
@@ -242,7 +257,7 @@ TEST(DisplayDelay, CoversNearlyAllArrivalsAndMovesSlowly) {
 }
 
 TEST(Mode, NamesAreCheckedAndReconcilersBelongToBuffer) {
-  EXPECT_EQ(MakeSyncConfig("buffer", "").reconcile_name, "retrospect");
+  EXPECT_EQ(MakeSyncConfig("buffer", "").reconcile_name, "rollback");
   EXPECT_EQ(MakeSyncConfig("strict", "").reconcile, nullptr);
   EXPECT_THROW(MakeSyncConfig("strict", "fade"), OperatorError);
   EXPECT_THROW(MakeSyncConfig("lockstep", ""), OperatorError);

@@ -88,7 +88,8 @@ void Corrector::Correct(int body, const States& states, std::size_t i, const Bod
   const float angle_then = then != nullptr ? then->angle : in.local.angle - in.dt * in.local.spin;
   in.remote = Unpack(states, i, angle_then);
   const bool quiet = in.local.velocity.norm() < kQuiet && std::fabs(in.local.spin) < kQuiet;
-  if ((states.flags[i] & kStateAsleep) != 0 && quiet) {
+  const bool stamps = config_.StampsInputs(roles_.self());
+  if ((states.flags[i] & kStateAsleep) != 0 && quiet && !stamps) {
     TakeRest(body, in.local, in.remote);
     return;
   }
@@ -97,6 +98,8 @@ void Corrector::Correct(int body, const States& states, std::size_t i, const Bod
   if (then != nullptr) {
     like = LikePast(body, states.tick, in.remote);
     in.local_then = &like;
+    const float gained = in.local.velocity.squaredNorm() - then->velocity.squaredNorm();
+    in.speed_max = std::sqrt(std::max(0.0f, in.remote.velocity.squaredNorm() + gained));
   }
   in.since_impact =
       static_cast<float>(world_.tick() - memory_.track(body).last_impact_tick) * world_.dt();
@@ -111,15 +114,16 @@ void Corrector::Correct(int body, const States& states, std::size_t i, const Bod
   NoteArrival(body);
 }
 
-/// At rest as far as the authority knows: take its pose bit for bit, so that all peers end with
-/// the same numbers. Our copy is neither woken nor put to sleep by it: either would start the
-/// engine's time to sleep again, for all that it touches.
+/// At rest as far as the authority knows: take its pose, unless only the wire's rounding differs:
+/// that the Rest brings, and what is woken before it goes on from the same numbers. Our copy is
+/// neither woken nor put to sleep by it: either would start the engine's time to sleep again, for
+/// all that it touches.
 void Corrector::TakeRest(int body, const BodyState& local, const BodyState& remote) {
   memory_.track(body).pull.arrived = -1;
-  if (remote.position == local.position && remote.angle == local.angle) return;
   BodyState moved = Minus(remote, local);
   moved.velocity.setZero();
   moved.spin = 0;
+  if (Negligible(moved)) return;
   display_.Moved(body, moved);
   world_.Write(body, remote, false);
   *memory_.history().At(world_.tick(), body) = world_.Read(body);

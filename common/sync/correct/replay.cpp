@@ -6,21 +6,20 @@
 
 #include "common/base/geometry.h"
 #include "common/sync/correct/presses.h"
+#include "common/sync/rest/rest_disturbed.h"
 #include "common/sync/state_limits.h"
 
 namespace seam {
 namespace {
 
-/// Most that is stepped again, s: a message that was longer under way is not worth it. Less than
-/// the history.
-constexpr int kReplayMax = 1;
+/// Most that is stepped again, s. At 200 ms one way, an input is known elsewhere after 0.4 s, and
+/// the state of the tick that it completed another 0.4 s later. Less than the history.
+constexpr int kReplayMax = 2;
 /// Of the difference, where bodies of several authorities press against each other. All of it
 /// doubles the error of a shoved stack; much less is no longer a correction.
 constexpr float kPressedShare = 0.3f;
 /// What moves faster than this, m/s, or was struck, does not count as pressed.
 constexpr float kPressedSpeed = 2;
-/// A blow in a replay that wakes what is committed to rest, m/s, as one does when it happens.
-constexpr float kRestBlow = 0.5f;
 /// Budget: ticks stepped again for each tick, in the long run, and how many may be saved up.
 constexpr double kAgainPerTick = 4, kAgainSaved = 240;
 /// With the same inputs both sides come to nearly the same. Up to these differences it stays: half
@@ -83,7 +82,7 @@ void Replay::AskFrom(std::int64_t tick) {
 }
 
 void Replay::TakeBarrier() {
-  if (!config_.GoesBack(roles_.self()) || world_.tick() % config_.send_every() != 0) return;
+  if (!config_.TakesBarriers(roles_.self()) || world_.tick() % config_.send_every() != 0) return;
   barriers_.push_back(world_.Barrier());
   while (barriers_.front().tick < world_.tick() - kReplayMax * config_.tick_hz) {
     barriers_.pop_front();
@@ -123,7 +122,7 @@ void Replay::FindPressed(std::int64_t from) {
 /// told of it.
 bool Replay::FollowsHistory(int body, std::int64_t tick) const {
   if (!roles_.Simulates(body)) return true;
-  if (memory_.track(body).at_rest) return true;  // committed, here too
+  if (memory_.track(body).at_rest && !config_.StampsInputs(roles_.self())) return true;
   if (tick <= memory_.track(body).dynamic_since) return true;
   if (roles_.RoleOfBody(body) != kRoleAuthority) return false;
   if (config_.StampsInputs(roles_.self())) return false;
@@ -131,26 +130,27 @@ bool Replay::FollowsHistory(int body, std::int64_t tick) const {
   return pressed_[static_cast<std::size_t>(world_.mechanism(body))] || !world_.awake(body);
 }
 
-/// A blow that turns out to have happened ends the rest of what was struck, and of what was awake
-/// with it.
-void Replay::WakeStruck() {
-  std::vector<int> resting;
-  bool struck = false;
-  for (int body = 0; body < world_.body_count(); ++body) {
-    const BodyTrack& track = memory_.track(body);
-    if (!track.at_rest || !roles_.Simulates(body) || !world_.awake(body)) continue;
-    if (world_.tick() <= track.dynamic_since) continue;
-    const BodyState& then = *memory_.history().At(world_.tick(), body);
-    struck = struck || (world_.Read(body).velocity - then.velocity).norm() > kRestBlow;
-    resting.push_back(body);
+/// Where inputs are stamped, what is committed to rest is stepped again, and rests on if it has
+/// come to rest again where it lay.
+bool Replay::RestsAsBefore(int body, const BodyState& pose) {
+  BodyTrack& track = memory_.track(body);
+  if (!track.at_rest) return false;
+  track.at_rest = !world_.awake(body) && Agrees(Minus(world_.Read(body), pose));
+  return track.at_rest;
+}
+
+/// What turns out to have been disturbed rests no more.
+void Replay::EndRest() {
+  if (config_.StampsInputs(roles_.self())) return;  // it is stepped again like anything else
+  for (const int body : DisturbedRest(world_, memory_, inputs_)) {
+    const bool held = world_.tick() <= memory_.track(body).dynamic_since;
+    if (roles_.Simulates(body) && !held) memory_.track(body).at_rest = false;
   }
-  if (!struck) return;
-  for (const int body : resting) memory_.track(body).at_rest = false;
 }
 
 /// After the step to the world's tick: what is known of it.
 void Replay::PutIn() {
-  WakeStruck();
+  EndRest();
   for (int body = 0; body < world_.body_count(); ++body) PutIn(body);
 }
 
@@ -207,6 +207,7 @@ void Replay::StepAgain() {
   }
   ActAgain(next);
   world_.Step();
+  on_stepped_again_();
   ++stepped_again_;
   if (stepped_) stepped_();
 }
@@ -258,7 +259,7 @@ void Replay::Arrive() {
   for (int body = 0; body < world_.body_count(); ++body) {
     const Shown& shown = journey_->shown[static_cast<std::size_t>(body)];
     if (!shown.known) continue;
-    if (FollowsHistory(body, journey_->now)) {
+    if (FollowsHistory(body, journey_->now) || RestsAsBefore(body, shown.state)) {
       world_.Write(body, shown.state, false);
       if (!shown.awake) world_.SetAwake(body, false);
     }

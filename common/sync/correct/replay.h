@@ -19,6 +19,7 @@
 #include <deque>
 #include <functional>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/physics/world.h"
@@ -51,6 +52,8 @@ class Replay {
   /// Goes back to the oldest tick asked for and steps again to now; or, when the budget is used up,
   /// leaves it for the next call.
   void Run();
+  /// Called after each tick that is stepped again, with the world as it was stepped.
+  void OnSteppedAgain(std::function<void()> call) { on_stepped_again_ = std::move(call); }
   /// After a step to a tick of which States are sent: makes it one to go back to. At every such
   /// tick, needed or not: worlds that are to come to the same bits are built anew at the same
   /// ticks.
@@ -87,6 +90,7 @@ class Replay {
     int player = 0, action = 0;
   };
 
+  bool RestsAsBefore(int body, const BodyState& pose);
   /// What is shown of a body before it is stepped again.
   struct Shown {
     bool known = true;  ///< it was there
@@ -110,7 +114,7 @@ class Replay {
   bool FollowsHistory(int body, std::int64_t tick) const;
   /// Whether a difference is one that stays as it is.
   bool Agrees(const BodyState& difference) const;
-  void WakeStruck();
+  void EndRest();
   void PutIn();
   void PutIn(int body);
   void StepAgain();
@@ -127,10 +131,11 @@ class Replay {
   std::int64_t from_ = -1;              // oldest tick asked for, -1 none
   std::vector<bool> pressed_;           // by mechanism, of the replay that runs
   double credit_ = 0;                   // ticks that may be stepped again
-  std::optional<Journey> journey_;      // while the world is in the past
-  std::int64_t edited_tick_ = -1;       // of the last edit that changed bodies, -1 none
-  bool edited_ = false;                 // since the last step, and
-  bool rebuilt_ = false;                // ...bodies are others by it
+  std::function<void()> on_stepped_again_ = [] {};
+  std::optional<Journey> journey_;  // while the world is in the past
+  std::int64_t edited_tick_ = -1;   // of the last edit that changed bodies, -1 none
+  bool edited_ = false;             // since the last step, and
+  bool rebuilt_ = false;            // ...bodies are others by it
   std::function<void()> stepped_;
   std::int64_t stepped_again_ = 0;
   std::int64_t deferred_ = 0;

@@ -6,6 +6,7 @@
 ///   local   ----o t1 ----------------------o t2   our copy then, and now
 ///                \___ dt = t2 - t1 ________/
 
+#include <cfloat>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct ReconcileInput {
   /// Of the whole mechanism, mass-weighted over the bodies of this message: Xr(t1) - Xl(t1), only
   /// position and velocity. A body alone: its own difference.
   BodyState common;
+  /// The speed of a body that has the kinetic energy its authority's had, and what our copy has
+  /// gained since t1, m/s: more would be energy out of nothing.
+  float speed_max = FLT_MAX;
   bool alone = true;      ///< its mechanism is this one body
   int blocked_count = 0;  ///< directions in which something anchored holds the
   Vec2 blocked_directions[2] = {{0, 0}, {0, 0}};  ///< mechanism back, unit vectors

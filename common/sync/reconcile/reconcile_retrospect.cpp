@@ -7,7 +7,8 @@
 /// back, or a contact removes it), and where another authority's body is pressed against it, each
 /// peer corrects towards what the other corrected. All of that is a feedback loop with delay: there
 /// only a bounded share is taken, without the Dv dt term, and nothing inside a dead band just above
-/// the quantisation.
+/// the quantisation. A single free body is left no more kinetic energy than its authority said,
+/// and what our copy has gained since.
 
 #include <cmath>
 
@@ -76,6 +77,12 @@ Correction ReconcileRetrospect(const ReconcileInput& in) {
   out.now = out.then;
   out.now.position += in.dt * free.velocity;
   out.now.angle += in.dt * free.spin;
+  // A difference of velocity that is carried through a blow can point any way after it: in a room
+  // full of blows that feeds itself. Jointed bodies pass energy on to each other: not for them.
+  if (in.alone && !in.coupled) {
+    const Vec2 velocity = in.local.velocity + out.now.velocity;
+    out.now.velocity = AtMost(in.speed_max, velocity) - in.local.velocity;
+  }
   return out;
 }
 

@@ -22,19 +22,22 @@ constexpr int kDoublings = 5;
 /// A blow, m/s and rad/s: it wakes at once.
 constexpr float kBlow = 0.5f;
 /// A copy that was woken goes back when its authority has not said for so long that it moves, s: a
-/// slow path's round trip and more.
-constexpr double kBackAfter = 0.75;
+/// slow path's round trip and more. Where states are those of input-complete ticks, the input has
+/// to arrive there first, and its state takes as long again.
+constexpr double kBackAfter = 0.75, kBackAfterTrusted = 2;
 
 }  // namespace
 
 RestCommit::RestCommit(const SyncConfig& config, World& world, const Roles& roles,
-                       BodyMemory& memory, Display& display, const std::vector<InputTrack>& inputs)
+                       BodyMemory& memory, Display& display, const std::vector<InputTrack>& inputs,
+                       const Reach& reach)
     : config_(config),
       world_(world),
       roles_(roles),
       memory_(memory),
       display_(display),
       inputs_(inputs),
+      reach_(reach),
       table_(world.body_count()),
       watch_(world),
       disturbed_(static_cast<std::size_t>(world.body_count())),
@@ -101,9 +104,10 @@ void RestCommit::BeforeStep() {
   if (Off()) return;
   FindDriven();
   EndOutdated();
+  const std::int64_t back_after = Ticks(Trusts() ? kBackAfterTrusted : kBackAfter);
   for (int body = 0; body < world_.body_count(); ++body) {
     Disturbance& d = disturbed(body);
-    if (d.freed_tick >= 0 && world_.tick() - d.freed_tick >= Ticks(kBackAfter)) {
+    if (d.freed_tick >= 0 && world_.tick() - d.freed_tick >= back_after) {
       d.freed_tick = -1;
       memory_.track(body).at_rest = table_.at(body).committed;
       if (Holds(body)) Put(body);
@@ -115,7 +119,7 @@ void RestCommit::BeforeStep() {
     const BodyState now = world_.Read(body);
     const bool simulated = world_.motion(body) == Motion::kDynamic && world_.awake(body);
     const bool moved = now.velocity.squaredNorm() > 0 || now.spin != 0;
-    if (simulated && (edited_ || moved || Driven(body))) {
+    if (simulated && (Trusts() || edited_ || moved || Driven(body))) {
       LetGo(body);
     } else {
       Put(body);
@@ -152,7 +156,7 @@ void RestCommit::HoldIsland(const std::vector<int>& island) {
     if (!Holds(body) || !world_.awake(body)) continue;
     const bool by_own = Own(body) && (own_awake || !others_awake);
     const bool moves = world_.motion(body) == Motion::kDynamic;
-    if (moves && (by_own || driven || GivesWay(body))) {
+    if (moves && (Trusts() || by_own || driven || GivesWay(body))) {
       LetGo(body);
     } else {
       Put(body);

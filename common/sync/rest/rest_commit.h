@@ -11,6 +11,8 @@
 /// says nothing goes back to rest. Where an island has several owners their copies differ, and the
 /// engine may never let them sleep: there a peer commits its own bodies when they have lain still
 /// whatever the copies do, and if that does not come about, the lowest peer's and then everybody's.
+/// Rules that stamp inputs need neither: their copies are the same, so they wake and sleep alike.
+/// They commit what sleeps at an input-complete tick: sleep before that may be an assumption.
 
 #include <cstdint>
 #include <vector>
@@ -21,6 +23,7 @@
 #include "common/sync/display.h"
 #include "common/sync/input_track.h"
 #include "common/sync/mode.h"
+#include "common/sync/reach/reach.h"
 #include "common/sync/rest/rest_table.h"
 #include "common/sync/rest/rest_watch.h"
 #include "common/sync/roles.h"
@@ -32,7 +35,7 @@ class RestCommit {
   /// All must outlive this. `inputs`: by player. Does nothing in mode oracle, and where
   /// the scene lets nothing sleep.
   RestCommit(const SyncConfig& config, World& world, const Roles& roles, BodyMemory& memory,
-             Display& display, const std::vector<InputTrack>& inputs);
+             Display& display, const std::vector<InputTrack>& inputs, const Reach& reach);
 
   /// Immediately before a step: what is held is exactly where it rests.
   void BeforeStep();
@@ -71,6 +74,9 @@ class RestCommit {
   };
 
   bool Off() const { return config_.mode == Mode::kOracle || !world_.scene().solver.sleep; }
+  /// Where all peers come to the same by the same inputs, what the physics wakes is awake, and what
+  /// it lets sleep sleeps: nothing is held against it.
+  bool Trusts() const { return config_.StampsInputs(roles_.self()); }
   bool Own(int body) const { return roles_.IsAuthority(world_.mechanism(body)); }
   Disturbance& disturbed(int body) { return disturbed_[static_cast<std::size_t>(body)]; }
   std::int64_t Ticks(double seconds) const;
@@ -87,6 +93,7 @@ class RestCommit {
   void CommitIsland(const std::vector<int>& island);
   bool MayCommit(const std::vector<int>& island, const std::vector<int>& own) const;
   void Commit(int body);
+  bool WokenSince(int body, std::int64_t tick, const BodyState& pose) const;
   bool ReceiveOne(const Rest& rest, std::size_t i);
   void WakeNeighbours(int body);
 
@@ -96,6 +103,7 @@ class RestCommit {
   BodyMemory& memory_;
   Display& display_;
   const std::vector<InputTrack>& inputs_;
+  const Reach& reach_;
   RestTable table_;
   RestWatch watch_;
   std::vector<Disturbance> disturbed_;  // by body

@@ -30,8 +30,13 @@ bool RestCommit::MayCommit(const std::vector<int>& island, const std::vector<int
   const auto each = [](const std::vector<int>& bodies, const auto& holds) {
     return std::all_of(bodies.begin(), bodies.end(), holds);
   };
-  const auto asleep = [&](int b) { return watch_.asleep(b) >= Ticks(kAsleepFor); };
+  const auto asleep = [&](int b) {
+    const std::int64_t assumed =
+        config_.rolls_back ? world_.tick() - reach_.CompleteTick(world_.mechanism(b)) : 0;
+    return watch_.asleep(b) >= Ticks(kAsleepFor) + assumed;
+  };
   if (each(own, asleep)) return true;
+  if (Trusts()) return false;
   if (each(island, [&](int b) { return Own(b); })) return false;
   if (!each(island, [&](int b) { return !Driven(b); })) return false;
   if (each(own, [&](int b) { return watch_.still(b) >= Ticks(kStillFor); })) return true;
@@ -99,6 +104,16 @@ bool RestCommit::Receive(const Rest& rest) {
   return placed;
 }
 
+/// Whether a copy that is awake lay there at that tick, so that what woke it here came later: the
+/// word that it rests is merely late.
+bool RestCommit::WokenSince(int body, std::int64_t tick, const BodyState& pose) const {
+  if (!Trusts() || !world_.awake(body)) return false;
+  const BodyState* then = memory_.history().At(tick, body);
+  if (then == nullptr) return false;
+  const BodyState off = Minus(pose, *then);
+  return off.position.norm() < kMoved && std::fabs(WrapAngle(off.angle)) < kMoved;
+}
+
 bool RestCommit::ReceiveOne(const Rest& rest, std::size_t i) {
   const int body = world_.BodyOfId(rest.id[i]);
   if (body < 0) return false;
@@ -110,6 +125,7 @@ bool RestCommit::ReceiveOne(const Rest& rest, std::size_t i) {
   BodyState pose;
   pose.position = Vec2(rest.x[i], rest.y[i]);
   pose.angle = rest.angle[i];
+  if (!places && WokenSince(body, rest.tick, pose)) return false;
   const BodyState moved = Minus(pose, world_.Read(body));
   table_.Commit(body, rest.epoch[i], rest.tick, pose);
   track.at_rest = track.placed = true;

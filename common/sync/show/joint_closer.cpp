@@ -1,9 +1,11 @@
 #include "common/sync/show/joint_closer.h"
 
 #include <algorithm>
+#include <cfloat>
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/base/geometry.h"
 
 namespace seam {
 namespace {
@@ -97,6 +99,11 @@ void JointCloser::Follow(int mechanism, bool corrected) {
     slack.shift = Followed(slack.shift, std::max(kSlackStart, shift));
     slack.turn = Followed(slack.turn, std::max(kSlackStart, turn));
   }
+}
+
+void JointCloser::Trust(int mechanism) {
+  Jointed& jointed = mechanisms_[static_cast<std::size_t>(mechanism)];
+  jointed.slacks.assign(jointed.pins.size(), PinSlack{FLT_MAX, kPiFloat});
 }
 
 void JointCloser::Forget(int mechanism) {

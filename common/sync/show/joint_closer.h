@@ -34,6 +34,9 @@ class JointCloser {
   /// engine leaves its joints open. Of one that was `corrected` a moment ago nothing is learnt:
   /// what is open was torn.
   void Follow(int mechanism, bool corrected);
+  /// The same where a simulated mechanism is what it should be, as after a replay: all that the
+  /// engine left open stays open.
+  void Trust(int mechanism);
   /// There was nothing to close after this step.
   void Forget(int mechanism);
 

@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "common/base/check.h"
 #include "tests/lab/report/fairness_section.h"
 #include "tests/lab/report/files.h"
+#include "tests/lab/report/hurry_section.h"
 #include "tests/lab/report/physics_section.h"
 #include "tests/lab/report/sweep_section.h"
 
@@ -45,10 +47,31 @@ TextTable OverheadTable(const CsvTable& csv, const std::string& command) {
   return table;
 }
 
+/// What the report itself took, step by step.
+TextTable TimesTable(const CsvTable& csv) {
+  csv.Require({"step", "seconds"});
+  TextTable table;
+  table.name = "times";
+  table.title = "What this report took";
+  table.header = {"step", "seconds"};
+  double sum = 0;
+  for (std::size_t row = 0; row < csv.rows(); ++row) {
+    sum += csv.Number(row, "seconds").value_or(0);
+    table.rows.push_back({csv.Text(row, "step"), csv.Text(row, "seconds")});
+  }
+  table.note = fmt::format("{:.0f} minutes in all, on the machine of the run.", sum / 60);
+  table.command = "make report FORCE=1";
+  table.open = true;
+  return table;
+}
+
 Section CostSection(const std::vector<Sweep>& sweeps, const fs::path& data) {
   Section section;
   section.id = "cost";
   section.title = "What the runtime costs";
+  if (fs::exists(data / "times.csv")) {
+    section.items.emplace_back(TimesTable(CsvTable::Load((data / "times.csv").string())));
+  }
   const fs::path overhead = data / "overhead.csv";
   if (fs::exists(overhead)) {
     section.items.emplace_back(OverheadTable(CsvTable::Load(overhead.string()),
@@ -75,9 +98,6 @@ void AddSweeps(const std::vector<Sweep>& sweeps, std::vector<Section>* sections)
   TextTable fronts = FrontTable(sweeps);
   fronts.open = true;
   if (!fronts.rows.empty()) network.items.emplace_back(std::move(fronts));
-  TextTable floors = FloorTable(sweeps);
-  floors.open = true;
-  if (!floors.rows.empty()) network.items.emplace_back(std::move(floors));
   sections->push_back(std::move(network));
   for (const Sweep& sweep : sweeps) sections->push_back(SweepSection(sweep));
 }
@@ -86,21 +106,32 @@ void AddSweeps(const std::vector<Sweep>& sweeps, std::vector<Section>* sections)
 
 std::vector<Section> BuildReport(const ReportInput& input) {
   std::vector<Sweep> sweeps;
+  std::vector<CaseTable> case_tables;
   const fs::path data = input.data;
   for (const fs::path& path : FilesOf(data, ".csv")) {
     const std::string name = path.stem().string();
     if (name == "physics" || name == "overhead") continue;
-    if (name == "fairness") continue;
+    if (name == "fairness" || name == "before" || name == "times") continue;
     const std::string command = fmt::format("seam-lab sweep {} -o {} && seam-lab report {}",
                                             (fs::path(input.sweeps) / (name + ".toml")).string(),
                                             path.string(), input.data);
     CsvTable table = CsvTable::Load(path.string());
+    const bool bars = name.rfind("must-", 0) == 0 || name == "changes";
+    if (bars || name.rfind("floors", 0) == 0) case_tables.push_back({name, command, table});
+    if (bars) continue;
     SweepView view = ViewSweep(table);
     if (!view.groups.empty()) {
       sweeps.push_back({name, command, std::move(table), std::move(view)});
     }
   }
+  std::optional<Before> before;
+  if (fs::exists(data / "before.csv")) before = {CsvTable::Load((data / "before.csv").string())};
+  const std::vector<ReportCase> cases = FindCases(case_tables);
   std::vector<Section> sections;
+  Section hurry = HurrySection(sweeps, cases, before ? &*before : nullptr);
+  if (!hurry.items.empty()) sections.push_back(std::move(hurry));
+  Section every = CasesSection(cases);
+  if (!every.items.empty()) sections.push_back(std::move(every));
   Section cost = CostSection(sweeps, data);
   if (!cost.items.empty()) sections.push_back(std::move(cost));
   Section world = WorldSection((data / "world").string());

@@ -78,6 +78,9 @@ const SweepMeasure& MeasureNamed(const std::string& id) {
   for (const SweepMeasure& measure : SweepMeasures()) {
     if (measure.id == id) return measure;
   }
+  for (const SweepMeasure& measure : FloorMeasures()) {
+    if (measure.id == id) return measure;
+  }
   SEAM_ASSERT(id == "cpu");
   return CpuMeasure();
 }

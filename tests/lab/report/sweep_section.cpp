@@ -80,7 +80,7 @@ Figure CurvesOf(const Sweep& sweep, const SweepGroup& group) {
       nothing += (nothing.empty() ? "" : ", ") + measure.name;
       continue;
     }
-    if (measure.id == "error") {
+    if (measure.id == HeadlineOf(sweep).id) {
       for (const SweepMeasure& measured : FloorMeasures()) {
         const auto floor = Summary(sweep.table, measured, group);
         if (floor) panel.levels.push_back({floor->median, measured.name});
@@ -127,7 +127,7 @@ TextTable AlongTable(const Sweep& sweep, const SweepGroup& group, const SweepMea
   table.note = fmt::format("{}, median (quartiles) of {} seeds. ", measure.Label(), Counts(group));
   for (const SweepMeasure& floor : FloorMeasures()) {
     const auto q = Summary(sweep.table, floor, group);
-    if (q && measure.id == "error") {
+    if (q && measure.id == HeadlineOf(sweep).id) {
       table.note += fmt::format("{}: {} m. ", floor.name, Digits(q->median));
     }
   }
@@ -212,10 +212,11 @@ Figure FrontsOf(const Sweep& sweep, const SweepGroup& group) {
   figure.panel_width_px = 560;
   figure.panel_height_px = 400;
   // A delay of inputs is paid for with the own response.
-  using Ids = std::vector<const char*>;
+  using Ids = std::vector<std::string>;
   const bool delay = DelaysInputs(sweep);
-  for (const char* error : delay ? Ids{"others", "error"} : Ids{"error", "seam"}) {
-    for (const char* cost : delay ? Ids{"response-own"} : Ids{"cpu", "bytes"}) {
+  const std::string headline = HeadlineOf(sweep).id;
+  for (const std::string& error : Ids{headline, delay ? "error" : "seam"}) {
+    for (const std::string& cost : delay ? Ids{"response-own"} : Ids{"cpu", "bytes"}) {
       PlotPanel panel = FrontPanel(sweep, group, MeasureNamed(cost), MeasureNamed(error));
       if (panel.curves.size() > 1) figure.panels.push_back(std::move(panel));
     }
@@ -229,6 +230,10 @@ Figure FrontsOf(const Sweep& sweep, const SweepGroup& group) {
 }
 
 }  // namespace
+
+const SweepMeasure& HeadlineOf(const Sweep& sweep) {
+  return MeasureNamed(sweep.table.Has("error_others_m") ? "others" : "error");
+}
 
 bool DelaysInputs(const Sweep& sweep) { return sweep.view.axis.key == "input_delay_ticks"; }
 
@@ -252,15 +257,23 @@ Section SweepSection(const Sweep& sweep) {
   section.title = "Against " + sweep.view.axis.name + " (" + sweep.name + ")";
   section.part_of_last = true;
   for (const SweepGroup& group : sweep.view.groups) {
-    section.items.emplace_back(CurvesOf(sweep, group));
+    const bool along = group.xs.size() > 1;  // a curve of one point says less than its table
+    if (along) section.items.emplace_back(CurvesOf(sweep, group));
     Figure fronts = FrontsOf(sweep, group);
     const bool any = sweep.view.axis.ours && !fronts.panels.empty();
     if (any) section.items.emplace_back(std::move(fronts));
+    if (!along) {
+      section.items.emplace_back(MeasuresTable(sweep, group));
+      continue;
+    }
+    const SweepMeasure& headline = HeadlineOf(sweep);
+    section.items.emplace_back(AlongTable(sweep, group, headline));
     if (DelaysInputs(sweep)) {
-      section.items.emplace_back(AlongTable(sweep, group, MeasureNamed("others")));
       section.items.emplace_back(AlongTable(sweep, group, MeasureNamed("response-own")));
     }
-    section.items.emplace_back(AlongTable(sweep, group, MeasureNamed("error")));
+    if (headline.id != "error") {
+      section.items.emplace_back(AlongTable(sweep, group, MeasureNamed("error")));
+    }
     if (Summary(sweep.table, MeasureNamed("seam"), group)) {
       section.items.emplace_back(AlongTable(sweep, group, MeasureNamed("seam")));
     }

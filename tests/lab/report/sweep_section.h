@@ -18,6 +18,9 @@ struct Sweep {
   SweepView view;
 };
 
+/// "others", the headline; "error" in tables that do not have it.
+const SweepMeasure& HeadlineOf(const Sweep& sweep);
+
 /// Whether the axis is the delay of inputs: paid for with the own response, not with CPU or bytes.
 bool DelaysInputs(const Sweep& sweep);
 

@@ -98,12 +98,13 @@ TextTable FrontTable(const std::vector<Sweep>& sweeps) {
   for (const Sweep& sweep : sweeps) {
     if (!sweep.view.axis.ours || DelaysInputs(sweep)) continue;
     for (const SweepGroup& group : sweep.view.groups) {
-      for (const char* error : {"error", "seam"}) {
+      for (const std::string& error : {HeadlineOf(sweep).id, std::string("seam")}) {
         for (const char* cost : {"cpu", "bytes"}) {
           const auto places = Places(sweep, group, MeasureNamed(cost), MeasureNamed(error));
           if (places.empty()) continue;
           cells.Row(fmt::format("{} by {}: {} against {}", GroupName(group), sweep.view.axis.name,
-                                std::string(cost) == "cpu" ? "CPU" : "bytes/s", error)) = places;
+                                std::string(cost) == "cpu" ? "CPU" : "bytes/s",
+                                error == "others" ? "error of others" : error)) = places;
         }
       }
     }

@@ -136,13 +136,6 @@ std::string ChooseAxis(const Values& values) {
   return best;
 }
 
-std::string Method(const CsvTable& table, std::size_t row) {
-  const std::string& rule = table.Text(row, "reconcile");
-  const std::string& mode = table.Text(row, "mode");
-  if (rule.empty()) return mode;
-  return mode == "central" ? mode + "/" + rule : rule;
-}
-
 SweepGroup* GroupOf(const CsvTable& table, std::size_t row, SweepView* view) {
   const std::string scene = std::filesystem::path(table.Text(row, "scene")).stem().string();
   const std::string& drive = table.Text(row, "drive");
@@ -167,6 +160,13 @@ std::string Fixed(const Values& values, const std::string& axis) {
 
 }  // namespace
 
+std::string MethodName(const CsvTable& table, std::size_t row) {
+  const std::string& rule = table.Text(row, "reconcile");
+  const std::string& mode = table.Text(row, "mode");
+  if (rule.empty()) return mode;
+  return mode == "central" ? mode + "/" + rule : rule;
+}
+
 SweepView ViewSweep(const CsvTable& table) {
   table.Require({"scene", "mode", "reconcile", "impair", "drive", "seed", "error_rms_m"});
   const std::vector<std::string> columns = KeyColumns(table);
@@ -177,7 +177,7 @@ SweepView ViewSweep(const CsvTable& table) {
   view.axis = AxisOf(ChooseAxis(values));
   view.fixed = Fixed(values, view.axis.key);
   for (std::size_t row = 0; row < table.rows(); ++row) {
-    std::string method = Method(table, row);
+    std::string method = MethodName(table, row);
     for (const auto& item : keys[row]) {
       const auto found = values.find(item.first);
       if (item.first == view.axis.key || found == values.end()) continue;

@@ -59,6 +59,9 @@ const SweepMeasure& OraclesPenetration();
 /// One of the above by its id, or "cpu".
 const SweepMeasure& MeasureNamed(const std::string& id);
 
+/// "strict", "fade" for mode buffer with that rule, "central/all".
+std::string MethodName(const CsvTable& table, std::size_t row);
+
 /// Groups by scene and drive; takes for the axis the key column (impair is taken apart into
 /// one_way_ms, loss_percent and jitter_ms) with the most different values; what else was varied
 /// becomes part of the method's name. Throws OperatorError when the table is no sweep's.

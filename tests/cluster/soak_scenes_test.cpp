@@ -1,0 +1,150 @@
+/// Short sessions over every scene, bad networks, drives and seeds: nothing explodes, is torn or
+/// gets lost, and never do two peers have one epoch's authority.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/lab/jobs.h"
+#include "tests/support/authority_watch.h"
+#include "tests/support/soak.h"
+#include "tests/support/soak_check.h"
+
+namespace seam {
+namespace {
+
+/// Sessions in a test; SEAM_SOAK multiplies them, up to so many.
+constexpr int kRuns = 20, kRunsMax = 6000;
+/// Of each, s after tick 0.
+constexpr double kSeconds = 4;
+/// The worst of each kind that are printed.
+constexpr std::size_t kWorst = 5;
+
+struct Network {
+  const char* name;
+  double torn_max_m;  ///< beyond the oracle's
+};
+constexpr Network kNetworks[] = {{"4g", 0.005}, {"terrible", 0.02}, {"delay=200ms", 0.02}};
+
+std::vector<std::string> Scenes() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator("scenes")) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+struct Session {
+  ClusterConfig config;
+  Network network{};
+  std::string name;  ///< as seam-lab run takes it
+  SoakFindings found;
+  long authorities = 0;  ///< instants with two authorities, and epochs with two holders
+  std::string failure;   ///< it did not run
+};
+
+/// The n-th: every scene in turn, each time over another network, and with bots every other round.
+Session Plan(const std::vector<std::string>& scenes, std::size_t n) {
+  Session run;
+  const std::size_t scene = n % scenes.size(), round = n / scenes.size();
+  run.network = kNetworks[(scene + round) % 3];
+  const bool bots = (scene + round / 3) % 2 != 0;
+  run.config.scene = scenes[scene];
+  run.config.impair = run.network.name;
+  run.config.drive = bots ? Drive::kBot : Drive::kScript;
+  run.config.seed = static_cast<std::int64_t>(round) + 1;
+  run.config.duration_s = kSeconds;
+  run.name = scenes[scene] + " --impair " + run.network.name + " --drive " +
+             (bots ? "bot" : "script") + " --seed " + std::to_string(run.config.seed) +
+             " --duration 4";
+  return run;
+}
+
+std::string Perform(const ClusterConfig& config) {
+  Cluster cluster(config);
+  AuthorityWatch watch;
+  cluster.each_instant = [&] { watch.Look(cluster); };
+  cluster.Run();
+  const Recording& recording = cluster.recording();
+  const SoakFindings found =
+      CheckSoak(recording, ComputeOracle(recording, JudgeOf(recording.room)));
+  std::ostringstream out;
+  out << found.energy << ' ' << found.energy_sum << ' ' << found.torn_m << ' ' << found.missing_s
+      << ' ' << found.off_m << ' ' << found.compared << ' '
+      << watch.several + watch.two_holders_of_an_epoch + watch.two_named_in_an_epoch << ' '
+      << found.hottest;
+  return out.str();
+}
+
+void Read(const JobResult& result, Session* run) {
+  if (!result.good) {
+    run->failure = result.text;
+    return;
+  }
+  SoakFindings& f = run->found;
+  std::istringstream in(result.text);
+  in >> f.energy >> f.energy_sum >> f.torn_m >> f.missing_s >> f.off_m >> f.compared >>
+      run->authorities;
+  std::getline(in >> std::ws, f.hottest);
+}
+
+/// Prints the worst and fails for each that is beyond its bar.
+template <typename Value, typename Bar>
+void Judge(const char* what, const char* unit, std::vector<Session> runs, const Value& value,
+           const Bar& bar) {
+  const auto share = [&](const Session& run) { return value(run) / bar(run); };
+  std::stable_sort(runs.begin(), runs.end(),
+                   [&](const Session& a, const Session& b) { return share(a) > share(b); });
+  const auto beyond =
+      std::find_if(runs.begin(), runs.end(), [&](const Session& run) { return !(share(run) > 1); });
+  EXPECT_EQ(beyond - runs.begin(), 0) << what << ": so many of " << runs.size() << " sessions";
+  std::printf("  %s: %d of %zu\n", what, static_cast<int>(beyond - runs.begin()), runs.size());
+  const char* const all = std::getenv("SEAM_SOAK_ALL");  // print every one that failed
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (i >= kWorst && (all == nullptr || !(share(runs[i]) > 1))) break;
+    std::printf("    %8.3f %s (bar %.3f)  %s  %s\n", value(runs[i]), unit, bar(runs[i]),
+                runs[i].name.c_str(), runs[i].found.hottest.c_str());
+  }
+}
+
+TEST(SoakCluster, NothingExplodesIsTornOrGetsLostInAnyScene) {
+  const std::vector<std::string> scenes = Scenes();
+  ASSERT_GT(scenes.size(), 10u);
+  std::vector<Session> runs;
+  for (int n = 0; n < std::min(Soak(kRuns), kRunsMax); ++n) {
+    runs.push_back(Plan(scenes, static_cast<std::size_t>(n)));
+  }
+  const int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  RunJobs(
+      runs.size(), jobs, [&](std::size_t n) { return Perform(runs[n].config); },
+      [&](std::size_t n, const JobResult& result) { Read(result, &runs[n]); },
+      [] { return false; });
+  for (const Session& run : runs) {
+    EXPECT_EQ(run.failure, "") << run.name;
+    EXPECT_GT(run.found.compared, 0) << run.name << ": nothing was looked at";
+    EXPECT_EQ(run.authorities, 0) << run.name << ": two authorities";
+  }
+  const auto one = [](const Session&) { return 1.0; };
+  Judge(
+      "exploded", "x", runs, [](const Session& r) { return r.found.energy; }, one);
+  Judge(
+      "exploded, sum", "x", runs, [](const Session& r) { return r.found.energy_sum; }, one);
+  Judge(
+      "torn", "m", runs, [](const Session& r) { return r.found.torn_m; },
+      [](const Session& r) { return r.network.torn_max_m; });
+  Judge(
+      "missing", "s", runs, [](const Session& r) { return r.found.missing_s; }, one);
+  Judge(
+      "off", "m", runs, [](const Session& r) { return r.found.off_m; },
+      [](const Session&) { return 20.0; });
+}
+
+}  // namespace
+}  // namespace seam

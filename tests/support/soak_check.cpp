@@ -1,0 +1,237 @@
+#include "tests/support/soak_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "common/base/geometry.h"
+#include "common/measure/joint_drift.h"
+#include "common/measure/pose.h"
+#include "common/measure/revisions.h"
+#include "common/scene/mass.h"
+
+namespace seam {
+namespace {
+
+/// A body may have this multiple of the oracle's hottest body's energy...
+constexpr double kHottest = 2;
+/// ...and besides what it has at this speed, m/s: for what players do that is not known in time.
+constexpr double kUnknown = 3;
+/// Of a room without gravity or loss the sum may be so many times the oracle's.
+constexpr double kSum = 1.15;
+
+/// The larger of what its two last poses and what its velocities say, J.
+double Kinetic(const MassProperties& mass, const BodyState& before, const BodyState& now,
+               double h) {
+  const Eigen::Vector2d way =
+      RootFrame(now).ToWorld(mass.centre) - RootFrame(before).ToWorld(mass.centre);
+  const double turn = WrapAngle(double{now.angle} - double{before.angle}) / h;
+  const double spin = double{now.spin};
+  const double posed = mass.mass * (way / h).squaredNorm() + mass.inertia * turn * turn;
+  const double moving =
+      mass.mass * now.velocity.cast<double>().squaredNorm() + mass.inertia * spin * spin;
+  return std::max(posed, moving) / 2;
+}
+
+/// One composition's meters.
+struct Meters {
+  explicit Meters(std::shared_ptr<const SceneRevision> of)
+      : revision(std::move(of)), joints(revision->scene(), revision->composition()) {
+    for (const Assembly& assembly : revision->composition().assemblies) {
+      if (assembly.anchored) continue;
+      masses.push_back(AssemblyProperties(revision->scene(), assembly));
+    }
+  }
+  std::shared_ptr<const SceneRevision> revision;
+  JointMeter joints;
+  std::vector<MassProperties> masses;  // of the moving assemblies
+};
+
+using Energies = std::map<PartId, double>;  // by body, summed over the ticks of a second
+
+struct Second {
+  int ticks = 0;
+  Energies energies;
+};
+
+bool IsElasticRoom(const Scene& scene) {
+  return scene.gravity.norm() == 0 &&
+         std::all_of(scene.parts.begin(), scene.parts.end(),
+                     [](const Part& part) { return part.material.restitution >= 1; });
+}
+
+class Check {
+ public:
+  Check(const Recording& recording, const Oracle& oracle)
+      : recording_(recording),
+        oracle_(oracle),
+        scene_(ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml")),
+        revisions_(scene_, recording),
+        own_(scene_, oracle.edits),
+        hz_(std::max(1, recording.room.tick_hz)) {}
+
+  SoakFindings Run() {
+    LookAtOracle();
+    for (const auto& [peer, views] : recording_.views) LookAt(peer, views);
+    LookForLost();
+    return found_;
+  }
+
+ private:
+  const Meters& At(const RevisionHistory& history, int edits) {
+    std::unique_ptr<Meters>& meters = meters_[{&history, history.Key(edits)}];
+    if (meters == nullptr) meters = std::make_unique<Meters>(history.At(edits));
+    return *meters;
+  }
+
+  void LookAtOracle() {
+    std::map<std::int64_t, Second> seconds;
+    std::size_t span = 0;
+    int edits = 0;
+    for (std::size_t row = 0; row < oracle_.ticks.size(); ++row) {
+      bool changed = false;
+      for (; span < oracle_.spans.size() && oracle_.spans[span].first_row <= row; ++span) {
+        changed = changed || oracle_.spans[span].edits != edits;
+        edits = oracle_.spans[span].edits;
+      }
+      const Meters& meters = At(own_, edits);
+      const std::vector<BodyState>& now = oracle_.ticks[row];
+      if (now.size() != meters.masses.size()) continue;
+      const std::int64_t tick = oracle_.first_tick + static_cast<std::int64_t>(row);
+      drift_ = std::max(drift_, meters.joints.Worst(now, tick));
+      if (row == 0 || changed) continue;
+      Add(meters, oracle_.ticks[row - 1], now, &seconds[tick / hz_]);
+    }
+    for (const auto& [second, all] : seconds) {
+      sums_[second] = Sum(all);
+      for (const auto& [id, energy] : all.energies) {
+        hottest_ = std::max(hottest_, energy / all.ticks);
+      }
+    }
+  }
+
+  void Add(const Meters& meters, const std::vector<BodyState>& before,
+           const std::vector<BodyState>& now, Second* second) {
+    ++second->ticks;
+    for (std::size_t i = 0; i < now.size(); ++i) {
+      mass_[meters.revision->ids[i]] = meters.masses[i].mass;
+      second->energies[meters.revision->ids[i]] +=
+          Kinetic(meters.masses[i], before[i], now[i], 1.0 / hz_);
+    }
+  }
+
+  static double Sum(const Second& second) {
+    double sum = 0;
+    for (const auto& [id, energy] : second.energies) sum += energy / second.ticks;
+    return sum;
+  }
+
+  /// Where a view shows exactly the bodies of its revision.
+  static bool Whole(const View& view, const Meters& meters) {
+    return view.id.size() == meters.revision->ids.size() &&
+           std::equal(view.id.begin(), view.id.end(), meters.revision->ids.begin());
+  }
+  static std::vector<BodyState> StatesOf(const View& view) {
+    std::vector<BodyState> states;
+    for (std::size_t i = 0; i < view.id.size(); ++i) states.push_back(StateIn(view, i));
+    return states;
+  }
+
+  void LookAt(int peer, const std::map<std::int64_t, View>& views) {
+    std::map<std::int64_t, Second> seconds;
+    const View* last = nullptr;
+    for (const auto& [tick, view] : views) {
+      const View* const before = std::exchange(last, &view);
+      const Meters& meters = At(revisions_, view.revision);
+      if (!Whole(view, meters)) continue;
+      const std::vector<BodyState> now = StatesOf(view);
+      found_.compared += static_cast<long>(now.size());
+      found_.torn_m = std::max(found_.torn_m, meters.joints.Worst(now, tick) - drift_);
+      const bool same = before != nullptr && before->tick == tick - 1 &&
+                        revisions_.Key(before->revision) == revisions_.Key(view.revision) &&
+                        before->id == view.id;
+      if (same) Add(meters, StatesOf(*before), now, &seconds[tick / hz_]);
+    }
+    for (const auto& [second, all] : seconds) Judge(peer, second, all);
+  }
+
+  void Judge(int peer, std::int64_t second, const Second& all) {
+    if (all.ticks < hz_ / 2) return;
+    for (const auto& [id, energy] : all.energies) {
+      const double allowed = kHottest * hottest_ + mass_.at(id) * kUnknown * kUnknown / 2;
+      const double share = allowed > 0 ? energy / all.ticks / allowed : 0;
+      if (share <= found_.energy) continue;
+      found_.energy = share;
+      found_.hottest = "peer " + std::to_string(peer) + " body " + std::to_string(id) + " second " +
+                       std::to_string(second);
+    }
+    const auto due = sums_.find(second);
+    if (!IsElasticRoom(scene_) || due == sums_.end() || due->second <= 0) return;
+    found_.energy_sum = std::max(found_.energy_sum, Sum(all) / (kSum * due->second));
+  }
+
+  /// What the server shows, and no client does; and where clients show what another one has.
+  void LookForLost() {
+    const auto server = recording_.views.find(0);
+    if (server == recording_.views.end()) return;
+    std::map<PartId, int> missing;  // ticks on end
+    for (const auto& [tick, view] : server->second) {
+      std::map<PartId, int> now;
+      bool any = false;
+      for (std::size_t i = 0; i < view.id.size(); ++i) {
+        const int owner = view.authority[i];
+        const std::optional<BodyState> truth = Shown(owner, tick, view.id[i]);
+        bool seen = false;
+        for (const auto& [peer, views] : recording_.views) {
+          if (peer == 0) continue;
+          any = any || views.count(tick) > 0;
+          const std::optional<BodyState> shown = Shown(peer, tick, view.id[i]);
+          seen = seen || shown;
+          if (!shown || !truth) continue;
+          const double off = double{(shown->position - truth->position).norm()};
+          found_.off_m = std::max(found_.off_m, off);
+        }
+        if (!seen) now[view.id[i]] = missing[view.id[i]] + 1;
+      }
+      if (!any) continue;
+      missing = now;
+      for (const auto& [id, ticks] : missing) {
+        found_.missing_s = std::max(found_.missing_s, static_cast<double>(ticks) / hz_);
+      }
+    }
+  }
+
+  std::optional<BodyState> Shown(int peer, std::int64_t tick, PartId id) const {
+    const auto views = recording_.views.find(peer);
+    if (views == recording_.views.end()) return std::nullopt;
+    const auto view = views->second.find(tick);
+    if (view == views->second.end()) return std::nullopt;
+    const int i = IndexOf(view->second, id);
+    if (i < 0) return std::nullopt;
+    return StateIn(view->second, static_cast<std::size_t>(i));
+  }
+
+  const Recording& recording_;
+  const Oracle& oracle_;
+  const Scene scene_;
+  const RevisionHistory revisions_, own_;
+  const int hz_;
+  std::map<std::pair<const RevisionHistory*, int>, std::unique_ptr<Meters>> meters_;
+  std::map<PartId, double> mass_;        // by body, as it was last, kg
+  std::map<std::int64_t, double> sums_;  // the oracle's, by second, J
+  double hottest_ = 0;                   // the oracle's hottest body in any second, J
+  double drift_ = 0;                     // the oracle's worst, m
+  SoakFindings found_;
+};
+
+}  // namespace
+
+SoakFindings CheckSoak(const Recording& recording, const Oracle& oracle) {
+  return Check(recording, oracle).Run();
+}
+
+}  // namespace seam
