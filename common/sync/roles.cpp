@@ -40,7 +40,9 @@ bool Roles::Proposes(const Edit& edit) const {
   if (config_.mode == Mode::kOracle) return true;
   for (const PartId part : world_.topology().PartsOf(edit)) {
     const int m = MechanismOf(world_, part);
-    if (m >= 0) return IsAuthority(m);
+    if (m < 0) continue;
+    const bool server = config_.rolls_back && table_.at(m).secondaries.Has(0);
+    return server ? self_ == 0 : IsAuthority(m);
   }
   return false;
 }

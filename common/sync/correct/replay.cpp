@@ -47,6 +47,7 @@ bool Replay::Agrees(const BodyState& d) const {
 }
 
 bool Replay::Ask(int body, std::int64_t tick) {
+  if (IsBeforeEdit(tick)) return true;
   if (barriers_.empty() || tick < barriers_.front().tick) return false;
   if (tick < memory_.track(body).dynamic_since) return BeginsEarlier(body, tick);
   const BodyState* known = memory_.snapshots().At(body, tick);

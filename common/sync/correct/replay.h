@@ -102,6 +102,9 @@ class Replay {
     std::vector<Shown> shown;  // by body
   };
 
+  /// Whether an edit is between the tick and now: moved on without it, a state says nothing of now,
+  /// and newer ones are on their way.
+  bool IsBeforeEdit(std::int64_t tick) const;
   bool Depart(std::int64_t from);
   void StepTo(std::int64_t tick);
   void Arrive();
@@ -130,6 +133,7 @@ class Replay {
   double credit_ = 0;                   // ticks that may be stepped again
   std::function<void()> on_stepped_again_ = [] {};
   std::optional<Journey> journey_;  // while the world is in the past
+  std::int64_t edited_tick_ = -1;   // of the last edit that changed bodies, -1 none
   bool edited_ = false;             // since the last step, and
   bool rebuilt_ = false;            // ...bodies are others by it
   std::function<void()> stepped_;

@@ -44,7 +44,13 @@ void Replay::Edited(bool changed) {
   barriers_.clear();
   from_ = -1;
   edited_ = true;
+  if (changed) edited_tick_ = world_.tick();
   rebuilt_ = rebuilt_ || changed;
+}
+
+bool Replay::IsBeforeEdit(std::int64_t tick) const {
+  return config_.GoesBack(roles_.self()) && tick < edited_tick_ &&
+         tick >= edited_tick_ - config_.tick_hz;
 }
 
 /// Where bodies have become others the world is built anew, so this is a tick to go back to, too.

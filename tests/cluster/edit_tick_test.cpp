@@ -1,0 +1,139 @@
+/// Edits that physics found happen at the tick at which they would without a network, on every peer
+/// that goes back.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <string>
+
+#include "common/measure/measure.h"
+#include "common/scene/scene.h"
+#include "common/sync/edits/edit_order.h"
+#include "server/edits/edit_log.h"
+#include "tests/lab/cluster.h"
+
+namespace seam {
+namespace {
+
+Recording Break(const std::string& impair, std::int64_t seed) {
+  ClusterConfig config;
+  config.scene = "gluehouse";
+  config.reconcile = "rollback";
+  config.impair = impair;
+  config.seed = seed;
+  config.duration_s = 3.5;
+  return RunCluster(config);
+}
+
+TEST(EditTick, GlueBreaksAtTheTickOfTheOracleHoweverSlowTheNetworkIs) {
+  for (const std::string impair : {"4g", "delay=200ms"}) {
+    const Recording recording = Break(impair, 1);
+    const Oracle oracle = ComputeOracle(recording, WithBarriers(recording.room));
+    ASSERT_GE(recording.edits.size(), 30u) << impair << ": the ball breaks the house";
+    ASSERT_GE(oracle.spans.size(), 2u);
+    const auto first = static_cast<std::size_t>(oracle.spans[1].edits);
+    ASSERT_GE(first, 30u);
+    std::size_t n = 0;
+    for (const auto& [number, order] : recording.edits) {
+      if (n == first) break;
+      EXPECT_EQ(order.tick, static_cast<std::int64_t>(oracle.spans[1].first_row)) << impair;
+      EXPECT_EQ(KeyOf(ToEdit(order)), KeyOf(oracle.edits[n])) << impair << ": edit " << number;
+      ++n;
+    }
+    EXPECT_LT(Measure(recording, oracle).error_others_m.value_or(9), 0.8) << impair;
+    // Every peer ends with the same composition: as many bodies in each last view.
+    for (const auto& [peer, views] : recording.views) {
+      EXPECT_EQ(views.rbegin()->second.revision, recording.views.at(0).rbegin()->second.revision)
+          << impair << ": peer " << peer;
+    }
+  }
+}
+
+const char* const kGlued = R"(
+duration = 5
+[[part]]
+name = "brick"
+box = [1, 1]
+position = [0, 9]
+repeat = {count = [4, 1], step = [1, 1], glue = 100}
+)";
+
+/// A server's log and copy.
+struct Room {
+  explicit Room(const char* rule)
+      : scene(ParseScene(kGlued, "glued.toml")),
+        config(MakeSyncConfig("buffer", rule)),
+        replica(scene, config, 0, -1),
+        authority(scene, config, replica),
+        log(replica.world(), authority, 60) {}
+
+  std::int64_t TickOf(std::int32_t joint, std::int64_t found) {
+    EXPECT_TRUE(log.Add(Edit(BreakEdit{joint}), found));
+    const EditLog::Batch batch = log.OrderPending(0);
+    EXPECT_EQ(batch.orders.size(), 1u);
+    return batch.orders.at(0).tick;
+  }
+
+  Scene scene;
+  SyncConfig config;
+  Replica replica;
+  AuthorityManager authority;
+  EditLog log;
+};
+
+TEST(EditTick, AnEditIsOrderedForTheTickAtWhichItWasFoundIfThatCanBe) {
+  Room room("rollback");
+  for (int i = 0; i < 100; ++i) room.replica.Step();
+  EXPECT_EQ(room.TickOf(0, 90), 90);
+  EXPECT_EQ(room.TickOf(1, 80), 90) << "not before the last that was ordered";
+  EXPECT_EQ(room.TickOf(2, 101), 100) << "not in the future";
+  Room late("rollback");
+  for (int i = 0; i < 100; ++i) late.replica.Step();
+  EXPECT_EQ(late.TickOf(0, 30), 100) << "too long ago";
+}
+
+EditOrder BreakAt(std::int32_t joint, std::int32_t number, std::int64_t tick) {
+  EditOrder order = ToOrder(Edit(BreakEdit{joint}));
+  order.number = number;
+  order.tick = tick;
+  return order;
+}
+
+TEST(EditTick, OneThatComesLateIsAsIfItHadComeInTime) {
+  Room early("rollback"), late("rollback");
+  for (int i = 0; i < 61; ++i) {
+    // Off the ticks of barriers, too.
+    if (i == 21) EXPECT_TRUE(early.replica.Queue(BreakAt(0, 0, 21)));
+    if (i == 24) EXPECT_TRUE(early.replica.Queue(BreakAt(2, 1, 24)));
+    if (i == 40) {
+      EXPECT_TRUE(late.replica.Queue(BreakAt(0, 0, 21)));
+      EXPECT_TRUE(late.replica.Queue(BreakAt(2, 1, 24)));
+    }
+    early.replica.Step();
+    late.replica.Step();
+  }
+  EXPECT_EQ(early.replica.world().body_count(), 3);
+  EXPECT_EQ(late.replica.world().composition().hash, early.replica.world().composition().hash);
+  EXPECT_EQ(late.replica.world().Hash(), early.replica.world().Hash()) << "bit for bit";
+}
+
+TEST(EditTick, OneOfATickStillToComeWaitsForItInEveryRule) {
+  for (const char* rule : {"rollback", "retrospect"}) {
+    Room room(rule);
+    for (int i = 0; i < 20; ++i) room.replica.Step();
+    ASSERT_TRUE(room.replica.Queue(BreakAt(0, 0, 22)));
+    for (int tick = 21; tick <= 22; ++tick) {
+      room.replica.Step();
+      EXPECT_EQ(room.replica.revision(), 0) << rule << " after " << tick;
+    }
+    room.replica.Step();
+    EXPECT_EQ(room.replica.revision(), 1) << rule;
+    ASSERT_TRUE(room.replica.Queue(BreakAt(1, 1, 1000000)));
+    room.replica.Step();
+    EXPECT_EQ(room.replica.revision(), 2) << rule << ": what is far off is not believed";
+  }
+}
+
+}  // namespace
+}  // namespace seam
