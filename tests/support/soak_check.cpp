@@ -160,7 +160,9 @@ class Check {
       if (!Whole(view, meters)) continue;
       const std::vector<BodyState> now = StatesOf(view);
       found_.compared += static_cast<long>(now.size());
-      found_.torn_m = std::max(found_.torn_m, meters.joints.Worst(now, tick) - drift_);
+      if (tick < recording_.last_tick - hz_ / 2) {
+        found_.torn_m = std::max(found_.torn_m, meters.joints.Worst(now, tick) - drift_);
+      }
       const bool same = before != nullptr && before->tick == tick - 1 &&
                         revisions_.Key(before->revision) == revisions_.Key(view.revision) &&
                         before->id == view.id;
