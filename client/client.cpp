@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "common/base/check.h"
-#include "common/sync/edit_order.h"
+#include "common/sync/edits/edit_order.h"
 #include "common/sync/input_source.h"
 #include "common/sync/lease.h"
 
@@ -189,10 +189,10 @@ void Client::StepOnce(std::int64_t now_us) {
   NoteOwnInput();
   replica_->Step();
   if (mode_ == Mode::kOracle) replica_->ApplyEdits();  // in the tick in which they were found
-  for (const Edit& edit : replica_->TakeProposals()) {
-    EditOrder proposal = ToOrder(edit);
+  for (const FoundEdit& found : replica_->TakeProposals()) {
+    EditOrder proposal = ToOrder(found.edit);
     proposal.utime = now_us;
-    proposal.tick = replica_->tick();
+    proposal.tick = found.tick;
     proposal.sequence = replica_->revision();
     if (!released_) link_->SendReliable(Encode(proposal));
   }

@@ -13,12 +13,12 @@
 #include "common/net/link.h"
 #include "common/net/net.h"
 #include "common/record/recorder.h"
+#include "common/sync/edits/topology_snapshot.h"
 #include "common/sync/input_feed.h"
 #include "common/sync/metadata.h"
 #include "common/sync/publisher.h"
 #include "common/sync/replica.h"
 #include "common/sync/rest/rest_agreement.h"
-#include "common/sync/topology_snapshot.h"
 
 namespace seam {
 

@@ -193,7 +193,7 @@ void Server::StepOnce(std::int64_t now_us) {
   ApplyEdits(now_us);
   replica_.Step();
   if (config_.sync.mode == Mode::kOracle) ApplyQueued(now_us);
-  for (const Edit& edit : replica_.TakeProposals()) edits_.Add(edit);
+  for (const FoundEdit& found : replica_.TakeProposals()) edits_.Add(found.edit, found.tick);
   for (int p = 0; !replica_.world().scene().seats.empty() && p < players; ++p) {
     const int pressed = replica_.TakePressed(p);
     for (const Edit& edit : SeatEdits(replica_.world(), p, pressed)) edits_.Add(edit);

@@ -5,7 +5,7 @@
 #include "common/base/check.h"
 #include "common/measure/oracle.h"
 #include "common/measure/revisions.h"
-#include "common/sync/edit_order.h"
+#include "common/sync/edits/edit_order.h"
 #include "common/sync/mode.h"
 
 namespace seam {

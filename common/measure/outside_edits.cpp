@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "common/sync/edit_order.h"
+#include "common/sync/edits/edit_order.h"
 
 namespace seam {
 

@@ -5,7 +5,7 @@
 
 #include "common/measure/pose.h"
 #include "common/scene/mass.h"
-#include "common/sync/edit_order.h"
+#include "common/sync/edits/edit_order.h"
 
 namespace seam {
 namespace {

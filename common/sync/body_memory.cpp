@@ -84,6 +84,7 @@ void BodyMemory::Remap(const BodyRemap& change) {
     changed.pull = PullTrack{};
     changed.asleep_since = -1;
     const int body = static_cast<int>(i);
+    snapshots_.ForgetAfter(body, world_.tick());
     if (!snapshots_.has(body)) snapshots_.Add(body, world_.tick(), now[i]);
     if (BodyState* past = history_.At(world_.tick(), body)) *past = now[i];
   }

@@ -21,10 +21,10 @@ bool ProposalQueue::Add(Edit edit, std::int64_t tick) {
   if (said != proposed_.end() && tick - said->second < again_ticks_) return false;
   if (proposed_.size() > kProposedMax) proposed_.clear();
   proposed_[key] = tick;
-  waiting_.push_back(std::move(edit));
+  waiting_.push_back({std::move(edit), tick});
   return true;
 }
 
-std::vector<Edit> ProposalQueue::Take() { return std::exchange(waiting_, {}); }
+std::vector<FoundEdit> ProposalQueue::Take() { return std::exchange(waiting_, {}); }
 
 }  // namespace seam

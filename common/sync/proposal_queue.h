@@ -10,6 +10,12 @@
 
 namespace seam {
 
+/// An edit, and the tick after which physics found it.
+struct FoundEdit {
+  Edit edit;
+  std::int64_t tick = 0;
+};
+
 class ProposalQueue {
  public:
   explicit ProposalQueue(int tick_hz);
@@ -20,12 +26,12 @@ class ProposalQueue {
   /// An edit of this key was ordered: what is found from now on is another.
   void Forget(const EditKey& key) { proposed_.erase(key); }
   /// All that was queued since the last call, in its order.
-  std::vector<Edit> Take();
+  std::vector<FoundEdit> Take();
 
  private:
   std::int64_t again_ticks_;
   std::map<EditKey, std::int64_t> proposed_;  // when last
-  std::vector<Edit> waiting_;
+  std::vector<FoundEdit> waiting_;
 };
 
 }  // namespace seam

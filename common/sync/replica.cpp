@@ -1,5 +1,7 @@
 #include "common/sync/replica.h"
 
+#include <algorithm>
+
 #include "common/sync/correct/presses.h"
 #include "common/sync/input_source.h"
 
@@ -20,8 +22,8 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       display_(config_, world_, memory_.snapshots()),
       replay_(config_, world_, roles_, memory_, display_, inputs_),
       corrector_(config_, world_, roles_, memory_, display_, replay_),
-      rest_(config_, world_, roles_, memory_, display_, inputs_),
       reach_(config_, world_, roles_, inputs_),
+      rest_(config_, world_, roles_, memory_, display_, inputs_, reach_),
       scheduler_(config_, world_, roles_, memory_, reach_, replay_),
       proposals_(config_.tick_hz),
       impact_reporter_(world_, roles_),
@@ -30,6 +32,7 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
   replay_.OnSteppedAgain([this] { impact_reporter_.Note(true); });
   corrector_.FollowRoles();
   memory_.Record();
+  replay_.OnStep([this] { FindEdits(); });
   replay_.TakeBarrier();  // the inputs of the first ticks come late, too
 }
 
@@ -52,17 +55,11 @@ void Replica::Step() {
   rest_.BeforeStep();
   world_.Step();
   memory_.NoteContacts(roles_.table());
+  if (config_.rolls_back && next % config_.send_every() == 0) reach_.Look();
   rest_.AfterStep();
   impact_reporter_.Note();
-  for (Edit& edit : world_.ProposeEdits()) {
-    if (config_.mode == Mode::kOracle) {
-      queued_.push_back(std::move(edit));
-    } else if (roles_.Proposes(edit)) {
-      proposals_.Add(std::move(edit), tick());
-    }
-  }
+  FindEdits();
   QueueAppointed();
-  if (config_.rolls_back && next % config_.send_every() == 0) reach_.Look();
   scheduler_.Collect();
   memory_.Record();
   replay_.TakeBarrier();
@@ -131,6 +128,7 @@ void Replica::ApplyPresses(int player, std::int64_t next) {
 }
 
 std::vector<int> Replica::ApplyGrants(const Grants& grants) {
+  for (QueuedEdit& edit : queued_) edit.tick = std::min(edit.tick, tick());
   ApplyEdits();  // the grants are about what is there after them
   std::vector<int> let_go = roles_.Apply(grants);
   // Before motion follows the roles: what the holder last simulated.

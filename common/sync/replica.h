@@ -73,16 +73,19 @@ class Replica {
   /// Gives up every authority (the server has not been heard for too long).
   void ReleaseAll();
 
-  /// Edits that the server ordered, in their order; they are applied before anything else is done.
+  /// Edits that the server ordered, in their order; they are applied before anything else is done,
+  /// each after the tick that the order names: peers that go back do so, for others, and for what
+  /// is too old, it is now; for a tick still to come they wait.
   /// False, and ignored: it is not the next one.
   /// In mode oracle every peer edits alone: what physics found is queued by Step, the server's
   /// order of the same edit is ignored, and one from outside is queued by the Step of the tick it
   /// names.
   bool Queue(const EditOrder& order);
-  bool has_queued() const { return !queued_.empty(); }
+  /// Whether one is to be applied now: its tick has come.
+  bool has_queued() const;
   /// The next to be applied. Requires has_queued().
-  const Edit& next_queued() const { return queued_.front(); }
-  /// Applies all that is queued.
+  const Edit& next_queued() const { return queued_.front().edit; }
+  /// Applies all that is queued and whose tick has come.
   void ApplyEdits();
   /// Applies the next that is queued. What became of the bodies; nullopt: they are what they were.
   /// Each merger of mechanisms begins a new epoch, so all peers apply edits one by one: one that
@@ -90,7 +93,7 @@ class Replica {
   std::optional<BodyRemap> ApplyNextEdit();
   /// What this peer, as the authority of the bodies concerned, found that should change; in mode
   /// oracle all that physics finds.
-  std::vector<Edit> TakeProposals() { return proposals_.Take(); }
+  std::vector<FoundEdit> TakeProposals() { return proposals_.Take(); }
   /// Whether the body is made of what it was made of after that many edits.
   bool SameBody(int body, int edits) const { return memory_.track(body).changed_at <= edits; }
   /// Edits applied so far.
@@ -129,7 +132,24 @@ class Replica {
  private:
   friend struct ReplicaTestAccess;
 
+  /// An edit that is to be applied after a tick.
+  struct QueuedEdit {
+    Edit edit;
+    std::int64_t tick = 0;
+  };
+  /// A proposal whose order is awaited, and where it is.
+  struct Awaited {
+    EditKey key{};
+    std::vector<PartId> parts;
+    std::int64_t tick = 0;
+  };
+
   void QueueAppointed();
+  /// After a step, also one that is done again: what physics found that should change.
+  void FindEdits();
+  /// Whether another edit of its mechanism is awaited: what is found meanwhile is found in a world
+  /// in which that has not happened.
+  bool IsHeldBack(const Edit& edit);
   void Remap(const BodyRemap& change);
   /// Of joints that the edit takes away: a later bond may take their places, and break at once.
   void ForgetProposals(const Edit& edit);
@@ -145,14 +165,15 @@ class Replica {
   Display display_;
   Replay replay_;
   Corrector corrector_;
-  RestCommit rest_;
   Reach reach_;
+  RestCommit rest_;
   SendScheduler scheduler_;
   ProposalQueue proposals_;
   ImpactReporter impact_reporter_;
   std::vector<int> pressed_now_;     // by player
   std::vector<int> pressed_missed_;  // by player: heard of too late to go back to
-  std::vector<Edit> queued_;         // ordered, not yet applied
+  std::vector<QueuedEdit> queued_;   // ordered, not yet applied; ticks ascend
+  std::vector<Awaited> awaited_;     // where this peer goes back
   std::map<std::int64_t, std::vector<Edit>> appointed_;  // mode oracle: from outside, by tick
   std::vector<ExactStates> released_;                    // of what ApplyGrants took, not yet told
 };

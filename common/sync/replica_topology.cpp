@@ -1,27 +1,39 @@
 /// Replica: edits, and bodies that split and merge by them. What is known of a body (its past, what
 /// was heard of it, its pose in the view) is carried over to what it becomes.
 
-#include "common/sync/edit_order.h"
+#include <algorithm>
+#include <set>
+
+#include "common/physics/part_places.h"
+#include "common/sync/edits/edit_order.h"
 #include "common/sync/replica.h"
 
 namespace seam {
 
 bool Replica::Queue(const EditOrder& order) {
+  const Edit edit = ToEdit(order);
   if (config_.mode == Mode::kOracle) {
-    const Edit edit = ToEdit(order);
     if (edit.cause == EditCause::kOutside) appointed_[order.tick].push_back(edit);
     return true;
   }
   if (order.number != revision() + static_cast<int>(queued_.size())) return false;
-  queued_.push_back(ToEdit(order));
+  const std::int64_t after = queued_.empty() ? order.tick : queued_.back().tick;
+  queued_.push_back({edit, std::max(after, order.tick)});
   return true;
 }
 
 void Replica::QueueAppointed() {
   while (!appointed_.empty() && appointed_.begin()->first <= tick()) {
-    for (Edit& edit : appointed_.begin()->second) queued_.push_back(std::move(edit));
+    for (Edit& edit : appointed_.begin()->second) queued_.push_back({std::move(edit), tick()});
     appointed_.erase(appointed_.begin());
   }
+}
+
+bool Replica::has_queued() const {
+  if (queued_.empty()) return false;
+  // One that says a tick far ahead is not believed.
+  const std::int64_t ahead = queued_.front().tick - replay_.now();
+  return ahead <= 0 || ahead > config_.tick_hz;
 }
 
 void Replica::ApplyEdits() {
@@ -29,21 +41,58 @@ void Replica::ApplyEdits() {
 }
 
 std::optional<BodyRemap> Replica::ApplyNextEdit() {
-  const Edit edit = queued_.front();
+  const QueuedEdit next = std::move(queued_.front());
   queued_.erase(queued_.begin());
-  std::optional<BodyRemap> change = world_.Apply({edit});
-  ForgetProposals(edit);
+  replay_.GoBackTo(next.tick);
+  std::optional<BodyRemap> change = world_.Apply({next.edit});
+  ForgetProposals(next.edit);
   rest_.NoteEdit();
   if (change) {
     Remap(*change);
   } else {
     corrector_.FollowRoles();  // who sits in a seat decides what is predicted
   }
+  replay_.Edited(change.has_value());
+  if (!has_queued()) replay_.GoOn();
   return change;
 }
 
+void Replica::FindEdits() {
+  for (Edit& edit : world_.ProposeEdits()) {
+    if (config_.mode == Mode::kOracle) {
+      queued_.push_back({std::move(edit), tick()});
+    } else if (roles_.Proposes(edit) && !IsHeldBack(edit)) {
+      Awaited awaited{KeyOf(edit), world_.topology().PartsOf(edit), tick()};
+      if (proposals_.Add(std::move(edit), tick())) awaited_.push_back(std::move(awaited));
+    }
+  }
+}
+
+bool Replica::IsHeldBack(const Edit& edit) {
+  if (!config_.GoesBack(roles_.self())) return false;
+  const std::int64_t old = replay_.now() - config_.tick_hz / 2;
+  awaited_.erase(std::remove_if(awaited_.begin(), awaited_.end(),
+                                [&](const Awaited& a) { return a.tick < old; }),
+                 awaited_.end());
+  std::set<int> mechanisms;
+  for (const PartId part : world_.topology().PartsOf(edit)) {
+    mechanisms.insert(MechanismOf(world_, part));
+  }
+  mechanisms.erase(-1);
+  return std::any_of(awaited_.begin(), awaited_.end(), [&](const Awaited& a) {
+    if (a.tick == tick()) return false;
+    return std::any_of(a.parts.begin(), a.parts.end(), [&](PartId part) {
+      return mechanisms.count(MechanismOf(world_, part)) > 0;
+    });
+  });
+}
+
 void Replica::ForgetProposals(const Edit& edit) {
-  if (edit.As<BreakEdit>() != nullptr) proposals_.Forget(KeyOf(edit));
+  const EditKey key = KeyOf(edit);
+  if (edit.As<BreakEdit>() != nullptr) proposals_.Forget(key);
+  awaited_.erase(std::remove_if(awaited_.begin(), awaited_.end(),
+                                [&](const Awaited& a) { return a.key == key; }),
+                 awaited_.end());
   const RemoveEdit* removed = edit.As<RemoveEdit>();
   const std::vector<Joint>& joints = world_.scene().joints;
   for (std::size_t j = 0; removed != nullptr && j < joints.size(); ++j) {
@@ -56,7 +105,7 @@ void Replica::Remap(const BodyRemap& change) {
   memory_.Remap(change);
   display_.Remap(change);
   roles_.Remap(change.mechanisms);
-  replay_.Forget();  // its barriers are of other bodies
+  replay_.Remap(change);
   rest_.Remap(change);
   corrector_.FollowRoles();
 }

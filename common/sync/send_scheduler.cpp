@@ -45,7 +45,7 @@ void SendScheduler::Collect() {
 /// they cannot have changed: an assumption of ours must not overwrite what others know better.
 std::int64_t SendScheduler::ToldTick(int body) const {
   const std::int64_t now = world_.tick();
-  if (!config_.rolls_back || !world_.awake(body)) return now;
+  if (!config_.rolls_back) return now;
   const std::int64_t complete =
       std::min(reach_.CompleteTick(world_.mechanism(body)), replay_.settled());
   return memory_.ComparablePast(body, complete) != nullptr ? complete : now;
@@ -104,7 +104,11 @@ PackedBody SendScheduler::Tell(int body) {
     packed.state.spin = 0;
   }
   const std::int64_t tick = ToldTick(body);
-  if (tick < world_.tick()) packed.state = *memory_.ComparablePast(body, tick);
+  if (tick < world_.tick()) {
+    packed.state = *memory_.ComparablePast(body, tick);
+    const bool moved = packed.state.velocity.squaredNorm() > 0 || packed.state.spin != 0;
+    packed.flags = static_cast<std::int8_t>(moved ? packed.flags & ~kStateAsleep : packed.flags);
+  }
   // The sender goes on from its own numbers, in motion and at rest: writing the rounded pose back
   // topples a stack of ten boxes even in a world of its own (docs/lessons.md).
   return packed;

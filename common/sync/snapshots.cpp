@@ -45,6 +45,11 @@ void Snapshots::Remap(const std::vector<BodyOrigin>& origins) {
   rings_ = std::move(rings);
 }
 
+void Snapshots::ForgetAfter(int body, std::int64_t tick) {
+  std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
+  while (!ring.empty() && ring.back().tick > tick) ring.pop_back();
+}
+
 std::int64_t Snapshots::newest_tick(int body) const {
   const std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
   return ring.empty() ? -1 : ring.back().tick;

@@ -29,6 +29,9 @@ class Snapshots {
   void Add(int body, std::int64_t tick, const BodyState& state);
   /// The bodies have changed: what was heard of those they come from is carried over.
   void Remap(const std::vector<BodyOrigin>& origins);
+  /// What was heard of later ticks was of another body.
+  void ForgetAfter(int body, std::int64_t tick);
+
   bool has(int body) const { return !rings_[static_cast<std::size_t>(body)].empty(); }
   std::int64_t newest_tick(int body) const;  ///< -1 when none
 

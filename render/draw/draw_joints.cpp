@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "common/sync/edit_order.h"
+#include "common/sync/edits/edit_order.h"
 #include "render/canvas/palette.h"
 
 namespace seam {

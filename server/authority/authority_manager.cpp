@@ -39,8 +39,9 @@ AuthorityView AuthorityManager::Look(const Situation& situation) {
   view.together = situation.together;
   for (std::size_t p = 0; p < scene_.players.size(); ++p) {
     const Player& player = scene_.players[p];
-    view.players.push_back({situation.peer_of_player[p], situation.one_way_s[p], player.has_region,
-                            player.region_min, player.region_max});
+    view.players.push_back({situation.peer_of_player[p],
+                            p < situation.one_way_s.size() ? situation.one_way_s[p] : 0,
+                            player.has_region, player.region_min, player.region_max});
   }
   const World& world = replica_.world();
   for (int m = 0; m < table().count(); ++m) {

@@ -20,7 +20,7 @@ class AuthorityManager {
   /// What it cannot know by itself.
   struct Situation {
     std::vector<int> peer_of_player;         ///< -1: nobody is ready to drive it
-    std::vector<float> one_way_s;            ///< by player, from the server to it
+    std::vector<float> one_way_s;            ///< by player, from the server to it; empty: all 0
     std::vector<std::vector<int>> together;  ///< see AuthorityView
   };
 

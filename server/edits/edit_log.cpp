@@ -4,7 +4,7 @@
 #include <set>
 
 #include "common/physics/part_places.h"
-#include "common/sync/topology_snapshot.h"
+#include "common/sync/edits/topology_snapshot.h"
 #include "server/edits/proposal.h"
 
 namespace seam {
@@ -12,6 +12,8 @@ namespace {
 
 /// A proposal that cannot be ordered yet (its parts are changing hands) is forgotten after this, s.
 constexpr double kPendingSeconds = 3;
+/// A tick longer ago than this, s, is not one to go back to: replays do not reach there.
+constexpr double kBackSeconds = 1;
 
 /// Joints that the edits of a batch take away, before any of them is applied. A bond after them may
 /// take their places: what breaks "them" once more would break it.
@@ -46,11 +48,11 @@ EditLog::EditLog(const World& world, const AuthorityManager& authority, int tick
   hash_after_[0] = world_.composition().hash;
 }
 
-bool EditLog::Wait(const Edit& edit, int peer) {
+bool EditLog::Wait(const Edit& edit, int peer, std::int64_t found) {
   int& waiting = waiting_of_peer_[static_cast<std::size_t>(peer)];
   if (waiting == kWaitingMax) return false;
   ++waiting;
-  Pending pending{edit, peer, world_.tick(), 0};
+  Pending pending{edit, peer, world_.tick(), found, 0};
   const BreakEdit* broken = edit.As<BreakEdit>();
   const Topology& topology = world_.topology();
   if (broken != nullptr && topology.HasJoint(broken->joint)) {
@@ -60,7 +62,14 @@ bool EditLog::Wait(const Edit& edit, int peer) {
   return true;
 }
 
-bool EditLog::Add(const Edit& edit) { return Wait(edit, 0); }
+/// What physics found is ordered for the tick after which it was found, if that can be: everyone
+/// goes back to it. What comes from outside happens when it is ordered.
+std::int64_t EditLog::TickOf(const Pending& pending) const {
+  const std::int64_t now = world_.tick();
+  const bool found = pending.edit.cause == EditCause::kPhysics && pending.found <= now &&
+                     pending.found >= now - static_cast<std::int64_t>(kBackSeconds * tick_hz_);
+  return std::max(last_tick_, found ? pending.found : now);
+}
 
 /// In this order, so that nothing a peer says is read, parsed or copied before it is clear that the
 /// peer may say such a thing.
@@ -83,7 +92,7 @@ EditLog::Verdict EditLog::Propose(int peer, const EditOrder& proposal) {
   if (!topology.Validate(edit).ok()) return Verdict::kStale;
   if (!MayPropose(topology, edit)) return Verdict::kNoRight;
   if (!PlausibleProposal(world_, edit)) return Verdict::kImplausible;
-  return Wait(edit, peer) ? Verdict::kTaken : Verdict::kTooMany;
+  return Wait(edit, peer, proposal.tick) ? Verdict::kTaken : Verdict::kTooMany;
 }
 
 std::vector<int> EditLog::MechanismsOf(const Edit& edit) const {
@@ -135,7 +144,7 @@ EditLog::Batch EditLog::OrderPending(std::int64_t now_us) {
     taken_away.Add(pending.edit);
     EditOrder order = ToOrder(pending.edit);
     order.utime = now_us;
-    order.tick = world_.tick();
+    order.tick = last_tick_ = TickOf(pending);
     order.number = ordered_++;
     unapplied_.push_back(pending.edit);
     batch.orders.push_back(order);

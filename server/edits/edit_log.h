@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "common/physics/world.h"
-#include "common/sync/edit_order.h"
+#include "common/sync/edits/edit_order.h"
 #include "common/topology/topology_fold.h"
 #include "server/authority/authority_manager.h"
 
@@ -23,7 +23,9 @@ class EditLog {
 
   /// The server's own: ordered at the next tick, or as soon as its parts are in one hand. One that
   /// cannot be is dropped; Topology::Validate tells beforehand. False: kWaitingMax wait already.
-  bool Add(const Edit& edit);
+  bool Add(const Edit& edit) { return Wait(edit, 0, world_.tick()); }
+  /// The same of one that physics found after an earlier tick.
+  bool Add(const Edit& edit, std::int64_t found) { return Wait(edit, 0, found); }
 
   enum class Verdict {
     kTaken,
@@ -79,10 +81,12 @@ class EditLog {
     Edit edit;
     int peer = 0;            // who proposed it
     std::int64_t since = 0;  // tick
+    std::int64_t found = 0;  // tick after which it is to be
     int made_at = 0;         // of the joint that is to break: another in its place is not meant
   };
 
-  bool Wait(const Edit& edit, int peer);
+  bool Wait(const Edit& edit, int peer, std::int64_t found);
+  std::int64_t TickOf(const Pending& pending) const;
   bool IsStale(const Pending& pending) const;
   std::vector<int> MechanismsOf(const Edit& edit) const;
 
@@ -92,6 +96,7 @@ class EditLog {
   std::vector<Pending> pending_;  // in the order of coming
   std::array<int, kPeersMax> waiting_of_peer_{};
   int ordered_ = 0;                          // edits that have a number
+  std::int64_t last_tick_ = 0;               // of the last of them
   std::deque<Edit> unapplied_;               // the last of them
   std::map<int, std::uint64_t> hash_after_;  // of the composition, by number of edits applied
   TopologyFold fold_;

@@ -62,10 +62,14 @@ bool HasMovers(const World& world) {
 
 using Trail = std::vector<StateTrail::Seen>;
 
-bool IsNear(const Trail& trail, const Vec2& point, float reach, float dt) {
+/// Whether the body was at the point in that tick, or, by the newest that was told of it, is on its
+/// way there: where inputs come late, states are told later than blows.
+bool IsNear(const Trail& trail, const Vec2& point, std::int64_t tick, float reach, float dt) {
   return std::any_of(trail.begin(), trail.end(), [&](const StateTrail::Seen& seen) {
     const float moves = seen.state.velocity.norm() * dt * static_cast<float>(kTicksBefore);
-    return (seen.state.position - point).norm() <= reach + moves + kNear;
+    const Vec2 way = static_cast<float>(tick - seen.tick) * dt * seen.state.velocity;
+    const Vec2 apart = point - seen.state.position;
+    return std::min(apart.norm(), (apart - way).norm()) <= reach + moves + kNear;
   });
 }
 
@@ -90,13 +94,13 @@ bool Possible(const World& world, const StateTrail& trail, const Blow& blow, std
   const Trail struck = trail.Between(blow.body, from, to);
   if (struck.empty()) return false;
   const float reach = Reach(world, blow.body);
-  if (!IsNear(struck, blow.point, reach, world.dt())) return false;
+  if (!IsNear(struck, blow.point, tick, reach, world.dt())) return false;
   Trail striker;
   float reach_by = 0, restitution = LargestRestitution(world, blow.body);
   if (blow.by >= 0) {
     striker = trail.Between(blow.by, from, to);
     reach_by = Reach(world, blow.by);
-    if (striker.empty() || !IsNear(striker, blow.point, reach_by, world.dt())) return false;
+    if (striker.empty() || !IsNear(striker, blow.point, tick, reach_by, world.dt())) return false;
     restitution = std::max(restitution, LargestRestitution(world, blow.by));
   } else {
     if (HasMovers(world)) return true;

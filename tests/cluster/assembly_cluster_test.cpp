@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-#include "common/sync/edit_order.h"
+#include "common/sync/edits/edit_order.h"
 #include "tests/support/soak.h"
 #include "tests/support/two_sides.h"
 

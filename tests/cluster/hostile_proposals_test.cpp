@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "common/sync/edit_order.h"
+#include "common/sync/edits/edit_order.h"
 #include "server/edits/edit_log.h"
 #include "tests/support/client_test_access.h"
 #include "tests/support/count_allocations.h"

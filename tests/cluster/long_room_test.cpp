@@ -5,8 +5,8 @@
 
 #include "common/codec/codec.h"
 #include "common/physics/part_places.h"
-#include "common/sync/edit_order.h"
-#include "common/sync/topology_snapshot.h"
+#include "common/sync/edits/edit_order.h"
+#include "common/sync/edits/topology_snapshot.h"
 #include "common/topology/topology_fold.h"
 #include "tests/support/two_sides.h"
 

@@ -20,7 +20,7 @@ namespace seam {
 namespace {
 
 /// Sessions in a test; SEAM_SOAK multiplies them, up to so many.
-constexpr int kRuns = 20, kRunsMax = 6000;
+constexpr int kRuns = 20, kRunsMax = 2000;
 /// Of each, s after tick 0.
 constexpr double kSeconds = 4;
 /// The worst of each kind that are printed.
@@ -46,8 +46,8 @@ struct Session {
   Network network{};
   std::string name;  ///< as seam-lab run takes it
   SoakFindings found;
-  int authorities = 0;  ///< instants with two authorities, and epochs with two holders
-  std::string failure;  ///< it did not run
+  long authorities = 0;  ///< instants with two authorities, and epochs with two holders
+  std::string failure;   ///< it did not run
 };
 
 /// The n-th: every scene in turn, each time over another network, and with bots every other round.

@@ -6,7 +6,7 @@
 #include <set>
 
 #include "common/physics/part_places.h"
-#include "common/sync/edit_order.h"
+#include "common/sync/edits/edit_order.h"
 #include "server/edits/proposal.h"
 #include "tests/support/soak.h"
 #include "tests/support/two_sides.h"

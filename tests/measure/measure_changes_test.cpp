@@ -11,7 +11,7 @@
 #include "common/measure/measure.h"
 #include "common/measure/revisions.h"
 #include "common/physics/world.h"
-#include "common/sync/edit_order.h"
+#include "common/sync/edits/edit_order.h"
 #include "tests/lab/cluster.h"
 
 namespace seam {

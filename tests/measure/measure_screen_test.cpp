@@ -6,7 +6,7 @@
 #include <string>
 
 #include "common/measure/screen/screen.h"
-#include "common/sync/edit_order.h"
+#include "common/sync/edits/edit_order.h"
 #include "tests/support/made_recording.h"
 
 namespace seam {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "common/sync/edit_order.h"
+#include "common/sync/edits/edit_order.h"
 #include "render/playback/playback.h"
 #include "tests/lab/cluster.h"
 

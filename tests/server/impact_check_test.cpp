@@ -71,6 +71,18 @@ TEST_F(ImpactCheckTest, OnlyWhatWasKnownByThenExplainsIt) {
   EXPECT_TRUE(Can(3, {0.5f, 0}, 60)) << "what rests is told seldom: the last before it counts";
 }
 
+TEST_F(ImpactCheckTest, WhatWasToldLongBeforeMayHaveComeThereOnItsWay) {
+  StateTrail old(2);
+  old.Add(0, 10, world_.Read(0));
+  BodyState far = world_.Read(1);
+  far.position = {6, 0};
+  far.velocity = {-12, 0};
+  old.Add(1, 10, far);
+  EXPECT_TRUE(Possible(world_, old, {0, 1, 3, {0.5f, 0}}, 35)) << "5 m in 25 ticks";
+  EXPECT_FALSE(Possible(world_, old, {0, 1, 3, {0.5f, 0}}, 12)) << "too soon";
+  EXPECT_FALSE(Possible(world_, old, {0, 1, 3, {0.5f, 0}}, 90)) << "long past";
+}
+
 TEST_F(ImpactCheckTest, WhatStandsStillDoesNotStrikeTheGround) {
   EXPECT_FALSE(Can(3, {0.5f, 0}, 11, -1));
   StateTrail falling(2);

@@ -150,8 +150,10 @@ TEST(Layering, TheTableHasNoCycles) {
 TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
   const std::vector<std::pair<const char*, const char*>> table = {
       {"common/sync/reconcile", "none"},
-      {"common/sync/correct", "common/sync(/reconcile)?"},
-      {"common/sync/rest", "common/sync(/reconcile)?"},
+      {"common/sync/correct", "common/sync(/reconcile|/rest)?"},
+      {"common/sync/rest", "common/sync(/reconcile|/reach)?"},
+      {"common/sync/reach", "common/sync"},
+      {"common/sync/edits", "none"},
       {"common/measure/screen", "common/measure"},
       {"common/sync/show", "common/sync"},
       {"common/stages/(bonds|bricks|character|water)", "common/stages"},

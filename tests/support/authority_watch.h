@@ -1,6 +1,7 @@
 #pragma once
 /// Watches, at every virtual instant of a cluster, who believes to have authority and whom the
-/// server names.
+/// server names. Peers that have not applied the same edits count other mechanisms: they are left
+/// out until they have.
 
 #include <algorithm>
 #include <cstdint>
@@ -20,17 +21,20 @@ struct AuthorityWatch {
   void Look(Cluster& cluster) {
     if (!cluster.server().started()) return;
     const AuthorityTable& table = cluster.server().replica().authority();
+    const int revision = cluster.server().replica().revision();
     bool any_none = false;
     for (int m = 0; m < table.count(); ++m) {
       int believers = table.at(m).authority == 0 ? 1 : 0;
-      two_named_in_an_epoch += Contradicts(&named_, m, table.at(m).epoch, table.at(m).authority);
+      two_named_in_an_epoch +=
+          Contradicts(&named_, {revision, m}, table.at(m).epoch, table.at(m).authority);
       for (int c = 0; c < cluster.client_count(); ++c) {
         const Client* client = cluster.client(c);
         if (client == nullptr || !client->running()) continue;
+        if (client->replica()->revision() != revision) continue;
         const AuthorityRecord& h = client->replica()->authority().at(m);
         if (h.authority != client->peer()) continue;
         ++believers;
-        two_holders_of_an_epoch += Contradicts(&believed_, m, h.epoch, client->peer());
+        two_holders_of_an_epoch += Contradicts(&believed_, {revision, m}, h.epoch, client->peer());
       }
       ++instants;
       ++(believers == 1 ? one : believers == 0 ? none : several);
@@ -41,9 +45,10 @@ struct AuthorityWatch {
   }
 
  private:
-  using HolderOfEpoch = std::map<std::pair<int, std::int64_t>, int>;  // (mechanism, epoch) -> peer
+  using Mechanism = std::pair<int, int>;                                    // revision, number
+  using HolderOfEpoch = std::map<std::pair<Mechanism, std::int64_t>, int>;  // by epoch: peer
 
-  static int Contradicts(HolderOfEpoch* known, int mechanism, std::int64_t epoch, int peer) {
+  static int Contradicts(HolderOfEpoch* known, Mechanism mechanism, std::int64_t epoch, int peer) {
     const auto [it, fresh] = known->emplace(std::pair(mechanism, epoch), peer);
     return !fresh && it->second != peer ? 1 : 0;
   }

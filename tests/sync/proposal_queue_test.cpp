@@ -35,10 +35,11 @@ TEST(ProposalQueue, GivesEachProposalOnceInItsOrder) {
   ProposalQueue queue(60);
   queue.Add(BreakOf(7), 100);
   queue.Add(BreakOf(2), 100);
-  const std::vector<Edit> first = queue.Take();
+  const std::vector<FoundEdit> first = queue.Take();
   ASSERT_EQ(first.size(), 2u);
-  EXPECT_EQ(first[0].As<BreakEdit>()->joint, 7);
-  EXPECT_EQ(first[1].As<BreakEdit>()->joint, 2);
+  EXPECT_EQ(first[0].edit.As<BreakEdit>()->joint, 7);
+  EXPECT_EQ(first[1].edit.As<BreakEdit>()->joint, 2);
+  EXPECT_EQ(first[1].tick, 100);
   EXPECT_TRUE(queue.Take().empty());
   EXPECT_FALSE(queue.Add(BreakOf(7), 110)) << "it is remembered after it was taken";
 }

@@ -75,7 +75,8 @@ repeat = {count = 2, step = [5, 0]}
   BodyMemory memory{config, *world};
   Display display{config, *world, memory.snapshots()};
   std::vector<InputTrack> inputs;
-  RestCommit rest{config, *world, roles, memory, display, inputs};
+  Reach reach{config, *world, roles, inputs};
+  RestCommit rest{config, *world, roles, memory, display, inputs, reach};
 };
 
 TEST(RestCommit, CommitsAQuarterOfASecondAfterFallingAsleepAndOnce) {

@@ -10,7 +10,7 @@
 
 #include "common/base/random.h"
 #include "common/physics/world.h"
-#include "common/sync/topology_snapshot.h"
+#include "common/sync/edits/topology_snapshot.h"
 #include "tests/support/soak.h"
 
 namespace seam {

@@ -12,8 +12,8 @@
 namespace seam {
 namespace {
 
-/// Most that is stepped again, s. At 200 ms one way, an input is known elsewhere after 0.4 s, and the
-/// state of the tick that it completed another 0.4 s later. Less than the history.
+/// Most that is stepped again, s. At 200 ms one way, an input is known elsewhere after 0.4 s, and
+/// the state of the tick that it completed another 0.4 s later. Less than the history.
 constexpr int kReplayMax = 2;
 /// Of the difference, where bodies of several authorities press against each other. All of it
 /// doubles the error of a shoved stack; much less is no longer a correction.
@@ -129,8 +129,8 @@ bool Replay::FollowsHistory(int body, std::int64_t tick) const {
   return pressed_[static_cast<std::size_t>(world_.mechanism(body))] || !world_.awake(body);
 }
 
-/// Where inputs are stamped, what is committed to rest is stepped again, and rests on if it has come
-/// to rest again where it lay.
+/// Where inputs are stamped, what is committed to rest is stepped again, and rests on if it has
+/// come to rest again where it lay.
 bool Replay::RestsAsBefore(int body, const BodyState& pose) {
   BodyTrack& track = memory_.track(body);
   if (!track.at_rest) return false;
@@ -208,6 +208,7 @@ void Replay::StepAgain() {
   world_.Step();
   on_stepped_again_();
   ++stepped_again_;
+  if (stepped_) stepped_();
 }
 
 void Replay::Run() {
@@ -217,33 +218,53 @@ void Replay::Run() {
     ++deferred_;
     return;
   }
-  const std::int64_t from = std::exchange(from_, -1);
   const std::int64_t now = world_.tick();
+  if (!Depart(std::exchange(from_, -1))) return;
+  StepTo(now);
+  Arrive();
+}
+
+/// Goes back to the newest barrier that is not after `from`.
+bool Replay::Depart(std::int64_t from) {
   while (!barriers_.empty() && barriers_.back().tick > from) barriers_.pop_back();
-  if (barriers_.empty()) return;
-  credit_ -= static_cast<double>(now - barriers_.back().tick);
-  std::vector<BodyState> shown;
-  std::vector<bool> was_awake;
+  if (barriers_.empty()) return false;
+  Journey journey;
+  journey.from = from;
+  journey.now = world_.tick();
   for (int body = 0; body < world_.body_count(); ++body) {
-    shown.push_back(world_.Read(body));
-    was_awake.push_back(world_.awake(body));
+    journey.shown.push_back({true, world_.Read(body), world_.awake(body)});
   }
   FindPressed(from);
-  if (!world_.Restore(barriers_.back()).ok()) return Forget();  // edited since
+  if (!world_.Restore(barriers_.back()).ok()) {  // edited since
+    Forget();
+    return false;
+  }
+  journey_ = std::move(journey);
+  credit_ -= static_cast<double>(journey_->now - world_.tick());
   PutIn();
-  while (world_.tick() < now) {
+  return true;
+}
+
+void Replay::StepTo(std::int64_t tick) {
+  while (world_.tick() < tick) {
     StepAgain();
     PutIn();
     TakeBarrier();
   }
+}
+
+/// At now again: what is only displayed is where it was, and the view of the rest stays there.
+void Replay::Arrive() {
   for (int body = 0; body < world_.body_count(); ++body) {
-    const auto b = static_cast<std::size_t>(body);
-    if (FollowsHistory(body, now) || RestsAsBefore(body, shown[b])) {
-      world_.Write(body, shown[b], false);
-      if (!was_awake[b]) world_.SetAwake(body, false);
+    const Shown& shown = journey_->shown[static_cast<std::size_t>(body)];
+    if (!shown.known) continue;
+    if (FollowsHistory(body, journey_->now) || RestsAsBefore(body, shown.state)) {
+      world_.Write(body, shown.state, false);
+      if (!shown.awake) world_.SetAwake(body, false);
     }
-    display_.Moved(body, Minus(world_.Read(body), shown[b]));
+    display_.Moved(body, Minus(world_.Read(body), shown.state));
   }
+  journey_.reset();
 }
 
 }  // namespace seam

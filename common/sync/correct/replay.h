@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -54,13 +55,30 @@ class Replay {
   /// Called after each tick that is stepped again, with the world as it was stepped.
   void OnSteppedAgain(std::function<void()> call) { on_stepped_again_ = std::move(call); }
   /// After a step to a tick of which States are sent: makes it one to go back to. At every such
-  /// tick, needed or not: worlds that are to come to the same bits are built anew at the same ticks.
+  /// tick, needed or not: worlds that are to come to the same bits are built anew at the same
+  /// ticks.
   void TakeBarrier();
   /// This peer did a player's action (index) before the step to `tick`; a replay repeats it. Not
   /// for rules that stamp inputs.
   void NoteAction(std::int64_t tick, int player, int action);
   /// There is no way back to before now: a body is new, or the bodies have changed.
   void Forget();
+
+  // Edits at their tick (replay_edits.cpp). For each, in their order: GoBackTo, World::Apply, Remap
+  // if the bodies have changed, Edited; after the last one GoOn.
+  /// Goes to where the world was after `tick`, or as near to it as there is a way: never before an
+  /// edit that was applied. Until GoOn the world's tick is that one.
+  void GoBackTo(std::int64_t tick);
+  /// What is shown is carried over to what the bodies became.
+  void Remap(const BodyRemap& change);
+  /// There is no way back to before this edit. `changed`: bodies are others now.
+  void Edited(bool changed);
+  /// Steps again to now.
+  void GoOn();
+  /// The tick to which GoOn will come; the world's while it did not go back.
+  std::int64_t now() const { return journey_ ? journey_->now : world_.tick(); }
+  /// To be called after each step that is done again, before anything is corrected.
+  void OnStep(std::function<void()> stepped) { stepped_ = std::move(stepped); }
 
   std::int64_t ticks_stepped_again() const { return stepped_again_; }
   /// Calls of Run that left their replay for the next.
@@ -73,6 +91,21 @@ class Replay {
   };
 
   bool RestsAsBefore(int body, const BodyState& pose);
+  /// What is shown of a body before it is stepped again.
+  struct Shown {
+    bool known = true;  ///< it was there
+    BodyState state;
+    bool awake = true;
+  };
+  struct Journey {
+    std::int64_t from = 0, now = 0;
+    std::vector<Shown> shown;  // by body
+  };
+
+  bool Depart(std::int64_t from);
+  void StepTo(std::int64_t tick);
+  void Arrive();
+  void BarrierAfterEdits();
   bool BeginsEarlier(int body, std::int64_t tick);
   void FindPressed(std::int64_t from);
   bool FollowsHistory(int body, std::int64_t tick) const;
@@ -96,6 +129,10 @@ class Replay {
   std::vector<bool> pressed_;           // by mechanism, of the replay that runs
   double credit_ = 0;                   // ticks that may be stepped again
   std::function<void()> on_stepped_again_ = [] {};
+  std::optional<Journey> journey_;  // while the world is in the past
+  bool edited_ = false;             // since the last step, and
+  bool rebuilt_ = false;            // ...bodies are others by it
+  std::function<void()> stepped_;
   std::int64_t stepped_again_ = 0;
   std::int64_t deferred_ = 0;
 };

@@ -8,8 +8,9 @@
 namespace seam {
 namespace {
 
-/// A player of whom nothing was heard for so long is not there: nobody waits for it. s
-constexpr double kSilent = 1.0;
+/// A player of whom nothing was heard for so long is not there: nobody waits for it. In a quiet
+/// room inputs come once a second. s
+constexpr double kSilent = 3.0;
 
 }  // namespace
 

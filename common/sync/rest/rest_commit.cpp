@@ -29,13 +29,15 @@ constexpr double kBackAfter = 0.75, kBackAfterTrusted = 2;
 }  // namespace
 
 RestCommit::RestCommit(const SyncConfig& config, World& world, const Roles& roles,
-                       BodyMemory& memory, Display& display, const std::vector<InputTrack>& inputs)
+                       BodyMemory& memory, Display& display, const std::vector<InputTrack>& inputs,
+                       const Reach& reach)
     : config_(config),
       world_(world),
       roles_(roles),
       memory_(memory),
       display_(display),
       inputs_(inputs),
+      reach_(reach),
       table_(world.body_count()),
       watch_(world),
       disturbed_(static_cast<std::size_t>(world.body_count())),

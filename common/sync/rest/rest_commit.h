@@ -12,6 +12,7 @@
 /// engine may never let them sleep: there a peer commits its own bodies when they have lain still
 /// whatever the copies do, and if that does not come about, the lowest peer's and then everybody's.
 /// Rules that stamp inputs need neither: their copies are the same, so they wake and sleep alike.
+/// They commit what sleeps at an input-complete tick: sleep before that may be an assumption.
 
 #include <cstdint>
 #include <vector>
@@ -22,6 +23,7 @@
 #include "common/sync/display.h"
 #include "common/sync/input_track.h"
 #include "common/sync/mode.h"
+#include "common/sync/reach/reach.h"
 #include "common/sync/rest/rest_table.h"
 #include "common/sync/rest/rest_watch.h"
 #include "common/sync/roles.h"
@@ -33,7 +35,7 @@ class RestCommit {
   /// All must outlive this. `inputs`: by player. Does nothing in mode oracle, and where
   /// the scene lets nothing sleep.
   RestCommit(const SyncConfig& config, World& world, const Roles& roles, BodyMemory& memory,
-             Display& display, const std::vector<InputTrack>& inputs);
+             Display& display, const std::vector<InputTrack>& inputs, const Reach& reach);
 
   /// Immediately before a step: what is held is exactly where it rests.
   void BeforeStep();
@@ -101,6 +103,7 @@ class RestCommit {
   BodyMemory& memory_;
   Display& display_;
   const std::vector<InputTrack>& inputs_;
+  const Reach& reach_;
   RestTable table_;
   RestWatch watch_;
   std::vector<Disturbance> disturbed_;  // by body

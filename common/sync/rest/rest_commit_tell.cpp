@@ -30,7 +30,11 @@ bool RestCommit::MayCommit(const std::vector<int>& island, const std::vector<int
   const auto each = [](const std::vector<int>& bodies, const auto& holds) {
     return std::all_of(bodies.begin(), bodies.end(), holds);
   };
-  const auto asleep = [&](int b) { return watch_.asleep(b) >= Ticks(kAsleepFor); };
+  const auto asleep = [&](int b) {
+    const std::int64_t assumed =
+        config_.rolls_back ? world_.tick() - reach_.CompleteTick(world_.mechanism(b)) : 0;
+    return watch_.asleep(b) >= Ticks(kAsleepFor) + assumed;
+  };
   if (each(own, asleep)) return true;
   if (Trusts()) return false;
   if (each(island, [&](int b) { return Own(b); })) return false;

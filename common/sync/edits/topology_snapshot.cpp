@@ -1,4 +1,4 @@
-#include "common/sync/topology_snapshot.h"
+#include "common/sync/edits/topology_snapshot.h"
 
 #include <algorithm>
 

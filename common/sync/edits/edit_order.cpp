@@ -1,4 +1,4 @@
-#include "common/sync/edit_order.h"
+#include "common/sync/edits/edit_order.h"
 
 namespace seam {
 namespace {

@@ -1,0 +1,101 @@
+/// Which ticks are input-complete: how far can what is not known yet have got?
+
+#include "common/sync/reach/reach.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/support/scripted_world.h"
+
+namespace seam {
+namespace {
+
+/// ann's and bob's boxes `gap` m apart, and a crate far from both; this is ann's peer.
+class Lot {
+ public:
+  explicit Lot(float gap, int own_player = 0)
+      : lot(ParseScene("[[player]]\nname = \"ann\"\nvehicle = \"hers\"\n"
+                       "[[player]]\nname = \"bob\"\nvehicle = \"his\"\n"
+                       "[[part]]\nname = \"ground\"\nchain = [[-900, 0], [900, 0]]\n"
+                       "[[part]]\nname = \"hers\"\nbox = [1, 1]\nposition = [0, 0.5]\n"
+                       "[[part]]\nname = \"his\"\nbox = [1, 1]\nposition = [" +
+                           std::to_string(1 + gap) +
+                           ", 0.5]\n"
+                           "[[part]]\nname = \"crate\"\nbox = [1, 1]\nposition = [-800, 0.5]\n",
+                       "lot.toml")),
+        roles(config, 1, own_player, lot.world) {
+    for (int t = 0; t < 60; ++t) lot.Step();
+  }
+
+  /// The newest tick of which inputs of the player are known is that many ticks ago.
+  void Heard(int player, std::int64_t ago) {
+    inputs[static_cast<std::size_t>(player)].Note(lot.world.tick() - ago, Input{});
+  }
+  /// How many ticks ago the newest input-complete tick of a part is.
+  std::int64_t Missing(const std::string& part) {
+    reach.Look();
+    return lot.world.tick() - reach.CompleteTick(lot.world.mechanism(lot.Body(part)));
+  }
+
+  SyncConfig config = MakeSyncConfig("buffer", "rollback");
+  ScriptedWorld lot;
+  Roles roles;
+  std::vector<InputTrack> inputs = std::vector<InputTrack>(2);
+  Reach reach{config, lot.world, roles, inputs};
+};
+
+TEST(Reach, TheOwnPlayerNeverLimits) {
+  Lot near(0.1f);
+  near.Heard(0, 20);
+  near.Heard(1, 0);
+  for (const char* part : {"hers", "his", "crate"}) EXPECT_EQ(near.Missing(part), 0) << part;
+}
+
+TEST(Reach, WhatANearPlayerDidIsMissedAndWhatAFarOneDidIsNot) {
+  Lot near(0.1f);
+  near.Heard(1, 20);
+  EXPECT_EQ(near.Missing("hers"), 20);
+  EXPECT_EQ(near.Missing("his"), 20);
+  EXPECT_EQ(near.Missing("crate"), 0) << "out of reach of both";
+  Lot far(100);
+  far.Heard(1, 20);
+  EXPECT_EQ(far.Missing("hers"), 0);
+  EXPECT_EQ(far.Missing("his"), 20) << "his own is moved by it wherever it is";
+}
+
+TEST(Reach, HowFarItReachesGrowsWithWhatIsMissing) {
+  Lot lot(3);  // both can accelerate: 10 m/s^2 t^2
+  lot.Heard(1, 6);
+  EXPECT_EQ(lot.Missing("hers"), 0);
+  Lot later(3);
+  later.Heard(1, 40);
+  EXPECT_EQ(later.Missing("hers"), 40);
+}
+
+TEST(Reach, OfSeveralNearPlayersTheOneHeardLeastOfLimits) {
+  Lot server(0.1f, -1);  // plays nobody
+  server.Heard(0, 5);
+  server.Heard(1, 12);
+  EXPECT_EQ(server.Missing("hers"), 12);
+  server.Heard(1, 0);
+  EXPECT_EQ(server.Missing("hers"), 5);
+}
+
+TEST(Reach, NobodyWaitsForWhoWasNeverHeardOrNotForThreeSeconds) {
+  Lot never(0.1f);
+  EXPECT_EQ(never.Missing("hers"), 0);
+  Lot gone(0.1f);
+  gone.Heard(1, 0);
+  for (int t = 0; t < 180; ++t) gone.lot.Step();
+  EXPECT_EQ(gone.Missing("hers"), 180) << "in a quiet room little is said";
+  gone.lot.Step();
+  EXPECT_EQ(gone.Missing("hers"), 0);
+}
+
+TEST(Reach, InputsOfTicksStillToComeAreNotMissing) {
+  Lot lot(0.1f);
+  lot.Heard(1, -3);  // with an input delay they come before their tick
+  EXPECT_EQ(lot.Missing("his"), 0);
+}
+
+}  // namespace
+}  // namespace seam
