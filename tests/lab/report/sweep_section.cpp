@@ -61,7 +61,7 @@ PlotPanel MeasurePanel(const Sweep& sweep, const SweepGroup& group, const SweepM
 void AddLimit(const Sweep& sweep, const SweepGroup& group, PlotPanel* panel) {
   PlotCurve curve;
   curve.name = "information limit";
-  curve.look = {"#999999", "(1,3)", 2.0, 0, 0};
+  curve.look = {"#000000", "(1,2)", 2.2, 0, 0};
   for (const double x : group.xs) {
     std::vector<std::size_t> rows;
     for (const auto& method : group.runs) {
