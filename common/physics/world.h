@@ -34,8 +34,8 @@ struct PartTouch {
   bool operator<(const PartTouch& o) const { return a != o.a ? a < o.a : b < o.b; }
 };
 
-/// A direction in which something anchored holds a body back: a contact's normal, or the line of a
-/// distance joint to an anchor.
+/// A direction in which something holds a body back: the normal of a contact, whatever it is with,
+/// or the line of a distance joint to an anchor.
 struct BlockedDirection {
   int body = -1;
   Vec2 normal{0, 1};  ///< unit

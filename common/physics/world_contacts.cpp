@@ -28,15 +28,21 @@ constexpr float kSameDirection = 0.9f;
 /// A rope this much shorter than it may be is still taut, m.
 constexpr float kTaut = 0.01f;
 
-void AddBlockedDirection(int body, const Vec2& normal,
-                         std::vector<BlockedDirection>* blocked_directions) {
-  int known = 0;
-  for (const BlockedDirection& blocked : *blocked_directions) {
-    if (blocked.body != body) continue;
-    if (std::fabs(blocked.normal.dot(normal)) > kSameDirection) return;
-    ++known;
+/// Of each body at most two, the first found of those that point the same way.
+std::vector<BlockedDirection> Distinct(std::vector<BlockedDirection> all) {
+  std::stable_sort(
+      all.begin(), all.end(),
+      [](const BlockedDirection& x, const BlockedDirection& y) { return x.body < y.body; });
+  std::vector<BlockedDirection> out;
+  for (const BlockedDirection& found : all) {
+    std::size_t known = 0;
+    bool same = false;
+    for (auto it = out.rbegin(); it != out.rend() && it->body == found.body; ++it, ++known) {
+      same = same || std::fabs(it->normal.dot(found.normal)) > kSameDirection;
+    }
+    if (!same && known < 2) out.push_back(found);
   }
-  if (known < 2) blocked_directions->push_back({body, normal});
+  return out;
 }
 
 }  // namespace
@@ -116,10 +122,12 @@ std::vector<BlockedDirection> FindBlockedDirections(const b2World& world,
   std::vector<BlockedDirection> blocked_directions;
   for (const b2Contact* c = world.GetContactList(); c != nullptr; c = c->GetNext()) {
     const std::pair<int, int> pair = PairOf(c);
-    if (!Touching(c) || pair.first >= 0 || pair.second < 0) continue;
+    if (!Touching(c) || pair.second < 0) continue;
     b2WorldManifold manifold;
     c->GetWorldManifold(&manifold);
-    AddBlockedDirection(pair.second, FromB2(manifold.normal), &blocked_directions);
+    for (const int body : {pair.first, pair.second}) {
+      if (body >= 0) blocked_directions.push_back({body, FromB2(manifold.normal)});
+    }
   }
   for (b2DistanceJoint* tether : tethers) {
     const Vec2 along = FromB2(tether->GetAnchorB() - tether->GetAnchorA());
@@ -128,12 +136,9 @@ std::vector<BlockedDirection> FindBlockedDirections(const b2World& world,
         tether->GetMinLength() < tether->GetMaxLength() && length < tether->GetMaxLength() - kTaut;
     if (length <= 0 || slack) continue;
     const int body = std::max(IndexOf(tether->GetBodyA()), IndexOf(tether->GetBodyB()));
-    AddBlockedDirection(body, along / length, &blocked_directions);
+    blocked_directions.push_back({body, along / length});
   }
-  std::stable_sort(
-      blocked_directions.begin(), blocked_directions.end(),
-      [](const BlockedDirection& x, const BlockedDirection& y) { return x.body < y.body; });
-  return blocked_directions;
+  return Distinct(std::move(blocked_directions));
 }
 
 }  // namespace seam

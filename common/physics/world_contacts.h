@@ -1,5 +1,5 @@
 #pragma once
-/// What a tick's contacts did: impacts, touches, and what anchored things blocked.
+/// What a tick's contacts did: impacts, touches, and which directions are blocked.
 
 #include <vector>
 

@@ -63,13 +63,6 @@ void Display::Glide(const Roles& roles) {
   for (int m = 0; m < mechanisms; ++m) {
     const std::vector<int>& bodies = joints_.bodies(m);
     int& corrected = corrected_ticks_[static_cast<std::size_t>(m)];
-    if (IsOff(m) && config_.StampsInputs(roles.self())) {
-      joints_.Trust(m);
-    } else if (IsOff(m)) {
-      joints_.Follow(m, corrected > 0);
-    } else {
-      joints_.Forget(m);
-    }
     corrected = std::max(0, corrected - 1);
     if (bodies.size() == 1) {
       const int body = bodies.front();

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <fstream>
+#include <sstream>
 #include <vector>
 
 #include "common/measure/measure.h"
@@ -11,9 +13,15 @@
 namespace seam {
 namespace {
 
+/// What is beyond the buffer zone is displayed only: a rule that pulls a copy of all there is on in
+/// every tick is another matter.
 ClusterConfig With(const std::string& scene, const std::string& reconcile) {
+  std::ifstream file("scenes/" + scene + ".toml");
+  std::stringstream text;
+  text << "follow = 0\n" << file.rdbuf();
   ClusterConfig config;
   config.scene = scene;
+  config.scene_text = text.str();
   config.reconcile = reconcile;
   return config;
 }

@@ -20,7 +20,7 @@ namespace seam {
 namespace {
 
 /// Sessions in a test; SEAM_SOAK multiplies them, up to so many.
-constexpr int kRuns = 20, kRunsMax = 6000;
+constexpr int kRuns = 20, kRunsMax = 2000;
 /// Of each, s after tick 0.
 constexpr double kSeconds = 4;
 /// The worst of each kind that are printed.

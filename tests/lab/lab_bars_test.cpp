@@ -2,8 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
+#include <filesystem>
+#include <set>
 
+#include "common/sync/reconcile/reconcile.h"
+#include "tests/lab/grid.h"
 #include "tests/lab/report/hurry_section.h"
 
 namespace seam {
@@ -20,7 +23,7 @@ std::string Row(const std::string& method, const std::string& rest, const std::s
 }
 
 std::string OneRun(const std::string& method, int seed, const std::string& others,
-                const std::string& rms) {
+                   const std::string& rms) {
   return Row(
       method,
       "demo,bot,on," + std::to_string(seed) + "," + others + "," + rms + ",8,0.1,0.02,0.001,6,0.3,",
@@ -35,7 +38,8 @@ std::vector<CaseTable> TablesOf(const std::string& rows, const std::string& name
 std::string TwoMethods(const std::string& own, const std::string& rms, const std::string& central) {
   std::string rows;
   for (const int seed : {1, 2, 3}) {
-    rows += OneRun("buffer,rollback", seed, own, rms) + OneRun("central,all", seed, central, "0.01");
+    rows +=
+        OneRun("buffer,rollback", seed, own, rms) + OneRun("central,all", seed, central, "0.01");
   }
   return rows;
 }
@@ -58,7 +62,8 @@ TEST(Bars, AreHeldOrMissedAndSayByWhom) {
 TEST(Bars, AMethodThatDidNotRunMisses) {
   std::string rows;
   for (const int seed : {1, 2}) {
-    rows += OneRun("buffer,rollback", seed, "0.01", "0.01") + OneRun("buffer,fade", seed, "0.3", "0.3");
+    rows +=
+        OneRun("buffer,rollback", seed, "0.01", "0.01") + OneRun("buffer,fade", seed, "0.3", "0.3");
   }
   EXPECT_EQ(VerdictOf(rows), "missed: central/all");
 }
@@ -127,6 +132,30 @@ TEST(Report, TheFirstPageNamesTheMostExactAndTheCheapestOfThoseNearlyAsExact) {
   EXPECT_EQ(which.rows[1],
             (std::vector<std::string>{"crossing, 100 ms", "rollback 0.1, 20 ms/s",
                                       "fade 0.12, 5 ms/s", "0.1, 20 ms/s", "0.13, 1 ms/s", "–"}));
+}
+
+TEST(Report, TheSweepsItRunsCanBeRunAndLeaveNoReconcilerOut) {
+  for (const char* folder : {"tests/lab/sweeps", "tests/lab/sweeps/quick"}) {
+    std::size_t count = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+      if (entry.path().extension() != ".toml") continue;
+      const std::string stem = entry.path().stem();
+      const std::set<std::string> few = {
+          "worlds",  "crowds",      "must-heap",        "must-worlds", "must-gas",  // dear
+          "floors",  "floors-demo", "floors-gluehouse",  // of the measure itself
+          "changes", "input-delay", "must-limit"};       // the best of each kind
+      if (few.count(stem) > 0) continue;
+      ++count;
+      std::set<std::string> rules;
+      for (const GridPoint& point : ReadGrid(entry.path().string()).points) {
+        rules.insert(point.settings.reconcile);
+      }
+      for (const NamedReconciler& known : Reconcilers()) {
+        EXPECT_EQ(rules.count(known.name), 1u) << entry.path() << " leaves out " << known.name;
+      }
+    }
+    EXPECT_GE(count, 3u) << folder;
+  }
 }
 
 }  // namespace

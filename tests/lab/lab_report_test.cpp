@@ -6,9 +6,7 @@
 #include <filesystem>
 
 #include "common/base/check.h"
-#include "common/sync/reconcile/reconcile.h"
 #include "tests/lab/commands.h"
-#include "tests/lab/grid.h"
 #include "tests/lab/report/physics_section.h"
 #include "tests/lab/report/report.h"
 #include "tests/lab/report/sweep_section.h"

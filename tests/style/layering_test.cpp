@@ -151,7 +151,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
   const std::vector<std::pair<const char*, const char*>> table = {
       {"common/sync/reconcile", "none"},
       {"common/sync/correct", "common/sync(/reconcile|/rest)?"},
-      {"common/sync/rest", "common/sync(/reconcile)?"},
+      {"common/sync/rest", "common/sync(/reconcile|/reach)?"},
       {"common/sync/reach", "common/sync"},
       {"common/sync/edits", "none"},
       {"common/measure/screen", "common/measure"},

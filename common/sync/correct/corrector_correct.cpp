@@ -143,6 +143,14 @@ void Corrector::Blend(int body, const BodyState& local, const Correction& c, std
       *past = PlusScaled(*past, PlusScaled(c.then, Minus(c.now, c.then), s), 1);
     }
   }
+  const std::int64_t since = memory_.track(body).dynamic_since;
+  if (!c.rewrites_history && from < since) {
+    // It was placed for want of a past: what past it has moves along, or the next message would
+    // find the same difference again.
+    for (std::int64_t t = since; t < now; ++t) {
+      if (BodyState* past = memory_.history().At(t, body)) *past = PlusScaled(*past, c.now, 1);
+    }
+  }
   world_.Write(body, corrected);
   *memory_.history().At(now, body) = corrected;
   display_.Moved(body, Minus(corrected, local));

@@ -8,8 +8,8 @@
 namespace seam {
 namespace {
 
-/// A player of whom nothing was heard for so long is not there: nobody waits for it. In a quiet room
-/// inputs come once a second. s
+/// A player of whom nothing was heard for so long is not there: nobody waits for it. In a quiet
+/// room inputs come once a second. s
 constexpr double kSilent = 3.0;
 
 }  // namespace

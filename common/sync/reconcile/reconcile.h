@@ -30,7 +30,7 @@ struct ReconcileInput {
   /// gained since t1, m/s: more would be energy out of nothing.
   float speed_max = FLT_MAX;
   bool alone = true;      ///< its mechanism is this one body
-  int blocked_count = 0;  ///< directions in which something anchored holds the
+  int blocked_count = 0;  ///< directions in which something holds the
   Vec2 blocked_directions[2] = {{0, 0}, {0, 0}};  ///< mechanism back, unit vectors
 };
 

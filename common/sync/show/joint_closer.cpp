@@ -1,11 +1,9 @@
 #include "common/sync/show/joint_closer.h"
 
 #include <algorithm>
-#include <cfloat>
 #include <cmath>
 
 #include "common/base/check.h"
-#include "common/base/geometry.h"
 
 namespace seam {
 namespace {
@@ -13,14 +11,6 @@ namespace {
 /// What is off by centimetres takes a few sweeps; a chain of a dozen links that is off by half a
 /// metre everywhere takes about a hundred. What is left after these is seen as an open joint.
 constexpr int kRoundsMax = 120;
-/// What the engine leaves open of a joint is believed up to kSlackStart at once, and beyond that as
-/// it grows by kSlackPerTick, m and rad: a load opens joints slowly, a correction in a tick.
-constexpr float kSlackStart = 0.003f, kSlackPerTick = 0.001f;
-
-float Followed(float slack, float open) {
-  return slack + std::clamp(open - slack, -kSlackPerTick, kSlackPerTick);
-}
-
 /// A pin between two bodies of a list.
 struct Hold {
   const Pin* pin = nullptr;
@@ -62,15 +52,6 @@ Assembled InWorld(const World& world, const std::vector<int>& bodies,
   return Assembled(world, bodies, pins, [&](int body) { return world.Read(body); });
 }
 
-/// What may stay of what the engine left open.
-PinLeft LeftOf(const PinGap& gap, const PinSlack& slack) {
-  PinLeft left;
-  const float size = gap.excess.norm();
-  left.excess = size > slack.shift ? Vec2(gap.excess * (slack.shift / size)) : gap.excess;
-  left.turn = std::clamp(gap.turn, -slack.turn, slack.turn);
-  return left;
-}
-
 }  // namespace
 
 void JointCloser::Rebuild() {
@@ -86,30 +67,6 @@ void JointCloser::Rebuild() {
   }
 }
 
-void JointCloser::Follow(int mechanism, bool corrected) {
-  Jointed& jointed = mechanisms_[static_cast<std::size_t>(mechanism)];
-  if (jointed.pins.empty()) return;
-  jointed.slacks.resize(jointed.pins.size(), PinSlack{kSlackStart, kSlackStart});
-  const Assembled real = InWorld(world_, jointed.bodies, jointed.pins);
-  for (std::size_t i = 0; i < jointed.pins.size(); ++i) {
-    const PinGap gap = real.Gap(i);
-    PinSlack& slack = jointed.slacks[i];
-    const float shift = corrected ? 0 : gap.excess.norm();
-    const float turn = corrected ? 0 : std::fabs(gap.turn);
-    slack.shift = Followed(slack.shift, std::max(kSlackStart, shift));
-    slack.turn = Followed(slack.turn, std::max(kSlackStart, turn));
-  }
-}
-
-void JointCloser::Trust(int mechanism) {
-  Jointed& jointed = mechanisms_[static_cast<std::size_t>(mechanism)];
-  jointed.slacks.assign(jointed.pins.size(), PinSlack{FLT_MAX, kPiFloat});
-}
-
-void JointCloser::Forget(int mechanism) {
-  mechanisms_[static_cast<std::size_t>(mechanism)].slacks.clear();
-}
-
 void JointCloser::Close(int mechanism, bool simulated, std::vector<BodyState>* poses) const {
   const Jointed& jointed = At(mechanism);
   SEAM_ASSERT(static_cast<int>(poses->size()) == world_.body_count());
@@ -119,9 +76,8 @@ void JointCloser::Close(int mechanism, bool simulated, std::vector<BodyState>* p
   if (simulated) {
     const Assembled real = InWorld(world_, jointed.bodies, jointed.pins);
     for (std::size_t i = 0; i < left.size(); ++i) {
-      const bool followed = !jointed.slacks.empty();
-      left[i] =
-          LeftOf(real.Gap(i), followed ? jointed.slacks[i] : PinSlack{kSlackStart, kSlackStart});
+      const PinGap gap = real.Gap(i);
+      left[i] = {gap.excess, gap.turn};
     }
   }
   bool open = true;

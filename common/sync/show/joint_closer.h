@@ -26,26 +26,15 @@ class JointCloser {
   /// Moves poses of this mechanism's bodies (`poses` is by body) until its joints and their limits
   /// are within 0.1 mm and 0.1 mrad, or kRoundsMax sweeps are over. Mass times displacement sums up
   /// to 0 where nothing is anchored. Velocities stay. If `simulated`, joints may stay as far open
-  /// as they are in the world, but no further than Follow has seen. A mechanism whose joints are
+  /// as they are in the world: a load opens them there and in the truth alike. A mechanism whose joints are
   /// closed is left alone bit for bit.
   void Close(int mechanism, bool simulated, std::vector<BodyState>* poses) const;
-
-  /// After each step for which a mechanism is to be closed as a simulated one: looks at how far the
-  /// engine leaves its joints open. Of one that was `corrected` a moment ago nothing is learnt:
-  /// what is open was torn.
-  void Follow(int mechanism, bool corrected);
-  /// The same where a simulated mechanism is what it should be, as after a replay: all that the
-  /// engine left open stays open.
-  void Trust(int mechanism);
-  /// There was nothing to close after this step.
-  void Forget(int mechanism);
 
  private:
   struct Jointed {
     std::vector<int> bodies;
     std::vector<Pin> pins;
     bool anchored = false;
-    std::vector<PinSlack> slacks;  // by pin; empty: not followed
   };
   const Jointed& At(int mechanism) const {
     return mechanisms_[static_cast<std::size_t>(mechanism)];

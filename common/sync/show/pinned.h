@@ -19,11 +19,6 @@ struct PinnedBody {
   void Push(const Vec2& at, const Vec2& impulse);
 };
 
-/// How far a pin may stay open beyond its limits, m and rad.
-struct PinSlack {
-  float shift = 0, turn = 0;
-};
-
 /// A gap that may stay: any between this and none, m (in the frame of the axis) and rad.
 struct PinLeft {
   Vec2 excess{0, 0};

@@ -78,12 +78,15 @@ const ReportCase* CaseFor(const Bar& bar, const std::vector<ReportCase>& cases) 
   return nullptr;
 }
 
-/// Of the scene's own sensitivity, from any sweep that has it.
-std::optional<double> WireFloor(const Bar& bar, const std::vector<ReportCase>& cases) {
+/// What no method is expected to beat, from any sweep that has it. A floor is the scene's and its
+/// drive's; the information limit also depends on the network.
+std::optional<double> Unbeaten(const Bar& bar, const std::vector<ReportCase>& cases,
+                               const std::string& column) {
   for (const ReportCase& found : cases) {
     if (found.scene != bar.scene || found.drive != bar.drive) continue;
+    if (column == "info_limit_m" && found.impair != bar.impair) continue;
     for (const CaseMethod& method : found.methods) {
-      if (const auto floor = MedianOf(&method, "floor_wire_m")) return floor;
+      if (const auto floor = MedianOf(&method, column)) return floor;
     }
   }
   return std::nullopt;
@@ -150,7 +153,7 @@ TextTable BarTable(const std::vector<ReportCase>& cases, const Before* before) {
     const auto own = Value(bar, *at, kDefaultMethod), central = Value(bar, *at, kCentralMethod);
     const auto rms = MedianOf(at->Find(kDefaultMethod), "error_rms_m");
     double limit = bar.of_default;
-    const auto floor = WireFloor(bar, cases);
+    const auto floor = Unbeaten(bar, cases, "floor_wire_m");
     if (bar.by_floor > 0 && floor) limit = bar.by_floor * *floor;
     const bool rms_held = !others || std::isnan(limit) || (rms && *rms <= kRmsShare * limit);
     const std::string verdict =
@@ -162,6 +165,8 @@ TextTable BarTable(const std::vector<ReportCase>& cases, const Before* before) {
     };
     std::string bar_text = BarText(bar, limit);
     if (others && floor) bar_text += " (floor_wire_m " + Digits(*floor) + ")";
+    const auto known = Unbeaten(bar, cases, "info_limit_m");
+    if (others && known) bar_text += " (information limit " + Digits(*known) + ")";
     table.rows.push_back({Named(bar, *at), text(was(bar.column)),
                           others ? text(was("error_rms_m")) : "–",
                           CellOf(at->Find(kDefaultMethod), own), others ? text(rms) : "–",

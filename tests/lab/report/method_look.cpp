@@ -29,8 +29,8 @@ const std::array<Known, 15>& Methods() {
       {"pvb", {"#56b4e9", "solid", 1.5, 12, 0.7}},
       {"spring", {"#cc79a7", "solid", 1.5, 14, 0.7}},
       {"resimulate", {"#0072b2", "solid", 1.7, 5, 0.6}},
-      {"retrospect", {"#d55e00", "solid", 2.6, 7, 0.7}},
-      {"rollback", {"#009e73", "(8,3)", 2.6, 13, 0.7}},
+      {"retrospect", {"#d55e00", "(8,3)", 1.7, 7, 0.7}},
+      {"rollback", {"#d55e00", "solid", 2.6, 13, 0.7}},
       {"buffer", {"#d55e00", "(2,2)", 1.5, 7, 0.5}},
   }};
   return methods;

@@ -57,6 +57,31 @@ PlotPanel MeasurePanel(const Sweep& sweep, const SweepGroup& group, const SweepM
   return panel;
 }
 
+/// What no method can know depends on the network, so it is a curve and not a level.
+void AddLimit(const Sweep& sweep, const SweepGroup& group, PlotPanel* panel) {
+  PlotCurve curve;
+  curve.name = "information limit";
+  curve.look = {"#000000", "(1,2)", 2.2, 0, 0};
+  for (const double x : group.xs) {
+    std::vector<std::size_t> rows;
+    for (const auto& method : group.runs) {
+      const auto found = method.second.find(x);
+      if (found != method.second.end()) {
+        rows.insert(rows.end(), found->second.begin(), found->second.end());
+      }
+    }
+    const auto q = Summary(sweep.table, MeasureNamed("info-limit"), rows);
+    if (q) curve.points.push_back({x, q->median, q->low, q->high});
+  }
+  if (!curve.points.empty()) panel->curves.push_back(std::move(curve));
+}
+
+/// A single point here and there is in the tables.
+bool HasCurves(const PlotPanel& panel) {
+  return std::any_of(panel.curves.begin(), panel.curves.end(),
+                     [](const PlotCurve& curve) { return curve.points.size() > 1; });
+}
+
 /// Something above zero somewhere.
 bool HasSubstance(const PlotPanel& panel) {
   for (const PlotCurve& curve : panel.curves) {
@@ -75,13 +100,15 @@ Figure CurvesOf(const Sweep& sweep, const SweepGroup& group) {
   std::string nothing;
   for (const SweepMeasure& measure : SweepMeasures()) {
     PlotPanel panel = MeasurePanel(sweep, group, measure);
-    if (panel.curves.empty()) continue;
+    if (!HasCurves(panel)) continue;
     if (!HasSubstance(panel)) {
       nothing += (nothing.empty() ? "" : ", ") + measure.name;
       continue;
     }
     if (measure.id == HeadlineOf(sweep).id) {
+      AddLimit(sweep, group, &panel);
       for (const SweepMeasure& measured : FloorMeasures()) {
+        if (measured.id == "info-limit") continue;
         const auto floor = Summary(sweep.table, measured, group);
         if (floor) panel.levels.push_back({floor->median, measured.name});
       }
@@ -262,10 +289,6 @@ Section SweepSection(const Sweep& sweep) {
     Figure fronts = FrontsOf(sweep, group);
     const bool any = sweep.view.axis.ours && !fronts.panels.empty();
     if (any) section.items.emplace_back(std::move(fronts));
-    if (!along) {
-      section.items.emplace_back(MeasuresTable(sweep, group));
-      continue;
-    }
     const SweepMeasure& headline = HeadlineOf(sweep);
     section.items.emplace_back(AlongTable(sweep, group, headline));
     if (DelaysInputs(sweep)) {
