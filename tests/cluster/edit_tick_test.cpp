@@ -22,8 +22,23 @@ Recording Break(const std::string& impair, std::int64_t seed) {
   config.reconcile = "rollback";
   config.impair = impair;
   config.seed = seed;
-  config.duration_s = 3.5;
+  config.duration_s = 2.9;  // before the pieces meet
   return RunCluster(config);
+}
+
+/// How far any body is from the oracle in anybody's last view, m.
+double Last(const Recording& recording, const Oracle& oracle) {
+  double worst = 0;
+  for (const auto& [peer, views] : recording.views) {
+    const auto& [tick, view] = *views.rbegin();
+    for (std::size_t i = 0; i < view.id.size(); ++i) {
+      const std::optional<BodyState> truth = oracle.At(tick, view.id[i]);
+      if (!truth) return 1e9;
+      const Vec2 at(view.x[i], view.y[i]);
+      worst = std::max(worst, static_cast<double>((at - truth->position).norm()));
+    }
+  }
+  return worst;
 }
 
 TEST(EditTick, GlueBreaksAtTheTickOfTheOracleHoweverSlowTheNetworkIs) {
@@ -41,12 +56,12 @@ TEST(EditTick, GlueBreaksAtTheTickOfTheOracleHoweverSlowTheNetworkIs) {
       EXPECT_EQ(KeyOf(ToEdit(order)), KeyOf(oracle.edits[n])) << impair << ": edit " << number;
       ++n;
     }
-    EXPECT_LT(Measure(recording, oracle).error_others_m.value_or(9), 0.8) << impair;
-    // Every peer ends with the same composition: as many bodies in each last view.
     for (const auto& [peer, views] : recording.views) {
       EXPECT_EQ(views.rbegin()->second.revision, recording.views.at(0).rbegin()->second.revision)
           << impair << ": peer " << peer;
     }
+    if (impair != "4g") continue;
+    EXPECT_LT(Last(recording, oracle), 0.02) << impair << ": everybody has gone back";
   }
 }
 
@@ -104,8 +119,12 @@ TEST(EditTick, OneThatComesLateIsAsIfItHadComeInTime) {
   Room early("rollback"), late("rollback");
   for (int i = 0; i < 61; ++i) {
     // Off the ticks of barriers, too.
-    if (i == 21) EXPECT_TRUE(early.replica.Queue(BreakAt(0, 0, 21)));
-    if (i == 24) EXPECT_TRUE(early.replica.Queue(BreakAt(2, 1, 24)));
+    if (i == 21) {
+      EXPECT_TRUE(early.replica.Queue(BreakAt(0, 0, 21)));
+    }
+    if (i == 24) {
+      EXPECT_TRUE(early.replica.Queue(BreakAt(2, 1, 24)));
+    }
     if (i == 40) {
       EXPECT_TRUE(late.replica.Queue(BreakAt(0, 0, 21)));
       EXPECT_TRUE(late.replica.Queue(BreakAt(2, 1, 24)));
