@@ -51,8 +51,11 @@ TEST(InformationLimit, IsATableOfMultiplesWhereASweepHasIt) {
   EXPECT_DOUBLE_EQ(LimitMeasure().value(sweep.table, 0).value(), 0.3 / 0.25);
   EXPECT_DOUBLE_EQ(LimitMeasure().value(sweep.table, 2).value(), 20);
   EXPECT_FALSE(LimitMeasure().value(SweepOf(kOracleRow).table, 0).has_value());
+  const Sweep latencies = SweepOf(
+      "v,wall.toml,buffer,fade,delay=20ms,script,1,0.3,9,9,0.1,0.2,0.05,0.25,plain,\n"
+      "v,wall.toml,buffer,fade,delay=40ms,script,1,0.4,9,9,0.1,0.2,0.05,0.25,plain,\n");
   int tables = 0;
-  for (const PageItem& item : SweepSection(sweep).items) {
+  for (const PageItem& item : SweepSection(latencies).items) {
     const auto* table = std::get_if<TextTable>(&item);
     tables += table != nullptr && table->name == "t-wall-limit" ? 1 : 0;
   }

@@ -77,7 +77,8 @@ TEST(Validity, AHandOverIsExpectedOnlyOfModesThatHaveThem) {
 TEST(Validity, ARowSaysByWhichOracleItIsJudged) {
   EXPECT_EQ(RowOf("", "methods = 'buffer/resimulate'")["oracle"], "barrier");
   EXPECT_EQ(RowOf("", "methods = 'buffer/fade'")["oracle"], "plain");
-  EXPECT_EQ(RowOf("", "methods = 'central'")["oracle"], "plain");
+  EXPECT_EQ(RowOf("", "methods = 'central/all'")["oracle"], "barrier");
+  EXPECT_EQ(RowOf("", "methods = 'central/own'")["oracle"], "plain");
 }
 
 TEST(Validity, TheLossMayBeSmallerOnlyByChance) {
@@ -117,13 +118,14 @@ std::string TableWith(int invalid) {
   std::string text = "version,scene,mode,reconcile,impair,drive,seed,error_rms_m,valid,cpu_s\n";
   for (int seed = 1; seed <= 20; ++seed) {
     const std::string end = seed <= invalid ? ",,no contact,0.1\n" : ",0.25,,0.1\n";
-    text += "v,wall.toml,buffer,fade,demo,script," + std::to_string(seed) + end;
+    text += "v,wall.toml,buffer,fade,delay=20ms,script," + std::to_string(seed) + end;
   }
   return text;
 }
 
 std::string ErrorCell(int invalid) {
-  CsvTable table = CsvTable::Parse(TableWith(invalid), "t.csv");
+  const char* const other = "v,wall.toml,buffer,fade,delay=40ms,script,1,0.5,,0.1\n";
+  CsvTable table = CsvTable::Parse(TableWith(invalid) + other, "t.csv");
   SweepView view = ViewSweep(table);
   const Section section = SweepSection({"t", "", std::move(table), std::move(view)});
   for (const PageItem& item : section.items) {
