@@ -58,6 +58,60 @@ TEST(Snapshot, WithoutTheBarrierAReplayGoesAnotherWay) {
   EXPECT_EQ(other.world.tick(), 240);
 }
 
+/// A cart that its player does not drive, asleep on the ground.
+const char* kCart = R"([[player]]
+name = "ann"
+[[part]]
+name = "ground"
+chain = [[-50, 0], [50, 0]]
+[[part]]
+name = "cart"
+box = [2, 0.4]
+position = [0, 0.6]
+owner = "ann"
+[[part]]
+name = "wheel"
+circle = 0.3
+position = [-0.7, 0.3]
+repeat = {count = 2, step = [1.4, 0]}
+[[joint]]
+name = "axle"
+kind = "hinge"
+a = "cart"
+b = "wheel.0"
+anchor = [-0.7, 0.3]
+motor = {player = "ann", speed = -6, torque = 5}
+[[joint]]
+name = "other"
+kind = "hinge"
+a = "cart"
+b = "wheel.1"
+anchor = [0.7, 0.3]
+)";
+
+TEST(Snapshot, GoingBackFromADriveToBeforeItWakesNothing) {
+  World world(ParseScene(kCart, "cart.toml"));
+  Input drive;
+  drive.drive = 100;
+  for (int t = 0; t < 600 && world.awake(0); ++t) {
+    world.SetInput(0, Input{});
+    world.Step();
+  }
+  ASSERT_FALSE(world.awake(0));
+  const WorldSnapshot before = world.Barrier();
+  world.SetInput(0, Input{});
+  world.Step();
+  const std::uint64_t hash = world.Hash();
+  world.SetInput(0, drive);
+  world.Step();
+  ASSERT_TRUE(world.awake(0)) << "it is driven, or the test shows nothing";
+  ASSERT_TRUE(world.Restore(before).ok());
+  world.SetInput(0, Input{});
+  world.Step();
+  EXPECT_FALSE(world.awake(0)) << "the same input as before changes nothing";
+  EXPECT_EQ(world.Hash(), hash);
+}
+
 /// A pile at rest under a barrier every tick.
 const char* kPile =
     "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [50, 0]]\n"
