@@ -125,8 +125,8 @@ TEST(JointCloser, WhatIsClosedStaysBitForBit) {
   }
 }
 
-/// A hinge that stands open by 5 cm in the world stays so where it is simulated, and is closed where
-/// it is only displayed.
+/// A hinge that stands open by 5 cm in the world stays so where it is simulated, and is closed
+/// where it is only displayed.
 TEST(JointCloser, LeavesOpenWhatTheEngineLeavesOpen) {
   const auto world =
       SmallWorld(Box("a", 0) + Box("b", 1) + Between("a", "b", 0.5, "kind = \"revolute\""));

@@ -26,8 +26,8 @@ class JointCloser {
   /// Moves poses of this mechanism's bodies (`poses` is by body) until its joints and their limits
   /// are within 0.1 mm and 0.1 mrad, or kRoundsMax sweeps are over. Mass times displacement sums up
   /// to 0 where nothing is anchored. Velocities stay. If `simulated`, joints may stay as far open
-  /// as they are in the world: a load opens them there and in the truth alike. A mechanism whose joints are
-  /// closed is left alone bit for bit.
+  /// as they are in the world: a load opens them there and in the truth alike. A mechanism whose
+  /// joints are closed is left alone bit for bit.
   void Close(int mechanism, bool simulated, std::vector<BodyState>* poses) const;
 
  private:
