@@ -59,7 +59,7 @@ void Define(CLI::App& app, Flags& f) {
   app.add_option("--port", f.port, "UDP port")->check(CLI::Range(1, 65535));
   app.add_option("--bind", f.bind, "address to listen on");
   app.add_option("--mode", f.mode, "oracle | central | strict | buffer");
-  app.add_option("--reconcile", f.reconcile, "rule for mode buffer (default retrospect)");
+  app.add_option("--reconcile", f.reconcile, "rule for mode buffer (default rollback)");
   app.add_option("--predict", f.predict,
                  "what clients of mode central simulate ahead: own | all (default all)");
   app.add_option("--input-delay", f.input_delay_ticks,

@@ -20,7 +20,7 @@ CLI::App* DefineRun(CLI::App& app, RunCommand& c) {
   run->add_option("SCENE", s.scene, "scene file, or the name of a scene")->required();
   run->add_option("-o,--output", c.log, "LCM log to write")->required();
   run->add_option("--mode", s.mode, "oracle | central | strict | buffer");
-  run->add_option("--reconcile", s.reconcile, "rule for mode buffer (default retrospect)");
+  run->add_option("--reconcile", s.reconcile, "rule for mode buffer (default rollback)");
   run->add_option("--predict", s.predict, "of mode central's clients: own | all (default all)");
   run->add_option("--impair", s.impair, "network, both directions: a profile's name or a list");
   run->add_option("--seed", s.seed, "of network and bots")->check(CLI::Range(0, 1000000000));
