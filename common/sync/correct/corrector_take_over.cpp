@@ -11,6 +11,10 @@
 namespace seam {
 namespace {
 
+/// Without a past the holder's word is moved on by its velocity for so long at most, s: later, there
+/// were walls on that way. Reliable messages queue where many mechanisms change hands at once.
+constexpr float kReckonedFor = 0.25f;
+
 BodyState StateOf(const ExactStates& exact, std::size_t i) {
   return {{exact.x[i], exact.y[i]}, exact.angle[i], {exact.vx[i], exact.vy[i]}, exact.spin[i]};
 }
@@ -44,6 +48,7 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
     const std::int64_t from = std::min(exact.tick, now);
     const BodyState* then = memory_.ComparablePast(body, from);
     const float late = static_cast<float>(now - exact.tick) * world_.dt();
+    if (then == nullptr && late > kReckonedFor) continue;
     // Without a past the holder's own motion says where it is by now.
     const BodyState here = then != nullptr ? *then : world_.Read(body);
     if (then == nullptr || exact.tick > now) there = MovedOn(there, late);
