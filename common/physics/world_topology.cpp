@@ -27,11 +27,20 @@ int AssemblyIndex(const Composition& c, PartId part) {
   return p < c.assembly_of_part.size() ? c.assembly_of_part[p] : -1;
 }
 
+/// From the velocity of a body's origin to that of its centre of mass, or back with `sign` -1.
+/// What is led or kinematic has the first, and momentum is reckoned with the second.
+void ShiftVelocity(const Vector2d& centre, double sign, BodyState* state) {
+  const Vector2d arm = Turned(centre, static_cast<double>(state->angle));
+  const double spin = sign * static_cast<double>(state->spin);
+  state->velocity =
+      (state->velocity.cast<double>() + spin * Vector2d(-arm.y(), arm.x())).cast<float>();
+}
+
 /// What the world was before the edits.
 struct Before {
   Composition composition;
   std::vector<Part> parts;                 // poses within their assemblies
-  std::vector<BodyState> states;           // by body
+  std::vector<BodyState> states;           // by body, velocities of the centres of mass
   std::vector<int> body_of_assembly;       // -1: anchored
   std::vector<MassProperties> properties;  // by body, in the root's frame
 
@@ -198,6 +207,11 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
   for (const Assembly& a : w.composition.assemblies) {
     if (!a.anchored) before.properties.push_back(AssemblyProperties(w.scene, a));
   }
+  for (int body = 0; body < body_count(); ++body) {
+    const auto b = static_cast<std::size_t>(body);
+    if (motion(body) == Motion::kDynamic) continue;
+    ShiftVelocity(before.properties[b].centre, 1, &before.states[b]);
+  }
   const WorldSnapshot kept = w.Keep();
   const std::vector<Status> results = w.topology.Apply(edits);
   bool changed = w.composition.hash != hash || w.scene.joints.size() != joints_before;
@@ -219,8 +233,12 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
       WorldSnapshot::Body body;
       body.state = StateOf(before, w.scene, now, origin);
       motions.push_back(origin.body >= 0 ? motion(origin.body) : Motion::kDynamic);
+      if (motions.back() != Motion::kDynamic) {
+        ShiftVelocity(AssemblyProperties(w.scene, now).centre, -1, &body.state);
+      }
       if (origin.same) {
         const WorldSnapshot::Body& then = kept.bodies[static_cast<std::size_t>(origin.body)];
+        body.state = then.state;
         body.awake = then.awake;
         body.quiet_s = then.quiet_s;
       }

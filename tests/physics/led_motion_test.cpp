@@ -165,6 +165,23 @@ TEST(LedBody, WhatBreaksElsewhereLeavesItLed) {
   EXPECT_NEAR(run.Read("shown").position.x(), 3, 1e-5);
 }
 
+TEST(LedBody, HalvesOfOneThatTurnsMoveAsTheirPlacesInItMoved) {
+  for (const Motion motion : {Motion::kDynamic, Motion::kLed, Motion::kKinematic}) {
+    ScriptedWorld run(ParseScene(std::string(kNoGravity) + kLopsided, "test.toml"));
+    BodyState turning{{10, 5}, 0, {3, 1}, 4};  // of the centre of mass, 0.5 m right of the root's
+    run.world.Write(0, turning);
+    run.world.SetMotion(0, motion);
+    ASSERT_TRUE(run.world.Apply({Edit(BreakEdit{0})}).has_value());
+    ASSERT_EQ(run.world.body_count(), 2);
+    // Each half's origin is its centre of mass. Heavy is 0.5 m left of the whole's, light 1.5
+    // right.
+    const Vec2 heavy = run.Read("heavy").velocity, light = run.Read("light").velocity;
+    EXPECT_NEAR((heavy - Vec2(3, 1 - 4 * 0.5f)).norm(), 0, 1e-5) << static_cast<int>(motion);
+    EXPECT_NEAR((light - Vec2(3, 1 + 4 * 1.5f)).norm(), 0, 1e-5) << static_cast<int>(motion);
+    EXPECT_EQ(run.Read("light").spin, 4);
+  }
+}
+
 TEST(LedBody, BothHalvesOfOneThatBreaksAreLed) {
   ScriptedWorld run(ParseScene(std::string(kNoGravity) + kLopsided, "test.toml"));
   run.world.SetMotion(0, Motion::kLed);
