@@ -144,9 +144,9 @@ void Corrector::Blend(int body, const BodyState& local, const Correction& c, std
     }
   }
   const std::int64_t since = memory_.track(body).dynamic_since;
-  if (!c.rewrites_history && from < since) {
+  if (!c.rewrites_history && from < since && config_.pull == nullptr) {
     // It was placed for want of a past: what past it has moves along, or the next message would
-    // find the same difference again.
+    // find the same difference again. A puller does not look at the past.
     for (std::int64_t t = since; t < now; ++t) {
       if (BodyState* past = memory_.history().At(t, body)) *past = PlusScaled(*past, c.now, 1);
     }
