@@ -12,7 +12,7 @@ namespace seam {
 namespace {
 
 /// Without a past the holder's word is moved on by its velocity for so long at most, s: later,
-/// there were walls on that way. Reliable messages queue where many mechanisms change hands at once.
+/// there were walls on that way. Reliable messages queue where many mechanisms change hands.
 constexpr float kReckonedFor = 0.25f;
 
 BodyState StateOf(const ExactStates& exact, std::size_t i) {
