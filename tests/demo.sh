@@ -141,13 +141,11 @@ echo "demo: drawing"
 size=${SIZE:-960x540}
 for scene in $scenes; do
   for run in $runs; do
-    "$bin/seam-render" "$out/$scene-$run.lcm" --oracle "$out/$scene-oracle.lcm" \
-      -o "$out/frames/$scene-$run" --fps 15 --size "$size"
-    "$bin/seam-render" --strobe "$out/$scene-$run.lcm" --oracle "$out/$scene-oracle.lcm" \
-      -o "$out/$scene-$run-strobe.png"
+    "$bin/seam-render" "$out/$scene-$run.lcm" -o "$out/frames/$scene-$run" --fps 15 --size "$size"
+    "$bin/seam-render" --strobe "$out/$scene-$run.lcm" -o "$out/$scene-$run-strobe.png"
   done
   "$bin/seam-render" --compare "$out/$scene"-{strict,interleave,retrospect,rollback}.lcm \
-    --oracle "$out/$scene-oracle.lcm" -o "$out/frames/$scene-compare" --fps 15 --size 1280x720
+    -o "$out/frames/$scene-compare" --fps 15 --size 1280x720
 done
 if [ -f "$out/crossing-oracle.lcm" ]; then
   "$bin/seam-render" --strobe --compare \
