@@ -29,10 +29,12 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       impact_reporter_(world_, roles_),
       pressed_now_(topology.scene().players.size(), 0),
       pressed_missed_(topology.scene().players.size(), 0) {
-  replay_.OnSteppedAgain([this] { impact_reporter_.Note(true); });
+  replay_.OnSteppedAgain([this] {
+    impact_reporter_.Note(true);
+    FindEdits();
+  });
   corrector_.FollowRoles();
   memory_.Record();
-  replay_.OnStep([this] { FindEdits(); });
   replay_.TakeBarrier();  // the inputs of the first ticks come late, too
 }
 

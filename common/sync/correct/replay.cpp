@@ -207,9 +207,8 @@ void Replay::StepAgain() {
   }
   ActAgain(next);
   world_.Step();
-  on_stepped_again_();
   ++stepped_again_;
-  if (stepped_) stepped_();
+  on_stepped_again_();
 }
 
 void Replay::Run() {

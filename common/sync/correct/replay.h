@@ -77,8 +77,6 @@ class Replay {
   void GoOn();
   /// The tick to which GoOn will come; the world's while it did not go back.
   std::int64_t now() const { return journey_ ? journey_->now : world_.tick(); }
-  /// To be called after each step that is done again, before anything is corrected.
-  void OnStep(std::function<void()> stepped) { stepped_ = std::move(stepped); }
 
   std::int64_t ticks_stepped_again() const { return stepped_again_; }
   /// Calls of Run that left their replay for the next.
@@ -136,7 +134,6 @@ class Replay {
   std::int64_t edited_tick_ = -1;   // of the last edit that changed bodies, -1 none
   bool edited_ = false;             // since the last step, and
   bool rebuilt_ = false;            // ...bodies are others by it
-  std::function<void()> stepped_;
   std::int64_t stepped_again_ = 0;
   std::int64_t deferred_ = 0;
 };
