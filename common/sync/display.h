@@ -20,8 +20,8 @@ class Display {
   /// Config, world and snapshots must outlive this.
   Display(const SyncConfig& config, World& world, const Snapshots& snapshots);
 
-  /// Before the step to `next`: gives each kinematic body the pose and velocity that take it where
-  /// it is to be shown then.
+  /// Before the step to `next`: gives each body that is only displayed the pose and velocity that
+  /// take it where it is to be shown then.
   void Drive(std::int64_t next);
   /// After a step: lets the visual offsets return for a tick.
   void Glide(const Roles& roles);

@@ -48,7 +48,7 @@ class Corrector {
   BodyState TakeOver(const ExactStates& exact);
   /// Before a step: pulls copies on, if the room's rule acts in every tick.
   void PullCopies();
-  /// After a change of roles: bodies become dynamic or kinematic.
+  /// After a change of roles: bodies become dynamic, led or kinematic.
   void FollowRoles();
 
  private:
