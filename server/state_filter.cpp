@@ -14,6 +14,24 @@ constexpr double kStatesFuture = 0.5;
 /// A body may move this much more than its speed explains between two states, m: a hard correction.
 constexpr float kJumpSlack = 5.0f;
 
+/// Who the i-th body of a message is and where, added to `to`.
+template <class Message>
+void AddPose(const Message& from, std::size_t i, Message* to) {
+  to->id.push_back(from.id[i]);
+  to->epoch.push_back(from.epoch[i]);
+  to->x.push_back(from.x[i]);
+  to->y.push_back(from.y[i]);
+  to->angle.push_back(from.angle[i]);
+}
+
+/// And how it moves.
+template <class Message>
+void AddMotion(const Message& from, std::size_t i, Message* to) {
+  to->vx.push_back(from.vx[i]);
+  to->vy.push_back(from.vy[i]);
+  to->spin.push_back(from.spin[i]);
+}
+
 }  // namespace
 
 StateFilter::StateFilter(const Scene& scene, const Replica& replica,
@@ -97,15 +115,9 @@ States StateFilter::Keep(std::int64_t now_us, int peer, const States& states) {
     const int body = replica_.world().BodyOfId(states.id[i]);
     if (!MayMove(body, states, i)) continue;
     accepted_[static_cast<std::size_t>(body)] = {states.tick, Unpack(states, i, 0).position};
-    kept.id.push_back(states.id[i]);
-    kept.epoch.push_back(states.epoch[i]);
+    AddPose(states, i, &kept);
+    AddMotion(states, i, &kept);
     kept.flags.push_back(states.flags[i]);
-    kept.x.push_back(states.x[i]);
-    kept.y.push_back(states.y[i]);
-    kept.angle.push_back(states.angle[i]);
-    kept.vx.push_back(states.vx[i]);
-    kept.vy.push_back(states.vy[i]);
-    kept.spin.push_back(states.spin[i]);
   }
   return kept;
 }
@@ -132,11 +144,7 @@ Rest StateFilter::Keep(std::int64_t now_us, int peer, const Rest& rest) {
     pose.angle = rest.angle[i];
     if (!MayMove(body, {peer, rest.tick, rest.revision, rest.epoch[i], pose})) continue;
     accepted_[static_cast<std::size_t>(body)] = {rest.tick, pose.position};
-    kept.id.push_back(rest.id[i]);
-    kept.epoch.push_back(rest.epoch[i]);
-    kept.x.push_back(rest.x[i]);
-    kept.y.push_back(rest.y[i]);
-    kept.angle.push_back(rest.angle[i]);
+    AddPose(rest, i, &kept);
   }
   return kept;
 }
@@ -177,14 +185,8 @@ ExactStates StateFilter::KeepExact(int peer, const ExactStates& exact) {
     const int body = replica_.world().BodyOfId(exact.id[i]);
     if (!MayRelease(peer, body, exact, i)) continue;
     accepted_[static_cast<std::size_t>(body)] = {exact.tick, {exact.x[i], exact.y[i]}};
-    kept.id.push_back(exact.id[i]);
-    kept.epoch.push_back(exact.epoch[i]);
-    kept.x.push_back(exact.x[i]);
-    kept.y.push_back(exact.y[i]);
-    kept.angle.push_back(exact.angle[i]);
-    kept.vx.push_back(exact.vx[i]);
-    kept.vy.push_back(exact.vy[i]);
-    kept.spin.push_back(exact.spin[i]);
+    AddPose(exact, i, &kept);
+    AddMotion(exact, i, &kept);
   }
   return kept;
 }
