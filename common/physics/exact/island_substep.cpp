@@ -1,0 +1,279 @@
+/// ExactIsland: a substep. Joints by RATTLE (Andersen 1983; Hairer, Lubich and Wanner 2006,
+/// VII.1.4): the impulses act along the rows of the old pose until the new pose satisfies the
+/// joints, then the velocities are projected at the new one. Contacts, limits and motors take part
+/// in both solves.
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/physics/exact/island.h"
+
+namespace seam {
+namespace {
+
+/// Of the stiffness that tension gives a body against turning, the share that its inertia is
+/// enlarged by (after Tournier, Nesme, Gilles and Faure 2015: as much as keeps the step stable).
+constexpr double kStiffness = 0.25;
+/// The inertia is found anew while it lacks more than this.
+constexpr double kStifferBy = 1.1;
+constexpr int kStifferTries = 4;
+/// Joints are shut to this, m or rad, in at most so many corrections.
+constexpr double kShut = 1e-7;
+constexpr int kCorrections = 8;
+/// The matrix is made anew in them when one leaves more than this share, or when a body turns by
+/// more than kTurnsFast, rad.
+constexpr double kSlow = 0.3;
+constexpr double kTurnsFast = 0.25;
+/// A limit or a contact that is nearer than this is reached, m or rad.
+constexpr double kReached = 1e-6;
+/// Halvings of the restitution when a blow with friction would gain energy, the last is 0.
+constexpr int kSofterTries = 3;
+/// A joint has at most so many rows, and a row so many ends.
+constexpr int kRowsMost = 6, kEndsMost = 4;
+
+double Kinetic(const ExactBody& q) {
+  return q.moves() ? ((q.vx * q.vx + q.vy * q.vy) / q.im + q.inertia * q.w * q.w) / 2 : 0;
+}
+
+}  // namespace
+
+void ExactIsland::Step(const Pace& pace, bool warm) {
+  for (ExactContact& contact : contacts) ReadContact(bodies, &contact);
+  Fill(pace);
+  const double share = warm ? 1.0 / pace.substeps : 0;
+  for (Row& row : rows_) row.lambda = row.total = 0;
+  for (const Held& held : joints) LoadImpulses(*held.joint, share, &At(held.row));
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (contacts[c].count > 0) LoadImpulses(contacts[c], share, &At(contact_row_[c]));
+  }
+  Tension(pace.h);
+  for (int i = 0; i < pace.substeps; ++i) Substep(pace);
+}
+
+void ExactIsland::Substep(const Pace& pace) {
+  for (ExactBody& q : bodies) {
+    if (q.moves()) q.ii = 1 / (q.inertia + kStiffness * std::max(0.0, q.stiffness));
+  }
+  for (Row& row : rows_) row.base = 0;
+  Fill(pace);
+  if (FindImpacts()) {
+    Impact();
+    Fill(pace);
+  }
+  const bool touches = !contacts.empty();
+  Kick(touches ? pace.h : pace.h / 2);
+  SolveAhead(pace);
+  Move(pace.h);
+  ShutJoints(pace);
+  if (!touches) Kick(pace.h / 2);
+  SolveAtEnd(pace);
+}
+
+void ExactIsland::Kick(double h) {
+  for (ExactBody& q : bodies) {
+    if (!q.moves()) continue;
+    q.vx = (q.vx + h * q.ax) / (1 + h * q.slow);
+    q.vy = (q.vy + h * q.ay) / (1 + h * q.slow);
+    q.w = (q.w + h * q.turn) / (1 + h * q.slow_spin);
+  }
+}
+
+void ExactIsland::Tension(double h) {
+  for (ExactBody& q : bodies) q.stiffness = 0;
+  for (const Row& row : rows_) {
+    const double pull = h * (row.base + row.lambda);
+    if (row.tense_a >= 0) Body(row.tense_a).stiffness += pull * row.stiff_a;
+    if (row.tense_b >= 0) Body(row.tense_b).stiffness += pull * row.stiff_b;
+  }
+}
+
+/// Enlarges inertias that are too small for the tension just found. False: none is.
+bool ExactIsland::Stiffer() {
+  bool lacks = false;
+  for (const ExactBody& q : bodies) {
+    lacks = lacks || (q.moves() && (q.inertia + kStiffness * q.stiffness) * q.ii > kStifferBy);
+  }
+  if (!lacks) return false;
+  for (ExactBody& q : bodies) {
+    if (q.moves()) q.ii = std::min(q.ii, 1 / (q.inertia + kStiffness * std::max(0.0, q.stiffness)));
+  }
+  return true;
+}
+
+void ExactIsland::SolveAhead(const Pace& pace) {
+  Save(&start_);
+  for (int tries = 0;; ++tries) {
+    Assemble();
+    Solve();
+    if (tries == kStifferTries) break;
+    Tension(pace.h);
+    if (!Stiffer()) break;
+    Restore(start_);
+  }
+  for (Row& row : rows_) row.base += row.lambda;
+}
+
+void ExactIsland::Move(double h) {
+  for (ExactBody& q : bodies) {
+    q.x += h * q.vx;
+    q.y += h * q.vy;
+    if (q.w != 0) q.Turn(h * q.w);
+  }
+}
+
+void ExactIsland::ShutJoints(const Pace& pace) {
+  bool anew = false;
+  for (const ExactBody& q : bodies) anew = anew || std::fabs(q.w * pace.h) > kTurnsFast;
+  double last = kUnbounded;
+  Row now[kRowsMost];
+  RowEnd ends[kRowsMost * kEndsMost];
+  for (int i = 0; i < kRowsMost; ++i) now[i].end = ends + i * kEndsMost;
+  for (int tries = 0; tries < kCorrections; ++tries) {
+    double far = 0;
+    std::fill(x_.begin(), x_.end(), 0.0);
+    for (const Held& held : joints) {
+      FillJoint(*held.joint, held.ends, bodies, pace, now);
+      for (int i = 0; i < held.rows; ++i) {
+        Row& row = At(held.row + i);
+        const bool shuts = row.kind == RowKind::kHard || row.kind == RowKind::kLimit;
+        if (!shuts || row.state != RowState::kFree) continue;
+        row.error = now[i].error;
+        far = std::max(far, std::fabs(row.error));
+        x_[static_cast<std::size_t>(place_[static_cast<std::size_t>(held.row + i)])] =
+            -row.error / pace.h;
+        if (anew) std::copy_n(now[i].end, row.ends, row.end);
+      }
+    }
+    if (far < kShut) return;
+    if (!anew && tries > 1 && far > kSlow * last) {
+      anew = true;
+      continue;
+    }
+    last = far;
+    if (anew) Assemble();
+    Factor();
+    matrix_.Solve(&x_);
+    for (std::size_t p = 0; p < rows_.size(); ++p) {
+      Row& row = At(row_at_[p]);
+      if (row.state != RowState::kFree || x_[p] == 0) continue;
+      row.base += x_[p];
+      for (int e = 0; e < row.ends; ++e) {
+        const RowEnd& end = row.end[e];
+        ExactBody& q = Body(end.body);
+        q.vx += x_[p] * end.mj[0];
+        q.vy += x_[p] * end.mj[1];
+        q.w += x_[p] * end.mj[2];
+        q.x += pace.h * x_[p] * end.mj[0];
+        q.y += pace.h * x_[p] * end.mj[1];
+        q.Turn(pace.h * x_[p] * end.mj[2]);
+      }
+    }
+  }
+}
+
+void ExactIsland::SolveAtEnd(const Pace& pace) {
+  Fill(pace);
+  for (Row& row : rows_) {
+    row.lambda = 0;
+    if (row.state == RowState::kOut) continue;
+    switch (row.kind) {
+      case RowKind::kHard: row.target = 0; break;
+      case RowKind::kSoft:
+      case RowKind::kMotor:  // have acted for the whole substep
+        states_.push_back(row.state);
+        row.state = RowState::kOut;
+        break;
+      case RowKind::kLimit:
+      case RowKind::kNormal:
+        row.lo = std::min(0.0, -row.base);
+        row.target = row.error > kReached ? -row.error / pace.h : 0;
+        break;
+      case RowKind::kFriction: break;
+    }
+  }
+  Assemble();
+  Solve();
+  std::size_t next = 0;
+  for (Row& row : rows_) {
+    row.base += row.lambda;
+    row.total += row.base;
+    row.lambda = 0;
+    if (row.kind == RowKind::kSoft || row.kind == RowKind::kMotor) row.state = states_[next++];
+  }
+  states_.clear();
+  Tension(pace.h);
+}
+
+/// Whether something elastic hits. Sets `approach` of the contacts' points.
+bool ExactIsland::FindImpacts() {
+  bool hits = false;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    ExactContact& contact = contacts[c];
+    for (int i = 0; i < contact.count; ++i) {
+      ExactContact::Point& p = contact.point[i];
+      Row& normal = At(contact_row_[c] + 2 * i);
+      Row& friction = At(contact_row_[c] + 2 * i + 1);
+      if (normal.state == RowState::kOut) normal.state = friction.state = RowState::kLow;
+      p.approach = Speed(normal);
+      if (contact.restitution <= 0 || p.approach > -contact.threshold) continue;
+      if (normal.error <= 0) {
+        hits = true;
+      } else {
+        normal.state = friction.state = RowState::kOut;  // next time, when it is there
+      }
+    }
+  }
+  return hits;
+}
+
+/// A blow without duration (Moreau 1988): each contact leaves at no less than its restitution times
+/// the speed it came with, so that energy is never gained without friction. With it, it may be
+/// (Kane and Levinson 1985): then with less restitution.
+void ExactIsland::Impact() {
+  Save(&start_);
+  double before = 0;
+  bool driven = false;
+  for (ExactBody& q : bodies) {
+    before += Kinetic(q);
+    driven = driven || (!q.moves() && (q.vx != 0 || q.vy != 0 || q.w != 0));
+    if (q.moves()) q.ii = 1 / q.inertia;
+  }
+  std::vector<RowState> were;
+  for (Row& row : rows_) were.push_back(row.state);
+  double share = 1;
+  for (int tries = 0;; ++tries) {
+    for (Row& row : rows_) {
+      row.target = 0;
+      if (row.kind == RowKind::kSoft || row.kind == RowKind::kMotor) row.state = RowState::kOut;
+      if (row.kind == RowKind::kLimit && row.error > kReached) row.state = RowState::kOut;
+    }
+    for (std::size_t c = 0; c < contacts.size(); ++c) {
+      const ExactContact& contact = contacts[c];
+      for (int i = 0; i < contact.count; ++i) {
+        Row& normal = At(contact_row_[c] + 2 * i);
+        Row& friction = At(contact_row_[c] + 2 * i + 1);
+        if (normal.error > 0) normal.state = friction.state = RowState::kOut;
+        normal.target = -share * contact.restitution * contact.point[i].approach;
+        friction.target = contact.belt;
+        driven = driven || contact.belt != 0;
+      }
+    }
+    Assemble();
+    Solve();
+    double after = 0;
+    for (const ExactBody& q : bodies) after += Kinetic(q);
+    if (driven || after <= before * (1 + 1e-9) || tries == kSofterTries) break;
+    share = tries + 1 == kSofterTries ? 0 : share / 2;
+    Restore(start_);
+    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].state = were[i];
+  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    rows_[i].total += rows_[i].lambda;
+    rows_[i].state = were[i];
+  }
+  for (ExactBody& q : bodies) {
+    if (q.moves()) q.ii = 1 / (q.inertia + kStiffness * std::max(0.0, q.stiffness));
+  }
+}
+
+}  // namespace seam
