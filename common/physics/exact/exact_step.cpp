@@ -285,7 +285,8 @@ void ExactStep::Sign(const Found& found, std::vector<const void*>* sign) const {
   }
   for (const int m : found.mechanisms) {
     for (const int j : mechanisms_[static_cast<std::size_t>(m)].joints) {
-      number(RowCount(joints_[static_cast<std::size_t>(j)]));
+      const ExactJoint& joint = joints_[static_cast<std::size_t>(j)];
+      number(RowCount(joint) * 4 + (joint.near_lower ? 2 : 0) + (joint.near_upper ? 1 : 0));
     }
   }
 }
@@ -443,6 +444,11 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
     if (slots_[static_cast<std::size_t>(mechanisms_[m].slots[0])].island >= 0) continue;
     Found& found = found_[m];
     if (!Gather(static_cast<int>(m), &found)) continue;
+    for (const int other : found.mechanisms) {
+      for (const int j : mechanisms_[static_cast<std::size_t>(other)].joints) {
+        LookAtLimits(static_cast<double>(h), &joints_[static_cast<std::size_t>(j)]);
+      }
+    }
     Sign(found, &sign_);
     if (sign_ != found.sign || !found.island) {
       Build(&found);

@@ -66,11 +66,12 @@ class ExactIsland {
   void Factor();
   void Solve();
   bool PivotToTheEnd();
-  bool Pivot(int* wrong, int* last_wrong);
+  bool Pivot(int* wrong);
   void Change(int place);
   void SetFrictionBounds();
   bool NextFrictionBounds();
-  void Relax(int sweeps);
+  void Descend();
+  void HoldJoints();
   double Speed(const Row& row) const;
   void Push(const Row& row, double impulse);
   void Save(std::vector<double>* velocities) const;
@@ -88,7 +89,7 @@ class ExactIsland {
   std::vector<char> in_;
   std::vector<double> x_, before_, start_;
   std::vector<RowState> next_;    // by place
-  std::vector<RowState> states_;  // kept while something takes no part
+  std::vector<RowState> states_, held_;  // kept while something takes no part
 };
 
 }  // namespace seam

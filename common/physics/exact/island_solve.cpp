@@ -15,12 +15,12 @@ constexpr double kOwnHard = 1e-7, kOwnBounded = 1e-6;
 /// Rounds of friction, and when they are over: the bounds change by less than this share.
 constexpr int kFrictionRounds = 3;
 constexpr double kFrictionSame = 0.02;
-/// Pivots before relaxation takes over; so many without progress before one row at a time.
-constexpr int kPivots = 60, kPatience = 3;
+/// Pivots before Descend takes over; so many without progress, too.
+constexpr int kPivots = 12, kPatience = 3;
+/// Rounds of Descend.
+constexpr int kRounds = 200;
 /// A row at its bound may be this wrong in its speed, m/s.
 constexpr double kSpeedError = 1e-6;
-/// Sweeps when pivoting has not ended.
-constexpr int kSweeps = 30;
 
 }  // namespace
 
@@ -94,7 +94,7 @@ void ExactIsland::Factor() {
 }
 
 /// Solves with the states as they are and says what they should be. True: nothing to change.
-bool ExactIsland::Pivot(int* wrong, int* last_wrong) {
+bool ExactIsland::Pivot(int* wrong) {
   Restore(before_);
   for (Row& row : rows_) {
     if (row.state == RowState::kFree) continue;
@@ -134,7 +134,6 @@ bool ExactIsland::Pivot(int* wrong, int* last_wrong) {
     }
     if (next_[p] == row.state) continue;
     ++*wrong;
-    *last_wrong = static_cast<int>(p);
   }
   return *wrong == 0;
 }
@@ -150,19 +149,16 @@ void ExactIsland::Change(int place) {
 bool ExactIsland::PivotToTheEnd() {
   int fewest = static_cast<int>(rows_.size()) + 1, patience = kPatience;
   for (int i = 0; i < kPivots; ++i) {
-    int wrong = 0, last_wrong = 0;
-    if (Pivot(&wrong, &last_wrong)) return true;
+    int wrong = 0;
+    if (Pivot(&wrong)) return true;
     if (wrong < fewest) {
       fewest = wrong;
       patience = kPatience;
     } else {
       --patience;
     }
-    if (patience >= 0) {
-      for (int p = 0; p < matrix_.size(); ++p) Change(p);
-    } else {
-      Change(last_wrong);
-    }
+    if (patience < 0) return false;
+    for (int p = 0; p < matrix_.size(); ++p) Change(p);
   }
   return false;
 }
@@ -201,60 +197,95 @@ void ExactIsland::Solve() {
   next_.resize(rows_.size());
   for (int round = 0; round < kFrictionRounds; ++round) {
     SetFrictionBounds();
-    if (!PivotToTheEnd()) {
-      Restore(before_);
-      Relax(kSweeps);
-      return;
-    }
+    if (!PivotToTheEnd()) Descend();
     if (contacts.empty() || !NextFrictionBounds()) break;
   }
 }
 
-/// Projected Gauss-Seidel on the bounded rows, the others solved exactly in each sweep: slow, and
-/// always within the bounds.
-void ExactIsland::Relax(int sweeps) {
+/// The impulses' bounds kept, each round takes the way to the solution for the rows that are free
+/// until one of them meets its bound, and frees those at a bound that push the wrong way once it is
+/// reached: the quadratic form that the solution minimises only falls (Nocedal and Wright 2006,
+/// 16.5), so that whatever round it is left in is better than none.
+void ExactIsland::Descend() {
+  Restore(before_);
   for (Row& row : rows_) {
-    row.lambda = 0;
-    if (row.bounded() && row.state != RowState::kOut) row.state = RowState::kLow;
+    if (row.state == RowState::kOut) continue;
+    row.lambda = std::clamp(row.lambda, row.lo, row.hi);
+    Push(row, row.lambda);
   }
-  dirty_ = 0;
-  Factor();
-  const auto hold = [this] {
-    for (std::size_t p = 0; p < rows_.size(); ++p) {
+  const std::size_t n = rows_.size();
+  for (int round = 0; round < kRounds; ++round) {
+    Factor();
+    for (std::size_t p = 0; p < n; ++p) {
       const Row& row = At(row_at_[p]);
       x_[p] = row.state == RowState::kFree ? row.target - Speed(row) - row.gamma * row.lambda : 0;
     }
     matrix_.Solve(&x_);
-    for (std::size_t p = 0; p < rows_.size(); ++p) {
+    double way = 1;
+    int meets = -1;
+    for (std::size_t p = 0; p < n; ++p) {
+      const Row& row = At(row_at_[p]);
+      if (row.state != RowState::kFree || !row.bounded() || x_[p] == 0) continue;
+      const double room = (x_[p] < 0 ? row.lo : row.hi) - row.lambda;
+      if (std::fabs(x_[p]) * way <= std::fabs(room)) continue;
+      way = std::fabs(room / x_[p]);
+      meets = static_cast<int>(p);
+    }
+    for (std::size_t p = 0; p < n; ++p) {
       Row& row = At(row_at_[p]);
       if (row.state != RowState::kFree) continue;
-      row.lambda += x_[p];
-      Push(row, x_[p]);
+      row.lambda += way * x_[p];
+      Push(row, way * x_[p]);
     }
-  };
-  hold();
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      Row& row = rows_[i];
-      if (!row.bounded() || row.state == RowState::kOut) continue;
-      if (row.kind == RowKind::kFriction) {
-        row.most = row.friction * std::max(0.0, rows_[i - 1].base + rows_[i - 1].lambda);
-        row.lo = -row.most - row.base;
-        row.hi = row.most - row.base;
-      }
-      const double own = matrix_.At(matrix_.Place(place_[i], place_[i]));
-      const double to = std::clamp(row.lambda - (Speed(row) - row.target) / own, row.lo, row.hi);
-      Push(row, to - row.lambda);
-      row.lambda = to;
+    if (meets >= 0) {
+      Row& row = At(row_at_[static_cast<std::size_t>(meets)]);
+      const bool low = x_[static_cast<std::size_t>(meets)] < 0;
+      Push(row, (low ? row.lo : row.hi) - row.lambda);
+      row.lambda = low ? row.lo : row.hi;
+      row.state = low ? RowState::kLow : RowState::kHigh;
+      dirty_ = std::min(dirty_, meets);
+      continue;
     }
-    hold();
+    bool freed = false;
+    for (std::size_t p = 0; p < n; ++p) {
+      Row& row = At(row_at_[p]);
+      if (row.state != RowState::kLow && row.state != RowState::kHigh) continue;
+      if (row.hi <= row.lo) continue;
+      const double off = Speed(row) - row.target + row.gamma * row.lambda;
+      if (row.state == RowState::kLow ? off >= -kSpeedError : off <= kSpeedError) continue;
+      row.state = RowState::kFree;
+      dirty_ = std::min(dirty_, static_cast<int>(p));
+      freed = true;
+    }
+    if (!freed) return;
   }
+  HoldJoints();
+}
+
+/// Solves the joints with all other impulses as they are.
+void ExactIsland::HoldJoints() {
+  held_.clear();
   for (Row& row : rows_) {
-    if (!row.bounded() || row.state == RowState::kOut) continue;
-    row.state = row.lambda <= row.lo + 1e-12   ? RowState::kLow
-                : row.lambda >= row.hi - 1e-12 ? RowState::kHigh
-                                               : RowState::kFree;
+    held_.push_back(row.state);
+    if (row.bounded()) row.state = RowState::kOut;
   }
+  dirty_ = 0;
+  Factor();
+  for (std::size_t p = 0; p < rows_.size(); ++p) {
+    const Row& row = At(row_at_[p]);
+    x_[p] = row.state == RowState::kFree ? row.target - Speed(row) - row.gamma * row.lambda : 0;
+  }
+  matrix_.Solve(&x_);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    Row& row = rows_[i];
+    if (row.state == RowState::kFree) {
+      const double more = x_[static_cast<std::size_t>(place_[i])];
+      row.lambda += more;
+      Push(row, more);
+    }
+    row.state = held_[i];
+  }
+  held_.clear();
   dirty_ = 0;
   Factor();
 }

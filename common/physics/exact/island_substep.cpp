@@ -28,6 +28,8 @@ constexpr double kTurnsFast = 0.25;
 constexpr double kReached = 1e-6;
 /// Halvings of the restitution when a blow with friction would gain energy, the last is 0.
 constexpr int kSofterTries = 3;
+/// A motor that lacks so much speed does all it may, rad/s or m/s.
+constexpr double kUtmost = 50;
 /// A joint has at most so many rows, and a row so many ends.
 constexpr int kRowsMost = 6, kEndsMost = 4;
 
@@ -47,6 +49,11 @@ void ExactIsland::Step(const Pace& pace, bool warm) {
     if (contacts[c].count > 0) LoadImpulses(contacts[c], share, &At(contact_row_[c]));
   }
   Tension(pace.h);
+  for (Row& row : rows_) {  // a motor that is to do its utmost, whatever it did last
+    if (row.kind != RowKind::kMotor) continue;
+    const double lacks = row.target - Speed(row);
+    if (std::fabs(lacks) > kUtmost) row.state = lacks > 0 ? RowState::kHigh : RowState::kLow;
+  }
   for (int i = 0; i < pace.substeps; ++i) Substep(pace);
 }
 

@@ -17,6 +17,8 @@ constexpr double kPoseShare = 0.3;
 constexpr double kNearly = 1 - 1e-6;
 /// No joint has more.
 constexpr int kRowsMost = 6;
+/// A limit is near within this and twice the way of a step, rad and m.
+constexpr double kNearAngle = 0.1, kNearLength = 0.1;
 /// Two points this near have no direction, m.
 constexpr double kNoDirection = 1e-9;
 
@@ -128,14 +130,14 @@ class Writer {
     Row& row = Bind(joint_.stiffness > 0 ? RowKind::kSoft : RowKind::kHard, turned(), kTurn);
     if (joint_.stiffness > 0) Spring(&row);
   }
-  /// Both ends of a range that `at` must stay in.
+  /// The ends of a range that `at` must stay in.
   void RangeOfAngle(double at) {
-    Bind(RowKind::kLimit, at - joint_.lower, kTurn);
-    Bind(RowKind::kLimit, joint_.upper - at, kTurnBack);
+    if (joint_.near_lower) Bind(RowKind::kLimit, at - joint_.lower, kTurn);
+    if (joint_.near_upper) Bind(RowKind::kLimit, joint_.upper - at, kTurnBack);
   }
   void RangeAlong(double at, double ux, double uy) {
-    Bind(RowKind::kLimit, at - joint_.lower, Line(ux, uy));
-    Bind(RowKind::kLimit, joint_.upper - at, Line(-ux, -uy));
+    if (joint_.near_lower) Bind(RowKind::kLimit, at - joint_.lower, Line(ux, uy));
+    if (joint_.near_upper) Bind(RowKind::kLimit, joint_.upper - at, Line(-ux, -uy));
   }
   double turned() const { return b_.a - a_.a - joint_.reference; }
   void Axis(double* ux, double* uy) const {
@@ -213,8 +215,8 @@ void Writer::Distance() {
   if (joint_.stiffness > 0) {
     Spring(&Bind(RowKind::kSoft, length - joint_.reference, along));
   }
-  if (HasLower(joint_)) Tense(-arm_a, arm_b, &Bind(RowKind::kLimit, length - joint_.lower, along));
-  if (HasUpper(joint_)) Tense(arm_a, -arm_b, &Bind(RowKind::kLimit, joint_.upper - length, back));
+  if (joint_.near_lower) Tense(-arm_a, arm_b, &Bind(RowKind::kLimit, length - joint_.lower, along));
+  if (joint_.near_upper) Tense(arm_a, -arm_b, &Bind(RowKind::kLimit, joint_.upper - length, back));
 }
 
 void Writer::Pose() {
@@ -312,13 +314,59 @@ ExactJoint ReadJoint(b2Joint* made) {
   return out;
 }
 
+void LookAtLimits(double h, ExactJoint* joint) {
+  double at = 0, speed = 0, margin = kNearLength;
+  switch (joint->type) {
+    case e_revoluteJoint: {
+      if (!joint->limited) return;
+      const auto& made = As<b2RevoluteJoint>(*joint);
+      at = static_cast<double>(made.GetJointAngle());
+      speed = static_cast<double>(made.GetJointSpeed());
+      margin = kNearAngle;
+      break;
+    }
+    case e_prismaticJoint: {
+      if (!joint->limited) return;
+      const auto& made = As<b2PrismaticJoint>(*joint);
+      at = static_cast<double>(made.GetJointTranslation());
+      speed = static_cast<double>(made.GetJointSpeed());
+      break;
+    }
+    case e_wheelJoint: {
+      if (!joint->limited) return;
+      const auto& made = As<b2WheelJoint>(*joint);
+      at = static_cast<double>(made.GetJointTranslation());
+      speed = static_cast<double>(made.GetJointLinearSpeed());
+      break;
+    }
+    case e_distanceJoint: {
+      if (IsRod(*joint)) return;
+      const b2Body* a = joint->made->GetBodyA();
+      const b2Body* b = joint->made->GetBodyB();
+      const b2Vec2 way = b->GetWorldPoint(joint->anchor_b) - a->GetWorldPoint(joint->anchor_a);
+      const b2Vec2 motion = b->GetLinearVelocityFromLocalPoint(joint->anchor_b) -
+                            a->GetLinearVelocityFromLocalPoint(joint->anchor_a);
+      at = static_cast<double>(way.Length());
+      speed = static_cast<double>(motion.Length());
+      joint->near_lower = HasLower(*joint);
+      joint->near_upper = HasUpper(*joint);
+      break;
+    }
+    default: return;
+  }
+  const double reach = margin + 2 * h * std::fabs(speed);
+  const bool both = joint->type != e_distanceJoint;
+  joint->near_lower = (both || joint->near_lower) && at - joint->lower < reach;
+  joint->near_upper = (both || joint->near_upper) && joint->upper - at < reach;
+}
+
 /// Which of the joint's impulses each of its rows has, in their order. Returns how many.
 static int KeptAt(const ExactJoint& joint, int* kept) {
   int count = 0;
   const auto range = [&](int lower) {
     if (!joint.limited) return;
-    kept[count++] = lower;
-    if (joint.lower < joint.upper) kept[count++] = lower + 1;
+    if (joint.lower >= joint.upper || joint.near_lower) kept[count++] = lower;
+    if (joint.lower < joint.upper && joint.near_upper) kept[count++] = lower + 1;
   };
   const bool drive = DriveOf(joint).on;
   switch (joint.type) {
@@ -337,8 +385,8 @@ static int KeptAt(const ExactJoint& joint, int* kept) {
       break;
     case e_distanceJoint:
       if (IsRod(joint) || joint.stiffness > 0) kept[count++] = 0;
-      if (!IsRod(joint) && HasLower(joint)) kept[count++] = 1;
-      if (!IsRod(joint) && HasUpper(joint)) kept[count++] = 2;
+      if (!IsRod(joint) && joint.near_lower) kept[count++] = 1;
+      if (!IsRod(joint) && joint.near_upper) kept[count++] = 2;
       break;
     default:
       for (int i = 0; i < 3; ++i) kept[count++] = i;

@@ -19,12 +19,17 @@ struct ExactJoint {
   double reference = 0;                   ///< rad
   bool limited = false;
   double lower = 0, upper = 0;  ///< rad or m
+  /// Whether the limits are within reach of this step: others have no row.
+  bool near_lower = false, near_upper = false;
   double stiffness = 0, damping = 0;
   JointImpulses impulses;
 };
 
 /// Requires a joint that MakeJoint has made. The slots are left to the caller.
 ExactJoint ReadJoint(b2Joint* made);
+
+/// Finds near_lower and near_upper for a step of h s.
+void LookAtLimits(double h, ExactJoint* joint);
 
 /// The two bodies of a joint, by their places in the island's list, and the points.
 struct JointEnds {
@@ -35,7 +40,7 @@ struct JointEnds {
 /// How many bodies each of its rows binds at most.
 inline int EndsOf(const ExactJoint& /*joint*/) { return 2; }
 
-/// How many rows it has now: limits and motors may be switched.
+/// How many rows it has now: limits may be far, motors may be switched.
 int RowCount(const ExactJoint& joint);
 
 /// The length of a substep, and how many there are in one of the engine's steps.
