@@ -298,10 +298,7 @@ void ExactStep::LoadPoses(Found* found) {
       ReadPose(body, &q);
     } else {
       const Slot& s = slots_[static_cast<std::size_t>(q.slot)];
-      const b2Sweep& sweep = body->*Member(BodySweep());
-      const b2Vec2& v = body->GetLinearVelocity();
-      if (s.known && sweep.c.x == s.told_x && sweep.c.y == s.told_y && sweep.a == s.told_a &&
-          v.x == s.told_vx && v.y == s.told_vy && body->GetAngularVelocity() == s.told_w) {
+      if (Told(s)) {
         q.x = s.x;
         q.y = s.y;
         q.a = s.a;
@@ -334,15 +331,8 @@ void ExactStep::Load(Found* found) {
   }
 }
 
-void ExactStep::Save(Found* found, float h) {
-  float quiet = b2_maxFloat;
-  for (const ExactContact& contact : found->island->contacts) {
-    for (const int end : {contact.a, contact.b}) {
-      const ExactBody& q = found->island->bodies[static_cast<std::size_t>(end)];
-      if (!q.moves() && (q.vx != 0 || q.vy != 0 || q.w != 0)) quiet = 0;
-    }
-  }
-  for (const ExactBody& q : found->island->bodies) {
+void ExactStep::SavePoses(const Found& found) {
+  for (const ExactBody& q : found.island->bodies) {
     if (q.slot < 0) continue;
     Slot& s = slots_[static_cast<std::size_t>(q.slot)];
     b2Body* body = q.body;
@@ -360,8 +350,6 @@ void ExactStep::Save(Found* found, float h) {
     s.told_vy = static_cast<float>(q.vy);
     s.told_w = static_cast<float>(q.w);
     b2Sweep& sweep = body->*Member(BodySweep());
-    sweep.c0 = sweep.c;
-    sweep.a0 = sweep.a;
     sweep.c.Set(s.told_x, s.told_y);
     sweep.a = s.told_a;
     b2Transform& pose = body->*Member(BodyPose());
@@ -370,10 +358,32 @@ void ExactStep::Save(Found* found, float h) {
     (body->*Member(BodyVelocity())).Set(s.told_vx, s.told_vy);
     body->*Member(BodySpin()) = s.told_w;
     (body->*Member(SyncFixtures()))();
-    float& slept = body->*Member(BodySleepTime());
-    const bool slow = s.told_w * s.told_w <= b2_angularSleepTolerance * b2_angularSleepTolerance &&
-                      s.told_vx * s.told_vx + s.told_vy * s.told_vy <=
+  }
+}
+
+void ExactStep::Save(Found* found, float h) {
+  float quiet = b2_maxFloat;
+  for (const ExactContact& contact : found->island->contacts) {
+    for (const int end : {contact.a, contact.b}) {
+      const ExactBody& q = found->island->bodies[static_cast<std::size_t>(end)];
+      if (!q.moves() && (q.vx != 0 || q.vy != 0 || q.w != 0)) quiet = 0;
+    }
+  }
+  for (const ExactBody& q : found->island->bodies) {
+    if (q.slot < 0) continue;
+    b2Sweep& sweep = q.body->*Member(BodySweep());
+    sweep.c0 = sweep.c;
+    sweep.a0 = sweep.a;
+  }
+  SavePoses(*found);
+  for (const ExactBody& q : found->island->bodies) {
+    if (q.slot < 0) continue;
+    b2Body* body = q.body;
+    const float spin = body->GetAngularVelocity();
+    const bool slow = spin * spin <= b2_angularSleepTolerance * b2_angularSleepTolerance &&
+                      body->GetLinearVelocity().LengthSquared() <=
                           b2_linearSleepTolerance * b2_linearSleepTolerance;
+    float& slept = body->*Member(BodySleepTime());
     slept = slow && (body->*Member(BodyFlags()) & kBodyAutoSleep) != 0 ? slept + h : 0;
     quiet = std::min(quiet, slept);
   }
@@ -419,6 +429,54 @@ void ExactStep::Show(const Found& found) {
   }
 }
 
+/// Makes the island for what was gathered, if the last one is not for the same.
+void ExactStep::Prepare(float h, Found* found) {
+  for (const int m : found->mechanisms) {
+    for (const int j : mechanisms_[static_cast<std::size_t>(m)].joints) {
+      LookAtLimits(static_cast<double>(h), &joints_[static_cast<std::size_t>(j)]);
+    }
+  }
+  Sign(*found, &sign_);
+  if (found->island && sign_ == found->sign) return;
+  Build(found);
+  found->sign = sign_;
+}
+
+bool ExactStep::Told(const Slot& s) {
+  const b2Sweep& sweep = s.body->*Member(BodySweep());
+  const b2Vec2& v = s.body->GetLinearVelocity();
+  return s.known && sweep.c.x == s.told_x && sweep.c.y == s.told_y && sweep.a == s.told_a &&
+         v.x == s.told_vx && v.y == s.told_vy && s.body->GetAngularVelocity() == s.told_w;
+}
+
+/// Continuous collision knows no joints: it takes a body back to where it hit.
+void ExactStep::RejoinWhatMoved(float h, const Pace& pace) {
+  std::vector<int> moved;
+  for (const int m : solved_) {
+    const Found& found = found_[static_cast<std::size_t>(m)];
+    for (const int slot : found.slots) {
+      const Slot& s = slots_[static_cast<std::size_t>(slot)];
+      if (!s.body->IsAwake() || Told(s)) continue;
+      moved.insert(moved.end(), found.mechanisms.begin(), found.mechanisms.end());
+      break;
+    }
+  }
+  if (moved.empty()) return;
+  for (Slot& slot : slots_) slot.island = -1;
+  for (const int m : moved) {
+    if (slots_[static_cast<std::size_t>(mechanisms_[static_cast<std::size_t>(m)].slots[0])].island >=
+        0) {
+      continue;
+    }
+    Found& found = found_[static_cast<std::size_t>(m)];
+    if (!Gather(m, &found)) continue;
+    Prepare(h, &found);
+    LoadPoses(&found);
+    found.island->Rejoin(pace);
+    SavePoses(found);
+  }
+}
+
 void ExactStep::Step(float h, int velocity_iterations, int position_iterations) {
   auto& contacts = const_cast<b2ContactManager&>(world_->GetContactManager());
   bool& fresh = world_->*Member(NewContacts());
@@ -444,16 +502,7 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
     if (slots_[static_cast<std::size_t>(mechanisms_[m].slots[0])].island >= 0) continue;
     Found& found = found_[m];
     if (!Gather(static_cast<int>(m), &found)) continue;
-    for (const int other : found.mechanisms) {
-      for (const int j : mechanisms_[static_cast<std::size_t>(other)].joints) {
-        LookAtLimits(static_cast<double>(h), &joints_[static_cast<std::size_t>(j)]);
-      }
-    }
-    Sign(found, &sign_);
-    if (sign_ != found.sign || !found.island) {
-      Build(&found);
-      found.sign = sign_;
-    }
+    Prepare(h, &found);
     Load(&found);
     found.island->Step(pace, step.warmStarting);
     Save(&found, h);
@@ -468,7 +517,10 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
     contacts.FindNewContacts();
   }
   for (const int m : solved_) Show(found_[static_cast<std::size_t>(m)]);
-  if (world_->GetContinuousPhysics()) (world_->*Member(EngineSolveToi()))(step);
+  if (world_->GetContinuousPhysics()) {
+    (world_->*Member(EngineSolveToi()))(step);
+    RejoinWhatMoved(h, pace);
+  }
   last_inverse = step.inv_dt;
   if (world_->GetAutoClearForces()) world_->ClearForces();
   locked = false;

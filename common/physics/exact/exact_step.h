@@ -54,6 +54,10 @@ class ExactStep {
   void LoadPoses(Found* found);
   void Load(Found* found);
   void Save(Found* found, float h);
+  void SavePoses(const Found& found);
+  void Prepare(float h, Found* found);
+  void RejoinWhatMoved(float h, const Pace& pace);
+  static bool Told(const Slot& slot);
   void Report(const Found& found) const;
   static void Hide(const Found& found);
   static void Show(const Found& found);

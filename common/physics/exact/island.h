@@ -33,6 +33,9 @@ class ExactIsland {
   /// Advances the bodies by pace.h * pace.substeps. `warm`: begin with what contacts and joints
   /// had last.
   void Step(const Pace& pace, bool warm);
+  /// After something else has moved some of the bodies: brings the joints together again, positions
+  /// and velocities. `pace` as in Step; no time passes.
+  void Rejoin(const Pace& pace);
   /// What the step did, to the engine's joints and contacts.
   void Store() const;
 
@@ -47,6 +50,7 @@ class ExactIsland {
   void ShapeMatrix();
   void Fill(const Pace& pace);
 
+  void BringTogether(const Pace& pace);
   // Of a substep, in their order.
   void Substep(const Pace& pace);
   void Kick(double h);
@@ -55,6 +59,8 @@ class ExactIsland {
   void SolveAhead(const Pace& pace);
   void Move(double h);
   void ShutJoints(const Pace& pace);
+  void YieldContacts();
+  void SoftenContacts();
   void SolveAtEnd(const Pace& pace);
 
   // The tension of joints as inertia.
@@ -74,6 +80,7 @@ class ExactIsland {
   void HoldJoints();
   double Speed(const Row& row) const;
   void Push(const Row& row, double impulse);
+  void Shift(const Row& row, double by);
   void Save(std::vector<double>* velocities) const;
   void Restore(const std::vector<double>& velocities);
 

@@ -20,6 +20,8 @@ constexpr int kStifferTries = 4;
 /// Joints are shut to this, m or rad, in at most so many corrections.
 constexpr double kShut = 1e-7;
 constexpr int kCorrections = 8;
+/// By no more than this, m/s or rad/s; contacts yield by this share.
+constexpr double kShutFastest = 8, kYield = 1e-3;
 /// The matrix is made anew in them when one leaves more than this share, or when a body turns by
 /// more than kTurnsFast, rad.
 constexpr double kSlow = 0.3;
@@ -28,6 +30,10 @@ constexpr double kTurnsFast = 0.25;
 constexpr double kReached = 1e-6;
 /// Halvings of the restitution when a blow with friction would gain energy, the last is 0.
 constexpr int kSofterTries = 3;
+/// Joints that are farther apart than this, m or rad, are moved together before a step, and limits
+/// that are overstepped by more; by at most so much for each try.
+constexpr double kApart = 1e-5, kOverstepped = 5e-3, kTogetherMost = 0.2;
+constexpr int kTogetherTries = 4;
 /// A motor that lacks so much speed does all it may, rad/s or m/s.
 constexpr double kUtmost = 50;
 /// A joint has at most so many rows, and a row so many ends.
@@ -54,7 +60,69 @@ void ExactIsland::Step(const Pace& pace, bool warm) {
     const double lacks = row.target - Speed(row);
     if (std::fabs(lacks) > kUtmost) row.state = lacks > 0 ? RowState::kHigh : RowState::kLow;
   }
+  BringTogether(pace);
   for (int i = 0; i < pace.substeps; ++i) Substep(pace);
+}
+
+/// What was put apart since the last step, by a message, an edit or continuous collision, is moved
+/// together, and limits that are overstepped are gone back to: positions only, as little as the
+/// masses allow, no velocity comes of it.
+void ExactIsland::BringTogether(const Pace& pace) {
+  held_.clear();
+  for (int tries = 0; tries < kTogetherTries; ++tries) {
+    bool apart = false;
+    for (const Row& row : rows_) {
+      apart = apart || (row.kind == RowKind::kHard && std::fabs(row.error) > kApart) ||
+              (row.kind == RowKind::kLimit && row.error < -kOverstepped);
+    }
+    if (!apart) break;
+    if (held_.empty()) {
+      for (const Row& row : rows_) held_.push_back(row.state);
+    }
+    std::fill(x_.begin(), x_.end(), 0.0);
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      Row& row = rows_[i];
+      const bool shuts = row.kind == RowKind::kHard ||
+                         (row.kind == RowKind::kLimit && row.error < -kOverstepped);
+      const bool held = row.kind == RowKind::kNormal && row.error <= 0;
+      row.state = shuts || held ? RowState::kFree : RowState::kOut;
+      if (!shuts) continue;
+      x_[static_cast<std::size_t>(place_[i])] =
+          std::clamp(-row.error, -kTogetherMost, kTogetherMost);
+    }
+    Assemble();
+    SoftenContacts();
+    Factor();
+    matrix_.Solve(&x_);
+    for (std::size_t p = 0; p < rows_.size(); ++p) Shift(At(row_at_[p]), x_[p]);
+    Fill(pace);
+  }
+  for (std::size_t i = 0; i < held_.size(); ++i) rows_[i].state = held_[i];
+  held_.clear();
+}
+
+void ExactIsland::Rejoin(const Pace& pace) {
+  for (ExactContact& contact : contacts) ReadContact(bodies, &contact);
+  Fill(pace);
+  BringTogether(pace);
+  for (Row& row : rows_) {
+    row.base = row.lambda = row.total = 0;
+    row.state = row.bounded() && row.error > 0 ? RowState::kLow : RowState::kFree;
+    if (row.kind == RowKind::kFriction) row.state = RowState::kOut;
+  }
+  SolveAtEnd(pace);
+}
+
+/// What an impulse of `by` would do in a second: m or rad.
+void ExactIsland::Shift(const Row& row, double by) {
+  if (by == 0) return;
+  for (int e = 0; e < row.ends; ++e) {
+    const RowEnd& end = row.end[e];
+    ExactBody& q = Body(end.body);
+    q.x += by * end.mj[0];
+    q.y += by * end.mj[1];
+    q.Turn(by * end.mj[2]);
+  }
 }
 
 void ExactIsland::Substep(const Pace& pace) {
@@ -108,6 +176,7 @@ bool ExactIsland::Stiffer() {
 }
 
 void ExactIsland::SolveAhead(const Pace& pace) {
+  for (Row& row : rows_) row.goal = row.error + pace.h * row.target;
   Save(&start_);
   for (int tries = 0;; ++tries) {
     Assemble();
@@ -144,38 +213,54 @@ void ExactIsland::ShutJoints(const Pace& pace) {
         Row& row = At(held.row + i);
         const bool shuts = row.kind == RowKind::kHard || row.kind == RowKind::kLimit;
         if (!shuts || row.state != RowState::kFree) continue;
-        row.error = now[i].error;
-        far = std::max(far, std::fabs(row.error));
+        const double off = now[i].error - row.goal;
+        far = std::max(far, std::fabs(off));
         x_[static_cast<std::size_t>(place_[static_cast<std::size_t>(held.row + i)])] =
-            -row.error / pace.h;
+            std::clamp(-off / pace.h, -kShutFastest, kShutFastest);
         if (anew) std::copy_n(now[i].end, row.ends, row.end);
       }
     }
-    if (far < kShut) return;
+    if (far < kShut) break;
+    if (tries == 0 && !contacts.empty()) YieldContacts();
     if (!anew && tries > 1 && far > kSlow * last) {
       anew = true;
       continue;
     }
     last = far;
-    if (anew) Assemble();
+    if (anew) {
+      Assemble();
+      if (!contacts.empty()) SoftenContacts();
+    }
     Factor();
     matrix_.Solve(&x_);
     for (std::size_t p = 0; p < rows_.size(); ++p) {
       Row& row = At(row_at_[p]);
       if (row.state != RowState::kFree || x_[p] == 0) continue;
       row.base += x_[p];
-      for (int e = 0; e < row.ends; ++e) {
-        const RowEnd& end = row.end[e];
-        ExactBody& q = Body(end.body);
-        q.vx += x_[p] * end.mj[0];
-        q.vy += x_[p] * end.mj[1];
-        q.w += x_[p] * end.mj[2];
-        q.x += pace.h * x_[p] * end.mj[0];
-        q.y += pace.h * x_[p] * end.mj[1];
-        q.Turn(pace.h * x_[p] * end.mj[2]);
-      }
+      Push(row, x_[p]);
+      Shift(row, pace.h * x_[p]);
     }
   }
+  for (std::size_t i = 0; i < held_.size(); ++i) rows_[i].state = held_[i];
+  held_.clear();
+}
+
+/// While joints shut, contacts give way a little and friction altogether: with them a mechanism may
+/// be held in more ways than it can move.
+void ExactIsland::YieldContacts() {
+  for (Row& row : rows_) {
+    held_.push_back(row.state);
+    if (row.kind == RowKind::kFriction) row.state = RowState::kOut;
+  }
+  SoftenContacts();
+}
+
+void ExactIsland::SoftenContacts() {
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    if (rows_[i].kind != RowKind::kNormal) continue;
+    matrix_.At(matrix_.Place(place_[i], place_[i])) *= 1 + kYield;
+  }
+  dirty_ = 0;
 }
 
 void ExactIsland::SolveAtEnd(const Pace& pace) {

@@ -9,8 +9,6 @@ namespace {
 
 /// A speed by which errors of position are shut at most, m/s or rad/s.
 constexpr double kShutMost = 8;
-/// The same for limits.
-constexpr double kLimitMost = 4;
 /// How much of its error a pose motor takes back in a step; the engine's own default.
 constexpr double kPoseShare = 0.3;
 /// A motor this near its bound is at it.
@@ -167,8 +165,8 @@ class Writer {
     End(ends_.b, b_, j.bx, j.by, j.bw, &row);
     row.lo = kind == RowKind::kLimit ? 0 : -kUnbounded;
     row.hi = kUnbounded;
-    const double most = kind == RowKind::kLimit ? kLimitMost : kShutMost;
-    row.target = std::clamp(-error / h_, kind == RowKind::kLimit ? -kUnbounded : -most, most);
+    row.target = kind == RowKind::kLimit ? std::min(0.0, -error / h_)
+                                         : std::clamp(-error / h_, -kShutMost, kShutMost);
     return row;
   }
   static void End(int place, const ExactBody& body, double x, double y, double w, Row* row) {

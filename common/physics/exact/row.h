@@ -71,6 +71,7 @@ struct Row {
   RowEnd* end = nullptr;            ///< where they are: two, of a gear four
   double fixed_speed = 0;           ///< what its kinematic ends add, m/s or rad/s
   double error = 0;                 ///< m or rad: of the position; of a limit, what is left
+  double goal = 0;                  ///< m or rad: the error that the substep is to end with
   double target = 0;                ///< m/s or rad/s
   double gamma = 0;                 ///< 1/kg or 1/(kg m2)
   double lo = 0, hi = 0;            ///< N s or N m s
