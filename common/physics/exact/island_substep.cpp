@@ -14,6 +14,8 @@ namespace {
 /// Of the stiffness that tension gives a body against turning, the share that its inertia is
 /// enlarged by (after Tournier, Nesme, Gilles and Faure 2015: as much as keeps the step stable).
 constexpr double kStiffness = 0.25;
+/// It counts in full from this stiffness over inertia on, and below the other not at all.
+constexpr double kStiffTo = 1, kStiffFrom = 0.4;
 /// The inertia is found anew while it lacks more than this.
 constexpr double kStifferBy = 1.1;
 constexpr int kStifferTries = 4;
@@ -38,6 +40,13 @@ constexpr int kTogetherTries = 4;
 constexpr double kUtmost = 50;
 /// A joint has at most so many rows, and a row so many ends.
 constexpr int kRowsMost = 6, kEndsMost = 4;
+
+/// kg m2, what the tension makes of a body's inertia. Little tension makes nothing of it, so that
+/// a pendulum stays as exact as it is.
+double Stiffened(const ExactBody& q) {
+  const double share = (q.stiffness / q.inertia - kStiffFrom) / (kStiffTo - kStiffFrom);
+  return q.inertia + kStiffness * std::max(0.0, q.stiffness) * std::clamp(share, 0.0, 1.0);
+}
 
 double Kinetic(const ExactBody& q) {
   return q.moves() ? ((q.vx * q.vx + q.vy * q.vy) / q.im + q.inertia * q.w * q.w) / 2 : 0;
@@ -127,7 +136,7 @@ void ExactIsland::Shift(const Row& row, double by) {
 
 void ExactIsland::Substep(const Pace& pace) {
   for (ExactBody& q : bodies) {
-    if (q.moves()) q.ii = 1 / (q.inertia + kStiffness * std::max(0.0, q.stiffness));
+    if (q.moves()) q.ii = 1 / Stiffened(q);
   }
   for (Row& row : rows_) row.base = 0;
   Fill(pace);
@@ -166,11 +175,11 @@ void ExactIsland::Tension(double h) {
 bool ExactIsland::Stiffer() {
   bool lacks = false;
   for (const ExactBody& q : bodies) {
-    lacks = lacks || (q.moves() && (q.inertia + kStiffness * q.stiffness) * q.ii > kStifferBy);
+    lacks = lacks || (q.moves() && Stiffened(q) * q.ii > kStifferBy);
   }
   if (!lacks) return false;
   for (ExactBody& q : bodies) {
-    if (q.moves()) q.ii = std::min(q.ii, 1 / (q.inertia + kStiffness * std::max(0.0, q.stiffness)));
+    if (q.moves()) q.ii = std::min(q.ii, 1 / Stiffened(q));
   }
   return true;
 }
@@ -364,7 +373,7 @@ void ExactIsland::Impact() {
     rows_[i].state = were[i];
   }
   for (ExactBody& q : bodies) {
-    if (q.moves()) q.ii = 1 / (q.inertia + kStiffness * std::max(0.0, q.stiffness));
+    if (q.moves()) q.ii = 1 / Stiffened(q);
   }
 }
 
