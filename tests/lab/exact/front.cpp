@@ -22,7 +22,7 @@ std::string FrontLines(const std::string& path) {
     const std::vector<std::size_t> front = ParetoFront(PhysicsTrials(c.all));
     lines += fmt::format("{}: {}\n", c.name,
                          front.empty()
-                             ? "no front: no setting held"
+                             ? "no front, no setting held: " + c.all.front().failure
                              : "the front, of " + std::to_string(c.all.size()) + " settings tried");
     if (!front.empty()) lines += fmt::format("{:>10} {:>10}\n", "cost", c.unit);
     for (const std::size_t i : front) {

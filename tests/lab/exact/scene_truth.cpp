@@ -21,6 +21,7 @@ bool IsNumber(const TomlNode& node) {
 }
 
 std::string Said(const TomlNode& node) {
+  if (node.kind == TomlNode::Kind::kBoolean) return "a boolean";
   return node.kind == TomlNode::Kind::kOther ? "nothing" : KindName(node.kind);
 }
 
