@@ -45,17 +45,6 @@ class ExactJudge : public Judge {
   double worst_ = 0;
 };
 
-/// The times at which any setting of the grid is judged.
-std::set<double> JudgedTimes(int own_hz, double seconds) {
-  std::set<double> times;
-  for (const int hz : {30, 60, 120, 240, own_hz}) {
-    for (std::int64_t tick = 0; tick <= std::llround(seconds * hz); ++tick) {
-      times.insert(static_cast<double>(tick) / hz);
-    }
-  }
-  return times;
-}
-
 std::string NameOf(const std::string& file) {
   std::string name = std::filesystem::path(file).stem().string();
   for (char& c : name) {
@@ -68,8 +57,10 @@ std::string NameOf(const std::string& file) {
 /// Calls exact(t) and measured(t) as the judge will; the greatest number that exact(t) says.
 double Rehearse(const Scene& scene, double seconds, SceneTruth* truth) {
   double greatest = 0;
-  for (const double t : JudgedTimes(scene.solver.tick_hz, seconds)) {
-    greatest = std::max(greatest, std::fabs(truth->At(t).value));
+  for (const int hz : {30, 60, 120, 240, scene.solver.tick_hz}) {  // what the grid has
+    for (std::int64_t tick = 0; tick <= std::llround(seconds * hz); ++tick) {
+      greatest = std::max(greatest, std::fabs(truth->At(static_cast<double>(tick) / hz).value));
+    }
   }
   const World world(scene);
   if (truth->scalar()) truth->Measured(world);
