@@ -433,7 +433,7 @@ void ExactStep::Show(const Found& found) {
 void ExactStep::Prepare(float h, Found* found) {
   for (const int m : found->mechanisms) {
     for (const int j : mechanisms_[static_cast<std::size_t>(m)].joints) {
-      LookAtLimits(static_cast<double>(h), &joints_[static_cast<std::size_t>(j)]);
+      LookAt(static_cast<double>(h), &joints_[static_cast<std::size_t>(j)]);
     }
   }
   Sign(*found, &sign_);
@@ -464,8 +464,8 @@ void ExactStep::RejoinWhatMoved(float h, const Pace& pace) {
   if (moved.empty()) return;
   for (Slot& slot : slots_) slot.island = -1;
   for (const int m : moved) {
-    if (slots_[static_cast<std::size_t>(mechanisms_[static_cast<std::size_t>(m)].slots[0])].island >=
-        0) {
+    if (slots_[static_cast<std::size_t>(mechanisms_[static_cast<std::size_t>(m)].slots[0])]
+            .island >= 0) {
       continue;
     }
     Found& found = found_[static_cast<std::size_t>(m)];

@@ -95,7 +95,7 @@ class ExactIsland {
   int dirty_ = 0;  // the factors of rows from here on are old
   std::vector<char> in_;
   std::vector<double> x_, before_, start_;
-  std::vector<RowState> next_;    // by place
+  std::vector<RowState> next_;           // by place
   std::vector<RowState> states_, held_;  // kept while something takes no part
 };
 

@@ -46,8 +46,13 @@ void ExactIsland::Push(const Row& row, double impulse) {
 }
 
 void ExactIsland::Save(std::vector<double>* velocities) const {
-  velocities->clear();
-  for (const ExactBody& q : bodies) velocities->insert(velocities->end(), {q.vx, q.vy, q.w});
+  velocities->resize(3 * bodies.size());
+  double* v = velocities->data();
+  for (const ExactBody& q : bodies) {
+    *v++ = q.vx;
+    *v++ = q.vy;
+    *v++ = q.w;
+  }
 }
 
 void ExactIsland::Restore(const std::vector<double>& velocities) {

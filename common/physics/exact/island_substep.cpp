@@ -70,7 +70,10 @@ void ExactIsland::Step(const Pace& pace, bool warm) {
     if (std::fabs(lacks) > kUtmost) row.state = lacks > 0 ? RowState::kHigh : RowState::kLow;
   }
   BringTogether(pace);
-  for (int i = 0; i < pace.substeps; ++i) Substep(pace);
+  for (int i = 0; i < pace.substeps; ++i) {
+    if (i > 0) Fill(pace);
+    Substep(pace);
+  }
 }
 
 /// What was put apart since the last step, by a message, an edit or continuous collision, is moved
@@ -91,8 +94,8 @@ void ExactIsland::BringTogether(const Pace& pace) {
     std::fill(x_.begin(), x_.end(), 0.0);
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       Row& row = rows_[i];
-      const bool shuts = row.kind == RowKind::kHard ||
-                         (row.kind == RowKind::kLimit && row.error < -kOverstepped);
+      const bool shuts =
+          row.kind == RowKind::kHard || (row.kind == RowKind::kLimit && row.error < -kOverstepped);
       const bool held = row.kind == RowKind::kNormal && row.error <= 0;
       row.state = shuts || held ? RowState::kFree : RowState::kOut;
       if (!shuts) continue;
@@ -139,7 +142,6 @@ void ExactIsland::Substep(const Pace& pace) {
     if (q.moves()) q.ii = 1 / Stiffened(q);
   }
   for (Row& row : rows_) row.base = 0;
-  Fill(pace);
   if (FindImpacts()) {
     Impact();
     Fill(pace);

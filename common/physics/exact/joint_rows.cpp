@@ -40,38 +40,11 @@ void ReadSlide(const Made& made, ExactJoint* out) {
   out->upper = static_cast<double>(made.GetUpperLimit());
 }
 
-struct Drive {
-  bool on = false;
-  double speed = 0, most = 0;  // per s: N or N m
-};
-
-Drive DriveOf(const ExactJoint& joint) {
-  Drive drive;
-  switch (joint.type) {
-    case e_revoluteJoint: {
-      const auto& made = As<b2RevoluteJoint>(joint);
-      drive.on = made.IsMotorEnabled();
-      drive.speed = static_cast<double>(made.GetMotorSpeed());
-      drive.most = static_cast<double>(made.GetMaxMotorTorque());
-      break;
-    }
-    case e_prismaticJoint: {
-      const auto& made = As<b2PrismaticJoint>(joint);
-      drive.on = made.IsMotorEnabled();
-      drive.speed = static_cast<double>(made.GetMotorSpeed());
-      drive.most = static_cast<double>(made.GetMaxMotorForce());
-      break;
-    }
-    case e_wheelJoint: {
-      const auto& made = As<b2WheelJoint>(joint);
-      drive.on = made.IsMotorEnabled();
-      drive.speed = static_cast<double>(made.GetMotorSpeed());
-      drive.most = static_cast<double>(made.GetMaxMotorTorque());
-      break;
-    }
-    default: break;
-  }
-  return drive;
+template <typename Made>
+void ReadMotor(const Made& made, float most, ExactJoint* joint) {
+  joint->drives = made.IsMotorEnabled();
+  joint->speed = static_cast<double>(made.GetMotorSpeed());
+  joint->most = static_cast<double>(most);
 }
 
 /// Of the ends' speeds.
@@ -117,13 +90,13 @@ class Writer {
     row->lo = -kUnbounded;
     row->hi = kUnbounded;
   }
-  void Motor(const Drive& drive, Row* row) const {
-    row->target = drive.speed;
-    row->most = drive.most * h_;
+  void Motor(Row* row) const {
+    row->target = joint_.speed;
+    row->most = joint_.most * h_;
     row->lo = -row->most;
     row->hi = row->most;
   }
-  void Turning(const Drive& drive) { Motor(drive, &Bind(RowKind::kMotor, 0, kTurn)); }
+  void Turning() { Motor(&Bind(RowKind::kMotor, 0, kTurn)); }
   void Hold() {
     Row& row = Bind(joint_.stiffness > 0 ? RowKind::kSoft : RowKind::kHard, turned(), kTurn);
     if (joint_.stiffness > 0) Spring(&row);
@@ -245,10 +218,9 @@ void Writer::Slide(bool turns) {
   const double at = Shift(ux, uy);
   Along(RowKind::kHard, Shift(-uy, ux), -uy, ux);
   if (!turns) Angle(RowKind::kHard, turned());
-  const Drive drive = DriveOf(joint_);
   if (turns && joint_.stiffness > 0) Spring(&Along(RowKind::kSoft, at, ux, uy));
-  if (drive.on && turns) Turning(drive);
-  if (drive.on && !turns) Motor(drive, &Along(RowKind::kMotor, 0, ux, uy));
+  if (joint_.drives && turns) Turning();
+  if (joint_.drives && !turns) Motor(&Along(RowKind::kMotor, 0, ux, uy));
   if (!joint_.limited) return;
   if (joint_.lower >= joint_.upper) {
     Along(RowKind::kHard, at - joint_.lower, ux, uy);
@@ -312,27 +284,30 @@ ExactJoint ReadJoint(b2Joint* made) {
   return out;
 }
 
-void LookAtLimits(double h, ExactJoint* joint) {
+void LookAt(double h, ExactJoint* joint) {
   double at = 0, speed = 0, margin = kNearLength;
   switch (joint->type) {
     case e_revoluteJoint: {
-      if (!joint->limited) return;
       const auto& made = As<b2RevoluteJoint>(*joint);
+      ReadMotor(made, made.GetMaxMotorTorque(), joint);
+      if (!joint->limited) return;
       at = static_cast<double>(made.GetJointAngle());
       speed = static_cast<double>(made.GetJointSpeed());
       margin = kNearAngle;
       break;
     }
     case e_prismaticJoint: {
-      if (!joint->limited) return;
       const auto& made = As<b2PrismaticJoint>(*joint);
+      ReadMotor(made, made.GetMaxMotorForce(), joint);
+      if (!joint->limited) return;
       at = static_cast<double>(made.GetJointTranslation());
       speed = static_cast<double>(made.GetJointSpeed());
       break;
     }
     case e_wheelJoint: {
-      if (!joint->limited) return;
       const auto& made = As<b2WheelJoint>(*joint);
+      ReadMotor(made, made.GetMaxMotorTorque(), joint);
+      if (!joint->limited) return;
       at = static_cast<double>(made.GetJointTranslation());
       speed = static_cast<double>(made.GetJointLinearSpeed());
       break;
@@ -366,19 +341,18 @@ static int KeptAt(const ExactJoint& joint, int* kept) {
     if (joint.lower >= joint.upper || joint.near_lower) kept[count++] = lower;
     if (joint.lower < joint.upper && joint.near_upper) kept[count++] = lower + 1;
   };
-  const bool drive = DriveOf(joint).on;
   switch (joint.type) {
     case e_revoluteJoint:
     case e_prismaticJoint:
       kept[count++] = 0;
       kept[count++] = 1;
-      if (drive) kept[count++] = 2;
+      if (joint.drives) kept[count++] = 2;
       range(3);
       break;
     case e_wheelJoint:
       kept[count++] = 0;
       if (joint.stiffness > 0) kept[count++] = 2;
-      if (drive) kept[count++] = 1;
+      if (joint.drives) kept[count++] = 1;
       range(3);
       break;
     case e_distanceJoint:
@@ -403,8 +377,7 @@ void FillJoint(const ExactJoint& joint, const JointEnds& ends, const std::vector
   switch (joint.type) {
     case e_revoluteJoint: {
       write.Point();
-      const Drive drive = DriveOf(joint);
-      if (drive.on) write.Turning(drive);
+      if (joint.drives) write.Turning();
       if (!joint.limited) break;
       const double turned = write.turned();
       if (joint.lower >= joint.upper) {

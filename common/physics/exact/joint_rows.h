@@ -22,14 +22,17 @@ struct ExactJoint {
   /// Whether the limits are within reach of this step: others have no row.
   bool near_lower = false, near_upper = false;
   double stiffness = 0, damping = 0;
+  /// Its motor, N or N m.
+  bool drives = false;
+  double speed = 0, most = 0;
   JointImpulses impulses;
 };
 
 /// Requires a joint that MakeJoint has made. The slots are left to the caller.
 ExactJoint ReadJoint(b2Joint* made);
 
-/// Finds near_lower and near_upper for a step of h s.
-void LookAtLimits(double h, ExactJoint* joint);
+/// What may have changed since the last step: motor, near_lower and near_upper for a step of h s.
+void LookAt(double h, ExactJoint* joint);
 
 /// The two bodies of a joint, by their places in the island's list, and the points.
 struct JointEnds {

@@ -28,8 +28,8 @@ class Skyline {
   void Solve(std::vector<double>* x) const;
 
  private:
-  std::vector<int> first_, start_;  // entry (i, k) is at start_[i] + k
-  std::vector<double> matrix_, factor_, diagonal_;
+  std::vector<int> first_, start_;                 // entry (i, k) is at start_[i] + k
+  std::vector<double> matrix_, factor_, inverse_;  // the last of D
   long cost_ = 0;
 };
 
