@@ -19,8 +19,9 @@ constexpr double kStiffTo = 1, kStiffFrom = 0.4;
 /// The inertia is found anew while it lacks more than this.
 constexpr double kStifferBy = 1.1;
 constexpr int kStifferTries = 4;
-/// Joints are shut to this, m or rad, in at most so many corrections.
-constexpr double kShut = 1e-7;
+/// Joints are shut to this, m or rad, in at most so many corrections; less well where something
+/// touches, which leaves more behind.
+constexpr double kShut = 1e-9, kShutTouching = 1e-7;
 constexpr int kCorrections = 8;
 /// By no more than this, m/s or rad/s; contacts yield by this share.
 constexpr double kShutFastest = 8, kYield = 1e-3;
@@ -231,7 +232,7 @@ void ExactIsland::ShutJoints(const Pace& pace) {
         if (anew) std::copy_n(now[i].end, row.ends, row.end);
       }
     }
-    if (far < kShut) break;
+    if (far < (contacts.empty() ? kShut : kShutTouching)) break;
     if (tries == 0 && !contacts.empty()) YieldContacts();
     if (!anew && tries > 1 && far > kSlow * last) {
       anew = true;
