@@ -45,6 +45,9 @@ template struct Reveal<EngineSolveToi, &b2World::SolveTOI>;
 constexpr uint16 kBodyAwake = 0x0002, kBodyAutoSleep = 0x0004, kBodyEnabled = 0x0020;
 constexpr uint32 kContactEnabled = 0x0004;
 
+/// Multiplications of one factorisation above which contacts are relaxed.
+constexpr long kDirectMost = 30000;
+
 bool Pushes(const b2Contact* contact) {
   return contact->IsTouching() && contact->IsEnabled() && !contact->GetFixtureA()->IsSensor() &&
          !contact->GetFixtureB()->IsSensor();
@@ -214,8 +217,14 @@ void ExactStep::Order(Found* found) {
   found->slots = sorted;
 }
 
-void ExactStep::Build(Found* found) {
+void ExactStep::Build(Found* found, bool relaxed) {
   Order(found);
+  if (relaxed) {
+    std::stable_sort(found->slots.begin(), found->slots.end(), [this](int a, int b) {
+      return slots_[static_cast<std::size_t>(a)].mechanism <
+             slots_[static_cast<std::size_t>(b)].mechanism;
+    });
+  }
   found->island = std::make_unique<ExactIsland>();
   ExactIsland& island = *found->island;
   for (std::size_t i = 0; i < found->slots.size(); ++i) {
@@ -224,6 +233,7 @@ void ExactStep::Build(Found* found) {
     ExactBody q;
     q.body = slot.body;
     q.slot = found->slots[i];
+    q.group = slot.mechanism;
     q.im = static_cast<double>(slot.body->*Member(BodyInverseMass()));
     q.inertia = static_cast<double>(slot.body->*Member(BodyInertia()));
     q.ii = 1 / q.inertia;
@@ -267,7 +277,8 @@ void ExactStep::Build(Found* found) {
     island.contacts.push_back(contact);
   }
   LoadPoses(found);
-  island.Shape();
+  island.Shape(relaxed);
+  if (!relaxed && island.cost() > kDirectMost) Build(found, true);
 }
 
 void ExactStep::Sign(const Found& found, std::vector<const void*>* sign) const {
@@ -438,7 +449,7 @@ void ExactStep::Prepare(float h, Found* found) {
   }
   Sign(*found, &sign_);
   if (found->island && sign_ == found->sign) return;
-  Build(found);
+  Build(found, false);
   found->sign = sign_;
 }
 
@@ -449,7 +460,48 @@ bool ExactStep::Told(const Slot& s) {
          v.x == s.told_vx && v.y == s.told_vy && s.body->GetAngularVelocity() == s.told_w;
 }
 
-/// Continuous collision knows no joints: it takes a body back to where it hit.
+/// Listens while the engine does continuous collision. Its blow on a mechanism's body by something
+/// that does not give way is not heard of: the whole mechanism has it in the next step. Between
+/// moving bodies (bullets) the blow counts, and `struck` remembers whom it met.
+class ExactStep::Quiet : public b2ContactListener {
+ public:
+  Quiet(b2ContactListener* listener, std::vector<Slot>* slots)
+      : listener_(listener), slots_(slots) {}
+  void BeginContact(b2Contact* contact) override { listener_->BeginContact(contact); }
+  void EndContact(b2Contact* contact) override { listener_->EndContact(contact); }
+  void PreSolve(b2Contact* contact, const b2Manifold* old) override {
+    listener_->PreSolve(contact, old);
+  }
+  void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override {
+    b2Body* const a = contact->GetFixtureA()->GetBody();
+    b2Body* const b = contact->GetFixtureB()->GetBody();
+    const bool both = Moves(a) && Moves(b);
+    bool ours = false;
+    for (b2Body* body : {a, b}) {
+      if (!Moves(body)) continue;
+      Slot& slot = (*slots_)[static_cast<std::size_t>(IndexOf(body))];
+      slot.struck = slot.struck || both;
+      ours = ours || slot.island >= 0;
+    }
+    if (both || !ours) listener_->PostSolve(contact, impulse);
+  }
+
+ private:
+  b2ContactListener* const listener_;
+  std::vector<Slot>* const slots_;
+};
+
+/// As the engine's, but what it took back to where it hit keeps its velocity and its joints.
+void ExactStep::Continuous(const b2TimeStep& step, const Pace& pace) {
+  b2ContactListener* const listener = world_->GetContactManager().m_contactListener;
+  Quiet quiet(listener, &slots_);
+  for (Slot& slot : slots_) slot.struck = false;
+  world_->SetContactListener(&quiet);
+  (world_->*Member(EngineSolveToi()))(step);
+  world_->SetContactListener(listener);
+  RejoinWhatMoved(step.dt, pace);
+}
+
 void ExactStep::RejoinWhatMoved(float h, const Pace& pace) {
   std::vector<int> moved;
   for (const int m : solved_) {
@@ -472,7 +524,17 @@ void ExactStep::RejoinWhatMoved(float h, const Pace& pace) {
     if (!Gather(m, &found)) continue;
     Prepare(h, &found);
     LoadPoses(&found);
-    found.island->Rejoin(pace);
+    bool struck = false;
+    for (ExactBody& q : found.island->bodies) {
+      if (q.slot < 0) continue;
+      const Slot& s = slots_[static_cast<std::size_t>(q.slot)];
+      struck = struck || s.struck;
+      if (s.struck || !s.known) continue;
+      q.vx = s.vx;
+      q.vy = s.vy;
+      q.w = s.w;
+    }
+    found.island->Rejoin(pace, struck);
     SavePoses(found);
   }
 }
@@ -517,10 +579,7 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
     contacts.FindNewContacts();
   }
   for (const int m : solved_) Show(found_[static_cast<std::size_t>(m)]);
-  if (world_->GetContinuousPhysics()) {
-    (world_->*Member(EngineSolveToi()))(step);
-    RejoinWhatMoved(h, pace);
-  }
+  if (world_->GetContinuousPhysics()) Continuous(step, pace);
   last_inverse = step.inv_dt;
   if (world_->GetAutoClearForces()) world_->ClearForces();
   locked = false;

@@ -197,7 +197,11 @@ bool ExactIsland::NextFrictionBounds() {
   return change > kFrictionSame;
 }
 
-void ExactIsland::Solve() {
+void ExactIsland::Solve(bool ahead) {
+  if (relaxed_) {
+    Relax(ahead);
+    return;
+  }
   Save(&before_);
   next_.resize(rows_.size());
   for (int round = 0; round < kFrictionRounds; ++round) {
@@ -274,9 +278,9 @@ void ExactIsland::HoldJoints() {
     held_.push_back(row.state);
     if (row.bounded()) row.state = RowState::kOut;
   }
-  dirty_ = 0;
+  if (!relaxed_) dirty_ = 0;
   Factor();
-  for (std::size_t p = 0; p < rows_.size(); ++p) {
+  for (std::size_t p = 0; p < row_at_.size(); ++p) {
     const Row& row = At(row_at_[p]);
     x_[p] = row.state == RowState::kFree ? row.target - Speed(row) - row.gamma * row.lambda : 0;
   }
@@ -291,6 +295,7 @@ void ExactIsland::HoldJoints() {
     row.state = held_[i];
   }
   held_.clear();
+  if (relaxed_) return;
   dirty_ = 0;
   Factor();
 }

@@ -39,6 +39,8 @@ constexpr double kApart = 1e-5, kOverstepped = 5e-3, kTogetherMost = 0.2;
 constexpr int kTogetherTries = 4;
 /// A motor that lacks so much speed does all it may, rad/s or m/s.
 constexpr double kUtmost = 50;
+/// What falls for so many steps has a blow; what falls less lies.
+constexpr double kRestSteps = 4;
 /// A joint has at most so many rows, and a row so many ends.
 constexpr int kRowsMost = 6, kEndsMost = 4;
 
@@ -56,7 +58,9 @@ double Kinetic(const ExactBody& q) {
 }  // namespace
 
 void ExactIsland::Step(const Pace& pace, bool warm) {
-  for (ExactContact& contact : contacts) ReadContact(bodies, &contact);
+  const double pull = Pull();
+  for (ExactContact& contact : contacts)
+    ReadContact(bodies, kRestSteps * pull * pace.h * pace.substeps, &contact);
   Fill(pace);
   const double share = warm ? 1.0 / pace.substeps : 0;
   for (Row& row : rows_) row.lambda = row.total = 0;
@@ -75,6 +79,13 @@ void ExactIsland::Step(const Pace& pace, bool warm) {
     if (i > 0) Fill(pace);
     Substep(pace);
   }
+}
+
+/// The greatest acceleration that acts on a body, m/s2.
+double ExactIsland::Pull() const {
+  double most = 0;
+  for (const ExactBody& q : bodies) most = std::max(most, std::sqrt(q.ax * q.ax + q.ay * q.ay));
+  return most;
 }
 
 /// What was put apart since the last step, by a message, an edit or continuous collision, is moved
@@ -99,7 +110,7 @@ void ExactIsland::BringTogether(const Pace& pace) {
           row.kind == RowKind::kHard || (row.kind == RowKind::kLimit && row.error < -kOverstepped);
       const bool held = row.kind == RowKind::kNormal && row.error <= 0;
       row.state = shuts || held ? RowState::kFree : RowState::kOut;
-      if (!shuts) continue;
+      if (!shuts || place_[i] < 0) continue;
       x_[static_cast<std::size_t>(place_[i])] =
           std::clamp(-row.error, -kTogetherMost, kTogetherMost);
     }
@@ -107,21 +118,29 @@ void ExactIsland::BringTogether(const Pace& pace) {
     SoftenContacts();
     Factor();
     matrix_.Solve(&x_);
-    for (std::size_t p = 0; p < rows_.size(); ++p) Shift(At(row_at_[p]), x_[p]);
+    for (std::size_t p = 0; p < row_at_.size(); ++p) Shift(At(row_at_[p]), x_[p]);
     Fill(pace);
   }
   for (std::size_t i = 0; i < held_.size(); ++i) rows_[i].state = held_[i];
   held_.clear();
 }
 
-void ExactIsland::Rejoin(const Pace& pace) {
-  for (ExactContact& contact : contacts) ReadContact(bodies, &contact);
+void ExactIsland::Rejoin(const Pace& pace, bool struck) {
+  const double pull = Pull();
+  for (ExactContact& contact : contacts)
+    ReadContact(bodies, kRestSteps * pull * pace.h * pace.substeps, &contact);
   Fill(pace);
   BringTogether(pace);
+  if (!struck) return;
   for (Row& row : rows_) {
     row.base = row.lambda = row.total = 0;
     row.state = row.bounded() && row.error > 0 ? RowState::kLow : RowState::kFree;
     if (row.kind == RowKind::kFriction) row.state = RowState::kOut;
+  }
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    for (int i = 0; i < contacts[c].count && contacts[c].restitution > 0; ++i) {
+      At(contact_row_[c] + 2 * i).state = RowState::kOut;  // its blow comes in the next step
+    }
   }
   SolveAtEnd(pace);
 }
@@ -146,6 +165,7 @@ void ExactIsland::Substep(const Pace& pace) {
   if (FindImpacts()) {
     Impact();
     Fill(pace);
+    FindImpacts();  // what comes at a contact by another's blow hits in the next substep
   }
   const bool touches = !contacts.empty();
   Kick(touches ? pace.h : pace.h / 2);
@@ -192,7 +212,7 @@ void ExactIsland::SolveAhead(const Pace& pace) {
   Save(&start_);
   for (int tries = 0;; ++tries) {
     Assemble();
-    Solve();
+    Solve(true);
     if (tries == kStifferTries) break;
     Tension(pace.h);
     if (!Stiffer()) break;
@@ -202,16 +222,17 @@ void ExactIsland::SolveAhead(const Pace& pace) {
 }
 
 void ExactIsland::Move(double h) {
+  turned_ = 0;
   for (ExactBody& q : bodies) {
     q.x += h * q.vx;
     q.y += h * q.vy;
     if (q.w != 0) q.Turn(h * q.w);
+    turned_ = std::max(turned_, std::fabs(h * q.w));
   }
 }
 
 void ExactIsland::ShutJoints(const Pace& pace) {
-  bool anew = false;
-  for (const ExactBody& q : bodies) anew = anew || std::fabs(q.w * pace.h) > kTurnsFast;
+  bool anew = turned_ > kTurnsFast;
   double last = kUnbounded;
   Row now[kRowsMost];
   RowEnd ends[kRowsMost * kEndsMost];
@@ -224,16 +245,17 @@ void ExactIsland::ShutJoints(const Pace& pace) {
       for (int i = 0; i < held.rows; ++i) {
         Row& row = At(held.row + i);
         const bool shuts = row.kind == RowKind::kHard || row.kind == RowKind::kLimit;
-        if (!shuts || row.state != RowState::kFree) continue;
+        const int place = place_[static_cast<std::size_t>(held.row + i)];
+        if (!shuts || place < 0 || row.state != RowState::kFree) continue;
         const double off = now[i].error - row.goal;
         far = std::max(far, std::fabs(off));
-        x_[static_cast<std::size_t>(place_[static_cast<std::size_t>(held.row + i)])] =
+        x_[static_cast<std::size_t>(place)] =
             std::clamp(-off / pace.h, -kShutFastest, kShutFastest);
         if (anew) std::copy_n(now[i].end, row.ends, row.end);
       }
     }
     if (far < (contacts.empty() ? kShut : kShutTouching)) break;
-    if (tries == 0 && !contacts.empty()) YieldContacts();
+    if (tries == 0 && !contacts.empty() && !relaxed_) YieldContacts();
     if (!anew && tries > 1 && far > kSlow * last) {
       anew = true;
       continue;
@@ -245,7 +267,7 @@ void ExactIsland::ShutJoints(const Pace& pace) {
     }
     Factor();
     matrix_.Solve(&x_);
-    for (std::size_t p = 0; p < rows_.size(); ++p) {
+    for (std::size_t p = 0; p < row_at_.size(); ++p) {
       Row& row = At(row_at_[p]);
       if (row.state != RowState::kFree || x_[p] == 0) continue;
       row.base += x_[p];
@@ -269,7 +291,7 @@ void ExactIsland::YieldContacts() {
 
 void ExactIsland::SoftenContacts() {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (rows_[i].kind != RowKind::kNormal) continue;
+    if (rows_[i].kind != RowKind::kNormal || place_[i] < 0) continue;
     matrix_.At(matrix_.Place(place_[i], place_[i])) *= 1 + kYield;
   }
   dirty_ = 0;
@@ -296,11 +318,12 @@ void ExactIsland::SolveAtEnd(const Pace& pace) {
     }
   }
   Assemble();
-  Solve();
+  Solve(false);
   std::size_t next = 0;
   for (Row& row : rows_) {
     row.base += row.lambda;
     row.total += row.base;
+    row.warm = row.base;
     row.lambda = 0;
     if (row.kind == RowKind::kSoft || row.kind == RowKind::kMotor) row.state = states_[next++];
   }
@@ -320,11 +343,8 @@ bool ExactIsland::FindImpacts() {
       if (normal.state == RowState::kOut) normal.state = friction.state = RowState::kLow;
       p.approach = Speed(normal);
       if (contact.restitution <= 0 || p.approach > -contact.threshold) continue;
-      if (normal.error <= 0) {
-        hits = true;
-      } else {
-        normal.state = friction.state = RowState::kOut;  // next time, when it is there
-      }
+      hits = hits || normal.error <= 0;
+      normal.state = friction.state = RowState::kOut;  // has its blow now, or when it is there
     }
   }
   return hits;
@@ -356,14 +376,14 @@ void ExactIsland::Impact() {
       for (int i = 0; i < contact.count; ++i) {
         Row& normal = At(contact_row_[c] + 2 * i);
         Row& friction = At(contact_row_[c] + 2 * i + 1);
-        if (normal.error > 0) normal.state = friction.state = RowState::kOut;
+        normal.state = friction.state = normal.error > 0 ? RowState::kOut : RowState::kLow;
         normal.target = -share * contact.restitution * contact.point[i].approach;
         friction.target = contact.belt;
         driven = driven || contact.belt != 0;
       }
     }
     Assemble();
-    Solve();
+    Solve(true);
     double after = 0;
     for (const ExactBody& q : bodies) after += Kinetic(q);
     if (driven || after <= before * (1 + 1e-9) || tries == kSofterTries) break;

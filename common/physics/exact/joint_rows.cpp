@@ -405,7 +405,7 @@ void LoadImpulses(const ExactJoint& joint, double share, Row* rows) {
   for (int i = 0; i < count; ++i) {
     Row& row = rows[i];
     const double impulse = share * static_cast<double>(*joint.impulses.at[kept[i]]);
-    row.base = impulse;
+    row.base = row.warm = impulse;
     row.state = RowState::kFree;
     if (row.kind == RowKind::kLimit && impulse <= 0) row.state = RowState::kLow;
     if (row.kind == RowKind::kMotor && impulse <= -row.most * kNearly) row.state = RowState::kLow;

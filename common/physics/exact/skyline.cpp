@@ -72,14 +72,14 @@ void Skyline::Factor(const std::vector<char>& in, int from) {
   }
 }
 
-void Skyline::Solve(std::vector<double>* x) const {
+void Skyline::SolvePart(std::vector<double>* x, int from, int to) const {
   const int* const start = start_.data();
   const int* const first = first_.data();
   const double* const factor = factor_.data();
   double* v = x->data();
-  for (int i = 0; i < size(); ++i) v[i] -= Dot(factor + start[i], v, first[i], i);
-  for (int i = 0; i < size(); ++i) v[i] *= inverse_[static_cast<std::size_t>(i)];
-  for (int i = size() - 1; i >= 0; --i) {
+  for (int i = from; i < to; ++i) v[i] -= Dot(factor + start[i], v, first[i], i);
+  for (int i = from; i < to; ++i) v[i] *= inverse_[static_cast<std::size_t>(i)];
+  for (int i = to - 1; i >= from; --i) {
     const double* l = factor + start[i];
     const double done = v[i];
     if (done == 0) continue;
