@@ -168,7 +168,7 @@ struct Solver {
   /// have this rim, anchored and bullet ones keep 1 cm and are moved in by the difference, and
   /// everything comes to rest 2 skin - 5 mm apart: nothing at 2.5 mm, the least allowed.
   float skin = 0;
-  JointSolving joints = JointSolving::kIterative;
+  JointSolving joints = JointSolving::kAuto;
   int joint_substeps = 2;    ///< 1..16 of each of the engine's steps, where joints are exact
   bool weld_joints = false;  ///< welds are the engine's joints, not one body
   Faces faces = Faces::kMerged;

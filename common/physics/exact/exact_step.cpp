@@ -278,7 +278,12 @@ void ExactStep::Build(Found* found, bool relaxed) {
   }
   LoadPoses(found);
   island.Shape(relaxed);
-  if (!relaxed && island.cost() > kDirectMost) Build(found, true);
+  if (relaxed || island.cost() <= kDirectMost) return;
+  if (solver_.joints == JointSolving::kAuto) {
+    found->island.reset();  // left to the engine
+  } else {
+    Build(found, true);
+  }
 }
 
 void ExactStep::Sign(const Found& found, std::vector<const void*>* sign) const {
@@ -448,7 +453,7 @@ void ExactStep::Prepare(float h, Found* found) {
     }
   }
   Sign(*found, &sign_);
-  if (found->island && sign_ == found->sign) return;
+  if (sign_ == found->sign) return;
   Build(found, false);
   found->sign = sign_;
 }
@@ -523,6 +528,7 @@ void ExactStep::RejoinWhatMoved(float h, const Pace& pace) {
     Found& found = found_[static_cast<std::size_t>(m)];
     if (!Gather(m, &found)) continue;
     Prepare(h, &found);
+    if (!found.island) continue;
     LoadPoses(&found);
     bool struck = false;
     for (ExactBody& q : found.island->bodies) {
@@ -565,6 +571,7 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
     Found& found = found_[m];
     if (!Gather(static_cast<int>(m), &found)) continue;
     Prepare(h, &found);
+    if (!found.island) continue;
     Load(&found);
     found.island->Step(pace, step.warmStarting);
     Save(&found, h);

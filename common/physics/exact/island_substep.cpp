@@ -342,9 +342,10 @@ bool ExactIsland::FindImpacts() {
       Row& friction = At(contact_row_[c] + 2 * i + 1);
       if (normal.state == RowState::kOut) normal.state = friction.state = RowState::kLow;
       p.approach = Speed(normal);
-      if (contact.restitution <= 0 || p.approach > -contact.threshold) continue;
-      hits = hits || normal.error <= 0;
-      normal.state = friction.state = RowState::kOut;  // has its blow now, or when it is there
+      if (contact.restitution <= 0 || std::fabs(p.approach) < contact.threshold) continue;
+      hits = hits || (normal.error <= 0 && p.approach < 0);
+      // It has its blow now, or when it is there; and what parts needs no push.
+      normal.state = friction.state = RowState::kOut;
     }
   }
   return hits;
