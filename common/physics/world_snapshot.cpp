@@ -7,26 +7,12 @@
 #include <string>
 #include <tuple>
 
+#include "common/physics/reveal.h"
 #include "common/physics/world_impl.h"
 #include "common/physics/world_shapes.h"
 
 namespace seam {
 namespace {
-
-/// What the engine keeps to itself, without setters: time to sleep and the joints' impulses. An
-/// explicit instantiation may name private members ([temp.spec]), so this is no trick on the
-/// compiler, only on the class.
-template <typename Tag, typename Tag::Type kMember>
-struct Reveal {
-  friend typename Tag::Type Member(Tag) { return kMember; }
-};
-
-#define SEAM_REVEAL(tag, type, owner, member) \
-  struct tag {                                \
-    using Type = type owner::*;               \
-    friend Type Member(tag);                  \
-  };                                          \
-  template struct Reveal<tag, &owner::member>
 
 SEAM_REVEAL(SleepTime, float, b2Body, m_sleepTime);
 SEAM_REVEAL(RevolutePoint, b2Vec2, b2RevoluteJoint, m_impulse);
@@ -48,8 +34,8 @@ SEAM_REVEAL(PrismaticUpper, float, b2PrismaticJoint, m_upperImpulse);
 SEAM_REVEAL(MotorPoint, b2Vec2, b2MotorJoint, m_linearImpulse);
 SEAM_REVEAL(MotorTurn, float, b2MotorJoint, m_angularImpulse);
 SEAM_REVEAL(WeldAll, b2Vec3, b2WeldJoint, m_impulse);
-
-#undef SEAM_REVEAL
+SEAM_REVEAL(GearImpulse, float, b2GearJoint, m_impulse);
+SEAM_REVEAL(PulleyImpulse, float, b2PulleyJoint, m_impulse);
 
 /// The impulses that a joint begins its next step with.
 std::vector<float*> ImpulsesOf(b2Joint* joint) {
@@ -79,6 +65,12 @@ std::vector<float*> ImpulsesOf(b2Joint* joint) {
     auto& j = *static_cast<b2MotorJoint*>(joint);
     b2Vec2& point = j.*Member(MotorPoint());
     return {&point.x, &point.y, &(j.*Member(MotorTurn()))};
+  }
+  if (joint->GetType() == e_gearJoint) {
+    return {&(static_cast<b2GearJoint*>(joint)->*Member(GearImpulse()))};
+  }
+  if (joint->GetType() == e_pulleyJoint) {
+    return {&(static_cast<b2PulleyJoint*>(joint)->*Member(PulleyImpulse()))};
   }
   SEAM_ASSERT(joint->GetType() == e_weldJoint);
   b2Vec3& all = static_cast<b2WeldJoint*>(joint)->*Member(WeldAll());

@@ -162,6 +162,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"server/sessions", "none"},
       {"server/script", "none"},
       {"server/rules", "server/script"},
+      {"common/scene/joints", "common/scene"},
       {"render/canvas", "none"},
       {"render/playback", "render/canvas"},
       {"render/draw", "render/(canvas|playback)"},
