@@ -169,6 +169,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"tests/lab/fairness", "tests/lab(/report)?"},
       {"common/measure/limit", "common/measure(/screen)?"},
       {"tests/lab/hard", "none"},
+      {"tests/lab/hard/mechanisms", "tests/lab/hard"},
       {"tests/lab/report", "tests/lab"},
       {"tests/lab/validity", "tests/lab"},
       {"tests/lab/world", "tests/lab(/report)?"}};

@@ -49,6 +49,8 @@ const std::vector<HardCase>& HardCases();
 /// exact_*.cpp and invariant_*.cpp.
 std::vector<HardCase> ExactCases();
 std::vector<HardCase> InvariantCases();
+/// mechanisms/: of both kinds.
+std::vector<HardCase> MechanismCases();
 
 /// The case's scene as its file has it, adjusted. `folder`: of the scenes, "scenes/hard".
 /// Throws OperatorError.

@@ -116,7 +116,7 @@ Scene WithSolver(const Scene& scene, const Solver& solver) {
 
 double PredictedCpu(const Scene& scene, const Solver& solver, double seconds) {
   double bodies = 0;
-  for (const Part& part : scene.parts) bodies += part.anchored ? 0 : 1;
+  for (const Part& part : scene.parts) bodies += part.anchored || part.gone ? 0 : 1;
   const double step_us = 1 + 2 * bodies + 0.3 * static_cast<double>(scene.joints.size());
   return seconds * solver.tick_hz * solver.substeps * StepShare(solver) * step_us * 1e-6;
 }
