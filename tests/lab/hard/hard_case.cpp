@@ -28,6 +28,7 @@ Scene LoadHardScene(const HardCase& hard, const std::string& folder) {
 Solver StockSolver() {
   Solver stock;
   stock.weld_joints = true;
+  stock.joints = JointSolving::kIterative;
   return stock;
 }
 

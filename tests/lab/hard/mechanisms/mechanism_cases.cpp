@@ -73,6 +73,7 @@ void AddElastic(std::vector<HardCase>* cases) {
                  return MakeEnergyJudge({500, {-6.5, -6.5, 6.5, 6.5}}, s);
                });
       hard.adjust = [substeps](Scene* s) { s->solver.substeps = substeps; };
+      hard.exact_substeps = {substeps};
       cases->push_back(hard);
     }
   }
