@@ -70,7 +70,7 @@ void AddElastic(std::vector<HardCase>* cases) {
       HardCase hard =
           Case(fmt::format("{}-x{}", scene, substeps), scene, Truth::kFormula, "J/J",
                "greatest change of the energy, which stays, 60 s", 60, [](const Scene& s) {
-                 return MakeEnergyJudge({500, {-6.5, -6.5, 6.5, 6.5}}, s);
+                 return MakeEnergyJudge({500, {-26, -26, 26, 26}}, s);
                });
       hard.adjust = [substeps](Scene* s) { s->solver.substeps = substeps; };
       hard.exact_substeps = {substeps};
