@@ -265,6 +265,11 @@ void ExactStep::Build(Found* found, bool relaxed) {
                    static_cast<double>(at_a.y),
                    static_cast<double>(at_b.x),
                    static_cast<double>(at_b.y)};
+      if (joint.type == e_gearJoint) {
+        auto& gear = *static_cast<b2GearJoint*>(joint.made);
+        held.ends.base_a = place(gear.GetJoint1()->GetBodyA());
+        held.ends.base_b = place(gear.GetJoint2()->GetBodyA());
+      }
       island.joints.push_back(held);
     }
   }

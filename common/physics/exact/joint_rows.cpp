@@ -3,12 +3,11 @@
 #include <algorithm>
 
 #include "common/base/check.h"
+#include "common/physics/exact/gear_rows.h"
 
 namespace seam {
 namespace {
 
-/// A speed by which errors of position are shut at most, m/s or rad/s.
-constexpr double kShutMost = 8;
 /// How much of its error a pose motor takes back in a step; the engine's own default.
 constexpr double kPoseShare = 0.3;
 /// A motor this near its bound is at it.
@@ -118,6 +117,7 @@ class Writer {
   }
   double Shift(double ux, double uy) const { return dx_ * ux + dy_ * uy; }
   void Distance();
+  void Pulley();
   void Pose();
   void Slide(bool turns);
 
@@ -188,6 +188,26 @@ void Writer::Distance() {
   }
   if (joint_.near_lower) Tense(-arm_a, arm_b, &Bind(RowKind::kLimit, length - joint_.lower, along));
   if (joint_.near_upper) Tense(arm_a, -arm_b, &Bind(RowKind::kLimit, joint_.upper - length, back));
+}
+
+/// length = way of a + ratio * way of b, and both are pulled up.
+void Writer::Pulley() {
+  const auto way = [](double x, double y, const b2Vec2& ground, double* ux, double* uy) {
+    *ux = x - static_cast<double>(ground.x);
+    *uy = y - static_cast<double>(ground.y);
+    const double length = std::sqrt(*ux * *ux + *uy * *uy);
+    const double share = length > kNoDirection ? 1 / length : 0;
+    *ux *= share;
+    *uy *= share;
+    return length;
+  };
+  double ux = 0, uy = 0, wx = 0, wy = 0;
+  const double a = way(a_.x + ax_, a_.y + ay_, joint_.ground_a, &ux, &uy);
+  const double b = way(b_.x + bx_, b_.y + by_, joint_.ground_b, &wx, &wy);
+  const double ratio = joint_.ratio;
+  Bind(
+      RowKind::kHard, joint_.length - a - ratio * b,
+      {-ux, -uy, -(ax_ * uy - ay_ * ux), -ratio * wx, -ratio * wy, -ratio * (bx_ * wy - by_ * wx)});
 }
 
 void Writer::Pose() {
@@ -278,6 +298,18 @@ ExactJoint ReadJoint(b2Joint* made) {
       if (IsRod(out)) out.lower = out.reference;
       break;
     }
+    case e_pulleyJoint: {
+      auto& j = *static_cast<b2PulleyJoint*>(made);
+      out.anchor_a = made->GetBodyA()->GetLocalPoint(j.GetAnchorA());
+      out.anchor_b = made->GetBodyB()->GetLocalPoint(j.GetAnchorB());
+      out.ground_a = j.GetGroundAnchorA();
+      out.ground_b = j.GetGroundAnchorB();
+      out.ratio = static_cast<double>(j.GetRatio());
+      out.length =
+          static_cast<double>(j.GetLengthA()) + out.ratio * static_cast<double>(j.GetLengthB());
+      break;
+    }
+    case e_gearJoint: out.gear = ReadGear(static_cast<b2GearJoint*>(made)); break;
     case e_motorJoint: break;  // acts between the bodies' origins
     default: SEAM_ASSERT(false);
   }
@@ -355,6 +387,8 @@ static int KeptAt(const ExactJoint& joint, int* kept) {
       if (joint.drives) kept[count++] = 1;
       range(3);
       break;
+    case e_pulleyJoint:
+    case e_gearJoint: kept[count++] = 0; break;
     case e_distanceJoint:
       if (IsRod(joint) || joint.stiffness > 0) kept[count++] = 0;
       if (!IsRod(joint) && joint.near_lower) kept[count++] = 1;
@@ -373,6 +407,10 @@ int RowCount(const ExactJoint& joint) {
 
 void FillJoint(const ExactJoint& joint, const JointEnds& ends, const std::vector<ExactBody>& bodies,
                const Pace& pace, Row* rows) {
+  if (joint.type == e_gearJoint) {
+    FillGear(joint, ends, bodies, pace.h, rows);
+    return;
+  }
   Writer write(joint, ends, bodies, pace, rows);
   switch (joint.type) {
     case e_revoluteJoint: {
@@ -394,6 +432,7 @@ void FillJoint(const ExactJoint& joint, const JointEnds& ends, const std::vector
     case e_prismaticJoint: write.Slide(false); break;
     case e_wheelJoint: write.Slide(true); break;
     case e_distanceJoint: write.Distance(); break;
+    case e_pulleyJoint: write.Pulley(); break;
     case e_motorJoint: write.Pose(); break;
     default: break;
   }

@@ -9,6 +9,21 @@
 
 namespace seam {
 
+/// The two joints that a gear couples.
+struct GearSides {
+  struct Side {
+    bool slides = false;  ///< prismatic; else a hinge
+    b2Vec2 base{0, 0}, arm{0, 0},
+        axis{1, 0};        ///< m, of a prismatic joint, from the bodies' origins
+    double reference = 0;  ///< rad, of a hinge
+  };
+  Side first, second;
+  double ratio = 1;
+};
+
+/// A speed by which errors of position are shut at most, m/s or rad/s.
+constexpr double kShutMost = 8;
+
 /// What does not change while the joint lives, but motors' speeds and bounds.
 struct ExactJoint {
   b2Joint* made = nullptr;
@@ -25,6 +40,9 @@ struct ExactJoint {
   /// Its motor, N or N m.
   bool drives = false;
   double speed = 0, most = 0;
+  GearSides gear;
+  double ratio = 1, length = 0;           ///< of a pulley; m
+  b2Vec2 ground_a{0, 0}, ground_b{0, 0};  ///< m, of a pulley
   JointImpulses impulses;
 };
 
@@ -38,10 +56,11 @@ void LookAt(double h, ExactJoint* joint);
 struct JointEnds {
   int a = 0, b = 0;
   double ax = 0, ay = 0, bx = 0, by = 0;  ///< m, in the body's frame, from the centre of mass
+  int base_a = -1, base_b = -1;           ///< of a gear: what its joints turn or slide on
 };
 
 /// How many bodies each of its rows binds at most.
-inline int EndsOf(const ExactJoint& /*joint*/) { return 2; }
+inline int EndsOf(const ExactJoint& joint) { return joint.type == e_gearJoint ? 4 : 2; }
 
 /// How many rows it has now: limits may be far, motors may be switched.
 int RowCount(const ExactJoint& joint);
