@@ -241,13 +241,20 @@ void ExactIsland::ShutJoints(const Pace& pace) {
     double far = 0;
     std::fill(x_.begin(), x_.end(), 0.0);
     for (const Held& held : joints) {
-      FillJoint(*held.joint, held.ends, bodies, pace, now);
+      double errors[kRowsMost];
+      if (anew) {
+        FillJoint(*held.joint, held.ends, bodies, pace, now);
+        for (int i = 0; i < held.rows; ++i) errors[i] = now[i].error;
+      } else if (!PointErrors(*held.joint, held.ends, bodies, errors)) {
+        FillJoint(*held.joint, held.ends, bodies, pace, now);
+        for (int i = 0; i < held.rows; ++i) errors[i] = now[i].error;
+      }
       for (int i = 0; i < held.rows; ++i) {
         Row& row = At(held.row + i);
         const bool shuts = row.kind == RowKind::kHard || row.kind == RowKind::kLimit;
         const int place = place_[static_cast<std::size_t>(held.row + i)];
         if (!shuts || place < 0 || row.state != RowState::kFree) continue;
-        const double off = now[i].error - row.goal;
+        const double off = errors[i] - row.goal;
         far = std::max(far, std::fabs(off));
         x_[static_cast<std::size_t>(place)] =
             std::clamp(-off / pace.h, -kShutFastest, kShutFastest);
@@ -255,7 +262,7 @@ void ExactIsland::ShutJoints(const Pace& pace) {
       }
     }
     if (far < (contacts.empty() ? kShut : kShutTouching)) break;
-    if (tries == 0 && !contacts.empty() && !relaxed_) YieldContacts();
+    if (tries == 0 && !contacts.empty() && !relaxed_) SoftenContacts();
     if (!anew && tries > 1 && far > kSlow * last) {
       anew = true;
       continue;
@@ -275,23 +282,14 @@ void ExactIsland::ShutJoints(const Pace& pace) {
       Shift(row, pace.h * x_[p]);
     }
   }
-  for (std::size_t i = 0; i < held_.size(); ++i) rows_[i].state = held_[i];
-  held_.clear();
 }
 
-/// While joints shut, contacts give way a little and friction altogether: with them a mechanism may
-/// be held in more ways than it can move.
-void ExactIsland::YieldContacts() {
-  for (Row& row : rows_) {
-    held_.push_back(row.state);
-    if (row.kind == RowKind::kFriction) row.state = RowState::kOut;
-  }
-  SoftenContacts();
-}
-
+/// While joints shut, contacts give way a little: with them a mechanism may be held in more ways
+/// than it can move.
 void ExactIsland::SoftenContacts() {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (rows_[i].kind != RowKind::kNormal || place_[i] < 0) continue;
+    const bool contact = rows_[i].kind == RowKind::kNormal || rows_[i].kind == RowKind::kFriction;
+    if (!contact || place_[i] < 0) continue;
     matrix_.At(matrix_.Place(place_[i], place_[i])) *= 1 + kYield;
   }
   dirty_ = 0;
