@@ -16,6 +16,8 @@ namespace {
 constexpr double kStiffness = 0.25;
 /// It counts in full from this stiffness over inertia on, and below the other not at all.
 constexpr double kStiffTo = 1, kStiffFrom = 0.4;
+/// What is left of it after a substep when the tension is gone: inertias that jump make noise.
+constexpr double kLasts = 0.99;
 /// The inertia is found anew while it lacks more than this.
 constexpr double kStifferBy = 1.1;
 constexpr int kStifferTries = 4;
@@ -47,8 +49,9 @@ constexpr int kRowsMost = 6, kEndsMost = 4;
 /// kg m2, what the tension makes of a body's inertia. Little tension makes nothing of it, so that
 /// a pendulum stays as exact as it is.
 double Stiffened(const ExactBody& q) {
-  const double share = (q.stiffness / q.inertia - kStiffFrom) / (kStiffTo - kStiffFrom);
-  return q.inertia + kStiffness * std::max(0.0, q.stiffness) * std::clamp(share, 0.0, 1.0);
+  const double tense = std::max(q.stiffness, q.lasting);
+  const double share = (tense / q.inertia - kStiffFrom) / (kStiffTo - kStiffFrom);
+  return q.inertia + kStiffness * std::max(0.0, tense) * std::clamp(share, 0.0, 1.0);
 }
 
 double Kinetic(const ExactBody& q) {
@@ -174,6 +177,7 @@ void ExactIsland::Substep(const Pace& pace) {
   ShutJoints(pace);
   if (!touches) Kick(pace.h / 2);
   SolveAtEnd(pace);
+  for (ExactBody& q : bodies) q.lasting = std::max(q.stiffness, kLasts * q.lasting);
 }
 
 void ExactIsland::Kick(double h) {
