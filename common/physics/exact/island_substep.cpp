@@ -38,7 +38,7 @@ constexpr int kSofterTries = 3;
 /// Joints that are farther apart than this, m or rad, are moved together before a step, and limits
 /// that are overstepped by more; by at most so much for each try.
 constexpr double kApart = 1e-5, kOverstepped = 5e-3, kTogetherMost = 0.2;
-constexpr int kTogetherTries = 12;
+constexpr int kTogetherTries = 8;
 /// A motor that lacks so much speed does all it may, rad/s or m/s.
 constexpr double kUtmost = 50;
 /// What falls for so many steps has a blow; what falls less lies.
@@ -306,10 +306,15 @@ void ExactIsland::SolveAtEnd(const Pace& pace) {
     if (row.state == RowState::kOut) continue;
     switch (row.kind) {
       case RowKind::kHard: row.target = 0; break;
-      case RowKind::kSoft:
-      case RowKind::kMotor:  // have acted for the whole substep
+      case RowKind::kSoft:  // has acted for the whole substep
         states_.push_back(row.state);
         row.state = RowState::kOut;
+        break;
+      case RowKind::kMotor:  // holds its speed with what it has left, or has done all it may
+        states_.push_back(row.state);
+        if (row.state != RowState::kFree) row.state = RowState::kOut;
+        row.lo = -row.most - row.base;
+        row.hi = row.most - row.base;
         break;
       case RowKind::kLimit:
       case RowKind::kNormal:
