@@ -170,12 +170,15 @@ void ExactIsland::Substep(const Pace& pace) {
     Fill(pace);
     FindImpacts();  // what comes at a contact by another's blow hits in the next substep
   }
-  const bool touches = !contacts.empty();
-  Kick(touches ? pace.h : pace.h / 2);
+  // What contacts or springs carry would have half a kick left: only projections take that back.
+  const bool whole = !contacts.empty() || std::any_of(rows_.begin(), rows_.end(), [](const Row& r) {
+    return r.kind == RowKind::kSoft;
+  });
+  Kick(whole ? pace.h : pace.h / 2);
   SolveAhead(pace);
   Move(pace.h);
   ShutJoints(pace);
-  if (!touches) Kick(pace.h / 2);
+  if (!whole) Kick(pace.h / 2);
   SolveAtEnd(pace);
   for (ExactBody& q : bodies) q.lasting = std::max(q.stiffness, kLasts * q.lasting);
 }
@@ -310,9 +313,9 @@ void ExactIsland::SolveAtEnd(const Pace& pace) {
         states_.push_back(row.state);
         row.state = RowState::kOut;
         break;
-      case RowKind::kMotor:  // holds its speed with what it has left, or has done all it may
+      case RowKind::kMotor:  // has acted, too; of the second half of a kick it takes its share
         states_.push_back(row.state);
-        if (row.state != RowState::kFree) row.state = RowState::kOut;
+        if (!contacts.empty() || row.state != RowState::kFree) row.state = RowState::kOut;
         row.lo = -row.most - row.base;
         row.hi = row.most - row.base;
         break;

@@ -91,8 +91,9 @@ TEST(ExactEdits, AKinematicLinkGoesItsWayAndTheOthersFollow) {
   EXPECT_LT(Drift(*world), 1e-5);
 }
 
-TEST(ExactEdits, ALedLinkIsWhereItsPathTakesItAndTheOthersFollow) {
-  const auto world = ExactWorld(ChainText(5, 0, 0), "", "gravity = [0, 0]\n");
+/// How far a chain's joints are open, at worst, while its first link is led.
+double DriftOfLed(const char* joints) {
+  const auto world = SmallWorld(ChainText(5, 0, 0), joints, "gravity = [0, 0]\n");
   world->SetMotion(0, Motion::kLed);
   const BodyState start{{0.5f, 0}, 0, {-1, 0.5f}, 0};
   world->Write(0, start);
@@ -101,13 +102,20 @@ TEST(ExactEdits, ALedLinkIsWhereItsPathTakesItAndTheOthersFollow) {
     world->Step();
     const BodyState now = world->Read(0);
     const auto s = static_cast<float>(t) * world->dt();
-    ASSERT_NEAR((now.position - start.position - s * start.velocity).norm(), 0, 1e-4) << t;
-    ASSERT_EQ(now.velocity, start.velocity);
+    EXPECT_NEAR((now.position - start.position - s * start.velocity).norm(), 0, 1e-4) << t;
+    EXPECT_EQ(now.velocity, start.velocity);
     worst = std::max(worst, Drift(*world));
   }
-  // It is put on its path after the step that had it with its joints: a tick's correction is open.
-  EXPECT_LT(worst, 0.02);
   EXPECT_LT(world->Read(4).position.x(), 0) << "the last link came along";
+  return worst;
+}
+
+TEST(ExactEdits, ALedLinkIsWhereItsPathTakesItAndTheOthersFollow) {
+  // It is put on its path after a step that solved it with its joints: a step's correction is open,
+  // of a start at 1.1 m/s within one of 17 ms.
+  const double exact = DriftOfLed("joints = \"exact\"\n");
+  EXPECT_LT(exact, 0.03);
+  EXPECT_LT(exact, 1.2 * DriftOfLed("joints = \"iterative\"\n"));
 }
 
 TEST(ExactEdits, AWriteThatTearsAJointApartIsUndoneWithoutSpeed) {

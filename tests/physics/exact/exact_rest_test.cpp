@@ -98,6 +98,13 @@ TEST(ExactRest, ALinkageOnTheGroundFallsAsleepWithWhatLiesOnIt) {
   EXPECT_GT(TicksToSleep(&world, 300), 0);
 }
 
+TEST(ExactRest, ALoadOnASpringFallsAsleep) {
+  World world(Sleepy(PostText(0, 0) + PartText("load", "box = [1, 1]\nposition = [0, -3]") +
+                     "[[joint]]\nname = \"j\"\nkind = \"distance\"\na = \"post\"\nb = \"load\"\n"
+                     "frequency = 2\ndamping_ratio = 1\n"));
+  EXPECT_GT(TicksToSleep(&world, 900), 0);
+}
+
 TEST(ExactRest, AMotorsOrderWakesWhatSleeps) {
   World world(
       Sleepy("[[player]]\nname = \"ann\"\n" + PostText(0, 0) +

@@ -82,13 +82,12 @@ TEST(ExactSurroundings, AConveyorDragsWithMuGUntilAllMovesAsItDoes) {
 
 TEST(ExactSurroundings, WaterBearsARaftOfPlanks) {
   // Half as dense as water: it swims with its middle in the surface.
-  const auto world =
-      ExactWorld("[[water]]\nname = \"pool\"\nbox = [40, 10]\nposition = [0, -5]\n" +
-                 PartText("plank",
-                          "box = [1, 0.4]\nposition = [0, 0.3]\ndensity = 500e-3\n"
-                          "repeat = {count = 3, step = [1, 0]}") +
-                 HingeText("h0", "plank.0", "plank.1", 0.5, 0.3) +
-                 HingeText("h1", "plank.1", "plank.2", 1.5, 0.3));
+  const auto world = ExactWorld("[[water]]\nname = \"pool\"\nbox = [40, 10]\nposition = [0, -5]\n" +
+                                PartText("plank",
+                                         "box = [1, 0.4]\nposition = [0, 0.3]\ndensity = 500e-3\n"
+                                         "repeat = {count = 3, step = [1, 0]}") +
+                                HingeText("h0", "plank.0", "plank.1", 0.5, 0.3) +
+                                HingeText("h1", "plank.1", "plank.2", 1.5, 0.3));
   Steps(world.get(), 1200);
   for (int body = 0; body < 3; ++body) {
     EXPECT_LT(world->Read(body).position.y(), 0.2) << body;
