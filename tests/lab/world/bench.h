@@ -25,6 +25,7 @@ TextTable AssemblyBench(bool quick);
 TextTable GroupingBench(bool quick);
 TextTable JointsBench(bool quick);
 TextTable CharactersBench(bool quick);
+TextTable FactorBench(bool quick);
 
 /// CPU seconds of this process so far.
 double CpuSeconds();

@@ -13,6 +13,7 @@ const std::vector<WorldBench>& WorldBenches() {
       {"grouping", GroupingBench},
       {"joints", JointsBench},
       {"characters", CharactersBench},
+      {"factor", FactorBench},
   };
   return benches;
 }
