@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/physics/joint_directions.h"
+
 namespace seam {
 
 void ExactIsland::Shape(bool relaxed) {
@@ -98,6 +100,7 @@ void ExactIsland::Fill(const Pace& pace) {
 void ExactIsland::Store() const {
   for (const Held& held : joints) {
     StoreImpulses(*held.joint, rows_.data() + held.row);
+    SetDirections(held.joint->made);
   }
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (contacts[c].count > 0) StoreImpulses(contacts[c], rows_.data() + contact_row_[c]);

@@ -60,6 +60,31 @@ TEST(ExactStatics, ASwingingLoadStrainsItsAnchorByTheWayRound) {
   EXPECT_EQ(Live(breaks.get(), 120).size(), 1u);
 }
 
+/// A hook of 0.4 kg glued to a wall, and a load of 1 kg on a joint to it. The joint's keys.
+bool TearsOff(double strength, const std::string& joint) {
+  auto world = ExactWorld(
+      "[[part]]\nname = \"wall\"\nbox = [1, 1]\nposition = [-0.7, 0]\nanchored = true\n" +
+      PartText("hook", "box = [0.4, 1]\nposition = [0, 0]") +
+      "[[joint]]\nname = \"glue\"\nkind = \"glue\"\na = \"wall\"\nb = \"hook\"\n"
+      "anchor = [-0.2, 0]\nstrength = " +
+      Digits(strength) + "\n" + PartText("load", "box = [1, 1]\nposition = [0, -2]") +
+      "[[joint]]\nname = \"j\"\na = \"hook\"\nb = \"load\"\n" + joint + "\n");
+  return !Live(world.get(), 30).empty();
+}
+
+TEST(ExactStatics, GlueFeelsTheLoadThroughEveryKindOfJoint) {
+  for (const char* joint :
+       {"kind = \"hinge\"\nanchor = [0, -0.5]", "kind = \"distance\"", "kind = \"rope\"",
+        "kind = \"prismatic\"\naxis = [1, 0]\nanchor = [0, -0.5]",
+        "kind = \"prismatic\"\naxis = [0, 1]\nanchor = [0, -0.5]\nlimits = [0, 1]",
+        "kind = \"wheel\"\nanchor = [0, -2]\naxis = [0, 1]",
+        "kind = \"wheel\"\nanchor = [0, -2]\naxis = [1, 0]\nlimits = [-1, 1]",
+        "kind = \"weld\"\nanchor = [0, -0.5]\nfrequency = 30"}) {
+    EXPECT_FALSE(TearsOff(1.02 * 14, joint)) << joint;
+    EXPECT_TRUE(TearsOff(0.98 * 14, joint)) << joint;
+  }
+}
+
 /// A disc of 1 kg m2 on a hinge with this motor.
 std::unique_ptr<World> Turned(const std::string& motor, const std::string& rest = "") {
   const double radius = std::pow(2 / kPi, 0.25);  // pi r^4 / 2 = 1
