@@ -48,6 +48,7 @@ DEBS_build := g++ make pkg-config liblcm-dev liblcm-bin libbox2d-dev libeigen3-d
 DEBS_report := gnuplot-nox
 DEBS_coverage := gcovr
 DEBS_format := clang-format git
+DEBS_hashes := clang
 DEBS_lint := clang-tidy git
 
 # All .cpp below a folder; and their objects.
@@ -76,7 +77,7 @@ SOAK ?= 300
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
-.PHONY: all help deps demo bench report test tests check-fast run-tests coverage soak format lint \
+.PHONY: all help deps demo bench report test tests hashes check-fast run-tests coverage soak format lint \
 	compile_commands.json install install-built clean force
 
 all: build/.deps-build $(PROGRAMS)   ## build the programs
@@ -162,6 +163,10 @@ $(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(SERVER) $(CLIENT) $(OUT)/libse
 $(OUT)/seam-tests: $(TESTS) $(LAB) $(SERVER) $(CLIENT) $(RENDER) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(RENDER_LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
+# The test of golden hashes alone (tests/hashes.sh).
+$(OUT)/seam-hashes: $(OUT)/tests/physics/determinism_test.o $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) -lgtest -lgtest_main -o $@
+
 tests: build/.deps-build build/.deps-report $(OUT)/seam-tests $(PROGRAMS) $(OUT)/libseam.a   ## build the tests
 
 run-tests = SEAM_BIN=$(OUT) $(OUT)/seam-tests $(if $(FILTER),--gtest_filter='$(FILTER)')
@@ -176,6 +181,9 @@ check-fast: tests                    ## build and run the tests that take no pro
 soak: FILTER := $(SOAKED)
 soak: tests                          ## SOAK=300: so many times the seeds of cluster and fuzz tests: half an hour
 	SEAM_SOAK=$(SOAK) $(run-tests)
+
+hashes: build/.deps-build build/.deps-hashes   ## golden hashes by g++ and clang++, -O0, -O2 and -march=x86-64-v3: all the same?
+	MAKE='$(MAKE)' CXX='$(CXX)' tests/hashes.sh build/hashes
 
 # No gate: what fails is named and the table comes all the same. What libgcov itself has to say goes
 # to a file, since tests read stderr.

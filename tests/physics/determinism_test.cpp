@@ -3,6 +3,7 @@
 /// that is meant to change behaviour, rewrite it with
 ///   SEAM_GOLDEN=write build/release/seam-tests --gtest_filter='Determinism.*'
 /// look at the difference, and say in the commit message which hash changed and why.
+/// SEAM_GOLDEN_FILE names another file (tests/hashes.sh).
 
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -21,11 +22,13 @@
 namespace seam {
 namespace {
 
-constexpr const char* kScenes[] = {"crossing", "wall",    "stack",   "cradle",  "relay",
-                                   "harbour",  "regatta", "skyline", "titanic", "gluehouse",
-                                   "headon",   "rally",   "seesaw",  "scrum",   "heap",
-                                   "train",    "gas"};
-constexpr const char* kGoldenFile = "tests/physics/golden_hashes.txt";
+constexpr const char* kScenes[] = {
+    "crossing",  "wall",   "stack", "cradle", "relay", "harbour", "regatta", "skyline", "titanic",
+    "gluehouse", "headon", "rally", "seesaw", "scrum", "heap",    "train",   "gas"};
+std::string GoldenFile() {
+  const char* other = std::getenv("SEAM_GOLDEN_FILE");
+  return other != nullptr ? other : "tests/physics/golden_hashes.txt";
+}
 constexpr std::int64_t kTicks = 600, kHardTicks = 120;
 
 /// Hashes after every tick, so that a failure says when two runs part.
@@ -128,15 +131,15 @@ TEST(Determinism, EveryBuildComputesTheGoldenHashes) {
   }
   const char* request = std::getenv("SEAM_GOLDEN");
   if (request != nullptr && std::string(request) == "write") {
-    std::ofstream out(kGoldenFile);
+    std::ofstream out(GoldenFile());
     out << "# World::Hash() of each scene with its scripts, alone, after " << kTicks
         << " ticks, in hard/ " << kHardTicks << ".\n";
     for (const auto& [scene, hash] : computed) out << scene << ' ' << hash << '\n';
-    ASSERT_TRUE(out.good()) << "cannot write " << kGoldenFile;
+    ASSERT_TRUE(out.good()) << "cannot write " << GoldenFile();
   }
   std::map<std::string, std::string> golden;
-  std::ifstream in(kGoldenFile);
-  ASSERT_TRUE(in) << "cannot read " << kGoldenFile;
+  std::ifstream in(GoldenFile());
+  ASSERT_TRUE(in) << "cannot read " << GoldenFile();
   std::string line;
   std::getline(in, line);
   for (std::string scene, hash; in >> scene >> hash;) golden[scene] = hash;
