@@ -344,6 +344,7 @@ void ExactStep::Load(Found* found) {
     body->*Member(BodyFlags()) |= kBodyAwake;
     const b2Vec2& force = body->*Member(BodyForce());
     const auto scale = static_cast<double>(body->GetGravityScale());
+    q.lasting = slots_[static_cast<std::size_t>(q.slot)].lasting;
     q.ax = scale * static_cast<double>(gravity.x) + q.im * static_cast<double>(force.x);
     q.ay = scale * static_cast<double>(gravity.y) + q.im * static_cast<double>(force.y);
     q.turn = static_cast<double>(body->*Member(BodyTorque())) / q.inertia;
@@ -364,6 +365,7 @@ void ExactStep::SavePoses(const Found& found) {
     s.vx = q.vx;
     s.vy = q.vy;
     s.w = q.w;
+    s.lasting = q.lasting;
     s.told_x = static_cast<float>(q.x);
     s.told_y = static_cast<float>(q.y);
     s.told_a = static_cast<float>(q.a);

@@ -76,7 +76,6 @@ class ExactIsland {
   void SolveAhead(const Pace& pace);
   void Move(double h);
   void ShutJoints(const Pace& pace);
-  void YieldContacts();
   void SoftenContacts();
   void SolveAtEnd(const Pace& pace);
 

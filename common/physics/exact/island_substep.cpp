@@ -16,6 +16,8 @@ namespace {
 constexpr double kStiffness = 0.25;
 /// It counts in full from this stiffness over inertia on, and below the other not at all.
 constexpr double kStiffTo = 1, kStiffFrom = 0.4;
+/// What is left of it after a substep when the tension is gone: inertias that jump make noise.
+constexpr double kLasts = 0.99;
 /// The inertia is found anew while it lacks more than this.
 constexpr double kStifferBy = 1.1;
 constexpr int kStifferTries = 4;
@@ -47,8 +49,9 @@ constexpr int kRowsMost = 6, kEndsMost = 4;
 /// kg m2, what the tension makes of a body's inertia. Little tension makes nothing of it, so that
 /// a pendulum stays as exact as it is.
 double Stiffened(const ExactBody& q) {
-  const double share = (q.stiffness / q.inertia - kStiffFrom) / (kStiffTo - kStiffFrom);
-  return q.inertia + kStiffness * std::max(0.0, q.stiffness) * std::clamp(share, 0.0, 1.0);
+  const double tense = std::max(q.stiffness, q.lasting);
+  const double share = (tense / q.inertia - kStiffFrom) / (kStiffTo - kStiffFrom);
+  return q.inertia + kStiffness * std::max(0.0, tense) * std::clamp(share, 0.0, 1.0);
 }
 
 double Kinetic(const ExactBody& q) {
@@ -174,6 +177,7 @@ void ExactIsland::Substep(const Pace& pace) {
   ShutJoints(pace);
   if (!touches) Kick(pace.h / 2);
   SolveAtEnd(pace);
+  for (ExactBody& q : bodies) q.lasting = std::max(q.stiffness, kLasts * q.lasting);
 }
 
 void ExactIsland::Kick(double h) {
@@ -241,13 +245,20 @@ void ExactIsland::ShutJoints(const Pace& pace) {
     double far = 0;
     std::fill(x_.begin(), x_.end(), 0.0);
     for (const Held& held : joints) {
-      FillJoint(*held.joint, held.ends, bodies, pace, now);
+      double errors[kRowsMost];
+      if (anew) {
+        FillJoint(*held.joint, held.ends, bodies, pace, now);
+        for (int i = 0; i < held.rows; ++i) errors[i] = now[i].error;
+      } else if (!PointErrors(*held.joint, held.ends, bodies, errors)) {
+        FillJoint(*held.joint, held.ends, bodies, pace, now);
+        for (int i = 0; i < held.rows; ++i) errors[i] = now[i].error;
+      }
       for (int i = 0; i < held.rows; ++i) {
         Row& row = At(held.row + i);
         const bool shuts = row.kind == RowKind::kHard || row.kind == RowKind::kLimit;
         const int place = place_[static_cast<std::size_t>(held.row + i)];
         if (!shuts || place < 0 || row.state != RowState::kFree) continue;
-        const double off = now[i].error - row.goal;
+        const double off = errors[i] - row.goal;
         far = std::max(far, std::fabs(off));
         x_[static_cast<std::size_t>(place)] =
             std::clamp(-off / pace.h, -kShutFastest, kShutFastest);
@@ -255,7 +266,7 @@ void ExactIsland::ShutJoints(const Pace& pace) {
       }
     }
     if (far < (contacts.empty() ? kShut : kShutTouching)) break;
-    if (tries == 0 && !contacts.empty() && !relaxed_) YieldContacts();
+    if (tries == 0 && !contacts.empty() && !relaxed_) SoftenContacts();
     if (!anew && tries > 1 && far > kSlow * last) {
       anew = true;
       continue;
@@ -275,23 +286,14 @@ void ExactIsland::ShutJoints(const Pace& pace) {
       Shift(row, pace.h * x_[p]);
     }
   }
-  for (std::size_t i = 0; i < held_.size(); ++i) rows_[i].state = held_[i];
-  held_.clear();
 }
 
-/// While joints shut, contacts give way a little and friction altogether: with them a mechanism may
-/// be held in more ways than it can move.
-void ExactIsland::YieldContacts() {
-  for (Row& row : rows_) {
-    held_.push_back(row.state);
-    if (row.kind == RowKind::kFriction) row.state = RowState::kOut;
-  }
-  SoftenContacts();
-}
-
+/// While joints shut, contacts give way a little: with them a mechanism may be held in more ways
+/// than it can move.
 void ExactIsland::SoftenContacts() {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (rows_[i].kind != RowKind::kNormal || place_[i] < 0) continue;
+    const bool contact = rows_[i].kind == RowKind::kNormal || rows_[i].kind == RowKind::kFriction;
+    if (!contact || place_[i] < 0) continue;
     matrix_.At(matrix_.Place(place_[i], place_[i])) *= 1 + kYield;
   }
   dirty_ = 0;

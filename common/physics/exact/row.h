@@ -22,6 +22,7 @@ struct ExactBody {
   double ax = 0, ay = 0, turn = 0;  ///< m/s2, rad/s2: by gravity and forces
   double slow = 0, slow_spin = 0;   ///< 1/s, damping
   double stiffness = 0;             ///< kg m2, h2 times the joints' tension times arm
+  double lasting = 0;               ///< kg m2, the same, falling slowly
   bool moves() const { return im > 0; }
 
   /// Turns it by `d` rad; small angles by series, to the last bit or two.
