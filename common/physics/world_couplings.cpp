@@ -1,6 +1,7 @@
 #include "common/physics/world_couplings.h"
 
 #include "common/base/check.h"
+#include "common/physics/joint_impulses.h"
 #include "common/physics/reveal.h"
 #include "common/physics/world_build.h"
 
@@ -16,12 +17,12 @@ b2Vec2 PushOf(b2Joint* geared) {
   return geared->GetBodyA()->GetWorldVector(slide.GetLocalAxisA());
 }
 
+// The engine's own GetReactionForce has directions of its last step, and none where it did not
+// solve the joint.
+
 JointForces ForcesOfGear(b2GearJoint* gear, float hz) {
-  const b2Vec2 first = PushOf(gear->GetJoint1()), second = PushOf(gear->GetJoint2());
-  const bool slides = gear->GetJoint1()->GetType() == e_prismaticJoint;
-  const b2Vec2 on_a = gear->GetReactionForce(hz);
-  const float along = slides ? b2Dot(on_a, first) : gear->GetReactionTorque(hz);
-  return {on_a, gear->GetRatio() * along * second};
+  const float along = hz * *ImpulsesOf(gear).at[0];
+  return {along * PushOf(gear->GetJoint1()), gear->GetRatio() * along * PushOf(gear->GetJoint2())};
 }
 
 JointForces ForcesOfPulley(b2PulleyJoint* pulley, float hz) {
@@ -29,7 +30,7 @@ JointForces ForcesOfPulley(b2PulleyJoint* pulley, float hz) {
   b2Vec2 up_b = pulley->GetGroundAnchorB() - pulley->GetAnchorB();
   up_a.Normalize();
   up_b.Normalize();
-  const float pull = -b2Dot(pulley->GetReactionForce(hz), up_b);
+  const float pull = hz * *ImpulsesOf(pulley).at[0];
   return {pull * up_a, pulley->GetRatio() * pull * up_b};
 }
 

@@ -221,7 +221,7 @@ TEST(PhysicsRow, IsAFunctionOfThePointButForItsCpuColumns) {
   EXPECT_EQ(CsvFields(CrashedRow(point, "crashed: Aborted"))[16], "inf");
   const std::vector<std::string> key(fields.begin() + 1, fields.begin() + 16);
   EXPECT_EQ(key, (std::vector<std::string>{"made-up", "invariant", "m", "grid", "60", "2", "8", "3",
-                                           "off", "0.0025", "on", "body", "iterative", "1", "1"}));
+                                           "off", "0.0025", "on", "body", "auto", "2", "1"}));
   EXPECT_NEAR(std::stod(fields[16]), 2, 1e-3);
   EXPECT_EQ(fields[17], "left, \"far\"");
   EXPECT_EQ(WithoutCpu(PhysicsRow(point, nullptr)), WithoutCpu(row));
