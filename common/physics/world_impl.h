@@ -35,7 +35,7 @@ struct World::Impl {
     for (const MovingBody& m : built.moving) lightest = std::min(lightest, m.mass.mass);
     meter.Set(scene.solver.substeps, lightest);
     if (scene.solver.joints == JointSolving::kIterative) return;
-    exact.emplace(scene.solver, &*world, built);
+    exact.emplace(scene, &*world, built);
     if (!exact->needed()) exact.reset();
   }
 

@@ -67,6 +67,7 @@ class ExactIsland {
   void Fill(const Pace& pace);
 
   double Pull() const;
+  void Look(const Pace& pace);
   void BringTogether(const Pace& pace);
   // Of a substep, in their order.
   void Substep(const Pace& pace);
@@ -82,6 +83,7 @@ class ExactIsland {
   void SolveAtEnd(const Pace& pace);
 
   // The tension of joints as inertia.
+  static double Stiffened(const ExactBody& q);
   void Tension(double h);
   bool Stiffer();
 
@@ -128,8 +130,11 @@ class ExactIsland {
   std::vector<Reach> reaches_;                            // in the order of rows
   std::vector<std::vector<std::pair<int, int>>> joined_;  // by body: place, end
   std::vector<double> answer_, velocity_;
-  std::vector<RowState> next_;           // by place
-  std::vector<RowState> states_, held_;  // kept while something takes no part
+  std::vector<RowState> next_;  // by place
+  std::vector<RowState> held_;  // kept while something takes no part
 };
+
+/// Of the bodies that move, J.
+double KineticOf(const std::vector<ExactBody>& bodies);
 
 }  // namespace seam
