@@ -75,7 +75,9 @@ class ExactIsland {
   bool PushesOut() const;
   void Kick(double h);
   bool FindImpacts();
+  int FastestBlow();
   void Impact();
+  void Blow(const ExactContact& contact, int first_row);
   void SolveAhead(const Pace& pace);
   void Move(double h);
   void ShutJoints(const Pace& pace);
@@ -88,7 +90,9 @@ class ExactIsland {
   bool Stiffer();
 
   // The system of rows, for the velocities as they are.
-  void Assemble();
+  /// `hard`, `bounded`: what a row's own entry is enlarged by, as a share, for rows that others
+  /// imply.
+  void Assemble(double hard = 1e-7, double bounded = 1e-6);
   void Factor();
   void Solve(bool ahead);
   bool PivotToTheEnd();

@@ -12,6 +12,11 @@ namespace {
 constexpr double kReached = 1e-6;
 /// Halvings of the restitution when a blow with friction would gain energy, the last is 0.
 constexpr int kSofterTries = 3;
+/// Blows in one substep, for each contact.
+constexpr int kBlowsEach = 8;
+/// What a row's own entry is enlarged by in a blow, as a share: what is more takes energy where a
+/// mechanism can hardly give way.
+constexpr double kOwnOfBlow = 1e-9;
 
 double Kinetic(const ExactBody& q) {
   return q.moves() ? ((q.vx * q.vx + q.vy * q.vy) / q.im + q.inertia * q.w * q.w) / 2 : 0;
@@ -47,51 +52,86 @@ bool ExactIsland::FindImpacts() {
 
 /// A blow without duration (Moreau 1988): each contact leaves at no less than its restitution times
 /// the speed it came with, so that energy is never gained without friction. With it, it may be
-/// (Kane and Levinson 1985): then with less restitution.
+/// Of those elastic contacts that touch, the one whose bodies come at each other fastest; -1: none.
+int ExactIsland::FastestBlow() {
+  int fastest = -1;
+  double most = 0;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    ExactContact& contact = contacts[c];
+    if (contact.restitution <= 0) continue;
+    for (int i = 0; i < contact.count; ++i) {
+      const Row& normal = At(contact_row_[c] + 2 * i);
+      contact.point[i].approach = Speed(normal);
+      if (normal.error > 0 || contact.point[i].approach > -contact.threshold) continue;
+      if (contact.point[i].approach >= most) continue;
+      most = contact.point[i].approach;
+      fastest = static_cast<int>(c);
+    }
+  }
+  return fastest;
+}
+
+/// Blows without duration, the fastest first, one pair of bodies after the other as a wave would go
+/// through them: so the last ball of a cradle flies, and not all of them back.
 void ExactIsland::Impact() {
-  Save(&start_);
-  double before = 0;
-  bool driven = false;
   for (ExactBody& q : bodies) {
-    before += Kinetic(q);
-    driven = driven || (!q.moves() && (q.vx != 0 || q.vy != 0 || q.w != 0));
     if (q.moves()) q.ii = 1 / q.inertia;
   }
   std::vector<RowState> were;
   for (Row& row : rows_) were.push_back(row.state);
+  const int most = kBlowsEach * static_cast<int>(contacts.size());
+  for (int blow = 0; blow < most; ++blow) {
+    const int contact = FastestBlow();
+    if (contact < 0) break;
+    Blow(contacts[static_cast<std::size_t>(contact)],
+         contact_row_[static_cast<std::size_t>(contact)]);
+    for (Row& row : rows_) {
+      if (row.state != RowState::kOut) row.total += row.lambda;
+    }
+  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].state = were[i];
+  for (ExactBody& q : bodies) {
+    if (q.moves()) q.ii = 1 / Stiffened(q);
+  }
+}
+
+/// One of them (Moreau 1988): each of its points leaves at no less than its restitution times the
+/// speed it came with, so that energy is never gained without friction. With it, it may be (Kane
+/// and Levinson 1985): then with less restitution.
+void ExactIsland::Blow(const ExactContact& contact, int first_row) {
+  Save(&start_);
+  const double before = KineticOf(bodies);
+  bool driven = contact.belt != 0;
+  for (const int body : {contact.a, contact.b}) {
+    const ExactBody& q = Body(body);
+    driven = driven || (!q.moves() && (q.vx != 0 || q.vy != 0 || q.w != 0));
+  }
   double share = 1;
   for (int tries = 0;; ++tries) {
     for (Row& row : rows_) {
+      const bool limit = row.kind == RowKind::kLimit;
+      row.state = row.kind == RowKind::kHard       ? RowState::kFree
+                  : limit && row.error <= kReached ? RowState::kLow
+                                                   : RowState::kOut;
       row.target = 0;
-      if (row.kind == RowKind::kSoft || row.kind == RowKind::kMotor) row.state = RowState::kOut;
-      if (row.kind == RowKind::kLimit && row.error > kReached) row.state = RowState::kOut;
+      row.lambda = 0;
+      if (limit) row.lo = 0;
     }
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      const ExactContact& contact = contacts[c];
-      for (int i = 0; i < contact.count; ++i) {
-        Row& normal = At(contact_row_[c] + 2 * i);
-        Row& friction = At(contact_row_[c] + 2 * i + 1);
-        normal.state = friction.state = normal.error > 0 ? RowState::kOut : RowState::kLow;
-        normal.target = -share * contact.restitution * contact.point[i].approach;
-        friction.target = contact.belt;
-        driven = driven || contact.belt != 0;
-      }
+    for (int i = 0; i < contact.count; ++i) {
+      Row& normal = At(first_row + 2 * i);
+      Row& friction = At(first_row + 2 * i + 1);
+      if (normal.error > 0) continue;
+      normal.state = friction.state = RowState::kLow;
+      normal.lo = 0;
+      normal.target = -share * contact.restitution * contact.point[i].approach;
+      friction.target = contact.belt;
+      friction.most = 0;
     }
-    Assemble();
+    Assemble(kOwnOfBlow, kOwnOfBlow);
     Solve(true);
-    double after = 0;
-    for (const ExactBody& q : bodies) after += Kinetic(q);
-    if (driven || after <= before * (1 + 1e-9) || tries == kSofterTries) break;
+    if (driven || tries == kSofterTries || KineticOf(bodies) <= before * (1 + 1e-9)) return;
     share = tries + 1 == kSofterTries ? 0 : share / 2;
     Restore(start_);
-    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].state = were[i];
-  }
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    rows_[i].total += rows_[i].lambda;
-    rows_[i].state = were[i];
-  }
-  for (ExactBody& q : bodies) {
-    if (q.moves()) q.ii = 1 / Stiffened(q);
   }
 }
 
