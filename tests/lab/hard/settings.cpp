@@ -68,6 +68,15 @@ double StepShare(const Solver& s) {
 
 }  // namespace
 
+const char* JointsWord(JointSolving joints) {
+  switch (joints) {
+    case JointSolving::kAuto: return "auto";
+    case JointSolving::kExact: return "exact";
+    case JointSolving::kIterative: break;
+  }
+  return "iterative";
+}
+
 bool SameSolver(const Solver& a, const Solver& b) { return SolverLines(a) == SolverLines(b); }
 
 std::string SolverWords(const Solver& s) {
@@ -77,6 +86,9 @@ std::string SolverWords(const Solver& s) {
   if (!s.warm_starting) words += " cold";
   if (!s.continuous) words += " not continuous";
   if (!s.sleep) words += " sleepless";
+  if (s.joints != JointSolving::kIterative) {
+    words += fmt::format(" joints {} x{}", JointsWord(s.joints), s.joint_substeps);
+  }
   return words + (s.weld_joints ? " welds jointed" : "");
 }
 
@@ -97,6 +109,8 @@ std::string SolverLines(const Solver& s) {
   flag("continuous", s.continuous, none.continuous);
   flag("warm_starting", s.warm_starting, none.warm_starting);
   if (s.skin > 0) lines += fmt::format("skin = {}\n", s.skin);
+  if (s.joints != none.joints) lines += fmt::format("joints = \"{}\"\n", JointsWord(s.joints));
+  number("joint_substeps", s.joint_substeps, none.joint_substeps);
   if (s.weld_joints) lines += "welds = \"joint\"\n";
   return lines;
 }
@@ -116,7 +130,7 @@ Scene WithSolver(const Scene& scene, const Solver& solver) {
 
 double PredictedCpu(const Scene& scene, const Solver& solver, double seconds) {
   double bodies = 0;
-  for (const Part& part : scene.parts) bodies += part.anchored ? 0 : 1;
+  for (const Part& part : scene.parts) bodies += part.anchored || part.gone ? 0 : 1;
   const double step_us = 1 + 2 * bodies + 0.3 * static_cast<double>(scene.joints.size());
   return seconds * solver.tick_hz * solver.substeps * StepShare(solver) * step_us * 1e-6;
 }
@@ -133,6 +147,7 @@ std::vector<Solver> GridSettings(GridSize size, const Solver& own) {
     s.position_iterations = l.position;
     s.skin = l.skin;
     s.warm_starting = l.warm;
+    s.joints = JointSolving::kIterative;
     settings.push_back(s);
   }
   return settings;

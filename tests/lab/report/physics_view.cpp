@@ -39,6 +39,19 @@ PhysicsRun RunOf(const CsvTable& t, std::size_t row) {
   run.setting = Setting(t, row);
   run.tick_hz = t.Number(row, "tick_hz").value_or(60);
   run.warm = IsOn(t.Text(row, "warm_starting"));
+  run.role = t.Text(row, "role");
+  if (t.Has("joints")) {
+    run.joints = t.Text(row, "joints");
+    run.joint_substeps = static_cast<int>(t.Number(row, "joint_substeps").value_or(1));
+  }
+  if (run.joints != "iterative") {
+    run.setting += fmt::format(", joints {} × {}", run.joints, run.joint_substeps);
+  }
+  const auto measured = [&](const char* column) {
+    return t.Has(column) ? t.Number(row, column).value_or(kInfinity) : 0;
+  };
+  run.penetration_m = measured("penetration_m");
+  run.joint_drift_m = measured("joint_drift_m");
   run.failure = t.Text(row, "failure");
   run.error = t.Number(row, "error").value_or(kInfinity);
   if (std::isnan(run.error)) run.error = kInfinity;

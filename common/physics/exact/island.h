@@ -1,0 +1,132 @@
+#pragma once
+/// An island that contains a joint, as one system: joints, limits, motors, contacts and friction
+/// are its rows. Two solves a substep, at the old and at the new pose (docs/solver.md).
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "common/physics/exact/contact_rows.h"
+#include "common/physics/exact/joint_rows.h"
+#include "common/physics/exact/skyline.h"
+
+namespace seam {
+
+class ExactIsland {
+ public:
+  struct Held {
+    const ExactJoint* joint = nullptr;
+    JointEnds ends;
+    int row = 0, rows = 0;  // of its rows: the first, how many
+  };
+
+  /// What it consists of. Filled by whoever finds it; then Shape, then Step.
+  std::vector<ExactBody> bodies;  ///< moving ones, in the order of the system, then fixed ones
+  std::vector<Held> joints;
+  std::vector<ExactContact> contacts;
+
+  /// The rows and the matrix's shape from bodies, joints and contacts (of which a, b and count
+  /// are there).
+  /// `relaxed`: the bounded rows are left to Relax; then bodies that have joints with each other
+  /// must be neighbours in the list.
+  void Shape(bool relaxed);
+  /// Multiplications of a factorisation.
+  long cost() const { return matrix_.cost(); }
+  int bounded_rows() const { return bounded_; }
+
+  /// Advances the bodies by pace.h * pace.substeps. `warm`: begin with what contacts and joints
+  /// had last.
+  void Step(const Pace& pace, bool warm);
+  /// After something else has moved some of the bodies: brings the joints together again, positions
+  /// and, if some were `struck`, velocities. `pace` as in Step; no time passes.
+  void Rejoin(const Pace& pace, bool struck);
+  /// What the step did, to the engine's joints and contacts.
+  void Store() const;
+
+ private:
+  struct Pair {  // of rows that share a body
+    int place;   // in the matrix
+    int row, other;
+    int end, other_end;
+  };
+  struct Group {  // a mechanism, or a body without joints
+    int group;
+    int first_body, bodies;
+    int first_row, rows;  // places
+  };
+  struct Reach {  // of a bounded row
+    int row = 0;
+    int groups = 0;
+    int group[2] = {};
+    std::size_t at[2] = {};  // of its answer
+    double own = 0;          // m/s or rad/s per impulse: its own speed
+  };
+  Row& At(int row) { return rows_[static_cast<std::size_t>(row)]; }
+  ExactBody& Body(int body) { return bodies[static_cast<std::size_t>(body)]; }
+  void ShapeMatrix();
+  void Fill(const Pace& pace);
+
+  double Pull() const;
+  void BringTogether(const Pace& pace);
+  // Of a substep, in their order.
+  void Substep(const Pace& pace);
+  void Kick(double h);
+  bool FindImpacts();
+  void Impact();
+  void SolveAhead(const Pace& pace);
+  void Move(double h);
+  void ShutJoints(const Pace& pace);
+  void SoftenContacts();
+  void SolveAtEnd(const Pace& pace);
+
+  // The tension of joints as inertia.
+  void Tension(double h);
+  bool Stiffer();
+
+  // The system of rows, for the velocities as they are.
+  void Assemble();
+  void Factor();
+  void Solve(bool ahead);
+  bool PivotToTheEnd();
+  bool Pivot(int* wrong);
+  void Change(int place);
+  void SetFrictionBounds();
+  bool NextFrictionBounds();
+  void Descend();
+  void HoldJoints();
+
+  // Piles.
+  void ShapeGroups();
+  void FindAnswer(Reach* reach);
+  void Respond(const Reach& reach, double impulse);
+  void Sweep(bool friction);
+  void Relax(bool ahead);
+
+  double Speed(const Row& row) const;
+  void Push(const Row& row, double impulse);
+  void Shift(const Row& row, double by);
+  void Save(std::vector<double>* velocities) const;
+  void Restore(const std::vector<double>& velocities);
+
+  std::vector<Row> rows_;
+  std::vector<RowEnd> ends_;
+  std::vector<int> contact_row_;  // by contact: the first of its rows
+  std::vector<int> place_;        // by row: its index in the matrix
+  std::vector<int> row_at_;       // the other way round
+  std::vector<Pair> pairs_;
+  Skyline matrix_;
+  int bounded_ = 0;
+  double turned_ = 0;  // rad: the most that a body has turned in this substep
+  int dirty_ = 0;      // the factors of rows from here on are old
+  std::vector<char> in_;
+  std::vector<double> x_, before_, start_;
+  bool relaxed_ = false;
+  std::vector<Group> groups_;
+  std::vector<Reach> reaches_;                            // in the order of rows
+  std::vector<std::vector<std::pair<int, int>>> joined_;  // by body: place, end
+  std::vector<double> answer_, velocity_;
+  std::vector<RowState> next_;           // by place
+  std::vector<RowState> states_, held_;  // kept while something takes no part
+};
+
+}  // namespace seam
