@@ -161,7 +161,7 @@ int Play(const Flags& f) {
   const Replica* const replica = client.replica();
   std::fprintf(stderr,
                "seam-client: %s; %lld datagrams in, %lld out, %lld bad, %lld stale bodies; "
-               "%lld ticks stepped again, %lld replays deferred; %lld bus failures\n",
+               "%lld stepped again, %lld replays deferred; %lld bus failures\n",
                client.closed() ? "the server closed the room" : "left",
                static_cast<long long>(s.datagrams_in), static_cast<long long>(s.datagrams_out),
                static_cast<long long>(s.dropped_malformed), static_cast<long long>(s.dropped_stale),

@@ -4,13 +4,12 @@
 
 #include <gtest/gtest.h>
 
-#include "common/measure/joint_drift.h"
 #include "tests/lab/cluster.h"
 
 namespace seam {
 namespace {
 
-/// Two cars that have crashed, by their scripts, as the oracle had it.
+/// Two cars, and an oracle whose joints are open for a tick.
 class SoakCheck : public ::testing::Test {
  protected:
   SoakCheck() {
@@ -23,16 +22,10 @@ class SoakCheck : public ::testing::Test {
     cluster.Run();
     recording_ = cluster.recording();
     oracle_ = ComputeOracle(recording_, JudgeOf(recording_.room));
-    const World& world = cluster.server().replica().world();
-    const JointMeter joints(world.scene(), world.composition());
-    double worst = 0;
-    for (std::size_t row = 0; row < oracle_.ticks.size(); ++row) {
-      const std::int64_t tick = oracle_.first_tick + static_cast<std::int64_t>(row);
-      const double drift = joints.Worst(oracle_.ticks[row], tick);
-      if (drift > worst) crash_ = tick;
-      worst = std::max(worst, drift);
-    }
-    EXPECT_GT(worst, 0.005) << "the engine opens joints in this crash";
+    // How far a solver opens joints in a crash is its own: here the oracle's is opened by hand.
+    crash_ = recording_.last_tick / 2;
+    const auto row = static_cast<std::size_t>(crash_ - oracle_.first_tick);
+    oracle_.ticks[row][1].position.x() += 0.01f;
   }
 
   /// With a wheel shown 1 m off in one client's view of `ticks` ticks from there.
