@@ -98,6 +98,9 @@ class Replica {
   bool SameBody(int body, int edits) const { return memory_.track(body).changed_at <= edits; }
   /// Edits applied so far.
   int revision() const { return world_.topology().revision(); }
+  /// Ticks that were stepped again, and replays that waited since the budget was used up.
+  std::int64_t ticks_stepped_again() const { return replay_.ticks_stepped_again(); }
+  std::int64_t replays_deferred() const { return replay_.deferred(); }
 
   const InputTrack& inputs(int player) const { return inputs_[static_cast<std::size_t>(player)]; }
   /// What a player does in a tick still to come, or did in one that is known late.
