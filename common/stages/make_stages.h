@@ -53,4 +53,13 @@ std::unique_ptr<Stage> MakeFeatherStage(const StageWorld& world);
 bool HasActiveCharacter(const Scene& scene);
 std::unique_ptr<Stage> MakeCharacterStage(const StageWorld& world);
 
+/// Leads whoever takes a seat to it, rigidly with all limbs, from the SeatEdit on. After SeatTicks
+/// ticks the player's part is in its place there; it is held until a bond joins the two.
+std::unique_ptr<Stage> MakeSeatStage(const StageWorld& world);
+
+/// How long the way to a seat takes, s. Shorter looks like a jump, and longer like flying.
+constexpr double kSeatSeconds = 0.15;
+/// The same in ticks.
+constexpr int SeatTicks(int tick_hz) { return static_cast<int>(kSeatSeconds * tick_hz + 0.5); }
+
 }  // namespace seam

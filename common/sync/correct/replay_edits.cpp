@@ -28,13 +28,16 @@ void Replay::GoBackTo(std::int64_t tick) {
 void Replay::Remap(const BodyRemap& change) {
   if (!journey_) return;
   std::vector<Shown> shown;
-  for (const BodyOrigin& origin : change.bodies) {
+  for (std::size_t body = 0; body < change.bodies.size(); ++body) {
+    const BodyOrigin& origin = change.bodies[body];
     shown.emplace_back();
     shown.back().known = origin.body >= 0;
     if (origin.body < 0) continue;
     const Shown& before = journey_->shown[static_cast<std::size_t>(origin.body)];
     shown.back().state = Carried(origin, before.state);
     shown.back().awake = !origin.same || before.awake;
+    if (change.jumps.empty()) continue;
+    shown.back().state = PlusScaled(shown.back().state, change.jumps[body], 1);
   }
   journey_->shown = std::move(shown);
   FindPressed(journey_->from);
