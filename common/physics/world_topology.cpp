@@ -277,16 +277,25 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
     w.Rebuild(snapshot, motions);
     w.impacts.clear();
   }
-  for (const Edit& edit : edits) {
-    const PushEdit* push = edit.As<PushEdit>();
-    if (push != nullptr && w.topology.Validate(edit).ok()) Push(*push);
-    const SeatEdit* seat = edit.As<SeatEdit>();
-    if (seat != nullptr && seat->player < 0 && w.topology.Validate(edit).ok()) {
-      Follow(static_cast<int>(w.scene.players.size()) + seat->seat, Input{});  // nobody drives on
-    }
-    for (const auto& stage : w.stages) stage->Edited(edit);
-  }
+  for (const Edit& edit : edits) Do(edit);
   return out;
+}
+
+void World::Repeat(const Edit& edit) {
+  const SeatEdit* seat = edit.As<SeatEdit>();
+  if (seat != nullptr) impl_->topology.Sit(*seat);
+  Do(edit);
+}
+
+void World::Do(const Edit& edit) {
+  Impl& w = *impl_;
+  const PushEdit* push = edit.As<PushEdit>();
+  if (push != nullptr && w.topology.Validate(edit).ok()) Push(*push);
+  const SeatEdit* seat = edit.As<SeatEdit>();
+  if (seat != nullptr && seat->player < 0 && w.topology.Validate(edit).ok()) {
+    Follow(static_cast<int>(w.scene.players.size()) + seat->seat, Input{});  // nobody drives on
+  }
+  for (const auto& stage : w.stages) stage->Edited(edit);
 }
 
 void World::Push(const PushEdit& edit) {

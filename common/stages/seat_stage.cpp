@@ -1,11 +1,12 @@
 /// Whoever takes a seat goes there with all limbs as one rigid thing, and touches nothing on its
-/// way: the bond follows when it is there. What is done to its velocity meanwhile is made good at
+/// way: the bond follows when it is there. Before it goes there it waits, so that all peers have
+/// heard of it when it does. What is done to its velocity meanwhile is made good at
 /// the bond, so that the vehicle gets the momentum that came.
 ///
-///   share of the way   1 |        ______  held until the bond
-///                        |     .-'
-///                      0 |__.-'
-///                        take  kSeatSeconds
+///   share of the way   1 |              ______  held until the bond
+///                        |           .-'
+///                      0 |________.-'
+///                        taken     kSeatSeconds
 
 #include <algorithm>
 #include <cmath>
@@ -19,12 +20,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Who has waited for the bond for this many times the way is let go.
-constexpr int kWaysMost = 8;
+/// Who has waited for the bond for so long is let go, s.
+constexpr int kHeldMost = 2;
 
-/// Begins and ends without a jerk.
-double ShareOfWay(double time) {
-  const double t = std::clamp(time, 0.0, 1.0);
+/// Begins and ends without a jerk. `ticks`: since the seat was taken.
+double ShareOfWay(double ticks, int tick_hz) {
+  const int wait = SeatWaitTicks(tick_hz), all = SeatTicks(tick_hz);
+  const double t = std::clamp((ticks - wait) / (all - wait), 0.0, 1.0);
   return t * t * (3 - 2 * t);
 }
 
@@ -51,7 +53,9 @@ class SeatStage : public Stage {
     const SeatEdit* taken = edit.As<SeatEdit>();
     if (taken != nullptr && taken->seat >= 0 &&
         static_cast<std::size_t>(taken->seat) < approaches_.size()) {
-      Begin(static_cast<std::size_t>(taken->seat));
+      const auto seat = static_cast<std::size_t>(taken->seat);
+      approaches_[seat] = Approach();
+      if (IsApart(seat)) approaches_[seat].ticks = 0;
     }
     if (edit.As<BondEdit>() == nullptr) return;
     for (std::size_t s = 0; s < approaches_.size(); ++s) {
@@ -67,7 +71,8 @@ class SeatStage : public Stage {
     for (std::size_t s = 0; s < approaches_.size(); ++s) {
       if (approaches_[s].ticks < 0) continue;
       if (!IsApart(s)) approaches_[s] = Approach();
-      if (!IsApart(s)) continue;
+      if (!Leads(s)) continue;
+      if (approaches_[s].ticks == SeatWaitTicks(w_.scene.solver.tick_hz)) SetOut(s);
       ghosts_.resize(w_.built.moving.size(), false);
       EachOf(MechanismOf(s), [&](std::size_t body) { ghosts_[body] = true; });
     }
@@ -76,19 +81,16 @@ class SeatStage : public Stage {
   void BeforeStep(float h) override {
     ++steps_;
     for (std::size_t s = 0; s < approaches_.size(); ++s) {
-      if (approaches_[s].ticks >= 0) Lead(s, h);
+      if (Leads(s)) Lead(s, h);
     }
   }
 
   void AfterTick() override {
     for (std::size_t s = 0; s < approaches_.size(); ++s) {
       Approach& a = approaches_[s];
-      if (a.ticks < 0) continue;
-      if (++a.ticks > kWaysMost * SeatTicks(w_.scene.solver.tick_hz)) {
-        a = Approach();
-      } else {
-        a.owed = a.came - MomentumOf(MechanismOf(s));
-      }
+      if (Leads(s)) a.owed = a.came - MomentumOf(MechanismOf(s));
+      if (a.ticks >= 0) ++a.ticks;
+      if (a.ticks > kHeldMost * w_.scene.solver.tick_hz) a = Approach();
     }
   }
 
@@ -174,12 +176,14 @@ class SeatStage : public Stage {
     return *w_.built.bodies[static_cast<std::size_t>(AssemblyOf(part))];
   }
 
-  void Begin(std::size_t seat) {
+  /// Whether it is on its way, or there, in this tick.
+  bool Leads(std::size_t seat) const {
+    return approaches_[seat].ticks >= SeatWaitTicks(w_.scene.solver.tick_hz) && IsApart(seat);
+  }
+
+  void SetOut(std::size_t seat) {
     Approach& a = approaches_[seat];
-    a = Approach();
-    if (!IsApart(seat)) return;
     const PartId own = Sitter(seat), there = SeatOf(seat).part;
-    a.ticks = 0;
     a.from = PoseOfPart(there, PoseOf(BodyOf(there)))
                  .Inverse()
                  .Then(PoseOfPart(own, PoseOf(BodyOf(own))));
@@ -192,7 +196,6 @@ class SeatStage : public Stage {
   /// Gives all bodies the velocities with which they are, rigidly, where they are to be after the
   /// step. What is only displayed has a path of its own.
   void Lead(std::size_t seat, float h) {
-    if (!IsApart(seat)) return;
     const Approach& a = approaches_[seat];
     const PartId own = Sitter(seat);
     const b2Body& there = BodyOf(SeatOf(seat).part);
@@ -201,7 +204,7 @@ class SeatStage : public Stage {
     vehicle.shift += static_cast<double>(h) * FromB2(speed).cast<double>();
     vehicle.angle += static_cast<double>(h * there.GetAngularVelocity());
     const double ticks = a.ticks + static_cast<double>(steps_) / w_.scene.solver.substeps;
-    const double share = ShareOfWay(ticks / SeatTicks(w_.scene.solver.tick_hz));
+    const double share = ShareOfWay(ticks, w_.scene.solver.tick_hz);
     const Vec2& at = SeatOf(seat).at;
     const double turn = WrapAngle(static_cast<double>(SeatOf(seat).angle) - a.from.angle);
     const Transform2 way{(1 - share) * a.from.shift + share * at.cast<double>(),

@@ -52,7 +52,7 @@ std::optional<BodyRemap> Replica::ApplyNextEdit() {
   } else {
     corrector_.FollowRoles();  // who sits in a seat decides what is predicted
   }
-  replay_.Edited(change.has_value());
+  replay_.Edited(next.edit, change.has_value());
   if (!has_queued()) replay_.GoOn();
   return change;
 }

@@ -14,8 +14,9 @@
 namespace seam {
 
 void Replay::GoBackTo(std::int64_t tick) {
+  if (!edits_.empty()) tick = std::max(tick, edits_.back().tick);  // they stay in their order
   if (!journey_ && !barriers_.empty()) {
-    tick = std::clamp(tick, barriers_.front().tick, world_.tick());
+    tick = std::clamp(tick, barriers_.front().world.tick, world_.tick());
     const std::int64_t asked = std::exchange(from_, -1);  // what waits is done on the way
     const std::int64_t from = asked < 0 ? tick : std::min(tick, asked);
     if (from < world_.tick()) Depart(from);
@@ -43,12 +44,54 @@ void Replay::Remap(const BodyRemap& change) {
   FindPressed(journey_->from);
 }
 
-void Replay::Edited(bool changed) {
+void Replay::Edited(const Edit& edit, bool changed) {
+  if (changed) {
+    DropBarriers();
+    from_ = -1;
+    edited_ = true;
+    edited_tick_ = world_.tick();
+  } else if (!barriers_.empty()) {
+    const SeatEdit* seat = edit.As<SeatEdit>();
+    const bool there = seat != nullptr && seat->seat >= 0 &&
+                       static_cast<std::size_t>(seat->seat) < sitters_.size();
+    const int sat = there ? sitters_[static_cast<std::size_t>(seat->seat)] : -1;
+    edits_.push_back({edit, world_.tick(), sat});
+    ++edits_done_;
+  }
+  NoteSitters();
+}
+
+void Replay::NoteSitters() {
+  sitters_.clear();
+  for (const Seat& seat : world_.scene().seats) sitters_.push_back(seat.player);
+}
+
+/// Who sat where when the newest barrier was taken. The barrier has all else.
+void Replay::UndoEdits() {
+  const auto first = barriers_.back().edits;
+  while (edits_done_ > first) {
+    const Repeated& done = edits_[static_cast<std::size_t>(--edits_done_ - edits_before_)];
+    const SeatEdit* seat = done.edit.As<SeatEdit>();
+    if (seat != nullptr) world_.Repeat(Edit(SeatEdit{seat->seat, done.sat}));
+  }
+}
+
+void Replay::RepeatEdits() {
+  const auto end = edits_before_ + static_cast<std::int64_t>(edits_.size());
+  for (; edits_done_ < end; ++edits_done_) {
+    const Repeated& next = edits_[static_cast<std::size_t>(edits_done_ - edits_before_)];
+    if (next.tick > world_.tick()) break;
+    world_.Repeat(next.edit);
+  }
+}
+
+void Replay::AddBarrier() { barriers_.push_back({world_.Barrier(), edits_done_}); }
+
+void Replay::DropBarriers() {
   barriers_.clear();
-  from_ = -1;
-  edited_ = true;
-  if (changed) edited_tick_ = world_.tick();
-  rebuilt_ = rebuilt_ || changed;
+  edits_before_ += static_cast<std::int64_t>(edits_.size());
+  edits_.clear();
+  edits_done_ = edits_before_;
 }
 
 bool Replay::IsBeforeEdit(std::int64_t tick) const {
@@ -57,12 +100,8 @@ bool Replay::IsBeforeEdit(std::int64_t tick) const {
 }
 
 /// Where bodies have become others the world is built anew, so this is a tick to go back to, too.
-/// Elsewhere only those are at which every peer takes a barrier.
 void Replay::BarrierAfterEdits() {
-  if (!std::exchange(edited_, false)) return;
-  const bool rebuilt = std::exchange(rebuilt_, false);
-  if (!config_.GoesBack(roles_.self())) return;
-  if (rebuilt || world_.tick() % config_.send_every() == 0) barriers_.push_back(world_.Barrier());
+  if (std::exchange(edited_, false) && config_.GoesBack(roles_.self())) AddBarrier();
 }
 
 void Replay::GoOn() {
