@@ -76,6 +76,9 @@ class Replay {
   /// `changed`: bodies are others now, and there is no way back to before this edit. Others are
   /// done again by each replay that comes to their tick.
   void Edited(const Edit& edit, bool changed);
+  /// Whether a peer that had applied only the first `revision` edits lacked one that acted before
+  /// `tick`: what it says of that tick is of a world in which that has not happened.
+  bool LacksEdit(int revision, std::int64_t tick) const;
   /// Steps again to now.
   void GoOn();
   /// The tick to which GoOn will come; the world's while it did not go back.
@@ -143,15 +146,16 @@ class Replay {
   BodyMemory& memory_;
   Display& display_;
   const std::vector<InputTrack>& inputs_;
-  std::deque<Barrier> barriers_;   // ascending
-  std::deque<Repeated> edits_;     // since the first barrier; ticks ascend
-  std::int64_t edits_before_ = 0;  // how many have been forgotten
-  std::int64_t edits_done_ = 0;    // how many the world has had
-  std::vector<int> sitters_;       // by seat, as of the last edit
-  std::deque<Action> actions_;     // since the first barrier
-  std::int64_t from_ = -1;         // oldest tick asked for, -1 none
-  std::vector<bool> pressed_;      // by mechanism, of the replay that runs
-  double credit_ = 0;              // ticks that may be stepped again
+  std::deque<Barrier> barriers_;                      // ascending
+  std::deque<Repeated> edits_;                        // since the first barrier; ticks ascend
+  std::int64_t edits_before_ = 0;                     // how many have been forgotten
+  std::int64_t edits_done_ = 0;                       // how many the world has had
+  std::deque<std::pair<int, std::int64_t>> applied_;  // revisions and ticks; both ascend
+  std::vector<int> sitters_;                          // by seat, as of the last edit
+  std::deque<Action> actions_;                        // since the first barrier
+  std::int64_t from_ = -1;                            // oldest tick asked for, -1 none
+  std::vector<bool> pressed_;                         // by mechanism, of the replay that runs
+  double credit_ = 0;                                 // ticks that may be stepped again
   std::function<void()> on_stepped_again_ = [] {};
   std::optional<Journey> journey_;  // while the world is in the past
   std::int64_t edited_tick_ = -1;   // of the last edit that changed bodies, -1 none

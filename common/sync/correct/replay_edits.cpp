@@ -12,6 +12,12 @@
 #include "common/sync/correct/replay.h"
 
 namespace seam {
+namespace {
+
+/// Whoever has not heard of an edit for so long, s, is not known to lack it.
+constexpr int kLackMax = 3;
+
+}  // namespace
 
 void Replay::GoBackTo(std::int64_t tick) {
   if (!edits_.empty()) tick = std::max(tick, edits_.back().tick);  // they stay in their order
@@ -45,6 +51,10 @@ void Replay::Remap(const BodyRemap& change) {
 }
 
 void Replay::Edited(const Edit& edit, bool changed) {
+  applied_.emplace_back(world_.topology().revision(), world_.tick());
+  while (applied_.front().second < world_.tick() - kLackMax * config_.tick_hz) {
+    applied_.pop_front();
+  }
   if (changed) {
     DropBarriers();
     from_ = -1;
@@ -59,6 +69,12 @@ void Replay::Edited(const Edit& edit, bool changed) {
     ++edits_done_;
   }
   NoteSitters();
+}
+
+bool Replay::LacksEdit(int revision, std::int64_t tick) const {
+  return std::any_of(applied_.begin(), applied_.end(), [&](const auto& applied) {
+    return applied.first > revision && applied.second < tick;
+  });
 }
 
 void Replay::NoteSitters() {
