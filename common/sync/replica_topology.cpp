@@ -2,6 +2,7 @@
 /// was heard of it, its pose in the view) is carried over to what it becomes.
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 
 #include "common/physics/part_places.h"
@@ -58,17 +59,52 @@ std::optional<BodyRemap> Replica::ApplyNextEdit() {
 }
 
 void Replica::FindEdits() {
+  const std::int64_t now = tick();
+  found_.erase(now);  // what was found when this tick was stepped before
   for (Edit& edit : world_.ProposeEdits()) {
     if (config_.mode == Mode::kOracle) {
-      queued_.push_back({std::move(edit), tick()});
-    } else if (roles_.Proposes(edit) && !IsHeldBack(edit)) {
-      Awaited awaited{KeyOf(edit), world_.topology().PartsOf(edit), tick()};
-      if (proposals_.Add(std::move(edit), tick())) awaited_.push_back(std::move(awaited));
+      queued_.push_back({std::move(edit), now});
+    } else if (roles_.Proposes(edit)) {
+      found_[now].push_back(std::move(edit));
     }
   }
 }
 
-bool Replica::IsHeldBack(const Edit& edit) {
+void Replica::ProposeFound() {
+  if (found_.empty()) return;
+  const bool waits = config_.StampsInputs(roles_.self()) && config_.rolls_back;
+  if (waits) reach_.Look();
+  for (auto at = found_.begin(); at != found_.end();) {
+    std::vector<Edit> waiting;
+    for (Edit& edit : at->second) {
+      if (waits && !IsComplete(edit, at->first)) {
+        waiting.push_back(std::move(edit));
+      } else {
+        Propose(std::move(edit), at->first);
+      }
+    }
+    at->second = std::move(waiting);
+    const bool over = at->second.empty() || at->first < tick() - config_.tick_hz;
+    at = over ? found_.erase(at) : std::next(at);
+  }
+}
+
+bool Replica::IsComplete(const Edit& edit, std::int64_t found) const {
+  if (replay_.settled() < found) return false;
+  for (const PartId part : world_.topology().PartsOf(edit)) {
+    const int m = MechanismOf(world_, part);
+    if (m >= 0 && reach_.CompleteTick(m) < found) return false;
+  }
+  return true;
+}
+
+void Replica::Propose(Edit edit, std::int64_t found) {
+  if (!world_.topology().Validate(edit).ok() || IsHeldBack(edit, found)) return;
+  Awaited awaited{KeyOf(edit), world_.topology().PartsOf(edit), found};
+  if (proposals_.Add(std::move(edit), found)) awaited_.push_back(std::move(awaited));
+}
+
+bool Replica::IsHeldBack(const Edit& edit, std::int64_t found) {
   if (!config_.GoesBack(roles_.self())) return false;
   const std::int64_t old = replay_.now() - config_.tick_hz / 2;
   awaited_.erase(std::remove_if(awaited_.begin(), awaited_.end(),
@@ -80,7 +116,7 @@ bool Replica::IsHeldBack(const Edit& edit) {
   }
   mechanisms.erase(-1);
   return std::any_of(awaited_.begin(), awaited_.end(), [&](const Awaited& a) {
-    if (a.tick == tick()) return false;
+    if (a.tick == found) return false;
     return std::any_of(a.parts.begin(), a.parts.end(), [&](PartId part) {
       return mechanisms.count(MechanismOf(world_, part)) > 0;
     });
@@ -93,6 +129,12 @@ void Replica::ForgetProposals(const Edit& edit) {
   awaited_.erase(std::remove_if(awaited_.begin(), awaited_.end(),
                                 [&](const Awaited& a) { return a.key == key; }),
                  awaited_.end());
+  for (auto& [found, edits] : found_) {
+    if (found > tick()) break;
+    edits.erase(
+        std::remove_if(edits.begin(), edits.end(), [&](const Edit& e) { return KeyOf(e) == key; }),
+        edits.end());
+  }
   const RemoveEdit* removed = edit.As<RemoveEdit>();
   const std::vector<Joint>& joints = world_.scene().joints;
   for (std::size_t j = 0; removed != nullptr && j < joints.size(); ++j) {
