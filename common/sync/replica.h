@@ -154,7 +154,8 @@ class Replica {
   /// Before that it is an assumption, and an edit cannot be taken back.
   void ProposeFound();
   bool IsComplete(const Edit& edit, std::int64_t found) const;
-  void Propose(Edit edit, std::int64_t found);
+  /// Whether it was.
+  bool Propose(Edit edit, std::int64_t found);
   void Remap(const BodyRemap& change);
   /// Of joints that the edit takes away: a later bond may take their places, and break at once.
   void ForgetProposals(const Edit& edit);

@@ -2,7 +2,6 @@
 /// was heard of it, its pose in the view) is carried over to what it becomes.
 
 #include <algorithm>
-#include <iterator>
 #include <set>
 
 #include "common/physics/part_places.h"
@@ -74,18 +73,19 @@ void Replica::ProposeFound() {
   if (found_.empty()) return;
   const bool waits = config_.StampsInputs(roles_.self()) && config_.rolls_back;
   if (waits) reach_.Look();
-  for (auto at = found_.begin(); at != found_.end();) {
-    std::vector<Edit> waiting;
-    for (Edit& edit : at->second) {
-      if (waits && !IsComplete(edit, at->first)) {
-        waiting.push_back(std::move(edit));
-      } else {
-        Propose(std::move(edit), at->first);
-      }
+  // In the order of their ticks: an edit cannot be ordered for a tick before the last one's.
+  while (!found_.empty()) {
+    const auto first = found_.begin();
+    const std::int64_t found = first->first;
+    const bool due = !waits || found < tick() - config_.tick_hz / 2;
+    if (!due && !std::all_of(first->second.begin(), first->second.end(),
+                             [&](const Edit& e) { return IsComplete(e, found); })) {
+      return;
     }
-    at->second = std::move(waiting);
-    const bool over = at->second.empty() || at->first < tick() - config_.tick_hz;
-    at = over ? found_.erase(at) : std::next(at);
+    bool proposed = false;
+    for (Edit& edit : first->second) proposed = Propose(std::move(edit), found) || proposed;
+    found_.erase(first);
+    if (proposed && waits) found_.clear();  // the rest is found again in a world that has it
   }
 }
 
@@ -98,10 +98,12 @@ bool Replica::IsComplete(const Edit& edit, std::int64_t found) const {
   return true;
 }
 
-void Replica::Propose(Edit edit, std::int64_t found) {
-  if (!world_.topology().Validate(edit).ok() || IsHeldBack(edit, found)) return;
+bool Replica::Propose(Edit edit, std::int64_t found) {
+  if (!world_.topology().Validate(edit).ok() || IsHeldBack(edit, found)) return false;
   Awaited awaited{KeyOf(edit), world_.topology().PartsOf(edit), found};
-  if (proposals_.Add(std::move(edit), found)) awaited_.push_back(std::move(awaited));
+  if (!proposals_.Add(std::move(edit), found)) return false;
+  awaited_.push_back(std::move(awaited));
+  return true;
 }
 
 bool Replica::IsHeldBack(const Edit& edit, std::int64_t found) {
