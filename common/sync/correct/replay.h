@@ -127,6 +127,7 @@ class Replay {
   void AddBarrier();
   void DropBarriers();
   void NoteSitters();
+  void ForgetHeard();
   void UndoEdits();
   void RepeatEdits();
   bool BeginsEarlier(int body, std::int64_t tick);

@@ -55,6 +55,7 @@ void Replay::Edited(const Edit& edit, bool changed) {
   while (applied_.front().second < world_.tick() - kLackMax * config_.tick_hz) {
     applied_.pop_front();
   }
+  ForgetHeard();
   if (changed) {
     DropBarriers();
     from_ = -1;
@@ -75,6 +76,17 @@ bool Replay::LacksEdit(int revision, std::int64_t tick) const {
   return std::any_of(applied_.begin(), applied_.end(), [&](const auto& applied) {
     return applied.first > revision && applied.second < tick;
   });
+}
+
+/// Whatever was heard of later ticks came from peers that lacked the edit, too.
+void Replay::ForgetHeard() {
+  if (!config_.StampsInputs(roles_.self())) return;
+  Snapshots& heard = memory_.snapshots();
+  for (int body = 0; body < world_.body_count(); ++body) {
+    if (!roles_.Simulates(body)) continue;
+    heard.ForgetAfter(body, world_.tick());
+    if (!heard.has(body)) heard.Add(body, world_.tick(), world_.Read(body));
+  }
 }
 
 void Replay::NoteSitters() {
