@@ -236,9 +236,11 @@ endef
 install-built: export TEXT = $(PKG_CONFIG_FILE)
 install-built:                       ## the same, of what is built: builds nothing
 	install -d '$(DEST)/bin' '$(DEST)/lib/pkgconfig' '$(DEST)/share/seam2d/scenes/hard'
+	install -d '$(DEST)/share/seam2d/scenes/exact'
 	install -s -m 755 $(PROGRAMS) '$(DEST)/bin'
 	install -m 644 scenes/*.toml '$(DEST)/share/seam2d/scenes'
 	install -m 644 scenes/hard/*.toml '$(DEST)/share/seam2d/scenes/hard'
+	install -m 644 scenes/exact/*.toml '$(DEST)/share/seam2d/scenes/exact'
 	install -m 644 $(OUT)/libseam.a '$(DEST)/lib'
 	strip --strip-debug '$(DEST)/lib/libseam.a'
 	find common server client -name '*.h' -exec install -D -m 644 '{}' '$(DEST)/include/seam2d/{}' ';'

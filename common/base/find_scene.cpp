@@ -21,13 +21,14 @@ bool IsFile(const fs::path& path) {
 }  // namespace
 
 std::vector<std::string> SceneFolders() {
-  std::vector<std::string> folders = {"scenes", "scenes/hard"};
+  std::vector<std::string> folders = {"scenes", "scenes/hard", "scenes/exact"};
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   if (error) return folders;
   const fs::path installed = program.parent_path().parent_path() / "share/seam2d/scenes";
   folders.push_back(installed.string());
   folders.push_back((installed / "hard").string());
+  folders.push_back((installed / "exact").string());
   return folders;
 }
 
@@ -46,7 +47,8 @@ std::string FindScene(const std::string& word) {
 std::vector<std::string> SceneNames() {
   std::set<std::string> names;
   for (const std::string& folder : SceneFolders()) {
-    if (fs::path(folder).filename() == "hard") continue;
+    const fs::path name = fs::path(folder).filename();
+    if (name == "hard" || name == "exact") continue;
     std::error_code error;
     for (const auto& entry : fs::directory_iterator(folder, error)) {
       if (entry.path().extension() == kEnding) names.insert(entry.path().stem().string());

@@ -12,11 +12,11 @@ namespace seam {
 /// there is none.
 std::string FindScene(const std::string& word);
 
-/// Where scenes are looked for by name, in this order: scenes and scenes/hard of the current
-/// folder, then those installed beside the running program, in ../share/seam2d.
+/// Where scenes are looked for by name, in this order: scenes, scenes/hard and scenes/exact of the
+/// current folder, then those installed beside the running program, in ../share/seam2d.
 std::vector<std::string> SceneFolders();
 
-/// The names that FindScene would find, in order, without those in a folder `hard`.
+/// The names that FindScene would find, in order, without those in a folder `hard` or `exact`.
 std::vector<std::string> SceneNames();
 
 }  // namespace seam

@@ -131,7 +131,11 @@ void World::Step() {
   for (int i = 0; i < solver.substeps; ++i) {
     for (const auto& stage : w.stages) stage->BeforeStep(h);
     if (w.led_count > 0) w.LetLedBodiesMove();
-    w.world->Step(h, solver.velocity_iterations, solver.position_iterations);
+    if (w.exact) {
+      w.exact->Step(h, solver.velocity_iterations, solver.position_iterations);
+    } else {
+      w.world->Step(h, solver.velocity_iterations, solver.position_iterations);
+    }
     if (w.led_count > 0) w.PutLedBodiesOnTheirPath(h);
   }
   ++w.tick;

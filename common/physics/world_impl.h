@@ -10,6 +10,7 @@
 
 #include "common/base/check.h"
 #include "common/physics/contact_hub.h"
+#include "common/physics/exact/exact_step.h"
 #include "common/physics/stage.h"
 #include "common/physics/world.h"
 #include "common/physics/world_build.h"
@@ -33,6 +34,9 @@ struct World::Impl {
     float lightest = FLT_MAX;
     for (const MovingBody& m : built.moving) lightest = std::min(lightest, m.mass.mass);
     meter.Set(scene.solver.substeps, lightest);
+    if (scene.solver.joints == JointSolving::kIterative) return;
+    exact.emplace(scene.solver, &*world, built);
+    if (!exact->needed()) exact.reset();
   }
 
   /// Makes the stages anew if the scene needs more of them than there are.
@@ -60,6 +64,7 @@ struct World::Impl {
   /// Begins a world without bodies.
   void Empty() {
     for (const auto& stage : stages) stage->Emptied();
+    exact.reset();
     world.emplace(ToB2(scene.gravity));
     world->SetContinuousPhysics(scene.solver.continuous);
     world->SetAllowSleeping(scene.solver.sleep);
@@ -96,6 +101,7 @@ struct World::Impl {
   ImpulseMeter meter;
   std::optional<b2World> world;  // rebuilt by Barrier and Restore
   BuiltScene built;
+  std::optional<ExactStep> exact;  // only when there are joints for it
   std::vector<Motion> motions;      // by moving body
   int led_count = 0;                // of them kLed
   std::vector<BodyState> led_path;  // by moving body: of led ones, where the step began

@@ -7,83 +7,15 @@
 #include <string>
 #include <tuple>
 
+#include "common/physics/joint_impulses.h"
+#include "common/physics/reveal.h"
 #include "common/physics/world_impl.h"
 #include "common/physics/world_shapes.h"
 
 namespace seam {
 namespace {
 
-/// What the engine keeps to itself, without setters: time to sleep and the joints' impulses. An
-/// explicit instantiation may name private members ([temp.spec]), so this is no trick on the
-/// compiler, only on the class.
-template <typename Tag, typename Tag::Type kMember>
-struct Reveal {
-  friend typename Tag::Type Member(Tag) { return kMember; }
-};
-
-#define SEAM_REVEAL(tag, type, owner, member) \
-  struct tag {                                \
-    using Type = type owner::*;               \
-    friend Type Member(tag);                  \
-  };                                          \
-  template struct Reveal<tag, &owner::member>
-
 SEAM_REVEAL(SleepTime, float, b2Body, m_sleepTime);
-SEAM_REVEAL(RevolutePoint, b2Vec2, b2RevoluteJoint, m_impulse);
-SEAM_REVEAL(RevoluteMotor, float, b2RevoluteJoint, m_motorImpulse);
-SEAM_REVEAL(RevoluteLower, float, b2RevoluteJoint, m_lowerImpulse);
-SEAM_REVEAL(RevoluteUpper, float, b2RevoluteJoint, m_upperImpulse);
-SEAM_REVEAL(WheelLine, float, b2WheelJoint, m_impulse);
-SEAM_REVEAL(WheelMotor, float, b2WheelJoint, m_motorImpulse);
-SEAM_REVEAL(WheelSpring, float, b2WheelJoint, m_springImpulse);
-SEAM_REVEAL(WheelLower, float, b2WheelJoint, m_lowerImpulse);
-SEAM_REVEAL(WheelUpper, float, b2WheelJoint, m_upperImpulse);
-SEAM_REVEAL(DistanceLine, float, b2DistanceJoint, m_impulse);
-SEAM_REVEAL(DistanceLower, float, b2DistanceJoint, m_lowerImpulse);
-SEAM_REVEAL(DistanceUpper, float, b2DistanceJoint, m_upperImpulse);
-SEAM_REVEAL(PrismaticLine, b2Vec2, b2PrismaticJoint, m_impulse);
-SEAM_REVEAL(PrismaticMotor, float, b2PrismaticJoint, m_motorImpulse);
-SEAM_REVEAL(PrismaticLower, float, b2PrismaticJoint, m_lowerImpulse);
-SEAM_REVEAL(PrismaticUpper, float, b2PrismaticJoint, m_upperImpulse);
-SEAM_REVEAL(MotorPoint, b2Vec2, b2MotorJoint, m_linearImpulse);
-SEAM_REVEAL(MotorTurn, float, b2MotorJoint, m_angularImpulse);
-SEAM_REVEAL(WeldAll, b2Vec3, b2WeldJoint, m_impulse);
-
-#undef SEAM_REVEAL
-
-/// The impulses that a joint begins its next step with.
-std::vector<float*> ImpulsesOf(b2Joint* joint) {
-  if (joint->GetType() == e_revoluteJoint) {
-    auto& j = *static_cast<b2RevoluteJoint*>(joint);
-    b2Vec2& point = j.*Member(RevolutePoint());
-    return {&point.x, &point.y, &(j.*Member(RevoluteMotor())), &(j.*Member(RevoluteLower())),
-            &(j.*Member(RevoluteUpper()))};
-  }
-  if (joint->GetType() == e_wheelJoint) {
-    auto& j = *static_cast<b2WheelJoint*>(joint);
-    return {&(j.*Member(WheelLine())), &(j.*Member(WheelMotor())), &(j.*Member(WheelSpring())),
-            &(j.*Member(WheelLower())), &(j.*Member(WheelUpper()))};
-  }
-  if (joint->GetType() == e_distanceJoint) {
-    auto& j = *static_cast<b2DistanceJoint*>(joint);
-    return {&(j.*Member(DistanceLine())), &(j.*Member(DistanceLower())),
-            &(j.*Member(DistanceUpper()))};
-  }
-  if (joint->GetType() == e_prismaticJoint) {
-    auto& j = *static_cast<b2PrismaticJoint*>(joint);
-    b2Vec2& line = j.*Member(PrismaticLine());
-    return {&line.x, &line.y, &(j.*Member(PrismaticMotor())), &(j.*Member(PrismaticLower())),
-            &(j.*Member(PrismaticUpper()))};
-  }
-  if (joint->GetType() == e_motorJoint) {
-    auto& j = *static_cast<b2MotorJoint*>(joint);
-    b2Vec2& point = j.*Member(MotorPoint());
-    return {&point.x, &point.y, &(j.*Member(MotorTurn()))};
-  }
-  SEAM_ASSERT(joint->GetType() == e_weldJoint);
-  b2Vec3& all = static_cast<b2WeldJoint*>(joint)->*Member(WeldAll());
-  return {&all.x, &all.y, &all.z};
-}
 
 using PointKey = std::tuple<std::uint64_t, std::uint64_t>;
 PointKey KeyOf(const WorldSnapshot::Point& p) { return {p.pair, p.feature}; }

@@ -148,6 +148,13 @@ enum class Faces {
   kAll,
 };
 
+/// Who solves islands that contain a joint.
+enum class JointSolving {
+  kAuto,       ///< kExact, but where counted cost says that it does not pay
+  kExact,      ///< all its joints and contacts as one system (docs/solver.md)
+  kIterative,  ///< the engine, joint after joint
+};
+
 struct Solver {
   int tick_hz = 60;             ///< 10..960
   int substeps = 1;             ///< 1..32 Box2D steps per tick
@@ -161,6 +168,8 @@ struct Solver {
   /// have this rim, anchored and bullet ones keep 1 cm and are moved in by the difference, and
   /// everything comes to rest 2 skin - 5 mm apart: nothing at 2.5 mm, the least allowed.
   float skin = 0;
+  JointSolving joints = JointSolving::kIterative;
+  int joint_substeps = 2;    ///< 1..16 of each of the engine's steps, where joints are exact
   bool weld_joints = false;  ///< welds are the engine's joints, not one body
   Faces faces = Faces::kMerged;
 };

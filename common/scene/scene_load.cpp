@@ -27,7 +27,8 @@ void ReadSolver(const SceneReader& root, const std::string& file, Solver* solver
   if (table == nullptr) return;
   const SceneReader r(*table, file, "solver",
                       {"tick_hz", "substeps", "velocity_iterations", "position_iterations", "sleep",
-                       "continuous", "warm_starting", "skin", "welds", "faces"});
+                       "continuous", "warm_starting", "skin", "welds", "faces", "joints",
+                       "joint_substeps"});
   solver->tick_hz = r.Integer("tick_hz", kTickHz, solver->tick_hz);
   solver->substeps = r.Integer("substeps", {1, 32}, solver->substeps);
   solver->velocity_iterations =
@@ -38,6 +39,14 @@ void ReadSolver(const SceneReader& root, const std::string& file, Solver* solver
   solver->continuous = r.Flag("continuous", solver->continuous);
   solver->warm_starting = r.Flag("warm_starting", solver->warm_starting);
   if (r.Has("skin")) solver->skin = r.Number("skin", kSkinRange, 0.0f);
+  const std::string joints = r.Text("joints", "iterative");
+  if (joints != "auto" && joints != "exact" && joints != "iterative") {
+    r.FailAt("joints", "joints must be 'auto', 'exact' or 'iterative'");
+  }
+  solver->joints = joints == "auto"    ? JointSolving::kAuto
+                   : joints == "exact" ? JointSolving::kExact
+                                       : JointSolving::kIterative;
+  solver->joint_substeps = r.Integer("joint_substeps", {1, 16}, solver->joint_substeps);
   const std::string welds = r.Text("welds", "body");
   if (welds != "body" && welds != "joint") r.FailAt("welds", "welds must be 'body' or 'joint'");
   solver->weld_joints = welds == "joint";

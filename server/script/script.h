@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "common/scene/part_rules.h"
+#include "common/scene/toml_tree.h"
 #include "server/script/script_host.h"
 
 namespace seam {
@@ -31,6 +33,12 @@ class Script {
   void OnLeave(const std::string& player);
   /// Whether there is a callback of this name now.
   bool Defines(const char* callback) const;
+  /// The line of the scene file on which a global function begins; 0: there is no such function.
+  int LineOf(const char* function) const;
+  /// Calls a global function with a number and returns its first `results` values (kOther: nil),
+  /// tables as trees of 20 000 entries at most. Empty when there is no such function or the script
+  /// is stopped, then or by this call.
+  std::vector<TomlNode> Ask(const char* function, double argument, int results);
 
   bool stopped() const;
   /// "scene.toml:12: what", once stopped.

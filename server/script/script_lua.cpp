@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "server/script/script.h"
 #include "server/script/script_lua_guard.h"
@@ -11,6 +12,8 @@ namespace {
 
 /// Reading the code and running it once may take so many ticks' work.
 constexpr std::int64_t kLoadTicks = 10;
+/// Entries of a table that is an answer: poses of some thousand parts.
+constexpr int kAnswerEntriesMax = 20000;
 
 /// Notes where an error was raised; what it is stays as it is.
 int NoteLine(lua_State* L) {
@@ -25,6 +28,14 @@ int NoteLine(lua_State* L) {
     break;
   }
   return 1;
+}
+
+/// The line on which the function on top begins: 1 for one that is no script's.
+int BeginOf(lua_State* L) {
+  lua_Debug about;
+  lua_pushvalue(L, -1);
+  lua_getinfo(L, ">S", &about);
+  return std::max(about.linedefined, 1);
 }
 
 int OpenAll(lua_State* L) {
@@ -106,19 +117,60 @@ struct Script::Impl {
     lua_settop(state, 0);
   }
 
-  bool Has(const char* callback) {
-    if (state == nullptr || guard.spent) return false;
+  /// 0: there is no such function.
+  int LineOf(const char* function) {
+    if (state == nullptr || guard.spent) return 0;
     lua_settop(state, 0);
     lua_pushcfunction(state, [](lua_State* L) {
       lua_rawgeti(L, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
       lua_pushstring(L, static_cast<const char*>(lua_touserdata(L, 1)));
-      lua_pushboolean(L, lua_rawget(L, -2) == LUA_TFUNCTION);
+      const bool found = lua_rawget(L, -2) == LUA_TFUNCTION;
+      lua_pushinteger(L, found ? BeginOf(L) : 0);
       return 1;
     });
-    lua_pushlightuserdata(state, const_cast<char*>(callback));
-    const bool has = lua_pcall(state, 1, 1, 0) == LUA_OK && lua_toboolean(state, -1) != 0;
+    lua_pushlightuserdata(state, const_cast<char*>(function));
+    const bool good = lua_pcall(state, 1, 1, 0) == LUA_OK;
+    const int line = good ? static_cast<int>(lua_tointeger(state, -1)) : 0;
     lua_settop(state, 0);
-    return has;
+    return line;
+  }
+
+  struct Question {
+    const char* function;
+    double argument;
+    int results;
+    std::vector<TomlNode> answer;
+  };
+
+  std::vector<TomlNode> Ask(const char* function, double argument, int results) {
+    const int line = LineOf(function);
+    if (line == 0) return {};
+    guard.work = guard.limits.instructions;
+    Question question{function, argument, results, {}};
+    lua_pushcfunction(state, NoteLine);
+    lua_pushcfunction(state, [](lua_State* L) {
+      auto& q = *static_cast<Question*>(lua_touserdata(L, 1));
+      lua_settop(L, 0);
+      luaL_checkstack(L, q.results + kLuaNodeSlots, nullptr);
+      lua_rawgeti(L, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
+      lua_pushstring(L, q.function);
+      if (lua_rawget(L, 1) != LUA_TFUNCTION) return 0;
+      const int first = BeginOf(L);
+      GuardOf(L).line = first;
+      lua_pushnumber(L, q.argument);
+      lua_call(L, 1, q.results);
+      Attempt(L, [&] {
+        for (int i = 2; i < 2 + q.results; ++i) {
+          lua_pushvalue(L, i);
+          q.answer.push_back(lua_isnil(L, -1) ? TomlNode{} : LuaNode(L, first, kAnswerEntriesMax));
+          lua_pop(L, 1);
+        }
+      });
+      return 0;
+    });
+    lua_pushlightuserdata(state, &question);
+    Call(1, line);
+    return state == nullptr ? std::vector<TomlNode>{} : std::move(question.answer);
   }
 
   struct Callback {
@@ -138,10 +190,7 @@ struct Script::Impl {
       lua_rawgeti(L, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
       lua_pushstring(L, c.name);
       if (lua_rawget(L, 1) != LUA_TFUNCTION) return 0;
-      lua_Debug about;
-      lua_pushvalue(L, -1);
-      lua_getinfo(L, ">S", &about);
-      GuardOf(L).line = about.linedefined;  // should memory fail, which tells no line
+      GuardOf(L).line = BeginOf(L);  // should memory fail, which tells no line
       for (const char* text : c.text) {
         if (text != nullptr) lua_pushstring(L, text);
       }
@@ -220,7 +269,12 @@ void Script::OnLeave(const std::string& player) {
   impl_->Run({"on_leave", {player.c_str(), nullptr}, -1, nullptr});
 }
 
-bool Script::Defines(const char* callback) const { return impl_->Has(callback); }
+bool Script::Defines(const char* callback) const { return impl_->LineOf(callback) > 0; }
+int Script::LineOf(const char* function) const { return impl_->LineOf(function); }
+
+std::vector<TomlNode> Script::Ask(const char* function, double argument, int results) {
+  return impl_->Ask(function, argument, results);
+}
 
 bool Script::stopped() const { return impl_->state == nullptr; }
 const std::string& Script::error() const { return impl_->error; }

@@ -86,4 +86,10 @@ void OpenLuaWorld(lua_State* L);                     ///< script_lua_world.cpp: 
 /// Adds to the table on top what makes and removes parts and joints (script_lua_make.cpp).
 void AddLuaMaking(lua_State* L);
 
+/// The value on top as a tree whose nodes say `line`, of at most `entries_max` entries
+/// (script_lua_make.cpp). Raises nothing, but needs kLuaNodeSlots on the stack; throws
+/// ScriptRefusal for what is no value of a scene.
+TomlNode LuaNode(lua_State* L, int line, int entries_max);
+constexpr int kLuaNodeSlots = 24;
+
 }  // namespace seam

@@ -22,11 +22,12 @@ int LineOf(lua_State* L) {
   return where.currentline;
 }
 
-/// The value at the top as a scene's text would have it. Raises nothing; throws ScriptRefusal.
-TomlNode NodeAt(lua_State* L, int line, int depth, int* entries) {
+/// The value at the top as a scene's text would have it, of at most `left` entries. Raises nothing;
+/// throws ScriptRefusal.
+TomlNode NodeAt(lua_State* L, int line, int depth, int* left) {
   TomlNode node;
   node.line = line;
-  if (++*entries > kEntriesMax || depth > kNestingMax || lua_checkstack(L, 4) == 0) {
+  if (--*left < 0 || depth > kNestingMax || lua_checkstack(L, 4) == 0) {
     throw ScriptRefusal("the table is too large");
   }
   switch (lua_type(L, -1)) {
@@ -54,10 +55,10 @@ TomlNode NodeAt(lua_State* L, int line, int depth, int* entries) {
   const auto length = lua_rawlen(L, -1);
   if (length > 0) {
     node.kind = TomlNode::Kind::kArray;
-    if (length > static_cast<std::size_t>(kEntriesMax)) throw ScriptRefusal("a list is too long");
+    if (length > static_cast<std::size_t>(*left)) throw ScriptRefusal("a list is too long");
     for (std::size_t i = 1; i <= length; ++i) {
       lua_rawgeti(L, -1, static_cast<lua_Integer>(i));
-      node.items.push_back(NodeAt(L, line, depth + 1, entries));
+      node.items.push_back(NodeAt(L, line, depth + 1, left));
       lua_pop(L, 1);
     }
     return node;
@@ -68,7 +69,7 @@ TomlNode NodeAt(lua_State* L, int line, int depth, int* entries) {
     std::size_t bytes = 0;
     const char* key = lua_tolstring(L, -2, &bytes);
     std::string name(key, bytes);
-    node.members.emplace_back(std::move(name), NodeAt(L, line, depth + 1, entries));
+    node.members.emplace_back(std::move(name), NodeAt(L, line, depth + 1, left));
     lua_pop(L, 1);
   }
   // Lua's order is that of its hashes.
@@ -82,11 +83,8 @@ int Add(lua_State* L, void (ScriptHost::*add)(const TomlNode&)) {
   LuaCountCommand(L);
   const int line = LineOf(L);
   lua_settop(L, 1);
-  luaL_checkstack(L, 4 * (kNestingMax + 2), nullptr);
-  Attempt(L, [&] {
-    int entries = 0;
-    (HostOf(L).*add)(NodeAt(L, line, 0, &entries));
-  });
+  luaL_checkstack(L, kLuaNodeSlots, nullptr);
+  Attempt(L, [&] { (HostOf(L).*add)(LuaNode(L, line, kEntriesMax)); });
   return 0;
 }
 
@@ -176,6 +174,11 @@ int RemoveJoint(lua_State* L) {
 }
 
 }  // namespace
+
+TomlNode LuaNode(lua_State* L, int line, int entries_max) {
+  static_assert(kLuaNodeSlots >= 4 * (kNestingMax + 2));
+  return NodeAt(L, line, 0, &entries_max);
+}
 
 float LuaNumber(lua_State* L, int argument) {
   const auto number = static_cast<float>(luaL_checknumber(L, argument));

@@ -47,17 +47,21 @@ struct SweepCommand {
 int RunSweep(const SweepCommand& command);
 
 struct PhysicsCommand {
-  std::vector<std::string> cases;  ///< names; empty: all
-  std::string grid = "report";     ///< quick | report | full
-  std::string table;               ///< CSV file to write or complete
+  std::vector<std::string> scenes;  ///< files or names: cases of the user's own
+  double seconds = 0;               ///< of those; 0: each scene's duration, 60 at most
+  std::vector<std::string> cases;   ///< names of hard cases; empty: all, if there are no scenes
+  std::string grid = "report";      ///< quick | report | full
+  /// CSV file to write or complete. Empty, which needs scenes: out/physics/NAMES/physics.csv, and
+  /// the plots beside it.
+  std::string table;
   std::string folder = "scenes/hard";
   int jobs = 0;        ///< runs at a time; 0: as many as there are cores
   bool force = false;  ///< begin the table anew
   bool quiet = false;  ///< no progress line
 };
 
-/// Runs the hard cases with the stock setting, their own, and others; prints a table. 1: some runs
-/// failed (and left no row), or a signal came.
+/// Runs the hard cases, or the scenes, with the stock setting, their own, and others; prints a
+/// table, and of scenes the front. 1: some runs failed (and left no row), or a signal came.
 int RunPhysics(const PhysicsCommand& command);
 
 struct TuneCommand {

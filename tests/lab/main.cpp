@@ -65,11 +65,15 @@ CLI::App* DefineSweep(CLI::App& app, SweepCommand& c) {
 }
 
 CLI::App* DefinePhysics(CLI::App& app, PhysicsCommand& c) {
-  CLI::App* physics = app.add_subcommand("physics", "solver settings on the hard cases");
+  CLI::App* physics =
+      app.add_subcommand("physics", "solver settings on the hard cases, or on your own scenes");
+  physics->add_option("SCENES", c.scenes, "your own: judged by their exact(t) (docs/lab.md)");
+  physics->add_option("--seconds", c.seconds, "simulated of SCENES (default: the scene's, 60 most)")
+      ->check(CLI::Range(0.1, kDurationMax));
   physics->add_option("--cases", c.cases, "names (default: all)")->delimiter(',');
   physics->add_option("--grid", c.grid, "quick | report | full")
       ->check(CLI::IsMember({"quick", "report", "full"}));
-  physics->add_option("-o,--output", c.table, "CSV table to write, or to complete")->required();
+  physics->add_option("-o,--output", c.table, "CSV table to write, or to complete");
   physics->add_option("--scenes", c.folder, "folder of the hard scenes (default: scenes/hard)");
   physics->add_option("--jobs", c.jobs, "runs at a time (default: one a core)")
       ->check(CLI::Range(1, 256));

@@ -9,7 +9,7 @@
 
 namespace seam {
 
-constexpr int kPhysicsKeyColumns = 14;
+constexpr int kPhysicsKeyColumns = 15;
 std::string PhysicsHeader();
 
 /// The first kPhysicsKeyColumns values: what it is. `version` holds a hash of the scene's text.
@@ -17,7 +17,7 @@ std::string PhysicsKey(const PhysicsPoint& point);
 
 /// Runs and measures; the line without its end. All but the last columns cpu_us_per_s,
 /// stock_cpu_us_per_s and cost_ratio is a function of the point. `reference`: where the case has no
-/// judge.
+/// judge; if it is not converged, that is the row's failure.
 std::string PhysicsRow(const PhysicsPoint& point, const Reference* reference);
 
 /// The line of a run that took its process with it.

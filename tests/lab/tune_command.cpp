@@ -9,6 +9,7 @@
 #include "common/base/check.h"
 #include "common/base/find_scene.h"
 #include "tests/lab/commands.h"
+#include "tests/lab/exact/scene_case.h"
 #include "tests/lab/hard/observe.h"
 #include "tests/lab/hard/settings.h"
 #include "tests/lab/hard/tune.h"
@@ -35,7 +36,7 @@ const HardCase* CaseOf(const TuneCommand& command) {
   return nullptr;
 }
 
-/// Median RMS distance of runs with one body nudged, m: what chaos makes of a micrometre.
+/// Median RMS distance of runs with one body nudged, m: what the scene makes of a micrometre.
 double Floor(const Scene& scene, double seconds) {
   const Trajectory path = PathOf(scene, seconds);
   const int bodies = World(scene).body_count();
@@ -64,6 +65,7 @@ Target TargetOf(const TuneCommand& command) {
   if (target.hard.adjust) target.hard.adjust(&target.scene);
   target.seconds = hard != nullptr ? hard->seconds : std::min(kHorizon, target.scene.duration_s);
   if (command.seconds > 0) target.seconds = command.seconds;
+  if (hard == nullptr) target.hard = SceneCase(command.scene, target.seconds);
   return target;
 }
 
@@ -73,19 +75,18 @@ void Introduce(const TuneCommand& command, Target* target) {
                 target->hard.about.c_str(), target->hard.unit.c_str(), target->seconds);
     return;
   }
-  target->hard.unit = "m";
   target->reference = std::make_unique<Reference>(MakeReference(target->scene, target->seconds));
   const double change = target->reference->change_m;
   const double floor = Floor(target->scene, target->seconds);
   std::printf(
-      "scene %s: RMS distance of all parts from its own run at 60 Hz x32 8/3, m, over "
-      "%g s\nhalving that run's step changes it by %.3g m; a nudge of 1e-6 m comes to "
-      "%.3g m\n",
-      target->scene.name.c_str(), target->seconds, change, floor);
+      "scene %s: %s, %s, over %g s\nhalving that run's step changes it by %.3g m; a nudge of "
+      "1e-6 m comes to %.3g m\n",
+      target->scene.name.c_str(), target->hard.about.c_str(), target->hard.unit.c_str(),
+      target->seconds, change, floor);
   if (command.error < std::max(change, floor)) {
     std::printf(
-        "warning: %g m is less than that: chaos, not the setting, decides whether a run "
-        "comes so close; a shorter --seconds may be decidable\n",
+        "warning: %g m is less than that: not converged, the setting alone does not decide whether "
+        "a run comes so close; a shorter --seconds may be decidable\n",
         command.error);
   }
 }

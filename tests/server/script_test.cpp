@@ -139,6 +139,42 @@ TEST(Script, CatchesItsOwnErrors) {
                    "false cannot resume dead coroutine", "7 8"}));
 }
 
+TEST(Script, AnswersWithWhatAFunctionReturns) {
+  FakeRoom room(R"(
+    function twice(t)
+      return {ball = {x = 2 * t}}, "m"
+    end
+    function loop() while true do end end
+  )");
+  const std::vector<TomlNode> answer = room.script.Ask("twice", 1.5, 3);
+  ASSERT_EQ(answer.size(), 3u);
+  EXPECT_EQ(FakeHost::Text(answer[0]), "{ball={x=3 } }");
+  EXPECT_EQ(answer[1].text, "m");
+  EXPECT_EQ(answer[2].kind, TomlNode::Kind::kOther);
+  EXPECT_EQ(room.script.LineOf("twice"), 11);
+  EXPECT_EQ(room.script.LineOf("thrice"), 0);
+  EXPECT_TRUE(room.script.Ask("thrice", 1, 1).empty());
+  EXPECT_FALSE(room.script.stopped());
+  // Each answer has a tick's work, and no more.
+  for (int i = 0; i < 100000 && !room.script.stopped(); ++i) room.script.Ask("twice", i, 1);
+  EXPECT_EQ(room.script.error(), "");
+  EXPECT_TRUE(room.script.Ask("loop", 1, 1).empty());
+  EXPECT_EQ(room.script.error(), "s.toml:14: more than 200000 instructions in a tick");
+}
+
+TEST(Script, AnAnswerThatIsNoValueOrTooLargeIsAnErrorAtItsFunction) {
+  for (const char* value : {"print", "coroutine.create(print)", "{{{{{{{}}}}}}}", "{[true] = 1}"}) {
+    FakeRoom room(std::string("\nfunction f() return ") + value + " end");
+    EXPECT_TRUE(room.script.Ask("f", 0, 1).empty()) << value;
+    EXPECT_EQ(room.script.error().rfind("s.toml:11: ", 0), 0u) << room.script.error();
+  }
+  FakeRoom room(
+      "\nfunction f()\n  local t = {}\n  for i = 1, 15000 do t[i] = {i} end\n  return t\nend",
+      {2000000, 64 << 20});
+  EXPECT_TRUE(room.script.Ask("f", 0, 1).empty());
+  EXPECT_EQ(room.script.error(), "s.toml:11: a list is too long");
+}
+
 TEST(Script, DoesTheSameInEveryRun) {
   // Lua's own pairs follows a hash that is seeded by addresses and the clock.
   const std::string code = R"(

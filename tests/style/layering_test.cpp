@@ -167,6 +167,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"render/draw", "render/(canvas|playback)"},
       {"tests/lab/fairness", "tests/lab(/report)?"},
       {"common/measure/limit", "common/measure(/screen)?"},
+      {"tests/lab/exact", "tests/lab(/hard|/report)?"},
       {"tests/lab/hard", "none"},
       {"tests/lab/report", "tests/lab"},
       {"tests/lab/validity", "tests/lab"},

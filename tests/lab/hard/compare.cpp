@@ -11,6 +11,8 @@
 namespace seam {
 namespace {
 
+/// A reference may have this share of the error that it judges, or this many m.
+constexpr double kOwnErrorShare = 0.25, kOwnErrorMin = 1e-5;
 constexpr double kNudge = 1e-6;       // m
 constexpr int kFinest = 32;           // substeps of 1/60 s
 constexpr double kStretch = 0.25;     // s, simulated between two looks at the clock
@@ -73,6 +75,10 @@ Trajectory PathOf(const Scene& scene, double seconds, int nudged) {
     path.See(world);
   }
   return path;
+}
+
+bool Reference::converged() const {
+  return change_m <= kOwnErrorShare * stock_m || change_m <= kOwnErrorMin;
 }
 
 Reference MakeReference(const Scene& scene, double seconds) {

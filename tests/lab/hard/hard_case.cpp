@@ -1,5 +1,7 @@
 #include "tests/lab/hard/hard_case.h"
 
+#include <filesystem>
+
 namespace seam {
 
 const std::vector<HardCase>& HardCases() {
@@ -13,7 +15,8 @@ const std::vector<HardCase>& HardCases() {
 }
 
 Scene LoadHardScene(const HardCase& hard, const std::string& folder) {
-  Scene scene = LoadScene(folder + "/" + hard.scene + ".toml");
+  const bool is_path = std::filesystem::path(hard.scene).extension() == ".toml";
+  Scene scene = LoadScene(is_path ? hard.scene : folder + "/" + hard.scene + ".toml");
   if (hard.adjust) hard.adjust(&scene);
   return scene;
 }
@@ -21,6 +24,7 @@ Scene LoadHardScene(const HardCase& hard, const std::string& folder) {
 Solver StockSolver() {
   Solver stock;
   stock.weld_joints = true;
+  stock.joints = JointSolving::kIterative;
   return stock;
 }
 

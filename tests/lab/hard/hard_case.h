@@ -31,7 +31,7 @@ class Judge {
 
 struct HardCase {
   std::string name;   ///< unique; letters, digits, '-'
-  std::string scene;  ///< file of scenes/hard, without folder and ".toml"
+  std::string scene;  ///< file of scenes/hard, without folder and ".toml"; or a path with ".toml"
   Truth truth = Truth::kInvariant;
   std::string unit;     ///< of the error: "m", "rad", "J/J", "1"
   std::string about;    ///< what the error is, with the source of a formula; a line
@@ -50,7 +50,7 @@ const std::vector<HardCase>& HardCases();
 std::vector<HardCase> ExactCases();
 std::vector<HardCase> InvariantCases();
 
-/// The case's scene as its file has it, adjusted. `folder`: of the scenes, "scenes/hard".
+/// The case's scene as its file has it, adjusted. `folder`: of scenes without a path.
 /// Throws OperatorError.
 Scene LoadHardScene(const HardCase& hard, const std::string& folder = "scenes/hard");
 

@@ -40,10 +40,16 @@ Observation Observe(const HardCase& hard, const Scene& scene, double seconds,
                     const Trajectory* reference = nullptr);
 
 /// The scene's own run at 32 times the stock rate (60 Hz, 32 substeps of 8/3, else as the scene
-/// says), and by how much that at 16 times differs from it.
+/// says), and by how much that at 16 times differs from it: the estimate of its own error.
 struct Reference {
   Trajectory finest;
   double change_m = 0;  ///< RMS, as Distance
+  /// The error of the stock setting against it, m: the size of what it is to judge.
+  double stock_m = std::numeric_limits<double>::infinity();
+
+  /// Whether its own error is small enough to judge by it: at most a quarter of stock's, or 1e-5 m,
+  /// where single precision ends.
+  bool converged() const;
 };
 Reference MakeReference(const Scene& scene, double seconds);
 

@@ -64,7 +64,7 @@ PhysicsPlan PlanPhysics(const std::vector<const HardCase*>& cases, GridSize size
     plan.points.push_back({hard, "scene", scene});
     double spent = 0;
     int tried = 0, left_out = 0;
-    for (const Solver& solver : GridSettings(size, scene.solver)) {
+    for (const Solver& solver : GridSettings(size, scene.solver, !scene.joints.empty())) {
       if (SameSolver(solver, scene.solver) || SameSolver(solver, StockSolver())) continue;
       const double own = share * PredictedCpu(scene, solver, hard->seconds);
       if (spent + RowCost(own, stock_cost) > budget) {

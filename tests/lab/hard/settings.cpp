@@ -42,6 +42,8 @@ const std::vector<Levers> kReportLevers = {
     {240, 4, 8, 3, kSmallSkin, true}, {240, 8, 8, 3, kSmallSkin, true},
 };
 constexpr std::size_t kQuickLevers = 4;
+/// Of exact joints, at one step a tick; only where there are joints.
+constexpr int kExactSubsteps[] = {2, 1, 4};
 
 std::vector<Levers> AllLevers() {
   std::vector<Levers> all;
@@ -77,6 +79,8 @@ std::string SolverWords(const Solver& s) {
   if (!s.warm_starting) words += " cold";
   if (!s.continuous) words += " not continuous";
   if (!s.sleep) words += " sleepless";
+  if (s.joints == JointSolving::kExact) words += fmt::format(" exact x{}", s.joint_substeps);
+  if (s.joints == JointSolving::kAuto) words += fmt::format(" auto x{}", s.joint_substeps);
   return words + (s.weld_joints ? " welds jointed" : "");
 }
 
@@ -98,6 +102,11 @@ std::string SolverLines(const Solver& s) {
   flag("warm_starting", s.warm_starting, none.warm_starting);
   if (s.skin > 0) lines += fmt::format("skin = {}\n", s.skin);
   if (s.weld_joints) lines += "welds = \"joint\"\n";
+  if (s.joints != none.joints) {
+    const char* const names[] = {"auto", "exact", "iterative"};
+    lines += fmt::format("joints = \"{}\"\n", names[static_cast<int>(s.joints)]);
+  }
+  number("joint_substeps", s.joint_substeps, none.joint_substeps);
   return lines;
 }
 
@@ -121,12 +130,24 @@ double PredictedCpu(const Scene& scene, const Solver& solver, double seconds) {
   return seconds * solver.tick_hz * solver.substeps * StepShare(solver) * step_us * 1e-6;
 }
 
-std::vector<Solver> GridSettings(GridSize size, const Solver& own) {
+std::vector<Solver> GridSettings(GridSize size, const Solver& own, bool jointed) {
   std::vector<Levers> levers = size == GridSize::kFull ? AllLevers() : kReportLevers;
   if (size == GridSize::kQuick) levers.resize(kQuickLevers);
   std::vector<Solver> settings;
+  for (const int substeps : kExactSubsteps) {
+    if (!jointed) break;
+    Solver s;
+    s.continuous = own.continuous;
+    s.sleep = own.sleep;
+    s.weld_joints = own.weld_joints;
+    s.joints = JointSolving::kExact;
+    s.joint_substeps = substeps;
+    settings.push_back(s);
+  }
   for (const Levers& l : levers) {
     Solver s = own;
+    s.joints = JointSolving::kIterative;
+    s.joint_substeps = Solver().joint_substeps;
     s.tick_hz = l.tick_hz;
     s.substeps = l.substeps;
     s.velocity_iterations = l.velocity;

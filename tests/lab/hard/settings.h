@@ -31,7 +31,8 @@ Scene WithSolver(const Scene& scene, const Solver& solver);
 double PredictedCpu(const Scene& scene, const Solver& solver, double seconds);
 
 /// What to try besides the stock and the scene's own setting, most telling first, none twice. What
-/// is not varied (continuous collision, sleep, welds) is as in `own`.
-std::vector<Solver> GridSettings(GridSize size, const Solver& own);
+/// is not varied (continuous collision, sleep, welds) is as in `own`. `jointed`: with exact joints,
+/// too.
+std::vector<Solver> GridSettings(GridSize size, const Solver& own, bool jointed);
 
 }  // namespace seam

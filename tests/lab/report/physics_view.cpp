@@ -27,6 +27,8 @@ std::string Setting(const CsvTable& t, std::size_t row) {
     text += ", skin " + skin + " m";
   }
   if (!IsOn(t.Text(row, "warm_starting"))) text += ", cold";
+  const std::string& joints = t.Text(row, "joints");
+  if (joints != "iterative") text += ", joints " + joints;
   if (!IsOn(t.Text(row, "continuous"))) text += ", not continuous";
   const bool stock = t.Text(row, "role") == "stock";  // that always has them so
   if (!stock && t.Text(row, "welds") == "joint") text += ", welds jointed";
@@ -51,7 +53,7 @@ PhysicsRun RunOf(const CsvTable& t, std::size_t row) {
 
 std::vector<PhysicsCase> ViewPhysics(const CsvTable& table) {
   table.Require({"case", "truth", "unit", "role", "tick_hz", "substeps", "velocity_iterations",
-                 "position_iterations", "warm_starting", "skin", "continuous", "welds", "error",
+                 "position_iterations", "warm_starting", "skin", "continuous", "welds", "joints", "error",
                  "failure", "cost_ratio"});
   std::vector<PhysicsCase> cases;
   for (std::size_t row = 0; row < table.rows(); ++row) {

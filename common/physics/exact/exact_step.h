@@ -1,0 +1,76 @@
+#pragma once
+/// One of the engine's steps, in which islands that contain a joint are solved as one system
+/// (ExactIsland) and all others by the engine, bit for bit as ever. The engine finds contacts,
+/// keeps the tree of boxes and does continuous collision for all.
+
+#include <memory>
+#include <vector>
+
+#include "common/physics/exact/island.h"
+#include "common/physics/world_build.h"
+#include "common/scene/scene.h"
+
+namespace seam {
+
+class ExactStep {
+ public:
+  ExactStep(const Solver& solver, b2World* world, const BuiltScene& built);
+  ~ExactStep();
+
+  /// Whether there is a joint that it would solve; else the engine's own Step does.
+  bool needed() const { return !mechanisms_.empty(); }
+
+  /// As b2World::Step.
+  void Step(float h, int velocity_iterations, int position_iterations);
+
+ private:
+  struct Slot {  // of a moving body
+    b2Body* body = nullptr;
+    int mechanism = -1;
+    int island = -1;  // in this step
+    int place = -1;   // in its list of bodies
+    // What it was left with, and the same as the engine has it.
+    bool known = false;
+    double x = 0, y = 0, a = 0, vx = 0, vy = 0, w = 0;
+    float told_x = 0, told_y = 0, told_a = 0, told_vx = 0, told_vy = 0, told_w = 0;
+  };
+  struct Mechanism {
+    std::vector<int> slots;   // in the order of the system
+    std::vector<int> joints;  // indices
+    bool exact = true;        // false: its envelope is too large
+  };
+  struct Found {  // an island, under the number of its first mechanism
+    std::vector<int> slots, mechanisms;
+    std::vector<b2Contact*> contacts;
+    std::vector<const void*> sign;  // of what `island` was built for
+    std::unique_ptr<ExactIsland> island;
+  };
+
+  void FindMechanisms();
+  bool Gather(int first, Found* found);
+  void Sign(const Found& found, std::vector<const void*>* sign) const;
+  void Order(Found* found);
+  void Build(Found* found);
+  void LoadPoses(Found* found);
+  void Load(Found* found);
+  void Save(Found* found, float h);
+  void SavePoses(const Found& found);
+  void Prepare(float h, Found* found);
+  void RejoinWhatMoved(float h, const Pace& pace);
+  static bool Told(const Slot& slot);
+  void Report(const Found& found) const;
+  static void Hide(const Found& found);
+  static void Show(const Found& found);
+
+  const Solver solver_;
+  b2World* world_;
+  std::vector<Slot> slots_;
+  std::vector<ExactJoint> joints_;
+  std::vector<Mechanism> mechanisms_;
+  std::vector<Found> found_;
+  std::vector<const void*> sign_;
+  std::vector<int> solved_;
+  bool paths_ = false;  // something anchored is moved along a path
+};
+
+}  // namespace seam

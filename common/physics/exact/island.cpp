@@ -1,0 +1,103 @@
+/// ExactIsland: what it consists of, and the shape of its system.
+
+#include "common/physics/exact/island.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace seam {
+
+void ExactIsland::Shape() {
+  int rows = 0;
+  std::size_t ends = 0;
+  std::vector<int> ends_of;
+  for (Held& held : joints) {
+    held.row = rows;
+    held.rows = RowCount(*held.joint);
+    rows += held.rows;
+    ends_of.insert(ends_of.end(), static_cast<std::size_t>(held.rows), EndsOf(*held.joint));
+  }
+  contact_row_.clear();
+  for (const ExactContact& contact : contacts) {
+    contact_row_.push_back(rows);
+    rows += 2 * contact.count;
+    ends_of.insert(ends_of.end(), static_cast<std::size_t>(2 * contact.count), 2);
+  }
+  for (const int count : ends_of) ends += static_cast<std::size_t>(count);
+  rows_.assign(static_cast<std::size_t>(rows), Row());
+  ends_.assign(ends, RowEnd());
+  RowEnd* next = ends_.data();
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    rows_[i].end = next;
+    next += ends_of[i];
+  }
+  Fill({1, 1});
+  ShapeMatrix();
+}
+
+void ExactIsland::ShapeMatrix() {
+  // Rows in the order of their last body, then of their first: what is bound stays together.
+  const std::size_t n = rows_.size();
+  std::vector<std::pair<int, int>> key(n);
+  bounded_ = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const Row& row = rows_[i];
+    key[i] = {-1, static_cast<int>(bodies.size())};
+    for (int e = 0; e < row.ends; ++e) {
+      key[i].first = std::max(key[i].first, row.end[e].body);
+      key[i].second = std::min(key[i].second, row.end[e].body);
+    }
+    bounded_ += row.bounded() ? 1 : 0;
+  }
+  row_at_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) row_at_[i] = static_cast<int>(i);
+  std::stable_sort(row_at_.begin(), row_at_.end(), [&](int x, int y) {
+    return key[static_cast<std::size_t>(x)] < key[static_cast<std::size_t>(y)];
+  });
+  place_.resize(n);
+  std::vector<int> first(n), lead(bodies.size(), -1);
+  for (std::size_t p = 0; p < n; ++p) {
+    const Row& row = At(row_at_[p]);
+    place_[static_cast<std::size_t>(row_at_[p])] = static_cast<int>(p);
+    first[p] = static_cast<int>(p);
+    for (int e = 0; e < row.ends; ++e) {
+      int& led_by = lead[static_cast<std::size_t>(row.end[e].body)];
+      if (led_by < 0) led_by = static_cast<int>(p);
+      first[p] = std::min(first[p], led_by);
+    }
+  }
+  matrix_.SetShape(first);
+  pairs_.clear();
+  std::vector<std::vector<std::pair<int, int>>> met(bodies.size());  // row, end
+  for (std::size_t p = 0; p < n; ++p) {
+    const int row = row_at_[p];
+    for (int e = 0; e < At(row).ends; ++e) {
+      auto& there = met[static_cast<std::size_t>(At(row).end[e].body)];
+      there.push_back({row, e});
+      for (const auto& [other, other_end] : there) {
+        const int column = place_[static_cast<std::size_t>(other)];
+        pairs_.push_back({matrix_.Place(static_cast<int>(p), column), row, other, e, other_end});
+      }
+    }
+  }
+  in_.assign(n, 1);
+  x_.assign(n, 0.0);
+}
+
+void ExactIsland::Fill(const Pace& pace) {
+  for (const Held& held : joints) FillJoint(*held.joint, held.ends, bodies, pace, &At(held.row));
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (contacts[c].count > 0) FillContact(contacts[c], bodies, pace, &At(contact_row_[c]));
+  }
+}
+
+void ExactIsland::Store() const {
+  for (const Held& held : joints) {
+    StoreImpulses(*held.joint, rows_.data() + held.row);
+  }
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (contacts[c].count > 0) StoreImpulses(contacts[c], rows_.data() + contact_row_[c]);
+  }
+}
+
+}  // namespace seam

@@ -1,0 +1,293 @@
+/// ExactIsland: the system of rows, a linear complementarity problem with bounds. Solved by block
+/// pivoting (Júdice and Pires 1994), one row at a time once that stalls (Murty 1974), with bounds
+/// of friction that are found from the normal impulses of the round before.
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/physics/exact/island.h"
+
+namespace seam {
+namespace {
+
+/// What a row's own entry is enlarged by, as a share: for rows that others imply.
+constexpr double kOwnHard = 1e-7, kOwnBounded = 1e-6;
+/// Rounds of friction, and when they are over: the bounds change by less than this share.
+constexpr int kFrictionRounds = 3;
+constexpr double kFrictionSame = 0.02;
+/// Pivots before Descend takes over; so many without progress, too.
+constexpr int kPivots = 12, kPatience = 3;
+/// Rounds of Descend.
+constexpr int kRounds = 200;
+/// A row at its bound may be this wrong in its speed, m/s.
+constexpr double kSpeedError = 1e-6;
+
+}  // namespace
+
+double ExactIsland::Speed(const Row& row) const {
+  double speed = row.fixed_speed;
+  for (int e = 0; e < row.ends; ++e) {
+    const RowEnd& end = row.end[e];
+    const ExactBody& q = bodies[static_cast<std::size_t>(end.body)];
+    speed += end.j[0] * q.vx + end.j[1] * q.vy + end.j[2] * q.w;
+  }
+  return speed;
+}
+
+void ExactIsland::Push(const Row& row, double impulse) {
+  if (impulse == 0) return;
+  for (int e = 0; e < row.ends; ++e) {
+    const RowEnd& end = row.end[e];
+    ExactBody& q = Body(end.body);
+    q.vx += impulse * end.mj[0];
+    q.vy += impulse * end.mj[1];
+    q.w += impulse * end.mj[2];
+  }
+}
+
+void ExactIsland::Save(std::vector<double>* velocities) const {
+  velocities->clear();
+  for (const ExactBody& q : bodies) velocities->insert(velocities->end(), {q.vx, q.vy, q.w});
+}
+
+void ExactIsland::Restore(const std::vector<double>& velocities) {
+  const double* v = velocities.data();
+  for (ExactBody& q : bodies) {
+    q.vx = *v++;
+    q.vy = *v++;
+    q.w = *v++;
+  }
+}
+
+void ExactIsland::Assemble() {
+  for (Row& row : rows_) {
+    for (int e = 0; e < row.ends; ++e) {
+      RowEnd& end = row.end[e];
+      const ExactBody& q = bodies[static_cast<std::size_t>(end.body)];
+      end.mj[0] = q.im * end.j[0];
+      end.mj[1] = q.im * end.j[1];
+      end.mj[2] = q.ii * end.j[2];
+    }
+  }
+  matrix_.Clear();
+  for (const Pair& pair : pairs_) {
+    const double* m = rows_[static_cast<std::size_t>(pair.row)].end[pair.end].mj;
+    const double* j = rows_[static_cast<std::size_t>(pair.other)].end[pair.other_end].j;
+    matrix_.At(pair.place) += m[0] * j[0] + m[1] * j[1] + m[2] * j[2];
+  }
+  for (int p = 0; p < matrix_.size(); ++p) {
+    const Row& row = At(row_at_[static_cast<std::size_t>(p)]);
+    double& own = matrix_.At(matrix_.Place(p, p));
+    own += own * (row.bounded() ? kOwnBounded : kOwnHard) + row.gamma;
+  }
+  dirty_ = 0;
+}
+
+void ExactIsland::Factor() {
+  if (dirty_ >= matrix_.size()) return;
+  for (int p = dirty_; p < matrix_.size(); ++p) {
+    const auto at = static_cast<std::size_t>(p);
+    in_[at] = At(row_at_[at]).state == RowState::kFree ? 1 : 0;
+  }
+  matrix_.Factor(in_, dirty_);
+  dirty_ = matrix_.size();
+}
+
+/// Solves with the states as they are and says what they should be. True: nothing to change.
+bool ExactIsland::Pivot(int* wrong) {
+  Restore(before_);
+  for (Row& row : rows_) {
+    if (row.state == RowState::kFree) continue;
+    row.lambda = row.state == RowState::kLow ? row.lo : row.state == RowState::kHigh ? row.hi : 0;
+    Push(row, row.lambda);
+  }
+  Factor();
+  const std::size_t n = rows_.size();
+  for (std::size_t p = 0; p < n; ++p) {
+    const Row& row = At(row_at_[p]);
+    x_[p] = row.state == RowState::kFree ? row.target - Speed(row) : 0;
+  }
+  matrix_.Solve(&x_);
+  double scale = 0;
+  for (std::size_t p = 0; p < n; ++p) {
+    Row& row = At(row_at_[p]);
+    if (row.state == RowState::kFree) {
+      row.lambda = x_[p];
+      Push(row, row.lambda);
+    }
+    if (row.bounded()) scale = std::max(scale, std::fabs(row.lambda));
+  }
+  *wrong = 0;
+  if (bounded_ == 0) return true;
+  const double slack = 1e-12 + 1e-7 * scale;
+  for (std::size_t p = 0; p < n; ++p) {
+    Row& row = At(row_at_[p]);
+    next_[p] = row.state;
+    if (!row.bounded() || row.state == RowState::kOut) continue;
+    if (row.state == RowState::kFree) {
+      if (row.lambda < row.lo - slack) next_[p] = RowState::kLow;
+      if (row.lambda > row.hi + slack) next_[p] = RowState::kHigh;
+    } else if (row.hi > row.lo) {
+      const double off = Speed(row) - row.target + row.gamma * row.lambda;
+      if (row.state == RowState::kLow && off < -kSpeedError) next_[p] = RowState::kFree;
+      if (row.state == RowState::kHigh && off > kSpeedError) next_[p] = RowState::kFree;
+    }
+    if (next_[p] == row.state) continue;
+    ++*wrong;
+  }
+  return *wrong == 0;
+}
+
+void ExactIsland::Change(int place) {
+  const auto at = static_cast<std::size_t>(place);
+  Row& row = At(row_at_[at]);
+  if (row.state == next_[at]) return;
+  row.state = next_[at];
+  dirty_ = std::min(dirty_, place);
+}
+
+bool ExactIsland::PivotToTheEnd() {
+  int fewest = static_cast<int>(rows_.size()) + 1, patience = kPatience;
+  for (int i = 0; i < kPivots; ++i) {
+    int wrong = 0;
+    if (Pivot(&wrong)) return true;
+    if (wrong < fewest) {
+      fewest = wrong;
+      patience = kPatience;
+    } else {
+      --patience;
+    }
+    if (patience < 0) return false;
+    for (int p = 0; p < matrix_.size(); ++p) Change(p);
+  }
+  return false;
+}
+
+void ExactIsland::SetFrictionBounds() {
+  for (Row& row : rows_) {
+    if (row.kind != RowKind::kFriction) continue;
+    row.lo = -row.most - row.base;
+    row.hi = row.most - row.base;
+  }
+}
+
+/// False: the bounds are as good as they were.
+bool ExactIsland::NextFrictionBounds() {
+  double change = 0;
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    Row& row = rows_[i];
+    if (row.kind != RowKind::kFriction || row.state == RowState::kOut) continue;
+    const Row& normal = rows_[i - 1];
+    const double most = row.friction * std::max(0.0, normal.base + normal.lambda);
+    const double now = row.base + row.lambda;
+    if (row.state != RowState::kFree || std::fabs(now) > most) {
+      change = std::max(change, std::fabs(most - row.most) / (1e-9 + most + row.most));
+    }
+    row.most = most;
+    if (row.state == RowState::kFree && std::fabs(now) > most) {
+      row.state = now > 0 ? RowState::kHigh : RowState::kLow;
+      dirty_ = std::min(dirty_, place_[i]);
+    }
+  }
+  return change > kFrictionSame;
+}
+
+void ExactIsland::Solve() {
+  Save(&before_);
+  next_.resize(rows_.size());
+  for (int round = 0; round < kFrictionRounds; ++round) {
+    SetFrictionBounds();
+    if (!PivotToTheEnd()) Descend();
+    if (contacts.empty() || !NextFrictionBounds()) break;
+  }
+}
+
+/// The impulses' bounds kept, each round takes the way to the solution for the rows that are free
+/// until one of them meets its bound, and frees those at a bound that push the wrong way once it is
+/// reached: the quadratic form that the solution minimises only falls (Nocedal and Wright 2006,
+/// 16.5), so that whatever round it is left in is better than none.
+void ExactIsland::Descend() {
+  Restore(before_);
+  for (Row& row : rows_) {
+    if (row.state == RowState::kOut) continue;
+    row.lambda = std::clamp(row.lambda, row.lo, row.hi);
+    Push(row, row.lambda);
+  }
+  const std::size_t n = rows_.size();
+  for (int round = 0; round < kRounds; ++round) {
+    Factor();
+    for (std::size_t p = 0; p < n; ++p) {
+      const Row& row = At(row_at_[p]);
+      x_[p] = row.state == RowState::kFree ? row.target - Speed(row) - row.gamma * row.lambda : 0;
+    }
+    matrix_.Solve(&x_);
+    double way = 1;
+    int meets = -1;
+    for (std::size_t p = 0; p < n; ++p) {
+      const Row& row = At(row_at_[p]);
+      if (row.state != RowState::kFree || !row.bounded() || x_[p] == 0) continue;
+      const double room = (x_[p] < 0 ? row.lo : row.hi) - row.lambda;
+      if (std::fabs(x_[p]) * way <= std::fabs(room)) continue;
+      way = std::fabs(room / x_[p]);
+      meets = static_cast<int>(p);
+    }
+    for (std::size_t p = 0; p < n; ++p) {
+      Row& row = At(row_at_[p]);
+      if (row.state != RowState::kFree) continue;
+      row.lambda += way * x_[p];
+      Push(row, way * x_[p]);
+    }
+    if (meets >= 0) {
+      Row& row = At(row_at_[static_cast<std::size_t>(meets)]);
+      const bool low = x_[static_cast<std::size_t>(meets)] < 0;
+      Push(row, (low ? row.lo : row.hi) - row.lambda);
+      row.lambda = low ? row.lo : row.hi;
+      row.state = low ? RowState::kLow : RowState::kHigh;
+      dirty_ = std::min(dirty_, meets);
+      continue;
+    }
+    bool freed = false;
+    for (std::size_t p = 0; p < n; ++p) {
+      Row& row = At(row_at_[p]);
+      if (row.state != RowState::kLow && row.state != RowState::kHigh) continue;
+      if (row.hi <= row.lo) continue;
+      const double off = Speed(row) - row.target + row.gamma * row.lambda;
+      if (row.state == RowState::kLow ? off >= -kSpeedError : off <= kSpeedError) continue;
+      row.state = RowState::kFree;
+      dirty_ = std::min(dirty_, static_cast<int>(p));
+      freed = true;
+    }
+    if (!freed) return;
+  }
+  HoldJoints();
+}
+
+/// Solves the joints with all other impulses as they are.
+void ExactIsland::HoldJoints() {
+  held_.clear();
+  for (Row& row : rows_) {
+    held_.push_back(row.state);
+    if (row.bounded()) row.state = RowState::kOut;
+  }
+  dirty_ = 0;
+  Factor();
+  for (std::size_t p = 0; p < rows_.size(); ++p) {
+    const Row& row = At(row_at_[p]);
+    x_[p] = row.state == RowState::kFree ? row.target - Speed(row) - row.gamma * row.lambda : 0;
+  }
+  matrix_.Solve(&x_);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    Row& row = rows_[i];
+    if (row.state == RowState::kFree) {
+      const double more = x_[static_cast<std::size_t>(place_[i])];
+      row.lambda += more;
+      Push(row, more);
+    }
+    row.state = held_[i];
+  }
+  held_.clear();
+  dirty_ = 0;
+  Factor();
+}
+
+}  // namespace seam

@@ -1,0 +1,452 @@
+#include "common/physics/exact/joint_rows.h"
+
+#include <algorithm>
+
+#include "common/base/check.h"
+
+namespace seam {
+namespace {
+
+/// A speed by which errors of position are shut at most, m/s or rad/s.
+constexpr double kShutMost = 8;
+/// How much of its error a pose motor takes back in a step; the engine's own default.
+constexpr double kPoseShare = 0.3;
+/// A motor this near its bound is at it.
+constexpr double kNearly = 1 - 1e-6;
+/// No joint has more.
+constexpr int kRowsMost = 6;
+/// A limit is near within this and twice the way of a step, rad and m.
+constexpr double kNearAngle = 0.1, kNearLength = 0.1;
+/// Two points this near have no direction, m.
+constexpr double kNoDirection = 1e-9;
+
+template <typename Made>
+const Made& As(const ExactJoint& joint) {
+  return *static_cast<const Made*>(joint.made);
+}
+
+template <typename Made>
+void ReadAnchors(const Made& made, ExactJoint* out) {
+  out->anchor_a = made.GetLocalAnchorA();
+  out->anchor_b = made.GetLocalAnchorB();
+}
+
+template <typename Made>
+void ReadSlide(const Made& made, ExactJoint* out) {
+  ReadAnchors(made, out);
+  out->axis = made.GetLocalAxisA();
+  out->limited = made.IsLimitEnabled();
+  out->lower = static_cast<double>(made.GetLowerLimit());
+  out->upper = static_cast<double>(made.GetUpperLimit());
+}
+
+struct Drive {
+  bool on = false;
+  double speed = 0, most = 0;  // per s: N or N m
+};
+
+Drive DriveOf(const ExactJoint& joint) {
+  Drive drive;
+  switch (joint.type) {
+    case e_revoluteJoint: {
+      const auto& made = As<b2RevoluteJoint>(joint);
+      drive.on = made.IsMotorEnabled();
+      drive.speed = static_cast<double>(made.GetMotorSpeed());
+      drive.most = static_cast<double>(made.GetMaxMotorTorque());
+      break;
+    }
+    case e_prismaticJoint: {
+      const auto& made = As<b2PrismaticJoint>(joint);
+      drive.on = made.IsMotorEnabled();
+      drive.speed = static_cast<double>(made.GetMotorSpeed());
+      drive.most = static_cast<double>(made.GetMaxMotorForce());
+      break;
+    }
+    case e_wheelJoint: {
+      const auto& made = As<b2WheelJoint>(joint);
+      drive.on = made.IsMotorEnabled();
+      drive.speed = static_cast<double>(made.GetMotorSpeed());
+      drive.most = static_cast<double>(made.GetMaxMotorTorque());
+      break;
+    }
+    default: break;
+  }
+  return drive;
+}
+
+/// Of the ends' speeds.
+struct Jacobian {
+  double ax, ay, aw, bx, by, bw;
+};
+constexpr Jacobian kTurn{0, 0, -1, 0, 0, 1};
+constexpr Jacobian kTurnBack{0, 0, 1, 0, 0, -1};
+
+/// The rows of one joint, as they are written.
+class Writer {
+ public:
+  Writer(const ExactJoint& joint, const JointEnds& ends, const std::vector<ExactBody>& bodies,
+         const Pace& pace, Row* next)
+      : joint_(joint),
+        ends_(ends),
+        a_(bodies[static_cast<std::size_t>(ends.a)]),
+        b_(bodies[static_cast<std::size_t>(ends.b)]),
+        h_(pace.h),
+        step_(pace.h * pace.substeps),
+        next_(next) {
+    ax_ = a_.c * ends.ax - a_.s * ends.ay;
+    ay_ = a_.s * ends.ax + a_.c * ends.ay;
+    bx_ = b_.c * ends.bx - b_.s * ends.by;
+    by_ = b_.s * ends.bx + b_.c * ends.by;
+    dx_ = b_.x + bx_ - a_.x - ax_;
+    dy_ = b_.y + by_ - a_.y - ay_;
+  }
+
+  void Point() {
+    Row& x = Bind(RowKind::kHard, dx_, {-1, 0, ay_, 1, 0, -by_});
+    Tense(-ax_, bx_, &x);
+    Row& y = Bind(RowKind::kHard, dy_, {0, -1, -ax_, 0, 1, bx_});
+    Tense(-ay_, by_, &y);
+  }
+  void Angle(RowKind kind, double error) { Bind(kind, error, kTurn); }
+  Row& Along(RowKind kind, double error, double ux, double uy) {
+    return Bind(kind, error, Line(ux, uy));
+  }
+  void Spring(Row* row) const {
+    row->gamma = 1 / (h_ * (joint_.damping + h_ * joint_.stiffness));
+    row->target = -row->error * h_ * joint_.stiffness * row->gamma;
+    row->lo = -kUnbounded;
+    row->hi = kUnbounded;
+  }
+  void Motor(const Drive& drive, Row* row) const {
+    row->target = drive.speed;
+    row->most = drive.most * h_;
+    row->lo = -row->most;
+    row->hi = row->most;
+  }
+  void Turning(const Drive& drive) { Motor(drive, &Bind(RowKind::kMotor, 0, kTurn)); }
+  void Hold() {
+    Row& row = Bind(joint_.stiffness > 0 ? RowKind::kSoft : RowKind::kHard, turned(), kTurn);
+    if (joint_.stiffness > 0) Spring(&row);
+  }
+  /// The ends of a range that `at` must stay in.
+  void RangeOfAngle(double at) {
+    if (joint_.near_lower) Bind(RowKind::kLimit, at - joint_.lower, kTurn);
+    if (joint_.near_upper) Bind(RowKind::kLimit, joint_.upper - at, kTurnBack);
+  }
+  void RangeAlong(double at, double ux, double uy) {
+    if (joint_.near_lower) Bind(RowKind::kLimit, at - joint_.lower, Line(ux, uy));
+    if (joint_.near_upper) Bind(RowKind::kLimit, joint_.upper - at, Line(-ux, -uy));
+  }
+  double turned() const { return b_.a - a_.a - joint_.reference; }
+  void Axis(double* ux, double* uy) const {
+    const auto lx = static_cast<double>(joint_.axis.x), ly = static_cast<double>(joint_.axis.y);
+    *ux = a_.c * lx - a_.s * ly;
+    *uy = a_.s * lx + a_.c * ly;
+  }
+  double Shift(double ux, double uy) const { return dx_ * ux + dy_ * uy; }
+  void Distance();
+  void Pose();
+  void Slide(bool turns);
+
+ private:
+  /// Of the way along a line that turns with A.
+  Jacobian Line(double ux, double uy) const {
+    return {-ux, -uy, -((dx_ + ax_) * uy - (dy_ + ay_) * ux), ux, uy, bx_ * uy - by_ * ux};
+  }
+  Row& Bind(RowKind kind, double error, const Jacobian& j) {
+    Row& row = *next_++;
+    row.kind = kind;
+    row.ends = 0;
+    row.fixed_speed = 0;
+    row.tense_a = row.tense_b = -1;
+    row.gamma = 0;
+    row.error = error;
+    End(ends_.a, a_, j.ax, j.ay, j.aw, &row);
+    End(ends_.b, b_, j.bx, j.by, j.bw, &row);
+    row.lo = kind == RowKind::kLimit ? 0 : -kUnbounded;
+    row.hi = kUnbounded;
+    row.target = kind == RowKind::kLimit ? std::min(0.0, -error / h_)
+                                         : std::clamp(-error / h_, -kShutMost, kShutMost);
+    return row;
+  }
+  static void End(int place, const ExactBody& body, double x, double y, double w, Row* row) {
+    if (body.moves()) {
+      row->End(place, x, y, w);
+    } else {
+      row->fixed_speed += x * body.vx + y * body.vy + w * body.w;
+    }
+  }
+  void Tense(double arm_a, double arm_b, Row* row) const {
+    row->stiff_a = arm_a;
+    row->stiff_b = arm_b;
+    if (a_.moves()) row->tense_a = ends_.a;
+    if (b_.moves()) row->tense_b = ends_.b;
+  }
+
+  const ExactJoint& joint_;
+  const JointEnds& ends_;
+  const ExactBody& a_;
+  const ExactBody& b_;
+  const double h_, step_;     // s: of a substep, of the engine's step
+  double ax_, ay_, bx_, by_;  // m, arms
+  double dx_, dy_;            // m, from A's point to B's
+  Row* next_;
+};
+
+/// Whether a distance joint holds one length.
+bool IsRod(const ExactJoint& joint) { return joint.lower >= joint.upper; }
+bool HasLower(const ExactJoint& joint) { return joint.lower > 0; }
+bool HasUpper(const ExactJoint& joint) { return joint.upper < 1e9; }
+
+void Writer::Distance() {
+  const double length = std::sqrt(dx_ * dx_ + dy_ * dy_);
+  const double ux = length > kNoDirection ? dx_ / length : 0;
+  const double uy = length > kNoDirection ? dy_ / length : 1;
+  // Not turning with A: the line is that between the points.
+  const Jacobian along{-ux, -uy, -(ax_ * uy - ay_ * ux), ux, uy, bx_ * uy - by_ * ux};
+  const Jacobian back{ux, uy, -along.aw, -ux, -uy, -along.bw};
+  const double arm_a = ax_ * ux + ay_ * uy, arm_b = bx_ * ux + by_ * uy;
+  if (IsRod(joint_)) {
+    Tense(-arm_a, arm_b, &Bind(RowKind::kHard, length - joint_.lower, along));
+    return;
+  }
+  if (joint_.stiffness > 0) {
+    Spring(&Bind(RowKind::kSoft, length - joint_.reference, along));
+  }
+  if (joint_.near_lower) Tense(-arm_a, arm_b, &Bind(RowKind::kLimit, length - joint_.lower, along));
+  if (joint_.near_upper) Tense(arm_a, -arm_b, &Bind(RowKind::kLimit, joint_.upper - length, back));
+}
+
+void Writer::Pose() {
+  const auto& made = As<b2MotorJoint>(joint_);
+  const b2Vec2 offset = made.GetLinearOffset();
+  const auto ox = static_cast<double>(offset.x), oy = static_cast<double>(offset.y);
+  // The engine's: B's origin at the offset in A's frame; the ends' points are the bodies' origins.
+  const double wx = a_.c * ox - a_.s * oy, wy = a_.s * ox + a_.c * oy;
+  const double ex = dx_ - wx, ey = dy_ - wy;
+  const auto turn = static_cast<double>(made.GetAngularOffset());
+  const double share = kPoseShare / step_;
+  Row* first = next_;
+  Bind(RowKind::kMotor, ex, {-1, 0, ay_ + wy, 1, 0, -by_});
+  Bind(RowKind::kMotor, ey, {0, -1, -(ax_ + wx), 0, 1, bx_});
+  Bind(RowKind::kMotor, b_.a - a_.a - turn, kTurn);
+  for (int i = 0; i < 3; ++i) {
+    Row& row = first[i];
+    row.target = -share * row.error;
+    row.most = h_ * static_cast<double>(i < 2 ? made.GetMaxForce() : made.GetMaxTorque());
+    row.lo = -row.most;
+    row.hi = row.most;
+  }
+}
+
+void Writer::Slide(bool turns) {
+  double ux = 0, uy = 0;
+  Axis(&ux, &uy);
+  const double at = Shift(ux, uy);
+  Along(RowKind::kHard, Shift(-uy, ux), -uy, ux);
+  if (!turns) Angle(RowKind::kHard, turned());
+  const Drive drive = DriveOf(joint_);
+  if (turns && joint_.stiffness > 0) Spring(&Along(RowKind::kSoft, at, ux, uy));
+  if (drive.on && turns) Turning(drive);
+  if (drive.on && !turns) Motor(drive, &Along(RowKind::kMotor, 0, ux, uy));
+  if (!joint_.limited) return;
+  if (joint_.lower >= joint_.upper) {
+    Along(RowKind::kHard, at - joint_.lower, ux, uy);
+  } else {
+    RangeAlong(at, ux, uy);
+  }
+}
+
+}  // namespace
+
+ExactJoint ReadJoint(b2Joint* made) {
+  ExactJoint out;
+  out.made = made;
+  out.type = made->GetType();
+  out.impulses = ImpulsesOf(made);
+  switch (out.type) {
+    case e_revoluteJoint: {
+      const auto& j = As<b2RevoluteJoint>(out);
+      ReadAnchors(j, &out);
+      out.reference = static_cast<double>(j.GetReferenceAngle());
+      out.limited = j.IsLimitEnabled();
+      out.lower = static_cast<double>(j.GetLowerLimit());
+      out.upper = static_cast<double>(j.GetUpperLimit());
+      break;
+    }
+    case e_weldJoint: {
+      const auto& j = As<b2WeldJoint>(out);
+      ReadAnchors(j, &out);
+      out.reference = static_cast<double>(j.GetReferenceAngle());
+      out.stiffness = static_cast<double>(j.GetStiffness());
+      out.damping = static_cast<double>(j.GetDamping());
+      break;
+    }
+    case e_prismaticJoint: {
+      const auto& j = As<b2PrismaticJoint>(out);
+      ReadSlide(j, &out);
+      out.reference = static_cast<double>(j.GetReferenceAngle());
+      break;
+    }
+    case e_wheelJoint: {
+      const auto& j = As<b2WheelJoint>(out);
+      ReadSlide(j, &out);
+      out.stiffness = static_cast<double>(j.GetStiffness());
+      out.damping = static_cast<double>(j.GetDamping());
+      break;
+    }
+    case e_distanceJoint: {
+      const auto& j = As<b2DistanceJoint>(out);
+      ReadAnchors(j, &out);
+      out.lower = static_cast<double>(j.GetMinLength());
+      out.upper = static_cast<double>(j.GetMaxLength());
+      out.reference = static_cast<double>(j.GetLength());
+      out.stiffness = static_cast<double>(j.GetStiffness());
+      out.damping = static_cast<double>(j.GetDamping());
+      if (IsRod(out)) out.lower = out.reference;
+      break;
+    }
+    case e_motorJoint: break;  // acts between the bodies' origins
+    default: SEAM_ASSERT(false);
+  }
+  return out;
+}
+
+void LookAtLimits(double h, ExactJoint* joint) {
+  double at = 0, speed = 0, margin = kNearLength;
+  switch (joint->type) {
+    case e_revoluteJoint: {
+      if (!joint->limited) return;
+      const auto& made = As<b2RevoluteJoint>(*joint);
+      at = static_cast<double>(made.GetJointAngle());
+      speed = static_cast<double>(made.GetJointSpeed());
+      margin = kNearAngle;
+      break;
+    }
+    case e_prismaticJoint: {
+      if (!joint->limited) return;
+      const auto& made = As<b2PrismaticJoint>(*joint);
+      at = static_cast<double>(made.GetJointTranslation());
+      speed = static_cast<double>(made.GetJointSpeed());
+      break;
+    }
+    case e_wheelJoint: {
+      if (!joint->limited) return;
+      const auto& made = As<b2WheelJoint>(*joint);
+      at = static_cast<double>(made.GetJointTranslation());
+      speed = static_cast<double>(made.GetJointLinearSpeed());
+      break;
+    }
+    case e_distanceJoint: {
+      if (IsRod(*joint)) return;
+      const b2Body* a = joint->made->GetBodyA();
+      const b2Body* b = joint->made->GetBodyB();
+      const b2Vec2 way = b->GetWorldPoint(joint->anchor_b) - a->GetWorldPoint(joint->anchor_a);
+      const b2Vec2 motion = b->GetLinearVelocityFromLocalPoint(joint->anchor_b) -
+                            a->GetLinearVelocityFromLocalPoint(joint->anchor_a);
+      at = static_cast<double>(way.Length());
+      speed = static_cast<double>(motion.Length());
+      joint->near_lower = HasLower(*joint);
+      joint->near_upper = HasUpper(*joint);
+      break;
+    }
+    default: return;
+  }
+  const double reach = margin + 2 * h * std::fabs(speed);
+  const bool both = joint->type != e_distanceJoint;
+  joint->near_lower = (both || joint->near_lower) && at - joint->lower < reach;
+  joint->near_upper = (both || joint->near_upper) && joint->upper - at < reach;
+}
+
+/// Which of the joint's impulses each of its rows has, in their order. Returns how many.
+static int KeptAt(const ExactJoint& joint, int* kept) {
+  int count = 0;
+  const auto range = [&](int lower) {
+    if (!joint.limited) return;
+    if (joint.lower >= joint.upper || joint.near_lower) kept[count++] = lower;
+    if (joint.lower < joint.upper && joint.near_upper) kept[count++] = lower + 1;
+  };
+  const bool drive = DriveOf(joint).on;
+  switch (joint.type) {
+    case e_revoluteJoint:
+    case e_prismaticJoint:
+      kept[count++] = 0;
+      kept[count++] = 1;
+      if (drive) kept[count++] = 2;
+      range(3);
+      break;
+    case e_wheelJoint:
+      kept[count++] = 0;
+      if (joint.stiffness > 0) kept[count++] = 2;
+      if (drive) kept[count++] = 1;
+      range(3);
+      break;
+    case e_distanceJoint:
+      if (IsRod(joint) || joint.stiffness > 0) kept[count++] = 0;
+      if (!IsRod(joint) && joint.near_lower) kept[count++] = 1;
+      if (!IsRod(joint) && joint.near_upper) kept[count++] = 2;
+      break;
+    default:
+      for (int i = 0; i < 3; ++i) kept[count++] = i;
+  }
+  return count;
+}
+
+int RowCount(const ExactJoint& joint) {
+  int kept[kRowsMost];
+  return KeptAt(joint, kept);
+}
+
+void FillJoint(const ExactJoint& joint, const JointEnds& ends, const std::vector<ExactBody>& bodies,
+               const Pace& pace, Row* rows) {
+  Writer write(joint, ends, bodies, pace, rows);
+  switch (joint.type) {
+    case e_revoluteJoint: {
+      write.Point();
+      const Drive drive = DriveOf(joint);
+      if (drive.on) write.Turning(drive);
+      if (!joint.limited) break;
+      const double turned = write.turned();
+      if (joint.lower >= joint.upper) {
+        write.Angle(RowKind::kHard, turned - joint.lower);
+      } else {
+        write.RangeOfAngle(turned);
+      }
+      break;
+    }
+    case e_weldJoint:
+      write.Point();
+      write.Hold();
+      break;
+    case e_prismaticJoint: write.Slide(false); break;
+    case e_wheelJoint: write.Slide(true); break;
+    case e_distanceJoint: write.Distance(); break;
+    case e_motorJoint: write.Pose(); break;
+    default: break;
+  }
+}
+
+void LoadImpulses(const ExactJoint& joint, double share, Row* rows) {
+  int kept[kRowsMost];
+  const int count = KeptAt(joint, kept);
+  for (int i = 0; i < count; ++i) {
+    Row& row = rows[i];
+    const double impulse = share * static_cast<double>(*joint.impulses.at[kept[i]]);
+    row.base = impulse;
+    row.state = RowState::kFree;
+    if (row.kind == RowKind::kLimit && impulse <= 0) row.state = RowState::kLow;
+    if (row.kind == RowKind::kMotor && impulse <= -row.most * kNearly) row.state = RowState::kLow;
+    if (row.kind == RowKind::kMotor && impulse >= row.most * kNearly) row.state = RowState::kHigh;
+  }
+}
+
+void StoreImpulses(const ExactJoint& joint, const Row* rows) {
+  for (float* impulse : JointImpulses(joint.impulses)) *impulse = 0;
+  int kept[kRowsMost];
+  const int count = KeptAt(joint, kept);
+  for (int i = 0; i < count; ++i) {
+    *joint.impulses.at[kept[i]] = static_cast<float>(rows[i].total);
+  }
+}
+
+}  // namespace seam

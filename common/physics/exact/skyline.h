@@ -1,0 +1,36 @@
+#pragma once
+/// A symmetric positive matrix stored by rows from each row's first entry to the diagonal, and its
+/// L D L' in place of that: entries before the first stay zero (George and Liu, "Computer Solution
+/// of Large Sparse Positive Definite Systems", 1981, chapter 4). Rows may be left out without
+/// changing the shape.
+
+#include <vector>
+
+namespace seam {
+
+class Skyline {
+ public:
+  /// `first[i]` <= i: column of row i's first entry. All entries are 0 then.
+  void SetShape(const std::vector<int>& first);
+  int size() const { return static_cast<int>(first_.size()); }
+  /// What one Factor costs at most, multiplications.
+  long cost() const { return cost_; }
+  void Clear();
+  /// Where the entry is, for `At`; requires first[row] <= column <= row.
+  int Place(int row, int column) const { return start_[static_cast<std::size_t>(row)] + column; }
+  double& At(int place) { return matrix_[static_cast<std::size_t>(place)]; }
+  double At(int place) const { return matrix_[static_cast<std::size_t>(place)]; }
+
+  /// Factors what `in[i]` has; the others become rows of the identity. Rows before `from` are as at
+  /// the last call. A row that depends on those before it (to 1e-10 of its diagonal) gets no share.
+  void Factor(const std::vector<char>& in, int from);
+  /// x = A^-1 x, rows that are out keep 0. Requires x = 0 there.
+  void Solve(std::vector<double>* x) const;
+
+ private:
+  std::vector<int> first_, start_;  // entry (i, k) is at start_[i] + k
+  std::vector<double> matrix_, factor_, diagonal_;
+  long cost_ = 0;
+};
+
+}  // namespace seam
