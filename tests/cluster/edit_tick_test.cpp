@@ -193,10 +193,16 @@ TEST(EditTick, AReplayDoesAgainWhatEditsDidThatChangeNoBodies) {
   const Scene scene = ParseScene(kDriven, "driven.toml");
   const SyncConfig config = MakeSyncConfig("buffer", "rollback");
   Replica early(scene, config, 0, -1), late(scene, config, 0, -1);
+  for (Replica* replica : {&early, &late}) {
+    for (int m = 0; m < replica->authority().count(); ++m) {
+      replica->authority().Set(m, AuthorityRecord());
+    }
+    replica->RolesChanged();
+  }
   const auto drive = [](Replica* replica, std::int64_t from, std::int64_t to) {
     for (std::int64_t t = from; t <= to; ++t) {
       Input input;
-      input.drive = 1;
+      input.drive = t <= 20 ? 127 : -127;
       replica->NoteInput(0, t, input);
     }
   };
@@ -244,7 +250,7 @@ TEST(EditTick, WhatIsSaidOfATickByWhoLackedAnEditBeforeItIsNoNews) {
     }
     server.Step();
     Input input;
-    input.drive = 1;
+    input.drive = 127;
     client.NoteInput(0, tick, input);
     client.Step();
     for (const States& states : client.TakeStates()) {
