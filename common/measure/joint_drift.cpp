@@ -24,7 +24,19 @@ double AlongAxis(const JointEnds& joint, const Eigen::Vector2d& apart,
   return std::hypot(off, joint.limited ? Beyond(along, joint.lower, joint.upper) : along);
 }
 
-double Drift(const JointEnds& joint, const std::vector<BodyState>& states) {
+/// How far a hinge or prismatic joint has turned, rad, or slid, m, since the start.
+double Moved(const JointEnds& joint, const std::vector<BodyState>& states) {
+  if (HoldOf(joint.kind) == JointHold::kAxis) {
+    return joint.a.AxisNow(states).dot(joint.b.PointNow(states) - joint.a.PointNow(states));
+  }
+  const auto angle = [&](const JointEnd& end) {
+    return end.moving < 0 ? 0.0 : double{states[static_cast<std::size_t>(end.moving)].angle};
+  };
+  return angle(joint.b) - angle(joint.a) - (joint.angle - joint.turn);
+}
+
+double Drift(const JointEnds& joint, const std::vector<JointEnds>& all,
+             const std::vector<BodyState>& states) {
   const Eigen::Vector2d apart = joint.b.PointNow(states) - joint.a.PointNow(states);
   switch (joint.kind) {
     case JointKind::kGlue:
@@ -36,6 +48,13 @@ double Drift(const JointEnds& joint, const std::vector<BodyState>& states) {
     case JointKind::kDistance:
       if (joint.limited) return Beyond(apart.norm(), joint.lower, joint.upper);
       return joint.frequency_hz > 0 ? 0 : std::abs(apart.norm() - joint.length);
+    case JointKind::kGear:
+      return std::abs(Moved(all[joint.coupled[0]], states) +
+                      joint.ratio * Moved(all[joint.coupled[1]], states));
+    case JointKind::kPulley:
+      return std::abs((joint.a.PointNow(states) - joint.ground_a).norm() +
+                      joint.ratio * (joint.b.PointNow(states) - joint.ground_b).norm() -
+                      joint.length);
     case JointKind::kMotor:
     case JointKind::kKinematic: break;
   }
@@ -53,7 +72,7 @@ std::vector<double> JointMeter::Drifts(const std::vector<BodyState>& moving,
   const std::vector<BodyState> all =
       imposed_.count() > 0 ? AllStates(moving, imposed_, tick) : std::vector<BodyState>();
   const std::vector<BodyState>& states = imposed_.count() > 0 ? all : moving;
-  for (const JointEnds& joint : joints_) drifts.push_back(Drift(joint, states));
+  for (const JointEnds& joint : joints_) drifts.push_back(Drift(joint, joints_, states));
   return drifts;
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "common/scene/joint_kinds.h"
+
 namespace seam {
 
 std::vector<BodyState> AllStates(const std::vector<BodyState>& moving,
@@ -34,9 +36,17 @@ std::vector<JointEnds> FindJointEnds(const Scene& scene, const Composition& comp
     return e;
   };
   std::vector<JointEnds> all;
-  for (const Joint& joint : scene.joints) {
+  std::vector<int> listed(scene.joints.size(), -1);  // by joint: where in `all`
+  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+    const Joint& joint = scene.joints[j];
     if (joint.gone || IsRigid(joint, scene.solver)) continue;
     JointEnds ends;
+    if (HoldOf(joint.kind) == JointHold::kCoupled) {
+      const int first = listed[static_cast<std::size_t>(joint.coupled[0])];
+      const int second = listed[static_cast<std::size_t>(joint.coupled[1])];
+      if (first < 0 || second < 0) continue;
+      ends.coupled = {static_cast<std::size_t>(first), static_cast<std::size_t>(second)};
+    }
     ends.kind = joint.kind;
     ends.a = end(joint.a, joint.anchor_a, joint.axis);
     ends.b = end(joint.b, joint.anchor_b, joint.axis);
@@ -53,6 +63,11 @@ std::vector<JointEnds> FindJointEnds(const Scene& scene, const Composition& comp
     ends.limited = joint.limited;
     ends.lower = double{joint.lower};
     ends.upper = double{joint.upper};
+    ends.turn = double{joint.turn};
+    ends.ratio = double{joint.ratio};
+    ends.ground_a = joint.ground_a.cast<double>();
+    ends.ground_b = joint.ground_b.cast<double>();
+    listed[j] = static_cast<int>(all.size());
     all.push_back(ends);
   }
   return all;

@@ -1,6 +1,8 @@
 #pragma once
 /// The two points that a joint holds together, as its assemblies carry them.
 
+#include <array>
+
 #include "common/measure/pose.h"
 #include "common/stages/kinematic.h"
 
@@ -29,7 +31,11 @@ struct JointEnds {
   double frequency_hz = 0;  ///< of a spring; 0: rigid
   double angle = 0;         ///< rad, of b against a at tick 0
   bool limited = false;
-  double lower = 0, upper = 0;  ///< m along a wheel's or prismatic's axis; m of length
+  double lower = 0, upper = 0;               ///< m along a wheel's or prismatic's axis; m of length
+  double turn = 0;                           ///< rad, of `angle` what is no turning of the joint
+  double ratio = 1;                          ///< of a gear or pulley
+  std::array<std::size_t, 2> coupled{0, 0};  ///< gear: which of the list it couples
+  Eigen::Vector2d ground_a{0, 0}, ground_b{0, 0};  ///< m, of a pulley, in the world
 };
 
 /// The moving states, then those of the parts that move by the tick alone (ImposedMotions).

@@ -25,6 +25,8 @@ SEAM_REVEAL(PrismaticUpper, float, b2PrismaticJoint, m_upperImpulse);
 SEAM_REVEAL(MotorPoint, b2Vec2, b2MotorJoint, m_linearImpulse);
 SEAM_REVEAL(MotorTurn, float, b2MotorJoint, m_angularImpulse);
 SEAM_REVEAL(WeldAll, b2Vec3, b2WeldJoint, m_impulse);
+SEAM_REVEAL(GearAll, float, b2GearJoint, m_impulse);
+SEAM_REVEAL(PulleyAll, float, b2PulleyJoint, m_impulse);
 
 template <typename Made>
 Made& As(b2Joint* joint) {
@@ -70,6 +72,8 @@ JointImpulses ImpulsesOf(b2Joint* joint) {
       b2Vec3& all = As<b2WeldJoint>(joint).*Member(WeldAll());
       return {{&all.x, &all.y, &all.z}, 3};
     }
+    case e_gearJoint: return {{&(As<b2GearJoint>(joint).*Member(GearAll()))}, 1};
+    case e_pulleyJoint: return {{&(As<b2PulleyJoint>(joint).*Member(PulleyAll()))}, 1};
     default: break;
   }
   SEAM_ASSERT(false);

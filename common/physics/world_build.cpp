@@ -2,6 +2,7 @@
 
 #include "common/base/check.h"
 #include "common/physics/faces.h"
+#include "common/physics/world_couplings.h"
 #include "common/physics/world_shapes.h"
 #include "common/scene/joint_kinds.h"
 
@@ -41,11 +42,21 @@ b2MassData MassDataOf(const Scene& scene, const Assembly& assembly) {
   return data;
 }
 
+/// nullptr: one of its joints is not there, or turns something that does not move: the engine
+/// would not find the gear, which it looks for only at the second bodies of the two joints.
+b2Joint* AddGear(const Joint& gear, b2Body* a, b2Body* b, b2World* world, const BuiltScene& built) {
+  b2Joint* first = built.joints[static_cast<std::size_t>(gear.coupled[0])];
+  b2Joint* second = built.joints[static_cast<std::size_t>(gear.coupled[1])];
+  if (first == nullptr || second == nullptr || IndexOf(a) < 0 || IndexOf(b) < 0) return nullptr;
+  return MakeGear(gear, first, second, world);
+}
+
 /// nullptr: its parts are one body, or one is moved by the tick alone.
 b2Joint* AddJoint(const Scene& scene, const Joint& joint, b2Body* a, b2Body* b, b2World* world,
                   BuiltScene* built) {
   if (a == b || (IndexOf(a) < 0 && IndexOf(b) < 0)) return nullptr;  // nothing to hold
   if (IsRigid(joint, scene.solver)) return nullptr;
+  if (HoldOf(joint.kind) == JointHold::kCoupled) return AddGear(joint, a, b, world, *built);
   b2Joint* made = MakeJoint(joint, a, b, world);
   if (HasMotor(joint)) {
     built->motors.push_back(MotorOf(joint, made, static_cast<int>(built->joints.size())));

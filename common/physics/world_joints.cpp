@@ -2,6 +2,7 @@
 
 #include "common/base/check.h"
 #include "common/physics/world_build.h"
+#include "common/physics/world_couplings.h"
 #include "common/scene/joint_kinds.h"
 
 namespace seam {
@@ -125,6 +126,8 @@ b2Joint* MakeJoint(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
     case JointKind::kRope: return AddDistance(joint, a, b, world);
     case JointKind::kPrismatic: return AddPrismatic(joint, a, b, world);
     case JointKind::kMotor: return AddPoseMotor(joint, a, b, world);
+    case JointKind::kPulley: return MakePulley(joint, a, b, world);
+    case JointKind::kGear:  // MakeGear
     case JointKind::kKinematic: break;
   }
   SEAM_ASSERT(false);

@@ -14,6 +14,8 @@ enum class JointHold {
   kLine,     ///< the distance between two points (distance, rope)
   kPose,     ///< a motor with bounded force (motor)
   kImposed,  ///< nothing: one part moves by a given path (kinematic)
+  kCoupled,  ///< nothing of its own: how far two other joints have moved (gear)
+  kPulley,   ///< the weighted sum of their distances to two fixed points (pulley)
 };
 
 inline JointHold HoldOf(JointKind kind) {
@@ -27,6 +29,8 @@ inline JointHold HoldOf(JointKind kind) {
     case JointKind::kRope: return JointHold::kLine;
     case JointKind::kMotor: return JointHold::kPose;
     case JointKind::kKinematic: return JointHold::kImposed;
+    case JointKind::kGear: return JointHold::kCoupled;
+    case JointKind::kPulley: return JointHold::kPulley;
   }
   return JointHold::kBond;  // not reached: the switch has all kinds
 }
@@ -44,7 +48,9 @@ inline JointLimits LimitsOf(JointKind kind) {
     case JointKind::kGlue:
     case JointKind::kRope:
     case JointKind::kMotor:
-    case JointKind::kKinematic: return JointLimits::kNone;
+    case JointKind::kKinematic:
+    case JointKind::kGear:
+    case JointKind::kPulley: return JointLimits::kNone;
   }
   return JointLimits::kNone;  // not reached
 }
@@ -62,7 +68,9 @@ inline JointSpring SpringOf(JointKind kind) {
     case JointKind::kPrismatic:
     case JointKind::kRope:
     case JointKind::kMotor:
-    case JointKind::kKinematic: return JointSpring::kNone;
+    case JointKind::kKinematic:
+    case JointKind::kGear:
+    case JointKind::kPulley: return JointSpring::kNone;
   }
   return JointSpring::kNone;  // not reached
 }

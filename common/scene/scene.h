@@ -1,6 +1,7 @@
 #pragma once
 /// A scene as data: what scenes/*.toml says, checked, in SI units. docs/scenes.md is its reference.
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -68,7 +69,9 @@ enum class JointKind {
   kRope,
   kPrismatic,
   kMotor,
-  kKinematic
+  kKinematic,
+  kGear,
+  kPulley
 };
 
 struct Joint {
@@ -76,12 +79,12 @@ struct Joint {
   JointKind kind = JointKind::kWeld;
   PartId a = 0, b = 0;     ///< kKinematic: both the part that is moved
   Vec2 anchor_a{0, 0};     ///< world, at tick 0
-  Vec2 anchor_b{0, 0};     ///< world; same as anchor_a at first, unless kDistance, kRope
+  Vec2 anchor_b{0, 0};     ///< world; same as anchor_a at first, unless kDistance, kRope, kPulley
   Vec2 axis{0, 1};         ///< world, unit; kWheel: of the spring; kPrismatic: of motion
   float frequency_hz = 0;  ///< of a spring (wheel, distance, weld); 0: rigid
   float damping_ratio = 0.7f;
-  float length = -1;           ///< kDistance, kRope (the most): m; -1: as placed
-  bool limited = false;        ///< kRevolute, kWheel, kPrismatic, kDistance
+  float length = -1;     ///< kDistance, kRope (the most): m; -1: as placed. kPulley: at `ratio`
+  bool limited = false;  ///< kRevolute, kWheel, kPrismatic, kDistance
   float lower = 0, upper = 0;  ///< rad; wheel, prismatic: m from the start; distance: m
   float strength = 0;          ///< kGlue: N, the force at which it breaks; 0: never
   bool collide = false;        ///< the joined bodies collide with each other
@@ -101,6 +104,15 @@ struct Joint {
   double phase = 0;        ///< kKinematic: share of the path that is behind it at tick 0
   bool ease = false;       ///< kKinematic: it stands still for a moment at each point
   float turning = 0;       ///< kKinematic: rad/s about the anchor
+  /// kGear: the joints (hinge or prismatic, earlier in the scene) that it couples. Its a and b are
+  /// their second parts. With q the angle or shift of each since the start:
+  /// q[0] + ratio * q[1] = 0
+  std::array<int, 2> coupled{-1, -1};
+  /// kGear: rad or m of the first joint for 1 rad or m of the second; not 0.
+  /// kPulley: how many metres a's side gives for one of b's; above 0:
+  /// |anchor_a - ground_a| + ratio * |anchor_b - ground_b| = length
+  float ratio = 1;
+  Vec2 ground_a{0, 0}, ground_b{0, 0};  ///< kPulley: world, m; where the ropes go up to
   int line = 0;
 };
 
@@ -168,7 +180,7 @@ struct Solver {
   /// have this rim, anchored and bullet ones keep 1 cm and are moved in by the difference, and
   /// everything comes to rest 2 skin - 5 mm apart: nothing at 2.5 mm, the least allowed.
   float skin = 0;
-  JointSolving joints = JointSolving::kIterative;
+  JointSolving joints = JointSolving::kAuto;
   int joint_substeps = 2;    ///< 1..16 of each of the engine's steps, where joints are exact
   bool weld_joints = false;  ///< welds are the engine's joints, not one body
   Faces faces = Faces::kMerged;

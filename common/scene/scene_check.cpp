@@ -82,6 +82,11 @@ void CheckJoints(const Checked& c) {
     }
     if (a.id == b.id) c.Fail(joint.line, name + "its parts are welded together");
     if (a.anchored && b.anchored) c.Fail(joint.line, name + "both its parts are anchored");
+    if (HoldOf(joint.kind) != JointHold::kCoupled) continue;
+    for (const PartId id : {joint.a, joint.b}) {  // the engine looks for a gear only at what moves
+      if (!c.assembly_of(id).anchored) continue;
+      c.Fail(joint.line, name + "it turns '" + c.part(id).name + "', which is anchored");
+    }
   }
 }
 

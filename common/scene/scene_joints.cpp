@@ -4,6 +4,7 @@
 
 #include "common/base/geometry.h"
 #include "common/scene/joint_kinds.h"
+#include "common/scene/joints/read_couplings.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
 
@@ -34,17 +35,23 @@ const std::vector<Kind>& Kinds() {
       {"motor", JointKind::kMotor, {"a", "force", "torque", "follow", "collide"}},
       {"kinematic",
        JointKind::kKinematic,
-       {"anchor", "path", "period", "phase", "ease", "turning"}}};
+       {"anchor", "path", "period", "phase", "ease", "turning"}},
+      {"gear", JointKind::kGear, {"joints", "ratio", "collide"}},
+      {"pulley",
+       JointKind::kPulley,
+       {"a", "anchor_a", "anchor_b", "ground_a", "ground_b", "ratio", "length", "collide"}}};
   return kinds;
 }
 
 /// Complains about keys that this kind of joint would ignore.
 const Kind& ReadKind(const SceneReader& r) {
   static const char* const kSome[] = {
-      "a",       "anchor",         "anchor_a", "anchor_b", "axis",     "frequency", "damping_ratio",
-      "length",  "limits",         "collide",  "motor",    "strength", "force",     "torque",
-      "follow",  "path",           "period",   "phase",    "ease",     "turning",   "local_a",
-      "local_b", "reference_angle"};
+      "a",         "anchor",        "anchor_a",        "anchor_b", "axis",
+      "frequency", "damping_ratio", "length",          "limits",   "collide",
+      "motor",     "strength",      "force",           "torque",   "follow",
+      "path",      "period",        "phase",           "ease",     "turning",
+      "local_a",   "local_b",       "reference_angle", "joints",   "ratio",
+      "ground_a",  "ground_b"};
   const std::string name = r.Text("kind");
   std::string all;
   for (const Kind& kind : Kinds()) {
@@ -53,8 +60,9 @@ const Kind& ReadKind(const SceneReader& r) {
     for (const char* key : kSome) {
       const bool local =
           std::string(key).rfind("local_", 0) == 0 || std::string(key) == "reference_angle";
-      const bool known = local ? kind.kind != JointKind::kKinematic
-                               : std::count(kind.keys.begin(), kind.keys.end(), key) > 0;
+      const bool placed =
+          kind.kind != JointKind::kKinematic && HoldOf(kind.kind) != JointHold::kCoupled;
+      const bool known = local ? placed : std::count(kind.keys.begin(), kind.keys.end(), key) > 0;
       if (!known && r.Has(key)) r.FailAt(key, "a " + name + " joint has no " + key);
     }
     return kind;
@@ -137,12 +145,16 @@ void ReadKinematic(const SceneReader& r, const SceneDraft& draft, Joint* joint) 
 }
 
 /// Where the ends are: at the parts' positions unless said otherwise.
-void ReadDistance(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
+void ReadEnds(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
   const auto position = [&](PartId part) {
     return draft.scene.parts[static_cast<std::size_t>(part)].position;
   };
   joint->anchor_a = r.Vector("anchor_a", kCoordinate, position(joint->a));
   joint->anchor_b = r.Vector("anchor_b", kCoordinate, position(joint->b));
+}
+
+void ReadDistance(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
+  ReadEnds(r, draft, joint);
   ReadSpring(r, joint);
   ReadLimits(r, joint);
   if (r.Has("length")) {
@@ -216,6 +228,8 @@ void Copy(const SceneReader& r, const Joint& first, SceneDraft* draft) {
       joint.b = CopyAfter(r, first.b, column, row, repeat.grid, *draft);
       joint.anchor_a += repeat.Offset(column, row);
       joint.anchor_b += repeat.Offset(column, row);
+      joint.ground_a += repeat.Offset(column, row);
+      joint.ground_b += repeat.Offset(column, row);
       Add(r, joint, draft);
     }
   }
@@ -251,6 +265,8 @@ void ReadDetails(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
     case JointKind::kRope: ReadDistance(r, draft, joint); break;
     case JointKind::kMotor: ReadPoseMotor(r, draft, joint); break;
     case JointKind::kKinematic: ReadKinematic(r, draft, joint); break;
+    case JointKind::kGear: break;  // read with its parts
+    case JointKind::kPulley: ReadEnds(r, draft, joint); break;
   }
 }
 
@@ -258,27 +274,54 @@ void ReadJoint(const TomlNode& node, SceneDraft* draft) {
   Joint joint;
   joint.line = node.line;
   SceneReader r(node, draft->file, "joint",
-                {"name",     "kind",           "a",       "b",         "anchor",
-                 "anchor_a", "anchor_b",       "axis",    "frequency", "damping_ratio",
-                 "length",   "limits",         "collide", "motor",     "strength",
-                 "force",    "torque",         "follow",  "path",      "period",
-                 "phase",    "ease",           "turning", "repeat",    "local_a",
-                 "local_b",  "reference_angle"});
+                {"name",
+                 "kind",
+                 "a",
+                 "b",
+                 "anchor",
+                 "anchor_a",
+                 "anchor_b",
+                 "axis",
+                 "frequency",
+                 "damping_ratio",
+                 "length",
+                 "limits",
+                 "collide",
+                 "motor",
+                 "strength",
+                 "force",
+                 "torque",
+                 "follow",
+                 "path",
+                 "period",
+                 "phase",
+                 "ease",
+                 "turning",
+                 "repeat",
+                 "local_a",
+                 "local_b",
+                 "reference_angle",
+                 "joints",
+                 "ratio",
+                 "ground_a",
+                 "ground_b"});
   joint.name = r.Name("name");
   r.Rename("joint '" + joint.name + "'");
   joint.kind = ReadKind(r).kind;
-  joint.b = FindPart(r, "b", *draft);
-  if (HoldOf(joint.kind) == JointHold::kImposed) {
-    joint.a = joint.b;
+  const JointHold hold = HoldOf(joint.kind);
+  if (hold == JointHold::kCoupled) {
+    ReadGear(r, *draft, &joint);
   } else {
-    joint.a = FindPart(r, "a", *draft);
-    if (joint.a == joint.b) r.Fail("joins a part with itself");
+    joint.b = FindPart(r, "b", *draft);
+    joint.a = hold == JointHold::kImposed ? joint.b : FindPart(r, "a", *draft);
   }
+  if (hold != JointHold::kImposed && joint.a == joint.b) r.Fail("joins a part with itself");
   joint.collide = r.Flag("collide", false);
   const Vec2 centre = draft->scene.parts[static_cast<std::size_t>(joint.b)].position;
   joint.anchor_a = joint.anchor_b = r.Vector("anchor", kCoordinate, centre);
   ReadDetails(r, *draft, &joint);
   ReadLocal(r, *draft, &joint);
+  if (hold == JointHold::kPulley) ReadPulley(r, &joint);
   if (r.Has("repeat")) {
     Copy(r, joint, draft);
   } else {

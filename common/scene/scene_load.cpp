@@ -39,7 +39,7 @@ void ReadSolver(const SceneReader& root, const std::string& file, Solver* solver
   solver->continuous = r.Flag("continuous", solver->continuous);
   solver->warm_starting = r.Flag("warm_starting", solver->warm_starting);
   if (r.Has("skin")) solver->skin = r.Number("skin", kSkinRange, 0.0f);
-  const std::string joints = r.Text("joints", "iterative");
+  const std::string joints = r.Text("joints", "auto");
   if (joints != "auto" && joints != "exact" && joints != "iterative") {
     r.FailAt("joints", "joints must be 'auto', 'exact' or 'iterative'");
   }

@@ -88,6 +88,13 @@ void TopologyFold::NoteInsert(const InsertEdit& insert, const Topology& now) {
   steps_.push_back(std::move(step));
 }
 
+void TopologyFold::NoteGearsOf(std::int32_t joint, const Scene& scene) {
+  for (std::size_t j = 0; j < broken_.size(); ++j) {
+    const auto& coupled = scene.joints[j].coupled;
+    if (coupled[0] == joint || coupled[1] == joint) broken_[j] = true;
+  }
+}
+
 void TopologyFold::Note(const Edit& edit, const Topology& now) {
   const Scene& scene = now.scene();
   const auto once = [&](AnyEdit what, std::vector<bool>* noted, std::int32_t index) {
@@ -113,6 +120,7 @@ void TopologyFold::Note(const Edit& edit, const Topology& now) {
                  [&](const BreakEdit& broken) {
                    if (!now.HasJoint(broken.joint) || now.IsBond(broken.joint)) return;
                    once(broken, &broken_, broken.joint);
+                   NoteGearsOf(broken.joint, scene);
                  },
                  [&](const RemoveEdit& removed) {
                    if (!is_part(removed.part)) return;
@@ -120,7 +128,9 @@ void TopologyFold::Note(const Edit& edit, const Topology& now) {
                    for (std::size_t j = 0; j < broken_.size(); ++j) {
                      const Joint& joint = scene.joints[j];
                      const bool held = joint.a == removed.part || joint.b == removed.part;
-                     if (held) broken_[j] = true;  // that says it, too
+                     if (!held) continue;
+                     broken_[j] = true;  // that says it, too
+                     NoteGearsOf(static_cast<std::int32_t>(j), scene);
                    }
                  },
                  [&](const FreeEdit& freed) {
@@ -148,7 +158,7 @@ void TopologyFold::Note(const Edit& edit, const Topology& now) {
 std::vector<bool> TopologyFold::Dropped(const Topology& now) const {
   const Scene& scene = now.scene();
   std::vector<bool> dropped(steps_.size(), false);
-  std::vector<bool> needed(scene.parts.size(), false);
+  std::vector<bool> needed(scene.parts.size(), false), coupled(scene.joints.size(), false);
   std::vector<bool> lost(scene.parts.size(), false), unmade(scene.joints.size(), false);
   for (std::size_t i = steps_.size(); i-- > 0;) {
     const Step& step = steps_[i];
@@ -159,7 +169,12 @@ std::vector<bool> TopologyFold::Dropped(const Topology& now) const {
         goes = goes && scene.parts[p].gone && !needed[p];
       }
       for (std::size_t j = step.joints_before; j < step.joints_after; ++j) {
-        goes = goes && scene.joints[j].gone;
+        goes = goes && scene.joints[j].gone && !coupled[j];
+      }
+      for (std::size_t j = step.joints_before; !goes && j < step.joints_after; ++j) {
+        for (const int named : scene.joints[j].coupled) {  // by a gear
+          if (named >= 0) coupled[static_cast<std::size_t>(named)] = true;
+        }
       }
       for (const TopologyEntry& place : step.named) {
         if (!goes) needed[static_cast<std::size_t>(place.a)] = true;

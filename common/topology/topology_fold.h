@@ -43,6 +43,8 @@ class TopologyFold {
     std::vector<TopologyEntry> named;  // places of parts that an insert's joints name, then
   };
 
+  /// A gear goes with either of its joints.
+  void NoteGearsOf(std::int32_t joint, const Scene& scene);
   void NoteInsert(const InsertEdit& insert, const Topology& now);
   void NoteGrowth(const Topology& now);
   /// By step: what it made has left, and no step that is kept names it.

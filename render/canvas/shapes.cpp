@@ -172,6 +172,20 @@ DrawnRevision RevisionOf(const Scene& scene, const Composition& composition) {
           JointsOf(scene, composition)};
 }
 
+namespace {
+
+/// Its rope, in three pieces: from a up to the ground, across, and down to b.
+void AddPulley(const Joint& pulley, const DrawnJoint& ends, std::vector<DrawnJoint>* joints) {
+  DrawnJoint on_a = ends, across, on_b = ends;
+  on_a.b = across.a = across.b = on_b.a = -1;
+  on_a.rod = across.rod = on_b.rod = true;
+  on_a.anchor_b = across.anchor_a = pulley.ground_a;
+  on_b.anchor_a = across.anchor_b = pulley.ground_b;
+  for (const DrawnJoint& piece : {on_a, across, on_b}) joints->push_back(piece);
+}
+
+}  // namespace
+
 std::vector<DrawnJoint> JointsOf(const Scene& scene, const Composition& composition) {
   std::vector<DrawnJoint> joints;
   const auto assembly_of = [&](PartId part) -> const Assembly& {
@@ -180,8 +194,8 @@ std::vector<DrawnJoint> JointsOf(const Scene& scene, const Composition& composit
   };
   for (const Joint& joint : scene.joints) {
     const JointHold hold = HoldOf(joint.kind);
-    const bool unseen =
-        hold == JointHold::kBond || hold == JointHold::kPose || hold == JointHold::kImposed;
+    const bool unseen = hold == JointHold::kBond || hold == JointHold::kPose ||
+                        hold == JointHold::kImposed || hold == JointHold::kCoupled;
     if (joint.gone || unseen) continue;
     const Assembly& a = assembly_of(joint.a);
     const Assembly& b = assembly_of(joint.b);
@@ -193,6 +207,10 @@ std::vector<DrawnJoint> JointsOf(const Scene& scene, const Composition& composit
     drawn.anchor_a = Into(PoseOf(PartOf(scene, a.id)), joint.anchor_a);
     drawn.anchor_b = Into(PoseOf(PartOf(scene, b.id)), joint.anchor_b);
     drawn.rod = hold == JointHold::kLine;
+    if (hold == JointHold::kPulley) {
+      AddPulley(joint, drawn, &joints);
+      continue;
+    }
     if (hold == JointHold::kAxis) {  // what slides carries the pin
       std::swap(drawn.a, drawn.b);
       std::swap(drawn.anchor_a, drawn.anchor_b);

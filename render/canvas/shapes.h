@@ -54,7 +54,7 @@ struct BodyShapes {
 
 /// A joint worth drawing; anchors in the frames of the two bodies.
 struct DrawnJoint {
-  PartId a = 0, b = 0;  ///< assembly ids
+  PartId a = 0, b = 0;  ///< assembly ids; -1: a point of the world (a pulley's)
   Vec2 anchor_a{0, 0}, anchor_b{0, 0};
   bool a_anchored = false, b_anchored = false;
   bool rod = false;  ///< distance joint or rope: a line; else a pin at a's anchor

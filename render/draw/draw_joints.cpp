@@ -14,6 +14,7 @@ constexpr float kPinsFrom_px_per_m = 12;  ///< smaller bodies would be all pins
 std::optional<Vec2> AnchorOn(const Viewport& viewport, const Playback& playback,
                              const DrawnRevision& revision, const Moment& moment, PartId id,
                              bool anchored, const Vec2& anchor) {
+  if (id < 0) return viewport.ToPx(anchor);
   if (!anchored) {
     const auto shown = playback.Find(moment, id);
     if (!shown) return std::nullopt;

@@ -199,7 +199,7 @@ TEST(CompareCost, IsOneForTheSameSettingAndGrowsWithTheSubsteps) {
 /// Without the columns cpu_us_per_s, stock_cpu_us_per_s and cost_ratio.
 std::vector<std::string> WithoutCpu(const std::string& line) {
   std::vector<std::string> fields = CsvFields(line);
-  fields.erase(fields.begin() + 21, fields.begin() + 24);
+  fields.erase(fields.begin() + 23, fields.begin() + 26);
   return fields;
 }
 
@@ -213,27 +213,27 @@ TEST(PhysicsRow, IsAFunctionOfThePointButForItsCpuColumns) {
   EXPECT_EQ(row.rfind(PhysicsKey(point) + ",", 0), 0u);
   EXPECT_EQ(CsvFields(PhysicsKey(point)).size(), static_cast<std::size_t>(kPhysicsKeyColumns));
   EXPECT_EQ(names[kPhysicsKeyColumns - 1], "seconds");
-  EXPECT_EQ(names[21], "cpu_us_per_s");
-  EXPECT_EQ(names[23], "cost_ratio");
+  EXPECT_EQ(names[23], "cpu_us_per_s");
+  EXPECT_EQ(names[25], "cost_ratio");
   const std::vector<std::string> fields = CsvFields(row);
   ASSERT_EQ(fields.size(), names.size());
   EXPECT_EQ(CsvFields(CrashedRow(point, "crashed: Aborted")).size(), names.size());
-  EXPECT_EQ(CsvFields(CrashedRow(point, "crashed: Aborted"))[14], "inf");
-  const std::vector<std::string> key(fields.begin() + 1, fields.begin() + 14);
+  EXPECT_EQ(CsvFields(CrashedRow(point, "crashed: Aborted"))[16], "inf");
+  const std::vector<std::string> key(fields.begin() + 1, fields.begin() + 16);
   EXPECT_EQ(key, (std::vector<std::string>{"made-up", "invariant", "m", "grid", "60", "2", "8", "3",
-                                           "off", "0.0025", "on", "body", "1"}));
-  EXPECT_NEAR(std::stod(fields[14]), 2, 1e-3);
-  EXPECT_EQ(fields[15], "left, \"far\"");
+                                           "off", "0.0025", "on", "body", "iterative", "1", "1"}));
+  EXPECT_NEAR(std::stod(fields[16]), 2, 1e-3);
+  EXPECT_EQ(fields[17], "left, \"far\"");
   EXPECT_EQ(WithoutCpu(PhysicsRow(point, nullptr)), WithoutCpu(row));
   const Reference reference = MakeReference(point.scene, 1);
-  EXPECT_EQ(names[24], "reference_change");
-  EXPECT_NE(CsvFields(PhysicsRow(point, &reference))[24], "");
+  EXPECT_EQ(names[26], "reference_change");
+  EXPECT_NE(CsvFields(PhysicsRow(point, &reference))[26], "");
   EXPECT_EQ(names.back(), "valid");
   EXPECT_EQ(CsvFields(PhysicsRow(point, &reference)).back(), "");
   hard.truth = Truth::kConverged;
   const std::vector<std::string> unknown = CsvFields(PhysicsRow(point, nullptr));
   EXPECT_EQ(unknown.back(), "no converged run");
-  EXPECT_EQ(unknown[14], "");
+  EXPECT_EQ(unknown[16], "");
 }
 
 TEST(PhysicsPlan, SpendsACasesBudgetOnWhatIsAwake) {

@@ -137,7 +137,7 @@ TEST(FrontTable, SaysWhoIsOnItAndHowFarTheOthersAre) {
 std::string PhysicsCsv(const std::vector<std::string>& rows) {
   std::string text =
       "version,case,truth,unit,role,tick_hz,substeps,velocity_iterations,position_iterations,"
-      "warm_starting,skin,continuous,welds,joints,seconds,error,failure,penetration_m,joint_drift_m,"
+      "warm_starting,skin,continuous,welds,seconds,error,failure,penetration_m,joint_drift_m,"
       "energy_gain,jitter_mps,asleep_s,cpu_us_per_s,stock_cpu_us_per_s,cost_ratio,"
       "reference_change\n";
   for (const std::string& row : rows) text += row + '\n';
@@ -145,7 +145,7 @@ std::string PhysicsCsv(const std::vector<std::string>& rows) {
 }
 std::string PhysicsRow(const std::string& name, const std::string& role, const std::string& error,
                        const std::string& failure, const std::string& ratio) {
-  return "v," + name + ",formula,m," + role + ",60,1,8,3,on,,on,joint,iterative,20," + error + ",\"" +
+  return "v," + name + ",formula,m," + role + ",60,1,8,3,on,,on,joint,20," + error + ",\"" +
          failure + "\",0.01,,0,0.1,,900,1000," + ratio + ",";
 }
 

@@ -21,7 +21,7 @@ namespace {
 TEST(Settings, AreWrittenAsTheSceneFileReadsThem) {
   for (const GridSize size : {GridSize::kReport, GridSize::kFull}) {
     std::set<std::string> all;
-    for (const Solver& solver : GridSettings(size, Solver{}, true)) {
+    for (const Solver& solver : GridSettings(size, Solver{})) {
       const std::string lines = SolverLines(solver);
       EXPECT_TRUE(all.insert(lines).second) << "twice: " << lines;
       const Scene scene = ParseScene(lines + "[[part]]\nname = \"b\"\ncircle = 0.5\n", "s.toml");

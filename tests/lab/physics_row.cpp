@@ -46,21 +46,12 @@ std::string WhyNotValid(const HardCase& hard, const Observation& seen, const Ref
   return seen.seconds <= 0 && seen.failure.empty() ? "nothing was simulated" : "";
 }
 
-/// "iterative", or "exact 2": with two substeps.
-std::string JointsWord(const Solver& solver) {
-  switch (solver.joints) {
-    case JointSolving::kIterative: return "iterative";
-    case JointSolving::kExact: return fmt::format("exact {}", solver.joint_substeps);
-    case JointSolving::kAuto: return fmt::format("auto {}", solver.joint_substeps);
-  }
-  return "";
-}
-
 }  // namespace
 
 std::string PhysicsHeader() {
   return "version,case,truth,unit,role,tick_hz,substeps,velocity_iterations,position_iterations,"
-         "warm_starting,skin,continuous,welds,joints,seconds,error,failure,penetration_m,joint_drift_m,"
+         "warm_starting,skin,continuous,welds,joints,joint_substeps,seconds,error,failure,"
+         "penetration_m,joint_drift_m,"
          "energy_gain,jitter_mps,asleep_s,cpu_us_per_s,stock_cpu_us_per_s,cost_ratio,"
          "reference_change,valid";
 }
@@ -70,12 +61,12 @@ std::string PhysicsKey(const PhysicsPoint& point) {
   const Solver& s = point.scene.solver;
   const std::string& text = point.scene.text;
   const auto hash = static_cast<std::uint32_t>(Fnv1a(text.data(), text.size()));
-  return fmt::format("{}/{:08x},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", kLabVersion, hash,
+  return fmt::format("{}/{:08x},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", kLabVersion, hash,
                      CsvField(hard.name), Word(hard.truth), CsvField(hard.unit), point.role,
                      s.tick_hz, s.substeps, s.velocity_iterations, s.position_iterations,
                      OnOff(s.warm_starting), s.skin > 0 ? fmt::format("{}", s.skin) : "",
-                     OnOff(s.continuous), s.weld_joints ? "joint" : "body", JointsWord(s),
-                     hard.seconds);
+                     OnOff(s.continuous), s.weld_joints ? "joint" : "body", JointsWord(s.joints),
+                     s.joints == JointSolving::kIterative ? 1 : s.joint_substeps, hard.seconds);
 }
 
 std::string PhysicsRow(const PhysicsPoint& point, const Reference* reference) {

@@ -9,7 +9,7 @@
 
 namespace seam {
 
-constexpr int kPhysicsKeyColumns = 15;
+constexpr int kPhysicsKeyColumns = 16;
 std::string PhysicsHeader();
 
 /// The first kPhysicsKeyColumns values: what it is. `version` holds a hash of the scene's text.

@@ -37,6 +37,25 @@ TEST(RenderChanges, TheRimOfASquareOfBoxesIsItsOutside) {
   for (const auto& edge : revision.moving[0].rim) EXPECT_NEAR((edge[0] - edge[1]).norm(), 1, 1e-5);
 }
 
+TEST(RenderChanges, APulleysRopeGoesUpAcrossAndDown) {
+  const Scene scene =
+      ParseScene(Box("a", 0, 0) + Box("b", 4, 1) +
+                     "[[joint]]\nname = \"rope\"\nkind = \"pulley\"\na = \"a\"\nb = \"b\"\n"
+                     "ground_a = [0, 9]\nground_b = [4, 9]\n",
+                 "pulley.toml");
+  const std::vector<DrawnJoint> ropes = JointsOf(scene, Compose(scene));
+  ASSERT_EQ(ropes.size(), 3u);
+  for (const DrawnJoint& rope : ropes) EXPECT_TRUE(rope.rod);
+  EXPECT_EQ(ropes[0].a, 0);
+  EXPECT_EQ(ropes[0].b, -1);
+  EXPECT_EQ(ropes[0].anchor_b, Vec2(0, 9));
+  EXPECT_EQ(ropes[1].anchor_a, Vec2(0, 9));
+  EXPECT_EQ(ropes[1].anchor_b, Vec2(4, 9));
+  EXPECT_EQ(ropes[2].anchor_a, Vec2(4, 9));
+  EXPECT_EQ(ropes[2].b, 1);
+  EXPECT_EQ(ropes[2].anchor_b, Vec2(0, 0)) << "in the frame of the part";
+}
+
 TEST(RenderChanges, EachViewIsDrawnByItsOwnTopology) {
   ClusterConfig config;
   config.scene_text = "gravity = [0, 0]\nduration = 3\n[[player]]\nname = \"ann\"\n" +

@@ -53,6 +53,18 @@ name = "hinge"
 kind = "hinge"
 a = "box.5"
 b = "ball.4"
+[[joint]]
+name = "gear"
+kind = "gear"
+joints = ["slide", "hinge"]
+ratio = -2
+[[joint]]
+name = "pulley"
+kind = "pulley"
+a = "box.0"
+b = "ball.5"
+ground_a = [-8, 9]
+ground_b = [2, 9]
 [[seat]]
 name = "chair"
 part = "box.0"
@@ -119,6 +131,15 @@ class RandomEdits {
       text += "[[joint]]\nname = \"" + joint + "\"\nkind = \"" + kKinds[Below(4)] + "\"\na = \"" +
               a + "\"\nb = \"" + name + "\"\n";
     }
+    const auto& joints = now.scene().joints;
+    const auto any = [&] {
+      return joints[static_cast<std::size_t>(Below(static_cast<int>(joints.size())))].name;
+    };
+    if (Below(3) == 0) {  // most name what is no hinge
+      text += "[[joint]]\nname = \"g" + joint + "\"\nkind = \"gear\"\njoints = [\"" +
+              (Below(2) == 0 ? "j" + std::to_string(Below(count_)) : any()) + "\", \"" + any() +
+              "\"]\n";
+    }
     return text;
   }
 
@@ -136,6 +157,10 @@ void ExpectSame(const Topology& one, const Topology& other) {
   const Scene &x = one.scene(), &y = other.scene();
   ASSERT_EQ(x.parts.size(), y.parts.size());
   ASSERT_EQ(x.joints.size(), y.joints.size());
+  for (std::size_t j = 0; j < x.joints.size(); ++j) {
+    if (x.joints[j].gone) continue;
+    ASSERT_EQ(x.joints[j].coupled, y.joints[j].coupled);
+  }
   for (std::size_t i = 0; i < x.parts.size(); ++i) {
     const Part &p = x.parts[i], &q = y.parts[i];
     ASSERT_EQ(p.gone, q.gone) << i;

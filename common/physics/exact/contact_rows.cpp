@@ -5,9 +5,11 @@
 namespace seam {
 namespace {
 
-/// Overlap is undone by this share of it per substep, at most so fast: the engine's own, m/s.
+/// Overlap is undone by this share of it per step, at most so fast: the engine's own, m/s.
 constexpr double kPushOut = 0.2;
 constexpr double kPushOutMost = 2;
+/// m/s: blows below have no restitution where nothing weighs.
+constexpr double kSlowest = 1e-3;
 
 void Split(const b2Fixture* fixture, const ExactBody& body, double px, double py, double* turning_x,
            double* turning_y, double* still_x, double* still_y) {
@@ -59,7 +61,7 @@ void Bind(const ExactContact& contact, const ExactBody& a, const ExactBody& b, c
 
 }  // namespace
 
-void ReadContact(const std::vector<ExactBody>& bodies, ExactContact* contact) {
+void ReadContact(const std::vector<ExactBody>& bodies, double rest, ExactContact* contact) {
   b2Contact* made = contact->made;
   b2WorldManifold world;
   made->GetWorldManifold(&world);
@@ -68,7 +70,8 @@ void ReadContact(const std::vector<ExactBody>& bodies, ExactContact* contact) {
   contact->ny = static_cast<double>(world.normal.y);
   contact->friction = static_cast<double>(made->GetFriction());
   contact->restitution = static_cast<double>(made->GetRestitution());
-  contact->threshold = static_cast<double>(made->GetRestitutionThreshold());
+  contact->threshold =
+      std::min(static_cast<double>(made->GetRestitutionThreshold()), rest + kSlowest);
   contact->belt = static_cast<double>(made->GetTangentSpeed());
   const ExactBody& a = bodies[static_cast<std::size_t>(contact->a)];
   const ExactBody& b = bodies[static_cast<std::size_t>(contact->b)];
@@ -97,10 +100,10 @@ void FillContact(const ExactContact& contact, const std::vector<ExactBody>& bodi
     normal.lo = 0;
     normal.hi = kUnbounded;
     const double slop = static_cast<double>(b2_linearSlop);
-    normal.target =
-        normal.error > 0
-            ? -normal.error / pace.h
-            : std::min(kPushOutMost, kPushOut / pace.h * std::max(0.0, -normal.error - slop));
+    normal.target = normal.error > 0
+                        ? -normal.error / pace.h
+                        : std::min(kPushOutMost, kPushOut / (pace.h * pace.substeps) *
+                                                     std::max(0.0, -normal.error - slop));
     Bind(contact, a, b, r, contact.ny, -contact.nx, &friction);
     friction.kind = RowKind::kFriction;
     friction.friction = contact.friction;
@@ -116,8 +119,8 @@ void LoadImpulses(const ExactContact& contact, double share, Row* rows) {
     const double rubbed = share * static_cast<double>(manifold.points[i].tangentImpulse);
     Row& normal = rows[2 * i];
     Row& friction = rows[2 * i + 1];
-    normal.base = pushed;
-    friction.base = rubbed;
+    normal.base = normal.warm = pushed;
+    friction.base = friction.warm = rubbed;
     friction.most = contact.friction * pushed;
     normal.state = pushed > 0 ? RowState::kFree : RowState::kLow;
     friction.state = pushed <= 0                                      ? RowState::kLow

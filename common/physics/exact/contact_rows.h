@@ -26,8 +26,10 @@ struct ExactContact {
   Point point[b2_maxManifoldPoints];
 };
 
-/// Reads the manifold, the bodies being where the engine has them.
-void ReadContact(const std::vector<ExactBody>& bodies, ExactContact* contact);
+/// Reads the manifold, the bodies being where the engine has them. `rest`: m/s, at which gravity
+/// makes something hit in a step that lies: slower blows have no restitution (nor have those below
+/// the engine's threshold, where that is less).
+void ReadContact(const std::vector<ExactBody>& bodies, double rest, ExactContact* contact);
 
 /// Writes 2 * count rows: normal, friction of each point. A substep of h.
 void FillContact(const ExactContact& contact, const std::vector<ExactBody>& bodies,

@@ -45,6 +45,9 @@ template struct Reveal<EngineSolveToi, &b2World::SolveTOI>;
 constexpr uint16 kBodyAwake = 0x0002, kBodyAutoSleep = 0x0004, kBodyEnabled = 0x0020;
 constexpr uint32 kContactEnabled = 0x0004;
 
+/// Multiplications of one factorisation above which contacts are relaxed.
+constexpr long kDirectMost = 30000;
+
 bool Pushes(const b2Contact* contact) {
   return contact->IsTouching() && contact->IsEnabled() && !contact->GetFixtureA()->IsSensor() &&
          !contact->GetFixtureB()->IsSensor();
@@ -214,8 +217,14 @@ void ExactStep::Order(Found* found) {
   found->slots = sorted;
 }
 
-void ExactStep::Build(Found* found) {
+void ExactStep::Build(Found* found, bool relaxed) {
   Order(found);
+  if (relaxed) {
+    std::stable_sort(found->slots.begin(), found->slots.end(), [this](int a, int b) {
+      return slots_[static_cast<std::size_t>(a)].mechanism <
+             slots_[static_cast<std::size_t>(b)].mechanism;
+    });
+  }
   found->island = std::make_unique<ExactIsland>();
   ExactIsland& island = *found->island;
   for (std::size_t i = 0; i < found->slots.size(); ++i) {
@@ -224,6 +233,7 @@ void ExactStep::Build(Found* found) {
     ExactBody q;
     q.body = slot.body;
     q.slot = found->slots[i];
+    q.group = slot.mechanism;
     q.im = static_cast<double>(slot.body->*Member(BodyInverseMass()));
     q.inertia = static_cast<double>(slot.body->*Member(BodyInertia()));
     q.ii = 1 / q.inertia;
@@ -255,6 +265,11 @@ void ExactStep::Build(Found* found) {
                    static_cast<double>(at_a.y),
                    static_cast<double>(at_b.x),
                    static_cast<double>(at_b.y)};
+      if (joint.type == e_gearJoint) {
+        auto& gear = *static_cast<b2GearJoint*>(joint.made);
+        held.ends.base_a = place(gear.GetJoint1()->GetBodyA());
+        held.ends.base_b = place(gear.GetJoint2()->GetBodyA());
+      }
       island.joints.push_back(held);
     }
   }
@@ -267,7 +282,13 @@ void ExactStep::Build(Found* found) {
     island.contacts.push_back(contact);
   }
   LoadPoses(found);
-  island.Shape();
+  island.Shape(relaxed);
+  if (relaxed || island.cost() <= kDirectMost) return;
+  if (solver_.joints == JointSolving::kAuto) {
+    found->island.reset();  // left to the engine
+  } else {
+    Build(found, true);
+  }
 }
 
 void ExactStep::Sign(const Found& found, std::vector<const void*>* sign) const {
@@ -323,6 +344,7 @@ void ExactStep::Load(Found* found) {
     body->*Member(BodyFlags()) |= kBodyAwake;
     const b2Vec2& force = body->*Member(BodyForce());
     const auto scale = static_cast<double>(body->GetGravityScale());
+    q.lasting = slots_[static_cast<std::size_t>(q.slot)].lasting;
     q.ax = scale * static_cast<double>(gravity.x) + q.im * static_cast<double>(force.x);
     q.ay = scale * static_cast<double>(gravity.y) + q.im * static_cast<double>(force.y);
     q.turn = static_cast<double>(body->*Member(BodyTorque())) / q.inertia;
@@ -343,6 +365,7 @@ void ExactStep::SavePoses(const Found& found) {
     s.vx = q.vx;
     s.vy = q.vy;
     s.w = q.w;
+    s.lasting = q.lasting;
     s.told_x = static_cast<float>(q.x);
     s.told_y = static_cast<float>(q.y);
     s.told_a = static_cast<float>(q.a);
@@ -433,12 +456,12 @@ void ExactStep::Show(const Found& found) {
 void ExactStep::Prepare(float h, Found* found) {
   for (const int m : found->mechanisms) {
     for (const int j : mechanisms_[static_cast<std::size_t>(m)].joints) {
-      LookAtLimits(static_cast<double>(h), &joints_[static_cast<std::size_t>(j)]);
+      LookAt(static_cast<double>(h), &joints_[static_cast<std::size_t>(j)]);
     }
   }
   Sign(*found, &sign_);
-  if (found->island && sign_ == found->sign) return;
-  Build(found);
+  if (sign_ == found->sign) return;
+  Build(found, false);
   found->sign = sign_;
 }
 
@@ -449,7 +472,48 @@ bool ExactStep::Told(const Slot& s) {
          v.x == s.told_vx && v.y == s.told_vy && s.body->GetAngularVelocity() == s.told_w;
 }
 
-/// Continuous collision knows no joints: it takes a body back to where it hit.
+/// Listens while the engine does continuous collision. Its blow on a mechanism's body by something
+/// that does not give way is not heard of: the whole mechanism has it in the next step. Between
+/// moving bodies (bullets) the blow counts, and `struck` remembers whom it met.
+class ExactStep::Quiet : public b2ContactListener {
+ public:
+  Quiet(b2ContactListener* listener, std::vector<Slot>* slots)
+      : listener_(listener), slots_(slots) {}
+  void BeginContact(b2Contact* contact) override { listener_->BeginContact(contact); }
+  void EndContact(b2Contact* contact) override { listener_->EndContact(contact); }
+  void PreSolve(b2Contact* contact, const b2Manifold* old) override {
+    listener_->PreSolve(contact, old);
+  }
+  void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override {
+    b2Body* const a = contact->GetFixtureA()->GetBody();
+    b2Body* const b = contact->GetFixtureB()->GetBody();
+    const bool both = Moves(a) && Moves(b);
+    bool ours = false;
+    for (b2Body* body : {a, b}) {
+      if (!Moves(body)) continue;
+      Slot& slot = (*slots_)[static_cast<std::size_t>(IndexOf(body))];
+      slot.struck = slot.struck || both;
+      ours = ours || slot.island >= 0;
+    }
+    if (both || !ours) listener_->PostSolve(contact, impulse);
+  }
+
+ private:
+  b2ContactListener* const listener_;
+  std::vector<Slot>* const slots_;
+};
+
+/// As the engine's, but what it took back to where it hit keeps its velocity and its joints.
+void ExactStep::Continuous(const b2TimeStep& step, const Pace& pace) {
+  b2ContactListener* const listener = world_->GetContactManager().m_contactListener;
+  Quiet quiet(listener, &slots_);
+  for (Slot& slot : slots_) slot.struck = false;
+  world_->SetContactListener(&quiet);
+  (world_->*Member(EngineSolveToi()))(step);
+  world_->SetContactListener(listener);
+  RejoinWhatMoved(step.dt, pace);
+}
+
 void ExactStep::RejoinWhatMoved(float h, const Pace& pace) {
   std::vector<int> moved;
   for (const int m : solved_) {
@@ -464,15 +528,26 @@ void ExactStep::RejoinWhatMoved(float h, const Pace& pace) {
   if (moved.empty()) return;
   for (Slot& slot : slots_) slot.island = -1;
   for (const int m : moved) {
-    if (slots_[static_cast<std::size_t>(mechanisms_[static_cast<std::size_t>(m)].slots[0])].island >=
-        0) {
+    if (slots_[static_cast<std::size_t>(mechanisms_[static_cast<std::size_t>(m)].slots[0])]
+            .island >= 0) {
       continue;
     }
     Found& found = found_[static_cast<std::size_t>(m)];
     if (!Gather(m, &found)) continue;
     Prepare(h, &found);
+    if (!found.island) continue;
     LoadPoses(&found);
-    found.island->Rejoin(pace);
+    bool struck = false;
+    for (ExactBody& q : found.island->bodies) {
+      if (q.slot < 0) continue;
+      const Slot& s = slots_[static_cast<std::size_t>(q.slot)];
+      struck = struck || s.struck;
+      if (s.struck || !s.known) continue;
+      q.vx = s.vx;
+      q.vy = s.vy;
+      q.w = s.w;
+    }
+    found.island->Rejoin(pace, struck);
     SavePoses(found);
   }
 }
@@ -503,6 +578,7 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
     Found& found = found_[m];
     if (!Gather(static_cast<int>(m), &found)) continue;
     Prepare(h, &found);
+    if (!found.island) continue;
     Load(&found);
     found.island->Step(pace, step.warmStarting);
     Save(&found, h);
@@ -517,10 +593,7 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
     contacts.FindNewContacts();
   }
   for (const int m : solved_) Show(found_[static_cast<std::size_t>(m)]);
-  if (world_->GetContinuousPhysics()) {
-    (world_->*Member(EngineSolveToi()))(step);
-    RejoinWhatMoved(h, pace);
-  }
+  if (world_->GetContinuousPhysics()) Continuous(step, pace);
   last_inverse = step.inv_dt;
   if (world_->GetAutoClearForces()) world_->ClearForces();
   locked = false;

@@ -31,7 +31,9 @@ class ExactStep {
     int place = -1;   // in its list of bodies
     // What it was left with, and the same as the engine has it.
     bool known = false;
+    bool struck = false;  // by something that moves, in continuous collision
     double x = 0, y = 0, a = 0, vx = 0, vy = 0, w = 0;
+    double lasting = 0;  // ExactBody::lasting
     float told_x = 0, told_y = 0, told_a = 0, told_vx = 0, told_vy = 0, told_w = 0;
   };
   struct Mechanism {
@@ -50,12 +52,14 @@ class ExactStep {
   bool Gather(int first, Found* found);
   void Sign(const Found& found, std::vector<const void*>* sign) const;
   void Order(Found* found);
-  void Build(Found* found);
+  void Build(Found* found, bool relaxed);
   void LoadPoses(Found* found);
   void Load(Found* found);
   void Save(Found* found, float h);
   void SavePoses(const Found& found);
   void Prepare(float h, Found* found);
+  class Quiet;
+  void Continuous(const b2TimeStep& step, const Pace& pace);
   void RejoinWhatMoved(float h, const Pace& pace);
   static bool Told(const Slot& slot);
   void Report(const Found& found) const;

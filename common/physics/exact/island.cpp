@@ -7,7 +7,8 @@
 
 namespace seam {
 
-void ExactIsland::Shape() {
+void ExactIsland::Shape(bool relaxed) {
+  relaxed_ = relaxed;
   int rows = 0;
   std::size_t ends = 0;
   std::vector<int> ends_of;
@@ -33,6 +34,7 @@ void ExactIsland::Shape() {
   }
   Fill({1, 1});
   ShapeMatrix();
+  if (relaxed_) ShapeGroups();
 }
 
 void ExactIsland::ShapeMatrix() {
@@ -49,14 +51,16 @@ void ExactIsland::ShapeMatrix() {
     }
     bounded_ += row.bounded() ? 1 : 0;
   }
-  row_at_.resize(n);
-  for (std::size_t i = 0; i < n; ++i) row_at_[i] = static_cast<int>(i);
+  row_at_.clear();
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!relaxed_ || !rows_[i].bounded()) row_at_.push_back(static_cast<int>(i));
+  }
   std::stable_sort(row_at_.begin(), row_at_.end(), [&](int x, int y) {
     return key[static_cast<std::size_t>(x)] < key[static_cast<std::size_t>(y)];
   });
-  place_.resize(n);
-  std::vector<int> first(n), lead(bodies.size(), -1);
-  for (std::size_t p = 0; p < n; ++p) {
+  place_.assign(n, -1);
+  std::vector<int> first(row_at_.size()), lead(bodies.size(), -1);
+  for (std::size_t p = 0; p < row_at_.size(); ++p) {
     const Row& row = At(row_at_[p]);
     place_[static_cast<std::size_t>(row_at_[p])] = static_cast<int>(p);
     first[p] = static_cast<int>(p);
@@ -69,7 +73,7 @@ void ExactIsland::ShapeMatrix() {
   matrix_.SetShape(first);
   pairs_.clear();
   std::vector<std::vector<std::pair<int, int>>> met(bodies.size());  // row, end
-  for (std::size_t p = 0; p < n; ++p) {
+  for (std::size_t p = 0; p < row_at_.size(); ++p) {
     const int row = row_at_[p];
     for (int e = 0; e < At(row).ends; ++e) {
       auto& there = met[static_cast<std::size_t>(At(row).end[e].body)];
@@ -80,8 +84,8 @@ void ExactIsland::ShapeMatrix() {
       }
     }
   }
-  in_.assign(n, 1);
-  x_.assign(n, 0.0);
+  in_.assign(row_at_.size(), 1);
+  x_.assign(row_at_.size(), 0.0);
 }
 
 void ExactIsland::Fill(const Pace& pace) {

@@ -2,6 +2,8 @@
 /// An island that contains a joint, as one system: joints, limits, motors, contacts and friction
 /// are its rows. Two solves a substep, at the old and at the new pose (docs/solver.md).
 
+#include <cstddef>
+#include <utility>
 #include <vector>
 
 #include "common/physics/exact/contact_rows.h"
@@ -25,7 +27,9 @@ class ExactIsland {
 
   /// The rows and the matrix's shape from bodies, joints and contacts (of which a, b and count
   /// are there).
-  void Shape();
+  /// `relaxed`: the bounded rows are left to Relax; then bodies that have joints with each other
+  /// must be neighbours in the list.
+  void Shape(bool relaxed);
   /// Multiplications of a factorisation.
   long cost() const { return matrix_.cost(); }
   int bounded_rows() const { return bounded_; }
@@ -34,8 +38,8 @@ class ExactIsland {
   /// had last.
   void Step(const Pace& pace, bool warm);
   /// After something else has moved some of the bodies: brings the joints together again, positions
-  /// and velocities. `pace` as in Step; no time passes.
-  void Rejoin(const Pace& pace);
+  /// and, if some were `struck`, velocities. `pace` as in Step; no time passes.
+  void Rejoin(const Pace& pace, bool struck);
   /// What the step did, to the engine's joints and contacts.
   void Store() const;
 
@@ -45,21 +49,35 @@ class ExactIsland {
     int row, other;
     int end, other_end;
   };
+  struct Group {  // a mechanism, or a body without joints
+    int group;
+    int first_body, bodies;
+    int first_row, rows;  // places
+  };
+  struct Reach {  // of a bounded row
+    int row = 0;
+    int groups = 0;
+    int group[2] = {};
+    std::size_t at[2] = {};  // of its answer
+    double own = 0;          // m/s or rad/s per impulse: its own speed
+  };
   Row& At(int row) { return rows_[static_cast<std::size_t>(row)]; }
   ExactBody& Body(int body) { return bodies[static_cast<std::size_t>(body)]; }
   void ShapeMatrix();
   void Fill(const Pace& pace);
 
+  double Pull() const;
   void BringTogether(const Pace& pace);
   // Of a substep, in their order.
   void Substep(const Pace& pace);
+  void Course(const Pace& pace, bool touches);
+  bool PushesOut() const;
   void Kick(double h);
   bool FindImpacts();
   void Impact();
   void SolveAhead(const Pace& pace);
   void Move(double h);
   void ShutJoints(const Pace& pace);
-  void YieldContacts();
   void SoftenContacts();
   void SolveAtEnd(const Pace& pace);
 
@@ -70,7 +88,7 @@ class ExactIsland {
   // The system of rows, for the velocities as they are.
   void Assemble();
   void Factor();
-  void Solve();
+  void Solve(bool ahead);
   bool PivotToTheEnd();
   bool Pivot(int* wrong);
   void Change(int place);
@@ -78,13 +96,22 @@ class ExactIsland {
   bool NextFrictionBounds();
   void Descend();
   void HoldJoints();
+
+  // Piles.
+  void ShapeGroups();
+  void FindAnswer(Reach* reach);
+  void Respond(const Reach& reach, double impulse);
+  void Sweep(bool friction);
+  void Relax(bool ahead);
+
   double Speed(const Row& row) const;
   void Push(const Row& row, double impulse);
   void Shift(const Row& row, double by);
   void Save(std::vector<double>* velocities) const;
   void Restore(const std::vector<double>& velocities);
 
-  std::vector<Row> rows_;
+  std::vector<Row> rows_, rows_before_;
+  std::vector<ExactBody> bodies_before_;
   std::vector<RowEnd> ends_;
   std::vector<int> contact_row_;  // by contact: the first of its rows
   std::vector<int> place_;        // by row: its index in the matrix
@@ -92,10 +119,16 @@ class ExactIsland {
   std::vector<Pair> pairs_;
   Skyline matrix_;
   int bounded_ = 0;
-  int dirty_ = 0;  // the factors of rows from here on are old
+  double turned_ = 0;  // rad: the most that a body has turned in this substep
+  int dirty_ = 0;      // the factors of rows from here on are old
   std::vector<char> in_;
   std::vector<double> x_, before_, start_;
-  std::vector<RowState> next_;    // by place
+  bool relaxed_ = false;
+  std::vector<Group> groups_;
+  std::vector<Reach> reaches_;                            // in the order of rows
+  std::vector<std::vector<std::pair<int, int>>> joined_;  // by body: place, end
+  std::vector<double> answer_, velocity_;
+  std::vector<RowState> next_;           // by place
   std::vector<RowState> states_, held_;  // kept while something takes no part
 };
 

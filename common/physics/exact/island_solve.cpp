@@ -46,8 +46,13 @@ void ExactIsland::Push(const Row& row, double impulse) {
 }
 
 void ExactIsland::Save(std::vector<double>* velocities) const {
-  velocities->clear();
-  for (const ExactBody& q : bodies) velocities->insert(velocities->end(), {q.vx, q.vy, q.w});
+  velocities->resize(3 * bodies.size());
+  double* v = velocities->data();
+  for (const ExactBody& q : bodies) {
+    *v++ = q.vx;
+    *v++ = q.vy;
+    *v++ = q.w;
+  }
 }
 
 void ExactIsland::Restore(const std::vector<double>& velocities) {
@@ -192,7 +197,11 @@ bool ExactIsland::NextFrictionBounds() {
   return change > kFrictionSame;
 }
 
-void ExactIsland::Solve() {
+void ExactIsland::Solve(bool ahead) {
+  if (relaxed_) {
+    Relax(ahead);
+    return;
+  }
   Save(&before_);
   next_.resize(rows_.size());
   for (int round = 0; round < kFrictionRounds; ++round) {
@@ -269,9 +278,9 @@ void ExactIsland::HoldJoints() {
     held_.push_back(row.state);
     if (row.bounded()) row.state = RowState::kOut;
   }
-  dirty_ = 0;
+  if (!relaxed_) dirty_ = 0;
   Factor();
-  for (std::size_t p = 0; p < rows_.size(); ++p) {
+  for (std::size_t p = 0; p < row_at_.size(); ++p) {
     const Row& row = At(row_at_[p]);
     x_[p] = row.state == RowState::kFree ? row.target - Speed(row) - row.gamma * row.lambda : 0;
   }
@@ -286,6 +295,7 @@ void ExactIsland::HoldJoints() {
     row.state = held_[i];
   }
   held_.clear();
+  if (relaxed_) return;
   dirty_ = 0;
   Factor();
 }

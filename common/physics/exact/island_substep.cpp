@@ -16,11 +16,16 @@ namespace {
 constexpr double kStiffness = 0.25;
 /// It counts in full from this stiffness over inertia on, and below the other not at all.
 constexpr double kStiffTo = 1, kStiffFrom = 0.4;
+/// What is left of it after a substep when the tension is gone: inertias that jump make noise.
+constexpr double kLasts = 0.99;
 /// The inertia is found anew while it lacks more than this.
 constexpr double kStifferBy = 1.1;
 constexpr int kStifferTries = 4;
-/// Joints are shut to this, m or rad, in at most so many corrections.
-constexpr double kShut = 1e-7;
+/// What a substep may gain of kinetic energy by itself, as a share, and J/kg: motors do, too.
+constexpr double kGainShare = 0.05, kGainPerMass = 0.05;
+/// Joints are shut to this, m or rad, in at most so many corrections; less well where something
+/// touches, which leaves more behind.
+constexpr double kShut = 1e-9, kShutTouching = 1e-7;
 constexpr int kCorrections = 8;
 /// By no more than this, m/s or rad/s; contacts yield by this share.
 constexpr double kShutFastest = 8, kYield = 1e-3;
@@ -38,24 +43,35 @@ constexpr double kApart = 1e-5, kOverstepped = 5e-3, kTogetherMost = 0.2;
 constexpr int kTogetherTries = 4;
 /// A motor that lacks so much speed does all it may, rad/s or m/s.
 constexpr double kUtmost = 50;
+/// What falls for so many steps has a blow; what falls less lies.
+constexpr double kRestSteps = 4;
 /// A joint has at most so many rows, and a row so many ends.
 constexpr int kRowsMost = 6, kEndsMost = 4;
 
 /// kg m2, what the tension makes of a body's inertia. Little tension makes nothing of it, so that
 /// a pendulum stays as exact as it is.
 double Stiffened(const ExactBody& q) {
-  const double share = (q.stiffness / q.inertia - kStiffFrom) / (kStiffTo - kStiffFrom);
-  return q.inertia + kStiffness * std::max(0.0, q.stiffness) * std::clamp(share, 0.0, 1.0);
+  const double tense = std::max(q.stiffness, q.lasting);
+  const double share = (tense / q.inertia - kStiffFrom) / (kStiffTo - kStiffFrom);
+  return q.inertia + kStiffness * std::max(0.0, tense) * std::clamp(share, 0.0, 1.0);
 }
 
 double Kinetic(const ExactBody& q) {
   return q.moves() ? ((q.vx * q.vx + q.vy * q.vy) / q.im + q.inertia * q.w * q.w) / 2 : 0;
 }
 
+double KineticOf(const std::vector<ExactBody>& bodies) {
+  double sum = 0;
+  for (const ExactBody& q : bodies) sum += Kinetic(q);
+  return sum;
+}
+
 }  // namespace
 
 void ExactIsland::Step(const Pace& pace, bool warm) {
-  for (ExactContact& contact : contacts) ReadContact(bodies, &contact);
+  const double pull = Pull();
+  for (ExactContact& contact : contacts)
+    ReadContact(bodies, kRestSteps * pull * pace.h * pace.substeps, &contact);
   Fill(pace);
   const double share = warm ? 1.0 / pace.substeps : 0;
   for (Row& row : rows_) row.lambda = row.total = 0;
@@ -70,7 +86,17 @@ void ExactIsland::Step(const Pace& pace, bool warm) {
     if (std::fabs(lacks) > kUtmost) row.state = lacks > 0 ? RowState::kHigh : RowState::kLow;
   }
   BringTogether(pace);
-  for (int i = 0; i < pace.substeps; ++i) Substep(pace);
+  for (int i = 0; i < pace.substeps; ++i) {
+    if (i > 0) Fill(pace);
+    Substep(pace);
+  }
+}
+
+/// The greatest acceleration that acts on a body, m/s2.
+double ExactIsland::Pull() const {
+  double most = 0;
+  for (const ExactBody& q : bodies) most = std::max(most, std::sqrt(q.ax * q.ax + q.ay * q.ay));
+  return most;
 }
 
 /// What was put apart since the last step, by a message, an edit or continuous collision, is moved
@@ -91,11 +117,11 @@ void ExactIsland::BringTogether(const Pace& pace) {
     std::fill(x_.begin(), x_.end(), 0.0);
     for (std::size_t i = 0; i < rows_.size(); ++i) {
       Row& row = rows_[i];
-      const bool shuts = row.kind == RowKind::kHard ||
-                         (row.kind == RowKind::kLimit && row.error < -kOverstepped);
+      const bool shuts =
+          row.kind == RowKind::kHard || (row.kind == RowKind::kLimit && row.error < -kOverstepped);
       const bool held = row.kind == RowKind::kNormal && row.error <= 0;
       row.state = shuts || held ? RowState::kFree : RowState::kOut;
-      if (!shuts) continue;
+      if (!shuts || place_[i] < 0) continue;
       x_[static_cast<std::size_t>(place_[i])] =
           std::clamp(-row.error, -kTogetherMost, kTogetherMost);
     }
@@ -103,21 +129,29 @@ void ExactIsland::BringTogether(const Pace& pace) {
     SoftenContacts();
     Factor();
     matrix_.Solve(&x_);
-    for (std::size_t p = 0; p < rows_.size(); ++p) Shift(At(row_at_[p]), x_[p]);
+    for (std::size_t p = 0; p < row_at_.size(); ++p) Shift(At(row_at_[p]), x_[p]);
     Fill(pace);
   }
   for (std::size_t i = 0; i < held_.size(); ++i) rows_[i].state = held_[i];
   held_.clear();
 }
 
-void ExactIsland::Rejoin(const Pace& pace) {
-  for (ExactContact& contact : contacts) ReadContact(bodies, &contact);
+void ExactIsland::Rejoin(const Pace& pace, bool struck) {
+  const double pull = Pull();
+  for (ExactContact& contact : contacts)
+    ReadContact(bodies, kRestSteps * pull * pace.h * pace.substeps, &contact);
   Fill(pace);
   BringTogether(pace);
+  if (!struck) return;
   for (Row& row : rows_) {
     row.base = row.lambda = row.total = 0;
     row.state = row.bounded() && row.error > 0 ? RowState::kLow : RowState::kFree;
     if (row.kind == RowKind::kFriction) row.state = RowState::kOut;
+  }
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    for (int i = 0; i < contacts[c].count && contacts[c].restitution > 0; ++i) {
+      At(contact_row_[c] + 2 * i).state = RowState::kOut;  // its blow comes in the next step
+    }
   }
   SolveAtEnd(pace);
 }
@@ -139,18 +173,49 @@ void ExactIsland::Substep(const Pace& pace) {
     if (q.moves()) q.ii = 1 / Stiffened(q);
   }
   for (Row& row : rows_) row.base = 0;
-  Fill(pace);
   if (FindImpacts()) {
     Impact();
     Fill(pace);
+    FindImpacts();  // what comes at a contact by another's blow hits in the next substep
   }
   const bool touches = !contacts.empty();
   Kick(touches ? pace.h : pace.h / 2);
+  if (!touches || !PushesOut()) {
+    Course(pace, touches);
+    return;
+  }
+  // Where a mechanism is jammed, contacts that push out of an overlap make energy that the solve at
+  // the end cannot take back: then without pushing out.
+  bodies_before_ = bodies;
+  double mass = 0;
+  for (const ExactBody& q : bodies) mass += q.moves() ? 1 / q.im : 0;
+  const double most = (1 + kGainShare) * KineticOf(bodies) + kGainPerMass * mass;
+  rows_before_ = rows_;
+  Course(pace, touches);
+  if (KineticOf(bodies) <= most) return;
+  bodies = bodies_before_;
+  rows_ = rows_before_;
+  Fill(pace);
+  for (Row& row : rows_) {
+    if (row.kind == RowKind::kNormal) row.target = std::min(0.0, row.target);
+  }
+  Course(pace, touches);
+}
+
+bool ExactIsland::PushesOut() const {
+  return std::any_of(rows_.begin(), rows_.end(), [](const Row& row) {
+    return row.kind == RowKind::kNormal && row.target > 0 && row.state != RowState::kOut;
+  });
+}
+
+/// The substep from its kick to its end.
+void ExactIsland::Course(const Pace& pace, bool touches) {
   SolveAhead(pace);
   Move(pace.h);
   ShutJoints(pace);
   if (!touches) Kick(pace.h / 2);
   SolveAtEnd(pace);
+  for (ExactBody& q : bodies) q.lasting = std::max(q.stiffness, kLasts * q.lasting);
 }
 
 void ExactIsland::Kick(double h) {
@@ -189,7 +254,7 @@ void ExactIsland::SolveAhead(const Pace& pace) {
   Save(&start_);
   for (int tries = 0;; ++tries) {
     Assemble();
-    Solve();
+    Solve(true);
     if (tries == kStifferTries) break;
     Tension(pace.h);
     if (!Stiffer()) break;
@@ -199,16 +264,17 @@ void ExactIsland::SolveAhead(const Pace& pace) {
 }
 
 void ExactIsland::Move(double h) {
+  turned_ = 0;
   for (ExactBody& q : bodies) {
     q.x += h * q.vx;
     q.y += h * q.vy;
     if (q.w != 0) q.Turn(h * q.w);
+    turned_ = std::max(turned_, std::fabs(h * q.w));
   }
 }
 
 void ExactIsland::ShutJoints(const Pace& pace) {
-  bool anew = false;
-  for (const ExactBody& q : bodies) anew = anew || std::fabs(q.w * pace.h) > kTurnsFast;
+  bool anew = turned_ > kTurnsFast;
   double last = kUnbounded;
   Row now[kRowsMost];
   RowEnd ends[kRowsMost * kEndsMost];
@@ -217,20 +283,28 @@ void ExactIsland::ShutJoints(const Pace& pace) {
     double far = 0;
     std::fill(x_.begin(), x_.end(), 0.0);
     for (const Held& held : joints) {
-      FillJoint(*held.joint, held.ends, bodies, pace, now);
+      double errors[kRowsMost];
+      if (anew) {
+        FillJoint(*held.joint, held.ends, bodies, pace, now);
+        for (int i = 0; i < held.rows; ++i) errors[i] = now[i].error;
+      } else if (!PointErrors(*held.joint, held.ends, bodies, errors)) {
+        FillJoint(*held.joint, held.ends, bodies, pace, now);
+        for (int i = 0; i < held.rows; ++i) errors[i] = now[i].error;
+      }
       for (int i = 0; i < held.rows; ++i) {
         Row& row = At(held.row + i);
         const bool shuts = row.kind == RowKind::kHard || row.kind == RowKind::kLimit;
-        if (!shuts || row.state != RowState::kFree) continue;
-        const double off = now[i].error - row.goal;
+        const int place = place_[static_cast<std::size_t>(held.row + i)];
+        if (!shuts || place < 0 || row.state != RowState::kFree) continue;
+        const double off = errors[i] - row.goal;
         far = std::max(far, std::fabs(off));
-        x_[static_cast<std::size_t>(place_[static_cast<std::size_t>(held.row + i)])] =
+        x_[static_cast<std::size_t>(place)] =
             std::clamp(-off / pace.h, -kShutFastest, kShutFastest);
         if (anew) std::copy_n(now[i].end, row.ends, row.end);
       }
     }
-    if (far < kShut) break;
-    if (tries == 0 && !contacts.empty()) YieldContacts();
+    if (far < (contacts.empty() ? kShut : kShutTouching)) break;
+    if (tries == 0 && !contacts.empty() && !relaxed_) SoftenContacts();
     if (!anew && tries > 1 && far > kSlow * last) {
       anew = true;
       continue;
@@ -242,7 +316,7 @@ void ExactIsland::ShutJoints(const Pace& pace) {
     }
     Factor();
     matrix_.Solve(&x_);
-    for (std::size_t p = 0; p < rows_.size(); ++p) {
+    for (std::size_t p = 0; p < row_at_.size(); ++p) {
       Row& row = At(row_at_[p]);
       if (row.state != RowState::kFree || x_[p] == 0) continue;
       row.base += x_[p];
@@ -250,23 +324,14 @@ void ExactIsland::ShutJoints(const Pace& pace) {
       Shift(row, pace.h * x_[p]);
     }
   }
-  for (std::size_t i = 0; i < held_.size(); ++i) rows_[i].state = held_[i];
-  held_.clear();
 }
 
-/// While joints shut, contacts give way a little and friction altogether: with them a mechanism may
-/// be held in more ways than it can move.
-void ExactIsland::YieldContacts() {
-  for (Row& row : rows_) {
-    held_.push_back(row.state);
-    if (row.kind == RowKind::kFriction) row.state = RowState::kOut;
-  }
-  SoftenContacts();
-}
-
+/// While joints shut, contacts give way a little: with them a mechanism may be held in more ways
+/// than it can move.
 void ExactIsland::SoftenContacts() {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
-    if (rows_[i].kind != RowKind::kNormal) continue;
+    const bool contact = rows_[i].kind == RowKind::kNormal || rows_[i].kind == RowKind::kFriction;
+    if (!contact || place_[i] < 0) continue;
     matrix_.At(matrix_.Place(place_[i], place_[i])) *= 1 + kYield;
   }
   dirty_ = 0;
@@ -293,11 +358,12 @@ void ExactIsland::SolveAtEnd(const Pace& pace) {
     }
   }
   Assemble();
-  Solve();
+  Solve(false);
   std::size_t next = 0;
   for (Row& row : rows_) {
     row.base += row.lambda;
     row.total += row.base;
+    row.warm = row.base;
     row.lambda = 0;
     if (row.kind == RowKind::kSoft || row.kind == RowKind::kMotor) row.state = states_[next++];
   }
@@ -316,12 +382,10 @@ bool ExactIsland::FindImpacts() {
       Row& friction = At(contact_row_[c] + 2 * i + 1);
       if (normal.state == RowState::kOut) normal.state = friction.state = RowState::kLow;
       p.approach = Speed(normal);
-      if (contact.restitution <= 0 || p.approach > -contact.threshold) continue;
-      if (normal.error <= 0) {
-        hits = true;
-      } else {
-        normal.state = friction.state = RowState::kOut;  // next time, when it is there
-      }
+      if (contact.restitution <= 0 || std::fabs(p.approach) < contact.threshold) continue;
+      hits = hits || (normal.error <= 0 && p.approach < 0);
+      // It has its blow now, or when it is there; and what parts needs no push.
+      normal.state = friction.state = RowState::kOut;
     }
   }
   return hits;
@@ -353,14 +417,14 @@ void ExactIsland::Impact() {
       for (int i = 0; i < contact.count; ++i) {
         Row& normal = At(contact_row_[c] + 2 * i);
         Row& friction = At(contact_row_[c] + 2 * i + 1);
-        if (normal.error > 0) normal.state = friction.state = RowState::kOut;
+        normal.state = friction.state = normal.error > 0 ? RowState::kOut : RowState::kLow;
         normal.target = -share * contact.restitution * contact.point[i].approach;
         friction.target = contact.belt;
         driven = driven || contact.belt != 0;
       }
     }
     Assemble();
-    Solve();
+    Solve(true);
     double after = 0;
     for (const ExactBody& q : bodies) after += Kinetic(q);
     if (driven || after <= before * (1 + 1e-9) || tries == kSofterTries) break;

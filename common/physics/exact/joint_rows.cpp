@@ -3,12 +3,11 @@
 #include <algorithm>
 
 #include "common/base/check.h"
+#include "common/physics/exact/gear_rows.h"
 
 namespace seam {
 namespace {
 
-/// A speed by which errors of position are shut at most, m/s or rad/s.
-constexpr double kShutMost = 8;
 /// How much of its error a pose motor takes back in a step; the engine's own default.
 constexpr double kPoseShare = 0.3;
 /// A motor this near its bound is at it.
@@ -40,38 +39,11 @@ void ReadSlide(const Made& made, ExactJoint* out) {
   out->upper = static_cast<double>(made.GetUpperLimit());
 }
 
-struct Drive {
-  bool on = false;
-  double speed = 0, most = 0;  // per s: N or N m
-};
-
-Drive DriveOf(const ExactJoint& joint) {
-  Drive drive;
-  switch (joint.type) {
-    case e_revoluteJoint: {
-      const auto& made = As<b2RevoluteJoint>(joint);
-      drive.on = made.IsMotorEnabled();
-      drive.speed = static_cast<double>(made.GetMotorSpeed());
-      drive.most = static_cast<double>(made.GetMaxMotorTorque());
-      break;
-    }
-    case e_prismaticJoint: {
-      const auto& made = As<b2PrismaticJoint>(joint);
-      drive.on = made.IsMotorEnabled();
-      drive.speed = static_cast<double>(made.GetMotorSpeed());
-      drive.most = static_cast<double>(made.GetMaxMotorForce());
-      break;
-    }
-    case e_wheelJoint: {
-      const auto& made = As<b2WheelJoint>(joint);
-      drive.on = made.IsMotorEnabled();
-      drive.speed = static_cast<double>(made.GetMotorSpeed());
-      drive.most = static_cast<double>(made.GetMaxMotorTorque());
-      break;
-    }
-    default: break;
-  }
-  return drive;
+template <typename Made>
+void ReadMotor(const Made& made, float most, ExactJoint* joint) {
+  joint->drives = made.IsMotorEnabled();
+  joint->speed = static_cast<double>(made.GetMotorSpeed());
+  joint->most = static_cast<double>(most);
 }
 
 /// Of the ends' speeds.
@@ -117,13 +89,13 @@ class Writer {
     row->lo = -kUnbounded;
     row->hi = kUnbounded;
   }
-  void Motor(const Drive& drive, Row* row) const {
-    row->target = drive.speed;
-    row->most = drive.most * h_;
+  void Motor(Row* row) const {
+    row->target = joint_.speed;
+    row->most = joint_.most * h_;
     row->lo = -row->most;
     row->hi = row->most;
   }
-  void Turning(const Drive& drive) { Motor(drive, &Bind(RowKind::kMotor, 0, kTurn)); }
+  void Turning() { Motor(&Bind(RowKind::kMotor, 0, kTurn)); }
   void Hold() {
     Row& row = Bind(joint_.stiffness > 0 ? RowKind::kSoft : RowKind::kHard, turned(), kTurn);
     if (joint_.stiffness > 0) Spring(&row);
@@ -145,6 +117,7 @@ class Writer {
   }
   double Shift(double ux, double uy) const { return dx_ * ux + dy_ * uy; }
   void Distance();
+  void Pulley();
   void Pose();
   void Slide(bool turns);
 
@@ -217,6 +190,26 @@ void Writer::Distance() {
   if (joint_.near_upper) Tense(arm_a, -arm_b, &Bind(RowKind::kLimit, joint_.upper - length, back));
 }
 
+/// length = way of a + ratio * way of b, and both are pulled up.
+void Writer::Pulley() {
+  const auto way = [](double x, double y, const b2Vec2& ground, double* ux, double* uy) {
+    *ux = x - static_cast<double>(ground.x);
+    *uy = y - static_cast<double>(ground.y);
+    const double length = std::sqrt(*ux * *ux + *uy * *uy);
+    const double share = length > kNoDirection ? 1 / length : 0;
+    *ux *= share;
+    *uy *= share;
+    return length;
+  };
+  double ux = 0, uy = 0, wx = 0, wy = 0;
+  const double a = way(a_.x + ax_, a_.y + ay_, joint_.ground_a, &ux, &uy);
+  const double b = way(b_.x + bx_, b_.y + by_, joint_.ground_b, &wx, &wy);
+  const double ratio = joint_.ratio;
+  Bind(
+      RowKind::kHard, joint_.length - a - ratio * b,
+      {-ux, -uy, -(ax_ * uy - ay_ * ux), -ratio * wx, -ratio * wy, -ratio * (bx_ * wy - by_ * wx)});
+}
+
 void Writer::Pose() {
   const auto& made = As<b2MotorJoint>(joint_);
   const b2Vec2 offset = made.GetLinearOffset();
@@ -245,10 +238,9 @@ void Writer::Slide(bool turns) {
   const double at = Shift(ux, uy);
   Along(RowKind::kHard, Shift(-uy, ux), -uy, ux);
   if (!turns) Angle(RowKind::kHard, turned());
-  const Drive drive = DriveOf(joint_);
   if (turns && joint_.stiffness > 0) Spring(&Along(RowKind::kSoft, at, ux, uy));
-  if (drive.on && turns) Turning(drive);
-  if (drive.on && !turns) Motor(drive, &Along(RowKind::kMotor, 0, ux, uy));
+  if (joint_.drives && turns) Turning();
+  if (joint_.drives && !turns) Motor(&Along(RowKind::kMotor, 0, ux, uy));
   if (!joint_.limited) return;
   if (joint_.lower >= joint_.upper) {
     Along(RowKind::kHard, at - joint_.lower, ux, uy);
@@ -306,33 +298,48 @@ ExactJoint ReadJoint(b2Joint* made) {
       if (IsRod(out)) out.lower = out.reference;
       break;
     }
+    case e_pulleyJoint: {
+      auto& j = *static_cast<b2PulleyJoint*>(made);
+      out.anchor_a = made->GetBodyA()->GetLocalPoint(j.GetAnchorA());
+      out.anchor_b = made->GetBodyB()->GetLocalPoint(j.GetAnchorB());
+      out.ground_a = j.GetGroundAnchorA();
+      out.ground_b = j.GetGroundAnchorB();
+      out.ratio = static_cast<double>(j.GetRatio());
+      out.length =
+          static_cast<double>(j.GetLengthA()) + out.ratio * static_cast<double>(j.GetLengthB());
+      break;
+    }
+    case e_gearJoint: out.gear = ReadGear(static_cast<b2GearJoint*>(made)); break;
     case e_motorJoint: break;  // acts between the bodies' origins
     default: SEAM_ASSERT(false);
   }
   return out;
 }
 
-void LookAtLimits(double h, ExactJoint* joint) {
+void LookAt(double h, ExactJoint* joint) {
   double at = 0, speed = 0, margin = kNearLength;
   switch (joint->type) {
     case e_revoluteJoint: {
-      if (!joint->limited) return;
       const auto& made = As<b2RevoluteJoint>(*joint);
+      ReadMotor(made, made.GetMaxMotorTorque(), joint);
+      if (!joint->limited) return;
       at = static_cast<double>(made.GetJointAngle());
       speed = static_cast<double>(made.GetJointSpeed());
       margin = kNearAngle;
       break;
     }
     case e_prismaticJoint: {
-      if (!joint->limited) return;
       const auto& made = As<b2PrismaticJoint>(*joint);
+      ReadMotor(made, made.GetMaxMotorForce(), joint);
+      if (!joint->limited) return;
       at = static_cast<double>(made.GetJointTranslation());
       speed = static_cast<double>(made.GetJointSpeed());
       break;
     }
     case e_wheelJoint: {
-      if (!joint->limited) return;
       const auto& made = As<b2WheelJoint>(*joint);
+      ReadMotor(made, made.GetMaxMotorTorque(), joint);
+      if (!joint->limited) return;
       at = static_cast<double>(made.GetJointTranslation());
       speed = static_cast<double>(made.GetJointLinearSpeed());
       break;
@@ -366,21 +373,22 @@ static int KeptAt(const ExactJoint& joint, int* kept) {
     if (joint.lower >= joint.upper || joint.near_lower) kept[count++] = lower;
     if (joint.lower < joint.upper && joint.near_upper) kept[count++] = lower + 1;
   };
-  const bool drive = DriveOf(joint).on;
   switch (joint.type) {
     case e_revoluteJoint:
     case e_prismaticJoint:
       kept[count++] = 0;
       kept[count++] = 1;
-      if (drive) kept[count++] = 2;
+      if (joint.drives) kept[count++] = 2;
       range(3);
       break;
     case e_wheelJoint:
       kept[count++] = 0;
       if (joint.stiffness > 0) kept[count++] = 2;
-      if (drive) kept[count++] = 1;
+      if (joint.drives) kept[count++] = 1;
       range(3);
       break;
+    case e_pulleyJoint:
+    case e_gearJoint: kept[count++] = 0; break;
     case e_distanceJoint:
       if (IsRod(joint) || joint.stiffness > 0) kept[count++] = 0;
       if (!IsRod(joint) && joint.near_lower) kept[count++] = 1;
@@ -399,12 +407,15 @@ int RowCount(const ExactJoint& joint) {
 
 void FillJoint(const ExactJoint& joint, const JointEnds& ends, const std::vector<ExactBody>& bodies,
                const Pace& pace, Row* rows) {
+  if (joint.type == e_gearJoint) {
+    FillGear(joint, ends, bodies, pace.h, rows);
+    return;
+  }
   Writer write(joint, ends, bodies, pace, rows);
   switch (joint.type) {
     case e_revoluteJoint: {
       write.Point();
-      const Drive drive = DriveOf(joint);
-      if (drive.on) write.Turning(drive);
+      if (joint.drives) write.Turning();
       if (!joint.limited) break;
       const double turned = write.turned();
       if (joint.lower >= joint.upper) {
@@ -421,9 +432,22 @@ void FillJoint(const ExactJoint& joint, const JointEnds& ends, const std::vector
     case e_prismaticJoint: write.Slide(false); break;
     case e_wheelJoint: write.Slide(true); break;
     case e_distanceJoint: write.Distance(); break;
+    case e_pulleyJoint: write.Pulley(); break;
     case e_motorJoint: write.Pose(); break;
     default: break;
   }
+}
+
+bool PointErrors(const ExactJoint& joint, const JointEnds& ends,
+                 const std::vector<ExactBody>& bodies, double* errors) {
+  if (joint.type != e_revoluteJoint || joint.near_lower || joint.near_upper) return false;
+  if (joint.limited && joint.lower >= joint.upper) return false;
+  const ExactBody& a = bodies[static_cast<std::size_t>(ends.a)];
+  const ExactBody& b = bodies[static_cast<std::size_t>(ends.b)];
+  errors[0] = b.x + (b.c * ends.bx - b.s * ends.by) - a.x - (a.c * ends.ax - a.s * ends.ay);
+  errors[1] = b.y + (b.s * ends.bx + b.c * ends.by) - a.y - (a.s * ends.ax + a.c * ends.ay);
+  errors[2] = 0;
+  return true;
 }
 
 void LoadImpulses(const ExactJoint& joint, double share, Row* rows) {
@@ -432,7 +456,7 @@ void LoadImpulses(const ExactJoint& joint, double share, Row* rows) {
   for (int i = 0; i < count; ++i) {
     Row& row = rows[i];
     const double impulse = share * static_cast<double>(*joint.impulses.at[kept[i]]);
-    row.base = impulse;
+    row.base = row.warm = impulse;
     row.state = RowState::kFree;
     if (row.kind == RowKind::kLimit && impulse <= 0) row.state = RowState::kLow;
     if (row.kind == RowKind::kMotor && impulse <= -row.most * kNearly) row.state = RowState::kLow;

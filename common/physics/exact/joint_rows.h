@@ -9,6 +9,21 @@
 
 namespace seam {
 
+/// The two joints that a gear couples.
+struct GearSides {
+  struct Side {
+    bool slides = false;  ///< prismatic; else a hinge
+    b2Vec2 base{0, 0}, arm{0, 0},
+        axis{1, 0};        ///< m, of a prismatic joint, from the bodies' origins
+    double reference = 0;  ///< rad, of a hinge
+  };
+  Side first, second;
+  double ratio = 1;
+};
+
+/// A speed by which errors of position are shut at most, m/s or rad/s.
+constexpr double kShutMost = 8;
+
 /// What does not change while the joint lives, but motors' speeds and bounds.
 struct ExactJoint {
   b2Joint* made = nullptr;
@@ -22,23 +37,30 @@ struct ExactJoint {
   /// Whether the limits are within reach of this step: others have no row.
   bool near_lower = false, near_upper = false;
   double stiffness = 0, damping = 0;
+  /// Its motor, N or N m.
+  bool drives = false;
+  double speed = 0, most = 0;
+  GearSides gear;
+  double ratio = 1, length = 0;           ///< of a pulley; m
+  b2Vec2 ground_a{0, 0}, ground_b{0, 0};  ///< m, of a pulley
   JointImpulses impulses;
 };
 
 /// Requires a joint that MakeJoint has made. The slots are left to the caller.
 ExactJoint ReadJoint(b2Joint* made);
 
-/// Finds near_lower and near_upper for a step of h s.
-void LookAtLimits(double h, ExactJoint* joint);
+/// What may have changed since the last step: motor, near_lower and near_upper for a step of h s.
+void LookAt(double h, ExactJoint* joint);
 
 /// The two bodies of a joint, by their places in the island's list, and the points.
 struct JointEnds {
   int a = 0, b = 0;
   double ax = 0, ay = 0, bx = 0, by = 0;  ///< m, in the body's frame, from the centre of mass
+  int base_a = -1, base_b = -1;           ///< of a gear: what its joints turn or slide on
 };
 
 /// How many bodies each of its rows binds at most.
-inline int EndsOf(const ExactJoint& /*joint*/) { return 2; }
+inline int EndsOf(const ExactJoint& joint) { return joint.type == e_gearJoint ? 4 : 2; }
 
 /// How many rows it has now: limits may be far, motors may be switched.
 int RowCount(const ExactJoint& joint);
@@ -53,6 +75,11 @@ struct Pace {
 /// states are left alone. Always in the same order.
 void FillJoint(const ExactJoint& joint, const JointEnds& ends, const std::vector<ExactBody>& bodies,
                const Pace& pace, Row* rows);
+
+/// The errors of its rows alone, if it is a hinge that has no others than those of its point and
+/// its motor, which has none. False: FillJoint finds them.
+bool PointErrors(const ExactJoint& joint, const JointEnds& ends,
+                 const std::vector<ExactBody>& bodies, double* errors);
 
 /// The joint's stored impulses to its rows (warm start) as `share` of them, with their states.
 void LoadImpulses(const ExactJoint& joint, double share, Row* rows);

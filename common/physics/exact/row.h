@@ -12,6 +12,7 @@ namespace seam {
 /// A body of an island. Index below: into the island's list.
 struct ExactBody {
   b2Body* body = nullptr;
+  int group = -1;                ///< its mechanism; -1: none
   int slot = -1;                 ///< of the moving body; -1: anchored or kinematic
   double im = 0, ii = 0;         ///< 1/kg, 1/(kg m2) with what the joints' tension adds; 0: fixed
   double inertia = 0;            ///< kg m2, its own
@@ -21,6 +22,7 @@ struct ExactBody {
   double ax = 0, ay = 0, turn = 0;  ///< m/s2, rad/s2: by gravity and forces
   double slow = 0, slow_spin = 0;   ///< 1/s, damping
   double stiffness = 0;             ///< kg m2, h2 times the joints' tension times arm
+  double lasting = 0;               ///< kg m2, the same, falling slowly
   bool moves() const { return im > 0; }
 
   /// Turns it by `d` rad; small angles by series, to the last bit or two.
@@ -76,6 +78,7 @@ struct Row {
   double gamma = 0;                 ///< 1/kg or 1/(kg m2)
   double lo = 0, hi = 0;            ///< N s or N m s
   double lambda = 0;                ///< of this solve
+  double warm = 0;                  ///< of the last substep: where a relaxation begins
   double base = 0;                  ///< of this substep, before this solve
   double total = 0;                 ///< of the step
   double stiff_a = 0, stiff_b = 0;  ///< m: tension's arm at the joint's two bodies

@@ -7,19 +7,17 @@ namespace {
 
 /// A pivot below this share of its diagonal is rounding.
 constexpr double kDependent = 1e-10;
-/// Divides to nothing.
-constexpr double kNoShare = 1e30;
+/// In place of its inverse then.
+constexpr double kNoShare = 1e-30;
 
 /// In two halves, whatever the compiler would do: sums must not depend on it.
-double Dot(const double* a, const double* b, int from, int to) {
+inline double Dot(const double* a, const double* b, int from, int to) {
   double even = 0, odd = 0;
-  int t = from;
-  for (; t + 1 < to; t += 2) {
-    even += a[t] * b[t];
-    odd += a[t + 1] * b[t + 1];
+  for (; from + 1 < to; from += 2) {
+    even += a[from] * b[from];
+    odd += a[from + 1] * b[from + 1];
   }
-  if (t < to) even += a[t] * b[t];
-  return even + odd;
+  return from < to ? even + odd + a[from] * b[from] : even + odd;
 }
 
 }  // namespace
@@ -37,55 +35,55 @@ void Skyline::SetShape(const std::vector<int>& first) {
   }
   matrix_.assign(static_cast<std::size_t>(next), 0.0);
   factor_.assign(static_cast<std::size_t>(next), 0.0);
-  diagonal_.assign(first.size(), 1.0);
+  inverse_.assign(first.size(), 1.0);
 }
 
 void Skyline::Clear() { std::fill(matrix_.begin(), matrix_.end(), 0.0); }
 
 void Skyline::Factor(const std::vector<char>& in, int from) {
+  const int* const start = start_.data();
+  const int* const first = first_.data();
+  double* const factor = factor_.data();
+  double* const inverse = inverse_.data();
   for (int i = from; i < size(); ++i) {
-    const auto row = static_cast<std::size_t>(i);
-    const double* a = matrix_.data() + start_[row];
-    double* l = factor_.data() + start_[row];
-    const int first = first_[row];
-    if (!in[row]) {
-      std::fill(l + first, l + i, 0.0);
-      diagonal_[row] = 1;
+    const double* a = matrix_.data() + start[i];
+    double* l = factor + start[i];
+    const int begin = first[i];
+    if (!in[static_cast<std::size_t>(i)]) {
+      std::fill(l + begin, l + i, 0.0);
+      inverse[i] = 1;
       continue;
     }
-    for (int k = first; k < i; ++k) {
-      const auto column = static_cast<std::size_t>(k);
-      if (!in[column]) {
+    for (int k = begin; k < i; ++k) {
+      if (!in[static_cast<std::size_t>(k)]) {
         l[k] = 0;
         continue;
       }
-      const double* other = factor_.data() + start_[column];
-      l[k] = a[k] - Dot(l, other, std::max(first, first_[column]), k);
+      l[k] = a[k] - Dot(l, factor + start[k], std::max(begin, first[k]), k);
     }
-    // l holds L D so far; the dots above had the rows' own L.
+    // l holds L D so far; the dots above had the other rows' own L.
     double left = a[i];
-    for (int k = first; k < i; ++k) {
-      const double share = l[k] / diagonal_[static_cast<std::size_t>(k)];
+    for (int k = begin; k < i; ++k) {
+      const double share = l[k] * inverse[k];
       left -= l[k] * share;
       l[k] = share;
     }
-    diagonal_[row] = left > kDependent * a[i] ? left : kNoShare;
+    inverse[i] = left > kDependent * a[i] ? 1 / left : kNoShare;
   }
 }
 
-void Skyline::Solve(std::vector<double>* x) const {
+void Skyline::SolvePart(std::vector<double>* x, int from, int to) const {
+  const int* const start = start_.data();
+  const int* const first = first_.data();
+  const double* const factor = factor_.data();
   double* v = x->data();
-  for (int i = 0; i < size(); ++i) {
-    const auto row = static_cast<std::size_t>(i);
-    v[i] -= Dot(factor_.data() + start_[row], v, first_[row], i);
-  }
-  for (int i = 0; i < size(); ++i) v[i] /= diagonal_[static_cast<std::size_t>(i)];
-  for (int i = size() - 1; i >= 0; --i) {
-    const auto row = static_cast<std::size_t>(i);
-    const double* l = factor_.data() + start_[row];
+  for (int i = from; i < to; ++i) v[i] -= Dot(factor + start[i], v, first[i], i);
+  for (int i = from; i < to; ++i) v[i] *= inverse_[static_cast<std::size_t>(i)];
+  for (int i = to - 1; i >= from; --i) {
+    const double* l = factor + start[i];
     const double done = v[i];
     if (done == 0) continue;
-    for (int k = first_[row]; k < i; ++k) v[k] -= l[k] * done;
+    for (int k = first[i]; k < i; ++k) v[k] -= l[k] * done;
   }
 }
 

@@ -25,11 +25,14 @@ class Skyline {
   /// the last call. A row that depends on those before it (to 1e-10 of its diagonal) gets no share.
   void Factor(const std::vector<char>& in, int from);
   /// x = A^-1 x, rows that are out keep 0. Requires x = 0 there.
-  void Solve(std::vector<double>* x) const;
+  void Solve(std::vector<double>* x) const { SolvePart(x, 0, size()); }
+  /// The same of rows from..to-1, when no row beyond has an entry in their columns and they have
+  /// none in columns before.
+  void SolvePart(std::vector<double>* x, int from, int to) const;
 
  private:
-  std::vector<int> first_, start_;  // entry (i, k) is at start_[i] + k
-  std::vector<double> matrix_, factor_, diagonal_;
+  std::vector<int> first_, start_;                 // entry (i, k) is at start_[i] + k
+  std::vector<double> matrix_, factor_, inverse_;  // the last of D
   long cost_ = 0;
 };
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "common/base/geometry.h"
+#include "common/physics/world_couplings.h"
 #include "common/scene/mass.h"
 #include "common/stages/bonds/bond_net.h"
 #include "common/stages/contact_force.h"
@@ -152,15 +153,17 @@ void GlueStage::AddJoints(Glued* glued) {
   const float hz = static_cast<float>(w_.scene.solver.tick_hz * w_.scene.solver.substeps);
   const double tick_s = 1.0 / w_.scene.solver.tick_hz;
   for (const int j : glued->joints) {
-    const b2Joint* held = w_.built.joints[static_cast<std::size_t>(j)];
+    b2Joint* held = w_.built.joints[static_cast<std::size_t>(j)];
     if (held == nullptr) continue;
     // Of the last substep: it stands for the others.
-    const Vector2d on_b = tick_s * FromB2(held->GetReactionForce(hz)).cast<double>();
+    const JointForces forces = ForcesOf(held, hz);
+    const Vector2d on_a = tick_s * FromB2(forces.on_a).cast<double>();
+    const Vector2d on_b = tick_s * FromB2(forces.on_b).cast<double>();
     const Joint& joint = w_.scene.joints[static_cast<std::size_t>(j)];
     const int a = glued->net.NodeOf(joint.a), b = glued->net.NodeOf(joint.b);
-    if (a >= 0) glued->pushed[static_cast<std::size_t>(a)] -= on_b;
+    if (a >= 0) glued->pushed[static_cast<std::size_t>(a)] += on_a;
     if (b >= 0) glued->pushed[static_cast<std::size_t>(b)] += on_b;
-    glued->pushes += on_b.norm();
+    glued->pushes += std::max(on_a.norm(), on_b.norm());
   }
 }
 

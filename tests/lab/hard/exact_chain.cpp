@@ -70,6 +70,11 @@ std::unique_ptr<Judge> Stretch(const Scene& scene) {
   });
 }
 
+/// The load a millimetre beside the chain: the pin that holds it stays where it was.
+void NudgeLoad(Scene* scene) {
+  scene->parts[static_cast<std::size_t>(scene->joints.back().b)].position.x() += 0.001f;
+}
+
 /// Where the beam's last link is, seen from the block that carries the beam, against where it was.
 std::unique_ptr<Judge> Droop(const Scene& scene) {
   const Part base = PartNamed(scene, "base");
@@ -122,6 +127,8 @@ std::vector<HardCase> ChainCases() {
        20,
        Stretch,
        {}},
+      {"chain-heavy-end-nudged", "chain-heavy-end", Truth::kFormula, "m",
+       "the same with the load 1 mm beside the chain", 20, Stretch, NudgeLoad},
   };
 }
 

@@ -1,5 +1,6 @@
 #include "tests/lab/hard/hard_case.h"
 
+#include <algorithm>
 #include <filesystem>
 
 namespace seam {
@@ -7,8 +8,13 @@ namespace seam {
 const std::vector<HardCase>& HardCases() {
   static const std::vector<HardCase> all = [] {
     std::vector<HardCase> cases = ExactCases();
-    const std::vector<HardCase> more = InvariantCases();
-    cases.insert(cases.end(), more.begin(), more.end());
+    for (const auto& more : {InvariantCases(), MechanismCases()}) {
+      cases.insert(cases.end(), more.begin(), more.end());
+    }
+    std::sort(cases.begin(), cases.end(), [](const HardCase& a, const HardCase& b) {
+      const bool judged_a = a.truth == Truth::kInvariant, judged_b = b.truth == Truth::kInvariant;
+      return judged_a != judged_b ? judged_b : a.name < b.name;
+    });
     return cases;
   }();
   return all;

@@ -41,6 +41,8 @@ struct HardCase {
   /// Changes the scene after it was read, for families (the same pyramid farther from the origin);
   /// empty: nothing.
   std::function<void(Scene*)> adjust;
+  /// Where it has joints, they are tried exactly at these numbers of `joint_substeps`.
+  std::vector<int> exact_substeps = {1, 2};
 };
 
 /// All cases, those with exact or converged answers first, names ascending within either.
@@ -49,13 +51,15 @@ const std::vector<HardCase>& HardCases();
 /// exact_*.cpp and invariant_*.cpp.
 std::vector<HardCase> ExactCases();
 std::vector<HardCase> InvariantCases();
+/// mechanisms/: of both kinds.
+std::vector<HardCase> MechanismCases();
 
 /// The case's scene as its file has it, adjusted. `folder`: of scenes without a path.
 /// Throws OperatorError.
 Scene LoadHardScene(const HardCase& hard, const std::string& folder = "scenes/hard");
 
 /// What everybody else uses: 60 Hz, one substep, 8/3 iterations, the engine's own skin, warm
-/// starting, continuous collision, sleep, welds as joints.
+/// starting, continuous collision, sleep, welds as joints, and these solved one after the other.
 Solver StockSolver();
 
 }  // namespace seam

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/assembly.h"
+#include "common/scene/joint_kinds.h"
 #include "tests/lab/hard/script_player.h"
 
 namespace seam {
@@ -13,6 +15,32 @@ namespace {
 /// CPU seconds of a row: the run that is observed, and those of both settings that are timed.
 double RowCost(double own, double stock) {
   return own + std::max(own + stock, std::min(0.15, 15 * (own + stock)));
+}
+
+bool HasJoints(const Scene& scene) {
+  return std::any_of(scene.joints.begin(), scene.joints.end(), [&](const Joint& joint) {
+    return !joint.gone && !IsRigid(joint, scene.solver) &&
+           HoldOf(joint.kind) != JointHold::kImposed;
+  });
+}
+
+/// One engine step a tick: what exact joints need of substeps they have of their own.
+void AddJointPoints(const HardCase* hard, const Scene& scene, PhysicsPlan* plan) {
+  if (!HasJoints(scene)) return;
+  Solver solver = scene.solver;
+  solver.joints = JointSolving::kIterative;
+  if (!SameSolver(solver, scene.solver)) {
+    plan->points.push_back({hard, "iterative", WithSolver(scene, solver)});
+  }
+  const Solver stock = StockSolver();
+  solver.joints = JointSolving::kExact;
+  solver.substeps = stock.substeps;
+  solver.velocity_iterations = stock.velocity_iterations;
+  solver.position_iterations = stock.position_iterations;
+  for (const int substeps : hard->exact_substeps) {
+    solver.joint_substeps = substeps;
+    plan->points.push_back({hard, "exact", WithSolver(scene, solver)});
+  }
 }
 
 /// What sleeps costs little, but the world is looked through.
@@ -64,7 +92,7 @@ PhysicsPlan PlanPhysics(const std::vector<const HardCase*>& cases, GridSize size
     plan.points.push_back({hard, "scene", scene});
     double spent = 0;
     int tried = 0, left_out = 0;
-    for (const Solver& solver : GridSettings(size, scene.solver, !scene.joints.empty())) {
+    for (const Solver& solver : GridSettings(size, scene.solver)) {
       if (SameSolver(solver, scene.solver) || SameSolver(solver, StockSolver())) continue;
       const double own = share * PredictedCpu(scene, solver, hard->seconds);
       if (spent + RowCost(own, stock_cost) > budget) {
@@ -75,6 +103,7 @@ PhysicsPlan PlanPhysics(const std::vector<const HardCase*>& cases, GridSize size
       ++tried;
       plan.points.push_back({hard, "grid", WithSolver(scene, solver)});
     }
+    AddJointPoints(hard, scene, &plan);
     if (left_out > 0) {
       plan.left_out.push_back(
           fmt::format("{}: {} of {} settings of the grid left out: over {:.0f} s of CPU",

@@ -12,12 +12,14 @@ namespace seam {
 /// One run: a case with one setting.
 struct PhysicsPoint {
   const HardCase* hard = nullptr;
-  std::string role;  ///< stock | scene | grid
+  std::string role;  ///< stock | scene | grid | iterative | exact
   Scene scene;       ///< with the setting in `solver`
 };
 
 struct PhysicsPlan {
-  std::vector<PhysicsPoint> points;   ///< by case; in each the stock setting, the scene's, the grid
+  /// By case; in each the stock setting, the scene's, the grid, and where it has joints the scene's
+  /// with iterative joints (unless they are that) and with exact ones.
+  std::vector<PhysicsPoint> points;
   std::vector<std::string> left_out;  ///< what of the grid was too dear, a line each
 };
 

@@ -42,8 +42,6 @@ const std::vector<Levers> kReportLevers = {
     {240, 4, 8, 3, kSmallSkin, true}, {240, 8, 8, 3, kSmallSkin, true},
 };
 constexpr std::size_t kQuickLevers = 4;
-/// Of exact joints, at one step a tick; only where there are joints.
-constexpr int kExactSubsteps[] = {2, 1, 4};
 
 std::vector<Levers> AllLevers() {
   std::vector<Levers> all;
@@ -70,6 +68,15 @@ double StepShare(const Solver& s) {
 
 }  // namespace
 
+const char* JointsWord(JointSolving joints) {
+  switch (joints) {
+    case JointSolving::kAuto: return "auto";
+    case JointSolving::kExact: return "exact";
+    case JointSolving::kIterative: break;
+  }
+  return "iterative";
+}
+
 bool SameSolver(const Solver& a, const Solver& b) { return SolverLines(a) == SolverLines(b); }
 
 std::string SolverWords(const Solver& s) {
@@ -79,8 +86,9 @@ std::string SolverWords(const Solver& s) {
   if (!s.warm_starting) words += " cold";
   if (!s.continuous) words += " not continuous";
   if (!s.sleep) words += " sleepless";
-  if (s.joints == JointSolving::kExact) words += fmt::format(" exact x{}", s.joint_substeps);
-  if (s.joints == JointSolving::kAuto) words += fmt::format(" auto x{}", s.joint_substeps);
+  if (s.joints != JointSolving::kIterative) {
+    words += fmt::format(" joints {} x{}", JointsWord(s.joints), s.joint_substeps);
+  }
   return words + (s.weld_joints ? " welds jointed" : "");
 }
 
@@ -101,12 +109,9 @@ std::string SolverLines(const Solver& s) {
   flag("continuous", s.continuous, none.continuous);
   flag("warm_starting", s.warm_starting, none.warm_starting);
   if (s.skin > 0) lines += fmt::format("skin = {}\n", s.skin);
-  if (s.weld_joints) lines += "welds = \"joint\"\n";
-  if (s.joints != none.joints) {
-    const char* const names[] = {"auto", "exact", "iterative"};
-    lines += fmt::format("joints = \"{}\"\n", names[static_cast<int>(s.joints)]);
-  }
+  if (s.joints != none.joints) lines += fmt::format("joints = \"{}\"\n", JointsWord(s.joints));
   number("joint_substeps", s.joint_substeps, none.joint_substeps);
+  if (s.weld_joints) lines += "welds = \"joint\"\n";
   return lines;
 }
 
@@ -125,35 +130,24 @@ Scene WithSolver(const Scene& scene, const Solver& solver) {
 
 double PredictedCpu(const Scene& scene, const Solver& solver, double seconds) {
   double bodies = 0;
-  for (const Part& part : scene.parts) bodies += part.anchored ? 0 : 1;
+  for (const Part& part : scene.parts) bodies += part.anchored || part.gone ? 0 : 1;
   const double step_us = 1 + 2 * bodies + 0.3 * static_cast<double>(scene.joints.size());
   return seconds * solver.tick_hz * solver.substeps * StepShare(solver) * step_us * 1e-6;
 }
 
-std::vector<Solver> GridSettings(GridSize size, const Solver& own, bool jointed) {
+std::vector<Solver> GridSettings(GridSize size, const Solver& own) {
   std::vector<Levers> levers = size == GridSize::kFull ? AllLevers() : kReportLevers;
   if (size == GridSize::kQuick) levers.resize(kQuickLevers);
   std::vector<Solver> settings;
-  for (const int substeps : kExactSubsteps) {
-    if (!jointed) break;
-    Solver s;
-    s.continuous = own.continuous;
-    s.sleep = own.sleep;
-    s.weld_joints = own.weld_joints;
-    s.joints = JointSolving::kExact;
-    s.joint_substeps = substeps;
-    settings.push_back(s);
-  }
   for (const Levers& l : levers) {
     Solver s = own;
-    s.joints = JointSolving::kIterative;
-    s.joint_substeps = Solver().joint_substeps;
     s.tick_hz = l.tick_hz;
     s.substeps = l.substeps;
     s.velocity_iterations = l.velocity;
     s.position_iterations = l.position;
     s.skin = l.skin;
     s.warm_starting = l.warm;
+    s.joints = JointSolving::kIterative;
     settings.push_back(s);
   }
   return settings;

@@ -20,6 +20,9 @@ bool SameSolver(const Solver& a, const Solver& b);
 /// everybody has it.
 std::string SolverWords(const Solver& solver);
 
+/// "auto", "exact" or "iterative", as in scenes.
+const char* JointsWord(JointSolving joints);
+
 /// `[solver]` with the lines that differ from what a scene has without them.
 std::string SolverLines(const Solver& solver);
 
@@ -31,8 +34,7 @@ Scene WithSolver(const Scene& scene, const Solver& solver);
 double PredictedCpu(const Scene& scene, const Solver& solver, double seconds);
 
 /// What to try besides the stock and the scene's own setting, most telling first, none twice. What
-/// is not varied (continuous collision, sleep, welds) is as in `own`. `jointed`: with exact joints,
-/// too.
-std::vector<Solver> GridSettings(GridSize size, const Solver& own, bool jointed);
+/// is not varied (continuous collision, sleep, welds) is as in `own`; joints are iterative.
+std::vector<Solver> GridSettings(GridSize size, const Solver& own);
 
 }  // namespace seam

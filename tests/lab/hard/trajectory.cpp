@@ -16,6 +16,7 @@ int CommonHz(int tick_hz) { return std::gcd(tick_hz, 30); }
 Trajectory::Trajectory(const Scene& scene) {
   const Composition composition = Compose(scene);
   for (const Part& part : scene.parts) {
+    if (part.gone) continue;
     const int index = composition.assembly_of_part[static_cast<std::size_t>(part.id)];
     const Assembly& assembly = composition.assemblies[static_cast<std::size_t>(index)];
     if (assembly.anchored) continue;

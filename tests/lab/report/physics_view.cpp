@@ -27,8 +27,6 @@ std::string Setting(const CsvTable& t, std::size_t row) {
     text += ", skin " + skin + " m";
   }
   if (!IsOn(t.Text(row, "warm_starting"))) text += ", cold";
-  const std::string& joints = t.Text(row, "joints");
-  if (joints != "iterative") text += ", joints " + joints;
   if (!IsOn(t.Text(row, "continuous"))) text += ", not continuous";
   const bool stock = t.Text(row, "role") == "stock";  // that always has them so
   if (!stock && t.Text(row, "welds") == "joint") text += ", welds jointed";
@@ -41,6 +39,19 @@ PhysicsRun RunOf(const CsvTable& t, std::size_t row) {
   run.setting = Setting(t, row);
   run.tick_hz = t.Number(row, "tick_hz").value_or(60);
   run.warm = IsOn(t.Text(row, "warm_starting"));
+  run.role = t.Text(row, "role");
+  if (t.Has("joints")) {
+    run.joints = t.Text(row, "joints");
+    run.joint_substeps = static_cast<int>(t.Number(row, "joint_substeps").value_or(1));
+  }
+  if (run.joints != "iterative") {
+    run.setting += fmt::format(", joints {} × {}", run.joints, run.joint_substeps);
+  }
+  const auto measured = [&](const char* column) {
+    return t.Has(column) ? t.Number(row, column).value_or(kInfinity) : 0;
+  };
+  run.penetration_m = measured("penetration_m");
+  run.joint_drift_m = measured("joint_drift_m");
   run.failure = t.Text(row, "failure");
   run.error = t.Number(row, "error").value_or(kInfinity);
   if (std::isnan(run.error)) run.error = kInfinity;
@@ -53,7 +64,7 @@ PhysicsRun RunOf(const CsvTable& t, std::size_t row) {
 
 std::vector<PhysicsCase> ViewPhysics(const CsvTable& table) {
   table.Require({"case", "truth", "unit", "role", "tick_hz", "substeps", "velocity_iterations",
-                 "position_iterations", "warm_starting", "skin", "continuous", "welds", "joints", "error",
+                 "position_iterations", "warm_starting", "skin", "continuous", "welds", "error",
                  "failure", "cost_ratio"});
   std::vector<PhysicsCase> cases;
   for (std::size_t row = 0; row < table.rows(); ++row) {

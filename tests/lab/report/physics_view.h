@@ -15,7 +15,11 @@ struct PhysicsRun {
   std::string setting;  ///< "120 Hz, 4/1 × 2, skin 0.0025 m"
   double tick_hz = 60;
   bool warm = true;
-  double error = 0;       ///< in the case's unit; infinite: diverged
+  std::string role;                  ///< stock | scene | grid | iterative | exact
+  std::string joints = "iterative";  ///< auto | exact | iterative
+  int joint_substeps = 1;
+  double error = 0;  ///< in the case's unit; infinite: diverged
+  double penetration_m = 0, joint_drift_m = 0;
   double cost_ratio = 1;  ///< of CPU time to stock's beside it; NaN: it crashed
   std::string failure;    ///< what happened that must not; "": nothing
   bool held() const { return failure.empty(); }

@@ -9,6 +9,7 @@
 #include "tests/lab/report/fairness_section.h"
 #include "tests/lab/report/files.h"
 #include "tests/lab/report/hurry_section.h"
+#include "tests/lab/report/joints/exact_joints.h"
 #include "tests/lab/report/physics_section.h"
 #include "tests/lab/report/sweep_section.h"
 
@@ -85,6 +86,16 @@ Section CostSection(const std::vector<Sweep>& sweeps, const fs::path& data) {
   return section;
 }
 
+/// Of the hard cases' table, with the overhead's where it is there.
+Section JointsSection(const fs::path& data, const std::string& folder) {
+  const fs::path physics = data / "physics.csv", overhead = data / "overhead.csv";
+  std::optional<CsvTable> beside;
+  if (fs::exists(overhead)) beside = CsvTable::Load(overhead.string());
+  return ExactJointsSection(
+      CsvTable::Load(physics.string()), beside ? &*beside : nullptr,
+      fmt::format("seam-lab physics -o {} && seam-lab report {}", physics.string(), folder));
+}
+
 void AddSweeps(const std::vector<Sweep>& sweeps, std::vector<Section>* sections) {
   if (sweeps.empty()) return;
   Section network;
@@ -143,6 +154,8 @@ std::vector<Section> BuildReport(const ReportInput& input) {
     sections.push_back(PhysicsSection(
         CsvTable::Load(physics.string()),
         fmt::format("seam-lab physics -o {} && seam-lab report {}", physics.string(), input.data)));
+    sections.push_back(JointsSection(data, input.data));
+    if (sections.back().items.empty()) sections.pop_back();
   }
   const fs::path fairness = data / "fairness.csv";
   if (fs::exists(fairness)) {

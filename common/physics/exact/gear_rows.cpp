@@ -1,0 +1,91 @@
+#include "common/physics/exact/gear_rows.h"
+
+#include <algorithm>
+
+namespace seam {
+namespace {
+
+GearSides::Side ReadSide(b2Joint* joint) {
+  GearSides::Side side;
+  if (joint->GetType() == e_prismaticJoint) {
+    const auto& slide = *static_cast<b2PrismaticJoint*>(joint);
+    side.slides = true;
+    side.base = slide.GetLocalAnchorA();
+    side.arm = slide.GetLocalAnchorB();
+    side.axis = slide.GetLocalAxisA();
+  } else {
+    const auto& hinge = *static_cast<b2RevoluteJoint*>(joint);
+    side.reference = static_cast<double>(hinge.GetReferenceAngle());
+  }
+  return side;
+}
+
+/// Adds to the end that the body has, or begins one.
+void Add(int place, const ExactBody& body, double jx, double jy, double jw, Row* row) {
+  if (!body.moves()) {
+    row->fixed_speed += jx * body.vx + jy * body.vy + jw * body.w;
+    return;
+  }
+  for (int e = 0; e < row->ends; ++e) {
+    RowEnd& end = row->end[e];
+    if (end.body != place) continue;
+    end.j[0] += jx;
+    end.j[1] += jy;
+    end.j[2] += jw;
+    return;
+  }
+  row->End(place, jx, jy, jw);
+}
+
+b2Vec2 FromCentre(const ExactBody& q, const b2Vec2& local) {
+  const b2Vec2 arm = local - q.body->GetLocalCenter();
+  const auto x = static_cast<double>(arm.x), y = static_cast<double>(arm.y);
+  return b2Vec2(static_cast<float>(q.c * x - q.s * y), static_cast<float>(q.s * x + q.c * y));
+}
+
+/// Adds one joint's share of the row; returns its coordinate.
+double AddSide(const GearSides::Side& side, int base, int moved,
+               const std::vector<ExactBody>& bodies, double ratio, Row* row) {
+  const ExactBody& c = bodies[static_cast<std::size_t>(base)];
+  const ExactBody& a = bodies[static_cast<std::size_t>(moved)];
+  if (!side.slides) {
+    Add(moved, a, 0, 0, ratio, row);
+    Add(base, c, 0, 0, -ratio, row);
+    return a.a - c.a - side.reference;
+  }
+  const auto lx = static_cast<double>(side.axis.x), ly = static_cast<double>(side.axis.y);
+  const double ux = c.c * lx - c.s * ly, uy = c.s * lx + c.c * ly;
+  const b2Vec2 from = FromCentre(c, side.base), to = FromCentre(a, side.arm);
+  const auto tx = static_cast<double>(to.x), ty = static_cast<double>(to.y);
+  const double wx = a.x + tx - c.x, wy = a.y + ty - c.y;
+  Add(moved, a, ratio * ux, ratio * uy, ratio * (tx * uy - ty * ux), row);
+  Add(base, c, -ratio * ux, -ratio * uy, -ratio * (wx * uy - wy * ux), row);
+  return ux * (wx - static_cast<double>(from.x)) + uy * (wy - static_cast<double>(from.y));
+}
+
+}  // namespace
+
+GearSides ReadGear(b2GearJoint* gear) {
+  GearSides sides;
+  sides.first = ReadSide(gear->GetJoint1());
+  sides.second = ReadSide(gear->GetJoint2());
+  sides.ratio = static_cast<double>(gear->GetRatio());
+  return sides;
+}
+
+void FillGear(const ExactJoint& joint, const JointEnds& ends, const std::vector<ExactBody>& bodies,
+              double h, Row* row) {
+  row->kind = RowKind::kHard;
+  row->ends = 0;
+  row->fixed_speed = 0;
+  row->tense_a = row->tense_b = -1;
+  row->gamma = 0;
+  const GearSides& gear = joint.gear;
+  row->error = AddSide(gear.first, ends.base_a, ends.a, bodies, 1, row);
+  row->error += gear.ratio * AddSide(gear.second, ends.base_b, ends.b, bodies, gear.ratio, row);
+  row->lo = -kUnbounded;
+  row->hi = kUnbounded;
+  row->target = std::clamp(-row->error / h, -kShutMost, kShutMost);
+}
+
+}  // namespace seam

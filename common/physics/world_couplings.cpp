@@ -1,0 +1,71 @@
+#include "common/physics/world_couplings.h"
+
+#include "common/base/check.h"
+#include "common/physics/reveal.h"
+#include "common/physics/world_build.h"
+
+namespace seam {
+namespace {
+
+SEAM_REVEAL(GearConstant, float, b2GearJoint, m_constant);
+
+/// The direction in which a gear pushes at the second body of its joint: none at a hinge's.
+b2Vec2 PushOf(b2Joint* geared) {
+  if (geared->GetType() != e_prismaticJoint) return b2Vec2_zero;
+  const auto& slide = *static_cast<b2PrismaticJoint*>(geared);
+  return geared->GetBodyA()->GetWorldVector(slide.GetLocalAxisA());
+}
+
+JointForces ForcesOfGear(b2GearJoint* gear, float hz) {
+  const b2Vec2 first = PushOf(gear->GetJoint1()), second = PushOf(gear->GetJoint2());
+  const bool slides = gear->GetJoint1()->GetType() == e_prismaticJoint;
+  const b2Vec2 on_a = gear->GetReactionForce(hz);
+  const float along = slides ? b2Dot(on_a, first) : gear->GetReactionTorque(hz);
+  return {on_a, gear->GetRatio() * along * second};
+}
+
+JointForces ForcesOfPulley(b2PulleyJoint* pulley, float hz) {
+  b2Vec2 up_a = pulley->GetGroundAnchorA() - pulley->GetAnchorA();
+  b2Vec2 up_b = pulley->GetGroundAnchorB() - pulley->GetAnchorB();
+  up_a.Normalize();
+  up_b.Normalize();
+  const float pull = -b2Dot(pulley->GetReactionForce(hz), up_b);
+  return {pull * up_a, pulley->GetRatio() * pull * up_b};
+}
+
+}  // namespace
+
+b2Joint* MakeGear(const Joint& gear, b2Joint* first, b2Joint* second, b2World* world) {
+  b2GearJointDef def;
+  def.bodyA = first->GetBodyB();
+  def.bodyB = second->GetBodyB();
+  def.joint1 = first;
+  def.joint2 = second;
+  def.ratio = gear.ratio;
+  def.collideConnected = gear.collide;
+  auto* made = static_cast<b2GearJoint*>(world->CreateJoint(&def));
+  // The engine keeps what it finds; where bonds have moved parts, that is not how they started.
+  made->*Member(GearConstant()) = 0;
+  return made;
+}
+
+b2Joint* MakePulley(const Joint& pulley, b2Body* a, b2Body* b, b2World* world) {
+  b2PulleyJointDef def;
+  def.Initialize(a, b, ToB2(pulley.ground_a), ToB2(pulley.ground_b), ToB2(pulley.anchor_a),
+                 ToB2(pulley.anchor_b), pulley.ratio);
+  def.lengthA = pulley.length;  // the engine uses only their sum, weighted by the ratio
+  def.lengthB = 0;
+  def.collideConnected = pulley.collide;
+  return world->CreateJoint(&def);
+}
+
+JointForces ForcesOf(b2Joint* joint, float hz) {
+  if (joint->GetType() == e_gearJoint) return ForcesOfGear(static_cast<b2GearJoint*>(joint), hz);
+  if (joint->GetType() == e_pulleyJoint) {
+    return ForcesOfPulley(static_cast<b2PulleyJoint*>(joint), hz);
+  }
+  const b2Vec2 on_b = joint->GetReactionForce(hz);
+  return {-on_b, on_b};
+}
+
+}  // namespace seam
