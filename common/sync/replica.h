@@ -152,7 +152,13 @@ class Replica {
   void FindEdits();
   /// Whether another edit of its mechanism is awaited: what is found meanwhile is found in a world
   /// in which that has not happened.
-  bool IsHeldBack(const Edit& edit);
+  bool IsHeldBack(const Edit& edit, std::int64_t found);
+  /// Of what was found: where inputs are stamped that waits until its tick is input-complete.
+  /// Before that it is an assumption, and an edit cannot be taken back.
+  void ProposeFound();
+  bool IsComplete(const Edit& edit, std::int64_t found) const;
+  /// Whether it was.
+  bool Propose(Edit edit, std::int64_t found);
   void Remap(const BodyRemap& change);
   /// Of joints that the edit takes away: a later bond may take their places, and break at once.
   void ForgetProposals(const Edit& edit);
@@ -173,10 +179,11 @@ class Replica {
   SendScheduler scheduler_;
   ProposalQueue proposals_;
   ImpactReporter impact_reporter_;
-  std::vector<int> pressed_now_;     // by player
-  std::vector<int> pressed_missed_;  // by player: heard of too late to go back to
-  std::vector<QueuedEdit> queued_;   // ordered, not yet applied; ticks ascend
-  std::vector<Awaited> awaited_;     // where this peer goes back
+  std::vector<int> pressed_now_;                     // by player
+  std::vector<int> pressed_missed_;                  // by player: heard of too late to go back to
+  std::vector<QueuedEdit> queued_;                   // ordered, not yet applied; ticks ascend
+  std::map<std::int64_t, std::vector<Edit>> found_;  // not yet proposed, by tick
+  std::vector<Awaited> awaited_;                     // where this peer goes back
   std::map<std::int64_t, std::vector<Edit>> appointed_;  // mode oracle: from outside, by tick
   std::vector<ExactStates> released_;                    // of what ApplyGrants took, not yet told
 };
