@@ -170,7 +170,7 @@ TEST(Trajectory, ComparesPartsWhetherWeldsAreJointsOrOneBody) {
       "[[part]]\nname = \"b\"\nbox = [1, 0.5]\nposition = [1, 100]\n"
       "[[joint]]\nname = \"w\"\nkind = \"weld\"\na = \"a\"\nb = \"b\"\nanchor = [0.5, 100]\n";
   const Scene rigid = SceneOf(parts);
-  Scene jointed = SceneOf(parts, "welds = \"joint\"");
+  Scene jointed = SceneOf(parts, "welds = \"joint\"\njoints = \"iterative\"");
   const Trajectory path = PathOf(rigid, 1);
   ASSERT_EQ(path.parts(), 2u);
   EXPECT_NEAR((path.At(15)[1] - path.At(15)[0]).norm(), 1, 1e-5) << "they turn as one";
