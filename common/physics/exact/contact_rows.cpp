@@ -5,7 +5,7 @@
 namespace seam {
 namespace {
 
-/// Overlap is undone by this share of it per substep, at most so fast: the engine's own, m/s.
+/// Overlap is undone by this share of it per step, at most so fast: the engine's own, m/s.
 constexpr double kPushOut = 0.2;
 constexpr double kPushOutMost = 2;
 /// m/s: blows below have no restitution where nothing weighs.
@@ -100,10 +100,10 @@ void FillContact(const ExactContact& contact, const std::vector<ExactBody>& bodi
     normal.lo = 0;
     normal.hi = kUnbounded;
     const double slop = static_cast<double>(b2_linearSlop);
-    normal.target =
-        normal.error > 0
-            ? -normal.error / pace.h
-            : std::min(kPushOutMost, kPushOut / pace.h * std::max(0.0, -normal.error - slop));
+    normal.target = normal.error > 0
+                        ? -normal.error / pace.h
+                        : std::min(kPushOutMost, kPushOut / (pace.h * pace.substeps) *
+                                                     std::max(0.0, -normal.error - slop));
     Bind(contact, a, b, r, contact.ny, -contact.nx, &friction);
     friction.kind = RowKind::kFriction;
     friction.friction = contact.friction;

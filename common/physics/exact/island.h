@@ -70,6 +70,8 @@ class ExactIsland {
   void BringTogether(const Pace& pace);
   // Of a substep, in their order.
   void Substep(const Pace& pace);
+  void Course(const Pace& pace, bool touches);
+  bool PushesOut() const;
   void Kick(double h);
   bool FindImpacts();
   void Impact();
@@ -108,7 +110,8 @@ class ExactIsland {
   void Save(std::vector<double>* velocities) const;
   void Restore(const std::vector<double>& velocities);
 
-  std::vector<Row> rows_;
+  std::vector<Row> rows_, rows_before_;
+  std::vector<ExactBody> bodies_before_;
   std::vector<RowEnd> ends_;
   std::vector<int> contact_row_;  // by contact: the first of its rows
   std::vector<int> place_;        // by row: its index in the matrix
