@@ -156,6 +156,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"common/sync/reach", "common/sync"},
       {"common/sync/edits", "none"},
       {"common/measure/screen", "common/measure"},
+      {"common/physics/exact", "common/physics"},
       {"common/sync/show", "common/sync"},
       {"common/stages/(bonds|bricks|character|water)", "common/stages"},
       {"server/authority", "none"},

@@ -37,10 +37,16 @@ void Add(int place, const ExactBody& body, double jx, double jy, double jw, Row*
   row->End(place, jx, jy, jw);
 }
 
-b2Vec2 FromCentre(const ExactBody& q, const b2Vec2& local) {
+/// From the centre of mass to a point of the body, in the world, m: in double precision, or a rack
+/// could be shut no better than single precision tells.
+struct Arm {
+  double x, y;
+};
+
+Arm FromCentre(const ExactBody& q, const b2Vec2& local) {
   const b2Vec2 arm = local - q.body->GetLocalCenter();
   const auto x = static_cast<double>(arm.x), y = static_cast<double>(arm.y);
-  return b2Vec2(static_cast<float>(q.c * x - q.s * y), static_cast<float>(q.s * x + q.c * y));
+  return {q.c * x - q.s * y, q.s * x + q.c * y};
 }
 
 /// Adds one joint's share of the row; returns its coordinate.
@@ -55,12 +61,11 @@ double AddSide(const GearSides::Side& side, int base, int moved,
   }
   const auto lx = static_cast<double>(side.axis.x), ly = static_cast<double>(side.axis.y);
   const double ux = c.c * lx - c.s * ly, uy = c.s * lx + c.c * ly;
-  const b2Vec2 from = FromCentre(c, side.base), to = FromCentre(a, side.arm);
-  const auto tx = static_cast<double>(to.x), ty = static_cast<double>(to.y);
-  const double wx = a.x + tx - c.x, wy = a.y + ty - c.y;
-  Add(moved, a, ratio * ux, ratio * uy, ratio * (tx * uy - ty * ux), row);
+  const Arm from = FromCentre(c, side.base), to = FromCentre(a, side.arm);
+  const double wx = a.x + to.x - c.x, wy = a.y + to.y - c.y;
+  Add(moved, a, ratio * ux, ratio * uy, ratio * (to.x * uy - to.y * ux), row);
   Add(base, c, -ratio * ux, -ratio * uy, -ratio * (wx * uy - wy * ux), row);
-  return ux * (wx - static_cast<double>(from.x)) + uy * (wy - static_cast<double>(from.y));
+  return ux * (wx - from.x) + uy * (wy - from.y);
 }
 
 }  // namespace

@@ -71,7 +71,7 @@ class ExactIsland {
   void BringTogether(const Pace& pace);
   // Of a substep, in their order.
   void Substep(const Pace& pace);
-  void Course(const Pace& pace, bool touches);
+  void Course(const Pace& pace, bool whole);
   bool PushesOut() const;
   void Kick(double h);
   bool FindImpacts();

@@ -74,10 +74,13 @@ void ExactIsland::Substep(const Pace& pace) {
     Fill(pace);
     FindImpacts();  // what comes at a contact by another's blow hits in the next substep
   }
-  const bool touches = !contacts.empty();
-  Kick(touches ? pace.h : pace.h / 2);
-  if (!touches || !PushesOut()) {
-    Course(pace, touches);
+  // What contacts or springs carry would have half a kick left: only projections take that back.
+  const bool whole = !contacts.empty() || std::any_of(rows_.begin(), rows_.end(), [](const Row& r) {
+    return r.kind == RowKind::kSoft;
+  });
+  Kick(whole ? pace.h : pace.h / 2);
+  if (!PushesOut()) {
+    Course(pace, whole);
     return;
   }
   // Where a mechanism is jammed, contacts that push out of an overlap make energy that the solve at
@@ -87,7 +90,7 @@ void ExactIsland::Substep(const Pace& pace) {
   for (const ExactBody& q : bodies) mass += q.moves() ? 1 / q.im : 0;
   const double most = (1 + kGainShare) * KineticOf(bodies) + kGainPerMass * mass;
   rows_before_ = rows_;
-  Course(pace, touches);
+  Course(pace, whole);
   if (KineticOf(bodies) <= most) return;
   bodies = bodies_before_;
   rows_ = rows_before_;
@@ -95,7 +98,7 @@ void ExactIsland::Substep(const Pace& pace) {
   for (Row& row : rows_) {
     if (row.kind == RowKind::kNormal) row.target = std::min(0.0, row.target);
   }
-  Course(pace, touches);
+  Course(pace, whole);
 }
 
 bool ExactIsland::PushesOut() const {
@@ -104,12 +107,12 @@ bool ExactIsland::PushesOut() const {
   });
 }
 
-/// The substep from its kick to its end.
-void ExactIsland::Course(const Pace& pace, bool touches) {
+/// The substep from its kick, which was whole or half of one, to its end.
+void ExactIsland::Course(const Pace& pace, bool whole) {
   SolveAhead(pace);
   Move(pace.h);
   ShutJoints(pace);
-  if (!touches) Kick(pace.h / 2);
+  if (!whole) Kick(pace.h / 2);
   SolveAtEnd(pace);
   for (ExactBody& q : bodies) q.lasting = std::max(q.stiffness, kLasts * q.lasting);
 }

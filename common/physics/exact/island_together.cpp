@@ -11,7 +11,7 @@ namespace {
 /// Joints that are farther apart than this, m or rad, are moved together before a step, and limits
 /// that are overstepped by more; by at most so much for each try.
 constexpr double kApart = 1e-5, kOverstepped = 5e-3, kTogetherMost = 0.2;
-constexpr int kTogetherTries = 4;
+constexpr int kTogetherTries = 8;
 /// What falls for so many steps has a blow; what falls less lies.
 constexpr double kRestSteps = 4;
 

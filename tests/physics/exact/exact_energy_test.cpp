@@ -1,0 +1,131 @@
+/// What exact joints keep: energy, momentum, and being shut.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/geometry.h"
+#include "common/measure/energy.h"
+#include "tests/physics/exact/exact_scenes.h"
+
+namespace seam {
+namespace {
+
+double EnergyOf(const World& world) {
+  return MechanicalEnergy(world.scene(), world.composition(), StatesOf(world));
+}
+
+/// Of a bob on a hinged rod of 2 m, let go at the height of the hinge.
+std::string Pendulum() {
+  return PostText(0, 0) + PartText("bob", "box = [2, 0.1]\nposition = [1, 0]") +
+         HingeText("pivot", "post", "bob", 0, 0);
+}
+
+TEST(ExactEnergy, APendulumKeepsItForAMinute) {
+  const auto world = ExactWorld(Pendulum());
+  // From hanging at rest up to where it began: 0.2 kg by 1 m.
+  const double range = 0.2 * 10 * 1;
+  const double begin = EnergyOf(*world);
+  Steps(world.get(), 3600);
+  EXPECT_GE(1 + (EnergyOf(*world) - begin) / range, 0.995);
+  EXPECT_LE(1 + (EnergyOf(*world) - begin) / range, 1.005);
+  EXPECT_LT(Drift(*world), 1e-5);
+}
+
+TEST(ExactEnergy, ADoublePendulumSwingsTheSameToBothSides) {
+  // A scene and its mirror image: the same equations.
+  const auto swing = [](double side) {
+    return ExactWorld(
+        PostText(0, 0) +
+        PartText("upper", "box = [1, 0.1]\nposition = [" + Digits(0.5 * side) + ", 0]") +
+        PartText("lower", "box = [1, 0.1]\nposition = [" + Digits(1.5 * side) + ", 0]") +
+        HingeText("top", "post", "upper", 0, 0) + HingeText("elbow", "upper", "lower", side, 0));
+  };
+  const auto left = swing(-1), right = swing(1);
+  Steps(left.get(), 60);
+  Steps(right.get(), 60);
+  for (int body = 0; body < 2; ++body) {
+    const BodyState l = left->Read(body), r = right->Read(body);
+    EXPECT_NEAR(l.position.x(), -r.position.x(), 1e-4);
+    EXPECT_NEAR(l.position.y(), r.position.y(), 1e-4);
+    EXPECT_NEAR(l.angle, -r.angle, 1e-4);
+  }
+}
+
+struct Kept {
+  double energy = 0, spin = 0, px = 0, py = 0;
+};
+
+Kept KeptOf(const World& world) {
+  Kept sum;
+  for (int body = 0; body < world.body_count(); ++body) {
+    const BodyState s = world.Read(body);
+    const MassPoint m = world.mass_point(body);
+    const double mass = double{m.mass}, inertia = double{m.inertia};
+    const double vx = double{s.velocity.x()}, vy = double{s.velocity.y()}, w = double{s.spin};
+    const double x = double{s.position.x()}, y = double{s.position.y()};
+    sum.energy += (mass * (vx * vx + vy * vy) + inertia * w * w) / 2;
+    sum.spin += mass * (x * vy - y * vx) + inertia * w;
+    sum.px += mass * vx;
+    sum.py += mass * vy;
+  }
+  return sum;
+}
+
+/// Five links in a row that turn about their middle at `spin` rad/s as one.
+std::unique_ptr<World> SpinningChain(double spin) {
+  auto world = ExactWorld(ChainText(5, -2.5, 0), "", "gravity = [0, 0]\n");
+  for (int body = 0; body < 5; ++body) {
+    BodyState state = world->Read(body);
+    state.spin = static_cast<float>(spin);
+    state.velocity = {0, static_cast<float>(spin) * state.position.x()};
+    world->Write(body, state);
+  }
+  return world;
+}
+
+TEST(ExactEnergy, AFreeSpinningChainKeepsEnergyAndMomentaInWeightlessness) {
+  for (const double spin : {0.5, 3.0}) {
+    const auto world = SpinningChain(spin);
+    const Kept begin = KeptOf(*world);
+    ASSERT_GT(begin.spin, 1);
+    for (int second = 1; second <= 10; ++second) {
+      Steps(world.get(), 60);
+      const Kept now = KeptOf(*world);
+      EXPECT_NEAR(now.energy / begin.energy, 1, 1e-4) << spin << " rad/s, second " << second;
+      EXPECT_NEAR(now.spin / begin.spin, 1, 1e-4) << spin << " rad/s, second " << second;
+      EXPECT_NEAR(now.px, 0, 1e-4);
+      EXPECT_NEAR(now.py, 0, 1e-4);
+    }
+    EXPECT_LT(Drift(*world), 1e-5);
+  }
+}
+
+TEST(ExactEnergy, AFoldingChainKeepsMomentaAndGainsNoEnergy) {
+  auto world = SpinningChain(3);
+  BodyState end = world->Read(4);
+  end.spin = -3;  // it folds at once
+  world->Write(4, end);
+  world->Step();  // what is not in agreement with the joints is gone by now
+  const Kept begin = KeptOf(*world);
+  for (int second = 1; second <= 10; ++second) {
+    Steps(world.get(), 60);
+    const Kept now = KeptOf(*world);
+    EXPECT_LE(now.energy / begin.energy, 1.01) << second;
+    EXPECT_NEAR(now.spin / begin.spin, 1, 1e-3) << second;
+  }
+  EXPECT_LT(Drift(*world), 1e-5);
+}
+
+TEST(ExactEnergy, AFullTurnOfAFlywheelIsAFullTurn) {
+  // 10 rad/s about a hinge in its centre of mass, for 10 s.
+  const auto world = ExactWorld(PostText(0, 0) + PartText("wheel", "circle = 1\nspin = 10") +
+                                HingeText("axle", "post", "wheel", 0, 0));
+  Steps(world.get(), 600);
+  EXPECT_NEAR(world->Read(0).angle, 100, 1e-3);
+  EXPECT_NEAR(world->Read(0).spin, 10, 1e-4);
+}
+
+}  // namespace
+}  // namespace seam
