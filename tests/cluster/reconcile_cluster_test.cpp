@@ -18,7 +18,10 @@ namespace {
 ClusterConfig With(const std::string& scene, const std::string& reconcile) {
   std::ifstream file("scenes/" + scene + ".toml");
   std::stringstream text;
-  text << "follow = 0\n" << file.rdbuf() << "\n[solver]\njoints = \"iterative\"\n";
+  text << "follow = 0\n" << file.rdbuf();
+  if (text.str().find("[solver]") == std::string::npos) {
+    text << "\n[solver]\njoints = \"iterative\"\n";
+  }
   ClusterConfig config;
   config.scene = scene;
   config.scene_text = text.str();
