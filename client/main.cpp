@@ -158,12 +158,15 @@ int Play(const Flags& f) {
   sink.Flush();
   recording.Look(sink.trouble(), line);
   const Stats& s = client.stats();
+  const Replica* const replica = client.replica();
   std::fprintf(stderr,
                "seam-client: %s; %lld datagrams in, %lld out, %lld bad, %lld stale bodies; "
-               "%lld bus failures\n",
+               "%lld stepped again, %lld replays deferred; %lld bus failures\n",
                client.closed() ? "the server closed the room" : "left",
                static_cast<long long>(s.datagrams_in), static_cast<long long>(s.datagrams_out),
                static_cast<long long>(s.dropped_malformed), static_cast<long long>(s.dropped_stale),
+               static_cast<long long>(replica == nullptr ? 0 : replica->ticks_stepped_again()),
+               static_cast<long long>(replica == nullptr ? 0 : replica->replays_deferred()),
                static_cast<long long>(sink.failures()));
   return recording.End(sink.trouble());
 }

@@ -97,6 +97,23 @@ BodyState AuthoritySource::Read(int body) const {
   return Mine(body) || newest == nullptr ? replica_.world().Read(body) : newest->state;
 }
 
+std::vector<std::int64_t> AuthoritySource::Ticks() const {
+  std::vector<std::int64_t> ticks = trail_.NewTicks();
+  const std::int64_t now = replica_.world().tick();
+  if (ticks.empty() || ticks.back() < now) ticks.push_back(now);
+  return ticks;
+}
+
+BodyState AuthoritySource::ReadAt(int body, std::int64_t tick) const {
+  const std::optional<BodyState> known = trail_.At(body, tick);
+  return known ? *known : Read(body);
+}
+
+std::int64_t AuthoritySource::TickOf(int body, std::int64_t tick) const {
+  const std::int64_t known = trail_.TickOf(body, tick);
+  return known >= 0 ? known : replica_.world().tick();
+}
+
 std::vector<Blow> AuthoritySource::TakeBlows() {
   std::vector<Blow> taken;
   taken.swap(blows_);

@@ -31,6 +31,10 @@ class AuthoritySource : public RuleSource {
   void Remap(const std::vector<BodyOrigin>& bodies);
 
   BodyState Read(int body) const override;
+  std::vector<std::int64_t> Ticks() const override;
+  BodyState ReadAt(int body, std::int64_t tick) const override;
+  std::int64_t TickOf(int body, std::int64_t tick) const override;
+  void NoteLooked() override { trail_.NoteLooked(); }
   std::vector<Blow> TakeBlows() override;
 
  private:

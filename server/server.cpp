@@ -198,6 +198,7 @@ void Server::StepOnce(std::int64_t now_us) {
     const int pressed = replica_.TakePressed(p);
     for (const Edit& edit : SeatEdits(replica_.world(), p, pressed)) edits_.Add(edit);
   }
+  for (const Edit& edit : seat_bonds_.Next(replica_.world())) edits_.Add(edit);
   UpdateAuthority(now_us);
   for (States& states : replica_.TakeStates()) {
     states.utime = now_us;

@@ -14,6 +14,7 @@
 #include "server/authority/authority_manager.h"
 #include "server/broadcast.h"
 #include "server/edits/edit_log.h"
+#include "server/rules/seats.h"
 #include "server/server_stats.h"
 #include "server/sessions/session_table.h"
 #include "server/state_filter.h"
@@ -111,6 +112,7 @@ class Server {
   SessionTable sessions_;
   AuthorityManager authority_;
   EditLog edits_;
+  SeatBonds seat_bonds_;
   StateFilter filter_;
   Broadcast broadcast_;
   std::unique_ptr<ServerCommands> commands_;

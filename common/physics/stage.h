@@ -16,13 +16,16 @@
 
 namespace seam {
 
+enum class Motion;  // world.h
+
 /// What a stage works on. The references stay valid for the stage's life; what they refer to
 /// changes (bodies are made anew by Barrier, Restore and changes of topology).
 struct StageWorld {
   const Scene& scene;
   const Composition& composition;
   const BuiltScene& built;
-  const std::int64_t& tick;  ///< ticks stepped so far
+  const std::int64_t& tick;            ///< ticks stepped so far
+  const std::vector<Motion>& motions;  ///< by moving body
 };
 
 /// Deterministic: a function of the scene, the calls and what Save keeps. In each tick:

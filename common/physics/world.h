@@ -124,6 +124,9 @@ class World {
   /// concerned are made anew: momentum, angular momentum and contacts carry over.
   /// nullopt: all bodies and joints are what they were.
   std::optional<BodyRemap> Apply(const std::vector<Edit>& edits);
+  /// Does again, after Restore, an edit for which Apply has returned nullopt since the snapshot:
+  /// what it does to motions and seats. It does not count as another edit.
+  void Repeat(const Edit& edit);
   /// What the last tick gives reason to change; see Stage::ProposeEdits. Nothing has changed yet.
   std::vector<Edit> ProposeEdits() const;
 
@@ -161,6 +164,7 @@ class World {
   double Energy() const;
 
  private:
+  void Do(const Edit& edit);
   void Push(const PushEdit& edit);
   void Follow(int player, const Input& input);
   struct Impl;

@@ -1,6 +1,8 @@
 #include "common/physics/world_couplings.h"
 
 #include "common/base/check.h"
+#include "common/physics/joint_impulses.h"
+#include "common/physics/joint_impulses.h"
 #include "common/physics/reveal.h"
 #include "common/physics/world_build.h"
 
@@ -16,12 +18,12 @@ b2Vec2 PushOf(b2Joint* geared) {
   return geared->GetBodyA()->GetWorldVector(slide.GetLocalAxisA());
 }
 
+// The engine's own GetReactionForce has directions of its last step, and none where it did not
+// solve the joint.
+
 JointForces ForcesOfGear(b2GearJoint* gear, float hz) {
-  const b2Vec2 first = PushOf(gear->GetJoint1()), second = PushOf(gear->GetJoint2());
-  const bool slides = gear->GetJoint1()->GetType() == e_prismaticJoint;
-  const b2Vec2 on_a = gear->GetReactionForce(hz);
-  const float along = slides ? b2Dot(on_a, first) : gear->GetReactionTorque(hz);
-  return {on_a, gear->GetRatio() * along * second};
+  const float along = hz * *ImpulsesOf(gear).at[0];
+  return {along * PushOf(gear->GetJoint1()), gear->GetRatio() * along * PushOf(gear->GetJoint2())};
 }
 
 JointForces ForcesOfPulley(b2PulleyJoint* pulley, float hz) {
@@ -29,8 +31,37 @@ JointForces ForcesOfPulley(b2PulleyJoint* pulley, float hz) {
   b2Vec2 up_b = pulley->GetGroundAnchorB() - pulley->GetAnchorB();
   up_a.Normalize();
   up_b.Normalize();
-  const float pull = -b2Dot(pulley->GetReactionForce(hz), up_b);
+  const float pull = hz * *ImpulsesOf(pulley).at[0];
   return {pull * up_a, pulley->GetRatio() * pull * up_b};
+}
+
+/// N: what the impulses, N s, along and across a direction of A make of it.
+b2Vec2 Along(float hz, float along, float across, const b2Vec2& axis) {
+  return hz * (along * axis + across * b2Cross(1.0f, axis));
+}
+
+/// On body B. Not the engine's reaction, which uses directions that only its own solver keeps.
+b2Vec2 ForceOnB(b2Joint* joint, float hz) {
+  const JointImpulses impulses = ImpulsesOf(joint);
+  const auto& p = impulses.at;
+  switch (joint->GetType()) {
+    case e_distanceJoint: {
+      b2Vec2 way = joint->GetAnchorB() - joint->GetAnchorA();
+      way.Normalize();
+      return Along(hz, *p[0] + *p[1] - *p[2], 0, way);
+    }
+    case e_prismaticJoint: {
+      const auto& slide = *static_cast<b2PrismaticJoint*>(joint);
+      const b2Vec2 axis = joint->GetBodyA()->GetWorldVector(slide.GetLocalAxisA());
+      return Along(hz, *p[2] + *p[3] - *p[4], *p[0], axis);
+    }
+    case e_wheelJoint: {
+      const auto& wheel = *static_cast<b2WheelJoint*>(joint);
+      const b2Vec2 axis = joint->GetBodyA()->GetWorldVector(wheel.GetLocalAxisA());
+      return Along(hz, *p[2] + *p[3] - *p[4], *p[0], axis);
+    }
+    default: return joint->GetReactionForce(hz);
+  }
 }
 
 }  // namespace
@@ -64,7 +95,7 @@ JointForces ForcesOf(b2Joint* joint, float hz) {
   if (joint->GetType() == e_pulleyJoint) {
     return ForcesOfPulley(static_cast<b2PulleyJoint*>(joint), hz);
   }
-  const b2Vec2 on_b = joint->GetReactionForce(hz);
+  const b2Vec2 on_b = ForceOnB(joint, hz);
   return {-on_b, on_b};
 }
 

@@ -35,13 +35,14 @@ struct World::Impl {
     for (const MovingBody& m : built.moving) lightest = std::min(lightest, m.mass.mass);
     meter.Set(scene.solver.substeps, lightest);
     if (scene.solver.joints == JointSolving::kIterative) return;
-    exact.emplace(scene.solver, &*world, built);
+    exact.emplace(scene, &*world, built);
     if (!exact->needed()) exact.reset();
   }
 
   /// Makes the stages anew if the scene needs more of them than there are.
   void FindStages() {
-    std::vector<std::unique_ptr<Stage>> needed = MakeStages({scene, composition, built, tick});
+    std::vector<std::unique_ptr<Stage>> needed =
+        MakeStages({scene, composition, built, tick, motions});
     if (needed.size() <= stages.size()) return;
     stages = std::move(needed);
     std::vector<Stage*> listening;

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "common/base/geometry.h"
+#include "common/physics/carried_along.h"
 #include "common/physics/world_impl.h"
 #include "common/scene/mass.h"
 
@@ -158,6 +159,24 @@ BodyState StateOf(const Before& before, const Scene& scene, const Assembly& now,
   return state;
 }
 
+/// Moves what bonds carry along. Velocities stay: so does momentum. Returns by how much.
+std::vector<BodyState> Carry(const Before& before, const Scene& scene, const Composition& now,
+                             WorldSnapshot* snapshot) {
+  std::vector<BodyState> states;
+  for (const WorldSnapshot::Body& body : snapshot->bodies) states.push_back(body.state);
+  std::vector<BodyState> jumps =
+      CarriedAlong({before.composition, before.parts, before.states}, {now, scene.parts, states});
+  for (std::size_t i = 0; i < jumps.size(); ++i) {
+    if (jumps[i].position == Vec2(0, 0) && jumps[i].angle == 0) continue;
+    WorldSnapshot::Body& body = snapshot->bodies[i];
+    body.state.position += jumps[i].position;
+    body.state.angle += jumps[i].angle;
+    body.awake = true;
+    body.quiet_s = 0;
+  }
+  return jumps;
+}
+
 std::vector<std::vector<int>> MechanismsFrom(const Before& before, const Composition& now) {
   std::vector<std::vector<int>> all;
   for (const Mechanism& m : now.mechanisms) {
@@ -214,10 +233,12 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
   }
   const WorldSnapshot kept = w.Keep();
   const std::vector<Status> results = w.topology.Apply(edits);
-  bool changed = w.composition.hash != hash || w.scene.joints.size() != joints_before;
-  for (std::size_t i = 0; i < edits.size(); ++i) {  // in the place of one that is gone
-    changed = changed || (edits[i].As<BondEdit>() != nullptr && results[i].ok());
+  bool bonded = false;
+  for (std::size_t i = 0; i < edits.size(); ++i) {
+    bonded = bonded || (edits[i].As<BondEdit>() != nullptr && results[i].ok());
   }
+  bool changed = w.composition.hash != hash || w.scene.joints.size() != joints_before;
+  changed = changed || bonded;  // in the place of one that is gone
   for (std::size_t j = 0; j < joints_before; ++j) {
     changed = changed || (held[j] && w.scene.joints[j].gone);
   }
@@ -246,6 +267,7 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
       out->bodies.push_back(origin);
     }
     out->mechanisms = MechanismsFrom(before, w.composition);
+    if (bonded) out->jumps = Carry(before, w.scene, w.composition, &snapshot);
     snapshot.points = kept.points;
     snapshot.joints = kept.joints;
     snapshot.speeds = kept.speeds;
@@ -255,16 +277,25 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
     w.Rebuild(snapshot, motions);
     w.impacts.clear();
   }
-  for (const Edit& edit : edits) {
-    const PushEdit* push = edit.As<PushEdit>();
-    if (push != nullptr && w.topology.Validate(edit).ok()) Push(*push);
-    const SeatEdit* seat = edit.As<SeatEdit>();
-    if (seat != nullptr && seat->player < 0 && w.topology.Validate(edit).ok()) {
-      Follow(static_cast<int>(w.scene.players.size()) + seat->seat, Input{});  // nobody drives on
-    }
-    for (const auto& stage : w.stages) stage->Edited(edit);
-  }
+  for (const Edit& edit : edits) Do(edit);
   return out;
+}
+
+void World::Repeat(const Edit& edit) {
+  const SeatEdit* seat = edit.As<SeatEdit>();
+  if (seat != nullptr) impl_->topology.Sit(*seat);
+  Do(edit);
+}
+
+void World::Do(const Edit& edit) {
+  Impl& w = *impl_;
+  const PushEdit* push = edit.As<PushEdit>();
+  if (push != nullptr && w.topology.Validate(edit).ok()) Push(*push);
+  const SeatEdit* seat = edit.As<SeatEdit>();
+  if (seat != nullptr && seat->player < 0 && w.topology.Validate(edit).ok()) {
+    Follow(static_cast<int>(w.scene.players.size()) + seat->seat, Input{});  // nobody drives on
+  }
+  for (const auto& stage : w.stages) stage->Edited(edit);
 }
 
 void World::Push(const PushEdit& edit) {

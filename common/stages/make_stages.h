@@ -53,4 +53,20 @@ std::unique_ptr<Stage> MakeFeatherStage(const StageWorld& world);
 bool HasActiveCharacter(const Scene& scene);
 std::unique_ptr<Stage> MakeCharacterStage(const StageWorld& world);
 
+/// Leads whoever takes a seat to it, rigidly with all limbs, from the SeatEdit on. After SeatTicks
+/// ticks the player's part is in its place there; it is held until a bond joins the two.
+std::unique_ptr<Stage> MakeSeatStage(const StageWorld& world);
+
+/// How long the way to a seat takes, s: shorter looks like a jump, and longer like flying. And how
+/// long after the SeatEdit it begins: less than the edit is under way to a peer, and the view of
+/// that peer has to catch up.
+constexpr double kSeatSeconds = 0.15, kSeatWaitSeconds = 0.13;
+/// In ticks, until it begins and until it is over.
+constexpr int SeatWaitTicks(int tick_hz) {
+  return static_cast<int>(kSeatWaitSeconds * tick_hz + 0.5);
+}
+constexpr int SeatTicks(int tick_hz) {
+  return SeatWaitTicks(tick_hz) + static_cast<int>(kSeatSeconds * tick_hz + 0.5);
+}
+
 }  // namespace seam

@@ -56,6 +56,10 @@ void Display::Remap(const BodyRemap& change) {
   smoother_.Remap(from);
   joints_.Rebuild();
   corrected_ticks_.assign(world_.composition().mechanisms.size(), 0);
+  if (config_.mode == Mode::kOracle) return;  // the oracle hides nothing
+  for (std::size_t body = 0; body < change.jumps.size(); ++body) {
+    smoother_.Moved(static_cast<int>(body), change.jumps[body]);
+  }
 }
 
 void Display::Glide(const Roles& roles) {

@@ -61,6 +61,7 @@ void Replica::Step() {
   rest_.AfterStep();
   impact_reporter_.Note();
   FindEdits();
+  ProposeFound();
   QueueAppointed();
   scheduler_.Collect();
   memory_.Record();

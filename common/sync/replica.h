@@ -98,6 +98,9 @@ class Replica {
   bool SameBody(int body, int edits) const { return memory_.track(body).changed_at <= edits; }
   /// Edits applied so far.
   int revision() const { return world_.topology().revision(); }
+  /// Ticks that were stepped again, and replays that waited since the budget was used up.
+  std::int64_t ticks_stepped_again() const { return replay_.ticks_stepped_again(); }
+  std::int64_t replays_deferred() const { return replay_.deferred(); }
 
   const InputTrack& inputs(int player) const { return inputs_[static_cast<std::size_t>(player)]; }
   /// What a player does in a tick still to come, or did in one that is known late.
@@ -149,7 +152,13 @@ class Replica {
   void FindEdits();
   /// Whether another edit of its mechanism is awaited: what is found meanwhile is found in a world
   /// in which that has not happened.
-  bool IsHeldBack(const Edit& edit);
+  bool IsHeldBack(const Edit& edit, std::int64_t found);
+  /// Of what was found: where inputs are stamped that waits until its tick is input-complete.
+  /// Before that it is an assumption, and an edit cannot be taken back.
+  void ProposeFound();
+  bool IsComplete(const Edit& edit, std::int64_t found) const;
+  /// Whether it was.
+  bool Propose(Edit edit, std::int64_t found);
   void Remap(const BodyRemap& change);
   /// Of joints that the edit takes away: a later bond may take their places, and break at once.
   void ForgetProposals(const Edit& edit);
@@ -170,10 +179,11 @@ class Replica {
   SendScheduler scheduler_;
   ProposalQueue proposals_;
   ImpactReporter impact_reporter_;
-  std::vector<int> pressed_now_;     // by player
-  std::vector<int> pressed_missed_;  // by player: heard of too late to go back to
-  std::vector<QueuedEdit> queued_;   // ordered, not yet applied; ticks ascend
-  std::vector<Awaited> awaited_;     // where this peer goes back
+  std::vector<int> pressed_now_;                     // by player
+  std::vector<int> pressed_missed_;                  // by player: heard of too late to go back to
+  std::vector<QueuedEdit> queued_;                   // ordered, not yet applied; ticks ascend
+  std::map<std::int64_t, std::vector<Edit>> found_;  // not yet proposed, by tick
+  std::vector<Awaited> awaited_;                     // where this peer goes back
   std::map<std::int64_t, std::vector<Edit>> appointed_;  // mode oracle: from outside, by tick
   std::vector<ExactStates> released_;                    // of what ApplyGrants took, not yet told
 };

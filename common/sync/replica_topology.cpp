@@ -52,23 +52,61 @@ std::optional<BodyRemap> Replica::ApplyNextEdit() {
   } else {
     corrector_.FollowRoles();  // who sits in a seat decides what is predicted
   }
-  replay_.Edited(change.has_value());
+  replay_.Edited(next.edit, change.has_value());
   if (!has_queued()) replay_.GoOn();
   return change;
 }
 
 void Replica::FindEdits() {
+  const std::int64_t now = tick();
+  found_.erase(now);  // what was found when this tick was stepped before
   for (Edit& edit : world_.ProposeEdits()) {
     if (config_.mode == Mode::kOracle) {
-      queued_.push_back({std::move(edit), tick()});
-    } else if (roles_.Proposes(edit) && !IsHeldBack(edit)) {
-      Awaited awaited{KeyOf(edit), world_.topology().PartsOf(edit), tick()};
-      if (proposals_.Add(std::move(edit), tick())) awaited_.push_back(std::move(awaited));
+      queued_.push_back({std::move(edit), now});
+    } else if (roles_.Proposes(edit)) {
+      found_[now].push_back(std::move(edit));
     }
   }
 }
 
-bool Replica::IsHeldBack(const Edit& edit) {
+void Replica::ProposeFound() {
+  if (found_.empty()) return;
+  const bool waits = config_.StampsInputs(roles_.self()) && config_.rolls_back;
+  if (waits) reach_.Look();
+  // In the order of their ticks: an edit cannot be ordered for a tick before the last one's.
+  while (!found_.empty()) {
+    const auto first = found_.begin();
+    const std::int64_t found = first->first;
+    const bool due = !waits || found < tick() - config_.tick_hz / 2;
+    if (!due && !std::all_of(first->second.begin(), first->second.end(),
+                             [&](const Edit& e) { return IsComplete(e, found); })) {
+      return;
+    }
+    bool proposed = false;
+    for (Edit& edit : first->second) proposed = Propose(std::move(edit), found) || proposed;
+    found_.erase(first);
+    if (proposed && waits) found_.clear();  // the rest is found again in a world that has it
+  }
+}
+
+bool Replica::IsComplete(const Edit& edit, std::int64_t found) const {
+  if (replay_.settled() < found) return false;
+  for (const PartId part : world_.topology().PartsOf(edit)) {
+    const int m = MechanismOf(world_, part);
+    if (m >= 0 && reach_.CompleteTick(m) < found) return false;
+  }
+  return true;
+}
+
+bool Replica::Propose(Edit edit, std::int64_t found) {
+  if (!world_.topology().Validate(edit).ok() || IsHeldBack(edit, found)) return false;
+  Awaited awaited{KeyOf(edit), world_.topology().PartsOf(edit), found};
+  if (!proposals_.Add(std::move(edit), found)) return false;
+  awaited_.push_back(std::move(awaited));
+  return true;
+}
+
+bool Replica::IsHeldBack(const Edit& edit, std::int64_t found) {
   if (!config_.GoesBack(roles_.self())) return false;
   const std::int64_t old = replay_.now() - config_.tick_hz / 2;
   awaited_.erase(std::remove_if(awaited_.begin(), awaited_.end(),
@@ -80,7 +118,7 @@ bool Replica::IsHeldBack(const Edit& edit) {
   }
   mechanisms.erase(-1);
   return std::any_of(awaited_.begin(), awaited_.end(), [&](const Awaited& a) {
-    if (a.tick == tick()) return false;
+    if (a.tick == found) return false;
     return std::any_of(a.parts.begin(), a.parts.end(), [&](PartId part) {
       return mechanisms.count(MechanismOf(world_, part)) > 0;
     });
@@ -93,6 +131,12 @@ void Replica::ForgetProposals(const Edit& edit) {
   awaited_.erase(std::remove_if(awaited_.begin(), awaited_.end(),
                                 [&](const Awaited& a) { return a.key == key; }),
                  awaited_.end());
+  for (auto& [found, edits] : found_) {
+    if (found > tick()) break;
+    edits.erase(
+        std::remove_if(edits.begin(), edits.end(), [&](const Edit& e) { return KeyOf(e) == key; }),
+        edits.end());
+  }
   const RemoveEdit* removed = edit.As<RemoveEdit>();
   const std::vector<Joint>& joints = world_.scene().joints;
   for (std::size_t j = 0; removed != nullptr && j < joints.size(); ++j) {

@@ -21,6 +21,8 @@ struct BodyOrigin {
 
 struct BodyRemap {
   std::vector<BodyOrigin> bodies;  ///< by body, as they are now
+  /// By body: how a bond moved it that moved another body of its mechanism; empty: it moved none.
+  std::vector<BodyState> jumps;
   /// By mechanism, as they are now: those before that parts of it were in, ascending, but first
   /// that of the mechanism's first body; empty when all is new or was anchored.
   std::vector<std::vector<int>> mechanisms;

@@ -179,12 +179,15 @@ Status Topology::ApplyOne(const Edit& edit) {
                    scene_.parts[static_cast<std::size_t>(free.part)].anchored = false;
                    stale_ = true;
                  },
-                 [&](const SeatEdit& seat) {
-                   scene_.seats[static_cast<std::size_t>(seat.seat)].player = seat.player;
-                 },
+                 [&](const SeatEdit& seat) { Sit(seat); },
                  [&](const BlastEdit& blast) { FreeBricks(blast); }},
       edit.what);
   return status;
+}
+
+void Topology::Sit(const SeatEdit& seat) {
+  if (!Validate(Edit(seat)).ok()) return;
+  scene_.seats[static_cast<std::size_t>(seat.seat)].player = seat.player;
 }
 
 void Topology::FreeBricks(const BlastEdit& blast) {

@@ -33,6 +33,9 @@ class Topology {
   /// counts but does nothing: the same on every peer. Returns what became of each.
   std::vector<Status> Apply(const std::vector<Edit>& edits);
 
+  /// Who sits where, and nothing else: no edit is counted. Ignored: it is not possible.
+  void Sit(const SeatEdit& seat);
+
   /// Whether the edit could be applied now. Does not look at distances.
   Status Validate(const Edit& edit) const;
 

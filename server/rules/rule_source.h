@@ -1,6 +1,7 @@
 #pragma once
 /// What the rules go by: where bodies are, and what struck them.
 
+#include <cstdint>
 #include <vector>
 
 #include "common/physics/world.h"
@@ -20,6 +21,14 @@ class RuleSource {
   virtual ~RuleSource() = default;
   /// Where a body is.
   virtual BodyState Read(int body) const = 0;
+  /// Ticks that became known of any body since the last tick of the rules, ascending, up to now.
+  virtual std::vector<std::int64_t> Ticks() const = 0;
+  /// Where a body was at one of them, or as near to it as is known and not looked at yet.
+  virtual BodyState ReadAt(int body, std::int64_t tick) const = 0;
+  /// The tick at which it was there: never falls from one call to the next of a later tick.
+  virtual std::int64_t TickOf(int body, std::int64_t tick) const = 0;
+  /// The rules have looked at all of them.
+  virtual void NoteLooked() = 0;
   /// What struck bodies since the last call, each blow once.
   virtual std::vector<Blow> TakeBlows() = 0;
 };
@@ -33,6 +42,10 @@ class WorldSource : public RuleSource {
   /// `world` must outlive it.
   explicit WorldSource(const World& world) : world_(world) {}
   BodyState Read(int body) const override { return world_.Read(body); }
+  std::vector<std::int64_t> Ticks() const override { return {world_.tick()}; }
+  BodyState ReadAt(int body, std::int64_t) const override { return Read(body); }
+  std::int64_t TickOf(int, std::int64_t tick) const override { return tick; }
+  void NoteLooked() override {}
   std::vector<Blow> TakeBlows() override { return BlowsOf(world_); }
 
  private:

@@ -8,6 +8,13 @@
 #include "server/script/script.h"
 
 namespace seam {
+namespace {
+
+/// What a hazard does is put off this long for news of who is inside, ticks: 0.5 s. Less hurts who
+/// has already left; more, and who sleeps inside feels it late.
+constexpr std::int64_t kSilentMost = 30;
+
+}  // namespace
 
 bool Rules::Needed(const Scene& scene) {
   return !scene.triggers.empty() || !scene.scripts.empty() ||
@@ -76,19 +83,25 @@ std::string Rules::PlayerName(int player) const {
 
 void Rules::RunTriggers() {
   if (scene().triggers.empty()) return;
-  const auto place_of = [this](PartId part) -> std::optional<Vec2> {
+  for (const std::int64_t tick : source_.Ticks()) RunTriggersAt(tick);
+  source_.NoteLooked();
+}
+
+void Rules::RunTriggersAt(std::int64_t tick) {
+  const auto place_of = [this, tick](PartId part) -> std::optional<Vec2> {
     BodyState state;
-    const auto read = [this](int body) { return source_.Read(body); };
+    const auto read = [this, tick](int body) { return source_.ReadAt(body, tick); };
     if (!ReadPart(world_, part, read, &state)) return std::nullopt;
     return state.position;
   };
   const auto player_of = [this](PartId part) {
     return PlayerOf(world_, MechanismOf(world_, part));
   };
-  happened_ = triggers_.Update(place_of, player_of);
-  for (const TriggerEvent& event : happened_) {
+  for (const TriggerEvent& event : triggers_.Update(place_of, player_of)) {
     if (event.entered) OnEntered(event);
+    happened_.push_back(event);
   }
+  NoteHazards(tick);
 }
 
 void Rules::OnEntered(const TriggerEvent& event) {
@@ -145,10 +158,36 @@ void Rules::OnPickup(const TriggerEvent& event) {
   Say(PlayerName(event.player) + " takes " + trigger.name);
 }
 
-void Rules::RunHazards() {
+void Rules::NoteHazards(std::int64_t tick) {
   for (const auto& [index, part] : triggers_.inside()) {
-    const Trigger& trigger = scene().triggers[static_cast<std::size_t>(index)];
-    if (trigger.kind == TriggerKind::kHazard) Hurt(part, trigger.health * world_.dt(), -1);
+    if (scene().triggers[static_cast<std::size_t>(index)].kind != TriggerKind::kHazard) continue;
+    std::int64_t at = tick;
+    const auto read = [&](int body) {
+      at = source_.TickOf(body, tick);
+      return source_.ReadAt(body, tick);
+    };
+    BodyState unused;
+    ReadPart(world_, part, read, &unused);
+    Stay& stay = stays_.emplace(std::make_pair(index, part), Stay{at, at - 1, 0, 0}).first->second;
+    if (at > stay.last) stay.silent = 0;
+    stay.last = std::max(stay.last, at);
+  }
+}
+
+/// What is inside is hurt by the time of who tells where it is: once for each tick in there,
+/// however the network bunches them. When long nothing is heard of it, by the server's time.
+void Rules::RunHazards() {
+  for (auto it = stays_.begin(); it != stays_.end();) {
+    auto& [index_part, stay] = *it;
+    const Trigger& trigger = scene().triggers[static_cast<std::size_t>(index_part.first)];
+    const bool is_inside = triggers_.inside().count(index_part) != 0;
+    const bool is_silent = is_inside && stay.silent++ > kSilentMost;
+    const std::int64_t known = stay.last - stay.first + 1 + (is_silent ? stay.silent : 0);
+    const std::int64_t ticks = std::max<std::int64_t>(0, known - stay.hurt);
+    stay.hurt += ticks;
+    const float amount = static_cast<float>(ticks) * trigger.health * world_.dt();
+    if (ticks > 0) Hurt(index_part.second, amount, -1);
+    it = is_inside ? std::next(it) : stays_.erase(it);
   }
 }
 

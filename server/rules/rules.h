@@ -74,9 +74,11 @@ class Rules {
   // rules.cpp
   void NoteNewParts();
   void RunTriggers();
+  void RunTriggersAt(std::int64_t tick);
   void OnEntered(const TriggerEvent& event);
   void OnCheckpoint(const TriggerEvent& event);
   void OnPickup(const TriggerEvent& event);
+  void NoteHazards(std::int64_t tick);
   void RunHazards();
   // rules_damage.cpp
   void RunDamage();
@@ -105,6 +107,12 @@ class Rules {
   std::map<PartId, int> struck_by_;  // player, in this tick
   std::set<PartId> dead_;
   std::vector<TriggerEvent> happened_;  // in triggers, in this tick
+  struct Stay {
+    std::int64_t first = 0, last = 0;  // ticks at which it was known to be inside
+    std::int64_t hurt = 0;             // for how many ticks it was
+    std::int64_t silent = 0;           // ticks since more became known
+  };
+  std::map<std::pair<int, PartId>, Stay> stays_;  // in hazards; by trigger, part
   std::vector<PlayerEvent> player_events_;
   std::unique_ptr<ScriptRoom> room_;  // what scripts see of all this
   std::vector<std::unique_ptr<Script>> scripts_;

@@ -4,6 +4,7 @@
 
 #include "common/base/geometry.h"
 #include "common/physics/part_places.h"
+#include "common/stages/make_stages.h"
 
 namespace seam {
 namespace {
@@ -32,7 +33,6 @@ bool GetIn(const World& world, int player, int index, std::vector<Edit>* edits) 
   const BodyState vehicle = PartPose(world, seat.part);
   const Vec2 place = vehicle.position + Turned(seat.at, vehicle.angle);
   if ((PartPose(world, own).position - place).norm() > seat.reach) return false;
-  edits->emplace_back(BondEdit{seat.part, own, seat.at, seat.angle}, EditCause::kOutside);
   edits->push_back(sit);
   return true;
 }
@@ -68,6 +68,22 @@ std::vector<Edit> SeatEdits(const World& world, int player, int pressed) {
     const Seat& seat = scene.seats[s];
     if (seat.player >= 0 || ((pressed >> seat.button) & 1) == 0) continue;
     if (GetIn(world, player, static_cast<int>(s), &edits)) break;
+  }
+  return edits;
+}
+
+std::vector<Edit> SeatBonds::Next(const World& world) {
+  const Scene& scene = world.scene();
+  std::vector<Edit> edits;
+  waited_.resize(scene.seats.size(), 0);
+  for (std::size_t s = 0; s < scene.seats.size(); ++s) {
+    const Seat& seat = scene.seats[s];
+    const PartId own =
+        seat.player < 0 ? -1 : scene.players[static_cast<std::size_t>(seat.player)].vehicle;
+    waited_[s] = own < 0 ? 0 : waited_[s] + 1;
+    if (waited_[s] != SeatTicks(scene.solver.tick_hz)) continue;
+    const Edit bond(BondEdit{seat.part, own, seat.at, seat.angle}, EditCause::kOutside);
+    if (world.topology().Validate(bond).ok()) edits.push_back(bond);
   }
   return edits;
 }

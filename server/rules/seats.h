@@ -9,6 +9,16 @@
 
 namespace seam {
 
+/// Bonds whoever has taken a seat to it, once the way there is over (MakeSeatStage).
+class SeatBonds {
+ public:
+  /// Called once after each tick.
+  std::vector<Edit> Next(const World& world);
+
+ private:
+  std::vector<int> waited_;  // ticks, by seat
+};
+
 /// What a player's buttons that went down (a bit field) change about who sits where.
 std::vector<Edit> SeatEdits(const World& world, int player, int pressed);
 

@@ -1,18 +1,20 @@
 #include "server/rules/state_trail.h"
 
+#include <algorithm>
+#include <set>
 #include <utility>
 
 namespace seam {
 
 void StateTrail::Add(int body, std::int64_t tick, const BodyState& state) {
-  std::deque<Seen>& trail = trails_[static_cast<std::size_t>(body)];
+  Trail& trail = trails_[static_cast<std::size_t>(body)];
   if (!trail.empty() && tick <= trail.back().tick) return;
   trail.push_back({tick, state});
   if (trail.size() > kKept) trail.pop_front();
 }
 
 const StateTrail::Seen* StateTrail::Newest(int body) const {
-  const std::deque<Seen>& trail = trails_[static_cast<std::size_t>(body)];
+  const Trail& trail = trails_[static_cast<std::size_t>(body)];
   return trail.empty() ? nullptr : &trail.back();
 }
 
@@ -27,13 +29,67 @@ std::vector<StateTrail::Seen> StateTrail::Between(int body, std::int64_t from,
   return found;
 }
 
+std::int64_t StateTrail::FirstOf(const Trail& trail, std::size_t i) const {
+  if (i == 0) return trail[i].tick;
+  const Seen &before = trail[i - 1], &state = trail[i];
+  const std::int64_t ticks = state.tick - before.tick;
+  const float way = (state.state.position - before.state.position).norm();
+  const bool moved = ticks <= kWayMost && way <= kPutThere * static_cast<float>(ticks);
+  return moved ? before.tick + 1 : state.tick;
+}
+
+std::vector<std::int64_t> StateTrail::NewTicks() const {
+  std::set<std::int64_t> ticks;
+  for (std::size_t b = 0; b < trails_.size(); ++b) {
+    const Trail& trail = trails_[b];
+    for (std::size_t i = trail.size(); i-- > 0 && trail[i].tick > looked_[b];) {
+      const std::int64_t first = std::max(FirstOf(trail, i), looked_[b] + 1);
+      for (std::int64_t tick = first; tick <= trail[i].tick; ++tick) ticks.insert(tick);
+    }
+  }
+  return {ticks.begin(), ticks.end()};
+}
+
+std::optional<BodyState> StateTrail::At(int body, std::int64_t tick) const {
+  const auto b = static_cast<std::size_t>(body);
+  const Trail& trail = trails_[b];
+  const std::int64_t at = std::max(tick, looked_[b]);
+  std::size_t next = trail.size();  // the first state after `at`
+  while (next > 0 && trail[next - 1].tick > at) --next;
+  if (next == 0) return std::nullopt;
+  BodyState state = trail[next - 1].state;
+  if (next == trail.size() || FirstOf(trail, next) > at) return state;
+  const Seen &from = trail[next - 1], &to = trail[next];
+  const float share = static_cast<float>(at - from.tick) / static_cast<float>(to.tick - from.tick);
+  state.position += share * (to.state.position - from.state.position);
+  state.angle += share * (to.state.angle - from.state.angle);
+  return state;
+}
+
+std::int64_t StateTrail::TickOf(int body, std::int64_t tick) const {
+  const auto b = static_cast<std::size_t>(body);
+  const Trail& trail = trails_[b];
+  const std::int64_t at = std::max(tick, looked_[b]);
+  if (trail.empty() || trail.front().tick > at) return -1;
+  return std::min(at, trail.back().tick);
+}
+
+void StateTrail::NoteLooked() {
+  for (std::size_t b = 0; b < trails_.size(); ++b) {
+    if (!trails_[b].empty()) looked_[b] = trails_[b].back().tick;
+  }
+}
+
 void StateTrail::Remap(const std::vector<BodyOrigin>& bodies) {
-  std::vector<std::deque<Seen>> trails;
+  std::vector<Trail> trails;
+  std::vector<std::int64_t> looked;
   for (const BodyOrigin& origin : bodies) {
     trails.emplace_back();
+    looked.push_back(origin.same ? looked_[static_cast<std::size_t>(origin.body)] : -1);
     if (origin.same) trails.back() = std::move(trails_[static_cast<std::size_t>(origin.body)]);
   }
   trails_ = std::move(trails);
+  looked_ = std::move(looked);
 }
 
 }  // namespace seam

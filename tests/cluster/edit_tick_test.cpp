@@ -154,5 +154,137 @@ TEST(EditTick, OneOfATickStillToComeWaitsForItInEveryRule) {
   }
 }
 
+const char* const kDriven = R"(
+duration = 5
+[[player]]
+name = "ann"
+vehicle = "cart"
+[[part]]
+name = "floor"
+chain = [[-90, 0], [90, 0]]
+[[part]]
+name = "cart"
+box = [2, 0.5]
+position = [0, 0.26]
+[[part]]
+name = "crate"
+box = [0.5, 0.5]
+position = [3, 0.26]
+repeat = {count = 3, step = [0.7, 0]}
+[[thrust]]
+name = "jet"
+part = "cart"
+force = [30, 0]
+player = "ann"
+[[seat]]
+name = "bench"
+part = "crate.2"
+button = 3
+)";
+
+EditOrder OrderedAt(const AnyEdit& edit, std::int32_t number, std::int64_t tick) {
+  EditOrder order = ToOrder(Edit(edit, EditCause::kOutside));
+  order.number = number;
+  order.tick = tick;
+  return order;
+}
+
+TEST(EditTick, AReplayDoesAgainWhatEditsDidThatChangeNoBodies) {
+  const Scene scene = ParseScene(kDriven, "driven.toml");
+  const SyncConfig config = MakeSyncConfig("buffer", "rollback");
+  Replica early(scene, config, 0, -1), late(scene, config, 0, -1);
+  for (Replica* replica : {&early, &late}) {
+    for (int m = 0; m < replica->authority().count(); ++m) {
+      replica->authority().Set(m, AuthorityRecord());
+    }
+    replica->RolesChanged();
+  }
+  const auto drive = [](Replica* replica, std::int64_t from, std::int64_t to) {
+    for (std::int64_t t = from; t <= to; ++t) {
+      Input input;
+      input.drive = t <= 20 ? 127 : -127;
+      replica->NoteInput(0, t, input);
+    }
+  };
+  for (std::int64_t tick = 1; tick <= 90; ++tick) {
+    drive(&early, tick, tick);
+    if (tick <= 20) drive(&late, tick, tick);
+    if (tick == 60) drive(&late, 21, 60);
+    if (tick > 60) drive(&late, tick, tick);
+    for (Replica* replica : {&early, &late}) {
+      if (tick == 31) {
+        ASSERT_TRUE(replica->Queue(OrderedAt(PushEdit{2, {0, 3}, 0}, 0, 30)));
+      }
+      if (tick == 41) {
+        ASSERT_TRUE(replica->Queue(OrderedAt(SeatEdit{0, 0}, 1, 40)));
+      }
+      replica->Step();
+    }
+    if (tick == 59) {
+      EXPECT_NE(late.world().Hash(), early.world().Hash()) << "not known yet";
+    }
+  }
+  EXPECT_EQ(late.world().Hash(), early.world().Hash()) << "bit for bit";
+  EXPECT_EQ(late.revision(), 2) << "a repeated edit is not another one";
+  EXPECT_EQ(late.world().scene().seats[0].player, 0);
+}
+
+TEST(EditTick, WhatIsSaidOfATickByWhoLackedAnEditBeforeItIsNoNews) {
+  const Scene scene = ParseScene(kDriven, "driven.toml");
+  const SyncConfig config = MakeSyncConfig("buffer", "rollback");
+  Replica server(scene, config, 0, -1), client(scene, config, 1, 0);
+  for (Replica* replica : {&server, &client}) {
+    for (int m = 0; m < replica->authority().count(); ++m) {
+      AuthorityRecord record;
+      record.epoch = 1;
+      record.authority = 1;
+      record.secondaries.Add(0);
+      replica->authority().Set(m, record);
+    }
+    replica->RolesChanged();
+  }
+  int before = 0, stale = 0;
+  for (std::int64_t tick = 1; tick <= 60; ++tick) {
+    if (tick == 31) {
+      ASSERT_TRUE(server.Queue(OrderedAt(PushEdit{2, {0, 9}, 0}, 0, 30)));
+    }
+    server.Step();
+    Input input;
+    input.drive = 127;
+    client.NoteInput(0, tick, input);
+    client.Step();
+    for (const States& states : client.TakeStates()) {
+      const Received received = server.Receive(states);
+      (states.tick <= 30 ? before : stale) += states.tick <= 30 ? received.used : received.stale;
+      if (states.tick > 30) {
+        EXPECT_EQ(received.used, 0);
+      }
+    }
+  }
+  EXPECT_GT(before, 0);
+  EXPECT_GT(stale, 0);
+}
+
+TEST(EditTick, WhatHangsOnInputsIsOrderedWhenTheseAreKnownAndIsTheOracles) {
+  for (const std::int64_t seed : {8, 12}) {
+    ClusterConfig config;
+    config.scene = "gluehouse";
+    config.reconcile = "rollback";
+    config.impair = "4g";
+    config.seed = seed;
+    config.duration_s = 5.6;  // pieces break, meet and join
+    const Recording recording = RunCluster(config);
+    const Oracle oracle = ComputeOracle(recording, WithBarriers(recording.room));
+    ASSERT_GE(oracle.edits.size(), 50u);
+    std::size_t n = 0;
+    for (const auto& [number, order] : recording.edits) {
+      ASSERT_LT(n, oracle.edits.size()) << "seed " << seed;
+      ASSERT_EQ(KeyOf(ToEdit(order)), KeyOf(oracle.edits[n++]))
+          << "seed " << seed << ": edit " << number << " of tick " << order.tick;
+    }
+    EXPECT_GE(n + 2, oracle.edits.size()) << "the last may still be under way";
+  }
+}
+
 }  // namespace
 }  // namespace seam

@@ -1,5 +1,7 @@
 #include "tests/lab/cluster.h"
 
+#include <time.h>
+
 #include <algorithm>
 #include <utility>
 
@@ -14,6 +16,13 @@ constexpr std::int64_t kStepMaxUs = 5000;
 constexpr std::int64_t kStepMinUs = 200;
 /// Without a tick for so long, nobody plays.
 constexpr std::int64_t kStandstillUs = 30000000;
+
+/// CPU time of this thread, us.
+double CpuNowUs() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) * 1e6 + static_cast<double>(t.tv_nsec) * 1e-3;
+}
 
 }  // namespace
 
@@ -78,12 +87,26 @@ void Cluster::Instant() {
     next = std::min(next, peer.client->next_tick_us(local) - peer.clock_offset_us);
   }
   now_us_ = std::max(next, now_us_ + kStepMinUs);
+  const double begin_us = CpuNowUs();
   server_->Tick(now_us_, 0);
+  server_cpu_us_ += CpuNowUs() - begin_us;
   for (Peer& peer : clients_) {
     if (peer.client == nullptr || peer.paused) continue;
     peer.client->Tick(now_us_ + peer.clock_offset_us, 0);
   }
   if (each_instant) each_instant();
+}
+
+std::int64_t Cluster::ticks_stepped_again() { return Sum(&Replica::ticks_stepped_again); }
+std::int64_t Cluster::replays_deferred() { return Sum(&Replica::replays_deferred); }
+
+std::int64_t Cluster::Sum(std::int64_t (Replica::*count)() const) {
+  std::int64_t sum = server_->started() ? (server_->replica().*count)() : 0;
+  for (const Peer& peer : clients_) {
+    if (peer.client == nullptr || peer.client->replica() == nullptr) continue;
+    sum += (peer.client->replica()->*count)();
+  }
+  return sum;
 }
 
 void Cluster::RunToTick(std::int64_t tick) {

@@ -43,6 +43,12 @@ class Cluster {
   /// Runs to the configured end.
   void Run();
 
+  /// CPU time of the server so far, us, on this machine: of all that it does, network included.
+  double server_cpu_us() const { return server_cpu_us_; }
+  /// All peers': ticks that were stepped again, and replays that waited for their budget.
+  std::int64_t ticks_stepped_again();
+  std::int64_t replays_deferred();
+
   /// Called after every virtual instant.
   std::function<void()> each_instant;
 
@@ -90,6 +96,8 @@ class Cluster {
   };
   void StartClient(std::size_t i);
   void Instant();
+  /// Of the server's and all clients' replicas that there are.
+  std::int64_t Sum(std::int64_t (Replica::*count)() const);
 
   ClusterConfig config_;
   Scene scene_;
@@ -103,6 +111,7 @@ class Cluster {
   std::vector<Peer> clients_;
   std::int64_t now_us_ = 1000000;
   std::uint16_t next_port_ = 20000;
+  double server_cpu_us_ = 0;
 };
 
 /// Runs a cluster to its end and returns what it recorded.

@@ -87,6 +87,17 @@ TEST(Bars, StandBesideWhatWasBefore) {
   EXPECT_EQ(stutter.rows[0][4], "missed") << "the default's is 8";
 }
 
+/// A time is no bar: the machine, and what else runs on it, is in it. The ratio is printed.
+TEST(Bars, PrintTheDefaultsCpuAsARatioToRetrospects) {
+  std::string rows = TwoMethods("0.05", "0.05", "0.05");
+  rows += Row("buffer,retrospect", "demo,bot,on,1,0.1,0.1,8,0.1,0.02,0.001,6,0.12,", "crossing");
+  const std::vector<CaseTable> tables = TablesOf(rows);
+  const TextTable stutter = StutterTable(FindCases(tables), nullptr);
+  ASSERT_EQ(stutter.rows.size(), 1u);
+  EXPECT_EQ(stutter.header.back(), "CPU, default by retrospect");
+  EXPECT_EQ(stutter.rows[0].back(), "2.5");
+}
+
 TEST(Cases, RunsThatAreNotValidAreLeftOutAndCounted) {
   const std::string invalid =
       Row("buffer,rollback", "demo,bot,on,9,,,,,,,6,0.3,no contact", "crossing");

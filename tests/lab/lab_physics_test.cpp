@@ -170,7 +170,7 @@ TEST(Trajectory, ComparesPartsWhetherWeldsAreJointsOrOneBody) {
       "[[part]]\nname = \"b\"\nbox = [1, 0.5]\nposition = [1, 100]\n"
       "[[joint]]\nname = \"w\"\nkind = \"weld\"\na = \"a\"\nb = \"b\"\nanchor = [0.5, 100]\n";
   const Scene rigid = SceneOf(parts);
-  Scene jointed = SceneOf(parts, "welds = \"joint\"");
+  Scene jointed = SceneOf(parts, "welds = \"joint\"\njoints = \"iterative\"");
   const Trajectory path = PathOf(rigid, 1);
   ASSERT_EQ(path.parts(), 2u);
   EXPECT_NEAR((path.At(15)[1] - path.At(15)[0]).norm(), 1, 1e-5) << "they turn as one";
@@ -221,7 +221,7 @@ TEST(PhysicsRow, IsAFunctionOfThePointButForItsCpuColumns) {
   EXPECT_EQ(CsvFields(CrashedRow(point, "crashed: Aborted"))[16], "inf");
   const std::vector<std::string> key(fields.begin() + 1, fields.begin() + 16);
   EXPECT_EQ(key, (std::vector<std::string>{"made-up", "invariant", "m", "grid", "60", "2", "8", "3",
-                                           "off", "0.0025", "on", "body", "iterative", "1", "1"}));
+                                           "off", "0.0025", "on", "body", "auto", "2", "1"}));
   EXPECT_NEAR(std::stod(fields[16]), 2, 1e-3);
   EXPECT_EQ(fields[17], "left, \"far\"");
   EXPECT_EQ(WithoutCpu(PhysicsRow(point, nullptr)), WithoutCpu(row));

@@ -31,7 +31,6 @@ int RunOverhead(const OverheadCommand& command) {
   std::vector<std::string> keys;
   for (const std::string& path : command.scenes) {
     scenes.push_back(LoadScene(FindScene(path)));
-    scenes.back().solver.joints = JointSolving::kIterative;  // as the engine does
     keys.push_back(CsvField(path));
   }
   std::unique_ptr<SweepTable> table;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <vector>
@@ -50,8 +51,13 @@ struct Floors {
   std::optional<double> limit_m;  ///< of this recording's network
 };
 
+/// What it took, of all peers.
+struct Work {
+  std::int64_t stepped_again = 0, deferred = 0;
+};
+
 /// All columns of the measures, in order.
-std::vector<Column> Columns(const Measures& m, const Floors& floors) {
+std::vector<Column> Columns(const Measures& m, const Floors& floors, const Work& work) {
   const auto given = [](bool applies, double value) {
     return applies ? std::optional<double>(value) : std::nullopt;
   };
@@ -98,13 +104,16 @@ std::vector<Column> Columns(const Measures& m, const Floors& floors) {
           {"info_limit_m", floors.limit_m},
           {"bytes_per_s", given(m.bytes_per_s > 0, m.bytes_per_s)},
           {"sent_bytes_per_s", given(m.sent_bytes_per_s > 0, m.sent_bytes_per_s)},
+          {"ticks_stepped_again", static_cast<double>(work.stepped_again)},
+          {"replays_deferred", static_cast<double>(work.deferred)},
           {"compared", static_cast<double>(m.compared)}};
 }
 
 /// `valid` empty: with their figures.
-std::string Values(const Measures& measures, const Floors& floors, const std::string& valid) {
+std::string Values(const Measures& measures, const Floors& floors, const Work& work,
+                   const std::string& valid) {
   std::string line;
-  for (const Column& column : Columns(measures, floors)) {
+  for (const Column& column : Columns(measures, floors, work)) {
     line += column.value && valid.empty() ? Number(*column.value) : ",";
   }
   return line;
@@ -134,15 +143,17 @@ std::string Judged(const GridPoint& point, const SweepOptions& options, Cluster*
     floors.barrier_m = OracleDistance(recording, plain, *with_barriers);
   }
   if (options.limit && reason.empty()) floors.limit_m = InformationLimit(recording);
-  return Values(measures, floors, reason) + (barriers ? ",barrier," : ",plain,") + CsvField(reason);
+  const Work work{cluster->ticks_stepped_again(), cluster->replays_deferred()};
+  return Values(measures, floors, work, reason) + (barriers ? ",barrier," : ",plain,") +
+         CsvField(reason);
 }
 
 }  // namespace
 
 std::string SweepHeader() {
   std::string header = GridHeader() + "," + PointHeader();
-  for (const Column& column : Columns({}, {})) header += std::string(",") + column.name;
-  return header + ",oracle,valid,digest,cpu_s";
+  for (const Column& column : Columns({}, {}, {})) header += std::string(",") + column.name;
+  return header + ",oracle,valid,digest,cpu_s,server_cpu_s,server_us_per_body";
 }
 
 std::string SweepRow(const GridPoint& point, const SweepOptions& options) {
@@ -153,8 +164,12 @@ std::string SweepRow(const GridPoint& point, const SweepOptions& options) {
   Cluster cluster(config);
   cluster.Run();
   const double cpu_s = static_cast<double>(CpuUs() - begin_us) * 1e-6;
+  const int bodies = std::max(1, cluster.server().replica().world().body_count());
+  const std::int64_t ticks = std::max<std::int64_t>(1, cluster.server().tick());
   return point.key + PointValues(point) + Judged(point, options, &cluster) +
-         fmt::format(",{:016x},{:.4f}", digest.value(), cpu_s);
+         fmt::format(",{:016x},{:.4f},{:.4f},{:.4f}", digest.value(), cpu_s,
+                     cluster.server_cpu_us() * 1e-6,
+                     cluster.server_cpu_us() / (bodies * static_cast<double>(ticks)));
 }
 
 }  // namespace seam

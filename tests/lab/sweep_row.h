@@ -14,12 +14,12 @@ struct SweepOptions {
 };
 
 /// The grid's columns, the same in numbers, then the measures of docs/metrics.md, by which oracle,
-/// whether they are valid, digest and cpu_s.
+/// whether they are valid, digest and CPU times.
 std::string SweepHeader();
 
-/// Runs and measures; the line without its end. Everything but the last column, cpu_s, depends on
-/// the point alone. A row that is not valid has no figures. Throws OperatorError when nobody can
-/// join.
+/// Runs and measures; the line without its end. Everything but the last three columns, CPU times,
+/// depends on the point alone. A row that is not valid has no figures. Throws OperatorError when
+/// nobody can join.
 std::string SweepRow(const GridPoint& point, const SweepOptions& options);
 
 }  // namespace seam

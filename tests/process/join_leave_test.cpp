@@ -14,6 +14,8 @@ namespace seam {
 namespace {
 
 constexpr std::int64_t kHz = 60;
+/// The longest that anything is waited for, s: normally under 5; a busy machine takes its time.
+constexpr double kPatience = 60;
 
 /// A car that stands still until somebody drives it.
 constexpr const char* kParkedCar = R"(title = "A parked car"
@@ -95,15 +97,16 @@ TEST_F(JoinLeave, SigintAndSigtermEndServerAndClientsWithStatus0AndAreNoticed) {
   for (std::size_t i = 0; i < sessions.size(); ++i) {
     LiveSession& session = *sessions[i];
     SCOPED_TRACE(session.Story());
-    ASSERT_TRUE(session.WaitUntil([](const Recording& r) { return ShowsAfter(r, 2, 150); }, 30));
+    ASSERT_TRUE(
+        session.WaitUntil([](const Recording& r) { return ShowsAfter(r, 2, 150); }, kPatience));
     session.client("bob").Signal(kSignals[i].first);
-    EXPECT_TRUE(session.client("bob").Wait(10));
+    EXPECT_TRUE(session.client("bob").Wait(kPatience));
     EXPECT_EQ(session.client("bob").status(), 0);
     EXPECT_NE(session.client("bob").errors().find("seam-client: left; "), std::string::npos);
     EXPECT_TRUE(session.WaitUntil(
-        [](const Recording& r) { return Says(r, "bob (peer 2) is gone: left"); }, 10));
+        [](const Recording& r) { return Says(r, "bob (peer 2) is gone: left"); }, kPatience));
     session.server().Signal(kSignals[i].second);
-    EXPECT_TRUE(session.Finish(10));
+    EXPECT_TRUE(session.Finish(kPatience));
     EXPECT_EQ(session.server().status(), 0);
     EXPECT_EQ(session.client("ann").status(), 0);
     EXPECT_NE(session.client("ann").errors().find("seam-client: the server closed the room; "),
@@ -157,18 +160,18 @@ TEST_F(JoinLeave, AKilledClientsMechanismsAreTakenBackAndGivenToItsSuccessor) {
   plan.clients = {{"ann", flags}, {"bob", {"--quiet"}}};
   LiveSession session(folder_, 0, plan);
   ASSERT_TRUE(session.Begin()) << session.Story();
-  ASSERT_TRUE(session.WaitUntil([](const Recording& r) { return ShowsAfter(r, 1, 60); }, 30))
+  ASSERT_TRUE(session.WaitUntil([](const Recording& r) { return ShowsAfter(r, 1, 60); }, kPatience))
       << session.Story();
   session.client("ann").Signal(SIGKILL);
-  ASSERT_TRUE(session.client("ann").Wait(10));
+  ASSERT_TRUE(session.client("ann").Wait(kPatience));
   Program impostor(
       {BuiltProgram("seam-client"), session.address(), "--name", "bob", "--lcm-url", "none"});
   const std::string gone = "ann (peer 1) is gone: not heard for 4 s";
   ASSERT_TRUE(session.WaitUntil(
       [&](const Recording& r) { return Says(r, gone) && MechanismsOf(r, 1, r.last_tick).empty(); },
-      10))
+      kPatience))
       << session.Story();
-  EXPECT_TRUE(impostor.Wait(10));
+  EXPECT_TRUE(impostor.Wait(kPatience));
   EXPECT_EQ(impostor.status(), 2);
   EXPECT_EQ(impostor.errors(), "seam-client: the server refuses: the name bob is in use\n");
   Recording seen = session.Captured();
@@ -176,7 +179,7 @@ TEST_F(JoinLeave, AKilledClientsMechanismsAreTakenBackAndGivenToItsSuccessor) {
   const std::set<int> hers = MechanismsOf(seen, 1, killed);
   EXPECT_FALSE(hers.empty());
   const std::int64_t taken_back = TickOf(seen, gone);
-  EXPECT_LE(taken_back, killed + 4 * kHz);
+  EXPECT_LE(taken_back, killed + 8 * kHz) << "normally 4 s; a busy machine is late itself";
   EXPECT_GE(taken_back, killed + 2 * kHz) << "patience with a path that stalls";
   for (const auto& [mechanism, authority] : AuthorityAt(seen, taken_back)) {
     EXPECT_EQ(authority, hers.count(mechanism) != 0 ? 0 : authority) << mechanism;
@@ -187,11 +190,12 @@ TEST_F(JoinLeave, AKilledClientsMechanismsAreTakenBackAndGivenToItsSuccessor) {
   };
   session.Join("ann", flags);
   EXPECT_TRUE(session.WaitUntil(
-      [&](const Recording& r) { return has_them(r) && ShowsAfter(r, 1, taken_back + 30); }, 15))
+      [&](const Recording& r) { return has_them(r) && ShowsAfter(r, 1, taken_back + 30); },
+      kPatience))
       << session.Story();
   // And when she comes back before she is missed, while the dead one still has the place.
   session.client("ann").Signal(SIGKILL);
-  ASSERT_TRUE(session.client("ann").Wait(10));
+  ASSERT_TRUE(session.client("ann").Wait(kPatience));
   const std::int64_t again = session.Captured().last_tick;
   session.Join("ann", flags);
   EXPECT_TRUE(session.WaitUntil(
@@ -199,13 +203,38 @@ TEST_F(JoinLeave, AKilledClientsMechanismsAreTakenBackAndGivenToItsSuccessor) {
         return Says(r, "replaced by a new session with its key") && has_them(r) &&
                ShowsAfter(r, 1, again + 2 * kHz);
       },
-      15))
+      kPatience))
       << session.Story();
   session.server().Signal(SIGTERM);
-  EXPECT_TRUE(session.Finish(10)) << session.Story();
+  EXPECT_TRUE(session.Finish(kPatience)) << session.Story();
   EXPECT_EQ(session.server().status(), 0);
   EXPECT_EQ(session.client("ann").status(), 0);
   EXPECT_EQ(session.client("bob").status(), 0);
+}
+
+/// What the first player has driven, by tick.
+struct Driving {
+  std::map<std::int64_t, int> drive;
+  bool button = false;
+
+  std::int64_t TicksOf(int value) const {
+    return std::count_if(drive.begin(), drive.end(),
+                         [&](const auto& entry) { return entry.second == value; });
+  }
+};
+
+Driving Driven(const Recording& recording) {
+  Driving driven;
+  driven.drive[-1] = 0;
+  const auto found = recording.inputs.find(0);
+  if (found == recording.inputs.end()) return driven;
+  for (const auto& [first, inputs] : found->second) {
+    for (std::size_t i = 0; i < inputs.drive.size(); ++i) {
+      driven.drive[first + static_cast<std::int64_t>(i)] = inputs.drive[i];
+      driven.button = driven.button || inputs.buttons[i] == 1;
+    }
+  }
+  return driven;
 }
 
 TEST_F(JoinLeave, ArrowKeysDriveTheCarAndQLeavesTheTerminalAsItWas) {
@@ -219,44 +248,33 @@ TEST_F(JoinLeave, ArrowKeysDriveTheCarAndQLeavesTheTerminalAsItWas) {
   LiveSession session(folder_, 0, plan);
   ASSERT_TRUE(session.Begin()) << session.Story();
   Program& ann = session.Join("ann", {"--drive", "keyboard", "--quiet"}, terminal.terminal());
-  ASSERT_TRUE(session.WaitUntil([](const Recording& r) { return ShowsAfter(r, 1, 5); }, 30))
+  ASSERT_TRUE(session.WaitUntil([](const Recording& r) { return ShowsAfter(r, 1, 5); }, kPatience))
       << session.Story();
   EXPECT_FALSE(terminal.IsCooked());
   // Held down: a terminal repeats the key. Half of the arrows come in two pieces.
-  for (int i = 0; i < 20; ++i) {
-    terminal.Type(i % 2 == 0 ? "\033[C" : "\033");
-    if (i % 2 != 0) terminal.Type("[C");
-    usleep(50000);
-  }
-  const std::int64_t released = session.Captured().last_tick;
-  ASSERT_TRUE(
-      session.WaitUntil([&](const Recording& r) { return ShowsAfter(r, 1, released + kHz); }, 10));
-  terminal.Type("a ");
-  usleep(100000);
+  const auto typed = [&](const std::string& key, bool in_two, const auto& enough) {
+    for (int i = 0; i < 1200; ++i) {
+      terminal.Type(in_two && i % 2 != 0 ? key.substr(0, 1) : key);
+      if (in_two && i % 2 != 0) terminal.Type(key.substr(1));
+      usleep(50000);
+      if (enough(Driven(session.Captured()))) return true;
+    }
+    return false;
+  };
+  EXPECT_TRUE(typed("\033[C", true, [](const Driving& d) { return d.TicksOf(127) >= kHz; }));
+  EXPECT_TRUE(session.WaitUntil(
+      [](const Recording& r) { return Driven(r).drive.rbegin()->second == 0; }, kPatience))
+      << "a key that is no longer repeated is released";
+  EXPECT_TRUE(typed("a ", false, [](const Driving& d) { return d.TicksOf(-127) >= 3 && d.button; }))
+      << "a letter, and the space bar";
   terminal.Type("q");
-  EXPECT_TRUE(ann.Wait(10));
+  EXPECT_TRUE(ann.Wait(kPatience));
   EXPECT_EQ(ann.status(), 0) << ann.Story();
   EXPECT_TRUE(terminal.IsCooked());
   session.server().Signal(SIGINT);
-  EXPECT_TRUE(session.Finish(10)) << session.Story();
+  EXPECT_TRUE(session.Finish(kPatience)) << session.Story();
 
   Recording recording = session.Captured();
-  std::map<std::int64_t, int> drive;
-  bool button = false;
-  for (const auto& [first, inputs] : recording.inputs[0]) {
-    for (std::size_t i = 0; i < inputs.drive.size(); ++i) {
-      drive[first + static_cast<std::int64_t>(i)] = inputs.drive[i];
-      button = button || inputs.buttons[i] == 1;
-    }
-  }
-  const auto ticks_of = [&](int value) {
-    return std::count_if(drive.begin(), drive.end(),
-                         [&](const auto& entry) { return entry.second == value; });
-  };
-  EXPECT_GE(ticks_of(127), 40);
-  EXPECT_GE(ticks_of(-127), 3);
-  EXPECT_TRUE(button) << "the space bar";
-  EXPECT_EQ(drive[released + kHz], 0) << "a key that is no longer repeated is released";
   // In her own view the car was at rest and has moved to the right, as the server saw too.
   for (const int peer : {0, 1}) {
     const auto& views = recording.views[peer];
@@ -276,12 +294,13 @@ TEST_F(JoinLeave, AClosedTerminalIsAGoodbye) {
   LiveSession session(folder_, 0, plan);
   ASSERT_TRUE(session.Begin()) << session.Story();
   Program& ann = session.Join("ann", {"--drive", "keyboard", "--quiet"}, terminal.terminal());
-  ASSERT_TRUE(session.WaitUntil([](const Recording& r) { return ShowsAfter(r, 1, 5); }, 30))
+  ASSERT_TRUE(session.WaitUntil([](const Recording& r) { return ShowsAfter(r, 1, 5); }, kPatience))
       << session.Story();
   terminal.HangUp();
-  EXPECT_TRUE(ann.Wait(10)) << "it must not go on without a driver";
+  EXPECT_TRUE(ann.Wait(kPatience)) << "it must not go on without a driver";
   EXPECT_EQ(ann.status(), 0) << ann.Story();
-  EXPECT_TRUE(session.WaitUntil([](const Recording& r) { return Says(r, "is gone: left"); }, 10));
+  EXPECT_TRUE(
+      session.WaitUntil([](const Recording& r) { return Says(r, "is gone: left"); }, kPatience));
 }
 
 }  // namespace

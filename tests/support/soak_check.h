@@ -2,6 +2,8 @@
 /// What must never happen in a session, whatever its scene and network, from its recording: bodies
 /// that explode, mechanisms that are torn, bodies that are lost. docs/metrics.md, "Soak".
 
+#include <cstdint>
+#include <functional>
 #include <string>
 
 #include "common/measure/oracle.h"
@@ -16,13 +18,20 @@ struct SoakFindings {
   std::string hottest;  ///< peer, body and second of it
   /// The same of the sum over all bodies; only in rooms without gravity or loss, else 0.
   double energy_sum = 0;
-  double torn_m = 0;     ///< joint drift of any view beyond the oracle's own worst
+  /// Joint drift of any view beyond the oracle's own worst, and in a crash beyond what the engine
+  /// made of it at that peer.
+  double torn_m = 0;
+  double crashed_m = 0;  ///< what the engine opened joints by in a crash, beyond the oracle's worst
   double missing_s = 0;  ///< longest that a body was in no client's view
   double off_m = 0;      ///< farthest that a client showed a body from where its authority did
   long compared = 0;     ///< poses that were looked at
 };
 
+/// How far the engine had opened the worst joint of a peer's own world after a tick, m.
+using PhysicsDriftOf = std::function<double(int peer, std::int64_t tick)>;
+
 /// Requires a recording of a scene that parses, and its oracle.
-SoakFindings CheckSoak(const Recording& recording, const Oracle& oracle);
+SoakFindings CheckSoak(const Recording& recording, const Oracle& oracle,
+                       const PhysicsDriftOf& physics_drift);
 
 }  // namespace seam

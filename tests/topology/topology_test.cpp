@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "common/base/geometry.h"
+#include "common/physics/part_places.h"
 #include "common/scene/mass.h"
 #include "tests/support/small_world.h"
 
@@ -267,6 +269,56 @@ TEST(Topology, HistoryIsCarriedOverAsARigidMotion) {
   const BodyState carried = Carried(change->bodies[1], then);
   EXPECT_NEAR((carried.position - c_then.position).norm(), 0, 1e-6);
   EXPECT_NEAR((carried.velocity - world->Read(1).velocity).norm(), 0, 1e-5);
+}
+
+/// Two links that hang on a box, and a sledge of two boxes.
+std::unique_ptr<World> BoxWithLinks() {
+  const std::string scene = Part("box", 1, 1, 0, 0, "velocity = [1, 2]") +
+                            Part("arm", 0.2, 1, 0, -1) + Part("hand", 0.2, 0.4, 0, -1.7) +
+                            Part("sledge", 2, 1, 6, 1) + Part("skid", 2, 0.2, 6, 0) +
+                            Joint("revolute", "box", "arm", "anchor = [0, -0.5]") +
+                            Joint("revolute", "arm", "hand", "anchor = [0, -1.5]") +
+                            Joint("revolute", "sledge", "skid", "anchor = [6, 0.5]");
+  return SmallWorld(scene, "", kNoGravity);
+}
+
+TEST(Topology, ABondCarriesTheWholeMechanismAlong) {
+  const auto world = BoxWithLinks();
+  Steps(world.get(), 20);
+  const Momentum before = MomentumOf(*world);
+  const BodyState box = PartPose(*world, 0), hand = PartPose(*world, 2);
+  const BodyState skid = PartPose(*world, 4);
+  const std::optional<BodyRemap> change = world->Apply({Bond(3, 0, 0, 2, 0.5f)});
+  ASSERT_TRUE(change);
+  const BodyState box_now = PartPose(*world, 0), hand_now = PartPose(*world, 2);
+  EXPECT_GT((box_now.position - box.position).norm(), 3);
+  const Vec2 then = Turned(Vec2(hand.position - box.position), -box.angle);
+  const Vec2 now = Turned(Vec2(hand_now.position - box_now.position), -box_now.angle);
+  EXPECT_LT((now - then).norm(), 1e-5f) << "the hand is where it was, seen from the box";
+  EXPECT_NEAR(hand_now.angle - hand.angle, box_now.angle - box.angle, 1e-5);
+  EXPECT_EQ(PartPose(*world, 4).position, skid.position) << "what the box came to stays";
+  EXPECT_LT((MomentumOf(*world).linear - before.linear).norm(), 1e-5);
+  ASSERT_EQ(static_cast<int>(change->jumps.size()), world->body_count());
+  const BodyState& jump = change->jumps[static_cast<std::size_t>(world->BodyOfId(2))];
+  EXPECT_LT((jump.position - (hand_now.position - hand.position)).norm(), 1e-5f);
+}
+
+TEST(Topology, ABondWithinAMechanismCarriesNothingAlong) {
+  const auto world = BoxWithLinks();
+  const BodyState arm = PartPose(*world, 1);
+  const std::optional<BodyRemap> change = world->Apply({Bond(0, 2, 0, -2, 0)});
+  ASSERT_TRUE(change);
+  EXPECT_TRUE(change->jumps.empty());
+  EXPECT_EQ(PartPose(*world, 1).position, arm.position);
+}
+
+TEST(Topology, ABondWithWhatIsAnchoredCarriesTheMechanismAlong) {
+  const std::string scene = Part("box", 1, 1, 0, 0) + Part("arm", 0.2, 1, 0, -1) +
+                            Part("post", 1, 4, 5, 0, "anchored = true") +
+                            Joint("revolute", "box", "arm", "anchor = [0, -0.5]");
+  const auto world = SmallWorld(scene, "", kNoGravity);
+  ASSERT_TRUE(world->Apply({Bond(2, 0, 0, 3, 0)}));
+  EXPECT_LT((PartPose(*world, 1).position - Vec2(5, 2)).norm(), 1e-5f);
 }
 
 }  // namespace

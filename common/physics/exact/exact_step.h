@@ -14,7 +14,7 @@ namespace seam {
 
 class ExactStep {
  public:
-  ExactStep(const Solver& solver, b2World* world, const BuiltScene& built);
+  ExactStep(const Scene& scene, b2World* world, const BuiltScene& built);
   ~ExactStep();
 
   /// Whether there is a joint that it would solve; else the engine's own Step does.
@@ -49,6 +49,7 @@ class ExactStep {
   };
 
   void FindMechanisms();
+  void LeaveCharacters(const Scene& scene);
   bool Gather(int first, Found* found);
   void Sign(const Found& found, std::vector<const void*>* sign) const;
   void Order(Found* found);

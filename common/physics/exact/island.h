@@ -67,6 +67,7 @@ class ExactIsland {
   void Fill(const Pace& pace);
 
   double Pull() const;
+  void Look(const Pace& pace);
   void BringTogether(const Pace& pace);
   // Of a substep, in their order.
   void Substep(const Pace& pace);
@@ -74,7 +75,9 @@ class ExactIsland {
   bool PushesOut() const;
   void Kick(double h);
   bool FindImpacts();
+  int FastestBlow();
   void Impact();
+  void Blow(const ExactContact& contact, int first_row);
   void SolveAhead(const Pace& pace);
   void Move(double h);
   void ShutJoints(const Pace& pace);
@@ -82,11 +85,14 @@ class ExactIsland {
   void SolveAtEnd(const Pace& pace);
 
   // The tension of joints as inertia.
+  static double Stiffened(const ExactBody& q);
   void Tension(double h);
   bool Stiffer();
 
   // The system of rows, for the velocities as they are.
-  void Assemble();
+  /// `hard`, `bounded`: what a row's own entry is enlarged by, as a share, for rows that others
+  /// imply.
+  void Assemble(double hard = 1e-7, double bounded = 1e-6);
   void Factor();
   void Solve(bool ahead);
   bool PivotToTheEnd();
@@ -128,8 +134,11 @@ class ExactIsland {
   std::vector<Reach> reaches_;                            // in the order of rows
   std::vector<std::vector<std::pair<int, int>>> joined_;  // by body: place, end
   std::vector<double> answer_, velocity_;
-  std::vector<RowState> next_;           // by place
-  std::vector<RowState> states_, held_;  // kept while something takes no part
+  std::vector<RowState> next_;  // by place
+  std::vector<RowState> held_;  // kept while something takes no part
 };
+
+/// Of the bodies that move, J.
+double KineticOf(const std::vector<ExactBody>& bodies);
 
 }  // namespace seam

@@ -10,8 +10,6 @@
 namespace seam {
 namespace {
 
-/// What a row's own entry is enlarged by, as a share: for rows that others imply.
-constexpr double kOwnHard = 1e-7, kOwnBounded = 1e-6;
 /// Rounds of friction, and when they are over: the bounds change by less than this share.
 constexpr int kFrictionRounds = 3;
 constexpr double kFrictionSame = 0.02;
@@ -64,7 +62,7 @@ void ExactIsland::Restore(const std::vector<double>& velocities) {
   }
 }
 
-void ExactIsland::Assemble() {
+void ExactIsland::Assemble(double hard, double bounded) {
   for (Row& row : rows_) {
     for (int e = 0; e < row.ends; ++e) {
       RowEnd& end = row.end[e];
@@ -83,7 +81,7 @@ void ExactIsland::Assemble() {
   for (int p = 0; p < matrix_.size(); ++p) {
     const Row& row = At(row_at_[static_cast<std::size_t>(p)]);
     double& own = matrix_.At(matrix_.Place(p, p));
-    own += own * (row.bounded() ? kOwnBounded : kOwnHard) + row.gamma;
+    own += own * (row.bounded() ? bounded : hard) + row.gamma;
   }
   dirty_ = 0;
 }

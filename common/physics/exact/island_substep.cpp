@@ -35,43 +35,15 @@ constexpr double kSlow = 0.3;
 constexpr double kTurnsFast = 0.25;
 /// A limit or a contact that is nearer than this is reached, m or rad.
 constexpr double kReached = 1e-6;
-/// Halvings of the restitution when a blow with friction would gain energy, the last is 0.
-constexpr int kSofterTries = 3;
-/// Joints that are farther apart than this, m or rad, are moved together before a step, and limits
-/// that are overstepped by more; by at most so much for each try.
-constexpr double kApart = 1e-5, kOverstepped = 5e-3, kTogetherMost = 0.2;
-constexpr int kTogetherTries = 8;
 /// A motor that lacks so much speed does all it may, rad/s or m/s.
 constexpr double kUtmost = 50;
-/// What falls for so many steps has a blow; what falls less lies.
-constexpr double kRestSteps = 4;
 /// A joint has at most so many rows, and a row so many ends.
 constexpr int kRowsMost = 6, kEndsMost = 4;
-
-/// kg m2, what the tension makes of a body's inertia. Little tension makes nothing of it, so that
-/// a pendulum stays as exact as it is.
-double Stiffened(const ExactBody& q) {
-  const double tense = std::max(q.stiffness, q.lasting);
-  const double share = (tense / q.inertia - kStiffFrom) / (kStiffTo - kStiffFrom);
-  return q.inertia + kStiffness * std::max(0.0, tense) * std::clamp(share, 0.0, 1.0);
-}
-
-double Kinetic(const ExactBody& q) {
-  return q.moves() ? ((q.vx * q.vx + q.vy * q.vy) / q.im + q.inertia * q.w * q.w) / 2 : 0;
-}
-
-double KineticOf(const std::vector<ExactBody>& bodies) {
-  double sum = 0;
-  for (const ExactBody& q : bodies) sum += Kinetic(q);
-  return sum;
-}
 
 }  // namespace
 
 void ExactIsland::Step(const Pace& pace, bool warm) {
-  const double pull = Pull();
-  for (ExactContact& contact : contacts)
-    ReadContact(bodies, kRestSteps * pull * pace.h * pace.substeps, &contact);
+  Look(pace);
   Fill(pace);
   const double share = warm ? 1.0 / pace.substeps : 0;
   for (Row& row : rows_) row.lambda = row.total = 0;
@@ -92,82 +64,6 @@ void ExactIsland::Step(const Pace& pace, bool warm) {
   }
 }
 
-/// The greatest acceleration that acts on a body, m/s2.
-double ExactIsland::Pull() const {
-  double most = 0;
-  for (const ExactBody& q : bodies) most = std::max(most, std::sqrt(q.ax * q.ax + q.ay * q.ay));
-  return most;
-}
-
-/// What was put apart since the last step, by a message, an edit or continuous collision, is moved
-/// together, and limits that are overstepped are gone back to: positions only, as little as the
-/// masses allow, no velocity comes of it.
-void ExactIsland::BringTogether(const Pace& pace) {
-  held_.clear();
-  for (int tries = 0; tries < kTogetherTries; ++tries) {
-    bool apart = false;
-    for (const Row& row : rows_) {
-      apart = apart || (row.kind == RowKind::kHard && std::fabs(row.error) > kApart) ||
-              (row.kind == RowKind::kLimit && row.error < -kOverstepped);
-    }
-    if (!apart) break;
-    if (held_.empty()) {
-      for (const Row& row : rows_) held_.push_back(row.state);
-    }
-    std::fill(x_.begin(), x_.end(), 0.0);
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      Row& row = rows_[i];
-      const bool shuts =
-          row.kind == RowKind::kHard || (row.kind == RowKind::kLimit && row.error < -kOverstepped);
-      const bool held = row.kind == RowKind::kNormal && row.error <= 0;
-      row.state = shuts || held ? RowState::kFree : RowState::kOut;
-      if (!shuts || place_[i] < 0) continue;
-      x_[static_cast<std::size_t>(place_[i])] =
-          std::clamp(-row.error, -kTogetherMost, kTogetherMost);
-    }
-    Assemble();
-    SoftenContacts();
-    Factor();
-    matrix_.Solve(&x_);
-    for (std::size_t p = 0; p < row_at_.size(); ++p) Shift(At(row_at_[p]), x_[p]);
-    Fill(pace);
-  }
-  for (std::size_t i = 0; i < held_.size(); ++i) rows_[i].state = held_[i];
-  held_.clear();
-}
-
-void ExactIsland::Rejoin(const Pace& pace, bool struck) {
-  const double pull = Pull();
-  for (ExactContact& contact : contacts)
-    ReadContact(bodies, kRestSteps * pull * pace.h * pace.substeps, &contact);
-  Fill(pace);
-  BringTogether(pace);
-  if (!struck) return;
-  for (Row& row : rows_) {
-    row.base = row.lambda = row.total = 0;
-    row.state = row.bounded() && row.error > 0 ? RowState::kLow : RowState::kFree;
-    if (row.kind == RowKind::kFriction) row.state = RowState::kOut;
-  }
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    for (int i = 0; i < contacts[c].count && contacts[c].restitution > 0; ++i) {
-      At(contact_row_[c] + 2 * i).state = RowState::kOut;  // its blow comes in the next step
-    }
-  }
-  SolveAtEnd(pace);
-}
-
-/// What an impulse of `by` would do in a second: m or rad.
-void ExactIsland::Shift(const Row& row, double by) {
-  if (by == 0) return;
-  for (int e = 0; e < row.ends; ++e) {
-    const RowEnd& end = row.end[e];
-    ExactBody& q = Body(end.body);
-    q.x += by * end.mj[0];
-    q.y += by * end.mj[1];
-    q.Turn(by * end.mj[2]);
-  }
-}
-
 void ExactIsland::Substep(const Pace& pace) {
   for (ExactBody& q : bodies) {
     if (q.moves()) q.ii = 1 / Stiffened(q);
@@ -178,13 +74,12 @@ void ExactIsland::Substep(const Pace& pace) {
     Fill(pace);
     FindImpacts();  // what comes at a contact by another's blow hits in the next substep
   }
-  const bool touches = !contacts.empty();
   // What contacts or springs carry would have half a kick left: only projections take that back.
-  const bool whole = touches || std::any_of(rows_.begin(), rows_.end(), [](const Row& row) {
-                       return row.kind == RowKind::kSoft;
-                     });
+  const bool whole = !contacts.empty() || std::any_of(rows_.begin(), rows_.end(), [](const Row& r) {
+    return r.kind == RowKind::kSoft;
+  });
   Kick(whole ? pace.h : pace.h / 2);
-  if (!touches || !PushesOut()) {
+  if (!PushesOut()) {
     Course(pace, whole);
     return;
   }
@@ -212,7 +107,7 @@ bool ExactIsland::PushesOut() const {
   });
 }
 
-/// The substep from its kick to its end. `whole`: the kick was for all of it.
+/// The substep from its kick, which was whole or half of one, to its end.
 void ExactIsland::Course(const Pace& pace, bool whole) {
   SolveAhead(pace);
   Move(pace.h);
@@ -229,6 +124,14 @@ void ExactIsland::Kick(double h) {
     q.vy = (q.vy + h * q.ay) / (1 + h * q.slow);
     q.w = (q.w + h * q.turn) / (1 + h * q.slow_spin);
   }
+}
+
+/// kg m2, what the tension makes of a body's inertia. Little tension makes nothing of it, so that
+/// a pendulum stays as exact as it is.
+double ExactIsland::Stiffened(const ExactBody& q) {
+  const double tense = std::max(q.stiffness, q.lasting);
+  const double share = (tense / q.inertia - kStiffFrom) / (kStiffTo - kStiffFrom);
+  return q.inertia + kStiffness * std::max(0.0, tense) * std::clamp(share, 0.0, 1.0);
 }
 
 void ExactIsland::Tension(double h) {
@@ -349,12 +252,9 @@ void ExactIsland::SolveAtEnd(const Pace& pace) {
     switch (row.kind) {
       case RowKind::kHard: row.target = 0; break;
       case RowKind::kSoft:  // has acted for the whole substep
-        states_.push_back(row.state);
         row.state = RowState::kOut;
         break;
-      case RowKind::kMotor:  // has acted, too; of the second half of a kick it takes its share
-        states_.push_back(row.state);
-        if (!contacts.empty() || row.state != RowState::kFree) row.state = RowState::kOut;
+      case RowKind::kMotor:
         row.lo = -row.most - row.base;
         row.hi = row.most - row.base;
         break;
@@ -368,86 +268,14 @@ void ExactIsland::SolveAtEnd(const Pace& pace) {
   }
   Assemble();
   Solve(false);
-  std::size_t next = 0;
   for (Row& row : rows_) {
     row.base += row.lambda;
     row.total += row.base;
     row.warm = row.base;
     row.lambda = 0;
-    if (row.kind == RowKind::kSoft || row.kind == RowKind::kMotor) row.state = states_[next++];
+    if (row.kind == RowKind::kSoft) row.state = RowState::kFree;
   }
-  states_.clear();
   Tension(pace.h);
-}
-
-/// Whether something elastic hits. Sets `approach` of the contacts' points.
-bool ExactIsland::FindImpacts() {
-  bool hits = false;
-  for (std::size_t c = 0; c < contacts.size(); ++c) {
-    ExactContact& contact = contacts[c];
-    for (int i = 0; i < contact.count; ++i) {
-      ExactContact::Point& p = contact.point[i];
-      Row& normal = At(contact_row_[c] + 2 * i);
-      Row& friction = At(contact_row_[c] + 2 * i + 1);
-      if (normal.state == RowState::kOut) normal.state = friction.state = RowState::kLow;
-      p.approach = Speed(normal);
-      if (contact.restitution <= 0 || std::fabs(p.approach) < contact.threshold) continue;
-      hits = hits || (normal.error <= 0 && p.approach < 0);
-      // It has its blow now, or when it is there; and what parts needs no push.
-      normal.state = friction.state = RowState::kOut;
-    }
-  }
-  return hits;
-}
-
-/// A blow without duration (Moreau 1988): each contact leaves at no less than its restitution times
-/// the speed it came with, so that energy is never gained without friction. With it, it may be
-/// (Kane and Levinson 1985): then with less restitution.
-void ExactIsland::Impact() {
-  Save(&start_);
-  double before = 0;
-  bool driven = false;
-  for (ExactBody& q : bodies) {
-    before += Kinetic(q);
-    driven = driven || (!q.moves() && (q.vx != 0 || q.vy != 0 || q.w != 0));
-    if (q.moves()) q.ii = 1 / q.inertia;
-  }
-  std::vector<RowState> were;
-  for (Row& row : rows_) were.push_back(row.state);
-  double share = 1;
-  for (int tries = 0;; ++tries) {
-    for (Row& row : rows_) {
-      row.target = 0;
-      if (row.kind == RowKind::kSoft || row.kind == RowKind::kMotor) row.state = RowState::kOut;
-      if (row.kind == RowKind::kLimit && row.error > kReached) row.state = RowState::kOut;
-    }
-    for (std::size_t c = 0; c < contacts.size(); ++c) {
-      const ExactContact& contact = contacts[c];
-      for (int i = 0; i < contact.count; ++i) {
-        Row& normal = At(contact_row_[c] + 2 * i);
-        Row& friction = At(contact_row_[c] + 2 * i + 1);
-        normal.state = friction.state = normal.error > 0 ? RowState::kOut : RowState::kLow;
-        normal.target = -share * contact.restitution * contact.point[i].approach;
-        friction.target = contact.belt;
-        driven = driven || contact.belt != 0;
-      }
-    }
-    Assemble();
-    Solve(true);
-    double after = 0;
-    for (const ExactBody& q : bodies) after += Kinetic(q);
-    if (driven || after <= before * (1 + 1e-9) || tries == kSofterTries) break;
-    share = tries + 1 == kSofterTries ? 0 : share / 2;
-    Restore(start_);
-    for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].state = were[i];
-  }
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    rows_[i].total += rows_[i].lambda;
-    rows_[i].state = were[i];
-  }
-  for (ExactBody& q : bodies) {
-    if (q.moves()) q.ii = 1 / Stiffened(q);
-  }
 }
 
 }  // namespace seam

@@ -10,40 +10,12 @@ namespace {
 
 /// How much of its error a pose motor takes back in a step; the engine's own default.
 constexpr double kPoseShare = 0.3;
-/// A motor this near its bound is at it.
-constexpr double kNearly = 1 - 1e-6;
-/// No joint has more.
-constexpr int kRowsMost = 6;
-/// A limit is near within this and twice the way of a step, rad and m.
-constexpr double kNearAngle = 0.1, kNearLength = 0.1;
 /// Two points this near have no direction, m.
 constexpr double kNoDirection = 1e-9;
 
 template <typename Made>
 const Made& As(const ExactJoint& joint) {
   return *static_cast<const Made*>(joint.made);
-}
-
-template <typename Made>
-void ReadAnchors(const Made& made, ExactJoint* out) {
-  out->anchor_a = made.GetLocalAnchorA();
-  out->anchor_b = made.GetLocalAnchorB();
-}
-
-template <typename Made>
-void ReadSlide(const Made& made, ExactJoint* out) {
-  ReadAnchors(made, out);
-  out->axis = made.GetLocalAxisA();
-  out->limited = made.IsLimitEnabled();
-  out->lower = static_cast<double>(made.GetLowerLimit());
-  out->upper = static_cast<double>(made.GetUpperLimit());
-}
-
-template <typename Made>
-void ReadMotor(const Made& made, float most, ExactJoint* joint) {
-  joint->drives = made.IsMotorEnabled();
-  joint->speed = static_cast<double>(made.GetMotorSpeed());
-  joint->most = static_cast<double>(most);
 }
 
 /// Of the ends' speeds.
@@ -166,11 +138,6 @@ class Writer {
   Row* next_;
 };
 
-/// Whether a distance joint holds one length.
-bool IsRod(const ExactJoint& joint) { return joint.lower >= joint.upper; }
-bool HasLower(const ExactJoint& joint) { return joint.lower > 0; }
-bool HasUpper(const ExactJoint& joint) { return joint.upper < 1e9; }
-
 void Writer::Distance() {
   const double length = std::sqrt(dx_ * dx_ + dy_ * dy_);
   const double ux = length > kNoDirection ? dx_ / length : 0;
@@ -251,160 +218,6 @@ void Writer::Slide(bool turns) {
 
 }  // namespace
 
-ExactJoint ReadJoint(b2Joint* made) {
-  ExactJoint out;
-  out.made = made;
-  out.type = made->GetType();
-  out.impulses = ImpulsesOf(made);
-  switch (out.type) {
-    case e_revoluteJoint: {
-      const auto& j = As<b2RevoluteJoint>(out);
-      ReadAnchors(j, &out);
-      out.reference = static_cast<double>(j.GetReferenceAngle());
-      out.limited = j.IsLimitEnabled();
-      out.lower = static_cast<double>(j.GetLowerLimit());
-      out.upper = static_cast<double>(j.GetUpperLimit());
-      break;
-    }
-    case e_weldJoint: {
-      const auto& j = As<b2WeldJoint>(out);
-      ReadAnchors(j, &out);
-      out.reference = static_cast<double>(j.GetReferenceAngle());
-      out.stiffness = static_cast<double>(j.GetStiffness());
-      out.damping = static_cast<double>(j.GetDamping());
-      break;
-    }
-    case e_prismaticJoint: {
-      const auto& j = As<b2PrismaticJoint>(out);
-      ReadSlide(j, &out);
-      out.reference = static_cast<double>(j.GetReferenceAngle());
-      break;
-    }
-    case e_wheelJoint: {
-      const auto& j = As<b2WheelJoint>(out);
-      ReadSlide(j, &out);
-      out.stiffness = static_cast<double>(j.GetStiffness());
-      out.damping = static_cast<double>(j.GetDamping());
-      break;
-    }
-    case e_distanceJoint: {
-      const auto& j = As<b2DistanceJoint>(out);
-      ReadAnchors(j, &out);
-      out.lower = static_cast<double>(j.GetMinLength());
-      out.upper = static_cast<double>(j.GetMaxLength());
-      out.reference = static_cast<double>(j.GetLength());
-      out.stiffness = static_cast<double>(j.GetStiffness());
-      out.damping = static_cast<double>(j.GetDamping());
-      if (IsRod(out)) out.lower = out.reference;
-      break;
-    }
-    case e_pulleyJoint: {
-      auto& j = *static_cast<b2PulleyJoint*>(made);
-      out.anchor_a = made->GetBodyA()->GetLocalPoint(j.GetAnchorA());
-      out.anchor_b = made->GetBodyB()->GetLocalPoint(j.GetAnchorB());
-      out.ground_a = j.GetGroundAnchorA();
-      out.ground_b = j.GetGroundAnchorB();
-      out.ratio = static_cast<double>(j.GetRatio());
-      out.length =
-          static_cast<double>(j.GetLengthA()) + out.ratio * static_cast<double>(j.GetLengthB());
-      break;
-    }
-    case e_gearJoint: out.gear = ReadGear(static_cast<b2GearJoint*>(made)); break;
-    case e_motorJoint: break;  // acts between the bodies' origins
-    default: SEAM_ASSERT(false);
-  }
-  return out;
-}
-
-void LookAt(double h, ExactJoint* joint) {
-  double at = 0, speed = 0, margin = kNearLength;
-  switch (joint->type) {
-    case e_revoluteJoint: {
-      const auto& made = As<b2RevoluteJoint>(*joint);
-      ReadMotor(made, made.GetMaxMotorTorque(), joint);
-      if (!joint->limited) return;
-      at = static_cast<double>(made.GetJointAngle());
-      speed = static_cast<double>(made.GetJointSpeed());
-      margin = kNearAngle;
-      break;
-    }
-    case e_prismaticJoint: {
-      const auto& made = As<b2PrismaticJoint>(*joint);
-      ReadMotor(made, made.GetMaxMotorForce(), joint);
-      if (!joint->limited) return;
-      at = static_cast<double>(made.GetJointTranslation());
-      speed = static_cast<double>(made.GetJointSpeed());
-      break;
-    }
-    case e_wheelJoint: {
-      const auto& made = As<b2WheelJoint>(*joint);
-      ReadMotor(made, made.GetMaxMotorTorque(), joint);
-      if (!joint->limited) return;
-      at = static_cast<double>(made.GetJointTranslation());
-      speed = static_cast<double>(made.GetJointLinearSpeed());
-      break;
-    }
-    case e_distanceJoint: {
-      if (IsRod(*joint)) return;
-      const b2Body* a = joint->made->GetBodyA();
-      const b2Body* b = joint->made->GetBodyB();
-      const b2Vec2 way = b->GetWorldPoint(joint->anchor_b) - a->GetWorldPoint(joint->anchor_a);
-      const b2Vec2 motion = b->GetLinearVelocityFromLocalPoint(joint->anchor_b) -
-                            a->GetLinearVelocityFromLocalPoint(joint->anchor_a);
-      at = static_cast<double>(way.Length());
-      speed = static_cast<double>(motion.Length());
-      joint->near_lower = HasLower(*joint);
-      joint->near_upper = HasUpper(*joint);
-      break;
-    }
-    default: return;
-  }
-  const double reach = margin + 2 * h * std::fabs(speed);
-  const bool both = joint->type != e_distanceJoint;
-  joint->near_lower = (both || joint->near_lower) && at - joint->lower < reach;
-  joint->near_upper = (both || joint->near_upper) && joint->upper - at < reach;
-}
-
-/// Which of the joint's impulses each of its rows has, in their order. Returns how many.
-static int KeptAt(const ExactJoint& joint, int* kept) {
-  int count = 0;
-  const auto range = [&](int lower) {
-    if (!joint.limited) return;
-    if (joint.lower >= joint.upper || joint.near_lower) kept[count++] = lower;
-    if (joint.lower < joint.upper && joint.near_upper) kept[count++] = lower + 1;
-  };
-  switch (joint.type) {
-    case e_revoluteJoint:
-    case e_prismaticJoint:
-      kept[count++] = 0;
-      kept[count++] = 1;
-      if (joint.drives) kept[count++] = 2;
-      range(3);
-      break;
-    case e_wheelJoint:
-      kept[count++] = 0;
-      if (joint.stiffness > 0) kept[count++] = 2;
-      if (joint.drives) kept[count++] = 1;
-      range(3);
-      break;
-    case e_pulleyJoint:
-    case e_gearJoint: kept[count++] = 0; break;
-    case e_distanceJoint:
-      if (IsRod(joint) || joint.stiffness > 0) kept[count++] = 0;
-      if (!IsRod(joint) && joint.near_lower) kept[count++] = 1;
-      if (!IsRod(joint) && joint.near_upper) kept[count++] = 2;
-      break;
-    default:
-      for (int i = 0; i < 3; ++i) kept[count++] = i;
-  }
-  return count;
-}
-
-int RowCount(const ExactJoint& joint) {
-  int kept[kRowsMost];
-  return KeptAt(joint, kept);
-}
-
 void FillJoint(const ExactJoint& joint, const JointEnds& ends, const std::vector<ExactBody>& bodies,
                const Pace& pace, Row* rows) {
   if (joint.type == e_gearJoint) {
@@ -448,29 +261,6 @@ bool PointErrors(const ExactJoint& joint, const JointEnds& ends,
   errors[1] = b.y + (b.s * ends.bx + b.c * ends.by) - a.y - (a.s * ends.ax + a.c * ends.ay);
   errors[2] = 0;
   return true;
-}
-
-void LoadImpulses(const ExactJoint& joint, double share, Row* rows) {
-  int kept[kRowsMost];
-  const int count = KeptAt(joint, kept);
-  for (int i = 0; i < count; ++i) {
-    Row& row = rows[i];
-    const double impulse = share * static_cast<double>(*joint.impulses.at[kept[i]]);
-    row.base = row.warm = impulse;
-    row.state = RowState::kFree;
-    if (row.kind == RowKind::kLimit && impulse <= 0) row.state = RowState::kLow;
-    if (row.kind == RowKind::kMotor && impulse <= -row.most * kNearly) row.state = RowState::kLow;
-    if (row.kind == RowKind::kMotor && impulse >= row.most * kNearly) row.state = RowState::kHigh;
-  }
-}
-
-void StoreImpulses(const ExactJoint& joint, const Row* rows) {
-  for (float* impulse : JointImpulses(joint.impulses)) *impulse = 0;
-  int kept[kRowsMost];
-  const int count = KeptAt(joint, kept);
-  for (int i = 0; i < count; ++i) {
-    *joint.impulses.at[kept[i]] = static_cast<float>(rows[i].total);
-  }
 }
 
 }  // namespace seam

@@ -27,6 +27,7 @@ constexpr double kShutMost = 8;
 /// What does not change while the joint lives, but motors' speeds and bounds.
 struct ExactJoint {
   b2Joint* made = nullptr;
+  int index = -1;  ///< into Scene::joints
   b2JointType type = e_unknownJoint;
   int slot_a = -1, slot_b = -1;           ///< moving bodies; -1: anchored
   b2Vec2 anchor_a{0, 0}, anchor_b{0, 0};  ///< m, in the bodies' frames, from their origins
@@ -45,6 +46,9 @@ struct ExactJoint {
   b2Vec2 ground_a{0, 0}, ground_b{0, 0};  ///< m, of a pulley
   JointImpulses impulses;
 };
+
+/// Whether a distance joint holds one length.
+inline bool IsRod(const ExactJoint& joint) { return joint.lower >= joint.upper; }
 
 /// Requires a joint that MakeJoint has made. The slots are left to the caller.
 ExactJoint ReadJoint(b2Joint* made);

@@ -71,6 +71,11 @@ bool Corrector::IsNews(const States& states, std::size_t i, int body, Received* 
     ++result->unknown;
     return false;
   }
+  const bool trusts = config_.StampsInputs(roles_.self()) && roles_.Simulates(body);
+  if (track.placed && trusts && replay_.LacksEdit(states.revision, states.tick)) {
+    ++result->stale;  // it will go back, and say otherwise
+    return false;
+  }
   if (states.epoch[i] < record.epoch || states.tick <= track.heard_tick) {
     ++result->stale;
     return false;

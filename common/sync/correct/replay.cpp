@@ -37,7 +37,9 @@ Replay::Replay(const SyncConfig& config, World& world, const Roles& roles, BodyM
       roles_(roles),
       memory_(memory),
       display_(display),
-      inputs_(inputs) {}
+      inputs_(inputs) {
+  NoteSitters();
+}
 
 bool Replay::Agrees(const BodyState& d) const {
   if (Negligible(d)) return true;
@@ -48,7 +50,7 @@ bool Replay::Agrees(const BodyState& d) const {
 
 bool Replay::Ask(int body, std::int64_t tick) {
   if (IsBeforeEdit(tick)) return true;
-  if (barriers_.empty() || tick < barriers_.front().tick) return false;
+  if (barriers_.empty() || tick < barriers_.front().world.tick) return false;
   if (tick < memory_.track(body).dynamic_since) return BeginsEarlier(body, tick);
   const BodyState* known = memory_.snapshots().At(body, tick);
   if (known == nullptr) return true;  // a newer one was there before this
@@ -76,18 +78,23 @@ bool Replay::BeginsEarlier(int body, std::int64_t tick) {
 
 void Replay::AskFrom(std::int64_t tick) {
   if (barriers_.empty()) return;
-  tick = std::max(tick, barriers_.front().tick);
+  tick = std::max(tick, barriers_.front().world.tick);
   if (tick >= world_.tick()) return;
   if (from_ < 0 || tick < from_) from_ = tick;
 }
 
 void Replay::TakeBarrier() {
   if (!config_.TakesBarriers(roles_.self()) || world_.tick() % config_.send_every() != 0) return;
-  barriers_.push_back(world_.Barrier());
-  while (barriers_.front().tick < world_.tick() - kReplayMax * config_.tick_hz) {
+  AddBarrier();
+  while (barriers_.front().world.tick < world_.tick() - kReplayMax * config_.tick_hz) {
     barriers_.pop_front();
   }
-  while (!actions_.empty() && actions_.front().tick < barriers_.front().tick) actions_.pop_front();
+  while (edits_before_ < barriers_.front().edits) {
+    edits_.pop_front();
+    ++edits_before_;
+  }
+  while (!actions_.empty() && actions_.front().tick < barriers_.front().world.tick)
+    actions_.pop_front();
 }
 
 void Replay::NoteAction(std::int64_t tick, int player, int action) {
@@ -98,7 +105,7 @@ void Replay::NoteAction(std::int64_t tick, int player, int action) {
 }
 
 void Replay::Forget() {
-  barriers_.clear();
+  DropBarriers();
   from_ = -1;
 }
 
@@ -226,7 +233,7 @@ void Replay::Run() {
 
 /// Goes back to the newest barrier that is not after `from`.
 bool Replay::Depart(std::int64_t from) {
-  while (!barriers_.empty() && barriers_.back().tick > from) barriers_.pop_back();
+  while (!barriers_.empty() && barriers_.back().world.tick > from) barriers_.pop_back();
   if (barriers_.empty()) return false;
   Journey journey;
   journey.from = from;
@@ -235,13 +242,15 @@ bool Replay::Depart(std::int64_t from) {
     journey.shown.push_back({true, world_.Read(body), world_.awake(body)});
   }
   FindPressed(from);
-  if (!world_.Restore(barriers_.back()).ok()) {  // edited since
+  UndoEdits();
+  if (!world_.Restore(barriers_.back().world).ok()) {  // edited since
     Forget();
     return false;
   }
   journey_ = std::move(journey);
   credit_ -= static_cast<double>(journey_->now - world_.tick());
   PutIn();
+  RepeatEdits();
   return true;
 }
 
@@ -250,6 +259,7 @@ void Replay::StepTo(std::int64_t tick) {
     StepAgain();
     PutIn();
     TakeBarrier();
+    RepeatEdits();
   }
 }
 

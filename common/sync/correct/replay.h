@@ -44,7 +44,9 @@ class Replay {
   /// Asks for a replay from `tick`, or from the oldest to which there is a way.
   void AskFrom(std::int64_t tick);
   /// The oldest tick to which there is a way; now, if there is none.
-  std::int64_t oldest() const { return barriers_.empty() ? world_.tick() : barriers_.front().tick; }
+  std::int64_t oldest() const {
+    return barriers_.empty() ? world_.tick() : barriers_.front().world.tick;
+  }
   /// All before this tick is as it will stay, as far as is known: a replay that waits begins here.
   /// The world's tick if none waits.
   std::int64_t settled() const { return from_ < 0 ? world_.tick() : from_; }
@@ -67,12 +69,16 @@ class Replay {
   // Edits at their tick (replay_edits.cpp). For each, in their order: GoBackTo, World::Apply, Remap
   // if the bodies have changed, Edited; after the last one GoOn.
   /// Goes to where the world was after `tick`, or as near to it as there is a way: never before an
-  /// edit that was applied. Until GoOn the world's tick is that one.
+  /// edit that changed bodies. Until GoOn the world's tick is that one.
   void GoBackTo(std::int64_t tick);
   /// What is shown is carried over to what the bodies became.
   void Remap(const BodyRemap& change);
-  /// There is no way back to before this edit. `changed`: bodies are others now.
-  void Edited(bool changed);
+  /// `changed`: bodies are others now, and there is no way back to before this edit. Others are
+  /// done again by each replay that comes to their tick.
+  void Edited(const Edit& edit, bool changed);
+  /// Whether a peer that had applied only the first `revision` edits lacked one that acted before
+  /// `tick`: what it says of that tick is of a world in which that has not happened.
+  bool LacksEdit(int revision, std::int64_t tick) const;
   /// Steps again to now.
   void GoOn();
   /// The tick to which GoOn will come; the world's while it did not go back.
@@ -86,6 +92,17 @@ class Replay {
   struct Action {
     std::int64_t tick = 0;
     int player = 0, action = 0;
+  };
+
+  struct Barrier {
+    WorldSnapshot world;
+    std::int64_t edits = 0;  ///< how many of those that changed no bodies were applied before it
+  };
+  /// An edit that changed no bodies.
+  struct Repeated {
+    Edit edit;
+    std::int64_t tick = 0;
+    int sat = -1;  ///< of a seat: who sat there before
   };
 
   bool RestsAsBefore(int body, const BodyState& pose);
@@ -107,6 +124,12 @@ class Replay {
   void StepTo(std::int64_t tick);
   void Arrive();
   void BarrierAfterEdits();
+  void AddBarrier();
+  void DropBarriers();
+  void NoteSitters();
+  void ForgetHeard();
+  void UndoEdits();
+  void RepeatEdits();
   bool BeginsEarlier(int body, std::int64_t tick);
   void FindPressed(std::int64_t from);
   bool FollowsHistory(int body, std::int64_t tick) const;
@@ -124,16 +147,20 @@ class Replay {
   BodyMemory& memory_;
   Display& display_;
   const std::vector<InputTrack>& inputs_;
-  std::deque<WorldSnapshot> barriers_;  // ascending
-  std::deque<Action> actions_;          // since the first barrier
-  std::int64_t from_ = -1;              // oldest tick asked for, -1 none
-  std::vector<bool> pressed_;           // by mechanism, of the replay that runs
-  double credit_ = 0;                   // ticks that may be stepped again
+  std::deque<Barrier> barriers_;                      // ascending
+  std::deque<Repeated> edits_;                        // since the first barrier; ticks ascend
+  std::int64_t edits_before_ = 0;                     // how many have been forgotten
+  std::int64_t edits_done_ = 0;                       // how many the world has had
+  std::deque<std::pair<int, std::int64_t>> applied_;  // revisions and ticks; both ascend
+  std::vector<int> sitters_;                          // by seat, as of the last edit
+  std::deque<Action> actions_;                        // since the first barrier
+  std::int64_t from_ = -1;                            // oldest tick asked for, -1 none
+  std::vector<bool> pressed_;                         // by mechanism, of the replay that runs
+  double credit_ = 0;                                 // ticks that may be stepped again
   std::function<void()> on_stepped_again_ = [] {};
   std::optional<Journey> journey_;  // while the world is in the past
   std::int64_t edited_tick_ = -1;   // of the last edit that changed bodies, -1 none
-  bool edited_ = false;             // since the last step, and
-  bool rebuilt_ = false;            // ...bodies are others by it
+  bool edited_ = false;             // since the last step, so that bodies are others
   std::int64_t stepped_again_ = 0;
   std::int64_t deferred_ = 0;
 };

@@ -12,10 +12,17 @@
 #include "common/sync/correct/replay.h"
 
 namespace seam {
+namespace {
+
+/// Whoever has not heard of an edit for so long, s, is not known to lack it.
+constexpr int kLackMax = 3;
+
+}  // namespace
 
 void Replay::GoBackTo(std::int64_t tick) {
+  if (!edits_.empty()) tick = std::max(tick, edits_.back().tick);  // they stay in their order
   if (!journey_ && !barriers_.empty()) {
-    tick = std::clamp(tick, barriers_.front().tick, world_.tick());
+    tick = std::clamp(tick, barriers_.front().world.tick, world_.tick());
     const std::int64_t asked = std::exchange(from_, -1);  // what waits is done on the way
     const std::int64_t from = asked < 0 ? tick : std::min(tick, asked);
     if (from < world_.tick()) Depart(from);
@@ -28,24 +35,91 @@ void Replay::GoBackTo(std::int64_t tick) {
 void Replay::Remap(const BodyRemap& change) {
   if (!journey_) return;
   std::vector<Shown> shown;
-  for (const BodyOrigin& origin : change.bodies) {
+  for (std::size_t body = 0; body < change.bodies.size(); ++body) {
+    const BodyOrigin& origin = change.bodies[body];
     shown.emplace_back();
     shown.back().known = origin.body >= 0;
     if (origin.body < 0) continue;
     const Shown& before = journey_->shown[static_cast<std::size_t>(origin.body)];
     shown.back().state = Carried(origin, before.state);
     shown.back().awake = !origin.same || before.awake;
+    if (change.jumps.empty()) continue;
+    shown.back().state = PlusScaled(shown.back().state, change.jumps[body], 1);
   }
   journey_->shown = std::move(shown);
   FindPressed(journey_->from);
 }
 
-void Replay::Edited(bool changed) {
+void Replay::Edited(const Edit& edit, bool changed) {
+  applied_.emplace_back(world_.topology().revision(), world_.tick());
+  while (applied_.front().second < world_.tick() - kLackMax * config_.tick_hz) {
+    applied_.pop_front();
+  }
+  ForgetHeard();
+  if (changed) {
+    DropBarriers();
+    from_ = -1;
+    edited_ = true;
+    edited_tick_ = world_.tick();
+  } else if (!barriers_.empty()) {
+    const SeatEdit* seat = edit.As<SeatEdit>();
+    const bool there = seat != nullptr && seat->seat >= 0 &&
+                       static_cast<std::size_t>(seat->seat) < sitters_.size();
+    const int sat = there ? sitters_[static_cast<std::size_t>(seat->seat)] : -1;
+    edits_.push_back({edit, world_.tick(), sat});
+    ++edits_done_;
+  }
+  NoteSitters();
+}
+
+bool Replay::LacksEdit(int revision, std::int64_t tick) const {
+  return std::any_of(applied_.begin(), applied_.end(), [&](const auto& applied) {
+    return applied.first > revision && applied.second < tick;
+  });
+}
+
+/// Whatever was heard of later ticks came from peers that lacked the edit, too.
+void Replay::ForgetHeard() {
+  if (!config_.StampsInputs(roles_.self())) return;
+  Snapshots& heard = memory_.snapshots();
+  for (int body = 0; body < world_.body_count(); ++body) {
+    if (!roles_.Simulates(body)) continue;
+    heard.ForgetAfter(body, world_.tick());
+    if (!heard.has(body)) heard.Add(body, world_.tick(), world_.Read(body));
+  }
+}
+
+void Replay::NoteSitters() {
+  sitters_.clear();
+  for (const Seat& seat : world_.scene().seats) sitters_.push_back(seat.player);
+}
+
+/// Who sat where when the newest barrier was taken. The barrier has all else.
+void Replay::UndoEdits() {
+  const auto first = barriers_.back().edits;
+  while (edits_done_ > first) {
+    const Repeated& done = edits_[static_cast<std::size_t>(--edits_done_ - edits_before_)];
+    const SeatEdit* seat = done.edit.As<SeatEdit>();
+    if (seat != nullptr) world_.Repeat(Edit(SeatEdit{seat->seat, done.sat}));
+  }
+}
+
+void Replay::RepeatEdits() {
+  const auto end = edits_before_ + static_cast<std::int64_t>(edits_.size());
+  for (; edits_done_ < end; ++edits_done_) {
+    const Repeated& next = edits_[static_cast<std::size_t>(edits_done_ - edits_before_)];
+    if (next.tick > world_.tick()) break;
+    world_.Repeat(next.edit);
+  }
+}
+
+void Replay::AddBarrier() { barriers_.push_back({world_.Barrier(), edits_done_}); }
+
+void Replay::DropBarriers() {
   barriers_.clear();
-  from_ = -1;
-  edited_ = true;
-  if (changed) edited_tick_ = world_.tick();
-  rebuilt_ = rebuilt_ || changed;
+  edits_before_ += static_cast<std::int64_t>(edits_.size());
+  edits_.clear();
+  edits_done_ = edits_before_;
 }
 
 bool Replay::IsBeforeEdit(std::int64_t tick) const {
@@ -54,12 +128,8 @@ bool Replay::IsBeforeEdit(std::int64_t tick) const {
 }
 
 /// Where bodies have become others the world is built anew, so this is a tick to go back to, too.
-/// Elsewhere only those are at which every peer takes a barrier.
 void Replay::BarrierAfterEdits() {
-  if (!std::exchange(edited_, false)) return;
-  const bool rebuilt = std::exchange(rebuilt_, false);
-  if (!config_.GoesBack(roles_.self())) return;
-  if (rebuilt || world_.tick() % config_.send_every() == 0) barriers_.push_back(world_.Barrier());
+  if (std::exchange(edited_, false) && config_.GoesBack(roles_.self())) AddBarrier();
 }
 
 void Replay::GoOn() {

@@ -34,7 +34,9 @@ struct Lane {
 
 }  // namespace
 
-Overhead MeasureOverhead(const Scene& scene, int ticks, int repeats) {
+Overhead MeasureOverhead(const Scene& given, int ticks, int repeats) {
+  Scene scene = given;
+  scene.solver.joints = JointSolving::kIterative;  // as the engine alone
   const auto stretches = static_cast<std::size_t>((ticks + kStretch - 1) / kStretch);
   constexpr double kNone = std::numeric_limits<double>::infinity();
   std::vector<double> raw_us(stretches, kNone), core_us(stretches, kNone);

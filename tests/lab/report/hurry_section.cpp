@@ -133,7 +133,7 @@ TextTable ErrorTable(const std::vector<ReportCase>& cases,
 std::vector<SweepMeasure> FirstMeasures() {
   std::vector<SweepMeasure> measures;
   for (const char* id : {"others", "own", "path", "age", "response-own", "response-other", "seen",
-                         "error", "stutter", "cpu", "bytes"}) {
+                         "error", "stutter", "cpu", "server-cpu", "bytes"}) {
     measures.push_back(MeasureNamed(id));
   }
   return measures;

@@ -47,6 +47,12 @@ const SweepMeasure& CpuMeasure() {
   return cpu;
 }
 
+const SweepMeasure& ServerCpuMeasure() {
+  static const SweepMeasure server = Column("server-cpu", "CPU of the server, of a body in a tick",
+                                            "µs", true, "server_us_per_body");
+  return server;
+}
+
 const std::vector<SweepMeasure>& FloorMeasures() {
   static const std::vector<SweepMeasure> floors = {
       Column("floor", "floor", "m", true, "floor_m"),
@@ -81,6 +87,7 @@ const SweepMeasure& MeasureNamed(const std::string& id) {
   for (const SweepMeasure& measure : FloorMeasures()) {
     if (measure.id == id) return measure;
   }
+  if (id == "server-cpu") return ServerCpuMeasure();
   SEAM_ASSERT(id == "cpu");
   return CpuMeasure();
 }

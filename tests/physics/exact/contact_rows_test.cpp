@@ -125,7 +125,7 @@ TEST(ContactRows, OverlapIsPushedOutSlowlyAndAGapMayShut) {
   Row row = RowsOf(scene, contact).normal.row;
   ASSERT_LT(row.error, -0.02);
   EXPECT_NEAR(row.target, 0.2 / (h * scene.pace.substeps) * (-row.error - 0.005), 1e-6)
-      << "in a step a fifth of what exceeds 5 mm";
+      << "a fifth of what exceeds 5 mm, in a step";
   scene.bodies[1].y -= 1;
   EXPECT_EQ(RowsOf(scene, contact).normal.row.target, 2) << "at most, m/s";
   scene.bodies[1].y += 1.5;

@@ -64,7 +64,10 @@ std::string VerdictOf(const JointBar& bar, const PhysicsCase& c) {
   std::vector<std::string> least;
   for (const PhysicsRun* run : runs) {
     const std::vector<std::string> missed = Missed(bar, *run, c.stock);
-    if (best != nullptr && missed.size() >= least.size()) continue;
+    // What holds at all is nearer than what does not.
+    const bool nearer = best == nullptr || (run->held() && !best->held()) ||
+                        (run->held() == best->held() && missed.size() < least.size());
+    if (!nearer) continue;
     best = run;
     least = missed;
   }

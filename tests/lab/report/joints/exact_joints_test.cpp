@@ -60,6 +60,12 @@ TEST(ExactJoints, WhatFailedOrIsNoNumberMeetsNothing) {
   EXPECT_EQ(verdict("1e-6,,0,0,"), "missed: cost (× 2)");
 }
 
+TEST(ExactJoints, WhatMissesMostIsStillNearerThanWhatFails) {
+  const std::string failed = Row("crane-grip", "exact", "exact", 1, "2,slipped out,0,0,1");
+  const std::string held = Row("crane-grip", "exact", "exact", 2, "0.1,,0.5,0,9");
+  EXPECT_EQ(RowOf(failed + held).back(), "missed: error, overlap, cost (× 2)");
+}
+
 TEST(ExactJoints, DriftIsTheErrorOfMechanismsThatAreJudgedByOtherThings) {
   const std::string rows = Row("scissor-lift", "stock", "iterative", 1, "20,,0,0.5,1") +
                            Row("scissor-lift", "exact", "exact", 1, "0.004,,0.001,5e-6,1");

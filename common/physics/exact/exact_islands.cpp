@@ -1,0 +1,252 @@
+/// ExactStep: which bodies are one island, and in what order.
+
+#include <algorithm>
+
+#include "common/physics/exact/engine_members.h"
+#include "common/physics/exact/exact_step.h"
+
+namespace seam {
+namespace {
+
+/// Multiplications of one factorisation above which contacts are relaxed.
+constexpr long kDirectMost = 30000;
+
+}  // namespace
+
+void ExactStep::FindMechanisms() {
+  std::vector<std::vector<int>> joined(slots_.size());  // joints, by slot
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    for (const int slot : {joints_[j].slot_a, joints_[j].slot_b}) {
+      if (slot >= 0) joined[static_cast<std::size_t>(slot)].push_back(static_cast<int>(j));
+    }
+  }
+  std::vector<char> taken(joints_.size(), 0);
+  for (std::size_t first = 0; first < slots_.size(); ++first) {
+    if (slots_[first].mechanism >= 0 || joined[first].empty()) continue;
+    const int index = static_cast<int>(mechanisms_.size());
+    mechanisms_.emplace_back();
+    Mechanism& mechanism = mechanisms_.back();
+    mechanism.slots.push_back(static_cast<int>(first));
+    slots_[first].mechanism = index;
+    for (std::size_t i = 0; i < mechanism.slots.size(); ++i) {
+      for (const int j : joined[static_cast<std::size_t>(mechanism.slots[i])]) {
+        const ExactJoint& joint = joints_[static_cast<std::size_t>(j)];
+        if (!taken[static_cast<std::size_t>(j)]) mechanism.joints.push_back(j);
+        taken[static_cast<std::size_t>(j)] = 1;
+        for (const int slot : {joint.slot_a, joint.slot_b}) {
+          if (slot < 0 || slots_[static_cast<std::size_t>(slot)].mechanism >= 0) continue;
+          slots_[static_cast<std::size_t>(slot)].mechanism = index;
+          mechanism.slots.push_back(slot);
+        }
+      }
+    }
+    std::sort(mechanism.joints.begin(), mechanism.joints.end());
+  }
+  found_.resize(mechanisms_.size());
+}
+
+bool ExactStep::Gather(int first, Found* found) {
+  found->slots.clear();
+  found->mechanisms.clear();
+  found->contacts.clear();
+  bool awake = false, exact = true;
+  const auto take = [&](int mechanism) {
+    found->mechanisms.push_back(mechanism);
+    const Mechanism& m = mechanisms_[static_cast<std::size_t>(mechanism)];
+    exact = exact && m.exact;
+    for (const int slot : m.slots) {
+      Slot& s = slots_[static_cast<std::size_t>(slot)];
+      s.island = first;
+      if (Moves(s.body)) found->slots.push_back(slot);
+    }
+  };
+  take(first);
+  for (std::size_t i = 0; i < found->slots.size(); ++i) {
+    b2Body* body = slots_[static_cast<std::size_t>(found->slots[i])].body;
+    awake = awake || body->IsAwake();
+    for (b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
+      if (!Pushes(edge->contact)) continue;
+      if (!Moves(edge->other)) {
+        found->contacts.push_back(edge->contact);
+        awake = awake || (edge->other->GetType() == b2_kinematicBody && edge->other->IsAwake());
+        continue;
+      }
+      if (edge->contact->GetFixtureA()->GetBody() == body) found->contacts.push_back(edge->contact);
+      const int slot = IndexOf(edge->other);
+      Slot& other = slots_[static_cast<std::size_t>(slot)];
+      if (other.island >= 0) continue;
+      if (other.mechanism >= 0) {
+        take(other.mechanism);
+      } else {
+        other.island = first;
+        found->slots.push_back(slot);
+      }
+    }
+  }
+  return awake && exact && !found->slots.empty();
+}
+
+/// Bodies in the order of their distance from one at the edge: neighbours are near each other.
+void ExactStep::Order(Found* found) {
+  const std::size_t n = found->slots.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    slots_[static_cast<std::size_t>(found->slots[i])].place = static_cast<int>(i);
+  }
+  std::vector<std::vector<int>> near(n);
+  const auto join = [&](int a, int b) {
+    near[static_cast<std::size_t>(a)].push_back(b);
+    near[static_cast<std::size_t>(b)].push_back(a);
+  };
+  const auto place = [&](int slot) {
+    if (slot < 0) return -1;
+    const Slot& s = slots_[static_cast<std::size_t>(slot)];
+    return Moves(s.body) ? s.place : -1;
+  };
+  for (const int m : found->mechanisms) {
+    for (const int j : mechanisms_[static_cast<std::size_t>(m)].joints) {
+      const ExactJoint& joint = joints_[static_cast<std::size_t>(j)];
+      const int a = place(joint.slot_a), b = place(joint.slot_b);
+      if (a >= 0 && b >= 0) join(a, b);
+    }
+  }
+  for (const b2Contact* contact : found->contacts) {
+    const int a = place(IndexOf(const_cast<b2Fixture*>(contact->GetFixtureA())->GetBody()));
+    const int b = place(IndexOf(const_cast<b2Fixture*>(contact->GetFixtureB())->GetBody()));
+    if (a >= 0 && b >= 0) join(a, b);
+  }
+  std::vector<int> order;
+  std::size_t start = 0;
+  for (int pass = 0; pass < 2; ++pass) {
+    std::vector<char> seen(n, 0);
+    order.clear();
+    const auto visit = [&](std::size_t i) {
+      if (seen[i]) return;
+      seen[i] = 1;
+      order.push_back(static_cast<int>(i));
+    };
+    visit(start);
+    for (std::size_t next = 0, k = 0; k < n; ++k) {
+      if (k == order.size()) {  // what only anchored things hold together
+        while (seen[next]) ++next;
+        visit(next);
+      }
+      for (const int other : near[static_cast<std::size_t>(order[k])]) {
+        visit(static_cast<std::size_t>(other));
+      }
+    }
+    start = static_cast<std::size_t>(order.back());
+  }
+  std::vector<int> sorted;
+  for (const int i : order) sorted.push_back(found->slots[static_cast<std::size_t>(i)]);
+  found->slots = sorted;
+}
+
+void ExactStep::Build(Found* found, bool relaxed) {
+  Order(found);
+  if (relaxed) {
+    std::stable_sort(found->slots.begin(), found->slots.end(), [this](int a, int b) {
+      return slots_[static_cast<std::size_t>(a)].mechanism <
+             slots_[static_cast<std::size_t>(b)].mechanism;
+    });
+  }
+  found->island = std::make_unique<ExactIsland>();
+  ExactIsland& island = *found->island;
+  for (std::size_t i = 0; i < found->slots.size(); ++i) {
+    Slot& slot = slots_[static_cast<std::size_t>(found->slots[i])];
+    slot.place = static_cast<int>(i);
+    ExactBody q;
+    q.body = slot.body;
+    q.slot = found->slots[i];
+    q.group = slot.mechanism;
+    q.im = static_cast<double>(slot.body->*Member(BodyInverseMass()));
+    q.inertia = static_cast<double>(slot.body->*Member(BodyInertia()));
+    q.ii = 1 / q.inertia;
+    island.bodies.push_back(q);
+  }
+  const auto place = [&](b2Body* body) {
+    if (Moves(body)) return slots_[static_cast<std::size_t>(IndexOf(body))].place;
+    for (std::size_t i = found->slots.size(); i < island.bodies.size(); ++i) {
+      if (island.bodies[i].body == body) return static_cast<int>(i);
+    }
+    ExactBody q;
+    q.body = body;
+    island.bodies.push_back(q);
+    return static_cast<int>(island.bodies.size()) - 1;
+  };
+  for (const int m : found->mechanisms) {
+    for (const int j : mechanisms_[static_cast<std::size_t>(m)].joints) {
+      const ExactJoint& joint = joints_[static_cast<std::size_t>(j)];
+      b2Body* a = joint.made->GetBodyA();
+      b2Body* b = joint.made->GetBodyB();
+      if (!Moves(a) && !Moves(b)) continue;
+      const b2Vec2 at_a = joint.anchor_a - a->GetLocalCenter();
+      const b2Vec2 at_b = joint.anchor_b - b->GetLocalCenter();
+      ExactIsland::Held held;
+      held.joint = &joint;
+      held.ends = {place(a),
+                   place(b),
+                   static_cast<double>(at_a.x),
+                   static_cast<double>(at_a.y),
+                   static_cast<double>(at_b.x),
+                   static_cast<double>(at_b.y)};
+      if (joint.type == e_gearJoint) {
+        auto& gear = *static_cast<b2GearJoint*>(joint.made);
+        held.ends.base_a = place(gear.GetJoint1()->GetBodyA());
+        held.ends.base_b = place(gear.GetJoint2()->GetBodyA());
+      }
+      island.joints.push_back(held);
+    }
+  }
+  for (b2Contact* made : found->contacts) {
+    ExactContact contact;
+    contact.made = made;
+    contact.a = place(made->GetFixtureA()->GetBody());
+    contact.b = place(made->GetFixtureB()->GetBody());
+    contact.count = made->GetManifold()->pointCount;
+    island.contacts.push_back(contact);
+  }
+  LoadPoses(found);
+  island.Shape(relaxed);
+  if (relaxed || island.cost() <= kDirectMost) return;
+  if (solver_.joints == JointSolving::kAuto) {
+    found->island.reset();  // left to the engine
+  } else {
+    Build(found, true);
+  }
+}
+
+void ExactStep::Sign(const Found& found, std::vector<const void*>* sign) const {
+  sign->clear();
+  const auto number = [&](int n) {
+    sign->push_back(reinterpret_cast<const void*>(std::intptr_t{n}));
+  };
+  number(static_cast<int>(found.slots.size()));
+  for (const int slot : found.slots) number(slot);
+  for (b2Contact* contact : found.contacts) {
+    sign->push_back(contact);
+    sign->push_back(contact->GetFixtureA());
+    sign->push_back(contact->GetFixtureB());
+    number(contact->GetManifold()->pointCount);
+  }
+  for (const int m : found.mechanisms) {
+    for (const int j : mechanisms_[static_cast<std::size_t>(m)].joints) {
+      const ExactJoint& joint = joints_[static_cast<std::size_t>(j)];
+      number(RowCount(joint) * 4 + (joint.near_lower ? 2 : 0) + (joint.near_upper ? 1 : 0));
+    }
+  }
+}
+
+/// Makes the island for what was gathered, if the last one is not for the same.
+void ExactStep::Prepare(float h, Found* found) {
+  for (const int m : found->mechanisms) {
+    for (const int j : mechanisms_[static_cast<std::size_t>(m)].joints) {
+      LookAt(static_cast<double>(h), &joints_[static_cast<std::size_t>(j)]);
+    }
+  }
+  Sign(*found, &sign_);
+  if (sign_ == found->sign) return;
+  Build(found, false);
+  found->sign = sign_;
+}
+
+}  // namespace seam

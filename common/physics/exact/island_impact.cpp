@@ -1,0 +1,138 @@
+/// ExactIsland: blows with restitution.
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/physics/exact/island.h"
+
+namespace seam {
+namespace {
+
+/// A limit or a contact that is nearer than this is reached, m or rad.
+constexpr double kReached = 1e-6;
+/// Halvings of the restitution when a blow with friction would gain energy, the last is 0.
+constexpr int kSofterTries = 3;
+/// Blows in one substep, for each contact.
+constexpr int kBlowsEach = 8;
+/// What a row's own entry is enlarged by in a blow, as a share: what is more takes energy where a
+/// mechanism can hardly give way.
+constexpr double kOwnOfBlow = 1e-9;
+
+double Kinetic(const ExactBody& q) {
+  return q.moves() ? ((q.vx * q.vx + q.vy * q.vy) / q.im + q.inertia * q.w * q.w) / 2 : 0;
+}
+
+}  // namespace
+
+double KineticOf(const std::vector<ExactBody>& bodies) {
+  double sum = 0;
+  for (const ExactBody& q : bodies) sum += Kinetic(q);
+  return sum;
+}
+
+/// Whether something elastic hits. Sets `approach` of the contacts' points.
+bool ExactIsland::FindImpacts() {
+  bool hits = false;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    ExactContact& contact = contacts[c];
+    for (int i = 0; i < contact.count; ++i) {
+      ExactContact::Point& p = contact.point[i];
+      Row& normal = At(contact_row_[c] + 2 * i);
+      Row& friction = At(contact_row_[c] + 2 * i + 1);
+      if (normal.state == RowState::kOut) normal.state = friction.state = RowState::kLow;
+      p.approach = Speed(normal);
+      if (contact.restitution <= 0 || std::fabs(p.approach) < contact.threshold) continue;
+      hits = hits || (normal.error <= 0 && p.approach < 0);
+      // It has its blow now, or when it is there; and what parts needs no push.
+      normal.state = friction.state = RowState::kOut;
+    }
+  }
+  return hits;
+}
+
+/// A blow without duration (Moreau 1988): each contact leaves at no less than its restitution times
+/// the speed it came with, so that energy is never gained without friction. With it, it may be
+/// Of those elastic contacts that touch, the one whose bodies come at each other fastest; -1: none.
+int ExactIsland::FastestBlow() {
+  int fastest = -1;
+  double most = 0;
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    ExactContact& contact = contacts[c];
+    if (contact.restitution <= 0) continue;
+    for (int i = 0; i < contact.count; ++i) {
+      const Row& normal = At(contact_row_[c] + 2 * i);
+      contact.point[i].approach = Speed(normal);
+      if (normal.error > 0 || contact.point[i].approach > -contact.threshold) continue;
+      if (contact.point[i].approach >= most) continue;
+      most = contact.point[i].approach;
+      fastest = static_cast<int>(c);
+    }
+  }
+  return fastest;
+}
+
+/// Blows without duration, the fastest first, one pair of bodies after the other as a wave would go
+/// through them: so the last ball of a cradle flies, and not all of them back.
+void ExactIsland::Impact() {
+  for (ExactBody& q : bodies) {
+    if (q.moves()) q.ii = 1 / q.inertia;
+  }
+  std::vector<RowState> were;
+  for (Row& row : rows_) were.push_back(row.state);
+  const int most = kBlowsEach * static_cast<int>(contacts.size());
+  for (int blow = 0; blow < most; ++blow) {
+    const int contact = FastestBlow();
+    if (contact < 0) break;
+    Blow(contacts[static_cast<std::size_t>(contact)],
+         contact_row_[static_cast<std::size_t>(contact)]);
+    for (Row& row : rows_) {
+      if (row.state != RowState::kOut) row.total += row.lambda;
+    }
+  }
+  for (std::size_t i = 0; i < rows_.size(); ++i) rows_[i].state = were[i];
+  for (ExactBody& q : bodies) {
+    if (q.moves()) q.ii = 1 / Stiffened(q);
+  }
+}
+
+/// One of them (Moreau 1988): each of its points leaves at no less than its restitution times the
+/// speed it came with, so that energy is never gained without friction. With it, it may be (Kane
+/// and Levinson 1985): then with less restitution.
+void ExactIsland::Blow(const ExactContact& contact, int first_row) {
+  Save(&start_);
+  const double before = KineticOf(bodies);
+  bool driven = contact.belt != 0;
+  for (const int body : {contact.a, contact.b}) {
+    const ExactBody& q = Body(body);
+    driven = driven || (!q.moves() && (q.vx != 0 || q.vy != 0 || q.w != 0));
+  }
+  double share = 1;
+  for (int tries = 0;; ++tries) {
+    for (Row& row : rows_) {
+      const bool limit = row.kind == RowKind::kLimit;
+      row.state = row.kind == RowKind::kHard       ? RowState::kFree
+                  : limit && row.error <= kReached ? RowState::kLow
+                                                   : RowState::kOut;
+      row.target = 0;
+      row.lambda = 0;
+      if (limit) row.lo = 0;
+    }
+    for (int i = 0; i < contact.count; ++i) {
+      Row& normal = At(first_row + 2 * i);
+      Row& friction = At(first_row + 2 * i + 1);
+      if (normal.error > 0) continue;
+      normal.state = friction.state = RowState::kLow;
+      normal.lo = 0;
+      normal.target = -share * contact.restitution * contact.point[i].approach;
+      friction.target = contact.belt;
+      friction.most = 0;
+    }
+    Assemble(kOwnOfBlow, kOwnOfBlow);
+    Solve(true);
+    if (driven || tries == kSofterTries || KineticOf(bodies) <= before * (1 + 1e-9)) return;
+    share = tries + 1 == kSofterTries ? 0 : share / 2;
+    Restore(start_);
+  }
+}
+
+}  // namespace seam

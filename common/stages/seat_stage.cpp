@@ -1,0 +1,252 @@
+/// Whoever takes a seat goes there with all limbs as one rigid thing, and touches nothing on its
+/// way: the bond follows when it is there. Before it goes there it waits, so that all peers have
+/// heard of it when it does. What is done to its velocity meanwhile is made good at
+/// the bond, so that the vehicle gets the momentum that came.
+///
+///   share of the way   1 |              ______  held until the bond
+///                        |           .-'
+///                      0 |________.-'
+///                        taken     kSeatSeconds
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/base/geometry.h"
+#include "common/physics/world.h"
+#include "common/stages/make_stages.h"
+
+namespace seam {
+namespace {
+
+using Eigen::Vector2d;
+
+/// Who has waited for the bond for so long is let go, s.
+constexpr int kHeldMost = 2;
+
+/// Begins and ends without a jerk. `ticks`: since the seat was taken.
+double ShareOfWay(double ticks, int tick_hz) {
+  const int wait = SeatWaitTicks(tick_hz), all = SeatTicks(tick_hz);
+  const double t = std::clamp((ticks - wait) / (all - wait), 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
+Transform2 PoseOf(const b2Body& body) {
+  return {FromB2(body.GetPosition()).cast<double>(), static_cast<double>(body.GetAngle())};
+}
+
+/// On the way to a seat. All of it is remembered.
+struct Approach {
+  int ticks = -1;     // since the seat was taken; -1: nobody is on the way
+  Transform2 from;    // the player's part in the seat's frame, then
+  b2Vec2 came{0, 0};  // N s, of the whole mechanism, then
+  b2Vec2 owed{0, 0};  // N s, of that what the way has taken
+};
+
+class SeatStage : public Stage {
+ public:
+  explicit SeatStage(const StageWorld& world) : w_(world), approaches_(world.scene.seats.size()) {}
+
+  void Rebuilt(b2World* world) override { gravity_ = world->GetGravity(); }
+  void Emptied() override { ghosts_.clear(); }
+
+  void Edited(const Edit& edit) override {
+    const SeatEdit* taken = edit.As<SeatEdit>();
+    if (taken != nullptr && taken->seat >= 0 &&
+        static_cast<std::size_t>(taken->seat) < approaches_.size()) {
+      const auto seat = static_cast<std::size_t>(taken->seat);
+      approaches_[seat] = Approach();
+      if (IsApart(seat)) approaches_[seat].ticks = 0;
+    }
+    if (edit.As<BondEdit>() == nullptr) return;
+    for (std::size_t s = 0; s < approaches_.size(); ++s) {
+      if (approaches_[s].ticks < 0 || IsApart(s)) continue;
+      Repay(s);
+      approaches_[s] = Approach();
+    }
+  }
+
+  void BeforeTick() override {
+    steps_ = 0;
+    ghosts_.clear();
+    for (std::size_t s = 0; s < approaches_.size(); ++s) {
+      if (approaches_[s].ticks < 0) continue;
+      if (!IsApart(s)) approaches_[s] = Approach();
+      if (!Leads(s)) continue;
+      if (approaches_[s].ticks == SeatWaitTicks(w_.scene.solver.tick_hz)) SetOut(s);
+      ghosts_.resize(w_.built.moving.size(), false);
+      EachOf(MechanismOf(s), [&](std::size_t body) { ghosts_[body] = true; });
+    }
+  }
+
+  void BeforeStep(float h) override {
+    ++steps_;
+    for (std::size_t s = 0; s < approaches_.size(); ++s) {
+      if (Leads(s)) Lead(s, h);
+    }
+  }
+
+  void AfterTick() override {
+    for (std::size_t s = 0; s < approaches_.size(); ++s) {
+      Approach& a = approaches_[s];
+      if (Leads(s)) a.owed = a.came - MomentumOf(MechanismOf(s));
+      if (a.ticks >= 0) ++a.ticks;
+      if (a.ticks > kHeldMost * w_.scene.solver.tick_hz) a = Approach();
+    }
+  }
+
+  void Save(std::vector<float>* memory) const override {
+    for (const Approach& a : approaches_) {
+      const Vec2 at = a.from.shift.cast<float>();
+      memory->insert(memory->end(),
+                     {static_cast<float>(a.ticks), at.x(), at.y(), static_cast<float>(a.from.angle),
+                      a.came.x, a.came.y, a.owed.x, a.owed.y});
+    }
+  }
+  std::size_t Load(const float* memory) override {
+    const float* m = memory;
+    for (Approach& a : approaches_) {
+      a.ticks = static_cast<int>(m[0]);
+      a.from = {Vec2(m[1], m[2]).cast<double>(), static_cast<double>(m[3])};
+      a.came = {m[4], m[5]};
+      a.owed = {m[6], m[7]};
+      m += 8;
+    }
+    return static_cast<std::size_t>(m - memory);
+  }
+
+  bool listens() const override { return true; }
+  void PreSolve(b2Contact* contact) override {
+    if (ghosts_.empty()) return;
+    const auto is_ghost = [&](b2Fixture* fixture) {
+      const int body = IndexOf(fixture->GetBody());
+      return body >= 0 && ghosts_[static_cast<std::size_t>(body)];
+    };
+    if (is_ghost(contact->GetFixtureA()) || is_ghost(contact->GetFixtureB())) {
+      contact->SetEnabled(false);
+    }
+  }
+
+ private:
+  const Seat& SeatOf(std::size_t seat) const { return w_.scene.seats[seat]; }
+  PartId Sitter(std::size_t seat) const {
+    const int player = SeatOf(seat).player;
+    return player < 0 ? -1 : w_.scene.players[static_cast<std::size_t>(player)].vehicle;
+  }
+  /// Index of an assembly; -1: there is no such part.
+  int AssemblyOf(PartId part) const {
+    const auto p = static_cast<std::size_t>(part);
+    return part < 0 ? -1 : w_.composition.assembly_of_part[p];
+  }
+  const Assembly& At(int assembly) const {
+    return w_.composition.assemblies[static_cast<std::size_t>(assembly)];
+  }
+
+  /// Whether somebody sits there whose mechanism is another one, and can move.
+  bool IsApart(std::size_t seat) const {
+    const int own = AssemblyOf(Sitter(seat)), there = AssemblyOf(SeatOf(seat).part);
+    if (own < 0 || there < 0 || At(own).anchored) return false;
+    return At(there).anchored || At(own).mechanism != At(there).mechanism;
+  }
+  /// Requires IsApart.
+  int MechanismOf(std::size_t seat) const { return At(AssemblyOf(Sitter(seat))).mechanism; }
+
+  template <typename Visit>
+  void EachOf(int mechanism, const Visit& visit) const {
+    for (std::size_t i = 0; i < w_.built.moving.size(); ++i) {
+      if (w_.built.moving[i].mechanism == mechanism) visit(i);
+    }
+  }
+  b2Vec2 MomentumOf(int mechanism) const {
+    b2Vec2 sum(0, 0);
+    EachOf(mechanism, [&](std::size_t i) {
+      const MovingBody& m = w_.built.moving[i];
+      sum += m.mass.mass * m.body->GetLinearVelocity();
+    });
+    return sum;
+  }
+
+  /// A part's pose, when its body has this one.
+  Transform2 PoseOfPart(PartId id, const Transform2& body) const {
+    const Part& part = w_.scene.parts[static_cast<std::size_t>(id)];
+    const Part& root = w_.scene.parts[static_cast<std::size_t>(At(AssemblyOf(id)).id)];
+    return body.Then({ToRootFrame(part, root, Vector2d(0, 0)),
+                      static_cast<double>(part.angle) - static_cast<double>(root.angle)});
+  }
+  b2Body& BodyOf(PartId part) const {
+    return *w_.built.bodies[static_cast<std::size_t>(AssemblyOf(part))];
+  }
+
+  /// Whether it is on its way, or there, in this tick.
+  bool Leads(std::size_t seat) const {
+    return approaches_[seat].ticks >= SeatWaitTicks(w_.scene.solver.tick_hz) && IsApart(seat);
+  }
+
+  void SetOut(std::size_t seat) {
+    Approach& a = approaches_[seat];
+    const PartId own = Sitter(seat), there = SeatOf(seat).part;
+    a.from = PoseOfPart(there, PoseOf(BodyOf(there)))
+                 .Inverse()
+                 .Then(PoseOfPart(own, PoseOf(BodyOf(own))));
+    // Floats are remembered: the same with and without a way back.
+    a.from.shift = a.from.shift.cast<float>().cast<double>();
+    a.from.angle = static_cast<double>(static_cast<float>(a.from.angle));
+    a.came = MomentumOf(MechanismOf(seat));
+  }
+
+  /// Gives all bodies the velocities with which they are, rigidly, where they are to be after the
+  /// step. What is only displayed has a path of its own.
+  void Lead(std::size_t seat, float h) {
+    const Approach& a = approaches_[seat];
+    const PartId own = Sitter(seat);
+    const b2Body& there = BodyOf(SeatOf(seat).part);
+    Transform2 vehicle = PoseOf(there);
+    const b2Vec2 speed = there.GetLinearVelocityFromLocalPoint(b2Vec2(0, 0));
+    vehicle.shift += static_cast<double>(h) * FromB2(speed).cast<double>();
+    vehicle.angle += static_cast<double>(h * there.GetAngularVelocity());
+    const double ticks = a.ticks + static_cast<double>(steps_) / w_.scene.solver.substeps;
+    const double share = ShareOfWay(ticks, w_.scene.solver.tick_hz);
+    const Vec2& at = SeatOf(seat).at;
+    const double turn = WrapAngle(static_cast<double>(SeatOf(seat).angle) - a.from.angle);
+    const Transform2 way{(1 - share) * a.from.shift + share * at.cast<double>(),
+                         a.from.angle + share * turn};
+    const Transform2 wanted = PoseOfPart(SeatOf(seat).part, vehicle).Then(way);
+    Transform2 now = PoseOfPart(own, PoseOf(BodyOf(own)));
+    now.angle = UnwrapAngle(now.angle, wanted.angle);
+    const Transform2 moves = wanted.Then(now.Inverse());
+    EachOf(MechanismOf(seat), [&](std::size_t i) {
+      b2Body* body = w_.built.moving[i].body;
+      if (w_.motions[i] != Motion::kDynamic) return;
+      const Vector2d centre = FromB2(body->GetWorldCenter()).cast<double>();
+      const Vector2d velocity = (moves(centre) - centre) / static_cast<double>(h);
+      body->SetLinearVelocity(ToB2(velocity.cast<float>()) - h * gravity_);
+      body->SetAngularVelocity(static_cast<float>(moves.angle) / h);
+    });
+  }
+
+  /// To all of the mechanism that now is one alike: that is no strain on its joints.
+  void Repay(std::size_t seat) {
+    const int whole = AssemblyOf(SeatOf(seat).part);
+    if (whole < 0 || At(whole).anchored) return;
+    float mass = 0;
+    EachOf(At(whole).mechanism, [&](std::size_t i) { mass += w_.built.moving[i].mass.mass; });
+    EachOf(At(whole).mechanism, [&](std::size_t i) {
+      if (w_.motions[i] != Motion::kDynamic) return;
+      b2Body* body = w_.built.moving[i].body;
+      body->SetLinearVelocity(body->GetLinearVelocity() + (1 / mass) * approaches_[seat].owed);
+    });
+  }
+
+  const StageWorld w_;
+  std::vector<Approach> approaches_;  // by the scene's seats
+  std::vector<bool> ghosts_;          // by moving body; empty: nobody is on the way
+  b2Vec2 gravity_{0, 0};
+  int steps_ = 0;  // of the engine, in this tick
+};
+
+}  // namespace
+
+std::unique_ptr<Stage> MakeSeatStage(const StageWorld& world) {
+  return std::make_unique<SeatStage>(world);
+}
+
+}  // namespace seam

@@ -1,0 +1,106 @@
+/// What the rules look at of told states: each once, in the order of ticks, no body going back.
+
+#include "server/rules/state_trail.h"
+
+#include <gtest/gtest.h>
+
+#include "common/scene/part_rules.h"
+#include "server/rules/triggers.h"
+
+namespace seam {
+namespace {
+
+BodyState At(float x) {
+  BodyState state;
+  state.position = {x, 0};
+  return state;
+}
+
+TEST(StateTrail, TellsTheTicksOfAllBodiesEachOnceAndInOrder) {
+  StateTrail trail(2);
+  trail.Add(1, 12, At(2));
+  trail.Add(0, 10, At(0));
+  trail.Add(0, 12, At(1));
+  trail.Add(0, 14, At(2));
+  EXPECT_EQ(trail.NewTicks(), (std::vector<std::int64_t>{10, 11, 12, 13, 14}));
+  trail.NoteLooked();
+  EXPECT_TRUE(trail.NewTicks().empty());
+  trail.Add(1, 13, At(3));
+  EXPECT_EQ(trail.NewTicks(), (std::vector<std::int64_t>{13}));
+}
+
+TEST(StateTrail, ABodyThatWasLookedAtLaterDoesNotGoBackForOneThatIsToldLater) {
+  StateTrail trail(2);
+  trail.Add(0, 20, At(5));
+  trail.Add(0, 21, At(6));
+  trail.NoteLooked();
+  trail.Add(1, 11, At(1));
+  trail.Add(1, 12, At(2));
+  ASSERT_TRUE(trail.At(0, 11).has_value());
+  EXPECT_EQ(trail.At(0, 11)->position.x(), 6);
+  EXPECT_EQ(trail.TickOf(0, 11), 21);
+  EXPECT_EQ(trail.At(1, 11)->position.x(), 1);
+  EXPECT_EQ(trail.TickOf(1, 11), 11);
+  EXPECT_FALSE(trail.At(1, 10).has_value()) << "nothing is known yet";
+  EXPECT_EQ(trail.TickOf(1, 10), -1);
+}
+
+TEST(StateTrail, WhatOthersBecameIsNewAndWhatStayedIsNot) {
+  StateTrail trail(2);
+  trail.Add(0, 10, At(0));
+  trail.Add(1, 10, At(0));
+  trail.NoteLooked();
+  BodyOrigin stays;
+  stays.body = 1;
+  stays.same = true;
+  trail.Remap({BodyOrigin(), stays});
+  EXPECT_TRUE(trail.NewTicks().empty());
+  trail.Add(0, 9, At(1));
+  EXPECT_EQ(trail.NewTicks(), (std::vector<std::int64_t>{9}));
+}
+
+TEST(StateTrail, TheWayBetweenTwoStatesIsLookedAtTickByTick) {
+  StateTrail trail(1);
+  trail.Add(0, 10, At(1));
+  trail.NoteLooked();
+  trail.Add(0, 14, At(3));
+  EXPECT_EQ(trail.NewTicks(), (std::vector<std::int64_t>{11, 12, 13, 14}));
+  EXPECT_FLOAT_EQ(trail.At(0, 11)->position.x(), 1.5f);
+  EXPECT_FLOAT_EQ(trail.At(0, 13)->position.x(), 2.5f);
+  EXPECT_EQ(trail.At(0, 99)->position.x(), 3);
+  EXPECT_EQ(trail.TickOf(0, 13), 13);
+  EXPECT_EQ(trail.TickOf(0, 99), 14);
+}
+
+TEST(StateTrail, WhatWasPutElsewhereOrWasLongSilentHasNoWayThere) {
+  StateTrail trail(1);
+  trail.Add(0, 10, At(0));
+  trail.NoteLooked();
+  trail.Add(0, 12, At(50));
+  EXPECT_EQ(trail.NewTicks(), (std::vector<std::int64_t>{12}));
+  trail.NoteLooked();
+  trail.Add(0, 13 + StateTrail::kWayMost, At(51));
+  EXPECT_EQ(trail.NewTicks(), (std::vector<std::int64_t>{13 + StateTrail::kWayMost}));
+}
+
+/// Six states come at once; a coin lies between the first and the last.
+TEST(StateTrail, ABurstOfStatesDoesNotCarryABodyPastATrigger) {
+  Trigger coin;
+  coin.size = {0.3f, 1};
+  coin.parts = {0};
+  Triggers triggers({coin});
+  StateTrail trail(1);
+  for (int i = 0; i < 6; ++i) trail.Add(0, 30 + i, At(-0.5f + 0.2f * static_cast<float>(i)));
+  int entered = 0, left = 0;
+  for (const std::int64_t tick : trail.NewTicks()) {
+    const auto place = [&](PartId) -> std::optional<Vec2> { return trail.At(0, tick)->position; };
+    for (const TriggerEvent& event : triggers.Update(place, [](PartId) { return 0; })) {
+      ++(event.entered ? entered : left);
+    }
+  }
+  EXPECT_EQ(entered, 1);
+  EXPECT_EQ(left, 1);
+}
+
+}  // namespace
+}  // namespace seam
