@@ -1,7 +1,8 @@
 /// Whoever takes a seat goes there with all limbs as one rigid thing, and touches nothing on its
 /// way: the bond follows when it is there. Before it goes there it waits, so that all peers have
 /// heard of it when it does. What is done to its velocity meanwhile is made good at
-/// the bond, so that the vehicle gets the momentum that came.
+/// the bond, so that the vehicle gets the momentum that came. While it sits there its limbs do not
+/// collide with the vehicle: there is no room for legs in most.
 ///
 ///   share of the way   1 |              ______  held until the bond
 ///                        |           .-'
@@ -46,8 +47,14 @@ class SeatStage : public Stage {
  public:
   explicit SeatStage(const StageWorld& world) : w_(world), approaches_(world.scene.seats.size()) {}
 
-  void Rebuilt(b2World* world) override { gravity_ = world->GetGravity(); }
-  void Emptied() override { ghosts_.clear(); }
+  void Rebuilt(b2World* world) override {
+    gravity_ = world->GetGravity();
+    FindSides();
+  }
+  void Emptied() override {
+    ghosts_.clear();
+    sides_.clear();
+  }
 
   void Edited(const Edit& edit) override {
     const SeatEdit* taken = edit.As<SeatEdit>();
@@ -57,6 +64,7 @@ class SeatStage : public Stage {
       approaches_[seat] = Approach();
       if (IsApart(seat)) approaches_[seat].ticks = 0;
     }
+    if (taken != nullptr) FindSides();
     if (edit.As<BondEdit>() == nullptr) return;
     for (std::size_t s = 0; s < approaches_.size(); ++s) {
       if (approaches_[s].ticks < 0 || IsApart(s)) continue;
@@ -116,14 +124,11 @@ class SeatStage : public Stage {
 
   bool listens() const override { return true; }
   void PreSolve(b2Contact* contact) override {
-    if (ghosts_.empty()) return;
-    const auto is_ghost = [&](b2Fixture* fixture) {
-      const int body = IndexOf(fixture->GetBody());
-      return body >= 0 && ghosts_[static_cast<std::size_t>(body)];
-    };
-    if (is_ghost(contact->GetFixtureA()) || is_ghost(contact->GetFixtureB())) {
-      contact->SetEnabled(false);
-    }
+    if (ghosts_.empty() && sides_.empty()) return;
+    const int a = IndexOf(contact->GetFixtureA()->GetBody());
+    const int b = IndexOf(contact->GetFixtureB()->GetBody());
+    const bool passes = IsGhost(a) || IsGhost(b) || (SideOf(a) != 0 && SideOf(a) == -SideOf(b));
+    if (passes) contact->SetEnabled(false);
   }
 
  private:
@@ -139,6 +144,58 @@ class SeatStage : public Stage {
   }
   const Assembly& At(int assembly) const {
     return w_.composition.assemblies[static_cast<std::size_t>(assembly)];
+  }
+
+  bool IsGhost(int body) const {
+    return body >= 0 && !ghosts_.empty() && ghosts_[static_cast<std::size_t>(body)];
+  }
+  int SideOf(int body) const {
+    return body < 0 || sides_.empty() ? 0 : sides_[static_cast<std::size_t>(body)];
+  }
+
+  /// Whether the part of a seat and its sitter's are one body.
+  bool IsBonded(std::size_t seat) const {
+    const int own = AssemblyOf(Sitter(seat));
+    return own >= 0 && own == AssemblyOf(SeatOf(seat).part);
+  }
+  bool IsBondOf(std::size_t seat, const Joint& joint) const {
+    return joint.kind == JointKind::kGlue && joint.a == SeatOf(seat).part &&
+           joint.b == Sitter(seat);
+  }
+  /// By part: whether joints other than the seat's bond connect it with the sitter.
+  std::vector<bool> PartsOfSitter(std::size_t seat) const {
+    std::vector<bool> found(w_.scene.parts.size(), false);
+    found[static_cast<std::size_t>(Sitter(seat))] = true;
+    for (bool more = true; more;) {
+      more = false;
+      for (const Joint& joint : w_.scene.joints) {
+        if (joint.gone || IsBondOf(seat, joint)) continue;
+        const auto a = static_cast<std::size_t>(joint.a), b = static_cast<std::size_t>(joint.b);
+        const bool anchored = w_.scene.parts[a].anchored || w_.scene.parts[b].anchored;
+        if (found[a] == found[b] || anchored) continue;
+        found[a] = found[b] = more = true;
+      }
+    }
+    return found;
+  }
+  /// Which bodies are limbs of who sits in a vehicle, and which are the vehicle's: the one that
+  /// both have become is.
+  void FindSides() {
+    sides_.clear();
+    for (std::size_t s = 0; s < approaches_.size(); ++s) {
+      if (!IsBonded(s) || At(AssemblyOf(Sitter(s))).anchored) continue;
+      const std::vector<bool> own = PartsOfSitter(s);
+      if (own[static_cast<std::size_t>(SeatOf(s).part)]) continue;
+      sides_.resize(w_.built.moving.size(), 0);
+      const int whole = At(AssemblyOf(Sitter(s))).mechanism;
+      const PartId root = At(AssemblyOf(Sitter(s))).id;
+      EachOf(whole, [&](std::size_t body) {
+        const int side = static_cast<int>(s) + 1;
+        const PartId id = w_.built.moving[body].id;
+        const bool limb = id != root && own[static_cast<std::size_t>(id)];
+        sides_[body] = limb ? side : -side;
+      });
+    }
   }
 
   /// Whether somebody sits there whose mechanism is another one, and can move.
@@ -239,6 +296,7 @@ class SeatStage : public Stage {
   const StageWorld w_;
   std::vector<Approach> approaches_;  // by the scene's seats
   std::vector<bool> ghosts_;          // by moving body; empty: nobody is on the way
+  std::vector<int> sides_;  // by moving body: a seat's number from 1, -: the vehicle; empty: none
   b2Vec2 gravity_{0, 0};
   int steps_ = 0;  // of the engine, in this tick
 };
