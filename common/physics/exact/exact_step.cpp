@@ -44,16 +44,15 @@ ExactStep::ExactStep(const Scene& scene, b2World* world, const BuiltScene& built
   if (solver_.joints == JointSolving::kAuto) LeaveCharacters(scene);
 }
 
-/// A character's gait is tuned on the engine's joints, which are cheaper in a heap of them. Who
-/// sits in something that has joints of its own goes with it.
+/// A character's gait is tuned on the engine's joints, which are cheaper in a heap of them.
 void ExactStep::LeaveCharacters(const Scene& scene) {
   std::vector<char> limbs(scene.joints.size(), 0);
   for (const Character& character : scene.characters) {
     for (const int joint : character.joints) limbs[static_cast<std::size_t>(joint)] = 1;
   }
   for (Mechanism& mechanism : mechanisms_) {
-    mechanism.exact = std::any_of(mechanism.joints.begin(), mechanism.joints.end(), [&](int j) {
-      return !limbs[static_cast<std::size_t>(joints_[static_cast<std::size_t>(j)].index)];
+    mechanism.exact = std::none_of(mechanism.joints.begin(), mechanism.joints.end(), [&](int j) {
+      return limbs[static_cast<std::size_t>(joints_[static_cast<std::size_t>(j)].index)] != 0;
     });
   }
 }
