@@ -72,6 +72,7 @@ class ExactIsland {
   // Of a substep, in their order.
   void Substep(const Pace& pace);
   void Course(const Pace& pace, bool whole);
+  void GoBack(const Pace& pace);
   bool PushesOut() const;
   void Kick(double h);
   bool FindImpacts();

@@ -15,6 +15,9 @@ namespace {
 constexpr int kSweepsAhead = 8, kSweepsAtEnd = 4;
 /// A row that nothing can move has this much answer or less.
 constexpr double kNothing = 1e-12;
+/// A row is taken for so much of what its bodies alone would answer, at least: where joints jam it,
+/// what is left is rounding.
+constexpr double kYields = 1e-4;
 /// What the answers were found for still holds after turns of so many rad.
 constexpr double kTurnsFew = 0.01;
 
@@ -71,6 +74,10 @@ void ExactIsland::ShapeGroups() {
 void ExactIsland::FindAnswer(Reach* reach) {
   const Row& row = At(reach->row);
   reach->own = 0;
+  for (int e = 0; e < row.ends; ++e) {
+    const RowEnd& end = row.end[e];
+    for (int i = 0; i < 3; ++i) reach->own += kYields * end.j[i] * end.mj[i];
+  }
   for (int r = 0; r < reach->groups; ++r) {
     const Group& group = groups_[static_cast<std::size_t>(reach->group[r])];
     double* answer = answer_.data() + reach->at[r];

@@ -16,6 +16,8 @@ namespace {
 constexpr double kStiffness = 0.25;
 /// It counts in full from this stiffness over inertia on, and below the other not at all.
 constexpr double kStiffTo = 1, kStiffFrom = 0.4;
+/// What is jammed tells of any tension: at most so many times the inertia.
+constexpr double kStiffMost = 100;
 /// What is left of it after a substep when the tension is gone: inertias that jump make noise.
 constexpr double kLasts = 0.99;
 /// The inertia is found anew while it lacks more than this.
@@ -23,6 +25,8 @@ constexpr double kStifferBy = 1.1;
 constexpr int kStifferTries = 4;
 /// What a substep may gain of kinetic energy by itself, as a share, and J/kg: motors do, too.
 constexpr double kGainShare = 0.05, kGainPerMass = 0.05;
+/// And what is taken for an error: twice the speed, or 9 m/s from rest.
+constexpr double kGainMost = 3, kGainMostPerMass = 40;
 /// Joints are shut to this, m or rad, in at most so many corrections; less well where something
 /// touches, which leaves more behind.
 constexpr double kShut = 1e-9, kShutTouching = 1e-7;
@@ -79,26 +83,47 @@ void ExactIsland::Substep(const Pace& pace) {
     return r.kind == RowKind::kSoft;
   });
   Kick(whole ? pace.h : pace.h / 2);
-  if (!PushesOut()) {
+  if (contacts.empty()) {
     Course(pace, whole);
     return;
   }
-  // Where a mechanism is jammed, contacts that push out of an overlap make energy that the solve at
-  // the end cannot take back: then without pushing out.
   bodies_before_ = bodies;
+  rows_before_ = rows_;
+  const bool pushes = PushesOut();
   double mass = 0;
   for (const ExactBody& q : bodies) mass += q.moves() ? 1 / q.im : 0;
-  const double most = (1 + kGainShare) * KineticOf(bodies) + kGainPerMass * mass;
-  rows_before_ = rows_;
+  const double before = KineticOf(bodies);
   Course(pace, whole);
-  if (KineticOf(bodies) <= most) return;
+  const double gained = KineticOf(bodies) - before;
+  if (gained <= kGainShare * before + kGainPerMass * mass) return;
+  // Where a mechanism is jammed, contacts that push out of an overlap make energy that the solve at
+  // the end cannot take back: then without pushing out.
+  if (pushes) {
+    GoBack(pace);
+    for (Row& row : rows_) {
+      if (row.kind == RowKind::kNormal) row.target = std::min(0.0, row.target);
+    }
+    Course(pace, whole);
+  }
+  if (KineticOf(bodies) - before <= kGainMost * before + kGainMostPerMass * mass) return;
+  // Nothing in a scene does this in a substep: it goes on with what its joints leave of its motion.
+  GoBack(pace);
+  for (Row& row : rows_) {
+    row.target = 0;
+    row.lambda = row.base = 0;
+  }
+  Assemble();
+  HoldJoints();
+  Move(pace.h);
+  Fill(pace);
+  BringTogether(pace);
+}
+
+/// To where the substep's course began.
+void ExactIsland::GoBack(const Pace& pace) {
   bodies = bodies_before_;
   rows_ = rows_before_;
   Fill(pace);
-  for (Row& row : rows_) {
-    if (row.kind == RowKind::kNormal) row.target = std::min(0.0, row.target);
-  }
-  Course(pace, whole);
 }
 
 bool ExactIsland::PushesOut() const {
@@ -129,7 +154,7 @@ void ExactIsland::Kick(double h) {
 /// kg m2, what the tension makes of a body's inertia. Little tension makes nothing of it, so that
 /// a pendulum stays as exact as it is.
 double ExactIsland::Stiffened(const ExactBody& q) {
-  const double tense = std::max(q.stiffness, q.lasting);
+  const double tense = std::min(std::max(q.stiffness, q.lasting), kStiffMost * q.inertia);
   const double share = (tense / q.inertia - kStiffFrom) / (kStiffTo - kStiffFrom);
   return q.inertia + kStiffness * std::max(0.0, tense) * std::clamp(share, 0.0, 1.0);
 }
