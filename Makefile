@@ -32,9 +32,9 @@ ifeq ($(CXXFLAGS_$(BUILD)),)
 $(error BUILD must be release, debug, asan, tsan or coverage, not "$(BUILD)")
 endif
 EIGEN := /usr/include/eigen3
-# -ffp-contract=off is part of the determinism contract: no fused multiply-add. Whoever adds -march=... to CXXFLAGS adds
-# -fno-tree-slp-vectorize, too: g++ 12 fuses there all the same (tests/hashes.sh).
-ALL_CXXFLAGS := -std=c++17 $(CXXFLAGS_$(BUILD)) -ffp-contract=off $(WARN) -MMD -MP -I. \
+# -ffp-contract=off is part of the determinism contract: no fused multiply-add. So is -fno-tree-slp-vectorize: with
+# -march=x86-64-v3 g++ 12 fuses there all the same (make hashes).
+ALL_CXXFLAGS := -std=c++17 $(CXXFLAGS_$(BUILD)) -ffp-contract=off -fno-tree-slp-vectorize $(WARN) -MMD -MP -I. \
 	-isystem $(EIGEN) -isystem /usr/include/freetype2 -pthread $(CXXFLAGS)
 # Only common/codec/ reads generated headers (tests/style/layering_test.cpp).
 CODEC_CXXFLAGS := -isystem $(GEN)

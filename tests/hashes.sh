@@ -25,7 +25,7 @@ compute() {
 
 status=0
 compute g++-O2 "$gcc" -O2
-for variant in "g++-O0|$gcc|-O0" "g++-v3|$gcc|-O2 -march=x86-64-v3 -fno-tree-slp-vectorize" "clang++-O2|$clang|-O2" \
+for variant in "g++-O0|$gcc|-O0" "g++-v3|$gcc|-O2 -march=x86-64-v3" "clang++-O2|$clang|-O2" \
   "clang++-v3|$clang|-O2 -march=x86-64-v3"; do
   name=${variant%%|*}
   rest=${variant#*|}

@@ -50,8 +50,6 @@ bool ExactIsland::FindImpacts() {
   return hits;
 }
 
-/// A blow without duration (Moreau 1988): each contact leaves at no less than its restitution times
-/// the speed it came with, so that energy is never gained without friction. With it, it may be
 /// Of those elastic contacts that touch, the one whose bodies come at each other fastest; -1: none.
 int ExactIsland::FastestBlow() {
   int fastest = -1;
