@@ -91,7 +91,8 @@ void ExactIsland::ShapeMatrix() {
 }
 
 void ExactIsland::Fill(const Pace& pace) {
-  for (const Held& held : joints) FillJoint(*held.joint, held.ends, bodies, pace, &At(held.row));
+  for (const Held& held : joints)
+    FillJoint(*held.joint, held.ends, bodies, pace, rows_.data() + held.row);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (contacts[c].count > 0) FillContact(contacts[c], bodies, pace, &At(contact_row_[c]));
   }

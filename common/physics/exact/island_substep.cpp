@@ -51,7 +51,7 @@ void ExactIsland::Step(const Pace& pace, bool warm) {
   Fill(pace);
   const double share = warm ? 1.0 / pace.substeps : 0;
   for (Row& row : rows_) row.lambda = row.total = 0;
-  for (const Held& held : joints) LoadImpulses(*held.joint, share, &At(held.row));
+  for (const Held& held : joints) LoadImpulses(*held.joint, share, rows_.data() + held.row);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (contacts[c].count > 0) LoadImpulses(contacts[c], share, &At(contact_row_[c]));
   }
