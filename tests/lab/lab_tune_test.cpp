@@ -115,6 +115,25 @@ TEST(Tune, WhatCostsLessThanPredictedIsFoundToo) {
   EXPECT_EQ(best.solver.tick_hz * best.solver.substeps, 60);
 }
 
+TEST(Tune, TriesExactAndIterativeJointsWhereThereAreJoints) {
+  TuneProblem problem = MadeUpProblem(1.5 / 60, 1);
+  problem.jointed = true;
+  problem.run = [run = problem.run](Trial* trial) {
+    run(trial);
+    const bool exact = trial->solver.joints == JointSolving::kExact;
+    if (!exact || trial->solver.joint_substeps != 2) trial->failure = "tore";
+  };
+  const TuneResult result = Tune(problem);
+  ASSERT_TRUE(result.best.has_value());
+  EXPECT_EQ(result.trials[*result.best].solver.joints, JointSolving::kExact);
+  EXPECT_EQ(result.trials[*result.best].solver.joint_substeps, 2);
+  int iterative = 0;
+  for (const Trial& trial : result.trials) {
+    iterative += trial.solver.joints == JointSolving::kIterative ? 1 : 0;
+  }
+  EXPECT_GT(iterative, 10);
+}
+
 TEST(Tune, ItsFrontFallsInErrorAsItRisesInCost) {
   const TuneResult result = Tune(MadeUpProblem(1.5 / 240, 2));
   ASSERT_GE(result.front.size(), 3u);

@@ -11,6 +11,7 @@
 #include "tests/lab/commands.h"
 #include "tests/lab/exact/scene_case.h"
 #include "tests/lab/hard/observe.h"
+#include "tests/lab/hard/physics_plan.h"
 #include "tests/lab/hard/settings.h"
 #include "tests/lab/hard/tune.h"
 
@@ -122,6 +123,7 @@ int RunTune(const TuneCommand& given) {
     return CompareCost(WithSolver(target.scene, solver), stock, target.seconds).ratio;
   };
   problem.own = target.scene.solver;
+  problem.jointed = HasJoints(target.scene);
   problem.limit = command.error;
   problem.keep_hz = command.keep_hz;
   problem.budget = command.budget_s;

@@ -17,13 +17,6 @@ double RowCost(double own, double stock) {
   return own + std::max(own + stock, std::min(0.15, 15 * (own + stock)));
 }
 
-bool HasJoints(const Scene& scene) {
-  return std::any_of(scene.joints.begin(), scene.joints.end(), [&](const Joint& joint) {
-    return !joint.gone && !IsRigid(joint, scene.solver) &&
-           HoldOf(joint.kind) != JointHold::kImposed;
-  });
-}
-
 /// One engine step a tick: what exact joints need of substeps they have of their own.
 void AddJointPoints(const HardCase* hard, const Scene& scene, PhysicsPlan* plan) {
   if (!HasJoints(scene)) return;
@@ -47,6 +40,13 @@ void AddJointPoints(const HardCase* hard, const Scene& scene, PhysicsPlan* plan)
 double SleptThrough(double awake) { return 0.1 + 0.9 * awake; }
 
 }  // namespace
+
+bool HasJoints(const Scene& scene) {
+  return std::any_of(scene.joints.begin(), scene.joints.end(), [&](const Joint& joint) {
+    return !joint.gone && !IsRigid(joint, scene.solver) &&
+           HoldOf(joint.kind) != JointHold::kImposed;
+  });
+}
 
 double CaseBudget(GridSize size) {
   switch (size) {

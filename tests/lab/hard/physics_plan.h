@@ -23,6 +23,9 @@ struct PhysicsPlan {
   std::vector<std::string> left_out;  ///< what of the grid was too dear, a line each
 };
 
+/// Whether the engine has joints in it.
+bool HasJoints(const Scene& scene);
+
 /// CPU seconds for a case's grid; what exceeds it is left out. The stock and the scene's setting
 /// are always there, but in kQuick, which leaves out cases whose stock run is predicted to take
 /// more when nothing sleeps.

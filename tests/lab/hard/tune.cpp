@@ -25,6 +25,7 @@ class Search {
 
   TuneResult Run() {
     Try(problem_.own);
+    if (problem_.jointed) TryExact();
     Coarse();
     Refine();
     for (std::size_t i = 0; i < kClimbs; ++i) Climb();
@@ -56,6 +57,19 @@ class Search {
     return known->second;
   }
 
+  void TryExact() {
+    for (const int substeps : {1, 2, 4}) {
+      Solver s = problem_.own;
+      const Solver usual;
+      s.substeps = usual.substeps;
+      s.velocity_iterations = usual.velocity_iterations;
+      s.position_iterations = usual.position_iterations;
+      s.joints = JointSolving::kExact;
+      s.joint_substeps = substeps;
+      Try(s);
+    }
+  }
+
   std::vector<Solver> Grid() const {
     std::vector<Solver> grid;
     std::vector<int> rates = {30, 60, 120, 240};
@@ -66,6 +80,7 @@ class Search {
         for (const int substeps : {1, 2, 3, 4, 6, 8}) {
           for (const auto& [velocity, position] : iterations) {
             Solver s = problem_.own;
+            if (problem_.jointed) s.joints = JointSolving::kIterative;
             s.tick_hz = hz;
             s.substeps = substeps;
             s.velocity_iterations = velocity;

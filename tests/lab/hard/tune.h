@@ -29,7 +29,10 @@ struct TuneProblem {
   Solver own;            ///< tried too; what is not searched is as here
   double limit = 0;      ///< of the error
   bool keep_hz = false;  ///< tick_hz is as in `own`
-  double budget = 0;     ///< most predicted cost to spend on runs
+  /// The scene has joints: exact ones are tried with 1, 2 and 4 substeps of their own, and the grid
+  /// has iterative ones.
+  bool jointed = false;
+  double budget = 0;  ///< most predicted cost to spend on runs
 };
 
 struct TuneResult {
