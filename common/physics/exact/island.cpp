@@ -74,18 +74,26 @@ void ExactIsland::ShapeMatrix() {
   }
   matrix_.SetShape(first);
   pairs_.clear();
+  assembled_.assign(row_at_.size(), {});
   std::vector<std::vector<std::pair<int, int>>> met(bodies.size());  // row, end
   for (std::size_t p = 0; p < row_at_.size(); ++p) {
     const int row = row_at_[p];
+    const auto first_end = [this](const Row& of) { return static_cast<int>(of.end - ends_.data()); };
+    assembled_[p].end = first_end(At(row));
+    assembled_[p].ends = At(row).ends;
+    assembled_[p].pair = static_cast<int>(pairs_.size());
     for (int e = 0; e < At(row).ends; ++e) {
       auto& there = met[static_cast<std::size_t>(At(row).end[e].body)];
       there.push_back({row, e});
       for (const auto& [other, other_end] : there) {
         const int column = place_[static_cast<std::size_t>(other)];
-        pairs_.push_back({matrix_.Place(static_cast<int>(p), column), row, other, e, other_end});
+        pairs_.push_back({matrix_.Place(static_cast<int>(p), column), first_end(At(row)) + e,
+                          first_end(At(other)) + other_end});
       }
     }
   }
+  assembled_ends_.assign(ends_.size(), RowEnd());
+  changed_ = dirty_ = 0;
   in_.assign(row_at_.size(), 1);
   x_.assign(row_at_.size(), 0.0);
 }

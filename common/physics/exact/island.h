@@ -46,8 +46,12 @@ class ExactIsland {
  private:
   struct Pair {  // of rows that share a body
     int place;   // in the matrix
-    int row, other;
-    int end, other_end;
+    int end, other_end;  // of all ends
+  };
+  struct Assembled {  // what the matrix has of a row
+    int end = 0, ends = 0;  // of all ends: the first, how many
+    int pair = 0;           // of all pairs: the first
+    double share = 0, gamma = 0;
   };
   struct Group {  // a mechanism, or a body without joints
     int group;
@@ -94,6 +98,7 @@ class ExactIsland {
   /// `hard`, `bounded`: what a row's own entry is enlarged by, as a share, for rows that others
   /// imply.
   void Assemble(double hard = 1e-7, double bounded = 1e-6);
+  int FirstChanged(double hard, double bounded);
   void Factor();
   void Solve(bool ahead);
   bool PivotToTheEnd();
@@ -123,10 +128,13 @@ class ExactIsland {
   std::vector<int> contact_row_;  // by contact: the first of its rows
   std::vector<int> place_;        // by row: its index in the matrix
   std::vector<int> row_at_;       // the other way round
-  std::vector<Pair> pairs_;
+  std::vector<Pair> pairs_;             // in the order of places
+  std::vector<Assembled> assembled_;    // by place
+  std::vector<RowEnd> assembled_ends_;  // as they are in the matrix
   Skyline matrix_;
   int bounded_ = 0;
   double turned_ = 0;  // rad: the most that a body has turned in this substep
+  int changed_ = 0;    // the matrix's rows from here on are not those that were assembled
   int dirty_ = 0;      // the factors of rows from here on are old
   std::vector<char> in_;
   std::vector<double> x_, before_, start_;

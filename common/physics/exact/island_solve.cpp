@@ -62,38 +62,71 @@ void ExactIsland::Restore(const std::vector<double>& velocities) {
   }
 }
 
-void ExactIsland::Assemble(double hard, double bounded) {
-  for (Row& row : rows_) {
-    for (int e = 0; e < row.ends; ++e) {
-      RowEnd& end = row.end[e];
-      const ExactBody& q = bodies[static_cast<std::size_t>(end.body)];
-      end.mj[0] = q.im * end.j[0];
-      end.mj[1] = q.im * end.j[1];
-      end.mj[2] = q.ii * end.j[2];
+/// The first row, by place, that is not as the matrix has it, or was in it with another share. The
+/// matrix is asked for it as it is at the end of a substep when the next one begins.
+int ExactIsland::FirstChanged(double hard, double bounded) {
+  const int n = std::min(changed_, matrix_.size());
+  for (int p = 0; p < n; ++p) {
+    const Assembled& was = assembled_[static_cast<std::size_t>(p)];
+    const Row& row = At(row_at_[static_cast<std::size_t>(p)]);
+    if (row.gamma != was.gamma || (row.bounded() ? bounded : hard) != was.share) return p;
+    const auto first = static_cast<std::size_t>(was.end);
+    for (std::size_t e = first; e < first + static_cast<std::size_t>(was.ends); ++e) {
+      const RowEnd& now = ends_[e];
+      const RowEnd& then = assembled_ends_[e];
+      for (int i = 0; i < 3; ++i) {
+        if (now.j[i] != then.j[i] || now.mj[i] != then.mj[i]) return p;
+      }
     }
   }
-  matrix_.Clear();
-  for (const Pair& pair : pairs_) {
-    const double* m = rows_[static_cast<std::size_t>(pair.row)].end[pair.end].mj;
-    const double* j = rows_[static_cast<std::size_t>(pair.other)].end[pair.other_end].j;
+  return n;
+}
+
+void ExactIsland::Assemble(double hard, double bounded) {
+  for (RowEnd& end : ends_) {
+    if (end.body < 0) continue;
+    const ExactBody& q = bodies[static_cast<std::size_t>(end.body)];
+    end.mj[0] = q.im * end.j[0];
+    end.mj[1] = q.im * end.j[1];
+    end.mj[2] = q.ii * end.j[2];
+  }
+  const int size = matrix_.size();
+  const int from = FirstChanged(hard, bounded);
+  changed_ = size;
+  dirty_ = std::min(dirty_, from);
+  if (from >= size) return;
+  matrix_.Clear(from);
+  const RowEnd* const ends = ends_.data();
+  const auto first_pair = static_cast<std::size_t>(assembled_[static_cast<std::size_t>(from)].pair);
+  for (std::size_t i = first_pair; i < pairs_.size(); ++i) {
+    const Pair& pair = pairs_[i];
+    const double* m = ends[pair.end].mj;
+    const double* j = ends[pair.other_end].j;
     matrix_.At(pair.place) += m[0] * j[0] + m[1] * j[1] + m[2] * j[2];
   }
-  for (int p = 0; p < matrix_.size(); ++p) {
+  for (int p = from; p < size; ++p) {
     const Row& row = At(row_at_[static_cast<std::size_t>(p)]);
+    Assembled& now = assembled_[static_cast<std::size_t>(p)];
+    now.gamma = row.gamma;
+    now.share = row.bounded() ? bounded : hard;
     double& own = matrix_.At(matrix_.Place(p, p));
-    own += own * (row.bounded() ? bounded : hard) + row.gamma;
+    own += own * now.share + row.gamma;
+    std::copy_n(ends_.begin() + now.end, now.ends, assembled_ends_.begin() + now.end);
   }
-  dirty_ = 0;
 }
 
 void ExactIsland::Factor() {
-  if (dirty_ >= matrix_.size()) return;
-  for (int p = dirty_; p < matrix_.size(); ++p) {
+  const int size = matrix_.size();
+  for (int p = 0; p < size; ++p) {
     const auto at = static_cast<std::size_t>(p);
-    in_[at] = At(row_at_[at]).state == RowState::kFree ? 1 : 0;
+    const char in = At(row_at_[at]).state == RowState::kFree ? 1 : 0;
+    if (in == in_[at]) continue;
+    in_[at] = in;
+    dirty_ = std::min(dirty_, p);
   }
+  if (dirty_ >= size) return;
   matrix_.Factor(in_, dirty_);
-  dirty_ = matrix_.size();
+  dirty_ = size;
 }
 
 /// Solves with the states as they are and says what they should be. True: nothing to change.
@@ -144,9 +177,7 @@ bool ExactIsland::Pivot(int* wrong) {
 void ExactIsland::Change(int place) {
   const auto at = static_cast<std::size_t>(place);
   Row& row = At(row_at_[at]);
-  if (row.state == next_[at]) return;
   row.state = next_[at];
-  dirty_ = std::min(dirty_, place);
 }
 
 bool ExactIsland::PivotToTheEnd() {
@@ -189,7 +220,6 @@ bool ExactIsland::NextFrictionBounds() {
     row.most = most;
     if (row.state == RowState::kFree && std::fabs(now) > most) {
       row.state = now > 0 ? RowState::kHigh : RowState::kLow;
-      dirty_ = std::min(dirty_, place_[i]);
     }
   }
   return change > kFrictionSame;
@@ -250,7 +280,6 @@ void ExactIsland::Descend() {
       Push(row, (low ? row.lo : row.hi) - row.lambda);
       row.lambda = low ? row.lo : row.hi;
       row.state = low ? RowState::kLow : RowState::kHigh;
-      dirty_ = std::min(dirty_, meets);
       continue;
     }
     bool freed = false;
@@ -261,7 +290,6 @@ void ExactIsland::Descend() {
       const double off = Speed(row) - row.target + row.gamma * row.lambda;
       if (row.state == RowState::kLow ? off >= -kSpeedError : off <= kSpeedError) continue;
       row.state = RowState::kFree;
-      dirty_ = std::min(dirty_, static_cast<int>(p));
       freed = true;
     }
     if (!freed) return;
@@ -276,7 +304,6 @@ void ExactIsland::HoldJoints() {
     held_.push_back(row.state);
     if (row.bounded()) row.state = RowState::kOut;
   }
-  if (!relaxed_) dirty_ = 0;
   Factor();
   for (std::size_t p = 0; p < row_at_.size(); ++p) {
     const Row& row = At(row_at_[p]);
@@ -293,9 +320,7 @@ void ExactIsland::HoldJoints() {
     row.state = held_[i];
   }
   held_.clear();
-  if (relaxed_) return;
-  dirty_ = 0;
-  Factor();
+  if (!relaxed_) Factor();
 }
 
 }  // namespace seam

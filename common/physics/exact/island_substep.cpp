@@ -265,8 +265,9 @@ void ExactIsland::SoftenContacts() {
     const bool contact = rows_[i].kind == RowKind::kNormal || rows_[i].kind == RowKind::kFriction;
     if (!contact || place_[i] < 0) continue;
     matrix_.At(matrix_.Place(place_[i], place_[i])) *= 1 + kYield;
+    changed_ = std::min(changed_, place_[i]);
   }
-  dirty_ = 0;
+  dirty_ = std::min(dirty_, changed_);
 }
 
 void ExactIsland::SolveAtEnd(const Pace& pace) {
