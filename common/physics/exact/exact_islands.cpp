@@ -92,10 +92,11 @@ void ExactStep::Order(Found* found) {
   for (std::size_t i = 0; i < n; ++i) {
     slots_[static_cast<std::size_t>(found->slots[i])].place = static_cast<int>(i);
   }
-  std::vector<std::vector<int>> near(n);
+  if (near_.size() < n) near_.resize(n);
+  for (std::vector<int>& near : near_) near.clear();
   const auto join = [&](int a, int b) {
-    near[static_cast<std::size_t>(a)].push_back(b);
-    near[static_cast<std::size_t>(b)].push_back(a);
+    near_[static_cast<std::size_t>(a)].push_back(b);
+    near_[static_cast<std::size_t>(b)].push_back(a);
   };
   const auto place = [&](int slot) {
     if (slot < 0) return -1;
@@ -114,10 +115,11 @@ void ExactStep::Order(Found* found) {
     const int b = place(IndexOf(const_cast<b2Fixture*>(contact->GetFixtureB())->GetBody()));
     if (a >= 0 && b >= 0) join(a, b);
   }
-  std::vector<int> order;
+  std::vector<int>& order = order_;
+  std::vector<char>& seen = seen_;
   std::size_t start = 0;
   for (int pass = 0; pass < 2; ++pass) {
-    std::vector<char> seen(n, 0);
+    seen.assign(n, 0);
     order.clear();
     const auto visit = [&](std::size_t i) {
       if (seen[i]) return;
@@ -130,15 +132,14 @@ void ExactStep::Order(Found* found) {
         while (seen[next]) ++next;
         visit(next);
       }
-      for (const int other : near[static_cast<std::size_t>(order[k])]) {
+      for (const int other : near_[static_cast<std::size_t>(order[k])]) {
         visit(static_cast<std::size_t>(other));
       }
     }
     start = static_cast<std::size_t>(order.back());
   }
-  std::vector<int> sorted;
-  for (const int i : order) sorted.push_back(found->slots[static_cast<std::size_t>(i)]);
-  found->slots = sorted;
+  for (int& i : order) i = found->slots[static_cast<std::size_t>(i)];
+  found->slots = order;
 }
 
 void ExactStep::Build(Found* found, bool relaxed) {
@@ -149,8 +150,11 @@ void ExactStep::Build(Found* found, bool relaxed) {
              slots_[static_cast<std::size_t>(b)].mechanism;
     });
   }
-  found->island = std::make_unique<ExactIsland>();
+  if (!found->island) found->island = std::make_unique<ExactIsland>();
   ExactIsland& island = *found->island;
+  island.bodies.clear();
+  island.joints.clear();
+  island.contacts.clear();
   for (std::size_t i = 0; i < found->slots.size(); ++i) {
     Slot& slot = slots_[static_cast<std::size_t>(found->slots[i])];
     slot.place = static_cast<int>(i);

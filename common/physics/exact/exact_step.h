@@ -75,6 +75,10 @@ class ExactStep {
   std::vector<Found> found_;
   std::vector<const void*> sign_;
   std::vector<int> solved_;
+  // Room for Order: by place in a list of bodies, who is joined to it, and whether it was seen.
+  std::vector<std::vector<int>> near_;
+  std::vector<char> seen_;
+  std::vector<int> order_;
   bool paths_ = false;  // something anchored is moved along a path
 };
 

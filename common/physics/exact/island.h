@@ -123,6 +123,8 @@ class ExactIsland {
   void Restore(const std::vector<double>& velocities);
 
   std::vector<Row> rows_, rows_before_;
+  std::vector<Row> now_;  // of one joint, while it is shut
+  std::vector<RowEnd> now_ends_;
   std::vector<ExactBody> bodies_before_;
   std::vector<RowEnd> ends_;
   std::vector<int> contact_row_;  // by contact: the first of its rows
@@ -145,6 +147,10 @@ class ExactIsland {
   std::vector<double> answer_, velocity_;
   std::vector<RowState> next_;  // by place
   std::vector<RowState> held_;  // kept while something takes no part
+  // Room for Shape.
+  std::vector<int> ends_of_, first_, lead_;           // by row; by place; by body
+  std::vector<std::pair<int, int>> key_;              // by row
+  std::vector<std::vector<std::pair<int, int>>> met_;  // by body: row, end
 };
 
 /// Of the bodies that move, J.

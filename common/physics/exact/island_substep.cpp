@@ -41,8 +41,6 @@ constexpr double kTurnsFast = 0.25;
 constexpr double kReached = 1e-6;
 /// A motor that lacks so much speed does all it may, rad/s or m/s.
 constexpr double kUtmost = 50;
-/// A joint has at most so many rows, and a row so many ends.
-constexpr int kRowsMost = 6, kEndsMost = 4;
 
 }  // namespace
 
@@ -208,14 +206,12 @@ void ExactIsland::Move(double h) {
 void ExactIsland::ShutJoints(const Pace& pace) {
   bool anew = turned_ > kTurnsFast;
   double last = kUnbounded;
-  Row now[kRowsMost];
-  RowEnd ends[kRowsMost * kEndsMost];
-  for (int i = 0; i < kRowsMost; ++i) now[i].end = ends + i * kEndsMost;
+  Row* const now = now_.data();
   for (int tries = 0; tries < kCorrections; ++tries) {
     double far = 0;
     std::fill(x_.begin(), x_.end(), 0.0);
     for (const Held& held : joints) {
-      double errors[kRowsMost];
+      double errors[kJointRowsMost];
       if (anew) {
         FillJoint(*held.joint, held.ends, bodies, pace, now);
         for (int i = 0; i < held.rows; ++i) errors[i] = now[i].error;
