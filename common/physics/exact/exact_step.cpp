@@ -77,6 +77,8 @@ void ExactStep::LoadPoses(Found* found) {
         ReadPose(body, &q);
       }
     }
+    if (q.slot < 0 && q.a == q.read_a) continue;  // c and s are its own
+    q.read_a = q.slot < 0 && q.w == 0 ? q.a : std::nan("");
     q.c = std::cos(q.a);
     q.s = std::sin(q.a);
   }

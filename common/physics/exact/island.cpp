@@ -67,12 +67,14 @@ void ExactIsland::ShapeMatrix() {
     return a != b ? a < b : x < y;
   });
   place_.assign(n, -1);
+  bounded_places_.clear();
   std::vector<int>& first = first_;
   first.resize(row_at_.size());
   lead_.assign(bodies.size(), -1);
   for (std::size_t p = 0; p < row_at_.size(); ++p) {
     const Row& row = At(row_at_[p]);
     place_[static_cast<std::size_t>(row_at_[p])] = static_cast<int>(p);
+    if (row.bounded()) bounded_places_.push_back(static_cast<int>(p));
     first[p] = static_cast<int>(p);
     for (int e = 0; e < row.ends; ++e) {
       int& led_by = lead_[static_cast<std::size_t>(row.end[e].body)];
@@ -101,7 +103,7 @@ void ExactIsland::ShapeMatrix() {
       }
     }
   }
-  assembled_ends_.assign(ends_.size(), RowEnd());
+  in_matrix_.assign(ends_.size(), InMatrix());
   changed_ = dirty_ = 0;
   in_.assign(row_at_.size(), 1);
   x_.assign(row_at_.size(), 0.0);

@@ -53,6 +53,19 @@ class ExactIsland {
     int pair = 0;           // of all pairs: the first
     double share = 0, gamma = 0;
   };
+  struct InMatrix {  // what it has of an end
+    double j[3] = {}, mj[3] = {};
+    bool Has(const RowEnd& end) const {
+      return end.j[0] == j[0] && end.j[1] == j[1] && end.j[2] == j[2] && end.mj[0] == mj[0] &&
+             end.mj[1] == mj[1] && end.mj[2] == mj[2];
+    }
+    void Take(const RowEnd& end) {
+      for (int i = 0; i < 3; ++i) {
+        j[i] = end.j[i];
+        mj[i] = end.mj[i];
+      }
+    }
+  };
   struct Group {  // a mechanism, or a body without joints
     int group;
     int first_body, bodies;
@@ -103,7 +116,6 @@ class ExactIsland {
   void Solve(bool ahead);
   bool PivotToTheEnd();
   bool Pivot(int* wrong);
-  void Change(int place);
   void SetFrictionBounds();
   bool NextFrictionBounds();
   void Descend();
@@ -130,14 +142,16 @@ class ExactIsland {
   std::vector<int> contact_row_;  // by contact: the first of its rows
   std::vector<int> place_;        // by row: its index in the matrix
   std::vector<int> row_at_;       // the other way round
+  std::vector<int> bounded_places_;
   std::vector<Pair> pairs_;             // in the order of places
   std::vector<Assembled> assembled_;    // by place
-  std::vector<RowEnd> assembled_ends_;  // as they are in the matrix
+  std::vector<InMatrix> in_matrix_;  // by end
   Skyline matrix_;
   int bounded_ = 0;
   double turned_ = 0;  // rad: the most that a body has turned in this substep
   int changed_ = 0;    // the matrix's rows from here on are not those that were assembled
   int dirty_ = 0;      // the factors of rows from here on are old
+  bool moved_ = false;  // velocities are not those of before_
   std::vector<char> in_;
   std::vector<double> x_, before_, start_;
   bool relaxed_ = false;
@@ -152,6 +166,27 @@ class ExactIsland {
   std::vector<std::pair<int, int>> key_;              // by row
   std::vector<std::vector<std::pair<int, int>>> met_;  // by body: row, end
 };
+
+inline double ExactIsland::Speed(const Row& row) const {
+  double speed = row.fixed_speed;
+  const RowEnd* const stop = row.end + row.ends;
+  for (const RowEnd* end = row.end; end != stop; ++end) {
+    const ExactBody& q = bodies[static_cast<std::size_t>(end->body)];
+    speed += end->j[0] * q.vx + end->j[1] * q.vy + end->j[2] * q.w;
+  }
+  return speed;
+}
+
+inline void ExactIsland::Push(const Row& row, double impulse) {
+  if (impulse == 0) return;
+  const RowEnd* const stop = row.end + row.ends;
+  for (const RowEnd* end = row.end; end != stop; ++end) {
+    ExactBody& q = Body(end->body);
+    q.vx += impulse * end->mj[0];
+    q.vy += impulse * end->mj[1];
+    q.w += impulse * end->mj[2];
+  }
+}
 
 /// Of the bodies that move, J.
 double KineticOf(const std::vector<ExactBody>& bodies);

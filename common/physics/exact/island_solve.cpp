@@ -22,27 +22,6 @@ constexpr double kSpeedError = 1e-6;
 
 }  // namespace
 
-double ExactIsland::Speed(const Row& row) const {
-  double speed = row.fixed_speed;
-  for (int e = 0; e < row.ends; ++e) {
-    const RowEnd& end = row.end[e];
-    const ExactBody& q = bodies[static_cast<std::size_t>(end.body)];
-    speed += end.j[0] * q.vx + end.j[1] * q.vy + end.j[2] * q.w;
-  }
-  return speed;
-}
-
-void ExactIsland::Push(const Row& row, double impulse) {
-  if (impulse == 0) return;
-  for (int e = 0; e < row.ends; ++e) {
-    const RowEnd& end = row.end[e];
-    ExactBody& q = Body(end.body);
-    q.vx += impulse * end.mj[0];
-    q.vy += impulse * end.mj[1];
-    q.w += impulse * end.mj[2];
-  }
-}
-
 void ExactIsland::Save(std::vector<double>* velocities) const {
   velocities->resize(3 * bodies.size());
   double* v = velocities->data();
@@ -70,13 +49,9 @@ int ExactIsland::FirstChanged(double hard, double bounded) {
     const Assembled& was = assembled_[static_cast<std::size_t>(p)];
     const Row& row = At(row_at_[static_cast<std::size_t>(p)]);
     if (row.gamma != was.gamma || (row.bounded() ? bounded : hard) != was.share) return p;
-    const auto first = static_cast<std::size_t>(was.end);
-    for (std::size_t e = first; e < first + static_cast<std::size_t>(was.ends); ++e) {
-      const RowEnd& now = ends_[e];
-      const RowEnd& then = assembled_ends_[e];
-      for (int i = 0; i < 3; ++i) {
-        if (now.j[i] != then.j[i] || now.mj[i] != then.mj[i]) return p;
-      }
+    for (int e = was.end; e < was.end + was.ends; ++e) {
+      const auto at = static_cast<std::size_t>(e);
+      if (!in_matrix_[at].Has(ends_[at])) return p;
     }
   }
   return n;
@@ -111,8 +86,8 @@ void ExactIsland::Assemble(double hard, double bounded) {
     now.share = row.bounded() ? bounded : hard;
     double& own = matrix_.At(matrix_.Place(p, p));
     own += own * now.share + row.gamma;
-    std::copy_n(ends_.begin() + now.end, now.ends, assembled_ends_.begin() + now.end);
   }
+  for (std::size_t e = 0; e < ends_.size(); ++e) in_matrix_[e].Take(ends_[e]);
 }
 
 void ExactIsland::Factor() {
@@ -131,7 +106,8 @@ void ExactIsland::Factor() {
 
 /// Solves with the states as they are and says what they should be. True: nothing to change.
 bool ExactIsland::Pivot(int* wrong) {
-  Restore(before_);
+  if (moved_) Restore(before_);
+  moved_ = true;
   for (Row& row : rows_) {
     if (row.state == RowState::kFree) continue;
     row.lambda = row.state == RowState::kLow ? row.lo : row.state == RowState::kHigh ? row.hi : 0;
@@ -154,12 +130,12 @@ bool ExactIsland::Pivot(int* wrong) {
     if (row.bounded()) scale = std::max(scale, std::fabs(row.lambda));
   }
   *wrong = 0;
-  if (bounded_ == 0) return true;
   const double slack = 1e-12 + 1e-7 * scale;
-  for (std::size_t p = 0; p < n; ++p) {
+  for (const int place : bounded_places_) {
+    const auto p = static_cast<std::size_t>(place);
     Row& row = At(row_at_[p]);
     next_[p] = row.state;
-    if (!row.bounded() || row.state == RowState::kOut) continue;
+    if (row.state == RowState::kOut) continue;
     if (row.state == RowState::kFree) {
       if (row.lambda < row.lo - slack) next_[p] = RowState::kLow;
       if (row.lambda > row.hi + slack) next_[p] = RowState::kHigh;
@@ -168,16 +144,9 @@ bool ExactIsland::Pivot(int* wrong) {
       if (row.state == RowState::kLow && off < -kSpeedError) next_[p] = RowState::kFree;
       if (row.state == RowState::kHigh && off > kSpeedError) next_[p] = RowState::kFree;
     }
-    if (next_[p] == row.state) continue;
-    ++*wrong;
+    if (next_[p] != row.state) ++*wrong;
   }
   return *wrong == 0;
-}
-
-void ExactIsland::Change(int place) {
-  const auto at = static_cast<std::size_t>(place);
-  Row& row = At(row_at_[at]);
-  row.state = next_[at];
 }
 
 bool ExactIsland::PivotToTheEnd() {
@@ -192,7 +161,9 @@ bool ExactIsland::PivotToTheEnd() {
       --patience;
     }
     if (patience < 0) return false;
-    for (int p = 0; p < matrix_.size(); ++p) Change(p);
+    for (const int p : bounded_places_) {
+      At(row_at_[static_cast<std::size_t>(p)]).state = next_[static_cast<std::size_t>(p)];
+    }
   }
   return false;
 }
@@ -231,6 +202,7 @@ void ExactIsland::Solve(bool ahead) {
     return;
   }
   Save(&before_);
+  moved_ = false;
   next_.resize(rows_.size());
   for (int round = 0; round < kFrictionRounds; ++round) {
     SetFrictionBounds();

@@ -16,6 +16,8 @@ namespace {
 constexpr double kStiffness = 0.25;
 /// It counts in full from this stiffness over inertia on, and below the other not at all.
 constexpr double kStiffTo = 1, kStiffFrom = 0.4;
+/// Less than that, whatever is rounded.
+constexpr double kSurelyLittle = 0.39;
 /// What is jammed tells of any tension: at most so many times the inertia.
 constexpr double kStiffMost = 100;
 /// What is left of it after a substep when the tension is gone: inertias that jump make noise.
@@ -153,6 +155,7 @@ void ExactIsland::Kick(double h) {
 /// a pendulum stays as exact as it is.
 double ExactIsland::Stiffened(const ExactBody& q) {
   const double tense = std::min(std::max(q.stiffness, q.lasting), kStiffMost * q.inertia);
+  if (tense < kSurelyLittle * q.inertia) return q.inertia;
   const double share = (tense / q.inertia - kStiffFrom) / (kStiffTo - kStiffFrom);
   return q.inertia + kStiffness * std::max(0.0, tense) * std::clamp(share, 0.0, 1.0);
 }
@@ -248,8 +251,16 @@ void ExactIsland::ShutJoints(const Pace& pace) {
       Row& row = At(row_at_[p]);
       if (row.state != RowState::kFree || x_[p] == 0) continue;
       row.base += x_[p];
-      Push(row, x_[p]);
-      Shift(row, pace.h * x_[p]);
+      const double by = pace.h * x_[p];
+      for (const RowEnd* end = row.end; end != row.end + row.ends; ++end) {
+        ExactBody& q = Body(end->body);
+        q.vx += x_[p] * end->mj[0];
+        q.vy += x_[p] * end->mj[1];
+        q.w += x_[p] * end->mj[2];
+        q.x += by * end->mj[0];
+        q.y += by * end->mj[1];
+        q.Turn(by * end->mj[2]);
+      }
     }
   }
 }

@@ -21,6 +21,7 @@ struct ExactBody {
   double inertia = 0;            ///< kg m2, its own
   double x = 0, y = 0, a = 0;    ///< m, rad: centre of mass
   double c = 1, s = 0;           ///< cosine and sine of a
+  double read_a = 0;             ///< rad: of what stands still, the angle that they are of
   double vx = 0, vy = 0, w = 0;  ///< m/s, rad/s
   double ax = 0, ay = 0, turn = 0;  ///< m/s2, rad/s2: by gravity and forces
   double slow = 0, slow_spin = 0;   ///< 1/s, damping
