@@ -1,6 +1,7 @@
 #include "common/physics/exact/exact_step.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/base/check.h"
 #include "common/physics/exact/engine_members.h"
@@ -41,6 +42,9 @@ ExactStep::ExactStep(const Scene& scene, b2World* world, const BuiltScene& built
                         const_cast<b2Body*>(body)->GetUserData().pointer == 0);
   }
   FindMechanisms();
+  std::vector<char> jointed;
+  for (const Slot& slot : slots_) jointed.push_back(slot.mechanism >= 0 ? 1 : 0);
+  blows_ = std::make_unique<FreeBlows>(built, std::move(jointed));
   if (solver_.joints == JointSolving::kAuto) LeaveCharacters(scene);
 }
 
@@ -243,6 +247,7 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
     moving += found.slots.size();
     solved_.push_back(static_cast<int>(m));
   }
+  if (blows_->needed()) blows_->Act(world_, h);
   if (moving < slots_.size() || paths_) {
     (world_->*Member(EngineSolve()))(step);
   } else {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/physics/exact/free_blows.h"
 #include "common/physics/exact/island.h"
 #include "common/physics/world_build.h"
 #include "common/scene/scene.h"
@@ -17,8 +18,9 @@ class ExactStep {
   ExactStep(const Scene& scene, b2World* world, const BuiltScene& built);
   ~ExactStep();
 
-  /// Whether there is a joint that it would solve; else the engine's own Step does.
-  bool needed() const { return !mechanisms_.empty(); }
+  /// Whether there is a joint that it would solve, or a blow that gives everything back; else the
+  /// engine's own Step does.
+  bool needed() const { return !mechanisms_.empty() || blows_->needed(); }
 
   /// As b2World::Step.
   void Step(float h, int velocity_iterations, int position_iterations);
@@ -75,6 +77,7 @@ class ExactStep {
   std::vector<Found> found_;
   std::vector<const void*> sign_;
   std::vector<int> solved_;
+  std::unique_ptr<FreeBlows> blows_;
   // Room for Order: by place in a list of bodies, who is joined to it, and whether it was seen.
   std::vector<std::vector<int>> near_;
   std::vector<char> seen_;

@@ -89,7 +89,9 @@ void ExactIsland::ShapeMatrix() {
   for (std::vector<std::pair<int, int>>& there : met_) there.clear();
   for (std::size_t p = 0; p < row_at_.size(); ++p) {
     const int row = row_at_[p];
-    const auto first_end = [this](const Row& of) { return static_cast<int>(of.end - ends_.data()); };
+    const auto first_end = [this](const Row& of) {
+      return static_cast<int>(of.end - ends_.data());
+    };
     assembled_[p].end = first_end(At(row));
     assembled_[p].ends = At(row).ends;
     assembled_[p].pair = static_cast<int>(pairs_.size());

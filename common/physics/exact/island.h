@@ -44,11 +44,11 @@ class ExactIsland {
   void Store() const;
 
  private:
-  struct Pair {  // of rows that share a body
-    int place;   // in the matrix
+  struct Pair {          // of rows that share a body
+    int place;           // in the matrix
     int end, other_end;  // of all ends
   };
-  struct Assembled {  // what the matrix has of a row
+  struct Assembled {        // what the matrix has of a row
     int end = 0, ends = 0;  // of all ends: the first, how many
     int pair = 0;           // of all pairs: the first
     double share = 0, gamma = 0;
@@ -143,14 +143,14 @@ class ExactIsland {
   std::vector<int> place_;        // by row: its index in the matrix
   std::vector<int> row_at_;       // the other way round
   std::vector<int> bounded_places_;
-  std::vector<Pair> pairs_;             // in the order of places
-  std::vector<Assembled> assembled_;    // by place
-  std::vector<InMatrix> in_matrix_;  // by end
+  std::vector<Pair> pairs_;           // in the order of places
+  std::vector<Assembled> assembled_;  // by place
+  std::vector<InMatrix> in_matrix_;   // by end
   Skyline matrix_;
   int bounded_ = 0;
-  double turned_ = 0;  // rad: the most that a body has turned in this substep
-  int changed_ = 0;    // the matrix's rows from here on are not those that were assembled
-  int dirty_ = 0;      // the factors of rows from here on are old
+  double turned_ = 0;   // rad: the most that a body has turned in this substep
+  int changed_ = 0;     // the matrix's rows from here on are not those that were assembled
+  int dirty_ = 0;       // the factors of rows from here on are old
   bool moved_ = false;  // velocities are not those of before_
   std::vector<char> in_;
   std::vector<double> x_, before_, start_;
@@ -162,8 +162,8 @@ class ExactIsland {
   std::vector<RowState> next_;  // by place
   std::vector<RowState> held_;  // kept while something takes no part
   // Room for Shape.
-  std::vector<int> ends_of_, first_, lead_;           // by row; by place; by body
-  std::vector<std::pair<int, int>> key_;              // by row
+  std::vector<int> ends_of_, first_, lead_;            // by row; by place; by body
+  std::vector<std::pair<int, int>> key_;               // by row
   std::vector<std::vector<std::pair<int, int>>> met_;  // by body: row, end
 };
 

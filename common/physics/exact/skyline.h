@@ -38,8 +38,9 @@ class Skyline {
 
   std::vector<int> first_, start_;                 // entry (i, k) is at start_[i] + k
   std::vector<double> matrix_, factor_, inverse_;  // the last of D
-  std::vector<char> leads_;  // whether a row and the next one, which begins where it does, go together
-  std::vector<Two> two_;     // room for two rows side by side
+  std::vector<char>
+      leads_;             // whether a row and the next one, which begins where it does, go together
+  std::vector<Two> two_;  // room for two rows side by side
   long cost_ = 0;
 };
 
