@@ -10,6 +10,11 @@ namespace {
 
 /// Multiplications of one factorisation above which contacts are relaxed.
 constexpr long kDirectMost = 30000;
+/// A mechanism that takes so many by itself is above kDirectMost whatever touches it, even if its
+/// bodies come in another order then.
+constexpr long kNeverDirect = 4 * kDirectMost;
+/// One of fewer rows cannot take so many.
+constexpr int kRowsOfLarge = 85;
 
 }  // namespace
 
@@ -43,6 +48,27 @@ void ExactStep::FindMechanisms() {
     std::sort(mechanism.joints.begin(), mechanism.joints.end());
   }
   found_.resize(mechanisms_.size());
+}
+
+/// What is too large in any case is not looked at again.
+void ExactStep::LeaveLarge() {
+  for (std::size_t m = 0; m < mechanisms_.size(); ++m) {
+    Mechanism& mechanism = mechanisms_[m];
+    int rows = 0;  // no limit is near yet
+    for (const int j : mechanism.joints) rows += RowCount(joints_[static_cast<std::size_t>(j)]);
+    if (!mechanism.exact || rows < kRowsOfLarge) continue;
+    Found alone;
+    alone.mechanisms.push_back(static_cast<int>(m));
+    for (const int slot : mechanism.slots) {
+      if (Moves(slots_[static_cast<std::size_t>(slot)].body)) alone.slots.push_back(slot);
+    }
+    mechanism.exact = alone.slots.empty() || Build(&alone, false) <= kNeverDirect;
+  }
+}
+
+bool ExactStep::needed() const {
+  return blows_->needed() || std::any_of(mechanisms_.begin(), mechanisms_.end(),
+                                         [](const Mechanism& m) { return m.exact; });
 }
 
 bool ExactStep::Gather(int first, Found* found) {
@@ -142,7 +168,8 @@ void ExactStep::Order(Found* found) {
   found->slots = order;
 }
 
-void ExactStep::Build(Found* found, bool relaxed) {
+/// Returns what a direct factorisation takes, in multiplications.
+long ExactStep::Build(Found* found, bool relaxed) {
   Order(found);
   if (relaxed) {
     std::stable_sort(found->slots.begin(), found->slots.end(), [this](int a, int b) {
@@ -211,12 +238,14 @@ void ExactStep::Build(Found* found, bool relaxed) {
   }
   LoadPoses(found);
   island.Shape(relaxed);
-  if (relaxed || island.cost() <= kDirectMost) return;
+  const long cost = island.cost();
+  if (relaxed || cost <= kDirectMost) return cost;
   if (solver_.joints == JointSolving::kAuto) {
     found->island.reset();  // left to the engine
   } else {
     Build(found, true);
   }
+  return cost;
 }
 
 void ExactStep::Sign(const Found& found, std::vector<const void*>* sign) const {

@@ -45,7 +45,9 @@ ExactStep::ExactStep(const Scene& scene, b2World* world, const BuiltScene& built
   std::vector<char> jointed;
   for (const Slot& slot : slots_) jointed.push_back(slot.mechanism >= 0 ? 1 : 0);
   blows_ = std::make_unique<FreeBlows>(built, std::move(jointed));
-  if (solver_.joints == JointSolving::kAuto) LeaveCharacters(scene);
+  if (solver_.joints != JointSolving::kAuto) return;
+  LeaveCharacters(scene);
+  LeaveLarge();
 }
 
 /// A character's gait is tuned on the engine's joints, which are cheaper in a heap of them.
@@ -229,7 +231,10 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
   step.warmStarting = world_->GetWarmStarting();
   contacts.Collide();
 
-  for (Slot& slot : slots_) slot.island = -1;
+  for (Slot& slot : slots_) {
+    slot.island = -1;
+    slot.solved = false;
+  }
   const Pace pace{static_cast<double>(h) / solver_.joint_substeps, solver_.joint_substeps};
   std::size_t moving = 0;
   solved_.clear();
@@ -244,6 +249,7 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
     Save(&found, h);
     Report(found);
     Hide(found);
+    for (const int slot : found.slots) slots_[static_cast<std::size_t>(slot)].solved = true;
     moving += found.slots.size();
     solved_.push_back(static_cast<int>(m));
   }

@@ -20,7 +20,7 @@ class ExactStep {
 
   /// Whether there is a joint that it would solve, or a blow that gives everything back; else the
   /// engine's own Step does.
-  bool needed() const { return !mechanisms_.empty() || blows_->needed(); }
+  bool needed() const;
 
   /// As b2World::Step.
   void Step(float h, int velocity_iterations, int position_iterations);
@@ -33,6 +33,7 @@ class ExactStep {
     int place = -1;   // in its list of bodies
     // What it was left with, and the same as the engine has it.
     bool known = false;
+    bool solved = false;  // in this step, not left to the engine
     bool struck = false;  // by something that moves, in continuous collision
     double x = 0, y = 0, a = 0, vx = 0, vy = 0, w = 0;
     double lasting = 0;  // ExactBody::lasting
@@ -52,10 +53,11 @@ class ExactStep {
 
   void FindMechanisms();
   void LeaveCharacters(const Scene& scene);
+  void LeaveLarge();
   bool Gather(int first, Found* found);
   void Sign(const Found& found, std::vector<const void*>* sign) const;
   void Order(Found* found);
-  void Build(Found* found, bool relaxed);
+  long Build(Found* found, bool relaxed);
   void LoadPoses(Found* found);
   void Load(Found* found);
   void Save(Found* found, float h);

@@ -19,8 +19,10 @@ constexpr std::size_t kBlowsEach = 8;
 constexpr int kSofterTries = 3;
 /// Rounds over the two points and two directions of a contact, until no impulse changes by more
 /// than this share.
-constexpr int kRounds = 100;
+constexpr int kRounds = 300;
 constexpr double kSame = 1e-12;
+/// A gain of energy up to this share is rounding.
+constexpr double kRounded = 1e-7;
 constexpr double kFast = 1e9;  // m/s, nothing is
 
 /// What gravity and forces give a body, m/s2.
@@ -161,7 +163,7 @@ double FreeBlows::Solve(const Touch& touch, double share, double* pushed, double
   double normal = 0, tangent = 0;
   for (int i = 0; i < touch.points; ++i) {
     Speeds(touch, touch.point[i], &normal, &tangent);
-    target[i] = back * std::max(0.0, -normal);
+    target[i] = -back * normal;
     pushed[i] = rubbed[i] = 0;
   }
   for (int round = 0; round < kRounds; ++round) {
@@ -190,7 +192,7 @@ double FreeBlows::Solve(const Touch& touch, double share, double* pushed, double
     if (change <= kSame * most) break;
   }
   const double gained = energy(a) + energy(b) - before;
-  return gained > 1e-9 * before ? gained : 0;
+  return friction > 0 && gained > kRounded * before ? gained : 0;
 }
 
 /// With friction a blow may gain energy (Kane and Levinson 1985): then with less restitution,
