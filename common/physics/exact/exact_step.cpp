@@ -261,6 +261,7 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
   }
   for (const int m : solved_) Show(found_[static_cast<std::size_t>(m)]);
   if (world_->GetContinuousPhysics()) Continuous(step, pace);
+  if (blows_->needed()) blows_->Done();
   last_inverse = step.inv_dt;
   if (world_->GetAutoClearForces()) world_->ClearForces();
   locked = false;

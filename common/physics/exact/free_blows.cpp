@@ -13,8 +13,9 @@ namespace {
 constexpr float kEverything = 0.999f;
 /// What falls for so many steps has a blow; what falls less lies. m/s more where nothing weighs.
 constexpr double kRestSteps = 4, kSlowest = 1e-3;
-/// Blows in one step, for each contact.
-constexpr std::size_t kBlowsEach = 8;
+/// Blows in one step, for each contact; and of so many contacts that are looked at for them, in
+/// all: where thousands of bodies begin in one place a step must end.
+constexpr std::size_t kBlowsEach = 8, kLooksMost = 20000000;
 /// Halvings of the restitution when a blow with friction would gain energy, the last is 0.
 constexpr int kSofterTries = 3;
 /// Rounds over the two points and two directions of a contact, until no impulse changes by more
@@ -242,11 +243,18 @@ void FreeBlows::Tell(b2World* world) {
   }
 }
 
+void FreeBlows::Done() {
+  for (const Touch& touch : touches_) {
+    if (touch.parts) touch.made->SetEnabled(true);
+  }
+}
+
 void FreeBlows::Act(b2World* world, float h) {
   bodies_.clear();
   touches_.clear();
   Find(world, h);
-  const std::size_t most = kBlowsEach * touches_.size();
+  const std::size_t touches = std::max<std::size_t>(touches_.size(), 1);
+  const std::size_t most = std::min(kBlowsEach * touches, kLooksMost / touches);
   for (std::size_t blow = 0; blow < most; ++blow) {
     Touch* fastest = nullptr;
     for (Touch& touch : touches_) {
@@ -262,8 +270,9 @@ void FreeBlows::Act(b2World* world, float h) {
       if (shares(touch.a) || shares(touch.b)) Look(&touch);
     }
   }
-  for (const Touch& touch : touches_) {
-    if (touch.closing < -touch.threshold) touch.made->SetEnabled(false);
+  for (Touch& touch : touches_) {
+    touch.parts = touch.closing < -touch.threshold;
+    if (touch.parts) touch.made->SetEnabled(false);
   }
   Tell(world);
   for (const Body& q : bodies_) {

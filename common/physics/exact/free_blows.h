@@ -23,6 +23,8 @@ class FreeBlows {
   /// what was hit, and tells the world's listener the impulses (PostSolve). Contacts that are
   /// disabled are let alone.
   void Act(b2World* world, float h);
+  /// After the step: contacts that Act has left out of it are there again.
+  void Done();
 
  private:
   struct Body {
@@ -44,6 +46,7 @@ class FreeBlows {
     double nx = 0, ny = 0;
     double threshold = 0;  // m/s
     double closing = 0;    // m/s, of the point that comes fastest
+    bool parts = false;    // left out of the engine's step
   };
 
   bool Free(b2Body* body) const;
