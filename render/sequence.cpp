@@ -12,13 +12,13 @@
 
 namespace seam {
 
-std::vector<double> FrameTimes(double from_s, double to_s, int fps) {
+std::vector<double> FrameTimes(double from_s, double to_s, double fps) {
   if ((to_s - from_s) * fps > kFramesMax)
     throw OperatorError("more than " + std::to_string(kFramesMax) +
                         " frames: choose a part with --from and --to");
   std::vector<double> times;
   for (int i = 0;; ++i) {
-    const double s = from_s + static_cast<double>(i) / fps;
+    const double s = from_s + i / fps;
     if (s > to_s + 1e-9) break;
     times.push_back(s);
   }

@@ -39,6 +39,17 @@ Colour PeerColour(int peer) {
 
 Colour RunColour(int run) { return kRuns[static_cast<std::size_t>(std::max(run, 0) % 6)]; }
 
+Colour HeatColour(float error_m) {
+  constexpr int kStops = 7;
+  constexpr Colour kHeat[kStops] = {{247, 247, 240, 255}, {253, 231, 37, 255}, {122, 209, 81, 255},
+                                    {34, 168, 132, 255},  {42, 120, 142, 255}, {65, 68, 135, 255},
+                                    {68, 1, 84, 255}};
+  const float decades = std::log10(std::max(error_m, 1e-3f)) + 3;  // 0 at 1 mm, 3 at 1 m
+  const float place = std::clamp(decades / 3, 0.0f, 1.0f) * (kStops - 1);
+  const int i = std::min(static_cast<int>(place), kStops - 2);
+  return Mix(kHeat[i], kHeat[i + 1], place - static_cast<float>(i));
+}
+
 Colour Mix(Colour a, Colour b, float share) {
   const auto one = [share](std::uint8_t from, std::uint8_t to) {
     return Channel(static_cast<float>(from) +

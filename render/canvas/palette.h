@@ -25,6 +25,10 @@ Colour PeerColour(int peer);
 /// The colour of a run's curve in a comparison; none of them is a peer's.
 Colour RunColour(int run);
 
+/// An error, m, as a colour: from pale at 1 mm to dark at 1 m, by its logarithm, each step about as
+/// large to the eye (after Smith and van der Walt, "viridis", 2015, reversed, with white before).
+Colour HeatColour(float error_m);
+
 /// `share` of `b` in `a`, 0..1.
 Colour Mix(Colour a, Colour b, float share);
 
