@@ -17,6 +17,7 @@
 #include "render/canvas/palette.h"
 #include "render/canvas/png_writer.h"
 #include "render/load.h"
+#include "render/manifest.h"
 #include "render/playback/moments.h"
 #include "render/sequence.h"
 #include "render/strobe.h"
@@ -97,16 +98,18 @@ void ChooseTimes(const RenderOptions& options, const std::vector<Playback>& play
 
 /// The page that was asked for, with its camera.
 Page PageOf(const RenderOptions& options, const std::vector<Playback>& playbacks) {
-  if (options.peer_given && options.peer >= 0)
-    for (const Playback& playback : playbacks) RequirePeer(playback, options.peer);
-  Page page = options.compare ? MakeComparison(playbacks, options.peer)
-                              : MakePage(playbacks.front(), options.peer);
+  const int peer =
+      options.view_name.empty() ? options.peer : PeerNamed(playbacks.front(), options.view_name);
+  if (options.peer_given && peer >= 0)
+    for (const Playback& playback : playbacks) RequirePeer(playback, peer);
+  Page page = options.compare ? MakeComparison(playbacks, peer) : MakePage(playbacks.front(), peer);
   page.width_px = options.width_px;
   page.height_px = options.height_px;
   page.look = options.look;
   CameraWish wish = options.camera;
   ChooseTimes(options, playbacks, &page, &wish);
   SetCamera(wish, playbacks, &page);
+  page.about = AboutPictures(options, page);
   return page;
 }
 
@@ -116,7 +119,7 @@ void RenderSequence(const RenderOptions& options) {
   const OutputFolder folder(options.out, options.force);
   if (!options.video.empty()) {
     RequireFfmpeg();
-    CheckOutputFile(options.video, ".mp4", options.force);
+    CheckOutputFile(options.video, VideoEnding(options.video), options.force);
   }
   const std::vector<Playback> playbacks = LoadPlaybacks(options);
   const Font font(ScaleOf(options.width_px, options.height_px), TextsOf(playbacks), options.fonts);
@@ -126,6 +129,7 @@ void RenderSequence(const RenderOptions& options) {
   FrameCount count(static_cast<int>(times.size()), folder.path());
   WriteSequence(page, font, times, std::min(ThreadsOf(options), static_cast<int>(times.size())),
                 folder, [&count](int done) { count(done); });
+  WriteManifest(options, page, times, folder);
   count.Finish(options.fps);
   if (!options.video.empty()) EncodeVideo(folder, options.fps, options.video);
 }
@@ -139,7 +143,7 @@ void RenderSheet(const RenderOptions& options) {
   DrawSheet(list, page, options.sheet);
   Image image;
   MakeCanvas(font)->Draw(list, kPaper, &image);
-  WritePng(options.out, image, 9);
+  WritePng(options.out, image, 9, page.about);
   std::fprintf(stderr, "%s: %d moments, %.2f s to %.2f s\n", options.out.c_str(), options.sheet,
                page.from_s, page.to_s);
 }
@@ -151,7 +155,10 @@ void RenderStrobe(const RenderOptions& options) {
   strobe.from_s = options.from_s;
   strobe.to_s = options.to_s;
   strobe.every_ticks = options.every_ticks;
-  if (options.peer_given) strobe.peer = options.peer;
+  if (options.peer_given) {
+    strobe.peer =
+        options.view_name.empty() ? options.peer : PeerNamed(playbacks.front(), options.view_name);
+  }
   if (options.size_given) {
     strobe.width_px = options.width_px;
     strobe.height_px = options.height_px;

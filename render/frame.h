@@ -40,6 +40,7 @@ struct Page {
   /// What the panels show; none: each scene's own camera.
   std::shared_ptr<const CameraPath> camera;
   std::optional<Inset> inset;
+  std::vector<std::pair<std::string, std::string>> about;  ///< goes into each picture file
   WorldLook look;  ///< its layers; whose view and when is said by panel and moment
 };
 

@@ -32,8 +32,12 @@ void ParseView(const std::string& text, RenderOptions* o) {
   }
   int peer = 0;
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%d%c", &peer, &rest) != 1 || peer < 0 || peer > 127)
-    throw OperatorError("--view " + text + ": must be a peer's number or all");
+  if (std::sscanf(text.c_str(), "%d%c", &peer, &rest) != 1) {
+    o->view_name = text;  // whether there is such a player is the recording's to say
+    return;
+  }
+  if (peer < 0 || peer > 127)
+    throw OperatorError("--view " + text + ": must be a peer's number, a player's name or all");
   o->peer = peer;
 }
 
@@ -156,7 +160,8 @@ void DefineRenderOptions(CLI::App* app, RenderOptions* options) {
   app->add_option("--size", o.size_text, "WIDTHxHEIGHT in pixels (1280x720)");
   app->add_option("--from", o.from_s, "first moment, s");
   app->add_option("--to", o.to_s, "last moment, s");
-  app->add_option("--view", o.view_text, "whose view: a peer's number, or all (0, the server)");
+  app->add_option("--view", o.view_text,
+                  "whose view: a player's name, a peer's number, or all (server)");
   app->add_option("--oracle", o.oracle, "log of the same scene made in mode oracle (computed)");
   app->add_option("--threads", o.threads, "frames drawn at a time (number of cores)");
   app->add_option("--camera", o.camera_text,
@@ -173,7 +178,8 @@ void DefineRenderOptions(CLI::App* app, RenderOptions* options) {
   app->add_option("--lcm-url", o.lcm_url, "--live: the bus (LCM_DEFAULT_URL)");
   app->add_option("--room", o.room, "which room, if there are several");
   app->add_option("--seconds", o.seconds, "--live: stop after so long (when quiet for 2 s)");
-  app->add_option("--video", o.video, "also make this .mp4 of the frames, by ffmpeg");
+  app->add_option("--video", o.video,
+                  "also make this .mp4, .webm or .gif of the frames, by ffmpeg");
   app->add_option("--fonts", o.fonts, "folder of DejaVuSans.ttf and DejaVuSans-Bold.ttf");
 }
 

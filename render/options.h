@@ -24,9 +24,10 @@ struct RenderOptions {
   double from_s = std::numeric_limits<double>::quiet_NaN();  ///< NaN: the recording's own
   double to_s = std::numeric_limits<double>::quiet_NaN();
   bool peer_given = false;
-  int peer = 0;        ///< kViewAll: all side by side
-  std::string oracle;  ///< log made in mode oracle; "": computed
-  int threads = 0;     ///< 0: as many as there are cores
+  std::string view_name;  ///< a player's, or "server"; "": peer says it
+  int peer = 0;           ///< kViewAll: all side by side
+  std::string oracle;     ///< log made in mode oracle; "": computed
+  int threads = 0;        ///< 0: as many as there are cores
   int every_ticks = 0;
   std::string lcm_url, room;
   double seconds = 0;  ///< live: at most this long; 0: until quiet

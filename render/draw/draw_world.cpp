@@ -151,9 +151,10 @@ void DrawNames(DrawList& list, const Viewport& viewport, const Playback& playbac
   for (const Seen& one : seen) {
     const bool vehicle = one.body->owner_player >= 0;
     if (!vehicle && !all) continue;
-    const std::string& name =
+    std::string name =
         vehicle ? playback.scene().players[static_cast<std::size_t>(one.body->owner_player)].name
                 : playback.PartName(one.body->id);
+    if (one.shown.authority > kPeerHues) name += " (" + std::to_string(one.shown.authority) + ")";
     float top = 1e9f;
     const Frame2 frame(one.shown.pose);
     for (const Outline& outline : one.body->outlines)
