@@ -190,7 +190,8 @@ void DrawPage(DrawList& list, const Page& page, double now_s) {
              Figures(page, now_s));
   const Rect middle{margin, header, width, height - header - legend - strip};
   const std::vector<Rect> areas =
-      Tile(middle, static_cast<int>(page.panels.size()), Aspect(page), 8 * scale);
+      Tile(middle, static_cast<int>(page.panels.size()), Aspect(page), 8 * scale,
+           RegionLinesHeight(*page.panels.front().playback, scale));
   for (std::size_t i = 0; i < page.panels.size(); ++i)
     DrawPanel(list, page, page.panels[i], areas[i], now_s);
   const Playback& first = *page.panels.front().playback;
@@ -209,7 +210,8 @@ void DrawSheet(DrawList& list, const Page& page, int moments) {
              {});
   const Rect area{margin, header, width, static_cast<float>(page.height_px) - header - margin};
   const int count = moments * static_cast<int>(page.panels.size());
-  const std::vector<Rect> cells = Tile(area, count, Aspect(page), 6 * scale);
+  const std::vector<Rect> cells = Tile(area, count, Aspect(page), 6 * scale,
+                                       RegionLinesHeight(*page.panels.front().playback, scale));
   for (int i = 0; i < count; ++i) {
     const auto of = static_cast<std::size_t>(i) % page.panels.size();
     const int moment = i / static_cast<int>(page.panels.size());

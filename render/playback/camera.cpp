@@ -11,9 +11,10 @@ namespace {
 
 constexpr double kSamplesPerSecond = 30;
 constexpr double kSmooth_s = 0.12;  ///< standard deviation of the smoothing in time
-constexpr float kMargin = 0.06f;   ///< of the box, on each side
-constexpr float kLeast_m = 1.5f;   ///< the smallest height and width that are shown
-constexpr float kMoved_m = 0.1f;   ///< what moves less does not widen the picture
+constexpr float kMargin = 0.06f;    ///< of the box, on each side
+constexpr float kLeast_m = 1.5f;    ///< the smallest height and width that are shown
+constexpr float kAlone = 3;         ///< what a single body is shown with, of its own size
+constexpr float kMoved_m = 0.1f;    ///< what moves less does not widen the picture
 constexpr float kTurned_rad = 0.3f;
 
 /// Visits each of the bodies as truth and view have it.
@@ -192,7 +193,8 @@ CameraPath::CameraPath(const std::vector<CameraView>& views, const CameraWish& w
   FillHoles(&boxes_, own);
   boxes_ = Smoothed(boxes_);
   for (WorldBox& box : boxes_) {
-    const Vec2 wanted = (box.size() * (1 + 2 * kMargin)).cwiseMax(Vec2(kLeast_m, kLeast_m));
+    const float around = bodies.size() == 1 ? kAlone : 1 + 2 * kMargin;
+    const Vec2 wanted = (box.size() * around).cwiseMax(Vec2(kLeast_m, kLeast_m));
     const Vec2 centre = box.centre();
     box = {centre - wanted / 2, centre + wanted / 2};
   }
