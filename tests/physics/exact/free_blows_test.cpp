@@ -93,6 +93,30 @@ TEST(FreeBlows, ABallUnderGravityComesBackToItsHeight) {
   EXPECT_GT(highest("joints = \"iterative\"\n"), 4);  // the engine throws it higher and higher
 }
 
+/// What is left of the energy of thirty squares that fall into a pit, after 20 s.
+double LeftInAPit(const std::string& solver) {
+  std::string parts = Elastic("floor", "box = [9, 1]\nposition = [0, -0.5]\nanchored = true");
+  for (const int side : {-1, 1}) {
+    parts += Elastic("side" + std::to_string(side + 1),
+                     "box = [1, 40]\nposition = [" + Digits(4 * side) + ", 20]\nanchored = true");
+  }
+  for (int i = 0; i < 30; ++i) {
+    const double x = i % 6 * 1.1 - 2.7 + 0.03 * (i / 6);
+    parts += Elastic("square" + std::to_string(i), "box = [0.7, 0.7]\nposition = [" + Digits(x) +
+                                                       ", " + Digits(1 + i / 6 * 1.2) + "]");
+  }
+  const auto world = SmallWorld(parts, solver);
+  const double begin = world->Energy();
+  Steps(world.get(), 1200);
+  return world->Energy() / begin;
+}
+
+TEST(FreeBlows, APileUnderGravityKeepsItsEnergy) {
+  EXPECT_NEAR(LeftInAPit(""), 1, 0.03);
+  EXPECT_NEAR(LeftInAPit("substeps = 4\n"), 1, 0.01);
+  EXPECT_GT(LeftInAPit("joints = \"iterative\"\n"), 1.1);  // the engine heats it
+}
+
 TEST(FreeBlows, OfARowOfDiscsTheLastFlies) {
   std::string parts;
   for (int i = 0; i < 5; ++i) {
