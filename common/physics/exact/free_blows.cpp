@@ -15,7 +15,7 @@ constexpr float kEverything = 0.999f;
 constexpr double kRestSteps = 4, kSlowest = 1e-3;
 /// Blows in one step, for each contact; and of so many contacts that are looked at for them, in
 /// all: where thousands of bodies begin in one place a step must end.
-constexpr std::size_t kBlowsEach = 8, kLooksMost = 20000000;
+constexpr std::size_t kBlowsEach = 8, kLooksMost = 5000000;
 /// Halvings of the restitution when a blow with friction would gain energy, the last is 0.
 constexpr int kSofterTries = 3;
 /// Rounds over the two points and two directions of a contact, until no impulse changes by more
