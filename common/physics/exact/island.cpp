@@ -89,10 +89,7 @@ void ExactIsland::ShapeMatrix() {
   for (std::vector<std::pair<int, int>>& there : met_) there.clear();
   for (std::size_t p = 0; p < row_at_.size(); ++p) {
     const int row = row_at_[p];
-    const auto first_end = [this](const Row& of) {
-      return static_cast<int>(of.end - ends_.data());
-    };
-    assembled_[p].end = first_end(At(row));
+    assembled_[p].end = static_cast<int>(At(row).end - ends_.data());
     assembled_[p].ends = At(row).ends;
     assembled_[p].pair = static_cast<int>(pairs_.size());
     for (int e = 0; e < At(row).ends; ++e) {
@@ -100,8 +97,8 @@ void ExactIsland::ShapeMatrix() {
       there.push_back({row, e});
       for (const auto& [other, other_end] : there) {
         const int column = place_[static_cast<std::size_t>(other)];
-        pairs_.push_back({matrix_.Place(static_cast<int>(p), column), first_end(At(row)) + e,
-                          first_end(At(other)) + other_end});
+        pairs_.push_back({&matrix_.At(matrix_.Place(static_cast<int>(p), column)),
+                          At(row).end[e].mj, At(other).end[other_end].j});
       }
     }
   }

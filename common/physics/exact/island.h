@@ -44,9 +44,10 @@ class ExactIsland {
   void Store() const;
 
  private:
-  struct Pair {          // of rows that share a body
-    int place;           // in the matrix
-    int end, other_end;  // of all ends
+  struct Pair {       // of rows that share a body
+    double* at;       // in the matrix
+    const double* m;  // of one's end
+    const double* j;  // of the other's
   };
   struct Assembled {        // what the matrix has of a row
     int end = 0, ends = 0;  // of all ends: the first, how many
@@ -149,6 +150,7 @@ class ExactIsland {
   Skyline matrix_;
   int bounded_ = 0;
   double turned_ = 0;   // rad: the most that a body has turned in this substep
+  bool keeps_ = false;  // the matrix may be what the next substep begins with
   int changed_ = 0;     // the matrix's rows from here on are not those that were assembled
   int dirty_ = 0;       // the factors of rows from here on are old
   bool moved_ = false;  // velocities are not those of before_

@@ -66,18 +66,17 @@ void ExactIsland::Assemble(double hard, double bounded) {
     end.mj[2] = q.ii * end.j[2];
   }
   const int size = matrix_.size();
-  const int from = FirstChanged(hard, bounded);
-  changed_ = size;
+  const int from = keeps_ ? FirstChanged(hard, bounded) : 0;
+  changed_ = keeps_ ? size : 0;
   dirty_ = std::min(dirty_, from);
   if (from >= size) return;
   matrix_.Clear(from);
-  const RowEnd* const ends = ends_.data();
-  const auto first_pair = static_cast<std::size_t>(assembled_[static_cast<std::size_t>(from)].pair);
-  for (std::size_t i = first_pair; i < pairs_.size(); ++i) {
-    const Pair& pair = pairs_[i];
-    const double* m = ends[pair.end].mj;
-    const double* j = ends[pair.other_end].j;
-    matrix_.At(pair.place) += m[0] * j[0] + m[1] * j[1] + m[2] * j[2];
+  const Pair* const stop = pairs_.data() + pairs_.size();
+  for (const Pair* pair = pairs_.data() + assembled_[static_cast<std::size_t>(from)].pair;
+       pair != stop; ++pair) {
+    const double* const m = pair->m;
+    const double* const j = pair->j;
+    *pair->at += m[0] * j[0] + m[1] * j[1] + m[2] * j[2];
   }
   for (int p = from; p < size; ++p) {
     const Row& row = At(row_at_[static_cast<std::size_t>(p)]);
@@ -87,7 +86,7 @@ void ExactIsland::Assemble(double hard, double bounded) {
     double& own = matrix_.At(matrix_.Place(p, p));
     own += own * now.share + row.gamma;
   }
-  for (std::size_t e = 0; e < ends_.size(); ++e) in_matrix_[e].Take(ends_[e]);
+  for (std::size_t e = 0; keeps_ && e < ends_.size(); ++e) in_matrix_[e].Take(ends_[e]);
 }
 
 void ExactIsland::Factor() {

@@ -47,6 +47,7 @@ constexpr double kUtmost = 50;
 }  // namespace
 
 void ExactIsland::Step(const Pace& pace, bool warm) {
+  keeps_ = pace.substeps > 1;
   Look(pace);
   Fill(pace);
   const double share = warm ? 1.0 / pace.substeps : 0;
@@ -268,13 +269,15 @@ void ExactIsland::ShutJoints(const Pace& pace) {
 /// While joints shut, contacts give way a little: with them a mechanism may be held in more ways
 /// than it can move.
 void ExactIsland::SoftenContacts() {
+  int first = matrix_.size();
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const bool contact = rows_[i].kind == RowKind::kNormal || rows_[i].kind == RowKind::kFriction;
     if (!contact || place_[i] < 0) continue;
     matrix_.At(matrix_.Place(place_[i], place_[i])) *= 1 + kYield;
-    changed_ = std::min(changed_, place_[i]);
+    first = std::min(first, place_[i]);
   }
-  dirty_ = std::min(dirty_, changed_);
+  changed_ = std::min(changed_, first);
+  dirty_ = std::min(dirty_, first);
 }
 
 void ExactIsland::SolveAtEnd(const Pace& pace) {
