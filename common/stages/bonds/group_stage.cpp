@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <set>
 
+#include "common/physics/world_shapes.h"
 #include "common/scene/grouping.h"
+#include "common/stages/bonds/relative_rest.h"
 #include "common/stages/make_stages.h"
-#include "common/stages/stage_memory.h"
 
 namespace seam {
 namespace {
@@ -23,31 +23,37 @@ std::set<int> HeldAssemblies(const Scene& scene, const Composition& composition)
   return held;
 }
 
+/// What undoes a group moves against it by more than what joins one: else it would come and go.
+constexpr float kApart = 2;
+
 class GroupStage : public Stage {
  public:
   explicit GroupStage(const StageWorld& world) : w_(world) {}
 
-  void Rebuilt(b2World* /*world*/) override {}
+  void Rebuilt(b2World* world) override { world_ = world; }
+  void Emptied() override { world_ = nullptr; }
   void BeforeTick() override;
   void AfterTick() override;
   void ProposeEdits(std::vector<Edit>* edits) override;
   void Edited(const Edit& edit) override;
-  void Save(std::vector<float>* memory) const override;
-  std::size_t Load(const float* memory) override;
+  void Save(std::vector<float>* memory) const override { pairs_.Save(memory); }
+  std::size_t Load(const float* memory) override { return pairs_.Load(memory); }
 
  private:
   void Look();
-  bool Moves(int body) const;
+  bool IsShaken(int body) const;
   bool MayJoin(int body) const;
-  void Undo(int body);
+  std::vector<NearPair> LookAround();
   BondEdit BondOf(int body, int other) const;
 
   const StageWorld w_;
+  b2World* world_ = nullptr;
   bool stale_ = true;
-  std::vector<bool> single_;               // by body: no joint holds it
-  std::vector<std::vector<int>> groups_;   // by body: joints that a touch undoes
-  std::map<PartId, int> quiet_;            // ticks at rest, by assembly, up to the limit
+  std::vector<bool> single_;              // by body: no joint holds it
+  std::vector<std::vector<int>> groups_;  // by body: joints that a touch undoes
+  RestPairs pairs_;
   std::vector<b2Vec2> before_;             // m/s, by body, before the tick
+  std::vector<bool> disturbed_;            // by body, in this tick
   std::set<std::pair<int, int>> resting_;  // bodies to be grouped
   std::set<int> undone_;                   // joints
 };
@@ -81,53 +87,65 @@ void GroupStage::BeforeTick() {
   for (const MovingBody& m : w_.built.moving) before_.push_back(m.body->GetLinearVelocity());
 }
 
-bool GroupStage::Moves(int body) const {
+/// By what acts on all of it.
+bool GroupStage::IsShaken(int body) const {
   const b2Body* b = w_.built.moving[static_cast<std::size_t>(body)].body;
-  return b->IsAwake() && (b->GetLinearVelocity().Length() > kRestSpeed ||
-                          std::fabs(b->GetAngularVelocity()) > kRestSpin);
+  if (!b->IsAwake()) return false;
+  const Grouping& limits = *w_.scene.grouping;
+  const b2Vec2 change = b->GetLinearVelocity() - before_[static_cast<std::size_t>(body)];
+  const float a = change.Length() * static_cast<float>(w_.scene.solver.tick_hz);
+  return a > limits.acceleration || change.Length() > limits.impact ||
+         std::fabs(b->GetAngularVelocity()) > limits.spin;
 }
 
 bool GroupStage::MayJoin(int body) const {
-  const MovingBody& m = w_.built.moving[static_cast<std::size_t>(body)];
-  const auto quiet = quiet_.find(m.id);
-  const float limit = w_.scene.grouping->after * static_cast<float>(w_.scene.solver.tick_hz);
-  return single_[static_cast<std::size_t>(body)] && m.body->GetType() == b2_dynamicBody &&
-         quiet != quiet_.end() && static_cast<float>(quiet->second) >= limit;
+  return single_[static_cast<std::size_t>(body)] &&
+         w_.built.moving[static_cast<std::size_t>(body)].body->GetType() == b2_dynamicBody;
 }
 
-void GroupStage::Undo(int body) {
-  const std::vector<int>& joints = groups_[static_cast<std::size_t>(body)];
-  undone_.insert(joints.begin(), joints.end());
+/// Notes which bodies are disturbed. Returns pairs that could be grouped one day. The engine's
+/// boxes meet before the shapes do: what comes finds single bodies again.
+std::vector<NearPair> GroupStage::LookAround() {
+  std::vector<NearPair> near;
+  for (b2Contact* c = world_->GetContactList(); c != nullptr; c = c->GetNext()) {
+    b2Fixture* const one = c->GetFixtureA();
+    b2Fixture* const other = c->GetFixtureB();
+    if (one->IsSensor() || other->IsSensor()) continue;
+    const int a = IndexOf(one->GetBody()), b = IndexOf(other->GetBody());
+    const bool awake = (a >= 0 && one->GetBody()->IsAwake()) ||  //
+                       (b >= 0 && other->GetBody()->IsAwake());
+    const RelativeMotion motion = awake ? MotionAt(w_, c) : RelativeMotion{};
+    if (motion.speed > kApart * kRestSpeed || motion.spin > kApart * kRestSpin) {
+      if (a >= 0) disturbed_[static_cast<std::size_t>(a)] = true;
+      if (b >= 0) disturbed_[static_cast<std::size_t>(b)] = true;
+    }
+    if (a < 0 || b < 0 || !MayJoin(a) || !MayJoin(b)) continue;
+    const bool still = motion.speed <= kRestSpeed && motion.spin <= kRestSpin;
+    const auto p = static_cast<PartId>(PartOf(one)), q = static_cast<PartId>(PartOf(other));
+    near.push_back(p < q ? NearPair{p, q, a, b, still, c->IsTouching(), 0}
+                         : NearPair{q, p, b, a, still, c->IsTouching(), 0});
+  }
+  return near;
 }
 
 void GroupStage::AfterTick() {
-  const int bodies = static_cast<int>(w_.built.moving.size());
-  const auto most =
-      static_cast<int>(w_.scene.grouping->after * static_cast<float>(w_.scene.solver.tick_hz)) + 1;
-  std::vector<bool> moves;
-  for (int body = 0; body < bodies; ++body) {
-    moves.push_back(Moves(body));
-    int& quiet = quiet_[w_.built.moving[static_cast<std::size_t>(body)].id];
-    quiet = moves.back() ? 0 : std::min(quiet + 1, most);
+  const float ticks = w_.scene.grouping->after * static_cast<float>(w_.scene.solver.tick_hz);
+  const auto limit = static_cast<int>(std::ceil(ticks));
+  const std::size_t bodies = w_.built.moving.size();
+  disturbed_.assign(bodies, false);
+  for (std::size_t b = 0; b < bodies; ++b) disturbed_[b] = IsShaken(static_cast<int>(b));
+  std::vector<NearPair> near = LookAround();
+  const auto disturbed = [this](int body) { return disturbed_[static_cast<std::size_t>(body)]; };
+  for (NearPair& pair : near) {
+    pair.still = pair.still && !disturbed(pair.body_a) && !disturbed(pair.body_b);
   }
-  for (int body = 0; body < bodies; ++body) {
-    const MovingBody& m = w_.built.moving[static_cast<std::size_t>(body)];
-    const b2Vec2 change = m.body->GetLinearVelocity() - before_[static_cast<std::size_t>(body)];
-    if (moves[static_cast<std::size_t>(body)] || change.Length() > w_.scene.grouping->impact) {
-      Undo(body);
-    }
-    const bool ripe = MayJoin(body);
-    if (!ripe && !moves[static_cast<std::size_t>(body)]) continue;
-    for (const b2ContactEdge* edge = m.body->GetContactList(); edge; edge = edge->next) {
-      const int other = IndexOf(edge->other);
-      const bool sensor =
-          edge->contact->GetFixtureA()->IsSensor() || edge->contact->GetFixtureB()->IsSensor();
-      if (other < 0 || sensor) continue;
-      // The engine's boxes meet before the shapes do.
-      if (moves[static_cast<std::size_t>(body)]) Undo(other);
-      const bool touch = edge->contact->IsTouching();
-      if (touch && ripe && body < other && MayJoin(other)) resting_.insert({body, other});
-    }
+  pairs_.Count(std::move(near), limit);
+  for (std::size_t b = 0; b < bodies; ++b) {
+    if (disturbed_[b]) undone_.insert(groups_[b].begin(), groups_[b].end());
+  }
+  for (const NearPair& pair : pairs_.pairs()) {
+    if (pair.ticks < limit || !pair.touching) continue;
+    resting_.insert(std::minmax(pair.body_a, pair.body_b));
   }
 }
 
@@ -173,16 +191,9 @@ void GroupStage::Edited(const Edit& edit) {
   if (broken->joint >= static_cast<int>(w_.scene.joints.size())) return;
   const Joint& joint = w_.scene.joints[static_cast<std::size_t>(broken->joint)];
   if (!joint.grouped) return;
-  for (const PartId part : {joint.a, joint.b}) {
-    const int assembly = w_.composition.assembly_of_part[static_cast<std::size_t>(part)];
-    if (assembly < 0) continue;
-    quiet_[w_.composition.assemblies[static_cast<std::size_t>(assembly)].id] = 0;
-  }
+  pairs_.Forget(joint.a);
+  pairs_.Forget(joint.b);
 }
-
-void GroupStage::Save(std::vector<float>* memory) const { SaveTicks(quiet_, memory); }
-
-std::size_t GroupStage::Load(const float* memory) { return LoadTicks(memory, &quiet_); }
 
 }  // namespace
 
