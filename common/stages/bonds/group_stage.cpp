@@ -25,6 +25,8 @@ std::set<int> HeldAssemblies(const Scene& scene, const Composition& composition)
 
 /// What undoes a group moves against it by more than what joins one: else it would come and go.
 constexpr float kApart = 2;
+/// Ticks from one look at what rests to the next. Groups are watched in every tick.
+constexpr int kLookTicks = 4;
 
 class GroupStage : public Stage {
  public:
@@ -40,10 +42,19 @@ class GroupStage : public Stage {
   std::size_t Load(const float* memory) override { return pairs_.Load(memory); }
 
  private:
+  enum class State {
+    kAtRest,
+    kPressed,    // something overlaps it more than at rest: it does not join
+    kDisturbed,  // something moves against it, or it is shaken
+  };
+
   void Look();
   bool IsShaken(int body) const;
   bool MayJoin(int body) const;
-  std::vector<NearPair> LookAround();
+  RelativeMotion Disturb(b2Contact* contact);
+  void Note(const b2Contact& contact, State state);
+  void LookForPairs();
+  void WatchGroups();
   BondEdit BondOf(int body, int other) const;
 
   const StageWorld w_;
@@ -53,7 +64,7 @@ class GroupStage : public Stage {
   std::vector<std::vector<int>> groups_;  // by body: joints that a touch undoes
   RestPairs pairs_;
   std::vector<b2Vec2> before_;             // m/s, by body, before the tick
-  std::vector<bool> disturbed_;            // by body, in this tick
+  std::vector<State> states_;              // by body, in this tick
   std::set<std::pair<int, int>> resting_;  // bodies to be grouped
   std::set<int> undone_;                   // joints
 };
@@ -103,49 +114,88 @@ bool GroupStage::MayJoin(int body) const {
          w_.built.moving[static_cast<std::size_t>(body)].body->GetType() == b2_dynamicBody;
 }
 
-/// Notes which bodies are disturbed. Returns pairs that could be grouped one day. The engine's
-/// boxes meet before the shapes do: what comes finds single bodies again.
-std::vector<NearPair> GroupStage::LookAround() {
+/// Both are disturbed if they move against each other. The engine's boxes meet before the shapes
+/// do: what comes finds single bodies again.
+RelativeMotion GroupStage::Disturb(b2Contact* contact) {
+  b2Body* const bodies[] = {contact->GetFixtureA()->GetBody(), contact->GetFixtureB()->GetBody()};
+  const auto wakes = [](b2Body* b) { return b->GetType() != b2_staticBody && b->IsAwake(); };
+  if (!wakes(bodies[0]) && !wakes(bodies[1])) return {};
+  const RelativeMotion motion = MotionAt(w_, contact);
+  const bool moved = motion.speed > kApart * kRestSpeed || motion.spin > kApart * kRestSpin;
+  if (moved) Note(*contact, State::kDisturbed);
+  return motion;
+}
+
+void GroupStage::Note(const b2Contact& contact, State state) {
+  for (const b2Fixture* fixture : {contact.GetFixtureA(), contact.GetFixtureB()}) {
+    const int index = IndexOf(const_cast<b2Fixture*>(fixture)->GetBody());
+    if (index < 0) continue;
+    State& now = states_[static_cast<std::size_t>(index)];
+    now = std::max(now, state);
+  }
+}
+
+/// Counts how long things have rested, and finds what is to be grouped.
+void GroupStage::LookForPairs() {
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    if (IsShaken(static_cast<int>(b))) states_[b] = State::kDisturbed;
+  }
   std::vector<NearPair> near;
   for (b2Contact* c = world_->GetContactList(); c != nullptr; c = c->GetNext()) {
     b2Fixture* const one = c->GetFixtureA();
     b2Fixture* const other = c->GetFixtureB();
     if (one->IsSensor() || other->IsSensor()) continue;
+    const RelativeMotion motion = Disturb(c);
+    if (IsPressed(c)) Note(*c, State::kPressed);
     const int a = IndexOf(one->GetBody()), b = IndexOf(other->GetBody());
-    const bool awake = (a >= 0 && one->GetBody()->IsAwake()) ||  //
-                       (b >= 0 && other->GetBody()->IsAwake());
-    const RelativeMotion motion = awake ? MotionAt(w_, c) : RelativeMotion{};
-    if (motion.speed > kApart * kRestSpeed || motion.spin > kApart * kRestSpin) {
-      if (a >= 0) disturbed_[static_cast<std::size_t>(a)] = true;
-      if (b >= 0) disturbed_[static_cast<std::size_t>(b)] = true;
-    }
     if (a < 0 || b < 0 || !MayJoin(a) || !MayJoin(b)) continue;
     const bool still = motion.speed <= kRestSpeed && motion.spin <= kRestSpin;
     const auto p = static_cast<PartId>(PartOf(one)), q = static_cast<PartId>(PartOf(other));
     near.push_back(p < q ? NearPair{p, q, a, b, still, c->IsTouching(), 0}
                          : NearPair{q, p, b, a, still, c->IsTouching(), 0});
   }
-  return near;
+  const auto rests = [this](int body) {
+    return states_[static_cast<std::size_t>(body)] == State::kAtRest;
+  };
+  for (NearPair& pair : near) {
+    pair.still = pair.still && rests(pair.body_a) && rests(pair.body_b);
+  }
+  const float ticks = w_.scene.grouping->after * static_cast<float>(w_.scene.solver.tick_hz);
+  const int limit = 1 + static_cast<int>(std::ceil(ticks / kLookTicks));
+  pairs_.Count(std::move(near), limit);
+  for (const NearPair& pair : pairs_.pairs()) {
+    if (pair.looks < limit || !pair.touching) continue;
+    resting_.insert(std::minmax(pair.body_a, pair.body_b));
+  }
+}
+
+/// What groups meet, each contact once.
+void GroupStage::WatchGroups() {
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    if (groups_[b].empty()) continue;
+    if (IsShaken(static_cast<int>(b))) states_[b] = State::kDisturbed;
+    b2Body* const body = w_.built.moving[b].body;
+    for (b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
+      const int other = IndexOf(edge->other);
+      const bool seen = other >= 0 && other < static_cast<int>(b) &&  // from there
+                        !groups_[static_cast<std::size_t>(other)].empty();
+      const b2Contact& contact = *edge->contact;
+      if (seen || contact.GetFixtureA()->IsSensor() || contact.GetFixtureB()->IsSensor()) continue;
+      Disturb(edge->contact);
+    }
+  }
 }
 
 void GroupStage::AfterTick() {
-  const float ticks = w_.scene.grouping->after * static_cast<float>(w_.scene.solver.tick_hz);
-  const auto limit = static_cast<int>(std::ceil(ticks));
-  const std::size_t bodies = w_.built.moving.size();
-  disturbed_.assign(bodies, false);
-  for (std::size_t b = 0; b < bodies; ++b) disturbed_[b] = IsShaken(static_cast<int>(b));
-  std::vector<NearPair> near = LookAround();
-  const auto disturbed = [this](int body) { return disturbed_[static_cast<std::size_t>(body)]; };
-  for (NearPair& pair : near) {
-    pair.still = pair.still && !disturbed(pair.body_a) && !disturbed(pair.body_b);
+  states_.assign(w_.built.moving.size(), State::kAtRest);
+  if (w_.tick % kLookTicks == 0) {
+    LookForPairs();
+  } else {
+    WatchGroups();
   }
-  pairs_.Count(std::move(near), limit);
-  for (std::size_t b = 0; b < bodies; ++b) {
-    if (disturbed_[b]) undone_.insert(groups_[b].begin(), groups_[b].end());
-  }
-  for (const NearPair& pair : pairs_.pairs()) {
-    if (pair.ticks < limit || !pair.touching) continue;
-    resting_.insert(std::minmax(pair.body_a, pair.body_b));
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    if (states_[b] != State::kDisturbed) continue;
+    undone_.insert(groups_[b].begin(), groups_[b].end());
   }
 }
 

@@ -14,14 +14,12 @@ using Parts = std::pair<PartId, PartId>;
 Parts PartsOf(const NearPair& pair) { return {pair.a, pair.b}; }
 bool Before(const NearPair& x, const NearPair& y) { return PartsOf(x) < PartsOf(y); }
 
+/// Where the engine leaves bodies at rest they overlap by its slop. What overlaps more than this is
+/// being pushed apart: m.
+constexpr float kPressedIn = 3 * b2_linearSlop;
+
+/// The middle of where their boxes overlap.
 b2Vec2 PointOf(b2Contact* contact) {
-  if (contact->IsTouching() && contact->GetManifold()->pointCount > 0) {
-    b2WorldManifold manifold;
-    contact->GetWorldManifold(&manifold);
-    return contact->GetManifold()->pointCount == 1
-               ? manifold.points[0]
-               : 0.5f * (manifold.points[0] + manifold.points[1]);
-  }
   const b2AABB& a = contact->GetFixtureA()->GetAABB(contact->GetChildIndexA());
   const b2AABB& b = contact->GetFixtureB()->GetAABB(contact->GetChildIndexB());
   return 0.5f * (b2Max(a.lowerBound, b.lowerBound) + b2Min(a.upperBound, b.upperBound));
@@ -46,6 +44,15 @@ RelativeMotion MotionAt(const StageWorld& world, b2Contact* contact) {
   return {slip.Length(), std::fabs(b->GetAngularVelocity() - a->GetAngularVelocity())};
 }
 
+bool IsPressed(b2Contact* contact) {
+  if (!contact->IsTouching()) return false;
+  b2WorldManifold manifold;
+  contact->GetWorldManifold(&manifold);
+  const int32 points = contact->GetManifold()->pointCount;
+  const float* const apart = manifold.separations;
+  return std::any_of(apart, apart + points, [](float gap) { return gap < -kPressedIn; });
+}
+
 void RestPairs::Count(std::vector<NearPair> now, int limit) {
   std::sort(now.begin(), now.end(), Before);
   std::vector<NearPair> next;
@@ -58,16 +65,16 @@ void RestPairs::Count(std::vector<NearPair> now, int limit) {
       next.push_back(pair);
       while (then != pairs_.end() && Before(*then, pair)) ++then;
       const bool known = then != pairs_.end() && PartsOf(*then) == PartsOf(pair);
-      next.back().ticks = known ? std::min(then->ticks + 1, limit) : 1;
+      next.back().looks = known ? std::min(then->looks + 1, limit) : 1;
     }
-    if (!next.back().still) next.back().ticks = 0;
+    if (!next.back().still) next.back().looks = 0;
   }
   pairs_ = std::move(next);
 }
 
 void RestPairs::Forget(PartId part) {
   for (NearPair& pair : pairs_) {
-    if (pair.a == part || pair.b == part) pair.ticks = 0;
+    if (pair.a == part || pair.b == part) pair.looks = 0;
   }
 }
 
@@ -76,7 +83,7 @@ void RestPairs::Save(std::vector<float>* memory) const {
   for (const NearPair& pair : pairs_) {
     memory->push_back(static_cast<float>(pair.a));
     memory->push_back(static_cast<float>(pair.b));
-    memory->push_back(static_cast<float>(pair.ticks));
+    memory->push_back(static_cast<float>(pair.looks));
   }
 }
 
@@ -86,7 +93,7 @@ std::size_t RestPairs::Load(const float* memory) {
   for (NearPair& pair : pairs_) {
     pair.a = static_cast<PartId>(*next++);
     pair.b = static_cast<PartId>(*next++);
-    pair.ticks = static_cast<int>(*next++);
+    pair.looks = static_cast<int>(*next++);
   }
   return static_cast<std::size_t>(next - memory);
 }

@@ -10,7 +10,7 @@
 
 namespace seam {
 
-/// Two bodies at the point where they touch, or where their boxes overlap most.
+/// Of two bodies, at the middle of where their boxes overlap.
 struct RelativeMotion {
   float speed = 0;  ///< m/s
   float spin = 0;   ///< rad/s
@@ -18,20 +18,23 @@ struct RelativeMotion {
 
 RelativeMotion MotionAt(const StageWorld& world, b2Contact* contact);
 
+/// Whether they overlap more than the engine leaves bodies that rest on each other.
+bool IsPressed(b2Contact* contact);
+
 /// Two parts of different bodies whose boxes meet.
 struct NearPair {
   PartId a = 0, b = 0;  ///< a < b
   int body_a = 0, body_b = 0;
   bool still = false;     ///< they rest against each other
   bool touching = false;  ///< with contact points
-  int ticks = 0;          ///< for how long they have rested, at most the limit
+  int looks = 0;          ///< at how many looks in a row they have rested, at most the limit
 };
 
-/// Ticks of rest by pair of parts. What a pair has is kept as long as its boxes meet.
+/// Looks at which pairs of parts rested. What a pair has is kept as long as its boxes meet.
 class RestPairs {
  public:
-  /// Takes the pairs of this tick in any order; the same pair may be there several times, and rests
-  /// only if each of them does. Counts them on, up to `limit` ticks.
+  /// Takes the pairs of a look in any order; the same pair may be there several times, and rests
+  /// only if each of them does. Counts them on, up to `limit`.
   void Count(std::vector<NearPair> now, int limit);
   /// Those of the last Count, ascending by parts, each once.
   const std::vector<NearPair>& pairs() const { return pairs_; }
