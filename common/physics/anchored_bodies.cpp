@@ -11,8 +11,9 @@
 namespace seam {
 namespace {
 
-/// Sides of the squares, m.
-constexpr float kSquare = 64;
+/// Sides of the squares, m. In each of its steps the engine walks through the contacts of the later
+/// body of a pair, so a body should not have those of a whole city.
+constexpr float kSquare = 16;
 
 }  // namespace
 

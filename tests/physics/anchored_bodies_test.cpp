@@ -66,6 +66,25 @@ TEST(AnchoredBodies, ASlopeOfTilesIsTheSameOfOwnAndOfSharedBodies) {
   }
 }
 
+TEST(AnchoredBodies, AMechanismOnTilesIsTheSameOnOwnAndOnSharedBodies) {
+  const auto driven = [](int tiles) {
+    auto world = SmallWorld(
+        Tiles(tiles) +
+        "[[part]]\nname = \"car\"\nbox = [2, 0.4]\nposition = [-8, 0.62]\n"
+        "[[part]]\nname = \"wheel\"\ncircle = 0.4\nposition = [-8.7, 0.41]\nfriction = 0.9\n"
+        "repeat = {count = 2, step = [1.4, 0]}\n"
+        "[[joint]]\nname = \"rear\"\nkind = \"revolute\"\na = \"car\"\nb = \"wheel.0\"\n"
+        "anchor = [-8.7, 0.41]\nmotor = {speed = -5, torque = 20}\n"
+        "[[joint]]\nname = \"front\"\nkind = \"revolute\"\na = \"car\"\nb = \"wheel.1\"\n"
+        "anchor = [-7.3, 0.41]\n");
+    Live(world.get(), 240);
+    return world->Read(0);
+  };
+  const BodyState own = driven(kShareFrom - 2), shared = driven(kShareFrom);
+  EXPECT_GT(own.position.x(), -3) << "it drives";
+  EXPECT_LT((own.position - shared.position).norm(), 0.02f);
+}
+
 TEST(AnchoredBodies, ATouchNamesTheTile) {
   auto world = SmallWorld(Tiles(40) +
                           "[[part]]\nname = \"ball\"\ncircle = 0.3\nposition = [7.5, "
