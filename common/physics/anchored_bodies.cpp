@@ -49,9 +49,9 @@ const AnchoredBodies::Body& AnchoredBodies::For(const Part& root) {
   Body& body = bodies_[{square(root.position.x()), square(root.position.y())}];
   if (body.body != nullptr) return body;
   const auto middle = [&](float x) { return kSquare * (static_cast<float>(square(x)) + 0.5f); };
-  body.position = {middle(root.position.x()), middle(root.position.y())};
+  body.frame.position = {middle(root.position.x()), middle(root.position.y())};
   b2BodyDef def;
-  def.position = ToB2(body.position);
+  def.position = ToB2(body.frame.position);
   body.body = world_->CreateBody(&def);
   return body;
 }

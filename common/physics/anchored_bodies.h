@@ -28,7 +28,7 @@ class AnchoredBodies {
 
   struct Body {
     b2Body* body = nullptr;
-    Vec2 position{0, 0};  ///< m, of its origin; it is not turned
+    Part frame;  ///< lies as it does
   };
   /// The body for an assembly whose root is `root`.
   const Body& For(const Part& root);

@@ -13,6 +13,13 @@ namespace {
 /// `frame`: a part that lies as the body does.
 void AddShapes(const Scene& scene, const Assembly& assembly, const Part& frame, bool guarded,
                b2Body* body, std::map<PartId, std::vector<PartId>>* merged) {
+  if (assembly.parts.size() < kFacesFrom) {  // without copies of its parts
+    for (const PartId id : assembly.parts) {
+      AddFixture(scene.parts[static_cast<std::size_t>(id)], frame, scene.solver.skin, guarded,
+                 body);
+    }
+    return;
+  }
   for (const Face& face : FacesOf(scene, assembly)) {
     AddFixture(face.shape, frame, scene.solver.skin, guarded, body);
     if (face.parts.size() > 1) (*merged)[face.shape.id] = face.parts;
@@ -39,9 +46,7 @@ b2Body* AddBody(const Scene& scene, const Assembly& assembly, b2World* world,
 b2Body* AddToShared(const Scene& scene, const Assembly& assembly, AnchoredBodies* shared,
                     std::map<PartId, std::vector<PartId>>* merged) {
   const AnchoredBodies::Body& its = shared->For(scene.parts[static_cast<std::size_t>(assembly.id)]);
-  Part frame;
-  frame.position = its.position;
-  AddShapes(scene, assembly, frame, true, its.body, merged);
+  AddShapes(scene, assembly, its.frame, true, its.body, merged);
   return its.body;
 }
 
