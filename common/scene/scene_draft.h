@@ -97,7 +97,7 @@ void CheckScene(const Scene& scene, const std::string& file);
 
 /// A part's conveyor: a number or a table.
 void ReadConveyor(const SceneReader& r, const SceneDraft& draft, Part* part);
-/// [[thrust]]. Requires parts and players.
+/// [[thrust]] and [[propeller]]. Requires parts and players.
 void ReadThrusts(const SceneReader& root, SceneDraft* draft);
 
 /// The one of box, circle, capsule, wedge, polygon, chain and segment that the table has.

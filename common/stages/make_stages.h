@@ -19,6 +19,10 @@ std::unique_ptr<Stage> MakeThrustStage(const StageWorld& world);
 /// Bodies of water: sensors in the contact pipeline say which bodies they hold.
 std::unique_ptr<Stage> MakeWaterStage(const StageWorld& world);
 
+/// Turns propellers: each is pushed by the water that its blades meet, and by nothing else. What
+/// sleeps is woken when a player's command changes.
+std::unique_ptr<Stage> MakePropellerStage(const StageWorld& world);
+
 /// Whether anything in the scene can break.
 bool HasBreakableGlue(const Scene& scene);
 

@@ -25,9 +25,14 @@ std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world) {
   if (any(world.scene.parts, [](const Part& p) { return p.conveyor->speed != 0; })) {
     stages.push_back(MakeConveyorStage(world));
   }
+  const auto is_screw = [](const Thrust& t) { return t.screw.diameter > 0; };
+  const bool screws = any(world.scene.thrusts, is_screw);
   if (!world.scene.thrusts.empty()) stages.push_back(MakeThrustStage(world));
   if (!world.scene.bricks.empty()) stages.push_back(MakeFeatherStage(world));
   if (!world.scene.waters.empty()) stages.push_back(MakeWaterStage(world));
+  if (screws && !world.scene.waters.empty()) {
+    stages.push_back(MakePropellerStage(world));
+  }
   const bool joins = HasConnectors(world.scene);
   if (joins || HasBreakableGlue(world.scene)) stages.push_back(MakeGlueStage(world));
   if (joins) stages.push_back(MakeJoinStage(world));

@@ -164,6 +164,7 @@ void AddScenes(Interface* interface) {
       {"[[joint]] motor (prismatic)", joint + "\"prismatic\"\n[joint.motor]"},
       {"[[joint]] follow", joint + "\"motor\"\nforce = 1\ntorque = 1\n[joint.follow]"},
       {"[[thrust]]", ball + "[[thrust]]"},
+      {"[[propeller]]", ball + "[[propeller]]"},
       {"[[water]]", ball + "[[water]]"},
       {"[[player]]", "[[player]]"},
       {"[[player]] actions", ball + ann + "[[player.actions]]"},

@@ -50,6 +50,7 @@ TEST(SceneDocs, EveryKeyIsOnThePage) {
       {ball + "[[joint]]", "## `[[joint]]`"},
       {ball + "[[bricks]]", "## `[[bricks]]`"},
       {ball + "[[thrust]]", "## `[[thrust]]`"},
+      {ball + "[[propeller]]", "## `[[propeller]]`"},
       {ball + "[[water]]", "## `[[water]]`"},
       {ball + "[grouping]", "## `[grouping]`"},
       {ball + "[[character]]", "## `[[character]]`"},
