@@ -38,7 +38,10 @@ std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world) {
   if (joins) stages.push_back(MakeJoinStage(world));
   if (world.scene.grouping->after > 0) stages.push_back(MakeGroupStage(world));
   if (HasActiveCharacter(world.scene)) stages.push_back(MakeCharacterStage(world));
-  if (!world.scene.seats.empty()) stages.push_back(MakeSeatStage(world));  // leads, so it is last
+  if (!world.scene.seats.empty()) {  // they lead, so they are last
+    stages.push_back(MakeSeatLeaveStage(world));
+    stages.push_back(MakeSeatStage(world));
+  }
   return stages;
 }
 
