@@ -49,6 +49,7 @@ TEST(SceneDocs, EveryKeyIsOnThePage) {
       {"[[part]]", "## `[[part]]`"},
       {ball + "[[joint]]", "## `[[joint]]`"},
       {ball + "[[bricks]]", "## `[[bricks]]`"},
+      {ball + "[[strand]]", "## `[[strand]]`"},
       {ball + "[[thrust]]", "## `[[thrust]]`"},
       {ball + "[[propeller]]", "## `[[propeller]]`"},
       {ball + "[[water]]", "## `[[water]]`"},
