@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "render/canvas/palette.h"
+#include "render/draw/draw_blasts.h"
 #include "render/draw/draw_body.h"
 #include "render/draw/draw_ghosts.h"
 #include "render/draw/draw_joints.h"
@@ -160,6 +161,7 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
   DrawWaters(list, viewport, playback);
   DrawGround(list, viewport, playback, *revision, look.tick, look.cull);
   DrawTriggers(list, viewport, playback, now, look.tick);
+  DrawCharges(list, viewport, playback, now, look.tick);
   if (look.trails) DrawTrails(list, viewport, playback, *revision, look);
   DrawRods(list, viewport, playback, now, 1);
   const std::vector<Seen> seen = BodiesOnPanel(viewport, playback, *revision, look);
@@ -170,6 +172,7 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
   DrawSurfaces(list, viewport, playback);
   DrawGhosts(list, viewport, playback, *revision, look);
   DrawBreaks(list, viewport, playback, now, look.tick);
+  DrawBlasts(list, viewport, playback, now, look.tick);
   DrawImpacts(list, viewport, playback, look);
   DrawHealth(list, viewport, playback, now, look.tick);
   DrawNames(list, viewport, playback, seen);
