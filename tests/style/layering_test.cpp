@@ -168,13 +168,15 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"render/canvas", "none"},
       {"render/playback", "render/canvas"},
       {"render/draw", "render/(canvas|playback)"},
-      {"tests/lab/fairness", "tests/lab(/report)?"},
+      {"tests/lab/fairness", "tests/lab(/report(/sessions)?)?"},
       {"common/measure/limit", "common/measure(/screen)?"},
       {"tests/lab/exact", "tests/lab(/hard|/report)?"},
       {"tests/lab/hard", "none"},
       {"tests/lab/hard/mechanisms", "tests/lab/hard"},
-      {"tests/lab/report", "tests/lab(/report/joints)?"},
+      {"tests/lab/report", "tests/lab(/report/(joints|sessions))?"},
+      {"tests/lab/report/sessions", "tests/lab(/report)?"},
       {"tests/lab/report/joints", "tests/lab(/report)?"},
+      {"tests/lab/titles", "tests/lab(/report(/sessions)?)?"},
       {"tests/lab/validity", "tests/lab"},
       {"tests/lab/world", "tests/lab(/report)?"}};
   std::string offenders;
