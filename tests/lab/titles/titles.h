@@ -51,5 +51,6 @@ void JudgeSkyline(const Screen& screen, Claims* claims);
 void JudgeRagdolls(const Screen& screen, Claims* claims);
 void JudgeObstacle(const Screen& screen, Claims* claims);
 void JudgePlayground(const Screen& screen, Claims* claims);
+void JudgeBattlefield(const Screen& screen, Claims* claims);
 
 }  // namespace seam
