@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "common/scene/bricks.h"
-#include "common/scene/charge.h"
+#include "common/scene/charges/charge.h"
 #include "common/scene/scene.h"
 #include "common/topology/feather_store.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "common/scene/charge.h"
+#include "common/scene/charges/charge.h"
 #include "common/sync/edits/edit_order.h"
 #include "render/canvas/palette.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "common/scene/charge.h"
+#include "common/scene/charges/charge.h"
 #include "common/scene/part_rules.h"
 #include "server/rules/part_owner.h"
 #include "server/rules/script_room.h"

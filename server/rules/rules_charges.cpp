@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "common/physics/part_places.h"
-#include "common/scene/charge.h"
+#include "common/scene/charges/charge.h"
 #include "server/rules/rules.h"
 #include "server/script/script_host.h"
 

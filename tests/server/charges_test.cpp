@@ -7,7 +7,7 @@
 
 #include "common/base/check.h"
 #include "common/physics/world.h"
-#include "common/scene/charge.h"
+#include "common/scene/charges/charge.h"
 #include "server/rules/rules.h"
 #include "server/script/script_host.h"
 

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "common/scene/charge.h"
+#include "common/scene/charges/charge.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
 #include "common/scene/scene_text.h"
