@@ -85,8 +85,10 @@ class Support {
 class Cutter {
  public:
   Cutter(const FeatureList<BrickField>& fields, std::vector<Brick> bricks)
-      : fields_(fields), bricks_(std::move(bricks)), used_(bricks_.size(), false) {
+      : fields_(fields), bricks_(std::move(bricks)) {
     std::sort(bricks_.begin(), bricks_.end(), IsBefore);
+    bricks_.erase(std::unique(bricks_.begin(), bricks_.end()), bricks_.end());
+    used_.assign(bricks_.size(), false);
   }
 
   Fallen Cut() {
@@ -96,10 +98,8 @@ class Cutter {
       const Brick& b = bricks_[i];
       const BrickField& field = fields_[static_cast<std::size_t>(b.kind)];
       if (fallen.parts.size() == static_cast<std::size_t>(kFallPiecesMax)) {
-        fallen.hanging = Vec2(static_cast<float>(2 * b.x + field.width),
-                              static_cast<float>(2 * b.y + field.height)) *
-                         (kBrickUnit / 2);
-        return fallen;
+        fallen.hanging.push_back(b);
+        continue;
       }
       int columns = 1, rows = 1;
       while ((columns + 1) * field.width <= kFallSideMax && HasRow(b, columns, 1, 0)) ++columns;
@@ -144,7 +144,7 @@ std::vector<bool> FoundedKinds(const FeatherStore& whole, const FeatureList<Bric
       if (y != field.y) return true;
       const std::vector<Brick> near = Neighbours(whole, {x, y, static_cast<int>(kind)});
       rests = std::any_of(near.begin(), near.end(), [&](const Brick& o) {
-        return o.kind != static_cast<int>(kind) && o.y < y;
+        return fields[static_cast<std::size_t>(o.kind)].y < field.y;
       });
       return !rests;
     });
@@ -157,7 +157,7 @@ Fallen FallingBricks(const FeatureList<BrickField>& fields, const std::vector<bo
                      const FeatherStore& left, const std::vector<Brick>& freed,
                      const Blast& blast) {
   Support support(fields, founded, left);
-  std::vector<Brick> hanging;
+  std::vector<Brick> hanging = left.hanging();  // nothing can have come below them
   for (const Brick& b : freed) {
     for (const Brick& next : Neighbours(left, b)) support.Look(next, &hanging);
   }

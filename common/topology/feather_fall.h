@@ -2,7 +2,6 @@
 /// Bricks that nothing holds up any more: what a blast leaves in the air comes down. No statics:
 /// what is connected to a foundation stands.
 
-#include <optional>
 #include <vector>
 
 #include "common/scene/bricks.h"
@@ -22,12 +21,13 @@ constexpr int kFallSideMax = 30;
 std::vector<bool> FoundedKinds(const FeatherStore& whole, const FeatureList<BrickField>& fields);
 
 struct Fallen {
-  std::vector<Part> parts;      ///< boxes of neighbours of one kind, at rest; without ids
-  std::optional<Vec2> hanging;  ///< m: where a brick is left that nothing holds up either
+  std::vector<Part> parts;     ///< boxes of neighbours of one kind, at rest; without ids
+  std::vector<Brick> hanging;  ///< that nothing holds up either
 };
 
 /// The bricks of `left` near the blast, and next to what it freed, that no row of neighbours (by a
-/// common edge, however short) connects to a foundation: from below, at most kFallPiecesMax pieces.
+/// common edge, however short) connects to a foundation, and what is known to hang: from below, at
+/// most kFallPiecesMax pieces.
 /// Integer arithmetic: the same on every peer. Costs a walk over what hangs, and from what stands
 /// down to its foundation.
 Fallen FallingBricks(const FeatureList<BrickField>& fields, const std::vector<bool>& founded,

@@ -20,6 +20,11 @@ Blast BlastOf(const BlastEdit& edit) {
   return {edit.centre, edit.radius, edit.speed, edit.impulse};
 }
 
+/// m, its lower left.
+Vec2 CornerOf(const Brick& b) {
+  return Vec2(static_cast<float>(b.x), static_cast<float>(b.y)) * kBrickUnit;
+}
+
 /// A bond over more than this, m, is nonsense: no assembly is so large.
 constexpr float kBondDistanceMax = 1000;
 /// A bond's angle may be a turn off, not more: sines of huge angles are noise, and Box2D asserts.
@@ -217,7 +222,6 @@ void Topology::Sit(const SeatEdit& seat) {
 }
 
 void Topology::FreeBricks(const BlastEdit& blast) {
-  hanging_.reset();
   if (scene_.bricks.empty() || !RoomFor(kBlastPiecesMax + kFallPiecesMax)) return;
   const auto add = [this](std::vector<Part> parts) {
     for (Part& part : parts) {
@@ -232,7 +236,11 @@ void Topology::FreeBricks(const BlastEdit& blast) {
   const FeatherStore& left = BricksLeft();
   Fallen fallen = FallingBricks(scene_.bricks, founded_, left, freed.bricks, BlastOf(blast));
   add(std::move(fallen.parts));
-  hanging_ = fallen.hanging;
+  hanging_.reset();
+  if (!fallen.hanging.empty()) hanging_ = CornerOf(fallen.hanging.front());
+  BricksLeft();
+  if (left_.use_count() > 1) left_ = std::make_shared<FeatherStore>(*left_);
+  left_->SetHanging(std::move(fallen.hanging));
 }
 
 void Topology::Bond(const BondEdit& edit) {
