@@ -8,7 +8,7 @@
 namespace seam {
 namespace {
 
-constexpr double kMine_s = 4.9, kAfterMine_s = 8;  // before the mine, and when its crate lies
+constexpr double kMine_s = 3.9, kAfterMine_s = 6.8;  // before the mine, and when its crate lies
 
 double WayOf(const Screen& screen, const std::string& crate) {
   const Vec2 from = screen.At(crate, kMine_s).position;
