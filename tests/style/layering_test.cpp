@@ -165,6 +165,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"server/script", "none"},
       {"server/rules", "server/script"},
       {"common/scene/joints", "common/scene"},
+      {"common/scene/charges", "common/scene"},
       {"render/canvas", "none"},
       {"render/playback", "render/canvas"},
       {"render/draw", "render/(canvas|playback)"},
