@@ -22,6 +22,8 @@ constexpr int kStraysMax = 30;              ///< so many in a row are a new sess
 void Prune(Recording* recording, std::int64_t before_tick) {
   for (auto& [peer, views] : recording->views)
     while (views.size() > 1 && views.begin()->first < before_tick) views.erase(views.begin());
+  for (auto& [peer, strands] : recording->strands)
+    while (!strands.empty() && strands.begin()->first < before_tick) strands.erase(strands.begin());
   auto& impacts = recording->impacts;
   impacts.erase(std::remove_if(impacts.begin(), impacts.end(),
                                [&](const Impacts& i) { return i.tick < before_tick; }),

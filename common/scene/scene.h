@@ -15,6 +15,7 @@ struct Character;     // character.h
 struct Charge;        // charge.h
 struct Connectors;    // connectors.h
 struct Conveyor;      // forces.h
+struct Strand;        // strand.h
 struct Thrust;        // forces.h
 struct Expected;      // expected.h
 struct Grouping;      // grouping.h
@@ -216,6 +217,7 @@ struct Scene {
   std::vector<Joint> joints;
   FeatureList<BrickField> bricks;  ///< anchored, and no parts
   FeatureList<Water> waters;
+  FeatureList<Strand> strands;  ///< to be looked at, no more
   FeatureList<Thrust> thrusts;
   Feature<Grouping> grouping;
   FeatureList<Character> characters;

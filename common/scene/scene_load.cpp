@@ -7,7 +7,7 @@
 #include "common/scene/scene.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
-#include "common/scene/scene_text.h"
+#include "common/scene/toml/scene_text.h"
 
 namespace seam {
 namespace {
@@ -100,7 +100,7 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
       {"title",       "gravity", "duration", "buffer",    "speed_limit", "size_max", "bounds",
        "solver",      "part",    "bricks",   "character", "joint",       "thrust",   "water",
        "player",      "seat",    "watch",    "camera",    "trigger",     "script",   "grouping",
-       "input_delay", "expect",  "follow",   "charges"});
+       "input_delay", "expect",  "follow",   "strand",    "charges"});
   scene.title = root.Text("title", scene.name);
   scene.gravity = root.Vector("gravity", {-100, 100}, scene.gravity);
   scene.duration_s = root.Seconds("duration", {0.1, 86400}, scene.duration_s);
@@ -118,6 +118,7 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   ReadBricks(root, &draft);
   ReadCharacters(root, &draft);
   ReadJoints(root, &draft);
+  ReadStrands(root, &draft);
   ReadThrusts(root, &draft);
   ReadWaters(root, &draft);
   ReadGrouping(root, &draft);

@@ -10,6 +10,7 @@
 #include "render/draw/draw_joints.h"
 #include "render/draw/draw_rules.h"
 #include "render/draw/draw_scene.h"
+#include "render/draw/draw_strands.h"
 #include "render/playback/marks.h"
 
 namespace seam {
@@ -168,6 +169,7 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
   for (const Seen& one : seen)
     DrawBody(list, viewport, *one.body, one.shown.pose,
              LookOf(one.shown.authority, one.shown.role));
+  DrawStrands(list, viewport, playback, now, look.peer);
   DrawPins(list, viewport, playback, now, 1);
   DrawSurfaces(list, viewport, playback);
   DrawGhosts(list, viewport, playback, *revision, look);

@@ -164,8 +164,9 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"server/sessions", "none"},
       {"server/script", "none"},
       {"server/rules", "server/script"},
-      {"common/scene/joints", "common/scene"},
-      {"common/scene/charges", "common/scene"},
+      {"common/scene/joints", "common/scene(/toml)?"},
+      {"common/scene/charges", "common/scene(/toml)?"},
+      {"common/scene/toml", "common/scene"},
       {"render/canvas", "none"},
       {"render/playback", "render/canvas"},
       {"render/draw", "render/(canvas|playback)"},
@@ -241,7 +242,7 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
   ExpectOnlyIn("common/codec/codec[^/]*\\.cpp", kCode, "seam/[a-z_]+\\.hpp");
   ExpectOnlyIn("render/canvas/png[^/]*", kCode, "png\\.h|spng\\.h");
   ExpectOnlyIn("render/canvas/font[^/]*", kCode, "ft2build\\.h|freetype/.*");
-  ExpectOnlyIn("common/scene/toml_tree\\.cpp", kProduct, "toml\\.hpp|toml[^/]*/.*");
+  ExpectOnlyIn("common/scene/toml/toml_tree\\.cpp", kProduct, "toml\\.hpp|toml[^/]*/.*");
   ExpectOnlyIn("render/options\\.cpp|common/base/command_line\\.h", kProduct, "CLI/.*");
   ExpectOnlyIn("server/script/script_lua[^/]*", kCode, "(.*/)?(lua|lauxlib|lualib)\\.h(pp)?");
   ExpectOnlyIn("common/net/keyed_hash\\.cpp", kCode, "sodium\\.h|sodium/.*");

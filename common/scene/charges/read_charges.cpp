@@ -5,7 +5,7 @@
 #include "common/scene/charges/charge.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
-#include "common/scene/scene_text.h"
+#include "common/scene/toml/scene_text.h"
 
 namespace seam {
 namespace {
