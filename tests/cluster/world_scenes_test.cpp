@@ -52,7 +52,7 @@ INSTANTIATE_TEST_SUITE_P(Scenes, WorldScene,
                          ::testing::Values("titanic", "skyline", "regatta", "harbour", "ragdolls",
                                            "obstacle", "crane", "gluehouse", "conveyor",
                                            "playground", "headon", "rally", "seesaw",
-                                           "scrum", "heap", "train"),
+                                           "scrum", "heap", "train", "battlefield"),
                          [](const auto& scene) { return std::string(scene.param); });
 
 }  // namespace

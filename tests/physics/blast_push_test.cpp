@@ -83,6 +83,13 @@ TEST(BlastPush, ACrateAtTwoMetresFliesAndBehindAWallTakesLessThanATwentieth) {
   EXPECT_LT(row.Momentum("second").norm(), open / 20);
 }
 
+TEST(BlastPush, WhatTheCentreLiesInNeitherCoversNorIsPushed) {
+  const float open = Blasted(Crate("crate", 2, 0)).Momentum("crate").norm();
+  const Blasted b(Crate("crate", 2, 0) + Crate("bomb", 0.1f, 0.1f));
+  EXPECT_NEAR(b.Momentum("crate").norm(), open, 1e-3f * open);
+  EXPECT_EQ(b.Momentum("bomb"), Vec2(0, 0));
+}
+
 TEST(BlastPush, HalfACoverLeavesHalfThePushAndTurnsTheCrate) {
   const float open = Blasted(Crate("crate", 2, 0)).Momentum("crate").x();
   const Blasted b(
