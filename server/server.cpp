@@ -15,6 +15,8 @@ namespace {
 
 /// Most ticks stepped in one call: a server that was suspended catches up without starving the net.
 constexpr int kStepsMax = 8;
+/// m, about where bricks are left in the air.
+constexpr float kLetFallRadius = 0.5f;
 /// Mode oracle: what is decided outside the physics (a seat, a rule, a script) acts so much later,
 /// s, at every peer in the same tick. Longer than an order is under way, or that peer is behind.
 constexpr double kAppointSeconds = 0.25;
@@ -245,6 +247,14 @@ void Server::ApplyEdits(std::int64_t now_us) {
   ApplyQueued(now_us);
 }
 
+/// A blast lets fall only so much of what it has left in the air: the rest comes down by more
+/// edits.
+void Server::LetFall(const Edit& applied) {
+  const std::optional<Vec2>& hanging = replica_.world().topology().hanging();
+  if (applied.As<BlastEdit>() == nullptr || !hanging) return;
+  edits_.Add(Edit(BlastEdit{*hanging, kLetFallRadius, 0, 0}, EditCause::kOutside));
+}
+
 void Server::ApplyQueued(std::int64_t now_us) {
   while (replica_.has_queued()) {
     const Edit edit = replica_.next_queued();
@@ -255,6 +265,7 @@ void Server::ApplyQueued(std::int64_t now_us) {
     } else {
       edits_.NoteApplied();
     }
+    LetFall(edit);
     if (!change) continue;
     authority_.Remap(change->mechanisms);
     filter_.Remap(change->bodies);

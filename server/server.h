@@ -102,6 +102,7 @@ class Server {
   void StepOnce(std::int64_t now_us);
   void ApplyEdits(std::int64_t now_us);
   void AppointEdits(std::int64_t now_us);
+  void LetFall(const Edit& applied);
   void ApplyQueued(std::int64_t now_us);
   void UpdateAuthority(std::int64_t now_us);
   void RunRules(std::int64_t now_us);

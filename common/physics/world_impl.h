@@ -43,7 +43,7 @@ struct World::Impl {
   /// Makes the stages anew if the scene needs more of them than there are.
   void FindStages() {
     std::vector<std::unique_ptr<Stage>> needed =
-        MakeStages({scene, composition, built, tick, motions});
+        MakeStages({scene, composition, built, tick, motions, topology});
     if (needed.size() <= stages.size()) return;
     stages = std::move(needed);
     std::vector<Stage*> listening;

@@ -64,6 +64,8 @@ void ReadSeats(const SceneReader& root, SceneDraft* draft);
 PartRules ReadPartRules(const SceneReader& r, const SceneDraft& draft);
 /// [[trigger]]. Requires parts and players.
 void ReadTriggers(const SceneReader& root, SceneDraft* draft);
+/// [[charges]]. Requires parts and triggers.
+void ReadCharges(const SceneReader& root, SceneDraft* draft);
 /// [[script]]. Requires the text.
 void ReadScripts(const SceneReader& root, SceneDraft* draft);
 /// [[watch]]. Requires parts.

@@ -171,6 +171,7 @@ void AddScenes(Interface* interface) {
       {"[[player]] actions", ball + ann + "[[player.actions]]"},
       {"[[seat]]", ball + "[[seat]]"},
       {"[[trigger]]", ball + "[[trigger]]"},
+      {"[[charges]]", ball + "[[charges]]"},
       {"[[script]]", ball + "[[script]]"},
       {"[[watch]]", ball + "[[watch]]"}};
   for (const auto& [name, text] : tables) {

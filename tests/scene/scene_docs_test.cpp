@@ -58,6 +58,7 @@ TEST(SceneDocs, EveryKeyIsOnThePage) {
       {"[[player]]", "## `[[player]]`"},
       {ball + "[[watch]]", "## `[[watch]]`"},
       {ball + "[[trigger]]", "## `[[trigger]]`"},
+      {ball + "[[charges]]", "## `[[charges]]`"},
       {ball + "[[script]]", "## `[[script]]`"},
       {ball + "[camera]", "## `[camera]`"}};
   for (const auto& [table, heading] : tables) {

@@ -165,6 +165,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"server/script", "none"},
       {"server/rules", "server/script"},
       {"common/scene/joints", "common/scene(/toml)?"},
+      {"common/scene/charges", "common/scene(/toml)?"},
       {"common/scene/toml", "common/scene"},
       {"render/canvas", "none"},
       {"render/playback", "render/canvas"},

@@ -34,7 +34,7 @@ EditOrder ToOrder(const Edit& edit) {
                    order.player = static_cast<std::int16_t>(e.player);
                  },
                  [&](const BlastEdit& e) {
-                   order.value = {e.centre.x(), e.centre.y(), e.speed, e.radius};
+                   order.value = {e.centre.x(), e.centre.y(), e.speed, e.radius, e.impulse};
                  }},
       edit.what);
   return order;
@@ -58,7 +58,7 @@ Edit ToEdit(const EditOrder& order) {
     case 5: what = FreeEdit{order.a}; break;
     case 6: what = PushEdit{order.a, xy, angle}; break;
     case 7: what = SeatEdit{order.a, order.player}; break;
-    case 8: what = BlastEdit{xy, amount, angle}; break;
+    case 8: what = BlastEdit{xy, amount, angle, order.value.size() > 4 ? order.value[4] : 0}; break;
     default: break;
   }
   return Edit(what, static_cast<EditCause>(order.cause));

@@ -51,6 +51,11 @@ const std::vector<Title>& Titles() {
        "ann gets in, drives over the seam and gets out; the crawler moves crates, the boat crosses "
        "into dee's region, the tower falls, the ragdoll comes down, and ann has 20 points.",
        JudgePlayground},
+      {"battlefield",
+       "The crate in the open flies 2 m or more and the one behind the wall moves less "
+       "than a twentieth of that; the hut comes down to below 1.5 m and a limb comes off; "
+       "ann and bob are thrown and stand again at the end.",
+       JudgeBattlefield},
   };
   return titles;
 }

@@ -52,5 +52,6 @@ void JudgeRagdolls(const Screen& screen, Claims* claims);
 void JudgeObstacle(const Screen& screen, Claims* claims);
 void JudgeFreight(const Screen& screen, Claims* claims);
 void JudgePlayground(const Screen& screen, Claims* claims);
+void JudgeBattlefield(const Screen& screen, Claims* claims);
 
 }  // namespace seam
