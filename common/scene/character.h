@@ -9,6 +9,9 @@
 ///        | |      upper legs      knees
 ///        | |      lower legs      ankles
 ///        |_|_     feet            (facing right: the toes are on the right)
+///
+/// Each part is one convex outline of eight corners, tapered like the limb it stands for; soles are
+/// flat.
 
 #include <array>
 #include <string>
@@ -51,6 +54,13 @@ enum CharacterJoint {
   kAnkleRight,
   kCharacterJoints
 };
+
+/// Arms and legs.
+constexpr bool IsLimb(int part) { return part >= kUpperArmLeft; }
+/// Requires IsLimb(part).
+constexpr bool IsLeft(int part) {
+  return part <= kLowerArmLeft || (part >= kUpperLegLeft && part <= kFootLeft);
+}
 
 struct Character {
   std::string name;     ///< its parts are "name.head", its joints "name.neck" and so on
