@@ -14,6 +14,7 @@
 /// flat.
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -62,6 +63,8 @@ constexpr bool IsLeft(int part) {
   return part <= kLowerArmLeft || (part >= kUpperLegLeft && part <= kFootLeft);
 }
 
+struct CharacterGains;  // common/stages/character/character_gains.h
+
 struct Character {
   std::string name;     ///< its parts are "name.head", its joints "name.neck" and so on
   bool active = false;  ///< its joints have motors that a controller turns
@@ -73,6 +76,9 @@ struct Character {
   /// N m by which each joint resists turning when nothing drives it: muscle tone, for a body that
   /// is limp, passive or dead.
   std::array<float, kCharacterJoints> slack{};
+  /// Numbers of its controller, for searches of better ones; nullptr: those built in. No part of a
+  /// scene file: a peer has always those built in.
+  std::shared_ptr<const CharacterGains> gains;
   int line = 0;  ///< in the scene file
 };
 

@@ -97,11 +97,14 @@ class CharacterControl {
   float unit() const { return unit_; }
   float Omega(const CharacterSense& s, float ground_y) const;
   /// A servo of so many units per rad; `rate` 1/s is its stiffness over its damping.
-  void Pose(CharacterJoint joint, float angle, float strength, float spin = 0,
-            float rate = kServoRate);
+  void Pose(CharacterJoint joint, float angle, float strength, float spin, float rate);
+  void Pose(CharacterJoint joint, float angle, float strength, float spin = 0) {
+    Pose(joint, angle, strength, spin, gains_.servo_rate);
+  }
 
   const Character character_;
   const StageWorld world_;
+  const CharacterGains gains_;
   CharacterLimbs limbs_;
   CharacterMemory memory_;
   float drive_ = 0, lift_ = 0;  // -1..1, drive forward

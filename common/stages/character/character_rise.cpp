@@ -38,16 +38,16 @@ constexpr RiseFrame kRise[2 * kFrames] = {
 void CharacterControl::Fall(const CharacterSense& s) {
   const bool back = s.torso > 0;
   // Hands towards the ground, chin on the chest.
-  Pose(kNeck, back ? 0.5f : -0.4f, 0.5f * kNeckStiffness);
+  Pose(kNeck, back ? 0.5f : -0.4f, 0.5f * gains_.neck_stiffness);
   for (int side = 0; side < 2; ++side) {
-    Pose(Shoulder(side), back ? -0.8f : 1.3f, kFallStiffness);
-    Pose(Elbow(side), 0.5f, kFallStiffness);
-    Pose(Hip(side), 0.4f, kFallStiffness);
-    Pose(Knee(side), -0.6f, kFallStiffness);
-    Pose(Ankle(side), 0, kFallStiffness);
+    Pose(Shoulder(side), back ? -0.8f : 1.3f, gains_.fall_stiffness);
+    Pose(Elbow(side), 0.5f, gains_.fall_stiffness);
+    Pose(Hip(side), 0.4f, gains_.fall_stiffness);
+    Pose(Knee(side), -0.6f, gains_.fall_stiffness);
+    Pose(Ankle(side), 0, gains_.fall_stiffness);
   }
   const bool still = s.velocity.LengthSquared() < 0.1f && std::abs(s.torso_spin) < 0.5f;
-  if (memory_.time > kFallMax || (still && memory_.time > kFallMin)) {
+  if (memory_.time > gains_.fall_max || (still && memory_.time > gains_.fall_min)) {
     Enter(CharacterMode::kRise);
     memory_.phase = back ? 0 : kFromFront;
   }
@@ -67,13 +67,13 @@ void CharacterControl::Rise(const CharacterSense& s, float h) {
     return from.*angle + t * (to.*angle - from.*angle);
   };
   for (int side = 0; side < 2; ++side) {
-    Pose(Hip(side), at(&RiseFrame::hip), kRiseStiffness);
-    Pose(Knee(side), at(&RiseFrame::knee), kRiseStiffness);
-    Pose(Ankle(side), at(&RiseFrame::ankle), kAnkleStiffness);
-    Pose(Shoulder(side), at(&RiseFrame::shoulder), kArmStiffness);
-    Pose(Elbow(side), at(&RiseFrame::elbow), kArmStiffness);
+    Pose(Hip(side), at(&RiseFrame::hip), gains_.rise_stiffness);
+    Pose(Knee(side), at(&RiseFrame::knee), gains_.rise_stiffness);
+    Pose(Ankle(side), at(&RiseFrame::ankle), gains_.ankle_stiffness);
+    Pose(Shoulder(side), at(&RiseFrame::shoulder), gains_.arm_stiffness);
+    Pose(Elbow(side), at(&RiseFrame::elbow), gains_.arm_stiffness);
   }
-  Pose(kNeck, 0.3f, kNeckStiffness);
+  Pose(kNeck, 0.3f, gains_.neck_stiffness);
   if (memory_.phase_time < to.seconds) return;
   memory_.phase = memory_.phase % kFrames == kFrames - 1 ? kUp : memory_.phase + 1;
   memory_.phase_time = 0;
@@ -85,18 +85,18 @@ void CharacterControl::Up(const CharacterSense& s) {
   const float ground_y = std::min(s.legs[0].ankle.y, s.legs[1].ankle.y) - shape.ankle;
   const float middle = (s.legs[0].ankle.x + s.legs[1].ankle.x + shape.toe - shape.heel) / 2;
   const float height = (s.hip.y - ground_y) / shape.hip;
-  if (height > kRisen && std::abs(s.torso) < 0.5f * kTiltMax) {
+  if (height > gains_.risen && std::abs(s.torso) < 0.5f * gains_.tilt_max) {
     Enter(CharacterMode::kStand);
     Stand(s);
     return;
   }
-  if (memory_.phase_time > kUpMax || (memory_.phase_time > 0.5f && s.lying)) {
+  if (memory_.phase_time > gains_.up_max || (memory_.phase_time > 0.5f && s.lying)) {
     Enter(CharacterMode::kFall);
     return;
   }
   const float capture = s.centre.x + s.velocity.x / Omega(s, ground_y);
-  const float pressure = capture + kCaptureGain * (capture - middle);
-  const float proposed = std::min(kStandHeight, height + 0.12f);
+  const float pressure = capture + gains_.capture_gain * (capture - middle);
+  const float proposed = std::min(gains_.stand_height, height + 0.12f);
   const float lift = Lift(s, ground_y, proposed * shape.hip, 0);
   const float torso = TorsoTorque(s, -0.9f * std::clamp(1.2f - height, 0.0f, 1.0f));
   for (int side = 0; side < 2; ++side) Bear(s, side, pressure, 0.5f * lift, 0.5f * torso);
