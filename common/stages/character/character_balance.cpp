@@ -9,6 +9,10 @@
 namespace seam {
 namespace {
 
+/// m beside the wished foothold, where it looks for a flat one, and how many on either side.
+constexpr float kAsideMax = 0.32f;
+constexpr int kAsides = 8;
+
 float Smooth(float t) {
   const float u = std::clamp(t, 0.0f, 1.0f);
   return u * u * (3 - 2 * u);
@@ -151,47 +155,90 @@ void CharacterControl::BeginStep(const CharacterSense& s, int stance) {
   memory_.stance = stance;
   memory_.step = 0;
   memory_.from = s.legs[1 - stance].ankle;
+  memory_.to = memory_.from.x;
 }
 
-CharacterControl::Foothold CharacterControl::NextFoothold(const CharacterSense& s,
-                                                          float support_x) const {
+/// Of the ankle, m: where the pendulum goes on at the wished speed.
+float CharacterControl::WishedFoothold(const CharacterSense& s, float support_x) const {
   const CharacterShape& shape = limbs_.shape();
   const LegSense& stance = s.legs[memory_.stance];
-  const float ground_y = stance.ankle.y - shape.ankle;
-  const float omega = Omega(s, ground_y);
-  const float whole = StepTime();
-  const float left = std::max(whole - memory_.step, 0.0f);
-  // The divergent component at the end of the step, if the pressure stays where it is, and how far
-  // ahead of the next foot it must then be.
+  const float omega = Omega(s, stance.ankle.y - shape.ankle);
+  const float left = std::max(StepTime() - memory_.step, 0.0f);
+  // The divergent component at the end of the step, if the pressure stays where it is.
   const float now = s.centre.x + (s.velocity.x - stance.ground_velocity.x) / omega;
   const float then = support_x + (now - support_x) * std::exp(omega * left);
-  const float ahead = memory_.speed * whole / (std::exp(omega * whole) - 1);
-  const float middle = (shape.toe - shape.heel) / 2;
   const float hip_then = s.hip.x + left * s.velocity.x;
-  Foothold next;
-  next.ankle.x = std::clamp(then - ahead - middle, hip_then - gains_.reach_back * limbs_.scale(),
-                            hip_then + gains_.reach_max * limbs_.scale());
-  // Not across the edge of a stair, if there is room beside it.
+  return std::clamp(then - Ahead(omega), hip_then - gains_.reach_back * limbs_.scale(),
+                    hip_then + gains_.reach_max * limbs_.scale());
+}
+
+/// m by which the divergent component is to be before the ankle of the next foot.
+float CharacterControl::Ahead(float omega) const {
+  const CharacterShape& shape = limbs_.shape();
+  return memory_.speed * StepTime() / (std::exp(omega * StepTime()) - 1) +
+         (shape.toe - shape.heel) / 2;
+}
+
+/// Whether heel and toe, and `rim` m beyond them, are on one face of the ground; the foothold there
+/// in any case.
+bool CharacterControl::FlatAt(const CharacterSense& s, float x, float rim,
+                              Foothold* foothold) const {
+  const CharacterShape& shape = limbs_.shape();
+  const float ground_y = s.legs[memory_.stance].ankle.y - shape.ankle;
   const float from_y = ground_y + 0.5f * shape.hip, depth = 1.2f * shape.hip;
-  const float wished = next.ankle.x;
-  for (const float aside : kAside) {
-    const float x = wished + aside * limbs_.scale();
-    const GroundPoint heel = limbs_.GroundBelow(b2Vec2(x - shape.heel, from_y), depth);
-    const GroundPoint toe = limbs_.GroundBelow(b2Vec2(x + shape.toe, from_y), depth);
-    const float heel_y = heel.found ? heel.point.y : ground_y;
-    const float toe_y = toe.found ? toe.point.y : ground_y;
-    const float length = shape.heel + shape.toe;
-    const bool flat = std::abs(toe_y - heel_y) < gains_.slope_max * length &&
-                      (heel.normal - toe.normal).Length() < 0.3f;
-    if (!flat && aside != kAside[0]) continue;
-    next.ankle.Set(x, std::max(heel_y, toe_y) + shape.ankle);
-    next.slope = 0;
-    if (!flat) continue;
-    next.slope = std::atan2(toe_y - heel_y, length);
-    next.ankle.y = heel_y + (toe_y - heel_y) * shape.heel / length + shape.ankle;
-    break;
+  const GroundPoint heel = limbs_.GroundBelow(b2Vec2(x - shape.heel - rim, from_y), depth);
+  const GroundPoint toe = limbs_.GroundBelow(b2Vec2(x + shape.toe + rim, from_y), depth);
+  const float heel_y = heel.found ? heel.point.y : ground_y;
+  const float toe_y = toe.found ? toe.point.y : ground_y;
+  const float length = shape.heel + shape.toe + 2 * rim;
+  // One face: what its two ends say of its slope is also what its normal says.
+  const bool flat = std::abs(toe_y - heel_y) < gains_.slope_max * length &&
+                    (heel.normal - toe.normal).Length() < 0.3f &&
+                    std::abs((toe_y - heel_y) * heel.normal.y + length * heel.normal.x) <
+                        gains_.uneven * limbs_.scale();
+  foothold->ankle.Set(x, std::max(heel_y, toe_y) + shape.ankle);
+  foothold->slope = 0;
+  if (!flat) return false;
+  foothold->slope = std::atan2(toe_y - heel_y, length);
+  foothold->ankle.y = heel_y + (toe_y - heel_y) * (shape.heel + rim) / length + shape.ankle;
+  return true;
+}
+
+/// Not across the edge of a stair, if there is room beside it.
+CharacterControl::Foothold CharacterControl::NextFoothold(const CharacterSense& s,
+                                                          float support_x) const {
+  const float wished = WishedFoothold(s, support_x), scale = limbs_.scale();
+  Foothold next;
+  if (FlatAt(s, wished, 0, &next)) return next;
+  const Foothold edge = next;
+  // The nearest of what lies beside it; one that was chosen before has a start.
+  float nearest = kAsideMax * scale;
+  bool found = false;
+  for (int i = -kAsides; i <= kAsides; ++i) {
+    const float x = wished + static_cast<float>(i) / kAsides * kAsideMax * scale;
+    float far = std::abs(x - wished);
+    if (std::abs(x - memory_.to) > gains_.edge_keep * scale) far += gains_.edge_keep * scale;
+    Foothold other;
+    if (far >= nearest || !FlatAt(s, x, gains_.edge_rim * scale, &other)) continue;
+    nearest = far;
+    next = other;
+    found = true;
   }
-  return next;
+  return found ? next : edge;
+}
+
+/// By how much faster than usual the step must be for the divergent component to be where it is
+/// wanted when the foot stands at `foothold_x`. After Khadiv and others, "Step Timing Adjustment: A
+/// Step toward Generating Robust Gaits", 2016.
+float CharacterControl::StepRate(const CharacterSense& s, float support_x, float foothold_x) const {
+  const LegSense& stance = s.legs[memory_.stance];
+  const float omega = Omega(s, stance.ankle.y - limbs_.shape().ankle);
+  const float now = s.centre.x + (s.velocity.x - stance.ground_velocity.x) / omega - support_x;
+  const float then = foothold_x + Ahead(omega) - support_x;
+  const float left = StepTime() - memory_.step;
+  if (left < 0.02f || std::abs(now) < 0.01f * limbs_.scale() || now * then <= 0) return 1;
+  const float needed = std::log(std::max(1.02f, then / now)) / omega;
+  return std::clamp(left / needed, gains_.step_rate_min, gains_.step_rate_max);
 }
 
 /// Of the swinging foot, at `time` s: up, over, down to where it is to stand.
@@ -221,7 +268,6 @@ void CharacterControl::Swing(const CharacterSense& s, int side, const Foothold& 
 
 void CharacterControl::StepOn(const CharacterSense& s, float h) {
   const CharacterShape& shape = limbs_.shape();
-  memory_.step += h;
   const float most = drive_ > 0 ? gains_.run_speed_max : gains_.speed_back;
   const float proposed = most * std::sqrt(limbs_.scale()) * drive_;
   memory_.speed +=
@@ -247,9 +293,13 @@ void CharacterControl::StepOn(const CharacterSense& s, float h) {
   const float ground_y = stance.ankle.y - shape.ankle;
   const float relative = s.velocity.x - stance.ground_velocity.x;
   const float middle = stance.ankle.x + (shape.toe - shape.heel) / 2;
-  const float pressure = middle + 0.15f * (relative - memory_.speed);
+  const float pressure =
+      Sole(s, memory_.stance, middle + gains_.step_pressure * (relative - memory_.speed)).x;
   const int swing_side = 1 - memory_.stance;
-  const Foothold next = NextFoothold(s, middle);
+  const float support = middle + gains_.step_trust * (pressure - middle);
+  const Foothold next = NextFoothold(s, support);
+  memory_.to = next.ankle.x;
+  memory_.step += h * StepRate(s, support, next.ankle.x);
   Swing(s, swing_side, next);
   // The height that the hip keeps is above the line from foot to foot.
   const b2Vec2 way = next.ankle - stance.ankle;

@@ -11,7 +11,7 @@ namespace seam {
 
 void CharacterMemory::Save(std::vector<float>* memory) const {
   memory->insert(memory->end(), {static_cast<float>(mode), time, static_cast<float>(stance), step,
-                                 from.x, from.y, speed, static_cast<float>(phase), phase_time});
+                                 from.x, from.y, to, speed, static_cast<float>(phase), phase_time});
 }
 
 std::size_t CharacterMemory::Load(const float* memory) {
@@ -20,10 +20,11 @@ std::size_t CharacterMemory::Load(const float* memory) {
   stance = static_cast<int>(memory[2]);
   step = memory[3];
   from.Set(memory[4], memory[5]);
-  speed = memory[6];
-  phase = static_cast<int>(memory[7]);
-  phase_time = memory[8];
-  return 9;
+  to = memory[6];
+  speed = memory[7];
+  phase = static_cast<int>(memory[8]);
+  phase_time = memory[9];
+  return 10;
 }
 
 CharacterControl::CharacterControl(const Character& character, const StageWorld& world)

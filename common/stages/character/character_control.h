@@ -29,6 +29,7 @@ struct CharacterMemory {
   int stance = 0;        ///< kStep: the side that bears
   float step = 0;        ///< s; kStep: since the swinging foot left the ground
   b2Vec2 from{0, 0};     ///< m; kStep: where it left, own frame
+  float to = 0;          ///< m; kStep: where its ankle is to stand, own frame
   float speed = 0;       ///< m/s that is wished for now
   int phase = 0;         ///< kRise: of the way up
   float phase_time = 0;  ///< s in it
@@ -63,7 +64,11 @@ class CharacterControl {
     b2Vec2 ankle{0, 0};
     float slope = 0;
   };
+  float Ahead(float omega) const;
+  float WishedFoothold(const CharacterSense& s, float support_x) const;
+  bool FlatAt(const CharacterSense& s, float x, float rim, Foothold* foothold) const;
   Foothold NextFoothold(const CharacterSense& s, float support_x) const;
+  float StepRate(const CharacterSense& s, float support_x, float foothold_x) const;
   b2Vec2 SwingAt(float time, const Foothold& to) const;
   void Swing(const CharacterSense& s, int side, const Foothold& to);
   void Bear(const CharacterSense& s, int side, float pressure_x, float lift, float torso_torque);
@@ -87,6 +92,8 @@ class CharacterControl {
   // character_rise.cpp
   void Fall(const CharacterSense& s);
   void Rise(const CharacterSense& s, float h);
+  float SlopeBelow(const CharacterSense& s) const;
+  LegPose Gathered(const CharacterSense& s, float place, float lead, float slope) const;
   void Up(const CharacterSense& s);
 
   // character_swim.cpp
