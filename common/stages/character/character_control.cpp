@@ -10,8 +10,9 @@
 namespace seam {
 
 void CharacterMemory::Save(std::vector<float>* memory) const {
-  memory->insert(memory->end(), {static_cast<float>(mode), time, static_cast<float>(stance), step,
-                                 from.x, from.y, to, speed, static_cast<float>(phase), phase_time});
+  memory->insert(memory->end(),
+                 {static_cast<float>(mode), time, static_cast<float>(stance), step, from.x, from.y,
+                  to, edge.x, edge.y, speed, static_cast<float>(phase), phase_time});
 }
 
 std::size_t CharacterMemory::Load(const float* memory) {
@@ -21,10 +22,11 @@ std::size_t CharacterMemory::Load(const float* memory) {
   step = memory[3];
   from.Set(memory[4], memory[5]);
   to = memory[6];
-  speed = memory[7];
-  phase = static_cast<int>(memory[8]);
-  phase_time = memory[9];
-  return 10;
+  edge.Set(memory[7], memory[8]);
+  speed = memory[9];
+  phase = static_cast<int>(memory[10]);
+  phase_time = memory[11];
+  return 12;
 }
 
 CharacterControl::CharacterControl(const Character& character, const StageWorld& world)

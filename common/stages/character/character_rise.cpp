@@ -50,13 +50,13 @@ constexpr float kSlopeKnown = 0.5f;
 void CharacterControl::Fall(const CharacterSense& s) {
   const bool back = s.torso > 0;
   // Hands towards the ground, chin on the chest.
-  Pose(kNeck, back ? 0.5f : -0.4f, 0.5f * gains_.neck_stiffness);
+  Pose(kNeck, back ? 0.5f : -0.4f, 0.5f * gains_.neck_stiffness, 0, gains_.rise_rate);
   for (int side = 0; side < 2; ++side) {
-    Pose(Shoulder(side), back ? -0.8f : 1.3f, gains_.fall_stiffness);
-    Pose(Elbow(side), 0.5f, gains_.fall_stiffness);
-    Pose(Hip(side), 0.4f, gains_.fall_stiffness);
-    Pose(Knee(side), -0.6f, gains_.fall_stiffness);
-    Pose(Ankle(side), 0, gains_.fall_stiffness);
+    Pose(Shoulder(side), back ? -0.8f : 1.3f, gains_.fall_stiffness, 0, gains_.rise_rate);
+    Pose(Elbow(side), 0.5f, gains_.fall_stiffness, 0, gains_.rise_rate);
+    Pose(Hip(side), 0.4f, gains_.fall_stiffness, 0, gains_.rise_rate);
+    Pose(Knee(side), -0.6f, gains_.fall_stiffness, 0, gains_.rise_rate);
+    Pose(Ankle(side), 0, gains_.fall_stiffness, 0, gains_.rise_rate);
   }
   const bool still = s.velocity.LengthSquared() < 0.1f && std::abs(s.torso_spin) < 0.5f;
   if (memory_.time > gains_.fall_max || (still && memory_.time > gains_.fall_min)) {
@@ -119,13 +119,13 @@ void CharacterControl::Rise(const CharacterSense& s, float h) {
     knee += share * (below.knee - knee);
   }
   for (int side = 0; side < 2; ++side) {
-    Pose(Hip(side), hip, gains_.rise_stiffness);
-    Pose(Knee(side), knee, gains_.rise_stiffness);
-    Pose(Ankle(side), at(&RiseFrame::ankle), gains_.ankle_stiffness);
-    Pose(Shoulder(side), shoulder, gains_.arm_stiffness);
-    Pose(Elbow(side), at(&RiseFrame::elbow), gains_.arm_stiffness);
+    Pose(Hip(side), hip, gains_.rise_stiffness, 0, gains_.rise_rate);
+    Pose(Knee(side), knee, gains_.rise_stiffness, 0, gains_.rise_rate);
+    Pose(Ankle(side), at(&RiseFrame::ankle), gains_.ankle_stiffness, 0, gains_.rise_rate);
+    Pose(Shoulder(side), shoulder, gains_.arm_stiffness, 0, gains_.rise_rate);
+    Pose(Elbow(side), at(&RiseFrame::elbow), gains_.arm_stiffness, 0, gains_.rise_rate);
   }
-  Pose(kNeck, 0.3f, gains_.neck_stiffness);
+  Pose(kNeck, 0.3f, gains_.neck_stiffness, 0, gains_.rise_rate);
   if (memory_.phase_time < seconds) return;
   memory_.phase = last ? kUp : memory_.phase + 1;
   memory_.phase_time = 0;
@@ -160,8 +160,11 @@ void CharacterControl::Up(const CharacterSense& s) {
     return;
   }
   const float proposed = std::min(gains_.stand_height, height + gains_.up_lead);
-  const float lift = Lift(s, ground_y, proposed * shape.hip, 0);
-  const float torso = TorsoTorque(s, -gains_.up_lean * std::clamp(1.2f - height, 0.0f, 1.0f));
+  const float lift = Lift(s, ground_y, proposed * shape.hip, 0, gains_.up_height_stiffness,
+                          gains_.up_height_damping);
+  const float lean = -gains_.up_lean * std::clamp(1.2f - height, 0.0f, 1.0f);
+  const float torso = unit_ * (gains_.up_torso_stiffness * (lean - s.torso) -
+                               gains_.up_torso_damping * s.torso_spin);
   for (int side = 0; side < 2; ++side) Bear(s, side, pressure, 0.5f * lift, 0.5f * torso);
   Arms(0.8f, 0.8f, 0.3f);
 }

@@ -7,6 +7,7 @@ const std::vector<Ability>& Abilities() {
                                                  {"swim", "m/s", TrySwim},
                                                  {"rise", "s", TryRise},
                                                  {"stairs", "s", TryStairs},
+                                                 {"slope", "s", TrySlope},
                                                  {"shove", "s", TryShove},
                                                  {"walk", "m/s", TryWalk},
                                                  {"climb", "s", TryClimb}};
