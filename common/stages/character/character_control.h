@@ -87,6 +87,11 @@ class CharacterControl {
     b2Vec2 ankle{0, 0};
     float slope = 0;
   };
+  /// Of the ground that the step goes over.
+  struct StairGait {
+    float speed, time, height, ahead, lean;
+  };
+  StairGait Stairs() const;
   float Ahead(float omega) const;
   b2Vec2 EdgeAhead(const CharacterSense& s, float from_x) const;
   float WishedFoothold(const CharacterSense& s, float support_x) const;

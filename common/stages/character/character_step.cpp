@@ -23,7 +23,21 @@ float Smooth(float t) {
 
 }  // namespace
 
-float CharacterControl::StepTime() const { return gains_.step_time * std::sqrt(limbs_.scale()); }
+/// What is different where a stair is within reach.
+CharacterControl::StairGait CharacterControl::Stairs() const {
+  const CharacterGains& g = gains_;
+  if (memory_.edge.x >= kNoEdge) return {g.run_speed_max, 1, 0, 0, 0};
+  const float rise = memory_.edge.y + limbs_.shape().ankle - memory_.from.y;
+  if (rise > 0)
+    return {g.upstairs_speed, g.upstairs_time, g.upstairs_height, g.upstairs_ahead,
+            g.upstairs_lean};
+  return {g.downstairs_speed, g.downstairs_time, g.downstairs_height, g.downstairs_ahead,
+          g.downstairs_lean};
+}
+
+float CharacterControl::StepTime() const {
+  return gains_.step_time * Stairs().time * std::sqrt(limbs_.scale());
+}
 
 void CharacterControl::BeginStep(const CharacterSense& s, int stance) {
   memory_.stance = stance;
@@ -79,7 +93,7 @@ float CharacterControl::WishedFoothold(const CharacterSense& s, float support_x)
 float CharacterControl::Ahead(float omega) const {
   const CharacterShape& shape = limbs_.shape();
   return memory_.speed * StepTime() / (std::exp(omega * StepTime()) - 1) +
-         (shape.toe - shape.heel) / 2;
+         (shape.toe - shape.heel) / 2 + Stairs().ahead * limbs_.scale();
 }
 
 /// Whether heel and toe, and `rim` m beyond them, are on one face of the ground; the foothold there
@@ -188,9 +202,9 @@ void CharacterControl::Swing(const CharacterSense& s, int side, const Foothold& 
 void CharacterControl::StepOn(const CharacterSense& s, float h) {
   const CharacterShape& shape = limbs_.shape();
   const float most = drive_ > 0 ? gains_.run_speed_max : gains_.speed_back;
-  const float on_stairs = memory_.edge.x < kNoEdge ? gains_.stair_speed : most;
+  const StairGait stairs = Stairs();
   const float proposed =
-      std::clamp(most * drive_, -on_stairs, on_stairs) * std::sqrt(limbs_.scale());
+      std::clamp(most * drive_, -stairs.speed, stairs.speed) * std::sqrt(limbs_.scale());
   memory_.speed +=
       std::clamp(proposed - memory_.speed, -gains_.speed_rate * h, gains_.speed_rate * h);
   const float whole = StepTime();
@@ -229,12 +243,10 @@ void CharacterControl::StepOn(const CharacterSense& s, float h) {
   const float along = apart ? std::clamp((s.hip.x - stance.ankle.x) / way.x, 0.0f, 1.0f) : 0;
   const float floor_y = ground_y + along * rise * way.x;
   const float floor_vy = stance.ground_velocity.y + rise * memory_.speed;
-  const float lean = -gains_.lean * std::abs(memory_.speed);
+  const float height = gains_.step_height + stairs.height - gains_.crouch * std::abs(memory_.speed);
+  const float lean = stairs.lean - gains_.lean * std::abs(memory_.speed);
   const float torso = TorsoTorque(s, lean) + limbs_.told(Hip(swing_side));
-  Bear(s, memory_.stance, pressure,
-       Lift(s, floor_y, (gains_.step_height - gains_.crouch * std::abs(memory_.speed)) * shape.hip,
-            floor_vy),
-       torso);
+  Bear(s, memory_.stance, pressure, Lift(s, floor_y, height * shape.hip, floor_vy), torso);
   Arms(-0.8f * s.legs[0].thigh, -0.8f * s.legs[1].thigh, 0.7f);
 }
 
