@@ -173,6 +173,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"tests/lab/fairness", "tests/lab(/report(/sessions)?)?"},
       {"common/measure/limit", "common/measure(/screen)?"},
       {"tests/lab/exact", "tests/lab(/hard|/report)?"},
+      {"tests/lab/gait", "tests/lab"},
       {"tests/lab/hard", "none"},
       {"tests/lab/hard/mechanisms", "tests/lab/hard"},
       {"tests/lab/report", "tests/lab(/report/(joints|sessions))?"},
