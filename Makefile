@@ -1,7 +1,7 @@
 # Seam2D. `make help` lists what there is to do.
 #
 # Layout: every .cpp under common/ goes into libseam-common.a; server/, client/ and render/ each hold
-# one program's files with main in main.cpp (render/ holds seam-measure's main too); tests/ is one
+# one program's files with main in main.cpp (render/ holds the mains of seam-measure and seam-export too); tests/ is one
 # GoogleTest program, tests/lab/ is seam-lab, which alone has server and clients in one process.
 # libseam.a, for other programs, is common/, server/ and client/ without their mains.
 # lcmtypes/*.lcm become headers under build/gen/, hardened by lcmtypes/harden.awk.
@@ -55,17 +55,18 @@ DEBS_lint := clang-tidy git
 # All .cpp below a folder; and their objects.
 below = $(sort $(shell find $(1) -name '*.cpp'))
 obj = $(patsubst %.cpp,$(OUT)/%.o,$(1))
-MAINS := server/main.cpp client/main.cpp render/main.cpp render/measure_main.cpp tests/lab/main.cpp
+MAINS := server/main.cpp client/main.cpp render/main.cpp render/measure_main.cpp render/export_main.cpp tests/lab/main.cpp
 SOURCES := $(call below,common server client render tests)
 COMMON := $(call obj,$(filter common/%,$(SOURCES)))
 SERVER := $(call obj,$(filter-out $(MAINS),$(filter server/%,$(SOURCES))))
 CLIENT := $(call obj,$(filter-out $(MAINS),$(filter client/%,$(SOURCES))))
 RENDER := $(call obj,$(filter-out $(MAINS),$(filter render/%,$(SOURCES))))
+EXPORT := $(call obj,$(filter render/export/% render/canvas/shapes.cpp,$(SOURCES)))
 LAB := $(call obj,$(filter-out $(MAINS) %_test.cpp,$(filter tests/lab/%,$(SOURCES))))
 TESTS := $(call obj,$(filter %_test.cpp tests/support/%,$(filter tests/%,$(SOURCES))))
 CODEC := $(filter $(OUT)/common/codec/%,$(COMMON))
 OBJECTS := $(call obj,$(SOURCES))
-PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-render seam-measure seam-lab)
+PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-render seam-measure seam-export seam-lab)
 LCM_TYPES := $(sort $(wildcard lcmtypes/*.lcm))
 VERSION := $(shell sed -n 's/.*kVersion = "\(.*\)".*/\1/p' common/base/version.h)
 
@@ -158,6 +159,8 @@ $(OUT)/seam-client: $(OUT)/client/main.o $(CLIENT) $(OUT)/libseam-common.a
 $(OUT)/seam-render: $(OUT)/render/main.o $(RENDER) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(RENDER_LIBS) -o $@
 $(OUT)/seam-measure: $(OUT)/render/measure_main.o $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) -o $@
+$(OUT)/seam-export: $(OUT)/render/export_main.o $(EXPORT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
