@@ -10,11 +10,15 @@
 namespace seam {
 
 struct FoxgloveSchema {
-  const char* name;
-  const char* text;  ///< a JSON Schema
+  std::string name;
+  std::string text;  ///< a JSON Schema
 };
 
-extern const FoxgloveSchema kFrameTransforms, kSceneUpdate, kLog, kErrors, kInput;
+FoxgloveSchema FrameTransformsSchema();
+FoxgloveSchema SceneUpdateSchema();
+FoxgloveSchema LogSchema();
+FoxgloveSchema ErrorsSchema();
+FoxgloveSchema InputSchema();
 
 /// The time of a tick, ns from the session's tick 0; 0 for earlier ones.
 std::uint64_t TimeNs(const ExportSession& session, std::int64_t tick);

@@ -1,67 +1,114 @@
 /// The schemas, as https://docs.foxglove.dev/docs/sdk/schemas has them: the fields that are used.
 
+#include <utility>
+
 #include "render/export/foxglove.h"
 
 namespace seam {
+namespace {
 
-#define SEAM_TIME(Title)                                                                           \
-  R"({"type":"object","title":")" Title R"(","properties":{"sec":{"type":"integer","minimum":0},)" \
-  R"("nsec":{"type":"integer","minimum":0,"maximum":999999999}}})"
-#define SEAM_VECTOR                                                                     \
-  R"({"type":"object","title":"foxglove.Vector3","properties":{"x":{"type":"number"},)" \
-  R"("y":{"type":"number"},"z":{"type":"number"}}})"
-#define SEAM_POINT                                                                     \
-  R"({"type":"object","title":"foxglove.Point3","properties":{"x":{"type":"number"},)" \
-  R"("y":{"type":"number"},"z":{"type":"number"}}})"
-#define SEAM_QUATERNION                                                                    \
-  R"({"type":"object","title":"foxglove.Quaternion","properties":{"x":{"type":"number"},)" \
-  R"("y":{"type":"number"},"z":{"type":"number"},"w":{"type":"number"}}})"
-#define SEAM_COLOR                                                                    \
-  R"({"type":"object","title":"foxglove.Color","properties":{"r":{"type":"number"},)" \
-  R"("g":{"type":"number"},"b":{"type":"number"},"a":{"type":"number"}}})"
+using Fields = std::vector<std::pair<const char*, std::string>>;
 
-const FoxgloveSchema kFrameTransforms = {
-    "foxglove.FrameTransforms",
-    R"({"title":"foxglove.FrameTransforms","type":"object","properties":{"transforms":)"
-    R"({"type":"array","items":{"title":"foxglove.FrameTransform","type":"object","properties":)"
-    R"({"timestamp":)" SEAM_TIME(
-        "time") R"(,"parent_frame_id":{"type":"string"},"child_frame_id":{"type":"string"},)"
-                R"("translation":)" SEAM_VECTOR R"(,"rotation":)" SEAM_QUATERNION R"(}}}}})"};
+std::string Type(const char* name) { return std::string("{\"type\":\"") + name + "\"}"; }
 
-const FoxgloveSchema kSceneUpdate = {
-    "foxglove.SceneUpdate",
-    R"({"title":"foxglove.SceneUpdate","type":"object","properties":{"deletions":)"
-    R"({"type":"array","items":{"title":"foxglove.SceneEntityDeletion","type":"object",)"
-    R"("properties":{"timestamp":)" SEAM_TIME(
-        "time") R"(,"type":{"type":"integer"},"id":{"type":"string"}}}},"entities":)"
-                R"({"type":"array","items":{"title":"foxglove.SceneEntity","type":"object","properties":)"
-                R"({"timestamp":)" SEAM_TIME("time") R"(,"frame_id":{"type":"string"},"id":{"type":"string"},"lifetime":)" SEAM_TIME(
-                    "duration") R"(,"frame_locked":{"type":"boolean"},"metadata":{"type":"array","items":{"type":"object",)"
-                                R"("title":"foxglove.KeyValuePair","properties":{"key":{"type":"string"},)"
-                                R"("value":{"type":"string"}}}},"lines":{"type":"array","items":{"type":"object",)"
-                                R"("title":"foxglove.LinePrimitive","properties":{"type":{"type":"integer"},)"
-                                R"("pose":{"type":"object","title":"foxglove.Pose","properties":{"position":)" SEAM_VECTOR
-                                R"(,"orientation":)" SEAM_QUATERNION
-                                R"(}},"thickness":{"type":"number"},"scale_invariant":{"type":"boolean"},"points":)"
-                                R"({"type":"array","items":)" SEAM_POINT R"(},"color":)" SEAM_COLOR
-                                R"(,"colors":{"type":"array","items":)" SEAM_COLOR
-                                R"(},"indices":{"type":"array","items":{"type":"integer","minimum":0}}}}}}}}}})"};
+std::string Object(const char* title, const Fields& fields) {
+  std::string properties;
+  for (const auto& [name, type] : fields) {
+    properties += (properties.empty() ? "\"" : ",\"") + std::string(name) + "\":" + type;
+  }
+  return std::string("{\"title\":\"") + title + "\",\"type\":\"object\",\"properties\":{" +
+         properties + "}}";
+}
 
-const FoxgloveSchema kLog = {
-    "foxglove.Log",
-    R"({"title":"foxglove.Log","type":"object","properties":{"timestamp":)" SEAM_TIME(
-        "time") R"(,"level":{"type":"integer"},"message":{"type":"string"},"name":{"type":"string"},)"
-                R"("file":{"type":"string"},"line":{"type":"integer","minimum":0}}})"};
+std::string ListOf(const std::string& items) {
+  return "{\"type\":\"array\",\"items\":" + items + "}";
+}
 
-const FoxgloveSchema kErrors = {
-    "seam2d.Errors",
-    R"({"title":"seam2d.Errors","type":"object","properties":{"tick":{"type":"integer"},)"
-    R"("rms_m":{"type":["number","null"]},"max_m":{"type":["number","null"]},"error_m":)"
-    R"({"type":"object","additionalProperties":{"type":["number","null"]}}}})"};
+std::string NumberOrNull() { return "{\"type\":[\"number\",\"null\"]}"; }
 
-const FoxgloveSchema kInput = {
-    "seam2d.Input",
-    R"({"title":"seam2d.Input","type":"object","properties":{"tick":{"type":"integer"},)"
-    R"("drive":{"type":"number"},"lift":{"type":"number"},"buttons":{"type":"integer"}}})"};
+std::string Numbers(const char* title, const std::vector<const char*>& names) {
+  Fields fields;
+  for (const char* name : names) fields.emplace_back(name, Type("number"));
+  return Object(title, fields);
+}
+
+std::string Time(const char* title) {
+  return Object(title, {{"sec", Type("integer")}, {"nsec", Type("integer")}});
+}
+
+std::string Vector() { return Numbers("foxglove.Vector3", {"x", "y", "z"}); }
+std::string Quaternion() { return Numbers("foxglove.Quaternion", {"x", "y", "z", "w"}); }
+std::string Colour() { return Numbers("foxglove.Color", {"r", "g", "b", "a"}); }
+
+std::string Frames() {
+  return Object(
+      "foxglove.FrameTransforms",
+      {{"transforms", ListOf(Object("foxglove.FrameTransform", {{"timestamp", Time("time")},
+                                                                {"parent_frame_id", Type("string")},
+                                                                {"child_frame_id", Type("string")},
+                                                                {"translation", Vector()},
+                                                                {"rotation", Quaternion()}}))}});
+}
+
+std::string Lines() {
+  const std::string point = Numbers("foxglove.Point3", {"x", "y", "z"});
+  return Object(
+      "foxglove.LinePrimitive",
+      {{"type", Type("integer")},
+       {"pose", Object("foxglove.Pose", {{"position", Vector()}, {"orientation", Quaternion()}})},
+       {"thickness", Type("number")},
+       {"scale_invariant", Type("boolean")},
+       {"points", ListOf(point)},
+       {"color", Colour()},
+       {"colors", ListOf(Colour())},
+       {"indices", ListOf(Type("integer"))}});
+}
+
+std::string SceneUpdate() {
+  const std::string pair =
+      Object("foxglove.KeyValuePair", {{"key", Type("string")}, {"value", Type("string")}});
+  return Object(
+      "foxglove.SceneUpdate",
+      {{"deletions", ListOf(Object("foxglove.SceneEntityDeletion", {{"timestamp", Time("time")},
+                                                                    {"type", Type("integer")},
+                                                                    {"id", Type("string")}}))},
+       {"entities", ListOf(Object("foxglove.SceneEntity", {{"timestamp", Time("time")},
+                                                           {"frame_id", Type("string")},
+                                                           {"id", Type("string")},
+                                                           {"lifetime", Time("duration")},
+                                                           {"frame_locked", Type("boolean")},
+                                                           {"metadata", ListOf(pair)},
+                                                           {"lines", ListOf(Lines())}}))}});
+}
+
+}  // namespace
+
+FoxgloveSchema FrameTransformsSchema() { return {"foxglove.FrameTransforms", Frames()}; }
+FoxgloveSchema SceneUpdateSchema() { return {"foxglove.SceneUpdate", SceneUpdate()}; }
+
+FoxgloveSchema LogSchema() {
+  return {"foxglove.Log", Object("foxglove.Log", {{"timestamp", Time("time")},
+                                                  {"level", Type("integer")},
+                                                  {"message", Type("string")},
+                                                  {"name", Type("string")},
+                                                  {"file", Type("string")},
+                                                  {"line", Type("integer")}})};
+}
+
+FoxgloveSchema ErrorsSchema() {
+  return {"seam2d.Errors",
+          Object("seam2d.Errors", {{"tick", Type("integer")},
+                                   {"rms_m", NumberOrNull()},
+                                   {"max_m", NumberOrNull()},
+                                   {"error_m", "{\"type\":\"object\",\"additionalProperties\":" +
+                                                   NumberOrNull() + "}"}})};
+}
+
+FoxgloveSchema InputSchema() {
+  return {"seam2d.Input", Object("seam2d.Input", {{"tick", Type("integer")},
+                                                  {"drive", Type("number")},
+                                                  {"lift", Type("number")},
+                                                  {"buttons", Type("integer")}})};
+}
 
 }  // namespace seam

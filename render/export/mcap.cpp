@@ -23,6 +23,10 @@ struct Timed {
   std::string json;
 };
 
+std::uint16_t AddSchema(McapWriter* file, const FoxgloveSchema& schema) {
+  return file->AddSchema(schema.name, schema.text);
+}
+
 std::string InputJson(std::int64_t tick, const Inputs& message, std::size_t i) {
   return "{\"tick\":" + std::to_string(tick) +
          ",\"drive\":" + std::to_string(message.drive[i] / 127.0) +
@@ -33,7 +37,7 @@ std::string InputJson(std::int64_t tick, const Inputs& message, std::size_t i) {
 std::vector<Timed> InputsOf(const ExportSession& session, McapWriter* file) {
   std::vector<Timed> all;
   if (session.recording.inputs.empty()) return all;
-  const std::uint16_t schema = file->AddSchema(kInput.name, kInput.text);
+  const std::uint16_t schema = AddSchema(file, InputSchema());
   for (const auto& [player, messages] : session.recording.inputs) {
     const std::uint16_t channel = file->AddChannel(schema, "/inputs/" + session.PlayerName(player));
     for (const auto& [first_tick, message] : messages) {
@@ -49,7 +53,7 @@ std::vector<Timed> InputsOf(const ExportSession& session, McapWriter* file) {
 
 std::vector<Timed> TimedOf(const ExportSession& session, McapWriter* file) {
   std::vector<Timed> all = InputsOf(session, file);
-  const std::uint16_t log = file->AddChannel(file->AddSchema(kLog.name, kLog.text), "/events");
+  const std::uint16_t log = file->AddChannel(AddSchema(file, LogSchema()), "/events");
   for (const Event& event : session.recording.events) {
     all.push_back({event.tick, log, LogOf(session, event)});
   }
@@ -59,9 +63,9 @@ std::vector<Timed> TimedOf(const ExportSession& session, McapWriter* file) {
 }
 
 std::map<int, ViewChannels> AddViews(const ExportSession& session, McapWriter* file) {
-  const std::uint16_t frames = file->AddSchema(kFrameTransforms.name, kFrameTransforms.text);
-  const std::uint16_t shapes = file->AddSchema(kSceneUpdate.name, kSceneUpdate.text);
-  const std::uint16_t errors = file->AddSchema(kErrors.name, kErrors.text);
+  const std::uint16_t frames = AddSchema(file, FrameTransformsSchema());
+  const std::uint16_t shapes = AddSchema(file, SceneUpdateSchema());
+  const std::uint16_t errors = AddSchema(file, ErrorsSchema());
   file->AddMessage(file->AddChannel(shapes, "/ground"),
                    TimeNs(session, session.recording.first_tick), GroundOf(session));
   std::map<int, ViewChannels> channels;

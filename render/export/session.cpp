@@ -68,6 +68,27 @@ bool LeftOut(const ExportSession& session, const std::vector<std::string>& names
   return !names.empty() && std::count(names.begin(), names.end(), session.ViewName(peer)) == 0;
 }
 
+/// Ticks that a view lacks between its first and its last, and a late start or early end of more
+/// than a second.
+void FindHoles(const Recording& recording, int peer, const std::map<std::int64_t, View>& views,
+               ExportSession* session) {
+  const std::string name = session->ViewName(peer);
+  const std::int64_t first = views.begin()->first, last = views.rbegin()->first;
+  const auto has = static_cast<std::int64_t>(views.size());
+  if (has != last - first + 1) {
+    session->lacking.push_back(name + " has views of " + std::to_string(has) + " of the " +
+                               std::to_string(last - first + 1) + " ticks between its first and " +
+                               "its last");
+  }
+  const int second = recording.room.tick_hz;
+  if (first - recording.first_tick > second || recording.last_tick - last > second) {
+    session->lacking.push_back(name + " has views of ticks " + std::to_string(first) + " to " +
+                               std::to_string(last) + " of " +
+                               std::to_string(recording.first_tick) + " to " +
+                               std::to_string(recording.last_tick));
+  }
+}
+
 void FindLacking(const ExportOptions& options, ExportSession* session) {
   const Recording& recording = session->recording;
   const std::string damage = DamageOf(recording);
@@ -79,13 +100,7 @@ void FindLacking(const ExportOptions& options, ExportSession* session) {
     absent += (absent.empty() ? "no view of " : ", ") + session->ViewName(peer);
   }
   if (!absent.empty()) session->lacking.push_back(absent);
-  const std::int64_t span = recording.last_tick - recording.first_tick + 1;
-  for (const auto& [peer, views] : recording.views) {
-    const auto has = static_cast<std::int64_t>(views.size());
-    if (has == span) continue;
-    session->lacking.push_back(session->ViewName(peer) + " has views of " + std::to_string(has) +
-                               " of " + std::to_string(span) + " ticks");
-  }
+  for (const auto& [peer, views] : recording.views) FindHoles(recording, peer, views, session);
 }
 
 /// The oracle of the whole session; without one the rest is exported all the same.
