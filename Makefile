@@ -48,6 +48,7 @@ DEBS_build := g++ make pkg-config liblcm-dev liblcm-bin libbox2d-dev libeigen3-d
 	libgtest-dev libsodium-dev iproute2 util-linux
 DEBS_report := gnuplot-nox
 DEBS_coverage := gcovr
+DEBS_spy := liblcm-java libjchart2d-java $(if $(shell command -v javac),,default-jdk)
 DEBS_format := clang-format git
 DEBS_hashes := clang
 DEBS_lint := clang-tidy git
@@ -79,7 +80,7 @@ SOAK ?= 300
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
-.PHONY: all help deps demo bench report test tests hashes check-fast run-tests coverage soak format lint \
+.PHONY: all help deps demo bench report spy test tests hashes check-fast run-tests coverage soak format lint \
 	compile_commands.json install install-built clean force
 
 all: build/.deps-build $(PROGRAMS)   ## build the programs
@@ -224,6 +225,20 @@ bench: all                           ## cost of a step beside Box2D, hard cases:
 	@mkdir -p out/bench
 	$(OUT)/seam-lab overhead -o out/bench/overhead.csv --force
 	$(OUT)/seam-lab physics --grid quick -o out/bench/physics.csv --force
+
+# Java is for this alone: no other target installs it.
+SPY := build/spy
+$(SPY)/seam-types.jar: $(LCM_TYPES) Makefile | build/.deps-build build/.deps-spy
+	@rm -rf $(SPY) && mkdir -p $(SPY)/source $(SPY)/classes
+	lcm-gen --java --jpath $(SPY)/source $(LCM_TYPES)
+	javac -nowarn -cp /usr/share/java/lcm.jar -d $(SPY)/classes $(SPY)/source/seam/*.java
+	jar cf $@ -C $(SPY)/classes .
+
+spy: $(SPY)/seam-types.jar           ## the messages for lcm-spy and lcm-logplayer-gui: builds a jar, says how to start them
+	@echo 'With a display, and a room or a log on the bus (docs/recordings.md):'
+	@echo '  export CLASSPATH=$(CURDIR)/$(SPY)/seam-types.jar JAVA_TOOL_OPTIONS=-XX:+IgnoreUnrecognizedVMOptions'
+	@echo '  lcm-spy                          # what is on the bus: rates, fields, plots'
+	@echo '  lcm-logplayer-gui session.lcm    # plays a log, with a slider'
 
 # QUICK=1: fewer seeds and settings, in two minutes.
 report: build/.deps-report all       ## speed against error: all the measurements, into out/report/ (QUICK=1)
