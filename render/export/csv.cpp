@@ -1,21 +1,10 @@
 /// A table that spreadsheets, pandas and gnuplot read.
 
-#include <cstdio>
-
+#include "common/measure/table.h"
 #include "render/export/formats.h"
 #include "render/export/json_text.h"
 
 namespace seam {
-
-std::string CsvField(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
-}
 
 void WriteCsvExport(const ExportSession& session, OutputFile* out) {
   out->Write("tick,time_s,view,body,x,y,angle,vx,vy,spin,error_m\n");

@@ -17,7 +17,4 @@ void WriteMcapExport(const ExportSession& session, OutputFile* out);
 /// trace.cpp: the Trace Event Format of Chrome as JSON.
 void WriteTraceExport(const ExportSession& session, OutputFile* out);
 
-/// A field of CSV: in quotes where it must be.
-std::string CsvField(const std::string& text);
-
 }  // namespace seam
