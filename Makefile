@@ -47,6 +47,7 @@ DEBS_build := g++ make pkg-config liblcm-dev liblcm-bin libbox2d-dev libeigen3-d
 	liblua5.4-dev libcli11-dev libtoml11-dev libfmt-dev libpng-dev libfreetype-dev fonts-dejavu-core \
 	libgtest-dev libsodium-dev iproute2 util-linux
 DEBS_report := gnuplot-nox
+DEBS_test := python3
 DEBS_coverage := gcovr
 DEBS_spy := liblcm-java libjchart2d-java $(if $(shell command -v javac),,default-jdk)
 DEBS_format := clang-format git
@@ -172,7 +173,7 @@ $(OUT)/seam-tests: $(TESTS) $(LAB) $(SERVER) $(CLIENT) $(RENDER) $(OUT)/libseam-
 $(OUT)/seam-hashes: $(OUT)/tests/physics/determinism_test.o $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -lgtest -lgtest_main -o $@
 
-tests: build/.deps-build build/.deps-report $(OUT)/seam-tests $(PROGRAMS) $(OUT)/libseam.a   ## build the tests
+tests: build/.deps-build build/.deps-report build/.deps-test $(OUT)/seam-tests $(PROGRAMS) $(OUT)/libseam.a   ## build the tests
 
 run-tests = SEAM_BIN=$(OUT) $(OUT)/seam-tests $(if $(FILTER),--gtest_filter='$(FILTER)')
 

@@ -67,6 +67,18 @@ class ExportProgram : public ::testing::Test {
     return Run(words, status);
   }
 
+  /// What seam-measure says in a column of its table.
+  static double Measured(const std::string& column, const Words& range) {
+    Words words = {"seam-measure", Log(), "--csv", At("measure.csv")};
+    words.insert(words.end(), range.begin(), range.end());
+    Run(words);
+    const Words columns = Fields(CsvHeader());
+    const auto at = std::find(columns.begin(), columns.end(), column) - columns.begin();
+    const Words row = Fields(LinesOf(files_->Read("measure.csv")).at(1));
+    std::remove(At("measure.csv").c_str());
+    return std::stod(row.at(static_cast<std::size_t>(at)));
+  }
+
   static std::unique_ptr<LabWorkspace> files_;
   static std::string errors_;
 };
@@ -121,22 +133,15 @@ double RootMeanSquare(const std::string& csv) {
 }
 
 TEST_F(ExportProgram, TheErrorsOfARangeAreThoseThatSeamMeasureFindsInIt) {
-  const Words columns = Fields(CsvHeader());
-  const auto column = std::find(columns.begin(), columns.end(), "error_rms_m") - columns.begin();
   std::vector<double> found;
   for (const Words& range : {Words{}, Words{"--from", "2", "--to", "3"}, Words{"--from", "2.5"}}) {
-    Words measure = {"seam-measure", Log(), "--csv", At("measure.csv")};
-    measure.insert(measure.end(), range.begin(), range.end());
-    Run(measure);
     Words words = {"--csv"};
     words.insert(words.end(), range.begin(), range.end());
     const double rms = RootMeanSquare(Export(words));
-    const Words row = Fields(LinesOf(files_->Read("measure.csv")).at(1));
-    const double measured = std::stod(row.at(static_cast<std::size_t>(column)));
+    const double measured = Measured("error_rms_m", range);
     EXPECT_GT(measured, 0.001);
     EXPECT_NEAR(rms, measured, 1e-5 * measured);
     found.push_back(rms);
-    std::remove(At("measure.csv").c_str());
   }
   EXPECT_NE(found[0], found[1]);  // the range does choose
   EXPECT_NE(found[1], found[2]);
@@ -172,6 +177,21 @@ TEST_F(ExportProgram, JsonAndTraceSayWhatTheTableSays) {
   ASSERT_TRUE(check.Wait(60));
   if (check.status() == 127) GTEST_SKIP() << "there is no python3";
   EXPECT_EQ(check.status(), 0) << check.Story();
+}
+
+TEST_F(ExportProgram, TheTracesStutterIsTheMeasuredOne) {
+  // All views of this scene show the same number of bodies: each counter weighs the same.
+  const std::string begin = "\"name\":\"stutter_mps2\",\"args\":{\"rms\":";
+  MeanSquare all;
+  for (const std::string& line : LinesOf(Export({"--trace"}))) {
+    const std::size_t at = line.find(begin);
+    if (at == std::string::npos) continue;
+    const double value = std::stod(line.substr(at + begin.size()));
+    all.Add(value * value);
+  }
+  const double measured = Measured("stutter_mps2", {});
+  EXPECT_GT(measured, 0.1);
+  EXPECT_NEAR(all.RootOrZero(), measured, 1e-5 * measured);
 }
 
 TEST_F(ExportProgram, TheSameLogMakesTheSameBytes) {
