@@ -30,7 +30,7 @@ void WriteStates(const ExportSession& session, TraceWriter* trace) {
     const Views* sender = states.peer == 0 ? nullptr : ViewsOf(session, states.peer);
     if (sender == nullptr || sender->count(states.tick) == 0) continue;
     const View* accepted = ViewAt(by_time, states.utime);
-    if (accepted == nullptr || accepted->tick <= states.tick) continue;
+    if (accepted == nullptr || accepted->tick < states.tick) continue;
     trace->Flow("states", states.peer, states.tick, 0, accepted->tick);
   }
 }
@@ -45,7 +45,7 @@ void WriteEdits(const ExportSession& session, TraceWriter* trace) {
       while (view != views.end() && view->second.revision <= number) ++view;
       if (view == views.end()) break;
       if (view == views.begin()) continue;  // it had the edit before this began
-      if (server->count(edit.tick) == 0 || view->first <= edit.tick) continue;
+      if (server->count(edit.tick) == 0 || view->first < edit.tick) continue;
       trace->Flow("edit", 0, edit.tick, peer, view->first);
     }
   }

@@ -64,9 +64,9 @@ void TraceWriter::Instant(int peer, std::int64_t tick, const std::string& name) 
 void TraceWriter::Flow(const char* name, int from_peer, std::int64_t from_tick, int to_peer,
                        std::int64_t to_tick) {
   const std::string rest = ",\"cat\":\"message\",\"id\":" + std::to_string(++flows_);
-  const double middle_us = 5e5 / tick_hz_;
-  Add('s', from_peer, kTicks, Us(from_tick) + middle_us, name, rest);
-  Add('f', to_peer, kTicks, Us(to_tick) + middle_us, name, rest + ",\"bp\":\"e\"");
+  const double quarter_us = 2.5e5 / tick_hz_;
+  Add('s', from_peer, kTicks, Us(from_tick) + quarter_us, name, rest);
+  Add('f', to_peer, kTicks, Us(to_tick) + 3 * quarter_us, name, rest + ",\"bp\":\"e\"");
 }
 
 void TraceWriter::Finish() { out_->Write("\n]}\n"); }

@@ -20,8 +20,8 @@ class TraceWriter {
             const std::string& name);
   void Counter(int peer, std::int64_t tick, const char* name, double value);
   void Instant(int peer, std::int64_t tick, const std::string& name);
-  /// An arrow from within a tick of one peer to within a later one of another.
-  /// Requires ticks that have slices, and from_tick < to_tick.
+  /// An arrow from within a tick of one peer to within the same or a later one of another.
+  /// Requires ticks that have slices, and from_tick <= to_tick.
   void Flow(const char* name, int from_peer, std::int64_t from_tick, int to_peer,
             std::int64_t to_tick);
   void Finish();
