@@ -170,6 +170,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"render/canvas", "none"},
       {"render/playback", "render/canvas"},
       {"render/draw", "render/(canvas|playback)"},
+      {"render/export", "render/canvas"},
       {"tests/lab/fairness", "tests/lab(/report(/sessions)?)?"},
       {"common/measure/limit", "common/measure(/screen)?"},
       {"tests/lab/exact", "tests/lab(/hard|/report)?"},
@@ -244,7 +245,7 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
   ExpectOnlyIn("render/canvas/png[^/]*", kCode, "png\\.h|spng\\.h");
   ExpectOnlyIn("render/canvas/font[^/]*", kCode, "ft2build\\.h|freetype/.*");
   ExpectOnlyIn("common/scene/toml/toml_tree\\.cpp", kProduct, "toml\\.hpp|toml[^/]*/.*");
-  ExpectOnlyIn("render/options\\.cpp|common/base/command_line\\.h", kProduct, "CLI/.*");
+  ExpectOnlyIn("render/(export/)?options\\.cpp|common/base/command_line\\.h", kProduct, "CLI/.*");
   ExpectOnlyIn("server/script/script_lua[^/]*", kCode, "(.*/)?(lua|lauxlib|lualib)\\.h(pp)?");
   ExpectOnlyIn("common/net/keyed_hash\\.cpp", kCode, "sodium\\.h|sodium/.*");
   ExpectOnlyIn("none", kProduct, "gtest/.*");
