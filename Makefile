@@ -39,12 +39,12 @@ ALL_CXXFLAGS := -std=c++17 $(CXXFLAGS_$(BUILD)) -ffp-contract=off -fno-tree-slp-
 # Only common/codec/ reads generated headers (tests/style/layering_test.cpp).
 CODEC_CXXFLAGS := -isystem $(GEN)
 LIBS := -llcm -lbox2d -lfmt -lsodium -pthread
-RENDER_LIBS := -lOSMesa -lpng -lfreetype
+RENDER_LIBS := -lOSMesa -lpng -lfreetype -lz
 SERVER_LIBS := -llua5.4
 
 # Debian packages: build/.deps-NAME stands for DEBS_NAME being installed.
 DEBS_build := g++ make pkg-config liblcm-dev liblcm-bin libbox2d-dev libeigen3-dev libosmesa6-dev \
-	liblua5.4-dev libcli11-dev libtoml11-dev libfmt-dev libpng-dev libfreetype-dev fonts-dejavu-core \
+	liblua5.4-dev libcli11-dev libtoml11-dev libfmt-dev libpng-dev zlib1g-dev libfreetype-dev fonts-dejavu-core \
 	libgtest-dev libsodium-dev iproute2 util-linux
 DEBS_report := gnuplot-nox
 DEBS_coverage := gcovr
@@ -142,6 +142,9 @@ $(CODEC): $(GEN)/.stamp
 $(OUT)/%.o: %.cpp $(OUT)/.flags | build/.deps-build
 	@mkdir -p $(@D)
 	$(CXX) $(ALL_CXXFLAGS) -c $< -o $@
+
+# What a review page is made of is copied into the program (render/page/assets.cpp).
+$(OUT)/render/page/assets.o: $(wildcard render/page/*.html render/page/*.css render/page/*.js)
 
 # Appended to nothing: two members may have the same name.
 $(OUT)/libseam-common.a: $(COMMON)

@@ -2,6 +2,7 @@
 /// The single measures that Measure puts together, one per file; docs/metrics.md defines each.
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
@@ -19,6 +20,12 @@ double TickSeconds(const Recording& recording);
 void MeasureError(const Recording& recording, const Oracle& oracle, Measures* measures);
 
 // `revisions` below: nullptr where bodies never change.
+
+/// smoothness.cpp: every difference that stutter is the root mean square of, (m/s^2)^2, with its
+/// peer and the last of its three ticks; peer by peer, ticks ascending.
+using StutterVisitor = std::function<void(int peer, std::int64_t tick, double squared)>;
+void VisitStutter(const Recording& recording, const Oracle& oracle,
+                  const RevisionHistory* revisions, const StutterVisitor& visit);
 
 /// smoothness.cpp: stutter_mps2 and backsteps.
 void MeasureSmoothness(const Recording& recording, const Oracle& oracle,

@@ -31,18 +31,16 @@ bool IsBackstep(const Point& a, const Point& b, double vx, double vy) {
   return ((b.x - a.x) * vx + (b.y - a.y) * vy) / speed < -kStepMin;
 }
 
-/// The view of `tick`, nullptr if there is none.
-}  // namespace
-
-void MeasureSmoothness(const Recording& recording, const Oracle& oracle,
-                       const RevisionHistory* revisions, Measures* measures) {
+/// Goes over all pairs of neighbouring views: `steps_back` counts displayed moves against the
+/// motion, `visit` takes the differences of stutter.
+void Visit(const Recording& recording, const Oracle& oracle, const RevisionHistory* revisions,
+           std::int64_t* steps_back, const StutterVisitor& visit) {
   const double h = TickSeconds(recording);
   // What a body becomes part of moves otherwise than it did: no difference is taken across that.
   const auto same = [&](const View& now, const View& then, PartId id) {
     if (revisions != nullptr && !revisions->SameBody(now.revision, then.revision, id)) return false;
     return oracle.SameBody(now.tick, then.tick, id);
   };
-  MeanSquare stutter;
   for (const auto& [peer, views] : recording.views) {
     for (const auto& [tick, view] : views) {
       const View* before = FindView(views, tick - 1);
@@ -58,7 +56,7 @@ void MeasureSmoothness(const Recording& recording, const Oracle& oracle,
         const Point o = At(*truth), n = At(*truth_before);
         if (IsBackstep(q, p, view.vx[i], view.vy[i]) &&
             !IsBackstep(n, o, truth->velocity.x(), truth->velocity.y())) {
-          ++measures->backsteps;
+          ++*steps_back;
         }
         const std::optional<BodyState> truth_earlier = oracle.At(tick - 2, id);
         const int j = earlier == nullptr ? -1 : IndexOf(*earlier, id);
@@ -66,10 +64,25 @@ void MeasureSmoothness(const Recording& recording, const Oracle& oracle,
         const Point r = Shown(*earlier, j), m = At(*truth_earlier);
         const double ax = (p.x - 2 * q.x + r.x) - (o.x - 2 * n.x + m.x);
         const double ay = (p.y - 2 * q.y + r.y) - (o.y - 2 * n.y + m.y);
-        stutter.Add((ax * ax + ay * ay) / (h * h * h * h));
+        visit(peer, tick, (ax * ax + ay * ay) / (h * h * h * h));
       }
     }
   }
+}
+
+}  // namespace
+
+void VisitStutter(const Recording& recording, const Oracle& oracle,
+                  const RevisionHistory* revisions, const StutterVisitor& visit) {
+  std::int64_t steps_back = 0;
+  Visit(recording, oracle, revisions, &steps_back, visit);
+}
+
+void MeasureSmoothness(const Recording& recording, const Oracle& oracle,
+                       const RevisionHistory* revisions, Measures* measures) {
+  MeanSquare stutter;
+  Visit(recording, oracle, revisions, &measures->backsteps,
+        [&](int, std::int64_t, double squared) { stutter.Add(squared); });
   measures->stutter_mps2 = stutter.RootOrZero();
 }
 

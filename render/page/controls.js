@@ -1,0 +1,371 @@
+// Buttons, keys, wheel and drags, wired to the page once it has its data.
+
+const KEYS = [
+  ['Space', 'play or pause'],
+  ['← →', 'one tick'],
+  ['Shift ← →', 'event before, next event'],
+  ['Home End', 'first tick, last tick'],
+  ['- +', 'slower, faster'],
+  ['w', 'worst moment'],
+  ['g', 'first divergence'],
+  ['f 0', 'fit to the action, to the scene'],
+  ['Esc', 'stop following'],
+  ['o d v h r n c', 'layers: oracle, dots, vectors, heat, regions, names, contacts'],
+  ['drag, wheel', 'a drag moves the camera, the wheel zooms; all panels together'],
+];
+
+function addToggles(page) {
+  for (const [name, layer] of Object.entries(LAYERS)) {
+    const button =
+        element('button', layer.name, {type: 'button', title: `${layer.hint} (${layer.key})`});
+    button.dataset.layer = name;
+    button.addEventListener('click', () => toggleLayer(page, name));
+    $('layers').append(button);
+  }
+  for (const [mode, name] of Object.entries(MODES)) {
+    const button = element('button', name, {type: 'button'});
+    button.dataset.mode = mode;
+    button.addEventListener('click', () => setMode(page, mode));
+    $('modes').append(button);
+  }
+}
+
+function toggleLayer(page, name) {
+  state.layers[name] = !state.layers[name];
+  page.changed();
+}
+
+// Wipe and difference compare the first two panels.
+function setMode(page, mode) {
+  state.mode = mode;
+  if (mode !== 'side' && state.panels.length < 2) state.panels.push(otherPanel(page));
+  addPanelHeads(page);
+  page.changed();
+}
+
+function otherPanel(page) {
+  const shown = (run, peer) => state.panels.some((p) => p.run === run && p.peer === peer);
+  for (const run of page.runs)
+    for (const view of run.views)
+      if (!shown(run.index, view.peer)) return {run: run.index, peer: view.peer};
+  return {...state.panels[0]};
+}
+
+function panelHead(page, panel, index) {
+  const head = element('div', '', {className: 'panel-head'});
+  const select = element('select');
+  select.setAttribute('aria-label', `View of panel ${index + 1}`);
+  for (const run of page.runs)
+    for (const view of run.views)
+      select.append(element('option', view.label(), {value: `${run.index}.${view.peer}`}));
+  select.value = `${panel.run}.${panel.peer}`;
+  select.addEventListener('change', () => {
+    [panel.run, panel.peer] = select.value.split('.').map(Number);
+    page.changed();
+  });
+  head.append(swatch(curveColour(index)), select, element('output'));
+  const close = element('button', '×', {type: 'button', title: 'Close this panel'});
+  close.hidden = state.panels.length < 2;
+  close.addEventListener('click', () => {
+    state.panels.splice(index, 1);
+    if (state.panels.length < 2) state.mode = 'side';
+    addPanelHeads(page);
+    page.changed();
+  });
+  const add = element('button', '+', {type: 'button', title: 'Add a panel'});
+  add.hidden = index !== state.panels.length - 1 || state.panels.length >= 12;
+  add.addEventListener('click', () => {
+    state.panels.push(otherPanel(page));
+    addPanelHeads(page);
+    page.changed();
+  });
+  head.append(close, add);
+  return head;
+}
+
+function addPanelHeads(page) {
+  const heads = state.panels.map((panel, index) => panelHead(page, panel, index));
+  $('panel-heads').replaceChildren(...heads);
+}
+
+function addLegend(page) {
+  const kinds = new Set(page.runs.flatMap((run) => run.events.map((event) => event.kind)));
+  for (const [kind, look] of Object.entries(EVENT_KINDS)) {
+    if (!kinds.has(kind)) continue;
+    const entry = element('span');
+    entry.append(swatch(look.colour), look.name);
+    $('legend').append(entry);
+  }
+}
+
+// Calls move(dx, dy, event) while a pointer is dragged over an element.
+function onDrag(target, begin, move, end) {
+  target.addEventListener('pointerdown', (down) => {
+    if (down.button !== 0) return;
+    target.setPointerCapture(down.pointerId);
+    let [x, y] = [down.clientX, down.clientY];
+    begin(down);
+    const onMove = (event) => {
+      move(event.clientX - x, event.clientY - y, event);
+      [x, y] = [event.clientX, event.clientY];
+    };
+    const onEnd = (event) => {
+      target.removeEventListener('pointermove', onMove);
+      target.removeEventListener('pointerup', onEnd);
+      target.removeEventListener('pointercancel', onEnd);
+      if (end) end(event);
+    };
+    target.addEventListener('pointermove', onMove);
+    target.addEventListener('pointerup', onEnd);
+    target.addEventListener('pointercancel', onEnd);
+  });
+}
+
+const pointIn = (target, event) => {
+  const box = target.getBoundingClientRect();
+  return [event.clientX - box.left, event.clientY - box.top];
+};
+
+function wireCamera(page) {
+  const canvas = $('world');
+  onDrag(canvas, () => (state.camera = {...page.camera}), (dx, dy) => {
+    const scale = page.rects[0].height / state.camera.height;
+    state.follow = null;
+    state.camera.x -= dx / scale;
+    state.camera.y += dy / scale;
+    page.changed();
+  });
+  canvas.addEventListener('wheel', (event) => {
+    event.preventDefault();
+    const [x, y] = pointIn(canvas, event);
+    const rect =
+        page.rects.find((r) => x >= r.x && x <= r.x + r.width && y >= r.y && y <= r.y + r.height) ||
+        page.rects[0];
+    zoom(page, Math.exp(event.deltaY * 0.0015), new Viewport(rect, page.camera), x, y);
+  }, {passive: false});
+  wirePinch(page, canvas);
+  onDrag($('divider'), () => {}, (dx) => setWipe(page, state.wipe + dx / canvas.clientWidth));
+  $('divider').addEventListener('keydown', (event) => {
+    const way = {ArrowLeft: -0.02, ArrowRight: 0.02}[event.key];
+    if (way) setWipe(page, state.wipe + way);
+    if (way) event.stopPropagation();
+  });
+}
+
+function setWipe(page, share) {
+  state.wipe = Math.min(Math.max(share, 0), 1);
+  page.changed();
+}
+
+// About a point that stays where it is.
+function zoom(page, factor, viewport, px, py) {
+  const [x, y] = [viewport.worldX(px), viewport.worldY(py)];
+  const camera = {...page.camera};
+  const height = Math.min(Math.max(camera.height * factor, 0.2), 5000);
+  const share = height / camera.height;
+  if (state.follow === null) {
+    camera.x = x + (camera.x - x) * share;
+    camera.y = y + (camera.y - y) * share;
+  }
+  state.camera = {...camera, height};
+  page.changed();
+}
+
+// Two fingers zoom.
+function wirePinch(page, canvas) {
+  const fingers = new Map();
+  const apart = () => {
+    const [a, b] = [...fingers.values()];
+    return Math.hypot(a[0] - b[0], a[1] - b[1]);
+  };
+  canvas.addEventListener(
+      'pointerdown', (event) => fingers.set(event.pointerId, pointIn(canvas, event)));
+  canvas.addEventListener('pointermove', (event) => {
+    if (!fingers.has(event.pointerId)) return;
+    const before = fingers.size === 2 ? apart() : 0;
+    fingers.set(event.pointerId, pointIn(canvas, event));
+    if (fingers.size !== 2 || before < 1) return;
+    const [a, b] = [...fingers.values()];
+    zoom(
+        page, before / Math.max(apart(), 1), new Viewport(page.rects[0], page.camera),
+        (a[0] + b[0]) / 2, (a[1] + b[1]) / 2);
+  });
+  for (const name of ['pointerup', 'pointercancel'])
+    canvas.addEventListener(name, (event) => fingers.delete(event.pointerId));
+}
+
+function wireStrip(page) {
+  const canvas = $('strip');
+  let begin = 0;
+  let dragged = false;
+  onDrag(
+      canvas,
+      (event) => {
+        begin = page.strip.tickAt(pointIn(canvas, event)[0]);
+        dragged = false;
+      },
+      (dx, dy, event) => {
+        const end = page.strip.tickAt(pointIn(canvas, event)[0]);
+        if (Math.abs(page.strip.x(end) - page.strip.x(begin)) > 3) dragged = true;
+        if (dragged) state.range = [Math.min(begin, end), Math.max(begin, end)];
+        page.changed();
+      },
+      () => {
+        if (!dragged) page.player.go(begin);
+      });
+  canvas.addEventListener('pointermove', (event) => {
+    const tick = page.strip.tickAt(pointIn(canvas, event)[0]);
+    const unit = MEASURES[state.measure].unit;
+    const values = page.views().map((view) => {
+      const value = view.curve(state.measure)[tick];
+      return `${view.label()} ${formatValue(value === undefined ? NaN : value, unit)}`;
+    });
+    $('strip-text').textContent =
+        `${page.runs[0].seconds(tick).toFixed(3)} s: ${values.join(' · ')}`;
+  });
+  canvas.addEventListener('pointerleave', () => ($('strip-text').textContent = ''));
+  onDrag($('marks'), (event) => goToMark(page, pointIn($('marks'), event)[0]), () => {});
+}
+
+// To the event under the pointer, or to the tick.
+function goToMark(page, px) {
+  const near = page.events()
+                   .map((event) => ({event, far: Math.abs(page.marks.x(event.at) - px)}))
+                   .sort((a, b) => a.far - b.far)[0];
+  page.player.pause();
+  page.player.go(near && near.far < 6 ? near.event.at : page.marks.tickAt(px));
+  if (near && near.far < 6) page.tell(page.eventText(near.event));
+}
+
+function wireButtons(page) {
+  const click = (id, act) => $(id).addEventListener('click', act);
+  click('play', () => page.player.toggle());
+  click('back', () => page.player.step(-1));
+  click('forward', () => page.player.step(1));
+  click('previous', () => page.goEvent(-1));
+  click('next', () => page.goEvent(1));
+  click('worst', () => page.goWorst());
+  click('diverge', () => page.goDivergence());
+  click('fit-scene', () => page.fitScene());
+  click('fit-action', () => page.fitAction());
+  click('unfollow', () => page.follow(state.follow));
+  click('range-clear', () => {
+    state.range = null;
+    page.changed();
+  });
+  click('help-open', () => $('help').showModal());
+  for (const [keys, meaning] of KEYS) $('keys').append(element('dt', keys), element('dd', meaning));
+  for (const speed of SPEEDS)
+    $('speed').append(element('option', speedName(speed), {value: speed}));
+  $('speed').addEventListener('change', () => {
+    state.speed = Number($('speed').value);
+    page.changed();
+  });
+  for (const [name, measure] of Object.entries(MEASURES))
+    $('measure').append(element('option', `${measure.name} (${measure.unit})`, {value: name}));
+  $('measure').value = state.measure;
+  $('measure').addEventListener('change', () => {
+    state.measure = $('measure').value;
+    page.changed();
+  });
+  $('scrub').max = page.player.last;
+  $('scrub').addEventListener('input', () => {
+    state.playing = false;
+    page.player.go(Number($('scrub').value));
+  });
+}
+
+function wireSaving(page) {
+  const name =
+      page.runs.map((run) => run.name).join('-').replace(/[^A-Za-z0-9_-]/g, '_').slice(0, 80);
+  const file = (ending) => `${name || 'review'}-tick${Math.floor(state.tick)}.${ending}`;
+  $('save-png')
+      .addEventListener('click', () => $('world').toBlob((blob) => saveBlob(blob, file('png'))));
+  $('save-svg')
+      .addEventListener(
+          'click', () => saveBlob(new Blob([svgOf(page)], {type: 'image/svg+xml'}), file('svg')));
+  $('save-csv').addEventListener('click', () => {
+    const csv = csvOf(page.views(), page.range());
+    saveBlob(new Blob([csv], {type: 'text/csv'}), file('csv'));
+  });
+}
+
+function svgOf(page) {
+  const [width, height] = [$('world').clientWidth, $('world').clientHeight];
+  const svg = new SvgContext(width, height);
+  page.drawWorlds(svg, width, height);
+  return svg.document();
+}
+
+function wireKeys(page) {
+  const acts = {
+    ' ': () => page.player.toggle(),
+    'ArrowLeft': (event) => (event.shiftKey ? page.goEvent(-1) : page.player.step(-1)),
+    'ArrowRight': (event) => (event.shiftKey ? page.goEvent(1) : page.player.step(1)),
+    'Home': () => page.player.go(0),
+    'End': () => page.player.go(page.player.last),
+    '-': () => page.player.faster(-1),
+    '+': () => page.player.faster(1),
+    '=': () => page.player.faster(1),
+    'w': () => page.goWorst(),
+    'g': () => page.goDivergence(),
+    'f': () => page.fitAction(),
+    '0': () => page.fitScene(),
+    'Escape': () => state.follow !== null && page.follow(state.follow),
+    '?': () => $('help').showModal(),
+  };
+  for (const [name, layer] of Object.entries(LAYERS))
+    acts[layer.key] = () => toggleLayer(page, name);
+  document.addEventListener('keydown', (event) => {
+    const at = event.target;
+    if (event.ctrlKey || event.metaKey || event.altKey || $('help').open) return;
+    if (at.tagName === 'SELECT' || (at.tagName === 'BUTTON' && event.key === ' ')) return;
+    if (!Object.hasOwn(acts, event.key)) return;
+    event.preventDefault();
+    acts[event.key](event);
+  });
+}
+
+function titles(page) {
+  const [run] = page.runs;
+  const scenes = [...new Set(page.runs.map((one) => one.title || one.scene))];
+  $('title').textContent = scenes.join(', ');
+  document.title = `${scenes.join(', ')} · Seam2D review`;
+  const labels = page.runs.map((one) => `${one.name}: ${one.label}`).join('; ');
+  const network = run.network ? ` · network ${run.network}` : '';
+  $('subtitle').textContent = `${labels}${network} · ${run.hz} ticks/s`;
+}
+
+async function start() {
+  const {head, bytes} = splitData(await inflate($('data').textContent));
+  readTheme();
+  const page = new Page(head, bytes);
+  window.review = {page, state};
+  titles(page);
+  addToggles(page);
+  addPanelHeads(page);
+  addLegend(page);
+  wireButtons(page);
+  wireCamera(page);
+  wireStrip(page);
+  wireSaving(page);
+  wireKeys(page);
+  new ResizeObserver(() => page.changed()).observe($('world'));
+  matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => {
+    readTheme();
+    page.changed();
+  });
+  window.addEventListener('hashchange', () => {
+    readFragment(page.runs);
+    addPanelHeads(page);
+    page.changed();
+  });
+  page.changed();
+}
+
+start().catch((error) => {
+  $('failure').textContent =
+      `This page cannot be shown: ${error.message}. It needs a browser of 2023 or later.`;
+  $('failure').hidden = false;
+  throw error;
+});
