@@ -7,6 +7,7 @@ const COLOURS = {
 };
 
 function readTheme() {
+  COLOURS.dark = matchMedia('(prefers-color-scheme: dark)').matches;
   const style = getComputedStyle(document.documentElement);
   for (const name
            of ['paper', 'panel', 'frame', 'grid', 'ink', 'faint', 'ground', 'ground-edge', 'water',
@@ -30,7 +31,12 @@ function peerColour(peer) {
 }
 
 function curveColour(index) {
-  return COLOURS.runs[index % COLOURS.runs.length];
+  return themed(COLOURS.runs[index % COLOURS.runs.length]);
+}
+
+// Lighter where the page is dark.
+function themed(colour) {
+  return COLOURS.dark ? mixColours(colour, '#ffffff', 0.35) : colour;
 }
 
 // Viridis (Smith and van der Walt, 2015): equal steps look equally far apart, in grey too.

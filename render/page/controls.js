@@ -93,7 +93,7 @@ function addLegend(page) {
   for (const [kind, look] of Object.entries(EVENT_KINDS)) {
     if (!kinds.has(kind)) continue;
     const entry = element('span');
-    entry.append(swatch(look.colour), look.name);
+    entry.append(swatch(themed(look.colour)), look.name);
     $('legend').append(entry);
   }
 }

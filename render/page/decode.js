@@ -119,3 +119,14 @@ function readSeries(bytes, section, unit) {
   const root = column().map((value) => value * unit);
   return {count, root};
 }
+
+// [left, bottom, width, height] of each block of bricks, units of 5 cm.
+function readBricks(bytes, section) {
+  const reader = new Reader(bytes, section);
+  const count = reader.unsigned();
+  const columns = [0, 1, 2, 3].map(() => {
+    let value = 0;
+    return Array.from({length: count}, () => (value += reader.signed()));
+  });
+  return columns[0].map((_, i) => columns.map((column) => column[i]));
+}

@@ -93,11 +93,11 @@ std::string RunJson(const PageRun& run, Sections* sections) {
   const PageBytes world_section(drawn.begin(), drawn.end());
   return fmt::format(
       R"({{"name":{},"label":{},"scene":{},"title":{},"network":{},"hz":{},"first":{},"last":{},)"
-      R"("truth":{},"world":{},"views":{},"events":{}}})",
+      R"("truth":{},"world":{},"bricks":{},"views":{},"events":{}}})",
       JsonText(run.name), JsonText(playback.Label()), JsonText(room.scene_name),
       JsonText(playback.scene().title), JsonText(room.impair), playback.tick_hz(),
       recording.first_tick, recording.last_tick, truth, sections->Add(world_section),
-      JsonList(views), JsonList(events));
+      sections->Add(EncodeBricks(playback)), JsonList(views), JsonList(events));
 }
 
 std::string ColourJson(Colour colour) {

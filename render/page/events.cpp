@@ -89,11 +89,12 @@ std::vector<PageEvent> FindEdits(const Playback& playback) {
 std::vector<PageEvent> FindPresence(const Playback& playback) {
   std::vector<PageEvent> events;
   const Recording& recording = playback.recording();
+  const std::int64_t near = playback.tick_hz() / 10;  // as good as together
   for (const auto& [peer, views] : recording.views) {
     if (views.empty()) continue;
     const std::string name = playback.PeerName(peer);
     std::int64_t expected = views.begin()->first;
-    if (expected > recording.first_tick)
+    if (expected > recording.first_tick + near)
       events.push_back(Make(expected, "join", peer, 0, name + " begins"));
     for (const auto& [tick, view] : views) {
       const std::int64_t missing = tick - expected;
@@ -102,7 +103,7 @@ std::vector<PageEvent> FindPresence(const Playback& playback) {
                               fmt::format("{}: {} ticks without a view", name, missing)));
       expected = tick + 1;
     }
-    if (expected <= recording.last_tick)
+    if (expected + near <= recording.last_tick)
       events.push_back(Make(expected, "join", peer, 0, name + " ends"));
   }
   for (const Event& event : recording.events)

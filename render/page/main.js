@@ -15,6 +15,7 @@ class Page {
     this.marks = new Marks($('marks'));
     this.drawing = false;
     this.firstPanels();
+    state.tick = this.firstTick();
     readFragment(this.runs);
     this.player = new Player(this.runs, () => this.changed());
   }
@@ -30,6 +31,12 @@ class Page {
       const others = first.views.filter((view) => view.peer !== state.panels[0].peer);
       state.panels.push({run: 0, peer: others[others.length - 1].peer});
     }
+  }
+
+  // The first tick that all panels show.
+  firstTick() {
+    const first = (view) => Math.max(0, view.tracks.world.findIndex((world) => world >= 0));
+    return Math.max(...this.views().map(first));
   }
 
   views() {
@@ -57,18 +64,18 @@ class Page {
     });
   }
 
-  // Rectangles of the panels on the canvas: columns while they are not too narrow.
+  // Rectangles of the panels on the canvas: in the columns that show the scene largest.
   layout(width, height) {
     const count = state.mode === 'side' ? state.panels.length : 1;
+    const [minX, minY, maxX, maxY] = this.views()[0].run.camera;
+    const aspect = Math.min((maxX - minX) / Math.max(maxY - minY, 1), 5);
     let best = null;
     for (let columns = 1; columns <= count; ++columns) {
       const rows = Math.ceil(count / columns);
       const [w, h] = [(width - columns + 1) / columns, (height - rows + 1) / rows];
-      const holes = rows * columns - count;
-      const score = Math.min(w / 1.9, h) - 0.2 * holes * Math.min(w, h);
+      const score = Math.min(w / aspect, h);
       if (!best || score > best.score) best = {columns, rows, w, h, score};
     }
-    this.columns = best.columns;
     return Array.from({length: count}, (_, i) => ({
                                          x: (i % best.columns) * (best.w + 1),
                                          y: Math.floor(i / best.columns) * (best.h + 1),
@@ -85,12 +92,17 @@ class Page {
     const camera = cameraAt(views[0], at(views[0]), rects[0]);
     this.camera = camera;
     if (state.mode === 'side') {
-      views.forEach((view, i) => drawPanel(c, rects[i], camera, view, at(view)));
+      views.forEach((view, i) => {
+        drawPanel(c, rects[i], camera, view, at(view));
+        if (views.length > 1) drawTitle(c, rects[i], view.label(), curveColour(i), 'left');
+      });
       return;
     }
     const second = views[1] || views[0];
     if (state.mode === 'difference') {
       drawPanel(c, rects[0], camera, views[0], at(views[0]), second);
+      drawTitle(c, rects[0], views[0].label(), curveColour(0), 'left');
+      drawTitle(c, rects[0], `from ${second.label()}`, curveColour(1), 'right');
       return;
     }
     drawPanel(c, rects[0], camera, second, at(second));
@@ -100,6 +112,8 @@ class Page {
     c.clip();
     drawPanel(c, rects[0], camera, views[0], at(views[0]));
     c.restore();
+    drawTitle(c, rects[0], views[0].label(), curveColour(0), 'left');
+    drawTitle(c, rects[0], second.label(), curveColour(1), 'right');
   }
 
   draw(now_ms) {
@@ -131,7 +145,7 @@ class Page {
     const tick = Math.floor(state.tick);
     $('clock').textContent = `${run.seconds(state.tick).toFixed(3)} s · tick ${run.first + tick}`;
     $('scrub').value = tick;
-    $('play').textContent = state.playing ? '⏸' : '▶';
+    $('play').textContent = state.playing ? '❚❚' : '▶';
     $('play').setAttribute('aria-label', state.playing ? 'Pause' : 'Play');
     $('speed').value = state.speed;
     $('divider').hidden = state.mode !== 'wipe';
@@ -142,7 +156,7 @@ class Page {
       button.setAttribute('aria-pressed', String(Boolean(state.layers[button.dataset.layer])));
     for (const button of document.querySelectorAll('[data-mode]'))
       button.setAttribute('aria-pressed', String(state.mode === button.dataset.mode));
-    $('panel-heads').style.gridTemplateColumns = `repeat(${this.columns}, minmax(0, 1fr))`;
+    $('measure').value = state.measure;
     document.querySelectorAll('.panel-head output').forEach((output, i) => {
       const error = views[i].curve('error')[tick];
       output.textContent = error === undefined || Number.isNaN(error) ?

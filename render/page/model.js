@@ -90,7 +90,7 @@ class Run {
     const drawn = readJson(bytes, head.world);
     this.camera = drawn.camera.map((mm) => mm / 1000);
     this.waters = drawn.waters;
-    this.bricks = drawn.bricks;
+    this.bricks = readBricks(bytes, head.bricks);
     this.regions = drawn.regions;
     this.motions = new Map(drawn.motions.map((motion) => [motion.id, motion.path]));
     this.worlds = drawn.worlds.map((world) => makeWorld(world, drawn.bodies));

@@ -110,15 +110,43 @@ function drawLabel(c, text, x, y, colour) {
   c.fillText(text, x, y);
 }
 
+// Whose view it is, in an upper corner of the panel.
+function drawTitle(c, rect, text, colour, side) {
+  c.save();
+  c.font = '600 12px system-ui, sans-serif';
+  c.textAlign = side;
+  const x = side === 'left' ? rect.x + 24 : rect.x + rect.width - 24;
+  c.lineWidth = 3;
+  c.strokeStyle = COLOURS.theme.panel;
+  c.strokeText(text, x, rect.y + 18);
+  c.fillStyle = COLOURS.theme.ink;
+  c.fillText(text, x, rect.y + 18);
+  c.fillStyle = colour;
+  c.fillRect(side === 'left' ? rect.x + 10 : rect.x + rect.width - 18, rect.y + 9, 8, 10);
+  c.restore();
+}
+
+// The highest point of a body, m.
+function topOf(body, pose) {
+  const [sin, cos] = [Math.sin(pose[2]), Math.cos(pose[2])];
+  let top = pose[1];
+  for (const [kind, radius, ...points] of body.shapes) {
+    const count = kind === 1 ? 2 : points.length;
+    for (let i = 0; i < count; i += 2)
+      top = Math.max(top, pose[1] + (sin * points[i] + cos * points[i + 1] + radius) / 1000);
+  }
+  return top;
+}
+
 // Names of players' own bodies always, all on request; one that would cover another is left out.
 function drawNames(c, viewport, view, seen) {
   const taken = [];
   for (const {body, pose} of seen) {
     const followed = body.id === state.follow;
     if (!state.layers.names && !followed && body.player < 0) continue;
-    const text = view.run.worlds.length > 0 ? body.name : '';
+    const text = body.name;
     const x = viewport.x(pose[0]);
-    const y = viewport.y(pose[1] + body.reach / 1000) - 5;
+    const y = viewport.y(topOf(body, pose)) - 6;
     const half = 3.4 * text.length;
     if (taken.some((box) => Math.abs(box.x - x) < box.half + half && Math.abs(box.y - y) < 12))
       continue;

@@ -64,7 +64,6 @@ class Strip {
   }
   drawAxes(c, measure, seconds) {
     const {log, low, high} = this.scale;
-    const unit = MEASURES[measure].unit;
     c.font = '11px system-ui, sans-serif';
     c.lineWidth = 1;
     const lines = log ? [] : [0, high / 2, high];
@@ -79,7 +78,7 @@ class Strip {
       c.stroke();
       c.fillStyle = COLOURS.theme.faint;
       c.textAlign = 'right';
-      const text = log ? axisLength(value) :
+      const text = log ? (value === low ? '≤ ' : '') + axisLength(value) :
           value === 0  ? '0' :
                          `${+ value.toPrecision(3)} ${unit}`;
       c.fillText(text, STRIP.left - 6, y + 3.5);
@@ -156,7 +155,7 @@ class Marks extends Strip {
     for (const event of events) {
       const kind = EVENT_KINDS[event.kind];
       const tall = event.kind === 'impact' ? Math.min(1, 0.4 + Math.sqrt(event.size) / 8) : 0.7;
-      c.fillStyle = kind.colour;
+      c.fillStyle = themed(kind.colour);
       c.globalAlpha = 0.85;
       c.fillRect(Math.round(this.x(event.at)) - 1, middle - tall * middle, 2, 2 * tall * middle);
     }

@@ -31,7 +31,8 @@ function bodyRows(view, tick, range) {
       here: track.has[Math.floor(tick)] === 1,
     });
   }
-  return rows.sort((a, b) => (b.now || 0) - (a.now || 0) || (b.worst || 0) - (a.worst || 0));
+  return rows.sort(
+      (a, b) => b.here - a.here || (b.now || 0) - (a.now || 0) || (b.worst || 0) - (a.worst || 0));
 }
 
 function fillBodyTable(body, view, tick, range, onFollow) {

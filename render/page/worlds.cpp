@@ -46,20 +46,6 @@ std::string WatersJson(const Scene& scene) {
   return JsonList(waters);
 }
 
-/// [x, y, width, height] of blocks, units of 5 cm.
-std::string BricksJson(const Playback& playback) {
-  std::vector<std::string> blocks;
-  const FeatherStore* store = playback.bricks();
-  for (int cell = 0; store != nullptr && cell < store->cell_count(); ++cell) {
-    for (const BrickBlock& b : BlocksOf(*store, cell)) {
-      const BrickKind& kind = store->kinds()[static_cast<std::size_t>(b.kind)];
-      blocks.push_back(
-          fmt::format("[{},{},{},{}]", b.x, b.y, b.columns * kind.width, b.rows * kind.height));
-    }
-  }
-  return JsonList(blocks);
-}
-
 std::string RegionsJson(const Playback& playback) {
   std::vector<std::string> regions;
   for (const PageRegion& region : RegionsOfPage(playback)) {
@@ -123,12 +109,26 @@ std::string PageWorlds::Json() const {
   for (const BodyShapes& body : playback_.anchored())
     if (body.imposed >= 0) motions.push_back(MotionJson(playback_, body));
   const Scene& scene = playback_.scene();
-  return fmt::format(
-      R"({{"bodies":{},"worlds":{},"motions":{},"waters":{},)"
-      R"("bricks":{},"regions":{},"camera":[{},{}]}})",
-      JsonList(bodies_), JsonList(worlds_), JsonList(motions), WatersJson(scene),
-      BricksJson(playback_), RegionsJson(playback_), Point(scene.camera.min),
-      Point(scene.camera.max));
+  return fmt::format(R"({{"bodies":{},"worlds":{},"motions":{},"waters":{},)"
+                     R"("regions":{},"camera":[{},{}]}})",
+                     JsonList(bodies_), JsonList(worlds_), JsonList(motions), WatersJson(scene),
+                     RegionsJson(playback_), Point(scene.camera.min), Point(scene.camera.max));
+}
+
+PageBytes EncodeBricks(const Playback& playback) {
+  std::vector<std::int64_t> columns[4];
+  const FeatherStore* store = playback.bricks();
+  for (int cell = 0; store != nullptr && cell < store->cell_count(); ++cell) {
+    for (const BrickBlock& b : BlocksOf(*store, cell)) {
+      const BrickKind& kind = store->kinds()[static_cast<std::size_t>(b.kind)];
+      const int block[4] = {b.x, b.y, b.columns * kind.width, b.rows * kind.height};
+      for (int i = 0; i < 4; ++i) columns[i].push_back(block[i]);
+    }
+  }
+  PageBytes out;
+  PutUnsigned(&out, columns[0].size());
+  for (const auto& column : columns) PutFirstDifferences(&out, column);
+  return out;
 }
 
 }  // namespace seam

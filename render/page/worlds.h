@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "common/measure/revisions.h"
+#include "render/page/column.h"
 #include "render/playback/playback.h"
 
 namespace seam {
@@ -32,6 +33,10 @@ class PageWorlds {
   std::vector<std::string> bodies_, worlds_;
   std::map<std::string, int> pooled_;
 };
+
+/// A scene's bricks as few rectangles, units of 5 cm: how many, then as first differences all left
+/// edges, all lower edges, all widths and all heights.
+PageBytes EncodeBricks(const Playback& playback);
 
 /// A region of a player, or its buffer zone: a polygon, m.
 struct PageRegion {
