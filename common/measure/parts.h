@@ -2,7 +2,6 @@
 /// The single measures that Measure puts together, one per file; docs/metrics.md defines each.
 
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <optional>
 #include <vector>
@@ -21,15 +20,22 @@ void MeasureError(const Recording& recording, const Oracle& oracle, Measures* me
 
 // `revisions` below: nullptr where bodies never change.
 
-/// smoothness.cpp: every difference that stutter is the root mean square of, (m/s^2)^2, with its
-/// peer and the last of its three ticks; peer by peer, ticks ascending.
-using StutterVisitor = std::function<void(int peer, std::int64_t tick, double squared)>;
-void VisitStutter(const Recording& recording, const Oracle& oracle,
-                  const RevisionHistory* revisions, const StutterVisitor& visit);
-
 /// smoothness.cpp: stutter_mps2 and backsteps.
 void MeasureSmoothness(const Recording& recording, const Oracle& oracle,
                        const RevisionHistory* revisions, Measures* measures);
+
+/// A peer's views of three successive ticks; nullptr where there is none.
+struct ViewTrio {
+  const View* now = nullptr;  ///< not null
+  const View* before = nullptr;
+  const View* earlier = nullptr;
+};
+
+/// smoothness.cpp: the square of what stutter_mps2 is the root mean square of, (m/s^2)^2, for body
+/// i of trio.now; nullopt where a tick, the oracle, or the body as it is now is missing. `h`: s per
+/// tick.
+std::optional<double> StutterSquared(const ViewTrio& trio, std::size_t i, const Oracle& oracle,
+                                     const RevisionHistory* revisions, double h);
 
 /// seam.cpp: seam_rms_m and seam_stutter_mps2.
 void MeasureSeam(const Recording& recording, const RevisionHistory* revisions, Measures* measures);

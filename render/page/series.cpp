@@ -44,10 +44,18 @@ void AddPathErrors(const Recording& recording, const std::vector<const View*>& v
 PageSeries StutterByTick(const Recording& recording, const Scene& scene, const Oracle& oracle) {
   PageSeries series = EmptySeries(recording);
   const RevisionHistory revisions(scene, recording);
-  VisitStutter(recording, oracle, revisions.change() ? &revisions : nullptr,
-               [&](int peer, std::int64_t tick, double squared) {
-                 series[peer][static_cast<std::size_t>(tick - recording.first_tick)].Add(squared);
-               });
+  const RevisionHistory* changing = revisions.change() ? &revisions : nullptr;
+  const double h = TickSeconds(recording);
+  for (const auto& [peer, views] : recording.views) {
+    for (const auto& [tick, view] : views) {
+      const ViewTrio trio = {&view, FindView(views, tick - 1), FindView(views, tick - 2)};
+      MeanSquare& of_tick = series[peer][static_cast<std::size_t>(tick - recording.first_tick)];
+      for (std::size_t i = 0; i < view.id.size(); ++i) {
+        const auto squared = StutterSquared(trio, i, oracle, changing, h);
+        if (squared) of_tick.Add(*squared);
+      }
+    }
+  }
   return series;
 }
 
