@@ -170,6 +170,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"render/playback", "render/canvas"},
       {"render/draw", "render/(canvas|playback)"},
       {"render/page", "render/(canvas|draw|playback)"},
+      {"tests/support/browser", "tests/support"},
       {"tests/lab/fairness", "tests/lab(/report(/sessions)?)?"},
       {"common/measure/limit", "common/measure(/screen)?"},
       {"tests/lab/exact", "tests/lab(/hard|/report)?"},
