@@ -22,6 +22,7 @@ SEAM_EMBED(seam_page_table, "table.js")
 SEAM_EMBED(seam_page_save, "save.js")
 SEAM_EMBED(seam_page_player, "player.js")
 SEAM_EMBED(seam_page_main, "main.js")
+SEAM_EMBED(seam_page_gestures, "gestures.js")
 SEAM_EMBED(seam_page_controls, "controls.js")
 
 namespace seam {
@@ -45,6 +46,7 @@ std::string PageScript() {
   add(seam_page_save_begin, seam_page_save_end);
   add(seam_page_player_begin, seam_page_player_end);
   add(seam_page_main_begin, seam_page_main_end);
+  add(seam_page_gestures_begin, seam_page_gestures_end);
   add(seam_page_controls_begin, seam_page_controls_end);
   return script;
 }

@@ -80,7 +80,7 @@ class Strip {
       c.textAlign = 'right';
       const text = log ? (value === low ? '≤ ' : '') + axisLength(value) :
           value === 0  ? '0' :
-                         `${+ value.toPrecision(3)} ${unit}`;
+                         String(Number(value.toPrecision(3)));
       c.fillText(text, STRIP.left - 6, y + 3.5);
     }
     c.textAlign = 'center';
