@@ -47,6 +47,8 @@ DEBS_build := g++ make pkg-config liblcm-dev liblcm-bin libbox2d-dev libeigen3-d
 	liblua5.4-dev libcli11-dev libtoml11-dev libfmt-dev libpng-dev zlib1g-dev libfreetype-dev fonts-dejavu-core \
 	libgtest-dev libsodium-dev iproute2 util-linux
 DEBS_report := gnuplot-nox
+# For the tests that open a review page; without it they are skipped. It is 2 minutes, so CI alone installs it.
+DEBS_browser := chromium
 DEBS_coverage := gcovr
 DEBS_format := clang-format git
 DEBS_hashes := clang
@@ -71,7 +73,7 @@ VERSION := $(shell sed -n 's/.*kVersion = "\(.*\)".*/\1/p' common/base/version.h
 
 # Processes and long simulations: what `make check-fast` leaves out.
 SLOW := JoinLeave*:ServerProgram*:EndToEnd*:Bombarded*:BusInNamespace*:NoRoute*:BadInput*:Installed*:RenderL*:Mea*Program* \
-	:RecordFailure*:SpecialFiles*:Hard*Invariant*:HardExactRuns*:LabPhysics*:LabSweep*:*Cluster*:*WorldScene*:RuleSessions*:SceneFuzz*
+	:RecordFailure*:ReviewPage*:SpecialFiles*:Hard*Invariant*:HardExactRuns*:LabPhysics*:LabSweep*:*Cluster*:*WorldScene*:RuleSessions*:SceneFuzz*
 # The tests that SEAM_SOAK multiplies (tests/support/soak.h).
 SOAKED := *Cluster*:Authority*:*TopologyUnder*:SceneFuzz*:Codec*:FeatherOutline*
 SOAK ?= 300

@@ -136,16 +136,57 @@ function drawWaters(c, viewport, run) {
 
 const BRICK_UNIT = 0.05;  // m
 
+function traceBricks(c, viewport, run) {
+  const {rect, scale} = viewport;
+  c.beginPath();
+  for (const [x, y, width, height] of run.bricks) {
+    const left = viewport.x(x * BRICK_UNIT);
+    const top = viewport.y((y + height) * BRICK_UNIT);
+    const w = width * BRICK_UNIT * scale;
+    const h = height * BRICK_UNIT * scale;
+    if (left + w < rect.x || top + h < rect.y) continue;
+    if (left > rect.x + rect.width || top > rect.y + rect.height) continue;
+    c.rect(left, top, w, h);
+  }
+}
+
+// Many bricks are drawn once for a camera and kept as a picture, for each run.
+const brickPictures = new Map();
+
+function drawBricks(c, viewport, run) {
+  if (run.bricks.length === 0) return;
+  if (!(c instanceof CanvasRenderingContext2D)) {
+    traceBricks(c, viewport, run);
+    c.fill();
+    return;
+  }
+  const {rect, camera} = viewport;
+  const ratio = window.devicePixelRatio || 1;
+  const key =
+      [camera.x, camera.y, camera.height, rect.width, rect.height, ratio, c.fillStyle].join();
+  let picture = brickPictures.get(run);
+  if (!picture || picture.key !== key) {
+    const canvas = document.createElement('canvas');
+    canvas.width = Math.ceil(rect.width * ratio);
+    canvas.height = Math.ceil(rect.height * ratio);
+    const own = canvas.getContext('2d');
+    own.scale(ratio, ratio);
+    own.fillStyle = c.fillStyle;
+    const {width, height} = rect;
+    traceBricks(own, new Viewport({x: 0, y: 0, width, height}, camera), run);
+    own.fill();
+    picture = {key, canvas};
+    brickPictures.set(run, picture);
+  }
+  c.drawImage(
+      picture.canvas, rect.x, rect.y, picture.canvas.width / ratio, picture.canvas.height / ratio);
+}
+
 function drawGround(c, viewport, run, world, tick) {
   c.fillStyle = COLOURS.theme.ground;
   c.strokeStyle = COLOURS.theme['ground-edge'];
   c.lineWidth = 1;
-  for (const [x, y, width, height] of run.bricks) {
-    const left = viewport.x(x * BRICK_UNIT);
-    const top = viewport.y((y + height) * BRICK_UNIT);
-    c.fillRect(
-        left, top, width * BRICK_UNIT * viewport.scale, height * BRICK_UNIT * viewport.scale);
-  }
+  drawBricks(c, viewport, run);
   for (const entry of world.anchored) {
     const pose = anchoredPose(run, entry, tick);
     if (!viewport.sees(pose[0], pose[1], entry.body.reach / 1000)) continue;

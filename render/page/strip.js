@@ -91,7 +91,7 @@ class Strip {
          s += step) {
       const x = this.x((s - seconds(0)) / (seconds(this.last) - seconds(0)) * this.last);
       c.fillStyle = COLOURS.theme.faint;
-      c.fillText(`${+ s.toFixed(2)} s`, x, this.height - 4);
+      c.fillText(`${Number(s.toFixed(2))} s`, x, this.height - 4);
     }
   }
   drawCurve(c, curve, colour) {
