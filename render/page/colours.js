@@ -39,25 +39,11 @@ function themed(colour) {
   return COLOURS.dark ? mixColours(colour, '#ffffff', 0.35) : colour;
 }
 
-// Viridis (Smith and van der Walt, 2015): equal steps look equally far apart, in grey too.
-const VIRIDIS = [
-  '#440154',
-  '#482878',
-  '#3e4989',
-  '#31688e',
-  '#26828e',
-  '#1f9e89',
-  '#35b779',
-  '#6ece58',
-  '#b5de2b',
-  '#fde725',
-];
-
-// 0..1 along the map.
+// 0..1 along the map of pictures (render/canvas/palette.h), whose equal steps look equally large.
 function heatColour(share) {
-  const at = Math.min(Math.max(share, 0), 1) * (VIRIDIS.length - 1);
-  const i = Math.min(Math.floor(at), VIRIDIS.length - 2);
-  return mixColours(VIRIDIS[i], VIRIDIS[i + 1], at - i);
+  const at = Math.min(Math.max(share, 0), 1) * (COLOURS.heat.length - 1);
+  const i = Math.min(Math.floor(at), COLOURS.heat.length - 2);
+  return mixColours(COLOURS.heat[i], COLOURS.heat[i + 1], at - i);
 }
 
 // The heat of an error: a millimetre is 0, a metre 1, by the logarithm. The scale is fixed, so that

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <map>
 
 #include "common/base/version.h"
@@ -104,11 +105,16 @@ std::string ColourJson(Colour colour) {
   return fmt::format("\"#{:02x}{:02x}{:02x}\"", colour.r, colour.g, colour.b);
 }
 
+/// The colours of pictures, so that a page and a picture of a run look alike. Heat: from 1 mm to
+/// 1 m in equal steps of the logarithm.
 std::string PaletteJson() {
-  std::vector<std::string> peers, runs;
-  for (int i = 0; i < 22; ++i) peers.push_back(ColourJson(PeerColour(i)));
+  std::vector<std::string> peers, runs, heat;
+  for (int i = 0; i <= 3 * kPeerHues; ++i) peers.push_back(ColourJson(PeerColour(i)));
   for (int i = 0; i < 10; ++i) runs.push_back(ColourJson(RunColour(i)));
-  return fmt::format(R"({{"peers":{},"runs":{}}})", JsonList(peers), JsonList(runs));
+  for (int i = 0; i <= 15; ++i)
+    heat.push_back(ColourJson(HeatColour(std::pow(10.0f, static_cast<float>(i) / 5 - 3))));
+  return fmt::format(R"({{"peers":{},"runs":{},"heat":{}}})", JsonList(peers), JsonList(runs),
+                     JsonList(heat));
 }
 
 /// Puts `value` where the template says {{name}}.
