@@ -15,9 +15,9 @@ class Page {
     this.marks = new Marks($('marks'));
     this.drawing = false;
     this.firstPanels();
-    state.tick = this.firstTick();
-    readFragment(this.runs);
     this.player = new Player(this.runs, () => this.changed());
+    this.firstMoment();
+    readFragment(this.runs);
   }
 
   // Two views side by side: of two runs, or of the first run's server and first client.
@@ -33,10 +33,18 @@ class Page {
     }
   }
 
-  // The first tick that all panels show.
-  firstTick() {
+  // The strongest impact on the panels, and what moves around it; without one, the first tick that
+  // all panels show.
+  firstMoment() {
+    const views = this.views();
     const first = (view) => Math.max(0, view.tracks.world.findIndex((world) => world >= 0));
-    return Math.max(...this.views().map(first));
+    state.tick = Math.max(...views.map(first));
+    const impacts = this.events().filter((event) => event.kind === 'impact');
+    if (impacts.length === 0) return;
+    state.tick = impacts.reduce((most, event) => (event.size > most.size ? event : most)).at;
+    const box = actionBox(views[0], state.tick);
+    const rects = this.layout($('world').clientWidth, $('world').clientHeight);
+    if (box) state.camera = fitBox(box, rects[0]);
   }
 
   views() {
@@ -159,9 +167,8 @@ class Page {
     $('measure').value = state.measure;
     document.querySelectorAll('.panel-head output').forEach((output, i) => {
       const error = views[i].curve('error')[tick];
-      output.textContent = error === undefined || Number.isNaN(error) ?
-          views[i].run.label :
-          `${views[i].run.label} · error ${formatLength(error)}`;
+      output.textContent =
+          error === undefined || Number.isNaN(error) ? '' : `error ${formatLength(error)}`;
     });
   }
 
@@ -178,8 +185,8 @@ class Page {
     const key = [state.measure, range, JSON.stringify(state.panels)].join(' ');
     if (key !== this.rangeKey) fillRangeTable($('range-body'), views, state.measure, range);
     this.rangeKey = key;
-    $('bodies-hint').textContent = `${views[0].label()}: a click follows a body.`;
-    fillBodyTable($('bodies-body'), views[0], state.tick, state.range, (id) => this.follow(id));
+    $('bodies-hint').textContent = 'The largest error on any panel. A click follows a body.';
+    fillBodyTable($('bodies-body'), views, state.tick, range, (id) => this.follow(id));
   }
 
   follow(id) {
@@ -200,13 +207,17 @@ class Page {
     this.changed();
   }
 
-  // To a body at a tick, near enough to see it.
+  // To a body at a tick, near enough to see it and where it should be.
   showBody({tick, view, id}, text) {
-    const pose = poseOf(view.tracks.bodies.get(id), tick);
     this.player.pause();
     state.follow = null;
-    if (pose) state.camera = {x: pose[0], y: pose[1], height: Math.min(this.camera.height, 8)};
-    $('event-text').textContent = text;
+    const poses = [view.tracks, view.run.oracle]
+                      .map((tracks) => tracks && poseOf(tracks.bodies.get(id), tick))
+                      .filter(Boolean);
+    const [x, y] = [0, 1].map((k) => poses.map((pose) => pose[k]));
+    const box = [Math.min(...x) - 4, Math.min(...y) - 3, Math.max(...x) + 4, Math.max(...y) + 3];
+    if (poses.length > 0) state.camera = fitBox(box, this.rects[0]);
+    this.tell(text);
     this.player.go(tick);
   }
   goWorst() {

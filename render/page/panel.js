@@ -163,6 +163,11 @@ function drawHeatScale(c, rect) {
     c.fillStyle = heatColour(i / width);
     c.fillRect(x + i, y, 2, 6);
   }
+  c.strokeStyle = COLOURS.theme.frame;
+  c.lineWidth = 1;
+  c.beginPath();
+  c.rect(x, y, width, 6);
+  c.stroke();
   c.fillStyle = COLOURS.theme.faint;
   c.font = '11px system-ui, sans-serif';
   c.textAlign = 'left';

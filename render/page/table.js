@@ -15,28 +15,40 @@ function swatch(colour) {
   return made;
 }
 
-// Bodies of a view with their error now and at worst in the range, the largest first.
-function bodyRows(view, tick, range) {
-  const [from, to] = range || [0, view.run.count - 1];
-  const rows = [];
-  for (const track of view.tracks.bodies.values()) {
-    let worst = -1;
-    for (let i = from; i <= to; ++i) worst = Math.max(worst, track.error[i]);
-    rows.push({
-      id: track.id,
-      name: view.run.names.get(track.id) || `body ${track.id}`,
-      owner: Math.floor(track.owner[Math.floor(tick)] / 3),
-      now: view.errorOf(track.id, tick),
-      worst: worst < 0 ? null : worst * view.units.error,
-      here: track.has[Math.floor(tick)] === 1,
-    });
+// A body on one view: its error now and at worst in the range.
+function bodyRow(view, track, tick, [from, to]) {
+  let worst = -1;
+  for (let i = from; i <= Math.min(to, track.error.length - 1); ++i)
+    worst = Math.max(worst, track.error[i]);
+  return {
+    id: track.id,
+    name: view.run.names.get(track.id) || `body ${track.id}`,
+    owner: Math.floor(track.owner[Math.floor(tick)] / 3),
+    now: view.errorOf(track.id, tick),
+    worst: worst < 0 ? null : worst * view.units.error,
+    here: track.has[Math.floor(tick)] === 1,
+  };
+}
+
+// Bodies of all views with the largest error of any, the largest first, what is not shown last.
+function bodyRows(views, tick, range) {
+  const rows = new Map();
+  for (const view of views) {
+    for (const track of view.tracks.bodies.values()) {
+      const row = bodyRow(view, track, tick, range);
+      const known = rows.get(track.id) || row;
+      const most = (key) => (row[key] === null ? known[key] : Math.max(row[key], known[key] || 0));
+      rows.set(
+          track.id,
+          {...known, now: most('now'), worst: most('worst'), here: known.here || row.here});
+    }
   }
-  return rows.sort(
+  return [...rows.values()].sort(
       (a, b) => b.here - a.here || (b.now || 0) - (a.now || 0) || (b.worst || 0) - (a.worst || 0));
 }
 
-function fillBodyTable(body, view, tick, range, onFollow) {
-  const rows = bodyRows(view, tick, range).slice(0, TABLE_ROWS_MAX);
+function fillBodyTable(body, views, tick, range, onFollow) {
+  const rows = bodyRows(views, tick, range).slice(0, TABLE_ROWS_MAX);
   body.replaceChildren(...rows.map((row) => {
     const line = element('tr');
     const name = element('td');

@@ -8,7 +8,7 @@
 #include <random>
 
 #include "common/measure/percentile.h"
-#include "render/page/assets.h"
+#include "render/commands.h"
 #include "render/page/document.h"
 #include "render/page/gzip.h"
 #include "render/page/json.h"
@@ -156,6 +156,26 @@ TEST(PageData, ThePageHasItsDataCompressedAndTheSameAgain) {
   EXPECT_EQ(head.front(), '{');
   EXPECT_EQ(head.back(), '}');
   EXPECT_NE(head.find("\"views\":[{\"peer\":0,"), std::string::npos);
+}
+
+using PageFlags = RenderLog;
+
+TEST_F(PageFlags, APageIsWrittenOrAMistakeIsNamedAndNothingIs) {
+  const auto run = [&](std::vector<std::string> words) {
+    std::vector<const char*> arguments = {"seam-render", "--page"};
+    for (const std::string& word : words) arguments.push_back(word.c_str());
+    return RenderMain(static_cast<int>(arguments.size()), arguments.data());
+  };
+  const std::string out = folder_ / "review.html";
+  EXPECT_EQ(run({log_, "-o", folder_ / "review.png"}), 2);
+  EXPECT_EQ(run({log_, "-o", out, "--view", "1"}), 2);
+  EXPECT_EQ(run({log_, "-o", out, "--strobe"}), 2);
+  EXPECT_EQ(run({log_, "-o", out, "--from", "1"}), 2);
+  EXPECT_EQ(run({"-o", out}), 2);
+  EXPECT_EQ(run({log_, folder_ / "none.lcm", "-o", out}), 2);
+  EXPECT_EQ(folder_.List(), untouched_);
+  ASSERT_EQ(run({log_, strict_, "-o", out}), 0);
+  EXPECT_NE(Content(out).find("id=\"data\""), std::string::npos);
 }
 
 TEST(PageData, APageAsksForNothingFromOutside) {
