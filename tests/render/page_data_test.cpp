@@ -14,7 +14,7 @@
 #include "render/page/json.h"
 #include "render/page/tracks.h"
 #include "tests/render/page_reader.h"
-#include "tests/support/render_synthetic.h"
+#include "tests/support/render_fixture.h"
 
 namespace seam {
 namespace {
