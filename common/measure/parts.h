@@ -56,7 +56,7 @@ std::optional<double> RestJitter(const Recording& recording, const Oracle& oracl
 void MeasureDisplayed(const Recording& recording, const Oracle& oracle,
                       const RevisionHistory& revisions, Measures* measures);
 
-/// changes.cpp: topology_lag_s, lost.
+/// changes.cpp: topology_lag_s, lost, left_bounds.
 void MeasureChanges(const Recording& recording, const RevisionHistory& revisions,
                     Measures* measures);
 

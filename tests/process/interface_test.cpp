@@ -165,6 +165,7 @@ void AddScenes(Interface* interface) {
       {"[[joint]] follow", joint + "\"motor\"\nforce = 1\ntorque = 1\n[joint.follow]"},
       {"[[strand]]", ball + "[[strand]]"},
       {"[[thrust]]", ball + "[[thrust]]"},
+      {"[[propeller]]", ball + "[[propeller]]"},
       {"[[water]]", ball + "[[water]]"},
       {"[[player]]", "[[player]]"},
       {"[[player]] actions", ball + ann + "[[player.actions]]"},
