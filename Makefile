@@ -39,15 +39,17 @@ ALL_CXXFLAGS := -std=c++17 $(CXXFLAGS_$(BUILD)) -ffp-contract=off -fno-tree-slp-
 # Only common/codec/ reads generated headers (tests/style/layering_test.cpp).
 CODEC_CXXFLAGS := -isystem $(GEN)
 LIBS := -llcm -lbox2d -lfmt -lsodium -pthread
-RENDER_LIBS := -lOSMesa -lpng -lfreetype
+RENDER_LIBS := -lOSMesa -lpng -lfreetype -lz
 SERVER_LIBS := -llua5.4
 
 # Debian packages: build/.deps-NAME stands for DEBS_NAME being installed.
 DEBS_build := g++ make pkg-config liblcm-dev liblcm-bin libbox2d-dev libeigen3-dev libosmesa6-dev \
-	liblua5.4-dev libcli11-dev libtoml11-dev libfmt-dev libpng-dev libfreetype-dev fonts-dejavu-core \
+	liblua5.4-dev libcli11-dev libtoml11-dev libfmt-dev libpng-dev zlib1g-dev libfreetype-dev fonts-dejavu-core \
 	libgtest-dev libsodium-dev iproute2 util-linux
 DEBS_report := gnuplot-nox
 DEBS_test := python3
+# For the tests that open a review page; without it they are skipped. It is 2 minutes, so CI alone installs it.
+DEBS_browser := chromium
 DEBS_coverage := gcovr
 DEBS_spy := liblcm-java libjchart2d-java $(if $(shell command -v javac),,default-jdk)
 DEBS_format := clang-format git
@@ -74,7 +76,7 @@ VERSION := $(shell sed -n 's/.*kVersion = "\(.*\)".*/\1/p' common/base/version.h
 
 # Processes and long simulations: what `make check-fast` leaves out.
 SLOW := JoinLeave*:ServerProgram*:EndToEnd*:Bombarded*:BusInNamespace*:NoRoute*:BadInput*:Installed*:RenderL*:Mea*Program* \
-	:RecordFailure*:SpecialFiles*:Hard*Invariant*:HardExactRuns*:LabPhysics*:LabSweep*:*Cluster*:*WorldScene*:RuleSessions*:SceneFuzz*
+	:RecordFailure*:ReviewPage*:SpecialFiles*:Hard*Invariant*:HardExactRuns*:LabPhysics*:LabSweep*:*Cluster*:*WorldScene*:RuleSessions*:SceneFuzz*
 # The tests that SEAM_SOAK multiplies (tests/support/soak.h).
 SOAKED := *Cluster*:Authority*:*TopologyUnder*:SceneFuzz*:Codec*:FeatherOutline*
 SOAK ?= 300
@@ -145,6 +147,9 @@ $(CODEC): $(GEN)/.stamp
 $(OUT)/%.o: %.cpp $(OUT)/.flags | build/.deps-build
 	@mkdir -p $(@D)
 	$(CXX) $(ALL_CXXFLAGS) -c $< -o $@
+
+# What a review page is made of is copied into the program (render/page/assets.cpp).
+$(OUT)/render/page/assets.o: $(wildcard render/page/*.html render/page/*.css render/page/*.js)
 
 # Appended to nothing: two members may have the same name.
 $(OUT)/libseam-common.a: $(COMMON)
