@@ -109,8 +109,8 @@ void LiveRenderer::DrawFrame() {
   Page page = MakePage(*playback_, options_.peer);
   page.width_px = options_.width_px;
   page.height_px = options_.height_px;
-  page.from_s = std::max(0.0, next_s_ - kLiveWindow_s);
-  page.to_s = page.from_s + kLiveWindow_s;
+  page.strip_from_s = std::max(0.0, next_s_ - kLiveWindow_s);
+  page.strip_to_s = page.strip_from_s + kLiveWindow_s;
   DrawPage(*list_, page, next_s_);
   canvas_->Draw(*list_, kPaper, &image_);
   WritePng(folder_.FramePath(frames_++), image_);

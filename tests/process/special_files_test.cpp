@@ -100,8 +100,8 @@ TEST_F(SpecialFiles, AreNoRecordingToWrite) {
   for (const std::string& name : MakeSpecialFiles(folder_, ".lcm")) {
     commands.push_back({"seam-server", "crossing", "--bind", "127.0.0.1:0", "--lcm-url", "none",
                         "--wait", "0", "--duration", "0.2", "--record", name, "--force"});
-    commands.push_back({"seam-client", "127.0.0.1:9", "--join-timeout", "0.2", "--lcm-url", "none",
-                        "--record", name, "--force"});
+    commands.push_back({"seam-client", "127.0.0.1:9", "--watch", "--join-timeout", "0.2",
+                        "--lcm-url", "none", "--record", name, "--force"});
     commands.push_back({"seam-lab", "run", "crossing", "-o", name, "--force", "--duration", "0.2"});
   }
   ExpectRefused(commands);
