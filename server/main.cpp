@@ -189,12 +189,13 @@ int Serve(const Flags& f) {
   const Stats& s = server.stats();
   std::fprintf(stderr,
                "seam-server: %lld ticks; dropped %lld malformed, %lld stale, %lld without right, "
-               "%lld implausible, %lld over budget; %lld stepped again, %lld replays deferred; "
-               "%lld bus failures\n",
+               "%lld implausible, %lld over budget; %lld part(s) left the bounds; "
+               "%lld stepped again, %lld replays deferred; %lld bus failures\n",
                static_cast<long long>(server.tick()), static_cast<long long>(s.dropped_malformed),
                static_cast<long long>(s.dropped_stale), static_cast<long long>(s.dropped_right),
                static_cast<long long>(s.dropped_implausible),
                static_cast<long long>(s.dropped_budget),
+               static_cast<long long>(server.left_bounds()),
                static_cast<long long>(server.replica().ticks_stepped_again()),
                static_cast<long long>(server.replica().replays_deferred()),
                static_cast<long long>(sink.failures()));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/base/check.h"
@@ -19,7 +20,7 @@
 namespace seam {
 
 struct World::Impl {
-  explicit Impl(const Topology& begin) : topology(begin) {
+  explicit Impl(Topology begin) : topology(std::move(begin)) {
     Empty();
     Build();
     FindStages();

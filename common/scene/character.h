@@ -9,8 +9,12 @@
 ///        | |      upper legs      knees
 ///        | |      lower legs      ankles
 ///        |_|_     feet            (facing right: the toes are on the right)
+///
+/// Each part is one convex outline of eight corners, tapered like the limb it stands for; soles are
+/// flat.
 
 #include <array>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -52,6 +56,15 @@ enum CharacterJoint {
   kCharacterJoints
 };
 
+/// Arms and legs.
+constexpr bool IsLimb(int part) { return part >= kUpperArmLeft; }
+/// Requires IsLimb(part).
+constexpr bool IsLeft(int part) {
+  return part <= kLowerArmLeft || (part >= kUpperLegLeft && part <= kFootLeft);
+}
+
+struct CharacterGains;  // common/stages/character/character_gains.h
+
 struct Character {
   std::string name;     ///< its parts are "name.head", its joints "name.neck" and so on
   bool active = false;  ///< its joints have motors that a controller turns
@@ -63,6 +76,9 @@ struct Character {
   /// N m by which each joint resists turning when nothing drives it: muscle tone, for a body that
   /// is limp, passive or dead.
   std::array<float, kCharacterJoints> slack{};
+  /// Numbers of its controller, for searches of better ones; nullptr: those built in. No part of a
+  /// scene file: a peer has always those built in.
+  std::shared_ptr<const CharacterGains> gains;
   int line = 0;  ///< in the scene file
 };
 

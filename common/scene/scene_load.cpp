@@ -100,7 +100,7 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
       {"title",       "gravity", "duration", "buffer",    "speed_limit", "size_max", "bounds",
        "solver",      "part",    "bricks",   "character", "joint",       "thrust",   "water",
        "player",      "seat",    "watch",    "camera",    "trigger",     "script",   "grouping",
-       "input_delay", "expect",  "follow",   "strand",    "charges"});
+       "input_delay", "expect",  "follow",   "strand",    "propeller",   "charges"});
   scene.title = root.Text("title", scene.name);
   scene.gravity = root.Vector("gravity", {-100, 100}, scene.gravity);
   scene.duration_s = root.Seconds("duration", {0.1, 86400}, scene.duration_s);

@@ -38,6 +38,7 @@ struct InsertEdit {
 /// A part leaves, and all its joints.
 struct RemoveEdit {
   PartId part = -1;
+  bool left_bounds = false;  ///< why: it was outside the scene's bounds
 };
 
 /// A part is no longer anchored.

@@ -6,6 +6,7 @@
 
 #include "common/base/geometry.h"
 #include "common/scene/joint_kinds.h"
+#include "render/canvas/figure.h"
 
 namespace seam {
 namespace {
@@ -134,6 +135,7 @@ Frame2::Frame2(const Pose& pose)
 std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composition,
                                  bool anchored) {
   std::vector<BodyShapes> bodies;
+  const std::map<PartId, FigurePart> figures = FiguresOf(scene);
   int moved = 0;
   for (const Assembly& assembly : composition.assemblies) {
     if (assembly.anchored != anchored) continue;
@@ -144,6 +146,9 @@ std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composit
     if (assembly.kinematic >= 0) body.imposed = moved++;
     for (PartId id : assembly.parts) {
       body.outlines.push_back(OutlineOf(PartOf(scene, id), body.start));
+      const auto figure = figures.find(id);
+      if (figure != figures.end())
+        ShapeFigure(scene, figure->second, body.start, &body.outlines.back());
       const Pose own = PoseOf(PartOf(scene, id));
       body.places.push_back({Into(body.start, own.position), own.angle - body.start.angle});
       const Outline& outline = body.outlines.back();

@@ -76,6 +76,18 @@ struct TuneCommand {
 /// Prints the cheapest solver setting that the search finds below `error`. 1: none is.
 int RunTune(const TuneCommand& command);
 
+struct TuneGaitCommand {
+  std::string objective;  ///< what to search (TOML; docs/lab.md)
+  std::string output;     ///< gains file to put the result into; empty: none
+  int jobs = 0;           ///< trials at a time; 0: as many as there are cores
+  int generations = -1;   ///< -1: the objective's
+  int seed = -1;          ///< -1: the objective's
+};
+
+/// Searches gains that make an ability better and prints what becomes of training and held-out
+/// starts. 1: a signal came, and nothing was written.
+int RunTuneGait(const TuneGaitCommand& command);
+
 struct OverheadCommand {
   std::vector<std::string> scenes = {
       "scenes/wall.toml",   "scenes/stack.toml",           "scenes/crossing.toml",

@@ -82,12 +82,30 @@ CLI::App* DefinePhysics(CLI::App& app, PhysicsCommand& c) {
   return physics;
 }
 
-CLI::App* DefineTune(CLI::App& app, TuneCommand& c) {
+void DefineTuneGait(CLI::App& tune, TuneGaitCommand& c) {
+  CLI::App* gait = tune.add_subcommand("gait", "search a character's gains by CMA-ES");
+  gait->add_option("OBJECTIVE", c.objective, "what to search (TOML; docs/lab.md)")->required();
+  gait->add_option("-o,--output", c.output, "gains file to put the result into");
+  gait->add_option("--jobs", c.jobs, "trials at a time (default: one a core)")
+      ->check(CLI::Range(1, 256));
+  gait->add_option("--generations", c.generations, "instead of the objective's; 0: tables only")
+      ->check(CLI::Range(0, 100000));
+  gait->add_option("--seed", c.seed, "instead of the objective's")->check(CLI::Range(0, 1000000));
+}
+
+CLI::App* DefineTune(CLI::App& app, TuneCommand& c, TuneGaitCommand& gait) {
   CLI::App* tune = app.add_subcommand("tune", "the cheapest solver setting below an error");
-  tune->add_option("SCENE", c.scene, "scene file, or the name of a scene")->required();
-  tune->add_option("--error", c.error, "most error: a hard case's own measure, else RMS metres")
-      ->required()
-      ->check(CLI::Range(0.0, 1e9));
+  DefineTuneGait(*tune, gait);
+  const CLI::Option* scene =
+      tune->add_option("SCENE", c.scene, "scene file, or the name of a scene");
+  const CLI::Option* error =
+      tune->add_option("--error", c.error, "most error: a hard case's own measure, else RMS metres")
+          ->check(CLI::Range(0.0, 1e9));
+  // Required, but not of `tune gait`.
+  tune->callback([tune, scene, error] {
+    if (tune->get_subcommands().empty() && scene->empty()) throw CLI::RequiredError("SCENE");
+    if (tune->get_subcommands().empty() && error->empty()) throw CLI::RequiredError("--error");
+  });
   tune->add_flag("--keep-hz", c.keep_hz, "leave tick_hz as it is");
   tune->add_option("--seconds", c.seconds, "simulated (default: the case's; else up to 10)")
       ->check(CLI::Range(0.1, kDurationMax));
@@ -165,6 +183,7 @@ int main(int argc, char** argv) {
   SweepCommand sweep;
   PhysicsCommand physics;
   TuneCommand tune;
+  TuneGaitCommand gait;
   OverheadCommand overhead;
   WorldCommand world;
   FairnessCommand fairness;
@@ -178,7 +197,8 @@ int main(int argc, char** argv) {
                 {DefineDivergence(app, divergence), [&] { return FirstDivergence(divergence); }},
                 {DefineSweep(app, sweep), [&] { return RunSweep(sweep); }},
                 {DefinePhysics(app, physics), [&] { return RunPhysics(physics); }},
-                {DefineTune(app, tune), [&] { return RunTune(tune); }},
+                {DefineTune(app, tune, gait),
+                 [&] { return gait.objective.empty() ? RunTune(tune) : RunTuneGait(gait); }},
                 {DefineOverhead(app, overhead), [&] { return RunOverhead(overhead); }},
                 {DefineWorld(app, world), [&] { return RunWorld(world); }},
                 {DefineFairness(app, fairness), [&] { return RunFairnessTable(fairness); }},

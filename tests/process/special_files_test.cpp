@@ -90,6 +90,7 @@ TEST_F(SpecialFiles, AreNoLogToRead) {
   std::vector<Words> commands;
   for (const std::string& name : MakeSpecialFiles(folder_, ".lcm")) {
     commands.push_back({"seam-measure", name});
+    commands.push_back({"seam-export", name, "--csv"});
     commands.push_back({"seam-render", name, "-o", folder_ / "frames"});
   }
   ExpectRefused(commands);
@@ -112,6 +113,7 @@ TEST_F(SpecialFiles, AreNoTableAndNoPictureToWrite) {
   std::vector<Words> commands;
   for (const std::string& name : MakeSpecialFiles(folder_, ".csv")) {
     commands.push_back({"seam-measure", log_, "--csv", name});
+    commands.push_back({"seam-export", log_, "--csv", "-o", name, "--force"});
     commands.push_back({"seam-measure", log_, "--csv", name, "--append"});
     commands.push_back(
         {"seam-lab", "sweep", "tests/lab/sweeps/quick/rate.toml", "-o", name, "--force"});

@@ -51,6 +51,7 @@ TEST(SceneDocs, EveryKeyIsOnThePage) {
       {ball + "[[bricks]]", "## `[[bricks]]`"},
       {ball + "[[strand]]", "## `[[strand]]`"},
       {ball + "[[thrust]]", "## `[[thrust]]`"},
+      {ball + "[[propeller]]", "## `[[propeller]]`"},
       {ball + "[[water]]", "## `[[water]]`"},
       {ball + "[grouping]", "## `[grouping]`"},
       {ball + "[[character]]", "## `[[character]]`"},

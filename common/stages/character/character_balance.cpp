@@ -1,4 +1,4 @@
-/// CharacterControl: standing and stepping.
+/// CharacterControl: what bears and moves a body on its legs, and standing.
 
 #include <algorithm>
 #include <cmath>
@@ -7,25 +7,17 @@
 #include "common/stages/character/character_gains.h"
 
 namespace seam {
-namespace {
-
-float Smooth(float t) {
-  const float u = std::clamp(t, 0.0f, 1.0f);
-  return u * u * (3 - 2 * u);
-}
-
-}  // namespace
-
 float CharacterControl::TorsoTorque(const CharacterSense& s, float lean) const {
-  return unit_ * (kTorsoStiffness * (lean - s.torso) - kTorsoDamping * s.torso_spin);
+  return unit_ * (gains_.torso_stiffness * (lean - s.torso) - gains_.torso_damping * s.torso_spin);
 }
 
 float CharacterControl::Lift(const CharacterSense& s, float ground_y, float hip_height,
-                             float ground_vy) const {
+                             float ground_vy, float stiffness, float damping) const {
   const float error = ground_y + hip_height - s.hip.y;
-  const float proposed = s.mass * (gravity_ + kHeightStiffness * error / limbs_.scale() -
-                                   kHeightDamping * (s.hip_velocity.y - ground_vy));
-  return std::clamp(proposed, kLiftMin * s.mass * gravity_, kLiftMax * s.mass * gravity_);
+  const float proposed = s.mass * (gravity_ + stiffness * error / limbs_.scale() -
+                                   damping * (s.hip_velocity.y - ground_vy));
+  return std::clamp(proposed, gains_.lift_min * s.mass * gravity_,
+                    gains_.lift_max * s.mass * gravity_);
 }
 
 /// The leg pushes the ground with `lift` N at `pressure_x`, and the torso with `torso_torque`. The
@@ -35,7 +27,8 @@ void CharacterControl::Bear(const CharacterSense& s, int side, float pressure_x,
   const b2Vec2 pressure = Sole(s, side, pressure_x);
   const float height = std::max(0.2f * limbs_.shape().hip, s.hip.y - pressure.y);
   // The push goes through the hip; the body above leans over it.
-  torso_torque -= kUpperShare * lift * kUpperHeight * limbs_.scale() * std::sin(s.torso);
+  torso_torque -=
+      gains_.upper_share * lift * gains_.upper_height * limbs_.scale() * std::sin(s.torso);
   Push(s, side, pressure, lift, (torso_torque - (pressure.x - s.hip.x) * lift) / height);
 }
 
@@ -43,7 +36,7 @@ void CharacterControl::Bear(const CharacterSense& s, int side, float pressure_x,
 b2Vec2 CharacterControl::Sole(const CharacterSense& s, int side, float x) const {
   const b2Vec2 ankle = s.legs[side].ankle;
   const CharacterShape& shape = limbs_.shape();
-  const float rim = kSoleRim * limbs_.scale();
+  const float rim = gains_.sole_rim * limbs_.scale();
   return b2Vec2(std::clamp(x, ankle.x - shape.heel + rim, ankle.x + shape.toe - rim),
                 ankle.y - shape.ankle);
 }
@@ -51,7 +44,7 @@ b2Vec2 CharacterControl::Sole(const CharacterSense& s, int side, float x) const 
 /// The legs are taken as massless: the torque in each joint is the ground's force about it.
 void CharacterControl::Push(const CharacterSense& s, int side, b2Vec2 pressure, float lift,
                             float forward) {
-  const b2Vec2 force(std::clamp(forward, -kGrip * lift, kGrip * lift), lift);
+  const b2Vec2 force(std::clamp(forward, -gains_.grip * lift, gains_.grip * lift), lift);
   const LegSense& leg = s.legs[side];
   const auto torque_at = [&](b2Vec2 joint) { return -b2Cross(pressure - joint, force); };
   limbs_.Torque(Hip(side), torque_at(leg.hip));
@@ -78,17 +71,17 @@ void CharacterControl::Reach(const CharacterSense& s, int side, b2Vec2 ankle, b2
   const LegPose then = PoseFor(way + kAhead * (velocity - s.hip_velocity));
   const float thigh_spin = (then.thigh - now.thigh) / kAhead;
   const float knee_spin = (then.knee - now.knee) / kAhead;
-  Pose(Hip(side), now.thigh - s.torso, stiffness, thigh_spin - s.torso_spin, kHipRate);
+  Pose(Hip(side), now.thigh - s.torso, stiffness, thigh_spin - s.torso_spin, gains_.hip_rate);
   Pose(Knee(side), now.knee, stiffness, knee_spin);
-  Pose(Ankle(side), foot - s.legs[side].shank, kAnkleStiffness);
+  Pose(Ankle(side), foot - s.legs[side].shank, gains_.ankle_stiffness);
 }
 
 void CharacterControl::Arms(float left, float right, float elbow) {
-  Pose(kShoulderLeft, left, kArmStiffness);
-  Pose(kShoulderRight, right, kArmStiffness);
-  Pose(kElbowLeft, elbow, kArmStiffness);
-  Pose(kElbowRight, elbow, kArmStiffness);
-  Pose(kNeck, 0, kNeckStiffness);
+  Pose(kShoulderLeft, left, gains_.arm_stiffness);
+  Pose(kShoulderRight, right, gains_.arm_stiffness);
+  Pose(kElbowLeft, elbow, gains_.arm_stiffness);
+  Pose(kElbowRight, elbow, gains_.arm_stiffness);
+  Pose(kNeck, 0, gains_.neck_stiffness);
 }
 
 void CharacterControl::Stand(const CharacterSense& s) {
@@ -110,7 +103,7 @@ void CharacterControl::Stand(const CharacterSense& s) {
   ground_vy /= count;
   const float capture = s.centre.x + (s.velocity.x - ground_vx) / Omega(s, ground_y);
   const float middle = (low + high) / 2;
-  const float margin = kCaptureMargin * limbs_.scale();
+  const float margin = gains_.capture_margin * limbs_.scale();
   memory_.speed = 0;
   const bool lost = capture < low - margin || capture > high + margin;
   if ((lost || std::abs(drive_) > 0.1f) && !none) {
@@ -122,8 +115,8 @@ void CharacterControl::Stand(const CharacterSense& s) {
     StepOn(s, 0);
     return;
   }
-  const float pressure = capture + kCaptureGain * (capture - middle);
-  const float lift = Lift(s, ground_y, kStandHeight * shape.hip, ground_vy);
+  const float pressure = capture + gains_.capture_gain * (capture - middle);
+  const float lift = Lift(s, ground_y, gains_.stand_height * shape.hip, ground_vy);
   const float torso = TorsoTorque(s, 0);
   float share = 0.5f;  // of the left
   const float apart = s.legs[1].ankle.x - s.legs[0].ankle.x;
@@ -137,130 +130,10 @@ void CharacterControl::Stand(const CharacterSense& s) {
       Bear(s, side, pressure, part * lift, part * torso);
     } else {
       Reach(s, side, b2Vec2(s.legs[side].ankle.x, ground_y + shape.ankle), s.hip_velocity, 0,
-            kSwingStiffness);
+            gains_.swing_stiffness);
     }
   }
   Arms(0.1f, -0.1f, 0.3f);
-}
-
-float CharacterControl::StepTime() const { return kStepTime * std::sqrt(limbs_.scale()); }
-
-void CharacterControl::BeginStep(const CharacterSense& s, int stance) {
-  memory_.stance = stance;
-  memory_.step = 0;
-  memory_.from = s.legs[1 - stance].ankle;
-}
-
-CharacterControl::Foothold CharacterControl::NextFoothold(const CharacterSense& s,
-                                                          float support_x) const {
-  const CharacterShape& shape = limbs_.shape();
-  const LegSense& stance = s.legs[memory_.stance];
-  const float ground_y = stance.ankle.y - shape.ankle;
-  const float omega = Omega(s, ground_y);
-  const float whole = StepTime();
-  const float left = std::max(whole - memory_.step, 0.0f);
-  // The divergent component at the end of the step, if the pressure stays where it is, and how far
-  // ahead of the next foot it must then be.
-  const float now = s.centre.x + (s.velocity.x - stance.ground_velocity.x) / omega;
-  const float then = support_x + (now - support_x) * std::exp(omega * left);
-  const float ahead = memory_.speed * whole / (std::exp(omega * whole) - 1);
-  const float middle = (shape.toe - shape.heel) / 2;
-  const float hip_then = s.hip.x + left * s.velocity.x;
-  Foothold next;
-  next.ankle.x = std::clamp(then - ahead - middle, hip_then - kReachBack * limbs_.scale(),
-                            hip_then + kReachMax * limbs_.scale());
-  // Not across the edge of a stair, if there is room beside it.
-  const float from_y = ground_y + 0.5f * shape.hip, depth = 1.2f * shape.hip;
-  const float wished = next.ankle.x;
-  for (const float aside : kAside) {
-    const float x = wished + aside * limbs_.scale();
-    const GroundPoint heel = limbs_.GroundBelow(b2Vec2(x - shape.heel, from_y), depth);
-    const GroundPoint toe = limbs_.GroundBelow(b2Vec2(x + shape.toe, from_y), depth);
-    const float heel_y = heel.found ? heel.point.y : ground_y;
-    const float toe_y = toe.found ? toe.point.y : ground_y;
-    const float length = shape.heel + shape.toe;
-    const bool flat =
-        std::abs(toe_y - heel_y) < kSlopeMax * length && (heel.normal - toe.normal).Length() < 0.3f;
-    if (!flat && aside != kAside[0]) continue;
-    next.ankle.Set(x, std::max(heel_y, toe_y) + shape.ankle);
-    next.slope = 0;
-    if (!flat) continue;
-    next.slope = std::atan2(toe_y - heel_y, length);
-    next.ankle.y = heel_y + (toe_y - heel_y) * shape.heel / length + shape.ankle;
-    break;
-  }
-  return next;
-}
-
-/// Of the swinging foot, at `time` s: up, over, down to where it is to stand.
-b2Vec2 CharacterControl::SwingAt(float time, const Foothold& to) const {
-  const float whole = StepTime();
-  const float t = time / whole;
-  const b2Vec2 from = memory_.from;
-  // Onto a stair it goes up before it goes on.
-  const bool stair = to.ankle.y > from.y + 0.05f * limbs_.scale() && std::abs(to.slope) < 0.05f;
-  const float wait = stair ? kStairWait : 0;
-  const float lifted = stair ? kStairLifted : kLifted;
-  const float x = from.x + (to.ankle.x - from.x) * Smooth((t - wait) / (kArrive - wait));
-  const float top =
-      std::max(from.y, to.ankle.y) + (stair ? kStairClearance : kClearance) * limbs_.scale();
-  const float y = t < 0.5f ? from.y + (top - from.y) * Smooth(t / lifted)
-                           : top + (to.ankle.y - top) * Smooth((t - 0.5f) / 0.5f);
-  const float late = t > 1 ? kSearch * limbs_.scale() * (time - whole) : 0;
-  return b2Vec2(x, y - late);
-}
-
-void CharacterControl::Swing(const CharacterSense& s, int side, const Foothold& to) {
-  constexpr float kAhead = 0.01f;  // s, for the foot's velocity
-  const b2Vec2 now = SwingAt(memory_.step, to);
-  const b2Vec2 then = SwingAt(memory_.step + kAhead, to);
-  Reach(s, side, now, 1 / kAhead * (then - now), to.slope, kSwingStiffness);
-}
-
-void CharacterControl::StepOn(const CharacterSense& s, float h) {
-  const CharacterShape& shape = limbs_.shape();
-  memory_.step += h;
-  const float most = drive_ > 0 ? kRunSpeedMax : kSpeedBack;
-  const float proposed = most * std::sqrt(limbs_.scale()) * drive_;
-  memory_.speed += std::clamp(proposed - memory_.speed, -kSpeedRate * h, kSpeedRate * h);
-  const float whole = StepTime();
-  const int swing = 1 - memory_.stance;
-  if (s.legs[swing].down && memory_.step > 0.5f * whole) {
-    BeginStep(s, swing);
-    const LegSense& leg = s.legs[swing];
-    const float relative = s.velocity.x - leg.ground_velocity.x;
-    const float capture = s.centre.x + relative / Omega(s, leg.ankle.y - shape.ankle);
-    const float low = std::min(leg.ankle.x, s.legs[1 - swing].ankle.x) - shape.heel;
-    const float high = std::max(leg.ankle.x, s.legs[1 - swing].ankle.x) + shape.toe;
-    const float in = 0.04f * limbs_.scale();
-    if (std::abs(drive_) < 0.1f && std::abs(relative) < 0.6f && capture > low + in &&
-        capture < high - in && s.legs[1 - swing].down) {
-      Enter(CharacterMode::kStand);
-      Stand(s);
-      return;
-    }
-  }
-  const LegSense& stance = s.legs[memory_.stance];
-  const float ground_y = stance.ankle.y - shape.ankle;
-  const float relative = s.velocity.x - stance.ground_velocity.x;
-  const float middle = stance.ankle.x + (shape.toe - shape.heel) / 2;
-  const float pressure = middle + 0.15f * (relative - memory_.speed);
-  const int swing_side = 1 - memory_.stance;
-  const Foothold next = NextFoothold(s, middle);
-  Swing(s, swing_side, next);
-  // The height that the hip keeps is above the line from foot to foot.
-  const b2Vec2 way = next.ankle - stance.ankle;
-  const bool apart = std::abs(way.x) > 0.15f * shape.hip;
-  const float rise = apart ? std::clamp(way.y / way.x, -kSlopeMax, kSlopeMax) : 0;
-  const float along = apart ? std::clamp((s.hip.x - stance.ankle.x) / way.x, 0.0f, 1.0f) : 0;
-  const float floor_y = ground_y + along * rise * way.x;
-  const float floor_vy = stance.ground_velocity.y + rise * memory_.speed;
-  const float lean = -kLean * std::abs(memory_.speed);
-  const float torso = TorsoTorque(s, lean) + limbs_.told(Hip(swing_side));
-  Bear(s, memory_.stance, pressure,
-       Lift(s, floor_y, (kStepHeight - kCrouch * std::abs(memory_.speed)) * shape.hip, floor_vy),
-       torso);
-  Arms(-0.8f * s.legs[0].thigh, -0.8f * s.legs[1].thigh, 0.7f);
 }
 
 }  // namespace seam

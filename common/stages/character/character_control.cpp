@@ -10,8 +10,9 @@
 namespace seam {
 
 void CharacterMemory::Save(std::vector<float>* memory) const {
-  memory->insert(memory->end(), {static_cast<float>(mode), time, static_cast<float>(stance), step,
-                                 from.x, from.y, speed, static_cast<float>(phase), phase_time});
+  memory->insert(memory->end(),
+                 {static_cast<float>(mode), time, static_cast<float>(stance), step, from.x, from.y,
+                  to, edge.x, edge.y, speed, static_cast<float>(phase), phase_time});
 }
 
 std::size_t CharacterMemory::Load(const float* memory) {
@@ -20,14 +21,19 @@ std::size_t CharacterMemory::Load(const float* memory) {
   stance = static_cast<int>(memory[2]);
   step = memory[3];
   from.Set(memory[4], memory[5]);
-  speed = memory[6];
-  phase = static_cast<int>(memory[7]);
-  phase_time = memory[8];
-  return 9;
+  to = memory[6];
+  edge.Set(memory[7], memory[8]);
+  speed = memory[9];
+  phase = static_cast<int>(memory[10]);
+  phase_time = memory[11];
+  return 12;
 }
 
 CharacterControl::CharacterControl(const Character& character, const StageWorld& world)
-    : character_(character), world_(world), limbs_(character, world) {
+    : character_(character),
+      world_(world),
+      gains_(character.gains ? *character.gains : CharacterGains{}),
+      limbs_(character, world) {
   gravity_ = std::max(1.0f, -world.scene.gravity.y());
 }
 
@@ -71,10 +77,11 @@ void CharacterControl::Choose(const CharacterSense& s, float h) {
   if (!world_.scene.waters.empty()) {
     const float depth = ChestDepth(s) / limbs_.scale();
     const bool swims = memory_.mode == CharacterMode::kSwim;
-    if (!swims && depth > kSwimFrom) Enter(CharacterMode::kSwim);
-    const bool stands = depth < kSwimTo && (s.legs[0].down || s.legs[1].down || s.lying);
+    if (!swims && depth > gains_.swim_from) Enter(CharacterMode::kSwim);
+    const bool stands = depth < gains_.swim_to && (s.legs[0].down || s.legs[1].down || s.lying);
     if (swims && stands)
-      Enter(std::abs(s.torso) < 0.5f * kTiltMax ? CharacterMode::kStand : CharacterMode::kFall);
+      Enter(std::abs(s.torso) < 0.5f * gains_.tilt_max ? CharacterMode::kStand
+                                                       : CharacterMode::kFall);
     if (memory_.mode == CharacterMode::kSwim) return;
   }
   const bool upright_mode =
@@ -83,8 +90,8 @@ void CharacterControl::Choose(const CharacterSense& s, float h) {
   if (!upright_mode) return;
   const float low = std::min(s.legs[0].ankle.y, s.legs[1].ankle.y) - limbs_.shape().ankle;
   const bool sunk =
-      s.hip.y - low < kSunk * limbs_.shape().hip && memory_.mode != CharacterMode::kAir;
-  if (std::abs(s.torso) > kTiltMax || sunk) {
+      s.hip.y - low < gains_.sunk * limbs_.shape().hip && memory_.mode != CharacterMode::kAir;
+  if (std::abs(s.torso) > gains_.tilt_max || sunk) {
     Enter(CharacterMode::kFall);
     return;
   }
@@ -92,14 +99,15 @@ void CharacterControl::Choose(const CharacterSense& s, float h) {
   if (!walks) return;
   const bool down = s.legs[0].down || s.legs[1].down;
   memory_.phase_time = down ? 0 : memory_.phase_time + h;
-  if (memory_.phase_time > kLostGround) {
+  if (memory_.phase_time > gains_.lost_ground) {
     Enter(CharacterMode::kAir);
-  } else if (lift_ > 0.5f && down && memory_.time > kJumpRest) {
+  } else if (lift_ > 0.5f && down && memory_.time > gains_.jump_rest) {
     const bool running = memory_.mode == CharacterMode::kStep;
     // Only with the foot below, or there is nothing to push on that does not turn the body.
     const LegSense& stance = s.legs[memory_.stance];
     const float over = s.centre.x - stance.ankle.x;
-    const bool below = over > -kJumpBehind * limbs_.scale() && over < kJumpBefore * limbs_.scale();
+    const bool below =
+        over > -gains_.jump_behind * limbs_.scale() && over < gains_.jump_before * limbs_.scale();
     if (running && (!below || !stance.down)) return;
     Enter(CharacterMode::kJump);
     memory_.phase = running ? 2 : 0;  // who runs has no time to crouch

@@ -22,16 +22,21 @@ namespace seam {
 
 enum class CharacterMode { kStand, kStep, kJump, kAir, kFall, kRise, kSwim, kLimp };
 
+/// m; x of an edge that is not there.
+constexpr float kNoEdge = 1e6f;
+
 /// All that a controller remembers; numbers only, so that a world can save it.
 struct CharacterMemory {
   CharacterMode mode = CharacterMode::kStand;
-  float time = 0;        ///< s in this mode
-  int stance = 0;        ///< kStep: the side that bears
-  float step = 0;        ///< s; kStep: since the swinging foot left the ground
-  b2Vec2 from{0, 0};     ///< m; kStep: where it left, own frame
-  float speed = 0;       ///< m/s that is wished for now
-  int phase = 0;         ///< kRise: of the way up
-  float phase_time = 0;  ///< s in it
+  float time = 0;           ///< s in this mode
+  int stance = 0;           ///< kStep: the side that bears
+  float step = 0;           ///< s; kStep: since the swinging foot left the ground
+  b2Vec2 from{0, 0};        ///< m; kStep: where it left, own frame
+  float to = 0;             ///< m; kStep: where its ankle is to stand, own frame
+  b2Vec2 edge{kNoEdge, 0};  ///< m; kStep: of the first stair before it
+  float speed = 0;          ///< m/s that is wished for now
+  int phase = 0;            ///< kRise: of the way up
+  float phase_time = 0;     ///< s in it
 
   void Save(std::vector<float>* memory) const;
   std::size_t Load(const float* memory);
@@ -56,16 +61,6 @@ class CharacterControl {
 
   // character_balance.cpp
   void Stand(const CharacterSense& s);
-  void StepOn(const CharacterSense& s, float h);
-  void BeginStep(const CharacterSense& s, int stance);
-  /// Where the swinging foot is to stand: its ankle, and the ground's slope there, rad.
-  struct Foothold {
-    b2Vec2 ankle{0, 0};
-    float slope = 0;
-  };
-  Foothold NextFoothold(const CharacterSense& s, float support_x) const;
-  b2Vec2 SwingAt(float time, const Foothold& to) const;
-  void Swing(const CharacterSense& s, int side, const Foothold& to);
   void Bear(const CharacterSense& s, int side, float pressure_x, float lift, float torso_torque);
   void Push(const CharacterSense& s, int side, b2Vec2 pressure, float lift, float forward);
   b2Vec2 Sole(const CharacterSense& s, int side, float x) const;
@@ -75,10 +70,36 @@ class CharacterControl {
   LegPose PoseFor(b2Vec2 way) const;
   void Reach(const CharacterSense& s, int side, b2Vec2 ankle, b2Vec2 velocity, float foot,
              float stiffness);
-  float StepTime() const;
   float TorsoTorque(const CharacterSense& s, float lean) const;
-  float Lift(const CharacterSense& s, float ground_y, float hip_height, float ground_vy) const;
+  float Lift(const CharacterSense& s, float ground_y, float hip_height, float ground_vy,
+             float stiffness, float damping) const;
+  float Lift(const CharacterSense& s, float ground_y, float hip_height, float ground_vy) const {
+    return Lift(s, ground_y, hip_height, ground_vy, gains_.height_stiffness, gains_.height_damping);
+  }
   void Arms(float left, float right, float elbow);
+
+  // character_step.cpp
+  void StepOn(const CharacterSense& s, float h);
+  float StepTime() const;
+  void BeginStep(const CharacterSense& s, int stance);
+  /// Where the swinging foot is to stand: its ankle, and the ground's slope there, rad.
+  struct Foothold {
+    b2Vec2 ankle{0, 0};
+    float slope = 0;
+  };
+  /// Of the ground that the step goes over.
+  struct StairGait {
+    float speed, time, height, ahead, lean;
+  };
+  StairGait Stairs() const;
+  float Ahead(float omega) const;
+  b2Vec2 EdgeAhead(const CharacterSense& s, float from_x) const;
+  float WishedFoothold(const CharacterSense& s, float support_x) const;
+  bool FlatAt(const CharacterSense& s, float x, float rim, Foothold* foothold) const;
+  Foothold NextFoothold(const CharacterSense& s, float support_x) const;
+  float StepRate(const CharacterSense& s, float support_x, float foothold_x) const;
+  b2Vec2 SwingAt(float time, const Foothold& to) const;
+  void Swing(const CharacterSense& s, int side, const Foothold& to);
 
   // character_air.cpp
   void Jump(const CharacterSense& s);
@@ -87,6 +108,8 @@ class CharacterControl {
   // character_rise.cpp
   void Fall(const CharacterSense& s);
   void Rise(const CharacterSense& s, float h);
+  float SlopeBelow(const CharacterSense& s) const;
+  LegPose Gathered(const CharacterSense& s, float place, float lead, float slope) const;
   void Up(const CharacterSense& s);
 
   // character_swim.cpp
@@ -97,11 +120,14 @@ class CharacterControl {
   float unit() const { return unit_; }
   float Omega(const CharacterSense& s, float ground_y) const;
   /// A servo of so many units per rad; `rate` 1/s is its stiffness over its damping.
-  void Pose(CharacterJoint joint, float angle, float strength, float spin = 0,
-            float rate = kServoRate);
+  void Pose(CharacterJoint joint, float angle, float strength, float spin, float rate);
+  void Pose(CharacterJoint joint, float angle, float strength, float spin = 0) {
+    Pose(joint, angle, strength, spin, gains_.servo_rate);
+  }
 
   const Character character_;
   const StageWorld world_;
+  const CharacterGains gains_;
   CharacterLimbs limbs_;
   CharacterMemory memory_;
   float drive_ = 0, lift_ = 0;  // -1..1, drive forward

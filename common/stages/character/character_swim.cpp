@@ -23,8 +23,8 @@ float CharacterControl::ChestDepth(const CharacterSense& s) const {
 
 void CharacterControl::Swim(const CharacterSense& s, float h) {
   memory_.phase_time += h;
-  const float turns = kStrokeHz * memory_.phase_time;
-  const float lean = -kSwimLean * std::max(drive_, 0.0f) - 0.2f * std::max(-drive_, 0.0f);
+  const float turns = gains_.stroke_hz * memory_.phase_time;
+  const float lean = -gains_.swim_lean * std::max(drive_, 0.0f) - 0.2f * std::max(-drive_, 0.0f);
   const bool backward = drive_ < -0.1f;
   for (int side = 0; side < 2; ++side) {
     float phase = turns + 0.5f * static_cast<float>(side);
@@ -32,19 +32,19 @@ void CharacterControl::Swim(const CharacterSense& s, float h) {
     // From overhead to the hip and back; straight on the way that is to push.
     const bool down = phase < 0.5f;
     const float part = down ? 2 * phase : 2 - 2 * phase;
-    const float shoulder = kStrokeFrom + part * (kStrokeTo - kStrokeFrom);
+    const float shoulder = gains_.stroke_from + part * (gains_.stroke_to - gains_.stroke_from);
     const bool push = down != backward;
-    Pose(Shoulder(side), shoulder, kStrokeStiffness);
-    Pose(Elbow(side), push ? 0.1f : kFolded, kStrokeStiffness);
-    const float beat = kKicks * turns + 0.5f * static_cast<float>(side);
-    const float kick = kKick * std::sin(2 * b2_pi * (beat - std::floor(beat)));
-    const float steer = std::clamp(kSwimSteer * (s.torso - lean), -0.6f, 0.9f);
-    Pose(Hip(side), 0.1f + kick + steer, kStrokeStiffness);
-    Pose(Knee(side), -0.25f, 0.3f * kStrokeStiffness);
-    Pose(Ankle(side), -0.7f, 0.3f * kStrokeStiffness);
+    Pose(Shoulder(side), shoulder, gains_.stroke_stiffness);
+    Pose(Elbow(side), push ? 0.1f : gains_.folded, gains_.stroke_stiffness);
+    const float beat = gains_.kicks * turns + 0.5f * static_cast<float>(side);
+    const float kick = gains_.kick * std::sin(2 * b2_pi * (beat - std::floor(beat)));
+    const float steer = std::clamp(gains_.swim_steer * (s.torso - lean), -0.6f, 0.9f);
+    Pose(Hip(side), 0.1f + kick + steer, gains_.stroke_stiffness);
+    Pose(Knee(side), -0.25f, 0.3f * gains_.stroke_stiffness);
+    Pose(Ankle(side), -0.7f, 0.3f * gains_.stroke_stiffness);
   }
   // The face out of the water.
-  Pose(kNeck, std::clamp(-s.torso, -0.5f, 0.5f), kNeckStiffness);
+  Pose(kNeck, std::clamp(-s.torso, -0.5f, 0.5f), gains_.neck_stiffness);
 }
 
 }  // namespace seam
