@@ -174,7 +174,7 @@ Pose FrameBehind(const Pose& at, const Pose& place) {
 
 DrawnRevision RevisionOf(const Scene& scene, const Composition& composition) {
   return {ShapesOf(scene, composition, false), ShapesOf(scene, composition, true),
-          JointsOf(scene, composition)};
+          JointsOf(scene, composition), nullptr};
 }
 
 namespace {

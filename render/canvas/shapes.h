@@ -2,10 +2,12 @@
 /// A scene's parts as outlines that can be drawn, relative to the body they belong to.
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "common/scene/assembly.h"
 #include "common/scene/scene.h"
+#include "common/topology/feather_store.h"
 
 namespace seam {
 
@@ -74,6 +76,7 @@ struct DrawnJoint {
 struct DrawnRevision {
   std::vector<BodyShapes> moving, anchored;
   std::vector<DrawnJoint> joints;
+  std::shared_ptr<const FeatherStore> bricks;  ///< those that are left; nullptr: there are none
 };
 
 std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composition, bool anchored);

@@ -10,6 +10,7 @@
 #include "common/scene/character.h"
 #include "render/canvas/figure.h"
 #include "render/canvas/palette.h"
+#include "render/draw/draw_blasts.h"
 #include "render/draw/draw_body.h"
 #include "render/draw/draw_ghosts.h"
 #include "render/draw/draw_joints.h"
@@ -268,6 +269,7 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
   DrawWaters(list, viewport, playback);
   DrawGround(list, viewport, playback, *revision, look.tick, look.cull);
   DrawTriggers(list, viewport, playback, now, look.tick);
+  DrawCharges(list, viewport, playback, now, look.tick);
   if (look.trails) DrawTrails(list, viewport, playback, *revision, look);
   DrawRods(list, viewport, playback, now, 1);
   const std::vector<Seen> seen = BodiesOnPanel(viewport, playback, *revision, look);
@@ -279,6 +281,7 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
   if (look.ghosts) DrawGhosts(list, viewport, playback, *revision, look);
   if (look.vectors) DrawVectors(list, viewport, playback, *revision, look);
   DrawBreaks(list, viewport, playback, now, look.tick);
+  DrawBlasts(list, viewport, playback, now, look.tick);
   DrawImpacts(list, viewport, playback, look);
   DrawHealth(list, viewport, playback, now, look.tick);
   DrawNames(list, viewport, playback, seen, look.names);
