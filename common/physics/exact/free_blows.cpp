@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
 #include "common/physics/exact/engine_members.h"
@@ -46,7 +47,9 @@ FreeBlows::FreeBlows(const BuiltScene& built, std::vector<char> jointed)
     : jointed_(std::move(jointed)), place_(jointed_.size(), -1) {
   bool free = false;
   for (const char held : jointed_) free = free || held == 0;
-  for (const b2Body* body : built.bodies) needed_ = needed_ || (free && GivesAll(body));
+  // Anchored assemblies share bodies: each is looked at once.
+  const std::set<const b2Body*> all(built.bodies.begin(), built.bodies.end());
+  for (const b2Body* body : all) needed_ = needed_ || (free && GivesAll(body));
   for (const MovingBody& m : built.moving) needed_ = needed_ || (free && GivesAll(m.body));
 }
 
