@@ -2,7 +2,7 @@
 
 #include "common/measure/table.h"
 #include "render/export/formats.h"
-#include "render/export/json_text.h"
+#include "common/base/json_text.h"
 
 namespace seam {
 

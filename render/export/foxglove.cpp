@@ -5,7 +5,7 @@
 #include "common/base/geometry.h"
 #include "common/measure/mean_square.h"
 #include "render/canvas/shapes.h"
-#include "render/export/json_text.h"
+#include "common/base/json_text.h"
 
 namespace seam {
 namespace {

@@ -4,7 +4,7 @@
 
 #include "common/topology/edit.h"
 #include "render/export/formats.h"
-#include "render/export/json_text.h"
+#include "common/base/json_text.h"
 
 namespace seam {
 namespace {

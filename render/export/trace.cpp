@@ -6,7 +6,7 @@
 #include "common/measure/mean_square.h"
 #include "common/measure/parts.h"
 #include "render/export/formats.h"
-#include "render/export/json_text.h"
+#include "common/base/json_text.h"
 #include "render/export/trace_messages.h"
 #include "render/export/trace_writer.h"
 

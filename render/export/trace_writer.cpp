@@ -2,7 +2,7 @@
 
 #include <cstdio>
 
-#include "render/export/json_text.h"
+#include "common/base/json_text.h"
 
 namespace seam {
 namespace {

@@ -10,7 +10,7 @@
 #include "render/page/assets.h"
 #include "render/page/events.h"
 #include "render/page/gzip.h"
-#include "render/page/json.h"
+#include "common/base/json_text.h"
 #include "render/page/series.h"
 #include "render/page/tracks.h"
 #include "render/page/worlds.h"

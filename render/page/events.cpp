@@ -7,7 +7,7 @@
 
 #include "common/measure/handover_list.h"
 #include "common/sync/edits/edit_order.h"
-#include "render/page/json.h"
+#include "common/base/json_text.h"
 #include "render/playback/format.h"
 #include "render/playback/marks.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "common/measure/screen/path.h"
-#include "render/page/json.h"
+#include "common/base/json_text.h"
 
 namespace seam {
 namespace {

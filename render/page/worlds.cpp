@@ -4,7 +4,7 @@
 
 #include "common/scene/water.h"
 #include "render/draw/draw_bricks.h"
-#include "render/page/json.h"
+#include "common/base/json_text.h"
 
 namespace seam {
 namespace {
@@ -117,7 +117,8 @@ std::string PageWorlds::Json() const {
 
 PageBytes EncodeBricks(const Playback& playback) {
   std::vector<std::int64_t> columns[4];
-  const FeatherStore* store = playback.bricks();
+  const auto first = playback.RevisionAfter(0);  // holes that were blown later are not in the page
+  const FeatherStore* store = first->bricks.get();
   for (int cell = 0; store != nullptr && cell < store->cell_count(); ++cell) {
     for (const BrickBlock& b : BlocksOf(*store, cell)) {
       const BrickKind& kind = store->kinds()[static_cast<std::size_t>(b.kind)];

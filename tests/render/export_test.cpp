@@ -11,7 +11,7 @@
 #include "common/measure/table.h"
 #include "common/record/log_file.h"
 #include "render/export/formats.h"
-#include "render/export/json_text.h"
+#include "common/base/json_text.h"
 #include "tests/support/lab_workspace.h"
 #include "tests/support/program.h"
 #include "tests/support/source_tree.h"

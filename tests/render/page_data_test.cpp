@@ -11,7 +11,7 @@
 #include "render/commands.h"
 #include "render/page/document.h"
 #include "render/page/gzip.h"
-#include "render/page/json.h"
+#include "common/base/json_text.h"
 #include "render/page/tracks.h"
 #include "tests/render/page_reader.h"
 #include "tests/support/render_fixture.h"

@@ -13,7 +13,7 @@
 #include <filesystem>
 #include <sstream>
 
-#include "render/page/json.h"
+#include "common/base/json_text.h"
 
 namespace seam {
 namespace {

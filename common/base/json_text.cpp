@@ -1,4 +1,4 @@
-#include "render/page/json.h"
+#include "common/base/json_text.h"
 
 #include <fmt/format.h>
 
@@ -62,6 +62,14 @@ std::string JsonNumber(double value, int digits) {
     if (text.back() == '.') text.pop_back();
   }
   return text == "-0" ? "0" : text;
+}
+
+std::string JsonNumber(double value) {
+  return std::isfinite(value) ? fmt::format("{:.9g}", value) : "null";
+}
+
+std::string JsonNumber(const std::optional<double>& value) {
+  return value ? JsonNumber(*value) : "null";
 }
 
 std::int64_t Thousandths(double value) {

@@ -1,7 +1,8 @@
 #pragma once
-/// The few words of JSON that a page's head is written in.
+/// Values as JSON (RFC 8259): what any name in a log cannot break.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,10 @@ namespace seam {
 std::string JsonText(const std::string& text);
 /// A number with at most `digits` after the point and no zeros at its end; null unless finite.
 std::string JsonNumber(double value, int digits);
+/// Nine digits, which give a float back bit for bit; null for what is not finite.
+std::string JsonNumber(double value);
+/// null for nothing.
+std::string JsonNumber(const std::optional<double>& value);
 /// Whole millimetres (or milliradians) of metres (radians).
 std::int64_t Thousandths(double value);
 /// "[a,b,c]" of what is JSON already.
