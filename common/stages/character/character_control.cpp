@@ -10,8 +10,9 @@
 namespace seam {
 
 void CharacterMemory::Save(std::vector<float>* memory) const {
-  memory->insert(memory->end(), {static_cast<float>(mode), time, static_cast<float>(stance), step,
-                                 from.x, from.y, speed, static_cast<float>(phase), phase_time});
+  memory->insert(memory->end(),
+                 {static_cast<float>(mode), time, static_cast<float>(stance), step, from.x, from.y,
+                  speed, static_cast<float>(phase), phase_time, hold[0], hold[1]});
 }
 
 std::size_t CharacterMemory::Load(const float* memory) {
@@ -23,14 +24,17 @@ std::size_t CharacterMemory::Load(const float* memory) {
   speed = memory[6];
   phase = static_cast<int>(memory[7]);
   phase_time = memory[8];
-  return 9;
+  hold[0] = memory[9];
+  hold[1] = memory[10];
+  return 11;
 }
 
 CharacterControl::CharacterControl(const Character& character, const StageWorld& world)
     : character_(character),
       world_(world),
       gains_(character.gains ? *character.gains : CharacterGains{}),
-      limbs_(character, world) {
+      limbs_(character, world),
+      hands_(character, world) {
   gravity_ = std::max(1.0f, -world.scene.gravity.y());
 }
 
@@ -65,6 +69,7 @@ void CharacterControl::Act(float h) {
     case CharacterMode::kFall: Fall(s); break;
     case CharacterMode::kRise: Rise(s, h); break;
     case CharacterMode::kSwim: Swim(s, h); break;
+    case CharacterMode::kClimb: Climb(s, h); break;
     case CharacterMode::kLimp: limbs_.SlackenAll(); break;
   }
 }
@@ -73,13 +78,16 @@ void CharacterControl::Act(float h) {
 void CharacterControl::Choose(const CharacterSense& s, float h) {
   if (!world_.scene.waters.empty()) {
     const float depth = ChestDepth(s) / limbs_.scale();
+    if (memory_.mode == CharacterMode::kClimb) return;
     const bool swims = memory_.mode == CharacterMode::kSwim;
     if (!swims && depth > gains_.swim_from) Enter(CharacterMode::kSwim);
     const bool stands = depth < gains_.swim_to && (s.legs[0].down || s.legs[1].down || s.lying);
     if (swims && stands)
       Enter(std::abs(s.torso) < 0.5f * gains_.tilt_max ? CharacterMode::kStand
                                                        : CharacterMode::kFall);
-    if (memory_.mode == CharacterMode::kSwim) return;
+    const bool on = memory_.mode == CharacterMode::kSwim && character_.grip && drive_ > 0.3f;
+    if (on && memory_.time > 0.5f && LedgeAhead(s).found) Enter(CharacterMode::kClimb);
+    if (memory_.mode == CharacterMode::kSwim || memory_.mode == CharacterMode::kClimb) return;
   }
   const bool upright_mode =
       memory_.mode == CharacterMode::kStand || memory_.mode == CharacterMode::kStep ||

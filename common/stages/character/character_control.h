@@ -5,7 +5,8 @@
 ///   stand --drive, or pushed too far--> step --slow enough--> stand
 ///   stand, step --lift--> jump --> air --feet touch--> step or stand
 ///   anything --tilted, sunk down--> fall --it lies--> rise --up--> stand
-///   anything --in water--> swim          a leg or the torso gone--> limp
+///   anything --in water--> swim --a ledge in reach--> climb --over it--> fall
+///   a leg or the torso gone--> limp
 ///
 /// The balance is the linear inverted pendulum's: its divergent part, the point x + v / w0 with
 /// w0 = sqrt(g / h), must be over or be caught by a foot (Pratt and others, "Capture Point: A Step
@@ -16,11 +17,12 @@
 
 #include "common/scene/character.h"
 #include "common/stages/character/character_gains.h"
+#include "common/stages/character/character_hands.h"
 #include "common/stages/character/character_limbs.h"
 
 namespace seam {
 
-enum class CharacterMode { kStand, kStep, kJump, kAir, kFall, kRise, kSwim, kLimp };
+enum class CharacterMode { kStand, kStep, kJump, kAir, kFall, kRise, kSwim, kLimp, kClimb };
 
 /// All that a controller remembers; numbers only, so that a world can save it.
 struct CharacterMemory {
@@ -31,7 +33,8 @@ struct CharacterMemory {
   b2Vec2 from{0, 0};     ///< m; kStep: where it left, own frame
   float speed = 0;       ///< m/s that is wished for now
   int phase = 0;         ///< kRise: of the way up
-  float phase_time = 0;  ///< s in it
+  float phase_time = 0;  ///< s in it; kSwim: turns of the arms
+  float hold[2] = {};    ///< 1: the hand is to hold what it touches; -x: for x s it cannot
 
   void Save(std::vector<float>* memory) const;
   std::size_t Load(const float* memory);
@@ -41,11 +44,21 @@ class CharacterControl {
  public:
   CharacterControl(const Character& character, const StageWorld& world);
 
-  void Find(b2World* world) { limbs_.Find(world); }
-  void Forget() { limbs_.Forget(); }
+  void Find(b2World* world) {
+    limbs_.Find(world);
+    hands_.Find();
+  }
+  void Forget() {
+    limbs_.Forget();
+    hands_.Forget();
+  }
   void SetInput(const Input& input);
   /// Before the engine's step of `h` s.
   void Act(float h);
+  /// After a tick: grips that are to be made or given up.
+  void ProposeGrips(std::vector<Edit>* edits) const { hands_.Propose(memory_.hold, edits); }
+  /// Before a tick of `h` s.
+  void RestHands(float h);
 
   const CharacterMemory& memory() const { return memory_; }
   CharacterMemory* mutable_memory() { return &memory_; }
@@ -93,6 +106,16 @@ class CharacterControl {
   float ChestDepth(const CharacterSense& s) const;
   void Swim(const CharacterSense& s, float h);
 
+  // character_climb.cpp
+  struct Ledge {
+    bool found = false;
+    b2Vec2 edge{0, 0};  // m
+  };
+  Ledge LedgeAhead(const CharacterSense& s) const;
+  void Climb(const CharacterSense& s, float h);
+  void ReachWith(const CharacterSense& s, int side, b2Vec2 way);
+  void LetGo();
+
   /// N m: weight x height, by which all gains are in proportion.
   float unit() const { return unit_; }
   float Omega(const CharacterSense& s, float ground_y) const;
@@ -106,6 +129,7 @@ class CharacterControl {
   const StageWorld world_;
   const CharacterGains gains_;
   CharacterLimbs limbs_;
+  CharacterHands hands_;
   CharacterMemory memory_;
   float drive_ = 0, lift_ = 0;  // -1..1, drive forward
   float gravity_ = 10;          // m/s^2, downwards

@@ -9,7 +9,8 @@ namespace {
 
 class CharacterStage : public Stage {
  public:
-  explicit CharacterStage(const StageWorld& world) {
+  explicit CharacterStage(const StageWorld& world)
+      : tick_s_(1.0f / static_cast<float>(world.scene.solver.tick_hz)) {
     for (const Character& character : world.scene.characters) {
       if (!character.active) continue;
       players_.push_back(character.player);
@@ -22,6 +23,12 @@ class CharacterStage : public Stage {
   }
   void Emptied() override {
     for (CharacterControl& control : controls_) control.Forget();
+  }
+  void BeforeTick() override {
+    for (CharacterControl& control : controls_) control.RestHands(tick_s_);
+  }
+  void ProposeEdits(std::vector<Edit>* edits) override {
+    for (const CharacterControl& control : controls_) control.ProposeGrips(edits);
   }
   void BeforeStep(float h) override {
     for (CharacterControl& control : controls_) control.Act(h);
@@ -44,6 +51,7 @@ class CharacterStage : public Stage {
   }
 
  private:
+  const float tick_s_;
   std::vector<int> players_;
   std::vector<CharacterControl> controls_;
 };

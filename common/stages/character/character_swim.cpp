@@ -1,5 +1,6 @@
-/// CharacterControl: swimming, a crawl of the arms and a flutter of the legs. What moves the body
-/// is the water's drag on straight arms that sweep and folded ones that come back, nothing else.
+/// CharacterControl: swimming. What moves the body is the water's drag, nothing else: arms that
+/// turn, and a sine in each joint of arms and legs, as in Tan, Gu, Turk and Liu, "Articulated
+/// Swimming Creatures", 2011. The legs' skew keeps the torso's lean.
 
 #include <algorithm>
 #include <cmath>
@@ -8,6 +9,12 @@
 #include "common/stages/character/character_control.h"
 
 namespace seam {
+namespace {
+
+/// Of a sine, `phase` in turns.
+float Sine(float phase) { return std::sin(2 * b2_pi * (phase - std::floor(phase))); }
+
+}  // namespace
 
 /// m of the chest below the level of the water it is in; negative above it or without water.
 float CharacterControl::ChestDepth(const CharacterSense& s) const {
@@ -22,29 +29,38 @@ float CharacterControl::ChestDepth(const CharacterSense& s) const {
 }
 
 void CharacterControl::Swim(const CharacterSense& s, float h) {
-  memory_.phase_time += h;
-  const float turns = gains_.stroke_hz * memory_.phase_time;
-  const float lean = -gains_.swim_lean * std::max(drive_, 0.0f) - 0.2f * std::max(-drive_, 0.0f);
-  const bool backward = drive_ < -0.1f;
+  const CharacterGains& g = gains_;
+  const float share = std::min(std::abs(drive_), 1.0f);
+  const bool rests = share < 0.05f, back = drive_ < 0;
+  // Drag goes by the square of the speed: the same stroke in reverse pushes the other way.
+  const float hz = rests ? g.tread_hz : g.swim_slow_hz + share * (g.swim_hz - g.swim_slow_hz);
+  memory_.phase_time += (back && !rests ? -hz : hz) * h;
+  memory_.phase_time -= std::floor(memory_.phase_time);
+  const float phase = memory_.phase_time;
+  const float size = rests ? g.tread_size : g.swim_slow_size + share * (1 - g.swim_slow_size);
+  const float lean =
+      rests ? g.tread_lean : (back ? g.swim_lean_back : g.swim_lean + share * g.swim_lean_more);
+  const float skew = g.swim_skew * (s.torso + lean) + g.swim_skew_rate * s.torso_spin +
+                     (back && !rests ? g.swim_skew_back : 0);
   for (int side = 0; side < 2; ++side) {
-    float phase = turns + 0.5f * static_cast<float>(side);
-    phase -= std::floor(phase);
-    // From overhead to the hip and back; straight on the way that is to push.
-    const bool down = phase < 0.5f;
-    const float part = down ? 2 * phase : 2 - 2 * phase;
-    const float shoulder = gains_.stroke_from + part * (gains_.stroke_to - gains_.stroke_from);
-    const bool push = down != backward;
-    Pose(Shoulder(side), shoulder, gains_.stroke_stiffness);
-    Pose(Elbow(side), push ? 0.1f : gains_.folded, gains_.stroke_stiffness);
-    const float beat = gains_.kicks * turns + 0.5f * static_cast<float>(side);
-    const float kick = gains_.kick * std::sin(2 * b2_pi * (beat - std::floor(beat)));
-    const float steer = std::clamp(gains_.swim_steer * (s.torso - lean), -0.6f, 0.9f);
-    Pose(Hip(side), 0.1f + kick + steer, gains_.stroke_stiffness);
-    Pose(Knee(side), -0.25f, 0.3f * gains_.stroke_stiffness);
-    Pose(Ankle(side), -0.7f, 0.3f * gains_.stroke_stiffness);
+    const float arm = phase + 0.5f * static_cast<float>(side);
+    const float leg = std::round(g.swim_kicks) * phase + 0.5f * static_cast<float>(side);
+    if (rests) {
+      Pose(Shoulder(side), side == 0 ? g.tread_arms : -g.tread_arms, g.swim_shoulder);
+      Pose(Elbow(side), 0.1f, g.swim_elbow);
+    } else {
+      // From overhead down before the body.
+      const float turned = -2 * b2_pi * arm + g.shoulder_sine * Sine(arm + g.shoulder_phase);
+      Pose(Shoulder(side), turned, g.swim_shoulder, (back ? 2 : -2) * b2_pi * hz);
+      Pose(Elbow(side), g.elbow_middle + g.elbow_sine * Sine(arm + g.elbow_phase), g.swim_elbow);
+    }
+    Pose(Hip(side), g.hip_middle + skew + size * g.hip_sine * Sine(leg), g.swim_hip);
+    Pose(Knee(side), g.knee_middle + size * g.knee_sine * Sine(leg + g.knee_phase), g.swim_knee);
+    Pose(Ankle(side), g.ankle_middle + size * g.ankle_sine * Sine(leg + g.ankle_phase),
+         g.swim_ankle);
   }
   // The face out of the water.
-  Pose(kNeck, std::clamp(-s.torso, -0.5f, 0.5f), gains_.neck_stiffness);
+  Pose(kNeck, std::clamp(-s.torso, -0.5f, 0.5f), g.neck_stiffness);
 }
 
 }  // namespace seam

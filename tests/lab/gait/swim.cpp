@@ -13,7 +13,7 @@ namespace {
 
 constexpr float kDrives[] = {1.0f, 0.6f, 0.3f, 0, -1.0f};
 /// m/s that a drive is to give, and the least that is good.
-constexpr float kWished[] = {0.75f, 0.5f, 0.3f, 0, -0.4f};
+constexpr float kWished[] = {0.8f, 0.5f, 0.3f, 0, -0.4f};
 constexpr float kLeast[] = {0.6f, 0.3f, 0.12f, 0, -0.3f};
 /// Share of the time with the head's middle above the water.
 constexpr double kHeadUp = 0.95;
@@ -38,7 +38,7 @@ GaitTrial TrySwim(const GaitSetup& setup, const CharacterGains& gains, int start
   run.RunTo(begin, 0);
   run.RunTo(begin + 3, drive);  // it comes up and gets going
   const float from = run.Look().centre.x();
-  constexpr double kMeasured = 10;  // s
+  constexpr double kMeasured = 8;  // s
   int up = 0, ticks = 0;
   double under = 0;
   while (run.time() < begin + 3 + kMeasured) {
@@ -57,7 +57,8 @@ GaitTrial TrySwim(const GaitSetup& setup, const CharacterGains& gains, int start
                                : (drive > 0 ? speed >= kLeast[index] : speed <= kLeast[index]);
   trial.good = fast && head_up >= kHeadUp;
   const double missing = drive < 0 ? speed - kWished[index] : kWished[index] - speed;
-  trial.cost = drive == 0 ? std::abs(speed) : std::max(missing, -0.3 * missing);
+  const double faster = std::abs(drive) == 1 ? 0.02 : 0.3;  // cost of more than is wished for
+  trial.cost = drive == 0 ? std::abs(speed) : 0.2 + std::max(missing, -faster * missing);
   trial.cost += 2 * std::max(0.0, 0.99 - head_up) + 4 * std::min(0.5, under / ticks);
   return trial;
 }
