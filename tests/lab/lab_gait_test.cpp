@@ -138,7 +138,7 @@ TEST_F(LabGait, EachMistakeIsOneLine) {
   const std::string ability = "ability = \"walk\"\n";
   EXPECT_EQ(Mistake(ability + kStarts + kGain), "none");
   EXPECT_EQ(Mistake("ability = \"fly\"\n" + std::string(kStarts) + kGain),
-            "objective.toml:1: objective: no ability 'fly' (there are jump, swim, rise, stairs, "
+            "objective.toml:1: objective: no ability 'fly' (there are jump, swim, float, rise, stairs, "
             "shove, walk, climb)");
   EXPECT_EQ(
       Mistake(ability + kStarts + "[[gain]]\nname = \"step_tim\"\nsigma = 0.1\nmin = 0\nmax = 1\n"),

@@ -10,9 +10,9 @@
 namespace seam {
 
 void CharacterMemory::Save(std::vector<float>* memory) const {
-  memory->insert(memory->end(),
-                 {static_cast<float>(mode), time, static_cast<float>(stance), step, from.x, from.y,
-                  speed, static_cast<float>(phase), phase_time, hold[0], hold[1]});
+  memory->insert(memory->end(), {static_cast<float>(mode), time, static_cast<float>(stance), step,
+                                 from.x, from.y, speed, static_cast<float>(phase), phase_time,
+                                 hold[0], hold[1], load[0], load[1]});
 }
 
 std::size_t CharacterMemory::Load(const float* memory) {
@@ -26,7 +26,9 @@ std::size_t CharacterMemory::Load(const float* memory) {
   phase_time = memory[8];
   hold[0] = memory[9];
   hold[1] = memory[10];
-  return 11;
+  load[0] = memory[11];
+  load[1] = memory[12];
+  return 13;
 }
 
 CharacterControl::CharacterControl(const Character& character, const StageWorld& world)
@@ -80,7 +82,10 @@ void CharacterControl::Choose(const CharacterSense& s, float h) {
     const float depth = ChestDepth(s) / limbs_.scale();
     if (memory_.mode == CharacterMode::kClimb) return;
     const bool swims = memory_.mode == CharacterMode::kSwim;
-    if (!swims && depth > gains_.swim_from) Enter(CharacterMode::kSwim);
+    if (!swims && depth > gains_.swim_from) {
+      Enter(CharacterMode::kSwim);
+      memory_.speed = 0;
+    }
     const bool stands = depth < gains_.swim_to && (s.legs[0].down || s.legs[1].down || s.lying);
     if (swims && stands)
       Enter(std::abs(s.torso) < 0.5f * gains_.tilt_max ? CharacterMode::kStand

@@ -35,6 +35,7 @@ struct CharacterMemory {
   int phase = 0;         ///< kRise: of the way up
   float phase_time = 0;  ///< s in it; kSwim: turns of the arms
   float hold[2] = {};    ///< 1: the hand is to hold what it touches; -x: for x s it cannot
+  float load[2] = {};    ///< N; what each hand bears, the mean of the last moment
 
   void Save(std::vector<float>* memory) const;
   std::size_t Load(const float* memory);
@@ -57,8 +58,8 @@ class CharacterControl {
   void Act(float h);
   /// After a tick: grips that are to be made or given up.
   void ProposeGrips(std::vector<Edit>* edits) const { hands_.Propose(memory_.hold, edits); }
-  /// Before a tick of `h` s.
-  void RestHands(float h);
+  /// After a tick of `h` s.
+  void FeelHands(float h);
 
   const CharacterMemory& memory() const { return memory_; }
   CharacterMemory* mutable_memory() { return &memory_; }
@@ -105,6 +106,8 @@ class CharacterControl {
   // character_swim.cpp
   float ChestDepth(const CharacterSense& s) const;
   void Swim(const CharacterSense& s, float h);
+  void Tread(const CharacterSense& s, float h);
+  void TreadLegs(const CharacterSense& s, float h);
 
   // character_climb.cpp
   struct Ledge {
@@ -114,6 +117,9 @@ class CharacterControl {
   Ledge LedgeAhead(const CharacterSense& s) const;
   void Climb(const CharacterSense& s, float h);
   void ReachWith(const CharacterSense& s, int side, b2Vec2 way);
+  void PullWith(int side, b2Vec2 force);
+  b2Vec2 PullTo(const CharacterSense& s, b2Vec2 tip) const;
+  bool ReachesOn(int side, b2Vec2 tip, b2Vec2 shoulder) const;
   void LetGo();
 
   /// N m: weight x height, by which all gains are in proportion.

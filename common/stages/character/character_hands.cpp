@@ -46,11 +46,15 @@ void CharacterHands::Forget() {
   }
 }
 
-bool CharacterHands::TooMuch(int side) const {
+float CharacterHands::Strength(int side) const {
+  return world_.scene.joints[static_cast<std::size_t>(grip_[side])].strength;
+}
+
+float CharacterHands::Force(int side) const {
   const auto j = static_cast<std::size_t>(grip_[side]);
   const Solver& solver = world_.scene.solver;
   const auto hz = static_cast<float>(solver.tick_hz * solver.substeps);
-  return ForcesOf(world_.built.joints[j], hz).on_b.Length() > world_.scene.joints[j].strength;
+  return ForcesOf(world_.built.joints[j], hz).on_b.Length();
 }
 
 void CharacterHands::Propose(const float hold[2], std::vector<Edit>* edits) const {
@@ -58,7 +62,7 @@ void CharacterHands::Propose(const float hold[2], std::vector<Edit>* edits) cons
     if (!has(side)) continue;
     if (!holds(side)) {
       if (hold[side] > 0) ProposeGrip(side, edits);
-    } else if (hold[side] <= 0 || TooMuch(side)) {
+    } else if (hold[side] <= 0) {
       edits->emplace_back(BreakEdit{grip_[side]});
     }
   }

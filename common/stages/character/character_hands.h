@@ -24,10 +24,11 @@ class CharacterHands {
   b2Vec2 Tip(int side) const { return body_[side]->GetWorldPoint(tip_[side]); }
 
   /// After a tick: a grip of each hand with hold > 0 that touches something; the end of each with
-  /// hold <= 0, and of each that bears more than its strength.
+  /// hold <= 0.
   void Propose(const float hold[2], std::vector<Edit>* edits) const;
-  /// Whether the grip bore more than its strength in the last step. Requires holds(side).
-  bool TooMuch(int side) const;
+  /// N; what the grip bore in the engine's last step, and what it may. Requires holds(side).
+  float Force(int side) const;
+  float Strength(int side) const;
 
  private:
   void ProposeGrip(int side, std::vector<Edit>* edits) const;

@@ -138,13 +138,6 @@ CharacterSense CharacterLimbs::Sense() const {
   return sense;
 }
 
-b2Vec2 CharacterLimbs::Shoulder() const {
-  for (const CharacterJoint joint : {kShoulderLeft, kShoulderRight}) {
-    if (joints_[joint] != nullptr) return Own(joints_[joint]->GetAnchorA());
-  }
-  return Own(bodies_[kTorso]->GetPosition());
-}
-
 float CharacterLimbs::angle(CharacterJoint joint) const {
   return facing_ * joints_[joint]->GetJointAngle();
 }

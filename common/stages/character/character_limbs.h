@@ -77,8 +77,8 @@ class CharacterLimbs {
   }
   /// What the way from one point to another meets first; nothing of the character itself.
   GroundPoint Hit(b2Vec2 from, b2Vec2 to) const;
-  /// Where the arms begin, m, in the own frame. Requires whole().
-  b2Vec2 Shoulder() const;
+  /// Where a joint is, m, in the own frame. Requires has(joint).
+  b2Vec2 At(CharacterJoint joint) const { return Own(joints_[joint]->GetAnchorA()); }
   b2Body* body(CharacterPart part) const { return bodies_[part]; }
   b2Vec2 Own(b2Vec2 world) const { return b2Vec2(facing_ * world.x, world.y); }
 

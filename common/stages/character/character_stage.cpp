@@ -24,8 +24,8 @@ class CharacterStage : public Stage {
   void Emptied() override {
     for (CharacterControl& control : controls_) control.Forget();
   }
-  void BeforeTick() override {
-    for (CharacterControl& control : controls_) control.RestHands(tick_s_);
+  void AfterTick() override {
+    for (CharacterControl& control : controls_) control.FeelHands(tick_s_);
   }
   void ProposeEdits(std::vector<Edit>* edits) override {
     for (const CharacterControl& control : controls_) control.ProposeGrips(edits);

@@ -28,39 +28,63 @@ float CharacterControl::ChestDepth(const CharacterSense& s) const {
   return depth;
 }
 
+/// At rest, upright: the arms lie before and behind at the surface and the legs tread.
+void CharacterControl::Tread(const CharacterSense& s, float h) {
+  const CharacterGains& g = gains_;
+  TreadLegs(s, h);
+  const float arms = g.tread_arms_skew * std::clamp(s.torso + g.tread_lean, -1.0f, 1.0f);
+  for (int side = 0; side < 2; ++side) {
+    Pose(Shoulder(side), (side == 0 ? g.tread_arms : -g.tread_arms) + arms, g.swim_shoulder);
+    Pose(Elbow(side), side == 0 ? g.tread_elbow : 0.05f, g.swim_elbow);
+  }
+}
+
+void CharacterControl::TreadLegs(const CharacterSense& s, float h) {
+  const CharacterGains& g = gains_;
+  memory_.phase_time += g.tread_hz * h;
+  memory_.phase_time -= std::floor(memory_.phase_time);
+  const float error = std::clamp(s.torso + g.tread_lean, -1.0f, 1.0f);
+  const float skew = g.tread_skew * error + g.tread_skew_rate * s.torso_spin;
+  for (int side = 0; side < 2; ++side) {
+    const float leg = memory_.phase_time + 0.5f * static_cast<float>(side);
+    Pose(Hip(side), g.tread_hip + skew + g.tread_sine * Sine(leg), g.swim_hip);
+    Pose(Knee(side), g.tread_knee + g.tread_knee_sine * Sine(leg + g.tread_knee_phase),
+         g.swim_knee);
+    Pose(Ankle(side), g.tread_ankle, g.swim_ankle);
+  }
+}
+
 void CharacterControl::Swim(const CharacterSense& s, float h) {
   const CharacterGains& g = gains_;
-  const float share = std::min(std::abs(drive_), 1.0f);
-  const bool rests = share < 0.05f, back = drive_ < 0;
+  // The drive comes slowly: a sudden stroke turns the body over.
+  memory_.speed += std::clamp(drive_ - memory_.speed, -g.swim_ramp * h, g.swim_ramp * h);
+  const float share = std::min(std::abs(memory_.speed), 1.0f);
+  const bool back = memory_.speed < 0;
+  // The face out of the water.
+  Pose(kNeck, std::clamp(-s.torso, -0.5f, 0.5f), g.neck_stiffness);
+  if (share < 0.05f) return Tread(s, h);
   // Drag goes by the square of the speed: the same stroke in reverse pushes the other way.
-  const float hz = rests ? g.tread_hz : g.swim_slow_hz + share * (g.swim_hz - g.swim_slow_hz);
-  memory_.phase_time += (back && !rests ? -hz : hz) * h;
+  const float hz = g.swim_slow_hz + share * (g.swim_hz - g.swim_slow_hz);
+  memory_.phase_time += (back ? -hz : hz) * h;
   memory_.phase_time -= std::floor(memory_.phase_time);
   const float phase = memory_.phase_time;
-  const float size = rests ? g.tread_size : g.swim_slow_size + share * (1 - g.swim_slow_size);
-  const float lean =
-      rests ? g.tread_lean : (back ? g.swim_lean_back : g.swim_lean + share * g.swim_lean_more);
-  const float skew = g.swim_skew * (s.torso + lean) + g.swim_skew_rate * s.torso_spin +
-                     (back && !rests ? g.swim_skew_back : 0);
+  const float size = g.swim_slow_size + share * (1 - g.swim_slow_size);
+  const float lean = back ? g.swim_lean_back : g.swim_lean + share * g.swim_lean_more;
+  const float error = std::clamp(s.torso + lean, -0.8f, 0.8f);
+  const float skew =
+      g.swim_skew * error + g.swim_skew_rate * s.torso_spin + (back ? g.swim_skew_back : 0);
   for (int side = 0; side < 2; ++side) {
     const float arm = phase + 0.5f * static_cast<float>(side);
     const float leg = std::round(g.swim_kicks) * phase + 0.5f * static_cast<float>(side);
-    if (rests) {
-      Pose(Shoulder(side), side == 0 ? g.tread_arms : -g.tread_arms, g.swim_shoulder);
-      Pose(Elbow(side), 0.1f, g.swim_elbow);
-    } else {
-      // From overhead down before the body.
-      const float turned = -2 * b2_pi * arm + g.shoulder_sine * Sine(arm + g.shoulder_phase);
-      Pose(Shoulder(side), turned, g.swim_shoulder, (back ? 2 : -2) * b2_pi * hz);
-      Pose(Elbow(side), g.elbow_middle + g.elbow_sine * Sine(arm + g.elbow_phase), g.swim_elbow);
-    }
+    // From overhead down before the body.
+    const float turned = -2 * b2_pi * arm + g.shoulder_sine * Sine(arm + g.shoulder_phase);
+    Pose(Shoulder(side), turned, g.swim_shoulder, (back ? 2 : -2) * b2_pi * hz);
+    Pose(Elbow(side), g.elbow_middle + g.elbow_sine * Sine(arm + g.elbow_phase), g.swim_elbow);
     Pose(Hip(side), g.hip_middle + skew + size * g.hip_sine * Sine(leg), g.swim_hip);
     Pose(Knee(side), g.knee_middle + size * g.knee_sine * Sine(leg + g.knee_phase), g.swim_knee);
     Pose(Ankle(side), g.ankle_middle + size * g.ankle_sine * Sine(leg + g.ankle_phase),
          g.swim_ankle);
   }
-  // The face out of the water.
-  Pose(kNeck, std::clamp(-s.torso, -0.5f, 0.5f), g.neck_stiffness);
 }
 
 }  // namespace seam
