@@ -89,6 +89,7 @@ b2Vec2 CharacterControl::PullTo(const CharacterSense& s, b2Vec2 tip) const {
   const float m = limbs_.scale(), weight = s.mass * gravity_;
   const float slow = gains_.climb_damping / std::sqrt(m);
   if (memory_.phase == 1) {
+    // It leans over the edge, and falls on it.
     const float missing = (memory_.from.y - limbs_.At(kShoulderLeft).y) / m + gains_.climb_chest;
     const float up = gains_.climb_lift + gains_.climb_press * missing - slow * s.velocity.y;
     return weight * b2Vec2(gains_.climb_forward, std::clamp(up, 0.0f, 1.5f));
@@ -107,7 +108,10 @@ bool CharacterControl::ReachesOn(int side, b2Vec2 tip, b2Vec2 shoulder) const {
   const float m = limbs_.scale();
   // One hand at a time.
   if (!hands_.holds(1 - side) || memory_.hold[1 - side] <= 0) return false;
-  if (memory_.phase == 1) return tip.x < shoulder.x - 0.05f * m;
+  if (memory_.phase == 1) {
+    const float before = limbs_.Own(hands_.Tip(1 - side)).x - tip.x;
+    return tip.x < shoulder.x - 0.05f * m || before > gains_.climb_stride * m;
+  }
   return tip.y < memory_.from.y - 0.1f * m && tip.y < shoulder.y + gains_.climb_again * m;
 }
 
@@ -116,13 +120,17 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
   const float reach = limbs_.shape().upper_arm + limbs_.shape().lower_arm;
   const bool arms = limbs_.has(kShoulderLeft) && limbs_.has(kShoulderRight);
   // The edge is remembered in `from`: over it, there is no wall ahead to be seen any more.
-  if (memory_.phase == 0) {
+  const bool loose = !hands_.holds(0) && !hands_.holds(1);
+  bool lost = loose && std::abs(s.torso) > gains_.tilt_max;
+  if (memory_.phase == 0 || loose) {
     const Ledge ledge = LedgeAhead(s);
     if (ledge.found) memory_.from = ledge.edge;
+    lost = lost || (loose && !ledge.found);
+    if (loose) memory_.phase = 0;
   }
   const b2Vec2 edge = memory_.from;
   const bool over = s.hip.x > edge.x + gains_.climb_over * limbs_.shape().thigh;
-  if (over || !arms || drive_ < 0.1f || memory_.time > gains_.climb_max) {
+  if (over || lost || !arms || drive_ < 0.1f || memory_.time > gains_.climb_max) {
     LetGo();
     Enter(over ? CharacterMode::kFall : CharacterMode::kSwim);
     return;
@@ -149,7 +157,8 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
     }
     const b2Vec2 tip = limbs_.Own(hands_.Tip(side));
     const b2Vec2 missing = there + shoulder - tip;
-    const bool close = missing.Length() < gains_.climb_close * m;
+    const bool lies = memory_.phase == 1 && tip.x > edge.x && tip.x > shoulder.x;
+    const bool close = lies || missing.Length() < gains_.climb_close * m;
     if (memory_.hold[side] == 0 && (close || holding == 0)) memory_.hold[side] = 1;
     if (!close && missing.y > 0.03f * m && tip.y < shoulder.y + gains_.climb_raised * m) {
       // A straight arm would push at the wall: folded behind the body, then up before it.
@@ -161,11 +170,13 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
     if (!close && missing.y > 0.05f * m) there.x -= 0.1f * m;
     ReachWith(s, side, there);
   }
+  // Bent hips bring the chest down on the ledge; straight legs follow.
+  const bool bent = s.torso > -gains_.climb_down && s.hip.x > edge.x - 0.35f * m;
   if (memory_.phase == 0) {
     TreadLegs(s, h);
   } else {
     for (int side = 0; side < 2; ++side) {
-      Pose(Hip(side), gains_.climb_hip, gains_.swim_hip);
+      Pose(Hip(side), bent ? gains_.climb_hip : 0.2f, gains_.swim_hip);
       Pose(Knee(side), gains_.climb_knee, gains_.swim_knee);
       Pose(Ankle(side), -0.5f, gains_.swim_ankle);
     }

@@ -38,7 +38,7 @@ GaitTrial Try(const GaitSetup& setup, const CharacterGains& gains, int start, in
   const float drive = kDrives[index];
   const double depth = random.Uniform(2.2, 6);
   const double angle = random.Uniform(-0.8, 0.8), low = random.Uniform(1.2, 1.6);
-  const double begin = random.Uniform(1.5, 3);
+  const double begin = random.Uniform(3, 4.5);
   const std::string pool = fmt::format(
       "[[part]]\nname = \"ground\"\nchain = [[-100, {0:.3f}], [100, {0:.3f}]]\n"
       "[[water]]\nname = \"pool\"\nbox = [200, {1:.3f}]\nposition = [0, {2:.3f}]\n",
