@@ -6,6 +6,7 @@
 
 #include <fstream>
 
+#include "common/base/geometry.h"
 #include "common/physics/part_places.h"
 #include "common/sync/edits/edit_order.h"
 #include "common/topology/topology_builder.h"
@@ -170,7 +171,7 @@ TEST(Grip, GoesOverTheWireAndIntoWhatALatePeerGets) {
   TopologyBuilder builder(scene);
   for (const TopologyEntry& entry : fold.Entries(topology)) {
     const Status status = builder.Add(entry);
-    EXPECT_TRUE(status.ok()) << status.message();
+    EXPECT_TRUE(status.ok()) << status.why();
   }
   ASSERT_TRUE(builder.Finish(topology.revision()).ok());
   const std::vector<int> made = GripsOf(builder.topology().scene());

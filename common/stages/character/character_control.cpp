@@ -8,11 +8,17 @@
 #include "common/stages/character/character_gains.h"
 
 namespace seam {
+namespace {
+
+/// A player's lift below this, which is all the way down, makes a character limp.
+constexpr float kLimpLift = -0.9f;
+
+}  // namespace
 
 void CharacterMemory::Save(std::vector<float>* memory) const {
   memory->insert(memory->end(), {static_cast<float>(mode), time, static_cast<float>(stance), step,
                                  from.x, from.y, speed, static_cast<float>(phase), phase_time,
-                                 hold[0], hold[1], load[0], load[1]});
+                                 hold[0], hold[1], load[0], load[1], limp});
 }
 
 std::size_t CharacterMemory::Load(const float* memory) {
@@ -28,7 +34,8 @@ std::size_t CharacterMemory::Load(const float* memory) {
   hold[1] = memory[10];
   load[0] = memory[11];
   load[1] = memory[12];
-  return 13;
+  limp = memory[13];
+  return 14;
 }
 
 CharacterControl::CharacterControl(const Character& character, const StageWorld& world)
@@ -52,6 +59,13 @@ void CharacterControl::Enter(CharacterMode mode) {
   memory_.phase_time = 0;
 }
 
+void CharacterControl::Struck(float impulse) {
+  if (!limbs_.whole()) return;
+  const float speed = impulse / limbs_.Sense().mass;
+  if (speed < gains_.limp_speed) return;
+  memory_.limp = std::max(memory_.limp, std::min(gains_.limp_time * speed, gains_.limp_max));
+}
+
 void CharacterControl::Act(float h) {
   if (!limbs_.dynamic()) return;
   if (!limbs_.whole()) {
@@ -62,7 +76,12 @@ void CharacterControl::Act(float h) {
   const CharacterSense s = limbs_.Sense();
   unit_ = s.mass * 10 * character_.height;
   memory_.time += h;
-  Choose(s, h);
+  memory_.limp = std::max(0.0f, memory_.limp - h);
+  const bool limp = memory_.limp > 0 || lift_ < kLimpLift;
+  if (limp != (memory_.mode == CharacterMode::kLimp)) {
+    Enter(limp ? CharacterMode::kLimp : CharacterMode::kFall);
+  }
+  if (!limp) Choose(s, h);
   switch (memory_.mode) {
     case CharacterMode::kStand: Stand(s); break;
     case CharacterMode::kStep: StepOn(s, h); break;

@@ -6,6 +6,7 @@
 ///   stand, step --lift--> jump --> air --feet touch--> step or stand
 ///   anything --tilted, sunk down--> fall --it lies--> rise --up--> stand
 ///   anything --in water--> swim --a ledge in reach--> climb --over it--> fall
+///   anything --its player's lift fully down, or a hard blow--> limp --over--> fall
 ///   a leg or the torso gone--> limp
 ///
 /// The balance is the linear inverted pendulum's: its divergent part, the point x + v / w0 with
@@ -36,6 +37,7 @@ struct CharacterMemory {
   float phase_time = 0;  ///< s in it; kSwim: turns of the arms
   float hold[2] = {};    ///< 1: the hand is to hold what it touches; -x: for x s it cannot
   float load[2] = {};    ///< N; what each hand bears, the mean of the last moment
+  float limp = 0;        ///< s that it stays limp after a blow
 
   void Save(std::vector<float>* memory) const;
   std::size_t Load(const float* memory);
@@ -56,6 +58,8 @@ class CharacterControl {
   void SetInput(const Input& input);
   /// Before the engine's step of `h` s.
   void Act(float h);
+  /// A blow of `impulse` N s on one of its parts: a hard one makes it limp for a moment.
+  void Struck(float impulse);
   /// After a tick: grips that are to be made or given up.
   void ProposeGrips(std::vector<Edit>* edits) const { hands_.Propose(memory_.hold, edits); }
   /// After a tick of `h` s.

@@ -14,6 +14,7 @@ class CharacterStage : public Stage {
     for (const Character& character : world.scene.characters) {
       if (!character.active) continue;
       players_.push_back(character.player);
+      parts_.emplace_back(character.parts.begin(), character.parts.end());
       controls_.emplace_back(character, world);
     }
   }
@@ -32,6 +33,15 @@ class CharacterStage : public Stage {
   }
   void BeforeStep(float h) override {
     for (CharacterControl& control : controls_) control.Act(h);
+  }
+  void Edited(const Edit& edit) override {
+    const PushEdit* push = edit.As<PushEdit>();
+    if (push == nullptr) return;
+    for (std::size_t i = 0; i < controls_.size(); ++i) {
+      const std::vector<PartId>& own = parts_[i];
+      const bool struck = std::find(own.begin(), own.end(), push->part) != own.end();
+      if (struck) controls_[i].Struck(push->impulse.norm());
+    }
   }
   void SetInput(int player, const Input& input) override {
     for (std::size_t i = 0; i < controls_.size(); ++i) {
@@ -53,6 +63,7 @@ class CharacterStage : public Stage {
  private:
   const float tick_s_;
   std::vector<int> players_;
+  std::vector<std::vector<PartId>> parts_;  // of each
   std::vector<CharacterControl> controls_;
 };
 
