@@ -208,6 +208,9 @@ void Client::StepOnce(std::int64_t now_us) {
   View view = replica_->MakeView();
   view.utime = now_us;
   publisher_->Publish(view);
+  Strands strands = replica_->MakeStrands(view);
+  strands.utime = now_us;
+  if (!strands.strand.empty()) publisher_->Publish(strands);
   Impacts impacts = replica_->MakeImpacts();
   impacts.utime = now_us;
   if (!impacts.id_a.empty()) publisher_->Publish(impacts);

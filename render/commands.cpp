@@ -17,6 +17,8 @@
 #include "render/canvas/palette.h"
 #include "render/canvas/png_writer.h"
 #include "render/load.h"
+#include "render/manifest.h"
+#include "render/playback/moments.h"
 #include "render/sequence.h"
 #include "render/strobe.h"
 #include "render/strobe_layout.h"
@@ -55,14 +57,60 @@ int ThreadsOf(const RenderOptions& options) {
   return std::clamp(static_cast<int>(std::thread::hardware_concurrency()), 1, 64);
 }
 
+constexpr double kBefore_s = 0.5, kAfter_s = 1;  ///< of --around
+
+/// The moment that --around names, and what it is about.
+ShownMoment AroundWhat(const std::string& around, const std::vector<Playback>& playbacks) {
+  std::optional<ShownMoment> moment;
+  if (around == "contact") {
+    moment = ContactMoment(playbacks);
+  } else if (around == "worst") {
+    moment = WorstMoment(playbacks);
+  } else if (around == "hand-over") {
+    moment = HandOverMoment(playbacks);
+  } else {
+    moment = ShownMoment{std::stod(around) / playbacks.front().tick_hz(), {}};
+  }
+  if (moment) return *moment;
+  throw OperatorError("--around " + around + ": nothing of that kind was recorded");
+}
+
 /// The wanted part of the page's time, which must not be empty.
-std::vector<double> TimesOf(const RenderOptions& options, const Page& page) {
-  const double from_s = std::isnan(options.from_s) ? page.from_s : options.from_s;
-  const double to_s = std::isnan(options.to_s) ? page.to_s : std::min(options.to_s, page.to_s);
-  if (from_s < page.from_s || from_s > to_s)
+void ChooseTimes(const RenderOptions& options, const std::vector<Playback>& playbacks, Page* page,
+                 CameraWish* wish) {
+  double from_s = std::isnan(options.from_s) ? page->from_s : options.from_s;
+  double to_s = std::isnan(options.to_s) ? page->to_s : std::min(options.to_s, page->to_s);
+  if (!options.around.empty()) {
+    const ShownMoment moment = AroundWhat(options.around, playbacks);
+    if (moment.s < page->from_s || moment.s > page->to_s)
+      throw OperatorError(fmt::format("--around {} is not in the recording, {:.2f} to {:.2f} s",
+                                      options.around, page->from_s, page->to_s));
+    from_s = std::max(page->from_s, moment.s - kBefore_s);
+    to_s = std::min(page->to_s, moment.s + kAfter_s);
+    if (wish->kind == CameraWish::Kind::kFit) wish->bodies = moment.bodies;
+  }
+  if (from_s < page->from_s || from_s > to_s)
     throw OperatorError(fmt::format("--from and --to must lie in the recording, {:.2f} to {:.2f} s",
-                                    page.from_s, page.to_s));
-  return FrameTimes(from_s, to_s, options.fps);
+                                    page->from_s, page->to_s));
+  page->from_s = from_s;
+  page->to_s = to_s;
+}
+
+/// The page that was asked for, with its camera.
+Page PageOf(const RenderOptions& options, const std::vector<Playback>& playbacks) {
+  const int peer =
+      options.view_name.empty() ? options.peer : PeerNamed(playbacks.front(), options.view_name);
+  if (options.peer_given && peer >= 0)
+    for (const Playback& playback : playbacks) RequirePeer(playback, peer);
+  Page page = options.compare ? MakeComparison(playbacks, peer) : MakePage(playbacks.front(), peer);
+  page.width_px = options.width_px;
+  page.height_px = options.height_px;
+  page.look = options.look;
+  CameraWish wish = options.camera;
+  ChooseTimes(options, playbacks, &page, &wish);
+  SetCamera(wish, playbacks, &page);
+  page.about = AboutPictures(options, page);
+  return page;
 }
 
 }  // namespace
@@ -71,23 +119,33 @@ void RenderSequence(const RenderOptions& options) {
   const OutputFolder folder(options.out, options.force);
   if (!options.video.empty()) {
     RequireFfmpeg();
-    CheckOutputFile(options.video, ".mp4", options.force);
+    CheckOutputFile(options.video, VideoEnding(options.video), options.force);
   }
   const std::vector<Playback> playbacks = LoadPlaybacks(options);
   const Font font(ScaleOf(options.width_px, options.height_px), TextsOf(playbacks), options.fonts);
-  if (options.peer_given && options.peer >= 0)
-    for (const Playback& playback : playbacks) RequirePeer(playback, options.peer);
-  Page page = options.compare ? MakeComparison(playbacks, options.peer)
-                              : MakePage(playbacks.front(), options.peer);
-  page.width_px = options.width_px;
-  page.height_px = options.height_px;
-  const std::vector<double> times = TimesOf(options, page);
+  const Page page = PageOf(options, playbacks);
+  const std::vector<double> times = FrameTimes(page.from_s, page.to_s, options.fps / options.speed);
   folder.Prepare();
   FrameCount count(static_cast<int>(times.size()), folder.path());
   WriteSequence(page, font, times, std::min(ThreadsOf(options), static_cast<int>(times.size())),
                 folder, [&count](int done) { count(done); });
+  WriteManifest(options, page, times, folder);
   count.Finish(options.fps);
   if (!options.video.empty()) EncodeVideo(folder, options.fps, options.video);
+}
+
+void RenderSheet(const RenderOptions& options) {
+  CheckOutputFile(options.out, ".png", true);
+  const std::vector<Playback> playbacks = LoadPlaybacks(options);
+  const Page page = PageOf(options, playbacks);
+  const Font font(ScaleOf(options.width_px, options.height_px), TextsOf(playbacks), options.fonts);
+  DrawList list(font);
+  DrawSheet(list, page, options.sheet);
+  Image image;
+  MakeCanvas(font)->Draw(list, kPaper, &image);
+  WritePng(options.out, image, 9, page.about);
+  std::fprintf(stderr, "%s: %d moments, %.2f s to %.2f s\n", options.out.c_str(), options.sheet,
+               page.from_s, page.to_s);
 }
 
 void RenderStrobe(const RenderOptions& options) {
@@ -97,7 +155,10 @@ void RenderStrobe(const RenderOptions& options) {
   strobe.from_s = options.from_s;
   strobe.to_s = options.to_s;
   strobe.every_ticks = options.every_ticks;
-  if (options.peer_given) strobe.peer = options.peer;
+  if (options.peer_given) {
+    strobe.peer =
+        options.view_name.empty() ? options.peer : PeerNamed(playbacks.front(), options.view_name);
+  }
   if (options.size_given) {
     strobe.width_px = options.width_px;
     strobe.height_px = options.height_px;
@@ -126,6 +187,8 @@ int RenderMain(int argc, const char* const* argv) {
           RenderLive(options);
         } else if (options.strobe) {
           RenderStrobe(options);
+        } else if (options.sheet > 0) {
+          RenderSheet(options);
         } else {
           RenderSequence(options);
         }

@@ -5,7 +5,7 @@
 
 #include "render/canvas/palette.h"
 #include "render/draw/draw_hud.h"
-#include "render/draw/draw_world.h"
+#include "render/draw/draw_scene.h"
 #include "render/playback/format.h"
 
 namespace seam {
@@ -25,8 +25,16 @@ std::string ErrorText(const Panel& panel, double now_s) {
 }
 
 float Aspect(const Page& page) {
-  const auto& camera = page.panels.front().playback->scene().camera;
-  const Vec2 size = (camera.max - camera.min).cwiseMax(1e-3f);
+  Vec2 size(0, 0);
+  if (page.camera != nullptr) {
+    for (int i = 0; i <= 8; ++i) {
+      size += page.camera->At(page.from_s + (page.to_s - page.from_s) * i / 8).size();
+    }
+  } else {
+    const auto& camera = page.panels.front().playback->scene().camera;
+    size = camera.max - camera.min;
+  }
+  size = size.cwiseMax(1e-3f);
   return size.x() / size.y();
 }
 
@@ -38,23 +46,55 @@ std::vector<Figure> Figures(const Page& page, double now_s) {
   figures.emplace_back("tick", std::to_string(static_cast<std::int64_t>(std::floor(tick))));
   const std::int32_t rtt_us = first.RoundTripUs(page.panels.front().peer, tick);
   if (rtt_us >= 0) figures.emplace_back("round trip", FormatNumber(rtt_us / 1e3, 0) + " ms");
+  const double loss = first.LossPercent(page.panels.front().peer, tick);
+  if (loss >= 0) figures.emplace_back("loss", FormatNumber(loss, 1) + " %");
   if (page.panels.size() == 1 && first.has_oracle())
     figures.emplace_back("error now", ErrorText(page.panels.front(), now_s));
   return figures;
 }
 
+constexpr float kInsetShare = 0.34f;  ///< of the panel's width and height
+
+/// Where an inset hides least: the upper corner that is further from what it shows.
+Rect InsetArea(const Rect& panel, const Vec2& shown_px, float scale) {
+  const float width = kInsetShare * panel.width, height = kInsetShare * panel.height;
+  const bool left = shown_px.x() > panel.x + panel.width / 2;
+  const float x = left ? panel.x + 8 * scale : panel.right() - width - 8 * scale;
+  return {std::round(x), std::round(panel.y + 28 * scale), std::round(width), std::round(height)};
+}
+
+/// The contact once more, larger; nothing where the panel already shows it as large.
+void DrawInset(DrawList& list, const Page& page, const Panel& panel, const Viewport& whole,
+               const WorldLook& look, double now_s) {
+  if (!page.inset || now_s < page.inset->from_s || now_s > page.inset->to_s) return;
+  const WorldBox box = page.inset->camera.At(now_s);
+  const float scale = list.font().scale();
+  const Rect area = InsetArea(whole.panel, whole.ToPx(box.centre()), scale);
+  const Viewport close = Fit(area, box.min, box.max);
+  if (close.px_per_m < 1.3f * whole.px_per_m) return;
+  const Vec2 a = whole.ToPx({box.min.x(), box.max.y()}), b = whole.ToPx({box.max.x(), box.min.y()});
+  list.Clip(whole.panel);
+  list.StrokeRect({a.x(), a.y(), b.x() - a.x(), b.y() - a.y()}, {1.2f * scale, kFaintInk, 0});
+  list.NoClip();
+  DrawWorld(list, close, *panel.playback, look);
+  list.StrokeRect({area.x + 0.5f, area.y + 0.5f, area.width - 1, area.height - 1},
+                  {1.6f * scale, kFaintInk, 0});
+}
+
 void DrawPanel(DrawList& list, const Page& page, const Panel& panel, const Rect& area,
                double now_s) {
-  const double tick = panel.playback->TickAt(now_s);
-  const Viewport viewport = SceneViewport(area, *panel.playback, panel.peer, tick);
-  WorldLook look;
+  const float lines = RegionLinesHeight(*panel.playback, list.font().scale());
+  const Rect world{area.x, area.y, area.width, area.height - lines};
+  const Viewport viewport = ViewportOf(page, panel, world, now_s);
+  WorldLook look = page.look;
   look.peer = panel.peer;
-  look.tick = tick;
-  look.cull = page.cull;
+  look.tick = panel.playback->TickAt(now_s);
   DrawWorld(list, viewport, *panel.playback, look);
+  DrawInset(list, page, panel, viewport, look, now_s);
+  DrawRegionLines(list, viewport, *panel.playback, world.bottom());
   const std::string error = page.panels.size() > 1 ? ErrorText(panel, now_s) : "";
-  DrawCaption(list, area, panel.caption, error.empty() ? "" : "error " + error, panel.swatch);
-  const Rect frame{area.x + 0.5f, area.y + 0.5f, area.width - 1, area.height - 1};
+  DrawCaption(list, world, panel.caption, error.empty() ? "" : "error " + error, panel.swatch);
+  const Rect frame{world.x + 0.5f, world.y + 0.5f, world.width - 1, world.height - 1};
   list.StrokeRect(frame, {1, kFrame, 0});
 }
 
@@ -68,13 +108,39 @@ Curve CurveOf(const Playback& playback, int peer, Colour colour, const std::stri
   return curve;
 }
 
+constexpr double kInsetBefore_s = 0.5, kInsetAfter_s = 1;  ///< about the contact
+
 }  // namespace
+
+void SetCamera(const CameraWish& wish, const std::vector<Playback>& playbacks, Page* page) {
+  std::vector<CameraView> views;
+  for (const Panel& panel : page->panels) views.push_back({panel.playback, panel.peer});
+  page->camera =
+      std::make_shared<const CameraPath>(views, wish, page->strip_from_s, page->strip_to_s);
+  page->inset.reset();
+  if (!wish.bodies.empty()) return;
+  const std::optional<ShownMoment> contact = ContactMoment(playbacks);
+  if (!contact || contact->bodies.empty()) return;
+  const double from_s = contact->s - kInsetBefore_s, to_s = contact->s + kInsetAfter_s;
+  if (from_s > page->to_s || to_s < page->from_s) return;
+  CameraWish close;
+  close.bodies = contact->bodies;
+  page->inset = Inset{from_s, to_s, CameraPath(views, close, from_s, to_s)};
+}
+
+Viewport ViewportOf(const Page& page, const Panel& panel, const Rect& area, double now_s) {
+  if (page.camera == nullptr) {
+    return SceneViewport(area, *panel.playback, panel.peer, panel.playback->TickAt(now_s));
+  }
+  const WorldBox box = page.camera->At(now_s);
+  return Fit(area, box.min, box.max);
+}
 
 Page MakePage(const Playback& playback, int peer) {
   Page page;
   page.title = TitleOf(playback);
   page.subtitle = RunDescription(playback);
-  page.to_s = playback.last_s();
+  page.to_s = page.strip_to_s = playback.last_s();
   const std::vector<int> peers = playback.peers();
   const std::vector<int> shown = peer == kViewAll ? peers : std::vector<int>{playback.PeerOr(peer)};
   for (int p : shown)
@@ -108,6 +174,8 @@ Page MakeComparison(const std::vector<Playback>& playbacks, int peer) {
     if (playback.has_oracle())
       page.curves.push_back(CurveOf(playback, -1, colour, playback.Label()));
   }
+  page.strip_from_s = page.from_s;
+  page.strip_to_s = page.to_s;
   return page;
 }
 
@@ -122,14 +190,37 @@ void DrawPage(DrawList& list, const Page& page, double now_s) {
              Figures(page, now_s));
   const Rect middle{margin, header, width, height - header - legend - strip};
   const std::vector<Rect> areas =
-      Tile(middle, static_cast<int>(page.panels.size()), Aspect(page), 8 * scale);
+      Tile(middle, static_cast<int>(page.panels.size()), Aspect(page), 8 * scale,
+           RegionLinesHeight(*page.panels.front().playback, scale));
   for (std::size_t i = 0; i < page.panels.size(); ++i)
     DrawPanel(list, page, page.panels[i], areas[i], now_s);
   const Playback& first = *page.panels.front().playback;
-  DrawLegend(list, {margin, middle.bottom() + 2 * scale, width, legend}, first,
+  DrawLegend(list, {margin, middle.bottom() + 2 * scale, width, legend}, first, page.look,
              !first.recording().impacts.empty());
   DrawStrip(list, {margin, height - strip + 2 * scale, width, strip - 6 * scale}, page.curves,
-            {page.from_s, page.to_s, now_s});
+            {page.strip_from_s, page.strip_to_s, now_s});
+}
+
+void DrawSheet(DrawList& list, const Page& page, int moments) {
+  list.Begin(page.width_px, page.height_px);
+  const float scale = list.font().scale(), margin = 18 * scale, header = 58 * scale;
+  const float width = static_cast<float>(page.width_px) - 2 * margin;
+  const std::string span = FormatTime(page.from_s) + " to " + FormatTime(page.to_s);
+  DrawHeader(list, {margin, 6 * scale, width, header}, page.title, page.subtitle + "  ·  " + span,
+             {});
+  const Rect area{margin, header, width, static_cast<float>(page.height_px) - header - margin};
+  const int count = moments * static_cast<int>(page.panels.size());
+  const std::vector<Rect> cells = Tile(area, count, Aspect(page), 6 * scale,
+                                       RegionLinesHeight(*page.panels.front().playback, scale));
+  for (int i = 0; i < count; ++i) {
+    const auto of = static_cast<std::size_t>(i) % page.panels.size();
+    const int moment = i / static_cast<int>(page.panels.size());
+    const double now_s =
+        page.from_s + (page.to_s - page.from_s) * moment / std::max(1, moments - 1);
+    Panel panel = page.panels[of];
+    panel.caption = FormatTime(now_s) + (page.panels.size() > 1 ? "  " + panel.caption : "");
+    DrawPanel(list, page, panel, cells[static_cast<std::size_t>(i)], now_s);
+  }
 }
 
 std::string TextsOf(const std::vector<Playback>& playbacks) {

@@ -2,11 +2,15 @@
 /// One page of a sequence: header, panels with worlds, legend, strip. What a page shows is decided
 /// once (MakePage); drawing it for a moment is a function of page and time alone.
 
+#include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "render/canvas/viewport.h"
 #include "render/draw/draw_strip.h"
+#include "render/draw/draw_world.h"
+#include "render/playback/camera.h"
 #include "render/playback/playback.h"
 
 namespace seam {
@@ -20,13 +24,24 @@ struct Panel {
   Colour swatch{0, 0, 0, 0};  ///< of its curve; alpha 0: none
 };
 
+/// A contact that is drawn once more, larger, in a corner of each panel while it happens.
+struct Inset {
+  double from_s = 0, to_s = 0;  ///< while it is shown
+  CameraPath camera;            ///< on the contact's bodies
+};
+
 struct Page {
   int width_px = 1280, height_px = 720;
   std::string title, subtitle;
   std::vector<Panel> panels;
   std::vector<Curve> curves;
-  double from_s = 0, to_s = 1;  ///< the strip's axis
-  bool cull = true;
+  double from_s = 0, to_s = 1;              ///< what is drawn
+  double strip_from_s = 0, strip_to_s = 1;  ///< the strip's axis
+  /// What the panels show; none: each scene's own camera.
+  std::shared_ptr<const CameraPath> camera;
+  std::optional<Inset> inset;
+  std::vector<std::pair<std::string, std::string>> about;  ///< goes into each picture file
+  WorldLook look;  ///< its layers; whose view and when is said by panel and moment
 };
 
 /// Peer numbers of `--view`.
@@ -38,7 +53,19 @@ Page MakePage(const Playback& playback, int peer);
 /// A page of several recordings in step, one panel and one curve each.
 Page MakeComparison(const std::vector<Playback>& playbacks, int peer);
 
+/// Lets all panels follow what was wished for, with an inset about the main contact unless bodies
+/// were named. The path depends on the whole recordings, not on the part that is drawn. Throws
+/// OperatorError for a part that is not there.
+void SetCamera(const CameraWish& wish, const std::vector<Playback>& playbacks, Page* page);
+
+/// What a panel of these measures shows of the world at a moment.
+Viewport ViewportOf(const Page& page, const Panel& panel, const Rect& area, double now_s);
+
 void DrawPage(DrawList& list, const Page& page, double now_s);
+
+/// So many moments from page.from_s to page.to_s, evenly, each as a small panel (of a page of
+/// several panels: one of each). Requires moments > 0.
+void DrawSheet(DrawList& list, const Page& page, int moments);
 
 /// Letters beyond Latin-1 that the recordings' texts need.
 std::string TextsOf(const std::vector<Playback>& playbacks);

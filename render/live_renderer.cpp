@@ -22,6 +22,8 @@ constexpr int kStraysMax = 30;              ///< so many in a row are a new sess
 void Prune(Recording* recording, std::int64_t before_tick) {
   for (auto& [peer, views] : recording->views)
     while (views.size() > 1 && views.begin()->first < before_tick) views.erase(views.begin());
+  for (auto& [peer, strands] : recording->strands)
+    while (!strands.empty() && strands.begin()->first < before_tick) strands.erase(strands.begin());
   auto& impacts = recording->impacts;
   impacts.erase(std::remove_if(impacts.begin(), impacts.end(),
                                [&](const Impacts& i) { return i.tick < before_tick; }),
@@ -107,8 +109,8 @@ void LiveRenderer::DrawFrame() {
   Page page = MakePage(*playback_, options_.peer);
   page.width_px = options_.width_px;
   page.height_px = options_.height_px;
-  page.from_s = std::max(0.0, next_s_ - kLiveWindow_s);
-  page.to_s = page.from_s + kLiveWindow_s;
+  page.strip_from_s = std::max(0.0, next_s_ - kLiveWindow_s);
+  page.strip_to_s = page.strip_from_s + kLiveWindow_s;
   DrawPage(*list_, page, next_s_);
   canvas_->Draw(*list_, kPaper, &image_);
   WritePng(folder_.FramePath(frames_++), image_);

@@ -38,6 +38,21 @@ GivenOracle LoadOracle(const std::string& path) {
   return {path, recording.room, OracleFromRecording(recording)};
 }
 
+int PeerNamed(const Playback& playback, const std::string& name) {
+  std::string known;
+  for (const int peer : playback.peers()) {
+    const int player = playback.PlayerOf(peer);
+    std::string own = "server";
+    if (peer > 0) {
+      own = player < 0 ? std::to_string(peer)
+                       : playback.scene().players[static_cast<std::size_t>(player)].name;
+    }
+    if (own == name) return peer;
+    known += (known.empty() ? "" : ", ") + own;
+  }
+  throw OperatorError("--view " + name + ": the recording has views of " + known);
+}
+
 void RequirePeer(const Playback& playback, int peer) {
   if (playback.PeerOr(peer) == peer || playback.mode() == Mode::kOracle) return;
   std::string known;

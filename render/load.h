@@ -22,6 +22,10 @@ struct GivenOracle {
 /// Throws OperatorError when the log is another mode's.
 GivenOracle LoadOracle(const std::string& path);
 
+/// The peer that is the server, "server", or drives a player of this name. Throws OperatorError
+/// naming those there are.
+int PeerNamed(const Playback& playback, const std::string& name);
+
 /// Throws OperatorError naming the peers there are when `peer` showed nothing.
 void RequirePeer(const Playback& playback, int peer);
 

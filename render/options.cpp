@@ -1,8 +1,10 @@
 #include "render/options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 
 #include "common/base/check.h"
 #include "render/canvas/font.h"
@@ -30,9 +32,74 @@ void ParseView(const std::string& text, RenderOptions* o) {
   }
   int peer = 0;
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%d%c", &peer, &rest) != 1 || peer < 0 || peer > 127)
-    throw OperatorError("--view " + text + ": must be a peer's number or all");
+  if (std::sscanf(text.c_str(), "%d%c", &peer, &rest) != 1) {
+    o->view_name = text;  // whether there is such a player is the recording's to say
+    return;
+  }
+  if (peer < 0 || peer > 127)
+    throw OperatorError("--view " + text + ": must be a peer's number, a player's name or all");
   o->peer = peer;
+}
+
+/// "X,Y,HEIGHT", "fit" or "scene".
+void ParseCamera(const std::string& text, CameraWish* camera) {
+  if (text == "fit") return;
+  if (text == "scene") {
+    camera->kind = CameraWish::Kind::kScene;
+    return;
+  }
+  float x = 0, y = 0, height = 0;
+  char rest = 0;
+  const int read = std::sscanf(text.c_str(), "%f,%f,%f%c", &x, &y, &height, &rest);
+  const bool sane = std::abs(x) <= 1e6f && std::abs(y) <= 1e6f && height >= 0.01f && height <= 1e6f;
+  if (read != 3 || !sane)
+    throw OperatorError("--camera " + text + ": must be fit, scene or X,Y,HEIGHT in m");
+  camera->kind = CameraWish::Kind::kFixed;
+  camera->centre = {x, y};
+  camera->height = height;
+}
+
+void ParseLayers(const std::string& text, WorldLook* look) {
+  const std::pair<const char*, bool*> layers[] = {{"trails", &look->trails},
+                                                  {"ghosts", &look->ghosts},
+                                                  {"vectors", &look->vectors},
+                                                  {"heat", &look->heat},
+                                                  {"names", &look->names}};
+  for (const auto& [name, on] : layers) *on = false;
+  std::istringstream words(text);
+  for (std::string word; std::getline(words, word, ',');) {
+    const auto known = std::find_if(std::begin(layers), std::end(layers),
+                                    [&](const auto& layer) { return word == layer.first; });
+    if (word == "none") continue;
+    if (known == std::end(layers))
+      throw OperatorError("--layers " + word +
+                          ": there are trails, ghosts, vectors, heat, names and none");
+    *known->second = true;
+  }
+}
+
+bool IsTick(const std::string& text) {
+  return !text.empty() && text.size() <= 10 &&
+         text.find_first_not_of("0123456789") == std::string::npos;
+}
+
+/// What goes with the camera, and moments.
+void CheckShots(const RenderOptions& o) {
+  if (!o.around.empty() && o.around != "contact" && o.around != "worst" &&
+      o.around != "hand-over" && !IsTick(o.around))
+    throw OperatorError("--around " + o.around + ": must be contact, worst, hand-over or a tick");
+  if (!o.around.empty() && (!std::isnan(o.from_s) || !std::isnan(o.to_s)))
+    throw OperatorError("--around chooses the moments itself: not with --from and --to");
+  if (!(o.camera.zoom >= 0.01f && o.camera.zoom <= 1000))
+    throw OperatorError("--zoom must be 0.01 to 1000");
+  if (!(o.speed >= 0.001 && o.speed <= 1000)) throw OperatorError("--speed must be 0.001 to 1000");
+  if (o.sheet < 0 || o.sheet > 100) throw OperatorError("--sheet must be 1 to 100 moments");
+  if (o.sheet > 0 && (o.strobe || !o.video.empty()))
+    throw OperatorError("--sheet is one picture: not with --strobe or --video");
+  const bool shots = o.sheet > 0 || !o.around.empty() || o.speed != 1;
+  if (o.live && shots) throw OperatorError("--sheet, --around and --speed do not go with --live");
+  if (o.strobe && (!o.around.empty() || o.speed != 1))
+    throw OperatorError("--around and --speed do not go with --strobe");
 }
 
 void Check(const RenderOptions& o) {
@@ -62,6 +129,7 @@ void Check(const RenderOptions& o) {
   if (!(o.seconds >= 0)) throw OperatorError("--seconds must be positive");
   if (!std::isnan(o.from_s) && !std::isnan(o.to_s) && o.from_s > o.to_s)
     throw OperatorError("--from must not be after --to");
+  CheckShots(o);
   if (!o.video.empty() && (o.width_px % 2 != 0 || o.height_px % 2 != 0))
     throw OperatorError("--video needs an even width and height");
 }
@@ -73,6 +141,8 @@ const char* const kRenderExamples =
     "  seam-render session.lcm -o frames/                      one peer's view\n"
     "  seam-render session.lcm -o frames/ --view all           all peers side by side\n"
     "  seam-render --compare a.lcm b.lcm c.lcm -o frames/      runs in step\n"
+    "  seam-render a.lcm -o hit.png --sheet 12 --around contact    moments in one picture\n"
+    "  seam-render a.lcm -o slow/ --around worst --speed 0.1   where it was most wrong, slowly\n"
     "  seam-render --strobe a.lcm -o hit.png                   one collision in one picture\n"
     "  seam-render --strobe --compare a.lcm b.lcm -o hits.png  a row for each run\n"
     "  seam-render --live -o frames/                           what the LCM bus brings";
@@ -90,20 +160,39 @@ void DefineRenderOptions(CLI::App* app, RenderOptions* options) {
   app->add_option("--size", o.size_text, "WIDTHxHEIGHT in pixels (1280x720)");
   app->add_option("--from", o.from_s, "first moment, s");
   app->add_option("--to", o.to_s, "last moment, s");
-  app->add_option("--view", o.view_text, "whose view: a peer's number, or all (0, the server)");
+  app->add_option("--view", o.view_text,
+                  "whose view: a player's name, a peer's number, or all (server)");
   app->add_option("--oracle", o.oracle, "log of the same scene made in mode oracle (computed)");
   app->add_option("--threads", o.threads, "frames drawn at a time (number of cores)");
+  app->add_option("--camera", o.camera_text,
+                  "fit (default: what moves), scene, or X,Y,HEIGHT in m");
+  app->add_option("--follow", o.camera.part, "a part, or a player's vehicle, stays in the middle");
+  app->add_option("--zoom", o.camera.zoom, "so many times larger (1)");
+  app->add_option("--around", o.around,
+                  "0.5 s before to 1 s after: contact, worst, hand-over or a tick");
+  app->add_option("--layers", o.layers_text,
+                  "trails,ghosts,vectors,heat,names or none (trails,ghosts)");
+  app->add_option("--speed", o.speed, "of the sequence: 0.1 is slow motion (1)");
+  app->add_option("--sheet", o.sheet, "so many moments in one picture: -o is a .png file");
   app->add_option("--every", o.every_ticks, "--strobe: ticks between exposures");
   app->add_option("--lcm-url", o.lcm_url, "--live: the bus (LCM_DEFAULT_URL)");
   app->add_option("--room", o.room, "which room, if there are several");
   app->add_option("--seconds", o.seconds, "--live: stop after so long (when quiet for 2 s)");
-  app->add_option("--video", o.video, "also make this .mp4 of the frames, by ffmpeg");
+  app->add_option("--video", o.video,
+                  "also make this .mp4, .webm or .gif of the frames, by ffmpeg");
   app->add_option("--fonts", o.fonts, "folder of DejaVuSans.ttf and DejaVuSans-Bold.ttf");
 }
 
 void CheckRenderOptions(RenderOptions* options) {
   if (!options->size_text.empty()) ParseSize(options->size_text, options);
   if (!options->view_text.empty()) ParseView(options->view_text, options);
+  if (!options->camera.part.empty()) {
+    if (!options->camera_text.empty())
+      throw OperatorError("--follow does not go with --camera: which is it?");
+    options->camera.kind = CameraWish::Kind::kFollow;
+  }
+  if (!options->camera_text.empty()) ParseCamera(options->camera_text, &options->camera);
+  if (!options->layers_text.empty()) ParseLayers(options->layers_text, &options->look);
   Check(*options);
 }
 

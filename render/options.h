@@ -5,6 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "render/draw/draw_world.h"
+#include "render/playback/camera.h"
+
 namespace CLI {
 class App;
 }
@@ -21,14 +24,21 @@ struct RenderOptions {
   double from_s = std::numeric_limits<double>::quiet_NaN();  ///< NaN: the recording's own
   double to_s = std::numeric_limits<double>::quiet_NaN();
   bool peer_given = false;
-  int peer = 0;        ///< kViewAll: all side by side
-  std::string oracle;  ///< log made in mode oracle; "": computed
-  int threads = 0;     ///< 0: as many as there are cores
+  std::string view_name;  ///< a player's, or "server"; "": peer says it
+  int peer = 0;           ///< kViewAll: all side by side
+  std::string oracle;     ///< log made in mode oracle; "": computed
+  int threads = 0;        ///< 0: as many as there are cores
   int every_ticks = 0;
   std::string lcm_url, room;
   double seconds = 0;  ///< live: at most this long; 0: until quiet
   std::string video;
-  std::string size_text, view_text;  ///< as given, until CheckRenderOptions
+  int sheet = 0;       ///< so many moments in one picture; 0: a sequence
+  double speed = 1;    ///< of the sequence: 0.1 is slow motion
+  std::string around;  ///< "contact", "worst", "hand-over" or a tick; "": the whole recording
+  CameraWish camera;
+  WorldLook look;  ///< its layers
+  /// As given, until CheckRenderOptions.
+  std::string size_text, view_text, camera_text, layers_text;
   std::string fonts;
 };
 

@@ -44,7 +44,7 @@ OutputFolder::OutputFolder(const std::string& path, bool force) : path_(path) {
   if (!fs::is_directory(status)) throw OperatorError(path_ + " is not a folder");
   for (const auto& entry : fs::directory_iterator(path_, error)) {
     const std::string name = entry.path().filename().string();
-    if (force || IsFrameName(name)) continue;
+    if (force || IsFrameName(name) || name == kManifestName) continue;
     throw OperatorError(path_ + " holds other files (" + name +
                         "): choose another folder or give --force");
   }
@@ -85,15 +85,24 @@ void RequireFfmpeg() {
   throw OperatorError("--video needs ffmpeg, which is not installed (apt-get install ffmpeg)");
 }
 
+std::string VideoEnding(const std::string& path) {
+  const std::string ending = fs::path(path).extension();
+  if (ending == ".mp4" || ending == ".webm" || ending == ".gif") return ending;
+  throw OperatorError("--video " + path + ": must end in .mp4, .webm or .gif");
+}
+
 void EncodeVideo(const OutputFolder& folder, int fps, const std::string& path) {
-  std::vector<std::string> words{"ffmpeg",     "-loglevel",
-                                 "error",      "-y",
-                                 "-framerate", std::to_string(fps),
-                                 "-i",         folder.path() + "/frame_%05d.png",
-                                 "-c:v",       "libx264",
-                                 "-pix_fmt",   "yuv420p",
-                                 "-crf",       "18",
-                                 path};
+  std::vector<std::string> words{
+      "ffmpeg",     "-loglevel",         "error", "-y",
+      "-framerate", std::to_string(fps), "-i",    folder.path() + "/frame_%05d.png"};
+  const std::string ending = VideoEnding(path);
+  std::vector<std::string> coding{"-c:v", "libx264", "-pix_fmt", "yuv420p", "-crf", "18"};
+  if (ending == ".webm") coding = {"-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0"};
+  if (ending == ".gif") {  // a palette of its own: the default one has none of our colours
+    coding = {"-filter_complex", "split[a][b];[a]palettegen[p];[b][p]paletteuse=dither=none"};
+  }
+  words.insert(words.end(), coding.begin(), coding.end());
+  words.push_back(path);
   std::vector<char*> arguments;
   for (std::string& word : words) arguments.push_back(word.data());
   arguments.push_back(nullptr);

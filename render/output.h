@@ -5,6 +5,9 @@
 
 namespace seam {
 
+/// Beside the frames: where they come from (manifest.h).
+constexpr const char* kManifestName = "manifest.json";
+
 /// frame_00000.png, frame_00001.png, ... in a folder.
 class OutputFolder {
  public:
@@ -23,6 +26,9 @@ class OutputFolder {
 /// Throws OperatorError unless `path` ends in `ending`, its folder exists, and there is no such
 /// file yet (or `force`, or it is a file that may be replaced: an earlier picture).
 void CheckOutputFile(const std::string& path, const std::string& ending, bool force);
+
+/// ".mp4", ".webm" or ".gif", as the path ends. Throws OperatorError when it ends otherwise.
+std::string VideoEnding(const std::string& path);
 
 /// Runs ffmpeg over a folder's frames. Throws OperatorError when it fails.
 void EncodeVideo(const OutputFolder& folder, int fps, const std::string& path);

@@ -12,13 +12,13 @@
 
 namespace seam {
 
-std::vector<double> FrameTimes(double from_s, double to_s, int fps) {
+std::vector<double> FrameTimes(double from_s, double to_s, double fps) {
   if ((to_s - from_s) * fps > kFramesMax)
     throw OperatorError("more than " + std::to_string(kFramesMax) +
                         " frames: choose a part with --from and --to");
   std::vector<double> times;
   for (int i = 0;; ++i) {
-    const double s = from_s + static_cast<double>(i) / fps;
+    const double s = from_s + i / fps;
     if (s > to_s + 1e-9) break;
     times.push_back(s);
   }
@@ -39,7 +39,7 @@ void WriteSequence(const Page& page, const Font& font, const std::vector<double>
       for (std::size_t i = next++; i < times_s.size(); i = next++) {
         DrawPage(list, page, times_s[i]);
         canvas->Draw(list, kPaper, &image);
-        WritePng(folder.FramePath(static_cast<int>(i)), image);
+        WritePng(folder.FramePath(static_cast<int>(i)), image, 3, page.about);
         const std::lock_guard<std::mutex> lock(mutex);
         progress(++done);
       }

@@ -15,7 +15,7 @@ constexpr int kFramesMax = 1000000;
 
 /// Moments `1/fps` apart from `from_s` up to and including `to_s`, s. Throws OperatorError when
 /// they are more than kFramesMax.
-std::vector<double> FrameTimes(double from_s, double to_s, int fps);
+std::vector<double> FrameTimes(double from_s, double to_s, double fps);
 
 /// Called after each frame with the number done, by one thread at a time.
 using Progress = std::function<void(int done)>;

@@ -182,7 +182,7 @@ void DrawStrobe(DrawList& list, const std::vector<Playback>& playbacks, const St
     }
   }
   const float below = static_cast<float>(plan.height_px) - layout.footer;
-  DrawLegend(list, {layout.margin, below + 4 * scale, width, layout.footer - 8 * scale}, last,
+  DrawLegend(list, {layout.margin, below + 4 * scale, width, layout.footer - 8 * scale}, last, {},
              false);
 }
 

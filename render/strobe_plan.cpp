@@ -6,6 +6,7 @@
 
 #include "common/base/check.h"
 #include "render/frame.h"
+#include "render/playback/moments.h"
 #include "render/strobe.h"
 #include "render/strobe_layout.h"
 
@@ -15,59 +16,7 @@ namespace {
 constexpr double kBefore_s = 0.2, kAfter_s = 0.8;  ///< about the collision
 constexpr int kExposures = 8;                      ///< unless asked otherwise
 constexpr double kExposuresMax = 200;
-constexpr float kJumpMin = 1.0f;       ///< m/s in a tick that only a collision gives
-constexpr float kStrongImpact = 3.0f;  ///< m/s
-constexpr float kStill_m = 0.3f;       ///< what moves less does not widen the picture
-
-/// Assemblies that the scene's first watch looks at; empty without one.
-std::set<PartId> Struck(const Playback& playback) {
-  std::set<PartId> ids;
-  if (playback.scene().watch.empty()) return ids;
-  for (PartId part : playback.scene().watch.front().struck)
-    for (const BodyShapes& body : playback.moving())
-      if (std::find(body.parts.begin(), body.parts.end(), part) != body.parts.end())
-        ids.insert(body.id);
-  return ids;
-}
-
-std::int64_t WatchedTick(const Playback& playback) {
-  const std::set<PartId> struck = Struck(playback);
-  if (struck.empty() || !playback.has_oracle()) return -1;
-  const Oracle& oracle = playback.oracle();
-  const std::int64_t last = oracle.first_tick + static_cast<std::int64_t>(oracle.ticks.size());
-  std::int64_t tick = std::max(playback.scene().watch.front().around_tick, oracle.first_tick + 1);
-  for (; tick < last; ++tick)
-    for (PartId id : struck) {
-      const auto now = oracle.At(tick, id), before = oracle.At(tick - 1, id);
-      if (now && before && (now->velocity - before->velocity).norm() > kJumpMin) return tick;
-    }
-  return -1;
-}
-
-/// The first strong impact between bodies that move.
-std::int64_t ImpactTick(const Playback& playback) {
-  std::int64_t first = -1;
-  for (const Impacts& impacts : playback.recording().impacts)
-    for (std::size_t i = 0; i < impacts.dv.size(); ++i) {
-      const bool both_move = impacts.id_a[i] >= 0 && impacts.id_b[i] >= 0;
-      if (both_move && impacts.dv[i] >= kStrongImpact && (first < 0 || impacts.tick < first))
-        first = impacts.tick;
-    }
-  return first;
-}
-
-/// When the views were most wrong; -1 if they never were.
-std::int64_t WorstTick(const Playback& playback) {
-  const std::vector<double>& errors = playback.ErrorByTick(-1);
-  std::int64_t worst = -1;
-  double most = 0;
-  for (std::size_t i = 0; i < errors.size(); ++i) {
-    if (!(errors[i] > most)) continue;  // nor is NaN
-    most = errors[i];
-    worst = playback.ErrorFirstTick() + static_cast<std::int64_t>(i);
-  }
-  return worst;
-}
+constexpr float kStill_m = 0.3f;  ///< what moves less does not widen the picture
 
 struct Box {
   Vec2 min{1e9f, 1e9f}, max{-1e9f, -1e9f};
@@ -87,7 +36,7 @@ struct Box {
 Box MovingBox(const std::vector<Playback>& playbacks, const StrobePlan& plan) {
   Box box;
   for (const Playback& playback : playbacks) {
-    const std::set<PartId> struck = Struck(playback);
+    const std::set<PartId> struck = StruckBodies(playback);
     const Moment middle = playback.MomentAt(playback.PeerOr(plan.peers.front()),
                                             playback.TickAt((plan.from_s + plan.to_s) / 2));
     const auto revision = playback.RevisionOf(middle);
@@ -157,14 +106,7 @@ std::vector<int> Columns(const std::vector<Playback>& playbacks, int only) {
 
 }  // namespace
 
-double CollisionTime(const std::vector<Playback>& playbacks) {
-  for (const auto find : {WatchedTick, ImpactTick, WorstTick})
-    for (const Playback& playback : playbacks) {
-      const std::int64_t tick = find(playback);
-      if (tick >= 0) return static_cast<double>(tick) / playback.tick_hz();
-    }
-  return (playbacks.front().first_s() + playbacks.front().last_s()) / 2;
-}
+double CollisionTime(const std::vector<Playback>& playbacks) { return MainMoment(playbacks).s; }
 
 StrobePlan PlanStrobe(const std::vector<Playback>& playbacks, const StrobeOptions& options) {
   SEAM_ASSERT(!playbacks.empty());

@@ -206,7 +206,10 @@ void Server::StepOnce(std::int64_t now_us) {
     broadcast_.Publish(states);
   }
   TellRest(now_us);
-  broadcast_.Publish(At(now_us, replica_.MakeView()));
+  const View view = replica_.MakeView();
+  broadcast_.Publish(At(now_us, view));
+  const Strands strands = replica_.MakeStrands(view);
+  if (!strands.strand.empty()) broadcast_.Publish(At(now_us, strands));
   const Impacts impacts = replica_.MakeImpacts();
   if (!impacts.id_a.empty()) broadcast_.Publish(At(now_us, impacts));
   RunRules(now_us);

@@ -61,6 +61,10 @@ step "fairness"
 fairness=()
 [ "${2:-}" != quick ] || fairness=(--seeds 2)
 try "$bin/seam-lab" fairness "${fairness[@]}" -o "$data/fairness.csv" "${jobs[@]}"
+step "what the titles say"
+titles=(--impair 4g --impair demo)
+[ "${2:-}" != quick ] || titles=(--seeds 2)
+try "$bin/seam-lab" titles "${titles[@]}" -o "$data/titles.csv" "${jobs[@]}"
 step "hard cases"
 try "$bin/seam-lab" physics --grid "$grid" -o "$data/physics.csv" "${jobs[@]}" >"$data/physics.txt"
 

@@ -36,6 +36,9 @@ static_assert(34 + 8 * kMetaMax <= kMessageBytesMax);
 /// Most impacts in one Impacts message: 16 bytes each within kBusMessageBytesMax.
 constexpr std::size_t kImpactsMax = 3000;
 static_assert(16 * kImpactsMax < kBusMessageBytesMax);
+/// Most points in one Strands message: 10 bytes each within kBusMessageBytesMax.
+constexpr std::size_t kStrandPointsMax = 3000;
+static_assert(10 * kStrandPointsMax < kBusMessageBytesMax);
 /// Most bodies in one ExactStates: 34 + 30 bytes each must fit kMessageBytesMax.
 constexpr std::size_t kExactBodiesMax = 36;
 static_assert(34 + 30 * kExactBodiesMax <= kMessageBytesMax);

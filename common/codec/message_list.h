@@ -35,7 +35,7 @@
   X(Grants, grants_t, kBusRoom, "grants", m.utime, m.sequence, m.tick, m.mechanism, m.authority,  \
     m.epoch, m.followers, m.follower)                                                             \
   X(Release, release_t, kEdge, "", m.utime, m.tick, m.mechanism, m.epoch)                         \
-  X(ExactStates, exact_states_t, kEdge, "", m.utime, m.tick, m.revision, m.id, m.epoch, m.x, m.y,  \
+  X(ExactStates, exact_states_t, kEdge, "", m.utime, m.tick, m.revision, m.id, m.epoch, m.x, m.y, \
     m.angle, m.vx, m.vy, m.spin)                                                                  \
   X(ImpactReport, impact_report_t, kEdge, "", m.utime, m.tick, m.revision, m.id, m.epoch, m.by,   \
     m.x, m.y, m.dv)                                                                               \
@@ -48,6 +48,8 @@
     m.parts, m.id, m.role, m.authority, m.x, m.y, m.angle, m.vx, m.vy, m.spin)                    \
   X(Impacts, impacts_t, kBusPeer, "impacts", m.utime, m.sequence, m.peer, m.tick, m.id_a, m.id_b, \
     m.x, m.y, m.dv)                                                                               \
+  X(Strands, strands_t, kBusPeer, "strands", m.utime, m.sequence, m.peer, m.tick, m.strand, m.x,  \
+    m.y)                                                                                          \
   X(Stats, stats_t, kBusPeer, "stats", m.utime, m.sequence, m.peer, m.tick, m.bytes_out,          \
     m.bytes_in, m.datagrams_out, m.datagrams_in, m.dropped_malformed, m.dropped_stale,            \
     m.dropped_right, m.dropped_implausible, m.dropped_budget, m.cpu_us, m.rtt_us, m.loss_ppm,     \

@@ -267,6 +267,16 @@ constexpr std::int8_t kRoleRemote = 0;
 constexpr std::int8_t kRoleSecondary = 1;
 constexpr std::int8_t kRoleAuthority = 2;
 
+/// Bus only: the strands that a peer shows at a tick. Nothing compares them.
+struct Strands {
+  std::int64_t utime = 0;
+  std::int64_t sequence = 0;
+  std::int32_t peer = 0;
+  std::int64_t tick = 0;             ///< of the view that they belong to
+  std::vector<std::int16_t> strand;  ///< index of the [[strand]]; its points in their order
+  std::vector<float> x, y;           ///< m
+};
+
 /// Bus only: major impacts a peer's world felt in a tick.
 struct Impacts {
   std::int64_t utime = 0;

@@ -209,6 +209,13 @@ bool Valid(const Impacts& m) {
          Finite(m.x, m.y, m.dv);
 }
 
+bool Valid(const Strands& m) {
+  return Time(m.utime) && m.sequence >= 0 && Peer(m.peer) && Tick(m.tick) &&
+         m.strand.size() <= kStrandPointsMax && Lengths(m.strand.size(), m.x, m.y) &&
+         AllWithin(m.strand, 0, INT16_MAX) && std::is_sorted(m.strand.begin(), m.strand.end()) &&
+         Finite(m.x, m.y);
+}
+
 bool Valid(const Stats& m) {
   return Time(m.utime) && m.sequence >= 0 && Peer(m.peer) && TickOrBefore(m.tick) &&
          Counter(m.bytes_out) && Counter(m.bytes_in) && Counter(m.datagrams_out) &&

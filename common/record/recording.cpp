@@ -160,6 +160,11 @@ bool RecordingBuilder::Keep(Meta& meta) {
   return true;
 }
 
+bool RecordingBuilder::Keep(Strands& strands) {
+  recording_.strands[strands.peer][strands.tick] = std::move(strands);
+  return true;
+}
+
 bool RecordingBuilder::Keep(Impacts& impacts) {
   sorted_ = AppendByTick(&recording_.impacts, impacts) && sorted_;
   return true;

@@ -15,8 +15,8 @@ namespace seam {
 
 /// One view of a peer at a tick, its parts put together.
 struct Recording {
-  Room room;                                             ///< the first of the log
-  std::map<int, std::map<std::int64_t, View>> views;     ///< by peer, by tick; complete ones only
+  Room room;                                          ///< the first of the log
+  std::map<int, std::map<std::int64_t, View>> views;  ///< by peer, by tick; complete ones only
   /// When the bus heard each view, us: one clock for all peers. By peer, by tick; a recording that
   /// was not told has none.
   std::map<int, std::map<std::int64_t, std::int64_t>> view_us;
@@ -26,7 +26,8 @@ struct Recording {
   std::map<std::int32_t, EditOrder> edits;               ///< by number: the room's order
   std::vector<Meta> meta;                                ///< in log order; the last value stands
   std::vector<Impacts> impacts;
-  std::map<int, std::vector<Stats>> stats;  ///< by peer, ascending
+  std::map<int, std::map<std::int64_t, Strands>> strands;  ///< by peer, by tick
+  std::map<int, std::vector<Stats>> stats;                 ///< by peer, ascending
   std::vector<Event> events;
 
   std::int64_t events_read = 0;              ///< LCM events in the log
@@ -76,6 +77,7 @@ class RecordingBuilder {
   bool Keep(Meta& meta);
   bool Keep(View& part);
   bool Keep(Impacts& impacts);
+  bool Keep(Strands& strands);
   bool Keep(Stats& stats);
   bool Keep(Event& event);
   bool KeepWhole(View& view);

@@ -14,6 +14,7 @@ struct BrickField;    // bricks.h
 struct Character;     // character.h
 struct Connectors;    // connectors.h
 struct Conveyor;      // forces.h
+struct Strand;        // strand.h
 struct Thrust;        // forces.h
 struct Expected;      // expected.h
 struct Grouping;      // grouping.h
@@ -215,6 +216,7 @@ struct Scene {
   std::vector<Joint> joints;
   FeatureList<BrickField> bricks;  ///< anchored, and no parts
   FeatureList<Water> waters;
+  FeatureList<Strand> strands;  ///< to be looked at, no more
   FeatureList<Thrust> thrusts;
   Feature<Grouping> grouping;
   FeatureList<Character> characters;

@@ -9,7 +9,7 @@
 #include "common/scene/connectors.h"
 #include "common/scene/part_rules.h"
 #include "common/scene/scene.h"
-#include "common/scene/scene_reader.h"
+#include "common/scene/toml/scene_reader.h"
 
 namespace seam {
 
@@ -97,6 +97,8 @@ void CheckScene(const Scene& scene, const std::string& file);
 
 /// A part's conveyor: a number or a table.
 void ReadConveyor(const SceneReader& r, const SceneDraft& draft, Part* part);
+/// [[strand]]. Requires parts and characters.
+void ReadStrands(const SceneReader& root, SceneDraft* draft);
 /// [[thrust]]. Requires parts and players.
 void ReadThrusts(const SceneReader& root, SceneDraft* draft);
 

@@ -1,5 +1,5 @@
 #include "common/scene/scene_draft.h"
-#include "common/scene/scene_text.h"
+#include "common/scene/toml/scene_text.h"
 
 namespace seam {
 

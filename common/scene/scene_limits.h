@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "common/base/limits.h"
-#include "common/scene/scene_reader.h"
+#include "common/scene/toml/scene_reader.h"
 
 namespace seam {
 
@@ -42,6 +42,8 @@ constexpr std::size_t kPartsMax = 4096, kJointsMax = 4096, kPlayersMax = kPeersM
 /// Of a player.
 constexpr std::size_t kActionsMax = 15;
 constexpr std::size_t kScriptMax = 2000, kWatchMax = 16, kThrustsMax = 256;
+/// Of [[strand]]; all their points together fit one message.
+constexpr std::size_t kStrandsMax = 64, kStrandLinksMax = 32;
 /// Inlets, and outlets, of one part.
 constexpr std::size_t kConnectorsMax = 16;
 /// m; smaller ones would have parts below kSizeMin.

@@ -7,7 +7,7 @@
 #include "common/scene/scene.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
-#include "common/scene/scene_text.h"
+#include "common/scene/toml/scene_text.h"
 
 namespace seam {
 namespace {
@@ -25,10 +25,10 @@ std::string SceneName(const std::string& file) {
 void ReadSolver(const SceneReader& root, const std::string& file, Solver* solver) {
   const TomlNode* table = root.Table("solver");
   if (table == nullptr) return;
-  const SceneReader r(*table, file, "solver",
-                      {"tick_hz", "substeps", "velocity_iterations", "position_iterations", "sleep",
-                       "continuous", "warm_starting", "skin", "welds", "faces", "joints",
-                       "joint_substeps"});
+  const SceneReader r(
+      *table, file, "solver",
+      {"tick_hz", "substeps", "velocity_iterations", "position_iterations", "sleep", "continuous",
+       "warm_starting", "skin", "welds", "faces", "joints", "joint_substeps"});
   solver->tick_hz = r.Integer("tick_hz", kTickHz, solver->tick_hz);
   solver->substeps = r.Integer("substeps", {1, 32}, solver->substeps);
   solver->velocity_iterations =
@@ -97,10 +97,10 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
 
   const SceneReader root(
       tree, file_name, "scene",
-      {"title",   "gravity", "duration", "buffer",      "speed_limit", "size_max",
-       "bounds",  "solver",  "part",     "bricks",      "character",   "joint",
-       "thrust",  "water",   "player",   "seat",        "watch",       "camera",
-       "trigger", "script",  "grouping", "input_delay", "expect",      "follow"});
+      {"title",       "gravity", "duration", "buffer",    "speed_limit", "size_max", "bounds",
+       "solver",      "part",    "bricks",   "character", "joint",       "thrust",   "water",
+       "player",      "seat",    "watch",    "camera",    "trigger",     "script",   "grouping",
+       "input_delay", "expect",  "follow",   "strand"});
   scene.title = root.Text("title", scene.name);
   scene.gravity = root.Vector("gravity", {-100, 100}, scene.gravity);
   scene.duration_s = root.Seconds("duration", {0.1, 86400}, scene.duration_s);
@@ -118,6 +118,7 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   ReadBricks(root, &draft);
   ReadCharacters(root, &draft);
   ReadJoints(root, &draft);
+  ReadStrands(root, &draft);
   ReadThrusts(root, &draft);
   ReadWaters(root, &draft);
   ReadGrouping(root, &draft);

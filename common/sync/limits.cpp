@@ -7,7 +7,7 @@
 #include "common/codec/messages.h"
 #include "common/scene/player_mask.h"
 #include "common/scene/scene_limits.h"
-#include "common/scene/scene_text.h"
+#include "common/scene/toml/scene_text.h"
 #include "common/topology/edit.h"
 #include "common/topology/topology.h"
 

@@ -31,6 +31,7 @@ constexpr MessageBytes kChunkBytes{22, 1};
 constexpr MessageBytes kEditBytes{71, 1};  ///< a byte of text; it always has its four numbers
 constexpr MessageBytes kViewBytes{50, 29};
 constexpr MessageBytes kImpactsBytes{38, 16};
+constexpr MessageBytes kStrandsBytes{38, 10};
 constexpr MessageBytes kRoomBytes{83, 1};  ///< a byte of any of its texts
 
 constexpr std::size_t Largest(const MessageBytes& bytes, std::size_t count) {
@@ -60,6 +61,7 @@ static_assert(Largest(kEditBytes, kEditTextBytesMax) <= kMessageBytesMax, "EditO
 // On the bus.
 static_assert(Largest(kViewBytes, kViewBodiesMax) <= kBusMessageBytesMax, "View too large");
 static_assert(Largest(kImpactsBytes, kImpactsMax) <= kBusMessageBytesMax, "Impacts too large");
+static_assert(Largest(kStrandsBytes, kStrandPointsMax) <= kBusMessageBytesMax, "Strands too large");
 static_assert(Largest(kRoomBytes, kSceneTextBytesMax + 5 * kLabelBytesMax + kImpairBytesMax) <=
                   kBusMessageBytesMax,
               "a Room with the longest scene could neither be published nor joined");

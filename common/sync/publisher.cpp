@@ -38,6 +38,7 @@ template void Publisher::Publish(Grants);
 template void Publisher::Publish(EditOrder);
 template void Publisher::Publish(Meta);
 template void Publisher::Publish(Impacts);
+template void Publisher::Publish(Strands);
 template void Publisher::Publish(Stats);
 template void Publisher::Publish(Event);
 

@@ -20,6 +20,7 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       memory_(config_, world_),
       inputs_(topology.scene().players.size()),
       display_(config_, world_, memory_.snapshots()),
+      strands_(world_),
       replay_(config_, world_, roles_, memory_, display_, inputs_),
       corrector_(config_, world_, roles_, memory_, display_, replay_),
       reach_(config_, world_, roles_, inputs_),

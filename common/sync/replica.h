@@ -31,6 +31,7 @@
 #include "common/sync/rest/rest_commit.h"
 #include "common/sync/roles.h"
 #include "common/sync/send_scheduler.h"
+#include "common/sync/show/strand_view.h"
 
 namespace seam {
 
@@ -127,6 +128,8 @@ class Replica {
   /// Takes what another peer's authority has committed to rest.
   void Receive(const Rest& rest);
   View MakeView() const { return display_.MakeView(roles_); }
+  /// Of the scene's strands, as a view of this tick shows them; no points: there are none.
+  Strands MakeStrands(const View& view) { return strands_.Next(view); }
   /// Impacts of the last tick above kMajorImpact, the first 64; ids empty when there were none.
   Impacts MakeImpacts() const;
   /// Of the steps since the last call: impacts that can hurt what this peer has authority over.
@@ -172,6 +175,7 @@ class Replica {
   BodyMemory memory_;
   std::vector<InputTrack> inputs_;  // by player
   Display display_;
+  StrandView strands_;
   Replay replay_;
   Corrector corrector_;
   Reach reach_;

@@ -5,7 +5,7 @@
 #include "common/scene/joint_kinds.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
-#include "common/scene/scene_text.h"
+#include "common/scene/toml/scene_text.h"
 #include "common/topology/topology.h"
 
 namespace seam {

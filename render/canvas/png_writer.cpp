@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 void Quiet(png_structp, png_const_charp) {}
 
 /// libpng leaves by longjmp, so nothing with a destructor may live in here.
-bool Encode(std::FILE* file, const Image& image, int level) {
+bool Encode(std::FILE* file, const Image& image, int level, png_textp texts, int text_count) {
   png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, Quiet);
   if (png == nullptr) return false;
   png_infop info = png_create_info_struct(png);
@@ -33,6 +33,7 @@ bool Encode(std::FILE* file, const Image& image, int level) {
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width_px),
                static_cast<png_uint_32>(image.height_px), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+  if (text_count > 0) png_set_text(png, info, texts, text_count);
   png_write_info(png, info);
   for (int y = 0; y < image.height_px; ++y) png_write_row(png, image.At(0, y));
   png_write_end(png, info);
@@ -42,7 +43,7 @@ bool Encode(std::FILE* file, const Image& image, int level) {
 
 }  // namespace
 
-void WritePng(const std::string& path, const Image& image, int level) {
+void WritePng(const std::string& path, const Image& image, int level, const PngTexts& texts) {
   SEAM_ASSERT(image.width_px > 0 && image.height_px > 0);
   std::error_code ignored;
   const fs::file_status there = fs::symlink_status(path, ignored);
@@ -52,7 +53,16 @@ void WritePng(const std::string& path, const Image& image, int level) {
   std::FILE* file = OpenPlainFile(written, FileUse::kReplace);
   if (file == nullptr) throw OperatorError(path + ": " + std::strerror(errno));
   errno = 0;
-  const bool encoded = Encode(file, image, level);
+  std::vector<png_text> chunks;
+  for (const auto& [key, value] : texts) {
+    png_text chunk{};
+    chunk.compression = PNG_ITXT_COMPRESSION_NONE;
+    chunk.key = const_cast<char*>(key.c_str());  // libpng only reads them
+    chunk.text = const_cast<char*>(value.c_str());
+    chunk.itxt_length = value.size();
+    chunks.push_back(chunk);
+  }
+  const bool encoded = Encode(file, image, level, chunks.data(), static_cast<int>(chunks.size()));
   const bool closed = std::fclose(file) == 0;
   if (encoded && closed && (!renamed || std::rename(written.c_str(), path.c_str()) == 0)) return;
   const std::string why = errno != 0 ? std::strerror(errno) : "write failed";

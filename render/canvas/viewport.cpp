@@ -23,7 +23,7 @@ Viewport Fit(const Rect& panel, const Vec2& min, const Vec2& max) {
   return viewport;
 }
 
-std::vector<Rect> Tile(const Rect& area, int count, float aspect, float gap) {
+std::vector<Rect> Tile(const Rect& area, int count, float aspect, float gap, float below) {
   SEAM_ASSERT(count > 0);
   int best_columns = 1;
   float best = 0;
@@ -33,22 +33,22 @@ std::vector<Rect> Tile(const Rect& area, int count, float aspect, float gap) {
         (area.width - gap * static_cast<float>(columns - 1)) / static_cast<float>(columns);
     const float height =
         (area.height - gap * static_cast<float>(rows - 1)) / static_cast<float>(rows);
-    const float scale = std::min(width / aspect, height);
+    const float scale = std::min(width / aspect, height - below);
     if (scale <= best) continue;
     best = scale;
     best_columns = columns;
   }
   const int rows = (count + best_columns - 1) / best_columns;
-  const float width =
-      (area.width - gap * static_cast<float>(best_columns - 1)) / static_cast<float>(best_columns);
   const float height =
       (area.height - gap * static_cast<float>(rows - 1)) / static_cast<float>(rows);
   std::vector<Rect> panels;
   for (int i = 0; i < count; ++i) {
-    const auto column = static_cast<float>(i % best_columns);
-    const auto row = static_cast<float>(i / best_columns);
-    panels.push_back(
-        {area.x + column * (width + gap), area.y + row * (height + gap), width, height});
+    const int row = i / best_columns, column = i % best_columns;
+    // A last row that is not full is as wide as the others: no hole in the page.
+    const auto in_row = static_cast<float>(std::min(best_columns, count - row * best_columns));
+    const float width = (area.width - gap * (in_row - 1)) / in_row;
+    panels.push_back({area.x + static_cast<float>(column) * (width + gap),
+                      area.y + static_cast<float>(row) * (height + gap), width, height});
   }
   return panels;
 }

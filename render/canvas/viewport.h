@@ -27,7 +27,8 @@ struct Viewport {
 Viewport Fit(const Rect& panel, const Vec2& min, const Vec2& max);
 
 /// The grid of `count` panels in `area` that shows boxes of this aspect (width over height)
-/// largest; `gap` px between them. From left to right, then down.
-std::vector<Rect> Tile(const Rect& area, int count, float aspect, float gap);
+/// largest; `gap` px between them, and the lowest `below` px of each for something else. From left
+/// to right, then down.
+std::vector<Rect> Tile(const Rect& area, int count, float aspect, float gap, float below = 0);
 
 }  // namespace seam

@@ -22,14 +22,42 @@ void Swatch(DrawList& list, float x, float y, const BodyLook& look) {
   list.Stroke(corners, true, {1.2f * scale, look.edge, 0});
 }
 
+/// The scale of the heat: 1 mm to 1 m. Returns where it ends.
+float HeatBar(DrawList& list, float x, float base) {
+  const float scale = list.font().scale();
+  constexpr int kSteps = 30;
+  x += list.Text(x, base, TextStyle::kSmall, "error 1 mm", kInk) + 6 * scale;
+  for (int i = 0; i < kSteps; ++i) {
+    const float decades = 3 * static_cast<float>(i) / (kSteps - 1);
+    list.FillRect({std::round(x), std::round(base - 10 * scale), std::ceil(3 * scale), 11 * scale},
+                  HeatColour(1e-3f * std::pow(10.0f, decades)));
+    x += 3 * scale;
+  }
+  x += 6 * scale;
+  return x + list.Text(x, base, TextStyle::kSmall, "1 m", kInk);
+}
+
+/// The text, cut with an ellipsis where it would be wider than `width`.
+std::string Fitting(const DrawList& list, TextStyle style, std::string text, float width) {
+  if (list.font().Width(style, text) <= width) return text;
+  while (!text.empty() && list.font().Width(style, text + "…") > width) {
+    do {
+      text.pop_back();  // a whole letter of UTF-8
+    } while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xc0) == 0x80);
+  }
+  return text + "…";
+}
+
 }  // namespace
 
 void DrawHeader(DrawList& list, const Rect& area, const std::string& title,
                 const std::string& subtitle, const std::vector<Figure>& figures) {
   const float scale = list.font().scale();
   const float upper = area.y + 22 * scale, lower = area.y + 42 * scale;
-  list.Text(area.x, upper, TextStyle::kTitle, title, kInk);
-  list.Text(area.x, lower, TextStyle::kBody, subtitle, kFaintInk);
+  const float room = area.width - 104 * scale * static_cast<float>(figures.size()) - 8 * scale;
+  list.Text(area.x, upper, TextStyle::kTitle, Fitting(list, TextStyle::kTitle, title, room), kInk);
+  list.Text(area.x, lower, TextStyle::kBody, Fitting(list, TextStyle::kBody, subtitle, room),
+            kFaintInk);
   float right = area.right();
   for (const auto& [name, value] : figures) {
     list.Text(right, area.y + 17 * scale, TextStyle::kSmall, name, kFaintInk, Align::kRight);
@@ -38,12 +66,13 @@ void DrawHeader(DrawList& list, const Rect& area, const std::string& title,
   }
 }
 
-void DrawLegend(DrawList& list, const Rect& area, const Playback& playback, bool impacts) {
+void DrawLegend(DrawList& list, const Rect& area, const Playback& playback, const WorldLook& look,
+                bool impacts) {
   const float scale = list.font().scale();
   const float base = area.y + area.height / 2 + 4 * scale;
   float x = area.x;
-  const auto entry = [&](const BodyLook& look, const std::string& text) {
-    Swatch(list, x, base, look);
+  const auto entry = [&](const BodyLook& body, const std::string& text) {
+    Swatch(list, x, base, body);
     x += 22 * scale;
     x += list.Text(x, base, TextStyle::kSmall, text, kInk) + 16 * scale;
   };
@@ -55,7 +84,10 @@ void DrawLegend(DrawList& list, const Rect& area, const Playback& playback, bool
   for (std::size_t i = 0; i < peers.size() && i < 6; ++i)
     entry(LookOf(peers[i], kRoleAuthority), playback.PeerName(peers[i]));
   if (peers.size() > 6) x += list.Text(x, base, TextStyle::kSmall, "…", kInk) + 16 * scale;
-  if (playback.mode() != Mode::kOracle) {
+  if (look.heat) {
+    gap();
+    x = HeatBar(list, x, base) + 16 * scale;
+  } else if (playback.mode() != Mode::kOracle) {
     gap();
     entry(LookOf(0, kRoleAuthority), "simulated with authority");
     entry(LookOf(0, kRoleSecondary), "secondary copy");

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "render/canvas/viewport.h"
+#include "render/draw/draw_world.h"
 #include "render/playback/playback.h"
 
 namespace seam {
@@ -18,7 +19,9 @@ void DrawHeader(DrawList& list, const Rect& area, const std::string& title,
                 const std::string& subtitle, const std::vector<Figure>& figures);
 
 /// Which colours and patterns mean what, as far as the playback has them.
-void DrawLegend(DrawList& list, const Rect& area, const Playback& playback, bool impacts);
+/// `look`: which layers.
+void DrawLegend(DrawList& list, const Rect& area, const Playback& playback, const WorldLook& look,
+                bool impacts);
 
 /// In a panel's upper corners; `swatch` marks the curve of a comparison (alpha 0: none).
 void DrawCaption(DrawList& list, const Rect& panel, const std::string& left,

@@ -55,34 +55,15 @@ Rect Shared(const Rect& a, const Rect& b) {
   return {x0, y0, std::max(0.0f, x1 - x0), std::max(0.0f, y1 - y0)};
 }
 
-/// The extents of a region and its zone along the bottom of the panel, named.
-void DrawRibbon(DrawList& list, const Region& region, const Rect& row) {
-  const float scale = list.font().scale();
+/// A region as a line, its zone as a thinner one on both sides of it.
+void DrawExtent(DrawList& list, const Region& region, const Rect& row) {
   const Rect zone = Shared({region.outer.x, row.y, region.outer.width, row.height}, row);
   const Rect own = Shared({region.inner.x, row.y, region.inner.width, row.height}, row);
-  if (zone.width > own.width) {
-    list.FillRect(zone, Mix(kPanel, region.colour, 0.12f));
-    list.Hatch({{zone.x, zone.y},
-                {zone.right(), zone.y},
-                {zone.right(), zone.bottom()},
-                {zone.x, zone.bottom()}},
-               {region.inner.x, row.y}, {0.70710678f, 0.70710678f}, 7 * scale,
-               Mix(kPanel, region.colour, 0.45f));
-  }
-  list.FillRect(own, Mix(kPanel, region.colour, 0.45f));
-  const auto name = [&](float from, float to, const std::string& text) {
-    if (to - from < list.font().Width(TextStyle::kSmall, text) + 8 * scale) return;
-    const float middle = (from + to) / 2, width = list.font().Width(TextStyle::kSmall, text);
-    if (from < own.x || to > own.right())  // letters do not read on stripes
-      list.FillRect({middle - width / 2 - 4 * scale, row.y, width + 8 * scale, row.height},
-                    Mix(kPanel, region.colour, 0.12f));
-    list.Text(middle, row.y + 11 * scale, TextStyle::kSmall, text,
-              Mix(Darker(region.colour), kInk, 0.5f), Align::kCentre);
-  };
-  name(own.x, own.right(), region.name + "'s region");
-  if (zone.width <= own.width) return;
-  name(zone.x, own.width > 0 ? own.x : zone.right(), region.name + "'s buffer zone");
-  if (own.width > 0) name(own.right(), zone.right(), region.name + "'s buffer zone");
+  const float middle = row.y + row.height / 2;
+  if (zone.width > own.width)
+    list.Stroke({{zone.x, middle}, {zone.right(), middle}}, false,
+                {std::max(1.0f, row.height / 4), region.colour, row.height * 1.5f});
+  if (own.width > 0) list.FillRect(own, region.colour);
 }
 
 constexpr float kTint = 0.22f, kVeil = 0.16f;
@@ -154,14 +135,20 @@ void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playb
   }
 }
 
-void DrawRegionNames(DrawList& list, const Viewport& viewport, const Playback& playback) {
+float RegionLinesHeight(const Playback& playback, float scale) {
+  const Viewport any;
+  const auto count = static_cast<float>(std::min<std::size_t>(RegionsOf(any, playback).size(), 8));
+  return count == 0 ? 0 : std::round((2 + 5 * count) * scale);
+}
+
+void DrawRegionLines(DrawList& list, const Viewport& viewport, const Playback& playback, float y) {
+  const float scale = list.font().scale();
   const std::vector<Region> regions = RegionsOf(viewport, playback);
-  if (regions.size() > 4) return;  // more rows would hide the world
-  const float height = std::round(15 * list.font().scale());
-  float y = viewport.panel.bottom() - 1;
-  for (auto region = regions.rbegin(); region != regions.rend(); ++region) {
-    y -= height;
-    DrawRibbon(list, *region, {viewport.panel.x, y, viewport.panel.width, height});
+  y += 2 * scale;
+  for (std::size_t i = 0; i < regions.size() && i < 8; ++i) {
+    DrawExtent(list, regions[i],
+               {viewport.panel.x, std::round(y), viewport.panel.width, std::round(3 * scale)});
+    y += 5 * scale;
   }
 }
 

@@ -13,8 +13,11 @@ void DrawGrid(DrawList& list, const Viewport& viewport);
 /// The players' regions in their peers' colours, and the band of scene.buffer_m around each, if the
 /// mode has them.
 void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playback);
-/// The extents of regions and buffer zones as named ribbons along the bottom, above everything.
-void DrawRegionNames(DrawList& list, const Viewport& viewport, const Playback& playback);
+/// How much room DrawRegionLines needs, px; 0: there are no regions.
+float RegionLinesHeight(const Playback& playback, float scale);
+/// The extents of regions (thick) and of their buffer zones (thin), a line each, below the panel
+/// from `y` px down: nothing of the world is covered.
+void DrawRegionLines(DrawList& list, const Viewport& viewport, const Playback& playback, float y);
 
 /// All that is anchored, kinematic parts where they are at `tick`. `revision`: of that moment.
 void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playback,

@@ -3,19 +3,22 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/geometry.h"
 #include "render/canvas/palette.h"
 #include "render/draw/draw_body.h"
 #include "render/draw/draw_ghosts.h"
 #include "render/draw/draw_joints.h"
 #include "render/draw/draw_rules.h"
 #include "render/draw/draw_scene.h"
+#include "render/draw/draw_strands.h"
 #include "render/playback/marks.h"
 
 namespace seam {
 namespace {
 
 constexpr double kTrailSeconds = 1.2;
-constexpr int kTrailPoints = 36;
+constexpr float kDotRadius = 1.3f;      ///< px at scale 1
+constexpr int kFewGhosts = 20;          ///< more are drawn fainter
 constexpr double kImpactSeconds = 0.5;  ///< how long a mark stays
 
 struct Seen {
@@ -36,62 +39,96 @@ std::vector<Seen> BodiesOnPanel(const Viewport& viewport, const Playback& playba
   return seen;
 }
 
-/// A look at a few of the moments: most bodies of a large scene rest, and rest cheaply.
-bool RestsOver(const Viewport& viewport, const Playback& playback, const std::vector<Moment>& past,
-               PartId id) {
-  const auto now = playback.Find(past.back(), id);
-  for (std::size_t i = 0; now && i + 1 < past.size(); i += 9) {
-    const auto then = playback.Find(past[i], id);
-    if (!then) continue;
-    if ((then->pose.position - now->pose.position).norm() * viewport.px_per_m > 0.5f) return false;
-  }
-  return true;
-}
-
-/// Where bodies came from; bodies at rest have none.
+/// Where bodies were shown: one dot for each tick, so that even dots are an even motion, a gap is a
+/// jump and a cluster a stop.
 void DrawTrails(DrawList& list, const Viewport& viewport, const Playback& playback,
                 const DrawnRevision& revision, const WorldLook& look) {
+  const float scale = list.font().scale();
+  const double last = std::floor(look.tick), first = last - kTrailSeconds * playback.tick_hz();
   std::vector<Moment> past;
-  const double span = kTrailSeconds * playback.tick_hz();
-  for (int i = kTrailPoints; i >= 0; --i)
-    past.push_back(playback.MomentAt(look.peer, look.tick - span * i / kTrailPoints));
+  for (double tick = std::ceil(first); tick <= last; ++tick)
+    past.push_back(playback.MomentAt(look.peer, tick));
   for (const BodyShapes& body : revision.moving) {
-    if (RestsOver(viewport, playback, past, body.id)) continue;
-    std::vector<Vec2> points;
-    std::vector<Colour> colours;
-    float length = 0;
-    bool on_panel = !look.cull;
-    for (int i = 0; i <= kTrailPoints; ++i) {
-      const auto shown = playback.Find(past[static_cast<std::size_t>(i)], body.id);
-      if (!shown) continue;
+    Vec2 before(1e9f, 1e9f);
+    for (const Moment& moment : past) {
+      if (moment.before == nullptr || moment.blend != 0) continue;  // a tick without a view
+      const auto shown = playback.Find(moment, body.id);
+      if (!shown || (look.cull && !viewport.Sees(shown->pose.position, 0.1f))) continue;
       const Vec2 px = viewport.ToPx(shown->pose.position);
-      if (!points.empty()) {
-        const float step = (px - points.back()).norm();
-        if (step < 0.5f) continue;  // no direction to speak of
-        length += step;
-      }
-      on_panel = on_panel || viewport.Sees(shown->pose.position, length / viewport.px_per_m);
-      points.push_back(px);
-      const float age = 1 - static_cast<float>(i) / static_cast<float>(kTrailPoints);
-      colours.push_back(Faded(PeerColour(shown->authority), 0.6f * (1 - age)));
+      if ((px - before).norm() < 0.4f) continue;  // it rests: one dot is enough
+      before = px;
+      const auto age = static_cast<float>((look.tick - moment.tick) / (last - first + 1));
+      list.Disc(px, kDotRadius * scale,
+                Faded(Darker(PeerColour(shown->authority)), 0.9f - 0.8f * age));
     }
-    if (!on_panel || length < 8 * list.font().scale()) continue;
-    list.StrokeShaded(points, colours, 2 * list.font().scale());
   }
 }
 
-/// Ghosts appear where view and truth part, so that a right picture stays clean.
+/// How far apart, px at scale 1, view and truth of the body are drawn; 1000 where it is not shown.
+float ApartPx(const DrawList& list, const Viewport& viewport, const BodyShapes& body,
+              const Pose& truth, const std::optional<Pose>& shown) {
+  return shown ? PixelsApart(viewport, body, *shown, truth) / list.font().scale() : 1e3f;
+}
+
+/// Ghosts appear where view and truth part, so that a right picture stays clean; where there are
+/// many of them, as in a pile, each is fainter.
 void DrawGhosts(DrawList& list, const Viewport& viewport, const Playback& playback,
                 const DrawnRevision& revision, const WorldLook& look) {
   const Moment now = playback.MomentAt(look.peer, look.tick);
+  int apart = 0;
+  const auto visit = [&](const auto& draw) {
+    VisitTruth(playback, revision, now, look.tick,
+               [&](const BodyShapes& body, const Pose& truth, const std::optional<Pose>& shown) {
+                 if (look.cull && !viewport.Sees(truth.position, body.reach)) return;
+                 const float px = ApartPx(list, viewport, body, truth, shown);
+                 if (px > 0.75f) draw(body, truth, std::min((px - 0.75f) / 2, 1.0f));
+               });
+  };
+  visit([&](const BodyShapes&, const Pose&, float) { ++apart; });
+  const float onion =
+      apart <= kFewGhosts ? 1 : std::max(0.3f, kFewGhosts / static_cast<float>(apart));
+  visit([&](const BodyShapes& body, const Pose& truth, float opacity) {
+    DrawGhost(list, viewport, body, truth, 0.9f * opacity * onion);
+  });
+}
+
+/// Arrows from where the oracle has a body to where it is shown.
+void DrawVectors(DrawList& list, const Viewport& viewport, const Playback& playback,
+                 const DrawnRevision& revision, const WorldLook& look) {
+  const float scale = list.font().scale();
+  const Moment now = playback.MomentAt(look.peer, look.tick);
   VisitTruth(playback, revision, now, look.tick,
              [&](const BodyShapes& body, const Pose& truth, const std::optional<Pose>& shown) {
-               if (look.cull && !viewport.Sees(truth.position, body.reach)) return;
-               const float apart = shown ? PixelsApart(viewport, body, *shown, truth) : 1e3f;
-               const float opacity =
-                   std::clamp((apart / list.font().scale() - 0.75f) / 2, 0.0f, 1.0f);
-               if (opacity > 0) DrawGhost(list, viewport, body, truth, 0.9f * opacity);
+               if (!shown || !viewport.Sees(truth.position, body.reach)) return;
+               const Vec2 from = viewport.ToPx(truth.position), to = viewport.ToPx(shown->position);
+               const float length = (to - from).norm();
+               if (length < 2 * scale) return;
+               const Vec2 way = (to - from) / length, side(-way.y(), way.x());
+               const float head = std::min(6 * scale, length / 2);
+               const Line line{1.6f * scale, kSpark, 0};
+               list.Stroke({from, to}, false, line);
+               list.Stroke({to - head * (way + 0.5f * side), to, to - head * (way - 0.5f * side)},
+                           false, line);
              });
+}
+
+/// By how far a body is shown from where it should be, m; 0 where nobody knows.
+float ErrorOf(const Playback& playback, const Moment& now, const BodyShapes& body) {
+  const auto truth = playback.Truth(body.id, now.tick);
+  const auto shown = playback.Find(now, body.id);
+  if (!truth || !shown) return 0;
+  const float turn = body.round ? 0 : std::abs(WrapAngle(shown->pose.angle - truth->angle));
+  return (shown->pose.position - truth->position).norm() + turn * body.reach;
+}
+
+BodyLook LookWith(const Playback& playback, const Moment& now, const Seen& one,
+                  const WorldLook& look) {
+  BodyLook body = LookOf(one.shown.authority, one.shown.role);
+  if (look.heat) {
+    body.fill = HeatColour(ErrorOf(playback, now, *one.body));
+    body.hatched = false;
+  }
+  return body;
 }
 
 void DrawImpacts(DrawList& list, const Viewport& viewport, const Playback& playback,
@@ -107,27 +144,31 @@ void DrawImpacts(DrawList& list, const Viewport& viewport, const Playback& playb
   }
 }
 
-/// The players' names over their vehicles.
+/// The players' names over their vehicles, and if so wished those of all bodies.
 void DrawNames(DrawList& list, const Viewport& viewport, const Playback& playback,
-               const std::vector<Seen>& seen) {
+               const std::vector<Seen>& seen, bool all) {
   const float scale = list.font().scale();
   for (const Seen& one : seen) {
-    if (one.body->owner_player < 0) continue;
-    const auto player = static_cast<std::size_t>(one.body->owner_player);
-    const std::string& name = playback.scene().players[player].name;
+    const bool vehicle = one.body->owner_player >= 0;
+    if (!vehicle && !all) continue;
+    std::string name =
+        vehicle ? playback.scene().players[static_cast<std::size_t>(one.body->owner_player)].name
+                : playback.PartName(one.body->id);
+    if (one.shown.authority > kPeerHues) name += " (" + std::to_string(one.shown.authority) + ")";
     float top = 1e9f;
     const Frame2 frame(one.shown.pose);
     for (const Outline& outline : one.body->outlines)
       for (const Vec2& p : outline.points)
         top = std::min(top, viewport.ToPx(frame(p)).y() - outline.radius * viewport.px_per_m);
     const float x = viewport.ToPx(one.shown.pose.position).x();
-    const float width = list.font().Width(TextStyle::kStrong, name);
-    const float y = top - 9 * scale;
+    const TextStyle style = vehicle ? TextStyle::kStrong : TextStyle::kSmall;
+    const float width = list.font().Width(style, name);
+    const float highest = viewport.panel.y + 14 * scale;
+    const float y = std::max(top - (vehicle ? 9 : 4) * scale, highest);
     list.FillRect({std::round(x - width / 2 - 4 * scale), std::round(y - 12 * scale),
                    width + 8 * scale, 16 * scale},
                   Faded(kPanel, 0.75f));
-    list.Text(x, y, TextStyle::kStrong, name, Darker(PeerColour(one.shown.authority)),
-              Align::kCentre);
+    list.Text(x, y, style, name, Darker(PeerColour(one.shown.authority)), Align::kCentre);
   }
 }
 
@@ -164,16 +205,16 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
   DrawRods(list, viewport, playback, now, 1);
   const std::vector<Seen> seen = BodiesOnPanel(viewport, playback, *revision, look);
   for (const Seen& one : seen)
-    DrawBody(list, viewport, *one.body, one.shown.pose,
-             LookOf(one.shown.authority, one.shown.role));
+    DrawBody(list, viewport, *one.body, one.shown.pose, LookWith(playback, now, one, look));
+  DrawStrands(list, viewport, playback, now, look.peer);
   DrawPins(list, viewport, playback, now, 1);
   DrawSurfaces(list, viewport, playback);
-  DrawGhosts(list, viewport, playback, *revision, look);
+  if (look.ghosts) DrawGhosts(list, viewport, playback, *revision, look);
+  if (look.vectors) DrawVectors(list, viewport, playback, *revision, look);
   DrawBreaks(list, viewport, playback, now, look.tick);
   DrawImpacts(list, viewport, playback, look);
   DrawHealth(list, viewport, playback, now, look.tick);
-  DrawNames(list, viewport, playback, seen);
-  DrawRegionNames(list, viewport, playback);
+  DrawNames(list, viewport, playback, seen, look.names);
   DrawScores(list, viewport.panel, playback, look.tick);
   DrawScaleBar(list, viewport);
   list.NoClip();

@@ -8,10 +8,14 @@ namespace seam {
 
 /// What of it, and when.
 struct WorldLook {
-  int peer = 0;      ///< whose view
-  double tick = 0;   ///< may lie between ticks
-  bool cull = true;  ///< leave out what the panel does not show; changes no pixel
-  bool trails = true;
+  int peer = 0;          ///< whose view
+  double tick = 0;       ///< may lie between ticks
+  bool cull = true;      ///< leave out what the panel does not show; changes no pixel
+  bool trails = true;    ///< where each body was shown at each tick: one dot a tick
+  bool ghosts = true;    ///< where the oracle has it, if elsewhere
+  bool vectors = false;  ///< from where the oracle has it to where it is shown
+  bool heat = false;     ///< fill by that distance instead of by authority
+  bool names = false;    ///< of all bodies, not only of the players' vehicles
 };
 
 /// What a playback's scene wants to be seen at a tick: the scene's box, or as large a box about the

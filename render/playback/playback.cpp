@@ -175,6 +175,12 @@ int Playback::PlayerOf(int peer) const {
   return peer <= static_cast<int>(scene_.players.size()) ? peer - 1 : -1;
 }
 
+const std::string& Playback::PartName(PartId part) const {
+  static const std::string none;
+  const bool known = part >= 0 && static_cast<std::size_t>(part) < scene_.parts.size();
+  return known ? scene_.parts[static_cast<std::size_t>(part)].name : none;
+}
+
 std::string Playback::PeerName(int peer) const {
   if (peer == 0) return mode() == Mode::kOracle ? "oracle" : "server";
   const int player = PlayerOf(peer);
@@ -262,6 +268,18 @@ std::int32_t Playback::RoundTripUs(int peer, double tick) const {
     std::int32_t last = -1;
     for (const Stats& stats : list)
       if (static_cast<double>(stats.tick) <= tick) last = stats.rtt_us;
+    greatest = std::max(greatest, last);
+  }
+  return greatest;
+}
+
+double Playback::LossPercent(int peer, double tick) const {
+  double greatest = -1;
+  for (const auto& [from, list] : recording_->stats) {
+    if (peer != 0 && from != peer) continue;
+    double last = -1;
+    for (const Stats& stats : list)
+      if (static_cast<double>(stats.tick) <= tick) last = stats.loss_ppm * 1e-4;
     greatest = std::max(greatest, last);
   }
   return greatest;

@@ -77,6 +77,8 @@ class Playback {
   int PeerOr(int peer) const;
   /// The scene's player that a peer drives (by the authority over its vehicle), -1: none.
   int PlayerOf(int peer) const;
+  /// Of the scene as it was at first; "" for what came later.
+  const std::string& PartName(PartId part) const;
   /// "server", "ann (peer 1)" or "peer 3".
   std::string PeerName(int peer) const;
   /// "buffer · retrospect", "strict", "oracle".
@@ -93,6 +95,9 @@ class Playback {
   /// Round trip as `peer` last reported it by `tick`, µs; -1 unknown. Peer 0 has none of its own:
   /// the greatest of its clients' is taken.
   std::int32_t RoundTripUs(int peer, double tick) const;
+
+  /// Datagrams lost, percent, likewise; -1 unknown.
+  double LossPercent(int peer, double tick) const;
 
   /// RMS error of a peer's view at a tick, m; peer -1: of all views. NaN where the oracle or the
   /// views know nothing; empty without an oracle.

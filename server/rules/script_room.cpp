@@ -6,7 +6,7 @@
 #include "common/scene/bricks.h"
 #include "common/scene/joint_kinds.h"
 #include "common/scene/part_rules.h"
-#include "common/scene/scene_text.h"
+#include "common/scene/toml/scene_text.h"
 #include "server/rules/part_owner.h"
 
 namespace seam {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "common/scene/part_rules.h"
-#include "common/scene/toml_tree.h"
+#include "common/scene/toml/toml_tree.h"
 #include "server/script/script_host.h"
 
 namespace seam {

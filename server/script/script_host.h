@@ -6,7 +6,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "common/scene/toml_tree.h"
+#include "common/scene/toml/toml_tree.h"
 #include "common/scene/types.h"
 
 namespace seam {

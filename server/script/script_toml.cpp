@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "common/scene/scene_text.h"
+#include "common/scene/toml/scene_text.h"
 #include "server/script/script_host.h"
 
 namespace seam {

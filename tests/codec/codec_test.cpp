@@ -18,9 +18,9 @@
 namespace seam {
 namespace {
 
-using Messages =
-    ::testing::Types<Hello, Welcome, Chunk, Room, Ping, Pong, Inputs, States, Rest, Grants, Release,
-                     ExactStates, ImpactReport, EditOrder, Meta, View, Impacts, Stats, Event, Bye>;
+using Messages = ::testing::Types<Hello, Welcome, Chunk, Room, Ping, Pong, Inputs, States, Rest,
+                                  Grants, Release, ExactStates, ImpactReport, EditOrder, Meta, View,
+                                  Impacts, Strands, Stats, Event, Bye>;
 
 template <class Message>
 class Codec : public ::testing::Test {};
@@ -204,6 +204,9 @@ TEST(CodecBounds, TheLargestMessagesFitTheirCarriers) {
   Impacts impacts;
   random.Fill(impacts, kImpactsMax);
   EXPECT_LE(Encode(impacts).size(), kBusMessageBytesMax);
+  Strands strands;
+  random.Fill(strands, kStrandPointsMax);
+  EXPECT_LE(Encode(strands).size(), kBusMessageBytesMax);
   Room room;
   room.scene_text.assign(kSceneTextBytesMax, '#');
   room.scene_name = room.mode = room.reconcile = room.predict = std::string(kLabelBytesMax, 'x');
@@ -294,7 +297,8 @@ TEST(CodecWire, TypeHashesArePinnedToTheProtocolVersion) {
       {"release_t", 0x654111b44224cc72u},      {"rest_t", 0xd7168872aa808164u},
       {"room_t", 0x3b1556dd65c2c546u},         {"snapshot_t", 0x05694f6d14ffdcafu},
       {"states_t", 0x7dea382c607b86bfu},       {"stats_t", 0x6821d564e8a2a471u},
-      {"view_t", 0x8388179d59cd2870u},         {"welcome_t", 0x01d175a91807bb13u},
+      {"strands_t", 0x4c2098e274343524u},      {"view_t", 0x8388179d59cd2870u},
+      {"welcome_t", 0x01d175a91807bb13u},
   };
   std::map<std::string, std::uint64_t> hashes;
   std::set<std::uint64_t> different;

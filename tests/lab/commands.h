@@ -125,6 +125,20 @@ struct FairnessCommand {
 /// it. 1: some runs failed, more than a tenth of the rows are not valid, or a signal came.
 int RunFairnessTable(const FairnessCommand& command);
 
+struct TitlesCommand {
+  std::vector<std::string> scenes;             ///< names; empty: all that have a sentence
+  std::vector<std::string> networks = {"4g"};  ///< of --impair
+  int seeds = 10;                              ///< from 1
+  std::string table;                           ///< CSV file to write or complete
+  int jobs = 0;                                ///< runs at a time; 0: one a core
+  bool force = false;                          ///< begin the table anew
+  bool quiet = false;                          ///< no progress line
+};
+
+/// Plays scenes and prints in how many sessions each did what its title says. 1: some runs failed
+/// (and left no row), or a signal came.
+int RunTitles(const TitlesCommand& command);
+
 struct ReportCommand {
   std::string data = "out/report/data";     ///< folder of the tables
   std::string out = "out/report";           ///< folder to write

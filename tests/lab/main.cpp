@@ -151,6 +151,20 @@ CLI::App* DefineFairness(CLI::App& app, FairnessCommand& c) {
   return fairness;
 }
 
+CLI::App* DefineTitles(CLI::App& app, TitlesCommand& c) {
+  CLI::App* titles = app.add_subcommand("titles", "do the scenes do what their titles say?");
+  titles->add_option("SCENES", c.scenes, "names (default: all that have a sentence)");
+  titles->add_option("-o,--output", c.table, "CSV table to write, or to complete")->required();
+  titles->add_option("--impair", c.networks, "profile's name or list; repeatable (default: 4g)")
+      ->allow_extra_args(false);
+  titles->add_option("--seeds", c.seeds, "from 1 (default: 10)")->check(CLI::Range(1, 10000));
+  titles->add_option("--jobs", c.jobs, "runs at a time (default: one a core)")
+      ->check(CLI::Range(1, 256));
+  titles->add_flag("--force", c.force, "begin the table anew");
+  titles->add_flag("--quiet", c.quiet, "no progress line");
+  return titles;
+}
+
 CLI::App* DefineReport(CLI::App& app, ReportCommand& c) {
   CLI::App* report = app.add_subcommand("report", "plots and tables of what was swept, as a page");
   report->add_option("DATA", c.data, "folder of CSV tables (default out/report/data)");
@@ -173,6 +187,7 @@ int main(int argc, char** argv) {
   OverheadCommand overhead;
   WorldCommand world;
   FairnessCommand fairness;
+  TitlesCommand titles;
   ReportCommand report;
   // The subcommands, each with what it runs.
   std::vector<std::pair<const CLI::App*, std::function<int()>>> commands;
@@ -187,6 +202,7 @@ int main(int argc, char** argv) {
                 {DefineOverhead(app, overhead), [&] { return RunOverhead(overhead); }},
                 {DefineWorld(app, world), [&] { return RunWorld(world); }},
                 {DefineFairness(app, fairness), [&] { return RunFairnessTable(fairness); }},
+                {DefineTitles(app, titles), [&] { return RunTitles(titles); }},
                 {DefineReport(app, report), [&] { return RunReport(report); }}};
   };
   const ProgramText text{"seam-lab",

@@ -4,8 +4,8 @@
 #include <set>
 
 #include "common/base/check.h"
-#include "common/scene/scene_text.h"
-#include "common/scene/toml_tree.h"
+#include "common/scene/toml/scene_text.h"
+#include "common/scene/toml/toml_tree.h"
 
 namespace seam {
 namespace {

@@ -6,8 +6,8 @@
 
 #include "common/base/check.h"
 #include "common/base/plain_file.h"
-#include "common/scene/scene_reader.h"
-#include "common/scene/scene_text.h"
+#include "common/scene/toml/scene_reader.h"
+#include "common/scene/toml/scene_text.h"
 #include "tests/lab/grid.h"
 #include "tests/lab/scene_settings.h"
 

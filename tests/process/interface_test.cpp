@@ -163,6 +163,7 @@ void AddScenes(Interface* interface) {
       {"[[joint]] motor (hinge)", joint + "\"hinge\"\n[joint.motor]"},
       {"[[joint]] motor (prismatic)", joint + "\"prismatic\"\n[joint.motor]"},
       {"[[joint]] follow", joint + "\"motor\"\nforce = 1\ntorque = 1\n[joint.follow]"},
+      {"[[strand]]", ball + "[[strand]]"},
       {"[[thrust]]", ball + "[[thrust]]"},
       {"[[water]]", ball + "[[water]]"},
       {"[[player]]", "[[player]]"},

@@ -111,6 +111,16 @@ TEST(RenderProgram, OperatorsMistakesAreOneLineStatus2AndWriteNothing) {
       {log, "-o", out, "--size", "10x10"},
       {log, "-o", out, "--size", "1280x720x3"},
       {log, "-o", out, "--view", "nobody"},
+      {log, "-o", out, "--camera", "1,2"},
+      {log, "-o", out, "--camera", "1,2,-3"},
+      {log, "-o", out, "--camera", "fit", "--follow", "car"},
+      {log, "-o", out, "--zoom", "0"},
+      {log, "-o", out, "--around", "nothing"},
+      {log, "-o", out, "--around", "contact", "--from", "1"},
+      {log, "-o", out, "--layers", "onions"},
+      {log, "-o", out, "--speed", "0"},
+      {log, "-o", out, "--sheet", "101"},
+      {log, "-o", out, "--video", "a.avi"},
       {log, "-o", out, "--from", "2", "--to", "1"},
       {log, "-o", out, "--every", "3"},
       {log, "-o", out, "--threads", "-1"},
@@ -158,6 +168,60 @@ TEST_F(RenderLog, FromAndToPickTheSameFramesAsTheWholeHas) {
   const auto all = Frames(folder_ / "whole"), some = Frames(folder_ / "part");
   ASSERT_EQ(some.size(), 6u);  // 1.0, 1.1, ... 1.5
   for (std::size_t i = 0; i < some.size(); ++i) EXPECT_TRUE(some[i] == all[10 + i]) << i;
+}
+
+TEST_F(RenderLog, TheManifestNamesTheLogAndEachFramesMomentAndBox) {
+  const std::string out = folder_ / "out";
+  ASSERT_EQ(SeamRender({log_, "-o", out, "--oracle", oracle_, "--size", "320x240", "--fps", "2"}),
+            0);
+  const std::string manifest = Content(out + "/manifest.json");
+  EXPECT_NE(manifest.find("\"name\": \"log.lcm\", \"hash\": \"fnv1a-64:"), std::string::npos);
+  EXPECT_NE(manifest.find("{\"file\": \"frame_00001.png\", \"time_s\": 0.500000, \"tick\": 30.000"),
+            std::string::npos)
+      << manifest;
+  const std::string frame = Content(out + "/frame_00000.png");
+  EXPECT_NE(frame.find("seam-render "), std::string::npos);
+  EXPECT_NE(frame.find("log.lcm fnv1a-64:"), std::string::npos);
+}
+
+TEST_F(RenderLog, AViewIsNamedByItsPlayerAndAWrongNameSaysWhichThereAre) {
+  std::string said;
+  const std::vector<std::string> common{log_,     "--oracle", oracle_, "--size",
+                                        "320x240", "--fps",    "1",     "-o"};
+  std::vector<std::string> named = common, numbered = common, wrong = common;
+  named.insert(named.end(), {folder_ / "a", "--view", "ann"});
+  numbered.insert(numbered.end(), {folder_ / "b", "--view", "1"});
+  wrong.insert(wrong.end(), {folder_ / "c", "--view", "nobody"});
+  EXPECT_EQ(SeamRender(named), 0);
+  EXPECT_EQ(SeamRender(numbered), 0);
+  EXPECT_EQ(Frames(folder_ / "a"), Frames(folder_ / "b"));
+  EXPECT_EQ(SeamRender(wrong, &said), 2);
+  EXPECT_NE(said.find("the recording has views of server, ann, ben"), std::string::npos) << said;
+}
+
+TEST_F(RenderLog, ASheetIsOnePictureAndAroundChoosesItsMoments) {
+  const std::string sheet = folder_ / "sheet.png";
+  std::string said;
+  EXPECT_EQ(SeamRender({log_, "-o", sheet, "--oracle", oracle_, "--sheet", "6", "--around",
+                        "contact", "--layers", "vectors,heat", "--size", "640x360"},
+                       &said),
+            0)
+      << said;
+  EXPECT_NE(said.find("6 moments, 0.75 s to 2.25 s"), std::string::npos) << said;
+  EXPECT_EQ(ReadPng(sheet).width_px, 640);
+}
+
+TEST_F(RenderLog, SlowMotionDrawsMoreMomentsOfTheSameTime) {
+  const auto frames = [&](const char* name, const char* speed) {
+    EXPECT_EQ(SeamRender({log_, "-o", folder_ / name, "--oracle", oracle_, "--size", "320x240",
+                          "--fps", "10", "--from", "1", "--to", "1.5", "--speed", speed}),
+              0);
+    return Frames(folder_ / name);
+  };
+  const auto normal = frames("normal", "1"), slow = frames("slow", "0.5");
+  ASSERT_EQ(normal.size(), 6u);
+  ASSERT_EQ(slow.size(), 11u);
+  for (std::size_t i = 0; i < normal.size(); ++i) EXPECT_EQ(normal[i], slow[2 * i]) << i;
 }
 
 TEST_F(RenderLog, DrawsWithTheOracleItComputesItself) {

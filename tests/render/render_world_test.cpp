@@ -109,6 +109,21 @@ TEST(Viewport, FitsTheWholeBoxAndInvertsItself) {
   EXPECT_TRUE(viewport.Sees({23, 5}, 4));
 }
 
+TEST(Viewport, APageOfAnyNumberOfPanelsHasNoHoles) {
+  for (int count = 1; count <= 10; ++count) {
+    for (const float aspect : {0.5f, 1.0f, 2.0f, 6.0f}) {
+      const Rect area{10, 20, 1200, 500};
+      float covered = 0;
+      for (const Rect& panel : Tile(area, count, aspect, 0)) {
+        covered += panel.width * panel.height;
+        EXPECT_LE(panel.right(), area.right() + 0.1f);
+        EXPECT_LE(panel.bottom(), area.bottom() + 0.1f);
+      }
+      EXPECT_NEAR(covered, area.width * area.height, 1) << count << " panels of " << aspect;
+    }
+  }
+}
+
 TEST(Viewport, TilesWidePanelsBelowEachOtherAndTallOnesBesideEachOther) {
   const std::vector<Rect> wide = Tile({0, 0, 1200, 600}, 2, 5, 10);
   EXPECT_EQ(wide[0].x, wide[1].x);

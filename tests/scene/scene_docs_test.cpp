@@ -49,6 +49,7 @@ TEST(SceneDocs, EveryKeyIsOnThePage) {
       {"[[part]]", "## `[[part]]`"},
       {ball + "[[joint]]", "## `[[joint]]`"},
       {ball + "[[bricks]]", "## `[[bricks]]`"},
+      {ball + "[[strand]]", "## `[[strand]]`"},
       {ball + "[[thrust]]", "## `[[thrust]]`"},
       {ball + "[[water]]", "## `[[water]]`"},
       {ball + "[grouping]", "## `[grouping]`"},

@@ -140,6 +140,12 @@ class RandomMessages {
     Floats(m.x, count), Floats(m.y, count), Floats(m.dv, count);
   }
   void Fill(Impacts& m) { Fill(m, Count(0, 60)); }
+  void Fill(Strands& m, std::size_t count) {
+    Common(m), Sequence(m), Set(m.peer, 0, 31), m.tick = Tick();
+    Vector(m.strand, count, 0, INT16_MAX), std::sort(m.strand.begin(), m.strand.end());
+    Floats(m.x, count), Floats(m.y, count);
+  }
+  void Fill(Strands& m) { Fill(m, Count(0, 60)); }
   void Fill(Stats& m) {
     Common(m), Sequence(m), Set(m.peer, 0, 31), m.tick = Tick();
     for (auto* n : {&m.bytes_out, &m.bytes_in, &m.datagrams_out, &m.datagrams_in,

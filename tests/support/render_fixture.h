@@ -119,7 +119,7 @@ class RenderLog : public ::testing::Test {
   static std::vector<std::string> Frames(const std::string& folder) {
     std::set<std::string> paths;
     for (const auto& entry : std::filesystem::directory_iterator(folder)) {
-      paths.insert(entry.path());
+      if (entry.path().extension() == ".png") paths.insert(entry.path());
     }
     std::vector<std::string> frames;
     for (const std::string& path : paths) frames.push_back(Content(path));

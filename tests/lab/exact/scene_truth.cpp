@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "common/base/check.h"
-#include "common/scene/scene_text.h"
+#include "common/scene/toml/scene_text.h"
 
 namespace seam {
 namespace {

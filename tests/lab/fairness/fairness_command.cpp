@@ -9,7 +9,7 @@
 #include "common/sync/reconcile/reconcile.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/fairness/fairness.h"
-#include "tests/lab/report/fairness_section.h"
+#include "tests/lab/report/sessions/fairness_section.h"
 #include "tests/lab/rows.h"
 #include "tests/lab/scene_settings.h"
 

@@ -9,7 +9,7 @@
 #include "tests/lab/fairness/fairness.h"
 #include "tests/lab/fairness/lagging_net.h"
 #include "tests/lab/fairness/mirrored_script.h"
-#include "tests/lab/report/fairness_section.h"
+#include "tests/lab/report/sessions/fairness_section.h"
 #include "tests/support/lab_workspace.h"
 
 namespace seam {

@@ -6,11 +6,12 @@
 #include <optional>
 
 #include "common/base/check.h"
-#include "tests/lab/report/fairness_section.h"
 #include "tests/lab/report/files.h"
 #include "tests/lab/report/hurry_section.h"
 #include "tests/lab/report/joints/exact_joints.h"
 #include "tests/lab/report/physics_section.h"
+#include "tests/lab/report/sessions/fairness_section.h"
+#include "tests/lab/report/sessions/titles_section.h"
 #include "tests/lab/report/sweep_section.h"
 
 namespace seam {
@@ -122,7 +123,7 @@ std::vector<Section> BuildReport(const ReportInput& input) {
   for (const fs::path& path : FilesOf(data, ".csv")) {
     const std::string name = path.stem().string();
     if (name == "physics" || name == "overhead") continue;
-    if (name == "fairness" || name == "before" || name == "times") continue;
+    if (name == "fairness" || name == "titles" || name == "before" || name == "times") continue;
     const std::string command = fmt::format("seam-lab sweep {} -o {} && seam-lab report {}",
                                             (fs::path(input.sweeps) / (name + ".toml")).string(),
                                             path.string(), input.data);
@@ -147,6 +148,11 @@ std::vector<Section> BuildReport(const ReportInput& input) {
   if (!cost.items.empty()) sections.push_back(std::move(cost));
   Section world = WorldSection((data / "world").string());
   if (!world.items.empty()) sections.push_back(std::move(world));
+  const fs::path titles = data / "titles.csv";
+  if (fs::exists(titles)) {
+    sections.push_back(
+        TitlesSection(CsvTable::Load(titles.string()), "seam-lab titles -o " + titles.string()));
+  }
   Section renders = RendersSection(input.out);
   if (!renders.items.empty()) sections.push_back(std::move(renders));
   const fs::path physics = data / "physics.csv";

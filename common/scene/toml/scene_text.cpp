@@ -1,4 +1,4 @@
-#include "common/scene/scene_text.h"
+#include "common/scene/toml/scene_text.h"
 
 #include <algorithm>
 #include <cstdint>

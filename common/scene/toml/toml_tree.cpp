@@ -1,11 +1,11 @@
-#include "common/scene/toml_tree.h"
+#include "common/scene/toml/toml_tree.h"
 
 #include <algorithm>
 #include <sstream>
 #include <toml.hpp>
 
 #include "common/base/check.h"
-#include "common/scene/scene_text.h"
+#include "common/scene/toml/scene_text.h"
 
 namespace seam {
 namespace {

@@ -1,4 +1,4 @@
-#include "tests/lab/report/fairness_section.h"
+#include "tests/lab/report/sessions/fairness_section.h"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
-#include "common/scene/scene_reader.h"
+#include "common/scene/toml/scene_reader.h"
 
 #include <algorithm>
 #include <cstdio>
 
 #include "common/base/check.h"
 #include "common/base/names.h"
-#include "common/scene/scene_text.h"
+#include "common/scene/toml/scene_text.h"
 
 namespace seam {
 namespace {

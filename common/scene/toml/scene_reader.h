@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "common/scene/toml_tree.h"
+#include "common/scene/toml/toml_tree.h"
 #include "common/scene/types.h"
 
 namespace seam {

@@ -1,0 +1,101 @@
+#include "render/manifest.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "common/base/bytes.h"
+#include "common/base/check.h"
+#include "common/codec/version_line.h"
+
+namespace seam {
+namespace {
+
+/// FNV-1a of a file's bytes, 64 bits.
+std::string HashOf(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), std::istreambuf_iterator<char>());
+  return fmt::format("fnv1a-64:{:016x}", Fnv1a(bytes.data(), bytes.size()));
+}
+
+std::string Quoted(const std::string& text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '"' || c == '\\') {
+      quoted += '\\';
+      quoted += c;
+    } else if (byte < 0x20 || byte == 0x7f) {
+      quoted += fmt::format("\\u{:04x}", byte);
+    } else {
+      quoted += c;
+    }
+  }
+  return quoted + "\"";
+}
+
+std::string NameOf(const std::string& path) { return std::filesystem::path(path).filename(); }
+
+const char* NameOf(CameraWish::Kind kind) {
+  switch (kind) {
+    case CameraWish::Kind::kFit: return "fit";
+    case CameraWish::Kind::kScene: return "scene";
+    case CameraWish::Kind::kFixed: return "fixed";
+    case CameraWish::Kind::kFollow: return "follow";
+  }
+  return "";
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> AboutPictures(const RenderOptions& options,
+                                                               const Page& page) {
+  std::string source;
+  for (const std::string& log : options.logs) {
+    source += (source.empty() ? "" : ", ") + NameOf(log) + " " + HashOf(log);
+  }
+  std::string views;
+  for (const Panel& panel : page.panels) views += "; " + panel.caption;
+  return {{"Software", VersionLine("seam-render")},
+          {"Title", page.title},
+          {"Source", source},
+          {"Description", page.subtitle + views}};
+}
+
+void WriteManifest(const RenderOptions& options, const Page& page,
+                   const std::vector<double>& times_s, const OutputFolder& folder) {
+  std::string text = "{\n  \"software\": " + Quoted(VersionLine("seam-render")) + ",\n";
+  text += "  \"title\": " + Quoted(page.title) + ",\n  \"logs\": [";
+  for (const std::string& log : options.logs) {
+    text += (&log == &options.logs.front() ? "" : ", ") + std::string("{\"name\": ") +
+            Quoted(NameOf(log)) + ", \"hash\": " + Quoted(HashOf(log)) + "}";
+  }
+  text += "],\n  \"panels\": [";
+  for (const Panel& panel : page.panels) {
+    text += (&panel == &page.panels.front() ? "" : ", ") + Quoted(panel.caption);
+  }
+  text += fmt::format(
+      "],\n  \"size_px\": [{}, {}],\n  \"fps\": {},\n  \"speed\": {:g},\n  \"camera\": {},\n"
+      "  \"frames\": [\n",
+      page.width_px, page.height_px, options.fps, options.speed,
+      Quoted(NameOf(options.camera.kind)));
+  const Playback& first = *page.panels.front().playback;
+  for (std::size_t i = 0; i < times_s.size(); ++i) {
+    const WorldBox box = page.camera != nullptr ? page.camera->At(times_s[i]) : WorldBox();
+    text += fmt::format(
+        "    {{\"file\": {}, \"time_s\": {:.6f}, \"tick\": {:.3f}, \"box_m\": [{:.3f}, {:.3f}, "
+        "{:.3f}, {:.3f}]}}{}\n",
+        Quoted(NameOf(folder.FramePath(static_cast<int>(i)))), times_s[i], first.TickAt(times_s[i]),
+        box.min.x(), box.min.y(), box.max.x(), box.max.y(), i + 1 < times_s.size() ? "," : "");
+  }
+  text += "  ]\n}\n";
+  const std::string path = folder.path() + "/" + kManifestName;
+  std::ofstream file(path, std::ios::binary);
+  file << text;
+  if (!file.flush()) throw OperatorError(path + ": " + std::strerror(errno));
+}
+
+}  // namespace seam

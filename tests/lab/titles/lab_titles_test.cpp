@@ -1,0 +1,54 @@
+/// Each large scene does what its title says, as every peer saw it over the 4g profile; `make soak`
+/// plays more seeds.
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "tests/lab/session.h"
+#include "tests/lab/titles/titles.h"
+#include "tests/support/soak.h"
+
+namespace seam {
+namespace {
+
+class TitleOfScene : public ::testing::TestWithParam<Title> {
+ protected:
+  static Recording Play(std::int64_t seed, double duration_s) {
+    SessionSettings settings;
+    settings.scene = std::string("scenes/") + GetParam().scene + ".toml";
+    settings.impair = "4g";
+    settings.seed = seed;
+    settings.duration_s = duration_s;
+    Recording recording;
+    RunSession(Configure(settings), &recording);
+    return recording;
+  }
+};
+
+TEST_P(TitleOfScene, IsSeenOnEveryScreenUnder4g) {
+  for (int seed = 1; seed <= Soak(2); ++seed) {
+    EXPECT_EQ(MissedBy(GetParam(), Play(seed, 0)), "") << "seed " << seed;
+  }
+}
+
+TEST_P(TitleOfScene, IsNotKeptYetAfterASecond) {
+  EXPECT_NE(MissedBy(GetParam(), Play(1, 1)), "") << "the test would see nothing";
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, TitleOfScene, ::testing::ValuesIn(Titles()),
+                         [](const auto& title) { return std::string(title.param.scene); });
+
+TEST(Titles, TheDocsHaveEachSentence) {
+  std::ifstream page("docs/scenes.md");
+  std::stringstream text;
+  text << page.rdbuf();
+  const std::string docs = text.str();
+  for (const Title& title : Titles()) {
+    EXPECT_NE(docs.find(title.sentence), std::string::npos) << title.scene;
+  }
+}
+
+}  // namespace
+}  // namespace seam

@@ -1,0 +1,77 @@
+#include "tests/lab/titles/titles.h"
+
+#include <fmt/format.h>
+
+#include "common/base/check.h"
+
+namespace seam {
+
+void Claims::Between(double value, double least, double most, const std::string& what) {
+  Expect(value >= least && value <= most,
+         fmt::format("{}: {:.3g} is not in {:g}..{:g}", what, value, least, most));
+}
+
+void Claims::AtLeast(double value, double least, const std::string& what) {
+  Expect(value >= least, fmt::format("{}: {:.3g} is less than {:g}", what, value, least));
+}
+
+const std::vector<Title>& Titles() {
+  static const std::vector<Title> titles = {
+      {"titanic",
+       "The bow breaks off at the bulkhead and lies 8 m deep or deeper; the rest crosses the seam, "
+       "trims by the stern and floats.",
+       JudgeTitanic},
+      {"harbour",
+       "The boat crosses the seam and moves at least eight of the things that float by more than a "
+       "metre; what floats stays afloat, what is sunk stays on the bed.",
+       JudgeHarbour},
+      {"regatta",
+       "Both boats cross the seam by their paddles alone, and the thin one is at least 3 m ahead.",
+       JudgeRegatta},
+      {"gluehouse",
+       "The ball breaks at least eight bonds and the roof comes down by 2 m or more; after the "
+       "dozer has set off, pieces join again.",
+       JudgeGluehouse},
+      {"skyline",
+       "ann drives through the crates and off the upper road, bob off the lower one onto the "
+       "roofs; a blast frees bricks; ten things and more lie on roofs, ten and more in the "
+       "streets.",
+       JudgeSkyline},
+      {"ragdolls",
+       "Of six limp bodies four come down the stairs, one is struck off the ledge, and these five "
+       "end in one heap at the bottom; the sixth still hangs by its foot.",
+       JudgeRagdolls},
+      {"obstacle", "ann and bob have passed each other and stand on the other's side.",
+       JudgeObstacle},
+      {"playground",
+       "ann gets in, drives over the seam and gets out; the crawler moves crates, the boat crosses "
+       "into dee's region, the tower falls, the ragdoll comes down, and ann has 20 points.",
+       JudgePlayground},
+  };
+  return titles;
+}
+
+const Title& TitleOf(const std::string& scene) {
+  for (const Title& title : Titles()) {
+    if (scene == title.scene) return title;
+  }
+  throw OperatorError("nothing is written of what '" + scene + "' should do");
+}
+
+std::string MissedBy(const Title& title, const Recording& recording) {
+  const Played played(recording);
+  if (recording.views.empty()) return "nothing was shown";
+  for (const auto& [peer, views] : recording.views) {
+    const Screen screen(played, peer);
+    Claims claims;
+    try {
+      title.judge(screen, &claims);
+    } catch (const OperatorError& error) {
+      claims.Expect(false, error.what());
+    }
+    if (!claims.missed().empty()) return fmt::format("peer {}: {}", peer, claims.missed());
+  }
+  return "";
+}
+
+}  // namespace seam

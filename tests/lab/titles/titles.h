@@ -1,0 +1,55 @@
+#pragma once
+/// Does a scene do what its title says? One sentence and one numeric test for each, asked of every
+/// peer's screen: docs/scenes.md has the sentences, seam-lab titles the table.
+
+#include <string>
+#include <vector>
+
+#include "tests/lab/titles/screen.h"
+
+namespace seam {
+
+/// What was asked of one screen; keeps the first thing that was not so.
+class Claims {
+ public:
+  /// `what`: in which words it is missed.
+  void Expect(bool kept, const std::string& what) {
+    if (!kept && missed_.empty()) missed_ = what;
+  }
+  /// The same for `value` in [least, most]; the words get the value.
+  void Between(double value, double least, double most, const std::string& what);
+  void AtLeast(double value, double least, const std::string& what);
+
+  /// Empty: all was so.
+  const std::string& missed() const { return missed_; }
+
+ private:
+  std::string missed_;
+};
+
+struct Title {
+  const char* scene;     ///< name of the file in scenes/
+  const char* sentence;  ///< what happens, in numbers
+  void (*judge)(const Screen& screen, Claims* claims);
+};
+
+/// All of them, in the order of docs/scenes.md.
+const std::vector<Title>& Titles();
+/// Throws OperatorError for a scene that has none.
+const Title& TitleOf(const std::string& scene);
+
+/// Empty if the server and every client showed what the title says; otherwise who did not, and what
+/// was missed.
+std::string MissedBy(const Title& title, const Recording& recording);
+
+// Each in its own file, and named in titles.cpp.
+void JudgeTitanic(const Screen& screen, Claims* claims);
+void JudgeHarbour(const Screen& screen, Claims* claims);
+void JudgeRegatta(const Screen& screen, Claims* claims);
+void JudgeGluehouse(const Screen& screen, Claims* claims);
+void JudgeSkyline(const Screen& screen, Claims* claims);
+void JudgeRagdolls(const Screen& screen, Claims* claims);
+void JudgeObstacle(const Screen& screen, Claims* claims);
+void JudgePlayground(const Screen& screen, Claims* claims);
+
+}  // namespace seam
