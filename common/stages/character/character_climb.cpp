@@ -173,7 +173,7 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
   // Bent hips bring the chest down on the ledge; straight legs follow.
   const bool bent = s.torso > -gains_.climb_down && s.hip.x > edge.x - 0.35f * m;
   if (memory_.phase == 0) {
-    TreadLegs(s, h);
+    Tread(s, h);
   } else {
     for (int side = 0; side < 2; ++side) {
       Pose(Hip(side), bent ? gains_.climb_hip : 0.2f, gains_.swim_hip);

@@ -111,7 +111,13 @@ class CharacterControl {
   float ChestDepth(const CharacterSense& s) const;
   void Swim(const CharacterSense& s, float h);
   void Tread(const CharacterSense& s, float h);
-  void TreadLegs(const CharacterSense& s, float h);
+  /// rad of the joints of one leg.
+  struct Legs {
+    float hip = 0, knee = 0, ankle = 0;
+  };
+  Legs TreadLegs(const CharacterSense& s, float leg) const;
+  Legs BeatLegs(const CharacterSense& s, float leg, float share) const;
+  void PoseLegs(const Legs& tread, const Legs& beat, float share, int side);
 
   // character_climb.cpp
   struct Ledge {

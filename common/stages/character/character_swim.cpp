@@ -28,63 +28,74 @@ float CharacterControl::ChestDepth(const CharacterSense& s) const {
   return depth;
 }
 
-/// At rest, upright: the arms lie before and behind at the surface and the legs tread.
-void CharacterControl::Tread(const CharacterSense& s, float h) {
+/// Legs that tread: upright, at rest.
+CharacterControl::Legs CharacterControl::TreadLegs(const CharacterSense& s, float leg) const {
   const CharacterGains& g = gains_;
-  TreadLegs(s, h);
-  const float arms = g.tread_arms_skew * std::clamp(s.torso + g.tread_lean, -1.0f, 1.0f);
-  for (int side = 0; side < 2; ++side) {
-    Pose(Shoulder(side), (side == 0 ? g.tread_arms : -g.tread_arms) + arms, g.swim_shoulder);
-    Pose(Elbow(side), side == 0 ? g.tread_elbow : 0.05f, g.swim_elbow);
-  }
-}
-
-void CharacterControl::TreadLegs(const CharacterSense& s, float h) {
-  const CharacterGains& g = gains_;
-  memory_.phase_time += g.tread_hz * h;
-  memory_.phase_time -= std::floor(memory_.phase_time);
   const float error = std::clamp(s.torso + g.tread_lean, -1.0f, 1.0f);
   const float skew = g.tread_skew * error + g.tread_skew_rate * s.torso_spin;
+  return {g.tread_hip + skew + g.tread_sine * Sine(leg),
+          g.tread_knee + g.tread_knee_sine * Sine(leg + g.tread_knee_phase), g.tread_ankle};
+}
+
+/// Legs that beat; `share` of the drive, negative backwards.
+CharacterControl::Legs CharacterControl::BeatLegs(const CharacterSense& s, float leg,
+                                                  float share) const {
+  const CharacterGains& g = gains_;
+  const bool back = share < 0;
+  const float size = g.swim_slow_size + std::abs(share) * (1 - g.swim_slow_size);
+  const float lean = back ? g.swim_lean_back : g.swim_lean + share * g.swim_lean_more;
+  const float error = std::clamp(s.torso + lean, -0.8f, 0.8f);
+  const float skew =
+      g.swim_skew * error + g.swim_skew_rate * s.torso_spin + (back ? g.swim_skew_back : 0);
+  const float beat = std::round(g.swim_kicks) * leg;
+  return {g.hip_middle + skew + size * g.hip_sine * Sine(beat),
+          g.knee_middle + size * g.knee_sine * Sine(beat + g.knee_phase),
+          g.ankle_middle + size * g.ankle_sine * Sine(beat + g.ankle_phase)};
+}
+
+void CharacterControl::PoseLegs(const Legs& tread, const Legs& beat, float share, int side) {
+  const auto mixed = [share](float rest, float swim) { return rest + share * (swim - rest); };
+  Pose(Hip(side), mixed(tread.hip, beat.hip), gains_.swim_hip);
+  Pose(Knee(side), mixed(tread.knee, beat.knee), gains_.swim_knee);
+  Pose(Ankle(side), mixed(tread.ankle, beat.ankle), gains_.swim_ankle);
+}
+
+/// Before a ledge, hands busy.
+void CharacterControl::Tread(const CharacterSense& s, float h) {
+  memory_.phase_time += gains_.tread_hz * h;
+  memory_.phase_time -= std::floor(memory_.phase_time);
   for (int side = 0; side < 2; ++side) {
-    const float leg = memory_.phase_time + 0.5f * static_cast<float>(side);
-    Pose(Hip(side), g.tread_hip + skew + g.tread_sine * Sine(leg), g.swim_hip);
-    Pose(Knee(side), g.tread_knee + g.tread_knee_sine * Sine(leg + g.tread_knee_phase),
-         g.swim_knee);
-    Pose(Ankle(side), g.tread_ankle, g.swim_ankle);
+    const Legs legs = TreadLegs(s, memory_.phase_time + 0.5f * static_cast<float>(side));
+    PoseLegs(legs, legs, 0, side);
   }
 }
 
 void CharacterControl::Swim(const CharacterSense& s, float h) {
   const CharacterGains& g = gains_;
-  // The drive comes slowly: a sudden stroke turns the body over.
+  // The drive comes slowly, and the stroke with it: a sudden one turns the body over.
   memory_.speed += std::clamp(drive_ - memory_.speed, -g.swim_ramp * h, g.swim_ramp * h);
-  const float share = std::min(std::abs(memory_.speed), 1.0f);
-  const bool back = memory_.speed < 0;
+  const float share = std::clamp(memory_.speed, -1.0f, 1.0f), size = std::abs(share);
+  const float swims = std::min(size / g.swim_full, 1.0f);
+  // Drag goes by the square of the speed: the same stroke in reverse pushes the other way.
+  const float turning = g.swim_slow_hz + size * (g.swim_hz - g.swim_slow_hz);
+  const float hz = swims * (share < 0 ? -turning : turning) + (1 - swims) * g.tread_hz;
+  memory_.phase_time += hz * h;
+  memory_.phase_time -= std::floor(memory_.phase_time);
+  const float arms = g.tread_arms_skew * std::clamp(s.torso + g.tread_lean, -1.0f, 1.0f);
+  for (int side = 0; side < 2; ++side) {
+    const float turn = memory_.phase_time + 0.5f * static_cast<float>(side);
+    if (swims < 0.5f) {  // one arm before, one behind
+      Pose(Shoulder(side), (side == 0 ? g.tread_arms : -g.tread_arms) + arms, g.swim_shoulder);
+      Pose(Elbow(side), side == 0 ? g.tread_elbow : 0.05f, g.swim_elbow);
+    } else {  // from overhead down before the body
+      const float turned = -2 * b2_pi * turn + g.shoulder_sine * Sine(turn + g.shoulder_phase);
+      Pose(Shoulder(side), turned, swims * g.swim_shoulder, -2 * b2_pi * hz);
+      Pose(Elbow(side), g.elbow_middle + g.elbow_sine * Sine(turn + g.elbow_phase), g.swim_elbow);
+    }
+    PoseLegs(TreadLegs(s, turn), BeatLegs(s, turn, share), swims, side);
+  }
   // The face out of the water.
   Pose(kNeck, std::clamp(-s.torso, -0.5f, 0.5f), g.neck_stiffness);
-  if (share < 0.05f) return Tread(s, h);
-  // Drag goes by the square of the speed: the same stroke in reverse pushes the other way.
-  const float hz = g.swim_slow_hz + share * (g.swim_hz - g.swim_slow_hz);
-  memory_.phase_time += (back ? -hz : hz) * h;
-  memory_.phase_time -= std::floor(memory_.phase_time);
-  const float phase = memory_.phase_time;
-  const float size = g.swim_slow_size + share * (1 - g.swim_slow_size);
-  const float lean = back ? g.swim_lean_back : g.swim_lean + share * g.swim_lean_more;
-  const float error = std::clamp(s.torso + lean, -0.8f, 0.8f);
-  const float skew =
-      g.swim_skew * error + g.swim_skew_rate * s.torso_spin + (back ? g.swim_skew_back : 0);
-  for (int side = 0; side < 2; ++side) {
-    const float arm = phase + 0.5f * static_cast<float>(side);
-    const float leg = std::round(g.swim_kicks) * phase + 0.5f * static_cast<float>(side);
-    // From overhead down before the body.
-    const float turned = -2 * b2_pi * arm + g.shoulder_sine * Sine(arm + g.shoulder_phase);
-    Pose(Shoulder(side), turned, g.swim_shoulder, (back ? 2 : -2) * b2_pi * hz);
-    Pose(Elbow(side), g.elbow_middle + g.elbow_sine * Sine(arm + g.elbow_phase), g.swim_elbow);
-    Pose(Hip(side), g.hip_middle + skew + size * g.hip_sine * Sine(leg), g.swim_hip);
-    Pose(Knee(side), g.knee_middle + size * g.knee_sine * Sine(leg + g.knee_phase), g.swim_knee);
-    Pose(Ankle(side), g.ankle_middle + size * g.ankle_sine * Sine(leg + g.ankle_phase),
-         g.swim_ankle);
-  }
 }
 
 }  // namespace seam
