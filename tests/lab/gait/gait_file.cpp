@@ -6,8 +6,8 @@
 
 #include "common/base/names.h"
 #include "common/base/plain_file.h"
-#include "common/scene/scene_reader.h"
-#include "common/scene/scene_text.h"
+#include "common/scene/toml/scene_reader.h"
+#include "common/scene/toml/scene_text.h"
 #include "common/stages/character/character_gains.h"
 #include "tests/lab/gait/ability.h"
 
