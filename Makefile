@@ -1,7 +1,7 @@
 # Seam2D. `make help` lists what there is to do.
 #
 # Layout: every .cpp under common/ goes into libseam-common.a; server/, client/ and render/ each hold
-# one program's files with main in main.cpp (render/ holds seam-measure's main too); tests/ is one
+# one program's files with main in main.cpp (render/ holds the mains of seam-measure and seam-export too); tests/ is one
 # GoogleTest program, tests/lab/ is seam-lab, which alone has server and clients in one process.
 # libseam.a, for other programs, is common/, server/ and client/ without their mains.
 # lcmtypes/*.lcm become headers under build/gen/, hardened by lcmtypes/harden.awk.
@@ -39,15 +39,19 @@ ALL_CXXFLAGS := -std=c++17 $(CXXFLAGS_$(BUILD)) -ffp-contract=off -fno-tree-slp-
 # Only common/codec/ reads generated headers (tests/style/layering_test.cpp).
 CODEC_CXXFLAGS := -isystem $(GEN)
 LIBS := -llcm -lbox2d -lfmt -lsodium -pthread
-RENDER_LIBS := -lOSMesa -lpng -lfreetype
+RENDER_LIBS := -lOSMesa -lpng -lfreetype -lz
 SERVER_LIBS := -llua5.4
 
 # Debian packages: build/.deps-NAME stands for DEBS_NAME being installed.
 DEBS_build := g++ make pkg-config liblcm-dev liblcm-bin libbox2d-dev libeigen3-dev libosmesa6-dev \
-	liblua5.4-dev libcli11-dev libtoml11-dev libfmt-dev libpng-dev libfreetype-dev fonts-dejavu-core \
+	liblua5.4-dev libcli11-dev libtoml11-dev libfmt-dev libpng-dev zlib1g-dev libfreetype-dev fonts-dejavu-core \
 	libgtest-dev libsodium-dev iproute2 util-linux
 DEBS_report := gnuplot-nox
+DEBS_test := python3
+# For the tests that open a review page; without it they are skipped. It is 2 minutes, so CI alone installs it.
+DEBS_browser := chromium
 DEBS_coverage := gcovr
+DEBS_spy := liblcm-java libjchart2d-java $(if $(shell command -v javac),,default-jdk)
 DEBS_format := clang-format git
 DEBS_hashes := clang
 DEBS_lint := clang-tidy git
@@ -55,30 +59,31 @@ DEBS_lint := clang-tidy git
 # All .cpp below a folder; and their objects.
 below = $(sort $(shell find $(1) -name '*.cpp'))
 obj = $(patsubst %.cpp,$(OUT)/%.o,$(1))
-MAINS := server/main.cpp client/main.cpp render/main.cpp render/measure_main.cpp tests/lab/main.cpp
+MAINS := server/main.cpp client/main.cpp render/main.cpp render/measure_main.cpp render/export_main.cpp tests/lab/main.cpp
 SOURCES := $(call below,common server client render tests)
 COMMON := $(call obj,$(filter common/%,$(SOURCES)))
 SERVER := $(call obj,$(filter-out $(MAINS),$(filter server/%,$(SOURCES))))
 CLIENT := $(call obj,$(filter-out $(MAINS),$(filter client/%,$(SOURCES))))
 RENDER := $(call obj,$(filter-out $(MAINS),$(filter render/%,$(SOURCES))))
+EXPORT := $(call obj,$(filter render/export/% render/canvas/shapes.cpp,$(SOURCES)))
 LAB := $(call obj,$(filter-out $(MAINS) %_test.cpp,$(filter tests/lab/%,$(SOURCES))))
 TESTS := $(call obj,$(filter %_test.cpp tests/support/%,$(filter tests/%,$(SOURCES))))
 CODEC := $(filter $(OUT)/common/codec/%,$(COMMON))
 OBJECTS := $(call obj,$(SOURCES))
-PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-render seam-measure seam-lab)
+PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-render seam-measure seam-export seam-lab)
 LCM_TYPES := $(sort $(wildcard lcmtypes/*.lcm))
 VERSION := $(shell sed -n 's/.*kVersion = "\(.*\)".*/\1/p' common/base/version.h)
 
 # Processes and long simulations: what `make check-fast` leaves out.
 SLOW := JoinLeave*:ServerProgram*:EndToEnd*:Bombarded*:BusInNamespace*:NoRoute*:BadInput*:Installed*:RenderL*:Mea*Program* \
-	:RecordFailure*:SpecialFiles*:Hard*Invariant*:HardExactRuns*:LabPhysics*:LabSweep*:*Cluster*:*WorldScene*:RuleSessions*:SceneFuzz*
+	:RecordFailure*:ReviewPage*:SpecialFiles*:Hard*Invariant*:HardExactRuns*:LabPhysics*:LabSweep*:*Cluster*:*WorldScene*:RuleSessions*:SceneFuzz*
 # The tests that SEAM_SOAK multiplies (tests/support/soak.h).
 SOAKED := *Cluster*:Authority*:*TopologyUnder*:SceneFuzz*:Codec*:FeatherOutline*
 SOAK ?= 300
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
-.PHONY: all help deps demo bench report test tests hashes check-fast run-tests coverage soak format lint \
+.PHONY: all help deps demo bench report spy test tests hashes check-fast run-tests coverage soak format lint \
 	compile_commands.json install install-built clean force
 
 all: build/.deps-build $(PROGRAMS)   ## build the programs
@@ -143,6 +148,9 @@ $(OUT)/%.o: %.cpp $(OUT)/.flags | build/.deps-build
 	@mkdir -p $(@D)
 	$(CXX) $(ALL_CXXFLAGS) -c $< -o $@
 
+# What a review page is made of is copied into the program (render/page/assets.cpp).
+$(OUT)/render/page/assets.o: $(wildcard render/page/*.html render/page/*.css render/page/*.js)
+
 # Appended to nothing: two members may have the same name.
 $(OUT)/libseam-common.a: $(COMMON)
 $(OUT)/libseam.a: $(COMMON) $(SERVER) $(CLIENT)
@@ -159,6 +167,8 @@ $(OUT)/seam-render: $(OUT)/render/main.o $(RENDER) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(RENDER_LIBS) -o $@
 $(OUT)/seam-measure: $(OUT)/render/measure_main.o $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
+$(OUT)/seam-export: $(OUT)/render/export_main.o $(EXPORT) $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
 $(OUT)/seam-tests: $(TESTS) $(LAB) $(SERVER) $(CLIENT) $(RENDER) $(OUT)/libseam-common.a
@@ -168,7 +178,7 @@ $(OUT)/seam-tests: $(TESTS) $(LAB) $(SERVER) $(CLIENT) $(RENDER) $(OUT)/libseam-
 $(OUT)/seam-hashes: $(OUT)/tests/physics/determinism_test.o $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -lgtest -lgtest_main -o $@
 
-tests: build/.deps-build build/.deps-report $(OUT)/seam-tests $(PROGRAMS) $(OUT)/libseam.a   ## build the tests
+tests: build/.deps-build build/.deps-report build/.deps-test $(OUT)/seam-tests $(PROGRAMS) $(OUT)/libseam.a   ## build the tests
 
 run-tests = SEAM_BIN=$(OUT) $(OUT)/seam-tests $(if $(FILTER),--gtest_filter='$(FILTER)')
 
@@ -221,6 +231,20 @@ bench: all                           ## cost of a step beside Box2D, hard cases:
 	@mkdir -p out/bench
 	$(OUT)/seam-lab overhead -o out/bench/overhead.csv --force
 	$(OUT)/seam-lab physics --grid quick -o out/bench/physics.csv --force
+
+# Java is for this alone: no other target installs it.
+SPY := build/spy
+$(SPY)/seam-types.jar: $(LCM_TYPES) Makefile | build/.deps-build build/.deps-spy
+	@rm -rf $(SPY) && mkdir -p $(SPY)/source $(SPY)/classes
+	lcm-gen --java --jpath $(SPY)/source $(LCM_TYPES)
+	javac -nowarn -cp /usr/share/java/lcm.jar -d $(SPY)/classes $(SPY)/source/seam/*.java
+	jar cf $@ -C $(SPY)/classes .
+
+spy: $(SPY)/seam-types.jar           ## the messages for lcm-spy and lcm-logplayer-gui: builds a jar, says how to start them
+	@echo 'With a display, and a room or a log on the bus (docs/recordings.md):'
+	@echo '  export CLASSPATH=$(CURDIR)/$(SPY)/seam-types.jar JAVA_TOOL_OPTIONS=-XX:+IgnoreUnrecognizedVMOptions'
+	@echo '  lcm-spy                          # what is on the bus: rates, fields, plots'
+	@echo '  lcm-logplayer-gui session.lcm    # plays a log, with a slider'
 
 # QUICK=1: fewer seeds and settings, in two minutes.
 report: build/.deps-report all       ## speed against error: all the measurements, into out/report/ (QUICK=1)

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/base/check.h"
+#include "common/scene/character.h"
 #include "common/sync/edits/edit_order.h"
 #include "common/sync/input_source.h"
 #include "common/sync/lease.h"
@@ -249,6 +250,16 @@ void Client::PublishStats(std::int64_t now_us, std::int64_t cpu_us) {
       std::clamp<std::int64_t>(clock_.pending_us(), -1000000000, 1000000000));
   worst_late_us_ = 0;
   publisher_->Publish(stats_);
+}
+
+PartId Client::vehicle() const {
+  if (scene_ == nullptr || player_ < 0) return -1;
+  const Player& player = scene_->players[static_cast<std::size_t>(player_)];
+  if (player.vehicle >= 0) return player.vehicle;
+  for (const Character& character : scene_->characters) {
+    if (character.player == player_) return character.parts[kTorso];
+  }
+  return -1;
 }
 
 void Client::Shutdown(std::int64_t now_us) {

@@ -32,6 +32,7 @@ struct ClientConfig {
   std::string script_of;  ///< kScript: the scene's player whose script it plays
   std::int64_t key = 0;   ///< of an earlier Welcome, to have its place back; 0: none
   bool smooth = true;
+  bool watch = false;  ///< to look on is what is wanted; else a name without a place is fatal
 };
 
 class Client {
@@ -61,6 +62,8 @@ class Client {
   int peer() const { return peer_; }
   /// Secret of our place in the room: with it, it is ours again in a new session. 0: none yet.
   std::int64_t key() const { return key_; }
+  /// The part that is ours to drive (of a character: its torso); -1: none, or not known yet.
+  PartId vehicle() const;
   const Replica* replica() const { return replica_.get(); }
   /// Health, scores, ... as the server has told them.
   const MetaTable& metadata() const { return metadata_; }

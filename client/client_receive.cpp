@@ -10,6 +10,21 @@
 namespace seam {
 namespace {
 
+/// One line with the names that would do.
+std::string NoSuchPlayer(const std::string& name, const Scene& scene) {
+  std::string line = "there is no player \"" + name + "\" here: ";
+  const char* before = "the players are ";
+  for (const Player& player : scene.players) {
+    line += before + player.name;
+    before = ", ";
+  }
+  if (scene.players.empty()) line += "the scene has none";
+  return line + " (--watch only looks on)";
+}
+
+}  // namespace
+namespace {
+
 constexpr std::size_t kHeldMax = 256;
 
 }  // namespace
@@ -178,6 +193,10 @@ void Client::Build() {
       bool found = false;
       for (const Player& p : scene_->players) found = found || p.name == config_.script_of;
       if (!found) throw OperatorError("it has no player \"" + config_.script_of + "\" to script");
+    }
+    if (player_ < 0 && !config_.watch) {
+      fatal_ = NoSuchPlayer(config_.name, *scene_);
+      return;
     }
     MakeReplica();
   } catch (const OperatorError& e) {

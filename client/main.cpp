@@ -1,5 +1,7 @@
 /// seam-client: one player (or spectator) of a room, over UDP. `seam-client --help`.
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -8,6 +10,7 @@
 #include "client/client.h"
 #include "client/key_file.h"
 #include "client/keyboard.h"
+#include "client/terminal_view.h"
 #include "common/base/command_line.h"
 #include "common/base/names.h"
 #include "common/base/process.h"
@@ -25,7 +28,9 @@ using namespace seam;
 
 struct Flags {
   std::string server;
-  std::string name = "guest";
+  std::string name;
+  bool watch = false;
+  bool show = false;
   std::string drive = "none";
   std::string impair = "perfect";
   std::int64_t seed = 1;
@@ -42,7 +47,10 @@ struct Flags {
 
 void Define(CLI::App& app, Flags& f) {
   app.add_option("server", f.server, "host:port of seam-server (port 7777 if left out)");
-  app.add_option("--name", f.name, "player of the scene to be; any other name watches");
+  app.add_option("--name", f.name, "player of the scene to be");
+  app.add_flag("--watch", f.watch, "only look on, as a guest or under --name");
+  app.add_flag("--show", f.show,
+               "draw the world in this terminal (--drive keyboard does that too)");
   app.add_option("--drive", f.drive,
                  "none | bot | keyboard | name of the player whose script to play");
   app.add_option("--impair", f.impair, "impair this client's network, both directions");
@@ -69,7 +77,11 @@ void CheckName(const std::string& flag, const std::string& name) {
 }
 
 ClientConfig Configure(const Flags& f) {
-  CheckName("--name", f.name);
+  if (f.name.empty() && !f.watch) {
+    throw OperatorError("who are you? --name PLAYER, one of the scene's; or --watch");
+  }
+  if (f.watch && f.drive != "none") throw OperatorError("--watch drives nothing: not with --drive");
+  if (!f.name.empty()) CheckName("--name", f.name);
   CheckName("--room", f.room);
   if (std::isnan(f.duration_s)) throw OperatorError("--duration must be a number of seconds");
   if (std::isnan(f.join_s)) throw OperatorError("--join-timeout must be a number of seconds");
@@ -78,7 +90,8 @@ ClientConfig Configure(const Flags& f) {
   if (config.server.port == 0) {
     throw OperatorError("address \"" + f.server + "\": no server has port 0");
   }
-  config.name = f.name;
+  config.name = f.name.empty() ? "guest" : f.name;
+  config.watch = f.watch;
   config.smooth = f.smooth == "on";
   if (f.drive == "bot") {
     config.drive = Drive::kBot;
@@ -90,6 +103,9 @@ ClientConfig Configure(const Flags& f) {
   }
   return config;
 }
+
+/// What the keyboard does, after the progress.
+const char* const kKeys = "; arrows or WASD drive and lift, space and 0-9 press, q quits";
 
 /// "10", "0.5".
 std::string Seconds(double seconds) {
@@ -103,7 +119,7 @@ std::string Progress(const Flags& f, const Client& client, double elapsed_s) {
   char line[160];
   std::snprintf(line, sizeof line,
                 "%s: %.0f s, peer %d, tick %lld, round trip %.0f ms, loss %.1f %%, %lld rejoin(s)",
-                f.name.c_str(), elapsed_s, client.peer(),
+                f.name.empty() ? "guest" : f.name.c_str(), elapsed_s, client.peer(),
                 static_cast<long long>(client.replica()->tick()),
                 std::max(0, client.stats().rtt_us) / 1000.0, client.stats().loss_ppm / 10000.0,
                 static_cast<long long>(client.rejoins()));
@@ -121,6 +137,9 @@ int Play(const Flags& f) {
   const ImpairProfile profile = FindProfile(f.impair);
   std::unique_ptr<Keyboard> keyboard;
   if (config.drive == Drive::kLive) keyboard = std::make_unique<Keyboard>();
+  std::unique_ptr<TerminalView> view;
+  const bool shown = f.show || (keyboard != nullptr && isatty(1) != 0 && !f.quiet);
+  if (shown) view = std::make_unique<TerminalView>();
   UdpNet udp(Address{0, 0});
   ImpairedNet net(udp, profile, profile, static_cast<std::uint64_t>(f.seed) + 7);
   Sink sink(f.lcm_url, f.record, f.force, f.room);
@@ -147,11 +166,17 @@ int Play(const Flags& f) {
                           ToString(config.server) + "; gave up after " + Seconds(f.join_s) +
                           " s (--join-timeout)");
     }
-    if (client.running() && line.Due(now)) line.Show(now, Progress(f, client, elapsed_s));
+    if (view != nullptr && client.running() && view->Due(now)) {
+      view->Show(now, client, Progress(f, client, elapsed_s) + (keyboard ? kKeys : ""));
+    }
+    if (view == nullptr && client.running() && line.Due(now)) {
+      line.Show(now, Progress(f, client, elapsed_s) + (keyboard ? kKeys : ""));
+    }
     const std::int64_t wake = std::min({client.next_tick_us(now), net.next_due_us(), now + 20000});
     udp.Wait(std::max<std::int64_t>(0, wake - SteadyClockUs()), keyboard ? keyboard->fd() : -1);
   }
   line.End();
+  view.reset();
   if (client.fatal().empty() || client.peer() >= 0) client.Shutdown(SteadyClockUs());
   LetThrough(udp, net);
   if (!client.fatal().empty()) throw OperatorError(client.fatal());

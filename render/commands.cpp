@@ -185,6 +185,8 @@ int RenderMain(int argc, const char* const* argv) {
         CheckRenderOptions(&options);
         if (options.live) {
           RenderLive(options);
+        } else if (options.page) {
+          RenderReviewPage(options);
         } else if (options.strobe) {
           RenderStrobe(options);
         } else if (options.sheet > 0) {

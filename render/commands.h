@@ -13,6 +13,8 @@ int RenderMain(int argc, const char* const* argv);
 void RenderSequence(const RenderOptions& options);
 /// One picture of one collision.
 void RenderStrobe(const RenderOptions& options);
+/// One HTML file of all views of some recordings.
+void RenderReviewPage(const RenderOptions& options);
 /// Frames of what the bus brings.
 void RenderLive(const RenderOptions& options);
 

@@ -4,9 +4,8 @@
 #include "common/sync/mode.h"
 
 namespace seam {
-namespace {
 
-Playback Load(const std::string& path, const RenderOptions& options) {
+LoadedLog LoadLog(const std::string& path, const RenderOptions& options) {
   Recording recording = ReadRecording(path, options.room);
   if (recording.views.empty() || recording.last_tick < recording.first_tick)
     throw OperatorError(path + ": the recording has no views, so there is nothing to draw");
@@ -21,14 +20,15 @@ Playback Load(const std::string& path, const RenderOptions& options) {
   } else {
     oracle = ComputeOracle(recording, JudgeOf(recording.room));
   }
-  return Playback(std::move(recording), std::move(oracle));
+  return {std::move(recording), std::move(oracle)};
 }
-
-}  // namespace
 
 std::vector<Playback> LoadPlaybacks(const RenderOptions& options) {
   std::vector<Playback> playbacks;
-  for (const std::string& path : options.logs) playbacks.push_back(Load(path, options));
+  for (const std::string& path : options.logs) {
+    LoadedLog log = LoadLog(path, options);
+    playbacks.emplace_back(std::move(log.recording), std::move(log.oracle));
+  }
   return playbacks;
 }
 

@@ -12,6 +12,13 @@ namespace seam {
 /// oracle, or computed from the recorded inputs. Throws OperatorError for a log without views.
 std::vector<Playback> LoadPlaybacks(const RenderOptions& options);
 
+/// One log and its oracle, as LoadPlaybacks has them.
+struct LoadedLog {
+  Recording recording;
+  std::optional<Oracle> oracle;
+};
+LoadedLog LoadLog(const std::string& path, const RenderOptions& options);
+
 /// The displayed path of a log made in mode oracle, and the room it was made in.
 struct GivenOracle {
   std::string path;

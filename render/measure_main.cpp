@@ -15,6 +15,7 @@
 #include "common/measure/screen/response.h"
 #include "common/measure/table.h"
 #include "common/record/recording.h"
+#include "common/record/time_range.h"
 
 namespace seam {
 namespace {
@@ -28,6 +29,7 @@ struct Options {
   bool floor = false;
   bool limit = false;
   std::vector<std::string> names;
+  TimeRange range;
 };
 
 /// "out/demo/buffer.lcm" -> "buffer".
@@ -42,13 +44,9 @@ std::string BaseName(const std::string& path) {
 /// Reads a log and says on stderr what is wrong with it.
 Recording Read(const std::string& path) {
   Recording recording = ReadRecording(path);
-  if (recording.skipped_bytes > 0 || recording.undecodable > 0 || recording.bus_gaps > 0) {
-    std::fprintf(stderr,
-                 "seam-measure: warning: %s: %lld damaged bytes skipped, %lld events undecodable, "
-                 "%lld messages missing\n",
-                 path.c_str(), static_cast<long long>(recording.skipped_bytes),
-                 static_cast<long long>(recording.undecodable),
-                 static_cast<long long>(recording.bus_gaps));
+  const std::string damage = DamageOf(recording);
+  if (!damage.empty()) {
+    std::fprintf(stderr, "seam-measure: warning: %s: %s\n", path.c_str(), damage.c_str());
   }
   return recording;
 }
@@ -62,9 +60,11 @@ Oracle GivenOracle(const Recording& truth, const Recording& recording, const Opt
 
 MeasuredRun MeasureLog(const std::string& path, const std::string& name, const Options& options,
                        const std::optional<Recording>& truth) {
-  const Recording recording = Read(path);
+  Recording recording = Read(path);
+  RequireRange(options.range, recording, path);
   const Oracle oracle = truth ? GivenOracle(*truth, recording, options, path)
                               : ComputeOracle(recording, JudgeOf(recording.room));
+  KeepRange(options.range, &recording);  // the oracle needs the whole of it
   MeasuredRun run;
   run.run = name;
   run.room = recording.room;
@@ -132,8 +132,9 @@ void PrintFloor(const Recording& recording) {
       recording.room.scene_name.c_str(), ErrorFloor(recording, ComputeOracle(recording)));
 }
 
-void PrintHandOvers(const std::string& path, const std::string& name) {
-  const Recording recording = Read(path);
+void PrintHandOvers(const std::string& path, const std::string& name, const TimeRange& range) {
+  Recording recording = Read(path);
+  KeepRange(range, &recording);
   const Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
   const RevisionHistory revisions(scene, recording);
   const std::string list = FormatHandOvers(ListHandOvers(recording, &revisions));
@@ -144,6 +145,9 @@ void Run(const Options& options) {
   if (!options.names.empty() && options.names.size() != options.logs.size()) {
     throw OperatorError("--names has " + std::to_string(options.names.size()) + " names for " +
                         std::to_string(options.logs.size()) + " logs");
+  }
+  if (options.range.given() && (options.floor || options.limit)) {
+    throw OperatorError("--floor and --limit are of whole sessions: not with --from and --to");
   }
   if (!options.csv.empty()) CheckCsv(options);
   std::optional<Recording> truth;
@@ -157,7 +161,7 @@ void Run(const Options& options) {
   if (!options.csv.empty()) WriteCsv(runs, options);
   std::fputs(FormatTable(runs, options.more).c_str(), stdout);
   for (std::size_t i = 0; options.more && i < runs.size(); ++i) {
-    PrintHandOvers(options.logs[i], runs[i].run);
+    PrintHandOvers(options.logs[i], runs[i].run, options.range);
   }
   if (options.floor) PrintFloor(Read(options.logs.front()));
   if (options.limit) PrintLimit(Read(options.logs.front()));
@@ -165,6 +169,8 @@ void Run(const Options& options) {
 
 void Define(CLI::App& app, Options& options) {
   app.add_option("LOG", options.logs, "recordings (LCM logs)");
+  app.add_option("--from", options.range.from_s, "measure from this moment of the session on, s");
+  app.add_option("--to", options.range.to_s, "measure up to this moment of the session, s");
   app.add_option("--oracle", options.oracle,
                  "a recording made with --mode oracle; without it the oracle is computed");
   app.add_option("--csv", options.csv, "write the table as CSV to this file too");

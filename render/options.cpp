@@ -41,6 +41,20 @@ void ParseView(const std::string& text, RenderOptions* o) {
   o->peer = peer;
 }
 
+/// Requires logs.
+void CheckPage(const RenderOptions& o) {
+  const bool picture = o.sheet > 0 || !o.around.empty() || o.speed != 1 || o.peer_given ||
+                       o.every_ticks != 0 || !o.video.empty() || !o.camera_text.empty() ||
+                       !o.layers_text.empty() || !o.view_name.empty();
+  if (o.compare || o.strobe || o.live || picture)
+    throw OperatorError("--page has all views of all logs: it goes with no other kind of picture");
+  if (!std::isnan(o.from_s) || !std::isnan(o.to_s))
+    throw OperatorError("--page has the whole recording: it takes no --from and --to");
+  if (!o.room.empty() && o.logs.size() > 1)
+    throw OperatorError("--room does not go with several logs");
+  if (o.logs.size() > 10) throw OperatorError("at most 10 logs fit on a page");
+}
+
 /// "X,Y,HEIGHT", "fit" or "scene".
 void ParseCamera(const std::string& text, CameraWish* camera) {
   if (text == "fit") return;
@@ -114,6 +128,7 @@ void Check(const RenderOptions& o) {
   } else if (!o.room.empty() && o.compare) {
     throw OperatorError("--room does not go with --compare");
   }
+  if (o.page) return CheckPage(o);
   if (o.logs.size() > 1 && !o.compare)
     throw OperatorError("several logs: add --compare to draw them in one picture");
   if (o.logs.size() > 9) throw OperatorError("at most 9 logs can be compared");
@@ -145,15 +160,19 @@ const char* const kRenderExamples =
     "  seam-render a.lcm -o slow/ --around worst --speed 0.1   where it was most wrong, slowly\n"
     "  seam-render --strobe a.lcm -o hit.png                   one collision in one picture\n"
     "  seam-render --strobe --compare a.lcm b.lcm -o hits.png  a row for each run\n"
+    "  seam-render --page a.lcm b.lcm -o review.html           a page to look through in a "
+    "browser\n"
     "  seam-render --live -o frames/                           what the LCM bus brings";
 
 void DefineRenderOptions(CLI::App* app, RenderOptions* options) {
   RenderOptions& o = *options;
   o.fonts = kFontFolder;
   app->add_option("logs", o.logs, "LCM logs of sessions");
-  app->add_option("-o,--out", o.out, "folder for frames, or the .png file of --strobe");
+  app->add_option("-o,--out", o.out,
+                  "folder for frames, or the .png of --strobe, the .html of --page");
   app->add_flag("--compare", o.compare, "several logs in one picture, in step by tick");
   app->add_flag("--strobe", o.strobe, "many exposures of one collision in one picture");
+  app->add_flag("--page", o.page, "one HTML file of all views, to look through in a browser");
   app->add_flag("--live", o.live, "draw what the LCM bus brings");
   app->add_flag("--force", o.force, "write even where other files are");
   app->add_option("--fps", o.fps, "frames per second of the session (30)");

@@ -16,8 +16,9 @@ namespace seam {
 
 struct RenderOptions {
   std::vector<std::string> logs;
-  std::string out;  ///< folder; a file for strobe
+  std::string out;  ///< folder; a file for strobe and page
   bool compare = false, strobe = false, live = false, force = false;
+  bool page = false;  ///< one HTML file of all views
   int fps = 30;
   int width_px = 1280, height_px = 720;
   bool size_given = false;

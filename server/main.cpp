@@ -36,7 +36,7 @@ struct Flags {
   int send_hz = 30;
   std::string room = "main";
   int wait = -1;
-  double duration_s = 0;
+  double duration_s = -1;  // the scene's
   std::string record;
   bool force = false;
   std::string lcm_url;
@@ -71,7 +71,8 @@ void Define(CLI::App& app, Flags& f) {
   app.add_option("--room", f.room, "name of the room in the channels");
   app.add_option("--wait", f.wait, "players to wait for (default: those of the scene; 0: none)")
       ->check(CLI::Range(0, 31));
-  app.add_option("--duration", f.duration_s, "seconds to run after tick 0 (0: until stopped)")
+  app.add_option("--duration", f.duration_s,
+                 "seconds to run after tick 0 (0: until stopped; default: the scene's)")
       ->check(CLI::Range(0.0, 1e6));
   app.add_option("--record", f.record, "write the session's LCM log to this file too");
   app.add_flag("--force", f.force, "overwrite the --record file");
@@ -90,6 +91,14 @@ std::int64_t LastTick(double duration_s, int tick_hz) {
   if (std::isnan(duration_s)) throw OperatorError("--duration must be a number of seconds");
   if (duration_s <= 0) return 0;
   return std::max<std::int64_t>(1, std::llround(duration_s * tick_hz));
+}
+
+/// How the session ends, for people.
+std::string Ending(double duration_s) {
+  if (duration_s <= 0) return "; Ctrl-C ends it";
+  char text[80];
+  std::snprintf(text, sizeof text, "; then %g s (--duration 0: until Ctrl-C)", duration_s);
+  return text;
 }
 
 /// How many players tick 0 waits for.
@@ -139,7 +148,8 @@ int Serve(const Flags& f) {
   config.impair = f.impair;
   config.seed = f.seed;
   config.wait_players = PlayersToWaitFor(f, scene);
-  const std::int64_t last_tick = LastTick(f.duration_s, scene.solver.tick_hz);
+  const double duration_s = f.duration_s < 0 ? scene.duration_s : f.duration_s;
+  const std::int64_t last_tick = LastTick(duration_s, scene.solver.tick_hz);
   const ImpairProfile profile = FindProfile(f.impair);
 
   Address local = ParseAddress(f.bind, static_cast<std::uint16_t>(f.port));
@@ -151,9 +161,10 @@ int Serve(const Flags& f) {
   StopOnSignals();
   const std::string variant = VariantOf(NamesOf(config.sync));
   std::fprintf(stderr,
-               "seam-server: %s, mode %s%s%s, network %s, on %s; waiting for %d player(s)\n",
+               "seam-server: %s, mode %s%s%s, network %s, on %s; waiting for %d player(s)%s\n",
                scene.name.c_str(), f.mode.c_str(), variant.empty() ? "" : " ", variant.c_str(),
-               f.impair.c_str(), ToString(udp.local()).c_str(), config.wait_players);
+               f.impair.c_str(), ToString(udp.local()).c_str(), config.wait_players,
+               Ending(duration_s).c_str());
   ProgressLine line(f.quiet);
   TroubleReport recording("seam-server", "the room runs on");
   while (g_stop == 0 && (last_tick == 0 || server.tick() < last_tick)) {
@@ -178,12 +189,13 @@ int Serve(const Flags& f) {
   const Stats& s = server.stats();
   std::fprintf(stderr,
                "seam-server: %lld ticks; dropped %lld malformed, %lld stale, %lld without right, "
-               "%lld implausible, %lld over budget; %lld stepped again, %lld replays deferred; "
-               "%lld bus failures\n",
+               "%lld implausible, %lld over budget; %lld part(s) left the bounds; "
+               "%lld stepped again, %lld replays deferred; %lld bus failures\n",
                static_cast<long long>(server.tick()), static_cast<long long>(s.dropped_malformed),
                static_cast<long long>(s.dropped_stale), static_cast<long long>(s.dropped_right),
                static_cast<long long>(s.dropped_implausible),
                static_cast<long long>(s.dropped_budget),
+               static_cast<long long>(server.left_bounds()),
                static_cast<long long>(server.replica().ticks_stepped_again()),
                static_cast<long long>(server.replica().replays_deferred()),
                static_cast<long long>(sink.failures()));

@@ -15,6 +15,8 @@ namespace {
 
 /// Most ticks stepped in one call: a server that was suspended catches up without starving the net.
 constexpr int kStepsMax = 8;
+/// m, about where bricks are left in the air.
+constexpr float kLetFallRadius = 0.5f;
 /// Mode oracle: what is decided outside the physics (a seat, a rule, a script) acts so much later,
 /// s, at every peer in the same tick. Longer than an order is under way, or that peer is behind.
 constexpr double kAppointSeconds = 0.25;
@@ -67,6 +69,7 @@ Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorde
                 net, entropy),
       authority_(scene_, config.sync, replica_),
       edits_(replica_.world(), authority_, config.sync.tick_hz),
+      bounds_(replica_),
       filter_(scene_, replica_, authority_, edits_, stats_.counters),
       broadcast_(recorder, config.room, config.sync, replica_, authority_, sessions_) {
   if (!Rules::Needed(scene_)) return;
@@ -199,6 +202,7 @@ void Server::StepOnce(std::int64_t now_us) {
     for (const Edit& edit : SeatEdits(replica_.world(), p, pressed)) edits_.Add(edit);
   }
   for (const Edit& edit : seat_bonds_.Next(replica_.world())) edits_.Add(edit);
+  RemoveOutside(now_us);
   UpdateAuthority(now_us);
   for (States& states : replica_.TakeStates()) {
     states.utime = now_us;
@@ -243,15 +247,25 @@ void Server::ApplyEdits(std::int64_t now_us) {
   ApplyQueued(now_us);
 }
 
+/// A blast lets fall only so much of what it has left in the air: the rest comes down by more
+/// edits.
+void Server::LetFall(const Edit& applied) {
+  const std::optional<Vec2>& hanging = replica_.world().topology().hanging();
+  if (applied.As<BlastEdit>() == nullptr || !hanging) return;
+  edits_.Add(Edit(BlastEdit{*hanging, kLetFallRadius, 0, 0}, EditCause::kOutside));
+}
+
 void Server::ApplyQueued(std::int64_t now_us) {
   while (replica_.has_queued()) {
     const Edit edit = replica_.next_queued();
     const std::optional<BodyRemap> change = replica_.ApplyNextEdit();
+    bounds_.NoteApplied(edit);
     if (config_.sync.mode == Mode::kOracle) {
       broadcast_.Publish(edits_.NoteAlone(edit, now_us));
     } else {
       edits_.NoteApplied();
     }
+    LetFall(edit);
     if (!change) continue;
     authority_.Remap(change->mechanisms);
     filter_.Remap(change->bodies);
@@ -289,6 +303,16 @@ void Server::RunRules(std::int64_t now_us) {
   rules_->AfterTick();
   for (const std::string& text : commands_->TakeSaid()) broadcast_.Say(now_us, text);
   for (const Meta& meta : rules_->TakeChanges(now_us)) broadcast_.ToAll(meta);
+}
+
+void Server::RemoveOutside(std::int64_t now_us) {
+  const std::vector<Edit> edits = bounds_.Next(filter_.TakeOutside());
+  for (const Edit& edit : edits) edits_.Add(edit);
+  if (edits.empty()) return;
+  const PartId first = edits.front().As<RemoveEdit>()->part;
+  std::string what = replica_.world().scene().parts[static_cast<std::size_t>(first)].name;
+  if (edits.size() > 1) what += " and " + std::to_string(edits.size() - 1) + " more";
+  broadcast_.Say(now_us, "out of bounds: " + what);
 }
 
 std::vector<std::string> Server::TakeWarnings() {

@@ -14,6 +14,7 @@
 #include "server/authority/authority_manager.h"
 #include "server/broadcast.h"
 #include "server/edits/edit_log.h"
+#include "server/rules/bounds_watch.h"
 #include "server/rules/seats.h"
 #include "server/server_stats.h"
 #include "server/sessions/session_table.h"
@@ -55,6 +56,8 @@ class Server {
   /// Players of the scene who are in the room.
   int player_count() const { return sessions_.player_count(); }
   const Stats& stats() const { return stats_.counters; }
+  /// Parts that were removed because they had left the scene's bounds, since the start.
+  std::int64_t left_bounds() const { return bounds_.left(); }
   /// Messages of sessions that were decoded, since the start.
   std::int64_t decoded() const { return stats_.decoded; }
   const Replica& replica() const { return replica_; }
@@ -99,9 +102,11 @@ class Server {
   void StepOnce(std::int64_t now_us);
   void ApplyEdits(std::int64_t now_us);
   void AppointEdits(std::int64_t now_us);
+  void LetFall(const Edit& applied);
   void ApplyQueued(std::int64_t now_us);
   void UpdateAuthority(std::int64_t now_us);
   void RunRules(std::int64_t now_us);
+  void RemoveOutside(std::int64_t now_us);
 
   const Scene scene_;
   const ServerConfig config_;
@@ -113,6 +118,7 @@ class Server {
   AuthorityManager authority_;
   EditLog edits_;
   SeatBonds seat_bonds_;
+  BoundsWatch bounds_;
   StateFilter filter_;
   Broadcast broadcast_;
   std::unique_ptr<ServerCommands> commands_;

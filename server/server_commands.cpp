@@ -17,8 +17,8 @@ void ServerCommands::Bond(PartId a, PartId b, float strength) {
 
 void ServerCommands::Push(PartId part, const Vec2& impulse) { Ask(PushEdit{part, impulse}); }
 
-void ServerCommands::Blast(const Vec2& centre, float radius, float speed) {
-  Ask(BlastEdit{centre, radius, speed});
+void ServerCommands::Blast(const Vec2& centre, float radius, float speed, float impulse) {
+  Ask(BlastEdit{centre, radius, speed, impulse});
 }
 
 void ServerCommands::Insert(const std::string& text) { Ask(InsertEdit{text}); }

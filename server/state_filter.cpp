@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/scene/scene_limits.h"
+#include "server/rules/bounds_watch.h"
 
 namespace seam {
 namespace {
@@ -60,15 +61,18 @@ bool StateFilter::MayLookAt(int peer, const States& states) {
 }
 
 bool StateFilter::Plausible(int body, std::int64_t tick, const BodyState& state) const {
-  const Vec2& p = state.position;
-  if ((p.array() < scene_.bounds_min.array()).any()) return false;
-  if ((p.array() > scene_.bounds_max.array()).any()) return false;
+  if (OutsideBounds(scene_, state.position)) return false;
   if (state.velocity.norm() > scene_.speed_limit) return false;
+  return Reachable(body, tick, state.position, 1);
+}
+
+bool StateFilter::Reachable(int body, std::int64_t tick, const Vec2& position, float times) const {
   const LastAccepted& last = accepted_[static_cast<std::size_t>(body)];
   if (last.tick < 0) return true;
   const float seconds =
       static_cast<float>(std::max<std::int64_t>(1, tick - last.tick)) * replica_.world().dt();
-  return (p - last.position).norm() <= scene_.speed_limit * seconds + kJumpSlack;
+  const float way = times * scene_.speed_limit * seconds + kJumpSlack;
+  return (position - last.position).norm() <= way;
 }
 
 bool StateFilter::MayMove(int body, const States& states, std::size_t i) {
@@ -95,6 +99,9 @@ bool StateFilter::MayMove(int body, const Claim& claim) {
     return false;
   }
   if (!Plausible(body, claim.tick, claim.state)) {
+    const Vec2& at = claim.state.position;
+    // What falls for long is faster than the limit, which no message of it passes.
+    if (OutsideBounds(scene_, at) && Reachable(body, claim.tick, at, 2)) outside_.push_back(body);
     ++stats_.dropped_implausible;
     return false;
   }
@@ -198,6 +205,13 @@ void StateFilter::Remap(const std::vector<BodyOrigin>& bodies) {
                                    : LastAccepted{});
   }
   accepted_ = std::move(accepted);
+  std::vector<int> outside;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    if (bodies[b].same && std::count(outside_.begin(), outside_.end(), bodies[b].body) > 0) {
+      outside.push_back(static_cast<int>(b));
+    }
+  }
+  outside_ = std::move(outside);
 }
 
 }  // namespace seam

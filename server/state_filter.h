@@ -4,6 +4,7 @@
 /// else hears of it.
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "common/codec/messages.h"
@@ -25,6 +26,9 @@ class StateFilter {
   Rest Keep(std::int64_t now_us, int peer, const Rest& rest);
   /// What is kept of what a peer, which is ready, says of bodies that it has let go of.
   ExactStates KeepExact(int peer, const ExactStates& exact);
+  /// Bodies that their authority, since the last call, has said to be outside the scene's bounds:
+  /// dropped, but no further away than twice the speed limit explains.
+  std::vector<int> TakeOutside() { return std::exchange(outside_, {}); }
   /// The bodies have changed.
   void Remap(const std::vector<BodyOrigin>& bodies);
 
@@ -43,6 +47,8 @@ class StateFilter {
   };
   bool MayMove(int body, const Claim& claim);
   bool Plausible(int body, std::int64_t tick, const BodyState& state) const;
+  /// Whether it could have moved there since it was last believed at `times` the speed limit.
+  bool Reachable(int body, std::int64_t tick, const Vec2& position, float times) const;
 
   struct LastAccepted {
     std::int64_t tick = -1;
@@ -55,6 +61,7 @@ class StateFilter {
   const EditLog& edits_;
   Stats& stats_;
   std::vector<LastAccepted> accepted_;  // by body
+  std::vector<int> outside_;
 };
 
 }  // namespace seam

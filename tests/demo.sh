@@ -30,7 +30,7 @@ if [ -z "${SEAM_IN_NAMESPACE:-}" ]; then
 fi
 
 mkdir -p "$out"
-rm -rf "$out"/*.lcm "$out"/*.png "$out"/*.csv "$out"/*.log "$out"/frames
+rm -rf "$out"/*.lcm "$out"/*.png "$out"/*.html "$out"/*.csv "$out"/*.log "$out"/frames
 pids=()
 cleanup() { for p in "${pids[@]:-}"; do kill "$p" 2>/dev/null || true; done; }
 trap cleanup EXIT INT TERM
@@ -176,7 +176,12 @@ for scene in $worlds; do
   timeout 40 "$bin/seam-render" --strobe "$log" -o "$out/$scene-world-strobe.png" >/dev/null 2>&1 ||
     echo "demo: no strobe of $scene" >&2
 done
+if [ -f "$out/crossing-rollback.lcm" ]; then
+  "$bin/seam-render" --page "$out"/crossing-{rollback,interleave,strict}.lcm -o "$out/review.html"
+  entrance="  look here file://$(cd "$out" && pwd)/review.html"
+fi
 echo "demo: $((SECONDS - began)) s in all"
+echo "${entrance:-}"
 echo "  tables    $csv and $out/worlds.csv"
 echo "  summary   $out/summary.png"
 echo "  strobes   $out/SCENE-RUN-strobe.png"

@@ -203,12 +203,12 @@ struct EditOrder {
   std::int32_t joint = -1;
   std::int16_t player = -1;
   std::string text;                         ///< at most kEditTextBytesMax
-  std::vector<float> value = {0, 0, 0, 0};  ///< x, y, angle, amount
+  std::vector<float> value = {0, 0, 0, 0};  ///< x, y, angle, amount; of a blast also impulse
 };
 /// The whole must fit kMessageBytesMax.
 constexpr std::size_t kEditTextBytesMax = 900;
 static_assert(kEditTextBytesMax < kMessageBytesMax);
-constexpr std::int8_t kEditKindsMax = 8;
+constexpr std::int8_t kEditKindsMax = 8, kEditKindBlast = 8;
 
 /// Server -> one client, reliable and ordered: what makes of the scene the world as it has become;
 /// common/topology/topology_entry.h says what an entry is.

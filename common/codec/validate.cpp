@@ -171,7 +171,8 @@ bool Valid(const ImpactReport& m) {
 bool Valid(const EditOrder& m) {
   return Time(m.utime) && m.sequence >= 0 && m.number >= -1 && Tick(m.tick) &&
          Within(m.kind, 0, kEditKindsMax) && Within(m.cause, 0, 1) && m.a >= -1 && m.b >= -1 &&
-         m.joint >= -1 && Within(m.player, -1, kPeersMax - 1) && m.value.size() == 4 &&
+         m.joint >= -1 && Within(m.player, -1, kPeersMax - 1) &&
+         (m.value.size() == 4 || (m.kind == kEditKindBlast && m.value.size() == 5)) &&
          Finite(m.value) && IsPrintable(m.text, kEditTextBytesMax, true);
 }
 

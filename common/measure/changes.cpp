@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/measure/parts.h"
+#include "common/sync/edits/edit_order.h"
 
 namespace seam {
 namespace {
@@ -45,6 +46,11 @@ std::int32_t KnownEdits(const Recording& recording) {
 
 void MeasureChanges(const Recording& recording, const RevisionHistory& revisions,
                     Measures* measures) {
+  for (const auto& [number, order] : recording.edits) {
+    const Edit edit = ToEdit(order);
+    const RemoveEdit* removed = edit.As<RemoveEdit>();
+    if (removed != nullptr && removed->left_bounds) ++measures->left_bounds;
+  }
   if (!revisions.change()) return;
   measures->topology_lag_s = static_cast<double>(LongestLag(recording)) * TickSeconds(recording);
   std::map<int, std::vector<const View*>> by_revision;

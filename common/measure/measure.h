@@ -52,6 +52,7 @@ struct Measures {
   // Of worlds whose bodies change; empty without edits.
   std::optional<double> topology_lag_s;  ///< longest that a peer lacked an edit that was ordered
   std::optional<std::int64_t> lost;      ///< bodies too few or too many in views, over all ticks
+  std::int64_t left_bounds = 0;  ///< parts that were removed because they left the scene's bounds
   double bytes_per_s = 0;                ///< mean over clients, both directions, UDP payload
   double sent_bytes_per_s = 0;           ///< the same, what they send alone
   double cpu_us_per_s = 0;               ///< mean over peers, per simulated second

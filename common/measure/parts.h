@@ -24,6 +24,19 @@ void MeasureError(const Recording& recording, const Oracle& oracle, Measures* me
 void MeasureSmoothness(const Recording& recording, const Oracle& oracle,
                        const RevisionHistory* revisions, Measures* measures);
 
+/// A peer's views of three successive ticks; nullptr where there is none.
+struct ViewTrio {
+  const View* now = nullptr;  ///< not null
+  const View* before = nullptr;
+  const View* earlier = nullptr;
+};
+
+/// smoothness.cpp: the square of what stutter_mps2 is the root mean square of, (m/s^2)^2, for body
+/// i of trio.now; nullopt where a tick, the oracle, or the body as it is now is missing. `h`: s per
+/// tick.
+std::optional<double> StutterSquared(const ViewTrio& trio, std::size_t i, const Oracle& oracle,
+                                     const RevisionHistory* revisions, double h);
+
 /// seam.cpp: seam_rms_m and seam_stutter_mps2.
 void MeasureSeam(const Recording& recording, const RevisionHistory* revisions, Measures* measures);
 
@@ -43,7 +56,7 @@ std::optional<double> RestJitter(const Recording& recording, const Oracle& oracl
 void MeasureDisplayed(const Recording& recording, const Oracle& oracle,
                       const RevisionHistory& revisions, Measures* measures);
 
-/// changes.cpp: topology_lag_s, lost.
+/// changes.cpp: topology_lag_s, lost, left_bounds.
 void MeasureChanges(const Recording& recording, const RevisionHistory& revisions,
                     Measures* measures);
 

@@ -31,42 +31,61 @@ bool IsBackstep(const Point& a, const Point& b, double vx, double vy) {
   return ((b.x - a.x) * vx + (b.y - a.y) * vy) / speed < -kStepMin;
 }
 
-/// The view of `tick`, nullptr if there is none.
+/// What a body becomes part of moves otherwise than it did: no difference is taken across that.
+bool Same(const Oracle& oracle, const RevisionHistory* revisions, const View& now, const View& then,
+          PartId id) {
+  if (revisions != nullptr && !revisions->SameBody(now.revision, then.revision, id)) return false;
+  return oracle.SameBody(now.tick, then.tick, id);
+}
+
+/// Whether the body's last move goes against its velocity, and the oracle's does not.
+bool IsOwnBackstep(const ViewTrio& trio, std::size_t i, const Oracle& oracle,
+                   const RevisionHistory* revisions) {
+  const View &now = *trio.now, &before = *trio.before;
+  const PartId id = now.id[i];
+  const std::optional<BodyState> truth = oracle.At(now.tick, id);
+  const std::optional<BodyState> truth_before = oracle.At(now.tick - 1, id);
+  const int k = IndexOf(before, id);
+  if (!truth || !truth_before || k < 0 || !Same(oracle, revisions, now, before, id)) return false;
+  return IsBackstep(Shown(before, k), {now.x[i], now.y[i]}, now.vx[i], now.vy[i]) &&
+         !IsBackstep(At(*truth_before), At(*truth), truth->velocity.x(), truth->velocity.y());
+}
+
 }  // namespace
+
+std::optional<double> StutterSquared(const ViewTrio& trio, std::size_t i, const Oracle& oracle,
+                                     const RevisionHistory* revisions, double h) {
+  if (trio.before == nullptr || trio.earlier == nullptr) return std::nullopt;
+  const View &now = *trio.now, &before = *trio.before, &earlier = *trio.earlier;
+  const PartId id = now.id[i];
+  const std::int64_t tick = now.tick;
+  const std::optional<BodyState> truth = oracle.At(tick, id);
+  const std::optional<BodyState> truth_before = oracle.At(tick - 1, id);
+  const std::optional<BodyState> truth_earlier = oracle.At(tick - 2, id);
+  const int k = IndexOf(before, id), j = IndexOf(earlier, id);
+  if (!truth || !truth_before || !truth_earlier || k < 0 || j < 0) return std::nullopt;
+  if (!Same(oracle, revisions, now, before, id) || !Same(oracle, revisions, before, earlier, id)) {
+    return std::nullopt;
+  }
+  const Point p = {now.x[i], now.y[i]}, q = Shown(before, k), r = Shown(earlier, j);
+  const Point o = At(*truth), n = At(*truth_before), m = At(*truth_earlier);
+  const double ax = (p.x - 2 * q.x + r.x) - (o.x - 2 * n.x + m.x);
+  const double ay = (p.y - 2 * q.y + r.y) - (o.y - 2 * n.y + m.y);
+  return (ax * ax + ay * ay) / (h * h * h * h);
+}
 
 void MeasureSmoothness(const Recording& recording, const Oracle& oracle,
                        const RevisionHistory* revisions, Measures* measures) {
   const double h = TickSeconds(recording);
-  // What a body becomes part of moves otherwise than it did: no difference is taken across that.
-  const auto same = [&](const View& now, const View& then, PartId id) {
-    if (revisions != nullptr && !revisions->SameBody(now.revision, then.revision, id)) return false;
-    return oracle.SameBody(now.tick, then.tick, id);
-  };
   MeanSquare stutter;
   for (const auto& [peer, views] : recording.views) {
     for (const auto& [tick, view] : views) {
-      const View* before = FindView(views, tick - 1);
-      if (before == nullptr) continue;
-      const View* earlier = FindView(views, tick - 2);
+      const ViewTrio trio = {&view, FindView(views, tick - 1), FindView(views, tick - 2)};
+      if (trio.before == nullptr) continue;
       for (std::size_t i = 0; i < view.id.size(); ++i) {
-        const PartId id = view.id[i];
-        const std::optional<BodyState> truth = oracle.At(tick, id);
-        const std::optional<BodyState> truth_before = oracle.At(tick - 1, id);
-        const int k = IndexOf(*before, id);
-        if (!truth || !truth_before || k < 0 || !same(view, *before, id)) continue;
-        const Point p = {view.x[i], view.y[i]}, q = Shown(*before, k);
-        const Point o = At(*truth), n = At(*truth_before);
-        if (IsBackstep(q, p, view.vx[i], view.vy[i]) &&
-            !IsBackstep(n, o, truth->velocity.x(), truth->velocity.y())) {
-          ++measures->backsteps;
-        }
-        const std::optional<BodyState> truth_earlier = oracle.At(tick - 2, id);
-        const int j = earlier == nullptr ? -1 : IndexOf(*earlier, id);
-        if (!truth_earlier || j < 0 || !same(*before, *earlier, id)) continue;
-        const Point r = Shown(*earlier, j), m = At(*truth_earlier);
-        const double ax = (p.x - 2 * q.x + r.x) - (o.x - 2 * n.x + m.x);
-        const double ay = (p.y - 2 * q.y + r.y) - (o.y - 2 * n.y + m.y);
-        stutter.Add((ax * ax + ay * ay) / (h * h * h * h));
+        if (IsOwnBackstep(trio, i, oracle, revisions)) ++measures->backsteps;
+        const auto squared = StutterSquared(trio, i, oracle, revisions, h);
+        if (squared) stutter.Add(*squared);
       }
     }
   }

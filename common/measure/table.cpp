@@ -136,6 +136,7 @@ std::string More(const MeasuredRun& run) {
         "  bodies change    a peer lacked an edit for at most {:.6g} s; {} bodies "
         "lost or too many\n",
         *m.topology_lag_s, *m.lost);
+    out += fmt::format("  out of bounds    {} parts removed\n", m.left_bounds);
   }
   if (m.sent_bytes_per_s > 0) {
     out += fmt::format("  sent             {:.6g} bytes/s by a client\n", m.sent_bytes_per_s);

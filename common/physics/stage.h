@@ -13,6 +13,7 @@
 #include "common/scene/scene.h"
 #include "common/scene/types.h"
 #include "common/topology/edit.h"
+#include "common/topology/topology.h"
 
 namespace seam {
 
@@ -26,6 +27,7 @@ struct StageWorld {
   const BuiltScene& built;
   const std::int64_t& tick;            ///< ticks stepped so far
   const std::vector<Motion>& motions;  ///< by moving body
+  const Topology& topology;
 };
 
 /// Deterministic: a function of the scene, the calls and what Save keeps. In each tick:

@@ -17,7 +17,7 @@ bool SameBits(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 }  // namespace
 
-World::World(const Scene& scene) : World(Topology(scene)) {}
+World::World(const Scene& scene) : impl_(std::make_unique<Impl>(Topology(scene))) {}
 World::World(const Topology& topology) : impl_(std::make_unique<Impl>(topology)) {}
 World::~World() = default;
 

@@ -1,6 +1,7 @@
 #include "common/physics/world_build.h"
 
 #include "common/base/check.h"
+#include "common/physics/anchored_bodies.h"
 #include "common/physics/faces.h"
 #include "common/physics/world_couplings.h"
 #include "common/physics/world_shapes.h"
@@ -8,6 +9,22 @@
 
 namespace seam {
 namespace {
+
+/// `frame`: a part that lies as the body does.
+void AddShapes(const Scene& scene, const Assembly& assembly, const Part& frame, bool guarded,
+               b2Body* body, std::map<PartId, std::vector<PartId>>* merged) {
+  if (assembly.parts.size() < kFacesFrom) {  // without copies of its parts
+    for (const PartId id : assembly.parts) {
+      AddFixture(scene.parts[static_cast<std::size_t>(id)], frame, scene.solver.skin, guarded,
+                 body);
+    }
+    return;
+  }
+  for (const Face& face : FacesOf(scene, assembly)) {
+    AddFixture(face.shape, frame, scene.solver.skin, guarded, body);
+    if (face.parts.size() > 1) (*merged)[face.shape.id] = face.parts;
+  }
+}
 
 b2Body* AddBody(const Scene& scene, const Assembly& assembly, b2World* world,
                 std::map<PartId, std::vector<PartId>>* merged) {
@@ -22,12 +39,15 @@ b2Body* AddBody(const Scene& scene, const Assembly& assembly, b2World* world,
     def.bullet = def.bullet || scene.parts[static_cast<std::size_t>(id)].bullet;
   }
   b2Body* body = world->CreateBody(&def);
-  const bool guarded = assembly.anchored || def.bullet;
-  for (const Face& face : FacesOf(scene, assembly)) {
-    AddFixture(face.shape, root, scene.solver.skin, guarded, body);
-    if (face.parts.size() > 1) (*merged)[face.shape.id] = face.parts;
-  }
+  AddShapes(scene, assembly, root, assembly.anchored || def.bullet, body, merged);
   return body;
+}
+
+b2Body* AddToShared(const Scene& scene, const Assembly& assembly, AnchoredBodies* shared,
+                    std::map<PartId, std::vector<PartId>>* merged) {
+  const AnchoredBodies::Body& its = shared->For(scene.parts[static_cast<std::size_t>(assembly.id)]);
+  AddShapes(scene, assembly, its.frame, true, its.body, merged);
+  return its.body;
 }
 
 b2MassData MassDataOf(const Scene& scene, const Assembly& assembly) {
@@ -75,8 +95,11 @@ int IndexOf(b2Body* body) { return static_cast<int>(body->GetUserData().pointer)
 
 BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2World* world) {
   BuiltScene built;
+  const std::vector<bool> share = ShareBodies(scene, composition);
+  AnchoredBodies shared(world);
   for (const Assembly& assembly : composition.assemblies) {
-    b2Body* body = AddBody(scene, assembly, world, &built.merged);
+    b2Body* body = share[built.bodies.size()] ? AddToShared(scene, assembly, &shared, &built.merged)
+                                              : AddBody(scene, assembly, world, &built.merged);
     built.bodies.push_back(body);
     if (assembly.anchored) continue;
     const b2MassData mass = MassDataOf(scene, assembly);

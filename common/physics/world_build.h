@@ -1,6 +1,7 @@
 #pragma once
-/// Puts a scene into a Box2D world: one body per assembly, in the order of their ids, then the
-/// joints in the scene's order. The same scene gives the same bodies in the same order everywhere.
+/// Puts a scene into a Box2D world: one body per assembly, in the order of their ids, but few for
+/// the anchored ones of which there are many, then the joints in the scene's order. The same scene
+/// gives the same bodies in the same order everywhere.
 
 #include <box2d/box2d.h>
 
@@ -26,7 +27,8 @@ struct MovingBody {
 };
 
 struct BuiltScene {
-  std::vector<b2Body*> bodies;     ///< by index into Composition::assemblies
+  /// By index into Composition::assemblies. Anchored ones may share one (anchored_bodies.h).
+  std::vector<b2Body*> bodies;
   std::vector<MovingBody> moving;  ///< ascending by id
   std::vector<b2Joint*> joints;    ///< by index into Scene::joints; nullptr: one body
   std::vector<Motor> motors;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cfloat>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "common/base/check.h"
@@ -19,7 +20,7 @@
 namespace seam {
 
 struct World::Impl {
-  explicit Impl(const Topology& begin) : topology(begin) {
+  explicit Impl(Topology begin) : topology(std::move(begin)) {
     Empty();
     Build();
     FindStages();
@@ -42,7 +43,7 @@ struct World::Impl {
   /// Makes the stages anew if the scene needs more of them than there are.
   void FindStages() {
     std::vector<std::unique_ptr<Stage>> needed =
-        MakeStages({scene, composition, built, tick, motions});
+        MakeStages({scene, composition, built, tick, motions, topology});
     if (needed.size() <= stages.size()) return;
     stages = std::move(needed);
     std::vector<Stage*> listening;
@@ -101,7 +102,7 @@ struct World::Impl {
   ImpulseMeter meter;
   std::optional<b2World> world;  // rebuilt by Barrier and Restore
   BuiltScene built;
-  std::optional<ExactStep> exact;  // only when there are joints for it
+  std::optional<ExactStep> exact;   // only when there are joints for it
   std::vector<Motion> motions;      // by moving body
   int led_count = 0;                // of them kLed
   std::vector<BodyState> led_path;  // by moving body: of led ones, where the step began

@@ -100,6 +100,11 @@ MassPoint World::mass_point(int body) const {
 
 BodyState World::ReadAssembly(int assembly) const {
   SEAM_ASSERT(assembly >= 0 && assembly < static_cast<int>(impl_->built.bodies.size()));
+  const Assembly& a = composition().assemblies[static_cast<std::size_t>(assembly)];
+  if (a.anchored && a.kinematic < 0) {
+    const Part& root = scene().parts[static_cast<std::size_t>(a.id)];
+    return {root.position, root.angle, {0, 0}, 0};
+  }
   const b2Body* b = impl_->built.bodies[static_cast<std::size_t>(assembly)];
   return {FromB2(b->GetPosition()), b->GetAngle(), FromB2(b->GetLinearVelocity()),
           b->GetAngularVelocity()};

@@ -10,6 +10,7 @@
 #include <map>
 
 #include "common/base/geometry.h"
+#include "common/physics/blast_push.h"
 #include "common/physics/carried_along.h"
 #include "common/physics/world_impl.h"
 #include "common/scene/mass.h"
@@ -291,6 +292,10 @@ void World::Do(const Edit& edit) {
   Impl& w = *impl_;
   const PushEdit* push = edit.As<PushEdit>();
   if (push != nullptr && w.topology.Validate(edit).ok()) Push(*push);
+  const BlastEdit* blast = edit.As<BlastEdit>();
+  if (blast != nullptr && blast->impulse > 0 && w.topology.Validate(edit).ok()) {
+    PushAway(HitsOf(*w.world, w.topology.BricksLeft(), *blast), w.scene.speed_limit);
+  }
   const SeatEdit* seat = edit.As<SeatEdit>();
   if (seat != nullptr && seat->player < 0 && w.topology.Validate(edit).ok()) {
     Follow(static_cast<int>(w.scene.players.size()) + seat->seat, Input{});  // nobody drives on

@@ -9,6 +9,9 @@
 ///        | |      upper legs      knees
 ///        | |      lower legs      ankles
 ///        |_|_     feet            (facing right: the toes are on the right)
+///
+/// Each part is one convex outline of eight corners, tapered like the limb it stands for; soles are
+/// flat.
 
 #include <array>
 #include <memory>
@@ -52,6 +55,13 @@ enum CharacterJoint {
   kAnkleRight,
   kCharacterJoints
 };
+
+/// Arms and legs.
+constexpr bool IsLimb(int part) { return part >= kUpperArmLeft; }
+/// Requires IsLimb(part).
+constexpr bool IsLeft(int part) {
+  return part <= kLowerArmLeft || (part >= kUpperLegLeft && part <= kFootLeft);
+}
 
 struct CharacterGains;  // common/stages/character/character_gains.h
 

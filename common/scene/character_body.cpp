@@ -2,30 +2,56 @@
 
 #include "common/base/geometry.h"
 #include "common/scene/character.h"
+#include "common/scene/mass.h"
 
 namespace seam {
 namespace {
 
+constexpr int kCorners = 8;  ///< what the engine takes as one shape
+
+/// m, about the part's middle, facing right, counter-clockwise: the profile of a body.
+struct PartOutline {
+  float x[kCorners], y[kCorners];
+};
+
+/// Along y, with the radii `top` and `bottom`, m: a limb, thick where its muscles are.
+constexpr PartOutline Limb(float length, float top, float bottom) {
+  const float up = length / 2, down = -length / 2;
+  return {{-0.5f * bottom, 0.5f * bottom, bottom, top, 0.5f * top, -0.5f * top, -top, -bottom},
+          {down, down, down + 0.8f * bottom, up - 0.8f * top, up, up, up - 0.8f * top,
+           down + 0.8f * bottom}};
+}
+
+/// The chin forward, the back of the skull round.
+constexpr PartOutline kHeadOutline = {
+    {-0.03f, 0.07f, 0.105f, 0.10f, 0.04f, -0.05f, -0.11f, -0.10f},
+    {-0.13f, -0.125f, -0.03f, 0.06f, 0.13f, 0.13f, 0.06f, -0.05f}};
+/// Pelvis below, chest above.
+constexpr PartOutline kTorsoOutline = {
+    {-0.09f, 0.08f, 0.135f, 0.155f, 0.08f, -0.08f, -0.145f, -0.14f},
+    {-0.30f, -0.30f, -0.20f, 0.12f, 0.30f, 0.30f, 0.14f, -0.20f}};
+constexpr PartOutline kUpperArm = Limb(0.32f, 0.058f, 0.045f);
+constexpr PartOutline kLowerArm = Limb(0.34f, 0.048f, 0.036f);
+constexpr PartOutline kUpperLeg = Limb(0.46f, 0.090f, 0.062f);
+constexpr PartOutline kLowerLeg = Limb(0.44f, 0.066f, 0.042f);
+/// A flat sole from the heel to the toe; the instep rises to the ankle.
+constexpr PartOutline kFoot = {{-0.15f, 0.15f, 0.15f, 0.11f, 0.02f, -0.05f, -0.10f, -0.15f},
+                               {-0.045f, -0.045f, -0.02f, 0.002f, 0.038f, 0.045f, 0.040f, -0.005f}};
+
 struct PartMeasure {
   const char* name;
-  float x, y;           ///< m; of its middle, facing right, above the soles
-  float width, height;  ///< m; width 0: a circle of this diameter
+  float x, y;  ///< m; of its middle, facing right, above the soles
+  const PartOutline& outline;
 };
 
 /// For 1.8 m. In this order: CharacterPart.
 constexpr PartMeasure kParts[kCharacterParts] = {
-    {"head", 0, 1.67f, 0, 0.25f},
-    {"torso", 0, 1.24f, 0.28f, 0.60f},
-    {"upper-arm-l", 0, 1.31f, 0.10f, 0.32f},
-    {"lower-arm-l", 0, 0.99f, 0.09f, 0.34f},
-    {"upper-arm-r", 0, 1.31f, 0.10f, 0.32f},
-    {"lower-arm-r", 0, 0.99f, 0.09f, 0.34f},
-    {"upper-leg-l", 0, 0.74f, 0.15f, 0.46f},
-    {"lower-leg-l", 0, 0.30f, 0.12f, 0.44f},
-    {"foot-l", 0.05f, 0.045f, 0.30f, 0.09f},
-    {"upper-leg-r", 0, 0.74f, 0.15f, 0.46f},
-    {"lower-leg-r", 0, 0.30f, 0.12f, 0.44f},
-    {"foot-r", 0.05f, 0.045f, 0.30f, 0.09f},
+    {"head", 0, 1.67f, kHeadOutline},     {"torso", 0, 1.24f, kTorsoOutline},
+    {"upper-arm-l", 0, 1.31f, kUpperArm}, {"lower-arm-l", 0, 0.99f, kLowerArm},
+    {"upper-arm-r", 0, 1.31f, kUpperArm}, {"lower-arm-r", 0, 0.99f, kLowerArm},
+    {"upper-leg-l", 0, 0.74f, kUpperLeg}, {"lower-leg-l", 0, 0.30f, kLowerLeg},
+    {"foot-l", 0.05f, 0.045f, kFoot},     {"upper-leg-r", 0, 0.74f, kUpperLeg},
+    {"lower-leg-r", 0, 0.30f, kLowerLeg}, {"foot-r", 0.05f, 0.045f, kFoot},
 };
 
 struct HingeMeasure {
@@ -63,6 +89,23 @@ Vec2 ToWorld(const CharacterDraft& draft, float x, float y) {
   return draft.position + Turned(local, draft.angle);
 }
 
+/// The outline's corners in the part's frame, counter-clockwise also where the mirror turns them.
+std::vector<Vec2> Corners(const PartOutline& outline, float facing, float scale) {
+  std::vector<Vec2> corners;
+  for (int i = 0; i < kCorners; ++i) {
+    const int at = facing > 0 ? i : kCorners - 1 - i;
+    corners.emplace_back(facing * scale * outline.x[at], scale * outline.y[at]);
+  }
+  return corners;
+}
+
+/// Makes the part's position its centre of mass, as a box's is.
+void MoveToCentre(Part* part) {
+  const Vec2 centre = PartProperties(*part).centre.cast<float>();
+  for (Vec2& p : part->points) p -= centre;
+  part->position += Turned(centre, part->angle);
+}
+
 }  // namespace
 
 const char* NameOf(CharacterPart part) { return kParts[part].name; }
@@ -74,12 +117,12 @@ std::vector<Part> CharacterParts(const CharacterDraft& draft) {
   for (const PartMeasure& m : kParts) {
     Part part;
     part.name = draft.character.name + "." + m.name;
-    part.kind = m.width > 0 ? ShapeKind::kBox : ShapeKind::kCircle;
-    part.size = scale * Vec2(m.width, m.height);
-    part.radius = scale * m.height / 2;
+    part.kind = ShapeKind::kPolygon;
+    part.points = Corners(m.outline, draft.character.facing, scale);
     part.position = ToWorld(draft, m.x, m.y);
     part.angle = draft.angle;
     part.material.density = draft.density;
+    MoveToCentre(&part);
     part.material.friction = draft.friction;
     part.group = draft.group;
     part.velocity = draft.velocity;

@@ -12,6 +12,7 @@ namespace seam {
 
 struct BrickField;    // bricks.h
 struct Character;     // character.h
+struct Charge;        // charge.h
 struct Connectors;    // connectors.h
 struct Conveyor;      // forces.h
 struct Strand;        // strand.h
@@ -223,6 +224,7 @@ struct Scene {
   std::vector<Player> players;
   std::vector<Seat> seats;
   FeatureList<Trigger> triggers;      ///< the server's
+  FeatureList<Charge> charges;        ///< the server's
   FeatureList<ScriptSource> scripts;  ///< the server's
   std::vector<WatchCollision> watch;
   Feature<Expected> expected;

@@ -93,8 +93,9 @@ void CheckJoints(const Checked& c) {
 void CheckThrusts(const Checked& c) {
   for (const Thrust& thrust : c.scene.thrusts) {
     if (!c.assembly_of(thrust.part).anchored) continue;
+    const std::string what = thrust.screw.diameter > 0 ? "propeller" : "thrust";
     c.Fail(thrust.line,
-           "thrust '" + thrust.name + "': '" + c.part(thrust.part).name + "' is anchored");
+           what + " '" + thrust.name + "': '" + c.part(thrust.part).name + "' is anchored");
   }
 }
 

@@ -49,10 +49,12 @@ Connectors ReadConnectors(const SceneReader& part) {
 void ReadGrouping(const SceneReader& root, SceneDraft* draft) {
   const TomlNode* table = root.Table("grouping");
   if (table == nullptr) return;
-  const SceneReader r(*table, draft->file, "grouping", {"after", "impact"});
+  const SceneReader r(*table, draft->file, "grouping", {"after", "impact", "acceleration", "spin"});
   Grouping grouping;
   grouping.after = r.Number("after", {0.1, 3600});
   grouping.impact = r.Number("impact", {0, 100}, grouping.impact);
+  grouping.acceleration = r.Number("acceleration", {0, 1000}, grouping.acceleration);
+  grouping.spin = r.Number("spin", {0, 100}, grouping.spin);
   draft->scene.grouping.Set(grouping);
 }
 

@@ -64,6 +64,8 @@ void ReadSeats(const SceneReader& root, SceneDraft* draft);
 PartRules ReadPartRules(const SceneReader& r, const SceneDraft& draft);
 /// [[trigger]]. Requires parts and players.
 void ReadTriggers(const SceneReader& root, SceneDraft* draft);
+/// [[charges]]. Requires parts and triggers.
+void ReadCharges(const SceneReader& root, SceneDraft* draft);
 /// [[script]]. Requires the text.
 void ReadScripts(const SceneReader& root, SceneDraft* draft);
 /// [[watch]]. Requires parts.
@@ -99,7 +101,7 @@ void CheckScene(const Scene& scene, const std::string& file);
 void ReadConveyor(const SceneReader& r, const SceneDraft& draft, Part* part);
 /// [[strand]]. Requires parts and characters.
 void ReadStrands(const SceneReader& root, SceneDraft* draft);
-/// [[thrust]]. Requires parts and players.
+/// [[thrust]] and [[propeller]]. Requires parts and players.
 void ReadThrusts(const SceneReader& root, SceneDraft* draft);
 
 /// The one of box, circle, capsule, wedge, polygon, chain and segment that the table has.

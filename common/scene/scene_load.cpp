@@ -100,7 +100,7 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
       {"title",       "gravity", "duration", "buffer",    "speed_limit", "size_max", "bounds",
        "solver",      "part",    "bricks",   "character", "joint",       "thrust",   "water",
        "player",      "seat",    "watch",    "camera",    "trigger",     "script",   "grouping",
-       "input_delay", "expect",  "follow",   "strand"});
+       "input_delay", "expect",  "follow",   "strand",    "propeller",   "charges"});
   scene.title = root.Text("title", scene.name);
   scene.gravity = root.Vector("gravity", {-100, 100}, scene.gravity);
   scene.duration_s = root.Seconds("duration", {0.1, 86400}, scene.duration_s);
@@ -125,6 +125,7 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   ReadPlayers(root, &draft);
   ReadSeats(root, &draft);
   ReadTriggers(root, &draft);
+  ReadCharges(root, &draft);
   ReadScripts(root, &draft);
   ReadWatch(root, &draft);
   ReadCamera(root, &draft);

@@ -19,6 +19,10 @@ std::unique_ptr<Stage> MakeThrustStage(const StageWorld& world);
 /// Bodies of water: sensors in the contact pipeline say which bodies they hold.
 std::unique_ptr<Stage> MakeWaterStage(const StageWorld& world);
 
+/// Turns propellers: each is pushed by the water that its blades meet, and by nothing else. What
+/// sleeps is woken when a player's command changes.
+std::unique_ptr<Stage> MakePropellerStage(const StageWorld& world);
+
 /// Whether anything in the scene can break.
 bool HasBreakableGlue(const Scene& scene);
 
@@ -34,13 +38,15 @@ std::unique_ptr<Stage> MakeJoinStage(const StageWorld& world);
 /// Whether a bond may be one that resting parts make: of single bodies that no joint holds.
 bool MayGroup(const Scene& scene, const Composition& composition, const BondEdit& bond);
 
-/// Grouped: single bodies (no joint holds them) that have touched and been slower than kRestSpeed
-/// and kRestSpin for the scene's time. Undone: when the group moves or feels a change of velocity
-/// above the scene's, or the engine's box around a moving body comes to its own, which is before
-/// the blow: otherwise the blow would meet one body of all their mass.
+/// Grouped: single bodies (no joint holds them) that touch and have moved against each other by
+/// less than kRestSpeed and kRestSpin for the scene's time, wherever both are going. Undone: when
+/// the group is shaken (Grouping), or the engine's box around what moves against it by twice as
+/// much comes to its own, which is before the blow: otherwise the blow would meet one body of all
+/// their mass.
 std::unique_ptr<Stage> MakeGroupStage(const StageWorld& world);
 
-/// m/s and rad/s: below, a thing rests. The engine's own limits for sleep are 0.01 and 0.035.
+/// m/s and rad/s: below, things rest against each other. The engine's own limits for sleep are 0.01
+/// and 0.035.
 constexpr float kRestSpeed = 0.05f, kRestSpin = 0.05f;
 
 /// Gives bricks fixtures where something moves, and takes them away again.
@@ -53,14 +59,24 @@ std::unique_ptr<Stage> MakeFeatherStage(const StageWorld& world);
 bool HasActiveCharacter(const Scene& scene);
 std::unique_ptr<Stage> MakeCharacterStage(const StageWorld& world);
 
-/// Leads whoever takes a seat to it, rigidly with all limbs, from the SeatEdit on. After SeatTicks
-/// ticks the player's part is in its place there; it is held until a bond joins the two.
+/// Draws whoever takes a seat to it, rigidly with all limbs, from the SeatEdit on, by a pull of at
+/// most kSeatPull (seat_pull.h). After SeatTicks ticks the player's part is in its place there, if
+/// the pull was enough; it is held until a bond joins the two.
 std::unique_ptr<Stage> MakeSeatStage(const StageWorld& world);
+
+/// Draws whoever leaves a seat out of it: from the breaking of the bond on, upwards from the seat
+/// at kLeaveSpeed and by the same pull, through the vehicle and no longer than it is in it. The
+/// seat feels the reaction.
+std::unique_ptr<Stage> MakeSeatLeaveStage(const StageWorld& world);
+
+/// m/s. And after so long, s, it is let go wherever it is.
+constexpr float kLeaveSpeed = 2;
+constexpr double kLeaveSeconds = 0.8;
 
 /// How long the way to a seat takes, s: shorter looks like a jump, and longer like flying. And how
 /// long after the SeatEdit it begins: less than the edit is under way to a peer, and the view of
 /// that peer has to catch up.
-constexpr double kSeatSeconds = 0.15, kSeatWaitSeconds = 0.13;
+constexpr double kSeatSeconds = 0.5, kSeatWaitSeconds = 0.13;
 /// In ticks, until it begins and until it is over.
 constexpr int SeatWaitTicks(int tick_hz) {
   return static_cast<int>(kSeatWaitSeconds * tick_hz + 0.5);

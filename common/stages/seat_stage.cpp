@@ -15,6 +15,7 @@
 #include "common/base/geometry.h"
 #include "common/physics/world.h"
 #include "common/stages/make_stages.h"
+#include "common/stages/seat_pull.h"
 
 namespace seam {
 namespace {
@@ -251,7 +252,7 @@ class SeatStage : public Stage {
   }
 
   /// Gives all bodies the velocities with which they are, rigidly, where they are to be after the
-  /// step. What is only displayed has a path of its own.
+  /// step, as far as the pull is strong enough. What is only displayed has a path of its own.
   void Lead(std::size_t seat, float h) {
     const Approach& a = approaches_[seat];
     const PartId own = Sitter(seat);
@@ -270,14 +271,22 @@ class SeatStage : public Stage {
     Transform2 now = PoseOfPart(own, PoseOf(BodyOf(own)));
     now.angle = UnwrapAngle(now.angle, wanted.angle);
     const Transform2 moves = wanted.Then(now.Inverse());
-    EachOf(MechanismOf(seat), [&](std::size_t i) {
-      b2Body* body = w_.built.moving[i].body;
-      if (w_.motions[i] != Motion::kDynamic) return;
+    // Whoever has fallen behind comes after no faster than twice as fast as the way would be.
+    const double fastest = 3 * (a.from.shift - at.cast<double>()).norm() / kSeatSeconds + 0.5;
+    const auto velocity_of = [&](const b2Body* body) {
       const Vector2d centre = FromB2(body->GetWorldCenter()).cast<double>();
-      const Vector2d velocity = (moves(centre) - centre) / static_cast<double>(h);
-      body->SetLinearVelocity(ToB2(velocity.cast<float>()) - h * gravity_);
-      body->SetAngularVelocity(static_cast<float>(moves.angle) / h);
-    });
+      const Vector2d with = FromB2(speed).cast<double>();
+      Vector2d beyond = (moves(centre) - centre) / static_cast<double>(h) - with;
+      if (beyond.norm() > fastest) beyond *= fastest / beyond.norm();
+      return ToB2((with + beyond).cast<float>());
+    };
+    const auto each = [&](const auto& visit) {
+      EachOf(MechanismOf(seat), [&](std::size_t i) {
+        const MovingBody& moving = w_.built.moving[i];
+        if (w_.motions[i] == Motion::kDynamic) visit(moving.body, moving.mass.mass);
+      });
+    };
+    PullTogether(each, velocity_of, static_cast<float>(moves.angle) / h, h, gravity_);
   }
 
   /// To all of the mechanism that now is one alike: that is no strain on its joints.

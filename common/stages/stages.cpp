@@ -25,15 +25,23 @@ std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world) {
   if (any(world.scene.parts, [](const Part& p) { return p.conveyor->speed != 0; })) {
     stages.push_back(MakeConveyorStage(world));
   }
+  const auto is_screw = [](const Thrust& t) { return t.screw.diameter > 0; };
+  const bool screws = any(world.scene.thrusts, is_screw);
   if (!world.scene.thrusts.empty()) stages.push_back(MakeThrustStage(world));
   if (!world.scene.bricks.empty()) stages.push_back(MakeFeatherStage(world));
   if (!world.scene.waters.empty()) stages.push_back(MakeWaterStage(world));
+  if (screws && !world.scene.waters.empty()) {
+    stages.push_back(MakePropellerStage(world));
+  }
   const bool joins = HasConnectors(world.scene);
   if (joins || HasBreakableGlue(world.scene)) stages.push_back(MakeGlueStage(world));
   if (joins) stages.push_back(MakeJoinStage(world));
   if (world.scene.grouping->after > 0) stages.push_back(MakeGroupStage(world));
   if (HasActiveCharacter(world.scene)) stages.push_back(MakeCharacterStage(world));
-  if (!world.scene.seats.empty()) stages.push_back(MakeSeatStage(world));  // leads, so it is last
+  if (!world.scene.seats.empty()) {  // they lead, so they are last
+    stages.push_back(MakeSeatLeaveStage(world));
+    stages.push_back(MakeSeatStage(world));
+  }
   return stages;
 }
 

@@ -19,7 +19,7 @@ class ThrustStage : public Stage {
       const int index = world_.composition.assembly_of_part[id];
       Engine& engine = engines_[i];
       engine.body = nullptr;
-      if (index < 0) continue;
+      if (index < 0 || thrust.screw.diameter > 0) continue;  // MakePropellerStage
       const auto place = static_cast<std::size_t>(index);
       const Part& part = world_.scene.parts[id];
       const Part& root =

@@ -28,7 +28,7 @@ constexpr MessageBytes kImpactReportBytes{30, 20};
 constexpr MessageBytes kMetaBytes{34, 8};
 constexpr MessageBytes kInputsBytes{38, 4};
 constexpr MessageBytes kChunkBytes{22, 1};
-constexpr MessageBytes kEditBytes{71, 1};  ///< a byte of text; it always has its four numbers
+constexpr MessageBytes kEditBytes{75, 1};  ///< a byte of text; it has at most five numbers
 constexpr MessageBytes kViewBytes{50, 29};
 constexpr MessageBytes kImpactsBytes{38, 16};
 constexpr MessageBytes kStrandsBytes{38, 10};

@@ -39,6 +39,7 @@ struct InsertEdit {
 /// A part leaves, and all its joints.
 struct RemoveEdit {
   PartId part = -1;
+  bool left_bounds = false;  ///< why: it was outside the scene's bounds
 };
 
 /// A part is no longer anchored.
@@ -59,11 +60,12 @@ struct SeatEdit {
   std::int32_t player = -1;  ///< index into Scene::players; -1: nobody
 };
 
-/// Featherweight bricks are set free, and thrown outwards.
+/// Featherweight bricks are set free and thrown outwards, and what the blast sees is pushed.
 struct BlastEdit {
   Vec2 centre{0, 0};  ///< m
-  float radius = 0;   ///< m: bricks whose middle is within it
-  float speed = 0;    ///< m/s in the centre, falling to 0 at the radius
+  float radius = 0;   ///< m: bricks whose middle is within it, and bodies that reach into it
+  float speed = 0;    ///< m/s of bricks in the centre, falling to 0 at the radius
+  float impulse = 0;  ///< N s for each metre of silhouette in the centre, falling likewise
 };
 
 /// The index of a kind in the variant is its number in messages.

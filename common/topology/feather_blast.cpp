@@ -57,8 +57,10 @@ std::vector<Brick> Loosened(const FeatureList<BrickField>& fields, const std::ve
     });
   }
   std::sort(loose.begin(), loose.end(), Before);
+  std::vector<Brick> sorted = gone;
+  std::sort(sorted.begin(), sorted.end(), Before);
   const auto left = [&](const Brick& b) {
-    return std::find(gone.begin(), gone.end(), b) != gone.end();
+    return std::binary_search(sorted.begin(), sorted.end(), b, Before);
   };
   loose.erase(std::remove_if(loose.begin(), loose.end(), left), loose.end());
   loose.erase(std::unique(loose.begin(), loose.end()), loose.end());
@@ -115,21 +117,28 @@ std::vector<Piece> Pieces(const FeatureList<BrickField>& fields, const std::vect
 
 }  // namespace
 
+Part FreedPart(const BrickField& field, const Brick& first, int columns, int rows) {
+  BrickField whole = field;
+  whole.width *= columns;
+  whole.height *= rows;
+  Part part = BrickPart(whole, first.x, first.y);
+  const Vec2 size = part.size.array() - 2 * kFreedGap;
+  part.material.density *= part.size.prod() / size.prod();
+  part.size = size;
+  part.anchored = false;
+  part.name = field.name + "@" + std::to_string(first.x) + "," + std::to_string(first.y) + "+" +
+              std::to_string(columns) + "x" + std::to_string(rows);
+  part.line = field.line;
+  return part;
+}
+
 Freed BlastBricks(const FeatureList<BrickField>& fields, const std::vector<Brick>& gone,
                   const Blast& blast) {
   Freed freed;
   const std::vector<Brick> loose = Loosened(fields, gone, blast);
   for (const Piece& piece : Pieces(fields, loose, blast)) {
     const BrickField& field = fields[static_cast<std::size_t>(piece.first.kind)];
-    BrickField whole = field;
-    whole.width *= piece.columns;
-    whole.height *= piece.rows;
-    Part part = BrickPart(whole, piece.first.x, piece.first.y);
-    part.anchored = false;
-    part.name = field.name + "@" + std::to_string(piece.first.x) + "," +
-                std::to_string(piece.first.y) + "+" + std::to_string(piece.columns) + "x" +
-                std::to_string(piece.rows);
-    part.line = field.line;
+    Part part = FreedPart(field, piece.first, piece.columns, piece.rows);
     Vector2d velocity = SpeedAt(blast, part.position.cast<double>());
     const double most = static_cast<double>(kSpeedMax), speed = velocity.norm();
     if (speed > most) velocity *= most / speed;
@@ -169,7 +178,8 @@ std::vector<Brick> FreedBricks(const FeatureList<BrickField>& fields,
 
 bool Possible(const Blast& blast) {
   return blast.centre.allFinite() && blast.radius > 0 && blast.radius <= kBlastRadiusMax &&
-         blast.speed >= 0 && blast.speed <= kSpeedMax;
+         blast.speed >= 0 && blast.speed <= kSpeedMax && blast.impulse >= 0 &&
+         blast.impulse <= kBlastImpulseMax;
 }
 
 }  // namespace seam

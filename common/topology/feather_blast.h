@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "common/scene/bricks.h"
+#include "common/scene/charges/charge.h"
 #include "common/scene/scene.h"
 #include "common/topology/feather_store.h"
 
@@ -11,19 +12,25 @@ namespace seam {
 
 /// Parts from one blast, the most: a blast of any size stays affordable for every peer.
 constexpr int kBlastPiecesMax = 40;
-/// m
-constexpr float kBlastRadiusMax = 10;
 
 struct Blast {
   Vec2 centre{0, 0};  ///< m
   float radius = 1;   ///< m: bricks whose middle is within it
   float speed = 10;   ///< m/s in the centre, falling to 0 at the radius
+  float impulse = 0;  ///< N s for each metre of a body's silhouette, falling likewise
 };
 
 struct Freed {
   std::vector<Brick> bricks;  ///< no longer anchored
   std::vector<Part> parts;    ///< boxes of up to two by two of them; without ids
 };
+
+/// m: a part is smaller by this on each side than the bricks that it was, so that it can leave its
+/// hole: shapes come to rest 1.5 cm apart, and bricks lie without a gap. Its mass is theirs.
+constexpr float kFreedGap = 0.015f;
+
+/// So many columns and rows of bricks from `first`, its lower left, as a part without id, at rest.
+Part FreedPart(const BrickField& field, const Brick& first, int columns, int rows);
 
 /// The bricks of `fields` but `gone` that the blast would give a speed above their strength,
 /// nearest first, as pieces; and no more pieces than kBlastPiecesMax, the rest stays where it is.
@@ -38,7 +45,8 @@ Freed BlastBricks(const FeatureList<BrickField>& fields, const std::vector<Brick
 std::vector<Brick> FreedBricks(const FeatureList<BrickField>& fields,
                                const std::vector<Part>& parts);
 
-/// Whether a blast is one that can be: finite, of at most kBlastRadiusMax and kSpeedMax.
+/// Whether a blast is one that can be: finite, of at most kBlastRadiusMax, kSpeedMax and
+/// kBlastImpulseMax.
 bool Possible(const Blast& blast);
 
 }  // namespace seam

@@ -156,6 +156,8 @@ std::size_t FeatherStore::Remove(const std::vector<Brick>& bricks) {
     --c.count;
     --size_;
     ++removed;
+    const auto hung = std::find(hanging_.begin(), hanging_.end(), brick);
+    if (hung != hanging_.end()) hanging_.erase(hung);
   }
   return removed;
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "common/scene/bricks.h"
@@ -63,6 +64,9 @@ class FeatherStore {
 
   /// Takes bricks out; returns how many of them were there.
   std::size_t Remove(const std::vector<Brick>& bricks);
+  /// Bricks in here that nothing holds up (feather_fall.h); what is removed is none of them.
+  const std::vector<Brick>& hanging() const { return hanging_; }
+  void SetHanging(std::vector<Brick> hanging) { hanging_ = std::move(hanging); }
   /// Puts back what was removed: all is as it was before.
   void Restore(const std::vector<Brick>& bricks);
 
@@ -81,6 +85,7 @@ class FeatherStore {
   std::vector<std::uint32_t> bricks_;
   std::vector<Cell> cells_;  // ascending by y, x
   std::vector<BrickKind> kinds_;
+  std::vector<Brick> hanging_;
   std::size_t size_ = 0;
   int min_x_ = 0, max_x_ = 0, min_y_ = 0, max_y_ = 0;
 };

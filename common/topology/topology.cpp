@@ -10,12 +10,21 @@
 #include "common/scene/scene_limits.h"
 #include "common/topology/bond_move.h"
 #include "common/topology/feather_blast.h"
+#include "common/topology/feather_fall.h"
+#include "common/topology/feather_store.h"
 #include "common/topology/grip.h"
 
 namespace seam {
 namespace {
 
-Blast BlastOf(const BlastEdit& edit) { return {edit.centre, edit.radius, edit.speed}; }
+Blast BlastOf(const BlastEdit& edit) {
+  return {edit.centre, edit.radius, edit.speed, edit.impulse};
+}
+
+/// m, its lower left.
+Vec2 CornerOf(const Brick& b) {
+  return Vec2(static_cast<float>(b.x), static_cast<float>(b.y)) * kBrickUnit;
+}
 
 /// A bond over more than this, m, is nonsense: no assembly is so large.
 constexpr float kBondDistanceMax = 1000;
@@ -38,8 +47,29 @@ void Topology::UpdateComposition() {
   composition_ = Compose(scene_);
 }
 
+bool Topology::RoomFor(std::size_t more) const {
+  return CountLiving(scene_.parts) + more <= kPartsMax && scene_.parts.size() + more <= kPartsEver;
+}
+
 bool Topology::HasJoint(std::int32_t joint) const {
   return joint >= 0 && static_cast<std::size_t>(joint) < scene_.joints.size();
+}
+
+const FeatherStore& Topology::BricksLeft() const {
+  if (left_ == nullptr) {
+    left_ = std::make_shared<FeatherStore>(scene_.bricks);
+    founded_ = FoundedKinds(*left_, scene_.bricks);
+    left_parts_ = 0;
+  }
+  if (left_parts_ == scene_.parts.size()) return *left_;
+  const std::vector<Part> since(scene_.parts.begin() + static_cast<std::ptrdiff_t>(left_parts_),
+                                scene_.parts.end());
+  const std::vector<Brick> freed = FreedBricks(scene_.bricks, since);
+  left_parts_ = scene_.parts.size();
+  if (freed.empty()) return *left_;
+  if (left_.use_count() > 1) left_ = std::make_shared<FeatherStore>(*left_);
+  left_->Remove(freed);
+  return *left_;
 }
 
 Status Topology::ValidateBond(const BondEdit& bond) const {
@@ -110,10 +140,11 @@ Status Topology::Validate(const Edit& edit) const {
                    if (!Possible(BlastOf(blast))) {
                      return Status::Error("the blast is too large or too fast");
                    }
+                   if (blast.impulse > 0) return Status::Ok();  // it pushes, whatever it frees
                    if (scene_.bricks.empty()) return Status::Error("there are no bricks");
-                   const bool room = CountLiving(scene_.parts) + kBlastPiecesMax <= kPartsMax &&
-                                     scene_.parts.size() + kBlastPiecesMax <= kPartsEver;
-                   return room ? Status::Ok() : Status::Error("there are too many parts");
+                   return RoomFor(kBlastPiecesMax + kFallPiecesMax)
+                              ? Status::Ok()
+                              : Status::Error("there are too many parts");
                  }},
       edit.what);
 }
@@ -195,12 +226,25 @@ void Topology::Sit(const SeatEdit& seat) {
 }
 
 void Topology::FreeBricks(const BlastEdit& blast) {
+  if (scene_.bricks.empty() || !RoomFor(kBlastPiecesMax + kFallPiecesMax)) return;
+  const auto add = [this](std::vector<Part> parts) {
+    for (Part& part : parts) {
+      part.id = static_cast<PartId>(scene_.parts.size());
+      scene_.parts.push_back(std::move(part));
+      stale_ = true;
+    }
+  };
   const std::vector<Brick> gone = FreedBricks(scene_.bricks, scene_.parts);
-  for (Part& part : BlastBricks(scene_.bricks, gone, BlastOf(blast)).parts) {
-    part.id = static_cast<PartId>(scene_.parts.size());
-    scene_.parts.push_back(std::move(part));
-    stale_ = true;
-  }
+  Freed freed = BlastBricks(scene_.bricks, gone, BlastOf(blast));
+  add(std::move(freed.parts));
+  const FeatherStore& left = BricksLeft();
+  Fallen fallen = FallingBricks(scene_.bricks, founded_, left, freed.bricks, BlastOf(blast));
+  add(std::move(fallen.parts));
+  hanging_.reset();
+  if (!fallen.hanging.empty()) hanging_ = CornerOf(fallen.hanging.front());
+  BricksLeft();
+  if (left_.use_count() > 1) left_ = std::make_shared<FeatherStore>(*left_);
+  left_->SetHanging(std::move(fallen.hanging));
 }
 
 void Topology::MoveSide(const BondEdit& edit) {

@@ -7,6 +7,7 @@
 #include "common/base/geometry.h"
 #include "common/scene/joint_kinds.h"
 #include "common/topology/grip.h"
+#include "render/canvas/figure.h"
 
 namespace seam {
 namespace {
@@ -135,6 +136,7 @@ Frame2::Frame2(const Pose& pose)
 std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composition,
                                  bool anchored) {
   std::vector<BodyShapes> bodies;
+  const std::map<PartId, FigurePart> figures = FiguresOf(scene);
   int moved = 0;
   for (const Assembly& assembly : composition.assemblies) {
     if (assembly.anchored != anchored) continue;
@@ -145,6 +147,9 @@ std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composit
     if (assembly.kinematic >= 0) body.imposed = moved++;
     for (PartId id : assembly.parts) {
       body.outlines.push_back(OutlineOf(PartOf(scene, id), body.start));
+      const auto figure = figures.find(id);
+      if (figure != figures.end())
+        ShapeFigure(scene, figure->second, body.start, &body.outlines.back());
       const Pose own = PoseOf(PartOf(scene, id));
       body.places.push_back({Into(body.start, own.position), own.angle - body.start.angle});
       const Outline& outline = body.outlines.back();
@@ -170,7 +175,7 @@ Pose FrameBehind(const Pose& at, const Pose& place) {
 
 DrawnRevision RevisionOf(const Scene& scene, const Composition& composition) {
   return {ShapesOf(scene, composition, false), ShapesOf(scene, composition, true),
-          JointsOf(scene, composition)};
+          JointsOf(scene, composition), nullptr};
 }
 
 namespace {

@@ -2,10 +2,12 @@
 /// A scene's parts as outlines that can be drawn, relative to the body they belong to.
 
 #include <array>
+#include <memory>
 #include <vector>
 
 #include "common/scene/assembly.h"
 #include "common/scene/scene.h"
+#include "common/topology/feather_store.h"
 
 namespace seam {
 
@@ -28,12 +30,22 @@ struct Frame2 {
   }
 };
 
-/// One part, in the frame of its assembly's root part.
+/// Which part of which character an outline is.
+struct FigurePart {
+  int character = -1;      ///< index into Scene::characters; -1: of none
+  int part = 0;            ///< CharacterPart
+  bool far_side = false;   ///< the limb that the body hides from who looks at the page
+  std::vector<Vec2> tone;  ///< m, as the outline: what is darker of it (hair, pelvis), if anything
+};
+
+/// One part, in the frame of its assembly's root part. A character's are rounded within the shape
+/// that the engine has.
 struct Outline {
   ShapeKind kind = ShapeKind::kBox;
   std::vector<Vec2> points;  ///< m; corners (a capsule's ends have many), or the line's points;
                              ///< circle: centre and a rim point
   float radius = 0;          ///< circle, m
+  FigurePart figure;
 };
 
 /// One assembly.
@@ -65,6 +77,7 @@ struct DrawnJoint {
 struct DrawnRevision {
   std::vector<BodyShapes> moving, anchored;
   std::vector<DrawnJoint> joints;
+  std::shared_ptr<const FeatherStore> bricks;  ///< those that are left; nullptr: there are none
 };
 
 std::vector<BodyShapes> ShapesOf(const Scene& scene, const Composition& composition, bool anchored);

@@ -9,6 +9,9 @@
 namespace seam {
 namespace {
 
+/// Shares of the edge's colour in a far limb, and in a near figure's hair and pelvis.
+constexpr float kFarTone = 0.55f, kFigureTone = 0.3f;
+
 std::vector<Vec2> OnPanel(const Viewport& viewport, const std::vector<Vec2>& local,
                           const Frame2& frame) {
   std::vector<Vec2> px;
@@ -34,7 +37,8 @@ float EdgeWidth(const DrawList& list, float size_px) {
 }
 
 void DrawOutline(DrawList& list, const Viewport& viewport, const Outline& outline,
-                 const Frame2& frame, const BodyLook& look) {
+                 const Frame2& frame, BodyLook look) {
+  if (outline.figure.far_side) look.fill = Mix(look.fill, look.edge, kFarTone);
   const Colour fill = Faded(look.fill, look.opacity);
   const Colour edge = Faded(look.edge, look.opacity);
   std::vector<Vec2> px = OnPanel(viewport, outline.points, frame);
@@ -56,6 +60,10 @@ void DrawOutline(DrawList& list, const Viewport& viewport, const Outline& outlin
     return;
   }
   list.Fill(px, fill);
+  if (!outline.figure.tone.empty()) {
+    list.Fill(OnPanel(viewport, outline.figure.tone, frame),
+              Faded(Mix(look.fill, look.edge, kFigureTone), look.opacity));
+  }
   if (look.hatched && size > 5) {
     const float s = 0.70710678f;
     const Vec2 normal(s * (frame.cosine + frame.sine), s * (frame.cosine - frame.sine));

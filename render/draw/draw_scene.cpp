@@ -159,7 +159,7 @@ void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playba
     if (cull && !viewport.Sees(pose.position, body.reach)) continue;
     DrawBody(list, viewport, body, pose, GroundLook());
   }
-  if (playback.bricks() != nullptr) DrawBricks(list, viewport, *playback.bricks());
+  if (revision.bricks != nullptr) DrawBricks(list, viewport, *revision.bricks);
 }
 
 void DrawScaleBar(DrawList& list, const Viewport& viewport) {

@@ -1,10 +1,16 @@
 #include "render/draw/draw_world.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "common/base/geometry.h"
+#include "common/scene/character.h"
+#include "render/canvas/figure.h"
 #include "render/canvas/palette.h"
+#include "render/draw/draw_blasts.h"
 #include "render/draw/draw_body.h"
 #include "render/draw/draw_ghosts.h"
 #include "render/draw/draw_joints.h"
@@ -26,6 +32,25 @@ struct Seen {
   Shown shown;
 };
 
+/// -1: no character's.
+int CharacterOf(const Seen& one) { return one.body->outlines[0].figure.character; }
+
+/// A character's bodies one after the other, far limbs first; all else stays as it is.
+void SortFigures(std::vector<Seen>* seen) {
+  std::vector<std::array<int, 3>> order;  // when first seen, layer, index
+  std::map<int, int> first;               // by character
+  for (std::size_t i = 0; i < seen->size(); ++i) {
+    const Seen& one = (*seen)[i];
+    const int index = static_cast<int>(i), character = CharacterOf(one);
+    const int when = character < 0 ? index : first.emplace(character, index).first->second;
+    order.push_back({when, character < 0 ? 0 : FigureLayer(one.body->outlines[0].figure), index});
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<Seen> sorted;
+  for (const auto& key : order) sorted.push_back((*seen)[static_cast<std::size_t>(key[2])]);
+  *seen = std::move(sorted);
+}
+
 std::vector<Seen> BodiesOnPanel(const Viewport& viewport, const Playback& playback,
                                 const DrawnRevision& revision, const WorldLook& look) {
   std::vector<Seen> seen;
@@ -36,6 +61,7 @@ std::vector<Seen> BodiesOnPanel(const Viewport& viewport, const Playback& playba
     if (look.cull && !viewport.Sees(shown->pose.position, body.reach)) continue;
     seen.push_back({&body, *shown});
   }
+  SortFigures(&seen);
   return seen;
 }
 
@@ -144,12 +170,53 @@ void DrawImpacts(DrawList& list, const Viewport& viewport, const Playback& playb
   }
 }
 
-/// The players' names over their vehicles, and if so wished those of all bodies.
+void DrawName(DrawList& list, float left, float base, const std::string& name, int authority) {
+  const float scale = list.font().scale();
+  const float width = list.font().Width(TextStyle::kStrong, name);
+  list.FillRect(
+      {std::round(left - 4 * scale), std::round(base - 12 * scale), width + 8 * scale, 16 * scale},
+      Faded(kPanel, 0.75f));
+  list.Text(left + width / 2, base, TextStyle::kStrong, name, Darker(PeerColour(authority)),
+            Align::kCentre);
+}
+
+/// Where a character's torso is on the panel; `otherwise` when none is seen.
+float TorsoX(const Viewport& viewport, const std::vector<Seen>& seen, int character,
+             float otherwise) {
+  for (const Seen& one : seen) {
+    const FigurePart& figure = one.body->outlines[0].figure;
+    if (figure.character == character && figure.part == kTorso)
+      return viewport.ToPx(one.shown.pose.position).x();
+  }
+  return otherwise;
+}
+
+/// The characters' names beside their heads, on the side where the rest of them is not.
+void DrawCharacterNames(DrawList& list, const Viewport& viewport, const Playback& playback,
+                        const std::vector<Seen>& seen) {
+  const float scale = list.font().scale();
+  for (const Seen& one : seen) {
+    const FigurePart& figure = one.body->outlines[0].figure;
+    if (figure.character < 0 || figure.part != kHead) continue;
+    const auto character = static_cast<std::size_t>(figure.character);
+    const Vec2 head = viewport.ToPx(one.shown.pose.position);
+    const float beside = one.body->reach * viewport.px_per_m + 7 * scale;
+    std::string name = playback.scene().characters[character].name;
+    if (one.shown.authority > kPeerHues) name += " (" + std::to_string(one.shown.authority) + ")";
+    const float torso = TorsoX(viewport, seen, figure.character, head.x());
+    const bool left = torso > head.x() + 0.5f * beside;
+    const float from = left ? -beside - list.font().Width(TextStyle::kStrong, name) : beside;
+    DrawName(list, head.x() + from, head.y() + 4 * scale, name, one.shown.authority);
+  }
+}
+
+/// The players' names over their vehicles, and if so wished those of all bodies; a character has
+/// its own.
 void DrawNames(DrawList& list, const Viewport& viewport, const Playback& playback,
                const std::vector<Seen>& seen, bool all) {
   const float scale = list.font().scale();
   for (const Seen& one : seen) {
-    const bool vehicle = one.body->owner_player >= 0;
+    const bool vehicle = one.body->owner_player >= 0 && CharacterOf(one) < 0;
     if (!vehicle && !all) continue;
     std::string name =
         vehicle ? playback.scene().players[static_cast<std::size_t>(one.body->owner_player)].name
@@ -170,6 +237,7 @@ void DrawNames(DrawList& list, const Viewport& viewport, const Playback& playbac
                   Faded(kPanel, 0.75f));
     list.Text(x, y, style, name, Darker(PeerColour(one.shown.authority)), Align::kCentre);
   }
+  DrawCharacterNames(list, viewport, playback, seen);
 }
 
 }  // namespace
@@ -201,6 +269,7 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
   DrawWaters(list, viewport, playback);
   DrawGround(list, viewport, playback, *revision, look.tick, look.cull);
   DrawTriggers(list, viewport, playback, now, look.tick);
+  DrawCharges(list, viewport, playback, now, look.tick);
   if (look.trails) DrawTrails(list, viewport, playback, *revision, look);
   DrawRods(list, viewport, playback, now, 1);
   const std::vector<Seen> seen = BodiesOnPanel(viewport, playback, *revision, look);
@@ -212,6 +281,7 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
   if (look.ghosts) DrawGhosts(list, viewport, playback, *revision, look);
   if (look.vectors) DrawVectors(list, viewport, playback, *revision, look);
   DrawBreaks(list, viewport, playback, now, look.tick);
+  DrawBlasts(list, viewport, playback, now, look.tick);
   DrawImpacts(list, viewport, playback, look);
   DrawHealth(list, viewport, playback, now, look.tick);
   DrawNames(list, viewport, playback, seen, look.names);

@@ -6,6 +6,7 @@
 
 #include "common/scene/bricks.h"
 #include "common/sync/method.h"
+#include "common/topology/feather_blast.h"
 
 namespace seam {
 namespace {
@@ -61,9 +62,8 @@ void Playback::Prepare() {
   revisions_ = std::make_shared<KnownRevisions>();
   const std::lock_guard<std::mutex> lock(revisions_->mutex);
   const auto revision = AllRevisions().At(0);
-  revisions_->first = std::make_shared<const DrawnRevision>(
-      seam::RevisionOf(revision->scene(), revision->composition()));
   if (!scene_.bricks.empty()) bricks_ = std::make_shared<FeatherStore>(scene_.bricks);
+  revisions_->first = Drawn(revision);
   imposed_.emplace(scene_, Compose(scene_));
 }
 
@@ -76,6 +76,17 @@ const RevisionHistory& Playback::AllRevisions() const {
   return *revisions_->all;
 }
 
+std::shared_ptr<const DrawnRevision> Playback::Drawn(
+    const std::shared_ptr<const SceneRevision>& revision) const {
+  auto drawn =
+      std::make_shared<DrawnRevision>(seam::RevisionOf(revision->scene(), revision->composition()));
+  drawn->bricks = bricks_;
+  const bool freed = !FreedBricks(scene_.bricks, revision->scene().parts).empty();
+  // The topology's own store lives as long as its revision.
+  if (freed) drawn->bricks = {revision, &revision->topology.BricksLeft()};
+  return drawn;
+}
+
 std::shared_ptr<const DrawnRevision> Playback::RevisionAfter(int edits) const {
   const std::lock_guard<std::mutex> lock(revisions_->mutex);
   const RevisionHistory& all = AllRevisions();
@@ -85,9 +96,7 @@ std::shared_ptr<const DrawnRevision> Playback::RevisionAfter(int edits) const {
   if (known != revisions_->drawn.end()) return known->second;
   if (revisions_->drawn.size() >= kDrawnRevisionsMax)
     revisions_->drawn.erase(revisions_->drawn.begin());
-  const auto revision = all.At(key);
-  auto drawn = std::make_shared<const DrawnRevision>(
-      seam::RevisionOf(revision->scene(), revision->composition()));
+  const auto drawn = Drawn(all.At(key));
   revisions_->drawn[key] = drawn;
   return drawn;
 }

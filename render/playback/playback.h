@@ -59,8 +59,6 @@ class Playback {
   std::shared_ptr<const DrawnRevision> RevisionOf(const Moment& moment) const;
   /// Scene and composition of the same.
   std::shared_ptr<const SceneRevision> WorldOf(const Moment& moment) const;
-  /// nullptr: the scene has none.
-  const FeatherStore* bricks() const { return bricks_.get(); }
   bool has_oracle() const { return oracle_.has_value(); }
   const Oracle& oracle() const { return *oracle_; }
 
@@ -129,8 +127,11 @@ class Playback {
   };
   /// Of all edits heard so far. Requires revisions_->mutex.
   const RevisionHistory& AllRevisions() const;
+  /// Requires revisions_->mutex.
+  std::shared_ptr<const DrawnRevision> Drawn(
+      const std::shared_ptr<const SceneRevision>& revision) const;
   std::shared_ptr<KnownRevisions> revisions_;
-  std::shared_ptr<const FeatherStore> bricks_;
+  std::shared_ptr<const FeatherStore> bricks_;  // before any edit
   std::optional<ImposedMotions> imposed_;
   std::optional<Measures> measures_;
   std::map<int, std::vector<double>> errors_;  // by peer; -1: all

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/scene/charges/charge.h"
 #include "common/scene/part_rules.h"
 #include "server/rules/part_owner.h"
 #include "server/rules/script_room.h"
@@ -17,7 +18,7 @@ constexpr std::int64_t kSilentMost = 30;
 }  // namespace
 
 bool Rules::Needed(const Scene& scene) {
-  return !scene.triggers.empty() || !scene.scripts.empty() ||
+  return !scene.triggers.empty() || !scene.scripts.empty() || !scene.charges.empty() ||
          std::any_of(scene.parts.begin(), scene.parts.end(),
                      [](const Part& part) { return part.rules->health > 0; });
 }
@@ -50,6 +51,7 @@ void Rules::OnLeave(int player) { player_events_.push_back({player, false}); }
 void Rules::AfterTick() {
   NoteNewParts();
   RunTriggers();
+  RunCharges();
   RunHazards();
   RunDamage();
   RunScripts();

@@ -31,7 +31,7 @@ class RoomCommands {
   /// Makes b rigid with a where it is now, up to `strength` N (0: for ever).
   virtual void Bond(PartId a, PartId b, float strength) = 0;
   virtual void Push(PartId part, const Vec2& impulse) = 0;
-  virtual void Blast(const Vec2& centre, float radius, float speed) = 0;
+  virtual void Blast(const Vec2& centre, float radius, float speed, float impulse) = 0;
   /// [[part]] and [[joint]] as a scene writes them.
   virtual void Insert(const std::string& text) = 0;
   virtual void Say(const std::string& text) = 0;
@@ -80,6 +80,9 @@ class Rules {
   void OnPickup(const TriggerEvent& event);
   void NoteHazards(std::int64_t tick);
   void RunHazards();
+  // rules_charges.cpp
+  void RunCharges();
+  void SetOff(const Charge& charge);
   // rules_damage.cpp
   void RunDamage();
   void Strike(const Blow& blow);
@@ -113,6 +116,7 @@ class Rules {
     std::int64_t silent = 0;           // ticks since more became known
   };
   std::map<std::pair<int, PartId>, Stay> stays_;  // in hazards; by trigger, part
+  std::vector<std::int64_t> charge_due_;          // by charge: tick at which it goes off
   std::vector<PlayerEvent> player_events_;
   std::unique_ptr<ScriptRoom> room_;  // what scripts see of all this
   std::vector<std::unique_ptr<Script>> scripts_;

@@ -68,9 +68,8 @@ void ScriptRoom::Push(const std::string& part, const Vec2& impulse, const std::s
   rules_.commands_.Push(id, impulse);
 }
 
-void ScriptRoom::Blast(const Vec2& centre, float radius, float speed) {
-  if (rules_.scene().bricks.empty()) throw ScriptRefusal("there are no bricks");
-  rules_.commands_.Blast(centre, radius, speed);
+void ScriptRoom::Blast(const Vec2& centre, float radius, float speed, float impulse) {
+  rules_.commands_.Blast(centre, radius, speed, impulse);
 }
 
 void ScriptRoom::AddPart(const TomlNode& table) { rules_.commands_.Insert(ToToml("part", table)); }

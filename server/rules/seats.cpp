@@ -9,8 +9,10 @@
 namespace seam {
 namespace {
 
-/// Who gets out is pushed upwards by this much, m/s, so as not to fall back in.
-constexpr float kHop = 2;
+/// Whoever is so near to a place in a seat, m and rad, can be fastened there without a jump.
+constexpr float kFastenWithin = 0.05f, kFastenTurn = 0.2f;
+/// And who has not come there so long after the time that the way takes is let go, s.
+constexpr int kComeWithin = 2;
 
 bool PlayerSits(const World& world, int player) {
   for (const Seat& seat : world.scene().seats) {
@@ -46,10 +48,16 @@ void GetOut(const World& world, int index, std::vector<Edit>* edits) {
       continue;
     }
     edits->emplace_back(BreakEdit{static_cast<std::int32_t>(j)}, EditCause::kOutside);
-    const float mass = PartMass(world.scene().parts[static_cast<std::size_t>(own)]);
-    edits->emplace_back(PushEdit{own, {0, kHop * mass}}, EditCause::kOutside);
   }
   edits->emplace_back(SeatEdit{index, -1}, EditCause::kOutside);
+}
+
+/// Whether a player's part is where the seat will have it.
+bool IsThere(const World& world, const Seat& seat, PartId own) {
+  const BodyState vehicle = PartPose(world, seat.part), now = PartPose(world, own);
+  const Vec2 place = vehicle.position + Turned(seat.at, vehicle.angle);
+  const float turn = WrapAngle(now.angle - vehicle.angle - seat.angle);
+  return (now.position - place).norm() < kFastenWithin && std::fabs(turn) < kFastenTurn;
 }
 
 }  // namespace
@@ -76,14 +84,24 @@ std::vector<Edit> SeatBonds::Next(const World& world) {
   const Scene& scene = world.scene();
   std::vector<Edit> edits;
   waited_.resize(scene.seats.size(), 0);
+  asked_.resize(scene.seats.size(), -1);
   for (std::size_t s = 0; s < scene.seats.size(); ++s) {
     const Seat& seat = scene.seats[s];
     const PartId own =
         seat.player < 0 ? -1 : scene.players[static_cast<std::size_t>(seat.player)].vehicle;
     waited_[s] = own < 0 ? 0 : waited_[s] + 1;
-    if (waited_[s] != SeatTicks(scene.solver.tick_hz)) continue;
+    if (own < 0) asked_[s] = -1;
+    const int over = waited_[s] - SeatTicks(scene.solver.tick_hz);
+    if (over < 0 || asked_[s] == own) continue;
     const Edit bond(BondEdit{seat.part, own, seat.at, seat.angle}, EditCause::kOutside);
-    if (world.topology().Validate(bond).ok()) edits.push_back(bond);
+    if (!world.topology().Validate(bond).ok()) continue;
+    if (IsThere(world, seat, own)) {
+      edits.push_back(bond);
+      asked_[s] = own;
+    } else if (over > kComeWithin * scene.solver.tick_hz) {
+      edits.emplace_back(SeatEdit{static_cast<std::int32_t>(s), -1}, EditCause::kOutside);
+      asked_[s] = own;
+    }
   }
   return edits;
 }

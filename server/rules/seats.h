@@ -16,7 +16,8 @@ class SeatBonds {
   std::vector<Edit> Next(const World& world);
 
  private:
-  std::vector<int> waited_;  // ticks, by seat
+  std::vector<int> waited_;    // ticks, by seat
+  std::vector<PartId> asked_;  // by seat: whose bond was asked for, -1: nobody's
 };
 
 /// What a player's buttons that went down (a bit field) change about who sits where.

@@ -39,8 +39,9 @@ class ScriptHost {
   /// A push of `impulse` N s at the part's assembly's centre of mass, `why` it is given its name.
   virtual void Push(const std::string& part, const Vec2& impulse, const std::string& why) = 0;
   /// Sets the bricks within `radius` m free that it would make faster than their strength, thrown
-  /// outwards with up to `speed` m/s.
-  virtual void Blast(const Vec2& centre, float radius, float speed) = 0;
+  /// outwards with up to `speed` m/s; what the blast sees is pushed by up to `impulse` N s for each
+  /// metre of silhouette.
+  virtual void Blast(const Vec2& centre, float radius, float speed, float impulse) = 0;
   /// `table`: as a [[part]] or [[joint]] of the scene, without `repeat`; its line is the script's.
   virtual void AddPart(const TomlNode& table) = 0;
   virtual void AddJoint(const TomlNode& table) = 0;

@@ -99,8 +99,9 @@ int Push(lua_State* L, float scale, const char* why) {
 int Blast(lua_State* L) {
   const Vec2 centre(LuaNumber(L, 1), LuaNumber(L, 2));
   const float radius = LuaNumber(L, 3), speed = LuaNumber(L, 4);
+  const float impulse = lua_isnoneornil(L, 5) ? 0.0f : LuaNumber(L, 5);
   LuaCountCommand(L);
-  Attempt(L, [&] { HostOf(L).Blast(centre, radius, speed); });
+  Attempt(L, [&] { HostOf(L).Blast(centre, radius, speed, impulse); });
   return 0;
 }
 

@@ -51,8 +51,9 @@ TEST_P(WorldScene, CrossesTheSeamsUnder4gWholeAndWithOneAuthority) {
 INSTANTIATE_TEST_SUITE_P(Scenes, WorldScene,
                          ::testing::Values("titanic", "skyline", "regatta", "harbour", "ragdolls",
                                            "obstacle", "crane", "gluehouse", "conveyor",
-                                           "playground", "headon", "rally", "seesaw",
-                                           "scrum", "heap", "train"),
+                                           "playground", "headon", "rally", "seesaw", "scrum",
+                                           "heap", "train", "freight", "tracks", "dockside",
+                                           "battlefield"),
                          [](const auto& scene) { return std::string(scene.param); });
 
 }  // namespace

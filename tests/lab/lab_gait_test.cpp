@@ -1,5 +1,6 @@
 /// `seam-lab tune gait`: the search, what an objective may say, and that a run is reproducible.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -138,14 +139,16 @@ TEST_F(LabGait, EachMistakeIsOneLine) {
   const std::string ability = "ability = \"walk\"\n";
   EXPECT_EQ(Mistake(ability + kStarts + kGain), "none");
   EXPECT_EQ(Mistake("ability = \"fly\"\n" + std::string(kStarts) + kGain),
-            "objective.toml:1: objective: no ability 'fly' (there are jump, swim, float, rise, stairs, "
-            "shove, walk, climb)");
+            "objective.toml:1: objective: no ability 'fly' (there are jump, swim, float, rise, "
+            "stairs, slope, shove, walk, climb)");
   EXPECT_EQ(
       Mistake(ability + kStarts + "[[gain]]\nname = \"step_tim\"\nsigma = 0.1\nmin = 0\nmax = 1\n"),
       "objective.toml:5: gain: there is no gain 'step_tim'; see character_gains.inc");
-  EXPECT_EQ(Mistake(ability + kStarts +
-                    "[[gain]]\nname = \"step_time\"\nsigma = 0.1\nmin = 0.5\nmax = 1\n"),
-            "objective.toml:4: gain: step_time is built in as 0.3, outside of its bounds");
+  EXPECT_EQ(
+      Mistake(ability + kStarts +
+              "[[gain]]\nname = \"step_time\"\nsigma = 0.1\nmin = 0.5\nmax = 1\n"),
+      fmt::format("objective.toml:4: gain: step_time is built in as {}, outside of its bounds",
+                  CharacterGains{}.step_time));
   EXPECT_EQ(Mistake(ability + kStarts + kGain + kGain),
             "objective.toml:1: objective: gain 'step_time' stands there twice");
   EXPECT_EQ(Mistake(ability + "train = {from = 1, count = 9}\nheld_out = {from = 9, count = 2}\n" +
@@ -153,6 +156,23 @@ TEST_F(LabGait, EachMistakeIsOneLine) {
             "objective.toml:3: objective: a start that is trained on is not held out");
   EXPECT_EQ(Mistake(ability + kStarts),
             "objective.toml:1: objective: which gains? each is a [[gain]]");
+}
+
+TEST_F(LabGait, AnAbilityThatIsAlsoTrainedCountsByItsWeight) {
+  const std::string text =
+      std::string("ability = \"walk\"\nlambda = 4\n") + kStarts + "generations = 1\n" + kGain;
+  const auto before = [&](const std::string& more) {
+    GaitFile file = ReadGaitFile(Write(text + more));
+    file.generations = 0;
+    return TuneGait(file, 1, [](const GaitGeneration&) {}).before;
+  };
+  const double alone = before("");
+  EXPECT_GT(alone, 0);
+  const std::string also =
+      "[[also]]\nability = \"walk\"\nweight = 2\ntrain = {from = 1, count = 2}\n";
+  EXPECT_NEAR(before(also), 3 * alone, 1e-9);
+  EXPECT_EQ(Mistake(text + "[[also]]\nability = \"fly\"\n").substr(0, 40),
+            "objective.toml:12: also: no ability 'fly");
 }
 
 TEST_F(LabGait, OnlyTheValuesOfTheGainsFileChange) {

@@ -98,6 +98,7 @@ std::vector<Column> Columns(const Measures& m, const Floors& floors, const Work&
           {"handover_dv_p95_mps", m.handover_dv_p95_mps},
           {"topology_lag_s", m.topology_lag_s},
           {"lost", m.lost ? std::optional<double>(static_cast<double>(*m.lost)) : std::nullopt},
+          {"left_bounds", given(m.lost.has_value(), static_cast<double>(m.left_bounds))},
           {"floor_m", floors.floor_m},
           {"floor_wire_m", floors.wire_m},
           {"floor_barrier_m", floors.barrier_m},

@@ -189,7 +189,8 @@ TEST_F(BadInput, LogsAndFlagsOfTheRenderer) {
 }
 
 TEST_F(BadInput, HelpIsNoMistake) {
-  for (const char* name : {"seam-server", "seam-client", "seam-measure", "seam-render"}) {
+  for (const char* name :
+       {"seam-server", "seam-client", "seam-measure", "seam-render", "seam-export"}) {
     Program program({BuiltProgram(name), "--help"}, made_->path());
     ASSERT_TRUE(program.Wait(30));
     EXPECT_EQ(program.status(), 0) << program.Story();

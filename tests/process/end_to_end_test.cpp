@@ -270,6 +270,7 @@ int CountFrames(const std::string& folder) {
   if (!std::filesystem::is_directory(folder)) return 0;
   const std::string size{"\0\0\x01\xe0\0\0\x01\x0e", 8};
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() != ".png") continue;
     const std::string png = Content(entry.path().string());
     EXPECT_EQ(png.substr(0, 8), "\x89PNG\r\n\x1a\n") << entry.path();
     EXPECT_EQ(png.substr(16, 8), size) << entry.path();

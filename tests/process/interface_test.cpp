@@ -93,7 +93,7 @@ Names Below(const std::string& help, const std::string& title) {
 
 void AddPrograms(Interface* interface) {
   for (const char* program :
-       {"seam-server", "seam-client", "seam-render", "seam-measure", "seam-lab"}) {
+       {"seam-server", "seam-client", "seam-render", "seam-measure", "seam-export", "seam-lab"}) {
     const std::string help = Output({program, "--help"});
     interface->Add(std::string(program) + " flag", Below(help, "options"));
     if (std::string(program) != "seam-lab") continue;
@@ -165,11 +165,13 @@ void AddScenes(Interface* interface) {
       {"[[joint]] follow", joint + "\"motor\"\nforce = 1\ntorque = 1\n[joint.follow]"},
       {"[[strand]]", ball + "[[strand]]"},
       {"[[thrust]]", ball + "[[thrust]]"},
+      {"[[propeller]]", ball + "[[propeller]]"},
       {"[[water]]", ball + "[[water]]"},
       {"[[player]]", "[[player]]"},
       {"[[player]] actions", ball + ann + "[[player.actions]]"},
       {"[[seat]]", ball + "[[seat]]"},
       {"[[trigger]]", ball + "[[trigger]]"},
+      {"[[charges]]", ball + "[[charges]]"},
       {"[[script]]", ball + "[[script]]"},
       {"[[watch]]", ball + "[[watch]]"}};
   for (const auto& [name, text] : tables) {

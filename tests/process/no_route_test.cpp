@@ -18,7 +18,7 @@ TEST_F(NoRoute, EveryProgramOnTheBusSaysInOneLineWhatToTypeAndWritesNothing) {
   const std::string scene = std::filesystem::absolute("scenes/crossing.toml").string();
   const std::vector<std::vector<std::string>> commands = {
       {"seam-server", scene, "--bind", "127.0.0.1:0", "--record", "new.lcm"},
-      {"seam-client", "127.0.0.1:9", "--record", "new.lcm"},
+      {"seam-client", "127.0.0.1:9", "--watch", "--record", "new.lcm"},
       {"seam-render", "--live", "-o", "new"}};
   for (std::vector<std::string> words : commands) {
     const Workspace folder;

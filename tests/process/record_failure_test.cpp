@@ -80,8 +80,8 @@ TEST(RecordFailure, AClientPlaysOnAndEndsWithStatus1) {
   const std::size_t at = said.find("on 127.0.0.1:") + 3;
   const std::string address = said.substr(at, said.find(';', at) - at);
   Program client(
-      OnAFullDisk(folder, {BuiltProgram("seam-client"), address, "--duration", "2", "--quiet",
-                           "--lcm-url", "none", "--record", folder / "full.lcm"}));
+      OnAFullDisk(folder, {BuiltProgram("seam-client"), address, "--watch", "--duration", "2",
+                           "--quiet", "--lcm-url", "none", "--record", folder / "full.lcm"}));
   ASSERT_TRUE(client.Wait(30));
   EXPECT_EQ(client.status(), 1) << client.Story();
   EXPECT_EQ(LinesWith(client.errors(), "seam-client: left"), 1) << client.Story();

@@ -90,6 +90,7 @@ TEST_F(SpecialFiles, AreNoLogToRead) {
   std::vector<Words> commands;
   for (const std::string& name : MakeSpecialFiles(folder_, ".lcm")) {
     commands.push_back({"seam-measure", name});
+    commands.push_back({"seam-export", name, "--csv"});
     commands.push_back({"seam-render", name, "-o", folder_ / "frames"});
   }
   ExpectRefused(commands);
@@ -100,8 +101,8 @@ TEST_F(SpecialFiles, AreNoRecordingToWrite) {
   for (const std::string& name : MakeSpecialFiles(folder_, ".lcm")) {
     commands.push_back({"seam-server", "crossing", "--bind", "127.0.0.1:0", "--lcm-url", "none",
                         "--wait", "0", "--duration", "0.2", "--record", name, "--force"});
-    commands.push_back({"seam-client", "127.0.0.1:9", "--join-timeout", "0.2", "--lcm-url", "none",
-                        "--record", name, "--force"});
+    commands.push_back({"seam-client", "127.0.0.1:9", "--watch", "--join-timeout", "0.2",
+                        "--lcm-url", "none", "--record", name, "--force"});
     commands.push_back({"seam-lab", "run", "crossing", "-o", name, "--force", "--duration", "0.2"});
   }
   ExpectRefused(commands);
@@ -112,6 +113,7 @@ TEST_F(SpecialFiles, AreNoTableAndNoPictureToWrite) {
   std::vector<Words> commands;
   for (const std::string& name : MakeSpecialFiles(folder_, ".csv")) {
     commands.push_back({"seam-measure", log_, "--csv", name});
+    commands.push_back({"seam-export", log_, "--csv", "-o", name, "--force"});
     commands.push_back({"seam-measure", log_, "--csv", name, "--append"});
     commands.push_back(
         {"seam-lab", "sweep", "tests/lab/sweeps/quick/rate.toml", "-o", name, "--force"});

@@ -40,6 +40,8 @@ TEST(AssemblyMistakes, AreNamedByFileLineAndReason) {
       {Box("") + "[grouping]\n", "after is missing"},
       {Box("") + "[grouping]\nafter = 0\n", "after must be"},
       {Box("") + "[grouping]\nafter = 1\nimpact = -1\n", "impact must be"},
+      {Box("") + "[grouping]\nafter = 1\nacceleration = -1\n", "acceleration must be"},
+      {Box("") + "[grouping]\nafter = 1\nspin = 101\n", "spin must be"},
       {"[solver]\nfaces = \"none\"\n" + Box(""), "s.toml:2: solver: faces must be"},
   };
   for (const auto& [text, says] : mistakes) {

@@ -30,13 +30,47 @@ TEST(Character, IsTwelvePartsAndElevenHingesOfOneMechanism) {
   float low = 10, high = 0;
   for (const Part& part : scene.parts) {
     if (part.kind == ShapeKind::kChain) continue;
-    const float half = part.kind == ShapeKind::kBox ? part.size.y() / 2 : part.radius;
-    low = std::min(low, part.position.y() - half);
-    high = std::max(high, part.position.y() + half);
+    for (const Vec2& p : part.points) {
+      low = std::min(low, part.position.y() + p.y());
+      high = std::max(high, part.position.y() + p.y());
+    }
     EXPECT_EQ(part.owner, 0);
   }
   EXPECT_NEAR(low, 0, 1e-5);
   EXPECT_NEAR(high, 1.8, 0.01);
+}
+
+TEST(Character, ItsPartsAreConvexOutlinesOfEightCornersWithFlatSoles) {
+  for (const char* facing : {"right", "left"}) {
+    for (const char* height : {"1", "1.8", "5"}) {
+      const Scene scene = CharacterScene(std::string("position = [0, 0]\nfacing = \"") + facing +
+                                         "\"\nheight = " + height + "\n");
+      for (const PartId id : scene.characters[0].parts) {
+        const Part& part = scene.parts[static_cast<std::size_t>(id)];
+        ASSERT_EQ(part.points.size(), 8u) << part.name;
+        for (std::size_t i = 0; i < 8; ++i) {
+          const Vec2 edge = part.points[(i + 1) % 8] - part.points[i];
+          const Vec2 next = part.points[(i + 2) % 8] - part.points[(i + 1) % 8];
+          EXPECT_GT(edge.x() * next.y() - edge.y() * next.x(), 0) << part.name << " corner " << i;
+          EXPECT_GT(edge.norm(), 0.005f) << part.name << " corner " << i;
+        }
+      }
+      const Character& hero = scene.characters[0];
+      for (const CharacterPart foot : {kFootLeft, kFootRight}) {
+        const PartId id = hero.parts[static_cast<std::size_t>(foot)];
+        const Part& part = scene.parts[static_cast<std::size_t>(id)];
+        std::vector<float> sole;  // how far its corners are before the ankle
+        for (const Vec2& p : part.points) {
+          const Vec2 at = part.position + p;
+          if (std::abs(at.y()) < 1e-4f * hero.height) sole.push_back(hero.facing * at.x());
+        }
+        std::sort(sole.begin(), sole.end());
+        ASSERT_EQ(sole.size(), 2u) << facing;
+        EXPECT_NEAR(sole[0], -CharacterShape().heel * hero.height / 1.8f, 1e-4f);
+        EXPECT_NEAR(sole[1], CharacterShape().toe * hero.height / 1.8f, 1e-4f);
+      }
+    }
+  }
 }
 
 TEST(Character, BoundsOfTorqueGrowWithTheThirdPowerOfItsHeight) {

@@ -51,12 +51,14 @@ TEST(SceneDocs, EveryKeyIsOnThePage) {
       {ball + "[[bricks]]", "## `[[bricks]]`"},
       {ball + "[[strand]]", "## `[[strand]]`"},
       {ball + "[[thrust]]", "## `[[thrust]]`"},
+      {ball + "[[propeller]]", "## `[[propeller]]`"},
       {ball + "[[water]]", "## `[[water]]`"},
       {ball + "[grouping]", "## `[grouping]`"},
       {ball + "[[character]]", "## `[[character]]`"},
       {"[[player]]", "## `[[player]]`"},
       {ball + "[[watch]]", "## `[[watch]]`"},
       {ball + "[[trigger]]", "## `[[trigger]]`"},
+      {ball + "[[charges]]", "## `[[charges]]`"},
       {ball + "[[script]]", "## `[[script]]`"},
       {ball + "[camera]", "## `[camera]`"}};
   for (const auto& [table, heading] : tables) {

@@ -51,6 +51,7 @@ struct Mistake {
 /// A kinematic joint from line 12; line 16 is the mistake.
 #define KINEMATIC(part, line_16) \
   "[[joint]]\nname = \"j\"\nkind = \"kinematic\"\nb = \"" part "\"\n" line_16 "\n"
+#define PROPELLER(line_14) "[[propeller]]\nname = \"p\"\n" line_14 "\n"
 #define THRUST(line_14) "[[thrust]]\nname = \"t\"\n" line_14 "\n"
 /// A trigger from line 12; line 16 is the mistake.
 #define TRIGGER(line_16) "[[trigger]]\nname = \"t\"\nposition = [1, 1]\nbox = [1, 1]\n" line_16 "\n"
@@ -275,6 +276,10 @@ const Mistake kMistakes[] = {
      18, "both axis and button"},
     {"", THRUST("part = \"crate\"\nforce = [1, 0]") THRUST("part = \"crate\"\nforce = [1, 0]"), 17,
      "another thrust of this name"},
+    {"", PROPELLER("part = \"crate\"\npitch = 1\nturns = 1"), 12, "diameter is missing"},
+    {"", PROPELLER("part = \"ground\"\ndiameter = 1\npitch = 1\nturns = 1"), 12, "is anchored"},
+    {"", PROPELLER("part = \"crate\"\ndiameter = 1\npitch = 0\nturns = 1"), 16, "pitch must be"},
+    {"", PROPELLER("part = \"crate\"\nalong = [0, 0]"), 15, "along must be a direction"},
     // Players
     {"", "[[player]]\n", 12, "name is missing"},
     {"", "[[player]]\nname = \"ann\"\n", 13, "another player of this name"},

@@ -28,7 +28,7 @@ class FakeRoomCommands : public RoomCommands {
   void Push(PartId part, const Vec2& impulse) override {
     asked.push_back("push " + std::to_string(part) + " " + std::to_string(impulse.x()));
   }
-  void Blast(const Vec2&, float radius, float) override {
+  void Blast(const Vec2&, float radius, float, float) override {
     asked.push_back("blast " + std::to_string(radius));
   }
   void Insert(const std::string& text) override { asked.push_back(text); }

@@ -54,6 +54,19 @@ TEST(Script, PushesInNewtonSecondsAndForcesForATick) {
   EXPECT_EQ(room.host.asked, (Lines{"push ball 3 4 kick", "push ball 1 -2 force"}));
 }
 
+TEST(Script, ABlastPushesOnlyWhenItSaysHowHardAndByANumber) {
+  FakeRoom room(R"(
+    world.blast(1, 2, 3, 4)
+    world.blast(1, 2, 3, 4, 50)
+    print(pcall(world.blast, 1, 2, 3, 4, 0 / 0))
+    print(pcall(world.blast, 1, 2, 3, 4, math.huge))
+  )");
+  EXPECT_EQ(room.script.error(), "");
+  EXPECT_EQ(room.host.asked, (Lines{"blast 1 2 3 4 0", "blast 1 2 3 4 50"}));
+  ASSERT_EQ(room.host.said.size(), 2u);
+  for (const std::string& said : room.host.said) EXPECT_EQ(said.rfind("false ", 0), 0u) << said;
+}
+
 TEST(Script, MakesPartsAndJointsAsASceneWouldSayThem) {
   FakeRoom room(R"(
     world.add_part{name = "b2", box = {1, 0.5}, position = {2, 3}, bullet = true}

@@ -200,5 +200,51 @@ button = 5
   EXPECT_LT((momentum() - before).norm(), 0.01f * before.norm());
 }
 
+TEST(Seat, WhoLeavesIsDrawnOutThroughTheVehicleWhichFeelsIt) {
+  const auto world = WithCharacter();
+  const PartId torso = Named(*world, "hero.torso");
+  Take(world.get());
+  Steps(world.get(), SeatTicks(60));
+  BondToSeat(world.get());
+  Steps(world.get(), 60);
+  const auto bond = static_cast<std::int32_t>(world->scene().joints.size()) - 1;
+  ASSERT_EQ(world->scene().joints[static_cast<std::size_t>(bond)].b, torso);
+  const float sat = PartPose(*world, torso).position.y();
+  world->Apply({Edit(BreakEdit{bond}, EditCause::kOutside)});
+  world->Apply({Edit(SeatEdit{0, -1}, EditCause::kOutside)});
+  const WorldSnapshot snapshot = world->Barrier();
+  float highest = sat;
+  for (int tick = 1; tick <= 60; ++tick) {
+    const Vec2 before = PartPose(*world, torso).position;
+    world->Step();
+    const BodyState now = PartPose(*world, torso);
+    EXPECT_LT((now.position - before).norm(), 0.06f) << "no jump, tick " << tick;
+    highest = std::max(highest, now.position.y());
+  }
+  EXPECT_GT(highest, sat + 0.3f);
+  const std::uint64_t hash = world->Hash();
+  ASSERT_TRUE(world->Restore(snapshot).ok());
+  Steps(world.get(), 60);
+  EXPECT_EQ(world->Hash(), hash) << "bit for bit after going back";
+}
+
+TEST(Seat, ThePullIsBounded) {
+  // A cart that is shoved away at 60 m/s when the way begins is not followed at once.
+  const auto world = WithCharacter();
+  const PartId torso = Named(*world, "hero.torso");
+  Take(world.get());
+  Steps(world.get(), SeatWaitTicks(60) + 2);
+  const float mass =
+      PartMass(world->scene().parts[static_cast<std::size_t>(Named(*world, "buggy"))]);
+  world->Apply({Edit(PushEdit{Named(*world, "buggy"), {60 * mass, 0}}, EditCause::kOutside)});
+  for (int tick = 0; tick < 20; ++tick) {
+    const Vec2 before = PartPose(*world, torso).velocity;
+    world->Step();
+    const float change = (PartPose(*world, torso).velocity - before).norm();
+    // 100 m/s^2 of the centre of all; the torso's own turns with the rest.
+    EXPECT_LT(change, 2 * 100.0f / 60) << tick;
+  }
+}
+
 }  // namespace
 }  // namespace seam

@@ -165,10 +165,14 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"server/script", "none"},
       {"server/rules", "server/script"},
       {"common/scene/joints", "common/scene(/toml)?"},
+      {"common/scene/charges", "common/scene(/toml)?"},
       {"common/scene/toml", "common/scene"},
       {"render/canvas", "none"},
       {"render/playback", "render/canvas"},
       {"render/draw", "render/(canvas|playback)"},
+      {"render/export", "render/canvas"},
+      {"render/page", "render/(canvas|draw|playback)"},
+      {"tests/support/browser", "tests/support"},
       {"tests/lab/fairness", "tests/lab(/report(/sessions)?)?"},
       {"common/measure/limit", "common/measure(/screen)?"},
       {"tests/lab/exact", "tests/lab(/hard|/report)?"},
@@ -241,9 +245,10 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
   ExpectOnlyIn("common/record/bus\\.cpp", kCode, "lcm/.*");
   ExpectOnlyIn("common/codec/codec[^/]*\\.cpp", kCode, "seam/[a-z_]+\\.hpp");
   ExpectOnlyIn("render/canvas/png[^/]*", kCode, "png\\.h|spng\\.h");
+  ExpectOnlyIn("render/page/gzip\\.cpp|tests/.*", kCode, "zlib\\.h");
   ExpectOnlyIn("render/canvas/font[^/]*", kCode, "ft2build\\.h|freetype/.*");
   ExpectOnlyIn("common/scene/toml/toml_tree\\.cpp", kProduct, "toml\\.hpp|toml[^/]*/.*");
-  ExpectOnlyIn("render/options\\.cpp|common/base/command_line\\.h", kProduct, "CLI/.*");
+  ExpectOnlyIn("render/(export/)?options\\.cpp|common/base/command_line\\.h", kProduct, "CLI/.*");
   ExpectOnlyIn("server/script/script_lua[^/]*", kCode, "(.*/)?(lua|lauxlib|lualib)\\.h(pp)?");
   ExpectOnlyIn("common/net/keyed_hash\\.cpp", kCode, "sodium\\.h|sodium/.*");
   ExpectOnlyIn("none", kProduct, "gtest/.*");

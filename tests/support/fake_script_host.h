@@ -42,9 +42,9 @@ class FakeHost : public ScriptHost {
     if (states.count(part) == 0) throw ScriptRefusal("there is no part '" + part + "'");
     asked.push_back("push " + part + " " + Text(impulse.x()) + " " + Text(impulse.y()) + " " + why);
   }
-  void Blast(const Vec2& centre, float radius, float speed) override {
+  void Blast(const Vec2& centre, float radius, float speed, float impulse) override {
     asked.push_back("blast " + Text(centre.x()) + " " + Text(centre.y()) + " " + Text(radius) +
-                    " " + Text(speed));
+                    " " + Text(speed) + " " + Text(impulse));
   }
   void AddPart(const TomlNode& table) override { asked.push_back("add part " + Text(table)); }
   void AddJoint(const TomlNode& table) override { asked.push_back("add joint " + Text(table)); }

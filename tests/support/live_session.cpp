@@ -3,6 +3,8 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 #include "common/base/check.h"
 #include "common/record/bus.h"
 #include "common/record/log_file.h"
@@ -46,7 +48,11 @@ bool LiveSession::Begin() {
                                     port_,
                                     "--lcm-url",
                                     lcm_url_};
-  words.insert(words.end(), plan_.server_flags.begin(), plan_.server_flags.end());
+  const auto& given = plan_.server_flags;
+  if (std::find(given.begin(), given.end(), "--duration") == given.end()) {
+    words.insert(words.end(), {"--duration", "0"});  // until it is stopped
+  }
+  words.insert(words.end(), given.begin(), given.end());
   server_ = std::make_unique<Program>(words);
   for (const auto& [name, flags] : plan_.clients) Join(name, flags);
   return true;

@@ -118,7 +118,7 @@ class RandomMessages {
     Set(m.kind, 0, kEditKindsMax), Set(m.cause, 0, 1), Set(m.player, -1, 31);
     for (auto* id : {&m.a, &m.b}) Set(*id, -1, INT16_MAX);
     Set(m.joint, -1, INT32_MAX);
-    Floats(m.value, 4), m.text = Text(300);
+    Floats(m.value, m.kind == kEditKindBlast ? 5 : 4), m.text = Text(300);
   }
   void Fill(Meta& m, std::size_t count) {
     Common(m), Sequence(m), m.tick = Tick(), Vector(m.kind, count, 0, 1);

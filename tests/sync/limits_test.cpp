@@ -31,6 +31,8 @@ TEST(Limits, MessagesAreAsLargeAsIsReckoned) {
   chunk.data.assign(5, 0);
   EXPECT_EQ(Encode(chunk).size(), Largest(kChunkBytes, 5));
   EditOrder order;
+  order.kind = kEditKindBlast;  // the one that has five numbers
+  order.value.push_back(0);
   order.text = "[[part]]";
   EXPECT_EQ(Encode(order).size(), Largest(kEditBytes, order.text.size()));
   Room room;

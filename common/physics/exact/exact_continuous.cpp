@@ -26,7 +26,7 @@ class ExactStep::Quiet : public b2ContactListener {
       if (!Moves(body)) continue;
       Slot& slot = (*slots_)[static_cast<std::size_t>(IndexOf(body))];
       slot.struck = slot.struck || both;
-      ours = ours || slot.island >= 0;
+      ours = ours || slot.solved;
     }
     if (both || !ours) listener_->PostSolve(contact, impulse);
   }

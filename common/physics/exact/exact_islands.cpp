@@ -10,6 +10,11 @@ namespace {
 
 /// Multiplications of one factorisation above which contacts are relaxed.
 constexpr long kDirectMost = 30000;
+/// A mechanism that takes so many by itself is above kDirectMost whatever touches it, even if its
+/// bodies come in another order then.
+constexpr long kNeverDirect = 4 * kDirectMost;
+/// One of fewer rows cannot take so many.
+constexpr int kRowsOfLarge = 85;
 
 }  // namespace
 
@@ -43,6 +48,27 @@ void ExactStep::FindMechanisms() {
     std::sort(mechanism.joints.begin(), mechanism.joints.end());
   }
   found_.resize(mechanisms_.size());
+}
+
+/// What is too large in any case is not looked at again.
+void ExactStep::LeaveLarge() {
+  for (std::size_t m = 0; m < mechanisms_.size(); ++m) {
+    Mechanism& mechanism = mechanisms_[m];
+    int rows = 0;  // no limit is near yet
+    for (const int j : mechanism.joints) rows += RowCount(joints_[static_cast<std::size_t>(j)]);
+    if (!mechanism.exact || rows < kRowsOfLarge) continue;
+    Found alone;
+    alone.mechanisms.push_back(static_cast<int>(m));
+    for (const int slot : mechanism.slots) {
+      if (Moves(slots_[static_cast<std::size_t>(slot)].body)) alone.slots.push_back(slot);
+    }
+    mechanism.exact = alone.slots.empty() || Build(&alone, false) <= kNeverDirect;
+  }
+}
+
+bool ExactStep::needed() const {
+  return blows_->needed() || std::any_of(mechanisms_.begin(), mechanisms_.end(),
+                                         [](const Mechanism& m) { return m.exact; });
 }
 
 bool ExactStep::Gather(int first, Found* found) {
@@ -92,10 +118,11 @@ void ExactStep::Order(Found* found) {
   for (std::size_t i = 0; i < n; ++i) {
     slots_[static_cast<std::size_t>(found->slots[i])].place = static_cast<int>(i);
   }
-  std::vector<std::vector<int>> near(n);
+  if (near_.size() < n) near_.resize(n);
+  for (std::vector<int>& near : near_) near.clear();
   const auto join = [&](int a, int b) {
-    near[static_cast<std::size_t>(a)].push_back(b);
-    near[static_cast<std::size_t>(b)].push_back(a);
+    near_[static_cast<std::size_t>(a)].push_back(b);
+    near_[static_cast<std::size_t>(b)].push_back(a);
   };
   const auto place = [&](int slot) {
     if (slot < 0) return -1;
@@ -114,10 +141,11 @@ void ExactStep::Order(Found* found) {
     const int b = place(IndexOf(const_cast<b2Fixture*>(contact->GetFixtureB())->GetBody()));
     if (a >= 0 && b >= 0) join(a, b);
   }
-  std::vector<int> order;
+  std::vector<int>& order = order_;
+  std::vector<char>& seen = seen_;
   std::size_t start = 0;
   for (int pass = 0; pass < 2; ++pass) {
-    std::vector<char> seen(n, 0);
+    seen.assign(n, 0);
     order.clear();
     const auto visit = [&](std::size_t i) {
       if (seen[i]) return;
@@ -130,18 +158,18 @@ void ExactStep::Order(Found* found) {
         while (seen[next]) ++next;
         visit(next);
       }
-      for (const int other : near[static_cast<std::size_t>(order[k])]) {
+      for (const int other : near_[static_cast<std::size_t>(order[k])]) {
         visit(static_cast<std::size_t>(other));
       }
     }
     start = static_cast<std::size_t>(order.back());
   }
-  std::vector<int> sorted;
-  for (const int i : order) sorted.push_back(found->slots[static_cast<std::size_t>(i)]);
-  found->slots = sorted;
+  for (int& i : order) i = found->slots[static_cast<std::size_t>(i)];
+  found->slots = order;
 }
 
-void ExactStep::Build(Found* found, bool relaxed) {
+/// Returns what a direct factorisation takes, in multiplications.
+long ExactStep::Build(Found* found, bool relaxed) {
   Order(found);
   if (relaxed) {
     std::stable_sort(found->slots.begin(), found->slots.end(), [this](int a, int b) {
@@ -149,8 +177,11 @@ void ExactStep::Build(Found* found, bool relaxed) {
              slots_[static_cast<std::size_t>(b)].mechanism;
     });
   }
-  found->island = std::make_unique<ExactIsland>();
+  if (!found->island) found->island = std::make_unique<ExactIsland>();
   ExactIsland& island = *found->island;
+  island.bodies.clear();
+  island.joints.clear();
+  island.contacts.clear();
   for (std::size_t i = 0; i < found->slots.size(); ++i) {
     Slot& slot = slots_[static_cast<std::size_t>(found->slots[i])];
     slot.place = static_cast<int>(i);
@@ -207,12 +238,14 @@ void ExactStep::Build(Found* found, bool relaxed) {
   }
   LoadPoses(found);
   island.Shape(relaxed);
-  if (relaxed || island.cost() <= kDirectMost) return;
+  const long cost = island.cost();
+  if (relaxed || cost <= kDirectMost) return cost;
   if (solver_.joints == JointSolving::kAuto) {
     found->island.reset();  // left to the engine
   } else {
     Build(found, true);
   }
+  return cost;
 }
 
 void ExactStep::Sign(const Found& found, std::vector<const void*>* sign) const {

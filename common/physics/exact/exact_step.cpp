@@ -1,6 +1,7 @@
 #include "common/physics/exact/exact_step.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/base/check.h"
 #include "common/physics/exact/engine_members.h"
@@ -41,7 +42,12 @@ ExactStep::ExactStep(const Scene& scene, b2World* world, const BuiltScene& built
                         const_cast<b2Body*>(body)->GetUserData().pointer == 0);
   }
   FindMechanisms();
-  if (solver_.joints == JointSolving::kAuto) LeaveCharacters(scene);
+  std::vector<char> jointed;
+  for (const Slot& slot : slots_) jointed.push_back(slot.mechanism >= 0 ? 1 : 0);
+  blows_ = std::make_unique<FreeBlows>(built, std::move(jointed));
+  if (solver_.joints != JointSolving::kAuto) return;
+  LeaveCharacters(scene);
+  LeaveLarge();
 }
 
 /// A character's gait is tuned on the engine's joints, which are cheaper in a heap of them.
@@ -77,6 +83,8 @@ void ExactStep::LoadPoses(Found* found) {
         ReadPose(body, &q);
       }
     }
+    if (q.slot < 0 && q.a == q.read_a) continue;  // c and s are its own
+    q.read_a = q.slot < 0 && q.w == 0 ? q.a : std::nan("");
     q.c = std::cos(q.a);
     q.s = std::sin(q.a);
   }
@@ -223,7 +231,10 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
   step.warmStarting = world_->GetWarmStarting();
   contacts.Collide();
 
-  for (Slot& slot : slots_) slot.island = -1;
+  for (Slot& slot : slots_) {
+    slot.island = -1;
+    slot.solved = false;
+  }
   const Pace pace{static_cast<double>(h) / solver_.joint_substeps, solver_.joint_substeps};
   std::size_t moving = 0;
   solved_.clear();
@@ -238,9 +249,11 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
     Save(&found, h);
     Report(found);
     Hide(found);
+    for (const int slot : found.slots) slots_[static_cast<std::size_t>(slot)].solved = true;
     moving += found.slots.size();
     solved_.push_back(static_cast<int>(m));
   }
+  if (blows_->needed()) blows_->Act(world_, h);
   if (moving < slots_.size() || paths_) {
     (world_->*Member(EngineSolve()))(step);
   } else {
@@ -248,6 +261,7 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
   }
   for (const int m : solved_) Show(found_[static_cast<std::size_t>(m)]);
   if (world_->GetContinuousPhysics()) Continuous(step, pace);
+  if (blows_->needed()) blows_->Done();
   last_inverse = step.inv_dt;
   if (world_->GetAutoClearForces()) world_->ClearForces();
   locked = false;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/physics/exact/free_blows.h"
 #include "common/physics/exact/island.h"
 #include "common/physics/world_build.h"
 #include "common/scene/scene.h"
@@ -17,8 +18,9 @@ class ExactStep {
   ExactStep(const Scene& scene, b2World* world, const BuiltScene& built);
   ~ExactStep();
 
-  /// Whether there is a joint that it would solve; else the engine's own Step does.
-  bool needed() const { return !mechanisms_.empty(); }
+  /// Whether there is a joint that it would solve, or a blow that gives everything back; else the
+  /// engine's own Step does.
+  bool needed() const;
 
   /// As b2World::Step.
   void Step(float h, int velocity_iterations, int position_iterations);
@@ -31,6 +33,7 @@ class ExactStep {
     int place = -1;   // in its list of bodies
     // What it was left with, and the same as the engine has it.
     bool known = false;
+    bool solved = false;  // in this step, not left to the engine
     bool struck = false;  // by something that moves, in continuous collision
     double x = 0, y = 0, a = 0, vx = 0, vy = 0, w = 0;
     double lasting = 0;  // ExactBody::lasting
@@ -50,10 +53,11 @@ class ExactStep {
 
   void FindMechanisms();
   void LeaveCharacters(const Scene& scene);
+  void LeaveLarge();
   bool Gather(int first, Found* found);
   void Sign(const Found& found, std::vector<const void*>* sign) const;
   void Order(Found* found);
-  void Build(Found* found, bool relaxed);
+  long Build(Found* found, bool relaxed);
   void LoadPoses(Found* found);
   void Load(Found* found);
   void Save(Found* found, float h);
@@ -75,6 +79,11 @@ class ExactStep {
   std::vector<Found> found_;
   std::vector<const void*> sign_;
   std::vector<int> solved_;
+  std::unique_ptr<FreeBlows> blows_;
+  // Room for Order: by place in a list of bodies, who is joined to it, and whether it was seen.
+  std::vector<std::vector<int>> near_;
+  std::vector<char> seen_;
+  std::vector<int> order_;
   bool paths_ = false;  // something anchored is moved along a path
 };
 

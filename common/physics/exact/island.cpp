@@ -13,27 +13,30 @@ void ExactIsland::Shape(bool relaxed) {
   relaxed_ = relaxed;
   int rows = 0;
   std::size_t ends = 0;
-  std::vector<int> ends_of;
+  ends_of_.clear();
   for (Held& held : joints) {
     held.row = rows;
     held.rows = RowCount(*held.joint);
     rows += held.rows;
-    ends_of.insert(ends_of.end(), static_cast<std::size_t>(held.rows), EndsOf(*held.joint));
+    ends_of_.insert(ends_of_.end(), static_cast<std::size_t>(held.rows), EndsOf(*held.joint));
   }
   contact_row_.clear();
   for (const ExactContact& contact : contacts) {
     contact_row_.push_back(rows);
     rows += 2 * contact.count;
-    ends_of.insert(ends_of.end(), static_cast<std::size_t>(2 * contact.count), 2);
+    ends_of_.insert(ends_of_.end(), static_cast<std::size_t>(2 * contact.count), 2);
   }
-  for (const int count : ends_of) ends += static_cast<std::size_t>(count);
+  for (const int count : ends_of_) ends += static_cast<std::size_t>(count);
   rows_.assign(static_cast<std::size_t>(rows), Row());
   ends_.assign(ends, RowEnd());
   RowEnd* next = ends_.data();
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     rows_[i].end = next;
-    next += ends_of[i];
+    next += ends_of_[i];
   }
+  now_.assign(kJointRowsMost, Row());
+  now_ends_.assign(kJointRowsMost * kRowEndsMost, RowEnd());
+  for (std::size_t i = 0; i < now_.size(); ++i) now_[i].end = &now_ends_[i * kRowEndsMost];
   Fill({1, 1});
   ShapeMatrix();
   if (relaxed_) ShapeGroups();
@@ -42,7 +45,8 @@ void ExactIsland::Shape(bool relaxed) {
 void ExactIsland::ShapeMatrix() {
   // Rows in the order of their last body, then of their first: what is bound stays together.
   const std::size_t n = rows_.size();
-  std::vector<std::pair<int, int>> key(n);
+  std::vector<std::pair<int, int>>& key = key_;
+  key.resize(n);
   bounded_ = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const Row& row = rows_[i];
@@ -57,35 +61,49 @@ void ExactIsland::ShapeMatrix() {
   for (std::size_t i = 0; i < n; ++i) {
     if (!relaxed_ || !rows_[i].bounded()) row_at_.push_back(static_cast<int>(i));
   }
-  std::stable_sort(row_at_.begin(), row_at_.end(), [&](int x, int y) {
-    return key[static_cast<std::size_t>(x)] < key[static_cast<std::size_t>(y)];
+  std::sort(row_at_.begin(), row_at_.end(), [&](int x, int y) {
+    const auto& a = key[static_cast<std::size_t>(x)];
+    const auto& b = key[static_cast<std::size_t>(y)];
+    return a != b ? a < b : x < y;
   });
   place_.assign(n, -1);
-  std::vector<int> first(row_at_.size()), lead(bodies.size(), -1);
+  bounded_places_.clear();
+  std::vector<int>& first = first_;
+  first.resize(row_at_.size());
+  lead_.assign(bodies.size(), -1);
   for (std::size_t p = 0; p < row_at_.size(); ++p) {
     const Row& row = At(row_at_[p]);
     place_[static_cast<std::size_t>(row_at_[p])] = static_cast<int>(p);
+    if (row.bounded()) bounded_places_.push_back(static_cast<int>(p));
     first[p] = static_cast<int>(p);
     for (int e = 0; e < row.ends; ++e) {
-      int& led_by = lead[static_cast<std::size_t>(row.end[e].body)];
+      int& led_by = lead_[static_cast<std::size_t>(row.end[e].body)];
       if (led_by < 0) led_by = static_cast<int>(p);
       first[p] = std::min(first[p], led_by);
     }
   }
   matrix_.SetShape(first);
   pairs_.clear();
-  std::vector<std::vector<std::pair<int, int>>> met(bodies.size());  // row, end
+  assembled_.assign(row_at_.size(), {});
+  if (met_.size() < bodies.size()) met_.resize(bodies.size());
+  for (std::vector<std::pair<int, int>>& there : met_) there.clear();
   for (std::size_t p = 0; p < row_at_.size(); ++p) {
     const int row = row_at_[p];
+    assembled_[p].end = static_cast<int>(At(row).end - ends_.data());
+    assembled_[p].ends = At(row).ends;
+    assembled_[p].pair = static_cast<int>(pairs_.size());
     for (int e = 0; e < At(row).ends; ++e) {
-      auto& there = met[static_cast<std::size_t>(At(row).end[e].body)];
+      auto& there = met_[static_cast<std::size_t>(At(row).end[e].body)];
       there.push_back({row, e});
       for (const auto& [other, other_end] : there) {
         const int column = place_[static_cast<std::size_t>(other)];
-        pairs_.push_back({matrix_.Place(static_cast<int>(p), column), row, other, e, other_end});
+        pairs_.push_back({&matrix_.At(matrix_.Place(static_cast<int>(p), column)),
+                          At(row).end[e].mj, At(other).end[other_end].j});
       }
     }
   }
+  in_matrix_.assign(ends_.size(), InMatrix());
+  changed_ = dirty_ = 0;
   in_.assign(row_at_.size(), 1);
   x_.assign(row_at_.size(), 0.0);
 }

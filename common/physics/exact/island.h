@@ -44,10 +44,28 @@ class ExactIsland {
   void Store() const;
 
  private:
-  struct Pair {  // of rows that share a body
-    int place;   // in the matrix
-    int row, other;
-    int end, other_end;
+  struct Pair {       // of rows that share a body
+    double* at;       // in the matrix
+    const double* m;  // of one's end
+    const double* j;  // of the other's
+  };
+  struct Assembled {        // what the matrix has of a row
+    int end = 0, ends = 0;  // of all ends: the first, how many
+    int pair = 0;           // of all pairs: the first
+    double share = 0, gamma = 0;
+  };
+  struct InMatrix {  // what it has of an end
+    double j[3] = {}, mj[3] = {};
+    bool Has(const RowEnd& end) const {
+      return end.j[0] == j[0] && end.j[1] == j[1] && end.j[2] == j[2] && end.mj[0] == mj[0] &&
+             end.mj[1] == mj[1] && end.mj[2] == mj[2];
+    }
+    void Take(const RowEnd& end) {
+      for (int i = 0; i < 3; ++i) {
+        j[i] = end.j[i];
+        mj[i] = end.mj[i];
+      }
+    }
   };
   struct Group {  // a mechanism, or a body without joints
     int group;
@@ -94,11 +112,11 @@ class ExactIsland {
   /// `hard`, `bounded`: what a row's own entry is enlarged by, as a share, for rows that others
   /// imply.
   void Assemble(double hard = 1e-7, double bounded = 1e-6);
+  int FirstChanged(double hard, double bounded);
   void Factor();
   void Solve(bool ahead);
   bool PivotToTheEnd();
   bool Pivot(int* wrong);
-  void Change(int place);
   void SetFrictionBounds();
   bool NextFrictionBounds();
   void Descend();
@@ -118,16 +136,24 @@ class ExactIsland {
   void Restore(const std::vector<double>& velocities);
 
   std::vector<Row> rows_, rows_before_;
+  std::vector<Row> now_;  // of one joint, while it is shut
+  std::vector<RowEnd> now_ends_;
   std::vector<ExactBody> bodies_before_;
   std::vector<RowEnd> ends_;
   std::vector<int> contact_row_;  // by contact: the first of its rows
   std::vector<int> place_;        // by row: its index in the matrix
   std::vector<int> row_at_;       // the other way round
-  std::vector<Pair> pairs_;
+  std::vector<int> bounded_places_;
+  std::vector<Pair> pairs_;           // in the order of places
+  std::vector<Assembled> assembled_;  // by place
+  std::vector<InMatrix> in_matrix_;   // by end
   Skyline matrix_;
   int bounded_ = 0;
-  double turned_ = 0;  // rad: the most that a body has turned in this substep
-  int dirty_ = 0;      // the factors of rows from here on are old
+  double turned_ = 0;   // rad: the most that a body has turned in this substep
+  bool keeps_ = false;  // the matrix may be what the next substep begins with
+  int changed_ = 0;     // the matrix's rows from here on are not those that were assembled
+  int dirty_ = 0;       // the factors of rows from here on are old
+  bool moved_ = false;  // velocities are not those of before_
   std::vector<char> in_;
   std::vector<double> x_, before_, start_;
   bool relaxed_ = false;
@@ -137,7 +163,32 @@ class ExactIsland {
   std::vector<double> answer_, velocity_;
   std::vector<RowState> next_;  // by place
   std::vector<RowState> held_;  // kept while something takes no part
+  // Room for Shape.
+  std::vector<int> ends_of_, first_, lead_;            // by row; by place; by body
+  std::vector<std::pair<int, int>> key_;               // by row
+  std::vector<std::vector<std::pair<int, int>>> met_;  // by body: row, end
 };
+
+inline double ExactIsland::Speed(const Row& row) const {
+  double speed = row.fixed_speed;
+  const RowEnd* const stop = row.end + row.ends;
+  for (const RowEnd* end = row.end; end != stop; ++end) {
+    const ExactBody& q = bodies[static_cast<std::size_t>(end->body)];
+    speed += end->j[0] * q.vx + end->j[1] * q.vy + end->j[2] * q.w;
+  }
+  return speed;
+}
+
+inline void ExactIsland::Push(const Row& row, double impulse) {
+  if (impulse == 0) return;
+  const RowEnd* const stop = row.end + row.ends;
+  for (const RowEnd* end = row.end; end != stop; ++end) {
+    ExactBody& q = Body(end->body);
+    q.vx += impulse * end->mj[0];
+    q.vy += impulse * end->mj[1];
+    q.w += impulse * end->mj[2];
+  }
+}
 
 /// Of the bodies that move, J.
 double KineticOf(const std::vector<ExactBody>& bodies);

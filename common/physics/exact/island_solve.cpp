@@ -22,27 +22,6 @@ constexpr double kSpeedError = 1e-6;
 
 }  // namespace
 
-double ExactIsland::Speed(const Row& row) const {
-  double speed = row.fixed_speed;
-  for (int e = 0; e < row.ends; ++e) {
-    const RowEnd& end = row.end[e];
-    const ExactBody& q = bodies[static_cast<std::size_t>(end.body)];
-    speed += end.j[0] * q.vx + end.j[1] * q.vy + end.j[2] * q.w;
-  }
-  return speed;
-}
-
-void ExactIsland::Push(const Row& row, double impulse) {
-  if (impulse == 0) return;
-  for (int e = 0; e < row.ends; ++e) {
-    const RowEnd& end = row.end[e];
-    ExactBody& q = Body(end.body);
-    q.vx += impulse * end.mj[0];
-    q.vy += impulse * end.mj[1];
-    q.w += impulse * end.mj[2];
-  }
-}
-
 void ExactIsland::Save(std::vector<double>* velocities) const {
   velocities->resize(3 * bodies.size());
   double* v = velocities->data();
@@ -62,43 +41,72 @@ void ExactIsland::Restore(const std::vector<double>& velocities) {
   }
 }
 
-void ExactIsland::Assemble(double hard, double bounded) {
-  for (Row& row : rows_) {
-    for (int e = 0; e < row.ends; ++e) {
-      RowEnd& end = row.end[e];
-      const ExactBody& q = bodies[static_cast<std::size_t>(end.body)];
-      end.mj[0] = q.im * end.j[0];
-      end.mj[1] = q.im * end.j[1];
-      end.mj[2] = q.ii * end.j[2];
+/// The first row, by place, that is not as the matrix has it, or was in it with another share. The
+/// matrix is asked for it as it is at the end of a substep when the next one begins.
+int ExactIsland::FirstChanged(double hard, double bounded) {
+  const int n = std::min(changed_, matrix_.size());
+  for (int p = 0; p < n; ++p) {
+    const Assembled& was = assembled_[static_cast<std::size_t>(p)];
+    const Row& row = At(row_at_[static_cast<std::size_t>(p)]);
+    if (row.gamma != was.gamma || (row.bounded() ? bounded : hard) != was.share) return p;
+    for (int e = was.end; e < was.end + was.ends; ++e) {
+      const auto at = static_cast<std::size_t>(e);
+      if (!in_matrix_[at].Has(ends_[at])) return p;
     }
   }
-  matrix_.Clear();
-  for (const Pair& pair : pairs_) {
-    const double* m = rows_[static_cast<std::size_t>(pair.row)].end[pair.end].mj;
-    const double* j = rows_[static_cast<std::size_t>(pair.other)].end[pair.other_end].j;
-    matrix_.At(pair.place) += m[0] * j[0] + m[1] * j[1] + m[2] * j[2];
+  return n;
+}
+
+void ExactIsland::Assemble(double hard, double bounded) {
+  for (RowEnd& end : ends_) {
+    if (end.body < 0) continue;
+    const ExactBody& q = bodies[static_cast<std::size_t>(end.body)];
+    end.mj[0] = q.im * end.j[0];
+    end.mj[1] = q.im * end.j[1];
+    end.mj[2] = q.ii * end.j[2];
   }
-  for (int p = 0; p < matrix_.size(); ++p) {
+  const int size = matrix_.size();
+  const int from = keeps_ ? FirstChanged(hard, bounded) : 0;
+  changed_ = keeps_ ? size : 0;
+  dirty_ = std::min(dirty_, from);
+  if (from >= size) return;
+  matrix_.Clear(from);
+  const Pair* const stop = pairs_.data() + pairs_.size();
+  for (const Pair* pair = pairs_.data() + assembled_[static_cast<std::size_t>(from)].pair;
+       pair != stop; ++pair) {
+    const double* const m = pair->m;
+    const double* const j = pair->j;
+    *pair->at += m[0] * j[0] + m[1] * j[1] + m[2] * j[2];
+  }
+  for (int p = from; p < size; ++p) {
     const Row& row = At(row_at_[static_cast<std::size_t>(p)]);
+    Assembled& now = assembled_[static_cast<std::size_t>(p)];
+    now.gamma = row.gamma;
+    now.share = row.bounded() ? bounded : hard;
     double& own = matrix_.At(matrix_.Place(p, p));
-    own += own * (row.bounded() ? bounded : hard) + row.gamma;
+    own += own * now.share + row.gamma;
   }
-  dirty_ = 0;
+  for (std::size_t e = 0; keeps_ && e < ends_.size(); ++e) in_matrix_[e].Take(ends_[e]);
 }
 
 void ExactIsland::Factor() {
-  if (dirty_ >= matrix_.size()) return;
-  for (int p = dirty_; p < matrix_.size(); ++p) {
+  const int size = matrix_.size();
+  for (int p = 0; p < size; ++p) {
     const auto at = static_cast<std::size_t>(p);
-    in_[at] = At(row_at_[at]).state == RowState::kFree ? 1 : 0;
+    const char in = At(row_at_[at]).state == RowState::kFree ? 1 : 0;
+    if (in == in_[at]) continue;
+    in_[at] = in;
+    dirty_ = std::min(dirty_, p);
   }
+  if (dirty_ >= size) return;
   matrix_.Factor(in_, dirty_);
-  dirty_ = matrix_.size();
+  dirty_ = size;
 }
 
 /// Solves with the states as they are and says what they should be. True: nothing to change.
 bool ExactIsland::Pivot(int* wrong) {
-  Restore(before_);
+  if (moved_) Restore(before_);
+  moved_ = true;
   for (Row& row : rows_) {
     if (row.state == RowState::kFree) continue;
     row.lambda = row.state == RowState::kLow ? row.lo : row.state == RowState::kHigh ? row.hi : 0;
@@ -121,12 +129,12 @@ bool ExactIsland::Pivot(int* wrong) {
     if (row.bounded()) scale = std::max(scale, std::fabs(row.lambda));
   }
   *wrong = 0;
-  if (bounded_ == 0) return true;
   const double slack = 1e-12 + 1e-7 * scale;
-  for (std::size_t p = 0; p < n; ++p) {
+  for (const int place : bounded_places_) {
+    const auto p = static_cast<std::size_t>(place);
     Row& row = At(row_at_[p]);
     next_[p] = row.state;
-    if (!row.bounded() || row.state == RowState::kOut) continue;
+    if (row.state == RowState::kOut) continue;
     if (row.state == RowState::kFree) {
       if (row.lambda < row.lo - slack) next_[p] = RowState::kLow;
       if (row.lambda > row.hi + slack) next_[p] = RowState::kHigh;
@@ -135,18 +143,9 @@ bool ExactIsland::Pivot(int* wrong) {
       if (row.state == RowState::kLow && off < -kSpeedError) next_[p] = RowState::kFree;
       if (row.state == RowState::kHigh && off > kSpeedError) next_[p] = RowState::kFree;
     }
-    if (next_[p] == row.state) continue;
-    ++*wrong;
+    if (next_[p] != row.state) ++*wrong;
   }
   return *wrong == 0;
-}
-
-void ExactIsland::Change(int place) {
-  const auto at = static_cast<std::size_t>(place);
-  Row& row = At(row_at_[at]);
-  if (row.state == next_[at]) return;
-  row.state = next_[at];
-  dirty_ = std::min(dirty_, place);
 }
 
 bool ExactIsland::PivotToTheEnd() {
@@ -161,7 +160,9 @@ bool ExactIsland::PivotToTheEnd() {
       --patience;
     }
     if (patience < 0) return false;
-    for (int p = 0; p < matrix_.size(); ++p) Change(p);
+    for (const int p : bounded_places_) {
+      At(row_at_[static_cast<std::size_t>(p)]).state = next_[static_cast<std::size_t>(p)];
+    }
   }
   return false;
 }
@@ -189,7 +190,6 @@ bool ExactIsland::NextFrictionBounds() {
     row.most = most;
     if (row.state == RowState::kFree && std::fabs(now) > most) {
       row.state = now > 0 ? RowState::kHigh : RowState::kLow;
-      dirty_ = std::min(dirty_, place_[i]);
     }
   }
   return change > kFrictionSame;
@@ -201,6 +201,7 @@ void ExactIsland::Solve(bool ahead) {
     return;
   }
   Save(&before_);
+  moved_ = false;
   next_.resize(rows_.size());
   for (int round = 0; round < kFrictionRounds; ++round) {
     SetFrictionBounds();
@@ -250,7 +251,6 @@ void ExactIsland::Descend() {
       Push(row, (low ? row.lo : row.hi) - row.lambda);
       row.lambda = low ? row.lo : row.hi;
       row.state = low ? RowState::kLow : RowState::kHigh;
-      dirty_ = std::min(dirty_, meets);
       continue;
     }
     bool freed = false;
@@ -261,7 +261,6 @@ void ExactIsland::Descend() {
       const double off = Speed(row) - row.target + row.gamma * row.lambda;
       if (row.state == RowState::kLow ? off >= -kSpeedError : off <= kSpeedError) continue;
       row.state = RowState::kFree;
-      dirty_ = std::min(dirty_, static_cast<int>(p));
       freed = true;
     }
     if (!freed) return;
@@ -276,7 +275,6 @@ void ExactIsland::HoldJoints() {
     held_.push_back(row.state);
     if (row.bounded()) row.state = RowState::kOut;
   }
-  if (!relaxed_) dirty_ = 0;
   Factor();
   for (std::size_t p = 0; p < row_at_.size(); ++p) {
     const Row& row = At(row_at_[p]);
@@ -293,9 +291,7 @@ void ExactIsland::HoldJoints() {
     row.state = held_[i];
   }
   held_.clear();
-  if (relaxed_) return;
-  dirty_ = 0;
-  Factor();
+  if (!relaxed_) Factor();
 }
 
 }  // namespace seam

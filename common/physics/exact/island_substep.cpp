@@ -16,6 +16,8 @@ namespace {
 constexpr double kStiffness = 0.25;
 /// It counts in full from this stiffness over inertia on, and below the other not at all.
 constexpr double kStiffTo = 1, kStiffFrom = 0.4;
+/// Less than that, whatever is rounded.
+constexpr double kSurelyLittle = 0.39;
 /// What is jammed tells of any tension: at most so many times the inertia.
 constexpr double kStiffMost = 100;
 /// What is left of it after a substep when the tension is gone: inertias that jump make noise.
@@ -41,12 +43,11 @@ constexpr double kTurnsFast = 0.25;
 constexpr double kReached = 1e-6;
 /// A motor that lacks so much speed does all it may, rad/s or m/s.
 constexpr double kUtmost = 50;
-/// A joint has at most so many rows, and a row so many ends.
-constexpr int kRowsMost = 6, kEndsMost = 4;
 
 }  // namespace
 
 void ExactIsland::Step(const Pace& pace, bool warm) {
+  keeps_ = pace.substeps > 1;
   Look(pace);
   Fill(pace);
   const double share = warm ? 1.0 / pace.substeps : 0;
@@ -155,6 +156,7 @@ void ExactIsland::Kick(double h) {
 /// a pendulum stays as exact as it is.
 double ExactIsland::Stiffened(const ExactBody& q) {
   const double tense = std::min(std::max(q.stiffness, q.lasting), kStiffMost * q.inertia);
+  if (tense < kSurelyLittle * q.inertia) return q.inertia;
   const double share = (tense / q.inertia - kStiffFrom) / (kStiffTo - kStiffFrom);
   return q.inertia + kStiffness * std::max(0.0, tense) * std::clamp(share, 0.0, 1.0);
 }
@@ -208,14 +210,12 @@ void ExactIsland::Move(double h) {
 void ExactIsland::ShutJoints(const Pace& pace) {
   bool anew = turned_ > kTurnsFast;
   double last = kUnbounded;
-  Row now[kRowsMost];
-  RowEnd ends[kRowsMost * kEndsMost];
-  for (int i = 0; i < kRowsMost; ++i) now[i].end = ends + i * kEndsMost;
+  Row* const now = now_.data();
   for (int tries = 0; tries < kCorrections; ++tries) {
     double far = 0;
     std::fill(x_.begin(), x_.end(), 0.0);
     for (const Held& held : joints) {
-      double errors[kRowsMost];
+      double errors[kJointRowsMost];
       if (anew) {
         FillJoint(*held.joint, held.ends, bodies, pace, now);
         for (int i = 0; i < held.rows; ++i) errors[i] = now[i].error;
@@ -252,8 +252,16 @@ void ExactIsland::ShutJoints(const Pace& pace) {
       Row& row = At(row_at_[p]);
       if (row.state != RowState::kFree || x_[p] == 0) continue;
       row.base += x_[p];
-      Push(row, x_[p]);
-      Shift(row, pace.h * x_[p]);
+      const double by = pace.h * x_[p];
+      for (const RowEnd* end = row.end; end != row.end + row.ends; ++end) {
+        ExactBody& q = Body(end->body);
+        q.vx += x_[p] * end->mj[0];
+        q.vy += x_[p] * end->mj[1];
+        q.w += x_[p] * end->mj[2];
+        q.x += by * end->mj[0];
+        q.y += by * end->mj[1];
+        q.Turn(by * end->mj[2]);
+      }
     }
   }
 }
@@ -261,12 +269,15 @@ void ExactIsland::ShutJoints(const Pace& pace) {
 /// While joints shut, contacts give way a little: with them a mechanism may be held in more ways
 /// than it can move.
 void ExactIsland::SoftenContacts() {
+  int first = matrix_.size();
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     const bool contact = rows_[i].kind == RowKind::kNormal || rows_[i].kind == RowKind::kFriction;
     if (!contact || place_[i] < 0) continue;
     matrix_.At(matrix_.Place(place_[i], place_[i])) *= 1 + kYield;
+    first = std::min(first, place_[i]);
   }
-  dirty_ = 0;
+  changed_ = std::min(changed_, first);
+  dirty_ = std::min(dirty_, first);
 }
 
 void ExactIsland::SolveAtEnd(const Pace& pace) {

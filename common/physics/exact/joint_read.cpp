@@ -12,8 +12,6 @@ namespace {
 
 /// A motor this near its bound is at it.
 constexpr double kNearly = 1 - 1e-6;
-/// No joint has more.
-constexpr int kRowsMost = 6;
 /// A limit is near within this and twice the way of a step, rad and m.
 constexpr double kNearAngle = 0.1, kNearLength = 0.1;
 
@@ -199,12 +197,12 @@ static int KeptAt(const ExactJoint& joint, int* kept) {
 }
 
 int RowCount(const ExactJoint& joint) {
-  int kept[kRowsMost];
+  int kept[kJointRowsMost];
   return KeptAt(joint, kept);
 }
 
 void LoadImpulses(const ExactJoint& joint, double share, Row* rows) {
-  int kept[kRowsMost];
+  int kept[kJointRowsMost];
   const int count = KeptAt(joint, kept);
   for (int i = 0; i < count; ++i) {
     Row& row = rows[i];
@@ -219,7 +217,7 @@ void LoadImpulses(const ExactJoint& joint, double share, Row* rows) {
 
 void StoreImpulses(const ExactJoint& joint, const Row* rows) {
   for (float* impulse : JointImpulses(joint.impulses)) *impulse = 0;
-  int kept[kRowsMost];
+  int kept[kJointRowsMost];
   const int count = KeptAt(joint, kept);
   for (int i = 0; i < count; ++i) {
     *joint.impulses.at[kept[i]] = static_cast<float>(rows[i].total);

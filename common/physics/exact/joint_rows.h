@@ -21,6 +21,9 @@ struct GearSides {
   double ratio = 1;
 };
 
+/// A joint has at most so many rows, and a row so many ends.
+constexpr int kJointRowsMost = 6, kRowEndsMost = 4;
+
 /// A speed by which errors of position are shut at most, m/s or rad/s.
 constexpr double kShutMost = 8;
 

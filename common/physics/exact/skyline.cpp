@@ -20,6 +20,10 @@ inline double Dot(const double* a, const double* b, int from, int to) {
   return from < to ? even + odd + a[from] * b[from] : even + odd;
 }
 
+inline double Inverse(double left, double diagonal) {
+  return left > kDependent * diagonal ? 1 / left : kNoShare;
+}
+
 }  // namespace
 
 void Skyline::SetShape(const std::vector<int>& first) {
@@ -36,54 +40,172 @@ void Skyline::SetShape(const std::vector<int>& first) {
   matrix_.assign(static_cast<std::size_t>(next), 0.0);
   factor_.assign(static_cast<std::size_t>(next), 0.0);
   inverse_.assign(first.size(), 1.0);
+  leads_.assign(first.size(), 0);
+  int widest = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    widest = std::max(widest, static_cast<int>(i) - first[i] + 1);
+    const bool second = i > 0 && leads_[i - 1];
+    leads_[i] = !second && i + 1 < first.size() && first[i + 1] == first[i];
+  }
+  two_.assign(static_cast<std::size_t>(widest), Two{0, 0});
 }
 
-void Skyline::Clear() { std::fill(matrix_.begin(), matrix_.end(), 0.0); }
+void Skyline::Clear(int from) {
+  if (from >= size()) return;
+  const auto row = static_cast<std::size_t>(from);
+  std::fill(matrix_.begin() + start_[row] + first_[row], matrix_.end(), 0.0);
+}
 
 void Skyline::Factor(const std::vector<char>& in, int from) {
+  // A row that is the second of two is done again with the first: it comes out the same.
+  if (from > 0 && from < size() && leads_[static_cast<std::size_t>(from - 1)]) --from;
+  for (int i = from; i < size(); ++i) {
+    if (leads_[static_cast<std::size_t>(i)]) {
+      FactorTwo(in.data(), i++);
+    } else {
+      FactorOne(in.data(), i);
+    }
+  }
+}
+
+void Skyline::FactorOne(const char* in, int i) {
   const int* const start = start_.data();
   const int* const first = first_.data();
   double* const factor = factor_.data();
   double* const inverse = inverse_.data();
-  for (int i = from; i < size(); ++i) {
-    const double* a = matrix_.data() + start[i];
-    double* l = factor + start[i];
-    const int begin = first[i];
-    if (!in[static_cast<std::size_t>(i)]) {
-      std::fill(l + begin, l + i, 0.0);
-      inverse[i] = 1;
+  const double* a = matrix_.data() + start[i];
+  double* l = factor + start[i];
+  const int begin = first[i];
+  if (!in[i]) {
+    std::fill(l + begin, l + i, 0.0);
+    inverse[i] = 1;
+    return;
+  }
+  for (int k = begin; k < i; ++k) {
+    l[k] = in[k] ? a[k] - Dot(l, factor + start[k], std::max(begin, first[k]), k) : 0;
+  }
+  // l holds L D so far; the dots above had the other rows' own L.
+  double left = a[i];
+  for (int k = begin; k < i; ++k) {
+    const double share = l[k] * inverse[k];
+    left -= l[k] * share;
+    l[k] = share;
+  }
+  inverse[i] = Inverse(left, a[i]);
+}
+
+/// Rows i and i + 1, which begin in the same column: each column of the rows above is read once for
+/// both. The same sums in the same order as in FactorOne.
+void Skyline::FactorTwo(const char* in, int i) {
+  const int* const start = start_.data();
+  const int* const first = first_.data();
+  double* const factor = factor_.data();
+  double* const inverse = inverse_.data();
+  const double* a = matrix_.data() + start[i];
+  const double* b = matrix_.data() + start[i + 1];
+  const int begin = first[i];
+  Two* const both = two_.data();  // from column `begin` on: L D
+  for (int k = begin; k < i; ++k) {
+    if (!in[k]) {
+      both[k - begin] = Two{0, 0};
       continue;
     }
-    for (int k = begin; k < i; ++k) {
-      if (!in[static_cast<std::size_t>(k)]) {
-        l[k] = 0;
-        continue;
-      }
-      l[k] = a[k] - Dot(l, factor + start[k], std::max(begin, first[k]), k);
+    const double* const l = factor + start[k];
+    Two even{0, 0}, odd{0, 0};
+    int m = std::max(begin, first[k]);
+    for (; m + 1 < k; m += 2) {
+      even += l[m] * both[m - begin];
+      odd += l[m + 1] * both[m + 1 - begin];
     }
-    // l holds L D so far; the dots above had the other rows' own L.
-    double left = a[i];
-    for (int k = begin; k < i; ++k) {
-      const double share = l[k] * inverse[k];
-      left -= l[k] * share;
-      l[k] = share;
-    }
-    inverse[i] = left > kDependent * a[i] ? 1 / left : kNoShare;
+    Two sum = even + odd;
+    if (m < k) sum += l[m] * both[m - begin];
+    both[k - begin] = Two{a[k], b[k]} - sum;
   }
+  double* l = factor + start[i];
+  double* next = factor + start[i + 1];
+  Two left{a[i], b[i + 1]};
+  for (int k = begin; k < i; ++k) {
+    const Two old = both[k - begin];
+    const Two share = old * inverse[k];
+    left -= old * share;
+    l[k] = share[0];
+    next[k] = share[1];
+  }
+  if (in[i]) {
+    inverse[i] = Inverse(left[0], a[i]);
+  } else {
+    std::fill(l + begin, l + i, 0.0);
+    inverse[i] = 1;
+  }
+  if (!in[i + 1]) {
+    std::fill(next + begin, next + i + 1, 0.0);
+    inverse[i + 1] = 1;
+    return;
+  }
+  next[i] = 0;
+  if (in[i]) {
+    double even = 0, odd = 0;
+    int m = begin;
+    for (; m + 1 < i; m += 2) {
+      even += both[m - begin][1] * l[m];
+      odd += both[m + 1 - begin][1] * l[m + 1];
+    }
+    double sum = even + odd;
+    if (m < i) sum += both[m - begin][1] * l[m];
+    const double old = b[i] - sum;
+    next[i] = old * inverse[i];
+    left[1] -= old * next[i];
+  }
+  inverse[i + 1] = Inverse(left[1], b[i + 1]);
 }
 
 void Skyline::SolvePart(std::vector<double>* x, int from, int to) const {
   const int* const start = start_.data();
   const int* const first = first_.data();
+  const char* const leads = leads_.data();
   const double* const factor = factor_.data();
   double* v = x->data();
-  for (int i = from; i < to; ++i) v[i] -= Dot(factor + start[i], v, first[i], i);
+  for (int i = from; i < to; ++i) {
+    const double* const a = factor + start[i];
+    if (!leads[i]) {
+      v[i] -= Dot(a, v, first[i], i);
+      continue;
+    }
+    const double* const b = factor + start[i + 1];
+    double even_a = 0, odd_a = 0, even_b = 0, odd_b = 0;
+    int k = first[i];
+    for (; k + 1 < i; k += 2) {
+      even_a += a[k] * v[k];
+      odd_a += a[k + 1] * v[k + 1];
+      even_b += b[k] * v[k];
+      odd_b += b[k + 1] * v[k + 1];
+    }
+    if (k < i) {
+      v[i] -= even_a + odd_a + a[k] * v[k];
+      even_b += b[k] * v[k];
+      odd_b += b[i] * v[i];
+      v[i + 1] -= even_b + odd_b;
+    } else {
+      v[i] -= even_a + odd_a;
+      v[i + 1] -= even_b + odd_b + b[i] * v[i];
+    }
+    ++i;
+  }
   for (int i = from; i < to; ++i) v[i] *= inverse_[static_cast<std::size_t>(i)];
   for (int i = to - 1; i >= from; --i) {
-    const double* l = factor + start[i];
+    const double* const b = factor + start[i];
     const double done = v[i];
-    if (done == 0) continue;
-    for (int k = first[i]; k < i; ++k) v[k] -= l[k] * done;
+    if (i == from || !leads[i - 1]) {
+      if (done == 0) continue;
+      for (int k = first[i]; k < i; ++k) v[k] -= b[k] * done;
+      continue;
+    }
+    --i;
+    const double* const a = factor + start[i];
+    v[i] -= b[i] * done;
+    const double before = v[i];
+    if (done == 0 && before == 0) continue;
+    for (int k = first[i]; k < i; ++k) v[k] = v[k] - b[k] * done - a[k] * before;
   }
 }
 

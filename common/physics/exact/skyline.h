@@ -15,7 +15,8 @@ class Skyline {
   int size() const { return static_cast<int>(first_.size()); }
   /// What one Factor costs at most, multiplications.
   long cost() const { return cost_; }
-  void Clear();
+  /// Makes the entries of rows from `from` on 0.
+  void Clear(int from = 0);
   /// Where the entry is, for `At`; requires first[row] <= column <= row.
   int Place(int row, int column) const { return start_[static_cast<std::size_t>(row)] + column; }
   double& At(int place) { return matrix_[static_cast<std::size_t>(place)]; }
@@ -31,8 +32,15 @@ class Skyline {
   void SolvePart(std::vector<double>* x, int from, int to) const;
 
  private:
+  using Two = double __attribute__((vector_size(16)));
+  void FactorOne(const char* in, int row);
+  void FactorTwo(const char* in, int row);
+
   std::vector<int> first_, start_;                 // entry (i, k) is at start_[i] + k
   std::vector<double> matrix_, factor_, inverse_;  // the last of D
+  std::vector<char>
+      leads_;             // whether a row and the next one, which begins where it does, go together
+  std::vector<Two> two_;  // room for two rows side by side
   long cost_ = 0;
 };
 

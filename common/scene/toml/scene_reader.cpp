@@ -5,41 +5,14 @@
 
 #include "common/base/check.h"
 #include "common/base/names.h"
+#include "common/base/nearest.h"
 #include "common/scene/toml/scene_text.h"
 
 namespace seam {
 namespace {
 
-/// Edit distance (Levenshtein 1966): insertions, deletions and changes from one to the other.
-std::size_t EditDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
-    }
-  }
-  return row[b.size()];
-}
-
-std::string Suggestion(const std::string& key, std::initializer_list<const char*> keys) {
-  std::string nearest;
-  std::size_t least = std::max<std::size_t>(2, key.size() / 3) + 1;
-  for (const char* known : keys) {
-    const std::size_t distance = EditDistance(key, known);
-    if (distance < least) {
-      least = distance;
-      nearest = known;
-    }
-  }
-  if (!nearest.empty()) return "did you mean '" + nearest + "'?";
-  std::string all = "known are";
-  for (const char* known : keys) all += std::string(" ") + known;
-  return all;
+std::string Suggested(const std::string& key, std::initializer_list<const char*> keys) {
+  return Suggestion(key, {keys.begin(), keys.end()}, keys.size());
 }
 
 }  // namespace
@@ -61,7 +34,7 @@ SceneReader::SceneReader(const TomlNode& table, const std::string& file, std::st
     const auto same = [&name](const char* known) { return name == known; };
     if (std::any_of(keys.begin(), keys.end(), same)) continue;
     const std::string shown = Printable(key);
-    FailLine(node.line, "unknown key '" + shown + "' (" + Suggestion(shown, keys) + ")");
+    FailLine(node.line, "unknown key '" + shown + "' (" + Suggested(shown, keys) + ")");
   }
 }
 

@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "common/base/geometry.h"
+#include "common/physics/blast_push.h"
 #include "common/physics/world_couplings.h"
 #include "common/scene/mass.h"
 #include "common/stages/bonds/bond_net.h"
@@ -12,6 +13,9 @@ namespace seam {
 namespace {
 
 using Eigen::Vector2d;
+
+/// Blasts of one tick whose strain on glue is looked at; those beyond break none.
+constexpr std::size_t kBlastsMax = 4;
 
 /// A body with glue in it.
 struct Glued {
@@ -59,11 +63,14 @@ class GlueStage : public Stage {
  public:
   explicit GlueStage(const StageWorld& world) : w_(world) {}
 
-  void Rebuilt(b2World* /*world*/) override {}
+  void Rebuilt(b2World* world) override { b2_ = world; }
+  void Emptied() override { b2_ = nullptr; }
   void BeforeTick() override;
   void AfterTick() override;
   void ProposeEdits(std::vector<Edit>* edits) override;
-  void Edited(const Edit& /*edit*/) override { stale_ = true; }
+  void Edited(const Edit& edit) override;
+  void Save(std::vector<float>* memory) const override;
+  std::size_t Load(const float* memory) override;
   bool listens() const override { return true; }
   void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
 
@@ -76,12 +83,16 @@ class GlueStage : public Stage {
   Glued* GluedWith(PartId part);
   void AddJoints(Glued* glued);
   void Strain(Glued* glued);
+  void FeelBlasts();
+  void Feel(const BlastHit& hit);
 
   const StageWorld w_;
   bool stale_ = true;  // the glue has changed since the bodies were looked at
   std::vector<Glued> glued_;
   std::vector<int> glued_of_;  // by assembly; -1: none
-  std::vector<int> breaking_;  // joints that the last tick was too much for
+  b2World* b2_ = nullptr;
+  std::vector<BlastEdit> blasts_;  // that have pushed the bodies since the last tick
+  std::vector<int> breaking_;      // joints that the last tick was too much for
 };
 
 void GlueStage::Look() {
@@ -138,6 +149,58 @@ void GlueStage::BeforeTick() {
   for (Glued& glued : glued_) {
     glued.spin = static_cast<double>(BodyOf(glued)->GetAngularVelocity());
   }
+  FeelBlasts();
+}
+
+void GlueStage::Edited(const Edit& edit) {
+  stale_ = true;
+  const BlastEdit* blast = edit.As<BlastEdit>();
+  const bool pushes = blast != nullptr && blast->impulse > 0 && w_.topology.Validate(edit).ok();
+  if (pushes && blasts_.size() < kBlastsMax) blasts_.push_back(*blast);
+}
+
+/// What the glue felt is found again from the poses, which are still those of the blast.
+void GlueStage::FeelBlasts() {
+  for (const BlastEdit& blast : blasts_) {
+    if (glued_.empty()) break;
+    for (const BlastHit& hit : HitsOf(*b2_, w_.topology.BricksLeft(), blast)) Feel(hit);
+  }
+  blasts_.clear();
+}
+
+void GlueStage::Feel(const BlastHit& hit) {
+  const auto part = static_cast<PartId>(PartOf(hit.fixture));
+  Glued* glued = GluedWith(part);
+  if (glued == nullptr) return;
+  b2Body* body = hit.fixture->GetBody();
+  const Vector2d impulse = FromB2(hit.impulse).cast<double>();
+  glued->felt.push_back({part, body->GetLocalPoint(hit.point), impulse});
+  glued->pushes += impulse.norm();
+  if (body->GetType() != b2_dynamicBody) return;
+  // The body turns by it already: before the blast it did not.
+  const Vector2d arm = FromB2(hit.point - body->GetWorldCenter()).cast<double>();
+  const float inertia =
+      body->GetInertia() - body->GetMass() * body->GetLocalCenter().LengthSquared();
+  if (inertia > 0) glued->spin -= Cross(arm, impulse) / static_cast<double>(inertia);
+}
+
+void GlueStage::Save(std::vector<float>* memory) const {
+  memory->push_back(static_cast<float>(blasts_.size()));
+  for (std::size_t i = 0; i < kBlastsMax; ++i) {
+    const BlastEdit blast = i < blasts_.size() ? blasts_[i] : BlastEdit{};
+    memory->insert(memory->end(),
+                   {blast.centre.x(), blast.centre.y(), blast.radius, blast.impulse});
+  }
+}
+
+std::size_t GlueStage::Load(const float* memory) {
+  blasts_.clear();
+  const auto count = std::min(static_cast<std::size_t>(memory[0]), kBlastsMax);
+  for (std::size_t i = 0; i < count; ++i) {
+    const float* m = memory + 1 + 4 * i;
+    blasts_.push_back({{m[0], m[1]}, m[2], 0, m[3]});
+  }
+  return 1 + 4 * kBlastsMax;
 }
 
 void GlueStage::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {

@@ -1,12 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <set>
 
+#include "common/physics/world_shapes.h"
 #include "common/scene/grouping.h"
+#include "common/stages/bonds/relative_rest.h"
 #include "common/stages/make_stages.h"
-#include "common/stages/stage_memory.h"
 
 namespace seam {
 namespace {
@@ -23,31 +23,48 @@ std::set<int> HeldAssemblies(const Scene& scene, const Composition& composition)
   return held;
 }
 
+/// What undoes a group moves against it by more than what joins one: else it would come and go.
+constexpr float kApart = 2;
+/// Ticks from one look at what rests to the next. Groups are watched in every tick.
+constexpr int kLookTicks = 4;
+
 class GroupStage : public Stage {
  public:
   explicit GroupStage(const StageWorld& world) : w_(world) {}
 
-  void Rebuilt(b2World* /*world*/) override {}
+  void Rebuilt(b2World* world) override { world_ = world; }
+  void Emptied() override { world_ = nullptr; }
   void BeforeTick() override;
   void AfterTick() override;
   void ProposeEdits(std::vector<Edit>* edits) override;
   void Edited(const Edit& edit) override;
-  void Save(std::vector<float>* memory) const override;
-  std::size_t Load(const float* memory) override;
+  void Save(std::vector<float>* memory) const override { pairs_.Save(memory); }
+  std::size_t Load(const float* memory) override { return pairs_.Load(memory); }
 
  private:
+  enum class State {
+    kAtRest,
+    kPressed,    // something overlaps it more than at rest: it does not join
+    kDisturbed,  // something moves against it, or it is shaken
+  };
+
   void Look();
-  bool Moves(int body) const;
+  bool IsShaken(int body) const;
   bool MayJoin(int body) const;
-  void Undo(int body);
+  RelativeMotion Disturb(b2Contact* contact);
+  void Note(const b2Contact& contact, State state);
+  void LookForPairs();
+  void WatchGroups();
   BondEdit BondOf(int body, int other) const;
 
   const StageWorld w_;
+  b2World* world_ = nullptr;
   bool stale_ = true;
-  std::vector<bool> single_;               // by body: no joint holds it
-  std::vector<std::vector<int>> groups_;   // by body: joints that a touch undoes
-  std::map<PartId, int> quiet_;            // ticks at rest, by assembly, up to the limit
+  std::vector<bool> single_;              // by body: no joint holds it
+  std::vector<std::vector<int>> groups_;  // by body: joints that a touch undoes
+  RestPairs pairs_;
   std::vector<b2Vec2> before_;             // m/s, by body, before the tick
+  std::vector<State> states_;              // by body, in this tick
   std::set<std::pair<int, int>> resting_;  // bodies to be grouped
   std::set<int> undone_;                   // joints
 };
@@ -81,53 +98,104 @@ void GroupStage::BeforeTick() {
   for (const MovingBody& m : w_.built.moving) before_.push_back(m.body->GetLinearVelocity());
 }
 
-bool GroupStage::Moves(int body) const {
+/// By what acts on all of it.
+bool GroupStage::IsShaken(int body) const {
   const b2Body* b = w_.built.moving[static_cast<std::size_t>(body)].body;
-  return b->IsAwake() && (b->GetLinearVelocity().Length() > kRestSpeed ||
-                          std::fabs(b->GetAngularVelocity()) > kRestSpin);
+  if (!b->IsAwake()) return false;
+  const Grouping& limits = *w_.scene.grouping;
+  const b2Vec2 change = b->GetLinearVelocity() - before_[static_cast<std::size_t>(body)];
+  const float a = change.Length() * static_cast<float>(w_.scene.solver.tick_hz);
+  return a > limits.acceleration || change.Length() > limits.impact ||
+         std::fabs(b->GetAngularVelocity()) > limits.spin;
 }
 
 bool GroupStage::MayJoin(int body) const {
-  const MovingBody& m = w_.built.moving[static_cast<std::size_t>(body)];
-  const auto quiet = quiet_.find(m.id);
-  const float limit = w_.scene.grouping->after * static_cast<float>(w_.scene.solver.tick_hz);
-  return single_[static_cast<std::size_t>(body)] && m.body->GetType() == b2_dynamicBody &&
-         quiet != quiet_.end() && static_cast<float>(quiet->second) >= limit;
+  return single_[static_cast<std::size_t>(body)] &&
+         w_.built.moving[static_cast<std::size_t>(body)].body->GetType() == b2_dynamicBody;
 }
 
-void GroupStage::Undo(int body) {
-  const std::vector<int>& joints = groups_[static_cast<std::size_t>(body)];
-  undone_.insert(joints.begin(), joints.end());
+/// Both are disturbed if they move against each other. The engine's boxes meet before the shapes
+/// do: what comes finds single bodies again.
+RelativeMotion GroupStage::Disturb(b2Contact* contact) {
+  b2Body* const bodies[] = {contact->GetFixtureA()->GetBody(), contact->GetFixtureB()->GetBody()};
+  const auto wakes = [](b2Body* b) { return b->GetType() != b2_staticBody && b->IsAwake(); };
+  if (!wakes(bodies[0]) && !wakes(bodies[1])) return {};
+  const RelativeMotion motion = MotionAt(w_, contact);
+  const bool moved = motion.speed > kApart * kRestSpeed || motion.spin > kApart * kRestSpin;
+  if (moved) Note(*contact, State::kDisturbed);
+  return motion;
+}
+
+void GroupStage::Note(const b2Contact& contact, State state) {
+  for (const b2Fixture* fixture : {contact.GetFixtureA(), contact.GetFixtureB()}) {
+    const int index = IndexOf(const_cast<b2Fixture*>(fixture)->GetBody());
+    if (index < 0) continue;
+    State& now = states_[static_cast<std::size_t>(index)];
+    now = std::max(now, state);
+  }
+}
+
+/// Counts how long things have rested, and finds what is to be grouped.
+void GroupStage::LookForPairs() {
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    if (IsShaken(static_cast<int>(b))) states_[b] = State::kDisturbed;
+  }
+  std::vector<NearPair> near;
+  for (b2Contact* c = world_->GetContactList(); c != nullptr; c = c->GetNext()) {
+    b2Fixture* const one = c->GetFixtureA();
+    b2Fixture* const other = c->GetFixtureB();
+    if (one->IsSensor() || other->IsSensor()) continue;
+    const RelativeMotion motion = Disturb(c);
+    if (IsPressed(c)) Note(*c, State::kPressed);
+    const int a = IndexOf(one->GetBody()), b = IndexOf(other->GetBody());
+    if (a < 0 || b < 0 || !MayJoin(a) || !MayJoin(b)) continue;
+    const bool still = motion.speed <= kRestSpeed && motion.spin <= kRestSpin;
+    const auto p = static_cast<PartId>(PartOf(one)), q = static_cast<PartId>(PartOf(other));
+    near.push_back(p < q ? NearPair{p, q, a, b, still, c->IsTouching(), 0}
+                         : NearPair{q, p, b, a, still, c->IsTouching(), 0});
+  }
+  const auto rests = [this](int body) {
+    return states_[static_cast<std::size_t>(body)] == State::kAtRest;
+  };
+  for (NearPair& pair : near) {
+    pair.still = pair.still && rests(pair.body_a) && rests(pair.body_b);
+  }
+  const float ticks = w_.scene.grouping->after * static_cast<float>(w_.scene.solver.tick_hz);
+  const int limit = 1 + static_cast<int>(std::ceil(ticks / kLookTicks));
+  pairs_.Count(std::move(near), limit);
+  for (const NearPair& pair : pairs_.pairs()) {
+    if (pair.looks < limit || !pair.touching) continue;
+    resting_.insert(std::minmax(pair.body_a, pair.body_b));
+  }
+}
+
+/// What groups meet, each contact once.
+void GroupStage::WatchGroups() {
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    if (groups_[b].empty()) continue;
+    if (IsShaken(static_cast<int>(b))) states_[b] = State::kDisturbed;
+    b2Body* const body = w_.built.moving[b].body;
+    for (b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
+      const int other = IndexOf(edge->other);
+      const bool seen = other >= 0 && other < static_cast<int>(b) &&  // from there
+                        !groups_[static_cast<std::size_t>(other)].empty();
+      const b2Contact& contact = *edge->contact;
+      if (seen || contact.GetFixtureA()->IsSensor() || contact.GetFixtureB()->IsSensor()) continue;
+      Disturb(edge->contact);
+    }
+  }
 }
 
 void GroupStage::AfterTick() {
-  const int bodies = static_cast<int>(w_.built.moving.size());
-  const auto most =
-      static_cast<int>(w_.scene.grouping->after * static_cast<float>(w_.scene.solver.tick_hz)) + 1;
-  std::vector<bool> moves;
-  for (int body = 0; body < bodies; ++body) {
-    moves.push_back(Moves(body));
-    int& quiet = quiet_[w_.built.moving[static_cast<std::size_t>(body)].id];
-    quiet = moves.back() ? 0 : std::min(quiet + 1, most);
+  states_.assign(w_.built.moving.size(), State::kAtRest);
+  if (w_.tick % kLookTicks == 0) {
+    LookForPairs();
+  } else {
+    WatchGroups();
   }
-  for (int body = 0; body < bodies; ++body) {
-    const MovingBody& m = w_.built.moving[static_cast<std::size_t>(body)];
-    const b2Vec2 change = m.body->GetLinearVelocity() - before_[static_cast<std::size_t>(body)];
-    if (moves[static_cast<std::size_t>(body)] || change.Length() > w_.scene.grouping->impact) {
-      Undo(body);
-    }
-    const bool ripe = MayJoin(body);
-    if (!ripe && !moves[static_cast<std::size_t>(body)]) continue;
-    for (const b2ContactEdge* edge = m.body->GetContactList(); edge; edge = edge->next) {
-      const int other = IndexOf(edge->other);
-      const bool sensor =
-          edge->contact->GetFixtureA()->IsSensor() || edge->contact->GetFixtureB()->IsSensor();
-      if (other < 0 || sensor) continue;
-      // The engine's boxes meet before the shapes do.
-      if (moves[static_cast<std::size_t>(body)]) Undo(other);
-      const bool touch = edge->contact->IsTouching();
-      if (touch && ripe && body < other && MayJoin(other)) resting_.insert({body, other});
-    }
+  for (std::size_t b = 0; b < states_.size(); ++b) {
+    if (states_[b] != State::kDisturbed) continue;
+    undone_.insert(groups_[b].begin(), groups_[b].end());
   }
 }
 
@@ -173,16 +241,9 @@ void GroupStage::Edited(const Edit& edit) {
   if (broken->joint >= static_cast<int>(w_.scene.joints.size())) return;
   const Joint& joint = w_.scene.joints[static_cast<std::size_t>(broken->joint)];
   if (!joint.grouped) return;
-  for (const PartId part : {joint.a, joint.b}) {
-    const int assembly = w_.composition.assembly_of_part[static_cast<std::size_t>(part)];
-    if (assembly < 0) continue;
-    quiet_[w_.composition.assemblies[static_cast<std::size_t>(assembly)].id] = 0;
-  }
+  pairs_.Forget(joint.a);
+  pairs_.Forget(joint.b);
 }
-
-void GroupStage::Save(std::vector<float>* memory) const { SaveTicks(quiet_, memory); }
-
-std::size_t GroupStage::Load(const float* memory) { return LoadTicks(memory, &quiet_); }
 
 }  // namespace
 

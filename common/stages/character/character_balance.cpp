@@ -1,4 +1,4 @@
-/// CharacterControl: standing and stepping.
+/// CharacterControl: what bears and moves a body on its legs, and standing.
 
 #include <algorithm>
 #include <cmath>
@@ -7,24 +7,15 @@
 #include "common/stages/character/character_gains.h"
 
 namespace seam {
-namespace {
-
-float Smooth(float t) {
-  const float u = std::clamp(t, 0.0f, 1.0f);
-  return u * u * (3 - 2 * u);
-}
-
-}  // namespace
-
 float CharacterControl::TorsoTorque(const CharacterSense& s, float lean) const {
   return unit_ * (gains_.torso_stiffness * (lean - s.torso) - gains_.torso_damping * s.torso_spin);
 }
 
 float CharacterControl::Lift(const CharacterSense& s, float ground_y, float hip_height,
-                             float ground_vy) const {
+                             float ground_vy, float stiffness, float damping) const {
   const float error = ground_y + hip_height - s.hip.y;
-  const float proposed = s.mass * (gravity_ + gains_.height_stiffness * error / limbs_.scale() -
-                                   gains_.height_damping * (s.hip_velocity.y - ground_vy));
+  const float proposed = s.mass * (gravity_ + stiffness * error / limbs_.scale() -
+                                   damping * (s.hip_velocity.y - ground_vy));
   return std::clamp(proposed, gains_.lift_min * s.mass * gravity_,
                     gains_.lift_max * s.mass * gravity_);
 }
@@ -143,128 +134,6 @@ void CharacterControl::Stand(const CharacterSense& s) {
     }
   }
   Arms(0.1f, -0.1f, 0.3f);
-}
-
-float CharacterControl::StepTime() const { return gains_.step_time * std::sqrt(limbs_.scale()); }
-
-void CharacterControl::BeginStep(const CharacterSense& s, int stance) {
-  memory_.stance = stance;
-  memory_.step = 0;
-  memory_.from = s.legs[1 - stance].ankle;
-}
-
-CharacterControl::Foothold CharacterControl::NextFoothold(const CharacterSense& s,
-                                                          float support_x) const {
-  const CharacterShape& shape = limbs_.shape();
-  const LegSense& stance = s.legs[memory_.stance];
-  const float ground_y = stance.ankle.y - shape.ankle;
-  const float omega = Omega(s, ground_y);
-  const float whole = StepTime();
-  const float left = std::max(whole - memory_.step, 0.0f);
-  // The divergent component at the end of the step, if the pressure stays where it is, and how far
-  // ahead of the next foot it must then be.
-  const float now = s.centre.x + (s.velocity.x - stance.ground_velocity.x) / omega;
-  const float then = support_x + (now - support_x) * std::exp(omega * left);
-  const float ahead = memory_.speed * whole / (std::exp(omega * whole) - 1);
-  const float middle = (shape.toe - shape.heel) / 2;
-  const float hip_then = s.hip.x + left * s.velocity.x;
-  Foothold next;
-  next.ankle.x = std::clamp(then - ahead - middle, hip_then - gains_.reach_back * limbs_.scale(),
-                            hip_then + gains_.reach_max * limbs_.scale());
-  // Not across the edge of a stair, if there is room beside it.
-  const float from_y = ground_y + 0.5f * shape.hip, depth = 1.2f * shape.hip;
-  const float wished = next.ankle.x;
-  for (const float aside : kAside) {
-    const float x = wished + aside * limbs_.scale();
-    const GroundPoint heel = limbs_.GroundBelow(b2Vec2(x - shape.heel, from_y), depth);
-    const GroundPoint toe = limbs_.GroundBelow(b2Vec2(x + shape.toe, from_y), depth);
-    const float heel_y = heel.found ? heel.point.y : ground_y;
-    const float toe_y = toe.found ? toe.point.y : ground_y;
-    const float length = shape.heel + shape.toe;
-    const bool flat = std::abs(toe_y - heel_y) < gains_.slope_max * length &&
-                      (heel.normal - toe.normal).Length() < 0.3f;
-    if (!flat && aside != kAside[0]) continue;
-    next.ankle.Set(x, std::max(heel_y, toe_y) + shape.ankle);
-    next.slope = 0;
-    if (!flat) continue;
-    next.slope = std::atan2(toe_y - heel_y, length);
-    next.ankle.y = heel_y + (toe_y - heel_y) * shape.heel / length + shape.ankle;
-    break;
-  }
-  return next;
-}
-
-/// Of the swinging foot, at `time` s: up, over, down to where it is to stand.
-b2Vec2 CharacterControl::SwingAt(float time, const Foothold& to) const {
-  const float whole = StepTime();
-  const float t = time / whole;
-  const b2Vec2 from = memory_.from;
-  // Onto a stair it goes up before it goes on.
-  const bool stair = to.ankle.y > from.y + 0.05f * limbs_.scale() && std::abs(to.slope) < 0.05f;
-  const float wait = stair ? gains_.stair_wait : 0;
-  const float lifted = stair ? gains_.stair_lifted : gains_.lifted;
-  const float x = from.x + (to.ankle.x - from.x) * Smooth((t - wait) / (gains_.arrive - wait));
-  const float top = std::max(from.y, to.ankle.y) +
-                    (stair ? gains_.stair_clearance : gains_.clearance) * limbs_.scale();
-  const float y = t < 0.5f ? from.y + (top - from.y) * Smooth(t / lifted)
-                           : top + (to.ankle.y - top) * Smooth((t - 0.5f) / 0.5f);
-  const float late = t > 1 ? gains_.search * limbs_.scale() * (time - whole) : 0;
-  return b2Vec2(x, y - late);
-}
-
-void CharacterControl::Swing(const CharacterSense& s, int side, const Foothold& to) {
-  constexpr float kAhead = 0.01f;  // s, for the foot's velocity
-  const b2Vec2 now = SwingAt(memory_.step, to);
-  const b2Vec2 then = SwingAt(memory_.step + kAhead, to);
-  Reach(s, side, now, 1 / kAhead * (then - now), to.slope, gains_.swing_stiffness);
-}
-
-void CharacterControl::StepOn(const CharacterSense& s, float h) {
-  const CharacterShape& shape = limbs_.shape();
-  memory_.step += h;
-  const float most = drive_ > 0 ? gains_.run_speed_max : gains_.speed_back;
-  const float proposed = most * std::sqrt(limbs_.scale()) * drive_;
-  memory_.speed +=
-      std::clamp(proposed - memory_.speed, -gains_.speed_rate * h, gains_.speed_rate * h);
-  const float whole = StepTime();
-  const int swing = 1 - memory_.stance;
-  if (s.legs[swing].down && memory_.step > 0.5f * whole) {
-    BeginStep(s, swing);
-    const LegSense& leg = s.legs[swing];
-    const float relative = s.velocity.x - leg.ground_velocity.x;
-    const float capture = s.centre.x + relative / Omega(s, leg.ankle.y - shape.ankle);
-    const float low = std::min(leg.ankle.x, s.legs[1 - swing].ankle.x) - shape.heel;
-    const float high = std::max(leg.ankle.x, s.legs[1 - swing].ankle.x) + shape.toe;
-    const float in = 0.04f * limbs_.scale();
-    if (std::abs(drive_) < 0.1f && std::abs(relative) < 0.6f && capture > low + in &&
-        capture < high - in && s.legs[1 - swing].down) {
-      Enter(CharacterMode::kStand);
-      Stand(s);
-      return;
-    }
-  }
-  const LegSense& stance = s.legs[memory_.stance];
-  const float ground_y = stance.ankle.y - shape.ankle;
-  const float relative = s.velocity.x - stance.ground_velocity.x;
-  const float middle = stance.ankle.x + (shape.toe - shape.heel) / 2;
-  const float pressure = middle + 0.15f * (relative - memory_.speed);
-  const int swing_side = 1 - memory_.stance;
-  const Foothold next = NextFoothold(s, middle);
-  Swing(s, swing_side, next);
-  // The height that the hip keeps is above the line from foot to foot.
-  const b2Vec2 way = next.ankle - stance.ankle;
-  const bool apart = std::abs(way.x) > 0.15f * shape.hip;
-  const float rise = apart ? std::clamp(way.y / way.x, -gains_.slope_max, gains_.slope_max) : 0;
-  const float along = apart ? std::clamp((s.hip.x - stance.ankle.x) / way.x, 0.0f, 1.0f) : 0;
-  const float floor_y = ground_y + along * rise * way.x;
-  const float floor_vy = stance.ground_velocity.y + rise * memory_.speed;
-  const float lean = -gains_.lean * std::abs(memory_.speed);
-  const float torso = TorsoTorque(s, lean) + limbs_.told(Hip(swing_side));
-  Bear(s, memory_.stance, pressure,
-       Lift(s, floor_y, (gains_.step_height - gains_.crouch * std::abs(memory_.speed)) * shape.hip,
-            floor_vy),
-       torso);
-  Arms(-0.8f * s.legs[0].thigh, -0.8f * s.legs[1].thigh, 0.7f);
 }
 
 }  // namespace seam

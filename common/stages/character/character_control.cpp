@@ -16,9 +16,10 @@ constexpr float kLimpLift = -0.9f;
 }  // namespace
 
 void CharacterMemory::Save(std::vector<float>* memory) const {
-  memory->insert(memory->end(), {static_cast<float>(mode), time, static_cast<float>(stance), step,
-                                 from.x, from.y, speed, static_cast<float>(phase), phase_time,
-                                 hold[0], hold[1], load[0], load[1], limp});
+  memory->insert(memory->end(),
+                 {static_cast<float>(mode), time, static_cast<float>(stance), step, from.x, from.y,
+                  to, edge.x, edge.y, speed, static_cast<float>(phase), phase_time, hold[0],
+                  hold[1], load[0], load[1], limp});
 }
 
 std::size_t CharacterMemory::Load(const float* memory) {
@@ -27,15 +28,17 @@ std::size_t CharacterMemory::Load(const float* memory) {
   stance = static_cast<int>(memory[2]);
   step = memory[3];
   from.Set(memory[4], memory[5]);
-  speed = memory[6];
-  phase = static_cast<int>(memory[7]);
-  phase_time = memory[8];
-  hold[0] = memory[9];
-  hold[1] = memory[10];
-  load[0] = memory[11];
-  load[1] = memory[12];
-  limp = memory[13];
-  return 14;
+  to = memory[6];
+  edge.Set(memory[7], memory[8]);
+  speed = memory[9];
+  phase = static_cast<int>(memory[10]);
+  phase_time = memory[11];
+  hold[0] = memory[12];
+  hold[1] = memory[13];
+  load[0] = memory[14];
+  load[1] = memory[15];
+  limp = memory[16];
+  return 17;
 }
 
 CharacterControl::CharacterControl(const Character& character, const StageWorld& world)

@@ -25,19 +25,24 @@ namespace seam {
 
 enum class CharacterMode { kStand, kStep, kJump, kAir, kFall, kRise, kSwim, kLimp, kClimb };
 
+/// m; x of an edge that is not there.
+constexpr float kNoEdge = 1e6f;
+
 /// All that a controller remembers; numbers only, so that a world can save it.
 struct CharacterMemory {
   CharacterMode mode = CharacterMode::kStand;
-  float time = 0;        ///< s in this mode
-  int stance = 0;        ///< kStep: the side that bears
-  float step = 0;        ///< s; kStep: since the swinging foot left the ground
-  b2Vec2 from{0, 0};     ///< m; kStep: where it left, own frame
-  float speed = 0;       ///< m/s that is wished for now
-  int phase = 0;         ///< kRise: of the way up
-  float phase_time = 0;  ///< s in it; kSwim: turns of the arms
-  float hold[2] = {};    ///< 1: the hand is to hold what it touches; -x: for x s it cannot
-  float load[2] = {};    ///< N; what each hand bears, the mean of the last moment
-  float limp = 0;        ///< s that it stays limp after a blow
+  float time = 0;           ///< s in this mode
+  int stance = 0;           ///< kStep: the side that bears
+  float step = 0;           ///< s; kStep: since the swinging foot left the ground
+  b2Vec2 from{0, 0};        ///< m; kStep: where it left, own frame
+  float to = 0;             ///< m; kStep: where its ankle is to stand, own frame
+  b2Vec2 edge{kNoEdge, 0};  ///< m; kStep: of the first stair before it
+  float speed = 0;          ///< m/s that is wished for now
+  int phase = 0;            ///< kRise: of the way up
+  float phase_time = 0;     ///< s in it; kSwim: turns of the arms
+  float hold[2] = {};       ///< 1: the hand is to hold what it touches; -x: for x s it cannot
+  float load[2] = {};       ///< N; what each hand bears, the mean of the last moment
+  float limp = 0;           ///< s that it stays limp after a blow
 
   void Save(std::vector<float>* memory) const;
   std::size_t Load(const float* memory);
@@ -74,16 +79,6 @@ class CharacterControl {
 
   // character_balance.cpp
   void Stand(const CharacterSense& s);
-  void StepOn(const CharacterSense& s, float h);
-  void BeginStep(const CharacterSense& s, int stance);
-  /// Where the swinging foot is to stand: its ankle, and the ground's slope there, rad.
-  struct Foothold {
-    b2Vec2 ankle{0, 0};
-    float slope = 0;
-  };
-  Foothold NextFoothold(const CharacterSense& s, float support_x) const;
-  b2Vec2 SwingAt(float time, const Foothold& to) const;
-  void Swing(const CharacterSense& s, int side, const Foothold& to);
   void Bear(const CharacterSense& s, int side, float pressure_x, float lift, float torso_torque);
   void Push(const CharacterSense& s, int side, b2Vec2 pressure, float lift, float forward);
   b2Vec2 Sole(const CharacterSense& s, int side, float x) const;
@@ -93,10 +88,36 @@ class CharacterControl {
   LegPose PoseFor(b2Vec2 way) const;
   void Reach(const CharacterSense& s, int side, b2Vec2 ankle, b2Vec2 velocity, float foot,
              float stiffness);
-  float StepTime() const;
   float TorsoTorque(const CharacterSense& s, float lean) const;
-  float Lift(const CharacterSense& s, float ground_y, float hip_height, float ground_vy) const;
+  float Lift(const CharacterSense& s, float ground_y, float hip_height, float ground_vy,
+             float stiffness, float damping) const;
+  float Lift(const CharacterSense& s, float ground_y, float hip_height, float ground_vy) const {
+    return Lift(s, ground_y, hip_height, ground_vy, gains_.height_stiffness, gains_.height_damping);
+  }
   void Arms(float left, float right, float elbow);
+
+  // character_step.cpp
+  void StepOn(const CharacterSense& s, float h);
+  float StepTime() const;
+  void BeginStep(const CharacterSense& s, int stance);
+  /// Where the swinging foot is to stand: its ankle, and the ground's slope there, rad.
+  struct Foothold {
+    b2Vec2 ankle{0, 0};
+    float slope = 0;
+  };
+  /// Of the ground that the step goes over.
+  struct StairGait {
+    float speed, time, height, ahead, lean;
+  };
+  StairGait Stairs() const;
+  float Ahead(float omega) const;
+  b2Vec2 EdgeAhead(const CharacterSense& s, float from_x) const;
+  float WishedFoothold(const CharacterSense& s, float support_x) const;
+  bool FlatAt(const CharacterSense& s, float x, float rim, Foothold* foothold) const;
+  Foothold NextFoothold(const CharacterSense& s, float support_x) const;
+  float StepRate(const CharacterSense& s, float support_x, float foothold_x) const;
+  b2Vec2 SwingAt(float time, const Foothold& to) const;
+  void Swing(const CharacterSense& s, int side, const Foothold& to);
 
   // character_air.cpp
   void Jump(const CharacterSense& s);
@@ -105,6 +126,8 @@ class CharacterControl {
   // character_rise.cpp
   void Fall(const CharacterSense& s);
   void Rise(const CharacterSense& s, float h);
+  float SlopeBelow(const CharacterSense& s) const;
+  LegPose Gathered(const CharacterSense& s, float place, float lead, float slope) const;
   void Up(const CharacterSense& s);
 
   // character_swim.cpp

@@ -18,7 +18,4 @@ std::vector<std::string> GainNames();
 /// The gain of this name, to be read or set; nullptr if there is none.
 float* FindGain(CharacterGains* gains, const std::string& name);
 
-/// m beside the wished foothold, where it looks for a flat one; the first is taken if none is.
-constexpr float kAside[] = {0, 0.08f, -0.08f, 0.16f, -0.16f, 0.24f};
-
 }  // namespace seam

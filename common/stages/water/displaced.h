@@ -31,6 +31,10 @@ AreaMoments AreaWithin(const Vec2d* corners, int count, const Bounds& bounds);
 /// a polygon of 64 corners of the same area.
 AreaMoments DiscWithin(const Vec2d& centre, double radius, const Bounds& bounds);
 
+/// Shortens a way to what of it lies within the bounds (Liang and Barsky 1984); false if nothing
+/// does.
+bool Shorten(const Bounds& bounds, Vec2d* from, Vec2d* to);
+
 /// Adds an area to another.
 void Add(const AreaMoments& more, AreaMoments* sum);
 

@@ -47,27 +47,6 @@ AreaMoments DisplacedByCells(const WetCells& cells, const FloatingBody& body, co
   return sum;
 }
 
-/// Shortens a way to what lies within the bounds (Liang and Barsky 1984); false if nothing does.
-bool Shorten(const Bounds& bounds, Vec2d* from, Vec2d* to) {
-  const Vec2d along = *to - *from;
-  double first = 0, last = 1;
-  for (int axis = 0; axis < 2; ++axis) {
-    const double step = along[axis];
-    const double low = bounds.min[axis] - (*from)[axis], high = bounds.max[axis] - (*from)[axis];
-    if (step == 0) {
-      if (low > 0 || high < 0) return false;
-      continue;
-    }
-    first = std::max(first, (step > 0 ? low : high) / step);
-    last = std::min(last, (step > 0 ? high : low) / step);
-  }
-  if (first >= last) return false;
-  const Vec2d start = *from;
-  *from = start + first * along;
-  *to = start + last * along;
-  return true;
-}
-
 }  // namespace
 
 Bounds BoundsOf(const Water& water) { return {water.min.cast<double>(), water.max.cast<double>()}; }

@@ -20,7 +20,10 @@ EditOrder ToOrder(const Edit& edit) {
                    order.value = {e.position.x(), e.position.y(), e.angle, e.strength};
                  },
                  [&](const InsertEdit& e) { order.text = e.text; },
-                 [&](const RemoveEdit& e) { order.a = Id(e.part); },
+                 [&](const RemoveEdit& e) {
+                   order.a = Id(e.part);
+                   order.joint = e.left_bounds ? 1 : -1;
+                 },
                  [&](const FreeEdit& e) { order.a = Id(e.part); },
                  [&](const PushEdit& e) {
                    order.a = Id(e.part);
@@ -31,7 +34,7 @@ EditOrder ToOrder(const Edit& edit) {
                    order.player = static_cast<std::int16_t>(e.player);
                  },
                  [&](const BlastEdit& e) {
-                   order.value = {e.centre.x(), e.centre.y(), e.speed, e.radius};
+                   order.value = {e.centre.x(), e.centre.y(), e.speed, e.radius, e.impulse};
                  }},
       edit.what);
   return order;
@@ -52,11 +55,11 @@ Edit ToEdit(const EditOrder& order) {
       break;
     }
     case 3: what = InsertEdit{order.text}; break;
-    case 4: what = RemoveEdit{order.a}; break;
+    case 4: what = RemoveEdit{order.a, order.joint == 1}; break;
     case 5: what = FreeEdit{order.a}; break;
     case 6: what = PushEdit{order.a, xy, angle}; break;
     case 7: what = SeatEdit{order.a, order.player}; break;
-    case 8: what = BlastEdit{xy, amount, angle}; break;
+    case 8: what = BlastEdit{xy, amount, angle, order.value.size() > 4 ? order.value[4] : 0}; break;
     default: break;
   }
   return Edit(what, static_cast<EditCause>(order.cause));

@@ -8,6 +8,7 @@ const std::vector<Ability>& Abilities() {
                                                  {"float", "m/s", TryFloat},
                                                  {"rise", "s", TryRise},
                                                  {"stairs", "s", TryStairs},
+                                                 {"slope", "s", TrySlope},
                                                  {"shove", "s", TryShove},
                                                  {"walk", "m/s", TryWalk},
                                                  {"climb", "s", TryClimb}};

@@ -38,6 +38,7 @@ GaitTrial TrySwim(const GaitSetup& setup, const CharacterGains& gains, int start
 GaitTrial TryFloat(const GaitSetup& setup, const CharacterGains& gains, int start);
 GaitTrial TryRise(const GaitSetup& setup, const CharacterGains& gains, int start);
 GaitTrial TryStairs(const GaitSetup& setup, const CharacterGains& gains, int start);
+GaitTrial TrySlope(const GaitSetup& setup, const CharacterGains& gains, int start);
 GaitTrial TryShove(const GaitSetup& setup, const CharacterGains& gains, int start);
 GaitTrial TryWalk(const GaitSetup& setup, const CharacterGains& gains, int start);
 GaitTrial TryClimb(const GaitSetup& setup, const CharacterGains& gains, int start);

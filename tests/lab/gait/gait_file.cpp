@@ -28,6 +28,25 @@ StartRange Starts(const SceneReader& file, const std::string& path, const char* 
   return range;
 }
 
+std::string KnownAbility(const SceneReader& r) {
+  const std::string ability = r.Text("ability");
+  if (FindAbility(ability) == nullptr) {
+    std::string known;
+    for (const Ability& each : Abilities()) known += (known.empty() ? "" : ", ") + each.name;
+    r.FailAt("ability", fmt::format("no ability '{}' (there are {})", ability, known));
+  }
+  return ability;
+}
+
+AlsoTrained Also(const TomlNode& node, const std::string& path) {
+  const SceneReader r(node, path, "also", {"ability", "train", "weight"});
+  AlsoTrained also;
+  also.ability = KnownAbility(r);
+  also.train = Starts(r, path, "train");
+  also.weight = r.Seconds("weight", {0, 1000}, 1.0);
+  return also;
+}
+
 SearchedGain Gain(const TomlNode& node, const std::string& path) {
   const SceneReader r(node, path, "gain", {"name", "start", "sigma", "min", "max"});
   SearchedGain gain;
@@ -56,14 +75,9 @@ GaitFile ReadGaitFile(const std::string& path) {
   const TomlNode tree = ParseToml(text, path);
   const SceneReader r(tree, path, "objective",
                       {"ability", "train", "held_out", "solver", "character", "lambda",
-                       "generations", "seed", "gain"});
+                       "generations", "seed", "also", "gain"});
   GaitFile file;
-  file.ability = r.Text("ability");
-  if (FindAbility(file.ability) == nullptr) {
-    std::string known;
-    for (const Ability& each : Abilities()) known += (known.empty() ? "" : ", ") + each.name;
-    r.FailAt("ability", fmt::format("no ability '{}' (there are {})", file.ability, known));
-  }
+  file.ability = KnownAbility(r);
   file.train = Starts(r, path, "train");
   file.held_out = Starts(r, path, "held_out");
   const bool apart = file.train.from + file.train.count <= file.held_out.from ||
@@ -74,6 +88,7 @@ GaitFile ReadGaitFile(const std::string& path) {
   file.lambda = r.Integer("lambda", {2, 1000}, file.lambda);
   file.generations = r.Integer("generations", {1, 100000}, file.generations);
   file.seed = r.Integer("seed", {0, kStartMax}, file.seed);
+  for (const TomlNode* node : r.Tables("also")) file.also.push_back(Also(*node, path));
   for (const TomlNode* node : r.Tables("gain")) {
     file.gains.push_back(Gain(*node, path));
     const auto same = std::count_if(file.gains.begin(), file.gains.end(), [&](const auto& g) {

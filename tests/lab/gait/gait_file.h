@@ -19,11 +19,19 @@ struct StartRange {
   int from = 1, count = 1;
 };
 
+/// Another ability that the search must not spoil.
+struct AlsoTrained {
+  std::string ability;
+  StartRange train;
+  double weight = 1;  ///< of its mean cost beside that of the ability that is searched
+};
+
 struct GaitFile {
   std::string ability;                  ///< a name of Abilities()
   StartRange train, held_out;           ///< without a start in common
   std::string solver = "substeps = 4";  ///< lines of [solver]
   std::string character;                ///< more lines of [[character]]
+  std::vector<AlsoTrained> also;
   int lambda = 15, generations = 40, seed = 1;
   std::vector<SearchedGain> gains;
 };

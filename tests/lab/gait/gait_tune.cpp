@@ -16,14 +16,22 @@ namespace {
 /// How much a sample costs for each deviation, squared, that it is beyond its bounds.
 constexpr double kBeyond = 0.1;
 
-double MeanCost(const GaitFile& file, const CharacterGains& gains) {
-  const Ability& ability = *FindAbility(file.ability);
+double MeanCost(const GaitFile& file, const std::string& name, const StartRange& starts,
+                const CharacterGains& gains) {
+  const Ability& ability = *FindAbility(name);
   const GaitSetup setup{file.solver, file.character};
   double cost = 0;
-  for (int i = 0; i < file.train.count; ++i) {
-    cost += ability.run(setup, gains, file.train.from + i).cost;
+  for (int i = 0; i < starts.count; ++i) cost += ability.run(setup, gains, starts.from + i).cost;
+  return cost / starts.count;
+}
+
+/// Of the ability that is searched, and of the others by their weights.
+double TrainingCost(const GaitFile& file, const CharacterGains& gains) {
+  double cost = MeanCost(file, file.ability, file.train, gains);
+  for (const AlsoTrained& also : file.also) {
+    cost += also.weight * MeanCost(file, also.ability, also.train, gains);
   }
-  return cost / file.train.count;
+  return cost;
 }
 
 /// `work` for each index as numbers, several at a time. Throws what a job throws.
@@ -69,7 +77,7 @@ CharacterGains StartGains(const GaitFile& file) {
 GaitResult TuneGait(const GaitFile& file, int jobs,
                     const std::function<void(const GaitGeneration&)>& done) {
   GaitResult result;
-  result.before = result.after = MeanCost(file, result.gains);
+  result.before = result.after = TrainingCost(file, result.gains);
   const auto n = static_cast<Eigen::Index>(file.gains.size());
   CmaEs search(CmaEs::Point::Zero(n), 1, file.lambda, static_cast<std::uint64_t>(file.seed));
   for (int generation = 1; generation <= file.generations; ++generation) {
@@ -78,7 +86,7 @@ GaitResult TuneGait(const GaitFile& file, int jobs,
     const std::vector<std::string> texts = Results(samples.size(), jobs, [&](std::size_t i) {
       double beyond = 0;
       const CharacterGains gains = GainsOf(file, samples[i], &beyond);
-      return fmt::format("{}", MeanCost(file, gains) + kBeyond * beyond);
+      return fmt::format("{}", TrainingCost(file, gains) + kBeyond * beyond);
     });
     if (g_stop != 0) {
       result.complete = false;

@@ -43,10 +43,19 @@ const std::vector<Title>& Titles() {
        JudgeRagdolls},
       {"obstacle", "ann and bob have passed each other and stand on the other's side.",
        JudgeObstacle},
+      {"freight",
+       "Sixty crates become one body within 2 s and stay so over the seam; the brake makes them "
+       "single and moves none by 0.1 m; a keg then moves ten or more.",
+       JudgeFreight},
       {"playground",
        "ann gets in, drives over the seam and gets out; the crawler moves crates, the boat crosses "
        "into dee's region, the tower falls, the ragdoll comes down, and ann has 20 points.",
        JudgePlayground},
+      {"battlefield",
+       "The crate in the open flies 2 m or more and the one behind the wall moves less "
+       "than a twentieth of that; the hut comes down to below 1.5 m and a limb comes off; "
+       "ann and bob are thrown and stand again at the end.",
+       JudgeBattlefield},
   };
   return titles;
 }

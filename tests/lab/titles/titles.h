@@ -50,6 +50,8 @@ void JudgeGluehouse(const Screen& screen, Claims* claims);
 void JudgeSkyline(const Screen& screen, Claims* claims);
 void JudgeRagdolls(const Screen& screen, Claims* claims);
 void JudgeObstacle(const Screen& screen, Claims* claims);
+void JudgeFreight(const Screen& screen, Claims* claims);
 void JudgePlayground(const Screen& screen, Claims* claims);
+void JudgeBattlefield(const Screen& screen, Claims* claims);
 
 }  // namespace seam

@@ -20,9 +20,11 @@ const std::vector<WorldBench>& WorldBenches();
 
 // Each in its own file tests/lab/world/NAME.cpp, and named in benches.cpp.
 TextTable FeatherweightBench(bool quick);
+TextTable AnchoredBench(bool quick);
 TextTable WaterBench(bool quick);
 TextTable AssemblyBench(bool quick);
 TextTable GroupingBench(bool quick);
+TextTable GroupingMovingBench(bool quick);
 TextTable JointsBench(bool quick);
 TextTable CharactersBench(bool quick);
 TextTable FactorBench(bool quick);

@@ -8,9 +8,11 @@ namespace seam {
 const std::vector<WorldBench>& WorldBenches() {
   static const std::vector<WorldBench> benches = {
       {"featherweight", FeatherweightBench},
+      {"anchored", AnchoredBench},
       {"water", WaterBench},
       {"assembly", AssemblyBench},
       {"grouping", GroupingBench},
+      {"grouping-moving", GroupingMovingBench},
       {"joints", JointsBench},
       {"characters", CharactersBench},
       {"factor", FactorBench},

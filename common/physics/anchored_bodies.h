@@ -1,0 +1,41 @@
+#pragma once
+/// Anchored assemblies that share a body: a body each would cost the engine time in every step, and
+/// nobody needs to know of whom a body is that never moves. Shapes say which part they are.
+
+#include <box2d/box2d.h>
+
+#include <map>
+#include <utility>
+#include <vector>
+
+#include "common/scene/assembly.h"
+
+namespace seam {
+
+/// By assembly: whether it may share a body. It is anchored and stands still, and nothing takes
+/// hold of its own body: no joint that is not rigid, no glue that can break, no connector, belt,
+/// seat or thrust. False for all of them where they are fewer than kShareFrom.
+std::vector<bool> ShareBodies(const Scene& scene, const Composition& composition);
+
+/// As many as a scene may have before they share bodies.
+constexpr int kShareFrom = 32;
+
+/// The bodies of one world that they share: one in each square of the plane in which there is one
+/// of their roots, so that no shape is far from its body's origin.
+class AnchoredBodies {
+ public:
+  explicit AnchoredBodies(b2World* world) : world_(world) {}
+
+  struct Body {
+    b2Body* body = nullptr;
+    Part frame;  ///< lies as it does
+  };
+  /// The body for an assembly whose root is `root`.
+  const Body& For(const Part& root);
+
+ private:
+  b2World* world_;
+  std::map<std::pair<int, int>, Body> bodies_;  // by column and row
+};
+
+}  // namespace seam

@@ -1,0 +1,101 @@
+#include "common/stages/bonds/relative_rest.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "common/physics/world.h"
+#include "common/physics/world_build.h"
+
+namespace seam {
+namespace {
+
+using Parts = std::pair<PartId, PartId>;
+Parts PartsOf(const NearPair& pair) { return {pair.a, pair.b}; }
+bool Before(const NearPair& x, const NearPair& y) { return PartsOf(x) < PartsOf(y); }
+
+/// Where the engine leaves bodies at rest they overlap by its slop. What overlaps more than this is
+/// being pushed apart: m.
+constexpr float kPressedIn = 3 * b2_linearSlop;
+
+/// The middle of where their boxes overlap.
+b2Vec2 PointOf(b2Contact* contact) {
+  const b2AABB& a = contact->GetFixtureA()->GetAABB(contact->GetChildIndexA());
+  const b2AABB& b = contact->GetFixtureB()->GetAABB(contact->GetChildIndexB());
+  return 0.5f * (b2Max(a.lowerBound, b.lowerBound) + b2Min(a.upperBound, b.upperBound));
+}
+
+/// The velocity of a led body is that of its origin.
+b2Vec2 VelocityAt(const StageWorld& world, b2Body* body, const b2Vec2& point) {
+  const int index = IndexOf(body);
+  const bool led = index >= 0 && world.motions[static_cast<std::size_t>(index)] == Motion::kLed;
+  if (!led) return body->GetLinearVelocityFromWorldPoint(point);
+  const b2Vec2 arm = point - body->GetPosition();
+  return body->GetLinearVelocity() + b2Cross(body->GetAngularVelocity(), arm);
+}
+
+}  // namespace
+
+RelativeMotion MotionAt(const StageWorld& world, b2Contact* contact) {
+  b2Body* a = contact->GetFixtureA()->GetBody();
+  b2Body* b = contact->GetFixtureB()->GetBody();
+  const b2Vec2 point = PointOf(contact);
+  const b2Vec2 slip = VelocityAt(world, b, point) - VelocityAt(world, a, point);
+  return {slip.Length(), std::fabs(b->GetAngularVelocity() - a->GetAngularVelocity())};
+}
+
+bool IsPressed(b2Contact* contact) {
+  if (!contact->IsTouching()) return false;
+  b2WorldManifold manifold;
+  contact->GetWorldManifold(&manifold);
+  const int32 points = contact->GetManifold()->pointCount;
+  const float* const apart = manifold.separations;
+  return std::any_of(apart, apart + points, [](float gap) { return gap < -kPressedIn; });
+}
+
+void RestPairs::Count(std::vector<NearPair> now, int limit) {
+  std::sort(now.begin(), now.end(), Before);
+  std::vector<NearPair> next;
+  auto then = pairs_.begin();
+  for (const NearPair& pair : now) {
+    if (!next.empty() && PartsOf(next.back()) == PartsOf(pair)) {
+      next.back().still = next.back().still && pair.still;
+      next.back().touching = next.back().touching || pair.touching;
+    } else {
+      next.push_back(pair);
+      while (then != pairs_.end() && Before(*then, pair)) ++then;
+      const bool known = then != pairs_.end() && PartsOf(*then) == PartsOf(pair);
+      next.back().looks = known ? std::min(then->looks + 1, limit) : 1;
+    }
+    if (!next.back().still) next.back().looks = 0;
+  }
+  pairs_ = std::move(next);
+}
+
+void RestPairs::Forget(PartId part) {
+  for (NearPair& pair : pairs_) {
+    if (pair.a == part || pair.b == part) pair.looks = 0;
+  }
+}
+
+void RestPairs::Save(std::vector<float>* memory) const {
+  memory->push_back(static_cast<float>(pairs_.size()));
+  for (const NearPair& pair : pairs_) {
+    memory->push_back(static_cast<float>(pair.a));
+    memory->push_back(static_cast<float>(pair.b));
+    memory->push_back(static_cast<float>(pair.looks));
+  }
+}
+
+std::size_t RestPairs::Load(const float* memory) {
+  pairs_.assign(static_cast<std::size_t>(memory[0]), {});
+  const float* next = memory + 1;
+  for (NearPair& pair : pairs_) {
+    pair.a = static_cast<PartId>(*next++);
+    pair.b = static_cast<PartId>(*next++);
+    pair.looks = static_cast<int>(*next++);
+  }
+  return static_cast<std::size_t>(next - memory);
+}
+
+}  // namespace seam

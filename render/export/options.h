@@ -1,0 +1,36 @@
+#pragma once
+/// What seam-export is asked for: flags, checked.
+
+#include <string>
+#include <vector>
+
+#include "common/record/time_range.h"
+
+namespace CLI {
+class App;
+}
+
+namespace seam {
+
+enum class ExportFormat { kCsv, kJson, kMcap, kTrace };
+
+struct ExportOptions {
+  std::string log;
+  bool csv = false, json = false, mcap = false, trace = false;  ///< exactly one
+  std::string out;                                              ///< "" or "-": stdout
+  bool force = false;                                           ///< replace what is at `out`
+  std::string oracle;               ///< a log made in mode oracle; "": computed
+  std::string room;                 ///< "": the first of the log
+  TimeRange range;                  ///< of the session
+  std::vector<std::string> bodies;  ///< names; empty: all
+  std::vector<std::string> views;   ///< names of players, or server; empty: all
+
+  /// Requires CheckExportOptions.
+  ExportFormat format() const;
+};
+
+void DefineExportOptions(CLI::App* app, ExportOptions* options);
+/// Throws OperatorError for what cannot be meant.
+void CheckExportOptions(const ExportOptions& options);
+
+}  // namespace seam

@@ -1,0 +1,59 @@
+/// seam-export: a recording in formats that other programs read. docs/recordings.md describes them.
+
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "common/base/check.h"
+#include "common/base/command_line.h"
+#include "common/codec/version_line.h"
+#include "render/export/formats.h"
+#include "render/export/options.h"
+
+namespace seam {
+namespace {
+
+void Write(const ExportSession& session, ExportFormat format, OutputFile* out) {
+  switch (format) {
+    case ExportFormat::kCsv: return WriteCsvExport(session, out);
+    case ExportFormat::kJson: return WriteJsonExport(session, out);
+    case ExportFormat::kMcap: return WriteMcapExport(session, out);
+    case ExportFormat::kTrace: return WriteTraceExport(session, out);
+  }
+}
+
+int Run(const ExportOptions& options) {
+  CheckExportOptions(options);
+  StopOnSignals();
+  const bool to_stdout = options.out.empty() || options.out == "-";
+  if (options.mcap && to_stdout && isatty(STDOUT_FILENO) != 0) {
+    throw OperatorError("--mcap is not text: say where it goes with -o");
+  }
+  OutputFile out(options.out, options.force, {options.log, options.oracle});
+  const ExportSession session = LoadExport(options);
+  for (const std::string& line : session.lacking) {
+    PrintError("seam-export", "warning: " + options.log + ": " + line);
+  }
+  Write(session, options.format(), &out);
+  out.Finish();
+  return 0;
+}
+
+}  // namespace
+}  // namespace seam
+
+int main(int argc, char** argv) {
+  using namespace seam;
+  ExportOptions options;
+  const ProgramText text{
+      "seam-export", "Writes a recording as CSV, JSON, MCAP (Foxglove, Rerun) or a Perfetto trace.",
+      VersionLine("seam-export"),
+      "examples:\n"
+      "  seam-export session.lcm --csv -o session.csv             all views and bodies\n"
+      "  seam-export session.lcm --csv --view ann --body crate1   to stdout\n"
+      "  seam-export session.lcm --mcap -o session.mcap           for Foxglove and Rerun\n"
+      "  seam-export session.lcm --trace -o session.json          for ui.perfetto.dev"};
+  return RunCommandLine(
+      text, argc, argv, [&](CLI::App& app) { DefineExportOptions(&app, &options); },
+      [&] { return Run(options); });
+}

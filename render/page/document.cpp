@@ -1,0 +1,152 @@
+#include "render/page/document.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <map>
+
+#include "common/base/version.h"
+#include "render/canvas/palette.h"
+#include "render/page/assets.h"
+#include "render/page/events.h"
+#include "render/page/gzip.h"
+#include "render/page/json.h"
+#include "render/page/series.h"
+#include "render/page/tracks.h"
+#include "render/page/worlds.h"
+
+namespace seam {
+namespace {
+
+constexpr double kStutterUnit_mps2 = 1e-2;
+
+/// Sections one after another; equal ones are kept once.
+class Sections {
+ public:
+  /// "[offset,length]".
+  std::string Add(const PageBytes& section) {
+    const auto [place, added] = known_.emplace(section, bytes_.size());
+    if (added) bytes_.insert(bytes_.end(), section.begin(), section.end());
+    return fmt::format("[{},{}]", place->second, section.size());
+  }
+  const PageBytes& bytes() const { return bytes_; }
+
+ private:
+  PageBytes bytes_;
+  std::map<PageBytes, std::size_t> known_;
+};
+
+/// [tick, round trip us, loss ppm, bytes in, bytes out] as the peer counted them.
+std::string StatsJson(const Recording& recording, int peer) {
+  std::vector<std::string> rows;
+  const auto found = recording.stats.find(peer);
+  if (found == recording.stats.end()) return "[]";
+  for (const Stats& s : found->second)
+    rows.push_back(
+        fmt::format("[{},{},{},{},{}]", s.tick, s.rtt_us, s.loss_ppm, s.bytes_in, s.bytes_out));
+  return JsonList(rows);
+}
+
+std::string ViewJson(const Playback& playback, int peer, PageWorlds* worlds,
+                     const PageSeries& stutter, const PageSeries& path, Sections* sections) {
+  const Recording& recording = playback.recording();
+  const auto& views = recording.views.at(peer);
+  const auto world_at = [&](std::int64_t tick) {
+    const auto view = views.find(tick);
+    return view == views.end() ? -1 : worlds->IndexOf(view->second.revision);
+  };
+  const Oracle* oracle = playback.has_oracle() ? &playback.oracle() : nullptr;
+  std::string json = fmt::format(
+      R"({{"peer":{},"name":{},"tracks":{},"stats":{})", peer, JsonText(playback.PeerName(peer)),
+      sections->Add(EncodeTracks(TracksOf(views, oracle), recording.first_tick, recording.last_tick,
+                                 world_at, true)),
+      StatsJson(recording, peer));
+  const auto add = [&](const char* name, const PageSeries& series, double unit) {
+    const auto found = series.find(peer);
+    if (found != series.end())
+      json += fmt::format(R"(,"{}":{})", name, sections->Add(EncodeSeries(found->second, unit)));
+  };
+  add("stutter", stutter, kStutterUnit_mps2);
+  add("path", path, kPageErrorUnit_m);
+  return json + "}";
+}
+
+std::string RunJson(const PageRun& run, Sections* sections) {
+  const Playback& playback = *run.playback;
+  const Recording& recording = playback.recording();
+  PageWorlds worlds(playback);
+  PageSeries stutter, path;
+  std::string truth = "null";
+  if (playback.has_oracle()) {
+    const Oracle& oracle = playback.oracle();
+    stutter = StutterByTick(recording, playback.scene(), oracle);
+    path = PathErrorByTick(recording, playback.scene(), oracle);
+    truth = sections->Add(EncodeTracks(
+        TruthOf(recording, oracle), recording.first_tick, recording.last_tick,
+        [](std::int64_t) { return 0; }, false));
+  }
+  std::vector<std::string> views, events;
+  for (const int peer : playback.peers())
+    views.push_back(ViewJson(playback, peer, &worlds, stutter, path, sections));
+  for (const PageEvent& event : EventsOf(playback)) events.push_back(EventJson(event));
+  const Room& room = recording.room;
+  const std::string drawn = worlds.Json();
+  const PageBytes world_section(drawn.begin(), drawn.end());
+  return fmt::format(
+      R"({{"name":{},"label":{},"scene":{},"title":{},"network":{},"hz":{},"first":{},"last":{},)"
+      R"("truth":{},"world":{},"bricks":{},"views":{},"events":{}}})",
+      JsonText(run.name), JsonText(playback.Label()), JsonText(room.scene_name),
+      JsonText(playback.scene().title), JsonText(room.impair), playback.tick_hz(),
+      recording.first_tick, recording.last_tick, truth, sections->Add(world_section),
+      sections->Add(EncodeBricks(playback)), JsonList(views), JsonList(events));
+}
+
+std::string ColourJson(Colour colour) {
+  return fmt::format("\"#{:02x}{:02x}{:02x}\"", colour.r, colour.g, colour.b);
+}
+
+/// The colours of pictures, so that a page and a picture of a run look alike. Heat: from 1 mm to
+/// 1 m in equal steps of the logarithm.
+std::string PaletteJson() {
+  std::vector<std::string> peers, runs, heat;
+  for (int i = 0; i <= 3 * kPeerHues; ++i) peers.push_back(ColourJson(PeerColour(i)));
+  for (int i = 0; i < 10; ++i) runs.push_back(ColourJson(RunColour(i)));
+  for (int i = 0; i <= 15; ++i)
+    heat.push_back(ColourJson(HeatColour(std::pow(10.0f, static_cast<float>(i) / 5 - 3))));
+  return fmt::format(R"({{"peers":{},"runs":{},"heat":{}}})", JsonList(peers), JsonList(runs),
+                     JsonList(heat));
+}
+
+/// Puts `value` where the template says {{name}}.
+void Fill(std::string* text, const std::string& name, const std::string& value) {
+  const std::string mark = "{{" + name + "}}";
+  const std::size_t at = text->find(mark);
+  if (at != std::string::npos) text->replace(at, mark.size(), value);
+}
+
+}  // namespace
+
+PageBytes PageData(const std::vector<PageRun>& runs) {
+  Sections sections;
+  std::vector<std::string> list;
+  for (const PageRun& run : runs) list.push_back(RunJson(run, &sections));
+  const std::string head = fmt::format(
+      R"({{"version":{},"error_unit":{},"stutter_unit":{},"colours":{},"runs":{}}})",
+      JsonText(kVersion), kPageErrorUnit_m, kStutterUnit_mps2, PaletteJson(), JsonList(list));
+  PageBytes data;
+  for (int shift = 0; shift < 32; shift += 8)
+    data.push_back(static_cast<std::uint8_t>(head.size() >> shift & 0xff));
+  data.insert(data.end(), head.begin(), head.end());
+  data.insert(data.end(), sections.bytes().begin(), sections.bytes().end());
+  return data;
+}
+
+std::string PageHtml(const std::vector<PageRun>& runs) {
+  std::string html = PageTemplate();
+  Fill(&html, "style", PageStyle());
+  Fill(&html, "script", PageScript());
+  Fill(&html, "data", Base64(Gzip(PageData(runs))));
+  return html;
+}
+
+}  // namespace seam

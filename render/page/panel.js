@@ -1,0 +1,239 @@
+// One view on one panel, with the layers that are switched on.
+
+const TRAIL_SECONDS = 0.75;
+const SPARK_SECONDS = 0.5;
+
+function moved(track, tick, span, pixels, scale) {
+  const now = poseOf(track, tick);
+  const then = poseOf(track, Math.max(0, tick - span));
+  return now && then && Math.hypot(now[0] - then[0], now[1] - then[1]) * scale > pixels;
+}
+
+// One dot for each tick, where the body was in it.
+function drawDots(c, viewport, view, tick) {
+  const span = Math.round(TRAIL_SECONDS * view.run.hz);
+  for (const track of view.tracks.bodies.values()) {
+    if (!moved(track, tick, span, 3, viewport.scale)) continue;
+    for (let i = Math.max(0, Math.ceil(tick - span)); i <= tick; ++i) {
+      if (!track.has[i]) continue;
+      const owner = Math.floor(track.owner[i] / 3);
+      c.globalAlpha = 0.25 + 0.75 * (1 - (tick - i) / span);
+      c.fillStyle = mixColours(peerColour(owner), COLOURS.theme.ink, 0.35);
+      c.beginPath();
+      c.arc(viewport.x(track.x[i] / 1000), viewport.y(track.y[i] / 1000), 1.8, 0, 2 * Math.PI);
+      c.fill();
+    }
+  }
+  c.globalAlpha = 1;
+}
+
+function visitTruth(view, tick, visit) {
+  if (!view.run.oracle) return;
+  const world = view.worldAt(tick);
+  for (const body of world.moving) {
+    const truth = poseOf(view.run.oracle.bodies.get(body.id), tick);
+    const shown = poseOf(view.tracks.bodies.get(body.id), tick);
+    if (truth) visit(body, truth, shown);
+  }
+}
+
+// The oracle's outline, the stronger the farther the view is from it.
+function drawTruth(c, viewport, view, tick) {
+  c.strokeStyle = COLOURS.theme.ink;
+  c.lineWidth = 1.2;
+  visitTruth(view, tick, (body, truth, shown) => {
+    const turn = shown ? Math.abs(shown[2] - truth[2]) * body.reach / 1000 : 0;
+    const apart = shown ?
+        (Math.hypot(shown[0] - truth[0], shown[1] - truth[1]) + turn) * viewport.scale :
+        1e3;
+    const alpha = Math.min(Math.max((apart - 0.75) / 2, 0), 1);
+    if (alpha === 0 || !viewport.sees(truth[0], truth[1], body.reach / 1000)) return;
+    c.globalAlpha = 0.85 * alpha;
+    c.setLineDash(body.reach / 1000 * viewport.scale < 10 ? [] : [4, 3]);
+    strokeBody(c, viewport, body, truth);
+  });
+  c.setLineDash([]);
+  c.globalAlpha = 1;
+}
+
+function drawArrow(c, x0, y0, x1, y1) {
+  const length = Math.hypot(x1 - x0, y1 - y0);
+  if (length < 2) return;
+  const ux = (x1 - x0) / length;
+  const uy = (y1 - y0) / length;
+  const head = Math.min(6, length / 2);
+  c.beginPath();
+  c.moveTo(x0, y0);
+  c.lineTo(x1, y1);
+  c.moveTo(x1 - head * (ux + 0.5 * uy), y1 - head * (uy - 0.5 * ux));
+  c.lineTo(x1, y1);
+  c.lineTo(x1 - head * (ux - 0.5 * uy), y1 - head * (uy + 0.5 * ux));
+  c.stroke();
+}
+
+function drawVectors(c, viewport, view, tick) {
+  c.strokeStyle = COLOURS.theme.spark;
+  c.lineWidth = 1.5;
+  visitTruth(view, tick, (body, truth, shown) => {
+    if (!shown) return;
+    drawArrow(
+        c, viewport.x(truth[0]), viewport.y(truth[1]), viewport.x(shown[0]), viewport.y(shown[1]));
+  });
+}
+
+function drawContacts(c, viewport, view, tick) {
+  const span = SPARK_SECONDS * view.run.hz;
+  for (const event of view.run.events) {
+    const age = (tick + view.run.first - event.tick) / span;
+    if (event.kind !== 'impact' || event.peer !== view.peer || age < 0 || age >= 1) continue;
+    const strength = Math.min(Math.sqrt(event.size), 5);
+    const x = viewport.x(event.at[0] / 1000);
+    const y = viewport.y(event.at[1] / 1000);
+    c.globalAlpha = 0.9 * (1 - age);
+    c.strokeStyle = COLOURS.theme.spark;
+    c.lineWidth = 1.6;
+    c.beginPath();
+    c.arc(x, y, 4 + 4 * strength * (0.3 + 0.7 * age), 0, 2 * Math.PI);
+    c.stroke();
+  }
+  c.globalAlpha = 1;
+}
+
+function drawLabel(c, text, x, y, colour) {
+  c.font = '600 11px system-ui, sans-serif';
+  c.textAlign = 'center';
+  c.lineWidth = 3;
+  c.lineJoin = 'round';
+  c.strokeStyle = COLOURS.theme.panel;
+  c.strokeText(text, x, y);
+  c.fillStyle = colour;
+  c.fillText(text, x, y);
+}
+
+// Whose view it is, in an upper corner of the panel.
+function drawTitle(c, rect, text, colour, side) {
+  c.save();
+  c.font = '600 12px system-ui, sans-serif';
+  c.textAlign = side;
+  const x = side === 'left' ? rect.x + 24 : rect.x + rect.width - 24;
+  c.lineWidth = 3;
+  c.strokeStyle = COLOURS.theme.panel;
+  c.strokeText(text, x, rect.y + 18);
+  c.fillStyle = COLOURS.theme.ink;
+  c.fillText(text, x, rect.y + 18);
+  c.fillStyle = colour;
+  c.fillRect(side === 'left' ? rect.x + 10 : rect.x + rect.width - 18, rect.y + 9, 8, 10);
+  c.restore();
+}
+
+// The highest point of a body, m.
+function topOf(body, pose) {
+  const [sin, cos] = [Math.sin(pose[2]), Math.cos(pose[2])];
+  let top = pose[1];
+  for (const [kind, radius, ...points] of body.shapes) {
+    const count = kind === 1 ? 2 : points.length;
+    for (let i = 0; i < count; i += 2)
+      top = Math.max(top, pose[1] + (sin * points[i] + cos * points[i + 1] + radius) / 1000);
+  }
+  return top;
+}
+
+// Names of players' own bodies always, all on request; one that would cover another is left out.
+function drawNames(c, viewport, view, seen) {
+  const taken = [];
+  for (const {body, pose} of seen) {
+    const followed = body.id === state.follow;
+    if (!state.layers.names && !followed && body.player < 0) continue;
+    const text = body.name;
+    const x = viewport.x(pose[0]);
+    const y = viewport.y(topOf(body, pose)) - 6;
+    const half = 3.4 * text.length;
+    if (taken.some((box) => Math.abs(box.x - x) < box.half + half && Math.abs(box.y - y) < 12))
+      continue;
+    taken.push({x, y, half});
+    drawLabel(c, text, x, y, COLOURS.theme.ink);
+  }
+}
+
+function drawHeatScale(c, rect) {
+  const width = Math.min(160, rect.width / 3);
+  const x = rect.x + 12;
+  const y = rect.y + rect.height - 18;
+  for (let i = 0; i < width; i += 2) {
+    c.fillStyle = heatColour(i / width);
+    c.fillRect(x + i, y, 2, 6);
+  }
+  c.strokeStyle = COLOURS.theme.frame;
+  c.lineWidth = 1;
+  c.beginPath();
+  c.rect(x, y, width, 6);
+  c.stroke();
+  c.fillStyle = COLOURS.theme.faint;
+  c.font = '11px system-ui, sans-serif';
+  c.textAlign = 'left';
+  c.fillText('1 mm', x, y - 4);
+  c.textAlign = 'center';
+  c.fillText('error', x + width / 2, y - 4);
+  c.textAlign = 'right';
+  c.fillText('1 m', x + width, y - 4);
+}
+
+// Bodies of a view; `other`: of a difference, what is drawn pale beneath and joined by arrows.
+function drawBodies(c, viewport, view, tick, alpha) {
+  const seen = [];
+  for (const body of view.worldAt(tick).moving) {
+    const track = view.tracks.bodies.get(body.id);
+    const pose = poseOf(track, tick);
+    if (!pose || !viewport.sees(pose[0], pose[1], body.reach / 1000)) continue;
+    const code = track.owner[Math.floor(tick)];
+    const heat = state.layers.heat ? view.errorOf(body.id, tick) : null;
+    const fill = bodyFill(Math.floor(code / 3), code % 3, heat);
+    const own = mixColours(peerColour(Math.floor(code / 3)), COLOURS.theme.ink, 0.5);
+    const followed = body.id === state.follow;
+    drawBody(
+        c, viewport, body, pose,
+        {fill, edge: followed ? COLOURS.theme.accent : own, width: followed ? 2.2 : 1, alpha});
+    seen.push({body, pose});
+  }
+  return seen;
+}
+
+function drawDifference(c, viewport, first, second, tick) {
+  drawBodies(c, viewport, second, tick, 0.35);
+  c.strokeStyle = COLOURS.theme.spark;
+  c.lineWidth = 1.5;
+  for (const [id, track] of first.tracks.bodies) {
+    const from = poseOf(track, tick);
+    const to = poseOf(second.tracks.bodies.get(id), tick);
+    if (!from || !to) continue;
+    drawArrow(c, viewport.x(to[0]), viewport.y(to[1]), viewport.x(from[0]), viewport.y(from[1]));
+  }
+}
+
+// `second`: the view that a difference is taken from, or nothing.
+function drawPanel(c, rect, camera, view, tick, second) {
+  const viewport = new Viewport(rect, camera);
+  const world = view.worldAt(tick);
+  c.save();
+  c.beginPath();
+  c.rect(rect.x, rect.y, rect.width, rect.height);
+  c.clip();
+  c.fillStyle = COLOURS.theme.panel;
+  c.fillRect(rect.x, rect.y, rect.width, rect.height);
+  const step = drawGrid(c, viewport);
+  drawWaters(c, viewport, view.run);
+  if (state.layers.regions) drawRegions(c, viewport, view.run);
+  drawGround(c, viewport, view.run, world, tick);
+  const seen = drawBodies(c, viewport, view, tick, second ? 0.75 : 1);
+  if (second) drawDifference(c, viewport, view, second, tick);
+  drawJoints(c, viewport, view.run, view, world, tick);
+  if (state.layers.truth) drawTruth(c, viewport, view, tick);
+  if (state.layers.dots) drawDots(c, viewport, view, tick);
+  if (state.layers.vectors) drawVectors(c, viewport, view, tick);
+  if (state.layers.contacts) drawContacts(c, viewport, view, tick);
+  drawNames(c, viewport, view, seen);
+  if (state.layers.heat) drawHeatScale(c, rect);
+  drawScaleBar(c, viewport, step);
+  c.restore();
+  return viewport;
+}

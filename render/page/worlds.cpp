@@ -1,0 +1,134 @@
+#include "render/page/worlds.h"
+
+#include <fmt/format.h>
+
+#include "common/scene/water.h"
+#include "render/draw/draw_bricks.h"
+#include "render/page/json.h"
+
+namespace seam {
+namespace {
+
+std::string Point(const Vec2& p) {
+  return fmt::format("{},{}", Thousandths(double{p.x()}), Thousandths(double{p.y()}));
+}
+
+/// [kind, radius, x, y, ...]: 0 a polygon, 1 a disc (centre, rim point), 2 ground's chain, 3 a
+/// line.
+std::string OutlineJson(const Outline& outline) {
+  const bool disc = outline.kind == ShapeKind::kCircle;
+  const bool chain = outline.kind == ShapeKind::kChain;
+  const int kind = disc ? 1 : chain ? 2 : IsLine(outline.kind) ? 3 : 0;
+  std::string json = fmt::format("[{},{}", kind, disc ? Thousandths(double{outline.radius}) : 0);
+  for (const Vec2& p : outline.points) json += "," + Point(p);
+  return json + "]";
+}
+
+std::string BodyJson(const BodyShapes& body, const std::string& name) {
+  std::vector<std::string> outlines, rim;
+  for (const Outline& outline : body.outlines) outlines.push_back(OutlineJson(outline));
+  for (const auto& edge : body.rim)
+    rim.push_back("[" + Point(edge[0]) + "," + Point(edge[1]) + "]");
+  return fmt::format(R"({{"id":{},"name":{},"player":{},"reach":{},"shapes":{},"rim":{}}})",
+                     body.id, JsonText(name), body.owner_player, Thousandths(double{body.reach}),
+                     JsonList(outlines), JsonList(rim));
+}
+
+std::string JointJson(const DrawnJoint& joint) {
+  return fmt::format("[{},{},{},{},{}]", joint.a, Point(joint.anchor_a), joint.b,
+                     Point(joint.anchor_b), joint.rod ? 1 : 0);
+}
+
+std::string WatersJson(const Scene& scene) {
+  std::vector<std::string> waters;
+  for (const Water& water : scene.waters)
+    waters.push_back(fmt::format("[{},{}]", Point(water.min), Point(water.max)));
+  return JsonList(waters);
+}
+
+std::string RegionsJson(const Playback& playback) {
+  std::vector<std::string> regions;
+  for (const PageRegion& region : RegionsOfPage(playback)) {
+    std::vector<std::string> corners;
+    for (const Vec2& corner : region.corners) corners.push_back(Point(corner));
+    regions.push_back(fmt::format(R"({{"peer":{},"zone":{},"name":{},"corners":{}}})", region.peer,
+                                  region.zone, JsonText(region.name), JsonList(corners)));
+  }
+  return JsonList(regions);
+}
+
+/// Tick by tick where an imposed motion has the anchored body: [x, y, angle, ...].
+std::string MotionJson(const Playback& playback, const BodyShapes& body) {
+  std::vector<std::string> numbers;
+  const Recording& recording = playback.recording();
+  for (std::int64_t tick = recording.first_tick; tick <= recording.last_tick; ++tick) {
+    const Pose pose = playback.Anchored(body, static_cast<double>(tick));
+    numbers.push_back(fmt::format("{},{}", Point(pose.position), Thousandths(double{pose.angle})));
+  }
+  return fmt::format(R"({{"id":{},"path":{}}})", body.id, JsonList(numbers));
+}
+
+}  // namespace
+
+PageWorlds::PageWorlds(const Playback& playback)
+    : playback_(playback), revisions_(playback.scene(), playback.recording()) {
+  IndexOf(0);
+}
+
+int PageWorlds::Pool(const std::string& body) {
+  const auto [place, added] = pooled_.emplace(body, static_cast<int>(bodies_.size()));
+  if (added) bodies_.push_back(body);
+  return place->second;
+}
+
+int PageWorlds::IndexOf(int edits) {
+  const int key = revisions_.Key(edits);
+  const auto known = index_of_key_.find(key);
+  if (known != index_of_key_.end()) return known->second;
+  const auto revision = revisions_.At(key);
+  const DrawnRevision drawn = RevisionOf(revision->scene(), revision->composition());
+  std::vector<std::string> moving, anchored, joints;
+  const auto pooled = [&](const BodyShapes& body) {
+    return Pool(BodyJson(body, revision->scene().parts[static_cast<std::size_t>(body.id)].name));
+  };
+  for (const BodyShapes& body : drawn.moving) moving.push_back(std::to_string(pooled(body)));
+  for (const BodyShapes& body : drawn.anchored) {
+    anchored.push_back(fmt::format("[{},{},{}]", pooled(body), Point(body.start.position),
+                                   Thousandths(double{body.start.angle})));
+  }
+  for (const DrawnJoint& joint : drawn.joints) joints.push_back(JointJson(joint));
+  const int index = static_cast<int>(worlds_.size());
+  index_of_key_[key] = index;
+  worlds_.push_back(fmt::format(R"({{"moving":{},"anchored":{},"joints":{}}})", JsonList(moving),
+                                JsonList(anchored), JsonList(joints)));
+  return index;
+}
+
+std::string PageWorlds::Json() const {
+  std::vector<std::string> motions;
+  for (const BodyShapes& body : playback_.anchored())
+    if (body.imposed >= 0) motions.push_back(MotionJson(playback_, body));
+  const Scene& scene = playback_.scene();
+  return fmt::format(R"({{"bodies":{},"worlds":{},"motions":{},"waters":{},)"
+                     R"("regions":{},"camera":[{},{}]}})",
+                     JsonList(bodies_), JsonList(worlds_), JsonList(motions), WatersJson(scene),
+                     RegionsJson(playback_), Point(scene.camera.min), Point(scene.camera.max));
+}
+
+PageBytes EncodeBricks(const Playback& playback) {
+  std::vector<std::int64_t> columns[4];
+  const FeatherStore* store = playback.bricks();
+  for (int cell = 0; store != nullptr && cell < store->cell_count(); ++cell) {
+    for (const BrickBlock& b : BlocksOf(*store, cell)) {
+      const BrickKind& kind = store->kinds()[static_cast<std::size_t>(b.kind)];
+      const int block[4] = {b.x, b.y, b.columns * kind.width, b.rows * kind.height};
+      for (int i = 0; i < 4; ++i) columns[i].push_back(block[i]);
+    }
+  }
+  PageBytes out;
+  PutUnsigned(&out, columns[0].size());
+  for (const auto& column : columns) PutFirstDifferences(&out, column);
+  return out;
+}
+
+}  // namespace seam

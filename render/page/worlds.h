@@ -1,0 +1,53 @@
+#pragma once
+/// What a recording's bodies look like, as the JSON of a review page: each body once, and each
+/// world (a revision of the scene) as a list of bodies, joints, waters, bricks and regions.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "common/measure/revisions.h"
+#include "render/page/column.h"
+#include "render/playback/playback.h"
+
+namespace seam {
+
+/// The worlds that a recording's views show.
+class PageWorlds {
+ public:
+  /// `playback` must outlive this.
+  explicit PageWorlds(const Playback& playback);
+
+  /// The index of the world after so many edits; it is made when it is asked for.
+  int IndexOf(int edits);
+  /// {"bodies":[...],"worlds":[...],"moved":[...],...}; call it last.
+  std::string Json() const;
+
+ private:
+  int Pool(const std::string& body);
+
+  const Playback& playback_;
+  const RevisionHistory revisions_;
+  std::map<int, int> index_of_key_;
+  std::vector<std::string> bodies_, worlds_;
+  std::map<std::string, int> pooled_;
+};
+
+/// A scene's bricks as few rectangles, units of 5 cm: how many, then as first differences all left
+/// edges, all lower edges, all widths and all heights.
+PageBytes EncodeBricks(const Playback& playback);
+
+/// A region of a player, or its buffer zone: a polygon, m.
+struct PageRegion {
+  int peer = 0;
+  bool zone = false;  ///< the region and its buffer zone
+  std::string name;   ///< the player's
+  std::vector<Vec2> corners;
+};
+
+/// All regions that a page shows: the one place that says what a region looks like. Empty where the
+/// mode has none.
+std::vector<PageRegion> RegionsOfPage(const Playback& playback);
+
+}  // namespace seam

@@ -1,0 +1,168 @@
+/// Who gets into a seat and out of it is seen to go there, by everybody: no view jumps.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <string>
+
+#include "common/scene/scene.h"
+#include "tests/lab/cluster.h"
+#include "tests/support/two_sides.h"
+
+namespace seam {
+namespace {
+
+/// ann's character walks to a cart that rolls slowly, gets in at 2 s, drives, and gets out at 7 s.
+std::string Cart() {
+  return std::string(R"(duration = 10
+buffer = 10
+[solver]
+substeps = 4
+[[player]]
+name = "ann"
+vehicle = "hero.torso"
+region = [[-1000, -1000], [-0.001, 1000]]
+script = [[0.0, {}], [2.0, {buttons = [5]}], [2.1, {}], [3.0, {drive = 1.0}], [5.0, {}],
+          [7.0, {buttons = [5]}], [7.1, {}]]
+[[player]]
+name = "bob"
+region = [[0, -1000], [1000, 1000]]
+[[part]]
+name = "ground"
+chain = [[-60, 0], [60, 0]]
+friction = 0.8
+[[part]]
+name = "cart"
+box = [2.4, 0.35]
+position = [-5, 0.75]
+[[part]]
+name = "wheel"
+circle = 0.4
+position = [-5.9, 0.41]
+friction = 0.9
+repeat = {count = 2, step = [1.8, 0]}
+[[joint]]
+name = "axle"
+kind = "hinge"
+a = "cart"
+b = "wheel.0"
+motor = {player = "saddle", speed = -8, torque = 12}
+repeat = {count = 2, step = [1.8, 0]}
+[[seat]]
+name = "saddle"
+part = "cart"
+at = [0, 0.7]
+reach = 2
+button = 5
+[[character]]
+name = "hero"
+player = "ann"
+position = [-6.8, 0]
+)");
+}
+
+/// The largest way in a tick that a body's shown velocity does not explain, m, of any view of a
+/// client in the time between, and where that was.
+struct Jump {
+  double metres = 0;
+  std::string where;
+};
+
+Jump LargestJump(const Recording& recording, double from_s, double to_s) {
+  Jump jump;
+  for (const auto& [peer, views] : recording.views) {
+    if (peer == 0) continue;
+    std::map<std::int16_t, BodyState> before;
+    std::int64_t last = -1;
+    for (const auto& [tick, view] : views) {
+      std::map<std::int16_t, BodyState> now;
+      for (std::size_t i = 0; i < view.id.size(); ++i) {
+        now[view.id[i]] = {{view.x[i], view.y[i]}, view.angle[i], {view.vx[i], view.vy[i]}, 0};
+      }
+      const double t = static_cast<double>(tick) / 60;
+      for (const auto& [id, state] : now) {
+        const auto was = before.find(id);
+        if (was == before.end() || tick != last + 1 || t < from_s || t > to_s) continue;
+        const Vec2 moved = state.position - was->second.position;
+        const float by_speed = std::max(state.velocity.norm(), was->second.velocity.norm()) / 60;
+        const double beyond = static_cast<double>(moved.norm() - by_speed);
+        if (beyond <= jump.metres) continue;
+        jump.metres = beyond;
+        jump.where = "peer " + std::to_string(peer) + ", body " + std::to_string(id) + ", tick " +
+                     std::to_string(tick) + ", moved " + std::to_string(moved.norm());
+      }
+      before = std::move(now);
+      last = tick;
+    }
+  }
+  return jump;
+}
+
+TEST(SeatViews, NobodySeesAJumpOfMoreThanFiveCentimetresWhenSomebodyGetsInOrOut) {
+  for (std::int64_t seed = 21; seed <= 24; ++seed) {
+    ClusterConfig config;
+    config.scene_text = Cart();
+    config.impair = "4g";
+    config.seed = seed;
+    const Recording recording = RunCluster(config);
+    const Jump in = LargestJump(recording, 1.9, 3.0), out = LargestJump(recording, 6.9, 8.0);
+    std::printf("[          ] seed %lld: in %.4f m (%s), out %.4f m (%s)\n",
+                static_cast<long long>(seed), in.metres, in.where.c_str(), out.metres,
+                out.where.c_str());
+    EXPECT_LT(in.metres, 0.05) << "seed " << seed;
+    EXPECT_LT(out.metres, 0.05) << "seed " << seed;
+  }
+}
+
+TEST(SeatViews, WhoJoinsInTheMiddleOfTheWaySeesTheSameAfterASecond) {
+  int in_the_middle = 0;
+  for (int revived = 90; revived <= 150; revived += 10) {
+    SCOPED_TRACE("revived at tick " + std::to_string(revived));
+    ClusterConfig config;
+    config.scene_text = Cart();
+    config.impair = "4g";
+    config.seed = 31;
+    Cluster cluster(config);
+    cluster.RunToTick(60);
+    cluster.Kill(1);
+    cluster.RunToTick(revived);
+    cluster.Revive(1);
+    cluster.RunToTick(330);
+    const Replica* bob = cluster.client(1)->replica();
+    ASSERT_NE(bob, nullptr);
+    const World& truth = cluster.server().replica().world();
+    EXPECT_EQ(bob->world().composition().hash, truth.composition().hash);
+    EXPECT_GE(bob->world().scene().seats[0].player, 0) << "somebody sits there";
+    for (int b = 0; b < truth.body_count(); ++b) {
+      // It drives at 4 m/s, and the two are not at the same tick.
+      EXPECT_LT((bob->world().Read(b).position - truth.Read(b).position).norm(), 1.2f) << b;
+    }
+    const std::map<std::int64_t, View>& views =
+        cluster.recording().views.at(cluster.client(1)->peer());
+    std::int64_t first = -1;
+    for (const auto& [tick, view] : views) {
+      if (tick > revived && first < 0) first = tick;
+    }
+    const bool middle = first > 120 && first < 120 + 8 + 38;
+    in_the_middle += middle ? 1 : 0;
+    Recording seen;
+    seen.views[1] = views;
+    // Its bodies wait for their first states and glide to the others' then, whatever happens in the
+    // room: in the first second its view jumps, by as much as is printed.
+    const std::int64_t settled = first + 60;
+    const Jump jump =
+        LargestJump(seen, static_cast<double>(settled) / 60, static_cast<double>(settled) / 60 + 2);
+    const Jump early =
+        LargestJump(seen, static_cast<double>(first + 20) / 60, static_cast<double>(settled) / 60);
+    std::printf("[          ] first view at tick %lld%s: %.4f m, later %.4f m (%s)\n",
+                static_cast<long long>(first), middle ? ", on the way" : "", early.metres,
+                jump.metres, jump.where.c_str());
+    EXPECT_LT(jump.metres, 0.2) << "limbs that flap; the body comes within 5 cm";
+  }
+  EXPECT_GE(in_the_middle, 2);
+}
+
+}  // namespace
+}  // namespace seam

@@ -1,0 +1,168 @@
+/// Many anchored parts have few bodies: what they do is what bodies of their own did.
+
+#include "common/physics/anchored_bodies.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/physics/part_places.h"
+#include "tests/support/living_world.h"
+
+namespace seam {
+namespace {
+
+int CountShared(const Scene& scene) {
+  const std::vector<bool> share = ShareBodies(scene, Compose(scene));
+  return static_cast<int>(std::count(share.begin(), share.end(), true));
+}
+
+/// Anchored tiles in a row whose top is at 0, turned by an angle about the origin.
+std::string Tiles(int count, double angle = 0) {
+  const double c = std::cos(angle), s = std::sin(angle), from = -0.5 * (count - 1);
+  return "[[part]]\nname = \"tile\"\nbox = [1, 1]\nposition = [" + Digits(from * c + 0.5 * s) +
+         ", " + Digits(from * s - 0.5 * c) + "]\nangle = " + Digits(angle) +
+         "\nfriction = 0.6\nanchored = true\nrepeat = {count = " + std::to_string(count) +
+         ", step = [" + Digits(c) + ", " + Digits(s) + "]}\n";
+}
+
+TEST(AnchoredBodies, OnlyManyShareAndOnlyThoseThatNothingTakesHoldOf) {
+  EXPECT_EQ(CountShared(ParseScene(Tiles(kShareFrom - 1), "a.toml")), 0);
+  EXPECT_EQ(CountShared(ParseScene(Tiles(kShareFrom), "a.toml")), kShareFrom);
+  const std::string door =
+      "[[part]]\nname = \"door\"\nbox = [0.2, 2]\nposition = [0, 1.2]\n"
+      "[[joint]]\nname = \"hinge\"\nkind = \"revolute\"\na = \"tile.3\"\nb = \"door\"\n"
+      "anchor = [0, 0.2]\n";
+  EXPECT_EQ(CountShared(ParseScene(Tiles(40) + door, "a.toml")), 39);
+  const std::string belt =
+      "[[part]]\nname = \"belt\"\nbox = [4, 1]\nposition = [0, -5]\nanchored = true\n"
+      "conveyor = {speed = 2}\n";
+  EXPECT_EQ(CountShared(ParseScene(Tiles(40) + belt, "a.toml")), 40);
+  const std::string glued =
+      "[[part]]\nname = \"sign\"\nbox = [1, 1]\nposition = [0, 0.51]\n"
+      "[[joint]]\nname = \"nail\"\nkind = \"glue\"\na = \"tile.20\"\nb = \"sign\"\n"
+      "strength = 100\n";
+  EXPECT_EQ(CountShared(ParseScene(Tiles(40) + glued, "a.toml")), 39);
+}
+
+/// A box slides down a slope; where it is after two seconds.
+BodyState Slid(int tiles, double angle) {
+  const double x = 5 * std::cos(angle) - 0.52 * std::sin(angle);
+  const double y = 5 * std::sin(angle) + 0.52 * std::cos(angle);
+  auto world = SmallWorld(Tiles(tiles, angle) +
+                          "[[part]]\nname = \"box\"\nbox = [1, 1]\nposition = [" + Digits(x) +
+                          ", " + Digits(y) + "]\nangle = " + Digits(angle) + "\nfriction = 0.1\n");
+  Live(world.get(), 120);
+  return world->Read(0);
+}
+
+TEST(AnchoredBodies, ASlopeOfTilesIsTheSameOfOwnAndOfSharedBodies) {
+  for (const double angle : {0.0, 0.35, -0.2}) {
+    const BodyState own = Slid(kShareFrom - 2, angle), shared = Slid(kShareFrom, angle);
+    // Rounded edges make another blow of each seam: a hundredth of the way.
+    EXPECT_LT((own.position - shared.position).norm(), 0.1f) << angle;
+    EXPECT_NEAR(own.angle, shared.angle, 2e-2f) << angle;
+  }
+}
+
+TEST(AnchoredBodies, AMechanismOnTilesIsTheSameOnOwnAndOnSharedBodies) {
+  const auto driven = [](int tiles) {
+    auto world = SmallWorld(
+        Tiles(tiles) +
+        "[[part]]\nname = \"car\"\nbox = [2, 0.4]\nposition = [-8, 0.62]\n"
+        "[[part]]\nname = \"wheel\"\ncircle = 0.4\nposition = [-8.7, 0.41]\nfriction = 0.9\n"
+        "repeat = {count = 2, step = [1.4, 0]}\n"
+        "[[joint]]\nname = \"rear\"\nkind = \"revolute\"\na = \"car\"\nb = \"wheel.0\"\n"
+        "anchor = [-8.7, 0.41]\nmotor = {speed = -5, torque = 20}\n"
+        "[[joint]]\nname = \"front\"\nkind = \"revolute\"\na = \"car\"\nb = \"wheel.1\"\n"
+        "anchor = [-7.3, 0.41]\n");
+    Live(world.get(), 240);
+    return world->Read(0);
+  };
+  const BodyState own = driven(kShareFrom - 2), shared = driven(kShareFrom);
+  EXPECT_GT(own.position.x(), -3) << "it drives";
+  EXPECT_LT((own.position - shared.position).norm(), 0.02f);
+}
+
+TEST(AnchoredBodies, ATouchNamesTheTile) {
+  auto world = SmallWorld(Tiles(40) +
+                          "[[part]]\nname = \"ball\"\ncircle = 0.3\nposition = [7.5, "
+                          "0.31]\n");
+  Live(world.get(), 60);
+  const std::vector<PartTouch> touches = world->PartTouches();
+  ASSERT_EQ(touches.size(), 1u);
+  // Tiles are parts 0..39 from x = -19.5 on, the ball is part 40.
+  EXPECT_EQ(touches[0].a, 27);
+  EXPECT_EQ(touches[0].b, 40);
+}
+
+TEST(AnchoredBodies, AFarWallIsAsSmoothAsANearOne) {
+  // Shapes 3 km from their body's origin would have lost their edges.
+  const auto fallen = [](double at) {
+    auto world =
+        SmallWorld("[[part]]\nname = \"tile\"\nbox = [1, 1]\nposition = [" + Digits(at - 20) +
+                       ", -0.5]\nanchored = true\nrepeat = {count = 40, step = [1, 0]}\n"
+                       "[[part]]\nname = \"box\"\nbox = [1, 1]\nposition = [" +
+                       Digits(at) + ", 0.6]\n",
+                   "", "bounds = [[-4000, -100], [4000, 100]]\n");
+    Live(world.get(), 120);
+    return world->Read(0);
+  };
+  const BodyState near = fallen(0), far = fallen(3000);
+  EXPECT_NEAR(near.position.y(), far.position.y(), 1e-3f);
+  EXPECT_LT(std::fabs(far.angle), 1e-3f);
+  EXPECT_LT(far.velocity.norm(), 1e-2f);
+}
+
+TEST(AnchoredBodies, OneThatIsFreedFallsAndTheOthersStay) {
+  auto world =
+      SmallWorld(Tiles(40) + "[[part]]\nname = \"floor\"\nchain = [[-30, -9], [30, -9]]\n");
+  EXPECT_EQ(world->body_count(), 0);
+  world->Apply({Edit(FreeEdit{17}, EditCause::kOutside)});
+  ASSERT_EQ(world->body_count(), 1);
+  EXPECT_EQ(world->id(0), 17);
+  const Vec2 at = world->Read(0).position;
+  Live(world.get(), 30);
+  EXPECT_LT(world->Read(0).position.y(), at.y() - 0.3f);
+  EXPECT_EQ(PartPose(*world, 18).position, world->scene().parts[18].position);
+  const int assembly = world->composition().assembly_of_part[18];
+  EXPECT_EQ(world->ReadAssembly(assembly).position, world->scene().parts[18].position);
+}
+
+TEST(AnchoredBodies, AWeldedWallComesDownWhenItIsNoLongerAnchored) {
+  const std::string wall =
+      "[[part]]\nname = \"ledge\"\nbox = [1, 1]\nposition = [0, 20]\nanchored = true\n"
+      "[[part]]\nname = \"slab\"\nbox = [1, 1]\nposition = [1, 20]\n"
+      "[[joint]]\nname = \"weld\"\nkind = \"weld\"\na = \"ledge\"\nb = \"slab\"\n";
+  auto world = SmallWorld(Tiles(40) + wall);
+  EXPECT_EQ(CountShared(world->scene()), 41);
+  EXPECT_EQ(world->body_count(), 0);
+  world->Apply({Edit(BreakEdit{0}, EditCause::kOutside)});
+  ASSERT_EQ(world->body_count(), 1);
+  Live(world.get(), 60);
+  EXPECT_LT(world->Read(0).position.y(), 18);
+}
+
+TEST(AnchoredBodies, ABarrierAmongThemIsBitExact) {
+  const std::string balls =
+      "[[part]]\nname = \"ball\"\ncircle = 0.3\nposition = [-8, 1]\nvelocity = [3, 0]\n"
+      "restitution = 0.5\nrepeat = {count = 8, step = [2, 0.3]}\n";
+  auto world = SmallWorld(Tiles(60, 0.1) + balls);
+  Live(world.get(), 50);
+  const WorldSnapshot then = world->Barrier();
+  std::vector<std::uint64_t> first, again;
+  for (int i = 0; i < 60; ++i) {
+    world->Step();
+    first.push_back(world->Hash());
+  }
+  ASSERT_TRUE(world->Restore(then).ok());
+  for (int i = 0; i < 60; ++i) {
+    world->Step();
+    again.push_back(world->Hash());
+  }
+  EXPECT_EQ(first, again);
+}
+
+}  // namespace
+}  // namespace seam

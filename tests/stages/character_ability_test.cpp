@@ -1,0 +1,108 @@
+/// What active characters must be able to do, on starts that no search has seen (those of searches
+/// are numbered from 1001): the bars of docs/lab.md.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/lab/gait/ability.h"
+#include "tests/support/character_world.h"
+
+namespace seam {
+namespace {
+
+/// Of the trials whose group begins with one of these words.
+struct Tally {
+  int good = 0, count = 0;
+  std::vector<double> figures;  // of the good ones
+  std::string failed;           // starts
+  double median() {
+    std::sort(figures.begin(), figures.end());
+    return figures.empty() ? 0 : figures[figures.size() / 2];
+  }
+};
+
+/// Starts 1 to `last` of an ability with the gains built in, those of other groups left out.
+Tally Try(const char* ability, int last, const std::string& group = "") {
+  Tally tally;
+  for (int start = 1; start <= last; ++start) {
+    const GaitTrial trial =
+        FindAbility(ability)->run({"substeps = 4", ""}, CharacterGains{}, start);
+    if (trial.group.find(group) == std::string::npos) continue;
+    ++tally.count;
+    tally.good += trial.good ? 1 : 0;
+    if (trial.good) tally.figures.push_back(trial.figure);
+    if (!trial.good) tally.failed += " " + std::to_string(start);
+  }
+  return tally;
+}
+
+TEST(CharacterAbility, LandsARunningJumpUprightAtThreeDrivesAndEightPhases) {
+  Tally jumps = Try("jump", 24);
+  EXPECT_GE(jumps.good, 22) << jumps.failed;
+  ASSERT_EQ(jumps.count, 24);
+  EXPECT_GE(*std::min_element(jumps.figures.begin(), jumps.figures.end()), 0.25)
+      << "m of the soles";
+}
+
+TEST(CharacterAbility, KeepsItsFeetUnderAShoveOfOneNewtonSecondPerKilogram) {
+  const Tally standing = Try("shove", 48, "standing"), walking = Try("shove", 48, "walking");
+  const Tally running = Try("shove", 48, "running");
+  ASSERT_EQ(standing.count, 16);
+  EXPECT_EQ(standing.good, 16) << standing.failed;
+  EXPECT_GE(walking.good, 15) << walking.failed;
+  EXPECT_GE(running.good, 12) << running.failed;
+}
+
+TEST(CharacterAbility, ClimbsAndDescendsStairsOfFifteenAndTwentyCentimetres) {
+  const Tally low = Try("stairs", 24, "15 cm"), high = Try("stairs", 24, "20 cm");
+  ASSERT_EQ(low.count, 12);
+  EXPECT_GE(low.good, 11) << low.failed;
+  EXPECT_GE(high.good, 9) << high.failed;
+}
+
+TEST(CharacterAbility, GetsUpFromFrontAndBackOnSlopesOfTenAndSeventeenDegrees) {
+  for (const char* side : {"front", "back"}) {
+    Tally up;
+    for (const char* slope : {"+10", "-10", "+17", "-17"}) {
+      const Tally one = Try("rise", 60, slope + std::string(" degrees, ") + side);
+      up.good += one.good;
+      up.count += one.count;
+      up.failed += one.failed;
+      up.figures.insert(up.figures.end(), one.figures.begin(), one.figures.end());
+    }
+    ASSERT_EQ(up.count, 24);
+    EXPECT_GE(up.good, 22) << side << up.failed;
+    EXPECT_LE(up.median(), side[0] == 'f' ? 2 : 3) << side;
+  }
+}
+
+TEST(CharacterAbility, ABarrierReplaysStairsAndTheWayUpFromTheGroundBitForBit) {
+  const std::string stairs =
+      "[[part]]\nname = \"ground\"\nfriction = 0.9\nchain = [[-50, 0], [1, 0], [1.01, 0.15], "
+      "[1.45, 0.15], [1.46, 0.3], [60, 0.3]]\n";
+  const Scene scenes[] = {
+      CharacterScene("position = [0, 0]\n", "[[0, {drive = 0.4}]]", stairs),
+      CharacterScene("position = [0, 0.2]\nangle = -1.5\n"),
+  };
+  for (const Scene& scene : scenes) {
+    for (const int at : {40, 75, 110}) {
+      ScriptedWorld run(scene);
+      run.StepTo(at);
+      const WorldSnapshot snapshot = run.world.Barrier();
+      std::vector<std::uint64_t> first;
+      for (int tick = 0; tick < 90; ++tick) {
+        run.Step();
+        first.push_back(run.world.Hash());
+      }
+      ASSERT_TRUE(run.world.Restore(snapshot).ok());
+      for (int tick = 0; tick < 90; ++tick) {
+        run.Step();
+        ASSERT_EQ(run.world.Hash(), first[static_cast<std::size_t>(tick)]) << at << " + " << tick;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace seam
