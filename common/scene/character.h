@@ -79,7 +79,8 @@ struct Character {
   /// Numbers of its controller, for searches of better ones; nullptr: those built in. No part of a
   /// scene file: a peer has always those built in.
   std::shared_ptr<const CharacterGains> gains;
-  int line = 0;  ///< in the scene file
+  bool grip = false;  ///< its hands may hold what they touch (common/topology/grip.h)
+  int line = 0;       ///< in the scene file
 };
 
 struct Scene;

@@ -58,7 +58,7 @@ struct HingeMeasure {
   const char* name;
   CharacterPart a, b;
   float y;             ///< m above the soles
-  float lower, upper;  ///< rad from upright, facing right
+  float lower, upper;  ///< rad from upright, facing right; equal: it turns freely
   /// Bound of torque as a share of weight x height (m x 10 m/s^2 x height): a man of 75 kg and
   /// 1.8 m does about 0.1 to 0.2 of it (150 to 250 N m) at ankle, knee and hip.
   float share;
@@ -67,9 +67,9 @@ struct HingeMeasure {
 /// In this order: CharacterJoint. Counter-clockwise is forward for what hangs (thigh, arm).
 constexpr HingeMeasure kHinges[kCharacterJoints] = {
     {"neck", kTorso, kHead, 1.54f, -0.6f, 0.6f, 0.03f},
-    {"shoulder-l", kTorso, kUpperArmLeft, 1.46f, -1.2f, 3.1f, 0.08f},
+    {"shoulder-l", kTorso, kUpperArmLeft, 1.46f, 0, 0, 0.08f},
     {"elbow-l", kUpperArmLeft, kLowerArmLeft, 1.16f, 0, 2.5f, 0.06f},
-    {"shoulder-r", kTorso, kUpperArmRight, 1.46f, -1.2f, 3.1f, 0.08f},
+    {"shoulder-r", kTorso, kUpperArmRight, 1.46f, 0, 0, 0.08f},
     {"elbow-r", kUpperArmRight, kLowerArmRight, 1.16f, 0, 2.5f, 0.06f},
     {"hip-l", kTorso, kUpperLegLeft, 0.96f, -0.7f, 2.4f, 0.20f},
     {"knee-l", kUpperLegLeft, kLowerLegLeft, 0.52f, -2.6f, 0, 0.20f},
@@ -144,7 +144,7 @@ std::vector<Joint> CharacterHinges(const CharacterDraft& draft, float mass) {
     joint.a = character.parts[m.a];
     joint.b = character.parts[m.b];
     joint.anchor_a = joint.anchor_b = ToWorld(draft, 0, m.y);
-    joint.limited = true;
+    joint.limited = m.lower < m.upper;
     joint.lower = character.facing > 0 ? m.lower : -m.upper;
     joint.upper = character.facing > 0 ? m.upper : -m.lower;
     const float stated = draft.torque[static_cast<std::size_t>(j)];

@@ -53,6 +53,8 @@ CharacterDraft ReadDraft(const SceneReader& r, const std::string& name, const Sc
   if (draft.velocity.norm() > limit) {
     r.FailAt("velocity", "velocity is above the speed_limit of " + Decimal(limit) + " m/s");
   }
+  c.grip = r.Flag("grip", false);
+  if (c.grip && !c.active) r.FailAt("grip", "a passive character holds nothing");
   if (r.Has("player")) c.player = FindPlayer(r, "player", r.Text("player"), scene);
   if (c.player >= 0 && !c.active) r.FailAt("player", "a passive character has no player");
   draft.owner = c.player;
@@ -98,7 +100,7 @@ void AddHinges(const SceneReader& r, CharacterDraft* draft, SceneDraft* out) {
 void ReadCharacter(const TomlNode& node, SceneDraft* draft) {
   SceneReader r(node, draft->file, "character",
                 {"name", "kind", "player", "owner", "position", "angle", "facing", "height",
-                 "density", "friction", "strength", "torque", "velocity", "health"});
+                 "density", "friction", "strength", "torque", "velocity", "health", "grip"});
   const std::string name = r.Name("name");
   r.Rename("character '" + name + "'");
   if (draft->part_of_name.count(name) != 0 || draft->group_of_name.count(name) != 0) {

@@ -18,10 +18,11 @@ struct BreakEdit {
   std::int32_t joint = -1;  ///< index into Scene::joints
 };
 
-/// Why parts become rigid with each other.
-enum class BondCause : std::int8_t { kGiven = -1, kConnectors = 0, kGroup = 1 };
+/// Why parts become rigid with each other; kGrip: why one holds the other.
+enum class BondCause : std::int8_t { kGiven = -1, kConnectors = 0, kGroup = 1, kGrip = 2 };
 
-/// `b` becomes rigid with `a`, by a glue joint.
+/// `b` becomes rigid with `a`, by a glue joint. kGrip: the hand `b` holds `a` by a hinge, at
+/// `position` in the frame of `a` (grip.h); the angle is 0.
 struct BondEdit {
   PartId a = -1, b = -1;
   Vec2 position{0, 0};  ///< m, of `b` in the frame of `a`

@@ -12,6 +12,7 @@
 #include "common/topology/feather_blast.h"
 #include "common/topology/feather_fall.h"
 #include "common/topology/feather_store.h"
+#include "common/topology/grip.h"
 
 namespace seam {
 namespace {
@@ -86,6 +87,9 @@ Status Topology::ValidateBond(const BondEdit& bond) const {
   const auto& all = composition_.assemblies;
   if (all[static_cast<std::size_t>(a)].anchored && all[static_cast<std::size_t>(b)].anchored) {
     return Status::Error("both are anchored");
+  }
+  if (bond.cause == BondCause::kGrip) {
+    return MayGrip(scene_, bond) ? Status::Ok() : Status::Error("no hand that may hold it so");
   }
   if (!FitsTogether(scene_, composition_, bond)) {
     return Status::Error("a bond over such a distance is not possible");
@@ -243,7 +247,7 @@ void Topology::FreeBricks(const BlastEdit& blast) {
   left_->SetHanging(std::move(fallen.hanging));
 }
 
-void Topology::Bond(const BondEdit& edit) {
+void Topology::MoveSide(const BondEdit& edit) {
   const auto [moved, moves] = MoveOf(scene_, composition_, edit);
   const auto of_moved = [&, moved = moved](PartId part) {
     return composition_.assembly_of_part[static_cast<std::size_t>(part)] == moved;
@@ -260,8 +264,6 @@ void Topology::Bond(const BondEdit& edit) {
   const float turn = static_cast<float>(moves.angle);
   for (Joint& joint : scene_.joints) {
     if (joint.gone) continue;
-    // "As placed" was before this.
-    if (joint.length <= 0) joint.length = (joint.anchor_b - joint.anchor_a).norm();
     if (of_moved(joint.a)) {
       move(&joint.anchor_a);
       joint.axis = moves.Turned(joint.axis.cast<double>()).cast<float>();
@@ -272,6 +274,14 @@ void Topology::Bond(const BondEdit& edit) {
       joint.turn += turn;
     }
   }
+}
+
+void Topology::Bond(const BondEdit& edit) {
+  for (Joint& joint : scene_.joints) {  // "as placed" was before this
+    if (joint.gone || joint.length > 0) continue;
+    joint.length = (joint.anchor_b - joint.anchor_a).norm();
+  }
+  if (edit.cause != BondCause::kGrip) MoveSide(edit);
   auto slot = static_cast<std::int32_t>(scene_.joints.size());
   if (!free_bonds_.empty()) {
     slot = *free_bonds_.begin();
@@ -280,20 +290,29 @@ void Topology::Bond(const BondEdit& edit) {
     scene_.joints.emplace_back();
     slots_.emplace_back();
   }
-  PutBond(slot, edit.a, edit.b, edit.strength, edit.cause == BondCause::kGroup);
+  PutBond(slot, edit);
   stale_ = true;
 }
 
-void Topology::PutBond(std::int32_t slot, PartId a, PartId b, float strength, bool grouped) {
-  Joint glue;
-  glue.name = "bond." + std::to_string(slot);
-  glue.kind = JointKind::kGlue;
-  glue.a = a;
-  glue.b = b;
-  glue.anchor_a = glue.anchor_b = scene_.parts[static_cast<std::size_t>(b)].position;
-  glue.strength = strength;
-  glue.grouped = grouped;
-  scene_.joints[static_cast<std::size_t>(slot)] = glue;
+void Topology::PutBond(std::int32_t slot, const BondEdit& edit) {
+  const Part& a = scene_.parts[static_cast<std::size_t>(edit.a)];
+  const Part& b = scene_.parts[static_cast<std::size_t>(edit.b)];
+  Joint bond;
+  bond.name = "bond." + std::to_string(slot);
+  bond.kind = JointKind::kGlue;
+  bond.a = edit.a;
+  bond.b = edit.b;
+  bond.anchor_a = bond.anchor_b = b.position;
+  bond.strength = edit.strength;
+  bond.grouped = edit.cause == BondCause::kGroup;
+  if (edit.cause == BondCause::kGrip) {
+    // Where the scene puts the two need not fit: each end is given on its own part.
+    bond.kind = JointKind::kRevolute;
+    bond.anchor_a = a.position + Turned(edit.position, a.angle);
+    bond.anchor_b = b.position + Turned(FingertipOf(scene_, edit.b).value_or(Vec2(0, 0)), b.angle);
+    bond.collide = true;
+  }
+  scene_.joints[static_cast<std::size_t>(slot)] = bond;
   slots_[static_cast<std::size_t>(slot)] = {revision_, true};
 }
 

@@ -77,8 +77,10 @@ class Topology {
   Status ValidateInsert(const InsertEdit& insert) const;
   Status ApplyOne(const Edit& edit);
   void Bond(const BondEdit& edit);
-  /// Glue in a place that bonds take.
-  void PutBond(std::int32_t slot, PartId a, PartId b, float strength, bool grouped);
+  /// Glue or a grip in a place that bonds take.
+  void PutBond(std::int32_t slot, const BondEdit& edit);
+  /// Moves the places of one side to where the bond wants them.
+  void MoveSide(const BondEdit& edit);
   Status Insert(const InsertEdit& edit);
   void Break(std::int32_t joint);
   void Remove(PartId part);

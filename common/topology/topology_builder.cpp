@@ -5,6 +5,7 @@
 
 #include "common/base/check.h"
 #include "common/scene/scene_limits.h"
+#include "common/topology/grip.h"
 
 namespace seam {
 namespace {
@@ -118,7 +119,14 @@ Status TopologyBuilder::Bond(const TopologyEntry& entry) {
   const float strength = entry.value[0];
   if (!(strength >= 0) || !std::isfinite(strength)) return Status::Error("no strength of a bond");
   topology_.free_bonds_.erase(free);
-  topology_.PutBond(entry.joint, entry.a, entry.b, strength, entry.value[1] != 0);
+  const BondCause cause = entry.value[1] == 1   ? BondCause::kGroup
+                          : entry.value[1] == 2 ? BondCause::kGrip
+                                                : BondCause::kGiven;
+  if (cause == BondCause::kGrip && CharacterOfHand(topology_.scene_, entry.b) < 0) {
+    return Status::Error("a grip without a hand");
+  }
+  BondEdit bond{entry.a, entry.b, {0, 0}, 0, strength, cause};
+  topology_.PutBond(entry.joint, bond);
   topology_.scene_.joints[static_cast<std::size_t>(entry.joint)].length = 0;  // measured
   return Status::Ok();
 }

@@ -23,7 +23,8 @@ struct TopologyEntry {
     kBreak = 8,      ///< `joint` is gone
     kPlace = 9,      ///< part `a` is at x, y (m), angle (rad)
     kMeasured = 10,  ///< of the first `joint` joints, the lengths "as placed" are what they are now
-    kBond = 11,      ///< `joint` is glue between `a` and `b`; value: strength (N), 1 if grouped
+    kBond = 11,      ///< `joint` is glue between `a` and `b`; value: strength (N), 1: grouped,
+                     ///< 2: a grip, a hinge
     kEnds = 12,      ///< of `joint`: anchor a, anchor b (m), axis, turn (rad), length (m)
     kSeat = 13,      ///< seat `a` is player `b`'s, -1: nobody's
   };

@@ -4,6 +4,8 @@
 #include <cstring>
 #include <utility>
 
+#include "common/topology/grip.h"
+
 namespace seam {
 namespace {
 
@@ -296,7 +298,7 @@ void TopologyFold::AddJoints(const Topology& now, std::vector<TopologyEntry>* en
       bond.joint = index;
       bond.a = joint.a;
       bond.b = joint.b;
-      bond.value = {joint.strength, joint.grouped ? 1.0f : 0.0f};
+      bond.value = {joint.strength, IsGrip(joint) ? 2.0f : joint.grouped ? 1.0f : 0.0f};
       entries->push_back(bond);
       given.anchor_a = given.anchor_b = scene.parts[static_cast<std::size_t>(joint.b)].position;
       given.length = 0;

@@ -6,6 +6,7 @@
 
 #include "common/base/geometry.h"
 #include "common/scene/joint_kinds.h"
+#include "common/topology/grip.h"
 #include "render/canvas/figure.h"
 
 namespace seam {
@@ -212,6 +213,7 @@ std::vector<DrawnJoint> JointsOf(const Scene& scene, const Composition& composit
     drawn.anchor_a = Into(PoseOf(PartOf(scene, a.id)), joint.anchor_a);
     drawn.anchor_b = Into(PoseOf(PartOf(scene, b.id)), joint.anchor_b);
     drawn.rod = hold == JointHold::kLine;
+    drawn.grip = IsGrip(joint);
     if (hold == JointHold::kPulley) {
       AddPulley(joint, drawn, &joints);
       continue;

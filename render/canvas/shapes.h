@@ -69,7 +69,8 @@ struct DrawnJoint {
   PartId a = 0, b = 0;  ///< assembly ids; -1: a point of the world (a pulley's)
   Vec2 anchor_a{0, 0}, anchor_b{0, 0};
   bool a_anchored = false, b_anchored = false;
-  bool rod = false;  ///< distance joint or rope: a line; else a pin at a's anchor
+  bool rod = false;   ///< distance joint or rope: a line; else a pin at a's anchor
+  bool grip = false;  ///< a hand holds: a ring around the pin
 };
 
 /// All that a world's bodies look like as long as none changes.

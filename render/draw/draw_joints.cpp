@@ -4,11 +4,13 @@
 #include <vector>
 
 #include "common/sync/edits/edit_order.h"
+#include "common/topology/grip.h"
 #include "render/canvas/palette.h"
 
 namespace seam {
 namespace {
 
+constexpr float kGripRing = 5;  ///< px at scale 1; its radius around a hand's pin
 constexpr float kPinsFrom_px_per_m = 12;  ///< smaller bodies would be all pins
 
 std::optional<Vec2> AnchorOn(const Viewport& viewport, const Playback& playback,
@@ -70,7 +72,9 @@ void DrawPins(DrawList& list, const Viewport& viewport, const Playback& playback
     if (joint.rod) continue;
     const auto a =
         AnchorOn(viewport, playback, *revision, moment, joint.a, joint.a_anchored, joint.anchor_a);
-    if (a) list.Disc(*a, 1.6f * list.font().scale(), Faded(kInk, opacity));
+    const float scale = list.font().scale();
+    if (a) list.Disc(*a, 1.6f * scale, Faded(kInk, opacity));
+    if (a && joint.grip) list.Ring(*a, kGripRing * scale, {1.5f * scale, Faded(kInk, opacity), 0});
   }
 }
 
@@ -92,6 +96,7 @@ void DrawBreaks(DrawList& list, const Viewport& viewport, const Playback& playba
     const auto index = static_cast<std::size_t>(broken->joint);
     if (index >= joints.size()) continue;
     const Joint& joint = joints[index];
+    if (IsGrip(joint)) continue;  // a hand that lets go breaks nothing
     const auto crack = CrackOf(playback, moment, joint, world->scene());
     if (!crack || !viewport.Sees(crack->at, kCrack_m)) continue;
     const Vec2 middle = viewport.ToPx(crack->at);

@@ -5,6 +5,7 @@
 #include "common/base/geometry.h"
 #include "common/physics/part_places.h"
 #include "common/stages/make_stages.h"
+#include "common/topology/grip.h"
 #include "common/topology/join.h"
 
 namespace seam {
@@ -12,6 +13,8 @@ namespace {
 
 /// How far from where a bond puts them parts may be in our copy, m: two copies of fast things.
 constexpr float kBondReach = 2;
+/// The same of a hand from what it holds: both are slower.
+constexpr float kGripReach = 1;
 /// And how far turned, rad.
 constexpr float kBondTurn = 1;
 
@@ -21,17 +24,24 @@ bool MayPropose(const Topology& topology, const Edit& edit) {
   if (edit.cause != EditCause::kPhysics) return false;
   if (const BreakEdit* broken = edit.As<BreakEdit>()) {
     const Joint& joint = topology.scene().joints[static_cast<std::size_t>(broken->joint)];
+    if (IsGrip(joint)) return true;
     return joint.kind == JointKind::kGlue && (joint.strength > 0 || joint.grouped);
   }
   const BondEdit* bond = edit.As<BondEdit>();
   return bond != nullptr && (IsJoin(topology.scene(), topology.composition(), *bond) ||
-                             MayGroup(topology.scene(), topology.composition(), *bond));
+                             MayGroup(topology.scene(), topology.composition(), *bond) ||
+                             MayGrip(topology.scene(), *bond));
 }
 
 bool PlausibleProposal(const World& world, const Edit& edit) {
   const BondEdit* bond = edit.As<BondEdit>();
   if (bond == nullptr) return true;
   const BodyState a = PartPose(world, bond->a), b = PartPose(world, bond->b);
+  if (bond->cause == BondCause::kGrip) {
+    const Vec2 tip = FingertipOf(world.scene(), bond->b).value_or(Vec2(0, 0));
+    const Vec2 held = a.position + Turned(bond->position, a.angle);
+    return (held - b.position - Turned(tip, b.angle)).norm() < kGripReach;
+  }
   const Vec2 wanted = a.position + Turned(bond->position, a.angle);
   const float turned = WrapAngle(a.angle + bond->angle - b.angle);
   return (wanted - b.position).norm() < kBondReach && std::fabs(turned) < kBondTurn;

@@ -85,7 +85,7 @@ struct TuneGaitCommand {
 };
 
 /// Searches gains that make an ability better and prints what becomes of training and held-out
-/// starts. 1: a signal came, and nothing was written.
+/// starts. 1: a signal came: what was found so far is printed, and nothing written.
 int RunTuneGait(const TuneGaitCommand& command);
 
 struct OverheadCommand {

@@ -98,6 +98,7 @@ inline double BeyondLimits(const ScriptedWorld& run) {
   const Scene& scene = run.world.scene();
   double beyond = 0;
   for (const Joint& joint : scene.joints) {
+    if (!joint.limited) continue;
     const auto angle = [&](PartId part) {
       const Part& p = scene.parts[static_cast<std::size_t>(part)];
       return static_cast<double>(run.Read(p.name).angle - p.angle);

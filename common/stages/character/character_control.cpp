@@ -8,11 +8,18 @@
 #include "common/stages/character/character_gains.h"
 
 namespace seam {
+namespace {
+
+/// A player's lift below this, which is all the way down, makes a character limp.
+constexpr float kLimpLift = -0.9f;
+
+}  // namespace
 
 void CharacterMemory::Save(std::vector<float>* memory) const {
   memory->insert(memory->end(),
                  {static_cast<float>(mode), time, static_cast<float>(stance), step, from.x, from.y,
-                  to, edge.x, edge.y, speed, static_cast<float>(phase), phase_time});
+                  to, edge.x, edge.y, speed, static_cast<float>(phase), phase_time, hold[0],
+                  hold[1], load[0], load[1], limp});
 }
 
 std::size_t CharacterMemory::Load(const float* memory) {
@@ -26,14 +33,20 @@ std::size_t CharacterMemory::Load(const float* memory) {
   speed = memory[9];
   phase = static_cast<int>(memory[10]);
   phase_time = memory[11];
-  return 12;
+  hold[0] = memory[12];
+  hold[1] = memory[13];
+  load[0] = memory[14];
+  load[1] = memory[15];
+  limp = memory[16];
+  return 17;
 }
 
 CharacterControl::CharacterControl(const Character& character, const StageWorld& world)
     : character_(character),
       world_(world),
       gains_(character.gains ? *character.gains : CharacterGains{}),
-      limbs_(character, world) {
+      limbs_(character, world),
+      hands_(character, world) {
   gravity_ = std::max(1.0f, -world.scene.gravity.y());
 }
 
@@ -49,6 +62,13 @@ void CharacterControl::Enter(CharacterMode mode) {
   memory_.phase_time = 0;
 }
 
+void CharacterControl::Struck(float impulse) {
+  if (!limbs_.whole()) return;
+  const float speed = impulse / limbs_.Sense().mass;
+  if (speed < gains_.limp_speed) return;
+  memory_.limp = std::max(memory_.limp, std::min(gains_.limp_time * speed, gains_.limp_max));
+}
+
 void CharacterControl::Act(float h) {
   if (!limbs_.dynamic()) return;
   if (!limbs_.whole()) {
@@ -59,7 +79,12 @@ void CharacterControl::Act(float h) {
   const CharacterSense s = limbs_.Sense();
   unit_ = s.mass * 10 * character_.height;
   memory_.time += h;
-  Choose(s, h);
+  memory_.limp = std::max(0.0f, memory_.limp - h);
+  const bool limp = memory_.limp > 0 || lift_ < kLimpLift;
+  if (limp != (memory_.mode == CharacterMode::kLimp)) {
+    Enter(limp ? CharacterMode::kLimp : CharacterMode::kFall);
+  }
+  if (!limp) Choose(s, h);
   switch (memory_.mode) {
     case CharacterMode::kStand: Stand(s); break;
     case CharacterMode::kStep: StepOn(s, h); break;
@@ -68,6 +93,7 @@ void CharacterControl::Act(float h) {
     case CharacterMode::kFall: Fall(s); break;
     case CharacterMode::kRise: Rise(s, h); break;
     case CharacterMode::kSwim: Swim(s, h); break;
+    case CharacterMode::kClimb: Climb(s, h); break;
     case CharacterMode::kLimp: limbs_.SlackenAll(); break;
   }
 }
@@ -76,13 +102,19 @@ void CharacterControl::Act(float h) {
 void CharacterControl::Choose(const CharacterSense& s, float h) {
   if (!world_.scene.waters.empty()) {
     const float depth = ChestDepth(s) / limbs_.scale();
+    if (memory_.mode == CharacterMode::kClimb) return;
     const bool swims = memory_.mode == CharacterMode::kSwim;
-    if (!swims && depth > gains_.swim_from) Enter(CharacterMode::kSwim);
+    if (!swims && depth > gains_.swim_from) {
+      Enter(CharacterMode::kSwim);
+      memory_.speed = 0;
+    }
     const bool stands = depth < gains_.swim_to && (s.legs[0].down || s.legs[1].down || s.lying);
     if (swims && stands)
       Enter(std::abs(s.torso) < 0.5f * gains_.tilt_max ? CharacterMode::kStand
                                                        : CharacterMode::kFall);
-    if (memory_.mode == CharacterMode::kSwim) return;
+    const bool on = memory_.mode == CharacterMode::kSwim && character_.grip && drive_ > 0.3f;
+    if (on && memory_.time > 0.5f && LedgeAhead(s).found) Enter(CharacterMode::kClimb);
+    if (memory_.mode == CharacterMode::kSwim || memory_.mode == CharacterMode::kClimb) return;
   }
   const bool upright_mode =
       memory_.mode == CharacterMode::kStand || memory_.mode == CharacterMode::kStep ||

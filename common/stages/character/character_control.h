@@ -5,7 +5,9 @@
 ///   stand --drive, or pushed too far--> step --slow enough--> stand
 ///   stand, step --lift--> jump --> air --feet touch--> step or stand
 ///   anything --tilted, sunk down--> fall --it lies--> rise --up--> stand
-///   anything --in water--> swim          a leg or the torso gone--> limp
+///   anything --in water--> swim --a ledge in reach--> climb --over it--> fall
+///   anything --its player's lift fully down, or a hard blow--> limp --over--> fall
+///   a leg or the torso gone--> limp
 ///
 /// The balance is the linear inverted pendulum's: its divergent part, the point x + v / w0 with
 /// w0 = sqrt(g / h), must be over or be caught by a foot (Pratt and others, "Capture Point: A Step
@@ -16,11 +18,12 @@
 
 #include "common/scene/character.h"
 #include "common/stages/character/character_gains.h"
+#include "common/stages/character/character_hands.h"
 #include "common/stages/character/character_limbs.h"
 
 namespace seam {
 
-enum class CharacterMode { kStand, kStep, kJump, kAir, kFall, kRise, kSwim, kLimp };
+enum class CharacterMode { kStand, kStep, kJump, kAir, kFall, kRise, kSwim, kLimp, kClimb };
 
 /// m; x of an edge that is not there.
 constexpr float kNoEdge = 1e6f;
@@ -36,7 +39,10 @@ struct CharacterMemory {
   b2Vec2 edge{kNoEdge, 0};  ///< m; kStep: of the first stair before it
   float speed = 0;          ///< m/s that is wished for now
   int phase = 0;            ///< kRise: of the way up
-  float phase_time = 0;     ///< s in it
+  float phase_time = 0;     ///< s in it; kSwim: turns of the arms
+  float hold[2] = {};       ///< 1: the hand is to hold what it touches; -x: for x s it cannot
+  float load[2] = {};       ///< N; what each hand bears, the mean of the last moment
+  float limp = 0;           ///< s that it stays limp after a blow
 
   void Save(std::vector<float>* memory) const;
   std::size_t Load(const float* memory);
@@ -46,11 +52,23 @@ class CharacterControl {
  public:
   CharacterControl(const Character& character, const StageWorld& world);
 
-  void Find(b2World* world) { limbs_.Find(world); }
-  void Forget() { limbs_.Forget(); }
+  void Find(b2World* world) {
+    limbs_.Find(world);
+    hands_.Find();
+  }
+  void Forget() {
+    limbs_.Forget();
+    hands_.Forget();
+  }
   void SetInput(const Input& input);
   /// Before the engine's step of `h` s.
   void Act(float h);
+  /// A blow of `impulse` N s on one of its parts: a hard one makes it limp for a moment.
+  void Struck(float impulse);
+  /// After a tick: grips that are to be made or given up.
+  void ProposeGrips(std::vector<Edit>* edits) const { hands_.Propose(memory_.hold, edits); }
+  /// After a tick of `h` s.
+  void FeelHands(float h);
 
   const CharacterMemory& memory() const { return memory_; }
   CharacterMemory* mutable_memory() { return &memory_; }
@@ -115,6 +133,27 @@ class CharacterControl {
   // character_swim.cpp
   float ChestDepth(const CharacterSense& s) const;
   void Swim(const CharacterSense& s, float h);
+  void Tread(const CharacterSense& s, float h);
+  /// rad of the joints of one leg.
+  struct Legs {
+    float hip = 0, knee = 0, ankle = 0;
+  };
+  Legs TreadLegs(const CharacterSense& s, float leg) const;
+  Legs BeatLegs(const CharacterSense& s, float leg, float share) const;
+  void PoseLegs(const Legs& tread, const Legs& beat, float share, int side);
+
+  // character_climb.cpp
+  struct Ledge {
+    bool found = false;
+    b2Vec2 edge{0, 0};  // m
+  };
+  Ledge LedgeAhead(const CharacterSense& s) const;
+  void Climb(const CharacterSense& s, float h);
+  void ReachWith(const CharacterSense& s, int side, b2Vec2 way);
+  void PullWith(int side, b2Vec2 force);
+  b2Vec2 PullTo(const CharacterSense& s, b2Vec2 tip) const;
+  bool ReachesOn(int side, b2Vec2 tip, b2Vec2 shoulder) const;
+  void LetGo();
 
   /// N m: weight x height, by which all gains are in proportion.
   float unit() const { return unit_; }
@@ -129,6 +168,7 @@ class CharacterControl {
   const StageWorld world_;
   const CharacterGains gains_;
   CharacterLimbs limbs_;
+  CharacterHands hands_;
   CharacterMemory memory_;
   float drive_ = 0, lift_ = 0;  // -1..1, drive forward
   float gravity_ = 10;          // m/s^2, downwards

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/geometry.h"
 #include "common/scene/character.h"
 
 namespace seam {
@@ -145,7 +146,9 @@ void CharacterLimbs::Servo(CharacterJoint joint, float angle, float spin, float 
                            float damping) {
   b2RevoluteJoint* j = joints_[joint];
   if (j == nullptr) return;
-  const float there = spin + stiffness / damping * (angle - this->angle(joint));
+  float missing = angle - this->angle(joint);
+  if (!j->IsLimitEnabled()) missing = WrapAngle(missing);  // what turns freely takes the short way
+  const float there = spin + stiffness / damping * missing;
   const float proposed = damping * (there - facing_ * j->GetJointSpeed());
   told_[joint] = std::clamp(proposed, -bound_[joint], bound_[joint]);
   j->SetMotorSpeed(facing_ * there);
@@ -173,7 +176,7 @@ void CharacterLimbs::SlackenAll() {
   for (int j = 0; j < kCharacterJoints; ++j) Slacken(static_cast<CharacterJoint>(j));
 }
 
-GroundPoint CharacterLimbs::GroundBelow(b2Vec2 from, float depth) const {
+GroundPoint CharacterLimbs::Hit(b2Vec2 from, b2Vec2 to) const {
   Nearest nearest;
   for (b2Body* body : bodies_) {
     if (body != nullptr && body->GetFixtureList() != nullptr) {
@@ -181,8 +184,7 @@ GroundPoint CharacterLimbs::GroundBelow(b2Vec2 from, float depth) const {
       break;
     }
   }
-  const b2Vec2 begin = Own(from);
-  engine_->RayCast(&nearest, begin, begin - b2Vec2(0, depth));
+  engine_->RayCast(&nearest, Own(from), Own(to));
   nearest.ground.point = Own(nearest.ground.point);
   nearest.ground.normal = Own(nearest.ground.normal);
   return nearest.ground;

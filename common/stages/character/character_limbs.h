@@ -61,7 +61,7 @@ class CharacterLimbs {
   /// A servo: torque stiffness (angle - now) + damping (spin - now), N m, within the bound, never
   /// driving the joint faster than it would by itself (the spin at which that torque is 0): so it
   /// is stable at any stiffness and step, as in Tan, Liu and Turk, "Stable Proportional-Derivative
-  /// Controllers", 2011.
+  /// Controllers", 2011. A joint without limits goes the shorter way round.
   void Servo(CharacterJoint joint, float angle, float spin, float stiffness, float damping);
   /// Torque on the outer part, within the bound; returns what it is.
   float Torque(CharacterJoint joint, float torque);
@@ -72,7 +72,13 @@ class CharacterLimbs {
   float told(CharacterJoint joint) const { return told_[joint]; }
 
   /// The highest ground below `from`, not deeper than `depth` m; nothing of the character itself.
-  GroundPoint GroundBelow(b2Vec2 from, float depth) const;
+  GroundPoint GroundBelow(b2Vec2 from, float depth) const {
+    return Hit(from, from - b2Vec2(0, depth));
+  }
+  /// What the way from one point to another meets first; nothing of the character itself.
+  GroundPoint Hit(b2Vec2 from, b2Vec2 to) const;
+  /// Where a joint is, m, in the own frame. Requires has(joint).
+  b2Vec2 At(CharacterJoint joint) const { return Own(joints_[joint]->GetAnchorA()); }
   b2Body* body(CharacterPart part) const { return bodies_[part]; }
   b2Vec2 Own(b2Vec2 world) const { return b2Vec2(facing_ * world.x, world.y); }
 

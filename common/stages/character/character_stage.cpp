@@ -9,10 +9,12 @@ namespace {
 
 class CharacterStage : public Stage {
  public:
-  explicit CharacterStage(const StageWorld& world) {
+  explicit CharacterStage(const StageWorld& world)
+      : tick_s_(1.0f / static_cast<float>(world.scene.solver.tick_hz)) {
     for (const Character& character : world.scene.characters) {
       if (!character.active) continue;
       players_.push_back(character.player);
+      parts_.emplace_back(character.parts.begin(), character.parts.end());
       controls_.emplace_back(character, world);
     }
   }
@@ -23,8 +25,23 @@ class CharacterStage : public Stage {
   void Emptied() override {
     for (CharacterControl& control : controls_) control.Forget();
   }
+  void AfterTick() override {
+    for (CharacterControl& control : controls_) control.FeelHands(tick_s_);
+  }
+  void ProposeEdits(std::vector<Edit>* edits) override {
+    for (const CharacterControl& control : controls_) control.ProposeGrips(edits);
+  }
   void BeforeStep(float h) override {
     for (CharacterControl& control : controls_) control.Act(h);
+  }
+  void Edited(const Edit& edit) override {
+    const PushEdit* push = edit.As<PushEdit>();
+    if (push == nullptr) return;
+    for (std::size_t i = 0; i < controls_.size(); ++i) {
+      const std::vector<PartId>& own = parts_[i];
+      const bool struck = std::find(own.begin(), own.end(), push->part) != own.end();
+      if (struck) controls_[i].Struck(push->impulse.norm());
+    }
   }
   void SetInput(int player, const Input& input) override {
     for (std::size_t i = 0; i < controls_.size(); ++i) {
@@ -44,7 +61,9 @@ class CharacterStage : public Stage {
   }
 
  private:
+  const float tick_s_;
   std::vector<int> players_;
+  std::vector<std::vector<PartId>> parts_;  // of each
   std::vector<CharacterControl> controls_;
 };
 

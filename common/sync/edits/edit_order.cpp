@@ -49,6 +49,7 @@ Edit ToEdit(const EditOrder& order) {
     case 2: {
       const auto cause = order.joint == 0   ? BondCause::kConnectors
                          : order.joint == 1 ? BondCause::kGroup
+                         : order.joint == 2 ? BondCause::kGrip
                                             : BondCause::kGiven;
       what = BondEdit{order.a, order.b, xy, angle, amount, cause};
       break;

@@ -5,6 +5,7 @@ namespace seam {
 const std::vector<Ability>& Abilities() {
   static const std::vector<Ability> abilities = {{"jump", "m of the soles", TryJump},
                                                  {"swim", "m/s", TrySwim},
+                                                 {"float", "m/s", TryFloat},
                                                  {"rise", "s", TryRise},
                                                  {"stairs", "s", TryStairs},
                                                  {"slope", "s", TrySlope},

@@ -94,9 +94,9 @@ int RunTuneGait(const TuneGaitCommand& command) {
                 g.sigma);
     std::fflush(stdout);
   });
-  if (!result.complete) return 1;
   std::printf("training cost %.4f -> %.4f\n", result.before, result.after);
   PrintChanges(file, result.gains);
+  if (!result.complete) return 1;
   PrintTable("training", file, file.train, result.gains, jobs);
   PrintTable("held out", file, file.held_out, result.gains, jobs);
   if (g_stop != 0) return 1;

@@ -25,6 +25,7 @@ GaitRun::GaitRun(const GaitSetup& setup, const CharacterGains& gains, const std:
   hero.gains = std::make_shared<const CharacterGains>(gains);
   scene.characters = {hero};
   world_ = std::make_unique<World>(scene);
+  sight_ = See();
 }
 
 void GaitRun::Step(float drive, float lift) {
@@ -35,7 +36,8 @@ void GaitRun::Step(float drive, float lift) {
   world_->Step();
   const std::vector<Edit> edits = world_->ProposeEdits();
   if (!edits.empty()) world_->Apply(edits);
-  upright_ticks_ = Look().upright() ? upright_ticks_ + 1 : 0;
+  sight_ = See();
+  upright_ticks_ = sight_.upright() ? upright_ticks_ + 1 : 0;
 }
 
 void GaitRun::RunTo(double seconds, float drive, float lift) {
@@ -46,7 +48,7 @@ double GaitRun::time() const {
   return static_cast<double>(world_->tick()) / world_->scene().solver.tick_hz;
 }
 
-GaitSight GaitRun::Look() const {
+GaitSight GaitRun::See() const {
   const Scene& scene = world_->scene();
   const Composition& composition = world_->composition();
   const Character& hero = scene.characters[0];

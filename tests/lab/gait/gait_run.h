@@ -36,7 +36,8 @@ class GaitRun {
   void RunTo(double seconds, float drive, float lift = 0);
   double time() const;  ///< s
 
-  GaitSight Look() const;
+  /// After the last step.
+  const GaitSight& Look() const { return sight_; }
   /// A blow of so many N s on the middle of the torso.
   void Shove(Vec2 impulse);
   /// Ticks that it has been upright without a break, up to now.
@@ -44,7 +45,10 @@ class GaitRun {
   const World& world() const { return *world_; }
 
  private:
+  GaitSight See() const;
+
   std::unique_ptr<World> world_;
+  GaitSight sight_;
   int upright_ticks_ = 0;
 };
 

@@ -13,21 +13,32 @@ namespace {
 
 constexpr float kDrives[] = {1.0f, 0.6f, 0.3f, 0, -1.0f};
 /// m/s that a drive is to give, and the least that is good.
-constexpr float kWished[] = {0.75f, 0.5f, 0.3f, 0, -0.4f};
+constexpr float kWished[] = {0.8f, 0.5f, 0.3f, 0, -0.4f};
 constexpr float kLeast[] = {0.6f, 0.3f, 0.12f, 0, -0.3f};
 /// Share of the time with the head's middle above the water.
 constexpr double kHeadUp = 0.95;
 
+GaitTrial Try(const GaitSetup& setup, const CharacterGains& gains, int start, int index);
+
 }  // namespace
+
+GaitTrial TryFloat(const GaitSetup& setup, const CharacterGains& gains, int start) {
+  return Try(setup, gains, start, 3);
+}
 
 /// Starts go through the drives; depth, angle, height and the moment of the drive are drawn.
 GaitTrial TrySwim(const GaitSetup& setup, const CharacterGains& gains, int start) {
+  return Try(setup, gains, start, (start - 1) % 5);
+}
+
+namespace {
+
+GaitTrial Try(const GaitSetup& setup, const CharacterGains& gains, int start, int index) {
   Random random(static_cast<std::uint64_t>(start));
-  const int index = (start - 1) % 5;
   const float drive = kDrives[index];
   const double depth = random.Uniform(2.2, 6);
   const double angle = random.Uniform(-0.8, 0.8), low = random.Uniform(1.2, 1.6);
-  const double begin = random.Uniform(0.5, 2);
+  const double begin = random.Uniform(3, 4.5);
   const std::string pool = fmt::format(
       "[[part]]\nname = \"ground\"\nchain = [[-100, {0:.3f}], [100, {0:.3f}]]\n"
       "[[water]]\nname = \"pool\"\nbox = [200, {1:.3f}]\nposition = [0, {2:.3f}]\n",
@@ -36,19 +47,22 @@ GaitTrial TrySwim(const GaitSetup& setup, const CharacterGains& gains, int start
               fmt::format("position = [{:.3f}, {:.3f}]\nangle = {:.3f}", -std::sin(-angle),
                           -low * std::cos(angle), angle));
   run.RunTo(begin, 0);
-  run.RunTo(begin + 3, drive);  // it comes up and gets going
-  const float from = run.Look().centre.x();
-  constexpr double kMeasured = 10;  // s
   int up = 0, ticks = 0;
   double under = 0;
-  while (run.time() < begin + 3 + kMeasured) {
-    run.Step(drive);
-    const float head = run.Look().head_y;
-    up += head > 0 ? 1 : 0;
-    ++ticks;
-    under += std::max(0.0f, 0.06f - head);
-  }
-  const double speed = (run.Look().centre.x() - from) / kMeasured;
+  const auto swim_to = [&](double time) {
+    while (run.time() < time) {
+      run.Step(drive);
+      const float head = run.Look().head_y;
+      up += head > 0 ? 1 : 0;
+      ++ticks;
+      under += std::max(0.0f, 0.06f - head);
+    }
+  };
+  constexpr double kFrom = 3, kTo = 10;  // s in which its speed is measured
+  swim_to(begin + kFrom);
+  const float from = run.Look().centre.x();
+  swim_to(begin + kTo);
+  const double speed = (run.Look().centre.x() - from) / (kTo - kFrom);
   const double head_up = static_cast<double>(up) / ticks;
   GaitTrial trial;
   trial.group = fmt::format("drive {:.1f}", drive);
@@ -57,9 +71,12 @@ GaitTrial TrySwim(const GaitSetup& setup, const CharacterGains& gains, int start
                                : (drive > 0 ? speed >= kLeast[index] : speed <= kLeast[index]);
   trial.good = fast && head_up >= kHeadUp;
   const double missing = drive < 0 ? speed - kWished[index] : kWished[index] - speed;
-  trial.cost = drive == 0 ? std::abs(speed) : std::max(missing, -0.3 * missing);
+  const double faster = std::abs(drive) == 1 ? 0.02 : 0.3;  // cost of more than is wished for
+  trial.cost = drive == 0 ? std::abs(speed) : 0.2 + std::max(missing, -faster * missing);
   trial.cost += 2 * std::max(0.0, 0.99 - head_up) + 4 * std::min(0.5, under / ticks);
   return trial;
 }
+
+}  // namespace
 
 }  // namespace seam

@@ -1,0 +1,187 @@
+/// CharacterControl: out of the water over a ledge, hand over hand. The hands hold the ledge by
+/// grips, which are edits; what lifts the body is torque in shoulders and elbows.
+///
+///              o   P: the edge        1  reach P, or the wall's face as high as it goes; hold
+///             /|\__________           2  lead the shoulders up and over P
+///   ~~~~~~~~~~ |~|  ledge             3  on the ledge, each hand that is behind reaches on
+///             / \|                       until the legs are over, too
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/stages/character/character_control.h"
+
+namespace seam {
+namespace {
+
+/// s over which a hand feels what it bears: a blow as short as an engine's step is none.
+constexpr float kGripMoment = 0.1f;
+
+}  // namespace
+
+/// Something solid before the chest, with a top that hands can reach. In the own frame.
+CharacterControl::Ledge CharacterControl::LedgeAhead(const CharacterSense& s) const {
+  const float m = limbs_.scale();
+  const b2Vec2 chest = limbs_.Own(limbs_.body(kTorso)->GetPosition());
+  const float level = chest.y + ChestDepth(s);
+  Ledge ledge;
+  for (const float y : {level + 0.03f * m, level - 0.15f * m}) {
+    const GroundPoint wall =
+        limbs_.Hit(b2Vec2(chest.x, y), b2Vec2(chest.x + gains_.climb_near * m, y));
+    if (!wall.found || wall.normal.x > -0.6f) continue;
+    const b2Vec2 above(wall.point.x + 0.06f * m, level + 0.9f * m);
+    const GroundPoint top = limbs_.GroundBelow(above, m);
+    if (!top.found || top.normal.y < 0.7f) continue;
+    ledge.found = true;
+    ledge.edge.Set(wall.point.x, top.point.y);
+    return ledge;
+  }
+  return ledge;
+}
+
+/// Both arms' joints for a fingertip `way` from the shoulder; elbows bend forwards only.
+void CharacterControl::ReachWith(const CharacterSense& s, int side, b2Vec2 way) {
+  const float a = limbs_.shape().upper_arm, b = limbs_.shape().lower_arm;
+  const float distance = std::clamp(way.Length(), 0.35f * (a + b), 0.99f * (a + b));
+  const float to = std::atan2(way.x, -way.y);
+  const float at_shoulder = std::acos((a * a + distance * distance - b * b) / (2 * a * distance));
+  const float at_elbow = std::acos((a * a + b * b - distance * distance) / (2 * a * b));
+  Pose(Shoulder(side), to - at_shoulder - s.torso, gains_.climb_shoulder);
+  Pose(Elbow(side), b2_pi - at_elbow, gains_.climb_elbow);
+}
+
+/// The arm pulls the body by `force` N from where the hand holds. Arms are taken as massless.
+void CharacterControl::PullWith(int side, b2Vec2 force) {
+  const b2Vec2 tip = limbs_.Own(hands_.Tip(side));
+  const b2Vec2 shoulder = limbs_.At(Shoulder(side)), elbow = limbs_.At(Elbow(side));
+  limbs_.Torque(Shoulder(side), -b2Cross(tip - shoulder, force));
+  float bend = -b2Cross(tip - elbow, force);
+  if (memory_.phase == 0) {
+    // Elbows that are straight stay so, whatever pulls: they bend as for a pull along the arm.
+    b2Vec2 line = tip - shoulder;
+    line.Normalize();
+    const float lever = std::abs(b2Cross(tip - elbow, line)) + gains_.climb_lever * limbs_.scale();
+    bend = std::max(bend, gains_.climb_bend * force.Length() * lever);
+  }
+  limbs_.Torque(Elbow(side), bend);
+}
+
+void CharacterControl::LetGo() {
+  for (float& hold : memory_.hold) hold = std::min(hold, 0.0f);
+}
+
+/// A hand lets go of what is too heavy for it, and rests.
+void CharacterControl::FeelHands(float h) {
+  for (int side = 0; side < 2; ++side) {
+    float& hold = memory_.hold[side];
+    float& load = memory_.load[side];
+    if (hold < 0) hold = std::min(hold + h, 0.0f);
+    if (memory_.mode != CharacterMode::kClimb) hold = std::min(hold, 0.0f);
+    load = hands_.holds(side) ? load + h / (h + kGripMoment) * (hands_.Force(side) - load) : 0;
+    if (hands_.holds(side) && load > hands_.Strength(side)) hold = -gains_.climb_rest;
+  }
+}
+
+/// N; what all hands together are to do, held at `tip` on average. Before the wall they pull the
+/// centre of mass to the tip, and across that line as the torso's lean asks for; on the ledge they
+/// press it up and pull it on.
+b2Vec2 CharacterControl::PullTo(const CharacterSense& s, b2Vec2 tip) const {
+  const float m = limbs_.scale(), weight = s.mass * gravity_;
+  const float slow = gains_.climb_damping / std::sqrt(m);
+  if (memory_.phase == 1) {
+    // It leans over the edge, and falls on it.
+    const float missing = (memory_.from.y - limbs_.At(kShoulderLeft).y) / m + gains_.climb_chest;
+    const float up = gains_.climb_lift + gains_.climb_press * missing - slow * s.velocity.y;
+    return weight * b2Vec2(gains_.climb_forward, std::clamp(up, 0.0f, 1.5f));
+  }
+  b2Vec2 line = tip - s.centre;
+  const float length = std::max(line.Normalize(), 0.3f * m);
+  const float turn = gains_.climb_turn * TorsoTorque(s, -gains_.climb_lean) / length;
+  const float pull = (gains_.climb_pull - slow * b2Dot(s.velocity, line)) * weight;
+  const float across = std::clamp(turn, -0.5f * weight, 0.5f * weight);
+  return std::max(pull, 0.0f) * line + across * b2Vec2(-line.y, line.x);
+}
+
+/// Whether a hand that holds is to let go and reach on: one on the wall that the shoulder has come
+/// up to, one on the ledge that it has passed.
+bool CharacterControl::ReachesOn(int side, b2Vec2 tip, b2Vec2 shoulder) const {
+  const float m = limbs_.scale();
+  // One hand at a time.
+  if (!hands_.holds(1 - side) || memory_.hold[1 - side] <= 0) return false;
+  if (memory_.phase == 1) {
+    const float before = limbs_.Own(hands_.Tip(1 - side)).x - tip.x;
+    return tip.x < shoulder.x - 0.05f * m || before > gains_.climb_stride * m;
+  }
+  return tip.y < memory_.from.y - 0.1f * m && tip.y < shoulder.y + gains_.climb_again * m;
+}
+
+void CharacterControl::Climb(const CharacterSense& s, float h) {
+  const float m = limbs_.scale();
+  const float reach = limbs_.shape().upper_arm + limbs_.shape().lower_arm;
+  const bool arms = limbs_.has(kShoulderLeft) && limbs_.has(kShoulderRight);
+  // The edge is remembered in `from`: over it, there is no wall ahead to be seen any more.
+  const bool loose = !hands_.holds(0) && !hands_.holds(1);
+  bool lost = loose && std::abs(s.torso) > gains_.tilt_max;
+  if (memory_.phase == 0 || loose) {
+    const Ledge ledge = LedgeAhead(s);
+    if (ledge.found) memory_.from = ledge.edge;
+    lost = lost || (loose && !ledge.found);
+    if (loose) memory_.phase = 0;
+  }
+  const b2Vec2 edge = memory_.from;
+  const bool over = s.hip.x > edge.x + gains_.climb_over * limbs_.shape().thigh;
+  if (over || lost || !arms || drive_ < 0.1f || memory_.time > gains_.climb_max) {
+    LetGo();
+    Enter(over ? CharacterMode::kFall : CharacterMode::kSwim);
+    return;
+  }
+  const b2Vec2 shoulder = limbs_.At(kShoulderLeft);
+  if (shoulder.y > edge.y + gains_.climb_above * m) memory_.phase = 1;
+  const int holding = (hands_.holds(0) ? 1 : 0) + (hands_.holds(1) ? 1 : 0);
+  for (int side = 0; side < 2; ++side) {
+    if (!hands_.has(side)) continue;
+    if (hands_.holds(side)) {
+      const b2Vec2 tip = limbs_.Own(hands_.Tip(side));
+      if (ReachesOn(side, tip, shoulder)) memory_.hold[side] = -gains_.climb_rest;
+      b2Vec2 force = 1.0f / static_cast<float>(holding) * PullTo(s, tip);
+      const float most = gains_.climb_grip * s.mass * gravity_;
+      if (force.Length() > most) force *= most / force.Length();
+      PullWith(side, force);
+      continue;
+    }
+    b2Vec2 there = edge + b2Vec2((0.05f + 0.05f * static_cast<float>(side)) * m, 0) - shoulder;
+    if (memory_.phase == 1) there.x = std::max(there.x, 0.8f * reach);
+    if (memory_.phase == 0 && there.Length() > reach) {  // not yet the top: the wall's face
+      const float across = std::clamp(edge.x - shoulder.x, 0.0f, 0.9f * reach);
+      there.Set(across, std::sqrt(reach * reach - across * across));
+    }
+    const b2Vec2 tip = limbs_.Own(hands_.Tip(side));
+    const b2Vec2 missing = there + shoulder - tip;
+    const bool lies = memory_.phase == 1 && tip.x > edge.x && tip.x > shoulder.x;
+    const bool close = lies || missing.Length() < gains_.climb_close * m;
+    if (memory_.hold[side] == 0 && (close || holding == 0)) memory_.hold[side] = 1;
+    if (!close && missing.y > 0.03f * m && tip.y < shoulder.y + gains_.climb_raised * m) {
+      // A straight arm would push at the wall: folded behind the body, then up before it.
+      const bool folded = limbs_.angle(Elbow(side)) > 2;
+      Pose(Shoulder(side), (folded ? gains_.climb_raise : -0.9f) - s.torso, gains_.climb_shoulder);
+      Pose(Elbow(side), 2.4f, gains_.climb_elbow);
+      continue;
+    }
+    if (!close && missing.y > 0.05f * m) there.x -= 0.1f * m;
+    ReachWith(s, side, there);
+  }
+  // Bent hips bring the chest down on the ledge; straight legs follow.
+  const bool bent = s.torso > -gains_.climb_down && s.hip.x > edge.x - 0.35f * m;
+  if (memory_.phase == 0) {
+    Tread(s, h);
+  } else {
+    for (int side = 0; side < 2; ++side) {
+      Pose(Hip(side), bent ? gains_.climb_hip : 0.2f, gains_.swim_hip);
+      Pose(Knee(side), gains_.climb_knee, gains_.swim_knee);
+      Pose(Ankle(side), -0.5f, gains_.swim_ankle);
+    }
+  }
+  Pose(kNeck, 0, gains_.neck_stiffness);
+}
+
+}  // namespace seam
