@@ -7,11 +7,11 @@
 #include <memory>
 #include <sstream>
 
+#include "common/base/json_text.h"
 #include "common/measure/mean_square.h"
 #include "common/measure/table.h"
 #include "common/record/log_file.h"
 #include "render/export/formats.h"
-#include "common/base/json_text.h"
 #include "tests/support/lab_workspace.h"
 #include "tests/support/program.h"
 #include "tests/support/source_tree.h"
@@ -314,9 +314,9 @@ TEST(ExportText, HostileNamesStayOneFieldAndOneString) {
   EXPECT_EQ(CsvField("crate.1"), "crate.1");
   EXPECT_EQ(CsvField("a,b"), "\"a,b\"");
   EXPECT_EQ(CsvField("say \"hi\"\n"), "\"say \"\"hi\"\"\n\"");
-  EXPECT_EQ(JsonText("a\"b\\c\n\x01\x7f"), "\"a\\\"b\\\\c\\u000a\\u0001\\u007f\"");
-  EXPECT_EQ(JsonText("</script>"), "\"\\u003c/script>\"");
-  EXPECT_EQ(JsonText("é"), "\"é\"");
+  EXPECT_EQ(JsonText("a\"b\\c\n\x01\x7f"), "\"a\\u0022b\\u005cc\\u000a\\u0001\\u007f\"");
+  EXPECT_EQ(JsonText("</script>"), "\"\\u003c/script\\u003e\"");
+  EXPECT_EQ(JsonText("é"), "\"\\u00e9\"");
   EXPECT_EQ(JsonNumber(0.1f), "0.100000001");
   EXPECT_EQ(JsonNumber(std::numeric_limits<double>::infinity()), "null");
 }
