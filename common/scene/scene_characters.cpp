@@ -100,7 +100,7 @@ void AddHinges(const SceneReader& r, CharacterDraft* draft, SceneDraft* out) {
 void ReadCharacter(const TomlNode& node, SceneDraft* draft) {
   SceneReader r(node, draft->file, "character",
                 {"name", "kind", "player", "owner", "position", "angle", "facing", "height",
-                 "density", "friction", "strength", "torque", "velocity", "health", "grip"});
+                 "density", "friction", "strength", "torque", "velocity", "health", "grip", "group"});
   const std::string name = r.Name("name");
   r.Rename("character '" + name + "'");
   if (draft->part_of_name.count(name) != 0 || draft->group_of_name.count(name) != 0) {
@@ -111,6 +111,7 @@ void ReadCharacter(const TomlNode& node, SceneDraft* draft) {
   }
   CharacterDraft character = ReadDraft(r, name, *draft);
   character.group = kFirstGroup - static_cast<int>(draft->scene.characters.size());
+  if (r.Has("group")) character.group = r.Integer("group", {-1000, -1});
   AddParts(r, &character, draft);
   const float health = r.Number("health", {0, 1e6}, 0.0f);
   for (const char* vital : {".head", ".torso"}) {

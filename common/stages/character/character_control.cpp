@@ -13,6 +13,9 @@ namespace {
 /// A player's lift below this, which is all the way down, makes a character limp.
 constexpr float kLimpLift = -0.9f;
 
+/// m of water over the ground, for 1.8 m: from which on it swims, and below which it stands up.
+constexpr float kSwimDepth = 0.75f, kWadeDepth = 0.3f;
+
 }  // namespace
 
 void CharacterMemory::Save(std::vector<float>* memory) const {
@@ -104,11 +107,14 @@ void CharacterControl::Choose(const CharacterSense& s, float h) {
     const float depth = ChestDepth(s) / limbs_.scale();
     if (memory_.mode == CharacterMode::kClimb) return;
     const bool swims = memory_.mode == CharacterMode::kSwim;
-    if (!swims && depth > gains_.swim_from) {
+    // In water that one can stand in one does not swim: who comes to a beach gets up and walks.
+    const float over = WaterOverGround(s) / limbs_.scale();
+    if (!swims && depth > gains_.swim_from && over > kSwimDepth) {
       Enter(CharacterMode::kSwim);
       memory_.speed = 0;
     }
-    const bool stands = depth < gains_.swim_to && (s.legs[0].down || s.legs[1].down || s.lying);
+    const bool touches = s.legs[0].down || s.legs[1].down || s.lying;
+    const bool stands = over < kWadeDepth || (touches && depth < gains_.swim_to);
     if (swims && stands)
       Enter(std::abs(s.torso) < 0.5f * gains_.tilt_max ? CharacterMode::kStand
                                                        : CharacterMode::kFall);

@@ -132,6 +132,7 @@ class CharacterControl {
 
   // character_swim.cpp
   float ChestDepth(const CharacterSense& s) const;
+  float WaterOverGround(const CharacterSense& s) const;
   void Swim(const CharacterSense& s, float h);
   void Tread(const CharacterSense& s, float h);
   /// rad of the joints of one leg.

@@ -28,6 +28,14 @@ float CharacterControl::ChestDepth(const CharacterSense& s) const {
   return depth;
 }
 
+/// m from the ground below the chest up to the water's level; large where no ground is near.
+float CharacterControl::WaterOverGround(const CharacterSense& s) const {
+  const b2Vec2 chest = limbs_.Own(limbs_.body(kTorso)->GetPosition());
+  const float depth = ChestDepth(s);
+  const GroundPoint ground = limbs_.GroundBelow(chest, 2 * limbs_.scale());
+  return ground.found ? chest.y + depth - ground.point.y : 1000;
+}
+
 /// Legs that tread: upright, at rest.
 CharacterControl::Legs CharacterControl::TreadLegs(const CharacterSense& s, float leg) const {
   const CharacterGains& g = gains_;

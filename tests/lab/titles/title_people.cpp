@@ -40,8 +40,14 @@ void JudgeRagdolls(const Screen& screen, Claims* claims) {
 
 void JudgeObstacle(const Screen& screen, Claims* claims) {
   const BodyState ann = screen.AtEnd("ann-body.torso"), bob = screen.AtEnd("bob-body.torso");
-  claims->AtLeast(ann.position.x(), 3.5, "ann beyond the pool, m");
-  claims->AtLeast(-bob.position.x(), 3.5, "bob beyond the pool, m");
+  const double beach = 8.8;  // m; where the water ends
+  claims->AtLeast(ann.position.x(), beach, "ann beyond the pool, m");
+  claims->AtLeast(-bob.position.x(), beach, "bob beyond the pool, m");
+  for (const char* who : {"ann", "bob"}) {
+    const float head = screen.AtEnd(std::string(who) + "-body.head").position.y();
+    const float foot = screen.AtEnd(std::string(who) + "-body.foot-l").position.y();
+    claims->AtLeast(head - foot, 1.3, std::string(who) + "'s head over the feet, m");
+  }
 }
 
 void JudgePlayground(const Screen& screen, Claims* claims) {

@@ -41,7 +41,8 @@ const std::vector<Title>& Titles() {
        "Of six limp bodies four come down the stairs, one is struck off the ledge, and these five "
        "end in one heap at the bottom; the sixth still hangs by its foot.",
        JudgeRagdolls},
-      {"obstacle", "ann and bob have passed each other and stand on the other's side.",
+      {"obstacle",
+       "ann and bob swim past each other, leave the water on the other's side and stand there.",
        JudgeObstacle},
       {"freight",
        "Sixty crates become one body within 2 s and stay so over the seam; the brake makes them "
