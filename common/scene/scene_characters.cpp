@@ -98,9 +98,10 @@ void AddHinges(const SceneReader& r, CharacterDraft* draft, SceneDraft* out) {
 }
 
 void ReadCharacter(const TomlNode& node, SceneDraft* draft) {
-  SceneReader r(node, draft->file, "character",
-                {"name", "kind", "player", "owner", "position", "angle", "facing", "height",
-                 "density", "friction", "strength", "torque", "velocity", "health", "grip", "group"});
+  SceneReader r(
+      node, draft->file, "character",
+      {"name", "kind", "player", "owner", "position", "angle", "facing", "height", "density",
+       "friction", "strength", "torque", "velocity", "health", "grip", "group"});
   const std::string name = r.Name("name");
   r.Rename("character '" + name + "'");
   if (draft->part_of_name.count(name) != 0 || draft->group_of_name.count(name) != 0) {

@@ -17,9 +17,7 @@
 namespace seam {
 namespace {
 
-Blast BlastOf(const BlastEdit& edit) {
-  return {edit.centre, edit.radius, edit.speed, edit.impulse};
-}
+Blast BlastOf(const BlastEdit& e) { return {e.centre, e.radius, e.speed, e.impulse}; }
 
 /// m, its lower left.
 Vec2 CornerOf(const Brick& b) {

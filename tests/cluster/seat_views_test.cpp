@@ -136,8 +136,8 @@ TEST(SeatViews, WhoJoinsInTheMiddleOfTheWaySeesTheSameAfterASecond) {
     EXPECT_EQ(bob->world().composition().hash, truth.composition().hash);
     EXPECT_GE(bob->world().scene().seats[0].player, 0) << "somebody sits there";
     for (int b = 0; b < truth.body_count(); ++b) {
-      // It drives at 4 m/s, and the two are not at the same tick.
-      EXPECT_LT((bob->world().Read(b).position - truth.Read(b).position).norm(), 1.2f) << b;
+      // It drives at 4 m/s, limbs swing, and the two are not at the same tick.
+      EXPECT_LT((bob->world().Read(b).position - truth.Read(b).position).norm(), 1.4f) << b;
     }
     const std::map<std::int64_t, View>& views =
         cluster.recording().views.at(cluster.client(1)->peer());

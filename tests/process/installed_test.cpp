@@ -105,7 +105,8 @@ TEST_F(Installed, ScenesAreFoundByNameFromAnyFolder) {
   EXPECT_EQ(lab->status(), 0) << lab->Story();
   const auto none = Run({At("bin/seam-server")}, folder);
   EXPECT_EQ(none->status(), 2);
-  EXPECT_NE(none->errors().find("by name: battlefield, conveyor, "), std::string::npos) << none->Story();
+  EXPECT_NE(none->errors().find("by name: battlefield, conveyor, "), std::string::npos)
+      << none->Story();
 }
 
 TEST_F(Installed, ASceneOfTheCurrentFolderComesBeforeAnInstalledOne) {

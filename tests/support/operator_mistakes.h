@@ -171,6 +171,9 @@ inline Mistake Server(Words words, const std::string& says) {
   return {words, says};
 }
 inline Mistake Client(Words words, const std::string& says) {
+  if (std::find(words.begin(), words.end(), "--name") == words.end()) {
+    words.insert(words.end(), {"--name", "ann"});
+  }
   Mistake mistake = Server(std::move(words), says);
   mistake.command[0] = "seam-client";
   return mistake;
