@@ -60,6 +60,17 @@ BodyState Screen::AtStart(const std::string& part) const {
   return {made.position, made.angle, made.velocity, made.spin};
 }
 
+double Screen::Score(int player) const {
+  double score = 0;
+  for (const Meta& meta : recording().meta) {
+    for (std::size_t i = 0; i < meta.kind.size(); ++i) {
+      const bool own = meta.kind[i] == kMetaPlayer && meta.id[i] == player;
+      if (own && meta.key[i] == kMetaScore) score = meta.value[i];
+    }
+  }
+  return score;
+}
+
 std::vector<std::string> Screen::All(const std::string& prefix) const {
   std::vector<std::string> names;
   for (const Part& part : scene().parts) {

@@ -53,6 +53,9 @@ class Screen {
     return count;
   }
 
+  /// A player's points as the room was told last; by the scene's index.
+  double Score(int player) const;
+
   /// Edits of a kind that the room ordered from a time on, s.
   template <class Kind>
   int Edits(double from_s = 0) const {

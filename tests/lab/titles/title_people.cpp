@@ -6,21 +6,6 @@
 #include "tests/lab/titles/titles.h"
 
 namespace seam {
-namespace {
-
-/// The players' highest scores that the room was told.
-double Score(const Recording& recording, int player) {
-  double score = 0;
-  for (const Meta& meta : recording.meta) {
-    for (std::size_t i = 0; i < meta.kind.size(); ++i) {
-      const bool his = meta.kind[i] == kMetaPlayer && meta.id[i] == player;
-      if (his && meta.key[i] == kMetaScore) score = meta.value[i];
-    }
-  }
-  return score;
-}
-
-}  // namespace
 
 void JudgeRagdolls(const Screen& screen, Claims* claims) {
   float top = 0;
@@ -73,7 +58,7 @@ void JudgePlayground(const Screen& screen, Claims* claims) {
   claims->AtLeast(
       screen.AtStart("limp.torso").position.y() - screen.AtEnd("limp.torso").position.y(), 5,
       "how far the ragdoll came down, m");
-  claims->AtLeast(Score(screen.recording(), 0), 20, "ann's points");
+  claims->AtLeast(screen.Score(0), 20, "ann's points");
 }
 
 }  // namespace seam

@@ -37,6 +37,21 @@ const std::vector<Title>& Titles() {
        "roofs; a blast frees bricks; ten things and more lie on roofs, ten and more in the "
        "streets.",
        JudgeSkyline},
+      {"crane",
+       "ann's crane lifts the glued crate over the seam and sets it into the boat, in one piece.",
+       JudgeCrane},
+      {"conveyor",
+       "Every box is carried on, three and more over the seam, and none is lost (in ten minutes "
+       "each goes round 24 times).",
+       JudgeConveyor},
+      {"dockside",
+       "The crane loads the boat, its driver comes aboard and takes it to the pier: 10 points for "
+       "ann and 50 for bob.",
+       JudgeDockside},
+      {"tracks",
+       "The tracked vehicle climbs the step and the slope to the plateau; the wheeled one stays "
+       "before the step.",
+       JudgeTracks},
       {"ragdolls",
        "Of six limp bodies four come down the stairs, one is struck off the ledge, and these five "
        "end in one heap at the bottom; the sixth still hangs by its foot.",

@@ -51,6 +51,10 @@ void JudgeSkyline(const Screen& screen, Claims* claims);
 void JudgeRagdolls(const Screen& screen, Claims* claims);
 void JudgeObstacle(const Screen& screen, Claims* claims);
 void JudgeFreight(const Screen& screen, Claims* claims);
+void JudgeCrane(const Screen& screen, Claims* claims);
+void JudgeConveyor(const Screen& screen, Claims* claims);
+void JudgeDockside(const Screen& screen, Claims* claims);
+void JudgeTracks(const Screen& screen, Claims* claims);
 void JudgePlayground(const Screen& screen, Claims* claims);
 void JudgeBattlefield(const Screen& screen, Claims* claims);
 
