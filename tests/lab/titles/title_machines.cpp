@@ -38,7 +38,7 @@ void JudgeConveyor(const Screen& screen, Claims* claims) {
     for (double time_s = 1; time_s <= screen.end_s(); time_s += 0.25) {
       const std::optional<BodyState> state = screen.Find(box, time_s);
       if (!state) continue;
-      claims->AtLeast(state->position.y(), 0, box + " above the ground, m");
+      claims->AtLeast(state->position.y(), -1, box + " above the pit, m");
       if (before) way += (state->position - before->position).norm();
       left = left || state->position.x() < -0.5f;
       right = right || state->position.x() > 0.5f;
