@@ -10,7 +10,7 @@
 namespace seam {
 namespace {
 
-/// "protocol 4 is spoken here, you speak 3". Clients of other versions read the first number.
+/// "protocol 5 is spoken here, you speak 4". Clients of other versions read the first number.
 std::string OtherProtocol(std::int32_t theirs) {
   return "protocol " + std::to_string(kProtocolVersion) + " is spoken here, you speak " +
          std::to_string(theirs);
