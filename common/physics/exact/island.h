@@ -91,6 +91,16 @@ class ExactIsland {
   void Substep(const Pace& pace);
   void Course(const Pace& pace, bool whole);
   void GoBack(const Pace& pace);
+  // Jams.
+  struct Start {          // of a substep, after its kick
+    double energy = 0;    // J, kinetic
+    double mass = 0;      // kg
+    double momentum = 0;  // N s, Momentum
+  };
+  double Momentum(const Pace& pace) const;
+  double WorkDone();
+  bool Possible(const Start& start, bool work);
+  void Calm(const Pace& pace, const Start& start);
   bool PushesOut() const;
   void Kick(double h);
   bool FindImpacts();

@@ -1,0 +1,127 @@
+/// ExactIsland: jams. Bodies clamped from more sides than they can give way to, by a press, rails
+/// or joints, leave the system without a solution: then its impulses grow until rounding or the
+/// rows' own share ends them, and what acts on another pose or in the engine makes speed of them.
+/// Here is what tells such a substep from others, and what is done instead.
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/physics/exact/island.h"
+
+namespace seam {
+namespace {
+
+/// What a substep may gain of kinetic energy by itself, as a share, and J/kg.
+constexpr double kGainShare = 0.05, kGainPerMass = 0.05;
+/// A contact's impulse is taken for possible up to so many times the momentum there is.
+constexpr double kImpulseMost = 20;
+/// What a row's own entry is enlarged by in a jam, as a share: what contradicts itself by 1 m/s is
+/// pressed with a thousand times the momentum, no more.
+constexpr double kOwnOfJam = 1e-3;
+
+}  // namespace
+
+/// N s: all momentum that may meet in one point in this substep: of bodies against their mean and
+/// against what is moved by force, of gravity and forces, and of motors.
+double ExactIsland::Momentum(const Pace& pace) const {
+  double mass = 0, px = 0, py = 0, led = 0;
+  for (const ExactBody& q : bodies) {
+    if (!q.moves()) {
+      led = std::max(led, std::sqrt(q.vx * q.vx + q.vy * q.vy));
+      continue;
+    }
+    mass += 1 / q.im;
+    px += q.vx / q.im;
+    py += q.vy / q.im;
+  }
+  double sum = mass * led;
+  for (const ExactBody& q : bodies) {
+    if (!q.moves()) continue;
+    const double vx = q.vx - px / mass, vy = q.vy - py / mass;
+    sum += (std::sqrt(vx * vx + vy * vy) + pace.h * std::sqrt(q.ax * q.ax + q.ay * q.ay)) / q.im;
+  }
+  for (const Row& row : rows_) {
+    if (row.kind == RowKind::kMotor) sum += row.most;
+  }
+  return sum;
+}
+
+/// J: what motors, springs, belts and what is moved by force have done since `bodies_before_`, at
+/// most.
+double ExactIsland::WorkDone() {
+  double work = 0;
+  for (const Row& row : rows_) {
+    const bool drives = row.kind == RowKind::kMotor || row.kind == RowKind::kSoft;
+    const double led = std::max(std::fabs(row.fixed_speed),
+                                row.kind == RowKind::kFriction ? std::fabs(row.target) : 0);
+    if (!drives && led == 0) continue;
+    double fastest = led;
+    if (drives) {
+      fastest = std::max(fastest, std::fabs(Speed(row)));
+      bodies.swap(bodies_before_);
+      fastest = std::max(fastest, std::fabs(Speed(row)));
+      bodies.swap(bodies_before_);
+    }
+    work += std::fabs(row.base) * fastest;
+  }
+  return work;
+}
+
+/// Whether the substep's impulses can be what happened: no contact presses with more than there is
+/// to press with, and no more energy has come than was supplied.
+bool ExactIsland::Possible(const Start& start, bool work) {
+  for (const Row& row : rows_) {
+    if (row.kind == RowKind::kNormal && std::fabs(row.base) > kImpulseMost * start.momentum) {
+      return false;
+    }
+  }
+  const double spare = kGainShare * start.energy + kGainPerMass * start.mass;
+  const double gained = KineticOf(bodies) - start.energy;
+  return gained <= spare || (work && gained <= spare + WorkDone());
+}
+
+/// The substep as a blow without restitution: the velocities that are nearest to the ones that are
+/// there, of those that neither part joints nor press anything together. With the bodies' own
+/// inertias and no speed asked for but by motors and springs, that takes energy and never gives
+/// any, however far the solve gets; rows give way a little, so that what contradicts itself is
+/// pressed with bounded impulses. Joints are brought together without velocity.
+void ExactIsland::Calm(const Pace& pace, const Start& start) {
+  GoBack(pace);
+  for (ExactBody& q : bodies) {
+    if (q.moves()) q.ii = 1 / q.inertia;
+  }
+  for (Row& row : rows_) {
+    row.base = row.lambda = row.warm = 0;
+    if (row.state == RowState::kOut) continue;
+    switch (row.kind) {
+      case RowKind::kHard: row.target = 0; break;
+      case RowKind::kSoft:
+      case RowKind::kMotor: break;
+      case RowKind::kLimit:
+      case RowKind::kNormal: row.target = std::min(0.0, -row.error / pace.h); break;
+      case RowKind::kFriction:
+        row.most = 0;
+        row.state = RowState::kLow;
+        break;
+    }
+  }
+  Assemble(kOwnOfJam, kOwnOfJam);
+  Solve(true);
+  double most = 0;
+  for (const Row& row : rows_) {
+    if (row.kind == RowKind::kNormal) most = std::max(most, std::fabs(row.lambda));
+  }
+  // What is told of it is what can be.
+  const double share = std::min(1.0, kImpulseMost * start.momentum / std::max(most, 1e-30));
+  for (Row& row : rows_) {
+    row.base = row.warm = share * row.lambda;
+    row.total += row.base;
+    row.lambda = 0;
+  }
+  Move(pace.h);
+  Fill(pace);
+  BringTogether(pace);
+  for (ExactBody& q : bodies) q.lasting *= 0.5;
+}
+
+}  // namespace seam
