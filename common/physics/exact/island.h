@@ -92,12 +92,12 @@ class ExactIsland {
   void Course(const Pace& pace, bool whole);
   void GoBack(const Pace& pace);
   // Jams.
-  struct Start {          // of a substep, after its kick
-    double energy = 0;    // J, kinetic
-    double mass = 0;      // kg
-    double momentum = 0;  // N s, Momentum
+  struct Start {         // of a substep, after its kick
+    double energy = 0;   // J, kinetic
+    double mass = 0;     // kg
+    double impulse = 0;  // N s, MostImpulse
   };
-  double Momentum(const Pace& pace) const;
+  double MostImpulse(const Pace& pace) const;
   double WorkDone();
   bool Possible(const Start& start, bool work);
   void Calm(const Pace& pace, const Start& start);
@@ -105,8 +105,10 @@ class ExactIsland {
   void Kick(double h);
   bool FindImpacts();
   int FastestBlow();
-  void Impact();
-  void Blow(const ExactContact& contact, int first_row);
+  void Impact(double pressed);
+  bool Blow(const ExactContact& contact, int first_row, double most);
+  double Pressed(const ExactContact& contact, int first_row) const;
+  double Driven(const ExactContact& contact, int first_row) const;
   void SolveAhead(const Pace& pace);
   void Move(double h);
   void ShutJoints(const Pace& pace);

@@ -21,9 +21,10 @@ constexpr double kOwnOfJam = 1e-3;
 
 }  // namespace
 
-/// N s: all momentum that may meet in one point in this substep: of bodies against their mean and
-/// against what is moved by force, of gravity and forces, and of motors.
-double ExactIsland::Momentum(const Pace& pace) const {
+/// N s: what a contact may be pressed with, so many times all momentum that may meet in one point
+/// in this substep: of bodies against their mean and against what is moved by force, of gravity and
+/// forces, and of motors.
+double ExactIsland::MostImpulse(const Pace& pace) const {
   double mass = 0, px = 0, py = 0, led = 0;
   for (const ExactBody& q : bodies) {
     if (!q.moves()) {
@@ -43,7 +44,7 @@ double ExactIsland::Momentum(const Pace& pace) const {
   for (const Row& row : rows_) {
     if (row.kind == RowKind::kMotor) sum += row.most;
   }
-  return sum;
+  return kImpulseMost * sum;
 }
 
 /// J: what motors, springs, belts and what is moved by force have done since `bodies_before_`, at
@@ -71,7 +72,7 @@ double ExactIsland::WorkDone() {
 /// to press with, and no more energy has come than was supplied.
 bool ExactIsland::Possible(const Start& start, bool work) {
   for (const Row& row : rows_) {
-    if (row.kind == RowKind::kNormal && std::fabs(row.base) > kImpulseMost * start.momentum) {
+    if (row.kind == RowKind::kNormal && std::fabs(row.base) > start.impulse) {
       return false;
     }
   }
@@ -112,7 +113,7 @@ void ExactIsland::Calm(const Pace& pace, const Start& start) {
     if (row.kind == RowKind::kNormal) most = std::max(most, std::fabs(row.lambda));
   }
   // What is told of it is what can be.
-  const double share = std::min(1.0, kImpulseMost * start.momentum / std::max(most, 1e-30));
+  const double share = std::min(1.0, start.impulse / std::max(most, 1e-30));
   for (Row& row : rows_) {
     row.base = row.warm = share * row.lambda;
     row.total += row.base;

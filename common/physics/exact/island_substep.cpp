@@ -71,7 +71,7 @@ void ExactIsland::Substep(const Pace& pace) {
   }
   for (Row& row : rows_) row.base = 0;
   if (FindImpacts()) {
-    Impact();
+    Impact(MostImpulse(pace));
     Fill(pace);
     FindImpacts();  // what comes at a contact by another's blow hits in the next substep
   }
@@ -89,7 +89,7 @@ void ExactIsland::Substep(const Pace& pace) {
   Start start;
   start.energy = KineticOf(bodies);
   for (const ExactBody& q : bodies) start.mass += q.moves() ? 1 / q.im : 0;
-  start.momentum = Momentum(pace);
+  start.impulse = MostImpulse(pace);
   const bool pushes = PushesOut();
   Course(pace, whole);
   if (Possible(start, !pushes)) return;
