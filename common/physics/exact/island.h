@@ -98,7 +98,7 @@ class ExactIsland {
     double impulse = 0;  // N s, MostImpulse
   };
   double MostImpulse(const Pace& pace) const;
-  double WorkDone();
+  double WorkDone(double mass);
   bool Possible(const Start& start, bool work);
   void Calm(const Pace& pace, const Start& start);
   bool PushesOut() const;

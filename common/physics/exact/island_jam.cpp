@@ -15,6 +15,8 @@ namespace {
 constexpr double kGainShare = 0.05, kGainPerMass = 0.05;
 /// A contact's impulse is taken for possible up to so many times the momentum there is.
 constexpr double kImpulseMost = 20;
+/// What is led throws others at up to so many times its own speed.
+constexpr double kLedMost = 4;
 /// What a row's own entry is enlarged by in a jam, as a share: what contradicts itself by 1 m/s is
 /// pressed with a thousand times the momentum, no more.
 constexpr double kOwnOfJam = 1e-3;
@@ -48,24 +50,26 @@ double ExactIsland::MostImpulse(const Pace& pace) const {
 }
 
 /// J: what motors, springs, belts and what is moved by force have done since `bodies_before_`, at
-/// most.
-double ExactIsland::WorkDone() {
-  double work = 0;
+/// most. A motor gives nothing above the speed it is set to, and nothing gives more than it takes
+/// to throw everything at kLedMost times the speed of what pushes.
+double ExactIsland::WorkDone(double mass) {
+  double work = 0, led = 0, fastest = 0;
   for (const Row& row : rows_) {
-    const bool drives = row.kind == RowKind::kMotor || row.kind == RowKind::kSoft;
-    const double led = std::max(std::fabs(row.fixed_speed),
-                                row.kind == RowKind::kFriction ? std::fabs(row.target) : 0);
-    if (!drives && led == 0) continue;
-    double fastest = led;
-    if (drives) {
-      fastest = std::max(fastest, std::fabs(Speed(row)));
+    const double pressed = std::fabs(row.base);
+    if (row.kind == RowKind::kMotor) {
+      work += pressed * std::fabs(row.target);
+    } else if (row.kind == RowKind::kSoft) {
+      const double after = std::fabs(Speed(row));
       bodies.swap(bodies_before_);
-      fastest = std::max(fastest, std::fabs(Speed(row)));
+      work += pressed * (after + std::fabs(Speed(row))) / 2;
       bodies.swap(bodies_before_);
     }
-    work += std::fabs(row.base) * fastest;
+    const double speed = std::max(std::fabs(row.fixed_speed),
+                                  row.kind == RowKind::kFriction ? std::fabs(row.target) : 0);
+    led += pressed * speed;
+    if (row.bounded()) fastest = std::max(fastest, speed);
   }
-  return work;
+  return work + std::min(led, kLedMost * kLedMost * mass * fastest * fastest / 2);
 }
 
 /// Whether the substep's impulses can be what happened: no contact presses with more than there is
@@ -78,7 +82,7 @@ bool ExactIsland::Possible(const Start& start, bool work) {
   }
   const double spare = kGainShare * start.energy + kGainPerMass * start.mass;
   const double gained = KineticOf(bodies) - start.energy;
-  return gained <= spare || (work && gained <= spare + WorkDone());
+  return gained <= spare || (work && gained <= spare + WorkDone(start.mass));
 }
 
 /// The substep as a blow without restitution: the velocities that are nearest to the ones that are
