@@ -10,7 +10,7 @@ namespace seam {
 namespace {
 
 /// So many times all the momentum there is, nothing is pressed or pulled with more.
-constexpr double kImpulseMost = 20;
+constexpr double kImpulseMost = 3;
 
 double Length(const b2Vec2& v) { return static_cast<double>(v.Length()); }
 

@@ -165,6 +165,7 @@ class ExactIsland {
   bool keeps_ = false;  // the matrix may be what the next substep begins with
   int changed_ = 0;     // the matrix's rows from here on are not those that were assembled
   int dirty_ = 0;       // the factors of rows from here on are old
+  double gained_ = 0;   // J: what substeps with contacts have gained, falling slowly
   bool moved_ = false;  // velocities are not those of before_
   std::vector<char> in_;
   std::vector<double> x_, before_, start_;

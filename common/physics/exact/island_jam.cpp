@@ -11,8 +11,9 @@
 namespace seam {
 namespace {
 
-/// What a substep may gain of kinetic energy by itself, as a share, and J/kg.
-constexpr double kGainShare = 0.05, kGainPerMass = 0.05;
+/// What substeps may gain of kinetic energy by themselves, as a share, and J/kg; and what is left
+/// of a gain in the account after a substep.
+constexpr double kGainShare = 0.05, kGainPerMass = 0.05, kGainKept = 0.998;
 /// A contact's impulse is taken for possible up to so many times the momentum there is.
 constexpr double kImpulseMost = 20;
 /// What is led throws others at up to so many times its own speed.
@@ -73,16 +74,18 @@ double ExactIsland::WorkDone(double mass) {
 }
 
 /// Whether the substep's impulses can be what happened: no contact presses with more than there is
-/// to press with, and no more energy has come than was supplied.
+/// to press with, and no more energy has come than was supplied, in this substep and in those
+/// before it. `work`: what was supplied counts.
 bool ExactIsland::Possible(const Start& start, bool work) {
   for (const Row& row : rows_) {
-    if (row.kind == RowKind::kNormal && std::fabs(row.base) > start.impulse) {
-      return false;
-    }
+    if (row.kind == RowKind::kNormal && std::fabs(row.base) > start.impulse) return false;
   }
-  const double spare = kGainShare * start.energy + kGainPerMass * start.mass;
-  const double gained = KineticOf(bodies) - start.energy;
-  return gained <= spare || (work && gained <= spare + WorkDone(start.mass));
+  const double most = kGainShare * start.energy + kGainPerMass * start.mass;
+  double gained = KineticOf(bodies) - start.energy;
+  if (work && kGainKept * gained_ + gained > most) gained -= WorkDone(start.mass);
+  if (kGainKept * gained_ + gained > most) return false;
+  gained_ = std::max(0.0, kGainKept * gained_ + gained);
+  return true;
 }
 
 /// The substep as a blow without restitution: the velocities that are nearest to the ones that are
@@ -126,7 +129,8 @@ void ExactIsland::Calm(const Pace& pace, const Start& start) {
   Move(pace.h);
   Fill(pace);
   BringTogether(pace);
-  for (ExactBody& q : bodies) q.lasting *= 0.5;
+  for (ExactBody& q : bodies) q.lasting *= kGainKept;
+  gained_ *= kGainKept;
 }
 
 }  // namespace seam
