@@ -99,7 +99,7 @@ class ExactIsland {
   };
   double MostImpulse(const Pace& pace) const;
   double WorkDone(double mass);
-  bool Possible(const Start& start, bool work);
+  bool Possible(const Start& start, bool pushes);
   void Calm(const Pace& pace, const Start& start);
   bool PushesOut() const;
   void Kick(double h);

@@ -15,7 +15,7 @@ namespace {
 /// of a gain in the account after a substep.
 constexpr double kGainShare = 0.05, kGainPerMass = 0.05, kGainKept = 0.998;
 /// A contact's impulse is taken for possible up to so many times the momentum there is.
-constexpr double kImpulseMost = 20;
+constexpr double kImpulseMost = 100;
 /// What is led throws others at up to so many times its own speed.
 constexpr double kLedMost = 4;
 /// What a row's own entry is enlarged by in a jam, as a share: what contradicts itself by 1 m/s is
@@ -75,15 +75,17 @@ double ExactIsland::WorkDone(double mass) {
 
 /// Whether the substep's impulses can be what happened: no contact presses with more than there is
 /// to press with, and no more energy has come than was supplied, in this substep and in those
-/// before it. `work`: what was supplied counts.
-bool ExactIsland::Possible(const Start& start, bool work) {
+/// before it. `pushes`: contacts push out of an
+/// overlap.
+bool ExactIsland::Possible(const Start& start, bool pushes) {
   for (const Row& row : rows_) {
     if (row.kind == RowKind::kNormal && std::fabs(row.base) > start.impulse) return false;
   }
   const double most = kGainShare * start.energy + kGainPerMass * start.mass;
   double gained = KineticOf(bodies) - start.energy;
-  if (work && kGainKept * gained_ + gained > most) gained -= WorkDone(start.mass);
-  if (kGainKept * gained_ + gained > most) return false;
+  if (pushes && gained > most) return false;
+  if (gained > 0) gained -= WorkDone(start.mass);
+  if (gained > kGainOnce * most || kGainKept * gained_ + gained > kGainLasting * most) return false;
   gained_ = std::max(0.0, kGainKept * gained_ + gained);
   return true;
 }

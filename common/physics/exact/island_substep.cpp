@@ -92,7 +92,7 @@ void ExactIsland::Substep(const Pace& pace) {
   start.impulse = MostImpulse(pace);
   const bool pushes = PushesOut();
   Course(pace, whole);
-  if (Possible(start, !pushes)) return;
+  if (Possible(start, pushes)) return;
   // Where a mechanism is jammed, contacts that push out of an overlap make energy that the solve at
   // the end cannot take back: then without pushing out.
   if (pushes) {
@@ -101,7 +101,7 @@ void ExactIsland::Substep(const Pace& pace) {
       if (row.kind == RowKind::kNormal) row.target = std::min(0.0, row.target);
     }
     Course(pace, whole);
-    if (Possible(start, true)) return;
+    if (Possible(start, false)) return;
   }
   Calm(pace, start);
 }
