@@ -151,7 +151,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
   const std::vector<std::pair<const char*, const char*>> table = {
       {"common/physics/exact", "common/physics"},
       {"common/sync/reconcile", "none"},
-      {"common/sync/correct", "common/sync(/reconcile|/rest)?"},
+      {"common/sync/correct", "common/sync(/reconcile|/reach|/rest)?"},
       {"common/sync/rest", "common/sync(/reconcile|/reach)?"},
       {"common/sync/reach", "common/sync"},
       {"common/sync/edits", "none"},
@@ -182,6 +182,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"tests/lab/report", "tests/lab(/report/(joints|sessions))?"},
       {"tests/lab/report/sessions", "tests/lab(/report)?"},
       {"tests/lab/report/joints", "tests/lab(/report)?"},
+      {"tests/lab/load", "tests/lab"},
       {"tests/lab/titles", "tests/lab(/report(/sessions)?)?"},
       {"tests/lab/validity", "tests/lab"},
       {"tests/lab/world", "tests/lab(/report)?"}};
