@@ -11,9 +11,11 @@
 namespace seam {
 namespace {
 
-/// What substeps may gain of kinetic energy by themselves, as a share, and J/kg; and what is left
-/// of a gain in the account after a substep.
-constexpr double kGainShare = 0.05, kGainPerMass = 0.05, kGainKept = 0.998;
+/// What a substep that pushes out of an overlap may gain of kinetic energy, as a share, and J/kg.
+constexpr double kGainShare = 0.05, kGainPerMass = 0.05;
+/// Of that, what any substep may gain by itself; what the account of many may hold; and what is
+/// left of a gain in it after a substep.
+constexpr double kGainOnce = 2, kGainLasting = 4, kGainKept = 0.998;
 /// A contact's impulse is taken for possible up to so many times the momentum there is.
 constexpr double kImpulseMost = 100;
 /// What is led throws others at up to so many times its own speed.
