@@ -27,7 +27,12 @@ void ExactStep::Leave(float h, const Found& found) {
     mass += static_cast<double>(body->GetMass());
     sum += body->GetMass() * body->GetLinearVelocity();
   }
-  const b2Vec2 mean = 1 / static_cast<float>(mass) * sum;
+  const bool fixed =
+      std::any_of(found.contacts.begin(), found.contacts.end(), [](b2Contact* contact) {
+        return !Moves(contact->GetFixtureA()->GetBody()) ||
+               !Moves(contact->GetFixtureB()->GetBody());
+      });
+  const b2Vec2 mean = fixed ? b2Vec2(0, 0) : 1 / static_cast<float>(mass) * sum;
   for (const int slot : found.slots) {
     b2Body* body = slots_[static_cast<std::size_t>(slot)].body;
     momentum +=

@@ -17,7 +17,7 @@ constexpr double kGainShare = 0.05, kGainPerMass = 0.05;
 /// left of a gain in it after a substep.
 constexpr double kGainOnce = 2, kGainLasting = 4, kGainKept = 0.998;
 /// A contact's impulse is taken for possible up to so many times the momentum there is.
-constexpr double kImpulseMost = 100;
+constexpr double kImpulseMost = 50;
 /// What is led throws others at up to so many times its own speed.
 constexpr double kLedMost = 4;
 /// What a row's own entry is enlarged by in a jam, as a share: what contradicts itself by 1 m/s is
@@ -40,6 +40,8 @@ double ExactIsland::MostImpulse(const Pace& pace) const {
     px += q.vx / q.im;
     py += q.vy / q.im;
   }
+  const bool fixed = !bodies.back().moves();  // against what stands still, all of it counts
+  if (fixed) px = py = 0;
   double sum = mass * led;
   for (const ExactBody& q : bodies) {
     if (!q.moves()) continue;
