@@ -251,6 +251,7 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
     found.island->Step(pace, step.warmStarting);
     Save(&found, h);
     Report(found);
+    found.island->BoundCarried();
     Hide(found);
     for (const int slot : found.slots) slots_[static_cast<std::size_t>(slot)].solved = true;
     moving += found.slots.size();

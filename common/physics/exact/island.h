@@ -42,6 +42,9 @@ class ExactIsland {
   void Rejoin(const Pace& pace, bool struck);
   /// What the step did, to the engine's joints and contacts.
   void Store() const;
+  /// After Store and reports: what contacts take along to the next step, which may be the engine's,
+  /// is no more than the engine's rounds come back from.
+  void BoundCarried() const;
 
  private:
   struct Pair {       // of rows that share a body
@@ -98,6 +101,7 @@ class ExactIsland {
     double impulse = 0;  // N s, MostImpulse
   };
   double MostImpulse(const Pace& pace) const;
+  double MostCarried(const Pace& pace) const;
   double WorkDone(double mass);
   bool Possible(const Start& start, bool pushes);
   void Calm(const Pace& pace, const Start& start);
@@ -166,6 +170,7 @@ class ExactIsland {
   int changed_ = 0;     // the matrix's rows from here on are not those that were assembled
   int dirty_ = 0;       // the factors of rows from here on are old
   double gained_ = 0;   // J: what substeps with contacts have gained, falling slowly
+  double carried_ = 0;  // N s: what a contact's impulse may be for the next step
   bool moved_ = false;  // velocities are not those of before_
   std::vector<char> in_;
   std::vector<double> x_, before_, start_;

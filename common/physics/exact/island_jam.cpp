@@ -18,6 +18,8 @@ constexpr double kGainShare = 0.05, kGainPerMass = 0.05;
 constexpr double kGainOnce = 2, kGainLasting = 4, kGainKept = 0.998;
 /// A contact's impulse is taken for possible up to so many times the momentum there is.
 constexpr double kImpulseMost = 50;
+/// And what of it the next step begins with.
+constexpr double kCarriedMost = 3;
 /// What is led throws others at up to so many times its own speed.
 constexpr double kLedMost = 4;
 /// What a row's own entry is enlarged by in a jam, as a share: what contradicts itself by 1 m/s is
@@ -52,6 +54,22 @@ double ExactIsland::MostImpulse(const Pace& pace) const {
     if (row.kind == RowKind::kMotor) sum += row.most;
   }
   return kImpulseMost * sum;
+}
+
+double ExactIsland::MostCarried(const Pace& pace) const {
+  return kCarriedMost / kImpulseMost * MostImpulse({pace.h * pace.substeps, 1});
+}
+
+void ExactIsland::BoundCarried() const {
+  for (const ExactContact& contact : contacts) {
+    b2Manifold& manifold = *contact.made->GetManifold();
+    for (int i = 0; i < contact.count; ++i) {
+      b2ManifoldPoint& point = manifold.points[i];
+      if (static_cast<double>(point.normalImpulse) <= carried_) continue;
+      point.tangentImpulse *= static_cast<float>(carried_) / point.normalImpulse;
+      point.normalImpulse = static_cast<float>(carried_);
+    }
+  }
 }
 
 /// J: what motors, springs, belts and what is moved by force have done since `bodies_before_`, at
