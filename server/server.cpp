@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "common/sync/input_source.h"
+#include "common/sync/lease.h"
 #include "common/sync/method.h"
 #include "server/authority_source.h"
 #include "server/rules/rules.h"
@@ -279,6 +280,9 @@ void Server::UpdateAuthority(std::int64_t now_us) {
   for (const int peer : situation.peer_of_player) {
     const Session* session = peer > 0 ? sessions_.Find(peer) : nullptr;
     const std::int64_t rtt_us = session != nullptr ? session->link.rtt_us() : 0;
+    const bool silent = session != nullptr && session->stage == SessionStage::kReady &&
+                        now_us - session->link.last_receive_us() > kSilentUs;
+    if (silent) situation.silent.Add(peer);
     situation.one_way_s.push_back(static_cast<float>(std::max<std::int64_t>(0, rtt_us)) * 0.5e-6f);
   }
   situation.together = edits_.WaitingMechanisms();

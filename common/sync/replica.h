@@ -74,6 +74,8 @@ class Replica {
                                      std::int32_t epochs_on) const;
   /// What another peer let go of. How far this copy was from it, at most; see Corrector::TakeOver.
   BodyState TakeOver(const ExactStates& exact);
+  /// The server only; see Roles::SpeakFor.
+  void SpeakFor(const PeerSet& silent) { roles_.SpeakFor(silent); }
   /// Gives up every authority (the server has not been heard for too long).
   void ReleaseAll();
 
