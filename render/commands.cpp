@@ -143,7 +143,7 @@ void RenderSheet(const RenderOptions& options) {
   DrawSheet(list, page, options.sheet);
   Image image;
   MakeCanvas(font)->Draw(list, kPaper, &image);
-  WritePng(options.out, image, 9, page.about);
+  WritePng(options.out, image, PngEffort::kSmall, page.about);
   std::fprintf(stderr, "%s: %d moments, %.2f s to %.2f s\n", options.out.c_str(), options.sheet,
                page.from_s, page.to_s);
 }
@@ -169,7 +169,7 @@ void RenderStrobe(const RenderOptions& options) {
   DrawStrobe(list, playbacks, plan);
   Image image;
   MakeCanvas(font)->Draw(list, kPaper, &image);
-  WritePng(options.out, image, 9);
+  WritePng(options.out, image, PngEffort::kSmall);
   std::fprintf(stderr, "%s: %dx%d, %.2f s to %.2f s\n", options.out.c_str(), image.width_px,
                image.height_px, plan.from_s, plan.to_s);
 }

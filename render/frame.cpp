@@ -81,16 +81,26 @@ void DrawInset(DrawList& list, const Page& page, const Panel& panel, const Viewp
                   {1.6f * scale, kFaintInk, 0});
 }
 
-void DrawPanel(DrawList& list, const Page& page, const Panel& panel, const Rect& area,
-               double now_s) {
-  const float lines = RegionLinesHeight(*panel.playback, list.font().scale());
-  const Rect world{area.x, area.y, area.width, area.height - lines};
+/// What of a panel's area is the world; below are the lines of the regions.
+Rect WorldArea(const Panel& panel, const Rect& area, float scale) {
+  return {area.x, area.y, area.width, area.height - RegionLinesHeight(*panel.playback, scale)};
+}
+
+void DrawPanelWorld(DrawList& list, const Page& page, const Panel& panel, const Rect& area,
+                    double now_s) {
+  const Rect world = WorldArea(panel, area, list.font().scale());
   const Viewport viewport = ViewportOf(page, panel, world, now_s);
   WorldLook look = page.look;
   look.peer = panel.peer;
   look.tick = panel.playback->TickAt(now_s);
   DrawWorld(list, viewport, *panel.playback, look);
   DrawInset(list, page, panel, viewport, look, now_s);
+}
+
+void DrawPanelFrame(DrawList& list, const Page& page, const Panel& panel, const Rect& area,
+                    double now_s) {
+  const Rect world = WorldArea(panel, area, list.font().scale());
+  const Viewport viewport = ViewportOf(page, panel, world, now_s);
   DrawRegionLines(list, viewport, *panel.playback, world.bottom());
   const std::string error = page.panels.size() > 1 ? ErrorText(panel, now_s) : "";
   DrawCaption(list, world, panel.caption, error.empty() ? "" : "error " + error, panel.swatch);
@@ -186,14 +196,17 @@ void DrawPage(DrawList& list, const Page& page, double now_s) {
   const float width = static_cast<float>(page.width_px) - 2 * margin;
   const float height = static_cast<float>(page.height_px);
   const float header = 58 * scale, legend = 26 * scale, strip = 122 * scale;
-  DrawHeader(list, {margin, 6 * scale, width, header}, page.title, page.subtitle,
-             Figures(page, now_s));
   const Rect middle{margin, header, width, height - header - legend - strip};
   const std::vector<Rect> areas =
       Tile(middle, static_cast<int>(page.panels.size()), Aspect(page), 8 * scale,
            RegionLinesHeight(*page.panels.front().playback, scale));
+  // Worlds first: the canvas is fast with large areas that nothing lies under.
   for (std::size_t i = 0; i < page.panels.size(); ++i)
-    DrawPanel(list, page, page.panels[i], areas[i], now_s);
+    DrawPanelWorld(list, page, page.panels[i], areas[i], now_s);
+  for (std::size_t i = 0; i < page.panels.size(); ++i)
+    DrawPanelFrame(list, page, page.panels[i], areas[i], now_s);
+  DrawHeader(list, {margin, 6 * scale, width, header}, page.title, page.subtitle,
+             Figures(page, now_s));
   const Playback& first = *page.panels.front().playback;
   DrawLegend(list, {margin, middle.bottom() + 2 * scale, width, legend}, first, page.look,
              !first.recording().impacts.empty());
@@ -219,7 +232,8 @@ void DrawSheet(DrawList& list, const Page& page, int moments) {
         page.from_s + (page.to_s - page.from_s) * moment / std::max(1, moments - 1);
     Panel panel = page.panels[of];
     panel.caption = FormatTime(now_s) + (page.panels.size() > 1 ? "  " + panel.caption : "");
-    DrawPanel(list, page, panel, cells[static_cast<std::size_t>(i)], now_s);
+    DrawPanelWorld(list, page, panel, cells[static_cast<std::size_t>(i)], now_s);
+    DrawPanelFrame(list, page, panel, cells[static_cast<std::size_t>(i)], now_s);
   }
 }
 
