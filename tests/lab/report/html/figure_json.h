@@ -1,0 +1,17 @@
+#pragma once
+/// A figure's data for the page's script, which draws it with values to hover over.
+
+#include <string>
+
+#include "tests/lab/report/figure.h"
+
+namespace seam {
+
+/// The panels as a JSON object; infinite and undefined numbers are null. Safe within a script
+/// element of HTML.
+std::string FigureJson(const Figure& figure);
+
+/// A string of JSON in quotes, in which no < stands.
+std::string JsonText(const std::string& text);
+
+}  // namespace seam
