@@ -103,9 +103,16 @@ Page PageOf(const RenderOptions& options, const std::vector<Playback>& playbacks
   if (options.peer_given && peer >= 0)
     for (const Playback& playback : playbacks) RequirePeer(playback, peer);
   Page page = options.compare ? MakeComparison(playbacks, peer) : MakePage(playbacks.front(), peer);
+  if (options.difference) {
+    page = MakeDifference(playbacks, peer);
+  }
   page.width_px = options.width_px;
   page.height_px = options.height_px;
   page.look = options.look;
+  if (options.difference) {
+    page.look.pale = true;
+    page.look.ghosts = page.look.trails = false;
+  }
   CameraWish wish = options.camera;
   ChooseTimes(options, playbacks, &page, &wish);
   SetCamera(wish, playbacks, &page);

@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "render/canvas/palette.h"
+#include "render/draw/draw_difference.h"
 #include "render/draw/draw_hud.h"
 #include "render/draw/draw_scene.h"
 #include "render/playback/format.h"
+#include "render/playback/peer_colour.h"
 
 namespace seam {
 namespace {
@@ -16,8 +18,9 @@ std::string TitleOf(const Playback& playback) {
                                         : playback.scene().title;
 }
 
-Colour CurveColour(int peer) { return Darker(PeerColour(peer)); }
+Colour CurveColour(const Playback& playback, int peer) { return Darker(ColourOf(playback, peer)); }
 
+/// What a panel's corner says.
 std::string ErrorText(const Panel& panel, double now_s) {
   const double tick = panel.playback->TickAt(now_s);
   const auto error = panel.playback->ErrorAt(panel.error_peer, tick);
@@ -77,6 +80,9 @@ void DrawInset(DrawList& list, const Page& page, const Panel& panel, const Viewp
   list.StrokeRect({a.x(), a.y(), b.x() - a.x(), b.y() - a.y()}, {1.2f * scale, kFaintInk, 0});
   list.NoClip();
   DrawWorld(list, close, *panel.playback, look);
+  if (panel.over != nullptr) {
+    DrawDifference(list, close, *panel.playback, *panel.over, panel.peer, now_s);
+  }
   list.StrokeRect({area.x + 0.5f, area.y + 0.5f, area.width - 1, area.height - 1},
                   {1.6f * scale, kFaintInk, 0});
 }
@@ -94,6 +100,9 @@ void DrawPanelWorld(DrawList& list, const Page& page, const Panel& panel, const 
   look.peer = panel.peer;
   look.tick = panel.playback->TickAt(now_s);
   DrawWorld(list, viewport, *panel.playback, look);
+  if (panel.over != nullptr) {
+    DrawDifference(list, viewport, *panel.playback, *panel.over, panel.peer, now_s);
+  }
   DrawInset(list, page, panel, viewport, look, now_s);
 }
 
@@ -103,7 +112,12 @@ void DrawPanelFrame(DrawList& list, const Page& page, const Panel& panel, const 
   const Viewport viewport = ViewportOf(page, panel, world, now_s);
   DrawRegionLines(list, viewport, *panel.playback, world.bottom());
   const std::string error = page.panels.size() > 1 ? ErrorText(panel, now_s) : "";
-  DrawCaption(list, world, panel.caption, error.empty() ? "" : "error " + error, panel.swatch);
+  std::string corner = error.empty() ? "" : "error " + error;
+  if (panel.over != nullptr) {
+    const double apart = ApartOf(*panel.playback, *panel.over, panel.peer, now_s);
+    corner = apart < 0 ? "" : "apart " + FormatLength(apart) + " RMS";
+  }
+  DrawCaption(list, world, panel.caption, corner, panel.swatch);
   const Rect frame{world.x + 0.5f, world.y + 0.5f, world.width - 1, world.height - 1};
   list.StrokeRect(frame, {1, kFrame, 0});
 }
@@ -161,7 +175,8 @@ Page MakePage(const Playback& playback, int peer) {
     page.curves.back().bold = false;
   }
   for (int p : shown)
-    page.curves.push_back(CurveOf(playback, p, CurveColour(p), "view of " + playback.PeerName(p)));
+    page.curves.push_back(
+        CurveOf(playback, p, CurveColour(playback, p), "view of " + playback.PeerName(p)));
   return page;
 }
 
@@ -186,6 +201,20 @@ Page MakeComparison(const std::vector<Playback>& playbacks, int peer) {
   }
   page.strip_from_s = page.from_s;
   page.strip_to_s = page.to_s;
+  return page;
+}
+
+Page MakeDifference(const std::vector<Playback>& playbacks, int peer) {
+  Page page = MakeComparison(playbacks, peer);
+  Panel& panel = page.panels.front();
+  panel.over = &playbacks.at(1);
+  panel.caption = page.panels[1].caption + " over " + panel.caption + " (pale)";
+  panel.swatch.a = 0;
+  page.panels.resize(1);
+  page.subtitle = "difference of two runs, view of " +
+                  playbacks.front().PeerName(playbacks.front().PeerOr(peer));
+  const std::string& network = playbacks.front().recording().room.impair;
+  if (!network.empty()) page.subtitle += "  ·  network " + network;
   return page;
 }
 

@@ -44,7 +44,7 @@ void DrawExposure(DrawList& list, const Viewport& viewport, const Playback& play
     if (!shown || !viewport.Sees(shown->pose.position, body.reach)) continue;
     const auto then = playback.Find(next, body.id);
     if (!last && then && PixelsApart(viewport, body, shown->pose, then->pose) < 1.5f) continue;
-    BodyLook look = LookOf(shown->authority, shown->role);
+    BodyLook look = LookOf(ColourOf(playback, shown->authority), shown->role);
     look.opacity = Opacity(i, times.size());
     DrawBody(list, viewport, body, shown->pose, look);
   }

@@ -8,6 +8,7 @@
 #include "render/canvas/palette.h"
 #include "render/draw/draw_body.h"
 #include "render/draw/draw_bricks.h"
+#include "render/playback/peer_colour.h"
 
 namespace seam {
 namespace {
@@ -44,7 +45,7 @@ std::vector<Region> RegionsOf(const Viewport& viewport, const Playback& playback
     const Vec2 margin(band, band);
     regions.push_back({Box(viewport, player.region_min, player.region_max),
                        Box(viewport, player.region_min - margin, player.region_max + margin),
-                       PeerColour(peer), player.name});
+                       ColourOf(playback, peer), player.name});
   }
   return regions;
 }

@@ -136,10 +136,10 @@ function drawWaters(c, viewport, run) {
 
 const BRICK_UNIT = 0.05;  // m
 
-function traceBricks(c, viewport, run) {
+function traceBlocks(c, viewport, blocks) {
   const {rect, scale} = viewport;
   c.beginPath();
-  for (const [x, y, width, height] of run.bricks) {
+  for (const [x, y, width, height] of blocks) {
     const left = viewport.x(x * BRICK_UNIT);
     const top = viewport.y((y + height) * BRICK_UNIT);
     const w = width * BRICK_UNIT * scale;
@@ -156,7 +156,7 @@ const brickPictures = new Map();
 function drawBricks(c, viewport, run) {
   if (run.bricks.length === 0) return;
   if (!(c instanceof CanvasRenderingContext2D)) {
-    traceBricks(c, viewport, run);
+    traceBlocks(c, viewport, run.bricks);
     c.fill();
     return;
   }
@@ -173,7 +173,7 @@ function drawBricks(c, viewport, run) {
     own.scale(ratio, ratio);
     own.fillStyle = c.fillStyle;
     const {width, height} = rect;
-    traceBricks(own, new Viewport({x: 0, y: 0, width, height}, camera), run);
+    traceBlocks(own, new Viewport({x: 0, y: 0, width, height}, camera), run.bricks);
     own.fill();
     picture = {key, canvas};
     brickPictures.set(run, picture);
@@ -187,6 +187,12 @@ function drawGround(c, viewport, run, world, tick) {
   c.strokeStyle = COLOURS.theme['ground-edge'];
   c.lineWidth = 1;
   drawBricks(c, viewport, run);
+  if (world.holes.length > 0) {
+    c.fillStyle = COLOURS.theme.panel;
+    traceBlocks(c, viewport, world.holes);
+    c.fill();
+    c.fillStyle = COLOURS.theme.ground;
+  }
   for (const entry of world.anchored) {
     const pose = anchoredPose(run, entry, tick);
     if (!viewport.sees(pose[0], pose[1], entry.body.reach / 1000)) continue;

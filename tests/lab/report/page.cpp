@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "common/base/json_text.h"
 #include "tests/lab/report/html/figure_json.h"
 #include "tests/lab/report/html/report_assets.h"
 #include "tests/lab/report/method_look.h"

@@ -7,8 +7,8 @@
 #include <map>
 #include <tuple>
 
+#include "common/base/json_text.h"
 #include "common/net/impair.h"
-#include "tests/lab/report/html/figure_json.h"
 
 namespace seam {
 namespace {
@@ -31,10 +31,10 @@ Answer AnswerOf(const Sweep& sweep, const SweepGroup& group, const std::string& 
   const ImpairProfile profile = FindProfile(sweep.table.Text(rows.front(), "impair"));
   Answer answer;
   answer.scene = group.scene + (group.drive == "bot" ? ", bots" : "");
-  answer.one_way_ms =
-      NetworkOf(sweep, rows.front(), "one_way_ms", static_cast<double>(profile.delay_us) * 1e-3);
-  answer.loss_percent =
-      NetworkOf(sweep, rows.front(), "loss_percent", std::round(MeanLoss(profile) * 1e4) * 1e-2);
+  const auto latency_ms = static_cast<double>(profile.delay_us) * 1e-3;
+  answer.one_way_ms = NetworkOf(sweep, rows.front(), "one_way_ms", latency_ms);
+  const double loss = NetworkOf(sweep, rows.front(), "loss_percent", 100 * MeanLoss(profile));
+  answer.loss_percent = std::round(10 * loss) / 10;
   answer.method = method;
   answer.error_m = error;
   answer.cpu_ms_per_s = Median(sweep, "cpu", rows);

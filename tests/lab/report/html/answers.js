@@ -7,12 +7,12 @@ function unique(values) {
 }
 
 // The measured network of a scene that is nearest to what was asked for: ten milliseconds are as
-// far as one percent.
+// far as one percent; of two as near the later in the table, which is the worse one.
 function nearest(rows, latency, loss) {
   let best = null;
   for (const row of rows) {
     const far = Math.abs(row[kLatency] - latency) / 10 + Math.abs(row[kLoss] - loss);
-    if (best === null || far < best.far) best = { far, latency: row[kLatency], loss: row[kLoss] };
+    if (best === null || far <= best.far) best = { far, latency: row[kLatency], loss: row[kLoss] };
   }
   return best;
 }

@@ -135,9 +135,7 @@ function drawPanel(holder, figure, panel, scaleWish) {
   drawTics(plot, box, x, y);
   drawLevels(plot, box, panel, x, y);
   for (const curve of curves) drawCurve(plot, curve, x, y);
-  for (const [nx, ny, text] of panel.notes) {
-    svg(plot, "text", { x: x.at(nx) + 6, y: y.at(ny) + 14 }, text);
-  }
+  drawNotes(plot, box, panel, x, y);
   hoverOf(plot, panel, curves, x, y, width, height);
 }
 
@@ -169,6 +167,21 @@ function drawLevels(plot, box, panel, x, y) {
     const at = x.at(value);
     svg(plot, "line", { x1: at, x2: at, y1: box.top, y2: box.bottom, stroke: "#888", "stroke-dasharray": "4 4" });
     svg(plot, "text", { x: at + 4, y: box.top + 11 }, name);
+  }
+}
+
+// Names of points, where there is room beside them; the others are said when one points at them.
+function drawNotes(plot, box, panel, x, y) {
+  const taken = panel.curves.flatMap((c) => (c.point === 0 ? [] : c.p.map((p) => [x.at(p[0]) - 3, y.at(p[1]) - 3, 6, 6])));
+  const free = (r) => r[0] >= box.left && r[0] + r[2] <= box.right + 18 && r[1] >= box.top && r[1] + r[3] <= box.bottom
+    && taken.every((t) => r[0] > t[0] + t[2] || t[0] > r[0] + r[2] || r[1] > t[1] + t[3] || t[1] > r[1] + r[3]);
+  for (const [nx, ny, text] of panel.notes) {
+    const [px, py, width] = [x.at(nx), y.at(ny), 6.6 * text.length];
+    const corners = [[6, 4], [6, -15], [-6 - width, -15], [-6 - width, 4], [7, -6], [-7 - width, -6]];
+    const room = corners.map(([dx, dy]) => [px + dx, py + dy, width, 11]).find(free);
+    if (room === undefined) continue;
+    taken.push(room);
+    svg(plot, "text", { x: room[0], y: room[1] + 9 }, text);
   }
 }
 
@@ -223,7 +236,8 @@ function valueText(axis, value) {
 
 function tipText(panel, curve, p) {
   const range = p.length > 2 ? ` (quartiles ${digits(p[2])} to ${digits(p[3])})` : "";
-  return `${curve.name}\n${valueText(panel.x, p[0])}\n${valueText(panel.y, p[1])}${range}`;
+  const note = panel.notes.find((n) => n[0] === p[0] && n[1] === p[1]);
+  return `${note ? `${note[2]}: ` : ""}${curve.name}\n${valueText(panel.x, p[0])}\n${valueText(panel.y, p[1])}${range}`;
 }
 
 // Replaces a figure's picture; again whenever curves or the scale were changed.
@@ -254,7 +268,8 @@ function legendOf(figure) {
     button.setAttribute("aria-pressed", String(!hiddenCurves.has(curve.name)));
     button.title = "show or hide in all figures";
     const key = svg(button, "svg", { width: 26, height: 10 });
-    svg(key, "line", { x1: 0, x2: 26, y1: 5, y2: 5, stroke: curve.colour, "stroke-width": Math.max(curve.width, 1), "stroke-dasharray": dashArray(curve.dash) });
+    if (curve.width === 0) svg(key, "circle", { cx: 13, cy: 5, r: 3.5, fill: curve.colour });
+    else svg(key, "line", { x1: 0, x2: 26, y1: 5, y2: 5, stroke: curve.colour, "stroke-width": Math.max(curve.width, 1), "stroke-dasharray": dashArray(curve.dash) });
     button.append(curve.name);
     button.addEventListener("click", () => toggleCurve(curve.name));
     legend.append(button);

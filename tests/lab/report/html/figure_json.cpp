@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "common/base/json_text.h"
+
 namespace seam {
 namespace {
 
@@ -52,22 +54,6 @@ std::string PanelJson(const PlotPanel& panel) {
 }
 
 }  // namespace
-
-std::string JsonText(const std::string& text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (code < 0x20 || c == '<' || c == '>' || c == '&') {
-      out += fmt::format("\\u{:04x}", code);
-    } else {
-      out += c;
-    }
-  }
-  return out + "\"";
-}
 
 std::string FigureJson(const Figure& figure) {
   return fmt::format(R"({{"columns":{},"width":{},"height":{},"left":{},"panels":{}}})",

@@ -11,7 +11,4 @@ namespace seam {
 /// element of HTML.
 std::string FigureJson(const Figure& figure);
 
-/// A string of JSON in quotes, in which no < stands.
-std::string JsonText(const std::string& text);
-
 }  // namespace seam
