@@ -10,6 +10,7 @@
 #include "render/draw/draw_joints.h"
 #include "render/draw/draw_scene.h"
 #include "render/playback/format.h"
+#include "render/playback/peer_colour.h"
 #include "render/strobe_layout.h"
 
 namespace seam {

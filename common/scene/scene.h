@@ -139,8 +139,7 @@ struct Player {
   Vec2 region_min{0, 0}, region_max{0, 0};  ///< static region, m
   std::vector<Action> actions;
   std::vector<InputSpan> script;  ///< ascending
-  std::string colour;  ///< in pictures: "#rrggbb", "1" to "10" of the palette, "": its peer's
-  int line = 0;        ///< in the scene file
+  int line = 0;                   ///< in the scene file
 };
 
 /// A seat from which something is driven: motors and thrusts that name the seat as their player

@@ -84,18 +84,17 @@ void ReadRegion(const SceneReader& r, Player* player) {
   player->region_max = corners[1];
 }
 
-/// "#rrggbb", or the number of a colour of the palette.
-void ReadColour(const SceneReader& r, Player* player) {
+/// "#rrggbb", or the number of a colour of the palette; pictures ask for it (player_colours.h).
+void CheckColour(const SceneReader& r) {
   if (!r.Has("colour")) return;
   if (!r.IsText("colour")) {
-    player->colour = std::to_string(r.Integer("colour", {1, kPaletteColours}));
+    r.Integer("colour", {1, kPaletteColours});
     return;
   }
-  player->colour = r.Text("colour");
-  const bool hex =
-      player->colour.size() == 7 && player->colour[0] == '#' &&
-      player->colour.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
-  if (!hex) r.FailAt("colour", "colour must be \"#rrggbb\", or 1 to 10 of the palette");
+  const std::string text = r.Text("colour");
+  const bool digits = text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+  if (text.size() != 7 || text[0] != '#' || !digits)
+    r.FailAt("colour", "colour must be \"#rrggbb\", or 1 to 10 of the palette");
 }
 
 }  // namespace
@@ -124,7 +123,7 @@ void ReadPlayers(const SceneReader& root, SceneDraft* draft) {
     player.line = node->line;
     if (r.Has("vehicle")) player.vehicle = FindPart(r, "vehicle", *draft);
     ReadRegion(r, &player);
-    ReadColour(r, &player);
+    CheckColour(r);
     ReadActions(r, *draft, &player);
     ReadScript(r, *draft, &player);
   }

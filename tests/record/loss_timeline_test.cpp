@@ -10,6 +10,7 @@
 #include "common/codec/codec.h"
 #include "common/record/log_file.h"
 #include "tests/support/made_recording.h"
+#include "tests/support/program.h"
 #include "tests/support/render_synthetic.h"
 
 namespace seam {

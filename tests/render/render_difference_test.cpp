@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "common/base/check.h"
+#include "common/scene/player_colours.h"
 #include "render/canvas/palette.h"
 #include "render/draw/draw_difference.h"
 #include "render/frame.h"
@@ -54,10 +55,12 @@ std::string WithColour(const std::string& line) {
 }
 
 TEST(PlayerColour, IsTheScenesOrThePalettesOrThePeers) {
-  Scene scene = MakeScene();
-  scene.players[0].colour = "#ff0080";
-  scene.players[1].colour = "5";
-  const Playback playback(MakeRecording(0), scene, MakeOracle());
+  Recording recording = MakeRecording(0);
+  std::string text = SceneText();
+  text.insert(text.find("name = \"ann\""), "colour = \"#ff0080\"\n");
+  text.insert(text.find("name = \"ben\""), "colour = 5\n");
+  recording.room.scene_text = text;
+  const Playback playback(recording, MakeOracle());
   EXPECT_TRUE((ColourOf(playback, 1) == Colour{255, 0, 128, 255}));
   EXPECT_TRUE(ColourOf(playback, 2) == PeerColour(5));
   EXPECT_TRUE(ColourOf(playback, 0) == PeerColour(0));
@@ -65,9 +68,12 @@ TEST(PlayerColour, IsTheScenesOrThePalettesOrThePeers) {
 }
 
 TEST(PlayerColour, OfASceneIsHexOrANumberOfThePaletteAndNothingElse) {
-  EXPECT_EQ(ParseScene(WithColour("colour = \"#12aBef\""), "s.toml").players[0].colour, "#12aBef");
-  EXPECT_EQ(ParseScene(WithColour("colour = 10"), "s.toml").players[0].colour, "10");
-  EXPECT_EQ(ParseScene(WithColour(""), "s.toml").players[0].colour, "");
+  const auto of = [](const std::string& line) {
+    return PlayerColours(ParseScene(WithColour(line), "s.toml")).at(0);
+  };
+  EXPECT_EQ(of("colour = \"#12aBef\""), "#12aBef");
+  EXPECT_EQ(of("colour = 10"), "10");
+  EXPECT_EQ(of(""), "");
   for (const char* wrong : {"colour = \"red\"", "colour = \"#12345\"", "colour = \"#12345g\"",
                             "colour = 0", "colour = 11", "colour = true", "colour = \"\""}) {
     EXPECT_THROW(ParseScene(WithColour(wrong), "s.toml"), OperatorError) << wrong;
