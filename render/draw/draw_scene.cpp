@@ -182,6 +182,9 @@ void DrawScaleBar(DrawList& list, const Viewport& viewport) {
   for (float x : {left, right}) list.Stroke({{x, y - tick}, {x, y + tick}}, false, line);
   std::string text = metres >= 1 ? std::to_string(static_cast<int>(metres + 0.5f)) + " m"
                                  : std::to_string(static_cast<int>(100 * metres + 0.5f)) + " cm";
+  const float wide = list.font().Width(TextStyle::kSmall, text) + 6 * scale;
+  list.FillRect({std::round((left + right - wide) / 2), y - 14 * scale, wide, 12 * scale},
+                Faded(kPanel, 0.75f));
   list.Text((left + right) / 2, y - 5 * scale, TextStyle::kSmall, text, kFaintInk, Align::kCentre);
 }
 

@@ -289,7 +289,7 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
   DrawBlasts(list, viewport, playback, now, look.tick);
   DrawImpacts(list, viewport, playback, look);
   DrawHealth(list, viewport, playback, now, look.tick);
-  DrawNames(list, viewport, playback, seen, look.names);
+  if (!look.pale) DrawNames(list, viewport, playback, seen, look.names);
   DrawScores(list, viewport.panel, playback, look.tick);
   DrawScaleBar(list, viewport);
   list.NoClip();

@@ -33,7 +33,7 @@ std::string LatencyCsv() {
   return text;
 }
 
-class ReportPage : public ::testing::Test {
+class ReportInBrowser : public ::testing::Test {
  protected:
   void SetUp() override {
     if (Browser::Find().empty()) GTEST_SKIP() << "no chromium here: apt-get install chromium";
@@ -68,7 +68,7 @@ class ReportPage : public ::testing::Test {
   std::unique_ptr<Browser> browser_;
 };
 
-TEST_F(ReportPage, SaysWhatToUseForTheLatencyAndTheSceneThatAreAsked) {
+TEST_F(ReportInBrowser, SaysWhatToUseForTheLatencyAndTheSceneThatAreAsked) {
   Ask("latency", "60");
   Ask("scene", "stack");
   EXPECT_EQ(Verdict(), "Use fade: error 0.004 m, 5 ms of CPU per second, 2 kB/s.");
@@ -78,7 +78,7 @@ TEST_F(ReportPage, SaysWhatToUseForTheLatencyAndTheSceneThatAreAsked) {
   EXPECT_EQ(Verdict(), "Use fade: error 0.002 m, 5 ms of CPU per second, 2 kB/s.");
 }
 
-TEST_F(ReportPage, AFigureAnswersTheMouseAndLeavesOutWhatIsSwitchedOff) {
+TEST_F(ReportInBrowser, AFigureAnswersTheMouseAndLeavesOutWhatIsSwitchedOff) {
   Open("latency");
   EXPECT_EQ(browser_->Number("document.querySelectorAll('.chapter.shown').length"), 1);
   const std::string curves = "document.querySelectorAll('.shown .plot [data-curve=fade]').length";
@@ -96,7 +96,7 @@ TEST_F(ReportPage, AFigureAnswersTheMouseAndLeavesOutWhatIsSwitchedOff) {
   EXPECT_GT(browser_->Number(curves), 0);
 }
 
-TEST_F(ReportPage, ASceneCanBeChosenAndTheScaleMadeLinear) {
+TEST_F(ReportInBrowser, ASceneCanBeChosenAndTheScaleMadeLinear) {
   Open("latency");
   const auto choose = [&](const char* select, const char* value) {
     browser_->Evaluate(std::string("(() => { const s = document.querySelector('") + select +
