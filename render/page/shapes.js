@@ -109,6 +109,7 @@ function drawScaleBar(c, viewport, step) {
   const left = right - step * viewport.scale;
   const y = rect.y + rect.height - 12;
   c.strokeStyle = c.fillStyle = COLOURS.theme.faint;
+  c.lineWidth = 1;
   c.beginPath();
   c.moveTo(left, y - 3);
   c.lineTo(left, y);

@@ -177,11 +177,13 @@ class Losses extends Strip {
       c.fillRect(STRIP.left, y + 16, this.plotWidth(), 2);
       const most = Math.max(...losses.map((loss) => loss[2]));
       c.fillStyle = COLOURS.theme.spark;
-      for (const [from, to, lost] of losses) {
+      for (const [from, to, lost, kind] of losses) {
+        c.globalAlpha = kind === 'network' ? 0.35 : 1;  // an estimate, smeared over seconds
         const tall = 4 + 8 * lost / most;
         const left = this.x(Math.max(0, from));
         c.fillRect(left, y + 17 - tall / 2, Math.max(2, this.x(to) - left), tall);
       }
+      c.globalAlpha = 1;
       c.fillStyle = COLOURS.theme.faint;
       c.fillText(`lost: ${label}`, STRIP.left, y + 9);
     });
