@@ -22,6 +22,8 @@ namespace seam {
 namespace {
 
 const char* const kVertexShader = R"(#version 330 core
+#extension GL_ARB_separate_shader_objects : require
+out gl_PerVertex { vec4 gl_Position; };
 layout(location = 0) in vec2 position;
 layout(location = 1) in vec4 shape;
 layout(location = 2) in vec4 colour;
@@ -87,25 +89,9 @@ void main() {
   result = vec4(fragment_colour.rgb, fragment_colour.a * cover);
 })";
 
-GLuint Compile(GLenum kind, const char* source) {
-  const GLuint shader = glCreateShader(kind);
-  glShaderSource(shader, 1, &source, nullptr);
-  glCompileShader(shader);
-  GLint good = 0;
-  glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
-  SEAM_ASSERT(good == GL_TRUE);
-  return shader;
-}
-
-GLuint Link(const char* fragment_source) {
-  const GLuint program = glCreateProgram();
-  const GLuint vertex = Compile(GL_VERTEX_SHADER, kVertexShader);
-  const GLuint fragment = Compile(GL_FRAGMENT_SHADER, fragment_source);
-  glAttachShader(program, vertex);
-  glAttachShader(program, fragment);
-  glLinkProgram(program);
-  glDeleteShader(vertex);
-  glDeleteShader(fragment);
+/// A stage by itself: all fragment shaders share one vertex shader, which is then compiled once.
+GLuint Stage(GLenum kind, const char* source) {
+  const GLuint program = glCreateShaderProgramv(kind, 1, &source);
   GLint good = 0;
   glGetProgramiv(program, GL_LINK_STATUS, &good);
   SEAM_ASSERT(good == GL_TRUE);
@@ -150,11 +136,12 @@ class OsmesaCanvas : public Canvas {
   explicit OsmesaCanvas(const Font& font) : context_(CreateContext()) {
     if (context_ == nullptr) throw OperatorError("OSMesa gives no OpenGL 3.3 context");
     MakeCurrent();
-    programs_[Index(BatchKind::kPlain)] = Link(kPlainShader);
-    programs_[Index(BatchKind::kShape)] = Link(kShapeShader);
-    programs_[Index(BatchKind::kDashed)] = Link(kDashedShader);
-    programs_[Index(BatchKind::kDisc)] = Link(kDiscShader);
-    programs_[Index(BatchKind::kText)] = Link(kTextShader);
+    vertex_stage_ = Stage(GL_VERTEX_SHADER, kVertexShader);
+    AddPipeline(BatchKind::kPlain, kPlainShader);
+    AddPipeline(BatchKind::kShape, kShapeShader);
+    AddPipeline(BatchKind::kDashed, kDashedShader);
+    AddPipeline(BatchKind::kDisc, kDiscShader);
+    AddPipeline(BatchKind::kText, kTextShader);
     glGenVertexArrays(1, &vertex_array_);
     glBindVertexArray(vertex_array_);
     glGenBuffers(2, buffers_);
@@ -191,7 +178,7 @@ class OsmesaCanvas : public Canvas {
         Clear(batch.clear);
         continue;
       }
-      glUseProgram(programs_[Index(batch.kind)]);
+      glBindProgramPipeline(pipelines_[Index(batch.kind)]);
       // The text's indices follow the shapes'.
       const std::size_t skip = batch.kind == BatchKind::kText ? list.indices().size() : 0;
       const std::size_t offset = (skip + batch.first_index) * sizeof(std::uint32_t);
@@ -231,6 +218,14 @@ class OsmesaCanvas : public Canvas {
     glClearColor(static_cast<float>(colour.r) / 255, static_cast<float>(colour.g) / 255,
                  static_cast<float>(colour.b) / 255, 1);
     glClear(GL_COLOR_BUFFER_BIT);
+  }
+
+  void AddPipeline(BatchKind kind, const char* fragment_source) {
+    GLuint& pipeline = pipelines_[Index(kind)];
+    glGenProgramPipelines(1, &pipeline);
+    glUseProgramStages(pipeline, GL_VERTEX_SHADER_BIT, vertex_stage_);
+    glUseProgramStages(pipeline, GL_FRAGMENT_SHADER_BIT,
+                       Stage(GL_FRAGMENT_SHADER, fragment_source));
   }
 
   static void Attribute(GLuint location, GLint count, GLenum type, std::size_t offset) {
@@ -285,11 +280,8 @@ class OsmesaCanvas : public Canvas {
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, picture_, 0);
     SEAM_ASSERT(glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE);
     glViewport(0, 0, width, height);
-    for (const GLuint program : programs_) {
-      glUseProgram(program);
-      glUniform2f(glGetUniformLocation(program, "page"), static_cast<float>(width),
-                  static_cast<float>(height));
-    }
+    glProgramUniform2f(vertex_stage_, glGetUniformLocation(vertex_stage_, "page"),
+                       static_cast<float>(width), static_cast<float>(height));
   }
 
   // The page is drawn upside down for OpenGL, so its rows come out from the top.
@@ -305,7 +297,8 @@ class OsmesaCanvas : public Canvas {
 
   OSMesaContext context_;
   std::uint8_t own_buffer_[4 * 4 * 4] = {};
-  GLuint programs_[5] = {0, 0, 0, 0, 0};  // by BatchKind
+  GLuint vertex_stage_ = 0;
+  GLuint pipelines_[5] = {0, 0, 0, 0, 0};  // by BatchKind
   GLuint vertex_array_ = 0, texture_ = 0;
   GLuint buffers_[2] = {0, 0};  // vertices, indices
   std::size_t buffer_bytes_[2] = {0, 0};

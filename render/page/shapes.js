@@ -137,7 +137,8 @@ function drawWaters(c, viewport, run) {
 
 const BRICK_UNIT = 0.05;  // m
 
-function traceBlocks(c, viewport, blocks) {
+// `pad`: px more on each side.
+function traceBlocks(c, viewport, blocks, pad = 0) {
   const {rect, scale} = viewport;
   c.beginPath();
   for (const [x, y, width, height] of blocks) {
@@ -147,7 +148,7 @@ function traceBlocks(c, viewport, blocks) {
     const h = height * BRICK_UNIT * scale;
     if (left + w < rect.x || top + h < rect.y) continue;
     if (left > rect.x + rect.width || top > rect.y + rect.height) continue;
-    c.rect(left, top, w, h);
+    c.rect(left - pad, top - pad, w + 2 * pad, h + 2 * pad);
   }
 }
 
@@ -190,7 +191,7 @@ function drawGround(c, viewport, run, world, tick) {
   drawBricks(c, viewport, run);
   if (world.holes.length > 0) {
     c.fillStyle = COLOURS.theme.panel;
-    traceBlocks(c, viewport, world.holes);
+    traceBlocks(c, viewport, world.holes, 0.7);  // and the soft edges of what was there
     c.fill();
     c.fillStyle = COLOURS.theme.ground;
   }
