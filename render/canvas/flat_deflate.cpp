@@ -91,76 +91,114 @@ class BitWriter {
   int count_ = 0;
 };
 
-/// Finds the longest match among few candidates.
+/// Finds the longest match among few candidates. Positions are those of the pixels; in the stream
+/// each row has one byte more, before it, and no match goes over it.
 class Matcher {
  public:
-  Matcher(const std::vector<std::uint8_t>& data, std::size_t row_bytes)
-      : data_(data.data()), bytes_(data.size()), row_bytes_(row_bytes) {}
+  Matcher(const std::uint8_t* pixels, std::size_t row_bytes)
+      : pixels_(pixels), row_bytes_(row_bytes) {}
 
   struct Match {
-    std::size_t length = 0, distance = 0;
+    std::size_t length = 0, distance = 0;  ///< bytes of the stream
   };
 
-  Match At(std::size_t at) {
+  /// At a position of row `row`.
+  Match At(std::size_t at, std::size_t row) {
+    const std::size_t begin = row * row_bytes_, left = begin + row_bytes_ - at;
     Match best;
-    Try(at, kPixel, &best);
-    if (best.length < kMatchMax) Try(at, row_bytes_, &best);
-    if (best.length < 3 * kMatchMin && at + 4 <= bytes_) TryHash(at, &best);
+    if (at >= begin + kPixel) Try(at, at - kPixel, left, kPixel, &best);
+    if (row > 0 && best.length < kMatchMax) {
+      Try(at, at - row_bytes_, left, row_bytes_ + 1, &best);
+    }
+    if (best.length < 3 * kMatchMin && left >= 4) TryHash(at, row, left, &best);
     return best;
   }
 
  private:
-  void Try(std::size_t at, std::size_t distance, Match* best) const {
-    if (distance == 0 || distance > at || distance > kWindow) return;
-    const std::size_t length = Equal(at, at - distance);
+  void Try(std::size_t at, std::size_t from, std::size_t most, std::size_t distance,
+           Match* best) const {
+    if (distance > kWindow) return;
+    const std::size_t length = Equal(at, from, most);
     if (length > best->length) *best = {length, distance};
   }
 
-  void TryHash(std::size_t at, Match* best) {
+  void TryHash(std::size_t at, std::size_t row, std::size_t left, Match* best) {
     std::uint32_t four = 0;
-    std::memcpy(&four, data_ + at, sizeof(four));
-    std::size_t& seen = last_[(four * 2654435761u) >> (32 - kHashBits)];
-    if (seen > 0) Try(at, at - (seen - 1), best);
-    seen = at + 1;
+    std::memcpy(&four, pixels_ + at, sizeof(four));
+    Seen& seen = last_[(four * 2654435761u) >> (32 - kHashBits)];
+    if (seen.known) {
+      const std::size_t most = std::min(left, (seen.row + 1) * row_bytes_ - seen.at);
+      Try(at, seen.at, most, at - seen.at + row - seen.row, best);
+    }
+    seen = {at, row, true};
   }
 
   /// How many bytes from `a` on are those from `b` < a on.
-  std::size_t Equal(std::size_t a, std::size_t b) const {
+  std::size_t Equal(std::size_t a, std::size_t b, std::size_t most) const {
     std::size_t n = 0;
-    for (; a + n + 8 <= bytes_; n += 8) {
+    for (; n + 8 <= most; n += 8) {
       std::uint64_t x = 0, y = 0;
-      std::memcpy(&x, data_ + a + n, 8);
-      std::memcpy(&y, data_ + b + n, 8);
+      std::memcpy(&x, pixels_ + a + n, 8);
+      std::memcpy(&y, pixels_ + b + n, 8);
       if (x != y) break;
     }
-    while (a + n < bytes_ && data_[a + n] == data_[b + n]) ++n;
+    while (n < most && pixels_[a + n] == pixels_[b + n]) ++n;
     return n;
   }
 
-  const std::uint8_t* data_;
-  std::size_t bytes_, row_bytes_;
-  std::array<std::size_t, 1u << kHashBits> last_{};  // where four such bytes were, and one
+  /// Where four such bytes were.
+  struct Seen {
+    std::size_t at = 0, row = 0;
+    bool known = false;
+  };
+  const std::uint8_t* pixels_;
+  std::size_t row_bytes_;
+  std::array<Seen, 1u << kHashBits> last_{};
 };
+
+constexpr std::uint32_t kModulus = 65521;
+
+/// A row's codes: its filter, none, and its bytes.
+void PutRow(const std::uint8_t* pixels, std::size_t row, std::size_t row_bytes, Matcher* matcher,
+            BitWriter* bits) {
+  static const Tables tables;
+  bits->Put(tables.literals[0]);
+  const std::size_t end = (row + 1) * row_bytes;
+  for (std::size_t at = row * row_bytes; at < end;) {
+    Matcher::Match match = matcher->At(at, row);
+    if (match.length < kMatchMin) {
+      bits->Put(tables.literals[pixels[at++]]);
+      continue;
+    }
+    const Code distance = DistanceCode(match.distance);
+    while (match.length >= kMatchMin) {
+      const std::size_t length = std::min(match.length, kMatchMax);
+      bits->Put(tables.lengths[length]);
+      bits->Put(distance);
+      match.length -= length;
+      at += length;
+    }
+  }
+}
 
 }  // namespace
 
-std::uint32_t Adler32(const std::uint8_t* data, std::size_t bytes) {
-  constexpr std::uint32_t kModulus = 65521;
+std::uint32_t Adler32(const std::uint8_t* data, std::size_t bytes, std::uint32_t before) {
   constexpr std::size_t kLanes = 32, kRowsMax = 16;  // so few that 16 bits hold a lane's sums
-  std::uint32_t a = 1, b = 0;
+  std::uint32_t a = before & 0xffff, b = before >> 16;
   while (bytes >= kLanes) {  // column by column, in a form that compilers make wide
     const std::size_t rows = std::min(bytes / kLanes, kRowsMax);
-    std::array<std::uint16_t, kLanes> sums{}, before{};
+    std::array<std::uint16_t, kLanes> sums{}, earlier{};
     for (std::size_t row = 0; row < rows; ++row, data += kLanes) {
       for (std::size_t i = 0; i < kLanes; ++i) {
-        before[i] = static_cast<std::uint16_t>(before[i] + sums[i]);
+        earlier[i] = static_cast<std::uint16_t>(earlier[i] + sums[i]);
         sums[i] = static_cast<std::uint16_t>(sums[i] + data[i]);
       }
     }
     b += a * static_cast<std::uint32_t>(rows * kLanes);
     for (std::size_t i = 0; i < kLanes; ++i) {
       a += sums[i];
-      b += static_cast<std::uint32_t>(before[i] * kLanes + sums[i] * (kLanes - i));
+      b += static_cast<std::uint32_t>(earlier[i] * kLanes + sums[i] * (kLanes - i));
     }
     a %= kModulus;
     b %= kModulus;
@@ -173,33 +211,23 @@ std::uint32_t Adler32(const std::uint8_t* data, std::size_t bytes) {
   return b << 16 | a;
 }
 
-void FlatDeflate(const std::vector<std::uint8_t>& data, std::size_t row_bytes,
+void FlatDeflate(const std::uint8_t* pixels, std::size_t row_bytes, std::size_t rows,
                  std::vector<std::uint8_t>* out) {
-  static const Tables tables;
   out->push_back(0x78);  // deflate, window of 32 kB
   out->push_back(0x01);  // fastest
   BitWriter bits(out);
   bits.Put({1, 1});  // the last block
   bits.Put({1, 2});  // of fixed codes
-  Matcher matcher(data, row_bytes);
-  for (std::size_t at = 0; at < data.size();) {
-    Matcher::Match match = matcher.At(at);
-    if (match.length < kMatchMin) {
-      bits.Put(tables.literals[data[at++]]);
-      continue;
-    }
-    const Code distance = DistanceCode(match.distance);
-    while (match.length >= kMatchMin) {
-      const std::size_t length = std::min(match.length, kMatchMax);
-      bits.Put(tables.lengths[length]);
-      bits.Put(distance);
-      match.length -= length;
-      at += length;
-    }
+  Matcher matcher(pixels, row_bytes);
+  std::uint32_t sum = 1;
+  for (std::size_t row = 0; row < rows; ++row) {
+    PutRow(pixels, row, row_bytes, &matcher, &bits);
+    const std::uint8_t filter = 0;
+    sum = Adler32(&filter, 1, sum);
+    sum = Adler32(pixels + row * row_bytes, row_bytes, sum);
   }
   bits.Put(FixedCode(256));
   bits.Finish();
-  const std::uint32_t sum = Adler32(data.data(), data.size());
   for (int shift = 24; shift >= 0; shift -= 8)
     out->push_back(static_cast<std::uint8_t>(sum >> shift));
 }

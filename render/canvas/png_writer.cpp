@@ -61,14 +61,15 @@ void PutText(Bytes* out, const std::string& key, const std::string& value) {
 }
 
 /// Each row with its filter, none, before it.
-void Rows(const Image& image, Bytes* rows) {
+Bytes Rows(const Image& image) {
   const std::size_t row_bytes = 3 * static_cast<std::size_t>(image.width_px);
-  rows->resize((row_bytes + 1) * static_cast<std::size_t>(image.height_px));
-  std::uint8_t* to = rows->data();
+  Bytes rows((row_bytes + 1) * static_cast<std::size_t>(image.height_px));
+  std::uint8_t* to = rows.data();
   for (int y = 0; y < image.height_px; ++y, to += row_bytes) {
     *to++ = 0;
     std::memcpy(to, image.At(0, y), row_bytes);
   }
+  return rows;
 }
 
 void PutSmall(Bytes* out, const Bytes& rows) {
@@ -83,16 +84,15 @@ void PutSmall(Bytes* out, const Bytes& rows) {
 
 void Encode(const Image& image, PngEffort effort, const PngTexts& texts, Bytes* out) {
   static const std::uint8_t kSignature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
-  thread_local Bytes rows;  // megabytes: kept from picture to picture
   out->assign(std::begin(kSignature), std::end(kSignature));
   PutHeader(out, image);
   for (const auto& [key, value] : texts) PutText(out, key, value);
-  Rows(image, &rows);
   const std::size_t chunk = BeginChunk(out, "IDAT");
   if (effort == PngEffort::kSmall) {
-    PutSmall(out, rows);
+    PutSmall(out, Rows(image));
   } else {
-    FlatDeflate(rows, 3 * static_cast<std::size_t>(image.width_px) + 1, out);
+    FlatDeflate(image.rgb.data(), 3 * static_cast<std::size_t>(image.width_px),
+                static_cast<std::size_t>(image.height_px), out);
   }
   EndChunk(out, chunk);
   EndChunk(out, BeginChunk(out, "IEND"));
