@@ -128,6 +128,7 @@ class Page {
   }
 
   draw(now_ms) {
+    this.losses.place([...new Set(this.views().map((view) => view.run))]);
     const canvas = $('world');
     const ratio = window.devicePixelRatio || 1;
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
@@ -142,7 +143,7 @@ class Page {
         views, state.measure, state.tick, state.range, (tick) => run.seconds(tick),
         this.player.last);
     this.marks.draw(this.events(), state.tick, this.player.last);
-    this.losses.draw([...new Set(views.map((view) => view.run))], state.tick, this.player.last);
+    this.losses.draw(state.tick, this.player.last);
     this.drawControls(views);
     // Tables are slow to lay out: four times a second while it plays.
     if (!state.playing || !(now_ms - this.tables_ms < 250)) {

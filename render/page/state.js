@@ -45,7 +45,7 @@ function writeFragment() {
   if (state.follow !== null) words.push('f=' + state.follow);
   if (state.range) words.push('r=' + state.range.join(','));
   if (state.camera)
-    words.push('c=' + ['x', 'y', 'height'].map((k) => state.camera[k].toFixed(3)).join(','));
+    words.push('c=' + ['x', 'y', 'height'].map((k) => state.camera[k]).join(','));  // exactly
   history.replaceState(null, '', '#' + words.join('&'));
 }
 

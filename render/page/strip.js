@@ -162,12 +162,16 @@ class Losses extends Strip {
     }
     return [...rows].sort((a, b) => (a[0] < b[0] ? -1 : 1));
   }
-  draw(runs, tick, last) {
-    const rows = this.rowsOf(runs);
-    this.canvas.hidden = rows.length === 0;
-    this.rows = rows;
+  // Takes its place on the page, before the widths of the other canvases are asked for: with it the
+  // page may get a scroll bar.
+  place(runs) {
+    this.rows = this.rowsOf(runs);
+    this.canvas.hidden = this.rows.length === 0;
+    this.canvas.style.height = `${LOSS_ROW_PX * this.rows.length + 4}px`;
+  }
+  draw(tick, last) {
+    const {rows} = this;
     if (rows.length === 0) return;
-    this.canvas.style.height = `${LOSS_ROW_PX * rows.length + 4}px`;
     const c = this.prepare(last);
     c.font = '11px system-ui, sans-serif';
     c.textAlign = 'left';

@@ -135,7 +135,8 @@ std::vector<Answer> FindAnswers(const std::vector<Sweep>& sweeps) {
     const std::string error_id = sweep.table.Has("error_others_m") ? "others" : "error";
     for (const SweepGroup& group : sweep.view.groups) {
       for (const std::string& method : group.methods) {
-        if (method == "oracle") continue;
+        // A name with a comma says what else was varied: no method of its own.
+        if (method == "oracle" || method.find(',') != std::string::npos) continue;
         for (const auto& [x, rows] : group.runs.at(method)) {
           const auto error = Median(sweep, error_id.c_str(), rows);
           if (!error || !std::isfinite(*error)) continue;
