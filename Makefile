@@ -148,8 +148,9 @@ $(OUT)/%.o: %.cpp $(OUT)/.flags | build/.deps-build
 	@mkdir -p $(@D)
 	$(CXX) $(ALL_CXXFLAGS) -c $< -o $@
 
-# What a review page is made of is copied into the program (render/page/assets.cpp).
+# What the pages are made of is copied into the programs (render/page/assets.cpp).
 $(OUT)/render/page/assets.o: $(wildcard render/page/*.html render/page/*.css render/page/*.js)
+$(OUT)/tests/lab/report/html/report_assets.o: $(wildcard tests/lab/report/html/*.css tests/lab/report/html/*.js)
 
 # Appended to nothing: two members may have the same name.
 $(OUT)/libseam-common.a: $(COMMON)

@@ -103,9 +103,16 @@ Page PageOf(const RenderOptions& options, const std::vector<Playback>& playbacks
   if (options.peer_given && peer >= 0)
     for (const Playback& playback : playbacks) RequirePeer(playback, peer);
   Page page = options.compare ? MakeComparison(playbacks, peer) : MakePage(playbacks.front(), peer);
+  if (options.difference) {
+    page = MakeDifference(playbacks, peer);
+  }
   page.width_px = options.width_px;
   page.height_px = options.height_px;
   page.look = options.look;
+  if (options.difference) {
+    page.look.pale = true;
+    page.look.ghosts = page.look.trails = false;
+  }
   CameraWish wish = options.camera;
   ChooseTimes(options, playbacks, &page, &wish);
   SetCamera(wish, playbacks, &page);
@@ -143,7 +150,7 @@ void RenderSheet(const RenderOptions& options) {
   DrawSheet(list, page, options.sheet);
   Image image;
   MakeCanvas(font)->Draw(list, kPaper, &image);
-  WritePng(options.out, image, 9, page.about);
+  WritePng(options.out, image, PngEffort::kSmall, page.about);
   std::fprintf(stderr, "%s: %d moments, %.2f s to %.2f s\n", options.out.c_str(), options.sheet,
                page.from_s, page.to_s);
 }
@@ -169,7 +176,7 @@ void RenderStrobe(const RenderOptions& options) {
   DrawStrobe(list, playbacks, plan);
   Image image;
   MakeCanvas(font)->Draw(list, kPaper, &image);
-  WritePng(options.out, image, 9);
+  WritePng(options.out, image, PngEffort::kSmall);
   std::fprintf(stderr, "%s: %dx%d, %.2f s to %.2f s\n", options.out.c_str(), image.width_px,
                image.height_px, plan.from_s, plan.to_s);
 }

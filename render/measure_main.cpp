@@ -14,6 +14,7 @@
 #include "common/measure/preconditions.h"
 #include "common/measure/screen/response.h"
 #include "common/measure/table.h"
+#include "common/record/loss_timeline.h"
 #include "common/record/recording.h"
 #include "common/record/time_range.h"
 
@@ -28,6 +29,8 @@ struct Options {
   bool more = false;
   bool floor = false;
   bool limit = false;
+  bool losses = false;
+  std::string losses_csv;
   std::vector<std::string> names;
   TimeRange range;
 };
@@ -141,6 +144,24 @@ void PrintHandOvers(const std::string& path, const std::string& name, const Time
   if (!list.empty()) std::printf("\nhand-overs of %s\n%s", name.c_str(), list.c_str());
 }
 
+/// When and where each log lost something; of several with their names.
+void ReportLosses(const std::vector<std::string>& logs, const Options& options) {
+  std::string csv;
+  for (const std::string& path : logs) {
+    const std::vector<Loss> losses = Within(FindLosses(path, Read(path)), options.range);
+    if (options.losses) {
+      std::printf("\nlosses of %s\n%s", BaseName(path).c_str(), FormatLosses(losses).c_str());
+    }
+    csv += LossesCsv(losses);
+  }
+  if (options.losses_csv.empty()) return;
+  if (logs.size() > 1) throw OperatorError("--losses-csv is of one log");
+  std::FILE* file = OpenPlainFile(options.losses_csv, FileUse::kReplace);
+  if (file == nullptr) throw OperatorError(options.losses_csv + ": cannot be written");
+  const bool written = std::fwrite(csv.data(), 1, csv.size(), file) == csv.size();
+  if (std::fclose(file) != 0 || !written) throw OperatorError(options.losses_csv + ": disk full?");
+}
+
 void Run(const Options& options) {
   if (!options.names.empty() && options.names.size() != options.logs.size()) {
     throw OperatorError("--names has " + std::to_string(options.names.size()) + " names for " +
@@ -163,6 +184,7 @@ void Run(const Options& options) {
   for (std::size_t i = 0; options.more && i < runs.size(); ++i) {
     PrintHandOvers(options.logs[i], runs[i].run, options.range);
   }
+  if (options.losses || !options.losses_csv.empty()) ReportLosses(options.logs, options);
   if (options.floor) PrintFloor(Read(options.logs.front()));
   if (options.limit) PrintLimit(Read(options.logs.front()));
 }
@@ -181,6 +203,10 @@ void Define(CLI::App& app, Options& options) {
   app.add_flag("--floor", options.floor, "also print what chaos alone does to the first log");
   app.add_flag("--limit", options.limit,
                "also print what nobody could show better over the first log's network");
+  app.add_flag("--losses", options.losses,
+               "also print when and where something was lost, by channel");
+  app.add_option("--losses-csv", options.losses_csv,
+                 "write the losses of the log as CSV to this file");
   app.add_flag("--more", options.more, "print the further measures");
 }
 

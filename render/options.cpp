@@ -156,6 +156,7 @@ const char* const kRenderExamples =
     "  seam-render session.lcm -o frames/                      one peer's view\n"
     "  seam-render session.lcm -o frames/ --view all           all peers side by side\n"
     "  seam-render --compare a.lcm b.lcm c.lcm -o frames/      runs in step\n"
+    "  seam-render --difference a.lcm b.lcm -o frames/         where two runs part\n"
     "  seam-render a.lcm -o hit.png --sheet 12 --around contact    moments in one picture\n"
     "  seam-render a.lcm -o slow/ --around worst --speed 0.1   where it was most wrong, slowly\n"
     "  seam-render --strobe a.lcm -o hit.png                   one collision in one picture\n"
@@ -171,6 +172,8 @@ void DefineRenderOptions(CLI::App* app, RenderOptions* options) {
   app->add_option("-o,--out", o.out,
                   "folder for frames, or the .png of --strobe, the .html of --page");
   app->add_flag("--compare", o.compare, "several logs in one picture, in step by tick");
+  app->add_flag("--difference", o.difference,
+                "two logs in one panel: the second over the first, by how far they are apart");
   app->add_flag("--strobe", o.strobe, "many exposures of one collision in one picture");
   app->add_flag("--page", o.page, "one HTML file of all views, to look through in a browser");
   app->add_flag("--live", o.live, "draw what the LCM bus brings");
@@ -203,6 +206,11 @@ void DefineRenderOptions(CLI::App* app, RenderOptions* options) {
 }
 
 void CheckRenderOptions(RenderOptions* options) {
+  if (options->difference) {
+    if (options->logs.size() != 2 || options->strobe || options->live || options->page)
+      throw OperatorError("--difference draws frames or a sheet of two logs");
+    options->compare = true;
+  }
   if (!options->size_text.empty()) ParseSize(options->size_text, options);
   if (!options->view_text.empty()) ParseView(options->view_text, options);
   if (!options->camera.part.empty()) {

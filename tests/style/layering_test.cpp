@@ -179,7 +179,8 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"tests/lab/gait", "tests/lab"},
       {"tests/lab/hard", "none"},
       {"tests/lab/hard/mechanisms", "tests/lab/hard"},
-      {"tests/lab/report", "tests/lab(/report/(joints|sessions))?"},
+      {"tests/lab/report", "tests/lab(/report/(html|joints|sessions))?"},
+      {"tests/lab/report/html", "tests/lab(/report)?"},
       {"tests/lab/report/sessions", "tests/lab(/report)?"},
       {"tests/lab/report/joints", "tests/lab(/report)?"},
       {"tests/lab/load", "tests/lab"},
@@ -246,7 +247,7 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
   ExpectOnlyIn("common/record/bus\\.cpp", kCode, "lcm/.*");
   ExpectOnlyIn("common/codec/codec[^/]*\\.cpp", kCode, "seam/[a-z_]+\\.hpp");
   ExpectOnlyIn("render/canvas/png[^/]*", kCode, "png\\.h|spng\\.h");
-  ExpectOnlyIn("render/page/gzip\\.cpp|tests/.*", kCode, "zlib\\.h");
+  ExpectOnlyIn("render/(page/gzip|canvas/png_writer)\\.cpp|tests/.*", kCode, "zlib\\.h");
   ExpectOnlyIn("render/canvas/font[^/]*", kCode, "ft2build\\.h|freetype/.*");
   ExpectOnlyIn("common/scene/toml/toml_tree\\.cpp", kProduct, "toml\\.hpp|toml[^/]*/.*");
   ExpectOnlyIn("render/(export/)?options\\.cpp|common/base/command_line\\.h", kProduct, "CLI/.*");
