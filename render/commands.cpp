@@ -11,8 +11,9 @@
 #include "common/base/check.h"
 #include "common/base/command_line.h"
 #include "common/base/process.h"
-#include "common/base/progress_line.h"
+#include "common/base/progress_count.h"
 #include "common/codec/version_line.h"
+#include "common/measure/contents.h"
 #include "render/canvas/canvas.h"
 #include "render/canvas/palette.h"
 #include "render/canvas/png_writer.h"
@@ -29,27 +30,20 @@ namespace {
 /// Says how far a sequence is, and at the end how fast it was.
 class FrameCount {
  public:
-  FrameCount(int total, const std::string& path) : total_(total), path_(path) {}
-  void operator()(int done) {
-    const std::int64_t now_us = SteadyClockUs();
-    if (!line_.Due(now_us)) return;
-    line_.Show(now_us, fmt::format("{} of {} frames, {:.0f} frames/s", done, total_, Rate(done)));
-  }
+  FrameCount(int total, const std::string& path)
+      : total_(total), path_(path), count_("drawing", "frames", total) {}
+  void operator()(int done) { count_(done); }
   void Finish(int fps) {
-    line_.End();
-    const double rate = Rate(total_);
+    count_.End();
+    const double rate = total_ / std::max(count_.elapsed_s(), 1e-3);
     std::fprintf(stderr, "%d frames in %s, %.0f frames/s, %.1f x real time at %d fps\n", total_,
                  path_.c_str(), rate, rate / fps, fps);
   }
 
  private:
-  double Rate(int frames) const {
-    return frames / std::max(static_cast<double>(SteadyClockUs() - begin_us_) * 1e-6, 1e-3);
-  }
   int total_;
   std::string path_;
-  ProgressLine line_{false, 200000};
-  std::int64_t begin_us_ = SteadyClockUs();
+  ProgressCount count_;
 };
 
 int ThreadsOf(const RenderOptions& options) {
@@ -183,7 +177,11 @@ int RenderMain(int argc, const char* const* argv) {
       text, argc, argv, [&](CLI::App& app) { DefineRenderOptions(&app, &options); },
       [&] {
         CheckRenderOptions(&options);
-        if (options.live) {
+        if (options.list) {
+          for (const std::string& path : options.logs) {
+            std::fputs(FormatContents(path, ReadRecording(path, options.room)).c_str(), stdout);
+          }
+        } else if (options.live) {
           RenderLive(options);
         } else if (options.page) {
           RenderReviewPage(options);

@@ -9,6 +9,7 @@
 #include "common/net/net.h"
 #include "common/sync/input_feed.h"
 #include "common/sync/rest/rest_agreement.h"
+#include "server/sessions/account_book.h"
 #include "server/sessions/traffic_budget.h"
 
 namespace seam {
@@ -35,8 +36,9 @@ struct Session {
   SessionId id;
   Link link;
   TrafficBudget budget;
-  std::vector<InputFeed> feeds;  ///< of the others' inputs, by player
-  RestAgreement rest;            ///< with what the client knows to rest
+  std::vector<InputFeed> feeds;      ///< of the others' inputs, by player
+  RestAgreement rest;                ///< with what the client knows to rest
+  ClientAccount* account = nullptr;  ///< the name's; outlives the session
   std::string name;
   int peer = 0;
   int player = -1;

@@ -93,6 +93,19 @@ TEST_F(Installed, PkgConfigAndEveryProgramSayTheVersion) {
   }
 }
 
+TEST_F(Installed, EveryProgramHasItsManPageAndItsCompletionInEachShell) {
+  for (const std::string name :
+       {"seam-server", "seam-client", "seam-render", "seam-measure", "seam-export", "seam-lab"}) {
+    for (const std::string& file :
+         {"share/man/man1/" + name + ".1", "share/bash-completion/completions/" + name,
+          "share/zsh/site-functions/_" + name,
+          "share/fish/vendor_completions.d/" + name + ".fish"}) {
+      std::error_code error;
+      EXPECT_GT(fs::file_size(At(file), error), 500u) << file;
+    }
+  }
+}
+
 TEST_F(Installed, ScenesAreFoundByNameFromAnyFolder) {
   const Workspace folder;
   for (const char* scene : {"crossing", "arch"}) {  // one of them lies in scenes/hard
