@@ -14,12 +14,14 @@
 #include "common/base/progress_count.h"
 #include "common/codec/version_line.h"
 #include "common/measure/contents.h"
+#include "common/scene/assembly.h"
 #include "render/canvas/canvas.h"
 #include "render/canvas/palette.h"
 #include "render/canvas/png_writer.h"
 #include "render/load.h"
 #include "render/manifest.h"
 #include "render/playback/moments.h"
+#include "render/scene_recording.h"
 #include "render/sequence.h"
 #include "render/strobe.h"
 #include "render/strobe_layout.h"
@@ -90,6 +92,15 @@ void ChooseTimes(const RenderOptions& options, const std::vector<Playback>& play
   page->to_s = to_s;
 }
 
+/// A scene as it begins: all that can move is in the picture, and it says what there is.
+void ShowScene(const Scene& scene, Page* page, CameraWish* wish) {
+  page->subtitle =
+      fmt::format("as it begins  ·  {} parts, {} joints, {} players  ·  {} Hz", scene.parts.size(),
+                  scene.joints.size(), scene.players.size(), scene.solver.tick_hz);
+  for (const Assembly& assembly : Compose(scene).assemblies)
+    if (!assembly.anchored) wish->bodies.insert(assembly.id);
+}
+
 /// The page that was asked for, with its camera.
 Page PageOf(const RenderOptions& options, const std::vector<Playback>& playbacks) {
   const int peer =
@@ -102,6 +113,7 @@ Page PageOf(const RenderOptions& options, const std::vector<Playback>& playbacks
   page.look = options.look;
   CameraWish wish = options.camera;
   ChooseTimes(options, playbacks, &page, &wish);
+  if (IsSceneFile(options.logs.front())) ShowScene(playbacks.front().scene(), &page, &wish);
   SetCamera(wish, playbacks, &page);
   page.about = AboutPictures(options, page);
   return page;
@@ -138,6 +150,10 @@ void RenderSheet(const RenderOptions& options) {
   Image image;
   MakeCanvas(font)->Draw(list, kPaper, &image);
   WritePng(options.out, image, 9, page.about);
+  if (IsSceneFile(options.logs.front())) {
+    std::fprintf(stderr, "%s: %s\n", options.out.c_str(), page.title.c_str());
+    return;
+  }
   std::fprintf(stderr, "%s: %d moments, %.2f s to %.2f s\n", options.out.c_str(), options.sheet,
                page.from_s, page.to_s);
 }

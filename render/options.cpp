@@ -226,9 +226,6 @@ void CheckRenderOptions(RenderOptions* options) {
   Check(*options);
   if (!options->list && !options->logs.empty() && IsSceneFile(options->logs.front())) {
     options->sheet = 1;
-    options->look.names = options->layers_text.empty() || options->look.names;
-    if (options->camera_text.empty() && options->camera.part.empty())
-      options->camera.kind = CameraWish::Kind::kScene;
   }
 }
 

@@ -106,7 +106,7 @@ std::string FormatContents(const std::string& name, const Recording& recording) 
   text += Line("method", Method(room));
   try {
     const Scene scene = ParseScene(room.scene_text, room.scene_name + ".toml");
-    if (!scene.title.empty()) text += Line("title", scene.title);
+    if (!scene.title.empty()) text += Line("title", Printable(scene.title));
     text += Line("players", Players(scene, recording));
     text += Line("views", Views(scene, recording));
     text += Line("bodies", Bodies(scene, recording));

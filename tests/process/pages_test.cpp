@@ -89,10 +89,16 @@ TEST(Pages, AreReadByManBashZshAndFishWithoutAWord) {
     if (Has("man") && Has("groff")) {
       EXPECT_EQ(Complaints({"man", "--warnings", "-E", "UTF-8", "-l", "-Tutf8", "-Z", man}), "");
     }
-    if (Has("mandoc")) EXPECT_EQ(Complaints({"mandoc", "-Tlint", "-Wwarning", man}), "");
+    if (Has("mandoc")) {
+      EXPECT_EQ(Complaints({"mandoc", "-Tlint", "-Wwarning", man}), "");
+    }
     EXPECT_EQ(Complaints({"bash", "-n", folder / (program + ".bash")}), "") << program;
-    if (Has("zsh")) EXPECT_EQ(Complaints({"zsh", "-n", folder / (program + ".zsh")}), "");
-    if (Has("fish")) EXPECT_EQ(Complaints({"fish", "-n", folder / (program + ".fish")}), "");
+    if (Has("zsh")) {
+      EXPECT_EQ(Complaints({"zsh", "-n", folder / (program + ".zsh")}), "");
+    }
+    if (Has("fish")) {
+      EXPECT_EQ(Complaints({"fish", "-n", folder / (program + ".fish")}), "");
+    }
   }
 }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <map>
+#include <string>
+#include <utility>
 
 #include "common/measure/overlap.h"
 #include "common/physics/world.h"
@@ -13,8 +15,8 @@ namespace {
 /// Things may begin in each other by this, m, or by a tenth of the thinner one if that is less: the
 /// engine pushes so much apart within a few ticks and without a jump.
 constexpr double kOverlapMax = 0.05;
-/// But by this at any rate, m: scenes are written with two decimals.
-constexpr double kOverlapMin = 0.011;
+/// But by this at any rate, m: the rims by which two shapes of the engine collide.
+constexpr double kOverlapMin = 0.02;
 
 /// The least width of a part, m; infinite for lines.
 double Thickness(const Part& part) {
@@ -61,18 +63,26 @@ void FindOverlaps(const Scene& scene, std::vector<Finding>* findings) {
         Deep& deep = deepest[{std::min(a, b), std::max(a, b)}];
         if (depth_m > deep.depth_m) deep = {moving, other, depth_m};
       });
+  // Of a line of the file that stands for many parts, the deepest.
+  std::map<int, std::pair<std::string, int>> by_line;
+  std::map<int, double> depth;
   for (const auto& [pair, deep] : deepest) {
-    const bool terrain =
-        composition
-            .assemblies[static_cast<std::size_t>(
-                composition.assembly_of_part[static_cast<std::size_t>(deep.other)])]
-            .anchored;
-    const PartId later = terrain ? deep.moving : std::max(deep.moving, deep.other);
+    const auto assembly = composition.assembly_of_part[static_cast<std::size_t>(deep.other)];
+    const bool anchored = composition.assemblies[static_cast<std::size_t>(assembly)].anchored;
+    const PartId later = anchored ? deep.moving : std::max(deep.moving, deep.other);
     const PartId first = later == deep.moving ? deep.other : deep.moving;
-    findings->push_back(
-        {part(later).line,
-         fmt::format("part '{}' begins {:.2f} m inside {} '{}'", part(later).name, deep.depth_m,
-                     terrain ? "the anchored part" : "part", part(first).name)});
+    const int line = part(later).line;
+    auto& [text, count] = by_line[line];
+    ++count;
+    if (deep.depth_m <= depth[line]) continue;
+    depth[line] = deep.depth_m;
+    text = fmt::format("part '{}' begins {:.2f} m inside {} '{}'", part(later).name, deep.depth_m,
+                       anchored ? "the anchored part" : "part", part(first).name);
+  }
+  for (const auto& [line, found] : by_line) {
+    const std::string more =
+        found.second > 1 ? fmt::format(", and {} more such pairs", found.second - 1) : "";
+    findings->push_back({line, found.first + more});
   }
 }
 
