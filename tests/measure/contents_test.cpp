@@ -80,7 +80,9 @@ TEST(ContentsProgram, RenderAndMeasureListTheSame) {
     ASSERT_TRUE(list.Wait(60));
     EXPECT_EQ(list.status(), 0) << list.Story();
     EXPECT_EQ(list.output().rfind("a.lcm: crossing, ", 0), 0u) << list.Story();
-    if (!first.empty()) EXPECT_EQ(list.output(), first);
+    if (!first.empty()) {
+      EXPECT_EQ(list.output(), first);
+    }
     first = list.output();
   }
   EXPECT_EQ(folder.Content(), before) << "nothing is written";
