@@ -13,7 +13,7 @@
 #include "common/base/process.h"
 #include "common/base/progress_count.h"
 #include "common/codec/version_line.h"
-#include "common/measure/contents.h"
+#include "common/measure/contents/contents.h"
 #include "common/scene/assembly.h"
 #include "render/canvas/canvas.h"
 #include "render/canvas/palette.h"

@@ -10,7 +10,7 @@
 #include "common/base/plain_file.h"
 #include "common/base/progress_count.h"
 #include "common/codec/version_line.h"
-#include "common/measure/contents.h"
+#include "common/measure/contents/contents.h"
 #include "common/measure/handover_list.h"
 #include "common/measure/limit/information_limit.h"
 #include "common/measure/preconditions.h"

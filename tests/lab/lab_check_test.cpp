@@ -5,7 +5,6 @@
 #include <filesystem>
 
 #include "tests/lab/check/scene_check.h"
-#include "tests/support/lab_workspace.h"
 #include "tests/support/program.h"
 #include "tests/support/source_tree.h"
 
@@ -116,7 +115,8 @@ TEST(LabCheck, FindsTriggersThatNothingCanEnterOrThatDoNothing) {
   ExpectOne(scene + trigger + "position = [20, 0]\n", 9, "trigger 'goal' is never used");
   ExpectOne(scene +
                 "[[part]]\nname = \"rock\"\nbox = [1, 1]\nposition = [30, 5]\nanchored = true\n"
-                "[[trigger]]\nname = \"goal\"\nbox = [2, 2]\nfor = \"rock\"\nscore = 1\n",
+                "[[trigger]]\nname = \"goal\"\nbox = [2, 2]\nfor = \"rock\"\nscore = 1\nposition = "
+                "[0, 9]\n",
             14, "trigger 'goal' looks for what never moves");
   EXPECT_EQ(Found(scene + trigger + "score = 1\nposition = [20, 0]\n"), std::vector<std::string>{});
 }
@@ -160,22 +160,21 @@ TEST(LabCheck, FindsNothingInOurOwnScenes) {
 }
 
 TEST(LabCheckProgram, PrintsThePlaceAndDrawsTheScene) {
-  const LabWorkspace files;
   const Workspace folder;
   folder.Write("bad.toml",
                std::string("[[part]]\nname = \"ground\"\nchain = [[50, 0], [-50, 0]]\n") + kBox);
-  Program bad({LabProgram(), "check", "bad.toml", "-o", "bad.png"}, folder.path());
+  Program bad({BuiltProgram("seam-lab"), "check", "bad.toml", "-o", "bad.png"}, folder.path());
   ASSERT_TRUE(bad.Wait(60));
   EXPECT_EQ(bad.status(), 1) << bad.Story();
   EXPECT_EQ(bad.output().rfind("bad.toml:1: chain 'ground' faces the wrong way", 0), 0u)
       << bad.Story();
   EXPECT_GT(fs::file_size(folder / "bad.png"), 3000u);
-  Program good({LabProgram(), "check", "crossing", "wall"}, Root().string());
+  Program good({BuiltProgram("seam-lab"), "check", "crossing", "wall"}, Root().string());
   ASSERT_TRUE(good.Wait(60));
   EXPECT_EQ(good.status(), 0) << good.Story();
   EXPECT_EQ(good.output(),
             "scenes/crossing.toml: nothing found\nscenes/wall.toml: nothing found\n");
-  Program two({LabProgram(), "check", "crossing", "wall", "-o", folder / "two.png"},
+  Program two({BuiltProgram("seam-lab"), "check", "crossing", "wall", "-o", folder / "two.png"},
               Root().string());
   ASSERT_TRUE(two.Wait(60));
   EXPECT_EQ(two.status(), 2);

@@ -1,6 +1,6 @@
 /// What is in a log, as --list says it.
 
-#include "common/measure/contents.h"
+#include "common/measure/contents/contents.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "common/measure/contents.h"
+#include "common/measure/contents/contents.h"
 
 #include <fmt/format.h>
 
