@@ -183,35 +183,6 @@ TEST_F(SessionTableTest, ANameInUseIsRefusedUntil30SecondsAfterItsOwnerWasLastHe
   EXPECT_NE(other.key, bob.key);
 }
 
-TEST_F(SessionTableTest, FreeNamesAreThoseOfPlayersWhoseReservationHasEnded) {
-  EXPECT_EQ(table_.FreeNames(now_us_), "free are ann, bob");
-  Guest bob(&network_, 2, "bob"), guest(&network_, 3, "guest");
-  GetReady(&bob);
-  GetReady(&guest);
-  EXPECT_EQ(table_.FreeNames(now_us_), "free are ann");
-  Guest ann(&network_, 4, "ann");
-  GetReady(&ann);
-  EXPECT_EQ(table_.FreeNames(now_us_), "no player is free");
-  now_us_ += PlaceTable::kNameHeldUs;
-  EXPECT_EQ(table_.FreeNames(now_us_), "free are ann, bob");
-}
-
-TEST(FreeNames, AreCountedWhereTheyDoNotFitAMessage) {
-  std::string text = "[[part]]\nname = \"ball\"\ncircle = 0.5\n";
-  for (int i = 0; i < 30; ++i) {
-    text += "[[player]]\nname = \"a-player-with-a-long-name-" + std::to_string(10 + i) + "\"\n";
-  }
-  const Scene scene = ParseScene(text, "test.toml");
-  SeededEntropy entropy(1);
-  const PlaceTable places(scene, entropy);
-  const std::string names = places.FreeNames(0);
-  EXPECT_EQ(names.rfind("free are a-player-with-a-long-name-10, ", 0), 0u) << names;
-  EXPECT_NE(names.find(" and 26 more"), std::string::npos) << names;
-  Bye bye;
-  bye.reason = "the name a-player-with-a-long-name-10 is in use; " + names;
-  EXPECT_TRUE(std::holds_alternative<Bye>(Decode(Encode(bye)))) << bye.reason.size() << " bytes";
-}
-
 TEST_F(SessionTableTest, TheKeyGivesThePlaceBackAtOnceAndEndsTheOldSession) {
   Guest bob(&network_, 2, "bob");
   GetReady(&bob);
