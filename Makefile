@@ -174,12 +174,12 @@ $(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(SERVER) $(CLIENT) $(OUT)/libse
 $(OUT)/seam-tests: $(TESTS) $(LAB) $(SERVER) $(CLIENT) $(RENDER) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(RENDER_LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
-# Man pages and completion, by the programs themselves: from what parses their flags.
-$(OUT)/share/.stamp: $(PROGRAMS)
-	@cd $(OUT) && rm -rf share && mkdir -p share/man share/bash share/zsh share/fish
-	@cd $(OUT) && for p in $(notdir $(PROGRAMS)); do \
-	  ./$$p --generate man > share/man/$$p.1 && ./$$p --generate bash > share/bash/$$p && \
-	  ./$$p --generate zsh > share/zsh/_$$p && ./$$p --generate fish > share/fish/$$p.fish || exit 1; done
+# Man pages and completion, by the programs themselves: from what parses their flags, and from the scenes here.
+$(OUT)/share/.stamp: $(PROGRAMS) $(wildcard scenes/*.toml)
+	@rm -rf $(@D) && mkdir -p $(addprefix $(@D)/,man bash zsh fish)
+	@for p in $(notdir $(PROGRAMS)); do \
+	  $(OUT)/$$p --generate man > $(@D)/man/$$p.1 && $(OUT)/$$p --generate bash > $(@D)/bash/$$p && \
+	  $(OUT)/$$p --generate zsh > $(@D)/zsh/_$$p && $(OUT)/$$p --generate fish > $(@D)/fish/$$p.fish || exit 1; done
 	@touch $@
 
 docs: $(OUT)/share/.stamp            ## man pages, completion for bash, zsh, fish: build/release/share/

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "common/base/process.h"
@@ -12,6 +13,8 @@ namespace {
 
 /// The line renews itself this often, us.
 constexpr std::int64_t kEveryUs = 200000;
+/// A rate of a shorter time says nothing, s.
+constexpr double kRateFrom_s = 0.2;
 
 /// "3.2", "120": as many digits as tell something.
 std::string Rate(double per_s) {
@@ -34,11 +37,11 @@ std::string ProgressText(const std::string& what, const std::string& unit, std::
   if (total > 0) {
     text = fmt::format("{}: {} of {} {} ({} %)", what, done, total, unit, 100 * done / total);
   }
-  if (done <= 0 || elapsed_s <= 0) return text;
+  if (done <= 0 || elapsed_s < kRateFrom_s) return text;
   const double per_s = static_cast<double>(done) / elapsed_s;
   text += fmt::format(", {} {}/s", Rate(per_s), unit);
   if (total > done) {
-    text += ", " + SpanText(static_cast<double>(total - done) / per_s) + " left";
+    text += ", " + SpanText(std::ceil(static_cast<double>(total - done) / per_s)) + " left";
   }
   return text;
 }

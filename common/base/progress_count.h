@@ -10,7 +10,8 @@
 namespace seam {
 
 /// "sweep: 12 of 400 runs (3 %), 3.2 runs/s, 2 min 1 s left" after `elapsed_s` seconds; the rate is
-/// the mean since the beginning. Before the first is done there is no rate. `total` 0: not known,
+/// the mean since the beginning. Before the first is done, and in the first 0.2 s,
+/// there is no rate. `total` 0: not known,
 /// "search: 12 trials, 3.2 trials/s".
 std::string ProgressText(const std::string& what, const std::string& unit, std::int64_t done,
                          std::int64_t total, double elapsed_s);

@@ -101,11 +101,12 @@ TEST(ProgressLine, IsCutWhereTheTerminalEnds) {
 TEST(ProgressCount, SaysWhatHowMuchOfHowMuchTheRateAndTheTimeLeft) {
   EXPECT_EQ(ProgressText("sweep", "runs", 0, 400, 3), "sweep: 0 of 400 runs (0 %)");
   EXPECT_EQ(ProgressText("sweep", "runs", 12, 400, 4),
-            "sweep: 12 of 400 runs (3 %), 3.0 runs/s, 2 min 9 s left");
+            "sweep: 12 of 400 runs (3 %), 3.0 runs/s, 2 min 10 s left");
   EXPECT_EQ(ProgressText("drawing", "frames", 1200, 1500, 10),
-            "drawing: 1200 of 1500 frames (80 %), 120 frames/s, 2 s left");
+            "drawing: 1200 of 1500 frames (80 %), 120 frames/s, 3 s left");
   EXPECT_EQ(ProgressText("drawing", "frames", 1500, 1500, 10),
             "drawing: 1500 of 1500 frames (100 %), 150 frames/s");
+  EXPECT_EQ(ProgressText("drawing", "frames", 1, 9, 0.001), "drawing: 1 of 9 frames (11 %)");
   EXPECT_EQ(ProgressText("search", "trials", 5, 0, 2), "search: 5 trials, 2.5 trials/s");
 }
 

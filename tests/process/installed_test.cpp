@@ -104,6 +104,9 @@ TEST_F(Installed, EveryProgramHasItsManPageAndItsCompletionInEachShell) {
       EXPECT_GT(fs::file_size(At(file), error), 500u) << file;
     }
   }
+  std::ifstream file(At("share/bash-completion/completions/seam-server"));
+  const std::string script{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(script.find(" crossing "), std::string::npos) << "the scenes that were installed";
 }
 
 TEST_F(Installed, ScenesAreFoundByNameFromAnyFolder) {

@@ -90,7 +90,11 @@ TEST(Pages, AreReadByManBashZshAndFishWithoutAWord) {
       EXPECT_EQ(Complaints({"man", "--warnings", "-E", "UTF-8", "-l", "-Tutf8", "-Z", man}), "");
     }
     if (Has("mandoc")) {
-      EXPECT_EQ(Complaints({"mandoc", "-Tlint", "-Wwarning", man}), "");
+      // The date that it misses would be that of the build.
+      EXPECT_EQ(
+          Complaints({"sh", "-c",
+                      "! mandoc -Tlint -W warning '" + man + "' | grep -v 'missing date' >&2"}),
+          "");
     }
     EXPECT_EQ(Complaints({"bash", "-n", folder / (program + ".bash")}), "") << program;
     if (Has("zsh")) {
