@@ -70,6 +70,16 @@ TEST(LabCheck, FindsBodiesThatBeginInOneAnother) {
             std::vector<std::string>{});
 }
 
+TEST(LabCheck, FindsABodyInABrick) {
+  const std::string bricks =
+      "[[bricks]]\nname = \"house\"\nbrick = [1, 0.5]\n"
+      "position = [4, 0]\ncount = [3, 4]\n";
+  const std::string ball = "[[part]]\nname = \"ball\"\ncircle = 0.2\nposition = ";
+  ExpectOne(kGround + bricks + ball + "[5.5, 1.2]\n", 9,
+            "part 'ball' begins with its middle in a brick of 'house'");
+  EXPECT_EQ(Found(kGround + bricks + ball + "[7.3, 1.2]\n"), std::vector<std::string>{});
+}
+
 TEST(LabCheck, FindsAChainThatFacesTheWrongWay) {
   ExpectOne(std::string("[[part]]\nname = \"ground\"\nchain = [[50, 0], [-50, 0]]\n") + kBox, 1,
             "chain 'ground' faces the wrong way: 'box' is on its solid side");

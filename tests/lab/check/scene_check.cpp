@@ -27,6 +27,7 @@ std::vector<Finding> CheckMeaning(const Scene& scene) {
   std::vector<Finding> findings;
   FindWrongSides(scene, &findings);
   FindOverlaps(scene, &findings);
+  FindInBricks(scene, &findings);
   FindRegions(scene, &findings);
   FindUnused(scene, &findings);
   FindJointLimits(scene, &findings);

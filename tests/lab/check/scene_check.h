@@ -22,6 +22,8 @@ std::vector<Finding> CheckMeaning(const Scene& scene);
 
 /// Bodies that begin in one another or in what is anchored.
 void FindOverlaps(const Scene& scene, std::vector<Finding>* findings);
+/// Bodies whose middle begins in a brick.
+void FindInBricks(const Scene& scene, std::vector<Finding>* findings);
 /// Chains whose solid side is where the bodies are, and bodies below terrain that nothing catches.
 void FindWrongSides(const Scene& scene, std::vector<Finding>* findings);
 /// Players' regions that overlap, or leave a gap that is narrower than a hand-over needs.
