@@ -68,11 +68,13 @@ std::vector<std::string> Server::missing() const {
 /// server has it, of what its player owns.
 void Server::NoteCorrected(int body) {
   const int mechanism = replica_.world().mechanism(body);
-  int peer = replica_.authority().at(mechanism).authority;
+  const int peer = replica_.authority().at(mechanism).authority;
   const auto& mechanisms = replica_.world().composition().mechanisms;
   const int owner = mechanisms[static_cast<std::size_t>(mechanism)].owner;
-  if (peer == 0 && owner >= 0) peer = sessions_.PeerOfPlayer()[static_cast<std::size_t>(owner)];
   Session* session = peer > 0 ? sessions_.Find(peer) : nullptr;
+  sessions_.ForEachReady(0, [&](Session& other) {
+    if (peer == 0 && owner >= 0 && other.player == owner) session = &other;
+  });
   if (session != nullptr) ++session->account->corrections;
 }
 
