@@ -61,7 +61,7 @@ AuthorityView AuthorityManager::Look(const Situation& situation) {
     seen.held_ticks = world.tick() - memory.changed_tick;
     view.mechanisms.push_back(seen);
   }
-  if (config_.mode == Mode::kBuffer) view.boxes = BoxesOf(world);
+  if (config_.mode == Mode::kBuffer) view.boxes = BoxesOf(world, replica_.drivers(), true);
   // Who may not push a part does not get its authority.
   for (const Part& part : world.scene().parts) {
     if (part.rules->push == kEveryPlayer) continue;
@@ -237,6 +237,11 @@ std::vector<Grants> AuthorityManager::Export(std::int64_t now_us) const {
 
 bool AuthorityManager::Follows(int peer, int body) const {
   return table().at(replica_.world().mechanism(body)).secondaries.Has(peer);
+}
+
+bool AuthorityManager::IsFar(int peer, int body) const {
+  const auto m = static_cast<std::size_t>(replica_.world().mechanism(body));
+  return m < plan_.size() && plan_[m].far.Has(peer);
 }
 
 bool AuthorityManager::InOneHand(const std::vector<int>& mechanisms) const {

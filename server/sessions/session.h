@@ -37,6 +37,7 @@ struct Session {
   Link link;
   TrafficBudget budget;
   std::vector<InputFeed> feeds;      ///< of the others' inputs, by player
+  std::vector<std::int64_t> told;    ///< by part id: tick of the newest state relayed; empty: none
   RestAgreement rest;                ///< with what the client knows to rest
   ClientAccount* account = nullptr;  ///< the name's; outlives the session
   std::string name;

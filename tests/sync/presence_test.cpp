@@ -99,11 +99,11 @@ TEST(Presence, WhatIsAbsentIsShownOnItsPath) {
   Line line;
   line.Steps(10);
   line.Hear(kFar, {60, 0}, {0, 3});
-  line.Steps(12);
+  line.Steps(40);
   ASSERT_EQ(line.MotionOf(kFar), Motion::kAbsent);
   const View view = line.replica.MakeView();
   EXPECT_NEAR(view.x[kFar], 60, 1e-3);
-  EXPECT_NEAR(view.y[kFar], 3 * 12 / 60.0, 0.06) << "less what still glides";
+  EXPECT_NEAR(view.y[kFar], 3 * 40 / 60.0, 0.06) << "less what still glides";
 }
 
 TEST(Presence, WhoIsToSimulateItHasItAtOnce) {
