@@ -83,10 +83,10 @@ SOAK ?= 300
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
-.PHONY: all help deps demo bench report spy test tests hashes check-fast run-tests coverage soak format lint \
+.PHONY: all docs help deps demo bench report spy test tests hashes check-fast run-tests coverage soak format lint \
 	compile_commands.json install install-built clean force
 
-all: build/.deps-build $(PROGRAMS)   ## build the programs
+all: build/.deps-build $(PROGRAMS) $(OUT)/share/.stamp   ## build the programs
 
 help:                                ## this list
 	@echo "make targets (BUILD=release|debug|asan|tsan, default release; PREFIX=/usr/local):"
@@ -175,11 +175,21 @@ $(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(SERVER) $(CLIENT) $(OUT)/libse
 $(OUT)/seam-tests: $(TESTS) $(LAB) $(SERVER) $(CLIENT) $(RENDER) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(RENDER_LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
+# Man pages and completion, by the programs themselves: from what parses their flags, and from the scenes here.
+$(OUT)/share/.stamp: $(PROGRAMS) $(wildcard scenes/*.toml)
+	@rm -rf $(@D) && mkdir -p $(addprefix $(@D)/,man bash zsh fish)
+	@for p in $(notdir $(PROGRAMS)); do \
+	  $(OUT)/$$p --generate man > $(@D)/man/$$p.1 && $(OUT)/$$p --generate bash > $(@D)/bash/$$p && \
+	  $(OUT)/$$p --generate zsh > $(@D)/zsh/_$$p && $(OUT)/$$p --generate fish > $(@D)/fish/$$p.fish || exit 1; done
+	@touch $@
+
+docs: $(OUT)/share/.stamp            ## man pages, completion for bash, zsh, fish: build/release/share/
+
 # The test of golden hashes alone (tests/hashes.sh).
 $(OUT)/seam-hashes: $(OUT)/tests/physics/determinism_test.o $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -lgtest -lgtest_main -o $@
 
-tests: build/.deps-build build/.deps-report build/.deps-test $(OUT)/seam-tests $(PROGRAMS) $(OUT)/libseam.a   ## build the tests
+tests: build/.deps-build build/.deps-report build/.deps-test all $(OUT)/seam-tests $(OUT)/libseam.a   ## build the tests
 
 run-tests = SEAM_BIN=$(OUT) $(OUT)/seam-tests $(if $(FILTER),--gtest_filter='$(FILTER)')
 
@@ -251,7 +261,7 @@ spy: $(SPY)/seam-types.jar           ## the messages for lcm-spy and lcm-logplay
 report: build/.deps-report all       ## speed against error: all the measurements, into out/report/ (QUICK=1)
 	SEAM_BIN=$(OUT) FORCE=$(FORCE) FILL="$(FILL)" tests/report.sh out/report $(if $(QUICK),quick)
 
-install: all $(OUT)/libseam.a        ## programs, scenes, library and headers under PREFIX (DESTDIR)
+install: all $(OUT)/libseam.a        ## programs, man pages, scenes, library, headers under PREFIX (DESTDIR)
 	@$(MAKE) --no-print-directory install-built
 
 DEST := $(DESTDIR)$(PREFIX)
@@ -277,6 +287,12 @@ install-built:                       ## the same, of what is built: builds nothi
 	install -m 644 scenes/exact/*.toml '$(DEST)/share/seam2d/scenes/exact'
 	install -m 644 $(OUT)/libseam.a '$(DEST)/lib'
 	strip --strip-debug '$(DEST)/lib/libseam.a'
+	install -d '$(DEST)/share/man/man1' '$(DEST)/share/bash-completion/completions'
+	install -d '$(DEST)/share/zsh/site-functions' '$(DEST)/share/fish/vendor_completions.d'
+	install -m 644 $(OUT)/share/man/*.1 '$(DEST)/share/man/man1'
+	install -m 644 $(OUT)/share/bash/* '$(DEST)/share/bash-completion/completions'
+	install -m 644 $(OUT)/share/zsh/* '$(DEST)/share/zsh/site-functions'
+	install -m 644 $(OUT)/share/fish/* '$(DEST)/share/fish/vendor_completions.d'
 	find common server client -name '*.h' -exec install -D -m 644 '{}' '$(DEST)/include/seam2d/{}' ';'
 	@echo "$$TEXT" > '$(DEST)/lib/pkgconfig/seam2d.pc'
 

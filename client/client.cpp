@@ -48,6 +48,8 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   }
   if (peer_ < 0) {
     Knock(now_us);
+  } else if (asked_names_us_ >= 0) {
+    AskNames(now_us);
   } else {
     SendReadyAndPing(now_us);
   }

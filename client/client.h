@@ -70,6 +70,8 @@ class Client {
   const Room& room() const { return room_; }
   const Stats& stats() const { return stats_; }
   std::int64_t rejoins() const { return rejoins_; }
+  /// Bodies whose copy here was put elsewhere by what was heard, by more than the wire's rounding.
+  std::int64_t corrections() const { return corrections_; }
 
   /// Age of the newest answered ping after which we try to join anew.
   static constexpr std::int64_t kLostUs = 5000000;
@@ -86,17 +88,21 @@ class Client {
   bool OnHandshake(std::int64_t now_us, const Bytes& datagram);
   void OnRefusal(std::int64_t now_us, const std::string& reason);
   void OnWelcome(std::int64_t now_us, const Welcome& welcome);
+  /// Ours is no player's name: asks the server which are free.
+  void AskNames(std::int64_t now_us);
+  /// Gives up; `free`: the server's answer, "" without one.
+  void GiveUpName(const std::string& free);
 
   // client_receive.cpp
   void ReceiveAll(std::int64_t now_us);
   void OnMessage(std::int64_t now_us, ByteView bytes);
-  void OnChunk(const Chunk& chunk);
+  void OnChunk(std::int64_t now_us, const Chunk& chunk);
   void OnEdit(const EditOrder& order);
   void OnGrants(std::int64_t now_us, const Grants& grants);
   void OnSnapshot(const Snapshot& part);
   /// Of the scene as it is, or as it has become.
   void MakeReplica(const Topology* become = nullptr);
-  void Build();
+  void Build(std::int64_t now_us);
 
   // client.cpp
   void SendReadyAndPing(std::int64_t now_us);
@@ -148,12 +154,14 @@ class Client {
   double lead_us_ = -1;           // mode central: how far ahead of the server we simulate
   std::int64_t answered_us_ = 0;  // when we sent the newest ping that was answered
   std::int64_t joining_since_us_ = 0;
-  std::int64_t refused_us_ = -1;  // of the first refusal since we began to join
+  std::int64_t asked_names_us_ = -1;  // -1: did not ask
+  std::int64_t refused_us_ = -1;      // of the first refusal since we began to join
   std::int64_t last_ping_us_ = -1000000000;
   std::int64_t last_hello_us_ = -1000000000;
   std::int64_t last_stats_us_ = -1000000000;
   std::int64_t worst_late_us_ = 0;
   std::int64_t rejoins_ = 0;
+  std::int64_t corrections_ = 0;
   Input live_;
   InputFeed feed_;
   std::int64_t discarded_ = 0;  // by the net, as far as counted in stats_

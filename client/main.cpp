@@ -104,8 +104,8 @@ ClientConfig Configure(const Flags& f) {
   return config;
 }
 
-/// What the keyboard does, after the progress.
-const char* const kKeys = "; arrows or WASD drive and lift, space and 0-9 press, q quits";
+/// What the keyboard does.
+const char* const kKeys = "keys: arrows or WASD drive and lift, space and 0-9 press, q quits";
 
 /// "10", "0.5".
 std::string Seconds(double seconds) {
@@ -114,15 +114,15 @@ std::string Seconds(double seconds) {
   return text;
 }
 
-/// "ann: 12 s, peer 1, tick 750, round trip 100 ms, loss 1.0 %, 0 rejoin(s)".
+/// "ann: 12 s, peer 1, round trip 100 ms, loss 1.0 %, 12 corrections, 0 rejoin(s)".
 std::string Progress(const Flags& f, const Client& client, double elapsed_s) {
   char line[160];
-  std::snprintf(line, sizeof line,
-                "%s: %.0f s, peer %d, tick %lld, round trip %.0f ms, loss %.1f %%, %lld rejoin(s)",
-                f.name.empty() ? "guest" : f.name.c_str(), elapsed_s, client.peer(),
-                static_cast<long long>(client.replica()->tick()),
-                std::max(0, client.stats().rtt_us) / 1000.0, client.stats().loss_ppm / 10000.0,
-                static_cast<long long>(client.rejoins()));
+  std::snprintf(
+      line, sizeof line,
+      "%s: %.0f s, peer %d, round trip %.0f ms, loss %.1f %%, %lld corrections, %lld rejoin(s)",
+      f.name.empty() ? "guest" : f.name.c_str(), elapsed_s, client.peer(),
+      std::max(0, client.stats().rtt_us) / 1000.0, client.stats().loss_ppm / 10000.0,
+      static_cast<long long>(client.corrections()), static_cast<long long>(client.rejoins()));
   return line;
 }
 
@@ -140,6 +140,7 @@ int Play(const Flags& f) {
   std::unique_ptr<TerminalView> view;
   const bool shown = f.show || (keyboard != nullptr && isatty(1) != 0 && !f.quiet);
   if (shown) view = std::make_unique<TerminalView>();
+  if (keyboard != nullptr && !shown) std::fprintf(stderr, "seam-client: %s\n", kKeys);
   UdpNet udp(Address{0, 0});
   ImpairedNet net(udp, profile, profile, static_cast<std::uint64_t>(f.seed) + 7);
   Sink sink(f.lcm_url, f.record, f.force, f.room);
@@ -167,10 +168,10 @@ int Play(const Flags& f) {
                           " s (--join-timeout)");
     }
     if (view != nullptr && client.running() && view->Due(now)) {
-      view->Show(now, client, Progress(f, client, elapsed_s) + (keyboard ? kKeys : ""));
+      view->Show(now, client, Progress(f, client, elapsed_s), keyboard ? kKeys : "Ctrl-C stops");
     }
     if (view == nullptr && client.running() && line.Due(now)) {
-      line.Show(now, Progress(f, client, elapsed_s) + (keyboard ? kKeys : ""));
+      line.Show(now, Progress(f, client, elapsed_s) + "; Ctrl-C stops");
     }
     const std::int64_t wake = std::min({client.next_tick_us(now), net.next_due_us(), now + 20000});
     udp.Wait(std::max<std::int64_t>(0, wake - SteadyClockUs()), keyboard ? keyboard->fd() : -1);
@@ -185,11 +186,13 @@ int Play(const Flags& f) {
   const Stats& s = client.stats();
   const Replica* const replica = client.replica();
   std::fprintf(stderr,
-               "seam-client: %s; %lld datagrams in, %lld out, %lld bad, %lld stale bodies; "
-               "%lld stepped again, %lld replays deferred; %lld bus failures\n",
+               "seam-client: %s; %lld datagrams in, %lld out, %lld bad, %lld stale bodies\n"
+               "seam-client: %lld corrections, %lld stepped again, %lld replays deferred; %lld bus "
+               "failures\n",
                client.closed() ? "the server closed the room" : "left",
                static_cast<long long>(s.datagrams_in), static_cast<long long>(s.datagrams_out),
                static_cast<long long>(s.dropped_malformed), static_cast<long long>(s.dropped_stale),
+               static_cast<long long>(client.corrections()),
                static_cast<long long>(replica == nullptr ? 0 : replica->ticks_stepped_again()),
                static_cast<long long>(replica == nullptr ? 0 : replica->replays_deferred()),
                static_cast<long long>(sink.failures()));
@@ -202,7 +205,9 @@ int main(int argc, char** argv) {
   Flags flags;
   const ProgramText text{"seam-client",
                          "seam-client: simulate and show one player's part of a room",
-                         VersionLine("seam-client"), ""};
+                         VersionLine("seam-client"),
+                         "",
+                         {{"--impair", ProfileNames()}, {"--drive", {"none", "bot", "keyboard"}}}};
   return RunCommandLine(
       text, argc, argv, [&](CLI::App& app) { Define(app, flags); }, [&] { return Play(flags); });
 }

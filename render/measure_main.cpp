@@ -8,7 +8,9 @@
 #include "common/base/check.h"
 #include "common/base/command_line.h"
 #include "common/base/plain_file.h"
+#include "common/base/progress_count.h"
 #include "common/codec/version_line.h"
+#include "common/measure/contents/contents.h"
 #include "common/measure/handover_list.h"
 #include "common/measure/limit/information_limit.h"
 #include "common/measure/preconditions.h"
@@ -31,6 +33,7 @@ struct Options {
   bool limit = false;
   bool losses = false;
   std::string losses_csv;
+  bool list = false;
   std::vector<std::string> names;
   TimeRange range;
 };
@@ -174,11 +177,14 @@ void Run(const Options& options) {
   std::optional<Recording> truth;
   if (!options.oracle.empty()) truth = Read(options.oracle);
   std::vector<MeasuredRun> runs;
+  ProgressCount progress("measuring", "logs", static_cast<std::int64_t>(options.logs.size()));
   for (std::size_t i = 0; i < options.logs.size(); ++i) {
+    progress(static_cast<std::int64_t>(i));
     const std::string& path = options.logs[i];
     const std::string name = options.names.empty() ? BaseName(path) : options.names[i];
     runs.push_back(MeasureLog(path, name, options, truth));
   }
+  progress.End();
   if (!options.csv.empty()) WriteCsv(runs, options);
   std::fputs(FormatTable(runs, options.more).c_str(), stdout);
   for (std::size_t i = 0; options.more && i < runs.size(); ++i) {
@@ -207,6 +213,7 @@ void Define(CLI::App& app, Options& options) {
                "also print when and where something was lost, by channel");
   app.add_option("--losses-csv", options.losses_csv,
                  "write the losses of the log as CSV to this file");
+  app.add_flag("--list", options.list, "say what is in the logs, and measure nothing");
   app.add_flag("--more", options.more, "print the further measures");
 }
 
@@ -226,7 +233,13 @@ int main(int argc, char** argv) {
           throw OperatorError("which log? for example: seam-measure session.lcm");
         }
         if (options.append && options.csv.empty()) throw OperatorError("--append needs --csv");
-        Run(options);
+        if (options.list) {
+          for (const std::string& path : options.logs) {
+            std::fputs(FormatContents(path, ReadRecording(path)).c_str(), stdout);
+          }
+        } else {
+          Run(options);
+        }
         if (std::fflush(stdout) != 0) throw OperatorError("stdout: disk full?");
         return 0;
       });

@@ -17,7 +17,9 @@
 #include "common/record/sink.h"
 #include "common/record/trouble_report.h"
 #include "common/sync/method.h"
+#include "server/console.h"
 #include "server/server.h"
+#include "server/tick_times.h"
 
 namespace {
 
@@ -77,7 +79,7 @@ void Define(CLI::App& app, Flags& f) {
   app.add_option("--record", f.record, "write the session's LCM log to this file too");
   app.add_flag("--force", f.force, "overwrite the --record file");
   app.add_option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
-  app.add_flag("--quiet", f.quiet, "no progress line");
+  app.add_flag("--quiet", f.quiet, "no progress line, and not who comes and goes");
   app.add_flag("--doctor", f.doctor, "check that LCM works on this machine, and exit");
 }
 
@@ -122,15 +124,18 @@ std::string WhichScene() {
   return line;
 }
 
-/// "12 s, tick 750, 2 of 2 player(s), worst round trip 53 ms, loss 1.2 %".
-std::string Progress(const Server& server, const Scene& scene) {
-  char line[160];
-  std::snprintf(line, sizeof line,
-                "%.0f s, tick %lld, %d of %zu player(s), worst round trip %.0f ms, loss %.1f %%",
-                static_cast<double>(server.tick()) / scene.solver.tick_hz,
-                static_cast<long long>(server.tick()), server.player_count(), scene.players.size(),
-                std::max(0, server.stats().rtt_us) / 1000.0, server.stats().loss_ppm / 10000.0);
-  return line;
+/// "12.3 s: bob is gone: left; ..." for each of what has happened.
+void PrintNews(Server& server, ProgressLine& line) {
+  for (const std::string& news : server.TakeNews()) {
+    line.End();
+    char when[40] = "";
+    if (server.started()) {
+      const double now_s = static_cast<double>(std::max<std::int64_t>(0, server.tick())) /
+                           server.scene().solver.tick_hz;
+      std::snprintf(when, sizeof when, "%.1f s: ", now_s);
+    }
+    PrintError("seam-server", when + news);
+  }
 }
 
 int Serve(const Flags& f) {
@@ -161,22 +166,27 @@ int Serve(const Flags& f) {
   StopOnSignals();
   const std::string variant = VariantOf(NamesOf(config.sync));
   std::fprintf(stderr,
-               "seam-server: %s, mode %s%s%s, network %s, on %s; waiting for %d player(s)%s\n",
+               "seam-server: %s, mode %s%s%s, network %s, on %s\n"
+               "seam-server: waiting for %d player(s)%s\n",
                scene.name.c_str(), f.mode.c_str(), variant.empty() ? "" : " ", variant.c_str(),
                f.impair.c_str(), ToString(udp.local()).c_str(), config.wait_players,
                Ending(duration_s).c_str());
   ProgressLine line(f.quiet);
   TroubleReport recording("seam-server", "the room runs on");
+  TickTimes tick_times;
   while (g_stop == 0 && (last_tick == 0 || server.tick() < last_tick)) {
     const std::int64_t now = SteadyClockUs();
+    const std::int64_t ticks_before = server.tick();
     server.Tick(now, CpuUs());
+    tick_times.Note(SteadyClockUs() - now, server.tick() - ticks_before);
     sink.Poll();
     for (const std::string& warning : server.TakeWarnings()) {
       line.End();
       PrintError("seam-server", warning);
     }
     recording.Look(sink.trouble(), line);
-    if (server.started() && line.Due(now)) line.Show(now, Progress(server, scene));
+    if (!f.quiet) PrintNews(server, line);
+    if (line.Due(now)) line.Show(now, ServerProgress(server, last_tick, tick_times));
     const std::int64_t wake = std::min({server.next_tick_us(), net.next_due_us(), now + 20000});
     udp.Wait(std::max<std::int64_t>(0, wake - SteadyClockUs()));
   }
@@ -189,7 +199,8 @@ int Serve(const Flags& f) {
   const Stats& s = server.stats();
   std::fprintf(stderr,
                "seam-server: %lld ticks; dropped %lld malformed, %lld stale, %lld without right, "
-               "%lld implausible, %lld over budget; %lld part(s) left the bounds; "
+               "%lld implausible, %lld over budget\n"
+               "seam-server: %lld part(s) left the bounds; "
                "%lld stepped again, %lld replays deferred; %lld bus failures\n",
                static_cast<long long>(server.tick()), static_cast<long long>(s.dropped_malformed),
                static_cast<long long>(s.dropped_stale), static_cast<long long>(s.dropped_right),
@@ -199,6 +210,7 @@ int Serve(const Flags& f) {
                static_cast<long long>(server.replica().ticks_stepped_again()),
                static_cast<long long>(server.replica().replays_deferred()),
                static_cast<long long>(sink.failures()));
+  std::fputs(SessionSummary(server.accounts()).c_str(), stderr);
   return recording.End(sink.trouble());
 }
 
@@ -207,8 +219,11 @@ int Serve(const Flags& f) {
 int main(int argc, char** argv) {
   Flags flags;
   const ProgramText text{
-      "seam-server", "seam-server: one room of a distributed 2D world, over UDP and the LCM bus",
-      VersionLine("seam-server"), ProfilesText()};
+      "seam-server",
+      "seam-server: one room of a distributed 2D world, over UDP and the LCM bus",
+      VersionLine("seam-server"),
+      ProfilesText(),
+      {{"scene", SceneNames()}, {"--impair", ProfileNames()}, {"--reconcile", ReconcilerNames()}}};
   return RunCommandLine(
       text, argc, argv, [&](CLI::App& app) { Define(app, flags); },
       [&] {

@@ -73,6 +73,7 @@ Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorde
       bounds_(replica_),
       filter_(scene_, replica_, authority_, edits_, stats_.counters),
       broadcast_(recorder, config.room, config.sync, replica_, authority_, sessions_) {
+  replica_.OnCorrected([this](int body) { NoteCorrected(body); });
   if (!Rules::Needed(scene_)) return;
   commands_ = std::make_unique<ServerCommands>(replica_, edits_, sessions_);
   rule_source_ = std::make_unique<AuthoritySource>(replica_, authority_, stats_.counters);
@@ -100,6 +101,7 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   if (stats_.Due(now_us)) {
     broadcast_.Publish(stats_.Report(now_us, replica_.tick(), cpu_us, sessions_.WorstRttUs(),
                                      sessions_.WorstLossPpm()));
+    sessions_.ReadAccounts();
   }
   RelayInputs(now_us);
   sessions_.Flush(now_us, &stats_.counters);
@@ -108,35 +110,6 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
 std::int64_t Server::next_tick_us() const {
   if (!started()) return std::numeric_limits<std::int64_t>::max();
   return tick0_us_ + (replica_.tick() + 1) * 1000000 / config_.sync.tick_hz;
-}
-
-void Server::FollowSessions(std::int64_t now_us) {
-  for (const SessionEvent& event : sessions_.TakeEvents()) {
-    const std::string peer = "peer " + std::to_string(event.peer);
-    switch (event.kind) {
-      case SessionEvent::Kind::kJoined:
-        broadcast_.Say(now_us,
-                       event.name + " joins from " + ToString(event.address) + " as " + peer);
-        break;
-      case SessionEvent::Kind::kLoading: {
-        Session& session = *sessions_.Find(event.peer);
-        SendWorld(now_us, session);
-        break;
-      }
-      case SessionEvent::Kind::kReady:
-        if (rules_ != nullptr && event.player >= 0) rules_->OnJoin(event.player);
-        authority_.PlanSoon();
-        broadcast_.Say(now_us, event.name + " is ready as " + peer);
-        break;
-      case SessionEvent::Kind::kLeft:
-        broadcast_.Say(now_us, event.name + " (" + peer + ") is gone: " + event.why);
-        if (rules_ != nullptr && event.player >= 0 && event.was_ready) {
-          rules_->OnLeave(event.player);
-        }
-        broadcast_.ToAll(authority_.TakeBack(now_us, event.peer));
-        break;
-    }
-  }
 }
 
 void Server::SendWorld(std::int64_t now_us, Session& session) {
@@ -186,6 +159,7 @@ void Server::StartIfReady(std::int64_t now_us) {
   UpdateAuthority(now_us);
   broadcast_.Publish(At(now_us, replica_.MakeView()));
   broadcast_.Say(now_us, "the room starts with " + std::to_string(ready) + " players");
+  Tell("the room starts");
 }
 
 void Server::StepOnce(std::int64_t now_us) {

@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "common/base/entropy.h"
 #include "common/net/net.h"
@@ -65,6 +67,13 @@ class Server {
   bool Order(const Edit& edit) { return edits_.Add(edit); }
   /// What the operator should read since the last call: a script was stopped. One line each.
   std::vector<std::string> TakeWarnings();
+  /// Who came and went since the last call, for people, one line each; the first 256.
+  std::vector<std::string> TakeNews() { return std::exchange(news_, {}); }
+  /// The scene's players who are not in the room.
+  std::vector<std::string> missing() const;
+  const Scene& scene() const { return scene_; }
+  /// What each client's sessions have come to so far.
+  std::vector<ClientAccount> accounts() const { return sessions_.accounts().List(); }
   /// What it decides of health, scores and scripts; nullptr when the scene has nothing of it.
   const Rules* rules() const { return rules_.get(); }
 
@@ -76,7 +85,11 @@ class Server {
  private:
   // server_receive.cpp
   void ReceiveAll(std::int64_t now_us);
+  /// OnMessage; what it drops goes to the session's account.
+  void Deliver(std::int64_t now_us, Session& session, ByteView bytes);
   void OnMessage(std::int64_t now_us, Session& session, ByteView bytes);
+  /// A client whose name is no player's asks which are free.
+  void OnHello(std::int64_t now_us, Session& session);
   void OnPing(std::int64_t now_us, Session& session, const Ping& ping);
   void OnInputs(std::int64_t now_us, Session& session, const Inputs& inputs);
   void RelayInputs(std::int64_t now_us);
@@ -107,6 +120,8 @@ class Server {
   void UpdateAuthority(std::int64_t now_us);
   void RunRules(std::int64_t now_us);
   void RemoveOutside(std::int64_t now_us);
+  void Tell(const std::string& line);
+  void NoteCorrected(int body);
 
   const Scene scene_;
   const ServerConfig config_;
@@ -123,7 +138,8 @@ class Server {
   Broadcast broadcast_;
   std::unique_ptr<ServerCommands> commands_;
   std::unique_ptr<AuthoritySource> rule_source_;
-  std::unique_ptr<Rules> rules_;  // null: the scene has nothing to decide
+  std::unique_ptr<Rules> rules_;   // null: the scene has nothing to decide
+  std::vector<std::string> news_;  // not taken yet
   std::int64_t tick0_us_ = -1;
   std::int64_t last_room_us_ = -1000000000;
 };

@@ -26,13 +26,19 @@ void Server::ReceiveAll(std::int64_t now_us) {
     stats.datagrams_in += 1;
     const auto verdict = sessions_.Receive(
         now_us, from, datagram,
-        [&](Session& session, ByteView message) { OnMessage(now_us, session, message); });
+        [&](Session& session, ByteView message) { Deliver(now_us, session, message); });
     if (verdict == SessionTable::Verdict::kMalformed) ++stats.dropped_malformed;
     if (verdict == SessionTable::Verdict::kNoRight) ++stats.dropped_right;
     if (verdict == SessionTable::Verdict::kOverBudget) ++stats.dropped_budget;
     FollowSessions(now_us);
   }
   stats_.NoteDiscarded(net_.discarded());
+}
+
+void Server::Deliver(std::int64_t now_us, Session& session, ByteView bytes) {
+  const std::int64_t before = Dropped(stats_.counters);
+  OnMessage(now_us, session, bytes);
+  session.account->dropped += Dropped(stats_.counters) - before;
 }
 
 void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
@@ -57,12 +63,21 @@ void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
   } else if (std::holds_alternative<Ready>(any)) {
     sessions_.NoteReady(session);
     FollowSessions(now_us);
+  } else if (std::holds_alternative<Hello>(any)) {
+    OnHello(now_us, session);
   } else if (std::holds_alternative<Bye>(any)) {
     session.leaving = session.goodbye = true;
     session.leaving_why = "left";
   } else {
     ++stats_.counters.dropped_malformed;
   }
+}
+
+void Server::OnHello(std::int64_t now_us, Session& session) {
+  Bye bye;
+  bye.utime = now_us;
+  bye.reason = sessions_.FreeNames(now_us);
+  session.link.SendReliable(Encode(bye));
 }
 
 void Server::OnPing(std::int64_t now_us, Session& session, const Ping& ping) {

@@ -8,6 +8,12 @@
 
 namespace seam {
 
+/// All that was dropped, for whatever reason.
+inline std::int64_t Dropped(const Stats& stats) {
+  return stats.dropped_malformed + stats.dropped_stale + stats.dropped_right +
+         stats.dropped_implausible + stats.dropped_budget;
+}
+
 struct ServerStats {
   Stats counters;                  ///< since the start
   std::int64_t decoded = 0;        ///< messages, since the start

@@ -93,6 +93,22 @@ TEST_F(Installed, PkgConfigAndEveryProgramSayTheVersion) {
   }
 }
 
+TEST_F(Installed, EveryProgramHasItsManPageAndItsCompletionInEachShell) {
+  for (const std::string name :
+       {"seam-server", "seam-client", "seam-render", "seam-measure", "seam-export", "seam-lab"}) {
+    for (const std::string& file :
+         {"share/man/man1/" + name + ".1", "share/bash-completion/completions/" + name,
+          "share/zsh/site-functions/_" + name,
+          "share/fish/vendor_completions.d/" + name + ".fish"}) {
+      std::error_code error;
+      EXPECT_GT(fs::file_size(At(file), error), 500u) << file;
+    }
+  }
+  std::ifstream file(At("share/bash-completion/completions/seam-server"));
+  const std::string script{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(script.find(" crossing "), std::string::npos) << "the scenes that were installed";
+}
+
 TEST_F(Installed, ScenesAreFoundByNameFromAnyFolder) {
   const Workspace folder;
   for (const char* scene : {"crossing", "arch"}) {  // one of them lies in scenes/hard
