@@ -1,9 +1,19 @@
 /// ExactStep: continuous collision, which knows no joints.
 
+#include <algorithm>
+#include <cmath>
+
 #include "common/physics/exact/engine_members.h"
 #include "common/physics/exact/exact_step.h"
 
 namespace seam {
+namespace {
+
+/// A mechanism may be lifted by continuous collision at no cost by so much of its kinetic energy
+/// and so many J/kg.
+constexpr double kLiftShare = 0.05, kLiftPerMass = 0.05;
+
+}  // namespace
 
 /// Listens while the engine does continuous collision. Its blow on a mechanism's body by something
 /// that does not give way is not heard of: the whole mechanism has it in the next step. Between
@@ -47,6 +57,40 @@ void ExactStep::Continuous(const b2TimeStep& step, const Pace& pace) {
   RejoinWhatMoved(step.dt, pace);
 }
 
+/// J: kinetic and of gravity. `left`: as it was before continuous collision.
+double ExactStep::EnergyOf(const Found& found, bool left) const {
+  const b2Vec2& gravity = world_->GetGravity();
+  const auto gx = static_cast<double>(gravity.x), gy = static_cast<double>(gravity.y);
+  double sum = 0;
+  for (const ExactBody& q : found.island->bodies) {
+    if (q.slot < 0) continue;
+    const Slot& s = slots_[static_cast<std::size_t>(q.slot)];
+    const bool then = left && s.solved;
+    const double x = then ? s.x : q.x, y = then ? s.y : q.y;
+    const double vx = then ? s.vx : q.vx, vy = then ? s.vy : q.vy, w = then ? s.w : q.w;
+    const auto scale = static_cast<double>(s.body->GetGravityScale());
+    sum += ((vx * vx + vy * vy) / 2 - scale * (gx * x + gy * y)) / q.im + q.inertia * w * w / 2;
+  }
+  return sum;
+}
+
+/// Bodies that are taken back to where they hit, and others with them, may be lifted: in a jam that
+/// comes again in each step. What that is worth is taken from their motion.
+void ExactStep::PayForLift(double before, Found* found) const {
+  double mass = 0;
+  for (const ExactBody& q : found->island->bodies) mass += q.moves() ? 1 / q.im : 0;
+  const double kinetic = KineticOf(found->island->bodies);
+  const double excess = EnergyOf(*found, false) - before;
+  if (excess <= kLiftShare * kinetic + kLiftPerMass * mass) return;
+  const double share = std::sqrt(std::max(0.0, 1 - excess / kinetic));
+  for (ExactBody& q : found->island->bodies) {
+    if (!q.moves()) continue;
+    q.vx *= share;
+    q.vy *= share;
+    q.w *= share;
+  }
+}
+
 void ExactStep::RejoinWhatMoved(float h, const Pace& pace) {
   std::vector<int> moved;
   for (const int m : solved_) {
@@ -80,7 +124,9 @@ void ExactStep::RejoinWhatMoved(float h, const Pace& pace) {
       q.vy = s.vy;
       q.w = s.w;
     }
+    const double before = EnergyOf(found, true);
     found.island->Rejoin(pace, struck);
+    PayForLift(before, &found);
     SavePoses(found);
   }
 }

@@ -241,9 +241,12 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
   for (std::size_t m = 0; m < mechanisms_.size(); ++m) {
     if (slots_[static_cast<std::size_t>(mechanisms_[m].slots[0])].island >= 0) continue;
     Found& found = found_[m];
-    if (!Gather(static_cast<int>(m), &found)) continue;
-    Prepare(h, &found);
-    if (!found.island) continue;
+    const bool ours = Gather(static_cast<int>(m), &found);
+    if (ours) Prepare(h, &found);
+    if (!ours || !found.island) {
+      Leave(h, found);
+      continue;
+    }
     Load(&found);
     found.island->Step(pace, step.warmStarting);
     Save(&found, h);

@@ -63,9 +63,12 @@ class ExactStep {
   void Save(Found* found, float h);
   void SavePoses(const Found& found);
   void Prepare(float h, Found* found);
+  void Leave(float h, const Found& found);
   class Quiet;
   void Continuous(const b2TimeStep& step, const Pace& pace);
   void RejoinWhatMoved(float h, const Pace& pace);
+  double EnergyOf(const Found& found, bool left) const;
+  void PayForLift(double before, Found* found) const;
   static bool Told(const Slot& slot);
   void Report(const Found& found) const;
   static void Hide(const Found& found);

@@ -91,12 +91,24 @@ class ExactIsland {
   void Substep(const Pace& pace);
   void Course(const Pace& pace, bool whole);
   void GoBack(const Pace& pace);
+  // Jams.
+  struct Start {         // of a substep, after its kick
+    double energy = 0;   // J, kinetic
+    double mass = 0;     // kg
+    double impulse = 0;  // N s, MostImpulse
+  };
+  double MostImpulse(const Pace& pace) const;
+  double WorkDone(double mass);
+  bool Possible(const Start& start, bool pushes);
+  void Calm(const Pace& pace, const Start& start);
   bool PushesOut() const;
   void Kick(double h);
   bool FindImpacts();
   int FastestBlow();
-  void Impact();
-  void Blow(const ExactContact& contact, int first_row);
+  void Impact(double pressed);
+  bool Blow(const ExactContact& contact, int first_row, double most);
+  double Pressed(const ExactContact& contact, int first_row) const;
+  double Driven(const ExactContact& contact, int first_row) const;
   void SolveAhead(const Pace& pace);
   void Move(double h);
   void ShutJoints(const Pace& pace);
@@ -153,6 +165,7 @@ class ExactIsland {
   bool keeps_ = false;  // the matrix may be what the next substep begins with
   int changed_ = 0;     // the matrix's rows from here on are not those that were assembled
   int dirty_ = 0;       // the factors of rows from here on are old
+  double gained_ = 0;   // J: what substeps with contacts have gained, falling slowly
   bool moved_ = false;  // velocities are not those of before_
   std::vector<char> in_;
   std::vector<double> x_, before_, start_;

@@ -17,6 +17,8 @@ constexpr int kBlowsEach = 8;
 /// What a row's own entry is enlarged by in a blow, as a share: what is more takes energy where a
 /// mechanism can hardly give way.
 constexpr double kOwnOfBlow = 1e-9;
+/// What it may gain if it has no restitution, as a share of the energy: rounding and friction.
+constexpr double kGainLast = 0.01;
 
 double Kinetic(const ExactBody& q) {
   return q.moves() ? ((q.vx * q.vx + q.vy * q.vy) / q.im + q.inertia * q.w * q.w) / 2 : 0;
@@ -71,7 +73,7 @@ int ExactIsland::FastestBlow() {
 
 /// Blows without duration, the fastest first, one pair of bodies after the other as a wave would go
 /// through them: so the last ball of a cradle flies, and not all of them back.
-void ExactIsland::Impact() {
+void ExactIsland::Impact(double pressed) {
   for (ExactBody& q : bodies) {
     if (q.moves()) q.ii = 1 / q.inertia;
   }
@@ -81,8 +83,11 @@ void ExactIsland::Impact() {
   for (int blow = 0; blow < most; ++blow) {
     const int contact = FastestBlow();
     if (contact < 0) break;
-    Blow(contacts[static_cast<std::size_t>(contact)],
-         contact_row_[static_cast<std::size_t>(contact)]);
+    ExactContact& struck = contacts[static_cast<std::size_t>(contact)];
+    // A jam that has no blow without a gain of energy: it is pressed like what lies.
+    if (!Blow(struck, contact_row_[static_cast<std::size_t>(contact)], pressed)) {
+      struck.restitution = 0;
+    }
     for (Row& row : rows_) {
       if (row.state != RowState::kOut) row.total += row.lambda;
     }
@@ -93,10 +98,30 @@ void ExactIsland::Impact() {
   }
 }
 
+/// N s: what this blow presses a point with, at most.
+double ExactIsland::Pressed(const ExactContact& contact, int first_row) const {
+  double most = 0;
+  for (int i = 0; i < contact.count; ++i) {
+    most = std::max(most, std::fabs(rows_[static_cast<std::size_t>(first_row + 2 * i)].lambda));
+  }
+  return most;
+}
+
+/// J: what a belt or what is moved by force can have given in it.
+double ExactIsland::Driven(const ExactContact& contact, int first_row) const {
+  double work = 0;
+  for (int i = 0; i < 2 * contact.count; ++i) {
+    const Row& row = rows_[static_cast<std::size_t>(first_row + i)];
+    work += std::fabs(row.lambda) * (std::fabs(row.fixed_speed) + std::fabs(contact.belt));
+  }
+  return work;
+}
+
 /// One of them (Moreau 1988): each of its points leaves at no less than its restitution times the
 /// speed it came with, so that energy is never gained without friction. With it, it may be (Kane
-/// and Levinson 1985): then with less restitution.
-void ExactIsland::Blow(const ExactContact& contact, int first_row) {
+/// and Levinson 1985): then with less restitution. False: there is none that gives what can be, and
+/// nothing has been done.
+bool ExactIsland::Blow(const ExactContact& contact, int first_row, double most) {
   Save(&start_);
   const double before = KineticOf(bodies);
   bool driven = contact.belt != 0;
@@ -127,10 +152,16 @@ void ExactIsland::Blow(const ExactContact& contact, int first_row) {
     }
     Assemble(kOwnOfBlow, kOwnOfBlow);
     Solve(true);
-    if (driven || tries == kSofterTries || KineticOf(bodies) <= before * (1 + 1e-9)) return;
+    const bool last = tries == kSofterTries;
+    const double spare = driven ? Driven(contact, first_row) : (last ? kGainLast : 1e-9) * before;
+    if (KineticOf(bodies) <= before + spare && Pressed(contact, first_row) <= most) return true;
+    if (last) break;
     share = tries + 1 == kSofterTries ? 0 : share / 2;
     Restore(start_);
   }
+  Restore(start_);
+  for (Row& row : rows_) row.lambda = 0;
+  return false;
 }
 
 }  // namespace seam

@@ -25,10 +25,6 @@ constexpr double kLasts = 0.99;
 /// The inertia is found anew while it lacks more than this.
 constexpr double kStifferBy = 1.1;
 constexpr int kStifferTries = 4;
-/// What a substep may gain of kinetic energy by itself, as a share, and J/kg: motors do, too.
-constexpr double kGainShare = 0.05, kGainPerMass = 0.05;
-/// And what is taken for an error: twice the speed, or 9 m/s from rest.
-constexpr double kGainMost = 3, kGainMostPerMass = 40;
 /// Joints are shut to this, m or rad, in at most so many corrections; less well where something
 /// touches, which leaves more behind.
 constexpr double kShut = 1e-9, kShutTouching = 1e-7;
@@ -75,7 +71,7 @@ void ExactIsland::Substep(const Pace& pace) {
   }
   for (Row& row : rows_) row.base = 0;
   if (FindImpacts()) {
-    Impact();
+    Impact(MostImpulse(pace));
     Fill(pace);
     FindImpacts();  // what comes at a contact by another's blow hits in the next substep
   }
@@ -90,13 +86,13 @@ void ExactIsland::Substep(const Pace& pace) {
   }
   bodies_before_ = bodies;
   rows_before_ = rows_;
+  Start start;
+  start.energy = KineticOf(bodies);
+  for (const ExactBody& q : bodies) start.mass += q.moves() ? 1 / q.im : 0;
+  start.impulse = MostImpulse(pace);
   const bool pushes = PushesOut();
-  double mass = 0;
-  for (const ExactBody& q : bodies) mass += q.moves() ? 1 / q.im : 0;
-  const double before = KineticOf(bodies);
   Course(pace, whole);
-  const double gained = KineticOf(bodies) - before;
-  if (gained <= kGainShare * before + kGainPerMass * mass) return;
+  if (Possible(start, pushes)) return;
   // Where a mechanism is jammed, contacts that push out of an overlap make energy that the solve at
   // the end cannot take back: then without pushing out.
   if (pushes) {
@@ -105,19 +101,9 @@ void ExactIsland::Substep(const Pace& pace) {
       if (row.kind == RowKind::kNormal) row.target = std::min(0.0, row.target);
     }
     Course(pace, whole);
+    if (Possible(start, false)) return;
   }
-  if (KineticOf(bodies) - before <= kGainMost * before + kGainMostPerMass * mass) return;
-  // Nothing in a scene does this in a substep: it goes on with what its joints leave of its motion.
-  GoBack(pace);
-  for (Row& row : rows_) {
-    row.target = 0;
-    row.lambda = row.base = 0;
-  }
-  Assemble();
-  HoldJoints();
-  Move(pace.h);
-  Fill(pace);
-  BringTogether(pace);
+  Calm(pace, start);
 }
 
 /// To where the substep's course began.

@@ -63,6 +63,15 @@ void AddMoving(std::vector<HardCase>* cases) {
                         [pit](const Scene& scene) { return MakeOverlapJudge(pit, 15, scene); }));
 }
 
+/// The wagon has no room for all of them beside each other: how far they come apart is not asked.
+void AddJammed(std::vector<HardCase>* cases) {
+  cases->push_back(Case("wagon-jam", "wagon-jam", Truth::kInvariant, "m/s",
+                        "greatest speed of ten crates jammed between the rails of a wagon", 10,
+                        [](const Scene& scene) {
+                          return MakeReleaseJudge({40, {-40, -1, 40, 30}}, kNoLimit, scene);
+                        }));
+}
+
 /// A closed box where nothing takes energy away, cut into several substeps.
 void AddElastic(std::vector<HardCase>* cases) {
   for (const char* scene : {"disc-box", "rod-box"}) {
@@ -104,6 +113,7 @@ std::vector<HardCase> MechanismCases() {
   std::vector<HardCase> cases;
   AddStanding(&cases);
   AddMoving(&cases);
+  AddJammed(&cases);
   AddElastic(&cases);
   AddLoads(&cases);
   return cases;

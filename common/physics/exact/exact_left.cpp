@@ -1,0 +1,77 @@
+/// ExactStep: what an island takes along when it is left to the engine.
+
+#include <algorithm>
+#include <array>
+
+#include "common/physics/exact/engine_members.h"
+#include "common/physics/exact/exact_step.h"
+
+namespace seam {
+namespace {
+
+/// So many times all the momentum there is, nothing is pressed or pulled with more.
+constexpr double kImpulseMost = 3;
+
+double Length(const b2Vec2& v) { return static_cast<double>(v.Length()); }
+
+}  // namespace
+
+/// The engine begins with the impulses of the step before, and its few rounds do not come back from
+/// any that are too large: where a jam of ours has left such ones, it begins with none.
+void ExactStep::Leave(float h, const Found& found) {
+  if (found.slots.empty()) return;
+  double mass = 0, momentum = 0, fastest = 0;
+  b2Vec2 sum(0, 0);
+  for (const int slot : found.slots) {
+    const b2Body* body = slots_[static_cast<std::size_t>(slot)].body;
+    mass += static_cast<double>(body->GetMass());
+    sum += body->GetMass() * body->GetLinearVelocity();
+  }
+  const bool fixed =
+      std::any_of(found.contacts.begin(), found.contacts.end(), [](b2Contact* contact) {
+        return !Moves(contact->GetFixtureA()->GetBody()) ||
+               !Moves(contact->GetFixtureB()->GetBody());
+      });
+  const b2Vec2 mean = fixed ? b2Vec2(0, 0) : 1 / static_cast<float>(mass) * sum;
+  for (const int slot : found.slots) {
+    b2Body* body = slots_[static_cast<std::size_t>(slot)].body;
+    momentum +=
+        static_cast<double>(body->GetMass()) * Length(body->GetLinearVelocity() - mean) +
+        static_cast<double>(h) * (static_cast<double>(body->GetMass() * body->GetGravityScale()) *
+                                      Length(world_->GetGravity()) +
+                                  Length(body->*Member(BodyForce())));
+  }
+  double pressed = 0;
+  for (b2Contact* contact : found.contacts) {
+    const b2Manifold& manifold = *contact->GetManifold();
+    for (int i = 0; i < manifold.pointCount; ++i) {
+      pressed = std::max(pressed, static_cast<double>(manifold.points[i].normalImpulse));
+    }
+    for (const b2Fixture* fixture : {contact->GetFixtureA(), contact->GetFixtureB()}) {
+      const b2Body* body = fixture->GetBody();
+      if (!Moves(body)) fastest = std::max(fastest, Length(body->GetLinearVelocity()));
+    }
+  }
+  momentum += mass * fastest;
+  for (const int m : found.mechanisms) {
+    for (const int j : mechanisms_[static_cast<std::size_t>(m)].joints) {
+      const ExactJoint& joint = joints_[static_cast<std::size_t>(j)];
+      if (joint.drives) momentum += static_cast<double>(h) * joint.most;
+    }
+  }
+  if (pressed <= kImpulseMost * momentum) return;
+  for (b2Contact* contact : found.contacts) {
+    b2Manifold& manifold = *contact->GetManifold();
+    for (int i = 0; i < manifold.pointCount; ++i) {
+      manifold.points[i].normalImpulse = manifold.points[i].tangentImpulse = 0;
+    }
+  }
+  const std::array<Row, kJointRowsMost> none;
+  for (const int m : found.mechanisms) {
+    for (const int j : mechanisms_[static_cast<std::size_t>(m)].joints) {
+      StoreImpulses(joints_[static_cast<std::size_t>(j)], none.data());
+    }
+  }
+}
+
+}  // namespace seam
