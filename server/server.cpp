@@ -71,7 +71,8 @@ Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorde
       edits_(replica_.world(), authority_, config.sync.tick_hz),
       bounds_(replica_),
       filter_(scene_, replica_, authority_, edits_, stats_.counters),
-      broadcast_(recorder, config.room, config.sync, replica_, authority_, sessions_) {
+      broadcast_(recorder, config.room, config.sync, replica_, authority_, sessions_),
+      clock_(config.sync.tick_hz) {
   if (!Rules::Needed(scene_)) return;
   commands_ = std::make_unique<ServerCommands>(replica_, edits_, sessions_);
   rule_source_ = std::make_unique<AuthoritySource>(replica_, authority_, stats_.counters);
@@ -96,6 +97,7 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
     stats_.NoteLate(now_us - next_tick_us());
     StepOnce(now_us);
   }
+  WatchClock(now_us);
   if (stats_.Due(now_us)) {
     broadcast_.Publish(stats_.Report(now_us, replica_.tick(), cpu_us, sessions_.WorstRttUs(),
                                      sessions_.WorstLossPpm()));
@@ -106,7 +108,16 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
 
 std::int64_t Server::next_tick_us() const {
   if (!started()) return std::numeric_limits<std::int64_t>::max();
-  return tick0_us_ + (replica_.tick() + 1) * 1000000 / config_.sync.tick_hz;
+  return clock_.DueUs(replica_.tick() + 1);
+}
+
+void Server::WatchClock(std::int64_t now_us) {
+  if (!clock_.Note(now_us, replica_.tick())) return;
+  const std::string percent = std::to_string(clock_.speed_ppm() / 10000);
+  broadcast_.Say(
+      now_us, clock_.speed_ppm() == kFullSpeedPpm
+                  ? "the room runs at full speed again"
+                  : "the server cannot keep up: the room runs at " + percent + " % of its speed");
 }
 
 void Server::FollowSessions(std::int64_t now_us) {
@@ -180,7 +191,7 @@ void Server::StartIfReady(std::int64_t now_us) {
   const std::vector<int> peers = sessions_.PeerOfPlayer();
   const auto ready = std::count_if(peers.begin(), peers.end(), [](int peer) { return peer > 0; });
   if (ready < config_.wait_players) return;
-  tick0_us_ = now_us + (config_.wait_players > 0 ? kLeadInUs : 0);
+  clock_.Start(now_us + (config_.wait_players > 0 ? kLeadInUs : 0));
   // Whoever is here from the start has its mechanisms from tick 0 on: plan once, now.
   UpdateAuthority(now_us);
   broadcast_.Publish(At(now_us, replica_.MakeView()));

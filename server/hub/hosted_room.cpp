@@ -1,0 +1,94 @@
+#include "server/hub/hosted_room.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "common/base/process.h"
+
+namespace seam {
+namespace {
+
+/// A room is run at least so often: it notices who has fallen silent.
+constexpr std::int64_t kRunUs = 20000;
+
+}  // namespace
+
+HostedRoom::HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net& out)
+    : plan_(plan),
+      net_(finder, index, out),
+      impaired_(net_, plan.profile, plan.profile, static_cast<std::uint64_t>(plan.config.seed)),
+      sink_(plan.lcm_url, plan.record, plan.force, plan.config.room),
+      publisher_(sink_, plan.config.room),
+      server_(plan_.scene, plan_.config, impaired_, sink_, entropy_) {
+  newest_.room = plan.config.room;
+}
+
+void HostedRoom::Run(std::int64_t now_us) {
+  if (done()) return;
+  ran_us_ = now_us;
+  const std::int64_t tick = server_.tick(), due_us = server_.next_tick_us();
+  const std::int64_t cpu_us = ThreadCpuUs();
+  server_.Tick(now_us, plan_.alone ? CpuUs() : watch_.cpu_us());
+  sink_.Poll();
+  watch_.NoteCall(server_, now_us, SteadyClockUs() - now_us, ThreadCpuUs() - cpu_us, tick, due_us);
+  CollectWarnings();
+  if (watch_.Due(now_us)) Tell(now_us);
+  if (plan_.last_tick == 0 || server_.tick() < plan_.last_tick) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  done_ = true;
+}
+
+std::int64_t HostedRoom::due_us() const {
+  if (done()) return std::numeric_limits<std::int64_t>::max();
+  return std::min({server_.next_tick_us(), impaired_.next_due_us(), ran_us_ + kRunUs});
+}
+
+void HostedRoom::Tell(std::int64_t now_us) {
+  const Load load = watch_.Tell(now_us, server_, net_.traffic());
+  publisher_.Publish(load);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  newest_.load = load;
+}
+
+void HostedRoom::CollectWarnings() {
+  std::vector<std::string> warnings = server_.TakeWarnings();
+  if (!trouble_said_ && !sink_.trouble().ok()) {
+    trouble_said_ = true;
+    warnings.push_back(sink_.trouble().why() + "; the room runs on");
+  }
+  if (warnings.empty()) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const std::string& warning : warnings) {
+    warnings_.push_back(plan_.alone ? warning : "room " + plan_.config.room + ": " + warning);
+  }
+}
+
+RoomLoad HostedRoom::newest() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return newest_;
+}
+
+bool HostedRoom::done() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return done_;
+}
+
+std::vector<std::string> HostedRoom::TakeWarnings() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(warnings_, {});
+}
+
+void HostedRoom::Close(std::int64_t now_us) {
+  server_.Shutdown(now_us, "the server stops");
+  sink_.Poll();
+  sink_.Flush();
+}
+
+bool HostedRoom::LetThrough(std::int64_t now_us) {
+  impaired_.Advance(now_us);
+  impaired_.Flush();
+  return impaired_.sending();
+}
+
+}  // namespace seam
