@@ -1,7 +1,6 @@
 #include "server/room_clock.h"
 
 #include <algorithm>
-#include <cstdlib>
 
 namespace seam {
 namespace {
@@ -12,7 +11,7 @@ constexpr std::int64_t kCatchesUpPercent = 105;
 constexpr std::int64_t kKeepPercent = 95;
 /// How much faster the clock is tried again, percent.
 constexpr std::int64_t kFasterPercent = 105;
-/// A change of this much is told, per million.
+/// A further loss of this much is told, per million.
 constexpr std::int32_t kSayPpm = 100000;
 
 }  // namespace
@@ -70,9 +69,12 @@ bool RoomClock::Note(std::int64_t now_us, std::int64_t tick) {
 }
 
 bool RoomClock::WorthSaying() {
-  if (speed_ppm_ == said_ppm_) return false;
-  const bool full = speed_ppm_ == kFullSpeedPpm || said_ppm_ == kFullSpeedPpm;
-  if (!full && std::abs(speed_ppm_ - said_ppm_) < kSayPpm) return false;
+  if (speed_ppm_ > said_ppm_) {  // it gets better: only that it is over is worth a word
+    said_ppm_ = speed_ppm_;
+    return speed_ppm_ == kFullSpeedPpm;
+  }
+  const bool first = said_ppm_ == kFullSpeedPpm && speed_ppm_ < kFullSpeedPpm;
+  if (!first && said_ppm_ - speed_ppm_ < kSayPpm) return false;
   said_ppm_ = speed_ppm_;
   return true;
 }

@@ -25,8 +25,8 @@ class RoomClock {
   std::int32_t speed_ppm() const { return speed_ppm_; }
 
   /// To be called after the ticks that were due; `tick`: the last one. Measures, window by window,
-  /// whether the server keeps up, and slows the clock down or speeds it up again. True when the
-  /// speed has become so different from the last time that people should be told.
+  /// whether the server keeps up, and slows the clock down or speeds it up again. True when
+  /// people should be told of the speed: it is much lower than the last time, or full again.
   bool Note(std::int64_t now_us, std::int64_t tick);
 
   /// A server is judged at the end of each window, us.
