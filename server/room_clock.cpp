@@ -10,7 +10,7 @@ constexpr std::int64_t kCatchesUpPercent = 105;
 /// Of what the server achieved, percent: what is left is for what it does besides.
 constexpr std::int64_t kKeepPercent = 95;
 /// How much faster the clock is tried again, percent.
-constexpr std::int64_t kFasterPercent = 105;
+constexpr std::int64_t kFasterPercent = 110;
 /// A further loss of this much is told, per million.
 constexpr std::int32_t kSayPpm = 100000;
 

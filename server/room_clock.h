@@ -30,13 +30,13 @@ class RoomClock {
   bool Note(std::int64_t now_us, std::int64_t tick);
 
   /// A server is judged at the end of each window, us.
-  static constexpr std::int64_t kWindowUs = 250000;
+  static constexpr std::int64_t kWindowUs = 125000;
   /// Behind by less than this is nothing unusual, us: three ticks at 60 Hz.
   static constexpr std::int64_t kLateUs = 50000;
   /// So many windows in a row it must fail to catch up: one long stall is made up for instead.
   static constexpr int kBadWindows = 2;
   /// So many windows in a row it must be in time before it is given more to do.
-  static constexpr int kGoodWindows = 4;
+  static constexpr int kGoodWindows = 8;
 
  private:
   std::int64_t RoomUs(std::int64_t now_us) const;

@@ -13,8 +13,8 @@
 namespace seam {
 namespace {
 
-/// Most ticks stepped in one call: a server that was suspended catches up without starving the net.
-constexpr int kStepsMax = 8;
+/// Most ticks stepped in one call: one that catches up answers its clients in between.
+constexpr int kStepsMax = 2;
 /// m, about where bricks are left in the air.
 constexpr float kLetFallRadius = 0.5f;
 /// Mode oracle: what is decided outside the physics (a seat, a rule, a script) acts so much later,

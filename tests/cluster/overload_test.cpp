@@ -39,7 +39,6 @@ float WorstJump(const Recording& recording) {
         const float speed =
             std::max(std::hypot(view.vx[i], view.vy[i]), std::hypot(before->vx[i], before->vy[i]));
         const float way = std::hypot(view.x[i] - before->x[i], view.y[i] - before->y[i]);
-        if(way - speed/60 > 0.3f) std::printf("peer %d tick %ld id %d role %d way %g speed %g\n", peer, (long)tick, view.id[i], view.role[i], way, speed);
         worst = std::max(worst, way - speed / 60);
       }
       before = &view;
