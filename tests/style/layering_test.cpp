@@ -164,6 +164,8 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"server/authority", "none"},
       {"server/edits", "server/authority"},
       {"server/sessions", "none"},
+      {"server/load", "server"},
+      {"server/hub", "server(/load|/sessions)?"},
       {"server/script", "none"},
       {"server/rules", "server/script"},
       {"common/scene/joints", "common/scene(/toml)?"},
