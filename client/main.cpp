@@ -124,7 +124,9 @@ std::string Progress(const Flags& f, const Client& client, double elapsed_s) {
                 static_cast<long long>(client.replica()->tick()),
                 std::max(0, client.stats().rtt_us) / 1000.0, client.stats().loss_ppm / 10000.0,
                 static_cast<long long>(client.rejoins()));
-  return line;
+  if (client.speed_ppm() == kFullSpeedPpm) return line;
+  return line + (", the room runs at " + std::to_string(client.speed_ppm() / 10000) +
+                 " % of its speed: its server is overloaded");
 }
 
 int Play(const Flags& f) {

@@ -7,6 +7,7 @@
 
 #include "common/base/check.h"
 #include "common/base/process.h"
+#include "common/physics/prepare_threads.h"
 #include "common/scene/scene.h"
 
 namespace seam {
@@ -74,6 +75,7 @@ Swarm::~Swarm() {
 }
 
 void Swarm::Start() {
+  PrepareForThreads();
   for (const auto& lane : lanes_) {
     lane->thread = std::thread([this, &lane] { Run(lane.get()); });
   }

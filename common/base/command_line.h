@@ -1,5 +1,5 @@
 #pragma once
-/// What the five mains share: a command line is parsed, help and version are printed, a mistake in
+/// What the mains share: a command line is parsed, help and version are printed, a mistake in
 /// it is one line and status 2. For mains only: it brings CLI11.
 
 #include <CLI/CLI.hpp>

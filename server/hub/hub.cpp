@@ -6,6 +6,7 @@
 #include "common/base/check.h"
 #include "common/base/process.h"
 #include "common/net/farewell.h"
+#include "common/physics/prepare_threads.h"
 
 namespace seam {
 namespace {
@@ -35,6 +36,7 @@ Hub::Hub(const std::vector<RoomPlan>& plans, UdpNet& udp)
 Hub::~Hub() = default;
 
 void Hub::Start(int workers) {
+  PrepareForThreads();
   std::vector<Runnable*> rooms;
   for (const auto& room : rooms_) rooms.push_back(room.get());
   lanes_ = std::make_unique<Lanes>(rooms, workers);
