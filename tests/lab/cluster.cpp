@@ -89,10 +89,12 @@ void Cluster::Instant() {
   }
   now_us_ = std::max(next, now_us_ + kStepMinUs);
   RunServer();
+  const double between_us = CpuNowUs();
   for (Peer& peer : clients_) {
     if (peer.client == nullptr || peer.paused) continue;
     peer.client->Tick(now_us_ + peer.clock_offset_us, 0);
   }
+  client_cpu_us_ += CpuNowUs() - between_us;
   if (each_instant) each_instant();
 }
 
