@@ -25,8 +25,11 @@ HostedRoom::HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net&
 }
 
 void HostedRoom::Run(std::int64_t now_us) {
-  if (done()) return;
   ran_us_ = now_us;
+  if (done()) {
+    LetThrough(now_us);
+    return;
+  }
   const std::int64_t tick = server_.tick(), due_us = server_.next_tick_us();
   const std::int64_t cpu_us = ThreadCpuUs();
   server_.Tick(now_us, plan_.alone ? CpuUs() : watch_.cpu_us());
@@ -34,13 +37,20 @@ void HostedRoom::Run(std::int64_t now_us) {
   watch_.NoteCall(server_, now_us, SteadyClockUs() - now_us, ThreadCpuUs() - cpu_us, tick, due_us);
   CollectWarnings();
   if (watch_.Due(now_us)) Tell(now_us);
+  EndIfDone(now_us);
+}
+
+void HostedRoom::EndIfDone(std::int64_t now_us) {
   if (plan_.last_tick == 0 || server_.tick() < plan_.last_tick) return;
+  Close(now_us);
   const std::lock_guard<std::mutex> lock(mutex_);
   done_ = true;
 }
 
 std::int64_t HostedRoom::due_us() const {
-  if (done()) return std::numeric_limits<std::int64_t>::max();
+  if (done()) {
+    return impaired_.sending() ? ran_us_ + kRunUs : std::numeric_limits<std::int64_t>::max();
+  }
   return std::min({server_.next_tick_us(), impaired_.next_due_us(), ran_us_ + kRunUs});
 }
 
@@ -80,7 +90,7 @@ std::vector<std::string> HostedRoom::TakeWarnings() {
 }
 
 void HostedRoom::Close(std::int64_t now_us) {
-  server_.Shutdown(now_us, "the server stops");
+  if (!done()) server_.Shutdown(now_us, "the server stops");
   sink_.Poll();
   sink_.Flush();
 }

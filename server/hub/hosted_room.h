@@ -36,7 +36,8 @@ class HostedRoom : public Runnable {
   /// the finder's. Throws OperatorError for a log or a bus that is not to be had.
   HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net& out);
 
-  /// Runs the server once; nothing when it is done.
+  /// Runs the server once. After its last tick the clients are told goodbye, and nothing more is
+  /// done than to let that through.
   void Run(std::int64_t now_us) override;
   std::int64_t due_us() const override;
 
@@ -50,7 +51,7 @@ class HostedRoom : public Runnable {
   std::vector<std::string> TakeWarnings();
 
   // Not while a thread runs it:
-  /// Says goodbye to its clients, and closes its recording.
+  /// Says goodbye to its clients, unless it is done, and closes its recording.
   void Close(std::int64_t now_us);
   /// Lets what was sent through the simulated network; false when nothing is under way any more.
   bool LetThrough(std::int64_t now_us);
@@ -62,6 +63,7 @@ class HostedRoom : public Runnable {
  private:
   void Tell(std::int64_t now_us);
   void CollectWarnings();
+  void EndIfDone(std::int64_t now_us);
 
   const RoomPlan plan_;
   RoomNet net_;

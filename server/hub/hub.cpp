@@ -52,10 +52,16 @@ void Hub::Take(std::int64_t now_us) {
       mail_[static_cast<std::size_t>(room)] = true;
       continue;
     }
-    ++strangers_;
     DatagramHeader header;
-    if (room != RoomFinder::kUnknown || !ReadHeader(datagram, &header)) continue;
-    handshake_.Refuse(now_us, from, header.session, datagram.size(), finder_.Refusal());
+    const bool asks = room != RoomFinder::kNone && ReadHeader(datagram, &header);
+    Join join;
+    if (asks && room == RoomFinder::kHello) {
+      handshake_.Receive(now_us, from, header.session, datagram, &join);
+    } else if (asks) {
+      handshake_.Refuse(now_us, from, header.session, datagram.size(), finder_.Refusal());
+    } else {
+      ++strangers_;
+    }
   }
   udp_.Flush();
 }

@@ -53,7 +53,7 @@ class Hub {
   UdpNet& udp_;
   RoomFinder finder_;
   OsEntropy entropy_;
-  Handshake handshake_;  // for its refusals alone
+  Handshake handshake_;  // answers a Hello to several rooms, and who asks for an unknown one
   std::vector<std::unique_ptr<UdpSender>> senders_;
   std::vector<std::unique_ptr<HostedRoom>> rooms_;
   std::vector<bool> mail_;  // by room, in one Take

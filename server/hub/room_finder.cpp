@@ -28,7 +28,7 @@ int RoomFinder::Asked(ByteView datagram) const {
   DatagramHeader header;
   if (!ReadHeader(datagram, &header)) return kNone;
   const AnyMessage any = Decode(FirstUnreliable(datagram));
-  if (std::holds_alternative<Hello>(any)) return 0;
+  if (std::holds_alternative<Hello>(any)) return kHello;
   const auto* join = std::get_if<Join>(&any);
   if (join == nullptr) return kNone;
   if (join->room.empty()) return 0;
@@ -49,7 +49,7 @@ int RoomFinder::Find(std::int64_t now_us, const Address& from, ByteView datagram
     }
   }
   const int asked = ours ? Asked(datagram) : kNone;
-  return asked == kNone && rooms_.size() == 1 ? 0 : asked;
+  return asked != kUnknown && rooms_.size() == 1 ? 0 : asked;
 }
 
 std::string RoomFinder::Refusal() const {

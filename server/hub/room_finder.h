@@ -21,9 +21,11 @@ class RoomFinder {
   static constexpr int kNone = -1;
   /// It asks for a room that is not here; see Refusal.
   static constexpr int kUnknown = -2;
-  /// Index of the room. A Hello, which names none, is for the first: the Challenge that answers it
-  /// draws a Join, and the room that it names makes a Challenge of its own. With a single room
-  /// everything is for it, but a Join to another.
+  /// It is a Hello, which names no room: whoever answers it with a Challenge draws a Join, and the
+  /// room that the Join names makes a Challenge of its own.
+  static constexpr int kHello = -3;
+  /// Index of the room, or one of the above. With a single room everything is for it, but a Join to
+  /// another.
   int Find(std::int64_t now_us, const Address& from, ByteView datagram);
   /// A line for who asked for an unknown room.
   std::string Refusal() const;

@@ -36,9 +36,9 @@ Bytes Within(std::uint64_t session) {
   return sent;
 }
 
-TEST(RoomFinder, AJoinGoesToTheRoomThatItNamesAndAHelloToTheFirst) {
+TEST(RoomFinder, AJoinGoesToTheRoomThatItNamesAndAHelloToNone) {
   RoomFinder finder({"red", "blue"});
-  EXPECT_EQ(finder.Find(0, kAnn, HelloOf(5)), 0);
+  EXPECT_EQ(finder.Find(0, kAnn, HelloOf(5)), RoomFinder::kHello);
   EXPECT_EQ(finder.Find(0, kAnn, JoinOf(5, "")), 0);
   EXPECT_EQ(finder.Find(0, kAnn, JoinOf(5, "red")), 0);
   EXPECT_EQ(finder.Find(0, kAnn, JoinOf(5, "blue")), 1);
@@ -71,6 +71,7 @@ TEST(RoomFinder, WhatIsNotHeardOfForLongIsForgotten) {
 TEST(RoomFinder, TheOnlyRoomGetsEverythingButAJoinToAnother) {
   RoomFinder finder({"red"});
   EXPECT_EQ(finder.Find(0, kAnn, Within(5)), 0);
+  EXPECT_EQ(finder.Find(0, kAnn, HelloOf(5)), 0);
   EXPECT_EQ(finder.Find(0, kAnn, Bytes{1, 2, 3}), 0) << "it counts what is malformed";
   EXPECT_EQ(finder.Find(0, kAnn, JoinOf(5, "blue")), RoomFinder::kUnknown);
   EXPECT_EQ(finder.Refusal(), "there is no such room here: the room is red");
