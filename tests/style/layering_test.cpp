@@ -257,7 +257,8 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
   ExpectOnlyIn("server/script/script_lua[^/]*", kCode, "(.*/)?(lua|lauxlib|lualib)\\.h(pp)?");
   ExpectOnlyIn("common/net/keyed_hash\\.cpp", kCode, "sodium\\.h|sodium/.*");
   ExpectOnlyIn("none", kProduct, "gtest/.*");
-  ExpectOnlyIn("common/net/(udp|http_)[^/]*", kProduct, "sys/socket\\.h|netinet/.*|arpa/.*|netdb\\.h");
+  ExpectOnlyIn("common/net/(udp|http_)[^/]*", kProduct,
+               "sys/socket\\.h|netinet/.*|arpa/.*|netdb\\.h");
 }
 
 TEST(Layering, SyncKnowsOfTheNetOnlyHowLargeItsMessagesMayBe) {
