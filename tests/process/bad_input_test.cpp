@@ -126,11 +126,11 @@ TEST_F(BadInput, FlagsOfTheClient) {
 
 TEST_F(BadInput, FlagsOfTheSwarmAndOfTop) {
   const auto swarm = [](Words words, const std::string& says) {
-    words.insert(words.begin(), {BuiltProgram("seam-swarm"), "127.0.0.1:9"});
+    words.insert(words.begin(), {"seam-swarm", "127.0.0.1:9"});
     return Mistake{words, says};
   };
-  Judge({{{BuiltProgram("seam-swarm")}, "which server?"},
-         {{BuiltProgram("seam-swarm"), "127.0.0.1:65536"}, "65536"},
+  Judge({{{"seam-swarm"}, "which server?"},
+         {{"seam-swarm", "127.0.0.1:65536"}, "65536"},
          swarm({"--nonsense"}, "--nonsense"),
          swarm({"--clients", "0"}, "--clients"),
          swarm({"--drive", "keyboard"}, "--drive"),
@@ -142,9 +142,9 @@ TEST_F(BadInput, FlagsOfTheSwarmAndOfTop) {
          swarm({"--rooms", "0"}, "--rooms"),
          swarm({"--metrics", "127.0.0.1:65536"}, "65536"),
          swarm({"--lcm-url", "magic"}, "LCM url \"magic"),
-         {{BuiltProgram("seam-top"), "127.0.0.1:65536"}, "65536"},
-         {{BuiltProgram("seam-top"), "--lcm-url", "magic"}, "LCM url \"magic"},
-         {{BuiltProgram("seam-top"), "--times", "-1"}, "--times"}});
+         {{"seam-top", "127.0.0.1:65536"}, "65536"},
+         {{"seam-top", "--lcm-url", "magic"}, "LCM url \"magic"},
+         {{"seam-top", "--times", "-1"}, "--times"}});
 }
 
 TEST_F(BadInput, LogsAndFlagsOfTheMeasures) {
