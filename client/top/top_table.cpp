@@ -62,6 +62,7 @@ std::string TopTable::Row(const std::string& room, const Heard& heard) {
 }
 
 std::string TopTable::Text(std::int64_t now_us) const {
+  if (rooms_.empty()) return "no room was heard yet\n";
   std::string text =
       "room             speed  players tick ms                late     cpu   moving/    held "
       "island  hand-  jumps      out       in   drops\n"
