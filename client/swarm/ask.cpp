@@ -29,6 +29,7 @@ Room AskForRoom(const Address& server, const std::string& room) {
     group.Run(SteadyClockUs() + 5000);
   }
   if (!scout.fatal().empty()) throw OperatorError(scout.fatal());
+  if (scout.replica() == nullptr) throw OperatorError("stopped before anybody had joined");
   const Room found = scout.room();
   group.Leave(SteadyClockUs());
   return found;
