@@ -75,6 +75,8 @@ void World::Impl::MoveAbsentBodies() {
   for (const int index : absent) {
     b2Body* body = moving(index).body;
     if (!body->IsAwake()) continue;
+    const bool turns = body->GetAngularVelocity() != 0;
+    if (!turns && body->GetLinearVelocity() == b2Vec2(0, 0)) body->SetAwake(false);
     body->SetTransform(body->GetPosition() + dt * body->GetLinearVelocity(),
                        body->GetAngle() + dt * body->GetAngularVelocity());
   }

@@ -102,6 +102,7 @@ class AuthorityManager {
   const Scene& scene_;
   const SyncConfig config_;
   Replica& replica_;
+  const bool physics_edits_;
   AuthorityPlan plan_;  // the last one
   std::vector<Given> given_;
   bool plan_due_ = true;

@@ -157,7 +157,8 @@ TEST(PlanAuthority, WhatIsMetThroughOthersIsFollowedToo) {
 }
 
 TEST(PlanAuthority, FollowBodiesTakesTheNearestAndStopsAtTheNumber) {
-  AuthorityView view = TwoSides({-50, 60, 20, 40, 30});
+  AuthorityView view = TwoSides({-50, 23, 12, 20, 16});
+  view.buffer_m = 0;
   view.follow_bodies = 3;  // of which ann has one
   EXPECT_FALSE(Follows(view, 1, kAnn));
   EXPECT_TRUE(Follows(view, 2, kAnn));

@@ -43,6 +43,7 @@ void Reach::Look() {
   for (std::size_t p = 0; p < inputs_.size(); ++p) {
     const std::int64_t newest = inputs_[p].newest();
     if (static_cast<int>(p) == roles_.own_player() || newest < 0) continue;
+    if (!drivers_.Concerns(static_cast<int>(p))) continue;  // seldom heard of, and of no matter
     if (newest < now - static_cast<std::int64_t>(kSilent * config_.tick_hz)) continue;
     missing[p] = std::max<std::int64_t>(0, now - newest);
     longest = std::max(longest, missing[p]);
@@ -53,10 +54,8 @@ void Reach::Look() {
   std::vector<std::int64_t> of_island(count, now);
   for (std::size_t p = 0; p < inputs_.size(); ++p) {
     if (missing[p] < 0) continue;
-    const std::vector<bool> driven = DrivenMechanisms(world_, static_cast<int>(p), true);
-    for (std::size_t m = 0; m < count; ++m) {
-      if (!driven[m]) continue;
-      const auto i = static_cast<std::size_t>(island[m]);
+    for (const int m : drivers_.MechanismsOf(static_cast<int>(p))) {
+      const auto i = static_cast<std::size_t>(island[static_cast<std::size_t>(m)]);
       of_island[i] = std::min(of_island[i], now - missing[p]);
     }
   }
