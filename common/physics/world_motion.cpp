@@ -36,6 +36,7 @@ void World::SetMotion(int body, Motion motion) {
       m.body->SetMassData(&m.mass);
     }
     const bool dynamic = motion == Motion::kDynamic;
+    if (dynamic && now == Motion::kAbsent) m.body->SetAwake(true);  // it lay on nothing
     m.body->SetLinearVelocity(dynamic ? AtCentre(*m.body, origin_velocity) : origin_velocity);
   }
   impl_->led_count += (motion == Motion::kLed ? 1 : 0) - (now == Motion::kLed ? 1 : 0);

@@ -61,7 +61,7 @@ AuthorityView AuthorityManager::Look(const Situation& situation) {
     seen.held_ticks = world.tick() - memory.changed_tick;
     view.mechanisms.push_back(seen);
   }
-  if (config_.mode == Mode::kBuffer) view.boxes = BoxesOf(world);
+  if (config_.mode == Mode::kBuffer) view.boxes = BoxesOf(world, replica_.drivers(), true);
   // Who may not push a part does not get its authority.
   for (const Part& part : world.scene().parts) {
     if (part.rules->push == kEveryPlayer) continue;

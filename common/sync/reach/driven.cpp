@@ -24,14 +24,15 @@ void Drivers::Find() {
   const auto players = static_cast<int>(scene.players.size());
   driven_.assign(scene.players.size(), {});
   belts_.assign(scene.players.size(), 0);
+  by_axes_.assign(world_.composition().mechanisms.size(), 0);
   const auto player_of = [&](int driver) {
     if (driver < players) return driver;
     return scene.seats[static_cast<std::size_t>(driver - players)].player;
   };
   const auto add = [&](int player, int mechanism) {
-    if (player >= 0 && mechanism >= 0) {
-      driven_[static_cast<std::size_t>(player)].push_back(mechanism);
-    }
+    if (player < 0 || mechanism < 0) return;
+    driven_[static_cast<std::size_t>(player)].push_back(mechanism);
+    by_axes_[static_cast<std::size_t>(mechanism)] = 1;
   };
   const auto add_part = [&](int driver, PartId part) {
     if (driver >= 0 && part >= 0) add(player_of(driver), MechanismOf(world_, part));
@@ -41,7 +42,10 @@ void Drivers::Find() {
   for (int p = 0; p < players; ++p) {
     const Player& self = scene.players[static_cast<std::size_t>(p)];
     add_part(p, self.vehicle);
-    for (const Action& action : self.actions) add_part(p, action.part);
+    for (const Action& action : self.actions) {
+      const int m = MechanismOf(world_, action.part);
+      if (m >= 0) driven_[static_cast<std::size_t>(p)].push_back(m);
+    }
   }
   for (const Joint& joint : scene.joints) {
     if (joint.gone || joint.motor_player < 0) continue;
@@ -54,7 +58,6 @@ void Drivers::Find() {
   }
   for (const Part& part : scene.parts) {
     if (part.conveyor->player < 0) continue;
-    add_part(part.conveyor->player, part.id);
     const int player = player_of(part.conveyor->player);
     if (player >= 0) belts_[static_cast<std::size_t>(player)] = 1;
   }

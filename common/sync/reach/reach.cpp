@@ -14,20 +14,16 @@ constexpr double kSilent = 3.0;
 
 }  // namespace
 
-std::vector<MovingBox> BoxesOf(const World& world) {
-  std::vector<bool> driven(world.composition().mechanisms.size(), false);
-  for (std::size_t p = 0; p < world.scene().players.size(); ++p) {
-    const std::vector<bool> by_player = DrivenMechanisms(world, static_cast<int>(p), false);
-    for (std::size_t m = 0; m < driven.size(); ++m) driven[m] = driven[m] || by_player[m];
-  }
+std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers, bool absent_too) {
   std::vector<MovingBox> boxes;
   boxes.reserve(static_cast<std::size_t>(world.body_count()));
   for (int body = 0; body < world.body_count(); ++body) {
+    if (!absent_too && world.motion(body) == Motion::kAbsent) continue;
     MovingBox box;
     std::tie(box.min, box.max) = world.Bounds(body);
     box.velocity = world.Read(body).velocity;
     box.group = world.mechanism(body);
-    if (driven[static_cast<std::size_t>(box.group)]) box.acceleration = kDrivenAcceleration;
+    if (drivers.Driven(box.group)) box.acceleration = kDrivenAcceleration;
     boxes.push_back(box);
   }
   return boxes;
@@ -50,7 +46,7 @@ void Reach::Look() {
   }
   const float seconds = static_cast<float>(longest + 2 * config_.send_every()) * world_.dt();
   const std::vector<int> island =
-      Components(static_cast<int>(count), MeetingGroups(BoxesOf(world_), seconds));
+      Components(static_cast<int>(count), MeetingGroups(BoxesOf(world_, drivers_, false), seconds));
   std::vector<std::int64_t> of_island(count, now);
   for (std::size_t p = 0; p < inputs_.size(); ++p) {
     if (missing[p] < 0) continue;

@@ -40,7 +40,8 @@ class Reach {
   std::vector<std::int64_t> complete_;  // by mechanism
 };
 
-/// The boxes of a world's bodies, grouped by mechanism. What any player drives can accelerate.
-std::vector<MovingBox> BoxesOf(const World& world);
+/// The boxes of a world's bodies, grouped by mechanism, without those that are absent unless
+/// `absent_too`. What any player drives can accelerate.
+std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers, bool absent_too);
 
 }  // namespace seam
