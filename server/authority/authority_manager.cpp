@@ -239,6 +239,11 @@ bool AuthorityManager::Follows(int peer, int body) const {
   return table().at(replica_.world().mechanism(body)).secondaries.Has(peer);
 }
 
+bool AuthorityManager::IsFar(int peer, int body) const {
+  const auto m = static_cast<std::size_t>(replica_.world().mechanism(body));
+  return m < plan_.size() && plan_[m].far.Has(peer);
+}
+
 bool AuthorityManager::InOneHand(const std::vector<int>& mechanisms) const {
   for (const int m : mechanisms) {
     if (memory_[static_cast<std::size_t>(m)].hand_over != HandOver::kNone) return false;

@@ -16,6 +16,7 @@ namespace seam {
 struct PlannedAuthority {
   int authority = 0;
   PeerSet secondaries;
+  PeerSet far;  ///< players' peers that do not follow it and are farther than kFarAway
 };
 
 /// One entry per mechanism, by its index.
@@ -77,6 +78,8 @@ constexpr float ZoneSeconds(float one_way_a_s, float one_way_b_s) {
 }
 /// m; in a room of more than follow_bodies nobody follows what is farther, unless it comes nearer.
 constexpr float kFollowFar = 24;
+/// m from all that a peer has: it hears of what is farther seldom (Broadcast).
+constexpr float kFarAway = 60;
 constexpr float kZoneKeep = 0.5f;  ///< s more before who follows ceases to
 constexpr double kDwell = 0.5;     ///< s an authority lasts at least
 
