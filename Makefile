@@ -1,7 +1,8 @@
 # Seam2D. `make help` lists what there is to do.
 #
 # Layout: every .cpp under common/ goes into libseam-common.a; server/, client/ and render/ each hold
-# one program's files with main in main.cpp (render/ holds the mains of seam-measure and seam-export too); tests/ is one
+# one program's files with main in main.cpp (render/ holds the mains of seam-measure and seam-export too, client/swarm/
+# and client/top/ those of seam-swarm and seam-top); tests/ is one
 # GoogleTest program, tests/lab/ is seam-lab, which alone has server and clients in one process.
 # libseam.a, for other programs, is common/, server/ and client/ without their mains.
 # lcmtypes/*.lcm become headers under build/gen/, hardened by lcmtypes/harden.awk.
@@ -59,23 +60,25 @@ DEBS_lint := clang-tidy git
 # All .cpp below a folder; and their objects.
 below = $(sort $(shell find $(1) -name '*.cpp'))
 obj = $(patsubst %.cpp,$(OUT)/%.o,$(1))
-MAINS := server/main.cpp client/main.cpp render/main.cpp render/measure_main.cpp render/export_main.cpp tests/lab/main.cpp
+MAINS := server/main.cpp client/main.cpp client/swarm/main.cpp client/top/main.cpp render/main.cpp render/measure_main.cpp render/export_main.cpp tests/lab/main.cpp
 SOURCES := $(call below,common server client render tests)
 COMMON := $(call obj,$(filter common/%,$(SOURCES)))
 SERVER := $(call obj,$(filter-out $(MAINS),$(filter server/%,$(SOURCES))))
-CLIENT := $(call obj,$(filter-out $(MAINS),$(filter client/%,$(SOURCES))))
+# The programs beside a player's: what a load test and a view of the server's load have in common with it.
+WATCHERS := $(call obj,$(filter-out $(MAINS),$(filter client/swarm/% client/top/%,$(SOURCES))))
+CLIENT := $(filter-out $(WATCHERS),$(call obj,$(filter-out $(MAINS),$(filter client/%,$(SOURCES)))))
 RENDER := $(call obj,$(filter-out $(MAINS),$(filter render/%,$(SOURCES))))
 EXPORT := $(call obj,$(filter render/export/% render/canvas/shapes.cpp render/canvas/figure.cpp,$(SOURCES)))
 LAB := $(call obj,$(filter-out $(MAINS) %_test.cpp,$(filter tests/lab/%,$(SOURCES))))
 TESTS := $(call obj,$(filter %_test.cpp tests/support/%,$(filter tests/%,$(SOURCES))))
 CODEC := $(filter $(OUT)/common/codec/%,$(COMMON))
 OBJECTS := $(call obj,$(SOURCES))
-PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-render seam-measure seam-export seam-lab)
+PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-swarm seam-top seam-render seam-measure seam-export seam-lab)
 LCM_TYPES := $(sort $(wildcard lcmtypes/*.lcm))
 VERSION := $(shell sed -n 's/.*kVersion = "\(.*\)".*/\1/p' common/base/version.h)
 
 # Processes and long simulations: what `make check-fast` leaves out.
-SLOW := JoinLeave*:ServerProgram*:EndToEnd*:Bombarded*:BusInNamespace*:NoRoute*:BadInput*:Installed*:RenderL*:Mea*Program* \
+SLOW := JoinLeave*:SwarmProgram*:ServerProgram*:EndToEnd*:Bombarded*:BusInNamespace*:NoRoute*:BadInput*:Installed*:RenderL*:Mea*Program* \
 	:RecordFailure*:ReviewPage*:SpecialFiles*:Hard*Invariant*:HardExactRuns*:LabPhysics*:LabSweep*:*Cluster*:*WorldScene*:RuleSessions*:SceneFuzz*
 # The tests that SEAM_SOAK multiplies (tests/support/soak.h).
 SOAKED := *Cluster*:Authority*:*TopologyUnder*:SceneFuzz*:Codec*:FeatherOutline*
@@ -164,6 +167,10 @@ $(OUT)/seam-server: $(OUT)/server/main.o $(SERVER) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
 $(OUT)/seam-client: $(OUT)/client/main.o $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
+$(OUT)/seam-swarm: $(OUT)/client/swarm/main.o $(WATCHERS) $(CLIENT) $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) -o $@
+$(OUT)/seam-top: $(OUT)/client/top/main.o $(filter $(OUT)/client/top/%,$(WATCHERS)) $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-render: $(OUT)/render/main.o $(RENDER) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(RENDER_LIBS) -o $@
 $(OUT)/seam-measure: $(OUT)/render/measure_main.o $(OUT)/libseam-common.a
@@ -172,7 +179,7 @@ $(OUT)/seam-export: $(OUT)/render/export_main.o $(EXPORT) $(OUT)/libseam-common.
 	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
-$(OUT)/seam-tests: $(TESTS) $(LAB) $(SERVER) $(CLIENT) $(RENDER) $(OUT)/libseam-common.a
+$(OUT)/seam-tests: $(TESTS) $(LAB) $(SERVER) $(CLIENT) $(WATCHERS) $(RENDER) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(RENDER_LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
 # Man pages and completion, by the programs themselves: from what parses their flags, and from the scenes here.

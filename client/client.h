@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client/clock_filter.h"
+#include "client/room_timeline.h"
 #include "common/base/entropy.h"
 #include "common/net/link.h"
 #include "common/net/net.h"
@@ -28,11 +29,13 @@ enum class Drive { kNone, kScript, kBot, kLive };
 struct ClientConfig {
   Address server;
   std::string name = "guest";
+  std::string room;  ///< of the server; "": its first
   Drive drive = Drive::kNone;
   std::string script_of;  ///< kScript: the scene's player whose script it plays
   std::int64_t key = 0;   ///< of an earlier Welcome, to have its place back; 0: none
   bool smooth = true;
-  bool watch = false;  ///< to look on is what is wanted; else a name without a place is fatal
+  bool publish = true;  ///< false: no views, strands and impacts, and none of what they cost
+  bool watch = false;   ///< to look on is what is wanted; else a name without a place is fatal
 };
 
 class Client {
@@ -69,6 +72,8 @@ class Client {
   const MetaTable& metadata() const { return metadata_; }
   const Room& room() const { return room_; }
   const Stats& stats() const { return stats_; }
+  /// Of the room's clock, per million of real time: below kFullSpeedPpm the server is overloaded.
+  std::int32_t speed_ppm() const { return timeline_.speed_ppm(); }
   std::int64_t rejoins() const { return rejoins_; }
   /// Bodies whose copy here was put elsewhere by what was heard, by more than the wire's rounding.
   std::int64_t corrections() const { return corrections_; }
@@ -109,6 +114,7 @@ class Client {
   void StartIfDue(std::int64_t now_us);
   void StepDue(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);
+  void PublishShown(std::int64_t now_us);
   void NoteOwnInput();
   void TellRest(std::int64_t now_us);
   void OnPong(std::int64_t now_us, const Pong& pong);
@@ -148,7 +154,7 @@ class Client {
   bool released_ = false;
   bool closed_ = false;
   std::string fatal_;
-  std::int64_t tick0_us_ = -1;    // on the server's clock
+  RoomTimeline timeline_;
   RestAgreement rest_;            // with what the server knows to rest
   std::int64_t idle_since_ = 0;   // tick from which on our input has been neutral
   double lead_us_ = -1;           // mode central: how far ahead of the server we simulate

@@ -49,7 +49,7 @@ void Client::Join(std::int64_t now_us) {
   if (peer_ >= 0 || joining_since_us_ == 0) joining_since_us_ = now_us;
   peer_ = player_ = -1;
   said_ready_ = started_ = released_ = false;
-  tick0_us_ = -1;
+  timeline_ = RoomTimeline();
   lead_us_ = -1;
   answered_us_ = now_us;
   refused_us_ = asked_names_us_ = -1;
@@ -71,6 +71,7 @@ void Client::Knock(std::int64_t now_us) {
   join.token = *token_;
   join.key = key_;
   join.name = config_.name;
+  join.room = config_.room;
   SendLoose(Encode(join));
 }
 

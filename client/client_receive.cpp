@@ -78,7 +78,7 @@ void Client::OnPong(std::int64_t now_us, const Pong& pong) {
   if (pong.client_us > now_us || pong.client_us < now_us - 10000000) return;
   answered_us_ = std::max(answered_us_, pong.client_us);
   clock_.AddSample(pong.client_us, pong.utime, now_us);
-  if (pong.tick0_us >= 0) tick0_us_ = pong.tick0_us;
+  timeline_.Add(pong);
   if (replica_ == nullptr || !started_) return;
   const RestCommit& rest = replica_->rest();
   if (!rest_.Lost(now_us, rest.Hash(), static_cast<std::uint64_t>(pong.rest))) return;

@@ -40,7 +40,7 @@ struct Flags {
   std::string key;
   std::string record;
   bool force = false;
-  std::string room = "main";
+  std::string room;  // "": the server's first
   std::string lcm_url;
   bool quiet = false;
 };
@@ -66,7 +66,7 @@ void Define(CLI::App& app, Flags& f) {
                  "place, with its car, is ours again at once");
   app.add_option("--record", f.record, "write an LCM log of the bus to this file");
   app.add_flag("--force", f.force, "overwrite the --record file");
-  app.add_option("--room", f.room, "name of the room (for --record)");
+  app.add_option("--room", f.room, "the room to join (default: the server's first)");
   app.add_option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
   app.add_flag("--quiet", f.quiet, "no progress line");
 }
@@ -82,7 +82,7 @@ ClientConfig Configure(const Flags& f) {
   }
   if (f.watch && f.drive != "none") throw OperatorError("--watch drives nothing: not with --drive");
   if (!f.name.empty()) CheckName("--name", f.name);
-  CheckName("--room", f.room);
+  if (!f.room.empty()) CheckName("--room", f.room);
   if (std::isnan(f.duration_s)) throw OperatorError("--duration must be a number of seconds");
   if (std::isnan(f.join_s)) throw OperatorError("--join-timeout must be a number of seconds");
   ClientConfig config;
@@ -92,6 +92,7 @@ ClientConfig Configure(const Flags& f) {
   }
   config.name = f.name.empty() ? "guest" : f.name;
   config.watch = f.watch;
+  config.room = f.room;
   config.smooth = f.smooth == "on";
   if (f.drive == "bot") {
     config.drive = Drive::kBot;
@@ -123,7 +124,9 @@ std::string Progress(const Flags& f, const Client& client, double elapsed_s) {
       f.name.empty() ? "guest" : f.name.c_str(), elapsed_s, client.peer(),
       std::max(0, client.stats().rtt_us) / 1000.0, client.stats().loss_ppm / 10000.0,
       static_cast<long long>(client.corrections()), static_cast<long long>(client.rejoins()));
-  return line;
+  if (client.speed_ppm() == kFullSpeedPpm) return line;
+  return line + (", the room runs at " + std::to_string(client.speed_ppm() / 10000) +
+                 " % of its speed: its server is overloaded");
 }
 
 int Play(const Flags& f) {
@@ -143,7 +146,7 @@ int Play(const Flags& f) {
   if (keyboard != nullptr && !shown) std::fprintf(stderr, "seam-client: %s\n", kKeys);
   UdpNet udp(Address{0, 0});
   ImpairedNet net(udp, profile, profile, static_cast<std::uint64_t>(f.seed) + 7);
-  Sink sink(f.lcm_url, f.record, f.force, f.room);
+  Sink sink(f.lcm_url, f.record, f.force, f.room.empty() ? "main" : f.room);
   OsEntropy entropy;
   Client client(config, net, sink, entropy);
   StopOnSignals();

@@ -14,8 +14,8 @@
 namespace seam {
 namespace {
 
-/// Most ticks stepped in one call: a server that was suspended catches up without starving the net.
-constexpr int kStepsMax = 8;
+/// Most ticks stepped in one call: one that catches up answers its clients in between.
+constexpr int kStepsMax = 2;
 /// m, about where bricks are left in the air.
 constexpr float kLetFallRadius = 0.5f;
 /// Mode oracle: what is decided outside the physics (a seat, a rule, a script) acts so much later,
@@ -72,7 +72,8 @@ Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorde
       edits_(replica_.world(), authority_, config.sync.tick_hz),
       bounds_(replica_),
       filter_(scene_, replica_, authority_, edits_, stats_.counters),
-      broadcast_(recorder, config.room, config.sync, replica_, authority_, sessions_) {
+      broadcast_(recorder, config.room, config.sync, replica_, authority_, sessions_),
+      clock_(config.sync.tick_hz) {
   replica_.OnCorrected([this](int body) { NoteCorrected(body); });
   if (!Rules::Needed(scene_)) return;
   commands_ = std::make_unique<ServerCommands>(replica_, edits_, sessions_);
@@ -98,6 +99,7 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
     stats_.NoteLate(now_us - next_tick_us());
     StepOnce(now_us);
   }
+  WatchClock(now_us);
   if (stats_.Due(now_us)) {
     broadcast_.Publish(stats_.Report(now_us, replica_.tick(), cpu_us, sessions_.WorstRttUs(),
                                      sessions_.WorstLossPpm()));
@@ -109,7 +111,16 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
 
 std::int64_t Server::next_tick_us() const {
   if (!started()) return std::numeric_limits<std::int64_t>::max();
-  return tick0_us_ + (replica_.tick() + 1) * 1000000 / config_.sync.tick_hz;
+  return clock_.DueUs(replica_.tick() + 1);
+}
+
+void Server::WatchClock(std::int64_t now_us) {
+  if (!clock_.Note(now_us, replica_.tick())) return;
+  const std::string percent = std::to_string(clock_.speed_ppm() / 10000);
+  broadcast_.Say(
+      now_us, clock_.speed_ppm() == kFullSpeedPpm
+                  ? "the room runs at full speed again"
+                  : "the server cannot keep up: the room runs at " + percent + " % of its speed");
 }
 
 void Server::SendWorld(std::int64_t now_us, Session& session) {
@@ -154,7 +165,7 @@ void Server::StartIfReady(std::int64_t now_us) {
   const std::vector<int> peers = sessions_.PeerOfPlayer();
   const auto ready = std::count_if(peers.begin(), peers.end(), [](int peer) { return peer > 0; });
   if (ready < config_.wait_players) return;
-  tick0_us_ = now_us + (config_.wait_players > 0 ? kLeadInUs : 0);
+  clock_.Start(now_us + (config_.wait_players > 0 ? kLeadInUs : 0));
   // Whoever is here from the start has its mechanisms from tick 0 on: plan once, now.
   UpdateAuthority(now_us);
   broadcast_.Publish(At(now_us, replica_.MakeView()));

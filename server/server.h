@@ -16,6 +16,7 @@
 #include "server/authority/authority_manager.h"
 #include "server/broadcast.h"
 #include "server/edits/edit_log.h"
+#include "server/room_clock.h"
 #include "server/rules/bounds_watch.h"
 #include "server/rules/seats.h"
 #include "server/server_stats.h"
@@ -52,7 +53,7 @@ class Server {
   /// Says goodbye to everyone; call Tick no more.
   void Shutdown(std::int64_t now_us, const std::string& reason);
 
-  bool started() const { return tick0_us_ >= 0; }
+  bool started() const { return clock_.started(); }
   std::int64_t tick() const { return replica_.tick(); }
   int client_count() const { return sessions_.count(); }
   /// Players of the scene who are in the room.
@@ -62,6 +63,10 @@ class Server {
   std::int64_t left_bounds() const { return bounds_.left(); }
   /// Messages of sessions that were decoded, since the start.
   std::int64_t decoded() const { return stats_.decoded; }
+  /// Hand-overs at which our copy was visibly off, since the start.
+  std::int64_t jumps() const { return stats_.jumps; }
+  /// Of the room's clock, per million of real time: below kFullSpeedPpm we are overloaded.
+  std::int32_t speed_ppm() const { return clock_.speed_ppm(); }
   const Replica& replica() const { return replica_; }
   /// An edit from outside; see EditLog::Add.
   bool Order(const Edit& edit) { return edits_.Add(edit); }
@@ -112,6 +117,7 @@ class Server {
   /// What came to rest in the last step, and whether the room is quiet.
   void TellRest(std::int64_t now_us);
   void StartIfReady(std::int64_t now_us);
+  void WatchClock(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);
   void ApplyEdits(std::int64_t now_us);
   void AppointEdits(std::int64_t now_us);
@@ -140,7 +146,7 @@ class Server {
   std::unique_ptr<AuthoritySource> rule_source_;
   std::unique_ptr<Rules> rules_;   // null: the scene has nothing to decide
   std::vector<std::string> news_;  // not taken yet
-  std::int64_t tick0_us_ = -1;
+  RoomClock clock_;
   std::int64_t last_room_us_ = -1000000000;
 };
 

@@ -84,7 +84,8 @@ void Server::OnPing(std::int64_t now_us, Session& session, const Ping& ping) {
   Pong pong;
   pong.utime = now_us;
   pong.client_us = ping.utime;
-  pong.tick0_us = tick0_us_;
+  pong.tick0_us = clock_.Tick0Us(now_us);
+  pong.speed_ppm = clock_.speed_ppm();
   const std::uint64_t ours = replica_.rest().Hash();
   pong.rest = static_cast<std::int64_t>(ours);
   session.link.SendUnreliable(Encode(pong));
@@ -193,6 +194,9 @@ void Server::OnExactStates(std::int64_t now_us, const Session& session, const Ex
   if (kept.id.empty()) return;
   kept.utime = now_us;
   const BodyState off = replica_.TakeOver(kept);
+  const bool seen = off.position.norm() > AuthorityManager::kJump ||
+                    off.velocity.norm() > AuthorityManager::kJumpVelocity;
+  if (seen) ++stats_.jumps;
   for (const std::int16_t id : kept.id) {
     authority_.NoteJump(replica_.world().BodyOfId(id), off);
   }

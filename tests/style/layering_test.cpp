@@ -161,9 +161,13 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"common/physics/exact", "common/physics"},
       {"common/sync/show", "common/sync"},
       {"common/stages/(bonds|bricks|character|water)", "common/stages"},
+      {"client/swarm", "client(/top)?"},
+      {"client/top", "none"},
       {"server/authority", "none"},
       {"server/edits", "server/authority"},
       {"server/sessions", "none"},
+      {"server/load", "server"},
+      {"server/hub", "server(/load|/sessions)?"},
       {"server/script", "none"},
       {"server/rules", "server/script"},
       {"common/scene/joints", "common/scene(/toml)?"},
@@ -260,7 +264,8 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
   ExpectOnlyIn("server/script/script_lua[^/]*", kCode, "(.*/)?(lua|lauxlib|lualib)\\.h(pp)?");
   ExpectOnlyIn("common/net/keyed_hash\\.cpp", kCode, "sodium\\.h|sodium/.*");
   ExpectOnlyIn("none", kProduct, "gtest/.*");
-  ExpectOnlyIn("common/net/udp[^/]*", kProduct, "sys/socket\\.h|netinet/.*|arpa/.*|netdb\\.h");
+  ExpectOnlyIn("common/net/(udp|http_)[^/]*", kProduct,
+               "sys/socket\\.h|netinet/.*|arpa/.*|netdb\\.h");
 }
 
 TEST(Layering, SyncKnowsOfTheNetOnlyHowLargeItsMessagesMayBe) {
