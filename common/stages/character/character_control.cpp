@@ -111,7 +111,8 @@ void CharacterControl::Choose(const CharacterSense& s, float h) {
     const float over = WaterOverGround(s) / limbs_.scale();
     if (!swims && depth > gains_.swim_from && over > kSwimDepth) {
       Enter(CharacterMode::kSwim);
-      memory_.speed = 0;
+      memory_.speed = memory_.to = memory_.step = 0;
+      memory_.from.SetZero();
     }
     const bool touches = s.legs[0].down || s.legs[1].down || s.lying;
     const bool stands = over < kWadeDepth || (touches && depth < gains_.swim_to);

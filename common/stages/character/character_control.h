@@ -31,11 +31,11 @@ constexpr float kNoEdge = 1e6f;
 /// All that a controller remembers; numbers only, so that a world can save it.
 struct CharacterMemory {
   CharacterMode mode = CharacterMode::kStand;
-  float time = 0;           ///< s in this mode
-  int stance = 0;           ///< kStep: the side that bears
-  float step = 0;           ///< s; kStep: since the swinging foot left the ground
-  b2Vec2 from{0, 0};        ///< m; kStep: where it left, own frame
-  float to = 0;             ///< m; kStep: where its ankle is to stand, own frame
+  float time = 0;     ///< s in this mode
+  int stance = 0;     ///< kStep: the side that bears
+  float step = 0;     ///< s; kStep: since the swinging foot left the ground; kSwim: turns of legs
+  b2Vec2 from{0, 0};  ///< m; kStep: where it left, own frame
+  float to = 0;       ///< m; kStep: where its ankle is to stand, own frame
   b2Vec2 edge{kNoEdge, 0};  ///< m; kStep: of the first stair before it
   float speed = 0;          ///< m/s that is wished for now
   int phase = 0;            ///< kRise: of the way up
@@ -135,10 +135,13 @@ class CharacterControl {
   float WaterOverGround(const CharacterSense& s) const;
   void Swim(const CharacterSense& s, float h);
   void Tread(const CharacterSense& s, float h);
+  float RightingHz(const CharacterSense& s, float error) const;
   /// rad of the joints of one leg.
   struct Legs {
     float hip = 0, knee = 0, ankle = 0;
   };
+  float StrokeLean(float share) const;
+  Legs ReadyLegs(const Legs& tread, float error, float share) const;
   Legs TreadLegs(const CharacterSense& s, float leg) const;
   Legs BeatLegs(const CharacterSense& s, float leg, float share) const;
   void PoseLegs(const Legs& tread, const Legs& beat, float share, int side);
