@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/geometry.h"
 #include "common/stages/character/character_control.h"
 
 namespace seam {
@@ -48,6 +49,20 @@ void CharacterControl::ReachWith(const CharacterSense& s, int side, b2Vec2 way) 
   const float at_elbow = std::acos((a * a + b * b - distance * distance) / (2 * a * b));
   Pose(Shoulder(side), to - at_shoulder - s.torso, gains_.climb_shoulder);
   Pose(Elbow(side), b2_pi - at_elbow, gains_.climb_elbow);
+}
+
+/// An arm that is to reach up or on goes round behind the body, straight, as in a crawl, and comes
+/// down on the ledge from above: before the body there is the wall. False: it is there.
+bool CharacterControl::RaiseArm(const CharacterSense& s, int side, b2Vec2 tip, b2Vec2 edge) {
+  const float m = limbs_.scale();
+  const float arm = WrapAngle(s.torso + limbs_.angle(Shoulder(side)));  // 0 hangs, then forwards
+  const b2Vec2 shoulder = limbs_.At(Shoulder(side));
+  const float high = std::min(edge.y + 0.02f * m, shoulder.y + gains_.climb_raised * m);
+  if (memory_.phase == 0 ? tip.y > high && arm > 0 : arm > gains_.climb_before) return false;
+  const float to = arm > gains_.climb_raise ? b2_pi - 0.3f : arm - 0.8f;
+  Pose(Shoulder(side), to - s.torso, gains_.climb_shoulder, -gains_.climb_raise_spin);
+  Pose(Elbow(side), 0.3f, gains_.climb_elbow);
+  return true;
 }
 
 /// The arm pulls the body by `force` N from where the hand holds. Arms are taken as massless.
@@ -150,7 +165,8 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
       continue;
     }
     b2Vec2 there = edge + b2Vec2((0.05f + 0.05f * static_cast<float>(side)) * m, 0) - shoulder;
-    if (memory_.phase == 1) there.x = std::max(there.x, 0.8f * reach);
+    // On the ledge, and on it with some weight.
+    if (memory_.phase == 1) there.Set(std::max(there.x, 0.8f * reach), there.y - 0.1f * m);
     if (memory_.phase == 0 && there.Length() > reach) {  // not yet the top: the wall's face
       const float across = std::clamp(edge.x - shoulder.x, 0.0f, 0.9f * reach);
       there.Set(across, std::sqrt(reach * reach - across * across));
@@ -160,14 +176,8 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
     const bool lies = memory_.phase == 1 && tip.x > edge.x && tip.x > shoulder.x;
     const bool close = lies || missing.Length() < gains_.climb_close * m;
     if (memory_.hold[side] == 0 && (close || holding == 0)) memory_.hold[side] = 1;
-    if (!close && missing.y > 0.03f * m && tip.y < shoulder.y + gains_.climb_raised * m) {
-      // A straight arm would push at the wall: folded behind the body, then up before it.
-      const bool folded = limbs_.angle(Elbow(side)) > 2;
-      Pose(Shoulder(side), (folded ? gains_.climb_raise : -0.9f) - s.torso, gains_.climb_shoulder);
-      Pose(Elbow(side), 2.4f, gains_.climb_elbow);
-      continue;
-    }
-    if (!close && missing.y > 0.05f * m) there.x -= 0.1f * m;
+    if (!close && RaiseArm(s, side, tip, edge)) continue;
+    if (!close && memory_.phase == 0 && missing.y > 0.05f * m) there.x -= 0.1f * m;
     ReachWith(s, side, there);
   }
   // Bent hips bring the chest down on the ledge; straight legs follow.

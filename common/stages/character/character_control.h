@@ -154,6 +154,7 @@ class CharacterControl {
   Ledge LedgeAhead(const CharacterSense& s) const;
   void Climb(const CharacterSense& s, float h);
   void ReachWith(const CharacterSense& s, int side, b2Vec2 way);
+  bool RaiseArm(const CharacterSense& s, int side, b2Vec2 tip, b2Vec2 edge);
   void PullWith(int side, b2Vec2 force);
   b2Vec2 PullTo(const CharacterSense& s, b2Vec2 tip) const;
   bool ReachesOn(int side, b2Vec2 tip, b2Vec2 shoulder) const;
