@@ -68,6 +68,16 @@ void ScriptRoom::Push(const std::string& part, const Vec2& impulse, const std::s
   rules_.commands_.Push(id, impulse);
 }
 
+void ScriptRoom::Limp(const std::string& character, float seconds) {
+  for (const Character& each : rules_.scene().characters) {
+    if (!each.active || each.name != character) continue;
+    for (const PartId part : each.parts) {
+      if (rules_.Exists(part)) return rules_.commands_.Limp(part, seconds);
+    }
+  }
+  throw ScriptRefusal("there is no active character '" + Printable(character) + "'");
+}
+
 void ScriptRoom::Blast(const Vec2& centre, float radius, float speed, float impulse) {
   rules_.commands_.Blast(centre, radius, speed, impulse);
 }

@@ -69,15 +69,23 @@ bool CharacterControl::RaiseArm(const CharacterSense& s, int side, b2Vec2 tip, b
 void CharacterControl::PullWith(int side, b2Vec2 force) {
   const b2Vec2 tip = limbs_.Own(hands_.Tip(side));
   const b2Vec2 shoulder = limbs_.At(Shoulder(side)), elbow = limbs_.At(Elbow(side));
-  limbs_.Torque(Shoulder(side), -b2Cross(tip - shoulder, force));
+  float turn = -b2Cross(tip - shoulder, force);
   float bend = -b2Cross(tip - elbow, force);
-  if (memory_.phase == 0) {
+  if (memory_.phase == 1) {
+    // As much of it as both joints can do: a bound on one of them alone would turn the force.
+    const float share =
+        std::min({1.0f, limbs_.bound(Shoulder(side)) / std::max(std::abs(turn), 1e-6f),
+                  limbs_.bound(Elbow(side)) / std::max(std::abs(bend), 1e-6f)});
+    turn *= share;
+    bend *= share;
+  } else {
     // Elbows that are straight stay so, whatever pulls: they bend as for a pull along the arm.
     b2Vec2 line = tip - shoulder;
     line.Normalize();
     const float lever = std::abs(b2Cross(tip - elbow, line)) + gains_.climb_lever * limbs_.scale();
     bend = std::max(bend, gains_.climb_bend * force.Length() * lever);
   }
+  limbs_.Torque(Shoulder(side), turn);
   limbs_.Torque(Elbow(side), bend);
 }
 
@@ -106,6 +114,9 @@ b2Vec2 CharacterControl::PullTo(const CharacterSense& s, b2Vec2 tip) const {
   if (memory_.phase == 1) {
     // It leans over the edge, and falls on it.
     const float missing = (memory_.from.y - limbs_.At(kShoulderLeft).y) / m + gains_.climb_chest;
+    // With the chest on the ledge, hands only pull: to press would lower the hips.
+    const bool on = limbs_.At(kShoulderLeft).x > memory_.from.x + gains_.climb_on * m;
+    if (on) return weight * b2Vec2(gains_.climb_forward, gains_.climb_slide);
     const float up = gains_.climb_lift + gains_.climb_press * missing - slow * s.velocity.y;
     return weight * b2Vec2(gains_.climb_forward, std::clamp(up, 0.0f, 1.5f));
   }
@@ -125,7 +136,7 @@ bool CharacterControl::ReachesOn(int side, b2Vec2 tip, b2Vec2 shoulder) const {
   if (!hands_.holds(1 - side) || memory_.hold[1 - side] <= 0) return false;
   if (memory_.phase == 1) {
     const float before = limbs_.Own(hands_.Tip(1 - side)).x - tip.x;
-    return tip.x < shoulder.x - 0.05f * m || before > gains_.climb_stride * m;
+    return tip.x < shoulder.x - gains_.climb_behind * m || before > gains_.climb_stride * m;
   }
   return tip.y < memory_.from.y - 0.1f * m && tip.y < shoulder.y + gains_.climb_again * m;
 }
@@ -136,8 +147,11 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
   const bool arms = limbs_.has(kShoulderLeft) && limbs_.has(kShoulderRight);
   // The edge is remembered in `from`: over it, there is no wall ahead to be seen any more.
   const bool loose = !hands_.holds(0) && !hands_.holds(1);
-  bool lost = loose && std::abs(s.torso) > gains_.tilt_max;
-  if (memory_.phase == 0 || loose) {
+  const b2Vec2 shoulder = limbs_.At(kShoulderLeft);
+  // The chest on the ledge: it lies there without hands, too.
+  const bool on = memory_.phase == 1 && shoulder.x > memory_.from.x && shoulder.y > memory_.from.y;
+  bool lost = loose && !on && std::abs(s.torso) > gains_.tilt_max;
+  if (memory_.phase == 0 || (loose && !on)) {
     const Ledge ledge = LedgeAhead(s);
     if (ledge.found) memory_.from = ledge.edge;
     lost = lost || (loose && !ledge.found);
@@ -150,8 +164,9 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
     Enter(over ? CharacterMode::kFall : CharacterMode::kSwim);
     return;
   }
-  const b2Vec2 shoulder = limbs_.At(kShoulderLeft);
-  if (shoulder.y > edge.y + gains_.climb_above * m) memory_.phase = 1;
+  const float above = (shoulder.y - edge.y) / m;
+  if (above > gains_.climb_above) memory_.phase = 1;
+  if (above < gains_.climb_above - 0.1f && !on) memory_.phase = 0;
   const int holding = (hands_.holds(0) ? 1 : 0) + (hands_.holds(1) ? 1 : 0);
   for (int side = 0; side < 2; ++side) {
     if (!hands_.has(side)) continue;
@@ -166,7 +181,8 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
     }
     b2Vec2 there = edge + b2Vec2((0.05f + 0.05f * static_cast<float>(side)) * m, 0) - shoulder;
     // On the ledge, and on it with some weight.
-    if (memory_.phase == 1) there.Set(std::max(there.x, 0.8f * reach), there.y - 0.1f * m);
+    if (memory_.phase == 1)
+      there.Set(std::max(there.x, gains_.climb_ahead * reach), there.y - 0.1f * m);
     if (memory_.phase == 0 && there.Length() > reach) {  // not yet the top: the wall's face
       const float across = std::clamp(edge.x - shoulder.x, 0.0f, 0.9f * reach);
       there.Set(across, std::sqrt(reach * reach - across * across));
@@ -181,12 +197,13 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
     ReachWith(s, side, there);
   }
   // Bent hips bring the chest down on the ledge; straight legs follow.
-  const bool bent = s.torso > -gains_.climb_down && s.hip.x > edge.x - 0.35f * m;
+  const bool bent = s.centre.x < edge.x + gains_.climb_flat * m && s.torso > -gains_.climb_down &&
+                    s.hip.x > edge.x - 0.35f * m;
   if (memory_.phase == 0) {
     Tread(s, h);
   } else {
     for (int side = 0; side < 2; ++side) {
-      Pose(Hip(side), bent ? gains_.climb_hip : 0.2f, gains_.swim_hip);
+      Pose(Hip(side), bent ? gains_.climb_hip : gains_.climb_straight, gains_.swim_hip);
       Pose(Knee(side), gains_.climb_knee, gains_.swim_knee);
       Pose(Ankle(side), -0.5f, gains_.swim_ankle);
     }

@@ -72,6 +72,10 @@ void CharacterControl::Struck(float impulse) {
   memory_.limp = std::max(memory_.limp, std::min(gains_.limp_time * speed, gains_.limp_max));
 }
 
+void CharacterControl::GoLimp(float seconds) {
+  memory_.limp = seconds < 0 ? 0 : std::max(memory_.limp, seconds);
+}
+
 void CharacterControl::Act(float h) {
   if (!limbs_.dynamic()) return;
   if (!limbs_.whole()) {

@@ -6,7 +6,7 @@
 ///   stand, step --lift--> jump --> air --feet touch--> step or stand
 ///   anything --tilted, sunk down--> fall --it lies--> rise --up--> stand
 ///   anything --in water--> swim --a ledge in reach--> climb --over it--> fall
-///   anything --its player's lift fully down, or a hard blow--> limp --over--> fall
+///   anything --its player's lift fully down, a hard blow, a command--> limp --over--> fall
 ///   a leg or the torso gone--> limp
 ///
 /// The balance is the linear inverted pendulum's: its divergent part, the point x + v / w0 with
@@ -42,7 +42,7 @@ struct CharacterMemory {
   float phase_time = 0;     ///< s in it; kSwim: turns of the arms
   float hold[2] = {};       ///< 1: the hand is to hold what it touches; -x: for x s it cannot
   float load[2] = {};       ///< N; what each hand bears, the mean of the last moment
-  float limp = 0;           ///< s that it stays limp after a blow
+  float limp = 0;           ///< s that it stays limp after a blow or a command
 
   void Save(std::vector<float>* memory) const;
   std::size_t Load(const float* memory);
@@ -65,6 +65,8 @@ class CharacterControl {
   void Act(float h);
   /// A blow of `impulse` N s on one of its parts: a hard one makes it limp for a moment.
   void Struck(float impulse);
+  /// For at least `seconds`; below 0: no longer.
+  void GoLimp(float seconds);
   /// After a tick: grips that are to be made or given up.
   void ProposeGrips(std::vector<Edit>* edits) const { hands_.Propose(memory_.hold, edits); }
   /// After a tick of `h` s.
