@@ -126,6 +126,7 @@ void World::Step() {
   Impl& w = *impl_;
   const Solver& solver = w.scene.solver;
   const float h = w.step_s();
+  w.Settle();
   w.meter.Clear();
   for (const auto& stage : w.stages) stage->BeforeTick();
   for (int i = 0; i < solver.substeps; ++i) {
@@ -138,6 +139,7 @@ void World::Step() {
     }
     if (w.led_count > 0) w.PutLedBodiesOnTheirPath(h);
   }
+  w.MoveAbsentBodies();
   ++w.tick;
   for (const auto& stage : w.stages) stage->AfterTick();
   w.impacts = w.meter.Impacts(w.built.moving);

@@ -46,6 +46,7 @@ enum class Motion {
   kDynamic,    ///< contacts and joints move it
   kKinematic,  ///< as if it had infinite mass: it moves by its velocity and feels nothing
   kLed,        ///< others feel its real mass; after the step it is where its velocity takes it
+  kAbsent,     ///< it touches nothing and moves by its velocity; steps do not look at it
 };
 
 /// All that decides how a world goes on from a tick, except the order of its contacts and its
@@ -63,12 +64,14 @@ struct WorldSnapshot {
     float normal = 0, tangent = 0;  ///< N s
   };
   std::int64_t tick = 0;
-  std::uint64_t composition = 0;  ///< hash of who was one body with whom
+  std::uint64_t composition = 0;   ///< hash of who was one body with whom
+  std::uint64_t joints_there = 0;  ///< hash of which joints there were
   std::vector<Body> bodies;
-  std::vector<Point> points;               ///< ascending by pair, feature
-  std::vector<std::vector<float>> joints;  ///< impulses, N s and N m s, by the scene's joints
-  std::vector<float> speeds;               ///< of motors, rad/s or m/s, by the scene's joints
-  std::vector<float> stages;               ///< what each stage remembers
+  std::vector<Point> points;  ///< ascending by pair, feature
+  /// Impulses, N s and N m s, by the scene's joints; empty: broken, or its bodies were absent.
+  std::vector<std::vector<float>> joints;
+  std::vector<float> speeds;  ///< of motors, rad/s or m/s, by the scene's joints
+  std::vector<float> stages;  ///< what each stage remembers
 };
 
 /// A `body` below is an index 0..body_count()-1 of the moving assemblies, ascending by id. Apply
@@ -110,8 +113,10 @@ class World {
   bool awake(int body) const;
   void SetAwake(int body, bool awake);
 
-  /// The velocity of kinematic and led bodies is that of `position`, not of the centre of mass. A
-  /// change carries the motion over; to or from kKinematic it drops the body's contacts.
+  /// The velocity of bodies that are not dynamic is that of `position`, not of the centre of mass.
+  /// A change carries the motion over; to or from kKinematic it drops the body's contacts. To or
+  /// from kAbsent it holds from the next step, barrier or restore on, for which the world is built
+  /// anew; all bodies of a mechanism should be absent together, because no joint holds one that is.
   void SetMotion(int body, Motion motion);
   Motion motion(int body) const;
 

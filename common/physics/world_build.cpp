@@ -1,5 +1,7 @@
 #include "common/physics/world_build.h"
 
+#include <algorithm>
+
 #include "common/base/check.h"
 #include "common/physics/anchored_bodies.h"
 #include "common/physics/faces.h"
@@ -26,7 +28,7 @@ void AddShapes(const Scene& scene, const Assembly& assembly, const Part& frame, 
   }
 }
 
-b2Body* AddBody(const Scene& scene, const Assembly& assembly, b2World* world,
+b2Body* AddBody(const Scene& scene, const Assembly& assembly, bool enabled, b2World* world,
                 std::map<PartId, std::vector<PartId>>* merged) {
   const Part& root = scene.parts[static_cast<std::size_t>(assembly.id)];
   b2BodyDef def;
@@ -35,6 +37,7 @@ b2Body* AddBody(const Scene& scene, const Assembly& assembly, b2World* world,
                                        : b2_staticBody;
   def.position = ToB2(root.position);
   def.angle = root.angle;
+  def.enabled = enabled;
   for (const PartId id : assembly.parts) {
     def.bullet = def.bullet || scene.parts[static_cast<std::size_t>(id)].bullet;
   }
@@ -75,6 +78,7 @@ b2Joint* AddGear(const Joint& gear, b2Body* a, b2Body* b, b2World* world, const 
 b2Joint* AddJoint(const Scene& scene, const Joint& joint, b2Body* a, b2Body* b, b2World* world,
                   BuiltScene* built) {
   if (a == b || (IndexOf(a) < 0 && IndexOf(b) < 0)) return nullptr;  // nothing to hold
+  if (IsAside(*a) || IsAside(*b)) return nullptr;
   if (IsRigid(joint, scene.solver)) return nullptr;
   if (HoldOf(joint.kind) == JointHold::kCoupled) return AddGear(joint, a, b, world, *built);
   b2Joint* made = MakeJoint(joint, a, b, world);
@@ -89,20 +93,60 @@ b2Joint* AddJoint(const Scene& scene, const Joint& joint, b2Body* a, b2Body* b, 
   return made;
 }
 
+/// The body aside; it is made if it is not there.
+b2Body* BodyAside(const Scene& scene, const Assembly& assembly, std::size_t index,
+                  BuildMemory* memory) {
+  b2Body*& body = memory->bodies[index];
+  std::map<PartId, std::vector<PartId>> merged;  // it touches nothing
+  if (body == nullptr) body = AddBody(scene, assembly, false, &memory->aside, &merged);
+  return body;
+}
+
+/// Makes as much room in the memory as there are bodies, and takes back those that are absent no
+/// more.
+void Arrange(std::size_t bodies, BuildMemory* memory) {
+  memory->bodies.resize(bodies, nullptr);
+  memory->absent.resize(bodies, 0);
+  for (std::size_t i = 0; i < bodies; ++i) {
+    if (memory->bodies[i] == nullptr || memory->absent[i] != 0) continue;
+    memory->aside.DestroyBody(memory->bodies[i]);
+    memory->bodies[i] = nullptr;
+  }
+}
+
 }  // namespace
+
+void BuildMemory::Clear(std::uint64_t hash) {
+  composition = hash;
+  mass.clear();
+  for (b2Body* body : bodies) {
+    if (body != nullptr) aside.DestroyBody(body);
+  }
+  bodies.clear();
+  absent.clear();
+}
 
 int IndexOf(b2Body* body) { return static_cast<int>(body->GetUserData().pointer) - 1; }
 
-BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2World* world) {
+BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2World* world,
+                      BuildMemory* memory) {
   BuiltScene built;
+  const auto moves = [](const Assembly& a) { return !a.anchored; };
+  Arrange(static_cast<std::size_t>(
+              std::count_if(composition.assemblies.begin(), composition.assemblies.end(), moves)),
+          memory);
   const std::vector<bool> share = ShareBodies(scene, composition);
   AnchoredBodies shared(world);
   for (const Assembly& assembly : composition.assemblies) {
+    const std::size_t index = built.moving.size();
+    const bool absent = !assembly.anchored && memory->absent[index] != 0;
     b2Body* body = share[built.bodies.size()] ? AddToShared(scene, assembly, &shared, &built.merged)
-                                              : AddBody(scene, assembly, world, &built.merged);
+                   : absent                   ? BodyAside(scene, assembly, index, memory)
+                            : AddBody(scene, assembly, true, world, &built.merged);
     built.bodies.push_back(body);
     if (assembly.anchored) continue;
-    const b2MassData mass = MassDataOf(scene, assembly);
+    if (memory->mass.size() == index) memory->mass.push_back(MassDataOf(scene, assembly));
+    const b2MassData& mass = memory->mass[index];
     built.moving.push_back({body, assembly.id, assembly.mechanism, mass});
     body->GetUserData().pointer = built.moving.size();
     body->SetMassData(&mass);
@@ -124,6 +168,11 @@ BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2Worl
   }
   for (Motor& motor : built.motors) motor.Drive(motor.player < 0 ? 1.0f : 0.0f);
   return built;
+}
+
+BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2World* world) {
+  BuildMemory nothing;
+  return BuildScene(scene, composition, world, &nothing);
 }
 
 }  // namespace seam

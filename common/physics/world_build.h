@@ -5,6 +5,7 @@
 
 #include <box2d/box2d.h>
 
+#include <cstdint>
 #include <map>
 #include <vector>
 
@@ -37,10 +38,31 @@ struct BuiltScene {
   std::map<PartId, std::vector<PartId>> merged;
 };
 
+/// What builds of the same bodies, one after the other, have in common.
+struct BuildMemory {
+  std::uint64_t composition = 0;  ///< hash of who was one body with whom
+  std::vector<b2MassData> mass;   ///< by moving body; empty: not known yet
+  /// An engine that is never stepped, for the bodies that take no part in steps: a body that is
+  /// only disabled costs every step time. They lie there disabled.
+  b2World aside{b2Vec2(0, 0)};
+  std::vector<b2Body*> bodies;  ///< by moving body: in `aside`; nullptr: in the world
+  std::vector<char> absent;     ///< by moving body: is to be aside; empty: none
+
+  /// What was is of other bodies.
+  void Clear(std::uint64_t hash);
+};
+
+/// Whether a body takes no part in steps.
+inline bool IsAside(const b2Body& body) { return !body.IsEnabled(); }
+
 /// Index into BuiltScene::moving; -1 for anchored bodies.
 int IndexOf(b2Body* body);
 
-/// Requires a scene that ParseScene accepted, or one as good.
+/// Requires a scene that ParseScene accepted, or one as good. A joint to a body that is aside is
+/// not made.
+BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2World* world,
+                      BuildMemory* memory);
+/// The same, with nothing remembered.
 BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2World* world);
 
 }  // namespace seam

@@ -21,6 +21,7 @@ namespace seam {
 
 struct World::Impl {
   explicit Impl(Topology begin) : topology(std::move(begin)) {
+    memory.Clear(composition.hash);
     Empty();
     Build();
     FindStages();
@@ -29,7 +30,7 @@ struct World::Impl {
   }
 
   void Build() {
-    built = BuildScene(scene, composition, &*world);
+    built = BuildScene(scene, composition, &*world, &memory);
     motions.assign(built.moving.size(), Motion::kDynamic);
     led_count = 0;
     float lightest = FLT_MAX;
@@ -86,10 +87,20 @@ struct World::Impl {
   /// is left out. The snapshot of stages may be empty: they begin anew, too.
   /// `new_motions`: by body of the snapshot.
   void Rebuild(const WorldSnapshot& snapshot, const std::vector<Motion>& new_motions);
+  /// Lets bodies that have become absent, or are so no more, leave the engine or come back.
+  void Settle();
+  void Arrange(const std::vector<Motion>& new_motions);
+  /// Hashes of which joints are there, absent bodies' included.
+  std::uint64_t JointsHash() const;
+  /// Whether the joint holds, or would if its bodies were not absent.
+  bool Holds(std::size_t joint) const;
+  std::vector<Pin> FindPins() const;
 
   /// Before and after one of the engine's steps of h seconds.
   void LetLedBodiesMove();
   void PutLedBodiesOnTheirPath(float h);
+  /// After a tick.
+  void MoveAbsentBodies();
 
   const MovingBody& moving(int body) const {
     SEAM_ASSERT(body >= 0 && body < static_cast<int>(built.moving.size()));
@@ -101,11 +112,20 @@ struct World::Impl {
   const Composition& composition = topology.composition();
   ImpulseMeter meter;
   std::optional<b2World> world;  // rebuilt by Barrier and Restore
+  BuildMemory memory;
   BuiltScene built;
   std::optional<ExactStep> exact;   // only when there are joints for it
   std::vector<Motion> motions;      // by moving body
   int led_count = 0;                // of them kLed
   std::vector<BodyState> led_path;  // by moving body: of led ones, where the step began
+  bool unsettled = false;           // some are absent, or are so no more, but still to be moved
+  std::vector<int> absent;          // moving bodies that are aside, ascending
+  /// While bodies are absent: the joints as they were found when none was.
+  struct AllPresent {
+    std::vector<Pin> pins;
+    std::vector<char> made;  // by the scene's joints
+  };
+  std::optional<AllPresent> all_present;
   std::int64_t tick = 0;
   std::vector<std::unique_ptr<Stage>> stages;  // in their order of action
   std::optional<ContactHub> hub;               // only when a stage listens

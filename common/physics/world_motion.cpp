@@ -25,16 +25,18 @@ void World::SetMotion(int body, Motion motion) {
   if (now == Motion::kDynamic) {
     origin_velocity = m.body->GetLinearVelocityFromLocalPoint(b2Vec2(0, 0));
   }
-  if (motion == Motion::kKinematic) {
+  const bool moves_aside = now == Motion::kAbsent || motion == Motion::kAbsent;
+  impl_->unsettled = impl_->unsettled || moves_aside;
+  if (motion == Motion::kKinematic && !moves_aside) {
     m.body->SetType(b2_kinematicBody);  // forgets the centre of mass
     m.body->SetLinearVelocity(origin_velocity);
   } else {
-    if (now == Motion::kKinematic) {
+    if (now == Motion::kKinematic && !moves_aside) {
       m.body->SetType(b2_dynamicBody);
       m.body->SetMassData(&m.mass);
     }
-    const bool led = motion == Motion::kLed;
-    m.body->SetLinearVelocity(led ? origin_velocity : AtCentre(*m.body, origin_velocity));
+    const bool dynamic = motion == Motion::kDynamic;
+    m.body->SetLinearVelocity(dynamic ? AtCentre(*m.body, origin_velocity) : origin_velocity);
   }
   impl_->led_count += (motion == Motion::kLed ? 1 : 0) - (now == Motion::kLed ? 1 : 0);
   now = motion;
@@ -65,6 +67,16 @@ void World::Impl::PutLedBodiesOnTheirPath(float h) {
     body->SetTransform(ToB2(from.position + h * from.velocity), from.angle + h * from.spin);
     body->SetLinearVelocity(ToB2(from.velocity));
     body->SetAngularVelocity(from.spin);
+  }
+}
+
+void World::Impl::MoveAbsentBodies() {
+  const float dt = 1.0f / static_cast<float>(scene.solver.tick_hz);
+  for (const int index : absent) {
+    b2Body* body = moving(index).body;
+    if (!body->IsAwake()) continue;
+    body->SetTransform(body->GetPosition() + dt * body->GetLinearVelocity(),
+                       body->GetAngle() + dt * body->GetAngularVelocity());
   }
 }
 

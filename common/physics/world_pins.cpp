@@ -76,14 +76,17 @@ bool SetHold(b2Joint* made, Pin* pin) {
 }  // namespace
 
 std::vector<Pin> World::Pins() const {
-  const Composition& composition = impl_->composition;
+  return impl_->all_present ? impl_->all_present->pins : impl_->FindPins();
+}
+
+std::vector<Pin> World::Impl::FindPins() const {
   std::vector<Pin> pins;
-  for (std::size_t j = 0; j < impl_->built.joints.size(); ++j) {
-    b2Joint* made = impl_->built.joints[j];
+  for (std::size_t j = 0; j < built.joints.size(); ++j) {
+    b2Joint* made = built.joints[j];
     if (made == nullptr) continue;
     Pin pin;
     if (!SetHold(made, &pin)) continue;
-    const Joint& joint = impl_->scene.joints[j];
+    const Joint& joint = scene.joints[j];
     pin.a.body = IndexOf(made->GetBodyA());
     pin.b.body = IndexOf(made->GetBodyB());
     pin.a.assembly = composition.assembly_of_part[static_cast<std::size_t>(joint.a)];

@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include "common/base/bytes.h"
 #include "common/physics/joint_impulses.h"
 #include "common/physics/reveal.h"
 #include "common/physics/world_impl.h"
@@ -45,6 +46,7 @@ WorldSnapshot World::Impl::Keep() const {
   WorldSnapshot out;
   out.tick = tick;
   out.composition = composition.hash;
+  out.joints_there = JointsHash();
   for (const MovingBody& m : built.moving) {
     WorldSnapshot::Body body;
     body.state = {FromB2(m.body->GetPosition()), m.body->GetAngle(),
@@ -77,7 +79,52 @@ std::vector<float> World::Impl::Speeds() const {
   return speeds;
 }
 
+bool World::Impl::Holds(std::size_t joint) const {
+  if (built.joints[joint] != nullptr) return true;
+  return all_present && all_present->made[joint] != 0 && !scene.joints[joint].gone;
+}
+
+std::uint64_t World::Impl::JointsHash() const {
+  std::uint64_t hash = Fnv1a("", 0);
+  for (std::size_t j = 0; j < built.joints.size(); ++j) {
+    const char holds = Holds(j) ? 1 : 0;
+    hash = Fnv1a(&holds, 1, hash);
+  }
+  return hash;
+}
+
+void World::Impl::Settle() {
+  if (!unsettled) return;
+  Rebuild(Keep(), std::vector<Motion>(motions));
+}
+
+/// Before a rebuild: says which bodies are to be aside. While what is remembered is of other
+/// bodies, none is: the next rebuild may move them.
+void World::Impl::Arrange(const std::vector<Motion>& new_motions) {
+  absent.clear();
+  const bool any =
+      std::find(new_motions.begin(), new_motions.end(), Motion::kAbsent) != new_motions.end();
+  const bool others = memory.composition != composition.hash;
+  unsettled = others && any;
+  if (others) {
+    memory.Clear(composition.hash);
+    all_present.reset();
+    return;
+  }
+  if (any && !all_present) {
+    all_present.emplace();
+    all_present->pins = FindPins();
+    for (const b2Joint* joint : built.joints) all_present->made.push_back(joint != nullptr ? 1 : 0);
+  }
+  if (!any) all_present.reset();
+  memory.absent.assign(new_motions.size(), 0);
+  for (std::size_t i = 0; i < new_motions.size(); ++i) {
+    memory.absent[i] = new_motions[i] == Motion::kAbsent ? 1 : 0;
+  }
+}
+
 void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motion>& new_motions) {
+  Arrange(new_motions);
   Empty();
   tick = snapshot.tick;  // stages put things where they are then
   // The engine scales the impulses it begins with by the ratio to its last step, which a new world
@@ -98,6 +145,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
     if (motions[i] == Motion::kLed) ++led_count;
     const BodyState& state = snapshot.bodies[i].state;
     b->SetTransform(ToB2(state.position), state.angle);
+    if (IsAside(*b)) absent.push_back(static_cast<int>(i));
   }
   for (const auto& stage : stages) stage->Placed();
   // No time passes, but contacts are found, which wakes what they touch.
@@ -144,11 +192,7 @@ Status World::Impl::ValidateSnapshot(const WorldSnapshot& snapshot) const {
     return Status::Error("the world cannot go back to tick " + std::to_string(snapshot.tick) +
                          ": since then an edit has changed its bodies");
   }
-  bool same = snapshot.joints.size() == built.joints.size();
-  for (std::size_t j = 0; same && j < built.joints.size(); ++j) {
-    same = snapshot.joints[j].empty() == (built.joints[j] == nullptr);
-  }
-  if (same) return Status::Ok();
+  if (snapshot.joints_there == JointsHash()) return Status::Ok();
   return Status::Error("the world cannot go back to tick " + std::to_string(snapshot.tick) +
                        ": since then an edit has changed its joints");
 }

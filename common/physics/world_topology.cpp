@@ -222,7 +222,7 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
   const std::size_t joints_before = w.scene.joints.size();
   Before before{w.composition, w.scene.parts, {}, BodyOfAssembly(w.composition), {}};
   std::vector<bool> held;  // joints that are there, broken ones not
-  for (const b2Joint* joint : w.built.joints) held.push_back(joint != nullptr);
+  for (std::size_t j = 0; j < joints_before; ++j) held.push_back(w.Holds(j));
   for (int body = 0; body < body_count(); ++body) before.states.push_back(Read(body));
   for (const Assembly& a : w.composition.assemblies) {
     if (!a.anchored) before.properties.push_back(AssemblyProperties(w.scene, a));
@@ -275,6 +275,7 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
     const std::size_t stages = w.stages.size();
     w.FindStages();
     if (w.stages.size() == stages) snapshot.stages = kept.stages;
+    w.memory.composition = 0;  // what is remembered is of other bodies or joints
     w.Rebuild(snapshot, motions);
     w.impacts.clear();
   }

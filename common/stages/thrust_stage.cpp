@@ -26,6 +26,7 @@ class ThrustStage : public Stage {
           world_.scene.parts[static_cast<std::size_t>(world_.composition.assemblies[place].id)];
       const float turn = part.angle - root.angle;
       engine.body = world_.built.bodies[place];
+      if (IsAside(*engine.body)) engine.body = nullptr;
       engine.at = ToB2(ToRootFrame(part, root, thrust.at.cast<double>()).cast<float>());
       engine.force = b2Mul(b2Rot(turn), ToB2(thrust.force));
     }

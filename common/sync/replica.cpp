@@ -17,12 +17,13 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
     : config_(config),
       world_(topology),
       roles_(config_, self, own_player, world_),
+      presence_(config_, world_, roles_),
       memory_(config_, world_),
       inputs_(topology.scene().players.size()),
       display_(config_, world_, memory_.snapshots()),
       strands_(world_),
       replay_(config_, world_, roles_, memory_, display_, inputs_),
-      corrector_(config_, world_, roles_, memory_, display_, replay_),
+      corrector_(config_, world_, roles_, presence_, memory_, display_, replay_),
       reach_(config_, world_, roles_, inputs_),
       rest_(config_, world_, roles_, memory_, display_, inputs_, reach_),
       scheduler_(config_, world_, roles_, memory_, reach_, replay_),
@@ -66,6 +67,7 @@ void Replica::Step() {
   QueueAppointed();
   scheduler_.Collect();
   memory_.Record();
+  if (presence_.LookIfDue()) corrector_.FollowRoles();
   replay_.TakeBarrier();
   display_.Glide(roles_);
   corrector_.ReceiveWaiting();

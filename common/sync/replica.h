@@ -7,7 +7,7 @@
 ///         proposals, own States collected -> history -> States that waited
 ///   TakeStates, TakeProposals, MakeView, MakeImpacts      after it
 ///
-/// Its parts: Roles (what it is to each mechanism), BodyMemory (what it remembers of its bodies),
+/// Its parts: Roles (what it is to each mechanism), Presence (what its world has to have), BodyMemory (what it remembers of its bodies),
 /// Display, Corrector and Replay (which move bodies), Reach (what inputs that are still unknown can
 /// have changed), SendScheduler and ProposalQueue (what it tells). This class calls them in order
 /// and has no rule of its own.
@@ -27,6 +27,7 @@
 #include "common/sync/input_track.h"
 #include "common/sync/mode.h"
 #include "common/sync/proposal_queue.h"
+#include "common/sync/reach/presence.h"
 #include "common/sync/reach/reach.h"
 #include "common/sync/rest/rest_commit.h"
 #include "common/sync/roles.h"
@@ -172,6 +173,7 @@ class Replica {
   SyncConfig config_;
   World world_;
   Roles roles_;
+  Presence presence_;
   BodyMemory memory_;
   std::vector<InputTrack> inputs_;  // by player
   Display display_;

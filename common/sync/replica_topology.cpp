@@ -149,6 +149,7 @@ void Replica::Remap(const BodyRemap& change) {
   memory_.Remap(change);
   display_.Remap(change);
   roles_.Remap(change.mechanisms);
+  presence_.Remap();
   replay_.Remap(change);
   rest_.Remap(change);
   corrector_.FollowRoles();

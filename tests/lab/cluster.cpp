@@ -89,11 +89,13 @@ void Cluster::Instant() {
   now_us_ = std::max(next, now_us_ + kStepMinUs);
   const double begin_us = CpuNowUs();
   server_->Tick(now_us_, 0);
-  server_cpu_us_ += CpuNowUs() - begin_us;
+  const double between_us = CpuNowUs();
+  server_cpu_us_ += between_us - begin_us;
   for (Peer& peer : clients_) {
     if (peer.client == nullptr || peer.paused) continue;
     peer.client->Tick(now_us_ + peer.clock_offset_us, 0);
   }
+  client_cpu_us_ += CpuNowUs() - between_us;
   if (each_instant) each_instant();
 }
 

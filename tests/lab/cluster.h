@@ -45,6 +45,8 @@ class Cluster {
 
   /// CPU time of the server so far, us, on this machine: of all that it does, network included.
   double server_cpu_us() const { return server_cpu_us_; }
+  /// The same of all clients together.
+  double client_cpu_us() const { return client_cpu_us_; }
   /// All peers': ticks that were stepped again, and replays that waited for their budget.
   std::int64_t ticks_stepped_again();
   std::int64_t replays_deferred();
@@ -111,7 +113,7 @@ class Cluster {
   std::vector<Peer> clients_;
   std::int64_t now_us_ = 1000000;
   std::uint16_t next_port_ = 20000;
-  double server_cpu_us_ = 0;
+  double server_cpu_us_ = 0, client_cpu_us_ = 0;
 };
 
 /// Runs a cluster to its end and returns what it recorded.

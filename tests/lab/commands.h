@@ -139,6 +139,23 @@ struct TitlesCommand {
 /// (and left no row), or a signal came.
 int RunTitles(const TitlesCommand& command);
 
+struct LoadCommand {
+  std::vector<std::string> scenes;  ///< files or names
+  std::vector<std::string> methods = {"buffer", "central/all"};
+  std::string network = "demo";  ///< of --impair
+  std::string drive = "script";  ///< script | bot
+  double seconds = 0;            ///< after tick 0; 0: the scene's own
+  int seeds = 1;                 ///< from 1
+  std::string table;             ///< CSV file to write or complete
+  int jobs = 1;                  ///< runs at a time: more disturb each other's CPU times
+  bool force = false;            ///< begin the table anew
+  bool quiet = false;            ///< no progress line
+};
+
+/// Tabulates what sessions cost the server and a client. 1: some runs failed (and left no row), or
+/// a signal came.
+int RunLoad(const LoadCommand& command);
+
 struct ReportCommand {
   std::string data = "out/report/data";     ///< folder of the tables
   std::string out = "out/report";           ///< folder to write

@@ -165,6 +165,24 @@ CLI::App* DefineTitles(CLI::App& app, TitlesCommand& c) {
   return titles;
 }
 
+CLI::App* DefineLoad(CLI::App& app, LoadCommand& c) {
+  CLI::App* load = app.add_subcommand("load", "what sessions cost the server and a client");
+  load->add_option("SCENES", c.scenes, "scene files or names")->required();
+  load->add_option("-o,--output", c.table, "CSV table to write, or to complete")->required();
+  load->add_option("--methods", c.methods, "buffer, central/own, ... (default: both sides)")
+      ->delimiter(',');
+  load->add_option("--impair", c.network, "profile's name or list (default: demo)");
+  load->add_option("--drive", c.drive, "script | bot")->check(CLI::IsMember({"script", "bot"}));
+  load->add_option("--seconds", c.seconds, "after tick 0 (default: the scene's own)")
+      ->check(CLI::Range(0.0, kDurationMax));
+  load->add_option("--seeds", c.seeds, "from 1 (default: 1)")->check(CLI::Range(1, 10000));
+  load->add_option("--jobs", c.jobs, "runs at a time (default: 1; more blur CPU times)")
+      ->check(CLI::Range(1, 256));
+  load->add_flag("--force", c.force, "begin the table anew");
+  load->add_flag("--quiet", c.quiet, "no progress line");
+  return load;
+}
+
 CLI::App* DefineReport(CLI::App& app, ReportCommand& c) {
   CLI::App* report = app.add_subcommand("report", "plots and tables of what was swept, as a page");
   report->add_option("DATA", c.data, "folder of CSV tables (default out/report/data)");
@@ -188,6 +206,7 @@ int main(int argc, char** argv) {
   WorldCommand world;
   FairnessCommand fairness;
   TitlesCommand titles;
+  LoadCommand load;
   ReportCommand report;
   // The subcommands, each with what it runs.
   std::vector<std::pair<const CLI::App*, std::function<int()>>> commands;
@@ -203,6 +222,7 @@ int main(int argc, char** argv) {
                 {DefineWorld(app, world), [&] { return RunWorld(world); }},
                 {DefineFairness(app, fairness), [&] { return RunFairnessTable(fairness); }},
                 {DefineTitles(app, titles), [&] { return RunTitles(titles); }},
+                {DefineLoad(app, load), [&] { return RunLoad(load); }},
                 {DefineReport(app, report), [&] { return RunReport(report); }}};
   };
   const ProgramText text{"seam-lab",

@@ -182,6 +182,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"tests/lab/report", "tests/lab(/report/(joints|sessions))?"},
       {"tests/lab/report/sessions", "tests/lab(/report)?"},
       {"tests/lab/report/joints", "tests/lab(/report)?"},
+      {"tests/lab/load", "tests/lab"},
       {"tests/lab/titles", "tests/lab(/report(/sessions)?)?"},
       {"tests/lab/validity", "tests/lab"},
       {"tests/lab/world", "tests/lab(/report)?"}};

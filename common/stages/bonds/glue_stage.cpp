@@ -272,7 +272,8 @@ void GlueStage::AfterTick() {
   for (Glued& glued : glued_) {
     const b2Body* body = BodyOf(glued);
     const bool moves = body->GetType() == b2_dynamicBody;
-    if (body->GetType() == b2_kinematicBody || (moves && !body->IsAwake())) continue;
+    if (IsAside(*body) || body->GetType() == b2_kinematicBody || (moves && !body->IsAwake()))
+      continue;
     AddJoints(&glued);
     Strain(&glued);
   }

@@ -101,7 +101,7 @@ void GroupStage::BeforeTick() {
 /// By what acts on all of it.
 bool GroupStage::IsShaken(int body) const {
   const b2Body* b = w_.built.moving[static_cast<std::size_t>(body)].body;
-  if (!b->IsAwake()) return false;
+  if (!b->IsAwake() || IsAside(*b)) return false;
   const Grouping& limits = *w_.scene.grouping;
   const b2Vec2 change = b->GetLinearVelocity() - before_[static_cast<std::size_t>(body)];
   const float a = change.Length() * static_cast<float>(w_.scene.solver.tick_hz);

@@ -127,6 +127,7 @@ void JoinStage::AfterTick() {
   for (const Open& open : open_) {
     if (waiting_.count(open.what.part) != 0) continue;
     const b2Body* body = BodyOf(open);
+    if (IsAside(*body)) continue;
     placed.push_back({&open, body->GetWorldPoint(open.local), body->GetAngle() + open.turn,
                       body->GetLinearVelocityFromLocalPoint(open.local)});
   }

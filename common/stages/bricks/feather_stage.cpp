@@ -146,7 +146,8 @@ class FeatherStage : public Stage {
     for (std::size_t i = 0; i < followed_.size(); ++i) {
       Followed& f = followed_[i];
       const b2Body& body = *world_.built.moving[i].body;
-      if (body.GetType() != b2_dynamicBody) {  // kinematic: touches nothing anchored
+      if (body.GetType() != b2_dynamicBody ||
+          IsAside(body)) {  // kinematic: touches nothing anchored
         if (!f.cells.empty()) Want({}, &f);
         continue;
       }

@@ -29,7 +29,9 @@ void CharacterHands::Find() {
     const Assembly& whole = world_.composition.assemblies[static_cast<std::size_t>(assembly)];
     const Part& part = world_.scene.parts[static_cast<std::size_t>(hand)];
     const Part& root = world_.scene.parts[static_cast<std::size_t>(whole.id)];
-    body_[side] = world_.built.bodies[static_cast<std::size_t>(assembly)];
+    b2Body* const body = world_.built.bodies[static_cast<std::size_t>(assembly)];
+    if (IsAside(*body)) continue;
+    body_[side] = body;
     tip_[side] = ToB2(ToRootFrame(part, root, tip->cast<double>()).cast<float>());
     for (std::size_t j = 0; j < world_.scene.joints.size(); ++j) {
       const Joint& joint = world_.scene.joints[j];

@@ -46,6 +46,7 @@ void CharacterLimbs::Find(b2World* world) {
     const auto part = static_cast<std::size_t>(character_.parts[static_cast<std::size_t>(p)]);
     const int assembly = world_.composition.assembly_of_part[part];
     bodies_[p] = assembly < 0 ? nullptr : world_.built.bodies[static_cast<std::size_t>(assembly)];
+    if (bodies_[p] != nullptr && IsAside(*bodies_[p])) bodies_[p] = nullptr;
   }
   for (int j = 0; j < kCharacterJoints; ++j) {
     const auto joint = static_cast<std::size_t>(character_.joints[static_cast<std::size_t>(j)]);

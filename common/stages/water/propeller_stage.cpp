@@ -35,6 +35,7 @@ class PropellerStage : public Stage {
       const Part& root =
           world_.scene.parts[static_cast<std::size_t>(world_.composition.assemblies[place].id)];
       mounted.body = world_.built.bodies[place];
+      if (IsAside(*mounted.body)) mounted.body = nullptr;
       mounted.at = ToB2(ToRootFrame(part, root, thrust.at.cast<double>()).cast<float>());
       mounted.along = b2Mul(b2Rot(part.angle - root.angle), ToB2(thrust.force));
     }

@@ -172,7 +172,7 @@ bool WaterStage::IsNear(b2Body* body) const {
 
 void WaterStage::Push(int body, bool unseen, float h) {
   b2Body* b = w_.built.moving[static_cast<std::size_t>(body)].body;
-  if (b->GetType() != b2_dynamicBody || (unseen && !IsNear(b))) return;
+  if (IsAside(*b) || b->GetType() != b2_dynamicBody || (unseen && !IsNear(b))) return;
   const auto in = [&](std::size_t i) { return unseen || Touching(body, i) > 0; };
   for (std::size_t i = 0; i < w_.scene.waters.size(); ++i) {
     // What drifts too slowly for the engine must not fall asleep on its way.

@@ -20,6 +20,7 @@
 #include "common/sync/correct/replay.h"
 #include "common/sync/display.h"
 #include "common/sync/mode.h"
+#include "common/sync/reach/presence.h"
 #include "common/sync/roles.h"
 
 namespace seam {
@@ -34,8 +35,8 @@ struct Received {
 class Corrector {
  public:
   /// All must outlive this.
-  Corrector(const SyncConfig& config, World& world, const Roles& roles, BodyMemory& memory,
-            Display& display, Replay& replay);
+  Corrector(const SyncConfig& config, World& world, const Roles& roles, const Presence& presence,
+            BodyMemory& memory, Display& display, Replay& replay);
 
   /// States of another peer's bodies. Those of ticks or edits still to come wait for them.
   Received Receive(const States& states);
@@ -48,7 +49,7 @@ class Corrector {
   BodyState TakeOver(const ExactStates& exact);
   /// Before a step: pulls copies on, if the room's rule acts in every tick.
   void PullCopies();
-  /// After a change of roles: bodies become dynamic, led or kinematic.
+  /// After a change of roles, or of who is near: bodies become dynamic, led, absent or kinematic.
   void FollowRoles();
 
  private:
@@ -78,6 +79,7 @@ class Corrector {
   const SyncConfig& config_;
   World& world_;
   const Roles& roles_;
+  const Presence& presence_;
   BodyMemory& memory_;
   Display& display_;
   Replay& replay_;

@@ -13,11 +13,12 @@ constexpr std::int64_t kWaitingTicksMax = 120;
 
 }  // namespace
 
-Corrector::Corrector(const SyncConfig& config, World& world, const Roles& roles, BodyMemory& memory,
-                     Display& display, Replay& replay)
+Corrector::Corrector(const SyncConfig& config, World& world, const Roles& roles,
+                     const Presence& presence, BodyMemory& memory, Display& display, Replay& replay)
     : config_(config),
       world_(world),
       roles_(roles),
+      presence_(presence),
       memory_(memory),
       display_(display),
       replay_(replay) {}

@@ -8,11 +8,12 @@
 namespace seam {
 
 /// What is displayed has its real mass, so that it neither is a wall to what is simulated nor pumps
-/// energy into it. Strict shows what comes of infinite mass, and interpolated paths of the past
+/// energy into it; what is far from all of that is not there at all. Strict shows what comes of infinite mass, and interpolated paths of the past
 /// are nothing to lean on.
 Motion Corrector::WantedMotion(int body) const {
   if (roles_.Simulates(body)) return Motion::kDynamic;
-  return config_.mode == Mode::kBuffer ? Motion::kLed : Motion::kKinematic;
+  if (config_.mode != Mode::kBuffer) return Motion::kKinematic;
+  return presence_.Near(world_.mechanism(body)) ? Motion::kLed : Motion::kAbsent;
 }
 
 void Corrector::FollowRoles() {

@@ -1,0 +1,99 @@
+#include "common/sync/reach/presence.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "common/sync/reach/zones.h"
+
+namespace seam {
+namespace {
+
+MovingBox BoxOf(const World& world, int body) {
+  MovingBox box;
+  std::tie(box.min, box.max) = world.Bounds(body);
+  box.velocity = world.Read(body).velocity;
+  box.group = world.mechanism(body);
+  box.acceleration = kDrivenAcceleration;  // that a player or gravity can give it
+  return box;
+}
+
+/// How far a box can come by itself, m.
+float WayOf(const MovingBox& box, float seconds) {
+  return box.velocity.norm() * seconds + box.acceleration * seconds * seconds / 2 + kZoneSlack / 2;
+}
+
+/// Boxes in the order of their left sides, grown by the way that each can make.
+class Sorted {
+ public:
+  Sorted(std::vector<MovingBox> boxes, float seconds) : boxes_(std::move(boxes)) {
+    std::sort(boxes_.begin(), boxes_.end(),
+              [](const MovingBox& a, const MovingBox& b) { return a.min.x() < b.min.x(); });
+    for (const MovingBox& box : boxes_) {
+      way_ = std::max(way_, WayOf(box, seconds));
+      widest_ = std::max(widest_, box.max.x() - box.min.x());
+      low_ = std::min(low_, box.min.y());
+      high_ = std::max(high_, box.max.y());
+    }
+  }
+
+  bool MayMeetAny(const MovingBox& box, float seconds) const {
+    if (boxes_.empty()) return false;
+    const float way = way_ + WayOf(box, seconds);
+    if (box.max.y() + way < low_ || box.min.y() - way > high_) return false;
+    const float from = box.min.x() - way - widest_, to = box.max.x() + way;
+    auto at = std::lower_bound(boxes_.begin(), boxes_.end(), from,
+                               [](const MovingBox& b, float x) { return b.min.x() < x; });
+    for (; at != boxes_.end() && at->min.x() <= to; ++at) {
+      if (MayMeet(*at, box, seconds)) return true;
+    }
+    return false;
+  }
+
+ private:
+  std::vector<MovingBox> boxes_;
+  float way_ = 0, widest_ = 0;
+  float low_ = 1e30f, high_ = -1e30f;  // m
+};
+
+}  // namespace
+
+Presence::Presence(const SyncConfig& config, const World& world, const Roles& roles)
+    : config_(config), world_(world), roles_(roles) {
+  Remap();
+}
+
+void Presence::Remap() { near_.assign(world_.composition().mechanisms.size(), 1); }
+
+bool Presence::LookIfDue() {
+  if (config_.mode != Mode::kBuffer) return false;
+  if (world_.tick() % std::max(1, config_.tick_hz / kLooksPerSecond) != 0) return false;
+  Look();
+  return true;
+}
+
+void Presence::Look() {
+  std::vector<MovingBox> simulated;
+  std::vector<int> displayed;
+  for (int body = 0; body < world_.body_count(); ++body) {
+    if (roles_.Simulates(body)) {
+      simulated.push_back(BoxOf(world_, body));
+    } else {
+      displayed.push_back(body);
+    }
+  }
+  const Sorted there(std::move(simulated), kNearSeconds + kNearKeep);
+  std::vector<char> near(near_.size(), 0);
+  for (const int body : displayed) {
+    const auto m = static_cast<std::size_t>(world_.mechanism(body));
+    if (near[m] != 0) continue;
+    const float seconds = kNearSeconds + (near_[m] != 0 ? kNearKeep : 0);
+    if (there.MayMeetAny(BoxOf(world_, body), seconds)) near[m] = 1;
+  }
+  // What is simulated would be near if it ceased to be.
+  for (std::size_t m = 0; m < near.size(); ++m) {
+    if (roles_.RoleOf(static_cast<int>(m)) != kRoleRemote) near[m] = 1;
+  }
+  near_ = std::move(near);
+}
+
+}  // namespace seam

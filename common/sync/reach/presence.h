@@ -1,0 +1,41 @@
+#pragma once
+/// Which bodies that are only displayed a peer's world has to have: those that could touch, before
+/// the next look, one that it simulates. The others are absent (Motion::kAbsent) and cost a step
+/// nothing.
+
+#include <vector>
+
+#include "common/physics/world.h"
+#include "common/sync/mode.h"
+#include "common/sync/roles.h"
+
+namespace seam {
+
+class Presence {
+ public:
+  /// All must outlive this. At first everything is near.
+  Presence(const SyncConfig& config, const World& world, const Roles& roles);
+
+  /// After a step; when a look is due, looks. Whether it did.
+  bool LookIfDue();
+  /// Whether a mechanism that is only displayed has to be there.
+  bool Near(int mechanism) const { return near_[static_cast<std::size_t>(mechanism)] != 0; }
+  /// The bodies have changed: everything is near until the next look.
+  void Remap();
+
+  /// Times a second, and how far ahead is looked, s: to the next look and what a blow can change on
+  /// the way. What is near remains so for kNearKeep longer, s: to come and to go costs the world a
+  /// new beginning.
+  static constexpr int kLooksPerSecond = 10;
+  static constexpr float kNearSeconds = 0.2f, kNearKeep = 0.5f;
+
+ private:
+  void Look();
+
+  const SyncConfig& config_;
+  const World& world_;
+  const Roles& roles_;
+  std::vector<char> near_;  // by mechanism
+};
+
+}  // namespace seam

@@ -1,0 +1,29 @@
+#pragma once
+/// What a session costs whom: CPU time of the server and of a client, bytes, and how much of the
+/// work the clients do.
+
+#include <cstdint>
+
+#include "tests/lab/cluster.h"
+
+namespace seam {
+
+/// Of the ticks after the first second.
+struct Load {
+  int players = 0;
+  int bodies = 0;               ///< that move, in the scene
+  double awake = 0;             ///< of them, on average, at the server's copy
+  double server_us = 0;         ///< CPU time a tick, network included; sockets are not
+  double server_p99_us = 0;     ///< of the ticks
+  double client_us = 0;         ///< CPU time a tick and client
+  double to_client_kbps = 0;    ///< kB/s of UDP payload from the server, a client
+  double from_client_kbps = 0;  ///< kB/s of UDP payload to the server, a client
+  double held_share = 0;        ///< of the awake bodies' seconds: a client had authority
+  double split_share = 0;       ///< of the pairs that touch: two peers have authority
+};
+
+/// Runs the session to its end. Figures of CPU time are this machine's and noisy; the others
+/// are a function of the configuration. Throws OperatorError as Cluster does.
+Load MeasureLoad(ClusterConfig config);
+
+}  // namespace seam
