@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/scene/bricks.h"
+#include "common/scene/character.h"
 #include "common/scene/joint_kinds.h"
 #include "common/scene/part_rules.h"
 #include "common/scene/toml/scene_text.h"

@@ -135,14 +135,15 @@ kind = "passive"
 position = [9, 0]
 health = 50
 [[script]]
-lua = """
+name = "s"
+code = '''
 function on_tick(t)
   if world.tick() == 5 then
     world.health("hero.head", -50)
     world.health("doll.head", -50)
   end
 end
-"""
+'''
 )");
   game.Step(60);
   int limp = 0, broken = 0;

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/topology/edit.h"
 #include "tests/support/fake_script_host.h"
 
 namespace seam {

@@ -13,6 +13,9 @@ namespace {
 /// A player's lift below this, which is all the way down, makes a character limp.
 constexpr float kLimpLift = -0.9f;
 
+/// s at the beginning without any muscle tone: it would keep one that stands still on its feet.
+constexpr float kBuckle = 0.5f;
+
 /// m of water over the ground, for 1.8 m: from which on it swims, and below which it stands up.
 constexpr float kSwimDepth = 0.75f, kWadeDepth = 0.3f;
 
@@ -101,7 +104,7 @@ void CharacterControl::Act(float h) {
     case CharacterMode::kRise: Rise(s, h); break;
     case CharacterMode::kSwim: Swim(s, h); break;
     case CharacterMode::kClimb: Climb(s, h); break;
-    case CharacterMode::kLimp: limbs_.SlackenAll(); break;
+    case CharacterMode::kLimp: limbs_.SlackenAll(memory_.time < kBuckle ? 0.0f : 1.0f); break;
   }
 }
 

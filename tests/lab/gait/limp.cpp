@@ -14,7 +14,7 @@ namespace seam {
 GaitTrial TryLimp(const GaitSetup& setup, const CharacterGains& gains, int start) {
   constexpr float kDrives[] = {0, 0.3f, 0.6f, 1};
   constexpr const char* kCauses[] = {"input", "command", "blow"};
-  constexpr double kTime = 8;  // s after it in which it must be up
+  constexpr double kTime = 15;  // s after it in which it must be up
   Random random(static_cast<std::uint64_t>(start));
   const int cause = (start - 1) % 3;
   const float drive = kDrives[(start - 1) / 3 % 4];
