@@ -123,6 +123,9 @@ b = "hand"
 
 TEST(Rules, AnActiveCharacterThatDiesGoesLimpOnceAndKeepsItsJoints) {
   Game game(R"(
+[[part]]
+name = "ground"
+chain = [[-20, -1], [20, -1]]
 [[player]]
 name = "ann"
 [[character]]
