@@ -37,13 +37,18 @@ class Broadcast {
   void ToAll(const std::vector<Grants>& messages) {
     for (const Grants& grants : messages) ToAll(grants);
   }
-  /// To those of the other peers that need it now: all that follow one of its bodies, the rest now
-  /// and then. Not on the bus.
+  /// To each of the other peers what it needs now: all of the bodies that it follows, the others at
+  /// least kNearSends sends apart, and kFarSends what is far from all that it has. Not on the bus.
   void Relay(const States& states, int from_peer);
   /// Something a person wants to read; on the bus only.
   void Say(std::int64_t now_us, const std::string& text);
 
+  static constexpr int kNearSends = 3, kFarSends = 15;
+
  private:
+  /// The entries that the peer is to be told now.
+  std::vector<std::size_t> Due(const States& states, Session* session) const;
+
   Publisher publisher_;
   const SyncConfig config_;
   const Replica& replica_;

@@ -129,11 +129,17 @@ void Server::OnInputs(std::int64_t now_us, Session& session, const Inputs& input
 /// In the same call as they came, since everything is flushed at its end.
 void Server::RelayInputs(std::int64_t now_us) {
   const int players = static_cast<int>(scene_.players.size());
+  const bool everyone = config_.sync.mode == Mode::kOracle || config_.sync.mode == Mode::kCentral;
   sessions_.ForEachReady(0, [&](Session& session) {
     session.feeds.resize(static_cast<std::size_t>(players));
     for (int p = 0; p < players; ++p) {
       const InputTrack& track = replica_.inputs(p);
       if (p == session.player || track.newest() < 0) continue;
+      const auto simulates = [&](int m) {
+        const AuthorityRecord& record = replica_.authority().at(m);
+        return record.authority == session.peer || record.secondaries.Has(session.peer);
+      };
+      if (!everyone && !replica_.drivers().Moves(p, simulates)) continue;
       std::optional<Inputs> inputs = session.feeds[static_cast<std::size_t>(p)].Take(
           track, p, session.link.acked(p), replica_.tick(), session.link.Sends(now_us));
       if (!inputs) continue;

@@ -81,6 +81,10 @@ class Stage {
 /// The stages that this scene needs, in their order of action (stages.cpp has one line for each).
 std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world);
 
+/// Whether physics alone can give reason to edits of the scene (a bond breaks, parts join, a hand
+/// grips).
+bool ProposesEdits(const Scene& scene);
+
 /// Fixtures carry their part's id in their user data; those that stages make carry at least this,
 /// so that they are never taken for a part's.
 constexpr std::uintptr_t kStageFixture = 1u << 24;

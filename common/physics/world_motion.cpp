@@ -36,6 +36,7 @@ void World::SetMotion(int body, Motion motion) {
       m.body->SetMassData(&m.mass);
     }
     const bool dynamic = motion == Motion::kDynamic;
+    if (dynamic && now == Motion::kAbsent) m.body->SetAwake(true);  // it lay on nothing
     m.body->SetLinearVelocity(dynamic ? AtCentre(*m.body, origin_velocity) : origin_velocity);
   }
   impl_->led_count += (motion == Motion::kLed ? 1 : 0) - (now == Motion::kLed ? 1 : 0);
@@ -75,6 +76,8 @@ void World::Impl::MoveAbsentBodies() {
   for (const int index : absent) {
     b2Body* body = moving(index).body;
     if (!body->IsAwake()) continue;
+    const bool turns = body->GetAngularVelocity() != 0;
+    if (!turns && body->GetLinearVelocity() == b2Vec2(0, 0)) body->SetAwake(false);
     body->SetTransform(body->GetPosition() + dt * body->GetLinearVelocity(),
                        body->GetAngle() + dt * body->GetAngularVelocity());
   }

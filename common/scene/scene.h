@@ -210,6 +210,8 @@ struct Scene {
   /// Bodies that a peer may step so as not to reckon them from what was heard: beyond its buffer
   /// zone it follows the nearest until it steps so many, its own included.
   int follow_bodies = 256;
+  /// Rooms of at most so many moving bodies are simulated by the server, too, whoever has them.
+  int server_follow = 256;
   int input_delay_ticks = 0;                              ///< from reading an input to its tick
   float speed_limit = 120;                                ///< m/s: states beyond are implausible
   Vec2 bounds_min{-1000, -1000}, bounds_max{1000, 1000};  ///< states beyond are implausible

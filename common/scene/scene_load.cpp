@@ -97,13 +97,14 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
 
   const SceneReader root(
       tree, file_name, "scene",
-      {"title",       "gravity", "duration", "buffer",    "speed_limit", "size_max", "bounds",
-       "solver",      "part",    "bricks",   "character", "joint",       "thrust",   "water",
-       "player",      "seat",    "watch",    "camera",    "trigger",     "script",   "grouping",
-       "input_delay", "expect",  "follow",   "strand",    "propeller",   "charges"});
+      {"title",       "gravity", "duration", "buffer",    "speed_limit",   "size_max",  "bounds",
+       "solver",      "part",    "bricks",   "character", "joint",         "thrust",    "water",
+       "player",      "seat",    "watch",    "camera",    "trigger",       "script",    "grouping",
+       "input_delay", "expect",  "follow",   "strand",    "server_follow", "propeller", "charges"});
   scene.title = root.Text("title", scene.name);
   scene.gravity = root.Vector("gravity", {-100, 100}, scene.gravity);
   scene.duration_s = root.Seconds("duration", {0.1, 86400}, scene.duration_s);
+  scene.server_follow = root.Integer("server_follow", {0, 65535}, scene.server_follow);
   scene.follow_bodies = root.Integer("follow", {0, 65535}, scene.follow_bodies);
   scene.buffer_m = root.Number("buffer", {0, 10000}, scene.buffer_m);
   scene.input_delay_ticks = root.Integer("input_delay", {0, kInputDelayTicksMax}, 0);

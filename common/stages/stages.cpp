@@ -2,6 +2,7 @@
 
 #include "common/physics/stage.h"
 #include "common/scene/bricks.h"
+#include "common/scene/character.h"
 #include "common/scene/forces.h"
 #include "common/scene/grouping.h"
 #include "common/scene/joint_kinds.h"
@@ -11,6 +12,12 @@
 #include "common/topology/join.h"
 
 namespace seam {
+
+bool ProposesEdits(const Scene& scene) {
+  const auto grips = [](const Character& c) { return c.active && c.grip; };
+  return HasBreakableGlue(scene) || HasConnectors(scene) || scene.grouping->after > 0 ||
+         std::any_of(scene.characters.begin(), scene.characters.end(), grips);
+}
 
 std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world) {
   const auto any = [](const auto& all, const auto& uses) {

@@ -9,6 +9,10 @@
 namespace seam {
 namespace {
 
+/// Ticks from one look at the path of what touches nothing to the next: between them it goes
+/// straight on.
+constexpr int kAbsentEvery = 6;
+
 /// Kinematic bodies are not made to spin faster than this, rad/s: the engine clamps at 94.
 constexpr float kSpinDrivenMax = 90.0f;
 /// A turn of more than this within a tick is taken for a fast wheel's, whose angle nobody follows.
@@ -93,7 +97,9 @@ void Display::Drive(std::int64_t next) {
   const double delay = delay_.Advance();
   reckoner_.Begin(next);
   for (int body = 0; body < world_.body_count(); ++body) {
-    if (world_.motion(body) == Motion::kDynamic) continue;
+    const Motion motion = world_.motion(body);
+    if (motion == Motion::kDynamic) continue;
+    if (motion == Motion::kAbsent && (next + world_.mechanism(body)) % kAbsentEvery != 0) continue;
     BodyState state = world_.Read(body);
     if (!snapshots_.has(body)) {
       state.velocity.setZero();

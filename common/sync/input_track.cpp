@@ -1,11 +1,32 @@
 #include "common/sync/input_track.h"
 
+#include <algorithm>
+
 namespace seam {
 
+const InputTrack::Known* InputTrack::Find(std::int64_t tick) const {
+  if (tick < oldest_ || tick > newest_ || newest_ < 0) return nullptr;
+  const Known& known = ring_[Place(tick)];
+  return known.tick == tick ? &known : nullptr;
+}
+
+const InputTrack::Known* InputTrack::Before(std::int64_t tick) const {
+  if (newest_ < 0) return nullptr;
+  for (tick = std::min(tick, newest_); tick >= oldest_; --tick) {
+    const Known& known = ring_[Place(tick)];
+    if (known.tick == tick) return &known;
+  }
+  return nullptr;
+}
+
 void InputTrack::Note(std::int64_t tick, const Input& input) {
-  if (!known_.empty() && tick < known_.rbegin()->first - kKeepTicks) return;
-  known_.emplace(tick, input);
-  while (known_.begin()->first < known_.rbegin()->first - kKeepTicks) known_.erase(known_.begin());
+  if (tick < 0 || tick < newest_ - kKeepTicks || knows(tick)) return;
+  if (ring_.empty()) ring_.resize(static_cast<std::size_t>(kKeepTicks + 1));
+  ring_[Place(tick)] = {tick, input};
+  if (newest_ < 0) oldest_ = tick;
+  newest_ = std::max(newest_, tick);
+  oldest_ = std::max(std::min(oldest_, tick), newest_ - kKeepTicks);
+  while (ring_[Place(oldest_)].tick != oldest_) ++oldest_;
 }
 
 void InputTrack::Note(const Inputs& inputs) {
@@ -16,48 +37,57 @@ void InputTrack::Note(const Inputs& inputs) {
 }
 
 Input InputTrack::At(std::int64_t tick) const {
-  auto after = known_.upper_bound(tick);
-  if (after == known_.begin()) return Input{};
-  return std::prev(after)->second;
+  const Known* known = Before(tick);
+  return known == nullptr ? Input{} : known->input;
 }
 
 bool InputTrack::Surprises(std::int64_t from) const {
-  for (auto it = known_.lower_bound(from); it != known_.end(); ++it) {
-    const Input guess = it == known_.begin() ? Input{} : std::prev(it)->second;
-    if (!(it->second == guess)) return true;
+  if (newest_ < 0) return false;
+  Input guess = At(from - 1);
+  for (std::int64_t tick = std::max(from, oldest_); tick <= newest_; ++tick) {
+    const Known* known = Find(tick);
+    if (known == nullptr) continue;
+    if (!(known->input == guess)) return true;
+    guess = known->input;
   }
   return false;
 }
 
+int InputTrack::ButtonsBefore(std::int64_t tick) const {
+  const Known* before = Before(tick - 1);
+  return before == nullptr ? 0 : before->input.buttons;
+}
+
 std::int16_t InputTrack::TakePresses(std::int64_t tick) {
   int pressed = 0;
-  for (auto it = known_.upper_bound(presses_taken_until_); it != known_.end() && it->first <= tick;
-       ++it) {
-    const int before = it == known_.begin() ? 0 : std::prev(it)->second.buttons;
-    pressed |= it->second.buttons & ~before;
-    presses_taken_until_ = it->first;
+  const std::int64_t last = std::min(tick, newest_);
+  for (std::int64_t t = std::max(presses_taken_until_ + 1, oldest_); t <= last && t >= 0; ++t) {
+    const Known* known = Find(t);
+    if (known == nullptr) continue;
+    pressed |= known->input.buttons & ~ButtonsBefore(t);
+    presses_taken_until_ = t;
   }
   return static_cast<std::int16_t>(pressed);
 }
 
 std::int16_t InputTrack::PressedAt(std::int64_t tick) const {
-  const auto now = known_.find(tick);
-  if (now == known_.end()) return 0;
-  const int before = now == known_.begin() ? 0 : std::prev(now)->second.buttons;
-  return static_cast<std::int16_t>(now->second.buttons & ~before);
+  const Known* now = Find(tick);
+  if (now == nullptr) return 0;
+  return static_cast<std::int16_t>(now->input.buttons & ~ButtonsBefore(tick));
 }
 
 Inputs InputTrack::Export(int player, int count) const {
   Inputs out;
   out.player = player;
-  if (known_.empty()) return out;
-  std::int64_t first = newest();
-  while (newest() - first + 1 < count && knows(first - 1)) --first;
+  if (newest_ < 0) return out;
+  std::int64_t first = newest_;
+  while (newest_ - first + 1 < count && knows(first - 1)) --first;
   out.first_tick = first;
-  for (auto it = known_.find(first); it != known_.end(); ++it) {
-    out.drive.push_back(it->second.drive);
-    out.lift.push_back(it->second.lift);
-    out.buttons.push_back(it->second.buttons);
+  for (std::int64_t tick = first; tick <= newest_; ++tick) {
+    const Input& input = Find(tick)->input;
+    out.drive.push_back(input.drive);
+    out.lift.push_back(input.lift);
+    out.buttons.push_back(input.buttons);
   }
   return out;
 }

@@ -2,7 +2,7 @@
 /// What a peer knows of one player's inputs: exact for the ticks received, held after the newest.
 
 #include <cstdint>
-#include <map>
+#include <vector>
 
 #include "common/codec/messages.h"
 #include "common/scene/types.h"
@@ -15,13 +15,13 @@ class InputTrack {
   void Note(std::int64_t tick, const Input& input);
   void Note(const Inputs& inputs);
 
-  bool knows(std::int64_t tick) const { return known_.count(tick) != 0; }
+  bool knows(std::int64_t tick) const { return Find(tick) != nullptr; }
   /// The input of `tick`; where unknown, the newest known one before it.
   Input At(std::int64_t tick) const;
   /// Whether a known input of `from` or later is another than who knows only those before it would
   /// take it to be.
   bool Surprises(std::int64_t from) const;
-  std::int64_t newest() const { return known_.empty() ? -1 : known_.rbegin()->first; }
+  std::int64_t newest() const { return newest_; }  ///< -1: none
 
   /// Buttons that went down in ticks heard of and <= `tick`, each reported once. They may be late:
   /// a relayed input arrives after its tick.
@@ -36,7 +36,20 @@ class InputTrack {
   static constexpr std::int64_t kKeepTicks = 600;
 
  private:
-  std::map<std::int64_t, Input> known_;
+  struct Known {
+    std::int64_t tick = -1;
+    Input input;
+  };
+  static std::size_t Place(std::int64_t tick) {
+    return static_cast<std::size_t>(tick % (kKeepTicks + 1));
+  }
+  const Known* Find(std::int64_t tick) const;
+  /// The newest known one at or before `tick`; nullptr: there is none.
+  const Known* Before(std::int64_t tick) const;
+  int ButtonsBefore(std::int64_t tick) const;
+
+  std::vector<Known> ring_;  // by tick modulo its size; empty: nothing is known
+  std::int64_t newest_ = -1, oldest_ = -1;
   std::int64_t presses_taken_until_ = -1;
 };
 

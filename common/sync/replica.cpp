@@ -17,14 +17,15 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
     : config_(config),
       world_(topology),
       roles_(config_, self, own_player, world_),
+      drivers_(world_, roles_),
       presence_(config_, world_, roles_),
       memory_(config_, world_),
       inputs_(topology.scene().players.size()),
       display_(config_, world_, memory_.snapshots()),
       strands_(world_),
-      replay_(config_, world_, roles_, memory_, display_, inputs_),
+      replay_(config_, world_, roles_, drivers_, memory_, display_, inputs_),
       corrector_(config_, world_, roles_, presence_, memory_, display_, replay_),
-      reach_(config_, world_, roles_, inputs_),
+      reach_(config_, world_, roles_, drivers_, inputs_),
       rest_(config_, world_, roles_, memory_, display_, inputs_, reach_),
       scheduler_(config_, world_, roles_, memory_, reach_, replay_),
       proposals_(config_.tick_hz),
@@ -35,7 +36,7 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
     impact_reporter_.Note(true);
     FindEdits();
   });
-  corrector_.FollowRoles();
+  FollowRoles();
   memory_.Record();
   replay_.TakeBarrier();  // the inputs of the first ticks come late, too
 }
@@ -73,6 +74,11 @@ void Replica::Step() {
   corrector_.ReceiveWaiting();
 }
 
+void Replica::FollowRoles() {
+  drivers_.Look();
+  corrector_.FollowRoles();
+}
+
 void Replica::NoteInput(int player, std::int64_t tick, const Input& input) {
   Inputs one;
   one.player = player;
@@ -96,7 +102,7 @@ void Replica::NoteInputs(const Inputs& inputs) {
   }
   track.Note(inputs);
   if (!config_.StampsInputs(roles_.self())) return;
-  if (wrong >= 0) replay_.AskFrom(wrong - 1);
+  if (wrong >= 0 && drivers_.Concerns(inputs.player)) replay_.AskFrom(wrong - 1);
   for (const std::int64_t t : late) {
     if (t > replay_.oldest()) continue;
     pressed_missed_[static_cast<std::size_t>(inputs.player)] |= track.PressedAt(t);
@@ -110,7 +116,7 @@ void Replica::ApplyInputs(std::int64_t next) {
       inputs_[p].Note(next,
                       ScriptedInput(world_.scene(), player, next - config_.input_delay_ticks));
     }
-    world_.SetInput(player, inputs_[p].At(next));
+    if (drivers_.Concerns(player)) world_.SetInput(player, inputs_[p].At(next));
     ApplyPresses(player, next);
   }
 }

@@ -7,10 +7,10 @@
 ///         proposals, own States collected -> history -> States that waited
 ///   TakeStates, TakeProposals, MakeView, MakeImpacts      after it
 ///
-/// Its parts: Roles (what it is to each mechanism), Presence (what its world has to have), BodyMemory (what it remembers of its bodies),
-/// Display, Corrector and Replay (which move bodies), Reach (what inputs that are still unknown can
-/// have changed), SendScheduler and ProposalQueue (what it tells). This class calls them in order
-/// and has no rule of its own.
+/// Its parts: Roles (what it is to each mechanism), Presence (which of the others' its world has to
+/// have), BodyMemory (what it remembers of its bodies), Display, Corrector and Replay (which move
+/// bodies), Reach (what inputs that are still unknown can have changed), SendScheduler and
+/// ProposalQueue (what it tells). This class calls them in order and has no rule of its own.
 
 #include <cstdint>
 #include <map>
@@ -27,6 +27,7 @@
 #include "common/sync/input_track.h"
 #include "common/sync/mode.h"
 #include "common/sync/proposal_queue.h"
+#include "common/sync/reach/driven.h"
 #include "common/sync/reach/presence.h"
 #include "common/sync/reach/reach.h"
 #include "common/sync/rest/rest_commit.h"
@@ -57,9 +58,10 @@ class Replica {
   AuthorityTable& authority() { return roles_.table(); }
   /// After Set on authority(): lets motion types follow the roles.
   void RolesChanged() {
-    corrector_.FollowRoles();
+    FollowRoles();
     rest_.PutBack();
   }
+  const Drivers& drivers() const { return drivers_; }
   /// Follows the server's word. Returns the mechanisms that this peer had authority over and has no
   /// longer.
   std::vector<int> ApplyGrants(const Grants& grants);
@@ -151,6 +153,7 @@ class Replica {
     std::int64_t tick = 0;
   };
 
+  void FollowRoles();
   void QueueAppointed();
   /// After a step, also one that is done again: what physics found that should change.
   void FindEdits();
@@ -173,6 +176,7 @@ class Replica {
   SyncConfig config_;
   World world_;
   Roles roles_;
+  Drivers drivers_;
   Presence presence_;
   BodyMemory memory_;
   std::vector<InputTrack> inputs_;  // by player

@@ -50,7 +50,7 @@ std::optional<BodyRemap> Replica::ApplyNextEdit() {
   if (change) {
     Remap(*change);
   } else {
-    corrector_.FollowRoles();  // who sits in a seat decides what is predicted
+    FollowRoles();  // who sits in a seat decides what is predicted
   }
   replay_.Edited(next.edit, change.has_value());
   if (!has_queued()) replay_.GoOn();
@@ -152,7 +152,7 @@ void Replica::Remap(const BodyRemap& change) {
   presence_.Remap();
   replay_.Remap(change);
   rest_.Remap(change);
-  corrector_.FollowRoles();
+  FollowRoles();
 }
 
 }  // namespace seam

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "common/physics/part_places.h"
+#include "common/physics/stage.h"
 #include "common/scene/part_rules.h"
 #include "common/sync/lease.h"
 #include "common/sync/reach/reach.h"
@@ -20,7 +21,7 @@ void Append(const std::vector<Grants>& more, std::vector<Grants>* all) {
 }  // namespace
 
 AuthorityManager::AuthorityManager(const Scene& scene, const SyncConfig& config, Replica& replica)
-    : scene_(scene), config_(config), replica_(replica) {
+    : scene_(scene), config_(config), replica_(replica), physics_edits_(ProposesEdits(scene)) {
   memory_.resize(static_cast<std::size_t>(table().count()));
   if (config_.mode != Mode::kBuffer) return;
   for (int m = 0; m < table().count(); ++m) {
@@ -36,6 +37,8 @@ AuthorityView AuthorityManager::Look(const Situation& situation) {
   view.tick_hz = config_.tick_hz;
   view.buffer_m = scene_.buffer_m;
   view.follow_bodies = scene_.follow_bodies;
+  view.server_follow = scene_.server_follow;
+  view.physics_edits = physics_edits_;
   view.together = situation.together;
   for (std::size_t p = 0; p < scene_.players.size(); ++p) {
     const Player& player = scene_.players[p];
@@ -58,7 +61,7 @@ AuthorityView AuthorityManager::Look(const Situation& situation) {
     seen.held_ticks = world.tick() - memory.changed_tick;
     view.mechanisms.push_back(seen);
   }
-  if (config_.mode == Mode::kBuffer) view.boxes = BoxesOf(world);
+  if (config_.mode == Mode::kBuffer) view.boxes = BoxesOf(world, replica_.drivers(), true);
   // Who may not push a part does not get its authority.
   for (const Part& part : world.scene().parts) {
     if (part.rules->push == kEveryPlayer) continue;
@@ -102,8 +105,7 @@ std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const Situatio
       planned.secondaries.Add(planned.authority);
       planned.authority = 0;
     }
-    PeerSet secondaries = planned.secondaries;
-    if (config_.mode == Mode::kBuffer) secondaries.Add(0);
+    const PeerSet& secondaries = planned.secondaries;
     if (record.authority != 0 && planned.authority != record.authority) {
       memory.hand_over = HandOver::kRevoking;
       memory.revoked_us = now_us;
@@ -235,6 +237,11 @@ std::vector<Grants> AuthorityManager::Export(std::int64_t now_us) const {
 
 bool AuthorityManager::Follows(int peer, int body) const {
   return table().at(replica_.world().mechanism(body)).secondaries.Has(peer);
+}
+
+bool AuthorityManager::IsFar(int peer, int body) const {
+  const auto m = static_cast<std::size_t>(replica_.world().mechanism(body));
+  return m < plan_.size() && plan_[m].far.Has(peer);
 }
 
 bool AuthorityManager::InOneHand(const std::vector<int>& mechanisms) const {

@@ -50,6 +50,8 @@ class AuthorityManager {
   bool Has(int peer, int mechanism) const { return table().at(mechanism).authority == peer; }
   /// Whether the peer follows a body in its buffer zone.
   bool Follows(int peer, int body) const;
+  /// Whether a body is far from all that the peer has, as of the last plan.
+  bool IsFar(int peer, int body) const;
   /// Whether mechanisms have one authority, and none of them is changing hands.
   bool InOneHand(const std::vector<int>& mechanisms) const;
 
@@ -102,6 +104,7 @@ class AuthorityManager {
   const Scene& scene_;
   const SyncConfig config_;
   Replica& replica_;
+  const bool physics_edits_;
   AuthorityPlan plan_;  // the last one
   std::vector<Given> given_;
   bool plan_due_ = true;

@@ -51,9 +51,10 @@ int PlannedHolder(const AuthorityView& view, const MechanismView& mechanism) {
   return peer < 0 ? 0 : peer;
 }
 
-/// By mechanism, the lowest of those that may come into contact with it, directly or through
-/// others, within the time of their peers and `more` seconds.
-std::vector<int> ContactGroups(const AuthorityView& view, const AuthorityPlan& plan, float more) {
+/// Pairs of mechanisms that may come into contact within the time of their peers and `more`
+/// seconds.
+std::vector<std::pair<int, int>> ContactPairs(const AuthorityView& view, const AuthorityPlan& plan,
+                                              float more) {
   std::vector<float> one_way(plan.size(), 0);
   float longest = 0;
   for (const PlayerView& player : view.players) {
@@ -66,8 +67,7 @@ std::vector<int> ContactGroups(const AuthorityView& view, const AuthorityPlan& p
     return more +
            ZoneSeconds(one_way[static_cast<std::size_t>(a)], one_way[static_cast<std::size_t>(b)]);
   };
-  return Components(static_cast<int>(plan.size()),
-                    MeetingGroups(view.boxes, more + ZoneSeconds(longest, longest), seconds_of));
+  return MeetingGroups(view.boxes, more + ZoneSeconds(longest, longest), seconds_of);
 }
 
 /// By mechanism: whether it is in a group with one of the peer's.
@@ -111,9 +111,11 @@ std::vector<float> Distances(const AuthorityView& view, const PlayerView& player
   return nearest;
 }
 
-/// Adds the peer to the nearest of what it does not follow yet, until it steps follow_bodies.
+/// Adds the peer to the nearest of what it does not follow yet, until it steps follow_bodies. Where
+/// that is not all there is anyway, what is far away is left out.
 void FollowNearest(const AuthorityView& view, int peer, const std::vector<float>& distance,
                    AuthorityPlan* plan) {
+  const bool crowded = view.boxes.size() > static_cast<std::size_t>(view.follow_bodies);
   std::vector<int> bodies(plan->size(), 0);
   for (const MovingBox& box : view.boxes) ++bodies[static_cast<std::size_t>(box.group)];
   int steps = 0;
@@ -129,15 +131,48 @@ void FollowNearest(const AuthorityView& view, int peer, const std::vector<float>
   std::sort(others.begin(), others.end());
   for (const auto& [far, m] : others) {
     steps += bodies[m];
-    if (steps > view.follow_bodies) return;
+    if (steps > view.follow_bodies || (crowded && far > kFollowFar)) return;
     (*plan)[m].secondaries.Add(peer);
+  }
+}
+
+/// By mechanism: whether it is in a pair with one of the server's.
+std::vector<bool> WithServers(const AuthorityPlan& plan,
+                              const std::vector<std::pair<int, int>>& pairs) {
+  std::vector<bool> shared(plan.size(), false);
+  for (const auto& [a, b] : pairs) {
+    const auto x = static_cast<std::size_t>(a), y = static_cast<std::size_t>(b);
+    if (plan[x].authority == 0 || plan[y].authority == 0) shared[x] = shared[y] = true;
+  }
+  return shared;
+}
+
+/// Adds the server to what may come into contact with something of its own, or to everything if the
+/// room is small: its copies are what spectators of its view see. Of a large one it is relieved.
+void FollowAtServer(const AuthorityView& view, const std::vector<std::pair<int, int>>& soon,
+                    const std::vector<std::pair<int, int>>& later, AuthorityPlan* plan) {
+  const std::vector<bool> meets_soon = WithServers(*plan, soon);
+  const std::vector<bool> meets_later = WithServers(*plan, later);
+  const bool small = view.boxes.size() <= static_cast<std::size_t>(view.server_follow);
+  for (std::size_t m = 0; m < plan->size(); ++m) {
+    PlannedAuthority& planned = (*plan)[m];
+    const bool follows = view.mechanisms[m].now.secondaries.Has(0);
+    const bool meets = follows ? meets_later[m] : meets_soon[m];
+    if (planned.authority != 0 && (small || view.physics_edits || meets))
+      planned.secondaries.Add(0);
   }
 }
 
 /// Adds to each mechanism the peers in whose buffer zone it is.
 void AddFollowers(const AuthorityView& view, AuthorityPlan* plan) {
-  const std::vector<int> soon = ContactGroups(view, *plan, 0);
-  const std::vector<int> later = ContactGroups(view, *plan, kZoneKeep);
+  const auto pairs_soon = ContactPairs(view, *plan, 0);
+  const auto pairs_later = ContactPairs(view, *plan, kZoneKeep);
+  FollowAtServer(view, pairs_soon, pairs_later, plan);
+  // By mechanism, the lowest of those that it may come into contact with, directly or through
+  // others.
+  const auto count = static_cast<int>(plan->size());
+  const std::vector<int> soon = Components(count, pairs_soon);
+  const std::vector<int> later = Components(count, pairs_later);
   for (const PlayerView& player : view.players) {
     if (player.peer <= 0) continue;
     const std::vector<bool> meets_soon = WithThoseOf(player.peer, *plan, soon);
@@ -152,6 +187,12 @@ void AddFollowers(const AuthorityView& view, AuthorityPlan* plan) {
       if (meets || distance[m] <= reach) planned.secondaries.Add(player.peer);
     }
     FollowNearest(view, player.peer, distance, plan);
+    for (std::size_t m = 0; m < plan->size(); ++m) {
+      PlannedAuthority& planned = (*plan)[m];
+      const bool concerned =
+          planned.authority == player.peer || planned.secondaries.Has(player.peer);
+      if (!concerned && distance[m] > kFarAway) planned.far.Add(player.peer);
+    }
   }
 }
 

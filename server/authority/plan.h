@@ -16,6 +16,7 @@ namespace seam {
 struct PlannedAuthority {
   int authority = 0;
   PeerSet secondaries;
+  PeerSet far;  ///< players' peers that do not follow it and are farther than kFarAway
 };
 
 /// One entry per mechanism, by its index.
@@ -42,8 +43,10 @@ struct MechanismView {
 struct AuthorityView {
   Mode mode = Mode::kBuffer;
   int tick_hz = 60;
-  float buffer_m = 0;     ///< width of the buffer zone
-  int follow_bodies = 0;  ///< see Scene::follow_bodies
+  float buffer_m = 0;          ///< width of the buffer zone
+  int follow_bodies = 0;       ///< see Scene::follow_bodies
+  int server_follow = 0;       ///< see Scene::server_follow
+  bool physics_edits = false;  ///< see ProposesEdits: the server follows everything
   std::vector<PlayerView> players;
   std::vector<MechanismView> mechanisms;
   std::vector<MovingBox> boxes;  ///< of all bodies; group: the mechanism's index
@@ -59,7 +62,10 @@ struct AuthorityView {
 ///   a mechanism gives way to the server. Secondary (mode buffer): peers whose region, or whose
 ///   mechanisms, are within the scene's buffer width of its boxes, or with whose mechanisms it may
 ///   come into contact, directly or through others, before a grant could tell them (ZoneSeconds);
-///   then those that are nearest, as long as a peer steps no more than follow_bodies.
+///   then those that are nearest, as long as a peer steps no more than follow_bodies (kFollowFar).
+///   The server: everything in a room of at most server_follow bodies, and where physics finds
+///   edits, which it orders as soon as it knows the inputs that they hang on; else what may come
+///   into contact with something of its own.
 ///   Modes oracle and central: all the server's.
 AuthorityPlan PlanAuthority(const AuthorityView& view);
 
@@ -70,6 +76,10 @@ constexpr float kHysteresis = 2.0f;  ///< m beyond the border before a hand-over
 constexpr float ZoneSeconds(float one_way_a_s, float one_way_b_s) {
   return 0.25f + 2 * (one_way_a_s + one_way_b_s);
 }
+/// m; in a room of more than follow_bodies nobody follows what is farther, unless it comes nearer.
+constexpr float kFollowFar = 24;
+/// m from all that a peer has: it hears of what is farther seldom (Broadcast).
+constexpr float kFarAway = 60;
 constexpr float kZoneKeep = 0.5f;  ///< s more before who follows ceases to
 constexpr double kDwell = 0.5;     ///< s an authority lasts at least
 

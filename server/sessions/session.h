@@ -35,8 +35,9 @@ struct Session {
   SessionId id;
   Link link;
   TrafficBudget budget;
-  std::vector<InputFeed> feeds;  ///< of the others' inputs, by player
-  RestAgreement rest;            ///< with what the client knows to rest
+  std::vector<InputFeed> feeds;    ///< of the others' inputs, by player
+  std::vector<std::int64_t> told;  ///< by part id: tick of the newest state relayed; empty: none
+  RestAgreement rest;              ///< with what the client knows to rest
   std::string name;
   int peer = 0;
   int player = -1;

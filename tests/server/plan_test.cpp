@@ -157,7 +157,8 @@ TEST(PlanAuthority, WhatIsMetThroughOthersIsFollowedToo) {
 }
 
 TEST(PlanAuthority, FollowBodiesTakesTheNearestAndStopsAtTheNumber) {
-  AuthorityView view = TwoSides({-50, 60, 20, 40, 30});
+  AuthorityView view = TwoSides({-50, 23, 12, 20, 16});
+  view.buffer_m = 0;
   view.follow_bodies = 3;  // of which ann has one
   EXPECT_FALSE(Follows(view, 1, kAnn));
   EXPECT_TRUE(Follows(view, 2, kAnn));
@@ -165,6 +166,31 @@ TEST(PlanAuthority, FollowBodiesTakesTheNearestAndStopsAtTheNumber) {
   EXPECT_TRUE(Follows(view, 4, kAnn));
   view.follow_bodies = 0;
   for (std::size_t m = 1; m < 5; ++m) EXPECT_FALSE(Follows(view, m, kAnn)) << m;
+}
+
+TEST(PlanAuthority, ARoomOfMoreThanFollowBodiesIsNotFollowedFarAway) {
+  AuthorityView view = TwoSides({-1, 10, 5 + kFollowFar});
+  view.buffer_m = 0;
+  view.follow_bodies = 2;
+  EXPECT_TRUE(Follows(view, 1, kAnn));
+  EXPECT_FALSE(Follows(view, 2, kAnn));
+  view.follow_bodies = 3;
+  EXPECT_TRUE(Follows(view, 2, kAnn)) << "so few can all be followed";
+}
+
+TEST(PlanAuthority, TheServerFollowsASmallRoomAndOfALargeOneWhatMayMeetItsOwn) {
+  AuthorityView view = TwoSides({-50, 50, 200.6f, 201.2f});
+  view.mechanisms[3].owner = 1;  // bob's, beside one in nobody's region
+  constexpr int kServer = 0;
+  ASSERT_EQ(PlanAuthority(view)[2].authority, kServer);
+  view.server_follow = 4;
+  for (const std::size_t m : {0u, 1u, 3u}) EXPECT_TRUE(Follows(view, m, kServer)) << m;
+  view.server_follow = 3;
+  EXPECT_FALSE(Follows(view, 0, kServer));
+  EXPECT_FALSE(Follows(view, 1, kServer));
+  EXPECT_TRUE(Follows(view, 3, kServer)) << "it lies beside one of the server's";
+  view.physics_edits = true;
+  EXPECT_TRUE(Follows(view, 0, kServer)) << "it orders what physics finds";
 }
 
 TEST(PlanAuthority, FollowBodiesCountsTheBodiesOfAMechanismAndNeverTakesAPart) {

@@ -151,7 +151,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
   const std::vector<std::pair<const char*, const char*>> table = {
       {"common/physics/exact", "common/physics"},
       {"common/sync/reconcile", "none"},
-      {"common/sync/correct", "common/sync(/reconcile|/rest)?"},
+      {"common/sync/correct", "common/sync(/reconcile|/reach|/rest)?"},
       {"common/sync/rest", "common/sync(/reconcile|/reach)?"},
       {"common/sync/reach", "common/sync"},
       {"common/sync/edits", "none"},

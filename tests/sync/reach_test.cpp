@@ -24,6 +24,12 @@ class Lot {
                        "lot.toml")),
         roles(config, 1, own_player, lot.world) {
     for (int t = 0; t < 60; ++t) lot.Step();
+    for (int m = 0; m < roles.table().count(); ++m) {  // it follows everything
+      AuthorityRecord record;
+      record.secondaries.Add(1);
+      roles.table().Set(m, record);
+    }
+    drivers.Look();
   }
 
   /// The newest tick of which inputs of the player are known is that many ticks ago.
@@ -40,7 +46,8 @@ class Lot {
   ScriptedWorld lot;
   Roles roles;
   std::vector<InputTrack> inputs = std::vector<InputTrack>(2);
-  Reach reach{config, lot.world, roles, inputs};
+  Drivers drivers{lot.world, roles};
+  Reach reach{config, lot.world, roles, drivers, inputs};
 };
 
 TEST(Reach, TheOwnPlayerNeverLimits) {

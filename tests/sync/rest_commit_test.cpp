@@ -75,7 +75,8 @@ repeat = {count = 2, step = [5, 0]}
   BodyMemory memory{config, *world};
   Display display{config, *world, memory.snapshots()};
   std::vector<InputTrack> inputs;
-  Reach reach{config, *world, roles, inputs};
+  Drivers drivers{*world, roles};
+  Reach reach{config, *world, roles, drivers, inputs};
   RestCommit rest{config, *world, roles, memory, display, inputs, reach};
 };
 

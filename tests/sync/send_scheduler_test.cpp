@@ -38,8 +38,9 @@ class Row {
   BodyMemory memory{config, *world};
   std::vector<InputTrack> inputs;
   Display display{config, *world, memory.snapshots()};
-  Replay replay{config, *world, roles, memory, display, inputs};
-  Reach reach{config, *world, roles, inputs};
+  Drivers drivers{*world, roles};
+  Replay replay{config, *world, roles, drivers, memory, display, inputs};
+  Reach reach{config, *world, roles, drivers, inputs};
   SendScheduler scheduler{config, *world, roles, memory, reach, replay};
 };
 

@@ -8,8 +8,8 @@
 namespace seam {
 
 /// What is displayed has its real mass, so that it neither is a wall to what is simulated nor pumps
-/// energy into it; what is far from all of that is not there at all. Strict shows what comes of infinite mass, and interpolated paths of the past
-/// are nothing to lean on.
+/// energy into it; what is far from all of that is not there at all. Strict shows what comes of
+/// infinite mass, and interpolated paths of the past are nothing to lean on.
 Motion Corrector::WantedMotion(int body) const {
   if (roles_.Simulates(body)) return Motion::kDynamic;
   if (config_.mode != Mode::kBuffer) return Motion::kKinematic;

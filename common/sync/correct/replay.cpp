@@ -30,11 +30,12 @@ constexpr float kAgreesAngle = 0.005f, kAgreesSpin = 0.1f;  // rad, rad/s
 
 }  // namespace
 
-Replay::Replay(const SyncConfig& config, World& world, const Roles& roles, BodyMemory& memory,
-               Display& display, const std::vector<InputTrack>& inputs)
+Replay::Replay(const SyncConfig& config, World& world, const Roles& roles, const Drivers& drivers,
+               BodyMemory& memory, Display& display, const std::vector<InputTrack>& inputs)
     : config_(config),
       world_(world),
       roles_(roles),
+      drivers_(drivers),
       memory_(memory),
       display_(display),
       inputs_(inputs) {
@@ -162,6 +163,7 @@ void Replay::PutIn() {
 }
 
 void Replay::PutIn(int body) {
+  if (world_.motion(body) == Motion::kAbsent) return;  // until Arrive
   BodyState* past = memory_.history().At(world_.tick(), body);
   if (FollowsHistory(body, world_.tick())) {
     world_.Write(body, *past, false);
@@ -199,10 +201,12 @@ void Replay::ActAgain(std::int64_t next) {
 void Replay::StepAgain() {
   const std::int64_t next = world_.tick() + 1;
   for (std::size_t p = 0; p < inputs_.size(); ++p) {
-    world_.SetInput(static_cast<int>(p), inputs_[p].At(next));
+    const int player = static_cast<int>(p);
+    if (drivers_.Concerns(player)) world_.SetInput(player, inputs_[p].At(next));
   }
   for (int body = 0; body < world_.body_count(); ++body) {
     if (world_.motion(body) == Motion::kDynamic) continue;
+    if (world_.motion(body) == Motion::kAbsent) continue;  // it hits nothing
     // Paths that are displayed jump from message to message: what hits others is the velocity that
     // was displayed, not that of a jump.
     const BodyState& after = *memory_.history().At(next, body);

@@ -27,6 +27,7 @@
 #include "common/sync/display.h"
 #include "common/sync/input_track.h"
 #include "common/sync/mode.h"
+#include "common/sync/reach/driven.h"
 #include "common/sync/roles.h"
 
 namespace seam {
@@ -35,8 +36,8 @@ namespace seam {
 class Replay {
  public:
   /// All must outlive this. `inputs`: by player.
-  Replay(const SyncConfig& config, World& world, const Roles& roles, BodyMemory& memory,
-         Display& display, const std::vector<InputTrack>& inputs);
+  Replay(const SyncConfig& config, World& world, const Roles& roles, const Drivers& drivers,
+         BodyMemory& memory, Display& display, const std::vector<InputTrack>& inputs);
 
   /// Asks for a replay from `tick`, of which a state of `body` came; none is needed if it agrees
   /// with our past. False: there is no way back to that tick.
@@ -144,6 +145,7 @@ class Replay {
   const SyncConfig& config_;
   World& world_;
   const Roles& roles_;
+  const Drivers& drivers_;
   BodyMemory& memory_;
   Display& display_;
   const std::vector<InputTrack>& inputs_;

@@ -14,20 +14,16 @@ constexpr double kSilent = 3.0;
 
 }  // namespace
 
-std::vector<MovingBox> BoxesOf(const World& world) {
-  std::vector<bool> driven(world.composition().mechanisms.size(), false);
-  for (std::size_t p = 0; p < world.scene().players.size(); ++p) {
-    const std::vector<bool> by_player = DrivenMechanisms(world, static_cast<int>(p), false);
-    for (std::size_t m = 0; m < driven.size(); ++m) driven[m] = driven[m] || by_player[m];
-  }
+std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers, bool absent_too) {
   std::vector<MovingBox> boxes;
   boxes.reserve(static_cast<std::size_t>(world.body_count()));
   for (int body = 0; body < world.body_count(); ++body) {
+    if (!absent_too && world.motion(body) == Motion::kAbsent) continue;
     MovingBox box;
     std::tie(box.min, box.max) = world.Bounds(body);
     box.velocity = world.Read(body).velocity;
     box.group = world.mechanism(body);
-    if (driven[static_cast<std::size_t>(box.group)]) box.acceleration = kDrivenAcceleration;
+    if (drivers.Driven(box.group)) box.acceleration = kDrivenAcceleration;
     boxes.push_back(box);
   }
   return boxes;
@@ -43,20 +39,19 @@ void Reach::Look() {
   for (std::size_t p = 0; p < inputs_.size(); ++p) {
     const std::int64_t newest = inputs_[p].newest();
     if (static_cast<int>(p) == roles_.own_player() || newest < 0) continue;
+    if (!drivers_.Concerns(static_cast<int>(p))) continue;  // seldom heard of, and of no matter
     if (newest < now - static_cast<std::int64_t>(kSilent * config_.tick_hz)) continue;
     missing[p] = std::max<std::int64_t>(0, now - newest);
     longest = std::max(longest, missing[p]);
   }
   const float seconds = static_cast<float>(longest + 2 * config_.send_every()) * world_.dt();
   const std::vector<int> island =
-      Components(static_cast<int>(count), MeetingGroups(BoxesOf(world_), seconds));
+      Components(static_cast<int>(count), MeetingGroups(BoxesOf(world_, drivers_, false), seconds));
   std::vector<std::int64_t> of_island(count, now);
   for (std::size_t p = 0; p < inputs_.size(); ++p) {
     if (missing[p] < 0) continue;
-    const std::vector<bool> driven = DrivenMechanisms(world_, static_cast<int>(p), true);
-    for (std::size_t m = 0; m < count; ++m) {
-      if (!driven[m]) continue;
-      const auto i = static_cast<std::size_t>(island[m]);
+    for (const int m : drivers_.MechanismsOf(static_cast<int>(p))) {
+      const auto i = static_cast<std::size_t>(island[static_cast<std::size_t>(m)]);
       of_island[i] = std::min(of_island[i], now - missing[p]);
     }
   }

@@ -9,6 +9,7 @@
 #include "common/physics/world.h"
 #include "common/sync/input_track.h"
 #include "common/sync/mode.h"
+#include "common/sync/reach/driven.h"
 #include "common/sync/reach/zones.h"
 #include "common/sync/roles.h"
 
@@ -17,9 +18,9 @@ namespace seam {
 class Reach {
  public:
   /// All must outlive this. `inputs`: by player.
-  Reach(const SyncConfig& config, const World& world, const Roles& roles,
+  Reach(const SyncConfig& config, const World& world, const Roles& roles, const Drivers& drivers,
         const std::vector<InputTrack>& inputs)
-      : config_(config), world_(world), roles_(roles), inputs_(inputs) {}
+      : config_(config), world_(world), roles_(roles), drivers_(drivers), inputs_(inputs) {}
 
   /// After a step: looks at what may have met within the time of which inputs are missing.
   void Look();
@@ -34,11 +35,13 @@ class Reach {
   const SyncConfig& config_;
   const World& world_;
   const Roles& roles_;
+  const Drivers& drivers_;
   const std::vector<InputTrack>& inputs_;
   std::vector<std::int64_t> complete_;  // by mechanism
 };
 
-/// The boxes of a world's bodies, grouped by mechanism. What any player drives can accelerate.
-std::vector<MovingBox> BoxesOf(const World& world);
+/// The boxes of a world's bodies, grouped by mechanism, without those that are absent unless
+/// `absent_too`. What any player drives can accelerate.
+std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers, bool absent_too);
 
 }  // namespace seam

@@ -104,10 +104,10 @@ bool RestCommit::Receive(const Rest& rest) {
   return placed;
 }
 
-/// Whether a copy that is awake lay there at that tick, so that what woke it here came later: the
-/// word that it rests is merely late.
+/// Whether a copy that is simulated and awake lay there at that tick, so that what woke it here
+/// came later: the word that it rests is merely late.
 bool RestCommit::WokenSince(int body, std::int64_t tick, const BodyState& pose) const {
-  if (!Trusts() || !world_.awake(body)) return false;
+  if (!Trusts() || !roles_.Simulates(body) || !world_.awake(body)) return false;
   const BodyState* then = memory_.history().At(tick, body);
   if (then == nullptr) return false;
   const BodyState off = Minus(pose, *then);

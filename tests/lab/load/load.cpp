@@ -8,21 +8,27 @@ namespace {
 
 /// Sums over the ticks of who has what.
 struct Held {
-  std::int64_t awake = 0, by_clients = 0, touches = 0, split = 0;
+  std::int64_t awake = 0, stepped = 0, by_clients = 0, touches = 0, split = 0;
 
   void Add(const Replica& server) {
     const World& world = server.world();
-    const auto authority = [&](int body) {
-      return server.authority().at(world.mechanism(body)).authority;
-    };
     for (int body = 0; body < world.body_count(); ++body) {
+      stepped += world.motion(body) == Motion::kAbsent ? 0 : 1;
       if (!world.awake(body)) continue;
       ++awake;
-      by_clients += authority(body) > 0 ? 1 : 0;
+      by_clients += server.authority().at(world.mechanism(body)).authority > 0 ? 1 : 0;
     }
+  }
+  /// Touches of what the peer has authority over: each pair of two authorities is seen by both.
+  void AddTouches(const Replica& replica, int self) {
+    const World& world = replica.world();
+    const auto own = [&](int body) {
+      return replica.authority().at(world.mechanism(body)).authority == self;
+    };
     for (const Touch& touch : world.touches()) {
-      ++touches;
-      split += authority(touch.body_a) != authority(touch.body_b) ? 1 : 0;
+      const bool a = own(touch.body_a), b = own(touch.body_b);
+      touches += 2 * (a && b ? 1 : 0) + (a != b ? 1 : 0);
+      split += a != b ? 1 : 0;
     }
   }
 };
@@ -49,6 +55,10 @@ Load MeasureLoad(ClusterConfig config) {
     tick_us.push_back(cluster.server_cpu_us() - before_us);
     before_us = cluster.server_cpu_us();
     held.Add(cluster.server().replica());
+    for (int i = 0; i < cluster.client_count(); ++i) {
+      const Client& client = *cluster.client(i);
+      if (client.running()) held.AddTouches(*client.replica(), client.peer());
+    }
   }
   Load load;
   load.players = static_cast<int>(cluster.scene().players.size());
@@ -57,6 +67,7 @@ Load MeasureLoad(ClusterConfig config) {
   const double clients = load.players, span_s = ticks / hz;
   const Stats& now = cluster.server().stats();
   load.awake = Ratio(static_cast<double>(held.awake), ticks);
+  load.stepped = Ratio(static_cast<double>(held.stepped), ticks);
   load.server_us = Ratio(cluster.server_cpu_us() - server_begin_us, ticks);
   load.client_us = Ratio(cluster.client_cpu_us() - client_begin_us, ticks * clients);
   load.to_client_kbps =

@@ -13,13 +13,14 @@ struct Load {
   int players = 0;
   int bodies = 0;               ///< that move, in the scene
   double awake = 0;             ///< of them, on average, at the server's copy
+  double stepped = 0;           ///< bodies in the server's steps, on average, displayed ones too
   double server_us = 0;         ///< CPU time a tick, network included; sockets are not
   double server_p99_us = 0;     ///< of the ticks
   double client_us = 0;         ///< CPU time a tick and client
   double to_client_kbps = 0;    ///< kB/s of UDP payload from the server, a client
   double from_client_kbps = 0;  ///< kB/s of UDP payload to the server, a client
   double held_share = 0;        ///< of the awake bodies' seconds: a client had authority
-  double split_share = 0;       ///< of the pairs that touch: two peers have authority
+  double split_share = 0;       ///< of the clients' pairs that touch: two have authority
 };
 
 /// Runs the session to its end. Figures of CPU time are this machine's and noisy; the others

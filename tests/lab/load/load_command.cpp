@@ -18,7 +18,7 @@ namespace {
 const char* const kKeyHeader = "version,scene,scene_hash,method,network,seed";
 constexpr int kKeyColumns = 6;
 const char* const kColumns =
-    ",valid,players,bodies,awake,server_us_per_tick,server_p99_us,client_us_per_tick,"
+    ",valid,players,bodies,awake,stepped,server_us_per_tick,server_p99_us,client_us_per_tick,"
     "to_client_kb_per_s,from_client_kb_per_s,held_share,split_share";
 
 /// "buffer", "buffer/rollback", "central/own": the mode, and its rule or what it predicts.
@@ -30,10 +30,10 @@ void SetMethod(const std::string& method, SessionSettings* settings) {
 }
 
 std::string Figures(const Load& load) {
-  return fmt::format(",,{},{},{:.1f},{:.1f},{:.1f},{:.1f},{:.2f},{:.2f},{:.4f},{:.4f}",
-                     load.players, load.bodies, load.awake, load.server_us, load.server_p99_us,
-                     load.client_us, load.to_client_kbps, load.from_client_kbps, load.held_share,
-                     load.split_share);
+  return fmt::format(",,{},{},{:.1f},{:.1f},{:.1f},{:.1f},{:.1f},{:.2f},{:.2f},{:.4f},{:.4f}",
+                     load.players, load.bodies, load.awake, load.stepped, load.server_us,
+                     load.server_p99_us, load.client_us, load.to_client_kbps, load.from_client_kbps,
+                     load.held_share, load.split_share);
 }
 
 }  // namespace
@@ -69,8 +69,8 @@ int RunLoad(const LoadCommand& command) {
   maker.make = [&](std::size_t row) {
     return keys[row] + Figures(MeasureLoad(Configure(runs[row])));
   };
-  const RowsDone done = MakeRows(keys, MissingRows(table, keys.size()), maker, command.jobs,
-                                 command.quiet, &table);
+  const RowsDone done =
+      MakeRows(keys, MissingRows(table, keys.size()), maker, command.jobs, command.quiet, &table);
   return PrintRows(command.table, table, keys.size(), done);
 }
 

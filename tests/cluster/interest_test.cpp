@@ -1,0 +1,126 @@
+/// What a client hears of: everything of what it follows, the rest seldom, what is far hardly; and
+/// of inputs those that move something that it simulates.
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "common/net/datagram.h"
+#include "tests/lab/cluster.h"
+
+namespace seam {
+namespace {
+
+/// Counts what comes to a client: states by body, inputs by player.
+class CountingNet : public Net {
+ public:
+  struct Counts {
+    std::map<int, int> states, inputs;
+  };
+  CountingNet(std::unique_ptr<Net> net, Counts* counts) : net_(std::move(net)), counts_(counts) {}
+  void Advance(std::int64_t now_us) override { net_->Advance(now_us); }
+  void Flush() override { net_->Flush(); }
+  std::int64_t discarded() const override { return net_->discarded(); }
+  void Send(const Address& to, ByteView datagram) override { net_->Send(to, datagram); }
+  bool Receive(Address* from, Bytes* datagram) override {
+    if (!net_->Receive(from, datagram)) return false;
+    std::vector<DatagramMessage> messages;
+    if (!ReadMessages(*datagram, &messages)) return true;
+    for (const DatagramMessage& message : messages) {
+      const AnyMessage any = Decode(message.bytes);
+      if (const auto* states = std::get_if<States>(&any)) {
+        for (const std::int16_t id : states->id) ++counts_->states[id];
+      } else if (const auto* inputs = std::get_if<Inputs>(&any)) {
+        ++counts_->inputs[inputs->player];
+      }
+    }
+    return true;
+  }
+
+ private:
+  std::unique_ptr<Net> net_;
+  Counts* counts_;
+};
+
+/// Ann at the left; bob has discs that spin beside her, 30 m away and 300 m away, and drives the
+/// last. `follow`: of how many bodies a room is one in which all is followed.
+std::string Plain(int follow) {
+  return "gravity = [0, 0]\nduration = 8\nbuffer = 3\nserver_follow = 0\nfollow = " +
+         std::to_string(follow) + R"(
+[[player]]
+name = "ann"
+vehicle = "anns"
+region = [[-100, -100], [-0.001, 100]]
+[[player]]
+name = "bob"
+vehicle = "far"
+region = [[0, -100], [900, 100]]
+[[part]]
+name = "anns"
+circle = 0.4
+position = [-1, 0]
+spin = 5
+[[part]]
+name = "beside"
+circle = 0.4
+position = [1, 0]
+spin = 5
+[[part]]
+name = "near"
+circle = 0.4
+position = [30, 0]
+spin = 5
+[[part]]
+name = "far"
+circle = 0.4
+position = [300, 0]
+spin = 5
+[[part]]
+name = "hub"
+circle = 0.1
+position = [300, 0]
+anchored = true
+[[joint]]
+name = "axle"
+kind = "hinge"
+a = "hub"
+b = "far"
+motor = {player = "bob", speed = 9, torque = 1}
+)";
+}
+
+CountingNet::Counts CountAtAnn(int follow) {
+  CountingNet::Counts counts;
+  ClusterConfig config;
+  config.scene = "plain";
+  config.scene_text = Plain(follow);
+  config.drive = Drive::kBot;
+  config.impair = "delay=20ms";
+  config.client_net = [&counts](std::size_t client, std::unique_ptr<Net> net) {
+    return client == 0 ? std::make_unique<CountingNet>(std::move(net), &counts) : std::move(net);
+  };
+  Cluster cluster(config);
+  cluster.RunToTick(60);
+  counts = {};
+  cluster.RunToTick(60 + 5 * 60);
+  return counts;
+}
+
+constexpr int kBeside = 1, kNear = 2, kFar = 3, kBob = 1;
+
+TEST(Interest, WhatIsFollowedIsHeardOfAtOnceTheRestSeldomAndTheFarHardly) {
+  const CountingNet::Counts counts = CountAtAnn(1);
+  // In five seconds at 30 sends a second, and a few that were under way.
+  EXPECT_NEAR(counts.states.at(kBeside), 150, 8);
+  EXPECT_NEAR(counts.states.at(kNear), 150 / Broadcast::kNearSends, 4);
+  EXPECT_NEAR(counts.states.at(kFar), 150 / Broadcast::kFarSends, 2);
+}
+
+TEST(Interest, InputsGoToWhoSimulatesWhatTheyMove) {
+  EXPECT_EQ(CountAtAnn(1).inputs.count(kBob), 0u) << "his disc is 300 m away";
+  EXPECT_GT(CountAtAnn(9).inputs[kBob], 50) << "a small room is followed whole";
+}
+
+}  // namespace
+}  // namespace seam

@@ -1,0 +1,219 @@
+/// What an absent body promises: it goes where its path takes it, touches nothing, and comes back
+/// as it was, with its joints.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "common/base/geometry.h"
+#include "common/physics/world.h"
+#include "tests/support/scripted_world.h"
+#include "tests/support/small_world.h"
+
+namespace seam {
+namespace {
+
+const char* const kNoGravity = "gravity = [0, 0]\n";
+constexpr int kBall = 0, kShown = 1;
+
+std::unique_ptr<World> TwoDiscs() {
+  return SmallWorld(
+      "[[part]]\nname = \"ball\"\ncircle = 0.5\nposition = [0, 0]\n"
+      "[[part]]\nname = \"shown\"\ncircle = 0.5\nposition = [3, 0]\n",
+      "", kNoGravity);
+}
+
+TEST(AbsentBody, IsPassedThroughAndGoesItsWay) {
+  const std::unique_ptr<World> world = TwoDiscs();
+  world->SetMotion(kShown, Motion::kAbsent);
+  const BodyState start{{3, 0}, 0.25f, {-1, 0.125f}, 2};
+  world->Write(kShown, start);
+  BodyState ball = world->Read(kBall);
+  ball.velocity = {6, 0};
+  world->Write(kBall, ball);
+  for (int tick = 1; tick <= 60; ++tick) {
+    world->Step();
+    const auto t = static_cast<float>(tick) * world->dt();
+    const BodyState now = world->Read(kShown);
+    EXPECT_NEAR((now.position - start.position - t * start.velocity).norm(), 0, 1e-5) << tick;
+    EXPECT_NEAR(now.angle, start.angle + t * start.spin, 1e-5) << tick;
+    EXPECT_EQ(now.velocity, start.velocity) << tick;
+    EXPECT_TRUE(world->touches().empty()) << tick;
+  }
+  EXPECT_NEAR(world->Read(kBall).position.x(), 6, 1e-4);
+}
+
+TEST(AbsentBody, HitsAgainAsSoonAsItIsBack) {
+  const std::unique_ptr<World> world = TwoDiscs();
+  world->SetMotion(kShown, Motion::kAbsent);
+  Steps(world.get(), 5);
+  world->SetMotion(kShown, Motion::kDynamic);
+  BodyState ball = world->Read(kBall);
+  ball.velocity = {6, 0};
+  world->Write(kBall, ball);
+  Steps(world.get(), 60);
+  EXPECT_GT(world->Read(kShown).velocity.x(), 2);
+  EXPECT_LT(world->Read(kBall).velocity.x(), 4);
+}
+
+TEST(AbsentBody, SleepsWhenItsPathStandsStill) {
+  const std::unique_ptr<World> world = TwoDiscs();
+  world->SetMotion(kShown, Motion::kAbsent);
+  world->Step();
+  EXPECT_FALSE(world->awake(kShown));
+  BodyState shown = world->Read(kShown);
+  shown.velocity = {1, 0};
+  world->Write(kShown, shown);
+  EXPECT_TRUE(world->awake(kShown));
+}
+
+TEST(AbsentBody, KeepsTheMotionOfItsOriginWhereItsMassLiesElsewhere) {
+  // Three quarters of the mass left of the root's middle: it turns about the common centre.
+  const std::unique_ptr<World> world = SmallWorld(
+      "[[part]]\nname = \"heavy\"\nbox = [1, 1]\ndensity = 3\nposition = [10, 5]\n"
+      "[[part]]\nname = \"light\"\nbox = [1, 1]\nposition = [12, 5]\n"
+      "[[joint]]\nname = \"bar\"\nkind = \"weld\"\na = \"light\"\nb = \"heavy\"\n",
+      "", kNoGravity);
+  BodyState state = world->Read(0);
+  state.velocity = {1, 0};
+  state.spin = 2;
+  world->Write(0, state);
+  world->SetMotion(0, Motion::kAbsent);
+  world->SetMotion(0, Motion::kDynamic);
+  const BodyState back = world->Read(0);
+  EXPECT_NEAR((back.velocity - state.velocity).norm(), 0, 1e-5);
+  EXPECT_EQ(back.spin, state.spin);
+}
+
+/// A rope of links from a post, and a box that lies apart.
+const char* const kRope = R"(
+[[part]]
+name = "post"
+circle = 0.2
+anchored = true
+[[part]]
+name = "link"
+box = [1, 0.2]
+position = [0.5, 0]
+repeat = {count = 4, step = [1, 0]}
+[[part]]
+name = "apart"
+box = [1, 1]
+position = [30, 0]
+[[joint]]
+name = "first"
+kind = "hinge"
+a = "post"
+b = "link.0"
+anchor = [0, 0]
+[[joint]]
+name = "pin"
+kind = "hinge"
+a = "link.0"
+b = "link.1"
+anchor = [1, 0]
+repeat = {count = 3, step = [1, 0]}
+)";
+
+constexpr int kLinks = 4;
+
+void SetRope(World* world, Motion motion) {
+  for (int body = 0; body < kLinks; ++body) world->SetMotion(body, motion);
+}
+
+/// How far the pins' two points are apart, at worst, m.
+double Open(const World& world) {
+  double worst = 0;
+  for (const Pin& pin : world.Pins()) {
+    const auto at = [&](const PinEnd& end) -> Vec2 {
+      const BodyState s = world.ReadAssembly(end.assembly);
+      return s.position + Turned(end.point, s.angle);
+    };
+    worst = std::max(worst, static_cast<double>((at(pin.a) - at(pin.b)).norm()));
+  }
+  return worst;
+}
+
+TEST(AbsentBody, ItsJointsAreKnownWhileItIsAwayAndHoldWhenItIsBack) {
+  for (const char* joints : {"joints = \"exact\"\n", "joints = \"iterative\"\n"}) {
+    const std::unique_ptr<World> world = SmallWorld(kRope, joints);
+    Steps(world.get(), 30);
+    const std::size_t pins = world->Pins().size();
+    ASSERT_EQ(pins, 4u);
+    SetRope(world.get(), Motion::kAbsent);
+    Steps(world.get(), 1);
+    EXPECT_EQ(world->Pins().size(), pins) << joints;
+    world->Barrier();
+    EXPECT_EQ(world->Pins().size(), pins) << joints;
+    SetRope(world.get(), Motion::kDynamic);
+    Steps(world.get(), 120);
+    EXPECT_EQ(world->Pins().size(), pins);
+    EXPECT_LT(Open(*world), 0.03) << joints;
+    EXPECT_LT(world->Read(kLinks).position.y(), -20) << "what lies apart fell on";
+  }
+}
+
+TEST(AbsentBody, AWorldGoesBackToATickAtWhichOthersWereThere) {
+  const std::unique_ptr<World> world = SmallWorld(kRope);
+  Steps(world.get(), 30);
+  const WorldSnapshot then = world->Barrier();
+  Steps(world.get(), 20);
+  const std::uint64_t hash = world->Hash();
+  SetRope(world.get(), Motion::kAbsent);
+  Steps(world.get(), 10);
+  ASSERT_TRUE(world->Restore(then).ok()) << "absent now";
+  EXPECT_EQ(world->Read(2).position, then.bodies[2].state.position);
+  SetRope(world.get(), Motion::kDynamic);
+  ASSERT_TRUE(world->Restore(then).ok());
+  Steps(world.get(), 20);
+  EXPECT_EQ(world->Hash(), hash) << "bit for bit as without the absence";
+}
+
+TEST(AbsentBody, AnEditReachesWhatIsAway) {
+  const std::unique_ptr<World> world = SmallWorld(kRope);
+  SetRope(world.get(), Motion::kAbsent);
+  Steps(world.get(), 2);
+  constexpr int kSecondPin = 2;
+  EXPECT_TRUE(world->Apply({Edit(BreakEdit{kSecondPin})}).has_value()) << "joints are others now";
+  EXPECT_EQ(world->Pins().size(), 3u);
+  Steps(world.get(), 2);
+  EXPECT_EQ(world->motion(0), Motion::kAbsent) << "still";
+  EXPECT_EQ(world->Pins().size(), 3u);
+  SetRope(world.get(), Motion::kDynamic);
+  Steps(world.get(), 120);
+  EXPECT_GT(world->Read(1).position.y(), -3) << "it hangs";
+  EXPECT_LT(world->Read(2).position.y(), -10) << "it has come off";
+}
+
+class AbsentInScene : public testing::TestWithParam<const char*> {};
+
+TEST_P(AbsentInScene, EverySecondMechanismGoesAndComesBackAndTheRestGoesOn) {
+  ScriptedWorld run(GetParam());
+  World& world = run.world;
+  run.StepTo(30);
+  const auto let = [&](Motion motion) {
+    for (int body = 0; body < world.body_count(); ++body) {
+      if (world.mechanism(body) % 2 == 0) world.SetMotion(body, motion);
+    }
+  };
+  let(Motion::kAbsent);
+  run.StepTo(50);
+  const WorldSnapshot then = world.Barrier();
+  run.StepTo(60);
+  let(Motion::kDynamic);
+  run.StepTo(120);
+  for (int body = 0; body < world.body_count(); ++body) {
+    const BodyState s = world.Read(body);
+    ASSERT_TRUE(s.position.allFinite() && s.velocity.allFinite()) << body;
+    EXPECT_LT(s.velocity.norm(), world.scene().speed_limit) << body;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, AbsentInScene,
+                         testing::Values("obstacle", "ragdolls", "regatta", "gluehouse", "conveyor",
+                                         "playground", "tracks", "freight", "skyline",
+                                         "battlefield", "harbour", "titanic", "crane", "dockside"),
+                         [](const auto& scene) { return std::string(scene.param); });
+
+}  // namespace
+}  // namespace seam

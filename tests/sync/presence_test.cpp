@@ -1,0 +1,184 @@
+/// Whom a peer's world has to have, and whose inputs concern it.
+
+#include "common/sync/reach/presence.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "common/base/random.h"
+#include "common/physics/part_places.h"
+#include "common/sync/input_track.h"
+#include "common/sync/replica.h"
+#include "tests/support/replica_test_access.h"
+
+namespace seam {
+namespace {
+
+/// The own box at 0, others along a line; no gravity.
+const char* const kLine = R"(
+gravity = [0, 0]
+[[player]]
+name = "ann"
+vehicle = "own"
+[[player]]
+name = "bob"
+vehicle = "far"
+[[part]]
+name = "own"
+box = [1, 1]
+[[part]]
+name = "beside"
+box = [1, 1]
+position = [1.1, 0]
+[[part]]
+name = "far"
+box = [1, 1]
+position = [60, 0]
+)";
+constexpr int kOwn = 0, kBeside = 1, kFar = 2;
+
+/// A client that has the first box and follows nothing.
+class Line {
+ public:
+  Line() : replica(ParseScene(kLine, "line.toml"), MakeSyncConfig("buffer", "rollback"), 1, 0) {
+    for (int m = 0; m < replica.authority().count(); ++m) {
+      AuthorityRecord record;
+      record.authority = m == kOwn ? 1 : 2;
+      record.epoch = 1;
+      replica.authority().Set(m, record);
+    }
+    replica.RolesChanged();
+  }
+  void Steps(int ticks) {
+    for (int i = 0; i < ticks; ++i) replica.Step();
+  }
+  Motion MotionOf(int body) const { return replica.world().motion(body); }
+  /// Its authority says where it is and how fast.
+  void Hear(int body, const Vec2& position, const Vec2& velocity) {
+    States states;
+    states.peer = 2;
+    states.tick = replica.tick();
+    states.composition = static_cast<std::int64_t>(replica.world().composition().hash);
+    PackedBody told;
+    told.id = replica.world().id(body);
+    told.epoch = 1;
+    told.state.position = position;
+    told.state.velocity = velocity;
+    for (const States& packed : Pack(states, {told})) replica.Receive(packed);
+  }
+
+  Replica replica;
+};
+
+TEST(Presence, WhatIsBesideIsThereAndWhatIsFarIsNot) {
+  Line line;
+  line.Steps(10);
+  EXPECT_EQ(line.MotionOf(kOwn), Motion::kDynamic);
+  EXPECT_EQ(line.MotionOf(kBeside), Motion::kLed);
+  EXPECT_EQ(line.MotionOf(kFar), Motion::kAbsent);
+}
+
+TEST(Presence, WhatComesIsThereBeforeItArrives) {
+  Line line;
+  line.Steps(10);
+  const float speed = 100;
+  int there = -1;
+  for (int tick = 0; tick < 60 && there < 0; ++tick) {
+    line.Hear(kFar, {60 - speed * static_cast<float>(tick) / 60, 0}, {-speed, 0});
+    line.Steps(1);
+    if (line.MotionOf(kFar) == Motion::kLed) there = tick;
+  }
+  ASSERT_GE(there, 0);
+  const float gap = line.replica.world().Read(kFar).position.x() - 1;
+  EXPECT_GT(gap, 0) << "it was there in time";
+  EXPECT_LT(gap, 45) << "and not all the time";
+}
+
+TEST(Presence, WhatIsAbsentIsShownOnItsPath) {
+  Line line;
+  line.Steps(10);
+  line.Hear(kFar, {60, 0}, {0, 3});
+  line.Steps(40);
+  ASSERT_EQ(line.MotionOf(kFar), Motion::kAbsent);
+  const View view = line.replica.MakeView();
+  EXPECT_NEAR(view.x[kFar], 60, 1e-3);
+  EXPECT_NEAR(view.y[kFar], 3 * 40 / 60.0, 0.06) << "less what still glides";
+}
+
+TEST(Presence, WhoIsToSimulateItHasItAtOnce) {
+  Line line;
+  line.Steps(10);
+  ASSERT_EQ(line.MotionOf(kFar), Motion::kAbsent);
+  AuthorityRecord record = line.replica.authority().at(kFar);
+  record.authority = 1;
+  record.epoch = 2;
+  line.replica.authority().Set(kFar, record);
+  line.replica.RolesChanged();
+  EXPECT_EQ(line.MotionOf(kFar), Motion::kDynamic);
+  line.Steps(1);
+  EXPECT_EQ(line.MotionOf(kFar), Motion::kDynamic);
+}
+
+TEST(Drivers, ConcernThosePeersThatSimulateWhatTheyDrive) {
+  Line line;
+  EXPECT_TRUE(line.replica.drivers().Concerns(0)) << "its own player";
+  EXPECT_FALSE(line.replica.drivers().Concerns(1));
+  AuthorityRecord record = line.replica.authority().at(kFar);
+  record.secondaries.Add(1);
+  line.replica.authority().Set(kFar, record);
+  line.replica.RolesChanged();
+  EXPECT_TRUE(line.replica.drivers().Concerns(1)) << "it follows his box";
+}
+
+/// What InputTrack promises, written down with a map.
+struct PlainTrack {
+  std::map<std::int64_t, Input> known;
+  void Note(std::int64_t tick, const Input& input) {
+    if (!known.empty() && tick < known.rbegin()->first - InputTrack::kKeepTicks) return;
+    known.emplace(tick, input);
+    while (known.begin()->first < known.rbegin()->first - InputTrack::kKeepTicks) {
+      known.erase(known.begin());
+    }
+  }
+  Input At(std::int64_t tick) const {
+    const auto after = known.upper_bound(tick);
+    return after == known.begin() ? Input{} : std::prev(after)->second;
+  }
+  bool Surprises(std::int64_t from) const {
+    for (auto it = known.lower_bound(from); it != known.end(); ++it) {
+      if (!(it->second == At(it->first - 1))) return true;
+    }
+    return false;
+  }
+};
+
+TEST(InputTrack, KnowsWhatItWasToldAndForgetsWhatIsOld) {
+  Random random(7);
+  for (int round = 0; round < 20; ++round) {
+    InputTrack track;
+    PlainTrack plain;
+    std::int64_t near = 0;
+    for (int i = 0; i < 2000; ++i) {
+      near += random.Uniform(0, 1) < 0.01 ? 400 : 1;
+      const auto tick = near + static_cast<std::int64_t>(random.Uniform(-30, 30));
+      if (tick < 0) continue;
+      Input input;
+      input.drive = static_cast<std::int8_t>(random.Uniform(0, 3));
+      input.buttons = static_cast<std::int16_t>(random.Uniform(0, 2));
+      track.Note(tick, input);
+      plain.Note(tick, input);
+      const auto asked = near + static_cast<std::int64_t>(random.Uniform(-700, 50));
+      ASSERT_EQ(track.newest(), plain.known.rbegin()->first);
+      ASSERT_EQ(track.knows(asked), plain.known.count(asked) != 0) << asked;
+      ASSERT_TRUE(track.At(asked) == plain.At(asked)) << asked;
+      ASSERT_EQ(track.Surprises(asked), plain.Surprises(asked)) << asked;
+      const int before = plain.At(asked - 1).buttons;
+      const int pressed = plain.known.count(asked) != 0 ? plain.At(asked).buttons & ~before : 0;
+      ASSERT_EQ(track.PressedAt(asked), pressed) << asked;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace seam
