@@ -1,7 +1,8 @@
 # Seam2D. `make help` lists what there is to do.
 #
 # Layout: every .cpp under common/ goes into libseam-common.a; server/, client/ and render/ each hold
-# one program's files with main in main.cpp (render/ holds the mains of seam-measure and seam-export too); tests/ is one
+# one program's files with main in main.cpp (render/ holds the mains of seam-measure and seam-export too, client/swarm/
+# and client/top/ those of seam-swarm and seam-top); tests/ is one
 # GoogleTest program, tests/lab/ is seam-lab, which alone has server and clients in one process.
 # libseam.a, for other programs, is common/, server/ and client/ without their mains.
 # lcmtypes/*.lcm become headers under build/gen/, hardened by lcmtypes/harden.awk.
@@ -59,23 +60,25 @@ DEBS_lint := clang-tidy git
 # All .cpp below a folder; and their objects.
 below = $(sort $(shell find $(1) -name '*.cpp'))
 obj = $(patsubst %.cpp,$(OUT)/%.o,$(1))
-MAINS := server/main.cpp client/main.cpp render/main.cpp render/measure_main.cpp render/export_main.cpp tests/lab/main.cpp
+MAINS := server/main.cpp client/main.cpp client/swarm/main.cpp client/top/main.cpp render/main.cpp render/measure_main.cpp render/export_main.cpp tests/lab/main.cpp
 SOURCES := $(call below,common server client render tests)
 COMMON := $(call obj,$(filter common/%,$(SOURCES)))
 SERVER := $(call obj,$(filter-out $(MAINS),$(filter server/%,$(SOURCES))))
-CLIENT := $(call obj,$(filter-out $(MAINS),$(filter client/%,$(SOURCES))))
+# The programs beside a player's: what a load test and a view of the server's load have in common with it.
+WATCHERS := $(call obj,$(filter-out $(MAINS),$(filter client/swarm/% client/top/%,$(SOURCES))))
+CLIENT := $(filter-out $(WATCHERS),$(call obj,$(filter-out $(MAINS),$(filter client/%,$(SOURCES)))))
 RENDER := $(call obj,$(filter-out $(MAINS),$(filter render/%,$(SOURCES))))
 EXPORT := $(call obj,$(filter render/export/% render/canvas/shapes.cpp render/canvas/figure.cpp,$(SOURCES)))
 LAB := $(call obj,$(filter-out $(MAINS) %_test.cpp,$(filter tests/lab/%,$(SOURCES))))
 TESTS := $(call obj,$(filter %_test.cpp tests/support/%,$(filter tests/%,$(SOURCES))))
 CODEC := $(filter $(OUT)/common/codec/%,$(COMMON))
 OBJECTS := $(call obj,$(SOURCES))
-PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-render seam-measure seam-export seam-lab)
+PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-swarm seam-top seam-render seam-measure seam-export seam-lab)
 LCM_TYPES := $(sort $(wildcard lcmtypes/*.lcm))
 VERSION := $(shell sed -n 's/.*kVersion = "\(.*\)".*/\1/p' common/base/version.h)
 
 # Processes and long simulations: what `make check-fast` leaves out.
-SLOW := JoinLeave*:ServerProgram*:EndToEnd*:Bombarded*:BusInNamespace*:NoRoute*:BadInput*:Installed*:RenderL*:Mea*Program* \
+SLOW := JoinLeave*:SwarmProgram*:ServerProgram*:EndToEnd*:Bombarded*:BusInNamespace*:NoRoute*:BadInput*:Installed*:RenderL*:Mea*Program* \
 	:RecordFailure*:ReviewPage*:SpecialFiles*:Hard*Invariant*:HardExactRuns*:LabPhysics*:LabSweep*:*Cluster*:*WorldScene*:RuleSessions*:SceneFuzz*
 # The tests that SEAM_SOAK multiplies (tests/support/soak.h).
 SOAKED := *Cluster*:Authority*:*TopologyUnder*:SceneFuzz*:Codec*:FeatherOutline*
@@ -83,10 +86,10 @@ SOAK ?= 300
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
-.PHONY: all help deps demo bench report spy test tests hashes check-fast run-tests coverage soak format lint \
+.PHONY: all docs help deps demo bench report spy test tests hashes check-fast run-tests coverage soak format lint \
 	compile_commands.json install install-built clean force
 
-all: build/.deps-build $(PROGRAMS)   ## build the programs
+all: build/.deps-build $(PROGRAMS) $(OUT)/share/.stamp   ## build the programs
 
 help:                                ## this list
 	@echo "make targets (BUILD=release|debug|asan|tsan, default release; PREFIX=/usr/local):"
@@ -148,8 +151,9 @@ $(OUT)/%.o: %.cpp $(OUT)/.flags | build/.deps-build
 	@mkdir -p $(@D)
 	$(CXX) $(ALL_CXXFLAGS) -c $< -o $@
 
-# What a review page is made of is copied into the program (render/page/assets.cpp).
+# What the pages are made of is copied into the programs (render/page/assets.cpp).
 $(OUT)/render/page/assets.o: $(wildcard render/page/*.html render/page/*.css render/page/*.js)
+$(OUT)/tests/lab/report/html/report_assets.o: $(wildcard tests/lab/report/html/*.css tests/lab/report/html/*.js)
 
 # Appended to nothing: two members may have the same name.
 $(OUT)/libseam-common.a: $(COMMON)
@@ -163,6 +167,10 @@ $(OUT)/seam-server: $(OUT)/server/main.o $(SERVER) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
 $(OUT)/seam-client: $(OUT)/client/main.o $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
+$(OUT)/seam-swarm: $(OUT)/client/swarm/main.o $(WATCHERS) $(CLIENT) $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) -o $@
+$(OUT)/seam-top: $(OUT)/client/top/main.o $(filter $(OUT)/client/top/%,$(WATCHERS)) $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-render: $(OUT)/render/main.o $(RENDER) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(RENDER_LIBS) -o $@
 $(OUT)/seam-measure: $(OUT)/render/measure_main.o $(OUT)/libseam-common.a
@@ -171,14 +179,24 @@ $(OUT)/seam-export: $(OUT)/render/export_main.o $(EXPORT) $(OUT)/libseam-common.
 	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
-$(OUT)/seam-tests: $(TESTS) $(LAB) $(SERVER) $(CLIENT) $(RENDER) $(OUT)/libseam-common.a
+$(OUT)/seam-tests: $(TESTS) $(LAB) $(SERVER) $(CLIENT) $(WATCHERS) $(RENDER) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(RENDER_LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
+
+# Man pages and completion, by the programs themselves: from what parses their flags, and from the scenes here.
+$(OUT)/share/.stamp: $(PROGRAMS) $(wildcard scenes/*.toml)
+	@rm -rf $(@D) && mkdir -p $(addprefix $(@D)/,man bash zsh fish)
+	@for p in $(notdir $(PROGRAMS)); do \
+	  $(OUT)/$$p --generate man > $(@D)/man/$$p.1 && $(OUT)/$$p --generate bash > $(@D)/bash/$$p && \
+	  $(OUT)/$$p --generate zsh > $(@D)/zsh/_$$p && $(OUT)/$$p --generate fish > $(@D)/fish/$$p.fish || exit 1; done
+	@touch $@
+
+docs: $(OUT)/share/.stamp            ## man pages, completion for bash, zsh, fish: build/release/share/
 
 # The test of golden hashes alone (tests/hashes.sh).
 $(OUT)/seam-hashes: $(OUT)/tests/physics/determinism_test.o $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -lgtest -lgtest_main -o $@
 
-tests: build/.deps-build build/.deps-report build/.deps-test $(OUT)/seam-tests $(PROGRAMS) $(OUT)/libseam.a   ## build the tests
+tests: build/.deps-build build/.deps-report build/.deps-test all $(OUT)/seam-tests $(OUT)/libseam.a   ## build the tests
 
 run-tests = SEAM_BIN=$(OUT) $(OUT)/seam-tests $(if $(FILTER),--gtest_filter='$(FILTER)')
 
@@ -250,7 +268,7 @@ spy: $(SPY)/seam-types.jar           ## the messages for lcm-spy and lcm-logplay
 report: build/.deps-report all       ## speed against error: all the measurements, into out/report/ (QUICK=1)
 	SEAM_BIN=$(OUT) FORCE=$(FORCE) FILL="$(FILL)" tests/report.sh out/report $(if $(QUICK),quick)
 
-install: all $(OUT)/libseam.a        ## programs, scenes, library and headers under PREFIX (DESTDIR)
+install: all $(OUT)/libseam.a        ## programs, man pages, scenes, library, headers under PREFIX (DESTDIR)
 	@$(MAKE) --no-print-directory install-built
 
 DEST := $(DESTDIR)$(PREFIX)
@@ -276,6 +294,12 @@ install-built:                       ## the same, of what is built: builds nothi
 	install -m 644 scenes/exact/*.toml '$(DEST)/share/seam2d/scenes/exact'
 	install -m 644 $(OUT)/libseam.a '$(DEST)/lib'
 	strip --strip-debug '$(DEST)/lib/libseam.a'
+	install -d '$(DEST)/share/man/man1' '$(DEST)/share/bash-completion/completions'
+	install -d '$(DEST)/share/zsh/site-functions' '$(DEST)/share/fish/vendor_completions.d'
+	install -m 644 $(OUT)/share/man/*.1 '$(DEST)/share/man/man1'
+	install -m 644 $(OUT)/share/bash/* '$(DEST)/share/bash-completion/completions'
+	install -m 644 $(OUT)/share/zsh/* '$(DEST)/share/zsh/site-functions'
+	install -m 644 $(OUT)/share/fish/* '$(DEST)/share/fish/vendor_completions.d'
 	find common server client -name '*.h' -exec install -D -m 644 '{}' '$(DEST)/include/seam2d/{}' ';'
 	@echo "$$TEXT" > '$(DEST)/lib/pkgconfig/seam2d.pc'
 

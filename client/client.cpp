@@ -48,6 +48,8 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   }
   if (peer_ < 0) {
     Knock(now_us);
+  } else if (asked_names_us_ >= 0) {
+    AskNames(now_us);
   } else {
     SendReadyAndPing(now_us);
   }
@@ -66,7 +68,7 @@ void Client::SendReadyAndPing(std::int64_t now_us) {
     ready.utime = now_us;
     link_->SendReliable(Encode(ready));
   }
-  const bool settled = clock_.settled() && tick0_us_ >= 0;
+  const bool settled = clock_.settled() && timeline_.known();
   std::int64_t every_us = settled ? kPingSlowUs : kPingFastUs;
   if (Quiet()) {
     const bool answered = answered_us_ >= last_ping_us_;
@@ -93,7 +95,7 @@ std::int64_t Client::LeadTarget() const {
 }
 
 std::int64_t Client::RoomTime(std::int64_t now_us) {
-  std::int64_t time = clock_.ServerTime(now_us) - tick0_us_;
+  std::int64_t time = timeline_.At(clock_.ServerTime(now_us));
   if (mode_ == Mode::kCentral) {
     if (lead_us_ < 0) lead_us_ = static_cast<double>(LeadTarget());
     time += static_cast<std::int64_t>(lead_us_);
@@ -102,7 +104,7 @@ std::int64_t Client::RoomTime(std::int64_t now_us) {
 }
 
 void Client::StartIfDue(std::int64_t now_us) {
-  if (started_ || replica_ == nullptr || !clock_.settled() || tick0_us_ < 0) return;
+  if (started_ || replica_ == nullptr || !clock_.settled() || !timeline_.known()) return;
   const std::int64_t time = RoomTime(now_us);
   if (time < 0) return;
   // Within the first half second we were here from the start and only step a little late.
@@ -206,6 +208,10 @@ void Client::StepOnce(std::int64_t now_us) {
     if (!released_) link_->SendUnreliable(Encode(states));
   }
   TellRest(now_us);
+  if (config_.publish) PublishShown(now_us);
+}
+
+void Client::PublishShown(std::int64_t now_us) {
   View view = replica_->MakeView();
   view.utime = now_us;
   publisher_->Publish(view);
@@ -222,7 +228,7 @@ std::int64_t Client::next_tick_us(std::int64_t now_us) {
   if (!started_) return now_us + 10000;
   const std::int64_t time = RoomTime(now_us);
   const std::int64_t next = (replica_->tick() + 1) * 1000000 / room_.tick_hz;
-  return now_us + std::max<std::int64_t>(0, next - time) + 1;
+  return now_us + timeline_.RealUs(std::max<std::int64_t>(0, next - time)) + 1;
 }
 
 void Client::Flush(std::int64_t now_us) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client/clock_filter.h"
+#include "client/room_timeline.h"
 #include "common/base/entropy.h"
 #include "common/net/link.h"
 #include "common/net/net.h"
@@ -28,11 +29,13 @@ enum class Drive { kNone, kScript, kBot, kLive };
 struct ClientConfig {
   Address server;
   std::string name = "guest";
+  std::string room;  ///< of the server; "": its first
   Drive drive = Drive::kNone;
   std::string script_of;  ///< kScript: the scene's player whose script it plays
   std::int64_t key = 0;   ///< of an earlier Welcome, to have its place back; 0: none
   bool smooth = true;
-  bool watch = false;  ///< to look on is what is wanted; else a name without a place is fatal
+  bool publish = true;  ///< false: no views, strands and impacts, and none of what they cost
+  bool watch = false;   ///< to look on is what is wanted; else a name without a place is fatal
 };
 
 class Client {
@@ -69,7 +72,11 @@ class Client {
   const MetaTable& metadata() const { return metadata_; }
   const Room& room() const { return room_; }
   const Stats& stats() const { return stats_; }
+  /// Of the room's clock, per million of real time: below kFullSpeedPpm the server is overloaded.
+  std::int32_t speed_ppm() const { return timeline_.speed_ppm(); }
   std::int64_t rejoins() const { return rejoins_; }
+  /// Bodies whose copy here was put elsewhere by what was heard, by more than the wire's rounding.
+  std::int64_t corrections() const { return corrections_; }
 
   /// Age of the newest answered ping after which we try to join anew.
   static constexpr std::int64_t kLostUs = 5000000;
@@ -86,23 +93,28 @@ class Client {
   bool OnHandshake(std::int64_t now_us, const Bytes& datagram);
   void OnRefusal(std::int64_t now_us, const std::string& reason);
   void OnWelcome(std::int64_t now_us, const Welcome& welcome);
+  /// Ours is no player's name: asks the server which are free.
+  void AskNames(std::int64_t now_us);
+  /// Gives up; `free`: the server's answer, "" without one.
+  void GiveUpName(const std::string& free);
 
   // client_receive.cpp
   void ReceiveAll(std::int64_t now_us);
   void OnMessage(std::int64_t now_us, ByteView bytes);
-  void OnChunk(const Chunk& chunk);
+  void OnChunk(std::int64_t now_us, const Chunk& chunk);
   void OnEdit(const EditOrder& order);
   void OnGrants(std::int64_t now_us, const Grants& grants);
   void OnSnapshot(const Snapshot& part);
   /// Of the scene as it is, or as it has become.
   void MakeReplica(const Topology* become = nullptr);
-  void Build();
+  void Build(std::int64_t now_us);
 
   // client.cpp
   void SendReadyAndPing(std::int64_t now_us);
   void StartIfDue(std::int64_t now_us);
   void StepDue(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);
+  void PublishShown(std::int64_t now_us);
   void NoteOwnInput();
   void TellRest(std::int64_t now_us);
   void OnPong(std::int64_t now_us, const Pong& pong);
@@ -142,18 +154,20 @@ class Client {
   bool released_ = false;
   bool closed_ = false;
   std::string fatal_;
-  std::int64_t tick0_us_ = -1;    // on the server's clock
+  RoomTimeline timeline_;
   RestAgreement rest_;            // with what the server knows to rest
   std::int64_t idle_since_ = 0;   // tick from which on our input has been neutral
   double lead_us_ = -1;           // mode central: how far ahead of the server we simulate
   std::int64_t answered_us_ = 0;  // when we sent the newest ping that was answered
   std::int64_t joining_since_us_ = 0;
-  std::int64_t refused_us_ = -1;  // of the first refusal since we began to join
+  std::int64_t asked_names_us_ = -1;  // -1: did not ask
+  std::int64_t refused_us_ = -1;      // of the first refusal since we began to join
   std::int64_t last_ping_us_ = -1000000000;
   std::int64_t last_hello_us_ = -1000000000;
   std::int64_t last_stats_us_ = -1000000000;
   std::int64_t worst_late_us_ = 0;
   std::int64_t rejoins_ = 0;
+  std::int64_t corrections_ = 0;
   Input live_;
   InputFeed feed_;
   std::int64_t discarded_ = 0;  // by the net, as far as counted in stats_

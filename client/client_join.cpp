@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "client/client.h"
+#include "common/base/nearest.h"
 #include "common/net/datagram.h"
 
 namespace seam {
@@ -13,6 +14,9 @@ namespace {
 constexpr std::int64_t kHelloUs = 100000;
 /// A refused join is repeated for this long, us.
 constexpr std::int64_t kInsistUs = 3000000;
+
+/// A server that does not say which names are free within this long never does, us.
+constexpr std::int64_t kNamesUs = 1000000;
 
 /// One line with both versions when `reason` says that the server speaks another protocol; else "".
 std::string OtherProtocol(const std::string& reason) {
@@ -45,10 +49,10 @@ void Client::Join(std::int64_t now_us) {
   if (peer_ >= 0 || joining_since_us_ == 0) joining_since_us_ = now_us;
   peer_ = player_ = -1;
   said_ready_ = started_ = released_ = false;
-  tick0_us_ = -1;
+  timeline_ = RoomTimeline();
   lead_us_ = -1;
   answered_us_ = now_us;
-  refused_us_ = -1;
+  refused_us_ = asked_names_us_ = -1;
 }
 
 void Client::Knock(std::int64_t now_us) {
@@ -67,6 +71,7 @@ void Client::Knock(std::int64_t now_us) {
   join.token = *token_;
   join.key = key_;
   join.name = config_.name;
+  join.room = config_.room;
   SendLoose(Encode(join));
 }
 
@@ -104,6 +109,29 @@ void Client::OnRefusal(std::int64_t now_us, const std::string& reason) {
   } else if (now_us - refused_us_ > kInsistUs) {
     fatal_ = "the server refuses: " + reason;
   }
+}
+
+void Client::AskNames(std::int64_t now_us) {
+  if (asked_names_us_ < 0) {
+    asked_names_us_ = now_us;
+    Hello hello;
+    hello.utime = now_us;
+    hello.name = config_.name;
+    link_->SendReliable(Encode(hello));
+  } else if (now_us - asked_names_us_ > kNamesUs) {
+    GiveUpName("");
+  }
+}
+
+void Client::GiveUpName(const std::string& free) {
+  std::vector<std::string> names;
+  for (const Player& player : scene_->players) names.push_back(player.name);
+  const std::string nearest = NearestName(config_.name, names);
+  fatal_ = "there is no player \"" + config_.name + "\" here";
+  if (!nearest.empty()) fatal_ += " (did you mean " + nearest + "?)";
+  std::string all = names.empty() ? "the scene has none" : "the players are ";
+  for (std::size_t i = 0; i < names.size(); ++i) all += (i > 0 ? ", " : "") + names[i];
+  fatal_ += "; " + (free.empty() ? all : free) + "; --watch only looks on";
 }
 
 void Client::OnWelcome(std::int64_t now_us, const Welcome& welcome) {

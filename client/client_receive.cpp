@@ -5,24 +5,10 @@
 
 #include "client/client.h"
 #include "common/base/check.h"
+#include "common/base/nearest.h"
 #include "common/sync/method.h"
 
 namespace seam {
-namespace {
-
-/// One line with the names that would do.
-std::string NoSuchPlayer(const std::string& name, const Scene& scene) {
-  std::string line = "there is no player \"" + name + "\" here: ";
-  const char* before = "the players are ";
-  for (const Player& player : scene.players) {
-    line += before + player.name;
-    before = ", ";
-  }
-  if (scene.players.empty()) line += "the scene has none";
-  return line + " (--watch only looks on)";
-}
-
-}  // namespace
 namespace {
 
 constexpr std::size_t kHeldMax = 256;
@@ -50,7 +36,7 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
   if (const auto* welcome = std::get_if<Welcome>(&any)) {
     OnWelcome(now_us, *welcome);
   } else if (const auto* chunk = std::get_if<Chunk>(&any)) {
-    OnChunk(*chunk);
+    OnChunk(now_us, *chunk);
   } else if (const auto* pong = std::get_if<Pong>(&any)) {
     OnPong(now_us, *pong);
   } else if (const auto* grants = std::get_if<Grants>(&any)) {
@@ -81,6 +67,7 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
     if (known) replica_->NoteInputs(*inputs);
   } else if (const auto* bye = std::get_if<Bye>(&any)) {
     if (peer_ < 0) return OnRefusal(now_us, bye->reason);
+    if (asked_names_us_ >= 0) return GiveUpName(bye->reason);
     closed_ = true;
   } else {
     ++stats_.dropped_malformed;
@@ -91,7 +78,7 @@ void Client::OnPong(std::int64_t now_us, const Pong& pong) {
   if (pong.client_us > now_us || pong.client_us < now_us - 10000000) return;
   answered_us_ = std::max(answered_us_, pong.client_us);
   clock_.AddSample(pong.client_us, pong.utime, now_us);
-  if (pong.tick0_us >= 0) tick0_us_ = pong.tick0_us;
+  timeline_.Add(pong);
   if (replica_ == nullptr || !started_) return;
   const RestCommit& rest = replica_->rest();
   if (!rest_.Lost(now_us, rest.Hash(), static_cast<std::uint64_t>(pong.rest))) return;
@@ -157,6 +144,7 @@ void Client::MakeReplica(const Topology* become) {
   const Topology topology = become != nullptr ? *become : Topology(*scene_);
   const std::unique_ptr<Replica> before = std::move(replica_);
   replica_ = std::make_unique<Replica>(topology, sync, peer_, player_);
+  replica_->OnCorrected([this](int) { ++corrections_; });
   if (before == nullptr) return;
   // What is known of inputs stays known: our own of the next ticks may have been sent, and nobody
   // repeats what we acknowledged.
@@ -165,7 +153,7 @@ void Client::MakeReplica(const Topology* become) {
   }
 }
 
-void Client::OnChunk(const Chunk& chunk) {
+void Client::OnChunk(std::int64_t now_us, const Chunk& chunk) {
   if (replica_ != nullptr || room_size_ == 0) return;
   if (static_cast<std::size_t>(chunk.offset_bytes) != room_bytes_.size() ||
       room_bytes_.size() + chunk.data.size() > room_size_) {
@@ -173,10 +161,10 @@ void Client::OnChunk(const Chunk& chunk) {
     return;
   }
   room_bytes_.insert(room_bytes_.end(), chunk.data.begin(), chunk.data.end());
-  if (room_bytes_.size() == room_size_) Build();
+  if (room_bytes_.size() == room_size_) Build(now_us);
 }
 
-void Client::Build() {
+void Client::Build(std::int64_t now_us) {
   const AnyMessage any = Decode(room_bytes_);
   const Room* room = std::get_if<Room>(&any);
   if (room == nullptr) {
@@ -190,14 +178,14 @@ void Client::Build() {
       throw OperatorError("its tick rate is not its scene's");
     }
     if (config_.drive == Drive::kScript) {
-      bool found = false;
-      for (const Player& p : scene_->players) found = found || p.name == config_.script_of;
-      if (!found) throw OperatorError("it has no player \"" + config_.script_of + "\" to script");
+      std::vector<std::string> names;
+      for (const Player& p : scene_->players) names.push_back(p.name);
+      if (std::count(names.begin(), names.end(), config_.script_of) == 0) {
+        throw OperatorError("it has no player \"" + config_.script_of + "\" to script" +
+                            DidYouMean(config_.script_of, names));
+      }
     }
-    if (player_ < 0 && !config_.watch) {
-      fatal_ = NoSuchPlayer(config_.name, *scene_);
-      return;
-    }
+    if (player_ < 0 && !config_.watch) return AskNames(now_us);
     MakeReplica();
   } catch (const OperatorError& e) {
     fatal_ = "cannot use the server's scene: " + std::string(e.what());

@@ -40,7 +40,7 @@ struct Flags {
   std::string key;
   std::string record;
   bool force = false;
-  std::string room = "main";
+  std::string room;  // "": the server's first
   std::string lcm_url;
   bool quiet = false;
 };
@@ -66,7 +66,7 @@ void Define(CLI::App& app, Flags& f) {
                  "place, with its car, is ours again at once");
   app.add_option("--record", f.record, "write an LCM log of the bus to this file");
   app.add_flag("--force", f.force, "overwrite the --record file");
-  app.add_option("--room", f.room, "name of the room (for --record)");
+  app.add_option("--room", f.room, "the room to join (default: the server's first)");
   app.add_option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
   app.add_flag("--quiet", f.quiet, "no progress line");
 }
@@ -82,7 +82,7 @@ ClientConfig Configure(const Flags& f) {
   }
   if (f.watch && f.drive != "none") throw OperatorError("--watch drives nothing: not with --drive");
   if (!f.name.empty()) CheckName("--name", f.name);
-  CheckName("--room", f.room);
+  if (!f.room.empty()) CheckName("--room", f.room);
   if (std::isnan(f.duration_s)) throw OperatorError("--duration must be a number of seconds");
   if (std::isnan(f.join_s)) throw OperatorError("--join-timeout must be a number of seconds");
   ClientConfig config;
@@ -92,6 +92,7 @@ ClientConfig Configure(const Flags& f) {
   }
   config.name = f.name.empty() ? "guest" : f.name;
   config.watch = f.watch;
+  config.room = f.room;
   config.smooth = f.smooth == "on";
   if (f.drive == "bot") {
     config.drive = Drive::kBot;
@@ -104,8 +105,8 @@ ClientConfig Configure(const Flags& f) {
   return config;
 }
 
-/// What the keyboard does, after the progress.
-const char* const kKeys = "; arrows or WASD drive and lift, space and 0-9 press, q quits";
+/// What the keyboard does.
+const char* const kKeys = "keys: arrows or WASD drive and lift, space and 0-9 press, q quits";
 
 /// "10", "0.5".
 std::string Seconds(double seconds) {
@@ -114,16 +115,18 @@ std::string Seconds(double seconds) {
   return text;
 }
 
-/// "ann: 12 s, peer 1, tick 750, round trip 100 ms, loss 1.0 %, 0 rejoin(s)".
+/// "ann: 12 s, peer 1, round trip 100 ms, loss 1.0 %, 12 corrections, 0 rejoin(s)".
 std::string Progress(const Flags& f, const Client& client, double elapsed_s) {
   char line[160];
-  std::snprintf(line, sizeof line,
-                "%s: %.0f s, peer %d, tick %lld, round trip %.0f ms, loss %.1f %%, %lld rejoin(s)",
-                f.name.empty() ? "guest" : f.name.c_str(), elapsed_s, client.peer(),
-                static_cast<long long>(client.replica()->tick()),
-                std::max(0, client.stats().rtt_us) / 1000.0, client.stats().loss_ppm / 10000.0,
-                static_cast<long long>(client.rejoins()));
-  return line;
+  std::snprintf(
+      line, sizeof line,
+      "%s: %.0f s, peer %d, round trip %.0f ms, loss %.1f %%, %lld corrections, %lld rejoin(s)",
+      f.name.empty() ? "guest" : f.name.c_str(), elapsed_s, client.peer(),
+      std::max(0, client.stats().rtt_us) / 1000.0, client.stats().loss_ppm / 10000.0,
+      static_cast<long long>(client.corrections()), static_cast<long long>(client.rejoins()));
+  if (client.speed_ppm() == kFullSpeedPpm) return line;
+  return line + (", the room runs at " + std::to_string(client.speed_ppm() / 10000) +
+                 " % of its speed: its server is overloaded");
 }
 
 int Play(const Flags& f) {
@@ -140,9 +143,10 @@ int Play(const Flags& f) {
   std::unique_ptr<TerminalView> view;
   const bool shown = f.show || (keyboard != nullptr && isatty(1) != 0 && !f.quiet);
   if (shown) view = std::make_unique<TerminalView>();
+  if (keyboard != nullptr && !shown) std::fprintf(stderr, "seam-client: %s\n", kKeys);
   UdpNet udp(Address{0, 0});
   ImpairedNet net(udp, profile, profile, static_cast<std::uint64_t>(f.seed) + 7);
-  Sink sink(f.lcm_url, f.record, f.force, f.room);
+  Sink sink(f.lcm_url, f.record, f.force, f.room.empty() ? "main" : f.room);
   OsEntropy entropy;
   Client client(config, net, sink, entropy);
   StopOnSignals();
@@ -167,10 +171,10 @@ int Play(const Flags& f) {
                           " s (--join-timeout)");
     }
     if (view != nullptr && client.running() && view->Due(now)) {
-      view->Show(now, client, Progress(f, client, elapsed_s) + (keyboard ? kKeys : ""));
+      view->Show(now, client, Progress(f, client, elapsed_s), keyboard ? kKeys : "Ctrl-C stops");
     }
     if (view == nullptr && client.running() && line.Due(now)) {
-      line.Show(now, Progress(f, client, elapsed_s) + (keyboard ? kKeys : ""));
+      line.Show(now, Progress(f, client, elapsed_s) + "; Ctrl-C stops");
     }
     const std::int64_t wake = std::min({client.next_tick_us(now), net.next_due_us(), now + 20000});
     udp.Wait(std::max<std::int64_t>(0, wake - SteadyClockUs()), keyboard ? keyboard->fd() : -1);
@@ -185,11 +189,13 @@ int Play(const Flags& f) {
   const Stats& s = client.stats();
   const Replica* const replica = client.replica();
   std::fprintf(stderr,
-               "seam-client: %s; %lld datagrams in, %lld out, %lld bad, %lld stale bodies; "
-               "%lld stepped again, %lld replays deferred; %lld bus failures\n",
+               "seam-client: %s; %lld datagrams in, %lld out, %lld bad, %lld stale bodies\n"
+               "seam-client: %lld corrections, %lld stepped again, %lld replays deferred; %lld bus "
+               "failures\n",
                client.closed() ? "the server closed the room" : "left",
                static_cast<long long>(s.datagrams_in), static_cast<long long>(s.datagrams_out),
                static_cast<long long>(s.dropped_malformed), static_cast<long long>(s.dropped_stale),
+               static_cast<long long>(client.corrections()),
                static_cast<long long>(replica == nullptr ? 0 : replica->ticks_stepped_again()),
                static_cast<long long>(replica == nullptr ? 0 : replica->replays_deferred()),
                static_cast<long long>(sink.failures()));
@@ -202,7 +208,9 @@ int main(int argc, char** argv) {
   Flags flags;
   const ProgramText text{"seam-client",
                          "seam-client: simulate and show one player's part of a room",
-                         VersionLine("seam-client"), ""};
+                         VersionLine("seam-client"),
+                         "",
+                         {{"--impair", ProfileNames()}, {"--drive", {"none", "bot", "keyboard"}}}};
   return RunCommandLine(
       text, argc, argv, [&](CLI::App& app) { Define(app, flags); }, [&] { return Play(flags); });
 }

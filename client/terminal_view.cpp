@@ -206,6 +206,15 @@ void DrawInTerminal(const Client& client, const FeatherStore* bricks, BrailleCan
   }
 }
 
+namespace {
+
+/// A line that is wrapped would push the picture up.
+std::string CutTo(const std::string& line, int columns) {
+  return line.substr(0, static_cast<std::size_t>(std::max(0, columns - 1)));
+}
+
+}  // namespace
+
 TerminalView::TerminalView() {
   if (isatty(1) == 0) throw OperatorError("--show needs a terminal on standard output");
   std::fputs("\033[?25l\033[2J", stdout);
@@ -216,17 +225,20 @@ TerminalView::~TerminalView() {
   std::fflush(stdout);
 }
 
-void TerminalView::Show(std::int64_t now_us, const Client& client, const std::string& status) {
+void TerminalView::Show(std::int64_t now_us, const Client& client, const std::string& status,
+                        const std::string& keys) {
   next_us_ = now_us + kFrameUs;
   winsize size{};
   const bool known = ioctl(1, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 1;
-  BrailleCanvas canvas(known ? size.ws_col : 80, known ? size.ws_row - 2 : 22);
+  const int columns = known ? size.ws_col : 80;
+  BrailleCanvas canvas(columns, known ? std::max(1, size.ws_row - 2) : 22);
   const Scene& scene = client.replica()->world().scene();
   if (bricks_ == nullptr && !scene.bricks.empty()) {
     bricks_ = std::make_unique<FeatherStore>(scene.bricks);
   }
   DrawInTerminal(client, bricks_.get(), &canvas);
-  const std::string frame = "\033[H" + canvas.Text() + status + "\033[K";
+  const std::string frame = "\033[H" + canvas.Text() + CutTo(status, columns) + "\033[K\r\n" +
+                            CutTo(keys, columns) + "\033[K";
   std::fwrite(frame.data(), 1, frame.size(), stdout);
   std::fflush(stdout);
 }

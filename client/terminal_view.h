@@ -42,7 +42,7 @@ int TerminalColour(int peer);
 /// none. Requires a running client.
 void DrawInTerminal(const Client& client, const FeatherStore* bricks, BrailleCanvas* canvas);
 
-/// The picture with a status line below it, on standard output.
+/// The picture with two lines below it, on standard output.
 class TerminalView {
  public:
   /// Throws OperatorError when standard output is no terminal. Hides the cursor while it lives.
@@ -53,7 +53,9 @@ class TerminalView {
 
   /// 15 times a second.
   bool Due(std::int64_t now_us) const { return now_us >= next_us_; }
-  void Show(std::int64_t now_us, const Client& client, const std::string& status);
+  /// `status` and `keys`: one line each, cut where the terminal ends.
+  void Show(std::int64_t now_us, const Client& client, const std::string& status,
+            const std::string& keys);
 
  private:
   std::int64_t next_us_ = 0;

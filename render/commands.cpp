@@ -11,14 +11,17 @@
 #include "common/base/check.h"
 #include "common/base/command_line.h"
 #include "common/base/process.h"
-#include "common/base/progress_line.h"
+#include "common/base/progress_count.h"
 #include "common/codec/version_line.h"
+#include "common/measure/contents/contents.h"
+#include "common/scene/assembly.h"
 #include "render/canvas/canvas.h"
 #include "render/canvas/palette.h"
 #include "render/canvas/png_writer.h"
 #include "render/load.h"
 #include "render/manifest.h"
 #include "render/playback/moments.h"
+#include "render/scene_recording.h"
 #include "render/sequence.h"
 #include "render/strobe.h"
 #include "render/strobe_layout.h"
@@ -29,27 +32,20 @@ namespace {
 /// Says how far a sequence is, and at the end how fast it was.
 class FrameCount {
  public:
-  FrameCount(int total, const std::string& path) : total_(total), path_(path) {}
-  void operator()(int done) {
-    const std::int64_t now_us = SteadyClockUs();
-    if (!line_.Due(now_us)) return;
-    line_.Show(now_us, fmt::format("{} of {} frames, {:.0f} frames/s", done, total_, Rate(done)));
-  }
+  FrameCount(int total, const std::string& path)
+      : total_(total), path_(path), count_("drawing", "frames", total) {}
+  void operator()(int done) { count_(done); }
   void Finish(int fps) {
-    line_.End();
-    const double rate = Rate(total_);
+    count_.End();
+    const double rate = total_ / std::max(count_.elapsed_s(), 1e-3);
     std::fprintf(stderr, "%d frames in %s, %.0f frames/s, %.1f x real time at %d fps\n", total_,
                  path_.c_str(), rate, rate / fps, fps);
   }
 
  private:
-  double Rate(int frames) const {
-    return frames / std::max(static_cast<double>(SteadyClockUs() - begin_us_) * 1e-6, 1e-3);
-  }
   int total_;
   std::string path_;
-  ProgressLine line_{false, 200000};
-  std::int64_t begin_us_ = SteadyClockUs();
+  ProgressCount count_;
 };
 
 int ThreadsOf(const RenderOptions& options) {
@@ -96,6 +92,15 @@ void ChooseTimes(const RenderOptions& options, const std::vector<Playback>& play
   page->to_s = to_s;
 }
 
+/// A scene as it begins: all that can move is in the picture, and it says what there is.
+void ShowScene(const Scene& scene, Page* page, CameraWish* wish) {
+  page->subtitle =
+      fmt::format("as it begins  ·  {} parts, {} joints, {} players  ·  {} Hz", scene.parts.size(),
+                  scene.joints.size(), scene.players.size(), scene.solver.tick_hz);
+  for (const Assembly& assembly : Compose(scene).assemblies)
+    if (!assembly.anchored) wish->bodies.insert(assembly.id);
+}
+
 /// The page that was asked for, with its camera.
 Page PageOf(const RenderOptions& options, const std::vector<Playback>& playbacks) {
   const int peer =
@@ -103,11 +108,19 @@ Page PageOf(const RenderOptions& options, const std::vector<Playback>& playbacks
   if (options.peer_given && peer >= 0)
     for (const Playback& playback : playbacks) RequirePeer(playback, peer);
   Page page = options.compare ? MakeComparison(playbacks, peer) : MakePage(playbacks.front(), peer);
+  if (options.difference) {
+    page = MakeDifference(playbacks, peer);
+  }
   page.width_px = options.width_px;
   page.height_px = options.height_px;
   page.look = options.look;
+  if (options.difference) {
+    page.look.pale = true;
+    page.look.ghosts = page.look.trails = false;
+  }
   CameraWish wish = options.camera;
   ChooseTimes(options, playbacks, &page, &wish);
+  if (IsSceneFile(options.logs.front())) ShowScene(playbacks.front().scene(), &page, &wish);
   SetCamera(wish, playbacks, &page);
   page.about = AboutPictures(options, page);
   return page;
@@ -143,7 +156,11 @@ void RenderSheet(const RenderOptions& options) {
   DrawSheet(list, page, options.sheet);
   Image image;
   MakeCanvas(font)->Draw(list, kPaper, &image);
-  WritePng(options.out, image, 9, page.about);
+  WritePng(options.out, image, PngEffort::kSmall, page.about);
+  if (IsSceneFile(options.logs.front())) {
+    std::fprintf(stderr, "%s: %s\n", options.out.c_str(), page.title.c_str());
+    return;
+  }
   std::fprintf(stderr, "%s: %d moments, %.2f s to %.2f s\n", options.out.c_str(), options.sheet,
                page.from_s, page.to_s);
 }
@@ -169,7 +186,7 @@ void RenderStrobe(const RenderOptions& options) {
   DrawStrobe(list, playbacks, plan);
   Image image;
   MakeCanvas(font)->Draw(list, kPaper, &image);
-  WritePng(options.out, image, 9);
+  WritePng(options.out, image, PngEffort::kSmall);
   std::fprintf(stderr, "%s: %dx%d, %.2f s to %.2f s\n", options.out.c_str(), image.width_px,
                image.height_px, plan.from_s, plan.to_s);
 }
@@ -183,7 +200,11 @@ int RenderMain(int argc, const char* const* argv) {
       text, argc, argv, [&](CLI::App& app) { DefineRenderOptions(&app, &options); },
       [&] {
         CheckRenderOptions(&options);
-        if (options.live) {
+        if (options.list) {
+          for (const std::string& path : options.logs) {
+            std::fputs(FormatContents(path, ReadRecording(path, options.room)).c_str(), stdout);
+          }
+        } else if (options.live) {
           RenderLive(options);
         } else if (options.page) {
           RenderReviewPage(options);

@@ -3,9 +3,11 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <optional>
 
 #include "common/base/check.h"
 #include "common/base/command_line.h"
+#include "common/base/progress_count.h"
 #include "common/codec/version_line.h"
 #include "render/export/formats.h"
 #include "render/export/options.h"
@@ -30,11 +32,17 @@ int Run(const ExportOptions& options) {
     throw OperatorError("--mcap is not text: say where it goes with -o");
   }
   OutputFile out(options.out, options.force, {options.log, options.oracle});
-  const ExportSession session = LoadExport(options);
+  ExportSession session = LoadExport(options);
   for (const std::string& line : session.lacking) {
     PrintError("seam-export", "warning: " + options.log + ": " + line);
   }
+  std::optional<ProgressCount> count;
+  session.progress = [&count](std::int64_t done, std::int64_t ticks) {
+    if (!count) count.emplace("exporting", "ticks", ticks);
+    (*count)(done);
+  };
   Write(session, options.format(), &out);
+  count.reset();
   out.Finish();
   return 0;
 }

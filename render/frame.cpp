@@ -4,9 +4,11 @@
 #include <cmath>
 
 #include "render/canvas/palette.h"
+#include "render/draw/draw_difference.h"
 #include "render/draw/draw_hud.h"
 #include "render/draw/draw_scene.h"
 #include "render/playback/format.h"
+#include "render/playback/peer_colour.h"
 
 namespace seam {
 namespace {
@@ -16,8 +18,9 @@ std::string TitleOf(const Playback& playback) {
                                         : playback.scene().title;
 }
 
-Colour CurveColour(int peer) { return Darker(PeerColour(peer)); }
+Colour CurveColour(const Playback& playback, int peer) { return Darker(ColourOf(playback, peer)); }
 
+/// What a panel's corner says.
 std::string ErrorText(const Panel& panel, double now_s) {
   const double tick = panel.playback->TickAt(now_s);
   const auto error = panel.playback->ErrorAt(panel.error_peer, tick);
@@ -77,23 +80,44 @@ void DrawInset(DrawList& list, const Page& page, const Panel& panel, const Viewp
   list.StrokeRect({a.x(), a.y(), b.x() - a.x(), b.y() - a.y()}, {1.2f * scale, kFaintInk, 0});
   list.NoClip();
   DrawWorld(list, close, *panel.playback, look);
+  if (panel.over != nullptr) {
+    DrawDifference(list, close, *panel.playback, *panel.over, panel.peer, now_s);
+  }
   list.StrokeRect({area.x + 0.5f, area.y + 0.5f, area.width - 1, area.height - 1},
                   {1.6f * scale, kFaintInk, 0});
 }
 
-void DrawPanel(DrawList& list, const Page& page, const Panel& panel, const Rect& area,
-               double now_s) {
-  const float lines = RegionLinesHeight(*panel.playback, list.font().scale());
-  const Rect world{area.x, area.y, area.width, area.height - lines};
+/// What of a panel's area is the world; below are the lines of the regions.
+Rect WorldArea(const Panel& panel, const Rect& area, float scale) {
+  return {area.x, area.y, area.width, area.height - RegionLinesHeight(*panel.playback, scale)};
+}
+
+void DrawPanelWorld(DrawList& list, const Page& page, const Panel& panel, const Rect& area,
+                    double now_s) {
+  const Rect world = WorldArea(panel, area, list.font().scale());
   const Viewport viewport = ViewportOf(page, panel, world, now_s);
   WorldLook look = page.look;
   look.peer = panel.peer;
   look.tick = panel.playback->TickAt(now_s);
   DrawWorld(list, viewport, *panel.playback, look);
+  if (panel.over != nullptr) {
+    DrawDifference(list, viewport, *panel.playback, *panel.over, panel.peer, now_s);
+  }
   DrawInset(list, page, panel, viewport, look, now_s);
+}
+
+void DrawPanelFrame(DrawList& list, const Page& page, const Panel& panel, const Rect& area,
+                    double now_s) {
+  const Rect world = WorldArea(panel, area, list.font().scale());
+  const Viewport viewport = ViewportOf(page, panel, world, now_s);
   DrawRegionLines(list, viewport, *panel.playback, world.bottom());
   const std::string error = page.panels.size() > 1 ? ErrorText(panel, now_s) : "";
-  DrawCaption(list, world, panel.caption, error.empty() ? "" : "error " + error, panel.swatch);
+  std::string corner = error.empty() ? "" : "error " + error;
+  if (panel.over != nullptr) {
+    const double apart = ApartOf(*panel.playback, *panel.over, panel.peer, now_s);
+    corner = apart < 0 ? "" : "apart " + FormatLength(apart) + " RMS";
+  }
+  DrawCaption(list, world, panel.caption, corner, panel.swatch);
   const Rect frame{world.x + 0.5f, world.y + 0.5f, world.width - 1, world.height - 1};
   list.StrokeRect(frame, {1, kFrame, 0});
 }
@@ -151,7 +175,8 @@ Page MakePage(const Playback& playback, int peer) {
     page.curves.back().bold = false;
   }
   for (int p : shown)
-    page.curves.push_back(CurveOf(playback, p, CurveColour(p), "view of " + playback.PeerName(p)));
+    page.curves.push_back(
+        CurveOf(playback, p, CurveColour(playback, p), "view of " + playback.PeerName(p)));
   return page;
 }
 
@@ -179,6 +204,20 @@ Page MakeComparison(const std::vector<Playback>& playbacks, int peer) {
   return page;
 }
 
+Page MakeDifference(const std::vector<Playback>& playbacks, int peer) {
+  Page page = MakeComparison(playbacks, peer);
+  Panel& panel = page.panels.front();
+  panel.over = &playbacks.at(1);
+  panel.caption = page.panels[1].caption + " over " + panel.caption + " (pale)";
+  panel.swatch.a = 0;
+  page.panels.resize(1);
+  page.subtitle = "difference of two runs, view of " +
+                  playbacks.front().PeerName(playbacks.front().PeerOr(peer));
+  const std::string& network = playbacks.front().recording().room.impair;
+  if (!network.empty()) page.subtitle += "  ·  network " + network;
+  return page;
+}
+
 void DrawPage(DrawList& list, const Page& page, double now_s) {
   list.Begin(page.width_px, page.height_px);
   const float scale = list.font().scale();
@@ -186,14 +225,17 @@ void DrawPage(DrawList& list, const Page& page, double now_s) {
   const float width = static_cast<float>(page.width_px) - 2 * margin;
   const float height = static_cast<float>(page.height_px);
   const float header = 58 * scale, legend = 26 * scale, strip = 122 * scale;
-  DrawHeader(list, {margin, 6 * scale, width, header}, page.title, page.subtitle,
-             Figures(page, now_s));
   const Rect middle{margin, header, width, height - header - legend - strip};
   const std::vector<Rect> areas =
       Tile(middle, static_cast<int>(page.panels.size()), Aspect(page), 8 * scale,
            RegionLinesHeight(*page.panels.front().playback, scale));
+  // Worlds first: the canvas is fast with large areas that nothing lies under.
   for (std::size_t i = 0; i < page.panels.size(); ++i)
-    DrawPanel(list, page, page.panels[i], areas[i], now_s);
+    DrawPanelWorld(list, page, page.panels[i], areas[i], now_s);
+  for (std::size_t i = 0; i < page.panels.size(); ++i)
+    DrawPanelFrame(list, page, page.panels[i], areas[i], now_s);
+  DrawHeader(list, {margin, 6 * scale, width, header}, page.title, page.subtitle,
+             Figures(page, now_s));
   const Playback& first = *page.panels.front().playback;
   DrawLegend(list, {margin, middle.bottom() + 2 * scale, width, legend}, first, page.look,
              !first.recording().impacts.empty());
@@ -219,7 +261,8 @@ void DrawSheet(DrawList& list, const Page& page, int moments) {
         page.from_s + (page.to_s - page.from_s) * moment / std::max(1, moments - 1);
     Panel panel = page.panels[of];
     panel.caption = FormatTime(now_s) + (page.panels.size() > 1 ? "  " + panel.caption : "");
-    DrawPanel(list, page, panel, cells[static_cast<std::size_t>(i)], now_s);
+    DrawPanelWorld(list, page, panel, cells[static_cast<std::size_t>(i)], now_s);
+    DrawPanelFrame(list, page, panel, cells[static_cast<std::size_t>(i)], now_s);
   }
 }
 

@@ -21,7 +21,8 @@ struct Panel {
   int peer = 0;                        ///< whose view
   int error_peer = -1;                 ///< whose error the caption states; -1: all views'
   std::string caption;
-  Colour swatch{0, 0, 0, 0};  ///< of its curve; alpha 0: none
+  Colour swatch{0, 0, 0, 0};       ///< of its curve; alpha 0: none
+  const Playback* over = nullptr;  ///< borrowed; drawn over it, by how far it is from it
 };
 
 /// A contact that is drawn once more, larger, in a corner of each panel while it happens.
@@ -52,6 +53,9 @@ Page MakePage(const Playback& playback, int peer);
 
 /// A page of several recordings in step, one panel and one curve each.
 Page MakeComparison(const std::vector<Playback>& playbacks, int peer);
+
+/// Two recordings in one panel: the second over the first, coloured by the distance.
+Page MakeDifference(const std::vector<Playback>& playbacks, int peer);
 
 /// Lets all panels follow what was wished for, with an inset about the main contact unless bodies
 /// were named. The path depends on the whole recordings, not on the part that is drawn. Throws

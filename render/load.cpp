@@ -1,7 +1,9 @@
 #include "render/load.h"
 
 #include "common/base/check.h"
+#include "common/base/nearest.h"
 #include "common/sync/mode.h"
+#include "render/scene_recording.h"
 
 namespace seam {
 
@@ -26,6 +28,10 @@ LoadedLog LoadLog(const std::string& path, const RenderOptions& options) {
 std::vector<Playback> LoadPlaybacks(const RenderOptions& options) {
   std::vector<Playback> playbacks;
   for (const std::string& path : options.logs) {
+    if (IsSceneFile(path)) {
+      playbacks.emplace_back(RecordingOfScene(path), std::nullopt);
+      continue;
+    }
     LoadedLog log = LoadLog(path, options);
     playbacks.emplace_back(std::move(log.recording), std::move(log.oracle));
   }
@@ -39,7 +45,8 @@ GivenOracle LoadOracle(const std::string& path) {
 }
 
 int PeerNamed(const Playback& playback, const std::string& name) {
-  std::string known;
+  std::string list;
+  std::vector<std::string> known;
   for (const int peer : playback.peers()) {
     const int player = playback.PlayerOf(peer);
     std::string own = "server";
@@ -48,9 +55,11 @@ int PeerNamed(const Playback& playback, const std::string& name) {
                        : playback.scene().players[static_cast<std::size_t>(player)].name;
     }
     if (own == name) return peer;
-    known += (known.empty() ? "" : ", ") + own;
+    list += (list.empty() ? "" : ", ") + own;
+    known.push_back(own);
   }
-  throw OperatorError("--view " + name + ": the recording has views of " + known);
+  throw OperatorError("--view " + name + ": the recording has views of " + list +
+                      DidYouMean(name, known));
 }
 
 void RequirePeer(const Playback& playback, int peer) {

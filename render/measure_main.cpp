@@ -8,12 +8,15 @@
 #include "common/base/check.h"
 #include "common/base/command_line.h"
 #include "common/base/plain_file.h"
+#include "common/base/progress_count.h"
 #include "common/codec/version_line.h"
+#include "common/measure/contents/contents.h"
 #include "common/measure/handover_list.h"
 #include "common/measure/limit/information_limit.h"
 #include "common/measure/preconditions.h"
 #include "common/measure/screen/response.h"
 #include "common/measure/table.h"
+#include "common/record/loss_timeline.h"
 #include "common/record/recording.h"
 #include "common/record/time_range.h"
 
@@ -28,6 +31,9 @@ struct Options {
   bool more = false;
   bool floor = false;
   bool limit = false;
+  bool losses = false;
+  std::string losses_csv;
+  bool list = false;
   std::vector<std::string> names;
   TimeRange range;
 };
@@ -141,6 +147,24 @@ void PrintHandOvers(const std::string& path, const std::string& name, const Time
   if (!list.empty()) std::printf("\nhand-overs of %s\n%s", name.c_str(), list.c_str());
 }
 
+/// When and where each log lost something; of several with their names.
+void ReportLosses(const std::vector<std::string>& logs, const Options& options) {
+  std::string csv;
+  for (const std::string& path : logs) {
+    const std::vector<Loss> losses = Within(FindLosses(path, Read(path)), options.range);
+    if (options.losses) {
+      std::printf("\nlosses of %s\n%s", BaseName(path).c_str(), FormatLosses(losses).c_str());
+    }
+    csv += LossesCsv(losses);
+  }
+  if (options.losses_csv.empty()) return;
+  if (logs.size() > 1) throw OperatorError("--losses-csv is of one log");
+  std::FILE* file = OpenPlainFile(options.losses_csv, FileUse::kReplace);
+  if (file == nullptr) throw OperatorError(options.losses_csv + ": cannot be written");
+  const bool written = std::fwrite(csv.data(), 1, csv.size(), file) == csv.size();
+  if (std::fclose(file) != 0 || !written) throw OperatorError(options.losses_csv + ": disk full?");
+}
+
 void Run(const Options& options) {
   if (!options.names.empty() && options.names.size() != options.logs.size()) {
     throw OperatorError("--names has " + std::to_string(options.names.size()) + " names for " +
@@ -153,16 +177,20 @@ void Run(const Options& options) {
   std::optional<Recording> truth;
   if (!options.oracle.empty()) truth = Read(options.oracle);
   std::vector<MeasuredRun> runs;
+  ProgressCount progress("measuring", "logs", static_cast<std::int64_t>(options.logs.size()));
   for (std::size_t i = 0; i < options.logs.size(); ++i) {
+    progress(static_cast<std::int64_t>(i));
     const std::string& path = options.logs[i];
     const std::string name = options.names.empty() ? BaseName(path) : options.names[i];
     runs.push_back(MeasureLog(path, name, options, truth));
   }
+  progress.End();
   if (!options.csv.empty()) WriteCsv(runs, options);
   std::fputs(FormatTable(runs, options.more).c_str(), stdout);
   for (std::size_t i = 0; options.more && i < runs.size(); ++i) {
     PrintHandOvers(options.logs[i], runs[i].run, options.range);
   }
+  if (options.losses || !options.losses_csv.empty()) ReportLosses(options.logs, options);
   if (options.floor) PrintFloor(Read(options.logs.front()));
   if (options.limit) PrintLimit(Read(options.logs.front()));
 }
@@ -181,6 +209,11 @@ void Define(CLI::App& app, Options& options) {
   app.add_flag("--floor", options.floor, "also print what chaos alone does to the first log");
   app.add_flag("--limit", options.limit,
                "also print what nobody could show better over the first log's network");
+  app.add_flag("--losses", options.losses,
+               "also print when and where something was lost, by channel");
+  app.add_option("--losses-csv", options.losses_csv,
+                 "write the losses of the log as CSV to this file");
+  app.add_flag("--list", options.list, "say what is in the logs, and measure nothing");
   app.add_flag("--more", options.more, "print the further measures");
 }
 
@@ -200,7 +233,13 @@ int main(int argc, char** argv) {
           throw OperatorError("which log? for example: seam-measure session.lcm");
         }
         if (options.append && options.csv.empty()) throw OperatorError("--append needs --csv");
-        Run(options);
+        if (options.list) {
+          for (const std::string& path : options.logs) {
+            std::fputs(FormatContents(path, ReadRecording(path)).c_str(), stdout);
+          }
+        } else {
+          Run(options);
+        }
         if (std::fflush(stdout) != 0) throw OperatorError("stdout: disk full?");
         return 0;
       });

@@ -9,6 +9,7 @@
 #include "common/base/check.h"
 #include "render/canvas/font.h"
 #include "render/frame.h"
+#include "render/scene_recording.h"
 
 namespace seam {
 namespace {
@@ -117,6 +118,10 @@ void CheckShots(const RenderOptions& o) {
 }
 
 void Check(const RenderOptions& o) {
+  if (o.list) {
+    if (o.logs.empty()) throw OperatorError("--list: no log given");
+    return;
+  }
   if (o.out.empty()) throw OperatorError("-o is missing: where should the pictures go?");
   if (o.live) {
     if (!o.logs.empty()) throw OperatorError("--live listens to the bus: it takes no log");
@@ -128,6 +133,9 @@ void Check(const RenderOptions& o) {
   } else if (!o.room.empty() && o.compare) {
     throw OperatorError("--room does not go with --compare");
   }
+  const bool scenes = std::any_of(o.logs.begin(), o.logs.end(), IsSceneFile);
+  if (scenes && (o.logs.size() > 1 || o.page || o.strobe || !o.video.empty() || !o.around.empty()))
+    throw OperatorError("a scene is drawn by itself, as it begins, into one PNG");
   if (o.page) return CheckPage(o);
   if (o.logs.size() > 1 && !o.compare)
     throw OperatorError("several logs: add --compare to draw them in one picture");
@@ -156,23 +164,29 @@ const char* const kRenderExamples =
     "  seam-render session.lcm -o frames/                      one peer's view\n"
     "  seam-render session.lcm -o frames/ --view all           all peers side by side\n"
     "  seam-render --compare a.lcm b.lcm c.lcm -o frames/      runs in step\n"
+    "  seam-render --difference a.lcm b.lcm -o frames/         where two runs part\n"
     "  seam-render a.lcm -o hit.png --sheet 12 --around contact    moments in one picture\n"
     "  seam-render a.lcm -o slow/ --around worst --speed 0.1   where it was most wrong, slowly\n"
     "  seam-render --strobe a.lcm -o hit.png                   one collision in one picture\n"
     "  seam-render --strobe --compare a.lcm b.lcm -o hits.png  a row for each run\n"
     "  seam-render --page a.lcm b.lcm -o review.html           a page to look through in a "
     "browser\n"
+    "  seam-render scene.toml -o scene.png                     a scene as it begins\n"
+    "  seam-render --list session.lcm                          what is in a log\n"
     "  seam-render --live -o frames/                           what the LCM bus brings";
 
 void DefineRenderOptions(CLI::App* app, RenderOptions* options) {
   RenderOptions& o = *options;
   o.fonts = kFontFolder;
-  app->add_option("logs", o.logs, "LCM logs of sessions");
+  app->add_option("logs", o.logs, "LCM logs of sessions, or one scene (.toml) as it begins");
   app->add_option("-o,--out", o.out,
                   "folder for frames, or the .png of --strobe, the .html of --page");
   app->add_flag("--compare", o.compare, "several logs in one picture, in step by tick");
+  app->add_flag("--difference", o.difference,
+                "two logs in one panel: the second over the first, by how far they are apart");
   app->add_flag("--strobe", o.strobe, "many exposures of one collision in one picture");
   app->add_flag("--page", o.page, "one HTML file of all views, to look through in a browser");
+  app->add_flag("--list", o.list, "say what is in the logs, and draw nothing");
   app->add_flag("--live", o.live, "draw what the LCM bus brings");
   app->add_flag("--force", o.force, "write even where other files are");
   app->add_option("--fps", o.fps, "frames per second of the session (30)");
@@ -203,6 +217,11 @@ void DefineRenderOptions(CLI::App* app, RenderOptions* options) {
 }
 
 void CheckRenderOptions(RenderOptions* options) {
+  if (options->difference) {
+    if (options->logs.size() != 2 || options->strobe || options->live || options->page)
+      throw OperatorError("--difference draws frames or a sheet of two logs");
+    options->compare = true;
+  }
   if (!options->size_text.empty()) ParseSize(options->size_text, options);
   if (!options->view_text.empty()) ParseView(options->view_text, options);
   if (!options->camera.part.empty()) {
@@ -213,6 +232,9 @@ void CheckRenderOptions(RenderOptions* options) {
   if (!options->camera_text.empty()) ParseCamera(options->camera_text, &options->camera);
   if (!options->layers_text.empty()) ParseLayers(options->layers_text, &options->look);
   Check(*options);
+  if (!options->list && !options->logs.empty() && IsSceneFile(options->logs.front())) {
+    options->sheet = 1;
+  }
 }
 
 }  // namespace seam

@@ -18,7 +18,9 @@ struct RenderOptions {
   std::vector<std::string> logs;
   std::string out;  ///< folder; a file for strobe and page
   bool compare = false, strobe = false, live = false, force = false;
-  bool page = false;  ///< one HTML file of all views
+  bool difference = false;  ///< of two logs: then compare is set too
+  bool page = false;        ///< one HTML file of all views
+  bool list = false;  ///< says what is in the logs, and draws nothing
   int fps = 30;
   int width_px = 1280, height_px = 720;
   bool size_given = false;

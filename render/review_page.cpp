@@ -39,7 +39,7 @@ void RenderReviewPage(const RenderOptions& options) {
   std::vector<PageRun> runs;
   for (const std::string& path : options.logs) {
     logs.push_back(std::make_unique<PageLog>(LoadLog(path, options)));
-    runs.push_back({std::filesystem::path(path).stem().string(), &logs.back()->playback});
+    runs.push_back({std::filesystem::path(path).stem().string(), &logs.back()->playback, path});
   }
   const std::string html = PageHtml(runs);
   WriteText(options.out, html);

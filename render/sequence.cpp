@@ -39,7 +39,7 @@ void WriteSequence(const Page& page, const Font& font, const std::vector<double>
       for (std::size_t i = next++; i < times_s.size(); i = next++) {
         DrawPage(list, page, times_s[i]);
         canvas->Draw(list, kPaper, &image);
-        WritePng(folder.FramePath(static_cast<int>(i)), image, 3, page.about);
+        WritePng(folder.FramePath(static_cast<int>(i)), image, PngEffort::kFast, page.about);
         const std::lock_guard<std::mutex> lock(mutex);
         progress(++done);
       }

@@ -10,6 +10,7 @@
 #include "render/draw/draw_joints.h"
 #include "render/draw/draw_scene.h"
 #include "render/playback/format.h"
+#include "render/playback/peer_colour.h"
 #include "render/strobe_layout.h"
 
 namespace seam {
@@ -44,7 +45,7 @@ void DrawExposure(DrawList& list, const Viewport& viewport, const Playback& play
     if (!shown || !viewport.Sees(shown->pose.position, body.reach)) continue;
     const auto then = playback.Find(next, body.id);
     if (!last && then && PixelsApart(viewport, body, shown->pose, then->pose) < 1.5f) continue;
-    BodyLook look = LookOf(shown->authority, shown->role);
+    BodyLook look = LookOf(ColourOf(playback, shown->authority), shown->role);
     look.opacity = Opacity(i, times.size());
     DrawBody(list, viewport, body, shown->pose, look);
   }

@@ -1,8 +1,9 @@
-/// seam-server: a room over UDP. `seam-server --help`.
+/// seam-server: one room or several over UDP. `seam-server --help`.
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 
 #include "common/base/command_line.h"
 #include "common/base/find_scene.h"
@@ -10,21 +11,21 @@
 #include "common/base/process.h"
 #include "common/base/progress_line.h"
 #include "common/codec/version_line.h"
-#include "common/net/farewell.h"
 #include "common/net/impair.h"
 #include "common/net/udp.h"
 #include "common/record/doctor.h"
-#include "common/record/sink.h"
-#include "common/record/trouble_report.h"
 #include "common/sync/method.h"
-#include "server/server.h"
+#include "server/hub/hub.h"
+#include "server/hub/progress.h"
 
 namespace {
 
 using namespace seam;
 
+constexpr int kRoomsMax = 4096;
+
 struct Flags {
-  std::string scene;
+  std::vector<std::string> scenes;
   int port = 7777;
   std::string bind = "0.0.0.0";
   std::string mode = "buffer";
@@ -42,6 +43,10 @@ struct Flags {
   std::string lcm_url;
   bool quiet = false;
   bool doctor = false;
+  int rooms = 0;  // 0: one for each scene
+  int workers = 0;
+  std::string bus_rooms = "first";
+  int metrics_port = 0;
 };
 
 std::string ProfilesText() {
@@ -55,7 +60,7 @@ std::string ProfilesText() {
 }
 
 void Define(CLI::App& app, Flags& f) {
-  app.add_option("scene", f.scene, "scene file, or the name of a scene");
+  app.add_option("scene", f.scenes, "scene file, or the name of a scene; several: a room of each");
   app.add_option("--port", f.port, "UDP port")->check(CLI::Range(1, 65535));
   app.add_option("--bind", f.bind, "address to listen on");
   app.add_option("--mode", f.mode, "oracle | central | strict | buffer");
@@ -68,21 +73,33 @@ void Define(CLI::App& app, Flags& f) {
   app.add_option("--impair", f.impair, "impair the network in both directions by a profile");
   app.add_option("--seed", f.seed, "of impairments and bots")->check(CLI::Range(0, 1000000000));
   app.add_option("--send-hz", f.send_hz, "state messages per second")->check(CLI::Range(1, 240));
-  app.add_option("--room", f.room, "name of the room in the channels");
+  app.add_option("--room", f.room,
+                 "name of the room in the channels; of several: NAME-1, NAME-2, ...");
+  app.add_option("--rooms", f.rooms, "rooms (default: one for each scene); scenes take turns")
+      ->check(CLI::Range(1, kRoomsMax));
+  app.add_option("--workers", f.workers, "threads that run several rooms (default: one per core)")
+      ->check(CLI::Range(1, 256));
+  app.add_option("--bus-rooms", f.bus_rooms, "of several rooms, which are on the LCM bus")
+      ->check(CLI::IsMember({"first", "all", "none"}));
+  app.add_option("--metrics", f.metrics_port,
+                 "serve what the rooms cost to Prometheus, at http://127.0.0.1:PORT/metrics")
+      ->check(CLI::Range(1, 65535));
   app.add_option("--wait", f.wait, "players to wait for (default: those of the scene; 0: none)")
       ->check(CLI::Range(0, 31));
   app.add_option("--duration", f.duration_s,
                  "seconds to run after tick 0 (0: until stopped; default: the scene's)")
       ->check(CLI::Range(0.0, 1e6));
-  app.add_option("--record", f.record, "write the session's LCM log to this file too");
+  app.add_option(
+      "--record", f.record,
+      "write the session's LCM log to this file too; of several rooms FILE.NAME-1.lcm, ...");
   app.add_flag("--force", f.force, "overwrite the --record file");
   app.add_option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
-  app.add_flag("--quiet", f.quiet, "no progress line");
+  app.add_flag("--quiet", f.quiet, "no progress line, and not who comes and goes");
   app.add_flag("--doctor", f.doctor, "check that LCM works on this machine, and exit");
 }
 
-void CheckRoomName(const std::string& room) {
-  const bool good = IsName(room);
+void CheckRoomName(const std::string& room, int rooms) {
+  const bool good = IsName(RoomName(room, rooms - 1, rooms)) && IsName(room);
   if (!good) throw OperatorError("--room takes 1 to 32 letters, digits, - or _");
 }
 
@@ -91,6 +108,10 @@ std::int64_t LastTick(double duration_s, int tick_hz) {
   if (std::isnan(duration_s)) throw OperatorError("--duration must be a number of seconds");
   if (duration_s <= 0) return 0;
   return std::max<std::int64_t>(1, std::llround(duration_s * tick_hz));
+}
+
+double DurationOf(const Flags& f, const Scene& scene) {
+  return f.duration_s < 0 ? scene.duration_s : f.duration_s;
 }
 
 /// How the session ends, for people.
@@ -102,10 +123,10 @@ std::string Ending(double duration_s) {
 }
 
 /// How many players tick 0 waits for.
-int PlayersToWaitFor(const Flags& f, const Scene& scene) {
+int PlayersToWaitFor(const Flags& f, const std::string& name, const Scene& scene) {
   const int players = static_cast<int>(scene.players.size());
   if (f.wait > players) {
-    throw OperatorError("--wait " + std::to_string(f.wait) + ": " + f.scene + " has " +
+    throw OperatorError("--wait " + std::to_string(f.wait) + ": " + name + " has " +
                         std::to_string(players) + " player(s), so the room would never start");
   }
   return f.wait >= 0 ? f.wait : players;
@@ -122,84 +143,84 @@ std::string WhichScene() {
   return line;
 }
 
-/// "12 s, tick 750, 2 of 2 player(s), worst round trip 53 ms, loss 1.2 %".
-std::string Progress(const Server& server, const Scene& scene) {
-  char line[160];
-  std::snprintf(line, sizeof line,
-                "%.0f s, tick %lld, %d of %zu player(s), worst round trip %.0f ms, loss %.1f %%",
-                static_cast<double>(server.tick()) / scene.solver.tick_hz,
-                static_cast<long long>(server.tick()), server.player_count(), scene.players.size(),
-                std::max(0, server.stats().rtt_us) / 1000.0, server.stats().loss_ppm / 10000.0);
-  return line;
+/// "out/log.lcm" of one room; of several "out/log.main-1.lcm".
+std::string LogOf(const std::string& record, const std::string& room, int rooms) {
+  if (record.empty() || rooms == 1) return record;
+  const std::string ending = ".lcm";
+  const bool has = record.size() > ending.size() &&
+                   record.compare(record.size() - ending.size(), ending.size(), ending) == 0;
+  const std::string stem = has ? record.substr(0, record.size() - ending.size()) : record;
+  return stem + "." + room + ending;
 }
 
-int Serve(const Flags& f) {
-  if (f.scene.empty()) throw OperatorError(WhichScene());
-  CheckRoomName(f.room);
-  const Scene scene = LoadScene(FindScene(f.scene));
-  ServerConfig config;
+RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int rooms) {
+  RoomPlan plan;
+  plan.scene = LoadScene(FindScene(scene_name));
+  const Scene& scene = plan.scene;
+  ServerConfig& config = plan.config;
   config.sync = MakeSyncConfig(MethodNames{f.mode, f.reconcile, f.predict});
   config.sync.input_delay_ticks =
       f.input_delay_ticks >= 0 ? f.input_delay_ticks : scene.input_delay_ticks;
   config.sync.tick_hz = scene.solver.tick_hz;
   config.sync.send_hz = std::min(f.send_hz, scene.solver.tick_hz);
-  config.sync.seed = f.seed;
-  config.room = f.room;
+  config.sync.seed = f.seed + index;
+  config.room = RoomName(f.room, index, rooms);
   config.impair = f.impair;
-  config.seed = f.seed;
-  config.wait_players = PlayersToWaitFor(f, scene);
-  const double duration_s = f.duration_s < 0 ? scene.duration_s : f.duration_s;
-  const std::int64_t last_tick = LastTick(duration_s, scene.solver.tick_hz);
-  const ImpairProfile profile = FindProfile(f.impair);
+  config.seed = f.seed + index;
+  config.wait_players = PlayersToWaitFor(f, scene_name, scene);
+  plan.last_tick = LastTick(DurationOf(f, scene), scene.solver.tick_hz);
+  plan.profile = FindProfile(f.impair);
+  const bool on_bus = rooms == 1 || f.bus_rooms == "all" || (f.bus_rooms == "first" && index == 0);
+  plan.lcm_url = on_bus ? f.lcm_url : "none";
+  plan.record = LogOf(f.record, config.room, rooms);
+  plan.force = f.force;
+  plan.alone = rooms == 1;
+  plan.news = !f.quiet;
+  return plan;
+}
 
-  Address local = ParseAddress(f.bind, static_cast<std::uint16_t>(f.port));
-  UdpNet udp(local);
-  ImpairedNet net(udp, profile, profile, static_cast<std::uint64_t>(f.seed));
-  Sink sink(f.lcm_url, f.record, f.force, f.room);
-  OsEntropy entropy;
-  Server server(scene, config, net, sink, entropy);
+int Serve(const Flags& f) {
+  if (f.scenes.empty()) throw OperatorError(WhichScene());
+  const int rooms = f.rooms > 0 ? f.rooms : static_cast<int>(f.scenes.size());
+  CheckRoomName(f.room, rooms);
+  if (f.workers > 0 && rooms == 1) throw OperatorError("--workers: one room has one thread");
+  std::vector<RoomPlan> plans;
+  for (int r = 0; r < rooms; ++r) {
+    plans.push_back(MakePlan(f, f.scenes[static_cast<std::size_t>(r) % f.scenes.size()], r, rooms));
+  }
+  UdpNet udp(ParseAddress(f.bind, static_cast<std::uint16_t>(f.port)));
+  std::unique_ptr<HttpPage> page;
+  if (f.metrics_port > 0) {
+    page = std::make_unique<HttpPage>(static_cast<std::uint16_t>(f.metrics_port));
+  }
+  Hub hub(plans, udp);
   StopOnSignals();
-  const std::string variant = VariantOf(NamesOf(config.sync));
+  const int workers = f.workers > 0 ? f.workers : CoreCount();
+  if (rooms > 1) hub.Start(std::min(workers, rooms));
+  const SyncConfig& sync = plans[0].config.sync;
+  const std::string variant = VariantOf(NamesOf(sync));
+  const std::string what = rooms == 1 ? plans[0].scene.name : std::to_string(rooms) + " rooms";
   std::fprintf(stderr,
-               "seam-server: %s, mode %s%s%s, network %s, on %s; waiting for %d player(s)%s\n",
-               scene.name.c_str(), f.mode.c_str(), variant.empty() ? "" : " ", variant.c_str(),
-               f.impair.c_str(), ToString(udp.local()).c_str(), config.wait_players,
-               Ending(duration_s).c_str());
+               "seam-server: %s, mode %s%s%s, network %s, on %s\n"
+               "seam-server: waiting for %d player(s)%s%s\n",
+               what.c_str(), f.mode.c_str(), variant.empty() ? "" : " ", variant.c_str(),
+               f.impair.c_str(), ToString(udp.local()).c_str(), plans[0].config.wait_players,
+               rooms == 1 ? "" : " in the first", Ending(DurationOf(f, plans[0].scene)).c_str());
   ProgressLine line(f.quiet);
-  TroubleReport recording("seam-server", "the room runs on");
-  while (g_stop == 0 && (last_tick == 0 || server.tick() < last_tick)) {
+  while (g_stop == 0 && !hub.done()) {
     const std::int64_t now = SteadyClockUs();
-    server.Tick(now, CpuUs());
-    sink.Poll();
-    for (const std::string& warning : server.TakeWarnings()) {
+    hub.Poll(now);
+    if (page != nullptr) page->Poll(now, [&] { return WriteLoadPage(hub.Loads()); });
+    for (const std::string& news : hub.TakeNews()) {
       line.End();
-      PrintError("seam-server", warning);
+      PrintError("seam-server", news);
     }
-    recording.Look(sink.trouble(), line);
-    if (server.started() && line.Due(now)) line.Show(now, Progress(server, scene));
-    const std::int64_t wake = std::min({server.next_tick_us(), net.next_due_us(), now + 20000});
-    udp.Wait(std::max<std::int64_t>(0, wake - SteadyClockUs()));
+    if (line.Due(now) && HubTells(hub)) line.Show(now, HubProgress(hub));
+    hub.Wait();
   }
   line.End();
-  server.Shutdown(SteadyClockUs(), "the server stops");
-  LetThrough(udp, net);
-  sink.Poll();
-  sink.Flush();
-  recording.Look(sink.trouble(), line);
-  const Stats& s = server.stats();
-  std::fprintf(stderr,
-               "seam-server: %lld ticks; dropped %lld malformed, %lld stale, %lld without right, "
-               "%lld implausible, %lld over budget; %lld part(s) left the bounds; "
-               "%lld stepped again, %lld replays deferred; %lld bus failures\n",
-               static_cast<long long>(server.tick()), static_cast<long long>(s.dropped_malformed),
-               static_cast<long long>(s.dropped_stale), static_cast<long long>(s.dropped_right),
-               static_cast<long long>(s.dropped_implausible),
-               static_cast<long long>(s.dropped_budget),
-               static_cast<long long>(server.left_bounds()),
-               static_cast<long long>(server.replica().ticks_stepped_again()),
-               static_cast<long long>(server.replica().replays_deferred()),
-               static_cast<long long>(sink.failures()));
-  return recording.End(sink.trouble());
+  hub.Close();
+  return ReportEnd(hub);
 }
 
 }  // namespace
@@ -207,8 +228,11 @@ int Serve(const Flags& f) {
 int main(int argc, char** argv) {
   Flags flags;
   const ProgramText text{
-      "seam-server", "seam-server: one room of a distributed 2D world, over UDP and the LCM bus",
-      VersionLine("seam-server"), ProfilesText()};
+      "seam-server",
+      "seam-server: rooms of a distributed 2D world, over UDP and the LCM bus",
+      VersionLine("seam-server"),
+      ProfilesText(),
+      {{"scene", SceneNames()}, {"--impair", ProfileNames()}, {"--reconcile", ReconcilerNames()}}};
   return RunCommandLine(
       text, argc, argv, [&](CLI::App& app) { Define(app, flags); },
       [&] {

@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "common/sync/input_source.h"
+#include "common/sync/lease.h"
 #include "common/sync/method.h"
 #include "server/authority_source.h"
 #include "server/rules/rules.h"
@@ -13,8 +14,8 @@
 namespace seam {
 namespace {
 
-/// Most ticks stepped in one call: a server that was suspended catches up without starving the net.
-constexpr int kStepsMax = 8;
+/// Most ticks stepped in one call: one that catches up answers its clients in between.
+constexpr int kStepsMax = 2;
 /// m, about where bricks are left in the air.
 constexpr float kLetFallRadius = 0.5f;
 /// Mode oracle: what is decided outside the physics (a seat, a rule, a script) acts so much later,
@@ -71,7 +72,9 @@ Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorde
       edits_(replica_.world(), authority_, config.sync.tick_hz),
       bounds_(replica_),
       filter_(scene_, replica_, authority_, edits_, stats_.counters),
-      broadcast_(recorder, config.room, config.sync, replica_, authority_, sessions_) {
+      broadcast_(recorder, config.room, config.sync, replica_, authority_, sessions_),
+      clock_(config.sync.tick_hz) {
+  replica_.OnCorrected([this](int body) { NoteCorrected(body); });
   if (!Rules::Needed(scene_)) return;
   commands_ = std::make_unique<ServerCommands>(replica_, edits_, sessions_);
   rule_source_ = std::make_unique<AuthoritySource>(replica_, authority_, stats_.counters);
@@ -96,9 +99,11 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
     stats_.NoteLate(now_us - next_tick_us());
     StepOnce(now_us);
   }
+  WatchClock(now_us);
   if (stats_.Due(now_us)) {
     broadcast_.Publish(stats_.Report(now_us, replica_.tick(), cpu_us, sessions_.WorstRttUs(),
                                      sessions_.WorstLossPpm()));
+    sessions_.ReadAccounts();
   }
   RelayInputs(now_us);
   sessions_.Flush(now_us, &stats_.counters);
@@ -106,36 +111,16 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
 
 std::int64_t Server::next_tick_us() const {
   if (!started()) return std::numeric_limits<std::int64_t>::max();
-  return tick0_us_ + (replica_.tick() + 1) * 1000000 / config_.sync.tick_hz;
+  return clock_.DueUs(replica_.tick() + 1);
 }
 
-void Server::FollowSessions(std::int64_t now_us) {
-  for (const SessionEvent& event : sessions_.TakeEvents()) {
-    const std::string peer = "peer " + std::to_string(event.peer);
-    switch (event.kind) {
-      case SessionEvent::Kind::kJoined:
-        broadcast_.Say(now_us,
-                       event.name + " joins from " + ToString(event.address) + " as " + peer);
-        break;
-      case SessionEvent::Kind::kLoading: {
-        Session& session = *sessions_.Find(event.peer);
-        SendWorld(now_us, session);
-        break;
-      }
-      case SessionEvent::Kind::kReady:
-        if (rules_ != nullptr && event.player >= 0) rules_->OnJoin(event.player);
-        authority_.PlanSoon();
-        broadcast_.Say(now_us, event.name + " is ready as " + peer);
-        break;
-      case SessionEvent::Kind::kLeft:
-        broadcast_.Say(now_us, event.name + " (" + peer + ") is gone: " + event.why);
-        if (rules_ != nullptr && event.player >= 0 && event.was_ready) {
-          rules_->OnLeave(event.player);
-        }
-        broadcast_.ToAll(authority_.TakeBack(now_us, event.peer));
-        break;
-    }
-  }
+void Server::WatchClock(std::int64_t now_us) {
+  if (!clock_.Note(now_us, replica_.tick())) return;
+  const std::string percent = std::to_string(clock_.speed_ppm() / 10000);
+  broadcast_.Say(
+      now_us, clock_.speed_ppm() == kFullSpeedPpm
+                  ? "the room runs at full speed again"
+                  : "the server cannot keep up: the room runs at " + percent + " % of its speed");
 }
 
 void Server::SendWorld(std::int64_t now_us, Session& session) {
@@ -180,11 +165,12 @@ void Server::StartIfReady(std::int64_t now_us) {
   const std::vector<int> peers = sessions_.PeerOfPlayer();
   const auto ready = std::count_if(peers.begin(), peers.end(), [](int peer) { return peer > 0; });
   if (ready < config_.wait_players) return;
-  tick0_us_ = now_us + (config_.wait_players > 0 ? kLeadInUs : 0);
+  clock_.Start(now_us + (config_.wait_players > 0 ? kLeadInUs : 0));
   // Whoever is here from the start has its mechanisms from tick 0 on: plan once, now.
   UpdateAuthority(now_us);
   broadcast_.Publish(At(now_us, replica_.MakeView()));
   broadcast_.Say(now_us, "the room starts with " + std::to_string(ready) + " players");
+  Tell("the room starts");
 }
 
 void Server::StepOnce(std::int64_t now_us) {
@@ -279,6 +265,9 @@ void Server::UpdateAuthority(std::int64_t now_us) {
   for (const int peer : situation.peer_of_player) {
     const Session* session = peer > 0 ? sessions_.Find(peer) : nullptr;
     const std::int64_t rtt_us = session != nullptr ? session->link.rtt_us() : 0;
+    const bool silent = session != nullptr && session->stage == SessionStage::kReady &&
+                        now_us - session->link.last_receive_us() > kSilentUs;
+    if (silent) situation.silent.Add(peer);
     situation.one_way_s.push_back(static_cast<float>(std::max<std::int64_t>(0, rtt_us)) * 0.5e-6f);
   }
   situation.together = edits_.WaitingMechanisms();

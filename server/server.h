@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "common/base/entropy.h"
 #include "common/net/net.h"
@@ -14,6 +16,7 @@
 #include "server/authority/authority_manager.h"
 #include "server/broadcast.h"
 #include "server/edits/edit_log.h"
+#include "server/room_clock.h"
 #include "server/rules/bounds_watch.h"
 #include "server/rules/seats.h"
 #include "server/server_stats.h"
@@ -50,7 +53,7 @@ class Server {
   /// Says goodbye to everyone; call Tick no more.
   void Shutdown(std::int64_t now_us, const std::string& reason);
 
-  bool started() const { return tick0_us_ >= 0; }
+  bool started() const { return clock_.started(); }
   std::int64_t tick() const { return replica_.tick(); }
   int client_count() const { return sessions_.count(); }
   /// Players of the scene who are in the room.
@@ -60,11 +63,22 @@ class Server {
   std::int64_t left_bounds() const { return bounds_.left(); }
   /// Messages of sessions that were decoded, since the start.
   std::int64_t decoded() const { return stats_.decoded; }
+  /// Hand-overs at which our copy was visibly off, since the start.
+  std::int64_t jumps() const { return stats_.jumps; }
+  /// Of the room's clock, per million of real time: below kFullSpeedPpm we are overloaded.
+  std::int32_t speed_ppm() const { return clock_.speed_ppm(); }
   const Replica& replica() const { return replica_; }
   /// An edit from outside; see EditLog::Add.
   bool Order(const Edit& edit) { return edits_.Add(edit); }
   /// What the operator should read since the last call: a script was stopped. One line each.
   std::vector<std::string> TakeWarnings();
+  /// Who came and went since the last call, for people, one line each; the first 256.
+  std::vector<std::string> TakeNews() { return std::exchange(news_, {}); }
+  /// The scene's players who are not in the room.
+  std::vector<std::string> missing() const;
+  const Scene& scene() const { return scene_; }
+  /// What each client's sessions have come to so far.
+  std::vector<ClientAccount> accounts() const { return sessions_.accounts().List(); }
   /// What it decides of health, scores and scripts; nullptr when the scene has nothing of it.
   const Rules* rules() const { return rules_.get(); }
 
@@ -76,7 +90,11 @@ class Server {
  private:
   // server_receive.cpp
   void ReceiveAll(std::int64_t now_us);
+  /// OnMessage; what it drops goes to the session's account.
+  void Deliver(std::int64_t now_us, Session& session, ByteView bytes);
   void OnMessage(std::int64_t now_us, Session& session, ByteView bytes);
+  /// A client whose name is no player's asks which are free.
+  void OnHello(std::int64_t now_us, Session& session);
   void OnPing(std::int64_t now_us, Session& session, const Ping& ping);
   void OnInputs(std::int64_t now_us, Session& session, const Inputs& inputs);
   void RelayInputs(std::int64_t now_us);
@@ -99,6 +117,7 @@ class Server {
   /// What came to rest in the last step, and whether the room is quiet.
   void TellRest(std::int64_t now_us);
   void StartIfReady(std::int64_t now_us);
+  void WatchClock(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);
   void ApplyEdits(std::int64_t now_us);
   void AppointEdits(std::int64_t now_us);
@@ -107,6 +126,8 @@ class Server {
   void UpdateAuthority(std::int64_t now_us);
   void RunRules(std::int64_t now_us);
   void RemoveOutside(std::int64_t now_us);
+  void Tell(const std::string& line);
+  void NoteCorrected(int body);
 
   const Scene scene_;
   const ServerConfig config_;
@@ -123,8 +144,9 @@ class Server {
   Broadcast broadcast_;
   std::unique_ptr<ServerCommands> commands_;
   std::unique_ptr<AuthoritySource> rule_source_;
-  std::unique_ptr<Rules> rules_;  // null: the scene has nothing to decide
-  std::int64_t tick0_us_ = -1;
+  std::unique_ptr<Rules> rules_;   // null: the scene has nothing to decide
+  std::vector<std::string> news_;  // not taken yet
+  RoomClock clock_;
   std::int64_t last_room_us_ = -1000000000;
 };
 

@@ -17,6 +17,10 @@ void ServerCommands::Bond(PartId a, PartId b, float strength) {
 
 void ServerCommands::Push(PartId part, const Vec2& impulse) { Ask(PushEdit{part, impulse}); }
 
+void ServerCommands::Limp(PartId part, float seconds) {
+  Ask(PushEdit{part, Vec2(0, 0), 0, seconds});
+}
+
 void ServerCommands::Blast(const Vec2& centre, float radius, float speed, float impulse) {
   Ask(BlastEdit{centre, radius, speed, impulse});
 }

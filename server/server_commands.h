@@ -23,6 +23,7 @@ class ServerCommands : public RoomCommands {
   void BreakJoint(int joint) override;
   void Bond(PartId a, PartId b, float strength) override;
   void Push(PartId part, const Vec2& impulse) override;
+  void Limp(PartId part, float seconds) override;
   void Blast(const Vec2& centre, float radius, float speed, float impulse) override;
   void Insert(const std::string& text) override;
   void Say(const std::string& text) override;

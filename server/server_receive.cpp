@@ -26,13 +26,19 @@ void Server::ReceiveAll(std::int64_t now_us) {
     stats.datagrams_in += 1;
     const auto verdict = sessions_.Receive(
         now_us, from, datagram,
-        [&](Session& session, ByteView message) { OnMessage(now_us, session, message); });
+        [&](Session& session, ByteView message) { Deliver(now_us, session, message); });
     if (verdict == SessionTable::Verdict::kMalformed) ++stats.dropped_malformed;
     if (verdict == SessionTable::Verdict::kNoRight) ++stats.dropped_right;
     if (verdict == SessionTable::Verdict::kOverBudget) ++stats.dropped_budget;
     FollowSessions(now_us);
   }
   stats_.NoteDiscarded(net_.discarded());
+}
+
+void Server::Deliver(std::int64_t now_us, Session& session, ByteView bytes) {
+  const std::int64_t before = Dropped(stats_.counters);
+  OnMessage(now_us, session, bytes);
+  session.account->dropped += Dropped(stats_.counters) - before;
 }
 
 void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
@@ -57,6 +63,8 @@ void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
   } else if (std::holds_alternative<Ready>(any)) {
     sessions_.NoteReady(session);
     FollowSessions(now_us);
+  } else if (std::holds_alternative<Hello>(any)) {
+    OnHello(now_us, session);
   } else if (std::holds_alternative<Bye>(any)) {
     session.leaving = session.goodbye = true;
     session.leaving_why = "left";
@@ -65,11 +73,19 @@ void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
   }
 }
 
+void Server::OnHello(std::int64_t now_us, Session& session) {
+  Bye bye;
+  bye.utime = now_us;
+  bye.reason = sessions_.FreeNames(now_us);
+  session.link.SendReliable(Encode(bye));
+}
+
 void Server::OnPing(std::int64_t now_us, Session& session, const Ping& ping) {
   Pong pong;
   pong.utime = now_us;
   pong.client_us = ping.utime;
-  pong.tick0_us = tick0_us_;
+  pong.tick0_us = clock_.Tick0Us(now_us);
+  pong.speed_ppm = clock_.speed_ppm();
   const std::uint64_t ours = replica_.rest().Hash();
   pong.rest = static_cast<std::int64_t>(ours);
   session.link.SendUnreliable(Encode(pong));
@@ -178,6 +194,9 @@ void Server::OnExactStates(std::int64_t now_us, const Session& session, const Ex
   if (kept.id.empty()) return;
   kept.utime = now_us;
   const BodyState off = replica_.TakeOver(kept);
+  const bool seen = off.position.norm() > AuthorityManager::kJump ||
+                    off.velocity.norm() > AuthorityManager::kJumpVelocity;
+  if (seen) ++stats_.jumps;
   for (const std::int16_t id : kept.id) {
     authority_.NoteJump(replica_.world().BodyOfId(id), off);
   }

@@ -8,9 +8,16 @@
 
 namespace seam {
 
+/// All that was dropped, for whatever reason.
+inline std::int64_t Dropped(const Stats& stats) {
+  return stats.dropped_malformed + stats.dropped_stale + stats.dropped_right +
+         stats.dropped_implausible + stats.dropped_budget;
+}
+
 struct ServerStats {
   Stats counters;                  ///< since the start
   std::int64_t decoded = 0;        ///< messages, since the start
+  std::int64_t jumps = 0;          ///< since the start
   std::int64_t worst_late_us = 0;  ///< of a tick, since the last report
   std::int64_t discarded = 0;      ///< by the net, as far as counted
   std::int64_t reported_us = -1000000000;

@@ -1,11 +1,15 @@
 #pragma once
-/// What the five mains share: a command line is parsed, help and version are printed, a mistake in
+/// What the mains share: a command line is parsed, help and version are printed, a mistake in
 /// it is one line and status 2. For mains only: it brings CLI11.
 
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "common/base/command/command_table.h"
+#include "common/base/command/mistake.h"
+#include "common/base/command/pages.h"
 #include "common/base/process.h"
+#include "common/base/version.h"
 
 namespace seam {
 
@@ -14,10 +18,12 @@ struct ProgramText {
   std::string about;    ///< the first line of --help
   std::string version;  ///< what --version prints
   std::string footer;   ///< the last lines of --help
+  FlagValues values{};  ///< what completes flags whose values are names of ours
 };
 
 /// Parses the command line as `define(CLI::App&)` says, then returns `run()`, within RunMain.
-/// --help (of a subcommand too) and --version print to stdout and return 0 without running.
+/// --help (of a subcommand too) and --version print to stdout and return 0 without running; so does
+/// `--generate man|bash|zsh|fish` alone, which `make docs` calls.
 template <typename Define, typename Run>
 int RunCommandLine(const ProgramText& text, int argc, const char* const* argv, Define define,
                    Run run) {
@@ -26,12 +32,18 @@ int RunCommandLine(const ProgramText& text, int argc, const char* const* argv, D
     app.footer(text.footer);
     app.set_version_flag("--version", text.version);
     define(app);
+    if (argc == 3 && std::string(argv[1]) == "--generate") {
+      const std::string page =
+          GeneratedPage(argv[2], TableOf(app, text.values), {kVersion, text.footer});
+      std::fputs(page.c_str(), stdout);
+      return std::fflush(stdout) == 0 ? 0 : 1;
+    }
     try {
       app.parse(argc, argv);
     } catch (const CLI::Success& wish) {
       return app.exit(wish);
     } catch (const CLI::ParseError& e) {
-      throw OperatorError(std::string(e.what()) + " (see " + text.name + " --help)");
+      throw OperatorError(CommandMistake(app, e) + "; see " + text.name + " --help");
     }
     return run();
   });

@@ -4,6 +4,7 @@
 #include <set>
 
 #include "common/base/check.h"
+#include "common/base/nearest.h"
 
 namespace seam {
 namespace {
@@ -16,6 +17,20 @@ bool IsFile(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
   return fs::exists(status) && !fs::is_directory(status);
+}
+
+/// Names of the scenes in SceneFolders(), in order; of those in `hard` and `exact` if `all`.
+std::vector<std::string> Names(bool all) {
+  std::set<std::string> names;
+  for (const std::string& folder : SceneFolders()) {
+    const fs::path name = fs::path(folder).filename();
+    if (!all && (name == "hard" || name == "exact")) continue;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder, error)) {
+      if (entry.path().extension() == kEnding) names.insert(entry.path().stem().string());
+    }
+  }
+  return {names.begin(), names.end()};
 }
 
 }  // namespace
@@ -41,20 +56,10 @@ std::string FindScene(const std::string& word) {
     if (IsFile(path)) return path;
     looked += ", " + path;
   }
-  throw OperatorError("no scene \"" + word + "\": there is no file " + word + looked);
+  throw OperatorError("no scene \"" + word + "\"" + DidYouMean(word, Names(true)) +
+                      ": there is no file " + word + looked);
 }
 
-std::vector<std::string> SceneNames() {
-  std::set<std::string> names;
-  for (const std::string& folder : SceneFolders()) {
-    const fs::path name = fs::path(folder).filename();
-    if (name == "hard" || name == "exact") continue;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(folder, error)) {
-      if (entry.path().extension() == kEnding) names.insert(entry.path().stem().string());
-    }
-  }
-  return {names.begin(), names.end()};
-}
+std::vector<std::string> SceneNames() { return Names(false); }
 
 }  // namespace seam

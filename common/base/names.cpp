@@ -12,4 +12,8 @@ bool IsName(const std::string& text) {
          });
 }
 
+std::string RoomName(const std::string& name, int index, int count) {
+  return count == 1 ? name : name + "-" + std::to_string(index + 1);
+}
+
 }  // namespace seam

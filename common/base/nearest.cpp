@@ -5,27 +5,35 @@
 namespace seam {
 namespace {
 
-/// Edit distance (Levenshtein 1966): insertions, deletions and changes from one to the other.
+/// Edit distance: insertions, deletions, changes, and swaps of two neighbours (Damerau 1964, no
+/// part edited twice).
 std::size_t EditDistance(const std::string& a, const std::string& b) {
-  std::vector<std::size_t> row(b.size() + 1);
+  std::vector<std::size_t> row(b.size() + 1), above, above_that;
   for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
+    above_that = above;
+    above = row;
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({change, row[j] + 1, row[j - 1] + 1});
+      const std::size_t change = above[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+      row[j] = std::min({change, above[j] + 1, row[j - 1] + 1});
+      const bool swapped = i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1];
+      if (swapped) row[j] = std::min(row[j], above_that[j - 2] + 1);
     }
   }
   return row[b.size()];
+}
+
+/// Of a short word most others are near: it may have one mistake.
+std::size_t MistakesMax(const std::string& typed) {
+  return typed.size() <= 3 ? 1 : std::max<std::size_t>(2, typed.size() / 3);
 }
 
 }  // namespace
 
 std::string NearestName(const std::string& typed, const std::vector<std::string>& known) {
   std::string nearest;
-  std::size_t least = std::max<std::size_t>(2, typed.size() / 3) + 1;
+  std::size_t least = MistakesMax(typed) + 1;
   for (const std::string& name : known) {
     const std::size_t distance = EditDistance(typed, name);
     if (distance < least) {
@@ -45,6 +53,11 @@ std::string Suggestion(const std::string& typed, const std::vector<std::string>&
   for (std::size_t i = 0; i < std::min(known.size(), shown_max); ++i) all += " " + known[i];
   if (known.size() > shown_max) all += " and " + std::to_string(known.size() - shown_max) + " more";
   return all;
+}
+
+std::string DidYouMean(const std::string& typed, const std::vector<std::string>& known) {
+  const std::string nearest = NearestName(typed, known);
+  return nearest.empty() ? "" : " (did you mean '" + nearest + "'?)";
 }
 
 }  // namespace seam

@@ -1,6 +1,7 @@
 #pragma once
 /// What the mains share: the clock, CPU time, stop signals and the exit status of an error.
 
+#include <sched.h>
 #include <sys/resource.h>
 #include <time.h>
 
@@ -36,6 +37,20 @@ inline std::int64_t CpuUs() {
   getrusage(RUSAGE_SELF, &usage);
   return static_cast<std::int64_t>(usage.ru_utime.tv_sec + usage.ru_stime.tv_sec) * 1000000 +
          usage.ru_utime.tv_usec + usage.ru_stime.tv_usec;
+}
+
+/// Cores that this process may use, at least 1.
+inline int CoreCount() {
+  cpu_set_t set;
+  if (sched_getaffinity(0, sizeof set, &set) != 0) return 1;
+  return CPU_COUNT(&set) > 0 ? CPU_COUNT(&set) : 1;
+}
+
+/// CPU time of this thread so far, us.
+inline std::int64_t ThreadCpuUs() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<std::int64_t>(t.tv_sec) * 1000000 + t.tv_nsec / 1000;
 }
 
 inline volatile std::sig_atomic_t g_stop = 0;

@@ -1,5 +1,6 @@
 #include "common/base/progress_line.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,6 +9,17 @@
 #include "common/base/check.h"
 
 namespace seam {
+namespace {
+
+/// A line that is wrapped cannot be renewed: one column stays free. No limit when the terminal does
+/// not say how wide it is.
+std::size_t ColumnsOfTerminal() {
+  winsize size{};
+  if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col < 2) return std::string::npos;
+  return size.ws_col - 1u;
+}
+
+}  // namespace
 
 ProgressLine::ProgressLine(bool quiet, std::int64_t every_us)
     : shown_(!quiet && isatty(STDERR_FILENO) != 0), every_us_(every_us) {}
@@ -17,9 +29,10 @@ ProgressLine::~ProgressLine() { End(); }
 void ProgressLine::Show(std::int64_t now_us, const std::string& text) {
   SEAM_ASSERT(Due(now_us));
   next_us_ = now_us + every_us_;
-  const std::size_t rest = columns_ - std::min(columns_, text.size());
-  std::fprintf(stderr, "\r%s%s", text.c_str(), std::string(rest, ' ').c_str());
-  columns_ = text.size();
+  const std::string line = text.substr(0, ColumnsOfTerminal());
+  const std::size_t rest = columns_ - std::min(columns_, line.size());
+  std::fprintf(stderr, "\r%s%s", line.c_str(), std::string(rest, ' ').c_str());
+  columns_ = line.size();
 }
 
 void ProgressLine::End() {

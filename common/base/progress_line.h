@@ -20,7 +20,8 @@ class ProgressLine {
   /// Whether the line is to be renewed at `now_us` (SteadyClockUs); false on anything but a
   /// terminal. The first line is due at once.
   bool Due(std::int64_t now_us) const { return shown_ && now_us >= next_us_; }
-  /// Shows `text` (one line) in place of the last one. Requires Due(now_us).
+  /// Shows `text` (one line) in place of the last one; what the terminal is too narrow for is cut
+  /// off. Requires Due(now_us).
   void Show(std::int64_t now_us, const std::string& text);
   /// Ends the line, if there is one: what is written next begins a line of its own.
   void End();

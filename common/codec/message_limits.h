@@ -60,4 +60,7 @@ constexpr std::int64_t kTimeMaxUs = std::int64_t{1} << 53;
 /// Largest coordinate of a States origin, m: beyond it single precision is coarser than 1/16 m.
 constexpr std::int32_t kOriginMax = 1 << 20;
 
+/// Speed of a room's clock that is real time, and the slowest there is, per million.
+constexpr std::int32_t kFullSpeedPpm = 1000000, kLeastSpeedPpm = 10000;
+
 }  // namespace seam

@@ -16,7 +16,7 @@
 #define SEAM_MESSAGES(X)                                                                          \
   X(Hello, hello_t, kEdge, "", m.utime, m.protocol, m.name)                                       \
   X(Challenge, challenge_t, kEdge, "", m.utime, m.token)                                          \
-  X(Join, join_t, kEdge, "", m.utime, m.protocol, m.token, m.key, m.name)                         \
+  X(Join, join_t, kEdge, "", m.utime, m.protocol, m.token, m.key, m.name, m.room)                 \
   X(Welcome, welcome_t, kEdge, "", m.utime, m.peer, m.player, m.room_bytes, m.key)                \
   X(Chunk, chunk_t, kEdge, "", m.utime, m.offset_bytes, m.data)                                   \
   X(Ready, ready_t, kEdge, "", m.utime)                                                           \
@@ -24,7 +24,7 @@
     m.scene_text, m.mode, m.reconcile, m.predict, m.impair, m.seed, m.tick_hz, m.send_hz,         \
     m.input_delay_ticks)                                                                          \
   X(Ping, ping_t, kEdge, "", m.utime, m.revision, m.composition, m.rest)                          \
-  X(Pong, pong_t, kEdge, "", m.utime, m.client_us, m.tick0_us, m.rest)                            \
+  X(Pong, pong_t, kEdge, "", m.utime, m.client_us, m.tick0_us, m.rest, m.speed_ppm)               \
   X(Inputs, inputs_t, kBusPlayer, "inputs", m.utime, m.sequence, m.player, m.first_tick, m.drive, \
     m.lift, m.buttons)                                                                            \
   X(States, states_t, kBusPeer, "states", m.utime, m.sequence, m.peer, m.tick, m.revision,        \
@@ -54,6 +54,11 @@
     m.bytes_in, m.datagrams_out, m.datagrams_in, m.dropped_malformed, m.dropped_stale,            \
     m.dropped_right, m.dropped_implausible, m.dropped_budget, m.cpu_us, m.rtt_us, m.loss_ppm,     \
     m.tick_late_us, m.clock_offset_us)                                                            \
+  X(Load, load_t, kBusRoom, "load", m.utime, m.sequence, m.tick, m.speed_ppm, m.ticks,            \
+    m.tick_p50_us, m.tick_p99_us, m.tick_max_us, m.late_p50_us, m.late_p99_us, m.late_max_us,     \
+    m.cpu_us, m.clients, m.players, m.bodies, m.moving, m.moving_held, m.islands, m.hand_overs,   \
+    m.jumps, m.dropped_malformed, m.dropped_stale, m.dropped_right, m.dropped_implausible,        \
+    m.dropped_budget, m.kind, m.bytes_out, m.bytes_in)                                            \
   X(Event, event_t, kBusPeer, "event", m.utime, m.sequence, m.peer, m.tick, m.text)               \
   X(Bye, bye_t, kEdge, "", m.utime, m.reason)
 

@@ -8,12 +8,13 @@
 #include <string>
 #include <vector>
 
+#include "common/codec/load.h"
 #include "common/codec/message_limits.h"
 
 namespace seam {
 
 /// Bumped when any message changes: peers of different versions do not talk.
-constexpr std::int32_t kProtocolVersion = 5;
+constexpr std::int32_t kProtocolVersion = 6;
 
 /// Client -> server, until answered: is there a room, of which protocol? No version may change its
 /// fields, so that peers of any two can tell each other theirs.
@@ -37,6 +38,7 @@ struct Join {
   std::int64_t token = 0;  ///< of the Challenge
   std::int64_t key = 0;    ///< of an earlier Welcome, to play the same player again; 0: none
   std::string name;        ///< 1..32 characters of [A-Za-z0-9_-]
+  std::string room;        ///< the same, or "": the server's first room
 };
 
 /// Server -> client, reliable: admitted. The Room follows in Chunks.
@@ -90,8 +92,9 @@ struct Ping {
 struct Pong {
   std::int64_t utime = 0;      ///< server's clock when it answers
   std::int64_t client_us = 0;  ///< Ping::utime, returned
-  std::int64_t tick0_us = -1;  ///< server's clock at tick 0; -1 while the room waits for players
+  std::int64_t tick0_us = -1;  ///< the room's clock shows utime - tick0_us; -1: waits for players
   std::int64_t rest = 0;       ///< hash of the bodies at rest, 0 for none
+  std::int32_t speed_ppm = kFullSpeedPpm;  ///< of the room's clock, per million of real time
 };
 
 /// A player's inputs for successive ticks.

@@ -84,7 +84,9 @@ bool Valid(const Hello& m) { return Time(m.utime) && IsName(m.name); }
 
 bool Valid(const Challenge& m) { return Time(m.utime); }
 
-bool Valid(const Join& m) { return Time(m.utime) && IsName(m.name); }
+bool Valid(const Join& m) {
+  return Time(m.utime) && IsName(m.name) && (m.room.empty() || IsName(m.room));
+}
 
 bool Valid(const Ready& m) { return Time(m.utime); }
 
@@ -111,7 +113,10 @@ bool Valid(const Room& m) {
 
 bool Valid(const Ping& m) { return Time(m.utime) && m.revision >= -1; }
 
-bool Valid(const Pong& m) { return Time(m.utime) && Time(m.client_us) && Time(m.tick0_us); }
+bool Valid(const Pong& m) {
+  return Time(m.utime) && Time(m.client_us) && Time(m.tick0_us) &&
+         Within(m.speed_ppm, kLeastSpeedPpm, kFullSpeedPpm);
+}
 
 bool Valid(const Inputs& m) {
   return Time(m.utime) && m.sequence >= 0 && Within(m.player, 0, kPeersMax - 1) &&
@@ -223,6 +228,26 @@ bool Valid(const Stats& m) {
          Counter(m.datagrams_in) && Counter(m.dropped_malformed) && Counter(m.dropped_stale) &&
          Counter(m.dropped_right) && Counter(m.dropped_implausible) && Counter(m.dropped_budget) &&
          Counter(m.cpu_us) && m.rtt_us >= -1 && Within(m.loss_ppm, 0, 1000000);
+}
+
+bool Valid(const Load& m) {
+  bool good = Time(m.utime) && m.sequence >= 0 && TickOrBefore(m.tick) &&
+              Within(m.speed_ppm, kLeastSpeedPpm, kFullSpeedPpm) && m.kind.size() <= kTrafficMax &&
+              Lengths(m.kind.size(), m.bytes_out, m.bytes_in) &&
+              AllWithin(m.kind, 0, kTrafficOther);
+  for (const std::int32_t n :
+       {m.ticks, m.tick_p50_us, m.tick_p99_us, m.tick_max_us, m.late_p50_us, m.late_p99_us,
+        m.late_max_us, m.clients, m.players, m.bodies, m.moving, m.moving_held, m.islands}) {
+    good = good && n >= 0;
+  }
+  for (const std::int64_t n :
+       {m.cpu_us, m.hand_overs, m.jumps, m.dropped_malformed, m.dropped_stale, m.dropped_right,
+        m.dropped_implausible, m.dropped_budget}) {
+    good = good && Counter(n);
+  }
+  for (const std::int64_t n : m.bytes_out) good = good && Counter(n);
+  for (const std::int64_t n : m.bytes_in) good = good && Counter(n);
+  return good;
 }
 
 bool Valid(const Event& m) {

@@ -74,6 +74,7 @@ void OverlapMeter::AddPart(const Part& part, const Part& root, int assembly, int
     if (moving < 0 && imposed < 0) corner = RootFrame(root).ToWorld(corner);
   }
   Solid solid;
+  solid.part = part.id;
   solid.imposed = imposed;
   solid.assembly = assembly;
   solid.moving = moving;
@@ -146,12 +147,21 @@ std::vector<std::pair<int, int>> OverlapMeter::NearPairs(const Placed& placed) c
 }
 
 double OverlapMeter::Deepest(const std::vector<BodyState>& moving, std::int64_t tick) const {
-  SEAM_ASSERT(moving.size() == moving_count_);
-  std::vector<RootFrame> poses;
   for (const BodyState& state : moving) {
     if (!IsFinite(state)) return kFar;
-    poses.emplace_back(state);
   }
+  double deepest = 0;
+  ForEachOverlap(moving, tick, [&deepest](PartId, PartId, double depth_m) {
+    deepest = std::max(deepest, depth_m);
+  });
+  return deepest;
+}
+
+void OverlapMeter::ForEachOverlap(const std::vector<BodyState>& moving, std::int64_t tick,
+                                  const Visit& visit) const {
+  SEAM_ASSERT(moving.size() == moving_count_);
+  std::vector<RootFrame> poses;
+  for (const BodyState& state : moving) poses.emplace_back(state);
   std::vector<RootFrame> imposed;
   for (int i = 0; i < imposed_.count(); ++i) {
     imposed.emplace_back(imposed_.At(i, static_cast<double>(tick)));
@@ -174,28 +184,28 @@ double OverlapMeter::Deepest(const std::vector<BodyState>& moving, std::int64_t 
       placed.max[i] = placed.max[i].cwiseMax(corner + Vector2d::Constant(margin));
     }
   }
-  double deepest = 0;
-  std::vector<std::pair<int, int>> on_terrain;  // solid, edge
+  std::vector<std::pair<int, int>> on_terrain;  // a solid, and that of an edge
   for (const auto& [a, b] : NearPairs(placed)) {
     const Solid& one = solids_[static_cast<std::size_t>(a)];
     const Solid& other = solids_[static_cast<std::size_t>(b)];
     if (other.edge >= 0) {
-      on_terrain.push_back({a, other.edge});
+      on_terrain.push_back({a, b});
     } else {
-      deepest = std::max(deepest, OverlapDepth(placed.Of(one), placed.Of(other)));
+      visit(one.part, other.part, OverlapDepth(placed.Of(one), placed.Of(other)));
     }
   }
   std::sort(on_terrain.begin(), on_terrain.end());
   for (std::size_t i = 0; i < on_terrain.size();) {
     const int solid = on_terrain[i].first;
+    const PartId chain = solids_[static_cast<std::size_t>(on_terrain[i].second)].part;
     std::vector<const TerrainEdge*> edges;
     for (; i < on_terrain.size() && on_terrain[i].first == solid; ++i) {
-      edges.push_back(&edges_[static_cast<std::size_t>(on_terrain[i].second)]);
+      const Solid& edge = solids_[static_cast<std::size_t>(on_terrain[i].second)];
+      edges.push_back(&edges_[static_cast<std::size_t>(edge.edge)]);
     }
-    const Convex shape = placed.Of(solids_[static_cast<std::size_t>(solid)]);
-    deepest = std::max(deepest, DepthInTerrain(shape, edges));
+    const Solid& one = solids_[static_cast<std::size_t>(solid)];
+    visit(one.part, chain, DepthInTerrain(placed.Of(one), edges));
   }
-  return deepest;
 }
 
 }  // namespace seam

@@ -2,6 +2,7 @@
 /// How deep bodies overlap, by the true shapes in double precision: independent of the
 /// physics engine, whose contacts begin at a rim around the shapes.
 
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -21,9 +22,18 @@ class OverlapMeter {
   /// where kinematic parts are. Infinite when a pose is not finite.
   double Deepest(const std::vector<BodyState>& moving, std::int64_t tick = 0) const;
 
+  /// Two parts and how deep they overlap, m. Of chains it is the part of the nearest edges that
+  /// were looked at.
+  using Visit = std::function<void(PartId moving, PartId other, double depth_m)>;
+  /// Calls `visit` for each pair of parts, or of pieces of them, whose depth Deepest would look at:
+  /// 0 too. Requires finite poses.
+  void ForEachOverlap(const std::vector<BodyState>& moving, std::int64_t tick,
+                      const Visit& visit) const;
+
  private:
   /// A part, or one edge of a chain.
   struct Solid {
+    PartId part = 0;
     int assembly = 0;  // index into the composition's
     int moving = -1;   // index into the states; -1: anchored
     int imposed = -1;  // anchored, but moved: index into imposed_

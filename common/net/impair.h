@@ -57,6 +57,8 @@ struct ImpairedTraffic {
 /// second. Throws OperatorError naming the known profiles when there is no such one.
 ImpairProfile FindProfile(const std::string& name_or_spec);
 const std::vector<ImpairProfile>& Profiles();
+/// Their names.
+std::vector<std::string> ProfileNames();
 
 /// Impairs what passes through `inner`: outgoing by `out`, incoming by `in`, each peer address and
 /// direction with its own random stream derived from `seed`. Order of the effects: rate limit,

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "common/base/check.h"
+#include "common/base/nearest.h"
 #include "common/net/impair.h"
 
 namespace seam {
@@ -235,14 +236,21 @@ const std::vector<ImpairProfile>& Profiles() {
   return kProfiles;
 }
 
+std::vector<std::string> ProfileNames() {
+  std::vector<std::string> names;
+  for (const ImpairProfile& profile : Profiles()) names.push_back(profile.name);
+  return names;
+}
+
 ImpairProfile FindProfile(const std::string& name_or_spec) {
-  std::string known;
+  std::string list;
   for (const ImpairProfile& profile : Profiles()) {
     if (profile.name == name_or_spec) return profile;
-    known += (known.empty() ? "" : ", ") + profile.name;
+    list += (list.empty() ? "" : ", ") + profile.name;
   }
   if (name_or_spec.find('=') != std::string::npos) return SpecReader().Read(name_or_spec);
-  throw OperatorError("no network profile \"" + name_or_spec + "\": known are " + known +
+  throw OperatorError("no network profile \"" + name_or_spec + "\"" +
+                      DidYouMean(name_or_spec, ProfileNames()) + ": known are " + list +
                       ", or delay=50ms,loss=1%,... spelled out");
 }
 

@@ -132,11 +132,41 @@ Address ParseAddress(const std::string& text, std::uint16_t default_port) {
   return address;
 }
 
+struct UdpSender::Impl {
+  int fd = -1;
+  Batch out;
+  unsigned count = 0;
+
+  void Send(const Address& to, ByteView datagram) {
+    SEAM_ASSERT(datagram.size >= 1 && datagram.size <= kDatagramBytesMax);
+    if (count == kBatch) Flush();
+    const unsigned slot = count++;
+    std::copy(datagram.begin(), datagram.end(), out.data[slot].begin());
+    out.Reset(slot, datagram.size);
+    out.addresses[slot] = ToSockaddr(to);
+  }
+
+  void Flush() {
+    unsigned sent = 0;
+    while (sent < count) {
+      const int done = sendmmsg(fd, &out.headers[sent], count - sent, MSG_DONTWAIT);
+      if (done > 0) {
+        sent += static_cast<unsigned>(done);
+      } else if (errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS) {
+        break;  // the kernel's buffer is full: a router would drop them too
+      } else if (errno != EINTR) {
+        ++sent;  // refused, unreachable, filtered: this one is lost, the others are not
+      }
+    }
+    count = 0;
+  }
+};
+
 struct UdpNet::Impl {
   int fd = -1;
-  Batch in, out;
+  Batch in;
+  UdpSender::Impl out;
   unsigned in_count = 0, in_next = 0;  // received, and handed out of them
-  unsigned out_count = 0;
   std::int64_t discarded = 0;
 
   ~Impl() {
@@ -171,34 +201,26 @@ UdpNet::UdpNet(const Address& local) : impl_(std::make_unique<Impl>()) {
   if (bind(impl_->fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) {
     throw OperatorError(BindFailure(local, errno));
   }
+  impl_->out.fd = impl_->fd;
 }
 
 UdpNet::~UdpNet() = default;
 
-void UdpNet::Send(const Address& to, ByteView datagram) {
-  SEAM_ASSERT(datagram.size >= 1 && datagram.size <= kDatagramBytesMax);
-  if (impl_->out_count == kBatch) Flush();
-  const unsigned slot = impl_->out_count++;
-  std::copy(datagram.begin(), datagram.end(), impl_->out.data[slot].begin());
-  impl_->out.Reset(slot, datagram.size);
-  impl_->out.addresses[slot] = ToSockaddr(to);
+int UdpNet::fd() const { return impl_->fd; }
+
+UdpSender::UdpSender(const UdpNet& net) : impl_(std::make_unique<Impl>()) {
+  impl_->fd = net.impl_->fd;
 }
 
-void UdpNet::Flush() {
-  unsigned sent = 0;
-  while (sent < impl_->out_count) {
-    const int count =
-        sendmmsg(impl_->fd, &impl_->out.headers[sent], impl_->out_count - sent, MSG_DONTWAIT);
-    if (count > 0) {
-      sent += static_cast<unsigned>(count);
-    } else if (errno == EAGAIN || errno == EWOULDBLOCK || errno == ENOBUFS) {
-      break;  // the kernel's buffer is full: a router would drop them too
-    } else if (errno != EINTR) {
-      ++sent;  // refused, unreachable, filtered: this one is lost, the others are not
-    }
-  }
-  impl_->out_count = 0;
-}
+UdpSender::~UdpSender() = default;
+
+void UdpSender::Send(const Address& to, ByteView datagram) { impl_->Send(to, datagram); }
+
+void UdpSender::Flush() { impl_->Flush(); }
+
+void UdpNet::Send(const Address& to, ByteView datagram) { impl_->out.Send(to, datagram); }
+
+void UdpNet::Flush() { impl_->out.Flush(); }
 
 bool UdpNet::Receive(Address* from, Bytes* datagram) {
   for (int discards = 0; discards < kDiscardsMax; ++discards) {

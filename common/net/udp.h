@@ -32,8 +32,30 @@ class UdpNet : public Net {
   void Wait(std::int64_t timeout_us, int extra_fd = -1);
 
   Address local() const;
+  /// For poll and epoll: readable when a datagram waits.
+  int fd() const;
 
  private:
+  friend class UdpSender;
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Sends from the address of a UdpNet, with a batch of its own: one thread may send through it
+/// while another uses the UdpNet. Receives nothing.
+class UdpSender : public Net {
+ public:
+  /// `net` must outlive it.
+  explicit UdpSender(const UdpNet& net);
+  ~UdpSender() override;
+
+  void Advance(std::int64_t) override {}
+  void Send(const Address& to, ByteView datagram) override;
+  void Flush() override;
+  bool Receive(Address*, Bytes*) override { return false; }
+
+ private:
+  friend class UdpNet;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

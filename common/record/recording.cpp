@@ -175,6 +175,11 @@ bool RecordingBuilder::Keep(Stats& stats) {
   return true;
 }
 
+bool RecordingBuilder::Keep(Load& load) {
+  sorted_ = AppendByTick(&recording_.loads, load) && sorted_;
+  return true;
+}
+
 bool RecordingBuilder::Keep(Event& event) {
   sorted_ = AppendByTick(&recording_.events, event) && sorted_;
   return true;
@@ -234,6 +239,7 @@ Recording& RecordingBuilder::recording() {
     sort(recording_.impacts);
     sort(recording_.events);
     for (auto& [peer, stats] : recording_.stats) sort(stats);
+    sort(recording_.loads);
     sorted_ = true;
   }
   if (recording_.last_tick - recording_.first_tick > kTickPauseMax) DropStrayTicks();

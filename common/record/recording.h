@@ -28,6 +28,7 @@ struct Recording {
   std::vector<Impacts> impacts;
   std::map<int, std::map<std::int64_t, Strands>> strands;  ///< by peer, by tick
   std::map<int, std::vector<Stats>> stats;                 ///< by peer, ascending
+  std::vector<Load> loads;                                 ///< the server's, ascending
   std::vector<Event> events;
 
   std::int64_t events_read = 0;              ///< LCM events in the log
@@ -79,6 +80,7 @@ class RecordingBuilder {
   bool Keep(Impacts& impacts);
   bool Keep(Strands& strands);
   bool Keep(Stats& stats);
+  bool Keep(Load& load);
   bool Keep(Event& event);
   bool KeepWhole(View& view);
   void DropStrayTicks();

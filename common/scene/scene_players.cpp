@@ -6,11 +6,12 @@
 namespace seam {
 namespace {
 
-constexpr int kButtons = 15;  // Input::buttons is an int16_t: 15 bits without the sign
+constexpr int kPaletteColours = 10;  // render/canvas/palette.h
+constexpr int kButtons = 15;         // Input::buttons is an int16_t: 15 bits without the sign
 
 SceneReader PlayerReader(const TomlNode& node, const SceneDraft& draft) {
   return SceneReader(node, draft.file, "player",
-                     {"name", "vehicle", "region", "actions", "script"});
+                     {"name", "vehicle", "region", "colour", "actions", "script"});
 }
 
 /// A script's time in seconds to the nearest tick.
@@ -83,6 +84,19 @@ void ReadRegion(const SceneReader& r, Player* player) {
   player->region_max = corners[1];
 }
 
+/// "#rrggbb", or the number of a colour of the palette; pictures ask for it (player_colours.h).
+void CheckColour(const SceneReader& r) {
+  if (!r.Has("colour")) return;
+  if (!r.IsText("colour")) {
+    r.Integer("colour", {1, kPaletteColours});
+    return;
+  }
+  const std::string text = r.Text("colour");
+  const bool digits = text.find_first_not_of("0123456789abcdefABCDEF", 1) == std::string::npos;
+  if (text.size() != 7 || text[0] != '#' || !digits)
+    r.FailAt("colour", "colour must be \"#rrggbb\", or 1 to 10 of the palette");
+}
+
 }  // namespace
 
 void ReadPlayerNames(const SceneReader& root, SceneDraft* draft) {
@@ -109,6 +123,7 @@ void ReadPlayers(const SceneReader& root, SceneDraft* draft) {
     player.line = node->line;
     if (r.Has("vehicle")) player.vehicle = FindPart(r, "vehicle", *draft);
     ReadRegion(r, &player);
+    CheckColour(r);
     ReadActions(r, *draft, &player);
     ReadScript(r, *draft, &player);
   }

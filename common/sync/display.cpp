@@ -5,6 +5,7 @@
 
 #include "common/base/geometry.h"
 #include "common/sync/reconcile/reconcile.h"
+#include "common/sync/state_limits.h"
 
 namespace seam {
 namespace {
@@ -50,6 +51,7 @@ BodyState Display::Visible(int body, BodyState jump) const {
 }
 
 void Display::Moved(int body, const BodyState& by) {
+  if (!Negligible(by)) on_corrected_(body);
   smoother_.Moved(body, Visible(body, by));
   corrected_ticks_[static_cast<std::size_t>(world_.mechanism(body))] = kCorrectedTicks;
 }

@@ -3,6 +3,8 @@
 /// corrections of those that it does are kept out of sight.
 
 #include <cstdint>
+#include <functional>
+#include <utility>
 
 #include "common/codec/messages.h"
 #include "common/physics/world.h"
@@ -28,6 +30,8 @@ class Display {
 
   /// The physics state of `body` was changed by this much; the view stays where it was.
   void Moved(int body, const BodyState& by);
+  /// Calls `call(body)` whenever Moved is told of more than the wire's rounding: a correction.
+  void OnCorrected(std::function<void(int)> call) { on_corrected_ = std::move(call); }
   /// The body was placed anew: it is shown there at once.
   void Reset(int body) { smoother_.Reset(body); }
   /// A state was this many ticks old when it was received.
@@ -55,6 +59,7 @@ class Display {
   DisplayDelay delay_;
   JointCloser joints_;
   Reckoner reckoner_;
+  std::function<void(int)> on_corrected_ = [](int) {};
   std::vector<int> corrected_ticks_;  // by mechanism: how much longer it may be torn in physics
 };
 

@@ -7,6 +7,12 @@
 
 namespace seam {
 
+/// Something moves and its holder has not been heard for so long, us: the server simulates it and
+/// says in the holder's name where it is, long before the lease ends, so that nothing stands still
+/// and jumps later.
+constexpr std::int64_t kSilentUs = 250000;
+/// m/s; what is slower comes to rest without the server's help, and must not be kept from it.
+constexpr float kMissed = 0.5f;
 /// The client's lease, us: when the newest ping that the server answered is older than this, it
 /// lets go of its mechanisms, whichever direction of the path failed.
 constexpr std::int64_t kLeaseUs = 3000000;

@@ -49,4 +49,10 @@ std::string VariantOf(const Room& room) {
   return VariantOf(MethodNames{room.mode, room.reconcile, room.predict});
 }
 
+std::vector<std::string> ReconcilerNames() {
+  std::vector<std::string> names;
+  for (const NamedReconciler& rule : Reconcilers()) names.emplace_back(rule.name);
+  return names;
+}
+
 }  // namespace seam

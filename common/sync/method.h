@@ -2,6 +2,7 @@
 /// A way to synchronise a room by its names, as flags, sweep files and messages have them.
 
 #include <string>
+#include <vector>
 
 #include "common/codec/messages.h"
 #include "common/sync/mode.h"
@@ -30,5 +31,8 @@ MethodNames NamesOf(const SyncConfig& config);
 /// What tells methods of one mode apart: the reconciler, or what is predicted; "" in other modes.
 std::string VariantOf(const MethodNames& names);
 std::string VariantOf(const Room& room);
+
+/// Names of the rules of mode buffer, as --reconcile takes them.
+std::vector<std::string> ReconcilerNames();
 
 }  // namespace seam

@@ -1,6 +1,7 @@
 #include "common/sync/mode.h"
 
 #include "common/base/check.h"
+#include "common/base/nearest.h"
 
 namespace seam {
 
@@ -23,7 +24,9 @@ std::optional<Mode> FindMode(const std::string& name) {
 
 Mode ParseMode(const std::string& name) {
   if (const std::optional<Mode> mode = FindMode(name)) return *mode;
-  throw OperatorError("unknown mode \"" + name + "\": use oracle, central, strict or buffer");
+  throw OperatorError("unknown mode \"" + name + "\"" +
+                      DidYouMean(name, {"oracle", "central", "strict", "buffer"}) +
+                      ": use oracle, central, strict or buffer");
 }
 
 SyncConfig MakeSyncConfig(const std::string& mode, const std::string& reconcile) {

@@ -40,6 +40,7 @@ template void Publisher::Publish(Meta);
 template void Publisher::Publish(Impacts);
 template void Publisher::Publish(Strands);
 template void Publisher::Publish(Stats);
+template void Publisher::Publish(Load);
 template void Publisher::Publish(Event);
 
 void Publisher::Publish(const View& message) {

@@ -13,6 +13,7 @@
 /// ProposalQueue (what it tells). This class calls them in order and has no rule of its own.
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <utility>
@@ -74,6 +75,8 @@ class Replica {
                                      std::int32_t epochs_on) const;
   /// What another peer let go of. How far this copy was from it, at most; see Corrector::TakeOver.
   BodyState TakeOver(const ExactStates& exact);
+  /// The server only; see Roles::SpeakFor.
+  void SpeakFor(const PeerSet& silent) { roles_.SpeakFor(silent); }
   /// Gives up every authority (the server has not been heard for too long).
   void ReleaseAll();
 
@@ -105,6 +108,9 @@ class Replica {
   /// Ticks that were stepped again, and replays that waited since the budget was used up.
   std::int64_t ticks_stepped_again() const { return replay_.ticks_stepped_again(); }
   std::int64_t replays_deferred() const { return replay_.deferred(); }
+  /// Calls `call(body)` for each correction: a body's physics state was changed by more than the
+  /// wire's rounding, by what was heard.
+  void OnCorrected(std::function<void(int)> call) { display_.OnCorrected(std::move(call)); }
 
   const InputTrack& inputs(int player) const { return inputs_[static_cast<std::size_t>(player)]; }
   /// What a player does in a tick still to come, or did in one that is known late.

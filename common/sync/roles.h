@@ -7,6 +7,7 @@
 #include "common/physics/world.h"
 #include "common/sync/authority.h"
 #include "common/sync/mode.h"
+#include "common/sync/peer_set.h"
 
 namespace seam {
 
@@ -29,6 +30,15 @@ class Roles {
   bool Simulates(int body) const { return RoleOfBody(body) != kRoleRemote; }
   /// Whether the table names this peer, in any mode.
   bool IsAuthority(int mechanism) const { return table_.at(mechanism).authority == self_; }
+  /// Holders that have fallen silent: the server, while it follows what they have, says in their
+  /// names where that is.
+  void SpeakFor(const PeerSet& silent) { silent_ = silent; }
+  /// Whether this peer is to say where a mechanism's bodies are.
+  bool Speaks(int mechanism) const {
+    const AuthorityRecord& record = table_.at(mechanism);
+    if (record.authority == self_) return true;
+    return silent_.Has(record.authority) && record.secondaries.Has(self_);
+  }
   /// Whether this peer is to propose an edit that physics found: the authority of the first part
   /// concerned that is in a mechanism; in mode oracle every peer.
   bool Proposes(const Edit& edit) const;
@@ -49,6 +59,7 @@ class Roles {
   int own_player_;
   const World& world_;
   AuthorityTable table_;
+  PeerSet silent_;
   mutable std::vector<bool> own_;  // as of that revision
   mutable int own_of_revision_ = -1;
 };

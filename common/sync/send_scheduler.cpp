@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 #include <utility>
+
+#include "common/sync/lease.h"
 
 namespace seam {
 namespace {
@@ -32,22 +35,26 @@ SendScheduler::SendScheduler(const SyncConfig& config, World& world, const Roles
 void SendScheduler::Collect() {
   outgoing_.clear();
   if (config_.mode == Mode::kOracle || world_.tick() % config_.send_every() != 0) return;
-  std::map<std::int64_t, std::vector<PackedBody>> told;  // by tick
-  for (const int body : ChooseBodies()) told[ToldTick(body)].push_back(Tell(body));
-  for (const auto& [tick, bodies] : told) {
+  std::map<std::pair<std::int64_t, int>, std::vector<PackedBody>> told;  // by tick and authority
+  for (const int body : ChooseBodies()) {
+    const int authority = roles_.table().at(world_.mechanism(body)).authority;
+    told[{ToldTick(body), authority}].push_back(Tell(body));
+  }
+  for (const auto& [of, bodies] : told) {
     States header = Header();
-    header.tick = tick;
+    std::tie(header.tick, header.peer) = of;
     for (States& states : Pack(header, bodies)) outgoing_.push_back(std::move(states));
   }
 }
 
 /// A body that inputs still unknown can have reached is told of as it was at the newest tick that
-/// they cannot have changed: an assumption of ours must not overwrite what others know better.
+/// they cannot have changed: an assumption of ours must not overwrite what others know better. Of
+/// what is told in a silent holder's name nobody knows better.
 std::int64_t SendScheduler::ToldTick(int body) const {
   const std::int64_t now = world_.tick();
-  if (!config_.rolls_back) return now;
-  const std::int64_t complete =
-      std::min(reach_.CompleteTick(world_.mechanism(body)), replay_.settled());
+  const int m = world_.mechanism(body);
+  if (!config_.rolls_back || !roles_.IsAuthority(m)) return now;
+  const std::int64_t complete = std::min(reach_.CompleteTick(m), replay_.settled());
   return memory_.ComparablePast(body, complete) != nullptr ? complete : now;
 }
 
@@ -67,12 +74,19 @@ bool SendScheduler::Due(int body) {
          (slept + body) % repeat < config_.send_every();
 }
 
+/// In a silent holder's name only of what moves: the rest comes to rest without it.
+bool SendScheduler::Speaks(int body) const {
+  const int m = world_.mechanism(body);
+  if (roles_.IsAuthority(m)) return true;
+  return roles_.Speaks(m) && world_.Read(body).velocity.norm() > kMissed;
+}
+
 /// Ascending.
 std::vector<int> SendScheduler::ChooseBodies() {
   std::vector<int> due;
   for (int body = 0; body < world_.body_count(); ++body) {
     BodyTrack& track = memory_.track(body);
-    if (!roles_.IsAuthority(world_.mechanism(body)) || !track.placed || !Due(body)) continue;
+    if (!Speaks(body) || !track.placed || !Due(body)) continue;
     const bool hit = world_.awake(body) && memory_.Struck(body);
     track.priority += hit ? kPriorityImpact : kPriorityAwake;
     due.push_back(body);

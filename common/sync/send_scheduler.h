@@ -34,6 +34,7 @@ class SendScheduler {
 
  private:
   bool Due(int body);
+  bool Speaks(int body) const;
   std::vector<int> ChooseBodies();
   PackedBody Describe(int body) const;
   PackedBody Tell(int body);

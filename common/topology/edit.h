@@ -47,12 +47,17 @@ struct FreeEdit {
   PartId part = -1;
 };
 
-/// An impulse on the assembly of a part; changes nobody's assembly.
+/// An impulse on the assembly of a part; changes nobody's assembly. An active character may go limp
+/// by it: by its size (docs/scenes.md), or because `limp` says so.
 struct PushEdit {
   PartId part = -1;
   Vec2 impulse{0, 0};  ///< N s, at the assembly's centre of mass
   float turn = 0;      ///< N m s
+  float limp = 0;      ///< s for which the part's character is limp; below 0: no longer
 };
+
+/// s of PushEdit::limp: until another one ends it.
+constexpr float kLimpForGood = 1e9f;
 
 /// A player drives what a seat drives.
 struct SeatEdit {

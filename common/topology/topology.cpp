@@ -122,7 +122,8 @@ Status Topology::Validate(const Edit& edit) const {
                  [&](const RemoveEdit& remove) { return has(remove.part); },
                  [&](const FreeEdit& free) { return has(free.part); },
                  [&](const PushEdit& push) {
-                   const bool finite = push.impulse.allFinite() && std::isfinite(push.turn);
+                   const bool finite = push.impulse.allFinite() && std::isfinite(push.turn) &&
+                                       std::isfinite(push.limp);
                    return finite ? has(push.part) : Status::Error("the impulse is not finite");
                  },
                  [&](const SeatEdit& seat) {

@@ -13,6 +13,22 @@ bool Same(const Rect& a, const Rect& b) {
   return a.x == b.x && a.y == b.y && a.width == b.width && a.height == b.height;
 }
 
+bool Meet(const Rect& a, const Rect& b) {
+  return a.x < b.right() && b.x < a.right() && a.y < b.bottom() && b.y < a.bottom();
+}
+
+/// The least rectangle that holds what `cover` leaves of `rect`; without width if nothing.
+Rect LeftOver(const Rect& rect, const Rect& cover) {
+  const bool high = cover.y <= rect.y && cover.bottom() >= rect.bottom();
+  const bool wide = cover.x <= rect.x && cover.right() >= rect.right();
+  float x0 = rect.x, x1 = rect.right(), y0 = rect.y, y1 = rect.bottom();
+  if (high && cover.x <= x0) x0 = std::max(x0, std::min(x1, cover.right()));
+  if (high && cover.right() >= x1) x1 = std::min(x1, std::max(x0, cover.x));
+  if (wide && cover.y <= y0) y0 = std::max(y0, std::min(y1, cover.bottom()));
+  if (wide && cover.bottom() >= y1) y1 = std::min(y1, std::max(y0, cover.y));
+  return y1 > y0 && x1 > x0 ? Rect{x0, y0, x1 - x0, y1 - y0} : Rect{};
+}
+
 Vec2 LeftOf(const Vec2& from, const Vec2& to) {
   const Vec2 d = to - from;
   const float length = d.norm();
@@ -75,14 +91,18 @@ Rect DrawList::Cut(const Rect& rect) const {
 }
 
 void DrawList::Need(BatchKind kind) {
-  if (!batches_.empty() && batches_.back().kind == kind && Same(batches_.back().clip, clip_))
-    return;
+  if (!batches_.empty() && Same(batches_.back().clip, clip_)) {
+    const BatchKind open = batches_.back().kind;
+    if (open == kind || (open == BatchKind::kDashed && kind == BatchKind::kShape)) return;
+  }
   Batch batch;
   batch.kind = kind;
   batch.clip = clip_;
   batch.first_index = static_cast<std::uint32_t>(indices_.size());
   batches_.push_back(batch);
 }
+
+void DrawList::NeedDashes() { batches_.back().kind = BatchKind::kDashed; }
 
 std::uint32_t DrawList::Add(float x, float y, Colour colour) {
   Vertex vertex;
@@ -111,6 +131,7 @@ void DrawList::Fan(const std::vector<Vec2>& points, Colour colour) {
 }
 
 void DrawList::FillRect(const Rect& r, Colour colour) {
+  if (r.width <= 0 || r.height <= 0) return;
   constexpr float kLarge = 5000;  // px: below, a draw call of its own would cost more
   const bool large = r.width * r.height > kLarge;
   if (colour.a == 255 && large) {
@@ -118,11 +139,31 @@ void DrawList::FillRect(const Rect& r, Colour colour) {
     batch.kind = BatchKind::kClear;
     batch.clip = Cut(r);
     batch.clear = colour;
-    if (batch.clip.width > 0 && batch.clip.height > 0) batches_.push_back(batch);
+    if (batch.clip.width <= 0 || batch.clip.height <= 0) return;
+    PutUnder(batch);
     return;
   }
   Need(large ? BatchKind::kPlain : BatchKind::kShape);
   Fan({{r.x, r.y}, {r.right(), r.y}, {r.right(), r.bottom()}, {r.x, r.bottom()}}, colour);
+}
+
+void DrawList::PutUnder(const Batch& fill) {
+  // Nothing was drawn there but fills that came first: it can be one of them.
+  std::size_t place = 0;
+  while (place < batches_.size() && batches_[place].kind == BatchKind::kClear) ++place;
+  for (std::size_t i = place; i < batches_.size(); ++i) {
+    if (Meet(batches_[i].clip, fill.clip)) place = batches_.size();
+  }
+  if (open_text_.indices > 0 && Meet(open_text_.clip, fill.clip)) place = batches_.size();
+  std::size_t first = place;
+  while (first > 0 && batches_[first - 1].kind == BatchKind::kClear) --first;
+  batches_.insert(batches_.begin() + static_cast<std::ptrdiff_t>(place), fill);
+  for (std::size_t i = place; i > first; --i) {
+    Rect& under = batches_[i - 1].clip;
+    under = LeftOver(under, fill.clip);
+    if (under.width > 0) continue;
+    batches_.erase(batches_.begin() + static_cast<std::ptrdiff_t>(i - 1));
+  }
 }
 
 void DrawList::FillShaded(const Vec2 points[4], Colour from, Colour to) {
@@ -138,6 +179,7 @@ void DrawList::Hatch(const std::vector<Vec2>& points, const Vec2& origin, const 
   if (points.size() < 3) return;
   const auto first = static_cast<std::uint32_t>(vertices_.size());
   Fill(points, colour);
+  if (first < vertices_.size()) NeedDashes();
   for (std::size_t i = 0; i < points.size() && first + i < vertices_.size(); ++i) {
     vertices_[first + i].along = (points[i] - origin).dot(normal);
     vertices_[first + i].period = -period;
@@ -148,8 +190,9 @@ void DrawList::Stroke(const std::vector<Vec2>& points, bool closed, const Line& 
   const std::size_t n = points.size();
   if (n < 2 || line.colour.a == 0) return;
   Need(BatchKind::kShape);
+  if (line.dash != 0) NeedDashes();
   const float half = line.width / 2;
-  const float reach = half + 1;  // one pixel further than the line for its soft edge
+  const float reach = half + 0.5f;  // half a pixel further than the line for its soft edge
   const std::size_t segments = closed ? n : n - 1;
   float along = 0;
   for (std::size_t k = 0; k <= segments; ++k) {
@@ -193,10 +236,19 @@ void DrawList::StrokeRect(const Rect& r, const Line& line) {
 }
 
 void DrawList::Disc(const Vec2& centre, float radius, Colour colour) {
-  // The soft edge of a line of the same colour rounds the plain polygon.
-  if (radius > 1.5f) Fill(CirclePoints(centre, radius - 0.75f), colour);
-  const float width = std::min(radius, 1.5f);
-  Ring(centre, radius - width / 2, {width, colour, 0});
+  if (colour.a == 0) return;
+  Need(BatchKind::kDisc);
+  const float reach = radius + 0.5f;  // half a pixel further for its soft edge
+  const auto first = static_cast<std::uint32_t>(vertices_.size());
+  for (int corner = 0; corner < 4; ++corner) {
+    const float x = corner == 1 || corner == 2 ? reach : -reach, y = corner >= 2 ? reach : -reach;
+    const std::uint32_t v = Add(centre.x() + x, centre.y() + y, colour);
+    vertices_[v].across = x;
+    vertices_[v].along = y;
+    vertices_[v].half = radius;
+  }
+  Triangle(first, first + 1, first + 2);
+  Triangle(first, first + 2, first + 3);
 }
 
 void DrawList::Ring(const Vec2& centre, float radius, const Line& line) {

@@ -24,7 +24,8 @@ struct Rect {
   float bottom() const { return y + height; }
 };
 
-/// One corner of a triangle. In a text batch `across` and `half` are the atlas position in px.
+/// One corner of a triangle. In a text batch `across` and `half` are the atlas position in px, in a
+/// batch of discs `across` and `along` the way from the centre and `half` the radius.
 struct Vertex {
   float x = 0, y = 0;
   float across = 0, half = kSolid;  ///< px from the line's middle; half its width
@@ -33,9 +34,9 @@ struct Vertex {
   static constexpr float kSolid = 1e6f;
 };
 
-/// What a run of triangles needs: plain colour, coverage, or the atlas; or none at all, because an
-/// opaque rectangle is cleared.
-enum class BatchKind { kPlain, kShape, kText, kClear };
+/// What a run of triangles needs: plain colour, coverage by a line, with dashes or hatching or
+/// without, or of a disc, or the atlas; or none at all, because an opaque rectangle is cleared.
+enum class BatchKind { kPlain, kShape, kDashed, kDisc, kText, kClear };
 
 /// A run of triangles of one kind and clip: one draw call.
 struct Batch {
@@ -96,7 +97,12 @@ class DrawList {
 
  private:
   void Need(BatchKind kind);
+  /// The open batch of shapes has dashes from here on.
+  void NeedDashes();
   void SetClip(const Rect& rect);
+  /// Adds a large opaque rectangle, among those that come first if it can, and cuts those that it
+  /// covers and nothing was drawn on.
+  void PutUnder(const Batch& fill);
   Rect Cut(const Rect& rect) const;
   void Fan(const std::vector<Vec2>& points, Colour colour);
   std::uint32_t Add(float x, float y, Colour colour);

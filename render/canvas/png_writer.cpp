@@ -1,50 +1,110 @@
 #include "render/canvas/png_writer.h"
 
 #include <png.h>
+#include <zlib.h>
 
 #include <cerrno>
-#include <csetjmp>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <iterator>
 
 #include "common/base/check.h"
 #include "common/base/plain_file.h"
+#include "render/canvas/flat_deflate.h"
 
 namespace seam {
 namespace {
 
 namespace fs = std::filesystem;
 
-void Quiet(png_structp, png_const_charp) {}
+using Bytes = std::vector<std::uint8_t>;
 
-/// libpng leaves by longjmp, so nothing with a destructor may live in here.
-bool Encode(std::FILE* file, const Image& image, int level, png_textp texts, int text_count) {
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, nullptr, Quiet);
-  if (png == nullptr) return false;
-  png_infop info = png_create_info_struct(png);
-  if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) {
-    png_destroy_write_struct(&png, &info);
-    return false;
+void Put32(Bytes* out, std::size_t value) {
+  for (int shift = 24; shift >= 0; shift -= 8)
+    out->push_back(static_cast<std::uint8_t>(value >> shift));
+}
+
+/// A chunk begins with its length, which is known when it ends, and its name.
+std::size_t BeginChunk(Bytes* out, const char* name) {
+  Put32(out, 0);
+  const std::size_t begin = out->size();
+  out->insert(out->end(), name, name + 4);
+  return begin;
+}
+
+void EndChunk(Bytes* out, std::size_t begin) {
+  const std::size_t length = out->size() - begin - 4;
+  for (int i = 0; i < 4; ++i)
+    (*out)[begin - 4 + static_cast<std::size_t>(i)] =
+        static_cast<std::uint8_t>(length >> (24 - 8 * i));
+  Put32(out, crc32(0, out->data() + begin, static_cast<uInt>(length + 4)));
+}
+
+void PutHeader(Bytes* out, const Image& image) {
+  const std::size_t chunk = BeginChunk(out, "IHDR");
+  Put32(out, static_cast<std::size_t>(image.width_px));
+  Put32(out, static_cast<std::size_t>(image.height_px));
+  const std::uint8_t format[] = {8, 2, 0, 0,
+                                 0};  // bits, RGB, deflate, filters by row, no interlace
+  out->insert(out->end(), std::begin(format), std::end(format));
+  EndChunk(out, chunk);
+}
+
+void PutText(Bytes* out, const std::string& key, const std::string& value) {
+  const std::size_t chunk = BeginChunk(out, "iTXt");
+  out->insert(out->end(), key.begin(), key.end());
+  // The key's end, not compressed, method 0, no language, no translated key.
+  out->insert(out->end(), {0, 0, 0, 0, 0});
+  out->insert(out->end(), value.begin(), value.end());
+  EndChunk(out, chunk);
+}
+
+/// Each row with its filter, none, before it.
+Bytes Rows(const Image& image) {
+  const std::size_t row_bytes = 3 * static_cast<std::size_t>(image.width_px);
+  Bytes rows((row_bytes + 1) * static_cast<std::size_t>(image.height_px));
+  std::uint8_t* to = rows.data();
+  for (int y = 0; y < image.height_px; ++y, to += row_bytes) {
+    *to++ = 0;
+    std::memcpy(to, image.At(0, y), row_bytes);
   }
-  png_init_io(png, file);
-  png_set_compression_level(png, level);
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_NONE);
-  png_set_IHDR(png, info, static_cast<png_uint_32>(image.width_px),
-               static_cast<png_uint_32>(image.height_px), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  if (text_count > 0) png_set_text(png, info, texts, text_count);
-  png_write_info(png, info);
-  for (int y = 0; y < image.height_px; ++y) png_write_row(png, image.At(0, y));
-  png_write_end(png, info);
-  png_destroy_write_struct(&png, &info);
-  return true;
+  return rows;
+}
+
+void PutSmall(Bytes* out, const Bytes& rows) {
+  const std::size_t before = out->size();
+  uLongf bytes = compressBound(static_cast<uLong>(rows.size()));
+  out->resize(before + bytes);
+  const int status =
+      compress2(out->data() + before, &bytes, rows.data(), static_cast<uLong>(rows.size()), 9);
+  SEAM_ASSERT(status == Z_OK);
+  out->resize(before + bytes);
+}
+
+void Encode(const Image& image, PngEffort effort, const PngTexts& texts, Bytes* out) {
+  static const std::uint8_t kSignature[] = {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'};
+  out->assign(std::begin(kSignature), std::end(kSignature));
+  PutHeader(out, image);
+  for (const auto& [key, value] : texts) PutText(out, key, value);
+  const std::size_t chunk = BeginChunk(out, "IDAT");
+  if (effort == PngEffort::kSmall) {
+    PutSmall(out, Rows(image));
+  } else {
+    FlatDeflate(image.rgb.data(), 3 * static_cast<std::size_t>(image.width_px),
+                static_cast<std::size_t>(image.height_px), out);
+  }
+  EndChunk(out, chunk);
+  EndChunk(out, BeginChunk(out, "IEND"));
 }
 
 }  // namespace
 
-void WritePng(const std::string& path, const Image& image, int level, const PngTexts& texts) {
+void WritePng(const std::string& path, const Image& image, PngEffort effort,
+              const PngTexts& texts) {
   SEAM_ASSERT(image.width_px > 0 && image.height_px > 0);
+  thread_local Bytes encoded;
+  Encode(image, effort, texts, &encoded);
   std::error_code ignored;
   const fs::file_status there = fs::symlink_status(path, ignored);
   const bool renamed = !fs::exists(there) || fs::is_regular_file(there);
@@ -53,18 +113,9 @@ void WritePng(const std::string& path, const Image& image, int level, const PngT
   std::FILE* file = OpenPlainFile(written, FileUse::kReplace);
   if (file == nullptr) throw OperatorError(path + ": " + std::strerror(errno));
   errno = 0;
-  std::vector<png_text> chunks;
-  for (const auto& [key, value] : texts) {
-    png_text chunk{};
-    chunk.compression = PNG_ITXT_COMPRESSION_NONE;
-    chunk.key = const_cast<char*>(key.c_str());  // libpng only reads them
-    chunk.text = const_cast<char*>(value.c_str());
-    chunk.itxt_length = value.size();
-    chunks.push_back(chunk);
-  }
-  const bool encoded = Encode(file, image, level, chunks.data(), static_cast<int>(chunks.size()));
+  const bool whole = std::fwrite(encoded.data(), 1, encoded.size(), file) == encoded.size();
   const bool closed = std::fclose(file) == 0;
-  if (encoded && closed && (!renamed || std::rename(written.c_str(), path.c_str()) == 0)) return;
+  if (whole && closed && (!renamed || std::rename(written.c_str(), path.c_str()) == 0)) return;
   const std::string why = errno != 0 ? std::strerror(errno) : "write failed";
   if (renamed) fs::remove(written, ignored);
   throw OperatorError(path + ": " + why);

@@ -98,9 +98,8 @@ void DrawRimmed(DrawList& list, const Viewport& viewport, const BodyShapes& body
 
 }  // namespace
 
-BodyLook LookOf(int authority, int role) {
+BodyLook LookOf(Colour base, int role) {
   constexpr Colour kWhite{255, 255, 255, 255};
-  const Colour base = PeerColour(authority);
   BodyLook look;
   look.edge = Darker(base);
   switch (role) {

@@ -16,7 +16,7 @@ struct BodyLook {
 };
 
 /// Authority: the peer's colour. Secondary: lighter. Remote: pale and hatched.
-BodyLook LookOf(int authority, int role);
+BodyLook LookOf(Colour base, int role);
 /// Anchored ground.
 BodyLook GroundLook();
 

@@ -4,6 +4,7 @@
 
 #include "render/canvas/palette.h"
 #include "render/draw/draw_body.h"
+#include "render/playback/peer_colour.h"
 
 namespace seam {
 namespace {
@@ -23,10 +24,10 @@ void Swatch(DrawList& list, float x, float y, const BodyLook& look) {
 }
 
 /// The scale of the heat: 1 mm to 1 m. Returns where it ends.
-float HeatBar(DrawList& list, float x, float base) {
+float HeatBar(DrawList& list, float x, float base, const char* from) {
   const float scale = list.font().scale();
   constexpr int kSteps = 30;
-  x += list.Text(x, base, TextStyle::kSmall, "error 1 mm", kInk) + 6 * scale;
+  x += list.Text(x, base, TextStyle::kSmall, from, kInk) + 6 * scale;
   for (int i = 0; i < kSteps; ++i) {
     const float decades = 3 * static_cast<float>(i) / (kSteps - 1);
     list.FillRect({std::round(x), std::round(base - 10 * scale), std::ceil(3 * scale), 11 * scale},
@@ -82,16 +83,16 @@ void DrawLegend(DrawList& list, const Rect& area, const Playback& playback, cons
   };
   const std::vector<int> peers = playback.peers();
   for (std::size_t i = 0; i < peers.size() && i < 6; ++i)
-    entry(LookOf(peers[i], kRoleAuthority), playback.PeerName(peers[i]));
+    entry(LookOf(ColourOf(playback, peers[i]), kRoleAuthority), playback.PeerName(peers[i]));
   if (peers.size() > 6) x += list.Text(x, base, TextStyle::kSmall, "…", kInk) + 16 * scale;
-  if (look.heat) {
+  if (look.heat || look.pale) {
     gap();
-    x = HeatBar(list, x, base) + 16 * scale;
+    x = HeatBar(list, x, base, look.pale ? "apart 1 mm" : "error 1 mm") + 16 * scale;
   } else if (playback.mode() != Mode::kOracle) {
     gap();
-    entry(LookOf(0, kRoleAuthority), "simulated with authority");
-    entry(LookOf(0, kRoleSecondary), "secondary copy");
-    entry(LookOf(0, kRoleRemote), "remote, displayed");
+    entry(LookOf(PeerColour(0), kRoleAuthority), "simulated with authority");
+    entry(LookOf(PeerColour(0), kRoleSecondary), "secondary copy");
+    entry(LookOf(PeerColour(0), kRoleRemote), "remote, displayed");
   }
   if (playback.has_oracle() || impacts) gap();
   if (playback.has_oracle()) {

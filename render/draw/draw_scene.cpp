@@ -8,6 +8,7 @@
 #include "render/canvas/palette.h"
 #include "render/draw/draw_body.h"
 #include "render/draw/draw_bricks.h"
+#include "render/playback/peer_colour.h"
 
 namespace seam {
 namespace {
@@ -44,7 +45,7 @@ std::vector<Region> RegionsOf(const Viewport& viewport, const Playback& playback
     const Vec2 margin(band, band);
     regions.push_back({Box(viewport, player.region_min, player.region_max),
                        Box(viewport, player.region_min - margin, player.region_max + margin),
-                       PeerColour(peer), player.name});
+                       ColourOf(playback, peer), player.name});
   }
   return regions;
 }
@@ -109,14 +110,13 @@ void DrawGrid(DrawList& list, const Viewport& viewport) {
   const float step = RoundUp(45 * list.font().scale() / viewport.px_per_m);
   const Vec2 low = viewport.ToWorld({viewport.panel.x, viewport.panel.bottom()});
   const Vec2 high = viewport.ToWorld({viewport.panel.right(), viewport.panel.y});
-  const Line line{1, Faded(kGroundEdge, 0.13f), 0};
+  const Colour colour = Faded(kGroundEdge, 0.13f);  // lines on whole pixels need no soft edge
+  const Rect& panel = viewport.panel;
   for (float k = std::ceil(low.x() / step); k * step <= high.x(); ++k) {
-    const float x = std::floor(viewport.ToPx({k * step, 0}).x()) + 0.5f;
-    list.Stroke({{x, viewport.panel.y}, {x, viewport.panel.bottom()}}, false, line);
+    list.FillRect({std::floor(viewport.ToPx({k * step, 0}).x()), panel.y, 1, panel.height}, colour);
   }
   for (float k = std::ceil(low.y() / step); k * step <= high.y(); ++k) {
-    const float y = std::floor(viewport.ToPx({0, k * step}).y()) + 0.5f;
-    list.Stroke({{viewport.panel.x, y}, {viewport.panel.right(), y}}, false, line);
+    list.FillRect({panel.x, std::floor(viewport.ToPx({0, k * step}).y()), panel.width, 1}, colour);
   }
 }
 
@@ -126,12 +126,20 @@ void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playb
   const std::vector<Region> regions = RegionsOf(viewport, playback);
   for (const Region& region : regions)
     list.FillRect(Shared(region.inner, viewport.panel), Mix(kPanel, region.colour, 0.1f));
+  // A region may be kilometres wide; the rasteriser is slow with what lies far outside.
+  const Rect& panel = viewport.panel;
+  const float beyond = 10 * scale;
+  const Rect near{panel.x - beyond, panel.y - beyond, panel.width + 2 * beyond,
+                  panel.height + 2 * beyond};
   for (const Region& region : regions) {
     const Rect inner{region.inner.x + scale, region.inner.y + scale, region.inner.width - 2 * scale,
                      region.inner.height - 2 * scale};
-    list.StrokeRect(inner, {1.5f * scale, Faded(region.colour, 0.85f), 0});
-    if (region.outer.width > region.inner.width)
-      list.StrokeRect(region.outer, {1.2f * scale, Faded(region.colour, 0.9f), 8 * scale});
+    if (Seen(Shared(inner, near)))
+      list.StrokeRect(Shared(inner, near), {1.5f * scale, Faded(region.colour, 0.85f), 0});
+    if (region.outer.width > region.inner.width && Seen(Shared(region.outer, near))) {
+      list.StrokeRect(Shared(region.outer, near),
+                      {1.2f * scale, Faded(region.colour, 0.9f), 8 * scale});
+    }
   }
 }
 
@@ -174,6 +182,9 @@ void DrawScaleBar(DrawList& list, const Viewport& viewport) {
   for (float x : {left, right}) list.Stroke({{x, y - tick}, {x, y + tick}}, false, line);
   std::string text = metres >= 1 ? std::to_string(static_cast<int>(metres + 0.5f)) + " m"
                                  : std::to_string(static_cast<int>(100 * metres + 0.5f)) + " cm";
+  const float wide = list.font().Width(TextStyle::kSmall, text) + 6 * scale;
+  list.FillRect({std::round((left + right - wide) / 2), y - 14 * scale, wide, 12 * scale},
+                Faded(kPanel, 0.75f));
   list.Text((left + right) / 2, y - 5 * scale, TextStyle::kSmall, text, kFaintInk, Align::kCentre);
 }
 

@@ -6,6 +6,7 @@
 
 #include "common/scene/strand.h"
 #include "render/canvas/palette.h"
+#include "render/playback/peer_colour.h"
 
 namespace seam {
 namespace {
@@ -47,7 +48,7 @@ void DrawStrands(DrawList& list, const Viewport& viewport, const Playback& playb
     const float width =
         std::max(all[static_cast<std::size_t>(index)].width * viewport.px_per_m, 1.2f * scale);
     const auto shown = playback.Find(moment, all[static_cast<std::size_t>(index)].part);
-    const Colour colour = shown ? Darker(PeerColour(shown->authority)) : kInk;
+    const Colour colour = shown ? Darker(ColourOf(playback, shown->authority)) : kInk;
     for (std::size_t i = 1; i < px.size(); ++i) {
       const float thin = static_cast<float>(i - 1) / static_cast<float>(px.size());
       list.Stroke({px[i - 1], px[i]}, false, {width * (1 - 0.8f * thin), colour, 0});

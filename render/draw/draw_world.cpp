@@ -18,6 +18,7 @@
 #include "render/draw/draw_scene.h"
 #include "render/draw/draw_strands.h"
 #include "render/playback/marks.h"
+#include "render/playback/peer_colour.h"
 
 namespace seam {
 namespace {
@@ -85,7 +86,7 @@ void DrawTrails(DrawList& list, const Viewport& viewport, const Playback& playba
       before = px;
       const auto age = static_cast<float>((look.tick - moment.tick) / (last - first + 1));
       list.Disc(px, kDotRadius * scale,
-                Faded(Darker(PeerColour(shown->authority)), 0.9f - 0.8f * age));
+                Faded(Darker(ColourOf(playback, shown->authority)), 0.9f - 0.8f * age));
     }
   }
 }
@@ -149,7 +150,11 @@ float ErrorOf(const Playback& playback, const Moment& now, const BodyShapes& bod
 
 BodyLook LookWith(const Playback& playback, const Moment& now, const Seen& one,
                   const WorldLook& look) {
-  BodyLook body = LookOf(one.shown.authority, one.shown.role);
+  BodyLook body = LookOf(ColourOf(playback, one.shown.authority), one.shown.role);
+  if (look.pale) {
+    body.fill = Mix(body.fill, kPanel, 0.7f);
+    body.edge = Mix(body.edge, kPanel, 0.5f);
+  }
   if (look.heat) {
     body.fill = HeatColour(ErrorOf(playback, now, *one.body));
     body.hatched = false;
@@ -170,14 +175,13 @@ void DrawImpacts(DrawList& list, const Viewport& viewport, const Playback& playb
   }
 }
 
-void DrawName(DrawList& list, float left, float base, const std::string& name, int authority) {
+void DrawName(DrawList& list, float left, float base, const std::string& name, Colour colour) {
   const float scale = list.font().scale();
   const float width = list.font().Width(TextStyle::kStrong, name);
   list.FillRect(
       {std::round(left - 4 * scale), std::round(base - 12 * scale), width + 8 * scale, 16 * scale},
       Faded(kPanel, 0.75f));
-  list.Text(left + width / 2, base, TextStyle::kStrong, name, Darker(PeerColour(authority)),
-            Align::kCentre);
+  list.Text(left + width / 2, base, TextStyle::kStrong, name, Darker(colour), Align::kCentre);
 }
 
 /// Where a character's torso is on the panel; `otherwise` when none is seen.
@@ -206,7 +210,8 @@ void DrawCharacterNames(DrawList& list, const Viewport& viewport, const Playback
     const float torso = TorsoX(viewport, seen, figure.character, head.x());
     const bool left = torso > head.x() + 0.5f * beside;
     const float from = left ? -beside - list.font().Width(TextStyle::kStrong, name) : beside;
-    DrawName(list, head.x() + from, head.y() + 4 * scale, name, one.shown.authority);
+    DrawName(list, head.x() + from, head.y() + 4 * scale, name,
+             ColourOf(playback, one.shown.authority));
   }
 }
 
@@ -235,7 +240,7 @@ void DrawNames(DrawList& list, const Viewport& viewport, const Playback& playbac
     list.FillRect({std::round(x - width / 2 - 4 * scale), std::round(y - 12 * scale),
                    width + 8 * scale, 16 * scale},
                   Faded(kPanel, 0.75f));
-    list.Text(x, y, style, name, Darker(PeerColour(one.shown.authority)), Align::kCentre);
+    list.Text(x, y, style, name, Darker(ColourOf(playback, one.shown.authority)), Align::kCentre);
   }
   DrawCharacterNames(list, viewport, playback, seen);
 }
@@ -284,7 +289,7 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
   DrawBlasts(list, viewport, playback, now, look.tick);
   DrawImpacts(list, viewport, playback, look);
   DrawHealth(list, viewport, playback, now, look.tick);
-  DrawNames(list, viewport, playback, seen, look.names);
+  if (!look.pale) DrawNames(list, viewport, playback, seen, look.names);
   DrawScores(list, viewport.panel, playback, look.tick);
   DrawScaleBar(list, viewport);
   list.NoClip();

@@ -15,6 +15,7 @@ struct WorldLook {
   bool ghosts = true;    ///< where the oracle has it, if elsewhere
   bool vectors = false;  ///< from where the oracle has it to where it is shown
   bool heat = false;     ///< fill by that distance instead of by authority
+  bool pale = false;     ///< bodies are only the ground for a difference
   bool names = false;    ///< of all bodies, not only of the players' vehicles
 };
 

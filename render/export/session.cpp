@@ -191,6 +191,8 @@ void ForEachView(const ExportSession& session, const std::function<void(const Vi
       const View* view = FindView(views, tick);
       if (view != nullptr) take(*view);
     }
+    session.progress(tick - recording.first_tick + 1,
+                     recording.last_tick - recording.first_tick + 1);
   }
 }
 

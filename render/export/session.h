@@ -29,6 +29,8 @@ struct ExportSession {
   std::optional<Oracle> oracle;      ///< empty: there are no errors; `lacking` says why
   std::vector<ExportBody> bodies;    ///< chosen ones that are shown at any time, by id
   std::map<PartId, std::string> of;  ///< their names
+  /// Called by ForEachView with ticks done and in all.
+  std::function<void(std::int64_t, std::int64_t)> progress = [](std::int64_t, std::int64_t) {};
   std::vector<std::string> lacking;  ///< what the log does not have, a line each
 
   double TickSeconds() const { return 1.0 / recording.room.tick_hz; }

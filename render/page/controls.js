@@ -10,7 +10,7 @@ const KEYS = [
   ['g', 'first divergence'],
   ['f 0', 'fit to the action, to the scene'],
   ['Esc', 'stop following'],
-  ['o d v h r n c', 'layers: oracle, dots, vectors, heat, regions, names, contacts'],
+  ['o d v h r n k c', 'layers: oracle, dots, vectors, heat, regions, names, onion, contacts'],
   ['drag, wheel', 'a drag moves the camera, the wheel zooms; all panels together'],
 ];
 

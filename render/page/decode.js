@@ -120,6 +120,25 @@ function readSeries(bytes, section, unit) {
   return {count, root};
 }
 
+// {part, width, points, rowOf, columns}: strands of a view; x and y of each point in mm, by row; and
+// which row a tick has.
+function readStrands(bytes, section) {
+  const reader = new Reader(bytes, section);
+  return Array.from({length: reader.unsigned()}, () => {
+    reader.unsigned();
+    const strand = {part: reader.signed(), width: reader.signed() / 1000};
+    strand.points = reader.unsigned();
+    const length = reader.unsigned();
+    const column = () => {
+      let value = 0;
+      return Array.from({length}, () => (value += reader.signed()));
+    };
+    strand.rowOf = new Map(column().map((tick, row) => [tick, row]));
+    strand.columns = Array.from({length: 2 * strand.points}, column);
+    return strand;
+  });
+}
+
 // [left, bottom, width, height] of each block of bricks, units of 5 cm.
 function readBricks(bytes, section) {
   const reader = new Reader(bytes, section);

@@ -5,15 +5,18 @@
 #include <cmath>
 #include <map>
 
+#include "common/base/json_text.h"
 #include "common/base/version.h"
+#include "common/record/loss_timeline.h"
 #include "render/canvas/palette.h"
 #include "render/page/assets.h"
 #include "render/page/events.h"
 #include "render/page/gzip.h"
-#include "common/base/json_text.h"
 #include "render/page/series.h"
+#include "render/page/strands.h"
 #include "render/page/tracks.h"
 #include "render/page/worlds.h"
+#include "render/playback/peer_colour.h"
 
 namespace seam {
 namespace {
@@ -68,7 +71,41 @@ std::string ViewJson(const Playback& playback, int peer, PageWorlds* worlds,
   };
   add("stutter", stutter, kStutterUnit_mps2);
   add("path", path, kPageErrorUnit_m);
+  const PageBytes strands = EncodeStrands(playback, peer);
+  if (!strands.empty()) json += fmt::format(R"(,"strands":{})", sections->Add(strands));
   return json + "}";
+}
+
+std::string ColourJson(Colour colour) {
+  return fmt::format("\"#{:02x}{:02x}{:02x}\"", colour.r, colour.g, colour.b);
+}
+
+/// Of the peers whose player has a colour in the scene: [peer, colour].
+std::string ColoursJson(const Playback& playback) {
+  std::vector<std::string> colours;
+  for (const int peer : playback.peers()) {
+    const Colour colour = ColourOf(playback, peer);
+    if (colour == PeerColour(peer)) continue;
+    colours.push_back(fmt::format("[{},{}]", peer, ColourJson(colour)));
+  }
+  return JsonList(colours);
+}
+
+/// [kind, channel, first tick, last tick, lost]; at most so many.
+std::string LossesJson(const PageRun& run) {
+  constexpr std::size_t kLossesMax = 5000;
+  const Recording& recording = run.playback->recording();
+  std::vector<std::string> rows;
+  const double hz = run.playback->tick_hz();
+  const std::vector<Loss> losses =
+      run.path.empty() ? FindLosses(recording) : FindLosses(run.path, recording);
+  for (const Loss& loss : losses) {
+    if (rows.size() == kLossesMax) break;
+    rows.push_back(fmt::format("[{},{},{},{},{}]", JsonText(LossKind(loss.kind)),
+                               JsonText(loss.channel), std::llround(loss.from_s * hz),
+                               std::llround(loss.to_s * hz), loss.lost));
+  }
+  return JsonList(rows);
 }
 
 std::string RunJson(const PageRun& run, Sections* sections) {
@@ -94,15 +131,12 @@ std::string RunJson(const PageRun& run, Sections* sections) {
   const PageBytes world_section(drawn.begin(), drawn.end());
   return fmt::format(
       R"({{"name":{},"label":{},"scene":{},"title":{},"network":{},"hz":{},"first":{},"last":{},)"
-      R"("truth":{},"world":{},"bricks":{},"views":{},"events":{}}})",
+      R"("truth":{},"world":{},"bricks":{},"views":{},"events":{},"colours":{},"losses":{}}})",
       JsonText(run.name), JsonText(playback.Label()), JsonText(room.scene_name),
       JsonText(playback.scene().title), JsonText(room.impair), playback.tick_hz(),
       recording.first_tick, recording.last_tick, truth, sections->Add(world_section),
-      sections->Add(EncodeBricks(playback)), JsonList(views), JsonList(events));
-}
-
-std::string ColourJson(Colour colour) {
-  return fmt::format("\"#{:02x}{:02x}{:02x}\"", colour.r, colour.g, colour.b);
+      sections->Add(EncodeBricks(playback)), JsonList(views), JsonList(events),
+      ColoursJson(playback), LossesJson(run));
 }
 
 /// The colours of pictures, so that a page and a picture of a run look alike. Heat: from 1 mm to

@@ -13,6 +13,7 @@ namespace seam {
 struct PageRun {
   std::string name;  ///< what to call it: "crossing-rollback"
   const Playback* playback = nullptr;
+  std::string path = {};  ///< of its log, for what the logger missed; "": not looked for
 };
 
 /// What a page carries, before it is compressed: the head's length in bytes (4 bytes, the lowest

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/json_text.h"
 #include "common/measure/handover_list.h"
 #include "common/sync/edits/edit_order.h"
-#include "common/base/json_text.h"
+#include "render/page/jumps.h"
 #include "render/playback/format.h"
 #include "render/playback/marks.h"
 
@@ -115,7 +116,7 @@ std::vector<PageEvent> FindPresence(const Playback& playback) {
 
 std::vector<PageEvent> EventsOf(const Playback& playback) {
   std::vector<PageEvent> all;
-  for (const auto find : {FindImpacts, FindHandOvers, FindEdits, FindPresence}) {
+  for (const auto find : {FindImpacts, FindHandOvers, FindEdits, FindPresence, FindJumps}) {
     std::vector<PageEvent> events = find(playback);
     std::stable_sort(events.begin(), events.end(),
                      [](const PageEvent& a, const PageEvent& b) { return a.size > b.size; });

@@ -126,6 +126,16 @@ function wireStrip(page) {
         `${page.runs[0].seconds(tick).toFixed(3)} s: ${values.join(' · ')}`;
   });
   canvas.addEventListener('pointerleave', () => ($('strip-text').textContent = ''));
+  $('losses').addEventListener('pointermove', (event) => {
+    const [x, y] = pointIn($('losses'), event);
+    const text = page.losses.textAt(x, y, (tick) => page.views()[0].run.seconds(tick));
+    $('strip-text').textContent = text;
+  });
+  $('losses').addEventListener('pointerleave', () => ($('strip-text').textContent = ''));
+  onDrag($('losses'), (event) => {
+    page.player.pause();
+    page.player.go(page.losses.tickAt(pointIn($('losses'), event)[0]));
+  }, () => {});
   onDrag($('marks'), (event) => goToMark(page, pointIn($('marks'), event)[0]), () => {});
 }
 

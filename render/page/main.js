@@ -7,12 +7,15 @@ class Page {
     this.runs = [];
     const units = {error: head.error_unit, stutter: head.stutter_unit};
     Object.assign(COLOURS, head.colours);
+    for (const run of head.runs)
+      for (const [peer, colour] of run.colours) COLOURS.peers[peer] = colour;
     for (const run of head.runs) this.runs.push(new Run(this, run, bytes, this.runs.length, units));
     for (const run of this.runs) {
       run.events = run.events.map((event) => ({...event, at: event.tick - run.first}));
     }
     this.strip = new Strip($('strip'));
     this.marks = new Marks($('marks'));
+    this.losses = new Losses($('losses'));
     this.drawing = false;
     this.firstPanels();
     this.player = new Player(this.runs, () => this.changed());
@@ -125,6 +128,7 @@ class Page {
   }
 
   draw(now_ms) {
+    this.losses.place([...new Set(this.views().map((view) => view.run))]);
     const canvas = $('world');
     const ratio = window.devicePixelRatio || 1;
     const [width, height] = [canvas.clientWidth, canvas.clientHeight];
@@ -139,6 +143,7 @@ class Page {
         views, state.measure, state.tick, state.range, (tick) => run.seconds(tick),
         this.player.last);
     this.marks.draw(this.events(), state.tick, this.player.last);
+    this.losses.draw(state.tick, this.player.last);
     this.drawControls(views);
     // Tables are slow to lay out: four times a second while it plays.
     if (!state.playing || !(now_ms - this.tables_ms < 250)) {

@@ -20,6 +20,7 @@ class View {
     this.tracks = readTracks(bytes, head.tracks, true);
     this.stutter = head.stutter && readSeries(bytes, head.stutter, units.stutter);
     this.path = head.path && readSeries(bytes, head.path, units.error);
+    this.strands = head.strands ? readStrands(bytes, head.strands) : [];
     this.curves = {};
   }
   label() {
@@ -112,6 +113,7 @@ function makeWorld(world, bodies) {
     moving,
     anchored,
     joints: world.joints,
+    holes: world.holes,
     byId: new Map(moving.map((body) => [body.id, body])),
     anchoredById: new Map(anchored.map((entry) => [entry.body.id, entry])),
   };

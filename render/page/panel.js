@@ -155,7 +155,7 @@ function drawNames(c, viewport, view, seen) {
   }
 }
 
-function drawHeatScale(c, rect) {
+function drawHeatScale(c, rect, what) {
   const width = Math.min(160, rect.width / 3);
   const x = rect.x + 12;
   const y = rect.y + rect.height - 18;
@@ -173,20 +173,68 @@ function drawHeatScale(c, rect) {
   c.textAlign = 'left';
   c.fillText('1 mm', x, y - 4);
   c.textAlign = 'center';
-  c.fillText('error', x + width / 2, y - 4);
+  c.fillText(what, x + width / 2, y - 4);
   c.textAlign = 'right';
   c.fillText('1 m', x + width, y - 4);
 }
 
-// Bodies of a view; `other`: of a difference, what is drawn pale beneath and joined by arrows.
-function drawBodies(c, viewport, view, tick, alpha) {
+// Bodies where they were, every 0.15 s of the last 0.75 s, the older the paler.
+function drawOnion(c, viewport, view, tick) {
+  const step = Math.max(1, Math.round(TRAIL_SECONDS * view.run.hz / 5));
+  for (let k = 5; k >= 1; --k) {
+    const then = Math.floor(tick) - k * step;
+    if (then < 0) continue;
+    c.globalAlpha = 0.5 * (1 - k / 6);
+    c.lineWidth = 1;
+    for (const body of view.worldAt(then).moving) {
+      const track = view.tracks.bodies.get(body.id);
+      const pose = poseOf(track, then);
+      if (!pose || !viewport.sees(pose[0], pose[1], body.reach / 1000)) continue;
+      if (!moved(track, tick, k * step, 3, viewport.scale)) continue;
+      c.strokeStyle = mixColours(peerColour(Math.floor(track.owner[then] / 3)), COLOURS.theme.ink, 0.4);
+      strokeBody(c, viewport, body, pose);
+    }
+  }
+  c.globalAlpha = 1;
+}
+
+function drawStrands(c, viewport, view, tick) {
+  for (const strand of view.strands) {
+    const row = strand.rowOf.get(Math.floor(tick) + view.run.first);
+    if (row === undefined) continue;
+    const track = view.tracks.bodies.get(strand.part);
+    const owner = track ? Math.floor(track.owner[Math.floor(tick)] / 3) : 0;
+    c.strokeStyle = mixColours(peerColour(owner), COLOURS.theme.ink, 0.5);
+    const at = (k) => strand.columns[k][row] / 1000;
+    for (let i = 1; i < strand.points; ++i) {
+      const thin = 1 - 0.8 * (i - 1) / strand.points;
+      c.lineWidth = Math.max(strand.width * viewport.scale, 1.2) * thin;
+      c.beginPath();
+      c.moveTo(viewport.x(at(2 * i - 2)), viewport.y(at(2 * i - 1)));
+      c.lineTo(viewport.x(at(2 * i)), viewport.y(at(2 * i + 1)));
+      c.stroke();
+    }
+  }
+}
+
+// How far apart two views show a body, m; null where one does not.
+function apartOf(id, first, second, tick) {
+  const from = poseOf(first.tracks.bodies.get(id), tick);
+  const to = poseOf(second.tracks.bodies.get(id), tick);
+  return from && to ? Math.hypot(from[0] - to[0], from[1] - to[1]) : null;
+}
+
+// Bodies of a view; `errorOf`: by what they are coloured, or nothing.
+function drawBodies(c, viewport, view, tick, alpha, errorOf) {
   const seen = [];
   for (const body of view.worldAt(tick).moving) {
     const track = view.tracks.bodies.get(body.id);
     const pose = poseOf(track, tick);
     if (!pose || !viewport.sees(pose[0], pose[1], body.reach / 1000)) continue;
     const code = track.owner[Math.floor(tick)];
-    const heat = state.layers.heat ? view.errorOf(body.id, tick) : null;
+    const heat = errorOf  ? errorOf(body.id) :
+        state.layers.heat ? view.errorOf(body.id, tick) :
+                            null;
     const fill = bodyFill(Math.floor(code / 3), code % 3, heat);
     const own = mixColours(peerColour(Math.floor(code / 3)), COLOURS.theme.ink, 0.5);
     const followed = body.id === state.follow;
@@ -198,8 +246,11 @@ function drawBodies(c, viewport, view, tick, alpha) {
   return seen;
 }
 
+// The second view pale, the first over it, coloured by how far they are apart and joined by arrows.
 function drawDifference(c, viewport, first, second, tick) {
   drawBodies(c, viewport, second, tick, 0.35);
+  const seen = drawBodies(
+      c, viewport, first, tick, 0.85, (id) => apartOf(id, first, second, tick));
   c.strokeStyle = COLOURS.theme.spark;
   c.lineWidth = 1.5;
   for (const [id, track] of first.tracks.bodies) {
@@ -208,6 +259,7 @@ function drawDifference(c, viewport, first, second, tick) {
     if (!from || !to) continue;
     drawArrow(c, viewport.x(to[0]), viewport.y(to[1]), viewport.x(from[0]), viewport.y(from[1]));
   }
+  return seen;
 }
 
 // `second`: the view that a difference is taken from, or nothing.
@@ -224,15 +276,17 @@ function drawPanel(c, rect, camera, view, tick, second) {
   drawWaters(c, viewport, view.run);
   if (state.layers.regions) drawRegions(c, viewport, view.run);
   drawGround(c, viewport, view.run, world, tick);
-  const seen = drawBodies(c, viewport, view, tick, second ? 0.75 : 1);
-  if (second) drawDifference(c, viewport, view, second, tick);
+  if (state.layers.onion) drawOnion(c, viewport, view, tick);
+  const seen = second ? drawDifference(c, viewport, view, second, tick) :
+                        drawBodies(c, viewport, view, tick, 1);
+  drawStrands(c, viewport, view, tick);
   drawJoints(c, viewport, view.run, view, world, tick);
   if (state.layers.truth) drawTruth(c, viewport, view, tick);
   if (state.layers.dots) drawDots(c, viewport, view, tick);
   if (state.layers.vectors) drawVectors(c, viewport, view, tick);
   if (state.layers.contacts) drawContacts(c, viewport, view, tick);
   drawNames(c, viewport, view, seen);
-  if (state.layers.heat) drawHeatScale(c, rect);
+  if (state.layers.heat || second) drawHeatScale(c, rect, second ? 'apart' : 'error');
   drawScaleBar(c, viewport, step);
   c.restore();
   return viewport;

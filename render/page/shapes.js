@@ -109,6 +109,7 @@ function drawScaleBar(c, viewport, step) {
   const left = right - step * viewport.scale;
   const y = rect.y + rect.height - 12;
   c.strokeStyle = c.fillStyle = COLOURS.theme.faint;
+  c.lineWidth = 1;
   c.beginPath();
   c.moveTo(left, y - 3);
   c.lineTo(left, y);
@@ -136,17 +137,18 @@ function drawWaters(c, viewport, run) {
 
 const BRICK_UNIT = 0.05;  // m
 
-function traceBricks(c, viewport, run) {
+// `pad`: px more on each side.
+function traceBlocks(c, viewport, blocks, pad = 0) {
   const {rect, scale} = viewport;
   c.beginPath();
-  for (const [x, y, width, height] of run.bricks) {
+  for (const [x, y, width, height] of blocks) {
     const left = viewport.x(x * BRICK_UNIT);
     const top = viewport.y((y + height) * BRICK_UNIT);
     const w = width * BRICK_UNIT * scale;
     const h = height * BRICK_UNIT * scale;
     if (left + w < rect.x || top + h < rect.y) continue;
     if (left > rect.x + rect.width || top > rect.y + rect.height) continue;
-    c.rect(left, top, w, h);
+    c.rect(left - pad, top - pad, w + 2 * pad, h + 2 * pad);
   }
 }
 
@@ -156,7 +158,7 @@ const brickPictures = new Map();
 function drawBricks(c, viewport, run) {
   if (run.bricks.length === 0) return;
   if (!(c instanceof CanvasRenderingContext2D)) {
-    traceBricks(c, viewport, run);
+    traceBlocks(c, viewport, run.bricks);
     c.fill();
     return;
   }
@@ -173,7 +175,7 @@ function drawBricks(c, viewport, run) {
     own.scale(ratio, ratio);
     own.fillStyle = c.fillStyle;
     const {width, height} = rect;
-    traceBricks(own, new Viewport({x: 0, y: 0, width, height}, camera), run);
+    traceBlocks(own, new Viewport({x: 0, y: 0, width, height}, camera), run.bricks);
     own.fill();
     picture = {key, canvas};
     brickPictures.set(run, picture);
@@ -187,6 +189,12 @@ function drawGround(c, viewport, run, world, tick) {
   c.strokeStyle = COLOURS.theme['ground-edge'];
   c.lineWidth = 1;
   drawBricks(c, viewport, run);
+  if (world.holes.length > 0) {
+    c.fillStyle = COLOURS.theme.panel;
+    traceBlocks(c, viewport, world.holes, 0.7);  // and the soft edges of what was there
+    c.fill();
+    c.fillStyle = COLOURS.theme.ground;
+  }
   for (const entry of world.anchored) {
     const pose = anchoredPose(run, entry, tick);
     if (!viewport.sees(pose[0], pose[1], entry.body.reach / 1000)) continue;

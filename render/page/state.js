@@ -8,6 +8,7 @@ const LAYERS = {
   heat: {name: 'Heat', key: 'h', hint: 'bodies coloured by their error'},
   regions: {name: 'Regions', key: 'r', hint: 'regions and buffer zones'},
   names: {name: 'Names', key: 'n', hint: 'names of bodies'},
+  onion: {name: 'Onion', key: 'k', hint: 'outlines of the last 0.75 s, the older the paler'},
   contacts: {name: 'Contacts', key: 'c', hint: 'impacts of the last half second'},
 };
 const SPEEDS = [1 / 16, 1 / 8, 1 / 4, 1 / 2, 1, 2, 4];
@@ -44,7 +45,7 @@ function writeFragment() {
   if (state.follow !== null) words.push('f=' + state.follow);
   if (state.range) words.push('r=' + state.range.join(','));
   if (state.camera)
-    words.push('c=' + ['x', 'y', 'height'].map((k) => state.camera[k].toFixed(3)).join(','));
+    words.push('c=' + ['x', 'y', 'height'].map((k) => state.camera[k]).join(','));  // exactly
   history.replaceState(null, '', '#' + words.join('&'));
 }
 

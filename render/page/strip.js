@@ -8,6 +8,7 @@ const STRIP = {
 };
 const EVENT_KINDS = {
   'impact': {name: 'Impact', colour: '#c41e3a'},
+  'correction': {name: 'Jump', colour: '#d2691e'},
   'hand-over': {name: 'Hand-over', colour: '#7a48b4'},
   'edit': {name: 'Edit', colour: '#b07800'},
   'gap': {name: 'Gap', colour: '#5a6472'},
@@ -143,6 +144,68 @@ class Strip {
 function axisLength(metres) {
   if (metres < 0.0095) return `${Math.round(metres * 1000)} mm`;
   return metres < 0.95 ? `${Math.round(metres * 100)} cm` : `${Math.round(metres)} m`;
+}
+
+const LOSS_ROW_PX = 24;
+// When and where something was lost: a row for each channel, a mark for each loss.
+class Losses extends Strip {
+  // Rows of [label, [[from, to, lost, kind], ...]] in ticks since the first.
+  rowsOf(runs) {
+    const rows = new Map();
+    for (const run of runs) {
+      for (const [kind, channel, from, to, lost] of run.losses) {
+        const short = channel.replace(/^SEAM\.[^.]*\./, '');
+        const label = runs.length > 1 ? `${run.name} · ${short}` : short;
+        if (!rows.has(label)) rows.set(label, []);
+        rows.get(label).push([from - run.first, to - run.first, lost, kind]);
+      }
+    }
+    return [...rows].sort((a, b) => (a[0] < b[0] ? -1 : 1));
+  }
+  // Takes its place on the page, before the widths of the other canvases are asked for: with it the
+  // page may get a scroll bar.
+  place(runs) {
+    this.rows = this.rowsOf(runs);
+    this.canvas.hidden = this.rows.length === 0;
+    this.canvas.style.height = `${LOSS_ROW_PX * this.rows.length + 4}px`;
+  }
+  draw(tick, last) {
+    const {rows} = this;
+    if (rows.length === 0) return;
+    const c = this.prepare(last);
+    c.font = '11px system-ui, sans-serif';
+    c.textAlign = 'left';
+    rows.forEach(([label, losses], i) => {
+      const y = LOSS_ROW_PX * i + 2;
+      c.fillStyle = COLOURS.theme.grid;
+      c.fillRect(STRIP.left, y + 16, this.plotWidth(), 2);
+      const most = Math.max(...losses.map((loss) => loss[2]));
+      c.fillStyle = COLOURS.theme.spark;
+      for (const [from, to, lost, kind] of losses) {
+        c.globalAlpha = kind === 'network' ? 0.35 : 1;  // an estimate, smeared over seconds
+        const tall = 4 + 8 * lost / most;
+        const left = this.x(Math.max(0, from));
+        c.fillRect(left, y + 17 - tall / 2, Math.max(2, this.x(to) - left), tall);
+      }
+      c.globalAlpha = 1;
+      c.fillStyle = COLOURS.theme.faint;
+      c.fillText(`lost: ${label}`, STRIP.left, y + 9);
+    });
+    c.fillStyle = COLOURS.theme.ink;
+    c.fillRect(this.x(tick) - 0.6, 0, 1.2, this.height);
+  }
+  // The loss at a place of the canvas in words; nothing where there is none.
+  textAt(x, y, seconds) {
+    const row = this.rows && this.rows[Math.floor(y / LOSS_ROW_PX)];
+    if (!row) return '';
+    const tick = this.tickAt(x);
+    const near = (loss) => Math.max(loss[0] - tick, tick - loss[1], 0);
+    const loss = row[1].reduce((a, b) => (near(b) < near(a) ? b : a));
+    if (near(loss) > this.last / 60) return '';
+    const what = {bus: 'messages', view: 'ticks', input: 'ticks', network: 'datagrams, about'};
+    return `${row[0]}: ${loss[2]} ${what[loss[3]]}, ${seconds(Math.max(0, loss[0])).toFixed(2)} to ${
+        seconds(loss[1]).toFixed(2)} s`;
+  }
 }
 
 // The marks: one line for each event, by kind; a click goes to the nearest.

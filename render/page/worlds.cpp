@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include "common/scene/water.h"
-#include "render/draw/draw_bricks.h"
 #include "common/base/json_text.h"
+#include "common/scene/water.h"
+#include "common/topology/feather_blast.h"
+#include "render/draw/draw_bricks.h"
 
 namespace seam {
 namespace {
@@ -68,6 +69,16 @@ std::string MotionJson(const Playback& playback, const BodyShapes& body) {
   return fmt::format(R"({{"id":{},"path":{}}})", body.id, JsonList(numbers));
 }
 
+/// Bricks that blasts have freed until then: [left, bottom, width, height], units of 5 cm.
+std::string HolesJson(const Scene& scene) {
+  std::vector<std::string> holes;
+  for (const Brick& brick : FreedBricks(scene.bricks, scene.parts)) {
+    const BrickField& field = scene.bricks[static_cast<std::size_t>(brick.kind)];
+    holes.push_back(fmt::format("[{},{},{},{}]", brick.x, brick.y, field.width, field.height));
+  }
+  return JsonList(holes);
+}
+
 }  // namespace
 
 PageWorlds::PageWorlds(const Playback& playback)
@@ -99,8 +110,9 @@ int PageWorlds::IndexOf(int edits) {
   for (const DrawnJoint& joint : drawn.joints) joints.push_back(JointJson(joint));
   const int index = static_cast<int>(worlds_.size());
   index_of_key_[key] = index;
-  worlds_.push_back(fmt::format(R"({{"moving":{},"anchored":{},"joints":{}}})", JsonList(moving),
-                                JsonList(anchored), JsonList(joints)));
+  worlds_.push_back(fmt::format(R"({{"moving":{},"anchored":{},"joints":{},"holes":{}}})",
+                                JsonList(moving), JsonList(anchored), JsonList(joints),
+                                HolesJson(revision->scene())));
   return index;
 }
 
@@ -117,7 +129,7 @@ std::string PageWorlds::Json() const {
 
 PageBytes EncodeBricks(const Playback& playback) {
   std::vector<std::int64_t> columns[4];
-  const auto first = playback.RevisionAfter(0);  // holes that were blown later are not in the page
+  const auto first = playback.RevisionAfter(0);  // what is blown out later is in the worlds' holes
   const FeatherStore* store = first->bricks.get();
   for (int cell = 0; store != nullptr && cell < store->cell_count(); ++cell) {
     for (const BrickBlock& b : BlocksOf(*store, cell)) {

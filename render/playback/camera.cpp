@@ -5,6 +5,7 @@
 #include <map>
 
 #include "common/base/check.h"
+#include "common/base/nearest.h"
 
 namespace seam {
 namespace {
@@ -76,7 +77,13 @@ PartId PartNamed(const Scene& scene, const std::string& name) {
   for (const Player& player : scene.players) {
     if (player.name == name && player.vehicle >= 0) return player.vehicle;
   }
-  throw OperatorError("--follow " + name + ": the scene has no such part or vehicle");
+  std::vector<std::string> known;
+  for (const Part& part : scene.parts) known.push_back(part.name);
+  for (const Player& player : scene.players) {
+    if (player.vehicle >= 0) known.push_back(player.name);
+  }
+  throw OperatorError("--follow " + name + ": the scene has no such part or vehicle" +
+                      DidYouMean(name, known));
 }
 
 /// Where a part is, in truth if that is known.

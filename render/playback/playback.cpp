@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "common/scene/bricks.h"
+#include "common/scene/player_colours.h"
 #include "common/sync/method.h"
 #include "common/topology/feather_blast.h"
 
@@ -59,6 +60,9 @@ Playback::Playback(const Recording* growing, std::optional<Oracle> oracle)
 }
 
 void Playback::Prepare() {
+  player_colours_ = PlayerColours(scene_);
+  const auto given = [](const std::string& colour) { return !colour.empty(); };
+  if (std::none_of(player_colours_.begin(), player_colours_.end(), given)) player_colours_.clear();
   revisions_ = std::make_shared<KnownRevisions>();
   const std::lock_guard<std::mutex> lock(revisions_->mutex);
   const auto revision = AllRevisions().At(0);

@@ -77,6 +77,8 @@ class Playback {
   int PlayerOf(int peer) const;
   /// Of the scene as it was at first; "" for what came later.
   const std::string& PartName(PartId part) const;
+  /// By player, as the scene says them (common/scene/player_colours.h); empty where it says none.
+  const std::vector<std::string>& player_colours() const { return player_colours_; }
   /// "server", "ann (peer 1)" or "peer 3".
   std::string PeerName(int peer) const;
   /// "buffer · retrospect", "strict", "oracle".
@@ -132,6 +134,7 @@ class Playback {
       const std::shared_ptr<const SceneRevision>& revision) const;
   std::shared_ptr<KnownRevisions> revisions_;
   std::shared_ptr<const FeatherStore> bricks_;  // before any edit
+  std::vector<std::string> player_colours_;
   std::optional<ImposedMotions> imposed_;
   std::optional<Measures> measures_;
   std::map<int, std::vector<double>> errors_;  // by peer; -1: all

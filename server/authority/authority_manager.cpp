@@ -44,7 +44,8 @@ AuthorityView AuthorityManager::Look(const Situation& situation) {
     const Player& player = scene_.players[p];
     view.players.push_back({situation.peer_of_player[p],
                             p < situation.one_way_s.size() ? situation.one_way_s[p] : 0,
-                            player.has_region, player.region_min, player.region_max});
+                            player.has_region, player.region_min, player.region_max,
+                            situation.silent.Has(std::max(0, situation.peer_of_player[p]))});
   }
   const World& world = replica_.world();
   for (int m = 0; m < table().count(); ++m) {
@@ -53,6 +54,8 @@ AuthorityView AuthorityManager::Look(const Situation& situation) {
     MechanismView seen;
     seen.position = world.Read(world.BodyOfId(mechanism.id)).position;
     seen.owner = mechanism.owner;
+    const int root = world.BodyOfId(mechanism.id);
+    seen.moves = world.awake(root) && world.Read(root).velocity.norm() > kMissed;
     seen.now = table().at(m);
     if (seen.now.authority != memory.last_authority) {
       memory.last_authority = seen.now.authority;
@@ -73,6 +76,9 @@ AuthorityView AuthorityManager::Look(const Situation& situation) {
 }
 
 std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const Situation& situation) {
+  plan_due_ = plan_due_ || !(silent_ == situation.silent);
+  silent_ = situation.silent;
+  replica_.SpeakFor(silent_);
   if (plan_due_ || replica_.tick() % std::max(1, config_.tick_hz / kPlansPerSecond) == 0) {
     plan_due_ = false;
     plan_ = PlanAuthority(Look(situation));

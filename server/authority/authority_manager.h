@@ -21,6 +21,7 @@ class AuthorityManager {
   struct Situation {
     std::vector<int> peer_of_player;         ///< -1: nobody is ready to drive it
     std::vector<float> one_way_s;            ///< by player, from the server to it; empty: all 0
+    PeerSet silent;                          ///< peers not heard for kSilentUs
     std::vector<std::vector<int>> together;  ///< see AuthorityView
   };
 
@@ -107,6 +108,7 @@ class AuthorityManager {
   const bool physics_edits_;
   AuthorityPlan plan_;  // the last one
   std::vector<Given> given_;
+  PeerSet silent_;  // in the last Update
   bool plan_due_ = true;
   std::vector<Memory> memory_;  // by mechanism
 };

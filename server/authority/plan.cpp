@@ -153,13 +153,19 @@ void FollowAtServer(const AuthorityView& view, const std::vector<std::pair<int, 
                     const std::vector<std::pair<int, int>>& later, AuthorityPlan* plan) {
   const std::vector<bool> meets_soon = WithServers(*plan, soon);
   const std::vector<bool> meets_later = WithServers(*plan, later);
+  PeerSet silent;
+  for (const PlayerView& player : view.players) {
+    if (player.silent && player.peer > 0) silent.Add(player.peer);
+  }
   const bool small = view.boxes.size() <= static_cast<std::size_t>(view.server_follow);
   for (std::size_t m = 0; m < plan->size(); ++m) {
     PlannedAuthority& planned = (*plan)[m];
     const bool follows = view.mechanisms[m].now.secondaries.Has(0);
     const bool meets = follows ? meets_later[m] : meets_soon[m];
-    if (planned.authority != 0 && (small || view.physics_edits || meets))
+    const bool alone = silent.Has(planned.authority) && view.mechanisms[m].moves;
+    if (planned.authority != 0 && (small || view.physics_edits || meets || alone)) {
       planned.secondaries.Add(0);
+    }
   }
 }
 

@@ -28,6 +28,7 @@ struct PlayerView {
   float one_way_s = 0;  ///< from the server to it
   bool has_region = false;
   Vec2 region_min{0, 0}, region_max{0, 0};  ///< m
+  bool silent = false;  ///< not heard for kSilentUs: the server simulates what moves of its own
 };
 
 /// A mechanism, as planning sees it.
@@ -36,6 +37,7 @@ struct MechanismView {
   int owner = -1;       ///< the player whose vehicle it is; -1: nobody's
   AuthorityRecord now;
   std::int64_t held_ticks = 0;         ///< since its authority changed
+  bool moves = true;                   ///< fast enough that it would be missed
   PlayerMask may_have = kEveryPlayer;  ///< players whose peers may have its authority
 };
 
@@ -65,7 +67,7 @@ struct AuthorityView {
 ///   then those that are nearest, as long as a peer steps no more than follow_bodies (kFollowFar).
 ///   The server: everything in a room of at most server_follow bodies, and where physics finds
 ///   edits, which it orders as soon as it knows the inputs that they hang on; else what may come
-///   into contact with something of its own.
+///   into contact with something of its own, and what moves of a silent holder.
 ///   Modes oracle and central: all the server's.
 AuthorityPlan PlanAuthority(const AuthorityView& view);
 

@@ -31,6 +31,8 @@ class RoomCommands {
   /// Makes b rigid with a where it is now, up to `strength` N (0: for ever).
   virtual void Bond(PartId a, PartId b, float strength) = 0;
   virtual void Push(PartId part, const Vec2& impulse) = 0;
+  /// The active character of the part goes limp for `seconds`; below 0: it ends.
+  virtual void Limp(PartId part, float seconds) = 0;
   virtual void Blast(const Vec2& centre, float radius, float speed, float impulse) = 0;
   /// [[part]] and [[joint]] as a scene writes them.
   virtual void Insert(const std::string& text) = 0;

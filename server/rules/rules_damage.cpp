@@ -1,13 +1,25 @@
 /// Blows, health, and its end.
 
+#include <algorithm>
 #include <limits>
 
+#include "common/scene/character.h"
 #include "common/scene/part_rules.h"
+#include "common/topology/edit.h"
 #include "server/rules/part_owner.h"
 #include "server/rules/rules.h"
 #include "server/script/script_host.h"
 
 namespace seam {
+namespace {
+
+bool OfActiveCharacter(const Scene& scene, PartId id) {
+  return std::any_of(scene.characters.begin(), scene.characters.end(), [id](const Character& c) {
+    return c.active && std::find(c.parts.begin(), c.parts.end(), id) != c.parts.end();
+  });
+}
+
+}  // namespace
 
 void Rules::RunDamage() {
   for (const Blow& blow : source_.TakeBlows()) Strike(blow);
@@ -51,8 +63,17 @@ void Rules::RunDeaths() {
   }
 }
 
-/// What is dead stays: its mechanism comes apart at the joints, or, if it has none, at the welds.
+/// What is dead stays: an active character limp, for good; any other mechanism comes apart at the
+/// joints, or, if it has none, at the welds.
 void Rules::Die(PartId id) {
+  const bool person = OfActiveCharacter(scene(), id);
+  if (person) {
+    try {
+      commands_.Limp(id, kLimpForGood);
+    } catch (const ScriptRefusal&) {
+      return;  // too many edits are waiting: again with the next tick
+    }
+  }
   dead_.insert(id);
   const Part& part = scene().parts[static_cast<std::size_t>(id)];
   const auto by = struck_by_.find(id);
@@ -63,6 +84,7 @@ void Rules::Die(PartId id) {
   }
   const int mechanism = MechanismOf(world_, id);
   if (mechanism < 0) return;
+  if (person) return;
   const std::vector<Joint>& joints = scene().joints;
   std::vector<int> moving, welds;
   for (std::size_t j = 0; j < joints.size(); ++j) {

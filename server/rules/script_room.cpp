@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "common/scene/bricks.h"
+#include "common/scene/character.h"
 #include "common/scene/joint_kinds.h"
 #include "common/scene/part_rules.h"
 #include "common/scene/toml/scene_text.h"
@@ -66,6 +67,16 @@ void ScriptRoom::Push(const std::string& part, const Vec2& impulse, const std::s
     throw ScriptRefusal("the push makes '" + Printable(part) + "' faster than the speed_limit");
   }
   rules_.commands_.Push(id, impulse);
+}
+
+void ScriptRoom::Limp(const std::string& character, float seconds) {
+  for (const Character& each : rules_.scene().characters) {
+    if (!each.active || each.name != character) continue;
+    for (const PartId part : each.parts) {
+      if (rules_.Exists(part)) return rules_.commands_.Limp(part, seconds);
+    }
+  }
+  throw ScriptRefusal("there is no active character '" + Printable(character) + "'");
 }
 
 void ScriptRoom::Blast(const Vec2& centre, float radius, float speed, float impulse) {

@@ -27,6 +27,7 @@ class ScriptRoom : public ScriptHost {
   bool Present(const std::string& player) const override;
   Input ReadInput(const std::string& player) const override;
   void Push(const std::string& part, const Vec2& impulse, const std::string& why) override;
+  void Limp(const std::string& character, float seconds) override;
   void Blast(const Vec2& centre, float radius, float speed, float impulse) override;
   void AddPart(const TomlNode& table) override;
   void AddJoint(const TomlNode& table) override;

@@ -38,6 +38,8 @@ class ScriptHost {
 
   /// A push of `impulse` N s at the part's assembly's centre of mass, `why` it is given its name.
   virtual void Push(const std::string& part, const Vec2& impulse, const std::string& why) = 0;
+  /// The active character of this name goes limp for `seconds`, above 0; below 0: it ends.
+  virtual void Limp(const std::string& character, float seconds) = 0;
   /// Sets the bricks within `radius` m free that it would make faster than their strength, thrown
   /// outwards with up to `speed` m/s; what the blast sees is pushed by up to `impulse` N s for each
   /// metre of silhouette.

@@ -3,6 +3,7 @@
 #include <string>
 #include <utility>
 
+#include "common/topology/edit.h"
 #include "server/script/script_lua_guard.h"
 
 namespace seam {
@@ -96,6 +97,21 @@ int Push(lua_State* L, float scale, const char* why) {
   return 0;
 }
 
+/// limp(character [, seconds | true | false])
+int Limp(lua_State* L) {
+  const char* character = luaL_checkstring(L, 1);
+  float seconds = kLimpForGood;
+  if (lua_isboolean(L, 2)) {
+    seconds = lua_toboolean(L, 2) != 0 ? kLimpForGood : -1;
+  } else if (!lua_isnoneornil(L, 2)) {
+    seconds = LuaNumber(L, 2);
+    luaL_argcheck(L, seconds > 0, 2, "seconds above 0, true or false");
+  }
+  LuaCountCommand(L);
+  Attempt(L, [&] { HostOf(L).Limp(character, seconds); });
+  return 0;
+}
+
 int Blast(lua_State* L) {
   const Vec2 centre(LuaNumber(L, 1), LuaNumber(L, 2));
   const float radius = LuaNumber(L, 3), speed = LuaNumber(L, 4);
@@ -182,8 +198,8 @@ void OpenLuaWorld(lua_State* L) {
   const luaL_Reg functions[] = {
       {"tick", Tick},           {"time", Time},       {"part", ReadPart},   {"parts", ListParts},
       {"players", ListPlayers}, {"input", ReadInput}, {"impulse", Impulse}, {"force", Force},
-      {"blast", Blast},         {"get", Get},         {"set", Set},         {"score", Score},
-      {"health", Health},       {"say", Say},         {nullptr, nullptr}};
+      {"blast", Blast},         {"limp", Limp},       {"get", Get},         {"set", Set},
+      {"score", Score},         {"health", Health},   {"say", Say},         {nullptr, nullptr}};
   lua_newtable(L);
   luaL_setfuncs(L, functions, 0);
   AddLuaMaking(L);

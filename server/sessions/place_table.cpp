@@ -2,7 +2,22 @@
 
 #include <algorithm>
 
+#include "common/base/names.h"
+#include "common/codec/message_limits.h"
+
 namespace seam {
+namespace {
+
+/// Of a list of names in a refusal, bytes. With the longest name in use before it, and the count of
+/// those left out, it must fit.
+constexpr std::size_t kFreeBytesMax = 120;
+static_assert(kFreeBytesMax + kNameBytesMax + 40 <= kImpairBytesMax);
+
+bool IsHeld(const Place& place, std::int64_t now_us) {
+  return !place.name.empty() && now_us - place.heard_us < PlaceTable::kNameHeldUs;
+}
+
+}  // namespace
 
 PlaceTable::Answer PlaceTable::Claim(std::int64_t now_us, const std::string& name,
                                      std::uint64_t key, std::uint64_t session) {
@@ -15,7 +30,9 @@ PlaceTable::Answer PlaceTable::Claim(std::int64_t now_us, const std::string& nam
       place.key_known = true;
       return {own, ""};
     }
-    if (now_us - place.heard_us < kNameHeldUs) return {-1, "the name " + name + " is in use"};
+    if (IsHeld(place, now_us)) {
+      return {-1, "the name " + name + " is in use; " + FreeNames(now_us)};
+    }
     place = Place();
   }
   int player = -1;
@@ -32,6 +49,22 @@ PlaceTable::Answer PlaceTable::Claim(std::int64_t now_us, const std::string& nam
     place.key = entropy_.Next();
   } while (place.key == 0);
   return {peer, ""};
+}
+
+std::string PlaceTable::FreeNames(std::int64_t now_us) const {
+  std::string list;
+  int left_out = 0;
+  for (const Player& player : scene_.players) {
+    const int own = FindName(player.name);
+    if (own > 0 && IsHeld(at(own), now_us)) continue;
+    if (list.size() + player.name.size() + 2 > kFreeBytesMax) {
+      ++left_out;
+    } else {
+      list += (list.empty() ? "free are " : ", ") + player.name;
+    }
+  }
+  if (left_out > 0) list += " and " + std::to_string(left_out) + " more";
+  return list.empty() ? "no player is free" : list;
 }
 
 int PlaceTable::FindName(const std::string& name) const {

@@ -47,6 +47,10 @@ class PlaceTable {
   /// The session of this number is over. `goodbye`: its owner said so, and needs the place no more.
   void Leave(int peer, std::uint64_t session, bool goodbye);
 
+  /// "free are bob, carl": the scene's players whose places may be claimed without a key; those
+  /// that do not fit a message are counted. "no player is free" when none may be.
+  std::string FreeNames(std::int64_t now_us) const;
+
   const Place& at(int peer) const { return places_[static_cast<std::size_t>(peer)]; }
 
  private:

@@ -9,6 +9,7 @@
 #include "common/net/net.h"
 #include "common/sync/input_feed.h"
 #include "common/sync/rest/rest_agreement.h"
+#include "server/sessions/account_book.h"
 #include "server/sessions/traffic_budget.h"
 
 namespace seam {
@@ -35,9 +36,10 @@ struct Session {
   SessionId id;
   Link link;
   TrafficBudget budget;
-  std::vector<InputFeed> feeds;    ///< of the others' inputs, by player
-  std::vector<std::int64_t> told;  ///< by part id: tick of the newest state relayed; empty: none
-  RestAgreement rest;              ///< with what the client knows to rest
+  std::vector<InputFeed> feeds;      ///< of the others' inputs, by player
+  std::vector<std::int64_t> told;    ///< by part id: tick of the newest state relayed; empty: none
+  RestAgreement rest;                ///< with what the client knows to rest
+  ClientAccount* account = nullptr;  ///< the name's; outlives the session
   std::string name;
   int peer = 0;
   int player = -1;

@@ -43,6 +43,12 @@ std::int64_t SessionTable::WorstLossPpm() const {
   return worst;
 }
 
+void SessionTable::ReadAccounts() {
+  ForEachReady(0, [](Session& session) {
+    session.account->Read(session.link.rtt_us(), session.link.loss_ppm());
+  });
+}
+
 void SessionTable::SendToAll(const Bytes& message, int but_peer) {
   for (auto& [id, session] : sessions_) {
     if (session->peer == but_peer) continue;
@@ -58,6 +64,7 @@ void SessionTable::Flush(std::int64_t now_us, Stats* stats) {
     session->link.Flush(now_us, [&](ByteView datagram) {
       stats->bytes_out += static_cast<std::int64_t>(datagram.size);
       stats->datagrams_out += 1;
+      session->account->bytes_out += static_cast<std::int64_t>(datagram.size);
       net_.Send(to, datagram);
     });
   }

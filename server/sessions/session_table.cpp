@@ -66,6 +66,10 @@ void SessionTable::Admit(std::int64_t now_us, const SessionId& id, int peer) {
   session->player = place.player;
   session->peer = peer;
   session->created_us = now_us;
+  ClientAccount& account = accounts_.Of(place.name);
+  account.peer = peer;
+  account.player = place.player >= 0;
+  session->account = &account;
   places_.Enter(peer, now_us);
   Welcome welcome;
   welcome.utime = now_us;
@@ -87,6 +91,8 @@ SessionTable::Verdict SessionTable::OnSession(std::int64_t now_us, Session& sess
   };
   const bool good = session.link.Receive(now_us, datagram, gate,
                                          [&](ByteView message) { deliver(session, message); });
+  session.account->bytes_in += static_cast<std::int64_t>(datagram.size());
+  session.account->dropped += over || !good ? 1 : 0;
   if (over) return Verdict::kOverBudget;
   if (!good) return Verdict::kMalformed;
   places_.Heard(session.peer, now_us, session.stage == SessionStage::kReady);
@@ -96,6 +102,7 @@ SessionTable::Verdict SessionTable::OnSession(std::int64_t now_us, Session& sess
 void SessionTable::NoteReady(Session& session) {
   if (session.stage != SessionStage::kLoading) return;
   session.stage = SessionStage::kReady;
+  ++session.account->sessions;
   Note(SessionEvent::Kind::kReady, session);
 }
 

@@ -13,6 +13,7 @@
 #include "common/codec/codec.h"
 #include "common/net/net.h"
 #include "common/scene/scene.h"
+#include "server/sessions/account_book.h"
 #include "server/sessions/handshake.h"
 #include "server/sessions/place_table.h"
 #include "server/sessions/session.h"
@@ -66,6 +67,12 @@ class SessionTable {
   int player_count() const;         ///< players who are ready
   std::int64_t WorstRttUs() const;  ///< -1: unknown
   std::int64_t WorstLossPpm() const;
+  /// "free are bob, carl": the scene's players that may join now, as many as fit a message.
+  std::string FreeNames(std::int64_t now_us) const { return places_.FreeNames(now_us); }
+  /// Reads round trip and loss of all that are ready into their accounts. Once a second.
+  void ReadAccounts();
+  /// Of all who were in the room.
+  const AccountBook& accounts() const { return accounts_; }
 
   /// Reliably, to everyone to whom the room was sent; who never acknowledges has to leave. Not to
   /// peer `but_peer`.
@@ -99,6 +106,7 @@ class SessionTable {
   Net& net_;
   Handshake handshake_;
   PlaceTable places_;
+  AccountBook accounts_;
   Sessions sessions_;
   std::vector<SessionEvent> events_;
 };

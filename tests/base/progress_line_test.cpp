@@ -4,10 +4,13 @@
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <cstdio>
 #include <cstdlib>
+
+#include "common/base/progress_count.h"
 
 namespace seam {
 namespace {
@@ -30,6 +33,12 @@ class TerminalErrors {
   TerminalErrors(const TerminalErrors&) = delete;
   TerminalErrors& operator=(const TerminalErrors&) = delete;
   bool good() const { return good_; }
+  void SetColumns(int columns) const {
+    winsize size{};
+    size.ws_col = static_cast<unsigned short>(columns);
+    size.ws_row = 24;
+    ioctl(window_, TIOCSWINSZ, &size);
+  }
   /// What was written since the last time; at least one character is waited for.
   std::string Read() const {
     char text[1000];
@@ -76,6 +85,54 @@ TEST(ProgressLine, QuietIsSilentOnATerminalToo) {
   if (!terminal.good()) GTEST_SKIP() << "no pseudo terminal here";
   const ProgressLine line(true);
   EXPECT_FALSE(line.Due(1000000000));
+}
+
+TEST(ProgressLine, IsCutWhereTheTerminalEnds) {
+  const TerminalErrors terminal;
+  if (!terminal.good()) GTEST_SKIP() << "no pseudo terminal here";
+  terminal.SetColumns(12);
+  ProgressLine line(false, 1000);
+  line.Show(0, "0123456789abcdef");
+  EXPECT_EQ(terminal.Read(), "\r0123456789a") << "a full line would be wrapped by the next";
+  line.Show(1000, "0");
+  EXPECT_EQ(terminal.Read(), "\r0          ");
+}
+
+TEST(ProgressCount, SaysWhatHowMuchOfHowMuchTheRateAndTheTimeLeft) {
+  EXPECT_EQ(ProgressText("sweep", "runs", 0, 400, 3), "sweep: 0 of 400 runs (0 %)");
+  EXPECT_EQ(ProgressText("sweep", "runs", 12, 400, 4),
+            "sweep: 12 of 400 runs (3 %), 3.0 runs/s, 2 min 10 s left");
+  EXPECT_EQ(ProgressText("drawing", "frames", 1200, 1500, 10),
+            "drawing: 1200 of 1500 frames (80 %), 120 frames/s, 3 s left");
+  EXPECT_EQ(ProgressText("drawing", "frames", 1500, 1500, 10),
+            "drawing: 1500 of 1500 frames (100 %), 150 frames/s");
+  EXPECT_EQ(ProgressText("drawing", "frames", 1, 9, 0.001), "drawing: 1 of 9 frames (11 %)");
+  EXPECT_EQ(ProgressText("search", "trials", 5, 0, 2), "search: 5 trials, 2.5 trials/s");
+}
+
+TEST(ProgressCount, SpansHaveTwoUnitsAtMost) {
+  EXPECT_EQ(SpanText(-1), "0 ms");
+  EXPECT_EQ(SpanText(0.5), "500 ms");
+  EXPECT_EQ(SpanText(59.9), "59 s");
+  EXPECT_EQ(SpanText(121), "2 min 1 s");
+  EXPECT_EQ(SpanText(12000), "3 h 20 min");
+}
+
+TEST(ProgressCount, WritesItsLineOnATerminalAndNothingToAFile) {
+  ::testing::internal::CaptureStderr();
+  {
+    ProgressCount count("sweep", "runs", 4);
+    count(1);
+  }
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+  const TerminalErrors terminal;
+  if (!terminal.good()) GTEST_SKIP() << "no pseudo terminal here";
+  ProgressCount count("sweep", "runs", 4);
+  count(0);
+  EXPECT_EQ(terminal.Read(), "\rsweep: 0 of 4 runs (0 %)");
+  count(1);  // not due yet
+  count.End();
+  EXPECT_EQ(terminal.Read(), "\r\n");
 }
 
 }  // namespace

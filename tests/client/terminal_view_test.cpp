@@ -78,9 +78,8 @@ TEST(WatchOrPlay, AnUnknownNameIsFatalUnlessItOnlyWatches) {
     if (watch) {
       EXPECT_TRUE(client.running()) << client.fatal();
     } else {
-      EXPECT_EQ(
-          client.fatal(),
-          "there is no player \"zoe\" here: the players are ann, bob (--watch only looks on)");
+      EXPECT_EQ(client.fatal(),
+                "there is no player \"zoe\" here; no player is free; --watch only looks on");
     }
   }
 }

@@ -112,7 +112,7 @@ TEST(Hostile, WhoStalls1600MillisecondsKeepsTheCarAgainstWhoSaysTheName) {
   RunWith(&cluster, &thief, 10);
   EXPECT_TRUE(thief.token.has_value());
   EXPECT_FALSE(thief.welcomed);
-  EXPECT_EQ(thief.refusal, "the name bob is in use");
+  EXPECT_EQ(thief.refusal, "the name bob is in use; no player is free");
   cluster.Pause(1, false);
   cluster.RunToTick(60 + 240);
   EXPECT_LT(FindEvent(cluster.recording(), "is gone"), 0);

@@ -80,23 +80,35 @@ void Cluster::StartClient(std::size_t i) {
 
 void Cluster::Instant() {
   std::int64_t next = now_us_ + kStepMaxUs;
-  next = std::min({next, server_->next_tick_us(), server_net_->next_due_us()});
+  next = std::min(
+      {next, std::max(server_busy_until_us_, server_->next_tick_us()), server_net_->next_due_us()});
   for (Peer& peer : clients_) {
     if (peer.client == nullptr || peer.paused) continue;
     const std::int64_t local = now_us_ + peer.clock_offset_us;
     next = std::min(next, peer.client->next_tick_us(local) - peer.clock_offset_us);
   }
   now_us_ = std::max(next, now_us_ + kStepMinUs);
-  const double begin_us = CpuNowUs();
-  server_->Tick(now_us_, 0);
+  RunServer();
   const double between_us = CpuNowUs();
-  server_cpu_us_ += between_us - begin_us;
   for (Peer& peer : clients_) {
     if (peer.client == nullptr || peer.paused) continue;
     peer.client->Tick(now_us_ + peer.clock_offset_us, 0);
   }
   client_cpu_us_ += CpuNowUs() - between_us;
   if (each_instant) each_instant();
+}
+
+void Cluster::RunServer() {
+  if (now_us_ < server_busy_until_us_) return;
+  const std::int64_t before = server_->tick();
+  const double begin_us = CpuNowUs();
+  server_->Tick(now_us_, 0);
+  server_cpu_us_ += CpuNowUs() - begin_us;
+  if (!config_.server_tick_us) return;
+  server_busy_until_us_ = now_us_;
+  for (std::int64_t tick = before; tick < server_->tick(); ++tick) {
+    server_busy_until_us_ += config_.server_tick_us(tick + 1);
+  }
 }
 
 std::int64_t Cluster::ticks_stepped_again() { return Sum(&Replica::ticks_stepped_again); }

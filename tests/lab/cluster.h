@@ -27,7 +27,9 @@ struct ClusterConfig {
   int send_hz = 30;
   bool smooth = true;
   Recorder* recorder = nullptr;  ///< also gets every message, at now_us()
-  bool keep = true;              ///< recording() has everything; false saves its memory
+  /// What a tick of the server takes, us of virtual time, by tick; nullptr: nothing.
+  std::function<std::int64_t(std::int64_t)> server_tick_us;
+  bool keep = true;  ///< recording() has everything; false saves its memory
   /// If set, what each client's network (by the scene's order of players) is replaced by.
   std::function<std::unique_ptr<Net>(std::size_t, std::unique_ptr<Net>)> client_net;
 };
@@ -98,6 +100,8 @@ class Cluster {
   };
   void StartClient(std::size_t i);
   void Instant();
+  /// Runs the server, unless it is still at its last ticks.
+  void RunServer();
   /// Of the server's and all clients' replicas that there are.
   std::int64_t Sum(std::int64_t (Replica::*count)() const);
 
@@ -114,6 +118,7 @@ class Cluster {
   std::int64_t now_us_ = 1000000;
   std::uint16_t next_port_ = 20000;
   double server_cpu_us_ = 0, client_cpu_us_ = 0;
+  std::int64_t server_busy_until_us_ = 0;
 };
 
 /// Runs a cluster to its end and returns what it recorded.

@@ -25,6 +25,16 @@ struct RunCommand {
 /// the floor in another.
 int RunLog(const RunCommand& command);
 
+struct CheckCommand {
+  std::vector<std::string> scenes;  ///< files or names
+  std::string picture;              ///< PNG to draw the one scene into; empty: none
+  bool force = false;               ///< overwrite it
+};
+
+/// Prints what the scenes say that is surely not meant, "FILE:LINE: ..." each, and draws one by
+/// seam-render. 0: nothing was found, or drawn; 1: something was.
+int RunCheck(const CheckCommand& command);
+
 struct DivergenceCommand {
   std::string log_a, log_b;
   int peer = -1;        ///< -1: all

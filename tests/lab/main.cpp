@@ -7,7 +7,10 @@
 #include <vector>
 
 #include "common/base/command_line.h"
+#include "common/base/find_scene.h"
 #include "common/codec/version_line.h"
+#include "common/net/impair.h"
+#include "common/sync/method.h"
 #include "tests/lab/commands.h"
 
 namespace {
@@ -40,6 +43,14 @@ CLI::App* DefineRun(CLI::App& app, RunCommand& c) {
   run->add_flag("--force", c.force, "overwrite the log");
   run->add_flag("!--no-floor", c.floor, "do not measure the run and its floor");
   return run;
+}
+
+CLI::App* DefineCheck(CLI::App& app, CheckCommand& c) {
+  CLI::App* check = app.add_subcommand("check", "what a scene says that is surely not meant");
+  check->add_option("SCENES", c.scenes, "scene files, or names of scenes")->required();
+  check->add_option("-o,--output", c.picture, "draw the scene into this PNG");
+  check->add_flag("--force", c.force, "overwrite the PNG");
+  return check;
 }
 
 CLI::App* DefineDivergence(CLI::App& app, DivergenceCommand& c) {
@@ -197,6 +208,7 @@ CLI::App* DefineReport(CLI::App& app, ReportCommand& c) {
 
 int main(int argc, char** argv) {
   RunCommand run;
+  CheckCommand check;
   DivergenceCommand divergence;
   SweepCommand sweep;
   PhysicsCommand physics;
@@ -213,6 +225,7 @@ int main(int argc, char** argv) {
   const auto define = [&](CLI::App& app) {
     app.require_subcommand(1);
     commands = {{DefineRun(app, run), [&] { return RunLog(run); }},
+                {DefineCheck(app, check), [&] { return RunCheck(check); }},
                 {DefineDivergence(app, divergence), [&] { return FirstDivergence(divergence); }},
                 {DefineSweep(app, sweep), [&] { return RunSweep(sweep); }},
                 {DefinePhysics(app, physics), [&] { return RunPhysics(physics); }},
@@ -227,7 +240,12 @@ int main(int argc, char** argv) {
   };
   const ProgramText text{"seam-lab",
                          "seam-lab: sessions of the real server and clients in virtual time",
-                         VersionLine("seam-lab"), ""};
+                         VersionLine("seam-lab"),
+                         "",
+                         {{"SCENE", SceneNames()},
+                          {"SCENES", SceneNames()},
+                          {"--impair", ProfileNames()},
+                          {"--reconcile", ReconcilerNames()}}};
   return RunCommandLine(text, argc, argv, define, [&] {
     for (const auto& [app, command] : commands) {
       if (app->parsed()) return command();

@@ -10,6 +10,7 @@
 
 #include "common/base/check.h"
 #include "common/base/find_scene.h"
+#include "common/base/nearest.h"
 #include "common/base/process.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/exact/front.h"
@@ -35,7 +36,10 @@ std::vector<const HardCase*> ChosenCases(const std::vector<std::string>& names, 
   for (const std::string& name : names) {
     if (std::none_of(chosen.begin(), chosen.end(),
                      [&name](const HardCase* hard) { return hard->name == name; })) {
-      throw OperatorError("no hard case '" + name + "' (there are " + known + ")");
+      std::vector<std::string> all;
+      for (const HardCase& hard : HardCases()) all.push_back(hard.name);
+      throw OperatorError("no hard case '" + name + "' (there are " + known + ")" +
+                          DidYouMean(name, all));
     }
   }
   return chosen;

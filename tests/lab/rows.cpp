@@ -5,8 +5,8 @@
 #include <thread>
 
 #include "common/base/process.h"
+#include "common/base/progress_count.h"
 #include "tests/lab/jobs.h"
-#include "tests/lab/progress.h"
 
 namespace seam {
 
@@ -25,7 +25,7 @@ std::vector<std::size_t> MissingRows(const SweepTable& table, std::size_t rows) 
 
 RowsDone MakeRows(const std::vector<std::string>& keys, const std::vector<std::size_t>& todo,
                   const RowMaker& maker, int jobs, bool quiet, SweepTable* table) {
-  Progress progress(todo.size(), quiet);
+  ProgressCount progress("measuring", "runs", static_cast<std::int64_t>(todo.size()), quiet);
   const std::size_t before = table->count();
   RowsDone done;
   RunJobs(
@@ -41,10 +41,11 @@ RowsDone MakeRows(const std::vector<std::string>& keys, const std::vector<std::s
           table->Add(todo[i], *line);
         } else {
           ++done.failed;
+          progress.End();
           std::fprintf(stderr, "seam-lab: failed: %s: %s\n", keys[todo[i]].c_str(),
                        result.text.c_str());
         }
-        progress(i + 1);
+        progress(static_cast<std::int64_t>(i) + 1);
       },
       [] { return g_stop != 0; });
   done.added = table->count() - before;

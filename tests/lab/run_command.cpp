@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 
 #include "common/base/check.h"
 #include "common/base/find_scene.h"
 #include "common/base/process.h"
+#include "common/base/progress_count.h"
 #include "common/measure/measure.h"
 #include "common/record/log_file.h"
 #include "tests/lab/commands.h"
@@ -48,7 +50,13 @@ int RunLog(const RunCommand& command) {
   config.keep = command.floor;
   const std::int64_t begin_us = SteadyClockUs();
   Recording recording;
-  const SessionResult result = RunSession(config, &recording);
+  std::optional<ProgressCount> progress;
+  const SessionResult result =
+      RunSession(config, &recording, [&progress](std::int64_t done, std::int64_t ticks) {
+        if (!progress) progress.emplace("running", "ticks", ticks);
+        (*progress)(done);
+      });
+  progress.reset();
   log.Flush();
   if (!log.trouble().ok()) throw OperatorError(log.trouble().why());
   const double wall_s = static_cast<double>(SteadyClockUs() - begin_us) * 1e-6;

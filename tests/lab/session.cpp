@@ -50,8 +50,13 @@ ClusterConfig Configure(const SessionSettings& settings, const Scene& scene) {
   return config;
 }
 
-SessionResult RunSession(const ClusterConfig& config, Recording* recording) {
+SessionResult RunSession(const ClusterConfig& config, Recording* recording,
+                         const TicksDone& progress) {
   Cluster cluster(config);
+  const Scene& scene = cluster.scene();
+  const double seconds = config.duration_s > 0 ? config.duration_s : scene.duration_s;
+  const auto ticks = static_cast<std::int64_t>(seconds * scene.solver.tick_hz);
+  if (progress) cluster.each_instant = [&] { progress(cluster.server().tick(), ticks); };
   const std::int64_t begin_us = cluster.now_us();
   cluster.Run();
   SessionResult result;

@@ -2,6 +2,7 @@
 /// One session in virtual time as the command line says it: checked first, then run.
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -44,8 +45,12 @@ struct SessionResult {
   std::int64_t ticks = 0;  ///< since tick 0
 };
 
+/// Told now and then: ticks done, and in all.
+using TicksDone = std::function<void(std::int64_t, std::int64_t)>;
+
 /// Runs to the end; the recording, if wanted and kept, goes to `recording`. Throws OperatorError
 /// when the players cannot join over such a network.
-SessionResult RunSession(const ClusterConfig& config, Recording* recording = nullptr);
+SessionResult RunSession(const ClusterConfig& config, Recording* recording = nullptr,
+                         const TicksDone& progress = nullptr);
 
 }  // namespace seam

@@ -8,6 +8,8 @@
 
 #include "common/base/check.h"
 #include "common/base/find_scene.h"
+#include "common/base/nearest.h"
+#include "common/base/progress_count.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/exact/scene_case.h"
 #include "tests/lab/hard/observe.h"
@@ -33,8 +35,10 @@ const HardCase* CaseOf(const TuneCommand& command) {
       return &hard;
     }
   }
-  if (!command.hard.empty()) throw OperatorError("no hard case '" + command.hard + "'");
-  return nullptr;
+  if (command.hard.empty()) return nullptr;
+  std::vector<std::string> known;
+  for (const HardCase& hard : HardCases()) known.push_back(hard.name);
+  throw OperatorError("no hard case '" + command.hard + "'" + DidYouMean(command.hard, known));
 }
 
 /// Median RMS distance of runs with one body nudged, m: what the scene makes of a micrometre.
@@ -109,7 +113,10 @@ int RunTune(const TuneCommand& given) {
   const Scene stock = WithSolver(target.scene, StockSolver());
   const Trajectory* reference = target.reference ? &target.reference->finest : nullptr;
   TuneProblem problem;
+  ProgressCount progress("searching", "settings", 0);
+  std::int64_t runs = 0;
   problem.run = [&](Trial* trial) {
+    progress(runs++);
     const Scene scene = WithSolver(target.scene, trial->solver);
     const Observation seen = Observe(target.hard, scene, target.seconds, reference);
     trial->error = seen.error;
@@ -128,6 +135,7 @@ int RunTune(const TuneCommand& given) {
   problem.keep_hz = command.keep_hz;
   problem.budget = command.budget_s;
   const TuneResult result = Tune(problem);
+  progress.End();
   std::printf("%-6s %9s %10s\n", "", "cost", "error");
   Trial usual;
   usual.solver = StockSolver();

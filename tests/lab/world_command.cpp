@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "common/base/check.h"
+#include "common/base/nearest.h"
 #include "common/base/plain_file.h"
 #include "common/base/process.h"
 #include "common/measure/table.h"
@@ -49,9 +50,11 @@ void WriteCsv(const TextTable& table, const std::string& path) {
 
 int RunWorld(const WorldCommand& command) {
   for (const std::string& name : command.benches) {
-    bool known = false;
-    for (const WorldBench& bench : WorldBenches()) known = known || name == bench.name;
-    if (!known) throw OperatorError("there is no bench '" + name + "'");
+    std::vector<std::string> known;
+    for (const WorldBench& bench : WorldBenches()) known.emplace_back(bench.name);
+    if (std::count(known.begin(), known.end(), name) == 0) {
+      throw OperatorError("there is no bench '" + name + "'; " + Suggestion(name, known));
+    }
   }
   if (!command.folder.empty()) std::filesystem::create_directories(command.folder);
   StopOnSignals();

@@ -1,4 +1,4 @@
-/// Mistakes of the operator, in all four programs: each is one line on stderr that begins with the
+/// Mistakes of the operator, in all programs: each is one line on stderr that begins with the
 /// program's name, nothing on stdout, exit status 2, and nothing written.
 
 #include "tests/support/operator_mistakes.h"
@@ -62,6 +62,14 @@ TEST_F(BadInput, FlagsOfTheServer) {
        flags({"--room", ""}, "--room"),
        flags({"--room", "a.b"}, "--room"),
        flags({"--room", std::string(33, 'r')}, "--room"),
+       flags({"--room", std::string(32, 'r'), "--rooms", "2"}, "--room"),
+       flags({"--rooms", "0"}, "--rooms"),
+       flags({"--rooms", "5000"}, "--rooms"),
+       flags({"--workers", "2"}, "--workers: one room has one thread"),
+       flags({"--rooms", "2", "--workers", "0"}, "--workers"),
+       flags({"--metrics", "0"}, "--metrics"),
+       flags({"--metrics", "http"}, "--metrics"),
+       flags({"--bus-rooms", "some"}, "--bus-rooms"),
        flags({"--wait", "3"}, "--wait 3"),
        flags({"--wait", "-1"}, "--wait"),
        flags({"--send-hz", "0"}, "--send-hz"),
@@ -114,6 +122,29 @@ TEST_F(BadInput, FlagsOfTheClient) {
          flags({}, "no answer from 127.0.0.1:9; gave up after 0.5 s"),
          flags({"--record", "new.lcm"}, "no answer from"),
          flags({"--record", "words.lcm", "--force"}, "no answer from")});
+}
+
+TEST_F(BadInput, FlagsOfTheSwarmAndOfTop) {
+  const auto swarm = [](Words words, const std::string& says) {
+    words.insert(words.begin(), {"seam-swarm", "127.0.0.1:9"});
+    return Mistake{words, says};
+  };
+  Judge({{{"seam-swarm"}, "which server?"},
+         {{"seam-swarm", "127.0.0.1:65536"}, "65536"},
+         swarm({"--nonsense"}, "--nonsense"),
+         swarm({"--clients", "0"}, "--clients"),
+         swarm({"--drive", "keyboard"}, "--drive"),
+         swarm({"--for", "soon"}, "--for takes a time"),
+         swarm({"--for", "0s"}, "--for takes a time"),
+         swarm({"--for", "nan"}, "--for takes a time"),
+         swarm({"--threads", "0"}, "--threads"),
+         swarm({"--room", "a.b"}, "--room"),
+         swarm({"--rooms", "0"}, "--rooms"),
+         swarm({"--metrics", "127.0.0.1:65536"}, "65536"),
+         swarm({"--lcm-url", "magic"}, "LCM url \"magic"),
+         {{"seam-top", "127.0.0.1:65536"}, "65536"},
+         {{"seam-top", "--lcm-url", "magic"}, "LCM url \"magic"},
+         {{"seam-top", "--times", "-1"}, "--times"}});
 }
 
 TEST_F(BadInput, LogsAndFlagsOfTheMeasures) {
@@ -189,8 +220,8 @@ TEST_F(BadInput, LogsAndFlagsOfTheRenderer) {
 }
 
 TEST_F(BadInput, HelpIsNoMistake) {
-  for (const char* name :
-       {"seam-server", "seam-client", "seam-measure", "seam-render", "seam-export"}) {
+  for (const char* name : {"seam-server", "seam-client", "seam-swarm", "seam-top", "seam-measure",
+                           "seam-render", "seam-export"}) {
     Program program({BuiltProgram(name), "--help"}, made_->path());
     ASSERT_TRUE(program.Wait(30));
     EXPECT_EQ(program.status(), 0) << program.Story();

@@ -83,14 +83,30 @@ TEST_F(Installed, PkgConfigAndEveryProgramSayTheVersion) {
   const Workspace folder;
   EXPECT_EQ(Run({"pkg-config", "--modversion", "seam2d"}, folder)->output(),
             std::string(kVersion) + "\n");
-  for (const char* name :
-       {"seam-server", "seam-client", "seam-render", "seam-measure", "seam-export", "seam-lab"}) {
+  for (const char* name : {"seam-server", "seam-client", "seam-swarm", "seam-top", "seam-render",
+                           "seam-measure", "seam-export", "seam-lab"}) {
     const auto program = Run({At(std::string("bin/") + name), "--version"}, folder);
     EXPECT_EQ(program->status(), 0) << program->Story();
     EXPECT_EQ(program->errors(), "");
     EXPECT_EQ(program->output(), std::string(name) + " " + kVersion + " (protocol " +
                                      std::to_string(kProtocolVersion) + ")\n");
   }
+}
+
+TEST_F(Installed, EveryProgramHasItsManPageAndItsCompletionInEachShell) {
+  for (const std::string name :
+       {"seam-server", "seam-client", "seam-render", "seam-measure", "seam-export", "seam-lab"}) {
+    for (const std::string& file :
+         {"share/man/man1/" + name + ".1", "share/bash-completion/completions/" + name,
+          "share/zsh/site-functions/_" + name,
+          "share/fish/vendor_completions.d/" + name + ".fish"}) {
+      std::error_code error;
+      EXPECT_GT(fs::file_size(At(file), error), 500u) << file;
+    }
+  }
+  std::ifstream file(At("share/bash-completion/completions/seam-server"));
+  const std::string script{std::istreambuf_iterator<char>(file), {}};
+  EXPECT_NE(script.find(" crossing "), std::string::npos) << "the scenes that were installed";
 }
 
 TEST_F(Installed, ScenesAreFoundByNameFromAnyFolder) {

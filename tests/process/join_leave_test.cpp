@@ -173,7 +173,8 @@ TEST_F(JoinLeave, AKilledClientsMechanismsAreTakenBackAndGivenToItsSuccessor) {
       << session.Story();
   EXPECT_TRUE(impostor.Wait(kPatience));
   EXPECT_EQ(impostor.status(), 2);
-  EXPECT_EQ(impostor.errors(), "seam-client: the server refuses: the name bob is in use\n");
+  EXPECT_EQ(impostor.errors(),
+            "seam-client: the server refuses: the name bob is in use; no player is free\n");
   Recording seen = session.Captured();
   const std::int64_t killed = seen.views[1].rbegin()->first;
   const std::set<int> hers = MechanismsOf(seen, 1, killed);

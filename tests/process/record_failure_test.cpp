@@ -78,7 +78,7 @@ TEST(RecordFailure, AClientPlaysOnAndEndsWithStatus1) {
   ASSERT_TRUE(server.WaitForErrors("waiting for", 10)) << server.Story();
   const std::string said = server.errors();
   const std::size_t at = said.find("on 127.0.0.1:") + 3;
-  const std::string address = said.substr(at, said.find(';', at) - at);
+  const std::string address = said.substr(at, said.find('\n', at) - at);
   Program client(
       OnAFullDisk(folder, {BuiltProgram("seam-client"), address, "--watch", "--duration", "2",
                            "--quiet", "--lcm-url", "none", "--record", folder / "full.lcm"}));

@@ -83,6 +83,7 @@ TEST(Recording, KeepsEveryKindOfMessage) {
   const Meta meta = publish("meta", Meta{});
   const Impacts impacts = publish("impacts", Impacts{});
   const Stats stats = publish("stats", Stats{});
+  const Load load = publish("load", Load{});
   const Event event = publish("event", Event{});
   View view = MakeView(3, 100);
   recorder.Publish(ChannelName("r", "view", 3), 0, Encode(view));
@@ -101,10 +102,12 @@ TEST(Recording, KeepsEveryKindOfMessage) {
   EXPECT_EQ(Fields(r.impacts[0]), Fields(impacts));
   ASSERT_EQ(r.stats.at(stats.peer).size(), 1u);
   EXPECT_EQ(Fields(r.stats.at(stats.peer)[0]), Fields(stats));
+  ASSERT_EQ(r.loads.size(), 1u);
+  EXPECT_EQ(Fields(r.loads[0]), Fields(load));
   ASSERT_EQ(r.events.size(), 1u);
   EXPECT_EQ(Fields(r.events[0]), Fields(event));
   EXPECT_EQ(Fields(r.views.at(3).at(100)), Fields(view));
-  EXPECT_EQ(r.events_read, 9);
+  EXPECT_EQ(r.events_read, 10);
   EXPECT_EQ(r.foreign + r.undecodable + r.bus_gaps + r.duplicates, 0);
 }
 
@@ -232,17 +235,17 @@ TEST(Recording, ALogOfAnotherProtocolIsRefusedNamingBoth) {
   Room newer = MakeRoom();
   newer.protocol = kProtocolVersion + 1;
   EXPECT_EQ(refusal(Encode(newer)),
-            file.path() + ": recorded with protocol 6; this program reads protocol 5");
+            file.path() + ": recorded with protocol 7; this program reads protocol 6");
   // The beginning of protocol 2's room_t: hash, utime, sequence, protocol.
   const Bytes older = {0xfc, 0x29, 0x58, 0x2c, 0x30, 0xd1, 0x35, 0x4e, 0, 0, 0, 0, 0, 0,   0,
                        1,    0,    0,    0,    0,    0,    0,    0,    2, 0, 0, 0, 2, 'r', 0};
   EXPECT_EQ(refusal(older),
-            file.path() + ": recorded with protocol 2; this program reads protocol 5");
+            file.path() + ": recorded with protocol 2; this program reads protocol 6");
   // And of protocol 3's, with 8 bytes of sequence.
   const Bytes third = {0xc7, 0xe4, 0x1b, 0x86, 0x53, 0x87, 0x67, 0xb7, 0, 0, 0, 0, 0, 0,   0, 1,
                        0,    0,    0,    0,    0,    0,    0,    0,    0, 0, 0, 3, 2, 'r', 0};
   EXPECT_EQ(refusal(third),
-            file.path() + ": recorded with protocol 3; this program reads protocol 5");
+            file.path() + ": recorded with protocol 3; this program reads protocol 6");
 }
 
 TEST(Recording, SeparatesRoomsAndCountsWhatIsForeign) {

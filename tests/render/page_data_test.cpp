@@ -142,7 +142,7 @@ TEST(PageData, NumbersOfAnySizeComeBack) {
 TEST(PageData, ThePageHasItsDataCompressedAndTheSameAgain) {
   const Playback playback(synthetic::MakeRecording(6), synthetic::MakeScene(),
                           synthetic::MakeOracle());
-  const std::vector<PageRun> runs = {{"run", &playback}};
+  const std::vector<PageRun> runs = {{"run", &playback, ""}};
   const std::string html = PageHtml(runs);
   EXPECT_EQ(html, PageHtml(runs));
   const std::string mark = "id=\"data\">";

@@ -55,6 +55,25 @@ TEST(Canvas, AClipKeepsEverythingInside) {
     }
 }
 
+TEST(Canvas, LargeAreasLieOverWhatWasDrawnThereBefore) {
+  DrawList list(TestFont());
+  list.Begin(200, 200);
+  const Colour red{200, 0, 0, 255}, blue{0, 0, 200, 255}, black{0, 0, 0, 255};
+  list.FillRect({0, 0, 200, 100}, red);
+  list.FillRect({0, 0, 100, 200}, blue);  // over the left half of the red one
+  list.Clip({0, 0, 200, 100});
+  list.FillRect({10, 10, 20, 20}, black);
+  list.NoClip();
+  list.FillRect({100, 100, 100, 100}, red);  // nothing lies under it
+  list.FillRect({0, 0, 90, 90}, red);        // the black one does
+  const Image image = Rendered(list);
+  EXPECT_TRUE(PixelAt(image, Vec2(150, 50)) == red);
+  EXPECT_TRUE(PixelAt(image, Vec2(50, 150)) == blue);
+  EXPECT_TRUE(PixelAt(image, Vec2(95, 50)) == blue);
+  EXPECT_TRUE(PixelAt(image, Vec2(150, 150)) == red);
+  EXPECT_TRUE(PixelAt(image, Vec2(20, 20)) == red);
+}
+
 TEST(Canvas, PagesOfDifferentSizesFollowEachOther) {
   const std::unique_ptr<Canvas> canvas = MakeCanvas(TestFont());
   DrawList list(TestFont());
@@ -99,12 +118,15 @@ TEST(Png, DecodesToTheSamePixelsAndCarriesNoTime) {
   image.height_px = 11;
   for (int i = 0; i < 37 * 11 * 3; ++i)
     image.rgb.push_back(static_cast<std::uint8_t>(i * 7 + i / 5));
-  WritePng(folder / "a.png", image);
-  const Image read = ReadPng(folder / "a.png");
-  EXPECT_EQ(read.width_px, 37);
-  EXPECT_EQ(read.height_px, 11);
-  EXPECT_EQ(read.rgb, image.rgb);
-  EXPECT_EQ(Content(folder / "a.png").find("tIME"), std::string::npos);
+  for (const PngEffort effort : {PngEffort::kFast, PngEffort::kSmall}) {
+    WritePng(folder / "a.png", image, effort, {{"Title", "Mauer → Wand"}});
+    const Image read = ReadPng(folder / "a.png");
+    EXPECT_EQ(read.width_px, 37);
+    EXPECT_EQ(read.height_px, 11);
+    EXPECT_EQ(read.rgb, image.rgb);
+    EXPECT_NE(Content(folder / "a.png").find("Mauer → Wand"), std::string::npos);
+    EXPECT_EQ(Content(folder / "a.png").find("tIME"), std::string::npos);
+  }
 }
 
 TEST(Png, ADiskThatDoesNotTakeItIsAnOperatorError) {

@@ -31,7 +31,7 @@ TEST(DrawWorld, ShowsThePeersViewAndNotTheTruth) {
   const Image image = RenderedWorld(playback, tick, &viewport);
   // Peer 1 shows ben's cart as a remote copy, where it was 20 ticks ago.
   const Vec2 shown = synthetic::Truth(2, tick - late).position;
-  const BodyLook remote = LookOf(2, kRoleRemote);
+  const BodyLook remote = LookOf(PeerColour(2), kRoleRemote);
   int pale = 0;
   for (float x = -1; x <= 1; x += 0.05f)
     if (PixelAt(image, viewport.ToPx(shown + Vec2(x, 0.3f))) == remote.fill) ++pale;
@@ -42,12 +42,12 @@ TEST(DrawWorld, RolesLookDifferentAndSoDoPeers) {
   std::set<std::string> looks;
   for (int peer = 0; peer < 8; ++peer)
     for (int role : {kRoleAuthority, kRoleSecondary, kRoleRemote}) {
-      const Colour c = LookOf(peer, role).fill;
+      const Colour c = LookOf(PeerColour(peer), role).fill;
       looks.insert({static_cast<char>(c.r), static_cast<char>(c.g), static_cast<char>(c.b)});
     }
   EXPECT_EQ(looks.size(), 24u);
-  EXPECT_FALSE(LookOf(1, kRoleSecondary).hatched);
-  EXPECT_TRUE(LookOf(1, kRoleRemote).hatched);
+  EXPECT_FALSE(LookOf(PeerColour(1), kRoleSecondary).hatched);
+  EXPECT_TRUE(LookOf(PeerColour(1), kRoleRemote).hatched);
 }
 
 TEST(DrawWorld, TheGhostAppearsOnlyWhereViewAndTruthPart) {

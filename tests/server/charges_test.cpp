@@ -27,6 +27,7 @@ class Commands : public RoomCommands {
   void BreakJoint(int) override {}
   void Bond(PartId, PartId, float) override {}
   void Push(PartId, const Vec2&) override {}
+  void Limp(PartId, float) override {}
   void Blast(const Vec2& centre, float radius, float speed, float impulse) override {
     if (refuses) throw ScriptRefusal("there are too many parts");
     went.push_back({world_.tick(), centre, radius, speed, impulse});

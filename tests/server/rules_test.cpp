@@ -28,6 +28,9 @@ class FakeRoomCommands : public RoomCommands {
   void Push(PartId part, const Vec2& impulse) override {
     asked.push_back("push " + std::to_string(part) + " " + std::to_string(impulse.x()));
   }
+  void Limp(PartId part, float seconds) override {
+    asked.push_back("limp " + std::to_string(part) + " " + std::to_string(seconds));
+  }
   void Blast(const Vec2&, float radius, float, float) override {
     asked.push_back("blast " + std::to_string(radius));
   }
@@ -116,6 +119,47 @@ b = "hand"
   EXPECT_EQ(game.commands.said, Lines{"b is destroyed by ann"});
   EXPECT_EQ(game.OfPlayer(0, kMetaScore), 30);
   EXPECT_EQ(game.OfPlayer(1, kMetaScore), 0);
+}
+
+TEST(Rules, AnActiveCharacterThatDiesGoesLimpOnceAndKeepsItsJoints) {
+  Game game(R"(
+[[part]]
+name = "ground"
+chain = [[-20, -1], [20, -1]]
+[[player]]
+name = "ann"
+[[character]]
+name = "hero"
+position = [0, 0]
+health = 50
+[[character]]
+name = "doll"
+kind = "passive"
+position = [9, 0]
+health = 50
+[[script]]
+name = "s"
+code = '''
+function on_tick(t)
+  if world.tick() == 5 then
+    world.health("hero.head", -50)
+    world.health("doll.head", -50)
+  end
+end
+'''
+)");
+  game.Step(60);
+  int limp = 0, broken = 0;
+  for (const std::string& asked : game.commands.asked) {
+    limp += asked == "limp " + std::to_string(game.IdOf("hero.head")) + " " +
+                         std::to_string(kLimpForGood)
+                ? 1
+                : 0;
+    broken += asked.rfind("break ", 0) == 0 ? 1 : 0;
+  }
+  EXPECT_EQ(limp, 1);
+  EXPECT_EQ(broken, 11) << "the doll's";
+  EXPECT_EQ(game.commands.said, (Lines{"hero.head is destroyed", "doll.head is destroyed"}));
 }
 
 /// A track of length 100 in x, run through by ann's `a` (and bob's `b`, above it).

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/topology/edit.h"
 #include "tests/support/fake_script_host.h"
 
 namespace seam {
@@ -52,6 +53,22 @@ TEST(Script, PushesInNewtonSecondsAndForcesForATick) {
   )");
   EXPECT_EQ(room.script.error(), "");
   EXPECT_EQ(room.host.asked, (Lines{"push ball 3 4 kick", "push ball 1 -2 force"}));
+}
+
+TEST(Script, MakesACharacterLimpForSecondsOrUntilItSaysOtherwise) {
+  FakeRoom room(R"(
+    world.limp("hero", 2.5)
+    world.limp("hero")
+    world.limp("hero", true)
+    world.limp("hero", false)
+    print(pcall(world.limp, "hero", -1))
+    print(pcall(world.limp, "hero", 0 / 0))
+  )");
+  EXPECT_EQ(room.script.error(), "");
+  const std::string good = "limp hero " + std::to_string(kLimpForGood);
+  EXPECT_EQ(room.host.asked, (Lines{"limp hero 2.500000", good, good, "limp hero -1.000000"}));
+  ASSERT_EQ(room.host.said.size(), 2u);
+  for (const std::string& said : room.host.said) EXPECT_EQ(said.rfind("false ", 0), 0u) << said;
 }
 
 TEST(Script, ABlastPushesOnlyWhenItSaysHowHardAndByANumber) {

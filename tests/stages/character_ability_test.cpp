@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 
 #include "tests/lab/gait/ability.h"
 #include "tests/support/character_world.h"
@@ -22,10 +23,10 @@ struct Tally {
   }
 };
 
-/// Starts 1 to `last` of an ability with the gains built in, those of other groups left out.
-Tally Try(const char* ability, int last, const std::string& group = "") {
+/// Starts `first` to `last` of an ability with the gains built in, those of other groups left out.
+Tally TryFrom(int first, const char* ability, int last, const std::string& group = "") {
   Tally tally;
-  for (int start = 1; start <= last; ++start) {
+  for (int start = first; start <= last; ++start) {
     const GaitTrial trial =
         FindAbility(ability)->run({"substeps = 4", ""}, CharacterGains{}, start);
     if (trial.group.find(group) == std::string::npos) continue;
@@ -35,6 +36,11 @@ Tally Try(const char* ability, int last, const std::string& group = "") {
     if (!trial.good) tally.failed += " " + std::to_string(start);
   }
   return tally;
+}
+
+/// From start 1 on.
+Tally Try(const char* ability, int last, const std::string& group = "") {
+  return TryFrom(1, ability, last, group);
 }
 
 TEST(CharacterAbility, LandsARunningJumpUprightAtThreeDrivesAndEightPhases) {
@@ -75,6 +81,37 @@ TEST(CharacterAbility, GetsUpFromFrontAndBackOnSlopesOfTenAndSeventeenDegrees) {
     EXPECT_GE(up.good, 22) << side << up.failed;
     EXPECT_LE(up.median(), side[0] == 'f' ? 2 : 3) << side;
   }
+}
+
+TEST(CharacterAbility, SwimsAtEachDriveWithTheHeadAboveTheWater) {
+  std::map<std::string, Tally> of;
+  for (int start = 7001; start <= 7030; ++start) {
+    const GaitTrial trial =
+        FindAbility("swim")->run({"substeps = 4", "density = 0.92"}, CharacterGains{}, start);
+    Tally& tally = of[trial.group];
+    ++tally.count;
+    tally.good += trial.good ? 1 : 0;
+    if (!trial.good) tally.failed += " " + std::to_string(start);
+    tally.figures.push_back(trial.figure);
+  }
+  double slower = 0;
+  for (const char* group : {"drive 0.3", "drive 0.6", "drive 1.0"}) {
+    Tally& swims = of[group];
+    ASSERT_EQ(swims.count, 6);
+    EXPECT_EQ(swims.good, 6) << group << swims.failed;
+    // The one that began at once; others are righted first for some of the time.
+    const double fastest = *std::max_element(swims.figures.begin(), swims.figures.end());
+    EXPECT_GT(fastest, slower + 0.05) << group << ", m/s";
+    slower = fastest;
+  }
+  EXPECT_EQ(of["drive -1.0"].good, 6) << of["drive -1.0"].failed;
+  EXPECT_GE(of["drive 0.0"].good, 5) << of["drive 0.0"].failed;
+}
+
+TEST(CharacterAbility, GetsUpAgainAfterItWentLimpByItsPlayerACommandOrABlow) {
+  const Tally up = TryFrom(7001, "limp", 7032);
+  ASSERT_EQ(up.count, 32);
+  EXPECT_GE(up.good, 30) << up.failed;
 }
 
 TEST(CharacterAbility, ABarrierReplaysStairsAndTheWayUpFromTheGroundBitForBit) {

@@ -41,6 +41,50 @@ TEST(Limp, AHardPushMakesItLimpForAMomentAndALightOneDoesNot) {
   }
 }
 
+/// By a command, as scripts give it.
+void GoLimp(ScriptedWorld* run, float seconds) {
+  const PartId torso = run->world.scene().characters[0].parts[kTorso];
+  run->world.Apply({Edit(PushEdit{torso, Vec2(0, 0), 0, seconds}, EditCause::kOutside)});
+}
+
+TEST(Limp, ACommandMakesItLimpForItsSecondsOrUntilAnotherEndsIt) {
+  ScriptedWorld run(CharacterScene("position = [0, 0]\n"));
+  run.StepTo(60);
+  GoLimp(&run, 2);
+  run.StepTo(60 + 115);
+  EXPECT_LT(Most(&run), 0.08f) << "still limp after 1.9 s";
+  run.StepTo(60 + 125);
+  EXPECT_GT(Most(&run), 0.08f) << "no longer after 2.1 s";
+  run.StepTo(60 * 12);
+  ASSERT_TRUE(Look(run).upright());
+  GoLimp(&run, kLimpForGood);
+  GoLimp(&run, 1);  // the longer one counts
+  run.StepTo(60 * 40);
+  EXPECT_LT(Most(&run), 0.08f);
+  EXPECT_LT(Look(run).head_y, 0.6f) << "it stood still: tone alone must not hold it up";
+  GoLimp(&run, -1);
+  run.StepTo(60 * 55);
+  EXPECT_TRUE(Look(run).upright());
+}
+
+TEST(Limp, ABarrierReplaysACommandBitForBit) {
+  ScriptedWorld run(CharacterScene("position = [0, 0]\n"));
+  run.StepTo(60);
+  GoLimp(&run, 0.7f);
+  run.StepTo(80);
+  const WorldSnapshot snapshot = run.world.Barrier();
+  std::vector<std::uint64_t> first;
+  for (int tick = 0; tick < 120; ++tick) {
+    run.Step();
+    first.push_back(run.world.Hash());
+  }
+  ASSERT_TRUE(run.world.Restore(snapshot).ok());
+  for (int tick = 0; tick < 120; ++tick) {
+    run.Step();
+    ASSERT_EQ(run.world.Hash(), first[static_cast<std::size_t>(tick)]) << tick;
+  }
+}
+
 TEST(Limp, ABarrierReplaysItBitForBit) {
   ScriptedWorld run(CharacterScene("position = [0, 0]\n"));
   run.StepTo(60);

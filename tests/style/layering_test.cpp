@@ -155,13 +155,19 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"common/sync/rest", "common/sync(/reconcile|/reach)?"},
       {"common/sync/reach", "common/sync"},
       {"common/sync/edits", "none"},
+      {"common/base/command", "common/base"},
+      {"common/measure/contents", "common/measure"},
       {"common/measure/screen", "common/measure"},
       {"common/physics/exact", "common/physics"},
       {"common/sync/show", "common/sync"},
       {"common/stages/(bonds|bricks|character|water)", "common/stages"},
+      {"client/swarm", "client(/top)?"},
+      {"client/top", "none"},
       {"server/authority", "none"},
       {"server/edits", "server/authority"},
       {"server/sessions", "none"},
+      {"server/load", "server"},
+      {"server/hub", "server(/load|/sessions)?"},
       {"server/script", "none"},
       {"server/rules", "server/script"},
       {"common/scene/joints", "common/scene(/toml)?"},
@@ -175,11 +181,13 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"tests/support/browser", "tests/support"},
       {"tests/lab/fairness", "tests/lab(/report(/sessions)?)?"},
       {"common/measure/limit", "common/measure(/screen)?"},
+      {"tests/lab/check", "tests/lab"},
       {"tests/lab/exact", "tests/lab(/hard|/report)?"},
       {"tests/lab/gait", "tests/lab"},
       {"tests/lab/hard", "none"},
       {"tests/lab/hard/mechanisms", "tests/lab/hard"},
-      {"tests/lab/report", "tests/lab(/report/(joints|sessions))?"},
+      {"tests/lab/report", "tests/lab(/report/(html|joints|sessions))?"},
+      {"tests/lab/report/html", "tests/lab(/report)?"},
       {"tests/lab/report/sessions", "tests/lab(/report)?"},
       {"tests/lab/report/joints", "tests/lab(/report)?"},
       {"tests/lab/load", "tests/lab"},
@@ -246,14 +254,18 @@ TEST(Layering, EachOutsideLibraryHasOneDoor) {
   ExpectOnlyIn("common/record/bus\\.cpp", kCode, "lcm/.*");
   ExpectOnlyIn("common/codec/codec[^/]*\\.cpp", kCode, "seam/[a-z_]+\\.hpp");
   ExpectOnlyIn("render/canvas/png[^/]*", kCode, "png\\.h|spng\\.h");
-  ExpectOnlyIn("render/page/gzip\\.cpp|tests/.*", kCode, "zlib\\.h");
+  ExpectOnlyIn("render/(page/gzip|canvas/png_writer)\\.cpp|tests/.*", kCode, "zlib\\.h");
   ExpectOnlyIn("render/canvas/font[^/]*", kCode, "ft2build\\.h|freetype/.*");
   ExpectOnlyIn("common/scene/toml/toml_tree\\.cpp", kProduct, "toml\\.hpp|toml[^/]*/.*");
-  ExpectOnlyIn("render/(export/)?options\\.cpp|common/base/command_line\\.h", kProduct, "CLI/.*");
+  ExpectOnlyIn(
+      "render/(export/)?options\\.cpp|common/base/command_line\\.h|"
+      "common/base/command/(command_table|mistake)\\.cpp",
+      kProduct, "CLI/.*");
   ExpectOnlyIn("server/script/script_lua[^/]*", kCode, "(.*/)?(lua|lauxlib|lualib)\\.h(pp)?");
   ExpectOnlyIn("common/net/keyed_hash\\.cpp", kCode, "sodium\\.h|sodium/.*");
   ExpectOnlyIn("none", kProduct, "gtest/.*");
-  ExpectOnlyIn("common/net/udp[^/]*", kProduct, "sys/socket\\.h|netinet/.*|arpa/.*|netdb\\.h");
+  ExpectOnlyIn("common/net/(udp|http_)[^/]*", kProduct,
+               "sys/socket\\.h|netinet/.*|arpa/.*|netdb\\.h");
 }
 
 TEST(Layering, SyncKnowsOfTheNetOnlyHowLargeItsMessagesMayBe) {

@@ -42,6 +42,9 @@ class FakeHost : public ScriptHost {
     if (states.count(part) == 0) throw ScriptRefusal("there is no part '" + part + "'");
     asked.push_back("push " + part + " " + Text(impulse.x()) + " " + Text(impulse.y()) + " " + why);
   }
+  void Limp(const std::string& character, float seconds) override {
+    asked.push_back("limp " + character + " " + std::to_string(seconds));
+  }
   void Blast(const Vec2& centre, float radius, float speed, float impulse) override {
     asked.push_back("blast " + Text(centre.x()) + " " + Text(centre.y()) + " " + Text(radius) +
                     " " + Text(speed) + " " + Text(impulse));

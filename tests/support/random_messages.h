@@ -31,7 +31,7 @@ class RandomMessages {
   void Fill(Challenge& m) { Common(m), m.token = static_cast<std::int64_t>(random_.Next()); }
   void Fill(Join& m) {
     Common(m), m.protocol = Int32(), m.token = static_cast<std::int64_t>(random_.Next());
-    m.key = static_cast<std::int64_t>(random_.Next()), m.name = Name();
+    m.key = static_cast<std::int64_t>(random_.Next()), m.name = Name(), m.room = Name();
   }
   void Fill(Ready& m) { Common(m); }
   void Fill(Welcome& m) {
@@ -56,6 +56,7 @@ class RandomMessages {
   void Fill(Pong& m) {
     Common(m), m.client_us = Time(), m.tick0_us = Time();
     m.rest = static_cast<std::int64_t>(random_.Next());
+    Set(m.speed_ppm, kLeastSpeedPpm, kFullSpeedPpm);
   }
   void Fill(Inputs& m, std::size_t count) {
     Common(m), Sequence(m), Set(m.player, 0, 31), m.first_tick = Tick();
@@ -155,6 +156,24 @@ class RandomMessages {
     }
     Set(m.rtt_us, -1, INT32_MAX), Set(m.loss_ppm, 0, 1000000), m.tick_late_us = Int32();
     m.clock_offset_us = Int32();
+  }
+  void Fill(Load& m) {
+    Common(m), Sequence(m), m.tick = Tick(), Set(m.speed_ppm, kLeastSpeedPpm, kFullSpeedPpm);
+    for (auto* n : {&m.ticks, &m.tick_p50_us, &m.tick_p99_us, &m.tick_max_us, &m.late_p50_us,
+                    &m.late_p99_us, &m.late_max_us, &m.clients, &m.players, &m.bodies, &m.moving,
+                    &m.moving_held, &m.islands}) {
+      Set(*n, 0, INT32_MAX);
+    }
+    for (auto* n : {&m.cpu_us, &m.hand_overs, &m.jumps, &m.dropped_malformed, &m.dropped_stale,
+                    &m.dropped_right, &m.dropped_implausible, &m.dropped_budget}) {
+      Set(*n, 0, kTimeMaxUs - 1);
+    }
+    const std::size_t count = Count(0, kTrafficMax);
+    Vector(m.kind, count, 0, kTrafficOther);
+    m.bytes_out.resize(count), m.bytes_in.resize(count);
+    for (std::size_t i = 0; i < count; ++i) {
+      Set(m.bytes_out[i], 0, kTimeMaxUs - 1), Set(m.bytes_in[i], 0, kTimeMaxUs - 1);
+    }
   }
   void Fill(Event& m) {
     Common(m), Sequence(m), Set(m.peer, 0, 31), m.tick = Tick(), m.text = Text(1000);

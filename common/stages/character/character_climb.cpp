@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/geometry.h"
 #include "common/stages/character/character_control.h"
 
 namespace seam {
@@ -50,19 +51,41 @@ void CharacterControl::ReachWith(const CharacterSense& s, int side, b2Vec2 way) 
   Pose(Elbow(side), b2_pi - at_elbow, gains_.climb_elbow);
 }
 
+/// An arm that is to reach up or on goes round behind the body, straight, as in a crawl, and comes
+/// down on the ledge from above: before the body there is the wall. False: it is there.
+bool CharacterControl::RaiseArm(const CharacterSense& s, int side, b2Vec2 tip, b2Vec2 edge) {
+  const float m = limbs_.scale();
+  const float arm = WrapAngle(s.torso + limbs_.angle(Shoulder(side)));  // 0 hangs, then forwards
+  const b2Vec2 shoulder = limbs_.At(Shoulder(side));
+  const float high = std::min(edge.y + 0.02f * m, shoulder.y + gains_.climb_raised * m);
+  if (memory_.phase == 0 ? tip.y > high && arm > 0 : arm > gains_.climb_before) return false;
+  const float to = arm > gains_.climb_raise ? b2_pi - 0.3f : arm - 0.8f;
+  Pose(Shoulder(side), to - s.torso, gains_.climb_shoulder, -gains_.climb_raise_spin);
+  Pose(Elbow(side), 0.3f, gains_.climb_elbow);
+  return true;
+}
+
 /// The arm pulls the body by `force` N from where the hand holds. Arms are taken as massless.
 void CharacterControl::PullWith(int side, b2Vec2 force) {
   const b2Vec2 tip = limbs_.Own(hands_.Tip(side));
   const b2Vec2 shoulder = limbs_.At(Shoulder(side)), elbow = limbs_.At(Elbow(side));
-  limbs_.Torque(Shoulder(side), -b2Cross(tip - shoulder, force));
+  float turn = -b2Cross(tip - shoulder, force);
   float bend = -b2Cross(tip - elbow, force);
-  if (memory_.phase == 0) {
+  if (memory_.phase == 1) {
+    // As much of it as both joints can do: a bound on one of them alone would turn the force.
+    const float share =
+        std::min({1.0f, limbs_.bound(Shoulder(side)) / std::max(std::abs(turn), 1e-6f),
+                  limbs_.bound(Elbow(side)) / std::max(std::abs(bend), 1e-6f)});
+    turn *= share;
+    bend *= share;
+  } else {
     // Elbows that are straight stay so, whatever pulls: they bend as for a pull along the arm.
     b2Vec2 line = tip - shoulder;
     line.Normalize();
     const float lever = std::abs(b2Cross(tip - elbow, line)) + gains_.climb_lever * limbs_.scale();
     bend = std::max(bend, gains_.climb_bend * force.Length() * lever);
   }
+  limbs_.Torque(Shoulder(side), turn);
   limbs_.Torque(Elbow(side), bend);
 }
 
@@ -91,6 +114,9 @@ b2Vec2 CharacterControl::PullTo(const CharacterSense& s, b2Vec2 tip) const {
   if (memory_.phase == 1) {
     // It leans over the edge, and falls on it.
     const float missing = (memory_.from.y - limbs_.At(kShoulderLeft).y) / m + gains_.climb_chest;
+    // With the chest on the ledge, hands only pull: to press would lower the hips.
+    const bool on = limbs_.At(kShoulderLeft).x > memory_.from.x + gains_.climb_on * m;
+    if (on) return weight * b2Vec2(gains_.climb_forward, gains_.climb_slide);
     const float up = gains_.climb_lift + gains_.climb_press * missing - slow * s.velocity.y;
     return weight * b2Vec2(gains_.climb_forward, std::clamp(up, 0.0f, 1.5f));
   }
@@ -110,7 +136,7 @@ bool CharacterControl::ReachesOn(int side, b2Vec2 tip, b2Vec2 shoulder) const {
   if (!hands_.holds(1 - side) || memory_.hold[1 - side] <= 0) return false;
   if (memory_.phase == 1) {
     const float before = limbs_.Own(hands_.Tip(1 - side)).x - tip.x;
-    return tip.x < shoulder.x - 0.05f * m || before > gains_.climb_stride * m;
+    return tip.x < shoulder.x - gains_.climb_behind * m || before > gains_.climb_stride * m;
   }
   return tip.y < memory_.from.y - 0.1f * m && tip.y < shoulder.y + gains_.climb_again * m;
 }
@@ -121,8 +147,11 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
   const bool arms = limbs_.has(kShoulderLeft) && limbs_.has(kShoulderRight);
   // The edge is remembered in `from`: over it, there is no wall ahead to be seen any more.
   const bool loose = !hands_.holds(0) && !hands_.holds(1);
-  bool lost = loose && std::abs(s.torso) > gains_.tilt_max;
-  if (memory_.phase == 0 || loose) {
+  const b2Vec2 shoulder = limbs_.At(kShoulderLeft);
+  // The chest on the ledge: it lies there without hands, too.
+  const bool on = memory_.phase == 1 && shoulder.x > memory_.from.x && shoulder.y > memory_.from.y;
+  bool lost = loose && !on && std::abs(s.torso) > gains_.tilt_max;
+  if (memory_.phase == 0 || (loose && !on)) {
     const Ledge ledge = LedgeAhead(s);
     if (ledge.found) memory_.from = ledge.edge;
     lost = lost || (loose && !ledge.found);
@@ -135,8 +164,9 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
     Enter(over ? CharacterMode::kFall : CharacterMode::kSwim);
     return;
   }
-  const b2Vec2 shoulder = limbs_.At(kShoulderLeft);
-  if (shoulder.y > edge.y + gains_.climb_above * m) memory_.phase = 1;
+  const float above = (shoulder.y - edge.y) / m;
+  if (above > gains_.climb_above) memory_.phase = 1;
+  if (above < gains_.climb_above - 0.1f && !on) memory_.phase = 0;
   const int holding = (hands_.holds(0) ? 1 : 0) + (hands_.holds(1) ? 1 : 0);
   for (int side = 0; side < 2; ++side) {
     if (!hands_.has(side)) continue;
@@ -150,7 +180,9 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
       continue;
     }
     b2Vec2 there = edge + b2Vec2((0.05f + 0.05f * static_cast<float>(side)) * m, 0) - shoulder;
-    if (memory_.phase == 1) there.x = std::max(there.x, 0.8f * reach);
+    // On the ledge, and on it with some weight.
+    if (memory_.phase == 1)
+      there.Set(std::max(there.x, gains_.climb_ahead * reach), there.y - 0.1f * m);
     if (memory_.phase == 0 && there.Length() > reach) {  // not yet the top: the wall's face
       const float across = std::clamp(edge.x - shoulder.x, 0.0f, 0.9f * reach);
       there.Set(across, std::sqrt(reach * reach - across * across));
@@ -160,23 +192,18 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
     const bool lies = memory_.phase == 1 && tip.x > edge.x && tip.x > shoulder.x;
     const bool close = lies || missing.Length() < gains_.climb_close * m;
     if (memory_.hold[side] == 0 && (close || holding == 0)) memory_.hold[side] = 1;
-    if (!close && missing.y > 0.03f * m && tip.y < shoulder.y + gains_.climb_raised * m) {
-      // A straight arm would push at the wall: folded behind the body, then up before it.
-      const bool folded = limbs_.angle(Elbow(side)) > 2;
-      Pose(Shoulder(side), (folded ? gains_.climb_raise : -0.9f) - s.torso, gains_.climb_shoulder);
-      Pose(Elbow(side), 2.4f, gains_.climb_elbow);
-      continue;
-    }
-    if (!close && missing.y > 0.05f * m) there.x -= 0.1f * m;
+    if (!close && RaiseArm(s, side, tip, edge)) continue;
+    if (!close && memory_.phase == 0 && missing.y > 0.05f * m) there.x -= 0.1f * m;
     ReachWith(s, side, there);
   }
   // Bent hips bring the chest down on the ledge; straight legs follow.
-  const bool bent = s.torso > -gains_.climb_down && s.hip.x > edge.x - 0.35f * m;
+  const bool bent = s.centre.x < edge.x + gains_.climb_flat * m && s.torso > -gains_.climb_down &&
+                    s.hip.x > edge.x - 0.35f * m;
   if (memory_.phase == 0) {
     Tread(s, h);
   } else {
     for (int side = 0; side < 2; ++side) {
-      Pose(Hip(side), bent ? gains_.climb_hip : 0.2f, gains_.swim_hip);
+      Pose(Hip(side), bent ? gains_.climb_hip : gains_.climb_straight, gains_.swim_hip);
       Pose(Knee(side), gains_.climb_knee, gains_.swim_knee);
       Pose(Ankle(side), -0.5f, gains_.swim_ankle);
     }

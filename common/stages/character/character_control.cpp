@@ -13,6 +13,9 @@ namespace {
 /// A player's lift below this, which is all the way down, makes a character limp.
 constexpr float kLimpLift = -0.9f;
 
+/// s at the beginning without any muscle tone: it would keep one that stands still on its feet.
+constexpr float kBuckle = 0.5f;
+
 /// m of water over the ground, for 1.8 m: from which on it swims, and below which it stands up.
 constexpr float kSwimDepth = 0.75f, kWadeDepth = 0.3f;
 
@@ -72,6 +75,10 @@ void CharacterControl::Struck(float impulse) {
   memory_.limp = std::max(memory_.limp, std::min(gains_.limp_time * speed, gains_.limp_max));
 }
 
+void CharacterControl::GoLimp(float seconds) {
+  memory_.limp = seconds < 0 ? 0 : std::max(memory_.limp, seconds);
+}
+
 void CharacterControl::Act(float h) {
   if (!limbs_.dynamic()) return;
   if (!limbs_.whole()) {
@@ -97,7 +104,7 @@ void CharacterControl::Act(float h) {
     case CharacterMode::kRise: Rise(s, h); break;
     case CharacterMode::kSwim: Swim(s, h); break;
     case CharacterMode::kClimb: Climb(s, h); break;
-    case CharacterMode::kLimp: limbs_.SlackenAll(); break;
+    case CharacterMode::kLimp: limbs_.SlackenAll(memory_.time < kBuckle ? 0.0f : 1.0f); break;
   }
 }
 
@@ -111,7 +118,8 @@ void CharacterControl::Choose(const CharacterSense& s, float h) {
     const float over = WaterOverGround(s) / limbs_.scale();
     if (!swims && depth > gains_.swim_from && over > kSwimDepth) {
       Enter(CharacterMode::kSwim);
-      memory_.speed = 0;
+      memory_.speed = memory_.to = memory_.step = 0;
+      memory_.from.SetZero();
     }
     const bool touches = s.legs[0].down || s.legs[1].down || s.lying;
     const bool stands = over < kWadeDepth || (touches && depth < gains_.swim_to);

@@ -6,7 +6,7 @@
 ///   stand, step --lift--> jump --> air --feet touch--> step or stand
 ///   anything --tilted, sunk down--> fall --it lies--> rise --up--> stand
 ///   anything --in water--> swim --a ledge in reach--> climb --over it--> fall
-///   anything --its player's lift fully down, or a hard blow--> limp --over--> fall
+///   anything --its player's lift fully down, a hard blow, a command--> limp --over--> fall
 ///   a leg or the torso gone--> limp
 ///
 /// The balance is the linear inverted pendulum's: its divergent part, the point x + v / w0 with
@@ -31,18 +31,18 @@ constexpr float kNoEdge = 1e6f;
 /// All that a controller remembers; numbers only, so that a world can save it.
 struct CharacterMemory {
   CharacterMode mode = CharacterMode::kStand;
-  float time = 0;           ///< s in this mode
-  int stance = 0;           ///< kStep: the side that bears
-  float step = 0;           ///< s; kStep: since the swinging foot left the ground
-  b2Vec2 from{0, 0};        ///< m; kStep: where it left, own frame
-  float to = 0;             ///< m; kStep: where its ankle is to stand, own frame
+  float time = 0;     ///< s in this mode
+  int stance = 0;     ///< kStep: the side that bears
+  float step = 0;     ///< s; kStep: since the swinging foot left the ground; kSwim: turns of legs
+  b2Vec2 from{0, 0};  ///< m; kStep: where it left, own frame
+  float to = 0;       ///< m; kStep: where its ankle is to stand, own frame
   b2Vec2 edge{kNoEdge, 0};  ///< m; kStep: of the first stair before it
   float speed = 0;          ///< m/s that is wished for now
   int phase = 0;            ///< kRise: of the way up
   float phase_time = 0;     ///< s in it; kSwim: turns of the arms
   float hold[2] = {};       ///< 1: the hand is to hold what it touches; -x: for x s it cannot
   float load[2] = {};       ///< N; what each hand bears, the mean of the last moment
-  float limp = 0;           ///< s that it stays limp after a blow
+  float limp = 0;           ///< s that it stays limp after a blow or a command
 
   void Save(std::vector<float>* memory) const;
   std::size_t Load(const float* memory);
@@ -65,6 +65,8 @@ class CharacterControl {
   void Act(float h);
   /// A blow of `impulse` N s on one of its parts: a hard one makes it limp for a moment.
   void Struck(float impulse);
+  /// For at least `seconds`; below 0: no longer.
+  void GoLimp(float seconds);
   /// After a tick: grips that are to be made or given up.
   void ProposeGrips(std::vector<Edit>* edits) const { hands_.Propose(memory_.hold, edits); }
   /// After a tick of `h` s.
@@ -135,10 +137,13 @@ class CharacterControl {
   float WaterOverGround(const CharacterSense& s) const;
   void Swim(const CharacterSense& s, float h);
   void Tread(const CharacterSense& s, float h);
+  float RightingHz(const CharacterSense& s, float error) const;
   /// rad of the joints of one leg.
   struct Legs {
     float hip = 0, knee = 0, ankle = 0;
   };
+  float StrokeLean(float share) const;
+  Legs ReadyLegs(const Legs& tread, float error, float share) const;
   Legs TreadLegs(const CharacterSense& s, float leg) const;
   Legs BeatLegs(const CharacterSense& s, float leg, float share) const;
   void PoseLegs(const Legs& tread, const Legs& beat, float share, int side);
@@ -151,6 +156,7 @@ class CharacterControl {
   Ledge LedgeAhead(const CharacterSense& s) const;
   void Climb(const CharacterSense& s, float h);
   void ReachWith(const CharacterSense& s, int side, b2Vec2 way);
+  bool RaiseArm(const CharacterSense& s, int side, b2Vec2 tip, b2Vec2 edge);
   void PullWith(int side, b2Vec2 force);
   b2Vec2 PullTo(const CharacterSense& s, b2Vec2 tip) const;
   bool ReachesOn(int side, b2Vec2 tip, b2Vec2 shoulder) const;

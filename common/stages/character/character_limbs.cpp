@@ -165,16 +165,16 @@ float CharacterLimbs::Torque(CharacterJoint joint, float torque) {
   return told_[joint];
 }
 
-void CharacterLimbs::Slacken(CharacterJoint joint) {
+void CharacterLimbs::Slacken(CharacterJoint joint, float tone) {
   b2RevoluteJoint* j = joints_[joint];
   if (j == nullptr) return;
   told_[joint] = 0;
   j->SetMotorSpeed(0);
-  j->SetMaxMotorTorque(character_.slack[static_cast<std::size_t>(joint)]);
+  j->SetMaxMotorTorque(tone * character_.slack[static_cast<std::size_t>(joint)]);
 }
 
-void CharacterLimbs::SlackenAll() {
-  for (int j = 0; j < kCharacterJoints; ++j) Slacken(static_cast<CharacterJoint>(j));
+void CharacterLimbs::SlackenAll(float tone) {
+  for (int j = 0; j < kCharacterJoints; ++j) Slacken(static_cast<CharacterJoint>(j), tone);
 }
 
 GroundPoint CharacterLimbs::Hit(b2Vec2 from, b2Vec2 to) const {

@@ -65,9 +65,9 @@ class CharacterLimbs {
   void Servo(CharacterJoint joint, float angle, float spin, float stiffness, float damping);
   /// Torque on the outer part, within the bound; returns what it is.
   float Torque(CharacterJoint joint, float torque);
-  /// Only muscle tone.
-  void Slacken(CharacterJoint joint);
-  void SlackenAll();
+  /// Only muscle tone, this share of it.
+  void Slacken(CharacterJoint joint, float tone);
+  void SlackenAll(float tone = 1);
   /// What the motor was last told, N m on the outer part.
   float told(CharacterJoint joint) const { return told_[joint]; }
 

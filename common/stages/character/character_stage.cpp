@@ -40,7 +40,9 @@ class CharacterStage : public Stage {
     for (std::size_t i = 0; i < controls_.size(); ++i) {
       const std::vector<PartId>& own = parts_[i];
       const bool struck = std::find(own.begin(), own.end(), push->part) != own.end();
-      if (struck) controls_[i].Struck(push->impulse.norm());
+      if (!struck) continue;
+      controls_[i].Struck(push->impulse.norm());
+      if (push->limp != 0) controls_[i].GoLimp(push->limp);
     }
   }
   void SetInput(int player, const Input& input) override {

@@ -14,6 +14,12 @@ namespace {
 /// Of a sine, `phase` in turns.
 float Sine(float phase) { return std::sin(2 * b2_pi * (phase - std::floor(phase))); }
 
+/// By so many turns; whole ones do not count.
+void TurnOn(float* turns, float by) {
+  *turns += by;
+  *turns -= std::floor(*turns);
+}
+
 }  // namespace
 
 /// m of the chest below the level of the water it is in; negative above it or without water.
@@ -45,14 +51,18 @@ CharacterControl::Legs CharacterControl::TreadLegs(const CharacterSense& s, floa
           g.tread_knee + g.tread_knee_sine * Sine(leg + g.tread_knee_phase), g.tread_ankle};
 }
 
+/// rad forward, of the torso while it strokes.
+float CharacterControl::StrokeLean(float share) const {
+  return share < 0 ? gains_.swim_lean_back : gains_.swim_lean + share * gains_.swim_lean_more;
+}
+
 /// Legs that beat; `share` of the drive, negative backwards.
 CharacterControl::Legs CharacterControl::BeatLegs(const CharacterSense& s, float leg,
                                                   float share) const {
   const CharacterGains& g = gains_;
   const bool back = share < 0;
   const float size = g.swim_slow_size + std::abs(share) * (1 - g.swim_slow_size);
-  const float lean = back ? g.swim_lean_back : g.swim_lean + share * g.swim_lean_more;
-  const float error = std::clamp(s.torso + lean, -0.8f, 0.8f);
+  const float error = std::clamp(s.torso + StrokeLean(share), -0.8f, 0.8f);
   const float skew =
       g.swim_skew * error + g.swim_skew_rate * s.torso_spin + (back ? g.swim_skew_back : 0);
   const float beat = std::round(g.swim_kicks) * leg;
@@ -70,12 +80,28 @@ void CharacterControl::PoseLegs(const Legs& tread, const Legs& beat, float share
 
 /// Before a ledge, hands busy.
 void CharacterControl::Tread(const CharacterSense& s, float h) {
-  memory_.phase_time += gains_.tread_hz * h;
-  memory_.phase_time -= std::floor(memory_.phase_time);
+  TurnOn(&memory_.step, gains_.tread_hz * h);
   for (int side = 0; side < 2; ++side) {
-    const Legs legs = TreadLegs(s, memory_.phase_time + 0.5f * static_cast<float>(side));
+    const Legs legs = TreadLegs(s, memory_.step + 0.5f * static_cast<float>(side));
     PoseLegs(legs, legs, 0, side);
   }
+}
+
+/// Turns per s of the arms that bring the torso back to its lean, from `error` rad beyond it: the
+/// water holds arms that turn, and what they push it with turns the torso the other way.
+float CharacterControl::RightingHz(const CharacterSense& s, float error) const {
+  const CharacterGains& g = gains_;
+  return std::clamp(-g.right_turn * error - g.right_rate * s.torso_spin, -g.right_max, g.right_max);
+}
+
+/// Legs on their way to the stroke's middle, while the arms right the torso.
+CharacterControl::Legs CharacterControl::ReadyLegs(const Legs& tread, float error,
+                                                   float share) const {
+  const CharacterGains& g = gains_;
+  const float skew = std::clamp(g.ready_skew * error, -g.ready_skew_max, g.ready_skew_max);
+  return {tread.hip + share * (g.hip_middle + skew - tread.hip),
+          tread.knee + share * (g.knee_middle - tread.knee),
+          tread.ankle + share * (g.ankle_middle - tread.ankle)};
 }
 
 void CharacterControl::Swim(const CharacterSense& s, float h) {
@@ -83,24 +109,47 @@ void CharacterControl::Swim(const CharacterSense& s, float h) {
   // The drive comes slowly, and the stroke with it: a sudden one turns the body over.
   memory_.speed += std::clamp(drive_ - memory_.speed, -g.swim_ramp * h, g.swim_ramp * h);
   const float share = std::clamp(memory_.speed, -1.0f, 1.0f), size = std::abs(share);
-  const float swims = std::min(size / g.swim_full, 1.0f);
+  const float driven = std::min(size / g.swim_full, 1.0f);
+  // A stroke turns the body over from an unfit lean: then the arms right the torso first, further
+  // than the stroke's lean by what its beginning turns it back.
+  const float off = s.torso + StrokeLean(share),
+              lead = share < 0 ? -g.stroke_lead_back : g.stroke_lead;
+  const float error = s.torso + g.tread_lean + driven * (off + lead - s.torso - g.tread_lean);
+  if (memory_.phase == 0 && driven == 1) {
+    if (std::abs(error) < g.stroke_from && std::abs(s.torso_spin) < g.stroke_calm)
+      memory_.phase = 1;
+  } else if (driven < 0.5f || (share < 0 ? -off : off) > g.stroke_to) {
+    memory_.phase = 0;
+  }
+  const float to = static_cast<float>(memory_.phase);
+  memory_.to += std::clamp(to - memory_.to, -h / g.stroke_fade, h / g.stroke_fade);
+  const float swims = memory_.to * driven, rights = (1 - memory_.to) * driven;
   // Drag goes by the square of the speed: the same stroke in reverse pushes the other way.
   const float turning = g.swim_slow_hz + size * (g.swim_hz - g.swim_slow_hz);
-  const float hz = swims * (share < 0 ? -turning : turning) + (1 - swims) * g.tread_hz;
-  memory_.phase_time += hz * h;
-  memory_.phase_time -= std::floor(memory_.phase_time);
-  const float arms = g.tread_arms_skew * std::clamp(s.torso + g.tread_lean, -1.0f, 1.0f);
+  // At rest, arms sink to before and behind the torso.
+  const float sinking = -g.arms_back * (memory_.phase_time - std::round(memory_.phase_time));
+  const float hz = swims * (share < 0 ? -turning : turning) + rights * RightingHz(s, error) +
+                   (1 - driven) * sinking;
+  float& ready = memory_.from.x;
+  ready += std::clamp(driven - ready, -h / g.ready_time, h / g.ready_time);
+  TurnOn(&memory_.phase_time, hz * h);
+  TurnOn(&memory_.step, g.tread_hz * h);
+  const float skew = (1 - driven) * g.tread_arms_skew * std::clamp(error, -1.0f, 1.0f);
+  const float apart = g.tread_arms + driven * (0.5f * b2_pi - g.tread_arms);
+  const float strength = g.swim_shoulder + rights * (g.right_shoulder - g.swim_shoulder);
   for (int side = 0; side < 2; ++side) {
-    const float turn = memory_.phase_time + 0.5f * static_cast<float>(side);
-    if (swims < 0.5f) {  // one arm before, one behind
-      Pose(Shoulder(side), (side == 0 ? g.tread_arms : -g.tread_arms) + arms, g.swim_shoulder);
-      Pose(Elbow(side), side == 0 ? g.tread_elbow : 0.05f, g.swim_elbow);
-    } else {  // from overhead down before the body
-      const float turned = -2 * b2_pi * turn + g.shoulder_sine * Sine(turn + g.shoulder_phase);
-      Pose(Shoulder(side), turned, swims * g.swim_shoulder, -2 * b2_pi * hz);
-      Pose(Elbow(side), g.elbow_middle + g.elbow_sine * Sine(turn + g.elbow_phase), g.swim_elbow);
-    }
-    PoseLegs(TreadLegs(s, turn), BeatLegs(s, turn, share), swims, side);
+    const float half = 0.5f * static_cast<float>(side);
+    const float turn = memory_.phase_time - 0.25f + half;
+    // From overhead down before the body; at rest one before, one behind.
+    Pose(Shoulder(side),
+         (side == 0 ? apart : -apart) - 2 * b2_pi * memory_.phase_time + skew +
+             swims * g.shoulder_sine * Sine(turn + g.shoulder_phase),
+         strength, -2 * b2_pi * hz);
+    const float elbow = g.elbow_middle + g.elbow_sine * Sine(turn + g.elbow_phase);
+    const float rest = side == 0 ? (1 - driven) * g.tread_elbow : 0.05f;
+    Pose(Elbow(side), rest + swims * (elbow - rest), g.swim_elbow);
+    const Legs tread = ReadyLegs(TreadLegs(s, memory_.step + half), error, ready);
+    PoseLegs(tread, BeatLegs(s, turn, share), swims, side);
   }
   // The face out of the water.
   Pose(kNeck, std::clamp(-s.torso, -0.5f, 0.5f), g.neck_stiffness);

@@ -27,7 +27,7 @@ EditOrder ToOrder(const Edit& edit) {
                  [&](const FreeEdit& e) { order.a = Id(e.part); },
                  [&](const PushEdit& e) {
                    order.a = Id(e.part);
-                   order.value = {e.impulse.x(), e.impulse.y(), e.turn, 0};
+                   order.value = {e.impulse.x(), e.impulse.y(), e.turn, e.limp};
                  },
                  [&](const SeatEdit& e) {
                    order.a = Id(e.seat);
@@ -57,7 +57,7 @@ Edit ToEdit(const EditOrder& order) {
     case 3: what = InsertEdit{order.text}; break;
     case 4: what = RemoveEdit{order.a, order.joint == 1}; break;
     case 5: what = FreeEdit{order.a}; break;
-    case 6: what = PushEdit{order.a, xy, angle}; break;
+    case 6: what = PushEdit{order.a, xy, angle, amount}; break;
     case 7: what = SeatEdit{order.a, order.player}; break;
     case 8: what = BlastEdit{xy, amount, angle, order.value.size() > 4 ? order.value[4] : 0}; break;
     default: break;

@@ -1,6 +1,7 @@
 #include "common/sync/reconcile/reconcile.h"
 
 #include "common/base/check.h"
+#include "common/base/nearest.h"
 
 namespace seam {
 
@@ -22,12 +23,15 @@ const std::vector<NamedReconciler>& Reconcilers() {
 }
 
 const NamedReconciler& FindReconciler(const std::string& name) {
-  std::string known;
+  std::string list;
+  std::vector<std::string> known;
   for (const NamedReconciler& r : Reconcilers()) {
     if (name == r.name) return r;
-    known += (known.empty() ? "" : ", ") + std::string(r.name);
+    list += (list.empty() ? "" : ", ") + std::string(r.name);
+    known.emplace_back(r.name);
   }
-  throw OperatorError("unknown reconciler \"" + name + "\": use one of " + known);
+  throw OperatorError("unknown reconciler \"" + name + "\"" + DidYouMean(name, known) +
+                      ": use one of " + list);
 }
 
 BodyState Minus(const BodyState& a, const BodyState& b) { return PlusScaled(a, b, -1); }

@@ -37,6 +37,7 @@ class JudgedRoom : public ScriptHost {
   void Say(const std::string& /*text*/) override {}
 
   void Push(const std::string&, const Vec2&, const std::string&) override { Refuse(); }
+  void Limp(const std::string&, float) override { Refuse(); }
   void Blast(const Vec2&, float, float, float) override { Refuse(); }
   void AddPart(const TomlNode&) override { Refuse(); }
   void AddJoint(const TomlNode&) override { Refuse(); }

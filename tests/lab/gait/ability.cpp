@@ -11,7 +11,8 @@ const std::vector<Ability>& Abilities() {
                                                  {"slope", "s", TrySlope},
                                                  {"shove", "s", TryShove},
                                                  {"walk", "m/s", TryWalk},
-                                                 {"climb", "s", TryClimb}};
+                                                 {"climb", "s", TryClimb},
+                                                 {"limp", "s", TryLimp}};
   return abilities;
 }
 

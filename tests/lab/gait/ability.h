@@ -41,6 +41,7 @@ GaitTrial TryStairs(const GaitSetup& setup, const CharacterGains& gains, int sta
 GaitTrial TrySlope(const GaitSetup& setup, const CharacterGains& gains, int start);
 GaitTrial TryShove(const GaitSetup& setup, const CharacterGains& gains, int start);
 GaitTrial TryWalk(const GaitSetup& setup, const CharacterGains& gains, int start);
+GaitTrial TryLimp(const GaitSetup& setup, const CharacterGains& gains, int start);
 GaitTrial TryClimb(const GaitSetup& setup, const CharacterGains& gains, int start);
 
 }  // namespace seam

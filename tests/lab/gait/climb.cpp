@@ -24,25 +24,26 @@ GaitTrial TryClimb(const GaitSetup& setup, const CharacterGains& gains, int star
   GaitRun run(setup, gains, pool, fmt::format("position = [{:.3f}, {:.3f}]", -away - 0.3, -low));
   run.RunTo(1, 0);
   const double begin = run.time();
-  float highest = -10;
+  float highest = -10, furthest = -0.3f;  // m; on the ledge
   // Out: it stands on the ledge, behind its edge.
   while (run.time() < begin + kTime) {
     run.Step(1);
     const GaitSight sight = run.Look();
     highest = std::max(highest, sight.centre.y());
+    const bool above = sight.centre.y() > static_cast<float>(ledge);
+    if (above) furthest = std::max(furthest, std::min(sight.centre.x(), 0.7f));
     if (sight.centre.x() > 0.1f && sight.soles > static_cast<float>(ledge) - 0.1f &&
         run.upright_ticks() >= 30) {
       break;
     }
   }
-  const GaitSight sight = run.Look();
   GaitTrial trial;
   trial.group = fmt::format("ledge {}", ledge < 0.4 ? "0.3 to 0.4 m" : "0.4 to 0.5 m");
   trial.figure = run.time() - begin;
   trial.good = run.time() < begin + kTime;
   const double up = std::clamp((highest + 0.5) / (ledge + 1.4), 0.0, 1.0);
-  const bool over = sight.centre.x() > 0 && sight.centre.y() > static_cast<float>(ledge);
-  trial.cost = trial.good ? 0.3 * trial.figure / kTime : 1.5 - 0.7 * up - (over ? 0.3 : 0);
+  const double on = static_cast<double>(furthest) + 0.3;
+  trial.cost = trial.good ? 0.3 * trial.figure / kTime : 1.5 - 0.5 * up - 0.5 * on;
   return trial;
 }
 

@@ -8,6 +8,7 @@
 #include "common/base/check.h"
 #include "common/base/plain_file.h"
 #include "common/base/process.h"
+#include "common/base/progress_count.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/gait/gains_text.h"
 #include "tests/lab/gait/gait_tune.h"
@@ -89,11 +90,15 @@ int RunTuneGait(const TuneGaitCommand& command) {
   StopOnSignals();
   std::printf("%s: %zu gains, %d training starts, %d samples a generation\n", file.ability.c_str(),
               file.gains.size(), file.train.count, file.lambda);
-  const GaitResult result = TuneGait(file, jobs, [](const GaitGeneration& g) {
+  ProgressCount progress("searching", "generations", file.generations);
+  const GaitResult result = TuneGait(file, jobs, [&progress](const GaitGeneration& g) {
+    progress.End();
     std::printf("generation %3d: best %.4f, median %.4f, sigma %.3f\n", g.number, g.best, g.median,
                 g.sigma);
     std::fflush(stdout);
+    progress(g.number);
   });
+  progress.End();
   std::printf("training cost %.4f -> %.4f\n", result.before, result.after);
   PrintChanges(file, result.gains);
   if (!result.complete) return 1;

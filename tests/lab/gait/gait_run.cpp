@@ -89,4 +89,9 @@ void GaitRun::Shove(Vec2 impulse) {
   world_->Apply({Edit(PushEdit{torso, impulse}, EditCause::kOutside)});
 }
 
+void GaitRun::GoLimp(float seconds) {
+  const PartId torso = world_->scene().characters[0].parts[kTorso];
+  world_->Apply({Edit(PushEdit{torso, Vec2(0, 0), 0, seconds}, EditCause::kOutside)});
+}
+
 }  // namespace seam

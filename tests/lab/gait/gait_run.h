@@ -40,6 +40,8 @@ class GaitRun {
   const GaitSight& Look() const { return sight_; }
   /// A blow of so many N s on the middle of the torso.
   void Shove(Vec2 impulse);
+  /// By a command, for so many seconds.
+  void GoLimp(float seconds);
   /// Ticks that it has been upright without a break, up to now.
   int upright_ticks() const { return upright_ticks_; }
   const World& world() const { return *world_; }

@@ -74,6 +74,7 @@ GaitTrial Try(const GaitSetup& setup, const CharacterGains& gains, int start, in
   const double faster = std::abs(drive) == 1 ? 0.02 : 0.3;  // cost of more than is wished for
   trial.cost = drive == 0 ? std::abs(speed) : 0.2 + std::max(missing, -faster * missing);
   trial.cost += 2 * std::max(0.0, 0.99 - head_up) + 4 * std::min(0.5, under / ticks);
+  if (!trial.good) trial.cost += 0.4;
   return trial;
 }
 

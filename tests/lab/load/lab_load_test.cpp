@@ -25,7 +25,7 @@ std::string Apart(int server_follow) {
   return text;
 }
 
-Load LoadOf(const std::string& mode, int server_follow) {
+SessionLoad LoadOf(const std::string& mode, int server_follow) {
   ClusterConfig config;
   config.scene_text = Apart(server_follow);
   config.scene = "apart";
@@ -34,9 +34,9 @@ Load LoadOf(const std::string& mode, int server_follow) {
 }
 
 TEST(LabLoad, TellsWhoDoesTheWork) {
-  const Load relieved = LoadOf("buffer", 0), doubled = LoadOf("buffer", 256);
-  const Load central = LoadOf("central", 0);
-  for (const Load& load : {relieved, doubled, central}) {
+  const SessionLoad relieved = LoadOf("buffer", 0), doubled = LoadOf("buffer", 256);
+  const SessionLoad central = LoadOf("central", 0);
+  for (const SessionLoad& load : {relieved, doubled, central}) {
     EXPECT_EQ(load.players, 4);
     EXPECT_EQ(load.bodies, 12);
     EXPECT_GT(load.awake, 0);

@@ -37,7 +37,7 @@ double Ratio(double a, double b) { return b > 0 ? a / b : 0; }
 
 }  // namespace
 
-Load MeasureLoad(ClusterConfig config) {
+SessionLoad MeasureLoad(ClusterConfig config) {
   config.keep = false;
   Cluster cluster(config);
   const double seconds = config.duration_s > 0 ? config.duration_s : cluster.scene().duration_s;
@@ -60,7 +60,7 @@ Load MeasureLoad(ClusterConfig config) {
       if (client.running()) held.AddTouches(*client.replica(), client.peer());
     }
   }
-  Load load;
+  SessionLoad load;
   load.players = static_cast<int>(cluster.scene().players.size());
   load.bodies = cluster.server().replica().world().body_count();
   const auto ticks = static_cast<double>(tick_us.size());

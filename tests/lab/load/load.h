@@ -9,7 +9,7 @@
 namespace seam {
 
 /// Of the ticks after the first second.
-struct Load {
+struct SessionLoad {
   int players = 0;
   int bodies = 0;               ///< that move, in the scene
   double awake = 0;             ///< of them, on average, at the server's copy
@@ -25,6 +25,6 @@ struct Load {
 
 /// Runs the session to its end. Figures of CPU time are this machine's and noisy; the others
 /// are a function of the configuration. Throws OperatorError as Cluster does.
-Load MeasureLoad(ClusterConfig config);
+SessionLoad MeasureLoad(ClusterConfig config);
 
 }  // namespace seam

@@ -29,7 +29,7 @@ void SetMethod(const std::string& method, SessionSettings* settings) {
   (settings->mode == "central" ? settings->predict : settings->reconcile) = detail;
 }
 
-std::string Figures(const Load& load) {
+std::string Figures(const SessionLoad& load) {
   return fmt::format(",,{},{},{:.1f},{:.1f},{:.1f},{:.1f},{:.1f},{:.2f},{:.2f},{:.4f},{:.4f}",
                      load.players, load.bodies, load.awake, load.stepped, load.server_us,
                      load.server_p99_us, load.client_us, load.to_client_kbps, load.from_client_kbps,

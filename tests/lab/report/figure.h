@@ -63,6 +63,7 @@ struct Figure {
   std::string title;
   std::string caption;  ///< what is to be seen, one or two sentences
   std::string command;  ///< that makes it
+  std::string scene;    ///< that it is of; "" of several
   int columns = 1;      ///< panels beside each other
   int panel_width_px = 400, panel_height_px = 300;
   int left_px = 72;    ///< of a panel, for the tics of its y axis

@@ -52,6 +52,12 @@ Look MethodLook(const std::string& method) {
   return {spare[Fnv1a(method.data(), method.size()) % spare.size()], "(4,2)", 1.5, 3, 0.7};
 }
 
+std::vector<std::string> KnownMethods() {
+  std::vector<std::string> names;
+  for (const Known& known : Methods()) names.push_back(known.name);
+  return names;
+}
+
 int MethodOrder(const std::string& method) {
   const std::string base = Base(method);
   const auto& methods = Methods();

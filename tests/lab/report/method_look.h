@@ -3,6 +3,7 @@
 /// order in which they are listed.
 
 #include <string>
+#include <vector>
 
 #include "tests/lab/report/figure.h"
 
@@ -11,6 +12,9 @@ namespace seam {
 /// "strict", "fade", or with what else was varied: "fade, smooth off". Methods that are not in the
 /// table get one of three spare looks by their name.
 Look MethodLook(const std::string& method);
+
+/// Those of the table, in its order.
+std::vector<std::string> KnownMethods();
 
 /// Less for those listed first; unknown ones last.
 int MethodOrder(const std::string& method);

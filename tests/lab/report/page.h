@@ -1,6 +1,7 @@
 #pragma once
 /// The report as data: sections of figures, tables and pictures, and the HTML page of it, which
-/// needs neither network nor script.
+/// needs no network. Its script shows a chapter at a time and draws the figures; without it all
+/// stands below each other, with pictures.
 
 #include <string>
 #include <variant>
@@ -19,7 +20,12 @@ struct Thumbnail {
   std::string command;  ///< that made it; may be several lines
 };
 
-using PageItem = std::variant<Figure, TextTable, Thumbnail>;
+/// Asks for a latency and a loss and says what to use; see html/answers.h.
+struct Answers {
+  std::string json;
+};
+
+using PageItem = std::variant<Figure, TextTable, Thumbnail, Answers>;
 
 struct Section {
   std::string id;  ///< of its anchor

@@ -7,6 +7,7 @@
 
 #include "common/base/check.h"
 #include "tests/lab/report/files.h"
+#include "tests/lab/report/html/answers.h"
 #include "tests/lab/report/hurry_section.h"
 #include "tests/lab/report/joints/exact_joints.h"
 #include "tests/lab/report/physics_section.h"
@@ -140,6 +141,8 @@ std::vector<Section> BuildReport(const ReportInput& input) {
   if (fs::exists(data / "before.csv")) before = {CsvTable::Load((data / "before.csv").string())};
   const std::vector<ReportCase> cases = FindCases(case_tables);
   std::vector<Section> sections;
+  Section answers = AnswersSection(sweeps);
+  if (!answers.items.empty()) sections.push_back(std::move(answers));
   Section hurry = HurrySection(sweeps, cases, before ? &*before : nullptr);
   if (!hurry.items.empty()) sections.push_back(std::move(hurry));
   Section every = CasesSection(cases);

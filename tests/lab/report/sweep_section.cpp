@@ -284,6 +284,7 @@ Section SweepSection(const Sweep& sweep) {
   section.title = "Against " + sweep.view.axis.name + " (" + sweep.name + ")";
   section.part_of_last = true;
   for (const SweepGroup& group : sweep.view.groups) {
+    const std::size_t first = section.items.size();
     const bool along = group.xs.size() > 1;  // a curve of one point says less than its table
     if (along) section.items.emplace_back(CurvesOf(sweep, group));
     Figure fronts = FrontsOf(sweep, group);
@@ -304,6 +305,10 @@ Section SweepSection(const Sweep& sweep) {
       section.items.emplace_back(AlongTable(sweep, group, LimitMeasure()));
     }
     section.items.emplace_back(MeasuresTable(sweep, group));
+    for (std::size_t i = first; i < section.items.size(); ++i) {
+      if (auto* figure = std::get_if<Figure>(&section.items[i])) figure->scene = group.scene;
+      if (auto* table = std::get_if<TextTable>(&section.items[i])) table->scene = group.scene;
+    }
   }
   return section;
 }

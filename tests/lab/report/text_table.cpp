@@ -50,7 +50,10 @@ std::string Html(const TextTable& table) {
   for (const auto& row : table.rows) out += HtmlRow(row, "td");
   out += "</tbody></table></div>\n";
   if (!table.note.empty()) out += "<p class=\"note\">" + EscapeHtml(table.note) + "</p>\n";
-  if (!table.command.empty()) out += "<pre>" + EscapeHtml(table.command) + "</pre>\n";
+  if (!table.command.empty()) {
+    out += "<details class=\"command\"><summary>command</summary><pre>" +
+           EscapeHtml(table.command) + "</pre></details>\n";
+  }
   return out;
 }
 

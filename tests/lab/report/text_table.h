@@ -17,6 +17,7 @@ struct TextTable {
   std::string note;                            ///< below it; may be empty
   bool open = false;                           ///< shown at once, not only when asked for
   std::string command;                         ///< that makes it
+  std::string scene;                           ///< that it is of; "" of several
 };
 
 /// The table, its note and its command; without the title.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "common/base/check.h"
+#include "common/base/nearest.h"
 
 namespace seam {
 
@@ -77,10 +78,13 @@ const std::vector<Title>& Titles() {
 }
 
 const Title& TitleOf(const std::string& scene) {
+  std::vector<std::string> known;
   for (const Title& title : Titles()) {
     if (scene == title.scene) return title;
+    known.emplace_back(title.scene);
   }
-  throw OperatorError("nothing is written of what '" + scene + "' should do");
+  throw OperatorError("nothing is written of what '" + scene + "' should do" +
+                      DidYouMean(scene, known));
 }
 
 std::string MissedBy(const Title& title, const Recording& recording) {

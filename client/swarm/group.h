@@ -1,0 +1,51 @@
+#pragma once
+/// The members of a swarm that one thread runs: it sleeps until a datagram comes or a tick is due.
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "client/swarm/held.h"
+#include "client/swarm/member.h"
+
+namespace seam {
+
+class Group {
+ public:
+  Group();
+  ~Group();
+  Group(const Group&) = delete;
+  Group& operator=(const Group&) = delete;
+
+  /// One more member; of `first_of_room` Moving asks what the server has. Throws OperatorError when
+  /// there are no more sockets to be had.
+  void Add(const ClientConfig& config, bool first_of_room);
+  const std::vector<std::unique_ptr<Member>>& members() const { return members_; }
+
+  /// Runs until `until_us` (SteadyClockUs), or for at most 100 ms: the caller looks in between.
+  void Run(std::int64_t until_us);
+  /// All say goodbye.
+  void Leave(std::int64_t now_us);
+
+  /// Members that simulate.
+  int running() const;
+  /// Name and reason of the first that was refused or was sent something it cannot use; "": none.
+  std::string Fatal() const;
+  /// Whether the server has closed the room of one of them.
+  bool Closed() const;
+  /// What moves now: of each member's bodies by its own copy, of the server's by the copy of the
+  /// first of each room.
+  MovingBodies Moving() const;
+  MemberFigures Figures() const;
+  void Forget();
+
+ private:
+  void Sleep(std::int64_t us) const;
+
+  std::vector<std::unique_ptr<Member>> members_;
+  std::vector<bool> first_of_room_;  // by member
+  int epoll_ = -1;
+};
+
+}  // namespace seam

@@ -1,0 +1,116 @@
+#include "server/hub/hosted_room.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "common/base/process.h"
+
+namespace seam {
+namespace {
+
+/// A room is run at least so often: it notices who has fallen silent.
+constexpr std::int64_t kRunUs = 20000;
+
+}  // namespace
+
+HostedRoom::HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net& out)
+    : plan_(plan),
+      net_(finder, index, out),
+      impaired_(net_, plan.profile, plan.profile, static_cast<std::uint64_t>(plan.config.seed)),
+      sink_(plan.lcm_url, plan.record, plan.force, plan.config.room),
+      publisher_(sink_, plan.config.room),
+      server_(plan_.scene, plan_.config, impaired_, sink_, entropy_) {
+  newest_.room = plan.config.room;
+}
+
+void HostedRoom::Run(std::int64_t now_us) {
+  ran_us_ = now_us;
+  if (done()) {
+    LetThrough(now_us);
+    return;
+  }
+  const std::int64_t tick = server_.tick(), due_us = server_.next_tick_us();
+  const std::int64_t cpu_us = ThreadCpuUs();
+  server_.Tick(now_us, plan_.alone ? CpuUs() : watch_.cpu_us());
+  sink_.Poll();
+  tick_times_.Note(SteadyClockUs() - now_us, server_.tick() - tick);
+  watch_.NoteCall(server_, now_us, SteadyClockUs() - now_us, ThreadCpuUs() - cpu_us, tick, due_us);
+  CollectNews();
+  if (watch_.Due(now_us)) Tell(now_us);
+  EndIfDone(now_us);
+}
+
+void HostedRoom::EndIfDone(std::int64_t now_us) {
+  if (plan_.last_tick == 0 || server_.tick() < plan_.last_tick) return;
+  Close(now_us);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  done_ = true;
+}
+
+std::int64_t HostedRoom::due_us() const {
+  if (done()) {
+    return impaired_.sending() ? ran_us_ + kRunUs : std::numeric_limits<std::int64_t>::max();
+  }
+  return std::min({server_.next_tick_us(), impaired_.next_due_us(), ran_us_ + kRunUs});
+}
+
+void HostedRoom::Tell(std::int64_t now_us) {
+  const Load load = watch_.Tell(now_us, server_, net_.traffic());
+  publisher_.Publish(load);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  newest_.load = load;
+}
+
+/// What has happened with when it did: "12.3 s: bob is gone: left".
+void HostedRoom::CollectNews() {
+  std::vector<std::string> told = server_.TakeWarnings();
+  char when[40] = "";
+  if (server_.started()) {
+    const double now_s =
+        static_cast<double>(std::max<std::int64_t>(0, server_.tick())) / plan_.config.sync.tick_hz;
+    std::snprintf(when, sizeof when, "%.1f s: ", now_s);
+  }
+  for (const std::string& news : server_.TakeNews()) {
+    if (plan_.news) told.push_back(when + news);
+  }
+  if (!trouble_said_ && !sink_.trouble().ok()) {
+    trouble_said_ = true;
+    told.push_back(sink_.trouble().why() + "; the room runs on");
+  }
+  if (told.empty()) return;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  for (const std::string& each : told) {
+    news_.push_back(plan_.alone ? each : "room " + plan_.config.room + ": " + each);
+  }
+}
+
+RoomLoad HostedRoom::newest() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return newest_;
+}
+
+bool HostedRoom::done() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return done_;
+}
+
+std::vector<std::string> HostedRoom::TakeNews() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return std::exchange(news_, {});
+}
+
+void HostedRoom::Close(std::int64_t now_us) {
+  if (!done()) server_.Shutdown(now_us, "the server stops");
+  sink_.Poll();
+  sink_.Flush();
+}
+
+bool HostedRoom::LetThrough(std::int64_t now_us) {
+  impaired_.Advance(now_us);
+  impaired_.Flush();
+  return impaired_.sending();
+}
+
+}  // namespace seam

@@ -1,0 +1,122 @@
+#include "server/hub/hub.h"
+
+#include <algorithm>
+#include <set>
+
+#include "common/base/check.h"
+#include "common/base/process.h"
+#include "common/net/farewell.h"
+#include "common/physics/prepare_threads.h"
+
+namespace seam {
+namespace {
+
+/// Datagrams taken in one call: a flood must not keep the rooms from running.
+constexpr int kDatagramsMax = 4096;
+constexpr std::int64_t kWaitUs = 20000;
+
+std::vector<std::string> NamesOfRooms(const std::vector<RoomPlan>& plans) {
+  std::vector<std::string> names;
+  for (const RoomPlan& plan : plans) names.push_back(plan.config.room);
+  SEAM_ASSERT(std::set<std::string>(names.begin(), names.end()).size() == names.size());
+  return names;
+}
+
+}  // namespace
+
+Hub::Hub(const std::vector<RoomPlan>& plans, UdpNet& udp)
+    : udp_(udp), finder_(NamesOfRooms(plans)), handshake_(udp, entropy_), mail_(plans.size()) {
+  for (std::size_t r = 0; r < plans.size(); ++r) {
+    senders_.push_back(std::make_unique<UdpSender>(udp));
+    rooms_.push_back(
+        std::make_unique<HostedRoom>(plans[r], static_cast<int>(r), finder_, *senders_[r]));
+  }
+}
+
+Hub::~Hub() = default;
+
+void Hub::Start(int workers) {
+  PrepareForThreads();
+  std::vector<Runnable*> rooms;
+  for (const auto& room : rooms_) rooms.push_back(room.get());
+  lanes_ = std::make_unique<Lanes>(rooms, workers);
+}
+
+void Hub::Take(std::int64_t now_us) {
+  Address from;
+  Bytes datagram;
+  for (int n = 0; n < kDatagramsMax && udp_.Receive(&from, &datagram); ++n) {
+    const int room = finder_.Find(now_us, from, datagram);
+    if (room >= 0) {
+      rooms_[static_cast<std::size_t>(room)]->Deliver(from, std::move(datagram));
+      mail_[static_cast<std::size_t>(room)] = true;
+      continue;
+    }
+    DatagramHeader header;
+    const bool asks = room != RoomFinder::kNone && ReadHeader(datagram, &header);
+    Join join;
+    if (asks && room == RoomFinder::kHello) {
+      handshake_.Receive(now_us, from, header.session, datagram, &join);
+    } else if (asks) {
+      handshake_.Refuse(now_us, from, header.session, datagram.size(), finder_.Refusal());
+    } else {
+      ++strangers_;
+    }
+  }
+  udp_.Flush();
+}
+
+void Hub::Poll(std::int64_t now_us) {
+  Take(now_us);
+  for (std::size_t r = 0; r < rooms_.size(); ++r) {
+    const bool mail = mail_[r];
+    mail_[r] = false;
+    if (lanes_ != nullptr) {
+      if (mail) lanes_->Wake(static_cast<int>(r));
+    } else if (mail || rooms_[r]->due_us() <= now_us) {
+      rooms_[r]->Run(SteadyClockUs());
+    }
+  }
+}
+
+void Hub::Wait() {
+  std::int64_t due_us = SteadyClockUs() + kWaitUs;
+  if (lanes_ == nullptr) {
+    for (const auto& room : rooms_) due_us = std::min(due_us, room->due_us());
+  }
+  udp_.Wait(std::max<std::int64_t>(0, due_us - SteadyClockUs()));
+}
+
+bool Hub::done() const {
+  return std::all_of(rooms_.begin(), rooms_.end(), [](const auto& room) { return room->done(); });
+}
+
+void Hub::Close() {
+  lanes_.reset();
+  for (const auto& room : rooms_) room->Close(SteadyClockUs());
+  const std::int64_t deadline_us = SteadyClockUs() + kFarewellUsMax;
+  for (bool under_way = true; under_way && SteadyClockUs() < deadline_us;) {
+    under_way = false;
+    for (const auto& room : rooms_) under_way = room->LetThrough(SteadyClockUs()) || under_way;
+    if (under_way) udp_.Wait(1000);
+  }
+}
+
+std::vector<RoomLoad> Hub::Loads() const {
+  std::vector<RoomLoad> loads;
+  for (const auto& room : rooms_) {
+    RoomLoad load = room->newest();
+    if (load.load.utime > 0) loads.push_back(std::move(load));
+  }
+  return loads;
+}
+
+std::vector<std::string> Hub::TakeNews() {
+  std::vector<std::string> all;
+  for (const auto& room : rooms_) {
+    for (std::string& news : room->TakeNews()) all.push_back(std::move(news));
+  }
+  return all;
+}
+
+}  // namespace seam

@@ -1,0 +1,84 @@
+#include "server/hub/room_finder.h"
+
+#include <algorithm>
+#include <variant>
+
+#include "common/codec/codec.h"
+#include "common/net/datagram.h"
+
+namespace seam {
+namespace {
+
+/// How often what is old is looked for, us.
+constexpr std::int64_t kSweepUs = 5000000;
+
+/// Session and whether it is outside of any, read without the checksum: the room checks that.
+bool ReadSession(ByteView datagram, std::uint64_t* session, bool* loose) {
+  if (datagram.size < kDatagramHeaderBytes) return false;
+  *session = 0;
+  for (std::size_t i = 8; i < 16; ++i) *session = *session << 8 | datagram.data[i];
+  *loose = std::all_of(datagram.data + 16, datagram.data + kDatagramHeaderBytes,
+                       [](std::uint8_t byte) { return byte == 0; });
+  return true;
+}
+
+}  // namespace
+
+int RoomFinder::Asked(ByteView datagram) const {
+  DatagramHeader header;
+  if (!ReadHeader(datagram, &header)) return kNone;
+  const AnyMessage any = Decode(FirstUnreliable(datagram));
+  if (std::holds_alternative<Hello>(any)) return kHello;
+  const auto* join = std::get_if<Join>(&any);
+  if (join == nullptr) return kNone;
+  if (join->room.empty()) return 0;
+  const auto found = std::find(rooms_.begin(), rooms_.end(), join->room);
+  return found == rooms_.end() ? kUnknown : static_cast<int>(found - rooms_.begin());
+}
+
+int RoomFinder::Find(std::int64_t now_us, const Address& from, ByteView datagram) {
+  std::uint64_t session = 0;
+  bool loose = false;
+  const bool ours = ReadSession(datagram, &session, &loose);
+  if (ours && !loose) {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    const auto found = routes_.find({from, session});
+    if (found != routes_.end()) {
+      found->second.heard_us = now_us;
+      return found->second.room;
+    }
+  }
+  const int asked = ours ? Asked(datagram) : kNone;
+  return asked != kUnknown && rooms_.size() == 1 ? 0 : asked;
+}
+
+std::string RoomFinder::Refusal() const {
+  constexpr std::size_t kNamedMax = 8;
+  std::string line = "there is no such room here: ";
+  const char* before = rooms_.size() == 1 ? "the room is " : "the rooms are ";
+  for (std::size_t r = 0; r < std::min(kNamedMax, rooms_.size()); ++r) {
+    line += before + rooms_[r];
+    before = ", ";
+  }
+  return rooms_.size() > kNamedMax ? line + ", ..." : line;
+}
+
+void RoomFinder::Learn(std::int64_t now_us, int room, const Address& to, std::uint64_t session) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  routes_[{to, session}] = {room, now_us};
+  if (now_us - swept_us_ >= kSweepUs) ForgetOld(now_us);
+}
+
+void RoomFinder::ForgetOld(std::int64_t now_us) {
+  swept_us_ = now_us;
+  for (auto route = routes_.begin(); route != routes_.end();) {
+    route = now_us - route->second.heard_us > kKeepUs ? routes_.erase(route) : std::next(route);
+  }
+}
+
+std::size_t RoomFinder::count() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return routes_.size();
+}
+
+}  // namespace seam

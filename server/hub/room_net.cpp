@@ -1,0 +1,67 @@
+#include "server/hub/room_net.h"
+
+#include "common/net/datagram.h"
+
+namespace seam {
+namespace {
+
+/// More sessions than a room ever has at a time: then it begins to learn them anew.
+constexpr std::size_t kLearnedMax = 8192;
+
+}  // namespace
+
+void RoomNet::Deliver(const Address& from, Bytes datagram) {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (inbox_.size() >= kInboxMax) {
+    ++lost_;
+  } else {
+    inbox_.emplace_back(from, std::move(datagram));
+  }
+}
+
+bool RoomNet::HasMail() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return !inbox_.empty();
+}
+
+void RoomNet::Advance(std::int64_t now_us) {
+  now_us_ = now_us;
+  const std::lock_guard<std::mutex> lock(mutex_);
+  if (taken_.empty()) {
+    taken_.swap(inbox_);
+  } else {
+    for (auto& datagram : inbox_) taken_.push_back(std::move(datagram));
+    inbox_.clear();
+  }
+}
+
+bool RoomNet::Receive(Address* from, Bytes* datagram) {
+  if (taken_.empty()) return false;
+  *from = taken_.front().first;
+  *datagram = std::move(taken_.front().second);
+  taken_.pop_front();
+  traffic_.Add(*datagram, false);
+  return true;
+}
+
+/// A datagram with a number is sent only to who has been admitted: that is how the finder learns
+/// its session, before the first answer can come.
+void RoomNet::Send(const Address& to, ByteView datagram) {
+  traffic_.Add(datagram, true);
+  DatagramHeader header;
+  bool loose = true;
+  for (std::size_t i = 16; i < kDatagramHeaderBytes; ++i) loose = loose && datagram.data[i] == 0;
+  for (std::size_t i = 8; i < 16; ++i) header.session = header.session << 8 | datagram.data[i];
+  if (!loose && learned_.emplace(to, header.session).second) {
+    if (learned_.size() > kLearnedMax) learned_ = {{to, header.session}};
+    finder_.Learn(now_us_, room_, to, header.session);
+  }
+  out_.Send(to, datagram);
+}
+
+std::int64_t RoomNet::discarded() const {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return lost_;
+}
+
+}  // namespace seam

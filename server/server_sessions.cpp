@@ -1,0 +1,81 @@
+/// Server, who comes and goes: what follows from it, and what people are told of it.
+
+#include "server/rules/rules.h"
+#include "server/server.h"
+
+namespace seam {
+namespace {
+
+/// Lines of news that wait to be taken.
+constexpr std::size_t kNewsMax = 256;
+
+}  // namespace
+
+void Server::FollowSessions(std::int64_t now_us) {
+  for (const SessionEvent& event : sessions_.TakeEvents()) {
+    const std::string peer = "peer " + std::to_string(event.peer);
+    switch (event.kind) {
+      case SessionEvent::Kind::kJoined:
+        broadcast_.Say(now_us,
+                       event.name + " joins from " + ToString(event.address) + " as " + peer);
+        break;
+      case SessionEvent::Kind::kLoading: {
+        Session& session = *sessions_.Find(event.peer);
+        SendWorld(now_us, session);
+        break;
+      }
+      case SessionEvent::Kind::kReady:
+        if (rules_ != nullptr && event.player >= 0) rules_->OnJoin(event.player);
+        authority_.PlanSoon();
+        broadcast_.Say(now_us, event.name + " is ready as " + peer);
+        Tell(event.name + " is here as " + peer + ", " + ToString(event.address));
+        break;
+      case SessionEvent::Kind::kLeft:
+        broadcast_.Say(now_us, event.name + " (" + peer + ") is gone: " + event.why);
+        if (event.was_ready) Tell(event.name + " is gone: " + event.why);
+        if (rules_ != nullptr && event.player >= 0 && event.was_ready) {
+          rules_->OnLeave(event.player);
+        }
+        broadcast_.ToAll(authority_.TakeBack(now_us, event.peer));
+        break;
+    }
+  }
+}
+
+/// "bob is gone: left; 1 of 2 players, missing: bob".
+void Server::Tell(const std::string& line) {
+  if (news_.size() >= kNewsMax) return;
+  std::string all = line + "; " + std::to_string(player_count()) + " of " +
+                    std::to_string(scene_.players.size()) + " players";
+  const char* before = ", missing: ";
+  for (const std::string& name : missing()) {
+    all += before + name;
+    before = ", ";
+  }
+  news_.push_back(all);
+}
+
+std::vector<std::string> Server::missing() const {
+  const std::vector<int> peers = sessions_.PeerOfPlayer();
+  std::vector<std::string> names;
+  for (std::size_t p = 0; p < peers.size(); ++p) {
+    if (peers[p] < 0) names.push_back(scene_.players[p].name);
+  }
+  return names;
+}
+
+/// Our copy of a client's body was wrong: of what the client has authority over, or, where the
+/// server has it, of what its player owns.
+void Server::NoteCorrected(int body) {
+  const int mechanism = replica_.world().mechanism(body);
+  const int peer = replica_.authority().at(mechanism).authority;
+  const auto& mechanisms = replica_.world().composition().mechanisms;
+  const int owner = mechanisms[static_cast<std::size_t>(mechanism)].owner;
+  Session* session = peer > 0 ? sessions_.Find(peer) : nullptr;
+  sessions_.ForEachReady(0, [&](Session& other) {
+    if (peer == 0 && owner >= 0 && other.player == owner) session = &other;
+  });
+  if (session != nullptr) ++session->account->corrections;
+}
+
+}  // namespace seam

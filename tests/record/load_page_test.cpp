@@ -1,0 +1,107 @@
+/// The page for Prometheus: what is written is read back, and it keeps to the exposition format.
+
+#include "common/record/load_page.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "common/codec/message_list.h"
+#include "tests/support/random_messages.h"
+
+namespace seam {
+namespace {
+
+/// A Load of numbers that a page can hold, with each kind of traffic at most once.
+Load RandomLoad(RandomMessages* random) {
+  Load load;
+  random->Fill(load);
+  load.utime = load.sequence = 0;
+  load.kind.clear(), load.bytes_out.clear(), load.bytes_in.clear();
+  for (std::int8_t kind = 0; kind <= kTrafficOther; ++kind) {
+    load.kind.push_back(kind);
+    load.bytes_out.push_back(1000 * kind + 7);
+    load.bytes_in.push_back(3 * kind);
+  }
+  return load;
+}
+
+TEST(LoadPage, WhatIsWrittenIsReadBack) {
+  RandomMessages random(3);
+  for (int i = 0; i < 50; ++i) {
+    std::vector<RoomLoad> loads = {{"main-1", RandomLoad(&random)}, {"b_2", RandomLoad(&random)}};
+    for (RoomLoad& room : loads) {  // a page has 15 digits
+      for (auto* n :
+           {&room.load.cpu_us, &room.load.tick, &room.load.hand_overs, &room.load.jumps,
+            &room.load.dropped_malformed, &room.load.dropped_stale, &room.load.dropped_right,
+            &room.load.dropped_implausible, &room.load.dropped_budget}) {
+        *n %= 1000000000000;
+      }
+    }
+    const std::vector<RoomLoad> read = ReadLoadPage(WriteLoadPage(loads));
+    ASSERT_EQ(read.size(), 2u);
+    for (std::size_t r = 0; r < 2; ++r) {
+      EXPECT_EQ(read[r].room, loads[r].room);
+      EXPECT_EQ(MessageTraits<Load>::Fields(read[r].load),
+                MessageTraits<Load>::Fields(loads[r].load));
+    }
+  }
+}
+
+/// "" if the text keeps to the rules of the text format, else the first line that does not.
+std::string BrokenLine(const std::string& text) {
+  const std::regex help("# HELP [a-z_0-9]+ [^\\n]+"), type("# TYPE ([a-z_0-9]+) (counter|gauge)");
+  const std::regex sample(
+      "([a-zA-Z_:][a-zA-Z0-9_:]*)"
+      "\\{[a-zA-Z_][a-zA-Z0-9_]*=\"[^\"\\\\]*\"(,[a-zA-Z_][a-zA-Z0-9_]*=\"[^\"\\\\]*\")*\\}"
+      " -?[0-9]+(\\.[0-9]+)?(e[-+][0-9]+)?");
+  std::map<std::string, std::string> types;
+  std::set<std::string> seen;
+  std::string now;  // the metric whose samples stand together
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) {
+    std::smatch match;
+    if (std::regex_match(line, help)) continue;
+    if (std::regex_match(line, match, type)) {
+      now = match[1];
+      const bool total = now.size() > 6 && now.substr(now.size() - 6) == "_total";
+      if (!types.emplace(now, match[2]).second || total != (match[2] == "counter")) return line;
+      continue;
+    }
+    if (!std::regex_match(line, match, sample) || match[1] != now) return line;
+    if (!seen.insert(line.substr(0, line.find("} "))).second) return line;
+  }
+  return text.empty() || text.back() != '\n' ? "the last line has no end" : "";
+}
+
+TEST(LoadPage, KeepsToTheExpositionFormat) {
+  RandomMessages random(5);
+  const std::string page =
+      WriteLoadPage({{"main-1", RandomLoad(&random)}, {"main-2", RandomLoad(&random)}});
+  EXPECT_EQ(BrokenLine(page), "");
+  EXPECT_GT(std::count(page.begin(), page.end(), '\n'), 100);
+  // And this test can fail.
+  EXPECT_EQ(BrokenLine("# TYPE a gauge\nb{room=\"x\"} 1\n"), "b{room=\"x\"} 1");
+  EXPECT_EQ(BrokenLine("# TYPE a counter\na{room=\"x\"} 1\n"), "# TYPE a counter");
+  EXPECT_EQ(BrokenLine("# TYPE a gauge\na{room=\"x\"} nan\n"), "a{room=\"x\"} nan");
+}
+
+TEST(LoadPage, ForeignAndBrokenPagesAreReadWithoutHarm) {
+  EXPECT_TRUE(ReadLoadPage("").empty());
+  EXPECT_TRUE(ReadLoadPage("<html>{\n}{} \n# HELP\nseam_tick 3\nseam_tick{room=\"\"} 3\n").empty());
+  const std::vector<RoomLoad> read = ReadLoadPage(
+      "seam_tick{room=\"a\"} 7\nseam_clients{room=\"a\"} 1e14\nother{room=\"a\"} 1\n"
+      "seam_tick{room=\"a\"} nan\nseam_bodies{room=\"a\"} 1e99\nseam_dropped_total{room=\"a\"} "
+      "1\n");
+  ASSERT_EQ(read.size(), 1u);
+  EXPECT_EQ(read[0].load.tick, 7);
+  EXPECT_EQ(read[0].load.clients, INT32_MAX);
+  EXPECT_EQ(read[0].load.bodies, 0);
+}
+
+}  // namespace
+}  // namespace seam

@@ -1,0 +1,148 @@
+/// What the server's operator reads: who is here, the percentile of its ticks, what each client's
+/// sessions came to.
+
+#include "server/console.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/lab/cluster.h"
+
+namespace seam {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+TEST(TickTimes, APercentileIsTheTimeThatSoManyTicksDidNotExceed) {
+  TickTimes times;
+  EXPECT_EQ(times.Percentile(99), 0);
+  for (int us = 0; us < 10000; us += 10) times.Note(us, 1);
+  EXPECT_EQ(times.Percentile(50), 5000);
+  EXPECT_EQ(times.Percentile(99), 9900);
+  EXPECT_EQ(times.Percentile(100), 10000);
+}
+
+TEST(TickTimes, TicksDoneTogetherTookTheirShareEach) {
+  TickTimes times;
+  times.Note(8000, 8);
+  times.Note(100, 0);
+  EXPECT_EQ(times.Percentile(100), 1000 + TickTimes::kBinUs);
+}
+
+TEST(TickTimes, NoTickIsLongerThanTheLastBin) {
+  TickTimes times;
+  times.Note(100000000, 1);
+  EXPECT_EQ(times.Percentile(99), 100000);
+}
+
+TEST(AccountBook, ManyNamesShareTheLastAccountAndCostNoMoreMemory) {
+  AccountBook book;
+  for (int i = 0; i < 1000; ++i) ++book.Of("name" + std::to_string(i)).sessions;
+  EXPECT_EQ(book.List().size(), AccountBook::kAccountsMax);
+  EXPECT_EQ(book.Of("name3").sessions, 1) << "the early ones keep theirs";
+  EXPECT_EQ(book.Of("others").sessions, 1000 - static_cast<int>(AccountBook::kAccountsMax) + 1);
+}
+
+TEST(AccountBook, ARoundTripThatIsNotKnownIsNoReading) {
+  ClientAccount account;
+  EXPECT_EQ(account.rtt_us(), -1);
+  account.Read(-1, 0);
+  account.Read(40000, 10000);
+  account.Read(60000, 0);
+  EXPECT_EQ(account.rtt_us(), 50000);
+  EXPECT_EQ(account.rtt_us_max, 60000);
+  EXPECT_EQ(account.loss_ppm(), 5000);
+}
+
+/// A session whose second client dies.
+class ServerConsole : public ::testing::Test {
+ protected:
+  ServerConsole() : cluster_(Config()) { Take(); }
+  static ClusterConfig Config() {
+    ClusterConfig config;
+    config.impair = "delay=40ms,loss=2%";
+    config.keep = false;
+    return config;
+  }
+  void Take() {
+    for (const std::string& line : cluster_.server().TakeNews()) news_.push_back(line);
+  }
+  bool Told(const std::string& line) const {
+    return std::find(news_.begin(), news_.end(), line) != news_.end();
+  }
+  Cluster cluster_;
+  Lines news_;
+};
+
+TEST_F(ServerConsole, SaysWhoCameWhoLeftAndWhoIsMissing) {
+  EXPECT_EQ(MissingPlayers(cluster_.server()), "ann, bob");
+  EXPECT_EQ(ServerProgress(cluster_.server(), 360, TickTimes()),
+            "waiting: 0 of 2 players (ann, bob missing); Ctrl-C stops");
+  cluster_.RunToTick(60);
+  cluster_.Kill(1);
+  cluster_.RunToTick(400);
+  Take();
+  ASSERT_EQ(news_.size(), 4u) << ::testing::PrintToString(news_);
+  EXPECT_TRUE(Told("the room starts; 2 of 2 players"));
+  EXPECT_TRUE(Told("bob is gone: not heard for 4 s; 1 of 2 players, missing: bob"))
+      << ::testing::PrintToString(news_);
+  EXPECT_EQ(MissingPlayers(cluster_.server()), "bob");
+  EXPECT_EQ(cluster_.server().TakeNews(), Lines{}) << "taken";
+  TickTimes times;
+  times.Note(1500, 1);
+  const std::string line = ServerProgress(cluster_.server(), 1800, times);
+  EXPECT_EQ(line.rfind("7 of 30 s, 1 of 2 players (bob missing), rtt ", 0), 0u) << line;
+  EXPECT_NE(line.find("tick p99 1.52 ms"), std::string::npos) << line;
+  EXPECT_LT(line.size(), 110u) << line;
+}
+
+TEST_F(ServerConsole, TheSummaryIsOfEachClientAlsoOfThoseWhoAreGone) {
+  cluster_.RunToTick(60);
+  cluster_.Kill(1);
+  cluster_.RunToTick(400);
+  const std::vector<ClientAccount> accounts = cluster_.server().accounts();
+  ASSERT_EQ(accounts.size(), 2u);
+  std::int64_t in = 0, out = 0;
+  for (const ClientAccount& account : accounts) {
+    EXPECT_TRUE(account.player);
+    EXPECT_EQ(account.sessions, 1);
+    EXPECT_GT(account.readings, 0);
+    EXPECT_NEAR(static_cast<double>(account.rtt_us()), 80000, 40000) << account.name;
+    EXPECT_GE(account.rtt_us_max, account.rtt_us());
+    in += account.bytes_in;
+    out += account.bytes_out;
+  }
+  EXPECT_GT(accounts[0].readings, accounts[1].readings) << "ann stayed";
+  EXPECT_GT(accounts[0].loss_ppm(), 0);
+  // All but the handshakes, which belong to nobody yet.
+  const Stats& stats = cluster_.server().stats();
+  EXPECT_GT(in, 0);
+  EXPECT_LE(in, stats.bytes_in);
+  EXPECT_GT(in, stats.bytes_in - 2000);
+  EXPECT_LE(out, stats.bytes_out);
+  EXPECT_GT(out, stats.bytes_out - 2000);
+  const std::string table = SessionSummary(accounts);
+  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 3) << table;
+  EXPECT_NE(table.find("  bob                 2     1 "), std::string::npos) << table;
+}
+
+TEST_F(ServerConsole, ACorrectionOfAClientsBodyIsInItsAccount) {
+  cluster_.RunToTick(400);
+  std::int64_t corrections = 0;
+  for (const ClientAccount& account : cluster_.server().accounts()) {
+    corrections += account.corrections;
+  }
+  EXPECT_GT(corrections, 0) << "over 80 ms the server's copies cannot always be right";
+  std::int64_t at_clients = 0;
+  for (int i = 0; i < 2; ++i) at_clients += cluster_.client(i)->corrections();
+  EXPECT_GT(at_clients, 0);
+}
+
+TEST(SessionSummary, IsEmptyWhenNobodyGotReady) {
+  EXPECT_EQ(SessionSummary({}), "");
+  EXPECT_EQ(SessionSummary({ClientAccount{}}), "");
+}
+
+}  // namespace
+}  // namespace seam

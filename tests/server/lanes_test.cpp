@@ -1,0 +1,111 @@
+/// Rooms in worker threads: one that holds its thread does not hold up the others.
+
+#include "server/hub/lanes.h"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+
+#include "common/base/process.h"
+
+namespace seam {
+namespace {
+
+constexpr std::int64_t kPeriodUs = 16667;
+
+/// A room whose tick takes `busy_us`, asleep or at work, and that notes how late it is run.
+class Metronome : public Runnable {
+ public:
+  explicit Metronome(std::int64_t busy_us = 0, bool spins = false)
+      : busy_us_(busy_us), spins_(spins), due_us_(SteadyClockUs() + kPeriodUs) {}
+  void Run(std::int64_t now_us) override {
+    EXPECT_FALSE(inside_.exchange(true)) << "two threads in one room";
+    const std::int64_t late_us = now_us - due_us_;
+    if (late_us >= 0) {
+      worst_late_us_ = std::max<std::int64_t>(worst_late_us_, late_us);
+      if (late_us > kPeriodUs) ++late_ticks_;
+      ++ticks_;
+      due_us_ = std::max(due_us_ + kPeriodUs, now_us - 10 * kPeriodUs);
+      const std::int64_t busy_us = busy_us_, end_us = SteadyClockUs() + busy_us;
+      if (busy_us > 0 && !spins_) usleep(static_cast<useconds_t>(busy_us));
+      while (spins_ && SteadyClockUs() < end_us) {
+      }
+    }
+    inside_ = false;
+  }
+  std::int64_t due_us() const override { return due_us_; }
+  void SetBusy(std::int64_t us) { busy_us_ = us; }
+  std::int64_t worst_late_us() const { return worst_late_us_; }
+  /// Ticks that came more than a tick late, and all.
+  int late_ticks() const { return late_ticks_; }
+  int ticks() const { return ticks_; }
+
+ private:
+  std::atomic<std::int64_t> busy_us_;
+  const bool spins_;
+  std::atomic<std::int64_t> due_us_;
+  std::atomic<bool> inside_{false};
+  std::atomic<std::int64_t> worst_late_us_{0};
+  std::atomic<int> late_ticks_{0}, ticks_{0};
+};
+
+/// Runs until the ticks are done; a busy machine takes longer.
+void WaitForTicks(const Metronome& room, int ticks) {
+  for (int i = 0; i < 3000 && room.ticks() < ticks; ++i) usleep(10000);
+}
+
+TEST(Lanes, ARoomThatSleepsInItsTickDelaysNoOtherByMoreThanATick) {
+  for (const int workers : {1, 2}) {
+    Metronome sleepy(150000), a, b, c;
+    {
+      Lanes lanes({&sleepy, &a, &b, &c}, workers);
+      for (Metronome* room : {&a, &b, &c}) WaitForTicks(*room, 120);
+      EXPECT_EQ(lanes.lane_count(), workers + 1) << "it has a thread of its own, and no more";
+    }
+    EXPECT_GT(sleepy.ticks(), 5);
+    for (const Metronome* room : {&a, &b, &c}) {
+      EXPECT_GE(room->ticks(), 120);
+      // A part for the machine's own doings, which may be many; without a thread of their own they
+      // would be late in nine ticks of ten.
+      EXPECT_LE(room->late_ticks(), 2 + room->ticks() / 10)
+          << workers << " worker(s), worst " << room->worst_late_us() << " us";
+    }
+  }
+}
+
+TEST(Lanes, ARoomThatIsCalmAgainSharesAThreadAgain) {
+  Metronome sleepy(50000), a;
+  Lanes lanes({&sleepy, &a}, 1);
+  WaitForTicks(sleepy, 3);
+  EXPECT_EQ(lanes.lane_count(), 2);
+  sleepy.SetBusy(0);
+  for (int i = 0; i < 400 && lanes.lane_count() > 1; ++i) usleep(50000);
+  EXPECT_EQ(lanes.lane_count(), 1);
+  const int before = sleepy.ticks();
+  WaitForTicks(sleepy, before + 5);
+  EXPECT_GE(sleepy.ticks(), before + 5) << "it is still run";
+}
+
+/// A room that is never due by itself.
+class Sleeper : public Runnable {
+ public:
+  void Run(std::int64_t) override { ++runs; }
+  std::int64_t due_us() const override { return INT64_MAX; }
+  std::atomic<int> runs{0};
+};
+
+TEST(Lanes, ARoomIsRunWhenItIsWoken) {
+  Sleeper room, other;
+  Lanes lanes({&room, &other}, 2);
+  usleep(20000);
+  EXPECT_EQ(room.runs, 0);
+  lanes.Wake(0);
+  for (int i = 0; i < 1000 && room.runs == 0; ++i) usleep(1000);
+  EXPECT_EQ(room.runs, 1);
+  EXPECT_EQ(other.runs, 0);
+}
+
+}  // namespace
+}  // namespace seam

@@ -1,0 +1,143 @@
+/// Which room a datagram is for, and that strangers cannot make it remember anything.
+
+#include "server/hub/room_finder.h"
+
+#include <gtest/gtest.h>
+
+#include "common/codec/codec.h"
+#include "common/net/link.h"
+#include "common/net/memory.h"
+#include "server/hub/room_net.h"
+
+namespace seam {
+namespace {
+
+const Address kAnn{0x7f000001, 20001}, kBob{0x7f000001, 20002};
+
+Bytes HelloOf(std::uint64_t session) {
+  Hello hello;
+  hello.name = "ann";
+  return LooseDatagram(session, Encode(hello));
+}
+
+Bytes JoinOf(std::uint64_t session, const std::string& room) {
+  Join join;
+  join.name = "ann";
+  join.room = room;
+  return LooseDatagram(session, Encode(join));
+}
+
+/// A datagram within a session.
+Bytes Within(std::uint64_t session) {
+  Link link(session);
+  link.SendUnreliable(Encode(Ping{}));
+  Bytes sent;
+  link.Flush(0, [&](ByteView datagram) { sent.assign(datagram.begin(), datagram.end()); });
+  return sent;
+}
+
+TEST(RoomFinder, AJoinGoesToTheRoomThatItNamesAndAHelloToNone) {
+  RoomFinder finder({"red", "blue"});
+  EXPECT_EQ(finder.Find(0, kAnn, HelloOf(5)), RoomFinder::kHello);
+  EXPECT_EQ(finder.Find(0, kAnn, JoinOf(5, "")), 0);
+  EXPECT_EQ(finder.Find(0, kAnn, JoinOf(5, "red")), 0);
+  EXPECT_EQ(finder.Find(0, kAnn, JoinOf(5, "blue")), 1);
+  EXPECT_EQ(finder.Find(0, kAnn, JoinOf(5, "green")), RoomFinder::kUnknown);
+  EXPECT_EQ(finder.Refusal(), "there is no such room here: the rooms are red, blue");
+  EXPECT_EQ(finder.count(), 0u) << "who only asks is not remembered";
+}
+
+TEST(RoomFinder, ASessionIsFoundByItsNumberAndItsAddressTogether) {
+  RoomFinder finder({"red", "blue"});
+  EXPECT_EQ(finder.Find(0, kAnn, Within(5)), RoomFinder::kNone);
+  finder.Learn(0, 1, kAnn, 5);
+  EXPECT_EQ(finder.Find(0, kAnn, Within(5)), 1);
+  EXPECT_EQ(finder.Find(0, kBob, Within(5)), RoomFinder::kNone) << "the same number elsewhere";
+  EXPECT_EQ(finder.Find(0, kAnn, Within(6)), RoomFinder::kNone) << "another conversation";
+}
+
+TEST(RoomFinder, WhatIsNotHeardOfForLongIsForgotten) {
+  RoomFinder finder({"red", "blue"});
+  finder.Learn(0, 1, kAnn, 5);
+  finder.Learn(0, 1, kBob, 6);
+  const std::int64_t later_us = RoomFinder::kKeepUs + 1;
+  EXPECT_EQ(finder.Find(later_us - 2, kBob, Within(6)), 1);
+  finder.Learn(later_us, 0, kAnn, 7);
+  EXPECT_EQ(finder.count(), 2u);
+  EXPECT_EQ(finder.Find(later_us, kAnn, Within(5)), RoomFinder::kNone);
+  EXPECT_EQ(finder.Find(later_us, kBob, Within(6)), 1);
+}
+
+TEST(RoomFinder, TheOnlyRoomGetsEverythingButAJoinToAnother) {
+  RoomFinder finder({"red"});
+  EXPECT_EQ(finder.Find(0, kAnn, Within(5)), 0);
+  EXPECT_EQ(finder.Find(0, kAnn, HelloOf(5)), 0);
+  EXPECT_EQ(finder.Find(0, kAnn, Bytes{1, 2, 3}), 0) << "it counts what is malformed";
+  EXPECT_EQ(finder.Find(0, kAnn, JoinOf(5, "blue")), RoomFinder::kUnknown);
+  EXPECT_EQ(finder.Refusal(), "there is no such room here: the room is red");
+}
+
+TEST(RoomFinder, NonsenseIsForNobody) {
+  RoomFinder finder({"red", "blue"});
+  Bytes damaged = JoinOf(5, "blue");
+  damaged.back() ^= 1;
+  for (const Bytes& datagram : {Bytes{}, Bytes{1}, Bytes(24, 0), Bytes(1200, 0xff), damaged}) {
+    EXPECT_EQ(finder.Find(0, kAnn, datagram), RoomFinder::kNone);
+  }
+}
+
+TEST(RoomNet, WhoIsSentADatagramOfASessionIsFoundFromThenOn) {
+  MemoryNetwork network;
+  const std::unique_ptr<Net> out = network.Attach({0x7f000001, 7777});
+  RoomFinder finder({"red", "blue"});
+  RoomNet net(finder, 1, *out);
+  net.Advance(1000);
+  net.Send(kAnn, HelloOf(5));  // as a Challenge: outside of a session
+  EXPECT_EQ(finder.Find(1000, kAnn, Within(5)), RoomFinder::kNone);
+  net.Send(kAnn, Within(5));
+  EXPECT_EQ(finder.Find(1000, kAnn, Within(5)), 1);
+}
+
+TEST(RoomNet, ARoomThatStandsStillLosesWhatIsTooMuchAndKeepsTheRest) {
+  MemoryNetwork network;
+  const std::unique_ptr<Net> out = network.Attach({0x7f000001, 7777});
+  RoomFinder finder({"red"});
+  RoomNet net(finder, 0, *out);
+  for (std::size_t i = 0; i < RoomNet::kInboxMax + 10; ++i) net.Deliver(kAnn, Bytes{1});
+  EXPECT_TRUE(net.HasMail());
+  EXPECT_EQ(net.discarded(), 10);
+  net.Advance(0);
+  std::size_t received = 0;
+  Address from;
+  for (Bytes datagram; net.Receive(&from, &datagram);) ++received;
+  EXPECT_EQ(received, RoomNet::kInboxMax);
+  EXPECT_FALSE(net.HasMail());
+}
+
+TEST(TrafficCount, BytesAreCountedByWhatTheyCarryAndNothingIsLost) {
+  TrafficCount traffic;
+  const Bytes ping = Within(5), join = JoinOf(5, "red");
+  traffic.Add(ping, true);
+  traffic.Add(join, false);
+  traffic.Add(Bytes(30, 0xff), false);
+  Load load;
+  traffic.Write(&load);
+  std::int64_t out = 0, in = 0;
+  for (std::size_t i = 0; i < load.kind.size(); ++i) {
+    out += load.bytes_out[i];
+    in += load.bytes_in[i];
+    if (load.kind[i] == kTrafficClock) {
+      EXPECT_EQ(load.bytes_out[i], static_cast<std::int64_t>(Encode(Ping{}).size()));
+    }
+    if (load.kind[i] == kTrafficOther) {
+      EXPECT_EQ(load.bytes_in[i], 30);
+    }
+  }
+  EXPECT_EQ(out, static_cast<std::int64_t>(ping.size()));
+  EXPECT_EQ(in, static_cast<std::int64_t>(join.size() + 30));
+  ASSERT_EQ(load.kind.size(), 4u);
+  EXPECT_EQ(load.kind[1], kTrafficJoining);
+}
+
+}  // namespace
+}  // namespace seam
