@@ -69,7 +69,8 @@ int ReportEnd(const Hub& hub) {
   }
   std::fprintf(stderr,
                "seam-server: %lld ticks; dropped %lld malformed, %lld stale, %lld without right, "
-               "%lld implausible, %lld over budget; %lld part(s) left the bounds; "
+               "%lld implausible, %lld over budget\n"
+               "seam-server: %lld part(s) left the bounds; "
                "%lld stepped again, %lld replays deferred; %lld bus failures\n",
                ticks, static_cast<long long>(sum.dropped_malformed),
                static_cast<long long>(sum.dropped_stale), static_cast<long long>(sum.dropped_right),
