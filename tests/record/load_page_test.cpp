@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <map>
-#include <regex>
 #include <set>
 #include <sstream>
 
 #include "common/codec/message_list.h"
 #include "tests/support/random_messages.h"
+#include "tests/support/source_tree.h"
 
 namespace seam {
 namespace {
@@ -54,25 +54,25 @@ TEST(LoadPage, WhatIsWrittenIsReadBack) {
 
 /// "" if the text keeps to the rules of the text format, else the first line that does not.
 std::string BrokenLine(const std::string& text) {
-  const std::regex help("# HELP [a-z_0-9]+ [^\\n]+"), type("# TYPE ([a-z_0-9]+) (counter|gauge)");
-  const std::regex sample(
+  const Regex help("# HELP [a-z_0-9]+ .+"), type("# TYPE ([a-z_0-9]+) (counter|gauge)");
+  const Regex sample(
       "([a-zA-Z_:][a-zA-Z0-9_:]*)"
-      "\\{[a-zA-Z_][a-zA-Z0-9_]*=\"[^\"\\\\]*\"(,[a-zA-Z_][a-zA-Z0-9_]*=\"[^\"\\\\]*\")*\\}"
-      " -?[0-9]+(\\.[0-9]+)?(e[-+][0-9]+)?");
+      "[{][a-zA-Z_][a-zA-Z0-9_]*=\"[^\"\\]*\"(,[a-zA-Z_][a-zA-Z0-9_]*=\"[^\"\\]*\")*[}]"
+      " -?[0-9]+([.][0-9]+)?(e[-+][0-9]+)?");
   std::map<std::string, std::string> types;
   std::set<std::string> seen;
   std::string now;  // the metric whose samples stand together
   std::istringstream in(text);
   for (std::string line; std::getline(in, line);) {
-    std::smatch match;
-    if (std::regex_match(line, help)) continue;
-    if (std::regex_match(line, match, type)) {
-      now = match[1];
+    if (help.Matches(line)) continue;
+    if (type.Matches(line)) {
+      now = type.Group(line);
       const bool total = now.size() > 6 && now.substr(now.size() - 6) == "_total";
-      if (!types.emplace(now, match[2]).second || total != (match[2] == "counter")) return line;
+      const std::string kind = line.substr(line.rfind(' ') + 1);
+      if (!types.emplace(now, kind).second || total != (kind == "counter")) return line;
       continue;
     }
-    if (!std::regex_match(line, match, sample) || match[1] != now) return line;
+    if (!sample.Matches(line) || sample.Group(line) != now) return line;
     if (!seen.insert(line.substr(0, line.find("} "))).second) return line;
   }
   return text.empty() || text.back() != '\n' ? "the last line has no end" : "";
