@@ -89,6 +89,7 @@ struct World::Impl {
   void Rebuild(const WorldSnapshot& snapshot, const std::vector<Motion>& new_motions);
   /// Lets bodies that have become absent, or are so no more, leave the engine or come back.
   void Settle();
+  /// Before a rebuild: decides which bodies will be aside.
   void Arrange(const std::vector<Motion>& new_motions);
   /// Hashes of which joints are there, absent bodies' included.
   std::uint64_t JointsHash() const;
