@@ -33,10 +33,9 @@ class Roles {
   /// Holders that have fallen silent: the server, while it follows what they have, says in their
   /// names where that is.
   void SpeakFor(const PeerSet& silent) { silent_ = silent; }
-  /// Whether this peer is to say where a mechanism's bodies are.
-  bool Speaks(int mechanism) const {
+  /// Whether this peer may say, in a silent holder's name, where a mechanism's bodies are.
+  bool StandsIn(int mechanism) const {
     const AuthorityRecord& record = table_.at(mechanism);
-    if (record.authority == self_) return true;
     return silent_.Has(record.authority) && record.secondaries.Has(self_);
   }
   /// Whether this peer is to propose an edit that physics found: the authority of the first part

@@ -78,7 +78,7 @@ bool SendScheduler::Due(int body) {
 bool SendScheduler::Speaks(int body) const {
   const int m = world_.mechanism(body);
   if (roles_.IsAuthority(m)) return true;
-  return roles_.Speaks(m) && world_.Read(body).velocity.norm() > kMissed;
+  return roles_.StandsIn(m) && world_.Read(body).velocity.norm() > kMissed;
 }
 
 /// Ascending.

@@ -9,43 +9,34 @@
 namespace seam {
 namespace {
 
-/// Whether inputs of `driver`, a player or a seat, are those of `player` now.
-bool Follows(const Scene& scene, int driver, int player) {
-  if (driver < 0) return false;
+/// Whose inputs those of `driver`, a player or a seat, are now; -1: nobody's.
+int PlayerOf(const Scene& scene, int driver) {
   const auto players = static_cast<int>(scene.players.size());
-  if (driver < players) return driver == player;
-  return scene.seats[static_cast<std::size_t>(driver - players)].player == player;
+  if (driver < players) return driver;
+  return scene.seats[static_cast<std::size_t>(driver - players)].player;
 }
 
-}  // namespace
-
-void Drivers::Find() {
-  const Scene& scene = world_.scene();
+/// Calls `visit(player, mechanism, by_axes)` for every way in which a player's inputs move a
+/// mechanism; by_axes: not only by a button.
+template <class Visit>
+void EachDriven(const World& world, const Visit& visit) {
+  const Scene& scene = world.scene();
   const auto players = static_cast<int>(scene.players.size());
-  driven_.assign(scene.players.size(), {});
-  belts_.assign(scene.players.size(), 0);
-  by_axes_.assign(world_.composition().mechanisms.size(), 0);
-  const auto player_of = [&](int driver) {
-    if (driver < players) return driver;
-    return scene.seats[static_cast<std::size_t>(driver - players)].player;
+  const auto add = [&](int driver, int mechanism, bool by_axes) {
+    const int player = PlayerOf(scene, driver);
+    if (player >= 0 && mechanism >= 0) visit(player, mechanism, by_axes);
   };
-  const auto add = [&](int player, int mechanism) {
-    if (player < 0 || mechanism < 0) return;
-    driven_[static_cast<std::size_t>(player)].push_back(mechanism);
-    by_axes_[static_cast<std::size_t>(mechanism)] = 1;
+  const auto add_part = [&](int driver, PartId part, bool by_axes = true) {
+    if (driver >= 0 && part >= 0) add(driver, MechanismOf(world, part), by_axes);
   };
-  const auto add_part = [&](int driver, PartId part) {
-    if (driver >= 0 && part >= 0) add(player_of(driver), MechanismOf(world_, part));
-  };
-  const std::vector<Mechanism>& mechanisms = world_.composition().mechanisms;
-  for (std::size_t m = 0; m < mechanisms.size(); ++m) add(mechanisms[m].owner, static_cast<int>(m));
+  const std::vector<Mechanism>& mechanisms = world.composition().mechanisms;
+  for (std::size_t m = 0; m < mechanisms.size(); ++m) {
+    add(mechanisms[m].owner, static_cast<int>(m), true);
+  }
   for (int p = 0; p < players; ++p) {
     const Player& self = scene.players[static_cast<std::size_t>(p)];
     add_part(p, self.vehicle);
-    for (const Action& action : self.actions) {
-      const int m = MechanismOf(world_, action.part);
-      if (m >= 0) driven_[static_cast<std::size_t>(p)].push_back(m);
-    }
+    for (const Action& action : self.actions) add_part(p, action.part, false);
   }
   for (const Joint& joint : scene.joints) {
     if (joint.gone || joint.motor_player < 0) continue;
@@ -56,9 +47,21 @@ void Drivers::Find() {
   for (const Character& character : scene.characters) {
     add_part(character.player, character.parts[kTorso]);
   }
+}
+
+}  // namespace
+
+void Drivers::Find() {
+  const Scene& scene = world_.scene();
+  driven_.assign(scene.players.size(), {});
+  belts_.assign(scene.players.size(), 0);
+  by_axes_.assign(world_.composition().mechanisms.size(), 0);
+  EachDriven(world_, [this](int player, int mechanism, bool by_axes) {
+    driven_[static_cast<std::size_t>(player)].push_back(mechanism);
+    if (by_axes) by_axes_[static_cast<std::size_t>(mechanism)] = 1;
+  });
   for (const Part& part : scene.parts) {
-    if (part.conveyor->player < 0) continue;
-    const int player = player_of(part.conveyor->player);
+    const int player = PlayerOf(scene, part.conveyor->player);
     if (player >= 0) belts_[static_cast<std::size_t>(player)] = 1;
   }
   for (std::vector<int>& all : driven_) {
@@ -79,28 +82,10 @@ void Drivers::Look() {
 }
 
 std::vector<bool> DrivenMechanisms(const World& world, int player, bool actions) {
-  const Scene& scene = world.scene();
-  const std::vector<Mechanism>& mechanisms = world.composition().mechanisms;
-  std::vector<bool> driven(mechanisms.size(), false);
-  for (std::size_t m = 0; m < mechanisms.size(); ++m) driven[m] = mechanisms[m].owner == player;
-  const auto add = [&](PartId part) {
-    const int m = part < 0 ? -1 : MechanismOf(world, part);
-    if (m >= 0) driven[static_cast<std::size_t>(m)] = true;
-  };
-  const Player& self = scene.players[static_cast<std::size_t>(player)];
-  add(self.vehicle);
-  for (const Joint& joint : scene.joints) {
-    if (joint.gone || !Follows(scene, joint.motor_player, player)) continue;
-    add(joint.a);
-    add(joint.b);
-  }
-  for (const Thrust& thrust : scene.thrusts) {
-    if (Follows(scene, thrust.player, player)) add(thrust.part);
-  }
-  for (const Character& character : scene.characters) {
-    if (Follows(scene, character.player, player)) add(character.parts[kTorso]);
-  }
-  for (std::size_t a = 0; actions && a < self.actions.size(); ++a) add(self.actions[a].part);
+  std::vector<bool> driven(world.composition().mechanisms.size(), false);
+  EachDriven(world, [&](int by, int mechanism, bool by_axes) {
+    if (by == player && (by_axes || actions)) driven[static_cast<std::size_t>(mechanism)] = true;
+  });
   return driven;
 }
 

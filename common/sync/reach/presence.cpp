@@ -1,18 +1,15 @@
 #include "common/sync/reach/presence.h"
 
 #include <algorithm>
-#include <tuple>
+#include <utility>
 
-#include "common/sync/reach/zones.h"
+#include "common/sync/reach/reach.h"
 
 namespace seam {
 namespace {
 
-MovingBox BoxOf(const World& world, int body) {
-  MovingBox box;
-  std::tie(box.min, box.max) = world.Bounds(body);
-  box.velocity = world.Read(body).velocity;
-  box.group = world.mechanism(body);
+MovingBox FreeBoxOf(const World& world, int body) {
+  MovingBox box = BoxOf(world, body);
   box.acceleration = kDrivenAcceleration;  // that a player or gravity can give it
   return box;
 }
@@ -76,7 +73,7 @@ void Presence::Look() {
   std::vector<int> displayed;
   for (int body = 0; body < world_.body_count(); ++body) {
     if (roles_.Simulates(body)) {
-      simulated.push_back(BoxOf(world_, body));
+      simulated.push_back(FreeBoxOf(world_, body));
     } else {
       displayed.push_back(body);
     }
@@ -87,7 +84,7 @@ void Presence::Look() {
     const auto m = static_cast<std::size_t>(world_.mechanism(body));
     if (near[m] != 0) continue;
     const float seconds = kNearSeconds + (near_[m] != 0 ? kNearKeep : 0);
-    if (there.MayMeetAny(BoxOf(world_, body), seconds)) near[m] = 1;
+    if (there.MayMeetAny(FreeBoxOf(world_, body), seconds)) near[m] = 1;
   }
   // What is simulated would be near if it ceased to be.
   for (std::size_t m = 0; m < near.size(); ++m) {

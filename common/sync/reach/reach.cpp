@@ -14,15 +14,20 @@ constexpr double kSilent = 3.0;
 
 }  // namespace
 
+MovingBox BoxOf(const World& world, int body) {
+  MovingBox box;
+  std::tie(box.min, box.max) = world.Bounds(body);
+  box.velocity = world.Read(body).velocity;
+  box.group = world.mechanism(body);
+  return box;
+}
+
 std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers, bool absent_too) {
   std::vector<MovingBox> boxes;
   boxes.reserve(static_cast<std::size_t>(world.body_count()));
   for (int body = 0; body < world.body_count(); ++body) {
     if (!absent_too && world.motion(body) == Motion::kAbsent) continue;
-    MovingBox box;
-    std::tie(box.min, box.max) = world.Bounds(body);
-    box.velocity = world.Read(body).velocity;
-    box.group = world.mechanism(body);
+    MovingBox box = BoxOf(world, body);
     if (drivers.Driven(box.group)) box.acceleration = kDrivenAcceleration;
     boxes.push_back(box);
   }

@@ -40,6 +40,9 @@ class Reach {
   std::vector<std::int64_t> complete_;  // by mechanism
 };
 
+/// The box of a body, without acceleration.
+MovingBox BoxOf(const World& world, int body);
+
 /// The boxes of a world's bodies, grouped by mechanism, without those that are absent unless
 /// `absent_too`. What any player drives can accelerate.
 std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers, bool absent_too);
