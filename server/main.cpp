@@ -35,6 +35,7 @@ struct Flags {
   std::string impair = "perfect";
   std::int64_t seed = 1;
   int send_hz = 30;
+  std::uint64_t budget = static_cast<std::uint64_t>(kClientBytesPerS);
   std::string room = "main";
   int wait = -1;
   double duration_s = -1;  // the scene's
@@ -48,6 +49,12 @@ struct Flags {
   std::string bus_rooms = "first";
   int metrics_port = 0;
 };
+
+/// "64kB/s" -> "64kB"
+std::string WithoutPerSecond(const std::string& rate) {
+  const std::size_t at = rate.size() < 2 ? 0 : rate.size() - 2;
+  return rate.substr(at) == "/s" ? rate.substr(0, at) : rate;
+}
 
 std::string ProfilesText() {
   std::string text = "\nnetwork profiles (--impair), each way:\n";
@@ -73,6 +80,10 @@ void Define(CLI::App& app, Flags& f) {
   app.add_option("--impair", f.impair, "impair the network in both directions by a profile");
   app.add_option("--seed", f.seed, "of impairments and bots")->check(CLI::Range(0, 1000000000));
   app.add_option("--send-hz", f.send_hz, "state messages per second")->check(CLI::Range(1, 240));
+  app.add_option("--budget", f.budget,
+                 "most that each client is sent, such as 64kB/s (default 256kB/s; 0: no limit)")
+      ->transform(WithoutPerSecond, "", "")
+      ->transform(CLI::AsSizeValue(true));
   app.add_option("--room", f.room,
                  "name of the room in the channels; of several: NAME-1, NAME-2, ...");
   app.add_option("--rooms", f.rooms, "rooms (default: one for each scene); scenes take turns")
@@ -166,6 +177,7 @@ RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int 
   config.sync.seed = f.seed + index;
   config.room = RoomName(f.room, index, rooms);
   config.impair = f.impair;
+  config.client_bytes_per_s = static_cast<double>(f.budget);
   config.seed = f.seed + index;
   config.wait_players = PlayersToWaitFor(f, scene_name, scene);
   plan.last_tick = LastTick(DurationOf(f, scene), scene.solver.tick_hz);

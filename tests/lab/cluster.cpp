@@ -49,6 +49,7 @@ Cluster::Cluster(const ClusterConfig& config)
   server.sync.seed = config.seed;
   server.sync.smooth = config.smooth;
   server.impair = config.impair;
+  server.client_bytes_per_s = config.client_bytes_per_s;
   server.seed = config.seed;
   server.wait_players = static_cast<int>(scene_.players.size());
   server_entropy_ = std::make_unique<SeededEntropy>(static_cast<std::uint64_t>(config.seed));

@@ -21,6 +21,7 @@ struct ClusterConfig {
   std::string reconcile;
   std::string predict;
   std::string impair = "demo";
+  double client_bytes_per_s = kClientBytesPerS;  ///< see ServerConfig
   std::int64_t seed = 1;
   double duration_s = 0;  ///< ticks after tick 0; 0: the scene's own
   Drive drive = Drive::kScript;
