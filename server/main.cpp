@@ -42,6 +42,7 @@ struct Flags {
   std::string record;
   bool force = false;
   std::string lcm_url;
+  std::string publish = "all";
   bool quiet = false;
   bool doctor = false;
   int rooms = 0;  // 0: one for each scene
@@ -105,6 +106,10 @@ void Define(CLI::App& app, Flags& f) {
       "write the session's LCM log to this file too; of several rooms FILE.NAME-1.lcm, ...");
   app.add_flag("--force", f.force, "overwrite the --record file");
   app.add_option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
+  app.add_option("--publish", f.publish,
+                 "views on the bus: all | own (what it simulates) | none | auto (all in a room of "
+                 "at most " +
+                     std::to_string(kPublishAllMost) + " bodies, else own)");
   app.add_flag("--quiet", f.quiet, "no progress line, and not who comes and goes");
   app.add_flag("--doctor", f.doctor, "check that LCM works on this machine, and exit");
 }
@@ -177,6 +182,7 @@ RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int 
   config.sync.seed = f.seed + index;
   config.room = RoomName(f.room, index, rooms);
   config.impair = f.impair;
+  config.publish = ParsePublish(f.publish);
   config.client_bytes_per_s = static_cast<double>(f.budget);
   config.seed = f.seed + index;
   config.wait_players = PlayersToWaitFor(f, scene_name, scene);

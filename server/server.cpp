@@ -65,6 +65,7 @@ Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorde
       config_(config),
       room_(MakeRoom(scene_, config_)),
       net_(net),
+      recorder_(recorder),
       replica_(scene_, config.sync, 0, -1),
       sessions_(scene_, Encode(room_), AllowedTraffic(config.sync.tick_hz, config.sync.send_hz),
                 net, entropy, config.client_bytes_per_s),
@@ -169,7 +170,7 @@ void Server::StartIfReady(std::int64_t now_us) {
   clock_.Start(now_us + (config_.wait_players > 0 ? kLeadInUs : 0));
   // Whoever is here from the start has its mechanisms from tick 0 on: plan once, now.
   UpdateAuthority(now_us);
-  broadcast_.Publish(At(now_us, replica_.MakeView()));
+  PublishShown(now_us);
   broadcast_.Say(now_us, "the room starts with " + std::to_string(ready) + " players");
   Tell("the room starts");
 }
@@ -197,13 +198,20 @@ void Server::StepOnce(std::int64_t now_us) {
     broadcast_.Publish(states);
   }
   TellRest(now_us);
-  const View view = replica_.MakeView();
+  PublishShown(now_us);
+  RunRules(now_us);
+}
+
+void Server::PublishShown(std::int64_t now_us) {
+  const Publish publish = Resolved(config_.publish, replica_.world().body_count());
+  if (publish == Publish::kNone || !recorder_.listening()) return;
+  const View view = replica_.MakeView(publish == Publish::kAll);
   broadcast_.Publish(At(now_us, view));
+  if (publish != Publish::kAll || replica_.tick() == 0) return;
   const Strands strands = replica_.MakeStrands(view);
   if (!strands.strand.empty()) broadcast_.Publish(At(now_us, strands));
   const Impacts impacts = replica_.MakeImpacts();
   if (!impacts.id_a.empty()) broadcast_.Publish(At(now_us, impacts));
-  RunRules(now_us);
 }
 
 /// Mode oracle: every peer applies them alone, after the same tick.

@@ -12,6 +12,7 @@
 #include "common/base/entropy.h"
 #include "common/net/net.h"
 #include "common/record/recorder.h"
+#include "common/sync/publish.h"
 #include "common/sync/replica.h"
 #include "server/authority/authority_manager.h"
 #include "server/broadcast.h"
@@ -37,6 +38,7 @@ struct ServerConfig {
   int wait_players = 0;  ///< tick 0 comes when this many players are ready
   /// Of UDP payload to each client, at most; 0: no limit.
   double client_bytes_per_s = kClientBytesPerS;
+  Publish publish = Publish::kAll;
 };
 
 class Server {
@@ -129,6 +131,7 @@ class Server {
   void UpdateAuthority(std::int64_t now_us);
   /// Looks anew at what concerns whom, when that is due or has changed.
   void UpdateInterest(std::int64_t now_us, bool changed);
+  void PublishShown(std::int64_t now_us);
   void RunRules(std::int64_t now_us);
   void RemoveOutside(std::int64_t now_us);
   void Tell(const std::string& line);
@@ -138,6 +141,7 @@ class Server {
   const ServerConfig config_;
   const Room room_;
   Net& net_;
+  Recorder& recorder_;
   ServerStats stats_;
   Replica replica_;
   SessionTable sessions_;

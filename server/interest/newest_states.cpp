@@ -47,8 +47,10 @@ bool NewestStates::IsNews(const Body& body, const HeardState& told, const NewsRu
   if (((told.flags ^ now.flags) & kStateAsleep) != 0) return true;
   const float seconds = static_cast<float>(now.tick - told.tick) / static_cast<float>(tick_hz_);
   if (seconds < rule.least) return false;
-  if (seconds >= rule.most) return true;
   constexpr float kQuantum = kPositionQuantum, kSpeed = kVelocityQuantum;
+  const float speed = kSpeed * static_cast<float>(std::abs(told.vx) + std::abs(told.vy)) +
+                      kSpeed * static_cast<float>(std::abs(told.spin)) * body.reach;
+  if (seconds >= (speed < kSlow ? kNewsRepeatSlow : kNewsRepeat)) return true;
   const float x = static_cast<float>(now.x - told.x) * kQuantum - seconds * kSpeed * told.vx;
   const float y = static_cast<float>(now.y - told.y) * kQuantum - seconds * kSpeed * told.vy;
   float off = std::hypot(x, y);

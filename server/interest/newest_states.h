@@ -34,12 +34,15 @@ enum class News : std::uint8_t {
 
 /// When a receiver is told.
 struct NewsRule {
-  float off;           ///< m, of a point of the body from where the last told state takes it
-  double least, most;  ///< s since then: not before, and in any case after; motion is reckoned for
-                       ///< kReckonMax
+  float off;     ///< m, of a point of the body from where the last told state takes it
+  double least;  ///< s since then: not before
 };
-constexpr NewsRule kNearNews{0.005f, 0, 0.5};
-constexpr NewsRule kFarNews{0.05f, 0.5, 1};
+constexpr NewsRule kNearNews{0.005f, 0};
+constexpr NewsRule kFarNews{0.05f, 0.5};
+/// s after which it is told in any case, so that one may be lost before the receiver's reckoning
+/// ends (kReckonMax); and what is slower than kSlow, m/s, which hardly gets anywhere.
+constexpr double kNewsRepeat = 0.5, kNewsRepeatSlow = 2;
+constexpr float kSlow = 0.05f;
 
 class NewestStates {
  public:
