@@ -135,7 +135,11 @@ BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2Worl
   Arrange(static_cast<std::size_t>(
               std::count_if(composition.assemblies.begin(), composition.assemblies.end(), moves)),
           memory);
-  const std::vector<bool> share = ShareBodies(scene, composition);
+  if (memory->share_revision != memory->revision) {
+    memory->share = ShareBodies(scene, composition);
+    memory->share_revision = memory->revision;
+  }
+  const std::vector<bool>& share = memory->share;
   AnchoredBodies shared(world);
   for (const Assembly& assembly : composition.assemblies) {
     const std::size_t index = built.moving.size();
