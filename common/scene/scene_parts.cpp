@@ -26,10 +26,7 @@ void ReadMotion(const SceneReader& r, float speed_limit, Part* part) {
 std::vector<int> ReadOwners(const SceneReader& r, const SceneDraft& draft, bool anchored) {
   if (r.Has("owner") && r.Has("owners")) r.Fail("has both owner and owners");
   const char* key = r.Has("owners") ? "owners" : "owner";
-  std::vector<int> owners;
-  for (const std::string& name : r.Texts(key)) {
-    owners.push_back(FindPlayer(r, key, name, draft));
-  }
+  std::vector<int> owners = FindPlayers(r, key, draft);
   if (r.Has("owner") && owners.size() != 1) r.FailAt("owner", "owner must be one player's name");
   if (r.Has("owners") && owners.empty()) r.FailAt("owners", "owners is empty");
   if (anchored && !owners.empty()) r.FailAt(key, "an anchored part cannot have an owner");
@@ -72,6 +69,7 @@ void JoinCopies(const SceneReader& r, const Repeat& repeat, const std::string& n
                                        parts[static_cast<std::size_t>(to)].position) /
                                       2;
     joint.line = r.line();
+    draft->joint_names.insert(joint.name);
     draft->scene.joints.push_back(joint);
   };
   for (int column = 0; column < repeat.columns; ++column) {

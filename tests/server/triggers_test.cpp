@@ -97,7 +97,7 @@ TEST(Triggers, MoveWithTheirPartAndEndWithIt) {
 
 TEST(Metadata, TellsChangesOnceAndEverythingToLatecomers) {
   MetaTable server, early, late;
-  for (std::int16_t id = 0; id < 300; ++id) server.Set({kMetaPart, id, kMetaHealth}, id + 0.5f);
+  for (std::int32_t id = 0; id < 300; ++id) server.Set({kMetaPart, id, kMetaHealth}, id + 0.5f);
   std::vector<Meta> changes = server.TakeChanges(7, 8);
   ASSERT_EQ(changes.size(), 3u) << "at most " << kMetaMax << " in a message";
   EXPECT_EQ(changes[0].tick, 8);
@@ -109,7 +109,7 @@ TEST(Metadata, TellsChangesOnceAndEverythingToLatecomers) {
   server.Set({kMetaPart, 18, kMetaHealth}, 18.5f);  // as it was
   changes = server.TakeChanges(7, 9);
   ASSERT_EQ(changes.size(), 1u);
-  EXPECT_EQ(changes[0].id, (std::vector<std::int16_t>{17, 3}));
+  EXPECT_EQ(changes[0].id, (std::vector<std::int32_t>{17, 3}));
   EXPECT_EQ(changes[0].value, (std::vector<float>{0, -3}));
   early.Apply(changes[0]);
   for (const Meta& meta : server.Export(7, 9)) late.Apply(meta);
