@@ -1,5 +1,6 @@
 
 #include "common/scene/connectors.h"
+#include "common/scene/forces.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
 
@@ -80,6 +81,15 @@ void JoinCopies(const SceneReader& r, const Repeat& repeat, const std::string& n
   }
 }
 
+/// The conveyor of a copy follows the next copy of the player that the first follows.
+void FollowCopy(const SceneReader& r, int followed, const Repeat& repeat, int column, int row,
+                const SceneDraft& draft, Part* part) {
+  if (followed < 0) return;
+  Conveyor conveyor = *part->conveyor;
+  conveyor.player = PlayerAfter(r, followed, column, row, repeat.grid, draft);
+  part->conveyor.Set(conveyor);
+}
+
 void ReadPart(const TomlNode& node, SceneDraft* draft) {
   SceneReader r(node, draft->file, "part",
                 {"name",        "box",         "circle",   "capsule", "wedge",         "polygon",
@@ -116,11 +126,13 @@ void ReadPart(const TomlNode& node, SceneDraft* draft) {
     return;
   }
   const Vec2 first = part.position;
+  const int followed = part.conveyor->player;
   std::vector<PartId>& group = draft->group_of_name[name];
   for (int column = 0; column < repeat.columns; ++column) {
     for (int row = 0; row < repeat.rows; ++row) {
       part.position = first + repeat.Offset(column, row);
       part.owner = owners[group.size() % owners.size()];
+      FollowCopy(r, followed, repeat, column, row, *draft, &part);
       group.push_back(static_cast<PartId>(draft->scene.parts.size()));
       Place(r, part, name + repeat.Suffix(column, row), draft);
     }

@@ -28,7 +28,7 @@ constexpr MessageBytes kImpactReportBytes{30, 24};
 constexpr MessageBytes kMetaBytes{34, 10};
 constexpr MessageBytes kInputsBytes{38, 4};
 constexpr MessageBytes kChunkBytes{22, 1};
-constexpr MessageBytes kEditBytes{75, 1};  ///< a byte of text; it has at most five numbers
+constexpr MessageBytes kEditBytes{79, 1};  ///< a byte of text; it has at most five numbers
 constexpr MessageBytes kViewBytes{50, 31};
 constexpr MessageBytes kImpactsBytes{38, 20};
 constexpr MessageBytes kStrandsBytes{38, 10};

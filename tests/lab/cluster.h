@@ -24,6 +24,7 @@ struct ClusterConfig {
   std::int64_t seed = 1;
   double duration_s = 0;  ///< ticks after tick 0; 0: the scene's own
   Drive drive = Drive::kScript;
+  int players = 0;  ///< the first so many of the scene's join; 0: all
   int send_hz = 30;
   bool smooth = true;
   Recorder* recorder = nullptr;  ///< also gets every message, at now_us()
