@@ -215,7 +215,7 @@ View Display::MakeView(const Roles& roles, bool all) const {
     const int m = world_.mechanism(body);
     if (!all && roles.RoleOf(m) == kRoleRemote) continue;
     const BodyState& s = poses[static_cast<std::size_t>(body)];
-    view.id.push_back(static_cast<std::int16_t>(world_.id(body)));
+    view.id.push_back(world_.id(body));
     view.role.push_back(roles.RoleOf(m));
     view.authority.push_back(static_cast<std::int16_t>(roles.table().at(m).authority));
     view.x.push_back(s.position.x());
