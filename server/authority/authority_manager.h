@@ -95,10 +95,19 @@ class AuthorityManager {
     std::int64_t keep_until_tick = 0;      // the server's, until its copies have converged
     int last_authority = 0;                // when it was planned last
     std::int64_t changed_tick = -1000000;  // when a plan first saw that authority
+    bool open = false;                     // is in open_
   };
 
   const AuthorityTable& table() const { return replica_.authority(); }
+  /// What planning sees (authority_view.cpp).
   AuthorityView Look(const Situation& situation);
+  void LookAtMechanisms(AuthorityView* view);
+  void Plan(const Situation& situation);
+  /// Takes the hand-over of a mechanism as far as it can go; false: nothing is left to do before
+  /// the next plan.
+  bool Advance(std::int64_t now_us, int m);
+  /// The next Update looks at the mechanism.
+  void Open(int m);
   /// The record while nobody has it: the server next, an epoch on.
   AuthorityRecord WithoutHolder(AuthorityRecord record) const;
 
@@ -106,7 +115,15 @@ class AuthorityManager {
   const SyncConfig config_;
   Replica& replica_;
   const bool physics_edits_;
-  AuthorityPlan plan_;  // the last one
+  const bool islands_;
+  AuthorityPlan plan_;           // the last one
+  PeerSet planned_;              // players' peers that it was for, in mode buffer
+  std::vector<int> restricted_;  // parts that not everybody may push
+  bool sort_open_ = false;
+  std::vector<int> open_;       // mechanisms of which something is to be done, ascending
+  std::vector<int> changed_;    // in this Update
+  std::vector<Grants> grants_;  // of this Update
+  bool taken_over_ = false;     // in this Update
   std::vector<Given> given_;
   PeerSet silent_;  // in the last Update
   bool plan_due_ = true;
