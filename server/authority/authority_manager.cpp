@@ -40,7 +40,7 @@ std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const Situatio
   replica_.SpeakFor(silent_);
   if (plan_due_ || replica_.tick() % std::max(1, config_.tick_hz / kPlansPerSecond) == 0) {
     plan_due_ = false;
-    Plan(situation);
+    Plan(now_us, situation);
   }
   changed_.clear();
   grants_.clear();  // revocations first
@@ -62,8 +62,10 @@ std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const Situatio
   return std::move(grants_);
 }
 
-void AuthorityManager::Plan(const Situation& situation) {
-  plan_ = PlanAuthority(Look(situation));
+void AuthorityManager::Plan(std::int64_t now_us, const Situation& situation) {
+  AuthorityView view = Look(situation);
+  LookAtCapacity(now_us, situation, &view);
+  plan_ = PlanAuthority(view);
   planned_ = {};
   for (const int peer : situation.peer_of_player) {
     if (peer > 0 && config_.mode == Mode::kBuffer) planned_.Add(peer);

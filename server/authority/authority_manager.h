@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/sync/replica.h"
+#include "server/authority/capacity_watch.h"
 #include "server/authority/plan.h"
 
 namespace seam {
@@ -23,6 +24,9 @@ class AuthorityManager {
     std::vector<float> one_way_s;            ///< by player, from the server to it; empty: all 0
     PeerSet silent;                          ///< peers not heard for kSilentUs
     std::vector<std::vector<int>> together;  ///< see AuthorityView
+    /// By player: share of its time that its peer needs for its ticks; below 0: not known. Empty:
+    /// of nobody.
+    std::vector<float> load;
   };
 
   /// After each tick: plans when that is due, and takes every hand-over as far as it can go.
@@ -102,7 +106,8 @@ class AuthorityManager {
   /// What planning sees (authority_view.cpp).
   AuthorityView Look(const Situation& situation);
   void LookAtMechanisms(AuthorityView* view);
-  void Plan(const Situation& situation);
+  void LookAtCapacity(std::int64_t now_us, const Situation& situation, AuthorityView* view);
+  void Plan(std::int64_t now_us, const Situation& situation);
   /// Takes the hand-over of a mechanism as far as it can go; false: nothing is left to do before
   /// the next plan.
   bool Advance(std::int64_t now_us, int m);
@@ -116,8 +121,9 @@ class AuthorityManager {
   Replica& replica_;
   const bool physics_edits_;
   const bool islands_;
-  AuthorityPlan plan_;           // the last one
-  PeerSet planned_;              // players' peers that it was for, in mode buffer
+  AuthorityPlan plan_;  // the last one
+  PeerSet planned_;     // players' peers that it was for, in mode buffer
+  CapacityWatch capacity_;
   std::vector<int> restricted_;  // parts that not everybody may push
   bool sort_open_ = false;
   std::vector<int> open_;       // mechanisms of which something is to be done, ascending

@@ -63,6 +63,25 @@ AuthorityView AuthorityManager::Look(const Situation& situation) {
   return view;
 }
 
+void AuthorityManager::LookAtCapacity(std::int64_t now_us, const Situation& situation,
+                                      AuthorityView* view) {
+  if (situation.load.empty()) return;
+  for (std::size_t p = 0; p < view->players.size(); ++p) {
+    PlayerView& player = view->players[p];
+    // What it was planned to step is only counted where it matters: nearly nobody's.
+    const auto steps = [&] {
+      int bodies = 0;
+      for (const MovingBox& box : view->boxes) {
+        const AuthorityRecord& now = view->mechanisms[static_cast<std::size_t>(box.group)].now;
+        bodies += now.authority == player.peer || now.secondaries.Has(player.peer) ? 1 : 0;
+      }
+      return bodies;
+    };
+    const int capacity = capacity_.Look(p, now_us, player.peer, situation.load[p], steps);
+    player.capacity = std::min(player.capacity, capacity);
+  }
+}
+
 void AuthorityManager::LookAtMechanisms(AuthorityView* view) {
   const World& world = replica_.world();
   view->mechanisms.reserve(static_cast<std::size_t>(table().count()));

@@ -1,4 +1,4 @@
-#include "tests/support/plan_worlds.h"
+#include "tests/lab/world/plan_worlds.h"
 
 #include <algorithm>
 
