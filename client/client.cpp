@@ -57,8 +57,8 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   late_us_ = 0;
   const std::int64_t before = replica_ != nullptr ? replica_->tick() : 0;
   if (started_) StepDue(now_us);
-  const bool stepped = started_ && replica_ != nullptr && replica_->tick() > before;
-  load_.Note(now_us, cpu_us, late_us_, stepped ? 1000000 / room_.tick_hz : 0);
+  const auto ticks = replica_ != nullptr ? static_cast<int>(replica_->tick() - before) : 0;
+  if (started_) load_.Note(now_us, cpu_us, std::max(0, ticks), late_us_, 1000000 / room_.tick_hz);
   const bool stats_due = now_us - last_stats_us_ >= 1000000;
   if (publisher_ != nullptr && peer_ >= 0 && stats_due) PublishStats(now_us, cpu_us);
   if (started_) SendInputs(now_us);

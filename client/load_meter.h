@@ -7,12 +7,14 @@ namespace seam {
 
 class LoadMeter {
  public:
-  /// After each call of Tick. `cpu_us`: CPU time used so far, 0: not known. `late_us`: how late the
-  /// ticks of this call were at worst, `tick_us`: how long a tick is; both 0 if none was due.
-  void Note(std::int64_t now_us, std::int64_t cpu_us, std::int64_t late_us, std::int64_t tick_us);
+  /// After each call of Tick. `cpu_us`: CPU time used so far, 0: not known. `ticks`: how many were
+  /// stepped in this call, `late_us`: how late they were at worst, `tick_us`: how long a tick is.
+  void Note(std::int64_t now_us, std::int64_t cpu_us, int ticks, std::int64_t late_us,
+            std::int64_t tick_us);
 
-  /// Of the last whole window, in thousandths; -1: not known. Above 1000 it cannot keep up: CPU
-  /// time cannot say that, so a window of which most ticks were late by more than a tick counts as
+  /// Of the last whole window, in thousandths; -1: not known. It is the CPU time that a tick takes
+  /// beside how long it is: a machine that cannot keep up shows by how much. Where CPU time does
+  /// not tell, because others have it: when most calls were late by more than a tick it is
   /// kLateLoad at least.
   std::int16_t permille() const { return permille_; }
 
@@ -21,7 +23,8 @@ class LoadMeter {
 
  private:
   std::int64_t began_us_ = -1, began_cpu_us_ = 0;
-  int ticks_ = 0, late_ = 0;
+  std::int64_t due_us_ = 0;  // how long the ticks of the window are together
+  int calls_ = 0, late_ = 0;
   std::int16_t permille_ = -1;
 };
 

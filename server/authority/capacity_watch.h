@@ -2,7 +2,7 @@
 /// How many bodies each player's machine can step, from how busy it says it is.
 ///
 ///   load   1.0 |    *                      its machine needs all of its time: it gets less
-///          0.9 |- - - *- - *-*-*- - - - -  what is aimed at
+///          0.8 |- - - *- - *-*-*- - - - -  what is aimed at
 ///              |__*__________*___________  below it, one that had too much gets more again
 
 #include <cstdint>
@@ -22,8 +22,8 @@ class CapacityWatch {
 
   /// Above this it is too busy.
   static constexpr float kFull = 1.0f;
-  /// Aimed at; between admission and shedding (plan_capacity.h).
-  static constexpr float kTarget = 0.9f;
+  /// Aimed at: what is stepped again comes in bursts.
+  static constexpr float kTarget = 0.8f;
   /// A change shows in what is said after this: the client's window, the way, a hand-over. us
   static constexpr std::int64_t kSettleUs = 900000;
   /// Most that one look may take or give, as a factor.
