@@ -177,7 +177,7 @@ bool AuthorityManager::Awaits(int peer, int body) const {
 
 PeerSet AuthorityManager::Withholding(std::int64_t now_us) const {
   PeerSet peers;
-  for (int m = 0; m < table().count(); ++m) {
+  for (const int m : open_) {
     const Memory& memory = memory_[static_cast<std::size_t>(m)];
     if (memory.hand_over != HandOver::kRevoking) continue;
     if (now_us - memory.revoked_us > kReleasePatienceUs) peers.Add(table().at(m).authority);
