@@ -66,10 +66,6 @@ void AuthorityManager::Plan(std::int64_t now_us, const Situation& situation) {
   AuthorityView view = Look(situation);
   LookAtCapacity(now_us, situation, &view);
   plan_ = PlanAuthority(view);
-  planned_ = {};
-  for (const int peer : situation.peer_of_player) {
-    if (peer > 0 && config_.mode == Mode::kBuffer) planned_.Add(peer);
-  }
   for (int m = 0; m < table().count(); ++m) {
     const PlannedAuthority& planned = plan_[static_cast<std::size_t>(m)];
     const AuthorityRecord& record = table().at(m);
@@ -244,14 +240,6 @@ std::vector<Grants> AuthorityManager::Export(std::int64_t now_us) const {
 
 bool AuthorityManager::Follows(int peer, int body) const {
   return table().at(replica_.world().mechanism(body)).secondaries.Has(peer);
-}
-
-bool AuthorityManager::IsFar(int peer, int body) const {
-  const auto m = static_cast<std::size_t>(replica_.world().mechanism(body));
-  if (m >= plan_.size() || !planned_.Has(peer)) return false;
-  const PlannedAuthority& planned = plan_[m];
-  const bool concerned = planned.authority == peer || planned.secondaries.Has(peer);
-  return !concerned && !planned.near.Has(peer);
 }
 
 bool AuthorityManager::InOneHand(const std::vector<int>& mechanisms) const {

@@ -55,8 +55,6 @@ class AuthorityManager {
   bool Has(int peer, int mechanism) const { return table().at(mechanism).authority == peer; }
   /// Whether the peer follows a body in its buffer zone.
   bool Follows(int peer, int body) const;
-  /// Whether a body is far from all that the peer has, as of the last plan.
-  bool IsFar(int peer, int body) const;
   /// Whether mechanisms have one authority, and none of them is changing hands.
   bool InOneHand(const std::vector<int>& mechanisms) const;
 
@@ -122,7 +120,6 @@ class AuthorityManager {
   const bool physics_edits_;
   const bool islands_;
   AuthorityPlan plan_;  // the last one
-  PeerSet planned_;     // players' peers that it was for, in mode buffer
   CapacityWatch capacity_;
   std::vector<int> restricted_;  // parts that not everybody may push
   bool sort_open_ = false;

@@ -19,7 +19,6 @@ namespace seam {
 struct PlannedAuthority {
   int authority = 0;
   PeerSet secondaries;
-  PeerSet near;  ///< mode buffer: players' peers within kFarAway of it
 };
 
 /// One entry per mechanism, by its index.
@@ -91,8 +90,6 @@ constexpr float ZoneSeconds(float one_way_a_s, float one_way_b_s) {
 }
 /// m; in a room of more than follow_bodies nobody follows what is farther, unless it comes nearer.
 constexpr float kFollowFar = 24;
-/// m from all that a peer has: it hears of what is farther seldom (Broadcast).
-constexpr float kFarAway = 60;
 constexpr float kZoneKeep = 0.5f;  ///< s more before who follows ceases to
 
 }  // namespace seam

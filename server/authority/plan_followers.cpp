@@ -13,8 +13,9 @@
 namespace seam {
 namespace {
 
-/// Beyond this no distance matters in a room that is not followed whole, m.
-constexpr float kReachMax = std::max(kFarAway, kFollowFar + kHysteresis);
+/// Beyond this no distance matters in a room that is not followed whole, m; a little more than
+/// that, for rounding.
+constexpr float kReachMax = kFollowFar + kHysteresis + 0.1f;
 
 class Followers {
  public:
@@ -153,9 +154,6 @@ class Followers {
       if (distance_[static_cast<std::size_t>(m)] <= reach) Follow(player, m);
     }
     FollowNearest(player);
-    for (const int m : seen_) {
-      if (distance_[static_cast<std::size_t>(m)] <= kFarAway) planned(m).near.Add(peer);
-    }
   }
 
   /// By mechanism that is seen: how far its nearest box is from the player's region or from a box
@@ -252,7 +250,6 @@ class Followers {
       } else if (!crowded_ || far <= kFollowFar) {
         within_.push_back({2, far, m});
       }
-      if (far <= kFarAway) planned(m).near.Add(peer);
     }
     std::sort(within_.begin(), within_.end());
     const int most = view_.players[player].capacity;

@@ -4,8 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "server/authority/plan.h"
-#include "tests/server/plan_reference.h"
 #include "tests/lab/world/plan_worlds.h"
+#include "tests/server/plan_reference.h"
 
 namespace seam {
 namespace {

@@ -195,12 +195,6 @@ void AddFollowers(const AuthorityView& view, ReferencePlan* plan) {
       if (meets || distance[m] <= reach) planned.secondaries.Add(player.peer);
     }
     FollowNearest(view, player.peer, distance, plan);
-    for (std::size_t m = 0; m < plan->size(); ++m) {
-      ReferenceEntry& planned = (*plan)[m];
-      const bool concerned =
-          planned.authority == player.peer || planned.secondaries.Has(player.peer);
-      if (!concerned && distance[m] > kFarAway) planned.far.Add(player.peer);
-    }
   }
 }
 

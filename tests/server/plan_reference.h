@@ -9,7 +9,6 @@ namespace seam {
 struct ReferenceEntry {
   int authority = 0;
   PeerSet secondaries;
-  PeerSet far;  ///< players' peers that do not follow it and are farther than kFarAway
 };
 using ReferencePlan = std::vector<ReferenceEntry>;
 
