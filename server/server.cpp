@@ -279,6 +279,7 @@ void Server::UpdateAuthority(std::int64_t now_us) {
     const bool silent = session != nullptr && session->stage == SessionStage::kReady &&
                         now_us - session->link.last_receive_us() > kSilentUs;
     if (silent) situation.silent.Add(peer);
+    situation.load.push_back(session != nullptr ? session->load : -1.0f);
     situation.one_way_s.push_back(static_cast<float>(std::max<std::int64_t>(0, rtt_us)) * 0.5e-6f);
   }
   situation.together = edits_.WaitingMechanisms();
