@@ -93,7 +93,7 @@ void Client::OnGrants(std::int64_t now_us, const Grants& grants) {
   if (replica_ == nullptr || released_) return;
   Release release;
   for (const int m : replica_->ApplyGrants(grants)) {
-    release.mechanism.push_back(static_cast<std::int16_t>(replica_->authority().id(m)));
+    release.mechanism.push_back(replica_->authority().id(m));
     release.epoch.push_back(replica_->authority().at(m).epoch);
   }
   if (release.mechanism.empty()) return;

@@ -206,12 +206,12 @@ void Server::OnExactStates(std::int64_t now_us, const Session& session, const Ex
   const bool seen = off.position.norm() > AuthorityManager::kJump ||
                     off.velocity.norm() > AuthorityManager::kJumpVelocity;
   if (seen) ++stats_.jumps;
-  for (const std::int16_t id : kept.id) {
+  for (const std::int32_t id : kept.id) {
     authority_.NoteJump(replica_.world().BodyOfId(id), off);
   }
   const Bytes bytes = Encode(kept);
   sessions_.ForEachReady(session.peer, [&](Session& other) {
-    const bool awaits = std::any_of(kept.id.begin(), kept.id.end(), [&](std::int16_t id) {
+    const bool awaits = std::any_of(kept.id.begin(), kept.id.end(), [&](std::int32_t id) {
       return authority_.Awaits(other.peer, replica_.world().BodyOfId(id));
     });
     if (awaits) other.link.SendReliable(bytes);

@@ -101,11 +101,12 @@ void Display::KeepClosed(const Roles& roles) {
 /// By what was heard of it last, cheaply.
 bool Display::IsOutside(int body, std::int64_t next, const MovingBox& seen) const {
   if (!snapshots_.has(body)) return false;
+  const BodyState& heard = snapshots_.newest(body);
   const std::int64_t newest = snapshots_.newest_tick(body);
-  const BodyState& heard = *snapshots_.At(body, newest);
   const float forward = Snapshots::Forward(newest, next, world_.dt(), kReckonMax);
   const Vec2 at = heard.position + forward * heard.velocity;
-  return Gap({at, at, {0, 0}, 0, 0}, seen) > 0;
+  return at.x() < seen.min.x() || at.y() < seen.min.y() || at.x() > seen.max.x() ||
+         at.y() > seen.max.y();
 }
 
 void Display::Drive(std::int64_t next, const MovingBox& seen) {
@@ -120,6 +121,12 @@ void Display::Drive(std::int64_t next, const MovingBox& seen) {
     const bool outside =
         !config_.shows_far && motion == Motion::kAbsent && IsOutside(body, next, seen);
     if (!outside && left != 0) smoother_.Reset(body);
+    if (outside && left == 0) {
+      BodyState still = world_.Read(body);
+      still.velocity.setZero();
+      still.spin = 0;
+      world_.Write(body, still, false);
+    }
     left = outside ? 1 : 0;
     if (outside) continue;
     BodyState state = world_.Read(body);
@@ -208,7 +215,7 @@ View Display::MakeView(const Roles& roles, bool all) const {
     const int m = world_.mechanism(body);
     if (!all && roles.RoleOf(m) == kRoleRemote) continue;
     const BodyState& s = poses[static_cast<std::size_t>(body)];
-    view.id.push_back(static_cast<std::int16_t>(world_.id(body)));
+    view.id.push_back(world_.id(body));
     view.role.push_back(roles.RoleOf(m));
     view.authority.push_back(static_cast<std::int16_t>(roles.table().at(m).authority));
     view.x.push_back(s.position.x());

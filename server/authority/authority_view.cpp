@@ -20,7 +20,7 @@ bool PlansIslands(const Scene& scene) {
 std::vector<int> RestrictedParts(const Scene& scene) {
   std::vector<int> restricted;
   for (const Part& part : scene.parts) {
-    if (part.rules->push != kEveryPlayer) restricted.push_back(part.id);
+    if (!part.rules->push.everyone()) restricted.push_back(part.id);
   }
   return restricted;
 }

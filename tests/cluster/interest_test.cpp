@@ -32,7 +32,7 @@ class CountingNet : public Net {
     for (const DatagramMessage& message : messages) {
       const AnyMessage any = Decode(message.bytes);
       if (const auto* states = std::get_if<States>(&any)) {
-        for (const std::int16_t id : states->id) ++counts_->states[id];
+        for (const std::int32_t id : states->id) ++counts_->states[id];
       } else if (const auto* inputs = std::get_if<Inputs>(&any)) {
         ++counts_->inputs[inputs->player];
       }

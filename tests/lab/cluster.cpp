@@ -52,10 +52,12 @@ Cluster::Cluster(const ClusterConfig& config)
   server.publish = config.publish;
   server.client_bytes_per_s = config.client_bytes_per_s;
   server.seed = config.seed;
-  server.wait_players = static_cast<int>(scene_.players.size());
+  std::size_t players = scene_.players.size();
+  if (config.players > 0) players = std::min(players, static_cast<std::size_t>(config.players));
+  server.wait_players = static_cast<int>(players);
   server_entropy_ = std::make_unique<SeededEntropy>(static_cast<std::uint64_t>(config.seed));
   server_ = std::make_unique<Server>(scene_, server, *server_net_, recorder_, *server_entropy_);
-  clients_.resize(scene_.players.size());
+  clients_.resize(players);
   for (std::size_t i = 0; i < clients_.size(); ++i) StartClient(i);
 }
 

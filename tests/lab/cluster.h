@@ -26,6 +26,7 @@ struct ClusterConfig {
   double duration_s = 0;  ///< ticks after tick 0; 0: the scene's own
   Drive drive = Drive::kScript;
   Publish publish = Publish::kAll;  ///< of server and clients
+  int players = 0;  ///< the first so many of the scene's join; 0: all
   int send_hz = 30;
   bool smooth = true;
   Recorder* recorder = nullptr;  ///< also gets every message, at now_us()

@@ -71,7 +71,7 @@ std::vector<Rest> RestTable::Pack(const World& world, int peer, std::vector<int>
       out.back().composition = static_cast<std::int64_t>(world.composition().hash);
     }
     Rest& rest = out.back();
-    rest.id.push_back(static_cast<std::int16_t>(world.id(body)));
+    rest.id.push_back(world.id(body));
     rest.epoch.push_back(record.epoch);
     rest.x.push_back(record.pose.position.x());
     rest.y.push_back(record.pose.position.y());
