@@ -157,6 +157,7 @@ class Server {
   std::vector<std::string> news_;  // not taken yet
   RoomClock clock_;
   std::int64_t last_room_us_ = -1000000000;
+  bool inputs_due_ = false;  // some have come, or a tick has passed
 };
 
 }  // namespace seam
