@@ -13,7 +13,7 @@ namespace {
 
 /// Of the stiffness that tension gives a body against turning, the share that its inertia is
 /// enlarged by (after Tournier, Nesme, Gilles and Faure 2015: as much as keeps the step stable).
-constexpr double kStiffness = 0.25;
+constexpr double kStiffness = 0.35;
 /// It counts in full from this stiffness over inertia on, and below the other not at all.
 constexpr double kStiffTo = 1, kStiffFrom = 0.4;
 /// Less than that, whatever is rounded.
@@ -21,7 +21,7 @@ constexpr double kSurelyLittle = 0.39;
 /// What is jammed tells of any tension: at most so many times the inertia.
 constexpr double kStiffMost = 100;
 /// What is left of it after a substep when the tension is gone: inertias that jump make noise.
-constexpr double kLasts = 0.99;
+constexpr double kLasts = 0.999;
 /// The inertia is found anew while it lacks more than this.
 constexpr double kStifferBy = 1.1;
 constexpr int kStifferTries = 4;
