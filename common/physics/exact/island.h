@@ -115,6 +115,8 @@ class ExactIsland {
   double Driven(const ExactContact& contact, int first_row) const;
   void SolveAhead(const Pace& pace);
   void Move(double h);
+  double SidesOfErrors(const Pace& pace, bool anew);
+  void Correct(double h);
   void ShutJoints(const Pace& pace);
   void SoftenContacts();
   void SolveAtEnd(const Pace& pace);
@@ -174,6 +176,7 @@ class ExactIsland {
   bool moved_ = false;  // velocities are not those of before_
   std::vector<char> in_;
   std::vector<double> x_, before_, start_;
+  std::vector<double> push_;  // by body, three: what a correction adds to its velocity
   bool relaxed_ = false;
   std::vector<Group> groups_;
   std::vector<Reach> reaches_;                            // in the order of rows

@@ -194,39 +194,67 @@ void ExactIsland::Move(double h) {
   }
 }
 
+/// Joints' errors less their goals, as sides of the system. Returns the greatest, m or rad. `anew`:
+/// the rows are written as the bodies are now.
+double ExactIsland::SidesOfErrors(const Pace& pace, bool anew) {
+  double far = 0;
+  Row* const now = now_.data();
+  std::fill(x_.begin(), x_.end(), 0.0);
+  for (const Held& held : joints) {
+    double errors[kJointRowsMost];
+    if (anew || !JointErrors(*held.joint, held.ends, bodies, errors)) {
+      FillJoint(*held.joint, held.ends, bodies, pace, now);
+      for (int i = 0; i < held.rows; ++i) errors[i] = now[i].error;
+    }
+    for (int i = 0; i < held.rows; ++i) {
+      Row& row = At(held.row + i);
+      const bool shuts = row.kind == RowKind::kHard || row.kind == RowKind::kLimit;
+      const int place = place_[static_cast<std::size_t>(held.row + i)];
+      if (!shuts || place < 0 || row.state != RowState::kFree) continue;
+      const double off = errors[i] - row.goal;
+      far = std::max(far, std::fabs(off));
+      x_[static_cast<std::size_t>(place)] = std::clamp(-off / pace.h, -kShutFastest, kShutFastest);
+      if (anew) std::copy_n(now[i].end, row.ends, row.end);
+    }
+  }
+  return far;
+}
+
+/// Adds the solution to the substep's impulses, and moves the bodies by what it does.
+void ExactIsland::Correct(double h) {
+  push_.assign(3 * bodies.size(), 0.0);
+  for (std::size_t p = 0; p < row_at_.size(); ++p) {
+    Row& row = At(row_at_[p]);
+    const double x = x_[p];
+    if (row.state != RowState::kFree || x == 0) continue;
+    row.base += x;
+    for (const RowEnd* end = row.end; end != row.end + row.ends; ++end) {
+      double* const push = push_.data() + 3 * static_cast<std::size_t>(end->body);
+      for (int i = 0; i < 3; ++i) push[i] += x * end->mj[i];
+    }
+  }
+  const double* push = push_.data();
+  for (ExactBody& q : bodies) {
+    q.vx += push[0];
+    q.vy += push[1];
+    q.w += push[2];
+    q.x += h * push[0];
+    q.y += h * push[1];
+    if (push[2] != 0) q.Turn(h * push[2]);
+    push += 3;
+  }
+}
+
 void ExactIsland::ShutJoints(const Pace& pace) {
   bool anew = turned_ > kTurnsFast;
   double last = kUnbounded;
-  Row* const now = now_.data();
   for (int tries = 0; tries < kCorrections; ++tries) {
-    double far = 0;
-    std::fill(x_.begin(), x_.end(), 0.0);
-    for (const Held& held : joints) {
-      double errors[kJointRowsMost];
-      if (anew) {
-        FillJoint(*held.joint, held.ends, bodies, pace, now);
-        for (int i = 0; i < held.rows; ++i) errors[i] = now[i].error;
-      } else if (!PointErrors(*held.joint, held.ends, bodies, errors)) {
-        FillJoint(*held.joint, held.ends, bodies, pace, now);
-        for (int i = 0; i < held.rows; ++i) errors[i] = now[i].error;
-      }
-      for (int i = 0; i < held.rows; ++i) {
-        Row& row = At(held.row + i);
-        const bool shuts = row.kind == RowKind::kHard || row.kind == RowKind::kLimit;
-        const int place = place_[static_cast<std::size_t>(held.row + i)];
-        if (!shuts || place < 0 || row.state != RowState::kFree) continue;
-        const double off = errors[i] - row.goal;
-        far = std::max(far, std::fabs(off));
-        x_[static_cast<std::size_t>(place)] =
-            std::clamp(-off / pace.h, -kShutFastest, kShutFastest);
-        if (anew) std::copy_n(now[i].end, row.ends, row.end);
-      }
-    }
+    const double far = SidesOfErrors(pace, anew);
     if (far < (contacts.empty() ? kShut : kShutTouching)) break;
     if (tries == 0 && !contacts.empty() && !relaxed_) SoftenContacts();
-    if (!anew && tries > 1 && far > kSlow * last) {
+    if (!anew && tries > 0 && far > kSlow * last) {
       anew = true;
-      continue;
+      SidesOfErrors(pace, anew);
     }
     last = far;
     if (anew) {
@@ -235,21 +263,7 @@ void ExactIsland::ShutJoints(const Pace& pace) {
     }
     Factor();
     matrix_.Solve(&x_);
-    for (std::size_t p = 0; p < row_at_.size(); ++p) {
-      Row& row = At(row_at_[p]);
-      if (row.state != RowState::kFree || x_[p] == 0) continue;
-      row.base += x_[p];
-      const double by = pace.h * x_[p];
-      for (const RowEnd* end = row.end; end != row.end + row.ends; ++end) {
-        ExactBody& q = Body(end->body);
-        q.vx += x_[p] * end->mj[0];
-        q.vy += x_[p] * end->mj[1];
-        q.w += x_[p] * end->mj[2];
-        q.x += by * end->mj[0];
-        q.y += by * end->mj[1];
-        q.Turn(by * end->mj[2]);
-      }
-    }
+    Correct(pace.h);
   }
 }
 
