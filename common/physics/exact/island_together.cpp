@@ -63,7 +63,7 @@ void ExactIsland::BringTogether(const Pace& pace) {
     SoftenContacts();
     Factor();
     matrix_.Solve(&x_);
-    for (std::size_t p = 0; p < row_at_.size(); ++p) Shift(At(row_at_[p]), x_[p]);
+    for (std::size_t p = 0; p < row_at_.size(); ++p) Shift(*by_place_[p], x_[p]);
     Fill(pace);
   }
   for (std::size_t i = 0; i < held_.size(); ++i) rows_[i].state = held_[i];
