@@ -161,6 +161,7 @@ class CharacterControl {
   b2Vec2 PullTo(const CharacterSense& s, b2Vec2 tip) const;
   bool ReachesOn(int side, b2Vec2 tip, b2Vec2 shoulder) const;
   void LetGo();
+  void Hang();
 
   /// N m: weight x height, by which all gains are in proportion.
   float unit() const { return unit_; }
