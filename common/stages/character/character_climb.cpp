@@ -5,6 +5,10 @@
 ///             /|\__________           2  lead the shoulders up and over P
 ///   ~~~~~~~~~~ |~|  ledge             3  on the ledge, each hand that is behind reaches on
 ///             / \|                       until the legs are over, too
+///
+/// Before the wall legs hang: what they push it with, the hands must hold. An arm pulls less the
+/// more its hand bears. Where all of it lies still, as on arms that prop the chest up, hands let
+/// go: the chest goes down, and they reach on.
 
 #include <algorithm>
 #include <cmath>
@@ -144,7 +148,7 @@ bool CharacterControl::ReachesOn(int side, b2Vec2 tip, b2Vec2 shoulder) const {
   return tip.y < memory_.from.y - 0.1f * m && tip.y < shoulder.y + gains_.climb_again * m;
 }
 
-/// Legs hang before the wall: what they push it with, the hands must hold.
+/// Legs before the wall.
 void CharacterControl::Hang() {
   for (int side = 0; side < 2; ++side) {
     Pose(Hip(side), gains_.climb_hang_hip, gains_.climb_hang);
