@@ -54,7 +54,11 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
     SendReadyAndPing(now_us);
   }
   StartIfDue(now_us);
+  late_us_ = 0;
+  const std::int64_t before = replica_ != nullptr ? replica_->tick() : 0;
   if (started_) StepDue(now_us);
+  const auto ticks = replica_ != nullptr ? static_cast<int>(replica_->tick() - before) : 0;
+  if (started_) load_.Note(now_us, cpu_us, std::max(0, ticks), late_us_, 1000000 / room_.tick_hz);
   const bool stats_due = now_us - last_stats_us_ >= 1000000;
   if (publisher_ != nullptr && peer_ >= 0 && stats_due) PublishStats(now_us, cpu_us);
   if (started_) SendInputs(now_us);
@@ -85,6 +89,7 @@ void Client::SendReadyAndPing(std::int64_t now_us) {
       ping.revision = replica_->revision();
       ping.composition = static_cast<std::int64_t>(replica_->world().composition().hash);
       ping.rest = static_cast<std::int64_t>(replica_->rest().Hash());
+      ping.load = load_.permille();
     }
     link_->SendUnreliable(Encode(ping));
   }
@@ -129,7 +134,8 @@ void Client::StepDue(std::int64_t now_us) {
     return;
   }
   for (int steps = 0; steps < kStepsMax && replica_->tick() < due; ++steps) {
-    worst_late_us_ = std::max(worst_late_us_, time - (replica_->tick() + 1) * 1000000 / hz);
+    late_us_ = std::max(late_us_, time - (replica_->tick() + 1) * 1000000 / hz);
+    worst_late_us_ = std::max(worst_late_us_, late_us_);
     StepOnce(now_us);
     if (lead_us_ >= 0) {
       const double most = 1000000.0 / static_cast<double>(hz) * 0.02;
@@ -208,13 +214,20 @@ void Client::StepOnce(std::int64_t now_us) {
     if (!released_) link_->SendUnreliable(Encode(states));
   }
   TellRest(now_us);
-  if (config_.publish) PublishShown(now_us);
+  PublishShown(now_us);
+}
+
+Publish Client::Published(int bodies) const {
+  return recorder_.listening() ? Resolved(config_.publish, bodies) : Publish::kNone;
 }
 
 void Client::PublishShown(std::int64_t now_us) {
-  View view = replica_->MakeView();
+  const Publish published = Published(replica_->world().body_count());
+  if (published == Publish::kNone) return;
+  View view = replica_->MakeView(published == Publish::kAll);
   view.utime = now_us;
   publisher_->Publish(view);
+  if (published != Publish::kAll) return;
   Strands strands = replica_->MakeStrands(view);
   strands.utime = now_us;
   if (!strands.strand.empty()) publisher_->Publish(strands);

@@ -1,0 +1,21 @@
+#pragma once
+/// Which mechanisms may come into contact before a grant could tell anyone, and through whom.
+
+#include <vector>
+
+#include "server/authority/plan.h"
+
+namespace seam {
+
+/// By mechanism. `soon` looks as far ahead as ZoneSeconds says, `later` kZoneKeep farther.
+struct ContactGroups {
+  std::vector<int> soon, later;  ///< the lowest of those that it may touch, directly or not
+  /// 1: it may touch one that the server has, or has one and may touch.
+  std::vector<char> server_soon, server_later;
+};
+
+/// Of mechanisms with the planned authorities: a sweep over the view's boxes, n log n for what does
+/// not crowd.
+ContactGroups FindContactGroups(const AuthorityView& view, const AuthorityPlan& plan);
+
+}  // namespace seam
