@@ -142,6 +142,10 @@ void Client::MakeReplica(const Topology* become) {
   sync.seed = room_.seed;
   sync.input_delay_ticks = room_.input_delay_ticks;
   const Topology topology = become != nullptr ? *become : Topology(*scene_);
+  const auto& assemblies = topology.composition().assemblies;
+  const auto bodies = std::count_if(assemblies.begin(), assemblies.end(),
+                                    [](const Assembly& a) { return !a.anchored; });
+  sync.shows_far = config_.shows || Published(static_cast<int>(bodies)) == Publish::kAll;
   const std::unique_ptr<Replica> before = std::move(replica_);
   replica_ = std::make_unique<Replica>(topology, sync, peer_, player_);
   replica_->OnCorrected([this](int) { ++corrections_; });

@@ -55,7 +55,7 @@ void Replica::Step() {
   const std::int64_t next = tick() + 1;
   replay_.Run();
   ApplyInputs(next);
-  display_.Drive(next);
+  display_.Drive(next, presence_.around());
   corrector_.PullCopies();
   rest_.BeforeStep();
   world_.Step();

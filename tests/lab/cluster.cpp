@@ -49,6 +49,8 @@ Cluster::Cluster(const ClusterConfig& config)
   server.sync.seed = config.seed;
   server.sync.smooth = config.smooth;
   server.impair = config.impair;
+  server.publish = config.publish;
+  server.client_bytes_per_s = config.client_bytes_per_s;
   server.seed = config.seed;
   std::size_t players = scene_.players.size();
   if (config.players > 0) players = std::min(players, static_cast<std::size_t>(config.players));
@@ -72,6 +74,7 @@ void Cluster::StartClient(std::size_t i) {
   config.server = server_address_;
   config.name = scene_.players[i].name;
   config.drive = config_.drive;
+  config.publish = config_.publish;
   config.script_of = config.name;
   config.key = peer.key;
   config.smooth = config_.smooth;
