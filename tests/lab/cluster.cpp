@@ -53,7 +53,7 @@ Cluster::Cluster(const ClusterConfig& config)
   server.wait_players = static_cast<int>(scene_.players.size());
   server_entropy_ = std::make_unique<SeededEntropy>(static_cast<std::uint64_t>(config.seed));
   server_ = std::make_unique<Server>(scene_, server, *server_net_, recorder_, *server_entropy_);
-  clients_.resize(scene_.players.size());
+  clients_.resize(scene_.players.size() + static_cast<std::size_t>(config.spectators));
   for (std::size_t i = 0; i < clients_.size(); ++i) StartClient(i);
 }
 
@@ -68,8 +68,10 @@ void Cluster::StartClient(std::size_t i) {
   peer.clock_offset_us = 12345678 + 3777777 * static_cast<std::int64_t>(next_port_ - 20000);
   ClientConfig config;
   config.server = server_address_;
-  config.name = scene_.players[i].name;
-  config.drive = config_.drive;
+  config.watch = i >= scene_.players.size();
+  config.name = config.watch ? "guest" + std::to_string(i - scene_.players.size())
+                             : scene_.players[i].name;
+  config.drive = config.watch ? Drive::kNone : config_.drive;
   config.script_of = config.name;
   config.key = peer.key;
   config.smooth = config_.smooth;
@@ -148,6 +150,12 @@ void Cluster::Kill(int client) {
   Peer& peer = clients_[static_cast<std::size_t>(client)];
   if (peer.client != nullptr) peer.key = peer.client->key();
   peer.client.reset();
+}
+
+void Cluster::Leave(int client) {
+  Peer& peer = clients_[static_cast<std::size_t>(client)];
+  if (peer.client != nullptr) peer.client->Shutdown(now_us_ + peer.clock_offset_us);
+  Kill(client);
 }
 
 void Cluster::Revive(int client) { StartClient(static_cast<std::size_t>(client)); }

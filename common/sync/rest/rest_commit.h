@@ -64,6 +64,10 @@ class RestCommit {
   /// Whether every body lies so.
   bool all() const;
   std::uint64_t Hash() const { return table_.Hash(world_); }
+  /// What is known of a body's rest.
+  const RestRecord& record(int body) const { return table_.at(body); }
+  /// Messages of ticks still to come.
+  std::size_t waiting() const { return waiting_.size(); }
 
  private:
   /// What disturbed a body that is held.

@@ -1,0 +1,108 @@
+/// A room in which people come and go for long: what it keeps does not grow.
+
+#include <gtest/gtest.h>
+#include <malloc.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "common/base/random.h"
+#include "tests/lab/cluster.h"
+#include "tests/support/soak.h"
+
+namespace seam {
+namespace {
+
+/// Bytes that are allocated now.
+std::size_t HeapBytes() {
+  const struct mallinfo2 info = mallinfo2();
+  return info.uordblks + info.hblkhd;
+}
+
+/// Who is away comes back, and somebody else goes, `every_ticks` apart.
+class ComingAndGoing {
+ public:
+  ComingAndGoing(Cluster& cluster, std::uint64_t seed) : cluster_(cluster), random_(seed) {}
+
+  /// Of half a minute: for 22 s people come and go, then all are there and calm down.
+  void RunHalfMinute() {
+    const std::int64_t begin = cluster_.server().tick();
+    for (std::int64_t tick = begin; tick < begin + 22 * 60; tick += kEveryTicks) {
+      cluster_.RunToTick(tick);
+      Come();
+      away_ =
+          static_cast<int>(random_.Next() % static_cast<std::uint64_t>(cluster_.client_count()));
+      if (random_.Chance(0.5)) {
+        cluster_.Leave(away_);
+      } else {
+        cluster_.Kill(away_);
+      }
+      ++departures_;
+    }
+    Come();
+    cluster_.RunToTick(begin + 30 * 60);
+  }
+  int departures() const { return departures_; }
+
+ private:
+  static constexpr std::int64_t kEveryTicks = 100;
+  void Come() {
+    if (away_ >= 0) cluster_.Revive(away_);
+    away_ = -1;
+  }
+
+  Cluster& cluster_;
+  Random random_;
+  int away_ = -1;
+  int departures_ = 0;
+};
+
+/// Bytes at the end of each half minute.
+std::vector<std::size_t> RunFor(const std::string& scene, int minutes, int* departures) {
+  ClusterConfig config;
+  config.scene = scene;
+  config.impair = "delay=40ms,jitter=10ms,loss=5%";
+  config.drive = Drive::kBot;
+  config.spectators = 2;
+  config.keep = false;
+  Cluster cluster(config);
+  ComingAndGoing people(cluster, 1);
+  std::vector<std::size_t> bytes;
+  for (int i = 0; i < 2 * minutes; ++i) {
+    people.RunHalfMinute();
+    for (int c = 0; c < cluster.client_count(); ++c) {
+      EXPECT_TRUE(cluster.client(c)->running())
+          << scene << ", client " << c << ", half minute " << i;
+    }
+    bytes.push_back(HeapBytes());
+  }
+  *departures = people.departures();
+  return bytes;
+}
+
+/// Three minutes, or an hour: from a sixth of it on, what is allocated stays within 2 %.
+TEST(LongSessionCluster, MemoryIsFlatWhilePeopleComeAndGo) {
+  const int minutes = Soak(3) > 3 ? 60 : 3;
+  for (const char* scene : {"crossing", "playground"}) {
+    SCOPED_TRACE(scene);
+    int departures = 0;
+    const std::vector<std::size_t> bytes = RunFor(scene, minutes, &departures);
+    const auto sixth = static_cast<std::ptrdiff_t>(bytes.size() / 6);
+    const auto middle = bytes.begin() + static_cast<std::ptrdiff_t>(bytes.size() / 2);
+    // The least of a time: what is under way just then comes and goes.
+    const std::size_t early = *std::min_element(bytes.begin() + sixth, middle);
+    const std::size_t late = *std::min_element(middle, bytes.end());
+    std::printf("  %s: %d min, %d left and came back: %zu kB, then %zu kB\n", scene, minutes,
+                departures, early / 1000, late / 1000);
+    EXPECT_GT(departures, 10 * minutes);
+    EXPECT_LT(static_cast<double>(late), 1.02 * static_cast<double>(early));
+    if (std::getenv("SEAM_SOAK_ALL") == nullptr) continue;
+    for (const std::size_t b : bytes) std::printf(" %zu", b / 1000);
+    std::printf("\n");
+  }
+}
+
+}  // namespace
+}  // namespace seam
