@@ -56,8 +56,11 @@ class RestCommit {
   bool Receive(const Rest& rest);
   /// What this peer committed in the last step; `utime` is left 0.
   std::vector<Rest> Take();
-  /// All that rests, for one who joins or has lost it; only this peer's own bodies if `own`.
-  std::vector<Rest> Everything(bool own) const;
+  /// All that rests, for one who joins.
+  std::vector<Rest> Everything() const;
+  /// The same for one who has lost it, which may have heard something else since: what is held lies
+  /// so after this tick, too. Only this peer's own bodies if `own`.
+  std::vector<Rest> Again(bool own) const;
 
   /// Whether the body lies committed, and is to be corrected, replayed and driven by nothing.
   bool Holds(int body) const { return memory_.track(body).at_rest; }

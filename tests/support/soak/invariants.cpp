@@ -16,6 +16,8 @@ namespace {
 constexpr std::int64_t kBackUs = 10000000;
 /// What is told reliably is known within this long, us.
 constexpr std::int64_t kToldUs = 4000000;
+/// What rests is known to, if it was lost: RestAgreement finds that out within three seconds.
+constexpr std::int64_t kRestKnownUs = 7000000;
 /// A hand-over is done, or its holder has to leave, within this long, us: kReleasePatienceUs and
 /// kToldUs.
 constexpr std::int64_t kHandedOverUs = 9000000;
@@ -28,11 +30,18 @@ bool SameBits(const BodyState& a, const BodyState& b) {
   return a.position == b.position && a.angle == b.angle;
 }
 
+std::string Text(const RestRecord& record) {
+  if (!record.committed) return "free";
+  return "rests since tick " + std::to_string(record.tick) + " in epoch " +
+         std::to_string(record.epoch);
+}
+
 }  // namespace
 
 Invariants::Invariants(Cluster& cluster, const FaultRunner& faults, bool strict)
     : cluster_(cluster), faults_(faults), strict_(strict) {
   peers_.resize(static_cast<std::size_t>(cluster.client_count()) + 1);
+  for (const Part& part : cluster.scene().parts) top_ = std::max(top_, part.position.y());
 }
 
 void Invariants::Say(const std::string& what, const std::string& detail) {
@@ -198,7 +207,7 @@ void Invariants::LookForStrays() {
 }
 
 void Invariants::LookAtBodies() {
-  const float limit = cluster_.scene().speed_limit;
+  const double gravity = double{cluster_.scene().gravity.norm()};
   for (const Peer& peer : peers_) {
     if (peer.replica == nullptr) continue;
     const World& world = peer.replica->world();
@@ -211,7 +220,11 @@ void Invariants::LookAtBodies() {
       const bool finite = state.position.allFinite() && state.velocity.allFinite() &&
                           std::isfinite(state.angle) && std::isfinite(state.spin);
       if (!finite) Say("all numbers are finite", who);
-      if (speed > limit && !strict_)
+      // What falls out of the world gains what its height was worth.
+      const double fallen = std::max(0.0, double{top_} - double{state.position.y()});
+      const double allowed = std::hypot(double{cluster_.scene().speed_limit},
+                                        std::sqrt(2 * gravity * fallen));
+      if (double{speed} > allowed && !strict_)
         Say("nothing explodes", who + ": " + std::to_string(speed) + " m/s");
       fastest_ = std::max(fastest_, speed);
     }
@@ -237,12 +250,14 @@ void Invariants::LookAtRest() {
       }
       const bool same_word = ours.committed && theirs.committed && ours.epoch == theirs.epoch &&
                              ours.tick == theirs.tick;
-      if (same_word && !SameBits(ours.pose, theirs.pose)) Say("rest is the same everywhere", who);
-      if (same_word || !ours.committed || !Well(p, kToldUs)) continue;
+      const bool equal = ours.committed && theirs.committed && ours.epoch == theirs.epoch &&
+                         SameBits(ours.pose, theirs.pose);
+      if (same_word && !equal) Say("rest is the same everywhere", who);
+      if (equal || !ours.committed || !Well(p, kToldUs)) continue;
       const auto since = peer.rest_other_us.find(id);
       other_us[id] = since == peer.rest_other_us.end() ? cluster_.now_us() : since->second;
-      if (cluster_.now_us() - other_us[id] <= kToldUs) continue;
-      Say("rest is known everywhere", who + (theirs.committed ? " rests otherwise" : " is free"));
+      if (cluster_.now_us() - other_us[id] <= kRestKnownUs) continue;
+      Say("rest is known everywhere", who + ": " + Text(theirs) + "; at the server: " + Text(ours));
     }
     peer.rest_other_us = std::move(other_us);
   }

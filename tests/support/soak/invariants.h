@@ -68,6 +68,7 @@ class Invariants {
   Cluster& cluster_;
   const FaultRunner& faults_;
   const bool strict_;
+  float top_ = 0;  // m, of the scene as it was
   std::vector<Peer> peers_;
   Holders named_, believed_;
   std::int64_t looked_tick_ = -1;
