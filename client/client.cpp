@@ -47,8 +47,11 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
     released_ = true;
   }
   // What we let go of we do not take up again as the same session: the server may have given it on.
-  if (peer_ >= 0 && (silence_us > kLostUs || (released_ && silence_us < kLeaseUs))) {
-    ++rejoins_;
+  // Nor one whose welcome never came: the server may have had it and dropped it, and a Join of its
+  // number does not count again.
+  const bool lost = silence_us > kLostUs && (peer_ >= 0 || token_);
+  if (lost || (peer_ >= 0 && released_ && silence_us < kLeaseUs)) {
+    if (peer_ >= 0) ++rejoins_;
     Join(now_us);
   }
   if (peer_ < 0) {

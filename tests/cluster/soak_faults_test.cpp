@@ -7,13 +7,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
-#include <map>
+#include <optional>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/lab/jobs.h"
 #include "tests/support/soak.h"
+#include "tests/support/soak/fault_trace.h"
 #include "tests/support/soak/invariants.h"
 
 namespace seam {
@@ -42,11 +43,16 @@ std::string Perform(const FaultPlan& plan) {
   FaultRunner faults(plan);
   Cluster cluster(faults.Config());
   Invariants invariants(cluster, faults, plan.config.mode == "strict");
+  const bool traces = std::getenv("SEAM_SOAK_TRACE") != nullptr;
+  std::optional<FaultTrace> trace;
+  if (traces) trace.emplace(plan);
   cluster.each_instant = [&] {
+    if (traces) trace->Look(cluster);
     invariants.Look();
     faults.Act(cluster);
   };
   cluster.Run();
+  if (traces) std::fflush(stdout);
   std::ostringstream out;
   for (const auto& [what, broken] : invariants.broken()) {
     out << what << "; " << broken.times << " times; " << broken.first << "\n";
