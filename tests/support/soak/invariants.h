@@ -47,6 +47,7 @@ class Invariants {
     int self = 0;
     int revision = -1;
     std::vector<Record> records;
+    std::map<PartId, int> fast_ticks;              // bodies: ticks on end beyond the speed limit
     std::int64_t behind_us = -1;                   // since when its revision is not the server's
     std::map<PartId, std::int64_t> stray_us;       // mechanisms: since when it knows another owner
     std::map<PartId, std::int64_t> rest_other_us;  // bodies: since when it knows other rest
