@@ -5,10 +5,12 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "common/base/random.h"
+#include "common/physics/part_places.h"
 #include "tests/lab/cluster.h"
 #include "tests/support/soak.h"
 
@@ -67,7 +69,16 @@ std::vector<std::size_t> RunFor(const std::string& scene, int minutes, int* depa
   config.drive = Drive::kBot;
   config.spectators = 2;
   config.keep = false;
+  // Who comes back has one of four addresses: the simulated network remembers each for good.
+  Cluster* running = nullptr;
+  std::uint16_t turn = 0;
+  config.client_net = [&](std::size_t client, std::unique_ptr<Net> net) {
+    if (running == nullptr) return net;
+    const auto port = static_cast<std::uint16_t>(30000 + 4 * client + ++turn % 4);
+    return running->Attach(Address{0x7f000001, port});
+  };
   Cluster cluster(config);
+  running = &cluster;
   ComingAndGoing people(cluster, 1);
   std::vector<std::size_t> bytes;
   for (int i = 0; i < 2 * minutes; ++i) {
@@ -77,6 +88,8 @@ std::vector<std::size_t> RunFor(const std::string& scene, int minutes, int* depa
           << scene << ", client " << c << ", half minute " << i;
     }
     bytes.push_back(HeapBytes());
+    EXPECT_EQ(cluster.server().client_count(), cluster.client_count()) << "no session is left over";
+    EXPECT_LE(cluster.server().accounts().size(), static_cast<std::size_t>(cluster.client_count()));
   }
   *departures = people.departures();
   return bytes;
@@ -102,6 +115,75 @@ TEST(LongSessionCluster, MemoryIsFlatWhilePeopleComeAndGo) {
     for (const std::size_t b : bytes) std::printf(" %zu", b / 1000);
     std::printf("\n");
   }
+}
+
+const char* const kPairs = R"(
+duration = 60
+gravity = [0, 0]
+[[player]]
+name = "ann"
+[[player]]
+name = "bob"
+[[part]]
+name = "box"
+box = [0.5, 0.5]
+position = [-15, 20]
+repeat = {count = [8, 2], step = [1.5, 0.6]}
+)";
+constexpr PartId kFirst = 0;
+constexpr int kPairCount = 8;
+
+/// Bonds every pair in one tick and breaks it in the next.
+void BondAndBreak(Cluster* cluster, int cycles) {
+  Server& server = cluster->server();
+  const World& world = server.replica().world();
+  for (int i = 0; i < cycles; ++i) {
+    for (int pair = 0; pair < kPairCount; ++pair) {
+      const PartId a = kFirst + 2 * pair;
+      server.Order(Edit(BondAsTheyAre(world, a, a + 1, 0), EditCause::kOutside));
+    }
+    cluster->RunToTick(server.tick() + 1);
+    for (std::size_t j = 0; j < world.scene().joints.size(); ++j) {
+      if (world.scene().joints[j].gone) continue;
+      server.Order(Edit(BreakEdit{static_cast<std::int32_t>(j)}, EditCause::kOutside));
+    }
+    cluster->RunToTick(server.tick() + 1);
+  }
+}
+
+/// 480 edits a second; bob is away for a while in every half minute. From 8192 edits on, of which
+/// the server knows the compositions, nothing grows.
+TEST(LongSessionCluster, MemoryIsFlatWhileThingsAreBondedAndBreak) {
+  const int minutes = Soak(1) > 1 ? 60 : 1;
+  ClusterConfig config;
+  config.scene_text = kPairs;
+  config.impair = "delay=20ms,loss=2%";
+  config.drive = Drive::kNone;
+  config.keep = false;
+  Cluster cluster(config);
+  cluster.RunToTick(60);
+  std::vector<std::size_t> bytes;
+  for (int i = 0; i < 4 * minutes; ++i) {
+    BondAndBreak(&cluster, 200);
+    cluster.Kill(1);
+    BondAndBreak(&cluster, 100);
+    cluster.Revive(1);
+    cluster.RunToTick(cluster.server().tick() + 300);
+    ASSERT_TRUE(cluster.client(1)->running());
+    const World& world = cluster.server().replica().world();
+    for (int c = 0; c < 2; ++c) {
+      EXPECT_EQ(cluster.client(c)->replica()->world().composition().hash, world.composition().hash);
+    }
+    EXPECT_LE(world.scene().joints.size(), static_cast<std::size_t>(kPairCount));
+    bytes.push_back(HeapBytes());
+  }
+  const int edits = cluster.server().replica().revision();
+  EXPECT_EQ(edits, 4 * minutes * 300 * 2 * kPairCount);
+  // The first quarter fills what is remembered.
+  const std::size_t early = *std::min_element(bytes.begin() + minutes, bytes.begin() + 2 * minutes);
+  const std::size_t late = *std::min_element(bytes.begin() + 2 * minutes, bytes.end());
+  std::printf("  %d edits: %zu kB, then %zu kB\n", edits, early / 1000, late / 1000);
+  EXPECT_LT(static_cast<double>(late), 1.02 * static_cast<double>(early));
 }
 
 }  // namespace
