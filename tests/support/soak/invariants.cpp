@@ -81,14 +81,15 @@ void Invariants::Look() {
 void Invariants::LookAtClients() {
   for (int c = 0; c < cluster_.client_count(); ++c) {
     const Client* client = cluster_.client(c);
+    if (client == nullptr && faults_.Stopped(c)) continue;
+    const auto who = [&] { return "client " + std::to_string(c); };
+    const bool due = Well(static_cast<std::size_t>(c) + 1, kBackUs) && cluster_.server().started();
+    const bool in = client != nullptr && client->peer() >= 0;
+    const bool plays = in && client->running();
+    if (due && !plays) Say("who is well plays", who() + (in ? " does not start" : " is not in"));
     if (client == nullptr) continue;
-    const std::string who = "client " + std::to_string(c);
-    if (!client->fatal().empty()) Say("nobody is turned away", who + ": " + client->fatal());
-    if (client->closed()) Say("nobody is turned away", who + " was told that the room is closed");
-    const bool back = client->running() || !Well(static_cast<std::size_t>(c) + 1, kBackUs);
-    if (!back && cluster_.server().started()) {
-      Say("who is well plays", who + (client->peer() < 0 ? " is not in" : " does not start"));
-    }
+    if (!client->fatal().empty()) Say("nobody is turned away", who() + ": " + client->fatal());
+    if (client->closed()) Say("nobody is turned away", who() + " was told that the room is closed");
   }
 }
 
