@@ -18,6 +18,11 @@ constexpr std::int64_t kBackUs = 10000000;
 constexpr std::int64_t kToldUs = 4000000;
 /// What rests is known to, if it was lost: RestAgreement finds that out within three seconds.
 constexpr std::int64_t kRestKnownUs = 7000000;
+/// Bit for bit the same is what its holder has not moved for so long, us.
+constexpr std::int64_t kStillUs = 10000000;
+/// A copy is no farther off than this, m, for longer than this, us.
+constexpr double kFar = 10;
+constexpr std::int64_t kFarUs = 5000000;
 /// A hand-over is done, or its holder has to leave, within this long, us: kReleasePatienceUs and
 /// kToldUs.
 constexpr std::int64_t kHandedOverUs = 9000000;
@@ -75,6 +80,7 @@ void Invariants::Look() {
   if (looked_tick_ % kSeldomTicks != 0) return;
   LookForStrays();
   LookAtRest();
+  LookAtPoses();
   LookAtQueues();
 }
 
@@ -271,6 +277,59 @@ void Invariants::LookAtRest() {
     }
     peer.rest_other_us = std::move(other_us);
   }
+}
+
+/// Whoever has it, and knows so; nullptr: nobody just now, or one with whom something is wrong.
+const Replica* Invariants::HolderOf(PartId body) const {
+  const Replica& server = *peers_[0].replica;
+  const World& world = server.world();
+  const int holder = server.authority().at(world.mechanism(world.BodyOfId(body))).authority;
+  for (std::size_t p = 0; p < peers_.size(); ++p) {
+    const Peer& peer = peers_[p];
+    if (peer.replica == nullptr || peer.self != holder || !Well(p, kToldUs)) continue;
+    if (peer.replica->revision() != server.revision()) continue;
+    const int m = peer.replica->world().mechanism(peer.replica->world().BodyOfId(body));
+    return peer.replica->authority().at(m).authority == holder ? peer.replica : nullptr;
+  }
+  return nullptr;
+}
+
+/// Of what moves a peer has roughly, and of what has lain still for long exactly, what its holder
+/// has.
+void Invariants::LookAtPoses() {
+  const Replica& server = *peers_[0].replica;
+  const std::int64_t now_us = cluster_.now_us();
+  const bool sleeps = server.world().scene().solver.sleep;
+  std::map<PartId, Still> still;
+  std::vector<std::map<PartId, std::int64_t>> far_us(peers_.size());
+  for (int body = 0; body < server.world().body_count(); ++body) {
+    const PartId id = server.world().id(body);
+    const Replica* const holder = HolderOf(id);
+    if (holder == nullptr) continue;
+    const BodyState truth = holder->world().Read(body);
+    const auto was = still_.find(id);
+    const bool same = was != still_.end() && SameBits(was->second.pose, truth);
+    still[id] = {truth, same ? was->second.since_us : now_us};
+    const bool lies = sleeps && now_us - still[id].since_us >= kStillUs;
+    for (std::size_t p = 0; p < peers_.size(); ++p) {
+      const Peer& peer = peers_[p];
+      if (peer.replica == nullptr || !Well(p, kBackUs)) continue;
+      if (peer.replica->revision() != server.revision()) continue;
+      const BodyState there = peer.replica->world().Read(body);
+      const double off = double{(there.position - truth.position).norm()};
+      const auto who = [&, self = peer.self] {
+        return "body " + std::to_string(id) + " at peer " + std::to_string(self) + " is " +
+               std::to_string(off) + " m from where its holder has it";
+      };
+      if (lies && !SameBits(there, truth)) Say("what lies still lies so everywhere", who());
+      if (off <= kFar) continue;
+      const auto since = peer.far_us.find(id);
+      far_us[p][id] = since == peer.far_us.end() ? now_us : since->second;
+      if (now_us - far_us[p][id] > kFarUs) Say("bodies are where they are", who());
+    }
+  }
+  still_ = std::move(still);
+  for (std::size_t p = 0; p < peers_.size(); ++p) peers_[p].far_us = std::move(far_us[p]);
 }
 
 void Invariants::LookAtQueues() {

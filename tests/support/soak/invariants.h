@@ -50,6 +50,7 @@ class Invariants {
     std::map<PartId, int> fast_ticks;              // bodies: ticks on end beyond the speed limit
     std::int64_t behind_us = -1;                   // since when its revision is not the server's
     std::map<PartId, std::int64_t> stray_us;       // mechanisms: since when it knows another owner
+    std::map<PartId, std::int64_t> far_us;         // bodies: since when it has them elsewhere
     std::map<PartId, std::int64_t> rest_other_us;  // bodies: since when it knows other rest
   };
   using Holders = std::map<std::pair<PartId, std::int32_t>, int>;  // by mechanism and epoch
@@ -63,6 +64,8 @@ class Invariants {
   void LookForStrays();
   void LookAtBodies();
   void LookAtRest();
+  void LookAtPoses();
+  const Replica* HolderOf(PartId body) const;
   void LookAtQueues();
   void LookAtClients();
 
@@ -72,6 +75,11 @@ class Invariants {
   float top_ = 0;  // m, of the scene as it was
   std::vector<Peer> peers_;
   Holders named_, believed_;
+  struct Still {
+    BodyState pose;
+    std::int64_t since_us = 0;
+  };
+  std::map<PartId, Still> still_;  // bodies at their holders
   std::int64_t looked_tick_ = -1;
   std::map<std::string, Broken> broken_;
   std::map<std::string, std::size_t> queues_;
