@@ -217,13 +217,20 @@ void Client::StepOnce(std::int64_t now_us) {
     if (!released_) link_->SendUnreliable(Encode(states));
   }
   TellRest(now_us);
-  if (config_.publish) PublishShown(now_us);
+  PublishShown(now_us);
+}
+
+Publish Client::Published(int bodies) const {
+  return recorder_.listening() ? Resolved(config_.publish, bodies) : Publish::kNone;
 }
 
 void Client::PublishShown(std::int64_t now_us) {
-  View view = replica_->MakeView();
+  const Publish published = Published(replica_->world().body_count());
+  if (published == Publish::kNone) return;
+  View view = replica_->MakeView(published == Publish::kAll);
   view.utime = now_us;
   publisher_->Publish(view);
+  if (published != Publish::kAll) return;
   Strands strands = replica_->MakeStrands(view);
   strands.utime = now_us;
   if (!strands.strand.empty()) publisher_->Publish(strands);

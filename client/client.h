@@ -17,6 +17,7 @@
 #include "common/sync/edits/topology_snapshot.h"
 #include "common/sync/input_feed.h"
 #include "common/sync/metadata.h"
+#include "common/sync/publish.h"
 #include "common/sync/publisher.h"
 #include "common/sync/replica.h"
 #include "common/sync/rest/rest_agreement.h"
@@ -34,7 +35,8 @@ struct ClientConfig {
   std::string script_of;  ///< kScript: the scene's player whose script it plays
   std::int64_t key = 0;   ///< of an earlier Welcome, to have its place back; 0: none
   bool smooth = true;
-  bool publish = true;  ///< false: no views, strands and impacts, and none of what they cost
+  Publish publish = Publish::kAll;
+  bool shows = false;  ///< somebody looks at replica()'s view: all of it has to be true
   bool watch = false;   ///< to look on is what is wanted; else a name without a place is fatal
 };
 
@@ -115,6 +117,8 @@ class Client {
   void StartIfDue(std::int64_t now_us);
   void StepDue(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);
+  /// In a room of so many bodies; kNone where nobody listens.
+  Publish Published(int bodies) const;
   void PublishShown(std::int64_t now_us);
   void NoteOwnInput();
   void TellRest(std::int64_t now_us);

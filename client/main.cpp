@@ -42,6 +42,7 @@ struct Flags {
   bool force = false;
   std::string room;  // "": the server's first
   std::string lcm_url;
+  std::string publish = "auto";
   bool quiet = false;
 };
 
@@ -68,6 +69,10 @@ void Define(CLI::App& app, Flags& f) {
   app.add_flag("--force", f.force, "overwrite the --record file");
   app.add_option("--room", f.room, "the room to join (default: the server's first)");
   app.add_option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
+  app.add_option("--publish", f.publish,
+                 "views on the bus: all | own (what it simulates) | none | auto (all in a room of "
+                 "at most " +
+                     std::to_string(kPublishAllMost) + " bodies, else own)");
   app.add_flag("--quiet", f.quiet, "no progress line");
 }
 
@@ -94,6 +99,8 @@ ClientConfig Configure(const Flags& f) {
   config.watch = f.watch;
   config.room = f.room;
   config.smooth = f.smooth == "on";
+  config.publish = ParsePublish(f.publish);
+  config.shows = f.show || f.drive == "keyboard";
   if (f.drive == "bot") {
     config.drive = Drive::kBot;
   } else if (f.drive == "keyboard") {

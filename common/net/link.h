@@ -20,8 +20,8 @@ namespace seam {
 /// Reliable messages in flight; more wait in a queue.
 constexpr int kReliableWindow = 64;
 
-/// Kinds of unreliable messages whose arrival can be asked for.
-constexpr int kReceiptSlots = kPeersMax;
+/// Kinds of unreliable messages whose arrival can be asked for: one for each player's inputs.
+constexpr int kReceiptSlots = kPlayersMax;
 
 class Link {
  public:

@@ -90,7 +90,7 @@ void ReadExpected(const SceneReader& root, Scene* scene) {
 Scene ParseScene(const std::string& text, const std::string& file_name) {
   CheckSceneText(text, file_name);
   const TomlNode tree = ParseToml(text, file_name);
-  SceneDraft draft{file_name, {}, kSizeMaxDefault, {}, {}};
+  SceneDraft draft{file_name, {}, kSizeMaxDefault};
   Scene& scene = draft.scene;
   scene.name = SceneName(file_name);
   scene.text = text;

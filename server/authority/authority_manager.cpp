@@ -67,7 +67,7 @@ AuthorityView AuthorityManager::Look(const Situation& situation) {
   if (config_.mode == Mode::kBuffer) view.boxes = BoxesOf(world, replica_.drivers(), true);
   // Who may not push a part does not get its authority.
   for (const Part& part : world.scene().parts) {
-    if (part.rules->push == kEveryPlayer) continue;
+    if (part.rules->push.everyone()) continue;
     const int mechanism = MechanismOf(world, part.id);
     if (mechanism < 0) continue;
     view.mechanisms[static_cast<std::size_t>(mechanism)].may_have &= part.rules->push;

@@ -104,15 +104,15 @@ TEST_F(ClientJoin, NamesBothProtocolsWhenTheServerSpeaksAnOlderOne) {
   old.Flush(now_us_, [&](ByteView datagram) { server_->Send({2, 1}, datagram); });
   Next(10000);
   EXPECT_EQ(client_.fatal(),
-            "the server speaks protocol 2, this client speaks 6: they need the same version");
+            "the server speaks protocol 2, this client speaks 7: they need the same version");
 }
 
 TEST_F(ClientJoin, NamesBothProtocolsWhenTheServerSpeaksANewerOne) {
   Next(0);
-  Answer(Refusal("protocol 7 is spoken here, you speak 6"));
+  Answer(Refusal("protocol 8 is spoken here, you speak 7"));
   Next(10000);
   EXPECT_EQ(client_.fatal(),
-            "the server speaks protocol 7, this client speaks 6: they need the same version");
+            "the server speaks protocol 8, this client speaks 7: they need the same version");
 }
 
 TEST_F(ClientJoin, InsistsForThreeSecondsOnAnyOtherRefusal) {

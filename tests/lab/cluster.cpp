@@ -49,11 +49,15 @@ Cluster::Cluster(const ClusterConfig& config)
   server.sync.seed = config.seed;
   server.sync.smooth = config.smooth;
   server.impair = config.impair;
+  server.publish = config.publish;
+  server.client_bytes_per_s = config.client_bytes_per_s;
   server.seed = config.seed;
-  server.wait_players = static_cast<int>(scene_.players.size());
+  std::size_t players = scene_.players.size();
+  if (config.players > 0) players = std::min(players, static_cast<std::size_t>(config.players));
+  server.wait_players = static_cast<int>(players);
   server_entropy_ = std::make_unique<SeededEntropy>(static_cast<std::uint64_t>(config.seed));
   server_ = std::make_unique<Server>(scene_, server, *server_net_, recorder_, *server_entropy_);
-  clients_.resize(scene_.players.size() + static_cast<std::size_t>(config.spectators));
+  clients_.resize(players + static_cast<std::size_t>(config.spectators));
   for (std::size_t i = 0; i < clients_.size(); ++i) StartClient(i);
 }
 
@@ -68,10 +72,11 @@ void Cluster::StartClient(std::size_t i) {
   peer.clock_offset_us = 12345678 + 3777777 * static_cast<std::int64_t>(next_port_ - 20000);
   ClientConfig config;
   config.server = server_address_;
-  config.watch = i >= scene_.players.size();
-  config.name = config.watch ? "guest" + std::to_string(i - scene_.players.size())
-                             : scene_.players[i].name;
+  const std::size_t players = clients_.size() - static_cast<std::size_t>(config_.spectators);
+  config.watch = i >= players;
+  config.name = config.watch ? "guest" + std::to_string(i - players) : scene_.players[i].name;
   config.drive = config.watch ? Drive::kNone : config_.drive;
+  config.publish = config_.publish;
   config.script_of = config.name;
   config.key = peer.key;
   config.smooth = config_.smooth;

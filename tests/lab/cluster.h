@@ -21,10 +21,13 @@ struct ClusterConfig {
   std::string reconcile;
   std::string predict;
   std::string impair = "demo";
+  double client_bytes_per_s = kClientBytesPerS;  ///< see ServerConfig
   std::int64_t seed = 1;
   double duration_s = 0;  ///< ticks after tick 0; 0: the scene's own
   int spectators = 0;     ///< clients besides the scene's players, after them: "guest0", ...
   Drive drive = Drive::kScript;
+  Publish publish = Publish::kAll;  ///< of server and clients
+  int players = 0;  ///< the first so many of the scene's join; 0: all
   int send_hz = 30;
   bool smooth = true;
   Recorder* recorder = nullptr;  ///< also gets every message, at now_us()
@@ -88,6 +91,9 @@ class Cluster {
    public:
     explicit Tap(const Cluster& cluster) : cluster_(cluster) {}
     void Publish(const std::string& channel, std::int64_t utime, ByteView message) override;
+    bool listening() const override {
+      return cluster_.config_.keep || cluster_.config_.recorder != nullptr;
+    }
     MemoryRecorder memory;
 
    private:

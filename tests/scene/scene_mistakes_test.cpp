@@ -169,7 +169,7 @@ const Mistake kMistakes[] = {
     {"", PART("box = [1, 1]\nrepeat = {count = 0, step = [1, 1]}"), 15, "from 1"},
     {"", PART("box = [1, 1]\nrepeat = {count = [2, 1.5], step = [1, 1]}"), 15, "integers"},
     {"", PART("box = [1, 1]\nrepeat = {count = 2}"), 15, "step is missing"},
-    {"", PART("box = [1, 1]\nrepeat = {count = 4096, step = [0, 0]}"), 12, "at most 4096 parts"},
+    {"", PART("box = [1, 1]\nrepeat = {count = 65535, step = [0, 0]}"), 12, "at most 65535 parts"},
     // Polygons and chains
     {"", PART("polygon = [[0, 0], [1, 0]]"), 14, "3 to 64 points"},
     {"", PART("polygon = [[0,0],[1,0],[2,0],[3,0],[4,0],[4,1],[3,1],[2,1],[1,1]]"), 14,
@@ -319,7 +319,7 @@ const Mistake kMistakes[] = {
     {"", BRICKS("position = [29999, 0]\nbrick = [1, 1]\ncount = [2, 1]"), 12, "beyond 30 km"},
     {"", BRICKS("position = [0.01, 0]\nbrick = [1, 1]\ncount = [2, 1]"), 14, "steps of 0.05"},
     {"", BRICKS("strength = -1\nbrick = [1, 1]\ncount = [2, 1]"), 14, "from 0 to 1000"},
-    {"", BRICKS("featherweight = false\nbrick = [1, 1]\ncount = [70, 70]"), 14, "4096 parts"},
+    {"", BRICKS("featherweight = false\nbrick = [1, 1]\ncount = [260, 260]"), 14, "65535 parts"},
     {"", BRICKS("brick = [1, 1]\ncount = [2, 1]") BRICKS("brick = [1, 1]\ncount = [2, 1]"), 17,
      "other bricks of this name"},
     {"", BRICKS("brick = [1, 1]\n" TOWERS("width = [9, 8], height = [1, 2]")), 15,

@@ -49,7 +49,7 @@ class OnTheGround {
     Rest told;
     told.peer = 1;
     told.tick = world->tick();
-    told.id = {static_cast<std::int16_t>(world->id(body))};
+    told.id = {world->id(body)};
     told.epoch = {1};
     told.x = {x};
     told.y = {0.5f};
