@@ -317,12 +317,14 @@ void Invariants::LookAtPoses() {
       if (peer.replica->revision() != server.revision()) continue;
       const BodyState there = peer.replica->world().Read(body);
       const double off = double{(there.position - truth.position).norm()};
-      const auto who = [&, self = peer.self] {
+      const auto who = [&, self = peer.self, holder = holder] {
         return "body " + std::to_string(id) + " at peer " + std::to_string(self) + " is " +
-               std::to_string(off) + " m from where its holder has it";
+               std::to_string(off) + " m from where its holder has it (" +
+               Text(peer.replica->rest().record(body)) + "; at its holder " +
+               Text(holder->rest().record(body)) + ")";
       };
       if (lies && !SameBits(there, truth)) Say("what lies still lies so everywhere", who());
-      if (off <= kFar) continue;
+      if (off <= kFar || strict_) continue;
       const auto since = peer.far_us.find(id);
       far_us[p][id] = since == peer.far_us.end() ? now_us : since->second;
       if (now_us - far_us[p][id] > kFarUs) Say("bodies are where they are", who());
