@@ -48,7 +48,7 @@ Fault DrawFault(Random* random, int client, double from_s) {
     case FaultKind::kPause:
       fault.to_s = from_s + (random->Chance(0.5) ? 5 : random->Uniform(0.2, 6));
       break;
-    case FaultKind::kSlow:
+    case FaultKind::kSlowed:
       fault.to_s = from_s + random->Uniform(1, 6);
       fault.every_us = 1000 * Between(random, 25, 250);
       break;
@@ -64,7 +64,7 @@ const char* ToString(FaultKind kind) {
   switch (kind) {
     case FaultKind::kCut: return "cut";
     case FaultKind::kPause: return "paused";
-    case FaultKind::kSlow: return "slow";
+    case FaultKind::kSlowed: return "slow";
     case FaultKind::kKill: return "killed";
     case FaultKind::kLeave: return "away";
   }

@@ -11,11 +11,11 @@
 namespace seam {
 
 enum class FaultKind {
-  kCut,    ///< nothing passes between it and the server
-  kPause,  ///< its process is stopped
-  kSlow,   ///< it is run only now and then
-  kKill,   ///< its process dies, and another begins later
-  kLeave,  ///< it says goodbye, and comes back later
+  kCut,     ///< nothing passes between it and the server
+  kPause,   ///< its process is stopped
+  kSlowed,  ///< it is run only now and then
+  kKill,    ///< its process dies, and another begins later
+  kLeave,   ///< it says goodbye, and comes back later
 };
 const char* ToString(FaultKind kind);
 
@@ -23,7 +23,7 @@ struct Fault {
   FaultKind kind = FaultKind::kCut;
   int client = 0;
   double from_s = 0, to_s = 0;  ///< of the room's time
-  std::int64_t every_us = 0;    ///< kSlow: from one run to the next
+  std::int64_t every_us = 0;    ///< kSlowed: from one run to the next
 };
 
 struct FaultPlan {

@@ -48,7 +48,7 @@ void FaultRunner::Begin(const Fault& fault, Cluster& cluster) {
       state.stopped = true;
       cluster.Pause(fault.client, true);
       break;
-    case FaultKind::kSlow: state.every_us = fault.every_us; break;
+    case FaultKind::kSlowed: state.every_us = fault.every_us; break;
     case FaultKind::kKill:
       state.stopped = true;
       cluster.Kill(fault.client);
