@@ -18,8 +18,9 @@ constexpr std::int64_t kBackUs = 10000000;
 constexpr std::int64_t kToldUs = 4000000;
 /// What rests is known to, if it was lost: RestAgreement finds that out within three seconds.
 constexpr std::int64_t kRestKnownUs = 7000000;
-/// Bit for bit the same is what its holder has not moved for so long, us.
-constexpr std::int64_t kStillUs = 10000000;
+/// Bit for bit the same is what its holder has not moved for so long, us, but where something moves
+/// it here: there it must not come to lie otherwise, us.
+constexpr std::int64_t kStillUs = 10000000, kStillElsewhereUs = 3000000;
 /// A copy is no farther off than this, m, for longer than this, us.
 constexpr double kFar = 10;
 constexpr std::int64_t kFarUs = 5000000;
@@ -302,6 +303,7 @@ void Invariants::LookAtPoses() {
   const bool sleeps = server.world().scene().solver.sleep;
   std::map<PartId, Still> still;
   std::vector<std::map<PartId, std::int64_t>> far_us(peers_.size());
+  std::vector<std::map<PartId, Still>> elsewhere(peers_.size());
   for (int body = 0; body < server.world().body_count(); ++body) {
     const PartId id = server.world().id(body);
     const Replica* const holder = HolderOf(id);
@@ -323,7 +325,14 @@ void Invariants::LookAtPoses() {
                Text(peer.replica->rest().record(body)) + "; at its holder " +
                Text(holder->rest().record(body)) + ")";
       };
-      if (lies && !SameBits(there, truth)) Say("what lies still lies so everywhere", who());
+      if (lies && !SameBits(there, truth)) {
+        const auto seen = peer.still_elsewhere.find(id);
+        const bool stays = seen != peer.still_elsewhere.end() && SameBits(seen->second.pose, there);
+        elsewhere[p][id] = {there, stays ? seen->second.since_us : now_us};
+        if (now_us - elsewhere[p][id].since_us > kStillElsewhereUs) {
+          Say("what lies still lies so everywhere", who());
+        }
+      }
       if (off <= kFar || strict_) continue;
       const auto since = peer.far_us.find(id);
       far_us[p][id] = since == peer.far_us.end() ? now_us : since->second;
@@ -331,7 +340,10 @@ void Invariants::LookAtPoses() {
     }
   }
   still_ = std::move(still);
-  for (std::size_t p = 0; p < peers_.size(); ++p) peers_[p].far_us = std::move(far_us[p]);
+  for (std::size_t p = 0; p < peers_.size(); ++p) {
+    peers_[p].far_us = std::move(far_us[p]);
+    peers_[p].still_elsewhere = std::move(elsewhere[p]);
+  }
 }
 
 void Invariants::LookAtQueues() {

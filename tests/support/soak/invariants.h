@@ -41,6 +41,11 @@ class Invariants {
     int authority = 0;
     std::int32_t epoch = -1;
   };
+  /// A body's pose, and since when it has not changed.
+  struct Still {
+    BodyState pose;
+    std::int64_t since_us = 0;
+  };
   /// One peer as it was when looked at last; the first is the server.
   struct Peer {
     const Replica* replica = nullptr;  // nullptr: it has none, or is stopped
@@ -50,6 +55,7 @@ class Invariants {
     std::map<PartId, int> fast_ticks;              // bodies: ticks on end beyond the speed limit
     std::int64_t behind_us = -1;                   // since when its revision is not the server's
     std::map<PartId, std::int64_t> stray_us;       // mechanisms: since when it knows another owner
+    std::map<PartId, Still> still_elsewhere;       // bodies that lie still otherwise
     std::map<PartId, std::int64_t> far_us;         // bodies: since when it has them elsewhere
     std::map<PartId, std::int64_t> rest_other_us;  // bodies: since when it knows other rest
   };
@@ -75,10 +81,6 @@ class Invariants {
   float top_ = 0;  // m, of the scene as it was
   std::vector<Peer> peers_;
   Holders named_, believed_;
-  struct Still {
-    BodyState pose;
-    std::int64_t since_us = 0;
-  };
   std::map<PartId, Still> still_;  // bodies at their holders
   std::int64_t looked_tick_ = -1;
   std::map<std::string, Broken> broken_;
