@@ -348,5 +348,6 @@ std::int64_t Link::rtt_us() const { return impl_->srtt_us; }
 std::int64_t Link::loss_ppm() const { return impl_->window.loss_ppm(); }
 std::int64_t Link::rejected() const { return impl_->rejected; }
 bool Link::reliable_pending() const { return !impl_->reliable.empty(); }
+std::size_t Link::waiting() const { return impl_->reliable.size(); }
 
 }  // namespace seam
