@@ -1,6 +1,6 @@
 /// What the soak excuses of an open joint, and what it does not.
 
-#include "tests/support/soak_check.h"
+#include "tests/support/soak/soak_check.h"
 
 #include <gtest/gtest.h>
 

@@ -15,7 +15,7 @@
 #include "tests/support/authority_watch.h"
 #include "tests/support/physics_drift.h"
 #include "tests/support/soak.h"
-#include "tests/support/soak_check.h"
+#include "tests/support/soak/soak_check.h"
 
 namespace seam {
 namespace {

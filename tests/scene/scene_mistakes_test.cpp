@@ -336,8 +336,7 @@ const Mistake kMistakes[] = {
 
 TEST(SceneMistakes, NameFileLineAndReason) {
   for (const Mistake& m : kMistakes) {
-    const std::string text = Around(m.top, m.more);
-    const std::string got = Complaint(text);
+    const std::string got = Complaint(Around(m.top, m.more));
     SCOPED_TRACE("in " + std::string(m.top) + "\n" + m.more);
     EXPECT_NE(got, "");
     EXPECT_EQ(got.find('\n'), std::string::npos) << got;

@@ -65,7 +65,8 @@ void Drivers::Find() {
   });
   for (const Part& part : scene.parts) {
     const int player = PlayerOf(scene, part.conveyor->player);
-    if (player >= 0 && MechanismOf(world_, part.id) < 0) belts_[static_cast<std::size_t>(player)] = 1;
+    if (player >= 0 && MechanismOf(world_, part.id) < 0)
+      belts_[static_cast<std::size_t>(player)] = 1;
   }
   for (std::vector<int>& all : driven_) {
     std::sort(all.begin(), all.end());

@@ -27,8 +27,6 @@ constexpr std::int64_t kFarUs = 5000000;
 /// A hand-over is done, or its holder has to leave, within this long, us: kReleasePatienceUs and
 /// kToldUs.
 constexpr std::int64_t kHandedOverUs = 9000000;
-/// Edits, states and links that wait: what is more grows without end. A Link gives up at 4096.
-constexpr std::size_t kLinkMax = 1500, kEditsMax = 300, kQueueMax = 600;
 /// A body may be faster than the scene's limit for so many ticks on end: a correction of a rule
 /// that does not know joints is over by then, an explosion is not.
 constexpr int kFastTicksMax = 6;
@@ -343,25 +341,6 @@ void Invariants::LookAtPoses() {
   for (std::size_t p = 0; p < peers_.size(); ++p) {
     peers_[p].far_us = std::move(far_us[p]);
     peers_[p].still_elsewhere = std::move(elsewhere[p]);
-  }
-}
-
-void Invariants::LookAtQueues() {
-  const auto note = [&](const std::string& queue, std::size_t count, std::size_t most) {
-    queues_[queue] = std::max(queues_[queue], count);
-    if (count > most) Say("queues are bounded", queue + ": " + std::to_string(count));
-  };
-  note("server's links", ServerTestAccess::WaitingOfLinks(cluster_.server()), kLinkMax);
-  note("server's edits", ServerTestAccess::WaitingEdits(cluster_.server()), kEditsMax);
-  for (int c = 0; c < cluster_.client_count(); ++c) {
-    const Client* client = cluster_.client(c);
-    if (client != nullptr) note("client's link", ClientTestAccess::Waiting(*client), kLinkMax);
-  }
-  for (const Peer& peer : peers_) {
-    if (peer.replica == nullptr) continue;
-    for (const auto& [queue, count] : ReplicaTestAccess::Queues(*peer.replica)) {
-      note(queue, count, kQueueMax);
-    }
   }
 }
 

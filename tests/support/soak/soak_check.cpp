@@ -1,4 +1,4 @@
-#include "tests/support/soak_check.h"
+#include "tests/support/soak/soak_check.h"
 
 #include <algorithm>
 #include <cmath>
