@@ -293,7 +293,7 @@ TEST(CodecWire, TypeHashesArePinnedToTheProtocolVersion) {
       {"hello_t", 0x77af54d8cac6751eu},        {"impacts_t", 0x84c369572c4b9199u},
       {"inputs_t", 0x61098e4e073aa192u},       {"join_t", 0xd7d9ecd40a361b32u},
       {"load_t", 0xbe88264f7026f53bu},         {"meta_t", 0x37a03ee57e14fe0eu},
-      {"ping_t", 0x59bb4e548ce4f113u},         {"pong_t", 0x6cc86ee36668275fu},
+      {"ping_t", 0x4b045ed9eb76aa4fu},         {"pong_t", 0x6cc86ee36668275fu},
       {"ready_t", 0x4d0d41c1f105b12fu},        {"release_t", 0x9abeee4bbddaf2f3u},
       {"rest_t", 0x74a2fc2deefa7466u},         {"room_t", 0x3b1556dd65c2c546u},
       {"snapshot_t", 0x5041ad92d1002765u},     {"states_t", 0x1f0a57888e9a756cu},
