@@ -137,7 +137,7 @@ void Server::SendWorld(std::int64_t now_us, Session& session) {
   for (const Grants& grants : authority_.Export(now_us)) send(grants);
   if (started()) {
     for (const States& states : replica_.Everything()) send(At(now_us, states));
-    for (const Rest& rest : replica_.rest().Everything(false)) send(At(now_us, rest));
+    for (const Rest& rest : replica_.rest().Everything()) send(At(now_us, rest));
   }
   if (rules_ != nullptr) {
     for (const Meta& meta : rules_->metadata().Export(now_us, replica_.tick())) send(meta);
@@ -148,7 +148,7 @@ void Server::SendWorld(std::int64_t now_us, Session& session) {
 }
 
 void Server::SendRest(std::int64_t now_us, Session& session) {
-  for (const Rest& rest : replica_.rest().Everything(false)) {
+  for (const Rest& rest : replica_.rest().Again(false)) {
     session.link.SendReliable(Encode(At(now_us, rest)));
   }
 }

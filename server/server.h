@@ -92,6 +92,8 @@ class Server {
   static constexpr std::int64_t kRepairAgainUs = 3000000;
 
  private:
+  friend struct ServerTestAccess;
+
   // server_receive.cpp
   void ReceiveAll(std::int64_t now_us);
   /// OnMessage; what it drops goes to the session's account.
