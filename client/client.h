@@ -38,7 +38,7 @@ struct ClientConfig {
   bool smooth = true;
   Publish publish = Publish::kAll;
   bool shows = false;  ///< somebody looks at replica()'s view: all of it has to be true
-  bool watch = false;   ///< to look on is what is wanted; else a name without a place is fatal
+  bool watch = false;  ///< to look on is what is wanted; else a name without a place is fatal
 };
 
 class Client {

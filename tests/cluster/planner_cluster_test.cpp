@@ -7,7 +7,7 @@
 
 #include "tests/lab/cluster.h"
 #include "tests/lab/load/load.h"
-#include "tests/support/plain_scene.h"
+#include "tests/support/plan/plain_scene.h"
 #include "tests/support/two_sides.h"
 
 namespace seam {

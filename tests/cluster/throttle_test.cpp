@@ -7,7 +7,7 @@
 
 #include "common/measure/measure.h"
 #include "tests/lab/cluster.h"
-#include "tests/support/plain_scene.h"
+#include "tests/support/plan/plain_scene.h"
 
 namespace seam {
 namespace {

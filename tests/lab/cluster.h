@@ -27,7 +27,7 @@ struct ClusterConfig {
   int spectators = 0;     ///< clients besides the scene's players, after them: "guest0", ...
   Drive drive = Drive::kScript;
   Publish publish = Publish::kAll;  ///< of server and clients
-  int players = 0;  ///< the first so many of the scene's join; 0: all
+  int players = 0;                  ///< the first so many of the scene's join; 0: all
   int send_hz = 30;
   bool smooth = true;
   Recorder* recorder = nullptr;  ///< also gets every message, at now_us()

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/lab/cluster.h"
-#include "tests/support/plain_scene.h"
+#include "tests/support/plan/plain_scene.h"
 
 namespace seam {
 namespace {

@@ -88,7 +88,6 @@ const Mistake kMistakes[] = {
     {"solver = 3", "", 1, "solver must be a table"},
     {"planner = 3", "", 1, "planner must be a table"},
     {"", "[planner]\naquire = 4\n", 13, "did you mean 'acquire'?"},
-    {"", "[planner]\nacquire = 0\n", 13, "from 1 to 1000"},
     {"", "[planner]\nkeep = 20\n", 13, "keep must be at least acquire (24)"},
     {"", "[planner]\ndwell = -1\n", 13, "from 0 to 10"},
     {"", "[planner]\ncapacity = 1.5\n", 13, "capacity must be an integer from 0 to 65535"},

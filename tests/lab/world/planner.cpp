@@ -1,6 +1,5 @@
-#include <ctime>
-
 #include <algorithm>
+#include <ctime>
 
 #include "server/authority/plan.h"
 #include "tests/lab/report/text_table.h"
@@ -65,8 +64,7 @@ TextTable PlannerBench(bool quick) {
        {Case{"players 30 m apart in a row", 256, 7680, 20, false},
         Case{"seen from above, 1500 m wide", 256, 1500, 1500, false},
         Case{"seen from above, 500 m wide", 256, 500, 500, false},
-        Case{"crowded: 100 m wide", 256, 100, 20, false},
-        Case{"200 m wide", 31, 200, 40, false},
+        Case{"crowded: 100 m wide", 256, 100, 20, false}, Case{"200 m wide", 31, 200, 40, false},
         Case{"200 m wide, by regions", 31, 200, 40, true}}) {
     const AuthorityView view = Settled(of, 1000);
     table.rows.push_back({of.name, std::to_string(view.players.size()),

@@ -1,4 +1,4 @@
-#include "tests/support/plain_scene.h"
+#include "tests/support/plan/plain_scene.h"
 
 #include <fmt/format.h>
 
