@@ -83,7 +83,8 @@ class Client {
   /// Bodies whose copy here was put elsewhere by what was heard, by more than the wire's rounding.
   std::int64_t corrections() const { return corrections_; }
 
-  /// Age of the newest answered ping after which we try to join anew.
+  /// Age of the newest answered ping, or of a join that was challenged, after which we try to join
+  /// anew.
   static constexpr std::int64_t kLostUs = 5000000;
 
  private:

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "server/authority_source.h"
 #include "server/server.h"
@@ -140,14 +141,17 @@ void Server::OnInputs(std::int64_t now_us, Session& session, const Inputs& input
   }
   const Inputs fresh = TakeFresh(now_us, inputs);
   if (fresh.drive.empty()) return;
+  inputs_due_ = true;
   broadcast_.Publish(fresh);
 }
 
 /// In the same call as they came, since everything is flushed at its end.
 void Server::RelayInputs(std::int64_t now_us) {
+  const bool due = std::exchange(inputs_due_, false);
   sessions_.ForEachReady(0, [&](Session& session) {
     session.feeds.resize(scene_.players.size());
     bool rides = session.link.Sends(now_us);
+    if (!due && !rides) return;  // nothing is new, and nothing goes with which it could ride
     for (const int p : session.heard_players) {
       const InputTrack& track = replica_.inputs(p);
       if (track.newest() < 0) continue;

@@ -7,6 +7,8 @@ namespace {
 
 /// Cells for each box, and at least: more cost more to clear than they save.
 constexpr float kCellsPerBox = 16, kCellsMin = 1024;
+/// Boxes of which the borders are found.
+constexpr std::size_t kSamples = 256;
 /// Share of the boxes that may lie beyond each border, so that one far away does not make all cells
 /// large.
 constexpr double kBeyond = 0.02;
@@ -56,9 +58,10 @@ BoxGrid::BoxGrid(const std::vector<MovingBox>& boxes) {
 
 void BoxGrid::ChooseCells(const std::vector<Vec2>& centres) {
   std::vector<float> xs, ys;
-  for (const Vec2& centre : centres) {
-    xs.push_back(centre.x());
-    ys.push_back(centre.y());
+  const std::size_t every = 1 + centres.size() / kSamples;
+  for (std::size_t i = 0; i < centres.size(); i += every) {
+    xs.push_back(centres[i].x());
+    ys.push_back(centres[i].y());
   }
   const auto [left, right] = Middle(std::move(xs));
   const auto [bottom, top] = Middle(std::move(ys));

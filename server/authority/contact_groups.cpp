@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "server/authority/box_sweep.h"
 #include "server/authority/player_of_peer.h"
 #include "server/authority/unions.h"
 
@@ -26,15 +25,7 @@ class Look {
     }
   }
 
-  ContactGroups Sweep() {
-    float longest = 0;
-    for (const PlayerView& player : view_.players) longest = std::max(longest, player.one_way_s);
-    const float seconds = kZoneKeep + ZoneSeconds(longest, longest);
-    // By the way that each can make itself: two that may meet overlap then.
-    const BoxSweep sweep(view_.boxes, [seconds](const MovingBox& box) {
-      return box.velocity.norm() * seconds + kZoneSlack / 2 +
-             box.acceleration * seconds * seconds / 2;
-    });
+  ContactGroups Sweep(const BoxSweep& sweep) {
     sweep.EachPair([this](std::size_t i, std::size_t j) { Meet(view_.boxes[i], view_.boxes[j]); });
     return {soon_.Lowest(), later_.Lowest(), std::move(server_soon_), std::move(server_later_)};
   }
@@ -64,8 +55,9 @@ class Look {
 
 }  // namespace
 
-ContactGroups FindContactGroups(const AuthorityView& view, const AuthorityPlan& plan) {
-  return Look(view, plan).Sweep();
+ContactGroups FindContactGroups(const AuthorityView& view, const AuthorityPlan& plan,
+                                const Nearby& nearby) {
+  return Look(view, plan).Sweep(nearby.meeting);
 }
 
 }  // namespace seam

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "server/authority/plan.h"
+#include "server/authority/nearby.h"
 
 namespace seam {
 
@@ -14,8 +14,8 @@ struct ContactGroups {
   std::vector<char> server_soon, server_later;
 };
 
-/// Of mechanisms with the planned authorities: a sweep over the view's boxes, n log n for what does
-/// not crowd.
-ContactGroups FindContactGroups(const AuthorityView& view, const AuthorityPlan& plan);
+/// Of mechanisms with the planned authorities. `nearby`: of the view.
+ContactGroups FindContactGroups(const AuthorityView& view, const AuthorityPlan& plan,
+                                const Nearby& nearby);
 
 }  // namespace seam

@@ -2,29 +2,27 @@
 
 #include <algorithm>
 
-#include "server/authority/box_sweep.h"
 #include "server/authority/unions.h"
 
 namespace seam {
 
-Islands::Islands(const AuthorityView& view, const PlayerOfPeer& players)
+Islands::Islands(const AuthorityView& view, const PlayerOfPeer& players, const Nearby& nearby)
     : driver_(view.mechanisms.size(), -1), bodies_(view.mechanisms.size(), 0) {
   for (std::size_t m = 0; m < driver_.size(); ++m) {
     const int driver = view.mechanisms[m].driver;
     if (driver >= 0 && view.players[static_cast<std::size_t>(driver)].peer > 0) driver_[m] = driver;
   }
   for (const MovingBox& box : view.boxes) ++bodies_[static_cast<std::size_t>(box.group)];
-  Group(view);
+  Group(view, nearby);
   Describe(view);
   FindHolders(view, players);
 }
 
-void Islands::Group(const AuthorityView& view) {
+void Islands::Group(const AuthorityView& view, const Nearby& nearby) {
   const std::size_t count = view.mechanisms.size();
   Unions touching(count);
   std::vector<int> touched;  // one of the two of each contact
-  const BoxSweep sweep(view.boxes, [](const MovingBox&) { return kTouchGap / 2; });
-  sweep.EachPair([&](std::size_t i, std::size_t j) {
+  nearby.meeting.EachPair([&](std::size_t i, std::size_t j) {
     const MovingBox &a = view.boxes[i], &b = view.boxes[j];
     if (a.group == b.group || Gap(a, b) > kTouchGap) return;
     touching.Unite(a.group, b.group);

@@ -4,6 +4,7 @@
 #include <cfloat>
 #include <vector>
 
+#include "server/authority/nearby.h"
 #include "server/authority/plan_islands.h"
 #include "server/authority/player_of_peer.h"
 
@@ -38,7 +39,7 @@ struct Island {
 class Islands {
  public:
   /// Who has what is as of now; claims and distances are for others to fill in.
-  Islands(const AuthorityView& view, const PlayerOfPeer& players);
+  Islands(const AuthorityView& view, const PlayerOfPeer& players, const Nearby& nearby);
 
   const std::vector<Island>& all() const { return islands_; }
   Island& Of(int mechanism) {
@@ -64,7 +65,7 @@ class Islands {
   std::vector<MovingBox> VehicleBoxes(const AuthorityView& view) const;
 
  private:
-  void Group(const AuthorityView& view);
+  void Group(const AuthorityView& view, const Nearby& nearby);
   void Describe(const AuthorityView& view);
   void FindHolders(const AuthorityView& view, const PlayerOfPeer& players);
 

@@ -5,7 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include "server/authority/box_grid.h"
 #include "server/authority/contact_groups.h"
 #include "server/authority/nearest_box.h"
 #include "server/authority/player_of_peer.h"
@@ -19,11 +18,11 @@ constexpr float kReachMax = kFollowFar + kHysteresis + 0.1f;
 
 class Followers {
  public:
-  Followers(const AuthorityView& view, AuthorityPlan* plan)
+  Followers(const AuthorityView& view, const Nearby& nearby, AuthorityPlan* plan)
       : view_(view),
         plan_(*plan),
         players_(view),
-        grid_(view.boxes),
+        nearby_(nearby),
         crowded_(view.boxes.size() > static_cast<std::size_t>(std::max(0, view.follow_bodies))),
         bodies_(plan->size(), 0),
         steps_(view.players.size(), 0),
@@ -34,7 +33,7 @@ class Followers {
   }
 
   void Plan() {
-    const ContactGroups contacts = FindContactGroups(view_, plan_);
+    const ContactGroups contacts = FindContactGroups(view_, plan_, nearby_);
     FollowAtServer(contacts);
     FollowGroups(contacts.soon, false);
     FollowGroups(contacts.later, true);
@@ -192,9 +191,9 @@ class Followers {
     }
     const float far = std::max(kReachMax, near);
     const Vec2 reach(far, far);
-    if (any) grid_.Near(all.min - reach, all.max + reach, from_own);
+    if (any) nearby_.grid.Near(all.min - reach, all.max + reach, from_own);
     if (player.has_region) {
-      grid_.Near(region.min - reach, region.max + reach, from_region);
+      nearby_.grid.Near(region.min - reach, region.max + reach, from_region);
     }
   }
 
@@ -276,7 +275,7 @@ class Followers {
   const AuthorityView& view_;
   AuthorityPlan& plan_;
   const PlayerOfPeer players_;
-  const BoxGrid grid_;
+  const Nearby& nearby_;
   const bool crowded_;
   std::vector<int> bodies_;      // by mechanism
   std::vector<int> steps_;       // by player: bodies of what it has and follows
@@ -292,6 +291,8 @@ class Followers {
 
 }  // namespace
 
-void PlanFollowers(const AuthorityView& view, AuthorityPlan* plan) { Followers(view, plan).Plan(); }
+void PlanFollowers(const AuthorityView& view, const Nearby& nearby, AuthorityPlan* plan) {
+  Followers(view, nearby, plan).Plan();
+}
 
 }  // namespace seam

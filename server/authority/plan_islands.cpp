@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cfloat>
 
-#include "server/authority/box_grid.h"
 #include "server/authority/dwell.h"
 #include "server/authority/islands.h"
 #include "server/authority/plan_capacity.h"
@@ -14,8 +13,12 @@ namespace {
 
 class IslandPlan {
  public:
-  IslandPlan(const AuthorityView& view, AuthorityPlan* plan)
-      : view_(view), plan_(*plan), players_(view), grid_(view.boxes), islands_(view, players_) {
+  IslandPlan(const AuthorityView& view, const Nearby& nearby, AuthorityPlan* plan)
+      : view_(view),
+        plan_(*plan),
+        players_(view),
+        grid_(nearby.grid),
+        islands_(view, players_, nearby) {
     near_player_.assign(view.mechanisms.size(), -1);
     near_gap_.assign(view.mechanisms.size(), FLT_MAX);
     for (const MovingBox& box : view.boxes) speed_ = std::max(speed_, box.velocity.norm());
@@ -121,7 +124,7 @@ class IslandPlan {
   const AuthorityView& view_;
   AuthorityPlan& plan_;
   const PlayerOfPeer players_;
-  const BoxGrid grid_;
+  const BoxGrid& grid_;
   Islands islands_;
   float speed_ = 0;               // of the fastest, m/s
   std::vector<int> near_player_;  // by mechanism: whose vehicle is nearest, within rules.keep
@@ -130,6 +133,8 @@ class IslandPlan {
 
 }  // namespace
 
-void PlanIslands(const AuthorityView& view, AuthorityPlan* plan) { IslandPlan(view, plan).Plan(); }
+void PlanIslands(const AuthorityView& view, const Nearby& nearby, AuthorityPlan* plan) {
+  IslandPlan(view, nearby, plan).Plan();
+}
 
 }  // namespace seam

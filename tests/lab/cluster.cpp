@@ -57,7 +57,7 @@ Cluster::Cluster(const ClusterConfig& config)
   server.wait_players = static_cast<int>(players);
   server_entropy_ = std::make_unique<SeededEntropy>(static_cast<std::uint64_t>(config.seed));
   server_ = std::make_unique<Server>(scene_, server, *server_net_, recorder_, *server_entropy_);
-  clients_.resize(players);
+  clients_.resize(players + static_cast<std::size_t>(config.spectators));
   for (std::size_t i = 0; i < clients_.size(); ++i) StartClient(i);
 }
 
@@ -72,8 +72,10 @@ void Cluster::StartClient(std::size_t i) {
   peer.clock_offset_us = 12345678 + 3777777 * static_cast<std::int64_t>(next_port_ - 20000);
   ClientConfig config;
   config.server = server_address_;
-  config.name = scene_.players[i].name;
-  config.drive = config_.drive;
+  const std::size_t players = clients_.size() - static_cast<std::size_t>(config_.spectators);
+  config.watch = i >= players;
+  config.name = config.watch ? "guest" + std::to_string(i - players) : scene_.players[i].name;
+  config.drive = config.watch ? Drive::kNone : config_.drive;
   config.publish = config_.publish;
   config.script_of = config.name;
   config.key = peer.key;
@@ -180,6 +182,12 @@ void Cluster::Kill(int client) {
   Peer& peer = clients_[static_cast<std::size_t>(client)];
   if (peer.client != nullptr) peer.key = peer.client->key();
   peer.client.reset();
+}
+
+void Cluster::Leave(int client) {
+  Peer& peer = clients_[static_cast<std::size_t>(client)];
+  if (peer.client != nullptr) peer.client->Shutdown(now_us_ + peer.clock_offset_us);
+  Kill(client);
 }
 
 void Cluster::Revive(int client) { StartClient(static_cast<std::size_t>(client)); }

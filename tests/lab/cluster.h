@@ -24,6 +24,7 @@ struct ClusterConfig {
   double client_bytes_per_s = kClientBytesPerS;  ///< see ServerConfig
   std::int64_t seed = 1;
   double duration_s = 0;  ///< ticks after tick 0; 0: the scene's own
+  int spectators = 0;     ///< clients besides the scene's players, after them: "guest0", ...
   Drive drive = Drive::kScript;
   Publish publish = Publish::kAll;  ///< of server and clients
   int players = 0;  ///< the first so many of the scene's join; 0: all
@@ -67,6 +68,8 @@ class Cluster {
   /// its key.
   void Kill(int client);
   void Revive(int client);
+  /// The client says goodbye and ends; Revive lets it come back.
+  void Leave(int client);
   /// The client's process is stopped, or goes on.
   void Pause(int client, bool paused) {
     clients_[static_cast<std::size_t>(client)].paused = paused;

@@ -5,7 +5,7 @@
 
 #include "server/authority/plan.h"
 #include "tests/lab/world/plan_worlds.h"
-#include "tests/server/plan_reference.h"
+#include "tests/support/plan/plan_reference.h"
 
 namespace seam {
 namespace {

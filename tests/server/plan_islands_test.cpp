@@ -192,8 +192,9 @@ TEST_F(PlanIslandsTest, WhoIsSilentGetsNothingNew) {
 
 TEST_F(PlanIslandsTest, WhatAPlayerMayNotHaveIsTheServers) {
   const std::size_t crate = Add(-20);
-  view_.mechanisms[crate].may_have = PlayerMask();
-  view_.mechanisms[crate].may_have.Add(1);
+  PlayerMask only_bob;
+  only_bob.Add(1);
+  view_.mechanisms[crate].may_have = only_bob;
   EXPECT_EQ(Of(crate), kServer);
 }
 

@@ -84,8 +84,8 @@ class Maker {
     mechanism.moves = Chance(0.7);
     mechanism.asleep = !mechanism.moves && Chance(0.5);
     if (Chance(0.1)) {
-      mechanism.may_have = PlayerMask();
-      for (const int player : {0, 2}) mechanism.may_have.Add(player);
+      mechanism.may_have = {};
+      for (int p = 0; p < world_.players; p += 2) mechanism.may_have.Add(p);
     }
     mechanism.now.authority = Chance(0.3) ? 0 : Player();
     for (int n = Chance(0.5) ? 0 : 3; n > 0; --n) mechanism.now.secondaries.Add(Player());

@@ -20,7 +20,7 @@ struct Case {
 /// Everything that moves, as it is held after some plans.
 AuthorityView Settled(const Case& of, int mechanisms) {
   PlanWorld world;
-  world.players = std::min(of.players, kPeersMax - 1);
+  world.players = of.players;
   world.mechanisms = mechanisms;
   world.width = of.width;
   world.height = of.height;

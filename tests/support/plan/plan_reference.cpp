@@ -1,6 +1,6 @@
 /// As it was written at first: every player beside every box. Slow, and plainly what plan.h says.
 
-#include "tests/server/plan_reference.h"
+#include "tests/support/plan/plan_reference.h"
 
 #include <algorithm>
 #include <cfloat>
