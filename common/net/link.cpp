@@ -166,8 +166,7 @@ struct Link::Impl {
   /// When the first of the window is due.
   std::int64_t FirstDueUs() const {
     std::int64_t due_us = std::numeric_limits<std::int64_t>::max();
-    const std::size_t count = std::min<std::size_t>(reliable.size(), kReliableWindow);
-    for (std::size_t i = 0; i < count; ++i) {
+    for (std::size_t i = 0; i < std::min<std::size_t>(reliable.size(), kReliableWindow); ++i) {
       const std::int64_t sent_us = reliable[i].sent_us;
       if (!reliable[i].acked) due_us = std::min(due_us, sent_us < 0 ? 0 : sent_us + ResendUs());
     }
@@ -226,9 +225,8 @@ struct Link::Impl {
       largest = std::max(largest, receipt.number);
     }
     for (const std::int64_t id : record.ids) {
-      const std::int64_t index = reliable.empty() ? -1 : id - reliable.front().id;
-      const bool waiting = index >= 0 && index < static_cast<std::int64_t>(reliable.size());
-      if (waiting) reliable[static_cast<std::size_t>(index)].acked = true;
+      const auto index = static_cast<std::size_t>(reliable.empty() ? -1 : id - reliable.front().id);
+      if (index < reliable.size()) reliable[index].acked = true;
     }
     while (!reliable.empty() && reliable.front().acked) {
       reliable.pop_front();
@@ -281,7 +279,6 @@ struct Link::Impl {
     if (!window.IsNew(number) || ack > sequence) return false;
     if (!ReadMessages(datagram, &messages) || !IdsInWindow(messages)) return false;
     if (!gate(messages.size())) return false;
-    // Nothing can go wrong from here on: the datagram counts as arrived, and is acted on.
     window.Insert(number);
     last_receive_us = now_us;
     ReadAcks(ack, header.ack_bits, now_us);
