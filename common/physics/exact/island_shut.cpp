@@ -60,11 +60,14 @@ void ExactIsland::Correct(double h) {
     row.base += x;
     for (const RowEnd* end = row.end; end != row.end + row.ends; ++end) {
       double* const push = push_.data() + 3 * static_cast<std::size_t>(end->body);
-      for (int i = 0; i < 3; ++i) push[i] += x * end->mj[i];
+      push[0] += x * end->mj[0];
+      push[1] += x * end->mj[1];
+      push[2] += x * end->mj[2];
     }
   }
   const double* push = push_.data();
   for (ExactBody& q : bodies) {
+    if (!q.moves()) break;  // those that do come first
     q.vx += push[0];
     q.vy += push[1];
     q.w += push[2];
@@ -113,11 +116,17 @@ double ExactIsland::SlopeOfSides() const {
 }
 
 void ExactIsland::Accelerate(double slope) {
-  shift_.resize(x_.size());
-  last_.resize(x_.size());
-  for (std::size_t p = 0; p < x_.size(); ++p) {
+  const std::size_t n = x_.size();
+  shift_.resize(n);
+  last_.resize(n);
+  if (slope == 0) {
+    last_ = x_;
+    shift_ = x_;
+    return;
+  }
+  for (std::size_t p = 0; p < n; ++p) {
     const double step = x_[p];
-    if (slope != 0) x_[p] = step - slope * (shift_[p] + step - last_[p]);
+    x_[p] = step - slope * (shift_[p] + step - last_[p]);
     last_[p] = step;
     shift_[p] = x_[p];
   }
