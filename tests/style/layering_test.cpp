@@ -180,6 +180,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"render/export", "render/canvas"},
       {"render/page", "render/(canvas|draw|playback)"},
       {"tests/support/browser", "tests/support"},
+      {"tests/support/soak", "tests/(support|lab)"},
       {"tests/lab/fairness", "tests/lab(/report(/sessions)?)?"},
       {"common/measure/limit", "common/measure(/screen)?"},
       {"tests/lab/check", "tests/lab"},

@@ -1,6 +1,6 @@
 #pragma once
-/// For tests that make a replica's world go astray, as no caller of Replica may, and that watch what
-/// it keeps.
+/// For tests that make a replica's world go astray, as no caller of Replica may, and that watch
+/// what it keeps.
 
 #include <map>
 #include <string>
