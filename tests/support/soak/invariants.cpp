@@ -11,37 +11,16 @@
 namespace seam {
 namespace {
 
-/// A client with which nothing is wrong plays within this long, us: it may have to notice that it
-/// was dropped (Client::kLostUs) and to join again, three of ten datagrams lost.
-constexpr std::int64_t kBackUs = 10000000;
-/// What is told reliably is known within this long, us.
-constexpr std::int64_t kToldUs = 4000000;
-/// What rests is known to, if it was lost: RestAgreement finds that out within three seconds.
-constexpr std::int64_t kRestKnownUs = 7000000;
-/// Bit for bit the same is what its holder has not moved for so long, us, but where something moves
-/// it here: there it must not come to lie otherwise, us.
-constexpr std::int64_t kStillUs = 10000000, kStillElsewhereUs = 3000000;
-/// A copy is no farther off than this, m, for longer than this, us.
-constexpr double kFar = 10;
-constexpr std::int64_t kFarUs = 5000000;
 /// A hand-over is done, or its holder has to leave, within this long, us: kReleasePatienceUs and
 /// kToldUs.
 constexpr std::int64_t kHandedOverUs = 9000000;
+/// Edits, states and links that wait: what is more grows without end. A Link gives up at 4096.
+constexpr std::size_t kLinkMax = 1500, kEditsMax = 300, kQueueMax = 600;
 /// A body may be faster than the scene's limit for so many ticks on end: a correction of a rule
 /// that does not know joints is over by then, an explosion is not.
 constexpr int kFastTicksMax = 6;
 /// Authority is looked at at every instant, rest and queues so many ticks apart.
 constexpr std::int64_t kSeldomTicks = 15;
-
-bool SameBits(const BodyState& a, const BodyState& b) {
-  return a.position == b.position && a.angle == b.angle;
-}
-
-std::string Text(const RestRecord& record) {
-  if (!record.committed) return "free";
-  return "rests since tick " + std::to_string(record.tick) + " in epoch " +
-         std::to_string(record.epoch);
-}
 
 }  // namespace
 
@@ -244,103 +223,22 @@ void Invariants::LookAtBodies() {
   }
 }
 
-void Invariants::LookAtRest() {
-  const Replica& server = *peers_[0].replica;
-  for (std::size_t p = 0; p < peers_.size(); ++p) {
-    Peer& peer = peers_[p];
-    if (peer.replica == nullptr || peer.replica->revision() != server.revision()) continue;
-    std::map<PartId, std::int64_t> other_us;
-    for (int body = 0; body < server.world().body_count(); ++body) {
-      const RestRecord& ours = server.rest().record(body);
-      const RestRecord& theirs = peer.replica->rest().record(body);
-      const World& world = peer.replica->world();
-      const PartId id = world.id(body);
-      const std::string who =
-          "body " + std::to_string(id) + " at peer " + std::to_string(peer.self);
-      // What has just been told of its motion is about to end its rest.
-      const bool lies = !world.awake(body) && world.Read(body).velocity.norm() == 0;
-      if (peer.replica->rest().Holds(body) && lies) {
-        ++reached_rest_;
-        if (!SameBits(world.Read(body), theirs.pose)) Say("what rests lies where it rests", who);
-      }
-      const bool same_word = ours.committed && theirs.committed && ours.epoch == theirs.epoch &&
-                             ours.tick == theirs.tick;
-      const bool equal = ours.committed && theirs.committed && ours.epoch == theirs.epoch &&
-                         SameBits(ours.pose, theirs.pose);
-      if (same_word && !equal) Say("rest is the same everywhere", who);
-      if (equal || !ours.committed || !Well(p, kToldUs)) continue;
-      const auto since = peer.rest_other_us.find(id);
-      other_us[id] = since == peer.rest_other_us.end() ? cluster_.now_us() : since->second;
-      if (cluster_.now_us() - other_us[id] <= kRestKnownUs) continue;
-      Say("rest is known everywhere", who + ": " + Text(theirs) + "; at the server: " + Text(ours));
+void Invariants::LookAtQueues() {
+  const auto note = [&](const std::string& queue, std::size_t count, std::size_t most) {
+    queues_[queue] = std::max(queues_[queue], count);
+    if (count > most) Say("queues are bounded", queue + ": " + std::to_string(count));
+  };
+  note("server's links", ServerTestAccess::WaitingOfLinks(cluster_.server()), kLinkMax);
+  note("server's edits", ServerTestAccess::WaitingEdits(cluster_.server()), kEditsMax);
+  for (int c = 0; c < cluster_.client_count(); ++c) {
+    const Client* client = cluster_.client(c);
+    if (client != nullptr) note("client's link", ClientTestAccess::Waiting(*client), kLinkMax);
+  }
+  for (const Peer& peer : peers_) {
+    if (peer.replica == nullptr) continue;
+    for (const auto& [queue, count] : ReplicaTestAccess::Queues(*peer.replica)) {
+      note(queue, count, kQueueMax);
     }
-    peer.rest_other_us = std::move(other_us);
-  }
-}
-
-/// Whoever has it, and knows so; nullptr: nobody just now, or one with whom something is wrong.
-const Replica* Invariants::HolderOf(PartId body) const {
-  const Replica& server = *peers_[0].replica;
-  const World& world = server.world();
-  const int holder = server.authority().at(world.mechanism(world.BodyOfId(body))).authority;
-  for (std::size_t p = 0; p < peers_.size(); ++p) {
-    const Peer& peer = peers_[p];
-    if (peer.replica == nullptr || peer.self != holder || !Well(p, kToldUs)) continue;
-    if (peer.replica->revision() != server.revision()) continue;
-    const int m = peer.replica->world().mechanism(peer.replica->world().BodyOfId(body));
-    return peer.replica->authority().at(m).authority == holder ? peer.replica : nullptr;
-  }
-  return nullptr;
-}
-
-/// Of what moves a peer has roughly, and of what has lain still for long exactly, what its holder
-/// has.
-void Invariants::LookAtPoses() {
-  const Replica& server = *peers_[0].replica;
-  const std::int64_t now_us = cluster_.now_us();
-  const bool sleeps = server.world().scene().solver.sleep;
-  std::map<PartId, Still> still;
-  std::vector<std::map<PartId, std::int64_t>> far_us(peers_.size());
-  std::vector<std::map<PartId, Still>> elsewhere(peers_.size());
-  for (int body = 0; body < server.world().body_count(); ++body) {
-    const PartId id = server.world().id(body);
-    const Replica* const holder = HolderOf(id);
-    if (holder == nullptr) continue;
-    const BodyState truth = holder->world().Read(body);
-    const auto was = still_.find(id);
-    const bool same = was != still_.end() && SameBits(was->second.pose, truth);
-    still[id] = {truth, same ? was->second.since_us : now_us};
-    const bool lies = sleeps && now_us - still[id].since_us >= kStillUs;
-    for (std::size_t p = 0; p < peers_.size(); ++p) {
-      const Peer& peer = peers_[p];
-      if (peer.replica == nullptr || !Well(p, kBackUs)) continue;
-      if (peer.replica->revision() != server.revision()) continue;
-      const BodyState there = peer.replica->world().Read(body);
-      const double off = double{(there.position - truth.position).norm()};
-      const auto who = [&, self = peer.self, holder = holder] {
-        return "body " + std::to_string(id) + " at peer " + std::to_string(self) + " is " +
-               std::to_string(off) + " m from where its holder has it (" +
-               Text(peer.replica->rest().record(body)) + "; at its holder " +
-               Text(holder->rest().record(body)) + ")";
-      };
-      if (lies && !SameBits(there, truth)) {
-        const auto seen = peer.still_elsewhere.find(id);
-        const bool stays = seen != peer.still_elsewhere.end() && SameBits(seen->second.pose, there);
-        elsewhere[p][id] = {there, stays ? seen->second.since_us : now_us};
-        if (now_us - elsewhere[p][id].since_us > kStillElsewhereUs) {
-          Say("what lies still lies so everywhere", who());
-        }
-      }
-      if (off <= kFar || strict_) continue;
-      const auto since = peer.far_us.find(id);
-      far_us[p][id] = since == peer.far_us.end() ? now_us : since->second;
-      if (now_us - far_us[p][id] > kFarUs) Say("bodies are where they are", who());
-    }
-  }
-  still_ = std::move(still);
-  for (std::size_t p = 0; p < peers_.size(); ++p) {
-    peers_[p].far_us = std::move(far_us[p]);
-    peers_[p].still_elsewhere = std::move(elsewhere[p]);
   }
 }
 

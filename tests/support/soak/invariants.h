@@ -36,6 +36,12 @@ class Invariants {
   int reached_rest() const { return reached_rest_; }  ///< bodies at rest that were compared
 
  private:
+  /// A client with which nothing is wrong plays within this long, us: it may have to notice that it
+  /// was dropped (Client::kLostUs) and to join again, three of ten datagrams lost.
+  static constexpr std::int64_t kBackUs = 10000000;
+  /// What is told reliably is known within this long, us.
+  static constexpr std::int64_t kToldUs = 4000000;
+
   struct Record {
     PartId id = -1;
     int authority = 0;
