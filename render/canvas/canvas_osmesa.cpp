@@ -23,7 +23,7 @@ namespace {
 
 const char* const kVertexShader = R"(#version 330 core
 #extension GL_ARB_separate_shader_objects : require
-out gl_PerVertex { vec4 gl_Position; };
+out gl_PerVertex { vec4 gl_Position; float gl_PointSize; };
 layout(location = 0) in vec2 position;
 layout(location = 1) in vec4 shape;
 layout(location = 2) in vec4 colour;
@@ -32,6 +32,7 @@ out vec4 fragment_shape;
 out vec4 fragment_colour;
 void main() {
   gl_Position = vec4(position / page * 2.0 - 1.0, 0.0, 1.0);
+  gl_PointSize = 2.0 * shape.y + 3.0;
   fragment_shape = shape;
   fragment_colour = colour;
 })";
@@ -69,6 +70,17 @@ in vec4 fragment_colour;
 out vec4 result;
 void main() {
   float cover = clamp(fragment_shape.y + 0.5 - length(fragment_shape.xz), 0.0, 1.0);
+  result = vec4(fragment_colour.rgb, fragment_colour.a * cover);
+})";
+
+// The page's y is the window's: it is drawn upside down.
+const char* const kDotShader = R"(#version 330 core
+in vec4 fragment_shape;
+in vec4 fragment_colour;
+out vec4 result;
+void main() {
+  float cover = clamp(fragment_shape.y + 0.5 - distance(gl_FragCoord.xy, fragment_shape.xz),
+                      0.0, 1.0);
   result = vec4(fragment_colour.rgb, fragment_colour.a * cover);
 })";
 
@@ -129,6 +141,7 @@ class OsmesaCanvas : public Canvas {
     AddPipeline(BatchKind::kShape, kShapeShader);
     AddPipeline(BatchKind::kDashed, kDashedShader);
     AddPipeline(BatchKind::kDisc, kDiscShader);
+    AddPipeline(BatchKind::kDot, kDotShader);
     AddPipeline(BatchKind::kText, kTextShader);
     glGenVertexArrays(1, &vertex_array_);
     glBindVertexArray(vertex_array_);
@@ -145,6 +158,7 @@ class OsmesaCanvas : public Canvas {
     glEnable(GL_BLEND);
     glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glEnable(GL_SCISSOR_TEST);
+    glEnable(GL_PROGRAM_POINT_SIZE);
     glPixelStorei(GL_PACK_ALIGNMENT, 1);
   }
 
@@ -170,7 +184,8 @@ class OsmesaCanvas : public Canvas {
       // The text's indices follow the shapes'.
       const std::size_t skip = batch.kind == BatchKind::kText ? list.indices().size() : 0;
       const std::size_t offset = (skip + batch.first_index) * sizeof(std::uint32_t);
-      glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(batch.indices), GL_UNSIGNED_INT,
+      const GLenum what = batch.kind == BatchKind::kDot ? GL_POINTS : GL_TRIANGLES;
+      glDrawElements(what, static_cast<GLsizei>(batch.indices), GL_UNSIGNED_INT,
                      reinterpret_cast<const void*>(offset));
     }
     ReadBack(image);
@@ -284,7 +299,7 @@ class OsmesaCanvas : public Canvas {
   OSMesaContext context_;
   std::uint8_t own_buffer_[4 * 4 * 4] = {};
   GLuint vertex_stage_ = 0;
-  GLuint pipelines_[5] = {0, 0, 0, 0, 0};  // by BatchKind
+  GLuint pipelines_[6] = {0, 0, 0, 0, 0, 0};  // by BatchKind
   GLuint vertex_array_ = 0, texture_ = 0;
   GLuint buffers_[2] = {0, 0};  // vertices, indices
   std::size_t buffer_bytes_[2] = {0, 0};
