@@ -182,9 +182,10 @@ class Matcher {
   std::array<std::uint32_t, 1u << kHashBits> last_{};  ///< where two such pixels were; or anywhere
 };
 
-/// A row's codes: its filter, none, and its pixels.
-void PutRow(const Pixels& pixels, std::size_t row, Matcher* matcher, BitWriter* bits) {
+/// A row's codes: its filter, none, and its pixels. Returns whether it is the row above once more.
+bool PutRow(const Pixels& pixels, std::size_t row, Matcher* matcher, BitWriter* bits) {
   static const Tables tables;
+  bool again = false;
   bits->Put(tables.literals[0]);
   for (std::size_t x = 0; x < pixels.width;) {
     Matcher::Match match = matcher->At(x, row);
@@ -195,6 +196,7 @@ void PutRow(const Pixels& pixels, std::size_t row, Matcher* matcher, BitWriter* 
       ++x;
       continue;
     }
+    if (match.length == pixels.width && match.distance == kColours * pixels.width + 1) again = true;
     const Code distance = DistanceCode(match.distance);
     x += match.length;
     while (match.length > 0) {
@@ -203,21 +205,7 @@ void PutRow(const Pixels& pixels, std::size_t row, Matcher* matcher, BitWriter* 
       match.length -= length;
     }
   }
-}
-
-/// The checksum of all rows. Rows that are equal, one after the other, are summed once.
-std::uint32_t ChecksumOf(const Pixels& pixels) {
-  Adler32 sum;
-  RowSum row_sum;
-  for (std::size_t row = 0; row < pixels.rows; ++row) {
-    const std::uint8_t* const first = pixels.At(row * pixels.width);
-    const bool again =
-        row > 0 && std::memcmp(first, first - 4 * pixels.width, 4 * pixels.width) == 0;
-    if (!again) row_sum = SumOf(first, pixels.width);
-    sum.AddByte(0);
-    sum.AddRow(row_sum);
-  }
-  return sum.value();
+  return again;
 }
 
 }  // namespace
@@ -231,12 +219,18 @@ void FlatDeflate(const std::uint8_t* rgba, std::size_t width, std::size_t rows,
   bits.Put({1, 1});  // the last block
   bits.Put({1, 2});  // of fixed codes
   Matcher matcher(pixels);
-  for (std::size_t row = 0; row < rows; ++row) PutRow(pixels, row, &matcher, &bits);
+  Adler32 sum;
+  RowSum row_sum;
+  for (std::size_t row = 0; row < rows; ++row) {
+    const bool again = PutRow(pixels, row, &matcher, &bits);
+    if (!again) row_sum = SumOf(pixels.At(row * width), width);
+    sum.AddByte(0);
+    sum.AddRow(row_sum);
+  }
   bits.Put(FixedCode(256));
   bits.Finish();
-  const std::uint32_t sum = ChecksumOf(pixels);
   for (int shift = 24; shift >= 0; shift -= 8)
-    out->push_back(static_cast<std::uint8_t>(sum >> shift));
+    out->push_back(static_cast<std::uint8_t>(sum.value() >> shift));
 }
 
 }  // namespace seam
