@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "client/held_world.h"
 #include "common/base/check.h"
 #include "common/scene/character.h"
 #include "common/sync/edits/edit_order.h"
@@ -22,6 +23,9 @@ constexpr std::int64_t kInputKnownAfter = 2;
 /// Most ticks stepped in one call; further behind than kGiveUpTicks we rejoin.
 constexpr int kStepsMax = 20;
 constexpr std::int64_t kGiveUpTicks = 300;
+/// Who joins late waits for the world for so long after its last hello, us; then it begins with
+/// what it has.
+constexpr std::int64_t kWorldWaitUs = 4000000;
 /// Mode central: inputs should arrive this long before the server needs them, us.
 constexpr double kInputMarginUs = 35000;
 
@@ -109,13 +113,12 @@ void Client::StartIfDue(std::int64_t now_us) {
   if (time < 0) return;
   // Within the first half second we were here from the start and only step a little late.
   const std::int64_t tick = time * room_.tick_hz / 1000000;
-  if (tick > room_.tick_hz / 2) replica_->StartAt(tick);
+  const bool late = tick > room_.tick_hz / 2;
+  const bool waits = now_us - last_hello_us_ < kWorldWaitUs;
+  if (late && waits && !CoversWorld(held_, replica_->world())) return;
+  if (late) replica_->StartAt(tick);
   started_ = true;
-  for (const Bytes& bytes : held_) {
-    const AnyMessage any = Decode(bytes);
-    if (const auto* states = std::get_if<States>(&any)) replica_->Place(*states);
-    if (const auto* rest = std::get_if<Rest>(&any)) replica_->Receive(*rest);
-  }
+  GiveHeld(held_, *replica_);
   held_.clear();
 }
 
