@@ -26,6 +26,8 @@ constexpr std::int64_t kGiveUpTicks = 300;
 /// Who joins late waits for the world for so long after its last hello, us; then it begins with
 /// what it has.
 constexpr std::int64_t kWorldWaitUs = 4000000;
+/// States older than the round trip and this are not the world as it is, us.
+constexpr std::int64_t kWorldAgeUs = 250000;
 /// Mode central: inputs should arrive this long before the server needs them, us.
 constexpr double kInputMarginUs = 35000;
 
@@ -115,7 +117,9 @@ void Client::StartIfDue(std::int64_t now_us) {
   const std::int64_t tick = time * room_.tick_hz / 1000000;
   const bool late = tick > room_.tick_hz / 2;
   const bool waits = now_us - last_hello_us_ < kWorldWaitUs;
-  if (late && waits && !CoversWorld(held_, replica_->world())) return;
+  const std::int64_t age_us = clock_.rtt_p90_us() + kWorldAgeUs;
+  const std::int64_t from = tick - age_us * room_.tick_hz / 1000000;
+  if (late && waits && !CoversWorld(held_, replica_->world(), from)) return;
   if (late) replica_->StartAt(tick);
   started_ = true;
   GiveHeld(held_, *replica_);

@@ -8,7 +8,7 @@
 
 namespace seam {
 
-bool CoversWorld(const std::vector<Bytes>& held, const World& world) {
+bool CoversWorld(const std::vector<Bytes>& held, const World& world, std::int64_t from) {
   const auto composition = static_cast<std::int64_t>(world.composition().hash);
   std::set<int> heard;
   const auto note = [&](const auto& message) {
@@ -16,7 +16,8 @@ bool CoversWorld(const std::vector<Bytes>& held, const World& world) {
   };
   for (const Bytes& bytes : held) {
     const AnyMessage any = Decode(bytes);
-    if (const auto* states = std::get_if<States>(&any)) note(*states);
+    const auto* states = std::get_if<States>(&any);
+    if (states != nullptr && states->tick >= from) note(*states);
     if (const auto* rest = std::get_if<Rest>(&any)) note(*rest);
   }
   for (int body = 0; body < world.body_count(); ++body) {
