@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client/clock_filter.h"
+#include "client/load_meter.h"
 #include "client/room_timeline.h"
 #include "common/base/entropy.h"
 #include "common/net/link.h"
@@ -17,6 +18,7 @@
 #include "common/sync/edits/topology_snapshot.h"
 #include "common/sync/input_feed.h"
 #include "common/sync/metadata.h"
+#include "common/sync/publish.h"
 #include "common/sync/publisher.h"
 #include "common/sync/replica.h"
 #include "common/sync/rest/rest_agreement.h"
@@ -34,7 +36,8 @@ struct ClientConfig {
   std::string script_of;  ///< kScript: the scene's player whose script it plays
   std::int64_t key = 0;   ///< of an earlier Welcome, to have its place back; 0: none
   bool smooth = true;
-  bool publish = true;  ///< false: no views, strands and impacts, and none of what they cost
+  Publish publish = Publish::kAll;
+  bool shows = false;  ///< somebody looks at replica()'s view: all of it has to be true
   bool watch = false;   ///< to look on is what is wanted; else a name without a place is fatal
 };
 
@@ -75,10 +78,13 @@ class Client {
   /// Of the room's clock, per million of real time: below kFullSpeedPpm the server is overloaded.
   std::int32_t speed_ppm() const { return timeline_.speed_ppm(); }
   std::int64_t rejoins() const { return rejoins_; }
+  /// Thousandths of its time that it needs for its ticks; -1: not known.
+  std::int16_t load_permille() const { return load_.permille(); }
   /// Bodies whose copy here was put elsewhere by what was heard, by more than the wire's rounding.
   std::int64_t corrections() const { return corrections_; }
 
-  /// Age of the newest answered ping after which we try to join anew.
+  /// Age of the newest answered ping, or of a join that was challenged, after which we try to join
+  /// anew.
   static constexpr std::int64_t kLostUs = 5000000;
 
  private:
@@ -114,6 +120,8 @@ class Client {
   void StartIfDue(std::int64_t now_us);
   void StepDue(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);
+  /// In a room of so many bodies; kNone where nobody listens.
+  Publish Published(int bodies) const;
   void PublishShown(std::int64_t now_us);
   void NoteOwnInput();
   void TellRest(std::int64_t now_us);
@@ -166,6 +174,8 @@ class Client {
   std::int64_t last_hello_us_ = -1000000000;
   std::int64_t last_stats_us_ = -1000000000;
   std::int64_t worst_late_us_ = 0;
+  std::int64_t late_us_ = 0;  // of this call's ticks, at worst
+  LoadMeter load_;
   std::int64_t rejoins_ = 0;
   std::int64_t corrections_ = 0;
   Input live_;

@@ -82,7 +82,7 @@ void Client::OnPong(std::int64_t now_us, const Pong& pong) {
   if (replica_ == nullptr || !started_) return;
   const RestCommit& rest = replica_->rest();
   if (!rest_.Lost(now_us, rest.Hash(), static_cast<std::uint64_t>(pong.rest))) return;
-  for (Rest& own : replica_->rest().Everything(true)) {
+  for (Rest& own : replica_->rest().Again(true)) {
     own.utime = now_us;
     if (!released_) link_->SendReliable(Encode(own));
   }
@@ -93,7 +93,7 @@ void Client::OnGrants(std::int64_t now_us, const Grants& grants) {
   if (replica_ == nullptr || released_) return;
   Release release;
   for (const int m : replica_->ApplyGrants(grants)) {
-    release.mechanism.push_back(static_cast<std::int16_t>(replica_->authority().id(m)));
+    release.mechanism.push_back(replica_->authority().id(m));
     release.epoch.push_back(replica_->authority().at(m).epoch);
   }
   if (release.mechanism.empty()) return;
@@ -142,6 +142,10 @@ void Client::MakeReplica(const Topology* become) {
   sync.seed = room_.seed;
   sync.input_delay_ticks = room_.input_delay_ticks;
   const Topology topology = become != nullptr ? *become : Topology(*scene_);
+  const auto& assemblies = topology.composition().assemblies;
+  const auto bodies = std::count_if(assemblies.begin(), assemblies.end(),
+                                    [](const Assembly& a) { return !a.anchored; });
+  sync.shows_far = config_.shows || Published(static_cast<int>(bodies)) == Publish::kAll;
   const std::unique_ptr<Replica> before = std::move(replica_);
   replica_ = std::make_unique<Replica>(topology, sync, peer_, player_);
   replica_->OnCorrected([this](int) { ++corrections_; });

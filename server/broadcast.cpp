@@ -1,57 +1,86 @@
 #include "server/broadcast.h"
 
 namespace seam {
-namespace {
 
-/// Some entries of a message, in their order.
-States Some(const States& all, const std::vector<std::size_t>& entries) {
-  States some = all;
-  const auto take = [&](const auto& from, auto* to) {
-    to->clear();
-    for (const std::size_t i : entries) to->push_back(from[i]);
-  };
-  take(all.id, &some.id);
-  take(all.epoch, &some.epoch);
-  take(all.flags, &some.flags);
-  take(all.x, &some.x);
-  take(all.y, &some.y);
-  take(all.angle, &some.angle);
-  take(all.vx, &some.vx);
-  take(all.vy, &some.vy);
-  take(all.spin, &some.spin);
-  return some;
+bool Broadcast::Simulates(int peer, int mechanism) const {
+  if (config_.mode == Mode::kOracle) return true;
+  if (config_.mode == Mode::kCentral) return interest_.Of(peer, mechanism) == Concern::kClose;
+  const AuthorityRecord& record = replica_.authority().at(mechanism);
+  return record.authority == peer || record.secondaries.Has(peer);
 }
 
-}  // namespace
+void Broadcast::FindDue(int peer) {
+  due_.clear();
+  for (const Entry& entry : entries_) {
+    const bool has = Simulates(peer, entry.mechanism);
+    const Concern concern = has ? Concern::kClose : interest_.Of(peer, entry.mechanism);
+    if (concern == Concern::kClose) {
+      due_.emplace_back(entry.id, Urgency::kFollowed);
+    } else if (concern == Concern::kNear && entry.news >= News::kNear) {
+      due_.emplace_back(entry.id, Urgency::kNear);
+    } else if (concern == Concern::kFar && entry.news == News::kAll) {
+      due_.emplace_back(entry.id, Urgency::kFar);
+    }
+  }
+}
 
-std::vector<std::size_t> Broadcast::Due(const States& states, Session* session) const {
-  std::vector<std::size_t> due;
+void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) {
+  const Bytes whole = Encode(states);
+  if (Plain()) {
+    sessions_.ForEachReady(from_peer,
+                           [&](Session& session) { session.link.SendUnreliable(whole); });
+    return;
+  }
+  const std::vector<News>& news = newest_.Take(states);
+  entries_.clear();
   for (std::size_t i = 0; i < states.id.size(); ++i) {
-    const auto id = static_cast<std::size_t>(states.id[i]);
     const int body = replica_.world().BodyOfId(states.id[i]);
     if (body < 0) continue;  // it has left meanwhile
-    if (session->told.size() <= id) session->told.resize(id + 1, -1);
-    std::int64_t& told = session->told[id];
-    int sends = 1;
-    if (!authority_.Follows(session->peer, body)) {
-      sends = authority_.IsFar(session->peer, body) ? kFarSends : kNearSends;
-    }
-    if (told >= 0 && states.tick < told + sends * config_.send_every() && sends > 1) continue;
-    told = states.tick;
-    due.push_back(i);
+    entries_.push_back({states.id[i], replica_.world().mechanism(body), news[i]});
   }
-  return due;
+  sessions_.ForEachReady(from_peer, [&](Session& session) {
+    FindDue(session.peer);
+    const bool all = due_.size() == states.id.size();
+    if (all && session.outbox.empty() && session.outbox.Affords(now_us, whole.size())) {
+      session.link.SendUnreliable(whole);
+      return;
+    }
+    for (const auto& [id, urgency] : due_) session.outbox.Add(now_us, id, urgency);
+  });
 }
 
-void Broadcast::Relay(const States& states, int from_peer) {
-  const Bytes whole = Encode(states);
-  sessions_.ForEachReady(from_peer, [&](Session& session) {
-    if (config_.mode != Mode::kBuffer) return session.link.SendUnreliable(whole);
-    const std::vector<std::size_t> due = Due(states, &session);
-    if (due.empty()) return;
-    const bool all = due.size() == states.id.size();
-    session.link.SendUnreliable(all ? whole : Encode(Some(states, due)));
+void Broadcast::SendWaiting(std::int64_t now_us) {
+  sessions_.ForEachReady(0, [&](Session& session) {
+    if (session.outbox.empty()) return;
+    for (States& states : session.outbox.Compose(now_us, newest_)) {
+      states.utime = now_us;
+      session.link.SendUnreliable(Encode(states));
+    }
   });
+}
+
+void Broadcast::LookAround(std::int64_t now_us) {
+  stale_ = false;
+  if (Plain()) return;
+  std::vector<Interest::Receiver> receivers;
+  sessions_.ForEachReady(0, [&](const Session& session) {
+    receivers.push_back({session.peer, session.player});
+  });
+  const Composition& made = replica_.world().composition();
+  for (const Interest::Risen& risen : interest_.Look(receivers)) {
+    Session* session = sessions_.Find(risen.peer);
+    for (const int assembly :
+         made.mechanisms[static_cast<std::size_t>(risen.mechanism)].assemblies) {
+      const PartId id = made.assemblies[static_cast<std::size_t>(assembly)].id;
+      if (newest_.has(id)) session->outbox.Add(now_us, id, Urgency::kNear);
+    }
+  }
+}
+
+void Broadcast::Remap(const std::vector<BodyOrigin>& bodies) {
+  newest_.Remap(bodies);
+  interest_.Remap();
+  stale_ = true;
 }
 
 void Broadcast::Say(std::int64_t now_us, const std::string& text) {

@@ -8,6 +8,8 @@
 #include "common/sync/publisher.h"
 #include "common/sync/replica.h"
 #include "server/authority/authority_manager.h"
+#include "server/interest/interest.h"
+#include "server/interest/newest_states.h"
 #include "server/sessions/session_table.h"
 
 namespace seam {
@@ -16,12 +18,13 @@ class Broadcast {
  public:
   /// All must outlive it.
   Broadcast(Recorder& recorder, const std::string& room, const SyncConfig& config,
-            const Replica& replica, const AuthorityManager& authority, SessionTable& sessions)
+            const Scene& scene, const Replica& replica, SessionTable& sessions)
       : publisher_(recorder, room),
         config_(config),
         replica_(replica),
-        authority_(authority),
-        sessions_(sessions) {}
+        sessions_(sessions),
+        newest_(replica.world(), config.tick_hz),
+        interest_(scene, config_, replica) {}
 
   /// On the bus only.
   template <class Message>
@@ -37,23 +40,46 @@ class Broadcast {
   void ToAll(const std::vector<Grants>& messages) {
     for (const Grants& grants : messages) ToAll(grants);
   }
-  /// To each of the other peers what it needs now: all of the bodies that it follows, the others at
-  /// least kNearSends sends apart, and kFarSends what is far from all that it has. Not on the bus.
-  void Relay(const States& states, int from_peer);
+  /// To each of the other peers what concerns it: all of the bodies that it follows, of the others
+  /// what is news to it (NewestStates). What is not sent at once waits for SendWaiting. Not on the
+  /// bus.
+  void Relay(std::int64_t now_us, const States& states, int from_peer);
+  /// What waits for the receivers, as far as their budgets go. Before a flush.
+  void SendWaiting(std::int64_t now_us);
+  /// Looks anew at what concerns whom, and tells what concerns somebody more than before.
+  void LookAround(std::int64_t now_us);
+  /// The bodies have changed; LookAround is due.
+  void Remap(const std::vector<BodyOrigin>& bodies);
+  bool stale() const { return stale_; }
+  /// Whether a peer simulates a mechanism, or predicts it: whose inputs move it concern that peer.
+  bool Simulates(int peer, int mechanism) const;
   /// Something a person wants to read; on the bus only.
   void Say(std::int64_t now_us, const std::string& text);
 
-  static constexpr int kNearSends = 3, kFarSends = 15;
+  /// Looks a second.
+  static constexpr int kLooksPerSecond = 10;
 
  private:
-  /// The entries that the peer is to be told now.
-  std::vector<std::size_t> Due(const States& states, Session* session) const;
+  /// An entry of a message, and whom it concerns.
+  struct Entry {
+    PartId id = 0;
+    int mechanism = 0;
+    News news = News::kNobody;
+  };
+  /// What is due to a peer of what `entries_` has.
+  void FindDue(int peer);
+  /// Whether states go to everyone whole: nobody's mode tells apart what concerns whom.
+  bool Plain() const { return config_.mode != Mode::kBuffer && config_.mode != Mode::kCentral; }
 
   Publisher publisher_;
   const SyncConfig config_;
   const Replica& replica_;
-  const AuthorityManager& authority_;
   SessionTable& sessions_;
+  bool stale_ = false;
+  NewestStates newest_;
+  Interest interest_;
+  std::vector<Entry> entries_;                   // of the message that is relayed
+  std::vector<std::pair<PartId, Urgency>> due_;  // to the peer that is looked at
 };
 
 }  // namespace seam

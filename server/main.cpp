@@ -35,12 +35,14 @@ struct Flags {
   std::string impair = "perfect";
   std::int64_t seed = 1;
   int send_hz = 30;
+  std::uint64_t budget = static_cast<std::uint64_t>(kClientBytesPerS);
   std::string room = "main";
   int wait = -1;
   double duration_s = -1;  // the scene's
   std::string record;
   bool force = false;
   std::string lcm_url;
+  std::string publish = "all";
   bool quiet = false;
   bool doctor = false;
   int rooms = 0;  // 0: one for each scene
@@ -48,6 +50,12 @@ struct Flags {
   std::string bus_rooms = "first";
   int metrics_port = 0;
 };
+
+/// "64kB/s" -> "64kB"
+std::string WithoutPerSecond(const std::string& rate) {
+  const std::size_t at = rate.size() < 2 ? 0 : rate.size() - 2;
+  return rate.substr(at) == "/s" ? rate.substr(0, at) : rate;
+}
 
 std::string ProfilesText() {
   std::string text = "\nnetwork profiles (--impair), each way:\n";
@@ -73,6 +81,10 @@ void Define(CLI::App& app, Flags& f) {
   app.add_option("--impair", f.impair, "impair the network in both directions by a profile");
   app.add_option("--seed", f.seed, "of impairments and bots")->check(CLI::Range(0, 1000000000));
   app.add_option("--send-hz", f.send_hz, "state messages per second")->check(CLI::Range(1, 240));
+  app.add_option("--budget", f.budget,
+                 "most that each client is sent, such as 64kB/s (default 256kB/s; 0: no limit)")
+      ->transform(WithoutPerSecond, "", "")
+      ->transform(CLI::AsSizeValue(true));
   app.add_option("--room", f.room,
                  "name of the room in the channels; of several: NAME-1, NAME-2, ...");
   app.add_option("--rooms", f.rooms, "rooms (default: one for each scene); scenes take turns")
@@ -94,6 +106,10 @@ void Define(CLI::App& app, Flags& f) {
       "write the session's LCM log to this file too; of several rooms FILE.NAME-1.lcm, ...");
   app.add_flag("--force", f.force, "overwrite the --record file");
   app.add_option("--lcm-url", f.lcm_url, "LCM bus (default: LCM_DEFAULT_URL; none: no bus)");
+  app.add_option("--publish", f.publish,
+                 "views on the bus: all | own (what it simulates) | none | auto (all in a room of "
+                 "at most " +
+                     std::to_string(kPublishAllMost) + " bodies, else own)");
   app.add_flag("--quiet", f.quiet, "no progress line, and not who comes and goes");
   app.add_flag("--doctor", f.doctor, "check that LCM works on this machine, and exit");
 }
@@ -166,6 +182,8 @@ RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int 
   config.sync.seed = f.seed + index;
   config.room = RoomName(f.room, index, rooms);
   config.impair = f.impair;
+  config.publish = ParsePublish(f.publish);
+  config.client_bytes_per_s = static_cast<double>(f.budget);
   config.seed = f.seed + index;
   config.wait_players = PlayersToWaitFor(f, scene_name, scene);
   plan.last_tick = LastTick(DurationOf(f, scene), scene.solver.tick_hz);

@@ -65,14 +65,15 @@ Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorde
       config_(config),
       room_(MakeRoom(scene_, config_)),
       net_(net),
+      recorder_(recorder),
       replica_(scene_, config.sync, 0, -1),
       sessions_(scene_, Encode(room_), AllowedTraffic(config.sync.tick_hz, config.sync.send_hz),
-                net, entropy),
+                net, entropy, config.client_bytes_per_s),
       authority_(scene_, config.sync, replica_),
       edits_(replica_.world(), authority_, config.sync.tick_hz),
       bounds_(replica_),
       filter_(scene_, replica_, authority_, edits_, stats_.counters),
-      broadcast_(recorder, config.room, config.sync, replica_, authority_, sessions_),
+      broadcast_(recorder, config.room, config.sync, scene_, replica_, sessions_),
       clock_(config.sync.tick_hz) {
   replica_.OnCorrected([this](int body) { NoteCorrected(body); });
   if (!Rules::Needed(scene_)) return;
@@ -106,6 +107,7 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
     sessions_.ReadAccounts();
   }
   RelayInputs(now_us);
+  broadcast_.SendWaiting(now_us);
   sessions_.Flush(now_us, &stats_.counters);
 }
 
@@ -135,7 +137,7 @@ void Server::SendWorld(std::int64_t now_us, Session& session) {
   for (const Grants& grants : authority_.Export(now_us)) send(grants);
   if (started()) {
     for (const States& states : replica_.Everything()) send(At(now_us, states));
-    for (const Rest& rest : replica_.rest().Everything(false)) send(At(now_us, rest));
+    for (const Rest& rest : replica_.rest().Everything()) send(At(now_us, rest));
   }
   if (rules_ != nullptr) {
     for (const Meta& meta : rules_->metadata().Export(now_us, replica_.tick())) send(meta);
@@ -154,7 +156,7 @@ void Server::SendBodies(std::int64_t now_us, Session& session) {
 }
 
 void Server::SendRest(std::int64_t now_us, Session& session) {
-  for (const Rest& rest : replica_.rest().Everything(false)) {
+  for (const Rest& rest : replica_.rest().Again(false)) {
     session.link.SendReliable(Encode(At(now_us, rest)));
   }
 }
@@ -176,7 +178,7 @@ void Server::StartIfReady(std::int64_t now_us) {
   clock_.Start(now_us + (config_.wait_players > 0 ? kLeadInUs : 0));
   // Whoever is here from the start has its mechanisms from tick 0 on: plan once, now.
   UpdateAuthority(now_us);
-  broadcast_.Publish(At(now_us, replica_.MakeView()));
+  PublishShown(now_us);
   broadcast_.Say(now_us, "the room starts with " + std::to_string(ready) + " players");
   Tell("the room starts");
 }
@@ -187,6 +189,7 @@ void Server::StepOnce(std::int64_t now_us) {
     broadcast_.Publish(
         At(now_us, Scripted(scene_, p, replica_.tick() + 1, config_.sync.input_delay_ticks)));
   }
+  inputs_due_ = true;
   ApplyEdits(now_us);
   replica_.Step();
   if (config_.sync.mode == Mode::kOracle) ApplyQueued(now_us);
@@ -200,17 +203,24 @@ void Server::StepOnce(std::int64_t now_us) {
   UpdateAuthority(now_us);
   for (States& states : replica_.TakeStates()) {
     states.utime = now_us;
-    broadcast_.Relay(states, 0);
+    broadcast_.Relay(now_us, states, 0);
     broadcast_.Publish(states);
   }
   TellRest(now_us);
-  const View view = replica_.MakeView();
+  PublishShown(now_us);
+  RunRules(now_us);
+}
+
+void Server::PublishShown(std::int64_t now_us) {
+  const Publish publish = Resolved(config_.publish, replica_.world().body_count());
+  if (publish == Publish::kNone || !recorder_.listening()) return;
+  const View view = replica_.MakeView(publish == Publish::kAll);
   broadcast_.Publish(At(now_us, view));
+  if (publish != Publish::kAll || replica_.tick() == 0) return;
   const Strands strands = replica_.MakeStrands(view);
   if (!strands.strand.empty()) broadcast_.Publish(At(now_us, strands));
   const Impacts impacts = replica_.MakeImpacts();
   if (!impacts.id_a.empty()) broadcast_.Publish(At(now_us, impacts));
-  RunRules(now_us);
 }
 
 /// Mode oracle: every peer applies them alone, after the same tick.
@@ -263,6 +273,7 @@ void Server::ApplyQueued(std::int64_t now_us) {
     if (!change) continue;
     authority_.Remap(change->mechanisms);
     filter_.Remap(change->bodies);
+    broadcast_.Remap(change->bodies);
     if (rule_source_ != nullptr) rule_source_->Remap(change->bodies);
   }
 }
@@ -270,12 +281,14 @@ void Server::ApplyQueued(std::int64_t now_us) {
 void Server::UpdateAuthority(std::int64_t now_us) {
   AuthorityManager::Situation situation;
   situation.peer_of_player = sessions_.PeerOfPlayer();
+  situation.one_way_s.reserve(situation.peer_of_player.size());
   for (const int peer : situation.peer_of_player) {
-    const Session* session = peer > 0 ? sessions_.Find(peer) : nullptr;
+    const Session* session = sessions_.Find(peer);
     const std::int64_t rtt_us = session != nullptr ? session->link.rtt_us() : 0;
     const bool silent = session != nullptr && session->stage == SessionStage::kReady &&
                         now_us - session->link.last_receive_us() > kSilentUs;
     if (silent) situation.silent.Add(peer);
+    situation.load.push_back(session != nullptr ? session->load : -1.0f);
     situation.one_way_s.push_back(static_cast<float>(std::max<std::int64_t>(0, rtt_us)) * 0.5e-6f);
   }
   situation.together = edits_.WaitingMechanisms();
@@ -286,12 +299,20 @@ void Server::UpdateAuthority(std::int64_t now_us) {
     if (session != nullptr) session->link.SendReliable(Encode(given.exact));
   }
   broadcast_.ToAll(grants);
+  UpdateInterest(now_us, !grants.empty());
   const PeerSet withholding = authority_.Withholding(now_us);
   sessions_.ForEachReady(0, [&](Session& session) {
     if (!withholding.Has(session.peer)) return;
     session.leaving = true;
     session.leaving_why = "does not let go";
   });
+}
+
+void Server::UpdateInterest(std::int64_t now_us, bool changed) {
+  const int every = std::max(1, config_.sync.tick_hz / Broadcast::kLooksPerSecond);
+  const bool due = replica_.tick() % every == 0 || broadcast_.stale();
+  if (due) broadcast_.LookAround(now_us);
+  if (due || changed) FindHeardPlayers();
 }
 
 void Server::RunRules(std::int64_t now_us) {

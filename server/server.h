@@ -12,6 +12,7 @@
 #include "common/base/entropy.h"
 #include "common/net/net.h"
 #include "common/record/recorder.h"
+#include "common/sync/publish.h"
 #include "common/sync/replica.h"
 #include "server/authority/authority_manager.h"
 #include "server/broadcast.h"
@@ -35,6 +36,9 @@ struct ServerConfig {
   std::string impair = "perfect";  ///< for the record only
   std::int64_t seed = 1;
   int wait_players = 0;  ///< tick 0 comes when this many players are ready
+  /// Of UDP payload to each client, at most; 0: no limit.
+  double client_bytes_per_s = kClientBytesPerS;
+  Publish publish = Publish::kAll;
 };
 
 class Server {
@@ -88,6 +92,8 @@ class Server {
   static constexpr std::int64_t kRepairAgainUs = 3000000;
 
  private:
+  friend struct ServerTestAccess;
+
   // server_receive.cpp
   void ReceiveAll(std::int64_t now_us);
   /// OnMessage; what it drops goes to the session's account.
@@ -98,6 +104,7 @@ class Server {
   void OnPing(std::int64_t now_us, Session& session, const Ping& ping);
   void OnInputs(std::int64_t now_us, Session& session, const Inputs& inputs);
   void RelayInputs(std::int64_t now_us);
+  void FindHeardPlayers();
   Inputs TakeFresh(std::int64_t now_us, const Inputs& inputs);
   void OnStates(std::int64_t now_us, Session& session, const States& states);
   void OnRest(std::int64_t now_us, Session& session, const Rest& rest);
@@ -127,6 +134,9 @@ class Server {
   void LetFall(const Edit& applied);
   void ApplyQueued(std::int64_t now_us);
   void UpdateAuthority(std::int64_t now_us);
+  /// Looks anew at what concerns whom, when that is due or has changed.
+  void UpdateInterest(std::int64_t now_us, bool changed);
+  void PublishShown(std::int64_t now_us);
   void RunRules(std::int64_t now_us);
   void RemoveOutside(std::int64_t now_us);
   void Tell(const std::string& line);
@@ -136,6 +146,7 @@ class Server {
   const ServerConfig config_;
   const Room room_;
   Net& net_;
+  Recorder& recorder_;
   ServerStats stats_;
   Replica replica_;
   SessionTable sessions_;
@@ -151,6 +162,7 @@ class Server {
   std::vector<std::string> news_;  // not taken yet
   RoomClock clock_;
   std::int64_t last_room_us_ = -1000000000;
+  bool inputs_due_ = false;  // some have come, or a tick has passed
 };
 
 }  // namespace seam

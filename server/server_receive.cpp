@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "server/authority_source.h"
 #include "server/server.h"
@@ -88,6 +89,7 @@ void Server::OnPing(std::int64_t now_us, Session& session, const Ping& ping) {
   pong.speed_ppm = clock_.speed_ppm();
   const std::uint64_t ours = replica_.rest().Hash();
   pong.rest = static_cast<std::int64_t>(ours);
+  session.load = static_cast<float>(ping.load) * 1e-3f;
   session.link.SendUnreliable(Encode(pong));
   const bool ready = session.stage == SessionStage::kReady;
   const bool lost = session.rest.Lost(now_us, ours, static_cast<std::uint64_t>(ping.rest));
@@ -139,28 +141,39 @@ void Server::OnInputs(std::int64_t now_us, Session& session, const Inputs& input
   }
   const Inputs fresh = TakeFresh(now_us, inputs);
   if (fresh.drive.empty()) return;
+  inputs_due_ = true;
   broadcast_.Publish(fresh);
 }
 
 /// In the same call as they came, since everything is flushed at its end.
 void Server::RelayInputs(std::int64_t now_us) {
-  const int players = static_cast<int>(scene_.players.size());
-  const bool everyone = config_.sync.mode == Mode::kOracle || config_.sync.mode == Mode::kCentral;
+  const bool due = std::exchange(inputs_due_, false);
   sessions_.ForEachReady(0, [&](Session& session) {
-    session.feeds.resize(static_cast<std::size_t>(players));
-    for (int p = 0; p < players; ++p) {
+    session.feeds.resize(scene_.players.size());
+    bool rides = session.link.Sends(now_us);
+    if (!due && !rides) return;  // nothing is new, and nothing goes with which it could ride
+    for (const int p : session.heard_players) {
       const InputTrack& track = replica_.inputs(p);
-      if (p == session.player || track.newest() < 0) continue;
-      const auto simulates = [&](int m) {
-        const AuthorityRecord& record = replica_.authority().at(m);
-        return record.authority == session.peer || record.secondaries.Has(session.peer);
-      };
-      if (!everyone && !replica_.drivers().Moves(p, simulates)) continue;
+      if (track.newest() < 0) continue;
       std::optional<Inputs> inputs = session.feeds[static_cast<std::size_t>(p)].Take(
-          track, p, session.link.acked(p), replica_.tick(), session.link.Sends(now_us));
+          track, p, session.link.acked(p), replica_.tick(), rides);
       if (!inputs) continue;
       inputs->utime = now_us;
       session.link.SendUnreliable(Encode(*inputs), p, track.newest());
+      rides = true;
+    }
+  });
+}
+
+/// After authority, or what concerns whom, has changed: whose inputs each client hears.
+void Server::FindHeardPlayers() {
+  const int players = static_cast<int>(scene_.players.size());
+  sessions_.ForEachReady(0, [&](Session& session) {
+    session.heard_players.clear();
+    const auto concerns = [&](int m) { return broadcast_.Simulates(session.peer, m); };
+    for (int p = 0; p < players; ++p) {
+      if (p == session.player) continue;
+      if (replica_.drivers().Moves(p, concerns)) session.heard_players.push_back(p);
     }
   });
 }
@@ -174,7 +187,7 @@ void Server::OnStates(std::int64_t now_us, Session& session, const States& state
   if (kept.id.empty()) return;
   stats_.counters.dropped_stale += replica_.Receive(kept).stale;
   if (rule_source_ != nullptr) rule_source_->NoteStates(kept);
-  broadcast_.Relay(kept, session.peer);
+  broadcast_.Relay(now_us, kept, session.peer);
   broadcast_.Publish(kept);
 }
 
@@ -197,12 +210,12 @@ void Server::OnExactStates(std::int64_t now_us, const Session& session, const Ex
   const bool seen = off.position.norm() > AuthorityManager::kJump ||
                     off.velocity.norm() > AuthorityManager::kJumpVelocity;
   if (seen) ++stats_.jumps;
-  for (const std::int16_t id : kept.id) {
+  for (const std::int32_t id : kept.id) {
     authority_.NoteJump(replica_.world().BodyOfId(id), off);
   }
   const Bytes bytes = Encode(kept);
   sessions_.ForEachReady(session.peer, [&](Session& other) {
-    const bool awaits = std::any_of(kept.id.begin(), kept.id.end(), [&](std::int16_t id) {
+    const bool awaits = std::any_of(kept.id.begin(), kept.id.end(), [&](std::int32_t id) {
       return authority_.Awaits(other.peer, replica_.world().BodyOfId(id));
     });
     if (awaits) other.link.SendReliable(bytes);

@@ -17,7 +17,8 @@ Room AskForRoom(const Address& server, const std::string& room) {
   config.name = "swarm-scout";
   config.room = room;
   config.watch = true;
-  config.publish = config.smooth = false;
+  config.publish = Publish::kNone;
+  config.smooth = false;
   Group group;
   group.Add(config, false);
   const Client& scout = group.members()[0]->client();

@@ -43,6 +43,8 @@ class Member {
   /// Nobody listens.
   class Nowhere : public Recorder {
    public:
+    bool listening() const override { return false; }
+   public:
     void Publish(const std::string&, std::int64_t, ByteView) override {}
   };
 

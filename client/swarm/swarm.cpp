@@ -61,7 +61,8 @@ Swarm::Swarm(const SwarmConfig& config) : config_(config) {
       member.room = config.rooms[r];
       member.drive = config.drive;
       member.script_of = member.name;
-      member.smooth = member.publish = false;
+      member.publish = Publish::kNone;
+      member.smooth = false;
       lanes_[i % lanes_.size()]->group.Add(member, i == r);
     }
   }

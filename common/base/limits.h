@@ -6,8 +6,11 @@
 
 namespace seam {
 
-/// Peers are 0..kPeersMax - 1; 0 is the server, so there is one player less.
-constexpr std::int32_t kPeersMax = 32;
+/// Peers are 0..kPeersMax - 1; 0 is the server. With more of them each session's tables grow.
+constexpr std::int32_t kPeersMax = 1024;
+/// Players of a scene. Their peers have places of their own: spectators take the others'.
+constexpr std::int32_t kPlayersMax = 256;
+static_assert(kPlayersMax < kPeersMax);
 
 /// Ticks per second that a scene may ask for. With fewer, bodies tunnel; more gain nothing.
 constexpr int kTickHzMin = 10, kTickHzMax = 960;

@@ -11,40 +11,45 @@ namespace seam {
 
 /// Largest encoded message on the bus; larger ones overflow stock lcm-logger's socket buffer.
 constexpr std::size_t kBusMessageBytesMax = 60000;
-/// Most bodies in one States message: 58 + 19 bytes each must fit kMessageBytesMax.
+/// Parts, and what is named by one of its parts, have ids below this: 0..kIdsMax - 1.
+constexpr std::int32_t kIdsMax = 1 << 18;
+/// Most bodies in one States message: 58 + 21 bytes each must fit kMessageBytesMax.
 constexpr std::size_t kStatesBodiesMax = 48;
-static_assert(54 + 19 * kStatesBodiesMax <= kMessageBytesMax);
-/// Most bodies in one View message: 29 bytes each within kBusMessageBytesMax.
+static_assert(58 + 21 * kStatesBodiesMax <= kMessageBytesMax);
+/// Most bodies in one View message: 50 + 31 bytes each within kBusMessageBytesMax.
 constexpr std::size_t kViewBodiesMax = 1900;
-static_assert(29 * kViewBodiesMax <= kBusMessageBytesMax);
+static_assert(50 + 31 * kViewBodiesMax <= kBusMessageBytesMax);
 
-/// Most views' parts: 32768 ids in views of kViewBodiesMax need 18.
-constexpr std::int32_t kViewPartsMax = 32;
-static_assert(32768 <= kViewBodiesMax * kViewPartsMax);
+/// Most parts of a view: 65 535 bodies in messages of kViewBodiesMax need 35.
+constexpr std::int32_t kViewPartsMax = 40;
+static_assert(65535 <= kViewBodiesMax * kViewPartsMax);
 /// Most ticks in one Inputs message.
 constexpr std::size_t kInputsMax = 64;
-/// Most mechanisms in one Grants or Release message, and most followers in one Grants: 36 + 10
-/// bytes each + 2 bytes a follower must fit kMessageBytesMax.
-constexpr std::size_t kGrantsMax = 80, kGrantFollowersMax = 150;
-static_assert(38 + 10 * kGrantsMax + 2 * kGrantFollowersMax <= kMessageBytesMax);
-/// Most bodies in one Rest message: 50 + 18 bytes each must fit kMessageBytesMax.
-constexpr std::size_t kRestBodiesMax = 60;
-static_assert(50 + 18 * kRestBodiesMax <= kMessageBytesMax);
-/// Most values in one Meta message: 34 + 8 bytes each must fit kMessageBytesMax.
-constexpr std::size_t kMetaMax = 120;
-static_assert(34 + 8 * kMetaMax <= kMessageBytesMax);
-/// Most impacts in one Impacts message: 16 bytes each within kBusMessageBytesMax.
-constexpr std::size_t kImpactsMax = 3000;
-static_assert(16 * kImpactsMax < kBusMessageBytesMax);
+/// Most mechanisms in one Grants message, and most followers in it: 36 + 12 bytes each + 2 bytes a
+/// follower must fit kMessageBytesMax. The followers of one mechanism are never split.
+constexpr std::size_t kGrantsMax = 48, kGrantFollowersMax = 260;
+static_assert(36 + 12 * kGrantsMax + 2 * kGrantFollowersMax <= kMessageBytesMax);
+/// Most mechanisms in one Release message: 26 + 8 bytes each must fit kMessageBytesMax.
+constexpr std::size_t kReleasesMax = 80;
+static_assert(26 + 8 * kReleasesMax <= kMessageBytesMax);
+/// Most bodies in one Rest message: 50 + 20 bytes each must fit kMessageBytesMax.
+constexpr std::size_t kRestBodiesMax = 54;
+static_assert(50 + 20 * kRestBodiesMax <= kMessageBytesMax);
+/// Most values in one Meta message: 34 + 10 bytes each must fit kMessageBytesMax.
+constexpr std::size_t kMetaMax = 110;
+static_assert(34 + 10 * kMetaMax <= kMessageBytesMax);
+/// Most impacts in one Impacts message: 38 + 20 bytes each within kBusMessageBytesMax.
+constexpr std::size_t kImpactsMax = 2900;
+static_assert(38 + 20 * kImpactsMax < kBusMessageBytesMax);
 /// Most points in one Strands message: 10 bytes each within kBusMessageBytesMax.
 constexpr std::size_t kStrandPointsMax = 3000;
 static_assert(10 * kStrandPointsMax < kBusMessageBytesMax);
-/// Most bodies in one ExactStates: 34 + 30 bytes each must fit kMessageBytesMax.
-constexpr std::size_t kExactBodiesMax = 36;
-static_assert(34 + 30 * kExactBodiesMax <= kMessageBytesMax);
-/// Most impacts in one ImpactReport: 34 + 20 bytes each; a peer has few in one tick.
+/// Most bodies in one ExactStates: 30 + 32 bytes each must fit kMessageBytesMax.
+constexpr std::size_t kExactBodiesMax = 35;
+static_assert(30 + 32 * kExactBodiesMax <= kMessageBytesMax);
+/// Most impacts in one ImpactReport: 30 + 24 bytes each; a peer has few in one tick.
 constexpr std::size_t kReportedImpactsMax = 32;
-static_assert(34 + 20 * kReportedImpactsMax <= kMessageBytesMax);
+static_assert(30 + 24 * kReportedImpactsMax <= kMessageBytesMax);
 /// Most bytes in one Chunk.
 constexpr std::size_t kChunkBytesMax = 1000;
 static_assert(kChunkBytesMax < kMessageBytesMax);

@@ -14,7 +14,7 @@
 namespace seam {
 
 /// Bumped when any message changes: peers of different versions do not talk.
-constexpr std::int32_t kProtocolVersion = 6;
+constexpr std::int32_t kProtocolVersion = 7;
 
 /// Client -> server, until answered: is there a room, of which protocol? No version may change its
 /// fields, so that peers of any two can tell each other theirs.
@@ -86,6 +86,7 @@ struct Ping {
   std::int32_t revision = -1;    ///< edits applied so far, -1 before there is a world
   std::int64_t composition = 0;  ///< hash of the composition after them
   std::int64_t rest = 0;         ///< hash of the bodies at rest, 0 for none
+  std::int16_t load = -1;        ///< 1/1000 of its time that it needs for its ticks; -1: not known
 };
 
 /// Server -> client: the answer.
@@ -119,7 +120,7 @@ struct States {
   std::int64_t composition = 0;      ///< hash of the composition after them
   std::int32_t origin_x = 0;         ///< whole metres
   std::int32_t origin_y = 0;         ///< whole metres
-  std::vector<std::int16_t> id;      ///< assembly ids, ascending; all vectors of one length
+  std::vector<std::int32_t> id;      ///< assembly ids, ascending; all vectors of one length
   std::vector<std::int32_t> epoch;   ///< of the body's mechanism
   std::vector<std::int8_t> flags;    ///< kStateAsleep | kStateImpact
   std::vector<std::int16_t> x, y;    ///< 1/512 m
@@ -139,7 +140,7 @@ struct Rest {
   std::int64_t tick = 0;
   std::int32_t revision = 0;        ///< edits that the authority had applied
   std::int64_t composition = 0;     ///< hash of the composition after them
-  std::vector<std::int16_t> id;     ///< assembly ids, ascending
+  std::vector<std::int32_t> id;     ///< assembly ids, ascending
   std::vector<std::int32_t> epoch;  ///< changes of authority over the body's mechanism
   std::vector<float> x, y;          ///< m
   std::vector<float> angle;         ///< rad, unwrapped
@@ -150,7 +151,7 @@ struct Grants {
   std::int64_t utime = 0;
   std::int64_t sequence = 0;
   std::int64_t tick = 0;
-  std::vector<std::int16_t> mechanism;  ///< mechanism ids
+  std::vector<std::int32_t> mechanism;  ///< mechanism ids
   std::vector<std::int16_t> authority;  ///< peer
   std::vector<std::int32_t> epoch;      ///< grows with every change of authority
   std::vector<std::int16_t> followers;  ///< how many of `follower` are this mechanism's
@@ -161,7 +162,7 @@ struct Grants {
 struct Release {
   std::int64_t utime = 0;
   std::int64_t tick = 0;
-  std::vector<std::int16_t> mechanism;
+  std::vector<std::int32_t> mechanism;
   std::vector<std::int32_t> epoch;
 };
 
@@ -171,7 +172,7 @@ struct ExactStates {
   std::int64_t utime = 0;
   std::int64_t tick = 0;            ///< that these are the states after
   std::int32_t revision = 0;        ///< edits that the holder had applied
-  std::vector<std::int16_t> id;     ///< assembly ids
+  std::vector<std::int32_t> id;     ///< assembly ids
   std::vector<std::int32_t> epoch;  ///< of the grant that took the authority away
   std::vector<float> x, y, angle;   ///< m, m, rad (unwrapped)
   std::vector<float> vx, vy, spin;  ///< m/s, m/s, rad/s
@@ -183,9 +184,9 @@ struct ImpactReport {
   std::int64_t utime = 0;
   std::int64_t tick = 0;            ///< in which it happened
   std::int32_t revision = 0;        ///< edits that the client had applied
-  std::vector<std::int16_t> id;     ///< assembly that was struck, the client's
+  std::vector<std::int32_t> id;     ///< assembly that was struck, the client's
   std::vector<std::int32_t> epoch;  ///< of the client's authority over it
-  std::vector<std::int16_t> by;     ///< assembly that struck it; -1: something anchored
+  std::vector<std::int32_t> by;     ///< assembly that struck it; -1: something anchored
   std::vector<float> x, y;          ///< m, point of contact
   std::vector<float> dv;            ///< m/s, change of velocity of the struck body, >= 0
 };
@@ -202,7 +203,7 @@ struct EditOrder {
   std::int64_t tick = 0;     ///< the server's when ordered; a proposer's own
   std::int8_t kind = 0;
   std::int8_t cause = 0;
-  std::int16_t a = -1, b = -1;
+  std::int32_t a = -1, b = -1;
   std::int32_t joint = -1;
   std::int16_t player = -1;
   std::string text;                         ///< at most kEditTextBytesMax
@@ -223,13 +224,13 @@ struct Snapshot {
   std::string text;  ///< of the entries that insert, one after another
   std::vector<std::int8_t> kind;
   std::vector<std::int32_t> joint;
-  std::vector<std::int16_t> a, b;
+  std::vector<std::int32_t> a, b;
   std::vector<float> value;  ///< of the entries in their order
 };
 /// Parts of one snapshot, the most: fewer than a Link keeps waiting.
 constexpr std::int32_t kSnapshotPartsMax = 3900;
 /// The bytes of a Snapshot but for its arrays; of an entry; of a number.
-constexpr std::size_t kSnapshotBytes = 37, kSnapshotEntryBytes = 9, kSnapshotValueBytes = 4;
+constexpr std::size_t kSnapshotBytes = 37, kSnapshotEntryBytes = 13, kSnapshotValueBytes = 4;
 
 /// Server -> everyone, reliable and ordered: what parts and players have and are worth, changes
 /// only. The server alone decides it.
@@ -238,7 +239,7 @@ struct Meta {
   std::int64_t sequence = 0;
   std::int64_t tick = 0;
   std::vector<std::int8_t> kind;  ///< kMetaPart | kMetaPlayer
-  std::vector<std::int16_t> id;   ///< part id, or the player's index in the scene
+  std::vector<std::int32_t> id;   ///< part id, or the player's index in the scene
   std::vector<std::int8_t> key;   ///< kMetaHealth...
   std::vector<float> value;
 };
@@ -260,7 +261,7 @@ struct View {
   std::int32_t revision = 0;  ///< edits that the peer had applied
   std::int32_t part = 0;      ///< part of parts: very large views are split
   std::int32_t parts = 1;
-  std::vector<std::int16_t> id;         ///< assembly ids, ascending
+  std::vector<std::int32_t> id;         ///< assembly ids, ascending
   std::vector<std::int8_t> role;        ///< kRole...
   std::vector<std::int16_t> authority;  ///< peer that has authority, as this peer knows it
   std::vector<float> x, y, angle;       ///< m, m, rad (unwrapped): as displayed
@@ -286,7 +287,7 @@ struct Impacts {
   std::int64_t sequence = 0;
   std::int32_t peer = 0;
   std::int64_t tick = 0;
-  std::vector<std::int16_t> id_a, id_b;  ///< assembly ids; -1 for anchored ground
+  std::vector<std::int32_t> id_a, id_b;  ///< assembly ids; -1 for anchored ground
   std::vector<float> x, y;               ///< m
   std::vector<float> dv;                 ///< m/s, the larger change of velocity of the two
 };

@@ -40,11 +40,15 @@ bool Finite(const Vectors&... vectors) {
   return (finite(vectors) && ...);
 }
 
-/// Ids: from 0 and strictly ascending.
-bool Ascending(const std::vector<std::int16_t>& ids) {
-  return (ids.empty() || ids.front() >= 0) &&
-         std::adjacent_find(ids.begin(), ids.end(),
-                            [](std::int16_t a, std::int16_t b) { return a >= b; }) == ids.end();
+bool Ids(const std::vector<std::int32_t>& ids, std::int32_t least = 0) {
+  return AllWithin(ids, least, kIdsMax - 1);
+}
+
+/// Ids: strictly ascending.
+bool Ascending(const std::vector<std::int32_t>& ids) {
+  return Ids(ids) && std::adjacent_find(ids.begin(), ids.end(), [](std::int32_t a, std::int32_t b) {
+                       return a >= b;
+                     }) == ids.end();
 }
 
 /// Bytes of the UTF-8 sequence at `at`, 0 when it is malformed or a control character.
@@ -111,7 +115,7 @@ bool Valid(const Room& m) {
          Within(m.tick_hz, kTickHzMin, kTickHzMax) && Within(m.send_hz, 1, m.tick_hz);
 }
 
-bool Valid(const Ping& m) { return Time(m.utime) && m.revision >= -1; }
+bool Valid(const Ping& m) { return Time(m.utime) && m.revision >= -1 && m.load >= -1; }
 
 bool Valid(const Pong& m) {
   return Time(m.utime) && Time(m.client_us) && Time(m.tick0_us) &&
@@ -143,7 +147,7 @@ bool Valid(const Rest& m) {
 bool Valid(const Grants& m) {
   return Time(m.utime) && m.sequence >= 0 && Tick(m.tick) && m.mechanism.size() <= kGrantsMax &&
          Lengths(m.mechanism.size(), m.authority, m.epoch, m.followers) &&
-         m.follower.size() <= kGrantFollowersMax && AllWithin(m.mechanism, 0, INT16_MAX) &&
+         m.follower.size() <= kGrantFollowersMax && Ids(m.mechanism) &&
          AllWithin(m.authority, 0, kPeersMax - 1) && AllWithin(m.epoch, 0, INT32_MAX) &&
          AllWithin(m.followers, 0, kPeersMax) && AllWithin(m.follower, 0, kPeersMax - 1) &&
          std::accumulate(m.followers.begin(), m.followers.end(), std::size_t{0}) ==
@@ -151,32 +155,31 @@ bool Valid(const Grants& m) {
 }
 
 bool Valid(const Release& m) {
-  return Time(m.utime) && Tick(m.tick) && Within(m.mechanism.size(), 1, kGrantsMax) &&
-         Lengths(m.mechanism.size(), m.epoch) && AllWithin(m.mechanism, 0, INT16_MAX) &&
+  return Time(m.utime) && Tick(m.tick) && Within(m.mechanism.size(), 1, kReleasesMax) &&
+         Lengths(m.mechanism.size(), m.epoch) && Ids(m.mechanism) &&
          AllWithin(m.epoch, 0, INT32_MAX);
 }
 
 bool Valid(const ExactStates& m) {
   return Time(m.utime) && Tick(m.tick) && m.revision >= 0 &&
          Within(m.id.size(), 1, kExactBodiesMax) &&
-         Lengths(m.id.size(), m.epoch, m.x, m.y, m.angle, m.vx, m.vy, m.spin) &&
-         AllWithin(m.id, 0, INT16_MAX) && AllWithin(m.epoch, 0, INT32_MAX) &&
-         Finite(m.x, m.y, m.angle, m.vx, m.vy, m.spin);
+         Lengths(m.id.size(), m.epoch, m.x, m.y, m.angle, m.vx, m.vy, m.spin) && Ids(m.id) &&
+         AllWithin(m.epoch, 0, INT32_MAX) && Finite(m.x, m.y, m.angle, m.vx, m.vy, m.spin);
 }
 
 bool Valid(const ImpactReport& m) {
   return Time(m.utime) && Tick(m.tick) && m.revision >= 0 &&
          Within(m.id.size(), 1, kReportedImpactsMax) &&
-         Lengths(m.id.size(), m.epoch, m.by, m.x, m.y, m.dv) && AllWithin(m.id, 0, INT16_MAX) &&
-         AllWithin(m.epoch, 0, INT32_MAX) && AllWithin(m.by, -1, INT16_MAX) &&
-         Finite(m.x, m.y, m.dv) &&
+         Lengths(m.id.size(), m.epoch, m.by, m.x, m.y, m.dv) && Ids(m.id) &&
+         AllWithin(m.epoch, 0, INT32_MAX) && Ids(m.by, -1) && Finite(m.x, m.y, m.dv) &&
          std::all_of(m.dv.begin(), m.dv.end(), [](float dv) { return dv >= 0; });
 }
 
 bool Valid(const EditOrder& m) {
   return Time(m.utime) && m.sequence >= 0 && m.number >= -1 && Tick(m.tick) &&
-         Within(m.kind, 0, kEditKindsMax) && Within(m.cause, 0, 1) && m.a >= -1 && m.b >= -1 &&
-         m.joint >= -1 && Within(m.player, -1, kPeersMax - 1) &&
+         Within(m.kind, 0, kEditKindsMax) && Within(m.cause, 0, 1) &&
+         Within(m.a, -1, kIdsMax - 1) && Within(m.b, -1, kIdsMax - 1) && m.joint >= -1 &&
+         Within(m.player, -1, kPeersMax - 1) &&
          (m.value.size() == 4 || (m.kind == kEditKindBlast && m.value.size() == 5)) &&
          Finite(m.value) && IsPrintable(m.text, kEditTextBytesMax, true);
 }
@@ -187,15 +190,14 @@ bool Valid(const Snapshot& m) {
   return Time(m.utime) && m.number >= 0 && Within(m.parts, 1, kSnapshotPartsMax) &&
          Within(m.part, 0, m.parts - 1) && bytes <= kMessageBytesMax &&
          Lengths(m.kind.size(), m.joint, m.a, m.b) && AllWithin(m.kind, 1, INT8_MAX) &&
-         AllWithin(m.joint, -1, INT32_MAX) && AllWithin(m.a, -1, INT16_MAX) &&
-         AllWithin(m.b, -1, INT16_MAX) && Finite(m.value) &&
+         AllWithin(m.joint, -1, INT32_MAX) && Ids(m.a, -1) && Ids(m.b, -1) && Finite(m.value) &&
          IsPrintable(m.text, kEditTextBytesMax, true);
 }
 
 bool Valid(const Meta& m) {
   return Time(m.utime) && m.sequence >= 0 && Tick(m.tick) && m.id.size() <= kMetaMax &&
          Lengths(m.id.size(), m.kind, m.key, m.value) &&
-         AllWithin(m.kind, kMetaPart, kMetaPlayer) && AllWithin(m.id, 0, INT16_MAX) &&
+         AllWithin(m.kind, kMetaPart, kMetaPlayer) && Ids(m.id) &&
          AllWithin(m.key, 0, kMetaKeyMax) && Finite(m.value);
 }
 
@@ -211,8 +213,7 @@ bool Valid(const View& m) {
 bool Valid(const Impacts& m) {
   return Time(m.utime) && m.sequence >= 0 && Peer(m.peer) && Tick(m.tick) &&
          m.id_a.size() <= kImpactsMax && Lengths(m.id_a.size(), m.id_b, m.x, m.y, m.dv) &&
-         AllWithin(m.id_a, -1, INT16_MAX) && AllWithin(m.id_b, -1, INT16_MAX) &&
-         Finite(m.x, m.y, m.dv);
+         Ids(m.id_a, -1) && Ids(m.id_b, -1) && Finite(m.x, m.y, m.dv);
 }
 
 bool Valid(const Strands& m) {

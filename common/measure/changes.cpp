@@ -22,10 +22,10 @@ std::int64_t LongestLag(const Recording& recording) {
 }
 
 /// Ids that are in one of the two lists and not in the other. Both ascending.
-std::int64_t Differing(const std::vector<PartId>& there, const std::vector<std::int16_t>& shown) {
+std::int64_t Differing(const std::vector<PartId>& there, const std::vector<PartId>& shown) {
   std::int64_t both = 0;
   auto a = there.begin();
-  for (const std::int16_t id : shown) {
+  for (const PartId id : shown) {
     while (a != there.end() && *a < id) ++a;
     if (a != there.end() && *a == id) ++both;
   }

@@ -36,10 +36,11 @@ void World::SetTick(std::int64_t tick) {
 float World::dt() const { return 1.0f / static_cast<float>(impl_->scene.solver.tick_hz); }
 
 int World::BodyOfId(PartId assembly) const {
-  const std::vector<MovingBody>& all = impl_->built.moving;
-  const auto found = std::lower_bound(all.begin(), all.end(), assembly,
-                                      [](const MovingBody& m, PartId id) { return m.id < id; });
-  return found != all.end() && found->id == assembly ? static_cast<int>(found - all.begin()) : -1;
+  const Composition& made = composition();
+  const auto part = static_cast<std::size_t>(assembly);  // negative ones become large
+  const int a = part < made.assembly_of_part.size() ? made.assembly_of_part[part] : -1;
+  if (a < 0 || made.assemblies[static_cast<std::size_t>(a)].id != assembly) return -1;
+  return IndexOf(impl_->built.bodies[static_cast<std::size_t>(a)]);
 }
 
 BodyState World::Read(int body) const {

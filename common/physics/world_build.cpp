@@ -135,11 +135,16 @@ BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2Worl
   Arrange(static_cast<std::size_t>(
               std::count_if(composition.assemblies.begin(), composition.assemblies.end(), moves)),
           memory);
-  const std::vector<bool> share = ShareBodies(scene, composition);
+  if (memory->share_revision != memory->revision) {
+    memory->share = ShareBodies(scene, composition);
+    memory->share_revision = memory->revision;
+  }
+  const std::vector<bool>& share = memory->share;
   AnchoredBodies shared(world);
   for (const Assembly& assembly : composition.assemblies) {
     const std::size_t index = built.moving.size();
     const bool absent = !assembly.anchored && memory->absent[index] != 0;
+    const bool kept = absent && memory->bodies[index] != nullptr;
     b2Body* body = share[built.bodies.size()] ? AddToShared(scene, assembly, &shared, &built.merged)
                    : absent                   ? BodyAside(scene, assembly, index, memory)
                             : AddBody(scene, assembly, true, world, &built.merged);
@@ -148,6 +153,7 @@ BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2Worl
     if (memory->mass.size() == index) memory->mass.push_back(MassDataOf(scene, assembly));
     const b2MassData& mass = memory->mass[index];
     built.moving.push_back({body, assembly.id, assembly.mechanism, mass});
+    if (kept) continue;  // as it was left
     body->GetUserData().pointer = built.moving.size();
     body->SetMassData(&mass);
     const Part& root = scene.parts[static_cast<std::size_t>(assembly.id)];

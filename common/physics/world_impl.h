@@ -30,6 +30,7 @@ struct World::Impl {
   }
 
   void Build() {
+    memory.revision = topology.revision();
     built = BuildScene(scene, composition, &*world, &memory);
     motions.assign(built.moving.size(), Motion::kDynamic);
     led_count = 0;

@@ -144,8 +144,10 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
     if (motions[i] == Motion::kKinematic) b->SetType(b2_kinematicBody);
     if (motions[i] == Motion::kLed) ++led_count;
     const BodyState& state = snapshot.bodies[i].state;
-    b->SetTransform(ToB2(state.position), state.angle);
-    if (IsAside(*b)) absent.push_back(static_cast<int>(i));
+    const bool aside = IsAside(*b);
+    if (aside) absent.push_back(static_cast<int>(i));
+    const bool there = b->GetPosition() == ToB2(state.position) && b->GetAngle() == state.angle;
+    if (!aside || !there) b->SetTransform(ToB2(state.position), state.angle);
   }
   for (const auto& stage : stages) stage->Placed();
   // No time passes, but contacts are found, which wakes what they touch.

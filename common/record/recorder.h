@@ -18,6 +18,8 @@ class Recorder {
   /// Publishes one encoded message. Never throws; failures are counted in failures().
   virtual void Publish(const std::string& channel, std::int64_t utime, ByteView message) = 0;
   virtual std::int64_t failures() const { return 0; }
+  /// False: whatever is published comes to nobody.
+  virtual bool listening() const { return true; }
 };
 
 /// "SEAM.<room>.<kind>" or "SEAM.<room>.<kind>.<peer>" when peer >= 0. kind is lower case: scene,

@@ -13,7 +13,7 @@ namespace seam {
 namespace {
 
 /// Channels whose sequence numbers are followed; a session has about 4 a peer.
-constexpr std::size_t kChannelsMax = 4096;
+constexpr std::size_t kChannelsMax = 16384;
 /// Views that wait for further parts; normal 1 a peer. Beyond it the oldest tick is given up.
 constexpr std::size_t kPartialMax = 256;
 /// No session pauses for so many ticks: views farther apart than this do not belong together.
@@ -217,7 +217,7 @@ bool RecordingBuilder::Keep(View& part) {
 }
 
 bool RecordingBuilder::KeepWhole(View& view) {
-  const auto not_below = [](std::int16_t a, std::int16_t b) { return a >= b; };
+  const auto not_below = [](std::int32_t a, std::int32_t b) { return a >= b; };
   if (std::adjacent_find(view.id.begin(), view.id.end(), not_below) != view.id.end()) {
     ++recording_.undecodable;  // parts that do not fit together
     return false;

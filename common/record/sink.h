@@ -23,6 +23,7 @@ class Sink : public Recorder {
 
   void Publish(const std::string& channel, std::int64_t utime, ByteView message) override;
   std::int64_t failures() const override;
+  bool listening() const override { return bus_ != nullptr || !record_path_.empty(); }
   /// The first failure to write the log; ok without one, and without a log.
   const Status& trouble() const;
   /// Takes what other peers have published into the log. Call often; never blocks.

@@ -3,6 +3,20 @@
 #include "common/scene/toml/toml_tree.h"
 
 namespace seam {
+namespace {
+
+/// How many players a [[player]] is. Requires one of a scene that parses.
+std::size_t CopiesOf(const TomlNode& player) {
+  const TomlNode* repeat = player.Find("repeat");
+  const TomlNode* count = repeat == nullptr ? nullptr : repeat->Find("count");
+  if (count == nullptr) return 1;
+  double copies = count->number;
+  if (count->kind == TomlNode::Kind::kArray)
+    copies = count->items[0].number * count->items[1].number;
+  return static_cast<std::size_t>(copies);
+}
+
+}  // namespace
 
 std::vector<std::string> PlayerColours(const Scene& scene) {
   std::vector<std::string> colours;
@@ -12,13 +26,13 @@ std::vector<std::string> PlayerColours(const Scene& scene) {
   if (players == nullptr) return colours;
   for (const TomlNode& player : players->items) {
     const TomlNode* colour = player.Find("colour");  // it was checked when the scene was read
-    if (colour == nullptr) {
-      colours.emplace_back();
-    } else if (colour->kind == TomlNode::Kind::kText) {
-      colours.push_back(colour->text);
-    } else {
-      colours.push_back(std::to_string(static_cast<int>(colour->number)));
+    std::string text;
+    if (colour != nullptr) {
+      text = colour->kind == TomlNode::Kind::kText
+                 ? colour->text
+                 : std::to_string(static_cast<int>(colour->number));
     }
+    colours.insert(colours.end(), CopiesOf(player), text);
   }
   return colours;
 }

@@ -92,6 +92,7 @@ void AddHinges(const SceneReader& r, CharacterDraft* draft, SceneDraft* out) {
     }
     c.joints[j] = static_cast<int>(scene.joints.size());
     c.slack[j] = joint.motor_torque * (c.active ? kCharacterSlack : 1.0f);
+    out->joint_names.insert(joint.name);
     scene.joints.push_back(joint);
     ++j;
   }

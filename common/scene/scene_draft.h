@@ -2,6 +2,7 @@
 /// The sections of a scene file, one function each; ParseScene calls them in this order.
 
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -13,19 +14,11 @@
 
 namespace seam {
 
-/// A scene that is being read.
-struct SceneDraft {
-  const std::string& file;
-  Scene scene;
-  float size_max = 10;  ///< m
-  std::map<std::string, PartId> part_of_name;
-  std::map<std::string, std::vector<PartId>> group_of_name;  ///< what `repeat` made of a name
-};
-
 /// `repeat = {count, step}`: how often a part or joint is copied, and where each copy goes.
 /// Of a part also `weld` or `glue`: copies that follow each other in a column or row are joined.
 struct Repeat {
   int columns = 1, rows = 1;
+  bool copies = false;  ///< something says `repeat`
   bool joined = false;
   JointKind kind = JointKind::kWeld;
   float strength = 0;  ///< N; of glue
@@ -36,7 +29,35 @@ struct Repeat {
   /// ".3", or in a grid ".3.1".
   std::string Suffix(int column, int row) const;
 };
-Repeat ReadRepeat(const SceneReader& owner, const std::string& file);
+/// `of_players`: nothing is welded or glued, and without a step the copies are where the first is.
+Repeat ReadRepeat(const SceneReader& owner, const std::string& file, bool of_players = false);
+
+/// Players that one [[player]] has made: a column after the other, as `repeat` says.
+struct PlayerGroup {
+  int first = 0;  ///< index in the scene
+  Repeat repeat;
+};
+
+/// A scene that is being read.
+struct SceneDraft {
+  const std::string& file;
+  Scene scene;
+  float size_max = 10;  ///< m
+  std::map<std::string, PartId> part_of_name = {};
+  std::map<std::string, std::vector<PartId>> group_of_name = {};  ///< what `repeat` made of a name
+  std::set<std::string> joint_names = {};
+  std::map<std::string, PlayerGroup> players_of_name = {};  ///< of each [[player]]
+};
+
+/// The part that comes as many copies after `part` ("link.0" and column 2: "link.2"), for a copy of
+/// what names it; a part that is no copy stays. Complains at `repeat` when there is none.
+PartId PartAfter(const SceneReader& r, PartId part, int column, int row, bool grid,
+                 const SceneDraft& draft);
+/// "bot-3", or in a grid "bot-3-1": a player's name has no dots.
+std::string PlayerCopyName(const std::string& name, const Repeat& repeat, int column, int row);
+/// The same of the players that `repeat` made; seats, and -1, stay.
+int PlayerAfter(const SceneReader& r, int player, int column, int row, bool grid,
+                const SceneDraft& draft);
 
 /// [[player]]: only names, so that parts and joints can refer to them.
 void ReadPlayerNames(const SceneReader& root, SceneDraft* draft);
@@ -70,6 +91,8 @@ void ReadCharges(const SceneReader& root, SceneDraft* draft);
 void ReadScripts(const SceneReader& root, SceneDraft* draft);
 /// [[watch]]. Requires parts.
 void ReadWatch(const SceneReader& root, SceneDraft* draft);
+/// [planner].
+void ReadPlanner(const SceneReader& root, SceneDraft* draft);
 /// [camera]. Requires parts.
 void ReadCamera(const SceneReader& root, SceneDraft* draft);
 
@@ -85,6 +108,9 @@ int FindPlayer(const SceneReader& reader, const char* key, const std::string& na
 /// Whose axis (`axis`, the drive unless said) something follows, as FindDriver; -1 without
 /// `player`.
 int ReadFollowed(const SceneReader& r, const SceneDraft& draft, InputAxis* axis);
+
+/// The players named at `key`; "bot-*" are all copies of a repeated player.
+std::vector<int> FindPlayers(const SceneReader& reader, const char* key, const SceneDraft& draft);
 
 /// Whose inputs: a player's index, or players.size() + a seat's; complains at `key` if there is
 /// neither.

@@ -31,7 +31,33 @@ int FindPlayer(const SceneReader& reader, const char* key, const std::string& na
   for (std::size_t p = 0; p < draft.scene.players.size(); ++p) {
     if (draft.scene.players[p].name == name) return static_cast<int>(p);
   }
+  const auto group = draft.players_of_name.find(name);
+  if (group != draft.players_of_name.end() && group->second.repeat.copies) {
+    reader.FailAt(key, std::string(key) + ": player '" + name + "' is repeated: say '" +
+                           draft.scene.players[static_cast<std::size_t>(group->second.first)].name +
+                           "' for one of them");
+  }
   reader.FailAt(key, std::string(key) + ": there is no player '" + Printable(name) + "'");
+}
+
+std::vector<int> FindPlayers(const SceneReader& reader, const char* key, const SceneDraft& draft) {
+  std::vector<int> players;
+  for (const std::string& name : reader.Texts(key)) {
+    const bool all = name.size() > 2 && name.compare(name.size() - 2, 2, "-*") == 0;
+    if (!all) {
+      players.push_back(FindPlayer(reader, key, name, draft));
+      continue;
+    }
+    const auto group = draft.players_of_name.find(name.substr(0, name.size() - 2));
+    if (group == draft.players_of_name.end() || !group->second.repeat.copies) {
+      reader.FailAt(key, std::string(key) + ": no player is repeated as '" + Printable(name) + "'");
+    }
+    const Repeat& repeat = group->second.repeat;
+    for (int i = 0; i < repeat.columns * repeat.rows; ++i) {
+      players.push_back(group->second.first + i);
+    }
+  }
+  return players;
 }
 
 }  // namespace seam

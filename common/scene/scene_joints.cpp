@@ -185,36 +185,13 @@ void ReadLocal(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
 }
 
 void Add(const SceneReader& r, const Joint& joint, SceneDraft* draft) {
-  for (const Joint& other : draft->scene.joints) {
-    if (!other.gone && other.name == joint.name) {
-      r.FailAt("name", "there is another joint of this name");
-    }
+  if (!draft->joint_names.insert(joint.name).second) {
+    r.FailAt("name", "there is another joint of this name");
   }
   if (Full(draft->scene.joints, kJointsMax)) {
     r.Fail("a scene may have at most " + std::to_string(kJointsMax) + " joints");
   }
   draft->scene.joints.push_back(joint);
-}
-
-/// The part whose copy number is `by` after that of `part`: "link.0" and {2} is "link.2". A part
-/// that is no copy stays.
-PartId CopyAfter(const SceneReader& r, PartId part, int column, int row, bool grid,
-                 const SceneDraft& draft) {
-  const std::string& name = draft.scene.parts[static_cast<std::size_t>(part)].name;
-  const std::size_t first = name.find('.');
-  if (first == std::string::npos) return part;
-  if (std::isdigit(static_cast<unsigned char>(name[first + 1])) == 0) return part;  // a character's
-  const std::size_t second = name.find('.', first + 1);
-  const bool two = second != std::string::npos;
-  if (two != grid) r.FailAt("repeat", "repeat: '" + name + "' is not repeated the same way");
-  std::string copy =
-      name.substr(0, first + 1) + std::to_string(std::stoi(name.substr(first + 1)) + column);
-  if (two) copy += "." + std::to_string(std::stoi(name.substr(second + 1)) + row);
-  const auto found = draft.part_of_name.find(copy);
-  if (found == draft.part_of_name.end()) {
-    r.FailAt("repeat", "repeat: there is no part '" + copy + "'");
-  }
-  return found->second;
 }
 
 void Copy(const SceneReader& r, const Joint& first, SceneDraft* draft) {
@@ -224,8 +201,9 @@ void Copy(const SceneReader& r, const Joint& first, SceneDraft* draft) {
     for (int row = 0; row < repeat.rows; ++row) {
       Joint joint = first;
       joint.name += repeat.Suffix(column, row);
-      joint.a = CopyAfter(r, first.a, column, row, repeat.grid, *draft);
-      joint.b = CopyAfter(r, first.b, column, row, repeat.grid, *draft);
+      joint.a = PartAfter(r, first.a, column, row, repeat.grid, *draft);
+      joint.b = PartAfter(r, first.b, column, row, repeat.grid, *draft);
+      joint.motor_player = PlayerAfter(r, first.motor_player, column, row, repeat.grid, *draft);
       joint.anchor_a += repeat.Offset(column, row);
       joint.anchor_b += repeat.Offset(column, row);
       joint.ground_a += repeat.Offset(column, row);

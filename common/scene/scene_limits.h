@@ -37,8 +37,8 @@ constexpr Range kSkinRange{0.0025, 0.01};
 /// Width and height of water, m, and its flow, m/s.
 constexpr float kWaterSizeMax = 20000, kFlowMax = 50;
 constexpr std::size_t kWatersMax = 64;
-/// Numbers of things. Players: every peer but the server.
-constexpr std::size_t kPartsMax = 4096, kJointsMax = 4096, kPlayersMax = kPeersMax - 1;
+/// Numbers of things; of players see common/base/limits.h.
+constexpr std::size_t kPartsMax = 65535, kJointsMax = 65535;
 /// Of a player.
 constexpr std::size_t kActionsMax = 15;
 constexpr std::size_t kScriptMax = 2000, kWatchMax = 16, kThrustsMax = 256;

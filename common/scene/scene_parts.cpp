@@ -1,5 +1,6 @@
 
 #include "common/scene/connectors.h"
+#include "common/scene/forces.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
 
@@ -26,10 +27,7 @@ void ReadMotion(const SceneReader& r, float speed_limit, Part* part) {
 std::vector<int> ReadOwners(const SceneReader& r, const SceneDraft& draft, bool anchored) {
   if (r.Has("owner") && r.Has("owners")) r.Fail("has both owner and owners");
   const char* key = r.Has("owners") ? "owners" : "owner";
-  std::vector<int> owners;
-  for (const std::string& name : r.Texts(key)) {
-    owners.push_back(FindPlayer(r, key, name, draft));
-  }
+  std::vector<int> owners = FindPlayers(r, key, draft);
   if (r.Has("owner") && owners.size() != 1) r.FailAt("owner", "owner must be one player's name");
   if (r.Has("owners") && owners.empty()) r.FailAt("owners", "owners is empty");
   if (anchored && !owners.empty()) r.FailAt(key, "an anchored part cannot have an owner");
@@ -72,6 +70,7 @@ void JoinCopies(const SceneReader& r, const Repeat& repeat, const std::string& n
                                        parts[static_cast<std::size_t>(to)].position) /
                                       2;
     joint.line = r.line();
+    draft->joint_names.insert(joint.name);
     draft->scene.joints.push_back(joint);
   };
   for (int column = 0; column < repeat.columns; ++column) {
@@ -80,6 +79,15 @@ void JoinCopies(const SceneReader& r, const Repeat& repeat, const std::string& n
       if (row + 1 < repeat.rows) join(".v", column, row, part(column, row + 1));
     }
   }
+}
+
+/// The conveyor of a copy follows the next copy of the player that the first follows.
+void FollowCopy(const SceneReader& r, int followed, const Repeat& repeat, int column, int row,
+                const SceneDraft& draft, Part* part) {
+  if (followed < 0) return;
+  Conveyor conveyor = *part->conveyor;
+  conveyor.player = PlayerAfter(r, followed, column, row, repeat.grid, draft);
+  part->conveyor.Set(conveyor);
 }
 
 void ReadPart(const TomlNode& node, SceneDraft* draft) {
@@ -118,11 +126,13 @@ void ReadPart(const TomlNode& node, SceneDraft* draft) {
     return;
   }
   const Vec2 first = part.position;
+  const int followed = part.conveyor->player;
   std::vector<PartId>& group = draft->group_of_name[name];
   for (int column = 0; column < repeat.columns; ++column) {
     for (int row = 0; row < repeat.rows; ++row) {
       part.position = first + repeat.Offset(column, row);
       part.owner = owners[group.size() % owners.size()];
+      FollowCopy(r, followed, repeat, column, row, *draft, &part);
       group.push_back(static_cast<PartId>(draft->scene.parts.size()));
       Place(r, part, name + repeat.Suffix(column, row), draft);
     }

@@ -1,5 +1,6 @@
 #include <cmath>
 
+#include "common/base/names.h"
 #include "common/scene/scene_draft.h"
 #include "common/scene/scene_limits.h"
 
@@ -11,7 +12,7 @@ constexpr int kButtons = 15;         // Input::buttons is an int16_t: 15 bits wi
 
 SceneReader PlayerReader(const TomlNode& node, const SceneDraft& draft) {
   return SceneReader(node, draft.file, "player",
-                     {"name", "vehicle", "region", "colour", "actions", "script"});
+                     {"name", "vehicle", "region", "colour", "actions", "script", "repeat"});
 }
 
 /// A script's time in seconds to the nearest tick.
@@ -97,35 +98,74 @@ void CheckColour(const SceneReader& r) {
     r.FailAt("colour", "colour must be \"#rrggbb\", or 1 to 10 of the palette");
 }
 
+void AddName(const SceneReader& r, const std::string& name, SceneDraft* draft) {
+  std::vector<Player>& players = draft->scene.players;
+  if (!IsName(name)) r.FailAt("name", "the copy's name '" + name + "' is too long");
+  for (const Player& other : players) {
+    if (other.name == name) r.FailAt("name", "there is another player of this name");
+  }
+  if (players.size() == static_cast<std::size_t>(kPlayersMax)) {
+    r.Fail("a scene may have at most " + std::to_string(kPlayersMax) + " players");
+  }
+  players.emplace_back();
+  players.back().name = name;
+}
+
+/// What copy (column, row) has of its own: the vehicle and the actions' parts are the next copies,
+/// the region lies further.
+void MoveCopy(const SceneReader& r, const Repeat& repeat, int column, int row,
+              const SceneDraft& draft, Player* player) {
+  const auto after = [&](PartId part) {
+    return PartAfter(r, part, column, row, repeat.grid, draft);
+  };
+  if (player->vehicle >= 0) player->vehicle = after(player->vehicle);
+  for (Action& action : player->actions) action.part = after(action.part);
+  player->region_min += repeat.Offset(column, row);
+  player->region_max += repeat.Offset(column, row);
+}
+
 }  // namespace
 
 void ReadPlayerNames(const SceneReader& root, SceneDraft* draft) {
   for (const TomlNode* node : root.Tables("player")) {
     const SceneReader r = PlayerReader(*node, *draft);
-    Player player;
-    player.name = r.Name("name");
-    for (const Player& other : draft->scene.players) {
-      if (other.name == player.name) r.FailAt("name", "there is another player of this name");
+    const std::string name = r.Name("name");
+    const PlayerGroup group{static_cast<int>(draft->scene.players.size()),
+                            ReadRepeat(r, draft->file, true)};
+    const Repeat& repeat = group.repeat;
+    if (!draft->players_of_name.emplace(name, group).second) {
+      r.FailAt("name", "there is another player of this name");
     }
-    if (draft->scene.players.size() == kPlayersMax) {
-      r.Fail("a scene may have at most " + std::to_string(kPlayersMax) + " players");
+    for (int column = 0; column < repeat.columns; ++column) {
+      for (int row = 0; row < repeat.rows; ++row) {
+        AddName(r, repeat.copies ? PlayerCopyName(name, repeat, column, row) : name, draft);
+      }
     }
-    draft->scene.players.push_back(player);
   }
 }
 
 void ReadPlayers(const SceneReader& root, SceneDraft* draft) {
   std::size_t index = 0;
   for (const TomlNode* node : root.Tables("player")) {
-    Player& player = draft->scene.players[index++];
     SceneReader r = PlayerReader(*node, *draft);
-    r.Rename("player '" + player.name + "'");
+    const std::string name = r.Name("name");
+    r.Rename("player '" + name + "'");
+    Player player;
     player.line = node->line;
     if (r.Has("vehicle")) player.vehicle = FindPart(r, "vehicle", *draft);
     ReadRegion(r, &player);
     CheckColour(r);
     ReadActions(r, *draft, &player);
     ReadScript(r, *draft, &player);
+    const Repeat& repeat = draft->players_of_name.at(name).repeat;
+    for (int column = 0; column < repeat.columns; ++column) {
+      for (int row = 0; row < repeat.rows; ++row) {
+        Player& copy = draft->scene.players[index++];
+        player.name = copy.name;
+        copy = player;
+        if (repeat.copies) MoveCopy(r, repeat, column, row, *draft, &copy);
+      }
+    }
   }
 }
 

@@ -41,13 +41,11 @@ void AddScript(const SceneReader& r, const char* key, ScriptSource script, Scene
   draft->scene.scripts.push_back(std::move(script));
 }
 
-/// The players named at `key` as bits; everybody when it is absent.
+/// The players named at `key`; everybody when it is absent.
 PlayerMask ReadMask(const SceneReader& r, const char* key, const SceneDraft& draft) {
   if (!r.Has(key)) return kEveryPlayer;
-  PlayerMask mask = 0;
-  for (const std::string& name : r.Texts(key)) {
-    mask |= PlayerMask{1} << FindPlayer(r, key, name, draft);
-  }
+  PlayerMask mask;
+  for (const int player : FindPlayers(r, key, draft)) mask.Add(player);
   return mask;
 }
 

@@ -84,11 +84,12 @@ std::vector<Grants> AuthorityTable::Export(std::int64_t utime, std::int64_t tick
       out.back().tick = tick;
     }
     Grants& g = out.back();
-    g.mechanism.push_back(static_cast<std::int16_t>(id(m)));
+    const std::size_t end = g.follower.size() + followers;
+    g.mechanism.push_back(id(m));
     g.authority.push_back(static_cast<std::int16_t>(record.authority));
     g.epoch.push_back(record.epoch);
     g.followers.push_back(static_cast<std::int16_t>(followers));
-    for (int peer = 0; peer < kPeersMax; ++peer) {
+    for (int peer = 0; g.follower.size() < end; ++peer) {
       if (record.secondaries.Has(peer)) g.follower.push_back(static_cast<std::int16_t>(peer));
     }
   }

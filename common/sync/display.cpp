@@ -37,7 +37,8 @@ Display::Display(const SyncConfig& config, World& world, const Snapshots& snapsh
       delay_(config.send_every()),
       joints_(world),
       reckoner_(world, snapshots, joints_),
-      corrected_ticks_(world.composition().mechanisms.size(), 0) {}
+      corrected_ticks_(world.composition().mechanisms.size(), 0),
+      left_(static_cast<std::size_t>(world.body_count()), 0) {}
 
 /// What a person could see of a jump: a wheel that spins turns by so much in every tick that
 /// nobody can tell a correction of less, and gliding over it would show it wrong for longer.
@@ -62,6 +63,7 @@ void Display::Remap(const BodyRemap& change) {
   smoother_.Remap(from);
   joints_.Rebuild();
   corrected_ticks_.assign(world_.composition().mechanisms.size(), 0);
+  left_.assign(static_cast<std::size_t>(world_.body_count()), 0);
   if (config_.mode == Mode::kOracle) return;  // the oracle hides nothing
   for (std::size_t body = 0; body < change.jumps.size(); ++body) {
     smoother_.Moved(static_cast<int>(body), change.jumps[body]);
@@ -74,6 +76,7 @@ void Display::Glide(const Roles& roles) {
     const std::vector<int>& bodies = joints_.bodies(m);
     int& corrected = corrected_ticks_[static_cast<std::size_t>(m)];
     corrected = std::max(0, corrected - 1);
+    if (!config_.smooth) continue;
     if (bodies.size() == 1) {
       const int body = bodies.front();
       smoother_.Advance(body, world_.dt(), world_.Read(body).velocity.norm());
@@ -81,20 +84,32 @@ void Display::Glide(const Roles& roles) {
       smoother_.AdvanceTogether(world_, bodies);
     }
   }
-  KeepClosed(roles);
+  if (config_.smooth) KeepClosed(roles);
 }
 
 /// What closing has moved becomes part of the offset and returns with it: closed anew from torn
 /// poses in every tick, the view would jump whenever physics does.
 void Display::KeepClosed(const Roles& roles) {
-  const std::vector<BodyState> poses = ShownPoses(roles);
+  const std::vector<BodyState> poses = ShownPoses(roles, config_.shows_far);
   for (int body = 0; body < world_.body_count(); ++body) {
-    if (!joints_.jointed(world_.mechanism(body))) continue;
+    const int m = world_.mechanism(body);
+    if (!joints_.jointed(m) || (!config_.shows_far && roles.RoleOf(m) == kRoleRemote)) continue;
     smoother_.Set(body, Minus(poses[static_cast<std::size_t>(body)], world_.Read(body)));
   }
 }
 
-void Display::Drive(std::int64_t next) {
+/// By what was heard of it last, cheaply.
+bool Display::IsOutside(int body, std::int64_t next, const MovingBox& seen) const {
+  if (!snapshots_.has(body)) return false;
+  const BodyState& heard = snapshots_.newest(body);
+  const std::int64_t newest = snapshots_.newest_tick(body);
+  const float forward = Snapshots::Forward(newest, next, world_.dt(), kReckonMax);
+  const Vec2 at = heard.position + forward * heard.velocity;
+  return at.x() < seen.min.x() || at.y() < seen.min.y() || at.x() > seen.max.x() ||
+         at.y() > seen.max.y();
+}
+
+void Display::Drive(std::int64_t next, const MovingBox& seen) {
   if (config_.mode == Mode::kOracle) return;  // nothing is only displayed
   const double delay = delay_.Advance();
   reckoner_.Begin(next);
@@ -102,6 +117,18 @@ void Display::Drive(std::int64_t next) {
     const Motion motion = world_.motion(body);
     if (motion == Motion::kDynamic) continue;
     if (motion == Motion::kAbsent && (next + world_.mechanism(body)) % kAbsentEvery != 0) continue;
+    char& left = left_[static_cast<std::size_t>(body)];
+    const bool outside =
+        !config_.shows_far && motion == Motion::kAbsent && IsOutside(body, next, seen);
+    if (!outside && left != 0) smoother_.Reset(body);
+    if (outside && left == 0) {
+      BodyState still = world_.Read(body);
+      still.velocity.setZero();
+      still.spin = 0;
+      world_.Write(body, still, false);
+    }
+    left = outside ? 1 : 0;
+    if (outside) continue;
     BodyState state = world_.Read(body);
     if (!snapshots_.has(body)) {
       state.velocity.setZero();
@@ -159,17 +186,18 @@ bool Display::IsOff(int mechanism) const {
                      [&](int body) { return smoother_.active(body); });
 }
 
-std::vector<BodyState> Display::ShownPoses(const Roles& roles) const {
-  std::vector<BodyState> poses;
+std::vector<BodyState> Display::ShownPoses(const Roles& roles, bool all) const {
+  std::vector<BodyState> poses(static_cast<std::size_t>(world_.body_count()));
   for (int body = 0; body < world_.body_count(); ++body) {
-    BodyState pose = world_.Read(body);
+    if (!all && roles.RoleOf(world_.mechanism(body)) == kRoleRemote) continue;
+    BodyState& pose = poses[static_cast<std::size_t>(body)];
+    pose = world_.Read(body);
     pose.position += smoother_.offset(body);
     pose.angle += smoother_.angle_offset(body);
-    poses.push_back(pose);
   }
   const int mechanisms = static_cast<int>(world_.composition().mechanisms.size());
   for (int m = 0; m < mechanisms; ++m) {
-    if (!joints_.jointed(m)) continue;
+    if (!joints_.jointed(m) || (!all && roles.RoleOf(m) == kRoleRemote)) continue;
     const bool simulated = roles.Simulates(joints_.bodies(m).front());
     // What physics made of a simulated mechanism is shown as it is.
     if (!simulated || IsOff(m)) joints_.Close(m, simulated, &poses);
@@ -177,16 +205,17 @@ std::vector<BodyState> Display::ShownPoses(const Roles& roles) const {
   return poses;
 }
 
-View Display::MakeView(const Roles& roles) const {
-  const std::vector<BodyState> poses = ShownPoses(roles);
+View Display::MakeView(const Roles& roles, bool all) const {
+  const std::vector<BodyState> poses = ShownPoses(roles, all);
   View view;
   view.peer = roles.self();
   view.tick = world_.tick();
   view.revision = world_.topology().revision();
   for (int body = 0; body < world_.body_count(); ++body) {
     const int m = world_.mechanism(body);
+    if (!all && roles.RoleOf(m) == kRoleRemote) continue;
     const BodyState& s = poses[static_cast<std::size_t>(body)];
-    view.id.push_back(static_cast<std::int16_t>(world_.id(body)));
+    view.id.push_back(world_.id(body));
     view.role.push_back(roles.RoleOf(m));
     view.authority.push_back(static_cast<std::int16_t>(roles.table().at(m).authority));
     view.x.push_back(s.position.x());

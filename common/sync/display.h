@@ -8,6 +8,7 @@
 
 #include "common/codec/messages.h"
 #include "common/physics/world.h"
+#include "common/sync/reach/zones.h"
 #include "common/sync/mode.h"
 #include "common/sync/roles.h"
 #include "common/sync/show/joint_closer.h"
@@ -23,8 +24,9 @@ class Display {
   Display(const SyncConfig& config, World& world, const Snapshots& snapshots);
 
   /// Before the step to `next`: gives each body that is only displayed the pose and velocity that
-  /// take it where it is to be shown then.
-  void Drive(std::int64_t next);
+  /// take it where it is to be shown then. Where nobody looks at what is far (SyncConfig), bodies
+  /// outside `seen` are left where they are.
+  void Drive(std::int64_t next, const MovingBox& seen);
   /// After a step: lets the visual offsets return for a tick.
   void Glide(const Roles& roles);
 
@@ -39,8 +41,8 @@ class Display {
   /// The bodies have changed: visual offsets stay with what a body became.
   void Remap(const BodyRemap& change);
 
-  /// All bodies as they are shown now, joints closed. utime is left 0.
-  View MakeView(const Roles& roles) const;
+  /// Bodies as they are shown now, joints closed: all, or what the peer simulates. utime is left 0.
+  View MakeView(const Roles& roles, bool all) const;
 
  private:
   BodyState Visible(int body, BodyState jump) const;
@@ -49,8 +51,10 @@ class Display {
   void KeepClosed(const Roles& roles);
   /// Whether a simulated mechanism may be shown other than physics made it.
   bool IsOff(int mechanism) const;
-  /// Of all bodies, in the view; velocities are those of physics.
-  std::vector<BodyState> ShownPoses(const Roles& roles) const;
+  /// Of all bodies, in the view, or of those of mechanisms that the peer simulates; velocities are
+  /// those of physics.
+  std::vector<BodyState> ShownPoses(const Roles& roles, bool all) const;
+  bool IsOutside(int body, std::int64_t next, const MovingBox& seen) const;
 
   const SyncConfig& config_;
   World& world_;
@@ -61,6 +65,7 @@ class Display {
   Reckoner reckoner_;
   std::function<void(int)> on_corrected_ = [](int) {};
   std::vector<int> corrected_ticks_;  // by mechanism: how much longer it may be torn in physics
+  std::vector<char> left_;            // by body: it was outside in the last Drive
 };
 
 }  // namespace seam

@@ -36,9 +36,9 @@ void ImpactReporter::NoteOne(const Impact& impact, int body, int by, bool again)
   ImpactReport& report = reports_.back();
   if (report.id.size() >= kReportedImpactsMax) return;
   told_.push_back({world_.tick(), id, of_by});
-  report.id.push_back(static_cast<std::int16_t>(id));
+  report.id.push_back(id);
   report.epoch.push_back(roles_.table().at(world_.mechanism(body)).epoch);
-  report.by.push_back(static_cast<std::int16_t>(of_by));
+  report.by.push_back(of_by);
   report.x.push_back(impact.point.x());
   report.y.push_back(impact.point.y());
   report.dv.push_back(dv);

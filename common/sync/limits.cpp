@@ -2,10 +2,7 @@
 
 #include "common/sync/limits.h"
 
-#include <climits>
-
 #include "common/codec/messages.h"
-#include "common/scene/player_mask.h"
 #include "common/scene/scene_limits.h"
 #include "common/scene/toml/scene_text.h"
 #include "common/topology/edit.h"
@@ -16,14 +13,12 @@ namespace seam {
 // A scene that parses fits a Room. (A Room may be larger: it is checked before anything parses it.)
 static_assert(kSceneBytesMax <= kSceneTextBytesMax,
               "a scene that can be loaded could not be sent to those who join");
-// Permissions have a bit for each player.
-static_assert(kPeersMax <= static_cast<int>(sizeof(PlayerMask) * CHAR_BIT));
 // Edits go through the wire unchanged.
 static_assert(kEditTextMax == kEditTextBytesMax && kEditKindMax == kEditKindsMax);
-// All parts there can ever be have ids on the wire (int16) and fit into some View.
-static_assert(kPartsMax <= kPartsEver && kPartsEver <= INT16_MAX);
-static_assert(kPartsEver <= kViewBodiesMax * kViewPartsMax);
-// A player's number is on the wire as a peer's.
-static_assert(kPlayersMax < kPeersMax);
+// All parts there can ever be have ids on the wire, and those that there can be at once fit a View.
+static_assert(kPartsMax <= kPartsEver && kPartsEver <= static_cast<std::size_t>(kIdsMax));
+static_assert(kPartsMax <= kViewBodiesMax * kViewPartsMax);
+// A peer's number is on the wire as an int16.
+static_assert(kPeersMax - 1 <= INT16_MAX);
 
 }  // namespace seam

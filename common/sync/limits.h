@@ -18,19 +18,19 @@ struct MessageBytes {
   std::size_t empty;
   std::size_t each;
 };
-constexpr MessageBytes kStatesBytes{58, 19};
-constexpr MessageBytes kGrantsBytes{36, 10};  ///< and kFollowerBytes for each follower
+constexpr MessageBytes kStatesBytes{58, 21};
+constexpr MessageBytes kGrantsBytes{36, 12};  ///< and kFollowerBytes for each follower
 constexpr std::size_t kFollowerBytes = 2;
-constexpr MessageBytes kReleaseBytes{26, 6};
-constexpr MessageBytes kRestBytes{50, 18};
-constexpr MessageBytes kExactStatesBytes{30, 30};
-constexpr MessageBytes kImpactReportBytes{30, 20};
-constexpr MessageBytes kMetaBytes{34, 8};
+constexpr MessageBytes kReleaseBytes{26, 8};
+constexpr MessageBytes kRestBytes{50, 20};
+constexpr MessageBytes kExactStatesBytes{30, 32};
+constexpr MessageBytes kImpactReportBytes{30, 24};
+constexpr MessageBytes kMetaBytes{34, 10};
 constexpr MessageBytes kInputsBytes{38, 4};
 constexpr MessageBytes kChunkBytes{22, 1};
-constexpr MessageBytes kEditBytes{75, 1};  ///< a byte of text; it has at most five numbers
-constexpr MessageBytes kViewBytes{50, 29};
-constexpr MessageBytes kImpactsBytes{38, 16};
+constexpr MessageBytes kEditBytes{79, 1};  ///< a byte of text; it has at most five numbers
+constexpr MessageBytes kViewBytes{50, 31};
+constexpr MessageBytes kImpactsBytes{38, 20};
 constexpr MessageBytes kStrandsBytes{38, 10};
 constexpr MessageBytes kRoomBytes{83, 1};  ///< a byte of any of its texts
 
@@ -45,9 +45,9 @@ static_assert(Largest(kStatesBytes, kStatesBodiesMax) <= kMessageBytesMax, "Stat
 static_assert(Largest(kGrantsBytes, kGrantsMax) + kFollowerBytes * kGrantFollowersMax <=
                   kMessageBytesMax,
               "Grants too large");
-static_assert(kGrantFollowersMax >= static_cast<std::size_t>(kPeersMax),
-              "one mechanism's followers must fit one Grants");
-static_assert(Largest(kReleaseBytes, kGrantsMax) <= kMessageBytesMax, "Release too large");
+static_assert(kGrantFollowersMax >= static_cast<std::size_t>(kPlayersMax) + 1,
+              "one mechanism's followers, all players and the server, must fit one Grants");
+static_assert(Largest(kReleaseBytes, kReleasesMax) <= kMessageBytesMax, "Release too large");
 static_assert(Largest(kRestBytes, kRestBodiesMax) <= kMessageBytesMax, "Rest too large");
 static_assert(Largest(kExactStatesBytes, kExactBodiesMax) <= kMessageBytesMax,
               "ExactStates too large");

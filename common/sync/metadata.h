@@ -15,7 +15,7 @@ namespace seam {
 /// One value's name.
 struct MetaKey {
   std::int8_t kind = kMetaPart;  ///< kMetaPart | kMetaPlayer
-  std::int16_t id = 0;           ///< part id, or the player's index in the scene
+  std::int32_t id = 0;           ///< part id, or the player's index in the scene
   std::int8_t key = kMetaHealth;
 
   bool operator<(const MetaKey& o) const {

@@ -27,6 +27,9 @@ struct SyncConfig {
   int tick_hz = 60;
   int send_hz = 30;       ///< States per second from each peer; <= tick_hz
   bool smooth = true;     ///< hide corrections in the view
+  /// Whether somebody looks at what this peer shows of bodies that are far from all that it
+  /// simulates. If not they stay where they were shown last.
+  bool shows_far = true;
   std::int64_t seed = 0;  ///< of bots
 
   /// Whether the peer goes back and steps again when it was wrong.

@@ -17,6 +17,7 @@ template <class Message>
 void Publisher::Number(Message& message) {
   using Traits = MessageTraits<Message>;
   static_assert(Traits::kTravels != Travels::kEdge);
+  if (!recorder_.listening()) return;
   int whose = -1;
   if constexpr (Traits::kTravels == Travels::kBusPeer) whose = message.peer;
   if constexpr (Traits::kTravels == Travels::kBusPlayer) whose = message.player;
@@ -44,6 +45,7 @@ template void Publisher::Publish(Load);
 template void Publisher::Publish(Event);
 
 void Publisher::Publish(const View& message) {
+  if (!recorder_.listening()) return;
   const std::size_t count = message.id.size();
   const std::size_t parts = std::max<std::size_t>(1, (count + kViewBodiesMax - 1) / kViewBodiesMax);
   for (std::size_t part = 0; part < parts; ++part) {

@@ -54,7 +54,7 @@ std::vector<States> Pack(const States& header, const std::vector<PackedBody>& bo
       out.back().origin_y = static_cast<std::int32_t>(std::lround(q.position.y()));
     }
     States& s = out.back();
-    s.id.push_back(static_cast<std::int16_t>(body.id));
+    s.id.push_back(body.id);
     s.epoch.push_back(body.epoch);
     s.flags.push_back(body.flags);
     s.x.push_back(ToInt16((static_cast<double>(q.position.x()) - s.origin_x) * 512));

@@ -55,7 +55,7 @@ void Replica::Step() {
   const std::int64_t next = tick() + 1;
   replay_.Run();
   ApplyInputs(next);
-  display_.Drive(next);
+  display_.Drive(next, presence_.around());
   corrector_.PullCopies();
   rest_.BeforeStep();
   world_.Step();
@@ -175,10 +175,8 @@ Impacts Replica::MakeImpacts() const {
   out.tick = tick();
   for (const Impact& impact : world_.impacts()) {
     if (impact.dv < kMajorImpact || out.id_a.size() >= kImpactsToldMax) continue;
-    out.id_a.push_back(
-        static_cast<std::int16_t>(impact.body_a < 0 ? -1 : world_.id(impact.body_a)));
-    out.id_b.push_back(
-        static_cast<std::int16_t>(impact.body_b < 0 ? -1 : world_.id(impact.body_b)));
+    out.id_a.push_back(impact.body_a < 0 ? -1 : world_.id(impact.body_a));
+    out.id_b.push_back(impact.body_b < 0 ? -1 : world_.id(impact.body_b));
     out.x.push_back(impact.point.x());
     out.y.push_back(impact.point.y());
     out.dv.push_back(impact.dv);

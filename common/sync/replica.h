@@ -136,7 +136,8 @@ class Replica {
   const RestCommit& rest() const { return rest_; }
   /// Takes what another peer's authority has committed to rest.
   void Receive(const Rest& rest);
-  View MakeView() const { return display_.MakeView(roles_); }
+  /// Of all bodies, or of those that this peer simulates.
+  View MakeView(bool all = true) const { return display_.MakeView(roles_, all); }
   /// Of the scene's strands, as a view of this tick shows them; no points: there are none.
   Strands MakeStrands(const View& view) { return strands_.Next(view); }
   /// Impacts of the last tick above kMajorImpact, the first 64; ids empty when there were none.

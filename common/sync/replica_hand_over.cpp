@@ -18,7 +18,7 @@ std::vector<ExactStates> Replica::MakeExact(const std::vector<int>& mechanisms,
       const PartId id = composition.assemblies[static_cast<std::size_t>(a)].id;
       const BodyState state = world_.Read(world_.BodyOfId(id));
       ExactStates& out = all.back();
-      out.id.push_back(static_cast<std::int16_t>(id));
+      out.id.push_back(id);
       out.epoch.push_back(roles_.table().at(m).epoch + epochs_on);
       out.x.push_back(state.position.x());
       out.y.push_back(state.position.y());

@@ -10,8 +10,6 @@
 namespace seam {
 namespace {
 
-/// Bodies per send: one datagram. More bodies than that take turns by priority.
-constexpr std::size_t kBodiesPerSend = kStatesBodiesMax;
 /// Growth of the priority per send (after Fiedler, "State Synchronization", 2015): what just
 /// collided is interesting, what sleeps is repeated seldom.
 constexpr float kPriorityImpact = 10;
@@ -94,7 +92,8 @@ std::vector<int> SendScheduler::ChooseBodies() {
   std::stable_sort(due.begin(), due.end(), [&](int a, int b) {
     return memory_.track(a).priority > memory_.track(b).priority;
   });
-  if (due.size() > kBodiesPerSend) due.resize(kBodiesPerSend);
+  // The server chooses anew for each receiver, within its budget (Outbox).
+  if (roles_.self() > 0 && due.size() > kBodiesPerSend) due.resize(kBodiesPerSend);
   std::sort(due.begin(), due.end());
   return due;
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// Which of its own bodies a peer sends in its next States: those of the highest priority, as many
-/// as fit one datagram; the rest wait and gain priority. Bodies that fall asleep are sent a few
+/// Which of its own bodies a peer sends in its next States: a client those of the highest priority,
+/// at most kBodiesPerSend; the rest wait and gain priority. Bodies that fall asleep are sent a few
 /// times, and no more once they are committed to rest (RestCommit).
 
 #include <vector>
@@ -15,6 +15,10 @@
 #include "common/sync/roles.h"
 
 namespace seam {
+
+/// Bodies that a client tells of in one send: four datagrams. More than that take turns by
+/// priority.
+constexpr std::size_t kBodiesPerSend = 4 * kStatesBodiesMax;
 
 class SendScheduler {
  public:

@@ -34,6 +34,10 @@ class Snapshots {
 
   bool has(int body) const { return !rings_[static_cast<std::size_t>(body)].empty(); }
   std::int64_t newest_tick(int body) const;  ///< -1 when none
+  /// Requires has(body).
+  const BodyState& newest(int body) const {
+    return rings_[static_cast<std::size_t>(body)].back().state;
+  }
 
   /// The state of exactly this tick; nullptr when it is not kept.
   const BodyState* At(int body, std::int64_t tick) const;

@@ -51,9 +51,12 @@ void AddToScene(const std::string& text, Scene* scene, bool whole) {
   const std::string file = "insert";
   CheckSceneText(text, file);
   const TomlNode tree = ParseToml(text, file);
-  SceneDraft draft{file, *scene, kSizeMaxDefault, {}, {}};
+  SceneDraft draft{file, *scene, kSizeMaxDefault};
   for (const Part& part : draft.scene.parts) {
     if (!part.gone) draft.part_of_name[part.name] = part.id;
+  }
+  for (const Joint& joint : draft.scene.joints) {
+    if (!joint.gone) draft.joint_names.insert(joint.name);
   }
   const std::size_t parts = draft.scene.parts.size(), joints = draft.scene.joints.size();
   const SceneReader root(tree, file, "insert", {"part", "joint"});

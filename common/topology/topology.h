@@ -101,10 +101,10 @@ class Topology {
   std::optional<Vec2> hanging_;
 };
 
-/// Parts that may come to be while a room runs, gone ones included: ids on the wire are int16.
-constexpr std::size_t kPartsEver = 30000;
+/// Parts that may come to be while a room runs, gone ones included.
+constexpr std::size_t kPartsEver = 250000;
 /// The same of joints; those that bonds make are fewer than the parts that are there.
-constexpr std::size_t kJointsEver = 30000;
+constexpr std::size_t kJointsEver = 250000;
 
 /// Welded parts may be this far from their root, m, by bonds and inserts in their turn.
 constexpr float kReachEver = 4000;

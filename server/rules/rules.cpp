@@ -66,7 +66,7 @@ void Rules::NoteNewParts() {
   for (; parts_noted_ < parts.size(); ++parts_noted_) {
     const Part& part = parts[parts_noted_];
     if (part.rules->health <= 0) continue;
-    table_.Set({kMetaPart, static_cast<std::int16_t>(part.id), kMetaHealth}, part.rules->health);
+    table_.Set({kMetaPart, part.id, kMetaHealth}, part.rules->health);
   }
 }
 
@@ -75,9 +75,7 @@ bool Rules::Exists(PartId part) const {
   return ReadPart(world_, part, &state);
 }
 
-float Rules::Health(PartId part) const {
-  return table_.Get({kMetaPart, static_cast<std::int16_t>(part), kMetaHealth});
-}
+float Rules::Health(PartId part) const { return table_.Get({kMetaPart, part, kMetaHealth}); }
 
 std::string Rules::PlayerName(int player) const {
   return player >= 0 ? scene().players[static_cast<std::size_t>(player)].name : "nobody";
@@ -108,7 +106,7 @@ void Rules::RunTriggersAt(std::int64_t tick) {
 
 void Rules::OnEntered(const TriggerEvent& event) {
   const Trigger& trigger = scene().triggers[static_cast<std::size_t>(event.trigger)];
-  const auto player = static_cast<std::int16_t>(event.player);
+  const std::int32_t player = event.player;
   switch (trigger.kind) {
     case TriggerKind::kCheckpoint: return OnCheckpoint(event);
     case TriggerKind::kPickup: OnPickup(event); break;
@@ -123,7 +121,7 @@ void Rules::OnEntered(const TriggerEvent& event) {
 void Rules::OnCheckpoint(const TriggerEvent& event) {
   const Trigger& trigger = scene().triggers[static_cast<std::size_t>(event.trigger)];
   if (event.player < 0) return;
-  const auto player = static_cast<std::int16_t>(event.player);
+  const std::int32_t player = event.player;
   const MetaKey reached{kMetaPlayer, player, kMetaCheckpoint};
   const auto before = static_cast<int>(table_.Get(reached));
   // The next order there is: orders may have gaps.
@@ -144,7 +142,7 @@ void Rules::OnCheckpoint(const TriggerEvent& event) {
 void Rules::OnPickup(const TriggerEvent& event) {
   const Trigger& trigger = scene().triggers[static_cast<std::size_t>(event.trigger)];
   if (trigger.part >= 0) {
-    const auto id = static_cast<std::int16_t>(trigger.part);
+    const auto id = trigger.part;
     table_.Set({kMetaPart, id, kMetaTaken}, static_cast<float>(event.player + 1));
     try {
       commands_.RemovePart(trigger.part);
@@ -155,7 +153,7 @@ void Rules::OnPickup(const TriggerEvent& event) {
   const Part& taker = scene().parts[static_cast<std::size_t>(event.part)];
   if (trigger.health != 0 && taker.rules->health > 0 && dead_.count(event.part) == 0) {
     const float health = std::min(Health(event.part) + trigger.health, taker.rules->health);
-    table_.Set({kMetaPart, static_cast<std::int16_t>(event.part), kMetaHealth}, health);
+    table_.Set({kMetaPart, event.part, kMetaHealth}, health);
   }
   Say(PlayerName(event.player) + " takes " + trigger.name);
 }

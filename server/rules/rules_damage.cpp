@@ -52,7 +52,7 @@ void Rules::Hurt(PartId part, float amount, int by_player) {
   const Part& hurt = scene().parts[static_cast<std::size_t>(part)];
   if (hurt.rules->health <= 0 || amount <= 0 || dead_.count(part) != 0) return;
   const float left = std::max(Health(part) - amount, 0.0f);
-  table_.Set({kMetaPart, static_cast<std::int16_t>(part), kMetaHealth}, left);
+  table_.Set({kMetaPart, part, kMetaHealth}, left);
   if (by_player >= 0) struck_by_[part] = by_player;
 }
 
@@ -80,7 +80,7 @@ void Rules::Die(PartId id) {
   const std::string by_whom = by != struck_by_.end() ? " by " + PlayerName(by->second) : "";
   Say(part.name + " is destroyed" + by_whom);
   if (by != struck_by_.end() && part.rules->score != 0) {
-    table_.Add({kMetaPlayer, static_cast<std::int16_t>(by->second), kMetaScore}, part.rules->score);
+    table_.Add({kMetaPlayer, by->second, kMetaScore}, part.rules->score);
   }
   const int mechanism = MechanismOf(world_, id);
   if (mechanism < 0) return;

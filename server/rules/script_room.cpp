@@ -131,9 +131,9 @@ MetaKey ScriptRoom::KeyOf(const std::string& subject, const std::string& key) co
                                      [&](const Player& p) { return p.name == subject; });
   if (is_player) {
     meta.kind = kMetaPlayer;
-    meta.id = static_cast<std::int16_t>(NeedPlayer(subject));
+    meta.id = NeedPlayer(subject);
   } else if (part >= 0) {
-    meta.id = static_cast<std::int16_t>(part);
+    meta.id = part;
   } else {
     throw ScriptRefusal("there is no player or part '" + Printable(subject) + "'");
   }

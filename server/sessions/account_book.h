@@ -32,7 +32,7 @@ class AccountBook {
  public:
   /// Names with an account of their own; all further ones share the last, "others". A session costs
   /// no more memory than that, however many names are tried.
-  static constexpr std::size_t kAccountsMax = 64;
+  static constexpr std::size_t kAccountsMax = 1024;
 
   /// The account of a name, which stays where it is.
   ClientAccount& Of(const std::string& name);

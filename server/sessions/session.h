@@ -9,6 +9,7 @@
 #include "common/net/net.h"
 #include "common/sync/input_feed.h"
 #include "common/sync/rest/rest_agreement.h"
+#include "server/interest/outbox.h"
 #include "server/sessions/account_book.h"
 #include "server/sessions/traffic_budget.h"
 
@@ -30,19 +31,22 @@ struct SessionId {
 };
 
 struct Session {
-  Session(const SessionId& session, const TrafficRate& allowed)
-      : id(session), link(session.number), budget(allowed) {}
+  /// `bytes_per_s`: what it is sent at most; 0: no limit.
+  Session(const SessionId& session, const TrafficRate& allowed, double bytes_per_s)
+      : id(session), link(session.number), budget(allowed), outbox(bytes_per_s) {}
 
   SessionId id;
   Link link;
   TrafficBudget budget;
   std::vector<InputFeed> feeds;      ///< of the others' inputs, by player
-  std::vector<std::int64_t> told;    ///< by part id: tick of the newest state relayed; empty: none
+  std::vector<int> heard_players;    ///< whose inputs concern it
+  Outbox outbox;                     ///< states of others that wait for it
   RestAgreement rest;                ///< with what the client knows to rest
   ClientAccount* account = nullptr;  ///< the name's; outlives the session
   std::string name;
   int peer = 0;
   int player = -1;
+  float load = -1;  ///< share of its time that it needs for its ticks; below 0: not known
   SessionStage stage = SessionStage::kAdmitted;
   std::int64_t created_us = 0;
   std::int64_t repaired_us = -1000000000;

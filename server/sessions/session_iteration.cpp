@@ -7,9 +7,8 @@
 namespace seam {
 
 Session* SessionTable::Find(int peer) {
-  const auto found = std::find_if(sessions_.begin(), sessions_.end(),
-                                  [&](const auto& entry) { return entry.second->peer == peer; });
-  return found == sessions_.end() ? nullptr : found->second.get();
+  const auto place = static_cast<std::size_t>(peer);
+  return peer < 0 || place >= by_peer_.size() ? nullptr : by_peer_[place];
 }
 
 int SessionTable::player_count() const {
@@ -60,11 +59,13 @@ void SessionTable::SendToAll(const Bytes& message, int but_peer) {
 
 void SessionTable::Flush(std::int64_t now_us, Stats* stats) {
   for (auto& [id, session] : sessions_) {
+    if (!session->link.Sends(now_us)) continue;
     const Address to = id.address;
     session->link.Flush(now_us, [&](ByteView datagram) {
       stats->bytes_out += static_cast<std::int64_t>(datagram.size);
       stats->datagrams_out += 1;
       session->account->bytes_out += static_cast<std::int64_t>(datagram.size);
+      session->outbox.Spend(datagram.size);
       net_.Send(to, datagram);
     });
   }

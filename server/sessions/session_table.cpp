@@ -15,11 +15,12 @@ constexpr int kByeCopies = 4;
 
 }  // namespace
 
-SessionTable::SessionTable(const Scene& scene, Bytes room, const TrafficRate& allowed, Net& net,
-                           Entropy& entropy)
+SessionTable::SessionTable(const Scene& scene, Bytes room, const TrafficRate& allowed,
+                           Net& net, Entropy& entropy, double bytes_per_s)
     : scene_(scene),
       room_(std::move(room)),
       allowed_(allowed),
+      bytes_per_s_(bytes_per_s),
       net_(net),
       handshake_(net, entropy),
       places_(scene, entropy) {}
@@ -60,7 +61,7 @@ void SessionTable::Admit(std::int64_t now_us, const SessionId& id, int peer) {
     const SessionId was = old->id;
     Drop(was, "replaced by a new session with its key");
   }
-  auto session = std::make_unique<Session>(id, allowed_);
+  auto session = std::make_unique<Session>(id, allowed_, bytes_per_s_);
   const Place& place = places_.at(peer);
   session->name = place.name;
   session->player = place.player;
@@ -79,6 +80,9 @@ void SessionTable::Admit(std::int64_t now_us, const SessionId& id, int peer) {
   welcome.key = static_cast<std::int64_t>(place.key);
   session->link.SendReliable(Encode(welcome));
   Note(SessionEvent::Kind::kJoined, *session);
+  const auto place_of = static_cast<std::size_t>(peer);
+  if (by_peer_.size() <= place_of) by_peer_.resize(place_of + 1, nullptr);
+  by_peer_[place_of] = session.get();
   sessions_.emplace(id, std::move(session));
 }
 
@@ -146,6 +150,7 @@ void SessionTable::Drop(const SessionId& id, const std::string& why) {
   const Session& session = *found->second;
   Note(SessionEvent::Kind::kLeft, session, why);
   places_.Leave(session.peer, id.number, session.goodbye);
+  by_peer_[static_cast<std::size_t>(session.peer)] = nullptr;
   sessions_.erase(found);
 }
 
@@ -170,6 +175,7 @@ void SessionTable::Close(std::int64_t now_us, const std::string& reason, Stats* 
     Flush(now_us, stats);
   }
   sessions_.clear();
+  by_peer_.clear();
 }
 
 }  // namespace seam

@@ -40,9 +40,9 @@ struct SessionEvent {
 class SessionTable {
  public:
   /// `scene`, `net` and `entropy` must outlive it. `room`: the encoded Room that joiners get;
-  /// `allowed`: what each of them may send.
+  /// `allowed`: what each of them may send; `bytes_per_s`: what each is sent at most, 0: no limit.
   SessionTable(const Scene& scene, Bytes room, const TrafficRate& allowed, Net& net,
-               Entropy& entropy);
+               Entropy& entropy, double bytes_per_s = 0);
 
   enum class Verdict { kTaken, kMalformed, kNoRight, kOverBudget };
   using Deliver = std::function<void(Session&, ByteView)>;
@@ -103,11 +103,13 @@ class SessionTable {
   const Scene& scene_;
   const Bytes room_;
   const TrafficRate allowed_;
+  const double bytes_per_s_;
   Net& net_;
   Handshake handshake_;
   PlaceTable places_;
   AccountBook accounts_;
   Sessions sessions_;
+  std::vector<Session*> by_peer_;
   std::vector<SessionEvent> events_;
 };
 

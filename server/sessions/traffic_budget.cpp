@@ -4,6 +4,7 @@
 
 #include "common/net/datagram.h"
 #include "common/sync/limits.h"
+#include "common/sync/send_scheduler.h"
 
 namespace seam {
 namespace {
@@ -14,8 +15,8 @@ constexpr std::size_t kInputsUsual = 16;
 constexpr double kPingsPerSecond = 20;
 constexpr std::size_t kPingBytes = 36;
 /// Messages that the States of one send are split into, at most in any scene of ours: one for each
-/// 120 m of its bodies. (Bodies a send: kStatesBodiesMax.)
-constexpr std::size_t kStatesPerSend = 8;
+/// 120 m of its bodies, and for each kStatesBodiesMax. (Bodies a send: kBodiesPerSend.)
+constexpr std::size_t kStatesPerSend = 12;
 /// Reliable messages a second (proposals, releases; a whole window), and bytes of one.
 constexpr double kReliablePerSecond = 64;
 constexpr std::size_t kReliableBytes = 128;
@@ -36,7 +37,7 @@ TrafficRate HonestTraffic(int tick_hz, int send_hz) {
                tick_hz * Framed(Largest(kInputsBytes, kInputsUsual)) +
                kPingsPerSecond * Framed(kPingBytes) +
                send_hz * (per_send * Framed(kStatesBytes.empty) +
-                          static_cast<double>(kStatesBytes.each * kStatesBodiesMax)) +
+                          static_cast<double>(kStatesBytes.each * kBodiesPerSend)) +
                kReliablePerSecond * Framed(kReliableBytes, true);
   return rate;
 }

@@ -112,12 +112,12 @@ ClusterConfig With(const char* text, const std::string& impair, std::int64_t see
   return config;
 }
 
-float Health(Cluster& cluster, std::int16_t part) {
+float Health(Cluster& cluster, std::int32_t part) {
   return cluster.server().rules()->metadata().Get({kMetaPart, part, kMetaHealth});
 }
 
 TEST(PressedCrate, BetweenTwoAuthoritiesItIsNotDestroyedWhenTheOracleDoesNot) {
-  constexpr std::int16_t kCrate = 3;
+  constexpr std::int32_t kCrate = 3;
   ClusterConfig truth = With(kPress, "perfect", 1);
   truth.mode = "oracle";
   Cluster oracle(truth);
@@ -142,7 +142,7 @@ TEST(PressedCrate, ABlowBetweenTwoAuthoritiesHurtsEachOfThemOnce) {
       Cluster cluster(With(kDiscs, impair, seed));
       cluster.Run();
       // 10 m/s, of which 8 hurt, 5 each.
-      for (const std::int16_t part : {std::int16_t{0}, std::int16_t{1}}) {
+      for (const std::int32_t part : {std::int32_t{0}, std::int32_t{1}}) {
         EXPECT_NEAR(Health(cluster, part), 60, 12)
             << impair << " seed " << seed << " part " << part;
       }
@@ -165,10 +165,10 @@ TEST(PressedCrate, ForgedReportsHurtNobodyAndAreCounted) {
       report.tick = states.tick;
       report.revision = states.revision;
       // Of what is bob's; far off; and of more than anything near it could give.
-      const std::int16_t struck = static_cast<std::int16_t>(forged % 3 == 0 ? 1 : 0);
+      const std::int32_t struck = static_cast<std::int32_t>(forged % 3 == 0 ? 1 : 0);
       report.id = {struck};
       report.epoch = {states.epoch.at(0)};
-      report.by = {static_cast<std::int16_t>(forged % 3 == 1 ? 1 : -1)};
+      report.by = {static_cast<std::int32_t>(forged % 3 == 1 ? 1 : -1)};
       report.x = {-5};
       report.y = {0};
       report.dv = {90};

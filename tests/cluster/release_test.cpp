@@ -217,7 +217,7 @@ TEST(Release, ForgedOnesAreDroppedCountedAndTakeNothingFromOthers) {
     for (int m = 0; m < table.count(); ++m) {
       if (table.at(m).authority != kBob) continue;
       Release release;
-      release.mechanism.push_back(static_cast<std::int16_t>(table.id(m)));
+      release.mechanism.push_back(table.id(m));
       release.epoch.push_back(table.at(m).epoch + 1);
       *message = Encode(release);
       ++forged;

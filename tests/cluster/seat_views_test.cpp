@@ -74,10 +74,10 @@ Jump LargestJump(const Recording& recording, double from_s, double to_s) {
   Jump jump;
   for (const auto& [peer, views] : recording.views) {
     if (peer == 0) continue;
-    std::map<std::int16_t, BodyState> before;
+    std::map<std::int32_t, BodyState> before;
     std::int64_t last = -1;
     for (const auto& [tick, view] : views) {
-      std::map<std::int16_t, BodyState> now;
+      std::map<std::int32_t, BodyState> now;
       for (std::size_t i = 0; i < view.id.size(); ++i) {
         now[view.id[i]] = {{view.x[i], view.y[i]}, view.angle[i], {view.vx[i], view.vy[i]}, 0};
       }

@@ -38,7 +38,7 @@ TEST(StaleStates, AReplayedMessageReachesNeitherOtherClientsNorTheBus) {
   std::map<std::pair<int, int>, std::int64_t> newest;  // (peer, body) -> tick
   int again = 0;
   for (const States& states : cluster.recording().states) {
-    for (const std::int16_t id : states.id) {
+    for (const std::int32_t id : states.id) {
       const auto [it, fresh] = newest.emplace(std::pair(states.peer, id), states.tick);
       if (fresh) continue;
       again += states.tick <= it->second ? 1 : 0;

@@ -31,6 +31,8 @@ CLI::App* DefineRun(CLI::App& app, RunCommand& c) {
       ->check(CLI::Range(1, kSendHzMax));
   run->add_option("--duration", s.duration_s, "seconds after tick 0 (0: the scene's own)")
       ->check(CLI::Range(0.0, kDurationMax));
+  run->add_option("--players", s.players, "the first so many join, the others are absent (0: all)")
+      ->check(CLI::Range(0, kPlayersMax));
   run->add_option("--drive", s.drive, "script | bot")->check(CLI::IsMember({"script", "bot"}));
   run->add_option("--smooth", c.smooth, "hide corrections in the view: on | off")
       ->check(CLI::IsMember({"on", "off"}));

@@ -28,6 +28,7 @@ ClusterConfig Configure(const SessionSettings& settings) {
 ClusterConfig Configure(const SessionSettings& settings, const Scene& scene) {
   CheckRange("seed", static_cast<double>(settings.seed), 0, static_cast<double>(kSeedMax));
   CheckRange("send_hz", settings.send_hz, 1, kSendHzMax);
+  CheckRange("players", settings.players, 0, kPlayersMax);
   CheckRange("duration", settings.duration_s, 0, kDurationMax);
   MakeSyncConfig(MethodNames{settings.mode, settings.reconcile, settings.predict});
   FindProfile(settings.impair);
@@ -45,6 +46,7 @@ ClusterConfig Configure(const SessionSettings& settings, const Scene& scene) {
   config.seed = settings.seed;
   config.duration_s = settings.duration_s;
   config.drive = ParseDrive(settings.drive);
+  config.players = settings.players;
   config.send_hz = settings.send_hz;
   config.smooth = settings.smooth;
   return config;

@@ -27,6 +27,7 @@ struct SessionSettings {
   int send_hz = 30;              ///< at most the scene's tick_hz is used
   double duration_s = 0;         ///< after tick 0; 0: the scene's own
   std::string drive = "script";  ///< script | bot
+  int players = 0;  ///< the first so many of the scene's join, and the others are absent; 0: all
   bool smooth = true;
   std::vector<std::string> set;  ///< of the scene: "solver.substeps=2", "buffer=5"
 };

@@ -71,7 +71,7 @@ View ViewOf(const World& world, int peer) {
   view.sequence = static_cast<std::int32_t>(world.tick());
   for (int body = 0; body < world.body_count(); ++body) {
     const BodyState state = world.Read(body);
-    view.id.push_back(static_cast<std::int16_t>(world.id(body)));
+    view.id.push_back(world.id(body));
     view.role.push_back(peer == 0 ? kRoleAuthority : kRoleSecondary);
     view.authority.push_back(0);
     view.x.push_back(state.position.x());

@@ -22,9 +22,10 @@
 namespace seam {
 namespace {
 
-constexpr const char* kScenes[] = {
-    "crossing",  "wall",   "stack", "cradle", "relay", "harbour", "regatta", "skyline", "titanic",
-    "gluehouse", "headon", "rally", "seesaw", "scrum", "heap",    "train",   "gas"};
+constexpr const char* kScenes[] = {"crossing", "wall",    "stack",   "cradle",  "relay",
+                                   "harbour",  "regatta", "skyline", "titanic", "gluehouse",
+                                   "headon",   "rally",   "seesaw",  "scrum",   "heap",
+                                   "train",    "gas",     "derby",   "relay8"};
 std::string GoldenFile() {
   const char* other = std::getenv("SEAM_GOLDEN_FILE");
   return other != nullptr ? other : "tests/physics/golden_hashes.txt";

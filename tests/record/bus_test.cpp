@@ -80,7 +80,7 @@ View MakeView(std::int32_t sequence, std::size_t bodies) {
   View view;
   view.peer = 1;
   view.tick = view.sequence = sequence;
-  for (std::size_t i = 0; i < bodies; ++i) view.id.push_back(static_cast<std::int16_t>(i));
+  for (std::size_t i = 0; i < bodies; ++i) view.id.push_back(static_cast<std::int32_t>(i));
   view.role.assign(bodies, kRoleAuthority);
   view.authority.assign(bodies, 1);
   view.x = view.y = view.angle = std::vector<float>(bodies, static_cast<float>(sequence));

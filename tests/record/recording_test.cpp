@@ -22,13 +22,13 @@ Room MakeRoom(std::int64_t seed = 7) {
 }
 
 /// A view of peer 0..31 with `count` bodies, whose every number tells the tick.
-View MakeView(int peer, std::int64_t tick, std::size_t count = 2, std::int16_t first_id = 0) {
+View MakeView(int peer, std::int64_t tick, std::size_t count = 2, std::int32_t first_id = 0) {
   View view;
   view.peer = peer;
   view.tick = tick;
   view.sequence = tick;
   for (std::size_t i = 0; i < count; ++i) {
-    view.id.push_back(static_cast<std::int16_t>(first_id + static_cast<int>(i)));
+    view.id.push_back(first_id + static_cast<int>(i));
   }
   view.role.assign(count, kRoleAuthority);
   view.authority.assign(count, static_cast<std::int16_t>(peer));
@@ -117,7 +117,7 @@ TEST(Recording, PutsThePartsOfAViewTogetherInAnyOrder) {
     heard.Hear(MakeRoom());
     for (int n = 0; n < 3; ++n) {
       const int part = order[static_cast<std::size_t>(n)];
-      View view = MakeView(1, 50, 4, static_cast<std::int16_t>(10 * part));
+      View view = MakeView(1, 50, 4, 10 * part);
       view.part = part;
       view.parts = 3;
       view.sequence = part;
@@ -125,7 +125,7 @@ TEST(Recording, PutsThePartsOfAViewTogetherInAnyOrder) {
       EXPECT_TRUE(heard.Hear(view));
     }
     const View& whole = heard.recording().views.at(1).at(50);
-    EXPECT_EQ(whole.id, (std::vector<std::int16_t>{0, 1, 2, 3, 10, 11, 12, 13, 20, 21, 22, 23}));
+    EXPECT_EQ(whole.id, (std::vector<std::int32_t>{0, 1, 2, 3, 10, 11, 12, 13, 20, 21, 22, 23}));
     EXPECT_EQ(whole.parts, 1);
     EXPECT_EQ(whole.part, 0);
     for (const auto& v : {whole.x, whole.y, whole.angle, whole.vx, whole.vy, whole.spin}) {
@@ -235,17 +235,21 @@ TEST(Recording, ALogOfAnotherProtocolIsRefusedNamingBoth) {
   Room newer = MakeRoom();
   newer.protocol = kProtocolVersion + 1;
   EXPECT_EQ(refusal(Encode(newer)),
-            file.path() + ": recorded with protocol 7; this program reads protocol 6");
+            file.path() + ": recorded with protocol 8; this program reads protocol 7");
+  Room before = MakeRoom();
+  before.protocol = 6;  // its bodies had ids of 16 bits
+  EXPECT_EQ(refusal(Encode(before)),
+            file.path() + ": recorded with protocol 6; this program reads protocol 7");
   // The beginning of protocol 2's room_t: hash, utime, sequence, protocol.
   const Bytes older = {0xfc, 0x29, 0x58, 0x2c, 0x30, 0xd1, 0x35, 0x4e, 0, 0, 0, 0, 0, 0,   0,
                        1,    0,    0,    0,    0,    0,    0,    0,    2, 0, 0, 0, 2, 'r', 0};
   EXPECT_EQ(refusal(older),
-            file.path() + ": recorded with protocol 2; this program reads protocol 6");
+            file.path() + ": recorded with protocol 2; this program reads protocol 7");
   // And of protocol 3's, with 8 bytes of sequence.
   const Bytes third = {0xc7, 0xe4, 0x1b, 0x86, 0x53, 0x87, 0x67, 0xb7, 0, 0, 0, 0, 0, 0,   0, 1,
                        0,    0,    0,    0,    0,    0,    0,    0,    0, 0, 0, 3, 2, 'r', 0};
   EXPECT_EQ(refusal(third),
-            file.path() + ": recorded with protocol 3; this program reads protocol 6");
+            file.path() + ": recorded with protocol 3; this program reads protocol 7");
 }
 
 TEST(Recording, SeparatesRoomsAndCountsWhatIsForeign) {

@@ -9,7 +9,7 @@ namespace {
 constexpr double kTick = 60;
 constexpr PartId kHurt = 2;
 
-Recording WithMeta(std::int8_t kind, std::int16_t id, std::int8_t key, float value) {
+Recording WithMeta(std::int8_t kind, std::int32_t id, std::int8_t key, float value) {
   Recording recording = synthetic::MakeRecording(0);
   Meta meta;
   meta.tick = 30;

@@ -32,7 +32,7 @@ TEST(AssemblyMistakes, AreNamedByFileLineAndReason) {
       {Box("inlets = [[0, 0, 0]]\njoin_angle = 4"), "join_angle must be"},
       {Box("repeat = {count = 2, step = [1, 0], weld = true, glue = 3}"), "both weld and glue"},
       {Box("repeat = {count = 2, step = [1, 0], glue = -3}"), "glue must be"},
-      {Box("repeat = {count = [60, 60], step = [1, 1], glue = 3}"), "at most 4096 joints"},
+      {Box("repeat = {count = [182, 182], step = [1, 1], glue = 3}"), "at most 65535 joints"},
       {Box("repeat = {count = 2, step = [1, 0]}") +
            "[[joint]]\nname = \"j\"\nkind = \"weld\"\na = \"p.0\"\nb = \"p.1\"\n"
            "repeat = {count = 1, step = [1, 0], weld = true}\n",

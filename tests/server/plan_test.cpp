@@ -71,7 +71,7 @@ TEST(PlanAuthority, WhoHasItKeepsItALittleBeyondTheBorder) {
 }
 
 TEST(PlanAuthority, APeerThatGotItKeepsItForTheDwell) {
-  const auto dwell = static_cast<std::int64_t>(kDwell * 60);
+  const auto dwell = static_cast<std::int64_t>(PlannerRules{}.dwell_s * 60);
   EXPECT_EQ(HolderAt(50, kAnn, dwell - 1), kAnn);
   EXPECT_EQ(HolderAt(50, kAnn, dwell), kBob);
   EXPECT_EQ(HolderAt(50, 0, 0), kBob) << "from the server at once";
@@ -244,10 +244,16 @@ TEST(PlanAuthority, WhatIsToBeJoinedToAVehicleGoesToItsOwner) {
   EXPECT_EQ(PlanAuthority(view)[0].authority, kBob);
 }
 
+PlayerMask OnlyBob() {
+  PlayerMask mask;
+  mask.Add(1);
+  return mask;
+}
+
 TEST(PlanAuthority, WhatAPlayerMayNotHaveIsTheServers) {
   AuthorityView view = TwoSides({-50, 50});
-  view.mechanisms[0].may_have = 0b10;  // bob only
-  view.mechanisms[1].may_have = 0b10;
+  view.mechanisms[0].may_have = OnlyBob();
+  view.mechanisms[1].may_have = OnlyBob();
   const AuthorityPlan plan = PlanAuthority(view);
   EXPECT_EQ(plan[0].authority, 0);
   EXPECT_EQ(plan[1].authority, kBob);
@@ -255,7 +261,7 @@ TEST(PlanAuthority, WhatAPlayerMayNotHaveIsTheServers) {
 
 TEST(PlanAuthority, ComingTogetherDoesNotGiveWhatIsForbidden) {
   AuthorityView view = TwoSides({-50, 50});
-  view.mechanisms[1].may_have = 0b10;
+  view.mechanisms[1].may_have = OnlyBob();
   view.together = {{0, 1}};
   EXPECT_EQ(PlanAuthority(view)[1].authority, 0);
 }

@@ -57,10 +57,10 @@ struct Game {
     return -1;
   }
   float Value(const std::string& part, std::int8_t key = kMetaHealth) const {
-    return rules.metadata().Get({kMetaPart, static_cast<std::int16_t>(IdOf(part)), key});
+    return rules.metadata().Get({kMetaPart, IdOf(part), key});
   }
   float OfPlayer(int player, std::int8_t key) const {
-    return rules.metadata().Get({kMetaPlayer, static_cast<std::int16_t>(player), key});
+    return rules.metadata().Get({kMetaPlayer, player, key});
   }
   World world;
   FakeRoomCommands commands;

@@ -9,8 +9,8 @@ namespace {
 
 TEST(TrafficBudget, AllowsFourTimesWhatAClientNeedsAsTheProtocolPageSays) {
   const TrafficRate honest = HonestTraffic(60, 30), allowed = AllowedTraffic(60, 30);
-  EXPECT_EQ(honest.messages, 508);
-  EXPECT_NEAR(honest.bytes, 60200, 100);
+  EXPECT_EQ(honest.messages, 628);
+  EXPECT_NEAR(honest.bytes, 160980, 100);
   EXPECT_EQ(allowed.messages, 4 * honest.messages);
   EXPECT_EQ(allowed.bytes, 4 * honest.bytes);
 }

@@ -59,11 +59,17 @@ TEST(Triggers, SayWhoEntersAndWhoLeavesOnce) {
   EXPECT_EQ(Text(places.Update(&triggers)), "-0:2/-1 -1:2/-1 ");
 }
 
+PlayerMask Only(int player) {
+  PlayerMask mask;
+  mask.Add(player);
+  return mask;
+}
+
 TEST(Triggers, LookOnlyAtTheirPlayersParts) {
   Trigger of_first = At(0, 10);
-  of_first.players = 1;
+  of_first.players = Only(0);
   Trigger of_second = At(0, 10);
-  of_second.players = 2;
+  of_second.players = Only(1);
   Triggers triggers({of_first, of_second});
   Places places{{{0, 0}, {1, 0}, {2, 0}}};
   EXPECT_EQ(Text(places.Update(&triggers)), "+0:0/0 +1:1/1 ");
@@ -97,7 +103,9 @@ TEST(Triggers, MoveWithTheirPartAndEndWithIt) {
 
 TEST(Metadata, TellsChangesOnceAndEverythingToLatecomers) {
   MetaTable server, early, late;
-  for (std::int16_t id = 0; id < 300; ++id) server.Set({kMetaPart, id, kMetaHealth}, id + 0.5f);
+  for (std::int32_t id = 0; id < 300; ++id) {
+    server.Set({kMetaPart, id, kMetaHealth}, static_cast<float>(id) + 0.5f);
+  }
   std::vector<Meta> changes = server.TakeChanges(7, 8);
   ASSERT_EQ(changes.size(), 3u) << "at most " << kMetaMax << " in a message";
   EXPECT_EQ(changes[0].tick, 8);
@@ -109,7 +117,7 @@ TEST(Metadata, TellsChangesOnceAndEverythingToLatecomers) {
   server.Set({kMetaPart, 18, kMetaHealth}, 18.5f);  // as it was
   changes = server.TakeChanges(7, 9);
   ASSERT_EQ(changes.size(), 1u);
-  EXPECT_EQ(changes[0].id, (std::vector<std::int16_t>{17, 3}));
+  EXPECT_EQ(changes[0].id, (std::vector<std::int32_t>{17, 3}));
   EXPECT_EQ(changes[0].value, (std::vector<float>{0, -3}));
   early.Apply(changes[0]);
   for (const Meta& meta : server.Export(7, 9)) late.Apply(meta);

@@ -37,7 +37,7 @@ inline View MakeView(int peer, std::int64_t tick, const BodyState& body) {
   view.peer = peer;
   view.tick = tick;
   for (const auto& [id, state] : {std::pair{3, body}, std::pair{7, State(-5, 0)}}) {
-    view.id.push_back(static_cast<std::int16_t>(id));
+    view.id.push_back(static_cast<std::int32_t>(id));
     view.role.push_back(peer == 0 ? kRoleAuthority : kRoleSecondary);
     view.authority.push_back(0);
     view.x.push_back(state.position.x());

@@ -51,7 +51,7 @@ class RandomMessages {
   void Fill(Ping& m) {
     Common(m), Set(m.revision, -1, INT32_MAX);
     m.composition = static_cast<std::int64_t>(random_.Next());
-    m.rest = static_cast<std::int64_t>(random_.Next());
+    m.rest = static_cast<std::int64_t>(random_.Next()), Set(m.load, -1, INT16_MAX);
   }
   void Fill(Pong& m) {
     Common(m), m.client_us = Time(), m.tick0_us = Time();
@@ -80,7 +80,7 @@ class RandomMessages {
   }
   void Fill(Rest& m) { Fill(m, Count(0, kRestBodiesMax)); }
   void Fill(Grants& m, std::size_t count) {
-    Common(m), Sequence(m), m.tick = Tick(), Vector(m.mechanism, count, 0, INT16_MAX);
+    Common(m), Sequence(m), m.tick = Tick(), Vector(m.mechanism, count, 0, kIdsMax - 1);
     Vector(m.authority, count, 0, 31), Vector(m.epoch, count, 0, INT32_MAX);
     Vector(m.followers, count, 0, 1);
     Vector(m.follower,
@@ -90,25 +90,25 @@ class RandomMessages {
     Common(m), Set(m.number, 0, INT32_MAX), Set(m.parts, 1, 3900), Set(m.part, 0, m.parts - 1);
     const std::size_t count = Count(0, 50);
     m.text = Text(60), Vector(m.kind, count, 1, 127), Vector(m.joint, count, -1, INT32_MAX);
-    Vector(m.a, count, -1, INT16_MAX), Vector(m.b, count, -1, INT16_MAX);
+    Vector(m.a, count, -1, kIdsMax - 1), Vector(m.b, count, -1, kIdsMax - 1);
     Floats(m.value, Count(0, 80));
   }
   void Fill(Release& m) {
-    const std::size_t count = Count(1, kGrantsMax);
-    Common(m), m.tick = Tick(), Vector(m.mechanism, count, 0, INT16_MAX);
+    const std::size_t count = Count(1, kReleasesMax);
+    Common(m), m.tick = Tick(), Vector(m.mechanism, count, 0, kIdsMax - 1);
     Vector(m.epoch, count, 0, INT32_MAX);
   }
   void Fill(ExactStates& m, std::size_t count) {
     Common(m), m.tick = Tick(), Set(m.revision, 0, INT32_MAX);
-    Vector(m.id, count, 0, INT16_MAX), Vector(m.epoch, count, 0, INT32_MAX);
+    Vector(m.id, count, 0, kIdsMax - 1), Vector(m.epoch, count, 0, INT32_MAX);
     Floats(m.x, count), Floats(m.y, count), Floats(m.angle, count);
     Floats(m.vx, count), Floats(m.vy, count), Floats(m.spin, count);
   }
   void Fill(ExactStates& m) { Fill(m, Count(1, kExactBodiesMax)); }
   void Fill(ImpactReport& m, std::size_t count) {
     Common(m), m.tick = Tick(), Set(m.revision, 0, INT32_MAX);
-    Vector(m.id, count, 0, INT16_MAX), Vector(m.epoch, count, 0, INT32_MAX);
-    Vector(m.by, count, -1, INT16_MAX);
+    Vector(m.id, count, 0, kIdsMax - 1), Vector(m.epoch, count, 0, INT32_MAX);
+    Vector(m.by, count, -1, kIdsMax - 1);
     Floats(m.x, count), Floats(m.y, count), Floats(m.dv, count);
     for (float& dv : m.dv) dv = std::fabs(dv);
   }
@@ -117,13 +117,13 @@ class RandomMessages {
   void Fill(EditOrder& m) {
     Common(m), Sequence(m), Set(m.number, -1, INT32_MAX), m.tick = Tick();
     Set(m.kind, 0, kEditKindsMax), Set(m.cause, 0, 1), Set(m.player, -1, 31);
-    for (auto* id : {&m.a, &m.b}) Set(*id, -1, INT16_MAX);
+    for (auto* id : {&m.a, &m.b}) Set(*id, -1, kIdsMax - 1);
     Set(m.joint, -1, INT32_MAX);
     Floats(m.value, m.kind == kEditKindBlast ? 5 : 4), m.text = Text(300);
   }
   void Fill(Meta& m, std::size_t count) {
     Common(m), Sequence(m), m.tick = Tick(), Vector(m.kind, count, 0, 1);
-    Vector(m.id, count, 0, INT16_MAX), Vector(m.key, count, 0, kMetaKeyMax);
+    Vector(m.id, count, 0, kIdsMax - 1), Vector(m.key, count, 0, kMetaKeyMax);
     Floats(m.value, count);
   }
   void Fill(Meta& m) { Fill(m, Count(0, kMetaMax)); }
@@ -137,7 +137,7 @@ class RandomMessages {
   void Fill(View& m) { Fill(m, Count(0, 60)); }
   void Fill(Impacts& m, std::size_t count) {
     Common(m), Sequence(m), Set(m.peer, 0, 31), m.tick = Tick();
-    Vector(m.id_a, count, -1, INT16_MAX), Vector(m.id_b, count, -1, INT16_MAX);
+    Vector(m.id_a, count, -1, kIdsMax - 1), Vector(m.id_b, count, -1, kIdsMax - 1);
     Floats(m.x, count), Floats(m.y, count), Floats(m.dv, count);
   }
   void Fill(Impacts& m) { Fill(m, Count(0, 60)); }
@@ -210,9 +210,9 @@ class RandomMessages {
     v.resize(count);
     for (float& x : v) x = static_cast<float>(random_.Uniform(-1e6, 1e6));
   }
-  void Ids(std::vector<std::int16_t>& ids, std::size_t count) {
+  void Ids(std::vector<std::int32_t>& ids, std::size_t count) {
     ids.resize(count);
-    const auto step = static_cast<std::int64_t>(32767 / (count + 1));
+    const auto step = kIdsMax / static_cast<std::int64_t>(count + 1);
     for (std::size_t i = 0; i < count; ++i) {
       Set(ids[i], static_cast<std::int64_t>(i) * step, static_cast<std::int64_t>(i + 1) * step - 1);
     }

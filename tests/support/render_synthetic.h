@@ -110,7 +110,7 @@ inline Recording MakeRecording(int late_ticks, const std::string& mode = "buffer
         const int owner = id == 1 || id == 3 ? 1 : id == 2 ? 2 : 0;
         const bool near = std::abs(Truth(id, tick).position.x()) < 6;
         const BodyState state = Truth(id, owner == peer ? tick : tick - late_ticks);
-        view.id.push_back(static_cast<std::int16_t>(id));
+        view.id.push_back(static_cast<std::int32_t>(id));
         view.role.push_back(owner == peer ? kRoleAuthority : near ? kRoleSecondary : kRoleRemote);
         view.authority.push_back(static_cast<std::int8_t>(owner));
         view.x.push_back(state.position.x());

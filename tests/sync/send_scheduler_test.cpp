@@ -109,7 +109,7 @@ TEST(SendScheduler, WhatIsCommittedToRestIsToldNoMore) {
   for (int send = 0; send < 60; ++send) EXPECT_EQ(row.NextSend(), std::vector<int>{1});
   const std::vector<States> everything = row.scheduler.Everything();
   ASSERT_EQ(everything.size(), 1u);
-  EXPECT_EQ(everything[0].id, std::vector<std::int16_t>{1}) << "a Rest says where the other lies";
+  EXPECT_EQ(everything[0].id, std::vector<std::int32_t>{1}) << "a Rest says where the other lies";
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ ExactStates Exact(const World& world, std::int32_t epoch) {
   exact.tick = world.tick();
   for (int body = 0; body < world.body_count(); ++body) {
     const BodyState state = world.Read(body);
-    exact.id.push_back(static_cast<std::int16_t>(world.id(body)));
+    exact.id.push_back(world.id(body));
     exact.epoch.push_back(epoch);
     exact.x.push_back(state.position.x());
     exact.y.push_back(state.position.y());

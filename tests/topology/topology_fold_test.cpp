@@ -286,8 +286,8 @@ TEST(TopologyFold, DamagedSnapshotsAreRefusedOrAreWorldsThatCanBe) {
     switch (random.Below(8)) {
       case 0: part.kind[at] = static_cast<std::int8_t>(random.Below(127)); break;
       case 1: part.joint[at] = random.Below(2) == 0 ? INT32_MAX : random.Below(60) - 1; break;
-      case 2: part.a[at] = static_cast<std::int16_t>(random.Below(32767) - 1); break;
-      case 3: part.b[at] = static_cast<std::int16_t>(random.Below(60) - 1); break;
+      case 2: part.a[at] = static_cast<std::int32_t>(random.Below(kIdsMax) - 1); break;
+      case 3: part.b[at] = static_cast<std::int32_t>(random.Below(60) - 1); break;
       case 4:
         if (part.value.empty()) break;
         part.value[static_cast<std::size_t>(random.Below(static_cast<int>(part.value.size())))] =

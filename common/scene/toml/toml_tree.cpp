@@ -10,9 +10,28 @@
 namespace seam {
 namespace {
 
+/// Where the lines of a text end.
+class LineEnds {
+ public:
+  explicit LineEnds(const std::string& text) {
+    for (std::size_t i = 0; i < text.size(); ++i) {
+      if (text[i] == '\n') ends_.push_back(static_cast<std::ptrdiff_t>(i));
+    }
+  }
+  /// Of a character, from 1.
+  int LineOf(std::ptrdiff_t offset) const {
+    const auto before = std::lower_bound(ends_.begin(), ends_.end(), offset) - ends_.begin();
+    return static_cast<int>(before) + 1;
+  }
+
+ private:
+  std::vector<std::ptrdiff_t> ends_;
+};
+
 // What differs between toml11 3 (Debian 12) and 4 (Debian 13): where a value and an error are.
 #if TOML11_VERSION_MAJOR >= 4
 int LineOf(const toml::source_location& at) { return static_cast<int>(at.first_line_number()); }
+int LineOf(const toml::value& value, const LineEnds&) { return LineOf(value.location()); }
 
 std::pair<int, std::string> Explain(const toml::syntax_error& e) {
   if (e.errors().empty()) return {1, "not valid TOML"};
@@ -22,6 +41,11 @@ std::pair<int, std::string> Explain(const toml::syntax_error& e) {
 }
 #else
 int LineOf(const toml::source_location& at) { return static_cast<int>(at.line()); }
+/// Its own answer counts all lines before the value, for each value.
+int LineOf(const toml::value& value, const LineEnds& ends) {
+  const auto* at = dynamic_cast<const toml::detail::region*>(toml::detail::get_region(value));
+  return at == nullptr ? LineOf(value.location()) : ends.LineOf(at->first() - at->begin());
+}
 
 std::pair<int, std::string> Explain(const toml::syntax_error& e) {
   return {LineOf(e.location()), e.what()};
@@ -41,9 +65,9 @@ std::string FirstLine(const std::string& what) {
   return first == std::string::npos ? "syntax error" : Printable(line.substr(first));
 }
 
-TomlNode Convert(const toml::value& value) {
+TomlNode Convert(const toml::value& value, const LineEnds& ends) {
   TomlNode node;
-  node.line = LineOf(value.location());
+  node.line = LineOf(value, ends);
   if (value.is_boolean()) {
     node.kind = TomlNode::Kind::kBoolean;
     node.boolean = value.as_boolean();
@@ -59,11 +83,11 @@ TomlNode Convert(const toml::value& value) {
     node.text = toml::get<std::string>(value);
   } else if (value.is_array()) {
     node.kind = TomlNode::Kind::kArray;
-    for (const toml::value& item : value.as_array()) node.items.push_back(Convert(item));
+    for (const toml::value& item : value.as_array()) node.items.push_back(Convert(item, ends));
   } else if (value.is_table()) {
     node.kind = TomlNode::Kind::kTable;
     for (const auto& [key, member] : value.as_table()) {
-      node.members.emplace_back(key, Convert(member));
+      node.members.emplace_back(key, Convert(member, ends));
     }
     // toml11's tables are hash maps: order must not depend on its hashes.
     std::sort(node.members.begin(), node.members.end(), [](const auto& x, const auto& y) {
@@ -98,7 +122,7 @@ const char* KindName(TomlNode::Kind kind) {
 TomlNode ParseToml(const std::string& text, const std::string& file) {
   try {
     std::istringstream in(text);
-    return Convert(toml::parse(in, file));
+    return Convert(toml::parse(in, file), LineEnds(text));
   } catch (const toml::syntax_error& e) {
     const auto [line, what] = Explain(e);
     throw OperatorError(file + ":" + std::to_string(line) + ": " + FirstLine(what));

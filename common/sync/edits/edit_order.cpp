@@ -1,12 +1,6 @@
 #include "common/sync/edits/edit_order.h"
 
 namespace seam {
-namespace {
-
-std::int16_t Id(PartId part) { return static_cast<std::int16_t>(part); }
-
-}  // namespace
-
 EditOrder ToOrder(const Edit& edit) {
   EditOrder order;
   order.kind = static_cast<std::int8_t>(edit.what.index());
@@ -14,23 +8,23 @@ EditOrder ToOrder(const Edit& edit) {
   std::visit(
       Overloaded{[](const std::monostate&) {}, [&](const BreakEdit& e) { order.joint = e.joint; },
                  [&](const BondEdit& e) {
-                   order.a = Id(e.a);
-                   order.b = Id(e.b);
+                   order.a = e.a;
+                   order.b = e.b;
                    order.joint = static_cast<std::int32_t>(e.cause);
                    order.value = {e.position.x(), e.position.y(), e.angle, e.strength};
                  },
                  [&](const InsertEdit& e) { order.text = e.text; },
                  [&](const RemoveEdit& e) {
-                   order.a = Id(e.part);
+                   order.a = e.part;
                    order.joint = e.left_bounds ? 1 : -1;
                  },
-                 [&](const FreeEdit& e) { order.a = Id(e.part); },
+                 [&](const FreeEdit& e) { order.a = e.part; },
                  [&](const PushEdit& e) {
-                   order.a = Id(e.part);
+                   order.a = e.part;
                    order.value = {e.impulse.x(), e.impulse.y(), e.turn, e.limp};
                  },
                  [&](const SeatEdit& e) {
-                   order.a = Id(e.seat);
+                   order.a = e.seat;
                    order.player = static_cast<std::int16_t>(e.player);
                  },
                  [&](const BlastEdit& e) {

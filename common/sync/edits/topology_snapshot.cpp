@@ -21,8 +21,8 @@ void Append(const TopologyEntry& entry, Snapshot* m) {
   m->kind.push_back(static_cast<std::int8_t>(entry.kind));
   m->joint.push_back(entry.joint);
   m->a.push_back(
-      static_cast<std::int16_t>(insert ? entry.text.size() : static_cast<std::size_t>(entry.a)));
-  m->b.push_back(static_cast<std::int16_t>(entry.b));
+      static_cast<std::int32_t>(insert ? entry.text.size() : static_cast<std::size_t>(entry.a)));
+  m->b.push_back(entry.b);
   const auto values = static_cast<std::ptrdiff_t>(ValuesOf(entry.kind));
   m->value.insert(m->value.end(), entry.value.begin(), entry.value.begin() + values);
   m->text += entry.text;

@@ -59,7 +59,11 @@ Presence::Presence(const SyncConfig& config, const World& world, const Roles& ro
   Remap();
 }
 
-void Presence::Remap() { near_.assign(world_.composition().mechanisms.size(), 1); }
+void Presence::Remap() {
+  near_.assign(world_.composition().mechanisms.size(), 1);
+  around_.min.setConstant(-1e9f);
+  around_.max.setConstant(1e9f);
+}
 
 bool Presence::LookIfDue() {
   if (config_.mode != Mode::kBuffer) return false;
@@ -77,6 +81,15 @@ void Presence::Look() {
     } else {
       displayed.push_back(body);
     }
+  }
+  if (!simulated.empty()) {
+    around_ = simulated.front();
+    for (const MovingBox& box : simulated) {
+      around_.min = around_.min.cwiseMin(box.min);
+      around_.max = around_.max.cwiseMax(box.max);
+    }
+    around_.min.array() -= kAround;
+    around_.max.array() += kAround;
   }
   const Sorted there(std::move(simulated), kNearSeconds + kNearKeep);
   std::vector<char> near(near_.size(), 0);

@@ -7,6 +7,7 @@
 
 #include "common/physics/world.h"
 #include "common/sync/mode.h"
+#include "common/sync/reach/zones.h"
 #include "common/sync/roles.h"
 
 namespace seam {
@@ -20,6 +21,8 @@ class Presence {
   bool LookIfDue();
   /// Whether a mechanism that is only displayed has to be there.
   bool Near(int mechanism) const { return near_[static_cast<std::size_t>(mechanism)] != 0; }
+  /// What is outside of it is near nothing that is simulated, for a second and more.
+  const MovingBox& around() const { return around_; }
   /// The bodies have changed: everything is near until the next look.
   void Remap();
 
@@ -28,6 +31,8 @@ class Presence {
   /// new beginning.
   static constexpr int kLooksPerSecond = 10;
   static constexpr float kNearSeconds = 0.2f, kNearKeep = 0.5f;
+  /// m from all that is simulated to the edge of around().
+  static constexpr float kAround = 60;
 
  private:
   void Look();
@@ -36,6 +41,7 @@ class Presence {
   const World& world_;
   const Roles& roles_;
   std::vector<char> near_;  // by mechanism
+  MovingBox around_;
 };
 
 }  // namespace seam

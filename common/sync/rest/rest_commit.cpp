@@ -179,7 +179,8 @@ void RestCommit::AfterStep() {
   }
   watch_.Look();
   if (open && world_.tick() % config_.send_every() == 0) {
-    for (const std::vector<int>& island : FindIslands(world_)) CommitIsland(island);
+    // What this peer may commit is never absent.
+    for (const std::vector<int>& island : FindPresentIslands(world_)) CommitIsland(island);
   }
   std::vector<Rest> waiting;
   waiting.swap(waiting_);

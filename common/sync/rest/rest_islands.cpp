@@ -16,9 +16,7 @@ int Leader(std::vector<int>* leaders, int m) {
   return m;
 }
 
-}  // namespace
-
-std::vector<std::vector<int>> FindIslands(const World& world) {
+std::vector<std::vector<int>> Islands(const World& world, bool absent_too) {
   std::vector<int> leaders(world.composition().mechanisms.size());
   std::iota(leaders.begin(), leaders.end(), 0);
   for (const Touch& touch : world.touches()) {
@@ -29,6 +27,7 @@ std::vector<std::vector<int>> FindIslands(const World& world) {
   std::vector<int> place(leaders.size(), -1);
   std::vector<std::vector<int>> islands;
   for (int body = 0; body < world.body_count(); ++body) {
+    if (!absent_too && world.motion(body) == Motion::kAbsent) continue;
     const auto leader = static_cast<std::size_t>(Leader(&leaders, world.mechanism(body)));
     if (place[leader] < 0) {
       place[leader] = static_cast<int>(islands.size());
@@ -37,6 +36,14 @@ std::vector<std::vector<int>> FindIslands(const World& world) {
     islands[static_cast<std::size_t>(place[leader])].push_back(body);
   }
   return islands;
+}
+
+}  // namespace
+
+std::vector<std::vector<int>> FindIslands(const World& world) { return Islands(world, true); }
+
+std::vector<std::vector<int>> FindPresentIslands(const World& world) {
+  return Islands(world, false);
 }
 
 }  // namespace seam

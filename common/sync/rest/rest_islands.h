@@ -9,5 +9,7 @@ namespace seam {
 
 /// The islands after the world's last tick; each ascending. Anchored bodies join nothing.
 std::vector<std::vector<int>> FindIslands(const World& world);
+/// The same of bodies that are not absent.
+std::vector<std::vector<int>> FindPresentIslands(const World& world);
 
 }  // namespace seam

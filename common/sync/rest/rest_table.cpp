@@ -20,9 +20,13 @@ void RestTable::Commit(int body, std::int32_t epoch, std::int64_t tick, const Bo
   record = {true, epoch, tick, pose};
   record.pose.velocity.setZero();
   record.pose.spin = 0;
+  hashed_ = false;
 }
 
-void RestTable::Clear() { records_.assign(records_.size(), RestRecord{}); }
+void RestTable::Clear() {
+  records_.assign(records_.size(), RestRecord{});
+  hashed_ = false;
+}
 
 void RestTable::Remap(const std::vector<BodyOrigin>& origins) {
   std::vector<RestRecord> records;
@@ -31,9 +35,11 @@ void RestTable::Remap(const std::vector<BodyOrigin>& origins) {
     records.push_back(same ? at(origin.body) : RestRecord{});
   }
   records_ = std::move(records);
+  hashed_ = false;
 }
 
 std::uint64_t RestTable::Hash(const World& world) const {
+  if (hashed_) return hash_;
   std::uint64_t hash = Fnv1a("", 0);
   bool any = false;
   for (int body = 0; body < world.body_count(); ++body) {
@@ -46,7 +52,9 @@ std::uint64_t RestTable::Hash(const World& world) const {
     hash = Add(record.pose.position.y(), hash);
     hash = Add(record.pose.angle, hash);
   }
-  return any ? hash : 0;
+  hashed_ = true;
+  hash_ = any ? hash : 0;
+  return hash_;
 }
 
 std::vector<Rest> RestTable::Pack(const World& world, int peer, std::vector<int> bodies) const {
@@ -63,7 +71,7 @@ std::vector<Rest> RestTable::Pack(const World& world, int peer, std::vector<int>
       out.back().composition = static_cast<std::int64_t>(world.composition().hash);
     }
     Rest& rest = out.back();
-    rest.id.push_back(static_cast<std::int16_t>(world.id(body)));
+    rest.id.push_back(world.id(body));
     rest.epoch.push_back(record.epoch);
     rest.x.push_back(record.pose.position.x());
     rest.y.push_back(record.pose.position.y());

@@ -25,7 +25,10 @@ class RestTable {
   const RestRecord& at(int body) const { return records_[static_cast<std::size_t>(body)]; }
   /// The velocity of `pose` is dropped.
   void Commit(int body, std::int32_t epoch, std::int64_t tick, const BodyState& pose);
-  void End(int body) { records_[static_cast<std::size_t>(body)].committed = false; }
+  void End(int body) {
+    records_[static_cast<std::size_t>(body)].committed = false;
+    hashed_ = false;
+  }
   void Clear();
   /// The bodies have changed: what was committed of those that are the same holds on.
   void Remap(const std::vector<BodyOrigin>& origins);
@@ -38,6 +41,8 @@ class RestTable {
 
  private:
   std::vector<RestRecord> records_;
+  mutable std::uint64_t hash_ = 0;  // of what has not changed since, if `hashed_`
+  mutable bool hashed_ = false;
 };
 
 }  // namespace seam

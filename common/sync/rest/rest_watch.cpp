@@ -34,6 +34,10 @@ void RestWatch::Follow(const BodyState& now, float distance, Near* near) const {
 void RestWatch::Look() {
   for (int body = 0; body < world_.body_count(); ++body) {
     Track& track = tracks_[static_cast<std::size_t>(body)];
+    if (world_.motion(body) == Motion::kAbsent) {
+      track.asleep_since = -1;  // nobody asks until it is there again
+      continue;
+    }
     if (world_.awake(body)) {
       track.asleep_since = -1;
     } else if (track.asleep_since < 0) {

@@ -20,7 +20,8 @@ class TitleOfScene : public ::testing::TestWithParam<Title> {
     settings.scene = std::string("scenes/") + GetParam().scene + ".toml";
     settings.impair = "4g";
     settings.seed = seed;
-    settings.duration_s = duration_s;
+    settings.duration_s = duration_s > 0 ? duration_s : GetParam().test_s;
+    settings.players = GetParam().players;
     Recording recording;
     RunSession(Configure(settings), &recording);
     return recording;

@@ -73,6 +73,19 @@ const std::vector<Title>& Titles() {
        "than a twentieth of that; the hut comes down to below 1.5 m and a limb comes off; "
        "ann and bob are thrown and stand again at the end.",
        JudgeBattlefield},
+      {"relay8", "Three pucks go from one end of eight regions to the other.", JudgeRelay8},
+      {"derby",
+       "A red and a blue car come together twelve times and more, six cars or more take "
+       "part, and none leaves the hollow.",
+       JudgeDerby},
+      {"pile",
+       "Every blade goes 1.5 m or more, at least forty boxes of each heap and two hundred in "
+       "all move by half a metre.",
+       JudgePile},
+      {"swarm",
+       "Each of the players who are there drives a sled 8 m or more and shoves two crates "
+       "and more by a metre; the sleds of those who are absent stand.",
+       JudgeSwarm, 4},
   };
   return titles;
 }

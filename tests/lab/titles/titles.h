@@ -31,6 +31,8 @@ struct Title {
   const char* scene;     ///< name of the file in scenes/
   const char* sentence;  ///< what happens, in numbers
   void (*judge)(const Screen& screen, Claims* claims);
+  int players = 0;    ///< that join, in the tests, 0: all
+  double test_s = 0;  ///< of the tests' sessions, 0: the scene's own
 };
 
 /// All of them, in the order of docs/scenes.md.
@@ -57,5 +59,9 @@ void JudgeDockside(const Screen& screen, Claims* claims);
 void JudgeTracks(const Screen& screen, Claims* claims);
 void JudgePlayground(const Screen& screen, Claims* claims);
 void JudgeBattlefield(const Screen& screen, Claims* claims);
+void JudgeSwarm(const Screen& screen, Claims* claims);
+void JudgeDerby(const Screen& screen, Claims* claims);
+void JudgePile(const Screen& screen, Claims* claims);
+void JudgeRelay8(const Screen& screen, Claims* claims);
 
 }  // namespace seam

@@ -39,6 +39,7 @@ int RunTitles(const TitlesCommand& command) {
   for (const Title* title : titles) {
     SessionSettings settings;
     settings.scene = FindScene(title->scene);
+    settings.players = title->players;
     const Scene scene = LoadSceneWith(settings.scene, {});
     const auto hash = Fnv1a(scene.text.data(), scene.text.size());
     for (const std::string& network : command.networks) {

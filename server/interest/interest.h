@@ -1,0 +1,68 @@
+#pragma once
+/// How much each mechanism concerns each receiver: in a large room what is far from all that it has
+/// concerns it less.
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+#include "common/sync/replica.h"
+
+namespace seam {
+
+/// Ascending.
+enum class Concern : std::uint8_t {
+  kFar,
+  kNear,
+  kClose,  ///< mode central: it may meet what the receiver drives and predicts
+};
+
+class Interest {
+ public:
+  /// All must outlive it.
+  Interest(const Scene& scene, const SyncConfig& config, const Replica& replica);
+
+  /// Who is told, and which of the scene's players it plays; -1: it watches, and is near all.
+  struct Receiver {
+    int peer = 0, player = -1;
+  };
+  /// A mechanism that came to concern a receiver more than it did.
+  struct Risen {
+    int peer = 0, mechanism = 0;
+  };
+  /// Looks where everything is now. A receiver is near what is within kNearReach of what it drives
+  /// or has authority over, and maybe what is twice as far; close likewise with kCloseReach. In a
+  /// room of at most follow_bodies all is close to everyone.
+  std::vector<Risen> Look(const std::vector<Receiver>& receivers);
+  /// As of the last Look; in a large room, of who was not there, kNear.
+  Concern Of(int peer, int mechanism) const {
+    if (small_) return Concern::kClose;
+    const auto m = static_cast<std::size_t>(mechanism), p = static_cast<std::size_t>(peer);
+    if (p >= stride_ || m * stride_ >= concern_.size()) return Concern::kNear;
+    return concern_[m * stride_ + p];
+  }
+  /// The mechanisms have changed: in a large room all is near until the next Look.
+  void Remap();
+
+  /// m.
+  static constexpr float kNearReach = 30, kCloseReach = 24;
+
+ private:
+  /// Mechanisms by the cells of a square grid that their bodies are in.
+  using Cells = std::unordered_map<std::uint64_t, std::vector<int>>;
+  Cells CellsOf(float side) const;
+  /// What is in the cells of the receiver's things and in those beside them concerns it so much.
+  void Raise(const Receiver& receiver, const Cells& cells, float side, Concern to);
+  std::vector<int> ThingsOf(const Receiver& receiver) const;
+  void Note(const Receiver& receiver, int mechanism, Concern to);
+
+  const Scene& scene_;
+  const SyncConfig& config_;
+  const Replica& replica_;
+  bool small_ = false;                  // all is close to everyone
+  std::size_t stride_ = 0;              // peers in a row
+  std::vector<Concern> concern_;        // by mechanism and peer
+  std::vector<std::vector<int>> held_;  // by peer, in a Look: bodies it has authority over
+};
+
+}  // namespace seam

@@ -1,0 +1,112 @@
+#include "server/interest/newest_states.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+
+#include "common/base/geometry.h"
+#include "common/sync/quantize.h"
+#include "common/sync/reach/reach.h"
+
+namespace seam {
+namespace {
+
+/// Nobody sees at which angle a wheel is that spins faster than this, rad/s.
+constexpr float kSpinSeen = 6;
+constexpr int kQuantaPerMetre = 512;
+
+HeardState Entry(const States& states, std::size_t i) {
+  HeardState heard;
+  heard.peer = states.peer;
+  heard.tick = states.tick;
+  heard.revision = states.revision;
+  heard.composition = states.composition;
+  heard.epoch = states.epoch[i];
+  heard.flags = states.flags[i];
+  heard.x = states.origin_x * kQuantaPerMetre + states.x[i];
+  heard.y = states.origin_y * kQuantaPerMetre + states.y[i];
+  heard.angle = states.angle[i];
+  heard.vx = states.vx[i];
+  heard.vy = states.vy[i];
+  heard.spin = states.spin[i];
+  return heard;
+}
+
+/// How far the farthest point of a body is from its origin now, at most, m.
+float ReachOf(const World& world, int body) {
+  const MovingBox box = BoxOf(world, body);
+  const Vec2 at = world.Read(body).position;
+  return (box.max - at).cwiseAbs().cwiseMax((box.min - at).cwiseAbs()).norm();
+}
+
+}  // namespace
+
+bool NewestStates::IsNews(const Body& body, const HeardState& told, const NewsRule& rule) const {
+  const HeardState& now = body.heard;
+  if (told.tick < 0 || told.epoch != now.epoch) return true;
+  if (((told.flags ^ now.flags) & kStateAsleep) != 0) return true;
+  const float seconds = static_cast<float>(now.tick - told.tick) / static_cast<float>(tick_hz_);
+  if (seconds < rule.least) return false;
+  constexpr float kQuantum = kPositionQuantum, kSpeed = kVelocityQuantum;
+  const float speed = kSpeed * static_cast<float>(std::abs(told.vx) + std::abs(told.vy)) +
+                      kSpeed * static_cast<float>(std::abs(told.spin)) * body.reach;
+  if (seconds >= (speed < kSlow ? kNewsRepeatSlow : kNewsRepeat)) return true;
+  const float x = static_cast<float>(now.x - told.x) * kQuantum - seconds * kSpeed * told.vx;
+  const float y = static_cast<float>(now.y - told.y) * kQuantum - seconds * kSpeed * told.vy;
+  float off = std::hypot(x, y);
+  if (std::abs(static_cast<int>(now.spin)) * kSpeed < kSpinSeen) {
+    const auto steps =
+        static_cast<std::int16_t>(static_cast<std::uint16_t>(now.angle - told.angle));
+    const float turn = static_cast<float>(steps * kAngleQuantum) - seconds * kSpeed * told.spin;
+    off += std::fabs(WrapAngle(turn)) * body.reach;
+  }
+  return off > rule.off;
+}
+
+const std::vector<News>& NewestStates::Take(const States& states) {
+  const std::size_t count = states.id.size();
+  news_.assign(count, News::kNobody);
+  together_.resize(world_.composition().mechanisms.size(), News::kNobody);
+  const auto mechanism = [&](std::size_t i) {
+    const int body = world_.BodyOfId(states.id[i]);
+    return body < 0 ? -1 : world_.mechanism(body);
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto id = static_cast<std::size_t>(states.id[i]);
+    if (bodies_.size() <= id) bodies_.resize(id + 1);
+    Body& body = bodies_[id];
+    const int m = mechanism(i);
+    if (m < 0) continue;
+    body.heard = Entry(states, i);
+    if (body.reach < 0) body.reach = ReachOf(world_, world_.BodyOfId(states.id[i]));
+    News& news = together_[static_cast<std::size_t>(m)];
+    if (IsNews(body, body.far, kFarNews)) {
+      news = News::kAll;
+    } else if (news == News::kNobody && IsNews(body, body.near, kNearNews)) {
+      news = News::kNear;
+    }
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const int m = mechanism(i);
+    if (m < 0) continue;
+    Body& body = bodies_[static_cast<std::size_t>(states.id[i])];
+    news_[i] = together_[static_cast<std::size_t>(m)];
+    if (news_[i] >= News::kNear) body.near = body.heard;
+    if (news_[i] == News::kAll) body.far = body.heard;
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const int m = mechanism(i);
+    if (m >= 0) together_[static_cast<std::size_t>(m)] = News::kNobody;
+  }
+  return news_;
+}
+
+void NewestStates::Remap(const std::vector<BodyOrigin>& bodies) {
+  for (std::size_t id = 0; id < bodies_.size(); ++id) {
+    const int body = world_.BodyOfId(static_cast<PartId>(id));
+    if (body < 0 || !bodies[static_cast<std::size_t>(body)].same) bodies_[id] = Body{};
+  }
+  together_.clear();
+}
+
+}  // namespace seam

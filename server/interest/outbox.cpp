@@ -1,0 +1,123 @@
+#include "server/interest/outbox.h"
+
+#include <algorithm>
+#include <cmath>
+#include <tuple>
+#include <utility>
+
+#include "common/sync/limits.h"
+
+namespace seam {
+namespace {
+
+constexpr std::int32_t kQuantaPerMetre = 512;
+/// Of an origin, in quanta: int16 reaches 64 m.
+constexpr std::int32_t kReach = 60 * kQuantaPerMetre;
+/// Bytes that a message costs besides its bodies: with the headers of link and datagram.
+constexpr double kMessageCost = static_cast<double>(kStatesBytes.empty) + 30;
+
+/// Whether a state can be in the message.
+bool Fits(const States& message, const HeardState& state) {
+  return message.id.size() < kStatesBodiesMax && message.peer == state.peer &&
+         message.tick == state.tick && message.revision == state.revision &&
+         message.composition == state.composition &&
+         std::abs(state.x - message.origin_x * kQuantaPerMetre) < kReach &&
+         std::abs(state.y - message.origin_y * kQuantaPerMetre) < kReach;
+}
+
+States Begin(const HeardState& state) {
+  States message;
+  message.peer = state.peer;
+  message.tick = state.tick;
+  message.revision = state.revision;
+  message.composition = state.composition;
+  message.origin_x = state.x / kQuantaPerMetre;
+  message.origin_y = state.y / kQuantaPerMetre;
+  return message;
+}
+
+void Append(PartId id, const HeardState& state, States* message) {
+  message->id.push_back(static_cast<decltype(message->id)::value_type>(id));
+  message->epoch.push_back(state.epoch);
+  message->flags.push_back(state.flags);
+  message->x.push_back(static_cast<std::int16_t>(state.x - message->origin_x * kQuantaPerMetre));
+  message->y.push_back(static_cast<std::int16_t>(state.y - message->origin_y * kQuantaPerMetre));
+  message->angle.push_back(state.angle);
+  message->vx.push_back(state.vx);
+  message->vy.push_back(state.vy);
+  message->spin.push_back(state.spin);
+}
+
+}  // namespace
+
+void Outbox::Add(std::int64_t now_us, PartId id, Urgency urgency) {
+  const auto i = static_cast<std::size_t>(id);
+  if (place_.size() <= i) place_.resize(i + 1, -1);
+  if (place_[i] >= 0) {
+    Urgency& before = waiting_[static_cast<std::size_t>(place_[i])].urgency;
+    before = std::max(before, urgency);
+    return;
+  }
+  place_[i] = static_cast<std::int32_t>(waiting_.size());
+  waiting_.push_back({id, urgency, now_us});
+}
+
+void Outbox::Fill(std::int64_t now_us) {
+  const double most = std::max(kBurst * bytes_per_s_, 2.0 * kDatagramBytesMax);
+  if (filled_us_ < 0) credit_ = most;
+  const double passed_s = filled_us_ < 0 ? 0 : 1e-6 * static_cast<double>(now_us - filled_us_);
+  filled_us_ = now_us;
+  // What came before the states, such as the room, does not keep them back for longer than a burst.
+  credit_ = std::min(std::max(credit_, -most) + passed_s * bytes_per_s_, most);
+}
+
+bool Outbox::Affords(std::int64_t now_us, std::size_t bytes) {
+  if (bytes_per_s_ <= 0) return true;
+  Fill(now_us);
+  return credit_ >= static_cast<double>(bytes);
+}
+
+std::size_t Outbox::Affordable(std::int64_t now_us) {
+  Fill(now_us);
+  const double bodies = (credit_ - kMessageCost) / static_cast<double>(kStatesBytes.each);
+  if (bodies >= static_cast<double>(waiting_.size())) return waiting_.size();
+  if (now_us - part_us_ < kPartEveryUs) return 0;
+  part_us_ = now_us;
+  const auto count = static_cast<std::size_t>(std::max(0.0, bodies));
+  const auto worth = [&](const Waiting& w) {
+    return static_cast<std::int64_t>(w.urgency) * (now_us - w.since_us + 1000);
+  };
+  std::nth_element(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count),
+                   waiting_.end(), [&](const Waiting& a, const Waiting& b) {
+                     return std::make_pair(worth(b), a.id) < std::make_pair(worth(a), b.id);
+                   });
+  return count;
+}
+
+std::vector<States> Outbox::Compose(std::int64_t now_us, const NewestStates& newest) {
+  std::size_t count = waiting_.size();
+  if (bytes_per_s_ > 0) count = Affordable(now_us);
+  if (count == 0) return {};
+  const auto end = waiting_.begin() + static_cast<std::ptrdiff_t>(count);
+  const auto order = [&](const Waiting& w) {
+    const HeardState state = newest.has(w.id) ? newest.at(w.id) : HeardState{};
+    return std::make_tuple(state.peer, state.tick, w.id);
+  };
+  std::sort(waiting_.begin(), end,
+            [&](const Waiting& a, const Waiting& b) { return order(a) < order(b); });
+  std::vector<States> messages;
+  for (auto w = waiting_.begin(); w != end; ++w) {
+    place_[static_cast<std::size_t>(w->id)] = -1;
+    if (!newest.has(w->id)) continue;  // an edit has changed it meanwhile
+    const HeardState& state = newest.at(w->id);
+    if (messages.empty() || !Fits(messages.back(), state)) messages.push_back(Begin(state));
+    Append(w->id, state, &messages.back());
+  }
+  waiting_.erase(waiting_.begin(), end);
+  for (std::size_t i = 0; i < waiting_.size(); ++i) {
+    place_[static_cast<std::size_t>(waiting_[i].id)] = static_cast<std::int32_t>(i);
+  }
+  return messages;
+}
+
+}  // namespace seam

@@ -1,0 +1,57 @@
+#pragma once
+/// What of the newest states one receiver is still to be told, and how many bytes it may get.
+
+#include <cstdint>
+#include <vector>
+
+#include "common/codec/messages.h"
+#include "server/interest/newest_states.h"
+
+namespace seam {
+
+/// What a client is sent at most unless the server is told otherwise, bytes/s: 2 Mb/s.
+constexpr double kClientBytesPerS = 256000;
+
+/// How urgent a state is: its weight times how long it has waited (after Fiedler, "State
+/// Synchronization", 2015).
+enum class Urgency : std::uint8_t { kFar = 1, kNear = 3, kFollowed = 10 };
+
+class Outbox {
+ public:
+  /// `bytes_per_s`: of everything that the receiver is sent, UDP payload; 0: no limit.
+  explicit Outbox(double bytes_per_s) : bytes_per_s_(bytes_per_s) {}
+
+  /// A body has news for the receiver. Of several before the next Compose the newest is told.
+  void Add(std::int64_t now_us, PartId id, Urgency urgency);
+  /// So many bytes went to it, of whatever.
+  void Spend(std::size_t bytes) { credit_ -= static_cast<double>(bytes); }
+  /// Messages with the most urgent of what waits, as many as the budget allows now; the rest waits
+  /// on. utime is left 0.
+  std::vector<States> Compose(std::int64_t now_us, const NewestStates& newest);
+  bool empty() const { return waiting_.empty(); }
+  /// Whether so many bytes may go to it now.
+  bool Affords(std::int64_t now_us, std::size_t bytes);
+
+  /// s of the budget that may come at once.
+  static constexpr double kBurst = 0.1;
+  /// us between two messages of a part of what waits: many small ones would be mostly headers.
+  static constexpr std::int64_t kPartEveryUs = 15000;
+
+ private:
+  struct Waiting {
+    PartId id = 0;
+    Urgency urgency = Urgency::kFar;
+    std::int64_t since_us = 0;
+  };
+  void Fill(std::int64_t now_us);
+  /// The first so many of what waits, once ordered, fit the budget.
+  std::size_t Affordable(std::int64_t now_us);
+
+  double bytes_per_s_, credit_ = 0;
+  std::int64_t part_us_ = -1000000000;  // when only a part of what waited could be sent
+  std::int64_t filled_us_ = -1;
+  std::vector<Waiting> waiting_;
+  std::vector<std::int32_t> place_;  // by part: in waiting_, -1: it does not wait
+};
+
+}  // namespace seam

@@ -1,0 +1,80 @@
+/// The largest scenes that there can be, and one more.
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "common/base/check.h"
+#include "common/physics/world.h"
+#include "common/scene/scene.h"
+#include "common/scene/scene_limits.h"
+
+namespace seam {
+namespace {
+
+/// What is said of a scene; "" if nothing is wrong.
+std::string WhatIsWrong(const std::string& text) {
+  try {
+    ParseScene(text, "x.toml");
+  } catch (const OperatorError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+std::string Players(int count) {
+  return "[[part]]\nname = \"ball\"\ncircle = 1\n[[player]]\nname = \"p\"\nrepeat = {count = " +
+         std::to_string(count) + "}\n";
+}
+
+/// So many boxes in rows that do not touch, in thin air.
+std::string Boxes(int columns, int rows) {
+  return "bounds = [[-10, -10], [29000, 29000]]\n[[part]]\nname = \"box\"\nbox = [0.5, "
+         "0.5]\nrepeat "
+         "= {count = [" +
+         std::to_string(columns) + ", " + std::to_string(rows) + "], step = [1, 1]}\n";
+}
+
+TEST(SceneSize, Has256PlayersAndNotOneMore) {
+  EXPECT_EQ(ParseScene(Players(256), "full.toml").players.size(), 256u);
+  EXPECT_NE(WhatIsWrong(Players(257)).find("at most 256 players"), std::string::npos);
+  const std::string another = Players(256) + "[[player]]\nname = \"ann\"\n";
+  EXPECT_NE(WhatIsWrong(another).find("at most 256 players"), std::string::npos);
+}
+
+TEST(SceneSize, Has65535PartsAndNotOneMore) {
+  const Scene scene = ParseScene(Boxes(4369, 15), "full.toml");
+  ASSERT_EQ(scene.parts.size(), kPartsMax);
+  EXPECT_EQ(scene.parts.back().name, "box.4368.14");
+  const std::string another =
+      Boxes(4369, 15) + "[[part]]\nname = \"more\"\nbox = [1, 1]\nposition = [-5, -5]\n";
+  EXPECT_NE(WhatIsWrong(another).find("at most 65535 parts"), std::string::npos);
+}
+
+TEST(SceneSize, Has65535JointsAndNotOneMore) {
+  // In a closed grid of c columns and r rows there are (c - 1) r + c (r - 1) bonds.
+  const auto glued = [](int columns, int rows) {
+    std::string text = Boxes(columns, rows);
+    text.insert(text.rfind('}'), ", glue = 5");
+    return text;
+  };
+  ASSERT_EQ(ParseScene(glued(3, 2), "few.toml").joints.size(), 7u);
+  EXPECT_EQ(ParseScene(glued(2, 21845), "x.toml").joints.size(), 65533u);
+  EXPECT_NE(WhatIsWrong(glued(2, 21846)).find("65535 joints"), std::string::npos);
+}
+
+TEST(SceneSize, WithAllItsPartsItIsReadAndBuiltInSeconds) {
+  const auto begin = std::chrono::steady_clock::now();
+  const Scene scene = ParseScene(Boxes(4369, 15), "full.toml");
+  World world(scene);
+  ASSERT_EQ(world.body_count(), static_cast<int>(kPartsMax));
+  world.Step();
+  EXPECT_EQ(world.id(world.body_count() - 1), 65534);
+  EXPECT_EQ(world.BodyOfId(65534), world.body_count() - 1);
+  EXPECT_LT(world.Read(world.body_count() - 1).velocity.y(), 0) << "it falls";
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - begin;
+  EXPECT_LT(took.count(), 20) << "it takes 0.5 s on one core; what is quadratic takes minutes";
+}
+
+}  // namespace
+}  // namespace seam
