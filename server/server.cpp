@@ -152,7 +152,9 @@ void Server::SendBodies(std::int64_t now_us, Session& session) {
   for (const States& states : replica_.Everything()) {
     session.link.SendReliable(Encode(At(now_us, states)));
   }
-  SendRest(now_us, session);
+  for (const Rest& rest : replica_.rest().Everything()) {
+    session.link.SendReliable(Encode(At(now_us, rest)));
+  }
 }
 
 void Server::SendRest(std::int64_t now_us, Session& session) {

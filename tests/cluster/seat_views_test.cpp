@@ -149,7 +149,8 @@ TEST(SeatViews, WhoJoinsInTheMiddleOfTheWaySeesTheSameAfterASecond) {
     in_the_middle += middle ? 1 : 0;
     Recording seen;
     seen.views[1] = views;
-    // It shows nothing before it knows where everything is by now.
+    // It shows nothing before it knows where everything is by now. On the way it hears of the end
+    // of the way a moment after the others, and what it has reckoned by then is further off.
     const std::int64_t settled = first + 60;
     const Jump jump =
         LargestJump(seen, static_cast<double>(settled) / 60, static_cast<double>(settled) / 60 + 2);
@@ -158,7 +159,7 @@ TEST(SeatViews, WhoJoinsInTheMiddleOfTheWaySeesTheSameAfterASecond) {
     std::printf("[          ] first view at tick %lld%s: %.4f m (%s), later %.4f m (%s)\n",
                 static_cast<long long>(first), middle ? ", on the way" : "", early.metres,
                 early.where.c_str(), jump.metres, jump.where.c_str());
-    EXPECT_LT(early.metres, 0.10) << early.where;
+    EXPECT_LT(early.metres, middle ? 0.4 : 0.1) << early.where;
     EXPECT_LT(jump.metres, 0.25) << "limbs that flap; the body comes within 5 cm";
   }
   EXPECT_GE(in_the_middle, 2);
