@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "client/held_world.h"
 #include "common/base/check.h"
 #include "common/scene/character.h"
 #include "common/sync/edits/edit_order.h"
@@ -27,6 +28,11 @@ constexpr std::int64_t kInputKnownAfter = 2;
 /// Most ticks stepped in one call; further behind than kGiveUpTicks we rejoin.
 constexpr int kStepsMax = 20;
 constexpr std::int64_t kGiveUpTicks = 300;
+/// Who joins late waits for the world for so long after its last hello, us; then it begins with
+/// what it has.
+constexpr std::int64_t kWorldWaitUs = 4000000;
+/// States older than the round trip and this are not the world as it is, us.
+constexpr std::int64_t kWorldAgeUs = 250000;
 /// Mode central: inputs should arrive this long before the server needs them, us.
 constexpr double kInputMarginUs = 35000;
 
@@ -123,13 +129,14 @@ void Client::StartIfDue(std::int64_t now_us) {
   if (time < 0) return;
   // Within the first half second we were here from the start and only step a little late.
   const std::int64_t tick = time * room_.tick_hz / 1000000;
-  if (tick > room_.tick_hz / 2) replica_->StartAt(tick);
+  const bool late = tick > room_.tick_hz / 2;
+  const bool waits = now_us - last_hello_us_ < kWorldWaitUs;
+  const std::int64_t age_us = clock_.rtt_p90_us() + kWorldAgeUs;
+  const std::int64_t from = tick - age_us * room_.tick_hz / 1000000;
+  if (late && waits && !CoversWorld(held_, replica_->world(), from)) return;
+  if (late) replica_->StartAt(tick);
   started_ = true;
-  for (const Bytes& bytes : held_) {
-    const AnyMessage any = Decode(bytes);
-    if (const auto* states = std::get_if<States>(&any)) replica_->Place(*states);
-    if (const auto* rest = std::get_if<Rest>(&any)) replica_->Receive(*rest);
-  }
+  GiveHeld(held_, *replica_);
   held_.clear();
 }
 

@@ -2,6 +2,7 @@
 
 #include "common/base/check.h"
 #include "common/base/nearest.h"
+#include "common/base/progress_count.h"
 #include "common/sync/mode.h"
 #include "render/scene_recording.h"
 
@@ -27,7 +28,9 @@ LoadedLog LoadLog(const std::string& path, const RenderOptions& options) {
 
 std::vector<Playback> LoadPlaybacks(const RenderOptions& options) {
   std::vector<Playback> playbacks;
+  ProgressCount count("reading", "recordings", static_cast<std::int64_t>(options.logs.size()));
   for (const std::string& path : options.logs) {
+    count(static_cast<std::int64_t>(playbacks.size()));
     if (IsSceneFile(path)) {
       playbacks.emplace_back(RecordingOfScene(path), std::nullopt);
       continue;

@@ -9,7 +9,8 @@
 namespace seam {
 
 /// Reads options.logs; the oracle is options.oracle's, or the log's own if it was made in mode
-/// oracle, or computed from the recorded inputs. Throws OperatorError for a log without views.
+/// oracle, or computed from the recorded inputs. Says on a terminal how far it is. Throws
+/// OperatorError for a log without views.
 std::vector<Playback> LoadPlaybacks(const RenderOptions& options);
 
 /// One log and its oracle, as LoadPlaybacks has them.

@@ -7,6 +7,7 @@
 #include "common/base/check.h"
 #include "common/base/plain_file.h"
 #include "common/base/process.h"
+#include "common/base/progress_count.h"
 #include "render/commands.h"
 #include "render/load.h"
 #include "render/output.h"
@@ -37,12 +38,15 @@ void RenderReviewPage(const RenderOptions& options) {
   const std::int64_t begin_us = SteadyClockUs();
   std::vector<std::unique_ptr<PageLog>> logs;
   std::vector<PageRun> runs;
+  ProgressCount count("page", "recordings", static_cast<std::int64_t>(options.logs.size()));
   for (const std::string& path : options.logs) {
+    count(static_cast<std::int64_t>(logs.size()));
     logs.push_back(std::make_unique<PageLog>(LoadLog(path, options)));
     runs.push_back({std::filesystem::path(path).stem().string(), &logs.back()->playback, path});
   }
   const std::string html = PageHtml(runs);
   WriteText(options.out, html);
+  count.End();
   std::fprintf(stderr, "%s: %zu %s, %.0f kB, made in %.1f s\n", options.out.c_str(), runs.size(),
                runs.size() == 1 ? "run" : "runs", static_cast<double>(html.size()) / 1000,
                static_cast<double>(SteadyClockUs() - begin_us) * 1e-6);

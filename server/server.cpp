@@ -147,6 +147,16 @@ void Server::SendWorld(std::int64_t now_us, Session& session) {
   session.leaving_why = "the world is more than can be sent to it";
 }
 
+void Server::SendBodies(std::int64_t now_us, Session& session) {
+  if (!started()) return;
+  for (const States& states : replica_.Everything()) {
+    session.link.SendReliable(Encode(At(now_us, states)));
+  }
+  for (const Rest& rest : replica_.rest().Everything()) {
+    session.link.SendReliable(Encode(At(now_us, rest)));
+  }
+}
+
 void Server::SendRest(std::int64_t now_us, Session& session) {
   for (const Rest& rest : replica_.rest().Again(false)) {
     session.link.SendReliable(Encode(At(now_us, rest)));

@@ -119,6 +119,9 @@ class Server {
   /// Edits, grants, states and values: all that a peer needs to have our world. One that cannot be
   /// sent all of it is leaving.
   void SendWorld(std::int64_t now_us, Session& session);
+  /// Where all bodies are, once more: since it was sent the world, while its clock settled, a
+  /// client has heard of none of them.
+  void SendBodies(std::int64_t now_us, Session& session);
   /// All that rests, to one who has not heard of it.
   void SendRest(std::int64_t now_us, Session& session);
   /// What came to rest in the last step, and whether the room is quiet.

@@ -25,6 +25,7 @@ void Server::FollowSessions(std::int64_t now_us) {
         break;
       }
       case SessionEvent::Kind::kReady:
+        SendBodies(now_us, *sessions_.Find(event.peer));
         if (rules_ != nullptr && event.player >= 0) rules_->OnJoin(event.player);
         authority_.PlanSoon();
         broadcast_.LookAround(now_us);

@@ -53,6 +53,7 @@ void DrawList::Begin(int width_px, int height_px) {
   indices_.clear();
   text_indices_.clear();
   batches_.clear();
+  dashes_ended_ = false;
   open_text_ = Batch();
   open_text_.kind = BatchKind::kText;
   NoClip();
@@ -91,10 +92,12 @@ Rect DrawList::Cut(const Rect& rect) const {
 }
 
 void DrawList::Need(BatchKind kind) {
-  if (!batches_.empty() && Same(batches_.back().clip, clip_)) {
+  const bool goes_on = !batches_.empty() && !dashes_ended_ && Same(batches_.back().clip, clip_);
+  if (goes_on) {
     const BatchKind open = batches_.back().kind;
     if (open == kind || (open == BatchKind::kDashed && kind == BatchKind::kShape)) return;
   }
+  dashes_ended_ = false;
   Batch batch;
   batch.kind = kind;
   batch.clip = clip_;
@@ -102,7 +105,9 @@ void DrawList::Need(BatchKind kind) {
   batches_.push_back(batch);
 }
 
-void DrawList::NeedDashes() { batches_.back().kind = BatchKind::kDashed; }
+void DrawList::EndDashes() {
+  dashes_ended_ = !batches_.empty() && batches_.back().kind == BatchKind::kDashed;
+}
 
 std::uint32_t DrawList::Add(float x, float y, Colour colour) {
   Vertex vertex;
@@ -143,7 +148,9 @@ void DrawList::FillRect(const Rect& r, Colour colour) {
     PutUnder(batch);
     return;
   }
-  Need(large ? BatchKind::kPlain : BatchKind::kShape);
+  // Plain rectangles by themselves are what llvmpipe draws fastest, if they outweigh a draw call.
+  constexpr float kPlain = 400;  // px
+  Need(r.width * r.height > kPlain ? BatchKind::kPlain : BatchKind::kShape);
   Fan({{r.x, r.y}, {r.right(), r.y}, {r.right(), r.bottom()}, {r.x, r.bottom()}}, colour);
 }
 
@@ -176,11 +183,11 @@ void DrawList::FillShaded(const Vec2 points[4], Colour from, Colour to) {
 
 void DrawList::Hatch(const std::vector<Vec2>& points, const Vec2& origin, const Vec2& normal,
                      float period, Colour colour) {
-  if (points.size() < 3) return;
+  if (points.size() < 3 || colour.a == 0) return;
+  Need(BatchKind::kDashed);
   const auto first = static_cast<std::uint32_t>(vertices_.size());
-  Fill(points, colour);
-  if (first < vertices_.size()) NeedDashes();
-  for (std::size_t i = 0; i < points.size() && first + i < vertices_.size(); ++i) {
+  Fan(points, colour);
+  for (std::size_t i = 0; i < points.size(); ++i) {
     vertices_[first + i].along = (points[i] - origin).dot(normal);
     vertices_[first + i].period = -period;
   }
@@ -189,8 +196,7 @@ void DrawList::Hatch(const std::vector<Vec2>& points, const Vec2& origin, const 
 void DrawList::Stroke(const std::vector<Vec2>& points, bool closed, const Line& line) {
   const std::size_t n = points.size();
   if (n < 2 || line.colour.a == 0) return;
-  Need(BatchKind::kShape);
-  if (line.dash != 0) NeedDashes();
+  Need(line.dash != 0 ? BatchKind::kDashed : BatchKind::kShape);
   const float half = line.width / 2;
   const float reach = half + 0.5f;  // half a pixel further than the line for its soft edge
   const std::size_t segments = closed ? n : n - 1;
@@ -219,24 +225,17 @@ void DrawList::Stroke(const std::vector<Vec2>& points, bool closed, const Line& 
   }
 }
 
-void DrawList::StrokeShaded(const std::vector<Vec2>& points, const std::vector<Colour>& colours,
-                            float width) {
-  SEAM_ASSERT(points.size() == colours.size());
-  if (points.size() < 2) return;
-  const auto first = static_cast<std::uint32_t>(vertices_.size());
-  Stroke(points, false, {width, {0, 0, 0, 255}, 0});
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    vertices_[first + 2 * i].colour = colours[i];
-    vertices_[first + 2 * i + 1].colour = colours[i];
-  }
-}
-
 void DrawList::StrokeRect(const Rect& r, const Line& line) {
   Stroke({{r.x, r.y}, {r.right(), r.y}, {r.right(), r.bottom()}, {r.x, r.bottom()}}, true, line);
 }
 
 void DrawList::Disc(const Vec2& centre, float radius, Colour colour) {
   if (colour.a == 0) return;
+  // OpenGL leaves out a point whose middle is off the page, and has a largest size.
+  constexpr float kDotRadiusMax = 50;
+  const bool on_page = centre.x() >= 0 && centre.x() <= static_cast<float>(width_px_) &&
+                       centre.y() >= 0 && centre.y() <= static_cast<float>(height_px_);
+  if (on_page && radius <= kDotRadiusMax) return Dot(centre, radius, colour);
   Need(BatchKind::kDisc);
   const float reach = radius + 0.5f;  // half a pixel further for its soft edge
   const auto first = static_cast<std::uint32_t>(vertices_.size());
@@ -249,6 +248,16 @@ void DrawList::Disc(const Vec2& centre, float radius, Colour colour) {
   }
   Triangle(first, first + 1, first + 2);
   Triangle(first, first + 2, first + 3);
+}
+
+void DrawList::Dot(const Vec2& centre, float radius, Colour colour) {
+  Need(BatchKind::kDot);
+  const std::uint32_t v = Add(centre.x(), centre.y(), colour);
+  vertices_[v].across = centre.x();
+  vertices_[v].along = centre.y();
+  vertices_[v].half = radius;
+  indices_.push_back(v);
+  ++batches_.back().indices;
 }
 
 void DrawList::Ring(const Vec2& centre, float radius, const Line& line) {

@@ -25,7 +25,8 @@ struct Rect {
 };
 
 /// One corner of a triangle. In a text batch `across` and `half` are the atlas position in px, in a
-/// batch of discs `across` and `along` the way from the centre and `half` the radius.
+/// batch of discs `across` and `along` the way from the centre and `half` the radius. A dot is one
+/// vertex; its `across` and `along` are the centre on the page, `half` the radius.
 struct Vertex {
   float x = 0, y = 0;
   float across = 0, half = kSolid;  ///< px from the line's middle; half its width
@@ -36,9 +37,10 @@ struct Vertex {
 
 /// What a run of triangles needs: plain colour, coverage by a line, with dashes or hatching or
 /// without, or of a disc, or the atlas; or none at all, because an opaque rectangle is cleared.
-enum class BatchKind { kPlain, kShape, kDashed, kDisc, kText, kClear };
+/// Dots are small discs, of one index each.
+enum class BatchKind { kPlain, kShape, kDashed, kDisc, kDot, kText, kClear };
 
-/// A run of triangles of one kind and clip: one draw call.
+/// A run of triangles, or of dots, of one kind and clip: one draw call.
 struct Batch {
   BatchKind kind = BatchKind::kShape;
   Rect clip;
@@ -76,9 +78,9 @@ class DrawList {
   void Hatch(const std::vector<Vec2>& points, const Vec2& origin, const Vec2& normal, float period,
              Colour colour);
   void Stroke(const std::vector<Vec2>& points, bool closed, const Line& line);
-  /// An open line whose colour changes from point to point; as many colours as points.
-  void StrokeShaded(const std::vector<Vec2>& points, const std::vector<Colour>& colours,
-                    float width);
+  /// What follows is no longer drawn as fast as dashes are. Worth it after few dashes, before much
+  /// else; dashes and shapes that alternate are better drawn alike.
+  void EndDashes();
   void StrokeRect(const Rect& rect, const Line& line);
   void Disc(const Vec2& centre, float radius, Colour colour);
   void Ring(const Vec2& centre, float radius, const Line& line);
@@ -97,12 +99,11 @@ class DrawList {
 
  private:
   void Need(BatchKind kind);
-  /// The open batch of shapes has dashes from here on.
-  void NeedDashes();
   void SetClip(const Rect& rect);
   /// Adds a large opaque rectangle, among those that come first if it can, and cuts those that it
   /// covers and nothing was drawn on.
   void PutUnder(const Batch& fill);
+  void Dot(const Vec2& centre, float radius, Colour colour);
   Rect Cut(const Rect& rect) const;
   void Fan(const std::vector<Vec2>& points, Colour colour);
   std::uint32_t Add(float x, float y, Colour colour);
@@ -115,6 +116,7 @@ class DrawList {
   std::vector<std::uint32_t> indices_;
   std::vector<std::uint32_t> text_indices_;
   std::vector<Batch> batches_;
+  bool dashes_ended_ = false;
   Batch open_text_;  // text of the present clip
 };
 

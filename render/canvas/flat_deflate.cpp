@@ -4,12 +4,14 @@
 #include <array>
 #include <cstring>
 
+#include "render/canvas/row_checksum.h"
+
 namespace seam {
 namespace {
 
-constexpr std::size_t kMatchMin = 4, kMatchMax = 258;  ///< bytes; RFC 1951 allows 3 to 258
-constexpr std::size_t kWindow = 32768;                 ///< bytes, the furthest match
-constexpr std::size_t kPixel = 3;                      ///< bytes
+constexpr std::size_t kColours = 3;                 ///< bytes of a pixel in the stream
+constexpr std::size_t kLengthMax = 258 / kColours;  ///< pixels of a match; RFC 1951: 3 to 258 bytes
+constexpr std::size_t kWindow = 32768;              ///< bytes of the stream, the furthest match
 constexpr int kHashBits = 13;
 
 /// A code of the format, its bits in the order of the stream.
@@ -32,9 +34,14 @@ Code FixedCode(std::uint32_t symbol) {
   return {Reversed(0xc0 + symbol - 280, 8), 8};
 }
 
+/// Two codes, one after the other; 32 bits at most.
+Code Joined(const Code& first, const Code& then) {
+  return {first.bits | (then.bits << first.count), first.count + then.count};
+}
+
 /// Code and extra bits of a match's length (RFC 1951, section 3.2.5).
 Code LengthCode(std::size_t length) {
-  if (length == kMatchMax) return FixedCode(285);
+  if (length == 258) return FixedCode(285);
   const auto past = static_cast<std::uint32_t>(length - 3);
   int extra = 0;
   while ((past >> extra) >= 8) ++extra;
@@ -47,7 +54,7 @@ Code LengthCode(std::size_t length) {
 Code DistanceCode(std::size_t distance) {
   const auto past = static_cast<std::uint32_t>(distance - 1);
   int extra = 0;
-  while ((past >> extra) >= 4) ++extra;
+  if (past >= 4) extra = 30 - __builtin_clz(past);
   const std::uint32_t group = static_cast<std::uint32_t>(extra) * 2 + (past >> extra);
   const std::uint32_t rest = past & ((1u << extra) - 1);
   return {Reversed(group, 5) | (rest << 5), 5 + extra};
@@ -55,10 +62,10 @@ Code DistanceCode(std::size_t distance) {
 
 struct Tables {
   std::array<Code, 256> literals;
-  std::array<Code, kMatchMax + 1> lengths;
+  std::array<Code, kLengthMax + 1> lengths;  ///< of so many pixels
   Tables() {
     for (std::uint32_t i = 0; i < 256; ++i) literals[i] = FixedCode(i);
-    for (std::size_t i = 3; i <= kMatchMax; ++i) lengths[i] = LengthCode(i);
+    for (std::size_t i = 1; i <= kLengthMax; ++i) lengths[i] = LengthCode(kColours * i);
   }
 };
 
@@ -70,7 +77,9 @@ class BitWriter {
     count_ += code.count;
     if (count_ < 32) return;
     Reserve();
-    for (int i = 0; i < 4; ++i) out_[end_++] = static_cast<std::uint8_t>(held_ >> (8 * i));
+    const auto low = static_cast<std::uint32_t>(held_);
+    std::memcpy(out_.data() + end_, &low, sizeof(low));  // little-endian, as the stream is
+    end_ += sizeof(low);
     held_ >>= 32;
     count_ -= 32;
   }
@@ -91,145 +100,137 @@ class BitWriter {
   int count_ = 0;
 };
 
-/// Finds the longest match among few candidates. Positions are those of the pixels; in the stream
-/// each row has one byte more, before it, and no match goes over it.
+/// A picture as FlatDeflate is given it.
+struct Pixels {
+  const std::uint8_t* rgba;
+  std::size_t width, rows;
+  const std::uint8_t* At(std::size_t pixel) const { return rgba + 4 * pixel; }
+  std::uint32_t One(std::size_t pixel) const {
+    std::uint32_t one = 0;
+    std::memcpy(&one, At(pixel), sizeof(one));
+    return one;
+  }
+  std::uint64_t Two(std::size_t pixel) const {
+    std::uint64_t two = 0;
+    std::memcpy(&two, At(pixel), sizeof(two));
+    return two;
+  }
+};
+
+/// How many pixels, up to `most`, are equal from `a` on and from `b` on.
+std::size_t Equal(const Pixels& pixels, std::size_t a, std::size_t b, std::size_t most) {
+  constexpr std::size_t kFew = 8, kMany = 64;  // the library's comparison is best for many
+  std::size_t n = 0;
+  for (; n + 2 <= most && n < kFew; n += 2) {
+    if (pixels.Two(a + n) != pixels.Two(b + n)) break;
+  }
+  if (n == kFew) {
+    while (n + kMany <= most && std::memcmp(pixels.At(a + n), pixels.At(b + n), 4 * kMany) == 0)
+      n += kMany;
+    while (n + 2 <= most && pixels.Two(a + n) == pixels.Two(b + n)) n += 2;
+  }
+  return n < most && pixels.One(a + n) == pixels.One(b + n) ? n + 1 : n;
+}
+
+/// Finds a long match among three candidates: the pixel before, the row above, and where the same
+/// two pixels were last. In the stream each row has one byte more, before it, and no match goes
+/// over it.
 class Matcher {
  public:
-  Matcher(const std::uint8_t* pixels, std::size_t row_bytes)
-      : pixels_(pixels), row_bytes_(row_bytes) {}
+  explicit Matcher(const Pixels& pixels) : pixels_(pixels) {}
 
   struct Match {
-    std::size_t length = 0, distance = 0;  ///< bytes of the stream
+    std::size_t length = 0;    ///< pixels; 0: none
+    std::size_t distance = 0;  ///< bytes of the stream
   };
 
-  /// At a position of row `row`.
-  Match At(std::size_t at, std::size_t row) {
-    const std::size_t begin = row * row_bytes_, left = begin + row_bytes_ - at;
+  /// At column `x` of row `row`.
+  Match At(std::size_t x, std::size_t row) {
+    const std::size_t at = row * pixels_.width + x, left = pixels_.width - x;
+    const std::uint32_t pixel = pixels_.One(at);
     Match best;
-    if (at >= begin + kPixel) Try(at, at - kPixel, left, kPixel, &best);
-    if (row > 0 && best.length < kMatchMax) {
-      Try(at, at - row_bytes_, left, row_bytes_ + 1, &best);
-    }
-    if (best.length < 3 * kMatchMin && left >= 4) TryHash(at, row, left, &best);
+    if (row > 0 && pixels_.One(at - pixels_.width) == pixel)
+      Try(at, at - pixels_.width, left, kColours * pixels_.width + 1, &best);
+    if (x > 0 && best.length < kLengthMax && pixels_.One(at - 1) == pixel)
+      Try(at, at - 1, left, kColours, &best);
+    if (best.length < kShort && left >= 2) TryHash(at, row, left, &best);
     return best;
   }
 
  private:
+  static constexpr std::size_t kShort = 4;  ///< pixels; longer ones are good enough
+
   void Try(std::size_t at, std::size_t from, std::size_t most, std::size_t distance,
            Match* best) const {
     if (distance > kWindow) return;
-    const std::size_t length = Equal(at, from, most);
+    const std::size_t length = Equal(pixels_, at, from, most);
     if (length > best->length) *best = {length, distance};
   }
 
   void TryHash(std::size_t at, std::size_t row, std::size_t left, Match* best) {
-    std::uint32_t four = 0;
-    std::memcpy(&four, pixels_ + at, sizeof(four));
-    Seen& seen = last_[(four * 2654435761u) >> (32 - kHashBits)];
-    if (seen.known) {
-      const std::size_t most = std::min(left, (seen.row + 1) * row_bytes_ - seen.at);
-      Try(at, seen.at, most, at - seen.at + row - seen.row, best);
-    }
-    seen = {at, row, true};
+    const std::uint64_t two = pixels_.Two(at);
+    std::uint32_t& seen = last_[(two * 0x9e3779b97f4a7c15u) >> (64 - kHashBits)];
+    const std::size_t from = seen;
+    seen = static_cast<std::uint32_t>(at);
+    if (at - from > kWindow / kColours || from >= at || pixels_.Two(from) != two) return;
+    const std::size_t from_row = from / pixels_.width;
+    const std::size_t most = std::min(left, (from_row + 1) * pixels_.width - from);
+    Try(at, from, most, kColours * (at - from) + row - from_row, best);
   }
 
-  /// How many bytes from `a` on are those from `b` < a on.
-  std::size_t Equal(std::size_t a, std::size_t b, std::size_t most) const {
-    std::size_t n = 0;
-    for (; n + 8 <= most; n += 8) {
-      std::uint64_t x = 0, y = 0;
-      std::memcpy(&x, pixels_ + a + n, 8);
-      std::memcpy(&y, pixels_ + b + n, 8);
-      if (x != y) break;
-    }
-    while (n < most && pixels_[a + n] == pixels_[b + n]) ++n;
-    return n;
-  }
-
-  /// Where four such bytes were.
-  struct Seen {
-    std::size_t at = 0, row = 0;
-    bool known = false;
-  };
-  const std::uint8_t* pixels_;
-  std::size_t row_bytes_;
-  std::array<Seen, 1u << kHashBits> last_{};
+  Pixels pixels_;
+  std::array<std::uint32_t, 1u << kHashBits> last_{};  ///< where two such pixels were; or anywhere
 };
 
-constexpr std::uint32_t kModulus = 65521;
-
-/// A row's codes: its filter, none, and its bytes.
-void PutRow(const std::uint8_t* pixels, std::size_t row, std::size_t row_bytes, Matcher* matcher,
-            BitWriter* bits) {
+/// A row's codes: its filter, none, and its pixels. Returns whether it is the row above once more.
+bool PutRow(const Pixels& pixels, std::size_t row, Matcher* matcher, BitWriter* bits) {
   static const Tables tables;
+  bool again = false;
   bits->Put(tables.literals[0]);
-  const std::size_t end = (row + 1) * row_bytes;
-  for (std::size_t at = row * row_bytes; at < end;) {
-    Matcher::Match match = matcher->At(at, row);
-    if (match.length < kMatchMin) {
-      bits->Put(tables.literals[pixels[at++]]);
+  for (std::size_t x = 0; x < pixels.width;) {
+    Matcher::Match match = matcher->At(x, row);
+    if (match.length == 0) {
+      const std::uint8_t* pixel = pixels.At(row * pixels.width + x);
+      bits->Put(Joined(Joined(tables.literals[pixel[0]], tables.literals[pixel[1]]),
+                       tables.literals[pixel[2]]));
+      ++x;
       continue;
     }
+    if (match.length == pixels.width && match.distance == kColours * pixels.width + 1) again = true;
     const Code distance = DistanceCode(match.distance);
-    while (match.length >= kMatchMin) {
-      const std::size_t length = std::min(match.length, kMatchMax);
-      bits->Put(tables.lengths[length]);
-      bits->Put(distance);
+    x += match.length;
+    while (match.length > 0) {
+      const std::size_t length = std::min(match.length, kLengthMax);
+      bits->Put(Joined(tables.lengths[length], distance));
       match.length -= length;
-      at += length;
     }
   }
+  return again;
 }
 
 }  // namespace
 
-std::uint32_t Adler32(const std::uint8_t* data, std::size_t bytes, std::uint32_t before) {
-  constexpr std::size_t kLanes = 32, kRowsMax = 16;  // so few that 16 bits hold a lane's sums
-  std::uint32_t a = before & 0xffff, b = before >> 16;
-  while (bytes >= kLanes) {  // column by column, in a form that compilers make wide
-    const std::size_t rows = std::min(bytes / kLanes, kRowsMax);
-    std::array<std::uint16_t, kLanes> sums{}, earlier{};
-    for (std::size_t row = 0; row < rows; ++row, data += kLanes) {
-      for (std::size_t i = 0; i < kLanes; ++i) {
-        earlier[i] = static_cast<std::uint16_t>(earlier[i] + sums[i]);
-        sums[i] = static_cast<std::uint16_t>(sums[i] + data[i]);
-      }
-    }
-    b += a * static_cast<std::uint32_t>(rows * kLanes);
-    for (std::size_t i = 0; i < kLanes; ++i) {
-      a += sums[i];
-      b += static_cast<std::uint32_t>(earlier[i] * kLanes + sums[i] * (kLanes - i));
-    }
-    a %= kModulus;
-    b %= kModulus;
-    bytes -= rows * kLanes;
-  }
-  for (std::size_t i = 0; i < bytes; ++i) {
-    a = (a + data[i]) % kModulus;
-    b = (b + a) % kModulus;
-  }
-  return b << 16 | a;
-}
-
-void FlatDeflate(const std::uint8_t* pixels, std::size_t row_bytes, std::size_t rows,
+void FlatDeflate(const std::uint8_t* rgba, std::size_t width, std::size_t rows,
                  std::vector<std::uint8_t>* out) {
+  const Pixels pixels{rgba, width, rows};
   out->push_back(0x78);  // deflate, window of 32 kB
   out->push_back(0x01);  // fastest
   BitWriter bits(out);
   bits.Put({1, 1});  // the last block
   bits.Put({1, 2});  // of fixed codes
-  Matcher matcher(pixels, row_bytes);
-  std::uint32_t sum = 1;
+  Matcher matcher(pixels);
+  Adler32 sum;
+  RowSum row_sum;
   for (std::size_t row = 0; row < rows; ++row) {
-    PutRow(pixels, row, row_bytes, &matcher, &bits);
-    const std::uint8_t filter = 0;
-    sum = Adler32(&filter, 1, sum);
-    sum = Adler32(pixels + row * row_bytes, row_bytes, sum);
+    const bool again = PutRow(pixels, row, &matcher, &bits);
+    if (!again) row_sum = SumOf(pixels.At(row * width), width);
+    sum.AddByte(0);
+    sum.AddRow(row_sum);
   }
   bits.Put(FixedCode(256));
   bits.Finish();
   for (int shift = 24; shift >= 0; shift -= 8)
-    out->push_back(static_cast<std::uint8_t>(sum >> shift));
+    out->push_back(static_cast<std::uint8_t>(sum.value() >> shift));
 }
 
 }  // namespace seam

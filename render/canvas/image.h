@@ -11,10 +11,10 @@ namespace seam {
 struct Image {
   int width_px = 0;
   int height_px = 0;
-  std::vector<std::uint8_t> rgb;  ///< 3 * width * height bytes
+  std::vector<std::uint8_t> rgba;  ///< 4 * width * height bytes, each fourth 255
 
   const std::uint8_t* At(int x, int y) const {
-    return rgb.data() + 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
+    return rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width_px) +
                              static_cast<std::size_t>(x));
   }
 };

@@ -67,7 +67,8 @@ Bytes Rows(const Image& image) {
   std::uint8_t* to = rows.data();
   for (int y = 0; y < image.height_px; ++y, to += row_bytes) {
     *to++ = 0;
-    std::memcpy(to, image.At(0, y), row_bytes);
+    const std::uint8_t* from = image.At(0, y);
+    for (std::size_t i = 0; i < row_bytes; i += 3, from += 4) std::memcpy(to + i, from, 3);
   }
   return rows;
 }
@@ -91,7 +92,7 @@ void Encode(const Image& image, PngEffort effort, const PngTexts& texts, Bytes* 
   if (effort == PngEffort::kSmall) {
     PutSmall(out, Rows(image));
   } else {
-    FlatDeflate(image.rgb.data(), 3 * static_cast<std::size_t>(image.width_px),
+    FlatDeflate(image.rgba.data(), static_cast<std::size_t>(image.width_px),
                 static_cast<std::size_t>(image.height_px), out);
   }
   EndChunk(out, chunk);
@@ -126,12 +127,12 @@ Image ReadPng(const std::string& path) {
   png.version = PNG_IMAGE_VERSION;
   if (png_image_begin_read_from_file(&png, path.c_str()) == 0)
     throw OperatorError(path + ": " + png.message);
-  png.format = PNG_FORMAT_RGB;
+  png.format = PNG_FORMAT_RGBA;
   Image image;
   image.width_px = static_cast<int>(png.width);
   image.height_px = static_cast<int>(png.height);
-  image.rgb.resize(PNG_IMAGE_SIZE(png));
-  if (png_image_finish_read(&png, nullptr, image.rgb.data(), 0, nullptr) == 0)
+  image.rgba.resize(PNG_IMAGE_SIZE(png));
+  if (png_image_finish_read(&png, nullptr, image.rgba.data(), 0, nullptr) == 0)
     throw OperatorError(path + ": " + png.message);
   return image;
 }

@@ -156,6 +156,7 @@ void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playb
                       {1.2f * scale, Faded(region.colour, 0.9f), 8 * scale});
     }
   }
+  list.EndDashes();
 }
 
 float RegionLinesHeight(const Playback& playback, float scale) {
@@ -174,6 +175,7 @@ void DrawRegionLines(DrawList& list, const Viewport& viewport, const Playback& p
                {viewport.panel.x, std::round(y), viewport.panel.width, std::round(3 * scale)});
     y += 5 * scale;
   }
+  list.EndDashes();
 }
 
 void DrawGround(DrawList& list, const Viewport& viewport, const Playback& playback,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "render/canvas/palette.h"
 #include "render/playback/format.h"
@@ -93,26 +94,61 @@ std::vector<std::vector<Vec2>> Pieces(const Axes& axes, const Curve& curve) {
   return pieces;
 }
 
-void DrawPiece(DrawList& list, const Axes& axes, const Curve& curve,
-               const std::vector<Vec2>& points, float now_x, bool filled) {
-  std::vector<Colour> colours;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const bool past = points[i].x() <= now_x;
-    colours.push_back(Faded(curve.colour, past ? 1.0f : 0.35f));
-    if (!filled || i == 0) continue;
+/// Leaves out what lies within a tenth of a pixel of a straight line. x increases, so the slopes of
+/// the lines from the last kept point past those left out are an interval, which each one narrows.
+std::vector<Vec2> Thinned(const std::vector<Vec2>& points) {
+  constexpr float kOff = 0.1f, kAny = 1e9f;  // px
+  std::vector<Vec2> kept{points.front()};
+  float low = -kAny, high = kAny;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    Vec2 way = points[i] - kept.back();
+    if (way.y() < low * way.x() || way.y() > high * way.x()) {
+      kept.push_back(points[i - 1]);
+      way = points[i] - kept.back();
+      low = -kAny;
+      high = kAny;
+    }
+    low = std::max(low, (way.y() - kOff) / way.x());
+    high = std::min(high, (way.y() + kOff) / way.x());
+  }
+  if (points.size() > 1) kept.push_back(points.back());
+  return kept;
+}
+
+/// The part of a line up to `x` and the part from there on; one of them may be empty.
+std::pair<std::vector<Vec2>, std::vector<Vec2>> SplitAt(const std::vector<Vec2>& points, float x) {
+  const auto after =
+      std::find_if(points.begin(), points.end(), [&](const Vec2& point) { return point.x() > x; });
+  std::vector<Vec2> past(points.begin(), after), future(after, points.end());
+  if (past.empty() || future.empty()) return {past, future};
+  const Vec2 way = future.front() - past.back();
+  const Vec2 between = past.back() + way * ((x - past.back().x()) / way.x());
+  past.push_back(between);
+  future.insert(future.begin(), between);
+  return {past, future};
+}
+
+void DrawPart(DrawList& list, const Axes& axes, const Curve& curve, const std::vector<Vec2>& points,
+              bool past, bool filled) {
+  const Colour under = Faded(curve.colour, past ? 0.22f : 0.07f);
+  for (std::size_t i = 1; filled && i < points.size(); ++i) {
     const Vec2 quad[4] = {points[i - 1],
                           points[i],
                           {points[i].x(), axes.plot.bottom()},
                           {points[i - 1].x(), axes.plot.bottom()}};
-    const Colour under = Faded(curve.colour, past ? 0.22f : 0.07f);
     list.FillShaded(quad, under, under);
   }
-  list.StrokeShaded(points, colours, (curve.bold ? 1.8f : 1.1f) * list.font().scale());
+  list.Stroke(points, false,
+              {(curve.bold ? 1.8f : 1.1f) * list.font().scale(),
+               Faded(curve.colour, past ? 1.0f : 0.35f), 0});
 }
 
 void DrawCurve(DrawList& list, const Axes& axes, const Curve& curve, float now_x, bool filled) {
-  for (const std::vector<Vec2>& points : Pieces(axes, curve))
-    DrawPiece(list, axes, curve, points, now_x, filled);
+  for (const std::vector<Vec2>& points : Pieces(axes, curve)) {
+    const auto [past, future] = SplitAt(Thinned(points), now_x);
+    DrawPart(list, axes, curve, past, true, filled);
+    DrawPart(list, axes, curve, future, false, filled);
+  }
 }
 
 void DrawNow(DrawList& list, const Axes& axes, const std::vector<Curve>& curves,

@@ -8,6 +8,8 @@
 #include <random>
 #include <vector>
 
+#include "render/canvas/row_checksum.h"
+
 namespace seam {
 namespace {
 
@@ -23,62 +25,76 @@ Bytes Inflated(const Bytes& stream, std::size_t bytes) {
   return data;
 }
 
-/// Whole rows of `data`, each after its filter byte.
-Bytes Filtered(const Bytes& data, std::size_t row_bytes) {
+/// Red, green and blue of whole rows of pixels, each row after its filter byte.
+Bytes Filtered(const Bytes& rgba, std::size_t width) {
   Bytes rows;
-  for (std::size_t at = 0; at + row_bytes <= data.size(); at += row_bytes) {
-    rows.push_back(0);
-    for (std::size_t i = 0; i < row_bytes; ++i) rows.push_back(data[at + i]);
+  for (std::size_t pixel = 0; 4 * pixel < rgba.size(); ++pixel) {
+    if (pixel % width == 0) rows.push_back(0);
+    for (std::size_t i = 0; i < 3; ++i) rows.push_back(rgba[4 * pixel + i]);
   }
   return rows;
 }
 
-std::size_t ExpectBack(const Bytes& data, std::size_t row_bytes) {
+std::size_t ExpectBack(const Bytes& rgba, std::size_t width) {
   Bytes stream;
-  FlatDeflate(data.data(), row_bytes, data.size() / row_bytes, &stream);
-  const Bytes rows = Filtered(data, row_bytes);
-  EXPECT_EQ(Inflated(stream, rows.size()), rows) << row_bytes;
+  FlatDeflate(rgba.data(), width, rgba.size() / (4 * width), &stream);
+  const Bytes rows = Filtered(rgba, width);
+  EXPECT_EQ(Inflated(stream, rows.size()), rows) << width;
   return stream.size();
 }
 
 TEST(FlatDeflate, ZlibReadsBackPicturesOfAllKinds) {
   std::mt19937 random(5);
-  for (const std::size_t row : {1u, 2u, 3u, 4u, 31u, 301u, 3840u, 32767u, 32768u, 40001u}) {
+  for (const std::size_t width : {1u, 2u, 3u, 4u, 31u, 301u, 1280u, 10922u, 10923u, 13001u}) {
+    const std::size_t row = 4 * width;
     for (const unsigned shades : {1u, 2u, 3u, 256u}) {
       Bytes data(row * 9);
       for (std::uint8_t& byte : data)
         byte = static_cast<std::uint8_t>(random() % 40 == 0 ? random() % shades : 7);
-      ExpectBack(data, row);
+      ExpectBack(data, width);
       for (std::uint8_t& byte : data) byte = static_cast<std::uint8_t>(random() % shades);
-      ExpectBack(data, row);
+      ExpectBack(data, width);
       for (std::size_t i = row; i < data.size(); ++i)  // rows like those above, but for some bytes
         data[i] = random() % 200 == 0 ? 1 : data[i - row];
-      ExpectBack(data, row);
+      ExpectBack(data, width);
     }
   }
 }
 
 TEST(FlatDeflate, ZlibReadsBackRunsOfEveryLength) {
-  for (std::size_t length = 0; length < 600; ++length) {
-    Bytes data(length, 9);
-    for (std::uint8_t i = 0; i < 5; ++i) data.push_back(i);
-    ExpectBack(data, data.size());
+  for (std::size_t length = 0; length < 300; ++length) {
+    Bytes data(4 * length, 9);
+    for (std::uint8_t i = 0; i < 20; ++i) data.push_back(i);
+    ExpectBack(data, data.size() / 4);
   }
 }
 
 TEST(FlatDeflate, AnEvenPictureBecomesEightyTimesSmaller) {
-  const Bytes data(3840 * 720, 200);
-  EXPECT_LT(ExpectBack(data, 3840), data.size() / 80);
+  const Bytes data(4 * 1280 * 720, 200);
+  EXPECT_LT(ExpectBack(data, 1280), std::size_t{3 * 1280 * 720 / 80});
 }
 
-TEST(FlatDeflate, TheChecksumIsThatOfZlib) {
+TEST(FlatDeflate, TheFourthByteIsLeftOut) {
+  std::mt19937 random(9);
+  Bytes data(4 * 50 * 20, 77);
+  for (std::size_t i = 3; i < data.size(); i += 4) data[i] = static_cast<std::uint8_t>(random());
+  ExpectBack(data, 50);
+}
+
+TEST(RowChecksum, IsThatOfZlib) {
   std::mt19937 random(7);
-  for (const std::size_t bytes : {0u, 1u, 31u, 32u, 33u, 511u, 512u, 513u, 100000u}) {
-    Bytes data(bytes);
-    for (std::uint8_t& byte : data) byte = static_cast<std::uint8_t>(random());
-    EXPECT_EQ(Adler32(data.data(), bytes), adler32(1, data.data(), static_cast<uInt>(bytes)));
-    std::fill(data.begin(), data.end(), std::uint8_t{255});
-    EXPECT_EQ(Adler32(data.data(), bytes), adler32(1, data.data(), static_cast<uInt>(bytes)));
+  for (const std::size_t width : {1u, 7u, 8u, 9u, 127u, 128u, 129u, 1280u, 40000u}) {
+    for (const bool white : {false, true}) {
+      Bytes data(4 * width * 3);
+      for (std::uint8_t& byte : data) byte = white ? 255 : static_cast<std::uint8_t>(random());
+      Adler32 sum;
+      for (std::size_t row = 0; row < 3; ++row) {
+        sum.AddByte(0);
+        sum.AddRow(SumOf(data.data() + 4 * width * row, width));
+      }
+      const Bytes rows = Filtered(data, width);
+      EXPECT_EQ(sum.value(), adler32(1, rows.data(), static_cast<uInt>(rows.size()))) << width;
+    }
   }
 }
 

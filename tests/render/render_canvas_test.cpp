@@ -87,7 +87,7 @@ TEST(Canvas, PagesOfDifferentSizesFollowEachOther) {
   list.Begin(100, 50);
   list.Disc({50, 25}, 10, {0, 0, 0, 255});
   canvas->Draw(list, kPaper, &again);
-  EXPECT_EQ(first.rgb, again.rgb);
+  EXPECT_EQ(first.rgba, again.rgba);
 }
 
 TEST(RenderFont, SaysInOneLineWhichFontIsMissing) {
@@ -116,14 +116,14 @@ TEST(Png, DecodesToTheSamePixelsAndCarriesNoTime) {
   Image image;
   image.width_px = 37;
   image.height_px = 11;
-  for (int i = 0; i < 37 * 11 * 3; ++i)
-    image.rgb.push_back(static_cast<std::uint8_t>(i * 7 + i / 5));
+  for (int i = 0; i < 37 * 11 * 4; ++i)
+    image.rgba.push_back(i % 4 == 3 ? 255 : static_cast<std::uint8_t>(i * 7 + i / 5));
   for (const PngEffort effort : {PngEffort::kFast, PngEffort::kSmall}) {
     WritePng(folder / "a.png", image, effort, {{"Title", "Mauer → Wand"}});
     const Image read = ReadPng(folder / "a.png");
     EXPECT_EQ(read.width_px, 37);
     EXPECT_EQ(read.height_px, 11);
-    EXPECT_EQ(read.rgb, image.rgb);
+    EXPECT_EQ(read.rgba, image.rgba);
     EXPECT_NE(Content(folder / "a.png").find("Mauer → Wand"), std::string::npos);
     EXPECT_EQ(Content(folder / "a.png").find("tIME"), std::string::npos);
   }
@@ -132,7 +132,7 @@ TEST(Png, DecodesToTheSamePixelsAndCarriesNoTime) {
 TEST(Png, ADiskThatDoesNotTakeItIsAnOperatorError) {
   Image image;
   image.width_px = image.height_px = 200;
-  image.rgb.resize(200 * 200 * 3);
+  image.rgba.resize(200 * 200 * 4);
   EXPECT_THROW(WritePng("/nowhere/a.png", image), OperatorError);
   if (!fs::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full here";
   EXPECT_THROW(WritePng("/dev/full", image), OperatorError);

@@ -13,9 +13,9 @@ TEST(Page, IsNotBlank) {
   const Playback playback = MakePlayback();
   const Image image = RenderedPage(MakePage(playback, 1), 1.3);
   std::map<std::uint32_t, int> colours;
-  for (std::size_t i = 0; i < image.rgb.size(); i += 3)
-    ++colours[static_cast<std::uint32_t>(image.rgb[i]) << 16 |
-              static_cast<std::uint32_t>(image.rgb[i + 1]) << 8 | image.rgb[i + 2]];
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4)
+    ++colours[static_cast<std::uint32_t>(image.rgba[i]) << 16 |
+              static_cast<std::uint32_t>(image.rgba[i + 1]) << 8 | image.rgba[i + 2]];
   EXPECT_GT(colours.size(), 100u);
   const int pixels = image.width_px * image.height_px;
   for (const auto& [colour, count] : colours) EXPECT_LT(count, pixels * 6 / 10) << colour;
@@ -130,8 +130,8 @@ TEST(Strobe, ShowsEarlierAndLaterPosesAtOnceTheEarlierOnesFainter) {
   const Image image = Rendered(list);
   const Colour solid = PeerColour(1);
   int full = 0, faint = 0;
-  for (std::size_t i = 0; i < image.rgb.size(); i += 3) {
-    const int r = image.rgb[i], g = image.rgb[i + 1], b = image.rgb[i + 2];
+  for (std::size_t i = 0; i < image.rgba.size(); i += 4) {
+    const int r = image.rgba[i], g = image.rgba[i + 1], b = image.rgba[i + 2];
     if (r == solid.r && g == solid.g && b == solid.b) ++full;
     if (r > solid.r + 20 && r < 225 && b > r + 15 && g > r && g < b) ++faint;
   }

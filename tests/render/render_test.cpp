@@ -66,8 +66,8 @@ TEST(Sequence, AFrameIsThePageAtItsMoment) {
   const OutputFolder output(folder / "frames", false);
   output.Prepare();
   WriteSequence(page, TestFont(), FrameTimes(1.2, 1.3, 10), 2, output, [](int) {});
-  EXPECT_EQ(ReadPng(output.FramePath(0)).rgb, RenderedPage(page, 1.2).rgb);
-  EXPECT_EQ(ReadPng(output.FramePath(1)).rgb, RenderedPage(page, 1.3).rgb);
+  EXPECT_EQ(ReadPng(output.FramePath(0)).rgba, RenderedPage(page, 1.2).rgba);
+  EXPECT_EQ(ReadPng(output.FramePath(1)).rgba, RenderedPage(page, 1.3).rgba);
 }
 
 TEST(Sequence, AFrameThatCannotBeWrittenStopsItWithAnError) {

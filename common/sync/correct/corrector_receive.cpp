@@ -102,7 +102,14 @@ void Corrector::Place(const States& states) {
     if (body < 0 || memory_.track(body).placed) continue;
     const BodyState remote = Unpack(states, i, world_.Read(body).angle);
     memory_.snapshots().Add(body, states.tick, remote);
-    PlaceBody(body, remote, (states.flags[i] & kStateAsleep) != 0);
+    const bool asleep = (states.flags[i] & kStateAsleep) != 0;
+    // The message is as old as its way was long: the body begins where it is by now, in motion.
+    BodyState by_now = remote;
+    if (!asleep && states.tick < world_.tick()) {
+      by_now = memory_.snapshots().Extrapolate(body, world_.tick(), world_.dt(), kReckonMax);
+      by_now.angle = UnwrapAngle(by_now.angle, remote.angle);
+    }
+    PlaceBody(body, by_now, asleep);
   }
 }
 
