@@ -73,7 +73,10 @@ const std::vector<Title>& Titles() {
        "than a twentieth of that; the hut comes down to below 1.5 m and a limb comes off; "
        "ann and bob are thrown and stand again at the end.",
        JudgeBattlefield},
-      {"relay8", "Three pucks go from one end of eight regions to the other.", JudgeRelay8},
+      {"relay8",
+       "One puck goes from one end of eight regions to the other and back; two more meet in the "
+       "middle and throw each other back to the ends.",
+       JudgeRelay8},
       {"derby",
        "A red and a blue car come together twelve times and more, six cars or more take "
        "part, and none leaves the hollow.",
