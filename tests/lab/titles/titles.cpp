@@ -82,9 +82,9 @@ const std::vector<Title>& Titles() {
        "part, and none leaves the hollow.",
        JudgeDerby},
       {"pile",
-       "Every blade goes 1.5 m or more, at least forty boxes of each heap and two hundred in "
+       "Every blade goes 1 m or more, at least forty boxes of each heap and two hundred in "
        "all move by half a metre.",
-       JudgePile},
+       JudgePile, 0, 7},
       {"swarm",
        "Each of the players who are there drives a sled 8 m or more and shoves two crates "
        "and more by a metre; the sleds of those who are absent stand.",
