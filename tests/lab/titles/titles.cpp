@@ -82,7 +82,7 @@ const std::vector<Title>& Titles() {
        "part, and none leaves the hollow.",
        JudgeDerby},
       {"pile",
-       "Every blade goes 1 m or more, at least forty boxes of each heap and two hundred in "
+       "Every blade goes 0.8 m or more, at least fifteen boxes of each heap and eighty in "
        "all move by half a metre.",
        JudgePile, 0, 7},
       {"swarm",
