@@ -17,6 +17,11 @@ constexpr std::int64_t kPingQuietUs = 1000000;  // while everything rests
 /// A ping of a quiet room that is not answered in its usual time and this is repeated, us: after
 /// the lease nobody would know who holds what.
 constexpr std::int64_t kPingAgainUs = 50000;
+/// Its usual time is no longer than this, us, whatever the path or a stop of this process made of
+/// it: a second and a half of repeats fit into the lease.
+constexpr std::int64_t kUsualMaxUs = 500000;
+static_assert(kPingQuietUs + kUsualMaxUs <= kLeaseUs / 2,
+              "one lost ping of a quiet room would end its lease");
 /// A neutral input that has been sent for so long, s, is known in spite of loss.
 constexpr std::int64_t kInputKnownAfter = 2;
 /// Most ticks stepped in one call; further behind than kGiveUpTicks we rejoin.
@@ -42,8 +47,11 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
     released_ = true;
   }
   // What we let go of we do not take up again as the same session: the server may have given it on.
-  if (peer_ >= 0 && (silence_us > kLostUs || (released_ && silence_us < kLeaseUs))) {
-    ++rejoins_;
+  // Nor one whose welcome never came: the server may have had it and dropped it, and a Join of its
+  // number does not count again.
+  const bool lost = silence_us > kLostUs && (peer_ >= 0 || token_);
+  if (lost || (peer_ >= 0 && released_ && silence_us < kLeaseUs)) {
+    if (peer_ >= 0) ++rejoins_;
     Join(now_us);
   }
   if (peer_ < 0) {
@@ -54,7 +62,11 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
     SendReadyAndPing(now_us);
   }
   StartIfDue(now_us);
+  late_us_ = 0;
+  const std::int64_t before = replica_ != nullptr ? replica_->tick() : 0;
   if (started_) StepDue(now_us);
+  const auto ticks = replica_ != nullptr ? static_cast<int>(replica_->tick() - before) : 0;
+  if (started_) load_.Note(now_us, cpu_us, std::max(0, ticks), late_us_, 1000000 / room_.tick_hz);
   const bool stats_due = now_us - last_stats_us_ >= 1000000;
   if (publisher_ != nullptr && peer_ >= 0 && stats_due) PublishStats(now_us, cpu_us);
   if (started_) SendInputs(now_us);
@@ -72,7 +84,8 @@ void Client::SendReadyAndPing(std::int64_t now_us) {
   std::int64_t every_us = settled ? kPingSlowUs : kPingFastUs;
   if (Quiet()) {
     const bool answered = answered_us_ >= last_ping_us_;
-    const std::int64_t wait_us = clock_.rtt_p90_us() + kPingAgainUs;
+    const std::int64_t usual_us = std::min<std::int64_t>(clock_.rtt_p90_us(), kUsualMaxUs);
+    const std::int64_t wait_us = usual_us + kPingAgainUs;
     const bool again = !answered && now_us - answered_us_ >= kPingQuietUs + wait_us;
     every_us = again ? kPingAgainUs : kPingQuietUs;
   }
@@ -85,6 +98,7 @@ void Client::SendReadyAndPing(std::int64_t now_us) {
       ping.revision = replica_->revision();
       ping.composition = static_cast<std::int64_t>(replica_->world().composition().hash);
       ping.rest = static_cast<std::int64_t>(replica_->rest().Hash());
+      ping.load = load_.permille();
     }
     link_->SendUnreliable(Encode(ping));
   }
@@ -129,7 +143,8 @@ void Client::StepDue(std::int64_t now_us) {
     return;
   }
   for (int steps = 0; steps < kStepsMax && replica_->tick() < due; ++steps) {
-    worst_late_us_ = std::max(worst_late_us_, time - (replica_->tick() + 1) * 1000000 / hz);
+    late_us_ = std::max(late_us_, time - (replica_->tick() + 1) * 1000000 / hz);
+    worst_late_us_ = std::max(worst_late_us_, late_us_);
     StepOnce(now_us);
     if (lead_us_ >= 0) {
       const double most = 1000000.0 / static_cast<double>(hz) * 0.02;

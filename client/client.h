@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client/clock_filter.h"
+#include "client/load_meter.h"
 #include "client/room_timeline.h"
 #include "common/base/entropy.h"
 #include "common/net/link.h"
@@ -77,10 +78,13 @@ class Client {
   /// Of the room's clock, per million of real time: below kFullSpeedPpm the server is overloaded.
   std::int32_t speed_ppm() const { return timeline_.speed_ppm(); }
   std::int64_t rejoins() const { return rejoins_; }
+  /// Thousandths of its time that it needs for its ticks; -1: not known.
+  std::int16_t load_permille() const { return load_.permille(); }
   /// Bodies whose copy here was put elsewhere by what was heard, by more than the wire's rounding.
   std::int64_t corrections() const { return corrections_; }
 
-  /// Age of the newest answered ping after which we try to join anew.
+  /// Age of the newest answered ping, or of a join that was challenged, after which we try to join
+  /// anew.
   static constexpr std::int64_t kLostUs = 5000000;
 
  private:
@@ -170,6 +174,8 @@ class Client {
   std::int64_t last_hello_us_ = -1000000000;
   std::int64_t last_stats_us_ = -1000000000;
   std::int64_t worst_late_us_ = 0;
+  std::int64_t late_us_ = 0;  // of this call's ticks, at worst
+  LoadMeter load_;
   std::int64_t rejoins_ = 0;
   std::int64_t corrections_ = 0;
   Input live_;

@@ -82,7 +82,7 @@ void Client::OnPong(std::int64_t now_us, const Pong& pong) {
   if (replica_ == nullptr || !started_) return;
   const RestCommit& rest = replica_->rest();
   if (!rest_.Lost(now_us, rest.Hash(), static_cast<std::uint64_t>(pong.rest))) return;
-  for (Rest& own : replica_->rest().Everything(true)) {
+  for (Rest& own : replica_->rest().Again(true)) {
     own.utime = now_us;
     if (!released_) link_->SendReliable(Encode(own));
   }

@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "client/client.h"
+#include "client/cpu_throttle.h"
 #include "client/key_file.h"
 #include "client/keyboard.h"
 #include "client/terminal_view.h"
@@ -37,6 +38,7 @@ struct Flags {
   std::string smooth = "on";
   double duration_s = 0;
   double join_s = 10;
+  double throttle = 1;
   std::string key;
   std::string record;
   bool force = false;
@@ -62,6 +64,9 @@ void Define(CLI::App& app, Flags& f) {
       ->check(CLI::Range(0.0, 1e6));
   app.add_option("--join-timeout", f.join_s, "seconds to try to join, at first or again")
       ->check(CLI::Range(0.1, 1e6));
+  app.add_option("--cpu-throttle", f.throttle,
+                 "be a machine that is so many times slower: the server gives it less to simulate")
+      ->check(CLI::Range(1.0, 100.0));
   app.add_option("--key", f.key,
                  "keep the secret of our place in this file (mode 0600): after a restart the "
                  "place, with its car, is ours again at once");
@@ -89,6 +94,7 @@ ClientConfig Configure(const Flags& f) {
   if (!f.name.empty()) CheckName("--name", f.name);
   if (!f.room.empty()) CheckName("--room", f.room);
   if (std::isnan(f.duration_s)) throw OperatorError("--duration must be a number of seconds");
+  if (std::isnan(f.throttle)) throw OperatorError("--cpu-throttle must be a number");
   if (std::isnan(f.join_s)) throw OperatorError("--join-timeout must be a number of seconds");
   ClientConfig config;
   config.server = ParseAddress(f.server, 7777);
@@ -158,6 +164,7 @@ int Play(const Flags& f) {
   Client client(config, net, sink, entropy);
   StopOnSignals();
   const std::int64_t begin = SteadyClockUs();
+  CpuThrottle throttle(f.throttle);
   ProgressLine line(f.quiet);
   TroubleReport recording("seam-client", "the game goes on");
   while (g_stop == 0 && !client.closed() && client.fatal().empty()) {
@@ -166,7 +173,8 @@ int Play(const Flags& f) {
       client.SetLiveInput(keyboard->Poll(now));
       if (keyboard->quit()) break;
     }
-    client.Tick(now, CpuUs());
+    client.Tick(now, static_cast<std::int64_t>(static_cast<double>(CpuUs()) * f.throttle));
+    throttle.Slow();
     if (key_file != nullptr && client.key() != key_file->key()) key_file->Write(client.key());
     sink.Poll();
     recording.Look(sink.trouble(), line);

@@ -75,7 +75,7 @@ void DrawPanel(DrawList& list, const Rect& area, const Playback& playback, int p
   const std::vector<double> times = Exposures(plan);
   list.Clip(area);
   list.FillRect(area, kPanel);
-  DrawRegions(list, viewport, playback);
+  DrawRegions(list, viewport, playback, Moment{});
   DrawGrid(list, viewport);
   DrawWaters(list, viewport, playback);
   const Moment last = playback.MomentAt(peer, playback.TickAt(times.back()));

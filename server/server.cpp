@@ -137,7 +137,7 @@ void Server::SendWorld(std::int64_t now_us, Session& session) {
   for (const Grants& grants : authority_.Export(now_us)) send(grants);
   if (started()) {
     for (const States& states : replica_.Everything()) send(At(now_us, states));
-    for (const Rest& rest : replica_.rest().Everything(false)) send(At(now_us, rest));
+    for (const Rest& rest : replica_.rest().Everything()) send(At(now_us, rest));
   }
   if (rules_ != nullptr) {
     for (const Meta& meta : rules_->metadata().Export(now_us, replica_.tick())) send(meta);
@@ -148,7 +148,7 @@ void Server::SendWorld(std::int64_t now_us, Session& session) {
 }
 
 void Server::SendRest(std::int64_t now_us, Session& session) {
-  for (const Rest& rest : replica_.rest().Everything(false)) {
+  for (const Rest& rest : replica_.rest().Again(false)) {
     session.link.SendReliable(Encode(At(now_us, rest)));
   }
 }
@@ -181,6 +181,7 @@ void Server::StepOnce(std::int64_t now_us) {
     broadcast_.Publish(
         At(now_us, Scripted(scene_, p, replica_.tick() + 1, config_.sync.input_delay_ticks)));
   }
+  inputs_due_ = true;
   ApplyEdits(now_us);
   replica_.Step();
   if (config_.sync.mode == Mode::kOracle) ApplyQueued(now_us);
@@ -279,6 +280,7 @@ void Server::UpdateAuthority(std::int64_t now_us) {
     const bool silent = session != nullptr && session->stage == SessionStage::kReady &&
                         now_us - session->link.last_receive_us() > kSilentUs;
     if (silent) situation.silent.Add(peer);
+    situation.load.push_back(session != nullptr ? session->load : -1.0f);
     situation.one_way_s.push_back(static_cast<float>(std::max<std::int64_t>(0, rtt_us)) * 0.5e-6f);
   }
   situation.together = edits_.WaitingMechanisms();

@@ -92,6 +92,8 @@ class Server {
   static constexpr std::int64_t kRepairAgainUs = 3000000;
 
  private:
+  friend struct ServerTestAccess;
+
   // server_receive.cpp
   void ReceiveAll(std::int64_t now_us);
   /// OnMessage; what it drops goes to the session's account.
@@ -157,6 +159,7 @@ class Server {
   std::vector<std::string> news_;  // not taken yet
   RoomClock clock_;
   std::int64_t last_room_us_ = -1000000000;
+  bool inputs_due_ = false;  // some have come, or a tick has passed
 };
 
 }  // namespace seam

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <utility>
 
 #include "server/authority_source.h"
 #include "server/server.h"
@@ -88,6 +89,7 @@ void Server::OnPing(std::int64_t now_us, Session& session, const Ping& ping) {
   pong.speed_ppm = clock_.speed_ppm();
   const std::uint64_t ours = replica_.rest().Hash();
   pong.rest = static_cast<std::int64_t>(ours);
+  session.load = static_cast<float>(ping.load) * 1e-3f;
   session.link.SendUnreliable(Encode(pong));
   const bool ready = session.stage == SessionStage::kReady;
   const bool lost = session.rest.Lost(now_us, ours, static_cast<std::uint64_t>(ping.rest));
@@ -139,14 +141,17 @@ void Server::OnInputs(std::int64_t now_us, Session& session, const Inputs& input
   }
   const Inputs fresh = TakeFresh(now_us, inputs);
   if (fresh.drive.empty()) return;
+  inputs_due_ = true;
   broadcast_.Publish(fresh);
 }
 
 /// In the same call as they came, since everything is flushed at its end.
 void Server::RelayInputs(std::int64_t now_us) {
+  const bool due = std::exchange(inputs_due_, false);
   sessions_.ForEachReady(0, [&](Session& session) {
     session.feeds.resize(scene_.players.size());
     bool rides = session.link.Sends(now_us);
+    if (!due && !rides) return;  // nothing is new, and nothing goes with which it could ride
     for (const int p : session.heard_players) {
       const InputTrack& track = replica_.inputs(p);
       if (track.newest() < 0) continue;

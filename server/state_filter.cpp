@@ -76,8 +76,16 @@ bool StateFilter::Reachable(int body, std::int64_t tick, const Vec2& position, f
 }
 
 bool StateFilter::MayMove(int body, const States& states, std::size_t i) {
-  return MayMove(
-      body, {states.peer, states.tick, states.revision, states.epoch[i], Unpack(states, i, 0)});
+  return MayMove(body, {states.peer, states.tick, states.revision, states.epoch[i],
+                        Unpack(states, i, 0), false});
+}
+
+/// A state waits for the next one. A commitment to rest is said once: it counts although another,
+/// whose clock was ahead, had the body before; and when it is said again, because it was lost.
+bool StateFilter::Outdated(int body, const Claim& claim) const {
+  const LastAccepted& last = accepted_[static_cast<std::size_t>(body)];
+  if (!claim.rests) return claim.tick <= last.tick;
+  return claim.epoch <= last.epoch && claim.tick < last.tick;
 }
 
 bool StateFilter::MayMove(int body, const Claim& claim) {
@@ -94,7 +102,7 @@ bool StateFilter::MayMove(int body, const Claim& claim) {
     case AuthorityManager::Right::kStale: ++stats_.dropped_stale; return false;
     case AuthorityManager::Right::kNo: ++stats_.dropped_right; return false;
   }
-  if (claim.tick <= accepted_[static_cast<std::size_t>(body)].tick) {
+  if (Outdated(body, claim)) {
     ++stats_.dropped_stale;
     return false;
   }
@@ -121,7 +129,8 @@ States StateFilter::Keep(std::int64_t now_us, int peer, const States& states) {
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(states.id[i]);
     if (!MayMove(body, states, i)) continue;
-    accepted_[static_cast<std::size_t>(body)] = {states.tick, Unpack(states, i, 0).position};
+    accepted_[static_cast<std::size_t>(body)] = {states.tick, states.epoch[i],
+                                                 Unpack(states, i, 0).position};
     AddPose(states, i, &kept);
     AddMotion(states, i, &kept);
     kept.flags.push_back(states.flags[i]);
@@ -149,8 +158,8 @@ Rest StateFilter::Keep(std::int64_t now_us, int peer, const Rest& rest) {
     BodyState pose;
     pose.position = Vec2(rest.x[i], rest.y[i]);
     pose.angle = rest.angle[i];
-    if (!MayMove(body, {peer, rest.tick, rest.revision, rest.epoch[i], pose})) continue;
-    accepted_[static_cast<std::size_t>(body)] = {rest.tick, pose.position};
+    if (!MayMove(body, {peer, rest.tick, rest.revision, rest.epoch[i], pose, true})) continue;
+    accepted_[static_cast<std::size_t>(body)] = {rest.tick, rest.epoch[i], pose.position};
     AddPose(rest, i, &kept);
   }
   return kept;
@@ -191,7 +200,8 @@ ExactStates StateFilter::KeepExact(int peer, const ExactStates& exact) {
   for (std::size_t i = 0; i < exact.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(exact.id[i]);
     if (!MayRelease(peer, body, exact, i)) continue;
-    accepted_[static_cast<std::size_t>(body)] = {exact.tick, {exact.x[i], exact.y[i]}};
+    accepted_[static_cast<std::size_t>(body)] = {
+        exact.tick, exact.epoch[i], {exact.x[i], exact.y[i]}};
     AddPose(exact, i, &kept);
     AddMotion(exact, i, &kept);
   }

@@ -44,14 +44,18 @@ class StateFilter {
     std::int64_t tick = 0;
     std::int32_t revision = 0, epoch = 0;
     BodyState state;
+    bool rests = false;
   };
   bool MayMove(int body, const Claim& claim);
+  /// Whether what was believed of it is newer.
+  bool Outdated(int body, const Claim& claim) const;
   bool Plausible(int body, std::int64_t tick, const BodyState& state) const;
   /// Whether it could have moved there since it was last believed at `times` the speed limit.
   bool Reachable(int body, std::int64_t tick, const Vec2& position, float times) const;
 
   struct LastAccepted {
     std::int64_t tick = -1;
+    std::int32_t epoch = 0;
     Vec2 position{0, 0};
   };
 

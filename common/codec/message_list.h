@@ -23,7 +23,7 @@
   X(Room, room_t, kBusRoom, "scene", m.utime, m.sequence, m.protocol, m.room, m.scene_name,       \
     m.scene_text, m.mode, m.reconcile, m.predict, m.impair, m.seed, m.tick_hz, m.send_hz,         \
     m.input_delay_ticks)                                                                          \
-  X(Ping, ping_t, kEdge, "", m.utime, m.revision, m.composition, m.rest)                          \
+  X(Ping, ping_t, kEdge, "", m.utime, m.revision, m.composition, m.rest, m.load)                  \
   X(Pong, pong_t, kEdge, "", m.utime, m.client_us, m.tick0_us, m.rest, m.speed_ppm)               \
   X(Inputs, inputs_t, kBusPlayer, "inputs", m.utime, m.sequence, m.player, m.first_tick, m.drive, \
     m.lift, m.buttons)                                                                            \

@@ -86,6 +86,7 @@ struct Ping {
   std::int32_t revision = -1;    ///< edits applied so far, -1 before there is a world
   std::int64_t composition = 0;  ///< hash of the composition after them
   std::int64_t rest = 0;         ///< hash of the bodies at rest, 0 for none
+  std::int16_t load = -1;        ///< 1/1000 of its time that it needs for its ticks; -1: not known
 };
 
 /// Server -> client: the answer.

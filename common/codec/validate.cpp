@@ -115,7 +115,7 @@ bool Valid(const Room& m) {
          Within(m.tick_hz, kTickHzMin, kTickHzMax) && Within(m.send_hz, 1, m.tick_hz);
 }
 
-bool Valid(const Ping& m) { return Time(m.utime) && m.revision >= -1; }
+bool Valid(const Ping& m) { return Time(m.utime) && m.revision >= -1 && m.load >= -1; }
 
 bool Valid(const Pong& m) {
   return Time(m.utime) && Time(m.client_us) && Time(m.tick0_us) &&

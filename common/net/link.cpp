@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <deque>
+#include <limits>
 #include <map>
 #include <vector>
 
@@ -68,6 +69,7 @@ struct Link::Impl {
   std::deque<Passing> unreliable;
   std::array<std::int64_t, kReceiptSlots> arrived;  // by slot, the largest number
   std::deque<Outgoing> reliable;  // the first kReliableWindow of them are the window
+  std::int64_t reliable_due_us = 0;  // before that none of the window is due
   std::int64_t next_id = 0;
   std::deque<SentRecord> sent;  // of successive sequence numbers up to the newest
   std::int64_t srtt_us = -1;
@@ -158,12 +160,21 @@ struct Link::Impl {
 
   bool Sends(std::int64_t now_us) const {
     if (!unreliable.empty() || OwesDatagram(now_us)) return true;
-    const std::size_t count = std::min<std::size_t>(reliable.size(), kReliableWindow);
-    return std::any_of(reliable.begin(), reliable.begin() + static_cast<std::ptrdiff_t>(count),
-                       [&](const Outgoing& message) { return Due(message, now_us); });
+    return now_us >= reliable_due_us && now_us >= FirstDueUs();
+  }
+
+  /// When the first of the window is due.
+  std::int64_t FirstDueUs() const {
+    std::int64_t due_us = std::numeric_limits<std::int64_t>::max();
+    for (std::size_t i = 0; i < std::min<std::size_t>(reliable.size(), kReliableWindow); ++i) {
+      const std::int64_t sent_us = reliable[i].sent_us;
+      if (!reliable[i].acked) due_us = std::min(due_us, sent_us < 0 ? 0 : sent_us + ResendUs());
+    }
+    return due_us;
   }
 
   void PackReliable(Packing& packing) {
+    if (packing.now_us < reliable_due_us) return;
     std::size_t budget = kReliableFlushBytes;
     const std::size_t count = std::min<std::size_t>(reliable.size(), kReliableWindow);
     for (std::size_t i = 0; i < count; ++i) {
@@ -175,6 +186,7 @@ struct Link::Impl {
       packing.ids.push_back(message.id);
       message.sent_us = packing.now_us;
     }
+    reliable_due_us = FirstDueUs();
   }
 
   void Flush(std::int64_t now_us, const Sink& send) {
@@ -196,6 +208,7 @@ struct Link::Impl {
   void SampleRtt(std::int64_t sample_us) {
     if (sample_us < 0) return;
     srtt_us = srtt_us < 0 ? sample_us : srtt_us + (sample_us - srtt_us) / 8;
+    reliable_due_us = 0;  // what is repeated may be due earlier
   }
 
   /// Datagram `number` has arrived. Karn's rule (never to time what was sent twice) holds by
@@ -212,11 +225,13 @@ struct Link::Impl {
       largest = std::max(largest, receipt.number);
     }
     for (const std::int64_t id : record.ids) {
-      const std::int64_t index = reliable.empty() ? -1 : id - reliable.front().id;
-      const bool waiting = index >= 0 && index < static_cast<std::int64_t>(reliable.size());
-      if (waiting) reliable[static_cast<std::size_t>(index)].acked = true;
+      const auto index = static_cast<std::size_t>(reliable.empty() ? -1 : id - reliable.front().id);
+      if (index < reliable.size()) reliable[index].acked = true;
     }
-    while (!reliable.empty() && reliable.front().acked) reliable.pop_front();
+    while (!reliable.empty() && reliable.front().acked) {
+      reliable.pop_front();
+      reliable_due_us = 0;  // the window moves on
+    }
   }
 
   void ReadAcks(std::int64_t ack, std::uint32_t bits, std::int64_t now_us) {
@@ -264,7 +279,6 @@ struct Link::Impl {
     if (!window.IsNew(number) || ack > sequence) return false;
     if (!ReadMessages(datagram, &messages) || !IdsInWindow(messages)) return false;
     if (!gate(messages.size())) return false;
-    // Nothing can go wrong from here on: the datagram counts as arrived, and is acted on.
     window.Insert(number);
     last_receive_us = now_us;
     ReadAcks(ack, header.ack_bits, now_us);
@@ -302,6 +316,7 @@ bool Link::SendReliable(ByteView message) {
   SEAM_ASSERT(message.size >= 1 && message.size <= kMessageBytesMax);
   if (impl_->reliable.size() >= kReliableQueueMax) return false;
   impl_->reliable.push_back({impl_->next_id++, -1, false, Bytes(message.begin(), message.end())});
+  impl_->reliable_due_us = 0;
   return true;
 }
 
@@ -330,5 +345,6 @@ std::int64_t Link::rtt_us() const { return impl_->srtt_us; }
 std::int64_t Link::loss_ppm() const { return impl_->window.loss_ppm(); }
 std::int64_t Link::rejected() const { return impl_->rejected; }
 bool Link::reliable_pending() const { return !impl_->reliable.empty(); }
+std::size_t Link::waiting() const { return impl_->reliable.size(); }
 
 }  // namespace seam

@@ -73,6 +73,7 @@ class Link {
   std::int64_t loss_ppm() const;  ///< missing of the last 256 incoming sequence numbers
   std::int64_t rejected() const;  ///< datagrams Receive returned false for
   bool reliable_pending() const;  ///< something sent reliably is not acknowledged yet
+  std::size_t waiting() const;    ///< messages that do: of 4096 at most
 
  private:
   struct Impl;

@@ -20,6 +20,7 @@ struct Thrust;        // forces.h
 struct Expected;      // expected.h
 struct Grouping;      // grouping.h
 struct PartRules;     // part_rules.h
+struct PlannerRules;  // planner/planner_rules.h
 struct ScriptSource;  // part_rules.h
 struct Trigger;       // part_rules.h
 struct Water;         // water.h
@@ -230,6 +231,7 @@ struct Scene {
   FeatureList<ScriptSource> scripts;  ///< the server's
   std::vector<WatchCollision> watch;
   Feature<Expected> expected;
+  Feature<PlannerRules> planner;
   Camera camera;
   std::string text;  ///< the file itself
 };

@@ -91,6 +91,8 @@ void ReadCharges(const SceneReader& root, SceneDraft* draft);
 void ReadScripts(const SceneReader& root, SceneDraft* draft);
 /// [[watch]]. Requires parts.
 void ReadWatch(const SceneReader& root, SceneDraft* draft);
+/// [planner].
+void ReadPlanner(const SceneReader& root, SceneDraft* draft);
 /// [camera]. Requires parts.
 void ReadCamera(const SceneReader& root, SceneDraft* draft);
 

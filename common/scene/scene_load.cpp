@@ -97,10 +97,11 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
 
   const SceneReader root(
       tree, file_name, "scene",
-      {"title",       "gravity", "duration", "buffer",    "speed_limit",   "size_max",  "bounds",
-       "solver",      "part",    "bricks",   "character", "joint",         "thrust",    "water",
-       "player",      "seat",    "watch",    "camera",    "trigger",       "script",    "grouping",
-       "input_delay", "expect",  "follow",   "strand",    "server_follow", "propeller", "charges"});
+      {"title",   "gravity",       "duration",  "buffer",      "speed_limit", "size_max",
+       "bounds",  "solver",        "part",      "bricks",      "character",   "joint",
+       "thrust",  "water",         "player",    "seat",        "watch",       "camera",
+       "trigger", "script",        "grouping",  "input_delay", "expect",      "follow",
+       "strand",  "server_follow", "propeller", "charges",     "planner"});
   scene.title = root.Text("title", scene.name);
   scene.gravity = root.Vector("gravity", {-100, 100}, scene.gravity);
   scene.duration_s = root.Seconds("duration", {0.1, 86400}, scene.duration_s);
@@ -112,6 +113,7 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   draft.size_max = root.Number("size_max", {kSizeMin, kSizeMaxMax}, kSizeMaxDefault);
   ReadBounds(root, &scene);
   ReadExpected(root, &scene);
+  ReadPlanner(root, &draft);
   ReadSolver(root, file_name, &scene.solver);
   ReadPlayerNames(root, &draft);
   ReadSeatNames(root, &draft);

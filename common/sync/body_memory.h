@@ -29,6 +29,7 @@ struct PullTrack {
 struct BodyTrack {
   std::int64_t last_impact_tick = kLongAgo;  ///< of a major impact
   std::int64_t heard_tick = -1;              ///< tick of the newest state received, -1 never
+  std::int32_t heard_epoch = 0;              ///< and its epoch
   std::int64_t dynamic_since = 0;  ///< from this tick on its past is comparable with another's:
                                    ///< it was simulated here and was this same body
   bool placed = true;              ///< its pose is known

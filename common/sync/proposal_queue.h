@@ -27,6 +27,8 @@ class ProposalQueue {
   void Forget(const EditKey& key) { proposed_.erase(key); }
   /// All that was queued since the last call, in its order.
   std::vector<FoundEdit> Take();
+  /// Edits that it remembers to have been queued.
+  std::size_t remembered() const { return proposed_.size(); }
 
  private:
   std::int64_t again_ticks_;

@@ -4,10 +4,12 @@
 #include <cmath>
 #include <string>
 
+#include "common/scene/planner/planner_rules.h"
 #include "common/scene/water.h"
 #include "render/canvas/palette.h"
 #include "render/draw/draw_body.h"
 #include "render/draw/draw_bricks.h"
+#include "render/playback/held_regions.h"
 #include "render/playback/peer_colour.h"
 
 namespace seam {
@@ -32,10 +34,11 @@ Rect Box(const Viewport& viewport, const Vec2& min, const Vec2& max) {
   return {a.x(), a.y(), b.x() - a.x(), b.y() - a.y()};
 }
 
-std::vector<Region> RegionsOf(const Viewport& viewport, const Playback& playback) {
+std::vector<Region> FixedRegions(const Viewport& viewport, const Playback& playback) {
   std::vector<Region> regions;
   const std::optional<Mode> mode = playback.mode();
   if (mode != Mode::kStrict && mode != Mode::kBuffer) return regions;
+  if (playback.scene().planner->given) return regions;  // they decide nothing
   const float band = mode == Mode::kBuffer ? playback.scene().buffer_m : 0;
   for (int peer : playback.peers()) {
     const int index = playback.PlayerOf(peer);
@@ -46,6 +49,17 @@ std::vector<Region> RegionsOf(const Viewport& viewport, const Playback& playback
     regions.push_back({Box(viewport, player.region_min, player.region_max),
                        Box(viewport, player.region_min - margin, player.region_max + margin),
                        ColourOf(playback, peer), player.name});
+  }
+  return regions;
+}
+
+/// Those that the scene fixes, else those that the moment's authority makes.
+std::vector<Region> RegionsOf(const Viewport& viewport, const Playback& playback,
+                              const Moment& moment) {
+  std::vector<Region> regions = FixedRegions(viewport, playback);
+  for (const HeldRegion& held : HeldRegions(playback, moment)) {
+    const Rect box = Box(viewport, held.min, held.max);
+    regions.push_back({box, box, ColourOf(playback, held.peer), playback.PeerName(held.peer)});
   }
   return regions;
 }
@@ -120,10 +134,11 @@ void DrawGrid(DrawList& list, const Viewport& viewport) {
   }
 }
 
-void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playback) {
+void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playback,
+                 const Moment& moment) {
   const float scale = list.font().scale();
   // Opaque, because large translucent areas are the dearest thing on a page.
-  const std::vector<Region> regions = RegionsOf(viewport, playback);
+  const std::vector<Region> regions = RegionsOf(viewport, playback, moment);
   for (const Region& region : regions)
     list.FillRect(Shared(region.inner, viewport.panel), Mix(kPanel, region.colour, 0.1f));
   // A region may be kilometres wide; the rasteriser is slow with what lies far outside.
@@ -145,13 +160,14 @@ void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playb
 
 float RegionLinesHeight(const Playback& playback, float scale) {
   const Viewport any;
-  const auto count = static_cast<float>(std::min<std::size_t>(RegionsOf(any, playback).size(), 8));
+  const auto count =
+      static_cast<float>(std::min<std::size_t>(FixedRegions(any, playback).size(), 8));
   return count == 0 ? 0 : std::round((2 + 5 * count) * scale);
 }
 
 void DrawRegionLines(DrawList& list, const Viewport& viewport, const Playback& playback, float y) {
   const float scale = list.font().scale();
-  const std::vector<Region> regions = RegionsOf(viewport, playback);
+  const std::vector<Region> regions = FixedRegions(viewport, playback);
   y += 2 * scale;
   for (std::size_t i = 0; i < regions.size() && i < 8; ++i) {
     DrawExtent(list, regions[i],

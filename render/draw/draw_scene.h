@@ -11,9 +11,11 @@ namespace seam {
 void DrawGrid(DrawList& list, const Viewport& viewport);
 
 /// The players' regions in their peers' colours, and the band of scene.buffer_m around each, if the
-/// mode has them.
-void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playback);
-/// How much room DrawRegionLines needs, px; 0: there are no regions.
+/// mode has them; where authority follows the players what each holds at the moment, without a
+/// band.
+void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playback,
+                 const Moment& moment);
+/// How much room DrawRegionLines needs, px; 0: the scene fixes no regions.
 float RegionLinesHeight(const Playback& playback, float scale);
 /// The extents of regions (thick) and of their buffer zones (thin), a line each, below the panel
 /// from `y` px down: nothing of the world is covered.

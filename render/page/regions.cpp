@@ -1,3 +1,4 @@
+#include "common/scene/planner/planner_rules.h"
 #include "render/page/worlds.h"
 
 namespace seam {
@@ -13,6 +14,7 @@ std::vector<PageRegion> RegionsOfPage(const Playback& playback) {
   std::vector<PageRegion> regions;
   const std::optional<Mode> mode = playback.mode();
   if (mode != Mode::kStrict && mode != Mode::kBuffer) return regions;
+  if (playback.scene().planner->given) return regions;  // they decide nothing
   for (const int peer : playback.peers()) {
     const int index = playback.PlayerOf(peer);
     if (index < 0) continue;

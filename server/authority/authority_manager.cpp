@@ -2,11 +2,9 @@
 
 #include <algorithm>
 
-#include "common/physics/part_places.h"
 #include "common/physics/stage.h"
-#include "common/scene/part_rules.h"
 #include "common/sync/lease.h"
-#include "common/sync/reach/reach.h"
+#include "server/authority/authority_view.h"
 
 namespace seam {
 namespace {
@@ -21,7 +19,12 @@ void Append(const std::vector<Grants>& more, std::vector<Grants>* all) {
 }  // namespace
 
 AuthorityManager::AuthorityManager(const Scene& scene, const SyncConfig& config, Replica& replica)
-    : scene_(scene), config_(config), replica_(replica), physics_edits_(ProposesEdits(scene)) {
+    : scene_(scene),
+      config_(config),
+      replica_(replica),
+      physics_edits_(ProposesEdits(scene)),
+      islands_(PlansIslands(scene)) {
+  restricted_ = RestrictedParts(replica.world().scene());
   memory_.resize(static_cast<std::size_t>(table().count()));
   if (config_.mode != Mode::kBuffer) return;
   for (int m = 0; m < table().count(); ++m) {
@@ -31,114 +34,104 @@ AuthorityManager::AuthorityManager(const Scene& scene, const SyncConfig& config,
   }
 }
 
-AuthorityView AuthorityManager::Look(const Situation& situation) {
-  AuthorityView view;
-  view.mode = config_.mode;
-  view.tick_hz = config_.tick_hz;
-  view.buffer_m = scene_.buffer_m;
-  view.follow_bodies = scene_.follow_bodies;
-  view.server_follow = scene_.server_follow;
-  view.physics_edits = physics_edits_;
-  view.together = situation.together;
-  for (std::size_t p = 0; p < scene_.players.size(); ++p) {
-    const Player& player = scene_.players[p];
-    view.players.push_back({situation.peer_of_player[p],
-                            p < situation.one_way_s.size() ? situation.one_way_s[p] : 0,
-                            player.has_region, player.region_min, player.region_max,
-                            situation.silent.Has(std::max(0, situation.peer_of_player[p]))});
-  }
-  const World& world = replica_.world();
-  for (int m = 0; m < table().count(); ++m) {
-    const Mechanism& mechanism = world.composition().mechanisms[static_cast<std::size_t>(m)];
-    Memory& memory = memory_[static_cast<std::size_t>(m)];
-    MechanismView seen;
-    seen.position = world.Read(world.BodyOfId(mechanism.id)).position;
-    seen.owner = mechanism.owner;
-    const int root = world.BodyOfId(mechanism.id);
-    seen.moves = world.awake(root) && world.Read(root).velocity.norm() > kMissed;
-    seen.now = table().at(m);
-    if (seen.now.authority != memory.last_authority) {
-      memory.last_authority = seen.now.authority;
-      memory.changed_tick = world.tick();
-    }
-    seen.held_ticks = world.tick() - memory.changed_tick;
-    view.mechanisms.push_back(seen);
-  }
-  if (config_.mode == Mode::kBuffer) view.boxes = BoxesOf(world, replica_.drivers(), true);
-  // Who may not push a part does not get its authority.
-  for (const Part& part : world.scene().parts) {
-    if (part.rules->push.everyone()) continue;
-    const int mechanism = MechanismOf(world, part.id);
-    if (mechanism < 0) continue;
-    view.mechanisms[static_cast<std::size_t>(mechanism)].may_have &= part.rules->push;
-  }
-  return view;
-}
-
 std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const Situation& situation) {
   plan_due_ = plan_due_ || !(silent_ == situation.silent);
   silent_ = situation.silent;
   replica_.SpeakFor(silent_);
   if (plan_due_ || replica_.tick() % std::max(1, config_.tick_hz / kPlansPerSecond) == 0) {
     plan_due_ = false;
-    plan_ = PlanAuthority(Look(situation));
+    Plan(now_us, situation);
   }
-  std::vector<int> changed;
-  std::vector<Grants> grants;  // revocations first
-  bool taken_over = false;
-  for (int m = 0; m < table().count(); ++m) {
-    Memory& memory = memory_[static_cast<std::size_t>(m)];
-    AuthorityRecord record = table().at(m);
-    PlannedAuthority planned = plan_[static_cast<std::size_t>(m)];
-    // One authority at a time: the server takes over only once the holder has let go.
-    if (memory.hand_over == HandOver::kRevoking) continue;
-    if (memory.hand_over == HandOver::kOvertaken) {
-      memory.hand_over = HandOver::kNone;
-      record.epoch += 2;  // past all that anybody was told
-      replica_.authority().Set(m, record);
-      changed.push_back(m);
-      continue;
+  changed_.clear();
+  grants_.clear();  // revocations first
+  taken_over_ = false;
+  std::size_t left = 0;
+  if (sort_open_) std::sort(open_.begin(), open_.end());
+  sort_open_ = false;
+  for (const int m : open_) {
+    if (Advance(now_us, m)) {
+      open_[left++] = m;
+    } else {
+      memory_[static_cast<std::size_t>(m)].open = false;
     }
-    bool released = false;
-    if (memory.hand_over == HandOver::kReleased) {
-      released = true;
-      memory.hand_over = HandOver::kNone;
-      record = WithoutHolder(record);
-      replica_.authority().Set(m, record);
-      taken_over = true;
-    }
-    if (record.authority == 0 && replica_.tick() < memory.keep_until_tick) {
-      planned.secondaries.Add(planned.authority);
-      planned.authority = 0;
-    }
-    const PeerSet& secondaries = planned.secondaries;
-    if (record.authority != 0 && planned.authority != record.authority) {
-      memory.hand_over = HandOver::kRevoking;
-      memory.revoked_us = now_us;
-      memory.revoked_id = table().id(m);
-      AuthorityTable told = table();
-      told.Set(m, WithoutHolder(record));
-      Append(told.Export(now_us, replica_.tick(), {m}), &grants);
-      continue;
-    }
-    if (planned.authority == record.authority && secondaries == record.secondaries) continue;
-    if (planned.authority != record.authority) {
-      if (!released && replica_.tick() > 0) {
-        for (ExactStates& exact : replica_.MakeExact({m}, 1)) {
-          given_.push_back({planned.authority, std::move(exact)});
-        }
-      }
-      record.epoch += 1;
-    }
-    record.authority = planned.authority;
-    record.secondaries = secondaries;
-    replica_.authority().Set(m, record);
-    changed.push_back(m);
   }
-  if (changed.empty() && !taken_over) return grants;
+  open_.resize(left);
+  if (changed_.empty() && !taken_over_) return std::move(grants_);
   replica_.RolesChanged();
-  Append(table().Export(now_us, replica_.tick(), changed), &grants);
-  return grants;
+  Append(table().Export(now_us, replica_.tick(), changed_), &grants_);
+  return std::move(grants_);
+}
+
+void AuthorityManager::Plan(std::int64_t now_us, const Situation& situation) {
+  AuthorityView view = Look(situation);
+  LookAtCapacity(now_us, situation, &view);
+  plan_ = PlanAuthority(view);
+  for (int m = 0; m < table().count(); ++m) {
+    const PlannedAuthority& planned = plan_[static_cast<std::size_t>(m)];
+    const AuthorityRecord& record = table().at(m);
+    const bool same = planned.authority == record.authority &&
+                      planned.secondaries == record.secondaries &&
+                      memory_[static_cast<std::size_t>(m)].hand_over == HandOver::kNone;
+    if (!same) Open(m);
+  }
+}
+
+void AuthorityManager::Open(int m) {
+  Memory& memory = memory_[static_cast<std::size_t>(m)];
+  if (memory.open) return;
+  memory.open = true;
+  sort_open_ = sort_open_ || (!open_.empty() && open_.back() > m);
+  open_.push_back(m);
+}
+
+bool AuthorityManager::Advance(std::int64_t now_us, int m) {
+  Memory& memory = memory_[static_cast<std::size_t>(m)];
+  AuthorityRecord record = table().at(m);
+  // One authority at a time: the server takes over only once the holder has let go.
+  if (memory.hand_over == HandOver::kRevoking) return true;
+  if (memory.hand_over == HandOver::kOvertaken) {
+    memory.hand_over = HandOver::kNone;
+    record.epoch += 2;  // past all that anybody was told
+    replica_.authority().Set(m, record);
+    changed_.push_back(m);
+    return true;
+  }
+  bool released = false;
+  if (memory.hand_over == HandOver::kReleased) {
+    released = true;
+    memory.hand_over = HandOver::kNone;
+    record = WithoutHolder(record);
+    replica_.authority().Set(m, record);
+    taken_over_ = true;
+  }
+  const bool kept = record.authority == 0 && replica_.tick() < memory.keep_until_tick;
+  const PlannedAuthority& plan = plan_[static_cast<std::size_t>(m)];
+  const int authority = kept ? 0 : plan.authority;
+  PeerSet secondaries = plan.secondaries;
+  if (kept) secondaries.Add(plan.authority);
+  if (record.authority != 0 && authority != record.authority) {
+    memory.hand_over = HandOver::kRevoking;
+    memory.revoked_us = now_us;
+    memory.revoked_id = table().id(m);
+    AuthorityTable told = table();
+    told.Set(m, WithoutHolder(record));
+    Append(told.Export(now_us, replica_.tick(), {m}), &grants_);
+    return true;
+  }
+  if (authority == record.authority && secondaries == record.secondaries) return kept;
+  if (authority != record.authority) {
+    if (!released && replica_.tick() > 0) {
+      for (ExactStates& exact : replica_.MakeExact({m}, 1)) {
+        given_.push_back({authority, std::move(exact)});
+      }
+    }
+    record.epoch += 1;
+  }
+  record.authority = authority;
+  record.secondaries = secondaries;
+  replica_.authority().Set(m, record);
+  changed_.push_back(m);
+  return kept;
 }
 
 AuthorityManager::Right AuthorityManager::NoteRelease(int peer, PartId mechanism,
@@ -169,6 +162,7 @@ void AuthorityManager::NoteJump(int body, const BodyState& off) {
   const int m = replica_.world().mechanism(body);
   memory_[static_cast<std::size_t>(m)].keep_until_tick =
       replica_.tick() + static_cast<std::int64_t>(kConvergeS * config_.tick_hz);
+  Open(m);
 }
 
 bool AuthorityManager::Awaits(int peer, int body) const {
@@ -179,7 +173,7 @@ bool AuthorityManager::Awaits(int peer, int body) const {
 
 PeerSet AuthorityManager::Withholding(std::int64_t now_us) const {
   PeerSet peers;
-  for (int m = 0; m < table().count(); ++m) {
+  for (const int m : open_) {
     const Memory& memory = memory_[static_cast<std::size_t>(m)];
     if (memory.hand_over != HandOver::kRevoking) continue;
     if (now_us - memory.revoked_us > kReleasePatienceUs) peers.Add(table().at(m).authority);
@@ -227,6 +221,9 @@ void AuthorityManager::Remap(const std::vector<std::vector<int>>& from) {
     }
   }
   memory_ = std::move(memory);
+  open_.clear();
+  for (Memory& each : memory_) each.open = false;
+  restricted_ = RestrictedParts(replica_.world().scene());
   plan_due_ = true;
 }
 
@@ -243,11 +240,6 @@ std::vector<Grants> AuthorityManager::Export(std::int64_t now_us) const {
 
 bool AuthorityManager::Follows(int peer, int body) const {
   return table().at(replica_.world().mechanism(body)).secondaries.Has(peer);
-}
-
-bool AuthorityManager::IsFar(int peer, int body) const {
-  const auto m = static_cast<std::size_t>(replica_.world().mechanism(body));
-  return m < plan_.size() && plan_[m].far.Has(peer);
 }
 
 bool AuthorityManager::InOneHand(const std::vector<int>& mechanisms) const {

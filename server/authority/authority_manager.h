@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "common/sync/replica.h"
+#include "server/authority/capacity_watch.h"
 #include "server/authority/plan.h"
 
 namespace seam {
@@ -23,6 +24,9 @@ class AuthorityManager {
     std::vector<float> one_way_s;            ///< by player, from the server to it; empty: all 0
     PeerSet silent;                          ///< peers not heard for kSilentUs
     std::vector<std::vector<int>> together;  ///< see AuthorityView
+    /// By player: share of its time that its peer needs for its ticks; below 0: not known. Empty:
+    /// of nobody.
+    std::vector<float> load;
   };
 
   /// After each tick: plans when that is due, and takes every hand-over as far as it can go.
@@ -51,8 +55,6 @@ class AuthorityManager {
   bool Has(int peer, int mechanism) const { return table().at(mechanism).authority == peer; }
   /// Whether the peer follows a body in its buffer zone.
   bool Follows(int peer, int body) const;
-  /// Whether a body is far from all that the peer has, as of the last plan.
-  bool IsFar(int peer, int body) const;
   /// Whether mechanisms have one authority, and none of them is changing hands.
   bool InOneHand(const std::vector<int>& mechanisms) const;
 
@@ -95,10 +97,20 @@ class AuthorityManager {
     std::int64_t keep_until_tick = 0;      // the server's, until its copies have converged
     int last_authority = 0;                // when it was planned last
     std::int64_t changed_tick = -1000000;  // when a plan first saw that authority
+    bool open = false;                     // is in open_
   };
 
   const AuthorityTable& table() const { return replica_.authority(); }
+  /// What planning sees (authority_view.cpp).
   AuthorityView Look(const Situation& situation);
+  void LookAtMechanisms(AuthorityView* view);
+  void LookAtCapacity(std::int64_t now_us, const Situation& situation, AuthorityView* view);
+  void Plan(std::int64_t now_us, const Situation& situation);
+  /// Takes the hand-over of a mechanism as far as it can go; false: nothing is left to do before
+  /// the next plan.
+  bool Advance(std::int64_t now_us, int m);
+  /// The next Update looks at the mechanism.
+  void Open(int m);
   /// The record while nobody has it: the server next, an epoch on.
   AuthorityRecord WithoutHolder(AuthorityRecord record) const;
 
@@ -106,7 +118,15 @@ class AuthorityManager {
   const SyncConfig config_;
   Replica& replica_;
   const bool physics_edits_;
+  const bool islands_;
   AuthorityPlan plan_;  // the last one
+  CapacityWatch capacity_;
+  std::vector<int> restricted_;  // parts that not everybody may push
+  bool sort_open_ = false;
+  std::vector<int> open_;       // mechanisms of which something is to be done, ascending
+  std::vector<int> changed_;    // in this Update
+  std::vector<Grants> grants_;  // of this Update
+  bool taken_over_ = false;     // in this Update
   std::vector<Given> given_;
   PeerSet silent_;  // in the last Update
   bool plan_due_ = true;

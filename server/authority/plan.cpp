@@ -1,206 +1,13 @@
 #include "server/authority/plan.h"
 
-#include <algorithm>
-#include <cfloat>
-#include <utility>
+#include "server/authority/nearby.h"
+#include "server/authority/plan_followers.h"
+#include "server/authority/plan_islands.h"
+#include "server/authority/plan_rectangles.h"
+#include "server/authority/player_of_peer.h"
 
 namespace seam {
 namespace {
-
-float DistanceToBox(const Vec2& p, const Vec2& min, const Vec2& max) {
-  const Vec2 nearest = p.cwiseMax(min).cwiseMin(max);
-  return (p - nearest).norm();
-}
-
-float DistanceToRegion(const Vec2& p, const PlayerView& player) {
-  return DistanceToBox(p, player.region_min, player.region_max);
-}
-
-/// The player whose peer has the mechanism; -1: the server, or a peer that plays nobody.
-int CurrentPlayer(const AuthorityView& view, const MechanismView& mechanism) {
-  int current = -1;
-  for (std::size_t p = 0; p < view.players.size(); ++p) {
-    const bool has = mechanism.now.authority > 0 && view.players[p].peer == mechanism.now.authority;
-    if (has) current = static_cast<int>(p);
-  }
-  return current;
-}
-
-/// The player in whose region the mechanism is, present or not; -1: none.
-int RegionalPlayer(const AuthorityView& view, const Vec2& at, int current_player) {
-  if (current_player >= 0) {
-    const PlayerView& current = view.players[static_cast<std::size_t>(current_player)];
-    if (current.has_region && DistanceToRegion(at, current) <= kHysteresis) return current_player;
-  }
-  for (std::size_t p = 0; p < view.players.size(); ++p) {
-    const PlayerView& player = view.players[p];
-    if (player.has_region && DistanceToRegion(at, player) <= 0) return static_cast<int>(p);
-  }
-  return -1;
-}
-
-int PlannedHolder(const AuthorityView& view, const MechanismView& mechanism) {
-  const int current_player = CurrentPlayer(view, mechanism);
-  const auto dwell_ticks = static_cast<std::int64_t>(kDwell * view.tick_hz);
-  if (current_player >= 0 && mechanism.held_ticks < dwell_ticks) return mechanism.now.authority;
-  int player = mechanism.owner;
-  if (player < 0 || view.players[static_cast<std::size_t>(player)].peer < 0) {
-    player = RegionalPlayer(view, mechanism.position, current_player);
-  }
-  const int peer = player >= 0 ? view.players[static_cast<std::size_t>(player)].peer : -1;
-  return peer < 0 ? 0 : peer;
-}
-
-/// Pairs of mechanisms that may come into contact within the time of their peers and `more`
-/// seconds.
-std::vector<std::pair<int, int>> ContactPairs(const AuthorityView& view, const AuthorityPlan& plan,
-                                              float more) {
-  std::vector<float> one_way(plan.size(), 0);
-  float longest = 0;
-  for (const PlayerView& player : view.players) {
-    longest = std::max(longest, player.one_way_s);
-    for (std::size_t m = 0; m < plan.size(); ++m) {
-      if (player.peer > 0 && plan[m].authority == player.peer) one_way[m] = player.one_way_s;
-    }
-  }
-  const auto seconds_of = [&](int a, int b) {
-    return more +
-           ZoneSeconds(one_way[static_cast<std::size_t>(a)], one_way[static_cast<std::size_t>(b)]);
-  };
-  return MeetingGroups(view.boxes, more + ZoneSeconds(longest, longest), seconds_of);
-}
-
-/// By mechanism: whether it is in a group with one of the peer's.
-std::vector<bool> WithThoseOf(int peer, const AuthorityPlan& plan, const std::vector<int>& group) {
-  std::vector<bool> has(plan.size(), false), with(plan.size(), false);
-  for (std::size_t m = 0; m < plan.size(); ++m) {
-    if (plan[m].authority == peer) has[static_cast<std::size_t>(group[m])] = true;
-  }
-  for (std::size_t m = 0; m < plan.size(); ++m) with[m] = has[static_cast<std::size_t>(group[m])];
-  return with;
-}
-
-/// By mechanism: how far its nearest box is from the player's region or from a box of the peer's,
-/// m. Of what is farther than `near` only the distance from the box around all of the peer's is
-/// known.
-std::vector<float> Distances(const AuthorityView& view, const PlayerView& player,
-                             const AuthorityPlan& plan, float near) {
-  std::vector<float> nearest(plan.size(), FLT_MAX);
-  std::vector<const MovingBox*> own;
-  MovingBox all;
-  for (const MovingBox& box : view.boxes) {
-    if (plan[static_cast<std::size_t>(box.group)].authority != player.peer) continue;
-    all.min = own.empty() ? box.min : all.min.cwiseMin(box.min);
-    all.max = own.empty() ? box.max : all.max.cwiseMax(box.max);
-    own.push_back(&box);
-  }
-  const MovingBox region{player.region_min, player.region_max, {0, 0}, 0, -1};
-  for (const MovingBox& box : view.boxes) {
-    float least = player.has_region ? Gap(box, region) : FLT_MAX;
-    const float around = own.empty() ? FLT_MAX : Gap(box, all);
-    if (around > near) {
-      least = std::min(least, around);
-    } else {
-      for (std::size_t o = 0; o < own.size() && least > 0; ++o) {
-        least = std::min(least, Gap(box, *own[o]));
-      }
-    }
-    float& of_mechanism = nearest[static_cast<std::size_t>(box.group)];
-    of_mechanism = std::min(of_mechanism, least);
-  }
-  return nearest;
-}
-
-/// Adds the peer to the nearest of what it does not follow yet, until it steps follow_bodies. Where
-/// that is not all there is anyway, what is far away is left out.
-void FollowNearest(const AuthorityView& view, int peer, const std::vector<float>& distance,
-                   AuthorityPlan* plan) {
-  const bool crowded = view.boxes.size() > static_cast<std::size_t>(view.follow_bodies);
-  std::vector<int> bodies(plan->size(), 0);
-  for (const MovingBox& box : view.boxes) ++bodies[static_cast<std::size_t>(box.group)];
-  int steps = 0;
-  std::vector<std::pair<float, std::size_t>> others;
-  for (std::size_t m = 0; m < plan->size(); ++m) {
-    if ((*plan)[m].authority == peer || (*plan)[m].secondaries.Has(peer)) {
-      steps += bodies[m];
-      continue;
-    }
-    const bool follows = view.mechanisms[m].now.secondaries.Has(peer);
-    others.emplace_back(distance[m] - (follows ? kHysteresis : 0), m);
-  }
-  std::sort(others.begin(), others.end());
-  for (const auto& [far, m] : others) {
-    steps += bodies[m];
-    if (steps > view.follow_bodies || (crowded && far > kFollowFar)) return;
-    (*plan)[m].secondaries.Add(peer);
-  }
-}
-
-/// By mechanism: whether it is in a pair with one of the server's.
-std::vector<bool> WithServers(const AuthorityPlan& plan,
-                              const std::vector<std::pair<int, int>>& pairs) {
-  std::vector<bool> shared(plan.size(), false);
-  for (const auto& [a, b] : pairs) {
-    const auto x = static_cast<std::size_t>(a), y = static_cast<std::size_t>(b);
-    if (plan[x].authority == 0 || plan[y].authority == 0) shared[x] = shared[y] = true;
-  }
-  return shared;
-}
-
-/// Adds the server to what may come into contact with something of its own, or to everything if the
-/// room is small: its copies are what spectators of its view see. Of a large one it is relieved.
-void FollowAtServer(const AuthorityView& view, const std::vector<std::pair<int, int>>& soon,
-                    const std::vector<std::pair<int, int>>& later, AuthorityPlan* plan) {
-  const std::vector<bool> meets_soon = WithServers(*plan, soon);
-  const std::vector<bool> meets_later = WithServers(*plan, later);
-  PeerSet silent;
-  for (const PlayerView& player : view.players) {
-    if (player.silent && player.peer > 0) silent.Add(player.peer);
-  }
-  const bool small = view.boxes.size() <= static_cast<std::size_t>(view.server_follow);
-  for (std::size_t m = 0; m < plan->size(); ++m) {
-    PlannedAuthority& planned = (*plan)[m];
-    const bool follows = view.mechanisms[m].now.secondaries.Has(0);
-    const bool meets = follows ? meets_later[m] : meets_soon[m];
-    const bool alone = silent.Has(planned.authority) && view.mechanisms[m].moves;
-    if (planned.authority != 0 && (small || view.physics_edits || meets || alone)) {
-      planned.secondaries.Add(0);
-    }
-  }
-}
-
-/// Adds to each mechanism the peers in whose buffer zone it is.
-void AddFollowers(const AuthorityView& view, AuthorityPlan* plan) {
-  const auto pairs_soon = ContactPairs(view, *plan, 0);
-  const auto pairs_later = ContactPairs(view, *plan, kZoneKeep);
-  FollowAtServer(view, pairs_soon, pairs_later, plan);
-  // By mechanism, the lowest of those that it may come into contact with, directly or through
-  // others.
-  const auto count = static_cast<int>(plan->size());
-  const std::vector<int> soon = Components(count, pairs_soon);
-  const std::vector<int> later = Components(count, pairs_later);
-  for (const PlayerView& player : view.players) {
-    if (player.peer <= 0) continue;
-    const std::vector<bool> meets_soon = WithThoseOf(player.peer, *plan, soon);
-    const std::vector<bool> meets_later = WithThoseOf(player.peer, *plan, later);
-    const std::vector<float> distance = Distances(view, player, *plan, view.buffer_m + kHysteresis);
-    for (std::size_t m = 0; m < plan->size(); ++m) {
-      PlannedAuthority& planned = (*plan)[m];
-      if (planned.authority == player.peer) continue;
-      const bool follows = view.mechanisms[m].now.secondaries.Has(player.peer);
-      const float reach = view.buffer_m + (follows ? kHysteresis : 0.0f);
-      const bool meets = follows ? meets_later[m] : meets_soon[m];
-      if (meets || distance[m] <= reach) planned.secondaries.Add(player.peer);
-    }
-    FollowNearest(view, player.peer, distance, plan);
-    for (std::size_t m = 0; m < plan->size(); ++m) {
-      PlannedAuthority& planned = (*plan)[m];
-      const bool concerned =
-          planned.authority == player.peer || planned.secondaries.Has(player.peer);
-      if (!concerned && distance[m] > kFarAway) planned.far.Add(player.peer);
-    }
-  }
-}
 
 /// Plans mechanisms that are to be joined for the same authority.
 void BringTogether(const AuthorityView& view, AuthorityPlan* plan) {
@@ -225,12 +32,11 @@ void BringTogether(const AuthorityView& view, AuthorityPlan* plan) {
 
 /// What a player may not have is the server's.
 void Forbid(const AuthorityView& view, AuthorityPlan* plan) {
+  const PlayerOfPeer players(view);
   for (std::size_t m = 0; m < plan->size(); ++m) {
     PlannedAuthority& planned = (*plan)[m];
-    for (std::size_t p = 0; p < view.players.size() && planned.authority > 0; ++p) {
-      const bool allowed = Allows(view.mechanisms[m].may_have, static_cast<int>(p));
-      if (view.players[p].peer == planned.authority && !allowed) planned.authority = 0;
-    }
+    const int player = players.At(planned.authority);
+    if (player >= 0 && !Allows(view.mechanisms[m].may_have, player)) planned.authority = 0;
   }
 }
 
@@ -239,10 +45,13 @@ void Forbid(const AuthorityView& view, AuthorityPlan* plan) {
 AuthorityPlan PlanAuthority(const AuthorityView& view) {
   AuthorityPlan plan(view.mechanisms.size());
   if (view.mode == Mode::kOracle || view.mode == Mode::kCentral) return plan;
-  for (std::size_t m = 0; m < plan.size(); ++m) {
-    plan[m].authority = PlannedHolder(view, view.mechanisms[m]);
+  const Nearby nearby(view);
+  if (view.islands) {
+    PlanIslands(view, nearby, &plan);
+  } else {
+    PlanRectangles(view, &plan);
   }
-  if (view.mode == Mode::kBuffer) AddFollowers(view, &plan);
+  if (view.mode == Mode::kBuffer) PlanFollowers(view, nearby, &plan);
   BringTogether(view, &plan);
   Forbid(view, &plan);
   return plan;

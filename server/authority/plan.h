@@ -1,10 +1,13 @@
 #pragma once
 /// Who should have authority over each mechanism, and who should follow it in its buffer zone: a
-/// pure function of what planning looks at. Static regions from the scene.
+/// pure function of what planning looks at. By the rectangles that the scene fixes
+/// (plan_rectangles.cpp), or by contact islands around the players (plan_islands.cpp).
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
+#include "common/scene/planner/planner_rules.h"
 #include "common/scene/player_mask.h"
 #include "common/sync/authority.h"
 #include "common/sync/mode.h"
@@ -16,7 +19,6 @@ namespace seam {
 struct PlannedAuthority {
   int authority = 0;
   PeerSet secondaries;
-  PeerSet far;  ///< players' peers that do not follow it and are farther than kFarAway
 };
 
 /// One entry per mechanism, by its index.
@@ -29,6 +31,9 @@ struct PlayerView {
   bool has_region = false;
   Vec2 region_min{0, 0}, region_max{0, 0};  ///< m
   bool silent = false;  ///< not heard for kSilentUs: the server simulates what moves of its own
+  int capacity = kUnlimited;  ///< bodies that its machine can step
+
+  static constexpr int kUnlimited = std::numeric_limits<int>::max();
 };
 
 /// A mechanism, as planning sees it.
@@ -38,6 +43,8 @@ struct MechanismView {
   AuthorityRecord now;
   std::int64_t held_ticks = 0;         ///< since its authority changed
   bool moves = true;                   ///< fast enough that it would be missed
+  bool asleep = false;                 ///< all of its bodies
+  int driver = -1;                     ///< the player who drives it: vehicle, character, seat
   PlayerMask may_have = kEveryPlayer;  ///< players whose peers may have its authority
 };
 
@@ -49,6 +56,8 @@ struct AuthorityView {
   int follow_bodies = 0;       ///< see Scene::follow_bodies
   int server_follow = 0;       ///< see Scene::server_follow
   bool physics_edits = false;  ///< see ProposesEdits: the server follows everything
+  bool islands = false;        ///< by islands around the players, not by their regions
+  PlannerRules rules;          ///< of islands; and how long authority lasts at least
   std::vector<PlayerView> players;
   std::vector<MechanismView> mechanisms;
   std::vector<MovingBox> boxes;  ///< of all bodies; group: the mechanism's index
@@ -58,9 +67,10 @@ struct AuthorityView {
 
 /// One planned per mechanism of the view.
 ///
-///   authority: the owner's peer if it is here; else the peer in whose region the mechanism's root
-///   is (with kHysteresis before it leaves the one that has it, and kDwell between changes); else
-///   the server. Mechanisms that are to be joined go to one peer; a peer whose player may not have
+///   authority, by rectangles: the owner's peer if it is here; else the peer in whose region the
+///   mechanism's root is (with kHysteresis before it leaves the one that has it); else the server.
+///   By islands: see PlanIslands. A client's authority lasts rules.dwell_s at least.
+///   Mechanisms that are to be joined go to one peer; a peer whose player may not have
 ///   a mechanism gives way to the server. Secondary (mode buffer): peers whose region, or whose
 ///   mechanisms, are within the scene's buffer width of its boxes, or with whose mechanisms it may
 ///   come into contact, directly or through others, before a grant could tell them (ZoneSeconds);
@@ -80,9 +90,6 @@ constexpr float ZoneSeconds(float one_way_a_s, float one_way_b_s) {
 }
 /// m; in a room of more than follow_bodies nobody follows what is farther, unless it comes nearer.
 constexpr float kFollowFar = 24;
-/// m from all that a peer has: it hears of what is farther seldom (Broadcast).
-constexpr float kFarAway = 60;
 constexpr float kZoneKeep = 0.5f;  ///< s more before who follows ceases to
-constexpr double kDwell = 0.5;     ///< s an authority lasts at least
 
 }  // namespace seam

@@ -49,6 +49,9 @@ class EditLog {
   /// For each edit that waits, the mechanisms that should be in one hand for it.
   std::vector<std::vector<int>> WaitingMechanisms() const;
 
+  /// Edits that wait to be ordered, of all peers.
+  std::size_t waiting() const { return pending_.size(); }
+
   /// To be called after each edit was applied.
   void NoteApplied();
 

@@ -81,6 +81,8 @@ std::size_t Outbox::Affordable(std::int64_t now_us) {
   Fill(now_us);
   const double bodies = (credit_ - kMessageCost) / static_cast<double>(kStatesBytes.each);
   if (bodies >= static_cast<double>(waiting_.size())) return waiting_.size();
+  if (now_us - part_us_ < kPartEveryUs) return 0;
+  part_us_ = now_us;
   const auto count = static_cast<std::size_t>(std::max(0.0, bodies));
   const auto worth = [&](const Waiting& w) {
     return static_cast<std::int64_t>(w.urgency) * (now_us - w.since_us + 1000);
@@ -93,30 +95,23 @@ std::size_t Outbox::Affordable(std::int64_t now_us) {
 }
 
 std::vector<States> Outbox::Compose(std::int64_t now_us, const NewestStates& newest) {
-  for (std::size_t i = 0; i < waiting_.size();) {
-    if (newest.has(waiting_[i].id)) {
-      ++i;
-      continue;
-    }
-    place_[static_cast<std::size_t>(waiting_[i].id)] = -1;  // an edit has changed it meanwhile
-    waiting_[i] = waiting_.back();
-    waiting_.pop_back();
-  }
   std::size_t count = waiting_.size();
   if (bytes_per_s_ > 0) count = Affordable(now_us);
+  if (count == 0) return {};
   const auto end = waiting_.begin() + static_cast<std::ptrdiff_t>(count);
   const auto order = [&](const Waiting& w) {
-    const HeardState& state = newest.at(w.id);
+    const HeardState state = newest.has(w.id) ? newest.at(w.id) : HeardState{};
     return std::make_tuple(state.peer, state.tick, w.id);
   };
   std::sort(waiting_.begin(), end,
             [&](const Waiting& a, const Waiting& b) { return order(a) < order(b); });
   std::vector<States> messages;
   for (auto w = waiting_.begin(); w != end; ++w) {
+    place_[static_cast<std::size_t>(w->id)] = -1;
+    if (!newest.has(w->id)) continue;  // an edit has changed it meanwhile
     const HeardState& state = newest.at(w->id);
     if (messages.empty() || !Fits(messages.back(), state)) messages.push_back(Begin(state));
     Append(w->id, state, &messages.back());
-    place_[static_cast<std::size_t>(w->id)] = -1;
   }
   waiting_.erase(waiting_.begin(), end);
   for (std::size_t i = 0; i < waiting_.size(); ++i) {

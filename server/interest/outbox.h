@@ -34,6 +34,8 @@ class Outbox {
 
   /// s of the budget that may come at once.
   static constexpr double kBurst = 0.1;
+  /// us between two messages of a part of what waits: many small ones would be mostly headers.
+  static constexpr std::int64_t kPartEveryUs = 15000;
 
  private:
   struct Waiting {
@@ -46,6 +48,7 @@ class Outbox {
   std::size_t Affordable(std::int64_t now_us);
 
   double bytes_per_s_, credit_ = 0;
+  std::int64_t part_us_ = -1000000000;  // when only a part of what waited could be sent
   std::int64_t filled_us_ = -1;
   std::vector<Waiting> waiting_;
   std::vector<std::int32_t> place_;  // by part: in waiting_, -1: it does not wait

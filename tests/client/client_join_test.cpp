@@ -83,6 +83,19 @@ TEST_F(ClientJoin, KeepsItsSessionNumberForAsLongAsNobodyAnswers) {
   EXPECT_EQ(client_.rejoins(), 0);
 }
 
+TEST_F(ClientJoin, TakesAnotherSessionNumberWhenItsWelcomeDoesNotCome) {
+  Next(0);
+  const std::uint64_t first = session_;
+  Challenge challenge;
+  challenge.token = 1234;
+  Answer(Encode(challenge));
+  for (int n = 0; n < 45; ++n) Next(100000);
+  EXPECT_EQ(session_, first) << "a slow path";
+  for (int n = 0; n < 10; ++n) Next(100000);
+  EXPECT_NE(session_, first) << "the server may have dropped it: its number does not count again";
+  EXPECT_TRUE(std::holds_alternative<Hello>(Next(100000))) << "a token is of one session";
+}
+
 TEST_F(ClientJoin, NamesBothProtocolsWhenTheServerSpeaksAnOlderOne) {
   Next(0);
   // As protocol 2 refuses: in a numbered datagram, without our version.

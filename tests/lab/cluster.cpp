@@ -57,7 +57,7 @@ Cluster::Cluster(const ClusterConfig& config)
   server.wait_players = static_cast<int>(players);
   server_entropy_ = std::make_unique<SeededEntropy>(static_cast<std::uint64_t>(config.seed));
   server_ = std::make_unique<Server>(scene_, server, *server_net_, recorder_, *server_entropy_);
-  clients_.resize(players);
+  clients_.resize(players + static_cast<std::size_t>(config.spectators));
   for (std::size_t i = 0; i < clients_.size(); ++i) StartClient(i);
 }
 
@@ -72,8 +72,10 @@ void Cluster::StartClient(std::size_t i) {
   peer.clock_offset_us = 12345678 + 3777777 * static_cast<std::int64_t>(next_port_ - 20000);
   ClientConfig config;
   config.server = server_address_;
-  config.name = scene_.players[i].name;
-  config.drive = config_.drive;
+  const std::size_t players = clients_.size() - static_cast<std::size_t>(config_.spectators);
+  config.watch = i >= players;
+  config.name = config.watch ? "guest" + std::to_string(i - players) : scene_.players[i].name;
+  config.drive = config.watch ? Drive::kNone : config_.drive;
   config.publish = config_.publish;
   config.script_of = config.name;
   config.key = peer.key;
@@ -90,17 +92,44 @@ void Cluster::Instant() {
   for (Peer& peer : clients_) {
     if (peer.client == nullptr || peer.paused) continue;
     const std::int64_t local = now_us_ + peer.clock_offset_us;
-    next = std::min(next, peer.client->next_tick_us(local) - peer.clock_offset_us);
+    const std::int64_t due = peer.client->next_tick_us(local) - peer.clock_offset_us;
+    next = std::min(next, std::max(due, peer.busy_until_us));
   }
   now_us_ = std::max(next, now_us_ + kStepMinUs);
   RunServer();
   const double between_us = CpuNowUs();
   for (Peer& peer : clients_) {
     if (peer.client == nullptr || peer.paused) continue;
-    peer.client->Tick(now_us_ + peer.clock_offset_us, 0);
+    TickClient(static_cast<std::size_t>(&peer - clients_.data()));
   }
   client_cpu_us_ += CpuNowUs() - between_us;
   if (each_instant) each_instant();
+}
+
+void Cluster::TickClient(std::size_t i) {
+  Peer& peer = clients_[i];
+  if (now_us_ < peer.busy_until_us) return;
+  const std::int64_t before = peer.client->running() ? peer.client->replica()->tick() : -1;
+  peer.client->Tick(now_us_ + peer.clock_offset_us, static_cast<std::int64_t>(peer.cpu_us));
+  if (config_.client_body_us <= 0 || !peer.client->running()) return;
+  const Replica& replica = *peer.client->replica();
+  const std::int64_t replayed = replica.ticks_stepped_again();
+  std::int64_t steps = before < 0 ? 0 : replica.tick() - before;
+  steps += std::max<std::int64_t>(0, replayed - peer.replayed);  // it begins anew with a replica
+  peer.replayed = replayed;
+  const double slower = i < config_.client_throttle.size() ? config_.client_throttle[i] : 1;
+  const double cost_us =
+      static_cast<double>(steps * SteppedBodies(replica.world())) * config_.client_body_us * slower;
+  peer.cpu_us += std::max(cost_us, 1.0);
+  peer.busy_until_us = now_us_ + static_cast<std::int64_t>(cost_us);
+}
+
+int SteppedBodies(const World& world) {
+  int stepped = 0;
+  for (int body = 0; body < world.body_count(); ++body) {
+    stepped += world.motion(body) == Motion::kAbsent ? 0 : 1;
+  }
+  return stepped;
 }
 
 void Cluster::RunServer() {
@@ -153,6 +182,12 @@ void Cluster::Kill(int client) {
   Peer& peer = clients_[static_cast<std::size_t>(client)];
   if (peer.client != nullptr) peer.key = peer.client->key();
   peer.client.reset();
+}
+
+void Cluster::Leave(int client) {
+  Peer& peer = clients_[static_cast<std::size_t>(client)];
+  if (peer.client != nullptr) peer.client->Shutdown(now_us_ + peer.clock_offset_us);
+  Kill(client);
 }
 
 void Cluster::Revive(int client) { StartClient(static_cast<std::size_t>(client)); }

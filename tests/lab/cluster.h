@@ -24,6 +24,7 @@ struct ClusterConfig {
   double client_bytes_per_s = kClientBytesPerS;  ///< see ServerConfig
   std::int64_t seed = 1;
   double duration_s = 0;  ///< ticks after tick 0; 0: the scene's own
+  int spectators = 0;     ///< clients besides the scene's players, after them: "guest0", ...
   Drive drive = Drive::kScript;
   Publish publish = Publish::kAll;  ///< of server and clients
   int players = 0;  ///< the first so many of the scene's join; 0: all
@@ -32,7 +33,11 @@ struct ClusterConfig {
   Recorder* recorder = nullptr;  ///< also gets every message, at now_us()
   /// What a tick of the server takes, us of virtual time, by tick; nullptr: nothing.
   std::function<std::int64_t(std::int64_t)> server_tick_us;
-  bool keep = true;  ///< recording() has everything; false saves its memory
+  /// CPU time of a client for each body in each of its steps, replayed ones included, us. Virtual
+  /// time has no CPU: this is a model. 0: clients take no time and do not know their load.
+  double client_body_us = 0;
+  std::vector<double> client_throttle;  ///< by client: times slower; beyond the end 1
+  bool keep = true;                     ///< recording() has everything; false saves its memory
   /// If set, what each client's network (by the scene's order of players) is replaced by.
   std::function<std::unique_ptr<Net>(std::size_t, std::unique_ptr<Net>)> client_net;
 };
@@ -63,6 +68,8 @@ class Cluster {
   /// its key.
   void Kill(int client);
   void Revive(int client);
+  /// The client says goodbye and ends; Revive lets it come back.
+  void Leave(int client);
   /// The client's process is stopped, or goes on.
   void Pause(int client, bool paused) {
     clients_[static_cast<std::size_t>(client)].paused = paused;
@@ -103,7 +110,11 @@ class Cluster {
     std::int64_t clock_offset_us = 0;
     std::int64_t key = 0;  // what seam-client keeps in its --key file
     bool paused = false;
+    double cpu_us = 0;  // modelled
+    std::int64_t busy_until_us = 0;
+    std::int64_t replayed = 0;  // ticks, as of its last call
   };
+  void TickClient(std::size_t i);
   void StartClient(std::size_t i);
   void Instant();
   /// Runs the server, unless it is still at its last ticks.
@@ -126,6 +137,9 @@ class Cluster {
   double server_cpu_us_ = 0, client_cpu_us_ = 0;
   std::int64_t server_busy_until_us_ = 0;
 };
+
+/// Bodies in a world's steps: all but those that are absent.
+int SteppedBodies(const World& world);
 
 /// Runs a cluster to its end and returns what it recorded.
 Recording RunCluster(const ClusterConfig& config);

@@ -148,6 +148,7 @@ void AddScenes(Interface* interface) {
   const std::pair<const char*, std::string> tables[] = {
       {"", ""},
       {"[solver]", "[solver]"},
+      {"[planner]", "[planner]"},
       {"[camera]", ball + "[camera]"},
       {"[grouping]", ball + "[grouping]"},
       {"[[part]]", "[[part]]"},

@@ -46,6 +46,7 @@ TEST(SceneDocs, EveryKeyIsOnThePage) {
   const std::pair<std::string, std::string> tables[] = {
       {"", "## Top level"},
       {"[solver]", "## `[solver]`"},
+      {"[planner]", "## `[planner]`"},
       {"[[part]]", "## `[[part]]`"},
       {ball + "[[joint]]", "## `[[joint]]`"},
       {ball + "[[bricks]]", "## `[[bricks]]`"},

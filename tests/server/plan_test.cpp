@@ -71,7 +71,7 @@ TEST(PlanAuthority, WhoHasItKeepsItALittleBeyondTheBorder) {
 }
 
 TEST(PlanAuthority, APeerThatGotItKeepsItForTheDwell) {
-  const auto dwell = static_cast<std::int64_t>(kDwell * 60);
+  const auto dwell = static_cast<std::int64_t>(PlannerRules{}.dwell_s * 60);
   EXPECT_EQ(HolderAt(50, kAnn, dwell - 1), kAnn);
   EXPECT_EQ(HolderAt(50, kAnn, dwell), kBob);
   EXPECT_EQ(HolderAt(50, 0, 0), kBob) << "from the server at once";

@@ -108,6 +108,19 @@ TEST(CharacterAbility, SwimsAtEachDriveWithTheHeadAboveTheWater) {
   EXPECT_GE(of["drive 0.0"].good, 5) << of["drive 0.0"].failed;
 }
 
+TEST(CharacterAbility, ClimbsOutOfWaterOverALedge) {
+  Tally climbs;
+  const GaitSetup setup{"substeps = 4", "density = 0.92\ngrip = true"};
+  for (int start = 6001; start <= 6025; ++start) {
+    const GaitTrial trial = FindAbility("climb")->run(setup, CharacterGains{}, start);
+    ++climbs.count;
+    climbs.good += trial.good ? 1 : 0;
+    if (!trial.good) climbs.failed += " " + std::to_string(start);
+  }
+  ASSERT_EQ(climbs.count, 25);
+  EXPECT_GE(climbs.good, 20) << climbs.failed;
+}
+
 TEST(CharacterAbility, GetsUpAgainAfterItWentLimpByItsPlayerACommandOrABlow) {
   const Tally up = TryFrom(7001, "limp", 7032);
   ASSERT_EQ(up.count, 32);

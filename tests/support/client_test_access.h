@@ -12,6 +12,10 @@ struct ClientTestAccess {
   static void Say(Client* client, const Message& message) {
     client->link_->SendReliable(Encode(message));
   }
+  /// Reliable messages that wait to be acknowledged.
+  static std::size_t Waiting(const Client& client) {
+    return client.link_ == nullptr ? 0 : client.link_->waiting();
+  }
 };
 
 }  // namespace seam

@@ -51,7 +51,7 @@ class RandomMessages {
   void Fill(Ping& m) {
     Common(m), Set(m.revision, -1, INT32_MAX);
     m.composition = static_cast<std::int64_t>(random_.Next());
-    m.rest = static_cast<std::int64_t>(random_.Next());
+    m.rest = static_cast<std::int64_t>(random_.Next()), Set(m.load, -1, INT16_MAX);
   }
   void Fill(Pong& m) {
     Common(m), m.client_us = Time(), m.tick0_us = Time();

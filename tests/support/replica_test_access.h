@@ -1,5 +1,9 @@
 #pragma once
-/// For tests that make a replica's world go astray, as no caller of Replica may.
+/// For tests that make a replica's world go astray, as no caller of Replica may, and that watch what
+/// it keeps.
+
+#include <map>
+#include <string>
 
 #include "common/sync/replica.h"
 
@@ -7,6 +11,17 @@ namespace seam {
 
 struct ReplicaTestAccess {
   static World& world(Replica& replica) { return replica.world_; }
+  /// Edits, states and rests that wait for something.
+  static std::map<std::string, std::size_t> Queues(const Replica& replica) {
+    return {{"edits ordered", replica.queued_.size()},
+            {"edits found", replica.found_.size()},
+            {"edits awaited", replica.awaited_.size()},
+            {"edits proposed", replica.proposals_.remembered()},
+            {"edits appointed", replica.appointed_.size()},
+            {"states let go", replica.released_.size()},
+            {"states waiting", replica.corrector_.waiting()},
+            {"rests waiting", replica.rest_.waiting()}};
+  }
 };
 
 }  // namespace seam

@@ -17,7 +17,7 @@ namespace {
 /// Two boxes side by side on the ground; this is peer 0, who has them all at first.
 class OnTheGround {
  public:
-  OnTheGround() {
+  explicit OnTheGround(const char* rule = "retrospect") : config(MakeSyncConfig("buffer", rule)) {
     world->SetAwake(0, false);
     world->SetAwake(1, false);
   }
@@ -25,6 +25,7 @@ class OnTheGround {
     rest.BeforeStep();
     world->Step();
     memory.NoteContacts(roles.table());
+    if (config.rolls_back) reach.Look();
     rest.AfterStep();
     memory.Record();
   }
@@ -70,7 +71,7 @@ position = [0, 0.5]
 repeat = {count = 2, step = [5, 0]}
 )",
                                                                     "test.toml"));
-  SyncConfig config = MakeSyncConfig("buffer", "retrospect");
+  SyncConfig config;
   Roles roles{config, 0, -1, *world};
   BodyMemory memory{config, *world};
   Display display{config, *world, memory.snapshots()};
@@ -148,6 +149,53 @@ TEST(RestCommit, ANewerStateEndsItAndAnOlderWordDoesNotBringItBack) {
   EXPECT_FALSE(room.rest.Holds(1));
 }
 
+TEST(RestCommit, TheNextAuthoritysWordCountsThoughTheLastOnesClockWasAhead) {
+  OnTheGround room;
+  room.Give(1, 1);
+  const Rest early = room.Lies(1, 5.25f);
+  room.Steps(10);
+  room.memory.track(1).heard_tick = 8;
+  room.memory.track(1).heard_epoch = 1;
+  room.rest.Receive(early);
+  EXPECT_FALSE(room.rest.Holds(1)) << "of the same epoch, and older";
+  room.Give(1, 2);
+  Rest next = early;
+  next.tick = 6;
+  next.epoch = {2};
+  room.rest.Receive(next);
+  EXPECT_TRUE(room.rest.Holds(1));
+}
+
+TEST(RestCommit, WhatIsSaidAgainIsAsOfNow) {
+  OnTheGround room;
+  room.Steps(100);
+  ASSERT_EQ(room.rest.Everything().size(), 1u);
+  EXPECT_LT(room.rest.Everything()[0].tick, 40);
+  ASSERT_EQ(room.rest.Again(true).size(), 1u);
+  EXPECT_EQ(room.rest.Again(true)[0].tick, 100);
+  room.Give(0, 1);
+  EXPECT_EQ(room.rest.Again(true)[0].id.size(), 1u) << "its own";
+  EXPECT_EQ(room.rest.Again(false)[0].id.size(), 2u);
+}
+
+TEST(RestCommit, AWordThatComesToACopyThatWasWokenSinceIsWhereThatGoesBackTo) {
+  OnTheGround room("rollback");
+  room.Give(1, 1);
+  room.Steps(5);
+  const Rest told = room.Lies(1, room.world->Read(1).position.x());
+  BodyState struck = room.world->Read(1);
+  struck.velocity = Vec2(2, 0);
+  room.world->Write(1, struck);
+  room.Steps(3);
+  room.rest.Receive(told);
+  EXPECT_FALSE(room.rest.Holds(1)) << "it goes on";
+  EXPECT_TRUE(room.rest.record(1).committed) << "and is known to rest at its authority";
+  EXPECT_GT(room.world->Read(1).position.x(), told.x[0]);
+  room.Steps(150);
+  EXPECT_TRUE(room.rest.Holds(1));
+  EXPECT_EQ(room.world->Read(1).position.x(), told.x[0]);
+}
+
 TEST(RestCommit, ANewAuthorityCommitsWhatItWasGivenAtRestUnderItsEpoch) {
   OnTheGround room;
   room.Steps(30);
@@ -184,6 +232,17 @@ TEST(RestAgreement, SaysItAgainOnlyWhenTheSameDifferenceLasts) {
   EXPECT_FALSE(agreement.agrees());
   EXPECT_FALSE(agreement.Lost(2200000, 3, 3));
   EXPECT_TRUE(agreement.agrees());
+}
+
+TEST(RestAgreement, SaysItAgainAfterThreeSecondsWhereSomethingAlwaysChanges) {
+  RestAgreement agreement;
+  std::int64_t now_us = 7000000;
+  EXPECT_FALSE(agreement.Lost(now_us, 1, 1));
+  for (std::uint64_t n = 1; n < 30; ++n) {
+    EXPECT_FALSE(agreement.Lost(now_us += 100000, 1000 + n, n)) << n;
+  }
+  EXPECT_TRUE(agreement.Lost(now_us += 100000, 1, 0));
+  EXPECT_FALSE(agreement.Lost(now_us += 100000, 1, 2));
 }
 
 }  // namespace

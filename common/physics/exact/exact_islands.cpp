@@ -112,7 +112,8 @@ bool ExactStep::Gather(int first, Found* found) {
   return awake && exact && !found->slots.empty();
 }
 
-/// Bodies in the order of their distance from one at the edge: neighbours are near each other.
+/// Bodies in the order of their distance from one at the edge: neighbours are near each other. What
+/// has contacts comes late, if it can: contacts change most, and what is before them is kept.
 void ExactStep::Order(Found* found) {
   const std::size_t n = found->slots.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -164,6 +165,20 @@ void ExactStep::Order(Found* found) {
     }
     start = static_cast<std::size_t>(order.back());
   }
+  seen.assign(n, 0);
+  for (const b2Contact* contact : found->contacts) {
+    for (const b2Fixture* fixture : {contact->GetFixtureA(), contact->GetFixtureB()}) {
+      const int at = place(IndexOf(const_cast<b2Fixture*>(fixture)->GetBody()));
+      if (at >= 0) seen[static_cast<std::size_t>(at)] = 1;
+    }
+  }
+  std::size_t early = 0, late = 0;
+  for (std::size_t k = 0; k < n; ++k) {
+    if (!seen[static_cast<std::size_t>(order[k])]) continue;
+    early += n - 1 - k;
+    late += k;
+  }
+  if (early > late) std::reverse(order.begin(), order.end());
   for (int& i : order) i = found->slots[static_cast<std::size_t>(i)];
   found->slots = order;
 }

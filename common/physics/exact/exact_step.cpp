@@ -10,6 +10,9 @@
 namespace seam {
 namespace {
 
+/// Steps for which a cosine is turned with its angle before it is found anew: each turn rounds it.
+constexpr int kTurnsMost = 1000;
+
 void ReadPose(b2Body* body, ExactBody* q) {
   const b2Sweep& sweep = body->*Member(BodySweep());
   q->x = static_cast<double>(sweep.c.x);
@@ -71,7 +74,7 @@ void ExactStep::LoadPoses(Found* found) {
     if (q.slot < 0) {
       ReadPose(body, &q);
     } else {
-      const Slot& s = slots_[static_cast<std::size_t>(q.slot)];
+      Slot& s = slots_[static_cast<std::size_t>(q.slot)];
       if (Told(s)) {
         q.x = s.x;
         q.y = s.y;
@@ -79,9 +82,15 @@ void ExactStep::LoadPoses(Found* found) {
         q.vx = s.vx;
         q.vy = s.vy;
         q.w = s.w;
+        if (++s.turns < kTurnsMost) {
+          q.c = s.c;
+          q.s = s.s;
+          continue;
+        }
       } else {
         ReadPose(body, &q);
       }
+      s.turns = 0;
     }
     if (q.slot < 0 && q.a == q.read_a) continue;  // c and s are its own
     q.read_a = q.slot < 0 && q.w == 0 ? q.a : std::nan("");
@@ -117,6 +126,8 @@ void ExactStep::SavePoses(const Found& found) {
     s.x = q.x;
     s.y = q.y;
     s.a = q.a;
+    s.c = q.c;
+    s.s = q.s;
     s.vx = q.vx;
     s.vy = q.vy;
     s.w = q.w;

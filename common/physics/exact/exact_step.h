@@ -36,6 +36,8 @@ class ExactStep {
     bool solved = false;  // in this step, not left to the engine
     bool struck = false;  // by something that moves, in continuous collision
     double x = 0, y = 0, a = 0, vx = 0, vy = 0, w = 0;
+    double c = 1, s = 0;  // cosine and sine of a, turned with it for `turns` steps
+    int turns = 0;
     double lasting = 0;  // ExactBody::lasting
     float told_x = 0, told_y = 0, told_a = 0, told_vx = 0, told_vy = 0, told_w = 0;
   };

@@ -66,6 +66,8 @@ void ExactIsland::ShapeMatrix() {
     const auto& b = key[static_cast<std::size_t>(y)];
     return a != b ? a < b : x < y;
   });
+  by_place_.clear();
+  for (const int row : row_at_) by_place_.push_back(&At(row));
   place_.assign(n, -1);
   bounded_places_.clear();
   std::vector<int>& first = first_;

@@ -115,7 +115,11 @@ class ExactIsland {
   double Driven(const ExactContact& contact, int first_row) const;
   void SolveAhead(const Pace& pace);
   void Move(double h);
+  double SidesOfErrors(const Pace& pace, bool anew);
+  void Correct(double h);
   void ShutJoints(const Pace& pace);
+  double SlopeOfSides() const;
+  void Accelerate(double slope);
   void SoftenContacts();
   void SolveAtEnd(const Pace& pace);
 
@@ -159,6 +163,7 @@ class ExactIsland {
   std::vector<int> contact_row_;  // by contact: the first of its rows
   std::vector<int> place_;        // by row: its index in the matrix
   std::vector<int> row_at_;       // the other way round
+  std::vector<Row*> by_place_;    // the rows that are in the matrix
   std::vector<int> bounded_places_;
   std::vector<Pair> pairs_;           // in the order of places
   std::vector<Assembled> assembled_;  // by place
@@ -166,7 +171,6 @@ class ExactIsland {
   Skyline matrix_;
   int bounded_ = 0;
   double turned_ = 0;   // rad: the most that a body has turned in this substep
-  bool keeps_ = false;  // the matrix may be what the next substep begins with
   int changed_ = 0;     // the matrix's rows from here on are not those that were assembled
   int dirty_ = 0;       // the factors of rows from here on are old
   double gained_ = 0;   // J: what substeps with contacts have gained, falling slowly
@@ -174,6 +178,8 @@ class ExactIsland {
   bool moved_ = false;  // velocities are not those of before_
   std::vector<char> in_;
   std::vector<double> x_, before_, start_;
+  std::vector<double> side_, last_, shift_;  // of the last correction: what it was for, what it is
+  std::vector<double> push_;  // by body, three: what a correction adds to its velocity
   bool relaxed_ = false;
   std::vector<Group> groups_;
   std::vector<Reach> reaches_;                            // in the order of rows

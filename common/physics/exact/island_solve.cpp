@@ -47,7 +47,7 @@ int ExactIsland::FirstChanged(double hard, double bounded) {
   const int n = std::min(changed_, matrix_.size());
   for (int p = 0; p < n; ++p) {
     const Assembled& was = assembled_[static_cast<std::size_t>(p)];
-    const Row& row = At(row_at_[static_cast<std::size_t>(p)]);
+    const Row& row = *by_place_[static_cast<std::size_t>(p)];
     if (row.gamma != was.gamma || (row.bounded() ? bounded : hard) != was.share) return p;
     for (int e = was.end; e < was.end + was.ends; ++e) {
       const auto at = static_cast<std::size_t>(e);
@@ -66,8 +66,8 @@ void ExactIsland::Assemble(double hard, double bounded) {
     end.mj[2] = q.ii * end.j[2];
   }
   const int size = matrix_.size();
-  const int from = keeps_ ? FirstChanged(hard, bounded) : 0;
-  changed_ = keeps_ ? size : 0;
+  const int from = FirstChanged(hard, bounded);
+  changed_ = size;
   dirty_ = std::min(dirty_, from);
   if (from >= size) return;
   matrix_.Clear(from);
@@ -79,21 +79,21 @@ void ExactIsland::Assemble(double hard, double bounded) {
     *pair->at += m[0] * j[0] + m[1] * j[1] + m[2] * j[2];
   }
   for (int p = from; p < size; ++p) {
-    const Row& row = At(row_at_[static_cast<std::size_t>(p)]);
+    const Row& row = *by_place_[static_cast<std::size_t>(p)];
     Assembled& now = assembled_[static_cast<std::size_t>(p)];
     now.gamma = row.gamma;
     now.share = row.bounded() ? bounded : hard;
     double& own = matrix_.At(matrix_.Place(p, p));
     own += own * now.share + row.gamma;
   }
-  for (std::size_t e = 0; keeps_ && e < ends_.size(); ++e) in_matrix_[e].Take(ends_[e]);
+  for (std::size_t e = 0; e < ends_.size(); ++e) in_matrix_[e].Take(ends_[e]);
 }
 
 void ExactIsland::Factor() {
   const int size = matrix_.size();
   for (int p = 0; p < size; ++p) {
     const auto at = static_cast<std::size_t>(p);
-    const char in = At(row_at_[at]).state == RowState::kFree ? 1 : 0;
+    const char in = by_place_[at]->state == RowState::kFree ? 1 : 0;
     if (in == in_[at]) continue;
     in_[at] = in;
     dirty_ = std::min(dirty_, p);
@@ -115,13 +115,13 @@ bool ExactIsland::Pivot(int* wrong) {
   Factor();
   const std::size_t n = rows_.size();
   for (std::size_t p = 0; p < n; ++p) {
-    const Row& row = At(row_at_[p]);
+    const Row& row = *by_place_[p];
     x_[p] = row.state == RowState::kFree ? row.target - Speed(row) : 0;
   }
   matrix_.Solve(&x_);
   double scale = 0;
   for (std::size_t p = 0; p < n; ++p) {
-    Row& row = At(row_at_[p]);
+    Row& row = *by_place_[p];
     if (row.state == RowState::kFree) {
       row.lambda = x_[p];
       Push(row, row.lambda);
@@ -132,7 +132,7 @@ bool ExactIsland::Pivot(int* wrong) {
   const double slack = 1e-12 + 1e-7 * scale;
   for (const int place : bounded_places_) {
     const auto p = static_cast<std::size_t>(place);
-    Row& row = At(row_at_[p]);
+    Row& row = *by_place_[p];
     next_[p] = row.state;
     if (row.state == RowState::kOut) continue;
     if (row.state == RowState::kFree) {
@@ -161,7 +161,7 @@ bool ExactIsland::PivotToTheEnd() {
     }
     if (patience < 0) return false;
     for (const int p : bounded_places_) {
-      At(row_at_[static_cast<std::size_t>(p)]).state = next_[static_cast<std::size_t>(p)];
+      by_place_[static_cast<std::size_t>(p)]->state = next_[static_cast<std::size_t>(p)];
     }
   }
   return false;
@@ -225,14 +225,14 @@ void ExactIsland::Descend() {
   for (int round = 0; round < kRounds; ++round) {
     Factor();
     for (std::size_t p = 0; p < n; ++p) {
-      const Row& row = At(row_at_[p]);
+      const Row& row = *by_place_[p];
       x_[p] = row.state == RowState::kFree ? row.target - Speed(row) - row.gamma * row.lambda : 0;
     }
     matrix_.Solve(&x_);
     double way = 1;
     int meets = -1;
     for (std::size_t p = 0; p < n; ++p) {
-      const Row& row = At(row_at_[p]);
+      const Row& row = *by_place_[p];
       if (row.state != RowState::kFree || !row.bounded() || x_[p] == 0) continue;
       const double room = (x_[p] < 0 ? row.lo : row.hi) - row.lambda;
       if (std::fabs(x_[p]) * way <= std::fabs(room)) continue;
@@ -240,7 +240,7 @@ void ExactIsland::Descend() {
       meets = static_cast<int>(p);
     }
     for (std::size_t p = 0; p < n; ++p) {
-      Row& row = At(row_at_[p]);
+      Row& row = *by_place_[p];
       if (row.state != RowState::kFree) continue;
       row.lambda += way * x_[p];
       Push(row, way * x_[p]);
@@ -255,7 +255,7 @@ void ExactIsland::Descend() {
     }
     bool freed = false;
     for (std::size_t p = 0; p < n; ++p) {
-      Row& row = At(row_at_[p]);
+      Row& row = *by_place_[p];
       if (row.state != RowState::kLow && row.state != RowState::kHigh) continue;
       if (row.hi <= row.lo) continue;
       const double off = Speed(row) - row.target + row.gamma * row.lambda;
@@ -277,7 +277,7 @@ void ExactIsland::HoldJoints() {
   }
   Factor();
   for (std::size_t p = 0; p < row_at_.size(); ++p) {
-    const Row& row = At(row_at_[p]);
+    const Row& row = *by_place_[p];
     x_[p] = row.state == RowState::kFree ? row.target - Speed(row) - row.gamma * row.lambda : 0;
   }
   matrix_.Solve(&x_);

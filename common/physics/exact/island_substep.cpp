@@ -13,7 +13,7 @@ namespace {
 
 /// Of the stiffness that tension gives a body against turning, the share that its inertia is
 /// enlarged by (after Tournier, Nesme, Gilles and Faure 2015: as much as keeps the step stable).
-constexpr double kStiffness = 0.25;
+constexpr double kStiffness = 0.35;
 /// It counts in full from this stiffness over inertia on, and below the other not at all.
 constexpr double kStiffTo = 1, kStiffFrom = 0.4;
 /// Less than that, whatever is rounded.
@@ -21,20 +21,10 @@ constexpr double kSurelyLittle = 0.39;
 /// What is jammed tells of any tension: at most so many times the inertia.
 constexpr double kStiffMost = 100;
 /// What is left of it after a substep when the tension is gone: inertias that jump make noise.
-constexpr double kLasts = 0.99;
+constexpr double kLasts = 0.999;
 /// The inertia is found anew while it lacks more than this.
 constexpr double kStifferBy = 1.1;
 constexpr int kStifferTries = 4;
-/// Joints are shut to this, m or rad, in at most so many corrections; less well where something
-/// touches, which leaves more behind.
-constexpr double kShut = 1e-9, kShutTouching = 1e-7;
-constexpr int kCorrections = 8;
-/// By no more than this, m/s or rad/s; contacts yield by this share.
-constexpr double kShutFastest = 8, kYield = 1e-3;
-/// The matrix is made anew in them when one leaves more than this share, or when a body turns by
-/// more than kTurnsFast, rad.
-constexpr double kSlow = 0.3;
-constexpr double kTurnsFast = 0.25;
 /// A limit or a contact that is nearer than this is reached, m or rad.
 constexpr double kReached = 1e-6;
 /// A motor that lacks so much speed does all it may, rad/s or m/s.
@@ -43,7 +33,6 @@ constexpr double kUtmost = 50;
 }  // namespace
 
 void ExactIsland::Step(const Pace& pace, bool warm) {
-  keeps_ = pace.substeps > 1;
   Look(pace);
   Fill(pace);
   const double share = warm ? 1.0 / pace.substeps : 0;
@@ -192,79 +181,6 @@ void ExactIsland::Move(double h) {
     if (q.w != 0) q.Turn(h * q.w);
     turned_ = std::max(turned_, std::fabs(h * q.w));
   }
-}
-
-void ExactIsland::ShutJoints(const Pace& pace) {
-  bool anew = turned_ > kTurnsFast;
-  double last = kUnbounded;
-  Row* const now = now_.data();
-  for (int tries = 0; tries < kCorrections; ++tries) {
-    double far = 0;
-    std::fill(x_.begin(), x_.end(), 0.0);
-    for (const Held& held : joints) {
-      double errors[kJointRowsMost];
-      if (anew) {
-        FillJoint(*held.joint, held.ends, bodies, pace, now);
-        for (int i = 0; i < held.rows; ++i) errors[i] = now[i].error;
-      } else if (!PointErrors(*held.joint, held.ends, bodies, errors)) {
-        FillJoint(*held.joint, held.ends, bodies, pace, now);
-        for (int i = 0; i < held.rows; ++i) errors[i] = now[i].error;
-      }
-      for (int i = 0; i < held.rows; ++i) {
-        Row& row = At(held.row + i);
-        const bool shuts = row.kind == RowKind::kHard || row.kind == RowKind::kLimit;
-        const int place = place_[static_cast<std::size_t>(held.row + i)];
-        if (!shuts || place < 0 || row.state != RowState::kFree) continue;
-        const double off = errors[i] - row.goal;
-        far = std::max(far, std::fabs(off));
-        x_[static_cast<std::size_t>(place)] =
-            std::clamp(-off / pace.h, -kShutFastest, kShutFastest);
-        if (anew) std::copy_n(now[i].end, row.ends, row.end);
-      }
-    }
-    if (far < (contacts.empty() ? kShut : kShutTouching)) break;
-    if (tries == 0 && !contacts.empty() && !relaxed_) SoftenContacts();
-    if (!anew && tries > 1 && far > kSlow * last) {
-      anew = true;
-      continue;
-    }
-    last = far;
-    if (anew) {
-      Assemble();
-      if (!contacts.empty()) SoftenContacts();
-    }
-    Factor();
-    matrix_.Solve(&x_);
-    for (std::size_t p = 0; p < row_at_.size(); ++p) {
-      Row& row = At(row_at_[p]);
-      if (row.state != RowState::kFree || x_[p] == 0) continue;
-      row.base += x_[p];
-      const double by = pace.h * x_[p];
-      for (const RowEnd* end = row.end; end != row.end + row.ends; ++end) {
-        ExactBody& q = Body(end->body);
-        q.vx += x_[p] * end->mj[0];
-        q.vy += x_[p] * end->mj[1];
-        q.w += x_[p] * end->mj[2];
-        q.x += by * end->mj[0];
-        q.y += by * end->mj[1];
-        q.Turn(by * end->mj[2]);
-      }
-    }
-  }
-}
-
-/// While joints shut, contacts give way a little: with them a mechanism may be held in more ways
-/// than it can move.
-void ExactIsland::SoftenContacts() {
-  int first = matrix_.size();
-  for (std::size_t i = 0; i < rows_.size(); ++i) {
-    const bool contact = rows_[i].kind == RowKind::kNormal || rows_[i].kind == RowKind::kFriction;
-    if (!contact || place_[i] < 0) continue;
-    matrix_.At(matrix_.Place(place_[i], place_[i])) *= 1 + kYield;
-    first = std::min(first, place_[i]);
-  }
-  changed_ = std::min(changed_, first);
-  dirty_ = std::min(dirty_, first);
 }
 
 void ExactIsland::SolveAtEnd(const Pace& pace) {

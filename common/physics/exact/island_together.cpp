@@ -11,6 +11,8 @@ namespace {
 /// Joints that are farther apart than this, m or rad, are moved together before a step, and limits
 /// that are overstepped by more; by at most so much for each try.
 constexpr double kApart = 1e-5, kOverstepped = 5e-3, kTogetherMost = 0.2;
+/// Once they are moved, to this.
+constexpr double kTogether = 1e-7;
 constexpr int kTogetherTries = 8;
 /// What falls for so many steps has a blow; what falls less lies.
 constexpr double kRestSteps = 4;
@@ -38,7 +40,8 @@ void ExactIsland::BringTogether(const Pace& pace) {
   for (int tries = 0; tries < kTogetherTries; ++tries) {
     bool apart = false;
     for (const Row& row : rows_) {
-      apart = apart || (row.kind == RowKind::kHard && std::fabs(row.error) > kApart) ||
+      const double most = tries == 0 ? kApart : kTogether;
+      apart = apart || (row.kind == RowKind::kHard && std::fabs(row.error) > most) ||
               (row.kind == RowKind::kLimit && row.error < -kOverstepped);
     }
     if (!apart) break;
@@ -60,7 +63,7 @@ void ExactIsland::BringTogether(const Pace& pace) {
     SoftenContacts();
     Factor();
     matrix_.Solve(&x_);
-    for (std::size_t p = 0; p < row_at_.size(); ++p) Shift(At(row_at_[p]), x_[p]);
+    for (std::size_t p = 0; p < row_at_.size(); ++p) Shift(*by_place_[p], x_[p]);
     Fill(pace);
   }
   for (std::size_t i = 0; i < held_.size(); ++i) rows_[i].state = held_[i];

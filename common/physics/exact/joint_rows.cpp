@@ -251,16 +251,4 @@ void FillJoint(const ExactJoint& joint, const JointEnds& ends, const std::vector
   }
 }
 
-bool PointErrors(const ExactJoint& joint, const JointEnds& ends,
-                 const std::vector<ExactBody>& bodies, double* errors) {
-  if (joint.type != e_revoluteJoint || joint.near_lower || joint.near_upper) return false;
-  if (joint.limited && joint.lower >= joint.upper) return false;
-  const ExactBody& a = bodies[static_cast<std::size_t>(ends.a)];
-  const ExactBody& b = bodies[static_cast<std::size_t>(ends.b)];
-  errors[0] = b.x + (b.c * ends.bx - b.s * ends.by) - a.x - (a.c * ends.ax - a.s * ends.ay);
-  errors[1] = b.y + (b.s * ends.bx + b.c * ends.by) - a.y - (a.s * ends.ax + a.c * ends.ay);
-  errors[2] = 0;
-  return true;
-}
-
 }  // namespace seam

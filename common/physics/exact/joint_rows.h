@@ -83,9 +83,8 @@ struct Pace {
 void FillJoint(const ExactJoint& joint, const JointEnds& ends, const std::vector<ExactBody>& bodies,
                const Pace& pace, Row* rows);
 
-/// The errors of its rows alone, if it is a hinge that has no others than those of its point and
-/// its motor, which has none. False: FillJoint finds them.
-bool PointErrors(const ExactJoint& joint, const JointEnds& ends,
+/// The errors of its rows alone, in their order. False: FillJoint finds them.
+bool JointErrors(const ExactJoint& joint, const JointEnds& ends,
                  const std::vector<ExactBody>& bodies, double* errors);
 
 /// The joint's stored impulses to its rows (warm start) as `share` of them, with their states.

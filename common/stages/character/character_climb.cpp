@@ -5,6 +5,10 @@
 ///             /|\__________           2  lead the shoulders up and over P
 ///   ~~~~~~~~~~ |~|  ledge             3  on the ledge, each hand that is behind reaches on
 ///             / \|                       until the legs are over, too
+///
+/// Before the wall legs hang: what they push it with, the hands must hold. An arm pulls less the
+/// more its hand bears. Where all of it lies still, as on arms that prop the chest up, hands let
+/// go: the chest goes down, and they reach on.
 
 #include <algorithm>
 #include <cmath>
@@ -67,6 +71,9 @@ bool CharacterControl::RaiseArm(const CharacterSense& s, int side, b2Vec2 tip, b
 
 /// The arm pulls the body by `force` N from where the hand holds. Arms are taken as massless.
 void CharacterControl::PullWith(int side, b2Vec2 force) {
+  // Less than wished for, where the hand bears nearly all that it can: else it would let go.
+  const float spare = 1 - memory_.load[side] / hands_.Strength(side);
+  force *= std::clamp(spare / (1 - gains_.climb_ease), 0.0f, 1.0f);
   const b2Vec2 tip = limbs_.Own(hands_.Tip(side));
   const b2Vec2 shoulder = limbs_.At(Shoulder(side)), elbow = limbs_.At(Elbow(side));
   float turn = -b2Cross(tip - shoulder, force);
@@ -78,13 +85,13 @@ void CharacterControl::PullWith(int side, b2Vec2 force) {
                   limbs_.bound(Elbow(side)) / std::max(std::abs(bend), 1e-6f)});
     turn *= share;
     bend *= share;
-  } else {
-    // Elbows that are straight stay so, whatever pulls: they bend as for a pull along the arm.
-    b2Vec2 line = tip - shoulder;
-    line.Normalize();
-    const float lever = std::abs(b2Cross(tip - elbow, line)) + gains_.climb_lever * limbs_.scale();
-    bend = std::max(bend, gains_.climb_bend * force.Length() * lever);
   }
+  // Elbows that are straight stay so, whatever pulls: they bend as for a pull along the arm.
+  b2Vec2 line = tip - shoulder;
+  line.Normalize();
+  const float along = memory_.phase == 0 ? force.Length() : std::max(b2Dot(force, line), 0.0f);
+  const float lever = std::abs(b2Cross(tip - elbow, line)) + gains_.climb_lever * limbs_.scale();
+  if (along > 0) bend = std::max(bend, gains_.climb_bend * along * lever);
   limbs_.Torque(Shoulder(side), turn);
   limbs_.Torque(Elbow(side), bend);
 }
@@ -141,6 +148,15 @@ bool CharacterControl::ReachesOn(int side, b2Vec2 tip, b2Vec2 shoulder) const {
   return tip.y < memory_.from.y - 0.1f * m && tip.y < shoulder.y + gains_.climb_again * m;
 }
 
+/// Legs before the wall.
+void CharacterControl::Hang() {
+  for (int side = 0; side < 2; ++side) {
+    Pose(Hip(side), gains_.climb_hang_hip, gains_.climb_hang);
+    Pose(Knee(side), gains_.climb_hang_knee, gains_.climb_hang);
+    Pose(Ankle(side), -0.5f, gains_.swim_ankle);
+  }
+}
+
 void CharacterControl::Climb(const CharacterSense& s, float h) {
   const float m = limbs_.scale();
   const float reach = limbs_.shape().upper_arm + limbs_.shape().lower_arm;
@@ -167,6 +183,13 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
   const float above = (shoulder.y - edge.y) / m;
   if (above > gains_.climb_above) memory_.phase = 1;
   if (above < gains_.climb_above - 0.1f && !on) memory_.phase = 0;
+  // Hands that hold it where it lies and get it no further let go, and reach on.
+  const bool still = on && s.velocity.LengthSquared() < gains_.climb_still * gains_.climb_still * m;
+  memory_.phase_time = still ? memory_.phase_time + h : 0;
+  if (memory_.phase_time > gains_.climb_stuck) {
+    memory_.phase_time = 0;
+    for (float& hold : memory_.hold) hold = -gains_.climb_flop;
+  }
   const int holding = (hands_.holds(0) ? 1 : 0) + (hands_.holds(1) ? 1 : 0);
   for (int side = 0; side < 2; ++side) {
     if (!hands_.has(side)) continue;
@@ -188,6 +211,10 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
       there.Set(across, std::sqrt(reach * reach - across * across));
     }
     const b2Vec2 tip = limbs_.Own(hands_.Tip(side));
+    if (memory_.phase == 1 && memory_.hold[side] < -gains_.climb_rest) {  // the chest goes down
+      ReachWith(s, side, b2Vec2(0.9f * reach, gains_.climb_lifted * m));
+      continue;
+    }
     const b2Vec2 missing = there + shoulder - tip;
     const bool lies = memory_.phase == 1 && tip.x > edge.x && tip.x > shoulder.x;
     const bool close = lies || missing.Length() < gains_.climb_close * m;
@@ -200,7 +227,11 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
   const bool bent = s.centre.x < edge.x + gains_.climb_flat * m && s.torso > -gains_.climb_down &&
                     s.hip.x > edge.x - 0.35f * m;
   if (memory_.phase == 0) {
-    Tread(s, h);
+    if (holding > 0) {
+      Hang();
+    } else {
+      Tread(s, h);
+    }
   } else {
     for (int side = 0; side < 2; ++side) {
       Pose(Hip(side), bent ? gains_.climb_hip : gains_.climb_straight, gains_.swim_hip);

@@ -39,7 +39,7 @@ struct CharacterMemory {
   b2Vec2 edge{kNoEdge, 0};  ///< m; kStep: of the first stair before it
   float speed = 0;          ///< m/s that is wished for now
   int phase = 0;            ///< kRise: of the way up
-  float phase_time = 0;     ///< s in it; kSwim: turns of the arms
+  float phase_time = 0;     ///< s in it; kSwim: turns of the arms; kClimb: s that it lies still
   float hold[2] = {};       ///< 1: the hand is to hold what it touches; -x: for x s it cannot
   float load[2] = {};       ///< N; what each hand bears, the mean of the last moment
   float limp = 0;           ///< s that it stays limp after a blow or a command
@@ -161,6 +161,7 @@ class CharacterControl {
   b2Vec2 PullTo(const CharacterSense& s, b2Vec2 tip) const;
   bool ReachesOn(int side, b2Vec2 tip, b2Vec2 shoulder) const;
   void LetGo();
+  void Hang();
 
   /// N m: weight x height, by which all gains are in proportion.
   float unit() const { return unit_; }

@@ -51,6 +51,8 @@ class Corrector {
   void PullCopies();
   /// After a change of roles, or of who is near: bodies become dynamic, led, absent or kinematic.
   void FollowRoles();
+  /// Messages of ticks or edits still to come.
+  std::size_t waiting() const { return waiting_.size(); }
 
  private:
   /// An entry of a States message, and the body that it is of.

@@ -41,6 +41,7 @@ Received Corrector::Receive(const States& states) {
     const int body = world_.BodyOfId(states.id[i]);
     if (!IsNews(states, i, body, &result)) continue;
     memory_.track(body).heard_tick = states.tick;
+    memory_.track(body).heard_epoch = states.epoch[i];
     if (ReceiveOne(states, i, body)) to_correct.emplace_back(i, body);
   }
   const std::map<int, BodyState> common = CommonDifferences(states, to_correct);

@@ -43,6 +43,7 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
     BodyState there = WithinLimits(StateOf(exact, i), world_.scene().speed_limit);
     memory_.snapshots().Add(body, exact.tick, there);
     track.heard_tick = exact.tick;
+    track.heard_epoch = exact.epoch[i];
     const bool simulated = track.placed && world_.motion(body) == Motion::kDynamic;
     if (!simulated) continue;
     const std::int64_t from = std::min(exact.tick, now);

@@ -47,6 +47,9 @@ void EachDriven(const World& world, const Visit& visit) {
   for (const Character& character : scene.characters) {
     add_part(character.player, character.parts[kTorso]);
   }
+  for (const Part& part : scene.parts) {
+    if (!part.gone) add_part(part.conveyor->player, part.id);
+  }
 }
 
 }  // namespace
@@ -62,7 +65,7 @@ void Drivers::Find() {
   });
   for (const Part& part : scene.parts) {
     const int player = PlayerOf(scene, part.conveyor->player);
-    if (player >= 0) belts_[static_cast<std::size_t>(player)] = 1;
+    if (player >= 0 && MechanismOf(world_, part.id) < 0) belts_[static_cast<std::size_t>(player)] = 1;
   }
   for (std::vector<int>& all : driven_) {
     std::sort(all.begin(), all.end());

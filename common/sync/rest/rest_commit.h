@@ -56,14 +56,21 @@ class RestCommit {
   bool Receive(const Rest& rest);
   /// What this peer committed in the last step; `utime` is left 0.
   std::vector<Rest> Take();
-  /// All that rests, for one who joins or has lost it; only this peer's own bodies if `own`.
-  std::vector<Rest> Everything(bool own) const;
+  /// All that rests, for one who joins.
+  std::vector<Rest> Everything() const;
+  /// The same for one who has lost it, which may have heard something else since: what is held lies
+  /// so after this tick, too. Only this peer's own bodies if `own`.
+  std::vector<Rest> Again(bool own) const;
 
   /// Whether the body lies committed, and is to be corrected, replayed and driven by nothing.
   bool Holds(int body) const { return memory_.track(body).at_rest; }
   /// Whether every body lies so.
   bool all() const;
   std::uint64_t Hash() const { return table_.Hash(world_); }
+  /// What is known of a body's rest.
+  const RestRecord& record(int body) const { return table_.at(body); }
+  /// Messages of ticks still to come.
+  std::size_t waiting() const { return waiting_.size(); }
 
  private:
   /// What disturbed a body that is held.

@@ -84,12 +84,23 @@ std::vector<Rest> RestCommit::Take() {
   return out;
 }
 
-std::vector<Rest> RestCommit::Everything(bool own) const {
+std::vector<Rest> RestCommit::Everything() const {
   std::vector<int> bodies;
   for (int body = 0; body < world_.body_count(); ++body) {
-    if (table_.at(body).committed && (!own || Own(body))) bodies.push_back(body);
+    if (table_.at(body).committed) bodies.push_back(body);
   }
   return table_.Pack(world_, roles_.self(), bodies);
+}
+
+std::vector<Rest> RestCommit::Again(bool own) const {
+  std::vector<int> held;
+  for (int body = 0; body < world_.body_count(); ++body) {
+    const bool told = !own || Own(body);
+    if (told && table_.at(body).committed && Holds(body)) held.push_back(body);
+  }
+  std::vector<Rest> out = table_.Pack(world_, roles_.self(), held);
+  for (Rest& rest : out) rest.tick = std::max(rest.tick, world_.tick());
+  return out;
 }
 
 bool RestCommit::Receive(const Rest& rest) {
@@ -120,16 +131,27 @@ bool RestCommit::ReceiveOne(const Rest& rest, std::size_t i) {
   BodyTrack& track = memory_.track(body);
   const bool places = !track.placed;
   if (!places && Own(body)) return false;
-  if (rest.revision < track.changed_at || rest.tick < track.heard_tick) return false;
-  if (table_.at(body).committed && rest.tick < table_.at(body).tick) return false;
+  if (rest.revision < track.changed_at) return false;
+  // Another authority's clock may be ahead of this one's: its word counts from its epoch on.
+  if (rest.epoch[i] <= track.heard_epoch && rest.tick < track.heard_tick) return false;
+  const RestRecord& known = table_.at(body);
+  if (known.committed && rest.epoch[i] <= known.epoch && rest.tick < known.tick) return false;
   BodyState pose;
   pose.position = Vec2(rest.x[i], rest.y[i]);
   pose.angle = rest.angle[i];
-  if (!places && WokenSince(body, rest.tick, pose)) return false;
+  if (!places && WokenSince(body, rest.tick, pose)) {
+    // It goes on until its authority says that it moves, or goes back to where that says it rests.
+    table_.Commit(body, rest.epoch[i], rest.tick, pose);
+    track.heard_tick = rest.tick;
+    track.heard_epoch = rest.epoch[i];
+    if (disturbed(body).freed_tick < 0) LetGo(body);
+    return false;
+  }
   const BodyState moved = Minus(pose, world_.Read(body));
   table_.Commit(body, rest.epoch[i], rest.tick, pose);
   track.at_rest = track.placed = true;
   track.heard_tick = rest.tick;
+  track.heard_epoch = rest.epoch[i];
   track.asleep_since = world_.tick();
   track.pull.arrived = -1;
   disturbed(body) = Disturbance{};

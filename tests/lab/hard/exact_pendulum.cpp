@@ -81,7 +81,15 @@ std::unique_ptr<Judge> EnergyKept(const Scene& scene) {
 std::vector<HardCase> PendulumCases() {
   const std::string energy = "worst change of energy over 60 s, of what there is to fall";
   return {
-      {"pendulum-double", "double-pendulum", Truth::kFormula, "J/J", energy, 60, EnergyKept, {}},
+      {"pendulum-double",
+       "double-pendulum",
+       Truth::kFormula,
+       "J/J",
+       energy,
+       60,
+       EnergyKept,
+       {},
+       {1, 2, 3}},
       {"pendulum-energy", "pendulum", Truth::kFormula, "J/J", energy, 60, EnergyKept, {}},
       {"pendulum-period",
        "pendulum",

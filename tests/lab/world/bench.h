@@ -28,6 +28,7 @@ TextTable GroupingMovingBench(bool quick);
 TextTable JointsBench(bool quick);
 TextTable CharactersBench(bool quick);
 TextTable FactorBench(bool quick);
+TextTable PlannerBench(bool quick);
 
 /// CPU seconds of this process so far.
 double CpuSeconds();

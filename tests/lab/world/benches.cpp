@@ -16,6 +16,7 @@ const std::vector<WorldBench>& WorldBenches() {
       {"joints", JointsBench},
       {"characters", CharactersBench},
       {"factor", FactorBench},
+      {"planner", PlannerBench},
   };
   return benches;
 }

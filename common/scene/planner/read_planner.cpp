@@ -1,0 +1,23 @@
+#include "common/scene/planner/planner_rules.h"
+#include "common/scene/scene_draft.h"
+
+namespace seam {
+
+void ReadPlanner(const SceneReader& root, SceneDraft* draft) {
+  const TomlNode* table = root.Table("planner");
+  if (table == nullptr) return;
+  const SceneReader r(*table, draft->file, "planner", {"acquire", "keep", "dwell", "capacity"});
+  PlannerRules rules;
+  rules.given = true;
+  rules.acquire = r.Number("acquire", {1, 1000}, rules.acquire);
+  rules.keep = r.Number("keep", {1, 2000}, rules.acquire * 1.5f);
+  rules.dwell_s = r.Seconds("dwell", {0, 10}, rules.dwell_s);
+  rules.capacity = r.Integer("capacity", {0, 65535}, rules.capacity);
+  if (rules.keep < rules.acquire) {
+    r.FailAt("keep", "keep must be at least acquire (" + Decimal(rules.acquire) +
+                         "): who keeps less than it takes would change all the time");
+  }
+  draft->scene.planner.Set(rules);
+}
+
+}  // namespace seam

@@ -1,0 +1,115 @@
+#include "server/authority/authority_view.h"
+
+#include <algorithm>
+
+#include "common/physics/part_places.h"
+#include "common/scene/part_rules.h"
+#include "common/scene/planner/planner_rules.h"
+#include "common/sync/lease.h"
+#include "common/sync/reach/reach.h"
+#include "server/authority/authority_manager.h"
+
+namespace seam {
+
+bool PlansIslands(const Scene& scene) {
+  const bool regions = std::any_of(scene.players.begin(), scene.players.end(),
+                                   [](const Player& player) { return player.has_region; });
+  return scene.planner->given || !regions;
+}
+
+std::vector<int> RestrictedParts(const Scene& scene) {
+  std::vector<int> restricted;
+  for (const Part& part : scene.parts) {
+    if (!part.rules->push.everyone()) restricted.push_back(part.id);
+  }
+  return restricted;
+}
+
+AuthorityView AuthorityManager::Look(const Situation& situation) {
+  AuthorityView view;
+  view.mode = config_.mode;
+  view.tick_hz = config_.tick_hz;
+  view.buffer_m = scene_.buffer_m;
+  view.follow_bodies = scene_.follow_bodies;
+  view.server_follow = scene_.server_follow;
+  view.physics_edits = physics_edits_;
+  view.islands = islands_;
+  view.rules = *scene_.planner;
+  view.together = situation.together;
+  view.players.reserve(scene_.players.size());
+  for (std::size_t p = 0; p < scene_.players.size(); ++p) {
+    const Player& player = scene_.players[p];
+    PlayerView seen;
+    seen.peer = situation.peer_of_player[p];
+    seen.one_way_s = p < situation.one_way_s.size() ? situation.one_way_s[p] : 0;
+    seen.has_region = player.has_region && !islands_;
+    seen.region_min = player.region_min;
+    seen.region_max = player.region_max;
+    seen.silent = situation.silent.Has(std::max(0, seen.peer));
+    if (view.rules.capacity > 0) seen.capacity = view.rules.capacity;
+    view.players.push_back(seen);
+  }
+  const World& world = replica_.world();
+  LookAtMechanisms(&view);
+  const bool boxes = config_.mode == Mode::kBuffer || (islands_ && config_.mode == Mode::kStrict);
+  if (boxes) view.boxes = BoxesOf(world, replica_.drivers(), true);
+  // Who may not push a part does not get its authority.
+  for (const int id : restricted_) {
+    const int mechanism = MechanismOf(world, static_cast<PartId>(id));
+    if (mechanism < 0) continue;
+    view.mechanisms[static_cast<std::size_t>(mechanism)].may_have &=
+        world.scene().parts[static_cast<std::size_t>(id)].rules->push;
+  }
+  return view;
+}
+
+void AuthorityManager::LookAtCapacity(std::int64_t now_us, const Situation& situation,
+                                      AuthorityView* view) {
+  if (situation.load.empty()) return;
+  for (std::size_t p = 0; p < view->players.size(); ++p) {
+    PlayerView& player = view->players[p];
+    // What it was planned to step is only counted where it matters: nearly nobody's.
+    const auto steps = [&] {
+      int bodies = 0;
+      for (const MovingBox& box : view->boxes) {
+        const AuthorityRecord& now = view->mechanisms[static_cast<std::size_t>(box.group)].now;
+        bodies += now.authority == player.peer || now.secondaries.Has(player.peer) ? 1 : 0;
+      }
+      return bodies;
+    };
+    const int capacity = capacity_.Look(p, now_us, player.peer, situation.load[p], steps);
+    player.capacity = std::min(player.capacity, capacity);
+  }
+}
+
+void AuthorityManager::LookAtMechanisms(AuthorityView* view) {
+  const World& world = replica_.world();
+  view->mechanisms.reserve(static_cast<std::size_t>(table().count()));
+  for (int m = 0; m < table().count(); ++m) {
+    const Mechanism& mechanism = world.composition().mechanisms[static_cast<std::size_t>(m)];
+    Memory& memory = memory_[static_cast<std::size_t>(m)];
+    MechanismView seen;
+    const int root = world.BodyOfId(mechanism.id);
+    const BodyState state = world.Read(root);
+    seen.position = state.position;
+    seen.owner = seen.driver = mechanism.owner;
+    seen.moves = world.awake(root) && state.velocity.norm() > kMissed;
+    seen.asleep = !world.awake(root);
+    seen.now = table().at(m);
+    if (seen.now.authority != memory.last_authority) {
+      memory.last_authority = seen.now.authority;
+      memory.changed_tick = world.tick();
+    }
+    seen.held_ticks = world.tick() - memory.changed_tick;
+    view->mechanisms.push_back(seen);
+  }
+  if (!islands_) return;
+  for (int p = 0; p < static_cast<int>(view->players.size()); ++p) {
+    for (const int m : replica_.drivers().MechanismsOf(p)) {
+      MechanismView& seen = view->mechanisms[static_cast<std::size_t>(m)];
+      if (seen.driver < 0 && replica_.drivers().Driven(m)) seen.driver = p;
+    }
+  }
+}
+
+}  // namespace seam

@@ -1,0 +1,55 @@
+#pragma once
+/// Boxes by cells of 8 m, in flat arrays: which of them may be near a rectangle, without a look at
+/// all of them.
+
+#include <algorithm>
+#include <vector>
+
+#include "common/sync/reach/zones.h"
+
+namespace seam {
+
+class BoxGrid {
+ public:
+  /// `boxes` must outlive the grid and stay as they are.
+  explicit BoxGrid(const std::vector<MovingBox>& boxes);
+
+  /// Calls `visit` (an index of the boxes) once for each box that overlaps the rectangle, and for
+  /// some that lie a few cells beside it.
+  template <class Visit>
+  void Near(const Vec2& min, const Vec2& max, const Visit& visit) const {
+    for (const int i : large_) visit(i);
+    if (items_.empty()) return;
+    const int from = Column(min.x() - widest_), to = Column(max.x() + widest_);
+    const int top = Row(max.y() + widest_);
+    for (int row = Row(min.y() - widest_); row <= top; ++row) {
+      const int begin = start_[Cell(from, row)], end = start_[Cell(to, row) + 1];
+      for (int k = begin; k < end; ++k) visit(items_[static_cast<std::size_t>(k)]);
+    }
+  }
+
+  /// m; normal 8. Larger only where the boxes are spread over very many cells.
+  static constexpr float kCell = 8;
+
+ private:
+  // What lies beyond the border is in the border's cells, and so is the question for it.
+  static int Index(float at, int count) {
+    return static_cast<int>(std::clamp(at, 0.0f, static_cast<float>(count - 1)));
+  }
+  int Column(float x) const { return Index((x - low_.x()) / cell_, columns_); }
+  int Row(float y) const { return Index((y - low_.y()) / cell_, rows_); }
+  std::size_t Cell(int column, int row) const {
+    return static_cast<std::size_t>(row * columns_ + column);
+  }
+  void ChooseCells(const std::vector<Vec2>& centres);
+
+  Vec2 low_{0, 0};
+  float cell_ = kCell;
+  int columns_ = 1, rows_ = 1;
+  float widest_ = 0;        // half of the longest side of those in cells, m
+  std::vector<int> start_;  // by cell: where its boxes begin in items_; one more at the end
+  std::vector<int> items_;  // by cells, row by row: indices of the boxes
+  std::vector<int> large_;  // too large for cells
+};
+
+}  // namespace seam

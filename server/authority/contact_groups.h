@@ -1,0 +1,21 @@
+#pragma once
+/// Which mechanisms may come into contact before a grant could tell anyone, and through whom.
+
+#include <vector>
+
+#include "server/authority/nearby.h"
+
+namespace seam {
+
+/// By mechanism. `soon` looks as far ahead as ZoneSeconds says, `later` kZoneKeep farther.
+struct ContactGroups {
+  std::vector<int> soon, later;  ///< the lowest of those that it may touch, directly or not
+  /// 1: it may touch one that the server has, or has one and may touch.
+  std::vector<char> server_soon, server_later;
+};
+
+/// Of mechanisms with the planned authorities. `nearby`: of the view.
+ContactGroups FindContactGroups(const AuthorityView& view, const AuthorityPlan& plan,
+                                const Nearby& nearby);
+
+}  // namespace seam

@@ -1,0 +1,77 @@
+#pragma once
+/// How far a box is from the nearest of some others, without a look at all of them.
+
+#include <algorithm>
+#include <cfloat>
+#include <cmath>
+#include <vector>
+
+#include "common/sync/reach/zones.h"
+
+namespace seam {
+
+class NearestBox {
+ public:
+  /// Sorts a part of `indices` of the boxes as the constructor wants it: by their left sides.
+  static void Sort(const std::vector<MovingBox>& boxes, int begin, int end,
+                   std::vector<int>* indices) {
+    const auto left = [&](int i) { return boxes[static_cast<std::size_t>(i)].min.x(); };
+    std::sort(indices->begin() + begin, indices->begin() + end,
+              [&](int a, int b) { return left(a) != left(b) ? left(a) < left(b) : a < b; });
+  }
+
+  /// From the boxes that `indices`, sorted, name from `begin` on and before `end`. All must outlive
+  /// this.
+  NearestBox(const std::vector<MovingBox>& boxes, const std::vector<int>& indices, int begin,
+             int end)
+      : boxes_(boxes), indices_(indices), begin_(begin), end_(end) {
+    for (int k = begin; k < end; ++k) {
+      widest_ = std::max(widest_, At(k).max.x() - At(k).min.x());
+    }
+  }
+
+  /// m, as Gap; FLT_MAX: there are none.
+  float DistanceTo(const MovingBox& box) const {
+    // The first that begins right of it; from there to both sides, until the way along x alone is
+    // longer than the best.
+    int right = begin_, count = end_ - begin_;
+    while (count > 0) {
+      const int half = count / 2;
+      if (At(right + half).min.x() < box.min.x()) {
+        right += half + 1;
+        count -= half + 1;
+      } else {
+        count = half;
+      }
+    }
+    float best = FLT_MAX;  // m^2
+    for (int k = right; k < end_; ++k) {
+      const float way = At(k).min.x() - box.max.x();
+      if (way > 0 && way * way > best) break;
+      best = std::min(best, Square(box, At(k)));
+    }
+    for (int k = right - 1; k >= begin_; --k) {
+      const float way = box.min.x() - (At(k).min.x() + widest_);
+      if (way > 0 && way * way > best) break;
+      best = std::min(best, Square(box, At(k)));
+    }
+    return best == FLT_MAX ? FLT_MAX : std::sqrt(best);
+  }
+
+ private:
+  const MovingBox& At(int k) const {
+    return boxes_[static_cast<std::size_t>(indices_[static_cast<std::size_t>(k)])];
+  }
+  static float Square(const MovingBox& a, const MovingBox& b) {
+    const float x = std::max({a.min.x() - b.max.x(), b.min.x() - a.max.x(), 0.0f});
+    const float y = std::max({a.min.y() - b.max.y(), b.min.y() - a.max.y(), 0.0f});
+    return x * x + y * y;
+  }
+
+  const std::vector<MovingBox>& boxes_;
+  const std::vector<int>& indices_;
+  const int begin_, end_;
+  float widest_ = 0;  // m along x
+};
+
+}  // namespace seam

@@ -1,0 +1,298 @@
+#include "server/authority/plan_followers.h"
+
+#include <algorithm>
+#include <cfloat>
+#include <tuple>
+#include <utility>
+
+#include "server/authority/contact_groups.h"
+#include "server/authority/nearest_box.h"
+#include "server/authority/player_of_peer.h"
+
+namespace seam {
+namespace {
+
+/// Beyond this no distance matters in a room that is not followed whole, m; a little more than
+/// that, for rounding.
+constexpr float kReachMax = kFollowFar + kHysteresis + 0.1f;
+
+class Followers {
+ public:
+  Followers(const AuthorityView& view, const Nearby& nearby, AuthorityPlan* plan)
+      : view_(view),
+        plan_(*plan),
+        players_(view),
+        nearby_(nearby),
+        crowded_(view.boxes.size() > static_cast<std::size_t>(std::max(0, view.follow_bodies))),
+        bodies_(plan->size(), 0),
+        steps_(view.players.size(), 0),
+        own_begin_(view.players.size() + 1, 0),
+        distance_(plan->size(), FLT_MAX),
+        seen_by_(plan->size(), -1) {
+    ListOwn();
+  }
+
+  void Plan() {
+    const ContactGroups contacts = FindContactGroups(view_, plan_, nearby_);
+    FollowAtServer(contacts);
+    FollowGroups(contacts.soon, false);
+    FollowGroups(contacts.later, true);
+    for (std::size_t p = 0; p < view_.players.size(); ++p) {
+      if (view_.players[p].peer > 0) FollowNear(p);
+    }
+  }
+
+ private:
+  PlannedAuthority& planned(int m) { return plan_[static_cast<std::size_t>(m)]; }
+  const AuthorityRecord& now(int m) const {
+    return view_.mechanisms[static_cast<std::size_t>(m)].now;
+  }
+
+  /// The boxes by the player whose peer is planned to have them, and how many bodies each steps.
+  void ListOwn() {
+    std::vector<int> player_of(view_.boxes.size(), -1);
+    for (std::size_t i = 0; i < view_.boxes.size(); ++i) {
+      const auto m = static_cast<std::size_t>(view_.boxes[i].group);
+      ++bodies_[m];
+      player_of[i] = plan_[m].authority > 0 ? players_.At(plan_[m].authority) : -1;
+      if (player_of[i] >= 0) ++steps_[static_cast<std::size_t>(player_of[i])];
+    }
+    for (std::size_t p = 0; p < steps_.size(); ++p) own_begin_[p + 1] = own_begin_[p] + steps_[p];
+    own_.resize(static_cast<std::size_t>(own_begin_.back()));
+    std::vector<int> next(own_begin_.begin(), own_begin_.end() - 1);
+    for (std::size_t i = 0; i < player_of.size(); ++i) {
+      if (player_of[i] < 0) continue;
+      own_[static_cast<std::size_t>(next[static_cast<std::size_t>(player_of[i])]++)] =
+          static_cast<int>(i);
+    }
+    for (std::size_t p = 0; p < steps_.size(); ++p) {
+      NearestBox::Sort(view_.boxes, own_begin_[p], own_begin_[p + 1], &own_);
+    }
+  }
+
+  bool limited(std::size_t player) const {
+    return view_.players[player].capacity != PlayerView::kUnlimited;
+  }
+
+  /// Makes the player's peer follow, unless it does already. One whose capacity is limited follows
+  /// by FollowWithin instead.
+  void Follow(std::size_t player, int m) {
+    const int peer = view_.players[player].peer;
+    PlannedAuthority& of = planned(m);
+    if (of.authority == peer || of.secondaries.Has(peer)) return;
+    if (limited(player)) {
+      wanted_.push_back({static_cast<int>(player), m});
+      return;
+    }
+    of.secondaries.Add(peer);
+    steps_[player] += bodies_[static_cast<std::size_t>(m)];
+  }
+
+  /// Adds the server to what may come into contact with something of its own, or to everything if
+  /// the room is small: its copies are what spectators of its view see. Of a large one it is
+  /// relieved.
+  void FollowAtServer(const ContactGroups& contacts) {
+    PeerSet silent;
+    for (const PlayerView& player : view_.players) {
+      if (player.silent && player.peer > 0) silent.Add(player.peer);
+    }
+    const bool small = view_.boxes.size() <= static_cast<std::size_t>(view_.server_follow);
+    for (std::size_t m = 0; m < plan_.size(); ++m) {
+      PlannedAuthority& of = plan_[m];
+      const bool follows = view_.mechanisms[m].now.secondaries.Has(0);
+      const bool meets = (follows ? contacts.server_later[m] : contacts.server_soon[m]) != 0;
+      const bool alone = silent.Has(of.authority) && view_.mechanisms[m].moves;
+      if (of.authority != 0 && (small || view_.physics_edits || meets || alone)) {
+        of.secondaries.Add(0);
+      }
+    }
+  }
+
+  /// What may come into contact with something of a peer's, directly or through others, that peer
+  /// follows; `keep`: if it follows it now.
+  void FollowGroups(const std::vector<int>& group, bool keep) {
+    const std::size_t count = group.size();
+    std::vector<int> begin(count + 1, 0), members(count), next;
+    for (const int g : group) ++begin[static_cast<std::size_t>(g) + 1];
+    for (std::size_t g = 0; g < count; ++g) begin[g + 1] += begin[g];
+    next.assign(begin.begin(), begin.end() - 1);
+    for (std::size_t m = 0; m < count; ++m) {
+      members[static_cast<std::size_t>(next[static_cast<std::size_t>(group[m])]++)] =
+          static_cast<int>(m);
+    }
+    std::vector<int> last_group(view_.players.size(), -1);
+    std::vector<std::size_t> holders;
+    for (std::size_t g = 0; g < count; ++g) {
+      if (begin[g + 1] - begin[g] < 2) continue;
+      holders.clear();
+      for (int k = begin[g]; k < begin[g + 1]; ++k) {
+        const int has = planned(members[static_cast<std::size_t>(k)]).authority;
+        const int player = has > 0 ? players_.At(has) : -1;
+        if (player < 0 || last_group[static_cast<std::size_t>(player)] == static_cast<int>(g)) {
+          continue;
+        }
+        last_group[static_cast<std::size_t>(player)] = static_cast<int>(g);
+        holders.push_back(static_cast<std::size_t>(player));
+      }
+      for (int k = begin[g]; k < begin[g + 1]; ++k) {
+        const int m = members[static_cast<std::size_t>(k)];
+        for (const std::size_t player : holders) {
+          if (!keep || now(m).secondaries.Has(view_.players[player].peer)) Follow(player, m);
+        }
+      }
+    }
+  }
+
+  void FollowNear(std::size_t player) {
+    Measure(player);
+    const int peer = view_.players[player].peer;
+    if (limited(player)) return FollowWithin(player);
+    for (const int m : seen_) {
+      const bool follows = now(m).secondaries.Has(peer);
+      const float reach = view_.buffer_m + (follows ? kHysteresis : 0.0f);
+      if (distance_[static_cast<std::size_t>(m)] <= reach) Follow(player, m);
+    }
+    FollowNearest(player);
+  }
+
+  /// By mechanism that is seen: how far its nearest box is from the player's region or from a box
+  /// of its own, m. Of what is farther than the buffer zone only the distance from the box around
+  /// all of its own is known. In a room that is not followed whole what is farther than kReachMax
+  /// is not seen.
+  void Measure(std::size_t p) {
+    const PlayerView& player = view_.players[p];
+    const float near = view_.buffer_m + kHysteresis;
+    MovingBox all;
+    for (int k = own_begin_[p]; k < own_begin_[p + 1]; ++k) {
+      const MovingBox& box = Own(k);
+      all.min = k == own_begin_[p] ? box.min : all.min.cwiseMin(box.min);
+      all.max = k == own_begin_[p] ? box.max : all.max.cwiseMax(box.max);
+    }
+    const bool any = own_begin_[p] < own_begin_[p + 1];
+    const NearestBox near_own(view_.boxes, own_, own_begin_[p], own_begin_[p + 1]);
+    seen_.clear();
+    const auto from_own = [&](int i) {
+      const MovingBox& box = view_.boxes[static_cast<std::size_t>(i)];
+      const float around = any ? Gap(box, all) : FLT_MAX;
+      See(box.group, static_cast<int>(p), around > near ? around : near_own.DistanceTo(box));
+    };
+    const MovingBox region{player.region_min, player.region_max, {0, 0}, 0, -1};
+    const auto from_region = [&](int i) {
+      const MovingBox& box = view_.boxes[static_cast<std::size_t>(i)];
+      See(box.group, static_cast<int>(p), Gap(box, region));
+    };
+    if (!crowded_) {
+      for (int m = 0; m < static_cast<int>(plan_.size()); ++m) See(m, static_cast<int>(p), FLT_MAX);
+      for (int i = 0; i < static_cast<int>(view_.boxes.size()); ++i) {
+        from_own(i);
+        if (player.has_region) from_region(i);
+      }
+      return;
+    }
+    const float far = std::max(kReachMax, near);
+    const Vec2 reach(far, far);
+    if (any) nearby_.grid.Near(all.min - reach, all.max + reach, from_own);
+    if (player.has_region) {
+      nearby_.grid.Near(region.min - reach, region.max + reach, from_region);
+    }
+  }
+
+  void See(int mechanism, int player, float distance) {
+    const auto m = static_cast<std::size_t>(mechanism);
+    if (seen_by_[m] != player) {
+      seen_by_[m] = player;
+      distance_[m] = distance;
+      seen_.push_back(mechanism);
+    } else {
+      distance_[m] = std::min(distance_[m], distance);
+    }
+  }
+
+  /// Adds the peer to the nearest of what it does not follow yet, until it steps follow_bodies.
+  /// Where that is not all there is anyway, what is far away is left out.
+  void FollowNearest(std::size_t player) {
+    const int peer = view_.players[player].peer;
+    others_.clear();
+    for (const int m : seen_) {
+      if (planned(m).authority == peer || planned(m).secondaries.Has(peer)) continue;
+      const float far =
+          distance_[static_cast<std::size_t>(m)] - (now(m).secondaries.Has(peer) ? kHysteresis : 0);
+      if (!crowded_ || far <= kFollowFar) others_.emplace_back(far, m);
+    }
+    // The nearest first, as a heap: most of a crowd is never looked at.
+    const auto farther = [](const std::pair<float, int>& a, const std::pair<float, int>& b) {
+      return a > b;
+    };
+    std::make_heap(others_.begin(), others_.end(), farther);
+    while (!others_.empty()) {
+      std::pop_heap(others_.begin(), others_.end(), farther);
+      const int m = others_.back().second;
+      others_.pop_back();
+      if (steps_[player] + bodies_[static_cast<std::size_t>(m)] > view_.follow_bodies) return;
+      Follow(player, m);
+    }
+  }
+
+  /// One whose capacity is limited follows what it may meet, then its buffer zone, then the
+  /// nearest, as long as it can step that.
+  void FollowWithin(std::size_t player) {
+    const int peer = view_.players[player].peer;
+    within_.clear();
+    for (const auto& [wants, m] : wanted_) {
+      if (wants == static_cast<int>(player)) within_.push_back({0, DistanceOf(player, m), m});
+    }
+    for (const int m : seen_) {
+      const float far = DistanceOf(player, m);
+      const float reach = view_.buffer_m + (now(m).secondaries.Has(peer) ? kHysteresis : 0.0f);
+      if (far <= reach) {
+        within_.push_back({1, far, m});
+      } else if (!crowded_ || far <= kFollowFar) {
+        within_.push_back({2, far, m});
+      }
+    }
+    std::sort(within_.begin(), within_.end());
+    const int most = view_.players[player].capacity;
+    for (const auto& [rank, far, m] : within_) {
+      const int limit = rank == 2 ? std::min(most, view_.follow_bodies) : most;
+      PlannedAuthority& of = planned(m);
+      if (of.authority == peer || of.secondaries.Has(peer)) continue;
+      if (steps_[player] + bodies_[static_cast<std::size_t>(m)] > limit) continue;
+      of.secondaries.Add(peer);
+      steps_[player] += bodies_[static_cast<std::size_t>(m)];
+    }
+  }
+
+  /// FLT_MAX: not seen by it.
+  float DistanceOf(std::size_t player, int m) const {
+    const auto i = static_cast<std::size_t>(m);
+    return seen_by_[i] == static_cast<int>(player) ? distance_[i] : FLT_MAX;
+  }
+
+  const MovingBox& Own(int k) const {
+    return view_.boxes[static_cast<std::size_t>(own_[static_cast<std::size_t>(k)])];
+  }
+
+  const AuthorityView& view_;
+  AuthorityPlan& plan_;
+  const PlayerOfPeer players_;
+  const Nearby& nearby_;
+  const bool crowded_;
+  std::vector<int> bodies_;      // by mechanism
+  std::vector<int> steps_;       // by player: bodies of what it has and follows
+  std::vector<int> own_begin_;   // by player: where its boxes begin in own_
+  std::vector<int> own_;         // indices of the boxes
+  std::vector<float> distance_;  // by mechanism, for the player that seen_by_ says
+  std::vector<int> seen_by_;     // by mechanism
+  std::vector<int> seen_;        // mechanisms
+  std::vector<std::pair<float, int>> others_;
+  std::vector<std::pair<int, int>> wanted_;          // player, mechanism
+  std::vector<std::tuple<int, float, int>> within_;  // rank, m, mechanism
+};
+
+}  // namespace
+
+void PlanFollowers(const AuthorityView& view, const Nearby& nearby, AuthorityPlan* plan) {
+  Followers(view, nearby, plan).Plan();
+}
+
+}  // namespace seam

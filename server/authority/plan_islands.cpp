@@ -1,0 +1,140 @@
+#include "server/authority/plan_islands.h"
+
+#include <algorithm>
+#include <cfloat>
+
+#include "server/authority/dwell.h"
+#include "server/authority/islands.h"
+#include "server/authority/plan_capacity.h"
+#include "server/authority/swept_boxes.h"
+
+namespace seam {
+namespace {
+
+class IslandPlan {
+ public:
+  IslandPlan(const AuthorityView& view, const Nearby& nearby, AuthorityPlan* plan)
+      : view_(view),
+        plan_(*plan),
+        players_(view),
+        grid_(nearby.grid),
+        islands_(view, players_, nearby) {
+    near_player_.assign(view.mechanisms.size(), -1);
+    near_gap_.assign(view.mechanisms.size(), FLT_MAX);
+    for (const MovingBox& box : view.boxes) speed_ = std::max(speed_, box.velocity.norm());
+  }
+
+  void Plan() {
+    LookAround();
+    for (std::size_t i = 0; i < islands_.all().size(); ++i) Decide(static_cast<int>(i));
+    LimitToCapacity(view_, players_, islands_, &plan_);
+  }
+
+ private:
+  const PlayerView& player(int p) const { return view_.players[static_cast<std::size_t>(p)]; }
+  int PeerOf(int p) const { return p < 0 ? 0 : player(p).peer; }
+
+  /// For each vehicle: who will be touched by it, and what is near it.
+  void LookAround() {
+    const std::vector<MovingBox> around = islands_.VehicleBoxes(view_);
+    for (const MovingBox& vehicle : around) {
+      const int p = islands_.driver(vehicle.group);
+      if (!player(p).silent) LookNear(vehicle, p);
+    }
+    for (const MovingBox& box : view_.boxes) {
+      const int p = islands_.driver(box.group);
+      if (p >= 0 && !player(p).silent) LookAhead(box, p);
+    }
+  }
+
+  void LookNear(const MovingBox& vehicle, int p) {
+    const Vec2 keep(view_.rules.keep, view_.rules.keep);
+    grid_.Near(vehicle.min - keep, vehicle.max + keep, [&](int b) {
+      const MovingBox& box = view_.boxes[static_cast<std::size_t>(b)];
+      const auto m = static_cast<std::size_t>(box.group);
+      const float gap = Gap(box, vehicle);
+      const bool nearer = gap < near_gap_[m] ||
+                          (gap == near_gap_[m] && near_player_[m] >= 0 && p < near_player_[m]);
+      if (nearer) {
+        near_gap_[m] = gap;
+        near_player_[m] = p;
+      }
+      Island& island = islands_.Of(box.group);
+      if (p == island.holder) island.holder_gap = std::min(island.holder_gap, gap);
+      if (gap < island.nearest_gap || (gap == island.nearest_gap && p < island.nearest)) {
+        island.nearest_gap = gap;
+        island.nearest = p;
+      }
+    });
+  }
+
+  void LookAhead(const MovingBox& own, int p) {
+    const float seconds = 2 * player(p).one_way_s + kPlanPeriod + kTouchAhead;
+    const float way = (own.velocity.norm() + std::min(speed_, kApproachMax)) * seconds + kTouchGap +
+                      own.acceleration * seconds * seconds / 2;
+    const Vec2 reach(way, way);
+    grid_.Near(own.min - reach, own.max + reach, [&](int b) {
+      const MovingBox& box = view_.boxes[static_cast<std::size_t>(b)];
+      Island& island = islands_.Of(box.group);
+      if (island.driver >= 0) return;  // it is who drives in it's
+      const float after = SecondsToTouch(own, box, kTouchGap, seconds);
+      if (after > seconds) return;
+      if (p == island.holder) island.holder_claims = true;
+      if (after < island.claim_s || (after == island.claim_s && p < island.claim)) {
+        island.claim_s = after;
+        island.claim = p;
+      }
+    });
+  }
+
+  /// The player who should have what nobody drives of an island; -1: the server.
+  int Choose(const Island& island) const {
+    if (island.driver >= 0) {
+      if (!island.disputed) return island.driver;
+      const bool within = islands_.Drives(island.holder, island);
+      return within ? island.holder : island.driver;
+    }
+    if (island.claim >= 0) return island.holder_claims ? island.holder : island.claim;
+    if (!island.awake) return -1;
+    if (island.holder >= 0 && island.holder_gap <= view_.rules.keep) return island.holder;
+    return island.nearest_gap <= view_.rules.acquire ? island.nearest : -1;
+  }
+
+  void Decide(int index) {
+    const Island& island = islands_.all()[static_cast<std::size_t>(index)];
+    const int chosen = Choose(island);
+    const bool stays = island.disputed && !island.Merges();
+    for (const int m : islands_.MembersOf(index)) {
+      const MechanismView& mechanism = view_.mechanisms[static_cast<std::size_t>(m)];
+      int& authority = plan_[static_cast<std::size_t>(m)].authority;
+      const int driver = islands_.driver(m);
+      const int current = players_.At(mechanism.now.authority);
+      if (Dwells(view_, players_, mechanism) || (driver < 0 && stays && current >= 0)) {
+        authority = mechanism.now.authority;
+      } else if (driver >= 0) {
+        authority = PeerOf(driver);
+      } else if (stays && near_player_[static_cast<std::size_t>(m)] >= 0) {
+        authority = PeerOf(near_player_[static_cast<std::size_t>(m)]);
+      } else {
+        authority = PeerOf(chosen);
+      }
+    }
+  }
+
+  const AuthorityView& view_;
+  AuthorityPlan& plan_;
+  const PlayerOfPeer players_;
+  const BoxGrid& grid_;
+  Islands islands_;
+  float speed_ = 0;               // of the fastest, m/s
+  std::vector<int> near_player_;  // by mechanism: whose vehicle is nearest, within rules.keep
+  std::vector<float> near_gap_;   // m
+};
+
+}  // namespace
+
+void PlanIslands(const AuthorityView& view, const Nearby& nearby, AuthorityPlan* plan) {
+  IslandPlan(view, nearby, plan).Plan();
+}
+
+}  // namespace seam

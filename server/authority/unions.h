@@ -1,0 +1,45 @@
+#pragma once
+/// Sets of things that are united pair by pair, in one flat array.
+
+#include <numeric>
+#include <vector>
+
+namespace seam {
+
+class Unions {
+ public:
+  /// Of 0..count - 1, each alone at first.
+  explicit Unions(std::size_t count) : up_(count) { std::iota(up_.begin(), up_.end(), 0); }
+
+  /// The lowest of its set.
+  int Find(int of) {
+    while (At(of) != of) {
+      At(of) = At(At(of));
+      of = At(of);
+    }
+    return of;
+  }
+  bool Same(int a, int b) { return Find(a) == Find(b); }
+  void Unite(int a, int b) {
+    a = Find(a);
+    b = Find(b);
+    if (a < b) {
+      At(b) = a;
+    } else {
+      At(a) = b;
+    }
+  }
+  /// By member: the lowest of its set.
+  std::vector<int> Lowest() {
+    std::vector<int> lowest(up_.size());
+    for (std::size_t i = 0; i < up_.size(); ++i) lowest[i] = Find(static_cast<int>(i));
+    return lowest;
+  }
+
+ private:
+  int& At(int i) { return up_[static_cast<std::size_t>(i)]; }
+
+  std::vector<int> up_;
+};
+
+}  // namespace seam

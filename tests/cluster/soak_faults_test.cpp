@@ -1,0 +1,106 @@
+/// Sessions in which everything goes wrong that can: each seed draws a scene, a method, a network,
+/// and what happens to each client when. The invariants hold at every virtual instant.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "tests/lab/jobs.h"
+#include "tests/support/soak.h"
+#include "tests/support/soak/fault_trace.h"
+#include "tests/support/soak/invariants.h"
+
+namespace seam {
+namespace {
+
+/// Sessions in a test, and of how many s each; a soak has more, of a minute each.
+constexpr int kRuns = 20, kRunsMax = 2000;
+constexpr double kSeconds = 20, kSecondsSoak = 60;
+
+/// Rooms of more players, and of this many bodies, have tests of their own.
+constexpr std::size_t kPlayersMost = 8, kPartsMost = 450;
+
+std::vector<std::string> Scenes() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator("scenes")) {
+    if (entry.path().extension() != ".toml") continue;
+    const Scene scene = LoadScene(entry.path());
+    const bool large = scene.players.size() > kPlayersMost || scene.parts.size() > kPartsMost;
+    if (!large) names.push_back(entry.path().stem());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+int FromEnvironment(const char* name, int otherwise) {
+  const char* const value = std::getenv(name);
+  return value == nullptr ? otherwise : std::atoi(value);
+}
+
+/// What was broken, a line each; the last line is for people.
+std::string Perform(const FaultPlan& plan) {
+  FaultRunner faults(plan);
+  Cluster cluster(faults.Config());
+  Invariants invariants(cluster, faults, plan.config.mode == "strict");
+  const bool traces = std::getenv("SEAM_SOAK_TRACE") != nullptr;
+  std::optional<FaultTrace> trace;
+  if (traces) trace.emplace(plan);
+  cluster.each_instant = [&] {
+    if (traces) trace->Look(cluster);
+    invariants.Look();
+    faults.Act(cluster);
+  };
+  cluster.Run();
+  if (traces) std::fflush(stdout);
+  std::ostringstream out;
+  for (const auto& [what, broken] : invariants.broken()) {
+    out << what << "; " << broken.times << " times; " << broken.first << "\n";
+  }
+  out << plan.name << "; looked " << invariants.compared() << ", rest " << invariants.reached_rest()
+      << ", " << invariants.fastest() << " m/s;";
+  for (const auto& [queue, most] : invariants.queues()) out << " " << queue << " " << most << ",";
+  out << " " << (cluster.server_cpu_us() + cluster.client_cpu_us()) * 1e-6 << " s";
+  return out.str();
+}
+
+TEST(SoakFaultsCluster, EverySeedKeepsItsInvariantsAtEveryInstant) {
+  const int count = std::min(Soak(kRuns), kRunsMax);
+  const bool soak = count > kRuns;
+  const int first = FromEnvironment("SEAM_SEED", 1);
+  const int runs = FromEnvironment("SEAM_SEEDS", std::getenv("SEAM_SEED") != nullptr ? 1 : count);
+  const double seconds =
+      FromEnvironment("SEAM_SECONDS", static_cast<int>(soak ? kSecondsSoak : kSeconds));
+  const std::vector<std::string> scenes = Scenes();
+  const auto plan = [&](std::size_t n) {
+    return DrawFaults(static_cast<std::uint64_t>(first) + n, scenes, seconds);
+  };
+  int failed = 0;
+  RunJobs(
+      static_cast<std::size_t>(runs), FromEnvironment("SEAM_JOBS", 2),
+      [&](std::size_t n) { return Perform(plan(n)); },
+      [&](std::size_t n, const JobResult& result) {
+        const std::size_t end = result.text.rfind('\n');
+        const bool good = result.good && end == std::string::npos;
+        const bool all = std::getenv("SEAM_SOAK_ALL") != nullptr;
+        if (!good || all) std::printf("%s%s\n", good ? "" : "FAILED ", result.text.c_str());
+        if (!result.good) std::printf("  %s\n", plan(n).name.c_str());
+        if (!good)
+          std::printf(
+              "  repeat: SEAM_SEED=%zu SEAM_SECONDS=%.0f seam-tests --gtest_filter='SoakFaults*'\n",
+              static_cast<std::size_t>(first) + n, seconds);
+        std::fflush(stdout);
+        failed += good ? 0 : 1;
+      },
+      [] { return false; });
+  EXPECT_EQ(failed, 0) << "of " << runs << " seeds";
+}
+
+}  // namespace
+}  // namespace seam

@@ -1,0 +1,111 @@
+#include "tests/support/soak/fault_plan.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "common/base/random.h"
+#include "common/scene/scene.h"
+
+namespace seam {
+namespace {
+
+/// Faults begin this long after tick 0, s.
+constexpr double kFirstSeconds = 1;
+/// From the end of a client's fault to its next: mean, s, besides the least.
+constexpr double kBetweenSeconds = 4, kBetweenSecondsMin = 0.3;
+
+struct Named {
+  const char *mode, *reconcile, *predict;
+};
+/// The default three times: it is what people run.
+constexpr Named kMethods[] = {{"buffer", "rollback", ""},   {"buffer", "rollback", ""},
+                              {"buffer", "rollback", ""},   {"buffer", "retrospect", ""},
+                              {"buffer", "resimulate", ""}, {"buffer", "fade", ""},
+                              {"central", "", "all"},       {"strict", "", ""}};
+
+int Between(Random* random, int low, int high) {  // both included
+  return low + static_cast<int>(random->Next() % static_cast<std::uint64_t>(high - low + 1));
+}
+
+std::string DrawNetwork(Random* random) {
+  char spec[160];
+  const int delay = Between(random, 5, 120), jitter = Between(random, 0, 20);
+  const int loss = Between(random, 0, 30), reorder = Between(random, 0, 8);
+  const int duplicate = Between(random, 0, 5);
+  std::snprintf(spec, sizeof spec,
+                "delay=%dms,jitter=%dms,loss=%d%%,reorder=%d%%:30ms,duplicate=%d%%", delay, jitter,
+                loss, reorder, duplicate);
+  return spec;
+}
+
+Fault DrawFault(Random* random, int client, double from_s) {
+  Fault fault;
+  fault.client = client;
+  fault.from_s = from_s;
+  fault.kind = static_cast<FaultKind>(Between(random, 0, 4));
+  switch (fault.kind) {
+    case FaultKind::kCut: fault.to_s = from_s + random->Uniform(0.3, 5); break;
+    case FaultKind::kPause:
+      fault.to_s = from_s + (random->Chance(0.5) ? 5 : random->Uniform(0.2, 6));
+      break;
+    case FaultKind::kSlowed:
+      fault.to_s = from_s + random->Uniform(1, 6);
+      fault.every_us = 1000 * Between(random, 25, 250);
+      break;
+    case FaultKind::kKill:
+    case FaultKind::kLeave: fault.to_s = from_s + random->Uniform(0.05, 7); break;
+  }
+  return fault;
+}
+
+}  // namespace
+
+const char* ToString(FaultKind kind) {
+  switch (kind) {
+    case FaultKind::kCut: return "cut";
+    case FaultKind::kPause: return "paused";
+    case FaultKind::kSlowed: return "slow";
+    case FaultKind::kKill: return "killed";
+    case FaultKind::kLeave: return "away";
+  }
+  return "";
+}
+
+FaultPlan DrawFaults(std::uint64_t seed, const std::vector<std::string>& scenes, double seconds) {
+  Random random = Random(seed).Fork(1);
+  FaultPlan plan;
+  ClusterConfig& config = plan.config;
+  config.scene = scenes[random.Next() % scenes.size()];
+  const Named& method = kMethods[random.Next() % std::size(kMethods)];
+  config.mode = method.mode;
+  config.reconcile = method.reconcile;
+  config.predict = method.predict;
+  config.impair = DrawNetwork(&random);
+  config.drive = random.Chance(0.5) ? Drive::kBot : Drive::kScript;
+  config.seed = static_cast<std::int64_t>(seed);
+  config.duration_s = seconds;
+  config.spectators = random.Chance(0.3) ? 1 : 0;
+  config.keep = false;
+  const Scene scene = LoadScene("scenes/" + config.scene + ".toml");
+  const int clients = static_cast<int>(scene.players.size()) + config.spectators;
+  for (int client = 0; client < clients; ++client) {
+    double at = kFirstSeconds;
+    while (true) {
+      at += kBetweenSecondsMin + random.Exponential(kBetweenSeconds);
+      const Fault fault = DrawFault(&random, client, at);
+      at = fault.to_s;
+      if (at > seconds - kCalmSeconds) break;
+      plan.faults.push_back(fault);
+    }
+  }
+  std::stable_sort(plan.faults.begin(), plan.faults.end(),
+                   [](const Fault& a, const Fault& b) { return a.from_s < b.from_s; });
+  plan.name = "seed " + std::to_string(seed) + ": " + config.scene + " " + config.mode + " " +
+              config.reconcile + config.predict +
+              (config.drive == Drive::kBot ? " bots " : " script ") + config.impair + ", " +
+              std::to_string(clients) + " clients, " + std::to_string(plan.faults.size()) +
+              " faults";
+  return plan;
+}
+
+}  // namespace seam

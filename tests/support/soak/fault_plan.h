@@ -1,0 +1,41 @@
+#pragma once
+/// What goes wrong in one session, all of it drawn from its seed: the network, and what happens to
+/// each client when.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/lab/cluster.h"
+
+namespace seam {
+
+enum class FaultKind {
+  kCut,     ///< nothing passes between it and the server
+  kPause,   ///< its process is stopped
+  kSlowed,  ///< it is run only now and then
+  kKill,    ///< its process dies, and another begins later
+  kLeave,   ///< it says goodbye, and comes back later
+};
+const char* ToString(FaultKind kind);
+
+struct Fault {
+  FaultKind kind = FaultKind::kCut;
+  int client = 0;
+  double from_s = 0, to_s = 0;  ///< of the room's time
+  std::int64_t every_us = 0;    ///< kSlowed: from one run to the next
+};
+
+struct FaultPlan {
+  ClusterConfig config;       ///< without `client_net`
+  std::vector<Fault> faults;  ///< of one client one after the other
+  std::string name;           ///< all of it in a line, for people
+};
+
+/// The last faults are over so long before the end, s.
+constexpr double kCalmSeconds = 10;
+
+/// Draws a session of `seconds` in one of `scenes`. The same seed and scenes draw the same.
+FaultPlan DrawFaults(std::uint64_t seed, const std::vector<std::string>& scenes, double seconds);
+
+}  // namespace seam

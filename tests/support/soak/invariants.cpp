@@ -1,0 +1,368 @@
+#include "tests/support/soak/invariants.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "tests/support/client_test_access.h"
+#include "tests/support/replica_test_access.h"
+#include "tests/support/soak/server_test_access.h"
+
+namespace seam {
+namespace {
+
+/// A client with which nothing is wrong plays within this long, us: it may have to notice that it
+/// was dropped (Client::kLostUs) and to join again, three of ten datagrams lost.
+constexpr std::int64_t kBackUs = 10000000;
+/// What is told reliably is known within this long, us.
+constexpr std::int64_t kToldUs = 4000000;
+/// What rests is known to, if it was lost: RestAgreement finds that out within three seconds.
+constexpr std::int64_t kRestKnownUs = 7000000;
+/// Bit for bit the same is what its holder has not moved for so long, us, but where something moves
+/// it here: there it must not come to lie otherwise, us.
+constexpr std::int64_t kStillUs = 10000000, kStillElsewhereUs = 3000000;
+/// A copy is no farther off than this, m, for longer than this, us.
+constexpr double kFar = 10;
+constexpr std::int64_t kFarUs = 5000000;
+/// A hand-over is done, or its holder has to leave, within this long, us: kReleasePatienceUs and
+/// kToldUs.
+constexpr std::int64_t kHandedOverUs = 9000000;
+/// Edits, states and links that wait: what is more grows without end. A Link gives up at 4096.
+constexpr std::size_t kLinkMax = 1500, kEditsMax = 300, kQueueMax = 600;
+/// A body may be faster than the scene's limit for so many ticks on end: a correction of a rule
+/// that does not know joints is over by then, an explosion is not.
+constexpr int kFastTicksMax = 6;
+/// Authority is looked at at every instant, rest and queues so many ticks apart.
+constexpr std::int64_t kSeldomTicks = 15;
+
+bool SameBits(const BodyState& a, const BodyState& b) {
+  return a.position == b.position && a.angle == b.angle;
+}
+
+std::string Text(const RestRecord& record) {
+  if (!record.committed) return "free";
+  return "rests since tick " + std::to_string(record.tick) + " in epoch " +
+         std::to_string(record.epoch);
+}
+
+}  // namespace
+
+Invariants::Invariants(Cluster& cluster, const FaultRunner& faults, bool strict)
+    : cluster_(cluster), faults_(faults), strict_(strict) {
+  peers_.resize(static_cast<std::size_t>(cluster.client_count()) + 1);
+  for (const Part& part : cluster.scene().parts) top_ = std::max(top_, part.position.y());
+}
+
+void Invariants::Say(const std::string& what, const std::string& detail) {
+  Broken& broken = broken_[what];
+  if (broken.times++ > 0) return;
+  char at[32];
+  std::snprintf(at, sizeof at, "at %.3f s: ",
+                static_cast<double>(cluster_.server().tick()) / cluster_.scene().solver.tick_hz);
+  broken.first = at + detail;
+}
+
+/// Whether nothing has been wrong with a client's machine and network for so long.
+bool Invariants::Well(std::size_t peer, std::int64_t for_us) const {
+  if (peer == 0) return true;
+  const std::int64_t since_us = faults_.WellSince(static_cast<int>(peer) - 1);
+  return since_us >= 0 && cluster_.now_us() - since_us >= for_us;
+}
+
+void Invariants::Look() {
+  LookAtClients();
+  if (!cluster_.server().started()) return;
+  FindPeers();
+  LookAtAuthority();
+  LookAtCompositions();
+  if (cluster_.server().tick() == looked_tick_) return;
+  looked_tick_ = cluster_.server().tick();
+  LookAtBodies();
+  if (looked_tick_ % kSeldomTicks != 0) return;
+  LookForStrays();
+  LookAtRest();
+  LookAtPoses();
+  LookAtQueues();
+}
+
+void Invariants::LookAtClients() {
+  for (int c = 0; c < cluster_.client_count(); ++c) {
+    const Client* client = cluster_.client(c);
+    if (client == nullptr && faults_.Stopped(c)) continue;
+    const auto who = [&] { return "client " + std::to_string(c); };
+    const bool due = Well(static_cast<std::size_t>(c) + 1, kBackUs) && cluster_.server().started();
+    const bool in = client != nullptr && client->peer() >= 0;
+    const bool plays = in && client->running();
+    if (due && !plays) Say("who is well plays", who() + (in ? " does not start" : " is not in"));
+    if (client == nullptr) continue;
+    if (!client->fatal().empty()) Say("nobody is turned away", who() + ": " + client->fatal());
+    if (client->closed()) Say("nobody is turned away", who() + " was told that the room is closed");
+  }
+}
+
+void Invariants::FindPeers() {
+  peers_[0].replica = &cluster_.server().replica();
+  for (int c = 0; c < cluster_.client_count(); ++c) {
+    Peer& peer = peers_[static_cast<std::size_t>(c) + 1];
+    const Client* client = cluster_.client(c);
+    const bool runs = client != nullptr && client->running() && !faults_.Stopped(c);
+    const Replica* const replica = runs ? client->replica() : nullptr;
+    if (replica == peer.replica && replica != nullptr) continue;
+    peer = Peer();
+    peer.replica = replica;
+    peer.self = runs ? client->peer() : -1;
+  }
+}
+
+void Invariants::LookAtAuthority() {
+  for (std::size_t p = 0; p < peers_.size(); ++p) {
+    Peer& peer = peers_[p];
+    if (peer.replica == nullptr) continue;
+    const AuthorityTable& table = peer.replica->authority();
+    const auto count = static_cast<std::size_t>(table.count());
+    const bool edited = peer.revision != peer.replica->revision();
+    peer.revision = peer.replica->revision();
+    if (edited) peer.records.assign(count, Record{});
+    compared_ += static_cast<long>(count);
+    for (std::size_t m = 0; m < count; ++m) {
+      const AuthorityRecord& now = table.at(static_cast<int>(m));
+      Record& seen = peer.records[m];
+      if (seen.epoch == now.epoch && seen.authority == now.authority) continue;
+      seen = {table.id(static_cast<int>(m)), now.authority, now.epoch};
+      NoteRecord(peer, p, seen);
+    }
+  }
+}
+
+/// A mechanism's record has changed at a peer.
+void Invariants::NoteRecord(const Peer& peer, std::size_t p, const Record& record) {
+  const std::pair<PartId, std::int32_t> key{record.id, record.epoch};
+  const std::string what = "mechanism " + std::to_string(record.id) + " in epoch " +
+                           std::to_string(record.epoch) + ": peer ";
+  const auto differs = [&](Holders* holders, int holder) {
+    const auto [it, fresh] = holders->emplace(key, holder);
+    return !fresh && it->second != holder;
+  };
+  if (p == 0 && differs(&named_, record.authority)) {
+    Say("an epoch has one authority", what + std::to_string(named_.at(key)) +
+                                          " was named, now peer " +
+                                          std::to_string(record.authority));
+  }
+  if (record.authority != peer.self) return;
+  if (differs(&believed_, peer.self)) {
+    Say("an epoch has one authority", what + std::to_string(believed_.at(key)) + " and peer " +
+                                          std::to_string(peer.self) + " believed to have it");
+  }
+  const auto named = named_.find(key);
+  if (p > 0 && (named == named_.end() || named->second != peer.self)) {
+    Say("an epoch has one authority",
+        what + std::to_string(peer.self) + " believes to have it and was not named");
+  }
+  for (const Peer& other : peers_) {
+    if (&other == &peer || other.replica == nullptr) continue;
+    if (other.replica->revision() != peer.revision) continue;
+    const int m = other.replica->authority().IndexOf(record.id);
+    if (m < 0 || other.replica->authority().at(m).authority != other.self) continue;
+    Say("a mechanism has one authority at a time",
+        what + std::to_string(peer.self) + ", while peer " + std::to_string(other.self) +
+            " has it in epoch " + std::to_string(other.replica->authority().at(m).epoch));
+  }
+}
+
+/// That is all bodies, who is one with whom, and all joints: nothing is lost, nothing is there
+/// twice.
+void Invariants::LookAtCompositions() {
+  const Replica& server = *peers_[0].replica;
+  for (std::size_t p = 1; p < peers_.size(); ++p) {
+    Peer& peer = peers_[p];
+    if (peer.replica == nullptr) continue;
+    const bool behind = peer.replica->revision() != server.revision();
+    if (!behind || peer.behind_us < 0 || !Well(p, kToldUs)) peer.behind_us = cluster_.now_us();
+    const std::string who = "peer " + std::to_string(peer.self) + " after " +
+                            std::to_string(peer.replica->revision()) + " of " +
+                            std::to_string(server.revision()) + " edits";
+    if (!behind && peer.replica->world().composition().hash != server.world().composition().hash) {
+      Say("after the same edits all are made of the same", who);
+    }
+    if (cluster_.now_us() - peer.behind_us > kToldUs) Say("edits arrive", who);
+  }
+}
+
+/// Who goes on to believe in another owner than the server's.
+void Invariants::LookForStrays() {
+  const Replica& server = *peers_[0].replica;
+  for (std::size_t p = 1; p < peers_.size(); ++p) {
+    Peer& peer = peers_[p];
+    if (peer.replica == nullptr || !Well(p, kToldUs)) {
+      peer.stray_us.clear();
+      continue;
+    }
+    if (peer.replica->revision() != server.revision()) continue;
+    std::map<PartId, std::int64_t> stray_us;
+    for (int m = 0; m < server.authority().count(); ++m) {
+      const AuthorityRecord& ours = server.authority().at(m);
+      const AuthorityRecord& theirs = peer.replica->authority().at(m);
+      if (ours.epoch == theirs.epoch && ours.authority == theirs.authority) continue;
+      const PartId id = server.authority().id(m);
+      const auto since = peer.stray_us.find(id);
+      stray_us[id] = since == peer.stray_us.end() ? cluster_.now_us() : since->second;
+      if (cluster_.now_us() - stray_us[id] <= kHandedOverUs) continue;
+      Say("grants arrive", "peer " + std::to_string(peer.self) + " believes that peer " +
+                               std::to_string(theirs.authority) + " has mechanism " +
+                               std::to_string(id) + " in epoch " + std::to_string(theirs.epoch) +
+                               "; it is peer " + std::to_string(ours.authority) + " in epoch " +
+                               std::to_string(ours.epoch));
+    }
+    peer.stray_us = std::move(stray_us);
+  }
+}
+
+void Invariants::LookAtBodies() {
+  const double gravity = double{cluster_.scene().gravity.norm()};
+  for (Peer& peer : peers_) {
+    if (peer.replica == nullptr) continue;
+    const World& world = peer.replica->world();
+    for (int body = 0; body < world.body_count(); ++body) {
+      const BodyState state = world.Read(body);
+      const float speed = state.velocity.norm();
+      ++compared_;
+      const auto who = [&] {
+        return "body " + std::to_string(world.id(body)) + " at peer " + std::to_string(peer.self);
+      };
+      const bool finite = state.position.allFinite() && state.velocity.allFinite() &&
+                          std::isfinite(state.angle) && std::isfinite(state.spin);
+      if (!finite) Say("all numbers are finite", who());
+      // What falls out of the world gains what its height was worth.
+      const double fallen = std::max(0.0, double{top_} - double{state.position.y()});
+      const double allowed =
+          std::hypot(double{cluster_.scene().speed_limit}, std::sqrt(2 * gravity * fallen));
+      fastest_ = std::max(fastest_, speed);
+      if (double{speed} <= allowed || strict_) {
+        if (!peer.fast_ticks.empty()) peer.fast_ticks.erase(world.id(body));
+      } else if (++peer.fast_ticks[world.id(body)] > kFastTicksMax) {
+        Say("nothing explodes", who() + ": " + std::to_string(speed) + " m/s");
+      }
+    }
+  }
+}
+
+void Invariants::LookAtRest() {
+  const Replica& server = *peers_[0].replica;
+  for (std::size_t p = 0; p < peers_.size(); ++p) {
+    Peer& peer = peers_[p];
+    if (peer.replica == nullptr || peer.replica->revision() != server.revision()) continue;
+    std::map<PartId, std::int64_t> other_us;
+    for (int body = 0; body < server.world().body_count(); ++body) {
+      const RestRecord& ours = server.rest().record(body);
+      const RestRecord& theirs = peer.replica->rest().record(body);
+      const World& world = peer.replica->world();
+      const PartId id = world.id(body);
+      const std::string who =
+          "body " + std::to_string(id) + " at peer " + std::to_string(peer.self);
+      // What has just been told of its motion is about to end its rest.
+      const bool lies = !world.awake(body) && world.Read(body).velocity.norm() == 0;
+      if (peer.replica->rest().Holds(body) && lies) {
+        ++reached_rest_;
+        if (!SameBits(world.Read(body), theirs.pose)) Say("what rests lies where it rests", who);
+      }
+      const bool same_word = ours.committed && theirs.committed && ours.epoch == theirs.epoch &&
+                             ours.tick == theirs.tick;
+      const bool equal = ours.committed && theirs.committed && ours.epoch == theirs.epoch &&
+                         SameBits(ours.pose, theirs.pose);
+      if (same_word && !equal) Say("rest is the same everywhere", who);
+      if (equal || !ours.committed || !Well(p, kToldUs)) continue;
+      const auto since = peer.rest_other_us.find(id);
+      other_us[id] = since == peer.rest_other_us.end() ? cluster_.now_us() : since->second;
+      if (cluster_.now_us() - other_us[id] <= kRestKnownUs) continue;
+      Say("rest is known everywhere", who + ": " + Text(theirs) + "; at the server: " + Text(ours));
+    }
+    peer.rest_other_us = std::move(other_us);
+  }
+}
+
+/// Whoever has it, and knows so; nullptr: nobody just now, or one with whom something is wrong.
+const Replica* Invariants::HolderOf(PartId body) const {
+  const Replica& server = *peers_[0].replica;
+  const World& world = server.world();
+  const int holder = server.authority().at(world.mechanism(world.BodyOfId(body))).authority;
+  for (std::size_t p = 0; p < peers_.size(); ++p) {
+    const Peer& peer = peers_[p];
+    if (peer.replica == nullptr || peer.self != holder || !Well(p, kToldUs)) continue;
+    if (peer.replica->revision() != server.revision()) continue;
+    const int m = peer.replica->world().mechanism(peer.replica->world().BodyOfId(body));
+    return peer.replica->authority().at(m).authority == holder ? peer.replica : nullptr;
+  }
+  return nullptr;
+}
+
+/// Of what moves a peer has roughly, and of what has lain still for long exactly, what its holder
+/// has.
+void Invariants::LookAtPoses() {
+  const Replica& server = *peers_[0].replica;
+  const std::int64_t now_us = cluster_.now_us();
+  const bool sleeps = server.world().scene().solver.sleep;
+  std::map<PartId, Still> still;
+  std::vector<std::map<PartId, std::int64_t>> far_us(peers_.size());
+  std::vector<std::map<PartId, Still>> elsewhere(peers_.size());
+  for (int body = 0; body < server.world().body_count(); ++body) {
+    const PartId id = server.world().id(body);
+    const Replica* const holder = HolderOf(id);
+    if (holder == nullptr) continue;
+    const BodyState truth = holder->world().Read(body);
+    const auto was = still_.find(id);
+    const bool same = was != still_.end() && SameBits(was->second.pose, truth);
+    still[id] = {truth, same ? was->second.since_us : now_us};
+    const bool lies = sleeps && now_us - still[id].since_us >= kStillUs;
+    for (std::size_t p = 0; p < peers_.size(); ++p) {
+      const Peer& peer = peers_[p];
+      if (peer.replica == nullptr || !Well(p, kBackUs)) continue;
+      if (peer.replica->revision() != server.revision()) continue;
+      const BodyState there = peer.replica->world().Read(body);
+      const double off = double{(there.position - truth.position).norm()};
+      const auto who = [&, self = peer.self, holder = holder] {
+        return "body " + std::to_string(id) + " at peer " + std::to_string(self) + " is " +
+               std::to_string(off) + " m from where its holder has it (" +
+               Text(peer.replica->rest().record(body)) + "; at its holder " +
+               Text(holder->rest().record(body)) + ")";
+      };
+      if (lies && !SameBits(there, truth)) {
+        const auto seen = peer.still_elsewhere.find(id);
+        const bool stays = seen != peer.still_elsewhere.end() && SameBits(seen->second.pose, there);
+        elsewhere[p][id] = {there, stays ? seen->second.since_us : now_us};
+        if (now_us - elsewhere[p][id].since_us > kStillElsewhereUs) {
+          Say("what lies still lies so everywhere", who());
+        }
+      }
+      if (off <= kFar || strict_) continue;
+      const auto since = peer.far_us.find(id);
+      far_us[p][id] = since == peer.far_us.end() ? now_us : since->second;
+      if (now_us - far_us[p][id] > kFarUs) Say("bodies are where they are", who());
+    }
+  }
+  still_ = std::move(still);
+  for (std::size_t p = 0; p < peers_.size(); ++p) {
+    peers_[p].far_us = std::move(far_us[p]);
+    peers_[p].still_elsewhere = std::move(elsewhere[p]);
+  }
+}
+
+void Invariants::LookAtQueues() {
+  const auto note = [&](const std::string& queue, std::size_t count, std::size_t most) {
+    queues_[queue] = std::max(queues_[queue], count);
+    if (count > most) Say("queues are bounded", queue + ": " + std::to_string(count));
+  };
+  note("server's links", ServerTestAccess::WaitingOfLinks(cluster_.server()), kLinkMax);
+  note("server's edits", ServerTestAccess::WaitingEdits(cluster_.server()), kEditsMax);
+  for (int c = 0; c < cluster_.client_count(); ++c) {
+    const Client* client = cluster_.client(c);
+    if (client != nullptr) note("client's link", ClientTestAccess::Waiting(*client), kLinkMax);
+  }
+  for (const Peer& peer : peers_) {
+    if (peer.replica == nullptr) continue;
+    for (const auto& [queue, count] : ReplicaTestAccess::Queues(*peer.replica)) {
+      note(queue, count, kQueueMax);
+    }
+  }
+}
+
+}  // namespace seam

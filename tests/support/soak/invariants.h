@@ -1,0 +1,93 @@
+#pragma once
+/// What must hold at every virtual instant of a session, whatever goes wrong in it.
+/// docs/metrics.md, "Soak", names each.
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/support/soak/fault_runner.h"
+
+namespace seam {
+
+/// One that did not hold: how often that was seen, and what was first.
+struct Broken {
+  long times = 0;
+  std::string first;
+};
+
+class Invariants {
+ public:
+  /// Both must outlive this. `strict`: the room's mode, which is there to show what happens where
+  /// what others have has infinite mass; things may explode there.
+  Invariants(Cluster& cluster, const FaultRunner& faults, bool strict);
+
+  /// To be called after every virtual instant, before FaultRunner::Act.
+  void Look();
+
+  /// By invariant; empty: all held.
+  const std::map<std::string, Broken>& broken() const { return broken_; }
+  long compared() const { return compared_; }  ///< records and poses that were looked at
+  /// Longest seen of each queue, by name.
+  const std::map<std::string, std::size_t>& queues() const { return queues_; }
+  float fastest() const { return fastest_; }          ///< m/s, of any body at any peer
+  int reached_rest() const { return reached_rest_; }  ///< bodies at rest that were compared
+
+ private:
+  struct Record {
+    PartId id = -1;
+    int authority = 0;
+    std::int32_t epoch = -1;
+  };
+  /// A body's pose, and since when it has not changed.
+  struct Still {
+    BodyState pose;
+    std::int64_t since_us = 0;
+  };
+  /// One peer as it was when looked at last; the first is the server.
+  struct Peer {
+    const Replica* replica = nullptr;  // nullptr: it has none, or is stopped
+    int self = 0;
+    int revision = -1;
+    std::vector<Record> records;
+    std::map<PartId, int> fast_ticks;              // bodies: ticks on end beyond the speed limit
+    std::int64_t behind_us = -1;                   // since when its revision is not the server's
+    std::map<PartId, std::int64_t> stray_us;       // mechanisms: since when it knows another owner
+    std::map<PartId, Still> still_elsewhere;       // bodies that lie still otherwise
+    std::map<PartId, std::int64_t> far_us;         // bodies: since when it has them elsewhere
+    std::map<PartId, std::int64_t> rest_other_us;  // bodies: since when it knows other rest
+  };
+  using Holders = std::map<std::pair<PartId, std::int32_t>, int>;  // by mechanism and epoch
+
+  void Say(const std::string& what, const std::string& detail);
+  bool Well(std::size_t peer, std::int64_t for_us) const;
+  void FindPeers();
+  void LookAtAuthority();
+  void NoteRecord(const Peer& peer, std::size_t p, const Record& record);
+  void LookAtCompositions();
+  void LookForStrays();
+  void LookAtBodies();
+  void LookAtRest();
+  void LookAtPoses();
+  const Replica* HolderOf(PartId body) const;
+  void LookAtQueues();
+  void LookAtClients();
+
+  Cluster& cluster_;
+  const FaultRunner& faults_;
+  const bool strict_;
+  float top_ = 0;  // m, of the scene as it was
+  std::vector<Peer> peers_;
+  Holders named_, believed_;
+  std::map<PartId, Still> still_;  // bodies at their holders
+  std::int64_t looked_tick_ = -1;
+  std::map<std::string, Broken> broken_;
+  std::map<std::string, std::size_t> queues_;
+  long compared_ = 0;
+  float fastest_ = 0;
+  int reached_rest_ = 0;
+};
+
+}  // namespace seam
