@@ -21,14 +21,14 @@ int Moved(const Screen& screen, const std::string& prefix, float far) {
   });
 }
 
-/// The largest and the least x, m, that a part was shown at.
-std::pair<float, float> Reach(const Screen& screen, const std::string& part) {
-  std::pair<float, float> reach{1e9f, -1e9f};
-  for (double time_s = 0; time_s <= screen.end_s(); time_s += 0.1) {
+/// The least and the largest x, m, that a part was shown at from a time on, s.
+std::pair<double, double> Reach(const Screen& screen, const std::string& part, double from_s = 0) {
+  std::pair<double, double> reach{1e9, -1e9};
+  for (double time_s = from_s; time_s <= screen.end_s(); time_s += 0.1) {
     const std::optional<BodyState> state = screen.Find(part, time_s);
     if (!state) continue;
-    reach.first = std::min(reach.first, state->position.x());
-    reach.second = std::max(reach.second, state->position.x());
+    reach.first = std::min(reach.first, static_cast<double>(state->position.x()));
+    reach.second = std::max(reach.second, static_cast<double>(state->position.x()));
   }
   return reach;
 }
@@ -42,7 +42,7 @@ void JudgeSwarm(const Screen& screen, Claims* claims) {
   for (const int player : present) {
     const std::string sled = "sled." + std::to_string(player);
     const auto [least, most] = Reach(screen, sled);
-    claims->AtLeast(static_cast<double>(most - least), 8, "way of " + sled + ", m");
+    claims->AtLeast(most - least, 8, "way of " + sled + ", m");
   }
   for (const std::string& sled : screen.All("sled.")) {
     if (present.count(std::stoi(sled.substr(5))) != 0) continue;
@@ -83,22 +83,23 @@ void JudgeDerby(const Screen& screen, Claims* claims) {
 void JudgePile(const Screen& screen, Claims* claims) {
   for (const std::string& blade : screen.All("blade.")) {
     const auto [least, most] = Reach(screen, blade);
-    claims->AtLeast(static_cast<double>(most - least), 1.5, "way of " + blade + ", m");
+    claims->AtLeast(most - least, 0.8, "way of " + blade + ", m");
   }
   int moved = 0;
   for (const char* heap : {"west.", "middle.", "east."}) {
-    claims->AtLeast(Moved(screen, heap, 0.5f), 40, std::string("boxes moved in heap ") + heap);
+    claims->AtLeast(Moved(screen, heap, 0.5f), 15, std::string("boxes moved in heap ") + heap);
     moved += Moved(screen, heap, 0.5f);
   }
-  claims->AtLeast(moved, 200, "boxes moved");
+  claims->AtLeast(moved, 80, "boxes moved");
 }
 
 void JudgeRelay8(const Screen& screen, Claims* claims) {
-  for (const char* puck : {"alone", "left", "right"}) {
-    const auto [least, most] = Reach(screen, puck);
-    claims->Between(static_cast<double>(least), -33, -24, std::string(puck) + ", farthest left, m");
-    claims->Between(static_cast<double>(most), 24, 33, std::string(puck) + ", farthest right, m");
-  }
+  claims->AtLeast(Reach(screen, "alone").second, 24, "the one alone, farthest right, m");
+  claims->Between(Reach(screen, "alone", 8).first, -33, -24, "and back at the left, m");
+  claims->Between(Reach(screen, "left", 5).first, -33, -24, "the left one, thrown back, m");
+  claims->AtLeast(Reach(screen, "left").second, -4, "the left one in the middle, m");
+  claims->Between(Reach(screen, "right", 5).second, 24, 33, "the right one, thrown back, m");
+  claims->Between(Reach(screen, "right").first, -33, 4, "the right one in the middle, m");
 }
 
 }  // namespace seam

@@ -73,15 +73,18 @@ const std::vector<Title>& Titles() {
        "than a twentieth of that; the hut comes down to below 1.5 m and a limb comes off; "
        "ann and bob are thrown and stand again at the end.",
        JudgeBattlefield},
-      {"relay8", "Three pucks go from one end of eight regions to the other.", JudgeRelay8},
+      {"relay8",
+       "One puck goes from one end of eight regions to the other and back; two more meet in the "
+       "middle and throw each other back to the ends.",
+       JudgeRelay8},
       {"derby",
        "A red and a blue car come together twelve times and more, six cars or more take "
        "part, and none leaves the hollow.",
        JudgeDerby},
       {"pile",
-       "Every blade goes 1.5 m or more, at least forty boxes of each heap and two hundred in "
+       "Every blade goes 0.8 m or more, at least fifteen boxes of each heap and eighty in "
        "all move by half a metre.",
-       JudgePile},
+       JudgePile, 0, 7},
       {"swarm",
        "Each of the players who are there drives a sled 8 m or more and shoves two crates "
        "and more by a metre; the sleds of those who are absent stand.",
