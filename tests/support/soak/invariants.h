@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -87,6 +88,7 @@ class Invariants {
   float top_ = 0;  // m, of the scene as it was
   std::vector<Peer> peers_;
   Holders named_, believed_;
+  std::set<int> named_revisions_;  // those at which the server was looked at
   std::map<PartId, Still> still_;  // bodies at their holders
   std::int64_t looked_tick_ = -1;
   std::map<std::string, Broken> broken_;
