@@ -38,6 +38,9 @@ struct World::Impl {
     for (const MovingBody& m : built.moving) lightest = std::min(lightest, m.mass.mass);
     meter.Set(scene.solver.substeps, lightest);
     if (scene.solver.joints == JointSolving::kIterative) return;
+    const bool jointed = std::any_of(built.joints.begin(), built.joints.end(),
+                                     [](const b2Joint* joint) { return joint != nullptr; });
+    if (!jointed && !GivesAll(scene)) return exact.reset();
     exact.emplace(scene, &*world, built);
     if (!exact->needed()) exact.reset();
   }

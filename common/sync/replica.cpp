@@ -142,11 +142,12 @@ void Replica::ApplyPresses(int player, std::int64_t next) {
 std::vector<int> Replica::ApplyGrants(const Grants& grants) {
   for (QueuedEdit& edit : queued_) edit.tick = std::min(edit.tick, tick());
   ApplyEdits();  // the grants are about what is there after them
-  std::vector<int> let_go = roles_.Apply(grants);
+  GrantsApplied applied = roles_.Apply(grants);
   // Before motion follows the roles: what the holder last simulated.
-  for (ExactStates& exact : MakeExact(let_go, 0)) released_.push_back(std::move(exact));
-  RolesChanged();
-  return let_go;
+  for (ExactStates& exact : MakeExact(applied.let_go, 0)) released_.push_back(std::move(exact));
+  // Most of what a client of a large room is granted is between others.
+  if (applied.roles) RolesChanged();
+  return std::move(applied.let_go);
 }
 
 void Replica::ReleaseAll() {

@@ -1,6 +1,8 @@
 #include "common/sync/roles.h"
 
 #include <algorithm>
+#include <map>
+#include <utility>
 
 #include "common/physics/part_places.h"
 #include "common/sync/reach/driven.h"
@@ -47,14 +49,19 @@ bool Roles::Proposes(const Edit& edit) const {
   return false;
 }
 
-std::vector<int> Roles::Apply(const Grants& grants) {
-  std::vector<bool> had;
-  for (int m = 0; m < table_.count(); ++m) had.push_back(IsAuthority(m));
-  std::vector<int> let_go;
-  for (const int m : table_.Apply(grants)) {
-    if (had[static_cast<std::size_t>(m)] && !IsAuthority(m)) let_go.push_back(m);
+GrantsApplied Roles::Apply(const Grants& grants) {
+  std::map<int, std::pair<std::int8_t, bool>> before;  // role, and whether it had authority
+  for (const PartId id : grants.mechanism) {
+    const int m = table_.IndexOf(id);
+    if (m >= 0) before[m] = {RoleOf(m), IsAuthority(m)};
   }
-  return let_go;
+  GrantsApplied applied;
+  for (const int m : table_.Apply(grants)) {
+    const auto& [role, had] = before[m];
+    applied.roles = applied.roles || role != RoleOf(m);
+    if (had && !IsAuthority(m)) applied.let_go.push_back(m);
+  }
+  return applied;
 }
 
 void Roles::ReleaseAll() {

@@ -11,6 +11,12 @@
 
 namespace seam {
 
+/// What a message of grants has changed for a peer.
+struct GrantsApplied {
+  std::vector<int> let_go;  ///< mechanisms that it had and has no longer
+  bool roles = false;       ///< its role in some mechanism is another
+};
+
 class Roles {
  public:
   /// `self`: peer number. `own_player`: the player whose vehicle this peer predicts in mode
@@ -42,8 +48,8 @@ class Roles {
   /// concerned that is in a mechanism; in mode oracle every peer.
   bool Proposes(const Edit& edit) const;
 
-  /// Takes over a message. Returns the mechanisms that this peer had and has no longer.
-  std::vector<int> Apply(const Grants& grants);
+  /// Takes over a message.
+  GrantsApplied Apply(const Grants& grants);
   /// Gives all that this peer has back to the server.
   void ReleaseAll();
   /// The mechanisms have changed; `from` as in BodyRemap::mechanisms.

@@ -43,6 +43,12 @@ bool GivesAll(const b2Body* body) {
 
 }  // namespace
 
+bool GivesAll(const Scene& scene) {
+  return std::any_of(scene.parts.begin(), scene.parts.end(), [](const Part& part) {
+    return !part.gone && part.material.restitution >= kEverything;
+  });
+}
+
 FreeBlows::FreeBlows(const BuiltScene& built, std::vector<char> jointed)
     : jointed_(std::move(jointed)), place_(jointed_.size(), -1) {
   bool free = false;

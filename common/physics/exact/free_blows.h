@@ -11,6 +11,9 @@
 
 namespace seam {
 
+/// Whether a part of the scene gives everything back: where none does, nothing here is needed.
+bool GivesAll(const Scene& scene);
+
 class FreeBlows {
  public:
   /// Looks for a shape of restitution 1. `jointed`: by moving body, whether a joint holds it.
