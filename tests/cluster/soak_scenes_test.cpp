@@ -64,6 +64,7 @@ Session Plan(const std::vector<std::string>& scenes, std::size_t n) {
   run.config.drive = bots ? Drive::kBot : Drive::kScript;
   run.config.seed = static_cast<std::int64_t>(round) + 1;
   run.config.duration_s = kSeconds;
+  run.config.players = 8;  // at most
   run.name = scenes[scene] + " --impair " + run.network.name + " --drive " +
              (bots ? "bot" : "script") + " --seed " + std::to_string(run.config.seed) +
              " --duration 4";

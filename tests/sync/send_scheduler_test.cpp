@@ -44,29 +44,29 @@ class Row {
   SendScheduler scheduler{config, *world, roles, memory, reach, replay};
 };
 
-TEST(SendScheduler, BodiesTakeTurnsWhenThereAreMoreThanOneDatagramHolds) {
-  constexpr int kBodies = 60;
+TEST(SendScheduler, BodiesTakeTurnsWhenThereAreMoreThanOneSendTells) {
+  constexpr int kBodies = 240;
   Row row(kBodies);
   std::set<int> waiting;
   for (int send = 0; send < 10; ++send) {
     const std::vector<int> told = row.NextSend();
     const std::set<int> distinct(told.begin(), told.end());
-    ASSERT_EQ(distinct.size(), kStatesBodiesMax) << send;
+    ASSERT_EQ(distinct.size(), kBodiesPerSend) << send;
     for (const int id : waiting) EXPECT_EQ(distinct.count(id), 1u) << id << " waited twice";
     waiting.clear();
     for (int id = 0; id < kBodies; ++id) {
       if (distinct.count(id) == 0) waiting.insert(id);
     }
-    EXPECT_EQ(waiting.size(), kBodies - kStatesBodiesMax);
+    EXPECT_EQ(waiting.size(), kBodies - kBodiesPerSend);
   }
 }
 
 TEST(SendScheduler, WhatWasJustStruckGoesFirst) {
-  Row row(60);
-  row.memory.track(59).last_impact_tick = 0;
+  Row row(240);
+  row.memory.track(239).last_impact_tick = 0;
   const std::vector<int> told = row.NextSend();
-  EXPECT_EQ(told.back(), 59);
-  EXPECT_EQ(told[told.size() - 2], 46);
+  EXPECT_EQ(told.back(), 239);
+  EXPECT_EQ(told[told.size() - 2], static_cast<int>(kBodiesPerSend) - 2);
 }
 
 TEST(SendScheduler, TellsNothingOfOthersBodiesNorOfThoseNotYetPlaced) {
