@@ -16,7 +16,13 @@ class Row {
   explicit Row(int count)
       : world(SmallWorld(
             "[[part]]\nname = \"box\"\nbox = [1, 1]\nposition = [0, 0]\nrepeat = {count = " +
-            std::to_string(count) + ", step = [2, 0]}\n")) {}
+            std::to_string(count) + ", step = [2, 0]}\n")) {
+    AuthorityRecord own;
+    own.authority = kSelf;
+    for (int m = 0; m < roles.table().count(); ++m) roles.table().Set(m, own);
+  }
+
+  static constexpr int kSelf = 1;  // the server tells all that it has
 
   /// Steps to the next send. Returns the ids that are told, ascending.
   std::vector<int> NextSend() {
@@ -34,7 +40,7 @@ class Row {
 
   std::unique_ptr<World> world;
   SyncConfig config = MakeSyncConfig("buffer", "retrospect");
-  Roles roles{config, 0, -1, *world};
+  Roles roles{config, kSelf, -1, *world};
   BodyMemory memory{config, *world};
   std::vector<InputTrack> inputs;
   Display display{config, *world, memory.snapshots()};
