@@ -60,7 +60,7 @@ b2MassData MassDataOf(const Scene& scene, const Assembly& assembly) {
   data.center = ToB2(own.centre.cast<float>());
   data.I = static_cast<float>(own.inertia + own.mass * own.centre.dot(own.centre));
   // Box2D subtracts again and asserts that something is left. Something is: the root is the
-  // heaviest of at most 4096 parts, so its distance to the centre is part of the inertia.
+  // heaviest of at most 65 535 parts, so its distance to the centre is part of the inertia.
   SEAM_ASSERT(own.inertia > 1e-5 * own.mass * own.centre.dot(own.centre));
   return data;
 }

@@ -75,6 +75,9 @@ void RestCommit::EndOutdated() {
 void RestCommit::Put(int body) {
   const BodyState& pose = table_.at(body).pose;
   const BodyState now = world_.Read(body);
+  const bool lies = now.position == pose.position && now.angle == pose.angle &&
+                    now.velocity == pose.velocity && now.spin == pose.spin;
+  if (lies && !world_.awake(body)) return;
   BodyState moved = Minus(pose, now);
   moved.velocity.setZero();
   moved.spin = 0;
