@@ -140,6 +140,9 @@ BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2Worl
     memory->share_revision = memory->revision;
   }
   const std::vector<bool>& share = memory->share;
+  built.bodies.reserve(composition.assemblies.size());
+  built.moving.reserve(memory->bodies.size());
+  built.joints.reserve(scene.joints.size());
   AnchoredBodies shared(world);
   for (const Assembly& assembly : composition.assemblies) {
     const std::size_t index = built.moving.size();

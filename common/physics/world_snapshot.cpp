@@ -47,6 +47,7 @@ WorldSnapshot World::Impl::Keep() const {
   out.tick = tick;
   out.composition = composition.hash;
   out.joints_there = JointsHash();
+  out.bodies.reserve(built.moving.size());
   for (const MovingBody& m : built.moving) {
     WorldSnapshot::Body body;
     body.state = {FromB2(m.body->GetPosition()), m.body->GetAngle(),

@@ -49,6 +49,9 @@ void Reach::Look() {
     missing[p] = std::max<std::int64_t>(0, now - newest);
     longest = std::max(longest, missing[p]);
   }
+  const bool nobody =
+      std::all_of(missing.begin(), missing.end(), [](std::int64_t ticks) { return ticks < 0; });
+  if (nobody) return;
   const float seconds = static_cast<float>(longest + 2 * config_.send_every()) * world_.dt();
   const std::vector<int> island =
       Components(static_cast<int>(count), MeetingGroups(BoxesOf(world_, drivers_, false), seconds));
