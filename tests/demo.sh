@@ -38,6 +38,10 @@ began=$SECONDS
 
 # players SCENE: their names, as [[player]] sections give them.
 players() {
+  if [ "$1" = swarm ]; then
+    echo p-0 p-1 p-2 p-3 # of 256
+    return
+  fi
   awk '/^\[/ { player = /^\[\[player\]\]/ }
        player && /^name *=/ { split($0, quoted, "\""); print quoted[2] }' "scenes/$1.toml"
 }
@@ -45,7 +49,8 @@ players() {
 # run_session SCENE RUN INDEX IMPAIR: starts logger, server and all players; returns at once.
 run_session() {
   local scene=$1 run=$2 index=$3 impair=$4 log="$out/$1-$2" mode=buffer reconcile="" url
-  local port=$((17000 + index))
+  local port=$((17000 + index)) publish="--publish all"
+  [ "$scene" != swarm ] || publish="--publish own" # its thousand crates are in the server's view
   url="udpm://239.255.76.67:$((18000 + index))?ttl=0"
   case $run in
     oracle|strict|central) mode=$run ;;
@@ -60,13 +65,13 @@ run_session() {
     # shellcheck disable=SC2086
     "$bin/seam-server" "scenes/$scene.toml" --port "$port" --bind 127.0.0.1 --mode "$mode" \
       $reconcile --impair "$impair" --seed "$seed" --lcm-url "$url" --quiet \
-      --duration "$(sed -n 's/^duration *= *\([0-9.]*\).*/\1/p' "scenes/$scene.toml")" \
+      --wait "$(players "$scene" | wc -w)" --duration "$(sed -n 's/^duration *= *\([0-9.]*\).*/\1/p' "scenes/$scene.toml")" \
       >"$log-server.log" 2>&1 &
     server=$!
     clients=()
     for name in $(players "$scene"); do
       "$bin/seam-client" "127.0.0.1:$port" --name "$name" --drive "$name" --lcm-url "$url" \
-        --duration 90 --quiet >"$log-$name.log" 2>&1 &
+        $publish --duration 90 --quiet >"$log-$name.log" 2>&1 &
       clients+=($!)
     done
     status=0
@@ -127,6 +132,12 @@ while [ $# -gt 0 ]; do
   printf 'demo: %-28s %d worlds with all their players, network 4g ...' "$batch" "${#sessions[@]}"
   wait_sessions
 done
+
+# Four players of a scene without fixed regions: what each has authority over moves with it.
+sessions=()
+run_session swarm world "$index" "$impair"
+printf 'demo: %-28s a room for 256 with four of its players, network %s ...' swarm "$impair"
+wait_sessions
 [ "$failed" = 0 ] || exit 1
 
 csv="$out/results.csv"
@@ -139,6 +150,8 @@ done
 
 echo "demo: drawing"
 size=${SIZE:-960x540}
+"$bin/seam-render" "$out/swarm-world.lcm" -o "$out/regions.png" --sheet 4 --from 1.5 --to 6 \
+  --view server --size 1280x720
 for scene in $scenes; do
   for run in $runs; do
     "$bin/seam-render" "$out/$scene-$run.lcm" -o "$out/frames/$scene-$run" --fps 15 --size "$size"

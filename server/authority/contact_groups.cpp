@@ -31,10 +31,15 @@ class Look {
   }
 
  private:
+  /// Whether the server has to see to a mechanism. Of islands what sleeps is its own, costs nothing,
+  /// and becomes somebody's before it is touched.
+  bool IsServers(std::size_t m) const {
+    return plan_[m].authority == 0 && !(view_.islands && view_.mechanisms[m].asleep);
+  }
   void Meet(const MovingBox& a, const MovingBox& b) {
     if (a.group == b.group) return;
     const auto x = static_cast<std::size_t>(a.group), y = static_cast<std::size_t>(b.group);
-    const bool servers = plan_[x].authority == 0 || plan_[y].authority == 0;
+    const bool servers = IsServers(x) || IsServers(y);
     const bool known = !servers || (server_soon_[x] != 0 && server_soon_[y] != 0);
     if (known && soon_.Same(a.group, b.group)) return;  // and later with it
     const float seconds = ZoneSeconds(one_way_[x], one_way_[y]);
