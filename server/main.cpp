@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 
 #include "common/base/command_line.h"
@@ -35,7 +36,7 @@ struct Flags {
   std::string impair = "perfect";
   std::int64_t seed = 1;
   int send_hz = 30;
-  std::uint64_t budget = static_cast<std::uint64_t>(kClientBytesPerS);
+  std::string budget;  // "": kClientBytesPerS
   std::string room = "main";
   int wait = -1;
   double duration_s = -1;  // the scene's
@@ -51,10 +52,19 @@ struct Flags {
   int metrics_port = 0;
 };
 
-/// "64kB/s" -> "64kB"
-std::string WithoutPerSecond(const std::string& rate) {
-  const std::size_t at = rate.size() < 2 ? 0 : rate.size() - 2;
-  return rate.substr(at) == "/s" ? rate.substr(0, at) : rate;
+/// "64kB/s", "64000": bytes a second. Throws OperatorError.
+double ParseBudget(const std::string& text) {
+  char* end = nullptr;
+  const double number = std::strtod(text.c_str(), &end);
+  std::string unit = end;
+  if (unit.size() >= 2 && unit.substr(unit.size() - 2) == "/s") unit.resize(unit.size() - 2);
+  double factor = 0;
+  if (unit.empty() || unit == "B") factor = 1;
+  if (unit == "kB") factor = 1e3;
+  if (unit == "MB") factor = 1e6;
+  const bool good = end != text.c_str() && factor > 0 && number >= 0 && number * factor <= 1e12;
+  if (good) return number * factor;
+  throw OperatorError("--budget takes bytes a second, such as 64kB/s, 1MB/s or 64000; 0: no limit");
 }
 
 std::string ProfilesText() {
@@ -82,9 +92,7 @@ void Define(CLI::App& app, Flags& f) {
   app.add_option("--seed", f.seed, "of impairments and bots")->check(CLI::Range(0, 1000000000));
   app.add_option("--send-hz", f.send_hz, "state messages per second")->check(CLI::Range(1, 240));
   app.add_option("--budget", f.budget,
-                 "most that each client is sent, such as 64kB/s (default 256kB/s; 0: no limit)")
-      ->transform(WithoutPerSecond, "", "")
-      ->transform(CLI::AsSizeValue(true));
+                 "most that each client is sent, such as 64kB/s (default 256kB/s; 0: no limit)");
   app.add_option("--room", f.room,
                  "name of the room in the channels; of several: NAME-1, NAME-2, ...");
   app.add_option("--rooms", f.rooms, "rooms (default: one for each scene); scenes take turns")
@@ -183,7 +191,7 @@ RoomPlan MakePlan(const Flags& f, const std::string& scene_name, int index, int 
   config.room = RoomName(f.room, index, rooms);
   config.impair = f.impair;
   config.publish = ParsePublish(f.publish);
-  config.client_bytes_per_s = static_cast<double>(f.budget);
+  if (!f.budget.empty()) config.client_bytes_per_s = ParseBudget(f.budget);
   config.seed = f.seed + index;
   config.wait_players = PlayersToWaitFor(f, scene_name, scene);
   plan.last_tick = LastTick(DurationOf(f, scene), scene.solver.tick_hz);
