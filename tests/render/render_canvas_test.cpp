@@ -116,8 +116,9 @@ TEST(Png, DecodesToTheSamePixelsAndCarriesNoTime) {
   Image image;
   image.width_px = 37;
   image.height_px = 11;
-  for (int i = 0; i < 37 * 11 * 4; ++i)
-    image.rgba.push_back(i % 4 == 3 ? 255 : static_cast<std::uint8_t>(i * 7 + i / 5));
+  for (int i = 0; i < 37 * 11 * 4; ++i) {
+    image.rgba.push_back(static_cast<std::uint8_t>(i % 4 == 3 ? 255 : i * 7 + i / 5));
+  }
   for (const PngEffort effort : {PngEffort::kFast, PngEffort::kSmall}) {
     WritePng(folder / "a.png", image, effort, {{"Title", "Mauer → Wand"}});
     const Image read = ReadPng(folder / "a.png");
