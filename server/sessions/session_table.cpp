@@ -10,8 +10,8 @@ namespace {
 
 /// A session that never gets ready is forgotten after this, us.
 constexpr std::int64_t kHalfOpenUs = 10000000;
-/// A goodbye is sent this often, each in a datagram of its own: a burst of losses, as of profile 4g,
-/// easily takes four in a row.
+/// A goodbye is sent this often, each in a datagram of its own: a burst of losses, as of profile
+/// 4g, easily takes four in a row.
 constexpr int kByeCopies = 12;
 
 }  // namespace
