@@ -31,8 +31,8 @@ class Look {
   }
 
  private:
-  /// Whether the server has to see to a mechanism. Where it plans by islands what sleeps is its own,
-  /// costs nothing, and becomes somebody's before it is touched.
+  /// Whether the server has to see to a mechanism. Where it plans by islands what sleeps is its
+  /// own, costs nothing, and becomes somebody's before it is touched.
   bool IsServers(std::size_t m) const {
     return plan_[m].authority == 0 && !(view_.islands && view_.mechanisms[m].asleep);
   }
