@@ -25,8 +25,8 @@ void Broadcast::FindDue(int peer) {
 }
 
 void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) {
-  const Bytes whole = Encode(states);
   if (Plain()) {
+    const Bytes whole = Encode(states);
     sessions_.ForEachReady(from_peer,
                            [&](Session& session) { session.link.SendUnreliable(whole); });
     return;
@@ -38,12 +38,15 @@ void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) 
     if (body < 0) continue;  // it has left meanwhile
     entries_.push_back({states.id[i], replica_.world().mechanism(body), news[i]});
   }
+  Bytes whole;  // encoded once somebody is due all of it
   sessions_.ForEachReady(from_peer, [&](Session& session) {
     FindDue(session.peer);
-    const bool all = due_.size() == states.id.size();
-    if (all && session.outbox.empty() && session.outbox.Affords(now_us, whole.size())) {
-      session.link.SendUnreliable(whole);
-      return;
+    if (due_.size() == states.id.size() && session.outbox.empty()) {
+      if (whole.empty()) whole = Encode(states);
+      if (session.outbox.Affords(now_us, whole.size())) {
+        session.link.SendUnreliable(whole);
+        return;
+      }
     }
     for (const auto& [id, urgency] : due_) session.outbox.Add(now_us, id, urgency);
   });

@@ -60,18 +60,13 @@ void Interest::Note(const Receiver& receiver, int mechanism, Concern to) {
 }
 
 void Interest::Raise(const Receiver& receiver, const Cells& cells, float side, Concern to) {
-  std::vector<std::uint64_t> around;
+  std::vector<std::uint64_t> centres, around;
   for (const int body : ThingsOf(receiver)) {
     const Vec2 at = replica_.world().Read(body).position;
     const std::int32_t x = CellOf(at.x(), side), y = CellOf(at.y(), side);
-    const std::uint64_t centre = Key(x, y);
-    if (std::find(around.begin(), around.end(), centre) != around.end()) continue;
-    // The centre comes first, so that the next body of the same cell is found at once.
-    around.insert(around.begin(), centre);
-    for (int i = 0; i < 9; ++i) {
-      const std::uint64_t beside = Key(x + i % 3 - 1, y + i / 3 - 1);
-      if (i != 4) around.push_back(beside);
-    }
+    if (std::find(centres.rbegin(), centres.rend(), Key(x, y)) != centres.rend()) continue;
+    centres.push_back(Key(x, y));
+    for (int i = 0; i < 9; ++i) around.push_back(Key(x + i % 3 - 1, y + i / 3 - 1));
   }
   std::sort(around.begin(), around.end());
   around.erase(std::unique(around.begin(), around.end()), around.end());

@@ -81,9 +81,9 @@ std::size_t Outbox::Affordable(std::int64_t now_us) {
   Fill(now_us);
   const double bodies = (credit_ - kMessageCost) / static_cast<double>(kStatesBytes.each);
   if (bodies >= static_cast<double>(waiting_.size())) return waiting_.size();
-  if (now_us - part_us_ < kPartEveryUs) return 0;
+  if (bodies < 1 || now_us - part_us_ < kPartEveryUs) return 0;
   part_us_ = now_us;
-  const auto count = static_cast<std::size_t>(std::max(0.0, bodies));
+  const auto count = static_cast<std::size_t>(bodies);
   const auto worth = [&](const Waiting& w) {
     return static_cast<std::int64_t>(w.urgency) * (now_us - w.since_us + 1000);
   };
