@@ -104,17 +104,51 @@ void ExactIsland::ShapeMatrix() {
       }
     }
   }
+  acts_.clear();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    for (const auto& [row, end] : met_[b]) {
+      const auto place = static_cast<std::size_t>(place_[static_cast<std::size_t>(row)]);
+      acts_.push_back({place, At(row).end[end].mj});
+    }
+    bodies[b].acts = static_cast<int>(met_[b].size());
+  }
   in_matrix_.assign(ends_.size(), InMatrix());
   changed_ = dirty_ = 0;
   in_.assign(row_at_.size(), 1);
   x_.assign(row_at_.size(), 0.0);
+  last_ = shift_ = x_;
+  errors_.assign(n, 0.0);
 }
 
 void ExactIsland::Fill(const Pace& pace) {
+  rewritten_ = true;
   for (const Held& held : joints)
     FillJoint(*held.joint, held.ends, bodies, pace, rows_.data() + held.row);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (contacts[c].count > 0) FillContact(contacts[c], bodies, pace, &At(contact_row_[c]));
+  }
+}
+
+/// As Fill, of bodies that have not moved since: what a solve has set is put back.
+void ExactIsland::FillAgain(const Pace& pace) {
+  for (Row& row : rows_) {
+    switch (row.kind) {
+      case RowKind::kHard: row.target = HardTarget(row.error, pace.h); break;
+      case RowKind::kSoft:
+      case RowKind::kFriction: break;
+      case RowKind::kMotor:
+        row.lo = -row.most;
+        row.hi = row.most;
+        break;
+      case RowKind::kLimit:
+        row.lo = 0;
+        row.target = LimitTarget(row.error, pace.h);
+        break;
+      case RowKind::kNormal:
+        row.lo = 0;
+        row.target = NormalTarget(row.error, pace);
+        break;
+    }
   }
 }
 

@@ -48,9 +48,9 @@ void ExactIsland::Step(const Pace& pace, bool warm) {
     if (std::fabs(lacks) > kUtmost) row.state = lacks > 0 ? RowState::kHigh : RowState::kLow;
   }
   BringTogether(pace);
-  carried_ = MostCarried(pace);
+  if (!contacts.empty()) carried_ = MostCarried(pace);
   for (int i = 0; i < pace.substeps; ++i) {
-    if (i > 0) Fill(pace);
+    if (i > 0) FillAgain(pace);
     Substep(pace);
   }
 }
