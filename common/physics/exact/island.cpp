@@ -122,6 +122,7 @@ void ExactIsland::ShapeMatrix() {
 
 void ExactIsland::Fill(const Pace& pace) {
   rewritten_ = true;
+  filled_h_ = pace.h;
   for (const Held& held : joints)
     FillJoint(*held.joint, held.ends, bodies, pace, rows_.data() + held.row);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -149,6 +150,25 @@ void ExactIsland::FillAgain(const Pace& pace) {
         row.target = NormalTarget(row.error, pace);
         break;
     }
+  }
+}
+
+/// Fill at the beginning of a step: where the bodies are those of the last one's end, only contacts
+/// and motors are not.
+void ExactIsland::FillFirst(const Pace& pace) {
+  if (!still || filled_h_ != pace.h) {
+    Fill(pace);
+    return;
+  }
+  FillAgain(pace);
+  for (const Held& held : joints) {
+    if (!held.joint->drives && held.joint->type != e_motorJoint) continue;
+    FillJoint(*held.joint, held.ends, bodies, pace, rows_.data() + held.row);
+    rewritten_ = true;
+  }
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (contacts[c].count > 0) FillContact(contacts[c], bodies, pace, &At(contact_row_[c]));
+    rewritten_ = true;
   }
 }
 

@@ -24,6 +24,9 @@ class ExactIsland {
   std::vector<ExactBody> bodies;  ///< moving ones, in the order of the system, then fixed ones
   std::vector<Held> joints;
   std::vector<ExactContact> contacts;
+  /// Whether all bodies are where the last Step or Rejoin left them, to the last bit, and what does
+  /// not move freely has the same speed.
+  bool still = false;
 
   /// The rows and the matrix's shape from bodies, joints and contacts (of which a, b and count
   /// are there).
@@ -96,6 +99,7 @@ class ExactIsland {
   void ShapeMatrix();
   void Fill(const Pace& pace);
   void FillAgain(const Pace& pace);
+  void FillFirst(const Pace& pace);
 
   double Pull() const;
   void Look(const Pace& pace);
@@ -186,6 +190,7 @@ class ExactIsland {
   int dirty_ = 0;                // the factors of rows from here on are old
   double gained_ = 0;            // J: what substeps with contacts have gained, falling slowly
   double carried_ = 0;           // N s: what a contact's impulse may be for the next step
+  double filled_h_ = 0;          // s: the substep that rows were written for
   bool rewritten_ = true;        // rows were, since they were assembled
   double hard_ = 0, bound_ = 0;  // what that was done with
   bool moved_ = false;           // velocities are not those of before_

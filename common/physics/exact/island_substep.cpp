@@ -34,7 +34,7 @@ constexpr double kUtmost = 50;
 
 void ExactIsland::Step(const Pace& pace, bool warm) {
   Look(pace);
-  Fill(pace);
+  FillFirst(pace);
   const double share = warm ? 1.0 / pace.substeps : 0;
   for (Row& row : rows_) row.lambda = row.total = 0;
   for (const Held& held : joints) LoadImpulses(*held.joint, share, rows_.data() + held.row);
