@@ -59,6 +59,7 @@ class ExactStep {
   bool Gather(int first, Found* found);
   void Sign(const Found& found, std::vector<const void*>* sign) const;
   void Order(Found* found);
+  long LeastCost(const Found& found);
   long Build(Found* found, bool relaxed);
   void LoadMoving(ExactBody* q);
   void LoadPoses(Found* found);

@@ -9,7 +9,7 @@
 
 namespace seam {
 
-void ExactIsland::Shape(bool relaxed) {
+long ExactIsland::Shape(bool relaxed, long most) {
   relaxed_ = relaxed;
   int rows = 0;
   std::size_t ends = 0;
@@ -38,11 +38,12 @@ void ExactIsland::Shape(bool relaxed) {
   now_ends_.assign(kJointRowsMost * kRowEndsMost, RowEnd());
   for (std::size_t i = 0; i < now_.size(); ++i) now_[i].end = &now_ends_[i * kRowEndsMost];
   Fill({1, 1});
-  ShapeMatrix();
+  const long cost = ShapeMatrix(most);
   if (relaxed_) ShapeGroups();
+  return cost;
 }
 
-void ExactIsland::ShapeMatrix() {
+long ExactIsland::ShapeMatrix(long most) {
   // Rows in the order of their last body, then of their first: what is bound stays together.
   const std::size_t n = rows_.size();
   std::vector<std::pair<int, int>>& key = key_;
@@ -84,6 +85,8 @@ void ExactIsland::ShapeMatrix() {
       first[p] = std::min(first[p], led_by);
     }
   }
+  const long cost = Skyline::Cost(first);
+  if (!relaxed_ && cost > most) return cost;
   matrix_.SetShape(first);
   pairs_.clear();
   assembled_.assign(row_at_.size(), {});
@@ -118,6 +121,7 @@ void ExactIsland::ShapeMatrix() {
   x_.assign(row_at_.size(), 0.0);
   last_ = shift_ = x_;
   errors_.assign(n, 0.0);
+  return cost;
 }
 
 void ExactIsland::Fill(const Pace& pace) {

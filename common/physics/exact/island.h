@@ -29,12 +29,11 @@ class ExactIsland {
   bool still = false;
 
   /// The rows and the matrix's shape from bodies, joints and contacts (of which a, b and count
-  /// are there).
+  /// are there). Returns the multiplications of a factorisation; what takes more than `most` of
+  /// them has no shape then, and only another Shape may follow.
   /// `relaxed`: the bounded rows are left to Relax; then bodies that have joints with each other
-  /// must be neighbours in the list.
-  void Shape(bool relaxed);
-  /// Multiplications of a factorisation.
-  long cost() const { return matrix_.cost(); }
+  /// must be neighbours in the list, and there is no `most`.
+  long Shape(bool relaxed, long most);
   int bounded_rows() const { return bounded_; }
 
   /// Advances the bodies by pace.h * pace.substeps. `warm`: begin with what contacts and joints
@@ -96,7 +95,7 @@ class ExactIsland {
   };
   Row& At(int row) { return rows_[static_cast<std::size_t>(row)]; }
   ExactBody& Body(int body) { return bodies[static_cast<std::size_t>(body)]; }
-  void ShapeMatrix();
+  long ShapeMatrix(long most);
   void Fill(const Pace& pace);
   void FillAgain(const Pace& pace);
   void FillFirst(const Pace& pace);
