@@ -169,7 +169,7 @@ void ExactStep::SavePoses(const Found& found) {
 }
 
 void ExactStep::Save(Found* found, float h) {
-  float quiet = b2_maxFloat;
+  float quiet = found->island->stirred ? 0 : b2_maxFloat;
   for (const ExactContact& contact : found->island->contacts) {
     for (const int end : {contact.a, contact.b}) {
       const ExactBody& q = found->island->bodies[static_cast<std::size_t>(end)];

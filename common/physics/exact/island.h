@@ -27,6 +27,8 @@ class ExactIsland {
   /// Whether all bodies are where the last Step or Rejoin left them, to the last bit, and what does
   /// not move freely has the same speed.
   bool still = false;
+  /// Whether the last Step moved something without velocity, so that it does not lie.
+  bool stirred = false;
 
   /// The rows and the matrix's shape from bodies, joints and contacts (of which a, b and count
   /// are there). Returns the multiplications of a factorisation; what takes more than `most` of
@@ -118,6 +120,7 @@ class ExactIsland {
   double WorkDone(double mass);
   bool Possible(const Start& start, bool pushes);
   void Calm(const Pace& pace, const Start& start);
+  void PushApart(const Pace& pace);
   bool PushesOut() const;
   void Kick(double h);
   bool FindImpacts();

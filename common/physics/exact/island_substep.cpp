@@ -33,6 +33,7 @@ constexpr double kUtmost = 50;
 }  // namespace
 
 void ExactIsland::Step(const Pace& pace, bool warm) {
+  stirred = false;
   Look(pace);
   FillFirst(pace);
   const double share = warm ? 1.0 / pace.substeps : 0;
@@ -91,9 +92,13 @@ void ExactIsland::Substep(const Pace& pace) {
       if (row.kind == RowKind::kNormal) row.target = std::min(0.0, row.target);
     }
     Course(pace, whole);
-    if (Possible(start, false)) return;
+    if (Possible(start, false)) {
+      PushApart(pace);
+      return;
+    }
   }
   Calm(pace, start);
+  PushApart(pace);
 }
 
 /// To where the substep's course began.
