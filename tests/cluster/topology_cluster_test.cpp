@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "common/physics/part_places.h"
@@ -156,6 +157,31 @@ TEST(TopologyCluster, APeerThatWentAstrayIsFoundAndRepaired) {
     EXPECT_LT(
         (cluster.client(1)->replica()->world().Read(b).position - truth.Read(b).position).norm(),
         0.1f);
+  }
+}
+
+TEST(TopologyCluster, WhoIsRepairedNeverShowsWhereTheSceneBegan) {
+  for (const std::string impair : {"perfect", "delay=200ms"}) {
+    ClusterConfig config;
+    config.scene_text = kBar;
+    config.reconcile = "rollback";
+    config.impair = impair;
+    Cluster cluster(config);
+    cluster.RunToTick(100);
+    EditOrder wrong = ToOrder(Break(2));
+    wrong.number = 0;
+    auto* bob = const_cast<Replica*>(cluster.client(1)->replica());
+    ASSERT_TRUE(bob->Queue(wrong));
+    cluster.Run();
+    EXPECT_NE(cluster.client(1)->replica(), bob) << impair << ": he began anew";
+    EXPECT_EQ(cluster.client(1)->replica()->revision(), 0) << impair;
+    double farthest = -100;  // the bar slides to the right
+    for (const auto& [tick, view] : cluster.recording().views.at(2)) {
+      const double x = view.x.at(0);
+      EXPECT_GT(x, farthest - 0.5) << impair << ", tick " << tick;
+      farthest = std::max(farthest, x);
+    }
+    EXPECT_GT(farthest, -4) << impair;
   }
 }
 

@@ -88,6 +88,7 @@ bool Corrector::IsNews(const States& states, std::size_t i, int body, Received* 
 
 bool Corrector::ReceiveOne(const States& states, std::size_t i, int body) {
   const BodyState remote = Unpack(states, i, world_.Read(body).angle);
+  if (!memory_.track(body).placed) memory_.snapshots().ForgetAfter(body, states.tick - 1);
   memory_.snapshots().Add(body, states.tick, remote);
   if (!memory_.track(body).placed) {
     PlaceBody(body, remote, false);
@@ -101,6 +102,7 @@ void Corrector::Place(const States& states) {
     const int body = world_.BodyOfId(states.id[i]);
     if (body < 0 || memory_.track(body).placed) continue;
     const BodyState remote = Unpack(states, i, world_.Read(body).angle);
+    memory_.snapshots().ForgetAfter(body, states.tick - 1);
     memory_.snapshots().Add(body, states.tick, remote);
     const bool asleep = (states.flags[i] & kStateAsleep) != 0;
     // The message is as old as its way was long: the body begins where it is by now, in motion.
