@@ -172,8 +172,7 @@ class OsmesaCanvas : public Canvas {
   }
 
   void Draw(const DrawList& list, const Image& background, Image* image) override {
-    SEAM_ASSERT(background.width_px == list.width_px());
-    SEAM_ASSERT(background.height_px == list.height_px());
+    SEAM_ASSERT(background.width_px == list.width_px() && background.height_px == list.height_px());
     DrawOver(
         list, [&](const Rect& rect) { CopyToTexture(rect, background); }, image);
   }
@@ -243,7 +242,7 @@ class OsmesaCanvas : public Canvas {
 
   void CopyToTexture(const Rect& rect, const Image& from) {
     if (rect.width <= 0 || rect.height <= 0) return;
-    const int x = static_cast<int>(rect.x), y = static_cast<int>(rect.y);
+    const auto x = static_cast<int>(rect.x), y = static_cast<int>(rect.y);
     glBindTexture(GL_TEXTURE_2D, picture_);
     glPixelStorei(GL_UNPACK_ROW_LENGTH, from.width_px);
     glTexSubImage2D(GL_TEXTURE_2D, 0, x, y, static_cast<int>(rect.width),
