@@ -87,9 +87,10 @@ class RestCommit {
   bool Own(int body) const { return roles_.IsAuthority(world_.mechanism(body)); }
   Disturbance& disturbed(int body) { return disturbed_[static_cast<std::size_t>(body)]; }
   std::int64_t Ticks(double seconds) const;
-  void FindDriven();
   bool Driven(int body) const;
-  void EndOutdated();
+  void EndOutdated(int body);
+  void FindDue();
+  void Hold(int body);
   /// Where and as it rests, its view gliding there.
   void Put(int body);
   /// The disturbance is real: an own body's rest is over, another's copy goes on until its
@@ -114,7 +115,10 @@ class RestCommit {
   RestTable table_;
   RestWatch watch_;
   std::vector<Disturbance> disturbed_;  // by body
-  std::vector<bool> driven_;            // by player: its input of this step is not neutral
+  std::vector<int> freed_;              // bodies that are let go, or were
+  std::vector<int> due_;                // bodies that a step has to look at
+  mutable int open_ = 0;                // the body that was found not to be held last
+  std::int64_t step_ = 0;               // the tick that this step leads to
   bool edited_ = false;
   std::vector<int> committed_;  // in the last step
   std::int64_t number_ = 0;     // of the next Rest

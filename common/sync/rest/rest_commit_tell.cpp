@@ -156,7 +156,8 @@ bool RestCommit::ReceiveOne(const Rest& rest, std::size_t i) {
   track.pull.arrived = -1;
   disturbed(body) = Disturbance{};
   memory_.snapshots().Add(body, rest.tick, pose);
-  for (std::int64_t tick = rest.tick; tick <= world_.tick(); ++tick) {
+  memory_.NoteNews(body);
+  for (std::int64_t tick = rest.tick; tick <= world_.tick() && !memory_.parked(body); ++tick) {
     if (BodyState* past = memory_.history().At(tick, body)) *past = pose;
   }
   Put(body);
