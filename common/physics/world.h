@@ -2,6 +2,7 @@
 /// One simulated world: a scene's assemblies in Box2D, stepped a tick at a time. Deterministic:
 /// the same calls give the same bits, at any optimisation level, in any process.
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
@@ -122,6 +123,8 @@ class World {
   Motion motion(int body) const;
   /// Those that are not absent, ascending: what the work of a tick is to be proportional to.
   const std::vector<int>& present() const;
+  /// How often a body was looked at, or written to, by its index: the work that callers made of it.
+  std::int64_t looks() const;
 
   /// The motors that follow this player's axes from now on. Buttons are not looked at.
   void SetInput(int player, const Input& input);

@@ -130,6 +130,7 @@ struct World::Impl {
 
   const MovingBody& moving(int body) const {
     SEAM_ASSERT(body >= 0 && body < static_cast<int>(built.moving.size()));
+    ++looks;
     return built.moving[static_cast<std::size_t>(body)];
   }
 
@@ -142,6 +143,7 @@ struct World::Impl {
   BuiltScene built;
   std::optional<ExactStep> exact;   // only when there are joints for it
   std::vector<Motion> motions;      // by moving body
+  mutable std::int64_t looks = 0;   // calls of moving()
   int led_count = 0;                // of them kLed
   std::vector<BodyState> led_path;  // by moving body: of led ones, where the step began
   bool unsettled = false;           // some are absent, or are so no more, but still to be moved

@@ -46,6 +46,7 @@ void World::SetMotion(int body, Motion motion) {
 }
 
 const std::vector<int>& World::present() const { return impl_->present; }
+std::int64_t World::looks() const { return impl_->looks; }
 
 void World::Impl::FindPresent(bool aside) {
   present.clear();

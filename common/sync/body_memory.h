@@ -85,11 +85,10 @@ class BodyMemory {
   void MoveParked(int body) {
     if (parked(body)) parked_[static_cast<std::size_t>(body)].pose = world_.Read(body);
   }
-  /// Of a parked body something new was heard.
-  void NoteNews(int body) {
-    if (parked(body)) news_.push_back(body);
-  }
-  /// Parked bodies of which something was heard since ForgetNews; some may be parked no more.
+  /// Something new was heard of the body, or it was moved along its path: only then an absent one
+  /// has to be looked at.
+  void NoteNews(int body) { news_.push_back(body); }
+  /// Since ForgetNews, in any order, some twice.
   const std::vector<int>& news() const { return news_; }
   void ForgetNews() { news_.clear(); }
 

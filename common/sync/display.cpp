@@ -201,6 +201,7 @@ void Display::Drive(std::int64_t next, const MovingBox& seen) {
     }
     const bool moves = state.velocity.squaredNorm() > 0 || state.spin != 0;
     world_.Write(body, state, moves);
+    if (motion == Motion::kAbsent) memory_.NoteNews(body);
   }
   for (const int body : leaving_) Leave(body);
 }

@@ -96,22 +96,24 @@ void RestCommit::LetGo(int body) {
   }
 }
 
-/// Of what is parked only that of which something was heard, or whose time may be over.
+/// Of what is absent only that of which something was heard, what was moved, and what may have been
+/// let go for long enough.
 void RestCommit::FindDue() {
   due_.clear();
-  const auto add_parked = [this](const std::vector<int>& bodies) {
+  const auto add_absent = [this](const std::vector<int>& bodies) {
     for (const int body : bodies) {
-      if (memory_.parked(body)) due_.push_back(body);
+      if (world_.motion(body) == Motion::kAbsent) due_.push_back(body);
     }
   };
-  add_parked(memory_.news());
-  add_parked(freed_);
+  add_absent(memory_.news());
+  add_absent(freed_);
+  if (edited_) add_absent(memory_.tended());
   freed_.erase(std::remove_if(freed_.begin(), freed_.end(),
                               [this](int body) { return disturbed(body).freed_tick < 0; }),
                freed_.end());
   std::sort(due_.begin(), due_.end());
   due_.erase(std::unique(due_.begin(), due_.end()), due_.end());
-  due_.insert(due_.begin(), memory_.tended().begin(), memory_.tended().end());
+  due_.insert(due_.begin(), world_.present().begin(), world_.present().end());
 }
 
 void RestCommit::BeforeStep() {
