@@ -15,7 +15,7 @@ namespace {
 /// The own box, one beside it that it leans on, and others far away, of the server's. Nobody looks.
 std::unique_ptr<Replica> RoomOf(int far) {
   const std::string text =
-      "gravity = [0, 0]\n"
+      "gravity = [0, 0]\nbounds = [[-1000, -1000], [9000, 1000]]\n"
       "[[player]]\nname = \"ann\"\nvehicle = \"own\"\n"
       "[[part]]\nname = \"own\"\nbox = [1, 1]\n"
       "[[part]]\nname = \"beside\"\nbox = [1, 1]\nposition = [1.1, 0]\n"
