@@ -158,6 +158,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
   world->Step(step_s(), 1, 1);
   if (same) {
     BuildPresent(scene, composition, present, crossed, &*world, &memory, &built);
+    for (const int body : crossed) stale[static_cast<std::size_t>(body) / kept.kPage] = 1;
     crossed.clear();
     Built();
   } else {
