@@ -13,10 +13,10 @@ void Broadcast::FindDue(int peer) {
   due_.clear();
   for (const Entry& entry : entries_) {
     const bool has = Simulates(peer, entry.mechanism);
-    const Concern concern = interest_.Of(peer, entry.mechanism);
-    if (has && concern == Concern::kClose) {
+    const Concern concern = has ? Concern::kClose : interest_.Of(peer, entry.mechanism);
+    if (concern == Concern::kClose) {
       due_.emplace_back(entry.id, Urgency::kFollowed);
-    } else if ((has || concern >= Concern::kNear) && entry.news >= News::kNear) {
+    } else if (concern == Concern::kNear && entry.news >= News::kNear) {
       due_.emplace_back(entry.id, Urgency::kNear);
     } else if (concern == Concern::kFar && entry.news == News::kAll) {
       due_.emplace_back(entry.id, Urgency::kFar);

@@ -29,7 +29,7 @@ class Broadcast {
   /// On the bus only.
   template <class Message>
   void Publish(const Message& message) {
-    if (publisher_.listening()) publisher_.Publish(message);
+    publisher_.Publish(message);
   }
   /// On the bus and, reliably, to everyone who has proved its address.
   template <class Message>
@@ -40,9 +40,9 @@ class Broadcast {
   void ToAll(const std::vector<Grants>& messages) {
     for (const Grants& grants : messages) ToAll(grants);
   }
-  /// To each of the other peers what concerns it: all of the bodies that it follows and that are
-  /// close to what it has, of the others what is news to it (NewestStates). What is not sent at
-  /// once waits for SendWaiting. Not on the bus.
+  /// To each of the other peers what concerns it: all of the bodies that it follows, of the others
+  /// what is news to it (NewestStates). What is not sent at once waits for SendWaiting. Not on the
+  /// bus.
   void Relay(std::int64_t now_us, const States& states, int from_peer);
   /// What waits for the receivers, as far as their budgets go. Before a flush.
   void SendWaiting(std::int64_t now_us);

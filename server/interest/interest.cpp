@@ -110,8 +110,7 @@ std::vector<Interest::Risen> Interest::Look(const std::vector<Receiver>& receive
     if (holder > 0 && holder < peers) held_[holder].push_back(body);
   }
   const bool central = config_.mode == Mode::kCentral;
-  const float reach = CloseReach(config_.mode);
-  const Cells near = CellsOf(kNearReach), close = CellsOf(reach);
+  const Cells near = CellsOf(kNearReach), close = central ? CellsOf(kCloseReach) : Cells{};
   std::vector<Risen> risen;
   for (const Receiver& receiver : receivers) {
     const auto row = static_cast<std::size_t>(receiver.peer) * mechanisms;
@@ -120,13 +119,11 @@ std::vector<Interest::Risen> Interest::Look(const std::vector<Receiver>& receive
     } else {
       FindThings(receiver);
       Raise(receiver, near, kNearReach, Concern::kNear);
-      Raise(receiver, close, reach, Concern::kClose);
+      if (central) Raise(receiver, close, kCloseReach, Concern::kClose);
     }
     if (!comparable || row >= before_.size()) continue;
     for (std::size_t m = 0; m < mechanisms; ++m) {
-      // Who has something hears of what comes close to it anyway: it was near.
-      const bool known = !central && before_[row + m] != Concern::kFar;
-      if (!known && concern_[row + m] > before_[row + m]) {
+      if (concern_[row + m] > before_[row + m]) {
         risen.push_back({receiver.peer, static_cast<int>(m)});
       }
     }

@@ -13,7 +13,7 @@ namespace seam {
 enum class Concern : std::uint8_t {
   kFar,
   kNear,
-  kClose,  ///< it may meet what the receiver has; mode central: what it drives, and predicts
+  kClose,  ///< mode central: it may meet what the receiver drives and predicts
 };
 
 class Interest {
@@ -30,7 +30,7 @@ class Interest {
     int peer = 0, mechanism = 0;
   };
   /// Looks where everything is now. A receiver is near what is within kNearReach of what it drives
-  /// or has authority over, and maybe what is twice as far; close likewise with CloseReach. In a
+  /// or has authority over, and maybe what is twice as far; close likewise with kCloseReach. In a
   /// room of at most follow_bodies all is close to everyone.
   std::vector<Risen> Look(const std::vector<Receiver>& receivers);
   /// As of the last Look; in a large room, of who was not there, kNear.
@@ -44,10 +44,7 @@ class Interest {
   void Remap();
 
   /// m.
-  static constexpr float kNearReach = 30;
-  /// Mode central: a client predicts what is close, and so needs to have it long before it meets
-  /// it. Mode buffer: it is told more often of it (Broadcast); who follows what is told by grants.
-  static constexpr float CloseReach(Mode mode) { return mode == Mode::kCentral ? 24.0f : 12.0f; }
+  static constexpr float kNearReach = 30, kCloseReach = 24;
 
  private:
   /// Mechanisms by the cells of a square grid that their bodies are in, each once in a cell.

@@ -50,7 +50,7 @@ bool NewestStates::IsNews(const Body& body, const HeardState& told, const NewsRu
   constexpr float kQuantum = kPositionQuantum, kSpeed = kVelocityQuantum;
   const float speed = kSpeed * static_cast<float>(std::abs(told.vx) + std::abs(told.vy)) +
                       kSpeed * static_cast<float>(std::abs(told.spin)) * body.reach;
-  if (seconds >= (speed < kSlow ? kNewsRepeatSlow : rule.repeat)) return true;
+  if (seconds >= (speed < kSlow ? kNewsRepeatSlow : kNewsRepeat)) return true;
   const float x = static_cast<float>(now.x - told.x) * kQuantum - seconds * kSpeed * told.vx;
   const float y = static_cast<float>(now.y - told.y) * kQuantum - seconds * kSpeed * told.vy;
   float off = std::hypot(x, y);

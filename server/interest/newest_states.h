@@ -36,15 +36,12 @@ enum class News : std::uint8_t {
 struct NewsRule {
   float off;     ///< m, of a point of the body from where the last told state takes it
   double least;  ///< s since then: not before
-  /// s after which it is told in any case, before the receiver's reckoning ends (kReckonMax).
-  double repeat;
 };
-/// Of what is near one may be lost before the reckoning ends; what is far stands still then for
-/// less than a second.
-constexpr NewsRule kNearNews{0.005f, 0, 0.5};
-constexpr NewsRule kFarNews{0.05f, 0.5, 0.9};
-/// s after which what is slower than kSlow, m/s, which hardly gets anywhere, is told in any case.
-constexpr double kNewsRepeatSlow = 2;
+constexpr NewsRule kNearNews{0.005f, 0};
+constexpr NewsRule kFarNews{0.05f, 0.5};
+/// s after which it is told in any case, so that one may be lost before the receiver's reckoning
+/// ends (kReckonMax); and what is slower than kSlow, m/s, which hardly gets anywhere.
+constexpr double kNewsRepeat = 0.5, kNewsRepeatSlow = 2;
 constexpr float kSlow = 0.05f;
 
 class NewestStates {
