@@ -26,6 +26,14 @@ constexpr float kBlow = 0.5f;
 /// to arrive there first, and its state takes as long again.
 constexpr double kBackAfter = 0.75, kBackAfterTrusted = 2;
 
+/// Since its authority's word it has lain there, whatever was thought of it here.
+void WriteHistory(const RestRecord& rest, std::int64_t now, int body, BodyMemory* memory) {
+  std::int64_t tick = std::max(rest.tick, memory->history().oldest());
+  for (; tick <= now; ++tick) {
+    if (BodyState* past = memory->history().At(tick, body)) *past = rest.pose;
+  }
+}
+
 }  // namespace
 
 RestCommit::RestCommit(const SyncConfig& config, World& world, const Roles& roles,
@@ -114,7 +122,10 @@ void RestCommit::BeforeStep() {
     if (d.freed_tick >= 0 && world_.tick() - d.freed_tick >= back_after) {
       d.freed_tick = -1;
       memory_.track(body).at_rest = table_.at(body).committed;
-      if (Holds(body)) Put(body);
+      if (Holds(body)) {
+        WriteHistory(table_.at(body), world_.tick(), body, &memory_);
+        Put(body);
+      }
     }
     if (!Holds(body) && table_.at(body).committed && d.freed_tick < 0) {
       LetGo(body);  // a replay found a blow
