@@ -2,9 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <malloc.h>
-#ifdef __SANITIZE_ADDRESS__
-#include <sanitizer/allocator_interface.h>
-#endif
 
 #include <algorithm>
 #include <cstdio>
@@ -17,6 +14,11 @@
 #include "tests/lab/cluster.h"
 #include "tests/support/soak.h"
 #include "tests/support/soak/paired_boxes.h"
+
+#ifdef __SANITIZE_ADDRESS__
+// Of <sanitizer/allocator_interface.h>, which g++ 12 comes without.
+extern "C" std::size_t __sanitizer_get_current_allocated_bytes();
+#endif
 
 namespace seam {
 namespace {

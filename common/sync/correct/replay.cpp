@@ -171,7 +171,7 @@ bool Replay::RestsAsBefore(int body, const BodyState& pose) {
 /// What turns out to have been disturbed rests no more.
 void Replay::EndRest() {
   if (config_.StampsInputs(roles_.self())) return;  // it is stepped again like anything else
-  for (const int body : DisturbedRest(world_, memory_, inputs_)) {
+  for (const int body : DisturbedRest(world_, drivers_, memory_, inputs_)) {
     const bool held = world_.tick() <= memory_.track(body).dynamic_since;
     if (roles_.Simulates(body) && !held) memory_.track(body).at_rest = false;
   }
