@@ -147,18 +147,21 @@ bool RestCommit::GivesWay(int body) {
 }
 
 /// What the engine has woken in an island in the last step. An own body that only own ones touch is
-/// awake: nobody else's word is needed for it.
+/// awake: nobody else's word is needed for it. Where all are held, of several owners, the engine
+/// wakes what leans on copies that lie a little otherwise, in every step: that is a push like
+/// others.
 void RestCommit::HoldIsland(const std::vector<int>& island) {
-  bool own_awake = false, others_awake = false, driven = false;
+  bool own_awake = false, others_awake = false, driven = false, only_own = true;
   for (const int body : island) {
     const bool struck = world_.awake(body) && world_.Read(body).velocity.norm() > kBlow;
     driven = driven || struck || Driven(body);
+    only_own = only_own && Own(body);
     if (Holds(body) || !world_.awake(body)) continue;
     (Own(body) ? own_awake : others_awake) = true;
   }
   for (const int body : island) {
     if (!Holds(body) || !world_.awake(body)) continue;
-    const bool by_own = Own(body) && (own_awake || !others_awake);
+    const bool by_own = Own(body) && (own_awake || (only_own && !others_awake));
     const bool moves = world_.motion(body) == Motion::kDynamic;
     if (moves && (Trusts() || by_own || driven || GivesWay(body))) {
       LetGo(body);
