@@ -36,6 +36,20 @@ BodyState Apart(const BodyState& now, const BodyState& then) {
   return apart;
 }
 
+/// Back at a barrier: what already rested then lies where its authority has said since, and not
+/// where this peer had it, or every replay would bring that back and end its rest.
+void PutToRest(World& world, const Roles& roles, BodyMemory& memory) {
+  for (int body = 0; body < world.body_count(); ++body) {
+    const BodyTrack& track = memory.track(body);
+    if (!track.at_rest || roles.RoleOfBody(body) != kRoleSecondary) continue;
+    if (world.motion(body) == Motion::kAbsent || world.tick() < track.heard_tick) continue;
+    const BodyState& lay = *memory.history().At(world.tick(), body);
+    if (Negligible(Apart(world.Read(body), lay))) continue;
+    world.Write(body, lay, false);
+    world.SetAwake(body, false);
+  }
+}
+
 }  // namespace
 
 Replay::Replay(const SyncConfig& config, World& world, const Roles& roles, const Drivers& drivers,
@@ -264,6 +278,7 @@ bool Replay::Depart(std::int64_t from, bool all) {
   }
   journey_ = std::move(journey);
   credit_ -= static_cast<double>(journey_->now - world_.tick());
+  PutToRest(world_, roles_, memory_);
   PutIn();
   RepeatEdits();
   return true;

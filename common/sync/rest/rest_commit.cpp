@@ -27,6 +27,14 @@ constexpr float kBlow = 0.5f;
 /// to arrive there first, and its state takes as long again.
 constexpr double kBackAfter = 0.75, kBackAfterTrusted = 2;
 
+/// Since its authority's word it has lain there, whatever was thought of it here.
+void WriteHistory(const RestRecord& rest, std::int64_t now, int body, BodyMemory* memory) {
+  std::int64_t tick = std::max(rest.tick, memory->history().oldest());
+  for (; tick <= now; ++tick) {
+    if (BodyState* past = memory->history().At(tick, body)) *past = rest.pose;
+  }
+}
+
 }  // namespace
 
 RestCommit::RestCommit(const SyncConfig& config, World& world, const Roles& roles,
@@ -128,7 +136,10 @@ void RestCommit::Hold(int body) {
   if (d.freed_tick >= 0 && world_.tick() - d.freed_tick >= back_after) {
     d.freed_tick = -1;
     memory_.track(body).at_rest = table_.at(body).committed;
-    if (Holds(body)) Put(body);
+    if (Holds(body)) {
+      WriteHistory(table_.at(body), world_.tick(), body, &memory_);
+      Put(body);
+    }
   }
   if (!Holds(body) && table_.at(body).committed && d.freed_tick < 0) {
     LetGo(body);  // a replay found a blow
@@ -159,18 +170,21 @@ bool RestCommit::GivesWay(int body) {
 }
 
 /// What the engine has woken in an island in the last step. An own body that only own ones touch is
-/// awake: nobody else's word is needed for it.
+/// awake: nobody else's word is needed for it. Where all are held, of several owners, the engine
+/// wakes what leans on copies that lie a little otherwise, in every step: that is a push like
+/// others.
 void RestCommit::HoldIsland(const std::vector<int>& island) {
-  bool own_awake = false, others_awake = false, driven = false;
+  bool own_awake = false, others_awake = false, driven = false, only_own = true;
   for (const int body : island) {
     const bool struck = world_.awake(body) && world_.Read(body).velocity.norm() > kBlow;
     driven = driven || struck || Driven(body);
+    only_own = only_own && Own(body);
     if (Holds(body) || !world_.awake(body)) continue;
     (Own(body) ? own_awake : others_awake) = true;
   }
   for (const int body : island) {
     if (!Holds(body) || !world_.awake(body)) continue;
-    const bool by_own = Own(body) && (own_awake || !others_awake);
+    const bool by_own = Own(body) && (own_awake || (only_own && !others_awake));
     const bool moves = world_.motion(body) == Motion::kDynamic;
     if (moves && (Trusts() || by_own || driven || GivesWay(body))) {
       LetGo(body);

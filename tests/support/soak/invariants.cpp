@@ -214,10 +214,12 @@ void Invariants::LookAtBodies() {
       if (!finite) Say("all numbers are finite", who());
       // What falls out of the world gains what its height was worth.
       const double fallen = std::max(0.0, double{top_} - double{state.position.y()});
-      const double allowed =
-          std::hypot(double{cluster_.scene().speed_limit}, std::sqrt(2 * gravity * fallen));
+      const double limit = double{cluster_.scene().speed_limit};
+      const double by_falling = std::sqrt(2 * gravity * fallen);
       fastest_ = std::max(fastest_, speed);
-      if (double{speed} <= allowed || strict_) {
+      // Who joins then cannot be told how fast it falls: States say no more than the limit.
+      const bool beyond_telling = by_falling > limit;
+      if (double{speed} <= std::hypot(limit, by_falling) || beyond_telling || strict_) {
         if (!peer.fast_ticks.empty()) peer.fast_ticks.erase(world.id(body));
       } else if (++peer.fast_ticks[world.id(body)] > kFastTicksMax) {
         Say("nothing explodes", who() + ": " + std::to_string(speed) + " m/s");
