@@ -11,8 +11,15 @@
 namespace seam {
 namespace {
 
+/// rad over which arms at rest come to right the torso.
+constexpr float kTurnedFade = 0.4f;
+
 /// Of a sine, `phase` in turns.
 float Sine(float phase) { return std::sin(2 * b2_pi * (phase - std::floor(phase))); }
+
+/// -1 to 1 by a phase in turns: faster up than down by a `haste` of 0 to 1, slower by 0 to -1. Drag
+/// goes by the square of the speed, so what beats so pushes the water one way in the mean.
+float Scull(float phase, float haste) { return Sine(phase + haste * Sine(phase) / (2 * b2_pi)); }
 
 /// By so many turns; whole ones do not count.
 void TurnOn(float* turns, float by) {
@@ -47,8 +54,9 @@ CharacterControl::Legs CharacterControl::TreadLegs(const CharacterSense& s, floa
   const CharacterGains& g = gains_;
   const float error = std::clamp(s.torso + g.tread_lean, -1.0f, 1.0f);
   const float skew = g.tread_skew * error + g.tread_skew_rate * s.torso_spin;
-  return {g.tread_hip + skew + g.tread_sine * Sine(leg),
-          g.tread_knee + g.tread_knee_sine * Sine(leg + g.tread_knee_phase), g.tread_ankle};
+  return {g.tread_hip + skew + g.tread_sine * Scull(leg, g.tread_haste),
+          g.tread_knee + g.tread_knee_sine * Scull(leg + g.tread_knee_phase, g.tread_haste),
+          g.tread_ankle};
 }
 
 /// rad forward, of the torso while it strokes.
@@ -126,17 +134,24 @@ void CharacterControl::Swim(const CharacterSense& s, float h) {
   const float swims = memory_.to * driven, rights = (1 - memory_.to) * driven;
   // Drag goes by the square of the speed: the same stroke in reverse pushes the other way.
   const float turning = g.swim_slow_hz + size * (g.swim_hz - g.swim_slow_hz);
+  // Who lies turned over at rest is righted by the arms, too.
+  const float turned =
+      (1 - driven) * std::clamp((std::abs(error) - g.tread_turned) / kTurnedFade, 0.0f, 1.0f);
+  const float rests = 1 - driven - turned, rights_all = rights + turned;
   // At rest, arms sink to before and behind the torso.
   const float sinking = -g.arms_back * (memory_.phase_time - std::round(memory_.phase_time));
-  const float hz = swims * (share < 0 ? -turning : turning) + rights * RightingHz(s, error) +
-                   (1 - driven) * sinking;
+  const float hz = swims * (share < 0 ? -turning : turning) + rights_all * RightingHz(s, error) +
+                   rests * sinking;
   float& ready = memory_.from.x;
   ready += std::clamp(driven - ready, -h / g.ready_time, h / g.ready_time);
   TurnOn(&memory_.phase_time, hz * h);
   TurnOn(&memory_.step, g.tread_hz * h);
-  const float skew = (1 - driven) * g.tread_arms_skew * std::clamp(error, -1.0f, 1.0f);
-  const float apart = g.tread_arms + driven * (0.5f * b2_pi - g.tread_arms);
-  const float strength = g.swim_shoulder + rights * (g.right_shoulder - g.swim_shoulder);
+  const float skew = rests * g.tread_arms_skew * std::clamp(error, -1.0f, 1.0f);
+  // Both arms at once from the sides down, slowly up.
+  const float scull = g.tread_scull * Scull(memory_.step + g.tread_scull_phase, g.tread_haste);
+  const float apart = 0.5f * b2_pi + rests * (g.tread_arms + scull - 0.5f * b2_pi);
+  const float strength = g.swim_shoulder + rights_all * (g.right_shoulder - g.swim_shoulder);
+  const float bend = g.tread_elbow_sine * Scull(memory_.step + g.tread_elbow_phase, g.tread_haste);
   for (int side = 0; side < 2; ++side) {
     const float half = 0.5f * static_cast<float>(side);
     const float turn = memory_.phase_time - 0.25f + half;
@@ -146,7 +161,7 @@ void CharacterControl::Swim(const CharacterSense& s, float h) {
              swims * g.shoulder_sine * Sine(turn + g.shoulder_phase),
          strength, -2 * b2_pi * hz);
     const float elbow = g.elbow_middle + g.elbow_sine * Sine(turn + g.elbow_phase);
-    const float rest = side == 0 ? (1 - driven) * g.tread_elbow : 0.05f;
+    const float rest = rests * ((side == 0 ? g.tread_elbow : g.tread_elbow_behind) + bend);
     Pose(Elbow(side), rest + swims * (elbow - rest), g.swim_elbow);
     const Legs tread = ReadyLegs(TreadLegs(s, memory_.step + half), error, ready);
     PoseLegs(tread, BeatLegs(s, turn, share), swims, side);
