@@ -136,7 +136,7 @@ class CharacterControl {
   float ChestDepth(const CharacterSense& s) const;
   float WaterOverGround(const CharacterSense& s) const;
   void Swim(const CharacterSense& s, float h);
-  void Tread(const CharacterSense& s, float h);
+  void Tread(const CharacterSense& s);
   float RightingHz(const CharacterSense& s, float error) const;
   /// rad of the joints of one leg.
   struct Legs {

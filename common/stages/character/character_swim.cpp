@@ -87,13 +87,13 @@ void CharacterControl::PoseLegs(const Legs& tread, const Legs& beat, float share
   Pose(Ankle(side), mixed(tread.ankle, beat.ankle), gains_.swim_ankle);
 }
 
-/// Before a ledge, hands busy.
-void CharacterControl::Tread(const CharacterSense& s, float h) {
-  TurnOn(&memory_.step, gains_.tread_hz * h);
-  for (int side = 0; side < 2; ++side) {
-    const Legs legs = TreadLegs(s, memory_.step + 0.5f * static_cast<float>(side));
-    PoseLegs(legs, legs, 0, side);
-  }
+/// Before a ledge, hands busy: legs alone keep the lean.
+void CharacterControl::Tread(const CharacterSense& s) {
+  const CharacterGains& g = gains_;
+  const float error = std::clamp(s.torso + g.tread_lean, -1.0f, 1.0f);
+  const float skew = g.climb_tread_skew * error + g.climb_tread_skew_rate * s.torso_spin;
+  const Legs legs{g.climb_tread_hip + skew, g.climb_tread_knee, g.climb_tread_ankle};
+  for (int side = 0; side < 2; ++side) PoseLegs(legs, legs, 0, side);
 }
 
 /// Turns per s of the arms that bring the torso back to its lean, from `error` rad beyond it: the
