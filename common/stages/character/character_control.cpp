@@ -100,7 +100,7 @@ void CharacterControl::Act(float h) {
     case CharacterMode::kStep: StepOn(s, h); break;
     case CharacterMode::kJump: Jump(s); break;
     case CharacterMode::kAir: Air(s); break;
-    case CharacterMode::kFall: Fall(s); break;
+    case CharacterMode::kFall: Fall(s, h); break;
     case CharacterMode::kRise: Rise(s, h); break;
     case CharacterMode::kSwim: Swim(s, h); break;
     case CharacterMode::kClimb: Climb(s, h); break;

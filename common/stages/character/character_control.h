@@ -126,8 +126,9 @@ class CharacterControl {
   void Air(const CharacterSense& s);
 
   // character_rise.cpp
-  void Fall(const CharacterSense& s);
+  void Fall(const CharacterSense& s, float h);
   void Rise(const CharacterSense& s, float h);
+  bool Squats(const CharacterSense& s) const;
   float SlopeBelow(const CharacterSense& s) const;
   LegPose Gathered(const CharacterSense& s, float place, float lead, float slope) const;
   void Up(const CharacterSense& s);
