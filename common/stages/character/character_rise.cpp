@@ -21,10 +21,6 @@ struct RiseFrame {
   float CharacterGains::*hip_slope;      ///< rad per rad, as the next two
   float CharacterGains::*knee_slope;
   float CharacterGains::*shoulder_slope;
-  float CharacterGains::*seconds_down;  ///< the same where the ground falls forwards
-  float CharacterGains::*hip_down;
-  float CharacterGains::*knee_down;
-  float CharacterGains::*shoulder_down;
 };
 
 #define SEAM_FRAME(name)                                                                     \
@@ -33,9 +29,7 @@ struct RiseFrame {
         &CharacterGains::name##_ankle, &CharacterGains::name##_shoulder,                     \
         &CharacterGains::name##_elbow, &CharacterGains::name##_time_slope,                   \
         &CharacterGains::name##_hip_slope, &CharacterGains::name##_knee_slope,               \
-        &CharacterGains::name##_shoulder_slope, &CharacterGains::name##_time_down,           \
-        &CharacterGains::name##_hip_down, &CharacterGains::name##_knee_down,                 \
-        &CharacterGains::name##_shoulder_down                                                \
+        &CharacterGains::name##_shoulder_slope                                               \
   }
 
 constexpr int kFrames = 4;
@@ -53,7 +47,7 @@ constexpr float kSlopeKnown = 0.5f;
 
 }  // namespace
 
-void CharacterControl::Fall(const CharacterSense& s, float h) {
+void CharacterControl::Fall(const CharacterSense& s) {
   const bool back = s.torso > 0;
   // Hands towards the ground, chin on the chest.
   Pose(kNeck, back ? 0.5f : -0.4f, 0.5f * gains_.neck_stiffness, 0, gains_.rise_rate);
@@ -65,12 +59,10 @@ void CharacterControl::Fall(const CharacterSense& s, float h) {
     Pose(Ankle(side), 0, gains_.fall_stiffness, 0, gains_.rise_rate);
   }
   const bool still = s.velocity.LengthSquared() < 0.1f && std::abs(s.torso_spin) < 0.5f;
-  // A bounce stands still for a moment, too.
-  memory_.phase_time = still ? memory_.phase_time + h : 0;
-  const bool lies = memory_.phase_time > gains_.fall_still && memory_.time > gains_.fall_min;
-  if (memory_.time > gains_.fall_max || lies) {
+  if (memory_.time > gains_.fall_max || (still && memory_.time > gains_.fall_min)) {
     Enter(CharacterMode::kRise);
     memory_.phase = back ? 0 : kFromFront;
+    ++memory_.tries;
   }
 }
 
@@ -101,12 +93,23 @@ CharacterControl::LegPose CharacterControl::Gathered(const CharacterSense& s, fl
   return pose;
 }
 
+/// rad that the ground counts as steeper from the back: what failed would fail again just so.
+float CharacterControl::Variation() const {
+  if (memory_.phase >= kFromFront) return 0;
+  switch ((memory_.tries - 1) % 4) {
+    case 1: return -gains_.back_vary;
+    case 2: return gains_.back_vary;
+    case 3: return -0.5f * gains_.back_vary;
+    default: return 0;
+  }
+}
+
 /// On both soles with the body over them, however it came there.
 bool CharacterControl::Squats(const CharacterSense& s) const {
-  const bool down = s.legs[0].down && s.legs[1].down && !s.lying;
-  if (!down || std::abs(s.torso + gains_.squat_lean) > gains_.squat_tilt ||
-      std::abs(s.torso_spin) > gains_.squat_spin)
-    return false;
+  const bool bears = s.legs[0].down && s.legs[1].down && !s.lying;
+  const bool calm =
+      std::abs(s.torso) < gains_.squat_tilt && std::abs(s.torso_spin) < gains_.squat_spin;
+  if (!bears || !calm) return false;
   const CharacterShape& shape = limbs_.shape();
   const float ground_y = std::min(s.legs[0].ankle.y, s.legs[1].ankle.y) - shape.ankle;
   const float capture = s.centre.x + s.velocity.x / Omega(s, ground_y);
@@ -126,33 +129,25 @@ void CharacterControl::Rise(const CharacterSense& s, float h) {
     Up(s);
     return;
   }
-  const float slope = SlopeBelow(s);
+  const float slope = SlopeBelow(s) + Variation();
   const RiseFrame& to = kRise[memory_.phase];
   const bool first = memory_.phase % kFrames == 0, last = memory_.phase % kFrames == kFrames - 1;
   const bool back = memory_.phase < kFromFront;
   const RiseFrame& from = kRise[first ? memory_.phase : memory_.phase - 1];
-  const bool down = slope < 0;
-  const float seconds = std::max(
-      0.02f, gains_.*to.seconds + slope * gains_.*(down ? to.seconds_down : to.seconds_slope));
+  const float seconds = std::max(0.02f, gains_.*to.seconds + gains_.*to.seconds_slope * slope);
   const float t = std::min(1.0f, memory_.phase_time / seconds);
   const auto at = [&](float CharacterGains::*RiseFrame::*angle) {
     return gains_.*(from.*angle) + t * (gains_.*(to.*angle) - gains_.*(from.*angle));
   };
-  float hip = at(&RiseFrame::hip) + slope * at(down ? &RiseFrame::hip_down : &RiseFrame::hip_slope);
-  float knee =
-      at(&RiseFrame::knee) + slope * at(down ? &RiseFrame::knee_down : &RiseFrame::knee_slope);
-  const float shoulder = at(&RiseFrame::shoulder) +
-                         slope * at(down ? &RiseFrame::shoulder_down : &RiseFrame::shoulder_slope);
+  float hip = at(&RiseFrame::hip) + slope * at(&RiseFrame::hip_slope);
+  float knee = at(&RiseFrame::knee) + slope * at(&RiseFrame::knee_slope);
+  const float shoulder = at(&RiseFrame::shoulder) + slope * at(&RiseFrame::shoulder_slope);
   const float share = last ? (back ? gains_.back_gather : gains_.front_gather) : 0;
   if (share > 0) {
     const LegPose below = Gathered(s, back ? gains_.back_place : gains_.front_place,
                                    back ? gains_.back_lead : gains_.front_lead, slope);
     hip += share * (below.thigh - hip);
     knee += share * (below.knee - knee);
-  }
-  // From the back the torso comes up fast: hips that open brake it, or it goes over to the front.
-  if (back && !first && s.torso < gains_.back_brake_from) {
-    hip -= gains_.back_brake * std::max(0.0f, -s.torso_spin - gains_.back_spin);
   }
   for (int side = 0; side < 2; ++side) {
     Pose(Hip(side), hip, gains_.rise_stiffness, 0, gains_.rise_rate);
