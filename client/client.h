@@ -111,7 +111,7 @@ class Client {
   void OnEdit(const EditOrder& order);
   void OnGrants(std::int64_t now_us, const Grants& grants);
   void OnSnapshot(const Snapshot& part);
-  /// Of the scene as it is, or as it has become.
+  /// Of the scene as it is, or as it has become. Instead of one that runs, it goes on from there.
   void MakeReplica(const Topology* become = nullptr);
   void Build(std::int64_t now_us);
 
