@@ -16,9 +16,6 @@ constexpr float kLimpLift = -0.9f;
 /// s at the beginning without any muscle tone: it would keep one that stands still on its feet.
 constexpr float kBuckle = 0.5f;
 
-/// s that it stands, after which what failed before no longer counts.
-constexpr float kStood = 0.5f;
-
 /// m of water over the ground, for 1.8 m: from which on it swims, and below which it stands up.
 constexpr float kSwimDepth = 0.75f, kWadeDepth = 0.3f;
 
@@ -28,7 +25,7 @@ void CharacterMemory::Save(std::vector<float>* memory) const {
   memory->insert(memory->end(),
                  {static_cast<float>(mode), time, static_cast<float>(stance), step, from.x, from.y,
                   to, edge.x, edge.y, speed, static_cast<float>(phase), phase_time, hold[0],
-                  hold[1], load[0], load[1], limp, static_cast<float>(tries)});
+                  hold[1], load[0], load[1], limp});
 }
 
 std::size_t CharacterMemory::Load(const float* memory) {
@@ -47,8 +44,7 @@ std::size_t CharacterMemory::Load(const float* memory) {
   load[0] = memory[14];
   load[1] = memory[15];
   limp = memory[16];
-  tries = static_cast<int>(memory[17]);
-  return 18;
+  return 17;
 }
 
 CharacterControl::CharacterControl(const Character& character, const StageWorld& world)
@@ -94,7 +90,6 @@ void CharacterControl::Act(float h) {
   unit_ = s.mass * 10 * character_.height;
   memory_.time += h;
   memory_.limp = std::max(0.0f, memory_.limp - h);
-  if (memory_.mode == CharacterMode::kStand && memory_.time > kStood) memory_.tries = 0;
   const bool limp = memory_.limp > 0 || lift_ < kLimpLift;
   if (limp != (memory_.mode == CharacterMode::kLimp)) {
     Enter(limp ? CharacterMode::kLimp : CharacterMode::kFall);

@@ -44,8 +44,6 @@ struct CharacterMemory {
   float load[2] = {};       ///< N; what each hand bears, the mean of the last moment
   float limp = 0;           ///< s that it stays limp after a blow or a command
 
-  int tries = 0;  ///< kRise: ways up begun since it last stood
-
   void Save(std::vector<float>* memory) const;
   std::size_t Load(const float* memory);
 };
@@ -130,7 +128,6 @@ class CharacterControl {
   // character_rise.cpp
   void Fall(const CharacterSense& s);
   void Rise(const CharacterSense& s, float h);
-  float Variation() const;
   bool Squats(const CharacterSense& s) const;
   float SlopeBelow(const CharacterSense& s) const;
   LegPose Gathered(const CharacterSense& s, float place, float lead, float slope) const;

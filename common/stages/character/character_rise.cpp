@@ -62,7 +62,6 @@ void CharacterControl::Fall(const CharacterSense& s) {
   if (memory_.time > gains_.fall_max || (still && memory_.time > gains_.fall_min)) {
     Enter(CharacterMode::kRise);
     memory_.phase = back ? 0 : kFromFront;
-    ++memory_.tries;
   }
 }
 
@@ -93,17 +92,6 @@ CharacterControl::LegPose CharacterControl::Gathered(const CharacterSense& s, fl
   return pose;
 }
 
-/// rad that the ground counts as steeper from the back: what failed would fail again just so.
-float CharacterControl::Variation() const {
-  if (memory_.phase >= kFromFront) return 0;
-  switch ((memory_.tries - 1) % 4) {
-    case 1: return -gains_.back_vary;
-    case 2: return gains_.back_vary;
-    case 3: return -0.5f * gains_.back_vary;
-    default: return 0;
-  }
-}
-
 /// On both soles with the body over them, however it came there.
 bool CharacterControl::Squats(const CharacterSense& s) const {
   const bool bears = s.legs[0].down && s.legs[1].down && !s.lying;
@@ -129,7 +117,7 @@ void CharacterControl::Rise(const CharacterSense& s, float h) {
     Up(s);
     return;
   }
-  const float slope = SlopeBelow(s) + Variation();
+  const float slope = SlopeBelow(s);
   const RiseFrame& to = kRise[memory_.phase];
   const bool first = memory_.phase % kFrames == 0, last = memory_.phase % kFrames == kFrames - 1;
   const bool back = memory_.phase < kFromFront;
