@@ -230,7 +230,7 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
     if (holding > 0) {
       Hang();
     } else {
-      Tread(s, h);
+      Tread(s);
     }
   } else {
     for (int side = 0; side < 2; ++side) {

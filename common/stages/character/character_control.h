@@ -128,6 +128,7 @@ class CharacterControl {
   // character_rise.cpp
   void Fall(const CharacterSense& s);
   void Rise(const CharacterSense& s, float h);
+  bool Squats(const CharacterSense& s) const;
   float SlopeBelow(const CharacterSense& s) const;
   LegPose Gathered(const CharacterSense& s, float place, float lead, float slope) const;
   void Up(const CharacterSense& s);
@@ -136,7 +137,7 @@ class CharacterControl {
   float ChestDepth(const CharacterSense& s) const;
   float WaterOverGround(const CharacterSense& s) const;
   void Swim(const CharacterSense& s, float h);
-  void Tread(const CharacterSense& s, float h);
+  void Tread(const CharacterSense& s);
   float RightingHz(const CharacterSense& s, float error) const;
   /// rad of the joints of one leg.
   struct Legs {

@@ -92,8 +92,27 @@ CharacterControl::LegPose CharacterControl::Gathered(const CharacterSense& s, fl
   return pose;
 }
 
+/// On both soles with the body over them, however it came there.
+bool CharacterControl::Squats(const CharacterSense& s) const {
+  const bool bears = s.legs[0].down && s.legs[1].down && !s.lying;
+  const bool calm =
+      std::abs(s.torso) < gains_.squat_tilt && std::abs(s.torso_spin) < gains_.squat_spin;
+  if (!bears || !calm) return false;
+  const CharacterShape& shape = limbs_.shape();
+  const float ground_y = std::min(s.legs[0].ankle.y, s.legs[1].ankle.y) - shape.ankle;
+  const float capture = s.centre.x + s.velocity.x / Omega(s, ground_y);
+  const float low = std::min(s.legs[0].ankle.x, s.legs[1].ankle.x) - shape.heel;
+  const float high = std::max(s.legs[0].ankle.x, s.legs[1].ankle.x) + shape.toe;
+  const float rim = gains_.squat_rim * (high - low);
+  return capture > low + rim && capture < high - rim;
+}
+
 void CharacterControl::Rise(const CharacterSense& s, float h) {
   memory_.phase_time += h;
+  if (memory_.phase != kUp && Squats(s)) {
+    memory_.phase = kUp;
+    memory_.phase_time = 0;
+  }
   if (memory_.phase == kUp) {
     Up(s);
     return;

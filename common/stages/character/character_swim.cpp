@@ -11,8 +11,16 @@
 namespace seam {
 namespace {
 
+/// Phases of CharacterMode::kSwim; arms that right the torso before a stroke do so in each of the
+/// others.
+constexpr int kTreads = 0, kStrokes = 1, kRights = 2;
+
 /// Of a sine, `phase` in turns.
 float Sine(float phase) { return std::sin(2 * b2_pi * (phase - std::floor(phase))); }
+
+/// -1 to 1 by a phase in turns: faster up than down by a `haste` of 0 to 1, slower by 0 to -1. Drag
+/// goes by the square of the speed, so what beats so pushes the water one way in the mean.
+float Scull(float phase, float haste) { return Sine(phase + haste * Sine(phase) / (2 * b2_pi)); }
 
 /// By so many turns; whole ones do not count.
 void TurnOn(float* turns, float by) {
@@ -47,8 +55,9 @@ CharacterControl::Legs CharacterControl::TreadLegs(const CharacterSense& s, floa
   const CharacterGains& g = gains_;
   const float error = std::clamp(s.torso + g.tread_lean, -1.0f, 1.0f);
   const float skew = g.tread_skew * error + g.tread_skew_rate * s.torso_spin;
-  return {g.tread_hip + skew + g.tread_sine * Sine(leg),
-          g.tread_knee + g.tread_knee_sine * Sine(leg + g.tread_knee_phase), g.tread_ankle};
+  return {g.tread_hip + skew + g.tread_sine * Scull(leg, g.tread_haste),
+          g.tread_knee + g.tread_knee_sine * Scull(leg + g.tread_knee_phase, g.tread_haste),
+          g.tread_ankle};
 }
 
 /// rad forward, of the torso while it strokes.
@@ -78,13 +87,13 @@ void CharacterControl::PoseLegs(const Legs& tread, const Legs& beat, float share
   Pose(Ankle(side), mixed(tread.ankle, beat.ankle), gains_.swim_ankle);
 }
 
-/// Before a ledge, hands busy.
-void CharacterControl::Tread(const CharacterSense& s, float h) {
-  TurnOn(&memory_.step, gains_.tread_hz * h);
-  for (int side = 0; side < 2; ++side) {
-    const Legs legs = TreadLegs(s, memory_.step + 0.5f * static_cast<float>(side));
-    PoseLegs(legs, legs, 0, side);
-  }
+/// Before a ledge, hands busy: legs alone keep the lean.
+void CharacterControl::Tread(const CharacterSense& s) {
+  const CharacterGains& g = gains_;
+  const float error = std::clamp(s.torso + g.tread_lean, -1.0f, 1.0f);
+  const float skew = g.climb_tread_skew * error + g.climb_tread_skew_rate * s.torso_spin;
+  const Legs legs{g.climb_tread_hip + skew, g.climb_tread_knee, g.climb_tread_ankle};
+  for (int side = 0; side < 2; ++side) PoseLegs(legs, legs, 0, side);
 }
 
 /// Turns per s of the arms that bring the torso back to its lean, from `error` rad beyond it: the
@@ -115,38 +124,57 @@ void CharacterControl::Swim(const CharacterSense& s, float h) {
   const float off = s.torso + StrokeLean(share),
               lead = share < 0 ? -g.stroke_lead_back : g.stroke_lead;
   const float error = s.torso + g.tread_lean + driven * (off + lead - s.torso - g.tread_lean);
-  if (memory_.phase == 0 && driven == 1) {
+  if (memory_.phase != kStrokes && driven == 1) {
     if (std::abs(error) < g.stroke_from && std::abs(s.torso_spin) < g.stroke_calm)
-      memory_.phase = 1;
-  } else if (driven < 0.5f || (share < 0 ? -off : off) > g.stroke_to) {
-    memory_.phase = 0;
+      memory_.phase = kStrokes;
+  } else if (memory_.phase == kStrokes &&
+             (driven < 0.5f || (share < 0 ? -off : off) > g.stroke_to)) {
+    memory_.phase = kTreads;
+  } else if (memory_.phase != kStrokes && std::abs(error) > g.tread_turned) {
+    memory_.phase = kRights;
+  } else if (memory_.phase == kRights && std::abs(error) < g.tread_righted) {
+    memory_.phase = kTreads;
   }
-  const float to = static_cast<float>(memory_.phase);
+  const float to = memory_.phase == kStrokes ? 1.0f : 0.0f;
   memory_.to += std::clamp(to - memory_.to, -h / g.stroke_fade, h / g.stroke_fade);
+  float& turned_over = memory_.from.y;
+  const float over = memory_.phase == kRights ? 1.0f : 0.0f;
+  turned_over += std::clamp(over - turned_over, -h / g.stroke_fade, h / g.stroke_fade);
   const float swims = memory_.to * driven, rights = (1 - memory_.to) * driven;
   // Drag goes by the square of the speed: the same stroke in reverse pushes the other way.
   const float turning = g.swim_slow_hz + size * (g.swim_hz - g.swim_slow_hz);
+  // Who lies turned over at rest is righted by the arms, too.
+  const float turned = (1 - driven) * turned_over;
+  const float rests = 1 - driven - turned, rights_all = rights + turned;
   // At rest, arms sink to before and behind the torso.
   const float sinking = -g.arms_back * (memory_.phase_time - std::round(memory_.phase_time));
-  const float hz = swims * (share < 0 ? -turning : turning) + rights * RightingHz(s, error) +
-                   (1 - driven) * sinking;
+  const float hz = swims * (share < 0 ? -turning : turning) + rights_all * RightingHz(s, error) +
+                   rests * sinking;
   float& ready = memory_.from.x;
   ready += std::clamp(driven - ready, -h / g.ready_time, h / g.ready_time);
   TurnOn(&memory_.phase_time, hz * h);
   TurnOn(&memory_.step, g.tread_hz * h);
-  const float skew = (1 - driven) * g.tread_arms_skew * std::clamp(error, -1.0f, 1.0f);
-  const float apart = g.tread_arms + driven * (0.5f * b2_pi - g.tread_arms);
-  const float strength = g.swim_shoulder + rights * (g.right_shoulder - g.swim_shoulder);
+  const float skew = rests * g.tread_arms_skew * std::clamp(error, -1.0f, 1.0f);
+  // Both arms at once, down fast and slowly up, which lifts the body; more the one towards which
+  // the torso falls, which brings it back.
+  const float scull = g.tread_scull * Scull(memory_.step, g.tread_haste);
+  const float tilt = g.tread_balance * error + g.tread_balance_rate * s.torso_spin;
+  const float strength = g.swim_shoulder + rights_all * (g.right_shoulder - g.swim_shoulder) +
+                         rests * (g.tread_shoulder - g.swim_shoulder);
+  const float bend = g.tread_elbow_sine * Scull(memory_.step + g.tread_elbow_phase, g.tread_haste);
   for (int side = 0; side < 2; ++side) {
     const float half = 0.5f * static_cast<float>(side);
     const float turn = memory_.phase_time - 0.25f + half;
     // From overhead down before the body; at rest one before, one behind.
+    const float ahead = side == 0 ? 1.0f : -1.0f;
+    const float beat = scull * std::clamp(1 - ahead * tilt, 0.0f, 2.0f);
+    const float apart = 0.5f * b2_pi + rests * (g.tread_arms + beat - 0.5f * b2_pi);
     Pose(Shoulder(side),
-         (side == 0 ? apart : -apart) - 2 * b2_pi * memory_.phase_time + skew +
+         ahead * apart - 2 * b2_pi * memory_.phase_time + skew +
              swims * g.shoulder_sine * Sine(turn + g.shoulder_phase),
          strength, -2 * b2_pi * hz);
     const float elbow = g.elbow_middle + g.elbow_sine * Sine(turn + g.elbow_phase);
-    const float rest = side == 0 ? (1 - driven) * g.tread_elbow : 0.05f;
+    const float rest = rests * ((side == 0 ? g.tread_elbow : g.tread_elbow_behind) + bend);
     Pose(Elbow(side), rest + swims * (elbow - rest), g.swim_elbow);
     const Legs tread = ReadyLegs(TreadLegs(s, memory_.step + half), error, ready);
     PoseLegs(tread, BeatLegs(s, turn, share), swims, side);

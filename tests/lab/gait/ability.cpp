@@ -6,6 +6,7 @@ const std::vector<Ability>& Abilities() {
   static const std::vector<Ability> abilities = {{"jump", "m of the soles", TryJump},
                                                  {"swim", "m/s", TrySwim},
                                                  {"float", "m/s", TryFloat},
+                                                 {"plunge", "m/s", TryPlunge},
                                                  {"rise", "s", TryRise},
                                                  {"stairs", "s", TryStairs},
                                                  {"slope", "s", TrySlope},

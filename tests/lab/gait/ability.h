@@ -36,6 +36,7 @@ const Ability* FindAbility(const std::string& name);
 GaitTrial TryJump(const GaitSetup& setup, const CharacterGains& gains, int start);
 GaitTrial TrySwim(const GaitSetup& setup, const CharacterGains& gains, int start);
 GaitTrial TryFloat(const GaitSetup& setup, const CharacterGains& gains, int start);
+GaitTrial TryPlunge(const GaitSetup& setup, const CharacterGains& gains, int start);
 GaitTrial TryRise(const GaitSetup& setup, const CharacterGains& gains, int start);
 GaitTrial TryStairs(const GaitSetup& setup, const CharacterGains& gains, int start);
 GaitTrial TrySlope(const GaitSetup& setup, const CharacterGains& gains, int start);
