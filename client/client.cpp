@@ -36,6 +36,11 @@ constexpr std::int64_t kWorldAgeUs = 250000;
 /// Mode central: inputs should arrive this long before the server needs them, us.
 constexpr double kInputMarginUs = 35000;
 
+/// Whether states and edits of a tick wait for everybody's inputs of it.
+bool WaitsForInputs(const Room& room) {
+  return room.reconcile.empty() || FindReconciler(room.reconcile).rolls_back;
+}
+
 }  // namespace
 
 Client::Client(const ClientConfig& config, Net& net, Recorder& recorder, Entropy& entropy)
@@ -203,8 +208,11 @@ void Client::TellRest(std::int64_t now_us) {
 void Client::SendInputs(std::int64_t now_us) {
   if (player_ < 0 || mode_ == Mode::kOracle || Quiet()) return;
   const InputTrack& track = replica_->inputs(player_);
-  std::optional<Inputs> inputs =
-      feed_.Take(track, player_, link_->acked(player_), replica_->tick(), link_->Sends(now_us));
+  // Where a tick waits for everybody's inputs, who has nothing else to tell does not hold it up.
+  const bool due = replica_->tick() % std::max(1, room_.tick_hz / room_.send_hz) == 0;
+  const bool told = due && mode_ == Mode::kBuffer && WaitsForInputs(room_);
+  std::optional<Inputs> inputs = feed_.Take(track, player_, link_->acked(player_), replica_->tick(),
+                                            told || link_->Sends(now_us));
   if (!inputs) return;
   inputs->utime = now_us;
   link_->SendUnreliable(Encode(*inputs), player_, track.newest());
