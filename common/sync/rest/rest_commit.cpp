@@ -68,6 +68,7 @@ void RestCommit::Put(int body) {
                     now.velocity == pose.velocity && now.spin == pose.spin;
   if (lies && !world_.awake(body)) return;
   BodyState moved = Minus(pose, now);
+  moved.angle = WrapAngle(moved.angle);  // whole turns are nothing to see
   moved.velocity.setZero();
   moved.spin = 0;
   if (!Negligible(moved)) display_.Moved(body, moved);
