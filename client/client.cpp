@@ -4,6 +4,7 @@
 
 #include "client/held_world.h"
 #include "common/base/check.h"
+#include "common/physics/stage.h"
 #include "common/scene/character.h"
 #include "common/sync/edits/edit_order.h"
 #include "common/sync/input_source.h"
@@ -35,6 +36,12 @@ constexpr std::int64_t kWorldWaitUs = 4000000;
 constexpr std::int64_t kWorldAgeUs = 250000;
 /// Mode central: inputs should arrive this long before the server needs them, us.
 constexpr double kInputMarginUs = 35000;
+
+/// Whether edits wait for everybody's inputs of the tick at which physics found them.
+bool EditsWait(const Room& room, const Scene& scene) {
+  const bool rolls_back = room.reconcile.empty() || FindReconciler(room.reconcile).rolls_back;
+  return rolls_back && ProposesEdits(scene);
+}
 
 }  // namespace
 
@@ -203,8 +210,12 @@ void Client::TellRest(std::int64_t now_us) {
 void Client::SendInputs(std::int64_t now_us) {
   if (player_ < 0 || mode_ == Mode::kOracle || Quiet()) return;
   const InputTrack& track = replica_->inputs(player_);
+  // Where edits wait for everybody's inputs, who has nothing else to tell does not hold them up.
+  const bool due = replica_->tick() % std::max(1, room_.tick_hz / room_.send_hz) == 0;
+  const bool rides = link_->Sends(now_us) ||
+                     (due && mode_ == Mode::kBuffer && EditsWait(room_, replica_->world().scene()));
   std::optional<Inputs> inputs =
-      feed_.Take(track, player_, link_->acked(player_), replica_->tick(), link_->Sends(now_us));
+      feed_.Take(track, player_, link_->acked(player_), replica_->tick(), rides);
   if (!inputs) return;
   inputs->utime = now_us;
   link_->SendUnreliable(Encode(*inputs), player_, track.newest());

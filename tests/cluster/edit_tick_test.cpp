@@ -41,6 +41,22 @@ double Last(const Recording& recording, const Oracle& oracle) {
   return worst;
 }
 
+/// A break waits until everybody's inputs of its tick are known: also those of who drives nothing
+/// that moves, and would have nothing to send.
+TEST(EditTick, ABreakIsNotHeldUpByWhoIsIdle) {
+  const Recording recording = Break("perfect", 1);
+  const Oracle oracle = ComputeOracle(recording, WithBarriers(recording.room));
+  ASSERT_GE(oracle.spans.size(), 2u);
+  const auto broke = static_cast<std::int64_t>(oracle.spans[1].first_row);
+  for (const auto& [tick, view] : recording.views.at(0)) {
+    if (view.revision == 0) continue;
+    EXPECT_GE(tick, broke);
+    EXPECT_LE(tick, broke + 3);
+    return;
+  }
+  FAIL() << "nothing broke";
+}
+
 TEST(EditTick, GlueBreaksAtTheTickOfTheOracleHoweverSlowTheNetworkIs) {
   for (const std::string impair : {"4g", "delay=200ms"}) {
     const Recording recording = Break(impair, 1);
