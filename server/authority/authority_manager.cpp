@@ -238,6 +238,11 @@ std::vector<Grants> AuthorityManager::Export(std::int64_t now_us) const {
   return told.Export(now_us, replica_.tick(), all);
 }
 
+int AuthorityManager::Wanted(int mechanism) const {
+  const auto m = static_cast<std::size_t>(mechanism);
+  return m < plan_.size() ? plan_[m].authority : table().at(mechanism).authority;
+}
+
 bool AuthorityManager::Follows(int peer, int body) const {
   return table().at(replica_.world().mechanism(body)).secondaries.Has(peer);
 }

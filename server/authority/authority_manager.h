@@ -53,6 +53,8 @@ class AuthorityManager {
   std::vector<Grants> Export(std::int64_t now_us) const;
   /// Whether the peer has authority over the mechanism, as far as everyone was told.
   bool Has(int peer, int mechanism) const { return table().at(mechanism).authority == peer; }
+  /// Whom the last plan gives a mechanism; its authority where nothing is planned yet.
+  int Wanted(int mechanism) const;
   /// Whether the peer follows a body in its buffer zone.
   bool Follows(int peer, int body) const;
   /// Whether mechanisms have one authority, and none of them is changing hands.
