@@ -73,12 +73,22 @@ std::vector<Grants> GrantNews::For(int peer) {
 }
 
 std::vector<Grants> GrantNews::Owed(int peer, Which which) {
-  std::vector<Grants> out;
+  std::vector<int> mechanisms;
   for (std::size_t m = 0; m < owed_.size(); ++m) {
     if (!any_owed_[m] || !owed_[m].Has(peer)) continue;
     const auto mechanism = static_cast<int>(m);
     const bool near = merged_[m] || interest_.Of(peer, mechanism) != Concern::kFar;
-    if (which != Which::kAll && !near) continue;
+    if (which == Which::kAll || near) mechanisms.push_back(mechanism);
+  }
+  return Owed(peer, mechanisms);
+}
+
+std::vector<Grants> GrantNews::Owed(int peer, const std::vector<int>& mechanisms) {
+  std::vector<Grants> out;
+  if (owed_.empty()) return out;
+  for (const int mechanism : mechanisms) {
+    const auto m = static_cast<std::size_t>(mechanism);
+    if (!any_owed_[m] || !owed_[m].Has(peer)) continue;
     owed_[m].Remove(peer);
     any_owed_[m] = owed_[m].size() > 0;
     merged_[m] = merged_[m] && any_owed_[m];

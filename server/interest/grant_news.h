@@ -27,6 +27,8 @@ class GrantNews {
   /// an edit has made of several.
   enum class Which { kAll, kNear };
   std::vector<Grants> Owed(int peer, Which which);
+  /// Of these mechanisms.
+  std::vector<Grants> Owed(int peer, const std::vector<int>& mechanisms);
   /// A peer was told everything.
   void NoteTold(int peer);
   /// The mechanisms have changed; see BodyRemap. Of one made of several the epoch counts from

@@ -41,6 +41,8 @@ class Interest {
     if (p >= stride_ || m * stride_ >= concern_.size()) return Concern::kNear;
     return concern_[m * stride_ + p];
   }
+  /// Whether all is close to everyone.
+  bool small() const { return small_; }
   /// The mechanisms have changed: in a large room all is near until the next Look.
   void Remap();
 

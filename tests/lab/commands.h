@@ -168,6 +168,7 @@ int RunLoad(const LoadCommand& command);
 
 struct HandOverCommand {
   std::vector<std::string> scenes;  ///< files or names
+  int players = 0;                  ///< the first so many of the scene's join; 0: all
   std::string network = "demo";     ///< of --impair
   std::string drive = "script";     ///< script | bot
   double seconds = 0;               ///< after tick 0; 0: the scene's own

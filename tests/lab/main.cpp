@@ -200,6 +200,8 @@ CLI::App* DefineHandOver(CLI::App& app, HandOverCommand& c) {
   CLI::App* hand_over = app.add_subcommand("hand-over", "how long changes of authority take");
   hand_over->add_option("SCENES", c.scenes, "scene files or names")->required();
   hand_over->add_option("-o,--output", c.table, "CSV table to write, or to complete")->required();
+  hand_over->add_option("--players", c.players, "the first so many join (default: all)")
+      ->check(CLI::Range(0, kPlayersMax));
   hand_over->add_option("--impair", c.network, "profile's name or list (default: demo)");
   hand_over->add_option("--drive", c.drive, "script | bot")
       ->check(CLI::IsMember({"script", "bot"}));

@@ -213,12 +213,12 @@ HandOvers MeasureHandOvers(ClusterConfig config) {
   cluster.RunToTick(static_cast<std::int64_t>(seconds * hz));
   const auto end = Came(count);
   HandOvers out;
-  out.players = static_cast<int>(cluster.scene().players.size());
+  out.clients = cluster.client_count();
   out.mechanisms = cluster.server().replica().authority().count();
   const double span_s = static_cast<double>(cluster.server().tick() - first) / hz;
   if (span_s <= 0) return out;
   watch.Write(span_s, &out);
-  const double clients = std::max(1, cluster.client_count());
+  const double clients = std::max(1, out.clients);
   out.grants_kbps = (end.first - begin.first) / (span_s * clients);
   out.to_client_kbps = (end.second - begin.second) / (span_s * clients);
   return out;

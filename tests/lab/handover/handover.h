@@ -10,7 +10,7 @@ namespace seam {
 
 /// Of a session after its first second. Watched at every virtual instant.
 struct HandOvers {
-  int players = 0;
+  int clients = 0;
   int mechanisms = 0;
   double per_s = 0;          ///< changes of authority that were wished for and done
   double dropped_per_s = 0;  ///< wishes that the plan took back, or changed, before they were done

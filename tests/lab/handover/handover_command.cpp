@@ -12,17 +12,17 @@
 namespace seam {
 namespace {
 
-const char* const kKeyHeader = "version,scene,scene_hash,network,seed";
-constexpr int kKeyColumns = 5;
+const char* const kKeyHeader = "version,scene,scene_hash,players,network,seed";
+constexpr int kKeyColumns = 6;
 const char* const kColumns =
-    ",valid,players,mechanisms,changes_per_s,dropped_per_s,wish_p50_ms,wish_p99_ms,wish_max_ms,"
+    ",valid,clients,mechanisms,changes_per_s,dropped_per_s,wish_p50_ms,wish_p99_ms,wish_max_ms,"
     "gap_p95_m,gap_p95_mps,compared,none_share,unsimulated_ticks,several,grants_kb_per_s,"
     "to_client_kb_per_s";
 
 std::string Figures(const HandOvers& h) {
   return fmt::format(
       ",,{},{},{:.1f},{:.1f},{:.0f},{:.0f},{:.0f},{:.4f},{:.4f},{},{:.4f},{},{},{:.3f},{:.2f}",
-      h.players, h.mechanisms, h.per_s, h.dropped_per_s, h.p50_ms, h.p99_ms, h.max_ms, h.gap_p95_m,
+      h.clients, h.mechanisms, h.per_s, h.dropped_per_s, h.p50_ms, h.p99_ms, h.max_ms, h.gap_p95_m,
       h.gap_p95_mps, h.compared, h.none_share, h.unsimulated, h.several, h.grants_kbps,
       h.to_client_kbps);
 }
@@ -37,6 +37,7 @@ int RunHandOver(const HandOverCommand& command) {
     settings.scene = FindScene(name);
     settings.duration_s = command.seconds;
     settings.drive = command.drive;
+    settings.players = command.players;
     settings.impair = command.network;
     const Scene scene = LoadSceneWith(settings.scene, {});
     const auto hash = Fnv1a(scene.text.data(), scene.text.size());
@@ -44,8 +45,8 @@ int RunHandOver(const HandOverCommand& command) {
       settings.seed = seed;
       Configure(settings, scene);  // throws what is wrong
       runs.push_back(settings);
-      keys.push_back(fmt::format("{},{},{:016x},{},{}", kLabVersion, CsvField(scene.name), hash,
-                                 CsvField(command.network), seed));
+      keys.push_back(fmt::format("{},{},{:016x},{},{},{}", kLabVersion, CsvField(scene.name), hash,
+                                 command.players, CsvField(command.network), seed));
     }
   }
   SweepTable table(command.table, std::string(kKeyHeader) + kColumns, kKeyColumns, keys,
