@@ -95,10 +95,9 @@ bool AuthorityManager::Advance(std::int64_t now_us, int m) {
   AuthorityRecord record = table().at(m);
   // One authority at a time: the server takes over only once the holder has let go.
   if (memory.hand_over == HandOver::kRevoking) {
-    if (now_us - memory.revoked_us > PatienceUs(m)) {
-      Withdraw(m);
-      memory.ask_us = now_us + kAskAgainUs;
-    }
+    if (memory.withdrawn || now_us - memory.revoked_us <= PatienceUs(m)) return true;
+    Withdraw(m);
+    memory.ask_us = now_us + kAskAgainUs;
     return true;
   }
   if (memory.hand_over == HandOver::kOvertaken) {
@@ -124,8 +123,8 @@ bool AuthorityManager::Advance(std::int64_t now_us, int m) {
   if (kept) secondaries.Add(plan.authority);
   if (record.authority != 0 && authority != record.authority) {
     if (now_us < memory.ask_us) return true;
-    if (memory.withdrawn > 0 && silent_.Has(record.authority)) return true;
-    if (memory.withdrawn == 0) memory.unanswered_us = now_us;
+    if (memory.withdrawn && silent_.Has(record.authority)) return true;
+    if (!memory.withdrawn) memory.unanswered_us = now_us;
     memory.hand_over = HandOver::kRevoking;
     memory.revoked_us = now_us;
     memory.revoked_id = table().id(m);
@@ -134,13 +133,7 @@ bool AuthorityManager::Advance(std::int64_t now_us, int m) {
     Append(told.Export(now_us, replica_.tick(), {m}), &grants_);
     return true;
   }
-  // It answers, and is not asked any more: an answer that is due at all may still come.
-  if (authority == record.authority && memory.late) {
-    memory.withdrawn = 0;
-    memory.late = false;
-  }
-  const bool open = kept || memory.withdrawn > 0;
-  if (authority == record.authority && secondaries == record.secondaries) return open;
+  if (authority == record.authority && secondaries == record.secondaries) return kept;
   if (authority != record.authority) {
     if (!released && replica_.tick() > 0) {
       for (ExactStates& exact : replica_.MakeExact({m}, 1)) {
@@ -153,14 +146,13 @@ bool AuthorityManager::Advance(std::int64_t now_us, int m) {
   record.secondaries = secondaries;
   replica_.authority().Set(m, record);
   changed_.push_back(m);
-  return open;
+  return kept;
 }
 
 std::int64_t AuthorityManager::PatienceUs(int m) const {
   const auto holder = static_cast<std::size_t>(table().at(m).authority);
   const std::int64_t rtt_us = holder < round_trip_us_.size() ? round_trip_us_[holder] : 0;
-  const int times = 1 << std::min(3, memory_[static_cast<std::size_t>(m)].withdrawn);
-  return times * std::max(kWithdrawUs, kWithdrawRoundTrips * rtt_us);
+  return std::max(kWithdrawUs, kWithdrawRoundTrips * rtt_us);
 }
 
 void AuthorityManager::Withdraw(int m) {
@@ -168,7 +160,7 @@ void AuthorityManager::Withdraw(int m) {
   AuthorityRecord record = table().at(m);
   if (memory.held_from < 0) memory.held_from = record.epoch;
   memory.hand_over = HandOver::kNone;
-  memory.withdrawn += 1;
+  memory.withdrawn = true;
   record.epoch += 2;  // the question was one
   replica_.authority().Set(m, record);
   changed_.push_back(m);
@@ -177,8 +169,7 @@ void AuthorityManager::Withdraw(int m) {
 /// Another has it, or will.
 void AuthorityManager::ForgetQuestions(int m) {
   Memory& memory = memory_[static_cast<std::size_t>(m)];
-  memory.withdrawn = 0;
-  memory.late = false;
+  memory.withdrawn = false;
   memory.ask_us = 0;
   memory.held_from = -1;
 }
@@ -193,7 +184,8 @@ AuthorityManager::Right AuthorityManager::NoteRelease(int peer, PartId mechanism
     // An answer that came too late: what it let go of it was given anew.
     const bool late = record.authority == peer && memory.held_from >= 0 &&
                       epoch > memory.held_from && (record.epoch - epoch) % 2 == 1;
-    if (late) memory.late = true;
+    const bool wanted = late && memory.hand_over == HandOver::kNone && Wanted(m) == peer;
+    if (wanted) memory.withdrawn = false;  // it answers; who answers too late for ever has to leave
     return late ? Right::kYes : Right::kStale;
   }
   const bool asked = memory.hand_over == HandOver::kRevoking && record.authority == peer;
@@ -240,9 +232,11 @@ PeerSet AuthorityManager::Withholding(std::int64_t now_us) const {
   PeerSet peers;
   for (const int m : open_) {
     const Memory& memory = memory_[static_cast<std::size_t>(m)];
-    const bool withdrawn = memory.hand_over == HandOver::kNone && memory.withdrawn > 0;
-    if (memory.hand_over != HandOver::kRevoking && !withdrawn) continue;
-    if (now_us - memory.unanswered_us > kReleasePatienceUs) peers.Add(table().at(m).authority);
+    if (memory.hand_over != HandOver::kRevoking) continue;
+    // It has let go by now, or heard nothing for longer than its lease: since the last question.
+    const bool answers = now_us - memory.unanswered_us <= kReleasePatienceUs ||
+                         now_us - memory.revoked_us <= kAnswerPatienceUs;
+    if (!answers) peers.Add(table().at(m).authority);
   }
   return peers;
 }
@@ -329,7 +323,9 @@ AuthorityManager::Right AuthorityManager::RightToMove(int peer, int body,
   if (record.authority == peer) {
     const auto m = static_cast<std::size_t>(replica_.world().mechanism(body));
     const std::int32_t from = memory_[m].held_from < 0 ? record.epoch : memory_[m].held_from;
-    return epoch >= from && epoch <= record.epoch ? Right::kYes : Right::kStale;
+    // Each question took one, in which nobody had it.
+    const bool held = epoch >= from && epoch <= record.epoch && (record.epoch - epoch) % 2 == 0;
+    return held ? Right::kYes : Right::kStale;
   }
   return epoch < record.epoch ? Right::kStale : Right::kNo;
 }

@@ -102,8 +102,7 @@ class AuthorityManager {
     std::int64_t revoked_us = 0;           // when the holder was told to let go
     PartId revoked_id = 0;                 // of what
     std::int64_t unanswered_us = 0;        // when it was told so first, without an answer yet
-    int withdrawn = 0;                     // how often since then the question was withdrawn
-    bool late = false;                     // an answer came after that
+    bool withdrawn = false;                // since then: the next question stands
     std::int64_t ask_us = 0;               // after that it is not asked before this
     std::int32_t held_from = -1;           // epoch since which it has it all the time; -1: the last
     std::int64_t keep_until_tick = 0;      // the server's, until its copies have converged

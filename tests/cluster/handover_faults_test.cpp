@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <string>
@@ -118,7 +119,7 @@ void ExpectAgreed(Cluster& cluster) {
   }
 }
 
-void Run(bool large, std::int64_t seed, double from_s, double for_s, const std::string& what) {
+void Fail(bool large, std::int64_t seed, double from_s, double for_s, const std::string& what) {
   SCOPED_TRACE(what + (large ? ", large" : ", small") + ", seed " + std::to_string(seed));
   Deaf deaf;
   Cluster cluster(Shuttle(large, seed, &deaf));
@@ -141,8 +142,8 @@ void Run(bool large, std::int64_t seed, double from_s, double for_s, const std::
 TEST(HandOverFaults, APausedHolderKeepsNothingFromMoving) {
   for (const bool large : {false, true}) {
     for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
-      Run(large, seed, 4 + 0.3 * static_cast<double>(seed), 2.3, "paused");
-      Run(large, seed, 4 + 0.3 * static_cast<double>(seed), 3.6, "paused");
+      Fail(large, seed, 4 + 0.3 * static_cast<double>(seed), 2.3, "paused");
+      Fail(large, seed, 4 + 0.3 * static_cast<double>(seed), 3.6, "paused");
     }
   }
 }
@@ -150,8 +151,8 @@ TEST(HandOverFaults, APausedHolderKeepsNothingFromMoving) {
 TEST(HandOverFaults, AHolderThatHearsNothingGivesUpByItself) {
   for (const bool large : {false, true}) {
     for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
-      Run(large, seed, 4 + 0.3 * static_cast<double>(seed), 8, "hears nothing");
-      Run(large, seed, 4 + 0.3 * static_cast<double>(seed), 2, "hears nothing");
+      Fail(large, seed, 4 + 0.3 * static_cast<double>(seed), 8, "hears nothing");
+      Fail(large, seed, 4 + 0.3 * static_cast<double>(seed), 2, "hears nothing");
     }
   }
 }
@@ -159,8 +160,8 @@ TEST(HandOverFaults, AHolderThatHearsNothingGivesUpByItself) {
 TEST(HandOverFaults, AHolderThatIsNotHeardIsSpokenFor) {
   for (const bool large : {false, true}) {
     for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
-      Run(large, seed, 4 + 0.3 * static_cast<double>(seed), 8, "is not heard");
-      Run(large, seed, 4 + 0.3 * static_cast<double>(seed), 2, "is not heard");
+      Fail(large, seed, 4 + 0.3 * static_cast<double>(seed), 8, "is not heard");
+      Fail(large, seed, 4 + 0.3 * static_cast<double>(seed), 2, "is not heard");
     }
   }
 }
