@@ -200,8 +200,8 @@ tests: build/.deps-build build/.deps-report build/.deps-test all $(OUT)/seam-tes
 
 run-tests = SEAM_BIN=$(OUT) $(OUT)/seam-tests $(if $(FILTER),--gtest_filter='$(FILTER)')
 
-test: tests                          ## build and run all tests, or FILTER='Suite.*'
-	$(run-tests)
+test: tests                          ## build and run all tests (tests/run.sh), or FILTER='Suite.*'
+	$(if $(FILTER),$(run-tests),tests/run.sh $(OUT))
 
 check-fast: FILTER := -$(subst $() ,,$(SLOW))
 check-fast: tests                    ## build and run the tests that take no processes or long simulations

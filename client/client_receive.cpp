@@ -127,9 +127,7 @@ void Client::OnEdit(const EditOrder& order) {
     return;
   }
   // Our composition was not the room's: begin with the scene, everything else follows.
-  const std::int64_t tick = replica_->tick();
   MakeReplica();
-  if (started_) replica_->StartAt(tick);
 }
 
 void Client::OnSnapshot(const Snapshot& part) {
@@ -141,10 +139,8 @@ void Client::OnSnapshot(const Snapshot& part) {
     return;
   }
   if (!snapshot_->complete()) return;
-  const std::int64_t tick = replica_->tick();
   MakeReplica(&snapshot_->topology());
   snapshot_.reset();
-  if (started_) replica_->StartAt(tick);
 }
 
 void Client::MakeReplica(const Topology* become) {
@@ -169,6 +165,9 @@ void Client::MakeReplica(const Topology* become) {
   for (int p = 0; p < static_cast<int>(scene_->players.size()); ++p) {
     replica_->NoteInputs(before->inputs(p).Export(p, InputTrack::kKeepTicks));
   }
+  if (!started_) return;
+  replica_->StartAt(before->tick());
+  replica_->GoOnFrom(before->world());  // nobody is shown where the scene began
 }
 
 void Client::OnChunk(std::int64_t now_us, const Chunk& chunk) {

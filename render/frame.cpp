@@ -132,6 +132,44 @@ Curve CurveOf(const Playback& playback, int peer, Colour colour, const std::stri
   return curve;
 }
 
+/// Where things are on a page.
+struct Areas {
+  Areas(const Page& page, float scale) {
+    const float margin = 18 * scale, width = static_cast<float>(page.width_px) - 2 * margin;
+    const float top = 58 * scale, below = 26 * scale, end = 122 * scale;
+    const auto height = static_cast<float>(page.height_px);
+    header = {margin, 6 * scale, width, top};
+    const Rect middle{margin, top, width, height - top - below - end};
+    panels = Tile(middle, static_cast<int>(page.panels.size()), Aspect(page), 8 * scale,
+                  RegionLinesHeight(*page.panels.front().playback, scale));
+    legend = {margin, middle.bottom() + 2 * scale, width, below};
+    strip = {margin, height - end + 2 * scale, width, end - 6 * scale};
+  }
+  Rect header, legend, strip;
+  std::vector<Rect> panels;
+};
+
+void DrawPanels(DrawList& list, const Page& page, const Areas& areas, double now_s) {
+  // Worlds first: the canvas is fast with large areas that nothing lies under.
+  for (std::size_t i = 0; i < page.panels.size(); ++i)
+    DrawPanelWorld(list, page, page.panels[i], areas.panels[i], now_s);
+  for (std::size_t i = 0; i < page.panels.size(); ++i)
+    DrawPanelFrame(list, page, page.panels[i], areas.panels[i], now_s);
+}
+
+void DrawStillAround(DrawList& list, const Page& page, const Areas& areas) {
+  // Room for as many figures as there ever are: the title keeps its length.
+  DrawHeader(list, areas.header, page.title, page.subtitle, Figures(page, page.to_s).size());
+  const Playback& first = *page.panels.front().playback;
+  DrawLegend(list, areas.legend, first, page.look, !first.recording().impacts.empty());
+  DrawStrip(list, areas.strip, page.curves, {page.strip_from_s, page.strip_to_s, page.to_s});
+}
+
+void DrawNowAround(DrawList& list, const Page& page, const Areas& areas, double now_s) {
+  DrawFigures(list, areas.header, Figures(page, now_s));
+  DrawStripNow(list, areas.strip, page.curves, {page.strip_from_s, page.strip_to_s, now_s});
+}
+
 constexpr double kInsetBefore_s = 0.5, kInsetAfter_s = 1;  ///< about the contact
 
 }  // namespace
@@ -218,29 +256,24 @@ Page MakeDifference(const std::vector<Playback>& playbacks, int peer) {
   return page;
 }
 
+void DrawStill(DrawList& list, const Page& page) {
+  list.Begin(page.width_px, page.height_px);
+  DrawStillAround(list, page, Areas(page, list.font().scale()));
+}
+
+void DrawMoving(DrawList& list, const Page& page, double now_s) {
+  list.Begin(page.width_px, page.height_px);
+  const Areas areas(page, list.font().scale());
+  DrawPanels(list, page, areas, now_s);
+  DrawNowAround(list, page, areas, now_s);
+}
+
 void DrawPage(DrawList& list, const Page& page, double now_s) {
   list.Begin(page.width_px, page.height_px);
-  const float scale = list.font().scale();
-  const float margin = 18 * scale;
-  const float width = static_cast<float>(page.width_px) - 2 * margin;
-  const float height = static_cast<float>(page.height_px);
-  const float header = 58 * scale, legend = 26 * scale, strip = 122 * scale;
-  const Rect middle{margin, header, width, height - header - legend - strip};
-  const std::vector<Rect> areas =
-      Tile(middle, static_cast<int>(page.panels.size()), Aspect(page), 8 * scale,
-           RegionLinesHeight(*page.panels.front().playback, scale));
-  // Worlds first: the canvas is fast with large areas that nothing lies under.
-  for (std::size_t i = 0; i < page.panels.size(); ++i)
-    DrawPanelWorld(list, page, page.panels[i], areas[i], now_s);
-  for (std::size_t i = 0; i < page.panels.size(); ++i)
-    DrawPanelFrame(list, page, page.panels[i], areas[i], now_s);
-  DrawHeader(list, {margin, 6 * scale, width, header}, page.title, page.subtitle,
-             Figures(page, now_s));
-  const Playback& first = *page.panels.front().playback;
-  DrawLegend(list, {margin, middle.bottom() + 2 * scale, width, legend}, first, page.look,
-             !first.recording().impacts.empty());
-  DrawStrip(list, {margin, height - strip + 2 * scale, width, strip - 6 * scale}, page.curves,
-            {page.strip_from_s, page.strip_to_s, now_s});
+  const Areas areas(page, list.font().scale());
+  DrawPanels(list, page, areas, now_s);
+  DrawStillAround(list, page, areas);
+  DrawNowAround(list, page, areas, now_s);
 }
 
 void DrawSheet(DrawList& list, const Page& page, int moments) {
@@ -249,7 +282,7 @@ void DrawSheet(DrawList& list, const Page& page, int moments) {
   const float width = static_cast<float>(page.width_px) - 2 * margin;
   const std::string span = FormatTime(page.from_s) + " to " + FormatTime(page.to_s);
   DrawHeader(list, {margin, 6 * scale, width, header}, page.title, page.subtitle + "  ·  " + span,
-             {});
+             0);
   const Rect area{margin, header, width, static_cast<float>(page.height_px) - header - margin};
   const int count = moments * static_cast<int>(page.panels.size());
   const std::vector<Rect> cells = Tile(area, count, Aspect(page), 6 * scale,

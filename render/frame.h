@@ -65,6 +65,11 @@ void SetCamera(const CameraWish& wish, const std::vector<Playback>& playbacks, P
 /// What a panel of these measures shows of the world at a moment.
 Viewport ViewportOf(const Page& page, const Panel& panel, const Rect& area, double now_s);
 
+/// What of a page is the same at each moment: title, legend, the strip's axis and pale curves.
+void DrawStill(DrawList& list, const Page& page);
+/// All else, over a picture of it.
+void DrawMoving(DrawList& list, const Page& page, double now_s);
+/// Both together.
 void DrawPage(DrawList& list, const Page& page, double now_s);
 
 /// So many moments from page.from_s to page.to_s, evenly, each as a small panel (of a page of

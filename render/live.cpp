@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "common/base/check.h"
+#include "common/base/process.h"
 #include "common/record/bus.h"
 #include "render/commands.h"
 #include "render/live_renderer.h"
@@ -28,17 +29,20 @@ void RenderLive(const RenderOptions& options) {
   bus.Subscribe("SEAM\\..*", [&](const std::string& channel, std::int64_t, ByteView message) {
     if (live.Add(channel, message)) last_heard = Clock::now();
   });
+  StopOnSignals();
   const Clock::time_point start = Clock::now();
   const double wait_s = options.seconds > 0 ? options.seconds : kFirstWait_s;
-  while (true) {
+  while (g_stop == 0) {
     bus.Poll(20000);
     live.DrawDue();
     if (options.seconds > 0 && Since(start) > options.seconds) break;
     if (live.frames() > 0 && Since(last_heard) > kQuiet_s) break;
     if (live.frames() == 0 && Since(start) > wait_s) break;
   }
-  if (live.frames() == 0)
-    throw OperatorError("heard no session on the bus: is anything publishing?");
+  if (live.frames() == 0) {
+    throw OperatorError(g_stop != 0 ? "stopped before there was anything to draw"
+                                    : "heard no session on the bus: is anything publishing?");
+  }
   std::fprintf(stderr, "%d frames in %s, %d skipped to keep up\n", live.frames(),
                live.path().c_str(), live.skipped());
 }

@@ -11,6 +11,7 @@
 #include "common/base/progress_count.h"
 #include "common/codec/version_line.h"
 #include "common/measure/contents/contents.h"
+#include "common/measure/contents/partial_views.h"
 #include "common/measure/handover_list.h"
 #include "common/measure/limit/information_limit.h"
 #include "common/measure/preconditions.h"
@@ -79,6 +80,12 @@ MeasuredRun MeasureLog(const std::string& path, const std::string& name, const O
   run.valid = WhyNotValid(recording, oracle, run.measures);
   run.gaps = recording.bus_gaps;
   run.skipped_bytes = recording.skipped_bytes;
+  const Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
+  const std::string partial = PartialViewsText(PartialViews(scene, recording),
+                                               [&](int peer) { return ViewNameOf(scene, peer); });
+  if (!partial.empty()) {
+    std::fprintf(stderr, "seam-measure: note: %s: %s\n", path.c_str(), partial.c_str());
+  }
   if (run.measures.compared == 0) {
     std::fprintf(stderr, "seam-measure: warning: %s: no view of a tick that the oracle has\n",
                  path.c_str());

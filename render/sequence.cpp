@@ -35,10 +35,12 @@ void WriteSequence(const Page& page, const Font& font, const std::vector<double>
     try {
       const std::unique_ptr<Canvas> canvas = MakeCanvas(font);
       DrawList list(font);
-      Image image;
+      Image still, image;
+      DrawStill(list, page);
+      canvas->Draw(list, kPaper, &still);
       for (std::size_t i = next++; i < times_s.size(); i = next++) {
-        DrawPage(list, page, times_s[i]);
-        canvas->Draw(list, kPaper, &image);
+        DrawMoving(list, page, times_s[i]);
+        canvas->Draw(list, still, &image);
         WritePng(folder.FramePath(static_cast<int>(i)), image, PngEffort::kFast, page.about);
         const std::lock_guard<std::mutex> lock(mutex);
         progress(++done);

@@ -74,9 +74,7 @@ void DrawPanel(DrawList& list, const Rect& area, const Playback& playback, int p
   const Viewport viewport = Fit(area, plan.min, plan.max);
   const std::vector<double> times = Exposures(plan);
   list.Clip(area);
-  list.FillRect(area, kPanel);
   DrawRegions(list, viewport, playback, Moment{});
-  DrawGrid(list, viewport);
   DrawWaters(list, viewport, playback);
   const Moment last = playback.MomentAt(peer, playback.TickAt(times.back()));
   DrawGround(list, viewport, playback, *playback.RevisionOf(last), last.tick, true);
@@ -166,7 +164,7 @@ void DrawStrobe(DrawList& list, const std::vector<Playback>& playbacks, const St
   if (!room.impair.empty()) subtitle += "  ·  network " + room.impair;
   const std::string title = first.scene().title.empty() ? room.scene_name : first.scene().title;
   const float width = static_cast<float>(plan.width_px) - 2 * layout.margin;
-  DrawHeader(list, {layout.margin, 6 * scale, width, layout.header}, title, subtitle, {});
+  DrawHeader(list, {layout.margin, 6 * scale, width, layout.header}, title, subtitle, 0);
   for (std::size_t column = 0; column < plan.peers.size(); ++column) {
     const float x = layout.margin + layout.labels +
                     static_cast<float>(column) * (layout.panel_width + layout.gap);

@@ -167,15 +167,20 @@ void Server::RelayInputs(std::int64_t now_us) {
 
 /// After authority, or what concerns whom, has changed: whose inputs each client hears.
 void Server::FindHeardPlayers() {
-  const int players = static_cast<int>(scene_.players.size());
+  std::vector<Session*> ready;
   sessions_.ForEachReady(0, [&](Session& session) {
     session.heard_players.clear();
-    const auto concerns = [&](int m) { return broadcast_.Simulates(session.peer, m); };
-    for (int p = 0; p < players; ++p) {
-      if (p == session.player) continue;
-      if (replica_.drivers().Moves(p, concerns)) session.heard_players.push_back(p);
-    }
+    ready.push_back(&session);
   });
+  const int players = static_cast<int>(scene_.players.size());
+  // Player by player, so that what is known of the mechanisms of one is at hand for all.
+  for (int p = 0; p < players; ++p) {
+    for (Session* session : ready) {
+      if (p == session->player) continue;
+      const auto concerns = [&](int m) { return broadcast_.Simulates(session->peer, m); };
+      if (replica_.drivers().Moves(p, concerns)) session->heard_players.push_back(p);
+    }
+  }
 }
 
 void Server::OnStates(std::int64_t now_us, Session& session, const States& states) {

@@ -25,6 +25,15 @@ void AddPose(const Message& from, std::size_t i, Message* to) {
   to->angle.push_back(from.angle[i]);
 }
 
+template <class Message>
+void ReservePoses(std::size_t count, Message* of) {
+  of->id.reserve(count);
+  of->epoch.reserve(count);
+  of->x.reserve(count);
+  of->y.reserve(count);
+  of->angle.reserve(count);
+}
+
 /// And how it moves.
 template <class Message>
 void AddMotion(const Message& from, std::size_t i, Message* to) {
@@ -135,6 +144,12 @@ States StateFilter::Keep(std::int64_t now_us, int peer, const States& states) {
   kept.composition = states.composition;
   kept.origin_x = states.origin_x;
   kept.origin_y = states.origin_y;
+  const std::size_t count = states.id.size();
+  ReservePoses(count, &kept);
+  kept.vx.reserve(count);
+  kept.vy.reserve(count);
+  kept.spin.reserve(count);
+  kept.flags.reserve(count);
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(states.id[i]);
     if (!MayMove(body, states, i)) continue;

@@ -19,8 +19,9 @@ void Member::Tick(std::int64_t now_us) {
   const std::int64_t before = ran ? client_.replica()->tick() : 0;
   const std::int64_t due_us = due_us_;
   const std::int64_t cpu_us = ThreadCpuUs();
-  client_.Tick(now_us, 0);
+  client_.Tick(now_us, spent_us_);
   const std::int64_t cost_us = ThreadCpuUs() - cpu_us;
+  spent_us_ += cost_us;
   figures_.cpu_us += cost_us;
   const bool runs = ran && client_.running();
   const std::int64_t stepped = runs ? client_.replica()->tick() - before : 0;

@@ -44,6 +44,7 @@ class Member {
   class Nowhere : public Recorder {
    public:
     bool listening() const override { return false; }
+
    public:
     void Publish(const std::string&, std::int64_t, ByteView) override {}
   };
@@ -54,6 +55,7 @@ class Member {
   OsEntropy entropy_;
   Client client_;
   std::int64_t due_us_ = 0;
+  std::int64_t spent_us_ = 1;  // CPU time of all calls so far; 0 would be "not known"
   MemberFigures figures_;
 };
 

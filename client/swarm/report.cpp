@@ -87,6 +87,8 @@ std::string SwarmReport(const Swarm& swarm, const std::vector<RoomLoad>& loads) 
                static_cast<double>(figures.cpu_us) /
                    static_cast<double>(std::max<std::int64_t>(1, figures.ticks)),
                100 * swarm.cpu_s() / seconds);
+  text += Line("client load: %.2f %% of its time, worst %.2f %%\n", 100 * traffic.load_mean,
+               100 * traffic.load_worst);
   text += Line("client bytes: in %.2f kB/s, out %.2f kB/s each\n", traffic.bytes_in / each,
                traffic.bytes_out / each);
   text += Line(

@@ -174,12 +174,16 @@ Swarm::Traffic Swarm::TrafficOfAll() const {
       sum.rtt_mean_s += rtt_s;
       sum.loss_worst = std::max(sum.loss_worst, loss);
       sum.rtt_worst_s = std::max(sum.rtt_worst_s, rtt_s);
+      const double load = std::max<int>(0, client.load_permille()) * 1e-3;
+      sum.load_mean += load;
+      sum.load_worst = std::max(sum.load_worst, load);
       sum.rejoins += client.rejoins();
       ++members;
     }
   }
   sum.loss_mean /= std::max(1.0, members);
   sum.rtt_mean_s /= std::max(1.0, members);
+  sum.load_mean /= std::max(1.0, members);
   return sum;
 }
 

@@ -52,6 +52,7 @@ class Swarm {
     double bytes_in = 0, bytes_out = 0;      ///< of all clients together
     double loss_mean = 0, loss_worst = 0;    ///< shares, of what comes in
     double rtt_mean_s = 0, rtt_worst_s = 0;  ///< s
+    double load_mean = 0, load_worst = 0;    ///< shares of its time that a client says it needs
     std::int64_t rejoins = 0;
   };
   Traffic TrafficOfAll() const;

@@ -69,7 +69,7 @@ struct Link::Impl {
   std::deque<Passing> unreliable;
   std::array<std::int64_t, kReceiptSlots> arrived;  // by slot, the largest number
   std::deque<Outgoing> reliable;  // the first kReliableWindow of them are the window
-  std::int64_t reliable_due_us = 0;  // before that none of the window is due
+  mutable std::int64_t reliable_due_us = 0;  // before that none of the window is due
   std::int64_t next_id = 0;
   std::deque<SentRecord> sent;  // of successive sequence numbers up to the newest
   std::int64_t srtt_us = -1;
@@ -160,7 +160,7 @@ struct Link::Impl {
 
   bool Sends(std::int64_t now_us) const {
     if (!unreliable.empty() || OwesDatagram(now_us)) return true;
-    return now_us >= reliable_due_us && now_us >= FirstDueUs();
+    return now_us >= reliable_due_us && now_us >= (reliable_due_us = FirstDueUs());
   }
 
   /// When the first of the window is due.

@@ -56,7 +56,7 @@ struct World::Impl {
       if (stage->listens()) listening.push_back(stage.get());
     }
     hub.reset();
-    if (!listening.empty()) hub.emplace(meter, std::move(listening));
+    if (!listening.empty()) hub = std::make_unique<ContactHub>(meter, std::move(listening));
   }
 
   void Listen() {
@@ -133,7 +133,7 @@ struct World::Impl {
   std::optional<AllPresent> all_present;
   std::int64_t tick = 0;
   std::vector<std::unique_ptr<Stage>> stages;  // in their order of action
-  std::optional<ContactHub> hub;               // only when a stage listens
+  std::unique_ptr<ContactHub> hub;             // only when a stage listens
   std::vector<Impact> impacts;
   // Computed when asked for, so that a world that nobody asks has no cost.
   std::optional<std::vector<Touch>> touches;

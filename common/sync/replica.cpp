@@ -26,7 +26,7 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       replay_(config_, world_, roles_, drivers_, memory_, display_, inputs_),
       corrector_(config_, world_, roles_, presence_, memory_, display_, replay_),
       reach_(config_, world_, roles_, drivers_, inputs_),
-      rest_(config_, world_, roles_, memory_, display_, inputs_, reach_),
+      rest_(config_, world_, roles_, drivers_, memory_, display_, inputs_, reach_),
       scheduler_(config_, world_, roles_, memory_, reach_, replay_),
       proposals_(config_.tick_hz),
       impact_reporter_(world_, roles_),

@@ -145,6 +145,22 @@ void Replica::ForgetProposals(const Edit& edit) {
   }
 }
 
+void Replica::GoOnFrom(const World& before) {
+  const std::size_t known = before.scene().parts.size();
+  for (int body = 0; body < world_.body_count(); ++body) {
+    const PartId root = world_.id(body);
+    BodyState state;
+    if (static_cast<std::size_t>(root) >= known || !ReadPart(before, root, &state)) continue;
+    const int assembly = before.composition().assembly_of_part[static_cast<std::size_t>(root)];
+    const PartId id = before.composition().assemblies[static_cast<std::size_t>(assembly)].id;
+    const int then = before.BodyOfId(id);
+    world_.Write(body, state);
+    if (then >= 0 && !before.awake(then)) world_.SetAwake(body, false);
+    memory_.snapshots().Add(body, tick(), state);
+    if (BodyState* past = memory_.history().At(tick(), body)) *past = state;
+  }
+}
+
 void Replica::Remap(const BodyRemap& change) {
   memory_.Remap(change);
   display_.Remap(change);

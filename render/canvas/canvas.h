@@ -16,6 +16,8 @@ class Canvas {
   /// Draws `list` over `background` and resizes `image` to the list's page. The same list gives
   /// the same bytes in every thread.
   virtual void Draw(const DrawList& list, Colour background, Image* image) = 0;
+  /// The same over a picture. Requires the size of the list's page.
+  virtual void Draw(const DrawList& list, const Image& background, Image* image) = 0;
 };
 
 /// A canvas for lists made with `font`. Throws OperatorError when the graphics library refuses.

@@ -32,7 +32,7 @@ out vec4 fragment_shape;
 out vec4 fragment_colour;
 void main() {
   gl_Position = vec4(position / page * 2.0 - 1.0, 0.0, 1.0);
-  gl_PointSize = 2.0 * shape.y + 3.0;
+  gl_PointSize = 2.0 * shape.y + 1.0;
   fragment_shape = shape;
   fragment_colour = colour;
 })";
@@ -167,10 +167,24 @@ class OsmesaCanvas : public Canvas {
   OsmesaCanvas& operator=(const OsmesaCanvas&) = delete;
 
   void Draw(const DrawList& list, Colour background, Image* image) override {
+    DrawOver(
+        list, [&](const Rect& rect) { FillTexture(rect, background); }, image);
+  }
+
+  void Draw(const DrawList& list, const Image& background, Image* image) override {
+    SEAM_ASSERT(background.width_px == list.width_px() && background.height_px == list.height_px());
+    DrawOver(
+        list, [&](const Rect& rect) { CopyToTexture(rect, background); }, image);
+  }
+
+ private:
+  /// `fill`: puts the background into a rectangle of whole pixels.
+  template <class Fill>
+  void DrawOver(const DrawList& list, const Fill& fill, Image* image) {
     MakeCurrent();
     Resize(list.width_px(), list.height_px());
     const std::vector<Batch> batches = list.Batches();
-    const std::size_t under = FillUnder(batches, background);
+    const std::size_t under = FillUnder(batches, fill);
     Upload(list);
     for (std::size_t i = under; i < batches.size(); ++i) {
       const Batch& batch = batches[i];
@@ -192,7 +206,6 @@ class OsmesaCanvas : public Canvas {
     SEAM_ASSERT(glGetError() == GL_NO_ERROR);
   }
 
- private:
   void MakeCurrent() {
     // The context wants a buffer of its own even if nothing is ever drawn there.
     if (OSMesaGetCurrentContext() == context_) return;
@@ -202,7 +215,8 @@ class OsmesaCanvas : public Canvas {
 
   /// The background and the opaque rectangles that come first: written to memory at once, a
   /// quarter of the time that llvmpipe takes to draw them. Returns how many.
-  std::size_t FillUnder(const std::vector<Batch>& batches, Colour background) {
+  template <class Fill>
+  std::size_t FillUnder(const std::vector<Batch>& batches, const Fill& fill) {
     std::size_t count = 0;
     Rect hole;  // the largest: the background is not filled there
     for (; count < batches.size() && batches[count].kind == BatchKind::kClear; ++count) {
@@ -210,10 +224,10 @@ class OsmesaCanvas : public Canvas {
       if (rect.width * rect.height > hole.width * hole.height) hole = rect;
     }
     const auto width = static_cast<float>(width_), height = static_cast<float>(height_);
-    FillTexture({0, 0, width, hole.y}, background);
-    FillTexture({0, hole.y, hole.x, hole.height}, background);
-    FillTexture({hole.right(), hole.y, width - hole.right(), hole.height}, background);
-    FillTexture({0, hole.bottom(), width, height - hole.bottom()}, background);
+    fill({0, 0, width, hole.y});
+    fill({0, hole.y, hole.x, hole.height});
+    fill({hole.right(), hole.y, width - hole.right(), hole.height});
+    fill({0, hole.bottom(), width, height - hole.bottom()});
     for (std::size_t i = 0; i < count; ++i) FillTexture(batches[i].clip, batches[i].clear);
     return count;
   }
@@ -224,6 +238,17 @@ class OsmesaCanvas : public Canvas {
     glClearTexSubImage(picture_, 0, static_cast<int>(rect.x), static_cast<int>(rect.y), 0,
                        static_cast<int>(rect.width), static_cast<int>(rect.height), 1, GL_RGBA,
                        GL_UNSIGNED_BYTE, rgba);
+  }
+
+  void CopyToTexture(const Rect& rect, const Image& from) {
+    if (rect.width <= 0 || rect.height <= 0) return;
+    const auto x = static_cast<int>(rect.x), y = static_cast<int>(rect.y);
+    glBindTexture(GL_TEXTURE_2D, picture_);
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, from.width_px);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, x, y, static_cast<int>(rect.width),
+                    static_cast<int>(rect.height), GL_RGBA, GL_UNSIGNED_BYTE, from.At(x, y));
+    glPixelStorei(GL_UNPACK_ROW_LENGTH, 0);
+    glBindTexture(GL_TEXTURE_2D, texture_);
   }
 
   static void Clear(Colour colour) {

@@ -140,12 +140,9 @@ void DrawList::FillRect(const Rect& r, Colour colour) {
   constexpr float kLarge = 5000;  // px: below, a draw call of its own would cost more
   const bool large = r.width * r.height > kLarge;
   if (colour.a == 255 && large) {
-    Batch batch;
-    batch.kind = BatchKind::kClear;
-    batch.clip = Cut(r);
-    batch.clear = colour;
-    if (batch.clip.width <= 0 || batch.clip.height <= 0) return;
-    PutUnder(batch);
+    const Rect whole = Cut(r);
+    if (whole.width <= 0 || whole.height <= 0) return;
+    PutUnder(whole, colour, PlaceUnder(whole).value_or(batches_.size()));
     return;
   }
   // Plain rectangles by themselves are what llvmpipe draws fastest, if they outweigh a draw call.
@@ -154,14 +151,32 @@ void DrawList::FillRect(const Rect& r, Colour colour) {
   Fan({{r.x, r.y}, {r.right(), r.y}, {r.right(), r.bottom()}, {r.x, r.bottom()}}, colour);
 }
 
-void DrawList::PutUnder(const Batch& fill) {
-  // Nothing was drawn there but fills that came first: it can be one of them.
+void DrawList::FillUnder(const Rect& rect, Colour colour) {
+  SEAM_ASSERT(colour.a == 255);
+  const Rect whole = Cut(rect);
+  if (whole.width <= 0 || whole.height <= 0) return;
+  if (const std::optional<std::size_t> place = PlaceUnder(whole)) {
+    PutUnder(whole, colour, *place);
+  } else {
+    FillRect(whole, colour);
+  }
+}
+
+std::optional<std::size_t> DrawList::PlaceUnder(const Rect& rect) const {
   std::size_t place = 0;
   while (place < batches_.size() && batches_[place].kind == BatchKind::kClear) ++place;
   for (std::size_t i = place; i < batches_.size(); ++i) {
-    if (Meet(batches_[i].clip, fill.clip)) place = batches_.size();
+    if (Meet(batches_[i].clip, rect)) return std::nullopt;
   }
-  if (open_text_.indices > 0 && Meet(open_text_.clip, fill.clip)) place = batches_.size();
+  if (open_text_.indices > 0 && Meet(open_text_.clip, rect)) return std::nullopt;
+  return place;
+}
+
+void DrawList::PutUnder(const Rect& rect, Colour colour, std::size_t place) {
+  Batch fill;
+  fill.kind = BatchKind::kClear;
+  fill.clip = rect;
+  fill.clear = colour;
   std::size_t first = place;
   while (first > 0 && batches_[first - 1].kind == BatchKind::kClear) --first;
   batches_.insert(batches_.begin() + static_cast<std::ptrdiff_t>(place), fill);

@@ -8,6 +8,7 @@
 /// shades, and the outline over a plain filled shape hides the shape's own stairs.
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -72,6 +73,9 @@ class DrawList {
   void Fill(const std::vector<Vec2>& points, Colour colour);
   /// For large areas; its edges are not softened, and a large opaque one has whole pixels.
   void FillRect(const Rect& rect, Colour colour);
+  /// An opaque one of whole pixels, however thin: written to memory like a large area where nothing
+  /// but such rectangles was drawn before.
+  void FillUnder(const Rect& rect, Colour colour);
   /// A quadrilateral whose colour goes from `from` (points 0, 1) to `to` (points 2, 3).
   void FillShaded(const Vec2 points[4], Colour from, Colour to);
   /// Stripes of `period` px over a convex shape, across `normal` (unit) as seen from `origin`.
@@ -100,9 +104,11 @@ class DrawList {
  private:
   void Need(BatchKind kind);
   void SetClip(const Rect& rect);
-  /// Adds a large opaque rectangle, among those that come first if it can, and cuts those that it
-  /// covers and nothing was drawn on.
-  void PutUnder(const Batch& fill);
+  /// Where among the opaque rectangles that come first another one can be put: after them, if
+  /// nothing else was drawn there.
+  std::optional<std::size_t> PlaceUnder(const Rect& rect) const;
+  /// Puts one there, and cuts those that it covers and nothing was drawn on.
+  void PutUnder(const Rect& rect, Colour colour, std::size_t place);
   void Dot(const Vec2& centre, float radius, Colour colour);
   Rect Cut(const Rect& rect) const;
   void Fan(const std::vector<Vec2>& points, Colour colour);

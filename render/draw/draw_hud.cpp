@@ -52,17 +52,21 @@ std::string Fitting(const DrawList& list, TextStyle style, std::string text, flo
 }  // namespace
 
 void DrawHeader(DrawList& list, const Rect& area, const std::string& title,
-                const std::string& subtitle, const std::vector<Figure>& figures) {
+                const std::string& subtitle, std::size_t figures) {
   const float scale = list.font().scale();
   const float upper = area.y + 22 * scale, lower = area.y + 42 * scale;
-  const float room = area.width - 104 * scale * static_cast<float>(figures.size()) - 8 * scale;
+  const float room = area.width - 104 * scale * static_cast<float>(figures) - 8 * scale;
   list.Text(area.x, upper, TextStyle::kTitle, Fitting(list, TextStyle::kTitle, title, room), kInk);
   list.Text(area.x, lower, TextStyle::kBody, Fitting(list, TextStyle::kBody, subtitle, room),
             kFaintInk);
+}
+
+void DrawFigures(DrawList& list, const Rect& area, const std::vector<Figure>& figures) {
+  const float scale = list.font().scale();
   float right = area.right();
   for (const auto& [name, value] : figures) {
     list.Text(right, area.y + 17 * scale, TextStyle::kSmall, name, kFaintInk, Align::kRight);
-    list.Text(right, lower - 2 * scale, TextStyle::kNumber, value, kInk, Align::kRight);
+    list.Text(right, area.y + 40 * scale, TextStyle::kNumber, value, kInk, Align::kRight);
     right -= 104 * scale;
   }
 }

@@ -14,9 +14,11 @@ namespace seam {
 /// A figure of the header: a faint name over a bold value.
 using Figure = std::pair<std::string, std::string>;
 
-/// Title and line below it on the left, figures on the right, the first outermost.
+/// Title and line below it on the left, with room for so many figures on the right.
 void DrawHeader(DrawList& list, const Rect& area, const std::string& title,
-                const std::string& subtitle, const std::vector<Figure>& figures);
+                const std::string& subtitle, std::size_t figures);
+/// On the right of the same area, the first outermost.
+void DrawFigures(DrawList& list, const Rect& area, const std::vector<Figure>& figures);
 
 /// Which colours and patterns mean what, as far as the playback has them.
 /// `look`: which layers.

@@ -118,29 +118,42 @@ void DrawFlow(DrawList& list, const Viewport& viewport, const Water& water, cons
   }
 }
 
-}  // namespace
-
-void DrawGrid(DrawList& list, const Viewport& viewport) {
+/// Of the grid's lines those within `area`, on whole pixels, opaque over a ground of this colour.
+void DrawGrid(DrawList& list, const Viewport& viewport, const Rect& area, Colour ground) {
   const float step = RoundUp(45 * list.font().scale() / viewport.px_per_m);
   const Vec2 low = viewport.ToWorld({viewport.panel.x, viewport.panel.bottom()});
   const Vec2 high = viewport.ToWorld({viewport.panel.right(), viewport.panel.y});
-  const Colour colour = Faded(kGroundEdge, 0.13f);  // lines on whole pixels need no soft edge
-  const Rect& panel = viewport.panel;
+  const Colour colour = Mix(ground, kGroundEdge, 0.13f);
   for (float k = std::ceil(low.x() / step); k * step <= high.x(); ++k) {
-    list.FillRect({std::floor(viewport.ToPx({k * step, 0}).x()), panel.y, 1, panel.height}, colour);
+    const float x = std::floor(viewport.ToPx({k * step, 0}).x());
+    list.FillUnder(Shared({x, area.y, 1, area.height}, area), colour);
   }
   for (float k = std::ceil(low.y() / step); k * step <= high.y(); ++k) {
-    list.FillRect({panel.x, std::floor(viewport.ToPx({0, k * step}).y()), panel.width, 1}, colour);
+    const float y = std::floor(viewport.ToPx({0, k * step}).y());
+    list.FillUnder(Shared({area.x, y, area.width, 1}, area), colour);
   }
 }
+
+/// The panel's ground, the regions' tints and the grid: opaque, because that is written to memory
+/// instead of drawn. A region's ground hides the grid of what lies under it, so each has its own.
+void DrawFlats(DrawList& list, const Viewport& viewport, const std::vector<Region>& regions) {
+  list.FillUnder(viewport.panel, kPanel);
+  DrawGrid(list, viewport, viewport.panel, kPanel);
+  for (const Region& region : regions) {
+    const Rect area = Shared(region.inner, viewport.panel);
+    const Colour ground = Mix(kPanel, region.colour, 0.1f);
+    list.FillUnder(area, ground);
+    DrawGrid(list, viewport, area, ground);
+  }
+}
+
+}  // namespace
 
 void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playback,
                  const Moment& moment) {
   const float scale = list.font().scale();
-  // Opaque, because large translucent areas are the dearest thing on a page.
   const std::vector<Region> regions = RegionsOf(viewport, playback, moment);
-  for (const Region& region : regions)
-    list.FillRect(Shared(region.inner, viewport.panel), Mix(kPanel, region.colour, 0.1f));
+  DrawFlats(list, viewport, regions);
   // A region may be kilometres wide; the rasteriser is slow with what lies far outside.
   const Rect& panel = viewport.panel;
   const float beyond = 10 * scale;

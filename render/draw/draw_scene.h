@@ -7,10 +7,8 @@
 
 namespace seam {
 
-/// A grid of 1, 2 or 5 times ten to the n metres.
-void DrawGrid(DrawList& list, const Viewport& viewport);
-
-/// The players' regions in their peers' colours, and the band of scene.buffer_m around each, if the
+/// Comes first on a panel: its ground, a grid of 1, 2 or 5 times ten to the n metres, and the
+/// players' regions in their peers' colours, and the band of scene.buffer_m around each, if the
 /// mode has them; where authority follows the players what each holds at the moment, without a
 /// band.
 void DrawRegions(DrawList& list, const Viewport& viewport, const Playback& playback,

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "render/canvas/palette.h"
 #include "render/playback/format.h"
@@ -115,22 +114,20 @@ std::vector<Vec2> Thinned(const std::vector<Vec2>& points) {
   return kept;
 }
 
-/// The part of a line up to `x` and the part from there on; one of them may be empty.
-std::pair<std::vector<Vec2>, std::vector<Vec2>> SplitAt(const std::vector<Vec2>& points, float x) {
+/// The part of a line up to `x`; it may be empty.
+std::vector<Vec2> UpTo(const std::vector<Vec2>& points, float x) {
   const auto after =
       std::find_if(points.begin(), points.end(), [&](const Vec2& point) { return point.x() > x; });
-  std::vector<Vec2> past(points.begin(), after), future(after, points.end());
-  if (past.empty() || future.empty()) return {past, future};
-  const Vec2 way = future.front() - past.back();
-  const Vec2 between = past.back() + way * ((x - past.back().x()) / way.x());
-  past.push_back(between);
-  future.insert(future.begin(), between);
-  return {past, future};
+  std::vector<Vec2> past(points.begin(), after);
+  if (past.empty() || after == points.end()) return past;
+  const Vec2 way = *after - past.back();
+  past.push_back(past.back() + way * ((x - past.back().x()) / way.x()));
+  return past;
 }
 
 void DrawPart(DrawList& list, const Axes& axes, const Curve& curve, const std::vector<Vec2>& points,
               bool past, bool filled) {
-  const Colour under = Faded(curve.colour, past ? 0.22f : 0.07f);
+  const Colour under = Faded(curve.colour, past ? 0.16f : 0.07f);
   for (std::size_t i = 1; filled && i < points.size(); ++i) {
     const Vec2 quad[4] = {points[i - 1],
                           points[i],
@@ -143,12 +140,30 @@ void DrawPart(DrawList& list, const Axes& axes, const Curve& curve, const std::v
                Faded(curve.colour, past ? 1.0f : 0.35f), 0});
 }
 
-void DrawCurve(DrawList& list, const Axes& axes, const Curve& curve, float now_x, bool filled) {
-  for (const std::vector<Vec2>& points : Pieces(axes, curve)) {
-    const auto [past, future] = SplitAt(Thinned(points), now_x);
-    DrawPart(list, axes, curve, past, true, filled);
-    DrawPart(list, axes, curve, future, false, filled);
+Axes AxesOf(const Rect& area, float scale, const std::vector<Curve>& curves,
+            const StripLook& look) {
+  Axes axes;
+  axes.plot = {area.x + 48 * scale, area.y + 22 * scale, area.width - 60 * scale,
+               area.height - 42 * scale};
+  axes.from_s = look.from_s;
+  axes.to_s = std::max(look.to_s, look.from_s + 1e-3);
+  axes.high_decade = HighDecade(curves);
+  return axes;
+}
+
+/// `past`: strong, up to the playhead; else pale, all of them.
+void DrawCurves(DrawList& list, const Rect& area, const Axes& axes,
+                const std::vector<Curve>& curves, const StripLook& look, bool past) {
+  const Rect clip{axes.plot.x - 1, area.y, axes.plot.width + 2, area.height};
+  list.Clip(clip);
+  for (const Curve& curve : curves) {
+    for (const std::vector<Vec2>& points : Pieces(axes, curve)) {
+      const std::vector<Vec2> all = Thinned(points);
+      DrawPart(list, axes, curve, past ? UpTo(all, axes.X(look.now_s) + 0.5f) : all, past,
+               curves.size() == 1);
+    }
   }
+  list.NoClip();
 }
 
 void DrawNow(DrawList& list, const Axes& axes, const std::vector<Curve>& curves,
@@ -176,12 +191,7 @@ void DrawNow(DrawList& list, const Axes& axes, const std::vector<Curve>& curves,
 void DrawStrip(DrawList& list, const Rect& area, const std::vector<Curve>& curves,
                const StripLook& look) {
   const float scale = list.font().scale();
-  Axes axes;
-  axes.plot = {area.x + 48 * scale, area.y + 22 * scale, area.width - 60 * scale,
-               area.height - 42 * scale};
-  axes.from_s = look.from_s;
-  axes.to_s = std::max(look.to_s, look.from_s + 1e-3);
-  axes.high_decade = HighDecade(curves);
+  const Axes axes = AxesOf(area, scale, curves, look);
   list.FillRect(axes.plot, kPanel);
   DrawDecades(list, axes);
   DrawSeconds(list, axes);
@@ -197,11 +207,13 @@ void DrawStrip(DrawList& list, const Rect& area, const std::vector<Curve>& curve
     x += 22 * scale;
     x += list.Text(x, base, TextStyle::kSmall, curve.label, kInk) + 18 * scale;
   }
-  const Rect clip{axes.plot.x - 1, area.y, axes.plot.width + 2, area.height};
-  list.Clip(clip);
-  for (const Curve& curve : curves)
-    DrawCurve(list, axes, curve, axes.X(look.now_s) + 0.5f, curves.size() == 1);
-  list.NoClip();
+  DrawCurves(list, area, axes, curves, look, false);
+}
+
+void DrawStripNow(DrawList& list, const Rect& area, const std::vector<Curve>& curves,
+                  const StripLook& look) {
+  const Axes axes = AxesOf(area, list.font().scale(), curves, look);
+  DrawCurves(list, area, axes, curves, look, true);
   DrawNow(list, axes, curves, look);
 }
 

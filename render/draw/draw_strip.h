@@ -24,8 +24,11 @@ struct StripLook {
   double now_s = 0;             ///< playhead
 };
 
-/// Draws axis, curves and playhead into `area`. Values below a millimetre lie on the base line.
+/// Draws axis, legend and pale curves into `area`. Values below a millimetre lie on the base line.
 void DrawStrip(DrawList& list, const Rect& area, const std::vector<Curve>& curves,
                const StripLook& look);
+/// Over it, the curves up to the playhead, and the playhead.
+void DrawStripNow(DrawList& list, const Rect& area, const std::vector<Curve>& curves,
+                  const StripLook& look);
 
 }  // namespace seam

@@ -268,9 +268,7 @@ void DrawWorld(DrawList& list, const Viewport& viewport, const Playback& playbac
   const Moment now = playback.MomentAt(look.peer, look.tick);
   const auto revision = playback.RevisionOf(now);
   list.Clip(viewport.panel);
-  list.FillRect(viewport.panel, kPanel);
   DrawRegions(list, viewport, playback, now);
-  DrawGrid(list, viewport);
   DrawWaters(list, viewport, playback);
   DrawGround(list, viewport, playback, *revision, look.tick, look.cull);
   DrawTriggers(list, viewport, playback, now, look.tick);

@@ -5,6 +5,7 @@
 
 #include "common/base/check.h"
 #include "common/base/nearest.h"
+#include "common/measure/contents/partial_views.h"
 
 namespace seam {
 namespace {
@@ -89,17 +90,29 @@ void FindHoles(const Recording& recording, int peer, const std::map<std::int64_t
   }
 }
 
+/// "no view of bob, cid", of many the first.
+std::string AbsentViews(const ExportOptions& options, const ExportSession& session) {
+  constexpr int kNamed = 8;
+  std::string text;
+  int absent = 0;
+  const int players = static_cast<int>(session.scene.players.size());
+  for (int peer = 0; peer <= players; ++peer) {
+    if (session.recording.views.count(peer) != 0 || LeftOut(session, options.views, peer)) continue;
+    if (++absent > kNamed) continue;
+    text += (text.empty() ? "no view of " : ", ") + session.ViewName(peer);
+  }
+  return absent > kNamed ? text + " and " + std::to_string(absent - kNamed) + " more" : text;
+}
+
 void FindLacking(const ExportOptions& options, ExportSession* session) {
   const Recording& recording = session->recording;
   const std::string damage = DamageOf(recording);
   if (!damage.empty()) session->lacking.push_back(damage);
-  std::string absent;
-  const int players = static_cast<int>(session->scene.players.size());
-  for (int peer = 0; peer <= players; ++peer) {
-    if (recording.views.count(peer) != 0 || LeftOut(*session, options.views, peer)) continue;
-    absent += (absent.empty() ? "no view of " : ", ") + session->ViewName(peer);
-  }
+  const std::string absent = AbsentViews(options, *session);
   if (!absent.empty()) session->lacking.push_back(absent);
+  const std::string partial = PartialViewsText(PartialViews(session->scene, recording),
+                                               [&](int peer) { return session->ViewName(peer); });
+  if (!partial.empty()) session->lacking.push_back(partial);
   for (const auto& [peer, views] : recording.views) FindHoles(recording, peer, views, session);
 }
 

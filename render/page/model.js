@@ -93,6 +93,7 @@ class Run {
     this.waters = drawn.waters;
     this.bricks = readBricks(bytes, head.bricks);
     this.regions = drawn.regions;
+    this.held = drawn.held / 1000;  // margin around what a peer holds, m; 0: regions are fixed
     this.motions = new Map(drawn.motions.map((motion) => [motion.id, motion.path]));
     this.worlds = drawn.worlds.map((world) => makeWorld(world, drawn.bodies));
     this.views = head.views.map((view) => new View(this, view, bytes, units));
@@ -129,6 +130,31 @@ function poseOf(track, tick) {
   const j = blend > 0 && i + 1 < track.has.length && track.has[i + 1] ? i + 1 : i;
   const mix = (column) => (column[i] + blend * (column[j] - column[i])) / 1000;
   return [mix(track.x), mix(track.y), mix(track.a)];
+}
+
+// Where regions are not fixed, the box around all that each client has authority over in a view:
+// [{peer, corners}] by peer, corners in millimetres.
+function heldRegions(view, tick) {
+  const boxes = new Map();
+  if (view.run.held === 0) return [];
+  for (const body of view.worldAt(tick).moving) {
+    const track = view.tracks.bodies.get(body.id);
+    const pose = poseOf(track, tick);
+    const peer = pose ? Math.floor(track.owner[Math.floor(tick)] / 3) : 0;
+    if (peer <= 0) continue;
+    const reach = body.reach / 1000 + view.run.held;
+    const box = boxes.get(peer) || [Infinity, Infinity, -Infinity, -Infinity];
+    boxes.set(peer, [
+      Math.min(box[0], pose[0] - reach),
+      Math.min(box[1], pose[1] - reach),
+      Math.max(box[2], pose[0] + reach),
+      Math.max(box[3], pose[1] + reach),
+    ]);
+  }
+  return [...boxes].sort((a, b) => a[0] - b[0]).map(([peer, box]) => {
+    const [x0, y0, x1, y1] = box.map((m) => 1000 * m);
+    return {peer, corners: [[x0, y0], [x1, y0], [x1, y1], [x0, y1]]};
+  });
 }
 
 function anchoredPose(run, entry, tick) {

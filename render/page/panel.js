@@ -274,7 +274,7 @@ function drawPanel(c, rect, camera, view, tick, second) {
   c.fillRect(rect.x, rect.y, rect.width, rect.height);
   const step = drawGrid(c, viewport);
   drawWaters(c, viewport, view.run);
-  if (state.layers.regions) drawRegions(c, viewport, view.run);
+  if (state.layers.regions) drawRegions(c, viewport, view, tick);
   drawGround(c, viewport, view.run, world, tick);
   if (state.layers.onion) drawOnion(c, viewport, view, tick);
   const seen = second ? drawDifference(c, viewport, view, second, tick) :

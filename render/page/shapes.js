@@ -221,8 +221,8 @@ function shadeBelow(c, viewport, points, pose) {
   c.fill();
 }
 
-function drawRegions(c, viewport, run) {
-  for (const region of run.regions) {
+function drawRegions(c, viewport, view, tick) {
+  for (const region of [...view.run.regions, ...heldRegions(view, tick)]) {
     const colour = peerColour(region.peer);
     c.beginPath();
     tracePolygon(c, viewport, region.corners.flat(), [0, 0, 0], true);

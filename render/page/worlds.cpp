@@ -6,6 +6,7 @@
 #include "common/scene/water.h"
 #include "common/topology/feather_blast.h"
 #include "render/draw/draw_bricks.h"
+#include "render/playback/held_regions.h"
 
 namespace seam {
 namespace {
@@ -122,9 +123,11 @@ std::string PageWorlds::Json() const {
     if (body.imposed >= 0) motions.push_back(MotionJson(playback_, body));
   const Scene& scene = playback_.scene();
   return fmt::format(R"({{"bodies":{},"worlds":{},"motions":{},"waters":{},)"
-                     R"("regions":{},"camera":[{},{}]}})",
+                     R"("regions":{},"held":{},"camera":[{},{}]}})",
                      JsonList(bodies_), JsonList(worlds_), JsonList(motions), WatersJson(scene),
-                     RegionsJson(playback_), Point(scene.camera.min), Point(scene.camera.max));
+                     RegionsJson(playback_),
+                     RegionsAreHeld(playback_) ? Thousandths(double{kHeldMargin}) : 0,
+                     Point(scene.camera.min), Point(scene.camera.max));
 }
 
 PageBytes EncodeBricks(const Playback& playback) {

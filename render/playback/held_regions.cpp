@@ -6,13 +6,17 @@
 
 namespace seam {
 
-std::vector<HeldRegion> HeldRegions(const Playback& playback, const Moment& moment) {
+bool RegionsAreHeld(const Playback& playback) {
   const std::optional<Mode> mode = playback.mode();
-  if (mode != Mode::kStrict && mode != Mode::kBuffer) return {};
+  if (mode != Mode::kStrict && mode != Mode::kBuffer) return false;
   const std::vector<Player>& players = playback.scene().players;
   const bool fixed = std::any_of(players.begin(), players.end(),
                                  [](const Player& player) { return player.has_region; });
-  if (moment.before == nullptr || (fixed && !playback.scene().planner->given)) return {};
+  return !fixed || playback.scene().planner->given;
+}
+
+std::vector<HeldRegion> HeldRegions(const Playback& playback, const Moment& moment) {
+  if (moment.before == nullptr || !RegionsAreHeld(playback)) return {};
   std::map<int, HeldRegion> by_peer;
   const std::shared_ptr<const DrawnRevision> drawn = playback.RevisionOf(moment);
   for (const BodyShapes& body : drawn->moving) {

@@ -13,7 +13,10 @@ struct HeldRegion {
   Vec2 min{0, 0}, max{0, 0};  ///< m
 };
 
-/// At a moment, by peer, ascending; empty where the scene fixes the regions, or the mode has none.
+/// Whether regions are what the peers hold: the mode has regions, and the scene fixes none.
+bool RegionsAreHeld(const Playback& playback);
+
+/// At a moment, by peer, ascending; empty where regions are not held.
 std::vector<HeldRegion> HeldRegions(const Playback& playback, const Moment& moment);
 
 /// m beyond the bodies.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/measure/handover_list.h"
+
 namespace seam {
 namespace {
 
@@ -134,6 +136,10 @@ std::optional<ShownMoment> HandOverMoment(const std::vector<Playback>& playbacks
           return ShownMoment{Seconds(playback, tick), {view.id[i]}};
         }
       }
+    }
+    // Where the server's view lacks what clients hold (--publish own), what the clients claim.
+    for (const HandOverSeen& seen : ListHandOvers(playback.recording())) {
+      if (seen.from > 0 && seen.to > 0) return ShownMoment{Seconds(playback, seen.tick), {seen.id}};
     }
   }
   return std::nullopt;

@@ -25,12 +25,13 @@ std::pair<float, float> Middle(std::vector<float> values) {
 
 }  // namespace
 
-BoxGrid::BoxGrid(const std::vector<MovingBox>& boxes) {
+BoxGrid::BoxGrid(const std::vector<MovingBox>& boxes, const std::vector<char>* use) {
   std::vector<int> small;
   std::vector<Vec2> centres;
   small.reserve(boxes.size());
   centres.reserve(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
+    if (use != nullptr && (*use)[i] == 0) continue;
     const float half = (boxes[i].max - boxes[i].min).maxCoeff() / 2;
     if (half > kCell / 2) {
       large_.push_back(static_cast<int>(i));

@@ -11,8 +11,8 @@ namespace seam {
 
 class BoxGrid {
  public:
-  /// `boxes` must outlive the grid and stay as they are.
-  explicit BoxGrid(const std::vector<MovingBox>& boxes);
+  /// Of all boxes, or of those that `use` (by box) is not 0 of.
+  explicit BoxGrid(const std::vector<MovingBox>& boxes, const std::vector<char>* use = nullptr);
 
   /// Calls `visit` (an index of the boxes) once for each box that overlaps the rectangle, and for
   /// some that lie a few cells beside it.

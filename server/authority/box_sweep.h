@@ -1,35 +1,38 @@
 #pragma once
 /// All pairs of boxes that overlap when each is grown: a sweep along the axis along which they are
-/// spread most, n log n for what does not crowd.
+/// spread most, in strips across it, n for what does not crowd.
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <vector>
 
 #include "common/sync/reach/zones.h"
+#include "server/authority/sort_keys.h"
 
 namespace seam {
 
+///        strip 1 |      +--a--+         a and b are in both strips: the pair is visited in the
+///       ---------+------|-+---|-+-----  first that both are in
+///        strip 0 |      +-|---+ b
+///                         +-----+     --> along
 class BoxSweep {
  public:
   /// `grow` (of a box): m on all sides.
   template <class Grow>
   BoxSweep(const std::vector<MovingBox>& boxes, const Grow& grow) {
-    Vec2 low(0, 0), high(0, 0);
-    for (std::size_t i = 0; i < boxes.size(); ++i) {
-      low = i == 0 ? boxes[i].min : low.cwiseMin(boxes[i].min);
-      high = i == 0 ? boxes[i].max : high.cwiseMax(boxes[i].max);
-    }
-    const int along = high.x() - low.x() >= high.y() - low.y() ? 0 : 1;
-    spans_.reserve(boxes.size());
+    grown_.reserve(boxes.size());
+    Vec2 low(0, 0), high(0, 0), sides(0, 0);
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       const MovingBox& box = boxes[i];
-      const float more = grow(box) + kRounding;
-      spans_.push_back({box.min[along] - more, box.max[along] + more, box.min[1 - along] - more,
-                        box.max[1 - along] + more, i});
+      low = i == 0 ? box.min : low.cwiseMin(box.min);
+      high = i == 0 ? box.max : high.cwiseMax(box.max);
+      grown_.push_back(grow(box) + kRounding);
+      sides += box.max - box.min + 2 * Vec2(grown_.back(), grown_.back());
     }
-    std::sort(spans_.begin(), spans_.end(), [](const Span& a, const Span& b) {
-      return a.from != b.from ? a.from < b.from : a.box < b.box;
-    });
+    const int along = high.x() - low.x() >= high.y() - low.y() ? 0 : 1;
+    Divide(boxes.size(), low[1 - along], high[1 - along], sides[1 - along]);
+    Fill(boxes, along);
   }
 
   /// Calls `visit` (two indices) once for each pair.
@@ -37,9 +40,46 @@ class BoxSweep {
   void EachPair(const Visit& visit) const {
     for (std::size_t i = 0; i < spans_.size(); ++i) {
       const Span& a = spans_[i];
-      for (std::size_t j = i + 1; j < spans_.size() && spans_[j].from <= a.to; ++j) {
-        const Span& b = spans_[j];
-        if (b.low <= a.high && a.low <= b.high) visit(a.box, b.box);
+      const std::size_t end = end_[static_cast<std::size_t>(a.strip)];
+      for (std::size_t j = i + 1; j < end && spans_[j].from <= a.to; ++j) {
+        if (Here(a, spans_[j])) visit(a.box, spans_[j].box);
+      }
+    }
+  }
+  /// The same for those pairs alone whose boxes are within `count` boxes along the sweep.
+  template <class Visit>
+  void EachNearPair(std::size_t count, const Visit& visit) const {
+    for (std::size_t i = 0; i < spans_.size(); ++i) {
+      const Span& a = spans_[i];
+      const std::size_t end = std::min(end_[static_cast<std::size_t>(a.strip)], i + 1 + count);
+      for (std::size_t j = i + 1; j < end && spans_[j].from <= a.to; ++j) {
+        if (Here(a, spans_[j])) visit(a.box, spans_[j].box);
+      }
+    }
+  }
+  /// The same for all the other pairs (EachNearPair of `count` has the rest), but those whose boxes
+  /// have the same label, from 0 on. `label` (of an index): below 0 for a box that is in all its
+  /// pairs.
+  template <class Label, class Visit>
+  void EachPairApart(std::size_t count, const Label& label, const Visit& visit) const {
+    // From each span: the next that has another label, or none.
+    std::vector<std::size_t> other(spans_.size());
+    std::vector<int> labels(spans_.size());
+    for (std::size_t i = spans_.size(); i-- > 0;) {
+      labels[i] = label(spans_[i].box);
+      const bool alike = i + 1 < spans_.size() && labels[i] >= 0 && labels[i + 1] == labels[i];
+      other[i] = alike ? other[i + 1] : i + 1;
+    }
+    for (std::size_t i = 0; i < spans_.size(); ++i) {
+      const Span& a = spans_[i];
+      const std::size_t end = end_[static_cast<std::size_t>(a.strip)];
+      for (std::size_t j = i + 1 + count; j < end && spans_[j].from <= a.to;) {
+        if (labels[i] >= 0 && labels[j] == labels[i]) {
+          j = other[j];
+          continue;
+        }
+        if (Here(a, spans_[j])) visit(a.box, spans_[j].box);
+        ++j;
       }
     }
   }
@@ -47,12 +87,81 @@ class BoxSweep {
  private:
   /// m; by rounding no pair may be missed.
   static constexpr float kRounding = 0.01f;
+  /// Strips at most, and how high one is at least, in mean heights of a grown box.
+  static constexpr float kStripsMax = 256, kStripHeight = 1.5f;
+
   struct Span {
-    float from, to;   // along the sweep
-    float low, high;  // at right angles to it
-    std::size_t box;
+    float from, to;             // along the sweep
+    float low, high;            // at right angles to it
+    std::int32_t strip, first;  // this one, and the first that the box is in
+    std::uint32_t box;
   };
-  std::vector<Span> spans_;
+
+  bool Here(const Span& a, const Span& b) const {
+    return b.low <= a.high && a.low <= b.high && std::max(a.first, b.first) == a.strip;
+  }
+
+  /// `heights`: of all grown boxes, in all.
+  void Divide(std::size_t boxes, float low, float high, float heights) {
+    low_ = low;
+    if (boxes == 0) return;
+    const float mean = heights / static_cast<float>(boxes);
+    const float most = std::min(kStripsMax, static_cast<float>(boxes) / 8);
+    strips_ = static_cast<int>(
+        std::clamp((high - low) / (kStripHeight * mean), 1.0f, std::max(1.0f, most)));
+    per_m_ = high > low ? static_cast<float>(strips_) / (high - low) : 0;
+  }
+
+  int StripOf(float at) const {
+    return static_cast<int>(
+        std::clamp((at - low_) * per_m_, 0.0f, static_cast<float>(strips_ - 1)));
+  }
+
+  void Fill(const std::vector<MovingBox>& boxes, int along) {
+    std::vector<SortKey> keys, spare;
+    keys.reserve(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      keys.push_back(static_cast<SortKey>(OrderedBits(boxes[i].min[along] - grown_[i])) << 32 | i);
+    }
+    SortByKey(&keys, &spare);
+    end_.assign(static_cast<std::size_t>(strips_), 0);
+    const auto strips = [&](std::size_t i, const auto& visit) {
+      const int across = 1 - along;
+      const int first = StripOf(boxes[i].min[across] - grown_[i]);
+      const int last = StripOf(boxes[i].max[across] + grown_[i]);
+      for (int strip = first; strip <= last; ++strip) visit(strip, first);
+    };
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      strips(i, [&](int strip, int) { ++end_[static_cast<std::size_t>(strip)]; });
+    }
+    std::size_t sum = 0;
+    for (std::size_t& end : end_) {  // where each begins, until it is filled
+      const std::size_t count = end;
+      end = sum;
+      sum += count;
+    }
+    spans_.resize(sum);
+    for (const SortKey key : keys) {
+      const auto i = static_cast<std::size_t>(key & 0xffffffffu);
+      const float more = grown_[i];
+      const Vec2 &min = boxes[i].min, &max = boxes[i].max;
+      strips(i, [&](int strip, int first) {
+        spans_[end_[static_cast<std::size_t>(strip)]++] = {min[along] - more,
+                                                           max[along] + more,
+                                                           min[1 - along] - more,
+                                                           max[1 - along] + more,
+                                                           strip,
+                                                           first,
+                                                           static_cast<std::uint32_t>(i)};
+      });
+    }
+  }
+
+  std::vector<float> grown_;  // by box, m
+  float low_ = 0, per_m_ = 0;
+  int strips_ = 1;
+  std::vector<Span> spans_;       // strip by strip, in each by where they begin
+  std::vector<std::size_t> end_;  // by strip, in spans_
 };
 
 }  // namespace seam

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "server/authority/nearby.h"
+#include "server/authority/plan.h"
 
 namespace seam {
 
@@ -14,8 +14,7 @@ struct ContactGroups {
   std::vector<char> server_soon, server_later;
 };
 
-/// Of mechanisms with the planned authorities. `nearby`: of the view.
-ContactGroups FindContactGroups(const AuthorityView& view, const AuthorityPlan& plan,
-                                const Nearby& nearby);
+/// Of mechanisms with the planned authorities.
+ContactGroups FindContactGroups(const AuthorityView& view, const AuthorityPlan& plan);
 
 }  // namespace seam

@@ -2,33 +2,36 @@
 
 #include <algorithm>
 
+#include "server/authority/box_sweep.h"
 #include "server/authority/unions.h"
 
 namespace seam {
 
-Islands::Islands(const AuthorityView& view, const PlayerOfPeer& players, const Nearby& nearby)
+Islands::Islands(const AuthorityView& view, const PlayerOfPeer& players)
     : driver_(view.mechanisms.size(), -1), bodies_(view.mechanisms.size(), 0) {
   for (std::size_t m = 0; m < driver_.size(); ++m) {
     const int driver = view.mechanisms[m].driver;
     if (driver >= 0 && view.players[static_cast<std::size_t>(driver)].peer > 0) driver_[m] = driver;
   }
   for (const MovingBox& box : view.boxes) ++bodies_[static_cast<std::size_t>(box.group)];
-  Group(view, nearby);
+  Group(view);
   Describe(view);
   FindHolders(view, players);
 }
 
-void Islands::Group(const AuthorityView& view, const Nearby& nearby) {
+void Islands::Group(const AuthorityView& view) {
   const std::size_t count = view.mechanisms.size();
   Unions touching(count);
   std::vector<int> touched;  // one of the two of each contact
-  nearby.meeting.EachPair([&](std::size_t i, std::size_t j) {
+  const BoxSweep sweep(view.boxes, [](const MovingBox&) { return kTouchGap / 2; });
+  sweep.EachPair([&](std::size_t i, std::size_t j) {
     const MovingBox &a = view.boxes[i], &b = view.boxes[j];
     if (a.group == b.group || Gap(a, b) > kTouchGap) return;
     touching.Unite(a.group, b.group);
     touched.push_back(a.group);
   });
   const std::vector<int> lowest = touching.Lowest();
+  islands_.reserve(count);
   island_.assign(count, -1);
   for (std::size_t m = 0; m < count; ++m) {
     const auto root = static_cast<std::size_t>(lowest[m]);  // at most m: numbered already

@@ -4,7 +4,6 @@
 #include <cfloat>
 #include <vector>
 
-#include "server/authority/nearby.h"
 #include "server/authority/plan_islands.h"
 #include "server/authority/player_of_peer.h"
 
@@ -39,7 +38,7 @@ struct Island {
 class Islands {
  public:
   /// Who has what is as of now; claims and distances are for others to fill in.
-  Islands(const AuthorityView& view, const PlayerOfPeer& players, const Nearby& nearby);
+  Islands(const AuthorityView& view, const PlayerOfPeer& players);
 
   const std::vector<Island>& all() const { return islands_; }
   Island& Of(int mechanism) {
@@ -65,7 +64,7 @@ class Islands {
   std::vector<MovingBox> VehicleBoxes(const AuthorityView& view) const;
 
  private:
-  void Group(const AuthorityView& view, const Nearby& nearby);
+  void Group(const AuthorityView& view);
   void Describe(const AuthorityView& view);
   void FindHolders(const AuthorityView& view, const PlayerOfPeer& players);
 

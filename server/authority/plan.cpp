@@ -1,6 +1,5 @@
 #include "server/authority/plan.h"
 
-#include "server/authority/nearby.h"
 #include "server/authority/plan_followers.h"
 #include "server/authority/plan_islands.h"
 #include "server/authority/plan_rectangles.h"
@@ -45,13 +44,12 @@ void Forbid(const AuthorityView& view, AuthorityPlan* plan) {
 AuthorityPlan PlanAuthority(const AuthorityView& view) {
   AuthorityPlan plan(view.mechanisms.size());
   if (view.mode == Mode::kOracle || view.mode == Mode::kCentral) return plan;
-  const Nearby nearby(view);
   if (view.islands) {
-    PlanIslands(view, nearby, &plan);
+    PlanIslands(view, &plan);
   } else {
     PlanRectangles(view, &plan);
   }
-  if (view.mode == Mode::kBuffer) PlanFollowers(view, nearby, &plan);
+  if (view.mode == Mode::kBuffer) PlanFollowers(view, &plan);
   BringTogether(view, &plan);
   Forbid(view, &plan);
   return plan;

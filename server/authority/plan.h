@@ -34,6 +34,7 @@ struct PlayerView {
   int capacity = kUnlimited;  ///< bodies that its machine can step
 
   static constexpr int kUnlimited = std::numeric_limits<int>::max();
+  bool limited() const { return peer > 0 && capacity != kUnlimited; }
 };
 
 /// A mechanism, as planning sees it.

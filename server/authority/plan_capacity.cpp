@@ -30,9 +30,8 @@ float GapTo(int player, const Island& island) {
 
 void LimitToCapacity(const AuthorityView& view, const PlayerOfPeer& players, const Islands& islands,
                      AuthorityPlan* plan) {
-  const bool any = std::any_of(view.players.begin(), view.players.end(), [](const PlayerView& p) {
-    return p.peer > 0 && p.capacity != PlayerView::kUnlimited;
-  });
+  const bool any = std::any_of(view.players.begin(), view.players.end(),
+                               [](const PlayerView& p) { return p.limited(); });
   if (!any) return;
   std::vector<int> steps(view.players.size(), 0);
   std::vector<Share> shares;

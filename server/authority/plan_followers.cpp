@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <cfloat>
+#include <optional>
 #include <tuple>
 #include <utility>
 
+#include "server/authority/box_grid.h"
 #include "server/authority/contact_groups.h"
+#include "server/authority/group_lists.h"
 #include "server/authority/nearest_box.h"
 #include "server/authority/player_of_peer.h"
 
@@ -16,13 +19,15 @@ namespace {
 /// that, for rounding.
 constexpr float kReachMax = kFollowFar + kHysteresis + 0.1f;
 
+/// Holders of a group from which on it is followed by sets of peers, not by one after the other.
+constexpr std::size_t kManyHolders = 8;
+
 class Followers {
  public:
-  Followers(const AuthorityView& view, const Nearby& nearby, AuthorityPlan* plan)
+  Followers(const AuthorityView& view, AuthorityPlan* plan)
       : view_(view),
         plan_(*plan),
         players_(view),
-        nearby_(nearby),
         crowded_(view.boxes.size() > static_cast<std::size_t>(std::max(0, view.follow_bodies))),
         bodies_(plan->size(), 0),
         steps_(view.players.size(), 0),
@@ -33,12 +38,16 @@ class Followers {
   }
 
   void Plan() {
-    const ContactGroups contacts = FindContactGroups(view_, plan_, nearby_);
+    const ContactGroups contacts = FindContactGroups(view_, plan_);
     FollowAtServer(contacts);
-    FollowGroups(contacts.soon, false);
-    FollowGroups(contacts.later, true);
+    const GroupLists soon(contacts.soon);
+    FollowGroups(soon, nullptr);
+    FollowGroups(GroupLists(contacts.later), &soon);
+    if (crowded_) grid_.emplace(view_.boxes);
+    const auto all = static_cast<int>(view_.boxes.size());
     for (std::size_t p = 0; p < view_.players.size(); ++p) {
-      if (view_.players[p].peer > 0) FollowNear(p);
+      const bool has_all = steps_[p] == all && !limited(p);
+      if (view_.players[p].peer > 0 && !has_all) FollowNear(p);
     }
   }
 
@@ -109,43 +118,74 @@ class Followers {
   }
 
   /// What may come into contact with something of a peer's, directly or through others, that peer
-  /// follows; `keep`: if it follows it now.
-  void FollowGroups(const std::vector<int>& group, bool keep) {
-    const std::size_t count = group.size();
-    std::vector<int> begin(count + 1, 0), members(count), next;
-    for (const int g : group) ++begin[static_cast<std::size_t>(g) + 1];
-    for (std::size_t g = 0; g < count; ++g) begin[g + 1] += begin[g];
-    next.assign(begin.begin(), begin.end() - 1);
-    for (std::size_t m = 0; m < count; ++m) {
-      members[static_cast<std::size_t>(next[static_cast<std::size_t>(group[m])]++)] =
-          static_cast<int>(m);
-    }
-    std::vector<int> last_group(view_.players.size(), -1);
-    std::vector<std::size_t> holders;
-    for (std::size_t g = 0; g < count; ++g) {
-      if (begin[g + 1] - begin[g] < 2) continue;
-      holders.clear();
-      for (int k = begin[g]; k < begin[g + 1]; ++k) {
-        const int has = planned(members[static_cast<std::size_t>(k)]).authority;
-        const int player = has > 0 ? players_.At(has) : -1;
-        if (player < 0 || last_group[static_cast<std::size_t>(player)] == static_cast<int>(g)) {
-          continue;
-        }
-        last_group[static_cast<std::size_t>(player)] = static_cast<int>(g);
-        holders.push_back(static_cast<std::size_t>(player));
+  /// follows. `soon`: of larger groups than those, what it follows now.
+  void FollowGroups(const GroupLists& groups, const GroupLists* soon) {
+    last_group_.assign(view_.players.size(), -1);
+    for (std::size_t g = 0; g < groups.count(); ++g) {
+      if (groups.SizeOf(g) < 2) continue;
+      if (soon != nullptr && soon->SizeOf(g) == groups.SizeOf(g)) continue;  // all follow it
+      FindHolders(groups, g);
+      if (soon == nullptr && holders_.size() >= kManyHolders) {
+        FollowCrowd(groups, g);
+        continue;
       }
-      for (int k = begin[g]; k < begin[g + 1]; ++k) {
-        const int m = members[static_cast<std::size_t>(k)];
-        for (const std::size_t player : holders) {
-          if (!keep || now(m).secondaries.Has(view_.players[player].peer)) Follow(player, m);
+      for (const int m : groups.Of(g)) {
+        for (const std::size_t player : holders_) {
+          const int peer = view_.players[player].peer;
+          if (soon == nullptr || now(m).secondaries.Has(peer)) Follow(player, m);
         }
       }
     }
   }
 
+  /// Players whose peers are planned to have something of a group.
+  void FindHolders(const GroupLists& groups, std::size_t group) {
+    holders_.clear();
+    for (const int m : groups.Of(group)) {
+      const int has = planned(m).authority;
+      const int player = has > 0 ? players_.At(has) : -1;
+      if (player < 0) continue;
+      int& last = last_group_[static_cast<std::size_t>(player)];
+      if (last == static_cast<int>(group)) continue;
+      last = static_cast<int>(group);
+      holders_.push_back(static_cast<std::size_t>(player));
+    }
+  }
+
+  /// All holders follow all of the group, set by set. Requires that none follows any of it yet.
+  void FollowCrowd(const GroupLists& groups, std::size_t group) {
+    PeerSet all;
+    int bodies = 0;
+    for (const std::size_t player : holders_) {
+      if (!limited(player)) all.Add(view_.players[player].peer);
+    }
+    for (const int m : groups.Of(group)) {
+      PlannedAuthority& of = planned(m);
+      of.secondaries.Add(all);
+      of.secondaries.Remove(of.authority);
+      const int has = bodies_[static_cast<std::size_t>(m)];
+      const int player = of.authority > 0 ? players_.At(of.authority) : -1;
+      bodies += has;
+      if (player >= 0 && !limited(static_cast<std::size_t>(player))) {
+        steps_[static_cast<std::size_t>(player)] -= has;
+      }
+    }
+    for (const std::size_t player : holders_) {
+      if (!limited(player)) {
+        steps_[player] += bodies;
+        continue;
+      }
+      for (const int m : groups.Of(group)) Follow(player, m);
+    }
+  }
+
   void FollowNear(std::size_t player) {
-    Measure(player);
     const int peer = view_.players[player].peer;
+    if (!crowded_ && !limited(player)) {
+      for (int m = 0; m < static_cast<int>(plan_.size()); ++m) Follow(player, m);
+      return;
+    }
+    Measure(player);
     if (limited(player)) return FollowWithin(player);
     for (const int m : seen_) {
       const bool follows = now(m).secondaries.Has(peer);
@@ -155,10 +195,10 @@ class Followers {
     FollowNearest(player);
   }
 
-  /// By mechanism that is seen: how far its nearest box is from the player's region or from a box
-  /// of its own, m. Of what is farther than the buffer zone only the distance from the box around
-  /// all of its own is known. In a room that is not followed whole what is farther than kReachMax
-  /// is not seen.
+  /// By mechanism that is seen, of those that it does not follow yet unless its capacity is
+  /// limited: how far its nearest box is from the player's region or from a box of its own, m. Of
+  /// what is farther than the buffer zone only the distance from the box around all of its own is
+  /// known. In a room that is not followed whole what is farther than kReachMax is not seen.
   void Measure(std::size_t p) {
     const PlayerView& player = view_.players[p];
     const float near = view_.buffer_m + kHysteresis;
@@ -171,14 +211,21 @@ class Followers {
     const bool any = own_begin_[p] < own_begin_[p + 1];
     const NearestBox near_own(view_.boxes, own_, own_begin_[p], own_begin_[p + 1]);
     seen_.clear();
+    const int peer = player.peer;
+    const bool all_count = limited(p);
+    const auto followed = [&](int m) {
+      return !all_count && (planned(m).authority == peer || planned(m).secondaries.Has(peer));
+    };
     const auto from_own = [&](int i) {
       const MovingBox& box = view_.boxes[static_cast<std::size_t>(i)];
+      if (followed(box.group)) return;
       const float around = any ? Gap(box, all) : FLT_MAX;
       See(box.group, static_cast<int>(p), around > near ? around : near_own.DistanceTo(box));
     };
     const MovingBox region{player.region_min, player.region_max, {0, 0}, 0, -1};
     const auto from_region = [&](int i) {
       const MovingBox& box = view_.boxes[static_cast<std::size_t>(i)];
+      if (followed(box.group)) return;
       See(box.group, static_cast<int>(p), Gap(box, region));
     };
     if (!crowded_) {
@@ -191,9 +238,9 @@ class Followers {
     }
     const float far = std::max(kReachMax, near);
     const Vec2 reach(far, far);
-    if (any) nearby_.grid.Near(all.min - reach, all.max + reach, from_own);
+    if (any) grid_->Near(all.min - reach, all.max + reach, from_own);
     if (player.has_region) {
-      nearby_.grid.Near(region.min - reach, region.max + reach, from_region);
+      grid_->Near(region.min - reach, region.max + reach, from_region);
     }
   }
 
@@ -275,15 +322,17 @@ class Followers {
   const AuthorityView& view_;
   AuthorityPlan& plan_;
   const PlayerOfPeer players_;
-  const Nearby& nearby_;
   const bool crowded_;
-  std::vector<int> bodies_;      // by mechanism
-  std::vector<int> steps_;       // by player: bodies of what it has and follows
-  std::vector<int> own_begin_;   // by player: where its boxes begin in own_
-  std::vector<int> own_;         // indices of the boxes
-  std::vector<float> distance_;  // by mechanism, for the player that seen_by_ says
-  std::vector<int> seen_by_;     // by mechanism
-  std::vector<int> seen_;        // mechanisms
+  std::vector<int> bodies_;           // by mechanism
+  std::vector<int> steps_;            // by player: bodies of what it has and follows
+  std::vector<int> own_begin_;        // by player: where its boxes begin in own_
+  std::vector<int> own_;              // indices of the boxes
+  std::vector<float> distance_;       // by mechanism, for the player that seen_by_ says
+  std::vector<int> seen_by_;          // by mechanism
+  std::vector<int> seen_;             // mechanisms
+  std::optional<BoxGrid> grid_;       // of all boxes of a room that is not followed whole
+  std::vector<int> last_group_;       // by player: the last of which it is a holder
+  std::vector<std::size_t> holders_;  // players
   std::vector<std::pair<float, int>> others_;
   std::vector<std::pair<int, int>> wanted_;          // player, mechanism
   std::vector<std::tuple<int, float, int>> within_;  // rank, m, mechanism
@@ -291,8 +340,6 @@ class Followers {
 
 }  // namespace
 
-void PlanFollowers(const AuthorityView& view, const Nearby& nearby, AuthorityPlan* plan) {
-  Followers(view, nearby, plan).Plan();
-}
+void PlanFollowers(const AuthorityView& view, AuthorityPlan* plan) { Followers(view, plan).Plan(); }
 
 }  // namespace seam

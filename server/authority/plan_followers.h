@@ -1,11 +1,11 @@
 #pragma once
 /// Who follows each mechanism in its buffer zone.
 
-#include "server/authority/nearby.h"
+#include "server/authority/plan.h"
 
 namespace seam {
 
 /// Adds the followers to a plan of authorities; see PlanAuthority.
-void PlanFollowers(const AuthorityView& view, const Nearby& nearby, AuthorityPlan* plan);
+void PlanFollowers(const AuthorityView& view, AuthorityPlan* plan);
 
 }  // namespace seam

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cfloat>
 
+#include "server/authority/box_grid.h"
 #include "server/authority/dwell.h"
 #include "server/authority/islands.h"
 #include "server/authority/plan_capacity.h"
@@ -13,12 +14,13 @@ namespace {
 
 class IslandPlan {
  public:
-  IslandPlan(const AuthorityView& view, const Nearby& nearby, AuthorityPlan* plan)
+  IslandPlan(const AuthorityView& view, AuthorityPlan* plan)
       : view_(view),
         plan_(*plan),
         players_(view),
-        grid_(nearby.grid),
-        islands_(view, players_, nearby) {
+        islands_(view, players_),
+        open_(OpenBoxes()),
+        grid_(view.boxes, &open_) {
     near_player_.assign(view.mechanisms.size(), -1);
     near_gap_.assign(view.mechanisms.size(), FLT_MAX);
     for (const MovingBox& box : view.boxes) speed_ = std::max(speed_, box.velocity.norm());
@@ -33,6 +35,19 @@ class IslandPlan {
  private:
   const PlayerView& player(int p) const { return view_.players[static_cast<std::size_t>(p)]; }
   int PeerOf(int p) const { return p < 0 ? 0 : player(p).peer; }
+
+  /// By box: 1 where who is near the box's island, or touches it soon, decides anything.
+  std::vector<char> OpenBoxes() {
+    const bool limited = std::any_of(view_.players.begin(), view_.players.end(),
+                                     [](const PlayerView& p) { return p.limited(); });
+    std::vector<char> open(view_.boxes.size(), 1);
+    for (std::size_t i = 0; i < open.size() && !limited; ++i) {
+      const Island& island = islands_.Of(view_.boxes[i].group);
+      const bool decided = island.driver >= 0 && (!island.disputed || island.Merges());
+      if (decided) open[i] = 0;
+    }
+    return open;
+  }
 
   /// For each vehicle: who will be touched by it, and what is near it.
   void LookAround() {
@@ -124,8 +139,9 @@ class IslandPlan {
   const AuthorityView& view_;
   AuthorityPlan& plan_;
   const PlayerOfPeer players_;
-  const BoxGrid& grid_;
   Islands islands_;
+  const std::vector<char> open_;  // by box
+  const BoxGrid grid_;            // of those
   float speed_ = 0;               // of the fastest, m/s
   std::vector<int> near_player_;  // by mechanism: whose vehicle is nearest, within rules.keep
   std::vector<float> near_gap_;   // m
@@ -133,8 +149,6 @@ class IslandPlan {
 
 }  // namespace
 
-void PlanIslands(const AuthorityView& view, const Nearby& nearby, AuthorityPlan* plan) {
-  IslandPlan(view, nearby, plan).Plan();
-}
+void PlanIslands(const AuthorityView& view, AuthorityPlan* plan) { IslandPlan(view, plan).Plan(); }
 
 }  // namespace seam

@@ -10,7 +10,7 @@
 ///   [car of p][][][][car of q]   each keeps its own vehicle; the rest stays with who has it until
 ///                                it settles or is dense: then it is one player's
 
-#include "server/authority/nearby.h"
+#include "server/authority/plan.h"
 
 namespace seam {
 
@@ -24,7 +24,7 @@ namespace seam {
 /// nearest player within rules.acquire; else the server's, and so is what sleeps. Who is silent
 /// gets nothing new, and whom an island would ask to step more than its capacity does not get it:
 /// see plan_capacity.h.
-void PlanIslands(const AuthorityView& view, const Nearby& nearby, AuthorityPlan* plan);
+void PlanIslands(const AuthorityView& view, AuthorityPlan* plan);
 
 /// m between boxes of what touches. Resting things are up to 2 cm apart, copies a few more.
 constexpr float kTouchGap = 0.05f;

@@ -1,6 +1,7 @@
 #include "server/edits/edit_log.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
 
 #include "common/physics/part_places.h"
@@ -39,6 +40,27 @@ class TakenAway {
   std::set<std::int32_t> joints_;
   std::set<PartId> parts_;
   bool bond_ = false;
+};
+
+/// Parts that edits of a batch are about. What one peer's physics found in one tick belongs
+/// together, and happens together: sixty crates become one body at once, not a pair at a time.
+class TakenParts {
+ public:
+  struct By {
+    int peer = 0;
+    std::int64_t found = -1;  ///< tick; -1: from outside
+  };
+  bool ByAnother(PartId part, const By& by) const {
+    const auto taken = by_.find(part);
+    if (taken == by_.end()) return false;
+    return by.found < 0 || taken->second.found != by.found || taken->second.peer != by.peer;
+  }
+  void Add(const std::vector<PartId>& parts, const By& by) {
+    for (const PartId part : parts) by_[part] = by;
+  }
+
+ private:
+  std::map<PartId, By> by_;
 };
 
 }  // namespace
@@ -122,7 +144,7 @@ EditLog::Batch EditLog::OrderPending(std::int64_t now_us) {
   const auto patience = static_cast<std::int64_t>(kPendingSeconds * tick_hz_);
   std::vector<Pending> waiting;
   Batch batch;
-  std::vector<PartId> taken;  // parts that an edit of this batch is about
+  TakenParts taken;
   TakenAway taken_away(topology);
   for (Pending& pending : pending_) {
     if (IsStale(pending) || taken_away.Misses(pending.edit)) {
@@ -130,17 +152,17 @@ EditLog::Batch EditLog::OrderPending(std::int64_t now_us) {
       continue;
     }
     const std::vector<PartId> parts = topology.PartsOf(pending.edit);
-    const bool again = std::any_of(parts.begin(), parts.end(), [&](PartId part) {
-      return std::find(taken.begin(), taken.end(), part) != taken.end();
-    });
+    const bool physics = pending.edit.cause == EditCause::kPhysics;
+    const TakenParts::By by{pending.peer, physics ? pending.found : -1};
+    const bool again = std::any_of(parts.begin(), parts.end(),
+                                   [&](PartId part) { return taken.ByAnother(part, by); });
     const bool bond = pending.edit.As<BondEdit>() != nullptr;
     if ((bond && again) || !authority_.InOneHand(MechanismsOf(pending.edit))) {
       if (world_.tick() - pending.since < patience) waiting.push_back(pending);
       continue;
     }
-    const bool found = pending.edit.cause == EditCause::kPhysics;
-    if (found && !PlausibleProposal(world_, pending.edit)) continue;  // it has moved on
-    taken.insert(taken.end(), parts.begin(), parts.end());
+    if (physics && !PlausibleProposal(world_, pending.edit)) continue;  // it has moved on
+    taken.Add(parts, by);
     taken_away.Add(pending.edit);
     EditOrder order = ToOrder(pending.edit);
     order.utime = now_us;

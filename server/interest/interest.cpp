@@ -28,52 +28,66 @@ void Interest::Remap() {
 }
 
 Interest::Cells Interest::CellsOf(float side) const {
-  Cells cells;
   const World& world = replica_.world();
+  std::vector<std::pair<std::uint64_t, int>> all;  // cell, mechanism
+  all.reserve(static_cast<std::size_t>(world.body_count()));
   for (int body = 0; body < world.body_count(); ++body) {
     const Vec2 at = world.Read(body).position;
-    std::vector<int>& there = cells[Key(CellOf(at.x(), side), CellOf(at.y(), side))];
-    const int m = world.mechanism(body);
-    if (there.empty() || there.back() != m) there.push_back(m);
+    all.emplace_back(Key(CellOf(at.x(), side), CellOf(at.y(), side)), world.mechanism(body));
   }
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  Cells cells;
+  cells.mechanisms.reserve(all.size());
+  for (const auto& [key, mechanism] : all) {
+    if (cells.keys.empty() || cells.keys.back() != key) {
+      cells.keys.push_back(key);
+      cells.begin.push_back(static_cast<int>(cells.mechanisms.size()));
+    }
+    cells.mechanisms.push_back(mechanism);
+  }
+  cells.begin.push_back(static_cast<int>(cells.mechanisms.size()));
   return cells;
 }
 
-std::vector<int> Interest::ThingsOf(const Receiver& receiver) const {
-  std::vector<int> things = held_[static_cast<std::size_t>(receiver.peer)];
-  if (receiver.player < 0) return things;
+void Interest::FindThings(const Receiver& receiver) {
+  things_ = held_[static_cast<std::size_t>(receiver.peer)];
+  if (receiver.player < 0) return;
   const World& world = replica_.world();
   const Composition& made = world.composition();
   for (const int m : replica_.drivers().MechanismsOf(receiver.player)) {
     for (const int assembly : made.mechanisms[static_cast<std::size_t>(m)].assemblies) {
       const int body = world.BodyOfId(made.assemblies[static_cast<std::size_t>(assembly)].id);
-      if (body >= 0) things.push_back(body);
+      if (body >= 0) things_.push_back(body);
     }
   }
-  return things;
 }
 
 void Interest::Note(const Receiver& receiver, int mechanism, Concern to) {
-  Concern& now = concern_[static_cast<std::size_t>(mechanism) * stride_ +
-                          static_cast<std::size_t>(receiver.peer)];
+  Concern& now = concern_[static_cast<std::size_t>(receiver.peer) * stride_ +
+                          static_cast<std::size_t>(mechanism)];
   now = std::max(now, to);
 }
 
 void Interest::Raise(const Receiver& receiver, const Cells& cells, float side, Concern to) {
-  std::vector<std::uint64_t> centres, around;
-  for (const int body : ThingsOf(receiver)) {
+  centres_.clear();
+  around_.clear();
+  for (const int body : things_) {
     const Vec2 at = replica_.world().Read(body).position;
     const std::int32_t x = CellOf(at.x(), side), y = CellOf(at.y(), side);
-    if (std::find(centres.rbegin(), centres.rend(), Key(x, y)) != centres.rend()) continue;
-    centres.push_back(Key(x, y));
-    for (int i = 0; i < 9; ++i) around.push_back(Key(x + i % 3 - 1, y + i / 3 - 1));
+    if (std::find(centres_.rbegin(), centres_.rend(), Key(x, y)) != centres_.rend()) continue;
+    centres_.push_back(Key(x, y));
+    for (int i = 0; i < 9; ++i) around_.push_back(Key(x + i % 3 - 1, y + i / 3 - 1));
   }
-  std::sort(around.begin(), around.end());
-  around.erase(std::unique(around.begin(), around.end()), around.end());
-  for (const std::uint64_t key : around) {
-    const auto found = cells.find(key);
-    if (found == cells.end()) continue;
-    for (const int m : found->second) Note(receiver, m, to);
+  std::sort(around_.begin(), around_.end());
+  around_.erase(std::unique(around_.begin(), around_.end()), around_.end());
+  for (const std::uint64_t key : around_) {
+    const auto found = std::lower_bound(cells.keys.begin(), cells.keys.end(), key);
+    if (found == cells.keys.end() || *found != key) continue;
+    const auto cell = static_cast<std::size_t>(found - cells.keys.begin());
+    for (int i = cells.begin[cell]; i < cells.begin[cell + 1]; ++i) {
+      Note(receiver, cells.mechanisms[static_cast<std::size_t>(i)], to);
+    }
   }
 }
 
@@ -81,37 +95,35 @@ std::vector<Interest::Risen> Interest::Look(const std::vector<Receiver>& receive
   if (small_) return {};
   const World& world = replica_.world();
   const std::size_t mechanisms = world.composition().mechanisms.size();
-  const std::size_t stride_before = stride_;
-  std::vector<Concern> before = std::move(concern_);
+  const bool comparable = stride_ == mechanisms && !concern_.empty();
+  before_.swap(concern_);
   int highest = 0;
   for (const Receiver& receiver : receivers) highest = std::max(highest, receiver.peer);
-  stride_ = static_cast<std::size_t>(highest) + 1;
-  concern_.assign(mechanisms * stride_, Concern::kFar);
-  held_.assign(stride_, {});
+  const std::size_t peers = static_cast<std::size_t>(highest) + 1;
+  stride_ = mechanisms;
+  concern_.assign(mechanisms * peers, Concern::kFar);
+  held_.resize(peers);
+  for (std::vector<int>& held : held_) held.clear();
   for (int body = 0; body < world.body_count(); ++body) {
     const auto holder =
         static_cast<std::size_t>(replica_.authority().at(world.mechanism(body)).authority);
-    if (holder > 0 && holder < stride_) held_[holder].push_back(body);
+    if (holder > 0 && holder < peers) held_[holder].push_back(body);
   }
-  const Cells near = CellsOf(kNearReach);
-  const Cells close = config_.mode == Mode::kCentral ? CellsOf(kCloseReach) : Cells{};
-  for (const Receiver& receiver : receivers) {
-    if (receiver.player < 0) {
-      for (std::size_t m = 0; m < mechanisms; ++m) {
-        Note(receiver, static_cast<int>(m), Concern::kNear);
-      }
-      continue;
-    }
-    Raise(receiver, near, kNearReach, Concern::kNear);
-    if (!close.empty()) Raise(receiver, close, kCloseReach, Concern::kClose);
-  }
+  const bool central = config_.mode == Mode::kCentral;
+  const Cells near = CellsOf(kNearReach), close = central ? CellsOf(kCloseReach) : Cells{};
   std::vector<Risen> risen;
-  if (before.size() != mechanisms * stride_before) return risen;
   for (const Receiver& receiver : receivers) {
-    const auto p = static_cast<std::size_t>(receiver.peer);
-    if (p >= stride_before) continue;
+    const auto row = static_cast<std::size_t>(receiver.peer) * mechanisms;
+    if (receiver.player < 0) {
+      std::fill_n(concern_.begin() + static_cast<std::ptrdiff_t>(row), mechanisms, Concern::kNear);
+    } else {
+      FindThings(receiver);
+      Raise(receiver, near, kNearReach, Concern::kNear);
+      if (central) Raise(receiver, close, kCloseReach, Concern::kClose);
+    }
+    if (!comparable || row >= before_.size()) continue;
     for (std::size_t m = 0; m < mechanisms; ++m) {
-      if (concern_[m * stride_ + p] > before[m * stride_before + p]) {
+      if (concern_[row + m] > before_[row + m]) {
         risen.push_back({receiver.peer, static_cast<int>(m)});
       }
     }

@@ -3,7 +3,6 @@
 /// concerns it less.
 
 #include <cstdint>
-#include <unordered_map>
 #include <vector>
 
 #include "common/sync/replica.h"
@@ -38,8 +37,8 @@ class Interest {
   Concern Of(int peer, int mechanism) const {
     if (small_) return Concern::kClose;
     const auto m = static_cast<std::size_t>(mechanism), p = static_cast<std::size_t>(peer);
-    if (p >= stride_ || m * stride_ >= concern_.size()) return Concern::kNear;
-    return concern_[m * stride_ + p];
+    if (m >= stride_ || p * stride_ >= concern_.size()) return Concern::kNear;
+    return concern_[p * stride_ + m];
   }
   /// Whether all is close to everyone.
   bool small() const { return small_; }
@@ -50,21 +49,28 @@ class Interest {
   static constexpr float kNearReach = 30, kCloseReach = 24;
 
  private:
-  /// Mechanisms by the cells of a square grid that their bodies are in.
-  using Cells = std::unordered_map<std::uint64_t, std::vector<int>>;
+  /// Mechanisms by the cells of a square grid that their bodies are in, each once in a cell.
+  struct Cells {
+    std::vector<std::uint64_t> keys;  // of cells with anything, ascending
+    std::vector<int> begin;           // by cell: where it begins in mechanisms; one more at the end
+    std::vector<int> mechanisms;
+  };
   Cells CellsOf(float side) const;
   /// What is in the cells of the receiver's things and in those beside them concerns it so much.
   void Raise(const Receiver& receiver, const Cells& cells, float side, Concern to);
-  std::vector<int> ThingsOf(const Receiver& receiver) const;
+  void FindThings(const Receiver& receiver);
   void Note(const Receiver& receiver, int mechanism, Concern to);
 
   const Scene& scene_;
   const SyncConfig& config_;
   const Replica& replica_;
-  bool small_ = false;                  // all is close to everyone
-  std::size_t stride_ = 0;              // peers in a row
-  std::vector<Concern> concern_;        // by mechanism and peer
-  std::vector<std::vector<int>> held_;  // by peer, in a Look: bodies it has authority over
+  bool small_ = false;                           // all is close to everyone
+  std::size_t stride_ = 0;                       // mechanisms in a row
+  std::vector<Concern> concern_;                 // by peer and mechanism
+  std::vector<Concern> before_;                  // of the Look before
+  std::vector<std::vector<int>> held_;           // by peer, in a Look: bodies it has authority over
+  std::vector<int> things_;                      // of the receiver at hand: bodies
+  std::vector<std::uint64_t> centres_, around_;  // cells: with its things, and beside them
 };
 
 }  // namespace seam

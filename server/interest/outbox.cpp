@@ -36,6 +36,18 @@ States Begin(const HeardState& state) {
   return message;
 }
 
+void Reserve(std::size_t count, States* message) {
+  message->id.reserve(count);
+  message->epoch.reserve(count);
+  message->flags.reserve(count);
+  message->x.reserve(count);
+  message->y.reserve(count);
+  message->angle.reserve(count);
+  message->vx.reserve(count);
+  message->vy.reserve(count);
+  message->spin.reserve(count);
+}
+
 void Append(PartId id, const HeardState& state, States* message) {
   message->id.push_back(static_cast<decltype(message->id)::value_type>(id));
   message->epoch.push_back(state.epoch);
@@ -98,22 +110,34 @@ std::vector<States> Outbox::Compose(std::int64_t now_us, const NewestStates& new
   std::size_t count = waiting_.size();
   if (bytes_per_s_ > 0) count = Affordable(now_us);
   if (count == 0) return {};
-  const auto end = waiting_.begin() + static_cast<std::ptrdiff_t>(count);
-  const auto order = [&](const Waiting& w) {
-    const HeardState state = newest.has(w.id) ? newest.at(w.id) : HeardState{};
-    return std::make_tuple(state.peer, state.tick, w.id);
+  struct Place {
+    std::int32_t peer;
+    std::int64_t tick;
+    PartId id;
+    bool operator<(const Place& o) const {
+      return std::tie(peer, tick, id) < std::tie(o.peer, o.tick, o.id);
+    }
   };
-  std::sort(waiting_.begin(), end,
-            [&](const Waiting& a, const Waiting& b) { return order(a) < order(b); });
-  std::vector<States> messages;
-  for (auto w = waiting_.begin(); w != end; ++w) {
-    place_[static_cast<std::size_t>(w->id)] = -1;
-    if (!newest.has(w->id)) continue;  // an edit has changed it meanwhile
-    const HeardState& state = newest.at(w->id);
-    if (messages.empty() || !Fits(messages.back(), state)) messages.push_back(Begin(state));
-    Append(w->id, state, &messages.back());
+  std::vector<Place> order;
+  order.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const PartId id = waiting_[i].id;
+    place_[static_cast<std::size_t>(id)] = -1;
+    if (!newest.has(id)) continue;  // an edit has changed it meanwhile
+    const HeardState& state = newest.at(id);
+    order.push_back({state.peer, state.tick, id});
   }
-  waiting_.erase(waiting_.begin(), end);
+  std::sort(order.begin(), order.end());
+  std::vector<States> messages;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const HeardState& state = newest.at(order[i].id);
+    if (messages.empty() || !Fits(messages.back(), state)) {
+      messages.push_back(Begin(state));
+      Reserve(std::min(order.size() - i, kStatesBodiesMax), &messages.back());
+    }
+    Append(order[i].id, state, &messages.back());
+  }
+  waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
     place_[static_cast<std::size_t>(waiting_[i].id)] = static_cast<std::int32_t>(i);
   }

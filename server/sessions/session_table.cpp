@@ -16,8 +16,8 @@ constexpr int kByeCopies = 12;
 
 }  // namespace
 
-SessionTable::SessionTable(const Scene& scene, Bytes room, const TrafficRate& allowed,
-                           Net& net, Entropy& entropy, double bytes_per_s)
+SessionTable::SessionTable(const Scene& scene, Bytes room, const TrafficRate& allowed, Net& net,
+                           Entropy& entropy, double bytes_per_s)
     : scene_(scene),
       room_(std::move(room)),
       allowed_(allowed),
@@ -85,6 +85,8 @@ void SessionTable::Admit(std::int64_t now_us, const SessionId& id, int peer) {
   if (by_peer_.size() <= place_of) by_peer_.resize(place_of + 1, nullptr);
   by_peer_[place_of] = session.get();
   sessions_.emplace(id, std::move(session));
+  admitted_ = true;
+  silent_us_ = now_us;
 }
 
 SessionTable::Verdict SessionTable::OnSession(std::int64_t now_us, Session& session,
@@ -112,6 +114,7 @@ void SessionTable::NoteReady(Session& session) {
 }
 
 void SessionTable::Advance(std::int64_t now_us) {
+  if (!std::exchange(admitted_, false)) return;
   for (auto& [id, session] : sessions_) {
     if (session->stage != SessionStage::kAdmitted) continue;
     session->stage = SessionStage::kLoading;
@@ -130,20 +133,39 @@ void SessionTable::Advance(std::int64_t now_us) {
 
 void SessionTable::DropSilent(std::int64_t now_us) {
   std::vector<std::pair<SessionId, std::string>> gone;
+  const bool look = now_us >= silent_us_;
+  if (look) silent_us_ = now_us + kOverBudgetUs;
   for (const auto& [id, session] : sessions_) {
-    const std::int64_t heard = std::max(session->link.last_receive_us(), session->created_us);
-    if (session->created_us < now_us - kHalfOpenUs && session->stage != SessionStage::kReady) {
-      gone.emplace_back(id, "never got ready");
-    } else if (now_us - heard > kPatienceUs) {
-      gone.emplace_back(id, "not heard for " + std::to_string(kPatienceUs / 1000000) + " s");
-    } else if (session->budget.over_us(now_us) >= kOverBudgetUs) {
-      gone.emplace_back(
-          id, "sent more than it may for " + std::to_string(kOverBudgetUs / 1000000) + " s");
-    } else if (session->leaving) {
-      gone.emplace_back(id, session->leaving_why);
+    if (look) {
+      const std::string why = TooLong(now_us, *session);
+      if (!why.empty()) {
+        gone.emplace_back(id, why);
+        continue;
+      }
     }
+    if (session->leaving) gone.emplace_back(id, session->leaving_why);
   }
   for (const auto& [id, why] : gone) Drop(id, why);
+}
+
+/// Why a session is dropped now; if it is not, silent_us_ is no later than it may have to be.
+std::string SessionTable::TooLong(std::int64_t now_us, const Session& session) {
+  const std::int64_t heard = std::max(session.link.last_receive_us(), session.created_us);
+  const std::int64_t over_us = session.budget.over_us(now_us);
+  if (session.created_us < now_us - kHalfOpenUs && session.stage != SessionStage::kReady) {
+    return "never got ready";
+  }
+  if (now_us - heard > kPatienceUs) {
+    return "not heard for " + std::to_string(kPatienceUs / 1000000) + " s";
+  }
+  if (over_us >= kOverBudgetUs) {
+    return "sent more than it may for " + std::to_string(kOverBudgetUs / 1000000) + " s";
+  }
+  silent_us_ = std::min({silent_us_, heard + kPatienceUs, now_us + kOverBudgetUs - over_us});
+  if (session.stage != SessionStage::kReady) {
+    silent_us_ = std::min(silent_us_, session.created_us + kHalfOpenUs);
+  }
+  return "";
 }
 
 void SessionTable::Drop(const SessionId& id, const std::string& why) {

@@ -106,6 +106,7 @@ class SessionTable {
   void Admit(std::int64_t now_us, const SessionId& id, int peer);
   Verdict OnSession(std::int64_t now_us, Session& session, const Bytes& datagram,
                     const Deliver& deliver);
+  std::string TooLong(std::int64_t now_us, const Session& session);
   void Drop(const SessionId& id, const std::string& why);
   void Note(SessionEvent::Kind kind, const Session& session, const std::string& why = "");
 
@@ -120,6 +121,8 @@ class SessionTable {
   Sessions sessions_;
   std::vector<Session*> by_peer_;
   std::vector<SessionEvent> events_;
+  bool admitted_ = false;       // somebody was, since the last Advance
+  std::int64_t silent_us_ = 0;  // before that nobody has been silent for too long
 };
 
 }  // namespace seam

@@ -4,10 +4,10 @@
 #include <gtest/gtest.h>
 
 #include "common/codec/codec.h"
-#include "common/physics/part_places.h"
 #include "common/sync/edits/edit_order.h"
 #include "common/sync/edits/topology_snapshot.h"
 #include "common/topology/topology_fold.h"
+#include "tests/support/soak/paired_boxes.h"
 #include "tests/support/two_sides.h"
 
 namespace seam {
@@ -21,14 +21,8 @@ name = "floor"
 box = [80, 1]
 position = [0, -0.5]
 anchored = true
-[[part]]
-name = "box"
-box = [0.5, 0.5]
-position = [-15, 20]
-repeat = {count = [8, 2], step = [1.5, 0.6]}
-)";
+)" + kPairedBoxes;
 constexpr PartId kFirst = 1;
-constexpr int kPairCount = 8;
 
 /// What one who joins now is sent of the past, bytes: of all edits, and of what they have left.
 struct JoinBytes {
@@ -56,25 +50,6 @@ JoinBytes BytesToJoin(Cluster* cluster) {
   EXPECT_TRUE(reader.complete());
   EXPECT_EQ(reader.topology().composition().hash, world.composition().hash);
   return bytes;
-}
-
-/// Bonds and breaks every pair `cycles` times, two ticks each.
-void BondAndBreak(Cluster* cluster, int cycles) {
-  Server& server = cluster->server();
-  const World& world = server.replica().world();
-  for (int i = 0; i < cycles; ++i) {
-    for (int pair = 0; pair < kPairCount; ++pair) {
-      const PartId a = kFirst + 2 * pair;
-      server.Order(Edit(BondAsTheyAre(world, a, a + 1, 0), EditCause::kOutside));
-    }
-    cluster->RunToTick(server.tick() + 1);
-    const std::vector<Joint>& joints = world.scene().joints;
-    for (std::size_t j = 0; j < joints.size(); ++j) {
-      if (joints[j].gone) continue;
-      server.Order(Edit(BreakEdit{static_cast<std::int32_t>(j)}, EditCause::kOutside));
-    }
-    cluster->RunToTick(server.tick() + 1);
-  }
 }
 
 void ExpectLateJoinerIsTheSame(Cluster* cluster) {
@@ -124,7 +99,7 @@ TEST(LongRoom, TwentyThousandPushesDoNotEndIt) {
 TEST(LongRoom, GlueThatFormsAndBreaksForEverDoesNotGrowIt) {
   Cluster cluster(Pairs());
   cluster.RunToTick(60);
-  BondAndBreak(&cluster, 1250);
+  BondAndBreak(&cluster, kFirst, 1250);
   const Replica& truth = cluster.server().replica();
   EXPECT_EQ(truth.revision(), 20000) << "ten thousand of each";
   EXPECT_LE(truth.world().scene().joints.size(), static_cast<std::size_t>(kPairCount));
@@ -169,7 +144,7 @@ TEST(LongRoom, WhoJoinsDuringManyEditsUnderLossEndsTheSame) {
   };
   cluster.Kill(1);
   edits(2400);
-  BondAndBreak(&cluster, 2);
+  BondAndBreak(&cluster, kFirst, 2);
   cluster.Revive(1);
   edits(900);
   cluster.RunToTick(server.tick() + 180);

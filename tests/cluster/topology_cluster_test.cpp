@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <set>
 
 #include "common/physics/part_places.h"
@@ -156,6 +157,45 @@ TEST(TopologyCluster, APeerThatWentAstrayIsFoundAndRepaired) {
     EXPECT_LT(
         (cluster.client(1)->replica()->world().Read(b).position - truth.Read(b).position).norm(),
         0.1f);
+  }
+}
+
+TEST(TopologyCluster, WhoIsRepairedNeverShowsWhereTheSceneBegan) {
+  // So much that its world does not come in one datagram.
+  const std::string many = kBar + R"(
+[[part]]
+name = "pebble"
+circle = 0.1
+position = [-39, 0.1]
+repeat = {count = 120, step = [0.22, 0]}
+[[part]]
+name = "ball"  # the last to be told of
+circle = 0.3
+position = [12, 0.3]
+velocity = [4, 0]
+)";
+  for (std::int64_t seed = 1; seed <= 4; ++seed) {
+    ClusterConfig config;
+    config.seed = seed;
+    config.scene_text = many;
+    config.reconcile = "rollback";
+    config.impair = "delay=50ms,loss=50%";
+    Cluster cluster(config);
+    cluster.RunToTick(100);
+    EditOrder wrong = ToOrder(Break(2));
+    wrong.number = 0;
+    auto* bob = const_cast<Replica*>(cluster.client(1)->replica());
+    ASSERT_TRUE(bob->Queue(wrong));
+    cluster.Run();
+    EXPECT_NE(cluster.client(1)->replica(), bob) << "seed " << seed << ": he began anew";
+    EXPECT_EQ(cluster.client(1)->replica()->revision(), 0) << "seed " << seed;
+    double farthest = -100;
+    for (const auto& [tick, view] : cluster.recording().views.at(2)) {
+      const double x = view.x.back();
+      EXPECT_GT(x, farthest - 0.5) << "seed " << seed << ", tick " << tick;
+      farthest = std::max(farthest, x);
+    }
+    EXPECT_GT(farthest, 25) << "seed " << seed << ": the ball rolls to the right";
   }
 }
 

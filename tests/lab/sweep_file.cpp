@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "common/base/check.h"
+#include "common/base/find_scene.h"
 #include "common/base/plain_file.h"
 #include "common/scene/toml/scene_reader.h"
 #include "common/scene/toml/scene_text.h"
@@ -158,6 +159,7 @@ SweepFile ReadSweepFile(const std::string& path) {
                        "limit"});
   SweepFile file;
   file.scenes = Texts(r, "scenes", nullptr);
+  for (std::string& scene : file.scenes) scene = FindScene(scene);
   if (file.scenes.empty()) r.Fail("which scenes? for example: scenes = [\"scenes/wall.toml\"]");
   file.settings = Settings(r);
   file.methods = Texts(r, "methods", "buffer");

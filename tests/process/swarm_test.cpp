@@ -78,6 +78,7 @@ TEST_F(SwarmProgram, FourClientsPlayForThreeSecondsAndLeaveCleanly) {
   // less.
   EXPECT_GT(NumberAfter(said, "ms of "), 480) << said;
   EXPECT_LT(NumberAfter(said, "ms of "), 1100) << said;
+  EXPECT_GT(NumberAfter(said, "client load: "), 0) << "they tell what they use\n" << said;
   EXPECT_GT(NumberAfter(said, "client bytes: in "), 0.5) << said;
   EXPECT_GT(NumberAfter(said, "moving: clients hold "), 80) << said;
   EXPECT_GT(NumberAfter(said, "server: tick p50 "), 0) << said;

@@ -74,6 +74,42 @@ TEST(Canvas, LargeAreasLieOverWhatWasDrawnThereBefore) {
   EXPECT_TRUE(PixelAt(image, Vec2(20, 20)) == red);
 }
 
+TEST(Canvas, WhatLiesUnderAllElseHidesNothingThatWasDrawnBefore) {
+  DrawList list(TestFont());
+  list.Begin(200, 100);
+  const Colour red{200, 0, 0, 255}, blue{0, 0, 200, 255}, black{0, 0, 0, 255};
+  list.FillUnder({0, 0, 100, 100}, red);
+  list.FillUnder({50, 0, 1, 100}, blue);  // over the red one
+  list.Clip({0, 0, 100, 100});
+  list.Fill({{20, 20}, {80, 20}, {80, 80}, {20, 80}}, black);
+  list.FillUnder({0, 50, 100, 1}, blue);  // over the black one, which was there before
+  list.NoClip();
+  list.FillUnder({150, 0, 1, 100}, blue);  // where nothing is
+  const Image image = Rendered(list);
+  EXPECT_TRUE(PixelAt(image, Vec2(10, 10)) == red);
+  EXPECT_TRUE(PixelAt(image, Vec2(50, 10)) == blue);
+  EXPECT_TRUE(PixelAt(image, Vec2(50, 30)) == black);
+  EXPECT_TRUE(PixelAt(image, Vec2(30, 50)) == blue);
+  EXPECT_TRUE(PixelAt(image, Vec2(150, 10)) == blue);
+  EXPECT_TRUE(PixelAt(image, Vec2(149, 10)) == kPaper);
+}
+
+TEST(Canvas, ADotHasTheShareOfEachPixelThatItsRadiusGives) {
+  DrawList list(TestFont());
+  list.Begin(40, 40);
+  const Vec2 centre(20.3f, 19.6f);
+  constexpr float kRadius = 3.3f;
+  list.Disc(centre, kRadius, {0, 0, 0, 255});
+  const Image image = Rendered(list);
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      const float away = (Vec2(x, y) + Vec2(0.5f, 0.5f) - centre).norm();
+      const float cover = std::min(std::max(kRadius + 0.5f - away, 0.0f), 1.0f);
+      EXPECT_NEAR(image.At(x, y)[0], (1 - cover) * kPaper.r, 2) << x << "," << y;
+    }
+  }
+}
+
 TEST(Canvas, PagesOfDifferentSizesFollowEachOther) {
   const std::unique_ptr<Canvas> canvas = MakeCanvas(TestFont());
   DrawList list(TestFont());

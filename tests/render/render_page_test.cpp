@@ -39,6 +39,23 @@ TEST(Page, TheClockAndThePlayheadMoveWithTime) {
   EXPECT_GT(Differences(a, b, 0, 620, 1280, 700), 100);  // strip
 }
 
+TEST(Page, WhatMovesOverAPictureOfTheRestIsTheWholePage) {
+  const Playback playback = MakePlayback();
+  for (const int peer : {0, kViewAll}) {
+    const Page page = MakePage(playback, peer);
+    const std::unique_ptr<Canvas> canvas = MakeCanvas(TestFont());
+    DrawList list(TestFont());
+    Image still, moving;
+    DrawStill(list, page);
+    canvas->Draw(list, kPaper, &still);
+    for (const double now_s : {0.5, 1.4}) {
+      DrawMoving(list, page, now_s);
+      canvas->Draw(list, still, &moving);
+      EXPECT_EQ(moving.rgba, RenderedPage(page, now_s).rgba) << now_s << " s, view " << peer;
+    }
+  }
+}
+
 TEST(Page, EveryPeersViewHasAPanelAndACurve) {
   const Playback playback = MakePlayback();
   const Page all = MakePage(playback, kViewAll);

@@ -4,14 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <string>
+#include <string_view>
 #include <vector>
 
 #include "tests/lab/hard/hard_case.h"
 
 namespace seam {
 
-inline const HardCase& CaseNamed(const std::string& name) {
+inline const HardCase& CaseNamed(std::string_view name) {
   const std::vector<HardCase>& all = HardCases();
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const HardCase& hard) { return hard.name == name; });

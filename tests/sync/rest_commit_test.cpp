@@ -78,7 +78,7 @@ repeat = {count = 2, step = [5, 0]}
   std::vector<InputTrack> inputs;
   Drivers drivers{*world, roles};
   Reach reach{config, *world, roles, drivers, inputs};
-  RestCommit rest{config, *world, roles, memory, display, inputs, reach};
+  RestCommit rest{config, *world, roles, drivers, memory, display, inputs, reach};
 };
 
 TEST(RestCommit, CommitsAQuarterOfASecondAfterFallingAsleepAndOnce) {

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "common/base/geometry.h"
 #include "common/sync/quantize.h"
+#include "tests/support/replica_test_access.h"
 #include "tests/support/scripted_world.h"
 #include "tests/support/wired_replicas.h"
 
@@ -255,6 +257,37 @@ TEST(Rollback, WhatIsSteppedFromNowOnBeginsWhereItWasHeardOfAndGoesThroughWhatWa
   // The state that was heard was rounded.
   EXPECT_NEAR((is.velocity - should.velocity).norm(), 0, 0.1f);
   EXPECT_NEAR((is.position - should.position).norm(), 0, 0.05f);
+}
+
+TEST(Rollback, WhatRestsStaysAtRestThroughAReplayThoughItsCopyHadTurnedOtherwise) {
+  const Scene scene =
+      ParseScene(Replaced(Replaced(Replaced(kSledges, "sleep = false", ""), "ANN", ""), "BOB", ""),
+                 "sledges.toml");
+  constexpr std::int64_t kLate = 10;
+  constexpr int kBob = 2;
+  // A button that does nothing goes down and up: there is something to go back for in every tick.
+  WiredReplicas room(scene, MakeSyncConfig("buffer", "rollback"), kLate,
+                     [](int peer, std::int64_t tick) {
+                       const bool down = peer == 1 && tick > 30 && tick % 2 == 0;
+                       return Input{0, 0, static_cast<std::int16_t>(down ? 4 : 0)};
+                     });
+  room.StepTo(5);
+  const int crate = room.Body(kBob, "crate");
+  BodyState turned = room.at(kBob).world().Read(crate);
+  turned.angle += 12 * kPiFloat;
+  ReplicaTestAccess::world(room.at(kBob)).Write(crate, turned);
+  int held = 0;
+  while (room.at(0).tick() < 240) {
+    room.Step();
+    for (const Rest& rest : room.at(0).rest().Take()) room.at(kBob).Receive(rest);
+    if (!room.at(0).rest().Holds(crate)) continue;
+    ++held;
+    ASSERT_TRUE(room.at(kBob).rest().Holds(crate)) << "tick " << room.at(0).tick();
+    ASSERT_EQ(room.at(kBob).world().Read(crate).angle, room.at(0).world().Read(crate).angle);
+    ASSERT_EQ(room.at(kBob).world().Read(crate).position, room.at(0).world().Read(crate).position);
+  }
+  EXPECT_GT(held, 60);
+  EXPECT_GT(room.at(kBob).ticks_stepped_again(), 60) << "or nothing was tried";
 }
 
 }  // namespace

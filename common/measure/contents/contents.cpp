@@ -6,6 +6,7 @@
 #include <set>
 
 #include "common/base/check.h"
+#include "common/measure/contents/partial_views.h"
 #include "common/record/time_range.h"
 #include "common/scene/assembly.h"
 #include "common/scene/toml/scene_text.h"
@@ -26,27 +27,27 @@ std::string Count(std::size_t count, const char* one, const char* many) {
   return fmt::format("{} {}", count, count == 1 ? one : many);
 }
 
-std::string ViewName(const Scene& scene, int peer) {
-  if (peer == 0) return "server";
-  const auto player = static_cast<std::size_t>(peer) - 1;
-  return peer > 0 && player < scene.players.size() ? scene.players[player].name
-                                                   : fmt::format("peer {}", peer);
-}
-
 std::string Views(const Scene& scene, const Recording& recording) {
   std::string text;
   for (const auto& [peer, views] : recording.views) {
-    text += fmt::format("{}{} {} ({} to {})", text.empty() ? "" : ", ", ViewName(scene, peer),
+    text += fmt::format("{}{} {} ({} to {})", text.empty() ? "" : ", ", ViewNameOf(scene, peer),
                         views.size(), views.begin()->first, views.rbegin()->first);
   }
   return text.empty() ? "none" : text + " by tick";
 }
 
+/// Those with a view, and of many of the others the first.
 std::string Players(const Scene& scene, const Recording& recording) {
+  constexpr int kAbsentNamed = 8;
   std::string text;
+  int absent = 0;
   for (std::size_t p = 0; p < scene.players.size(); ++p) {
     const bool seen = recording.views.count(static_cast<int>(p) + 1) != 0;
+    if (!seen && ++absent > kAbsentNamed) continue;
     text += (text.empty() ? "" : ", ") + scene.players[p].name + (seen ? "" : " (no view)");
+  }
+  if (absent > kAbsentNamed) {
+    text += fmt::format(" and {} more without a view", absent - kAbsentNamed);
   }
   return text.empty() ? "none" : text;
 }
@@ -96,6 +97,13 @@ std::string Events(const Recording& recording, int tick_hz) {
 
 }  // namespace
 
+std::string ViewNameOf(const Scene& scene, int peer) {
+  if (peer == 0) return "server";
+  const auto player = static_cast<std::size_t>(peer) - 1;
+  return peer > 0 && player < scene.players.size() ? scene.players[player].name
+                                                   : fmt::format("peer {}", peer);
+}
+
 std::string FormatContents(const std::string& name, const Recording& recording) {
   const Room& room = recording.room;
   const int tick_hz = std::max(1, room.tick_hz);
@@ -110,6 +118,9 @@ std::string FormatContents(const std::string& name, const Recording& recording) 
     text += Line("players", Players(scene, recording));
     text += Line("views", Views(scene, recording));
     text += Line("bodies", Bodies(scene, recording));
+    const std::string partial = PartialViewsText(PartialViews(scene, recording),
+                                                 [&](int peer) { return ViewNameOf(scene, peer); });
+    if (!partial.empty()) text += Line("partial", partial);
   } catch (const OperatorError& error) {
     text += Line("scene", std::string("cannot be read: ") + error.what());
   }

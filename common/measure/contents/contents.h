@@ -4,6 +4,7 @@
 #include <string>
 
 #include "common/record/recording.h"
+#include "common/scene/scene.h"
 
 namespace seam {
 
@@ -11,5 +12,8 @@ namespace seam {
 /// bodies, messages, damage, and the events, of many the first 20. Texts of the recording are shown
 /// without what a terminal obeys. Ends with a line end.
 std::string FormatContents(const std::string& name, const Recording& recording);
+
+/// "server", the name of the player whose place it is, or "peer 7" for a spectator.
+std::string ViewNameOf(const Scene& scene, int peer);
 
 }  // namespace seam

@@ -86,6 +86,12 @@ void ReadContact(const std::vector<ExactBody>& bodies, double rest, ExactContact
   }
 }
 
+double NormalTarget(double separation, const Pace& pace) {
+  if (separation > 0) return -separation / pace.h;
+  const double deep = std::max(0.0, -separation - static_cast<double>(b2_linearSlop));
+  return std::min(kPushOutMost, kPushOut / (pace.h * pace.substeps) * deep);
+}
+
 void FillContact(const ExactContact& contact, const std::vector<ExactBody>& bodies,
                  const Pace& pace, Row* rows) {
   const ExactBody& a = bodies[static_cast<std::size_t>(contact.a)];
@@ -99,11 +105,7 @@ void FillContact(const ExactContact& contact, const std::vector<ExactBody>& bodi
     normal.error = contact.point[i].apart + Way(r, a, b, contact.nx, contact.ny);
     normal.lo = 0;
     normal.hi = kUnbounded;
-    const double slop = static_cast<double>(b2_linearSlop);
-    normal.target = normal.error > 0
-                        ? -normal.error / pace.h
-                        : std::min(kPushOutMost, kPushOut / (pace.h * pace.substeps) *
-                                                     std::max(0.0, -normal.error - slop));
+    normal.target = NormalTarget(normal.error, pace);
     Bind(contact, a, b, r, contact.ny, -contact.nx, &friction);
     friction.kind = RowKind::kFriction;
     friction.friction = contact.friction;

@@ -35,6 +35,10 @@ void ReadContact(const std::vector<ExactBody>& bodies, double rest, ExactContact
 void FillContact(const ExactContact& contact, const std::vector<ExactBody>& bodies,
                  const Pace& pace, Row* rows);
 
+/// The speed, m/s, at which two points part: a gap is used up in a substep, an overlap undone
+/// slowly.
+double NormalTarget(double separation, const Pace& pace);
+
 /// Warm start from the manifold, `share` of its impulses; and back.
 void LoadImpulses(const ExactContact& contact, double share, Row* rows);
 void StoreImpulses(const ExactContact& contact, const Row* rows);

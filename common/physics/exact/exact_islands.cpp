@@ -183,6 +183,37 @@ void ExactStep::Order(Found* found) {
   found->slots = order;
 }
 
+/// Multiplications that a direct factorisation takes at least, in whatever order: the k rows of a
+/// body are tied to each other, so that the last of them is k wide, the one before k - 1; and a row
+/// is one of two bodies, of a gear of four.
+long ExactStep::LeastCost(const Found& found) {
+  std::vector<int>& rows = order_;
+  rows.assign(slots_.size(), 0);
+  int ends = 2;
+  const auto count = [&](int slot, int more) {
+    if (slot >= 0) rows[static_cast<std::size_t>(slot)] += more;
+  };
+  for (const int m : found.mechanisms) {
+    for (const int j : mechanisms_[static_cast<std::size_t>(m)].joints) {
+      const ExactJoint& joint = joints_[static_cast<std::size_t>(j)];
+      count(joint.slot_a, RowCount(joint));
+      count(joint.slot_b, RowCount(joint));
+      ends = std::max(ends, EndsOf(joint));
+    }
+  }
+  for (b2Contact* contact : found.contacts) {
+    const int more = 2 * contact->GetManifold()->pointCount;
+    count(IndexOf(contact->GetFixtureA()->GetBody()), more);
+    count(IndexOf(contact->GetFixtureB()->GetBody()), more);
+  }
+  double sum = 0;
+  for (const int slot : found.slots) {
+    const double k = rows[static_cast<std::size_t>(slot)];
+    sum += k * (k + 1) * (2 * k + 1) / 12;
+  }
+  return static_cast<long>(sum / ends);
+}
+
 /// Returns what a direct factorisation takes, in multiplications.
 long ExactStep::Build(Found* found, bool relaxed) {
   Order(found);
@@ -252,8 +283,7 @@ long ExactStep::Build(Found* found, bool relaxed) {
     island.contacts.push_back(contact);
   }
   LoadPoses(found);
-  island.Shape(relaxed);
-  const long cost = island.cost();
+  const long cost = island.Shape(relaxed, kDirectMost);
   if (relaxed || cost <= kDirectMost) return cost;
   if (solver_.joints == JointSolving::kAuto) {
     found->island.reset();  // left to the engine
@@ -293,8 +323,13 @@ void ExactStep::Prepare(float h, Found* found) {
   }
   Sign(*found, &sign_);
   if (sign_ == found->sign) return;
-  Build(found, false);
   found->sign = sign_;
+  // To order and shape a heap in each step costs many times what the engine's step does.
+  if (solver_.joints == JointSolving::kAuto && LeastCost(*found) > kDirectMost) {
+    found->island.reset();
+    return;
+  }
+  Build(found, false);
 }
 
 }  // namespace seam

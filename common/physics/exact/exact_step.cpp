@@ -24,6 +24,10 @@ void ReadPose(b2Body* body, ExactBody* q) {
   q->w = static_cast<double>(body->GetAngularVelocity());
 }
 
+bool SamePose(const ExactBody& p, const ExactBody& q) {
+  return p.x == q.x && p.y == q.y && p.a == q.a && p.c == q.c && p.s == q.s;
+}
+
 }  // namespace
 
 ExactStep::ExactStep(const Scene& scene, b2World* world, const BuiltScene& built)
@@ -68,34 +72,48 @@ void ExactStep::LeaveCharacters(const Scene& scene) {
 
 ExactStep::~ExactStep() = default;
 
-void ExactStep::LoadPoses(Found* found) {
-  for (ExactBody& q : found->island->bodies) {
-    b2Body* body = q.body;
-    if (q.slot < 0) {
-      ReadPose(body, &q);
-    } else {
-      Slot& s = slots_[static_cast<std::size_t>(q.slot)];
-      if (Told(s)) {
-        q.x = s.x;
-        q.y = s.y;
-        q.a = s.a;
-        q.vx = s.vx;
-        q.vy = s.vy;
-        q.w = s.w;
-        if (++s.turns < kTurnsMost) {
-          q.c = s.c;
-          q.s = s.s;
-          continue;
-        }
-      } else {
-        ReadPose(body, &q);
-      }
-      s.turns = 0;
+/// Of a body that moves, as it was left or as the engine has it.
+void ExactStep::LoadMoving(ExactBody* q) {
+  Slot& s = slots_[static_cast<std::size_t>(q->slot)];
+  if (Told(s)) {
+    q->x = s.x;
+    q->y = s.y;
+    q->a = s.a;
+    q->vx = s.vx;
+    q->vy = s.vy;
+    q->w = s.w;
+    if (++s.turns < kTurnsMost) {
+      q->c = s.c;
+      q->s = s.s;
+      return;
     }
-    if (q.slot < 0 && q.a == q.read_a) continue;  // c and s are its own
-    q.read_a = q.slot < 0 && q.w == 0 ? q.a : std::nan("");
-    q.c = std::cos(q.a);
-    q.s = std::sin(q.a);
+  } else {
+    ReadPose(q->body, q);
+  }
+  s.turns = 0;
+  q->read_a = std::nan("");
+  q->c = std::cos(q->a);
+  q->s = std::sin(q->a);
+}
+
+void ExactStep::LoadPoses(Found* found) {
+  ExactIsland& island = *found->island;
+  island.still = true;
+  for (ExactBody& q : island.bodies) {
+    const ExactBody before = q;
+    if (q.slot >= 0) {
+      LoadMoving(&q);
+      island.still = island.still && SamePose(q, before);
+      continue;
+    }
+    ReadPose(q.body, &q);
+    if (q.a != q.read_a) {  // else c and s are its own
+      q.read_a = q.w == 0 ? q.a : std::nan("");
+      q.c = std::cos(q.a);
+      q.s = std::sin(q.a);
+    }
+    island.still = island.still && SamePose(q, before) && q.vx == before.vx && q.vy == before.vy &&
+                   q.w == before.w;
   }
 }
 
@@ -151,7 +169,7 @@ void ExactStep::SavePoses(const Found& found) {
 }
 
 void ExactStep::Save(Found* found, float h) {
-  float quiet = b2_maxFloat;
+  float quiet = found->island->stirred ? 0 : b2_maxFloat;
   for (const ExactContact& contact : found->island->contacts) {
     for (const int end : {contact.a, contact.b}) {
       const ExactBody& q = found->island->bodies[static_cast<std::size_t>(end)];

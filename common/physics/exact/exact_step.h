@@ -59,7 +59,9 @@ class ExactStep {
   bool Gather(int first, Found* found);
   void Sign(const Found& found, std::vector<const void*>* sign) const;
   void Order(Found* found);
+  long LeastCost(const Found& found);
   long Build(Found* found, bool relaxed);
+  void LoadMoving(ExactBody* q);
   void LoadPoses(Found* found);
   void Load(Found* found);
   void Save(Found* found, float h);

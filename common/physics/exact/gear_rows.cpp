@@ -90,7 +90,7 @@ void FillGear(const ExactJoint& joint, const JointEnds& ends, const std::vector<
   row->error += gear.ratio * AddSide(gear.second, ends.base_b, ends.b, bodies, gear.ratio, row);
   row->lo = -kUnbounded;
   row->hi = kUnbounded;
-  row->target = std::clamp(-row->error / h, -kShutMost, kShutMost);
+  row->target = HardTarget(row->error, h);
 }
 
 }  // namespace seam

@@ -9,7 +9,7 @@
 
 namespace seam {
 
-void ExactIsland::Shape(bool relaxed) {
+long ExactIsland::Shape(bool relaxed, long most) {
   relaxed_ = relaxed;
   int rows = 0;
   std::size_t ends = 0;
@@ -38,11 +38,12 @@ void ExactIsland::Shape(bool relaxed) {
   now_ends_.assign(kJointRowsMost * kRowEndsMost, RowEnd());
   for (std::size_t i = 0; i < now_.size(); ++i) now_[i].end = &now_ends_[i * kRowEndsMost];
   Fill({1, 1});
-  ShapeMatrix();
+  const long cost = ShapeMatrix(most);
   if (relaxed_) ShapeGroups();
+  return cost;
 }
 
-void ExactIsland::ShapeMatrix() {
+long ExactIsland::ShapeMatrix(long most) {
   // Rows in the order of their last body, then of their first: what is bound stays together.
   const std::size_t n = rows_.size();
   std::vector<std::pair<int, int>>& key = key_;
@@ -84,6 +85,8 @@ void ExactIsland::ShapeMatrix() {
       first[p] = std::min(first[p], led_by);
     }
   }
+  const long cost = Skyline::Cost(first);
+  if (!relaxed_ && cost > most) return cost;
   matrix_.SetShape(first);
   pairs_.clear();
   assembled_.assign(row_at_.size(), {});
@@ -104,17 +107,72 @@ void ExactIsland::ShapeMatrix() {
       }
     }
   }
+  acts_.clear();
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    for (const auto& [row, end] : met_[b]) {
+      const auto place = static_cast<std::size_t>(place_[static_cast<std::size_t>(row)]);
+      acts_.push_back({place, At(row).end[end].mj});
+    }
+    bodies[b].acts = static_cast<int>(met_[b].size());
+  }
   in_matrix_.assign(ends_.size(), InMatrix());
   changed_ = dirty_ = 0;
   in_.assign(row_at_.size(), 1);
   x_.assign(row_at_.size(), 0.0);
+  last_ = shift_ = x_;
+  errors_.assign(n, 0.0);
+  return cost;
 }
 
 void ExactIsland::Fill(const Pace& pace) {
+  rewritten_ = true;
+  filled_h_ = pace.h;
   for (const Held& held : joints)
     FillJoint(*held.joint, held.ends, bodies, pace, rows_.data() + held.row);
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     if (contacts[c].count > 0) FillContact(contacts[c], bodies, pace, &At(contact_row_[c]));
+  }
+}
+
+/// As Fill, of bodies that have not moved since: what a solve has set is put back.
+void ExactIsland::FillAgain(const Pace& pace) {
+  for (Row& row : rows_) {
+    switch (row.kind) {
+      case RowKind::kHard: row.target = HardTarget(row.error, pace.h); break;
+      case RowKind::kSoft:
+      case RowKind::kFriction: break;
+      case RowKind::kMotor:
+        row.lo = -row.most;
+        row.hi = row.most;
+        break;
+      case RowKind::kLimit:
+        row.lo = 0;
+        row.target = LimitTarget(row.error, pace.h);
+        break;
+      case RowKind::kNormal:
+        row.lo = 0;
+        row.target = NormalTarget(row.error, pace);
+        break;
+    }
+  }
+}
+
+/// Fill at the beginning of a step: where the bodies are those of the last one's end, only contacts
+/// and motors are not.
+void ExactIsland::FillFirst(const Pace& pace) {
+  if (!still || filled_h_ != pace.h) {
+    Fill(pace);
+    return;
+  }
+  FillAgain(pace);
+  for (const Held& held : joints) {
+    if (!held.joint->drives && held.joint->type != e_motorJoint) continue;
+    FillJoint(*held.joint, held.ends, bodies, pace, rows_.data() + held.row);
+    rewritten_ = true;
+  }
+  for (std::size_t c = 0; c < contacts.size(); ++c) {
+    if (contacts[c].count > 0) FillContact(contacts[c], bodies, pace, &At(contact_row_[c]));
+    rewritten_ = true;
   }
 }
 

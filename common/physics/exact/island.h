@@ -24,14 +24,18 @@ class ExactIsland {
   std::vector<ExactBody> bodies;  ///< moving ones, in the order of the system, then fixed ones
   std::vector<Held> joints;
   std::vector<ExactContact> contacts;
+  /// Whether all bodies are where the last Step or Rejoin left them, to the last bit, and what does
+  /// not move freely has the same speed.
+  bool still = false;
+  /// Whether the last Step moved something without velocity, so that it does not lie.
+  bool stirred = false;
 
   /// The rows and the matrix's shape from bodies, joints and contacts (of which a, b and count
-  /// are there).
+  /// are there). Returns the multiplications of a factorisation; what takes more than `most` of
+  /// them has no shape then, and only another Shape may follow.
   /// `relaxed`: the bounded rows are left to Relax; then bodies that have joints with each other
-  /// must be neighbours in the list.
-  void Shape(bool relaxed);
-  /// Multiplications of a factorisation.
-  long cost() const { return matrix_.cost(); }
+  /// must be neighbours in the list, and there is no `most`.
+  long Shape(bool relaxed, long most);
   int bounded_rows() const { return bounded_; }
 
   /// Advances the bodies by pace.h * pace.substeps. `warm`: begin with what contacts and joints
@@ -82,10 +86,21 @@ class ExactIsland {
     std::size_t at[2] = {};  // of its answer
     double own = 0;          // m/s or rad/s per impulse: its own speed
   };
+  struct Act {  // what a row does to a body
+    std::size_t place = 0;
+    const double* mj = nullptr;
+  };
+  struct Shutting {  // a row that is being shut
+    std::size_t row = 0, place = 0;
+    double goal = 0;  // m or rad
+    double side = 0;  // m/s or rad/s, of the last correction
+  };
   Row& At(int row) { return rows_[static_cast<std::size_t>(row)]; }
   ExactBody& Body(int body) { return bodies[static_cast<std::size_t>(body)]; }
-  void ShapeMatrix();
+  long ShapeMatrix(long most);
   void Fill(const Pace& pace);
+  void FillAgain(const Pace& pace);
+  void FillFirst(const Pace& pace);
 
   double Pull() const;
   void Look(const Pace& pace);
@@ -105,6 +120,7 @@ class ExactIsland {
   double WorkDone(double mass);
   bool Possible(const Start& start, bool pushes);
   void Calm(const Pace& pace, const Start& start);
+  void PushApart(const Pace& pace);
   bool PushesOut() const;
   void Kick(double h);
   bool FindImpacts();
@@ -115,10 +131,10 @@ class ExactIsland {
   double Driven(const ExactContact& contact, int first_row) const;
   void SolveAhead(const Pace& pace);
   void Move(double h);
-  double SidesOfErrors(const Pace& pace, bool anew);
+  void FindShutting();
+  double SidesOfErrors(const Pace& pace, bool anew, double* slope);
   void Correct(double h);
   void ShutJoints(const Pace& pace);
-  double SlopeOfSides() const;
   void Accelerate(double slope);
   void SoftenContacts();
   void SolveAtEnd(const Pace& pace);
@@ -132,6 +148,7 @@ class ExactIsland {
   /// `hard`, `bounded`: what a row's own entry is enlarged by, as a share, for rows that others
   /// imply.
   void Assemble(double hard = 1e-7, double bounded = 1e-6);
+  bool Assembles(double hard, double bounded);
   int FirstChanged(double hard, double bounded);
   void Factor();
   void Solve(bool ahead);
@@ -170,16 +187,21 @@ class ExactIsland {
   std::vector<InMatrix> in_matrix_;   // by end
   Skyline matrix_;
   int bounded_ = 0;
-  double turned_ = 0;   // rad: the most that a body has turned in this substep
-  int changed_ = 0;     // the matrix's rows from here on are not those that were assembled
-  int dirty_ = 0;       // the factors of rows from here on are old
-  double gained_ = 0;   // J: what substeps with contacts have gained, falling slowly
-  double carried_ = 0;  // N s: what a contact's impulse may be for the next step
-  bool moved_ = false;  // velocities are not those of before_
+  double turned_ = 0;            // rad: the most that a body has turned in this substep
+  int changed_ = 0;              // the matrix's rows from here on are not those that were assembled
+  int dirty_ = 0;                // the factors of rows from here on are old
+  double gained_ = 0;            // J: what substeps with contacts have gained, falling slowly
+  double carried_ = 0;           // N s: what a contact's impulse may be for the next step
+  double filled_h_ = 0;          // s: the substep that rows were written for
+  bool rewritten_ = true;        // rows were, since they were assembled
+  double hard_ = 0, bound_ = 0;  // what that was done with
+  bool moved_ = false;           // velocities are not those of before_
   std::vector<char> in_;
   std::vector<double> x_, before_, start_;
-  std::vector<double> side_, last_, shift_;  // of the last correction: what it was for, what it is
-  std::vector<double> push_;  // by body, three: what a correction adds to its velocity
+  std::vector<double> errors_;        // by row: of joints, m or rad
+  std::vector<double> last_, shift_;  // of the last correction: as solved, as made
+  std::vector<Shutting> shutting_;    // in the order of places
+  std::vector<Act> acts_;             // by body, ExactBody::acts of each, in the order of places
   bool relaxed_ = false;
   std::vector<Group> groups_;
   std::vector<Reach> reaches_;                            // in the order of rows

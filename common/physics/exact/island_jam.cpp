@@ -25,6 +25,10 @@ constexpr double kLedMost = 4;
 /// What a row's own entry is enlarged by in a jam, as a share: what contradicts itself by 1 m/s is
 /// pressed with a thousand times the momentum, no more.
 constexpr double kOwnOfJam = 1e-3;
+/// m: an overlap that is undone without velocity in a jam.
+constexpr double kDeep = 0.03;
+/// m/s: what is pushed apart without velocity moves no faster; and what moves slower may sleep.
+constexpr double kApartMost = 1, kApartStill = 0.01;
 
 }  // namespace
 
@@ -155,6 +159,47 @@ void ExactIsland::Calm(const Pace& pace, const Start& start) {
   BringTogether(pace);
   for (ExactBody& q : bodies) q.lasting *= kGainKept;
   gained_ *= kGainKept;
+}
+
+/// Overlaps that could not be undone by the substep's velocities are by a motion of its own, of
+/// which no velocity is left: how fast the points part is what it is without a jam, joints stay
+/// shut and what touches does not come nearer. Rows give way as in a blow, so that what pushes from
+/// two sides stays between them.
+void ExactIsland::PushApart(const Pace& pace) {
+  const bool deep = std::any_of(rows_.begin(), rows_.end(), [](const Row& row) {
+    return row.kind == RowKind::kNormal && row.error < -kDeep && row.state != RowState::kOut;
+  });
+  if (!deep) return;
+  FillAgain(pace);
+  rows_before_ = rows_;
+  bodies_before_ = bodies;
+  for (ExactBody& q : bodies) {
+    q.vx = q.vy = q.w = 0;
+    if (q.moves()) q.ii = 1 / q.inertia;
+  }
+  for (Row& row : rows_) {
+    row.fixed_speed = row.base = row.lambda = row.warm = 0;
+    const bool takes_part =
+        row.kind == RowKind::kHard || row.kind == RowKind::kLimit || row.kind == RowKind::kNormal;
+    if (!takes_part) row.state = RowState::kOut;
+  }
+  Assemble(kOwnOfJam, kOwnOfJam);
+  Solve(true);
+  double fastest = 0;
+  for (const ExactBody& q : bodies)
+    fastest = std::max(fastest, std::sqrt(q.vx * q.vx + q.vy * q.vy));
+  stirred = stirred || fastest > kApartStill;
+  Move(pace.h * std::min(1.0, kApartMost / std::max(fastest, 1e-30)));
+  rows_ = rows_before_;
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const ExactBody& was = bodies_before_[i];
+    bodies[i].vx = was.vx;
+    bodies[i].vy = was.vy;
+    bodies[i].w = was.w;
+    bodies[i].ii = was.ii;
+  }
+  Fill(pace);
+  BringTogether(pace);
 }
 
 }  // namespace seam

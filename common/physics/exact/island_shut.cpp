@@ -24,111 +24,113 @@ constexpr double kSlopeLeast = -1, kSlopeMost = 0.5;
 
 }  // namespace
 
+/// The rows that shut, in the order of places: their states stay while joints are shut.
+void ExactIsland::FindShutting() {
+  shutting_.clear();
+  for (std::size_t p = 0; p < row_at_.size(); ++p) {
+    const Row& row = *by_place_[p];
+    const bool shuts = row.kind == RowKind::kHard || row.kind == RowKind::kLimit;
+    if (!shuts || row.state != RowState::kFree) continue;
+    shutting_.push_back({static_cast<std::size_t>(row_at_[p]), p, row.goal, 0});
+  }
+}
+
 /// Joints' errors less their goals, as sides of the system. Returns the greatest, m or rad. `anew`:
-/// the rows are written as the bodies are now.
-double ExactIsland::SidesOfErrors(const Pace& pace, bool anew) {
-  double far = 0;
-  Row* const now = now_.data();
-  std::fill(x_.begin(), x_.end(), 0.0);
+/// the rows are written as the bodies are now. `slope`: how much of the last correction to take
+/// back, so that what the last two left cancels (Anderson 1965, of depth one; in one row the secant
+/// method).
+double ExactIsland::SidesOfErrors(const Pace& pace, bool anew, double* slope) {
+  double* const errors = errors_.data();
   for (const Held& held : joints) {
-    double errors[kJointRowsMost];
-    if (anew || !JointErrors(*held.joint, held.ends, bodies, errors)) {
-      FillJoint(*held.joint, held.ends, bodies, pace, now);
-      for (int i = 0; i < held.rows; ++i) errors[i] = now[i].error;
-    }
+    if (!anew && JointErrors(*held.joint, held.ends, bodies, errors + held.row)) continue;
+    FillJoint(*held.joint, held.ends, bodies, pace, now_.data());
     for (int i = 0; i < held.rows; ++i) {
-      Row& row = At(held.row + i);
+      const Row& now = now_[static_cast<std::size_t>(i)];
+      const Row& row = At(held.row + i);
+      errors[held.row + i] = now.error;
       const bool shuts = row.kind == RowKind::kHard || row.kind == RowKind::kLimit;
-      const int place = place_[static_cast<std::size_t>(held.row + i)];
-      if (!shuts || place < 0 || row.state != RowState::kFree) continue;
-      const double off = errors[i] - row.goal;
-      far = std::max(far, std::fabs(off));
-      x_[static_cast<std::size_t>(place)] = std::clamp(-off / pace.h, -kShutFastest, kShutFastest);
-      if (anew) std::copy_n(now[i].end, row.ends, row.end);
+      if (anew && shuts && row.state == RowState::kFree) std::copy_n(now.end, row.ends, row.end);
     }
   }
+  rewritten_ = rewritten_ || anew;
+  double far = 0, up = 0, down = 0;
+  double* const x = x_.data();
+  std::fill(x_.begin(), x_.end(), 0.0);
+  for (Shutting& shut : shutting_) {
+    const double off = errors[shut.row] - shut.goal;
+    const double side = std::clamp(-off / pace.h, -kShutFastest, kShutFastest);
+    const double change = side - shut.side;
+    far = std::max(far, std::fabs(off));
+    up += side * change;
+    down += change * change;
+    x[shut.place] = shut.side = side;
+  }
+  *slope = down > 0 ? std::clamp(up / down, kSlopeLeast, kSlopeMost) : 0;
   return far;
 }
 
 /// Adds the solution to the substep's impulses, and moves the bodies by what it does.
 void ExactIsland::Correct(double h) {
-  push_.assign(3 * bodies.size(), 0.0);
+  const double* const x = x_.data();
   for (std::size_t p = 0; p < row_at_.size(); ++p) {
     Row& row = *by_place_[p];
-    const double x = x_[p];
-    if (row.state != RowState::kFree || x == 0) continue;
-    row.base += x;
-    for (const RowEnd* end = row.end; end != row.end + row.ends; ++end) {
-      double* const push = push_.data() + 3 * static_cast<std::size_t>(end->body);
-      push[0] += x * end->mj[0];
-      push[1] += x * end->mj[1];
-      push[2] += x * end->mj[2];
-    }
+    if (row.state == RowState::kFree && x[p] != 0) row.base += x[p];
   }
-  const double* push = push_.data();
+  const Act* act = acts_.data();
   for (ExactBody& q : bodies) {
     if (!q.moves()) break;  // those that do come first
-    q.vx += push[0];
-    q.vy += push[1];
-    q.w += push[2];
-    q.x += h * push[0];
-    q.y += h * push[1];
-    if (push[2] != 0) q.Turn(h * push[2]);
-    push += 3;
+    double vx = 0, vy = 0, w = 0;
+    for (const Act* const stop = act + q.acts; act != stop; ++act) {
+      const double by = x[act->place];
+      vx += by * act->mj[0];
+      vy += by * act->mj[1];
+      w += by * act->mj[2];
+    }
+    q.vx += vx;
+    q.vy += vy;
+    q.w += w;
+    q.x += h * vx;
+    q.y += h * vy;
+    if (w != 0) q.Turn(h * w);
   }
 }
 
 void ExactIsland::ShutJoints(const Pace& pace) {
   bool anew = turned_ > kTurnsFast;
   double last = kUnbounded;
+  FindShutting();
   for (int tries = 0; tries < kCorrections; ++tries) {
-    const double far = SidesOfErrors(pace, anew);
+    double slope = 0;
+    const double far = SidesOfErrors(pace, anew, &slope);
     if (far < (contacts.empty() ? kShut : kShutTouching)) break;
     if (tries == 0 && !contacts.empty() && !relaxed_) SoftenContacts();
     if (!anew && tries > 0 && far > kSlow * last) {
       anew = true;
-      SidesOfErrors(pace, anew);
+      SidesOfErrors(pace, anew, &slope);
     }
     last = far;
     if (anew) {
       Assemble();
       if (!contacts.empty()) SoftenContacts();
     }
-    Factor();
-    const double slope = tries > 0 && !anew ? SlopeOfSides() : 0;
-    side_ = x_;
+    if (anew || tries == 0) Factor();
     matrix_.Solve(&x_);
-    Accelerate(slope);
+    Accelerate(tries > 0 && !anew ? slope : 0);
     Correct(pace.h);
   }
 }
 
-/// How much of the last correction to take back, so that what the last two left cancels (Anderson
-/// 1965, of depth one; in one row the secant method).
-double ExactIsland::SlopeOfSides() const {
-  double up = 0, down = 0;
-  for (std::size_t p = 0; p < x_.size(); ++p) {
-    const double change = x_[p] - side_[p];
-    up += x_[p] * change;
-    down += change * change;
-  }
-  return down > 0 ? std::clamp(up / down, kSlopeLeast, kSlopeMost) : 0;
-}
-
+/// Takes `slope` of the last correction back.
 void ExactIsland::Accelerate(double slope) {
   const std::size_t n = x_.size();
-  shift_.resize(n);
-  last_.resize(n);
-  if (slope == 0) {
-    last_ = x_;
-    shift_ = x_;
-    return;
-  }
+  double* const x = x_.data();
+  double* const last = last_.data();
+  double* const shift = shift_.data();
   for (std::size_t p = 0; p < n; ++p) {
-    const double step = x_[p];
-    x_[p] = step - slope * (shift_[p] + step - last_[p]);
-    last_[p] = step;
-    shift_[p] = x_[p];
+    const double step = x[p];
+    if (slope != 0) x[p] = step - slope * (shift[p] + step - last[p]);
+    last[p] = step;
+    shift[p] = x[p];
   }
 }
 

@@ -57,7 +57,21 @@ int ExactIsland::FirstChanged(double hard, double bounded) {
   return n;
 }
 
+/// Whether rows, inertias and shares are those that the matrix was assembled for last.
+bool ExactIsland::Assembles(double hard, double bounded) {
+  bool same = !rewritten_ && changed_ == matrix_.size() && hard == hard_ && bounded == bound_;
+  for (ExactBody& q : bodies) {
+    same = same && q.ii == q.ii_before;
+    q.ii_before = q.ii;
+  }
+  rewritten_ = false;
+  hard_ = hard;
+  bound_ = bounded;
+  return same;
+}
+
 void ExactIsland::Assemble(double hard, double bounded) {
+  if (Assembles(hard, bounded)) return;
   for (RowEnd& end : ends_) {
     if (end.body < 0) continue;
     const ExactBody& q = bodies[static_cast<std::size_t>(end.body)];
@@ -200,7 +214,7 @@ void ExactIsland::Solve(bool ahead) {
     Relax(ahead);
     return;
   }
-  Save(&before_);
+  if (bounded_ > 0) Save(&before_);  // else the first pivot is the last
   moved_ = false;
   next_.resize(rows_.size());
   for (int round = 0; round < kFrictionRounds; ++round) {

@@ -33,8 +33,9 @@ constexpr double kUtmost = 50;
 }  // namespace
 
 void ExactIsland::Step(const Pace& pace, bool warm) {
+  stirred = false;
   Look(pace);
-  Fill(pace);
+  FillFirst(pace);
   const double share = warm ? 1.0 / pace.substeps : 0;
   for (Row& row : rows_) row.lambda = row.total = 0;
   for (const Held& held : joints) LoadImpulses(*held.joint, share, rows_.data() + held.row);
@@ -48,9 +49,9 @@ void ExactIsland::Step(const Pace& pace, bool warm) {
     if (std::fabs(lacks) > kUtmost) row.state = lacks > 0 ? RowState::kHigh : RowState::kLow;
   }
   BringTogether(pace);
-  carried_ = MostCarried(pace);
+  if (!contacts.empty()) carried_ = MostCarried(pace);
   for (int i = 0; i < pace.substeps; ++i) {
-    if (i > 0) Fill(pace);
+    if (i > 0) FillAgain(pace);
     Substep(pace);
   }
 }
@@ -91,9 +92,13 @@ void ExactIsland::Substep(const Pace& pace) {
       if (row.kind == RowKind::kNormal) row.target = std::min(0.0, row.target);
     }
     Course(pace, whole);
-    if (Possible(start, false)) return;
+    if (Possible(start, false)) {
+      PushApart(pace);
+      return;
+    }
   }
   Calm(pace, start);
+  PushApart(pace);
 }
 
 /// To where the substep's course began.

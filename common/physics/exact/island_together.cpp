@@ -28,6 +28,7 @@ double ExactIsland::Pull() const {
 
 /// Reads the contacts as they are before a step.
 void ExactIsland::Look(const Pace& pace) {
+  if (contacts.empty()) return;
   const double rest = kRestSteps * Pull() * pace.h * pace.substeps;
   for (ExactContact& contact : contacts) ReadContact(bodies, rest, &contact);
 }

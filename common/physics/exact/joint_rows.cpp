@@ -110,8 +110,7 @@ class Writer {
     End(ends_.b, b_, j.bx, j.by, j.bw, &row);
     row.lo = kind == RowKind::kLimit ? 0 : -kUnbounded;
     row.hi = kUnbounded;
-    row.target = kind == RowKind::kLimit ? std::min(0.0, -error / h_)
-                                         : std::clamp(-error / h_, -kShutMost, kShutMost);
+    row.target = kind == RowKind::kLimit ? LimitTarget(error, h_) : HardTarget(error, h_);
     return row;
   }
   static void End(int place, const ExactBody& body, double x, double y, double w, Row* row) {

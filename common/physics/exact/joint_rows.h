@@ -2,6 +2,7 @@
 /// A joint of the engine as rows. The signs are the engine's: an impulse acts on body B as it is
 /// and on A turned round, so that what is stored in the joint is read by everybody alike.
 
+#include <algorithm>
 #include <vector>
 
 #include "common/physics/exact/row.h"
@@ -77,6 +78,13 @@ struct Pace {
   double h = 0;  ///< s
   int substeps = 1;
 };
+
+/// The speed, m/s or rad/s, that takes an error back in a substep of h s; of a limit, that uses up
+/// what is left to it.
+inline double HardTarget(double error, double h) {
+  return std::clamp(-error / h, -kShutMost, kShutMost);
+}
+inline double LimitTarget(double error, double h) { return std::min(0.0, -error / h); }
 
 /// Writes RowCount rows at `rows` for the bodies as they are. Impulses and
 /// states are left alone. Always in the same order.

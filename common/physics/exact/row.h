@@ -27,6 +27,8 @@ struct ExactBody {
   double slow = 0, slow_spin = 0;   ///< 1/s, damping
   double stiffness = 0;             ///< kg m2, h2 times the joints' tension times arm
   double lasting = 0;               ///< kg m2, the same, falling slowly
+  double ii_before = 0;             ///< ii in the matrix
+  int acts = 0;                     ///< how often a row acts on it
   bool moves() const { return im > 0; }
 
   /// Turns it by `d` rad; small angles by series, to the last bit or two.

@@ -26,16 +26,22 @@ inline double Inverse(double left, double diagonal) {
 
 }  // namespace
 
+long Skyline::Cost(const std::vector<int>& first) {
+  long cost = 0;
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const long width = static_cast<long>(i) - first[i] + 1;
+    cost += width * width / 2;
+  }
+  return cost;
+}
+
 void Skyline::SetShape(const std::vector<int>& first) {
   first_ = first;
   start_.resize(first.size());
   int next = 0;
-  cost_ = 0;
   for (std::size_t i = 0; i < first.size(); ++i) {
     start_[i] = next - first[i];
-    const int width = static_cast<int>(i) - first[i] + 1;
-    next += width;
-    cost_ += long{width} * width / 2;
+    next += static_cast<int>(i) - first[i] + 1;
   }
   matrix_.assign(static_cast<std::size_t>(next), 0.0);
   factor_.assign(static_cast<std::size_t>(next), 0.0);

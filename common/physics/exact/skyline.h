@@ -13,8 +13,8 @@ class Skyline {
   /// `first[i]` <= i: column of row i's first entry. All entries are 0 then.
   void SetShape(const std::vector<int>& first);
   int size() const { return static_cast<int>(first_.size()); }
-  /// What one Factor costs at most, multiplications.
-  long cost() const { return cost_; }
+  /// What one Factor of such a shape costs at most, multiplications.
+  static long Cost(const std::vector<int>& first);
   /// Makes the entries of rows from `from` on 0.
   void Clear(int from = 0);
   /// Where the entry is, for `At`; requires first[row] <= column <= row.
@@ -41,7 +41,6 @@ class Skyline {
   std::vector<char>
       leads_;             // whether a row and the next one, which begins where it does, go together
   std::vector<Two> two_;  // room for two rows side by side
-  long cost_ = 0;
 };
 
 }  // namespace seam

@@ -63,6 +63,7 @@ class Corrector {
   /// Notes one entry; true if its body is simulated here and to be corrected.
   bool ReceiveOne(const States& states, std::size_t i, int body);
   void PutExact(int body, std::int64_t from, const BodyState& difference);
+  void PlaceNow(int body, const States& states, std::size_t i, const BodyState& remote);
   void PlaceBody(int body, const BodyState& state, bool asleep);
   /// Mass-weighted mean of Xr(t1) - Xl(t1) by mechanism.
   std::map<int, BodyState> CommonDifferences(const States& states,

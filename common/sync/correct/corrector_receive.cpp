@@ -88,9 +88,10 @@ bool Corrector::IsNews(const States& states, std::size_t i, int body, Received* 
 
 bool Corrector::ReceiveOne(const States& states, std::size_t i, int body) {
   const BodyState remote = Unpack(states, i, world_.Read(body).angle);
+  if (!memory_.track(body).placed) memory_.snapshots().ForgetAfter(body, states.tick - 1);
   memory_.snapshots().Add(body, states.tick, remote);
   if (!memory_.track(body).placed) {
-    PlaceBody(body, remote, false);
+    PlaceNow(body, states, i, remote);
     return false;
   }
   return config_.reconcile != nullptr && roles_.RoleOfBody(body) == kRoleSecondary;
@@ -101,16 +102,21 @@ void Corrector::Place(const States& states) {
     const int body = world_.BodyOfId(states.id[i]);
     if (body < 0 || memory_.track(body).placed) continue;
     const BodyState remote = Unpack(states, i, world_.Read(body).angle);
+    memory_.snapshots().ForgetAfter(body, states.tick - 1);
     memory_.snapshots().Add(body, states.tick, remote);
-    const bool asleep = (states.flags[i] & kStateAsleep) != 0;
-    // The message is as old as its way was long: the body begins where it is by now, in motion.
-    BodyState by_now = remote;
-    if (!asleep && states.tick < world_.tick()) {
-      by_now = memory_.snapshots().Extrapolate(body, world_.tick(), world_.dt(), kReckonMax);
-      by_now.angle = UnwrapAngle(by_now.angle, remote.angle);
-    }
-    PlaceBody(body, by_now, asleep);
+    PlaceNow(body, states, i, remote);
   }
+}
+
+/// The message is as old as its way was long: the body begins where it is by now, in motion.
+void Corrector::PlaceNow(int body, const States& states, std::size_t i, const BodyState& remote) {
+  const bool asleep = (states.flags[i] & kStateAsleep) != 0;
+  BodyState by_now = remote;
+  if (!asleep && states.tick < world_.tick()) {
+    by_now = memory_.snapshots().Extrapolate(body, world_.tick(), world_.dt(), kReckonMax);
+    by_now.angle = UnwrapAngle(by_now.angle, remote.angle);
+  }
+  PlaceBody(body, by_now, asleep);
 }
 
 void Corrector::PlaceBody(int body, const BodyState& state, bool asleep) {

@@ -30,7 +30,8 @@ void Corrector::FollowRoles() {
 }
 
 /// What was only displayed had the velocity of its display, not of a body: it starts from the
-/// authority's. Where there is a way back, from the very state that was heard.
+/// authority's. Where there is a way back, from the very state that was heard; what is committed to
+/// rest has lain there since, however long ago that was said.
 void Corrector::BeginToSimulate(int body) {
   const std::int64_t now = world_.tick();
   const BodyState before = world_.Read(body);
@@ -41,7 +42,7 @@ void Corrector::BeginToSimulate(int body) {
   memory_.track(body).dynamic_since = now;
   if (BodyState* past = memory_.history().At(now, body)) *past = state;
   const std::int64_t heard = memory_.snapshots().newest_tick(body);
-  if (heard < now) replay_.Ask(body, heard);
+  if (heard < now && !memory_.track(body).at_rest) replay_.Ask(body, heard);
 }
 
 }  // namespace seam

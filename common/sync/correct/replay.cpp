@@ -28,6 +28,13 @@ constexpr float kAgreesPosition = 4 * kPositionQuantum;     // m
 constexpr float kAgreesVelocity = 16 * kVelocityQuantum;    // m/s
 constexpr float kAgreesAngle = 0.005f, kAgreesSpin = 0.1f;  // rad, rad/s
 
+/// From `then` to `now`. Whole turns are no difference: two peers may have counted them otherwise.
+BodyState Apart(const BodyState& now, const BodyState& then) {
+  BodyState apart = Minus(now, then);
+  apart.angle = WrapAngle(apart.angle);
+  return apart;
+}
+
 }  // namespace
 
 Replay::Replay(const SyncConfig& config, World& world, const Roles& roles, const Drivers& drivers,
@@ -143,14 +150,14 @@ bool Replay::FollowsHistory(int body, std::int64_t tick) const {
 bool Replay::RestsAsBefore(int body, const BodyState& pose) {
   BodyTrack& track = memory_.track(body);
   if (!track.at_rest) return false;
-  track.at_rest = !world_.awake(body) && Agrees(Minus(world_.Read(body), pose));
+  track.at_rest = !world_.awake(body) && Agrees(Apart(world_.Read(body), pose));
   return track.at_rest;
 }
 
 /// What turns out to have been disturbed rests no more.
 void Replay::EndRest() {
   if (config_.StampsInputs(roles_.self())) return;  // it is stepped again like anything else
-  for (const int body : DisturbedRest(world_, memory_, inputs_)) {
+  for (const int body : DisturbedRest(world_, drivers_, memory_, inputs_)) {
     const bool held = world_.tick() <= memory_.track(body).dynamic_since;
     if (roles_.Simulates(body) && !held) memory_.track(body).at_rest = false;
   }
@@ -276,7 +283,7 @@ void Replay::Arrive() {
       world_.Write(body, shown.state, false);
       if (!shown.awake) world_.SetAwake(body, false);
     }
-    display_.Moved(body, Minus(world_.Read(body), shown.state));
+    display_.Moved(body, Apart(world_.Read(body), shown.state));
   }
   journey_.reset();
 }

@@ -57,20 +57,25 @@ void EachDriven(const World& world, const Visit& visit) {
 void Drivers::Find() {
   const Scene& scene = world_.scene();
   driven_.assign(scene.players.size(), {});
+  moved_.assign(scene.players.size(), {});
   belts_.assign(scene.players.size(), 0);
   by_axes_.assign(world_.composition().mechanisms.size(), 0);
   EachDriven(world_, [this](int player, int mechanism, bool by_axes) {
     driven_[static_cast<std::size_t>(player)].push_back(mechanism);
-    if (by_axes) by_axes_[static_cast<std::size_t>(mechanism)] = 1;
+    if (!by_axes) return;
+    moved_[static_cast<std::size_t>(player)].push_back(mechanism);
+    by_axes_[static_cast<std::size_t>(mechanism)] = 1;
   });
   for (const Part& part : scene.parts) {
     const int player = PlayerOf(scene, part.conveyor->player);
     if (player >= 0 && MechanismOf(world_, part.id) < 0)
       belts_[static_cast<std::size_t>(player)] = 1;
   }
-  for (std::vector<int>& all : driven_) {
-    std::sort(all.begin(), all.end());
-    all.erase(std::unique(all.begin(), all.end()), all.end());
+  for (std::vector<std::vector<int>>* lists : {&driven_, &moved_}) {
+    for (std::vector<int>& all : *lists) {
+      std::sort(all.begin(), all.end());
+      all.erase(std::unique(all.begin(), all.end()), all.end());
+    }
   }
 }
 

@@ -26,6 +26,10 @@ class Drivers {
   const std::vector<int>& MechanismsOf(int player) const {
     return driven_[static_cast<std::size_t>(player)];
   }
+  /// Those that the player's axes move: buttons do not count; ascending.
+  const std::vector<int>& MovedBy(int player) const {
+    return moved_[static_cast<std::size_t>(player)];
+  }
   /// Whether any player's axes move the mechanism; buttons do not count.
   bool Driven(int mechanism) const { return by_axes_[static_cast<std::size_t>(mechanism)] != 0; }
   /// Whether the player's inputs move something that this peer simulates, or a belt that does not
@@ -50,6 +54,7 @@ class Drivers {
   const Roles& roles_;
   int revision_ = -1;                     // of which driven_ is
   std::vector<std::vector<int>> driven_;  // by player
+  std::vector<std::vector<int>> moved_;   // by player: by axes
   std::vector<char> by_axes_;             // by mechanism
   std::vector<char> belts_, concerns_;    // by player
 };

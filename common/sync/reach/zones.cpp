@@ -5,16 +5,6 @@
 
 namespace seam {
 
-float Gap(const MovingBox& a, const MovingBox& b) {
-  const Vec2 apart = (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(Vec2(0, 0));
-  return apart.norm();
-}
-
-bool MayMeet(const MovingBox& a, const MovingBox& b, float seconds) {
-  const float slack = kZoneSlack + (a.acceleration + b.acceleration) * seconds * seconds / 2;
-  return Gap(a, b) <= (a.velocity - b.velocity).norm() * seconds + slack;
-}
-
 std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& boxes, float seconds) {
   return MeetingGroups(boxes, seconds, [seconds](int, int) { return seconds; });
 }

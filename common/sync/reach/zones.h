@@ -27,10 +27,16 @@ constexpr float kDrivenAcceleration = 10;
 constexpr float kZoneSlack = 0.25f;
 
 /// Distance of two boxes, m; 0 where they overlap.
-float Gap(const MovingBox& a, const MovingBox& b);
+inline float Gap(const MovingBox& a, const MovingBox& b) {
+  const Vec2 apart = (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(Vec2(0, 0));
+  return apart.norm();
+}
 
 /// Whether the two may touch within `seconds`.
-bool MayMeet(const MovingBox& a, const MovingBox& b, float seconds);
+inline bool MayMeet(const MovingBox& a, const MovingBox& b, float seconds) {
+  const float slack = kZoneSlack + (a.acceleration + b.acceleration) * seconds * seconds / 2;
+  return Gap(a, b) <= (a.velocity - b.velocity).norm() * seconds + slack;
+}
 
 /// All pairs of groups of which a box of each may touch, each once, the lower first, ascending.
 /// `seconds_of` (two groups) is how far ahead to look for that pair, at most `seconds_max`. Found

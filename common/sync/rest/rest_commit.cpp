@@ -5,6 +5,7 @@
 
 #include "common/base/geometry.h"
 #include "common/sync/reconcile/reconcile.h"
+#include "common/sync/rest/rest_disturbed.h"
 #include "common/sync/rest/rest_islands.h"
 #include "common/sync/state_limits.h"
 
@@ -29,34 +30,22 @@ constexpr double kBackAfter = 0.75, kBackAfterTrusted = 2;
 }  // namespace
 
 RestCommit::RestCommit(const SyncConfig& config, World& world, const Roles& roles,
-                       BodyMemory& memory, Display& display, const std::vector<InputTrack>& inputs,
-                       const Reach& reach)
+                       const Drivers& drivers, BodyMemory& memory, Display& display,
+                       const std::vector<InputTrack>& inputs, const Reach& reach)
     : config_(config),
       world_(world),
       roles_(roles),
+      drivers_(drivers),
       memory_(memory),
       display_(display),
       inputs_(inputs),
       reach_(reach),
       table_(world.body_count()),
       watch_(world),
-      disturbed_(static_cast<std::size_t>(world.body_count())),
-      driven_(inputs.size(), false) {}
+      disturbed_(static_cast<std::size_t>(world.body_count())) {}
 
 std::int64_t RestCommit::Ticks(double seconds) const {
   return static_cast<std::int64_t>(seconds * config_.tick_hz);
-}
-
-void RestCommit::FindDriven() {
-  for (std::size_t p = 0; p < inputs_.size(); ++p) {
-    driven_[p] = !(inputs_[p].At(world_.tick() + 1) == Input{});
-  }
-}
-
-bool RestCommit::Driven(int body) const {
-  const auto m = static_cast<std::size_t>(world_.mechanism(body));
-  const int owner = world_.composition().mechanisms[m].owner;
-  return owner >= 0 && driven_[static_cast<std::size_t>(owner)];
 }
 
 /// The authority sends no states of what it has committed: a newer one is the end of it.
@@ -79,6 +68,7 @@ void RestCommit::Put(int body) {
                     now.velocity == pose.velocity && now.spin == pose.spin;
   if (lies && !world_.awake(body)) return;
   BodyState moved = Minus(pose, now);
+  moved.angle = WrapAngle(moved.angle);  // whole turns are nothing to see
   moved.velocity.setZero();
   moved.spin = 0;
   if (!Negligible(moved)) display_.Moved(body, moved);
@@ -105,7 +95,7 @@ void RestCommit::LetGo(int body) {
 
 void RestCommit::BeforeStep() {
   if (Off()) return;
-  FindDriven();
+  if (!Trusts()) driven_ = DrivenIn(world_, drivers_, inputs_, world_.tick() + 1);
   EndOutdated();
   const std::int64_t back_after = Ticks(Trusts() ? kBackAfterTrusted : kBackAfter);
   for (int body = 0; body < world_.body_count(); ++body) {

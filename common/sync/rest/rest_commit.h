@@ -23,6 +23,7 @@
 #include "common/sync/display.h"
 #include "common/sync/input_track.h"
 #include "common/sync/mode.h"
+#include "common/sync/reach/driven.h"
 #include "common/sync/reach/reach.h"
 #include "common/sync/rest/rest_table.h"
 #include "common/sync/rest/rest_watch.h"
@@ -34,8 +35,9 @@ class RestCommit {
  public:
   /// All must outlive this. `inputs`: by player. Does nothing in mode oracle, and where
   /// the scene lets nothing sleep.
-  RestCommit(const SyncConfig& config, World& world, const Roles& roles, BodyMemory& memory,
-             Display& display, const std::vector<InputTrack>& inputs, const Reach& reach);
+  RestCommit(const SyncConfig& config, World& world, const Roles& roles, const Drivers& drivers,
+             BodyMemory& memory, Display& display, const std::vector<InputTrack>& inputs,
+             const Reach& reach);
 
   /// Immediately before a step: what is held is exactly where it rests.
   void BeforeStep();
@@ -82,13 +84,17 @@ class RestCommit {
 
   bool Off() const { return config_.mode == Mode::kOracle || !world_.scene().solver.sleep; }
   /// Where all peers come to the same by the same inputs, what the physics wakes is awake, and what
-  /// it lets sleep sleeps: nothing is held against it.
-  bool Trusts() const { return config_.StampsInputs(roles_.self()); }
+  /// it lets sleep sleeps: nothing is held against it. Likewise where one peer has all of it.
+  bool Trusts() const {
+    return config_.StampsInputs(roles_.self()) || config_.mode == Mode::kCentral;
+  }
   bool Own(int body) const { return roles_.IsAuthority(world_.mechanism(body)); }
   Disturbance& disturbed(int body) { return disturbed_[static_cast<std::size_t>(body)]; }
   std::int64_t Ticks(double seconds) const;
-  void FindDriven();
-  bool Driven(int body) const;
+  /// Between BeforeStep and AfterStep; not where inputs are trusted to wake what they move.
+  bool Driven(int body) const {
+    return !Trusts() && driven_[static_cast<std::size_t>(world_.mechanism(body))];
+  }
   void EndOutdated();
   /// Where and as it rests, its view gliding there.
   void Put(int body);
@@ -107,6 +113,7 @@ class RestCommit {
   const SyncConfig& config_;
   World& world_;
   const Roles& roles_;
+  const Drivers& drivers_;
   BodyMemory& memory_;
   Display& display_;
   const std::vector<InputTrack>& inputs_;
@@ -114,7 +121,7 @@ class RestCommit {
   RestTable table_;
   RestWatch watch_;
   std::vector<Disturbance> disturbed_;  // by body
-  std::vector<bool> driven_;            // by player: its input of this step is not neutral
+  std::vector<bool> driven_;            // by mechanism: an input of this step moves it
   bool edited_ = false;
   std::vector<int> committed_;  // in the last step
   std::int64_t number_ = 0;     // of the next Rest

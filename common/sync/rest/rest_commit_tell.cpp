@@ -155,6 +155,7 @@ bool RestCommit::ReceiveOne(const Rest& rest, std::size_t i) {
   track.asleep_since = world_.tick();
   track.pull.arrived = -1;
   disturbed(body) = Disturbance{};
+  if (places) memory_.snapshots().ForgetAfter(body, rest.tick - 1);  // it was assumed
   memory_.snapshots().Add(body, rest.tick, pose);
   for (std::int64_t tick = rest.tick; tick <= world_.tick(); ++tick) {
     if (BodyState* past = memory_.history().At(tick, body)) *past = pose;

@@ -4,14 +4,18 @@
 
 namespace seam {
 
-bool DrivenIn(const World& world, const std::vector<InputTrack>& inputs, int body,
-              std::int64_t tick) {
-  const auto m = static_cast<std::size_t>(world.mechanism(body));
-  const int owner = world.composition().mechanisms[m].owner;
-  return owner >= 0 && !(inputs[static_cast<std::size_t>(owner)].At(tick) == Input{});
+std::vector<bool> DrivenIn(const World& world, const Drivers& drivers,
+                           const std::vector<InputTrack>& inputs, std::int64_t tick) {
+  std::vector<bool> driven(world.composition().mechanisms.size(), false);
+  for (std::size_t p = 0; p < inputs.size(); ++p) {
+    if (inputs[p].At(tick) == Input{}) continue;
+    for (const int m : drivers.MovedBy(static_cast<int>(p)))
+      driven[static_cast<std::size_t>(m)] = true;
+  }
+  return driven;
 }
 
-std::vector<int> DisturbedRest(const World& world, const BodyMemory& memory,
+std::vector<int> DisturbedRest(const World& world, const Drivers& drivers, const BodyMemory& memory,
                                const std::vector<InputTrack>& inputs) {
   std::vector<int> disturbed;
   bool woken = false;
@@ -19,11 +23,12 @@ std::vector<int> DisturbedRest(const World& world, const BodyMemory& memory,
     woken = woken || (memory.track(body).at_rest && world.awake(body));
   }
   if (!woken) return disturbed;
+  const std::vector<bool> driven = DrivenIn(world, drivers, inputs, world.tick());
   for (const std::vector<int>& island : FindIslands(world)) {
     bool real = false;
     for (const int body : island) {
       const bool struck = world.awake(body) && world.Read(body).velocity.norm() > kRestBlow;
-      real = real || struck || DrivenIn(world, inputs, body, world.tick());
+      real = real || struck || driven[static_cast<std::size_t>(world.mechanism(body))];
     }
     for (const int body : island) {
       if (real && memory.track(body).at_rest && world.awake(body)) disturbed.push_back(body);

@@ -11,7 +11,7 @@ double Worse(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
 
 void Worst::See(const World& world) { worst_ = Worse(worst_, wrong_(world)); }
 
-const Part& PartNamed(const Scene& scene, const std::string& name) {
+const Part& PartNamed(const Scene& scene, std::string_view name) {
   const auto found = std::find_if(scene.parts.begin(), scene.parts.end(),
                                   [&](const Part& part) { return part.name == name; });
   SEAM_ASSERT(found != scene.parts.end());

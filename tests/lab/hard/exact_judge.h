@@ -2,7 +2,7 @@
 /// What the judges of cases with an exact answer share: things found in a scene by name, the worst
 /// of a number over a run, and the pendulum's integral.
 
-#include <string>
+#include <string_view>
 
 #include "tests/lab/hard/hard_case.h"
 
@@ -41,7 +41,7 @@ std::unique_ptr<Judge> MakeJudge(const Scene& scene) {
 }
 
 /// Requires that there is such a part (asserted): the judges know their scenes.
-const Part& PartNamed(const Scene& scene, const std::string& name);
+const Part& PartNamed(const Scene& scene, std::string_view name);
 /// World's index of the moving assembly that this part belongs to. Asserts that there is one.
 int BodyOf(const Scene& scene, PartId part);
 

@@ -1,6 +1,8 @@
 #include "tests/lab/titles/screen.h"
 
 #include <cmath>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include "common/base/check.h"
@@ -9,11 +11,11 @@
 namespace seam {
 namespace {
 
-const Part& PartNamed(const Scene& scene, const std::string& name) {
+const Part& PartNamed(const Scene& scene, std::string_view name) {
   for (const Part& part : scene.parts) {
     if (part.name == name) return part;
   }
-  throw OperatorError("the scene has no part '" + name + "'");
+  throw OperatorError("the scene has no part '" + std::string(name) + "'");
 }
 
 }  // namespace

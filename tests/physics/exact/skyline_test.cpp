@@ -174,9 +174,7 @@ TEST(Skyline, ARowThatOthersImplyGetsNothingAndTheOthersAreSolved) {
 }
 
 TEST(Skyline, CountsWhatAFactorisationMultipliesAtMost) {
-  Skyline skyline;
-  skyline.SetShape({0, 0, 1, 0});  // widths 1, 2, 2, 4
-  EXPECT_EQ(skyline.cost(), 0 + 2 + 2 + 8);
+  EXPECT_EQ(Skyline::Cost({0, 0, 1, 0}), 0 + 2 + 2 + 8);  // widths 1, 2, 2, 4
 }
 
 }  // namespace

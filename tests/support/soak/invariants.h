@@ -78,6 +78,9 @@ class Invariants {
   void LookAtBodies();
   void LookAtRest();
   void LookAtPoses();
+  void NoteStill();
+  bool Lies(PartId body) const;
+  bool IslandLies(const Replica& holder, int body) const;
   const Replica* HolderOf(PartId body) const;
   void LookAtQueues();
   void LookAtClients();

@@ -1,0 +1,65 @@
+/// Of what a receiver is told: only what it would not have guessed from what it was told last.
+
+#include "server/interest/newest_states.h"
+
+#include <gtest/gtest.h>
+
+#include "common/scene/scene.h"
+
+namespace seam {
+namespace {
+
+constexpr int kHz = 60;
+
+class NewestStatesTest : public ::testing::Test {
+ protected:
+  NewestStatesTest()
+      : world_(ParseScene("gravity = [0, 0]\n[[part]]\nname = \"disc\"\ncircle = 0.5\n"
+                          "position = [0, 0]\n",
+                          "disc")),
+        newest_(world_, kHz) {}
+
+  /// The disc at x m after a tick, moving with vx m/s.
+  News Tell(std::int64_t tick, double x, double vx, int epoch = 1) {
+    States states;
+    states.tick = tick;
+    states.id = {0};
+    states.epoch = {epoch};
+    states.flags = {0};
+    states.x = {static_cast<std::int16_t>(std::lround(512 * x))};
+    states.vx = {static_cast<std::int16_t>(std::lround(256 * vx))};
+    states.y = states.angle = states.vy = states.spin = {0};
+    return newest_.Take(states)[0];
+  }
+
+  World world_;
+  NewestStates newest_;
+};
+
+TEST_F(NewestStatesTest, WhatIsHeardOfFirstIsNewsToAllAndWhatGoesOnAsToldToNobody) {
+  EXPECT_FALSE(newest_.has(0));
+  EXPECT_EQ(Tell(0, 0, 2), News::kAll);
+  EXPECT_TRUE(newest_.has(0));
+  for (int tick = 2; tick < 28; tick += 2) {
+    EXPECT_EQ(Tell(tick, 2.0 * tick / kHz, 2), News::kNobody) << tick;
+  }
+  EXPECT_EQ(newest_.at(0).tick, 26);
+}
+
+TEST_F(NewestStatesTest, ATurnIsNewsToTheNearAtOnceAndToTheFarAfterAWhile) {
+  Tell(0, 0, 2);
+  EXPECT_EQ(Tell(2, 0.07, 0), News::kNobody) << "3 mm off";
+  EXPECT_EQ(Tell(6, 0.07, 0), News::kNear) << "13 cm off";
+  EXPECT_EQ(Tell(8, 0.07, 0), News::kNobody) << "the near know that it stands";
+  EXPECT_EQ(Tell(31, 0.07, 0), News::kAll) << "half a second has passed";
+}
+
+TEST_F(NewestStatesTest, ItIsToldAgainNowAndThenAndWhenSomebodyElseSimulatesIt) {
+  Tell(0, 0, 2);
+  EXPECT_EQ(Tell(kHz / 2, 1, 2), News::kAll) << "one may be lost";
+  EXPECT_EQ(Tell(kHz / 2 + 2, 1 + 2 * 2.0 / kHz, 2), News::kNobody);
+  EXPECT_EQ(Tell(kHz / 2 + 4, 1 + 2 * 4.0 / kHz, 2, 2), News::kAll) << "another epoch";
+}
+
+}  // namespace
+}  // namespace seam

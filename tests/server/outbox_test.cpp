@@ -1,0 +1,116 @@
+/// What waits for one receiver: the most urgent first, never more than the budget, nothing lost.
+
+#include "server/interest/outbox.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <set>
+
+#include "common/codec/codec.h"
+#include "common/scene/scene.h"
+
+namespace seam {
+namespace {
+
+constexpr int kBodies = 200;
+constexpr std::int64_t kTickUs = 16667;
+
+class OutboxTest : public ::testing::Test {
+ protected:
+  OutboxTest()
+      : world_(ParseScene(R"(
+gravity = [0, 0]
+[[part]]
+name = "disc"
+circle = 0.1
+position = [0, 0]
+repeat = {count = [20, 10], step = [1, 1]}
+)",
+                          "discs")),
+        newest_(world_, 60) {
+    States states;
+    states.tick = 1;
+    for (int id = 0; id < kBodies; ++id) {
+      states.id.push_back(id);
+      states.epoch.push_back(1);
+      states.flags.push_back(0);
+      for (auto* values :
+           {&states.x, &states.y, &states.angle, &states.vx, &states.vy, &states.spin}) {
+        values->push_back(static_cast<std::int16_t>(id));
+      }
+    }
+    newest_.Take(states);
+  }
+
+  World world_;
+  NewestStates newest_;
+};
+
+TEST_F(OutboxTest, WithoutABudgetAllGoesAtOnceInMessagesThatFit) {
+  Outbox outbox(0);
+  for (int id = 0; id < kBodies; ++id) outbox.Add(0, id, Urgency::kFar);
+  std::set<int> told;
+  for (const States& states : outbox.Compose(0, newest_)) {
+    EXPECT_LE(states.id.size(), kStatesBodiesMax);
+    EXPECT_TRUE(std::is_sorted(states.id.begin(), states.id.end()));
+    for (std::size_t i = 0; i < states.id.size(); ++i) {
+      EXPECT_EQ(states.x[i], states.id[i]) << "it tells of that body";
+      told.insert(states.id[i]);
+    }
+  }
+  EXPECT_EQ(told.size(), static_cast<std::size_t>(kBodies));
+  EXPECT_TRUE(outbox.empty());
+}
+
+TEST_F(OutboxTest, ABudgetIsKeptTheUrgentGoesFirstAndAllGoesInTheEnd) {
+  constexpr double kBudget = 8000;  // bytes/s: about 330 bodies
+  Outbox outbox(kBudget);
+  outbox.Spend(2 * static_cast<std::size_t>(kBudget));  // the room was just sent
+  for (int id = 0; id < kBodies; ++id) {
+    outbox.Add(0, id, id % 10 == 3 ? Urgency::kFollowed : Urgency::kFar);
+  }
+  std::vector<int> told;
+  std::size_t bytes = 0;
+  std::int64_t now_us = 0;
+  for (; !outbox.empty() && now_us < 10'000'000; now_us += kTickUs) {
+    for (const States& states : outbox.Compose(now_us, newest_)) {
+      const std::size_t size = Encode(states).size();
+      outbox.Spend(size);
+      bytes += size;
+      told.insert(told.end(), states.id.begin(), states.id.end());
+    }
+    const auto followed =
+        std::count_if(told.begin(), told.end(), [](int id) { return id % 10 == 3; });
+    if (followed < kBodies / 10) {
+      EXPECT_EQ(followed, static_cast<std::ptrdiff_t>(told.size())) << "they go first";
+    }
+    EXPECT_LE(
+        static_cast<double>(bytes),
+        kBudget * (1e-6 * static_cast<double>(now_us) + 2 * Outbox::kBurst) + kDatagramBytesMax);
+  }
+  EXPECT_TRUE(outbox.empty()) << "what waits becomes urgent";
+  ASSERT_EQ(told.size(), static_cast<std::size_t>(kBodies)) << "each once";
+}
+
+TEST_F(OutboxTest, WhatIsRaisedWhileItWaitsIsThatBody) {
+  Outbox outbox(2000);
+  EXPECT_TRUE(outbox.Compose(0, newest_).empty());
+  outbox.Spend(4000);  // the room
+  for (int i = 0; i < kBodies; ++i) outbox.Add(0, i * 77 % kBodies, Urgency::kFar);
+  std::int64_t now_us = 0;
+  for (; now_us < 100'000; now_us += kTickUs) EXPECT_TRUE(outbox.Compose(now_us, newest_).empty());
+  std::set<int> raised, told;
+  for (int id = 7; id < kBodies; id += 20) raised.insert(id);
+  for (const int id : raised) outbox.Add(now_us, id, Urgency::kFollowed);
+  for (; told.size() < raised.size() && now_us < 10'000'000; now_us += kTickUs) {
+    for (const States& states : outbox.Compose(now_us, newest_)) {
+      outbox.Spend(Encode(states).size());
+      told.insert(states.id.begin(), states.id.end());
+    }
+  }
+  for (const int id : raised) EXPECT_EQ(told.count(id), 1u) << id;
+}
+
+}  // namespace
+}  // namespace seam

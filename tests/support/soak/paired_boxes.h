@@ -1,0 +1,39 @@
+#pragma once
+/// Boxes in pairs that are bonded and broken again, for rooms that have many edits behind them.
+
+#include "common/physics/part_places.h"
+#include "tests/lab/cluster.h"
+
+namespace seam {
+
+/// Of a scene: the boxes, two by two, so far away that nobody is near to them.
+inline const char* const kPairedBoxes = R"(
+[[part]]
+name = "box"
+box = [0.5, 0.5]
+position = [-15, 20]
+repeat = {count = [8, 2], step = [1.5, 0.6]}
+)";
+constexpr int kPairCount = 8;
+
+/// Bonds every pair in one tick and breaks it in the next, `cycles` times. `first`: the id of the
+/// first box.
+inline void BondAndBreak(Cluster* cluster, PartId first, int cycles) {
+  Server& server = cluster->server();
+  const World& world = server.replica().world();
+  for (int i = 0; i < cycles; ++i) {
+    for (int pair = 0; pair < kPairCount; ++pair) {
+      const PartId a = first + 2 * pair;
+      server.Order(Edit(BondAsTheyAre(world, a, a + 1, 0), EditCause::kOutside));
+    }
+    cluster->RunToTick(server.tick() + 1);
+    const std::vector<Joint>& joints = world.scene().joints;
+    for (std::size_t j = 0; j < joints.size(); ++j) {
+      if (joints[j].gone) continue;
+      server.Order(Edit(BreakEdit{static_cast<std::int32_t>(j)}, EditCause::kOutside));
+    }
+    cluster->RunToTick(server.tick() + 1);
+  }
+}
+
+}  // namespace seam
