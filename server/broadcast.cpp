@@ -33,7 +33,9 @@ void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) 
                            [&](Session& session) { session.link.SendUnreliable(whole); });
     return;
   }
-  const std::vector<News>& news = newest_.Take(states);
+  const bool for_silent = from_peer == 0 && states.peer != 0;
+  const double repeat_s = for_silent ? kNewsRepeatSilent : kNewsRepeat;
+  const std::vector<News>& news = newest_.Take(states, repeat_s);
   entries_.clear();
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(states.id[i]);
