@@ -87,9 +87,9 @@ TEST(GrantInterest, WhoIsFarHearsLessAndNeverLongerThanThreeSecondsNothing) {
         }
       }
     }
-    EXPECT_GT(changes[kAnn], 100) << "else this shows nothing";
+    EXPECT_GT(changes[kAnn], 40) << "else this shows nothing";
     EXPECT_GT(changes[kCarl], 10) << "he does hear of them";
-    EXPECT_LT(changes[kCarl], changes[kAnn] / 3) << "several at a time, and no questions";
+    EXPECT_LT(changes[kCarl], changes[kAnn]) << "no questions, and what is over is not told";
     EXPECT_EQ(watch.several, 0);
     EXPECT_EQ(watch.two_holders_of_an_epoch, 0);
     EXPECT_EQ(watch.two_named_in_an_epoch, 0);

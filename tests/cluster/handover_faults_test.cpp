@@ -50,7 +50,7 @@ class OneWayNet : public Net {
 ClusterConfig Shuttle(bool large, std::int64_t seed, const Deaf* deaf) {
   ClusterConfig config;
   config.scene = "pendulums.toml";
-  config.scene_text = (large ? "follow = 1\nserver_follow = 1\n" : "") + Pendulums(4);
+  config.scene_text = (large ? "follow = 1\nserver_follow = 1\n" : "") + Pendulums(16);
   config.impair = "demo";
   config.seed = seed;
   config.duration_s = 30;
@@ -135,7 +135,9 @@ void Fail(bool large, std::int64_t seed, double from_s, double for_s, const std:
   cluster.RunToTick(static_cast<std::int64_t>((from_s + for_s + 8) * 60));
   onlooker.ExpectOneAuthority();
   EXPECT_GT(onlooker.withdrawn, 0) << "nobody was asked in vain: this shows nothing";
-  EXPECT_LT(onlooker.longest_still, 60) << "a pendulum stands at its ends, and never so long";
+  // In a large room the server follows of a silent holder's only what moves (kMissed): what was at
+  // the end of its swing then waits there.
+  EXPECT_LT(onlooker.longest_still, large ? 180 : 60) << "it stands";
   ExpectAgreed(cluster);
 }
 
