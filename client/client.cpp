@@ -56,6 +56,7 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   if (closed_ || !fatal_.empty()) return;
   const std::int64_t silence_us = now_us - answered_us_;
   if (silence_us > kLeaseUs && replica_ != nullptr && !released_) {
+    TellReleaseOfAll(now_us);
     replica_->ReleaseAll();
     released_ = true;
   }

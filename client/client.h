@@ -110,6 +110,8 @@ class Client {
   void OnChunk(std::int64_t now_us, const Chunk& chunk);
   void OnEdit(const EditOrder& order);
   void OnGrants(std::int64_t now_us, const Grants& grants);
+  /// The lease has ended. The server may hear of it although nothing is heard of it.
+  void TellReleaseOfAll(std::int64_t now_us);
   void OnSnapshot(const Snapshot& part);
   /// Of the scene as it is, or as it has become. Instead of one that runs, it goes on from there.
   void MakeReplica(const Topology* become = nullptr);

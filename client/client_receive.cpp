@@ -106,6 +106,20 @@ void Client::OnGrants(std::int64_t now_us, const Grants& grants) {
   link_->SendReliable(Encode(release));
 }
 
+void Client::TellReleaseOfAll(std::int64_t now_us) {
+  const AuthorityTable& table = replica_->authority();
+  Release release;
+  release.utime = now_us;
+  release.tick = replica_->tick();
+  for (int m = 0; m < table.count() && release.mechanism.size() < kReleasesMax; ++m) {
+    if (table.at(m).authority != peer_) continue;
+    release.mechanism.push_back(table.id(m));
+    release.epoch.push_back(table.at(m).epoch);
+  }
+  // One is as good as all of them: the server takes everything back.
+  if (!release.mechanism.empty()) link_->SendReliable(Encode(release));
+}
+
 void Client::OnEdit(const EditOrder& order) {
   if (replica_ == nullptr) return;
   if (order.number >= 0) {

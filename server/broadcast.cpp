@@ -1,5 +1,7 @@
 #include "server/broadcast.h"
 
+#include <utility>
+
 namespace seam {
 
 bool Broadcast::Simulates(int peer, int mechanism) const {
@@ -31,7 +33,9 @@ void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) 
                            [&](Session& session) { session.link.SendUnreliable(whole); });
     return;
   }
-  const std::vector<News>& news = newest_.Take(states);
+  const bool for_silent = from_peer == 0 && states.peer != 0;
+  const double repeat_s = for_silent ? kNewsRepeatSilent : kNewsRepeat;
+  const std::vector<News>& news = newest_.Take(states, repeat_s);
   entries_.clear();
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(states.id[i]);
@@ -52,6 +56,35 @@ void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) 
   });
 }
 
+void Broadcast::Send(std::int64_t now_us, Session& session, std::vector<Grants> messages) {
+  for (Grants& grants : messages) {
+    grants.utime = now_us;
+    sessions_.SendTo(session, Encode(grants));
+  }
+}
+
+void Broadcast::Tell(const std::vector<Grants>& changes) {
+  if (changes.empty()) return;
+  for (const Grants& grants : changes) publisher_.Publish(grants);
+  grant_news_.Take(changes);
+  if (Plain() || interest_.small()) {
+    for (const Grants& grants : changes) sessions_.SendToAll(Encode(grants));
+    return;
+  }
+  const std::int64_t now_us = changes.back().utime;
+  sessions_.ForEachTold(
+      [&](Session& session) { Send(now_us, session, grant_news_.For(session.peer)); });
+}
+
+void Broadcast::TellOwed(std::int64_t now_us) {
+  const std::int64_t every = GrantNews::kOwedS * config_.tick_hz;
+  sessions_.ForEachTold([&](Session& session) {
+    // Not all in the same tick.
+    if ((replica_.tick() + 7 * session.peer) % every != 0) return;
+    Send(now_us, session, grant_news_.Owed(session.peer, GrantNews::Which::kAll));
+  });
+}
+
 void Broadcast::SendWaiting(std::int64_t now_us) {
   sessions_.ForEachReady(0, [&](Session& session) {
     if (session.outbox.empty()) return;
@@ -63,26 +96,40 @@ void Broadcast::SendWaiting(std::int64_t now_us) {
 }
 
 void Broadcast::LookAround(std::int64_t now_us) {
-  stale_ = false;
+  const bool anew = std::exchange(stale_, false);
   if (Plain()) return;
   std::vector<Interest::Receiver> receivers;
   sessions_.ForEachReady(0, [&](const Session& session) {
     receivers.push_back({session.peer, session.player});
   });
   const Composition& made = replica_.world().composition();
-  for (const Interest::Risen& risen : interest_.Look(receivers)) {
+  std::vector<int> near;  // of one receiver: they come one after the other
+  const std::vector<Interest::Risen> all = interest_.Look(receivers);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const Interest::Risen& risen = all[i];
     Session* session = sessions_.Find(risen.peer);
+    near.push_back(risen.mechanism);
+    if (i + 1 == all.size() || all[i + 1].peer != risen.peer) {
+      Send(now_us, *session, grant_news_.Owed(risen.peer, near));
+      near.clear();
+    }
     for (const int assembly :
          made.mechanisms[static_cast<std::size_t>(risen.mechanism)].assemblies) {
       const PartId id = made.assemblies[static_cast<std::size_t>(assembly)].id;
       if (newest_.has(id)) session->outbox.Add(now_us, id, Urgency::kNear);
     }
   }
+  if (!anew) return;
+  // Edits have made others of them: what came near is not known, and what was merged is urgent.
+  sessions_.ForEachTold([&](Session& session) {
+    Send(now_us, session, grant_news_.Owed(session.peer, GrantNews::Which::kNear));
+  });
 }
 
-void Broadcast::Remap(const std::vector<BodyOrigin>& bodies) {
-  newest_.Remap(bodies);
+void Broadcast::Remap(const BodyRemap& change) {
+  newest_.Remap(change.bodies);
   interest_.Remap();
+  grant_news_.Remap(change.mechanisms);
   stale_ = true;
 }
 

@@ -8,6 +8,7 @@
 #include "common/sync/publisher.h"
 #include "common/sync/replica.h"
 #include "server/authority/authority_manager.h"
+#include "server/interest/grant_news.h"
 #include "server/interest/interest.h"
 #include "server/interest/newest_states.h"
 #include "server/sessions/session_table.h"
@@ -24,7 +25,8 @@ class Broadcast {
         replica_(replica),
         sessions_(sessions),
         newest_(replica.world(), config.tick_hz),
-        interest_(scene, config_, replica) {}
+        interest_(scene, config_, replica),
+        grant_news_(replica, interest_) {}
 
   /// On the bus only.
   template <class Message>
@@ -37,9 +39,13 @@ class Broadcast {
     publisher_.Publish(message);
     sessions_.SendToAll(Encode(message));
   }
-  void ToAll(const std::vector<Grants>& messages) {
-    for (const Grants& grants : messages) ToAll(grants);
-  }
+  /// Changes of authority: on the bus, and at once to those whom they concern; the others hear of
+  /// them later (GrantNews). In a small room all of it goes to everyone at once.
+  void Tell(const std::vector<Grants>& changes);
+  /// What peers are owed of such changes by now. Every tick.
+  void TellOwed(std::int64_t now_us);
+  /// A peer was told of all authorities.
+  void NoteTold(int peer) { grant_news_.NoteTold(peer); }
   /// To each of the other peers what concerns it: all of the bodies that it follows, of the others
   /// what is news to it (NewestStates). What is not sent at once waits for SendWaiting. Not on the
   /// bus.
@@ -49,7 +55,7 @@ class Broadcast {
   /// Looks anew at what concerns whom, and tells what concerns somebody more than before.
   void LookAround(std::int64_t now_us);
   /// The bodies have changed; LookAround is due.
-  void Remap(const std::vector<BodyOrigin>& bodies);
+  void Remap(const BodyRemap& change);
   bool stale() const { return stale_; }
   /// Whether a peer simulates a mechanism, or predicts it: whose inputs move it concern that peer.
   bool Simulates(int peer, int mechanism) const;
@@ -66,6 +72,7 @@ class Broadcast {
     int mechanism = 0;
     News news = News::kNobody;
   };
+  void Send(std::int64_t now_us, Session& session, std::vector<Grants> messages);
   /// What is due to a peer of what `entries_` has.
   void FindDue(int peer);
   /// Whether states go to everyone whole: nobody's mode tells apart what concerns whom.
@@ -78,6 +85,7 @@ class Broadcast {
   bool stale_ = false;
   NewestStates newest_;
   Interest interest_;
+  GrantNews grant_news_;
   std::vector<Entry> entries_;                   // of the message that is relayed
   std::vector<std::pair<PartId, Urgency>> due_;  // to the peer that is looked at
 };

@@ -135,6 +135,7 @@ void Server::SendWorld(std::int64_t now_us, Session& session) {
   if (history.size() > static_cast<std::size_t>(kSnapshotPartsMax)) sent = false;
   for (std::size_t i = 0; sent && i < history.size(); ++i) send(history[i]);
   for (const Grants& grants : authority_.Export(now_us)) send(grants);
+  broadcast_.NoteTold(session.peer);
   if (started()) {
     for (const States& states : replica_.Everything()) send(At(now_us, states));
     for (const Rest& rest : replica_.rest().Everything()) send(At(now_us, rest));
@@ -275,7 +276,7 @@ void Server::ApplyQueued(std::int64_t now_us) {
     if (!change) continue;
     authority_.Remap(change->mechanisms);
     filter_.Remap(change->bodies);
-    broadcast_.Remap(change->bodies);
+    broadcast_.Remap(*change);
     if (rule_source_ != nullptr) rule_source_->Remap(change->bodies);
   }
 }
@@ -284,12 +285,13 @@ void Server::UpdateAuthority(std::int64_t now_us) {
   AuthorityManager::Situation situation;
   situation.peer_of_player = sessions_.PeerOfPlayer();
   situation.one_way_s.reserve(situation.peer_of_player.size());
-  for (const int peer : situation.peer_of_player) {
+  for (int& peer : situation.peer_of_player) {
     const Session* session = sessions_.Find(peer);
     const std::int64_t rtt_us = session != nullptr ? session->link.rtt_us() : 0;
     const bool silent = session != nullptr && session->stage == SessionStage::kReady &&
                         now_us - session->link.last_receive_us() > kSilentUs;
     if (silent) situation.silent.Add(peer);
+    if (session != nullptr && session->lapsed) peer = -1;
     situation.load.push_back(session != nullptr ? session->load : -1.0f);
     situation.one_way_s.push_back(static_cast<float>(std::max<std::int64_t>(0, rtt_us)) * 0.5e-6f);
   }
@@ -300,8 +302,9 @@ void Server::UpdateAuthority(std::int64_t now_us) {
     Session* session = sessions_.Find(given.peer);
     if (session != nullptr) session->link.SendReliable(Encode(given.exact));
   }
-  broadcast_.ToAll(grants);
+  broadcast_.Tell(grants);
   UpdateInterest(now_us, !grants.empty());
+  broadcast_.TellOwed(now_us);
   const PeerSet withholding = authority_.Withholding(now_us);
   sessions_.ForEachReady(0, [&](Session& session) {
     if (!withholding.Has(session.peer)) return;

@@ -109,7 +109,7 @@ class Server {
   void OnStates(std::int64_t now_us, Session& session, const States& states);
   void OnRest(std::int64_t now_us, Session& session, const Rest& rest);
   void OnExactStates(std::int64_t now_us, const Session& session, const ExactStates& exact);
-  void OnRelease(const Session& session, const Release& release);
+  void OnRelease(std::int64_t now_us, Session& session, const Release& release);
   void OnImpactReport(const Session& session, const ImpactReport& report);
   void OnProposal(Session& session, const EditOrder& proposal);
 

@@ -56,7 +56,7 @@ void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
   } else if (const auto* exact = std::get_if<ExactStates>(&any)) {
     OnExactStates(now_us, session, *exact);
   } else if (const auto* release = std::get_if<Release>(&any)) {
-    OnRelease(session, *release);
+    OnRelease(now_us, session, *release);
   } else if (const auto* report = std::get_if<ImpactReport>(&any)) {
     OnImpactReport(session, *report);
   } else if (const auto* proposal = std::get_if<EditOrder>(&any)) {
@@ -227,8 +227,13 @@ void Server::OnExactStates(std::int64_t now_us, const Session& session, const Ex
   });
 }
 
-void Server::OnRelease(const Session& session, const Release& release) {
+void Server::OnRelease(std::int64_t now_us, Session& session, const Release& release) {
   for (std::size_t i = 0; i < release.mechanism.size(); ++i) {
+    if (authority_.GivesUp(session.peer, release.mechanism[i], release.epoch[i])) {
+      session.lapsed = true;
+      broadcast_.Tell(authority_.TakeBack(now_us, session.peer));
+      return;
+    }
     switch (authority_.NoteRelease(session.peer, release.mechanism[i], release.epoch[i])) {
       case AuthorityManager::Right::kYes: break;
       case AuthorityManager::Right::kStale: ++stats_.counters.dropped_stale; break;

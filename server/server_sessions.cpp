@@ -39,7 +39,7 @@ void Server::FollowSessions(std::int64_t now_us) {
         if (rules_ != nullptr && event.player >= 0 && event.was_ready) {
           rules_->OnLeave(event.player);
         }
-        broadcast_.ToAll(authority_.TakeBack(now_us, event.peer));
+        broadcast_.Tell(authority_.TakeBack(now_us, event.peer));
         break;
     }
   }

@@ -97,6 +97,10 @@ bool StateFilter::Outdated(int body, const Claim& claim) const {
   return claim.epoch <= last.epoch && claim.tick < last.tick;
 }
 
+std::int32_t StateFilter::EpochOf(int body) const {
+  return replica_.authority().at(replica_.world().mechanism(body)).epoch;
+}
+
 bool StateFilter::MayMove(int body, const Claim& claim) {
   if (body < 0) {
     ++(claim.revision < replica_.revision() ? stats_.dropped_stale : stats_.dropped_right);
@@ -110,6 +114,11 @@ bool StateFilter::MayMove(int body, const Claim& claim) {
     case AuthorityManager::Right::kYes: break;
     case AuthorityManager::Right::kStale: ++stats_.dropped_stale; return false;
     case AuthorityManager::Right::kNo: ++stats_.dropped_right; return false;
+  }
+  // What rests does so in an epoch; its holder says it anew in the next.
+  if (claim.rests && claim.epoch != EpochOf(body)) {
+    ++stats_.dropped_stale;
+    return false;
   }
   if (Outdated(body, claim)) {
     ++stats_.dropped_stale;
@@ -147,6 +156,7 @@ States StateFilter::Keep(std::int64_t now_us, int peer, const States& states) {
     accepted_[static_cast<std::size_t>(body)] = {states.tick, states.epoch[i],
                                                  Unpack(states, i, 0).position};
     AddPose(states, i, &kept);
+    kept.epoch.back() = EpochOf(body);  // who had it all the time may not know the last one yet
     AddMotion(states, i, &kept);
     kept.flags.push_back(states.flags[i]);
   }

@@ -37,6 +37,7 @@ class StateFilter {
   bool MayLookAt(int peer, const States& states);
   /// Whether the i-th body of the message may be moved.
   bool MayRelease(int peer, int body, const ExactStates& exact, std::size_t i);
+  std::int32_t EpochOf(int body) const;
   bool MayMove(int body, const States& states, std::size_t i);
   /// Whether a body may be where a message of that peer, tick, revision and epoch says, in `state`.
   struct Claim {

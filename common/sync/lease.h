@@ -30,6 +30,18 @@ constexpr std::int64_t kReleasePatienceUs = 5000000;
 static_assert(
     kLeaseUs < kReleasePatienceUs,
     "a client that hears nothing must have let go by itself before the server takes back");
+/// A holder that has not answered for so long, us, or for four round trips, is told that it has it
+/// still: until it answers, others would believe that nobody has it, and drop what it says. It is
+/// asked again once it is heard, and that question stands. Shorter withdraws from paths that are
+/// only slow; longer leaves others without a word of what it has.
+constexpr std::int64_t kWithdrawUs = 1000000;
+constexpr int kWithdrawRoundTrips = 4;
+/// us from there until it is asked again.
+constexpr std::int64_t kAskAgainUs = 250000;
+/// us that a question stands at least before its holder is dropped.
+constexpr std::int64_t kAnswerPatienceUs = kReleasePatienceUs - kWithdrawUs - kAskAgainUs;
+static_assert(kLeaseUs < kAnswerPatienceUs,
+              "a client that hears nothing of the last question must have let go by itself");
 static_assert(kPatienceUs < kReleasePatienceUs,
               "who is only cut off would be dropped for not letting go");
 

@@ -38,6 +38,12 @@ std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const Situatio
   plan_due_ = plan_due_ || !(silent_ == situation.silent);
   silent_ = situation.silent;
   replica_.SpeakFor(silent_);
+  round_trip_us_.clear();
+  for (std::size_t p = 0; p < situation.one_way_s.size(); ++p) {
+    const auto peer = static_cast<std::size_t>(std::max(0, situation.peer_of_player[p]));
+    if (round_trip_us_.size() <= peer) round_trip_us_.resize(peer + 1, 0);
+    round_trip_us_[peer] = static_cast<std::int64_t>(2e6f * situation.one_way_s[p]);
+  }
   if (plan_due_ || replica_.tick() % std::max(1, config_.tick_hz / kPlansPerSecond) == 0) {
     plan_due_ = false;
     Plan(now_us, situation);
@@ -88,7 +94,12 @@ bool AuthorityManager::Advance(std::int64_t now_us, int m) {
   Memory& memory = memory_[static_cast<std::size_t>(m)];
   AuthorityRecord record = table().at(m);
   // One authority at a time: the server takes over only once the holder has let go.
-  if (memory.hand_over == HandOver::kRevoking) return true;
+  if (memory.hand_over == HandOver::kRevoking) {
+    if (memory.withdrawn || now_us - memory.revoked_us <= PatienceUs(m)) return true;
+    Withdraw(m);
+    memory.ask_us = now_us + kAskAgainUs;
+    return true;
+  }
   if (memory.hand_over == HandOver::kOvertaken) {
     memory.hand_over = HandOver::kNone;
     record.epoch += 2;  // past all that anybody was told
@@ -104,12 +115,16 @@ bool AuthorityManager::Advance(std::int64_t now_us, int m) {
     replica_.authority().Set(m, record);
     taken_over_ = true;
   }
+  if (record.authority == 0) ForgetQuestions(m);
   const bool kept = record.authority == 0 && replica_.tick() < memory.keep_until_tick;
   const PlannedAuthority& plan = plan_[static_cast<std::size_t>(m)];
   const int authority = kept ? 0 : plan.authority;
   PeerSet secondaries = plan.secondaries;
   if (kept) secondaries.Add(plan.authority);
   if (record.authority != 0 && authority != record.authority) {
+    if (now_us < memory.ask_us) return true;
+    if (memory.withdrawn && silent_.Has(record.authority)) return true;
+    if (!memory.withdrawn) memory.unanswered_us = now_us;
     memory.hand_over = HandOver::kRevoking;
     memory.revoked_us = now_us;
     memory.revoked_id = table().id(m);
@@ -134,17 +149,59 @@ bool AuthorityManager::Advance(std::int64_t now_us, int m) {
   return kept;
 }
 
+std::int64_t AuthorityManager::PatienceUs(int m) const {
+  const auto holder = static_cast<std::size_t>(table().at(m).authority);
+  const std::int64_t rtt_us = holder < round_trip_us_.size() ? round_trip_us_[holder] : 0;
+  return std::max(kWithdrawUs, kWithdrawRoundTrips * rtt_us);
+}
+
+void AuthorityManager::Withdraw(int m) {
+  Memory& memory = memory_[static_cast<std::size_t>(m)];
+  AuthorityRecord record = table().at(m);
+  if (memory.held_from < 0) memory.held_from = record.epoch;
+  memory.hand_over = HandOver::kNone;
+  memory.withdrawn = true;
+  record.epoch += 2;  // the question was one
+  replica_.authority().Set(m, record);
+  changed_.push_back(m);
+}
+
+/// Another has it, or will.
+void AuthorityManager::ForgetQuestions(int m) {
+  Memory& memory = memory_[static_cast<std::size_t>(m)];
+  memory.withdrawn = false;
+  memory.ask_us = 0;
+  memory.held_from = -1;
+}
+
 AuthorityManager::Right AuthorityManager::NoteRelease(int peer, PartId mechanism,
                                                       std::int32_t epoch) {
   const int m = table().IndexOf(mechanism);
   if (m < 0) return Right::kNo;
   const AuthorityRecord& record = table().at(m);
   Memory& memory = memory_[static_cast<std::size_t>(m)];
-  if (epoch <= record.epoch) return Right::kStale;
+  if (epoch <= record.epoch) {
+    // An answer that came too late: what it let go of it was given anew.
+    const bool late = record.authority == peer && memory.held_from >= 0 &&
+                      epoch > memory.held_from && (record.epoch - epoch) % 2 == 1;
+    const bool wanted = late && memory.hand_over == HandOver::kNone && Wanted(m) == peer;
+    if (wanted) memory.withdrawn = false;  // it answers; who answers too late for ever has to leave
+    return late ? Right::kYes : Right::kStale;
+  }
   const bool asked = memory.hand_over == HandOver::kRevoking && record.authority == peer;
   if (!asked || epoch != WithoutHolder(record).epoch) return Right::kNo;
   memory.hand_over = HandOver::kReleased;
   return Right::kYes;
+}
+
+bool AuthorityManager::GivesUp(int peer, PartId mechanism, std::int32_t epoch) const {
+  const int m = table().IndexOf(mechanism);
+  if (m < 0 || peer <= 0) return false;
+  const AuthorityRecord& record = table().at(m);
+  const Memory& memory = memory_[static_cast<std::size_t>(m)];
+  if (record.authority != peer) return false;
+  const std::int32_t from = memory.held_from < 0 ? record.epoch : memory.held_from;
+  return epoch >= from && epoch <= record.epoch && (record.epoch - epoch) % 2 == 0;
 }
 
 AuthorityManager::Right AuthorityManager::RightToRelease(int peer, int body,
@@ -176,7 +233,10 @@ PeerSet AuthorityManager::Withholding(std::int64_t now_us) const {
   for (const int m : open_) {
     const Memory& memory = memory_[static_cast<std::size_t>(m)];
     if (memory.hand_over != HandOver::kRevoking) continue;
-    if (now_us - memory.revoked_us > kReleasePatienceUs) peers.Add(table().at(m).authority);
+    // It has let go by now, or heard nothing for longer than its lease: since the last question.
+    const bool answers = now_us - memory.unanswered_us <= kReleasePatienceUs ||
+                         now_us - memory.revoked_us <= kAnswerPatienceUs;
+    if (!answers) peers.Add(table().at(m).authority);
   }
   return peers;
 }
@@ -201,6 +261,7 @@ std::vector<Grants> AuthorityManager::TakeBack(std::int64_t now_us, int peer) {
     record.secondaries.Remove(peer);
     memory.hand_over = HandOver::kNone;
     replica_.authority().Set(m, record);
+    ForgetQuestions(m);
     changed.push_back(m);
   }
   if (changed.empty()) return {};
@@ -218,6 +279,7 @@ void AuthorityManager::Remap(const std::vector<std::vector<int>>& from) {
       const bool same = then.size() == 1 && before.revoked_id == table().id(m);
       const bool overtaken = before.hand_over != HandOver::kNone && !same;
       if (overtaken) memory.back().hand_over = HandOver::kOvertaken;
+      if (!same) memory.back().held_from = -1;
     }
   }
   memory_ = std::move(memory);
@@ -238,6 +300,11 @@ std::vector<Grants> AuthorityManager::Export(std::int64_t now_us) const {
   return told.Export(now_us, replica_.tick(), all);
 }
 
+int AuthorityManager::Wanted(int mechanism) const {
+  const auto m = static_cast<std::size_t>(mechanism);
+  return m < plan_.size() ? plan_[m].authority : table().at(mechanism).authority;
+}
+
 bool AuthorityManager::Follows(int peer, int body) const {
   return table().at(replica_.world().mechanism(body)).secondaries.Has(peer);
 }
@@ -253,7 +320,13 @@ bool AuthorityManager::InOneHand(const std::vector<int>& mechanisms) const {
 AuthorityManager::Right AuthorityManager::RightToMove(int peer, int body,
                                                       std::int32_t epoch) const {
   const AuthorityRecord& record = table().at(replica_.world().mechanism(body));
-  if (record.authority == peer) return epoch == record.epoch ? Right::kYes : Right::kStale;
+  if (record.authority == peer) {
+    const auto m = static_cast<std::size_t>(replica_.world().mechanism(body));
+    const std::int32_t from = memory_[m].held_from < 0 ? record.epoch : memory_[m].held_from;
+    // Each question took one, in which nobody had it.
+    const bool held = epoch >= from && epoch <= record.epoch && (record.epoch - epoch) % 2 == 0;
+    return held ? Right::kYes : Right::kStale;
+  }
   return epoch < record.epoch ? Right::kStale : Right::kNo;
 }
 

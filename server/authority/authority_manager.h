@@ -53,6 +53,8 @@ class AuthorityManager {
   std::vector<Grants> Export(std::int64_t now_us) const;
   /// Whether the peer has authority over the mechanism, as far as everyone was told.
   bool Has(int peer, int mechanism) const { return table().at(mechanism).authority == peer; }
+  /// Whom the last plan gives a mechanism; its authority where nothing is planned yet.
+  int Wanted(int mechanism) const;
   /// Whether the peer follows a body in its buffer zone.
   bool Follows(int peer, int body) const;
   /// Whether mechanisms have one authority, and none of them is changing hands.
@@ -63,11 +65,16 @@ class AuthorityManager {
     kStale,  ///< of an epoch that is over
     kNo,
   };
-  /// Whether a peer may say, in an epoch, where a body is.
+  /// Whether a peer may say, in an epoch, where a body is: in any in which it had it all the time
+  /// until now.
   Right RightToMove(int peer, int body, std::int32_t epoch) const;
   /// A peer says that it has let go of a mechanism (by its id), as the grant of that epoch told it.
-  /// Believed only of the holder and of exactly that grant; the next Update acts on it.
+  /// Believed only of the holder and of exactly that grant; the next Update acts on it. Of a grant
+  /// that was withdrawn meanwhile it means nothing.
   Right NoteRelease(int peer, PartId mechanism, std::int32_t epoch);
+  /// Whether a peer says of a mechanism, in the epoch in which it has it, that it has let go of it
+  /// although nobody asked: its lease has ended. TakeBack follows.
+  bool GivesUp(int peer, PartId mechanism, std::int32_t epoch) const;
   /// Whether a peer may say where a body was when it let go, as the grant of that epoch told it.
   Right RightToRelease(int peer, int body, std::int32_t epoch) const;
   /// The server's copy of a body that changes hands was off by this much. If that is a lot, the
@@ -94,6 +101,10 @@ class AuthorityManager {
     HandOver hand_over = HandOver::kNone;
     std::int64_t revoked_us = 0;           // when the holder was told to let go
     PartId revoked_id = 0;                 // of what
+    std::int64_t unanswered_us = 0;        // when it was told so first, without an answer yet
+    bool withdrawn = false;                // since then: the next question stands
+    std::int64_t ask_us = 0;               // after that it is not asked before this
+    std::int32_t held_from = -1;           // epoch since which it has it all the time; -1: the last
     std::int64_t keep_until_tick = 0;      // the server's, until its copies have converged
     int last_authority = 0;                // when it was planned last
     std::int64_t changed_tick = -1000000;  // when a plan first saw that authority
@@ -106,6 +117,10 @@ class AuthorityManager {
   void LookAtMechanisms(AuthorityView* view);
   void LookAtCapacity(std::int64_t now_us, const Situation& situation, AuthorityView* view);
   void Plan(std::int64_t now_us, const Situation& situation);
+  /// The holder has not answered: it keeps what it was asked to let go of, an epoch on.
+  void Withdraw(int m);
+  void ForgetQuestions(int m);
+  std::int64_t PatienceUs(int m) const;
   /// Takes the hand-over of a mechanism as far as it can go; false: nothing is left to do before
   /// the next plan.
   bool Advance(std::int64_t now_us, int m);
@@ -128,7 +143,8 @@ class AuthorityManager {
   std::vector<Grants> grants_;  // of this Update
   bool taken_over_ = false;     // in this Update
   std::vector<Given> given_;
-  PeerSet silent_;  // in the last Update
+  PeerSet silent_;                           // in the last Update
+  std::vector<std::int64_t> round_trip_us_;  // by peer, in the last Update
   bool plan_due_ = true;
   std::vector<Memory> memory_;  // by mechanism
 };

@@ -40,6 +40,8 @@ class Interest {
     if (m >= stride_ || p * stride_ >= concern_.size()) return Concern::kNear;
     return concern_[p * stride_ + m];
   }
+  /// Whether all is close to everyone.
+  bool small() const { return small_; }
   /// The mechanisms have changed: in a large room all is near until the next Look.
   void Remap();
 

@@ -41,16 +41,17 @@ float ReachOf(const World& world, int body) {
 
 }  // namespace
 
-bool NewestStates::IsNews(const Body& body, const HeardState& told, const NewsRule& rule) const {
+bool NewestStates::IsNews(const Body& body, const HeardState& told, const NewsRule& rule,
+                          double repeat_s) const {
   const HeardState& now = body.heard;
   if (told.tick < 0 || told.epoch != now.epoch) return true;
   if (((told.flags ^ now.flags) & kStateAsleep) != 0) return true;
   const float seconds = static_cast<float>(now.tick - told.tick) / static_cast<float>(tick_hz_);
-  if (seconds < rule.least) return false;
   constexpr float kQuantum = kPositionQuantum, kSpeed = kVelocityQuantum;
   const float speed = kSpeed * static_cast<float>(std::abs(told.vx) + std::abs(told.vy)) +
                       kSpeed * static_cast<float>(std::abs(told.spin)) * body.reach;
-  if (seconds >= (speed < kSlow ? kNewsRepeatSlow : kNewsRepeat)) return true;
+  if (seconds >= (speed < kSlow ? kNewsRepeatSlow : repeat_s)) return true;
+  if (seconds < rule.least) return false;
   const float x = static_cast<float>(now.x - told.x) * kQuantum - seconds * kSpeed * told.vx;
   const float y = static_cast<float>(now.y - told.y) * kQuantum - seconds * kSpeed * told.vy;
   float off = std::hypot(x, y);
@@ -63,7 +64,7 @@ bool NewestStates::IsNews(const Body& body, const HeardState& told, const NewsRu
   return off > rule.off;
 }
 
-const std::vector<News>& NewestStates::Take(const States& states) {
+const std::vector<News>& NewestStates::Take(const States& states, double repeat_s) {
   const std::size_t count = states.id.size();
   news_.assign(count, News::kNobody);
   together_.resize(world_.composition().mechanisms.size(), News::kNobody);
@@ -80,9 +81,9 @@ const std::vector<News>& NewestStates::Take(const States& states) {
     body.heard = Entry(states, i);
     if (body.reach < 0) body.reach = ReachOf(world_, world_.BodyOfId(states.id[i]));
     News& news = together_[static_cast<std::size_t>(m)];
-    if (IsNews(body, body.far, kFarNews)) {
+    if (IsNews(body, body.far, kFarNews, repeat_s)) {
       news = News::kAll;
-    } else if (news == News::kNobody && IsNews(body, body.near, kNearNews)) {
+    } else if (news == News::kNobody && IsNews(body, body.near, kNearNews, repeat_s)) {
       news = News::kNear;
     }
   }

@@ -42,6 +42,9 @@ constexpr NewsRule kFarNews{0.05f, 0.5};
 /// s after which it is told in any case, so that one may be lost before the receiver's reckoning
 /// ends (kReckonMax); and what is slower than kSlow, m/s, which hardly gets anywhere.
 constexpr double kNewsRepeat = 0.5, kNewsRepeatSlow = 2;
+/// The same of what the server says in a silent holder's name: the holder's last word is half a
+/// second old by then, and may be the one that was lost.
+constexpr double kNewsRepeatSilent = 0.25;
 constexpr float kSlow = 0.05f;
 
 class NewestStates {
@@ -51,7 +54,8 @@ class NewestStates {
 
   /// Takes a message; by its entries, whom they are news to. All of a mechanism that are in it are
   /// news together, as they are shown as one.
-  const std::vector<News>& Take(const States& states);
+  /// `repeat_s`: of what moves, s after which it is told in any case.
+  const std::vector<News>& Take(const States& states, double repeat_s = kNewsRepeat);
   /// Of an assembly. Requires that it has been heard of.
   const HeardState& at(PartId id) const { return bodies_[static_cast<std::size_t>(id)].heard; }
   bool has(PartId id) const {
@@ -66,7 +70,8 @@ class NewestStates {
     HeardState heard, near, far;  // the newest, and what the others were told
     float reach = -1;             // m, of its farthest point from its origin; -1: not known yet
   };
-  bool IsNews(const Body& body, const HeardState& told, const NewsRule& rule) const;
+  bool IsNews(const Body& body, const HeardState& told, const NewsRule& rule,
+              double repeat_s) const;
 
   const World& world_;
   const int tick_hz_;

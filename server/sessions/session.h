@@ -50,6 +50,7 @@ struct Session {
   SessionStage stage = SessionStage::kAdmitted;
   std::int64_t created_us = 0;
   std::int64_t repaired_us = -1000000000;
+  bool lapsed = false;   ///< its lease has ended: it gets no authority before it joins anew
   bool leaving = false;  ///< to be dropped at the next opportunity
   bool goodbye = false;  ///< it said so itself
   std::string leaving_why;

@@ -49,12 +49,15 @@ void SessionTable::ReadAccounts() {
 }
 
 void SessionTable::SendToAll(const Bytes& message, int but_peer) {
-  for (auto& [id, session] : sessions_) {
-    if (session->peer == but_peer) continue;
-    if (session->stage == SessionStage::kAdmitted || session->link.SendReliable(message)) continue;
-    session->leaving = true;
-    session->leaving_why = "does not acknowledge";
-  }
+  ForEachTold([&](Session& session) {
+    if (session.peer != but_peer) SendTo(session, message);
+  });
+}
+
+void SessionTable::SendTo(Session& session, const Bytes& message) {
+  if (session.link.SendReliable(message)) return;
+  session.leaving = true;
+  session.leaving_why = "does not acknowledge";
 }
 
 void SessionTable::Flush(std::int64_t now_us, Stats* stats) {

@@ -77,6 +77,15 @@ class SessionTable {
   /// Reliably, to everyone to whom the room was sent; who never acknowledges has to leave. Not to
   /// peer `but_peer`.
   void SendToAll(const Bytes& message, int but_peer = -1);
+  /// The same to one of them.
+  void SendTo(Session& session, const Bytes& message);
+  /// Calls `visit(Session&)` for everyone to whom the room was sent.
+  template <class Visit>
+  void ForEachTold(Visit visit) {
+    for (auto& [id, session] : sessions_) {
+      if (session->stage != SessionStage::kAdmitted) visit(*session);
+    }
+  }
   /// Calls `visit(Session&)` for all that are ready but one peer.
   template <class Visit>
   void ForEachReady(int but_peer, Visit visit) {

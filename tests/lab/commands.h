@@ -166,6 +166,23 @@ struct LoadCommand {
 /// a signal came.
 int RunLoad(const LoadCommand& command);
 
+struct HandOverCommand {
+  std::vector<std::string> scenes;  ///< files or names
+  int players = 0;                  ///< the first so many of the scene's join; 0: all
+  std::string network = "demo";     ///< of --impair
+  std::string drive = "script";     ///< script | bot
+  double seconds = 0;               ///< after tick 0; 0: the scene's own
+  int seeds = 1;                    ///< from 1
+  std::string table;                ///< CSV file to write or complete
+  int jobs = 1;                     ///< runs at a time
+  bool force = false;               ///< begin the table anew
+  bool quiet = false;               ///< no progress line
+};
+
+/// Tabulates how long changes of authority take in mode buffer, what they look like and what it
+/// costs to tell of them. 1: some runs failed (and left no row), or a signal came.
+int RunHandOver(const HandOverCommand& command);
+
 struct ReportCommand {
   std::string data = "out/report/data";     ///< folder of the tables
   std::string out = "out/report";           ///< folder to write

@@ -198,6 +198,24 @@ CLI::App* DefineLoad(CLI::App& app, LoadCommand& c) {
   return load;
 }
 
+CLI::App* DefineHandOver(CLI::App& app, HandOverCommand& c) {
+  CLI::App* hand_over = app.add_subcommand("hand-over", "how long changes of authority take");
+  hand_over->add_option("SCENES", c.scenes, "scene files or names")->required();
+  hand_over->add_option("-o,--output", c.table, "CSV table to write, or to complete")->required();
+  hand_over->add_option("--players", c.players, "the first so many join (default: all)")
+      ->check(CLI::Range(0, kPlayersMax));
+  hand_over->add_option("--impair", c.network, "profile's name or list (default: demo)");
+  hand_over->add_option("--drive", c.drive, "script | bot")
+      ->check(CLI::IsMember({"script", "bot"}));
+  hand_over->add_option("--seconds", c.seconds, "after tick 0 (default: the scene's own)")
+      ->check(CLI::Range(0.0, kDurationMax));
+  hand_over->add_option("--seeds", c.seeds, "from 1 (default: 1)")->check(CLI::Range(1, 10000));
+  hand_over->add_option("--jobs", c.jobs, "runs at a time (default: 1)")->check(CLI::Range(1, 256));
+  hand_over->add_flag("--force", c.force, "begin the table anew");
+  hand_over->add_flag("--quiet", c.quiet, "no progress line");
+  return hand_over;
+}
+
 CLI::App* DefineReport(CLI::App& app, ReportCommand& c) {
   CLI::App* report = app.add_subcommand("report", "plots and tables of what was swept, as a page");
   report->add_option("DATA", c.data, "folder of CSV tables (default out/report/data)");
@@ -223,6 +241,7 @@ int main(int argc, char** argv) {
   FairnessCommand fairness;
   TitlesCommand titles;
   LoadCommand load;
+  HandOverCommand hand_over;
   ReportCommand report;
   // The subcommands, each with what it runs.
   std::vector<std::pair<const CLI::App*, std::function<int()>>> commands;
@@ -240,6 +259,7 @@ int main(int argc, char** argv) {
                 {DefineFairness(app, fairness), [&] { return RunFairnessTable(fairness); }},
                 {DefineTitles(app, titles), [&] { return RunTitles(titles); }},
                 {DefineLoad(app, load), [&] { return RunLoad(load); }},
+                {DefineHandOver(app, hand_over), [&] { return RunHandOver(hand_over); }},
                 {DefineReport(app, report), [&] { return RunReport(report); }}};
   };
   const ProgramText text{"seam-lab",

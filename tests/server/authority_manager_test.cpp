@@ -42,9 +42,9 @@ region = [[0, -100], [100, 100]]
 
   const AuthorityRecord& Ball() const { return std::as_const(replica_).authority().at(0); }
   /// Plans now.
-  std::vector<Grants> Update() {
+  std::vector<Grants> Update(std::int64_t now_us = 1) {
     manager_.PlanSoon();
-    return manager_.Update(1, situation_);
+    return manager_.Update(now_us, situation_);
   }
 
   Scene scene_;
@@ -121,6 +121,80 @@ TEST_F(AuthorityManagerTest, WhoDoesNotAnswerIsNamedWhenPatienceEndsAndLosesItTw
   EXPECT_EQ(Ball().epoch, 3);
   EXPECT_EQ(manager_.RightToMove(kAnn, 0, 1), Right::kStale);
   EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 2), Right::kStale) << "too late";
+}
+
+TEST_F(AuthorityManagerTest, AHolderThatDoesNotAnswerKeepsItAnEpochOnAndIsAskedAgain) {
+  Update();
+  situation_.peer_of_player = {-1, kBob};
+  Update();
+  EXPECT_TRUE(Update(kWithdrawUs).empty()) << "it may still answer";
+  const std::vector<Grants> withdrawn = Update(kWithdrawUs + 2);
+  ASSERT_EQ(withdrawn.size(), 1u);
+  EXPECT_EQ(withdrawn[0].authority.at(0), kAnn);
+  EXPECT_EQ(withdrawn[0].epoch.at(0), 3) << "the question was the second";
+  EXPECT_TRUE(manager_.InOneHand({0})) << "its edits are ordered again";
+  EXPECT_EQ(manager_.RightToMove(kAnn, 0, 1), Right::kYes) << "it may not know the third yet";
+  EXPECT_EQ(manager_.RightToMove(kAnn, 0, 2), Right::kStale) << "nobody had it in the second";
+  EXPECT_EQ(manager_.RightToMove(kAnn, 0, 3), Right::kYes);
+  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 2), Right::kYes) << "late, and void";
+  Update(kWithdrawUs + 3);
+  EXPECT_TRUE(manager_.Has(kAnn, 0));
+  const std::vector<Grants> again = Update(kWithdrawUs + kAskAgainUs + 3);
+  ASSERT_EQ(again.size(), 1u);
+  EXPECT_EQ(again[0].authority.at(0), 0);
+  EXPECT_EQ(again[0].epoch.at(0), 4);
+  EXPECT_TRUE(Update(3 * kWithdrawUs).empty()) << "this one stands";
+  EXPECT_EQ(manager_.NoteRelease(kAnn, kBall, 4), Right::kYes);
+  Update(3 * kWithdrawUs + 1);
+  EXPECT_TRUE(manager_.Has(0, 0));
+  EXPECT_EQ(manager_.RightToMove(kAnn, 0, 3), Right::kStale);
+  EXPECT_EQ(manager_.Withholding(10 * kReleasePatienceUs), PeerSet());
+}
+
+TEST_F(AuthorityManagerTest, WhoIsSilentIsNotAskedAgainBeforeItIsHeard) {
+  Update();
+  situation_.peer_of_player = {-1, kBob};
+  Update();
+  situation_.silent.Add(kAnn);
+  ASSERT_EQ(Update(kWithdrawUs + 2).size(), 1u);
+  EXPECT_TRUE(Update(kWithdrawUs + kAskAgainUs + 3).empty());
+  situation_.silent.Remove(kAnn);
+  const std::vector<Grants> again = Update(kWithdrawUs + kAskAgainUs + 4);
+  ASSERT_EQ(again.size(), 1u);
+  EXPECT_EQ(again[0].authority.at(0), 0);
+}
+
+TEST_F(AuthorityManagerTest, ALongPathHasFourRoundTripsToAnswer) {
+  Update();
+  situation_.peer_of_player = {-1, kBob};
+  situation_.one_way_s = {0, 0.0f};
+  Update();
+  situation_.peer_of_player = {kAnn, kBob};
+  situation_.one_way_s = {0.5f, 0};  // a round trip of 1 s
+  EXPECT_TRUE(Update(3900000).empty());
+  EXPECT_EQ(Update(4100000).size(), 1u);
+}
+
+TEST_F(AuthorityManagerTest, WithdrawalsDoNotLengthenThePatience) {
+  Update();
+  situation_.peer_of_player = {-1, kBob};
+  PeerSet ann;
+  ann.Add(kAnn);
+  for (std::int64_t now_us = 1; now_us < kReleasePatienceUs; now_us += 10000) {
+    Update(now_us);
+    EXPECT_EQ(manager_.Withholding(now_us), PeerSet()) << now_us;
+  }
+  EXPECT_EQ(Ball().epoch, 3) << "it was withdrawn once";
+  EXPECT_EQ(manager_.Withholding(kReleasePatienceUs + 20000), ann);
+}
+
+TEST_F(AuthorityManagerTest, WhoseLeaseEndsGivesUpWhatItHasAndNothingElse) {
+  Update();
+  EXPECT_TRUE(manager_.GivesUp(kAnn, kBall, 1));
+  EXPECT_FALSE(manager_.GivesUp(kAnn, kBall, 2)) << "nobody has it in that epoch";
+  EXPECT_FALSE(manager_.GivesUp(kBob, kBall, 1)) << "it is not bob's";
+  EXPECT_FALSE(manager_.GivesUp(0, kBall, 1));
+  EXPECT_FALSE(manager_.GivesUp(kAnn, kBall + 1, 1)) << "no such mechanism";
 }
 
 TEST_F(AuthorityManagerTest, WhoAnsweredInTimeIsNotAccusedBeforeTheNextPlan) {

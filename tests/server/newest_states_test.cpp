@@ -20,7 +20,7 @@ class NewestStatesTest : public ::testing::Test {
         newest_(world_, kHz) {}
 
   /// The disc at x m after a tick, moving with vx m/s.
-  News Tell(std::int64_t tick, double x, double vx, int epoch = 1) {
+  News Tell(std::int64_t tick, double x, double vx, int epoch = 1, double repeat_s = kNewsRepeat) {
     States states;
     states.tick = tick;
     states.id = {0};
@@ -29,7 +29,7 @@ class NewestStatesTest : public ::testing::Test {
     states.x = {static_cast<std::int16_t>(std::lround(512 * x))};
     states.vx = {static_cast<std::int16_t>(std::lround(256 * vx))};
     states.y = states.angle = states.vy = states.spin = {0};
-    return newest_.Take(states)[0];
+    return newest_.Take(states, repeat_s)[0];
   }
 
   World world_;
@@ -59,6 +59,14 @@ TEST_F(NewestStatesTest, ItIsToldAgainNowAndThenAndWhenSomebodyElseSimulatesIt) 
   EXPECT_EQ(Tell(kHz / 2, 1, 2), News::kAll) << "one may be lost";
   EXPECT_EQ(Tell(kHz / 2 + 2, 1 + 2 * 2.0 / kHz, 2), News::kNobody);
   EXPECT_EQ(Tell(kHz / 2 + 4, 1 + 2 * 4.0 / kHz, 2, 2), News::kAll) << "another epoch";
+}
+
+TEST_F(NewestStatesTest, WhatIsSaidForASilentHolderIsToldAllTwiceAsOften) {
+  Tell(0, 0, 2);
+  const int quarter = kHz / 4;
+  EXPECT_EQ(Tell(quarter - 1, 2.0 * (quarter - 1) / kHz, 2, 1, kNewsRepeatSilent), News::kNobody);
+  EXPECT_EQ(Tell(quarter, 0.5, 2, 1, kNewsRepeatSilent), News::kAll);
+  EXPECT_EQ(Tell(2 * quarter, 1, 2), News::kNobody) << "its holder is heard again";
 }
 
 }  // namespace

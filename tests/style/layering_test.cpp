@@ -187,6 +187,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"tests/lab/check", "tests/lab"},
       {"tests/lab/exact", "tests/lab(/hard|/report)?"},
       {"tests/lab/gait", "tests/lab"},
+      {"tests/lab/handover", "tests/lab"},
       {"tests/lab/hard", "none"},
       {"tests/lab/hard/mechanisms", "tests/lab/hard"},
       {"tests/lab/report", "tests/lab(/report/(html|joints|sessions))?"},

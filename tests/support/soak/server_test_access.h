@@ -15,6 +15,7 @@ struct ServerTestAccess {
         0, [&](const Session& session) { most = std::max(most, session.link.waiting()); });
     return most;
   }
+  static const AuthorityManager& Authority(const Server& server) { return server.authority_; }
   static std::size_t WaitingEdits(const Server& server) { return server.edits_.waiting(); }
 };
 

@@ -1,0 +1,145 @@
+#include "server/interest/grant_news.h"
+
+namespace seam {
+
+/// At first the server has everything, and nobody was told anything.
+void GrantNews::Begin() {
+  if (!told_.empty()) return;
+  const auto count = static_cast<std::size_t>(replica_.authority().count());
+  told_.assign(count, AuthorityRecord{});
+  owed_.assign(count, PeerSet{});
+  any_owed_.assign(count, false);
+  merged_.assign(count, false);
+}
+
+void GrantNews::Take(const std::vector<Grants>& changes) {
+  Begin();
+  changes_.clear();
+  const AuthorityTable& table = replica_.authority();
+  for (const Grants& grants : changes) {
+    utime_ = grants.utime;
+    for (std::size_t i = 0; i < grants.mechanism.size(); ++i) {
+      Change change;
+      change.mechanism = table.IndexOf(grants.mechanism[i]);
+      if (change.mechanism < 0) continue;
+      const AuthorityRecord& now = table.at(change.mechanism);
+      AuthorityRecord& told = told_[static_cast<std::size_t>(change.mechanism)];
+      change.before = told;
+      if (grants.epoch[i] > now.epoch) {
+        change.asked = now.authority;
+        change.epoch = grants.epoch[i];
+      } else {
+        told = now;
+      }
+      changes_.push_back(change);
+    }
+  }
+}
+
+bool GrantNews::Concerns(int peer, const Change& change, const AuthorityRecord& now) const {
+  const AuthorityRecord& before = change.before;
+  const bool changed = before.authority != now.authority || before.epoch != now.epoch;
+  const bool followed = before.secondaries.Has(peer), follows = now.secondaries.Has(peer);
+  if (followed != follows) return true;
+  const bool holds = now.authority == peer;
+  // Who has it proposes its edits, unless the server follows it.
+  if (holds && before.secondaries.Has(0) != now.secondaries.Has(0)) return true;
+  if (!changed) return false;
+  return holds || before.authority == peer || follows ||
+         interest_.Of(peer, change.mechanism) != Concern::kFar;
+}
+
+std::vector<Grants> GrantNews::For(int peer) {
+  std::vector<Grants> out;
+  for (const Change& change : changes_) {
+    const auto m = static_cast<std::size_t>(change.mechanism);
+    const AuthorityRecord& now = replica_.authority().at(change.mechanism);
+    if (change.asked > 0) {
+      if (change.asked != peer) continue;
+      AuthorityRecord nobody = now;
+      nobody.secondaries.Add(peer);  // it simulates on until it hears who has it
+      nobody.authority = 0;
+      nobody.epoch = change.epoch;
+      Add(peer, change.mechanism, nobody, &out);
+    } else if (Concerns(peer, change, now)) {
+      Add(peer, change.mechanism, now, &out);
+      owed_[m].Remove(peer);
+    } else if (change.before.authority != now.authority || change.before.epoch != now.epoch) {
+      owed_[m].Add(peer);
+      any_owed_[m] = true;
+    }
+  }
+  return out;
+}
+
+std::vector<Grants> GrantNews::Owed(int peer, Which which) {
+  std::vector<int> mechanisms;
+  for (std::size_t m = 0; m < owed_.size(); ++m) {
+    if (!any_owed_[m] || !owed_[m].Has(peer)) continue;
+    const auto mechanism = static_cast<int>(m);
+    const bool near = merged_[m] || interest_.Of(peer, mechanism) != Concern::kFar;
+    if (which == Which::kAll || near) mechanisms.push_back(mechanism);
+  }
+  return Owed(peer, mechanisms);
+}
+
+std::vector<Grants> GrantNews::Owed(int peer, const std::vector<int>& mechanisms) {
+  std::vector<Grants> out;
+  if (owed_.empty()) return out;
+  for (const int mechanism : mechanisms) {
+    const auto m = static_cast<std::size_t>(mechanism);
+    if (!any_owed_[m] || !owed_[m].Has(peer)) continue;
+    owed_[m].Remove(peer);
+    any_owed_[m] = owed_[m].size() > 0;
+    merged_[m] = merged_[m] && any_owed_[m];
+    Add(peer, mechanism, replica_.authority().at(mechanism), &out);
+  }
+  return out;
+}
+
+void GrantNews::NoteTold(int peer) {
+  for (PeerSet& owed : owed_) owed.Remove(peer);
+}
+
+void GrantNews::Remap(const std::vector<std::vector<int>>& from) {
+  if (told_.empty()) return;
+  std::vector<PeerSet> owed(from.size());
+  std::vector<bool> any_owed(from.size(), false), merged(from.size(), false);
+  for (std::size_t m = 0; m < from.size(); ++m) {
+    for (const int old : from[m]) {
+      const auto o = static_cast<std::size_t>(old);
+      owed[m].Add(owed_[o]);
+      any_owed[m] = any_owed[m] || any_owed_[o];
+      merged[m] = merged[m] || merged_[o];
+    }
+    merged[m] = any_owed[m] && (merged[m] || from[m].size() > 1);
+  }
+  owed_ = std::move(owed);
+  any_owed_ = std::move(any_owed);
+  merged_ = std::move(merged);
+  told_.clear();
+  const AuthorityTable& table = replica_.authority();
+  for (int m = 0; m < table.count(); ++m) told_.push_back(table.at(m));
+}
+
+void GrantNews::Add(int peer, int mechanism, const AuthorityRecord& record,
+                    std::vector<Grants>* to) const {
+  if (to->empty() || to->back().mechanism.size() >= kGrantsMax) {
+    to->emplace_back();
+    to->back().utime = utime_;
+    to->back().tick = replica_.tick();
+  }
+  Grants& grants = to->back();
+  grants.mechanism.push_back(replica_.authority().id(mechanism));
+  grants.authority.push_back(static_cast<std::int16_t>(record.authority));
+  grants.epoch.push_back(record.epoch);
+  std::int16_t followers = 0;
+  for (const int follower : {0, peer}) {
+    if (!record.secondaries.Has(follower)) continue;
+    grants.follower.push_back(static_cast<std::int16_t>(follower));
+    ++followers;
+  }
+  grants.followers.push_back(followers);
+}
+
+}  // namespace seam

@@ -1,0 +1,156 @@
+/// In a large room a change of authority is told to those whom it concerns, at once, and to the
+/// others soon: nobody is left with another owner, whatever happens in between.
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <string>
+
+#include "server/load/traffic_count.h"
+#include "tests/lab/cluster.h"
+#include "tests/support/authority_watch.h"
+#include "tests/support/pendulums.h"
+#include "tests/support/soak.h"
+
+namespace seam {
+namespace {
+
+constexpr int kAnn = 0, kCarl = 2;  // clients
+
+/// Pendulums that swing between ann's region and bob's, and carl a kilometre away.
+std::string FarAndNear(int count) {
+  std::string text = "follow = 1\nserver_follow = 1\nbounds = [[-200, -200], [2000, 200]]\n";
+  text += Pendulums(count);
+  text += R"(
+[[player]]
+name = "carl"
+vehicle = "box"
+region = [[900, -100], [1100, 100]]
+[[part]]
+name = "box"
+box = [1, 1]
+position = [1000, 1]
+[[part]]
+name = "ground"
+chain = [[900, 0], [1100, 0]]
+)";
+  return text;
+}
+
+ClusterConfig Room(const std::string& impair, std::int64_t seed = 1) {
+  ClusterConfig config;
+  config.scene = "far.toml";
+  config.scene_text = FarAndNear(8);
+  config.impair = impair;
+  config.seed = seed;
+  return config;
+}
+
+/// Mechanisms of which a client knows another owner or epoch than the server.
+int Strays(Cluster& cluster, int client) {
+  const AuthorityTable& ours = cluster.server().replica().authority();
+  const AuthorityTable& theirs = cluster.client(client)->replica()->authority();
+  int strays = 0;
+  for (int m = 0; m < ours.count(); ++m) {
+    const bool same =
+        ours.at(m).epoch == theirs.at(m).epoch && ours.at(m).authority == theirs.at(m).authority;
+    strays += same ? 0 : 1;
+  }
+  return strays;
+}
+
+TEST(GrantInterest, WhoIsFarHearsLessAndNeverLongerThanThreeSecondsNothing) {
+  for (std::int64_t seed = 1; seed <= Soak(2); ++seed) {
+    Cluster cluster(Room("demo", seed));
+    AuthorityWatch watch;
+    cluster.each_instant = [&] { watch.Look(cluster); };
+    std::map<int, std::int32_t> heard;  // mechanism: the epoch that carl knew
+    std::map<int, std::int64_t> since;  // and the tick at which it was no longer the server's
+    int changes[3] = {0, 0, 0};         // of records, as each client saw them
+    std::map<std::pair<int, int>, std::int32_t> known;
+    cluster.RunToTick(30);
+    while (cluster.server().tick() < 15 * 60) {
+      cluster.RunToTick(cluster.server().tick() + 1);
+      const AuthorityTable& ours = cluster.server().replica().authority();
+      for (int c = 0; c < 3; ++c) {
+        const AuthorityTable& theirs = cluster.client(c)->replica()->authority();
+        for (int m = 0; m < ours.count(); ++m) {
+          const auto [it, fresh] = known.emplace(std::pair(c, m), theirs.at(m).epoch);
+          if (it->second != theirs.at(m).epoch) ++changes[c];
+          it->second = theirs.at(m).epoch;
+          if (c != kCarl) continue;
+          if (theirs.at(m).epoch == ours.at(m).epoch || theirs.at(m).epoch != heard[m]) {
+            since[m] = cluster.server().tick();
+          }
+          heard[m] = theirs.at(m).epoch;
+          ASSERT_LT(cluster.server().tick() - since[m], 3 * 60) << "mechanism " << m;
+        }
+      }
+    }
+    EXPECT_GT(changes[kAnn], 40) << "else this shows nothing";
+    EXPECT_GT(changes[kCarl], 10) << "he does hear of them";
+    EXPECT_LT(changes[kCarl], changes[kAnn]) << "no questions, and what is over is not told";
+    EXPECT_EQ(watch.several, 0);
+    EXPECT_EQ(watch.two_holders_of_an_epoch, 0);
+    EXPECT_EQ(watch.two_named_in_an_epoch, 0);
+  }
+}
+
+TEST(GrantInterest, OnlyTheHolderHearsTheQuestionToLetGo) {
+  Cluster cluster(Room("demo"));
+  cluster.RunToTick(30);
+  int questions = 0;
+  cluster.each_instant = [&] {
+    const AuthorityTable& ours = cluster.server().replica().authority();
+    for (int c = 0; c < 3; ++c) {
+      const AuthorityTable& theirs = cluster.client(c)->replica()->authority();
+      for (int m = 0; m < ours.count(); ++m) {
+        if (theirs.at(m).epoch <= ours.at(m).epoch) continue;
+        ++questions;
+        EXPECT_EQ(cluster.client(c)->peer(), ours.at(m).authority) << "not its business";
+      }
+    }
+  };
+  cluster.RunToTick(8 * 60);
+  EXPECT_GT(questions, 0);
+}
+
+TEST(GrantInterest, AnEditThatMakesOneOfManyLeavesNobodyInAnotherEpoch) {
+  for (std::int64_t seed = 1; seed <= Soak(3); ++seed) {
+    Cluster cluster(Room("4g", seed));
+    cluster.RunToTick(5 * 60 + 7 * seed);
+    const PartId beam = 0;
+    cluster.server().Order(Edit(FreeEdit{beam}, EditCause::kOutside));  // all pendulums are one
+    cluster.RunToTick(cluster.server().tick() + 90);
+    for (int c = 0; c < 3; ++c) {
+      const Replica& theirs = *cluster.client(c)->replica();
+      const Replica& ours = cluster.server().replica();
+      ASSERT_EQ(theirs.revision(), ours.revision()) << "seed " << seed << ", client " << c;
+      const int m = ours.world().mechanism(ours.world().BodyOfId(beam));
+      EXPECT_EQ(theirs.authority().at(m).epoch, ours.authority().at(m).epoch)
+          << "seed " << seed << ", client " << c;
+      EXPECT_EQ(theirs.authority().at(m).authority, ours.authority().at(m).authority)
+          << "seed " << seed << ", client " << c;
+    }
+  }
+}
+
+TEST(GrantInterest, WhoComesBackKnowsAllOwners) {
+  Cluster cluster(Room("demo"));
+  cluster.RunToTick(4 * 60);
+  cluster.Kill(kCarl);
+  cluster.RunToTick(10 * 60);
+  cluster.Revive(kCarl);
+  cluster.RunToTick(14 * 60);
+  ASSERT_TRUE(cluster.client(kCarl)->running());
+  const int mechanisms = cluster.server().replica().authority().count();
+  EXPECT_LT(Strays(cluster, kCarl), mechanisms) << "what changed in the last two seconds at most";
+  cluster.client(kAnn);
+  for (int tick = 0; tick < 3 * 60 && Strays(cluster, kCarl) > 0; ++tick) {
+    cluster.RunToTick(cluster.server().tick() + 1);
+  }
+  EXPECT_EQ(Strays(cluster, kCarl), 0);
+}
+
+}  // namespace
+}  // namespace seam

@@ -1,0 +1,227 @@
+#include "tests/lab/handover/handover.h"
+
+#include <algorithm>
+#include <map>
+#include <memory>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "common/measure/percentile.h"
+#include "server/load/traffic_count.h"
+#include "tests/support/soak/server_test_access.h"
+
+namespace seam {
+namespace {
+
+/// A client's network that counts what arrives by what it carries.
+class CountingNet : public Net {
+ public:
+  CountingNet(std::unique_ptr<Net> inner, TrafficCount* count)
+      : inner_(std::move(inner)), count_(count) {}
+  void Advance(std::int64_t now_us) override { inner_->Advance(now_us); }
+  void Send(const Address& to, ByteView datagram) override { inner_->Send(to, datagram); }
+  void Flush() override { inner_->Flush(); }
+  bool Receive(Address* from, Bytes* datagram) override {
+    if (!inner_->Receive(from, datagram)) return false;
+    count_->Add(*datagram, false);
+    return true;
+  }
+  std::int64_t discarded() const override { return inner_->discarded(); }
+
+ private:
+  std::unique_ptr<Net> inner_;
+  TrafficCount* count_;
+};
+
+/// kB of grants that came, and of everything.
+std::pair<double, double> Came(const TrafficCount& count) {
+  Load load;
+  count.Write(&load);
+  double grants = 0, all = 0;
+  for (std::size_t i = 0; i < load.kind.size(); ++i) {
+    const double kb = static_cast<double>(load.bytes_in[i]) * 1e-3;
+    all += kb;
+    if (load.kind[i] == kTrafficGrants) grants += kb;
+  }
+  return {grants, all};
+}
+
+class Watch {
+ public:
+  explicit Watch(Cluster& cluster) : cluster_(cluster) {}
+
+  /// After every virtual instant.
+  void Look() {
+    FindPeers();
+    const Replica& server = cluster_.server().replica();
+    // Mechanisms are others after an edit, and what was begun of them is not followed on.
+    if (server.revision() != revision_) {
+      revision_ = server.revision();
+      wishes_.assign(static_cast<std::size_t>(server.authority().count()), Wish{});
+      holders_.clear();
+      gaps_due_.clear();
+    }
+    const bool ticked = server.tick() != looked_tick_;
+    looked_tick_ = server.tick();
+    for (int m = 0; m < server.authority().count(); ++m) LookAt(m, ticked);
+    CompareGaps();
+  }
+
+  void Write(double seconds, HandOvers* out) {
+    out->per_s = static_cast<double>(ms_.size()) / seconds;
+    out->dropped_per_s = static_cast<double>(dropped_) / seconds;
+    if (!ms_.empty()) {
+      out->p50_ms = Percentile(ms_, 0.5);
+      out->p99_ms = Percentile(ms_, 0.99);
+      out->max_ms = Percentile(ms_, 1);
+    }
+    if (!gaps_m_.empty()) {
+      out->gap_p95_m = Percentile(gaps_m_, 0.95);
+      out->gap_p95_mps = Percentile(gaps_mps_, 0.95);
+    }
+    out->compared = static_cast<std::int64_t>(gaps_m_.size());
+    out->unsimulated = unsimulated_;
+    out->several = several_;
+    if (looks_ > 0) out->none_share = static_cast<double>(none_) / static_cast<double>(looks_);
+  }
+
+ private:
+  struct Wish {
+    int peer = -1;  // -1: who has it is who is to have it
+    std::int64_t since_us = 0;
+  };
+  struct Gap {
+    int mechanism = 0, before = 0, now = 0;
+    std::int64_t until_tick = 0;
+  };
+
+  void FindPeers() {
+    peers_.clear();
+    const Replica& server = cluster_.server().replica();
+    peers_[0] = &server;
+    for (int c = 0; c < cluster_.client_count(); ++c) {
+      const Client* client = cluster_.client(c);
+      if (client == nullptr || !client->running()) continue;
+      if (client->replica()->revision() == server.revision()) {
+        peers_[client->peer()] = client->replica();
+      }
+    }
+  }
+
+  void LookAt(int m, bool ticked) {
+    const Replica& server = cluster_.server().replica();
+    int holder = -1, believers = 0;
+    bool simulated = false;
+    const auto& mechanisms = server.world().composition().mechanisms;
+    const int first = mechanisms[static_cast<std::size_t>(m)].assemblies.front();
+    const PartId id = server.world().composition().assemblies[static_cast<std::size_t>(first)].id;
+    for (const auto& [peer, replica] : peers_) {
+      const bool has = replica->authority().at(m).authority == peer;
+      believers += has ? 1 : 0;
+      if (has) holder = peer;
+      if (!ticked) continue;
+      const int body = replica->world().BodyOfId(id);
+      simulated = simulated || replica->world().motion(body) == Motion::kDynamic;
+    }
+    several_ += believers > 1 ? 1 : 0;
+    if (ticked) {
+      ++looks_;
+      none_ += believers == 0 ? 1 : 0;
+      unsimulated_ += simulated ? 0 : 1;
+    }
+    FollowWish(m, holder);
+    if (holder >= 0) FollowHolder(m, holder);
+  }
+
+  void FollowWish(int m, int holder) {
+    Wish& wish = wishes_[static_cast<std::size_t>(m)];
+    if (wish.peer >= 0 && holder == wish.peer) {
+      ms_.push_back(static_cast<double>(cluster_.now_us() - wish.since_us) * 1e-3);
+      wish.peer = -1;
+    }
+    const int wanted = ServerTestAccess::Authority(cluster_.server()).Wanted(m);
+    if (wish.peer >= 0 && wanted != wish.peer) {
+      ++dropped_;
+      wish.peer = -1;
+    }
+    if (wish.peer < 0 && holder >= 0 && wanted != holder) wish = {wanted, cluster_.now_us()};
+  }
+
+  void FollowHolder(int m, int holder) {
+    const auto [known, fresh] = holders_.emplace(m, holder);
+    if (fresh || known->second == holder) return;
+    gaps_due_.push_back({m, known->second, holder, peers_.at(holder)->tick() + 4});
+    known->second = holder;
+  }
+
+  /// As soon as both are at the same tick.
+  void CompareGaps() {
+    std::vector<Gap> left;
+    for (const Gap& gap : gaps_due_) {
+      const auto before = peers_.find(gap.before), now = peers_.find(gap.now);
+      if (before == peers_.end() || now == peers_.end()) continue;
+      if (before->second->tick() == now->second->tick()) {
+        Compare(gap.mechanism, before->second->world(), now->second->world());
+      } else if (now->second->tick() < gap.until_tick) {
+        left.push_back(gap);
+      }
+    }
+    gaps_due_ = std::move(left);
+  }
+
+  void Compare(int m, const World& before, const World& now) {
+    const Composition& made = now.composition();
+    for (const int a : made.mechanisms[static_cast<std::size_t>(m)].assemblies) {
+      const PartId id = made.assemblies[static_cast<std::size_t>(a)].id;
+      const int one = before.BodyOfId(id), other = now.BodyOfId(id);
+      // What either has not, or only shows, says nothing.
+      if (before.motion(one) != Motion::kDynamic || now.motion(other) != Motion::kDynamic) continue;
+      const BodyState then = before.Read(one), here = now.Read(other);
+      gaps_m_.push_back(static_cast<double>((here.position - then.position).norm()));
+      gaps_mps_.push_back(static_cast<double>((here.velocity - then.velocity).norm()));
+    }
+  }
+
+  Cluster& cluster_;
+  std::map<int, const Replica*> peers_;  // those that count the same mechanisms
+  int revision_ = -1;
+  std::int64_t looked_tick_ = -1, looks_ = 0, none_ = 0, unsimulated_ = 0, several_ = 0;
+  std::int64_t dropped_ = 0;
+  std::vector<Wish> wishes_;    // by mechanism
+  std::map<int, int> holders_;  // by mechanism: who had it last
+  std::vector<Gap> gaps_due_;
+  std::vector<double> ms_, gaps_m_, gaps_mps_;
+};
+
+}  // namespace
+
+HandOvers MeasureHandOvers(ClusterConfig config) {
+  TrafficCount count;
+  config.keep = config.smooth = false;
+  config.client_net = [&count](std::size_t, std::unique_ptr<Net> net) {
+    return std::make_unique<CountingNet>(std::move(net), &count);
+  };
+  Cluster cluster(config);
+  const double seconds = config.duration_s > 0 ? config.duration_s : cluster.scene().duration_s;
+  const int hz = cluster.scene().solver.tick_hz;
+  cluster.RunToTick(std::min<std::int64_t>(hz, static_cast<std::int64_t>(seconds * hz)));
+  const auto begin = Came(count);
+  Watch watch(cluster);
+  cluster.each_instant = [&watch] { watch.Look(); };
+  const std::int64_t first = cluster.server().tick();
+  cluster.RunToTick(static_cast<std::int64_t>(seconds * hz));
+  const auto end = Came(count);
+  HandOvers out;
+  out.clients = cluster.client_count();
+  out.mechanisms = cluster.server().replica().authority().count();
+  const double span_s = static_cast<double>(cluster.server().tick() - first) / hz;
+  if (span_s <= 0) return out;
+  watch.Write(span_s, &out);
+  const double clients = std::max(1, out.clients);
+  out.grants_kbps = (end.first - begin.first) / (span_s * clients);
+  out.to_client_kbps = (end.second - begin.second) / (span_s * clients);
+  return out;
+}
+
+}  // namespace seam
