@@ -56,15 +56,15 @@ TEST(TickWork, OfWhatIsFarItBeginsWhereItsAuthorityPutsItNear) {
   ASSERT_EQ(replica->world().motion(kFirst), Motion::kAbsent);
   PackedBody body;
   body.id = replica->world().id(kFirst);
-  body.state.position = {5, 0};
-  body.state.velocity = {-2, 0};
+  body.state.position = {0, 1.6f};
+  body.state.velocity = {0, -2};
   States header;
   header.tick = replica->tick();
   header.composition = static_cast<std::int64_t>(replica->world().composition().hash);
   for (const States& packed : Pack(header, {body})) replica->Receive(packed);
   for (int tick = 0; tick < 12; ++tick) replica->Step();
   EXPECT_EQ(replica->world().motion(kFirst), Motion::kLed) << "it may touch the own box";
-  EXPECT_NEAR(replica->world().Read(kFirst).position.x(), 5 - 2 * 12.0 / 60, 0.1);
+  EXPECT_NEAR(replica->world().Read(kFirst).position.y(), 1.6 - 2 * 12.0 / 60, 0.1);
 }
 
 }  // namespace
