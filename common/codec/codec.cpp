@@ -81,7 +81,8 @@ Bytes EncodeAs(const Message& message) {
 
 template <class Message>
 AnyMessage DecodeAs(ByteView bytes) {
-  thread_local typename Wire<Message>::Type wire{};  // keeps its memory: all fields are read
+  // Anew each time: what has no elements is not read, and would keep those of the message before.
+  typename Wire<Message>::Type wire{};
   const int size = static_cast<int>(bytes.size);
   if (wire.decode(bytes.data, 0, size) != size) return {};
   Message message;
