@@ -68,7 +68,7 @@ void SetTotal(const Message&, Generated&, long) {}
 template <class Message>
 Bytes EncodeAs(const Message& message) {
   SEAM_ASSERT(Valid(message));
-  typename Wire<Message>::Type wire{};
+  thread_local typename Wire<Message>::Type wire{};  // keeps its memory: all fields are set
   MessageTraits<Message>::Fields(wire) = MessageTraits<Message>::Fields(message);
   SetCount(message, wire, 0);
   SetTotal(message, wire, 0);
@@ -81,7 +81,7 @@ Bytes EncodeAs(const Message& message) {
 
 template <class Message>
 AnyMessage DecodeAs(ByteView bytes) {
-  typename Wire<Message>::Type wire{};
+  thread_local typename Wire<Message>::Type wire{};  // keeps its memory: all fields are read
   const int size = static_cast<int>(bytes.size);
   if (wire.decode(bytes.data, 0, size) != size) return {};
   Message message;

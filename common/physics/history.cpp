@@ -13,11 +13,15 @@ History::History(int body_count, int capacity_ticks)
   SEAM_ASSERT(body_count >= 0 && capacity_ticks > 0);
 }
 
-void History::Record(std::int64_t tick, const std::vector<BodyState>& states) {
+void History::Begin(std::int64_t tick) {
   SEAM_ASSERT(tick >= 0 && (count_ == 0 || tick == newest_ + 1));
-  SEAM_ASSERT(static_cast<int>(states.size()) == bodies_);
   newest_ = tick;
   count_ = std::min(count_ + 1, capacity_);
+}
+
+void History::Record(std::int64_t tick, const std::vector<BodyState>& states) {
+  SEAM_ASSERT(static_cast<int>(states.size()) == bodies_);
+  Begin(tick);
   std::copy(states.begin(), states.end(), ring_.begin() + (tick % capacity_) * bodies_);
 }
 

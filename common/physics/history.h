@@ -17,6 +17,9 @@ class History {
   /// Notes all bodies' states after `tick`. Requires tick == newest() + 1, or empty and tick >= 0;
   /// use Clear before a jump.
   void Record(std::int64_t tick, const std::vector<BodyState>& states);
+  /// Begins a tick of which no body's state is noted yet: At(tick, body) is what it was long ago
+  /// until it is written. Requires the same.
+  void Begin(std::int64_t tick);
   /// nullptr when the tick is not in the ring.
   const BodyState* At(std::int64_t tick, int body) const;
   BodyState* At(std::int64_t tick, int body);

@@ -70,10 +70,15 @@ void World::Write(int body, const BodyState& state, bool wake) {
   if (!SameBits(now.spin, state.spin)) b->SetAngularVelocity(state.spin);
   if (wake && !was_awake) b->SetAwake(true);
   if (!wake && !was_awake) b->SetAwake(false);
+  if (IsAside(*b)) impl_->NoteAside(body);
 }
 
 bool World::awake(int body) const { return impl_->moving(body).body->IsAwake(); }
-void World::SetAwake(int body, bool awake) { impl_->moving(body).body->SetAwake(awake); }
+void World::SetAwake(int body, bool awake) {
+  b2Body* b = impl_->moving(body).body;
+  b->SetAwake(awake);
+  if (IsAside(*b)) impl_->NoteAside(body);
+}
 
 std::pair<Vec2, Vec2> World::Bounds(int body) const {
   const b2Body* b = impl_->moving(body).body;
@@ -121,6 +126,7 @@ void World::Act(int player, int action) {
   if (assembly < 0) return;  // the part has left
   impl_->built.bodies[static_cast<std::size_t>(assembly)]->ApplyLinearImpulseToCenter(
       ToB2(a.impulse), true);
+  impl_->NoteAllAside();
 }
 
 void World::Step() {
@@ -140,6 +146,7 @@ void World::Step() {
     }
     if (w.led_count > 0) w.PutLedBodiesOnTheirPath(h);
   }
+  if (!w.scene.seats.empty()) w.NoteAllAside();  // a stage may have moved one
   w.MoveAbsentBodies();
   ++w.tick;
   for (const auto& stage : w.stages) stage->AfterTick();

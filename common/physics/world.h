@@ -2,12 +2,14 @@
 /// One simulated world: a scene's assemblies in Box2D, stepped a tick at a time. Deterministic:
 /// the same calls give the same bits, at any optimisation level, in any process.
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "common/base/status.h"
+#include "common/physics/paged.h"
 #include "common/physics/pin.h"
 #include "common/scene/assembly.h"
 #include "common/scene/scene.h"
@@ -66,8 +68,8 @@ struct WorldSnapshot {
   std::int64_t tick = 0;
   std::uint64_t composition = 0;   ///< hash of who was one body with whom
   std::uint64_t joints_there = 0;  ///< hash of which joints there were
-  std::vector<Body> bodies;
-  std::vector<Point> points;  ///< ascending by pair, feature
+  Paged<Body> bodies;              ///< pages of what is absent and has not changed are shared
+  std::vector<Point> points;       ///< ascending by pair, feature
   /// Impulses, N s and N m s, by the scene's joints; empty: broken, or its bodies were absent.
   std::vector<std::vector<float>> joints;
   std::vector<float> speeds;  ///< of motors, rad/s or m/s, by the scene's joints
@@ -119,6 +121,10 @@ class World {
   /// anew; all bodies of a mechanism should be absent together, because no joint holds one that is.
   void SetMotion(int body, Motion motion);
   Motion motion(int body) const;
+  /// Those that are not absent, ascending: what the work of a tick is to be proportional to.
+  const std::vector<int>& present() const;
+  /// How often a body was looked at, or written to, by its index: the work that callers made of it.
+  std::int64_t looks() const;
 
   /// The motors that follow this player's axes from now on. Buttons are not looked at.
   void SetInput(int player, const Input& input);
@@ -160,6 +166,9 @@ class World {
   /// Only while bodies and joints are those of the snapshot, that is, while Apply has returned
   /// nullopt since: else an error, one line, and nothing has changed.
   Status Restore(const WorldSnapshot& snapshot);
+  /// The bodies that may not be as in the snapshot, ascending: all that are present are among them,
+  /// what is absent and lies as it did is not. Requires as many bodies as it has.
+  std::vector<int> ApartFrom(const WorldSnapshot& snapshot) const;
 
   /// FNV-1a over tick, poses, velocities and sleep flags of all bodies, bit for bit.
   std::uint64_t Hash() const;

@@ -75,16 +75,15 @@ b2Joint* AddGear(const Joint& gear, b2Body* a, b2Body* b, b2World* world, const 
 }
 
 /// nullptr: its parts are one body, or one is moved by the tick alone.
-b2Joint* AddJoint(const Scene& scene, const Joint& joint, b2Body* a, b2Body* b, b2World* world,
+b2Joint* AddJoint(const Scene& scene, int index, b2Body* a, b2Body* b, b2World* world,
                   BuiltScene* built) {
+  const Joint& joint = scene.joints[static_cast<std::size_t>(index)];
   if (a == b || (IndexOf(a) < 0 && IndexOf(b) < 0)) return nullptr;  // nothing to hold
   if (IsAside(*a) || IsAside(*b)) return nullptr;
   if (IsRigid(joint, scene.solver)) return nullptr;
   if (HoldOf(joint.kind) == JointHold::kCoupled) return AddGear(joint, a, b, world, *built);
   b2Joint* made = MakeJoint(joint, a, b, world);
-  if (HasMotor(joint)) {
-    built->motors.push_back(MotorOf(joint, made, static_cast<int>(built->joints.size())));
-  }
+  if (HasMotor(joint)) built->motors.push_back(MotorOf(joint, made, index));
   const bool anchored = IndexOf(a) < 0 || IndexOf(b) < 0;
   const bool line = HoldOf(joint.kind) == JointHold::kLine;
   if (line && joint.frequency_hz <= 0 && anchored) {
@@ -101,6 +100,79 @@ b2Body* BodyAside(const Scene& scene, const Assembly& assembly, std::size_t inde
   if (body == nullptr) body = AddBody(scene, assembly, false, &memory->aside, &merged);
   return body;
 }
+
+/// Makes a scene's bodies and joints, one after the other.
+class Builder {
+ public:
+  Builder(const Scene& scene, const Composition& composition, b2World* world, BuildMemory* memory,
+          BuiltScene* built)
+      : scene_(scene),
+        composition_(composition),
+        world_(world),
+        memory_(*memory),
+        built_(*built),
+        shared_(world) {}
+
+  void AddAnchored(int assembly) {
+    const auto a = static_cast<std::size_t>(assembly);
+    const Assembly& of = composition_.assemblies[a];
+    built_.bodies[a] = memory_.share[a] ? AddToShared(scene_, of, &shared_, &built_.merged)
+                                        : AddBody(scene_, of, true, world_, &built_.merged);
+  }
+
+  /// Makes it in the world, or aside if it is to be absent and is not there yet.
+  void AddMoving(int body) {
+    const auto i = static_cast<std::size_t>(body);
+    const auto a = static_cast<std::size_t>(memory_.assembly_of[i]);
+    const Assembly& of = composition_.assemblies[a];
+    const bool absent = memory_.absent[i] != 0;
+    const bool kept = absent && memory_.bodies[i] != nullptr;
+    b2Body* made = absent ? BodyAside(scene_, of, i, &memory_)
+                          : AddBody(scene_, of, true, world_, &built_.merged);
+    built_.bodies[a] = built_.moving[i].body = made;
+    if (kept) return;  // as it was left
+    made->GetUserData().pointer = i + 1;
+    made->SetMassData(&memory_.mass[i]);
+    const Part& root = scene_.parts[static_cast<std::size_t>(of.id)];
+    made->SetLinearVelocity(ToB2(root.velocity));
+    made->SetAngularVelocity(root.spin);
+  }
+
+  void AddJoint(int joint) {
+    const Joint& j = scene_.joints[static_cast<std::size_t>(joint)];
+    b2Joint* made = seam::AddJoint(scene_, joint, BodyOf(j.a), BodyOf(j.b), world_, &built_);
+    built_.joints[static_cast<std::size_t>(joint)] = made;
+    if (made != nullptr) memory_.joints.push_back(joint);
+  }
+
+  /// Indices of those of its bodies that move.
+  std::vector<int> MovingOf(int joint) const {
+    const Joint& j = scene_.joints[static_cast<std::size_t>(joint)];
+    std::vector<int> bodies;
+    for (const PartId part : {j.a, j.b}) {
+      const int body = IndexOf(BodyOf(part));
+      if (body >= 0 && (bodies.empty() || bodies.front() != body)) bodies.push_back(body);
+    }
+    return bodies;
+  }
+
+  void Drive() {
+    for (Motor& motor : built_.motors) motor.Drive(motor.player < 0 ? 1.0f : 0.0f);
+  }
+
+ private:
+  b2Body* BodyOf(PartId part) const {
+    const int assembly = composition_.assembly_of_part[static_cast<std::size_t>(part)];
+    return built_.bodies[static_cast<std::size_t>(assembly)];
+  }
+
+  const Scene& scene_;
+  const Composition& composition_;
+  b2World* world_;
+  BuildMemory& memory_;
+  BuiltScene& built_;
+  AnchoredBodies shared_;
+};
 
 /// Makes as much room in the memory as there are bodies, and takes back those that are absent no
 /// more.
@@ -124,6 +196,10 @@ void BuildMemory::Clear(std::uint64_t hash) {
   }
   bodies.clear();
   absent.clear();
+  anchored.clear();
+  assembly_of.clear();
+  joints_of.clear();
+  joints.clear();
 }
 
 int IndexOf(b2Body* body) { return static_cast<int>(body->GetUserData().pointer) - 1; }
@@ -139,44 +215,73 @@ BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2Worl
     memory->share = ShareBodies(scene, composition);
     memory->share_revision = memory->revision;
   }
-  const std::vector<bool>& share = memory->share;
-  built.bodies.reserve(composition.assemblies.size());
+  memory->anchored.clear();
+  memory->assembly_of.clear();
+  memory->joints_of.assign(memory->bodies.size(), {});
+  memory->joints.clear();
+  built.bodies.resize(composition.assemblies.size(), nullptr);
   built.moving.reserve(memory->bodies.size());
-  built.joints.reserve(scene.joints.size());
-  AnchoredBodies shared(world);
-  for (const Assembly& assembly : composition.assemblies) {
-    const std::size_t index = built.moving.size();
-    const bool absent = !assembly.anchored && memory->absent[index] != 0;
-    const bool kept = absent && memory->bodies[index] != nullptr;
-    b2Body* body = share[built.bodies.size()] ? AddToShared(scene, assembly, &shared, &built.merged)
-                   : absent                   ? BodyAside(scene, assembly, index, memory)
-                            : AddBody(scene, assembly, true, world, &built.merged);
-    built.bodies.push_back(body);
-    if (assembly.anchored) continue;
-    if (memory->mass.size() == index) memory->mass.push_back(MassDataOf(scene, assembly));
-    const b2MassData& mass = memory->mass[index];
-    built.moving.push_back({body, assembly.id, assembly.mechanism, mass});
-    if (kept) continue;  // as it was left
-    body->GetUserData().pointer = built.moving.size();
-    body->SetMassData(&mass);
-    const Part& root = scene.parts[static_cast<std::size_t>(assembly.id)];
-    body->SetLinearVelocity(ToB2(root.velocity));
-    body->SetAngularVelocity(root.spin);
-  }
-  const auto body_of = [&](PartId part) {
-    const int assembly = composition.assembly_of_part[static_cast<std::size_t>(part)];
-    return built.bodies[static_cast<std::size_t>(assembly)];
-  };
-  for (const Joint& joint : scene.joints) {
-    if (joint.gone) {
-      built.joints.push_back(nullptr);
+  built.joints.resize(scene.joints.size(), nullptr);
+  Builder builder(scene, composition, world, memory, &built);
+  for (std::size_t a = 0; a < composition.assemblies.size(); ++a) {
+    const Assembly& assembly = composition.assemblies[a];
+    if (assembly.anchored) {
+      memory->anchored.push_back(static_cast<int>(a));
+      builder.AddAnchored(static_cast<int>(a));
       continue;
     }
-    built.joints.push_back(
-        AddJoint(scene, joint, body_of(joint.a), body_of(joint.b), world, &built));
+    const std::size_t index = built.moving.size();
+    if (memory->mass.size() == index) memory->mass.push_back(MassDataOf(scene, assembly));
+    memory->assembly_of.push_back(static_cast<int>(a));
+    built.moving.push_back({nullptr, assembly.id, assembly.mechanism, memory->mass[index]});
+    builder.AddMoving(static_cast<int>(index));
   }
-  for (Motor& motor : built.motors) motor.Drive(motor.player < 0 ? 1.0f : 0.0f);
+  for (std::size_t j = 0; j < scene.joints.size(); ++j) {
+    if (scene.joints[j].gone) continue;
+    builder.AddJoint(static_cast<int>(j));
+    for (const int body : builder.MovingOf(static_cast<int>(j))) {
+      memory->joints_of[static_cast<std::size_t>(body)].push_back(static_cast<int>(j));
+    }
+  }
+  builder.Drive();
   return built;
+}
+
+void BuildPresent(const Scene& scene, const Composition& composition,
+                  const std::vector<int>& present, const std::vector<int>& crossed, b2World* world,
+                  BuildMemory* memory, BuiltScene* built) {
+  for (const int body : crossed) {
+    const auto i = static_cast<std::size_t>(body);
+    if (memory->absent[i] != 0 || memory->bodies[i] == nullptr) continue;
+    memory->aside.DestroyBody(memory->bodies[i]);
+    memory->bodies[i] = nullptr;
+  }
+  for (const int joint : memory->joints) built->joints[static_cast<std::size_t>(joint)] = nullptr;
+  memory->joints.clear();
+  built->motors.clear();
+  built->tethers.clear();
+  Builder builder(scene, composition, world, memory, built);
+  auto anchored = memory->anchored.begin();
+  const auto add_anchored_before = [&](int assembly) {
+    for (; anchored != memory->anchored.end() && *anchored < assembly; ++anchored) {
+      builder.AddAnchored(*anchored);
+    }
+  };
+  std::vector<int> joints;
+  for (const int body : present) {
+    const auto i = static_cast<std::size_t>(body);
+    add_anchored_before(memory->assembly_of[i]);
+    builder.AddMoving(body);
+    joints.insert(joints.end(), memory->joints_of[i].begin(), memory->joints_of[i].end());
+  }
+  add_anchored_before(static_cast<int>(composition.assemblies.size()));
+  for (const int body : crossed) {
+    if (memory->absent[static_cast<std::size_t>(body)] != 0) builder.AddMoving(body);
+  }
+  std::sort(joints.begin(), joints.end());
+  joints.erase(std::unique(joints.begin(), joints.end()), joints.end());
+  for (const int joint : joints) builder.AddJoint(joint);
+  builder.Drive();
 }
 
 BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2World* world) {

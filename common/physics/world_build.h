@@ -50,6 +50,11 @@ struct BuildMemory {
   b2World aside{b2Vec2(0, 0)};
   std::vector<b2Body*> bodies;  ///< by moving body: in `aside`; nullptr: in the world
   std::vector<char> absent;     ///< by moving body: is to be aside; empty: none
+  /// Of the last whole build, so that only what is present is built again.
+  std::vector<int> anchored;                ///< assemblies
+  std::vector<int> assembly_of;             ///< by moving body
+  std::vector<std::vector<int>> joints_of;  ///< by moving body: the scene's joints at it, ascending
+  std::vector<int> joints;                  ///< that are made
 
   /// What was is of other bodies.
   void Clear(std::uint64_t hash);
@@ -65,7 +70,13 @@ int IndexOf(b2Body* body);
 /// not made.
 BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2World* world,
                       BuildMemory* memory);
-/// The same, with nothing remembered.
+/// The same bodies and joints again, of the same revision of the scene: only those of `present`
+/// moving bodies (ascending) and of anchored assemblies are made, in the order in which BuildScene
+/// would. `crossed`: moving bodies that have come or gone since, as memory->absent says.
+void BuildPresent(const Scene& scene, const Composition& composition,
+                  const std::vector<int>& present, const std::vector<int>& crossed, b2World* world,
+                  BuildMemory* memory, BuiltScene* built);
+/// The same as BuildScene, with nothing remembered.
 BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2World* world);
 
 }  // namespace seam

@@ -24,23 +24,31 @@ struct World::Impl {
     memory.Clear(composition.hash);
     Empty();
     Build();
+    FindPresent(true);
     FindStages();
     Listen();
     for (const auto& stage : stages) stage->Rebuilt(&*world);
   }
 
+  /// Everything.
   void Build() {
     memory.revision = topology.revision();
     built = BuildScene(scene, composition, &*world, &memory);
     motions.assign(built.moving.size(), Motion::kDynamic);
     led_count = 0;
-    float lightest = FLT_MAX;
+    lightest = FLT_MAX;
     for (const MovingBody& m : built.moving) lightest = std::min(lightest, m.mass.mass);
+    gives_all = GivesAll(scene);
+    joints_hash.reset();
+    ForgetPages();
+    Built();
+  }
+
+  /// The bodies and joints of the world are new.
+  void Built() {
     meter.Set(scene.solver.substeps, lightest);
     if (scene.solver.joints == JointSolving::kIterative) return;
-    const bool jointed = std::any_of(built.joints.begin(), built.joints.end(),
-                                     [](const b2Joint* joint) { return joint != nullptr; });
-    if (!jointed && !GivesAll(scene)) return exact.reset();
+    if (memory.joints.empty() && !gives_all) return exact.reset();
     exact.emplace(scene, &*world, built);
     if (!exact->needed()) exact.reset();
   }
@@ -83,18 +91,20 @@ struct World::Impl {
   }
 
   /// What survives when the bodies are made anew.
-  WorldSnapshot Keep() const;
+  WorldSnapshot Keep();
   std::vector<float> Speeds() const;  ///< of motors, by the scene's joints
   /// Whether its bodies and joints are those that are there now.
   Status ValidateSnapshot(const WorldSnapshot& snapshot) const;
   /// Makes everything anew, in the states of the snapshot. What it has of joints that are gone
   /// is left out. The snapshot of stages may be empty: they begin anew, too.
-  /// `new_motions`: by body of the snapshot.
-  void Rebuild(const WorldSnapshot& snapshot, const std::vector<Motion>& new_motions);
+  /// `new_motions`: by body of the snapshot; nullptr: they stay, and so do the bodies.
+  void Rebuild(const WorldSnapshot& snapshot, const std::vector<Motion>* new_motions);
   /// Lets bodies that have become absent, or are so no more, leave the engine or come back.
   void Settle();
   /// Before a rebuild: decides which bodies will be aside.
-  void Arrange(const std::vector<Motion>& new_motions);
+  void Arrange(const std::vector<Motion>& wanted);
+  void ArrangeCrossed();
+  void KnowJoints(bool any_absent);
   /// Hashes of which joints are there, absent bodies' included.
   std::uint64_t JointsHash() const;
   /// Whether the joint holds, or would if its bodies were not absent.
@@ -106,9 +116,21 @@ struct World::Impl {
   void PutLedBodiesOnTheirPath(float h);
   /// After a tick.
   void MoveAbsentBodies();
+  /// By motions: who is present. All else is to be moved aside, if `aside` is not set.
+  void FindPresent(bool aside);
+  void Cross(int body, bool goes);
+  /// Nothing is known of which pages are as they were.
+  void ForgetPages();
+  /// A body that is aside was changed.
+  void NoteAside(int body);
+  /// Any of them may have been.
+  void NoteAllAside();
+  /// Pages of what is present are never as they were.
+  void NotePresent();
 
   const MovingBody& moving(int body) const {
     SEAM_ASSERT(body >= 0 && body < static_cast<int>(built.moving.size()));
+    ++looks;
     return built.moving[static_cast<std::size_t>(body)];
   }
 
@@ -121,10 +143,20 @@ struct World::Impl {
   BuiltScene built;
   std::optional<ExactStep> exact;   // only when there are joints for it
   std::vector<Motion> motions;      // by moving body
+  mutable std::int64_t looks = 0;   // calls of moving()
   int led_count = 0;                // of them kLed
   std::vector<BodyState> led_path;  // by moving body: of led ones, where the step began
   bool unsettled = false;           // some are absent, or are so no more, but still to be moved
-  std::vector<int> absent;          // moving bodies that are aside, ascending
+  std::vector<int> present;         // moving bodies that are not absent, ascending
+  std::vector<int> crossed;         // moving bodies that have come or gone since the last build
+  std::vector<int> awake_aside;     // moving bodies that are aside and may be awake
+  std::vector<char> noted_awake;    // by moving body: it is in awake_aside
+  Paged<WorldSnapshot::Body> kept;  // of the last Keep
+  std::vector<char> stale;          // by page of `kept`: what it tells of may have changed since
+  float lightest = FLT_MAX;         // kg, of the moving bodies
+  bool gives_all = false;           // GivesAll of the scene
+  mutable std::optional<std::uint64_t> joints_hash;  // of this revision
+  mutable int joints_hash_revision = -1;
   /// While bodies are absent: the joints as they were found when none was.
   struct AllPresent {
     std::vector<Pin> pins;

@@ -2,6 +2,8 @@
 /// infinite mass, and in a closed room that pumps energy into all that it touches. A led one is
 /// solved like any other, with its own mass, and only then put where its path takes it.
 
+#include <algorithm>
+
 #include "common/physics/world_impl.h"
 
 namespace seam {
@@ -26,7 +28,7 @@ void World::SetMotion(int body, Motion motion) {
     origin_velocity = m.body->GetLinearVelocityFromLocalPoint(b2Vec2(0, 0));
   }
   const bool moves_aside = now == Motion::kAbsent || motion == Motion::kAbsent;
-  impl_->unsettled = impl_->unsettled || moves_aside;
+  if (moves_aside) impl_->Cross(body, motion == Motion::kAbsent);
   if (motion == Motion::kKinematic && !moves_aside) {
     m.body->SetType(b2_kinematicBody);  // forgets the centre of mass
     m.body->SetLinearVelocity(origin_velocity);
@@ -43,6 +45,56 @@ void World::SetMotion(int body, Motion motion) {
   now = motion;
 }
 
+const std::vector<int>& World::present() const { return impl_->present; }
+std::int64_t World::looks() const { return impl_->looks; }
+
+void World::Impl::FindPresent(bool aside) {
+  present.clear();
+  crossed.clear();
+  awake_aside.clear();
+  noted_awake.assign(motions.size(), 0);
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const bool absent = motions[i] == Motion::kAbsent;
+    if (!absent) present.push_back(static_cast<int>(i));
+    if (absent && !aside) crossed.push_back(static_cast<int>(i));
+  }
+}
+
+/// It is to come or to go, which the next rebuild does.
+void World::Impl::Cross(int body, bool goes) {
+  unsettled = true;
+  crossed.push_back(body);
+  NoteAside(body);
+  const auto at = std::lower_bound(present.begin(), present.end(), body);
+  if (goes) {
+    present.erase(at);
+  } else {
+    present.insert(at, body);
+  }
+}
+
+void World::Impl::ForgetPages() {
+  kept.Resize(built.moving.size());
+  stale.assign(kept.page_count(), 1);
+}
+
+void World::Impl::NoteAside(int body) {
+  const auto i = static_cast<std::size_t>(body);
+  stale[i / kept.kPage] = 1;
+  if (noted_awake[i] != 0 || !built.moving[i].body->IsAwake()) return;
+  noted_awake[i] = 1;
+  awake_aside.push_back(body);
+}
+
+void World::Impl::NoteAllAside() {
+  if (present.size() == motions.size()) return;
+  for (std::size_t i = 0; i < motions.size(); ++i) NoteAside(static_cast<int>(i));
+}
+
+void World::Impl::NotePresent() {
+  for (const int body : present) stale[static_cast<std::size_t>(body) / kept.kPage] = 1;
+}
+
 Motion World::motion(int body) const {
   impl_->moving(body);  // in range
   return impl_->motions[static_cast<std::size_t>(body)];
@@ -50,7 +102,8 @@ Motion World::motion(int body) const {
 
 void World::Impl::LetLedBodiesMove() {
   led_path.resize(built.moving.size());
-  for (std::size_t i = 0; i < built.moving.size(); ++i) {
+  for (const int index : present) {
+    const auto i = static_cast<std::size_t>(index);
     if (motions[i] != Motion::kLed) continue;
     b2Body* body = built.moving[i].body;
     const b2Vec2 velocity = body->GetLinearVelocity();
@@ -61,9 +114,11 @@ void World::Impl::LetLedBodiesMove() {
 }
 
 void World::Impl::PutLedBodiesOnTheirPath(float h) {
-  for (std::size_t i = 0; i < built.moving.size(); ++i) {
+  for (const int index : present) {
+    const auto i = static_cast<std::size_t>(index);
+    if (motions[i] != Motion::kLed) continue;
     b2Body* body = built.moving[i].body;
-    if (motions[i] != Motion::kLed || !body->IsAwake()) continue;
+    if (!body->IsAwake()) continue;
     const BodyState& from = led_path[i];
     body->SetTransform(ToB2(from.position + h * from.velocity), from.angle + h * from.spin);
     body->SetLinearVelocity(ToB2(from.velocity));
@@ -71,16 +126,25 @@ void World::Impl::PutLedBodiesOnTheirPath(float h) {
   }
 }
 
+/// What is aside and sleeps costs nothing.
 void World::Impl::MoveAbsentBodies() {
   const float dt = 1.0f / static_cast<float>(scene.solver.tick_hz);
-  for (const int index : absent) {
+  std::size_t awake = 0;
+  for (const int index : awake_aside) {
     b2Body* body = moving(index).body;
-    if (!body->IsAwake()) continue;
+    const auto i = static_cast<std::size_t>(index);
+    noted_awake[i] = 0;
+    if (!IsAside(*body) || !body->IsAwake()) continue;
+    stale[i / kept.kPage] = 1;
     const bool turns = body->GetAngularVelocity() != 0;
     if (!turns && body->GetLinearVelocity() == b2Vec2(0, 0)) body->SetAwake(false);
     body->SetTransform(body->GetPosition() + dt * body->GetLinearVelocity(),
                        body->GetAngle() + dt * body->GetAngularVelocity());
+    if (!body->IsAwake()) continue;
+    noted_awake[i] = 1;
+    awake_aside[awake++] = index;
   }
+  awake_aside.resize(awake);
 }
 
 }  // namespace seam

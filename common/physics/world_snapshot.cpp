@@ -42,21 +42,27 @@ void EachPoint(b2World* world, const Visit& visit) {
 
 }  // namespace
 
-WorldSnapshot World::Impl::Keep() const {
+WorldSnapshot World::Impl::Keep() {
   WorldSnapshot out;
   out.tick = tick;
   out.composition = composition.hash;
   out.joints_there = JointsHash();
-  out.bodies.reserve(built.moving.size());
-  for (const MovingBody& m : built.moving) {
-    WorldSnapshot::Body body;
-    body.state = {FromB2(m.body->GetPosition()), m.body->GetAngle(),
-                  FromB2(m.body->GetLinearVelocity()), m.body->GetAngularVelocity()};
-    body.awake = m.body->IsAwake();
-    body.quiet_s = m.body->*Member(SleepTime());
-    out.bodies.push_back(body);
+  NotePresent();
+  for (std::size_t page = 0; page < kept.page_count(); ++page) {
+    if (stale[page] == 0) continue;
+    kept.Remake(page, [this](std::size_t i) {
+      const b2Body* b = built.moving[i].body;
+      WorldSnapshot::Body body;
+      body.state = {FromB2(b->GetPosition()), b->GetAngle(), FromB2(b->GetLinearVelocity()),
+                    b->GetAngularVelocity()};
+      body.awake = b->IsAwake();
+      body.quiet_s = b->*Member(SleepTime());
+      return body;
+    });
+    stale[page] = 0;
   }
-  EachPoint(const_cast<b2World*>(&*world), [&](const PointKey& key, const b2ManifoldPoint* point) {
+  out.bodies = kept;
+  EachPoint(&*world, [&](const PointKey& key, const b2ManifoldPoint* point) {
     const auto& [pair, feature] = key;
     out.points.push_back({pair, feature, point->normalImpulse, point->tangentImpulse});
   });
@@ -86,25 +92,35 @@ bool World::Impl::Holds(std::size_t joint) const {
 }
 
 std::uint64_t World::Impl::JointsHash() const {
+  if (joints_hash && joints_hash_revision == topology.revision()) return *joints_hash;
   std::uint64_t hash = Fnv1a("", 0);
   for (std::size_t j = 0; j < built.joints.size(); ++j) {
     const char holds = Holds(j) ? 1 : 0;
     hash = Fnv1a(&holds, 1, hash);
   }
+  joints_hash_revision = topology.revision();
+  joints_hash = hash;
   return hash;
 }
 
 void World::Impl::Settle() {
   if (!unsettled) return;
-  Rebuild(Keep(), std::vector<Motion>(motions));
+  Rebuild(Keep(), nullptr);
 }
 
-/// Before a rebuild: says which bodies are to be aside. While what is remembered is of other
-/// bodies, none is: the next rebuild may move them.
-void World::Impl::Arrange(const std::vector<Motion>& new_motions) {
-  absent.clear();
-  const bool any =
-      std::find(new_motions.begin(), new_motions.end(), Motion::kAbsent) != new_motions.end();
+/// The joints as they are while nothing is absent.
+void World::Impl::KnowJoints(bool any_absent) {
+  if (!any_absent) return all_present.reset();
+  if (all_present) return;
+  all_present.emplace();
+  all_present->pins = FindPins();
+  for (const b2Joint* joint : built.joints) all_present->made.push_back(joint != nullptr ? 1 : 0);
+}
+
+/// Before a rebuild of everything: says which bodies are to be aside. While what is remembered is
+/// of other bodies, none is: the next rebuild may move them.
+void World::Impl::Arrange(const std::vector<Motion>& wanted) {
+  const bool any = std::find(wanted.begin(), wanted.end(), Motion::kAbsent) != wanted.end();
   const bool others = memory.composition != composition.hash;
   unsettled = others && any;
   if (others) {
@@ -112,26 +128,45 @@ void World::Impl::Arrange(const std::vector<Motion>& new_motions) {
     all_present.reset();
     return;
   }
-  if (any && !all_present) {
-    all_present.emplace();
-    all_present->pins = FindPins();
-    for (const b2Joint* joint : built.joints) all_present->made.push_back(joint != nullptr ? 1 : 0);
-  }
-  if (!any) all_present.reset();
-  memory.absent.assign(new_motions.size(), 0);
-  for (std::size_t i = 0; i < new_motions.size(); ++i) {
-    memory.absent[i] = new_motions[i] == Motion::kAbsent ? 1 : 0;
+  KnowJoints(any);
+  memory.absent.assign(wanted.size(), 0);
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    memory.absent[i] = wanted[i] == Motion::kAbsent ? 1 : 0;
   }
 }
 
-void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motion>& new_motions) {
-  Arrange(new_motions);
+/// The same before a rebuild of what is present.
+void World::Impl::ArrangeCrossed() {
+  unsettled = false;
+  KnowJoints(present.size() < motions.size());
+  for (const int body : crossed) {
+    const auto i = static_cast<std::size_t>(body);
+    memory.absent[i] = motions[i] == Motion::kAbsent ? 1 : 0;
+  }
+}
+
+void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motion>* new_motions) {
+  const bool same = new_motions == nullptr && memory.composition == composition.hash &&
+                    memory.revision == topology.revision();
+  std::vector<Motion> wanted;
+  if (!same) wanted = new_motions != nullptr ? *new_motions : motions;
+  same ? ArrangeCrossed() : Arrange(wanted);
   Empty();
   tick = snapshot.tick;  // stages put things where they are then
   // The engine scales the impulses it begins with by the ratio to its last step, which a new world
   // takes for 0: let it have had one.
   world->Step(step_s(), 1, 1);
-  Build();
+  if (same) {
+    BuildPresent(scene, composition, present, crossed, &*world, &memory, &built);
+    for (const int body : crossed) stale[static_cast<std::size_t>(body) / kept.kPage] = 1;
+    crossed.clear();
+    Built();
+  } else {
+    Build();
+    motions = std::move(wanted);
+    FindPresent(!unsettled);
+  }
+  NotePresent();
   SEAM_ASSERT(snapshot.bodies.size() == built.moving.size());
   Listen();
   for (const auto& stage : stages) stage->Rebuilt(&*world);
@@ -139,17 +174,26 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
     const auto index = static_cast<std::size_t>(motor.index);
     if (index < snapshot.speeds.size()) motor.SetSpeed(snapshot.speeds[index]);
   }
-  for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
+  // What is aside, and was so, is as it was unless something has changed it.
+  const auto each = [&](const auto& visit) {
+    for (std::size_t page = 0; page < snapshot.bodies.page_count(); ++page) {
+      if (stale[page] == 0 && snapshot.bodies.Shares(kept, page)) continue;
+      stale[page] = 1;
+      for (std::size_t i = snapshot.bodies.begin(page); i < snapshot.bodies.end(page); ++i) {
+        visit(i, snapshot.bodies[i]);
+      }
+    }
+  };
+  led_count = 0;
+  each([&](std::size_t i, const WorldSnapshot::Body& body) {
     b2Body* b = built.moving[i].body;
-    motions[i] = new_motions[i];
     if (motions[i] == Motion::kKinematic) b->SetType(b2_kinematicBody);
     if (motions[i] == Motion::kLed) ++led_count;
-    const BodyState& state = snapshot.bodies[i].state;
+    const BodyState& state = body.state;
     const bool aside = IsAside(*b);
-    if (aside) absent.push_back(static_cast<int>(i));
     const bool there = b->GetPosition() == ToB2(state.position) && b->GetAngle() == state.angle;
     if (!aside || !there) b->SetTransform(ToB2(state.position), state.angle);
-  }
+  });
   for (const auto& stage : stages) stage->Placed();
   // No time passes, but contacts are found, which wakes what they touch.
   world->Step(0, 1, 1);
@@ -166,14 +210,14 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
     std::size_t next = 0;
     for (float* impulse : ImpulsesOf(built.joints[j])) *impulse = snapshot.joints[j].at(next++);
   }
-  for (std::size_t i = 0; i < snapshot.bodies.size(); ++i) {
-    const WorldSnapshot::Body& body = snapshot.bodies[i];
+  each([&](std::size_t i, const WorldSnapshot::Body& body) {
     b2Body* b = built.moving[i].body;
     b->SetLinearVelocity(ToB2(body.state.velocity));
     b->SetAngularVelocity(body.state.spin);
     b->SetAwake(body.awake);
     b->*Member(SleepTime()) = body.quiet_s;
-  }
+    if (IsAside(*b)) NoteAside(static_cast<int>(i));
+  });
   std::size_t taken = 0;
   if (!snapshot.stages.empty()) {
     for (const auto& stage : stages) taken += stage->Load(snapshot.stages.data() + taken);
@@ -190,6 +234,19 @@ WorldSnapshot World::Barrier() {
   return snapshot;
 }
 
+std::vector<int> World::ApartFrom(const WorldSnapshot& snapshot) const {
+  SEAM_ASSERT(snapshot.bodies.size() == impl_->kept.size());
+  impl_->NotePresent();
+  std::vector<int> apart;
+  for (std::size_t page = 0; page < impl_->kept.page_count(); ++page) {
+    if (impl_->stale[page] == 0 && snapshot.bodies.Shares(impl_->kept, page)) continue;
+    for (std::size_t i = impl_->kept.begin(page); i < impl_->kept.end(page); ++i) {
+      apart.push_back(static_cast<int>(i));
+    }
+  }
+  return apart;
+}
+
 Status World::Impl::ValidateSnapshot(const WorldSnapshot& snapshot) const {
   if (snapshot.composition != composition.hash || snapshot.bodies.size() != built.moving.size()) {
     return Status::Error("the world cannot go back to tick " + std::to_string(snapshot.tick) +
@@ -203,8 +260,7 @@ Status World::Impl::ValidateSnapshot(const WorldSnapshot& snapshot) const {
 Status World::Restore(const WorldSnapshot& snapshot) {
   const Status good = impl_->ValidateSnapshot(snapshot);
   if (!good.ok()) return good;
-  const std::vector<Motion> motions = impl_->motions;  // Rebuild begins them anew
-  impl_->Rebuild(snapshot, motions);
+  impl_->Rebuild(snapshot, nullptr);
   return Status::Ok();
 }
 

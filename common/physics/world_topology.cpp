@@ -162,14 +162,14 @@ BodyState StateOf(const Before& before, const Scene& scene, const Assembly& now,
 
 /// Moves what bonds carry along. Velocities stay: so does momentum. Returns by how much.
 std::vector<BodyState> Carry(const Before& before, const Scene& scene, const Composition& now,
-                             WorldSnapshot* snapshot) {
+                             std::vector<WorldSnapshot::Body>* bodies) {
   std::vector<BodyState> states;
-  for (const WorldSnapshot::Body& body : snapshot->bodies) states.push_back(body.state);
+  for (const WorldSnapshot::Body& body : *bodies) states.push_back(body.state);
   std::vector<BodyState> jumps =
       CarriedAlong({before.composition, before.parts, before.states}, {now, scene.parts, states});
   for (std::size_t i = 0; i < jumps.size(); ++i) {
     if (jumps[i].position == Vec2(0, 0) && jumps[i].angle == 0) continue;
-    WorldSnapshot::Body& body = snapshot->bodies[i];
+    WorldSnapshot::Body& body = (*bodies)[i];
     body.state.position += jumps[i].position;
     body.state.angle += jumps[i].angle;
     body.awake = true;
@@ -249,6 +249,7 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
     WorldSnapshot snapshot;
     snapshot.tick = w.tick;
     std::vector<Motion> motions;
+    std::vector<WorldSnapshot::Body> bodies;
     for (const Assembly& now : w.composition.assemblies) {
       if (now.anchored) continue;
       const BodyOrigin origin = OriginOf(before, w.scene, now);
@@ -264,11 +265,12 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
         body.awake = then.awake;
         body.quiet_s = then.quiet_s;
       }
-      snapshot.bodies.push_back(body);
+      bodies.push_back(body);
       out->bodies.push_back(origin);
     }
     out->mechanisms = MechanismsFrom(before, w.composition);
-    if (bonded) out->jumps = Carry(before, w.scene, w.composition, &snapshot);
+    if (bonded) out->jumps = Carry(before, w.scene, w.composition, &bodies);
+    snapshot.bodies.Take(bodies);
     snapshot.points = kept.points;
     snapshot.joints = kept.joints;
     snapshot.speeds = kept.speeds;
@@ -276,7 +278,7 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
     w.FindStages();
     if (w.stages.size() == stages) snapshot.stages = kept.stages;
     w.memory.composition = 0;  // what is remembered is of other bodies or joints
-    w.Rebuild(snapshot, motions);
+    w.Rebuild(snapshot, &motions);
     w.impacts.clear();
   }
   for (const Edit& edit : edits) Do(edit);
@@ -302,6 +304,7 @@ void World::Do(const Edit& edit) {
     Follow(static_cast<int>(w.scene.players.size()) + seat->seat, Input{});  // nobody drives on
   }
   for (const auto& stage : w.stages) stage->Edited(edit);
+  w.NoteAllAside();
 }
 
 void World::Push(const PushEdit& edit) {

@@ -11,14 +11,15 @@ class ConveyorStage : public Stage {
       : world_(world), inputs_(world.scene.players.size() + world.scene.seats.size()) {}
 
   void Rebuilt(b2World* /*world*/) override {
-    speeds_.assign(world_.scene.parts.size(), 0);
-    for (const Part& part : world_.scene.parts) Set(part);
+    if (revision_ != world_.topology.revision()) FindBelts();
+    for (const PartId belt : belts_) Set(PartAt(belt));
   }
   void SetInput(int player, const Input& input) override {
     Input& last = inputs_[static_cast<std::size_t>(player)];
     if (last == input) return;
     last = input;
-    for (const Part& part : world_.scene.parts) {
+    for (const PartId belt : belts_) {
+      const Part& part = PartAt(belt);
       if (part.conveyor->player == player && Set(part)) WakeWhatLiesOn(part);
     }
   }
@@ -31,6 +32,15 @@ class ConveyorStage : public Stage {
   }
 
  private:
+  const Part& PartAt(PartId id) const { return world_.scene.parts[static_cast<std::size_t>(id)]; }
+  void FindBelts() {
+    revision_ = world_.topology.revision();
+    speeds_.assign(world_.scene.parts.size(), 0);
+    belts_.clear();
+    for (const Part& part : world_.scene.parts) {
+      if (part.conveyor->speed != 0) belts_.push_back(part.id);
+    }
+  }
   /// True if the part's speed is another one now.
   bool Set(const Part& part) {
     const Conveyor& c = *part.conveyor;
@@ -49,6 +59,7 @@ class ConveyorStage : public Stage {
     const int assembly = world_.composition.assembly_of_part[static_cast<std::size_t>(part.id)];
     if (assembly < 0) return;
     b2Body* body = world_.built.bodies[static_cast<std::size_t>(assembly)];
+    if (IsAside(*body)) return;  // nothing lies on it
     for (b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
       if (edge->contact->IsTouching()) edge->other->SetAwake(true);
     }
@@ -58,6 +69,8 @@ class ConveyorStage : public Stage {
   const StageWorld world_;
   std::vector<Input> inputs_;  // by player, then by seat
   std::vector<float> speeds_;  // by part, m/s
+  std::vector<PartId> belts_;  // parts with a conveyor
+  int revision_ = -1;          // of the scene, of which these are
 };
 
 }  // namespace

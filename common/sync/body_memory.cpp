@@ -1,6 +1,7 @@
 #include "common/sync/body_memory.h"
 
 #include <algorithm>
+#include <numeric>
 
 namespace seam {
 namespace {
@@ -22,6 +23,7 @@ BodyMemory::BodyMemory(const SyncConfig& config, const World& world)
   for (int body = 0; body < world.body_count(); ++body) snapshots_.Add(body, 0, world.Read(body));
   // Of a world that begins as it has become nobody knows when each body did.
   for (BodyTrack& track : bodies_) track.changed_at = world.topology().revision();
+  Tend();
 }
 
 const BodyState* BodyMemory::ComparablePast(int body, std::int64_t tick) const {
@@ -55,18 +57,54 @@ void BodyMemory::NoteContacts(const AuthorityTable& table) {
 }
 
 void BodyMemory::Record() {
-  std::vector<BodyState> states;
-  states.reserve(bodies_.size());
-  for (int body = 0; body < world_.body_count(); ++body) states.push_back(world_.Read(body));
-  history_.Record(world_.tick(), states);
+  history_.Begin(world_.tick());
+  for (const int body : tended_) *history_.At(world_.tick(), body) = world_.Read(body);
+}
+
+/// All of them.
+void BodyMemory::Tend() {
+  parked_.assign(bodies_.size(), {});
+  news_.clear();
+  tended_.resize(bodies_.size());
+  std::iota(tended_.begin(), tended_.end(), 0);
+}
+
+void BodyMemory::Park(int body) {
+  parked_[static_cast<std::size_t>(body)] = {world_.tick(), world_.Read(body)};
+  tended_.erase(std::lower_bound(tended_.begin(), tended_.end(), body));
+}
+
+void BodyMemory::FillPast(int body) {
+  const Parked& parked = parked_[static_cast<std::size_t>(body)];
+  const std::int64_t first = std::max(parked.since + 1, history_.oldest());
+  for (std::int64_t tick = first; tick <= history_.newest(); ++tick) {
+    *history_.At(tick, body) = parked.pose;
+  }
+}
+
+void BodyMemory::Unpark(int body) {
+  if (!parked(body)) return;
+  FillPast(body);
+  parked_[static_cast<std::size_t>(body)].since = -1;
+  tended_.insert(std::lower_bound(tended_.begin(), tended_.end(), body), body);
+}
+
+void BodyMemory::UnparkAll() {
+  if (tended_.size() == bodies_.size()) return;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    if (parked(static_cast<int>(i))) FillPast(static_cast<int>(i));
+  }
+  Tend();
 }
 
 void BodyMemory::StartAnew() {
   for (BodyTrack& body : bodies_) body.placed = false;
+  Tend();
   history_.Clear();
 }
 
 void BodyMemory::Remap(const BodyRemap& change) {
+  UnparkAll();
   std::vector<BodyState> now;
   for (int body = 0; body < world_.body_count(); ++body) now.push_back(world_.Read(body));
   history_.Remap(change.bodies, now);
@@ -89,6 +127,7 @@ void BodyMemory::Remap(const BodyRemap& change) {
     if (BodyState* past = history_.At(world_.tick(), body)) *past = now[i];
   }
   bodies_ = std::move(bodies);
+  Tend();
 
   std::vector<MechanismTrack> mechanisms;
   for (const std::vector<int>& from : change.mechanisms) {

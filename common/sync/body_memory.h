@@ -69,6 +69,29 @@ class BodyMemory {
   void NoteContacts(const AuthorityTable& table);
   /// At the end of a tick: all poses become past.
   void Record();
+
+  // What a peer only displays and nobody looks at lies parked: absent, asleep, in one pose. No tick
+  // looks at it, and its past is that pose.
+  /// Bodies that are not parked, ascending.
+  const std::vector<int>& tended() const { return tended_; }
+  bool parked(int body) const { return parked_[static_cast<std::size_t>(body)].since >= 0; }
+  /// From the next tick on the body lies where the world has it. Requires that it is absent there.
+  void Park(int body);
+  /// Before it is written to, or is to be present; nothing if it is not parked.
+  void Unpark(int body);
+  void UnparkAll();
+  /// It was written to all the same: it lies parked there, as if it always had. Nothing if it is
+  /// not parked.
+  void MoveParked(int body) {
+    if (parked(body)) parked_[static_cast<std::size_t>(body)].pose = world_.Read(body);
+  }
+  /// Something new was heard of the body, or it was moved along its path: only then an absent one
+  /// has to be looked at.
+  void NoteNews(int body) { news_.push_back(body); }
+  /// Since ForgetNews, in any order, some twice.
+  const std::vector<int>& news() const { return news_; }
+  void ForgetNews() { news_.clear(); }
+
   /// The world was set to another tick: no pose is known any more.
   void StartAnew();
   /// The world's bodies have changed; what is known is carried over to what they became.
@@ -81,6 +104,14 @@ class BodyMemory {
   Snapshots snapshots_;
   std::vector<BodyTrack> bodies_;
   std::vector<MechanismTrack> mechanisms_;
+  struct Parked {
+    std::int64_t since = -1;  // tick up to which its past is noted; -1: it is not parked
+    BodyState pose;
+  };
+  void Tend();
+  void FillPast(int body);
+  std::vector<Parked> parked_;  // by body
+  std::vector<int> tended_, news_;
 };
 
 /// A change of velocity that counts as a major impact, m/s. A driven wheel feels up to 2.6 m/s from

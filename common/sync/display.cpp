@@ -25,20 +25,38 @@ constexpr float kSpinSeen = 6, kTurnsHidden = 1;
 /// So long after a correction the engine may still be closing what it has torn, ticks.
 constexpr int kCorrectedTicks = 10;
 
+/// What is parked is looked at again this often, ticks: what was heard of it says where it can come
+/// to, so that only this peer's own way counts.
+constexpr int kParkedEvery = 30;
+
+/// A box that meets no other.
+MovingBox Nowhere() {
+  MovingBox box;
+  box.min.setConstant(1e30f);
+  box.max.setConstant(-1e30f);
+  return box;
+}
+
+bool Overlap(const MovingBox& a, const MovingBox& b) {
+  return a.min.x() <= b.max.x() && b.min.x() <= a.max.x() && a.min.y() <= b.max.y() &&
+         b.min.y() <= a.max.y();
+}
+
 float TurnTo(float from, float to) { return WrapAngle(to - from); }
 
 }  // namespace
 
-Display::Display(const SyncConfig& config, World& world, const Snapshots& snapshots)
+Display::Display(const SyncConfig& config, World& world, BodyMemory& memory)
     : config_(config),
       world_(world),
-      snapshots_(snapshots),
+      memory_(memory),
+      snapshots_(memory.snapshots()),
       smoother_(world.body_count(), config.smooth),
       delay_(config.send_every()),
       joints_(world),
-      reckoner_(world, snapshots, joints_),
+      reckoner_(world, memory.snapshots(), joints_),
       corrected_ticks_(world.composition().mechanisms.size(), 0),
-      left_(static_cast<std::size_t>(world.body_count()), 0) {}
+      far_(world.composition().mechanisms.size(), Nowhere()) {}
 
 /// What a person could see of a jump: a wheel that spins turns by so much in every tick that
 /// nobody can tell a correction of less, and gliding over it would show it wrong for longer.
@@ -63,7 +81,7 @@ void Display::Remap(const BodyRemap& change) {
   smoother_.Remap(from);
   joints_.Rebuild();
   corrected_ticks_.assign(world_.composition().mechanisms.size(), 0);
-  left_.assign(static_cast<std::size_t>(world_.body_count()), 0);
+  far_.assign(world_.composition().mechanisms.size(), Nowhere());
   if (config_.mode == Mode::kOracle) return;  // the oracle hides nothing
   for (std::size_t body = 0; body < change.jumps.size(); ++body) {
     smoother_.Moved(static_cast<int>(body), change.jumps[body]);
@@ -71,15 +89,15 @@ void Display::Remap(const BodyRemap& change) {
 }
 
 void Display::Glide(const Roles& roles) {
-  const int mechanisms = static_cast<int>(world_.composition().mechanisms.size());
-  for (int m = 0; m < mechanisms; ++m) {
+  for (const int first : memory_.tended()) {
+    const int m = world_.mechanism(first);
     const std::vector<int>& bodies = joints_.bodies(m);
+    if (bodies.front() != first) continue;
     int& corrected = corrected_ticks_[static_cast<std::size_t>(m)];
     corrected = std::max(0, corrected - 1);
     if (!config_.smooth) continue;
     if (bodies.size() == 1) {
-      const int body = bodies.front();
-      smoother_.Advance(body, world_.dt(), world_.Read(body).velocity.norm());
+      smoother_.Advance(first, world_.dt(), world_.Read(first).velocity.norm());
     } else {
       smoother_.AdvanceTogether(world_, bodies);
     }
@@ -90,45 +108,87 @@ void Display::Glide(const Roles& roles) {
 /// What closing has moved becomes part of the offset and returns with it: closed anew from torn
 /// poses in every tick, the view would jump whenever physics does.
 void Display::KeepClosed(const Roles& roles) {
-  const std::vector<BodyState> poses = ShownPoses(roles, config_.shows_far);
-  for (int body = 0; body < world_.body_count(); ++body) {
-    const int m = world_.mechanism(body);
-    if (!joints_.jointed(m) || (!config_.shows_far && roles.RoleOf(m) == kRoleRemote)) continue;
+  const std::vector<BodyState>& poses = ShownPoses(roles, config_.shows_far);
+  EachShown(roles, config_.shows_far, [&](int body) {
+    if (!joints_.jointed(world_.mechanism(body))) return;
     smoother_.Set(body, Minus(poses[static_cast<std::size_t>(body)], world_.Read(body)));
+  });
+}
+
+/// Around all places where a mechanism can be shown by what was heard of it.
+MovingBox Display::FarBox(int mechanism) const {
+  MovingBox box = Nowhere();
+  for (const int body : joints_.bodies(mechanism)) {
+    if (!snapshots_.has(body)) {
+      box.min.setConstant(-1e30f);
+      box.max.setConstant(1e30f);
+      return box;
+    }
+    const BodyState& heard = snapshots_.newest(body);
+    const Vec2 at = heard.position + kReckonMax * heard.velocity;
+    box.min = box.min.cwiseMin(heard.position.cwiseMin(at));
+    box.max = box.max.cwiseMax(heard.position.cwiseMax(at));
+  }
+  return box;
+}
+
+void Display::LookAtParkedOne(int mechanism, const MovingBox& seen) {
+  MovingBox& far = far_[static_cast<std::size_t>(mechanism)];
+  if (!Overlap(far, seen)) return;
+  far = Nowhere();
+  for (const int body : joints_.bodies(mechanism)) {
+    if (!memory_.parked(body)) continue;
+    memory_.Unpark(body);
+    smoother_.Reset(body);
+    back_.push_back(body);
   }
 }
 
-/// By what was heard of it last, cheaply.
-bool Display::IsOutside(int body, std::int64_t next, const MovingBox& seen) const {
-  if (!snapshots_.has(body)) return false;
-  const BodyState& heard = snapshots_.newest(body);
-  const std::int64_t newest = snapshots_.newest_tick(body);
-  const float forward = Snapshots::Forward(newest, next, world_.dt(), kReckonMax);
-  const Vec2 at = heard.position + forward * heard.velocity;
-  return at.x() < seen.min.x() || at.y() < seen.min.y() || at.x() > seen.max.x() ||
-         at.y() > seen.max.y();
+/// A part of it in each tick, and what something was heard of.
+void Display::LookAtParked(std::int64_t next, const MovingBox& seen) {
+  back_.clear();
+  if (config_.shows_far) return;
+  const auto count = static_cast<std::int64_t>(far_.size()), part = next % kParkedEvery;
+  for (auto m = part * count / kParkedEvery; m < (part + 1) * count / kParkedEvery; ++m) {
+    LookAtParkedOne(static_cast<int>(m), seen);
+  }
+  for (const int body : memory_.news()) {
+    if (!memory_.parked(body)) continue;
+    const int m = world_.mechanism(body);
+    far_[static_cast<std::size_t>(m)] = FarBox(m);
+    LookAtParkedOne(m, seen);
+  }
+  std::sort(back_.begin(), back_.end());
+}
+
+void Display::Leave(int body) {
+  const int m = world_.mechanism(body);
+  BodyState still = world_.Read(body);
+  still.velocity.setZero();
+  still.spin = 0;
+  world_.Write(body, still, false);
+  memory_.Park(body);
+  far_[static_cast<std::size_t>(m)] = FarBox(m);
 }
 
 void Display::Drive(std::int64_t next, const MovingBox& seen) {
   if (config_.mode == Mode::kOracle) return;  // nothing is only displayed
   const double delay = delay_.Advance();
   reckoner_.Begin(next);
-  for (int body = 0; body < world_.body_count(); ++body) {
+  LookAtParked(next, seen);
+  leaving_.clear();
+  for (const int body : memory_.tended()) {
     const Motion motion = world_.motion(body);
     if (motion == Motion::kDynamic) continue;
-    if (motion == Motion::kAbsent && (next + world_.mechanism(body)) % kAbsentEvery != 0) continue;
-    char& left = left_[static_cast<std::size_t>(body)];
-    const bool outside =
-        !config_.shows_far && motion == Motion::kAbsent && IsOutside(body, next, seen);
-    if (!outside && left != 0) smoother_.Reset(body);
-    if (outside && left == 0) {
-      BodyState still = world_.Read(body);
-      still.velocity.setZero();
-      still.spin = 0;
-      world_.Write(body, still, false);
+    const int m = world_.mechanism(body);
+    if (motion == Motion::kAbsent) {
+      const bool back = std::binary_search(back_.begin(), back_.end(), body);
+      if (!back && (next + m) % kAbsentEvery != 0) continue;
+      if (!config_.shows_far && !Overlap(FarBox(m), seen)) {
+        leaving_.push_back(body);
+        continue;
+      }
     }
-    left = outside ? 1 : 0;
-    if (outside) continue;
     BodyState state = world_.Read(body);
     if (!snapshots_.has(body)) {
       state.velocity.setZero();
@@ -141,7 +201,9 @@ void Display::Drive(std::int64_t next, const MovingBox& seen) {
     }
     const bool moves = state.velocity.squaredNorm() > 0 || state.spin != 0;
     world_.Write(body, state, moves);
+    if (motion == Motion::kAbsent) memory_.NoteNews(body);
   }
+  for (const int body : leaving_) Leave(body);
 }
 
 /// In the past, between snapshots: the path has no jumps, so its steps are the velocity.
@@ -186,34 +248,44 @@ bool Display::IsOff(int mechanism) const {
                      [&](int body) { return smoother_.active(body); });
 }
 
-std::vector<BodyState> Display::ShownPoses(const Roles& roles, bool all) const {
-  std::vector<BodyState> poses(static_cast<std::size_t>(world_.body_count()));
-  for (int body = 0; body < world_.body_count(); ++body) {
-    if (!all && roles.RoleOf(world_.mechanism(body)) == kRoleRemote) continue;
+template <class Visit>
+void Display::EachShown(const Roles& roles, bool all, const Visit& visit) const {
+  if (all) {
+    for (int body = 0; body < world_.body_count(); ++body) visit(body);
+    return;
+  }
+  for (const int body : world_.present()) {
+    if (roles.RoleOf(world_.mechanism(body)) != kRoleRemote) visit(body);
+  }
+}
+
+const std::vector<BodyState>& Display::ShownPoses(const Roles& roles, bool all) const {
+  std::vector<BodyState>& poses = poses_;
+  poses.resize(static_cast<std::size_t>(world_.body_count()));
+  EachShown(roles, all, [&](int body) {
     BodyState& pose = poses[static_cast<std::size_t>(body)];
     pose = world_.Read(body);
     pose.position += smoother_.offset(body);
     pose.angle += smoother_.angle_offset(body);
-  }
-  const int mechanisms = static_cast<int>(world_.composition().mechanisms.size());
-  for (int m = 0; m < mechanisms; ++m) {
-    if (!joints_.jointed(m) || (!all && roles.RoleOf(m) == kRoleRemote)) continue;
-    const bool simulated = roles.Simulates(joints_.bodies(m).front());
+  });
+  EachShown(roles, all, [&](int body) {
+    const int m = world_.mechanism(body);
+    if (!joints_.jointed(m) || joints_.bodies(m).front() != body) return;
+    const bool simulated = roles.Simulates(body);
     // What physics made of a simulated mechanism is shown as it is.
     if (!simulated || IsOff(m)) joints_.Close(m, simulated, &poses);
-  }
+  });
   return poses;
 }
 
 View Display::MakeView(const Roles& roles, bool all) const {
-  const std::vector<BodyState> poses = ShownPoses(roles, all);
+  const std::vector<BodyState>& poses = ShownPoses(roles, all);
   View view;
   view.peer = roles.self();
   view.tick = world_.tick();
   view.revision = world_.topology().revision();
-  for (int body = 0; body < world_.body_count(); ++body) {
+  EachShown(roles, all, [&](int body) {
     const int m = world_.mechanism(body);
-    if (!all && roles.RoleOf(m) == kRoleRemote) continue;
     const BodyState& s = poses[static_cast<std::size_t>(body)];
     view.id.push_back(world_.id(body));
     view.role.push_back(roles.RoleOf(m));
@@ -224,7 +296,7 @@ View Display::MakeView(const Roles& roles, bool all) const {
     view.vx.push_back(s.velocity.x());
     view.vy.push_back(s.velocity.y());
     view.spin.push_back(s.spin);
-  }
+  });
   return view;
 }
 

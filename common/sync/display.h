@@ -8,8 +8,9 @@
 
 #include "common/codec/messages.h"
 #include "common/physics/world.h"
-#include "common/sync/reach/zones.h"
+#include "common/sync/body_memory.h"
 #include "common/sync/mode.h"
+#include "common/sync/reach/zones.h"
 #include "common/sync/roles.h"
 #include "common/sync/show/joint_closer.h"
 #include "common/sync/show/reckoner.h"
@@ -20,12 +21,12 @@ namespace seam {
 
 class Display {
  public:
-  /// Config, world and snapshots must outlive this.
-  Display(const SyncConfig& config, World& world, const Snapshots& snapshots);
+  /// Config, world and memory must outlive this.
+  Display(const SyncConfig& config, World& world, BodyMemory& memory);
 
   /// Before the step to `next`: gives each body that is only displayed the pose and velocity that
   /// take it where it is to be shown then. Where nobody looks at what is far (SyncConfig), bodies
-  /// outside `seen` are left where they are.
+  /// outside `seen` are left where they are: parked (BodyMemory).
   void Drive(std::int64_t next, const MovingBox& seen);
   /// After a step: lets the visual offsets return for a tick.
   void Glide(const Roles& roles);
@@ -53,11 +54,18 @@ class Display {
   bool IsOff(int mechanism) const;
   /// Of all bodies, in the view, or of those of mechanisms that the peer simulates; velocities are
   /// those of physics.
-  std::vector<BodyState> ShownPoses(const Roles& roles, bool all) const;
-  bool IsOutside(int body, std::int64_t next, const MovingBox& seen) const;
+  const std::vector<BodyState>& ShownPoses(const Roles& roles, bool all) const;
+  /// Calls `visit(body)` for those that ShownPoses gives, ascending.
+  template <class Visit>
+  void EachShown(const Roles& roles, bool all, const Visit& visit) const;
+  MovingBox FarBox(int mechanism) const;
+  void LookAtParked(std::int64_t next, const MovingBox& seen);
+  void LookAtParkedOne(int mechanism, const MovingBox& seen);
+  void Leave(int body);
 
   const SyncConfig& config_;
   World& world_;
+  BodyMemory& memory_;
   const Snapshots& snapshots_;
   Smoother smoother_;
   DisplayDelay delay_;
@@ -65,7 +73,9 @@ class Display {
   Reckoner reckoner_;
   std::function<void(int)> on_corrected_ = [](int) {};
   std::vector<int> corrected_ticks_;  // by mechanism: how much longer it may be torn in physics
-  std::vector<char> left_;            // by body: it was outside in the last Drive
+  std::vector<MovingBox> far_;        // by mechanism: of what is parked, where it can have come to
+  std::vector<int> leaving_, back_;   // bodies, in this Drive
+  mutable std::vector<BodyState> poses_;  // room for ShownPoses, by body
 };
 
 }  // namespace seam

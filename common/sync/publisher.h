@@ -13,6 +13,8 @@ class Publisher {
  public:
   Publisher(Recorder& recorder, std::string room) : recorder_(recorder), room_(std::move(room)) {}
 
+  /// False: what is published comes to nobody.
+  bool listening() const { return recorder_.listening(); }
   /// Requires a message that travels on the bus (message_list.h).
   template <class Message>
   void Publish(Message message);

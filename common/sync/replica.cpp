@@ -18,10 +18,10 @@ Replica::Replica(const Topology& topology, const SyncConfig& config, int self, i
       world_(topology),
       roles_(config_, self, own_player, world_),
       drivers_(world_, roles_),
-      presence_(config_, world_, roles_),
       memory_(config_, world_),
+      presence_(config_, world_, roles_, memory_),
       inputs_(topology.scene().players.size()),
-      display_(config_, world_, memory_.snapshots()),
+      display_(config_, world_, memory_),
       strands_(world_),
       replay_(config_, world_, roles_, drivers_, memory_, display_, inputs_),
       corrector_(config_, world_, roles_, presence_, memory_, display_, replay_),
@@ -58,6 +58,7 @@ void Replica::Step() {
   display_.Drive(next, presence_.around());
   corrector_.PullCopies();
   rest_.BeforeStep();
+  memory_.ForgetNews();
   world_.Step();
   memory_.NoteContacts(roles_.table());
   if (config_.rolls_back && next % config_.send_every() == 0) reach_.Look();
@@ -68,7 +69,7 @@ void Replica::Step() {
   QueueAppointed();
   scheduler_.Collect();
   memory_.Record();
-  if (presence_.LookIfDue()) corrector_.FollowRoles();
+  if (presence_.LookIfDue()) corrector_.FollowRoles(memory_.tended());
   replay_.TakeBarrier();
   display_.Glide(roles_);
   corrector_.ReceiveWaiting();
@@ -101,6 +102,7 @@ void Replica::NoteInputs(const Inputs& inputs) {
     if (wrong < 0 && !(track.At(t) == is)) wrong = t;
   }
   track.Note(inputs);
+  heard_players_.push_back(inputs.player);
   if (!config_.StampsInputs(roles_.self())) return;
   if (wrong >= 0 && drivers_.Concerns(inputs.player)) replay_.AskFrom(wrong - 1);
   for (const std::int64_t t : late) {
@@ -110,15 +112,26 @@ void Replica::NoteInputs(const Inputs& inputs) {
 }
 
 void Replica::ApplyInputs(std::int64_t next) {
-  for (std::size_t p = 0; p < inputs_.size(); ++p) {
-    const int player = static_cast<int>(p);
-    if (config_.mode == Mode::kOracle) {
-      inputs_[p].Note(next,
-                      ScriptedInput(world_.scene(), player, next - config_.input_delay_ticks));
+  if (config_.mode == Mode::kOracle) {
+    for (int player = 0; player < static_cast<int>(inputs_.size()); ++player) {
+      inputs_[static_cast<std::size_t>(player)].Note(
+          next, ScriptedInput(world_.scene(), player, next - config_.input_delay_ticks));
+      heard_players_.push_back(player);
     }
-    if (drivers_.Concerns(player)) world_.SetInput(player, inputs_[p].At(next));
-    ApplyPresses(player, next);
   }
+  // Who moves something here, and who was heard of: buttons count even if they move nothing.
+  std::vector<int>& players = heard_players_;
+  players.insert(players.end(), drivers_.concerned().begin(), drivers_.concerned().end());
+  std::sort(players.begin(), players.end());
+  players.erase(std::unique(players.begin(), players.end()), players.end());
+  std::size_t left = 0;
+  for (const int player : players) {
+    const InputTrack& track = inputs(player);
+    if (drivers_.Concerns(player)) world_.SetInput(player, track.At(next));
+    ApplyPresses(player, next);
+    if (track.newest() > next) players[left++] = player;  // more of it is still to come
+  }
+  players.resize(left);
 }
 
 /// Where inputs are stamped, every peer that simulates what is pushed pushes it, at that tick;
@@ -146,8 +159,25 @@ std::vector<int> Replica::ApplyGrants(const Grants& grants) {
   // Before motion follows the roles: what the holder last simulated.
   for (ExactStates& exact : MakeExact(applied.let_go, 0)) released_.push_back(std::move(exact));
   // Most of what a client of a large room is granted is between others.
-  if (applied.roles) RolesChanged();
+  if (!applied.roles.empty()) {
+    drivers_.Look();
+    corrector_.FollowRoles(BodiesOf(applied.roles));
+    rest_.PutBack();
+  }
   return std::move(applied.let_go);
+}
+
+std::vector<int> Replica::BodiesOf(const std::vector<int>& mechanisms) const {
+  std::vector<int> bodies;
+  const Composition& composition = world_.composition();
+  for (const int m : mechanisms) {
+    for (const int a : composition.mechanisms[static_cast<std::size_t>(m)].assemblies) {
+      const int body = world_.BodyOfId(composition.assemblies[static_cast<std::size_t>(a)].id);
+      if (body >= 0) bodies.push_back(body);
+    }
+  }
+  std::sort(bodies.begin(), bodies.end());
+  return bodies;
 }
 
 void Replica::ReleaseAll() {

@@ -164,6 +164,8 @@ class Replica {
   };
 
   void FollowRoles();
+  /// Ascending.
+  std::vector<int> BodiesOf(const std::vector<int>& mechanisms) const;
   void QueueAppointed();
   /// After a step, also one that is done again: what physics found that should change.
   void FindEdits();
@@ -187,8 +189,8 @@ class Replica {
   World world_;
   Roles roles_;
   Drivers drivers_;
-  Presence presence_;
   BodyMemory memory_;
+  Presence presence_;
   std::vector<InputTrack> inputs_;  // by player
   Display display_;
   StrandView strands_;
@@ -199,6 +201,7 @@ class Replica {
   SendScheduler scheduler_;
   ProposalQueue proposals_;
   ImpactReporter impact_reporter_;
+  std::vector<int> heard_players_;                   // whose inputs were heard of, or are to come
   std::vector<int> pressed_now_;                     // by player
   std::vector<int> pressed_missed_;                  // by player: heard of too late to go back to
   std::vector<QueuedEdit> queued_;                   // ordered, not yet applied; ticks ascend

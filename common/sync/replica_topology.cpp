@@ -43,6 +43,7 @@ void Replica::ApplyEdits() {
 std::optional<BodyRemap> Replica::ApplyNextEdit() {
   const QueuedEdit next = std::move(queued_.front());
   queued_.erase(queued_.begin());
+  memory_.UnparkAll();  // it may reach any of them
   replay_.GoBackTo(next.tick);
   std::optional<BodyRemap> change = world_.Apply({next.edit});
   ForgetProposals(next.edit);

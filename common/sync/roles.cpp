@@ -58,7 +58,7 @@ GrantsApplied Roles::Apply(const Grants& grants) {
   GrantsApplied applied;
   for (const int m : table_.Apply(grants)) {
     const auto& [role, had] = before[m];
-    applied.roles = applied.roles || role != RoleOf(m);
+    if (role != RoleOf(m)) applied.roles.push_back(m);
     if (had && !IsAuthority(m)) applied.let_go.push_back(m);
   }
   return applied;

@@ -14,7 +14,7 @@ namespace seam {
 /// What a message of grants has changed for a peer.
 struct GrantsApplied {
   std::vector<int> let_go;  ///< mechanisms that it had and has no longer
-  bool roles = false;       ///< its role in some mechanism is another
+  std::vector<int> roles;   ///< mechanisms in which its role is another
 };
 
 class Roles {

@@ -82,8 +82,7 @@ bool SendScheduler::Speaks(int body) const {
 /// Ascending.
 std::vector<int> SendScheduler::ChooseBodies() {
   std::vector<int> due;
-  for (int body = 0; body < world_.body_count(); ++body) {
-    if (world_.motion(body) == Motion::kAbsent) continue;  // nobody speaks for what it has not
+  for (const int body : world_.present()) {  // nobody speaks for what it has not
     BodyTrack& track = memory_.track(body);
     if (!Speaks(body) || !track.placed || !Due(body)) continue;
     const bool hit = world_.awake(body) && memory_.Struck(body);

@@ -23,7 +23,8 @@ class Page {
     readFragment(this.runs);
   }
 
-  // Two views side by side: of two runs, or of the first run's server and first client.
+  // Two views side by side: of two runs, or of one run's first and last client; in a large room of
+  // its first client and the server, because clients may show only what they hold.
   firstPanels() {
     const [first, second] = this.runs;
     const clientOf = (run) => (run.views.find((view) => view.peer > 0) || run.views[0]).peer;
@@ -32,7 +33,7 @@ class Page {
       state.panels.push({run: 1, peer: clientOf(second)});
     } else if (first.views.length > 1) {
       const others = first.views.filter((view) => view.peer !== state.panels[0].peer);
-      state.panels.push({run: 0, peer: others[others.length - 1].peer});
+      state.panels.push({run: 0, peer: others[first.views.length > 9 ? 0 : others.length - 1].peer});
     }
   }
 

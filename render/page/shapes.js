@@ -108,6 +108,12 @@ function drawScaleBar(c, viewport, step) {
   const right = rect.x + rect.width - 12;
   const left = right - step * viewport.scale;
   const y = rect.y + rect.height - 12;
+  const text = step >= 1 ? `${step} m` : `${Math.round(step * 100)} cm`;
+  const half = 3.4 * text.length + 3;
+  c.globalAlpha = 0.8;
+  c.fillStyle = COLOURS.theme.panel;
+  c.fillRect((left + right) / 2 - half, y - 17, 2 * half, 14);
+  c.globalAlpha = 1;
   c.strokeStyle = c.fillStyle = COLOURS.theme.faint;
   c.lineWidth = 1;
   c.beginPath();
@@ -118,7 +124,7 @@ function drawScaleBar(c, viewport, step) {
   c.stroke();
   c.font = '11px system-ui, sans-serif';
   c.textAlign = 'center';
-  c.fillText(step >= 1 ? `${step} m` : `${Math.round(step * 100)} cm`, (left + right) / 2, y - 6);
+  c.fillText(text, (left + right) / 2, y - 6);
 }
 
 function drawWaters(c, viewport, run) {

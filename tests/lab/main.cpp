@@ -33,6 +33,8 @@ CLI::App* DefineRun(CLI::App& app, RunCommand& c) {
       ->check(CLI::Range(0.0, kDurationMax));
   run->add_option("--players", s.players, "the first so many join, the others are absent (0: all)")
       ->check(CLI::Range(0, kPlayersMax));
+  run->add_option("--publish", s.publish,
+                  "of server and clients: all (default), own, none or auto");
   run->add_option("--drive", s.drive, "script | bot")->check(CLI::IsMember({"script", "bot"}));
   run->add_option("--smooth", c.smooth, "hide corrections in the view: on | off")
       ->check(CLI::IsMember({"on", "off"}));

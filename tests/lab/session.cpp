@@ -47,6 +47,7 @@ ClusterConfig Configure(const SessionSettings& settings, const Scene& scene) {
   config.duration_s = settings.duration_s;
   config.drive = ParseDrive(settings.drive);
   config.players = settings.players;
+  config.publish = ParsePublish(settings.publish);
   config.send_hz = settings.send_hz;
   config.smooth = settings.smooth;
   return config;

@@ -85,6 +85,34 @@ TEST(AbsentBody, KeepsTheMotionOfItsOriginWhereItsMassLiesElsewhere) {
   EXPECT_EQ(back.spin, state.spin);
 }
 
+TEST(AbsentBody, KeepsItsPoseAmongManyThatAreAbsent) {
+  constexpr int kMany = 100;  // several of a snapshot's pages
+  const std::unique_ptr<World> world = SmallWorld(
+      "[[part]]\nname = \"disc\"\ncircle = 0.5\nposition = [0, 0]\n"
+      "repeat = {count = 100, step = [3, 0]}\n",
+      "", kNoGravity);
+  std::vector<BodyState> placed;
+  for (int body = 0; body < kMany; ++body) {
+    const auto at = static_cast<float>(body);
+    placed.push_back({{3 * at, 7 + at}, 0.01f * at, {0, 0}, 0});
+    world->Write(body, placed.back());
+  }
+  for (int body = 1; body < kMany; ++body) world->SetMotion(body, Motion::kAbsent);
+  world->Step();
+  const WorldSnapshot then = world->Barrier();
+  for (int body = 1; body < kMany; ++body) {
+    const BodyState now = world->Read(body);
+    EXPECT_EQ(now.position, placed[static_cast<std::size_t>(body)].position) << body;
+    EXPECT_EQ(now.angle, placed[static_cast<std::size_t>(body)].angle) << body;
+    EXPECT_EQ(then.bodies[static_cast<std::size_t>(body)].state.position, now.position) << body;
+  }
+  BodyState moved = world->Read(70);
+  moved.position.y() += 5;
+  world->Write(70, moved, false);
+  ASSERT_TRUE(world->Restore(then).ok());
+  EXPECT_EQ(world->Read(70).position, placed[70].position) << "it goes back as well";
+}
+
 /// A rope of links from a post, and a box that lies apart.
 const char* const kRope = R"(
 [[part]]

@@ -51,6 +51,32 @@ TEST_F(ReviewLayers, LossesHaveARowForEachChannelAndSayThemselves) {
   EXPECT_NE(browser_->Evaluate(kPicture), before) << "onion skin";
 }
 
+TEST_F(ReviewLayers, RegionsAreAroundWhatEachClientHoldsWhereTheSceneFixesNone) {
+  Open("derby", "3");
+  const std::string view = "review.page.runs[0].views[0]";
+  ASSERT_EQ(Number(view + ".peer"), 0);
+  EXPECT_GE(Number("heldRegions(" + view + ", 150).length"), 2);
+  EXPECT_EQ(Number("review.page.runs[0].regions.length"), 0) << "the scene fixes none";
+  // How far a held body's middle is inside its holder's region, m: its reach and the margin.
+  const std::string inside =
+      "(() => { const v = " + view +
+      "; let least = Infinity, held = 0;"
+      "const regions = new Map(heldRegions(v, 150).map((r) => [r.peer, r.corners]));"
+      "for (const body of v.worldAt(150).moving) {"
+      "const t = v.tracks.bodies.get(body.id), p = poseOf(t, 150);"
+      "const peer = p ? Math.floor(t.owner[150] / 3) : 0; if (peer <= 0) continue; ++held;"
+      "const [[x0, y0], , [x1, y1]] = regions.get(peer);"
+      "least = Math.min(least, p[0] - x0 / 1000, x1 / 1000 - p[0], p[1] - y0 / 1000,"
+      "y1 / 1000 - p[1]); } return held > 0 ? least : -1; })()";
+  EXPECT_GE(Number(inside), 1);
+  browser_->Evaluate("(() => { review.state.tick = 150; review.page.changed(); return 1; })()");
+  browser_->Settle();
+  const std::string before = browser_->Evaluate(kPicture);
+  browser_->Press("r");
+  browser_->Settle();
+  EXPECT_NE(browser_->Evaluate(kPicture), before) << "the layer of regions";
+}
+
 TEST_F(ReviewLayers, StrandsHangWhereTheViewHasThem) {
   Open("obstacle", "2");
   const std::string view = "review.page.runs[0].views[1]";

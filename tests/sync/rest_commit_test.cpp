@@ -74,7 +74,7 @@ repeat = {count = 2, step = [5, 0]}
   SyncConfig config;
   Roles roles{config, 0, -1, *world};
   BodyMemory memory{config, *world};
-  Display display{config, *world, memory.snapshots()};
+  Display display{config, *world, memory};
   std::vector<InputTrack> inputs;
   Drivers drivers{*world, roles};
   Reach reach{config, *world, roles, drivers, inputs};

@@ -43,7 +43,7 @@ class Row {
   Roles roles{config, kSelf, -1, *world};
   BodyMemory memory{config, *world};
   std::vector<InputTrack> inputs;
-  Display display{config, *world, memory.snapshots()};
+  Display display{config, *world, memory};
   Drivers drivers{*world, roles};
   Replay replay{config, *world, roles, drivers, memory, display, inputs};
   Reach reach{config, *world, roles, drivers, inputs};

@@ -38,7 +38,7 @@ void Corrector::PullCopies() {
       dt * dt * (n + 1) / (2 * n) * world_.scene().gravity;  // velocity first, then position
   in.interval = static_cast<float>(config_.send_every()) * dt;
   in.step = dt;
-  for (int body = 0; body < world_.body_count(); ++body) {
+  for (const int body : world_.present()) {
     BodyTrack& track = memory_.track(body);
     PullTrack& pull = track.pull;
     if (pull.arrived < track.dynamic_since) continue;

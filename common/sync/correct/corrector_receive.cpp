@@ -42,6 +42,7 @@ Received Corrector::Receive(const States& states) {
     if (!IsNews(states, i, body, &result)) continue;
     memory_.track(body).heard_tick = states.tick;
     memory_.track(body).heard_epoch = states.epoch[i];
+    memory_.NoteNews(body);
     if (ReceiveOne(states, i, body)) to_correct.emplace_back(i, body);
   }
   const std::map<int, BodyState> common = CommonDifferences(states, to_correct);
@@ -120,6 +121,7 @@ void Corrector::PlaceNow(int body, const States& states, std::size_t i, const Bo
 }
 
 void Corrector::PlaceBody(int body, const BodyState& state, bool asleep) {
+  memory_.Unpark(body);
   memory_.track(body).placed = true;
   replay_.Forget();  // it was not there before
   world_.Write(body, WithinLimits(state, world_.scene().speed_limit));

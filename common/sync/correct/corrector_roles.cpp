@@ -1,6 +1,8 @@
 /// Corrector: bodies whose role changed. What is simulated from now on begins as the authority's,
 /// what is displayed from now on goes on from where it is.
 
+#include <numeric>
+
 #include "common/base/geometry.h"
 #include "common/sync/correct/corrector.h"
 #include "common/sync/state_limits.h"
@@ -17,15 +19,24 @@ Motion Corrector::WantedMotion(int body) const {
 }
 
 void Corrector::FollowRoles() {
+  std::vector<int> all(static_cast<std::size_t>(world_.body_count()));
+  std::iota(all.begin(), all.end(), 0);
+  FollowRoles(all);
+}
+
+void Corrector::FollowRoles(const std::vector<int>& bodies) {
   const std::int64_t now = world_.tick();
-  for (int body = 0; body < world_.body_count(); ++body) {
+  for (const int body : bodies) {
     const Motion wanted = WantedMotion(body);
     if (world_.motion(body) == wanted) continue;
+    const bool parked = memory_.parked(body);
+    memory_.Unpark(body);
     // What was simulated here is from now on reckoned from where it is, not from what was last
     // heard of it, which may be from before this peer had the authority.
     if (wanted != Motion::kDynamic) memory_.snapshots().Add(body, now, world_.Read(body));
     world_.SetMotion(body, wanted);
     if (wanted == Motion::kDynamic && memory_.snapshots().has(body)) BeginToSimulate(body);
+    if (parked) display_.Reset(body);  // nobody saw it where it lay
   }
 }
 

@@ -44,6 +44,7 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
     memory_.snapshots().Add(body, exact.tick, there);
     track.heard_tick = exact.tick;
     track.heard_epoch = exact.epoch[i];
+    memory_.NoteNews(body);
     const bool simulated = track.placed && world_.motion(body) == Motion::kDynamic;
     if (!simulated) continue;
     const std::int64_t from = std::min(exact.tick, now);

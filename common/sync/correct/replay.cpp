@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "common/base/geometry.h"
@@ -42,9 +43,9 @@ void PutToRest(World& world, const Roles& roles, BodyMemory& memory) {
     const BodyTrack& track = memory.track(body);
     if (!track.at_rest || roles.RoleOfBody(body) != kRoleSecondary) continue;
     if (world.motion(body) == Motion::kAbsent || world.tick() < track.heard_tick) continue;
-    const BodyState& lay = *memory.history().At(world.tick(), body);
-    if (Negligible(Apart(world.Read(body), lay))) continue;
-    world.Write(body, lay, false);
+    const BodyState* const lay = memory.history().At(world.tick(), body);
+    if (lay == nullptr || Negligible(Apart(world.Read(body), *lay))) continue;
+    world.Write(body, *lay, false);
     world.SetAwake(body, false);
   }
 }
@@ -138,7 +139,7 @@ void Replay::FindPressed(std::int64_t from) {
   for (std::size_t m = 0; m < pressed_.size(); ++m) {
     pressed_[m] = memory_.Coupled(static_cast<int>(m));
   }
-  for (int body = 0; body < world_.body_count(); ++body) {
+  for (const int body : world_.present()) {
     if (memory_.track(body).last_impact_tick < from &&
         world_.Read(body).velocity.norm() < kPressedSpeed) {
       continue;
@@ -180,11 +181,10 @@ void Replay::EndRest() {
 /// After the step to the world's tick: what is known of it.
 void Replay::PutIn() {
   EndRest();
-  for (int body = 0; body < world_.body_count(); ++body) PutIn(body);
+  for (const int body : world_.present()) PutIn(body);  // what is absent stays until Arrive
 }
 
 void Replay::PutIn(int body) {
-  if (world_.motion(body) == Motion::kAbsent) return;  // until Arrive
   BodyState* past = memory_.history().At(world_.tick(), body);
   if (FollowsHistory(body, world_.tick())) {
     world_.Write(body, *past, false);
@@ -211,9 +211,9 @@ void Replay::ActAgain(std::int64_t next) {
     if (act.tick == next) world_.Act(act.player, act.action);
   }
   if (!config_.StampsInputs(roles_.self())) return;
-  for (std::size_t p = 0; p < inputs_.size(); ++p) {
-    const int player = static_cast<int>(p);
-    EachAction(world_, player, inputs_[p].PressedAt(next), [&](int action, int mechanism) {
+  for (const int player : drivers_.concerned()) {
+    const InputTrack& track = inputs_[static_cast<std::size_t>(player)];
+    EachAction(world_, player, track.PressedAt(next), [&](int action, int mechanism) {
       if (roles_.RoleOf(mechanism) != kRoleRemote) world_.Act(player, action);
     });
   }
@@ -221,13 +221,11 @@ void Replay::ActAgain(std::int64_t next) {
 
 void Replay::StepAgain() {
   const std::int64_t next = world_.tick() + 1;
-  for (std::size_t p = 0; p < inputs_.size(); ++p) {
-    const int player = static_cast<int>(p);
-    if (drivers_.Concerns(player)) world_.SetInput(player, inputs_[p].At(next));
+  for (const int player : drivers_.concerned()) {
+    world_.SetInput(player, inputs_[static_cast<std::size_t>(player)].At(next));
   }
-  for (int body = 0; body < world_.body_count(); ++body) {
+  for (const int body : world_.present()) {
     if (world_.motion(body) == Motion::kDynamic) continue;
-    if (world_.motion(body) == Motion::kAbsent) continue;  // it hits nothing
     // Paths that are displayed jump from message to message: what hits others is the velocity that
     // was displayed, not that of a jump.
     const BodyState& after = *memory_.history().At(next, body);
@@ -251,20 +249,26 @@ void Replay::Run() {
     return;
   }
   const std::int64_t now = world_.tick();
-  if (!Depart(std::exchange(from_, -1))) return;
+  if (!Depart(std::exchange(from_, -1), false)) return;
   StepTo(now);
   Arrive();
 }
 
-/// Goes back to the newest barrier that is not after `from`.
-bool Replay::Depart(std::int64_t from) {
+/// Goes back to the newest barrier that is not after `from`. `all`: bodies may become others on the
+/// way, so that each counts; else what is absent and lies as it did then stays where it is.
+bool Replay::Depart(std::int64_t from, bool all) {
   while (!barriers_.empty() && barriers_.back().world.tick > from) barriers_.pop_back();
   if (barriers_.empty()) return false;
   Journey journey;
   journey.from = from;
   journey.now = world_.tick();
-  for (int body = 0; body < world_.body_count(); ++body) {
-    journey.shown.push_back({true, world_.Read(body), world_.awake(body)});
+  std::vector<int> bodies = world_.ApartFrom(barriers_.back().world);
+  if (all) {
+    bodies.resize(static_cast<std::size_t>(world_.body_count()));
+    std::iota(bodies.begin(), bodies.end(), 0);
+  }
+  for (const int body : bodies) {
+    journey.shown.push_back({body, world_.Read(body), world_.awake(body)});
   }
   FindPressed(from);
   UndoEdits();
@@ -291,9 +295,8 @@ void Replay::StepTo(std::int64_t tick) {
 
 /// At now again: what is only displayed is where it was, and the view of the rest stays there.
 void Replay::Arrive() {
-  for (int body = 0; body < world_.body_count(); ++body) {
-    const Shown& shown = journey_->shown[static_cast<std::size_t>(body)];
-    if (!shown.known) continue;
+  for (const Shown& shown : journey_->shown) {
+    const int body = shown.body;
     if (FollowsHistory(body, journey_->now) || RestsAsBefore(body, shown.state)) {
       world_.Write(body, shown.state, false);
       if (!shown.awake) world_.SetAwake(body, false);

@@ -109,19 +109,19 @@ class Replay {
   bool RestsAsBefore(int body, const BodyState& pose);
   /// What is shown of a body before it is stepped again.
   struct Shown {
-    bool known = true;  ///< it was there
+    int body = -1;
     BodyState state;
     bool awake = true;
   };
   struct Journey {
     std::int64_t from = 0, now = 0;
-    std::vector<Shown> shown;  // by body
+    std::vector<Shown> shown;  // ascending; of GoBackTo: of all bodies that were there
   };
 
   /// Whether an edit is between the tick and now: moved on without it, a state says nothing of now,
   /// and newer ones are on their way.
   bool IsBeforeEdit(std::int64_t tick) const;
-  bool Depart(std::int64_t from);
+  bool Depart(std::int64_t from, bool all);
   void StepTo(std::int64_t tick);
   void Arrive();
   void BarrierAfterEdits();

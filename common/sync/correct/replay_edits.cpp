@@ -6,6 +6,7 @@
 ///     old bodies  new ones, and barriers of them
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include "common/base/geometry.h"
@@ -25,7 +26,7 @@ void Replay::GoBackTo(std::int64_t tick) {
     tick = std::clamp(tick, barriers_.front().world.tick, world_.tick());
     const std::int64_t asked = std::exchange(from_, -1);  // what waits is done on the way
     const std::int64_t from = asked < 0 ? tick : std::min(tick, asked);
-    if (from < world_.tick()) Depart(from);
+    if (from < world_.tick()) Depart(from, true);
   }
   if (!journey_ || tick <= world_.tick()) return;
   BarrierAfterEdits();
@@ -34,15 +35,16 @@ void Replay::GoBackTo(std::int64_t tick) {
 
 void Replay::Remap(const BodyRemap& change) {
   if (!journey_) return;
+  std::map<int, const Shown*> before;
+  for (const Shown& then : journey_->shown) before[then.body] = &then;
   std::vector<Shown> shown;
   for (std::size_t body = 0; body < change.bodies.size(); ++body) {
     const BodyOrigin& origin = change.bodies[body];
-    shown.emplace_back();
-    shown.back().known = origin.body >= 0;
-    if (origin.body < 0) continue;
-    const Shown& before = journey_->shown[static_cast<std::size_t>(origin.body)];
-    shown.back().state = Carried(origin, before.state);
-    shown.back().awake = !origin.same || before.awake;
+    const auto found = before.find(origin.body);
+    if (found == before.end()) continue;  // it is new
+    const Shown& then = *found->second;
+    shown.push_back({static_cast<int>(body), Carried(origin, then.state), true});
+    shown.back().awake = !origin.same || then.awake;
     if (change.jumps.empty()) continue;
     shown.back().state = PlusScaled(shown.back().state, change.jumps[body], 1);
   }
@@ -82,7 +84,7 @@ bool Replay::LacksEdit(int revision, std::int64_t tick) const {
 void Replay::ForgetHeard() {
   if (!config_.StampsInputs(roles_.self())) return;
   Snapshots& heard = memory_.snapshots();
-  for (int body = 0; body < world_.body_count(); ++body) {
+  for (const int body : world_.present()) {
     if (!roles_.Simulates(body)) continue;
     heard.ForgetAfter(body, world_.tick());
     if (!heard.has(body)) heard.Add(body, world_.tick(), world_.Read(body));

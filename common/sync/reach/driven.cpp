@@ -83,10 +83,12 @@ void Drivers::Look() {
   if (revision_ != world_.topology().revision()) Find();
   revision_ = world_.topology().revision();
   concerns_.assign(driven_.size(), 0);
+  concerned_.clear();
   for (std::size_t p = 0; p < driven_.size(); ++p) {
     const bool here =
         Moves(static_cast<int>(p), [this](int m) { return roles_.RoleOf(m) != kRoleRemote; });
     concerns_[p] = here ? 1 : 0;
+    if (here) concerned_.push_back(static_cast<int>(p));
   }
 }
 

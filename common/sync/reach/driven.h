@@ -35,6 +35,8 @@ class Drivers {
   /// Whether the player's inputs move something that this peer simulates, or a belt that does not
   /// move itself. What others do is only seen, by their states.
   bool Concerns(int player) const { return concerns_[static_cast<std::size_t>(player)] != 0; }
+  /// The players of whom it holds, ascending.
+  const std::vector<int>& concerned() const { return concerned_; }
 
   /// Whether `simulates` (of a mechanism's index) holds for one of the player's; true for who moves
   /// an anchored belt.
@@ -57,6 +59,7 @@ class Drivers {
   std::vector<std::vector<int>> moved_;   // by player: by axes
   std::vector<char> by_axes_;             // by mechanism
   std::vector<char> belts_, concerns_;    // by player
+  std::vector<int> concerned_;            // players
 };
 
 }  // namespace seam

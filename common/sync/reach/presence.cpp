@@ -54,8 +54,9 @@ class Sorted {
 
 }  // namespace
 
-Presence::Presence(const SyncConfig& config, const World& world, const Roles& roles)
-    : config_(config), world_(world), roles_(roles) {
+Presence::Presence(const SyncConfig& config, const World& world, const Roles& roles,
+                   const BodyMemory& memory)
+    : config_(config), world_(world), roles_(roles), memory_(memory) {
   Remap();
 }
 
@@ -75,7 +76,7 @@ bool Presence::LookIfDue() {
 void Presence::Look() {
   std::vector<MovingBox> simulated;
   std::vector<int> displayed;
-  for (int body = 0; body < world_.body_count(); ++body) {
+  for (const int body : memory_.tended()) {
     if (roles_.Simulates(body)) {
       simulated.push_back(FreeBoxOf(world_, body));
     } else {
@@ -100,8 +101,8 @@ void Presence::Look() {
     if (there.MayMeetAny(FreeBoxOf(world_, body), seconds)) near[m] = 1;
   }
   // What is simulated would be near if it ceased to be.
-  for (std::size_t m = 0; m < near.size(); ++m) {
-    if (roles_.RoleOf(static_cast<int>(m)) != kRoleRemote) near[m] = 1;
+  for (const int body : world_.present()) {
+    if (roles_.Simulates(body)) near[static_cast<std::size_t>(world_.mechanism(body))] = 1;
   }
   near_ = std::move(near);
 }

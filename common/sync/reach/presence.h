@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "common/physics/world.h"
+#include "common/sync/body_memory.h"
 #include "common/sync/mode.h"
 #include "common/sync/reach/zones.h"
 #include "common/sync/roles.h"
@@ -14,8 +15,10 @@ namespace seam {
 
 class Presence {
  public:
-  /// All must outlive this. At first everything is near.
-  Presence(const SyncConfig& config, const World& world, const Roles& roles);
+  /// All must outlive this. At first everything is near. `memory` says what is parked: that is
+  /// never near.
+  Presence(const SyncConfig& config, const World& world, const Roles& roles,
+           const BodyMemory& memory);
 
   /// After a step; when a look is due, looks. Whether it did.
   bool LookIfDue();
@@ -40,6 +43,7 @@ class Presence {
   const SyncConfig& config_;
   const World& world_;
   const Roles& roles_;
+  const BodyMemory& memory_;
   std::vector<char> near_;  // by mechanism
   MovingBox around_;
 };

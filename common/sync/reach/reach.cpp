@@ -24,47 +24,69 @@ MovingBox BoxOf(const World& world, int body) {
 
 std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers, bool absent_too) {
   std::vector<MovingBox> boxes;
-  boxes.reserve(static_cast<std::size_t>(world.body_count()));
-  for (int body = 0; body < world.body_count(); ++body) {
-    if (!absent_too && world.motion(body) == Motion::kAbsent) continue;
+  const auto add = [&](int body) {
     MovingBox box = BoxOf(world, body);
     if (drivers.Driven(box.group)) box.acceleration = kDrivenAcceleration;
     boxes.push_back(box);
+  };
+  if (absent_too) {
+    boxes.reserve(static_cast<std::size_t>(world.body_count()));
+    for (int body = 0; body < world.body_count(); ++body) add(body);
+  } else {
+    boxes.reserve(world.present().size());
+    for (const int body : world.present()) add(body);
   }
   return boxes;
 }
 
 void Reach::Look() {
   const std::int64_t now = world_.tick();
-  const std::size_t count = world_.composition().mechanisms.size();
-  complete_.assign(count, now);
-  // By player: how much of the past is not known; -1: own, or not there.
-  std::vector<std::int64_t> missing(inputs_.size(), -1);
+  looked_ = now;
+  for (const int m : open_) complete_[static_cast<std::size_t>(m)] = kComplete;
+  open_.clear();
+  complete_.resize(world_.composition().mechanisms.size(), kComplete);
+  // By player: how much of the past is not known. Of oneself, and of who is not there, nothing is
+  // missing.
+  std::vector<std::pair<int, std::int64_t>> missing;
   std::int64_t longest = 0;
-  for (std::size_t p = 0; p < inputs_.size(); ++p) {
-    const std::int64_t newest = inputs_[p].newest();
-    if (static_cast<int>(p) == roles_.own_player() || newest < 0) continue;
-    if (!drivers_.Concerns(static_cast<int>(p))) continue;  // seldom heard of, and of no matter
+  // Of who does not concern this peer it hears seldom, and that is of no matter.
+  for (const int player : drivers_.concerned()) {
+    const std::int64_t newest = inputs_[static_cast<std::size_t>(player)].newest();
+    if (player == roles_.own_player() || newest < 0) continue;
     if (newest < now - static_cast<std::int64_t>(kSilent * config_.tick_hz)) continue;
-    missing[p] = std::max<std::int64_t>(0, now - newest);
-    longest = std::max(longest, missing[p]);
+    missing.emplace_back(player, std::max<std::int64_t>(0, now - newest));
+    longest = std::max(longest, missing.back().second);
   }
-  const bool nobody =
-      std::all_of(missing.begin(), missing.end(), [](std::int64_t ticks) { return ticks < 0; });
-  if (nobody) return;
+  if (missing.empty()) return;
   const float seconds = static_cast<float>(longest + 2 * config_.send_every()) * world_.dt();
+  // Mechanisms by their place among those that are present; what is absent meets nothing.
+  std::vector<MovingBox> boxes = BoxesOf(world_, drivers_, false);
+  std::vector<int> groups;
+  for (const MovingBox& box : boxes) groups.push_back(box.group);
+  for (const auto& [player, ticks] : missing) {
+    const std::vector<int>& driven = drivers_.MechanismsOf(player);
+    groups.insert(groups.end(), driven.begin(), driven.end());
+  }
+  std::sort(groups.begin(), groups.end());
+  groups.erase(std::unique(groups.begin(), groups.end()), groups.end());
+  const auto place = [&](int m) {
+    return static_cast<int>(std::lower_bound(groups.begin(), groups.end(), m) - groups.begin());
+  };
+  for (MovingBox& box : boxes) box.group = place(box.group);
   const std::vector<int> island =
-      Components(static_cast<int>(count), MeetingGroups(BoxesOf(world_, drivers_, false), seconds));
-  std::vector<std::int64_t> of_island(count, now);
-  for (std::size_t p = 0; p < inputs_.size(); ++p) {
-    if (missing[p] < 0) continue;
-    for (const int m : drivers_.MechanismsOf(static_cast<int>(p))) {
-      const auto i = static_cast<std::size_t>(island[static_cast<std::size_t>(m)]);
-      of_island[i] = std::min(of_island[i], now - missing[p]);
+      Components(static_cast<int>(groups.size()), MeetingGroups(boxes, seconds));
+  std::vector<std::int64_t> of_island(groups.size(), now);
+  for (const auto& [player, ticks] : missing) {
+    for (const int m : drivers_.MechanismsOf(player)) {
+      const auto i = static_cast<std::size_t>(island[static_cast<std::size_t>(place(m))]);
+      of_island[i] = std::min(of_island[i], now - ticks);
     }
   }
-  for (std::size_t m = 0; m < count; ++m) {
-    complete_[m] = of_island[static_cast<std::size_t>(island[m])];
+  for (std::size_t i = 0; i < groups.size(); ++i) {
+    const std::int64_t complete = of_island[static_cast<std::size_t>(island[i])];
+    if (complete >= now) continue;
+    complete_[static_cast<std::size_t>(groups[i])] = complete;
+    open_.push_back(groups[i]);
   }
 }
 

@@ -3,6 +3,7 @@
 /// that is input-complete, that is, for which the inputs of all players who can influence it are
 /// known.
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -28,7 +29,7 @@ class Reach {
   /// Newest input-complete tick, at most the world's. Requires that Look was called since the
   /// bodies changed.
   std::int64_t CompleteTick(int mechanism) const {
-    return complete_[static_cast<std::size_t>(mechanism)];
+    return std::min(looked_, complete_[static_cast<std::size_t>(mechanism)]);
   }
 
  private:
@@ -37,7 +38,10 @@ class Reach {
   const Roles& roles_;
   const Drivers& drivers_;
   const std::vector<InputTrack>& inputs_;
-  std::vector<std::int64_t> complete_;  // by mechanism
+  static constexpr std::int64_t kComplete = INT64_MAX;
+  std::int64_t looked_ = -1;            // tick of the last look
+  std::vector<std::int64_t> complete_;  // by mechanism; kComplete: when looked at
+  std::vector<int> open_;               // mechanisms that are not complete
 };
 
 /// The box of a body, without acceleration.

@@ -57,16 +57,14 @@ std::int64_t RestCommit::Ticks(double seconds) const {
 }
 
 /// The authority sends no states of what it has committed: a newer one is the end of it.
-void RestCommit::EndOutdated() {
-  for (int body = 0; body < world_.body_count(); ++body) {
-    const RestRecord& record = table_.at(body);
-    if (!record.committed) continue;
-    const bool own = Own(body);
-    if (own ? Holds(body) : memory_.track(body).heard_tick <= record.tick) continue;
-    table_.End(body);
-    memory_.track(body).at_rest = false;
-    disturbed(body) = Disturbance{};
-  }
+void RestCommit::EndOutdated(int body) {
+  const RestRecord& record = table_.at(body);
+  if (!record.committed) return;
+  const bool own = Own(body);
+  if (own ? Holds(body) : memory_.track(body).heard_tick <= record.tick) return;
+  table_.End(body);
+  memory_.track(body).at_rest = false;
+  disturbed(body) = Disturbance{};
 }
 
 void RestCommit::Put(int body) {
@@ -82,11 +80,12 @@ void RestCommit::Put(int body) {
   if (!Negligible(moved)) display_.Moved(body, moved);
   world_.Write(body, pose, false);
   if (world_.awake(body)) world_.SetAwake(body, false);
+  memory_.MoveParked(body);
 }
 
 void RestCommit::PutBack() {
-  if (Off() || edited_) return;  // an edit's push is not to be lost
-  for (int body = 0; body < world_.body_count(); ++body) {
+  if (Off() || edited_) return;              // an edit's push is not to be lost
+  for (const int body : memory_.tended()) {  // a parked one is where it rests
     if (Holds(body)) Put(body);
   }
 }
@@ -98,38 +97,62 @@ void RestCommit::LetGo(int body) {
     disturbed(body).pushed_ticks = 0;
   } else {
     disturbed(body).freed_tick = world_.tick();
+    freed_.push_back(body);
   }
+}
+
+/// Of what is absent only that of which something was heard, what was moved, and what may have been
+/// let go for long enough.
+void RestCommit::FindDue() {
+  due_.clear();
+  const auto add_absent = [this](const std::vector<int>& bodies) {
+    for (const int body : bodies) {
+      if (world_.motion(body) == Motion::kAbsent) due_.push_back(body);
+    }
+  };
+  add_absent(memory_.news());
+  add_absent(freed_);
+  if (edited_) add_absent(memory_.tended());
+  freed_.erase(std::remove_if(freed_.begin(), freed_.end(),
+                              [this](int body) { return disturbed(body).freed_tick < 0; }),
+               freed_.end());
+  std::sort(due_.begin(), due_.end());
+  due_.erase(std::unique(due_.begin(), due_.end()), due_.end());
+  due_.insert(due_.begin(), world_.present().begin(), world_.present().end());
 }
 
 void RestCommit::BeforeStep() {
   if (Off()) return;
   if (!Trusts()) driven_ = DrivenIn(world_, drivers_, inputs_, world_.tick() + 1);
-  EndOutdated();
+  FindDue();
+  for (const int body : due_) EndOutdated(body);
+  for (const int body : due_) Hold(body);
+  edited_ = false;
+}
+
+void RestCommit::Hold(int body) {
   const std::int64_t back_after = Ticks(Trusts() ? kBackAfterTrusted : kBackAfter);
-  for (int body = 0; body < world_.body_count(); ++body) {
-    Disturbance& d = disturbed(body);
-    if (d.freed_tick >= 0 && world_.tick() - d.freed_tick >= back_after) {
-      d.freed_tick = -1;
-      memory_.track(body).at_rest = table_.at(body).committed;
-      if (Holds(body)) {
-        WriteHistory(table_.at(body), world_.tick(), body, &memory_);
-        Put(body);
-      }
-    }
-    if (!Holds(body) && table_.at(body).committed && d.freed_tick < 0) {
-      LetGo(body);  // a replay found a blow
-    }
-    if (!Holds(body)) continue;
-    const BodyState now = world_.Read(body);
-    const bool simulated = world_.motion(body) == Motion::kDynamic && world_.awake(body);
-    const bool moved = now.velocity.squaredNorm() > 0 || now.spin != 0;
-    if (simulated && (Trusts() || edited_ || moved || Driven(body))) {
-      LetGo(body);
-    } else {
+  Disturbance& d = disturbed(body);
+  if (d.freed_tick >= 0 && world_.tick() - d.freed_tick >= back_after) {
+    d.freed_tick = -1;
+    memory_.track(body).at_rest = table_.at(body).committed;
+    if (Holds(body)) {
+      WriteHistory(table_.at(body), world_.tick(), body, &memory_);
       Put(body);
     }
   }
-  edited_ = false;
+  if (!Holds(body) && table_.at(body).committed && d.freed_tick < 0) {
+    LetGo(body);  // a replay found a blow
+  }
+  if (!Holds(body)) return;
+  const BodyState now = world_.Read(body);
+  const bool simulated = world_.motion(body) == Motion::kDynamic && world_.awake(body);
+  const bool moved = now.velocity.squaredNorm() > 0 || now.spin != 0;
+  if (simulated && (Trusts() || edited_ || moved || Driven(body))) {
+    LetGo(body);
+  } else {
+    Put(body);
+  }
 }
 
 /// Whether a body that is held, and was pushed in the last step, is to be let go.
@@ -174,7 +197,7 @@ void RestCommit::HoldIsland(const std::vector<int>& island) {
 void RestCommit::AfterStep() {
   if (Off()) return;
   bool woken = false, open = false;
-  for (int body = 0; body < world_.body_count(); ++body) {
+  for (const int body : world_.present()) {  // what is absent sleeps, and is another's
     woken = woken || (Holds(body) && world_.awake(body));
     open = open || (!Holds(body) && Own(body));
     const bool anew = Own(body) && Holds(body) &&
@@ -182,7 +205,7 @@ void RestCommit::AfterStep() {
     if (anew && !world_.awake(body)) Commit(body);  // it was another's
   }
   if (woken) {
-    for (const std::vector<int>& island : FindIslands(world_)) HoldIsland(island);
+    for (const std::vector<int>& island : FindPresentIslands(world_)) HoldIsland(island);
   }
   watch_.Look();
   if (open && world_.tick() % config_.send_every() == 0) {
@@ -205,6 +228,10 @@ void RestCommit::Remap(const BodyRemap& change) {
   for (int body = 0; body < world_.body_count(); ++body) {
     memory_.track(body).at_rest = table_.at(body).committed && this->disturbed(body).freed_tick < 0;
   }
+  freed_.clear();
+  for (int body = 0; body < world_.body_count(); ++body) {
+    if (this->disturbed(body).freed_tick >= 0) freed_.push_back(body);
+  }
   watch_.StartAnew();
   committed_.clear();
 }
@@ -213,16 +240,21 @@ void RestCommit::StartAnew() {
   table_.Clear();
   watch_.StartAnew();
   disturbed_.assign(disturbed_.size(), Disturbance{});
+  freed_.clear();
   for (int body = 0; body < world_.body_count(); ++body) memory_.track(body).at_rest = false;
   committed_.clear();
   waiting_.clear();
 }
 
 bool RestCommit::all() const {
-  for (int body = 0; body < world_.body_count(); ++body) {
-    if (!Holds(body)) return false;
+  if (Off()) return false;
+  // The body that was found open last is likely to be so still.
+  const int count = world_.body_count();
+  if (open_ < count && !Holds(open_)) return false;
+  for (open_ = 0; open_ < count; ++open_) {
+    if (!Holds(open_)) return false;
   }
-  return !Off();
+  return true;
 }
 
 }  // namespace seam

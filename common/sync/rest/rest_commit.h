@@ -91,11 +91,13 @@ class RestCommit {
   bool Own(int body) const { return roles_.IsAuthority(world_.mechanism(body)); }
   Disturbance& disturbed(int body) { return disturbed_[static_cast<std::size_t>(body)]; }
   std::int64_t Ticks(double seconds) const;
+  void EndOutdated(int body);
+  void FindDue();
+  void Hold(int body);
   /// Between BeforeStep and AfterStep; not where inputs are trusted to wake what they move.
   bool Driven(int body) const {
     return !Trusts() && driven_[static_cast<std::size_t>(world_.mechanism(body))];
   }
-  void EndOutdated();
   /// Where and as it rests, its view gliding there.
   void Put(int body);
   /// The disturbance is real: an own body's rest is over, another's copy goes on until its
@@ -122,6 +124,9 @@ class RestCommit {
   RestWatch watch_;
   std::vector<Disturbance> disturbed_;  // by body
   std::vector<bool> driven_;            // by mechanism: an input of this step moves it
+  std::vector<int> freed_;              // bodies that are let go, or were
+  std::vector<int> due_;                // bodies that a step has to look at
+  mutable int open_ = 0;                // the body that was found not to be held last
   bool edited_ = false;
   std::vector<int> committed_;  // in the last step
   std::int64_t number_ = 0;     // of the next Rest

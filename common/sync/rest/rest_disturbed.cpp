@@ -19,12 +19,12 @@ std::vector<int> DisturbedRest(const World& world, const Drivers& drivers, const
                                const std::vector<InputTrack>& inputs) {
   std::vector<int> disturbed;
   bool woken = false;
-  for (int body = 0; body < world.body_count(); ++body) {
+  for (const int body : world.present()) {
     woken = woken || (memory.track(body).at_rest && world.awake(body));
   }
   if (!woken) return disturbed;
   const std::vector<bool> driven = DrivenIn(world, drivers, inputs, world.tick());
-  for (const std::vector<int>& island : FindIslands(world)) {
+  for (const std::vector<int>& island : FindPresentIslands(world)) {
     bool real = false;
     for (const int body : island) {
       const bool struck = world.awake(body) && world.Read(body).velocity.norm() > kRestBlow;

@@ -1,11 +1,12 @@
 #include "common/sync/rest/rest_islands.h"
 
+#include <algorithm>
 #include <numeric>
 
 namespace seam {
 namespace {
 
-/// The mechanism that stands for the island of `m` (union-find with halved paths).
+/// What stands for the island of `m` (union-find with halved paths).
 int Leader(std::vector<int>* leaders, int m) {
   std::vector<int>& up = *leaders;
   while (up[static_cast<std::size_t>(m)] != m) {
@@ -16,34 +17,36 @@ int Leader(std::vector<int>* leaders, int m) {
   return m;
 }
 
-std::vector<std::vector<int>> Islands(const World& world, bool absent_too) {
-  std::vector<int> leaders(world.composition().mechanisms.size());
-  std::iota(leaders.begin(), leaders.end(), 0);
-  for (const Touch& touch : world.touches()) {
-    const int a = Leader(&leaders, world.mechanism(touch.body_a));
-    const int b = Leader(&leaders, world.mechanism(touch.body_b));
-    leaders[static_cast<std::size_t>(a)] = b;
-  }
-  std::vector<int> place(leaders.size(), -1);
-  std::vector<std::vector<int>> islands;
-  for (int body = 0; body < world.body_count(); ++body) {
-    if (!absent_too && world.motion(body) == Motion::kAbsent) continue;
-    const auto leader = static_cast<std::size_t>(Leader(&leaders, world.mechanism(body)));
-    if (place[leader] < 0) {
-      place[leader] = static_cast<int>(islands.size());
-      islands.emplace_back();
-    }
-    islands[static_cast<std::size_t>(place[leader])].push_back(body);
-  }
-  return islands;
-}
-
 }  // namespace
 
-std::vector<std::vector<int>> FindIslands(const World& world) { return Islands(world, true); }
-
 std::vector<std::vector<int>> FindPresentIslands(const World& world) {
-  return Islands(world, false);
+  // Mechanisms by their place among those that are present.
+  std::vector<int> mechanisms;
+  for (const int body : world.present()) mechanisms.push_back(world.mechanism(body));
+  std::sort(mechanisms.begin(), mechanisms.end());
+  mechanisms.erase(std::unique(mechanisms.begin(), mechanisms.end()), mechanisms.end());
+  const auto place_of = [&](int body) {
+    const auto at = std::lower_bound(mechanisms.begin(), mechanisms.end(), world.mechanism(body));
+    return static_cast<int>(at - mechanisms.begin());
+  };
+  std::vector<int> leaders(mechanisms.size());
+  std::iota(leaders.begin(), leaders.end(), 0);
+  for (const Touch& touch : world.touches()) {
+    const int a = Leader(&leaders, place_of(touch.body_a));
+    const int b = Leader(&leaders, place_of(touch.body_b));
+    leaders[static_cast<std::size_t>(a)] = b;
+  }
+  std::vector<int> island_of(leaders.size(), -1);
+  std::vector<std::vector<int>> islands;
+  for (const int body : world.present()) {
+    const auto leader = static_cast<std::size_t>(Leader(&leaders, place_of(body)));
+    if (island_of[leader] < 0) {
+      island_of[leader] = static_cast<int>(islands.size());
+      islands.emplace_back();
+    }
+    islands[static_cast<std::size_t>(island_of[leader])].push_back(body);
+  }
+  return islands;
 }
 
 }  // namespace seam

@@ -7,9 +7,8 @@
 
 namespace seam {
 
-/// The islands after the world's last tick; each ascending. Anchored bodies join nothing.
-std::vector<std::vector<int>> FindIslands(const World& world);
-/// The same of bodies that are not absent.
+/// The islands of bodies that are present, after the world's last tick; each ascending. Anchored
+/// bodies join nothing.
 std::vector<std::vector<int>> FindPresentIslands(const World& world);
 
 }  // namespace seam

@@ -20,6 +20,7 @@ void RestWatch::StartAnew() {
   for (int body = 0; body < world_.body_count(); ++body) {
     Track& track = tracks_[static_cast<std::size_t>(body)];
     track.still = track.slow = {world_.Read(body), world_.tick()};
+    track.looked = world_.tick();
   }
 }
 
@@ -32,12 +33,10 @@ void RestWatch::Follow(const BodyState& now, float distance, Near* near) const {
 }
 
 void RestWatch::Look() {
-  for (int body = 0; body < world_.body_count(); ++body) {
+  for (const int body : world_.present()) {
     Track& track = tracks_[static_cast<std::size_t>(body)];
-    if (world_.motion(body) == Motion::kAbsent) {
-      track.asleep_since = -1;  // nobody asks until it is there again
-      continue;
-    }
+    if (track.looked != world_.tick() - 1) track.asleep_since = -1;  // it was absent
+    track.looked = world_.tick();
     if (world_.awake(body)) {
       track.asleep_since = -1;
     } else if (track.asleep_since < 0) {

@@ -13,7 +13,7 @@ class RestWatch {
  public:
   explicit RestWatch(const World& world);
 
-  /// After a step.
+  /// After a step. What is absent is not looked at, and nothing may be asked of it.
   void Look();
   /// Ticks for which the body has been asleep; 0: it is awake.
   std::int64_t asleep(int body) const { return Since(of(body).asleep_since); }
@@ -31,6 +31,7 @@ class RestWatch {
   };
   struct Track {
     std::int64_t asleep_since = -1;
+    std::int64_t looked = 0;  // tick of the last look at it
     Near still, slow;
   };
   const Track& of(int body) const { return tracks_[static_cast<std::size_t>(body)]; }

@@ -29,6 +29,7 @@ TextTable JointsBench(bool quick);
 TextTable CharactersBench(bool quick);
 TextTable FactorBench(bool quick);
 TextTable PlannerBench(bool quick);
+TextTable ClientTickBench(bool quick);
 
 /// CPU seconds of this process so far.
 double CpuSeconds();

@@ -17,6 +17,7 @@ const std::vector<WorldBench>& WorldBenches() {
       {"characters", CharactersBench},
       {"factor", FactorBench},
       {"planner", PlannerBench},
+      {"client-tick", ClientTickBench},
   };
   return benches;
 }

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "common/measure/overlap.h"
 #include "tests/physics/exact/exact_jams.h"
 
 namespace seam {
@@ -70,6 +72,24 @@ std::string PressText(double high, double low) {
 TEST(ExactJam, CratesJammedInAPitGainNoEnergy) { ExpectNoGain(JamPlace::kPit); }
 
 TEST(ExactJam, CratesJammedBetweenTheRailsOfAWagonGainNoEnergy) { ExpectNoGain(JamPlace::kWagon); }
+
+/// m: of so many jams after 3 s, the middle one of their deepest overlaps.
+double MiddleOverlap(JamPlace place, unsigned jams) {
+  std::vector<double> deepest;
+  for (unsigned seed = 1; seed <= jams; ++seed) {
+    const auto world = ExactWorld(JamMaker(seed).Text(place));
+    OverlapMeter meter(world->scene(), world->composition());
+    Steps(world.get(), 180);
+    deepest.push_back(meter.Deepest(StatesOf(*world)));
+  }
+  std::nth_element(deepest.begin(), deepest.begin() + jams / 2, deepest.end());
+  return deepest[jams / 2];
+}
+
+TEST(ExactJam, CratesThatOverlapByHalfComeApartAlthoughTheyAreJammed) {
+  EXPECT_LT(MiddleOverlap(JamPlace::kWagon, 21), 0.05);
+  EXPECT_LT(MiddleOverlap(JamPlace::kPit, 21), 0.25);
+}
 
 TEST(ExactJam, APressThatSqueezesWhatIsJointedThrowsNothing) {
   // Two planks of 0.3 m, hinged; the press comes down to 0.2 m at 0.4 m/s and goes up again.

@@ -1,0 +1,78 @@
+/// What a body that concerns a client in nothing costs its tick.
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "common/sync/replica.h"
+#include "tests/lab/world/bench.h"
+
+namespace seam {
+namespace {
+
+constexpr int kFew = 100;
+
+/// A client that has one of two boxes that touch; the others are far, the server's, and creep.
+std::unique_ptr<Replica> RoomOf(int far) {
+  char text[600];
+  std::snprintf(text, sizeof text,
+                "bounds = [[-1000, -1000], [4000, 4000]]\n"
+                "[[player]]\nname = \"ann\"\nvehicle = \"own\"\n"
+                "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [2000, 0]]\n"
+                "[[part]]\nname = \"own\"\nbox = [1, 1]\nposition = [0, 0.5]\n"
+                "[[part]]\nname = \"beside\"\nbox = [1, 1]\nposition = [1.1, 0.5]\n"
+                "[[part]]\nname = \"far\"\nbox = [1, 1]\nposition = [300, 300]\n"
+                "velocity = [0.1, 0]\nrepeat = {count = [100, %d], step = [3, 3]}\n",
+                far / 100);
+  SyncConfig config = MakeSyncConfig("buffer", "rollback");
+  config.shows_far = config.smooth = false;
+  auto replica = std::make_unique<Replica>(ParseScene(text, "room.toml"), config, 1, 0);
+  AuthorityRecord own;
+  own.authority = 1;
+  own.epoch = 1;
+  replica->authority().Set(0, own);
+  replica->RolesChanged();
+  for (int tick = 0; tick < 60; ++tick) replica->Step();
+  return replica;
+}
+
+/// CPU microseconds of a tick.
+double TickUs(Replica* replica, int ticks) {
+  const double began = CpuSeconds();
+  for (int i = 0; i < ticks; ++i) replica->Step();
+  return 1e6 * (CpuSeconds() - began) / ticks;
+}
+
+}  // namespace
+
+TextTable ClientTickBench(bool quick) {
+  const int ticks = quick ? 120 : 600, pairs = quick ? 3 : 9;
+  TextTable table;
+  table.name = "world-client-tick";
+  table.title = "A client's tick beside bodies that concern it in nothing";
+  table.header = {"far bodies", "us a tick", "ns a far body"};
+  const std::unique_ptr<Replica> few = RoomOf(kFew);
+  for (const int far : {1000, 10000, 60000}) {
+    if (quick && far > 1000) break;
+    const std::unique_ptr<Replica> many = RoomOf(far);
+    std::vector<double> cost, each;
+    for (int pair = 0; pair < pairs; ++pair) {
+      const double base = TickUs(few.get(), ticks);
+      cost.push_back(TickUs(many.get(), ticks));
+      each.push_back(1e3 * (cost.back() - base) / (far - kFew));
+    }
+    std::sort(cost.begin(), cost.end());
+    std::sort(each.begin(), each.end());
+    table.rows.push_back(
+        {std::to_string(far), Digits(cost[cost.size() / 2]), Digits(each[each.size() / 2])});
+  }
+  table.note =
+      "CPU time of a client that simulates one box and displays another that it touches; the "
+      "others "
+      "are 300 m away and farther, and nobody looks at them. The last column is the difference to "
+      "the same with 100 of them, in turns, by body.";
+  table.command = "build/release/seam-lab world client-tick";
+  return table;
+}
+
+}  // namespace seam

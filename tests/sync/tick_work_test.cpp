@@ -1,0 +1,71 @@
+/// What a client's tick looks at is what concerns it, however large the room is.
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "common/sync/quantize.h"
+#include "common/sync/replica.h"
+
+namespace seam {
+namespace {
+
+/// The own box, one beside it that it leans on, and others far away, of the server's. Nobody looks.
+std::unique_ptr<Replica> RoomOf(int far) {
+  const std::string text =
+      "gravity = [0, 0]\nbounds = [[-1000, -1000], [9000, 1000]]\n"
+      "[[player]]\nname = \"ann\"\nvehicle = \"own\"\n"
+      "[[part]]\nname = \"own\"\nbox = [1, 1]\n"
+      "[[part]]\nname = \"beside\"\nbox = [1, 1]\nposition = [1.1, 0]\n"
+      "[[part]]\nname = \"far\"\nbox = [1, 1]\nposition = [300, 0]\nvelocity = [0.5, 0]\n"
+      "repeat = {count = " +
+      std::to_string(far) + ", step = [3, 0]}\n";
+  SyncConfig config = MakeSyncConfig("buffer", "rollback");
+  config.shows_far = false;
+  auto replica = std::make_unique<Replica>(ParseScene(text, "room.toml"), config, 1, 0);
+  AuthorityRecord own;
+  own.authority = 1;
+  own.epoch = 1;
+  replica->authority().Set(0, own);
+  replica->RolesChanged();
+  return replica;
+}
+
+/// How often a tick looks at a body, in two seconds, once what is far lies parked.
+std::int64_t Looks(int far) {
+  const std::unique_ptr<Replica> replica = RoomOf(far);
+  for (int tick = 0; tick < 60; ++tick) replica->Step();
+  EXPECT_EQ(replica->world().present().size(), 2u) << "the box beside is led";
+  const std::int64_t before = replica->world().looks();
+  for (int tick = 0; tick < 120; ++tick) replica->Step();
+  return replica->world().looks() - before;
+}
+
+TEST(TickWork, IsTheSameHoweverManyBodiesAreFar) {
+  const std::int64_t few = Looks(10);
+  EXPECT_GT(few, 0);
+  EXPECT_EQ(Looks(2000), few);
+}
+
+TEST(TickWork, OfWhatIsFarItBeginsWhereItsAuthorityPutsItNear) {
+  const std::unique_ptr<Replica> replica = RoomOf(500);
+  for (int tick = 0; tick < 60; ++tick) replica->Step();
+  constexpr int kFirst = 2;  // of the far ones
+  ASSERT_EQ(replica->world().motion(kFirst), Motion::kAbsent);
+  PackedBody body;
+  body.id = replica->world().id(kFirst);
+  body.state.position = {5, 0};
+  body.state.velocity = {-2, 0};
+  States header;
+  header.tick = replica->tick();
+  header.composition = static_cast<std::int64_t>(replica->world().composition().hash);
+  for (const States& packed : Pack(header, {body})) replica->Receive(packed);
+  for (int tick = 0; tick < 12; ++tick) replica->Step();
+  EXPECT_EQ(replica->world().motion(kFirst), Motion::kLed) << "it may touch the own box";
+  EXPECT_NEAR(replica->world().Read(kFirst).position.x(), 5 - 2 * 12.0 / 60, 0.1);
+}
+
+}  // namespace
+}  // namespace seam
