@@ -102,12 +102,12 @@ bool Invariants::Lies(PartId body) const {
 /// Whether all lies that touches the body at its holder, or is of its mechanism: a car on its back
 /// whose wheels turn never sleeps, and is told of with the wire's rounding for ever.
 bool Invariants::IslandLies(const Replica& holder, int body) const {
-  for (const std::vector<int>& island : FindIslands(holder.world())) {
+  for (const std::vector<int>& island : FindPresentIslands(holder.world())) {
     if (!std::binary_search(island.begin(), island.end(), body)) continue;
     return std::all_of(island.begin(), island.end(),
                        [&](int other) { return Lies(holder.world().id(other)); });
   }
-  return false;
+  return true;  // what is absent there touches nothing
 }
 
 /// Of what moves a peer has roughly, and of what has lain still for long exactly, what its holder
