@@ -43,9 +43,9 @@ void PutToRest(World& world, const Roles& roles, BodyMemory& memory) {
     const BodyTrack& track = memory.track(body);
     if (!track.at_rest || roles.RoleOfBody(body) != kRoleSecondary) continue;
     if (world.motion(body) == Motion::kAbsent || world.tick() < track.heard_tick) continue;
-    const BodyState& lay = *memory.history().At(world.tick(), body);
-    if (Negligible(Apart(world.Read(body), lay))) continue;
-    world.Write(body, lay, false);
+    const BodyState* const lay = memory.history().At(world.tick(), body);
+    if (lay == nullptr || Negligible(Apart(world.Read(body), *lay))) continue;
+    world.Write(body, *lay, false);
     world.SetAwake(body, false);
   }
 }
