@@ -96,6 +96,7 @@ TEST(Strip, TheCurveLiesAtItsErrorOnTheScale) {
   DrawList list(TestFont());
   list.Begin(460, 142);
   DrawStrip(list, {0, 0, 460, 142}, {curve}, {0, 1, 1});
+  DrawStripNow(list, {0, 0, 460, 142}, {curve}, {0, 1, 1});
   const Image image = Rendered(list);
   // Decades from 1 mm to 10 cm on 100 px: 1 cm lies half way up.
   int red_row = -1;

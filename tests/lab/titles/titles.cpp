@@ -84,7 +84,7 @@ const std::vector<Title>& Titles() {
       {"pile",
        "Every blade goes 0.8 m or more, at least fifteen boxes of each heap and eighty in "
        "all move by half a metre.",
-       JudgePile, 0, 7},
+       JudgePile, 0, 10},
       {"swarm",
        "Each of the players who are there drives a sled 8 m or more and shoves two crates "
        "and more by a metre; the sleds of those who are absent stand.",
