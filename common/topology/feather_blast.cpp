@@ -177,9 +177,9 @@ std::vector<Brick> FreedBricks(const FeatureList<BrickField>& fields,
 }
 
 bool Possible(const Blast& blast) {
-  return blast.centre.allFinite() && blast.radius > 0 && blast.radius <= kBlastRadiusMax &&
-         blast.speed >= 0 && blast.speed <= kSpeedMax && blast.impulse >= 0 &&
-         blast.impulse <= kBlastImpulseMax;
+  return blast.centre.cwiseAbs().maxCoeff() <= kBlastPlaceMax && blast.centre.allFinite() &&
+         blast.radius > 0 && blast.radius <= kBlastRadiusMax && blast.speed >= 0 &&
+         blast.speed <= kSpeedMax && blast.impulse >= 0 && blast.impulse <= kBlastImpulseMax;
 }
 
 }  // namespace seam

@@ -45,7 +45,10 @@ Freed BlastBricks(const FeatureList<BrickField>& fields, const std::vector<Brick
 std::vector<Brick> FreedBricks(const FeatureList<BrickField>& fields,
                                const std::vector<Part>& parts);
 
-/// Whether a blast is one that can be: finite, of at most kBlastRadiusMax, kSpeedMax and
+/// m that a blast's centre is from the origin at most, along x and along y.
+constexpr float kBlastPlaceMax = 1e6f;
+
+/// Whether a blast is one that can be: of at most kBlastPlaceMax, kBlastRadiusMax, kSpeedMax and
 /// kBlastImpulseMax.
 bool Possible(const Blast& blast);
 

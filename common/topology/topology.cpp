@@ -137,7 +137,7 @@ Status Topology::Validate(const Edit& edit) const {
                  },
                  [&](const BlastEdit& blast) {
                    if (!Possible(BlastOf(blast))) {
-                     return Status::Error("the blast is too large or too fast");
+                     return Status::Error("the blast is too large, too fast or too far away");
                    }
                    if (blast.impulse > 0) return Status::Ok();  // it pushes, whatever it frees
                    if (scene_.bricks.empty()) return Status::Error("there are no bricks");

@@ -8,6 +8,7 @@
 
 #include "common/scene/bricks.h"
 #include "common/scene/mass.h"
+#include "common/scene/scene_limits.h"
 
 namespace seam {
 namespace {
@@ -43,6 +44,19 @@ TEST(Blast, FreesTheBricksWithinItsRadiusAsPartsOfTheSameMass) {
     EXPECT_NEAR(part.velocity.norm(), 20 * (1 - out.norm() / 1.5f), 1e-3);
     EXPECT_NEAR(out.x() * part.velocity.y() - out.y() * part.velocity.x(), 0, 1e-3);
   }
+}
+
+TEST(Blast, IsPossibleWithinItsBoundsOnly) {
+  const Blast good{{1e6f, -1e6f}, kBlastRadiusMax, kSpeedMax, kBlastImpulseMax};
+  EXPECT_TRUE(Possible(good));
+  for (const float far : {-1.1e6f, 3e38f, -3e38f, INFINITY, NAN}) {
+    Blast bad = good;
+    bad.centre.y() = far;
+    EXPECT_FALSE(Possible(bad)) << far;
+  }
+  Blast bad = good;
+  bad.radius = std::nextafter(kBlastRadiusMax, INFINITY);
+  EXPECT_FALSE(Possible(bad));
 }
 
 TEST(Blast, PartsCoverTheFreedBricksExactly) {
