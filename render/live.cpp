@@ -26,17 +26,21 @@ void RenderLive(const RenderOptions& options) {
   LiveRenderer live(options);
   Bus bus(options.lcm_url);
   Clock::time_point last_heard = Clock::now();
+  bool heard = false;  // in the last poll: after a slow frame some may wait
   bus.Subscribe("SEAM\\..*", [&](const std::string& channel, std::int64_t, ByteView message) {
-    if (live.Add(channel, message)) last_heard = Clock::now();
+    if (!live.Add(channel, message)) return;
+    last_heard = Clock::now();
+    heard = true;
   });
   StopOnSignals();
   const Clock::time_point start = Clock::now();
   const double wait_s = options.seconds > 0 ? options.seconds : kFirstWait_s;
   while (g_stop == 0) {
+    heard = false;
     bus.Poll(20000);
     live.DrawDue();
     if (options.seconds > 0 && Since(start) > options.seconds) break;
-    if (live.frames() > 0 && Since(last_heard) > kQuiet_s) break;
+    if (live.frames() > 0 && !heard && Since(last_heard) > kQuiet_s) break;
     if (live.frames() == 0 && Since(start) > wait_s) break;
   }
   if (live.frames() == 0) {
