@@ -18,15 +18,22 @@ function nearest(rows, latency, loss) {
 }
 
 // Each method's figures over the scenes: medians, and the geometric mean of its errors as multiples
-// of the least of each scene.
+// of the least of each scene. A scene in which less than half as many methods ran as in another
+// says nothing of the others, and is left out.
 function rank(rows, scenes, latency, loss) {
   const used = [];
   const methods = new Map();
+  const tried = [];
   for (const scene of scenes) {
     const of = rows.filter((r) => r[kScene] === scene);
     const place = nearest(of, latency, loss);
     if (place === null) continue;
     const here = of.filter((r) => r[kLatency] === place.latency && r[kLoss] === place.loss);
+    tried.push({ scene, place, here });
+  }
+  const most = Math.max(0, ...tried.map((t) => t.here.length));
+  for (const { scene, place, here } of tried) {
+    if (2 * here.length < most) continue;
     used.push({ scene, latency: place.latency, loss: place.loss });
     const least = Math.max(1e-6, Math.min(...here.map((r) => r[kError])));
     for (const row of here) {
