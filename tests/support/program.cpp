@@ -52,6 +52,7 @@ Program::Program(const std::vector<std::string>& argv, const std::string& folder
   pid_ = fork();
   if (pid_ == 0) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);  // it does not outlive the test
+    signal(SIGINT, SIG_DFL);  // a shell has background jobs ignore it
     if (!folder.empty() && chdir(folder.c_str()) != 0) _exit(126);
     dup2(input, 0);
     dup2(output_fd_, 1);

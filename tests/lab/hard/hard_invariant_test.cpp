@@ -253,7 +253,7 @@ Verdict RunCase(const HardCase& hard, double seconds, const Solver* solver = nul
   return {judge->Error(), judge->Failure()};
 }
 
-const HardCase& CaseOf(const std::string& name) {
+const HardCase& CaseOf(std::string_view name) {
   static const std::vector<HardCase> all = InvariantCases();
   const auto found =
       std::find_if(all.begin(), all.end(), [&](const HardCase& hard) { return hard.name == name; });
