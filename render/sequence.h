@@ -17,13 +17,13 @@ constexpr int kFramesMax = 1000000;
 /// they are more than kFramesMax.
 std::vector<double> FrameTimes(double from_s, double to_s, double fps);
 
-/// Called after each frame with the number done, by one thread at a time.
+/// Called after each frame with the number done.
 using Progress = std::function<void(int done)>;
 
-/// Writes one frame per moment; each of `threads` has a canvas of its own and takes the next frame
-/// that nobody has. The files do not depend on `threads`. Throws what a frame throws (a full
-/// disk), after all threads have stopped.
+/// Writes one frame per moment; each of `processes` has a canvas of its own and takes the next
+/// frame that nobody has (DrawInProcesses; 1: this process). The files are the same with each.
+/// Throws OperatorError when a frame cannot be written (a full disk), after all have stopped.
 void WriteSequence(const Page& page, const Font& font, const std::vector<double>& times_s,
-                   int threads, const OutputFolder& folder, const Progress& progress);
+                   int processes, const OutputFolder& folder, const Progress& progress);
 
 }  // namespace seam

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdlib>
 #include <cstring>
-#include <mutex>
 #include <vector>
 
 #include "common/base/check.h"
@@ -110,10 +109,8 @@ GLuint Stage(GLenum kind, const char* source) {
   return program;
 }
 
-/// Creating contexts is not safe from several threads, and the settings must come first.
+/// The settings must come first.
 OSMesaContext CreateContext() {
-  static std::mutex mutex;
-  const std::lock_guard<std::mutex> lock(mutex);
   setenv("LP_NUM_THREADS", "0", 1);                // frames are the unit of parallel work
   setenv("MESA_SHADER_CACHE_DISABLE", "true", 0);  // leaves no files in the home folder
   const int attributes[] = {OSMESA_FORMAT,

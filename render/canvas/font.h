@@ -23,7 +23,7 @@ struct Glyph {
   float advance = 0;      ///< px
 };
 
-/// An immutable atlas, shared by all threads.
+/// An immutable atlas.
 class Font {
  public:
   /// Rasterises ASCII, Latin-1, a few signs, and the letters of `extra` (UTF-8) in every style,

@@ -64,7 +64,6 @@ void Playback::Prepare() {
   const auto given = [](const std::string& colour) { return !colour.empty(); };
   if (std::none_of(player_colours_.begin(), player_colours_.end(), given)) player_colours_.clear();
   revisions_ = std::make_shared<KnownRevisions>();
-  const std::lock_guard<std::mutex> lock(revisions_->mutex);
   const auto revision = AllRevisions().At(0);
   if (!scene_.bricks.empty()) bricks_ = std::make_shared<FeatherStore>(scene_.bricks);
   revisions_->first = Drawn(revision);
@@ -92,7 +91,6 @@ std::shared_ptr<const DrawnRevision> Playback::Drawn(
 }
 
 std::shared_ptr<const DrawnRevision> Playback::RevisionAfter(int edits) const {
-  const std::lock_guard<std::mutex> lock(revisions_->mutex);
   const RevisionHistory& all = AllRevisions();
   const int key = all.Key(edits);
   if (key == 0) return revisions_->first;
@@ -110,7 +108,6 @@ std::shared_ptr<const DrawnRevision> Playback::RevisionOf(const Moment& moment) 
 }
 
 std::shared_ptr<const SceneRevision> Playback::WorldOf(const Moment& moment) const {
-  const std::lock_guard<std::mutex> lock(revisions_->mutex);
   return AllRevisions().At(moment.before == nullptr ? 0 : moment.before->revision);
 }
 

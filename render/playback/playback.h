@@ -3,7 +3,6 @@
 
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -119,17 +118,15 @@ class Playback {
   std::shared_ptr<const Recording> recording_;
   Scene scene_;
   std::optional<Oracle> oracle_;
-  /// Shapes by revision, a bounded number of them. Frames are drawn by several threads.
+  /// Shapes by revision, a bounded number of them.
   struct KnownRevisions {
-    std::mutex mutex;
     std::size_t edits = 0;  // of the recording, when `all` was made
     std::unique_ptr<RevisionHistory> all;
     std::shared_ptr<const DrawnRevision> first;
     std::map<int, std::shared_ptr<const DrawnRevision>> drawn;  // by key
   };
-  /// Of all edits heard so far. Requires revisions_->mutex.
+  /// Of all edits heard so far.
   const RevisionHistory& AllRevisions() const;
-  /// Requires revisions_->mutex.
   std::shared_ptr<const DrawnRevision> Drawn(
       const std::shared_ptr<const SceneRevision>& revision) const;
   std::shared_ptr<KnownRevisions> revisions_;

@@ -25,7 +25,7 @@ int SeamRender(const std::vector<std::string>& arguments, std::string* said = nu
   return status;
 }
 
-TEST(Sequence, WritesTheSameBytesInEveryRunAndWithAnyNumberOfThreads) {
+TEST(Sequence, WritesTheSameBytesInEveryRunAndWithAnyNumberOfProcesses) {
   const Playback playback = MakePlayback();
   Page page = MakePage(playback, kViewAll);
   page.width_px = 640;
@@ -33,12 +33,12 @@ TEST(Sequence, WritesTheSameBytesInEveryRunAndWithAnyNumberOfThreads) {
   const Font font(ScaleOf(640, 360));
   const std::vector<double> times = FrameTimes(1, 1.5, 30);
   std::vector<std::vector<std::string>> runs;
-  for (int threads : {1, 1, 2, 5}) {
+  for (int processes : {1, 1, 2, 5}) {
     Folder folder;
     const OutputFolder output(folder / "frames", false);
     output.Prepare();
     int done = 0;
-    WriteSequence(page, font, times, threads, output, [&done](int) { ++done; });
+    WriteSequence(page, font, times, processes, output, [&done](int) { ++done; });
     EXPECT_EQ(done, 16);
     runs.emplace_back();
     for (int i = 0; i < 16; ++i) runs.back().push_back(Content(output.FramePath(i)));
@@ -139,7 +139,7 @@ TEST(RenderProgram, OperatorsMistakesAreOneLineStatus2AndWriteNothing) {
   }
 }
 
-TEST_F(RenderLog, GivesTheSameFilesInEveryRunAndWithAnyNumberOfThreads) {
+TEST_F(RenderLog, GivesTheSameFilesInEveryRunAndWithAnyNumberOfProcesses) {
   std::vector<std::vector<std::string>> runs;
   for (const char* threads : {"1", "4", "3"}) {
     const std::string out = folder_ / (std::string("run") + threads);
