@@ -26,6 +26,8 @@ INSTRUMENT_coverage := --coverage
 CXXFLAGS_release := -O2 -g1
 CXXFLAGS_debug := -O0 -g
 CXXFLAGS_asan := -O1 -g1 $(INSTRUMENT_asan) -fno-sanitize-recover=all -fno-omit-frame-pointer
+# Checks that take half of the time to compile a test; what the tests test is compiled with them.
+TEST_CXXFLAGS_asan := -fno-sanitize=null,alignment,object-size,vptr
 CXXFLAGS_tsan := -O1 -g1 $(INSTRUMENT_tsan)
 # Signals and threads end programs at any time: counters are added atomically.
 CXXFLAGS_coverage := -O1 -g1 $(INSTRUMENT_coverage) -fprofile-update=atomic
@@ -127,7 +129,7 @@ $(GEN)/.stamp: $(LCM_TYPES) lcmtypes/harden.awk Makefile | build/.deps-build
 
 # What every object is made with. Written when it differs, so that other flags rebuild everything,
 # and an interrupted rebuild goes on where it was.
-FLAGS := $(strip $(CXX) $(ALL_CXXFLAGS) $(CODEC_CXXFLAGS) $(LDFLAGS))
+FLAGS := $(strip $(CXX) $(ALL_CXXFLAGS) $(CODEC_CXXFLAGS) $(TEST_CXXFLAGS_$(BUILD)) $(LDFLAGS))
 ifneq ($(file <$(OUT)/.flags),$(FLAGS))
 $(OUT)/.flags: force
 endif
@@ -147,6 +149,7 @@ LINKED = $(filter-out %/.sources,$^)
 
 $(CODEC): private ALL_CXXFLAGS += $(CODEC_CXXFLAGS)
 $(CODEC): $(GEN)/.stamp
+$(TESTS): private ALL_CXXFLAGS += $(TEST_CXXFLAGS_$(BUILD))
 $(OUT)/%.o: %.cpp $(OUT)/.flags | build/.deps-build
 	@mkdir -p $(@D)
 	$(CXX) $(ALL_CXXFLAGS) -c $< -o $@
@@ -179,7 +182,8 @@ $(OUT)/seam-export: $(OUT)/render/export_main.o $(EXPORT) $(OUT)/libseam-common.
 	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
-$(OUT)/seam-tests: $(TESTS) $(LAB) $(SERVER) $(CLIENT) $(WATCHERS) $(RENDER) $(OUT)/libseam-common.a
+# The tests last: of an inline function that they use too the tested objects' copy is taken.
+$(OUT)/seam-tests: $(LAB) $(SERVER) $(CLIENT) $(WATCHERS) $(RENDER) $(TESTS) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(RENDER_LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
 # Man pages and completion, by the programs themselves: from what parses their flags, and from the scenes here.
