@@ -206,7 +206,7 @@ void DrawScaleBar(DrawList& list, const Viewport& viewport) {
   const float metres = RoundUp(60 * scale / viewport.px_per_m);
   const float right = std::round(viewport.panel.right() - 14 * scale) + 0.5f;
   const float left = right - std::round(metres * viewport.px_per_m);
-  const float y = std::round(viewport.panel.y + 48 * scale) + 0.5f;
+  const float y = std::round(viewport.panel.bottom() - 8 * scale) + 0.5f;
   const float tick = 3 * scale;
   const Line line{1.2f * scale, kFaintInk, 0};
   list.Stroke({{left, y}, {right, y}}, false, line);
