@@ -291,6 +291,8 @@ void Client::PublishStats(std::int64_t now_us, std::int64_t cpu_us) {
   stats_.cpu_us = cpu_us;
   stats_.rtt_us =
       static_cast<std::int32_t>(std::min<std::int64_t>(clock_.rtt_min_us(), 1000000000));
+  stats_.jitter_us = static_cast<std::int32_t>(std::min<std::int64_t>(
+      clock_.rtt_min_us() < 0 ? -1 : clock_.rtt_p90_us() - clock_.rtt_min_us(), 1000000000));
   stats_.loss_ppm = static_cast<std::int32_t>(link_->loss_ppm());
   stats_.tick_late_us = static_cast<std::int32_t>(std::min<std::int64_t>(worst_late_us_, 1 << 30));
   stats_.clock_offset_us = static_cast<std::int32_t>(

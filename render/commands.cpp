@@ -20,6 +20,7 @@
 #include "render/canvas/png_writer.h"
 #include "render/load.h"
 #include "render/manifest.h"
+#include "render/panel_note.h"
 #include "render/playback/moments.h"
 #include "render/scene_recording.h"
 #include "render/sequence.h"
@@ -122,6 +123,7 @@ Page PageOf(const RenderOptions& options, const std::vector<Playback>& playbacks
   ChooseTimes(options, playbacks, &page, &wish);
   if (IsSceneFile(options.logs.front())) ShowScene(playbacks.front().scene(), &page, &wish);
   SetCamera(wish, playbacks, &page);
+  FindCorrections(&page);
   page.about = AboutPictures(options, page);
   return page;
 }

@@ -7,8 +7,10 @@
 #include "render/draw/draw_difference.h"
 #include "render/draw/draw_hud.h"
 #include "render/draw/draw_scene.h"
+#include "render/panel_note.h"
 #include "render/playback/format.h"
 #include "render/playback/peer_colour.h"
+#include "render/playback/peer_report.h"
 
 namespace seam {
 namespace {
@@ -47,10 +49,11 @@ std::vector<Figure> Figures(const Page& page, double now_s) {
   std::vector<Figure> figures;
   figures.emplace_back("time", FormatTime(now_s));
   figures.emplace_back("tick", std::to_string(static_cast<std::int64_t>(std::floor(tick))));
-  const std::int32_t rtt_us = first.RoundTripUs(page.panels.front().peer, tick);
-  if (rtt_us >= 0) figures.emplace_back("round trip", FormatNumber(rtt_us / 1e3, 0) + " ms");
-  const double loss = first.LossPercent(page.panels.front().peer, tick);
-  if (loss >= 0) figures.emplace_back("loss", FormatNumber(loss, 1) + " %");
+  const PeerReport report = ReportOf(first.recording(), page.panels.front().peer, tick);
+  if (report.rtt_us >= 0)
+    figures.emplace_back("round trip", FormatNumber(report.rtt_us / 1e3, 0) + " ms");
+  if (report.loss_percent >= 0)
+    figures.emplace_back("loss", FormatNumber(report.loss_percent, 1) + " %");
   if (page.panels.size() == 1 && first.has_oracle())
     figures.emplace_back("error now", ErrorText(page.panels.front(), now_s));
   return figures;
@@ -118,6 +121,7 @@ void DrawPanelFrame(DrawList& list, const Page& page, const Panel& panel, const 
     corner = apart < 0 ? "" : "apart " + FormatLength(apart) + " RMS";
   }
   DrawCaption(list, world, panel.caption, corner, panel.swatch);
+  DrawNote(list, world, TextOf(NoteOf(panel, now_s)));
   const Rect frame{world.x + 0.5f, world.y + 0.5f, world.width - 1, world.height - 1};
   list.StrokeRect(frame, {1, kFrame, 0});
 }

@@ -23,6 +23,8 @@ struct Panel {
   std::string caption;
   Colour swatch{0, 0, 0, 0};       ///< of its curve; alpha 0: none
   const Playback* over = nullptr;  ///< borrowed; drawn over it, by how far it is from it
+  /// Ticks of those that a person sees, ascending (FindCorrections); empty: unknown.
+  std::optional<std::vector<std::int64_t>> corrections = std::nullopt;
 };
 
 /// A contact that is drawn once more, larger, in a corner of each panel while it happens.

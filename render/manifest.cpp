@@ -6,11 +6,14 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 
 #include "common/base/bytes.h"
 #include "common/base/check.h"
 #include "common/base/json_text.h"
 #include "common/codec/version_line.h"
+#include "render/panel_note.h"
+#include "render/playback/peer_report.h"
 
 namespace seam {
 namespace {
@@ -32,6 +35,33 @@ const char* NameOf(CameraWish::Kind kind) {
     case CameraWish::Kind::kFollow: return "follow";
   }
   return "";
+}
+
+/// A number, or null.
+template <class Known>
+std::string NumberOrNull(const Known& value) {
+  return value ? fmt::format("{:.6g}", static_cast<double>(*value)) : "null";
+}
+
+/// What the page's figures and corners say of each panel at a moment.
+std::string PanelsJson(const Page& page, double now_s) {
+  std::string text;
+  for (const Panel& panel : page.panels) {
+    const double tick = panel.playback->TickAt(now_s);
+    const PeerReport report = ReportOf(panel.playback->recording(), panel.peer, tick);
+    const ViewNote note = NoteOf(panel, now_s);
+    const auto reported = [](double value) {
+      return value < 0 ? std::nullopt : std::optional<double>(value);
+    };
+    text += fmt::format(
+        "{}{{\"error_m\": {}, \"round_trip_ms\": {}, \"jitter_ms\": {}, \"loss_percent\": {}, "
+        "\"view_age_ms\": {}, \"corrections\": {}}}",
+        text.empty() ? "" : ", ", NumberOrNull(panel.playback->ErrorAt(panel.error_peer, tick)),
+        NumberOrNull(reported(report.rtt_us / 1e3)), NumberOrNull(note.jitter_ms),
+        NumberOrNull(reported(report.loss_percent)), NumberOrNull(note.age_ms),
+        NumberOrNull(note.corrections));
+  }
+  return text;
 }
 
 }  // namespace
@@ -72,10 +102,10 @@ void WriteManifest(const RenderOptions& options, const Page& page,
     const WorldBox box = page.camera != nullptr ? page.camera->At(times_s[i]) : WorldBox();
     text += fmt::format(
         "    {{\"file\": {}, \"time_s\": {:.6f}, \"tick\": {:.3f}, \"box_m\": [{:.3f}, {:.3f}, "
-        "{:.3f}, {:.3f}]}}{}\n",
+        "{:.3f}, {:.3f}], \"panels\": [{}]}}{}\n",
         JsonText(NameOf(folder.FramePath(static_cast<int>(i)))), times_s[i],
         first.TickAt(times_s[i]), box.min.x(), box.min.y(), box.max.x(), box.max.y(),
-        i + 1 < times_s.size() ? "," : "");
+        PanelsJson(page, times_s[i]), i + 1 < times_s.size() ? "," : "");
   }
   text += "  ]\n}\n";
   const std::string path = folder.path() + "/" + kManifestName;

@@ -307,6 +307,7 @@ struct Stats {
   std::int64_t dropped_budget = 0;       ///< datagrams beyond what their sender may send
   std::int64_t cpu_us = 0;               ///< CPU time of the process (0 in virtual time)
   std::int32_t rtt_us = 0;               ///< least round trip of the last window, -1 unknown
+  std::int32_t jitter_us = -1;           ///< nine of ten exceeded it by no more, -1 unknown
   std::int32_t loss_ppm = 0;             ///< datagrams lost on the way in, per million
   std::int32_t tick_late_us = 0;         ///< worst lateness of a tick in the last second
   std::int32_t clock_offset_us = 0;      ///< slewed offset still to be corrected

@@ -228,7 +228,7 @@ bool Valid(const Stats& m) {
          Counter(m.bytes_out) && Counter(m.bytes_in) && Counter(m.datagrams_out) &&
          Counter(m.datagrams_in) && Counter(m.dropped_malformed) && Counter(m.dropped_stale) &&
          Counter(m.dropped_right) && Counter(m.dropped_implausible) && Counter(m.dropped_budget) &&
-         Counter(m.cpu_us) && m.rtt_us >= -1 && Within(m.loss_ppm, 0, 1000000);
+         Counter(m.cpu_us) && m.rtt_us >= -1 && m.jitter_us >= -1 && Within(m.loss_ppm, 0, 1000000);
 }
 
 bool Valid(const Load& m) {

@@ -133,6 +133,16 @@ void DrawCaption(DrawList& list, const Rect& panel, const std::string& left,
   list.Text(end, base, TextStyle::kStrong, right, kInk, Align::kRight);
 }
 
+void DrawNote(DrawList& list, const Rect& panel, const std::string& text) {
+  const float scale = list.font().scale();
+  const float width = list.font().Width(TextStyle::kSmall, text);
+  if (text.empty() || width > 0.6f * panel.width) return;
+  const float x = panel.x + 10 * scale, base = panel.bottom() - 9 * scale;
+  list.FillRect({x - 5 * scale, base - 11 * scale, width + 10 * scale, 15 * scale},
+                Faded(kPanel, 0.8f));
+  list.Text(x, base, TextStyle::kSmall, text, kInk);
+}
+
 std::string RunDescription(const Playback& playback) {
   const Room& room = playback.recording().room;
   std::string text = "mode " + room.mode;

@@ -29,6 +29,9 @@ void DrawLegend(DrawList& list, const Rect& area, const Playback& playback, cons
 void DrawCaption(DrawList& list, const Rect& panel, const std::string& left,
                  const std::string& right, Colour swatch);
 
+/// In a panel's lower left corner, if there is room beside the scale bar.
+void DrawNote(DrawList& list, const Rect& panel, const std::string& text);
+
 /// Everything a recording says about its run: mode, reconciler, network, seed, rate.
 std::string RunDescription(const Playback& playback);
 

@@ -14,5 +14,7 @@ constexpr double kJump_m = 0.02;
 /// Events of kind "correction", the largest of each view and body within a tenth of a second; none
 /// without an oracle.
 std::vector<PageEvent> FindJumps(const Playback& playback);
+/// The same of one peer's view.
+std::vector<PageEvent> FindJumpsOf(const Playback& playback, int peer);
 
 }  // namespace seam

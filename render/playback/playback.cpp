@@ -121,7 +121,10 @@ void Playback::MeasureErrors() {
     alone.views[peer] = views;
     alone.first_tick = recording_->first_tick;
     alone.last_tick = recording_->last_tick;
-    Keep(peer, recording_->views.size() == 1 ? *measures_ : Measure(alone, *oracle_));
+    alone.room.tick_hz = recording_->room.tick_hz;
+    const Measures own = recording_->views.size() == 1 ? *measures_ : Measure(alone, *oracle_);
+    Keep(peer, own);
+    if (own.view_age_ms) view_ages_ms_[peer] = *own.view_age_ms;
   }
 }
 
@@ -271,28 +274,9 @@ Pose Playback::Anchored(const BodyShapes& body, double tick) const {
   return {now.position, now.angle};
 }
 
-std::int32_t Playback::RoundTripUs(int peer, double tick) const {
-  std::int32_t greatest = -1;
-  for (const auto& [from, list] : recording_->stats) {
-    if (peer != 0 && from != peer) continue;
-    std::int32_t last = -1;
-    for (const Stats& stats : list)
-      if (static_cast<double>(stats.tick) <= tick) last = stats.rtt_us;
-    greatest = std::max(greatest, last);
-  }
-  return greatest;
-}
-
-double Playback::LossPercent(int peer, double tick) const {
-  double greatest = -1;
-  for (const auto& [from, list] : recording_->stats) {
-    if (peer != 0 && from != peer) continue;
-    double last = -1;
-    for (const Stats& stats : list)
-      if (static_cast<double>(stats.tick) <= tick) last = stats.loss_ppm * 1e-4;
-    greatest = std::max(greatest, last);
-  }
-  return greatest;
+std::optional<double> Playback::ViewAgeMs(int peer) const {
+  const auto found = view_ages_ms_.find(peer);
+  return found == view_ages_ms_.end() ? std::nullopt : std::optional<double>(found->second);
 }
 
 void Playback::MeasureTick(std::int64_t tick) {

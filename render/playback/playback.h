@@ -91,12 +91,9 @@ class Playback {
   Pose Anchored(const BodyShapes& body, double tick) const;
   /// A part as shown, whichever body it is in.
   std::optional<Pose> FindPart(const Moment& moment, PartId part) const;
-  /// Round trip as `peer` last reported it by `tick`, µs; -1 unknown. Peer 0 has none of its own:
-  /// the greatest of its clients' is taken.
-  std::int32_t RoundTripUs(int peer, double tick) const;
-
-  /// Datagrams lost, percent, likewise; -1 unknown.
-  double LossPercent(int peer, double tick) const;
+  /// How old what a peer's view shows of others is, on average over the recording, ms; empty
+  /// without an oracle, and where nothing tells it (docs/metrics.md).
+  std::optional<double> ViewAgeMs(int peer) const;
 
   /// RMS error of a peer's view at a tick, m; peer -1: of all views. NaN where the oracle or the
   /// views know nothing; empty without an oracle.
@@ -135,6 +132,7 @@ class Playback {
   std::optional<ImposedMotions> imposed_;
   std::optional<Measures> measures_;
   std::map<int, std::vector<double>> errors_;  // by peer; -1: all
+  std::map<int, double> view_ages_ms_;         // by peer
   std::int64_t error_first_tick_ = 0;
 };
 

@@ -179,6 +179,11 @@ TEST_F(RenderLog, TheManifestNamesTheLogAndEachFramesMomentAndBox) {
   EXPECT_NE(manifest.find("{\"file\": \"frame_00001.png\", \"time_s\": 0.500000, \"tick\": 30.000"),
             std::string::npos)
       << manifest;
+  // What the page says of its view, by frame.
+  for (const char* key : {"\"panels\": [{\"error_m\": ", "\"round_trip_ms\": 104,",
+                          "\"jitter_ms\": 9,", "\"loss_percent\": 0,", "\"view_age_ms\": ",
+                          "\"corrections\": "})
+    EXPECT_NE(manifest.find(key), std::string::npos) << key << " in\n" << manifest;
   const std::string frame = Content(out + "/frame_00000.png");
   EXPECT_NE(frame.find("seam-render "), std::string::npos);
   EXPECT_NE(frame.find("log.lcm fnv1a-64:"), std::string::npos);

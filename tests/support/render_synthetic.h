@@ -135,6 +135,7 @@ inline Recording MakeRecording(int late_ticks, const std::string& mode = "buffer
     Stats stats;
     stats.peer = peer;
     stats.rtt_us = 104000;
+    stats.jitter_us = 9000;
     recording.stats[peer].push_back(stats);
   }
   return recording;
