@@ -106,8 +106,8 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
                                      sessions_.WorstLossPpm()));
     sessions_.ReadAccounts();
   }
-  RelayInputs(now_us);
   broadcast_.SendWaiting(now_us);
+  RelayInputs(now_us);
   sessions_.Flush(now_us, &stats_.counters);
 }
 

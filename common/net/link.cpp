@@ -5,6 +5,7 @@
 #include <deque>
 #include <limits>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "common/base/check.h"
@@ -68,6 +69,7 @@ struct Link::Impl {
   std::int64_t last_send_us = -1;
   std::deque<Passing> unreliable;
   std::array<std::int64_t, kReceiptSlots> arrived;  // by slot, the largest number
+  std::vector<std::int64_t> listed;  // of kListedSlot, that arrived
   std::deque<Outgoing> reliable;  // the first kReliableWindow of them are the window
   mutable std::int64_t reliable_due_us = 0;  // before that none of the window is due
   std::int64_t next_id = 0;
@@ -221,6 +223,10 @@ struct Link::Impl {
     record.acked = ever_acked = true;
     if (sample && !quiet) SampleRtt(now_us - record.sent_us);
     for (const Receipt& receipt : record.receipts) {
+      if (receipt.slot == kListedSlot) {
+        listed.push_back(receipt.number);
+        continue;
+      }
       std::int64_t& largest = arrived[static_cast<std::size_t>(receipt.slot)];
       largest = std::max(largest, receipt.number);
     }
@@ -307,7 +313,7 @@ void Link::SendUnreliable(ByteView message) {
 }
 
 void Link::SendUnreliable(ByteView message, int slot, std::int64_t number) {
-  SEAM_ASSERT(slot >= 0 && slot < kReceiptSlots);
+  SEAM_ASSERT((slot >= 0 && slot < kReceiptSlots) || slot == kListedSlot);
   SendUnreliable(message);
   impl_->unreliable.back().receipt = {slot, number};
 }
@@ -339,6 +345,7 @@ std::int64_t Link::acked(int slot) const {
   SEAM_ASSERT(slot >= 0 && slot < kReceiptSlots);
   return impl_->arrived[static_cast<std::size_t>(slot)];
 }
+std::vector<std::int64_t> Link::TakeArrived() { return std::exchange(impl_->listed, {}); }
 bool Link::Sends(std::int64_t now_us) const { return impl_->Sends(now_us); }
 std::int64_t Link::last_receive_us() const { return impl_->last_receive_us; }
 std::int64_t Link::rtt_us() const { return impl_->srtt_us; }

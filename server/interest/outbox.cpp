@@ -5,8 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include "common/sync/limits.h"
-
 namespace seam {
 namespace {
 
@@ -83,15 +81,20 @@ void Outbox::Fill(std::int64_t now_us) {
   credit_ = std::min(std::max(credit_, -most) + passed_s * bytes_per_s_, most);
 }
 
-bool Outbox::Affords(std::int64_t now_us, std::size_t bytes) {
+bool Outbox::Affords(std::int64_t now_us, std::size_t bodies) {
   if (bytes_per_s_ <= 0) return true;
   Fill(now_us);
-  return credit_ >= static_cast<double>(bytes);
+  return credit_ >= kMessageCost + each_ * static_cast<double>(bodies);
+}
+
+void Outbox::NoteCost(std::size_t bytes, std::size_t bodies) {
+  if (bodies == 0) return;
+  each_ += (static_cast<double>(bytes) / static_cast<double>(bodies) - each_) / 16;
 }
 
 std::size_t Outbox::Affordable(std::int64_t now_us) {
   Fill(now_us);
-  const double bodies = (credit_ - kMessageCost) / static_cast<double>(kStatesBytes.each);
+  const double bodies = (credit_ - kMessageCost) / each_;
   if (bodies >= static_cast<double>(waiting_.size())) return waiting_.size();
   if (bodies < 1 || now_us - part_us_ < kPartEveryUs) return 0;
   part_us_ = now_us;

@@ -10,7 +10,8 @@ namespace {
 
 std::int8_t KindOfType(const std::string& name) {
   static const std::unordered_map<std::string, std::int8_t> kinds = {
-      {"states_t", kTrafficStates},      {"inputs_t", kTrafficInputs},
+      {"states_t", kTrafficStates},      {"packed_states_t", kTrafficStates},
+      {"inputs_t", kTrafficInputs},
       {"rest_t", kTrafficRest},          {"grants_t", kTrafficGrants},
       {"release_t", kTrafficHandOver},   {"exact_states_t", kTrafficHandOver},
       {"edit_t", kTrafficEdits},         {"snapshot_t", kTrafficJoining},
