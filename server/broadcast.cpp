@@ -82,9 +82,10 @@ void Broadcast::TellOwed(std::int64_t now_us) {
   });
 }
 
-void Broadcast::SendWaiting(std::int64_t now_us) {
+void Broadcast::SendWaiting(std::int64_t now_us, bool stepped) {
   sessions_.ForEachReady(0, [&](Session& session) {
-    if (!session.outbox.empty()) {
+    const bool now = stepped || session.outbox.pressing() || !session.packer.empty();
+    if (now && !session.outbox.empty()) {
       for (const States& s : session.outbox.Compose(now_us, newest_)) session.packer.Add(s);
     }
     for (const StatesPacker::Message& message : session.packer.Take()) {

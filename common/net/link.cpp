@@ -68,9 +68,9 @@ struct Link::Impl {
   std::int64_t sequence = 0;  // of the newest datagram sent; the first is 1
   std::int64_t last_send_us = -1;
   std::deque<Passing> unreliable;
-  std::array<std::int64_t, kReceiptSlots> arrived;  // by slot, the largest number
-  std::vector<std::int64_t> listed;  // of kListedSlot, that arrived
-  std::deque<Outgoing> reliable;  // the first kReliableWindow of them are the window
+  std::array<std::int64_t, kReceiptSlots + 1> arrived;  // by slot, the largest number
+  std::vector<std::int64_t> listed;                     // of kListedSlot, that arrived
+  std::deque<Outgoing> reliable;             // the first kReliableWindow of them are the window
   mutable std::int64_t reliable_due_us = 0;  // before that none of the window is due
   std::int64_t next_id = 0;
   std::deque<SentRecord> sent;  // of successive sequence numbers up to the newest
@@ -199,8 +199,7 @@ struct Link::Impl {
       if (message.receipt.slot >= 0) packing.receipts.push_back(message.receipt);
     }
     unreliable.clear();
-    if (!packing.writer.empty()) Emit(packing);
-    if (OwesDatagram(now_us)) Emit(packing);
+    if (!packing.writer.empty() || OwesDatagram(now_us)) Emit(packing);
     while (packing.datagrams > 0 && packing.datagrams < packing.acks.size()) Emit(packing);
     if (packing.datagrams > 0) flushed_newest = window.newest();
   }
@@ -223,12 +222,9 @@ struct Link::Impl {
     record.acked = ever_acked = true;
     if (sample && !quiet) SampleRtt(now_us - record.sent_us);
     for (const Receipt& receipt : record.receipts) {
-      if (receipt.slot == kListedSlot) {
-        listed.push_back(receipt.number);
-        continue;
-      }
       std::int64_t& largest = arrived[static_cast<std::size_t>(receipt.slot)];
       largest = std::max(largest, receipt.number);
+      if (receipt.slot == kListedSlot) listed.push_back(receipt.number);
     }
     for (const std::int64_t id : record.ids) {
       const auto index = static_cast<std::size_t>(reliable.empty() ? -1 : id - reliable.front().id);
@@ -261,10 +257,7 @@ struct Link::Impl {
     if (id < next_in) return;  // delivered before
     early.emplace(id, Bytes(message.bytes.begin(), message.bytes.end()));
     while (!early.empty() && early.begin()->first == next_in) {
-      const Bytes bytes = std::move(early.begin()->second);
-      early.erase(early.begin());
-      ++next_in;
-      deliver(bytes);
+      deliver(early.extract(next_in++).mapped());
     }
   }
 
@@ -313,7 +306,7 @@ void Link::SendUnreliable(ByteView message) {
 }
 
 void Link::SendUnreliable(ByteView message, int slot, std::int64_t number) {
-  SEAM_ASSERT((slot >= 0 && slot < kReceiptSlots) || slot == kListedSlot);
+  SEAM_ASSERT(slot >= 0 && slot <= kListedSlot);
   SendUnreliable(message);
   impl_->unreliable.back().receipt = {slot, number};
 }
@@ -340,7 +333,6 @@ bool Link::Receive(std::int64_t now_us, ByteView datagram, const Gate& gate, con
 }
 
 void Link::SetQuiet(bool quiet) { impl_->quiet = quiet; }
-
 std::int64_t Link::acked(int slot) const {
   SEAM_ASSERT(slot >= 0 && slot < kReceiptSlots);
   return impl_->arrived[static_cast<std::size_t>(slot)];

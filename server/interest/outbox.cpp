@@ -62,6 +62,7 @@ void Append(PartId id, const HeardState& state, States* message) {
 
 void Outbox::Add(std::int64_t now_us, PartId id, Urgency urgency) {
   const auto i = static_cast<std::size_t>(id);
+  pressing_ = pressing_ || urgency == Urgency::kFollowed;
   if (place_.size() <= i) place_.resize(i + 1, -1);
   if (place_[i] >= 0) {
     Urgency& before = waiting_[static_cast<std::size_t>(place_[i])].urgency;
@@ -141,7 +142,9 @@ std::vector<States> Outbox::Compose(std::int64_t now_us, const NewestStates& new
     Append(order[i].id, state, &messages.back());
   }
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
+  pressing_ = false;
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
+    pressing_ = pressing_ || waiting_[i].urgency == Urgency::kFollowed;
     place_[static_cast<std::size_t>(waiting_[i].id)] = static_cast<std::int32_t>(i);
   }
   return messages;

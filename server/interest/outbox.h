@@ -30,6 +30,8 @@ class Outbox {
   /// on. utime is left 0.
   std::vector<States> Compose(std::int64_t now_us, const NewestStates& newest);
   bool empty() const { return waiting_.empty(); }
+  /// Whether anything waits that the receiver simulates.
+  bool pressing() const { return pressing_; }
   /// Whether a message with so many bodies may go to it now.
   bool Affords(std::int64_t now_us, std::size_t bodies);
   /// A message with so many bodies had so many bytes: what the next ones are taken to cost.
@@ -54,6 +56,7 @@ class Outbox {
   std::int64_t part_us_ = -1000000000;  // when only a part of what waited could be sent
   std::int64_t filled_us_ = -1;
   std::vector<Waiting> waiting_;
+  bool pressing_ = false;
   std::vector<std::int32_t> place_;  // by part: in waiting_, -1: it does not wait
   double each_ = static_cast<double>(kStatesBytes.each);  // bytes of a body, as it was lately
 };

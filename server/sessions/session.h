@@ -35,11 +35,7 @@ struct Session {
   /// `bytes_per_s`: what it is sent at most; 0: no limit.
   Session(const SessionId& session, const TrafficRate& allowed, double bytes_per_s,
           const PackedMotion& motion)
-      : id(session),
-        link(session.number),
-        budget(allowed),
-        outbox(bytes_per_s),
-        packer(motion) {}
+      : id(session), link(session.number), budget(allowed), outbox(bytes_per_s), packer(motion) {}
 
   SessionId id;
   Link link;

@@ -11,9 +11,7 @@
 namespace seam {
 
 /// Bits that a number needs: 0 of 0.
-inline int BitWidth(std::uint64_t value) {
-  return value == 0 ? 0 : 64 - __builtin_clzll(value);
-}
+inline int BitWidth(std::uint64_t value) { return value == 0 ? 0 : 64 - __builtin_clzll(value); }
 
 /// Signed numbers in the order 0, -1, 1, -2, ...
 inline std::uint32_t ZigZag(std::int32_t value) {
@@ -32,7 +30,7 @@ class BitWriter {
       bytes_.push_back(static_cast<std::uint8_t>(held_ >> (bits_ - 8)));
     }
   }
-  /// `value` in exponential Golomb code with parameter `k`, 0..16: as short as k + 1 bits below 2^k.
+  /// `value` in exponential Golomb code with parameter `k`, 0..16: k + 1 bits if it is below 2^k.
   void PutGolomb(std::uint32_t value, int k) {
     const std::uint64_t shifted = value + (std::uint64_t{1} << k);
     const int rest = BitWidth(shifted) - 1;  // bits behind the leading one

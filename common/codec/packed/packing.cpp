@@ -6,8 +6,8 @@
 namespace seam {
 namespace {
 
-constexpr double kVelocityUnits = 256;   // in 1 m/s
-constexpr double kFine = 65536;          // of a unit of velocity
+constexpr double kVelocityUnits = 256;  // in 1 m/s
+constexpr double kFine = 65536;         // of a unit of velocity
 constexpr std::int64_t kTicksMost = 1024;
 /// Angle units in 1/512 rad, in 2^-16: 65536 / (2 pi) / 512 * 65536.
 constexpr std::int64_t kTurn = 1335088;

@@ -25,6 +25,7 @@ class StatesPacker {
   };
   /// Adds what a States tells, but for utime and sequence.
   void Add(const States& states);
+  bool empty() const { return !open_ && ready_.empty(); }
   /// What was added since, in its order.
   std::vector<Message> Take();
   /// A message has arrived.

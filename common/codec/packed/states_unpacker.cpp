@@ -83,8 +83,8 @@ void StatesUnpacker::Keep(std::int64_t number, const Entry& entry) {
 bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry) {
   PackedContext& context = context_;
   const bool as_before = context.id_gap > 0 && bits->Get(1) != 0;
-  const std::int64_t gap = as_before ? context.id_gap
-                                     : std::int64_t{bits->GetGolomb(context.id < 0 ? 8 : 2)} + 1;
+  const std::int64_t gap =
+      as_before ? context.id_gap : std::int64_t{bits->GetGolomb(context.id < 0 ? 8 : 2)} + 1;
   const std::int64_t id = context.id + gap;
   if (id >= kIdsMax) return false;
   context.id_gap = context.id < 0 ? 1 : static_cast<std::int32_t>(gap);

@@ -36,9 +36,9 @@ class StatesUnpacker {
 
   const PackedMotion motion_;
   PackedContext context_;
-  std::int64_t newest_ = 0;                // number of a message
-  std::vector<std::int32_t> place_;        // by id: in kept_; -1: nothing came
-  std::vector<std::vector<Kept>> kept_;    // those with the largest numbers, in any order
+  std::int64_t newest_ = 0;              // number of a message
+  std::vector<std::int32_t> place_;      // by id: in kept_; -1: nothing came
+  std::vector<std::vector<Kept>> kept_;  // those with the largest numbers, in any order
 };
 
 }  // namespace seam
