@@ -12,6 +12,7 @@
 #include "client/load_meter.h"
 #include "client/room_timeline.h"
 #include "common/base/entropy.h"
+#include "common/codec/packed/states_unpacker.h"
 #include "common/net/link.h"
 #include "common/net/net.h"
 #include "common/record/recorder.h"
@@ -127,6 +128,8 @@ class Client {
   void PublishShown(std::int64_t now_us);
   void NoteOwnInput();
   void TellRest(std::int64_t now_us);
+  void OnStates(const States& states);
+  void OnPacked(const PackedStates& packed);
   void OnPong(std::int64_t now_us, const Pong& pong);
   /// Whether all lies still, here and at the server, and nobody here does anything: until it does,
   /// a ping a second is enough.
@@ -184,6 +187,7 @@ class Client {
   InputFeed feed_;
   std::int64_t discarded_ = 0;  // by the net, as far as counted in stats_
   Stats stats_;
+  std::optional<StatesUnpacker> unpacker_;  // of this link's packed states
 };
 
 }  // namespace seam

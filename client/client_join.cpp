@@ -35,6 +35,7 @@ void Client::Join(std::int64_t now_us) {
     session_ = entropy_.Next();
   } while (session_ == 0);
   link_ = std::make_unique<Link>(session_);
+  unpacker_.reset();
   token_.reset();
   token_fresh_ = false;
   replica_.reset();

@@ -50,11 +50,9 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
   } else if (const auto* meta = std::get_if<Meta>(&any)) {
     metadata_.Apply(*meta);
   } else if (const auto* states = std::get_if<States>(&any)) {
-    if (started_) {
-      stats_.dropped_stale += replica_->Receive(*states).stale;
-    } else if (held_.size() < kHeldMax) {
-      held_.emplace_back(bytes.begin(), bytes.end());
-    }
+    OnStates(*states);
+  } else if (const auto* packed = std::get_if<PackedStates>(&any)) {
+    OnPacked(*packed);
   } else if (const auto* rest = std::get_if<Rest>(&any)) {
     if (started_) {
       replica_->Receive(*rest);
@@ -72,6 +70,31 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
   } else {
     ++stats_.dropped_malformed;
   }
+}
+
+void Client::OnStates(const States& states) {
+  if (started_) {
+    stats_.dropped_stale += replica_->Receive(states).stale;
+  } else if (held_.size() < kHeldMax) {
+    held_.push_back(Encode(states));
+  }
+}
+
+/// Also what comes before the start is taken: the server counts on what has arrived.
+void Client::OnPacked(const PackedStates& packed) {
+  std::optional<std::vector<States>> all;
+  if (scene_ != nullptr) {
+    if (!unpacker_) {
+      unpacker_.emplace(
+          PackedMotion(scene_->gravity.x(), scene_->gravity.y(), scene_->solver.tick_hz));
+    }
+    all = unpacker_->Take(packed);
+  }
+  if (!all) {
+    ++stats_.dropped_malformed;
+    return;
+  }
+  for (const States& states : *all) OnStates(states);
 }
 
 void Client::OnPong(std::int64_t now_us, const Pong& pong) {

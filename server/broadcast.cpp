@@ -42,15 +42,12 @@ void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) 
     if (body < 0) continue;  // it has left meanwhile
     entries_.push_back({states.id[i], replica_.world().mechanism(body), news[i]});
   }
-  Bytes whole;  // encoded once somebody is due all of it
   sessions_.ForEachReady(from_peer, [&](Session& session) {
     FindDue(session.peer);
-    if (due_.size() == states.id.size() && session.outbox.empty()) {
-      if (whole.empty()) whole = Encode(states);
-      if (session.outbox.Affords(now_us, whole.size())) {
-        session.link.SendUnreliable(whole);
-        return;
-      }
+    if (due_.size() == states.id.size() && session.outbox.empty() &&
+        session.outbox.Affords(now_us, due_.size())) {
+      session.packer.Add(states);
+      return;
     }
     for (const auto& [id, urgency] : due_) session.outbox.Add(now_us, id, urgency);
   });
@@ -85,12 +82,16 @@ void Broadcast::TellOwed(std::int64_t now_us) {
   });
 }
 
-void Broadcast::SendWaiting(std::int64_t now_us) {
+void Broadcast::SendWaiting(std::int64_t now_us, bool stepped) {
   sessions_.ForEachReady(0, [&](Session& session) {
-    if (session.outbox.empty()) return;
-    for (States& states : session.outbox.Compose(now_us, newest_)) {
-      states.utime = now_us;
-      session.link.SendUnreliable(Encode(states));
+    const bool now = stepped || session.outbox.pressing() || !session.packer.empty();
+    if (now && !session.outbox.empty()) {
+      for (const States& s : session.outbox.Compose(now_us, newest_)) session.packer.Add(s);
+    }
+    for (const StatesPacker::Message& message : session.packer.Take()) {
+      const Bytes bytes = Encode(message.packed);
+      session.outbox.NoteCost(bytes.size(), message.bodies);
+      session.link.SendUnreliable(bytes, kListedSlot, message.number);
     }
   });
 }

@@ -50,8 +50,10 @@ class Broadcast {
   /// what is news to it (NewestStates). What is not sent at once waits for SendWaiting. Not on the
   /// bus.
   void Relay(std::int64_t now_us, const States& states, int from_peer);
-  /// What waits for the receivers, as far as their budgets go. Before a flush.
-  void SendWaiting(std::int64_t now_us);
+  /// What waits for the receivers, as far as their budgets go. Before a flush. What is only shown
+  /// waits for the call in which the room has stepped, or goes along with what is followed: states
+  /// come from each client at another time, and a datagram for each would be mostly headers.
+  void SendWaiting(std::int64_t now_us, bool stepped);
   /// Looks anew at what concerns whom, and tells what concerns somebody more than before.
   void LookAround(std::int64_t now_us);
   /// The bodies have changed; LookAround is due.

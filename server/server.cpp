@@ -96,6 +96,7 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
     last_room_us_ = now_us;
     broadcast_.Publish(At(now_us, room_));
   }
+  const std::int64_t before = replica_.tick();
   for (int steps = 0; steps < kStepsMax && now_us >= next_tick_us(); ++steps) {
     stats_.NoteLate(now_us - next_tick_us());
     StepOnce(now_us);
@@ -106,8 +107,8 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
                                      sessions_.WorstLossPpm()));
     sessions_.ReadAccounts();
   }
+  broadcast_.SendWaiting(now_us, replica_.tick() != before);
   RelayInputs(now_us);
-  broadcast_.SendWaiting(now_us);
   sessions_.Flush(now_us, &stats_.counters);
 }
 

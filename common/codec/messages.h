@@ -14,7 +14,7 @@
 namespace seam {
 
 /// Bumped when any message changes: peers of different versions do not talk.
-constexpr std::int32_t kProtocolVersion = 7;
+constexpr std::int32_t kProtocolVersion = 8;
 
 /// Client -> server, until answered: is there a room, of which protocol? No version may change its
 /// fields, so that peers of any two can tell each other theirs.

@@ -138,6 +138,8 @@ bool Valid(const States& m) {
          Within(m.origin_x, -kOriginMax, kOriginMax) && Within(m.origin_y, -kOriginMax, kOriginMax);
 }
 
+bool Valid(const PackedStates& m) { return Within(m.data.size(), 1, kPackedBytesMax); }
+
 bool Valid(const Rest& m) {
   return Time(m.utime) && Counter(m.number) && m.revision >= 0 && Peer(m.peer) && Tick(m.tick) &&
          m.id.size() <= kRestBodiesMax && Lengths(m.id.size(), m.epoch, m.x, m.y, m.angle) &&

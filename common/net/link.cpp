@@ -5,6 +5,7 @@
 #include <deque>
 #include <limits>
 #include <map>
+#include <utility>
 #include <vector>
 
 #include "common/base/check.h"
@@ -67,8 +68,9 @@ struct Link::Impl {
   std::int64_t sequence = 0;  // of the newest datagram sent; the first is 1
   std::int64_t last_send_us = -1;
   std::deque<Passing> unreliable;
-  std::array<std::int64_t, kReceiptSlots> arrived;  // by slot, the largest number
-  std::deque<Outgoing> reliable;  // the first kReliableWindow of them are the window
+  std::array<std::int64_t, kReceiptSlots + 1> arrived;  // by slot, the largest number
+  std::vector<std::int64_t> listed;                     // of kListedSlot, that arrived
+  std::deque<Outgoing> reliable;             // the first kReliableWindow of them are the window
   mutable std::int64_t reliable_due_us = 0;  // before that none of the window is due
   std::int64_t next_id = 0;
   std::deque<SentRecord> sent;  // of successive sequence numbers up to the newest
@@ -197,8 +199,7 @@ struct Link::Impl {
       if (message.receipt.slot >= 0) packing.receipts.push_back(message.receipt);
     }
     unreliable.clear();
-    if (!packing.writer.empty()) Emit(packing);
-    if (OwesDatagram(now_us)) Emit(packing);
+    if (!packing.writer.empty() || OwesDatagram(now_us)) Emit(packing);
     while (packing.datagrams > 0 && packing.datagrams < packing.acks.size()) Emit(packing);
     if (packing.datagrams > 0) flushed_newest = window.newest();
   }
@@ -223,6 +224,7 @@ struct Link::Impl {
     for (const Receipt& receipt : record.receipts) {
       std::int64_t& largest = arrived[static_cast<std::size_t>(receipt.slot)];
       largest = std::max(largest, receipt.number);
+      if (receipt.slot == kListedSlot) listed.push_back(receipt.number);
     }
     for (const std::int64_t id : record.ids) {
       const auto index = static_cast<std::size_t>(reliable.empty() ? -1 : id - reliable.front().id);
@@ -255,10 +257,7 @@ struct Link::Impl {
     if (id < next_in) return;  // delivered before
     early.emplace(id, Bytes(message.bytes.begin(), message.bytes.end()));
     while (!early.empty() && early.begin()->first == next_in) {
-      const Bytes bytes = std::move(early.begin()->second);
-      early.erase(early.begin());
-      ++next_in;
-      deliver(bytes);
+      deliver(early.extract(next_in++).mapped());
     }
   }
 
@@ -307,7 +306,7 @@ void Link::SendUnreliable(ByteView message) {
 }
 
 void Link::SendUnreliable(ByteView message, int slot, std::int64_t number) {
-  SEAM_ASSERT(slot >= 0 && slot < kReceiptSlots);
+  SEAM_ASSERT(slot >= 0 && slot <= kListedSlot);
   SendUnreliable(message);
   impl_->unreliable.back().receipt = {slot, number};
 }
@@ -334,11 +333,11 @@ bool Link::Receive(std::int64_t now_us, ByteView datagram, const Gate& gate, con
 }
 
 void Link::SetQuiet(bool quiet) { impl_->quiet = quiet; }
-
 std::int64_t Link::acked(int slot) const {
   SEAM_ASSERT(slot >= 0 && slot < kReceiptSlots);
   return impl_->arrived[static_cast<std::size_t>(slot)];
 }
+std::vector<std::int64_t> Link::TakeArrived() { return std::exchange(impl_->listed, {}); }
 bool Link::Sends(std::int64_t now_us) const { return impl_->Sends(now_us); }
 std::int64_t Link::last_receive_us() const { return impl_->last_receive_us; }
 std::int64_t Link::rtt_us() const { return impl_->srtt_us; }

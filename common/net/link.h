@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <vector>
 
 #include "common/base/bytes.h"
 #include "common/base/limits.h"
@@ -22,6 +23,8 @@ constexpr int kReliableWindow = 64;
 
 /// Kinds of unreliable messages whose arrival can be asked for: one for each player's inputs.
 constexpr int kReceiptSlots = kPlayersMax;
+/// The slot of messages of which each that arrives is told (Link::TakeArrived).
+constexpr int kListedSlot = kReceiptSlots;
 
 class Link {
  public:
@@ -35,7 +38,8 @@ class Link {
   /// Flush the oldest are forgotten.
   void SendUnreliable(ByteView message);
   /// The same, with a receipt: once a datagram that carried such a message of `slot` has been
-  /// acknowledged, acked(slot) is at least its `number`. Requires a slot below kReceiptSlots.
+  /// acknowledged, acked(slot) is at least its `number`. Requires a slot below kReceiptSlots, or
+  /// kListedSlot.
   void SendUnreliable(ByteView message, int slot, std::int64_t number);
   /// Repeated until acknowledged, delivered once and in order. Requires 1..kMessageBytesMax bytes.
   /// False when 4096 are waiting: the peer is gone or hostile, drop it.
@@ -63,6 +67,8 @@ class Link {
 
   /// Largest number of the slot's messages that arrived, as far as we know; -1: none.
   std::int64_t acked(int slot) const;
+  /// Numbers of the messages of kListedSlot that arrived, as far as we know, since the last call.
+  std::vector<std::int64_t> TakeArrived();
   /// Whether Flush would send anything now.
   bool Sends(std::int64_t now_us) const;
 

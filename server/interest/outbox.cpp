@@ -5,8 +5,6 @@
 #include <tuple>
 #include <utility>
 
-#include "common/sync/limits.h"
-
 namespace seam {
 namespace {
 
@@ -64,6 +62,7 @@ void Append(PartId id, const HeardState& state, States* message) {
 
 void Outbox::Add(std::int64_t now_us, PartId id, Urgency urgency) {
   const auto i = static_cast<std::size_t>(id);
+  pressing_ = pressing_ || urgency == Urgency::kFollowed;
   if (place_.size() <= i) place_.resize(i + 1, -1);
   if (place_[i] >= 0) {
     Urgency& before = waiting_[static_cast<std::size_t>(place_[i])].urgency;
@@ -83,15 +82,20 @@ void Outbox::Fill(std::int64_t now_us) {
   credit_ = std::min(std::max(credit_, -most) + passed_s * bytes_per_s_, most);
 }
 
-bool Outbox::Affords(std::int64_t now_us, std::size_t bytes) {
+bool Outbox::Affords(std::int64_t now_us, std::size_t bodies) {
   if (bytes_per_s_ <= 0) return true;
   Fill(now_us);
-  return credit_ >= static_cast<double>(bytes);
+  return credit_ >= kMessageCost + each_ * static_cast<double>(bodies);
+}
+
+void Outbox::NoteCost(std::size_t bytes, std::size_t bodies) {
+  if (bodies == 0) return;
+  each_ += (static_cast<double>(bytes) / static_cast<double>(bodies) - each_) / 16;
 }
 
 std::size_t Outbox::Affordable(std::int64_t now_us) {
   Fill(now_us);
-  const double bodies = (credit_ - kMessageCost) / static_cast<double>(kStatesBytes.each);
+  const double bodies = (credit_ - kMessageCost) / each_;
   if (bodies >= static_cast<double>(waiting_.size())) return waiting_.size();
   if (bodies < 1 || now_us - part_us_ < kPartEveryUs) return 0;
   part_us_ = now_us;
@@ -138,7 +142,9 @@ std::vector<States> Outbox::Compose(std::int64_t now_us, const NewestStates& new
     Append(order[i].id, state, &messages.back());
   }
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
+  pressing_ = false;
   for (std::size_t i = 0; i < waiting_.size(); ++i) {
+    pressing_ = pressing_ || waiting_[i].urgency == Urgency::kFollowed;
     place_[static_cast<std::size_t>(waiting_[i].id)] = static_cast<std::int32_t>(i);
   }
   return messages;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/codec/messages.h"
+#include "common/sync/limits.h"
 #include "server/interest/newest_states.h"
 
 namespace seam {
@@ -29,8 +30,12 @@ class Outbox {
   /// on. utime is left 0.
   std::vector<States> Compose(std::int64_t now_us, const NewestStates& newest);
   bool empty() const { return waiting_.empty(); }
-  /// Whether so many bytes may go to it now.
-  bool Affords(std::int64_t now_us, std::size_t bytes);
+  /// Whether anything waits that the receiver simulates.
+  bool pressing() const { return pressing_; }
+  /// Whether a message with so many bodies may go to it now.
+  bool Affords(std::int64_t now_us, std::size_t bodies);
+  /// A message with so many bodies had so many bytes: what the next ones are taken to cost.
+  void NoteCost(std::size_t bytes, std::size_t bodies);
 
   /// s of the budget that may come at once.
   static constexpr double kBurst = 0.1;
@@ -51,7 +56,9 @@ class Outbox {
   std::int64_t part_us_ = -1000000000;  // when only a part of what waited could be sent
   std::int64_t filled_us_ = -1;
   std::vector<Waiting> waiting_;
+  bool pressing_ = false;
   std::vector<std::int32_t> place_;  // by part: in waiting_, -1: it does not wait
+  double each_ = static_cast<double>(kStatesBytes.each);  // bytes of a body, as it was lately
 };
 
 }  // namespace seam

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "common/codec/packed/states_packer.h"
 #include "common/net/link.h"
 #include "common/net/net.h"
 #include "common/sync/input_feed.h"
@@ -32,8 +33,9 @@ struct SessionId {
 
 struct Session {
   /// `bytes_per_s`: what it is sent at most; 0: no limit.
-  Session(const SessionId& session, const TrafficRate& allowed, double bytes_per_s)
-      : id(session), link(session.number), budget(allowed), outbox(bytes_per_s) {}
+  Session(const SessionId& session, const TrafficRate& allowed, double bytes_per_s,
+          const PackedMotion& motion)
+      : id(session), link(session.number), budget(allowed), outbox(bytes_per_s), packer(motion) {}
 
   SessionId id;
   Link link;
@@ -54,6 +56,7 @@ struct Session {
   bool leaving = false;  ///< to be dropped at the next opportunity
   bool goodbye = false;  ///< it said so itself
   std::string leaving_why;
+  StatesPacker packer;  ///< states that go out with the next flush
 };
 
 }  // namespace seam

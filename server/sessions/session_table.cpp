@@ -62,7 +62,8 @@ void SessionTable::Admit(std::int64_t now_us, const SessionId& id, int peer) {
     const SessionId was = old->id;
     Drop(was, "replaced by a new session with its key");
   }
-  auto session = std::make_unique<Session>(id, allowed_, bytes_per_s_);
+  const PackedMotion motion(scene_.gravity.x(), scene_.gravity.y(), scene_.solver.tick_hz);
+  auto session = std::make_unique<Session>(id, allowed_, bytes_per_s_, motion);
   const Place& place = places_.at(peer);
   session->name = place.name;
   session->player = place.player;
@@ -102,6 +103,7 @@ SessionTable::Verdict SessionTable::OnSession(std::int64_t now_us, Session& sess
   session.account->dropped += over || !good ? 1 : 0;
   if (over) return Verdict::kOverBudget;
   if (!good) return Verdict::kMalformed;
+  for (const std::int64_t number : session.link.TakeArrived()) session.packer.Acknowledge(number);
   places_.Heard(session.peer, now_us, session.stage == SessionStage::kReady);
   return Verdict::kTaken;
 }

@@ -72,6 +72,7 @@ class RandomMessages {
     Any(m.y, count), Any(m.angle, count), Any(m.vx, count), Any(m.vy, count), Any(m.spin, count);
   }
   void Fill(States& m) { Fill(m, Count(0, kStatesBodiesMax)); }
+  void Fill(PackedStates& m) { Vector(m.data, Count(1, kPackedBytesMax), 0, 255); }
   void Fill(Rest& m, std::size_t count) {
     Common(m), Set(m.peer, 0, 31), Set(m.number, 0, kTimeMaxUs - 1), m.tick = Tick();
     Set(m.revision, 0, INT32_MAX), m.composition = static_cast<std::int64_t>(random_.Next());

@@ -1,0 +1,191 @@
+#include "common/codec/packed/states_packer.h"
+
+#include <cstdlib>
+#include <utility>
+
+namespace seam {
+namespace {
+
+constexpr std::uint32_t kQuantaPerMetre = 512;
+/// Messages whose contents are remembered until they are acknowledged.
+constexpr std::size_t kSentMost = 256;
+/// Bytes that an entry, a group's header and all ends take at most.
+constexpr std::size_t kEntryBytesMost = 64;
+
+PackedState EntryOf(const States& states, std::size_t i) {
+  PackedState state;
+  state.tick = states.tick;
+  state.epoch = states.epoch[i];
+  state.flags = states.flags[i];
+  state.x = static_cast<std::uint32_t>(states.origin_x) * kQuantaPerMetre +
+            static_cast<std::uint32_t>(states.x[i]);
+  state.y = static_cast<std::uint32_t>(states.origin_y) * kQuantaPerMetre +
+            static_cast<std::uint32_t>(states.y[i]);
+  state.angle = states.angle[i];
+  state.vx = states.vx[i];
+  state.vy = states.vy[i];
+  state.spin = states.spin[i];
+  return state;
+}
+
+std::int32_t Difference(std::int16_t a, std::int16_t b) {
+  return static_cast<std::int16_t>(static_cast<std::uint16_t>(a - b));
+}
+
+std::int32_t OffBy(const PackedState& state, const PackedState& guess) {
+  return std::abs(Difference(state.vx, guess.vx)) + std::abs(Difference(state.vy, guess.vy));
+}
+
+}  // namespace
+
+StatesPacker::Known& StatesPacker::KnownOf(std::int32_t id) {
+  const auto i = static_cast<std::size_t>(id);
+  if (place_.size() <= i) place_.resize(i + 1, -1);
+  if (place_[i] < 0) {
+    place_[i] = static_cast<std::int32_t>(known_.size());
+    known_.emplace_back();
+  }
+  return known_[static_cast<std::size_t>(place_[i])];
+}
+
+void StatesPacker::Begin(const States& states) {
+  open_ = true;
+  ++number_;
+  if (sent_.size() >= kSentMost) sent_.pop_front();
+  sent_.emplace_back();
+  context_ = PackedContext();
+  revision_ = states.revision;
+  composition_ = states.composition;
+  const auto composition = static_cast<std::uint64_t>(states.composition);
+  bits_.Put(static_cast<std::uint64_t>(number_), 16);
+  bits_.PutGolomb(static_cast<std::uint32_t>(states.revision), 4);
+  bits_.Put(composition >> 32, 32);
+  bits_.Put(composition, 32);
+  bits_.Put(static_cast<std::uint64_t>(states.tick) >> 20, 20);
+  bits_.Put(static_cast<std::uint64_t>(states.tick), 20);
+  context_.tick = states.tick;
+}
+
+void StatesPacker::BeginGroup(const States& states) {
+  group_ = true;
+  bits_.Put(1, 1);
+  bits_.PutGolomb(static_cast<std::uint32_t>(states.peer), 4);
+  const std::int64_t ticks = states.tick - context_.tick;
+  bits_.PutGolomb(ZigZag(static_cast<std::int32_t>(ticks)), 0);
+  context_.tick = states.tick;
+  context_.id = -1;
+  context_.id_gap = 0;
+}
+
+void StatesPacker::End() {
+  if (!open_) return;
+  bits_.Put(0, group_ ? 2 : 1);
+  open_ = group_ = false;
+  Message message;
+  message.number = number_;
+  message.bodies = sent_.back().size();
+  message.packed.data = bits_.Finish();
+  ready_.push_back(std::move(message));
+}
+
+void StatesPacker::PutDifferences(const PackedState& state, const PackedState& guess,
+                                  std::array<Learned, kPackedFields>* learned) {
+  const auto put = [&](PackedField field, std::int32_t difference) {
+    Learned& with = (*learned)[field];
+    const std::uint32_t code = ZigZag(difference);
+    bits_.PutGolomb(code, with.k());
+    with.Note(code);
+  };
+  PackedState place = guess;
+  put(kPackedVx, Difference(state.vx, guess.vx));
+  put(kPackedVy, Difference(state.vy, guess.vy));
+  put(kPackedSpin, Difference(state.spin, guess.spin));
+  put(kPackedX, static_cast<std::int32_t>(state.x - place.x));
+  put(kPackedY, static_cast<std::int32_t>(state.y - place.y));
+  put(kPackedAngle, Difference(state.angle, place.angle));
+}
+
+void StatesPacker::AddBody(const PackedState& state, std::int32_t id) {
+  bits_.Put(1, 1);
+  const std::int32_t gap = id - context_.id;
+  if (gap == context_.id_gap) {
+    bits_.Put(1, 1);
+  } else {
+    if (context_.id_gap > 0) bits_.Put(0, 1);
+    bits_.PutGolomb(static_cast<std::uint32_t>(gap - 1), context_.id < 0 ? 8 : 2);
+  }
+  context_.id_gap = context_.id < 0 ? 1 : gap;
+  context_.id = id;
+  Known& known = KnownOf(id);
+  const bool kept = known.number >= 0 && known.sent - known.count < kPackedKept;
+  const auto back = kept ? static_cast<std::uint32_t>(number_ - known.number) : 0;
+  bits_.Put(back == context_.back ? 1 : 0, 1);
+  if (back != context_.back) bits_.PutGolomb(back, 4);
+  context_.back = back;
+  const PackedState& before = kept ? known.state : context_.last;
+  const bool same = state.epoch == before.epoch && state.flags == before.flags;
+  bits_.Put(same ? 1 : 0, 1);
+  if (!same) {
+    bits_.PutGolomb(static_cast<std::uint32_t>(state.epoch), 4);
+    bits_.Put(static_cast<std::uint64_t>(state.flags), 2);
+  }
+  if (kept) {
+    PackedState guess = GuessVelocity(motion_, before, state.tick, false);
+    const PackedState fallen = GuessVelocity(motion_, before, state.tick, true);
+    const bool falls = OffBy(state, fallen) < OffBy(state, guess);
+    bits_.Put(falls ? 1 : 0, 1);
+    PackedState now = state;
+    GuessPlace(motion_, before, &now);
+    now.vx = falls ? fallen.vx : guess.vx;
+    now.vy = falls ? fallen.vy : guess.vy;
+    now.spin = guess.spin;
+    PutDifferences(state, now, &context_.known);
+  } else {
+    PackedState guess;
+    guess.x = context_.last.x;
+    guess.y = context_.last.y;
+    PutDifferences(state, guess, &context_.fresh);
+  }
+  context_.last = state;
+  sent_.back().push_back({id, ++known.sent, state});
+}
+
+void StatesPacker::Add(const States& states) {
+  const bool other = states.revision != revision_ || states.composition != composition_;
+  if (open_ && other) End();
+  bool begun = false;
+  for (std::size_t i = 0; i < states.id.size(); ++i) {
+    if (open_ && bits_.size() + kEntryBytesMost > kPackedBytesMax) End();
+    if (!open_) {
+      Begin(states);
+      begun = false;
+    }
+    if (!begun) {
+      if (group_) bits_.Put(0, 1);
+      BeginGroup(states);
+      begun = true;
+    }
+    AddBody(EntryOf(states, i), states.id[i]);
+  }
+}
+
+std::vector<StatesPacker::Message> StatesPacker::Take() {
+  End();
+  return std::exchange(ready_, {});
+}
+
+void StatesPacker::Acknowledge(std::int64_t number) {
+  const std::int64_t age = number_ - number;
+  if (age < 0 || age >= static_cast<std::int64_t>(sent_.size())) return;
+  std::vector<Sent>& bodies = sent_[sent_.size() - 1 - static_cast<std::size_t>(age)];
+  for (const Sent& sent : bodies) {
+    Known& known = KnownOf(sent.id);
+    if (number < known.number) continue;
+    known.number = number;
+    known.count = sent.count;
+    known.state = sent.state;
+  }
+  bodies = {};
+}
+
+}  // namespace seam

@@ -1,0 +1,183 @@
+#include "common/codec/packed/states_unpacker.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <utility>
+
+#include "common/codec/validate.h"
+
+namespace seam {
+namespace {
+
+constexpr std::int32_t kQuantaPerMetre = 512;
+/// Of an origin, in quanta: int16 reaches 64 m.
+constexpr std::int32_t kReach = 60 * kQuantaPerMetre;
+
+std::int16_t Low(std::uint32_t value) {
+  return static_cast<std::int16_t>(static_cast<std::uint16_t>(value & 0xffffu));
+}
+
+/// Whether the coordinate is within what an origin can be.
+bool InRange(std::uint32_t coordinate) {
+  constexpr std::int64_t kMost = std::int64_t{kOriginMax} * kQuantaPerMetre;
+  const std::int64_t value = static_cast<std::int32_t>(coordinate);
+  return value >= -kMost && value <= kMost;
+}
+
+void Append(std::int32_t id, const PackedState& state, States* to) {
+  to->id.push_back(id);
+  to->epoch.push_back(state.epoch);
+  to->flags.push_back(state.flags);
+  to->x.push_back(static_cast<std::int16_t>(static_cast<std::int32_t>(state.x) -
+                                            to->origin_x * kQuantaPerMetre));
+  to->y.push_back(static_cast<std::int16_t>(static_cast<std::int32_t>(state.y) -
+                                            to->origin_y * kQuantaPerMetre));
+  to->angle.push_back(state.angle);
+  to->vx.push_back(state.vx);
+  to->vy.push_back(state.vy);
+  to->spin.push_back(state.spin);
+}
+
+bool Fits(const States& states, const PackedState& state) {
+  const auto near = [](std::int32_t origin, std::uint32_t at) {
+    return std::abs(static_cast<std::int32_t>(at) - origin * kQuantaPerMetre) < kReach;
+  };
+  return states.id.size() < kStatesBodiesMax && near(states.origin_x, state.x) &&
+         near(states.origin_y, state.y);
+}
+
+}  // namespace
+
+const PackedState* StatesUnpacker::Find(std::int32_t id, std::int64_t number) const {
+  const auto i = static_cast<std::size_t>(id);
+  if (i >= place_.size() || place_[i] < 0) return nullptr;
+  for (const Kept& kept : kept_[static_cast<std::size_t>(place_[i])]) {
+    if (kept.number == number) return &kept.state;
+  }
+  return nullptr;
+}
+
+void StatesUnpacker::Keep(std::int64_t number, const Entry& entry) {
+  const auto i = static_cast<std::size_t>(entry.id);
+  if (place_.size() <= i) place_.resize(i + 1, -1);
+  if (place_[i] < 0) {
+    place_[i] = static_cast<std::int32_t>(kept_.size());
+    kept_.emplace_back();
+  }
+  std::vector<Kept>& all = kept_[static_cast<std::size_t>(place_[i])];
+  std::size_t oldest = 0;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    if (all[k].number == number) {  // twice in one message: the later counts
+      all[k].state = entry.state;
+      return;
+    }
+    if (all[k].number < all[oldest].number) oldest = k;
+  }
+  if (all.size() < static_cast<std::size_t>(kPackedKept)) {
+    all.push_back({number, entry.state});
+  } else if (all[oldest].number < number) {
+    all[oldest] = {number, entry.state};
+  }
+}
+
+bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry) {
+  PackedContext& context = context_;
+  const bool as_before = context.id_gap > 0 && bits->Get(1) != 0;
+  const std::int64_t gap =
+      as_before ? context.id_gap : std::int64_t{bits->GetGolomb(context.id < 0 ? 8 : 2)} + 1;
+  const std::int64_t id = context.id + gap;
+  if (id >= kIdsMax) return false;
+  context.id_gap = context.id < 0 ? 1 : static_cast<std::int32_t>(gap);
+  context.id = entry->id = static_cast<std::int32_t>(id);
+  if (bits->Get(1) == 0) context.back = bits->GetGolomb(4);
+  const PackedState* from = nullptr;
+  if (context.back > 0) {
+    from = Find(entry->id, number - context.back);
+    if (from == nullptr) return false;
+  }
+  const PackedState& before = from != nullptr ? *from : context.last;
+  PackedState state;
+  state.tick = context.tick;
+  state.epoch = before.epoch;
+  state.flags = before.flags;
+  if (bits->Get(1) == 0) {
+    state.epoch = static_cast<std::int32_t>(bits->GetGolomb(4));
+    state.flags = static_cast<std::int8_t>(bits->Get(2));
+  }
+  std::array<Learned, kPackedFields>& learned = from != nullptr ? context.known : context.fresh;
+  const auto get = [&](PackedField field) {
+    const std::uint32_t code = bits->GetGolomb(learned[field].k());
+    learned[field].Note(code);
+    return static_cast<std::uint32_t>(UnZigZag(code));
+  };
+  const auto add = [&](PackedField field, std::int16_t* value) {
+    *value = Low(static_cast<std::uint32_t>(*value) + get(field));
+  };
+  if (from != nullptr) {
+    const PackedState guess = GuessVelocity(motion_, *from, state.tick, bits->Get(1) != 0);
+    state.vx = guess.vx;
+    state.vy = guess.vy;
+    state.spin = guess.spin;
+  }
+  add(kPackedVx, &state.vx);
+  add(kPackedVy, &state.vy);
+  add(kPackedSpin, &state.spin);
+  if (from != nullptr) {
+    GuessPlace(motion_, *from, &state);
+  } else {
+    state.x = context.last.x;
+    state.y = context.last.y;
+  }
+  state.x += get(kPackedX);
+  state.y += get(kPackedY);
+  add(kPackedAngle, &state.angle);
+  context.last = entry->state = state;
+  return bits->ok() && InRange(state.x) && InRange(state.y);
+}
+
+std::optional<std::vector<States>> StatesUnpacker::Take(const PackedStates& packed) {
+  BitReader bits(ByteView(packed.data));
+  const auto low = static_cast<std::uint16_t>(newest_);
+  const auto wire = static_cast<std::uint16_t>(bits.Get(16));
+  const std::int64_t number =
+      newest_ + static_cast<std::int16_t>(static_cast<std::uint16_t>(wire - low));
+  States header;
+  header.revision = static_cast<std::int32_t>(bits.GetGolomb(4));
+  const std::uint64_t high = bits.Get(32);
+  header.composition = static_cast<std::int64_t>(high << 32 | bits.Get(32));
+  context_ = PackedContext();
+  const std::int64_t tick_high = bits.Get(20);
+  context_.tick = tick_high << 20 | bits.Get(20);
+  std::vector<States> all;
+  std::vector<Entry> entries;
+  while (bits.Get(1) != 0) {
+    header.peer = static_cast<std::int32_t>(bits.GetGolomb(4));
+    context_.tick += UnZigZag(bits.GetGolomb(0));
+    header.tick = context_.tick;
+    context_.id = -1;
+    context_.id_gap = 0;
+    bool begun = false;
+    while (bits.Get(1) != 0) {
+      Entry entry;
+      if (!TakeBody(&bits, number, &entry)) return std::nullopt;
+      if (!begun || !Fits(all.back(), entry.state)) {
+        all.push_back(header);
+        all.back().origin_x = static_cast<std::int32_t>(entry.state.x) / kQuantaPerMetre;
+        all.back().origin_y = static_cast<std::int32_t>(entry.state.y) / kQuantaPerMetre;
+        begun = true;
+      }
+      Append(entry.id, entry.state, &all.back());
+      entries.push_back(entry);
+    }
+    if (!begun || !bits.ok()) return std::nullopt;
+  }
+  const auto valid = [](const States& states) { return Valid(states); };
+  if (!bits.AtEnd() || all.empty() || !std::all_of(all.begin(), all.end(), valid)) {
+    return std::nullopt;
+  }
+  newest_ = std::max(newest_, number);
+  for (const Entry& entry : entries) Keep(number, entry);
+  return all;
+}
+
+}  // namespace seam

@@ -1,0 +1,44 @@
+#pragma once
+/// Reads what a StatesPacker wrote; distrusts every bit of it.
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "common/base/bytes.h"
+#include "common/codec/messages.h"
+#include "common/codec/packed/packed_states.h"
+#include "common/codec/packed/packing.h"
+
+namespace seam {
+
+class StatesUnpacker {
+ public:
+  explicit StatesUnpacker(const PackedMotion& motion) : motion_(motion) {}
+
+  /// The States that the message tells, all valid, in its order; nothing when it is malformed or
+  /// tells differences from what never came: then it is as if it had been lost. Takes memory in
+  /// proportion to what has come, and for a body of kPackedKept states at most.
+  std::optional<std::vector<States>> Take(const PackedStates& packed);
+
+ private:
+  struct Kept {
+    std::int64_t number = 0;  // of the message
+    PackedState state;
+  };
+  struct Entry {
+    std::int32_t id = 0, peer = 0;
+    PackedState state;
+  };
+  bool TakeBody(BitReader* bits, std::int64_t number, Entry* entry);
+  const PackedState* Find(std::int32_t id, std::int64_t number) const;
+  void Keep(std::int64_t number, const Entry& entry);
+
+  const PackedMotion motion_;
+  PackedContext context_;
+  std::int64_t newest_ = 0;              // number of a message
+  std::vector<std::int32_t> place_;      // by id: in kept_; -1: nothing came
+  std::vector<std::vector<Kept>> kept_;  // those with the largest numbers, in any order
+};
+
+}  // namespace seam

@@ -1,0 +1,262 @@
+/// Packed states: what arrives is what was told, bit for bit, whatever is lost, late or out of
+/// order; and no bits can do harm.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <tuple>
+#include <vector>
+
+#include "common/base/random.h"
+#include "common/codec/packed/states_packer.h"
+#include "common/codec/packed/states_unpacker.h"
+#include "common/codec/validate.h"
+#include "tests/support/soak.h"
+
+namespace seam {
+namespace {
+
+constexpr int kHz = 60;
+const PackedMotion kMotion(0, -10, kHz);
+
+using Told = std::tuple<std::int32_t, std::int64_t, std::int32_t, std::int64_t, std::int32_t,
+                        std::int32_t, int, int, int, int, int, int, int>;
+
+/// All that States tell of bodies, in their order; places from the room's origin.
+std::vector<Told> TellsOf(const std::vector<States>& all) {
+  std::vector<Told> told;
+  for (const States& s : all) {
+    for (std::size_t i = 0; i < s.id.size(); ++i) {
+      told.emplace_back(s.peer, s.tick, s.revision, s.composition, s.id[i], s.epoch[i], s.flags[i],
+                        512 * s.origin_x + s.x[i], 512 * s.origin_y + s.y[i], s.angle[i], s.vx[i],
+                        s.vy[i], s.spin[i]);
+    }
+  }
+  return told;
+}
+
+/// Balls that fly, bounce and are touched now and then, and what a server tells of them.
+class Balls {
+ public:
+  Balls(std::uint64_t seed, double width) : random_(seed) {
+    for (int i = 0; i < 60; ++i) {
+      balls_.push_back({Within(-width, width), Within(0, 20), Within(-9, 9), 0, Within(-5, 5), 0});
+    }
+  }
+  void Step() {
+    ++tick_;
+    for (Ball& b : balls_) {
+      b.vy -= 10.0 / kHz;
+      b.x += b.vx / kHz;
+      b.y += b.vy / kHz;
+      b.angle += b.spin / kHz;
+      if (b.y < 0) b.y = -b.y, b.vy = -b.vy;
+      if (random_.Chance(0.005)) b.vx = Within(-100, 100), b.spin = Within(-100, 100);
+    }
+    if (random_.Chance(0.01)) ++revision_, composition_ = static_cast<std::int64_t>(random_.Next());
+  }
+  /// Of `share` of them; each peer has twenty.
+  std::vector<States> Tell(double share) {
+    std::vector<States> all;
+    for (std::size_t first = 0; first < balls_.size(); first += 20) {
+      States s;
+      s.peer = static_cast<std::int32_t>(first / 20);
+      s.tick = tick_ - (share < 1 ? static_cast<std::int64_t>(random_.Next() % 3) : 0);
+      s.revision = revision_;
+      s.composition = composition_;
+      s.origin_y = -30;
+      for (std::size_t i = first; i < std::min(first + 20, balls_.size()); ++i) {
+        if (!random_.Chance(share)) continue;
+        const Ball& b = balls_[i];
+        if (s.id.empty()) s.origin_x = static_cast<std::int32_t>(b.x);
+        if (std::abs(b.x - s.origin_x) > 60) continue;
+        s.id.push_back(static_cast<std::int32_t>(7 * i));
+        s.epoch.push_back(
+            static_cast<std::int32_t>(random_.Chance(0.01) ? random_.Next() >> 33 : i % 5));
+        s.flags.push_back(static_cast<std::int8_t>(random_.Chance(0.02) ? 3 : 0));
+        s.x.push_back(Low((b.x - s.origin_x) * 512));
+        s.y.push_back(Low((b.y - s.origin_y) * 512));
+        s.angle.push_back(Low(b.angle * 65536 / 6.283185307));
+        s.vx.push_back(Low(b.vx * 256));
+        s.vy.push_back(Low(b.vy * 256));
+        s.spin.push_back(Low(b.spin * 256));
+      }
+      if (!s.id.empty()) all.push_back(s);
+    }
+    return all;
+  }
+  Random& random() { return random_; }
+
+ private:
+  struct Ball {
+    double x, y, vx, vy, spin, angle;
+  };
+  double Within(double low, double high) {
+    return low + (high - low) * static_cast<double>(random_.Next() % 100000) * 1e-5;
+  }
+  static std::int16_t Low(double value) {
+    return static_cast<std::int16_t>(static_cast<std::uint16_t>(std::llround(value) & 0xffff));
+  }
+
+  Random random_;
+  std::int64_t tick_ = 1000;
+  std::int32_t revision_ = 0;
+  std::int64_t composition_ = 77;
+  std::vector<Ball> balls_;
+};
+
+struct Path {
+  double loss = 0;          // of messages, and of acknowledgements
+  std::size_t late = 0;     // messages that are under way, each way
+  double out_of_order = 0;  // share that is overtaken by the next
+  double width = 90;        // m that the balls are from the origin at most
+  bool all = false;         // all of them are told in each tick
+};
+
+struct Traffic {
+  std::size_t bytes = 0, bodies = 0, messages = 0;
+};
+
+/// Sends for so many ticks; expects what arrives to be what was told.
+Traffic Send(std::uint64_t seed, const Path& path, int ticks) {
+  Balls balls(seed, path.width);
+  StatesPacker packer(kMotion);
+  StatesUnpacker unpacker(kMotion);
+  struct UnderWay {
+    std::vector<StatesPacker::Message> messages;
+    std::vector<Told> told;
+  };
+  std::deque<UnderWay> ways;
+  std::deque<std::int64_t> acks;
+  Traffic traffic;
+  for (int tick = 0; tick < ticks; ++tick) {
+    balls.Step();
+    UnderWay way;
+    const std::vector<States> told = balls.Tell(path.all || tick % 5 == 0 ? 1 : 0.3);
+    for (const States& states : told) packer.Add(states);
+    way.told = TellsOf(told);
+    way.messages = packer.Take();
+    for (const auto& message : way.messages) {
+      EXPECT_LE(message.packed.data.size(), kPackedBytesMax);
+      traffic.bytes += message.packed.data.size();
+      traffic.bodies += message.bodies;
+      ++traffic.messages;
+    }
+    ways.push_back(way);
+    if (ways.size() > 1 && balls.random().Chance(path.out_of_order)) {
+      std::swap(ways.back(), ways[ways.size() - 2]);
+    }
+    if (ways.size() <= path.late) continue;
+    std::vector<Told> arrived;
+    bool whole = true;
+    for (const auto& message : ways.front().messages) {
+      if (balls.random().Chance(path.loss)) {
+        whole = false;
+        continue;
+      }
+      const std::optional<std::vector<States>> states = unpacker.Take(message.packed);
+      EXPECT_TRUE(states) << "message " << message.number;
+      if (!states) return traffic;
+      for (const Told& one : TellsOf(*states)) arrived.push_back(one);
+      acks.push_back(message.number);
+    }
+    if (whole) {
+      EXPECT_EQ(arrived, ways.front().told);
+    }
+    for (const Told& one : arrived) {
+      const auto& all = ways.front().told;
+      EXPECT_NE(std::find(all.begin(), all.end(), one), all.end());
+    }
+    ways.pop_front();
+    for (; acks.size() > path.late; acks.pop_front()) {
+      if (!balls.random().Chance(path.loss)) packer.Acknowledge(acks.front());
+    }
+  }
+  return traffic;
+}
+
+TEST(PackedStates, ArriveAsTheyWereToldWhateverThePathDoes) {
+  for (std::uint64_t seed = 1; seed <= static_cast<std::uint64_t>(Soak(4)); ++seed) {
+    SCOPED_TRACE(seed);
+    Send(seed, Path{}, 200);
+    Send(seed, Path{0.2, 6, 0.1}, 400);
+    Send(seed, Path{0.5, 40, 0.5}, 400);  // acknowledged when the receiver has newer ones only
+    Send(seed, Path{0.02, 300, 0.1}, 900);
+    Send(seed, Path{1, 3, 0}, 100);
+    Send(seed, Path{0.1, 5, 0.1, 400000}, 100);
+  }
+}
+
+TEST(PackedStates, ABodyThatFliesTakesAThirdOfAPlainEntry) {
+  const Traffic near = Send(1, Path{0, 6, 0, 20, true}, 600);
+  EXPECT_LT(static_cast<double>(near.bytes), 21.0 / 3 * static_cast<double>(near.bodies));
+  const Traffic never = Send(1, Path{1, 6, 0, 20, true}, 600);
+  EXPECT_LT(static_cast<double>(never.bytes), 21.0 * static_cast<double>(never.bodies))
+      << "nothing is acknowledged";
+}
+
+/// Takes any bits; what comes of them is valid.
+void TakeAny(const Bytes& data, StatesUnpacker* unpacker) {
+  PackedStates packed;
+  packed.data = data;
+  const std::optional<std::vector<States>> all = unpacker->Take(packed);
+  if (!all) return;
+  for (const States& states : *all) EXPECT_TRUE(Valid(states));
+}
+
+TEST(PackedStates, NoBitsDoHarm) {
+  Balls balls(3, 90);
+  StatesPacker packer(kMotion);
+  StatesUnpacker unpacker(kMotion), fooled(kMotion);
+  for (int round = 0; round < Soak(60); ++round) {
+    balls.Step();
+    for (const States& states : balls.Tell(0.2)) packer.Add(states);
+    for (const StatesPacker::Message& message : packer.Take()) {
+      const Bytes good = message.packed.data;
+      for (std::size_t size = 0; size < good.size(); ++size) {
+        PackedStates cut;
+        cut.data.assign(good.begin(), good.begin() + static_cast<std::ptrdiff_t>(size));
+        EXPECT_FALSE(unpacker.Take(cut)) << size << " of " << good.size() << " bytes";
+      }
+      PackedStates longer{good};
+      longer.data.push_back(0);
+      EXPECT_FALSE(unpacker.Take(longer));
+      EXPECT_TRUE(unpacker.Take(message.packed)) << "what was refused left nothing behind";
+      for (int flip = 0; flip < 300; ++flip) {
+        Bytes bytes = good;
+        for (std::uint64_t n = 1 + balls.random().Next() % 3; n > 0; --n) {
+          const std::uint64_t bit = balls.random().Next() % (8 * bytes.size());
+          bytes[bit / 8] = static_cast<std::uint8_t>(bytes[bit / 8] ^ (1u << bit % 8));
+        }
+        TakeAny(bytes, &fooled);
+      }
+      Bytes noise(balls.random().Next() % kPackedBytesMax);
+      for (auto& byte : noise) {
+        const std::uint64_t any = balls.random().Next();
+        byte = static_cast<std::uint8_t>(round % 2 == 0 ? any : any % 8 == 0 ? 255 : 0);
+      }
+      TakeAny(noise, &fooled);
+      packer.Acknowledge(message.number);
+    }
+  }
+}
+
+TEST(PackedStates, DifferencesFromWhatNeverCameAreRefused) {
+  Balls balls(5, 20);
+  StatesPacker packer(kMotion);
+  StatesUnpacker unpacker(kMotion);
+  const auto message = [&] {
+    balls.Step();
+    for (const States& states : balls.Tell(1)) packer.Add(states);
+    return packer.Take().front();
+  };
+  packer.Acknowledge(message().number);  // it says so, and it is not true
+  EXPECT_FALSE(unpacker.Take(message().packed));
+}
+
+}  // namespace
+}  // namespace seam
