@@ -37,12 +37,6 @@ constexpr std::int64_t kWorldAgeUs = 250000;
 /// Mode central: inputs should arrive this long before the server needs them, us.
 constexpr double kInputMarginUs = 35000;
 
-/// Whether edits wait for everybody's inputs of the tick at which physics found them.
-bool EditsWait(const Room& room, const Scene& scene) {
-  const bool rolls_back = room.reconcile.empty() || FindReconciler(room.reconcile).rolls_back;
-  return rolls_back && ProposesEdits(scene);
-}
-
 }  // namespace
 
 Client::Client(const ClientConfig& config, Net& net, Recorder& recorder, Entropy& entropy)
@@ -208,13 +202,22 @@ void Client::TellRest(std::int64_t now_us) {
   }
 }
 
+bool Client::EditsWait() {
+  const int revision = replica_->revision();
+  if (edits_wait_revision_ != revision) {
+    edits_wait_revision_ = revision;
+    const bool rolls_back = room_.reconcile.empty() || FindReconciler(room_.reconcile).rolls_back;
+    edits_wait_ = rolls_back && ProposesEdits(replica_->world().scene());
+  }
+  return edits_wait_;
+}
+
 void Client::SendInputs(std::int64_t now_us) {
   if (player_ < 0 || mode_ == Mode::kOracle || Quiet()) return;
   const InputTrack& track = replica_->inputs(player_);
   // Where edits wait for everybody's inputs, who has nothing else to tell does not hold them up.
   const bool due = replica_->tick() % std::max(1, room_.tick_hz / room_.send_hz) == 0;
-  const bool rides = link_->Sends(now_us) ||
-                     (due && mode_ == Mode::kBuffer && EditsWait(room_, replica_->world().scene()));
+  const bool rides = link_->Sends(now_us) || (due && mode_ == Mode::kBuffer && EditsWait());
   std::optional<Inputs> inputs =
       feed_.Take(track, player_, link_->acked(player_), replica_->tick(), rides);
   if (!inputs) return;

@@ -135,6 +135,9 @@ class Client {
   /// a ping a second is enough.
   bool Quiet() const;
   void SendInputs(std::int64_t now_us);
+  /// Whether edits wait for everybody's inputs of the tick at which physics found them. It looks at
+  /// every part of the scene: once a revision.
+  bool EditsWait();
   void PublishStats(std::int64_t now_us, std::int64_t cpu_us);
   void Flush(std::int64_t now_us);
   std::int64_t RoomTime(std::int64_t now_us);
@@ -183,6 +186,8 @@ class Client {
   LoadMeter load_;
   std::int64_t rejoins_ = 0;
   std::int64_t corrections_ = 0;
+  bool edits_wait_ = false;
+  int edits_wait_revision_ = -1;  // of which that is; -1: not looked up
   Input live_;
   InputFeed feed_;
   std::int64_t discarded_ = 0;  // by the net, as far as counted in stats_

@@ -167,6 +167,7 @@ void Client::OnSnapshot(const Snapshot& part) {
 }
 
 void Client::MakeReplica(const Topology* become) {
+  edits_wait_revision_ = -1;
   SyncConfig sync = MakeSyncConfig(MethodNames{room_.mode, room_.reconcile, room_.predict});
   mode_ = sync.mode;
   sync.tick_hz = room_.tick_hz;

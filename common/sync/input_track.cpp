@@ -42,13 +42,16 @@ Input InputTrack::At(std::int64_t tick) const {
 }
 
 bool InputTrack::Surprises(std::int64_t from) const {
-  if (newest_ < 0) return false;
+  std::int64_t tick = std::max(from, oldest_);
+  if (newest_ < 0 || tick > newest_) return false;
   Input guess = At(from - 1);
-  for (std::int64_t tick = std::max(from, oldest_); tick <= newest_; ++tick) {
-    const Known* known = Find(tick);
-    if (known == nullptr) continue;
-    if (!(known->input == guess)) return true;
-    guess = known->input;
+  // Round the ring without a division a tick: servers ask for every player and receiver.
+  for (std::size_t place = Place(tick); tick <= newest_; ++tick) {
+    const Known& known = ring_[place];
+    if (++place == ring_.size()) place = 0;
+    if (known.tick != tick) continue;
+    if (!(known.input == guess)) return true;
+    guess = known.input;
   }
   return false;
 }

@@ -12,6 +12,22 @@ namespace {
 /// Plans of who simulates what: more often follows faster bodies, and costs more with many.
 constexpr int kPlansPerSecond = 10;
 
+/// One mechanism with another record than the table's.
+Grants Told(std::int64_t now_us, std::int64_t tick, PartId id, const AuthorityRecord& record) {
+  Grants told;
+  told.utime = now_us;
+  told.tick = tick;
+  told.mechanism.push_back(id);
+  told.authority.push_back(static_cast<std::int16_t>(record.authority));
+  told.epoch.push_back(record.epoch);
+  const int followers = record.secondaries.size();
+  told.followers.push_back(static_cast<std::int16_t>(followers));
+  for (int peer = 0; static_cast<int>(told.follower.size()) < followers; ++peer) {
+    if (record.secondaries.Has(peer)) told.follower.push_back(static_cast<std::int16_t>(peer));
+  }
+  return told;
+}
+
 void Append(const std::vector<Grants>& more, std::vector<Grants>* all) {
   all->insert(all->end(), more.begin(), more.end());
 }
@@ -128,9 +144,7 @@ bool AuthorityManager::Advance(std::int64_t now_us, int m) {
     memory.hand_over = HandOver::kRevoking;
     memory.revoked_us = now_us;
     memory.revoked_id = table().id(m);
-    AuthorityTable told = table();
-    told.Set(m, WithoutHolder(record));
-    Append(told.Export(now_us, replica_.tick(), {m}), &grants_);
+    grants_.push_back(Told(now_us, replica_.tick(), memory.revoked_id, WithoutHolder(record)));
     return true;
   }
   if (authority == record.authority && secondaries == record.secondaries) return kept;
