@@ -19,8 +19,8 @@ constexpr float kSpinDrivenMax = 90.0f;
 /// A turn of more than this within a tick is taken for a fast wheel's, whose angle nobody follows.
 constexpr float kTurnSeen = 0.5f;
 
-/// Nobody can tell where a body that spins faster than this, rad/s, has turned to: a wheel, a paddle.
-/// Limbs are slower for most of the time (at 6 their jumps were seen).
+/// Nobody can tell where a body that spins faster than this, rad/s, has turned to: a wheel, or a
+/// paddle. Limbs are slower for most of the time (at 6 their jumps were seen).
 constexpr float kSpinSeen = 12;
 /// So long after a correction the engine may still be closing what it has torn, ticks.
 constexpr int kCorrectedTicks = 10;
