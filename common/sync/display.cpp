@@ -19,9 +19,9 @@ constexpr float kSpinDrivenMax = 90.0f;
 /// A turn of more than this within a tick is taken for a fast wheel's, whose angle nobody follows.
 constexpr float kTurnSeen = 0.5f;
 
-/// A body that spins faster than this, rad/s, hides a jump of its angle by what it turns in
-/// kTurnsHidden ticks.
-constexpr float kSpinSeen = 6, kTurnsHidden = 1;
+/// Nobody can tell where a body that spins faster than this, rad/s, has turned to: a wheel, or a
+/// paddle. Limbs are slower for most of the time (at 6 their jumps were seen).
+constexpr float kSpinSeen = 12;
 /// So long after a correction the engine may still be closing what it has torn, ticks.
 constexpr int kCorrectedTicks = 10;
 
@@ -58,14 +58,15 @@ Display::Display(const SyncConfig& config, World& world, BodyMemory& memory)
       corrected_ticks_(world.composition().mechanisms.size(), 0),
       far_(world.composition().mechanisms.size(), Nowhere()) {}
 
-/// What a person could see of a jump: a wheel that spins turns by so much in every tick that
-/// nobody can tell a correction of less, and gliding over it would show it wrong for longer.
+/// What a person could see of a jump: of a wheel that spins, or did before, nobody can tell by how
+/// much it has turned, and gliding over it would show it wrong for longer.
 BodyState Display::Visible(int body, BodyState jump) const {
-  const float spin = std::fabs(world_.Read(body).spin);
-  if (spin < kSpinSeen) return jump;
-  const float turn = kTurnsHidden * spin * world_.dt();
-  jump.angle -= std::clamp(jump.angle, -turn, turn);
-  jump.spin = 0;
+  const BodyState now = world_.Read(body);
+  if (std::max(std::fabs(now.spin), std::fabs(now.spin - jump.spin)) < kSpinSeen) return jump;
+  // What glides is its centre of mass.
+  const Vec2 centre = world_.mass_point(body).centre;
+  jump.position += Turned(centre, now.angle) - Turned(centre, now.angle - jump.angle);
+  jump.angle = jump.spin = 0;
   return jump;
 }
 

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <deque>
+#include <utility>
 
+#include "common/base/geometry.h"
 #include "common/sync/replica.h"
 
 namespace seam {
@@ -68,6 +70,53 @@ TEST(Correct, ABounceATickApartIsNotStruckTwice) {
   // the two bounces differs from our past by 13 m/s.
   EXPECT_LT(WorstAfterBounces(0.24f, 9), 1);
   EXPECT_LT(WorstAfterBounces(0.36f, 10), 1.5f);
+}
+
+/// A paddle of two blades whose root is one of them, 1.5 m from its centre of mass.
+const char* kPaddle =
+    "gravity = [0, 0]\n"
+    "[[part]]\nname = \"end\"\nbox = [1, 0.2]\nposition = [0, 1]\n"
+    "[[part]]\nname = \"blade\"\nbox = [1, 0.2]\nposition = [3, 1]\n"
+    "[[joint]]\nname = \"fast\"\nkind = \"weld\"\na = \"end\"\nb = \"blade\"\n";
+
+struct Shown {
+  float turned = 0;  ///< by how much of a correction's 0.8 rad the view has turned at once
+  float moved = 0;   ///< by how much its centre of mass has moved, m
+};
+
+/// A correction turns the paddle by 0.8 rad, moves its centre by (0.3, 0.1) m, and gives what spun
+/// at `before` a spin of `after` rad/s.
+Shown CorrectPaddle(float before, float after) {
+  const SyncConfig config = MakeSyncConfig("buffer", "rollback");
+  World world(ParseScene(kPaddle, "s.toml"));
+  const Roles roles(config, 1, -1, world);
+  BodyMemory memory(config, world);
+  Display display(config, world, memory);
+  const Vec2 centre = world.mass_point(0).centre;
+  EXPECT_GT(centre.norm(), 1);
+  const BodyState was = world.Read(0);
+  BodyState is = was;
+  is.angle += 0.8f;
+  is.position += Vec2(0.3f, 0.1f) + Turned(centre, was.angle) - Turned(centre, is.angle);
+  is.spin = after;
+  world.Write(0, is);
+  BodyState by = Minus(is, was);
+  by.spin = after - before;
+  display.Moved(0, by);
+  const View view = display.MakeView(roles, true);
+  const Vec2 shown = Vec2(view.x[0], view.y[0]) + Turned(centre, view.angle[0]);
+  return {view.angle[0] - was.angle, (shown - was.position - Turned(centre, was.angle)).norm()};
+}
+
+TEST(Correct, WhatSpinsIsShownAtItsAngleAtOnceAndItsCentreGlides) {
+  for (const auto& [before, after] : {std::pair{20.0f, 20.0f}, {20.0f, 0.0f}, {0.0f, -20.0f}}) {
+    const Shown spinning = CorrectPaddle(before, after);
+    EXPECT_NEAR(spinning.turned, 0.8f, 1e-5f) << before << " to " << after;
+    EXPECT_NEAR(spinning.moved, 0, 1e-5f) << before << " to " << after;
+  }
+  const Shown slow = CorrectPaddle(2, -2);
+  EXPECT_NEAR(slow.turned, 0, 1e-5f) << "what does not spin glides as a whole";
+  EXPECT_NEAR(slow.moved, 0, 1e-5f);
 }
 
 }  // namespace
