@@ -222,8 +222,8 @@ TEST(Link, RepeatsReliableMessagesOnTheChanceLessAndLessOftenThenAsTheRoundTripA
       if (d.size() > 500) sent_us.push_back(now_us - 60'000'000);
     }
   }
-  EXPECT_EQ(sent_us, (std::vector<std::int64_t>{0, 20'000, 40'000, 80'000, 160'000, 320'000, 570'000,
-                                                820'000}));
+  EXPECT_EQ(sent_us, (std::vector<std::int64_t>{0, 20'000, 40'000, 80'000, 160'000, 320'000,
+                                                570'000, 820'000}));
 }
 
 TEST(Link, IsSilentWhenIdleButForAnAckEveryHundredMilliseconds) {
