@@ -64,6 +64,11 @@ std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const Situatio
     plan_due_ = false;
     Plan(now_us, situation);
   }
+  return GoOn(now_us);
+}
+
+std::vector<Grants> AuthorityManager::GoOn(std::int64_t now_us) {
+  released_ = false;
   changed_.clear();
   grants_.clear();  // revocations first
   taken_over_ = false;
@@ -205,6 +210,7 @@ AuthorityManager::Right AuthorityManager::NoteRelease(int peer, PartId mechanism
   const bool asked = memory.hand_over == HandOver::kRevoking && record.authority == peer;
   if (!asked || epoch != WithoutHolder(record).epoch) return Right::kNo;
   memory.hand_over = HandOver::kReleased;
+  released_ = true;
   return Right::kYes;
 }
 
