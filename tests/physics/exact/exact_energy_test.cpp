@@ -158,5 +158,32 @@ TEST(ExactEnergy, AMechanismAtItsDeadEndStops) {
   }
 }
 
+TEST(ExactEnergy, WhatIsPulledThroughAPulleysPointGainsNothing) {
+  // Two bodies that motors hold against each other; the rope comes from within reach of one.
+  const auto world = ExactWorld(
+      PartText("post", "box = [0.4, 0.4]\nanchored = true\nposition = [0, 4]\ngroup = -1") +
+          PartText("post2", "box = [0.4, 0.4]\nanchored = true\nposition = [2, 4]\ngroup = -1") +
+          PartText("a",
+                   "box = [0.76, 0.85]\nposition = [1.85, 1.01]\nangle = -0.9\ndensity = 0.26\n"
+                   "velocity = [1.11, -1.42]\ngroup = -1") +
+          PartText("b",
+                   "box = [0.38, 1]\nposition = [2.45, 1.17]\nangle = -0.67\ndensity = 0.57\n"
+                   "velocity = [2.02, 1.55]\ngroup = -1") +
+          HingeText("hinge", "b", "a", 2.51, 0.61,
+                    "limits = [-0.12, 0.31]\nmotor = {speed = 10.73, torque = 20.16}") +
+          "[[joint]]\nname = \"hold\"\nkind = \"motor\"\na = \"a\"\nb = \"b\"\nforce = 135.28\n"
+          "torque = 230.09\n"
+          "[[joint]]\nname = \"rope\"\nkind = \"pulley\"\na = \"post2\"\nb = \"b\"\n"
+          "ground_a = [2.36, 5.89]\nground_b = [2.8, 2.36]\nratio = 0.18\n"
+          "[[joint]]\nname = \"spring\"\nkind = \"distance\"\na = \"post\"\nb = \"b\"\n"
+          "frequency = 4.95\ndamping_ratio = 0.66\n",
+      "joint_substeps = 1\n");
+  for (int t = 0; t < 360; ++t) {
+    world->Step();
+    for (const BodyState& state : StatesOf(*world)) ASSERT_LT(state.velocity.norm(), 10) << t;
+  }
+  EXPECT_LT(Drift(*world), 1e-5);
+}
+
 }  // namespace
 }  // namespace seam
