@@ -107,7 +107,7 @@ class ExactIsland {
   void BringTogether(const Pace& pace);
   // Of a substep, in their order.
   void Substep(const Pace& pace);
-  void Course(const Pace& pace, bool whole);
+  bool Course(const Pace& pace, bool whole);
   void GoBack(const Pace& pace);
   // Jams.
   struct Start {         // of a substep, after its kick
@@ -118,7 +118,10 @@ class ExactIsland {
   double MostImpulse(const Pace& pace) const;
   double MostCarried(const Pace& pace) const;
   double WorkDone(double mass);
+  Start StartOf(const Pace& pace) const;
   bool Possible(const Start& start, bool pushes);
+  void KeepPoses();
+  void Doubt(const Pace& pace, bool whole);
   void Calm(const Pace& pace, const Start& start);
   void PushApart(const Pace& pace);
   bool PushesOut() const;
@@ -134,7 +137,7 @@ class ExactIsland {
   void FindShutting();
   double SidesOfErrors(const Pace& pace, bool anew, double* slope);
   void Correct(double h);
-  void ShutJoints(const Pace& pace);
+  bool ShutJoints(const Pace& pace);
   void Accelerate(double slope);
   void SoftenContacts();
   void SolveAtEnd(const Pace& pace);
@@ -198,6 +201,7 @@ class ExactIsland {
   bool moved_ = false;           // velocities are not those of before_
   std::vector<char> in_;
   std::vector<double> x_, before_, start_;
+  std::vector<double> poses_;  // of what moves, where the substep began
   std::vector<double> errors_;        // by row: of joints, m or rad
   std::vector<double> last_, shift_;  // of the last correction: as solved, as made
   std::vector<Shutting> shutting_;    // in the order of places

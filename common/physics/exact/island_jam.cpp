@@ -99,6 +99,14 @@ double ExactIsland::WorkDone(double mass) {
   return work + std::min(led, kLedMost * kLedMost * mass * fastest * fastest / 2);
 }
 
+ExactIsland::Start ExactIsland::StartOf(const Pace& pace) const {
+  Start start;
+  start.energy = KineticOf(bodies);
+  for (const ExactBody& q : bodies) start.mass += q.moves() ? 1 / q.im : 0;
+  start.impulse = MostImpulse(pace);
+  return start;
+}
+
 /// Whether the substep's impulses can be what happened: no contact presses with more than there is
 /// to press with, and no more energy has come than was supplied, in this substep and in those
 /// before it. `pushes`: contacts push out of an
@@ -114,6 +122,45 @@ bool ExactIsland::Possible(const Start& start, bool pushes) {
   if (gained > kGainOnce * most || kGainKept * gained_ + gained > kGainLasting * most) return false;
   gained_ = std::max(0.0, kGainKept * gained_ + gained);
   return true;
+}
+
+/// Where nothing touches, poses alone are kept: SolveAhead keeps the velocities.
+void ExactIsland::KeepPoses() {
+  poses_.resize(5 * bodies.size());
+  double* pose = poses_.data();
+  for (const ExactBody& q : bodies) {
+    *pose++ = q.x;
+    *pose++ = q.y;
+    *pose++ = q.a;
+    *pose++ = q.c;
+    *pose++ = q.s;
+  }
+}
+
+/// A substep in which nothing touches and joints could not be shut, or energy came: a mechanism at
+/// its dead end, a pulley without rope, which can do nothing but stop. If it gained more than was
+/// supplied, it is calmed. `whole`: all of its kick was at the beginning.
+void ExactIsland::Doubt(const Pace& pace, bool whole) {
+  bodies_before_ = bodies;
+  const double* pose = poses_.data();
+  for (ExactBody& q : bodies_before_) {
+    q.x = *pose++;
+    q.y = *pose++;
+    q.a = *pose++;
+    q.c = *pose++;
+    q.s = *pose++;
+  }
+  bodies.swap(bodies_before_);
+  Restore(start_);
+  const Start start = StartOf(pace);
+  bodies.swap(bodies_before_);
+  const double most = kGainShare * start.energy + kGainPerMass * start.mass;
+  const double gained = KineticOf(bodies) - start.energy;
+  if (gained <= kGainOnce * most || gained - WorkDone(start.mass) <= kGainOnce * most) return;
+  rows_before_ = rows_;
+  for (Row& row : rows_before_) row.total -= row.base;
+  Calm(pace, start);
+  if (!whole) Kick(pace.h / 2);
 }
 
 /// The substep as a blow without restitution: the velocities that are nearest to the ones that are

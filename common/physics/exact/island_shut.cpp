@@ -95,14 +95,15 @@ void ExactIsland::Correct(double h) {
   }
 }
 
-void ExactIsland::ShutJoints(const Pace& pace) {
+/// False: they were not found shut after the last correction that there is.
+bool ExactIsland::ShutJoints(const Pace& pace) {
   bool anew = turned_ > kTurnsFast;
   double last = kUnbounded;
   FindShutting();
   for (int tries = 0; tries < kCorrections; ++tries) {
     double slope = 0;
     const double far = SidesOfErrors(pace, anew, &slope);
-    if (far < (contacts.empty() ? kShut : kShutTouching)) break;
+    if (far < (contacts.empty() ? kShut : kShutTouching)) return true;
     if (tries == 0 && !contacts.empty() && !relaxed_) SoftenContacts();
     if (!anew && tries > 0 && far > kSlow * last) {
       anew = true;
@@ -118,6 +119,7 @@ void ExactIsland::ShutJoints(const Pace& pace) {
     Accelerate(tries > 0 && !anew ? slope : 0);
     Correct(pace.h);
   }
+  return false;
 }
 
 /// Takes `slope` of the last correction back.

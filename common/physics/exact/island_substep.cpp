@@ -27,6 +27,8 @@ constexpr double kStifferBy = 1.1;
 constexpr int kStifferTries = 4;
 /// A limit or a contact that is nearer than this is reached, m or rad.
 constexpr double kReached = 1e-6;
+/// Where nothing touches, a substep that leaves more than so many times the energy is looked at.
+constexpr double kMuchMore = 2;
 /// A motor that lacks so much speed does all it may, rad/s or m/s.
 constexpr double kUtmost = 50;
 
@@ -72,15 +74,14 @@ void ExactIsland::Substep(const Pace& pace) {
   });
   Kick(whole ? pace.h : pace.h / 2);
   if (contacts.empty()) {
-    Course(pace, whole);
+    KeepPoses();
+    const double most = kMuchMore * KineticOf(bodies);
+    if (!Course(pace, whole) || KineticOf(bodies) > most) Doubt(pace, whole);
     return;
   }
   bodies_before_ = bodies;
   rows_before_ = rows_;
-  Start start;
-  start.energy = KineticOf(bodies);
-  for (const ExactBody& q : bodies) start.mass += q.moves() ? 1 / q.im : 0;
-  start.impulse = MostImpulse(pace);
+  const Start start = StartOf(pace);
   const bool pushes = PushesOut();
   Course(pace, whole);
   if (Possible(start, pushes)) return;
@@ -114,14 +115,16 @@ bool ExactIsland::PushesOut() const {
   });
 }
 
-/// The substep from its kick, which was whole or half of one, to its end.
-void ExactIsland::Course(const Pace& pace, bool whole) {
+/// The substep from its kick, which was whole or half of one, to its end. Returns whether joints
+/// are shut.
+bool ExactIsland::Course(const Pace& pace, bool whole) {
   SolveAhead(pace);
   Move(pace.h);
-  ShutJoints(pace);
+  const bool shut = ShutJoints(pace);
   if (!whole) Kick(pace.h / 2);
   SolveAtEnd(pace);
   for (ExactBody& q : bodies) q.lasting = std::max(q.stiffness, kLasts * q.lasting);
+  return shut;
 }
 
 void ExactIsland::Kick(double h) {

@@ -34,12 +34,14 @@ void AddJointPoints(const HardCase* hard, const Scene& scene, PhysicsPlan* plan)
     solver.joint_substeps = substeps;
     plan->points.push_back({hard, "exact", WithSolver(scene, solver)});
   }
-  // Half as many ticks, as the grid tries them with iterative joints; unless the scene has so many.
-  if (solver.tick_hz == stock.tick_hz / 2) return;
-  solver.tick_hz = stock.tick_hz / 2;
-  for (const int substeps : {1, 2}) {
-    solver.joint_substeps = substeps;
-    plan->points.push_back({hard, "grid", WithSolver(scene, solver)});
+  // Fewer ticks, as the grid tries them with iterative joints; unless the scene has so few.
+  for (const int times : {2, 3}) {
+    if (scene.solver.tick_hz == stock.tick_hz / times) continue;
+    solver.tick_hz = stock.tick_hz / times;
+    for (const int substeps : {1, 2}) {
+      solver.joint_substeps = substeps;
+      plan->points.push_back({hard, "grid", WithSolver(scene, solver)});
+    }
   }
 }
 

@@ -29,7 +29,9 @@ const std::vector<Levers> kReportLevers = {
     {30, 1, 8, 3, 0, true},           {30, 1, 4, 1, 0, true},
     {30, 1, 2, 1, 0, true},           {30, 1, 1, 1, 0, true},
     {30, 1, 8, 3, kSmallSkin, true},  {30, 1, 4, 1, kSmallSkin, true},
-    {30, 1, 1, 1, kSmallSkin, true},  {120, 1, 8, 3, 0, true},
+    {30, 1, 1, 1, kSmallSkin, true},  {20, 1, 8, 3, 0, true},
+    {20, 1, 4, 1, 0, true},           {20, 1, 8, 3, kSmallSkin, true},
+    {20, 1, 1, 1, kSmallSkin, true},  {120, 1, 8, 3, 0, true},
     {240, 1, 8, 3, 0, true},          {60, 2, 4, 1, 0, true},
     {60, 4, 2, 1, 0, true},           {60, 1, 4, 1, kSmallSkin, true},
     {60, 1, 2, 1, kSmallSkin, true},  {60, 4, 4, 1, kSmallSkin, true},
@@ -50,7 +52,7 @@ std::vector<Levers> AllLevers() {
   std::vector<Levers> all;
   for (const float skin : {0.0f, kSmallSkin}) {
     for (const bool warm : {true, false}) {
-      for (const int hz : {30, 60, 120, 240}) {
+      for (const int hz : {20, 30, 60, 120, 240}) {
         for (const int substeps : {1, 2, 3, 4, 6, 8}) {
           for (const int velocity : {1, 2, 4, 8, 16, 32}) {
             for (const int position : {1, 2, 3, 5, 8}) {

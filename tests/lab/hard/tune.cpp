@@ -72,7 +72,7 @@ class Search {
 
   std::vector<Solver> Grid() const {
     std::vector<Solver> grid;
-    std::vector<int> rates = {30, 60, 120, 240};
+    std::vector<int> rates = {20, 30, 60, 120, 240};
     if (problem_.keep_hz) rates = {problem_.own.tick_hz};
     const std::vector<std::pair<int, int>> iterations = {{1, 1}, {2, 1}, {4, 1}, {8, 3}, {16, 4}};
     for (const float skin : {0.0f, kSmallSkin}) {

@@ -127,5 +127,63 @@ TEST(ExactEnergy, AFullTurnOfAFlywheelIsAFullTurn) {
   EXPECT_NEAR(world->Read(0).spin, 10, 1e-4);
 }
 
+/// A drum that a motor drives down takes up a rope with a fifth of the speed of the load, until the
+/// load is where the rope comes from and there is no more of it.
+std::string RunToItsEnd(const std::string& more) {
+  return PostText(0, 0) + PartText("drum", "box = [0.5, 0.5]\nposition = [2, 0]\ndensity = 4") +
+         PartText("load", "box = [0.5, 0.5]\nposition = [-2, 0]") +
+         "[[joint]]\nname = \"slide\"\nkind = \"prismatic\"\na = \"post\"\nb = \"drum\"\n"
+         "anchor = [2, 0]\naxis = [0, 1]\nmotor = {speed = -5, force = 5000}\n"
+         "[[joint]]\nname = \"rope\"\nkind = \"pulley\"\na = \"drum\"\nb = \"load\"\n"
+         "ground_a = [2, 1]\nground_b = [-2.3, 0.5]\nratio = 0.2\n" +
+         more;
+}
+
+TEST(ExactEnergy, AMechanismAtItsDeadEndStops) {
+  const std::string linked =
+      PartText("third", "box = [0.5, 0.5]\nposition = [-3, -1]\ndensity = 0.5") +
+      "[[joint]]\nname = \"rod\"\nkind = \"distance\"\na = \"load\"\nb = \"third\"\n";
+  for (const std::string& more : {std::string(), linked}) {
+    for (const char* substeps : {"", "joint_substeps = 1\n", "joint_substeps = 4\n"}) {
+      const auto world = ExactWorld(RunToItsEnd(more), substeps);
+      for (int t = 0; t < 240; ++t) {
+        world->Step();
+        for (const BodyState& state : StatesOf(*world)) {
+          // The motor's 5 m/s by the ratio are 25 of the load; what hangs on it may swing.
+          ASSERT_LT(state.velocity.norm(), 60) << more << substeps << t;
+        }
+      }
+      EXPECT_LT(Drift(*world), 1e-3) << more << substeps;
+    }
+  }
+}
+
+TEST(ExactEnergy, WhatIsPulledThroughAPulleysPointGainsNothing) {
+  // Two bodies that motors hold against each other; the rope comes from within reach of one.
+  const auto world = ExactWorld(
+      PartText("post", "box = [0.4, 0.4]\nanchored = true\nposition = [0, 4]\ngroup = -1") +
+          PartText("post2", "box = [0.4, 0.4]\nanchored = true\nposition = [2, 4]\ngroup = -1") +
+          PartText("a",
+                   "box = [0.76, 0.85]\nposition = [1.85, 1.01]\nangle = -0.9\ndensity = 0.26\n"
+                   "velocity = [1.11, -1.42]\ngroup = -1") +
+          PartText("b",
+                   "box = [0.38, 1]\nposition = [2.45, 1.17]\nangle = -0.67\ndensity = 0.57\n"
+                   "velocity = [2.02, 1.55]\ngroup = -1") +
+          HingeText("hinge", "b", "a", 2.51, 0.61,
+                    "limits = [-0.12, 0.31]\nmotor = {speed = 10.73, torque = 20.16}") +
+          "[[joint]]\nname = \"hold\"\nkind = \"motor\"\na = \"a\"\nb = \"b\"\nforce = 135.28\n"
+          "torque = 230.09\n"
+          "[[joint]]\nname = \"rope\"\nkind = \"pulley\"\na = \"post2\"\nb = \"b\"\n"
+          "ground_a = [2.36, 5.89]\nground_b = [2.8, 2.36]\nratio = 0.18\n"
+          "[[joint]]\nname = \"spring\"\nkind = \"distance\"\na = \"post\"\nb = \"b\"\n"
+          "frequency = 4.95\ndamping_ratio = 0.66\n",
+      "joint_substeps = 1\n");
+  for (int t = 0; t < 360; ++t) {
+    world->Step();
+    for (const BodyState& state : StatesOf(*world)) ASSERT_LT(state.velocity.norm(), 10) << t;
+  }
+  EXPECT_LT(Drift(*world), 1e-5);
+}
+
 }  // namespace
 }  // namespace seam
