@@ -64,8 +64,8 @@ class Stage {
   /// An edit was applied (after Rebuilt, if bodies changed).
   virtual void Edited(const Edit& /*edit*/) {}
 
-  /// What the stage remembers from tick to tick, always as many numbers, so that Restore can go
-  /// back bit for bit. Load takes what Save gave.
+  /// What the stage remembers from tick to tick, so that Restore can go back bit for bit. Load
+  /// takes what Save gave.
   virtual void Save(std::vector<float>* /*memory*/) const {}
   /// Returns how many it took.
   virtual std::size_t Load(const float* /*memory*/) { return 0; }

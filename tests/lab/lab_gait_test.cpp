@@ -140,7 +140,7 @@ TEST_F(LabGait, EachMistakeIsOneLine) {
   EXPECT_EQ(Mistake(ability + kStarts + kGain), "none");
   EXPECT_EQ(Mistake("ability = \"fly\"\n" + std::string(kStarts) + kGain),
             "objective.toml:1: objective: no ability 'fly' (there are jump, swim, float, plunge, "
-            "rise, stairs, slope, shove, walk, climb, limp)");
+            "rise, stairs, descent, slope, shove, walk, climb, limp)");
   EXPECT_EQ(
       Mistake(ability + kStarts + "[[gain]]\nname = \"step_tim\"\nsigma = 0.1\nmin = 0\nmax = 1\n"),
       "objective.toml:5: gain: there is no gain 'step_tim'; see character_gains.inc");

@@ -175,6 +175,31 @@ TEST(BlastPush, BreaksGlueThatBearsLessAndLeavesStrongerGlue) {
   }
 }
 
+TEST(BlastPush, GlueFeelsEachOfManyBlastsOfOneTick) {
+  std::string pairs;
+  constexpr int kPairs = 12;
+  for (int i = 0; i < kPairs; ++i) {
+    const std::string n = std::to_string(i);
+    const auto x = static_cast<float>(20 * i + 2);
+    pairs += Crate("a" + n, x, 0) + Crate("b" + n, x, 1);
+  }
+  for (int i = 0; i < kPairs; ++i) {
+    const std::string n = std::to_string(i);
+    pairs += "[[joint]]\nname = \"g" + n + "\"\nkind = \"glue\"\na = \"a" + n +
+             "\"\nb = \"b" + n + "\"\nstrength = 200\n";
+  }
+  Blasted b(pairs);
+  for (int i = 1; i < kPairs; ++i) {
+    b.world.Apply({Edit(BlastEdit{{static_cast<float>(20 * i), 0}, 6, 0, 40})});
+  }
+  const WorldSnapshot barrier = b.world.Barrier();
+  for (int again = 0; again < 2; ++again) {
+    b.world.Step();
+    EXPECT_EQ(b.world.ProposeEdits().size(), static_cast<std::size_t>(kPairs)) << again;
+    ASSERT_TRUE(b.world.Restore(barrier).ok());
+  }
+}
+
 TEST(BlastPush, SaysWhatABlastAmongAThousandBodiesCosts) {
   World world(
       ParseScene("[[part]]\nname = \"ground\"\nchain = [[-40, 0], [40, 0]]\n"

@@ -14,9 +14,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Blasts of one tick whose strain on glue is looked at; those beyond break none.
-constexpr std::size_t kBlastsMax = 4;
-
 /// A body with glue in it.
 struct Glued {
   int assembly = 0;  // index into Composition::assemblies
@@ -156,7 +153,7 @@ void GlueStage::Edited(const Edit& edit) {
   stale_ = true;
   const BlastEdit* blast = edit.As<BlastEdit>();
   const bool pushes = blast != nullptr && blast->impulse > 0 && w_.topology.Validate(edit).ok();
-  if (pushes && blasts_.size() < kBlastsMax) blasts_.push_back(*blast);
+  if (pushes) blasts_.push_back(*blast);
 }
 
 /// What the glue felt is found again from the poses, which are still those of the blast.
@@ -186,8 +183,7 @@ void GlueStage::Feel(const BlastHit& hit) {
 
 void GlueStage::Save(std::vector<float>* memory) const {
   memory->push_back(static_cast<float>(blasts_.size()));
-  for (std::size_t i = 0; i < kBlastsMax; ++i) {
-    const BlastEdit blast = i < blasts_.size() ? blasts_[i] : BlastEdit{};
+  for (const BlastEdit& blast : blasts_) {
     memory->insert(memory->end(),
                    {blast.centre.x(), blast.centre.y(), blast.radius, blast.impulse});
   }
@@ -195,12 +191,12 @@ void GlueStage::Save(std::vector<float>* memory) const {
 
 std::size_t GlueStage::Load(const float* memory) {
   blasts_.clear();
-  const auto count = std::min(static_cast<std::size_t>(memory[0]), kBlastsMax);
+  const auto count = static_cast<std::size_t>(memory[0]);
   for (std::size_t i = 0; i < count; ++i) {
     const float* m = memory + 1 + 4 * i;
     blasts_.push_back({{m[0], m[1]}, m[2], 0, m[3]});
   }
-  return 1 + 4 * kBlastsMax;
+  return 1 + 4 * count;
 }
 
 void GlueStage::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {

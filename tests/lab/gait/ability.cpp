@@ -9,6 +9,7 @@ const std::vector<Ability>& Abilities() {
                                                  {"plunge", "m/s", TryPlunge},
                                                  {"rise", "s", TryRise},
                                                  {"stairs", "s", TryStairs},
+                                                 {"descent", "s", TryDescent},
                                                  {"slope", "s", TrySlope},
                                                  {"shove", "s", TryShove},
                                                  {"walk", "m/s", TryWalk},

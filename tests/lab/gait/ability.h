@@ -39,6 +39,7 @@ GaitTrial TryFloat(const GaitSetup& setup, const CharacterGains& gains, int star
 GaitTrial TryPlunge(const GaitSetup& setup, const CharacterGains& gains, int start);
 GaitTrial TryRise(const GaitSetup& setup, const CharacterGains& gains, int start);
 GaitTrial TryStairs(const GaitSetup& setup, const CharacterGains& gains, int start);
+GaitTrial TryDescent(const GaitSetup& setup, const CharacterGains& gains, int start);
 GaitTrial TrySlope(const GaitSetup& setup, const CharacterGains& gains, int start);
 GaitTrial TryShove(const GaitSetup& setup, const CharacterGains& gains, int start);
 GaitTrial TryWalk(const GaitSetup& setup, const CharacterGains& gains, int start);
