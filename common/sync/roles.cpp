@@ -74,8 +74,13 @@ void Roles::ReleaseAll() {
 }
 
 void Roles::Remap(const std::vector<std::vector<int>>& from) {
+  // What an edit makes of nothing, such as pieces freed from bricks, everybody simulates until its
+  // grant comes: what is only led flies through walls, and its holder would begin behind them.
   AuthorityRecord fresh;
-  if (config_.mode == Mode::kBuffer) fresh.secondaries.Add(0);
+  if (config_.mode == Mode::kBuffer) {
+    fresh.secondaries.Add(0);
+    fresh.secondaries.Add(self_);
+  }
   table_.Remap(world_.composition(), from, fresh);
 }
 

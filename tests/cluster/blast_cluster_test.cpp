@@ -1,5 +1,6 @@
 /// Explosions in the real server with real clients: ordered once, felt by everybody at one tick.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -96,6 +97,46 @@ TEST(BlastCluster, EverybodyComesToTheSameRestBitForBit) {
         return -1.0f;
       };
       EXPECT_GT(moved("crate.3", 1.2f), 0.5f) << reconcile << " " << seed;
+    }
+  }
+}
+
+/// Four posts of bricks on bob's side, each blown apart at its foot by two charges.
+std::string Posts() {
+  std::string text = std::string("duration = 5\nbuffer = 8\n[solver]\nsubsteps = 4\n") + kTwoSides +
+                     "[[part]]\nname = \"ground\"\nfriction = 0.8\nchain = [[-99, 0], [99, 0]]\n";
+  const auto charge = [&](const char* name, double x, double y, double at) {
+    text += fmt::format(
+        "[[charges]]\nname = \"{}{:.0f}\"\nposition = [{:.1f}, {:.1f}]\nradius = 2\nimpulse = 4\n"
+        "speed = 20\nat = {:.1f}\n",
+        name, x, x, y, at);
+  };
+  for (int i = 0; i < 4; ++i) {
+    const double x = 20 + 10 * i;
+    text += fmt::format(
+        "[[bricks]]\nname = \"post-{}\"\nbrick = [0.5, 0.25]\nposition = [{:.1f}, 0]\n"
+        "count = [3, 24]\nstrength = 2\ndensity = 2\n",
+        i, x);
+    charge("within", x + 0.7, 1, 1);
+    charge("beside", x - 0.4, 0.6, 1 + 0.1 * i);
+  }
+  return text;
+}
+
+TEST(BlastCluster, WhatIsThrownDownBeforeAnybodyHeardOfItStaysOnTheGround) {
+  for (std::int64_t seed = 1; seed <= 6; ++seed) {
+    ClusterConfig config = With("buffer", "rollback", "4g", seed);
+    config.scene_text = Posts();
+    Cluster cluster(config);
+    cluster.RunToTick(4 * 60);
+    EXPECT_GT(cluster.server().replica().world().body_count(), 40);
+    for (int c = -1; c < cluster.client_count(); ++c) {
+      const Replica& replica = c < 0 ? cluster.server().replica() : *cluster.client(c)->replica();
+      int lost = 0;
+      for (int body = 0; body < replica.world().body_count(); ++body) {
+        lost += replica.world().Read(body).position.y() < -1 ? 1 : 0;
+      }
+      EXPECT_EQ(lost, 0) << "pieces below the ground, seed " << seed << ", client " << c;
     }
   }
 }
