@@ -54,7 +54,7 @@
   X(Stats, stats_t, kBusPeer, "stats", m.utime, m.sequence, m.peer, m.tick, m.bytes_out,          \
     m.bytes_in, m.datagrams_out, m.datagrams_in, m.dropped_malformed, m.dropped_stale,            \
     m.dropped_right, m.dropped_implausible, m.dropped_budget, m.cpu_us, m.rtt_us,                 \
-    m.jitter_us, m.loss_ppm, m.tick_late_us, m.clock_offset_us)                                                            \
+    m.jitter_us, m.loss_ppm, m.tick_late_us, m.clock_offset_us)                                   \
   X(Load, load_t, kBusRoom, "load", m.utime, m.sequence, m.tick, m.speed_ppm, m.ticks,            \
     m.tick_p50_us, m.tick_p99_us, m.tick_max_us, m.late_p50_us, m.late_p99_us, m.late_max_us,     \
     m.cpu_us, m.clients, m.players, m.bodies, m.moving, m.moving_held, m.islands, m.hand_overs,   \

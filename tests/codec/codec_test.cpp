@@ -297,7 +297,7 @@ TEST(CodecWire, TypeHashesArePinnedToTheProtocolVersion) {
       {"ready_t", 0x4d0d41c1f105b12fu},         {"release_t", 0x9abeee4bbddaf2f3u},
       {"rest_t", 0x74a2fc2deefa7466u},          {"room_t", 0x3b1556dd65c2c546u},
       {"snapshot_t", 0x5041ad92d1002765u},      {"states_t", 0x1f0a57888e9a756cu},
-      {"stats_t", 0x6821d564e8a2a471u},         {"strands_t", 0x4c2098e274343524u},
+      {"stats_t", 0x60f5b0e4b0054c75u},         {"strands_t", 0x4c2098e274343524u},
       {"view_t", 0xc90a36171e1d6168u},          {"welcome_t", 0x01d175a91807bb13u},
       {"packed_states_t", 0x9e508524d7c14130u},
   };

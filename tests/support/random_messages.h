@@ -155,8 +155,8 @@ class RandomMessages {
                     &m.dropped_implausible, &m.dropped_budget, &m.cpu_us}) {
       Set(*n, 0, kTimeMaxUs - 1);
     }
-    Set(m.rtt_us, -1, INT32_MAX), Set(m.jitter_us, -1, INT32_MAX), Set(m.loss_ppm, 0, 1000000), m.tick_late_us = Int32();
-    m.clock_offset_us = Int32();
+    Set(m.rtt_us, -1, INT32_MAX), Set(m.jitter_us, -1, INT32_MAX);
+    Set(m.loss_ppm, 0, 1000000), m.tick_late_us = Int32(), m.clock_offset_us = Int32();
   }
   void Fill(Load& m) {
     Common(m), Sequence(m), m.tick = Tick(), Set(m.speed_ppm, kLeastSpeedPpm, kFullSpeedPpm);

@@ -37,9 +37,9 @@ BodyState Apart(const BodyState& now, const BodyState& then) {
 }
 
 /// Back at a barrier: what already rested then lies where its authority has said since, and not
-/// where this peer had it, or every replay would bring that back and end its rest. Only where inputs
-/// are stamped: the other rules put what rests there in every tick (FollowsHistory), once they have
-/// looked whether it was struck (EndRest), which must not be hidden from them.
+/// where this peer had it, or every replay would bring that back and end its rest. Only where
+/// inputs are stamped: the other rules put what rests there in every tick (FollowsHistory), once
+/// they have looked whether it was struck (EndRest), which must not be hidden from them.
 void PutToRest(World& world, const Roles& roles, BodyMemory& memory) {
   for (int body = 0; body < world.body_count(); ++body) {
     const BodyTrack& track = memory.track(body);
