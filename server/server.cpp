@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "common/sync/input_source.h"
+#include "common/sync/lease.h"
 #include "common/sync/method.h"
 #include "server/authority_source.h"
 #include "server/rules/rules.h"
@@ -86,10 +87,6 @@ Server::~Server() = default;
 void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   net_.Advance(now_us);
   ReceiveAll(now_us);
-  if (authority_.released()) {
-    TellAuthority(now_us, authority_.GoOn(now_us));
-    FindHeardPlayers();
-  }
   sessions_.DropSilent(now_us);
   FollowSessions(now_us);
   sessions_.Advance(now_us);
@@ -283,6 +280,45 @@ void Server::ApplyQueued(std::int64_t now_us) {
     broadcast_.Remap(*change);
     if (rule_source_ != nullptr) rule_source_->Remap(change->bodies);
   }
+}
+
+void Server::UpdateAuthority(std::int64_t now_us) {
+  AuthorityManager::Situation situation;
+  situation.peer_of_player = sessions_.PeerOfPlayer();
+  situation.one_way_s.reserve(situation.peer_of_player.size());
+  for (int& peer : situation.peer_of_player) {
+    const Session* session = sessions_.Find(peer);
+    const std::int64_t rtt_us = session != nullptr ? session->link.rtt_us() : 0;
+    const bool silent = session != nullptr && session->stage == SessionStage::kReady &&
+                        now_us - session->link.last_receive_us() > kSilentUs;
+    if (silent) situation.silent.Add(peer);
+    if (session != nullptr && session->lapsed) peer = -1;
+    situation.load.push_back(session != nullptr ? session->load : -1.0f);
+    situation.one_way_s.push_back(static_cast<float>(std::max<std::int64_t>(0, rtt_us)) * 0.5e-6f);
+  }
+  situation.together = edits_.WaitingMechanisms();
+  const std::vector<Grants> grants = authority_.Update(now_us, situation);
+  for (AuthorityManager::Given& given : authority_.TakeGiven()) {
+    given.exact.utime = now_us;
+    Session* session = sessions_.Find(given.peer);
+    if (session != nullptr) session->link.SendReliable(Encode(given.exact));
+  }
+  broadcast_.Tell(grants);
+  UpdateInterest(now_us, !grants.empty());
+  broadcast_.TellOwed(now_us);
+  const PeerSet withholding = authority_.Withholding(now_us);
+  sessions_.ForEachReady(0, [&](Session& session) {
+    if (!withholding.Has(session.peer)) return;
+    session.leaving = true;
+    session.leaving_why = "does not let go";
+  });
+}
+
+void Server::UpdateInterest(std::int64_t now_us, bool changed) {
+  const int every = std::max(1, config_.sync.tick_hz / Broadcast::kLooksPerSecond);
+  const bool due = replica_.tick() % every == 0 || broadcast_.stale();
+  if (due) broadcast_.LookAround(now_us);
+  if (due || changed) FindHeardPlayers();
 }
 
 void Server::RunRules(std::int64_t now_us) {

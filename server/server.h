@@ -134,7 +134,6 @@ class Server {
   void LetFall(const Edit& applied);
   void ApplyQueued(std::int64_t now_us);
   void UpdateAuthority(std::int64_t now_us);
-  void TellAuthority(std::int64_t now_us, const std::vector<Grants>& grants);
   /// Looks anew at what concerns whom, when that is due or has changed.
   void UpdateInterest(std::int64_t now_us, bool changed);
   void PublishShown(std::int64_t now_us);

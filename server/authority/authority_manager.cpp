@@ -64,11 +64,6 @@ std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const Situatio
     plan_due_ = false;
     Plan(now_us, situation);
   }
-  return GoOn(now_us);
-}
-
-std::vector<Grants> AuthorityManager::GoOn(std::int64_t now_us) {
-  released_ = false;
   changed_.clear();
   grants_.clear();  // revocations first
   taken_over_ = false;
@@ -210,7 +205,6 @@ AuthorityManager::Right AuthorityManager::NoteRelease(int peer, PartId mechanism
   const bool asked = memory.hand_over == HandOver::kRevoking && record.authority == peer;
   if (!asked || epoch != WithoutHolder(record).epoch) return Right::kNo;
   memory.hand_over = HandOver::kReleased;
-  released_ = true;
   return Right::kYes;
 }
 
@@ -318,6 +312,36 @@ std::vector<Grants> AuthorityManager::Export(std::int64_t now_us) const {
     all.push_back(m);
   }
   return told.Export(now_us, replica_.tick(), all);
+}
+
+int AuthorityManager::Wanted(int mechanism) const {
+  const auto m = static_cast<std::size_t>(mechanism);
+  return m < plan_.size() ? plan_[m].authority : table().at(mechanism).authority;
+}
+
+bool AuthorityManager::Follows(int peer, int body) const {
+  return table().at(replica_.world().mechanism(body)).secondaries.Has(peer);
+}
+
+bool AuthorityManager::InOneHand(const std::vector<int>& mechanisms) const {
+  for (const int m : mechanisms) {
+    if (memory_[static_cast<std::size_t>(m)].hand_over != HandOver::kNone) return false;
+    if (table().at(m).authority != table().at(mechanisms.front()).authority) return false;
+  }
+  return true;
+}
+
+AuthorityManager::Right AuthorityManager::RightToMove(int peer, int body,
+                                                      std::int32_t epoch) const {
+  const AuthorityRecord& record = table().at(replica_.world().mechanism(body));
+  if (record.authority == peer) {
+    const auto m = static_cast<std::size_t>(replica_.world().mechanism(body));
+    const std::int32_t from = memory_[m].held_from < 0 ? record.epoch : memory_[m].held_from;
+    // Each question took one, in which nobody had it.
+    const bool held = epoch >= from && epoch <= record.epoch && (record.epoch - epoch) % 2 == 0;
+    return held ? Right::kYes : Right::kStale;
+  }
+  return epoch < record.epoch ? Right::kStale : Right::kNo;
 }
 
 }  // namespace seam

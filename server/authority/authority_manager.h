@@ -32,11 +32,8 @@ class AuthorityManager {
   /// After each tick: plans when that is due, and takes every hand-over as far as it can go.
   /// Returns what everyone is to be told, in this order.
   std::vector<Grants> Update(std::int64_t now_us, const Situation& situation);
-  /// The same without planning, between ticks: for who was `released` since.
-  std::vector<Grants> GoOn(std::int64_t now_us);
-  bool released() const { return released_; }
-  /// Where the bodies were that the last Update or GoOn took from the server itself, for who gets
-  /// them: to be told before the grants.
+  /// Where the bodies were that the last Update took from the server itself, for who gets them:
+  /// to be told before the grants.
   struct Given {
     int peer = 0;
     ExactStates exact;
@@ -72,7 +69,7 @@ class AuthorityManager {
   /// until now.
   Right RightToMove(int peer, int body, std::int32_t epoch) const;
   /// A peer says that it has let go of a mechanism (by its id), as the grant of that epoch told it.
-  /// Believed only of the holder and of exactly that grant; GoOn or Update acts on it. Of a grant
+  /// Believed only of the holder and of exactly that grant; the next Update acts on it. Of a grant
   /// that was withdrawn meanwhile it means nothing.
   Right NoteRelease(int peer, PartId mechanism, std::int32_t epoch);
   /// Whether a peer says of a mechanism, in the epoch in which it has it, that it has let go of it
@@ -142,10 +139,9 @@ class AuthorityManager {
   std::vector<int> restricted_;  // parts that not everybody may push
   bool sort_open_ = false;
   std::vector<int> open_;       // mechanisms of which something is to be done, ascending
-  std::vector<int> changed_;    // in this GoOn
-  std::vector<Grants> grants_;  // of this GoOn
-  bool taken_over_ = false;     // in this GoOn
-  bool released_ = false;       // something, since the last GoOn
+  std::vector<int> changed_;    // in this Update
+  std::vector<Grants> grants_;  // of this Update
+  bool taken_over_ = false;     // in this Update
   std::vector<Given> given_;
   PeerSet silent_;                           // in the last Update
   std::vector<std::int64_t> round_trip_us_;  // by peer, in the last Update
