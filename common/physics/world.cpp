@@ -7,6 +7,7 @@
 #include "common/base/bytes.h"
 #include "common/base/check.h"
 #include "common/base/geometry.h"
+#include "common/physics/contact_order.h"
 #include "common/physics/world_impl.h"
 
 namespace seam {
@@ -144,6 +145,7 @@ void World::Step() {
     } else {
       w.world->Step(h, solver.velocity_iterations, solver.position_iterations);
     }
+    if (w.ordered) OrderNewContacts(&*w.world);
     if (w.led_count > 0) w.PutLedBodiesOnTheirPath(h);
   }
   if (!w.scene.seats.empty()) w.NoteAllAside();  // a stage may have moved one

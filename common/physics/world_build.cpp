@@ -28,15 +28,16 @@ void AddShapes(const Scene& scene, const Assembly& assembly, const Part& frame, 
   }
 }
 
-b2Body* AddBody(const Scene& scene, const Assembly& assembly, bool enabled, b2World* world,
-                std::map<PartId, std::vector<PartId>>* merged) {
+/// `at`: where it is; nullptr: where the scene puts it.
+b2Body* AddBody(const Scene& scene, const Assembly& assembly, const BodyState* at, bool enabled,
+                b2World* world, std::map<PartId, std::vector<PartId>>* merged) {
   const Part& root = scene.parts[static_cast<std::size_t>(assembly.id)];
   b2BodyDef def;
   def.type = !assembly.anchored        ? b2_dynamicBody
              : assembly.kinematic >= 0 ? b2_kinematicBody
                                        : b2_staticBody;
-  def.position = ToB2(root.position);
-  def.angle = root.angle;
+  def.position = ToB2(at != nullptr ? at->position : root.position);
+  def.angle = at != nullptr ? at->angle : root.angle;
   def.enabled = enabled;
   for (const PartId id : assembly.parts) {
     def.bullet = def.bullet || scene.parts[static_cast<std::size_t>(id)].bullet;
@@ -97,7 +98,7 @@ b2Body* BodyAside(const Scene& scene, const Assembly& assembly, std::size_t inde
                   BuildMemory* memory) {
   b2Body*& body = memory->bodies[index];
   std::map<PartId, std::vector<PartId>> merged;  // it touches nothing
-  if (body == nullptr) body = AddBody(scene, assembly, false, &memory->aside, &merged);
+  if (body == nullptr) body = AddBody(scene, assembly, nullptr, false, &memory->aside, &merged);
   return body;
 }
 
@@ -117,18 +118,19 @@ class Builder {
     const auto a = static_cast<std::size_t>(assembly);
     const Assembly& of = composition_.assemblies[a];
     built_.bodies[a] = memory_.share[a] ? AddToShared(scene_, of, &shared_, &built_.merged)
-                                        : AddBody(scene_, of, true, world_, &built_.merged);
+                                        : AddBody(scene_, of, nullptr, true, world_, &built_.merged);
   }
 
-  /// Makes it in the world, or aside if it is to be absent and is not there yet.
-  void AddMoving(int body) {
+  /// Makes it in the world, `at` there if that is not nullptr, or aside if it is to be absent and is
+  /// not there yet.
+  void AddMoving(int body, const BodyState* at) {
     const auto i = static_cast<std::size_t>(body);
     const auto a = static_cast<std::size_t>(memory_.assembly_of[i]);
     const Assembly& of = composition_.assemblies[a];
     const bool absent = memory_.absent[i] != 0;
     const bool kept = absent && memory_.bodies[i] != nullptr;
     b2Body* made = absent ? BodyAside(scene_, of, i, &memory_)
-                          : AddBody(scene_, of, true, world_, &built_.merged);
+                          : AddBody(scene_, of, at, true, world_, &built_.merged);
     built_.bodies[a] = built_.moving[i].body = made;
     if (kept) return;  // as it was left
     made->GetUserData().pointer = i + 1;
@@ -234,7 +236,7 @@ BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2Worl
     if (memory->mass.size() == index) memory->mass.push_back(MassDataOf(scene, assembly));
     memory->assembly_of.push_back(static_cast<int>(a));
     built.moving.push_back({nullptr, assembly.id, assembly.mechanism, memory->mass[index]});
-    builder.AddMoving(static_cast<int>(index));
+    builder.AddMoving(static_cast<int>(index), nullptr);
   }
   for (std::size_t j = 0; j < scene.joints.size(); ++j) {
     if (scene.joints[j].gone) continue;
@@ -247,10 +249,9 @@ BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2Worl
   return built;
 }
 
-void BuildPresent(const Scene& scene, const Composition& composition,
-                  const std::vector<int>& present, const std::vector<int>& crossed, b2World* world,
-                  BuildMemory* memory, BuiltScene* built) {
-  for (const int body : crossed) {
+void BuildPresent(const Scene& scene, const Composition& composition, const Present& present,
+                  b2World* world, BuildMemory* memory, BuiltScene* built) {
+  for (const int body : present.crossed) {
     const auto i = static_cast<std::size_t>(body);
     if (memory->absent[i] != 0 || memory->bodies[i] == nullptr) continue;
     memory->aside.DestroyBody(memory->bodies[i]);
@@ -268,15 +269,17 @@ void BuildPresent(const Scene& scene, const Composition& composition,
     }
   };
   std::vector<int> joints;
-  for (const int body : present) {
+  for (const int body : present.bodies) {
     const auto i = static_cast<std::size_t>(body);
     add_anchored_before(memory->assembly_of[i]);
-    builder.AddMoving(body);
+    const BodyState at = present.at(body);
+    builder.AddMoving(body, &at);
     joints.insert(joints.end(), memory->joints_of[i].begin(), memory->joints_of[i].end());
   }
   add_anchored_before(static_cast<int>(composition.assemblies.size()));
-  for (const int body : crossed) {
-    if (memory->absent[static_cast<std::size_t>(body)] != 0) builder.AddMoving(body);
+  for (const int body : present.crossed) {
+    const bool goes = memory->absent[static_cast<std::size_t>(body)] != 0;
+    if (goes) builder.AddMoving(body, nullptr);
   }
   std::sort(joints.begin(), joints.end());
   joints.erase(std::unique(joints.begin(), joints.end()), joints.end());

@@ -6,6 +6,7 @@
 #include <box2d/box2d.h>
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -70,12 +71,16 @@ int IndexOf(b2Body* body);
 /// not made.
 BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2World* world,
                       BuildMemory* memory);
-/// The same bodies and joints again, of the same revision of the scene: only those of `present`
-/// moving bodies (ascending) and of anchored assemblies are made, in the order in which BuildScene
-/// would. `crossed`: moving bodies that have come or gone since, as memory->absent says.
-void BuildPresent(const Scene& scene, const Composition& composition,
-                  const std::vector<int>& present, const std::vector<int>& crossed, b2World* world,
-                  BuildMemory* memory, BuiltScene* built);
+/// Who of the moving bodies is there, and where.
+struct Present {
+  const std::vector<int>& bodies;   ///< ascending
+  const std::vector<int>& crossed;  ///< have come or gone since the last build, as absent says
+  std::function<BodyState(int body)> at;
+};
+/// The same bodies and joints again, of the same revision of the scene: only those that are present
+/// and of anchored assemblies are made, in the order in which BuildScene would, each in its place.
+void BuildPresent(const Scene& scene, const Composition& composition, const Present& present,
+                  b2World* world, BuildMemory* memory, BuiltScene* built);
 /// The same as BuildScene, with nothing remembered.
 BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2World* world);
 

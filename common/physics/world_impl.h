@@ -146,6 +146,7 @@ struct World::Impl {
   mutable std::int64_t looks = 0;   // calls of moving()
   int led_count = 0;                // of them kLed
   std::vector<BodyState> led_path;  // by moving body: of led ones, where the step began
+  bool ordered = false;             // contacts are solved in an order of their own
   bool unsettled = false;           // some are absent, or are so no more, but still to be moved
   std::vector<int> present;         // moving bodies that are not absent, ascending
   std::vector<int> crossed;         // moving bodies that have come or gone since the last build

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "common/base/bytes.h"
+#include "common/physics/contact_order.h"
 #include "common/physics/joint_impulses.h"
 #include "common/physics/reveal.h"
 #include "common/physics/world_impl.h"
@@ -157,7 +158,8 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
   // takes for 0: let it have had one.
   world->Step(step_s(), 1, 1);
   if (same) {
-    BuildPresent(scene, composition, present, crossed, &*world, &memory, &built);
+    const auto at = [&](int body) { return snapshot.bodies[static_cast<std::size_t>(body)].state; };
+    BuildPresent(scene, composition, {present, crossed, at}, &*world, &memory, &built);
     for (const int body : crossed) stale[static_cast<std::size_t>(body) / kept.kPage] = 1;
     crossed.clear();
     Built();
@@ -190,12 +192,13 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
     if (motions[i] == Motion::kKinematic) b->SetType(b2_kinematicBody);
     if (motions[i] == Motion::kLed) ++led_count;
     const BodyState& state = body.state;
-    const bool aside = IsAside(*b);
     const bool there = b->GetPosition() == ToB2(state.position) && b->GetAngle() == state.angle;
-    if (!aside || !there) b->SetTransform(ToB2(state.position), state.angle);
+    if (!there) b->SetTransform(ToB2(state.position), state.angle);
   });
   for (const auto& stage : stages) stage->Placed();
-  // No time passes, but contacts are found, which wakes what they touch.
+  FindContactsInOrder(&*world);
+  ordered = true;
+  // No time passes, but contacts begin to touch, which wakes what they touch.
   world->Step(0, 1, 1);
   EachPoint(&*world, [&](const PointKey& key, b2ManifoldPoint* point) {
     const auto found = std::lower_bound(
