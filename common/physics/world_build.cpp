@@ -117,12 +117,13 @@ class Builder {
   void AddAnchored(int assembly) {
     const auto a = static_cast<std::size_t>(assembly);
     const Assembly& of = composition_.assemblies[a];
-    built_.bodies[a] = memory_.share[a] ? AddToShared(scene_, of, &shared_, &built_.merged)
-                                        : AddBody(scene_, of, nullptr, true, world_, &built_.merged);
+    built_.bodies[a] = memory_.share[a]
+                           ? AddToShared(scene_, of, &shared_, &built_.merged)
+                           : AddBody(scene_, of, nullptr, true, world_, &built_.merged);
   }
 
-  /// Makes it in the world, `at` there if that is not nullptr, or aside if it is to be absent and is
-  /// not there yet.
+  /// Makes it in the world, `at` there if that is not nullptr, or aside if it is to be absent and
+  /// is not there yet.
   void AddMoving(int body, const BodyState* at) {
     const auto i = static_cast<std::size_t>(body);
     const auto a = static_cast<std::size_t>(memory_.assembly_of[i]);
@@ -273,7 +274,8 @@ void BuildPresent(const Scene& scene, const Composition& composition, const Pres
     const auto i = static_cast<std::size_t>(body);
     add_anchored_before(memory->assembly_of[i]);
     const BodyState at = present.at(body);
-    builder.AddMoving(body, &at);
+    // Joints are made where the scene has their ends.
+    builder.AddMoving(body, memory->joints_of[i].empty() ? &at : nullptr);
     joints.insert(joints.end(), memory->joints_of[i].begin(), memory->joints_of[i].end());
   }
   add_anchored_before(static_cast<int>(composition.assemblies.size()));

@@ -78,7 +78,8 @@ struct Present {
   std::function<BodyState(int body)> at;
 };
 /// The same bodies and joints again, of the same revision of the scene: only those that are present
-/// and of anchored assemblies are made, in the order in which BuildScene would, each in its place.
+/// and of anchored assemblies are made, in the order in which BuildScene would; what has no joints
+/// in its place, the others where the scene has them.
 void BuildPresent(const Scene& scene, const Composition& composition, const Present& present,
                   b2World* world, BuildMemory* memory, BuiltScene* built);
 /// The same as BuildScene, with nothing remembered.

@@ -99,6 +99,9 @@ struct World::Impl {
   /// is left out. The snapshot of stages may be empty: they begin anew, too.
   /// `new_motions`: by body of the snapshot; nullptr: they stay, and so do the bodies.
   void Rebuild(const WorldSnapshot& snapshot, const std::vector<Motion>* new_motions);
+  /// Whether nothing that takes part in steps moves, or is moved.
+  bool AllStill() const;
+  bool BuiltAlready(const WorldSnapshot& snapshot) const;
   /// Lets bodies that have become absent, or are so no more, leave the engine or come back.
   void Settle();
   /// Before a rebuild: decides which bodies will be aside.
@@ -147,7 +150,8 @@ struct World::Impl {
   int led_count = 0;                // of them kLed
   std::vector<BodyState> led_path;  // by moving body: of led ones, where the step began
   bool ordered = false;             // contacts are solved in an order of their own
-  bool unsettled = false;           // some are absent, or are so no more, but still to be moved
+  std::optional<WorldSnapshot> still;  // of which all was built, when nothing moved
+  bool unsettled = false;              // some are absent, or are so no more, but still to be moved
   std::vector<int> present;         // moving bodies that are not absent, ascending
   std::vector<int> crossed;         // moving bodies that have come or gone since the last build
   std::vector<int> awake_aside;     // moving bodies that are aside and may be awake

@@ -4,6 +4,7 @@
 /// from the snapshot at the tick it takes one (the barrier, docs/lessons.md).
 
 #include <algorithm>
+#include <cstring>
 #include <string>
 #include <tuple>
 
@@ -229,11 +230,42 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
   meter.Clear();
   touches.reset();
   blocked_directions.reset();
+  still.reset();
+  if (AllStill()) still = snapshot;
+}
+
+bool World::Impl::AllStill() const {
+  if (unsettled || !crossed.empty()) return false;
+  const bool moves = std::any_of(present.begin(), present.end(), [this](int body) {
+    return built.moving[static_cast<std::size_t>(body)].body->IsAwake();
+  });
+  return !moves && std::none_of(composition.assemblies.begin(), composition.assemblies.end(),
+                                [](const Assembly& assembly) { return assembly.kinematic >= 0; });
+}
+
+/// Whether to build the world anew from it would change nothing: it was built so, and nothing that
+/// takes part in steps has moved since.
+bool World::Impl::BuiltAlready(const WorldSnapshot& snapshot) const {
+  if (!still || !AllStill() || still->composition != snapshot.composition) return false;
+  if (still->joints_there != snapshot.joints_there || still->joints != snapshot.joints)
+    return false;
+  if (still->speeds != snapshot.speeds || still->stages != snapshot.stages) return false;
+  const auto same_point = [](const WorldSnapshot::Point& x, const WorldSnapshot::Point& y) {
+    return KeyOf(x) == KeyOf(y) && x.normal == y.normal && x.tangent == y.tangent;
+  };
+  if (!std::equal(still->points.begin(), still->points.end(), snapshot.points.begin(),
+                  snapshot.points.end(), same_point)) {
+    return false;
+  }
+  return std::all_of(present.begin(), present.end(), [&](int body) {
+    const auto i = static_cast<std::size_t>(body);
+    return std::memcmp(&still->bodies[i].state, &snapshot.bodies[i].state, sizeof(BodyState)) == 0;
+  });
 }
 
 WorldSnapshot World::Barrier() {
   WorldSnapshot snapshot = impl_->Keep();
-  SEAM_ASSERT(Restore(snapshot).ok());
+  if (!impl_->BuiltAlready(snapshot)) SEAM_ASSERT(Restore(snapshot).ok());
   return snapshot;
 }
 

@@ -65,6 +65,10 @@ class Replica {
     FollowRoles();
     rest_.PutBack();
   }
+  /// See Presence::LeaveUnwatched.
+  void LeaveUnwatched(std::vector<char> unwatched) {
+    presence_.LeaveUnwatched(std::move(unwatched));
+  }
   const Drivers& drivers() const { return drivers_; }
   /// Follows the server's word. Returns the mechanisms that this peer had authority over and has no
   /// longer.

@@ -117,6 +117,9 @@ class AuthorityManager {
   void LookAtMechanisms(AuthorityView* view);
   void LookAtCapacity(std::int64_t now_us, const Situation& situation, AuthorityView* view);
   void Plan(std::int64_t now_us, const Situation& situation);
+  /// By mechanism, as it is planned: 1 where what sleeps here becomes somebody's before anything
+  /// touches it, so that nobody else's things have to be here on its account.
+  std::vector<char> Unwatched(const AuthorityView& view) const;
   /// The holder has not answered: it keeps what it was asked to let go of, an epoch on.
   void Withdraw(int m);
   void ForgetQuestions(int m);

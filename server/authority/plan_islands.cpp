@@ -59,7 +59,24 @@ class IslandPlan {
     for (const MovingBox& box : view_.boxes) {
       const int p = islands_.driver(box.group);
       if (p >= 0 && !player(p).silent) LookAhead(box, p);
+      if (p < 0) LookAheadLoose(box);
     }
+  }
+
+  /// What somebody has and nobody drives: what sleeps and will be hit by it becomes the same
+  /// player's.
+  void LookAheadLoose(const MovingBox& box) {
+    const MechanismView& mechanism = view_.mechanisms[static_cast<std::size_t>(box.group)];
+    const int p = players_.At(mechanism.now.authority);
+    if (p < 0 || !mechanism.moves || player(p).silent) return;
+    const float seconds = SecondsAhead(p);
+    const float way = box.velocity.norm() * seconds + kTouchGap;
+    const Vec2 reach(way, way);
+    grid_.Near(box.min - reach, box.max + reach, [&](int b) {
+      const MovingBox& other = view_.boxes[static_cast<std::size_t>(b)];
+      Island& island = islands_.Of(other.group);
+      if (!island.awake && island.driver < 0) Claim(box, other, p, seconds, &island);
+    });
   }
 
   void LookNear(const MovingBox& vehicle, int p) {
@@ -83,8 +100,20 @@ class IslandPlan {
     });
   }
 
+  float SecondsAhead(int p) const { return 2 * player(p).one_way_s + kPlanPeriod + kTouchAhead; }
+
+  void Claim(const MovingBox& own, const MovingBox& box, int p, float seconds, Island* island) {
+    const float after = SecondsToTouch(own, box, kTouchGap, seconds);
+    if (after > seconds) return;
+    if (p == island->holder) island->holder_claims = true;
+    if (after < island->claim_s || (after == island->claim_s && p < island->claim)) {
+      island->claim_s = after;
+      island->claim = p;
+    }
+  }
+
   void LookAhead(const MovingBox& own, int p) {
-    const float seconds = 2 * player(p).one_way_s + kPlanPeriod + kTouchAhead;
+    const float seconds = SecondsAhead(p);
     const float way = (own.velocity.norm() + std::min(speed_, kApproachMax)) * seconds + kTouchGap +
                       own.acceleration * seconds * seconds / 2;
     const Vec2 reach(way, way);
@@ -92,13 +121,7 @@ class IslandPlan {
       const MovingBox& box = view_.boxes[static_cast<std::size_t>(b)];
       Island& island = islands_.Of(box.group);
       if (island.driver >= 0) return;  // it is who drives in it's
-      const float after = SecondsToTouch(own, box, kTouchGap, seconds);
-      if (after > seconds) return;
-      if (p == island.holder) island.holder_claims = true;
-      if (after < island.claim_s || (after == island.claim_s && p < island.claim)) {
-        island.claim_s = after;
-        island.claim = p;
-      }
+      Claim(own, box, p, seconds, &island);
     });
   }
 

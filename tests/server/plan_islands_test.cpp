@@ -69,6 +69,23 @@ TEST_F(PlanIslandsTest, WhatIsAwakeGoesToTheNearestWithinAcquire) {
   EXPECT_NE(Of(between), kServer);
 }
 
+TEST_F(PlanIslandsTest, WhatSleepsBecomesHisWhoseThingsWillHitIt) {
+  const std::size_t thrown = Add(-15), asleep = Add(-12);
+  Give(thrown, kAnn);
+  Sleep(asleep);
+  EXPECT_EQ(Of(asleep), kServer);
+  view_.mechanisms[thrown].moves = true;
+  view_.boxes[thrown].velocity = {8, 0};  // 2 m between them: a quarter of a second
+  EXPECT_EQ(Of(asleep), kAnn);
+  view_.boxes[thrown].velocity = {4, 0};
+  EXPECT_EQ(Of(asleep), kServer) << "not yet";
+  view_.boxes[thrown].velocity = {-8, 0};
+  EXPECT_EQ(Of(asleep), kServer) << "it flies away";
+  view_.boxes[thrown].velocity = {8, 0};
+  Give(thrown, kServer);
+  EXPECT_EQ(Of(asleep), kServer) << "nobody's thing";
+}
+
 TEST_F(PlanIslandsTest, WhoHasItKeepsItUntilItIsFartherThanKeep) {
   const std::size_t crate = Add(0);
   Give(crate, kAnn);

@@ -62,6 +62,7 @@ Presence::Presence(const SyncConfig& config, const World& world, const Roles& ro
 
 void Presence::Remap() {
   near_.assign(world_.composition().mechanisms.size(), 1);
+  unwatched_.clear();
   around_.min.setConstant(-1e9f);
   around_.max.setConstant(1e9f);
 }
@@ -78,7 +79,7 @@ void Presence::Look() {
   std::vector<int> displayed;
   for (const int body : memory_.tended()) {
     if (roles_.Simulates(body)) {
-      simulated.push_back(FreeBoxOf(world_, body));
+      if (!Unwatched(body)) simulated.push_back(FreeBoxOf(world_, body));
     } else {
       displayed.push_back(body);
     }

@@ -3,6 +3,7 @@
 /// the next look, one that it simulates. The others are absent (Motion::kAbsent) and cost a step
 /// nothing.
 
+#include <utility>
 #include <vector>
 
 #include "common/physics/world.h"
@@ -26,6 +27,9 @@ class Presence {
   bool Near(int mechanism) const { return near_[static_cast<std::size_t>(mechanism)] != 0; }
   /// What is outside of it is near nothing that is simulated, for a second and more.
   const MovingBox& around() const { return around_; }
+  /// By mechanism: 1 where what is simulated needs nobody near it while it sleeps. Until the next
+  /// call, or until the bodies change.
+  void LeaveUnwatched(std::vector<char> unwatched) { unwatched_ = std::move(unwatched); }
   /// The bodies have changed: everything is near until the next look.
   void Remap();
 
@@ -44,7 +48,13 @@ class Presence {
   const World& world_;
   const Roles& roles_;
   const BodyMemory& memory_;
-  std::vector<char> near_;  // by mechanism
+  bool Unwatched(int body) const {
+    const auto m = static_cast<std::size_t>(world_.mechanism(body));
+    return m < unwatched_.size() && unwatched_[m] != 0 && !world_.awake(body);
+  }
+
+  std::vector<char> near_;       // by mechanism
+  std::vector<char> unwatched_;  // by mechanism; empty: none
   MovingBox around_;
 };
 
