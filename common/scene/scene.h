@@ -208,8 +208,8 @@ struct Scene {
   Solver solver;
   double duration_s = 10;  ///< length of the demo
   float buffer_m = 10;     ///< width of the buffer zone
-  /// Bodies that a peer may step so as not to reckon them from what was heard: beyond its buffer
-  /// zone it follows the nearest until it steps so many, its own included.
+  /// Rooms of at most so many moving bodies are followed whole by every peer; in a larger one it
+  /// reckons from what was heard what is neither in its buffer zone nor may soon meet its own.
   int follow_bodies = 256;
   /// Rooms of at most so many moving bodies are simulated by the server, too, whoever has them.
   int server_follow = 256;

@@ -75,7 +75,7 @@ struct AuthorityView {
 ///   a mechanism gives way to the server. Secondary (mode buffer): peers whose region, or whose
 ///   mechanisms, are within the scene's buffer width of its boxes, or with whose mechanisms it may
 ///   come into contact, directly or through others, before a grant could tell them (ZoneSeconds);
-///   then those that are nearest, as long as a peer steps no more than follow_bodies (kFollowFar).
+///   and all of a room of at most follow_bodies.
 ///   The server: everything in a room of at most server_follow bodies, and where physics finds
 ///   edits, which it orders as soon as it knows the inputs that they hang on; else what may come
 ///   into contact with something of its own, and what moves of a silent holder.
@@ -89,8 +89,6 @@ constexpr float kHysteresis = 2.0f;  ///< m beyond the border before a hand-over
 constexpr float ZoneSeconds(float one_way_a_s, float one_way_b_s) {
   return 0.25f + 2 * (one_way_a_s + one_way_b_s);
 }
-/// m; in a room of more than follow_bodies nobody follows what is farther, unless it comes nearer.
-constexpr float kFollowFar = 24;
 constexpr float kZoneKeep = 0.5f;  ///< s more before who follows ceases to
 
 }  // namespace seam

@@ -15,10 +15,6 @@
 namespace seam {
 namespace {
 
-/// Beyond this no distance matters in a room that is not followed whole, m; a little more than
-/// that, for rounding.
-constexpr float kReachMax = kFollowFar + kHysteresis + 0.1f;
-
 /// Holders of a group from which on it is followed by sets of peers, not by one after the other.
 constexpr std::size_t kManyHolders = 8;
 
@@ -192,13 +188,12 @@ class Followers {
       const float reach = view_.buffer_m + (follows ? kHysteresis : 0.0f);
       if (distance_[static_cast<std::size_t>(m)] <= reach) Follow(player, m);
     }
-    FollowNearest(player);
   }
 
   /// By mechanism that is seen, of those that it does not follow yet unless its capacity is
   /// limited: how far its nearest box is from the player's region or from a box of its own, m. Of
   /// what is farther than the buffer zone only the distance from the box around all of its own is
-  /// known. In a room that is not followed whole what is farther than kReachMax is not seen.
+  /// known. In a room that is not followed whole what is farther is not seen.
   void Measure(std::size_t p) {
     const PlayerView& player = view_.players[p];
     const float near = view_.buffer_m + kHysteresis;
@@ -236,8 +231,8 @@ class Followers {
       }
       return;
     }
-    const float far = std::max(kReachMax, near);
-    const Vec2 reach(far, far);
+    constexpr float kRounding = 0.1f;
+    const Vec2 reach(near + kRounding, near + kRounding);
     if (any) grid_->Near(all.min - reach, all.max + reach, from_own);
     if (player.has_region) {
       grid_->Near(region.min - reach, region.max + reach, from_region);
@@ -255,33 +250,8 @@ class Followers {
     }
   }
 
-  /// Adds the peer to the nearest of what it does not follow yet, until it steps follow_bodies.
-  /// Where that is not all there is anyway, what is far away is left out.
-  void FollowNearest(std::size_t player) {
-    const int peer = view_.players[player].peer;
-    others_.clear();
-    for (const int m : seen_) {
-      if (planned(m).authority == peer || planned(m).secondaries.Has(peer)) continue;
-      const float far =
-          distance_[static_cast<std::size_t>(m)] - (now(m).secondaries.Has(peer) ? kHysteresis : 0);
-      if (!crowded_ || far <= kFollowFar) others_.emplace_back(far, m);
-    }
-    // The nearest first, as a heap: most of a crowd is never looked at.
-    const auto farther = [](const std::pair<float, int>& a, const std::pair<float, int>& b) {
-      return a > b;
-    };
-    std::make_heap(others_.begin(), others_.end(), farther);
-    while (!others_.empty()) {
-      std::pop_heap(others_.begin(), others_.end(), farther);
-      const int m = others_.back().second;
-      others_.pop_back();
-      if (steps_[player] + bodies_[static_cast<std::size_t>(m)] > view_.follow_bodies) return;
-      Follow(player, m);
-    }
-  }
-
-  /// One whose capacity is limited follows what it may meet, then its buffer zone, then the
-  /// nearest, as long as it can step that.
+  /// One whose capacity is limited follows what it may meet, then its buffer zone, then in a room
+  /// that is followed whole the nearest, as long as it can step that.
   void FollowWithin(std::size_t player) {
     const int peer = view_.players[player].peer;
     within_.clear();
@@ -293,7 +263,7 @@ class Followers {
       const float reach = view_.buffer_m + (now(m).secondaries.Has(peer) ? kHysteresis : 0.0f);
       if (far <= reach) {
         within_.push_back({1, far, m});
-      } else if (!crowded_ || far <= kFollowFar) {
+      } else if (!crowded_) {
         within_.push_back({2, far, m});
       }
     }
@@ -333,7 +303,6 @@ class Followers {
   std::optional<BoxGrid> grid_;       // of all boxes of a room that is not followed whole
   std::vector<int> last_group_;       // by player: the last of which it is a holder
   std::vector<std::size_t> holders_;  // players
-  std::vector<std::pair<float, int>> others_;
   std::vector<std::pair<int, int>> wanted_;          // player, mechanism
   std::vector<std::tuple<int, float, int>> within_;  // rank, m, mechanism
 };

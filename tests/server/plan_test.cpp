@@ -156,26 +156,15 @@ TEST(PlanAuthority, WhatIsMetThroughOthersIsFollowedToo) {
   EXPECT_FALSE(Follows(view, 4, kAnn));
 }
 
-TEST(PlanAuthority, FollowBodiesTakesTheNearestAndStopsAtTheNumber) {
-  AuthorityView view = TwoSides({-50, 23, 12, 20, 16});
-  view.buffer_m = 0;
-  view.follow_bodies = 3;  // of which ann has one
-  EXPECT_FALSE(Follows(view, 1, kAnn));
-  EXPECT_TRUE(Follows(view, 2, kAnn));
-  EXPECT_FALSE(Follows(view, 3, kAnn));
-  EXPECT_TRUE(Follows(view, 4, kAnn));
-  view.follow_bodies = 0;
-  for (std::size_t m = 1; m < 5; ++m) EXPECT_FALSE(Follows(view, m, kAnn)) << m;
-}
-
-TEST(PlanAuthority, ARoomOfMoreThanFollowBodiesIsNotFollowedFarAway) {
-  AuthorityView view = TwoSides({-1, 10, 5 + kFollowFar});
-  view.buffer_m = 0;
-  view.follow_bodies = 2;
-  EXPECT_TRUE(Follows(view, 1, kAnn));
-  EXPECT_FALSE(Follows(view, 2, kAnn));
-  view.follow_bodies = 3;
-  EXPECT_TRUE(Follows(view, 2, kAnn)) << "so few can all be followed";
+TEST(PlanAuthority, ARoomOfAtMostFollowBodiesIsFollowedWholeAndALargerOneNearby) {
+  AuthorityView view = TwoSides({-50, 23, 7, 20, 16});
+  view.buffer_m = 10;
+  view.follow_bodies = 5;
+  for (std::size_t m = 1; m < 5; ++m) EXPECT_TRUE(Follows(view, m, kAnn)) << m;
+  view.follow_bodies = 4;
+  for (std::size_t m = 1; m < 5; ++m) {
+    EXPECT_EQ(Follows(view, m, kAnn), m == 2) << m << ": of those only one is in the buffer zone";
+  }
 }
 
 TEST(PlanAuthority, TheServerFollowsASmallRoomAndOfALargeOneWhatMayMeetItsOwn) {
@@ -193,26 +182,15 @@ TEST(PlanAuthority, TheServerFollowsASmallRoomAndOfALargeOneWhatMayMeetItsOwn) {
   EXPECT_TRUE(Follows(view, 0, kServer)) << "it orders what physics finds";
 }
 
-TEST(PlanAuthority, FollowBodiesCountsTheBodiesOfAMechanismAndNeverTakesAPart) {
+TEST(PlanAuthority, FollowBodiesCountsTheBodiesOfAMechanism) {
   AuthorityView view = TwoSides({-50, 20, 30});
+  view.buffer_m = 0;
   for (int more = 0; more < 3; ++more)
     view.boxes.push_back(BoxAt({20, static_cast<float>(more)}, 1));
-  view.follow_bodies = 4;
-  EXPECT_FALSE(Follows(view, 1, kAnn)) << "one of hers and four are five";
-  EXPECT_FALSE(Follows(view, 2, kAnn)) << "what is farther does not come first";
   view.follow_bodies = 5;
+  EXPECT_FALSE(Follows(view, 1, kAnn)) << "six bodies";
+  view.follow_bodies = 6;
   EXPECT_TRUE(Follows(view, 1, kAnn));
-  EXPECT_FALSE(Follows(view, 2, kAnn));
-}
-
-TEST(PlanAuthority, OfTwoEquallyNearWhoFollowsOneKeepsIt) {
-  AuthorityView view = TwoSides({-50, 20, 20.5f});
-  view.follow_bodies = 2;
-  EXPECT_TRUE(Follows(view, 1, kAnn));
-  EXPECT_FALSE(Follows(view, 2, kAnn));
-  view.mechanisms[2].now.secondaries.Add(kAnn);
-  EXPECT_FALSE(Follows(view, 1, kAnn)) << "no change for half a metre";
-  EXPECT_TRUE(Follows(view, 2, kAnn));
 }
 
 TEST(PlanAuthority, OnlyModeBufferHasFollowersAndOnlyBufferAndStrictHavePeers) {

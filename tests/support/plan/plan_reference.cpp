@@ -113,31 +113,6 @@ std::vector<float> Distances(const AuthorityView& view, const PlayerView& player
   return nearest;
 }
 
-/// Adds the peer to the nearest of what it does not follow yet, until it steps follow_bodies. Where
-/// that is not all there is anyway, what is far away is left out.
-void FollowNearest(const AuthorityView& view, int peer, const std::vector<float>& distance,
-                   ReferencePlan* plan) {
-  const bool crowded = view.boxes.size() > static_cast<std::size_t>(view.follow_bodies);
-  std::vector<int> bodies(plan->size(), 0);
-  for (const MovingBox& box : view.boxes) ++bodies[static_cast<std::size_t>(box.group)];
-  int steps = 0;
-  std::vector<std::pair<float, std::size_t>> others;
-  for (std::size_t m = 0; m < plan->size(); ++m) {
-    if ((*plan)[m].authority == peer || (*plan)[m].secondaries.Has(peer)) {
-      steps += bodies[m];
-      continue;
-    }
-    const bool follows = view.mechanisms[m].now.secondaries.Has(peer);
-    others.emplace_back(distance[m] - (follows ? kHysteresis : 0), m);
-  }
-  std::sort(others.begin(), others.end());
-  for (const auto& [far, m] : others) {
-    steps += bodies[m];
-    if (steps > view.follow_bodies || (crowded && far > kFollowFar)) return;
-    (*plan)[m].secondaries.Add(peer);
-  }
-}
-
 /// By mechanism: whether it is in a pair with one of the server's.
 std::vector<bool> WithServers(const ReferencePlan& plan,
                               const std::vector<std::pair<int, int>>& pairs) {
@@ -179,6 +154,7 @@ void AddFollowers(const AuthorityView& view, ReferencePlan* plan) {
   // By mechanism, the lowest of those that it may come into contact with, directly or through
   // others.
   const auto count = static_cast<int>(plan->size());
+  const bool whole = view.boxes.size() <= static_cast<std::size_t>(view.follow_bodies);
   const std::vector<int> soon = Components(count, pairs_soon);
   const std::vector<int> later = Components(count, pairs_later);
   for (const PlayerView& player : view.players) {
@@ -192,9 +168,8 @@ void AddFollowers(const AuthorityView& view, ReferencePlan* plan) {
       const bool follows = view.mechanisms[m].now.secondaries.Has(player.peer);
       const float reach = view.buffer_m + (follows ? kHysteresis : 0.0f);
       const bool meets = follows ? meets_later[m] : meets_soon[m];
-      if (meets || distance[m] <= reach) planned.secondaries.Add(player.peer);
+      if (whole || meets || distance[m] <= reach) planned.secondaries.Add(player.peer);
     }
-    FollowNearest(view, player.peer, distance, plan);
   }
 }
 
