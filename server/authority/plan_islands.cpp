@@ -69,13 +69,12 @@ class IslandPlan {
     const MechanismView& mechanism = view_.mechanisms[static_cast<std::size_t>(box.group)];
     const int p = players_.At(mechanism.now.authority);
     if (p < 0 || !mechanism.moves || player(p).silent) return;
-    const float seconds = SecondsAhead(p);
-    const float way = box.velocity.norm() * seconds + kTouchGap;
+    const float way = box.velocity.norm() * SecondsAhead(p, box) + kTouchGap;
     const Vec2 reach(way, way);
     grid_.Near(box.min - reach, box.max + reach, [&](int b) {
       const MovingBox& other = view_.boxes[static_cast<std::size_t>(b)];
       Island& island = islands_.Of(other.group);
-      if (!island.awake && island.driver < 0) Claim(box, other, p, seconds, &island);
+      if (!island.awake && island.driver < 0) Claim(box, other, p, &island);
     });
   }
 
@@ -100,11 +99,16 @@ class IslandPlan {
     });
   }
 
-  float SecondsAhead(int p) const { return 2 * player(p).one_way_s + kPlanPeriod + kTouchAhead; }
+  /// How far ahead it is looked for what player p's peer must have in time, s. What stands may be
+  /// driven any way.
+  float SecondsAhead(int p, const MovingBox& own) const {
+    const float ahead = own.velocity.norm() > kSettles ? kTouchAhead : kStandingAhead;
+    return 2 * player(p).one_way_s + kPlanPeriod + ahead;
+  }
 
-  void Claim(const MovingBox& own, const MovingBox& box, int p, float seconds, Island* island) {
-    const float after = SecondsToTouch(own, box, kTouchGap, seconds);
-    if (after > seconds) return;
+  void Claim(const MovingBox& own, const MovingBox& other, int p, Island* island) const {
+    const float after = SecondsToTouch(own, other, kTouchGap, SecondsAhead(p, own));
+    if (after == FLT_MAX) return;
     if (p == island->holder) island->holder_claims = true;
     if (after < island->claim_s || (after == island->claim_s && p < island->claim)) {
       island->claim_s = after;
@@ -113,7 +117,7 @@ class IslandPlan {
   }
 
   void LookAhead(const MovingBox& own, int p) {
-    const float seconds = SecondsAhead(p);
+    const float seconds = SecondsAhead(p, own);
     const float way = (own.velocity.norm() + std::min(speed_, kApproachMax)) * seconds + kTouchGap +
                       own.acceleration * seconds * seconds / 2;
     const Vec2 reach(way, way);
@@ -121,7 +125,7 @@ class IslandPlan {
       const MovingBox& box = view_.boxes[static_cast<std::size_t>(b)];
       Island& island = islands_.Of(box.group);
       if (island.driver >= 0) return;  // it is who drives in it's
-      Claim(own, box, p, seconds, &island);
+      Claim(own, box, p, &island);
     });
   }
 

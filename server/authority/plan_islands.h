@@ -19,17 +19,21 @@ namespace seam {
 ///
 /// A mechanism that a player drives is its driver's while that player is here. Of the rest of an
 /// island: with one driver in it, the driver's; with several, see above; with none, of who will
-/// touch it within its round trip, a plan and 0.1 s, with what it drives or, if it sleeps, with
-/// anything else that it has (of several who has it, else who touches first); else of who has most
-/// of it, within rules.keep; else, if anything of it is awake, of the nearest player within
-/// rules.acquire; else the server's, and so is what sleeps. Who is silent gets nothing new, and
-/// whom an island would ask to step more than its capacity does not get it: see plan_capacity.h.
+/// touch it within its round trip, a plan and kTouchAhead (standing: kStandingAhead), with what it
+/// drives or, if it sleeps, with anything else that it has (of several who has it, else who touches
+/// first); else of who has most of it, within rules.keep; else, if anything of it is awake, of the
+/// nearest player within rules.acquire; else the server's, and so is what sleeps. Who is silent
+/// gets nothing new, and whom an island would ask to step more than its capacity does not get it:
+/// see plan_capacity.h.
 void PlanIslands(const AuthorityView& view, AuthorityPlan* plan);
 
 /// m between boxes of what touches. Resting things are up to 2 cm apart, copies a few more.
 constexpr float kTouchGap = 0.05f;
-/// s from a plan to the next, and s more that a touch is seen ahead.
-constexpr float kPlanPeriod = 0.1f, kTouchAhead = 0.1f;
+/// s from a plan to the next, and s more that a touch is seen ahead: what is touched touches the
+/// next, which nothing moves towards yet.
+constexpr float kPlanPeriod = 0.1f, kTouchAhead = 0.4f;
+/// The same for what stands.
+constexpr float kStandingAhead = 0.1f;
 /// m/s; what comes faster towards a player's vehicle is seen ahead less early. Normal: all is
 /// slower.
 constexpr float kApproachMax = 30;

@@ -77,7 +77,7 @@ TEST_F(PlanIslandsTest, WhatSleepsBecomesHisWhoseThingsWillHitIt) {
   view_.mechanisms[thrown].moves = true;
   view_.boxes[thrown].velocity = {8, 0};  // 2 m between them: a quarter of a second
   EXPECT_EQ(Of(asleep), kAnn);
-  view_.boxes[thrown].velocity = {4, 0};
+  view_.boxes[thrown].velocity = {2.5f, 0};
   EXPECT_EQ(Of(asleep), kServer) << "not yet";
   view_.boxes[thrown].velocity = {-8, 0};
   EXPECT_EQ(Of(asleep), kServer) << "it flies away";
