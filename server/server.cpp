@@ -8,7 +8,6 @@
 #include "common/sync/method.h"
 #include "server/authority_source.h"
 #include "server/rules/rules.h"
-#include "server/rules/seats.h"
 #include "server/server_commands.h"
 
 namespace seam {
@@ -198,11 +197,7 @@ void Server::StepOnce(std::int64_t now_us) {
   replica_.Step();
   if (config_.sync.mode == Mode::kOracle) ApplyQueued(now_us);
   for (const FoundEdit& found : replica_.TakeProposals()) edits_.Add(found.edit, found.tick);
-  for (int p = 0; !replica_.world().scene().seats.empty() && p < players; ++p) {
-    const int pressed = replica_.TakePressed(p);
-    for (const Edit& edit : SeatEdits(replica_.world(), p, pressed)) edits_.Add(edit);
-  }
-  for (const Edit& edit : seat_bonds_.Next(replica_.world())) edits_.Add(edit);
+  RunSeats();
   RemoveOutside(now_us);
   UpdateAuthority(now_us);
   for (States& states : replica_.TakeStates()) {

@@ -138,6 +138,8 @@ class Server {
   void UpdateInterest(std::int64_t now_us, bool changed);
   void PublishShown(std::int64_t now_us);
   void RunRules(std::int64_t now_us);
+  void RunSeats();
+  void LetGo(std::int64_t now_us, int player);
   void RemoveOutside(std::int64_t now_us);
   void Tell(const std::string& line);
   void NoteCorrected(int body);

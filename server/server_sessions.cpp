@@ -1,5 +1,7 @@
 /// Server, who comes and goes: what follows from it, and what people are told of it.
 
+#include <algorithm>
+
 #include "server/rules/rules.h"
 #include "server/server.h"
 
@@ -40,9 +42,24 @@ void Server::FollowSessions(std::int64_t now_us) {
           rules_->OnLeave(event.player);
         }
         broadcast_.Tell(authority_.TakeBack(now_us, event.peer));
+        if (event.player >= 0 && event.was_ready) LetGo(now_us, event.player);
         break;
     }
   }
+}
+
+/// Who is gone holds nothing any more: its last input would drive on for ever.
+void Server::LetGo(std::int64_t now_us, int player) {
+  const InputTrack& track = replica_.inputs(player);
+  if (config_.sync.mode == Mode::kOracle || track.newest() < 0) return;
+  Inputs nothing;
+  nothing.player = player;
+  nothing.first_tick = std::max(track.newest(), replica_.tick()) + 1;
+  nothing.drive.push_back(0);
+  nothing.lift.push_back(0);
+  nothing.buttons.push_back(0);
+  inputs_due_ = true;
+  broadcast_.Publish(TakeFresh(now_us, nothing));
 }
 
 /// "bob is gone: left; 1 of 2 players, missing: bob".

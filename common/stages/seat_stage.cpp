@@ -23,7 +23,7 @@ namespace {
 using Eigen::Vector2d;
 
 /// Who has waited for the bond for so long is let go, s.
-constexpr int kHeldMost = 2;
+constexpr int kHeldMost = 4;
 
 /// Begins and ends without a jerk. `ticks`: since the seat was taken.
 double ShareOfWay(double ticks, int tick_hz) {
@@ -46,7 +46,17 @@ struct Approach {
 
 class SeatStage : public Stage {
  public:
-  explicit SeatStage(const StageWorld& world) : w_(world), approaches_(world.scene.seats.size()) {}
+  explicit SeatStage(const StageWorld& world)
+      : w_(world),
+        approaches_(world.scene.seats.size()),
+        begun_before_(world.scene.seats.size(), false) {
+    // Who comes into a room in which somebody is on the way takes it as being over: where it is by
+    // now, messages say.
+    for (std::size_t s = 0; s < approaches_.size(); ++s) {
+      begun_before_[s] = IsApart(s);
+      if (IsApart(s)) approaches_[s].ticks = SeatTicks(w_.scene.solver.tick_hz);
+    }
+  }
 
   void Rebuilt(b2World* world) override {
     gravity_ = world->GetGravity();
@@ -82,6 +92,8 @@ class SeatStage : public Stage {
       if (!IsApart(s)) approaches_[s] = Approach();
       if (!Leads(s)) continue;
       if (approaches_[s].ticks == SeatWaitTicks(w_.scene.solver.tick_hz)) SetOut(s);
+      if (begun_before_[s]) approaches_[s].came = MomentumOf(MechanismOf(s));
+      begun_before_[s] = false;
       ghosts_.resize(w_.built.moving.size(), false);
       EachOf(MechanismOf(s), [&](std::size_t body) { ghosts_[body] = true; });
     }
@@ -304,6 +316,7 @@ class SeatStage : public Stage {
 
   const StageWorld w_;
   std::vector<Approach> approaches_;  // by the scene's seats
+  std::vector<bool> begun_before_;    // by seat: in this world nobody has seen it begin
   std::vector<bool> ghosts_;          // by moving body; empty: nobody is on the way
   std::vector<int> sides_;  // by moving body: a seat's number from 1, -: the vehicle; empty: none
   b2Vec2 gravity_{0, 0};

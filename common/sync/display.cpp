@@ -90,6 +90,7 @@ void Display::Remap(const BodyRemap& change) {
 }
 
 void Display::Glide(const Roles& roles) {
+  seats_.Look(world_);
   for (const int first : memory_.tended()) {
     const int m = world_.mechanism(first);
     const std::vector<int>& bodies = joints_.bodies(m);
@@ -100,7 +101,7 @@ void Display::Glide(const Roles& roles) {
     if (bodies.size() == 1) {
       smoother_.Advance(first, world_.dt(), world_.Read(first).velocity.norm());
     } else {
-      smoother_.AdvanceTogether(world_, bodies);
+      smoother_.AdvanceTogether(world_, bodies, seats_.IsGentle(m));
     }
   }
   if (config_.smooth) KeepClosed(roles);

@@ -14,6 +14,7 @@
 #include "common/sync/roles.h"
 #include "common/sync/show/joint_closer.h"
 #include "common/sync/show/reckoner.h"
+#include "common/sync/show/seat_glide.h"
 #include "common/sync/smoother.h"
 #include "common/sync/snapshots.h"
 
@@ -71,6 +72,7 @@ class Display {
   DisplayDelay delay_;
   JointCloser joints_;
   Reckoner reckoner_;
+  SeatGlide seats_;
   std::function<void(int)> on_corrected_ = [](int) {};
   std::vector<int> corrected_ticks_;  // by mechanism: how much longer it may be torn in physics
   std::vector<MovingBox> far_;        // by mechanism: of what is parked, where it can have come to

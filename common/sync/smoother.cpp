@@ -39,14 +39,14 @@ void Smoother::Set(int body, const BodyState& beside) {
 
 void Smoother::Reset(int body) { At(body) = VisualOffset{}; }
 
-void Smoother::AdvanceTogether(const World& world, const std::vector<int>& bodies) {
+void Smoother::AdvanceTogether(const World& world, const std::vector<int>& bodies, bool gentle) {
   std::vector<OffsetBody> together;
   bool any = false;
   for (const int body : bodies) {
     together.push_back({world.mass_point(body), world.Read(body), &At(body)});
     any = any || !At(body).zero();
   }
-  if (any) ReturnTogether(world.dt(), together);
+  if (any) ReturnTogether(world.dt(), together, gentle);
 }
 
 const Vec2& Smoother::offset(int body) const {

@@ -28,8 +28,8 @@ class Smoother {
   /// Lets a frame pass. `speed` of the body (m/s) widens the cap: a fast body hides a fast glide.
   void Advance(int body, float dt, float speed) { ReturnAlone(dt, speed, &At(body)); }
   /// The same for all bodies of a mechanism of more than one. Where one jump has moved all of them
-  /// rigidly, the view comes back rigidly.
-  void AdvanceTogether(const World& world, const std::vector<int>& bodies);
+  /// rigidly, the view comes back rigidly. `gentle`: no faster than 2 m/s.
+  void AdvanceTogether(const World& world, const std::vector<int>& bodies, bool gentle = false);
 
   /// The bodies have changed; origins[i] is the body before that body i comes from, -1 for none.
   void Remap(const std::vector<int>& origins);

@@ -1,5 +1,6 @@
 #include "server/rules/seats.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "common/base/geometry.h"
@@ -13,6 +14,14 @@ namespace {
 constexpr float kFastenWithin = 0.05f, kFastenTurn = 0.2f;
 /// And who has not come there so long after the time that the way takes is let go, s.
 constexpr int kComeWithin = 2;
+/// Peers that heard of it late show it come after at this speed at least, m/s.
+constexpr float kComesAfter = 2;
+/// What comes into a view only now has settled there after this time, s.
+constexpr double kSettles = 0.6;
+/// Way::heard_at while somebody comes in.
+constexpr int kComingIn = -2;
+/// Nobody waits for them for longer than this after the way is over, s.
+constexpr double kPeersWithin = 1.5;
 
 bool PlayerSits(const World& world, int player) {
   for (const Seat& seat : world.scene().seats) {
@@ -62,7 +71,7 @@ bool IsThere(const World& world, const Seat& seat, PartId own) {
 
 }  // namespace
 
-std::vector<Edit> SeatEdits(const World& world, int player, int pressed) {
+std::vector<Edit> SeatEdits(const World& world, int player, int pressed, std::set<int>* taken) {
   std::vector<Edit> edits;
   if (pressed == 0) return edits;
   const Scene& scene = world.scene();
@@ -75,27 +84,42 @@ std::vector<Edit> SeatEdits(const World& world, int player, int pressed) {
   for (std::size_t s = 0; s < scene.seats.size(); ++s) {
     const Seat& seat = scene.seats[s];
     if (seat.player >= 0 || ((pressed >> seat.button) & 1) == 0) continue;
-    if (GetIn(world, player, static_cast<int>(s), &edits)) break;
+    if (taken->count(static_cast<int>(s)) > 0) continue;
+    if (!GetIn(world, player, static_cast<int>(s), &edits)) continue;
+    taken->insert(static_cast<int>(s));
+    break;
   }
   return edits;
 }
 
-std::vector<Edit> SeatBonds::Next(const World& world) {
+std::vector<Edit> SeatBonds::Next(const World& world, int heard) {
   const Scene& scene = world.scene();
   std::vector<Edit> edits;
-  waited_.resize(scene.seats.size(), 0);
+  ways_.resize(scene.seats.size());
   asked_.resize(scene.seats.size(), -1);
   for (std::size_t s = 0; s < scene.seats.size(); ++s) {
     const Seat& seat = scene.seats[s];
     const PartId own =
         seat.player < 0 ? -1 : scene.players[static_cast<std::size_t>(seat.player)].vehicle;
-    waited_[s] = own < 0 ? 0 : waited_[s] + 1;
-    if (own < 0) asked_[s] = -1;
-    const int over = waited_[s] - SeatTicks(scene.solver.tick_hz);
-    if (over < 0 || asked_[s] == own) continue;
+    Way& way = ways_[s];
+    if (way.own != own) way = {own, world.topology().revision(), 0, -1};
+    if (own < 0) {
+      asked_[s] = -1;
+      continue;
+    }
+    ++way.ticks;
+    if (heard < 0) {
+      way.heard_at = kComingIn;
+    } else if (way.heard_at < 0 && heard >= way.revision) {
+      const double settles = way.heard_at == kComingIn ? kSettles : 0;
+      way.heard_at = way.ticks + static_cast<int>(settles * scene.solver.tick_hz);
+    }
+    if (way.ticks < SeatTicks(scene.solver.tick_hz) || asked_[s] == own) continue;
     const Edit bond(BondEdit{seat.part, own, seat.at, seat.angle}, EditCause::kOutside);
     if (!world.topology().Validate(bond).ok()) continue;
+    const int over = way.ticks - SeatTicks(scene.solver.tick_hz);
     if (IsThere(world, seat, own)) {
+      if (way.ticks < Due(world, s)) continue;
       edits.push_back(bond);
       asked_[s] = own;
     } else if (over > kComeWithin * scene.solver.tick_hz) {
@@ -104,6 +128,20 @@ std::vector<Edit> SeatBonds::Next(const World& world) {
     }
   }
   return edits;
+}
+
+/// Ticks after it was taken, from which on a bond is no jump to anybody. Who hears of the way late
+/// sees it begin late, while the vehicle goes on; a bond before it is there in that view would put
+/// it there at once.
+int SeatBonds::Due(const World& world, std::size_t seat) const {
+  const int hz = world.scene().solver.tick_hz;
+  const int last = SeatTicks(hz) + static_cast<int>(kPeersWithin * hz);
+  const Way& way = ways_[seat];
+  if (way.heard_at < 0) return last;
+  const float late = static_cast<float>(std::max(0, way.heard_at - SeatWaitTicks(hz)));
+  const float speed = PartPose(world, world.scene().seats[seat].part).velocity.norm();
+  const float behind = std::min(speed * late / kComesAfter, 1e6f);
+  return std::min(last, way.heard_at + static_cast<int>(behind));
 }
 
 }  // namespace seam

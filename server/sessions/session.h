@@ -48,7 +48,8 @@ struct Session {
   std::string name;
   int peer = 0;
   int player = -1;
-  float load = -1;  ///< share of its time that it needs for its ticks; below 0: not known
+  int revision = -1;  ///< edits that it has applied, as of its newest ping
+  float load = -1;    ///< share of its time that it needs for its ticks; below 0: not known
   SessionStage stage = SessionStage::kAdmitted;
   std::int64_t created_us = 0;
   std::int64_t repaired_us = -1000000000;

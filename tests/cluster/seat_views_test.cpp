@@ -116,14 +116,137 @@ TEST(SeatViews, NobodySeesAJumpOfMoreThanFiveCentimetresWhenSomebodyGetsInOrOut)
   }
 }
 
+/// A cart with two seats rolls past ann and bob, who both press when it is there; later they get
+/// out of it while it drives.
+std::string Passing(double speed, double where) {
+  constexpr double kAt = 2;  // s
+  const double from = where - speed * kAt;
+  const std::string roll = "velocity = [" + std::to_string(speed) + ", 0]\ngroup = -5\n";
+  const auto place = [](double x, double y) {
+    return "position = [" + std::to_string(x) + ", " + std::to_string(y) + "]\n";
+  };
+  return R"(duration = 8.6
+buffer = 10
+[solver]
+substeps = 4
+[[player]]
+name = "ann"
+vehicle = "hero.torso"
+region = [[-1000, -1000], [-0.001, 1000]]
+script = [[0, {}], [2, {buttons = [5]}], [2.1, {}], [3, {drive = 1.0}], [5, {drive = 0.7}],
+          [7, {drive = 0.7, buttons = [5]}], [7.1, {}]]
+[[player]]
+name = "bob"
+vehicle = "mate.torso"
+region = [[0, -1000], [1000, 1000]]
+script = [[0, {}], [2.07, {buttons = [6]}], [2.17, {}], [7.5, {buttons = [6]}], [7.6, {}]]
+[[part]]
+name = "ground"
+chain = [[-200, 0], [200, 0]]
+friction = 0.8
+[[part]]
+name = "cart"
+box = [2.4, 0.35]
+)" + place(from, 0.75) +
+         roll + R"([[part]]
+name = "wheel"
+circle = 0.4
+friction = 0.9
+repeat = {count = 2, step = [1.8, 0]}
+spin = )" +
+         std::to_string(-speed / 0.4) + "\n" + place(from - 0.9, 0.41) + roll + R"([[joint]]
+name = "axle"
+kind = "hinge"
+a = "cart"
+b = "wheel.0"
+repeat = {count = 2, step = [1.8, 0]}
+[[thrust]]
+name = "push"
+part = "cart"
+force = [6, 0]
+player = "saddle"
+[[seat]]
+name = "saddle"
+part = "cart"
+at = [0.3, 0.7]
+reach = 2.5
+button = 5
+[[seat]]
+name = "pillion"
+part = "cart"
+at = [-0.6, 0.7]
+reach = 2.5
+button = 6
+[[character]]
+name = "hero"
+player = "ann"
+group = -5
+)" + place(where + 1.6, 0) +
+         "[[character]]\nname = \"mate\"\nplayer = \"bob\"\ngroup = -5\n" + place(where + 2.2, 0);
+}
+
+TEST(SeatViews, NobodySeesAJumpWhenSomebodyGetsIntoWhatDrivesPastOrOutOfIt) {
+  struct Case {
+    double speed, where;  // m/s, m
+    std::int64_t seed;    // 9: bob hears half a second late that ann gets in
+  };
+  for (const Case& c : {Case{2, -5, 2}, Case{5, 3, 9}, Case{9, 3, 9}, Case{9, -5, 8}}) {
+    ClusterConfig config;
+    config.scene_text = Passing(c.speed, c.where);
+    config.impair = "4g";
+    config.seed = c.seed;
+    const Recording recording = RunCluster(config);
+    // It is fast, and who gets out of it falls: then there are blows that each has elsewhere.
+    const Jump in = LargestJump(recording, 1.9, 4.9), out = LargestJump(recording, 6.9, 8.0);
+    std::printf("[          ] %g m/s, seed %lld: in %.4f m (%s), out %.4f m (%s)\n", c.speed,
+                static_cast<long long>(c.seed), in.metres, in.where.c_str(), out.metres,
+                out.where.c_str());
+    EXPECT_LT(in.metres, 0.05) << c.speed << " m/s, seed " << c.seed;
+    EXPECT_LT(out.metres, 0.05) << c.speed << " m/s, seed " << c.seed;
+  }
+}
+
+TEST(SeatViews, OfTwoWhoPressInOneTickOneGetsTheSeat) {
+  std::string scene = Passing(0, -5);
+  const std::string pillion = scene.substr(scene.find("[[seat]]\nname = \"pillion\""));
+  scene.erase(scene.find(pillion), pillion.find("[[character]]"));  // one seat, one button
+  const std::string late = "[2.07, {buttons = [6]}]", now = "[2, {buttons = [5]}]";
+  scene.replace(scene.find(late), late.size(), now);
+  ClusterConfig config;
+  config.scene_text = scene;
+  config.impair = "perfect";
+  Cluster cluster(config);
+  cluster.RunToTick(240);
+  const Replica& server = cluster.server().replica();
+  EXPECT_EQ(server.world().scene().seats[0].player, 0) << "the first in the order of players";
+  EXPECT_EQ(server.revision(), 2) << "one gets in, and one bond";
+}
+
+TEST(SeatViews, WhoLeavesTheRoomAtTheWheelDrivesOnNoMore) {
+  ClusterConfig config;
+  config.scene_text = Cart();
+  config.impair = "4g";
+  Cluster cluster(config);
+  cluster.RunToTick(230);
+  const World& world = cluster.server().replica().world();
+  const int cart = world.BodyOfId(1);
+  ASSERT_GT(world.Read(cart).velocity.x(), 1);
+  cluster.Leave(0);
+  cluster.RunToTick(290);
+  EXPECT_LT(world.Read(cart).velocity.x(), 0.1f) << "its motors brake at no drive";
+  const Replica* bob = cluster.client(1)->replica();
+  EXPECT_LT((bob->world().Read(cart).position - world.Read(cart).position).norm(), 0.1f);
+}
+
 TEST(SeatViews, WhoJoinsInTheMiddleOfTheWaySeesTheSameAfterASecond) {
   int in_the_middle = 0;
-  for (int revived = 90; revived <= 150; revived += 10) {
-    SCOPED_TRACE("revived at tick " + std::to_string(revived));
+  for (int i = 0; i < 14; ++i) {
+    const int revived = 90 + 10 * (i % 7), seed = i < 7 ? 31 : 32;
+    SCOPED_TRACE("seed " + std::to_string(seed) + ", revived at tick " + std::to_string(revived));
     ClusterConfig config;
     config.scene_text = Cart();
     config.impair = "4g";
-    config.seed = 31;
+    config.seed = seed;
     Cluster cluster(config);
     cluster.RunToTick(60);
     cluster.Kill(1);
@@ -149,8 +272,8 @@ TEST(SeatViews, WhoJoinsInTheMiddleOfTheWaySeesTheSameAfterASecond) {
     in_the_middle += middle ? 1 : 0;
     Recording seen;
     seen.views[1] = views;
-    // It shows nothing before it knows where everything is by now. On the way it hears of the end
-    // of the way a moment after the others, and what it has reckoned by then is further off.
+    // It shows nothing before it knows where everything is by now. Who is on the way then, and
+    // since when, it does not know before the authority's states say so.
     const std::int64_t settled = first + 60;
     const Jump jump =
         LargestJump(seen, static_cast<double>(settled) / 60, static_cast<double>(settled) / 60 + 2);
@@ -160,9 +283,9 @@ TEST(SeatViews, WhoJoinsInTheMiddleOfTheWaySeesTheSameAfterASecond) {
                 static_cast<long long>(first), middle ? ", on the way" : "", early.metres,
                 early.where.c_str(), jump.metres, jump.where.c_str());
     EXPECT_LT(early.metres, middle ? 0.4 : 0.1) << early.where;
-    EXPECT_LT(jump.metres, 0.25) << "limbs that flap; the body comes within 5 cm";
+    EXPECT_LT(jump.metres, 0.05) << jump.where;
   }
-  EXPECT_GE(in_the_middle, 2);
+  EXPECT_GE(in_the_middle, 4);
 }
 
 }  // namespace

@@ -15,6 +15,9 @@ constexpr float kRate = 10;
 constexpr float kGlideMin = 4.0f;
 constexpr float kGlideShare = 0.35f;
 constexpr float kSpinCap = 6.0f;  // rad/s
+/// Of what everybody looks at, m/s: 3.3 cm in a tick, which leaves room for what limbs do
+/// meanwhile.
+constexpr float kGentle = 2;
 /// Beyond this the view jumps: nobody can glide through it without lying for seconds. m
 constexpr float kGiveUp = 15.0f;
 /// Offsets below these are over: m (rad) and m/s (rad/s).
@@ -115,28 +118,28 @@ struct Step {
   }
 };
 
-void ReturnCommon(float dt, float speed, float reach, VisualOffset* common) {
+void ReturnCommon(float dt, float glide, float reach, VisualOffset* common) {
   VisualOffset shift = *common, turn = *common;
   shift.angle = shift.spin = 0;
   turn.position.setZero();
   turn.velocity.setZero();
   Step shifting(dt, shift), turning(dt, turn);
-  shifting.Limit((shifting.to.position - shift.position).norm(), GlideMax(speed) * dt);
+  shifting.Limit((shifting.to.position - shift.position).norm(), glide * dt);
   const float angle = std::fabs(turning.to.angle - turn.angle);
   turning.Limit(angle, kSpinCap * dt);
-  turning.Limit(angle * reach, GlideMax(speed) * dt);
+  turning.Limit(angle * reach, glide * dt);
   shift = shifting.Taken(dt);
   turn = turning.Taken(dt);
   *common = {shift.position, shift.velocity, turn.angle, turn.spin};
 }
 
 /// All by the same share, so that a body does not run ahead of those it hangs on.
-void ReturnRest(float dt, float speed, std::vector<VisualOffset>* rest) {
+void ReturnRest(float dt, float glide, std::vector<VisualOffset>* rest) {
   std::vector<Step> steps;
   float share = 1;
   for (const VisualOffset& offset : *rest) {
     Step step(dt, offset);
-    step.Limit((step.to.position - offset.position).norm(), GlideMax(speed) * dt);
+    step.Limit((step.to.position - offset.position).norm(), glide * dt);
     step.Limit(std::fabs(step.to.angle - offset.angle), kSpinCap * dt);
     share = std::min(share, step.share);
     steps.push_back(step);
@@ -179,7 +182,7 @@ void ReturnAlone(float dt, float speed, VisualOffset* offset) {
   if (std::fabs(o.angle) < kOver && std::fabs(o.spin) < kOverSpeed) o.angle = o.spin = 0;
 }
 
-void ReturnTogether(float dt, const std::vector<OffsetBody>& bodies) {
+void ReturnTogether(float dt, const std::vector<OffsetBody>& bodies, bool gentle) {
   Split split = SplitOffsets(bodies);
   if (split.common.position.norm() > kGiveUp) {
     for (const OffsetBody& b : bodies) *b.offset = VisualOffset{};
@@ -192,9 +195,9 @@ void ReturnTogether(float dt, const std::vector<OffsetBody>& bodies) {
     mass += bodies[i].mass.mass;
     reach = std::max(reach, split.arms[i].norm());
   }
-  const float speed = (momentum / mass).norm();
-  ReturnCommon(dt, speed, reach, &split.common);
-  ReturnRest(dt, speed, &split.rest);
+  const float glide = gentle ? kGentle : GlideMax((momentum / mass).norm());
+  ReturnCommon(dt, glide, reach, &split.common);
+  ReturnRest(dt, glide, &split.rest);
   const Rotation<float> turn(split.common.angle);
   bool over = true;
   for (std::size_t i = 0; i < bodies.size(); ++i) {

@@ -32,7 +32,7 @@ void ReturnAlone(float dt, float speed, VisualOffset* offset);
 /// The same for all bodies of a mechanism. Their offsets are split into the rigid motion that is
 /// common to them by mass, a shift of the centre of mass and a turn about it, and what each has
 /// beside it; both come back at the same rate, each below its own speed limit. Offsets that are a
-/// rigid motion stay one, however large the turn.
-void ReturnTogether(float dt, const std::vector<OffsetBody>& bodies);
+/// rigid motion stay one, however large the turn. `gentle`: a lower limit.
+void ReturnTogether(float dt, const std::vector<OffsetBody>& bodies, bool gentle = false);
 
 }  // namespace seam

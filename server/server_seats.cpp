@@ -1,0 +1,27 @@
+/// Server: who gets into a seat and out of it, and when a bond follows.
+
+#include <algorithm>
+#include <set>
+
+#include "server/rules/seats.h"
+#include "server/server.h"
+
+namespace seam {
+
+void Server::RunSeats() {
+  const World& world = replica_.world();
+  if (world.scene().seats.empty()) return;
+  std::set<int> taken;  // the first in the order of players gets it
+  for (int p = 0; p < static_cast<int>(scene_.players.size()); ++p) {
+    const int pressed = replica_.TakePressed(p);
+    for (const Edit& edit : SeatEdits(world, p, pressed, &taken)) edits_.Add(edit);
+  }
+  int heard = replica_.revision();
+  if (config_.sync.mode != Mode::kOracle) {  // there all act at one tick
+    // Whoever is just coming in is waited for, too.
+    sessions_.ForEachTold([&](const Session& s) { heard = std::min(heard, s.revision); });
+  }
+  for (const Edit& edit : seat_bonds_.Next(world, heard)) edits_.Add(edit);
+}
+
+}  // namespace seam
