@@ -139,7 +139,7 @@ Traffic Send(std::uint64_t seed, const Path& path, int ticks) {
     const std::vector<States> told = balls.Tell(path.all || tick % 5 == 0 ? 1 : 0.3);
     for (const States& states : told) packer.Add(states);
     way.told = TellsOf(told);
-    way.messages = packer.Take();
+    way.messages = packer.Take(0);
     for (const auto& message : way.messages) {
       EXPECT_LE(message.packed.data.size(), kPackedBytesMax);
       traffic.bytes += message.packed.data.size();
@@ -215,7 +215,7 @@ TEST(PackedStates, NoBitsDoHarm) {
   for (int round = 0; round < Soak(60); ++round) {
     balls.Step();
     for (const States& states : balls.Tell(0.2)) packer.Add(states);
-    for (const StatesPacker::Message& message : packer.Take()) {
+    for (const StatesPacker::Message& message : packer.Take(0)) {
       const Bytes good = message.packed.data;
       for (std::size_t size = 0; size < good.size(); ++size) {
         PackedStates cut;
@@ -252,7 +252,7 @@ TEST(PackedStates, DifferencesFromWhatNeverCameAreRefused) {
   const auto message = [&] {
     balls.Step();
     for (const States& states : balls.Tell(1)) packer.Add(states);
-    return packer.Take().front();
+    return packer.Take(0).front();
   };
   packer.Acknowledge(message().number);  // it says so, and it is not true
   EXPECT_FALSE(unpacker.Take(message().packed));
