@@ -245,6 +245,40 @@ TEST(PackedStates, NoBitsDoHarm) {
   }
 }
 
+TEST(PackedStates, WhatWasLostIsAskedForUntilSomethingOfItHasArrived) {
+  constexpr std::int64_t kLateUs = 100000;
+  Balls balls(5, 20);
+  StatesPacker packer(kMotion);
+  const auto send = [&](std::int64_t now_us) {
+    balls.Step();
+    for (const States& states : balls.Tell(1)) packer.Add(states);
+    return packer.Take(now_us);
+  };
+  const auto lost = [&](std::int64_t now_us) {
+    return packer.TakeLost(now_us, kLateUs, [](std::int32_t) { return true; }).size();
+  };
+  for (const auto& message : send(0)) packer.Acknowledge(message.number);
+  EXPECT_EQ(lost(kLateUs), 0u) << "it has arrived";
+  const std::size_t bodies = [&] {
+    std::size_t count = 0;
+    for (const auto& message : send(1000000)) count += message.bodies;
+    return count;
+  }();
+  EXPECT_EQ(lost(1000000 + kLateUs - 1), 0u) << "it may be under way";
+  EXPECT_EQ(lost(1000000 + kLateUs), bodies);
+  EXPECT_EQ(lost(1000000 + kLateUs + 99999), 0u);
+  EXPECT_EQ(lost(1000000 + kLateUs + 100000), bodies) << "100 ms later again";
+  EXPECT_EQ(lost(1000000 + kLateUs + 200000), 0u);
+  EXPECT_EQ(lost(1000000 + kLateUs + 300000), bodies) << "and 200 ms after that";
+  const auto repeat = send(1450000);
+  for (const auto& message : repeat) packer.Acknowledge(message.number);
+  EXPECT_EQ(lost(3000000), 0u) << "something newer has arrived";
+  send(4000000);
+  const auto nobody = [](std::int32_t) { return false; };
+  EXPECT_EQ(packer.TakeLost(5000000, kLateUs, nobody).size(), 0u);
+  EXPECT_EQ(lost(6000000), 0u) << "what nobody wants is forgotten";
+}
+
 TEST(PackedStates, DifferencesFromWhatNeverCameAreRefused) {
   Balls balls(5, 20);
   StatesPacker packer(kMotion);
