@@ -38,7 +38,8 @@ class FirstAnchored : public b2RayCastCallback {
         if (ours.groupIndex > 0) return true;
         continue;
       }
-      if ((ours.maskBits & theirs.categoryBits) != 0 && (ours.categoryBits & theirs.maskBits) != 0) {
+      if ((ours.maskBits & theirs.categoryBits) != 0 &&
+          (ours.categoryBits & theirs.maskBits) != 0) {
         return true;
       }
     }

@@ -29,9 +29,9 @@ ClusterConfig With(const std::string& scene, const std::string& reconcile) {
   return config;
 }
 
-/// A cradle's fourth blow meets copies that are a centimetre off, between balls that hang two apart:
-/// under a rule that pulls, two balls fly instead of one with two seeds of five (error .05 or .19 m
-/// over all 10 s). What a rule does is seen before that, s.
+/// A cradle's fourth blow meets copies that are a centimetre off, between balls that hang two
+/// apart: under a rule that pulls, two balls fly instead of one with two seeds of five (error .05
+/// or .19 m over all 10 s). What a rule does is seen before that, s.
 constexpr double kCradleSeconds = 8;
 
 /// Of five seeds the worst in the cradle, else the median: after a collision one network's dice say

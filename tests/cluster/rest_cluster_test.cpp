@@ -79,8 +79,9 @@ RestRun RunToRest(const ClusterConfig& config, double end_s, double quiet_s) {
   return RestWatcher(cluster).Run(end_s, quiet_s);
 }
 
-/// All seeds of a method: each within 5 s, 19 of 20 within 2. So many of them in which something has
-/// changed hands: with some dice what flies hits another and stays on its side (strict, 2 of 20).
+/// All seeds of a method: each within 5 s, 19 of 20 within 2. So many of them in which something
+/// has changed hands: with some dice what flies hits another and stays on its side (strict, 2 of
+/// 20).
 void ExpectRest(const Method& method, int boxes, int seeds, double end_s) {
   std::vector<double> late;
   int failed = 0, changed = 0;

@@ -30,8 +30,8 @@ velocity = [5, 0]
 owner = "ann"
 )";
 
-/// Bob only looks: two messages of ann's disc that were lost in a row, before or after she was gone,
-/// let it stand for him (seeds 7, 18 and 1 over 4g, most over terrible).
+/// Bob only looks: two messages of ann's disc that were lost in a row, before or after she was
+/// gone, let it stand for him (seeds 7, 18 and 1 over 4g, most over terrible).
 TEST(Vanish, WhatTheHolderHadGoesOnInEveryView) {
   for (const char* reconcile : {"rollback", "retrospect", "fade"}) {
     for (const auto& [impair, seed] :
