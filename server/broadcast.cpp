@@ -2,7 +2,19 @@
 
 #include <utility>
 
+#include "common/sync/lease.h"
+
 namespace seam {
+namespace {
+
+/// A message is taken for lost when it is not acknowledged after so long, us: as reliable ones are,
+/// and a little more, since who has nothing to say acknowledges late.
+std::int64_t LateUs(std::int64_t rtt_us) {
+  constexpr std::int64_t kUnknownUs = 250000, kMoreUs = 50000;
+  return (rtt_us < 0 ? kUnknownUs : rtt_us + rtt_us / 4) + kMoreUs;
+}
+
+}  // namespace
 
 bool Broadcast::Simulates(int peer, int mechanism) const {
   if (config_.mode == Mode::kOracle) return true;
@@ -82,13 +94,29 @@ void Broadcast::TellOwed(std::int64_t now_us) {
   });
 }
 
+/// Who is only shown a body hears of it when it is not as it would be guessed from what was told
+/// last: if that was lost, the guess is another one, and in the end stands still.
+void Broadcast::TellLostAgain(std::int64_t now_us, Session& session) {
+  // Who says nothing acknowledges nothing either.
+  if (now_us - session.link.last_receive_us() > kSilentUs) return;
+  const auto shown = [&](std::int32_t id) {
+    const int body = newest_.has(id) ? replica_.world().BodyOfId(id) : -1;
+    return body >= 0 && !Simulates(session.peer, replica_.world().mechanism(body));
+  };
+  const std::int64_t late_us = LateUs(session.link.rtt_us());
+  for (const std::int32_t id : session.packer.TakeLost(now_us, late_us, shown)) {
+    session.outbox.Add(now_us, id, Urgency::kNear);
+  }
+}
+
 void Broadcast::SendWaiting(std::int64_t now_us, bool stepped) {
   sessions_.ForEachReady(0, [&](Session& session) {
+    if (stepped) TellLostAgain(now_us, session);
     const bool now = stepped || session.outbox.pressing() || !session.packer.empty();
     if (now && !session.outbox.empty()) {
       for (const States& s : session.outbox.Compose(now_us, newest_)) session.packer.Add(s);
     }
-    for (const StatesPacker::Message& message : session.packer.Take()) {
+    for (const StatesPacker::Message& message : session.packer.Take(now_us)) {
       const Bytes bytes = Encode(message.packed);
       session.outbox.NoteCost(bytes.size(), message.bodies);
       session.link.SendUnreliable(bytes, kListedSlot, message.number);

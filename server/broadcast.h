@@ -75,6 +75,7 @@ class Broadcast {
     News news = News::kNobody;
   };
   void Send(std::int64_t now_us, Session& session, std::vector<Grants> messages);
+  void TellLostAgain(std::int64_t now_us, Session& session);
   /// What is due to a peer of what `entries_` has.
   void FindDue(int peer);
   /// Whether states go to everyone whole: nobody's mode tells apart what concerns whom.

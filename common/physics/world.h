@@ -154,6 +154,11 @@ class World {
   /// The box around the body's shapes as it lies now, m: lower and upper corner.
   std::pair<Vec2, Vec2> Bounds(int body) const;
 
+  /// The share of the straight way from one place to another, 0 to 1, after which something
+  /// anchored that the body collides with lies across it; 1: nothing does. What `from` is in does
+  /// not count.
+  float FreeWay(int body, const Vec2& from, const Vec2& to) const;
+
   /// After the last tick, ascending by body; at most two per body.
   const std::vector<BlockedDirection>& blocked_directions() const;
 

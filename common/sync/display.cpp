@@ -127,7 +127,7 @@ MovingBox Display::FarBox(int mechanism) const {
       return box;
     }
     const BodyState& heard = snapshots_.newest(body);
-    const Vec2 at = heard.position + kReckonMax * heard.velocity;
+    const Vec2 at = heard.position + kReckonShownMax * heard.velocity;
     box.min = box.min.cwiseMin(heard.position.cwiseMin(at));
     box.max = box.max.cwiseMax(heard.position.cwiseMax(at));
   }

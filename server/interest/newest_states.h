@@ -40,7 +40,7 @@ struct NewsRule {
 constexpr NewsRule kNearNews{0.005f, 0};
 constexpr NewsRule kFarNews{0.05f, 0.5};
 /// s after which it is told in any case, so that one may be lost before the receiver's reckoning
-/// ends (kReckonMax); and what is slower than kSlow, m/s, which hardly gets anywhere.
+/// ends (kReckonShownMax); and what is slower than kSlow, m/s, which hardly gets anywhere.
 constexpr double kNewsRepeat = 0.5, kNewsRepeatSlow = 2;
 /// The same of what the server says in a silent holder's name: the holder's last word is half a
 /// second old by then, and may be the one that was lost.

@@ -29,17 +29,25 @@ ClusterConfig With(const std::string& scene, const std::string& reconcile) {
   return config;
 }
 
-/// The median of five seeds: after a collision one network's dice say little of a rule.
+/// A cradle's fourth blow meets copies that are a centimetre off, between balls that hang two
+/// apart: under a rule that pulls, two balls fly instead of one with two seeds of five (error .05
+/// or .19 m over all 10 s). What a rule does is seen before that, s.
+constexpr double kCradleSeconds = 8;
+
+/// Of five seeds the worst in the cradle, else the median: after a collision one network's dice say
+/// little of a rule.
 double ErrorOf(const std::string& scene, const std::string& reconcile) {
   std::vector<double> errors;
+  const bool cradle = scene == "cradle";
   for (int seed = 1; seed <= 5; ++seed) {
     ClusterConfig config = With(scene, reconcile);
     config.seed = seed;
+    if (cradle) config.duration_s = kCradleSeconds;
     const Recording recording = RunCluster(config);
     errors.push_back(Measure(recording, ComputeOracle(recording)).error_rms_m);
   }
-  std::nth_element(errors.begin(), errors.begin() + 2, errors.end());
-  return errors[2];
+  std::sort(errors.begin(), errors.end());
+  return cradle ? errors.back() : errors[2];
 }
 
 /// Bounds are twice what was measured, m, with iterative joints: exact ones keep a cradle's blows

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
+
 #include "tests/lab/cluster.h"
 
 namespace seam {
@@ -27,15 +30,20 @@ velocity = [5, 0]
 owner = "ann"
 )";
 
+/// Bob only looks: two messages of ann's disc that were lost in a row, before or after she was
+/// gone, let it stand for him (seeds 7, 18 and 1 over 4g, most over terrible).
 TEST(Vanish, WhatTheHolderHadGoesOnInEveryView) {
   for (const char* reconcile : {"rollback", "retrospect", "fade"}) {
-    for (const char* impair : {"demo", "4g"}) {
-      SCOPED_TRACE(std::string(reconcile) + " " + impair);
+    for (const auto& [impair, seed] :
+         {std::pair("demo", 1), std::pair("4g", 1), std::pair("4g", 7), std::pair("4g", 18),
+          std::pair("terrible", 2), std::pair("terrible", 4), std::pair("terrible", 6)}) {
+      SCOPED_TRACE(std::string(reconcile) + " " + impair + ", seed " + std::to_string(seed));
       ClusterConfig config;
       config.scene = "passing";
       config.scene_text = kPassing;
       config.reconcile = reconcile;
       config.impair = impair;
+      config.seed = seed;
       config.drive = Drive::kNone;
       Cluster cluster(config);
       cluster.RunToTick(180);
@@ -51,7 +59,7 @@ TEST(Vanish, WhatTheHolderHadGoesOnInEveryView) {
         for (std::int64_t tick = 180; tick < 180 + 6 * 60; ++tick) {
           ASSERT_EQ(views.count(tick) + views.count(tick + 18), 2u) << tick;
           const float way = views.at(tick + 18).x[0] - views.at(tick).x[0];
-          EXPECT_NEAR(way, 5 * 0.3f, 0.5f) << "in 0.3 s from tick " << tick << ", peer " << peer;
+          EXPECT_NEAR(way, 5 * 0.3f, 0.1f) << "in 0.3 s from tick " << tick << ", peer " << peer;
         }
       }
     }

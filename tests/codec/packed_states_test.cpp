@@ -139,7 +139,7 @@ Traffic Send(std::uint64_t seed, const Path& path, int ticks) {
     const std::vector<States> told = balls.Tell(path.all || tick % 5 == 0 ? 1 : 0.3);
     for (const States& states : told) packer.Add(states);
     way.told = TellsOf(told);
-    way.messages = packer.Take();
+    way.messages = packer.Take(0);
     for (const auto& message : way.messages) {
       EXPECT_LE(message.packed.data.size(), kPackedBytesMax);
       traffic.bytes += message.packed.data.size();
@@ -215,7 +215,7 @@ TEST(PackedStates, NoBitsDoHarm) {
   for (int round = 0; round < Soak(60); ++round) {
     balls.Step();
     for (const States& states : balls.Tell(0.2)) packer.Add(states);
-    for (const StatesPacker::Message& message : packer.Take()) {
+    for (const StatesPacker::Message& message : packer.Take(0)) {
       const Bytes good = message.packed.data;
       for (std::size_t size = 0; size < good.size(); ++size) {
         PackedStates cut;
@@ -245,6 +245,40 @@ TEST(PackedStates, NoBitsDoHarm) {
   }
 }
 
+TEST(PackedStates, WhatWasLostIsAskedForUntilSomethingOfItHasArrived) {
+  constexpr std::int64_t kLateUs = 100000;
+  Balls balls(5, 20);
+  StatesPacker packer(kMotion);
+  const auto send = [&](std::int64_t now_us) {
+    balls.Step();
+    for (const States& states : balls.Tell(1)) packer.Add(states);
+    return packer.Take(now_us);
+  };
+  const auto lost = [&](std::int64_t now_us) {
+    return packer.TakeLost(now_us, kLateUs, [](std::int32_t) { return true; }).size();
+  };
+  for (const auto& message : send(0)) packer.Acknowledge(message.number);
+  EXPECT_EQ(lost(kLateUs), 0u) << "it has arrived";
+  const std::size_t bodies = [&] {
+    std::size_t count = 0;
+    for (const auto& message : send(1000000)) count += message.bodies;
+    return count;
+  }();
+  EXPECT_EQ(lost(1000000 + kLateUs - 1), 0u) << "it may be under way";
+  EXPECT_EQ(lost(1000000 + kLateUs), bodies);
+  EXPECT_EQ(lost(1000000 + kLateUs + 99999), 0u);
+  EXPECT_EQ(lost(1000000 + kLateUs + 100000), bodies) << "100 ms later again";
+  EXPECT_EQ(lost(1000000 + kLateUs + 200000), 0u);
+  EXPECT_EQ(lost(1000000 + kLateUs + 300000), bodies) << "and 200 ms after that";
+  const auto repeat = send(1450000);
+  for (const auto& message : repeat) packer.Acknowledge(message.number);
+  EXPECT_EQ(lost(3000000), 0u) << "something newer has arrived";
+  send(4000000);
+  const auto nobody = [](std::int32_t) { return false; };
+  EXPECT_EQ(packer.TakeLost(5000000, kLateUs, nobody).size(), 0u);
+  EXPECT_EQ(lost(6000000), 0u) << "what nobody wants is forgotten";
+}
+
 TEST(PackedStates, DifferencesFromWhatNeverCameAreRefused) {
   Balls balls(5, 20);
   StatesPacker packer(kMotion);
@@ -252,7 +286,7 @@ TEST(PackedStates, DifferencesFromWhatNeverCameAreRefused) {
   const auto message = [&] {
     balls.Step();
     for (const States& states : balls.Tell(1)) packer.Add(states);
-    return packer.Take().front();
+    return packer.Take(0).front();
   };
   packer.Acknowledge(message().number);  // it says so, and it is not true
   EXPECT_FALSE(unpacker.Take(message().packed));

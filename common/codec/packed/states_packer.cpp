@@ -1,5 +1,6 @@
 #include "common/codec/packed/states_packer.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <utility>
 
@@ -9,6 +10,8 @@ namespace {
 constexpr std::uint32_t kQuantaPerMetre = 512;
 /// Messages whose contents are remembered until they are acknowledged.
 constexpr std::size_t kSentMost = 256;
+/// From one repeat of what was lost to the next, us: at first, and at most.
+constexpr std::int64_t kAgainUs = 100000, kAgainUsMax = 400000;
 /// Bytes that an entry, a group's header and all ends take at most.
 constexpr std::size_t kEntryBytesMost = 64;
 
@@ -169,23 +172,72 @@ void StatesPacker::Add(const States& states) {
   }
 }
 
-std::vector<StatesPacker::Message> StatesPacker::Take() {
+std::vector<StatesPacker::Message> StatesPacker::Take(std::int64_t now_us) {
   End();
+  for (const Message& message : ready_) under_way_.push_back({message.number, now_us});
   return std::exchange(ready_, {});
 }
 
-void StatesPacker::Acknowledge(std::int64_t number) {
+std::vector<StatesPacker::Sent>* StatesPacker::SentIn(std::int64_t number) {
   const std::int64_t age = number_ - number;
-  if (age < 0 || age >= static_cast<std::int64_t>(sent_.size())) return;
-  std::vector<Sent>& bodies = sent_[sent_.size() - 1 - static_cast<std::size_t>(age)];
-  for (const Sent& sent : bodies) {
+  if (age < 0 || age >= static_cast<std::int64_t>(sent_.size())) return nullptr;
+  return &sent_[sent_.size() - 1 - static_cast<std::size_t>(age)];
+}
+
+void StatesPacker::FindOwed(std::int64_t until_us) {
+  const std::size_t before = owed_.size();
+  for (; !under_way_.empty() && under_way_.front().sent_us <= until_us; under_way_.pop_front()) {
+    const std::vector<Sent>* const bodies = SentIn(under_way_.front().number);
+    if (bodies == nullptr) continue;
+    for (const Sent& sent : *bodies) {
+      if (KnownOf(sent.id).count < sent.count) owed_.push_back({sent.id, sent.count, 0, kAgainUs});
+    }
+  }
+  if (owed_.size() == before) return;
+  // Of one that was owed before what was lost last counts.
+  std::stable_sort(owed_.begin(), owed_.end(),
+                   [](const Owed& a, const Owed& b) { return a.id < b.id; });
+  std::size_t left = 0;
+  for (const Owed& owed : owed_) {
+    if (left > 0 && owed_[left - 1].id == owed.id) {
+      owed_[left - 1].count = owed.count;
+    } else {
+      owed_[left++] = owed;
+    }
+  }
+  owed_.resize(left);
+}
+
+std::vector<std::int32_t> StatesPacker::TakeLost(std::int64_t now_us, std::int64_t late_us,
+                                                 const Wanted& wanted) {
+  FindOwed(now_us - late_us);
+  std::vector<std::int32_t> again;
+  std::size_t left = 0;
+  for (Owed owed : owed_) {
+    if (KnownOf(owed.id).count >= owed.count) continue;
+    if (now_us >= owed.due_us) {
+      if (!wanted(owed.id)) continue;
+      again.push_back(owed.id);
+      owed.due_us = now_us + owed.again_us;
+      owed.again_us = std::min(2 * owed.again_us, kAgainUsMax);
+    }
+    owed_[left++] = owed;
+  }
+  owed_.resize(left);
+  return again;
+}
+
+void StatesPacker::Acknowledge(std::int64_t number) {
+  std::vector<Sent>* const bodies = SentIn(number);
+  if (bodies == nullptr) return;
+  for (const Sent& sent : *bodies) {
     Known& known = KnownOf(sent.id);
     if (number < known.number) continue;
     known.number = number;
     known.count = sent.count;
     known.state = sent.state;
   }
-  bodies = {};
+  *bodies = {};
 }
 
 }  // namespace seam

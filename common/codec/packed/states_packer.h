@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <vector>
 
 #include "common/codec/messages.h"
@@ -26,8 +27,14 @@ class StatesPacker {
   /// Adds what a States tells, but for utime and sequence.
   void Add(const States& states);
   bool empty() const { return !open_ && ready_.empty(); }
-  /// What was added since, in its order.
-  std::vector<Message> Take();
+  /// What was added since, in its order, to be sent at `now_us`.
+  std::vector<Message> Take(std::int64_t now_us);
+  /// Bodies to be told again: those of messages that have not arrived `late_us` after they were
+  /// sent, as far as is known, while nothing newer of the body has. Each until something has, now,
+  /// 100 ms later, 200 ms after that, then every 400; one that is not `wanted` is forgotten.
+  using Wanted = std::function<bool(std::int32_t id)>;
+  std::vector<std::int32_t> TakeLost(std::int64_t now_us, std::int64_t late_us,
+                                     const Wanted& wanted);
   /// A message has arrived.
   void Acknowledge(std::int64_t number);
 
@@ -36,6 +43,15 @@ class StatesPacker {
     std::int32_t id = 0;
     std::int32_t count = 0;  // which it was of the body's
     PackedState state;
+  };
+  /// A message that may have been lost.
+  struct UnderWay {
+    std::int64_t number = 0, sent_us = 0;
+  };
+  /// A body of which a state was lost, its `count`-th.
+  struct Owed {
+    std::int32_t id = 0, count = 0;
+    std::int64_t due_us = 0, again_us = 0;
   };
   /// The newest state of a body that has arrived, and how many of it were sent.
   struct Known {
@@ -50,6 +66,10 @@ class StatesPacker {
   void PutDifferences(const PackedState& state, const PackedState& guess,
                       std::array<Learned, kPackedFields>* learned);
   Known& KnownOf(std::int32_t id);
+  /// What a message told, nothing once it is acknowledged; nullptr: forgotten.
+  std::vector<Sent>* SentIn(std::int64_t number);
+  /// Of what was sent until then what has not arrived.
+  void FindOwed(std::int64_t until_us);
 
   const PackedMotion motion_;
   std::vector<Message> ready_;
@@ -61,6 +81,8 @@ class StatesPacker {
   std::int32_t revision_ = 0;
   std::int64_t composition_ = 0;
   std::deque<std::vector<Sent>> sent_;  // of successive messages up to number_, the newest last
+  std::deque<UnderWay> under_way_;      // the oldest first, until it has arrived or is late
+  std::vector<Owed> owed_;              // ascending
   std::vector<std::int32_t> place_;     // by id: in known_; -1: nothing was sent
   std::vector<Known> known_;
 };

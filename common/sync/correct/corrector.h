@@ -64,7 +64,9 @@ class Corrector {
   bool IsNews(const States& states, std::size_t i, int body, Received* result) const;
   /// Notes one entry; true if its body is simulated here and to be corrected.
   bool ReceiveOne(const States& states, std::size_t i, int body);
-  void PutExact(int body, std::int64_t from, const BodyState& difference);
+  void PutExact(int body, std::int64_t from, const BodyState& difference, const BodyState& told,
+                std::int64_t told_tick);
+  void BringBack(int body, const BodyState& told, std::int64_t tick);
   void PlaceNow(int body, const States& states, std::size_t i, const BodyState& remote);
   void PlaceBody(int body, const BodyState& state, bool asleep);
   /// Mass-weighted mean of Xr(t1) - Xl(t1) by mechanism.
@@ -73,6 +75,10 @@ class Corrector {
   /// Our comparable past at `tick`, with the velocity of the near tick at which our copy moved most
   /// like `remote`. Requires that there is one.
   BodyState LikePast(int body, std::int64_t tick, const BodyState& remote) const;
+  /// Where a copy may be put that is to go to `target`, when its authority had it at `heard` at
+  /// tick `from`: nothing anchored lies between there and where it was.
+  Vec2 WayTo(int body, const Vec2& heard, std::int64_t from, const Vec2& target) const;
+  bool CameFrom(int body, const Vec2& heard, std::int64_t from) const;
   void Correct(int body, const States& states, std::size_t i, const BodyState& common);
   void TakeRest(int body, const BodyState& local, const BodyState& remote);
   void Blend(int body, const BodyState& local, const Correction& c, std::int64_t from);

@@ -109,7 +109,10 @@ void Corrector::Correct(int body, const States& states, std::size_t i, const Bod
   in.alone =
       world_.composition().mechanisms[static_cast<std::size_t>(mechanism)].assemblies.size() == 1;
   FindBlockedDirections(world_, mechanism, &in);
-  const Correction c = config_.reconcile(in);
+  Correction c = config_.reconcile(in);
+  const Vec2 target = in.local.position + c.now.position;
+  const Vec2 there = WayTo(body, in.remote.position, states.tick, target);
+  if (there != target) c.now.position = there - in.local.position;
   if (!Negligible(c.now)) Blend(body, in.local, c, states.tick);
   NoteArrival(body);
 }

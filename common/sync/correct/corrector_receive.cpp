@@ -116,6 +116,7 @@ void Corrector::PlaceNow(int body, const States& states, std::size_t i, const Bo
   if (!asleep && states.tick < world_.tick()) {
     by_now = memory_.snapshots().Extrapolate(body, world_.tick(), world_.dt(), kReckonMax);
     by_now.angle = UnwrapAngle(by_now.angle, remote.angle);
+    by_now.position = WayTo(body, remote.position, states.tick, by_now.position);
   }
   PlaceBody(body, by_now, asleep);
 }

@@ -48,9 +48,13 @@ void Corrector::BeginToSimulate(int body) {
   const BodyState before = world_.Read(body);
   BodyState state = memory_.snapshots().Extrapolate(body, now, world_.dt(), kReckonMax);
   state.angle = UnwrapAngle(state.angle, before.angle);
+  const Vec2 told = memory_.snapshots().newest(body).position;
+  const std::int64_t told_tick = memory_.snapshots().newest_tick(body);
+  // It was only shown until now, and goes through walls then: that it came there means nothing.
+  memory_.track(body).dynamic_since = now;
+  state.position = WayTo(body, told, told_tick, state.position);
   world_.Write(body, state);
   display_.Moved(body, Minus(state, before));
-  memory_.track(body).dynamic_since = now;
   if (BodyState* past = memory_.history().At(now, body)) *past = state;
   const std::int64_t heard = memory_.snapshots().newest_tick(body);
   if (heard < now && !memory_.track(body).at_rest) replay_.Ask(body, heard);

@@ -50,7 +50,11 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
     const std::int64_t from = std::min(exact.tick, now);
     const BodyState* then = memory_.ComparablePast(body, from);
     const float late = static_cast<float>(now - exact.tick) * world_.dt();
-    if (then == nullptr && late > kReckonedFor) continue;
+    if (then == nullptr && late > kReckonedFor) {
+      BringBack(body, there, exact.tick);
+      continue;
+    }
+    const BodyState told = there;
     // Without a past the holder's own motion says where it is by now.
     const BodyState here = then != nullptr ? *then : world_.Read(body);
     if (then == nullptr || exact.tick > now) there = MovedOn(there, late);
@@ -63,9 +67,11 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
     if (then != nullptr && exact.tick <= now && replay_.Ask(body, from)) {
       replays = true;
     } else if (!memory_.Coupled(world_.mechanism(body))) {
+      PutExact(body, then != nullptr ? from : now, difference, told, exact.tick);
+    } else {
       // Where two authorities press on it a difference would push it into one of them: there the
       // rule goes on correcting.
-      PutExact(body, then != nullptr ? from : now, difference);
+      BringBack(body, told, exact.tick);
     }
   }
   // Now: the grant that comes next makes our own what a replay would correct.
@@ -73,8 +79,24 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
   return largest;
 }
 
-/// Adds to the copy what it was off at tick `from`, then and since.
-void Corrector::PutExact(int body, std::int64_t from, const BodyState& difference) {
+/// A copy that is on the other side of something anchored from where its holder had it would stay
+/// there once it is this peer's.
+void Corrector::BringBack(int body, const BodyState& told, std::int64_t tick) {
+  const BodyState here = world_.Read(body);
+  BodyState back = here;
+  back.position = WayTo(body, told.position, tick, here.position);
+  if (back.position == here.position) return;
+  back.velocity = told.velocity;
+  back.spin = told.spin;
+  world_.Write(body, back);
+  if (BodyState* past = memory_.history().At(world_.tick(), body)) *past = back;
+  display_.Moved(body, Minus(back, here));
+}
+
+/// Adds to the copy what it was off at tick `from`, then and since. `told`: where its holder had it
+/// at tick `told_tick`.
+void Corrector::PutExact(int body, std::int64_t from, const BodyState& difference,
+                         const BodyState& told, std::int64_t told_tick) {
   const std::int64_t now = world_.tick();
   BodyState off = difference;
   // What struck the body here since then has undone a difference of velocity.
@@ -82,16 +104,17 @@ void Corrector::PutExact(int body, std::int64_t from, const BodyState& differenc
     off.velocity.setZero();
     off.spin = 0;
   }
-  for (std::int64_t t = from; t < now; ++t) {
-    BodyState* past = memory_.history().At(t, body);
-    const float seconds = static_cast<float>(t - from) * world_.dt();
-    if (past != nullptr) *past = PlusScaled(*past, MovedOn(off, seconds), 1);
-  }
   const BodyState local = world_.Read(body);
   const float seconds = static_cast<float>(now - from) * world_.dt();
-  const BodyState moved = PlusScaled(local, MovedOn(off, seconds), 1);
+  BodyState moved = PlusScaled(local, MovedOn(off, seconds), 1);
+  moved.position = WayTo(body, told.position, told_tick, moved.position);
+  for (std::int64_t t = from; t < now; ++t) {
+    BodyState* past = memory_.history().At(t, body);
+    const float after = static_cast<float>(t - from) * world_.dt();
+    if (past != nullptr) *past = PlusScaled(*past, MovedOn(off, after), 1);
+  }
   const bool same = off.position.squaredNorm() == 0 && off.velocity.squaredNorm() == 0 &&
-                    off.angle == 0 && off.spin == 0;
+                    off.angle == 0 && off.spin == 0 && moved.position == local.position;
   if (same) return;
   const BodyState corrected = WithinLimits(moved, world_.scene().speed_limit);
   const bool moves = corrected.velocity.squaredNorm() > 0 || corrected.spin != 0;

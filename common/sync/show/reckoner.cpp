@@ -83,7 +83,7 @@ void Reckoner::Reckon(int mechanism, std::int64_t tick, std::vector<BodyState>* 
     if (!snapshots_.has(body)) {
       state = world_.Read(body);
     } else if (!free || snapshots_.newest_tick(body) != newest) {
-      state = snapshots_.Extrapolate(body, tick, world_.dt(), kReckonMax);
+      state = snapshots_.Extrapolate(body, tick, world_.dt(), kReckonShownMax);
     } else {
       Heard h{body, world_.mass_point(body), *snapshots_.At(body, newest), newest, Vec2(0, 0)};
       h.centre = h.state.position + Turned(h.mass.centre, h.state.angle);
@@ -97,7 +97,7 @@ void Reckoner::Reckon(int mechanism, std::int64_t tick, std::vector<BodyState>* 
 void Reckoner::MoveOn(const std::vector<Heard>& together, std::int64_t newest, std::int64_t tick,
                       std::vector<BodyState>* states) const {
   const Common common = CommonOf(together, snapshots_, world_.dt());
-  const float forward = snapshots_.Forward(newest, tick, world_.dt(), kReckonMax);
+  const float forward = snapshots_.Forward(newest, tick, world_.dt(), kReckonShownMax);
   const Rotation<float> turn(common.spin * forward);
   const Vec2 gained = SpeedGained(common.acceleration, forward);
   const Vec2 centre =

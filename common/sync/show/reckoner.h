@@ -9,6 +9,11 @@
 
 namespace seam {
 
+/// What is only shown is reckoned no further than this, s. The server tells of it twice a second,
+/// and again what was lost on the way: who hears nothing for longer has lost its connection for a
+/// moment, and what stood still then would jump after it.
+constexpr float kReckonShownMax = 2.0f;
+
 /// A mechanism's centre of mass goes on with its momentum, its bodies turn about that with its
 /// angular momentum (that of their centres), each turns with its own spin and drifts with what is
 /// left of its velocity; then its joints are closed. So wheels go on turning and limbs swinging.
