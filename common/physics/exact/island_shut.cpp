@@ -15,10 +15,9 @@ constexpr double kShut = 1e-9, kShutTouching = 1e-7;
 constexpr int kCorrections = 8;
 /// By no more than this, m/s or rad/s; contacts yield by this share.
 constexpr double kShutFastest = 8, kYield = 1e-3;
-/// The matrix is made anew in them when one leaves more than this share, or when a body turns by
-/// more than kTurnsFast, rad.
+/// The matrix is made anew in them when one leaves more than this share. Not before: impulses that
+/// act along the rows of the old pose keep the energy, and those along other rows lose some.
 constexpr double kSlow = 0.3;
-constexpr double kTurnsFast = 0.25;
 /// Of the last correction, what the next one takes back or adds at most, as a share.
 constexpr double kSlopeLeast = -1, kSlopeMost = 0.5;
 
@@ -97,7 +96,7 @@ void ExactIsland::Correct(double h) {
 
 /// False: they were not found shut after the last correction that there is.
 bool ExactIsland::ShutJoints(const Pace& pace) {
-  bool anew = turned_ > kTurnsFast;
+  bool anew = false;
   double last = kUnbounded;
   FindShutting();
   for (int tries = 0; tries < kCorrections; ++tries) {
