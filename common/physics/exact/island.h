@@ -133,6 +133,7 @@ class ExactIsland {
   double Pressed(const ExactContact& contact, int first_row) const;
   bool Holds(double speed) const;
   double Yielded() const;
+  void Slow(double share);
   double Driven(const ExactContact& contact, int first_row) const;
   void SolveAhead(const Pace& pace);
   void Move(double h);

@@ -22,7 +22,7 @@ constexpr double kOwnOfBlow = 1e-12, kOwnOfLost = 1e-9, kHeldTo = 1e-3;
 constexpr double kYieldedMost = 0.05;
 /// What it may gain, as a share of the energy: without friction by rounding alone, which a fast
 /// blow makes of what joints were moving by; and if it has no restitution.
-constexpr double kGainRounded = 1e-5, kGainRubbed = 1e-9, kGainLast = 0.01;
+constexpr double kGainRounded = 1e-3, kGainRubbed = 1e-9, kGainLast = 0.01;
 
 double Kinetic(const ExactBody& q) {
   return q.moves() ? ((q.vx * q.vx + q.vy * q.vy) / q.im + q.inertia * q.w * q.w) / 2 : 0;
@@ -141,6 +141,15 @@ double ExactIsland::Driven(const ExactContact& contact, int first_row) const {
   return work;
 }
 
+void ExactIsland::Slow(double share) {
+  for (ExactBody& q : bodies) {
+    if (!q.moves()) continue;
+    q.vx *= share;
+    q.vy *= share;
+    q.w *= share;
+  }
+}
+
 /// One of them (Moreau 1988): each of its points leaves at no less than its restitution times the
 /// speed it came with, so that energy is never gained without friction. With it, it may be (Kane
 /// and Levinson 1985): then with less restitution. False: there is none that gives what can be, and
@@ -190,7 +199,11 @@ bool ExactIsland::Blow(const ExactContact& contact, int first_row, double most) 
     // A mechanism that can hardly give way, a folded one that is struck along itself, presses with
     // many times its momentum: where its joints hold against that, it is what happens.
     const bool can_be = Pressed(contact, first_row) <= most || Yielded() <= kYieldedMost * before;
-    if (can_be && KineticOf(bodies) <= before + spare) return true;
+    const double after = KineticOf(bodies);
+    if (can_be && after <= before + spare) {
+      if (gain == kGainRounded && !driven && after > before) Slow(std::sqrt(before / after));
+      return true;
+    }
     if (last) break;
     share = tries + 1 == kSofterTries ? 0 : share / 2;
     Restore(start_);
