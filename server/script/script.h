@@ -33,7 +33,8 @@ class Script {
   void OnLeave(const std::string& player);
   /// Whether there is a callback of this name now.
   bool Defines(const char* callback) const;
-  /// The line of the scene file on which a global function begins; 0: there is no such function.
+  /// The line of the scene file on which a global function begins; 0: there is nothing of that
+  /// name; -1: it is no function of Lua.
   int LineOf(const char* function) const;
   /// Calls a global function with a number and returns its first `results` values (kOther: nil),
   /// tables as trees of 20 000 entries at most. Empty when there is no such function or the script

@@ -117,15 +117,15 @@ struct Script::Impl {
     lua_settop(state, 0);
   }
 
-  /// 0: there is no such function.
+  /// 0: there is nothing of that name; -1: no function of Lua.
   int LineOf(const char* function) {
     if (state == nullptr || guard.spent) return 0;
     lua_settop(state, 0);
     lua_pushcfunction(state, [](lua_State* L) {
       lua_rawgeti(L, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
       lua_pushstring(L, static_cast<const char*>(lua_touserdata(L, 1)));
-      const bool found = lua_rawget(L, -2) == LUA_TFUNCTION;
-      lua_pushinteger(L, found ? BeginOf(L) : 0);
+      const int type = lua_rawget(L, -2);
+      lua_pushinteger(L, type == LUA_TFUNCTION ? BeginOf(L) : type == LUA_TNIL ? 0 : -1);
       return 1;
     });
     lua_pushlightuserdata(state, const_cast<char*>(function));
@@ -144,7 +144,7 @@ struct Script::Impl {
 
   std::vector<TomlNode> Ask(const char* function, double argument, int results) {
     const int line = LineOf(function);
-    if (line == 0) return {};
+    if (line <= 0) return {};
     guard.work = guard.limits.instructions;
     Question question{function, argument, results, {}};
     lua_pushcfunction(state, NoteLine);

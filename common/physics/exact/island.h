@@ -131,6 +131,9 @@ class ExactIsland {
   void Impact(double pressed);
   bool Blow(const ExactContact& contact, int first_row, double most);
   double Pressed(const ExactContact& contact, int first_row) const;
+  bool Holds(double speed) const;
+  double Yielded() const;
+  void Slow(double share);
   double Driven(const ExactContact& contact, int first_row) const;
   void SolveAhead(const Pace& pace);
   void Move(double h);

@@ -15,10 +15,14 @@ constexpr double kShut = 1e-9, kShutTouching = 1e-7;
 constexpr int kCorrections = 8;
 /// By no more than this, m/s or rad/s; contacts yield by this share.
 constexpr double kShutFastest = 8, kYield = 1e-3;
-/// The matrix is made anew in them when one leaves more than this share, or when a body turns by
-/// more than kTurnsFast, rad.
-constexpr double kSlow = 0.3;
-constexpr double kTurnsFast = 0.25;
+/// The matrix is made anew in them when one leaves more than this share. Not before: impulses that
+/// act along the rows of the old pose keep the energy, and those along other rows lose some. But
+/// where contacts press, which takes energy anyway, as soon as a body turns by more than that, rad.
+constexpr double kSlow = 0.3, kTurnsFast = 0.25;
+/// Joints that hold what others hold already contradict each other by what single precision makes
+/// of their lengths. So where a correction with a new matrix leaves more than this share of less
+/// than that, m or rad, they are shut as far as they can be.
+constexpr double kStalled = 0.7, kShutAtBest = 1e-5;
 /// Of the last correction, what the next one takes back or adds at most, as a share.
 constexpr double kSlopeLeast = -1, kSlopeMost = 0.5;
 
@@ -97,13 +101,17 @@ void ExactIsland::Correct(double h) {
 
 /// False: they were not found shut after the last correction that there is.
 bool ExactIsland::ShutJoints(const Pace& pace) {
-  bool anew = turned_ > kTurnsFast;
+  const auto presses = [](const Row& row) {
+    return row.kind == RowKind::kNormal && row.state == RowState::kFree;
+  };
+  bool anew = turned_ > kTurnsFast && std::any_of(rows_.begin(), rows_.end(), presses);
   double last = kUnbounded;
   FindShutting();
   for (int tries = 0; tries < kCorrections; ++tries) {
     double slope = 0;
     const double far = SidesOfErrors(pace, anew, &slope);
     if (far < (contacts.empty() ? kShut : kShutTouching)) return true;
+    if (anew && far < kShutAtBest && far > kStalled * last) return true;
     if (tries == 0 && !contacts.empty() && !relaxed_) SoftenContacts();
     if (!anew && tries > 0 && far > kSlow * last) {
       anew = true;

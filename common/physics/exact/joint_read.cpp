@@ -153,6 +153,17 @@ void LookAt(double h, ExactJoint* joint) {
       joint->near_upper = HasUpper(*joint);
       break;
     }
+    case e_pulleyJoint: {
+      const auto near_stop = [&](const b2Body* body, b2Vec2 anchor, b2Vec2 ground) {
+        const double way = static_cast<double>((body->GetWorldPoint(anchor) - ground).Length());
+        const double fast =
+            static_cast<double>(body->GetLinearVelocityFromLocalPoint(anchor).Length());
+        return way - kPulleyStop < margin + 2 * h * fast;
+      };
+      joint->near_lower = near_stop(joint->made->GetBodyA(), joint->anchor_a, joint->ground_a);
+      joint->near_upper = near_stop(joint->made->GetBodyB(), joint->anchor_b, joint->ground_b);
+      return;
+    }
     default: return;
   }
   const double reach = margin + 2 * h * std::fabs(speed);
@@ -160,6 +171,9 @@ void LookAt(double h, ExactJoint* joint) {
   joint->near_lower = (both || joint->near_lower) && at - joint->lower < reach;
   joint->near_upper = (both || joint->near_upper) && joint->upper - at < reach;
 }
+
+/// Of a row that keeps no impulse: the engine's joint has none for it.
+constexpr int kNotKept = -1;
 
 /// Which of the joint's impulses each of its rows has, in their order. Returns how many.
 static int KeptAt(const ExactJoint& joint, int* kept) {
@@ -184,6 +198,10 @@ static int KeptAt(const ExactJoint& joint, int* kept) {
       range(3);
       break;
     case e_pulleyJoint:
+      kept[count++] = 0;
+      if (joint.near_lower) kept[count++] = kNotKept;
+      if (joint.near_upper) kept[count++] = kNotKept;
+      break;
     case e_gearJoint: kept[count++] = 0; break;
     case e_distanceJoint:
       if (IsRod(joint) || joint.stiffness > 0) kept[count++] = 0;
@@ -206,7 +224,8 @@ void LoadImpulses(const ExactJoint& joint, double share, Row* rows) {
   const int count = KeptAt(joint, kept);
   for (int i = 0; i < count; ++i) {
     Row& row = rows[i];
-    const double impulse = share * static_cast<double>(*joint.impulses.at[kept[i]]);
+    const double impulse =
+        kept[i] == kNotKept ? 0 : share * static_cast<double>(*joint.impulses.at[kept[i]]);
     row.base = row.warm = impulse;
     row.state = RowState::kFree;
     if (row.kind == RowKind::kLimit && impulse <= 0) row.state = RowState::kLow;
@@ -220,7 +239,7 @@ void StoreImpulses(const ExactJoint& joint, const Row* rows) {
   int kept[kJointRowsMost];
   const int count = KeptAt(joint, kept);
   for (int i = 0; i < count; ++i) {
-    *joint.impulses.at[kept[i]] = static_cast<float>(rows[i].total);
+    if (kept[i] != kNotKept) *joint.impulses.at[kept[i]] = static_cast<float>(rows[i].total);
   }
 }
 

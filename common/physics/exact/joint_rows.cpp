@@ -156,7 +156,7 @@ void Writer::Distance() {
   if (joint_.near_upper) Tense(arm_a, -arm_b, &Bind(RowKind::kLimit, joint_.upper - length, back));
 }
 
-/// length = way of a + ratio * way of b, and both are pulled up.
+/// length = way of a + ratio * way of b, and both are pulled up, as far as their stops.
 void Writer::Pulley() {
   const auto way = [](double x, double y, const b2Vec2& ground, double* ux, double* uy) {
     *ux = x - static_cast<double>(ground.x);
@@ -171,9 +171,11 @@ void Writer::Pulley() {
   const double a = way(a_.x + ax_, a_.y + ay_, joint_.ground_a, &ux, &uy);
   const double b = way(b_.x + bx_, b_.y + by_, joint_.ground_b, &wx, &wy);
   const double ratio = joint_.ratio;
-  Bind(
-      RowKind::kHard, joint_.length - a - ratio * b,
-      {-ux, -uy, -(ax_ * uy - ay_ * ux), -ratio * wx, -ratio * wy, -ratio * (bx_ * wy - by_ * wx)});
+  const double turn_a = ax_ * uy - ay_ * ux, turn_b = bx_ * wy - by_ * wx;
+  Bind(RowKind::kHard, joint_.length - a - ratio * b,
+       {-ux, -uy, -turn_a, -ratio * wx, -ratio * wy, -ratio * turn_b});
+  if (joint_.near_lower) Bind(RowKind::kLimit, a - kPulleyStop, {ux, uy, turn_a, 0, 0, 0});
+  if (joint_.near_upper) Bind(RowKind::kLimit, b - kPulleyStop, {0, 0, 0, wx, wy, turn_b});
 }
 
 void Writer::Pose() {

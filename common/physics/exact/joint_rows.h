@@ -28,6 +28,10 @@ constexpr int kJointRowsMost = 6, kRowEndsMost = 4;
 /// A speed by which errors of position are shut at most, m/s or rad/s.
 constexpr double kShutMost = 8;
 
+/// Either end of a pulley's rope stops so near to where it goes up to, m: at that point itself the
+/// rope has no direction. Ends are laid at least 0.1 m away.
+constexpr double kPulleyStop = 0.02;
+
 /// What does not change while the joint lives, but motors' speeds and bounds.
 struct ExactJoint {
   b2Joint* made = nullptr;
@@ -39,7 +43,8 @@ struct ExactJoint {
   double reference = 0;                   ///< rad
   bool limited = false;
   double lower = 0, upper = 0;  ///< rad or m
-  /// Whether the limits are within reach of this step: others have no row.
+  /// Whether the limits are within reach of this step: others have no row. Of a pulley: a's end of
+  /// the rope, and b's, are near their stops.
   bool near_lower = false, near_upper = false;
   double stiffness = 0, damping = 0;
   /// Its motor, N or N m.

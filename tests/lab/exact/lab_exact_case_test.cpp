@@ -182,6 +182,20 @@ TEST(ExactCase, EveryMistakeIsOneLineWithFileAndLine) {
       {"function exact(t)\n  world.impulse(\"ball\", 1, 1)\nend", 2,
        "a scene that is judged cannot be changed by its exact answer"},
       {"function exact(t) return 1", 2, "'end' expected"},
+      {"exact = 5", 1, "script 'truth': exact is no function"},
+      {"function exact(t) return 1 end\nmeasured = {}", 1,
+       "script 'truth': measured is no function"},
+      {"function measured(t) return 1 end", 1, "script 'truth' says measured(t), but not exact(t)"},
+      {"function exact(t) return {ball = {x = 1e308}} end", 1,
+       "exact(0): part 'ball': x is 1e+308, of at most 1e+09"},
+      {"local n = 0\nfunction exact(t) n = n + 1 return n end", 2,
+       "exact(0): another answer than before; it may depend on t alone"},
+      {"function exact(t) return 1, \"m\" end\n"
+       "function measured(t) return t < 0.5 and 1 or \"much\" end",
+       2, "measured(0.5): expected a number; it returns text"},
+      {"function exact(t) return 1, \"m\" end\n"
+       "function measured(t)\n  if t > 0.5 then error(\"late\") end\n  return 1\nend",
+       3, "late"},
   };
   for (const Mistake& mistake : mistakes) {
     const JudgedScene scene(mistake.code);
@@ -219,6 +233,17 @@ TEST(ExactCase, TwoAnswersOrTwoScenesOfOneNameAreRefused) {
   EXPECT_EQ(said({files / "one.toml", files / "one.toml"}),
             files / "one.toml" + ": there is another case 'one'");
   EXPECT_EQ(said({files / "none.toml"}), files / "none.toml" + ": no such scene file");
+}
+
+TEST(ExactCase, WhereNothingMovesThereIsNothingToConverge) {
+  const LabWorkspace files;
+  files.Write("wall.toml", "[[part]]\nname = \"wall\"\nbox = [1, 1]\nanchored = true\n");
+  try {
+    SceneCase(files / "wall.toml", 0);
+    ADD_FAILURE() << "accepted";
+  } catch (const OperatorError& e) {
+    EXPECT_EQ(e.what(), files / "wall.toml" + ": nothing moves, and no script says exact(t)");
+  }
 }
 
 TEST(ExactCase, AHardScenesFileIsItsHardCases) {

@@ -13,6 +13,8 @@ namespace {
 
 constexpr const char* kExact = "exact";
 constexpr const char* kMeasured = "measured";
+/// Farther nothing is, m or rad: beyond it the engine's numbers have no digits for places.
+constexpr double kFarthest = 1e9;
 /// Longest unit and name, bytes: they stand in tables.
 constexpr std::size_t kWordMax = 32;
 
@@ -36,10 +38,19 @@ SceneTruth::SceneTruth(const Scene& scene, const std::string& file)
     : scene_(scene), file_(file), room_(scene_) {
   const World world(scene_);
   room_.Look(&world);
+  const ScriptSource* apart = nullptr;  // says measured(t) without exact(t)
   for (const ScriptSource& source : scene_.scripts) {
     auto script = std::make_unique<Script>(source, file_, 0, room_);
     if (script->stopped()) throw OperatorError(script->error());
-    if (!script->Defines(kExact)) continue;
+    for (const char* function : {kExact, kMeasured}) {
+      if (script->LineOf(function) >= 0) continue;
+      throw OperatorError(fmt::format("{}:{}: script '{}': {} is no function", file_, source.line,
+                                      source.name, function));
+    }
+    if (!script->Defines(kExact)) {
+      if (script->Defines(kMeasured)) apart = &source;
+      continue;
+    }
     if (script_ != nullptr) {
       throw OperatorError(fmt::format("{}:{}: scripts '{}' and '{}' both say exact(t)", file_,
                                       script->LineOf(kExact), script_->name(), source.name));
@@ -48,6 +59,10 @@ SceneTruth::SceneTruth(const Scene& scene, const std::string& file)
   }
   room_.Look(nullptr);
   room_.EndLoading();
+  if (apart != nullptr) {
+    throw OperatorError(fmt::format("{}:{}: script '{}' says measured(t), but not exact(t)", file_,
+                                    apart->line, apart->name));
+  }
   if (script_ == nullptr) return;
   measures_ = script_->Defines(kMeasured);
 }
@@ -83,6 +98,8 @@ WantedPose SceneTruth::PoseOf(double t, const std::string& part, const TomlNode&
       fail(fmt::format("a pose has x, y and angle, not '{}'", Printable(key)));
     } else if (!IsNumber(value) || !std::isfinite(value.number)) {
       fail(fmt::format("{} is {}", key, IsNumber(value) ? "not finite" : Said(value)));
+    } else if (std::fabs(value.number) > kFarthest) {
+      fail(fmt::format("{} is {:.6g}, of at most {:g}", key, value.number, kFarthest));
     } else {
       *field = value.number;
     }
@@ -108,6 +125,30 @@ void SceneTruth::SetScalar(double t, const std::vector<TomlNode>& answer) {
 }
 
 ExactMoment SceneTruth::At(double t) {
+  const bool first = !known_;
+  ExactMoment moment = Answer(t);
+  if (first) {
+    first_t_ = t;
+    first_ = moment;
+  }
+  return moment;
+}
+
+void SceneTruth::AskAgain() {
+  const auto same_pose = [](const auto& x, const auto& y) {
+    const WantedPose &p = x.second, &q = y.second;
+    return x.first == y.first && p.x == q.x && p.y == q.y && p.angle == q.angle;
+  };
+  const ExactMoment again = Answer(first_t_);
+  if (again.value == first_.value &&
+      std::equal(again.poses.begin(), again.poses.end(), first_.poses.begin(), first_.poses.end(),
+                 same_pose)) {
+    return;
+  }
+  Fail(kExact, first_t_, "another answer than before; it may depend on t alone");
+}
+
+ExactMoment SceneTruth::Answer(double t) {
   const std::vector<TomlNode> answer = Ask(kExact, t, 3);
   const TomlNode& first = answer.front();
   ExactMoment moment;

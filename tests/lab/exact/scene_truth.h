@@ -24,7 +24,8 @@ struct ExactMoment {
 class SceneTruth {
  public:
   /// Loads the scene's scripts. `file`: what errors begin with. Throws OperatorError "file:line:
-  /// what" for a script that cannot be loaded, and for two that say exact(t).
+  /// what" for a script that cannot be loaded, for two that say exact(t), and for an exact or a
+  /// measured that is no function or stands alone.
   SceneTruth(const Scene& scene, const std::string& file);
   ~SceneTruth();
   SceneTruth(const SceneTruth&) = delete;
@@ -37,9 +38,13 @@ class SceneTruth {
   /// neither poses of the scene's parts nor a number, and when it is not of the kind that it was of
   /// at first.
   ExactMoment At(double t);
+  /// Asks the first question of At again. Throws OperatorError when the answer is another.
+  void AskAgain();
   /// Whether it says a number; its unit, "" if it says none; and the number's name. Those of the
   /// last call of At.
   bool scalar() const { return scalar_; }
+  /// Whether there is a function measured(t).
+  bool measures() const { return measures_; }
   const std::string& unit() const { return unit_; }
   const std::string& name() const { return name_; }
 
@@ -52,6 +57,7 @@ class SceneTruth {
   [[noreturn]] void Fail(const char* function, double t, const std::string& complaint) const;
   /// What the function returned; throws when the script stopped.
   std::vector<TomlNode> Ask(const char* function, double t, int results);
+  ExactMoment Answer(double t);
   WantedPose PoseOf(double t, const std::string& part, const TomlNode& node) const;
   void SetScalar(double t, const std::vector<TomlNode>& answer);
 
@@ -60,6 +66,8 @@ class SceneTruth {
   JudgedRoom room_;
   std::unique_ptr<Script> script_;  // the one with exact(t)
   std::optional<EnergyMeter> energy_;
+  double first_t_ = 0;
+  ExactMoment first_;  // what At said at first
   bool known_ = false, scalar_ = false, measures_ = false;
   std::string unit_, name_;
 };
