@@ -33,8 +33,8 @@ class Lot {
   }
 
   /// The newest tick of which inputs of the player are known is that many ticks ago.
-  void Heard(int player, std::int64_t ago) {
-    inputs[static_cast<std::size_t>(player)].Note(lot.world.tick() - ago, Input{});
+  void Heard(int player, std::int64_t ago, const Input& input = {64, 0, 0}) {
+    inputs[static_cast<std::size_t>(player)].Note(lot.world.tick() - ago, input);
   }
   /// How many ticks ago the newest input-complete tick of a part is.
   std::int64_t Missing(const std::string& part) {
@@ -93,9 +93,18 @@ TEST(Reach, NobodyWaitsForWhoWasNeverHeardOrNotForThreeSeconds) {
   Lot gone(0.1f);
   gone.Heard(1, 0);
   for (int t = 0; t < 180; ++t) gone.lot.Step();
-  EXPECT_EQ(gone.Missing("hers"), 180) << "in a quiet room little is said";
+  EXPECT_EQ(gone.Missing("hers"), 180) << "who drove on may brake";
   gone.lot.Step();
   EXPECT_EQ(gone.Missing("hers"), 0);
+}
+
+TEST(Reach, WhoHadLetGoIsWaitedForAtMostASecondAndAQuarter) {
+  Lot idle(0.1f);
+  idle.Heard(1, 0, Input{});
+  for (int t = 0; t < 75; ++t) idle.lot.Step();
+  EXPECT_EQ(idle.Missing("hers"), 75) << "in a quiet room inputs come once a second";
+  idle.lot.Step();
+  EXPECT_EQ(idle.Missing("hers"), 0);
 }
 
 TEST(Reach, InputsOfTicksStillToComeAreNotMissing) {

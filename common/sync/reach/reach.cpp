@@ -11,6 +11,8 @@ namespace {
 /// A player of whom nothing was heard for so long is not there: nobody waits for it. In a quiet
 /// room inputs come once a second. s
 constexpr double kSilent = 3.0;
+/// The same of who had let go of everything: of who has left the server says so.
+constexpr double kSilentIdle = 1.25;
 
 }  // namespace
 
@@ -51,9 +53,11 @@ void Reach::Look() {
   std::int64_t longest = 0;
   // Of who does not concern this peer it hears seldom, and that is of no matter.
   for (const int player : drivers_.concerned()) {
-    const std::int64_t newest = inputs_[static_cast<std::size_t>(player)].newest();
+    const InputTrack& track = inputs_[static_cast<std::size_t>(player)];
+    const std::int64_t newest = track.newest();
     if (player == roles_.own_player() || newest < 0) continue;
-    if (newest < now - static_cast<std::int64_t>(kSilent * config_.tick_hz)) continue;
+    const double silent = track.At(newest) == Input{} ? kSilentIdle : kSilent;
+    if (newest < now - static_cast<std::int64_t>(silent * config_.tick_hz)) continue;
     missing.emplace_back(player, std::max<std::int64_t>(0, now - newest));
     longest = std::max(longest, missing.back().second);
   }
