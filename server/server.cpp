@@ -192,7 +192,6 @@ void Server::StepOnce(std::int64_t now_us) {
     broadcast_.Publish(
         At(now_us, Scripted(scene_, p, replica_.tick() + 1, config_.sync.input_delay_ticks)));
   }
-  inputs_due_ = true;
   ApplyEdits(now_us);
   replica_.Step();
   if (config_.sync.mode == Mode::kOracle) ApplyQueued(now_us);

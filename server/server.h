@@ -164,7 +164,8 @@ class Server {
   std::vector<std::string> news_;  // not taken yet
   RoomClock clock_;
   std::int64_t last_room_us_ = -1000000000;
-  bool inputs_due_ = false;  // some have come, or a tick has passed
+  std::vector<int> inputs_due_;        // players of whom some have come
+  std::int64_t inputs_due_tick_ = -1;  // when they were relayed last
 };
 
 }  // namespace seam

@@ -142,28 +142,35 @@ void Server::OnInputs(std::int64_t now_us, Session& session, const Inputs& input
   }
   const Inputs fresh = TakeFresh(now_us, inputs);
   if (fresh.drive.empty()) return;
-  inputs_due_ = true;
+  inputs_due_.push_back(inputs.player);
   broadcast_.Publish(fresh);
 }
 
 /// In the same call as they came, since everything is flushed at its end.
 void Server::RelayInputs(std::int64_t now_us) {
-  const bool due = std::exchange(inputs_due_, false);
+  const bool stepped = std::exchange(inputs_due_tick_, replica_.tick()) != replica_.tick();
+  const auto relay = [&](Session& session, int p, bool* rides) {
+    const InputTrack& track = replica_.inputs(p);
+    if (track.newest() < 0) return;
+    std::optional<Inputs> inputs = session.feeds[static_cast<std::size_t>(p)].Take(
+        track, p, session.link.acked(p), replica_.tick(), *rides);
+    if (!inputs) return;
+    inputs->utime = now_us;
+    session.link.SendUnreliable(Encode(*inputs), p, track.newest());
+    *rides = true;
+  };
   sessions_.ForEachReady(0, [&](Session& session) {
     session.feeds.resize(scene_.players.size());
+    const std::vector<int>& heard = session.heard_players;
     bool rides = session.link.Sends(now_us);
-    if (!due && !rides) return;  // nothing is new, and nothing goes with which it could ride
-    for (const int p : session.heard_players) {
-      const InputTrack& track = replica_.inputs(p);
-      if (track.newest() < 0) continue;
-      std::optional<Inputs> inputs = session.feeds[static_cast<std::size_t>(p)].Take(
-          track, p, session.link.acked(p), replica_.tick(), rides);
-      if (!inputs) continue;
-      inputs->utime = now_us;
-      session.link.SendUnreliable(Encode(*inputs), p, track.newest());
-      rides = true;
+    // Within a tick, where nothing goes with which others could ride, only what is new is sent.
+    bool all = stepped || rides;
+    for (std::size_t i = 0; !all && i < inputs_due_.size(); ++i) {
+      all = std::binary_search(heard.begin(), heard.end(), inputs_due_[i]);
     }
+    for (std::size_t i = 0; all && i < heard.size(); ++i) relay(session, heard[i], &rides);
   });
+  inputs_due_.clear();
 }
 
 /// After authority, or what concerns whom, has changed: whose inputs each client hears.

@@ -58,7 +58,7 @@ void Server::LetGo(std::int64_t now_us, int player) {
   nothing.drive.push_back(0);
   nothing.lift.push_back(0);
   nothing.buttons.push_back(0);
-  inputs_due_ = true;
+  inputs_due_.push_back(player);
   broadcast_.Publish(TakeFresh(now_us, nothing));
 }
 

@@ -23,27 +23,25 @@ bool Fits(const States& message, const HeardState& state) {
          std::abs(state.y - message.origin_y * kQuantaPerMetre) < kReach;
 }
 
-States Begin(const HeardState& state) {
-  States message;
-  message.peer = state.peer;
-  message.tick = state.tick;
-  message.revision = state.revision;
-  message.composition = state.composition;
-  message.origin_x = state.x / kQuantaPerMetre;
-  message.origin_y = state.y / kQuantaPerMetre;
-  return message;
+void Begin(const HeardState& state, States* message) {
+  message->peer = state.peer;
+  message->tick = state.tick;
+  message->revision = state.revision;
+  message->composition = state.composition;
+  message->origin_x = state.x / kQuantaPerMetre;
+  message->origin_y = state.y / kQuantaPerMetre;
 }
 
-void Reserve(std::size_t count, States* message) {
-  message->id.reserve(count);
-  message->epoch.reserve(count);
-  message->flags.reserve(count);
-  message->x.reserve(count);
-  message->y.reserve(count);
-  message->angle.reserve(count);
-  message->vx.reserve(count);
-  message->vy.reserve(count);
-  message->spin.reserve(count);
+void Clear(States* message) {
+  message->id.clear();
+  message->epoch.clear();
+  message->flags.clear();
+  message->x.clear();
+  message->y.clear();
+  message->angle.clear();
+  message->vx.clear();
+  message->vy.clear();
+  message->spin.clear();
 }
 
 void Append(PartId id, const HeardState& state, States* message) {
@@ -110,36 +108,43 @@ std::size_t Outbox::Affordable(std::int64_t now_us) {
   return count;
 }
 
-std::vector<States> Outbox::Compose(std::int64_t now_us, const NewestStates& newest) {
+bool Outbox::Place::operator<(const Place& o) const {
+  return std::tie(peer, tick, id) < std::tie(o.peer, o.tick, o.id);
+}
+
+/// An empty one at the end of composed_.
+States& Outbox::AddMessage() {
+  if (spare_.empty()) {
+    composed_.emplace_back();
+  } else {
+    composed_.push_back(std::move(spare_.back()));
+    spare_.pop_back();
+  }
+  return composed_.back();
+}
+
+const std::vector<States>& Outbox::Compose(std::int64_t now_us, const NewestStates& newest) {
+  for (States& told : composed_) {
+    Clear(&told);
+    spare_.push_back(std::move(told));
+  }
+  composed_.clear();
   std::size_t count = waiting_.size();
   if (bytes_per_s_ > 0) count = Affordable(now_us);
-  if (count == 0) return {};
-  struct Place {
-    std::int32_t peer;
-    std::int64_t tick;
-    PartId id;
-    bool operator<(const Place& o) const {
-      return std::tie(peer, tick, id) < std::tie(o.peer, o.tick, o.id);
-    }
-  };
-  std::vector<Place> order;
-  order.reserve(count);
+  if (count == 0) return composed_;
+  order_.clear();
   for (std::size_t i = 0; i < count; ++i) {
     const PartId id = waiting_[i].id;
     place_[static_cast<std::size_t>(id)] = -1;
     if (!newest.has(id)) continue;  // an edit has changed it meanwhile
     const HeardState& state = newest.at(id);
-    order.push_back({state.peer, state.tick, id});
+    order_.push_back({state.peer, state.tick, id});
   }
-  std::sort(order.begin(), order.end());
-  std::vector<States> messages;
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const HeardState& state = newest.at(order[i].id);
-    if (messages.empty() || !Fits(messages.back(), state)) {
-      messages.push_back(Begin(state));
-      Reserve(std::min(order.size() - i, kStatesBodiesMax), &messages.back());
-    }
-    Append(order[i].id, state, &messages.back());
+  std::sort(order_.begin(), order_.end());
+  for (const Place& place : order_) {
+    const HeardState& state = newest.at(place.id);
+    if (composed_.empty() || !Fits(composed_.back(), state)) Begin(state, &AddMessage());
+    Append(place.id, state, &composed_.back());
   }
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
   pressing_ = false;
@@ -147,7 +152,7 @@ std::vector<States> Outbox::Compose(std::int64_t now_us, const NewestStates& new
     pressing_ = pressing_ || waiting_[i].urgency == Urgency::kFollowed;
     place_[static_cast<std::size_t>(waiting_[i].id)] = static_cast<std::int32_t>(i);
   }
-  return messages;
+  return composed_;
 }
 
 }  // namespace seam

@@ -28,7 +28,8 @@ class Outbox {
   void Spend(std::size_t bytes) { credit_ -= static_cast<double>(bytes); }
   /// Messages with the most urgent of what waits, as many as the budget allows now; the rest waits
   /// on. utime is left 0.
-  std::vector<States> Compose(std::int64_t now_us, const NewestStates& newest);
+  /// They hold until the next call.
+  const std::vector<States>& Compose(std::int64_t now_us, const NewestStates& newest);
   bool empty() const { return waiting_.empty(); }
   /// Whether anything waits that the receiver simulates.
   bool pressing() const { return pressing_; }
@@ -48,7 +49,15 @@ class Outbox {
     Urgency urgency = Urgency::kFar;
     std::int64_t since_us = 0;
   };
+  /// What orders the states of a Compose: those of one message come one after the other.
+  struct Place {
+    std::int32_t peer;
+    std::int64_t tick;
+    PartId id;
+    bool operator<(const Place& o) const;
+  };
   void Fill(std::int64_t now_us);
+  States& AddMessage();
   /// The first so many of what waits, once ordered, fit the budget.
   std::size_t Affordable(std::int64_t now_us);
 
@@ -57,6 +66,8 @@ class Outbox {
   std::int64_t filled_us_ = -1;
   std::vector<Waiting> waiting_;
   bool pressing_ = false;
+  std::vector<States> composed_, spare_;  // of the last Compose; and empty ones
+  std::vector<Place> order_;
   std::vector<std::int32_t> place_;  // by part: in waiting_, -1: it does not wait
   double each_ = static_cast<double>(kStatesBytes.each);  // bytes of a body, as it was lately
 };

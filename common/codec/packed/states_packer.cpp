@@ -12,6 +12,8 @@ constexpr std::uint32_t kQuantaPerMetre = 512;
 constexpr std::size_t kSentMost = 256;
 /// From one repeat of what was lost to the next, us: at first, and at most.
 constexpr std::int64_t kAgainUs = 100000, kAgainUsMax = 400000;
+/// Of those that are not remembered any more, whose memory is kept for the next.
+constexpr std::size_t kSpareMost = 16;
 /// Bytes that an entry, a group's header and all ends take at most.
 constexpr std::size_t kEntryBytesMost = 64;
 
@@ -51,11 +53,24 @@ StatesPacker::Known& StatesPacker::KnownOf(std::int32_t id) {
   return known_[static_cast<std::size_t>(place_[i])];
 }
 
+void StatesPacker::Spare(std::vector<Sent>* bodies) {
+  bodies->clear();
+  if (bodies->capacity() > 0 && spare_.size() < kSpareMost) spare_.push_back(std::move(*bodies));
+  *bodies = {};
+}
+
 void StatesPacker::Begin(const States& states) {
   open_ = true;
   ++number_;
-  if (sent_.size() >= kSentMost) sent_.pop_front();
+  if (sent_.size() >= kSentMost) {
+    Spare(&sent_.front());
+    sent_.pop_front();
+  }
   sent_.emplace_back();
+  if (!spare_.empty()) {
+    sent_.back().swap(spare_.back());
+    spare_.pop_back();
+  }
   context_ = PackedContext();
   revision_ = states.revision;
   composition_ = states.composition;
@@ -237,7 +252,7 @@ void StatesPacker::Acknowledge(std::int64_t number) {
     known.count = sent.count;
     known.state = sent.state;
   }
-  *bodies = {};
+  Spare(bodies);
 }
 
 }  // namespace seam

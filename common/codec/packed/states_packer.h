@@ -62,6 +62,7 @@ class StatesPacker {
   void Begin(const States& states);
   void BeginGroup(const States& states);
   void End();
+  void Spare(std::vector<Sent>* bodies);
   void AddBody(const PackedState& state, std::int32_t id);
   void PutDifferences(const PackedState& state, const PackedState& guess,
                       std::array<Learned, kPackedFields>* learned);
@@ -80,10 +81,11 @@ class StatesPacker {
   PackedContext context_;
   std::int32_t revision_ = 0;
   std::int64_t composition_ = 0;
-  std::deque<std::vector<Sent>> sent_;  // of successive messages up to number_, the newest last
-  std::deque<UnderWay> under_way_;      // the oldest first, until it has arrived or is late
-  std::vector<Owed> owed_;              // ascending
-  std::vector<std::int32_t> place_;     // by id: in known_; -1: nothing was sent
+  std::deque<std::vector<Sent>> sent_;    // of successive messages up to number_, the newest last
+  std::deque<UnderWay> under_way_;        // the oldest first, until it has arrived or is late
+  std::vector<Owed> owed_;                // ascending
+  std::vector<std::vector<Sent>> spare_;  // empty
+  std::vector<std::int32_t> place_;       // by id: in known_; -1: nothing was sent
   std::vector<Known> known_;
 };
 
