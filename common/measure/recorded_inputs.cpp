@@ -40,6 +40,17 @@ void RecordedInputs::Hold(World* world, int player, std::int64_t tick) const {
   world->SetInput(player, none ? Input{} : std::prev(after)->second);
 }
 
+bool RecordedInputs::Holds(int player, std::int64_t known, std::int64_t tick) const {
+  const auto inputs = by_player_.find(player);
+  if (inputs == by_player_.end()) return true;
+  auto next = inputs->second.upper_bound(known);
+  const Input held = next == inputs->second.begin() ? Input{} : std::prev(next)->second;
+  for (; next != inputs->second.end() && next->first <= tick; ++next) {
+    if (!(next->second == held)) return false;
+  }
+  return true;
+}
+
 std::vector<int> RecordedInputs::players() const {
   std::vector<int> players;
   for (const auto& [player, ticks] : by_player_) players.push_back(player);

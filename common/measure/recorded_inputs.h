@@ -20,6 +20,9 @@ class RecordedInputs {
   void Apply(World* world, int player, std::int64_t tick) const;
   /// Sets a player's axes to what was last recorded up to `tick`; presses nothing.
   void Hold(World* world, int player, std::int64_t tick) const;
+  /// Whether who knows a player's inputs up to `known`, and holds the last one, is right up to
+  /// `tick`.
+  bool Holds(int player, std::int64_t known, std::int64_t tick) const;
   /// Players with recorded inputs, ascending.
   std::vector<int> players() const;
 

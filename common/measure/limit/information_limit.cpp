@@ -16,13 +16,11 @@
 namespace seam {
 namespace {
 
-using Ages = std::map<std::pair<int, int>, std::int64_t>;
-
 /// What one player could have shown at a tick to come.
 struct Guess {
   int player = 0;
   std::int64_t tick = 0;
-  std::vector<BodyState> states;  // by body
+  std::vector<BodyState> states;  // by body; empty: the truth, nothing was held wrongly
 };
 
 std::vector<BodyState> ReadAll(const World& world) {
@@ -31,19 +29,37 @@ std::vector<BodyState> ReadAll(const World& world) {
   return states;
 }
 
-/// The truth, and from each of its barriers every player's guess.
+/// The truth, and from its barriers every player's guesses.
 class Guesser {
  public:
-  Guesser(const Recording& recording, const Scene& scene, Ages ages)
-      : world_(scene), inputs_(recording, scene), ages_(std::move(ages)) {
+  Guesser(const Recording& recording, const Scene& scene, KnownInputs known, int every)
+      : every_(every), world_(scene), inputs_(recording, scene), known_(std::move(known)) {
     LookAgain();
+    for (std::int64_t tick = every; tick <= recording.last_tick; tick += every) {
+      for (const int player : inputs_.players()) {
+        const std::int64_t from = std::min(Oldest(player, tick), tick - 1) / every * every;
+        due_[from].push_back({player, tick, {}});
+      }
+    }
   }
 
-  /// From the world as it is, which is left as it was.
+  /// Where a barrier is due: takes it, and makes the guesses that begin here.
   void GuessAll() {
+    if (world_.tick() % every_ != 0) return;
     const WorldSnapshot now = world_.Barrier();
-    for (const int player : inputs_.players()) GuessOf(player, now);
-    GoBackTo(now);
+    const auto due = due_.find(world_.tick());
+    if (due == due_.end()) return;
+    bool away = false;
+    for (Guess& guess : due->second) {
+      if (!KnowsAll(guess)) {
+        GoBackTo(now);
+        MakeGuess(&guess);
+        away = true;
+      }
+      guesses_.push_back(std::move(guess));
+    }
+    due_.erase(due);
+    if (away) GoBackTo(now);
   }
 
   /// Makes the next tick, and compares what was guessed of it.
@@ -82,26 +98,41 @@ class Guesser {
     for (const int player : inputs_.players()) inputs_.Hold(&world_, player, snapshot.tick);
   }
 
-  void GuessOf(int player, const WorldSnapshot& from) {
-    std::int64_t oldest = 0;
+  /// The newest tick of `other`'s inputs that is known where `player` shows `tick`.
+  std::int64_t Known(int other, int player, std::int64_t tick) const {
+    const auto known = known_.find({other, player});
+    return known == known_.end() ? tick : known->second[static_cast<std::size_t>(tick)];
+  }
+  /// The tick up to which all inputs are known there: 0 or later, since where it begins is known.
+  std::int64_t Oldest(int player, std::int64_t tick) const {
+    std::int64_t oldest = tick;
     for (const int other : inputs_.players()) {
-      const auto age = ages_.find({other, player});
-      if (age != ages_.end()) oldest = std::max(oldest, age->second);
+      oldest = std::min(oldest, Known(other, player, tick));
     }
-    if (oldest == 0) return;  // it knows all
-    GoBackTo(from);
-    Guess guess{player, from.tick + oldest, {}};
-    while (world_.tick() < guess.tick) {
+    return std::max<std::int64_t>(0, oldest);
+  }
+  bool KnowsAll(const Guess& guess) const {
+    for (const int other : inputs_.players()) {
+      if (!inputs_.Holds(other, Known(other, guess.player, guess.tick), guess.tick)) return false;
+    }
+    return true;
+  }
+
+  /// From the world as it is, with barriers where the truth has them.
+  void MakeGuess(Guess* guess) {
+    for (const int other : inputs_.players()) {
+      inputs_.Hold(&world_, other,
+                   std::min(world_.tick(), Known(other, guess->player, guess->tick)));
+    }
+    while (world_.tick() < guess->tick) {
       const std::int64_t tick = world_.tick() + 1;
       for (const int other : inputs_.players()) {
-        const auto age = ages_.find({other, player});
-        const std::int64_t known = age == ages_.end() ? guess.tick : guess.tick - age->second;
-        if (tick <= known) inputs_.Apply(&world_, other, tick);
+        if (tick <= Known(other, guess->player, guess->tick)) inputs_.Apply(&world_, other, tick);
       }
       world_.Step();
+      if (tick < guess->tick && tick % every_ == 0) world_.Barrier();
     }
-    guess.states = ReadAll(world_);
-    guesses_.push_back(std::move(guess));
+    guess->states = ReadAll(world_);
   }
 
   void Compare(const Guess& guess) {
@@ -109,16 +140,20 @@ class Guesser {
     for (int body = 0; body < world_.body_count(); ++body) {
       const auto b = static_cast<std::size_t>(body);
       if (own[b]) continue;
-      const double apart = extents_[b].Displacement(Pose(guess.states[b]), Pose(world_.Read(body)));
+      const double apart = guess.states.empty() ? 0
+                                                : extents_[b].Displacement(Pose(guess.states[b]),
+                                                                           Pose(world_.Read(body)));
       apart_.Add(apart * apart);
     }
   }
 
+  const int every_;
   World world_;
   const RecordedInputs inputs_;
-  const Ages ages_;
-  std::map<int, std::vector<bool>> own_;  // by player, by body
-  std::vector<Extent> extents_;           // by body
+  const KnownInputs known_;
+  std::map<std::int64_t, std::vector<Guess>> due_;  // by the tick at which they begin
+  std::map<int, std::vector<bool>> own_;            // by player, by body
+  std::vector<Extent> extents_;                     // by body
   std::vector<Guess> guesses_;
   MeanSquare apart_;
 };
@@ -130,13 +165,13 @@ std::optional<double> InformationLimit(const Recording& recording, int every) {
   if (FindMode(recording.room.mode) == Mode::kOracle) return std::nullopt;
   Scene scene = ParseScene(recording.room.scene_text, recording.room.scene_name + ".toml");
   scene.solver.tick_hz = recording.room.tick_hz;
-  const Ages ages = FindInputAges(recording);
-  if (ages.empty()) return std::nullopt;
+  const KnownInputs known = FindKnownInputs(recording);
+  if (known.empty()) return std::nullopt;
   OutsideEdits outside(recording, scene);
-  Guesser guesser(recording, scene, ages);
+  Guesser guesser(recording, scene, known, every);
   guesser.Apply(outside.Take(0, guesser.world().scene()));
   for (std::int64_t tick = 1; tick <= recording.last_tick; ++tick) {
-    if ((tick - 1) % every == 0) guesser.GuessAll();
+    guesser.GuessAll();
     guesser.Step();
     guesser.Apply(guesser.world().ProposeEdits());
     guesser.Apply(outside.Take(tick, guesser.world().scene()));

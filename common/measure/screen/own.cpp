@@ -4,14 +4,11 @@
 #include <set>
 
 #include "common/scene/character.h"
-#include "common/sync/mode.h"
 
 namespace seam {
 
 OwnBodies::OwnBodies(const Recording& recording, const RevisionHistory* revisions)
-    : revisions_(revisions),
-      authority_counts_(FindMode(recording.room.mode) == Mode::kBuffer ||
-                        FindMode(recording.room.mode) == Mode::kStrict) {
+    : revisions_(revisions) {
   const std::vector<Edit> edits = EditsOf(recording);
   for (std::size_t n = 0; n < edits.size(); ++n) {
     const SeatEdit* sat = edits[n].As<SeatEdit>();
@@ -20,11 +17,7 @@ OwnBodies::OwnBodies(const Recording& recording, const RevisionHistory* revision
 }
 
 bool OwnBodies::Has(const View& view, std::size_t i) {
-  if (view.peer < 1) return false;
-  if (authority_counts_ && (view.role[i] == kRoleAuthority || view.authority[i] == view.peer)) {
-    return true;
-  }
-  if (revisions_ == nullptr) return false;
+  if (view.peer < 1 || revisions_ == nullptr) return false;
   const std::vector<PartId>& own = ByScene(view.revision, view.peer - 1);
   return std::binary_search(own.begin(), own.end(), PartId{view.id[i]});
 }

@@ -1,4 +1,4 @@
-/// How old the newest input of a player is elsewhere, by the recording's own times.
+/// What is known of a player's inputs elsewhere, by the recording's own times.
 
 #include <algorithm>
 #include <vector>
@@ -67,28 +67,33 @@ std::int64_t BehindUs(const Recording& recording, int player, const Arrivals& ow
 
 }  // namespace
 
-std::map<std::pair<int, int>, std::int64_t> FindInputAges(const Recording& recording) {
+KnownInputs FindKnownInputs(const Recording& recording) {
   const auto server = recording.views.find(0);
   if (server == recording.views.end()) return {};
   std::map<int, Arrivals> arrivals;
   for (const auto& [player, pieces] : recording.inputs) {
     arrivals.emplace(player, Arrivals(pieces, server->second));
   }
-  std::map<std::pair<int, int>, std::int64_t> ages;
+  const auto ticks = static_cast<std::size_t>(recording.last_tick + 1);
+  KnownInputs known;
   for (const auto& [of, came] : arrivals) {
     for (const auto& [at, own] : arrivals) {
       if (of == at) continue;
       const std::int64_t behind_us = BehindUs(recording, at, own);
-      std::vector<std::int64_t> all;
-      for (const auto& [tick, view] : server->second) {
-        const auto newest = came.NewestAt(view.utime - behind_us);
-        if (newest) all.push_back(std::max<std::int64_t>(0, tick - *newest));
+      std::vector<std::int64_t>& by_tick = known[{of, at}];
+      by_tick.assign(ticks, -1);
+      std::int64_t newest = -1;
+      for (std::size_t tick = 0; tick < ticks; ++tick) {
+        const auto view = server->second.find(static_cast<std::int64_t>(tick));
+        // Where the log lacks a view, what was known before still is.
+        if (view != server->second.end()) {
+          newest = came.NewestAt(view->second.utime - behind_us).value_or(-1);
+        }
+        by_tick[tick] = std::min(newest, static_cast<std::int64_t>(tick));
       }
-      const auto age = Arrivals::Middle(&all);
-      if (age) ages[{of, at}] = *age;
     }
   }
-  return ages;
+  return known;
 }
 
 }  // namespace seam
