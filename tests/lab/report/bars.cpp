@@ -156,16 +156,17 @@ TextTable BarTable(const std::vector<ReportCase>& cases, const Before* before) {
     const auto floor = Unbeaten(bar, cases, "floor_wire_m");
     if (bar.by_floor > 0 && floor) limit = bar.by_floor * *floor;
     const bool rms_held = !others || std::isnan(limit) || (rms && *rms <= kRmsShare * limit);
-    const std::string verdict =
+    std::string verdict =
         Verdict(Holds(bar, limit, own), rms_held, Holds(bar, bar.of_central, central));
     held += verdict == "held" ? 1 : 0;
+    const auto known = Unbeaten(bar, cases, "info_limit_m");
+    if (verdict != "held" && others && known && *known > limit) verdict += "; no method can";
     const auto was = [&](const char* column) {
       return before == nullptr || bar.by_limit ? std::nullopt
                                                : before->Find(*at, "retrospect", column);
     };
     std::string bar_text = BarText(bar, limit);
     if (others && floor) bar_text += " (floor_wire_m " + Digits(*floor) + ")";
-    const auto known = Unbeaten(bar, cases, "info_limit_m");
     if (others && known) bar_text += " (information limit " + Digits(*known) + ")";
     table.rows.push_back({Named(bar, *at), text(was(bar.column)),
                           others ? text(was("error_rms_m")) : "–",
@@ -179,7 +180,8 @@ TextTable BarTable(const std::vector<ReportCase>& cases, const Before* before) {
   table.note = fmt::format(
       "{} of {} bars held. error_others_m in m unless said otherwise, medians over seeds, demo "
       "network unless said; default: {}, central: {}. The default's error_rms_m may exceed its bar "
-      "by 20 %. Before: retrospect, the default of commit f0a5095, its recordings measured with "
+      "by 20 %. No method can: the information limit is above the default's bar. Before: "
+      "retrospect, the default of commit f0a5095, its recordings measured with "
       "the present measure (tests/lab/sweeps/before.csv).",
       held, table.rows.size(), kDefaultMethod, kCentralMethod);
   table.open = true;
