@@ -34,9 +34,9 @@ struct ClientConfig {
   std::string name = "guest";
   std::string room;  ///< of the server; "": its first
   Drive drive = Drive::kNone;
-  std::string script_of;  ///< kScript: the scene's player whose script it plays
-  std::int64_t key = 0;   ///< of an earlier Welcome, to have its place back; 0: none
-  bool smooth = true;
+  std::string script_of;            ///< kScript: the scene's player whose script it plays
+  std::int64_t key = 0;             ///< of an earlier Welcome, to have its place back; 0: none
+  float smooth_rate = kSmoothRate;  ///< SyncConfig::smooth_rate
   Publish publish = Publish::kAll;
   bool shows = false;  ///< somebody looks at replica()'s view: all of it has to be true
   bool watch = false;  ///< to look on is what is wanted; else a name without a place is fatal

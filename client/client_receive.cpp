@@ -172,7 +172,7 @@ void Client::MakeReplica(const Topology* become) {
   mode_ = sync.mode;
   sync.tick_hz = room_.tick_hz;
   sync.send_hz = room_.send_hz;
-  sync.smooth = config_.smooth;
+  sync.smooth_rate = config_.smooth_rate;
   sync.seed = room_.seed;
   sync.input_delay_ticks = room_.input_delay_ticks;
   const Topology topology = become != nullptr ? *become : Topology(*scene_);

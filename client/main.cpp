@@ -58,8 +58,9 @@ void Define(CLI::App& app, Flags& f) {
                  "none | bot | keyboard | name of the player whose script to play");
   app.add_option("--impair", f.impair, "impair this client's network, both directions");
   app.add_option("--seed", f.seed, "of the impairment")->check(CLI::Range(0, 1000000000));
-  app.add_option("--smooth", f.smooth, "hide corrections in the view: on | off")
-      ->check(CLI::IsMember({"on", "off"}));
+  app.add_option("--smooth", f.smooth,
+                 "hide corrections in the view: on | off | rate in 1/s, 1 to 60 (on: 10)")
+      ->check(CLI::IsMember({"on", "off"}) | CLI::Range(kSmoothRateMin, kSmoothRateMax));
   app.add_option("--duration", f.duration_s, "seconds to run (0: until stopped)")
       ->check(CLI::Range(0.0, 1e6));
   app.add_option("--join-timeout", f.join_s, "seconds to try to join, at first or again")
@@ -104,7 +105,7 @@ ClientConfig Configure(const Flags& f) {
   config.name = f.name.empty() ? "guest" : f.name;
   config.watch = f.watch;
   config.room = f.room;
-  config.smooth = f.smooth == "on";
+  config.smooth_rate = ParseSmoothRate(f.smooth);
   config.publish = ParsePublish(f.publish);
   config.shows = f.show || f.drive == "keyboard";
   if (f.drive == "bot") {

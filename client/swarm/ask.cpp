@@ -18,7 +18,7 @@ Room AskForRoom(const Address& server, const std::string& room) {
   config.room = room;
   config.watch = true;
   config.publish = Publish::kNone;
-  config.smooth = false;
+  config.smooth_rate = 0;
   Group group;
   group.Add(config, false);
   const Client& scout = group.members()[0]->client();

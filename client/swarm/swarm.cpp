@@ -62,7 +62,7 @@ Swarm::Swarm(const SwarmConfig& config) : config_(config) {
       member.drive = config.drive;
       member.script_of = member.name;
       member.publish = Publish::kNone;
-      member.smooth = false;
+      member.smooth_rate = 0;
       lanes_[i % lanes_.size()]->group.Add(member, i == r);
     }
   }

@@ -51,7 +51,7 @@ Display::Display(const SyncConfig& config, World& world, BodyMemory& memory)
       world_(world),
       memory_(memory),
       snapshots_(memory.snapshots()),
-      smoother_(world.body_count(), config.smooth),
+      smoother_(world.body_count(), config.smooth_rate),
       delay_(config.send_every()),
       joints_(world),
       reckoner_(world, memory.snapshots(), joints_),
@@ -97,14 +97,14 @@ void Display::Glide(const Roles& roles) {
     if (bodies.front() != first) continue;
     int& corrected = corrected_ticks_[static_cast<std::size_t>(m)];
     corrected = std::max(0, corrected - 1);
-    if (!config_.smooth) continue;
+    if (config_.smooth_rate <= 0) continue;
     if (bodies.size() == 1) {
       smoother_.Advance(first, world_.dt(), world_.Read(first).velocity.norm());
     } else {
       smoother_.AdvanceTogether(world_, bodies, seats_.IsGentle(m));
     }
   }
-  if (config_.smooth) KeepClosed(roles);
+  if (config_.smooth_rate > 0) KeepClosed(roles);
 }
 
 /// What closing has moved becomes part of the offset and returns with it: closed anew from torn

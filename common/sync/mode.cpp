@@ -1,5 +1,7 @@
 #include "common/sync/mode.h"
 
+#include <cstdlib>
+
 #include "common/base/check.h"
 #include "common/base/nearest.h"
 
@@ -27,6 +29,18 @@ Mode ParseMode(const std::string& name) {
   throw OperatorError("unknown mode \"" + name + "\"" +
                       DidYouMean(name, {"oracle", "central", "strict", "buffer"}) +
                       ": use oracle, central, strict or buffer");
+}
+
+float ParseSmoothRate(const std::string& text) {
+  if (text == "on") return kSmoothRate;
+  if (text == "off") return 0;
+  char* end = nullptr;
+  const float rate = std::strtof(text.c_str(), &end);
+  const bool number = !text.empty() && *end == '\0';
+  if (!number || !(rate >= kSmoothRateMin && rate <= kSmoothRateMax)) {
+    throw OperatorError("smooth takes on, off or a rate of 1 to 60 1/s, not \"" + text + "\"");
+  }
+  return rate;
 }
 
 SyncConfig MakeSyncConfig(const std::string& mode, const std::string& reconcile) {

@@ -15,6 +15,9 @@ enum class Mode { kOracle, kCentral, kStrict, kBuffer };
 /// drives, the rest is interpolated. kAll: everything, with all inputs that it knows.
 enum class Predict { kOwn, kAll };
 
+/// Rate of the critically damped return of what is shown to where physics is, 1/s, and its bounds.
+constexpr float kSmoothRate = 10, kSmoothRateMin = 1, kSmoothRateMax = 60;
+
 struct SyncConfig {
   Mode mode = Mode::kBuffer;
   Reconciler reconcile = nullptr;  ///< not null in modes kBuffer and kCentral
@@ -25,8 +28,8 @@ struct SyncConfig {
   Predict predict = Predict::kAll;  ///< mode central
   int input_delay_ticks = 0;        ///< own inputs act this much later, at every peer; 0..12
   int tick_hz = 60;
-  int send_hz = 30;       ///< States per second from each peer; <= tick_hz
-  bool smooth = true;     ///< hide corrections in the view
+  int send_hz = 30;                 ///< States per second from each peer; <= tick_hz
+  float smooth_rate = kSmoothRate;  ///< of hiding corrections in the view, 1/s; 0: none are
   /// Whether somebody looks at what this peer shows of bodies that are far from all that it
   /// simulates. If not they stay where they were shown last.
   bool shows_far = true;
@@ -56,6 +59,8 @@ const char* ToString(Mode mode);
 std::optional<Mode> FindMode(const std::string& name);
 /// Throws OperatorError naming the known ones.
 Mode ParseMode(const std::string& name);
+/// The rate that "on" (kSmoothRate), "off" (0) or a number of 1/s says. Throws OperatorError.
+float ParseSmoothRate(const std::string& text);
 /// Fills mode and reconciler from their names. An empty reconciler in mode buffer means
 /// kDefaultReconciler. Throws OperatorError when unknown or when a reconciler is given in another
 /// mode.

@@ -11,8 +11,8 @@ constexpr float kVelocityShare = 0.5f;
 
 }  // namespace
 
-Smoother::Smoother(int body_count, bool enabled)
-    : enabled_(enabled), offsets_(static_cast<std::size_t>(body_count)) {}
+Smoother::Smoother(int body_count, float rate)
+    : rate_(rate), offsets_(static_cast<std::size_t>(body_count)) {}
 
 void Smoother::Remap(const std::vector<int>& origins) {
   std::vector<VisualOffset> offsets;
@@ -23,7 +23,7 @@ void Smoother::Remap(const std::vector<int>& origins) {
 }
 
 void Smoother::Moved(int body, const BodyState& by) {
-  if (!enabled_) return;
+  if (rate_ <= 0) return;
   VisualOffset& o = At(body);
   o.position -= by.position;
   o.velocity -= kVelocityShare * by.velocity;
@@ -32,7 +32,7 @@ void Smoother::Moved(int body, const BodyState& by) {
 }
 
 void Smoother::Set(int body, const BodyState& beside) {
-  if (!enabled_) return;
+  if (rate_ <= 0) return;
   At(body).position = beside.position;
   At(body).angle = WrapAngle(beside.angle);
 }
@@ -46,7 +46,7 @@ void Smoother::AdvanceTogether(const World& world, const std::vector<int>& bodie
     together.push_back({world.mass_point(body), world.Read(body), &At(body)});
     any = any || !At(body).zero();
   }
-  if (any) ReturnTogether(world.dt(), together, gentle);
+  if (any) ReturnTogether(world.dt(), rate_, together, gentle);
 }
 
 const Vec2& Smoother::offset(int body) const {

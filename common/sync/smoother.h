@@ -17,7 +17,8 @@ namespace seam {
 /// offset would glide too fast.
 class Smoother {
  public:
-  Smoother(int body_count, bool enabled);
+  /// `rate`: of the return, 1/s; 0: nothing is hidden.
+  Smoother(int body_count, float rate);
 
   /// The physics state of `body` was changed by this much.
   void Moved(int body, const BodyState& by);
@@ -26,7 +27,7 @@ class Smoother {
   /// The body was placed anew (joined, hand-over of the unknown): show it there at once.
   void Reset(int body);
   /// Lets a frame pass. `speed` of the body (m/s) widens the cap: a fast body hides a fast glide.
-  void Advance(int body, float dt, float speed) { ReturnAlone(dt, speed, &At(body)); }
+  void Advance(int body, float dt, float speed) { ReturnAlone(dt, rate_, speed, &At(body)); }
   /// The same for all bodies of a mechanism of more than one. Where one jump has moved all of them
   /// rigidly, the view comes back rigidly. `gentle`: no faster than 2 m/s.
   void AdvanceTogether(const World& world, const std::vector<int>& bodies, bool gentle = false);
@@ -42,7 +43,7 @@ class Smoother {
  private:
   VisualOffset& At(int body) { return offsets_[static_cast<std::size_t>(body)]; }
 
-  bool enabled_;
+  float rate_;
   std::vector<VisualOffset> offsets_;
 };
 

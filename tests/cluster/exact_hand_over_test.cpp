@@ -45,7 +45,7 @@ TEST(ExactHandOver, TheLastWordAloneIsEnough) {
   config.scene = "pendulums.toml";
   config.scene_text = Pendulums(4);
   config.impair = "delay=40ms";
-  config.smooth = false;  // the physics, not what is shown of it
+  config.smooth_rate = 0;  // the physics, not what is shown of it
   config.client_net = [](std::size_t, std::unique_ptr<Net> net) -> std::unique_ptr<Net> {
     return std::make_unique<RewritingNet>(std::move(net),
                                           [n = 0](std::int64_t, Bytes* message) mutable {

@@ -47,7 +47,7 @@ Cluster::Cluster(const ClusterConfig& config)
   server.sync.tick_hz = scene_.solver.tick_hz;
   server.sync.send_hz = std::min(config.send_hz, scene_.solver.tick_hz);
   server.sync.seed = config.seed;
-  server.sync.smooth = config.smooth;
+  server.sync.smooth_rate = config.smooth_rate;
   server.impair = config.impair;
   server.publish = config.publish;
   server.client_bytes_per_s = config.client_bytes_per_s;
@@ -79,7 +79,7 @@ void Cluster::StartClient(std::size_t i) {
   config.publish = config_.publish;
   config.script_of = config.name;
   config.key = peer.key;
-  config.smooth = config_.smooth;
+  config.smooth_rate = config_.smooth_rate;
   peer.entropy =
       std::make_unique<SeededEntropy>(static_cast<std::uint64_t>(config_.seed) * 1000 + next_port_);
   peer.client = std::make_unique<Client>(config, *peer.endpoint, recorder_, *peer.entropy);

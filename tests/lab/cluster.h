@@ -29,7 +29,7 @@ struct ClusterConfig {
   Publish publish = Publish::kAll;  ///< of server and clients
   int players = 0;                  ///< the first so many of the scene's join; 0: all
   int send_hz = 30;
-  bool smooth = true;
+  float smooth_rate = kSmoothRate;
   Recorder* recorder = nullptr;  ///< also gets every message, at now_us()
   /// What a tick of the server takes, us of virtual time, by tick; nullptr: nothing.
   std::function<std::int64_t(std::int64_t)> server_tick_us;

@@ -12,7 +12,7 @@ namespace seam {
 
 struct RunCommand {
   SessionSettings settings;
-  std::string smooth = "on";             ///< on | off
+  std::string smooth = "on";             ///< on | off | a rate, 1/s
   std::string log;                       ///< file to write
   bool force = false;                    ///< overwrite it
   std::vector<std::string> set;          ///< --set, each one or several with ';' between them

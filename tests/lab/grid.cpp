@@ -20,7 +20,7 @@ std::string Key(const GridPoint& point) {
   return fmt::format("{},{},{:016x},{},{},{},{},{},{},{},{},{}", kLabVersion, CsvField(s.scene),
                      Fnv1a(text.data(), text.size()), CsvField(JoinSettings(s.set)), s.mode,
                      VariantOf(MethodNames{s.mode, s.reconcile, s.predict}), CsvField(s.impair),
-                     s.send_hz, s.drive, s.smooth ? "on" : "off", s.duration_s, s.seed);
+                     s.send_hz, s.drive, s.smooth, s.duration_s, s.seed);
 }
 
 /// The names in "buffer/fade", "central/own" or "strict", in full.
@@ -41,7 +41,7 @@ void AddPoints(const SweepFile& file, GridPoint point, std::vector<GridPoint>* p
           s.impair = network;
           s.send_hz = static_cast<int>(send_hz);
           s.drive = drive;
-          s.smooth = smooth == "on";
+          s.smooth = smooth;
           s.seed = file.seeds.front();
           Configure(s, *point.scene);  // throws what is wrong with it
           for (const std::int64_t seed : file.seeds) {

@@ -34,7 +34,7 @@ floor = false
   EXPECT_FALSE(grid.floor);
   EXPECT_EQ(grid.points[0].settings.seed, 7);
   EXPECT_EQ(grid.points[1].settings.seed, 8);
-  EXPECT_EQ(grid.points[3].settings.smooth, false);
+  EXPECT_EQ(grid.points[3].settings.smooth, "off");
   EXPECT_EQ(grid.points[6].settings.drive, "bot");
   EXPECT_EQ(grid.points[12].settings.send_hz, 30);
   EXPECT_EQ(grid.points[0].settings.impair, "delay=50ms");

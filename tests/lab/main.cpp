@@ -36,8 +36,9 @@ CLI::App* DefineRun(CLI::App& app, RunCommand& c) {
   run->add_option("--publish", s.publish,
                   "of server and clients: all (default), own, none or auto");
   run->add_option("--drive", s.drive, "script | bot")->check(CLI::IsMember({"script", "bot"}));
-  run->add_option("--smooth", c.smooth, "hide corrections in the view: on | off")
-      ->check(CLI::IsMember({"on", "off"}));
+  run->add_option("--smooth", c.smooth,
+                  "hide corrections in the view: on | off | rate in 1/s, 1 to 60 (on: 10)")
+      ->check(CLI::IsMember({"on", "off"}) | CLI::Range(kSmoothRateMin, kSmoothRateMax));
   run->add_option("--set", c.set, "KEY=VALUE of the scene: solver.substeps=2 (repeatable)")
       ->allow_extra_args(false);
   run->add_option("--buffer", c.buffer_m, "width of the buffer zone, m (as --set buffer=M)");

@@ -37,7 +37,7 @@ std::string Summary(const Recording& recording) {
 int RunLog(const RunCommand& command) {
   SessionSettings settings = command.settings;
   settings.scene = FindScene(settings.scene);
-  settings.smooth = command.smooth == "on";
+  settings.smooth = command.smooth;
   for (const std::string& each : command.set) settings.set.push_back(each);
   if (command.buffer_m) settings.set.push_back(fmt::format("buffer={}", *command.buffer_m));
   if (command.input_delay_ticks) {

@@ -49,7 +49,7 @@ ClusterConfig Configure(const SessionSettings& settings, const Scene& scene) {
   config.players = settings.players;
   config.publish = ParsePublish(settings.publish);
   config.send_hz = settings.send_hz;
-  config.smooth = settings.smooth;
+  config.smooth_rate = ParseSmoothRate(settings.smooth);
   return config;
 }
 

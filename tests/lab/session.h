@@ -28,8 +28,8 @@ struct SessionSettings {
   double duration_s = 0;         ///< after tick 0; 0: the scene's own
   std::string drive = "script";  ///< script | bot
   int players = 0;  ///< the first so many of the scene's join, and the others are absent; 0: all
-  std::string publish = "all";  ///< of server and clients
-  bool smooth = true;
+  std::string publish = "all";   ///< of server and clients
+  std::string smooth = "on";     ///< on | off | a rate, 1/s
   std::vector<std::string> set;  ///< of the scene: "solver.substeps=2", "buffer=5"
 };
 

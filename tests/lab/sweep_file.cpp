@@ -169,7 +169,11 @@ SweepFile ReadSweepFile(const std::string& path) {
   file.drive = Texts(r, "drive", "script");
   file.smooth = Texts(r, "smooth", "on");
   for (const std::string& smooth : file.smooth) {
-    if (smooth != "on" && smooth != "off") r.FailAt("smooth", "smooth takes \"on\" and \"off\"");
+    try {
+      ParseSmoothRate(smooth);
+    } catch (const OperatorError& error) {
+      r.FailAt("smooth", error.what());
+    }
   }
   file.seeds = Seeds(r, tree, path);
   file.duration_s = r.Seconds("duration", {0, kDurationMax}, 0.0);

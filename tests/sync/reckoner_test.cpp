@@ -8,6 +8,7 @@
 
 #include "common/base/geometry.h"
 #include "common/measure/joint_drift.h"
+#include "common/sync/mode.h"
 #include "common/sync/smoother.h"
 #include "tests/support/small_world.h"
 
@@ -118,7 +119,7 @@ TEST(Reckoner, StatesOfDifferentTicksDoNotTearIt) {
 
 TEST(Smoother, ARigidJumpOfAMechanismReturnsRigidly) {
   World world(ParseScene(kRods, "test.toml"));
-  Smoother smoother(3, true);
+  Smoother smoother(3, kSmoothRate);
   for (int body = 0; body < 3; ++body) {
     // Where physics is now, less where the view is: turned by 1 rad about a point, and moved.
     const BodyState s = world.Read(body);

@@ -66,7 +66,7 @@ BodyState State(float x, float vx, float angle) {
 }
 
 TEST(Smoother, TheViewsVelocityIsContinuousAndItReturnsLikeACriticallyDampedSpring) {
-  Smoother smoother(1, true);
+  Smoother smoother(1, kSmoothRate);
   smoother.Moved(0, State(0.1f, 0, 0));
   const float dt = 1 / 60.0f;
   for (int frame = 1; frame <= 60; ++frame) {
@@ -77,14 +77,14 @@ TEST(Smoother, TheViewsVelocityIsContinuousAndItReturnsLikeACriticallyDampedSpri
 }
 
 TEST(Smoother, HalfOfAJumpOfVelocityIsHidden) {
-  Smoother smoother(1, true);
+  Smoother smoother(1, kSmoothRate);
   smoother.Moved(0, State(0, 2, 0));
   smoother.Advance(0, 1e-4f, 100);
   EXPECT_NEAR(smoother.offset(0).x() / 1e-4f, -1, 2e-3f);
 }
 
 TEST(Smoother, ACorrectionDoesNotMoveTheViewAtOnceAndIsForgottenInTime) {
-  Smoother smoother(1, true);
+  Smoother smoother(1, kSmoothRate);
   smoother.Moved(0, State(0.5f, 0, 0.1f));
   EXPECT_FLOAT_EQ(smoother.offset(0).x(), -0.5f);
   float last = 0.5f;
@@ -100,7 +100,7 @@ TEST(Smoother, ACorrectionDoesNotMoveTheViewAtOnceAndIsForgottenInTime) {
 }
 
 TEST(Smoother, DoesNothingWhenOff) {
-  Smoother smoother(1, false);
+  Smoother smoother(1, 0);
   smoother.Moved(0, State(0.5f, 1, 0.1f));
   smoother.Advance(0, 1 / 60.0f, 0);
   EXPECT_EQ(smoother.offset(0).norm(), 0);

@@ -8,9 +8,6 @@
 namespace seam {
 namespace {
 
-/// Rate of the critically damped return, 1/s: 0.1 s is its time constant. Faster shows corrections
-/// as jerks, slower shows stale poses for longer (measured: docs/lessons.md).
-constexpr float kRate = 10;
 /// Speed of the glide, m/s: at least kGlideMin, or kGlideShare of the body's own speed.
 constexpr float kGlideMin = 4.0f;
 constexpr float kGlideShare = 0.35f;
@@ -23,13 +20,13 @@ constexpr float kGiveUp = 15.0f;
 /// Offsets below these are over: m (rad) and m/s (rad/s).
 constexpr float kOver = 1e-5f, kOverSpeed = 1e-4f;
 
-/// One step of a critically damped spring of rate kRate towards zero, exactly.
+/// One step of a critically damped spring of that rate, 1/s, towards zero, exactly.
 template <typename T>
-void Return(float dt, T* offset, T* velocity) {
-  const float decay = std::exp(-kRate * dt);
-  const T slope = *velocity + kRate * *offset;
+void Return(float dt, float rate, T* offset, T* velocity) {
+  const float decay = std::exp(-rate * dt);
+  const T slope = *velocity + rate * *offset;
   *offset = (*offset + slope * dt) * decay;
-  *velocity = (*velocity - slope * (kRate * dt)) * decay;
+  *velocity = (*velocity - slope * (rate * dt)) * decay;
 }
 
 float GlideMax(float speed) { return std::max(kGlideMin, kGlideShare * speed); }
@@ -98,9 +95,9 @@ struct Step {
   VisualOffset from, to;
   float share = 1;
 
-  Step(float dt, const VisualOffset& offset) : from(offset), to(offset) {
-    Return(dt, &to.position, &to.velocity);
-    Return(dt, &to.angle, &to.spin);
+  Step(float dt, float rate, const VisualOffset& offset) : from(offset), to(offset) {
+    Return(dt, rate, &to.position, &to.velocity);
+    Return(dt, rate, &to.angle, &to.spin);
   }
   void Limit(float size, float size_max) {
     if (size > size_max) share = std::min(share, size_max / size);
@@ -118,12 +115,12 @@ struct Step {
   }
 };
 
-void ReturnCommon(float dt, float glide, float reach, VisualOffset* common) {
+void ReturnCommon(float dt, float rate, float glide, float reach, VisualOffset* common) {
   VisualOffset shift = *common, turn = *common;
   shift.angle = shift.spin = 0;
   turn.position.setZero();
   turn.velocity.setZero();
-  Step shifting(dt, shift), turning(dt, turn);
+  Step shifting(dt, rate, shift), turning(dt, rate, turn);
   shifting.Limit((shifting.to.position - shift.position).norm(), glide * dt);
   const float angle = std::fabs(turning.to.angle - turn.angle);
   turning.Limit(angle, kSpinCap * dt);
@@ -134,11 +131,11 @@ void ReturnCommon(float dt, float glide, float reach, VisualOffset* common) {
 }
 
 /// All by the same share, so that a body does not run ahead of those it hangs on.
-void ReturnRest(float dt, float glide, std::vector<VisualOffset>* rest) {
+void ReturnRest(float dt, float rate, float glide, std::vector<VisualOffset>* rest) {
   std::vector<Step> steps;
   float share = 1;
   for (const VisualOffset& offset : *rest) {
-    Step step(dt, offset);
+    Step step(dt, rate, offset);
     step.Limit((step.to.position - offset.position).norm(), glide * dt);
     step.Limit(std::fabs(step.to.angle - offset.angle), kSpinCap * dt);
     share = std::min(share, step.share);
@@ -157,11 +154,11 @@ bool Over(const VisualOffset& o) {
 
 }  // namespace
 
-void ReturnAlone(float dt, float speed, VisualOffset* offset) {
+void ReturnAlone(float dt, float rate, float speed, VisualOffset* offset) {
   VisualOffset& o = *offset;
   if (o.position.norm() > kGiveUp) o = VisualOffset{};
   const Vec2 was = o.position;
-  Return(dt, &o.position, &o.velocity);
+  Return(dt, rate, &o.position, &o.velocity);
   const Vec2 move = o.position - was;
   const float most = GlideMax(speed) * dt;
   if (move.norm() > most) {
@@ -174,7 +171,7 @@ void ReturnAlone(float dt, float speed, VisualOffset* offset) {
     o.velocity.setZero();
   }
   const float angle_was = o.angle;
-  Return(dt, &o.angle, &o.spin);
+  Return(dt, rate, &o.angle, &o.spin);
   if (std::fabs(o.angle - angle_was) > kSpinCap * dt) {
     o.spin = std::copysign(kSpinCap, o.angle - angle_was);
     o.angle = angle_was + o.spin * dt;
@@ -182,7 +179,7 @@ void ReturnAlone(float dt, float speed, VisualOffset* offset) {
   if (std::fabs(o.angle) < kOver && std::fabs(o.spin) < kOverSpeed) o.angle = o.spin = 0;
 }
 
-void ReturnTogether(float dt, const std::vector<OffsetBody>& bodies, bool gentle) {
+void ReturnTogether(float dt, float rate, const std::vector<OffsetBody>& bodies, bool gentle) {
   Split split = SplitOffsets(bodies);
   if (split.common.position.norm() > kGiveUp) {
     for (const OffsetBody& b : bodies) *b.offset = VisualOffset{};
@@ -196,8 +193,8 @@ void ReturnTogether(float dt, const std::vector<OffsetBody>& bodies, bool gentle
     reach = std::max(reach, split.arms[i].norm());
   }
   const float glide = gentle ? kGentle : GlideMax((momentum / mass).norm());
-  ReturnCommon(dt, glide, reach, &split.common);
-  ReturnRest(dt, glide, &split.rest);
+  ReturnCommon(dt, rate, glide, reach, &split.common);
+  ReturnRest(dt, rate, glide, &split.rest);
   const Rotation<float> turn(split.common.angle);
   bool over = true;
   for (std::size_t i = 0; i < bodies.size(); ++i) {

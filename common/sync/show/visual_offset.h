@@ -26,13 +26,16 @@ struct OffsetBody {
   VisualOffset* offset = nullptr;
 };
 
-/// Lets `dt` s pass for a body that is alone and `speed` m/s fast.
-void ReturnAlone(float dt, float speed, VisualOffset* offset);
+/// Lets `dt` s pass for a body that is alone and `speed` m/s fast; `rate`: of the return, 1/s.
+/// 1/rate is its time constant. Faster shows corrections as jerks, slower shows stale poses for
+/// longer (docs/lessons.md).
+void ReturnAlone(float dt, float rate, float speed, VisualOffset* offset);
 
 /// The same for all bodies of a mechanism. Their offsets are split into the rigid motion that is
 /// common to them by mass, a shift of the centre of mass and a turn about it, and what each has
 /// beside it; both come back at the same rate, each below its own speed limit. Offsets that are a
 /// rigid motion stay one, however large the turn. `gentle`: a lower limit.
-void ReturnTogether(float dt, const std::vector<OffsetBody>& bodies, bool gentle = false);
+void ReturnTogether(float dt, float rate, const std::vector<OffsetBody>& bodies,
+                    bool gentle = false);
 
 }  // namespace seam

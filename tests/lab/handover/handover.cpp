@@ -198,7 +198,8 @@ class Watch {
 
 HandOvers MeasureHandOvers(ClusterConfig config) {
   TrafficCount count;
-  config.keep = config.smooth = false;
+  config.keep = false;
+  config.smooth_rate = 0;
   config.client_net = [&count](std::size_t, std::unique_ptr<Net> net) {
     return std::make_unique<CountingNet>(std::move(net), &count);
   };

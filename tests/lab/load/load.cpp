@@ -38,7 +38,8 @@ double Ratio(double a, double b) { return b > 0 ? a / b : 0; }
 }  // namespace
 
 SessionLoad MeasureLoad(ClusterConfig config) {
-  config.keep = config.smooth = false;  // as the load tester's clients: nobody looks
+  config.keep = false;
+  config.smooth_rate = 0;  // as the load tester's clients: nobody looks
   Cluster cluster(config);
   const double seconds = config.duration_s > 0 ? config.duration_s : cluster.scene().duration_s;
   const int hz = cluster.scene().solver.tick_hz;

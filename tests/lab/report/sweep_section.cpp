@@ -231,6 +231,12 @@ PlotPanel FrontPanel(const Sweep& sweep, const SweepGroup& group, const SweepMea
   return panel;
 }
 
+std::vector<std::string> PricesOf(const Sweep& sweep) {
+  if (DelaysInputs(sweep)) return {"response-own"};
+  if (sweep.view.axis.key == "smooth") return {"stutter"};
+  return {"cpu", "bytes"};
+}
+
 Figure FrontsOf(const Sweep& sweep, const SweepGroup& group) {
   Figure figure;
   figure.name = Name(sweep, group, "fronts");
@@ -238,12 +244,12 @@ Figure FrontsOf(const Sweep& sweep, const SweepGroup& group) {
   figure.columns = 2;
   figure.panel_width_px = 560;
   figure.panel_height_px = 400;
-  // A delay of inputs is paid for with the own response.
+  // A delay of inputs is paid for with the own response, a quick smoother with stutter.
   using Ids = std::vector<std::string>;
   const bool delay = DelaysInputs(sweep);
   const std::string headline = HeadlineOf(sweep).id;
   for (const std::string& error : Ids{headline, delay ? "error" : "seam"}) {
-    for (const std::string& cost : delay ? Ids{"response-own"} : Ids{"cpu", "bytes"}) {
+    for (const std::string& cost : PricesOf(sweep)) {
       PlotPanel panel = FrontPanel(sweep, group, MeasureNamed(cost), MeasureNamed(error));
       if (panel.curves.size() > 1) figure.panels.push_back(std::move(panel));
     }

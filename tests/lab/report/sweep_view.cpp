@@ -18,14 +18,15 @@ namespace {
 using Keys = std::map<std::string, std::string>;
 
 /// Names of the axes we know; others are called as their column.
-const std::array<SweepAxis, 12>& Axes() {
-  static const std::array<SweepAxis, 12> axes = {{
+const std::array<SweepAxis, 13>& Axes() {
+  static const std::array<SweepAxis, 13> axes = {{
       {"one_way_ms", "one-way latency", "ms", false},
       {"loss_percent", "loss", "%", false},
       {"jitter_ms", "jitter, mean of the exponential", "ms", false},
       {"send_hz", "updates", "Hz", true},
       {"buffer_m", "buffer width", "m", true},
       {"input_delay_ticks", "input delay", "ticks", true},
+      {"smooth", "smooth", "1/s", true},
       {"substeps", "substeps", "", true},
       {"tick_hz", "ticks", "Hz", true},
       {"velocity_iterations", "velocity iterations", "", true},

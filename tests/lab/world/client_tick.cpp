@@ -25,7 +25,8 @@ std::unique_ptr<Replica> RoomOf(int far) {
                 "velocity = [0.1, 0]\nrepeat = {count = [100, %d], step = [3, 3]}\n",
                 far / 100);
   SyncConfig config = MakeSyncConfig("buffer", "rollback");
-  config.shows_far = config.smooth = false;
+  config.shows_far = false;
+  config.smooth_rate = 0;
   auto replica = std::make_unique<Replica>(ParseScene(text, "room.toml"), config, 1, 0);
   AuthorityRecord own;
   own.authority = 1;
