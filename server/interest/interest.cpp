@@ -156,6 +156,8 @@ std::vector<Interest::Risen> Interest::Look(const std::vector<Receiver>& receive
       for (int m = 0; m < mechanisms; ++m) Note(receiver, m, Concern::kNear);
     } else {
       FindThings(receiver);
+      // Who has nothing at all may look anywhere.
+      for (int m = 0; things_.empty() && m < mechanisms; ++m) Note(receiver, m, Concern::kFar);
       Raise(receiver, far, hear, Concern::kFar);
       Raise(receiver, near, kNearReach, Concern::kNear);
       if (central) Raise(receiver, close, kCloseReach, Concern::kClose);

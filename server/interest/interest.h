@@ -32,8 +32,8 @@ class Interest {
   };
   /// Looks where everything is now. A receiver is near what is within kNearReach of what it drives
   /// or has authority over, and maybe what is twice as far; close likewise with kCloseReach, far
-  /// with PlannerRules::hear: the rest is nothing to it. In a room of at most follow_bodies all is
-  /// close to everyone.
+  /// with PlannerRules::hear: the rest is nothing to it, but far if it has and drives nothing. In a
+  /// room of at most follow_bodies all is close to everyone.
   std::vector<Risen> Look(const std::vector<Receiver>& receivers);
   /// As of the last Look; in a large room, of who was not there, kNear.
   Concern Of(int peer, int mechanism) const {
