@@ -1,5 +1,6 @@
 #include "server/broadcast.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "common/sync/lease.h"
@@ -38,6 +39,30 @@ void Broadcast::FindDue(int peer) {
   }
 }
 
+template <class Visit>
+void Broadcast::ForEachHearing(int but_peer, Visit visit) {
+  if (interest_.small() || interest_.unknown()) return sessions_.ForEachReady(but_peer, visit);
+  hearing_.clear();
+  const auto add = [&](int peer) {
+    const auto p = static_cast<std::size_t>(peer);
+    if (hears_.size() <= p) hears_.resize(p + 1, 0);
+    if (peer == but_peer || std::exchange(hears_[p], 1) != 0) return;
+    hearing_.push_back(peer);
+  };
+  int before = -1;
+  for (const Entry& entry : entries_) {
+    if (std::exchange(before, entry.mechanism) == entry.mechanism) continue;
+    for (const int peer : interest_.Hearing(entry.mechanism)) add(peer);
+    add(replica_.authority().at(entry.mechanism).authority);
+    for (const int peer : followers_[static_cast<std::size_t>(entry.mechanism)]) add(peer);
+  }
+  for (const int peer : hearing_) {
+    hears_[static_cast<std::size_t>(peer)] = 0;
+    Session* session = sessions_.Find(peer);
+    if (session != nullptr && session->stage == SessionStage::kReady) visit(*session);
+  }
+}
+
 void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) {
   if (Plain()) {
     const Bytes whole = Encode(states);
@@ -54,8 +79,9 @@ void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) 
     if (body < 0) continue;  // it has left meanwhile
     entries_.push_back({states.id[i], replica_.world().mechanism(body), news[i]});
   }
-  sessions_.ForEachReady(from_peer, [&](Session& session) {
+  ForEachHearing(from_peer, [&](Session& session) {
     FindDue(session.peer);
+    if (due_.empty()) return;
     if (due_.size() == states.id.size() && session.outbox.empty() &&
         session.outbox.Affords(now_us, due_.size())) {
       session.packer.Add(states);
@@ -76,6 +102,7 @@ void Broadcast::Tell(const std::vector<Grants>& changes) {
   if (changes.empty()) return;
   for (const Grants& grants : changes) publisher_.Publish(grants);
   grant_news_.Take(changes);
+  NoteFollowers(changes);
   if (Plain() || interest_.small()) {
     for (const Grants& grants : changes) sessions_.SendToAll(Encode(grants));
     return;
@@ -85,13 +112,76 @@ void Broadcast::Tell(const std::vector<Grants>& changes) {
       [&](Session& session) { Send(now_us, session, grant_news_.For(session.peer)); });
 }
 
+/// A question to a holder names it beside those who follow: that is no harm.
+void Broadcast::NoteFollowers(const std::vector<Grants>& changes) {
+  for (const Grants& grants : changes) {
+    auto next = grants.follower.begin();
+    for (std::size_t i = 0; i < grants.mechanism.size(); ++i) {
+      const auto end = next + grants.followers[i];
+      const auto m = static_cast<std::size_t>(replica_.authority().IndexOf(grants.mechanism[i]));
+      if (m < followers_.size()) followers_[m].assign(next, end);
+      next = end;
+    }
+  }
+}
+
+void Broadcast::FindFollowers() {
+  const AuthorityTable& table = replica_.authority();
+  followers_.assign(static_cast<std::size_t>(table.count()), {});
+  sessions_.ForEachReady(0, [&](const Session& session) {
+    for (int m = 0; m < table.count(); ++m) {
+      if (!table.at(m).secondaries.Has(session.peer)) continue;
+      followers_[static_cast<std::size_t>(m)].push_back(session.peer);
+    }
+  });
+}
+
 void Broadcast::TellOwed(std::int64_t now_us) {
   const std::int64_t every = GrantNews::kOwedS * config_.tick_hz;
+  const std::int64_t every_nothing = GrantNews::kOwedNothingS * config_.tick_hz;
   sessions_.ForEachTold([&](Session& session) {
     // Not all in the same tick.
     if ((replica_.tick() + 7 * session.peer) % every != 0) return;
-    Send(now_us, session, grant_news_.Owed(session.peer, GrantNews::Which::kAll));
+    const bool all = (replica_.tick() + 7 * session.peer) % every_nothing == 0;
+    const auto which = all ? GrantNews::Which::kAll : GrantNews::Which::kFar;
+    Send(now_us, session, grant_news_.Owed(session.peer, which));
   });
+}
+
+void Broadcast::AddNewest(std::int64_t now_us, Session& session, int mechanism, Urgency urgency) {
+  const Composition& made = replica_.world().composition();
+  for (const int assembly : made.mechanisms[static_cast<std::size_t>(mechanism)].assemblies) {
+    const PartId id = made.assemblies[static_cast<std::size_t>(assembly)].id;
+    if (newest_.has(id)) session.outbox.Add(now_us, id, urgency);
+  }
+}
+
+/// What rests needs no turn: that is told to everyone (RestCommit).
+void Broadcast::TellNothings(std::int64_t now_us, Session& session) {
+  if (interest_.small() || session.player < 0) return;
+  constexpr int kEach = kNothingPerSecond / kLooksPerSecond, kLookedAtMost = 16 * kEach;
+  const Composition& made = replica_.world().composition();
+  const int mechanisms = static_cast<int>(made.mechanisms.size());
+  int& next = session.outbox.nothing;
+  int told = 0;
+  for (int i = 0; i < std::min(kLookedAtMost, mechanisms) && told < kEach; ++i) {
+    if (next + 1 >= mechanisms) {
+      if (now_us - session.outbox.nothings_us < kNothingEveryUs) return;
+      session.outbox.nothings_us = now_us;
+      next = -1;
+    }
+    ++next;
+    if (interest_.Of(session.peer, next) != Concern::kNone) continue;
+    if (Simulates(session.peer, next)) continue;
+    const auto& assemblies = made.mechanisms[static_cast<std::size_t>(next)].assemblies;
+    const bool moves = std::any_of(assemblies.begin(), assemblies.end(), [&](int assembly) {
+      const PartId id = made.assemblies[static_cast<std::size_t>(assembly)].id;
+      return newest_.has(id) && (newest_.at(id).flags & kStateAsleep) == 0;
+    });
+    if (!moves) continue;
+    AddNewest(now_us, session, next, Urgency::kFar);
+    ++told;
+  }
 }
 
 /// Who is only shown a body hears of it when it is not as it would be guessed from what was told
@@ -101,7 +191,10 @@ void Broadcast::TellLostAgain(std::int64_t now_us, Session& session) {
   if (now_us - session.link.last_receive_us() > kSilentUs) return;
   const auto shown = [&](std::int32_t id) {
     const int body = newest_.has(id) ? replica_.world().BodyOfId(id) : -1;
-    return body >= 0 && !Simulates(session.peer, replica_.world().mechanism(body));
+    if (body < 0) return false;
+    const int mechanism = replica_.world().mechanism(body);
+    return !Simulates(session.peer, mechanism) &&
+           interest_.Of(session.peer, mechanism) != Concern::kNone;
   };
   const std::int64_t late_us = LateUs(session.link.rtt_us());
   for (const std::int32_t id : session.packer.TakeLost(now_us, late_us, shown)) {
@@ -127,11 +220,11 @@ void Broadcast::SendWaiting(std::int64_t now_us, bool stepped) {
 void Broadcast::LookAround(std::int64_t now_us) {
   const bool anew = std::exchange(stale_, false);
   if (Plain()) return;
+  if (anew || followers_.empty()) FindFollowers();
   std::vector<Interest::Receiver> receivers;
   sessions_.ForEachReady(0, [&](const Session& session) {
     receivers.push_back({session.peer, session.player});
   });
-  const Composition& made = replica_.world().composition();
   std::vector<int> near;  // of one receiver: they come one after the other
   const std::vector<Interest::Risen> all = interest_.Look(receivers);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -142,12 +235,9 @@ void Broadcast::LookAround(std::int64_t now_us) {
       Send(now_us, *session, grant_news_.Owed(risen.peer, near));
       near.clear();
     }
-    for (const int assembly :
-         made.mechanisms[static_cast<std::size_t>(risen.mechanism)].assemblies) {
-      const PartId id = made.assemblies[static_cast<std::size_t>(assembly)].id;
-      if (newest_.has(id)) session->outbox.Add(now_us, id, Urgency::kNear);
-    }
+    AddNewest(now_us, *session, risen.mechanism, Urgency::kNear);
   }
+  sessions_.ForEachReady(0, [&](Session& session) { TellNothings(now_us, session); });
   if (!anew) return;
   // Edits have made others of them: what came near is not known, and what was merged is urgent.
   sessions_.ForEachTold([&](Session& session) {

@@ -54,7 +54,8 @@ class Broadcast {
   /// waits for the call in which the room has stepped, or goes along with what is followed: states
   /// come from each client at another time, and a datagram for each would be mostly headers.
   void SendWaiting(std::int64_t now_us, bool stepped);
-  /// Looks anew at what concerns whom, and tells what concerns somebody more than before.
+  /// Looks anew at what concerns whom, and tells what concerns somebody more than before; and a
+  /// little of what is nothing to them.
   void LookAround(std::int64_t now_us);
   /// The bodies have changed; LookAround is due.
   void Remap(const BodyRemap& change);
@@ -66,6 +67,12 @@ class Broadcast {
 
   /// Looks a second.
   static constexpr int kLooksPerSecond = 10;
+  /// Mechanisms a second, of all that is nothing to a receiver together, of which it is told where
+  /// they are, in turn, each at most every kNothingEveryUs: so what that costs does not grow with
+  /// the room, and nobody is left with where something was an hour ago. More costs more, some 20
+  /// bytes for each.
+  static constexpr int kNothingPerSecond = 40;
+  static constexpr std::int64_t kNothingEveryUs = 10000000;
 
  private:
   /// An entry of a message, and whom it concerns.
@@ -76,6 +83,13 @@ class Broadcast {
   };
   void Send(std::int64_t now_us, Session& session, std::vector<Grants> messages);
   void TellLostAgain(std::int64_t now_us, Session& session);
+  void NoteFollowers(const std::vector<Grants>& changes);
+  void FindFollowers();
+  void TellNothings(std::int64_t now_us, Session& session);
+  /// Calls `visit(Session&)` for all but one peer whom something in `entries_` may concern.
+  template <class Visit>
+  void ForEachHearing(int but_peer, Visit visit);
+  void AddNewest(std::int64_t now_us, Session& session, int mechanism, Urgency urgency);
   /// What is due to a peer of what `entries_` has.
   void FindDue(int peer);
   /// Whether states go to everyone whole: nobody's mode tells apart what concerns whom.
@@ -91,6 +105,9 @@ class Broadcast {
   GrantNews grant_news_;
   std::vector<Entry> entries_;                   // of the message that is relayed
   std::vector<std::pair<PartId, Urgency>> due_;  // to the peer that is looked at
+  std::vector<std::vector<int>> followers_;      // by mechanism: peers; of a large room
+  std::vector<int> hearing_;                     // peers, in ForEachHearing
+  std::vector<char> hears_;                      // by peer: is in hearing_
 };
 
 }  // namespace seam

@@ -300,12 +300,7 @@ void Server::UpdateAuthority(std::int64_t now_us) {
   broadcast_.Tell(grants);
   UpdateInterest(now_us, !grants.empty());
   broadcast_.TellOwed(now_us);
-  const PeerSet withholding = authority_.Withholding(now_us);
-  sessions_.ForEachReady(0, [&](Session& session) {
-    if (!withholding.Has(session.peer)) return;
-    session.leaving = true;
-    session.leaving_why = "does not let go";
-  });
+  EndLeases(now_us);
 }
 
 void Server::UpdateInterest(std::int64_t now_us, bool changed) {

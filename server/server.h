@@ -140,6 +140,7 @@ class Server {
   void RunRules(std::int64_t now_us);
   void RunSeats();
   void LetGo(std::int64_t now_us, int player);
+  void EndLeases(std::int64_t now_us);
   void RemoveOutside(std::int64_t now_us);
   void Tell(const std::string& line);
   void NoteCorrected(int body);

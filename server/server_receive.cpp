@@ -91,7 +91,7 @@ void Server::OnPing(std::int64_t now_us, Session& session, const Ping& ping) {
   pong.rest = static_cast<std::int64_t>(ours);
   session.load = static_cast<float>(ping.load) * 1e-3f;
   session.revision = ping.revision;
-  session.link.SendUnreliable(Encode(pong));
+  if (session.ending_us < 0) session.link.SendUnreliable(Encode(pong));
   const bool ready = session.stage == SessionStage::kReady;
   const bool lost = session.rest.Lost(now_us, ours, static_cast<std::uint64_t>(ping.rest));
   if (ready && lost) SendRest(now_us, session);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/sync/lease.h"
 #include "server/rules/rules.h"
 #include "server/server.h"
 
@@ -46,6 +47,23 @@ void Server::FollowSessions(std::int64_t now_us) {
         break;
     }
   }
+}
+
+/// Of who does not let go. What it withholds it loses at once; what else it has it may have in good
+/// faith, and would go on with until its lease ends: so it is answered no more, and dropped when it
+/// must have let go of all by itself.
+void Server::EndLeases(std::int64_t now_us) {
+  const PeerSet withholding = authority_.Withholding(now_us);
+  if (withholding.size() > 0) broadcast_.Tell(authority_.TakeBackWithheld(now_us));
+  sessions_.ForEachReady(0, [&](Session& session) {
+    if (withholding.Has(session.peer) && session.ending_us < 0) {
+      session.lapsed = true;
+      session.ending_us = now_us;
+    }
+    if (session.ending_us < 0 || now_us - session.ending_us <= kEndingUs) return;
+    session.leaving = true;
+    session.leaving_why = "does not let go";
+  });
 }
 
 /// Who is gone holds nothing any more: its last input would drive on for ever.

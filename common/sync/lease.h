@@ -42,6 +42,11 @@ constexpr std::int64_t kAskAgainUs = 250000;
 constexpr std::int64_t kAnswerPatienceUs = kReleasePatienceUs - kWithdrawUs - kAskAgainUs;
 static_assert(kLeaseUs < kAnswerPatienceUs,
               "a client that hears nothing of the last question must have let go by itself");
+/// us that a client which did not let go is kept without an answer to its pings, while the server
+/// has what it withheld: what else it has it lets go of meanwhile, unless it is hostile. Longer
+/// leaves to one that is hostile what it has.
+constexpr std::int64_t kEndingUs = 3500000;
+static_assert(kLeaseUs < kEndingUs, "two authorities: it would be dropped before it has let go");
 static_assert(kPatienceUs < kReleasePatienceUs,
               "who is only cut off would be dropped for not letting go");
 

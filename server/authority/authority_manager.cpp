@@ -243,45 +243,12 @@ bool AuthorityManager::Awaits(int peer, int body) const {
   return m < plan_.size() && plan_[m].authority == peer;
 }
 
-PeerSet AuthorityManager::Withholding(std::int64_t now_us) const {
-  PeerSet peers;
-  for (const int m : open_) {
-    const Memory& memory = memory_[static_cast<std::size_t>(m)];
-    if (memory.hand_over != HandOver::kRevoking) continue;
-    // It has let go by now, or heard nothing for longer than its lease: since the last question.
-    const bool answers = now_us - memory.unanswered_us <= kReleasePatienceUs ||
-                         now_us - memory.revoked_us <= kAnswerPatienceUs;
-    if (!answers) peers.Add(table().at(m).authority);
-  }
-  return peers;
-}
-
 AuthorityRecord AuthorityManager::WithoutHolder(AuthorityRecord record) const {
   // Who lets go goes on simulating until the next grant: its copy is the best there is.
   if (config_.mode == Mode::kBuffer) record.secondaries.Add(record.authority);
   record.authority = 0;
   record.epoch += 1;
   return record;
-}
-
-std::vector<Grants> AuthorityManager::TakeBack(std::int64_t now_us, int peer) {
-  plan_due_ = true;
-  std::vector<int> changed;
-  for (int m = 0; m < table().count(); ++m) {
-    AuthorityRecord record = table().at(m);
-    if (record.authority != peer) continue;
-    Memory& memory = memory_[static_cast<std::size_t>(m)];
-    record.authority = 0;
-    record.epoch += memory.hand_over != HandOver::kNone ? 2 : 1;  // a revocation has used up one
-    record.secondaries.Remove(peer);
-    memory.hand_over = HandOver::kNone;
-    replica_.authority().Set(m, record);
-    ForgetQuestions(m);
-    changed.push_back(m);
-  }
-  if (changed.empty()) return {};
-  replica_.RolesChanged();
-  return table().Export(now_us, replica_.tick(), changed);
 }
 
 void AuthorityManager::Remap(const std::vector<std::vector<int>>& from) {

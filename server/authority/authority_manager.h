@@ -40,8 +40,11 @@ class AuthorityManager {
   };
   std::vector<Given> TakeGiven() { return std::exchange(given_, {}); }
   /// Peers that were told to let go of something kReleasePatienceUs ago and have not answered. They
-  /// have to leave; TakeBack follows.
+  /// have to leave: TakeBackWithheld now, and TakeBack when their lease must have ended, since what
+  /// else they have they may have in good faith.
   PeerSet Withholding(std::int64_t now_us) const;
+  /// The server has what is withheld. States of the epochs in which it was held count no more.
+  std::vector<Grants> TakeBackWithheld(std::int64_t now_us);
   /// Somebody came or went: the next Update plans.
   void PlanSoon() { plan_due_ = true; }
   /// The server has what a peer that is gone had. States of the epochs it had count no more.
@@ -120,6 +123,9 @@ class AuthorityManager {
   /// By mechanism, as it is planned: 1 where what sleeps here becomes somebody's before anything
   /// touches it, so that nobody else's things have to be here on its account.
   std::vector<char> Unwatched(const AuthorityView& view) const;
+  std::vector<Grants> TakeBack(std::int64_t now_us, const std::vector<int>& mechanisms);
+  /// Whether its holder was told to let go of it long ago, and has not answered.
+  bool Withheld(std::int64_t now_us, int m) const;
   /// The holder has not answered: it keeps what it was asked to let go of, an epoch on.
   void Withdraw(int m);
   void ForgetQuestions(int m);

@@ -46,7 +46,7 @@ bool GrantNews::Concerns(int peer, const Change& change, const AuthorityRecord& 
   if (holds && before.secondaries.Has(0) != now.secondaries.Has(0)) return true;
   if (!changed) return false;
   return holds || before.authority == peer || follows ||
-         interest_.Of(peer, change.mechanism) != Concern::kFar;
+         interest_.Of(peer, change.mechanism) >= Concern::kNear;
 }
 
 std::vector<Grants> GrantNews::For(int peer) {
@@ -77,8 +77,10 @@ std::vector<Grants> GrantNews::Owed(int peer, Which which) {
   for (std::size_t m = 0; m < owed_.size(); ++m) {
     if (!any_owed_[m] || !owed_[m].Has(peer)) continue;
     const auto mechanism = static_cast<int>(m);
-    const bool near = merged_[m] || interest_.Of(peer, mechanism) != Concern::kFar;
-    if (which == Which::kAll || near) mechanisms.push_back(mechanism);
+    const Concern least = which == Which::kAll   ? Concern::kNone
+                          : which == Which::kFar ? Concern::kFar
+                                                 : Concern::kNear;
+    if (merged_[m] || interest_.Of(peer, mechanism) >= least) mechanisms.push_back(mechanism);
   }
   return Owed(peer, mechanisms);
 }

@@ -1,7 +1,8 @@
 #pragma once
 /// Whom a change of authority concerns, in a large room. Who has a role in the mechanism, or had,
 /// and who is near it is told at once; the others are owed it until it comes near them, until an
-/// edit makes it part of another, or for kOwedS. What they miss meanwhile they need for
+/// edit makes it part of another, or for kOwedS; those to whom it is nothing until it comes to
+/// concern them, or for kOwedNothingS. What they miss meanwhile they need for
 /// nothing: states name their authority and its epoch.
 
 #include <cstdint>
@@ -23,9 +24,9 @@ class GrantNews {
   void Take(const std::vector<Grants>& changes);
   /// What of the last Take a peer is to be told now; of the rest it is owed what it may need.
   std::vector<Grants> For(int peer);
-  /// What a peer is owed, and no more from then on: all of it, or what is near it by now and what
-  /// an edit has made of several.
-  enum class Which { kAll, kNear };
+  /// What a peer is owed, and no more from then on: all of it, what is at least far or near it by
+  /// now; and in any case what an edit has made of several.
+  enum class Which { kAll, kFar, kNear };
   std::vector<Grants> Owed(int peer, Which which);
   /// Of these mechanisms.
   std::vector<Grants> Owed(int peer, const std::vector<int>& mechanisms);
@@ -36,7 +37,7 @@ class GrantNews {
   void Remap(const std::vector<std::vector<int>>& from);
 
   /// s that a peer is owed something at most.
-  static constexpr int kOwedS = 2;
+  static constexpr int kOwedS = 2, kOwedNothingS = 20;
 
  private:
   /// A mechanism whose record has changed, or whose holder is asked to let go.

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/planner/planner_rules.h"
+
 namespace seam {
 namespace {
 
@@ -64,8 +66,13 @@ void Interest::FindThings(const Receiver& receiver) {
 }
 
 void Interest::Note(const Receiver& receiver, int mechanism, Concern to) {
-  Concern& now = concern_[static_cast<std::size_t>(receiver.peer) * stride_ +
-                          static_cast<std::size_t>(mechanism)];
+  const auto peer = static_cast<std::size_t>(receiver.peer);
+  const auto m = static_cast<std::size_t>(mechanism);
+  Concern& now = concern_[peer * stride_ + m];
+  if (now == Concern::kNone) {
+    noted_[peer].push_back(mechanism);
+    hearing_[m].push_back(receiver.peer);
+  }
   now = std::max(now, to);
 }
 
@@ -91,42 +98,71 @@ void Interest::Raise(const Receiver& receiver, const Cells& cells, float side, C
   }
 }
 
+/// Makes room for a Look; only what was noted is wiped.
+void Interest::Begin(std::size_t peers, std::size_t mechanisms) {
+  before_.swap(concern_);
+  noted_before_.swap(noted_);
+  looked_before_.swap(looked_);
+  noted_.resize(peers);
+  if (stride_ == mechanisms && concern_.size() == mechanisms * peers) {
+    for (std::size_t p = 0; p < peers; ++p) {
+      Concern* row = &concern_[p * mechanisms];
+      for (const int m : noted_[p]) row[m] = Concern::kNone;
+    }
+  } else {
+    concern_.assign(mechanisms * peers, Concern::kNone);
+  }
+  if (stride_ != mechanisms) before_.clear();
+  stride_ = mechanisms;
+  for (std::vector<int>& noted : noted_) noted.clear();
+  looked_.assign(peers, 0);
+  held_.resize(peers);
+  for (std::vector<int>& held : held_) held.clear();
+  hearing_.resize(mechanisms);
+  for (std::vector<int>& hearing : hearing_) hearing.clear();
+}
+
+void Interest::FindRisen(const Receiver& receiver, std::vector<Risen>* risen) const {
+  const auto peer = static_cast<std::size_t>(receiver.peer), row = peer * stride_;
+  if (before_.empty()) return;
+  const bool known = peer < looked_before_.size() && looked_before_[peer] != 0;
+  for (const int m : noted_[peer]) {
+    const std::size_t at = row + static_cast<std::size_t>(m);
+    if (!known || concern_[at] > before_[at]) risen->push_back({receiver.peer, m});
+  }
+}
+
 std::vector<Interest::Risen> Interest::Look(const std::vector<Receiver>& receivers) {
   if (small_) return {};
   const World& world = replica_.world();
-  const std::size_t mechanisms = world.composition().mechanisms.size();
-  const bool comparable = stride_ == mechanisms && !concern_.empty();
-  before_.swap(concern_);
   int highest = 0;
   for (const Receiver& receiver : receivers) highest = std::max(highest, receiver.peer);
   const std::size_t peers = static_cast<std::size_t>(highest) + 1;
-  stride_ = mechanisms;
-  concern_.assign(mechanisms * peers, Concern::kFar);
-  held_.resize(peers);
-  for (std::vector<int>& held : held_) held.clear();
+  const int mechanisms = static_cast<int>(world.composition().mechanisms.size());
+  Begin(peers, static_cast<std::size_t>(mechanisms));
   for (int body = 0; body < world.body_count(); ++body) {
     const auto holder =
         static_cast<std::size_t>(replica_.authority().at(world.mechanism(body)).authority);
     if (holder > 0 && holder < peers) held_[holder].push_back(body);
   }
   const bool central = config_.mode == Mode::kCentral;
-  const Cells near = CellsOf(kNearReach), close = central ? CellsOf(kCloseReach) : Cells{};
+  const float hear = scene_.planner->hear;
+  const Cells far = CellsOf(hear), near = CellsOf(kNearReach);
+  const Cells close = central ? CellsOf(kCloseReach) : Cells{};
   std::vector<Risen> risen;
   for (const Receiver& receiver : receivers) {
-    const auto row = static_cast<std::size_t>(receiver.peer) * mechanisms;
+    looked_[static_cast<std::size_t>(receiver.peer)] = 1;
     if (receiver.player < 0) {
-      std::fill_n(concern_.begin() + static_cast<std::ptrdiff_t>(row), mechanisms, Concern::kNear);
+      for (int m = 0; m < mechanisms; ++m) Note(receiver, m, Concern::kNear);
     } else {
       FindThings(receiver);
+      // Who has nothing at all may look anywhere.
+      for (int m = 0; things_.empty() && m < mechanisms; ++m) Note(receiver, m, Concern::kFar);
+      Raise(receiver, far, hear, Concern::kFar);
       Raise(receiver, near, kNearReach, Concern::kNear);
       if (central) Raise(receiver, close, kCloseReach, Concern::kClose);
     }
-    if (!comparable || row >= before_.size()) continue;
-    for (std::size_t m = 0; m < mechanisms; ++m) {
-      if (concern_[row + m] > before_[row + m]) {
-        risen.push_back({receiver.peer, static_cast<int>(m)});
-      }
-    }
+    FindRisen(receiver, &risen);
   }
   return risen;
 }

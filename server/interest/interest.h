@@ -11,6 +11,7 @@ namespace seam {
 
 /// Ascending.
 enum class Concern : std::uint8_t {
+  kNone,  ///< nothing of the receiver could meet it or see it for seconds
   kFar,
   kNear,
   kClose,  ///< mode central: it may meet what the receiver drives and predicts
@@ -30,7 +31,8 @@ class Interest {
     int peer = 0, mechanism = 0;
   };
   /// Looks where everything is now. A receiver is near what is within kNearReach of what it drives
-  /// or has authority over, and maybe what is twice as far; close likewise with kCloseReach. In a
+  /// or has authority over, and maybe what is twice as far; close likewise with kCloseReach, far
+  /// with PlannerRules::hear: the rest is nothing to it, but far if it has and drives nothing. In a
   /// room of at most follow_bodies all is close to everyone.
   std::vector<Risen> Look(const std::vector<Receiver>& receivers);
   /// As of the last Look; in a large room, of who was not there, kNear.
@@ -39,6 +41,13 @@ class Interest {
     const auto m = static_cast<std::size_t>(mechanism), p = static_cast<std::size_t>(peer);
     if (m >= stride_ || p * stride_ >= concern_.size()) return Concern::kNear;
     return concern_[p * stride_ + m];
+  }
+  /// Whether the mechanisms are others since the last Look, or nobody has looked yet: then Of says
+  /// kNear of all, and nobody hears.
+  bool unknown() const { return concern_.empty(); }
+  /// As of the last Look, in a large room: the receivers to whom the mechanism is at least far.
+  const std::vector<int>& Hearing(int mechanism) const {
+    return hearing_[static_cast<std::size_t>(mechanism)];
   }
   /// Whether all is close to everyone.
   bool small() const { return small_; }
@@ -60,14 +69,20 @@ class Interest {
   void Raise(const Receiver& receiver, const Cells& cells, float side, Concern to);
   void FindThings(const Receiver& receiver);
   void Note(const Receiver& receiver, int mechanism, Concern to);
+  void Begin(std::size_t peers, std::size_t mechanisms);
+  /// What concerns a receiver more than in the Look before.
+  void FindRisen(const Receiver& receiver, std::vector<Risen>* risen) const;
 
   const Scene& scene_;
   const SyncConfig& config_;
   const Replica& replica_;
-  bool small_ = false;                           // all is close to everyone
-  std::size_t stride_ = 0;                       // mechanisms in a row
-  std::vector<Concern> concern_;                 // by peer and mechanism
-  std::vector<Concern> before_;                  // of the Look before
+  bool small_ = false;                                  // all is close to everyone
+  std::size_t stride_ = 0;                              // mechanisms in a row
+  std::vector<Concern> concern_;                        // by peer and mechanism
+  std::vector<Concern> before_;                         // of the Look before
+  std::vector<std::vector<int>> noted_, noted_before_;  // by peer: mechanisms of at least kFar
+  std::vector<char> looked_, looked_before_;            // by peer: was a receiver
+  std::vector<std::vector<int>> hearing_;               // by mechanism: peers
   std::vector<std::vector<int>> held_;           // by peer, in a Look: bodies it has authority over
   std::vector<int> things_;                      // of the receiver at hand: bodies
   std::vector<std::uint64_t> centres_, around_;  // cells: with its things, and beside them

@@ -31,6 +31,10 @@ class Outbox {
   /// They hold until the next call.
   const std::vector<States>& Compose(std::int64_t now_us, const NewestStates& newest);
   bool empty() const { return waiting_.empty(); }
+  /// Of what is nothing to the receiver: the last mechanism that had its turn, and since when turns
+  /// have been taken from the first on, us. For who adds them.
+  int nothing = 0;
+  std::int64_t nothings_us = -1000000000;
   /// Whether anything waits that the receiver simulates.
   bool pressing() const { return pressing_; }
   /// Whether a message with so many bodies may go to it now.

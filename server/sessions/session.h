@@ -54,6 +54,8 @@ struct Session {
   std::int64_t created_us = 0;
   std::int64_t repaired_us = -1000000000;
   bool lapsed = false;   ///< its lease has ended: it gets no authority before it joins anew
+  /// Since when its pings are not answered, us, because it does not let go; -1: they are.
+  std::int64_t ending_us = -1;
   bool leaving = false;  ///< to be dropped at the next opportunity
   bool goodbye = false;  ///< it said so itself
   std::string leaving_why;

@@ -1,10 +1,13 @@
-/// In a large room a change of authority is told to those whom it concerns, at once, and to the
-/// others soon: nobody is left with another owner, whatever happens in between.
+/// In a large room a change of authority is told to those whom it concerns, at once, to the others
+/// soon, and to those to whom it is nothing at last: nobody is left with another owner, whatever
+/// happens in between.
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <string>
+#include <utility>
 
 #include "server/load/traffic_count.h"
 #include "tests/lab/cluster.h"
@@ -17,8 +20,9 @@ namespace {
 
 constexpr int kAnn = 0, kCarl = 2;  // clients
 
-/// Pendulums that swing between ann's region and bob's, and carl a kilometre away.
-std::string FarAndNear(int count) {
+/// Pendulums that swing between ann's region and bob's, and carl a kilometre away; all hear `hear`
+/// m.
+std::string FarAndNear(int count, int hear) {
   std::string text = "follow = 1\nserver_follow = 1\nbounds = [[-200, -200], [2000, 200]]\n";
   text += Pendulums(count);
   text += R"(
@@ -34,13 +38,15 @@ position = [1000, 1]
 name = "ground"
 chain = [[900, 0], [1100, 0]]
 )";
-  return text;
+  return text + "[planner]\nhear = " + std::to_string(hear) + "\n";
 }
 
-ClusterConfig Room(const std::string& impair, std::int64_t seed = 1) {
+constexpr int kAllHear = 2000;
+
+ClusterConfig Room(const std::string& impair, std::int64_t seed = 1, int hear = kAllHear) {
   ClusterConfig config;
   config.scene = "far.toml";
-  config.scene_text = FarAndNear(8);
+  config.scene_text = FarAndNear(8, hear);
   config.impair = impair;
   config.seed = seed;
   return config;
@@ -94,6 +100,36 @@ TEST(GrantInterest, WhoIsFarHearsLessAndNeverLongerThanThreeSecondsNothing) {
     EXPECT_EQ(watch.two_holders_of_an_epoch, 0);
     EXPECT_EQ(watch.two_named_in_an_epoch, 0);
   }
+}
+
+TEST(GrantInterest, WhomItIsNothingHearsOfItInTheEnd) {
+  ClusterConfig few = Room("demo", 1, 60), all = Room("demo");
+  int changes[2] = {0, 0}, longest[2] = {0, 0};
+  for (const bool nothing : {false, true}) {
+    ClusterConfig& config = nothing ? few : all;
+    config.duration_s = 70;
+    Cluster cluster(config);
+    std::map<int, std::int32_t> known;
+    std::map<int, int>
+        strange;  // mechanism: ticks for which carl has heard nothing, and it changed
+    cluster.RunToTick(30);
+    while (cluster.server().tick() < 60 * 60) {
+      cluster.RunToTick(cluster.server().tick() + 1);
+      const AuthorityTable& ours = cluster.server().replica().authority();
+      const AuthorityTable& theirs = cluster.client(kCarl)->replica()->authority();
+      for (int m = 0; m < ours.count(); ++m) {
+        const bool heard = std::exchange(known[m], theirs.at(m).epoch) != theirs.at(m).epoch;
+        changes[nothing] += heard ? 1 : 0;
+        const bool right = heard || theirs.at(m).epoch == ours.at(m).epoch;
+        strange[m] = right ? 0 : strange[m] + 1;
+        longest[nothing] = std::max(longest[nothing], strange[m]);
+      }
+    }
+  }
+  EXPECT_LT(changes[1], changes[0] / 4);
+  EXPECT_LT(longest[0], 3 * 60);
+  EXPECT_GT(longest[1], 5 * 60) << "this shows nothing";
+  EXPECT_LT(longest[1], 21 * 60);
 }
 
 TEST(GrantInterest, OnlyTheHolderHearsTheQuestionToLetGo) {

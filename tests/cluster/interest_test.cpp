@@ -1,8 +1,10 @@
 /// What a client hears of: everything of what it follows, of the rest what it would not guess, of
-/// what is far not every detail; and of inputs those that move something that it simulates.
+/// what is far not every detail, of what is nothing to it hardly anything; and of inputs those that
+/// move something that it simulates.
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -11,6 +13,7 @@
 #include "common/codec/packed/states_unpacker.h"
 #include "common/net/datagram.h"
 #include "tests/lab/cluster.h"
+#include "tests/support/soak.h"
 
 namespace seam {
 namespace {
@@ -55,10 +58,10 @@ class CountingNet : public Net {
 
 /// Ann at the left; bob has discs that spin beside her, 25 m away and 300 m away, and drives one
 /// that is 25 m away and the last. `follow`: of how many bodies a room is one in which all is
-/// followed.
-std::string Plain(int follow) {
+/// followed; `hear`: how far one hears, m.
+std::string Plain(int follow, int hear = 400) {
   return "gravity = [0, 0]\nduration = 8\nbuffer = 3\nserver_follow = 0\nfollow = " +
-         std::to_string(follow) + R"(
+         std::to_string(follow) + "\n[planner]\nhear = " + std::to_string(hear) + R"(
 [[player]]
 name = "ann"
 vehicle = "anns"
@@ -117,11 +120,11 @@ motor = {player = "bob", speed = 5, torque = 1}
 )";
 }
 
-CountingNet::Counts CountAtAnn(int follow, double bytes_per_s = kClientBytesPerS) {
+CountingNet::Counts CountAtAnn(int follow, double bytes_per_s = kClientBytesPerS, int hear = 400) {
   CountingNet::Counts counts;
   ClusterConfig config;
   config.scene = "plain";
-  config.scene_text = Plain(follow);
+  config.scene_text = Plain(follow, hear);
   config.drive = Drive::kBot;
   config.impair = "delay=20ms";
   config.client_bytes_per_s = bytes_per_s;
@@ -159,6 +162,101 @@ TEST(Interest, ABudgetIsKeptAndWhatIsFollowedComesFirst) {
 TEST(Interest, InputsGoToWhoSimulatesWhatTheyMove) {
   EXPECT_EQ(CountAtAnn(1).inputs.count(kBob), 0u) << "his disc is 300 m away";
   EXPECT_GT(CountAtAnn(9).inputs[kBob], 50) << "a small room is followed whole";
+}
+
+TEST(Interest, WhatIsNothingToAClientIsToldSeldom) {
+  const CountingNet::Counts all = CountAtAnn(1), few = CountAtAnn(1, kClientBytesPerS, 60);
+  EXPECT_GT(all.states.at(kFar), 5);
+  EXPECT_LE(few.states.count(kFar) > 0 ? few.states.at(kFar) : 0, 2) << "once in ten seconds";
+  EXPECT_EQ(few.states.at(kBeside), all.states.at(kBeside));
+  EXPECT_NEAR(few.states.at(kDriven), all.states.at(kDriven), 2) << "25 m away";
+}
+
+/// Where a client's view has a body at a tick, x in m.
+float Shown(const Recording& recording, int peer, std::int64_t tick, int id) {
+  const auto& views = recording.views.at(peer);
+  const auto view = views.find(tick);
+  if (view == views.end()) return -1e6f;
+  for (std::size_t i = 0; i < view->second.id.size(); ++i) {
+    if (view->second.id[i] == id) return view->second.x[i];
+  }
+  return -1e6f;
+}
+
+TEST(Interest, WhatWasNothingAndComesIsShownWhereItIs) {
+  constexpr int kComet = 7;
+  ClusterConfig config;
+  config.scene = "comet";
+  config.scene_text = Plain(1, 60) + R"(
+[[part]]
+name = "comet"
+circle = 0.4
+position = [500, 10]
+velocity = [-60, 0]
+)";
+  config.impair = "delay=20ms,loss=5%";
+  Cluster cluster(config);
+  cluster.RunToTick(8 * 60);
+  const Recording& recording = cluster.recording();
+  // After six seconds it is 140 m away, and nobody has told her of it; a second and a half
+  // later 50.
+  const auto off = [&](std::int64_t tick) {
+    const float x = 500 - static_cast<float>(tick);
+    return std::fabs(Shown(recording, 1, tick, kComet) - x);
+  };
+  EXPECT_GT(off(6 * 60), 20.0f) << "it was told, and this shows nothing";
+  for (std::int64_t tick = 7 * 60 + 50; tick < 8 * 60; ++tick) {
+    EXPECT_LT(off(tick), 0.5f) << "tick " << tick;
+  }
+}
+
+/// Players 400 m apart, each with crates that fall on each other.
+std::string Apart() {
+  std::string text =
+      "duration = 20\nfollow = 1\nserver_follow = 1\nbounds = [[-100, -50], [1500, 99]]";
+  text += "\n[planner]\nhear = 60\n[[part]]\nname = \"ground\"\nchain = [[-50, 0], [1450, 0]]\n";
+  for (int p = 0; p < 3; ++p) {
+    const std::string name(1, static_cast<char>('a' + p)), x = std::to_string(400 * p);
+    text += "[[player]]\nname = \"" + name + "\"\nvehicle = \"box-" + name + "\"\n";
+    text += "[[part]]\nname = \"box-" + name + "\"\nbox = [1, 1]\nvelocity = [4, 0]\nposition = [" +
+            x + ", 2]\n";
+    text += "[[part]]\nname = \"crate-" + name + "\"\nbox = [1, 1]\nposition = [" + x +
+            ".5, 4]\nrepeat = {count = 4, step = [0.1, 1.5]}\n";
+  }
+  return text;
+}
+
+TEST(Interest, WhatRestsIsKnownExactlyToThoseWhomItIsNothing) {
+  for (std::int64_t seed = 1; seed <= Soak(4); ++seed) {
+    ClusterConfig config;
+    config.scene = "apart";
+    config.scene_text = Apart();
+    config.drive = Drive::kNone;
+    config.impair = "delay=50ms,jitter=10ms,loss=20%";
+    config.seed = seed;
+    Cluster cluster(config);
+    cluster.RunToTick(8 * 60);
+    const Replica& ours = cluster.server().replica();
+    const auto agree = [&] {
+      bool all = ours.rest().all();
+      for (int c = 0; c < 3; ++c) {
+        all = all && cluster.client(c)->replica()->rest().Hash() == ours.rest().Hash();
+      }
+      return all;
+    };
+    while (!agree() && cluster.server().tick() < 60 * 60) {
+      cluster.RunToTick(cluster.server().tick() + 6);
+    }
+    EXPECT_TRUE(agree()) << "seed " << seed;
+    for (int c = 0; c < 3; ++c) {
+      const Replica& theirs = *cluster.client(c)->replica();
+      EXPECT_EQ(theirs.world().composition().hash, ours.world().composition().hash);
+      for (int body = 0; body < ours.world().body_count(); ++body) {
+        EXPECT_EQ(theirs.world().Read(body).position, ours.world().Read(body).position)
+            << "seed " << seed << ", client " << c << ", body " << body;
+      }
+    }
+  }
 }
 
 }  // namespace

@@ -161,7 +161,7 @@ TEST(Release, LateAnswersDelayAHandOverAndNeverMakeTwoAuthorities) {
 }
 
 TEST(Release, WithheldUnderLossAndReorderNeverMakesTwoAuthorities) {
-  for (std::int64_t seed = 1; seed <= Soak(3); ++seed) {
+  for (std::int64_t seed = 1; seed <= Soak(30); ++seed) {
     ClusterConfig config = Shuttle("delay=50ms,jitter=10ms,loss=20%,reorder=5%:50ms");
     config.seed = seed;
     int count = 0;

@@ -6,9 +6,12 @@ namespace seam {
 void ReadPlanner(const SceneReader& root, SceneDraft* draft) {
   const TomlNode* table = root.Table("planner");
   if (table == nullptr) return;
-  const SceneReader r(*table, draft->file, "planner", {"acquire", "keep", "dwell", "capacity"});
+  const SceneReader r(*table, draft->file, "planner", 
+                      {"acquire", "keep", "dwell", "capacity", "hear"});
   PlannerRules rules;
-  rules.given = true;
+  const bool more = r.Has("acquire") || r.Has("keep") || r.Has("dwell") || r.Has("capacity");
+  rules.given = more || !r.Has("hear");
+  rules.hear = r.Number("hear", {60, 100000}, rules.hear);
   rules.acquire = r.Number("acquire", {1, 1000}, rules.acquire);
   rules.keep = r.Number("keep", {1, 2000}, rules.acquire * 1.5f);
   rules.dwell_s = r.Seconds("dwell", {0, 10}, rules.dwell_s);

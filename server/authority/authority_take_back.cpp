@@ -1,0 +1,59 @@
+/// AuthorityManager, without the holder's consent: what is withheld, and what one who is gone had.
+
+#include "common/sync/lease.h"
+#include "server/authority/authority_manager.h"
+
+namespace seam {
+
+bool AuthorityManager::Withheld(std::int64_t now_us, int m) const {
+  const Memory& memory = memory_[static_cast<std::size_t>(m)];
+  if (memory.hand_over != HandOver::kRevoking) return false;
+  // It has let go by now, or heard nothing for longer than its lease: since the last question.
+  const bool answers = now_us - memory.unanswered_us <= kReleasePatienceUs ||
+                       now_us - memory.revoked_us <= kAnswerPatienceUs;
+  return !answers;
+}
+
+PeerSet AuthorityManager::Withholding(std::int64_t now_us) const {
+  PeerSet peers;
+  for (const int m : open_) {
+    if (Withheld(now_us, m)) peers.Add(table().at(m).authority);
+  }
+  return peers;
+}
+
+std::vector<Grants> AuthorityManager::TakeBackWithheld(std::int64_t now_us) {
+  std::vector<int> withheld;
+  for (const int m : open_) {
+    if (Withheld(now_us, m)) withheld.push_back(m);
+  }
+  return TakeBack(now_us, withheld);
+}
+
+std::vector<Grants> AuthorityManager::TakeBack(std::int64_t now_us, int peer) {
+  std::vector<int> had;
+  for (int m = 0; m < table().count(); ++m) {
+    if (table().at(m).authority == peer) had.push_back(m);
+  }
+  return TakeBack(now_us, had);
+}
+
+std::vector<Grants> AuthorityManager::TakeBack(std::int64_t now_us,
+                                               const std::vector<int>& mechanisms) {
+  plan_due_ = true;
+  for (const int m : mechanisms) {
+    AuthorityRecord record = table().at(m);
+    Memory& memory = memory_[static_cast<std::size_t>(m)];
+    record.secondaries.Remove(record.authority);
+    record.authority = 0;
+    record.epoch += memory.hand_over != HandOver::kNone ? 2 : 1;  // a revocation has used up one
+    memory.hand_over = HandOver::kNone;
+    replica_.authority().Set(m, record);
+    ForgetQuestions(m);
+  }
+  if (mechanisms.empty()) return {};
+  replica_.RolesChanged();
+  return table().Export(now_us, replica_.tick(), mechanisms);
+}
+
+}  // namespace seam
