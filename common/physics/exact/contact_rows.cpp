@@ -9,7 +9,7 @@ namespace {
 constexpr double kPushOut = 0.2;
 constexpr double kPushOutMost = 2;
 /// m/s: blows below have no restitution where nothing weighs.
-constexpr double kSlowest = 1e-3;
+constexpr double kSlowest = 1e-6;
 
 void Split(const b2Fixture* fixture, const ExactBody& body, double px, double py, double* turning_x,
            double* turning_y, double* still_x, double* still_y) {
@@ -72,6 +72,7 @@ void ReadContact(const std::vector<ExactBody>& bodies, double rest, ExactContact
   contact->restitution = static_cast<double>(made->GetRestitution());
   contact->threshold =
       std::min(static_cast<double>(made->GetRestitutionThreshold()), rest + kSlowest);
+  contact->returns = contact->restitution >= 1 && rest == 0;
   contact->belt = static_cast<double>(made->GetTangentSpeed());
   const ExactBody& a = bodies[static_cast<std::size_t>(contact->a)];
   const ExactBody& b = bodies[static_cast<std::size_t>(contact->b)];

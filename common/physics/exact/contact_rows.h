@@ -23,6 +23,7 @@ struct ExactContact {
   int count = 0;
   double nx = 0, ny = 1;
   double friction = 0, restitution = 0, threshold = 0, belt = 0;  ///< m/s: threshold, belt
+  bool returns = false;  ///< all of it: full restitution, where nothing weighs
   Point point[b2_maxManifoldPoints];
 };
 

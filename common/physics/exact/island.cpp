@@ -40,6 +40,7 @@ long ExactIsland::Shape(bool relaxed, long most) {
   Fill({1, 1});
   const long cost = ShapeMatrix(most);
   if (relaxed_) ShapeGroups();
+  ShapeFlights();
   return cost;
 }
 

@@ -86,6 +86,17 @@ class ExactIsland {
     std::size_t at[2] = {};  // of its answer
     double own = 0;          // m/s or rad/s per impulse: its own speed
   };
+  struct Flying {                              // of a mechanism, against its centre of mass
+    double x = 0, y = 0, vx = 0, vy = 0;       // of that: m, m/s
+    double inertia = 0, spin = 0, energy = 0;  // kg m2, N m s, J
+  };
+  struct Flight {  // a mechanism that may fly
+    int group = -1;
+    int first_body = 0, bodies = 0;  // of flight_bodies_
+    int first_row = 0, rows = 0;     // of flight_rows_: what may push it
+    bool flies = false;              // in this substep, if none of them does
+    Flying before;
+  };
   struct Act {  // what a row does to a body
     std::size_t place = 0;
     const double* mj = nullptr;
@@ -126,6 +137,10 @@ class ExactIsland {
   void PushApart(const Pace& pace);
   bool PushesOut() const;
   void Kick(double h);
+  void ShapeFlights();
+  Flying FlyingOf(const Flight& flight) const;
+  void Depart();
+  void Arrive();
   bool FindImpacts();
   int FastestBlow();
   void Impact(double pressed);
@@ -133,7 +148,9 @@ class ExactIsland {
   double Pressed(const ExactContact& contact, int first_row) const;
   bool Holds(double speed) const;
   double Yielded() const;
-  void Slow(double share);
+  bool GiveBack(bool all);
+  bool Leads() const, Stops() const;
+  void HoldBefore();
   double Driven(const ExactContact& contact, int first_row) const;
   void SolveAhead(const Pace& pace);
   void Move(double h);
@@ -204,7 +221,7 @@ class ExactIsland {
   bool moved_ = false;           // velocities are not those of before_
   std::vector<char> in_;
   std::vector<double> x_, before_, start_;
-  std::vector<double> poses_;  // of what moves, where the substep began
+  std::vector<double> poses_;         // of what moves, where the substep began
   std::vector<double> errors_;        // by row: of joints, m or rad
   std::vector<double> last_, shift_;  // of the last correction: as solved, as made
   std::vector<Shutting> shutting_;    // in the order of places
@@ -214,6 +231,8 @@ class ExactIsland {
   std::vector<Reach> reaches_;                            // in the order of rows
   std::vector<std::vector<std::pair<int, int>>> joined_;  // by body: place, end
   std::vector<double> answer_, velocity_;
+  std::vector<Flight> flights_;
+  std::vector<int> flight_bodies_, flight_rows_;
   std::vector<RowState> next_;  // by place
   std::vector<RowState> held_;  // kept while something takes no part
   // Room for Shape.

@@ -23,6 +23,8 @@ constexpr double kYieldedMost = 0.05;
 /// What it may gain, as a share of the energy: without friction by rounding alone, which a fast
 /// blow makes of what joints were moving by; and if it has no restitution.
 constexpr double kGainRounded = 1e-3, kGainRubbed = 1e-9, kGainLast = 0.01;
+/// Its impulses are scaled within these bounds so as to keep the energy.
+constexpr double kScaledLeast = 0.5, kScaledMost = 2;
 
 double Kinetic(const ExactBody& q) {
   return q.moves() ? ((q.vx * q.vx + q.vy * q.vy) / q.im + q.inertia * q.w * q.w) / 2 : 0;
@@ -41,13 +43,22 @@ bool ExactIsland::FindImpacts() {
   bool hits = false;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     ExactContact& contact = contacts[c];
+    bool strikes = false;
     for (int i = 0; i < contact.count; ++i) {
       ExactContact::Point& p = contact.point[i];
       Row& normal = At(contact_row_[c] + 2 * i);
       Row& friction = At(contact_row_[c] + 2 * i + 1);
       if (normal.state == RowState::kOut) normal.state = friction.state = RowState::kLow;
       p.approach = Speed(normal);
-      if (contact.restitution <= 0 || std::fabs(p.approach) < contact.threshold) continue;
+      strikes = strikes || std::fabs(p.approach) >= contact.threshold;
+    }
+    for (int i = 0; i < contact.count && contact.restitution > 0; ++i) {
+      const ExactContact::Point& p = contact.point[i];
+      Row& normal = At(contact_row_[c] + 2 * i);
+      Row& friction = At(contact_row_[c] + 2 * i + 1);
+      // Where it gives everything back, no point of it is pushed while another has a blow or parts.
+      const bool whole = strikes && contact.returns;
+      if (std::fabs(p.approach) < contact.threshold && !whole) continue;
       hits = hits || (normal.error <= 0 && p.approach < 0);
       // It has its blow now, or when it is there; and what parts needs no push.
       normal.state = friction.state = RowState::kOut;
@@ -83,6 +94,7 @@ void ExactIsland::Impact(double pressed) {
   }
   std::vector<RowState> were;
   for (Row& row : rows_) were.push_back(row.state);
+  HoldBefore();
   const int most = kBlowsEach * static_cast<int>(contacts.size());
   for (int blow = 0; blow < most; ++blow) {
     const int contact = FastestBlow();
@@ -141,12 +153,59 @@ double ExactIsland::Driven(const ExactContact& contact, int first_row) const {
   return work;
 }
 
-void ExactIsland::Slow(double share) {
-  for (ExactBody& q : bodies) {
+/// Whether a limit takes part in this blow: it gives nothing back.
+bool ExactIsland::Stops() const {
+  return std::any_of(rows_.begin(), rows_.end(),
+                     [](const Row& row) { return row.kind == RowKind::kLimit && row.lambda != 0; });
+}
+
+/// Whether something that is moved by force takes part.
+bool ExactIsland::Leads() const {
+  return std::any_of(bodies.begin(), bodies.end(), [](const ExactBody& q) {
+    return !q.moves() && (q.vx != 0 || q.vy != 0 || q.w != 0);
+  });
+}
+
+/// A blow gives energy or takes it by what joints moved by before, or by what rows give way by. All
+/// its impulses are scaled so that the energy is again what it was, which keeps the momentum.
+/// `all`: also if it took some. False: it has another energy.
+bool ExactIsland::GiveBack(bool all) {
+  const double* v = start_.data();
+  double square = 0, cross = 0;  // of what the blow does, and with what was
+  for (const ExactBody& q : bodies) {
+    const double was[3] = {v[0], v[1], v[2]};
+    v += 3;
     if (!q.moves()) continue;
-    q.vx *= share;
-    q.vy *= share;
-    q.w *= share;
+    const double dx = q.vx - was[0], dy = q.vy - was[1], dw = q.w - was[2];
+    square += (dx * dx + dy * dy) / q.im + q.inertia * dw * dw;
+    cross += (dx * was[0] + dy * was[1]) / q.im + q.inertia * dw * was[2];
+  }
+  if (square <= 0) return false;
+  const double scale = -2 * cross / square;
+  if (scale < kScaledLeast || scale > (all ? kScaledMost : 1)) return false;
+  v = start_.data();
+  for (ExactBody& q : bodies) {
+    if (q.moves()) {
+      q.vx = v[0] + scale * (q.vx - v[0]);
+      q.vy = v[1] + scale * (q.vy - v[1]);
+      q.w = v[2] + scale * (q.w - v[2]);
+    }
+    v += 3;
+  }
+  return true;
+}
+
+/// Joints that move before a blow, as after a jam, would give it energy or take some.
+void ExactIsland::HoldBefore() {
+  if (Holds(kHeldTo)) return;
+  for (Row& row : rows_) {
+    row.state = row.kind == RowKind::kHard ? RowState::kFree : RowState::kOut;
+    row.target = row.lambda = 0;
+  }
+  Assemble(kOwnOfBlow, kOwnOfBlow);
+  Solve(true);
+  for (Row& row : rows_) {
+    if (row.kind == RowKind::kHard) row.total += row.lambda;
   }
 }
 
@@ -162,6 +221,7 @@ bool ExactIsland::Blow(const ExactContact& contact, int first_row, double most) 
     const ExactBody& q = Body(body);
     driven = driven || (!q.moves() && (q.vx != 0 || q.vy != 0 || q.w != 0));
   }
+  const bool leads = Leads();
   double share = 1;
   for (int tries = 0;; ++tries) {
     for (Row& row : rows_) {
@@ -192,18 +252,18 @@ bool ExactIsland::Blow(const ExactContact& contact, int first_row, double most) 
     }
     const bool last = tries == kSofterTries;
     double gain = last ? kGainLast : kGainRounded;
-    for (int i = 0; i < contact.count && !last; ++i) {
-      if (At(first_row + 2 * i + 1).lambda != 0) gain = kGainRubbed;
-    }
+    bool rubs = false;
+    for (int i = 0; i < contact.count; ++i) rubs = rubs || At(first_row + 2 * i + 1).lambda != 0;
+    if (rubs && !last) gain = kGainRubbed;
+    const bool all = share * contact.restitution >= 1 && !Stops();
+    const bool kept = !rubs && !last && !driven && !leads && GiveBack(all);
     const double spare = driven ? Driven(contact, first_row) : gain * before;
     // A mechanism that can hardly give way, a folded one that is struck along itself, presses with
     // many times its momentum: where its joints hold against that, it is what happens.
-    const bool can_be = Pressed(contact, first_row) <= most || Yielded() <= kYieldedMost * before;
+    const bool can_be = Pressed(contact, first_row) <= most || (kept && all && Holds(kHeldTo)) ||
+                        Yielded() <= kYieldedMost * before;
     const double after = KineticOf(bodies);
-    if (can_be && after <= before + spare) {
-      if (gain == kGainRounded && !driven && after > before) Slow(std::sqrt(before / after));
-      return true;
-    }
+    if (can_be && after <= before + spare) return true;
     if (last) break;
     share = tries + 1 == kSofterTries ? 0 : share / 2;
     Restore(start_);

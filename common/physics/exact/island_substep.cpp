@@ -45,6 +45,9 @@ void ExactIsland::Step(const Pace& pace, bool warm) {
     if (contacts[c].count > 0) LoadImpulses(contacts[c], share, &At(contact_row_[c]));
   }
   Tension(pace.h);
+  for (ExactBody& q : bodies) {  // blows are among the last step's impulses, and are no tension
+    if (q.lasting > 0) q.stiffness = std::min(q.stiffness, q.lasting);
+  }
   for (Row& row : rows_) {  // a motor that is to do its utmost, whatever it did last
     if (row.kind != RowKind::kMotor) continue;
     const double lacks = row.target - Speed(row);
@@ -72,6 +75,7 @@ void ExactIsland::Substep(const Pace& pace) {
   const bool whole = !contacts.empty() || std::any_of(rows_.begin(), rows_.end(), [](const Row& r) {
     return r.kind == RowKind::kSoft;
   });
+  Depart();
   Kick(whole ? pace.h : pace.h / 2);
   if (contacts.empty()) {
     KeepPoses();
@@ -123,6 +127,7 @@ bool ExactIsland::Course(const Pace& pace, bool whole) {
   const bool shut = ShutJoints(pace);
   if (!whole) Kick(pace.h / 2);
   SolveAtEnd(pace);
+  Arrive();
   for (ExactBody& q : bodies) q.lasting = std::max(q.stiffness, kLasts * q.lasting);
   return shut;
 }
