@@ -42,7 +42,8 @@ void CharacterControl::Jump(const CharacterSense& s) {
       const float up = both ? 0.5f * lift : lift;
       const float stop = (both ? 0.5f : 1.0f) * gains_.jump_still * s.turning;
       Push(s, side, pressed, up,
-           -((pressed.x - s.centre.x) * up + stop) / (s.centre.y - pressed.y));
+           -((pressed.x - s.centre.x) * up + stop) / (s.centre.y - pressed.y),
+           false);
     } else if (both || s.legs[side].down) {
       Bear(s, side, pressure, both ? 0.5f * lift : lift, both ? 0.5f * torso : torso);
     } else {
