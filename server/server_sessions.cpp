@@ -63,8 +63,8 @@ void Server::FollowSessions(std::int64_t now_us) {
   }
 }
 
-/// A driver that is not heard has let go of its controls until it is; what else its buttons do stays,
-/// or going on would be a new press.
+/// A driver that is not heard has let go of its controls until it is; what else its buttons do
+/// stays, or going on would be a new press.
 void Server::LetSilentGo(std::int64_t now_us) {
   const std::vector<int> peers = sessions_.PeerOfPlayer();
   for (std::size_t p = 0; p < peers.size(); ++p) {
