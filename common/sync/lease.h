@@ -11,10 +11,10 @@ namespace seam {
 /// says in the holder's name where it is, long before the lease ends, so that nothing stands still
 /// and jumps later.
 constexpr std::int64_t kSilentUs = 250000;
-/// A player who drives and has not been heard for so long, us, lets go of the controls as far as the
-/// others know: a car whose driver is gone does not drive on. What is heard of it again counts from
-/// there. Shorter stops who only lags (of ten pings a second at least one arrives); longer drives on
-/// into something.
+/// A player who drives and has not been heard for so long, us, lets go of the controls as far as
+/// the others know: a car whose driver is gone does not drive on. What is heard of it again counts
+/// from there. Shorter stops who only lags (of ten pings a second at least one arrives); longer
+/// drives on into something.
 constexpr std::int64_t kDriverSilentUs = 1000000;
 /// m/s; what is slower comes to rest without the server's help, and must not be kept from it.
 constexpr float kMissed = 0.5f;
