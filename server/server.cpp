@@ -90,6 +90,7 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   FollowSessions(now_us);
   sessions_.Advance(now_us);
   FollowSessions(now_us);
+  LetSilentGo(now_us);
   StartIfReady(now_us);
   if (now_us - last_room_us_ >= 1000000) {
     last_room_us_ = now_us;

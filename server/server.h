@@ -139,8 +139,9 @@ class Server {
   void PublishShown(std::int64_t now_us);
   void RunRules(std::int64_t now_us);
   void RunSeats();
-  void LetGo(std::int64_t now_us, int player);
   void EndLeases(std::int64_t now_us);
+  void LetGo(std::int64_t now_us, int player, std::int16_t buttons);
+  void LetSilentGo(std::int64_t now_us);
   void RemoveOutside(std::int64_t now_us);
   void Tell(const std::string& line);
   void NoteCorrected(int body);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/scene/forces.h"
 #include "common/sync/lease.h"
 #include "server/rules/rules.h"
 #include "server/server.h"
@@ -11,6 +12,19 @@ namespace {
 
 /// Lines of news that wait to be taken.
 constexpr std::size_t kNewsMax = 256;
+
+/// A bit field: by which of its buttons the player pushes something, from a seat too.
+int PushingButtons(const Scene& scene, int player) {
+  const auto players = scene.players.size();
+  int buttons = 0;
+  for (const Thrust& thrust : scene.thrusts) {
+    if (thrust.button < 0 || thrust.player < 0) continue;
+    const auto who = static_cast<std::size_t>(thrust.player);
+    const int driver = who < players ? thrust.player : scene.seats[who - players].player;
+    if (driver == player) buttons |= 1 << thrust.button;
+  }
+  return buttons;
+}
 
 }  // namespace
 
@@ -43,7 +57,7 @@ void Server::FollowSessions(std::int64_t now_us) {
           rules_->OnLeave(event.player);
         }
         broadcast_.Tell(authority_.TakeBack(now_us, event.peer));
-        if (event.player >= 0 && event.was_ready) LetGo(now_us, event.player);
+        if (event.player >= 0 && event.was_ready) LetGo(now_us, event.player, 0);
         break;
     }
   }
@@ -66,8 +80,24 @@ void Server::EndLeases(std::int64_t now_us) {
   });
 }
 
-/// Who is gone holds nothing any more: its last input would drive on for ever.
-void Server::LetGo(std::int64_t now_us, int player) {
+/// A driver that is not heard has let go of its controls until it is; what else its buttons do
+/// stays, or going on would be a new press.
+void Server::LetSilentGo(std::int64_t now_us) {
+  const std::vector<int> peers = sessions_.PeerOfPlayer();
+  for (std::size_t p = 0; p < peers.size(); ++p) {
+    const Session* session = sessions_.Find(peers[p]);
+    if (session == nullptr || now_us - session->link.last_receive_us() <= kDriverSilentUs) continue;
+    const int player = static_cast<int>(p);
+    const InputTrack& track = replica_.inputs(player);
+    const Input last = track.At(track.newest());
+    const int pushing = PushingButtons(replica_.world().scene(), player);
+    if (last.drive == 0 && last.lift == 0 && (last.buttons & pushing) == 0) continue;
+    LetGo(now_us, player, static_cast<std::int16_t>(last.buttons & ~pushing));
+  }
+}
+
+/// Its last input would drive on for ever.
+void Server::LetGo(std::int64_t now_us, int player, std::int16_t buttons) {
   const InputTrack& track = replica_.inputs(player);
   if (config_.sync.mode == Mode::kOracle || track.newest() < 0) return;
   Inputs nothing;
@@ -75,7 +105,7 @@ void Server::LetGo(std::int64_t now_us, int player) {
   nothing.first_tick = std::max(track.newest(), replica_.tick()) + 1;
   nothing.drive.push_back(0);
   nothing.lift.push_back(0);
-  nothing.buttons.push_back(0);
+  nothing.buttons.push_back(buttons);
   inputs_due_.push_back(player);
   broadcast_.Publish(TakeFresh(now_us, nothing));
 }

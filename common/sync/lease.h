@@ -11,6 +11,11 @@ namespace seam {
 /// says in the holder's name where it is, long before the lease ends, so that nothing stands still
 /// and jumps later.
 constexpr std::int64_t kSilentUs = 250000;
+/// A player who drives and has not been heard for so long, us, lets go of the controls as far as
+/// the others know: a car whose driver is gone does not drive on. What is heard of it again counts
+/// from there. Shorter stops who only lags (of ten pings a second at least one arrives); longer
+/// drives on into something.
+constexpr std::int64_t kDriverSilentUs = 1000000;
 /// m/s; what is slower comes to rest without the server's help, and must not be kept from it.
 constexpr float kMissed = 0.5f;
 /// The client's lease, us: when the newest ping that the server answered is older than this, it
@@ -19,6 +24,8 @@ constexpr std::int64_t kLeaseUs = 3000000;
 /// The server's patience, us: a client not heard for this long is gone, and the server takes its
 /// mechanisms back.
 constexpr std::int64_t kPatienceUs = 4000000;
+static_assert(kSilentUs < kDriverSilentUs && kDriverSilentUs < kLeaseUs,
+              "a driver that is gone would drive on until its lease ends");
 static_assert(kLeaseUs < kPatienceUs,
               "the server would take a mechanism back while its client still holds it: two "
               "authorities over one body");

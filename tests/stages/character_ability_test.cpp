@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "tests/lab/gait/ability.h"
 #include "tests/support/character_world.h"
@@ -65,6 +66,17 @@ TEST(CharacterAbility, ClimbsAndDescendsStairsOfFifteenAndTwentyCentimetres) {
   ASSERT_EQ(low.count, 12);
   EXPECT_GE(low.good, 11) << low.failed;
   EXPECT_GE(high.good, 9) << high.failed;
+}
+
+/// Where the knee of the leg that bears yields, its ankle must not turn the foot over the edge: at
+/// 20 cm it fell in 16 of 60.
+TEST(CharacterAbility, DescendsOtherFlightsOfTwelveToTwentyCentimetres) {
+  for (const auto& [stairs, least] : {std::pair("12 cm", 55), std::pair("15 cm", 55),
+                                      std::pair("18 cm", 52), std::pair("20 cm", 48)}) {
+    const Tally down = TryFrom(20001, "descent", 20240, stairs);
+    ASSERT_EQ(down.count, 60);
+    EXPECT_GE(down.good, least) << stairs << down.failed;
+  }
 }
 
 TEST(CharacterAbility, GetsUpFromFrontAndBackOnSlopesOfTenAndSeventeenDegrees) {
