@@ -6,7 +6,7 @@ namespace seam {
 void ReadPlanner(const SceneReader& root, SceneDraft* draft) {
   const TomlNode* table = root.Table("planner");
   if (table == nullptr) return;
-  const SceneReader r(*table, draft->file, "planner", 
+  const SceneReader r(*table, draft->file, "planner",
                       {"acquire", "keep", "dwell", "capacity", "hear"});
   PlannerRules rules;
   const bool more = r.Has("acquire") || r.Has("keep") || r.Has("dwell") || r.Has("capacity");
