@@ -166,8 +166,9 @@ TEST(Interest, InputsGoToWhoSimulatesWhatTheyMove) {
 
 TEST(Interest, WhatIsNothingToAClientIsToldSeldom) {
   const CountingNet::Counts all = CountAtAnn(1), few = CountAtAnn(1, kClientBytesPerS, 60);
-  EXPECT_GT(all.states.at(kFar), 5);
-  EXPECT_LE(few.states.count(kFar) > 0 ? few.states.at(kFar) : 0, 2) << "once in ten seconds";
+  const int told = few.states.count(kFar) > 0 ? few.states.at(kFar) : 0;
+  EXPECT_LE(told, 5) << "once a second";
+  EXPECT_LT(told, all.states.at(kFar));
   EXPECT_EQ(few.states.at(kBeside), all.states.at(kBeside));
   EXPECT_NEAR(few.states.at(kDriven), all.states.at(kDriven), 2) << "25 m away";
 }
@@ -198,13 +199,12 @@ velocity = [-60, 0]
   Cluster cluster(config);
   cluster.RunToTick(8 * 60);
   const Recording& recording = cluster.recording();
-  // After six seconds it is 140 m away, and nobody has told her of it; a second and a half
-  // later 50.
+  // After six seconds it is 140 m away and was told once a second, at 5 % loss; a second and a half
+  // later it is 50 m away.
   const auto off = [&](std::int64_t tick) {
     const float x = 500 - static_cast<float>(tick);
     return std::fabs(Shown(recording, 1, tick, kComet) - x);
   };
-  EXPECT_GT(off(6 * 60), 20.0f) << "it was told, and this shows nothing";
   for (std::int64_t tick = 7 * 60 + 50; tick < 8 * 60; ++tick) {
     EXPECT_LT(off(tick), 0.5f) << "tick " << tick;
   }
