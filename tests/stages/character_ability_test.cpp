@@ -71,9 +71,18 @@ TEST(CharacterAbility, ClimbsAndDescendsStairsOfFifteenAndTwentyCentimetres) {
 /// Where the knee of the leg that bears yields, its ankle must not turn the foot over the edge: at
 /// 20 cm it fell in 16 of 60.
 TEST(CharacterAbility, DescendsOtherFlightsOfTwelveToTwentyCentimetres) {
-  for (const auto& [stairs, least] : {std::pair("12 cm", 55), std::pair("15 cm", 55),
-                                      std::pair("18 cm", 52), std::pair("20 cm", 48)}) {
-    const Tally down = TryFrom(20001, "descent", 20240, stairs);
+  std::map<std::string, Tally> flights;
+  for (int start = 20001; start <= 20240; ++start) {
+    const GaitTrial trial =
+        FindAbility("descent")->run({"substeps = 4", ""}, CharacterGains{}, start);
+    Tally& flight = flights[trial.group];
+    ++flight.count;
+    flight.good += trial.good ? 1 : 0;
+    if (!trial.good) flight.failed += " " + std::to_string(start);
+  }
+  for (const auto& [stairs, least] : {std::pair("12 cm down", 55), std::pair("15 cm down", 55),
+                                      std::pair("18 cm down", 52), std::pair("20 cm down", 48)}) {
+    const Tally& down = flights[stairs];
     ASSERT_EQ(down.count, 60);
     EXPECT_GE(down.good, least) << stairs << down.failed;
   }

@@ -41,8 +41,8 @@ void CharacterControl::Jump(const CharacterSense& s) {
       const b2Vec2 pressed = Sole(s, side, pressure);
       const float up = both ? 0.5f * lift : lift;
       const float stop = (both ? 0.5f : 1.0f) * gains_.jump_still * s.turning;
-      Push(s, side, pressed, up, -((pressed.x - s.centre.x) * up + stop) / (s.centre.y - pressed.y),
-           false);
+      Push(s, side, pressed, up,
+           -((pressed.x - s.centre.x) * up + stop) / (s.centre.y - pressed.y));
     } else if (both || s.legs[side].down) {
       Bear(s, side, pressure, both ? 0.5f * lift : lift, both ? 0.5f * torso : torso);
     } else {

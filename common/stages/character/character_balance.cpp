@@ -29,7 +29,7 @@ void CharacterControl::Bear(const CharacterSense& s, int side, float pressure_x,
   // The push goes through the hip; the body above leans over it.
   torso_torque -=
       gains_.upper_share * lift * gains_.upper_height * limbs_.scale() * std::sin(s.torso);
-  Push(s, side, pressure, lift, (torso_torque - (pressure.x - s.hip.x) * lift) / height, true);
+  Push(s, side, pressure, lift, (torso_torque - (pressure.x - s.hip.x) * lift) / height);
 }
 
 /// The leg's pressure point: `x`, or the nearest on its sole.
@@ -41,16 +41,18 @@ b2Vec2 CharacterControl::Sole(const CharacterSense& s, int side, float x) const 
                 ankle.y - shape.ankle);
 }
 
-/// The legs are taken as massless: the torque in each joint is the ground's force about it. `flat`:
-/// when the knee cannot bear it, the force is what the knee bears; an ankle that went on with the
-/// torque of the whole would turn the foot over its toe, as one does who jumps.
+/// The legs are taken as massless: the torque in each joint is the ground's force about it. In a
+/// step, when the knee cannot bear it, the force is what the knee bears: an ankle that went on with
+/// the torque of the whole would turn the foot over its toe, as one does who jumps. Not while it
+/// stands or gets up: there it cost some of the climbs over a ledge (docs/lab.md).
 void CharacterControl::Push(const CharacterSense& s, int side, b2Vec2 pressure, float lift,
-                            float forward, bool flat) {
+                            float forward) {
   const b2Vec2 force(std::clamp(forward, -gains_.grip * lift, gains_.grip * lift), lift);
   const LegSense& leg = s.legs[side];
   const auto torque_at = [&](b2Vec2 joint) { return -b2Cross(pressure - joint, force); };
   const float knee = torque_at(leg.knee), bound = limbs_.bound(Knee(side));
-  const float borne = flat && std::abs(knee) > bound ? bound / std::abs(knee) : 1;
+  const bool yields = memory_.mode == CharacterMode::kStep && std::abs(knee) > bound;
+  const float borne = yields ? bound / std::abs(knee) : 1;
   limbs_.Torque(Hip(side), borne * torque_at(leg.hip));
   limbs_.Torque(Knee(side), knee);
   limbs_.Torque(Ankle(side), borne * torque_at(leg.ankle));

@@ -82,8 +82,7 @@ class CharacterControl {
   // character_balance.cpp
   void Stand(const CharacterSense& s);
   void Bear(const CharacterSense& s, int side, float pressure_x, float lift, float torso_torque);
-  void Push(const CharacterSense& s, int side, b2Vec2 pressure, float lift, float forward,
-            bool flat);
+  void Push(const CharacterSense& s, int side, b2Vec2 pressure, float lift, float forward);
   b2Vec2 Sole(const CharacterSense& s, int side, float x) const;
   struct LegPose {
     float thigh = 0, knee = 0;  // rad; absolute, and of the joint
