@@ -37,8 +37,8 @@ constexpr float kPlanPeriod = 0.1f, kTouchAhead = 0.4f;
 constexpr float kStandingAhead = 0.1f;
 /// s more before who has what sleeps gives it back: round trips are measured, and a vehicle that
 /// stands at the edge of its reach would be given it and lose it with each of them. Normal: more
-/// than round trips swing, and as much as standing and moving differ.
-constexpr float kTouchKeep = 0.3f;
+/// than round trips swing; with twice as much a vehicle would keep what lies a length away.
+constexpr float kTouchKeep = 0.15f;
 /// m/s; what comes faster towards a player's vehicle is seen ahead less early. Normal: all is
 /// slower.
 constexpr float kApproachMax = 30;
