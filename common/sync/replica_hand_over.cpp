@@ -33,7 +33,9 @@ std::vector<ExactStates> Replica::MakeExact(const std::vector<int>& mechanisms,
 
 BodyState Replica::TakeOver(const ExactStates& exact) {
   ApplyEdits();
-  return corrector_.TakeOver(exact);
+  const BodyState off = corrector_.TakeOver(exact);
+  rest_.NoteHandedOver(exact);
+  return off;
 }
 
 }  // namespace seam

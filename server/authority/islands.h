@@ -26,6 +26,7 @@ struct Island {
   int claim = -1;           ///< the player whose vehicle will touch it first
   float claim_s = FLT_MAX;  ///< in so many seconds
   bool holder_claims = false;
+  bool holder_keeps = false;  ///< it would claim what sleeps if it looked kTouchKeep farther ahead
 
   /// Whether its rest should be one player's, although several press on it.
   bool Merges() const {

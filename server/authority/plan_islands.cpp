@@ -91,7 +91,13 @@ class IslandPlan {
         near_player_[m] = p;
       }
       Island& island = islands_.Of(box.group);
-      if (p == island.holder) island.holder_gap = std::min(island.holder_gap, gap);
+      if (p == island.holder) {
+        island.holder_gap = std::min(island.holder_gap, gap);
+        if (!island.awake && !island.holder_keeps) {
+          const float seconds = SecondsAhead(p, vehicle) + kTouchKeep;
+          island.holder_keeps = SecondsToTouch(vehicle, box, kTouchGap, seconds) != FLT_MAX;
+        }
+      }
       if (gap < island.nearest_gap || (gap == island.nearest_gap && p < island.nearest)) {
         island.nearest_gap = gap;
         island.nearest = p;
@@ -129,6 +135,11 @@ class IslandPlan {
     });
   }
 
+  /// What sleeps loses nothing by its holder's silence, and who lies still says little.
+  bool KeepsAsleep(const Island& island) const {
+    return island.holder >= 0 && (island.holder_keeps || player(island.holder).silent);
+  }
+
   /// The player who should have what nobody drives of an island; -1: the server.
   int Choose(const Island& island) const {
     if (island.driver >= 0) {
@@ -137,7 +148,7 @@ class IslandPlan {
       return within ? island.holder : island.driver;
     }
     if (island.claim >= 0) return island.holder_claims ? island.holder : island.claim;
-    if (!island.awake) return -1;
+    if (!island.awake) return KeepsAsleep(island) ? island.holder : -1;
     if (island.holder >= 0 && island.holder_gap <= view_.rules.keep) return island.holder;
     return island.nearest_gap <= view_.rules.acquire ? island.nearest : -1;
   }

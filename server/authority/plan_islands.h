@@ -22,7 +22,8 @@ namespace seam {
 /// touch it within its round trip, a plan and kTouchAhead (standing: kStandingAhead), with what it
 /// drives or, if it sleeps, with anything else that it has (of several who has it, else who touches
 /// first); else of who has most of it, within rules.keep; else, if anything of it is awake, of the
-/// nearest player within rules.acquire; else the server's, and so is what sleeps. Who is silent
+/// nearest player within rules.acquire; else the server's, and so is what sleeps, unless who has it
+/// would touch it if one looked kTouchKeep farther ahead, or has fallen silent. Who is silent
 /// gets nothing new, and whom an island would ask to step more than its capacity does not get it:
 /// see plan_capacity.h.
 void PlanIslands(const AuthorityView& view, AuthorityPlan* plan);
@@ -34,6 +35,10 @@ constexpr float kTouchGap = 0.05f;
 constexpr float kPlanPeriod = 0.1f, kTouchAhead = 0.4f;
 /// The same for what stands.
 constexpr float kStandingAhead = 0.1f;
+/// s more before who has what sleeps gives it back: round trips are measured, and a vehicle that
+/// stands at the edge of its reach would be given it and lose it with each of them. Normal: more
+/// than round trips swing; with twice as much a vehicle would keep what lies a length away.
+constexpr float kTouchKeep = 0.15f;
 /// m/s; what comes faster towards a player's vehicle is seen ahead less early. Normal: all is
 /// slower.
 constexpr float kApproachMax = 30;

@@ -141,6 +141,23 @@ TEST_F(PlanIslandsTest, TheWholeIslandGoesToWhoTouchesOneOfIt) {
   EXPECT_EQ(Of(apart), kServer);
 }
 
+TEST_F(PlanIslandsTest, WhatSleepsBesideAVehicleThatStandsDoesNotSwingWithTheRoundTrip) {
+  view_.boxes[0].acceleration = kDrivenAcceleration;
+  const std::size_t crate = Add(-28.4f);  // .6 m from her car
+  Sleep(crate);
+  ASSERT_EQ(Of(crate), kServer);
+  view_.players[0].one_way_s = 0.08f;
+  ASSERT_EQ(Of(crate), kAnn) << "she could touch it before a grant could tell";
+  Give(crate, kAnn);
+  view_.players[0].one_way_s = 0.05f;
+  EXPECT_EQ(Of(crate), kAnn) << "she has it, and is near";
+  Move(crate, -26);
+  EXPECT_EQ(Of(crate), kServer) << "3 m";
+  Move(crate, -28.4f);
+  Give(crate, kBob);
+  EXPECT_EQ(Of(crate), kServer) << "his vehicle is far away";
+}
+
 TEST_F(PlanIslandsTest, AnotherPlayersVehicleTakesWhatItTouches) {
   const std::size_t crate = Add(5);
   Give(crate, kAnn);
@@ -205,6 +222,19 @@ TEST_F(PlanIslandsTest, WhoIsSilentGetsNothingNew) {
   view_.players[0].silent = true;
   EXPECT_EQ(Of(crate), kServer);
   EXPECT_EQ(Of(0), kAnn) << "what is its own it has until its lease ends";
+}
+
+TEST_F(PlanIslandsTest, WhatSleepsStaysWithWhoIsSilentUntilAnotherWillTouchIt) {
+  const std::size_t crate = Add(-28.98f);
+  Sleep(crate);
+  Give(crate, kAnn);
+  ASSERT_EQ(Of(crate), kAnn) << "her car touches it";
+  Move(crate, -28.4f);
+  ASSERT_EQ(Of(crate), kServer) << "her car cannot";
+  view_.players[0].silent = true;
+  EXPECT_EQ(Of(crate), kAnn);
+  Move(1, -27.4f);
+  EXPECT_EQ(Of(crate), kBob);
 }
 
 TEST_F(PlanIslandsTest, WhatAPlayerMayNotHaveIsTheServers) {

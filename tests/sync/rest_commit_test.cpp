@@ -206,6 +206,30 @@ TEST(RestCommit, ANewAuthorityCommitsWhatItWasGivenAtRestUnderItsEpoch) {
   EXPECT_EQ(told[0].epoch, std::vector<std::int32_t>{2});
 }
 
+TEST(RestCommit, WhatIsHandedOverAtRestLiesOnAndWhatMovesDoesNot) {
+  for (const float moves : {0.0f, 0.001f}) {
+    OnTheGround room;
+    room.Give(1, 1);
+    room.Steps(30);
+    room.rest.Receive(room.Lies(1, 5.25f));
+    const std::uint64_t known = room.rest.Hash();
+    room.Steps(20);
+    ExactStates exact;
+    exact.tick = room.world->tick();
+    exact.id = {room.world->id(1)};
+    exact.epoch = {2};
+    exact.x = {5.25f};
+    exact.y = {0.5f};
+    exact.angle = exact.vy = exact.spin = {0};
+    exact.vx = {moves};
+    room.memory.track(1).heard_tick = exact.tick;
+    room.rest.NoteHandedOver(exact);
+    room.Step();
+    EXPECT_EQ(room.rest.Holds(1), moves == 0);
+    EXPECT_EQ(room.rest.Hash() == known, moves == 0);
+  }
+}
+
 TEST(RestCommit, AnOwnBodyThatIsMovedIsAwakeAndCommittedAnew) {
   OnTheGround room;
   room.Steps(30);

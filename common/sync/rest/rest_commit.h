@@ -56,6 +56,9 @@ class RestCommit {
   /// is ignored; what is of a tick still to come waits for it. True: it was the first to say where
   /// a body is.
   bool Receive(const Rest& rest);
+  /// Where its holder let go of bodies, after the copies were put there. What was handed over as it
+  /// rests lies on: its new authority says so under its own epoch.
+  void NoteHandedOver(const ExactStates& exact);
   /// What this peer committed in the last step; `utime` is left 0.
   std::vector<Rest> Take();
   /// All that rests, for one who joins.

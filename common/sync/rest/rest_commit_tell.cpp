@@ -171,6 +171,20 @@ bool RestCommit::ReceiveOne(const Rest& rest, std::size_t i) {
   return false;
 }
 
+void RestCommit::NoteHandedOver(const ExactStates& exact) {
+  for (std::size_t i = 0; i < exact.id.size(); ++i) {
+    const int body = world_.BodyOfId(exact.id[i]);
+    if (body < 0 || !table_.at(body).committed) continue;
+    const BodyState& pose = table_.at(body).pose;
+    const bool lies = exact.x[i] == pose.position.x() && exact.y[i] == pose.position.y() &&
+                      exact.angle[i] == pose.angle && exact.vx[i] == 0 && exact.vy[i] == 0 &&
+                      exact.spin[i] == 0;
+    // Only if nothing newer was heard: what was not taken over is no news of it.
+    const bool newest = memory_.track(body).heard_tick == exact.tick;
+    if (lies && newest && exact.tick > table_.at(body).tick) table_.Prolong(body, exact.tick);
+  }
+}
+
 /// What lay on the copy, or held it, may have lost what it lay on.
 void RestCommit::WakeNeighbours(int body) {
   for (const Touch& touch : world_.touches()) {

@@ -25,6 +25,10 @@ class RestTable {
   const RestRecord& at(int body) const { return records_[static_cast<std::size_t>(body)]; }
   /// The velocity of `pose` is dropped.
   void Commit(int body, std::int32_t epoch, std::int64_t tick, const BodyState& pose);
+  /// It still lies so at a later tick.
+  void Prolong(int body, std::int64_t tick) {
+    records_[static_cast<std::size_t>(body)].tick = tick;
+  }
   void End(int body) {
     records_[static_cast<std::size_t>(body)].committed = false;
     hashed_ = false;
