@@ -234,7 +234,7 @@ void Client::StepOnce(std::int64_t now_us) {
     proposal.utime = now_us;
     proposal.tick = found.tick;
     proposal.sequence = replica_->revision();
-    if (!released_) link_->SendReliable(Encode(proposal));
+    if (!released_) link_->SendUrgent(Encode(proposal));
   }
   for (ImpactReport& report : replica_->TakeImpactReports()) {
     report.utime = now_us;

@@ -122,11 +122,11 @@ void Client::OnGrants(std::int64_t now_us, const Grants& grants) {
   if (release.mechanism.empty()) return;
   for (ExactStates& exact : replica_->TakeReleased()) {
     exact.utime = now_us;
-    link_->SendReliable(Encode(exact));
+    link_->SendUrgent(Encode(exact));
   }
   release.utime = now_us;
   release.tick = replica_->tick();
-  link_->SendReliable(Encode(release));
+  link_->SendUrgent(Encode(release));
 }
 
 void Client::TellReleaseOfAll(std::int64_t now_us) {
@@ -140,7 +140,7 @@ void Client::TellReleaseOfAll(std::int64_t now_us) {
     release.epoch.push_back(table.at(m).epoch);
   }
   // One is as good as all of them: the server takes everything back.
-  if (!release.mechanism.empty()) link_->SendReliable(Encode(release));
+  if (!release.mechanism.empty()) link_->SendUrgent(Encode(release));
 }
 
 void Client::OnEdit(const EditOrder& order) {

@@ -94,7 +94,7 @@ void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) 
 void Broadcast::Send(std::int64_t now_us, Session& session, std::vector<Grants> messages) {
   for (Grants& grants : messages) {
     grants.utime = now_us;
-    sessions_.SendTo(session, Encode(grants));
+    sessions_.SendUrgentTo(session, Encode(grants));
   }
 }
 
@@ -104,7 +104,7 @@ void Broadcast::Tell(const std::vector<Grants>& changes) {
   grant_news_.Take(changes);
   NoteFollowers(changes);
   if (Plain() || interest_.small()) {
-    for (const Grants& grants : changes) sessions_.SendToAll(Encode(grants));
+    for (const Grants& grants : changes) sessions_.SendUrgentToAll(Encode(grants));
     return;
   }
   const std::int64_t now_us = changes.back().utime;

@@ -296,7 +296,7 @@ void Server::UpdateAuthority(std::int64_t now_us) {
   for (AuthorityManager::Given& given : authority_.TakeGiven()) {
     given.exact.utime = now_us;
     Session* session = sessions_.Find(given.peer);
-    if (session != nullptr) session->link.SendReliable(Encode(given.exact));
+    if (session != nullptr) sessions_.SendUrgentTo(*session, Encode(given.exact));
   }
   broadcast_.Tell(grants);
   UpdateInterest(now_us, !grants.empty());

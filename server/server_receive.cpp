@@ -231,7 +231,7 @@ void Server::OnExactStates(std::int64_t now_us, const Session& session, const Ex
     const bool awaits = std::any_of(kept.id.begin(), kept.id.end(), [&](std::int32_t id) {
       return authority_.Awaits(other.peer, replica_.world().BodyOfId(id));
     });
-    if (awaits) other.link.SendReliable(bytes);
+    if (awaits) sessions_.SendUrgentTo(other, bytes);
   });
 }
 

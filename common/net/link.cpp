@@ -3,43 +3,30 @@
 #include <algorithm>
 #include <array>
 #include <deque>
-#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
 
 #include "common/base/check.h"
 #include "common/net/datagram.h"
+#include "common/net/reliable_queue.h"
 #include "common/net/sequence_window.h"
 
 namespace seam {
 namespace {
 
-/// Reliable messages that may wait for the window.
-constexpr std::size_t kReliableQueueMax = 4096;
 /// Unreliable messages that may wait for a Flush.
 constexpr std::size_t kUnreliableQueueMax = 1024;
-/// Reliable bytes begun in one Flush: eight datagrams. At 60 Hz 4.4 Mb/s; more floods a slow path.
-constexpr std::size_t kReliableFlushBytes = 8 * kMessageBytesMax;
 /// Datagrams whose contents we remember for their ack: 600 ms at 1700 a second. An ack that comes
 /// later is not understood, and what it acked is sent again.
 constexpr std::size_t kSentRecords = 1024;
 /// Silence after which acks are sent by themselves, us.
 constexpr std::int64_t kIdleUs = 100'000;
 constexpr std::int64_t kIdleQuietUs = 1'500'000;
-/// Time before a reliable message is repeated: before the round trip is known, and at least, us.
-constexpr std::int64_t kFirstResendUs = 250'000;
-constexpr std::int64_t kResendUsMin = 50'000;
+/// A reliable message is late after 1.25 round trips, but not before, us.
+constexpr std::int64_t kLateUsMin = 50'000;
 /// Sequence numbers that one ack field and its 32 bits cover.
 constexpr std::int64_t kAckSpan = 33;
-
-/// A reliable message until it is acknowledged.
-struct Outgoing {
-  std::int64_t id = 0;
-  std::int64_t sent_us = -1;  // -1: not yet
-  bool acked = false;
-  Bytes bytes;
-};
 
 struct Receipt {
   int slot = -1;  // -1: nobody wants one
@@ -70,9 +57,7 @@ struct Link::Impl {
   std::deque<Passing> unreliable;
   std::array<std::int64_t, kReceiptSlots + 1> arrived;  // by slot, the largest number
   std::vector<std::int64_t> listed;                     // of kListedSlot, that arrived
-  std::deque<Outgoing> reliable;             // the first kReliableWindow of them are the window
-  mutable std::int64_t reliable_due_us = 0;  // before that none of the window is due
-  std::int64_t next_id = 0;
+  ReliableQueue reliable;
   std::deque<SentRecord> sent;  // of successive sequence numbers up to the newest
   std::int64_t srtt_us = -1;
   bool ever_acked = false;
@@ -87,10 +72,6 @@ struct Link::Impl {
   std::int64_t rejected = 0;
 
   explicit Impl(std::uint64_t number) : session(number) { arrived.fill(-1); }
-
-  std::int64_t ResendUs() const {
-    return srtt_us < 0 ? kFirstResendUs : std::max(srtt_us + srtt_us / 4, kResendUsMin);
-  }
 
   // ---- sending
 
@@ -149,11 +130,6 @@ struct Link::Impl {
     packing.writer.Append(message);
   }
 
-  bool Due(const Outgoing& message, std::int64_t now_us) const {
-    const bool waits = message.sent_us >= 0 && now_us - message.sent_us < ResendUs();
-    return !message.acked && !waits;
-  }
-
   /// Whether a datagram goes out even without messages.
   bool OwesDatagram(std::int64_t now_us) const {
     return ack_owed || last_send_us < 0 ||
@@ -162,38 +138,16 @@ struct Link::Impl {
 
   bool Sends(std::int64_t now_us) const {
     if (!unreliable.empty() || OwesDatagram(now_us)) return true;
-    return now_us >= reliable_due_us && now_us >= (reliable_due_us = FirstDueUs());
-  }
-
-  /// When the first of the window is due.
-  std::int64_t FirstDueUs() const {
-    std::int64_t due_us = std::numeric_limits<std::int64_t>::max();
-    for (std::size_t i = 0; i < std::min<std::size_t>(reliable.size(), kReliableWindow); ++i) {
-      const std::int64_t sent_us = reliable[i].sent_us;
-      if (!reliable[i].acked) due_us = std::min(due_us, sent_us < 0 ? 0 : sent_us + ResendUs());
-    }
-    return due_us;
-  }
-
-  void PackReliable(Packing& packing) {
-    if (packing.now_us < reliable_due_us) return;
-    std::size_t budget = kReliableFlushBytes;
-    const std::size_t count = std::min<std::size_t>(reliable.size(), kReliableWindow);
-    for (std::size_t i = 0; i < count; ++i) {
-      Outgoing& message = reliable[i];
-      if (!Due(message, packing.now_us)) continue;
-      if (message.bytes.size() > budget) break;
-      budget -= message.bytes.size();
-      Pack(packing, {true, static_cast<std::uint16_t>(message.id), message.bytes});
-      packing.ids.push_back(message.id);
-      message.sent_us = packing.now_us;
-    }
-    reliable_due_us = FirstDueUs();
+    return reliable.Due(now_us);
   }
 
   void Flush(std::int64_t now_us, const Sink& send) {
     Packing packing{now_us, send, AckPoints()};
-    PackReliable(packing);
+    const bool rides = !unreliable.empty() || OwesDatagram(now_us);
+    reliable.Take(now_us, rides, [&](std::int64_t id, ByteView message) {
+      Pack(packing, {true, static_cast<std::uint16_t>(id), message});
+      packing.ids.push_back(id);
+    });
     for (const Passing& message : unreliable) {
       Pack(packing, {false, 0, message.bytes});
       if (message.receipt.slot >= 0) packing.receipts.push_back(message.receipt);
@@ -209,7 +163,7 @@ struct Link::Impl {
   void SampleRtt(std::int64_t sample_us) {
     if (sample_us < 0) return;
     srtt_us = srtt_us < 0 ? sample_us : srtt_us + (sample_us - srtt_us) / 8;
-    reliable_due_us = 0;  // what is repeated may be due earlier
+    reliable.SetLate(std::max(srtt_us + srtt_us / 4, kLateUsMin));
   }
 
   /// Datagram `number` has arrived. Karn's rule (never to time what was sent twice) holds by
@@ -226,14 +180,7 @@ struct Link::Impl {
       largest = std::max(largest, receipt.number);
       if (receipt.slot == kListedSlot) listed.push_back(receipt.number);
     }
-    for (const std::int64_t id : record.ids) {
-      const auto index = static_cast<std::size_t>(reliable.empty() ? -1 : id - reliable.front().id);
-      if (index < reliable.size()) reliable[index].acked = true;
-    }
-    while (!reliable.empty() && reliable.front().acked) {
-      reliable.pop_front();
-      reliable_due_us = 0;  // the window moves on
-    }
+    for (const std::int64_t id : record.ids) reliable.NoteAcked(id);
   }
 
   void ReadAcks(std::int64_t ack, std::uint32_t bits, std::int64_t now_us) {
@@ -251,10 +198,12 @@ struct Link::Impl {
     });
   }
 
-  void DeliverReliable(const DatagramMessage& message, const Sink& deliver) {
+  void DeliverReliable(std::int64_t now_us, const DatagramMessage& message, const Sink& deliver) {
     const std::int64_t id = Unwrap(message.id, next_in);
-    ack_owed = true;
-    if (id < next_in) return;  // delivered before
+    const bool repeated = id < next_in || early.count(id) > 0;
+    // What is repeated was acknowledged, by a datagram that may have been lost.
+    ack_owed = ack_owed || !repeated || now_us - last_send_us >= kLateUsMin;
+    if (repeated) return;
     early.emplace(id, Bytes(message.bytes.begin(), message.bytes.end()));
     while (!early.empty() && early.begin()->first == next_in) {
       deliver(early.extract(next_in++).mapped());
@@ -283,7 +232,7 @@ struct Link::Impl {
     ReadAcks(ack, header.ack_bits, now_us);
     for (const DatagramMessage& message : messages) {
       if (message.reliable) {
-        DeliverReliable(message, deliver);
+        DeliverReliable(now_us, message, deliver);
       } else {
         deliver(message.bytes);
       }
@@ -313,10 +262,12 @@ void Link::SendUnreliable(ByteView message, int slot, std::int64_t number) {
 
 bool Link::SendReliable(ByteView message) {
   SEAM_ASSERT(message.size >= 1 && message.size <= kMessageBytesMax);
-  if (impl_->reliable.size() >= kReliableQueueMax) return false;
-  impl_->reliable.push_back({impl_->next_id++, -1, false, Bytes(message.begin(), message.end())});
-  impl_->reliable_due_us = 0;
-  return true;
+  return impl_->reliable.Push(message, false);
+}
+
+bool Link::SendUrgent(ByteView message) {
+  SEAM_ASSERT(message.size >= 1 && message.size <= kMessageBytesMax);
+  return impl_->reliable.Push(message, true);
 }
 
 void Link::Flush(std::int64_t now_us, const Sink& send) { impl_->Flush(now_us, send); }

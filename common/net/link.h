@@ -44,6 +44,9 @@ class Link {
   /// Repeated until acknowledged, delivered once and in order. Requires 1..kMessageBytesMax bytes.
   /// False when 4096 are waiting: the peer is gone or hostile, drop it.
   bool SendReliable(ByteView message);
+  /// The same, for what somebody waits for: repeated once on the chance that it is lost, at most
+  /// 32 kB/s, before its acknowledgement is late.
+  bool SendUrgent(ByteView message);
 
   /// Nothing happens in the room: acks by themselves can wait for a second and a half, and what the
   /// peer then lets pass until its next datagram is no round trip.

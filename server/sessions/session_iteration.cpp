@@ -54,8 +54,20 @@ void SessionTable::SendToAll(const Bytes& message, int but_peer) {
   });
 }
 
+void SessionTable::SendUrgentToAll(const Bytes& message) {
+  ForEachTold([&](Session& session) { SendUrgentTo(session, message); });
+}
+
 void SessionTable::SendTo(Session& session, const Bytes& message) {
-  if (session.link.SendReliable(message)) return;
+  LeaveUnless(session.link.SendReliable(message), session);
+}
+
+void SessionTable::SendUrgentTo(Session& session, const Bytes& message) {
+  LeaveUnless(session.link.SendUrgent(message), session);
+}
+
+void SessionTable::LeaveUnless(bool sent, Session& session) {
+  if (sent) return;
   session.leaving = true;
   session.leaving_why = "does not acknowledge";
 }

@@ -79,6 +79,9 @@ class SessionTable {
   void SendToAll(const Bytes& message, int but_peer = -1);
   /// The same to one of them.
   void SendTo(Session& session, const Bytes& message);
+  /// The same for what they wait for (Link::SendUrgent).
+  void SendUrgentToAll(const Bytes& message);
+  void SendUrgentTo(Session& session, const Bytes& message);
   /// Calls `visit(Session&)` for everyone to whom the room was sent.
   template <class Visit>
   void ForEachTold(Visit visit) {
@@ -100,6 +103,7 @@ class SessionTable {
   void Close(std::int64_t now_us, const std::string& reason, Stats* stats);
 
  private:
+  static void LeaveUnless(bool sent, Session& session);
   using Sessions = std::map<SessionId, std::unique_ptr<Session>>;
 
   Verdict OnStranger(std::int64_t now_us, const SessionId& id, const Bytes& datagram);

@@ -1,0 +1,106 @@
+#include "common/net/reliable_queue.h"
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "common/base/limits.h"
+#include "common/net/datagram.h"
+#include "common/net/link.h"
+
+namespace seam {
+namespace {
+
+/// Messages that may wait for the window.
+constexpr std::size_t kWaitMax = 4096;
+/// Bytes begun in one Take: eight datagrams. At 60 Hz 4.4 Mb/s; more floods a slow path.
+constexpr std::size_t kTakeBytes = 8 * kMessageBytesMax;
+/// Late, before the round trip is known, us.
+constexpr std::int64_t kFirstLateUs = 250'000;
+/// Before it is late an urgent message is repeated once on the chance that it was lost, so that who
+/// waits for it need not wait a round trip more: so long after it was sent, us, with a datagram
+/// that goes out anyway, or a little later in one of its own.
+constexpr std::int64_t kChanceRidesUs = 12'000, kChanceUs = 35'000;
+/// Repeats on the chance take so many bytes a second, and at once about a datagram.
+constexpr std::int64_t kChanceBytesPerS = 32'000;
+constexpr std::int64_t kChanceBurstUs = 1'000'000 * kMessageBytesMax / kChanceBytesPerS;
+
+}  // namespace
+
+ReliableQueue::ReliableQueue() : late_us_(kFirstLateUs) {}
+
+bool ReliableQueue::Push(ByteView message, bool urgent) {
+  if (messages_.size() >= kWaitMax) return false;
+  Message queued;
+  queued.id = next_id_++;
+  queued.chance = urgent;
+  queued.bytes.assign(message.begin(), message.end());
+  messages_.push_back(std::move(queued));
+  due_us_ = 0;
+  return true;
+}
+
+void ReliableQueue::NoteAcked(std::int64_t id) {
+  const auto index = static_cast<std::size_t>(messages_.empty() ? -1 : id - messages_.front().id);
+  if (index < messages_.size()) messages_[index].acked = true;
+  while (!messages_.empty() && messages_.front().acked) {
+    messages_.pop_front();
+    due_us_ = 0;  // the window moves on
+  }
+}
+
+void ReliableQueue::SetLate(std::int64_t late_us) {
+  late_us_ = late_us;
+  due_us_ = 0;  // what is repeated may be due earlier
+}
+
+std::size_t ReliableQueue::window() const {
+  return std::min<std::size_t>(messages_.size(), kReliableWindow);
+}
+
+/// When a message is due that is not acknowledged; its chance is `chance_us` after it.
+std::int64_t ReliableQueue::DueUs(const Message& message, std::int64_t chance_us) const {
+  if (message.sent_us < 0) return 0;
+  const std::int64_t late_us = message.sent_us + late_us_;
+  if (!message.chance) return late_us;
+  const std::int64_t paid_us = chances_paid_us_ - kChanceBurstUs;
+  return std::min(late_us, std::max(message.sent_us + chance_us, paid_us));
+}
+
+std::int64_t ReliableQueue::FirstDueUs() const {
+  std::int64_t due_us = std::numeric_limits<std::int64_t>::max();
+  for (std::size_t i = 0; i < window(); ++i) {
+    if (!messages_[i].acked) due_us = std::min(due_us, DueUs(messages_[i], kChanceUs));
+  }
+  return due_us;
+}
+
+bool ReliableQueue::Due(std::int64_t now_us) const {
+  return now_us >= due_us_ && now_us >= (due_us_ = FirstDueUs());
+}
+
+void ReliableQueue::Pay(std::int64_t now_us, const Message& message) {
+  const auto bytes = static_cast<std::int64_t>(FramedBytes(message.bytes.size(), true));
+  chances_paid_us_ = std::max(chances_paid_us_, now_us) + 1'000'000 * bytes / kChanceBytesPerS;
+}
+
+void ReliableQueue::Take(std::int64_t now_us, bool rides, const Pack& pack) {
+  if (now_us < due_us_ && !rides) return;
+  const std::int64_t chance_us = rides ? kChanceRidesUs : kChanceUs;
+  std::size_t budget = kTakeBytes;
+  for (std::size_t i = 0; i < window(); ++i) {
+    Message& message = messages_[i];
+    if (message.acked || now_us < DueUs(message, chance_us)) continue;
+    if (message.bytes.size() > budget) break;
+    budget -= message.bytes.size();
+    if (message.sent_us >= 0) {
+      if (now_us - message.sent_us < late_us_) Pay(now_us, message);
+      message.chance = false;
+    }
+    message.sent_us = now_us;
+    pack(message.id, message.bytes);
+  }
+  due_us_ = FirstDueUs();
+}
+
+}  // namespace seam
