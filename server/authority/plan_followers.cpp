@@ -8,15 +8,13 @@
 
 #include "server/authority/box_grid.h"
 #include "server/authority/contact_groups.h"
+#include "server/authority/crowds.h"
 #include "server/authority/group_lists.h"
 #include "server/authority/nearest_box.h"
 #include "server/authority/player_of_peer.h"
 
 namespace seam {
 namespace {
-
-/// Holders of a group from which on it is followed by sets of peers, not by one after the other.
-constexpr std::size_t kManyHolders = 8;
 
 class Followers {
  public:
@@ -28,6 +26,8 @@ class Followers {
         bodies_(plan->size(), 0),
         steps_(view.players.size(), 0),
         own_begin_(view.players.size() + 1, 0),
+        soon_crowds_(plan->size(), view.players.size()),
+        later_crowds_(plan->size(), view.players.size()),
         distance_(plan->size(), FLT_MAX),
         seen_by_(plan->size(), -1) {
     ListOwn();
@@ -40,6 +40,7 @@ class Followers {
     FollowGroups(soon, nullptr);
     FollowGroups(GroupLists(contacts.later), &soon);
     if (crowded_) grid_.emplace(view_.boxes);
+    if (soon_crowds_.any() || later_crowds_.any()) FindWays();
     const auto all = static_cast<int>(view_.boxes.size());
     for (std::size_t p = 0; p < view_.players.size(); ++p) {
       const bool has_all = steps_[p] == all && !limited(p);
@@ -121,8 +122,8 @@ class Followers {
       if (groups.SizeOf(g) < 2) continue;
       if (soon != nullptr && soon->SizeOf(g) == groups.SizeOf(g)) continue;  // all follow it
       FindHolders(groups, g);
-      if (soon == nullptr && holders_.size() >= kManyHolders) {
-        FollowCrowd(groups, g);
+      if (IsCrowd(groups, g)) {
+        (soon == nullptr ? soon_crowds_ : later_crowds_).Note(groups, g, holders_);
         continue;
       }
       for (const int m : groups.Of(g)) {
@@ -148,35 +149,49 @@ class Followers {
     }
   }
 
-  /// All holders follow all of the group, set by set. Requires that none follows any of it yet.
-  void FollowCrowd(const GroupLists& groups, std::size_t group) {
-    PeerSet all;
+  bool IsCrowd(const GroupLists& groups, std::size_t group) const {
+    if (!crowded_) return false;
+    if (holders_.size() >= kManyHolders) return true;
     int bodies = 0;
-    for (const std::size_t player : holders_) {
-      if (!limited(player)) all.Add(view_.players[player].peer);
+    for (const int m : groups.Of(group)) bodies += bodies_[static_cast<std::size_t>(m)];
+    return bodies > kManyBodies;
+  }
+
+  /// How near a mechanism has to be for the player to follow it, m.
+  float ReachOf(std::size_t player, int m) const {
+    const bool follows = now(m).secondaries.Has(view_.players[player].peer);
+    const float reach = view_.buffer_m + (follows ? kHysteresis : 0.0f);
+    if (soon_crowds_.Has(player, m) || (follows && later_crowds_.Has(player, m))) {
+      return std::max(reach, CrowdReach(ways_[static_cast<std::size_t>(m)], player, follows));
     }
-    for (const int m : groups.Of(group)) {
-      PlannedAuthority& of = planned(m);
-      of.secondaries.Add(all);
-      of.secondaries.Remove(of.authority);
-      const int has = bodies_[static_cast<std::size_t>(m)];
-      const int player = of.authority > 0 ? players_.At(of.authority) : -1;
-      bodies += has;
-      if (player >= 0 && !limited(static_cast<std::size_t>(player))) {
-        steps_[static_cast<std::size_t>(player)] -= has;
-      }
-    }
-    for (const std::size_t player : holders_) {
-      if (!limited(player)) {
-        steps_[player] += bodies;
-        continue;
-      }
-      for (const int m : groups.Of(group)) Follow(player, m);
+    return reach;
+  }
+
+  /// The same in a crowd, of what can make such a way.
+  float CrowdReach(const Way& way, std::size_t player, bool follows) const {
+    const Way& own = own_ways_[player];
+    return follows ? std::max(kCrowdReach + kHysteresis, way.later + own.later)
+                   : std::max(kCrowdReach, way.soon + own.soon);
+  }
+
+  /// How far the boxes get before a grant could tell.
+  void FindWays() {
+    float longest = 0;
+    for (const PlayerView& player : view_.players) longest = std::max(longest, player.one_way_s);
+    const float soon_s = ZoneSeconds(longest, longest), later_s = soon_s + kZoneKeep;
+    ways_.resize(plan_.size());
+    own_ways_.resize(view_.players.size());
+    for (const MovingBox& box : view_.boxes) {
+      const Way way{WayOf(box, soon_s), WayOf(box, later_s)};
+      const auto m = static_cast<std::size_t>(box.group);
+      ways_[m].Raise(way);
+      farthest_.Raise(way);
+      const int player = plan_[m].authority > 0 ? players_.At(plan_[m].authority) : -1;
+      if (player >= 0) own_ways_[static_cast<std::size_t>(player)].Raise(way);
     }
   }
 
   void FollowNear(std::size_t player) {
-    const int peer = view_.players[player].peer;
     if (!crowded_ && !limited(player)) {
       for (int m = 0; m < static_cast<int>(plan_.size()); ++m) Follow(player, m);
       return;
@@ -184,9 +199,7 @@ class Followers {
     Measure(player);
     if (limited(player)) return FollowWithin(player);
     for (const int m : seen_) {
-      const bool follows = now(m).secondaries.Has(peer);
-      const float reach = view_.buffer_m + (follows ? kHysteresis : 0.0f);
-      if (distance_[static_cast<std::size_t>(m)] <= reach) Follow(player, m);
+      if (distance_[static_cast<std::size_t>(m)] <= ReachOf(player, m)) Follow(player, m);
     }
   }
 
@@ -196,7 +209,9 @@ class Followers {
   /// known. In a room that is not followed whole what is farther is not seen.
   void Measure(std::size_t p) {
     const PlayerView& player = view_.players[p];
-    const float near = view_.buffer_m + kHysteresis;
+    const bool any_crowd = soon_crowds_.Any(p) || later_crowds_.Any(p);
+    const float near =
+        std::max(view_.buffer_m + kHysteresis, any_crowd ? CrowdReach(farthest_, p, true) : 0.0f);
     MovingBox all;
     for (int k = own_begin_[p]; k < own_begin_[p + 1]; ++k) {
       const MovingBox& box = Own(k);
@@ -260,9 +275,8 @@ class Followers {
     }
     for (const int m : seen_) {
       const float far = DistanceOf(player, m);
-      const float reach = view_.buffer_m + (now(m).secondaries.Has(peer) ? kHysteresis : 0.0f);
-      if (far <= reach) {
-        within_.push_back({1, far, m});
+      if (far <= ReachOf(player, m)) {
+        within_.push_back({soon_crowds_.Has(player, m) ? 0 : 1, far, m});
       } else if (!crowded_) {
         within_.push_back({2, far, m});
       }
@@ -293,17 +307,21 @@ class Followers {
   AuthorityPlan& plan_;
   const PlayerOfPeer players_;
   const bool crowded_;
-  std::vector<int> bodies_;           // by mechanism
-  std::vector<int> steps_;            // by player: bodies of what it has and follows
-  std::vector<int> own_begin_;        // by player: where its boxes begin in own_
-  std::vector<int> own_;              // indices of the boxes
-  std::vector<float> distance_;       // by mechanism, for the player that seen_by_ says
-  std::vector<int> seen_by_;          // by mechanism
-  std::vector<int> seen_;             // mechanisms
-  std::optional<BoxGrid> grid_;       // of all boxes of a room that is not followed whole
-  std::vector<int> last_group_;       // by player: the last of which it is a holder
-  std::vector<std::size_t> holders_;  // players
-  std::vector<std::pair<int, int>> wanted_;          // player, mechanism
+  std::vector<int> bodies_;     // by mechanism
+  std::vector<int> steps_;      // by player: bodies of what it has and follows
+  std::vector<int> own_begin_;  // by player: where its boxes begin in own_
+  std::vector<int> own_;        // indices of the boxes
+  Crowds soon_crowds_, later_crowds_;
+  std::vector<Way> ways_;      // by mechanism; these three: if there are crowds
+  std::vector<Way> own_ways_;  // by player
+  Way farthest_;
+  std::vector<float> distance_;              // by mechanism, for the player that seen_by_ says
+  std::vector<int> seen_by_;                 // by mechanism
+  std::vector<int> seen_;                    // mechanisms
+  std::optional<BoxGrid> grid_;              // of all boxes of a room that is not followed whole
+  std::vector<int> last_group_;              // by player: the last of which it is a holder
+  std::vector<std::size_t> holders_;         // players
+  std::vector<std::pair<int, int>> wanted_;  // player, mechanism
   std::vector<std::tuple<int, float, int>> within_;  // rank, m, mechanism
 };
 

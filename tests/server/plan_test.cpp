@@ -147,6 +147,28 @@ TEST(PlanAuthority, WhoFollowsWhatMayBeMetGoesOnForAWhile) {
   EXPECT_TRUE(Follows(view, 0, kBob));
 }
 
+/// Boxes that touch in a row from -60 m on, each 0.5 m wide; ann has those left of 0.
+AuthorityView Row(int boxes) {
+  std::vector<float> xs;
+  for (int i = 0; i < boxes; ++i) xs.push_back(-60.0f + 0.5f * static_cast<float>(i));
+  return TwoSides(xs);
+}
+
+TEST(PlanAuthority, OfACrowdOnlyWhatIsNearIsMetThroughOthers) {
+  EXPECT_TRUE(Follows(Row(240), 0, kBob)) << "60 m away, of 240 bodies";
+  AuthorityView crowd = Row(300);
+  EXPECT_FALSE(Follows(crowd, 0, kBob));
+  EXPECT_TRUE(Follows(crowd, 119 - 46, kBob)) << "23 m away";
+  EXPECT_FALSE(Follows(crowd, 119 - 50, kBob)) << "25 m away";
+  crowd.mechanisms[119 - 50].now.secondaries.Add(kBob);
+  EXPECT_TRUE(Follows(crowd, 119 - 50, kBob)) << "until it is two more";
+  crowd.boxes[0].velocity = {200, 0};
+  EXPECT_TRUE(Follows(crowd, 0, kBob)) << "it may come itself";
+  crowd.follow_bodies = 300;
+  crowd.boxes[0].velocity = {0, 0};
+  EXPECT_TRUE(Follows(crowd, 0, kBob)) << "a room that is followed whole";
+}
+
 TEST(PlanAuthority, WhatIsMetThroughOthersIsFollowedToo) {
   AuthorityView view = TwoSides({-50, 20, 20.6f, 21.2f, 30});
   view.mechanisms[1].owner = 0;  // ann's, among a row of bob's that touch

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cfloat>
+#include <set>
 #include <utility>
 
 namespace seam {
@@ -146,6 +147,30 @@ void FollowAtServer(const AuthorityView& view, const std::vector<std::pair<int, 
   }
 }
 
+/// By mechanism: whether its group is a crowd, of which only what is near is followed.
+std::vector<bool> InCrowds(const AuthorityView& view, const ReferencePlan& plan,
+                           const std::vector<int>& group) {
+  std::vector<std::set<int>> holders(plan.size());
+  std::vector<int> bodies(plan.size(), 0), mechanisms(plan.size(), 0);
+  for (std::size_t m = 0; m < plan.size(); ++m) {
+    const auto g = static_cast<std::size_t>(group[m]);
+    ++mechanisms[g];
+    for (const PlayerView& player : view.players) {
+      if (player.peer > 0 && player.peer == plan[m].authority) holders[g].insert(player.peer);
+    }
+  }
+  for (const MovingBox& box : view.boxes) {
+    ++bodies[static_cast<std::size_t>(group[static_cast<std::size_t>(box.group)])];
+  }
+  const bool whole = view.boxes.size() <= static_cast<std::size_t>(view.follow_bodies);
+  std::vector<bool> crowd(plan.size());
+  for (std::size_t m = 0; m < plan.size(); ++m) {
+    const auto g = static_cast<std::size_t>(group[m]);
+    crowd[m] = !whole && mechanisms[g] > 1 && (holders[g].size() >= 8 || bodies[g] > 256);
+  }
+  return crowd;
+}
+
 /// Adds to each mechanism the peers in whose buffer zone it is.
 void AddFollowers(const AuthorityView& view, ReferencePlan* plan) {
   const auto pairs_soon = ContactPairs(view, *plan, 0);
@@ -157,17 +182,50 @@ void AddFollowers(const AuthorityView& view, ReferencePlan* plan) {
   const bool whole = view.boxes.size() <= static_cast<std::size_t>(view.follow_bodies);
   const std::vector<int> soon = Components(count, pairs_soon);
   const std::vector<int> later = Components(count, pairs_later);
+  const std::vector<bool> crowd_soon = InCrowds(view, *plan, soon);
+  const std::vector<bool> crowd_later = InCrowds(view, *plan, later);
+  constexpr float kCrowdReach = 24;
+  float longest = 0;
+  for (const PlayerView& player : view.players) longest = std::max(longest, player.one_way_s);
+  const auto way = [&](float seconds, auto counts) {
+    float farthest = 0;
+    for (const MovingBox& box : view.boxes) {
+      if (!counts(box.group)) continue;
+      farthest = std::max(farthest, box.velocity.norm() * seconds + kZoneSlack / 2 +
+                                        box.acceleration * seconds * seconds / 2);
+    }
+    return farthest;
+  };
   for (const PlayerView& player : view.players) {
     if (player.peer <= 0) continue;
+    const auto own = [&](int m) {
+      return (*plan)[static_cast<std::size_t>(m)].authority == player.peer;
+    };
+    const auto crowd_reach = [&](bool follows, auto counts) {
+      const float seconds = ZoneSeconds(longest, longest) + (follows ? kZoneKeep : 0.0f);
+      return std::max(kCrowdReach + (follows ? kHysteresis : 0.0f),
+                      way(seconds, counts) + way(seconds, own));
+    };
     const std::vector<bool> meets_soon = WithThoseOf(player.peer, *plan, soon);
     const std::vector<bool> meets_later = WithThoseOf(player.peer, *plan, later);
-    const std::vector<float> distance = Distances(view, player, *plan, view.buffer_m + kHysteresis);
+    bool any_crowd = false;
+    for (std::size_t m = 0; m < plan->size(); ++m) {
+      any_crowd =
+          any_crowd || (meets_soon[m] && crowd_soon[m]) || (meets_later[m] && crowd_later[m]);
+    }
+    const float near = std::max(view.buffer_m + kHysteresis,
+                                any_crowd ? crowd_reach(true, [](int) { return true; }) : 0.0f);
+    const std::vector<float> distance = Distances(view, player, *plan, near);
     for (std::size_t m = 0; m < plan->size(); ++m) {
       ReferenceEntry& planned = (*plan)[m];
       if (planned.authority == player.peer) continue;
       const bool follows = view.mechanisms[m].now.secondaries.Has(player.peer);
-      const float reach = view.buffer_m + (follows ? kHysteresis : 0.0f);
-      const bool meets = follows ? meets_later[m] : meets_soon[m];
+      const bool meets_later_too = follows && meets_later[m];
+      const bool meets = (meets_soon[m] && !crowd_soon[m]) || (meets_later_too && !crowd_later[m]);
+      const bool crowd = (meets_soon[m] && crowd_soon[m]) || (meets_later_too && crowd_later[m]);
+      const auto this_one = [&](int group) { return static_cast<std::size_t>(group) == m; };
+      const float reach = std::max(view.buffer_m + (follows ? kHysteresis : 0.0f),
+                                   crowd ? crowd_reach(follows, this_one) : 0.0f);
       if (whole || meets || distance[m] <= reach) planned.secondaries.Add(player.peer);
     }
   }

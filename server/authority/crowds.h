@@ -1,0 +1,59 @@
+#pragma once
+/// Groups in which nearly everything may touch everything, through others: a gas, a heap of many.
+
+#include <algorithm>
+#include <vector>
+
+#include "common/sync/reach/zones.h"
+#include "server/authority/group_lists.h"
+
+namespace seam {
+
+/// In a room that is not followed whole, a group of so many holders, or of more bodies, is a crowd:
+/// nearly everything may touch everything through others. What is done far away does not arrive
+/// within a round trip, so of a crowd a holder follows what it may meet itself, and what is within
+/// kCrowdReach of its own, m: as far as mode central predicts (Interest::kCloseReach).
+constexpr std::size_t kManyHolders = 8;
+constexpr int kManyBodies = 256;
+constexpr float kCrowdReach = 24;
+
+/// How far something gets within ZoneSeconds, and kZoneKeep later, m.
+struct Way {
+  float soon = 0, later = 0;
+  void Raise(const Way& other) {
+    soon = std::max(soon, other.soon);
+    later = std::max(later, other.later);
+  }
+};
+
+/// As FindContactGroups takes it.
+inline float WayOf(const MovingBox& box, float seconds) {
+  return box.velocity.norm() * seconds + kZoneSlack / 2 + box.acceleration * seconds * seconds / 2;
+}
+
+/// What is in which crowd, and which players have something in it.
+class Crowds {
+ public:
+  Crowds(std::size_t mechanisms, std::size_t players) : of_(mechanisms, -1), has_(players) {}
+
+  void Note(const GroupLists& groups, std::size_t group, const std::vector<std::size_t>& holders) {
+    for (const int m : groups.Of(group)) of_[static_cast<std::size_t>(m)] = count_;
+    for (const std::size_t player : holders) has_[player].push_back(count_);
+    ++count_;
+  }
+  bool any() const { return count_ > 0; }
+  bool Any(std::size_t player) const { return !has_[player].empty(); }
+  /// Whether the mechanism is in a crowd in which the player has something.
+  bool Has(std::size_t player, int m) const {
+    const int crowd = of_[static_cast<std::size_t>(m)];
+    return crowd >= 0 &&
+           std::find(has_[player].begin(), has_[player].end(), crowd) != has_[player].end();
+  }
+
+ private:
+  std::vector<int> of_;                // by mechanism: its crowd, or -1
+  std::vector<std::vector<int>> has_;  // by player: crowds
+  int count_ = 0;
+};
+
+}  // namespace seam
