@@ -12,8 +12,12 @@ constexpr float kPiFloat = static_cast<float>(kPi);
 
 /// The angle less whole turns: the one nearest to 0, in -pi..pi, rad. NaN for one that is not
 /// finite.
-inline double WrapAngle(double angle) { return std::remainder(angle, 2 * kPi); }
-inline float WrapAngle(float angle) { return std::remainder(angle, 2 * kPiFloat); }
+inline double WrapAngle(double angle) {
+  return std::fabs(angle) <= kPi ? angle : std::remainder(angle, 2 * kPi);
+}
+inline float WrapAngle(float angle) {
+  return std::fabs(angle) <= kPiFloat ? angle : std::remainder(angle, 2 * kPiFloat);
+}
 
 /// `angle` plus the whole turns that bring it nearest to `near`, rad.
 inline double UnwrapAngle(double angle, double near) { return near + WrapAngle(angle - near); }

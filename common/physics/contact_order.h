@@ -10,8 +10,8 @@
 
 namespace seam {
 
-/// Finds the contacts of all that is new or has moved in the engine, as its next step would, and
-/// adds them in that order.
+/// Finds the contacts of an engine whose shapes are all new, as its next step would, and adds them
+/// in that order.
 void FindContactsInOrder(b2World* world);
 
 /// Puts those that the engine has found by itself since the last call, of this or the above, in
