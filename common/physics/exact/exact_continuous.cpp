@@ -91,6 +91,18 @@ void ExactStep::PayForLift(double before, Found* found) const {
   }
 }
 
+/// What touches a mechanism only since it was taken back may sleep. Where it is moved along, it is
+/// struck: asleep it would lie elsewhere than where it was agreed to rest.
+void ExactStep::WakeWhatMoves(const Found& found) {
+  for (const ExactBody& q : found.island->bodies) {
+    if (q.slot < 0 || q.body->IsAwake()) continue;
+    const b2Sweep& sweep = q.body->*Member(BodySweep());
+    const bool lies = static_cast<float>(q.x) == sweep.c.x &&
+                      static_cast<float>(q.y) == sweep.c.y && static_cast<float>(q.a) == sweep.a;
+    if (!lies) q.body->SetAwake(true);
+  }
+}
+
 void ExactStep::RejoinWhatMoved(float h, const Pace& pace) {
   std::vector<int> moved;
   for (const int m : solved_) {
@@ -127,6 +139,7 @@ void ExactStep::RejoinWhatMoved(float h, const Pace& pace) {
     const double before = EnergyOf(found, true);
     found.island->Rejoin(pace, struck);
     PayForLift(before, &found);
+    WakeWhatMoves(found);
     SavePoses(found);
   }
 }

@@ -73,6 +73,7 @@ class ExactStep {
   void RejoinWhatMoved(float h, const Pace& pace);
   double EnergyOf(const Found& found, bool left) const;
   void PayForLift(double before, Found* found) const;
+  static void WakeWhatMoves(const Found& found);
   static bool Told(const Slot& slot);
   void Report(const Found& found) const;
   static void Hide(const Found& found);
