@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/physics/reveal.h"
 #include "common/physics/world_build.h"
 #include "common/scene/connectors.h"
 #include "common/scene/forces.h"
@@ -15,7 +16,54 @@ namespace {
 /// body of a pair, so a body should not have those of a whole city.
 constexpr float kSquare = 16;
 
+SEAM_REVEAL(Proxies, b2FixtureProxy*, b2Fixture, m_proxies);
+SEAM_REVEAL(ContactFlags, uint32, b2Contact, m_flags);
+/// The engine's own bit: asks the filter again at the next step.
+constexpr uint32 kFilterAgain = 0x0008;
+
+/// Whether the engine's box around `other`, within which it may move unnoticed, lies beyond a side
+/// of the anchored polygon.
+bool IsBeyond(b2Fixture* anchored, b2Fixture* other) {
+  const b2Body* body = anchored->GetBody();
+  if (body->GetType() != b2_staticBody || anchored->GetType() != b2Shape::e_polygon) return false;
+  if (other->GetShape()->GetChildCount() != 1) return false;
+  const auto& polygon = *static_cast<const b2PolygonShape*>(anchored->GetShape());
+  const b2BroadPhase& boxes = body->GetWorld()->GetContactManager().m_broadPhase;
+  const b2AABB& box = boxes.GetFatAABB((other->*Member(Proxies()))->proxyId);
+  for (int i = 0; i < polygon.m_count; ++i) {
+    const b2Vec2 out = body->GetWorldVector(polygon.m_normals[i]);
+    const b2Vec2 nearest(out.x > 0 ? box.lowerBound.x : box.upperBound.x,
+                         out.y > 0 ? box.lowerBound.y : box.upperBound.y);
+    const b2Vec2 apart = nearest - body->GetWorldPoint(polygon.m_vertices[i]);
+    if (b2Dot(out, apart) > polygon.m_radius) return true;
+  }
+  return false;
+}
+
+/// Leaves out pairs of which only the boxes meet: a long wall at an angle has a box as large as a
+/// city. The engine asks again whenever the other has left its box.
+class SidesFilter : public b2ContactFilter {
+ public:
+  bool ShouldCollide(b2Fixture* a, b2Fixture* b) override {
+    return b2ContactFilter::ShouldCollide(a, b) && !IsBeyond(a, b) && !IsBeyond(b, a);
+  }
+};
+
+b2ContactFilter* Sides() {
+  static SidesFilter filter;  // without state
+  return &filter;
+}
+
 }  // namespace
+
+void DropFarContacts(b2World* world) {
+  if (world->GetContactManager().m_contactFilter != Sides()) return;
+  for (b2Contact* c = world->GetContactList(); c != nullptr; c = c->GetNext()) {
+    if (c->IsTouching()) continue;
+    b2Fixture *const a = c->GetFixtureA(), *const b = c->GetFixtureB();
+    if (IsBeyond(a, b) || IsBeyond(b, a)) c->*Member(ContactFlags()) |= kFilterAgain;
+  }
+}
 
 std::vector<bool> ShareBodies(const Scene& scene, const Composition& composition) {
   std::vector<bool> share;
@@ -42,6 +90,11 @@ std::vector<bool> ShareBodies(const Scene& scene, const Composition& composition
     share.assign(share.size(), false);
   }
   return share;
+}
+
+void AnchoredBodies::Count(const Assembly& assembly) {
+  parts_ += assembly.parts.size();
+  if (parts_ >= static_cast<std::size_t>(kShareFrom)) world_->SetContactFilter(Sides());
 }
 
 const AnchoredBodies::Body& AnchoredBodies::For(const Part& root) {

@@ -17,11 +17,16 @@ namespace seam {
 /// seat or thrust. False for all of them where they are fewer than kShareFrom.
 std::vector<bool> ShareBodies(const Scene& scene, const Composition& composition);
 
+/// Lets the engine's next step drop what is a contact no longer (see AnchoredBodies).
+void DropFarContacts(b2World* world);
+
 /// As many as a scene may have before they share bodies.
 constexpr int kShareFrom = 32;
 
-/// The bodies of one world that they share: one in each square of the plane in which there is one
-/// of their roots, so that no shape is far from its body's origin.
+/// What a world has that is anchored. They share a body in each square of the plane in which there
+/// is one of their roots, so that no shape is far from its body's origin. Where there are
+/// kShareFrom parts, a pair of which only the engine's boxes meet is no contact: a long wall at an
+/// angle has a box as large as a city.
 class AnchoredBodies {
  public:
   explicit AnchoredBodies(b2World* world) : world_(world) {}
@@ -30,11 +35,14 @@ class AnchoredBodies {
     b2Body* body = nullptr;
     Part frame;  ///< lies as it does
   };
+  /// There is one more, with a body of its own or not.
+  void Count(const Assembly& assembly);
   /// The body for an assembly whose root is `root`.
   const Body& For(const Part& root);
 
  private:
   b2World* world_;
+  std::size_t parts_ = 0;
   std::map<std::pair<int, int>, Body> bodies_;  // by column and row
 };
 

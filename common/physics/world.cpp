@@ -7,6 +7,7 @@
 #include "common/base/bytes.h"
 #include "common/base/check.h"
 #include "common/base/geometry.h"
+#include "common/physics/anchored_bodies.h"
 #include "common/physics/contact_order.h"
 #include "common/physics/world_impl.h"
 
@@ -136,6 +137,7 @@ void World::Step() {
   const float h = w.step_s();
   w.Settle();
   w.meter.Clear();
+  DropFarContacts(&*w.world);
   for (const auto& stage : w.stages) stage->BeforeTick();
   for (int i = 0; i < solver.substeps; ++i) {
     for (const auto& stage : w.stages) stage->BeforeStep(h);

@@ -117,6 +117,7 @@ class Builder {
   void AddAnchored(int assembly) {
     const auto a = static_cast<std::size_t>(assembly);
     const Assembly& of = composition_.assemblies[a];
+    shared_.Count(of);
     built_.bodies[a] = memory_.share[a]
                            ? AddToShared(scene_, of, &shared_, &built_.merged)
                            : AddBody(scene_, of, nullptr, true, world_, &built_.merged);

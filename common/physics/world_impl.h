@@ -21,6 +21,8 @@ namespace seam {
 
 struct World::Impl {
   explicit Impl(Topology begin) : topology(std::move(begin)) {
+    const bool blasts = !scene.charges.empty() || !scene.scripts.empty();
+    if (blasts && !scene.bricks.empty()) topology.BricksLeft();  // not in the tick of the first
     memory.Clear(composition.hash);
     Empty();
     Build();
@@ -144,22 +146,22 @@ struct World::Impl {
   std::optional<b2World> world;  // rebuilt by Barrier and Restore
   BuildMemory memory;
   BuiltScene built;
-  std::optional<ExactStep> exact;   // only when there are joints for it
-  std::vector<Motion> motions;      // by moving body
-  mutable std::int64_t looks = 0;   // calls of moving()
-  int led_count = 0;                // of them kLed
-  std::vector<BodyState> led_path;  // by moving body: of led ones, where the step began
-  bool ordered = false;             // contacts are solved in an order of their own
+  std::optional<ExactStep> exact;      // only when there are joints for it
+  std::vector<Motion> motions;         // by moving body
+  mutable std::int64_t looks = 0;      // calls of moving()
+  int led_count = 0;                   // of them kLed
+  std::vector<BodyState> led_path;     // by moving body: of led ones, where the step began
+  bool ordered = false;                // contacts are solved in an order of their own
   std::optional<WorldSnapshot> still;  // of which all was built, when nothing moved
   bool unsettled = false;              // some are absent, or are so no more, but still to be moved
-  std::vector<int> present;         // moving bodies that are not absent, ascending
-  std::vector<int> crossed;         // moving bodies that have come or gone since the last build
-  std::vector<int> awake_aside;     // moving bodies that are aside and may be awake
-  std::vector<char> noted_awake;    // by moving body: it is in awake_aside
-  Paged<WorldSnapshot::Body> kept;  // of the last Keep
-  std::vector<char> stale;          // by page of `kept`: what it tells of may have changed since
-  float lightest = FLT_MAX;         // kg, of the moving bodies
-  bool gives_all = false;           // GivesAll of the scene
+  std::vector<int> present;            // moving bodies that are not absent, ascending
+  std::vector<int> crossed;            // moving bodies that have come or gone since the last build
+  std::vector<int> awake_aside;        // moving bodies that are aside and may be awake
+  std::vector<char> noted_awake;       // by moving body: it is in awake_aside
+  Paged<WorldSnapshot::Body> kept;     // of the last Keep
+  std::vector<char> stale;             // by page of `kept`: what it tells of may have changed since
+  float lightest = FLT_MAX;            // kg, of the moving bodies
+  bool gives_all = false;              // GivesAll of the scene
   mutable std::optional<std::uint64_t> joints_hash;  // of this revision
   mutable int joints_hash_revision = -1;
   /// While bodies are absent: the joints as they were found when none was.

@@ -36,33 +36,23 @@ bool Before(const Brick& a, const Brick& b) {
 }
 
 /// All that the blast would free, by kind, from below, from the left.
-std::vector<Brick> Loosened(const FeatureList<BrickField>& fields, const std::vector<Brick>& gone,
+std::vector<Brick> Loosened(const FeatureList<BrickField>& fields, const FeatherStore& left,
                             const Blast& blast) {
-  std::vector<Brick> loose;
-  for (std::size_t kind = 0; kind < fields.size(); ++kind) {
-    const BrickField& field = fields[kind];
-    const auto from =
-        static_cast<int>(std::floor(static_cast<double>(blast.centre.x() - blast.radius) / kUnit)) -
-        field.width;
-    const auto to =
-        static_cast<int>(std::ceil(static_cast<double>(blast.centre.x() + blast.radius) / kUnit));
-    EachBrick(field, [&](int x, int y) {
-      if (x < from || x > to) return true;
-      const Vector2d speed = SpeedAt(blast, MiddleOf(field, x, y, 1, 1));
-      const double strength = static_cast<double>(field.strength);
-      if (speed.squaredNorm() > std::max(1e-6, strength * strength)) {
-        loose.push_back({x, y, static_cast<int>(kind)});
-      }
-      return true;
-    });
-  }
-  std::sort(loose.begin(), loose.end(), Before);
-  std::vector<Brick> sorted = gone;
-  std::sort(sorted.begin(), sorted.end(), Before);
-  const auto left = [&](const Brick& b) {
-    return std::binary_search(sorted.begin(), sorted.end(), b, Before);
+  if (blast.speed <= 0) return {};
+  const auto unit = [](float metres) {
+    return static_cast<int>(std::floor(static_cast<double>(metres) / kUnit));
   };
-  loose.erase(std::remove_if(loose.begin(), loose.end(), left), loose.end());
+  const Vec2 low = blast.centre.array() - blast.radius, high = blast.centre.array() + blast.radius;
+  std::vector<Brick> loose =
+      left.InBox(unit(low.x()) - 1, unit(low.y()) - 1, unit(high.x()) + 2, unit(high.y()) + 2);
+  const auto stays = [&](const Brick& b) {
+    const BrickField& field = fields[static_cast<std::size_t>(b.kind)];
+    const double strength = static_cast<double>(field.strength);
+    const Vector2d speed = SpeedAt(blast, MiddleOf(field, b.x, b.y, 1, 1));
+    return speed.squaredNorm() <= std::max(1e-6, strength * strength);
+  };
+  loose.erase(std::remove_if(loose.begin(), loose.end(), stays), loose.end());
+  std::sort(loose.begin(), loose.end(), Before);
   loose.erase(std::unique(loose.begin(), loose.end()), loose.end());
   return loose;
 }
@@ -132,10 +122,10 @@ Part FreedPart(const BrickField& field, const Brick& first, int columns, int row
   return part;
 }
 
-Freed BlastBricks(const FeatureList<BrickField>& fields, const std::vector<Brick>& gone,
+Freed BlastBricks(const FeatureList<BrickField>& fields, const FeatherStore& left,
                   const Blast& blast) {
   Freed freed;
-  const std::vector<Brick> loose = Loosened(fields, gone, blast);
+  const std::vector<Brick> loose = Loosened(fields, left, blast);
   for (const Piece& piece : Pieces(fields, loose, blast)) {
     const BrickField& field = fields[static_cast<std::size_t>(piece.first.kind)];
     Part part = FreedPart(field, piece.first, piece.columns, piece.rows);

@@ -32,11 +32,10 @@ constexpr float kFreedGap = 0.015f;
 /// So many columns and rows of bricks from `first`, its lower left, as a part without id, at rest.
 Part FreedPart(const BrickField& field, const Brick& first, int columns, int rows);
 
-/// The bricks of `fields` but `gone` that the blast would give a speed above their strength,
+/// Those of the bricks `left` of `fields` that the blast would give a speed above their strength,
 /// nearest first, as pieces; and no more pieces than kBlastPiecesMax, the rest stays where it is.
-/// A function of its arguments: the same on every peer. Costs a walk over all bricks (3 ms for a
-/// million).
-Freed BlastBricks(const FeatureList<BrickField>& fields, const std::vector<Brick>& gone,
+/// A function of its arguments: the same on every peer. Costs a look at what is near.
+Freed BlastBricks(const FeatureList<BrickField>& fields, const FeatherStore& left,
                   const Blast& blast);
 
 /// All bricks that have become parts: a piece is named after what it was, "towers@-120,35+2x2" for

@@ -233,8 +233,7 @@ void Topology::FreeBricks(const BlastEdit& blast) {
       stale_ = true;
     }
   };
-  const std::vector<Brick> gone = FreedBricks(scene_.bricks, scene_.parts);
-  Freed freed = BlastBricks(scene_.bricks, gone, BlastOf(blast));
+  Freed freed = BlastBricks(scene_.bricks, BricksLeft(), BlastOf(blast));
   add(std::move(freed.parts));
   const FeatherStore& left = BricksLeft();
   Fallen fallen = FallingBricks(scene_.bricks, founded_, left, freed.bricks, BlastOf(blast));

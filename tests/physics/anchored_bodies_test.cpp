@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/base/geometry.h"
 #include "common/physics/part_places.h"
+#include "common/physics/world_build.h"
 #include "tests/support/living_world.h"
 
 namespace seam {
@@ -142,6 +144,78 @@ TEST(AnchoredBodies, AWeldedWallComesDownWhenItIsNoLongerAnchored) {
   ASSERT_EQ(world->body_count(), 1);
   Live(world.get(), 60);
   EXPECT_LT(world->Read(0).position.y(), 18);
+}
+
+/// Twenty welded rows of forty boxes with 0.3 m between them, turned about the origin; twenty balls
+/// rest on the uppermost, under a gravity that is turned likewise.
+std::string Rows(double angle) {
+  const double c = std::cos(angle), s = std::sin(angle);
+  const auto at = [&](double x, double y) {
+    return "position = [" + Digits(x * c - y * s) + ", " + Digits(x * s + y * c) + "]\n";
+  };
+  std::string text = "gravity = [" + Digits(10 * s) + ", " + Digits(-10 * c) + "]\n";
+  text += "[solver]\nsleep = false\n";
+  for (int row = 0; row < 20; ++row) {
+    text += "[[part]]\nname = \"r" + std::to_string(row) + "\"\nbox = [1, 0.5]\n" +
+            at(-19.5, -0.8 * row) + "angle = " + Digits(angle) +
+            "\nanchored = true\nrepeat = {count = 40, step = [" + Digits(c) + ", " + Digits(s) +
+            "], weld = true}\n";
+  }
+  for (int i = 0; i < 20; ++i) {
+    text += "[[part]]\nname = \"m" + std::to_string(i) + "\"\ncircle = 0.3\n" +
+            at(1.9 * (i - 9.5), 0.56);
+  }
+  return text;
+}
+
+TEST(AnchoredBodies, AtAnAngleTheyAreInContactWithNoMoreThanWhatIsNear) {
+  const auto contacts = [](double angle) {
+    const Scene scene = ParseScene(Rows(angle), "rows.toml");
+    b2World world(b2Vec2(scene.gravity.x(), scene.gravity.y()));
+    world.SetAllowSleeping(false);
+    BuildScene(scene, Compose(scene), &world);
+    for (int t = 0; t < 120; ++t) {
+      DropFarContacts(&world);
+      world.Step(1.0f / 60, 8, 3);
+    }
+    return world.GetContactCount();
+  };
+  const int level = contacts(0);
+  EXPECT_EQ(level, 20) << "one for each ball";
+  for (const double angle : {0.02, 0.3, 0.8, 1.4, -2.5}) {
+    EXPECT_LE(contacts(angle), level) << angle;
+  }
+}
+
+TEST(AnchoredBodies, NothingGetsThroughTurnedWalls) {
+  // Four welded walls of 14 boxes around 10 m x 10 m, turned; discs and boxes at up to 110 m/s.
+  for (const double angle : {0.3, 0.8, -1.2}) {
+    std::string text;
+    for (int side = 0; side < 4; ++side) {
+      const double a = angle + side * kPi / 2, c = std::cos(a), s = std::sin(a);
+      text += "[[part]]\nname = \"w" + std::to_string(side) +
+              "\"\nbox = [0.8, 0.4]\nrestitution = 0.6\nposition = [" + Digits(-5.2 * c + 5.2 * s) +
+              ", " + Digits(-5.2 * s - 5.2 * c) + "]\nangle = " + Digits(a) +
+              "\nanchored = true\nrepeat = {count = 14, step = [" + Digits(0.8 * c) + ", " +
+              Digits(0.8 * s) + "], weld = true}\n";
+    }
+    for (int i = 0; i < 60; ++i) {
+      const double a = 2.4 * i, speed = 20 + 1.5 * i;
+      text += "[[part]]\nname = \"m" + std::to_string(i) + "\"\n" +
+              (i % 2 == 0 ? "circle = 0.1" : "box = [0.2, 0.15]") + "\nposition = [" +
+              Digits(0.05 * i * std::cos(a)) + ", " + Digits(0.05 * i * std::sin(a)) +
+              "]\nvelocity = [" + Digits(speed * std::cos(3 * a)) + ", " +
+              Digits(speed * std::sin(3 * a)) + "]\n";
+    }
+    auto world = SmallWorld(text);
+    for (int t = 0; t < 240; ++t) {
+      Live(world.get(), 1);
+      if (t % 50 == 49) world->Barrier();
+      for (int i = 0; i < world->body_count(); ++i) {
+        ASSERT_LT(world->Read(i).position.norm(), 7.8f) << angle << ", tick " << t << ", " << i;
+      }
+    }
+  }
 }
 
 TEST(AnchoredBodies, ABarrierAmongThemIsBitExact) {

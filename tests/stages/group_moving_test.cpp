@@ -206,6 +206,41 @@ TEST(MovingGroup, CargoOnAFloatingShipIsOneBodyWithIt) {
   EXPECT_LT(most, 0.1f);
 }
 
+/// Crates on a sled that slides down a slope, whose box reaches as high as they are: one segment,
+/// or one anchored box.
+std::string Sled(double slope, bool chain) {
+  const double c = std::cos(slope), s = std::sin(slope);
+  const auto at = [&](double x, double y) {
+    return "position = [" + Digits(x * c - y * s) + ", " + Digits(x * s + y * c) +
+           "]\nangle = " + Digits(slope) + "\n";
+  };
+  const std::string moving = "velocity = [" + Digits(2 * c) + ", " + Digits(2 * s) + "]\n";
+  std::string text = "[solver]\nskin = 0.0025\nsubsteps = 2\n[grouping]\nafter = 1\n";
+  text += "[[part]]\nname = \"slope\"\nfriction = 0\n";
+  text += chain ? "chain = [[" + Digits(-100 * c) + ", " + Digits(-100 * s) + "], [" +
+                      Digits(100 * c) + ", " + Digits(100 * s) + "]]\n"
+                : "box = [200, 1]\nanchored = true\n" + at(0, -0.5);
+  text += "[[part]]\nname = \"sled\"\nbox = [6, 0.8]\nfriction = 0.9\n" + at(0, 0.42) + moving;
+  for (int row = 0; row < 3; ++row) {
+    text += "[[part]]\nname = \"row-" + std::to_string(row) + "\"\nbox = [0.6, 0.6]\n" +
+            at(-2.4 + 0.3 * row, 1.13 + 0.6 * row) + moving + "friction = 0.8\n" +
+            "repeat = {count = " + std::to_string(9 - row) + ", step = [" + Digits(0.6 * c) + ", " +
+            Digits(0.6 * s) + "]}\n";
+  }
+  return text;
+}
+
+TEST(MovingGroup, CargoIsOneBodyOnASlopeToo) {
+  for (const double slope : {-0.03, -0.15, 0.1}) {
+    for (const bool chain : {true, false}) {
+      World world(ParseScene(Sled(slope, chain), "sled.toml"));
+      Live(&world, 150);
+      EXPECT_LE(world.body_count(), 2) << slope << (chain ? ", chain" : ", box");
+      EXPECT_GT(world.Read(0).velocity.norm(), 0.3f) << "it slides";
+    }
+  }
+}
+
 TEST(MovingGroup, WhatIsJammedAndPressedInIsNotGrouped) {
   // Twelve boxes of 1 m in 11.9 m: they cannot come to rest.
   auto world = SmallWorld(

@@ -31,7 +31,7 @@ double MassOf(const std::vector<Part>& parts) {
 }
 
 TEST(Blast, FreesTheBricksWithinItsRadiusAsPartsOfTheSameMass) {
-  const Freed freed = BlastBricks(Wall(), {}, {Vec2(2, 6), 1.5f, 20});
+  const Freed freed = BlastBricks(Wall(), FeatherStore(Wall()), {Vec2(2, 6), 1.5f, 20});
   // 1.5 m: area 7.07 m^2, bricks of 0.125 m^2 whose middles are inside.
   EXPECT_NEAR(static_cast<double>(freed.bricks.size()), 7.07 / 0.125, 4);
   EXPECT_LE(freed.parts.size(), static_cast<std::size_t>(kBlastPiecesMax));
@@ -60,7 +60,7 @@ TEST(Blast, IsPossibleWithinItsBoundsOnly) {
 }
 
 TEST(Blast, PartsCoverTheFreedBricksExactly) {
-  const Freed freed = BlastBricks(Wall(), {}, {Vec2(-3, 14), 2, 20});
+  const Freed freed = BlastBricks(Wall(), FeatherStore(Wall()), {Vec2(-3, 14), 2, 20});
   FeatherStore store(Wall());
   ASSERT_EQ(store.Remove(freed.bricks), freed.bricks.size()) << "each was there, once";
   for (const Brick& b : freed.bricks) {
@@ -76,7 +76,7 @@ TEST(Blast, PartsCoverTheFreedBricksExactly) {
 }
 
 TEST(Blast, NeverMoreThanFortyPiecesTheNearestFirst) {
-  const Freed freed = BlastBricks(Wall(), {}, {Vec2(0, 7), 7, 30});
+  const Freed freed = BlastBricks(Wall(), FeatherStore(Wall()), {Vec2(0, 7), 7, 30});
   ASSERT_EQ(freed.parts.size(), static_cast<std::size_t>(kBlastPiecesMax));
   float farthest = 0;
   for (const Part& part : freed.parts) {
@@ -87,13 +87,16 @@ TEST(Blast, NeverMoreThanFortyPiecesTheNearestFirst) {
 
 TEST(Blast, StrongBricksStayAndTakenOnesDoNotComeAgain) {
   const Blast blast{Vec2(2, 6), 1.5f, 20};
-  const Freed weak = BlastBricks(Wall(0), {}, blast), strong = BlastBricks(Wall(10), {}, blast);
+  const Freed weak = BlastBricks(Wall(0), FeatherStore(Wall(0)), blast),
+              strong = BlastBricks(Wall(10), FeatherStore(Wall(10)), blast);
   // Half the speed at half the radius: a quarter of the area.
   EXPECT_NEAR(static_cast<double>(strong.bricks.size()),
               static_cast<double>(weak.bricks.size()) / 4, 4);
-  EXPECT_TRUE(BlastBricks(Wall(20), {}, blast).bricks.empty());
-  EXPECT_TRUE(BlastBricks(Wall(0), weak.bricks, blast).bricks.empty());
-  EXPECT_TRUE(BlastBricks(Wall(0), {}, {Vec2(200, 6), 5, 20}).bricks.empty());
+  EXPECT_TRUE(BlastBricks(Wall(20), FeatherStore(Wall(20)), blast).bricks.empty());
+  FeatherStore left(Wall(0));
+  left.Remove(weak.bricks);
+  EXPECT_TRUE(BlastBricks(Wall(0), left, blast).bricks.empty());
+  EXPECT_TRUE(BlastBricks(Wall(0), FeatherStore(Wall(0)), {Vec2(200, 6), 5, 20}).bricks.empty());
 }
 
 }  // namespace

@@ -25,6 +25,9 @@ std::set<int> HeldAssemblies(const Scene& scene, const Composition& composition)
 
 /// What undoes a group moves against it by more than what joins one: else it would come and go.
 constexpr float kApart = 2;
+/// m, and ticks at their speed against each other, from which on two will meet: no less than what
+/// the engine's boxes stand out by and look ahead.
+constexpr float kMeetGap = 2 * b2_aabbExtension, kMeetTicks = 4;
 /// Ticks from one look at what rests to the next. Groups are watched in every tick.
 constexpr int kLookTicks = 4;
 
@@ -114,15 +117,16 @@ bool GroupStage::MayJoin(int body) const {
          w_.built.moving[static_cast<std::size_t>(body)].body->GetType() == b2_dynamicBody;
 }
 
-/// Both are disturbed if they move against each other. The engine's boxes meet before the shapes
-/// do: what comes finds single bodies again.
+/// Both are disturbed if they move against each other and will meet soon, at this speed. The
+/// engine's boxes meet before that: what comes finds single bodies again.
 RelativeMotion GroupStage::Disturb(b2Contact* contact) {
   b2Body* const bodies[] = {contact->GetFixtureA()->GetBody(), contact->GetFixtureB()->GetBody()};
   const auto wakes = [](b2Body* b) { return b->GetType() != b2_staticBody && b->IsAwake(); };
   if (!wakes(bodies[0]) && !wakes(bodies[1])) return {};
   const RelativeMotion motion = MotionAt(w_, contact);
   const bool moved = motion.speed > kApart * kRestSpeed || motion.spin > kApart * kRestSpin;
-  if (moved) Note(*contact, State::kDisturbed);
+  const float way = kMeetTicks * motion.speed / static_cast<float>(w_.scene.solver.tick_hz);
+  if (moved && GapOf(contact) <= kMeetGap + way) Note(*contact, State::kDisturbed);
   return motion;
 }
 

@@ -1,5 +1,7 @@
 #include "common/stages/bonds/relative_rest.h"
 
+#include <box2d/b2_distance.h>
+
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -51,6 +53,22 @@ bool IsPressed(b2Contact* contact) {
   const int32 points = contact->GetManifold()->pointCount;
   const float* const apart = manifold.separations;
   return std::any_of(apart, apart + points, [](float gap) { return gap < -kPressedIn; });
+}
+
+float GapOf(b2Contact* contact) {
+  if (contact->IsTouching()) return 0;
+  b2Fixture *const a = contact->GetFixtureA(), *const b = contact->GetFixtureB();
+  b2DistanceInput input;
+  input.proxyA.Set(a->GetShape(), contact->GetChildIndexA());
+  input.proxyB.Set(b->GetShape(), contact->GetChildIndexB());
+  input.transformA = a->GetBody()->GetTransform();
+  input.transformB = b->GetBody()->GetTransform();
+  input.useRadii = true;
+  b2SimplexCache cache;
+  cache.count = 0;
+  b2DistanceOutput output;
+  b2Distance(&output, &cache, &input);
+  return output.distance;
 }
 
 void RestPairs::Count(std::vector<NearPair> now, int limit) {

@@ -21,6 +21,10 @@ RelativeMotion MotionAt(const StageWorld& world, b2Contact* contact);
 /// Whether they overlap more than the engine leaves bodies that rest on each other.
 bool IsPressed(b2Contact* contact);
 
+/// What is between their shapes, rims included, m; 0 where they touch. Boxes around what lies at an
+/// angle meet far from it.
+float GapOf(b2Contact* contact);
+
 /// Two parts of different bodies whose boxes meet.
 struct NearPair {
   PartId a = 0, b = 0;  ///< a < b

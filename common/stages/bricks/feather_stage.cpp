@@ -57,10 +57,8 @@ float ReachOf(b2Body* body) {
 
 class FeatherStage : public Stage {
  public:
-  explicit FeatherStage(const StageWorld& world)
-      : world_(world),
-        store_(world.scene.bricks),
-        loaded_(static_cast<std::size_t>(store_.cell_count())) {
+  /// Cheap: stages are also made to see how many a scene needs.
+  explicit FeatherStage(const StageWorld& world) : world_(world) {
     const Solver& solver = world.scene.solver;
     tick_s_ = 1.0f / static_cast<float>(solver.tick_hz);
     most_ = kStepMax * static_cast<float>(solver.substeps);
@@ -68,6 +66,10 @@ class FeatherStage : public Stage {
 
   void Rebuilt(b2World* world) override {
     b2_ = world;
+    if (store_.cell_count() == 0) {
+      store_ = FeatherStore(world_.scene.bricks);
+      loaded_.resize(static_cast<std::size_t>(store_.cell_count()));
+    }
     TakeOut();
     followed_.assign(world_.built.moving.size(), {});
     for (std::size_t i = 0; i < followed_.size(); ++i) {
@@ -204,7 +206,7 @@ class FeatherStage : public Stage {
   }
 
   const StageWorld world_;
-  FeatherStore store_;
+  FeatherStore store_{FeatureList<BrickField>()};
   std::vector<Brick> taken_;  // out of the store
   b2World* b2_ = nullptr;
   std::vector<Loaded> loaded_;      // by cell

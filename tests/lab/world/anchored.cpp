@@ -16,7 +16,7 @@ constexpr int kMovers = 40;
 /// A wall of bricks, whose rows have room between them, under boxes and balls that never rest.
 std::string Wall(int columns, int rows) {
   char line[300];
-  std::string text = "bounds = [[-3000, -100], [3000, 1000]]\n[solver]\nsleep = false\n";
+  std::string text = "bounds = [[-3000, -1000], [3000, 1000]]\n[solver]\nsleep = false\n";
   for (int row = 0; row < rows; ++row) {
     std::snprintf(line, sizeof line,
                   "[[bricks]]\nname = \"row%d\"\nbrick = [1, 0.5]\nposition = [%d, %g]\n"
@@ -35,12 +35,16 @@ std::string Wall(int columns, int rows) {
   return text;
 }
 
-enum class Kind { kSingle, kTurned, kWelded };
+enum class Kind { kSingle, kWelded };
 
-/// The bricks as parts: alone, all turned by an angle about the origin with what is on them left
-/// where it is, or welded in rows.
-Scene AsParts(Scene scene, Kind kind) {
-  const float angle = kind == Kind::kTurned ? 0.02f : 0;
+/// The bricks as parts, alone or welded in rows; all of it, gravity too, turned about the origin.
+Scene AsParts(Scene scene, Kind kind, float angle) {
+  scene.gravity = Turned(scene.gravity, angle);
+  for (Part& part : scene.parts) {
+    part.position = Turned(part.position, angle);
+    part.velocity = Turned(part.velocity, angle);
+    part.angle += angle;
+  }
   for (const BrickField& field : scene.bricks) {
     bool first = true;
     EachBrick(field, [&](int x, int y) {
@@ -80,10 +84,14 @@ TextTable AnchoredBench(bool quick) {
   struct Row {
     const char* name;
     Kind kind;
+    float angle;  // rad
   };
-  for (const Row& row : {Row{"single parts", Kind::kSingle}, Row{"turned", Kind::kTurned},
-                         Row{"welded in rows", Kind::kWelded}}) {
-    const Scene parts = AsParts(bricks, row.kind);
+  for (const Row& row :
+       {Row{"single parts", Kind::kSingle, 0}, Row{"turned by 0.02", Kind::kSingle, 0.02f},
+        Row{"turned by 0.8", Kind::kSingle, 0.8f}, Row{"welded in rows", Kind::kWelded, 0},
+        Row{"welded, turned by 0.3", Kind::kWelded, 0.3f},
+        Row{"welded, turned by 0.8", Kind::kWelded, 0.8f}}) {
+    const Scene parts = AsParts(bricks, row.kind, row.angle);
     const auto build = [](const Scene& scene) { return [&scene] { World world(scene); }; };
     World of_bricks(bricks), of_parts(parts);
     const auto step = [ticks](World* world) {
