@@ -9,13 +9,28 @@
 
 namespace seam {
 
-/// In a room that is not followed whole, a group of so many holders, or of more bodies, is a crowd:
-/// nearly everything may touch everything through others. What is done far away does not arrive
-/// within a round trip, so of a crowd a holder follows what it may meet itself, and what is within
+/// In a room that is not followed whole, a group of so many holders is a crowd, unless it is
+/// packed: nearly everything may touch everything through others. What is done far away does not
+/// arrive within a round trip, unless all touches on the way, so of a crowd a holder follows what
+/// it may meet itself, what presses on its own, directly or through others, and what is within
 /// kCrowdReach of its own, m: as far as mode central predicts (Interest::kCloseReach).
 constexpr std::size_t kManyHolders = 8;
-constexpr int kManyBodies = 256;
 constexpr float kCrowdReach = 24;
+
+/// A heap in which a push goes through: three quarters of its members and more touch another.
+/// `touching`: by mechanism, the lowest of what touches it, directly or not.
+inline bool IsPacked(const std::vector<int>& touching, const GroupLists::Members& group) {
+  std::vector<int> names;
+  for (const int m : group) names.push_back(touching[static_cast<std::size_t>(m)]);
+  std::sort(names.begin(), names.end());
+  std::size_t alone = 0;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const bool before = i > 0 && names[i - 1] == names[i];
+    const bool after = i + 1 < names.size() && names[i + 1] == names[i];
+    if (!before && !after) ++alone;
+  }
+  return 4 * alone <= names.size();
+}
 
 /// How far something gets within ZoneSeconds, and kZoneKeep later, m.
 struct Way {

@@ -75,8 +75,9 @@ struct AuthorityView {
 ///   a mechanism gives way to the server. Secondary (mode buffer): peers whose region, or whose
 ///   mechanisms, are within the scene's buffer width of its boxes, or with whose mechanisms it may
 ///   come into contact, directly or through others, before a grant could tell them (ZoneSeconds);
-///   and all of a room of at most follow_bodies. In a larger one, through others only within 24 m
-///   where more than 256 bodies, or things of eight peers, may come into contact with each other.
+///   and all of a room of at most follow_bodies. In a larger one, where things of eight peers may
+///   come into contact with each other and less than three quarters of them touch: through others
+///   only within 24 m, or if all touches on the way.
 ///   The server: everything in a room of at most server_follow bodies, and where physics finds
 ///   edits, which it orders as soon as it knows the inputs that they hang on; else what may come
 ///   into contact with something of its own, and what moves of a silent holder.

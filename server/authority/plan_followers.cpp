@@ -40,7 +40,10 @@ class Followers {
     FollowGroups(soon, nullptr);
     FollowGroups(GroupLists(contacts.later), &soon);
     if (crowded_) grid_.emplace(view_.boxes);
-    if (soon_crowds_.any() || later_crowds_.any()) FindWays();
+    if (soon_crowds_.any() || later_crowds_.any()) {
+      FindWays();
+      FollowTouching();
+    }
     const auto all = static_cast<int>(view_.boxes.size());
     for (std::size_t p = 0; p < view_.players.size(); ++p) {
       const bool has_all = steps_[p] == all && !limited(p);
@@ -135,6 +138,20 @@ class Followers {
     }
   }
 
+  /// What presses on something of a peer's, directly or through others, that peer follows however
+  /// far it is: of a crowd, too.
+  void FollowTouching() {
+    const GroupLists touching(*touching_);
+    last_group_.assign(view_.players.size(), -1);
+    for (std::size_t g = 0; g < touching.count(); ++g) {
+      if (touching.SizeOf(g) < 2) continue;
+      FindHolders(touching, g);
+      for (const int m : touching.Of(g)) {
+        for (const std::size_t player : holders_) Follow(player, m);
+      }
+    }
+  }
+
   /// Players whose peers are planned to have something of a group.
   void FindHolders(const GroupLists& groups, std::size_t group) {
     holders_.clear();
@@ -149,12 +166,12 @@ class Followers {
     }
   }
 
-  bool IsCrowd(const GroupLists& groups, std::size_t group) const {
-    if (!crowded_) return false;
-    if (holders_.size() >= kManyHolders) return true;
-    int bodies = 0;
-    for (const int m : groups.Of(group)) bodies += bodies_[static_cast<std::size_t>(m)];
-    return bodies > kManyBodies;
+  bool IsCrowd(const GroupLists& groups, std::size_t group) {
+    if (!crowded_ || holders_.size() < kManyHolders) return false;
+    if (!touching_) {
+      touching_ = Components(static_cast<int>(plan_.size()), MeetingGroups(view_.boxes, 0));
+    }
+    return !IsPacked(*touching_, groups.Of(group));
   }
 
   /// How near a mechanism has to be for the player to follow it, m.
@@ -307,10 +324,11 @@ class Followers {
   AuthorityPlan& plan_;
   const PlayerOfPeer players_;
   const bool crowded_;
-  std::vector<int> bodies_;     // by mechanism
-  std::vector<int> steps_;      // by player: bodies of what it has and follows
-  std::vector<int> own_begin_;  // by player: where its boxes begin in own_
-  std::vector<int> own_;        // indices of the boxes
+  std::vector<int> bodies_;                   // by mechanism
+  std::vector<int> steps_;                    // by player: bodies of what it has and follows
+  std::vector<int> own_begin_;                // by player: where its boxes begin in own_
+  std::vector<int> own_;                      // indices of the boxes
+  std::optional<std::vector<int>> touching_;  // by mechanism: the lowest of what touches it now
   Crowds soon_crowds_, later_crowds_;
   std::vector<Way> ways_;      // by mechanism; these three: if there are crowds
   std::vector<Way> own_ways_;  // by player

@@ -147,26 +147,41 @@ TEST(PlanAuthority, WhoFollowsWhatMayBeMetGoesOnForAWhile) {
   EXPECT_TRUE(Follows(view, 0, kBob));
 }
 
-/// Boxes that touch in a row from -60 m on, each 0.5 m wide; ann has those left of 0.
-AuthorityView Row(int boxes) {
-  std::vector<float> xs;
-  for (int i = 0; i < boxes; ++i) xs.push_back(-60.0f + 0.5f * static_cast<float>(i));
-  return TwoSides(xs);
+/// 300 boxes in a row from 0 m on, so far from each other's middle, each 0.5 m wide, of so many
+/// players: each has as much of the row. Those that do not touch go to and fro at 2 m/s.
+AuthorityView Row(int players, float step) {
+  AuthorityView view = TwoSides({});
+  view.players.clear();
+  const float length = 300 * step, each = length / static_cast<float>(players);
+  for (int p = 0; p < players; ++p) {
+    const float from = each * static_cast<float>(p);
+    view.players.push_back({p + 1, 0.05f, true, {from, -100}, {from + each - 0.001f, 100}});
+  }
+  for (std::size_t i = 0; i < 300; ++i) {
+    MechanismView mechanism;
+    mechanism.position = {step * static_cast<float>(i), 0};
+    mechanism.held_ticks = kLong;
+    view.boxes.push_back(BoxAt(mechanism.position, i));
+    if (step > 0.5f) view.boxes.back().velocity = {i % 2 == 0 ? 2.0f : -2.0f, 0};
+    view.mechanisms.push_back(mechanism);
+  }
+  return view;
 }
 
 TEST(PlanAuthority, OfACrowdOnlyWhatIsNearIsMetThroughOthers) {
-  EXPECT_TRUE(Follows(Row(240), 0, kBob)) << "60 m away, of 240 bodies";
-  AuthorityView crowd = Row(300);
-  EXPECT_FALSE(Follows(crowd, 0, kBob));
-  EXPECT_TRUE(Follows(crowd, 119 - 46, kBob)) << "23 m away";
-  EXPECT_FALSE(Follows(crowd, 119 - 50, kBob)) << "25 m away";
-  crowd.mechanisms[119 - 50].now.secondaries.Add(kBob);
-  EXPECT_TRUE(Follows(crowd, 119 - 50, kBob)) << "until it is two more";
-  crowd.boxes[0].velocity = {200, 0};
-  EXPECT_TRUE(Follows(crowd, 0, kBob)) << "it may come itself";
+  EXPECT_TRUE(Follows(Row(6, 1), 299, 1)) << "of six players' things everything";
+  AuthorityView crowd = Row(10, 1);  // the first has those before 30
+  EXPECT_FALSE(Follows(crowd, 299, 1));
+  EXPECT_TRUE(Follows(crowd, 29 + 23, 1)) << "22.5 m away";
+  EXPECT_FALSE(Follows(crowd, 29 + 26, 1)) << "25.5 m away";
+  crowd.mechanisms[29 + 26].now.secondaries.Add(1);
+  EXPECT_TRUE(Follows(crowd, 29 + 26, 1)) << "until it is two more";
+  crowd.boxes[299].velocity = {-900, 0};
+  EXPECT_TRUE(Follows(crowd, 299, 1)) << "it may come itself";
   crowd.follow_bodies = 300;
-  crowd.boxes[0].velocity = {0, 0};
-  EXPECT_TRUE(Follows(crowd, 0, kBob)) << "a room that is followed whole";
+  crowd.boxes[299].velocity = {2, 0};
+  EXPECT_TRUE(Follows(crowd, 299, 1)) << "a room that is followed whole";
+  EXPECT_TRUE(Follows(Row(10, 0.5f), 299, 1)) << "a push goes through all of a heap";
 }
 
 TEST(PlanAuthority, WhatIsMetThroughOthersIsFollowedToo) {

@@ -151,7 +151,9 @@ void FollowAtServer(const AuthorityView& view, const std::vector<std::pair<int, 
 std::vector<bool> InCrowds(const AuthorityView& view, const ReferencePlan& plan,
                            const std::vector<int>& group) {
   std::vector<std::set<int>> holders(plan.size());
-  std::vector<int> bodies(plan.size(), 0), mechanisms(plan.size(), 0);
+  const std::vector<int> touching =
+      Components(static_cast<int>(plan.size()), MeetingGroups(view.boxes, 0));
+  std::vector<int> alone(plan.size(), 0), mechanisms(plan.size(), 0);
   for (std::size_t m = 0; m < plan.size(); ++m) {
     const auto g = static_cast<std::size_t>(group[m]);
     ++mechanisms[g];
@@ -159,14 +161,15 @@ std::vector<bool> InCrowds(const AuthorityView& view, const ReferencePlan& plan,
       if (player.peer > 0 && player.peer == plan[m].authority) holders[g].insert(player.peer);
     }
   }
-  for (const MovingBox& box : view.boxes) {
-    ++bodies[static_cast<std::size_t>(group[static_cast<std::size_t>(box.group)])];
+  for (std::size_t m = 0; m < plan.size(); ++m) {
+    const bool single = std::count(touching.begin(), touching.end(), touching[m]) == 1;
+    if (single) ++alone[static_cast<std::size_t>(group[m])];
   }
   const bool whole = view.boxes.size() <= static_cast<std::size_t>(view.follow_bodies);
   std::vector<bool> crowd(plan.size());
   for (std::size_t m = 0; m < plan.size(); ++m) {
     const auto g = static_cast<std::size_t>(group[m]);
-    crowd[m] = !whole && mechanisms[g] > 1 && (holders[g].size() >= 8 || bodies[g] > 256);
+    crowd[m] = !whole && holders[g].size() >= 8 && 4 * alone[g] > mechanisms[g];
   }
   return crowd;
 }
@@ -184,6 +187,7 @@ void AddFollowers(const AuthorityView& view, ReferencePlan* plan) {
   const std::vector<int> later = Components(count, pairs_later);
   const std::vector<bool> crowd_soon = InCrowds(view, *plan, soon);
   const std::vector<bool> crowd_later = InCrowds(view, *plan, later);
+  const std::vector<int> touching = Components(count, MeetingGroups(view.boxes, 0));
   constexpr float kCrowdReach = 24;
   float longest = 0;
   for (const PlayerView& player : view.players) longest = std::max(longest, player.one_way_s);
@@ -208,6 +212,7 @@ void AddFollowers(const AuthorityView& view, ReferencePlan* plan) {
     };
     const std::vector<bool> meets_soon = WithThoseOf(player.peer, *plan, soon);
     const std::vector<bool> meets_later = WithThoseOf(player.peer, *plan, later);
+    const std::vector<bool> touches = WithThoseOf(player.peer, *plan, touching);
     bool any_crowd = false;
     for (std::size_t m = 0; m < plan->size(); ++m) {
       any_crowd =
@@ -226,7 +231,8 @@ void AddFollowers(const AuthorityView& view, ReferencePlan* plan) {
       const auto this_one = [&](int group) { return static_cast<std::size_t>(group) == m; };
       const float reach = std::max(view.buffer_m + (follows ? kHysteresis : 0.0f),
                                    crowd ? crowd_reach(follows, this_one) : 0.0f);
-      if (whole || meets || distance[m] <= reach) planned.secondaries.Add(player.peer);
+      if (whole || meets || touches[m] || distance[m] <= reach)
+        planned.secondaries.Add(player.peer);
     }
   }
 }
