@@ -135,8 +135,8 @@ void LinkFirst(b2Contact* c, b2ContactManager* manager) {
 
 }  // namespace
 
-/// The engine asks its tree for every shape. All of them are new here: one sweep finds the same
-/// pairs in a third of the time where most of it rests.
+/// The engine asks its tree for every shape. All of them are new here: one sweep along x finds the
+/// same pairs, cheaply unless all stands in one tower.
 void FindContactsInOrder(b2World* world) {
   b2ContactManager& manager = ManagerOf(world);
   std::vector<Shape> moving, resting;

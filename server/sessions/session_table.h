@@ -103,9 +103,9 @@ class SessionTable {
   void Close(std::int64_t now_us, const std::string& reason, Stats* stats);
 
  private:
-  static void LeaveUnless(bool sent, Session& session);
   using Sessions = std::map<SessionId, std::unique_ptr<Session>>;
 
+  static void LeaveUnless(bool sent, Session& session);
   Verdict OnStranger(std::int64_t now_us, const SessionId& id, const Bytes& datagram);
   void Admit(std::int64_t now_us, const SessionId& id, int peer);
   Verdict OnSession(std::int64_t now_us, Session& session, const Bytes& datagram,

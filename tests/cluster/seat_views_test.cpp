@@ -9,8 +9,8 @@
 
 #include "common/scene/scene.h"
 #include "tests/lab/cluster.h"
-#include "tests/support/two_sides.h"
 #include "tests/support/soak.h"
+#include "tests/support/two_sides.h"
 
 namespace seam {
 namespace {
