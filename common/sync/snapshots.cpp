@@ -8,12 +8,21 @@
 namespace seam {
 namespace {
 
-/// Acceleration between the last two states is thought to go on for kAccelerationLasts, unless it
-/// is larger than gravity, brakes and drag make it, or the two are far apart. s, m/s^2, s
+/// What accelerated a body between its last two states and between the two before is thought to go
+/// on for kAccelerationLasts, unless it is more than gravity, brakes and drag make, or the states
+/// are far apart. s, m/s^2, s
 constexpr float kAccelerationLasts = 0.3f, kAccelerationMax = 30, kAccelerationSpan = 0.5f;
 constexpr std::size_t kKeep = 96;      // states per body: about three seconds
 constexpr std::size_t kAges = 90;      // arrivals looked at for the delay
 constexpr double kSlewPerTick = 0.02;  // ticks of delay per tick: 2 % slower or faster
+
+/// The shortest vector on the way from `a` to `b`: both where they agree, 0 where they are opposed
+/// or one of them is.
+Vec2 LeastBetween(const Vec2& a, const Vec2& b) {
+  const Vec2 way = b - a;
+  const float length = way.squaredNorm();
+  return length > 0 ? Vec2(a + std::clamp(-a.dot(way) / length, 0.0f, 1.0f) * way) : a;
+}
 
 }  // namespace
 
@@ -83,12 +92,16 @@ float Snapshots::Forward(std::int64_t from, std::int64_t tick, float dt, float m
 
 Vec2 Snapshots::Acceleration(int body, std::int64_t tick, float dt) const {
   const std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
-  if (ring.size() < 2 || ring.back().tick != tick) return {0, 0};
-  const Stamped& before = ring[ring.size() - 2];
-  const float between = static_cast<float>(ring.back().tick - before.tick) * dt;
-  const Vec2 acceleration = (ring.back().state.velocity - before.state.velocity) / between;
-  if (between > kAccelerationSpan || acceleration.norm() > kAccelerationMax) return {0, 0};
-  return acceleration;
+  if (ring.size() < 3 || ring.back().tick != tick) return {0, 0};
+  // What starts, stops or is struck changes its velocity once: that does not go on.
+  const auto since = [dt](const Stamped& before, const Stamped& after) -> Vec2 {
+    const float between = static_cast<float>(after.tick - before.tick) * dt;
+    const Vec2 acceleration = (after.state.velocity - before.state.velocity) / between;
+    const bool lasts = between <= kAccelerationSpan && acceleration.norm() <= kAccelerationMax;
+    return lasts ? acceleration : Vec2(0, 0);
+  };
+  const auto newest = ring.rbegin();
+  return LeastBetween(since(newest[1], newest[0]), since(newest[2], newest[1]));
 }
 
 BodyState Snapshots::Extrapolate(int body, std::int64_t tick, float dt, float max_s) const {

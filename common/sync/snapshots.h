@@ -44,11 +44,11 @@ class Snapshots {
   /// Interpolated at a (fractional) tick; the oldest or newest kept state outside of what is known:
   /// never extrapolated. Requires has(body).
   BodyState Interpolate(int body, double tick) const;
-  /// As between the last two states, m/s^2; 0 when it is too large to go on, when they are far
-  /// apart, or when the newest is not of `tick`.
+  /// What the last two intervals between states have in common, m/s^2; 0 where they are opposed,
+  /// one is too large to go on or too long, or the newest state is not of `tick`.
   Vec2 Acceleration(int body, std::int64_t tick, float dt) const;
   /// The newest state moved on by its velocity for at most `max_s`, and by a moderate acceleration
-  /// as between the last two states. Requires has(body).
+  /// that has lasted for two intervals. Requires has(body).
   BodyState Extrapolate(int body, std::int64_t tick, float dt, float max_s) const;
   /// For how long a state of `from` is moved on to `tick`, s.
   static float Forward(std::int64_t from, std::int64_t tick, float dt, float max_s);

@@ -207,11 +207,11 @@ TEST(BotInput, IsAFunctionOfSeedPlayerAndTickAlone) {
   EXPECT_GT(differ, 300);
 }
 
-TEST(Snapshots, ReckonWithTheAccelerationBetweenTheLastTwo) {
+TEST(Snapshots, ReckonWithAnAccelerationThatLasts) {
   Snapshots snapshots(1);
   const float dt = 1 / 60.0f;
   // Brakes at 6 m/s^2 from 20 m/s at tick 0: v = 20 - 6 t, x = 20 t - 3 t^2.
-  for (const std::int64_t tick : {0, 6}) {
+  for (const std::int64_t tick : {0, 3, 6}) {
     const float t = static_cast<float>(tick) * dt;
     snapshots.Add(0, tick, State(20 * t - 3 * t * t, 20 - 6 * t, 0));
   }
@@ -229,6 +229,23 @@ TEST(Snapshots, ReckonABlowWithoutItsAcceleration) {
   snapshots.Add(0, 0, State(0, 10, 0));
   snapshots.Add(0, 2, State(0, -5, 0));
   EXPECT_NEAR(snapshots.Extrapolate(0, 14, 1 / 60.0f, 1).position.x(), -5 * 0.2f, 1e-5f);
+}
+
+/// A blade whose motor brings it to 0.99 m/s within a tick was reckoned to gain 9 m/s.
+TEST(Snapshots, ReckonAStartOrABlowOfOnceWithoutItsAcceleration) {
+  const float dt = 1 / 60.0f;
+  for (const float speed : {0.99f, 0.3f, -0.6f}) {
+    Snapshots snapshots(1);
+    snapshots.Add(0, 0, State(0, 0, 0));
+    snapshots.Add(0, 2, State(0, speed, 0));
+    EXPECT_NEAR(snapshots.Extrapolate(0, 20, dt, 1).velocity.x(), speed, 1e-6f) << "as first heard";
+    snapshots.Add(0, 4, State(0, speed, 0));
+    EXPECT_NEAR(snapshots.Extrapolate(0, 20, dt, 1).velocity.x(), speed, 1e-6f);
+    snapshots.Add(0, 6, State(0, 0.1f, 0));
+    EXPECT_NEAR(snapshots.Extrapolate(0, 20, dt, 1).velocity.x(), 0.1f, 1e-6f) << "struck";
+    snapshots.Add(0, 8, State(0, speed, 0));
+    EXPECT_NEAR(snapshots.Extrapolate(0, 20, dt, 1).velocity.x(), speed, 1e-6f) << "and back";
+  }
 }
 
 TEST(Snapshots, InterpolateBetweenAndHoldBeyond) {
