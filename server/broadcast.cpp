@@ -85,9 +85,11 @@ void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) 
     if (due_.size() == states.id.size() && session.outbox.empty() &&
         session.outbox.Affords(now_us, due_.size())) {
       session.packer.Add(states);
+      NotePressing(session);
       return;
     }
     for (const auto& [id, urgency] : due_) session.outbox.Add(now_us, id, urgency);
+    if (session.outbox.pressing()) NotePressing(session);
   });
 }
 
@@ -202,19 +204,39 @@ void Broadcast::TellLostAgain(std::int64_t now_us, Session& session) {
   }
 }
 
+void Broadcast::NotePressing(const Session& session) {
+  const auto p = static_cast<std::size_t>(session.peer);
+  if (presses_.size() <= p) presses_.resize(p + 1, 0);
+  if (std::exchange(presses_[p], 1) == 0) pressing_.push_back(session.peer);
+}
+
+/// A room of many is called with every datagram: only who has waited for one is looked at.
 void Broadcast::SendWaiting(std::int64_t now_us, bool stepped) {
-  sessions_.ForEachReady(0, [&](Session& session) {
-    if (stepped) TellLostAgain(now_us, session);
-    const bool now = stepped || session.outbox.pressing() || !session.packer.empty();
-    if (now && !session.outbox.empty()) {
-      for (const States& s : session.outbox.Compose(now_us, newest_)) session.packer.Add(s);
-    }
-    for (const StatesPacker::Message& message : session.packer.Take(now_us)) {
-      const Bytes bytes = Encode(message.packed);
-      session.outbox.NoteCost(bytes.size(), message.bodies);
-      session.link.SendUnreliable(bytes, kListedSlot, message.number);
-    }
-  });
+  const std::vector<int> pressing = std::exchange(pressing_, {});
+  for (const int peer : pressing) presses_[static_cast<std::size_t>(peer)] = 0;
+  if (stepped) {
+    sessions_.ForEachReady(0, [&](Session& session) { SendWaitingTo(now_us, session, true); });
+    return;
+  }
+  for (const int peer : pressing) {
+    Session* const session = sessions_.Find(peer);
+    const bool ready = session != nullptr && session->stage == SessionStage::kReady;
+    if (ready) SendWaitingTo(now_us, *session, false);
+  }
+}
+
+void Broadcast::SendWaitingTo(std::int64_t now_us, Session& session, bool stepped) {
+  if (stepped) TellLostAgain(now_us, session);
+  const bool now = stepped || session.outbox.pressing() || !session.packer.empty();
+  if (now && !session.outbox.empty()) {
+    for (const States& s : session.outbox.Compose(now_us, newest_)) session.packer.Add(s);
+  }
+  for (const StatesPacker::Message& message : session.packer.Take(now_us)) {
+    const Bytes bytes = Encode(message.packed);
+    session.outbox.NoteCost(bytes.size(), message.bodies);
+    session.link.SendUnreliable(bytes, kListedSlot, message.number);
+  }
+  if (session.outbox.pressing()) NotePressing(session);  // beyond its budget
 }
 
 void Broadcast::LookAround(std::int64_t now_us) {

@@ -83,6 +83,9 @@ class Broadcast {
   };
   void Send(std::int64_t now_us, Session& session, std::vector<Grants> messages);
   void TellLostAgain(std::int64_t now_us, Session& session);
+  /// Something is for it that does not wait for the next step.
+  void NotePressing(const Session& session);
+  void SendWaitingTo(std::int64_t now_us, Session& session, bool stepped);
   void NoteFollowers(const std::vector<Grants>& changes);
   void FindFollowers();
   void TellNothings(std::int64_t now_us, Session& session);
@@ -108,6 +111,8 @@ class Broadcast {
   std::vector<std::vector<int>> followers_;      // by mechanism: peers; of a large room
   std::vector<int> hearing_;                     // peers, in ForEachHearing
   std::vector<char> hears_;                      // by peer: is in hearing_
+  std::vector<int> pressing_;                    // peers for whom something does not wait
+  std::vector<char> presses_;                    // by peer: is in pressing_
 };
 
 }  // namespace seam

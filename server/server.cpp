@@ -144,9 +144,7 @@ void Server::SendWorld(std::int64_t now_us, Session& session) {
   if (rules_ != nullptr) {
     for (const Meta& meta : rules_->metadata().Export(now_us, replica_.tick())) send(meta);
   }
-  if (sent) return;
-  session.leaving = true;
-  session.leaving_why = "the world is more than can be sent to it";
+  if (!sent) sessions_.Leave(session, "the world is more than can be sent to it");
 }
 
 void Server::SendBodies(std::int64_t now_us, Session& session) {
@@ -176,7 +174,7 @@ void Server::TellRest(std::int64_t now_us) {
 
 void Server::StartIfReady(std::int64_t now_us) {
   if (started()) return;
-  const std::vector<int> peers = sessions_.PeerOfPlayer();
+  const std::vector<int>& peers = sessions_.PeerOfPlayer();
   const auto ready = std::count_if(peers.begin(), peers.end(), [](int peer) { return peer > 0; });
   if (ready < config_.wait_players) return;
   clock_.Start(now_us + (config_.wait_players > 0 ? kLeadInUs : 0));
