@@ -30,7 +30,7 @@ void Broadcast::FindDue(int peer) {
     const bool has = Simulates(peer, entry.mechanism);
     const Concern concern = has ? Concern::kClose : interest_.Of(peer, entry.mechanism);
     if (concern == Concern::kClose) {
-      due_.emplace_back(entry.id, Urgency::kFollowed);
+      if (entry.to_followers) due_.emplace_back(entry.id, Urgency::kFollowed);
     } else if (concern == Concern::kNear && entry.news >= News::kNear) {
       due_.emplace_back(entry.id, Urgency::kNear);
     } else if (concern == Concern::kFar && entry.news == News::kAll) {
@@ -63,6 +63,16 @@ void Broadcast::ForEachHearing(int but_peer, Visit visit) {
   }
 }
 
+/// Who simulates what a silent holder has knows as much of it as the server: the last state that
+/// was heard, and the same inputs. A server that began to simulate it from that state knows less:
+/// not how a character stood to its next step, nor what a suspension or a contact bore. Its word
+/// counts once the driver is taken to have let go, which followers hear of from the server alone.
+bool Broadcast::TellsFollowers(std::int64_t now_us, int holder, int body) {
+  if (replica_.SimulatedBefore(body)) return true;
+  const Session* const session = sessions_.Find(holder);
+  return session == nullptr || now_us - session->link.last_receive_us() > kDriverSilentUs;
+}
+
 void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) {
   if (Plain()) {
     const Bytes whole = Encode(states);
@@ -77,7 +87,8 @@ void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) 
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(states.id[i]);
     if (body < 0) continue;  // it has left meanwhile
-    entries_.push_back({states.id[i], replica_.world().mechanism(body), news[i]});
+    const bool to_followers = !for_silent || TellsFollowers(now_us, states.peer, body);
+    entries_.push_back({states.id[i], replica_.world().mechanism(body), news[i], to_followers});
   }
   ForEachHearing(from_peer, [&](Session& session) {
     FindDue(session.peer);

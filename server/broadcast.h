@@ -80,6 +80,7 @@ class Broadcast {
     PartId id = 0;
     int mechanism = 0;
     News news = News::kNobody;
+    bool to_followers = true;
   };
   void Send(std::int64_t now_us, Session& session, std::vector<Grants> messages);
   void TellLostAgain(std::int64_t now_us, Session& session);
@@ -95,6 +96,8 @@ class Broadcast {
   void AddNewest(std::int64_t now_us, Session& session, int mechanism, Urgency urgency);
   /// What is due to a peer of what `entries_` has.
   void FindDue(int peer);
+  /// Whether who simulates it itself is told where it is in its silent holder's name.
+  bool TellsFollowers(std::int64_t now_us, int holder, int body);
   /// Whether states go to everyone whole: nobody's mode tells apart what concerns whom.
   bool Plain() const { return config_.mode != Mode::kBuffer && config_.mode != Mode::kCentral; }
 

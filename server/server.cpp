@@ -208,9 +208,13 @@ void Server::StepOnce(std::int64_t now_us) {
   RunRules(now_us);
 }
 
+bool Server::PublishesViews() const {
+  return config_.publish != Publish::kNone && recorder_.listening();
+}
+
 void Server::PublishShown(std::int64_t now_us) {
+  if (!PublishesViews()) return;
   const Publish publish = Resolved(config_.publish, replica_.world().body_count());
-  if (publish == Publish::kNone || !recorder_.listening()) return;
   const View view = replica_.MakeView(publish == Publish::kAll);
   broadcast_.Publish(At(now_us, view));
   if (publish != Publish::kAll || replica_.tick() == 0) return;
@@ -290,6 +294,7 @@ void Server::UpdateAuthority(std::int64_t now_us) {
     situation.one_way_s.push_back(static_cast<float>(std::max<std::int64_t>(0, rtt_us)) * 0.5e-6f);
   }
   situation.together = edits_.WaitingMechanisms();
+  situation.shown = PublishesViews();
   const std::vector<Grants> grants = authority_.Update(now_us, situation);
   for (AuthorityManager::Given& given : authority_.TakeGiven()) {
     given.exact.utime = now_us;

@@ -136,6 +136,8 @@ class Server {
   void UpdateAuthority(std::int64_t now_us);
   /// Looks anew at what concerns whom, when that is due or has changed.
   void UpdateInterest(std::int64_t now_us, bool changed);
+  /// Whether anybody can see what this server shows.
+  bool PublishesViews() const;
   void PublishShown(std::int64_t now_us);
   void RunRules(std::int64_t now_us);
   void RunSeats();
