@@ -90,6 +90,10 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   FollowSessions(now_us);
   sessions_.Advance(now_us);
   FollowSessions(now_us);
+  if (std::exchange(look_soon_, false)) {  // once for all who came
+    broadcast_.LookAround(now_us);
+    FindHeardPlayers();
+  }
   LetSilentGo(now_us);
   StartIfReady(now_us);
   if (now_us - last_room_us_ >= 1000000) {

@@ -168,6 +168,7 @@ class Server {
   std::vector<std::string> news_;  // not taken yet
   RoomClock clock_;
   std::int64_t last_room_us_ = -1000000000;
+  bool look_soon_ = false;              // somebody has come: what concerns whom is not known
   std::int64_t drivers_heard_us_ = 0;  // until then no driver has been silent for too long
   std::vector<int> inputs_due_;        // players of whom some have come
   std::int64_t inputs_due_tick_ = -1;  // when they were relayed last

@@ -45,8 +45,7 @@ void Server::FollowSessions(std::int64_t now_us) {
         SendBodies(now_us, *sessions_.Find(event.peer));
         if (rules_ != nullptr && event.player >= 0) rules_->OnJoin(event.player);
         authority_.PlanSoon();
-        broadcast_.LookAround(now_us);
-        FindHeardPlayers();
+        look_soon_ = true;
         broadcast_.Say(now_us, event.name + " is ready as " + peer);
         Tell(event.name + " is here as " + peer + ", " + ToString(event.address));
         break;
