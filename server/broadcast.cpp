@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/physics/stage.h"
 #include "common/sync/lease.h"
 
 namespace seam {
@@ -64,11 +65,14 @@ void Broadcast::ForEachHearing(int but_peer, Visit visit) {
 }
 
 /// Who simulates what a silent holder has knows as much of it as the server: the last state that
-/// was heard, and the same inputs. A server that began to simulate it from that state knows less:
-/// not how a character stood to its next step, nor what a suspension or a contact bore. Its word
-/// counts once the driver is taken to have let go, which followers hear of from the server alone.
+/// was heard, and the same inputs. A server that began to simulate it only then knows less: not how
+/// a character stood to its next step, nor what a suspension or a contact bore. Its word counts
+/// once the driver is taken to have let go, which followers hear of from the server alone.
 bool Broadcast::TellsFollowers(std::int64_t now_us, int holder, int body) {
-  if (replica_.SimulatedBefore(body)) return true;
+  const World& world = replica_.world();
+  const bool small = world.body_count() <= world.scene().server_follow && publisher_.listening();
+  const bool all_along = small || ProposesEdits(world.scene());
+  if (all_along && replica_.SimulatedBefore(body)) return true;
   const Session* const session = sessions_.Find(holder);
   return session == nullptr || now_us - session->link.last_receive_us() > kDriverSilentUs;
 }
