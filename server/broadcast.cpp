@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/physics/stage.h"
 #include "common/sync/lease.h"
 
 namespace seam {
@@ -30,7 +31,7 @@ void Broadcast::FindDue(int peer) {
     const bool has = Simulates(peer, entry.mechanism);
     const Concern concern = has ? Concern::kClose : interest_.Of(peer, entry.mechanism);
     if (concern == Concern::kClose) {
-      due_.emplace_back(entry.id, Urgency::kFollowed);
+      if (entry.to_followers) due_.emplace_back(entry.id, Urgency::kFollowed);
     } else if (concern == Concern::kNear && entry.news >= News::kNear) {
       due_.emplace_back(entry.id, Urgency::kNear);
     } else if (concern == Concern::kFar && entry.news == News::kAll) {
@@ -63,6 +64,19 @@ void Broadcast::ForEachHearing(int but_peer, Visit visit) {
   }
 }
 
+/// Who simulates what a silent holder has knows as much of it as the server: the last state that
+/// was heard, and the same inputs. A server that began to simulate it only then knows less: not how
+/// a character stood to its next step, nor what a suspension or a contact bore. Its word counts
+/// once the driver is taken to have let go, which followers hear of from the server alone.
+bool Broadcast::TellsFollowers(std::int64_t now_us, int holder, int body) {
+  const World& world = replica_.world();
+  const bool small = world.body_count() <= world.scene().server_follow && publisher_.listening();
+  const bool all_along = small || ProposesEdits(world.scene());
+  if (all_along && replica_.SimulatedBefore(body)) return true;
+  const Session* const session = sessions_.Find(holder);
+  return session == nullptr || now_us - session->link.last_receive_us() > kDriverSilentUs;
+}
+
 void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) {
   if (Plain()) {
     const Bytes whole = Encode(states);
@@ -77,7 +91,8 @@ void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) 
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(states.id[i]);
     if (body < 0) continue;  // it has left meanwhile
-    entries_.push_back({states.id[i], replica_.world().mechanism(body), news[i]});
+    const bool to_followers = !for_silent || TellsFollowers(now_us, states.peer, body);
+    entries_.push_back({states.id[i], replica_.world().mechanism(body), news[i], to_followers});
   }
   ForEachHearing(from_peer, [&](Session& session) {
     FindDue(session.peer);
@@ -85,9 +100,11 @@ void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) 
     if (due_.size() == states.id.size() && session.outbox.empty() &&
         session.outbox.Affords(now_us, due_.size())) {
       session.packer.Add(states);
+      NotePressing(session);
       return;
     }
     for (const auto& [id, urgency] : due_) session.outbox.Add(now_us, id, urgency);
+    if (session.outbox.pressing()) NotePressing(session);
   });
 }
 
@@ -202,19 +219,39 @@ void Broadcast::TellLostAgain(std::int64_t now_us, Session& session) {
   }
 }
 
+void Broadcast::NotePressing(const Session& session) {
+  const auto p = static_cast<std::size_t>(session.peer);
+  if (presses_.size() <= p) presses_.resize(p + 1, 0);
+  if (std::exchange(presses_[p], 1) == 0) pressing_.push_back(session.peer);
+}
+
+/// A room of many is called with every datagram: only who has waited for one is looked at.
 void Broadcast::SendWaiting(std::int64_t now_us, bool stepped) {
-  sessions_.ForEachReady(0, [&](Session& session) {
-    if (stepped) TellLostAgain(now_us, session);
-    const bool now = stepped || session.outbox.pressing() || !session.packer.empty();
-    if (now && !session.outbox.empty()) {
-      for (const States& s : session.outbox.Compose(now_us, newest_)) session.packer.Add(s);
-    }
-    for (const StatesPacker::Message& message : session.packer.Take(now_us)) {
-      const Bytes bytes = Encode(message.packed);
-      session.outbox.NoteCost(bytes.size(), message.bodies);
-      session.link.SendUnreliable(bytes, kListedSlot, message.number);
-    }
-  });
+  const std::vector<int> pressing = std::exchange(pressing_, {});
+  for (const int peer : pressing) presses_[static_cast<std::size_t>(peer)] = 0;
+  if (stepped) {
+    sessions_.ForEachReady(0, [&](Session& session) { SendWaitingTo(now_us, session, true); });
+    return;
+  }
+  for (const int peer : pressing) {
+    Session* const session = sessions_.Find(peer);
+    const bool ready = session != nullptr && session->stage == SessionStage::kReady;
+    if (ready) SendWaitingTo(now_us, *session, false);
+  }
+}
+
+void Broadcast::SendWaitingTo(std::int64_t now_us, Session& session, bool stepped) {
+  if (stepped) TellLostAgain(now_us, session);
+  const bool now = stepped || session.outbox.pressing() || !session.packer.empty();
+  if (now && !session.outbox.empty()) {
+    for (const States& s : session.outbox.Compose(now_us, newest_)) session.packer.Add(s);
+  }
+  for (const StatesPacker::Message& message : session.packer.Take(now_us)) {
+    const Bytes bytes = Encode(message.packed);
+    session.outbox.NoteCost(bytes.size(), message.bodies);
+    session.link.SendUnreliable(bytes, kListedSlot, message.number);
+  }
+  if (session.outbox.pressing()) NotePressing(session);  // beyond its budget
 }
 
 void Broadcast::LookAround(std::int64_t now_us) {

@@ -80,9 +80,13 @@ class Broadcast {
     PartId id = 0;
     int mechanism = 0;
     News news = News::kNobody;
+    bool to_followers = true;
   };
   void Send(std::int64_t now_us, Session& session, std::vector<Grants> messages);
   void TellLostAgain(std::int64_t now_us, Session& session);
+  /// Something is for it that does not wait for the next step.
+  void NotePressing(const Session& session);
+  void SendWaitingTo(std::int64_t now_us, Session& session, bool stepped);
   void NoteFollowers(const std::vector<Grants>& changes);
   void FindFollowers();
   void TellNothings(std::int64_t now_us, Session& session);
@@ -92,6 +96,8 @@ class Broadcast {
   void AddNewest(std::int64_t now_us, Session& session, int mechanism, Urgency urgency);
   /// What is due to a peer of what `entries_` has.
   void FindDue(int peer);
+  /// Whether who simulates it itself is told where it is in its silent holder's name.
+  bool TellsFollowers(std::int64_t now_us, int holder, int body);
   /// Whether states go to everyone whole: nobody's mode tells apart what concerns whom.
   bool Plain() const { return config_.mode != Mode::kBuffer && config_.mode != Mode::kCentral; }
 
@@ -108,6 +114,8 @@ class Broadcast {
   std::vector<std::vector<int>> followers_;      // by mechanism: peers; of a large room
   std::vector<int> hearing_;                     // peers, in ForEachHearing
   std::vector<char> hears_;                      // by peer: is in hearing_
+  std::vector<int> pressing_;                    // peers for whom something does not wait
+  std::vector<char> presses_;                    // by peer: is in pressing_
 };
 
 }  // namespace seam

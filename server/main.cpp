@@ -24,6 +24,8 @@ namespace {
 using namespace seam;
 
 constexpr int kRoomsMax = 4096;
+/// From one look at who asks for the page of metrics to the next, us.
+constexpr std::int64_t kPageUs = 5000;
 
 struct Flags {
   std::vector<std::string> scenes;
@@ -233,10 +235,14 @@ int Serve(const Flags& f) {
                f.impair.c_str(), ToString(udp.local()).c_str(), plans[0].config.wait_players,
                rooms == 1 ? "" : " in the first", Ending(DurationOf(f, plans[0].scene)).c_str());
   ProgressLine line(f.quiet);
+  std::int64_t page_us = 0;
   while (g_stop == 0 && !hub.done()) {
     const std::int64_t now = SteadyClockUs();
     hub.Poll(now);
-    if (page != nullptr) page->Poll(now, [&] { return WriteLoadPage(hub.Loads()); });
+    if (page != nullptr && now - page_us >= kPageUs) {
+      page_us = now;
+      page->Poll(now, [&] { return WriteLoadPage(hub.Loads()); });
+    }
     for (const std::string& news : hub.TakeNews()) {
       line.End();
       PrintError("seam-server", news);

@@ -90,6 +90,10 @@ void Server::Tick(std::int64_t now_us, std::int64_t cpu_us) {
   FollowSessions(now_us);
   sessions_.Advance(now_us);
   FollowSessions(now_us);
+  if (std::exchange(look_soon_, false)) {  // once for all who came
+    broadcast_.LookAround(now_us);
+    FindHeardPlayers();
+  }
   LetSilentGo(now_us);
   StartIfReady(now_us);
   if (now_us - last_room_us_ >= 1000000) {
@@ -144,9 +148,7 @@ void Server::SendWorld(std::int64_t now_us, Session& session) {
   if (rules_ != nullptr) {
     for (const Meta& meta : rules_->metadata().Export(now_us, replica_.tick())) send(meta);
   }
-  if (sent) return;
-  session.leaving = true;
-  session.leaving_why = "the world is more than can be sent to it";
+  if (!sent) sessions_.Leave(session, "the world is more than can be sent to it");
 }
 
 void Server::SendBodies(std::int64_t now_us, Session& session) {
@@ -176,7 +178,7 @@ void Server::TellRest(std::int64_t now_us) {
 
 void Server::StartIfReady(std::int64_t now_us) {
   if (started()) return;
-  const std::vector<int> peers = sessions_.PeerOfPlayer();
+  const std::vector<int>& peers = sessions_.PeerOfPlayer();
   const auto ready = std::count_if(peers.begin(), peers.end(), [](int peer) { return peer > 0; });
   if (ready < config_.wait_players) return;
   clock_.Start(now_us + (config_.wait_players > 0 ? kLeadInUs : 0));
@@ -210,9 +212,13 @@ void Server::StepOnce(std::int64_t now_us) {
   RunRules(now_us);
 }
 
+bool Server::PublishesViews() const {
+  return config_.publish != Publish::kNone && recorder_.listening();
+}
+
 void Server::PublishShown(std::int64_t now_us) {
+  if (!PublishesViews()) return;
   const Publish publish = Resolved(config_.publish, replica_.world().body_count());
-  if (publish == Publish::kNone || !recorder_.listening()) return;
   const View view = replica_.MakeView(publish == Publish::kAll);
   broadcast_.Publish(At(now_us, view));
   if (publish != Publish::kAll || replica_.tick() == 0) return;
@@ -292,6 +298,7 @@ void Server::UpdateAuthority(std::int64_t now_us) {
     situation.one_way_s.push_back(static_cast<float>(std::max<std::int64_t>(0, rtt_us)) * 0.5e-6f);
   }
   situation.together = edits_.WaitingMechanisms();
+  situation.shown = PublishesViews();
   const std::vector<Grants> grants = authority_.Update(now_us, situation);
   for (AuthorityManager::Given& given : authority_.TakeGiven()) {
     given.exact.utime = now_us;

@@ -136,6 +136,8 @@ class Server {
   void UpdateAuthority(std::int64_t now_us);
   /// Looks anew at what concerns whom, when that is due or has changed.
   void UpdateInterest(std::int64_t now_us, bool changed);
+  /// Whether anybody can see what this server shows.
+  bool PublishesViews() const;
   void PublishShown(std::int64_t now_us);
   void RunRules(std::int64_t now_us);
   void RunSeats();
@@ -166,6 +168,8 @@ class Server {
   std::vector<std::string> news_;  // not taken yet
   RoomClock clock_;
   std::int64_t last_room_us_ = -1000000000;
+  bool look_soon_ = false;              // somebody has come: what concerns whom is not known
+  std::int64_t drivers_heard_us_ = 0;  // until then no driver has been silent for too long
   std::vector<int> inputs_due_;        // players of whom some have come
   std::int64_t inputs_due_tick_ = -1;  // when they were relayed last
 };

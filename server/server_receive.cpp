@@ -67,8 +67,8 @@ void Server::OnMessage(std::int64_t now_us, Session& session, ByteView bytes) {
   } else if (std::holds_alternative<Hello>(any)) {
     OnHello(now_us, session);
   } else if (std::holds_alternative<Bye>(any)) {
-    session.leaving = session.goodbye = true;
-    session.leaving_why = "left";
+    session.goodbye = true;
+    sessions_.Leave(session, "left");
   } else {
     ++stats_.counters.dropped_malformed;
   }
@@ -196,7 +196,7 @@ void Server::OnStates(std::int64_t now_us, Session& session, const States& state
     ++stats_.counters.dropped_right;
     return;
   }
-  const States kept = filter_.Keep(now_us, session.peer, states);
+  const States& kept = filter_.Keep(now_us, session.peer, states);
   if (kept.id.empty()) return;
   stats_.counters.dropped_stale += replica_.Receive(kept).stale;
   if (rule_source_ != nullptr) rule_source_->NoteStates(kept);

@@ -45,8 +45,7 @@ void Server::FollowSessions(std::int64_t now_us) {
         SendBodies(now_us, *sessions_.Find(event.peer));
         if (rules_ != nullptr && event.player >= 0) rules_->OnJoin(event.player);
         authority_.PlanSoon();
-        broadcast_.LookAround(now_us);
-        FindHeardPlayers();
+        look_soon_ = true;
         broadcast_.Say(now_us, event.name + " is ready as " + peer);
         Tell(event.name + " is here as " + peer + ", " + ToString(event.address));
         break;
@@ -75,18 +74,22 @@ void Server::EndLeases(std::int64_t now_us) {
       session.ending_us = now_us;
     }
     if (session.ending_us < 0 || now_us - session.ending_us <= kEndingUs) return;
-    session.leaving = true;
-    session.leaving_why = "does not let go";
+    sessions_.Leave(session, "does not let go");
   });
 }
 
 /// A driver that is not heard has let go of its controls until it is; what else its buttons do
 /// stays, or going on would be a new press.
 void Server::LetSilentGo(std::int64_t now_us) {
-  const std::vector<int> peers = sessions_.PeerOfPlayer();
+  if (now_us < drivers_heard_us_) return;
+  drivers_heard_us_ = now_us + kDriverSilentUs;
+  const std::vector<int>& peers = sessions_.PeerOfPlayer();
   for (std::size_t p = 0; p < peers.size(); ++p) {
     const Session* session = sessions_.Find(peers[p]);
-    if (session == nullptr || now_us - session->link.last_receive_us() <= kDriverSilentUs) continue;
+    if (session == nullptr) continue;
+    const std::int64_t heard_us = session->link.last_receive_us() + kDriverSilentUs;
+    drivers_heard_us_ = std::min(drivers_heard_us_, heard_us + 1);
+    if (now_us <= heard_us) continue;
     const int player = static_cast<int>(p);
     const InputTrack& track = replica_.inputs(player);
     const Input last = track.At(track.newest());
@@ -124,7 +127,7 @@ void Server::Tell(const std::string& line) {
 }
 
 std::vector<std::string> Server::missing() const {
-  const std::vector<int> peers = sessions_.PeerOfPlayer();
+  const std::vector<int>& peers = sessions_.PeerOfPlayer();
   std::vector<std::string> names;
   for (std::size_t p = 0; p < peers.size(); ++p) {
     if (peers[p] < 0) names.push_back(scene_.players[p].name);

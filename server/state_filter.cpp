@@ -25,13 +25,16 @@ void AddPose(const Message& from, std::size_t i, Message* to) {
   to->angle.push_back(from.angle[i]);
 }
 
-template <class Message>
-void ReservePoses(std::size_t count, Message* of) {
-  of->id.reserve(count);
-  of->epoch.reserve(count);
-  of->x.reserve(count);
-  of->y.reserve(count);
-  of->angle.reserve(count);
+void Clear(States* states) {
+  states->id.clear();
+  states->epoch.clear();
+  states->flags.clear();
+  states->x.clear();
+  states->y.clear();
+  states->angle.clear();
+  states->vx.clear();
+  states->vy.clear();
+  states->spin.clear();
 }
 
 /// And how it moves.
@@ -134,8 +137,9 @@ bool StateFilter::MayMove(int body, const Claim& claim) {
   return true;
 }
 
-States StateFilter::Keep(std::int64_t now_us, int peer, const States& states) {
-  States kept;
+const States& StateFilter::Keep(std::int64_t now_us, int peer, const States& states) {
+  States& kept = kept_;
+  Clear(&kept);
   if (!MayLookAt(peer, states)) return kept;
   kept.utime = now_us;
   kept.peer = states.peer;
@@ -144,12 +148,6 @@ States StateFilter::Keep(std::int64_t now_us, int peer, const States& states) {
   kept.composition = states.composition;
   kept.origin_x = states.origin_x;
   kept.origin_y = states.origin_y;
-  const std::size_t count = states.id.size();
-  ReservePoses(count, &kept);
-  kept.vx.reserve(count);
-  kept.vy.reserve(count);
-  kept.spin.reserve(count);
-  kept.flags.reserve(count);
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = replica_.world().BodyOfId(states.id[i]);
     if (!MayMove(body, states, i)) continue;

@@ -20,8 +20,9 @@ class StateFilter {
   StateFilter(const Scene& scene, const Replica& replica, const AuthorityManager& authority,
               const EditLog& edits, Stats& stats);
 
-  /// What is kept of a message of `peer`, which is ready; without bodies when it is nothing.
-  States Keep(std::int64_t now_us, int peer, const States& states);
+  /// What is kept of a message of `peer`, which is ready; without bodies when it is nothing. It
+  /// holds until the next call.
+  const States& Keep(std::int64_t now_us, int peer, const States& states);
   /// The same of a commitment to rest; it may be old, as reliable messages are under loss.
   Rest Keep(std::int64_t now_us, int peer, const Rest& rest);
   /// What is kept of what a peer, which is ready, says of bodies that it has let go of.
@@ -67,6 +68,7 @@ class StateFilter {
   Stats& stats_;
   std::vector<LastAccepted> accepted_;  // by body
   std::vector<int> outside_;
+  States kept_;  // of the last message: its memory is used again
 };
 
 }  // namespace seam

@@ -46,6 +46,14 @@ inline int CoreCount() {
   return CPU_COUNT(&set) > 0 ? CPU_COUNT(&set) : 1;
 }
 
+/// Sleeps for so long, us, or until a signal; not at all if it is not above 0. Below 1 s.
+inline void SleepUs(std::int64_t us) {
+  if (us <= 0) return;
+  timespec t{};
+  t.tv_nsec = static_cast<long>(us < 1000000 ? us : 999999) * 1000;
+  nanosleep(&t, nullptr);
+}
+
 /// CPU time of this thread so far, us.
 inline std::int64_t ThreadCpuUs() {
   timespec t{};

@@ -1,6 +1,8 @@
 #include "common/codec/codec.h"
 
+#include <tuple>
 #include <unordered_map>
+#include <utility>
 
 #include "common/base/check.h"
 #include "common/codec/validate.h"
@@ -79,6 +81,12 @@ Bytes EncodeAs(const Message& message) {
   return bytes;
 }
 
+/// Each element of one tuple of references becomes the other's, arrays with their memory.
+template <class To, class From, std::size_t... i>
+void MoveFields(To to, From from, std::index_sequence<i...>) {
+  ((std::get<i>(to) = std::move(std::get<i>(from))), ...);
+}
+
 template <class Message>
 AnyMessage DecodeAs(ByteView bytes) {
   // Anew each time: what has no elements is not read, and would keep those of the message before.
@@ -86,9 +94,11 @@ AnyMessage DecodeAs(ByteView bytes) {
   const int size = static_cast<int>(bytes.size);
   if (wire.decode(bytes.data, 0, size) != size) return {};
   Message message;
-  MessageTraits<Message>::Fields(message) = MessageTraits<Message>::Fields(wire);
+  const auto to = MessageTraits<Message>::Fields(message);
+  const auto from = MessageTraits<Message>::Fields(wire);
+  MoveFields(to, from, std::make_index_sequence<std::tuple_size_v<decltype(to)>>());
   if (!Valid(message)) return {};
-  return message;
+  return AnyMessage(std::move(message));
 }
 
 template <class Message>

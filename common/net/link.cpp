@@ -61,6 +61,8 @@ struct Link::Impl {
   std::deque<SentRecord> sent;  // of successive sequence numbers up to the newest
   std::int64_t srtt_us = -1;
   bool ever_acked = false;
+  std::int64_t acks_newest = 0;  // of acknowledged datagrams; and which of the 64 up to it are
+  std::uint64_t acks_seen = 0;   // bit i: acks_newest - i
   bool quiet = false;
 
   SequenceWindow window;
@@ -183,12 +185,29 @@ struct Link::Impl {
     for (const std::int64_t id : record.ids) reliable.NoteAcked(id);
   }
 
+  /// Whether the datagram is one of the last that are known to have arrived; then it is one. Each
+  /// is acknowledged by 33 datagrams: its record is looked for once.
+  bool Seen(std::int64_t number) {
+    if (number > acks_newest) {
+      const std::int64_t by = number - acks_newest;
+      acks_seen = by < 64 ? acks_seen << by : 0;
+      acks_newest = number;
+    }
+    const std::int64_t age = acks_newest - number;
+    if (age >= 64) return false;
+    const std::uint64_t bit = std::uint64_t{1} << age;
+    const bool seen = (acks_seen & bit) != 0;
+    acks_seen |= bit;
+    return seen;
+  }
+
   void ReadAcks(std::int64_t ack, std::uint32_t bits, std::int64_t now_us) {
     // Zeros say "nothing has arrived" until something is known to have.
     if (!ever_acked && static_cast<std::uint16_t>(ack) == 0 && bits == 0) return;
-    Acknowledge(ack, now_us, true);
+    if (!Seen(ack)) Acknowledge(ack, now_us, true);
     for (int i = 0; i < 32; ++i) {
-      if ((bits >> i) & 1u) Acknowledge(ack - 1 - i, now_us, false);
+      const bool arrived_too = ((bits >> i) & 1u) != 0;
+      if (arrived_too && !Seen(ack - 1 - i)) Acknowledge(ack - 1 - i, now_us, false);
     }
   }
 

@@ -110,6 +110,12 @@ class Replica {
   std::vector<FoundEdit> TakeProposals() { return proposals_.Take(); }
   /// Whether the body is made of what it was made of after that many edits.
   bool SameBody(int body, int edits) const { return memory_.track(body).changed_at <= edits; }
+  /// Whether our copy of what another has was simulated here already when the newest state of it
+  /// came; else it has begun from that state, without what a state does not tell.
+  bool SimulatedBefore(int body) const {
+    const BodyTrack& track = memory_.track(body);
+    return track.dynamic_since < track.heard_tick;
+  }
   /// Edits applied so far.
   int revision() const { return world_.topology().revision(); }
   /// Ticks that were stepped again, and replays that waited since the budget was used up.

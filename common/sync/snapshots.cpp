@@ -1,6 +1,7 @@
 #include "common/sync/snapshots.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/base/check.h"
 #include "common/sync/reconcile/reconcile.h"
@@ -37,53 +38,71 @@ Vec2 ShiftGained(const Vec2& acceleration, float forward) {
 
 Snapshots::Snapshots(int body_count) : rings_(static_cast<std::size_t>(body_count)) {}
 
+void Snapshots::Ring::Push(const Stamped& stamped) {
+  if (size_ == slots_.size() && size_ < kKeep) Grow();
+  slots_[next_] = stamped;
+  next_ = next_ + 1 == slots_.size() ? 0 : next_ + 1;
+  size_ = std::min<std::uint32_t>(size_ + 1, static_cast<std::uint32_t>(slots_.size()));
+  newest_tick_ = stamped.tick;
+}
+
+void Snapshots::Ring::DropNewest() {
+  next_ = next_ == 0 ? static_cast<std::uint32_t>(slots_.size()) - 1 : next_ - 1;
+  --size_;
+  newest_tick_ = size_ == 0 ? -1 : FromNewest(0).tick;
+}
+
+void Snapshots::Ring::Grow() {
+  constexpr std::size_t kFirst = 6;
+  std::vector<Stamped> slots(slots_.empty() ? kFirst : std::min(2 * slots_.size(), kKeep));
+  for (std::size_t i = 0; i < size_; ++i) slots[i] = FromNewest(size_ - 1 - i);
+  slots_ = std::move(slots);
+  next_ = size_;
+}
+
 void Snapshots::Add(int body, std::int64_t tick, const BodyState& state) {
-  std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
-  if (!ring.empty() && ring.back().tick >= tick) return;
-  ring.push_back({tick, state});
-  if (ring.size() > kKeep) ring.pop_front();
+  Ring& ring = rings_[static_cast<std::size_t>(body)];
+  if (ring.size() == 0 || ring.newest_tick() < tick) ring.Push({tick, state});
 }
 
 void Snapshots::Remap(const std::vector<BodyOrigin>& origins) {
-  std::vector<std::deque<Stamped>> rings(origins.size());
+  std::vector<Ring> rings(origins.size());
   for (std::size_t i = 0; i < origins.size(); ++i) {
     if (origins[i].body < 0) continue;
     rings[i] = rings_[static_cast<std::size_t>(origins[i].body)];
-    for (Stamped& stamped : rings[i]) stamped.state = Carried(origins[i], stamped.state);
+    for (std::size_t k = 0; k < rings[i].size(); ++k) {
+      BodyState& state = rings[i].FromNewest(k).state;
+      state = Carried(origins[i], state);
+    }
   }
   rings_ = std::move(rings);
 }
 
 void Snapshots::ForgetAfter(int body, std::int64_t tick) {
-  std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
-  while (!ring.empty() && ring.back().tick > tick) ring.pop_back();
-}
-
-std::int64_t Snapshots::newest_tick(int body) const {
-  const std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
-  return ring.empty() ? -1 : ring.back().tick;
+  Ring& ring = rings_[static_cast<std::size_t>(body)];
+  while (ring.size() > 0 && ring.newest_tick() > tick) ring.DropNewest();
 }
 
 const BodyState* Snapshots::At(int body, std::int64_t tick) const {
-  const std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
-  for (auto it = ring.rbegin(); it != ring.rend() && it->tick >= tick; ++it) {
-    if (it->tick == tick) return &it->state;
+  const Ring& ring = rings_[static_cast<std::size_t>(body)];
+  for (std::size_t k = 0; k < ring.size() && ring.FromNewest(k).tick >= tick; ++k) {
+    if (ring.FromNewest(k).tick == tick) return &ring.FromNewest(k).state;
   }
   return nullptr;
 }
 
 BodyState Snapshots::Interpolate(int body, double tick) const {
-  const std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
-  SEAM_ASSERT(!ring.empty());
-  if (tick >= static_cast<double>(ring.back().tick)) return ring.back().state;
-  for (std::size_t i = ring.size() - 1; i-- > 0;) {
-    const Stamped& a = ring[i];
+  const Ring& ring = rings_[static_cast<std::size_t>(body)];
+  SEAM_ASSERT(ring.size() > 0);
+  if (tick >= static_cast<double>(ring.newest_tick())) return ring.FromNewest(0).state;
+  for (std::size_t k = 1; k < ring.size(); ++k) {
+    const Stamped& a = ring.FromNewest(k);
     if (static_cast<double>(a.tick) > tick) continue;
-    const Stamped& b = ring[i + 1];
+    const Stamped& b = ring.FromNewest(k - 1);
     const double t = (tick - static_cast<double>(a.tick)) / static_cast<double>(b.tick - a.tick);
     return PlusScaled(a.state, Minus(b.state, a.state), static_cast<float>(t));
   }
-  return ring.front().state;
+  return ring.FromNewest(ring.size() - 1).state;
 }
 
 float Snapshots::Forward(std::int64_t from, std::int64_t tick, float dt, float max_s) {
@@ -91,8 +110,8 @@ float Snapshots::Forward(std::int64_t from, std::int64_t tick, float dt, float m
 }
 
 Vec2 Snapshots::Acceleration(int body, std::int64_t tick, float dt) const {
-  const std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
-  if (ring.size() < 3 || ring.back().tick != tick) return {0, 0};
+  const Ring& ring = rings_[static_cast<std::size_t>(body)];
+  if (ring.size() < 3 || ring.newest_tick() != tick) return {0, 0};
   // What starts, stops or is struck changes its velocity once: that does not go on.
   const auto since = [dt](const Stamped& before, const Stamped& after) -> Vec2 {
     const float between = static_cast<float>(after.tick - before.tick) * dt;
@@ -100,16 +119,16 @@ Vec2 Snapshots::Acceleration(int body, std::int64_t tick, float dt) const {
     const bool lasts = between <= kAccelerationSpan && acceleration.norm() <= kAccelerationMax;
     return lasts ? acceleration : Vec2(0, 0);
   };
-  const auto newest = ring.rbegin();
-  return LeastBetween(since(newest[1], newest[0]), since(newest[2], newest[1]));
+  const auto at = [&ring](std::size_t back) -> const Stamped& { return ring.FromNewest(back); };
+  return LeastBetween(since(at(1), at(0)), since(at(2), at(1)));
 }
 
 BodyState Snapshots::Extrapolate(int body, std::int64_t tick, float dt, float max_s) const {
-  const std::deque<Stamped>& ring = rings_[static_cast<std::size_t>(body)];
-  SEAM_ASSERT(!ring.empty());
-  const float forward = Forward(ring.back().tick, tick, dt, max_s);
-  BodyState out = seam::Extrapolate(ring.back().state, forward);
-  const Vec2 acceleration = Acceleration(body, ring.back().tick, dt);
+  const Ring& ring = rings_[static_cast<std::size_t>(body)];
+  SEAM_ASSERT(ring.size() > 0);
+  const float forward = Forward(ring.newest_tick(), tick, dt, max_s);
+  BodyState out = seam::Extrapolate(ring.FromNewest(0).state, forward);
+  const Vec2 acceleration = Acceleration(body, ring.newest_tick(), dt);
   out.velocity += SpeedGained(acceleration, forward);
   out.position += ShiftGained(acceleration, forward);
   return out;

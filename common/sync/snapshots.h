@@ -32,11 +32,14 @@ class Snapshots {
   /// What was heard of later ticks was of another body.
   void ForgetAfter(int body, std::int64_t tick);
 
-  bool has(int body) const { return !rings_[static_cast<std::size_t>(body)].empty(); }
-  std::int64_t newest_tick(int body) const;  ///< -1 when none
+  bool has(int body) const { return newest_tick(body) >= 0; }
+  /// -1 when none.
+  std::int64_t newest_tick(int body) const {
+    return rings_[static_cast<std::size_t>(body)].newest_tick();
+  }
   /// Requires has(body).
   const BodyState& newest(int body) const {
-    return rings_[static_cast<std::size_t>(body)].back().state;
+    return rings_[static_cast<std::size_t>(body)].FromNewest(0).state;
   }
 
   /// The state of exactly this tick; nullptr when it is not kept.
@@ -58,7 +61,29 @@ class Snapshots {
     std::int64_t tick = 0;
     BodyState state;
   };
-  std::vector<std::deque<Stamped>> rings_;
+  /// The newest kKeep of a body, in one piece of memory that is as large as they need: a room hears
+  /// of thousands of bodies in a second, and what an entry costs is the memory that it is in.
+  class Ring {
+   public:
+    void Push(const Stamped& stamped);
+    void DropNewest();
+    std::size_t size() const { return size_; }
+    std::int64_t newest_tick() const { return newest_tick_; }  ///< -1 when none
+    /// 0 is the newest. Requires back < size().
+    Stamped& FromNewest(std::size_t back) { return slots_[SlotOf(back)]; }
+    const Stamped& FromNewest(std::size_t back) const { return slots_[SlotOf(back)]; }
+
+   private:
+    std::size_t SlotOf(std::size_t back) const {
+      const std::size_t slot = next_ + slots_.size() - 1 - back;
+      return slot >= slots_.size() ? slot - slots_.size() : slot;
+    }
+    void Grow();
+    std::int64_t newest_tick_ = -1;
+    std::vector<Stamped> slots_;
+    std::uint32_t next_ = 0, size_ = 0;  // where the next goes, and how many there are
+  };
+  std::vector<Ring> rings_;
 };
 
 /// How far in the past to display so that the next snapshot has nearly always arrived: the age

@@ -27,6 +27,8 @@ class AuthorityManager {
     /// By player: share of its time that its peer needs for its ticks; below 0: not known. Empty:
     /// of nobody.
     std::vector<float> load;
+    /// Somebody looks at what the server shows: see Scene::server_follow.
+    bool shown = true;
   };
 
   /// After each tick: plans when that is due, and takes every hand-over as far as it can go.

@@ -31,7 +31,7 @@ AuthorityView AuthorityManager::Look(const Situation& situation) {
   view.tick_hz = config_.tick_hz;
   view.buffer_m = scene_.buffer_m;
   view.follow_bodies = scene_.follow_bodies;
-  view.server_follow = scene_.server_follow;
+  view.server_follow = situation.shown ? scene_.server_follow : 0;
   view.physics_edits = physics_edits_;
   view.islands = islands_;
   view.rules = *scene_.planner;

@@ -13,6 +13,11 @@ namespace {
 /// A room is run at least so often: it notices who has fallen silent.
 constexpr std::int64_t kRunUs = 20000;
 
+/// Nothing is done to what passes through a perfect network: it need not be copied for that.
+Net& Through(const ImpairProfile& profile, Net& direct, Net& impaired) {
+  return profile.name == "perfect" ? direct : impaired;
+}
+
 }  // namespace
 
 HostedRoom::HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net& out)
@@ -21,7 +26,7 @@ HostedRoom::HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net&
       impaired_(net_, plan.profile, plan.profile, static_cast<std::uint64_t>(plan.config.seed)),
       sink_(plan.lcm_url, plan.record, plan.force, plan.config.room),
       publisher_(sink_, plan.config.room),
-      server_(plan_.scene, plan_.config, impaired_, sink_, entropy_) {
+      server_(plan_.scene, plan_.config, Through(plan.profile, net_, impaired_), sink_, entropy_) {
   newest_.room = plan.config.room;
 }
 

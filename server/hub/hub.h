@@ -30,7 +30,8 @@ class Hub {
   /// Hands out what has come; without workers runs the rooms that are due. To be called whenever
   /// Wait returns. Never waits.
   void Poll(std::int64_t now_us);
-  /// Until a datagram comes or a room is due, at most 20 ms.
+  /// Until a datagram comes, but at least until 1 ms after the last Poll, or a room is due; at most
+  /// 20 ms.
   void Wait();
   /// Each room has done its last tick.
   bool done() const;
@@ -58,6 +59,7 @@ class Hub {
   std::vector<std::unique_ptr<HostedRoom>> rooms_;
   std::vector<bool> mail_;  // by room, in one Take
   std::int64_t strangers_ = 0;
+  std::int64_t polled_us_ = 0;
   std::unique_ptr<Lanes> lanes_;
 };
 

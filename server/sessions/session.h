@@ -53,7 +53,7 @@ struct Session {
   SessionStage stage = SessionStage::kAdmitted;
   std::int64_t created_us = 0;
   std::int64_t repaired_us = -1000000000;
-  bool lapsed = false;   ///< its lease has ended: it gets no authority before it joins anew
+  bool lapsed = false;  ///< its lease has ended: it gets no authority before it joins anew
   /// Since when its pings are not answered, us, because it does not let go; -1: they are.
   std::int64_t ending_us = -1;
   bool leaving = false;  ///< to be dropped at the next opportunity

@@ -1,6 +1,7 @@
 /// SessionTable, what concerns many sessions at once.
 
 #include <algorithm>
+#include <utility>
 
 #include "server/sessions/session_table.h"
 
@@ -12,18 +13,19 @@ Session* SessionTable::Find(int peer) {
 }
 
 int SessionTable::player_count() const {
-  const std::vector<int> peers = PeerOfPlayer();
+  const std::vector<int>& peers = PeerOfPlayer();
   return static_cast<int>(std::count_if(peers.begin(), peers.end(), [](int p) { return p >= 0; }));
 }
 
-std::vector<int> SessionTable::PeerOfPlayer() const {
-  std::vector<int> peers(scene_.players.size(), -1);
+void SessionTable::NoteChanged() {
+  in_order_.clear();
+  peer_of_player_.assign(scene_.players.size(), -1);
   for (const auto& [id, session] : sessions_) {
+    in_order_.push_back(session.get());
     if (session->player >= 0 && session->stage == SessionStage::kReady) {
-      peers[static_cast<std::size_t>(session->player)] = session->peer;
+      peer_of_player_[static_cast<std::size_t>(session->player)] = session->peer;
     }
   }
-  return peers;
 }
 
 std::int64_t SessionTable::WorstRttUs() const {
@@ -67,15 +69,19 @@ void SessionTable::SendUrgentTo(Session& session, const Bytes& message) {
 }
 
 void SessionTable::LeaveUnless(bool sent, Session& session) {
-  if (sent) return;
-  session.leaving = true;
-  session.leaving_why = "does not acknowledge";
+  if (!sent) Leave(session, "does not acknowledge");
+}
+
+void SessionTable::Leave(Session& session, const std::string& why) {
+  leaving_ = true;
+  if (std::exchange(session.leaving, true)) return;
+  session.leaving_why = why;
 }
 
 void SessionTable::Flush(std::int64_t now_us, Stats* stats) {
-  for (auto& [id, session] : sessions_) {
+  for (Session* const session : in_order_) {
     if (!session->link.Sends(now_us)) continue;
-    const Address to = id.address;
+    const Address to = session->id.address;
     session->link.Flush(now_us, [&](ByteView datagram) {
       stats->bytes_out += static_cast<std::int64_t>(datagram.size);
       stats->datagrams_out += 1;

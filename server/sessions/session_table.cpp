@@ -24,7 +24,9 @@ SessionTable::SessionTable(const Scene& scene, Bytes room, const TrafficRate& al
       bytes_per_s_(bytes_per_s),
       net_(net),
       handshake_(net, entropy),
-      places_(scene, entropy) {}
+      places_(scene, entropy) {
+  NoteChanged();
+}
 
 SessionTable::Verdict SessionTable::Receive(std::int64_t now_us, const Address& from,
                                             const Bytes& datagram, const Deliver& deliver) {
@@ -86,6 +88,7 @@ void SessionTable::Admit(std::int64_t now_us, const SessionId& id, int peer) {
   if (by_peer_.size() <= place_of) by_peer_.resize(place_of + 1, nullptr);
   by_peer_[place_of] = session.get();
   sessions_.emplace(id, std::move(session));
+  NoteChanged();
   admitted_ = true;
   silent_us_ = now_us;
 }
@@ -111,6 +114,7 @@ SessionTable::Verdict SessionTable::OnSession(std::int64_t now_us, Session& sess
 void SessionTable::NoteReady(Session& session) {
   if (session.stage != SessionStage::kLoading) return;
   session.stage = SessionStage::kReady;
+  NoteChanged();
   ++session.account->sessions;
   Note(SessionEvent::Kind::kReady, session);
 }
@@ -134,8 +138,10 @@ void SessionTable::Advance(std::int64_t now_us) {
 }
 
 void SessionTable::DropSilent(std::int64_t now_us) {
-  std::vector<std::pair<SessionId, std::string>> gone;
   const bool look = now_us >= silent_us_;
+  if (!look && !leaving_) return;
+  leaving_ = false;
+  std::vector<std::pair<SessionId, std::string>> gone;
   if (look) silent_us_ = now_us + kOverBudgetUs;
   for (const auto& [id, session] : sessions_) {
     if (look) {
@@ -177,6 +183,7 @@ void SessionTable::Drop(const SessionId& id, const std::string& why) {
   places_.Leave(session.peer, id.number, session.goodbye);
   by_peer_[static_cast<std::size_t>(session.peer)] = nullptr;
   sessions_.erase(found);
+  NoteChanged();
 }
 
 void SessionTable::Note(SessionEvent::Kind kind, const Session& session, const std::string& why) {
@@ -201,6 +208,7 @@ void SessionTable::Close(std::int64_t now_us, const std::string& reason, Stats* 
   }
   sessions_.clear();
   by_peer_.clear();
+  NoteChanged();
 }
 
 }  // namespace seam

@@ -54,6 +54,8 @@ class SessionTable {
   void NoteReady(Session& session);
   /// Drops who is silent (lease.h), who never gets ready, who sends too much, and who is leaving.
   void DropSilent(std::int64_t now_us);
+  /// It has to leave: the next DropSilent drops it. The first reason counts.
+  void Leave(Session& session, const std::string& why);
   /// Sends the room to those who have been admitted since.
   void Advance(std::int64_t now_us);
   /// What happened since the last call, in order. To be called after each of the above.
@@ -63,7 +65,7 @@ class SessionTable {
   /// nullptr: no session of this peer.
   Session* Find(int peer);
   /// By player: the peer that is ready to drive it, or -1.
-  std::vector<int> PeerOfPlayer() const;
+  const std::vector<int>& PeerOfPlayer() const { return peer_of_player_; }
   int player_count() const;         ///< players who are ready
   std::int64_t WorstRttUs() const;  ///< -1: unknown
   std::int64_t WorstLossPpm() const;
@@ -85,14 +87,14 @@ class SessionTable {
   /// Calls `visit(Session&)` for everyone to whom the room was sent.
   template <class Visit>
   void ForEachTold(Visit visit) {
-    for (auto& [id, session] : sessions_) {
+    for (Session* session : in_order_) {
       if (session->stage != SessionStage::kAdmitted) visit(*session);
     }
   }
   /// Calls `visit(Session&)` for all that are ready but one peer.
   template <class Visit>
   void ForEachReady(int but_peer, Visit visit) {
-    for (auto& [id, session] : sessions_) {
+    for (Session* session : in_order_) {
       if (session->peer == but_peer || session->stage != SessionStage::kReady) continue;
       visit(*session);
     }
@@ -105,7 +107,9 @@ class SessionTable {
  private:
   using Sessions = std::map<SessionId, std::unique_ptr<Session>>;
 
-  static void LeaveUnless(bool sent, Session& session);
+  void LeaveUnless(bool sent, Session& session);
+  /// Who is there, or ready, has changed.
+  void NoteChanged();
   Verdict OnStranger(std::int64_t now_us, const SessionId& id, const Bytes& datagram);
   void Admit(std::int64_t now_us, const SessionId& id, int peer);
   Verdict OnSession(std::int64_t now_us, Session& session, const Bytes& datagram,
@@ -123,9 +127,13 @@ class SessionTable {
   PlaceTable places_;
   AccountBook accounts_;
   Sessions sessions_;
+  // Looked at with every datagram: the map is not for that.
+  std::vector<Session*> in_order_;  // of sessions_
   std::vector<Session*> by_peer_;
+  std::vector<int> peer_of_player_;
   std::vector<SessionEvent> events_;
   bool admitted_ = false;       // somebody was, since the last Advance
+  bool leaving_ = false;        // somebody is
   std::int64_t silent_us_ = 0;  // before that nobody has been silent for too long
 };
 

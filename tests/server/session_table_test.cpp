@@ -230,7 +230,8 @@ TEST_F(SessionTableTest, AnotherKeyIsNone) {
 TEST_F(SessionTableTest, WhoSaysGoodbyeOrNeverGotReadyHoldsNoName) {
   Guest bob(&network_, 2, "bob"), other(&network_, 3, "bob");
   GetReady(&bob);
-  table_.Find(2)->leaving = table_.Find(2)->goodbye = true;
+  table_.Find(2)->goodbye = true;
+  table_.Leave(*table_.Find(2), "left");
   Enter(&other);
   EXPECT_TRUE(other.welcomed);
   now_us_ += kPatienceUs + 1;

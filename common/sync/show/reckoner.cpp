@@ -22,6 +22,10 @@ struct Reckoner::Common {
   float spin = 0;
 };
 
+Reckoner::Reckoner(const World& world, const Snapshots& snapshots, const JointCloser& joints)
+    : world_(world), snapshots_(snapshots), joints_(joints) {}
+Reckoner::~Reckoner() = default;
+
 Reckoner::Common Reckoner::CommonOf(const std::vector<Heard>& heard, const Snapshots& snapshots,
                                     float dt) {
   Common common;
@@ -62,13 +66,12 @@ const Reckoner::Paths& Reckoner::Reckoned(int body) {
   const int m = world_.mechanism(body);
   if (!done_[static_cast<std::size_t>(m)]) {
     done_[static_cast<std::size_t>(m)] = true;
-    Reckon(m, next_ - 1, &paths_.here);
-    Reckon(m, next_, &paths_.there);
+    Reckon(m);
   }
   return paths_;
 }
 
-void Reckoner::Reckon(int mechanism, std::int64_t tick, std::vector<BodyState>* states) const {
+void Reckoner::Reckon(int mechanism) {
   // Those of the newest tick move on as one. Older states are moved on one by one: what they had in
   // common with the others then is not known now. So are those of a mechanism that is tied to
   // something: that takes its momentum.
@@ -77,32 +80,39 @@ void Reckoner::Reckon(int mechanism, std::int64_t tick, std::vector<BodyState>* 
   for (const int body : joints_.bodies(mechanism)) {
     newest = std::max(newest, snapshots_.newest_tick(body));
   }
-  std::vector<Heard> together;
+  together_.clear();
   for (const int body : joints_.bodies(mechanism)) {
-    BodyState& state = (*states)[static_cast<std::size_t>(body)];
+    const auto i = static_cast<std::size_t>(body);
     if (!snapshots_.has(body)) {
-      state = world_.Read(body);
+      paths_.here[i] = paths_.there[i] = world_.Read(body);
     } else if (!free || snapshots_.newest_tick(body) != newest) {
-      state = snapshots_.Extrapolate(body, tick, world_.dt(), kReckonShownMax);
+      paths_.here[i] = snapshots_.Extrapolate(body, next_ - 1, world_.dt(), kReckonShownMax);
+      paths_.there[i] = snapshots_.Extrapolate(body, next_, world_.dt(), kReckonShownMax);
     } else {
-      Heard h{body, world_.mass_point(body), *snapshots_.At(body, newest), newest, Vec2(0, 0)};
+      Heard h{body, world_.mass_point(body), snapshots_.newest(body), newest, Vec2(0, 0)};
       h.centre = h.state.position + Turned(h.mass.centre, h.state.angle);
-      together.push_back(h);
+      together_.push_back(h);
     }
   }
-  if (!together.empty()) MoveOn(together, newest, tick, states);
-  if (joints_.jointed(mechanism)) joints_.Close(mechanism, false, states);
+  if (!together_.empty()) {
+    const Common common = CommonOf(together_, snapshots_, world_.dt());
+    MoveOn(common, newest, next_ - 1, &paths_.here);
+    MoveOn(common, newest, next_, &paths_.there);
+  }
+  if (!joints_.jointed(mechanism)) return;
+  joints_.Close(mechanism, false, &paths_.here);
+  joints_.Close(mechanism, false, &paths_.there);
 }
 
-void Reckoner::MoveOn(const std::vector<Heard>& together, std::int64_t newest, std::int64_t tick,
+/// All of together_.
+void Reckoner::MoveOn(const Common& common, std::int64_t newest, std::int64_t tick,
                       std::vector<BodyState>* states) const {
-  const Common common = CommonOf(together, snapshots_, world_.dt());
   const float forward = snapshots_.Forward(newest, tick, world_.dt(), kReckonShownMax);
   const Rotation<float> turn(common.spin * forward);
   const Vec2 gained = SpeedGained(common.acceleration, forward);
   const Vec2 centre =
       common.centre + forward * common.velocity + ShiftGained(common.acceleration, forward);
-  for (const Heard& h : together) {
+  for (const Heard& h : together_) {
     const Vec2 arm = h.centre - common.centre;
     const Vec2 own = h.state.velocity - common.velocity - common.spin * Vec2(-arm.y(), arm.x());
     BodyState& state = (*states)[static_cast<std::size_t>(h.body)];

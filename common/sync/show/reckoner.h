@@ -20,8 +20,8 @@ constexpr float kReckonShownMax = 2.0f;
 class Reckoner {
  public:
   /// All must outlive this.
-  Reckoner(const World& world, const Snapshots& snapshots, const JointCloser& joints)
-      : world_(world), snapshots_(snapshots), joints_(joints) {}
+  Reckoner(const World& world, const Snapshots& snapshots, const JointCloser& joints);
+  ~Reckoner();
 
   /// From now on what is asked for is computed anew: a tick has passed, states have come or bodies
   /// have changed.
@@ -40,8 +40,8 @@ class Reckoner {
   struct Common;
   static Common CommonOf(const std::vector<Heard>& heard, const Snapshots& snapshots, float dt);
   const Paths& Reckoned(int body);
-  void Reckon(int mechanism, std::int64_t tick, std::vector<BodyState>* states) const;
-  void MoveOn(const std::vector<Heard>& together, std::int64_t newest, std::int64_t tick,
+  void Reckon(int mechanism);
+  void MoveOn(const Common& common, std::int64_t newest, std::int64_t tick,
               std::vector<BodyState>* states) const;
 
   const World& world_;
@@ -50,6 +50,7 @@ class Reckoner {
   std::int64_t next_ = 0;
   std::vector<bool> done_;  // by mechanism
   Paths paths_;
+  std::vector<Heard> together_;  // bodies of the mechanism that is reckoned
 };
 
 }  // namespace seam

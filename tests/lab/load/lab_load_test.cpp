@@ -25,8 +25,15 @@ std::string Apart(int server_follow) {
   return text;
 }
 
-SessionLoad LoadOf(const std::string& mode, int server_follow) {
+/// Somebody who looks at what the server shows.
+class Onlooker : public Recorder {
+ public:
+  void Publish(const std::string&, std::int64_t, ByteView) override {}
+};
+
+SessionLoad LoadOf(const std::string& mode, int server_follow, Recorder* onlooker = nullptr) {
   ClusterConfig config;
+  config.recorder = onlooker;
   config.scene_text = Apart(server_follow);
   config.scene = "apart";
   config.mode = mode;
@@ -34,9 +41,10 @@ SessionLoad LoadOf(const std::string& mode, int server_follow) {
 }
 
 TEST(LabLoad, TellsWhoDoesTheWork) {
-  const SessionLoad relieved = LoadOf("buffer", 0), doubled = LoadOf("buffer", 256);
-  const SessionLoad central = LoadOf("central", 0);
-  for (const SessionLoad& load : {relieved, doubled, central}) {
+  Onlooker onlooker;
+  const SessionLoad relieved = LoadOf("buffer", 0), unseen = LoadOf("buffer", 256);
+  const SessionLoad doubled = LoadOf("buffer", 256, &onlooker), central = LoadOf("central", 0);
+  for (const SessionLoad& load : {relieved, unseen, doubled, central}) {
     EXPECT_EQ(load.players, 4);
     EXPECT_EQ(load.bodies, 12);
     EXPECT_GT(load.awake, 0);
@@ -47,6 +55,7 @@ TEST(LabLoad, TellsWhoDoesTheWork) {
   }
   EXPECT_EQ(relieved.held_share, 1);
   EXPECT_EQ(relieved.stepped, 0) << "clients have all of it, and the server steps nothing";
+  EXPECT_EQ(unseen.stepped, 0) << "nobody sees what the server shows";
   EXPECT_EQ(doubled.stepped, 12);
   EXPECT_EQ(central.held_share, 0);
   EXPECT_EQ(central.stepped, 12);

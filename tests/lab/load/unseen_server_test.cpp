@@ -1,0 +1,86 @@
+/// A server whose view nobody sees: what clients hold in a small room it does not simulate, and
+/// nobody sees the others any worse for it, though a holder falls silent for a moment.
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "common/measure/measure.h"
+#include "common/scene/scene.h"
+#include "tests/lab/cluster.h"
+
+namespace seam {
+namespace {
+
+/// Two discs, each a player's, that pass each other.
+const char* const kTwo = R"(
+gravity = [0, 0]
+duration = 2
+[[player]]
+name = "ann"
+vehicle = "disc.0"
+[[player]]
+name = "bob"
+vehicle = "disc.1"
+[[part]]
+name = "disc"
+circle = 0.5
+velocity = [1, 0]
+repeat = {count = 2, step = [0, 8]}
+)";
+
+/// Bodies of clients that the server follows, and bodies that are present in its world, at the end.
+std::vector<int> FollowsAndHas(Publish publish, bool keep) {
+  ClusterConfig config;
+  config.scene = "two";
+  config.scene_text = kTwo;
+  config.drive = Drive::kNone;
+  config.publish = publish;
+  config.keep = keep;
+  Cluster cluster(config);
+  cluster.Run();
+  const Replica& server = cluster.server().replica();
+  std::vector<int> counts = {0, 0};
+  for (int body = 0; body < server.world().body_count(); ++body) {
+    const AuthorityRecord& record = server.authority().at(server.world().mechanism(body));
+    EXPECT_GT(record.authority, 0) << "a client has it";
+    counts[0] += record.secondaries.Has(0) ? 1 : 0;
+    counts[1] += server.world().motion(body) == Motion::kAbsent ? 0 : 1;
+  }
+  return counts;
+}
+
+TEST(UnseenServer, SimulatesNothingOfWhatClientsHold) {
+  const std::vector<int> all = {2, 2}, nothing = {0, 0};
+  EXPECT_EQ(FollowsAndHas(Publish::kAll, true), all) << "its view is as good as a player's";
+  EXPECT_EQ(FollowsAndHas(Publish::kNone, true), nothing) << "it shows nothing";
+  EXPECT_EQ(FollowsAndHas(Publish::kAll, false), nothing) << "nobody listens";
+}
+
+/// What clients see of the others, m.
+double ErrorOfOthers(const std::string& text, int seed) {
+  ClusterConfig config;
+  config.scene = "obstacle";
+  config.scene_text = text;
+  config.impair = "4g";
+  config.seed = seed;
+  const Recording recording = RunCluster(config);
+  return Measure(recording, ComputeOracle(recording, WithBarriers(recording.room)))
+      .error_others_m.value_or(1e9);
+}
+
+/// Bursts of losses make holders silent for longer than 0.2 s. A server that only then begins to
+/// simulate a character, from its last state, does not know where it was in its step: what it said
+/// in the holder's name made those who simulated it all along err by two to five times as much.
+TEST(UnseenServer, SaysNothingOfASilentHoldersThingsToWhoKnowsMoreOfThem) {
+  const std::string text = LoadScene("scenes/obstacle.toml").text;
+  for (const int seed : {1, 2, 3}) {
+    const double followed = ErrorOfOthers(text, seed);
+    const double unseen = ErrorOfOthers("server_follow = 0\n" + text, seed);
+    EXPECT_LT(unseen, 1.3 * followed) << "seed " << seed;
+  }
+}
+
+}  // namespace
+}  // namespace seam
