@@ -240,8 +240,8 @@ TEST(SeatViews, WhoLeavesTheRoomAtTheWheelDrivesOnNoMore) {
 }
 
 TEST(SeatViews, WhoJoinsInTheMiddleOfTheWaySeesTheSameAfterASecond) {
-  // Of 210 runs 8 are above 10 cm at first (19 at most), and 2 above 5 cm after a second (5.4).
-  int in_the_middle = 0, early_above = 0, later_above = 0;
+  // How far ann is then, bob finds from her place and speed (common/stages/seat_way.h).
+  int in_the_middle = 0, early_above = 0;
   const int runs = 7 * Soak(2);
   for (int i = 0; i < runs; ++i) {
     const int revived = 90 + 10 * (i % 7), seed = 31 + i / 7;
@@ -275,8 +275,7 @@ TEST(SeatViews, WhoJoinsInTheMiddleOfTheWaySeesTheSameAfterASecond) {
     in_the_middle += middle ? 1 : 0;
     Recording seen;
     seen.views[1] = views;
-    // It shows nothing before it knows where everything is by now. Who is on the way then, and
-    // since when, it does not know before the authority's states say so.
+    // It shows nothing before it knows where everything is by now.
     const std::int64_t settled = first + 60;
     const Jump jump =
         LargestJump(seen, static_cast<double>(settled) / 60, static_cast<double>(settled) / 60 + 2);
@@ -285,13 +284,11 @@ TEST(SeatViews, WhoJoinsInTheMiddleOfTheWaySeesTheSameAfterASecond) {
     std::printf("[          ] first view at tick %lld%s: %.4f m (%s), later %.4f m (%s)\n",
                 static_cast<long long>(first), middle ? ", on the way" : "", early.metres,
                 early.where.c_str(), jump.metres, jump.where.c_str());
-    EXPECT_LT(early.metres, middle ? 0.4 : 0.2) << early.where;
-    EXPECT_LT(jump.metres, 0.06) << jump.where;
-    early_above += !middle && early.metres > 0.1 ? 1 : 0;
-    later_above += jump.metres > 0.05 ? 1 : 0;
+    EXPECT_LT(early.metres, 0.1) << early.where;
+    EXPECT_LT(jump.metres, 0.05) << jump.where;
+    early_above += early.metres > 0.05 ? 1 : 0;
   }
   EXPECT_LE(early_above, std::max(1, runs / 14));
-  EXPECT_LE(later_above, std::max(1, runs / 40));
   EXPECT_GE(in_the_middle, 4);
 }
 
