@@ -256,17 +256,19 @@ void Server::ApplyEdits(std::int64_t now_us) {
   ApplyQueued(now_us);
 }
 
-/// A blast lets fall only so much of what it has left in the air: the rest comes down by more
-/// edits.
-void Server::LetFall(const Edit& applied) {
+/// A blast lets fall only so much of what it has left in the air, and what a part held hangs when
+/// that goes: it comes down by more edits.
+void Server::LetFall(const Edit& applied, bool hung) {
   const std::optional<Vec2>& hanging = replica_.world().topology().hanging();
-  if (applied.As<BlastEdit>() == nullptr || !hanging) return;
+  // While something hangs, each blast asks for the next one.
+  if (!hanging || (hung && applied.As<BlastEdit>() == nullptr)) return;
   edits_.Add(Edit(BlastEdit{*hanging, kLetFallRadius, 0, 0}, EditCause::kOutside));
 }
 
 void Server::ApplyQueued(std::int64_t now_us) {
   while (replica_.has_queued()) {
     const Edit edit = replica_.next_queued();
+    const bool hung = replica_.world().topology().hanging().has_value();
     const std::optional<BodyRemap> change = replica_.ApplyNextEdit();
     bounds_.NoteApplied(edit);
     if (config_.sync.mode == Mode::kOracle) {
@@ -274,7 +276,7 @@ void Server::ApplyQueued(std::int64_t now_us) {
     } else {
       edits_.NoteApplied();
     }
-    LetFall(edit);
+    LetFall(edit, hung);
     if (!change) continue;
     authority_.Remap(change->mechanisms);
     filter_.Remap(change->bodies);

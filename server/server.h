@@ -131,7 +131,7 @@ class Server {
   void StepOnce(std::int64_t now_us);
   void ApplyEdits(std::int64_t now_us);
   void AppointEdits(std::int64_t now_us);
-  void LetFall(const Edit& applied);
+  void LetFall(const Edit& applied, bool hung);
   void ApplyQueued(std::int64_t now_us);
   void UpdateAuthority(std::int64_t now_us);
   /// Looks anew at what concerns whom, when that is due or has changed.

@@ -52,21 +52,31 @@ class Windows {
   int bay_, storey_, wide_, high_, sill_, bays_, storeys_, columns_, left_;
 };
 
+/// A tower as its seed makes it: the upper part of most stands back.
+struct Tower {
+  int x = 0;                         // units, of its left side
+  int columns = 0, rows = 0;         // bricks
+  int setback = 0, setback_row = 0;  // columns on each side, from that row on
+
+  Tower(const BrickField& field, int index) {
+    const BrickField::Towers& t = field.towers;
+    Random random = Random(t.seed).Fork(static_cast<std::uint64_t>(index));
+    x = field.x + index * t.pitch;
+    columns = Between(random, t.columns_min, t.columns_max);
+    rows = Between(random, t.rows_min, t.rows_max);
+    setback = Between(random, 0, columns / 5);
+    setback_row = rows * Between(random, 50, 90) / 100;
+  }
+};
+
 bool EachOfTower(const BrickField& field, int index, const std::function<bool(int, int)>& visit) {
-  const BrickField::Towers& t = field.towers;
-  Random random = Random(t.seed).Fork(static_cast<std::uint64_t>(index));
-  const int columns = Between(random, t.columns_min, t.columns_max);
-  const int rows = Between(random, t.rows_min, t.rows_max);
-  // The upper part of most towers stands back, from between half and nine tenths of the height.
-  const int setback = Between(random, 0, columns / 5);
-  const int setback_row = rows * Between(random, 50, 90) / 100;
-  const Windows window(field, columns, rows);
-  const int x = field.x + index * t.pitch;
-  for (int row = 0; row < rows; ++row) {
-    const int aside = row >= setback_row ? setback : 0;
-    for (int column = aside; column < columns - aside; ++column) {
-      if (t.windows && window(column, row, aside, setback_row)) continue;
-      if (!visit(x + column * field.width, field.y + row * field.height)) return false;
+  const Tower t(field, index);
+  const Windows window(field, t.columns, t.rows);
+  for (int row = 0; row < t.rows; ++row) {
+    const int aside = row >= t.setback_row ? t.setback : 0;
+    for (int column = aside; column < t.columns - aside; ++column) {
+      if (field.towers.windows && window(column, row, aside, t.setback_row)) continue;
+      if (!visit(t.x + column * field.width, field.y + row * field.height)) return false;
     }
   }
   return true;
@@ -83,6 +93,27 @@ void EachBrick(const BrickField& field, const std::function<bool(int, int)>& vis
       if (!visit(field.x + column * field.width, field.y + row * field.height)) return;
     }
   }
+}
+
+void EachStoreys(const BrickField& field, const std::function<void(const Storeys&)>& visit) {
+  const auto block = [&](int building, int x, int columns, int row, int rows) {
+    const int y = field.y + row * field.height;
+    if (columns <= 0 || rows <= 0) return;
+    visit({building, x, y, x + columns * field.width, y + rows * field.height});
+  };
+  for (int index = 0; index < field.towers.count; ++index) {
+    const Tower t(field, index);
+    const int low = t.setback > 0 ? t.setback_row : t.rows;
+    block(index, t.x, t.columns, 0, low);
+    block(index, t.x + t.setback * field.width, t.columns - 2 * t.setback, low, t.rows - low);
+  }
+  block(0, field.x, field.columns, 0, field.rows);
+}
+
+int BuildingsOf(const BrickField& field) { return field.towers.count > 0 ? field.towers.count : 1; }
+
+int BuildingAt(const BrickField& field, int x) {
+  return field.towers.count > 0 ? (x - field.x) / field.towers.pitch : 0;
 }
 
 }  // namespace seam

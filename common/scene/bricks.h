@@ -42,4 +42,18 @@ struct BrickField {
 /// until one call returns false.
 void EachBrick(const BrickField& field, const std::function<bool(int, int)>& visit);
 
+/// A rectangle that bricks of one field fill, but for windows. Units; the upper right is outside.
+struct Storeys {
+  int building = 0;  ///< which tower; 0 for a rectangle of bricks
+  int x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+};
+
+/// Calls `visit` with each block, building by building: one of a rectangle, one or two (where it
+/// stands back) of a tower.
+void EachStoreys(const BrickField& field, const std::function<void(const Storeys&)>& visit);
+
+/// How many buildings a field has, and which of them its brick with the left side `x` belongs to.
+int BuildingsOf(const BrickField& field);
+int BuildingAt(const BrickField& field, int x);
+
 }  // namespace seam

@@ -16,6 +16,7 @@
 #include "common/physics/world.h"
 #include "common/stages/make_stages.h"
 #include "common/stages/seat_pull.h"
+#include "common/stages/seat_way.h"
 
 namespace seam {
 namespace {
@@ -25,36 +26,28 @@ using Eigen::Vector2d;
 /// Who has waited for the bond for so long is let go, s.
 constexpr int kHeldMost = 4;
 
-/// Begins and ends without a jerk. `ticks`: since the seat was taken.
-double ShareOfWay(double ticks, int tick_hz) {
-  const int wait = SeatWaitTicks(tick_hz), all = SeatTicks(tick_hz);
-  const double t = std::clamp((ticks - wait) / (all - wait), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
+/// Where ticks are remembered, those of a late approach count downwards from here.
+constexpr int kLateTicks = -2;
 
 Transform2 PoseOf(const b2Body& body) {
   return {FromB2(body.GetPosition()).cast<double>(), static_cast<double>(body.GetAngle())};
 }
 
 /// On the way to a seat. All of it is remembered.
-struct Approach {
-  int ticks = -1;     // since the seat was taken; -1: nobody is on the way
-  Transform2 from;    // the player's part in the seat's frame, then
-  b2Vec2 came{0, 0};  // N s, of the whole mechanism, then
+struct Approach : SeatWay {
+  bool late = false;  // this peer has not seen it begin: how far it is, the bodies say
+  b2Vec2 came{0, 0};  // N s, of the whole mechanism, when it set out
   b2Vec2 owed{0, 0};  // N s, of that what the way has taken
 };
 
 class SeatStage : public Stage {
  public:
-  explicit SeatStage(const StageWorld& world)
-      : w_(world),
-        approaches_(world.scene.seats.size()),
-        begun_before_(world.scene.seats.size(), false) {
-    // Who comes into a room in which somebody is on the way takes it as being over: where it is by
-    // now, messages say.
+  explicit SeatStage(const StageWorld& world) : w_(world), approaches_(world.scene.seats.size()) {
+    // Somebody is on the way in the room that this peer comes into.
     for (std::size_t s = 0; s < approaches_.size(); ++s) {
-      begun_before_[s] = IsApart(s);
-      if (IsApart(s)) approaches_[s].ticks = SeatTicks(w_.scene.solver.tick_hz);
+      if (!IsApart(s)) continue;
+      approaches_[s].ticks = 0;
+      approaches_[s].late = true;
     }
   }
 
@@ -67,6 +60,12 @@ class SeatStage : public Stage {
     sides_.clear();
   }
 
+  /// A peer that comes in hears what was before, and hears it as if it were now.
+  void TickSet() override {
+    started_ = w_.tick;
+    for (Approach& a : approaches_) a.late = a.late || (a.ticks >= 0 && w_.tick > 0);
+  }
+
   void Edited(const Edit& edit) override {
     const SeatEdit* taken = edit.As<SeatEdit>();
     if (taken != nullptr && taken->seat >= 0 &&
@@ -74,6 +73,8 @@ class SeatStage : public Stage {
       const auto seat = static_cast<std::size_t>(taken->seat);
       approaches_[seat] = Approach();
       if (IsApart(seat)) approaches_[seat].ticks = 0;
+      approaches_[seat].late =
+          IsApart(seat) && started_ > 0 && w_.tick < started_ + w_.scene.solver.tick_hz;
     }
     if (taken != nullptr) FindSides();
     if (edit.As<BondEdit>() == nullptr) return;
@@ -90,10 +91,9 @@ class SeatStage : public Stage {
     for (std::size_t s = 0; s < approaches_.size(); ++s) {
       if (approaches_[s].ticks < 0) continue;
       if (!IsApart(s)) approaches_[s] = Approach();
+      if (approaches_[s].late) Look(s);
       if (!Leads(s)) continue;
       if (approaches_[s].ticks == SeatWaitTicks(w_.scene.solver.tick_hz)) SetOut(s);
-      if (begun_before_[s]) approaches_[s].came = MomentumOf(MechanismOf(s));
-      begun_before_[s] = false;
       ghosts_.resize(w_.built.moving.size(), false);
       EachOf(MechanismOf(s), [&](std::size_t body) { ghosts_[body] = true; });
     }
@@ -109,7 +109,7 @@ class SeatStage : public Stage {
   void AfterTick() override {
     for (std::size_t s = 0; s < approaches_.size(); ++s) {
       Approach& a = approaches_[s];
-      if (Leads(s)) a.owed = a.came - MomentumOf(MechanismOf(s));
+      if (Leads(s) && !a.late) a.owed = a.came - MomentumOf(MechanismOf(s));
       if (a.ticks >= 0) ++a.ticks;
       if (a.ticks > kHeldMost * w_.scene.solver.tick_hz) a = Approach();
     }
@@ -119,14 +119,16 @@ class SeatStage : public Stage {
     for (const Approach& a : approaches_) {
       const Vec2 at = a.from.shift.cast<float>();
       memory->insert(memory->end(),
-                     {static_cast<float>(a.ticks), at.x(), at.y(), static_cast<float>(a.from.angle),
-                      a.came.x, a.came.y, a.owed.x, a.owed.y});
+                     {static_cast<float>(a.late ? kLateTicks - a.ticks : a.ticks), at.x(), at.y(),
+                      static_cast<float>(a.from.angle), a.came.x, a.came.y, a.owed.x, a.owed.y});
     }
   }
   std::size_t Load(const float* memory) override {
     const float* m = memory;
     for (Approach& a : approaches_) {
-      a.ticks = static_cast<int>(m[0]);
+      const int ticks = static_cast<int>(m[0]);
+      a.late = ticks <= kLateTicks;
+      a.ticks = a.late ? kLateTicks - ticks : ticks;
       a.from = {Vec2(m[1], m[2]).cast<double>(), static_cast<double>(m[3])};
       a.came = {m[4], m[5]};
       a.owed = {m[6], m[7]};
@@ -251,16 +253,27 @@ class SeatStage : public Stage {
     return approaches_[seat].ticks >= SeatWaitTicks(w_.scene.solver.tick_hz) && IsApart(seat);
   }
 
-  void SetOut(std::size_t seat) {
-    Approach& a = approaches_[seat];
+  /// The sitter's part in the frame of the seat's.
+  Transform2 PlaceOf(std::size_t seat) const {
     const PartId own = Sitter(seat), there = SeatOf(seat).part;
-    a.from = PoseOfPart(there, PoseOf(BodyOf(there)))
-                 .Inverse()
-                 .Then(PoseOfPart(own, PoseOf(BodyOf(own))));
-    // Floats are remembered: the same with and without a way back.
-    a.from.shift = a.from.shift.cast<float>().cast<double>();
-    a.from.angle = static_cast<double>(static_cast<float>(a.from.angle));
-    a.came = MomentumOf(MechanismOf(seat));
+    const Transform2 vehicle = PoseOfPart(there, PoseOf(BodyOf(there)));
+    return vehicle.Inverse().Then(PoseOfPart(own, PoseOf(BodyOf(own))));
+  }
+
+  void SetOut(std::size_t seat) {
+    approaches_[seat].from = Rounded(PlaceOf(seat));
+    approaches_[seat].came = MomentumOf(MechanismOf(seat));
+  }
+
+  void Look(std::size_t seat) {
+    const PartId own = Sitter(seat), there = SeatOf(seat).part;
+    const Transform2 vehicle = PoseOfPart(there, PoseOf(BodyOf(there)));
+    const Transform2 place = PlaceOf(seat);
+    const b2Vec2 at = ToB2(vehicle(place.shift).cast<float>());
+    const b2Vec2 speed = BodyOf(own).GetLinearVelocityFromWorldPoint(at) -
+                         BodyOf(there).GetLinearVelocityFromWorldPoint(at);
+    const Vector2d seen = vehicle.Inverse().Turned(FromB2(speed).cast<double>());
+    FindWay(SeatOf(seat), w_.scene.solver, {place, seen}, &approaches_[seat]);
   }
 
   /// Gives all bodies the velocities with which they are, rigidly, where they are to be after the
@@ -316,7 +329,7 @@ class SeatStage : public Stage {
 
   const StageWorld w_;
   std::vector<Approach> approaches_;  // by the scene's seats
-  std::vector<bool> begun_before_;    // by seat: in this world nobody has seen it begin
+  std::int64_t started_ = 0;          // tick at which this peer came in
   std::vector<bool> ghosts_;          // by moving body; empty: nobody is on the way
   std::vector<int> sides_;  // by moving body: a seat's number from 1, -: the vehicle; empty: none
   b2Vec2 gravity_{0, 0};

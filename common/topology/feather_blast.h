@@ -6,6 +6,7 @@
 #include "common/scene/bricks.h"
 #include "common/scene/charges/charge.h"
 #include "common/scene/scene.h"
+#include "common/topology/edit.h"
 #include "common/topology/feather_store.h"
 
 namespace seam {
@@ -19,6 +20,8 @@ struct Blast {
   float speed = 10;   ///< m/s in the centre, falling to 0 at the radius
   float impulse = 0;  ///< N s for each metre of a body's silhouette, falling likewise
 };
+
+inline Blast BlastOf(const BlastEdit& e) { return {e.centre, e.radius, e.speed, e.impulse}; }
 
 struct Freed {
   std::vector<Brick> bricks;  ///< no longer anchored

@@ -37,9 +37,8 @@ std::vector<Brick> Neighbours(const FeatherStore& store, const Brick& b) {
 /// Finds for one brick after the other whether it stands.
 class Support {
  public:
-  Support(const FeatureList<BrickField>& fields, const std::vector<bool>& founded,
-          const FeatherStore& left)
-      : fields_(fields), founded_(founded), left_(left) {}
+  Support(const Foundations& foundations, const std::vector<Part>& parts, const FeatherStore& left)
+      : foundations_(foundations), parts_(parts), left_(left) {}
 
   /// If the brick hangs, adds it and all that hangs with it to `hanging`, once.
   void Look(const Brick& brick, std::vector<Brick>* hanging) {
@@ -51,7 +50,7 @@ class Support {
       const Brick b = open.back();
       open.pop_back();
       seen.push_back(b);
-      if (IsFoundation(b)) stands = true;
+      if (foundations_.Holds(b, parts_)) stands = true;
       std::vector<Brick> near = Neighbours(left_, b);
       // The lowest is looked at next: that is the short way to the ground.
       std::stable_sort(near.begin(), near.end(),
@@ -70,13 +69,8 @@ class Support {
   }
 
  private:
-  bool IsFoundation(const Brick& b) const {
-    const auto kind = static_cast<std::size_t>(b.kind);
-    return founded_[kind] && b.y == fields_[kind].y;
-  }
-
-  const FeatureList<BrickField>& fields_;
-  const std::vector<bool>& founded_;
+  const Foundations& foundations_;
+  const std::vector<Part>& parts_;
   const FeatherStore& left_;
   std::unordered_set<std::uint64_t> known_, stood_;  // looked at; and stand
 };
@@ -135,28 +129,10 @@ class Cutter {
 
 }  // namespace
 
-std::vector<bool> FoundedKinds(const FeatherStore& whole, const FeatureList<BrickField>& fields) {
-  std::vector<bool> founded;
-  for (std::size_t kind = 0; kind < fields.size(); ++kind) {
-    const BrickField& field = fields[kind];
-    bool rests = false;
-    EachBrick(field, [&](int x, int y) {
-      if (y != field.y) return true;
-      const std::vector<Brick> near = Neighbours(whole, {x, y, static_cast<int>(kind)});
-      rests = std::any_of(near.begin(), near.end(), [&](const Brick& o) {
-        return fields[static_cast<std::size_t>(o.kind)].y < field.y;
-      });
-      return !rests;
-    });
-    founded.push_back(!rests);
-  }
-  return founded;
-}
-
-Fallen FallingBricks(const FeatureList<BrickField>& fields, const std::vector<bool>& founded,
-                     const FeatherStore& left, const std::vector<Brick>& freed,
-                     const Blast& blast) {
-  Support support(fields, founded, left);
+Fallen FallingBricks(const FeatureList<BrickField>& fields, const Foundations& foundations,
+                     const std::vector<Part>& parts, const FeatherStore& left,
+                     const std::vector<Brick>& freed, const Blast& blast) {
+  Support support(foundations, parts, left);
   std::vector<Brick> hanging = left.hanging();  // nothing can have come below them
   for (const Brick& b : freed) {
     for (const Brick& next : Neighbours(left, b)) support.Look(next, &hanging);
@@ -171,6 +147,18 @@ Fallen FallingBricks(const FeatureList<BrickField>& fields, const std::vector<bo
     support.Look(b, &hanging);
   }
   return Cutter(fields, std::move(hanging)).Cut();
+}
+
+std::vector<Brick> HangingWithout(PartId part, const Foundations& foundations,
+                                  const std::vector<Part>& parts, const FeatherStore& left) {
+  Support support(foundations, parts, left);
+  std::vector<Brick> hanging = left.hanging();
+  for (const Brick& b : foundations.On(part)) {
+    if (left.Has(b)) support.Look(b, &hanging);
+  }
+  std::sort(hanging.begin(), hanging.end(), IsBefore);
+  hanging.erase(std::unique(hanging.begin(), hanging.end()), hanging.end());
+  return hanging;
 }
 
 }  // namespace seam

@@ -7,6 +7,7 @@
 #include "common/scene/bricks.h"
 #include "common/topology/feather_blast.h"
 #include "common/topology/feather_store.h"
+#include "common/topology/foundation.h"
 
 namespace seam {
 
@@ -15,11 +16,6 @@ constexpr int kFallPiecesMax = 100;
 /// Units: a piece is no larger along x or y, unless a single brick is.
 constexpr int kFallSideMax = 30;
 
-/// By kind, whether its lowest row is a foundation: unless that row touches bricks of another kind
-/// that begin lower. So a wall, a street and what a scene hangs in the air stand by themselves, and
-/// a roof on two walls by these. `whole`: all bricks of the scene.
-std::vector<bool> FoundedKinds(const FeatherStore& whole, const FeatureList<BrickField>& fields);
-
 struct Fallen {
   std::vector<Part> parts;     ///< boxes of neighbours of one kind, at rest; without ids
   std::vector<Brick> hanging;  ///< that nothing holds up either
@@ -27,10 +23,16 @@ struct Fallen {
 
 /// The bricks of `left` near the blast, and next to what it freed, that no row of neighbours (by a
 /// common edge, however short) connects to a foundation, and what is known to hang: from below, at
-/// most kFallPiecesMax pieces.
+/// most kFallPiecesMax pieces. `parts`: the scene's, as they are now.
 /// Integer arithmetic: the same on every peer. Costs a walk over what hangs, and from what stands
 /// down to its foundation.
-Fallen FallingBricks(const FeatureList<BrickField>& fields, const std::vector<bool>& founded,
-                     const FeatherStore& left, const std::vector<Brick>& freed, const Blast& blast);
+Fallen FallingBricks(const FeatureList<BrickField>& fields, const Foundations& foundations,
+                     const std::vector<Part>& parts, const FeatherStore& left,
+                     const std::vector<Brick>& freed, const Blast& blast);
+
+/// The bricks of `left` that hang when a part that they lay on has left or is freed, and what is
+/// known to hang: ascending by kind, y, x. `parts`: without it. Costs as much.
+std::vector<Brick> HangingWithout(PartId part, const Foundations& foundations,
+                                  const std::vector<Part>& parts, const FeatherStore& left);
 
 }  // namespace seam

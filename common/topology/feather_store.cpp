@@ -142,6 +142,14 @@ std::vector<Brick> FeatherStore::InBox(int x0, int y0, int x1, int y1) const {
   return out;
 }
 
+bool FeatherStore::Has(const Brick& brick) const {
+  const int cx = CellOf(brick.x), cy = CellOf(brick.y), cell = CellAt(cx, cy);
+  if (cell < 0) return false;
+  const Cell& c = cells_[static_cast<std::size_t>(cell)];
+  const auto begin = bricks_.begin() + c.first;
+  return std::binary_search(begin, begin + c.count, Pack(brick, cx, cy));
+}
+
 std::size_t FeatherStore::Remove(const std::vector<Brick>& bricks) {
   std::size_t removed = 0;
   for (const Brick& brick : bricks) {

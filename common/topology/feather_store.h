@@ -62,6 +62,7 @@ class FeatherStore {
   /// Bricks that overlap x0..x1, y0..y1 (units), by cells from below, from the left.
   std::vector<Brick> InBox(int x0, int y0, int x1, int y1) const;
 
+  bool Has(const Brick& brick) const;
   /// Takes bricks out; returns how many of them were there.
   std::size_t Remove(const std::vector<Brick>& bricks);
   /// Bricks in here that nothing holds up (feather_fall.h); what is removed is none of them.

@@ -11,18 +11,10 @@
 #include "common/topology/bond_move.h"
 #include "common/topology/feather_blast.h"
 #include "common/topology/feather_fall.h"
-#include "common/topology/feather_store.h"
 #include "common/topology/grip.h"
 
 namespace seam {
 namespace {
-
-Blast BlastOf(const BlastEdit& e) { return {e.centre, e.radius, e.speed, e.impulse}; }
-
-/// m, its lower left.
-Vec2 CornerOf(const Brick& b) {
-  return Vec2(static_cast<float>(b.x), static_cast<float>(b.y)) * kBrickUnit;
-}
 
 /// A bond over more than this, m, is nonsense: no assembly is so large.
 constexpr float kBondDistanceMax = 1000;
@@ -32,7 +24,9 @@ constexpr float kBondAngleMax = 6.2831853f;
 }  // namespace
 
 Topology::Topology(const Scene& scene)
-    : scene_(scene), composition_(Compose(scene_)), slots_(scene.joints.size()) {}
+    : scene_(scene), composition_(Compose(scene_)), slots_(scene.joints.size()) {
+  KeepGround();
+}
 
 bool Topology::Has(PartId part) const {
   return part >= 0 && part < static_cast<PartId>(scene_.parts.size()) &&
@@ -51,23 +45,6 @@ bool Topology::RoomFor(std::size_t more) const {
 
 bool Topology::HasJoint(std::int32_t joint) const {
   return joint >= 0 && static_cast<std::size_t>(joint) < scene_.joints.size();
-}
-
-const FeatherStore& Topology::BricksLeft() const {
-  if (left_ == nullptr) {
-    left_ = std::make_shared<FeatherStore>(scene_.bricks);
-    founded_ = FoundedKinds(*left_, scene_.bricks);
-    left_parts_ = 0;
-  }
-  if (left_parts_ == scene_.parts.size()) return *left_;
-  const std::vector<Part> since(scene_.parts.begin() + static_cast<std::ptrdiff_t>(left_parts_),
-                                scene_.parts.end());
-  const std::vector<Brick> freed = FreedBricks(scene_.bricks, since);
-  left_parts_ = scene_.parts.size();
-  if (freed.empty()) return *left_;
-  if (left_.use_count() > 1) left_ = std::make_shared<FeatherStore>(*left_);
-  left_->Remove(freed);
-  return *left_;
 }
 
 Status Topology::ValidateBond(const BondEdit& bond) const {
@@ -209,10 +186,7 @@ Status Topology::ApplyOne(const Edit& edit) {
                  },
                  [&](const BondEdit& bond) { Bond(bond); },
                  [&](const RemoveEdit& remove) { Remove(remove.part); },
-                 [&](const FreeEdit& free) {
-                   scene_.parts[static_cast<std::size_t>(free.part)].anchored = false;
-                   stale_ = true;
-                 },
+                 [&](const FreeEdit& free) { Free(free.part); },
                  [&](const SeatEdit& seat) { Sit(seat); },
                  [&](const BlastEdit& blast) { FreeBricks(blast); }},
       edit.what);
@@ -222,27 +196,6 @@ Status Topology::ApplyOne(const Edit& edit) {
 void Topology::Sit(const SeatEdit& seat) {
   if (!Validate(Edit(seat)).ok()) return;
   scene_.seats[static_cast<std::size_t>(seat.seat)].player = seat.player;
-}
-
-void Topology::FreeBricks(const BlastEdit& blast) {
-  if (scene_.bricks.empty() || !RoomFor(kBlastPiecesMax + kFallPiecesMax)) return;
-  const auto add = [this](std::vector<Part> parts) {
-    for (Part& part : parts) {
-      part.id = static_cast<PartId>(scene_.parts.size());
-      scene_.parts.push_back(std::move(part));
-      stale_ = true;
-    }
-  };
-  Freed freed = BlastBricks(scene_.bricks, BricksLeft(), BlastOf(blast));
-  add(std::move(freed.parts));
-  const FeatherStore& left = BricksLeft();
-  Fallen fallen = FallingBricks(scene_.bricks, founded_, left, freed.bricks, BlastOf(blast));
-  add(std::move(fallen.parts));
-  hanging_.reset();
-  if (!fallen.hanging.empty()) hanging_ = CornerOf(fallen.hanging.front());
-  BricksLeft();
-  if (left_.use_count() > 1) left_ = std::make_shared<FeatherStore>(*left_);
-  left_->SetHanging(std::move(fallen.hanging));
 }
 
 void Topology::MoveSide(const BondEdit& edit) {
@@ -336,6 +289,14 @@ void Topology::Break(std::int32_t joint) {
   }
 }
 
+void Topology::Free(PartId part) {
+  bool& anchored = scene_.parts[static_cast<std::size_t>(part)].anchored;
+  if (!anchored) return;
+  anchored = false;
+  stale_ = true;
+  NoteHanging(part);
+}
+
 void Topology::Remove(PartId part) {
   scene_.parts[static_cast<std::size_t>(part)].gone = true;
   for (std::size_t j = 0; j < scene_.joints.size(); ++j) {
@@ -344,6 +305,7 @@ void Topology::Remove(PartId part) {
     if (held && !joint.gone) Break(static_cast<std::int32_t>(j));
   }
   stale_ = true;
+  NoteHanging(part);
 }
 
 }  // namespace seam

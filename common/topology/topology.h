@@ -18,6 +18,8 @@
 namespace seam {
 
 class FeatherStore;
+class Foundations;
+struct Brick;
 
 /// Parts and joints are never renumbered: what leaves stays in its place with `gone` set, what
 /// comes is appended; but a bond takes the lowest place that a bond before it has left. Where the
@@ -37,8 +39,9 @@ class Topology {
   /// bricks); later ones follow what was freed since. Not for several threads at once.
   const FeatherStore& BricksLeft() const;
 
-  /// m: where the last blast has left bricks that nothing holds up, since one edit frees only so
-  /// many. Another blast there, of any speed, lets them fall.
+  /// m: where there are bricks that nothing holds up: the last blast has left them, since one edit
+  /// frees only so many, or what they lay on has left or was freed. A blast there, of any speed,
+  /// lets them fall.
   const std::optional<Vec2>& hanging() const { return hanging_; }
 
   /// Applies edits in their order. An edit that cannot be (its part has left, its text is wrong)
@@ -83,8 +86,14 @@ class Topology {
   void MoveSide(const BondEdit& edit);
   Status Insert(const InsertEdit& edit);
   void Break(std::int32_t joint);
+  void Free(PartId part);
   void Remove(PartId part);
   void FreeBricks(const BlastEdit& blast);
+  /// Keeps what bricks may lie on, as the scene begins.
+  void KeepGround();
+  /// After a part has left, or is anchored no more: notes the bricks that lay on it and now hang.
+  void NoteHanging(PartId part);
+  void SetHanging(std::vector<Brick> hanging);
   bool Has(PartId part) const;
   bool RoomFor(std::size_t more) const;
   void UpdateComposition();
@@ -97,7 +106,8 @@ class Topology {
   int revision_ = 0;
   mutable std::shared_ptr<FeatherStore> left_;  // shared by copies until one of them changes it
   mutable std::size_t left_parts_ = 0;          // parts whose bricks are out of it
-  mutable std::vector<bool> founded_;           // by kind of bricks; made with left_
+  std::shared_ptr<const std::vector<Part>> ground_;  // what bricks may lie on, as the scene begins
+  mutable std::shared_ptr<const Foundations> foundations_;  // made with left_
   std::optional<Vec2> hanging_;
 };
 

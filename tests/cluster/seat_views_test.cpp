@@ -240,8 +240,9 @@ TEST(SeatViews, WhoLeavesTheRoomAtTheWheelDrivesOnNoMore) {
 }
 
 TEST(SeatViews, WhoJoinsInTheMiddleOfTheWaySeesTheSameAfterASecond) {
-  // Of 210 runs 8 are above 10 cm at first (19 at most), and 2 above 5 cm after a second (5.4).
-  int in_the_middle = 0, early_above = 0, later_above = 0;
+  // How far ann is then, bob finds from her place and speed (common/stages/seat_way.h). Of 210 runs
+  // one is above 10 cm in the first second (10.6) and 11 above 5 cm; none later (2.8 at most).
+  int in_the_middle = 0, above_five = 0, above_ten = 0;
   const int runs = 7 * Soak(2);
   for (int i = 0; i < runs; ++i) {
     const int revived = 90 + 10 * (i % 7), seed = 31 + i / 7;
@@ -275,8 +276,7 @@ TEST(SeatViews, WhoJoinsInTheMiddleOfTheWaySeesTheSameAfterASecond) {
     in_the_middle += middle ? 1 : 0;
     Recording seen;
     seen.views[1] = views;
-    // It shows nothing before it knows where everything is by now. Who is on the way then, and
-    // since when, it does not know before the authority's states say so.
+    // It shows nothing before it knows where everything is by now.
     const std::int64_t settled = first + 60;
     const Jump jump =
         LargestJump(seen, static_cast<double>(settled) / 60, static_cast<double>(settled) / 60 + 2);
@@ -285,13 +285,13 @@ TEST(SeatViews, WhoJoinsInTheMiddleOfTheWaySeesTheSameAfterASecond) {
     std::printf("[          ] first view at tick %lld%s: %.4f m (%s), later %.4f m (%s)\n",
                 static_cast<long long>(first), middle ? ", on the way" : "", early.metres,
                 early.where.c_str(), jump.metres, jump.where.c_str());
-    EXPECT_LT(early.metres, middle ? 0.4 : 0.2) << early.where;
-    EXPECT_LT(jump.metres, 0.06) << jump.where;
-    early_above += !middle && early.metres > 0.1 ? 1 : 0;
-    later_above += jump.metres > 0.05 ? 1 : 0;
+    EXPECT_LT(early.metres, 0.12) << early.where;
+    EXPECT_LT(jump.metres, 0.05) << jump.where;
+    above_five += early.metres > 0.05 ? 1 : 0;
+    above_ten += early.metres > 0.1 ? 1 : 0;
   }
-  EXPECT_LE(early_above, std::max(1, runs / 14));
-  EXPECT_LE(later_above, std::max(1, runs / 40));
+  EXPECT_LE(above_five, std::max(1, runs / 14));
+  EXPECT_LE(above_ten, runs / 100);
   EXPECT_GE(in_the_middle, 4);
 }
 

@@ -1,0 +1,58 @@
+#include "common/stages/seat_way.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "common/stages/make_stages.h"
+
+namespace seam {
+namespace {
+
+using Eigen::Vector2d;
+
+/// Who has so little of the way left, m, is there; and who has this and does not come nearer: what
+/// is heard of a vehicle and of who is in it is not of one tick.
+constexpr double kThere = 0.03, kThereAtRest = 0.5;
+/// speed/left T below which nobody need have set out: it is more from 3 ticks on.
+constexpr double kSetsOut = 0.5;
+/// Share up to which the way is looked for again, and x up to which it is found: then too little is
+/// left of it to tell.
+constexpr double kLookedFor = 0.9, kFoundUpTo = 0.94;
+/// rad: a way turns by less than half a turn.
+constexpr double kTurnMost = 3.1;
+
+}  // namespace
+
+double ShareOfWay(double ticks, int tick_hz) {
+  const int wait = SeatWaitTicks(tick_hz), all = SeatTicks(tick_hz);
+  const double x = std::clamp((ticks - wait) / (all - wait), 0.0, 1.0);
+  return x * x * (3 - 2 * x);
+}
+
+Transform2 Rounded(const Transform2& pose) {
+  return {pose.shift.cast<float>().cast<double>(),
+          static_cast<double>(static_cast<float>(pose.angle))};
+}
+
+void FindWay(const Seat& seat, const Solver& solver, const SeatSight& seen, SeatWay* way) {
+  const int wait = SeatWaitTicks(solver.tick_hz), all = SeatTicks(solver.tick_hz);
+  const Vector2d at = seat.at.cast<double>(), left = at - seen.place.shift;
+  const double metres = left.norm(), far = std::max(metres, kThere);
+  const double k = seen.speed.dot(left) / (far * far) * (all - wait) / solver.tick_hz;
+  if (metres < kThere || (metres < kThereAtRest && k < kSetsOut)) {
+    *way = {std::max(way->ticks, all), Rounded(seen.place)};
+    return;
+  }
+  if (k < kSetsOut) return;
+  const double x = (k - 6 + std::sqrt((6 - k) * (6 - k) + 8 * k * k)) / (4 * k);
+  // The speed is that of the middle of the last step.
+  const double ticks = x * (all - wait) + 0.5 / solver.substeps, most = kFoundUpTo * (all - wait);
+  const int found = wait + std::max(1, static_cast<int>(std::lround(std::min(ticks, most))));
+  const double share = ShareOfWay(found, solver.tick_hz);
+  if (share > kLookedFor && way->ticks > wait) return;
+  const double rest = 1 - share, angle = static_cast<double>(seat.angle);
+  const double turn = WrapAngle(angle - seen.place.angle) / rest;
+  *way = {found, Rounded({at - left / rest, angle - std::clamp(turn, -kTurnMost, kTurnMost)})};
+}
+
+}  // namespace seam
