@@ -109,29 +109,40 @@ float Snapshots::Forward(std::int64_t from, std::int64_t tick, float dt, float m
   return std::min(static_cast<float>(std::max<std::int64_t>(0, tick - from)) * dt, max_s);
 }
 
+Vec2 Snapshots::AccelerationBefore(std::size_t back, const Ring& ring, float dt) {
+  if (ring.size() < back + 2) return {0, 0};
+  const Stamped &after = ring.FromNewest(back), &before = ring.FromNewest(back + 1);
+  const float between = static_cast<float>(after.tick - before.tick) * dt;
+  const Vec2 acceleration = (after.state.velocity - before.state.velocity) / between;
+  const bool lasts = between <= kAccelerationSpan && acceleration.norm() <= kAccelerationMax;
+  return lasts ? acceleration : Vec2(0, 0);
+}
+
 Vec2 Snapshots::Acceleration(int body, std::int64_t tick, float dt) const {
   const Ring& ring = rings_[static_cast<std::size_t>(body)];
-  if (ring.size() < 3 || ring.newest_tick() != tick) return {0, 0};
+  if (ring.newest_tick() != tick) return {0, 0};
   // What starts, stops or is struck changes its velocity once: that does not go on.
-  const auto since = [dt](const Stamped& before, const Stamped& after) -> Vec2 {
-    const float between = static_cast<float>(after.tick - before.tick) * dt;
-    const Vec2 acceleration = (after.state.velocity - before.state.velocity) / between;
-    const bool lasts = between <= kAccelerationSpan && acceleration.norm() <= kAccelerationMax;
-    return lasts ? acceleration : Vec2(0, 0);
-  };
-  const auto at = [&ring](std::size_t back) -> const Stamped& { return ring.FromNewest(back); };
-  return LeastBetween(since(at(1), at(0)), since(at(2), at(1)));
+  return LeastBetween(AccelerationBefore(0, ring, dt), AccelerationBefore(1, ring, dt));
+}
+
+BodyState Snapshots::Onward(const Ring& ring, std::int64_t tick, float dt, float max_s,
+                            const Vec2& acceleration) {
+  SEAM_ASSERT(ring.size() > 0);
+  const float forward = Forward(ring.newest_tick(), tick, dt, max_s);
+  BodyState out = seam::Extrapolate(ring.FromNewest(0).state, forward);
+  out.velocity += SpeedGained(acceleration, forward);
+  out.position += ShiftGained(acceleration, forward);
+  return out;
 }
 
 BodyState Snapshots::Extrapolate(int body, std::int64_t tick, float dt, float max_s) const {
   const Ring& ring = rings_[static_cast<std::size_t>(body)];
-  SEAM_ASSERT(ring.size() > 0);
-  const float forward = Forward(ring.newest_tick(), tick, dt, max_s);
-  BodyState out = seam::Extrapolate(ring.FromNewest(0).state, forward);
-  const Vec2 acceleration = Acceleration(body, ring.newest_tick(), dt);
-  out.velocity += SpeedGained(acceleration, forward);
-  out.position += ShiftGained(acceleration, forward);
-  return out;
+  return Onward(ring, tick, dt, max_s, Acceleration(body, ring.newest_tick(), dt));
+}
+
+BodyState Snapshots::ExtrapolateNewest(int body, std::int64_t tick, float dt, float max_s) const {
+  const Ring& ring = rings_[static_cast<std::size_t>(body)];
+  return Onward(ring, tick, dt, max_s, AccelerationBefore(0, ring, dt));
 }
 
 void DisplayDelay::AddAge(std::int64_t age_ticks) {

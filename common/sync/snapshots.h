@@ -53,6 +53,9 @@ class Snapshots {
   /// The newest state moved on by its velocity for at most `max_s`, and by a moderate acceleration
   /// that has lasted for two intervals. Requires has(body).
   BodyState Extrapolate(int body, std::int64_t tick, float dt, float max_s) const;
+  /// The same by the last interval alone. For what is simulated and pulled there: it answers at
+  /// once, and what comes of it the next pull undoes.
+  BodyState ExtrapolateNewest(int body, std::int64_t tick, float dt, float max_s) const;
   /// For how long a state of `from` is moved on to `tick`, s.
   static float Forward(std::int64_t from, std::int64_t tick, float dt, float max_s);
 
@@ -83,6 +86,10 @@ class Snapshots {
     std::vector<Stamped> slots_;
     std::uint32_t next_ = 0, size_ = 0;  // where the next goes, and how many there are
   };
+  /// Between the state that is so many back and the one before it.
+  static Vec2 AccelerationBefore(std::size_t back, const Ring& ring, float dt);
+  static BodyState Onward(const Ring& ring, std::int64_t tick, float dt, float max_s,
+                          const Vec2& acceleration);
   std::vector<Ring> rings_;
 };
 

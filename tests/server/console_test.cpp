@@ -62,7 +62,7 @@ class ServerConsole : public ::testing::Test {
   static ClusterConfig Config() {
     ClusterConfig config;
     config.impair = "delay=40ms,loss=2%";
-    config.keep = false;
+    config.keep = true;  // somebody looks at what the server shows
     return config;
   }
   void Take() {

@@ -14,7 +14,7 @@ constexpr float kPullReckonMax = 0.3f;
 }  // namespace
 
 BodyState Corrector::PullTarget(int body, std::int64_t at) const {
-  BodyState target = memory_.snapshots().Extrapolate(body, at, world_.dt(), kPullReckonMax);
+  BodyState target = memory_.snapshots().ExtrapolateNewest(body, at, world_.dt(), kPullReckonMax);
   target.angle = UnwrapAngle(target.angle, world_.Read(body).angle);
   return target;
 }
