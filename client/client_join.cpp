@@ -6,16 +6,14 @@
 #include "client/client.h"
 #include "common/base/nearest.h"
 #include "common/net/datagram.h"
-#include "common/sync/lease.h"
 
 namespace seam {
 namespace {
 
 /// A Hello or Join that is not answered is repeated after this, us.
 constexpr std::int64_t kHelloUs = 100000;
-/// A refused join is repeated for this long, us: a session of ours that ended without a goodbye
-/// before it knew its key holds the name until the server misses it.
-constexpr std::int64_t kInsistUs = kPatienceUs + 1000000;
+/// A refused join is repeated for this long, us.
+constexpr std::int64_t kInsistUs = 3000000;
 
 /// A server that does not say which names are free within this long never does, us.
 constexpr std::int64_t kNamesUs = 1000000;
