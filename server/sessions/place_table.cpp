@@ -51,6 +51,14 @@ PlaceTable::Answer PlaceTable::Claim(std::int64_t now_us, const std::string& nam
   return {peer, ""};
 }
 
+int PlaceTable::Abandoned(std::int64_t now_us, const std::string& name, std::uint64_t key) const {
+  const int own = FindName(name);
+  if (own < 0) return -1;
+  const Place& place = at(own);
+  const bool silent = place.occupied && now_us - place.heard_us >= kKeylessUs;
+  return silent && !place.key_known && place.key != key ? own : -1;
+}
+
 std::string PlaceTable::FreeNames(std::int64_t now_us) const {
   std::string list;
   int left_out = 0;

@@ -27,6 +27,10 @@ class PlaceTable {
   /// A taken name is refused to who has not its key until so long after the newest authenticated
   /// datagram, us. Then it is free.
   static constexpr std::int64_t kNameHeldUs = 30000000;
+  /// A place whose owner may not have been told its key yet, who then could not come back, is given
+  /// to another so long after its session's newest datagram, us. Who loads a room acknowledges many
+  /// times in it.
+  static constexpr std::int64_t kKeylessUs = 1000000;
 
   /// Both must outlive it.
   PlaceTable(const Scene& scene, Entropy& entropy) : scene_(scene), entropy_(entropy) {}
@@ -39,6 +43,10 @@ class PlaceTable {
   /// whoever is in it now, or a new one.
   Answer Claim(std::int64_t now_us, const std::string& name, std::uint64_t key,
                std::uint64_t session);
+  /// The place of this name if a session is in it that is silent (kKeylessUs) and whose owner is
+  /// not known to have a key, and `key` is another: it has to end before the name is claimed. Else
+  /// -1.
+  int Abandoned(std::int64_t now_us, const std::string& name, std::uint64_t key) const;
   /// A session is in the place from now on.
   void Enter(int peer, std::int64_t now_us);
   /// The session in it has got an authenticated datagram. `ready`: it has said Ready, so it has

@@ -49,8 +49,12 @@ SessionTable::Verdict SessionTable::OnStranger(std::int64_t now_us, const Sessio
     case Handshake::Verdict::kAnswered: return Verdict::kTaken;
     case Handshake::Verdict::kJoins: break;
   }
-  const PlaceTable::Answer answer =
-      places_.Claim(now_us, join.name, static_cast<std::uint64_t>(join.key), id.number);
+  const auto key = static_cast<std::uint64_t>(join.key);
+  const int abandoned = places_.Abandoned(now_us, join.name, key);
+  if (const Session* old = abandoned < 0 ? nullptr : Find(abandoned)) {
+    Drop(SessionId(old->id), "silent before it was ready, and its name is claimed");
+  }
+  const PlaceTable::Answer answer = places_.Claim(now_us, join.name, key, id.number);
   if (answer.peer > 0) {
     Admit(now_us, id, answer.peer);
   } else if (!answer.refusal.empty()) {

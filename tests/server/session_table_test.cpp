@@ -241,6 +241,17 @@ TEST_F(SessionTableTest, WhoSaysGoodbyeOrNeverGotReadyHoldsNoName) {
   EXPECT_TRUE(third.welcomed);
 }
 
+TEST_F(SessionTableTest, WhoIsSilentBeforeTheKeyIsKnownGivesTheNameToWhoSaysIt) {
+  Guest bob(&network_, 2, "bob"), other(&network_, 3, "bob");
+  Enter(&bob);
+  now_us_ += PlaceTable::kKeylessUs - 1;
+  Enter(&other);
+  EXPECT_FALSE(other.welcomed) << "may still be loading";
+  now_us_ += 1;
+  Enter(&other);
+  EXPECT_TRUE(other.welcomed && table_.count() == 1 && PeerOf("bob") == 2);
+}
+
 TEST_F(SessionTableTest, OneAddressMayHoldSeveralSessionsAndNoneDisturbsTheOther) {
   Guest bob(&network_, 2, "bob");
   GetReady(&bob);
