@@ -34,6 +34,8 @@ constexpr std::int64_t kGiveUpTicks = 300;
 constexpr std::int64_t kWorldWaitUs = 4000000;
 /// States older than the round trip and this are not the world as it is, us.
 constexpr std::int64_t kWorldAgeUs = 250000;
+/// It begins up to 1 s / kCatchesUpPart ago, with what was told of then, and steps on to now.
+constexpr std::int64_t kCatchesUpPart = 4;
 /// Mode central: inputs should arrive this long before the server needs them, us.
 constexpr double kInputMarginUs = 35000;
 
@@ -136,10 +138,20 @@ void Client::StartIfDue(std::int64_t now_us) {
   const std::int64_t age_us = clock_.rtt_p90_us() + kWorldAgeUs;
   const std::int64_t from = tick - age_us * room_.tick_hz / 1000000;
   if (late && waits && !CoversWorld(held_, replica_->world(), from)) return;
-  if (late) replica_->StartAt(tick);
+  const std::int64_t oldest = tick - room_.tick_hz / kCatchesUpPart;
+  if (late) replica_->StartAt(TickOfWorld(held_, replica_->world(), oldest, tick));
   started_ = true;
   GiveHeld(held_, *replica_);
   held_.clear();
+  if (late) CatchUp(tick);
+}
+
+/// Nobody sees these ticks, nor hears of them.
+void Client::CatchUp(std::int64_t tick) {
+  while (replica_->tick() < tick) replica_->Step();
+  replica_->TakeStates();
+  replica_->TakeProposals();
+  replica_->TakeImpactReports();
 }
 
 void Client::StepDue(std::int64_t now_us) {

@@ -121,6 +121,7 @@ class Client {
   // client.cpp
   void SendReadyAndPing(std::int64_t now_us);
   void StartIfDue(std::int64_t now_us);
+  void CatchUp(std::int64_t tick);
   void StepDue(std::int64_t now_us);
   void StepOnce(std::int64_t now_us);
   /// In a room of so many bodies; kNone where nobody listens.

@@ -70,7 +70,7 @@ void Broadcast::ForEachHearing(int but_peer, Visit visit) {
 /// once the driver is taken to have let go, which followers hear of from the server alone.
 bool Broadcast::TellsFollowers(std::int64_t now_us, int holder, int body) {
   const World& world = replica_.world();
-  const bool small = world.body_count() <= world.scene().server_follow && publisher_.listening();
+  const bool small = world.body_count() <= world.scene().server_follow && ShowsViews();
   const bool all_along = small || ProposesEdits(world.scene());
   if (all_along && replica_.SimulatedBefore(body)) return true;
   const Session* const session = sessions_.Find(holder);

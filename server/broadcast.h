@@ -18,9 +18,10 @@ namespace seam {
 class Broadcast {
  public:
   /// All must outlive it.
-  Broadcast(Recorder& recorder, const std::string& room, const SyncConfig& config,
+  Broadcast(Recorder& recorder, const std::string& room, bool views, const SyncConfig& config,
             const Scene& scene, const Replica& replica, SessionTable& sessions)
       : publisher_(recorder, room),
+        views_(views),
         config_(config),
         replica_(replica),
         sessions_(sessions),
@@ -28,6 +29,8 @@ class Broadcast {
         interest_(scene, config_, replica),
         grant_news_(replica, interest_) {}
 
+  /// Whether anybody can see what this server shows of bodies.
+  bool ShowsViews() const { return views_ && publisher_.listening(); }
   /// On the bus only.
   template <class Message>
   void Publish(const Message& message) {
@@ -102,6 +105,7 @@ class Broadcast {
   bool Plain() const { return config_.mode != Mode::kBuffer && config_.mode != Mode::kCentral; }
 
   Publisher publisher_;
+  const bool views_;  // what it shows of bodies is published
   const SyncConfig config_;
   const Replica& replica_;
   SessionTable& sessions_;

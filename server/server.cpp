@@ -64,7 +64,6 @@ Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorde
       config_(config),
       room_(MakeRoom(scene_, config_)),
       net_(net),
-      recorder_(recorder),
       replica_(scene_, config.sync, 0, -1),
       sessions_(scene_, Encode(room_), AllowedTraffic(config.sync.tick_hz, config.sync.send_hz),
                 net, entropy, config.client_bytes_per_s),
@@ -72,7 +71,8 @@ Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorde
       edits_(replica_.world(), authority_, config.sync.tick_hz),
       bounds_(replica_),
       filter_(scene_, replica_, authority_, edits_, stats_.counters),
-      broadcast_(recorder, config.room, config.sync, scene_, replica_, sessions_),
+      broadcast_(recorder, config.room, config.publish != Publish::kNone, config.sync, scene_,
+                 replica_, sessions_),
       clock_(config.sync.tick_hz) {
   replica_.OnCorrected([this](int body) { NoteCorrected(body); });
   if (!Rules::Needed(scene_)) return;
@@ -212,12 +212,8 @@ void Server::StepOnce(std::int64_t now_us) {
   RunRules(now_us);
 }
 
-bool Server::PublishesViews() const {
-  return config_.publish != Publish::kNone && recorder_.listening();
-}
-
 void Server::PublishShown(std::int64_t now_us) {
-  if (!PublishesViews()) return;
+  if (!broadcast_.ShowsViews()) return;
   const Publish publish = Resolved(config_.publish, replica_.world().body_count());
   const View view = replica_.MakeView(publish == Publish::kAll);
   broadcast_.Publish(At(now_us, view));
@@ -300,7 +296,7 @@ void Server::UpdateAuthority(std::int64_t now_us) {
     situation.one_way_s.push_back(static_cast<float>(std::max<std::int64_t>(0, rtt_us)) * 0.5e-6f);
   }
   situation.together = edits_.WaitingMechanisms();
-  situation.shown = PublishesViews();
+  situation.shown = broadcast_.ShowsViews();
   const std::vector<Grants> grants = authority_.Update(now_us, situation);
   for (AuthorityManager::Given& given : authority_.TakeGiven()) {
     given.exact.utime = now_us;

@@ -136,8 +136,6 @@ class Server {
   void UpdateAuthority(std::int64_t now_us);
   /// Looks anew at what concerns whom, when that is due or has changed.
   void UpdateInterest(std::int64_t now_us, bool changed);
-  /// Whether anybody can see what this server shows.
-  bool PublishesViews() const;
   void PublishShown(std::int64_t now_us);
   void RunRules(std::int64_t now_us);
   void RunSeats();
@@ -152,7 +150,6 @@ class Server {
   const ServerConfig config_;
   const Room room_;
   Net& net_;
-  Recorder& recorder_;
   ServerStats stats_;
   Replica replica_;
   SessionTable sessions_;

@@ -21,6 +21,13 @@ SEAM_REVEAL(ContactFlags, uint32, b2Contact, m_flags);
 /// The engine's own bit: asks the filter again at the next step.
 constexpr uint32 kFilterAgain = 0x0008;
 
+using Square = std::pair<int, int>;  // column and row
+
+Square SquareOf(const Part& root) {
+  const auto square = [](float x) { return static_cast<int>(std::floor(x / kSquare)); };
+  return {square(root.position.x()), square(root.position.y())};
+}
+
 /// Whether the engine's box around `other`, within which it may move unnoticed, lies beyond a side
 /// of the anchored polygon.
 bool IsBeyond(b2Fixture* anchored, b2Fixture* other) {
@@ -92,17 +99,40 @@ std::vector<bool> ShareBodies(const Scene& scene, const Composition& composition
   return share;
 }
 
+std::vector<std::vector<Face>> SharedFaces(const Scene& scene, const Composition& composition,
+                                           const std::vector<bool>& share) {
+  std::map<Square, Assembly> together;
+  for (std::size_t a = 0; a < share.size(); ++a) {
+    if (!share[a]) continue;
+    const Assembly& assembly = composition.assemblies[a];
+    Assembly& all = together[SquareOf(scene.parts[static_cast<std::size_t>(assembly.id)])];
+    all.parts.insert(all.parts.end(), assembly.parts.begin(), assembly.parts.end());
+  }
+  std::vector<std::vector<Face>> faces(share.size());
+  for (const auto& [square, all] : together) {
+    for (Face& face : FacesOf(scene, all)) {
+      const auto part = static_cast<std::size_t>(face.shape.id);
+      const int assembly = composition.assembly_of_part[part];
+      faces[static_cast<std::size_t>(assembly)].push_back(std::move(face));
+    }
+  }
+  return faces;
+}
+
 void AnchoredBodies::Count(const Assembly& assembly) {
   parts_ += assembly.parts.size();
   if (parts_ >= static_cast<std::size_t>(kShareFrom)) world_->SetContactFilter(Sides());
 }
 
 const AnchoredBodies::Body& AnchoredBodies::For(const Part& root) {
-  const auto square = [](float x) { return static_cast<int>(std::floor(x / kSquare)); };
-  Body& body = bodies_[{square(root.position.x()), square(root.position.y())}];
+  const Square square = SquareOf(root);
+  if (last_ != nullptr && last_->first == square) return last_->second;
+  const auto found = bodies_.try_emplace(square).first;
+  last_ = &*found;
+  Body& body = found->second;
   if (body.body != nullptr) return body;
-  const auto middle = [&](float x) { return kSquare * (static_cast<float>(square(x)) + 0.5f); };
-  body.frame.position = {middle(root.position.x()), middle(root.position.y())};
+  const auto middle = [](int of) { return kSquare * (static_cast<float>(of) + 0.5f); };
+  body.frame.position = {middle(square.first), middle(square.second)};
   b2BodyDef def;
   def.position = ToB2(body.frame.position);
   body.body = world_->CreateBody(&def);

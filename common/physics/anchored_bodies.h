@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "common/physics/faces.h"
 #include "common/scene/assembly.h"
 
 namespace seam {
@@ -16,6 +17,12 @@ namespace seam {
 /// hold of its own body: no joint that is not rigid, no glue that can break, no connector, belt,
 /// seat or thrust. False for all of them where they are fewer than kShareFrom.
 std::vector<bool> ShareBodies(const Scene& scene, const Composition& composition);
+
+/// The shapes of those that share (see ShareBodies), by the assembly of the lowest part of each: on
+/// one body, boxes of any of them that make a rectangle are one shape, as bricks have no inner
+/// sides. Each list ascends.
+std::vector<std::vector<Face>> SharedFaces(const Scene& scene, const Composition& composition,
+                                           const std::vector<bool>& share);
 
 /// Lets the engine's next step drop what is a contact no longer (see AnchoredBodies).
 void DropFarContacts(b2World* world);
@@ -43,7 +50,9 @@ class AnchoredBodies {
  private:
   b2World* world_;
   std::size_t parts_ = 0;
-  std::map<std::pair<int, int>, Body> bodies_;  // by column and row
+  using Square = std::pair<int, int>;  // column and row
+  std::map<Square, Body> bodies_;
+  const std::pair<const Square, Body>* last_ = nullptr;  // of these: neighbours follow each other
 };
 
 }  // namespace seam

@@ -8,6 +8,7 @@
 #include "common/physics/world_shapes.h"
 #include "common/scene/bricks.h"
 #include "common/scene/scene_limits.h"
+#include "common/topology/feather_blast.h"
 
 namespace seam {
 namespace {
@@ -37,6 +38,15 @@ class Fan {
 
   /// Shortens the rays that meet the box, unless the centre is in it.
   void Cover(const b2Vec2& lower, const b2Vec2& upper) {
+    EachEntry(lower, upper, [this](int ray, float enter) {
+      float& reach = reach_[static_cast<std::size_t>(ray)];
+      reach = std::min(reach, enter);
+    });
+  }
+
+  /// visit(ray, distance, m) for the rays that meet the box, unless the centre is in it.
+  template <typename Visit>
+  void EachEntry(const b2Vec2& lower, const b2Vec2& upper, const Visit& visit) const {
     const b2Vec2 centre(blast_.centre.x(), blast_.centre.y());
     const b2Vec2 low = lower - centre, high = upper - centre;
     if (low.x < 0 && low.y < 0 && high.x > 0 && high.y > 0) return;
@@ -50,26 +60,29 @@ class Fan {
     }
     const int first = static_cast<int>(std::floor((middle + from) / width())) - 1;
     const int last = static_cast<int>(std::ceil((middle + to) / width())) + 1;
-    for (int ray = first; ray <= last; ++ray) Shorten((ray + 2 * count_) % count_, low, high);
+    for (int at = first; at <= last; ++at) {
+      const int ray = (at + 2 * count_) % count_;
+      const float enter = Entry(ray, low, high);
+      if (enter < blast_.radius) visit(ray, enter);
+    }
   }
 
  private:
-  /// Where the ray enters the box, by its two pairs of sides.
-  void Shorten(int ray, const b2Vec2& low, const b2Vec2& high) {
+  /// Where the ray enters the box, by its two pairs of sides; the radius: nowhere.
+  float Entry(int ray, const b2Vec2& low, const b2Vec2& high) const {
     const b2Vec2 along = Direction(ray);
     float enter = 0, leave = blast_.radius;
     for (const int axis : {0, 1}) {
       const float way = along(axis);
       if (std::fabs(way) < 1e-6f) {
-        if (low(axis) > 0 || high(axis) < 0) return;
+        if (low(axis) > 0 || high(axis) < 0) return blast_.radius;
         continue;
       }
       const float one = low(axis) / way, other = high(axis) / way;
       enter = std::max(enter, std::min(one, other));
       leave = std::min(leave, std::max(one, other));
     }
-    float& reach = reach_[static_cast<std::size_t>(ray)];
-    if (enter <= leave) reach = std::min(reach, enter);
+    return enter <= leave ? enter : blast_.radius;
   }
 
   const BlastEdit& blast_;
@@ -89,6 +102,62 @@ void CoverByBricks(const FeatherStore& bricks, const BlastEdit& blast, Fan* fan)
     fan->Cover({metres(b.x), metres(b.y)}, {metres(b.x + kind.width), metres(b.y + kind.height)});
   }
 }
+
+/// Pieces of bricks that lie where the bricks were: what a blast has just freed. They are smaller
+/// (kFreedGap), but the blast meets the wall.
+class Rooms : public b2QueryCallback {
+ public:
+  Rooms(const b2World& world, const Scene& scene, const Fan& fan, const BlastEdit& blast)
+      : scene_(scene), rays_(static_cast<std::size_t>(fan.count()), {nullptr, blast.radius}) {
+    if (scene.bricks.empty()) return;
+    const b2Vec2 half(blast.radius, blast.radius), centre(blast.centre.x(), blast.centre.y());
+    b2AABB near;
+    near.lowerBound = centre - half;
+    near.upperBound = centre + half;
+    world.QueryAABB(this, near);
+    std::sort(pieces_.begin(), pieces_.end(),
+              [](b2Fixture* a, b2Fixture* b) { return PartOf(a) < PartOf(b); });
+    for (b2Fixture* piece : pieces_) {
+      const Part& part = scene.parts[PartOf(piece)];
+      const b2Vec2 at(part.position.x(), part.position.y());
+      const b2Vec2 room(part.size.x() / 2 + kFreedGap, part.size.y() / 2 + kFreedGap);
+      fan.EachEntry(at - room, at + room, [&](int ray, float enter) {
+        Ray& nearest = rays_[static_cast<std::size_t>(ray)];
+        if (enter < nearest.enter) nearest = {piece, enter};
+      });
+    }
+  }
+
+  bool ReportFixture(b2Fixture* fixture) override {
+    if (IsPiece(*fixture)) pieces_.push_back(fixture);
+    return true;
+  }
+
+  /// Whose room the ray enters before that distance, m; nullptr: none's, or `hit` is one of them.
+  b2Fixture* Before(int ray, float distance, const b2Fixture* hit) const {
+    const Ray& nearest = rays_[static_cast<std::size_t>(ray)];
+    return nearest.enter >= distance || (hit != nullptr && IsPiece(*hit)) ? nullptr : nearest.piece;
+  }
+  float Entry(int ray) const { return rays_[static_cast<std::size_t>(ray)].enter; }
+
+ private:
+  struct Ray {
+    b2Fixture* piece = nullptr;  // the first whose room it enters
+    float enter = 0;             // m
+  };
+  bool IsPiece(const b2Fixture& fixture) const {
+    const std::uint32_t id = PartOf(&fixture);
+    if (id >= scene_.parts.size()) return false;
+    const Part& part = scene_.parts[id];
+    const b2Body& body = *const_cast<b2Fixture&>(fixture).GetBody();
+    return body.GetPosition() == b2Vec2(part.position.x(), part.position.y()) &&
+           body.GetAngle() == 0 && part.angle == 0 && part.name.find('@') != std::string::npos;
+  }
+
+  const Scene& scene_;
+  std::vector<b2Fixture*> pieces_;
+  std::vector<Ray> rays_;
+};
 
 /// The first shape on a ray; of two that begin at one point that of the lower number, so that the
 /// order in which the engine looks does not count.
@@ -115,10 +184,11 @@ class First : public b2RayCastCallback {
 
 }  // namespace
 
-std::vector<BlastHit> HitsOf(const b2World& world, const FeatherStore& bricks,
+std::vector<BlastHit> HitsOf(const b2World& world, const Scene& scene, const FeatherStore& bricks,
                              const BlastEdit& blast) {
   Fan fan(blast);
   CoverByBricks(bricks, blast, &fan);
+  const Rooms rooms(world, scene, fan, blast);
   const b2Vec2 centre(blast.centre.x(), blast.centre.y());
   std::vector<BlastHit> hits;
   for (int ray = 0; ray < fan.count(); ++ray) {
@@ -127,7 +197,12 @@ std::vector<BlastHit> HitsOf(const b2World& world, const FeatherStore& bricks,
     const b2Vec2 along = fan.Direction(ray);
     First first;
     world.RayCast(&first, centre, centre + reach * along);
-    const float distance = first.at * reach;
+    float distance = first.at * reach;
+    if (b2Fixture* piece = rooms.Before(ray, distance, first.hit)) {
+      first.hit = piece;
+      distance = rooms.Entry(ray);
+      first.where = centre + distance * along;
+    }
     if (first.hit == nullptr || distance < kNearMin) continue;
     const float silhouette = distance * fan.width();
     const float push = blast.impulse * (1 - distance / blast.radius) * silhouette;

@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "common/scene/scene.h"
 #include "common/topology/edit.h"
 #include "common/topology/feather_store.h"
 
@@ -20,11 +21,12 @@ struct BlastHit {
 /// As many rays as leave at most 6 cm between them at the radius, 128 to 1024, evenly all around.
 /// A ray stands for its share of the circle: a metre of silhouette at the distance r takes
 /// impulse (1 - r/radius) along the ray. Cover is what is hit first: bodies, anchored parts and
-/// `bricks`, but not what the centre lies in, sensors, and what stages made. Equal poses give equal
-/// hits, in the order of the rays. Requires a blast that topology accepts.
+/// `bricks`, and of pieces that the blast has just freed from bricks the room of those; but not
+/// what the centre lies in, sensors, and what stages made. Equal poses give equal hits, in the
+/// order of the rays. Requires a blast that topology accepts.
 ///
 ///      centre *----- ray ----->[crate] |wall|     behind both nothing is pushed
-std::vector<BlastHit> HitsOf(const b2World& world, const FeatherStore& bricks,
+std::vector<BlastHit> HitsOf(const b2World& world, const Scene& scene, const FeatherStore& bricks,
                              const BlastEdit& blast);
 
 /// Pushes the dynamic bodies among what is hit, and wakes them. None becomes faster by it than

@@ -172,7 +172,9 @@ const std::vector<Touch>& World::touches() const {
   return *impl_->touches;
 }
 
-std::vector<PartTouch> World::PartTouches() const { return FindPartTouches(*impl_->world); }
+std::vector<PartTouch> World::PartTouches() const {
+  return FindPartTouches(*impl_->world, impl_->scene, impl_->built);
+}
 
 const std::vector<BlockedDirection>& World::blocked_directions() const {
   if (!impl_->blocked_directions)

@@ -12,6 +12,12 @@
 namespace seam {
 namespace {
 
+void AddFace(const Face& face, const Part& frame, float skin, bool guarded, b2Body* body,
+             std::map<PartId, std::vector<PartId>>* merged) {
+  AddFixture(face.shape, frame, skin, guarded, body);
+  if (face.parts.size() > 1) (*merged)[face.shape.id] = face.parts;
+}
+
 /// `frame`: a part that lies as the body does.
 void AddShapes(const Scene& scene, const Assembly& assembly, const Part& frame, bool guarded,
                b2Body* body, std::map<PartId, std::vector<PartId>>* merged) {
@@ -23,8 +29,7 @@ void AddShapes(const Scene& scene, const Assembly& assembly, const Part& frame, 
     return;
   }
   for (const Face& face : FacesOf(scene, assembly)) {
-    AddFixture(face.shape, frame, scene.solver.skin, guarded, body);
-    if (face.parts.size() > 1) (*merged)[face.shape.id] = face.parts;
+    AddFace(face, frame, scene.solver.skin, guarded, body, merged);
   }
 }
 
@@ -47,10 +52,13 @@ b2Body* AddBody(const Scene& scene, const Assembly& assembly, const BodyState* a
   return body;
 }
 
-b2Body* AddToShared(const Scene& scene, const Assembly& assembly, AnchoredBodies* shared,
-                    std::map<PartId, std::vector<PartId>>* merged) {
+/// `faces`: of this and others that share the body.
+b2Body* AddToShared(const Scene& scene, const Assembly& assembly, const std::vector<Face>& faces,
+                    AnchoredBodies* shared, std::map<PartId, std::vector<PartId>>* merged) {
   const AnchoredBodies::Body& its = shared->For(scene.parts[static_cast<std::size_t>(assembly.id)]);
-  AddShapes(scene, assembly, its.frame, true, its.body, merged);
+  for (const Face& face : faces) {
+    AddFace(face, its.frame, scene.solver.skin, true, its.body, merged);
+  }
   return its.body;
 }
 
@@ -118,9 +126,11 @@ class Builder {
     const auto a = static_cast<std::size_t>(assembly);
     const Assembly& of = composition_.assemblies[a];
     shared_.Count(of);
-    built_.bodies[a] = memory_.share[a]
-                           ? AddToShared(scene_, of, &shared_, &built_.merged)
-                           : AddBody(scene_, of, nullptr, true, world_, &built_.merged);
+    if (!memory_.share[a]) {
+      built_.bodies[a] = AddBody(scene_, of, nullptr, true, world_, &built_.merged);
+      return;
+    }
+    built_.bodies[a] = AddToShared(scene_, of, memory_.shared[a], &shared_, &built_.merged);
   }
 
   /// Makes it in the world, `at` there if that is not nullptr, or aside if it is to be absent and
@@ -217,6 +227,7 @@ BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2Worl
           memory);
   if (memory->share_revision != memory->revision) {
     memory->share = ShareBodies(scene, composition);
+    memory->shared = SharedFaces(scene, composition, memory->share);
     memory->share_revision = memory->revision;
   }
   memory->anchored.clear();

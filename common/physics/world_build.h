@@ -10,6 +10,7 @@
 #include <map>
 #include <vector>
 
+#include "common/physics/faces.h"
 #include "common/physics/world_joints.h"
 #include "common/scene/assembly.h"
 #include "common/scene/mass.h"
@@ -41,11 +42,12 @@ struct BuiltScene {
 
 /// What builds of the same bodies, one after the other, have in common.
 struct BuildMemory {
-  std::uint64_t composition = 0;  ///< hash of who was one body with whom
-  std::vector<b2MassData> mass;   ///< by moving body; empty: not known yet
-  int revision = 0;               ///< of the scene: edits that it has had
-  int share_revision = -1;        ///< of which `share` is
-  std::vector<bool> share;        ///< by assembly: see ShareBodies
+  std::uint64_t composition = 0;          ///< hash of who was one body with whom
+  std::vector<b2MassData> mass;           ///< by moving body; empty: not known yet
+  int revision = 0;                       ///< of the scene: edits that it has had
+  int share_revision = -1;                ///< of which `share` and `shared` are
+  std::vector<bool> share;                ///< by assembly: see ShareBodies
+  std::vector<std::vector<Face>> shared;  ///< by assembly: see SharedFaces
   /// An engine that is never stepped, for the bodies that take no part in steps: a body that is
   /// only disabled costs every step time. They lie there disabled.
   b2World aside{b2Vec2(0, 0)};

@@ -103,13 +103,24 @@ std::vector<Touch> FindTouches(const b2World& world) {
   return touches;
 }
 
-std::vector<PartTouch> FindPartTouches(const b2World& world) {
+std::vector<PartTouch> FindPartTouches(const b2World& world, const Scene& scene,
+                                       const BuiltScene& built) {
+  const auto part_of = [&](const b2Contact* contact, const b2Fixture* fixture) {
+    const auto lowest = static_cast<PartId>(PartOf(fixture));
+    const auto merged = built.merged.find(lowest);
+    const bool still = fixture->GetBody()->GetType() == b2_staticBody;
+    if (merged == built.merged.end() || !still) return lowest;
+    b2WorldManifold manifold;
+    contact->GetWorldManifold(&manifold);
+    return NearestPart(scene, merged->second, FromB2(manifold.points[0]).cast<double>());
+  };
   std::vector<PartTouch> touches;
   for (const b2Contact* c = world.GetContactList(); c != nullptr; c = c->GetNext()) {
     if (!Touching(c)) continue;
     const auto a = PartOf(c->GetFixtureA()), b = PartOf(c->GetFixtureB());
     if (a >= kStageFixture || b >= kStageFixture || a == b) continue;
-    touches.push_back({static_cast<PartId>(std::min(a, b)), static_cast<PartId>(std::max(a, b))});
+    const PartId one = part_of(c, c->GetFixtureA()), other = part_of(c, c->GetFixtureB());
+    touches.push_back({std::min(one, other), std::max(one, other)});
   }
   std::sort(touches.begin(), touches.end());
   const auto same = [](const PartTouch& x, const PartTouch& y) { return !(x < y) && !(y < x); };

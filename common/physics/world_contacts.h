@@ -40,8 +40,10 @@ class ImpulseMeter : public b2ContactListener {
 /// Touching pairs of moving bodies, ascending, each once.
 std::vector<Touch> FindTouches(const b2World& world);
 
-/// Touching pairs of parts, ascending, each once; not what stages have added.
-std::vector<PartTouch> FindPartTouches(const b2World& world);
+/// Touching pairs of parts, ascending, each once; not what stages have added. Of anchored ones that
+/// are one shape that which is touched.
+std::vector<PartTouch> FindPartTouches(const b2World& world, const Scene& scene,
+                                       const BuiltScene& built);
 
 /// At most two directions for each body, ascending by body.
 std::vector<BlockedDirection> FindBlockedDirections(const b2World& world,

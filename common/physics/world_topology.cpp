@@ -297,7 +297,7 @@ void World::Do(const Edit& edit) {
   if (push != nullptr && w.topology.Validate(edit).ok()) Push(*push);
   const BlastEdit* blast = edit.As<BlastEdit>();
   if (blast != nullptr && blast->impulse > 0 && w.topology.Validate(edit).ok()) {
-    PushAway(HitsOf(*w.world, w.topology.BricksLeft(), *blast), w.scene.speed_limit);
+    PushAway(HitsOf(*w.world, w.scene, w.topology.BricksLeft(), *blast), w.scene.speed_limit);
   }
   const SeatEdit* seat = edit.As<SeatEdit>();
   if (seat != nullptr && seat->player < 0 && w.topology.Validate(edit).ok()) {

@@ -21,6 +21,10 @@ inline PartId PartAt(const StageWorld& w, PartId fixture, const b2Vec2& point) {
   if (merged == w.built.merged.end()) return fixture;
   const int assembly = w.composition.assembly_of_part[static_cast<std::size_t>(fixture)];
   const Assembly& whole = w.composition.assemblies[static_cast<std::size_t>(assembly)];
+  if (whole.anchored && whole.kinematic < 0) {  // its body may be others', too
+    const b2Vec2 at = w.built.bodies[static_cast<std::size_t>(assembly)]->GetWorldPoint(point);
+    return NearestPart(w.scene, merged->second, FromB2(at).cast<double>());
+  }
   const Part& root = w.scene.parts[static_cast<std::size_t>(whole.id)];
   const Transform2 placed{root.position.cast<double>(), static_cast<double>(root.angle)};
   return NearestPart(w.scene, merged->second, placed(FromB2(point).cast<double>()));

@@ -99,6 +99,27 @@ TEST(AnchoredBodies, ATouchNamesTheTile) {
   EXPECT_EQ(touches[0].b, 40);
 }
 
+TEST(AnchoredBodies, TilesWithoutRoomBetweenThemAreFewShapes) {
+  // 20 rows of 40, turned: 30 m by 14 m, on a dozen squares of 16 m.
+  const auto shapes = [](double angle) {
+    const double c = std::cos(angle), s = std::sin(angle);
+    std::string text;
+    for (int row = 0; row < 20; ++row) {
+      const double x = -14.6, y = -0.5 - 0.7 * row;
+      text += "[[part]]\nname = \"r" + std::to_string(row) + "\"\nbox = [0.75, 0.7]\nposition = [" +
+              Digits(x * c - y * s) + ", " + Digits(x * s + y * c) + "]\nangle = " + Digits(angle) +
+              "\nanchored = true\nrepeat = {count = 40, step = [" + Digits(0.75 * c) + ", " +
+              Digits(0.75 * s) + "]}\n";
+    }
+    const Scene scene = ParseScene(text, "tiles.toml");
+    b2World world(b2Vec2(0, 0));
+    BuildScene(scene, Compose(scene), &world);
+    return world.GetProxyCount();
+  };
+  EXPECT_LE(shapes(0), 12);
+  for (const double angle : {0.3, 0.8, -1.2}) EXPECT_LE(shapes(angle), 200) << angle;
+}
+
 TEST(AnchoredBodies, AFarWallIsAsSmoothAsANearOne) {
   // Shapes 3 km from their body's origin would have lost their edges.
   const auto fallen = [](double at) {

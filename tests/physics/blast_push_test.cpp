@@ -83,6 +83,24 @@ TEST(BlastPush, ACrateAtTwoMetresFliesAndBehindAWallTakesLessThanATwentieth) {
   EXPECT_LT(row.Momentum("second").norm(), open / 20);
 }
 
+TEST(BlastPush, AWallThatTheSameBlastBreaksCoversLikeOneThatStands) {
+  const std::string crate = Crate("crate", 3.5f, 0);
+  const float open = Blasted(crate).Momentum("crate").norm();
+  for (const float brick : {0.1f, 0.2f, 0.5f}) {
+    const int columns = static_cast<int>(std::lround(0.5f / brick));
+    const int rows = static_cast<int>(std::lround(4 / brick));
+    const std::string wall = "[[bricks]]\nname = \"wall\"\nbrick = [" + std::to_string(brick) +
+                             ", " + std::to_string(brick) + "]\nposition = [1.5, -2]\ncount = [" +
+                             std::to_string(columns) + ", " + std::to_string(rows) + "]\n";
+    const Blasted behind(wall + crate, {{0, 0}, 6, 20, 40});
+    EXPECT_GT(behind.world.body_count(), 4) << "it breaks";
+    std::printf("[          ] through a wall that breaks into bricks of %g m: %.1f %%\n",
+                static_cast<double>(brick),
+                static_cast<double>(100 * behind.Momentum("crate").norm() / open));
+    EXPECT_LT(behind.Momentum("crate").norm(), 0.01f * open) << brick;
+  }
+}
+
 TEST(BlastPush, WhatTheCentreLiesInNeitherCoversNorIsPushed) {
   const float open = Blasted(Crate("crate", 2, 0)).Momentum("crate").norm();
   const Blasted b(Crate("crate", 2, 0) + Crate("bomb", 0.1f, 0.1f));
@@ -185,8 +203,8 @@ TEST(BlastPush, GlueFeelsEachOfManyBlastsOfOneTick) {
   }
   for (int i = 0; i < kPairs; ++i) {
     const std::string n = std::to_string(i);
-    pairs += "[[joint]]\nname = \"g" + n + "\"\nkind = \"glue\"\na = \"a" + n +
-             "\"\nb = \"b" + n + "\"\nstrength = 200\n";
+    pairs += "[[joint]]\nname = \"g" + n + "\"\nkind = \"glue\"\na = \"a" + n + "\"\nb = \"b" + n +
+             "\"\nstrength = 200\n";
   }
   Blasted b(pairs);
   for (int i = 1; i < kPairs; ++i) {

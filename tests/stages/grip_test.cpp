@@ -86,6 +86,22 @@ TEST(Grip, ASwimmerHoldsTheWallThatItComesToByItsFingertip) {
   }
 }
 
+TEST(Grip, OfManyAnchoredTilesItHoldsTheOneThatItTouches) {
+  // They are so many that they share a body, which lies elsewhere than each of them.
+  ScriptedWorld run(CharacterScene(
+      "position = [-1.3, -1.45]\nangle = -0.3\ndensity = 0.92\ngrip = true\n",
+      "[[0, {drive = 1.0}]]",
+      std::string(kPool) + "[[part]]\nname = \"tile\"\nbox = [0.1, 0.1]\nposition = [-0.05, -2.9]\n"
+                           "anchored = true\nrepeat = {count = 33, step = [0, 0.1]}\n"));
+  ASSERT_TRUE(StepUntilItHolds(&run));
+  const Joint& grip =
+      run.world.scene().joints[static_cast<std::size_t>(GripsOf(run.world.scene())[0])];
+  const Part& tile = run.world.scene().parts[static_cast<std::size_t>(grip.a)];
+  EXPECT_EQ(tile.name.substr(0, 4), "tile");
+  EXPECT_NEAR(TipOf(run.world, grip.b).y(), tile.position.y(), 0.15f);
+  EXPECT_LT(Apart(run.world), 0.05f);
+}
+
 TEST(Grip, WithoutTheKeyNothingIsHeld) {
   ScriptedWorld run(PoolScene(""));
   EXPECT_FALSE(StepUntilItHolds(&run));

@@ -160,7 +160,7 @@ void GlueStage::Edited(const Edit& edit) {
 void GlueStage::FeelBlasts() {
   for (const BlastEdit& blast : blasts_) {
     if (glued_.empty()) break;
-    for (const BlastHit& hit : HitsOf(*b2_, w_.topology.BricksLeft(), blast)) Feel(hit);
+    for (const BlastHit& hit : HitsOf(*b2_, w_.scene, w_.topology.BricksLeft(), blast)) Feel(hit);
   }
   blasts_.clear();
 }

@@ -97,10 +97,14 @@ void CharacterHands::ProposeGrip(int side, std::vector<Edit>* edits) const {
   const Part& root =
       world_.scene.parts[static_cast<std::size_t>(world_.composition.assemblies[index].id)];
   const b2Body& body = *world_.built.bodies[index];
+  // The body of what never moves may be others', too, and lie anywhere.
+  const bool still = body.GetType() == b2_staticBody;
+  const Transform2 whole = still ? Transform2{root.position.cast<double>(), root.angle}
+                                 : Transform2{FromB2(body.GetPosition()).cast<double>(),
+                                              static_cast<double>(body.GetAngle())};
   const Transform2 pose =
-      Transform2{FromB2(body.GetPosition()).cast<double>(), static_cast<double>(body.GetAngle())}
-          .Then({ToRootFrame(part, root, Eigen::Vector2d(0, 0)),
-                 static_cast<double>(part.angle) - static_cast<double>(root.angle)});
+      whole.Then({ToRootFrame(part, root, Eigen::Vector2d(0, 0)),
+                  static_cast<double>(part.angle) - static_cast<double>(root.angle)});
   bond.b = HandOf(character_, side);
   bond.position = pose.Inverse()(FromB2(tip).cast<double>()).cast<float>();
   bond.cause = BondCause::kGrip;

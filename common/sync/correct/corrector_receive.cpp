@@ -102,6 +102,8 @@ void Corrector::Place(const States& states) {
   for (std::size_t i = 0; i < states.id.size(); ++i) {
     const int body = world_.BodyOfId(states.id[i]);
     if (body < 0 || memory_.track(body).placed) continue;
+    memory_.track(body).heard_tick = states.tick;  // what is older is no news
+    memory_.track(body).heard_epoch = states.epoch[i];
     const BodyState remote = Unpack(states, i, world_.Read(body).angle);
     memory_.snapshots().ForgetAfter(body, states.tick - 1);
     memory_.snapshots().Add(body, states.tick, remote);

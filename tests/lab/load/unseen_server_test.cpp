@@ -82,5 +82,36 @@ TEST(UnseenServer, SaysNothingOfASilentHoldersThingsToWhoKnowsMoreOfThem) {
   }
 }
 
+/// Where every client has every body at the end.
+std::vector<Vec2> ClientsEnd(const std::string& scene, int seed, bool listening) {
+  ClusterConfig config;
+  config.scene = scene;
+  config.scene_text = LoadScene("scenes/" + scene + ".toml").text;
+  config.impair = "4g";
+  config.seed = seed;
+  config.publish = Publish::kNone;
+  config.keep = listening;
+  Cluster cluster(config);
+  cluster.Run();
+  std::vector<Vec2> places;
+  for (int i = 0; i < cluster.client_count(); ++i) {
+    const World& world = cluster.client(i)->replica()->world();
+    for (int body = 0; body < world.body_count(); ++body) {
+      places.push_back(world.Read(body).position);
+    }
+  }
+  return places;
+}
+
+/// Clients come to the same bits whether or not somebody listens to a bus without views.
+TEST(UnseenServer, IsUnseenOnABusWithoutViews) {
+  for (const char* scene : {"crossing", "obstacle", "heap"}) {
+    for (const int seed : {1, 2}) {
+      EXPECT_TRUE(ClientsEnd(scene, seed, true) == ClientsEnd(scene, seed, false))
+          << scene << " seed " << seed;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace seam

@@ -13,15 +13,18 @@ namespace {
 
 constexpr int kMovers = 40;
 
-/// A wall of bricks, whose rows have room between them, under boxes and balls that never rest.
-std::string Wall(int columns, int rows) {
+/// Of a wall: half a metre high, with room between its rows or without.
+constexpr double kApart = 0.6, kClose = 0.5;  // m, from row to row
+
+/// A wall of bricks under boxes and balls that never rest.
+std::string Wall(int columns, int rows, double pitch) {
   char line[300];
   std::string text = "bounds = [[-3000, -1000], [3000, 1000]]\n[solver]\nsleep = false\n";
   for (int row = 0; row < rows; ++row) {
     std::snprintf(line, sizeof line,
                   "[[bricks]]\nname = \"row%d\"\nbrick = [1, 0.5]\nposition = [%d, %g]\n"
                   "count = [%d, 1]\n",
-                  row, -columns / 2, -0.6 * row - 0.5, columns);
+                  row, -columns / 2, -pitch * row - 0.5, columns);
     text += line;
   }
   for (int i = 0; i < kMovers; ++i) {
@@ -76,7 +79,6 @@ Scene AsParts(Scene scene, Kind kind, float angle) {
 TextTable AnchoredBench(bool quick) {
   const int columns = quick ? 60 : 130, rows = quick ? 10 : 30;
   const int pairs = quick ? 3 : 9, ticks = quick ? 10 : 60;
-  const Scene bricks = ParseScene(Wall(columns, rows), "wall.toml");
   TextTable table;
   table.name = "world-anchored";
   table.title = std::to_string(columns * rows) + " anchored parts beside as many bricks";
@@ -85,12 +87,16 @@ TextTable AnchoredBench(bool quick) {
     const char* name;
     Kind kind;
     float angle;  // rad
+    double pitch = kApart;
   };
   for (const Row& row :
        {Row{"single parts", Kind::kSingle, 0}, Row{"turned by 0.02", Kind::kSingle, 0.02f},
         Row{"turned by 0.8", Kind::kSingle, 0.8f}, Row{"welded in rows", Kind::kWelded, 0},
         Row{"welded, turned by 0.3", Kind::kWelded, 0.3f},
-        Row{"welded, turned by 0.8", Kind::kWelded, 0.8f}}) {
+        Row{"welded, turned by 0.8", Kind::kWelded, 0.8f},
+        Row{"single, no room, turned by 0.3", Kind::kSingle, 0.3f, kClose},
+        Row{"single, no room, turned by 0.8", Kind::kSingle, 0.8f, kClose}}) {
+    const Scene bricks = ParseScene(Wall(columns, rows, row.pitch), "wall.toml");
     const Scene parts = AsParts(bricks, row.kind, row.angle);
     const auto build = [](const Scene& scene) { return [&scene] { World world(scene); }; };
     World of_bricks(bricks), of_parts(parts);

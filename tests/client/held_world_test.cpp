@@ -1,0 +1,116 @@
+/// With what a client begins that joins late: what it was told last, at the tick it was told of.
+
+#include "client/held_world.h"
+
+#include <gtest/gtest.h>
+
+#include "common/codec/codec.h"
+#include "common/scene/scene.h"
+#include "common/sync/quantize.h"
+
+namespace seam {
+namespace {
+
+Scene TwoBoxes() {
+  return ParseScene(
+      "[[part]]\nname = \"one\"\nbox = [1, 1]\nposition = [0, 3]\n"
+      "[[part]]\nname = \"two\"\nbox = [1, 1]\nposition = [5, 3]\n",
+      "two.toml");
+}
+
+class HeldWorld : public ::testing::Test {
+ protected:
+  HeldWorld() {
+    config_.tick_hz = 60;
+    replica_ = std::make_unique<Replica>(TwoBoxes(), config_, 1, -1);
+  }
+  std::int64_t composition() const {
+    return static_cast<std::int64_t>(replica_->world().composition().hash);
+  }
+  /// It is at `x`, and moves at 2 m/s.
+  void Moves(PartId id, std::int64_t tick, float x) {
+    States header;
+    header.tick = tick;
+    header.composition = composition();
+    PackedBody body;
+    body.id = id;
+    body.state = {{x, 3}, 0, {2, 0}, 0};
+    for (const States& states : Pack(header, {body})) held_.push_back(Encode(states));
+  }
+  void Lies(PartId id, std::int64_t tick, float x) {
+    Rest rest;
+    rest.tick = tick;
+    rest.composition = composition();
+    rest.id = {id};
+    rest.epoch = {0};
+    rest.x = {x};
+    rest.y = {3};
+    rest.angle = {0};
+    held_.push_back(Encode(rest));
+  }
+  BodyState Begun(PartId id) const {
+    return replica_->world().Read(replica_->world().BodyOfId(id));
+  }
+
+  SyncConfig config_;
+  std::unique_ptr<Replica> replica_;
+  std::vector<Bytes> held_;
+};
+
+TEST_F(HeldWorld, WhatLayOnceAndMovesSinceMoves) {
+  replica_->StartAt(70);
+  Moves(0, 66, 1);
+  Lies(0, 50, 0);
+  GiveHeld(held_, *replica_);
+  EXPECT_NEAR(Begun(0).velocity.x(), 2, 0.01);
+  EXPECT_NEAR(Begun(0).position.x(), 1 + 2 * 4 / 60.0, 0.01);
+  EXPECT_FALSE(replica_->rest().Holds(replica_->world().BodyOfId(0)));
+}
+
+TEST_F(HeldWorld, WhatMovedOnceAndLiesSinceLies) {
+  replica_->StartAt(70);
+  Lies(0, 66, 1);
+  Moves(0, 50, 0);
+  GiveHeld(held_, *replica_);
+  EXPECT_EQ(Begun(0).position.x(), 1);
+  EXPECT_EQ(Begun(0).velocity.x(), 0);
+  EXPECT_TRUE(replica_->rest().Holds(replica_->world().BodyOfId(0)));
+}
+
+TEST_F(HeldWorld, BeginsAtTheLatestTickOfWhichAllIsKnown) {
+  const World& world = replica_->world();
+  EXPECT_EQ(TickOfWorld(held_, world, 40, 70), 70) << "nothing was heard";
+  Moves(0, 50, 0);
+  Moves(0, 66, 0);
+  Moves(1, 62, 0);
+  EXPECT_EQ(TickOfWorld(held_, world, 40, 70), 62);
+  Moves(1, 69, 0);
+  EXPECT_EQ(TickOfWorld(held_, world, 40, 70), 66);
+  EXPECT_EQ(TickOfWorld(held_, world, 68, 70), 68) << "not earlier than that";
+  EXPECT_EQ(TickOfWorld(held_, world, 40, 64), 62) << "what is still to come does not count";
+  Lies(0, 67, 0);
+  EXPECT_EQ(TickOfWorld(held_, world, 40, 70), 69) << "what lies is known of all ticks since";
+}
+
+TEST_F(HeldWorld, WhatIsOfALaterTickWaitsForIt) {
+  Moves(0, 62, 0);
+  Moves(1, 62, 5);
+  Moves(1, 64, 7);
+  replica_->StartAt(62);
+  GiveHeld(held_, *replica_);
+  EXPECT_NEAR(Begun(0).position.x(), 0, 0.01);
+  EXPECT_NEAR(Begun(1).position.x(), 5, 0.01);
+  for (int i = 0; i < 4; ++i) replica_->Step();
+  EXPECT_GT(Begun(1).position.x(), 6.9f) << "it was told of at tick 64";
+}
+
+TEST_F(HeldWorld, WhatIsKnownOnlyOfALaterTickIsThereAtOnce) {
+  Moves(0, 62, 0);
+  Moves(1, 64, 7);
+  replica_->StartAt(62);
+  GiveHeld(held_, *replica_);
+  EXPECT_NEAR(Begun(1).position.x(), 7, 0.01);
+}
+
+}  // namespace
+}  // namespace seam
