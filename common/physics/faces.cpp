@@ -139,18 +139,27 @@ std::vector<Face> FacesOf(const Scene& scene, const Assembly& assembly) {
   return faces;
 }
 
-PartId NearestPart(const Scene& scene, const std::vector<PartId>& parts, const Vector2d& point) {
-  PartId nearest = parts.front();
-  double least = 1e30;
+NearestOf::NearestOf(const Scene& scene, const std::vector<PartId>& parts) {
   for (const PartId id : parts) {
     const Part& part = scene.parts[static_cast<std::size_t>(id)];
-    const Vector2d local =
-        Turned(point - part.position.cast<double>(), -static_cast<double>(part.angle));
-    const Vector2d half = part.size.cast<double>() / 2;
-    const Vector2d out = (local.cwiseAbs() - half).cwiseMax(0.0);
+    boxes_.push_back({part.position.cast<double>(), part.size.cast<double>() / 2,
+                      static_cast<double>(part.angle), id});
+  }
+}
+
+PartId NearestOf::At(const Vector2d& point) const {
+  PartId nearest = boxes_.front().id;
+  double least = 1e30;
+  for (const Box& box : boxes_) {
+    // However it is turned, it is not nearer than that: most of many need no more than this.
+    const Vector2d from = point - box.position;
+    const double enough = least + box.half.x() + box.half.y() + kSame;
+    if (from.squaredNorm() > enough * enough) continue;
+    const Vector2d local = Turned(from, -box.angle);
+    const Vector2d out = (local.cwiseAbs() - box.half).cwiseMax(0.0);
     if (out.norm() < least) {
       least = out.norm();
-      nearest = id;
+      nearest = box.id;
     }
   }
   return nearest;

@@ -20,8 +20,27 @@ struct Face {
 /// group, and share a whole side, to a millimetre.
 std::vector<Face> FacesOf(const Scene& scene, const Assembly& assembly);
 
-/// That of `parts` which is nearest to a point of their common frame (the scene's poses), m.
-PartId NearestPart(const Scene& scene, const std::vector<PartId>& parts,
-                   const Eigen::Vector2d& point);
+/// Which of some boxes is the nearest to a point of their common frame (the scene's poses), m; of
+/// several the first.
+class NearestOf {
+ public:
+  /// Requires at least one.
+  NearestOf(const Scene& scene, const std::vector<PartId>& parts);
+  PartId At(const Eigen::Vector2d& point) const;
+
+ private:
+  struct Box {
+    Eigen::Vector2d position, half;  // m
+    double angle;                    // rad
+    PartId id;
+  };
+  std::vector<Box> boxes_;
+};
+
+/// The same for one point.
+inline PartId NearestPart(const Scene& scene, const std::vector<PartId>& parts,
+                          const Eigen::Vector2d& point) {
+  return NearestOf(scene, parts).At(point);
+}
 
 }  // namespace seam

@@ -1,6 +1,8 @@
 #pragma once
 /// Which parts a contact pushes, and how hard.
 
+#include <map>
+
 #include "common/base/geometry.h"
 #include "common/physics/faces.h"
 #include "common/physics/stage.h"
@@ -15,19 +17,38 @@ struct PartPush {
   Eigen::Vector2d impulse{0, 0};  ///< N s, in the world's directions
 };
 
+/// Finds the part that a fixture has at a point of its body's frame, m; cheap for many points of
+/// the same fixtures.
+class PartFinder {
+ public:
+  explicit PartFinder(const StageWorld& world) : w_(world) {}
+
+  PartId At(PartId fixture, const b2Vec2& point) {
+    const auto merged = w_.built.merged.find(fixture);
+    if (merged == w_.built.merged.end()) return fixture;
+    auto found = seen_.find(fixture);
+    if (found == seen_.end()) {
+      found = seen_.emplace(fixture, NearestOf(w_.scene, merged->second)).first;
+    }
+    const int assembly = w_.composition.assembly_of_part[static_cast<std::size_t>(fixture)];
+    const Assembly& whole = w_.composition.assemblies[static_cast<std::size_t>(assembly)];
+    if (whole.anchored && whole.kinematic < 0) {  // its body may be others', too
+      const b2Vec2 at = w_.built.bodies[static_cast<std::size_t>(assembly)]->GetWorldPoint(point);
+      return found->second.At(FromB2(at).cast<double>());
+    }
+    const Part& root = w_.scene.parts[static_cast<std::size_t>(whole.id)];
+    const Transform2 placed{root.position.cast<double>(), static_cast<double>(root.angle)};
+    return found->second.At(placed(FromB2(point).cast<double>()));
+  }
+
+ private:
+  const StageWorld& w_;
+  std::map<PartId, NearestOf> seen_;  // by fixture
+};
+
 /// The part that is at the point.
 inline PartId PartAt(const StageWorld& w, PartId fixture, const b2Vec2& point) {
-  const auto merged = w.built.merged.find(fixture);
-  if (merged == w.built.merged.end()) return fixture;
-  const int assembly = w.composition.assembly_of_part[static_cast<std::size_t>(fixture)];
-  const Assembly& whole = w.composition.assemblies[static_cast<std::size_t>(assembly)];
-  if (whole.anchored && whole.kinematic < 0) {  // its body may be others', too
-    const b2Vec2 at = w.built.bodies[static_cast<std::size_t>(assembly)]->GetWorldPoint(point);
-    return NearestPart(w.scene, merged->second, FromB2(at).cast<double>());
-  }
-  const Part& root = w.scene.parts[static_cast<std::size_t>(whole.id)];
-  const Transform2 placed{root.position.cast<double>(), static_cast<double>(root.angle)};
-  return NearestPart(w.scene, merged->second, placed(FromB2(point).cast<double>()));
+  return PartFinder(w).At(fixture, point);
 }
 
 /// visit(push) for both sides of each point of a contact that was solved, but not for what stages

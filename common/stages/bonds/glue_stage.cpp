@@ -237,8 +237,9 @@ void GlueStage::Strain(Glued* glued) {
   const double inner =
       anchored ? gravity.norm() : (std::fabs(turning) + spin * spin) * glued->reach / 2;
   if (glued->pushes * hz + inner * glued->whole <= glued->net.weakest) return;
+  PartFinder parts(w_);
   for (const PartPush& push : glued->felt) {
-    const int node = glued->net.NodeOf(PartAt(w_, push.fixture, push.point));
+    const int node = glued->net.NodeOf(parts.At(push.fixture, push.point));
     glued->pushed[static_cast<std::size_t>(node)] += push.impulse;
   }
   Vector2d sum(0, 0);
