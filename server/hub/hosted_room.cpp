@@ -71,14 +71,14 @@ void HostedRoom::Tell(std::int64_t now_us) {
 /// What has happened with when it did: "12.3 s: bob is gone: left".
 void HostedRoom::CollectNews() {
   std::vector<std::string> told = server_.TakeWarnings();
-  char when[40] = "";
-  if (server_.started()) {
-    const double now_s =
-        static_cast<double>(std::max<std::int64_t>(0, server_.tick())) / plan_.config.sync.tick_hz;
-    std::snprintf(when, sizeof when, "%.1f s: ", now_s);
-  }
-  for (const std::string& news : server_.TakeNews()) {
-    if (plan_.news) told.push_back(when + news);
+  const std::vector<std::string> come_and_gone = server_.TakeNews();
+  if (plan_.news && !come_and_gone.empty()) {
+    char when[40] = "";
+    if (server_.started()) {
+      const auto tick = static_cast<double>(std::max<std::int64_t>(0, server_.tick()));
+      std::snprintf(when, sizeof when, "%.1f s: ", tick / plan_.config.sync.tick_hz);
+    }
+    for (const std::string& news : come_and_gone) told.push_back(when + news);
   }
   if (!trouble_said_ && !sink_.trouble().ok()) {
     trouble_said_ = true;

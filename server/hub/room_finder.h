@@ -3,9 +3,9 @@
 /// It remembers only sessions that a room has admitted. For any thread.
 
 #include <cstdint>
-#include <map>
 #include <mutex>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "common/net/net.h"
@@ -43,8 +43,11 @@ class RoomFinder {
   struct Key {
     Address address;
     std::uint64_t session = 0;
-    bool operator<(const Key& o) const {
-      return session != o.session ? session < o.session : address < o.address;
+    bool operator==(const Key& o) const { return session == o.session && address == o.address; }
+  };
+  struct Hash {  // sessions are random, and only of who was admitted
+    std::size_t operator()(const Key& key) const {
+      return static_cast<std::size_t>(key.session ^ key.address.ip ^ key.address.port);
     }
   };
   struct Route {
@@ -56,7 +59,7 @@ class RoomFinder {
 
   const std::vector<std::string> rooms_;
   mutable std::mutex mutex_;
-  std::map<Key, Route> routes_;
+  std::unordered_map<Key, Route, Hash> routes_;
   std::int64_t swept_us_ = 0;
 };
 

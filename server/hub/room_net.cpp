@@ -52,7 +52,9 @@ void RoomNet::Send(const Address& to, ByteView datagram) {
   bool loose = true;
   for (std::size_t i = 16; i < kDatagramHeaderBytes; ++i) loose = loose && datagram.data[i] == 0;
   for (std::size_t i = 8; i < 16; ++i) header.session = header.session << 8 | datagram.data[i];
-  if (!loose && learned_.emplace(to, header.session).second) {
+  const std::pair<Address, std::uint64_t> route(to, header.session);
+  if (!loose && learned_.count(route) == 0) {
+    learned_.insert(route);
     if (learned_.size() > kLearnedMax) learned_ = {{to, header.session}};
     finder_.Learn(now_us_, room_, to, header.session);
   }
