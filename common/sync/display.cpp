@@ -231,11 +231,12 @@ BodyState Display::AlongSnapshots(int body, const BodyState& target, BodyState s
 /// In the present, by dead reckoning: each message begins another path. The body is placed on it
 /// and moves with the path's velocity, not with that of the jump; the view glides over.
 BodyState Display::AlongReckoned(int body, BodyState state) {
-  const BodyState here = reckoner_.Here(body), there = reckoner_.There(body);
+  const BodyState here = reckoner_.Here(body);
+  const PathSpeed& speed = reckoner_.Speed(body);
   BodyState along = here;
   along.angle = state.angle + TurnTo(state.angle, here.angle);
-  along.velocity = (there.position - here.position) / world_.dt();
-  along.spin = (there.angle - here.angle) / world_.dt();
+  along.velocity = speed.velocity;
+  along.spin = speed.spin;
   BodyState jump = Minus(along, state);
   if (std::fabs(jump.angle) > kTurnSeen) jump.angle = 0;
   jump.spin = 0;

@@ -1,10 +1,17 @@
 #include "common/sync/show/reckoner.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "common/base/geometry.h"
 
 namespace seam {
+namespace {
+
+/// Closing may always add this much, m/s and rad/s: what is reckoned is off by more.
+constexpr float kClosingSpeed = 2, kClosingSpin = 2;
+
+}  // namespace
 
 /// A body as it was last heard of, by its centre of mass.
 struct Reckoner::Heard {
@@ -60,6 +67,7 @@ void Reckoner::Begin(std::int64_t next) {
   done_.assign(world_.composition().mechanisms.size(), false);
   paths_.here.resize(bodies);
   paths_.there.resize(bodies);
+  paths_.speed.resize(bodies);
 }
 
 const Reckoner::Paths& Reckoner::Reckoned(int body) {
@@ -99,9 +107,53 @@ void Reckoner::Reckon(int mechanism) {
     MoveOn(common, newest, next_ - 1, &paths_.here);
     MoveOn(common, newest, next_, &paths_.there);
   }
-  if (!joints_.jointed(mechanism)) return;
+  for (const int body : joints_.bodies(mechanism)) {
+    paths_.speed[static_cast<std::size_t>(body)] = SpeedOf(body);
+  }
+  if (joints_.jointed(mechanism)) CloseJoints(mechanism);
+}
+
+PathSpeed Reckoner::SpeedOf(int body) const {
+  const auto i = static_cast<std::size_t>(body);
+  const BodyState &here = paths_.here[i], &there = paths_.there[i];
+  const Vec2 velocity = (there.position - here.position) / world_.dt();
+  return {velocity, (there.angle - here.angle) / world_.dt()};
+}
+
+void Reckoner::CloseJoints(int mechanism) {
+  const std::vector<int>& bodies = joints_.bodies(mechanism);
+  open_.clear();
+  for (const int body : bodies) open_.push_back(paths_.speed[static_cast<std::size_t>(body)]);
   joints_.Close(mechanism, false, &paths_.here);
   joints_.Close(mechanism, false, &paths_.there);
+  if (!IsMotion(mechanism)) return;
+  for (const int body : bodies) paths_.speed[static_cast<std::size_t>(body)] = SpeedOf(body);
+}
+
+/// Whether what closing has added to the speeds of a mechanism's bodies can come from how they
+/// moved against each other, or against what it is tied to.
+bool Reckoner::IsMotion(int mechanism) const {
+  const std::vector<int>& bodies = joints_.bodies(mechanism);
+  Vec2 common(0, 0);
+  float mass = 0;
+  for (std::size_t i = 0; i < bodies.size() && !joints_.anchored(mechanism); ++i) {
+    common += world_.mass(bodies[i]) * open_[i].velocity;
+    mass += world_.mass(bodies[i]);
+  }
+  if (mass > 0) common /= mass;
+  float fastest = 0, fastest_spin = 0;
+  for (const PathSpeed& open : open_) {
+    fastest = std::max(fastest, (open.velocity - common).norm());
+    fastest_spin = std::max(fastest_spin, std::fabs(open.spin));
+  }
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
+    const PathSpeed closed = SpeedOf(bodies[i]);
+    const float added = (closed.velocity - open_[i].velocity).norm();
+    const float added_spin = std::fabs(closed.spin - open_[i].spin);
+    if (added > kClosingSpeed + 2 * fastest) return false;
+    if (added_spin > kClosingSpin + 2 * fastest_spin) return false;
+  }
+  return true;
 }
 
 /// All of together_.

@@ -14,6 +14,12 @@ namespace seam {
 /// moment, and what stood still then would jump after it.
 constexpr float kReckonShownMax = 2.0f;
 
+/// A body's motion along its path: of its origin, m/s, and rad/s.
+struct PathSpeed {
+  Vec2 velocity{0, 0};
+  float spin = 0;
+};
+
 /// A mechanism's centre of mass goes on with its momentum, its bodies turn about that with its
 /// angular momentum (that of their centres), each turns with its own spin and drifts with what is
 /// left of its velocity; then its joints are closed. So wheels go on turning and limbs swinging.
@@ -31,16 +37,24 @@ class Reckoner {
   /// heard of is where the world has it.
   const BodyState& Here(int body) { return Reckoned(body).here[static_cast<std::size_t>(body)]; }
   const BodyState& There(int body) { return Reckoned(body).there[static_cast<std::size_t>(body)]; }
+  /// How it moves from Here to There. Joints that are torn can often be closed in two ways: if one
+  /// is found at Here and the other at There, what lies between is no motion, and the mechanism's
+  /// bodies move as if nothing had been closed.
+  const PathSpeed& Speed(int body) { return Reckoned(body).speed[static_cast<std::size_t>(body)]; }
 
  private:
   struct Paths {
     std::vector<BodyState> here, there;  // by body
+    std::vector<PathSpeed> speed;        // by body
   };
   struct Heard;
   struct Common;
   static Common CommonOf(const std::vector<Heard>& heard, const Snapshots& snapshots, float dt);
   const Paths& Reckoned(int body);
   void Reckon(int mechanism);
+  PathSpeed SpeedOf(int body) const;
+  void CloseJoints(int mechanism);
+  bool IsMotion(int mechanism) const;
   void MoveOn(const Common& common, std::int64_t newest, std::int64_t tick,
               std::vector<BodyState>* states) const;
 
@@ -51,6 +65,7 @@ class Reckoner {
   std::vector<bool> done_;  // by mechanism
   Paths paths_;
   std::vector<Heard> together_;  // bodies of the mechanism that is reckoned
+  std::vector<PathSpeed> open_;  // of its bodies, before its joints were closed
 };
 
 }  // namespace seam
