@@ -38,6 +38,8 @@ class Display {
   void OnCorrected(std::function<void(int)> call) { on_corrected_ = std::move(call); }
   /// The body was placed anew: it is shown there at once.
   void Reset(int body) { smoother_.Reset(body); }
+  /// Closes mechanisms' joints, of the world's bodies as they are now.
+  const JointCloser& joints() const { return joints_; }
   /// A state was this many ticks old when it was received.
   void AddAge(std::int64_t age_ticks) { delay_.AddAge(age_ticks); }
   /// The bodies have changed: visual offsets stay with what a body became.

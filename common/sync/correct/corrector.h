@@ -83,7 +83,8 @@ class Corrector {
   void TakeRest(int body, const BodyState& local, const BodyState& remote);
   void Blend(int body, const BodyState& local, const Correction& c, std::int64_t from);
   Motion WantedMotion(int body) const;
-  void BeginToSimulate(int body);
+  bool BeginToSimulate(int body);
+  void CloseBegun(int mechanism);
   BodyState PullTarget(int body, std::int64_t at) const;
   void NoteArrival(int body);
 

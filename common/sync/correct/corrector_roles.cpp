@@ -1,6 +1,7 @@
 /// Corrector: bodies whose role changed. What is simulated from now on begins as the authority's,
 /// what is displayed from now on goes on from where it is.
 
+#include <algorithm>
 #include <numeric>
 
 #include "common/base/geometry.h"
@@ -26,6 +27,7 @@ void Corrector::FollowRoles() {
 
 void Corrector::FollowRoles(const std::vector<int>& bodies) {
   const std::int64_t now = world_.tick();
+  std::vector<int> begun;  // mechanisms that begin to be simulated from where they are by now
   for (const int body : bodies) {
     const Motion wanted = WantedMotion(body);
     if (world_.motion(body) == wanted) continue;
@@ -35,15 +37,38 @@ void Corrector::FollowRoles(const std::vector<int>& bodies) {
     // heard of it, which may be from before this peer had the authority.
     if (wanted != Motion::kDynamic) memory_.snapshots().Add(body, now, world_.Read(body));
     world_.SetMotion(body, wanted);
-    if (wanted == Motion::kDynamic && memory_.snapshots().has(body)) BeginToSimulate(body);
+    const bool begins = wanted == Motion::kDynamic && memory_.snapshots().has(body);
+    if (begins && !BeginToSimulate(body)) begun.push_back(world_.mechanism(body));
     if (parked) display_.Reset(body);  // nobody saw it where it lay
+  }
+  std::sort(begun.begin(), begun.end());
+  begun.erase(std::unique(begun.begin(), begun.end()), begun.end());
+  for (const int mechanism : begun) CloseBegun(mechanism);
+}
+
+/// Its bodies have gone on one by one, which tears it; the engine would shut it with a crash.
+void Corrector::CloseBegun(int mechanism) {
+  const JointCloser& joints = display_.joints();
+  if (!joints.jointed(mechanism)) return;
+  std::vector<BodyState> poses(static_cast<std::size_t>(world_.body_count()));
+  for (const int body : joints.bodies(mechanism)) {
+    poses[static_cast<std::size_t>(body)] = world_.Read(body);
+  }
+  joints.Close(mechanism, false, &poses);
+  for (const int body : joints.bodies(mechanism)) {
+    const BodyState& closed = poses[static_cast<std::size_t>(body)];
+    const BodyState by = Minus(closed, world_.Read(body));
+    if (Negligible(by) || world_.motion(body) != Motion::kDynamic) continue;
+    world_.Write(body, closed);
+    display_.Moved(body, by);
+    if (BodyState* past = memory_.history().At(world_.tick(), body)) *past = closed;
   }
 }
 
 /// What was only displayed had the velocity of its display, not of a body: it starts from the
 /// authority's. Where there is a way back, from the very state that was heard; what is committed to
-/// rest has lain there since, however long ago that was said.
-void Corrector::BeginToSimulate(int body) {
+/// rest has lain there since, however long ago that was said. Whether it is replayed.
+bool Corrector::BeginToSimulate(int body) {
   const std::int64_t now = world_.tick();
   const BodyState before = world_.Read(body);
   BodyState state = memory_.snapshots().Extrapolate(body, now, world_.dt(), kReckonMax);
@@ -57,7 +82,7 @@ void Corrector::BeginToSimulate(int body) {
   display_.Moved(body, Minus(state, before));
   if (BodyState* past = memory_.history().At(now, body)) *past = state;
   const std::int64_t heard = memory_.snapshots().newest_tick(body);
-  if (heard < now && !memory_.track(body).at_rest) replay_.Ask(body, heard);
+  return heard < now && !memory_.track(body).at_rest && replay_.Ask(body, heard);
 }
 
 }  // namespace seam
