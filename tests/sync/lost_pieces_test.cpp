@@ -1,11 +1,13 @@
 /// What is blown up over a bad network stays in the world, at whoever has it.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
 #include "tests/support/soak.h"
 #include "tests/support/soak/fault_runner.h"
+#include "tests/support/two_sides.h"
 
 namespace seam {
 namespace {
@@ -57,6 +59,68 @@ TEST(LostPiecesCluster, NoCorrectionTakesAPieceThroughTheGround) {
   for (int seed = 1; seed <= Soak(1); ++seed) {
     for (const char* rule : {"retrospect", "fade", "rollback"}) {
       EXPECT_EQ(Lost(static_cast<std::uint64_t>(seed), rule), 0) << rule << ", seed " << seed;
+    }
+  }
+}
+
+/// Four posts on the left, each blown apart at its foot by two charges in turn, N s/m.
+std::string Posts(double impulse) {
+  std::string text = std::string("duration = 12\nbuffer = 8\n") + kTwoSides + R"(
+[[part]]
+name = "floor"
+chain = [[-900, 0], [900, 0]]
+friction = 0.8
+)";
+  for (int post = 0; post < 4; ++post) {
+    const float x = -14 + 3 * static_cast<float>(post);
+    text += fmt::format(R"(
+[[bricks]]
+name = "post{0}"
+brick = [0.25, 0.25]
+position = [{1}, 0]
+count = [3, 24]
+density = 2
+strength = 2
+[[charges]]
+name = "first{0}"
+position = [{2}, 0.4]
+radius = 3
+impulse = {6}
+speed = 12
+at = {3}
+[[charges]]
+name = "second{0}"
+position = [{4}, 0.9]
+radius = 3
+impulse = {6}
+speed = 12
+at = {5}
+)",
+                        post, x, x - 0.2, 1 + post, x + 0.9, 1.25 + post, impulse);
+  }
+  return text;
+}
+
+TEST(LostPiecesCluster, PostsThatAreBlownApartTwiceLieOnTheGround) {
+  for (int seed = 1; seed <= Soak(2); ++seed) {
+    for (const double impulse : {6.0, 15.0, 40.0}) {
+      ClusterConfig config;
+      config.scene_text = Posts(impulse);
+      config.impair = seed % 2 == 0 ? "4g" : "terrible";
+      config.seed = seed;
+      Cluster cluster(config);
+      cluster.Run();
+      EXPECT_GT(cluster.server().replica().world().body_count(), 40) << "not blown apart";
+      const auto look = [&](const std::string& who, const World& world) {
+        for (int body = 0; body < world.body_count(); ++body) {
+          EXPECT_GT(world.Read(body).position.y(), 0) << "part " << world.id(body) << " at " << who
+                                                      << ", " << impulse << " N s/m, seed " << seed;
+        }
+      };
+      look("the server", cluster.server().replica().world());
+      for (int c = 0; c < cluster.client_count(); ++c) {
+        look("client " + std::to_string(c), cluster.client(c)->replica()->world());
+      }
     }
   }
 }
