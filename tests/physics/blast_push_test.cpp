@@ -101,6 +101,26 @@ TEST(BlastPush, AWallThatTheSameBlastBreaksCoversLikeOneThatStands) {
   }
 }
 
+TEST(BlastPush, AWallOfGluedBoxesThatItBreaksCovers) {
+  const std::string crate = Crate("crate", 3.5f, 0);
+  const float open = Blasted(crate).Momentum("crate").norm();
+  for (const float size : {0.1f, 0.25f, 0.5f}) {
+    const int rows = static_cast<int>(std::lround(4 / size));
+    const std::string box = std::to_string(size);
+    const std::string wall = "[[part]]\nname = \"wall\"\nbox = [" + box + ", " + box +
+                             "]\nposition = [1.5, " + std::to_string(size / 2 - 2) +
+                             "]\nrepeat = {count = " + std::to_string(rows) + ", step = [0, " +
+                             box + "], glue = 5}\n";
+    Blasted behind(wall + crate, {{0, 0}, 6, 20, 40});
+    const float through = behind.Momentum("crate").norm();
+    behind.world.Step();
+    EXPECT_FALSE(behind.world.ProposeEdits().empty()) << "it breaks";
+    std::printf("[          ] through a wall of glued boxes of %g m: %.1f %%\n",
+                static_cast<double>(size), static_cast<double>(100 * through / open));
+    EXPECT_LT(through, 0.01f * open) << size;
+  }
+}
+
 TEST(BlastPush, WhatTheCentreLiesInNeitherCoversNorIsPushed) {
   const float open = Blasted(Crate("crate", 2, 0)).Momentum("crate").norm();
   const Blasted b(Crate("crate", 2, 0) + Crate("bomb", 0.1f, 0.1f));
