@@ -23,10 +23,10 @@ int CountShared(const Scene& scene) {
 /// Anchored tiles in a row whose top is at 0, turned by an angle about the origin.
 std::string Tiles(int count, double angle = 0) {
   const double c = std::cos(angle), s = std::sin(angle), from = -0.5 * (count - 1);
-  return "[[part]]\nname = \"tile\"\nbox = [1, 1]\nposition = [" + Digits(from * c + 0.5 * s) +
-         ", " + Digits(from * s - 0.5 * c) + "]\nangle = " + Digits(angle) +
+  return "[[part]]\nname = \"tile\"\nbox = [1, 1]\nposition = [" + FloatDigits(from * c + 0.5 * s) +
+         ", " + FloatDigits(from * s - 0.5 * c) + "]\nangle = " + FloatDigits(angle) +
          "\nfriction = 0.6\nanchored = true\nrepeat = {count = " + std::to_string(count) +
-         ", step = [" + Digits(c) + ", " + Digits(s) + "]}\n";
+         ", step = [" + FloatDigits(c) + ", " + FloatDigits(s) + "]}\n";
 }
 
 TEST(AnchoredBodies, OnlyManyShareAndOnlyThoseThatNothingTakesHoldOf) {
@@ -52,9 +52,10 @@ TEST(AnchoredBodies, OnlyManyShareAndOnlyThoseThatNothingTakesHoldOf) {
 BodyState Slid(int tiles, double angle) {
   const double x = 5 * std::cos(angle) - 0.52 * std::sin(angle);
   const double y = 5 * std::sin(angle) + 0.52 * std::cos(angle);
-  auto world = SmallWorld(Tiles(tiles, angle) +
-                          "[[part]]\nname = \"box\"\nbox = [1, 1]\nposition = [" + Digits(x) +
-                          ", " + Digits(y) + "]\nangle = " + Digits(angle) + "\nfriction = 0.1\n");
+  auto world =
+      SmallWorld(Tiles(tiles, angle) + "[[part]]\nname = \"box\"\nbox = [1, 1]\nposition = [" +
+                 FloatDigits(x) + ", " + FloatDigits(y) + "]\nangle = " + FloatDigits(angle) +
+                 "\nfriction = 0.1\n");
   Live(world.get(), 120);
   return world->Read(0);
 }
@@ -107,9 +108,10 @@ TEST(AnchoredBodies, TilesWithoutRoomBetweenThemAreFewShapes) {
     for (int row = 0; row < 20; ++row) {
       const double x = -14.6, y = -0.5 - 0.7 * row;
       text += "[[part]]\nname = \"r" + std::to_string(row) + "\"\nbox = [0.75, 0.7]\nposition = [" +
-              Digits(x * c - y * s) + ", " + Digits(x * s + y * c) + "]\nangle = " + Digits(angle) +
-              "\nanchored = true\nrepeat = {count = 40, step = [" + Digits(0.75 * c) + ", " +
-              Digits(0.75 * s) + "]}\n";
+              FloatDigits(x * c - y * s) + ", " + FloatDigits(x * s + y * c) +
+              "]\nangle = " + FloatDigits(angle) +
+              "\nanchored = true\nrepeat = {count = 40, step = [" + FloatDigits(0.75 * c) + ", " +
+              FloatDigits(0.75 * s) + "]}\n";
     }
     const Scene scene = ParseScene(text, "tiles.toml");
     b2World world(b2Vec2(0, 0));
@@ -124,10 +126,10 @@ TEST(AnchoredBodies, AFarWallIsAsSmoothAsANearOne) {
   // Shapes 3 km from their body's origin would have lost their edges.
   const auto fallen = [](double at) {
     auto world =
-        SmallWorld("[[part]]\nname = \"tile\"\nbox = [1, 1]\nposition = [" + Digits(at - 20) +
+        SmallWorld("[[part]]\nname = \"tile\"\nbox = [1, 1]\nposition = [" + FloatDigits(at - 20) +
                        ", -0.5]\nanchored = true\nrepeat = {count = 40, step = [1, 0]}\n"
                        "[[part]]\nname = \"box\"\nbox = [1, 1]\nposition = [" +
-                       Digits(at) + ", 0.6]\n",
+                       FloatDigits(at) + ", 0.6]\n",
                    "", "bounds = [[-4000, -100], [4000, 100]]\n");
     Live(world.get(), 120);
     return world->Read(0);
@@ -172,15 +174,15 @@ TEST(AnchoredBodies, AWeldedWallComesDownWhenItIsNoLongerAnchored) {
 std::string Rows(double angle) {
   const double c = std::cos(angle), s = std::sin(angle);
   const auto at = [&](double x, double y) {
-    return "position = [" + Digits(x * c - y * s) + ", " + Digits(x * s + y * c) + "]\n";
+    return "position = [" + FloatDigits(x * c - y * s) + ", " + FloatDigits(x * s + y * c) + "]\n";
   };
-  std::string text = "gravity = [" + Digits(10 * s) + ", " + Digits(-10 * c) + "]\n";
+  std::string text = "gravity = [" + FloatDigits(10 * s) + ", " + FloatDigits(-10 * c) + "]\n";
   text += "[solver]\nsleep = false\n";
   for (int row = 0; row < 20; ++row) {
     text += "[[part]]\nname = \"r" + std::to_string(row) + "\"\nbox = [1, 0.5]\n" +
-            at(-19.5, -0.8 * row) + "angle = " + Digits(angle) +
-            "\nanchored = true\nrepeat = {count = 40, step = [" + Digits(c) + ", " + Digits(s) +
-            "], weld = true}\n";
+            at(-19.5, -0.8 * row) + "angle = " + FloatDigits(angle) +
+            "\nanchored = true\nrepeat = {count = 40, step = [" + FloatDigits(c) + ", " +
+            FloatDigits(s) + "], weld = true}\n";
   }
   for (int i = 0; i < 20; ++i) {
     text += "[[part]]\nname = \"m" + std::to_string(i) + "\"\ncircle = 0.3\n" +
@@ -215,18 +217,18 @@ TEST(AnchoredBodies, NothingGetsThroughTurnedWalls) {
     for (int side = 0; side < 4; ++side) {
       const double a = angle + side * kPi / 2, c = std::cos(a), s = std::sin(a);
       text += "[[part]]\nname = \"w" + std::to_string(side) +
-              "\"\nbox = [0.8, 0.4]\nrestitution = 0.6\nposition = [" + Digits(-5.2 * c + 5.2 * s) +
-              ", " + Digits(-5.2 * s - 5.2 * c) + "]\nangle = " + Digits(a) +
-              "\nanchored = true\nrepeat = {count = 14, step = [" + Digits(0.8 * c) + ", " +
-              Digits(0.8 * s) + "], weld = true}\n";
+              "\"\nbox = [0.8, 0.4]\nrestitution = 0.6\nposition = [" +
+              FloatDigits(-5.2 * c + 5.2 * s) + ", " + FloatDigits(-5.2 * s - 5.2 * c) +
+              "]\nangle = " + FloatDigits(a) + "\nanchored = true\nrepeat = {count = 14, step = [" +
+              FloatDigits(0.8 * c) + ", " + FloatDigits(0.8 * s) + "], weld = true}\n";
     }
     for (int i = 0; i < 60; ++i) {
       const double a = 2.4 * i, speed = 20 + 1.5 * i;
       text += "[[part]]\nname = \"m" + std::to_string(i) + "\"\n" +
               (i % 2 == 0 ? "circle = 0.1" : "box = [0.2, 0.15]") + "\nposition = [" +
-              Digits(0.05 * i * std::cos(a)) + ", " + Digits(0.05 * i * std::sin(a)) +
-              "]\nvelocity = [" + Digits(speed * std::cos(3 * a)) + ", " +
-              Digits(speed * std::sin(3 * a)) + "]\n";
+              FloatDigits(0.05 * i * std::cos(a)) + ", " + FloatDigits(0.05 * i * std::sin(a)) +
+              "]\nvelocity = [" + FloatDigits(speed * std::cos(3 * a)) + ", " +
+              FloatDigits(speed * std::sin(3 * a)) + "]\n";
     }
     auto world = SmallWorld(text);
     for (int t = 0; t < 240; ++t) {

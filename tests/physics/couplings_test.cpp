@@ -73,7 +73,7 @@ std::unique_ptr<World> Atwood(double ratio, const std::string& rest = "") {
                     Joined("rope", "pulley",
                            "a = \"left\"\nb = \"right\"\nground_a = [-2, 10]\n"
                            "ground_b = [2, 10]\nratio = " +
-                               Digits(ratio) + "\n" + rest));
+                               FloatDigits(ratio) + "\n" + rest));
 }
 
 TEST(Couplings, AtwoodsMachineFallsWithItsShareOfGravity) {
@@ -202,7 +202,7 @@ bool TearsOff(double strength) {
       Joined("rope", "pulley",
              "a = \"weight\"\nb = \"hook\"\nanchor_b = [2, 0]\nground_a = [-2, 10]\n"
              "ground_b = [2, 10]\nratio = 2") +
-      Joined("glue", "glue", "a = \"hook\"\nb = \"box\"\nstrength = " + Digits(strength)));
+      Joined("glue", "glue", "a = \"hook\"\nb = \"box\"\nstrength = " + FloatDigits(strength)));
   for (int tick = 0; tick < 60; ++tick) {
     world->Step();
     if (!world->ProposeEdits().empty()) return true;

@@ -17,11 +17,11 @@ std::unique_ptr<World> TwoDiscs(double mass) {
   return SmallWorld(
       "[[part]]\nname = \"ball\"\ncircle = 0.5\nrestitution = 1\nfriction = 0\nposition = [0, 0]\n"
       "density = " +
-          Digits(1 / kArea) +
+          FloatDigits(1 / kArea) +
           "\n"
           "[[part]]\nname = \"shown\"\ncircle = 0.5\nrestitution = 1\nfriction = 0\n"
           "position = [3, 0]\ndensity = " +
-          Digits(mass / kArea) + "\n",
+          FloatDigits(mass / kArea) + "\n",
       "substeps = 1", kNoGravity);
 }
 

@@ -62,7 +62,7 @@ TEST(Mathematics, HeadOnElasticCollisionExchangesSpeedsByMass) {
     const auto world = SmallWorld(
         "[[part]]\nname=\"a\"\ncircle=0.5\nposition=[-3, 0]\nvelocity=[8, 0]\nrestitution=1\n"
         "friction=0\ndensity=" +
-            Digits(ratio) + "\n[[part]]\nname=\"b\"\ncircle=0.5\nrestitution=1\nfriction=0\n",
+            FloatDigits(ratio) + "\n[[part]]\nname=\"b\"\ncircle=0.5\nrestitution=1\nfriction=0\n",
         "", "gravity=[0, 0]");
     const double m1 = world->mass(0), m2 = world->mass(1);
     const double energy = world->Energy();
@@ -78,7 +78,7 @@ TEST(Mathematics, HeadOnElasticCollisionExchangesSpeedsByMass) {
 
 TEST(Mathematics, InelasticCollisionKeepsMomentumAndTheShareOfSpeed) {
   for (const double e : {0.0, 0.3, 0.8}) {
-    const std::string bounce = "restitution=" + Digits(e) + "\nfriction=0\n";
+    const std::string bounce = "restitution=" + FloatDigits(e) + "\nfriction=0\n";
     const auto world =
         SmallWorld("[[part]]\nname=\"a\"\nbox=[1, 1]\nposition=[-3, 0]\nvelocity=[6, 0]\n" +
                        bounce + "[[part]]\nname=\"b\"\nbox=[2, 1]\n" + bounce,
@@ -93,7 +93,7 @@ TEST(Mathematics, InelasticCollisionKeepsMomentumAndTheShareOfSpeed) {
 TEST(Mathematics, SlidingBlockStopsAfterTheSquareOfItsSpeed) {
   // d = v0^2/(2 mu g) - v0 h/2: the speed is lowered before the step moves.
   for (const double mu : {0.2, 0.5, 0.8}) {
-    const std::string rough = "friction=" + Digits(mu) + "\n";
+    const std::string rough = "friction=" + FloatDigits(mu) + "\n";
     const auto world = SmallWorld(
         "[[part]]\nname=\"ground\"\nchain=[[-9, 0], [90, 0]]\n" + rough +
         "[[part]]\nname=\"blocked\"\nbox=[1, 1]\nposition=[0, 0.515]\nvelocity=[8, 0]\n" + rough);
@@ -108,13 +108,14 @@ TEST(Mathematics, SlidingBlockStopsAfterTheSquareOfItsSpeed) {
 /// A scene of one thing on a slope that falls to the right by `angle`.
 std::unique_ptr<World> OnSlope(double angle, double friction, const std::string& shape) {
   const double c = std::cos(angle), s = std::sin(angle);
-  const std::string rough = "friction=" + Digits(friction) + "\n";
+  const std::string rough = "friction=" + FloatDigits(friction) + "\n";
   const auto at = [&](double along, double above) {
-    return "[" + Digits(along * c + above * s) + ", " + Digits(-along * s + above * c) + "]";
+    return "[" + FloatDigits(along * c + above * s) + ", " + FloatDigits(-along * s + above * c) +
+           "]";
   };
   return SmallWorld("[[part]]\nname=\"slope\"\nchain=[" + at(-10, 0) + ", " + at(200, 0) + "]\n" +
                     rough + "[[part]]\nname=\"thing\"\n" + shape + rough +
-                    "angle=" + Digits(-angle) + "\nposition=" + at(0, 0.515) + "\n");
+                    "angle=" + FloatDigits(-angle) + "\nposition=" + at(0, 0.515) + "\n");
 }
 
 /// How far it came along the slope, m.
@@ -161,7 +162,7 @@ TEST(Mathematics, SimplePendulumKeepsGausssPeriod) {
     const auto world = SmallWorld(
         "[[part]]\nname=\"hook\"\nbox=[0.2, 0.2]\nanchored=true\n"
         "[[part]]\nname=\"bob\"\ncircle=0.1\nposition=[" +
-            Digits(-length * std::sin(start)) + ", " + Digits(-length * std::cos(start)) +
+            FloatDigits(-length * std::sin(start)) + ", " + FloatDigits(-length * std::cos(start)) +
             "]\n"
             "[[joint]]\nname=\"rod\"\nkind=\"distance\"\na=\"hook\"\nb=\"bob\"\n",
         "tick_hz=240\nsubsteps=4\n");
@@ -177,8 +178,8 @@ TEST(Mathematics, PhysicalPendulumKeepsGausssPeriod) {
   const auto world = SmallWorld(
       "[[part]]\nname=\"hook\"\nbox=[0.2, 0.2]\nanchored=true\n"
       "[[part]]\nname=\"bar\"\nbox=[0.4, 2]\nangle=" +
-          Digits(-start) + "\nposition=[" + Digits(-d * std::sin(start)) + ", " +
-          Digits(-d * std::cos(start)) +
+          FloatDigits(-start) + "\nposition=[" + FloatDigits(-d * std::sin(start)) + ", " +
+          FloatDigits(-d * std::cos(start)) +
           "]\n"
           "[[joint]]\nname=\"hinge\"\nkind=\"revolute\"\na=\"hook\"\nb=\"bar\"\nanchor=[0, 0]\n",
       "tick_hz=240\nsubsteps=4\n");
@@ -205,7 +206,7 @@ TEST(Mathematics, CradlePassesTheSpeedToTheLastBall) {
     parts += "[[part]]\nname=\"b" + std::to_string(i) +
              "\"\ncircle=0.5\nrestitution=1\n"
              "friction=0\nposition=[" +
-             Digits(i == 0 ? -3 : 1.02 * i) + ", 0]\n" + (i == 0 ? "velocity=[4, 0]\n" : "");
+             FloatDigits(i == 0 ? -3 : 1.02 * i) + ", 0]\n" + (i == 0 ? "velocity=[4, 0]\n" : "");
   }
   const auto world = SmallWorld(parts, "", "gravity=[0, 0]");
   Steps(world.get(), 90);

@@ -20,7 +20,8 @@ std::string Regular(int corners, double radius, bool clockwise) {
   std::string text = "polygon = [";
   for (int i = 0; i < corners; ++i) {
     const double angle = 2 * kPi * i / corners * (clockwise ? -1 : 1);
-    text += "[" + Digits(radius * std::cos(angle)) + ", " + Digits(radius * std::sin(angle)) + "],";
+    text += "[" + FloatDigits(radius * std::cos(angle)) + ", " +
+            FloatDigits(radius * std::sin(angle)) + "],";
   }
   return text + "]\n";
 }
@@ -63,7 +64,7 @@ TEST(Shapes, ACapsulesMassIsTheIntegralOverIt) {
 
 TEST(Shapes, AWedgesMassIsATrianglesOnEitherSide) {
   for (const double width : {3.0, -3.0}) {
-    const Part part = OnlyPart("wedge = [" + Digits(width) + ", 1.5]\ndensity = 2\n");
+    const Part part = OnlyPart("wedge = [" + FloatDigits(width) + ", 1.5]\ndensity = 2\n");
     const MassProperties wedge = PartProperties(part);
     EXPECT_NEAR(wedge.mass, 2 * 3 * 1.5 / 2, 1e-9);
     // A third of the way from the right angle, which is on the lower right, or left.

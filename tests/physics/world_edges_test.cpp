@@ -10,8 +10,8 @@ namespace seam {
 namespace {
 
 std::string Box(const char* name, double x, double y, const char* more = "") {
-  return std::string("[[part]]\nname = \"") + name + "\"\nbox = [1, 1]\nposition = [" + Digits(x) +
-         ", " + Digits(y) + "]\n" + more + "\n";
+  return std::string("[[part]]\nname = \"") + name + "\"\nbox = [1, 1]\nposition = [" +
+         FloatDigits(x) + ", " + FloatDigits(y) + "]\n" + more + "\n";
 }
 
 const char* const kGround = "[[part]]\nname=\"ground\"\nchain=[[-50, 0], [50, 0]]\n";
@@ -133,7 +133,7 @@ TEST(WorldEdges, ImpactsOfATickAreTheSameInAnySubsteps) {
   // Impulse = (1 + e) m1 m2/(m1 + m2) v: the lighter one feels the larger change of speed.
   for (const double e : {0.0, 0.5, 1.0}) {
     for (const int substeps : {1, 4}) {
-      const std::string ball = "circle = 0.5\nfriction = 0\nrestitution = " + Digits(e) + "\n";
+      const std::string ball = "circle = 0.5\nfriction = 0\nrestitution = " + FloatDigits(e) + "\n";
       const auto world =
           SmallWorld("[[part]]\nname=\"heavy\"\ndensity=3\nposition=[-3, 0]\nvelocity=[6, 0]\n" +
                          ball + "[[part]]\nname=\"light\"\n" + ball,

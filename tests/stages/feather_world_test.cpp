@@ -126,9 +126,9 @@ TEST(Feather, NothingFallsThroughAtTheHighestSpeed) {
     const double angle = 2 * 3.14159265358979 * i / 48;
     const double c = std::cos(angle), s = std::sin(angle);
     const std::string ball = "[[part]]\nname = \"ball\"\ncircle = 0.2\nposition = [" +
-                             Digits(61 + 70 * c) + ", " + Digits(9 + 70 * s) + "]\nvelocity = [" +
-                             Digits(-119.9 * c) + ", " + Digits(-119.9 * s) +
-                             "]\nrestitution = 0.5\n";
+                             FloatDigits(61 + 70 * c) + ", " + FloatDigits(9 + 70 * s) +
+                             "]\nvelocity = [" + FloatDigits(-119.9 * c) + ", " +
+                             FloatDigits(-119.9 * s) + "]\nrestitution = 0.5\n";
     const auto world = SmallWorld(
         "[[bricks]]\nname = \"block\"\nbrick = [0.5, 0.25]\n"
         "position = [59, 7]\ncount = [8, 16]\n" +
@@ -175,8 +175,9 @@ Scene City(int movers) {
   for (int i = 0; i < movers; ++i) {
     text += "[[part]]\nname = \"m" + std::to_string(i) + "\"\n" +
             (i % 2 == 0 ? "box = [0.8, 0.6]\n" : "circle = 0.4\nrestitution = 0.4\n") +
-            "position = [" + Digits(-290 + 580.0 * i / movers) + ", " + Digits(26 + i % 7) +
-            "]\nvelocity = [" + Digits((i * 37) % 41 - 20) + ", 0]\n";
+            "position = [" + FloatDigits(-290 + 580.0 * i / movers) + ", " +
+            FloatDigits(26 + i % 7) + "]\nvelocity = [" + FloatDigits((i * 37) % 41 - 20) +
+            ", 0]\n";
   }
   return ParseScene(text, "city.toml");
 }

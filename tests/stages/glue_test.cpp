@@ -62,7 +62,7 @@ std::string Chain(double strength) {
   return "[[part]]\nname = \"nail\"\nbox = [0.2, 0.2]\nposition = [0, 1]\nanchored = true\n"
          "[[part]]\nname = \"box\"\nbox = [1, 1]\n"
          "repeat = {count = 5, step = [0, -1], glue = " +
-         Digits(strength) +
+         FloatDigits(strength) +
          "}\n"
          "[[joint]]\nname = \"hook\"\nkind = \"revolute\"\na = \"nail\"\nb = \"box.0\"\n"
          "anchor = [0, 1]\n";
@@ -89,7 +89,7 @@ TEST(Glue, ACantileverOnAWallBreaksAtTheWall) {
            "repeat = {count = 3, step = [1, 0], glue = 1000}\n"
            "[[joint]]\nname = \"root\"\nkind = \"glue\"\na = \"wall\"\nb = \"box.0\"\n"
            "strength = " +
-           Digits(strength) + "\n";
+           FloatDigits(strength) + "\n";
   };
   auto holds = SmallWorld(beam(30.1));
   EXPECT_TRUE(Live(holds.get(), 60).empty());
@@ -103,7 +103,7 @@ TEST(Glue, WhatSpinsIsTornApartByMassTimesSpinSquaredTimesRadius) {
   const auto two = [](double strength) {
     return "[[part]]\nname = \"box\"\nbox = [1, 1]\nspin = 10\n"
            "repeat = {count = 2, step = [1, 0], glue = " +
-           Digits(strength) + "}\n";
+           FloatDigits(strength) + "}\n";
   };
   // 1 kg at 0.5 m, 10 rad/s: 50 N.
   auto holds = SmallWorld(two(50.1), "", "gravity = [0, 0]");
@@ -119,7 +119,7 @@ TEST(Glue, ABlowStrainsABondByTheShareOfMassBehindIt) {
     return "[[part]]\nname = \"ram\"\nbox = [1, 1]\nposition = [-3, 0]\nvelocity = [10, 0]\n"
            "[[part]]\nname = \"box\"\nbox = [1, 1]\n"
            "repeat = {count = 2, step = [1, 0], glue = " +
-           Digits(strength) + "}\n";
+           FloatDigits(strength) + "}\n";
   };
   auto holds = SmallWorld(blow(206), "", "gravity = [0, 0]");
   EXPECT_TRUE(Live(holds.get(), 60).empty());

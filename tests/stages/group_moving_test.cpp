@@ -95,7 +95,7 @@ TEST(MovingGroup, TheKegMeetsSingleCrates) {
 std::string Raft(float spin) {
   return "gravity = [0, 0]\n[solver]\nskin = 0.0025\nsleep = false\n[grouping]\nafter = 0.5\n"
          "[[part]]\nname = \"box\"\nbox = [1, 1]\nposition = [0, 0]\nvelocity = [3, 1]\nspin = " +
-         Digits(static_cast<double>(spin)) + "\nrepeat = {count = 3, step = [1, 0]}\n";
+         FloatDigits(static_cast<double>(spin)) + "\nrepeat = {count = 3, step = [1, 0]}\n";
 }
 
 TEST(MovingGroup, MomentumIsKeptWhenTheyBecomeOneAndWhenTheyBecomeSingleAgain) {
@@ -181,7 +181,7 @@ std::string Ship() {
   for (int row = 0; row < 5; ++row) {
     const int count = 14 - row;
     text += "[[part]]\nname = \"row-" + std::to_string(row) + "\"\nbox = [0.6, 0.6]\nposition = [" +
-            Digits(-0.3 * (count - 1)) + ", " + Digits(1.4 + 0.6 * row) +
+            FloatDigits(-0.3 * (count - 1)) + ", " + FloatDigits(1.4 + 0.6 * row) +
             "]\ndensity = 0.2\nfriction = 0.8\nvelocity = [2, 0]\nrepeat = {count = " +
             std::to_string(count) + ", step = [0.6, 0]}\n";
   }
@@ -211,21 +211,22 @@ TEST(MovingGroup, CargoOnAFloatingShipIsOneBodyWithIt) {
 std::string Sled(double slope, bool chain) {
   const double c = std::cos(slope), s = std::sin(slope);
   const auto at = [&](double x, double y) {
-    return "position = [" + Digits(x * c - y * s) + ", " + Digits(x * s + y * c) +
-           "]\nangle = " + Digits(slope) + "\n";
+    return "position = [" + FloatDigits(x * c - y * s) + ", " + FloatDigits(x * s + y * c) +
+           "]\nangle = " + FloatDigits(slope) + "\n";
   };
-  const std::string moving = "velocity = [" + Digits(2 * c) + ", " + Digits(2 * s) + "]\n";
+  const std::string moving =
+      "velocity = [" + FloatDigits(2 * c) + ", " + FloatDigits(2 * s) + "]\n";
   std::string text = "[solver]\nskin = 0.0025\nsubsteps = 2\n[grouping]\nafter = 1\n";
   text += "[[part]]\nname = \"slope\"\nfriction = 0\n";
-  text += chain ? "chain = [[" + Digits(-100 * c) + ", " + Digits(-100 * s) + "], [" +
-                      Digits(100 * c) + ", " + Digits(100 * s) + "]]\n"
+  text += chain ? "chain = [[" + FloatDigits(-100 * c) + ", " + FloatDigits(-100 * s) + "], [" +
+                      FloatDigits(100 * c) + ", " + FloatDigits(100 * s) + "]]\n"
                 : "box = [200, 1]\nanchored = true\n" + at(0, -0.5);
   text += "[[part]]\nname = \"sled\"\nbox = [6, 0.8]\nfriction = 0.9\n" + at(0, 0.42) + moving;
   for (int row = 0; row < 3; ++row) {
     text += "[[part]]\nname = \"row-" + std::to_string(row) + "\"\nbox = [0.6, 0.6]\n" +
             at(-2.4 + 0.3 * row, 1.13 + 0.6 * row) + moving + "friction = 0.8\n" +
-            "repeat = {count = " + std::to_string(9 - row) + ", step = [" + Digits(0.6 * c) + ", " +
-            Digits(0.6 * s) + "]}\n";
+            "repeat = {count = " + std::to_string(9 - row) + ", step = [" + FloatDigits(0.6 * c) +
+            ", " + FloatDigits(0.6 * s) + "]}\n";
   }
   return text;
 }

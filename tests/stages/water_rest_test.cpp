@@ -20,7 +20,7 @@ BodyState Settled(const std::string& part, double seconds, const std::string& se
 }
 
 std::string Square(double density, double angle) {
-  return "box = [1, 1]\ndensity = " + Digits(density) + "\nangle = " + Digits(angle);
+  return "box = [1, 1]\ndensity = " + FloatDigits(density) + "\nangle = " + FloatDigits(angle);
 }
 
 /// How far a settled square leans from upright, 0..45 degrees.
@@ -33,8 +33,8 @@ TEST(WaterRest, ABoxSinksByItsShareOfTheWatersDensity) {
   for (const char* method :
        {"method = \"exact\"", "method = \"voxel4\"", "method = \"voxel\"\nn = 5"}) {
     for (const double density : {0.1, 0.5, 0.9}) {
-      const BodyState rest =
-          Settled("box = [3, 0.8]\nposition = [0, 0.5]\ndensity = " + Digits(density), 20, method);
+      const BodyState rest = Settled(
+          "box = [3, 0.8]\nposition = [0, 0.5]\ndensity = " + FloatDigits(density), 20, method);
       EXPECT_NEAR(rest.position.y(), 0.4 - 0.8 * density, 1e-4) << method << ' ' << density;
       EXPECT_NEAR(rest.angle, 0, 1e-4);
     }
@@ -50,7 +50,7 @@ TEST(WaterRest, ADiscOfHalfTheDensityLiesHalfIn) {
   EXPECT_NEAR(Settled("circle = 0.7\nposition = [0, 1]\ndensity = 0.5", 20).position.y(), 0, 1e-4);
   // A segment of depth d has the area r^2 (a - sin a cos a), cos a = 1 - d/r: a = 60 degrees here.
   const double share = (M_PI / 3 - std::sin(M_PI / 3) * 0.5) / M_PI;
-  const BodyState low = Settled("circle = 1\ndensity = " + Digits(share), 20);
+  const BodyState low = Settled("circle = 1\ndensity = " + FloatDigits(share), 20);
   EXPECT_NEAR(low.position.y(), 0.5, 1e-4);
 }
 
@@ -87,7 +87,7 @@ TEST(WaterRest, BetweenASquareLeansByTheKnownAngle) {
 
 TEST(WaterRest, AHeavyCornerGoesDown) {
   for (const double side : {-0.35, 0.35}) {
-    const std::string x = Digits(side);
+    const std::string x = FloatDigits(side);
     const auto world =
         SmallWorld(Floater("box", "box = [1, 1]\ndensity = 0.4") +
                    Floater("lead", "box = [0.2, 0.2]\ndensity = 3\nposition = [" + x + ", 0.35]") +

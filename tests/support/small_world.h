@@ -23,7 +23,7 @@ inline void Steps(World* world, int ticks) {
 }
 
 /// Enough digits for a float.
-inline std::string Digits(double value) {
+inline std::string FloatDigits(double value) {
   char text[40];
   std::snprintf(text, sizeof text, "%.9g", value);
   return text;

@@ -15,13 +15,13 @@ namespace seam {
 namespace {
 
 std::string Box(const std::string& name, double x, const std::string& more = "") {
-  return "[[part]]\nname = \"" + name + "\"\nbox = [0.8, 0.2]\nposition = [" + Digits(x) +
+  return "[[part]]\nname = \"" + name + "\"\nbox = [0.8, 0.2]\nposition = [" + FloatDigits(x) +
          ", 0]\n" + more + "\n";
 }
 
 std::string Between(const std::string& a, const std::string& b, double x, const std::string& rest) {
   return "[[joint]]\nname = \"" + a + b + "\"\na = \"" + a + "\"\nb = \"" + b + "\"\nanchor = [" +
-         Digits(x) + ", 0]\n" + rest + "\n";
+         FloatDigits(x) + ", 0]\n" + rest + "\n";
 }
 
 /// One joint between two boxes, of every kind that holds something, and a chain to an anchor.

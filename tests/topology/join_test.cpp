@@ -16,8 +16,9 @@ namespace {
 const char* const kNoGravity = "gravity = [0, 0]";
 
 std::string Brick(const std::string& name, double x, double y, const std::string& more = "") {
-  return "[[part]]\nname = \"" + name + "\"\nbox = [1, 1]\nposition = [" + Digits(x) + ", " +
-         Digits(y) + "]\noutlets = [[0.5, 0, 0]]\ninlets = [[-0.5, 0, 3.14159265]]\n" + more + "\n";
+  return "[[part]]\nname = \"" + name + "\"\nbox = [1, 1]\nposition = [" + FloatDigits(x) + ", " +
+         FloatDigits(y) + "]\noutlets = [[0.5, 0, 0]]\ninlets = [[-0.5, 0, 3.14159265]]\n" + more +
+         "\n";
 }
 
 TEST(Join, APieceThatComesNearJoinsAtTheExactPlaceAndKeepsMomentum) {

@@ -17,8 +17,9 @@ namespace {
 
 std::string Part(const std::string& name, double width, double height, double x, double y,
                  const std::string& more = "") {
-  return "[[part]]\nname = \"" + name + "\"\nbox = [" + Digits(width) + ", " + Digits(height) +
-         "]\nposition = [" + Digits(x) + ", " + Digits(y) + "]\n" + more + "\n";
+  return "[[part]]\nname = \"" + name + "\"\nbox = [" + FloatDigits(width) + ", " +
+         FloatDigits(height) + "]\nposition = [" + FloatDigits(x) + ", " + FloatDigits(y) + "]\n" +
+         more + "\n";
 }
 
 std::string Joint(const std::string& kind, const std::string& a, const std::string& b,

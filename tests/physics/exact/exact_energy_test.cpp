@@ -69,8 +69,8 @@ TEST(ExactEnergy, ADoublePendulumSwingsTheSameToBothSides) {
   const auto swing = [](double side) {
     return ExactWorld(
         PostText(0, 0) +
-        PartText("upper", "box = [1, 0.1]\nposition = [" + Digits(0.5 * side) + ", 0]") +
-        PartText("lower", "box = [1, 0.1]\nposition = [" + Digits(1.5 * side) + ", 0]") +
+        PartText("upper", "box = [1, 0.1]\nposition = [" + FloatDigits(0.5 * side) + ", 0]") +
+        PartText("lower", "box = [1, 0.1]\nposition = [" + FloatDigits(1.5 * side) + ", 0]") +
         HingeText("top", "post", "upper", 0, 0) + HingeText("elbow", "upper", "lower", side, 0));
   };
   const auto left = swing(-1), right = swing(1);
@@ -168,10 +168,11 @@ std::string RodBox(int start, double speed) {
     for (int i = 0; i < rods; ++i) {
       const std::string name = "rod" + std::to_string(chain) + std::to_string(i);
       parts += PartText(
-          name, "box = [" + std::to_string(length) + ", 0.8]\nposition = [" +
-                    Digits(x + length * (i + 0.5)) + ", " + Digits(y) + "]\nvelocity = [" +
-                    Digits(speed * std::cos(turn)) + ", " + Digits(speed * std::sin(turn)) +
-                    "]\ndensity = " + Digits(0.5 * (1 << (chain + i + start) % 3)) + "\n" + bouncy);
+          name,
+          "box = [" + std::to_string(length) + ", 0.8]\nposition = [" +
+              FloatDigits(x + length * (i + 0.5)) + ", " + FloatDigits(y) + "]\nvelocity = [" +
+              FloatDigits(speed * std::cos(turn)) + ", " + FloatDigits(speed * std::sin(turn)) +
+              "]\ndensity = " + FloatDigits(0.5 * (1 << (chain + i + start) % 3)) + "\n" + bouncy);
       if (i == 0) continue;
       parts += HingeText("pin" + name, "rod" + std::to_string(chain) + std::to_string(i - 1), name,
                          x + length * i, y);
@@ -264,13 +265,13 @@ TEST(ExactEnergy, ALoadThatReachesItsPulleyStopsThere) {
     for (const char* swing : {"", "velocity = [1.5, 0]\n"}) {
       for (const char* substeps : {"", "joint_substeps = 1\n", "joint_substeps = 4\n"}) {
         const auto world = ExactWorld(
-            PartText("left", "box = [1, 1]\ndensity = " + Digits(ratio < 1 ? 9 : 3) +
+            PartText("left", "box = [1, 1]\ndensity = " + FloatDigits(ratio < 1 ? 9 : 3) +
                                  "\nposition = [-3, 0]\ngroup = -1") +
                 PartText("right",
                          std::string("box = [1, 1]\nposition = [3, 0]\ngroup = -1\n") + swing) +
                 "[[joint]]\nname = \"rope\"\nkind = \"pulley\"\na = \"left\"\nb = \"right\"\n"
                 "ground_a = [-3, 10]\nground_b = [3, 2]\nratio = " +
-                Digits(ratio) + "\n",
+                FloatDigits(ratio) + "\n",
             substeps);
         double fastest = 0;
         for (int t = 0; t < 300; ++t) {

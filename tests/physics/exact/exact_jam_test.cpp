@@ -63,10 +63,10 @@ double FastestOf(World* world, int ticks) {
 
 /// A press whose lower side goes from `high` to `low` and back in 4 s.
 std::string PressText(double high, double low) {
-  return PartText("press",
-                  "box = [3, 0.5]\nanchored = true\nposition = [0, " + Digits(high + 0.25) + "]") +
+  return PartText("press", "box = [3, 0.5]\nanchored = true\nposition = [0, " +
+                               FloatDigits(high + 0.25) + "]") +
          "[[joint]]\nname = \"mover\"\nkind = \"kinematic\"\nb = \"press\"\nperiod = 4\n" +
-         "path = [[0, 0], [0, " + Digits(low - high) + "]]\n";
+         "path = [[0, 0], [0, " + FloatDigits(low - high) + "]]\n";
 }
 
 TEST(ExactJam, CratesJammedInAPitGainNoEnergy) { ExpectNoGain(JamPlace::kPit); }

@@ -40,8 +40,8 @@ class JamMaker {
 
   static std::string Box(const std::string& name, double w, double h, double x, double y,
                          const std::string& rest) {
-    return PartText(name, "box = [" + Digits(w) + ", " + Digits(h) + "]\nposition = [" + Digits(x) +
-                              ", " + Digits(y) + "]\n" + rest);
+    return PartText(name, "box = [" + FloatDigits(w) + ", " + FloatDigits(h) + "]\nposition = [" +
+                              FloatDigits(x) + ", " + FloatDigits(y) + "]\n" + rest);
   }
 
   std::string Pit() {
@@ -53,15 +53,15 @@ class JamMaker {
   std::string Wagon() {
     bottom_ = 1.2;
     std::string text = Box("cart", 2 * half_ + 0.4, 0.4, 0, 1,
-                           "friction = 0.9\ndensity = " + Digits(Between(1, 10)));
+                           "friction = 0.9\ndensity = " + FloatDigits(Between(1, 10)));
     for (const double side : {-1.0, 1.0}) {
       const std::string n = side < 0 ? "0" : "1";
       const double rail = side * (half_ + 0.1), axle = 0.7 * side * half_;
       text += Box("rail-" + n, 0.2, 1, rail, 1.7, "density = 2\n");
       text += "[[joint]]\nname = \"w" + n + "\"\nkind = \"weld\"\na = \"cart\"\nb = \"rail-" + n +
-              "\"\nanchor = [" + Digits(rail) + ", 1.2]\n";
+              "\"\nanchor = [" + FloatDigits(rail) + ", 1.2]\n";
       text += PartText("wheel-" + n, "circle = 0.4\nfriction = 0.9\ndensity = 4\nposition = [" +
-                                         Digits(axle) + ", 0.4]");
+                                         FloatDigits(axle) + ", 0.4]");
       text += HingeText("axle-" + n, "cart", "wheel-" + n, axle, 0.4);
     }
     return text;
@@ -72,10 +72,11 @@ class JamMaker {
     const double x = Between(-half_ + 0.4 * w, half_ - 0.4 * w);
     const double y = bottom_ + Between(0.4 * h, 1.4);
     at->push_back({x, y});
-    std::string rest = "density = " + Digits(std::pow(10, Between(-1, 1.5)));
-    rest += "\nfriction = " + Digits(Between(0, 1));
-    rest += "\nvelocity = [" + Digits(Between(-3, 3)) + ", " + Digits(Between(-3, 3)) + "]\n";
-    if (Number(3) == 0) rest += "angle = " + Digits(Between(-0.5, 0.5)) + "\n";
+    std::string rest = "density = " + FloatDigits(std::pow(10, Between(-1, 1.5)));
+    rest += "\nfriction = " + FloatDigits(Between(0, 1));
+    rest +=
+        "\nvelocity = [" + FloatDigits(Between(-3, 3)) + ", " + FloatDigits(Between(-3, 3)) + "]\n";
+    if (Number(3) == 0) rest += "angle = " + FloatDigits(Between(-0.5, 0.5)) + "\n";
     if (Number(4) == 0) rest += "restitution = 0.5\n";
     return Box("c" + std::to_string(i), w, h, x, y, rest);
   }

@@ -122,8 +122,8 @@ TEST(ExactRest, AMotorsOrderWakesWhatSleeps) {
 
 /// A car on sprung wheels that drives at twelve crates, which sleep by then. `speed`: m/s.
 std::string CarAtCrates(double speed) {
-  const std::string moves = "velocity = [" + Digits(speed) + ", 0]\n";
-  const std::string spins = "spin = " + Digits(-speed / 0.4) + "\n";
+  const std::string moves = "velocity = [" + FloatDigits(speed) + ", 0]\n";
+  const std::string spins = "spin = " + FloatDigits(-speed / 0.4) + "\n";
   std::string text = std::string(kGround) + "friction = 0.9\n" +
                      PartText("car",
                               "polygon = [[-1.6, -0.5], [1.45, -0.6], [1.6, -0.55], [1.6, 0.1], "

@@ -22,14 +22,14 @@ inline std::string PartText(const std::string& name, const std::string& rest) {
 inline std::string HingeText(const std::string& name, const std::string& a, const std::string& b,
                              double x, double y, const std::string& rest = "") {
   return "[[joint]]\nname = \"" + name + "\"\nkind = \"hinge\"\na = \"" + a + "\"\nb = \"" + b +
-         "\"\nanchor = [" + Digits(x) + ", " + Digits(y) + "]\n" + rest + "\n";
+         "\"\nanchor = [" + FloatDigits(x) + ", " + FloatDigits(y) + "]\n" + rest + "\n";
 }
 
 /// `count` links "link.0".. of 1 m by 0.2 m from (x, y) to the right, hinged at their ends. `rest`
 /// are further keys of each.
 inline std::string ChainText(int count, double x, double y, const std::string& rest = "") {
   std::string text = PartText(
-      "link", "box = [1, 0.2]\nposition = [" + Digits(x + 0.5) + ", " + Digits(y) +
+      "link", "box = [1, 0.2]\nposition = [" + FloatDigits(x + 0.5) + ", " + FloatDigits(y) +
                   "]\nrepeat = {count = " + std::to_string(count) + ", step = [1, 0]}\n" + rest);
   for (int i = 0; i + 1 < count; ++i) {
     text += HingeText("h" + std::to_string(i), "link." + std::to_string(i),
@@ -41,8 +41,8 @@ inline std::string ChainText(int count, double x, double y, const std::string& r
 constexpr const char* kGround = "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [50, 0]]\n";
 
 inline std::string PostText(double x, double y) {
-  return PartText("post", "box = [0.2, 0.2]\nanchored = true\nposition = [" + Digits(x) + ", " +
-                              Digits(y) + "]");
+  return PartText("post", "box = [0.2, 0.2]\nanchored = true\nposition = [" + FloatDigits(x) +
+                              ", " + FloatDigits(y) + "]");
 }
 
 /// Exact joints, and no sleeping.

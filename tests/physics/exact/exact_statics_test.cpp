@@ -18,7 +18,7 @@ std::string HungFromGlue(double strength, int links) {
       PartText("hook", "box = [0.4, 1]\nposition = [0, 0]") +
       "[[joint]]\nname = \"glue\"\nkind = \"glue\"\na = \"wall\"\nb = \"hook\"\n"
       "anchor = [-0.2, 0]\nstrength = " +
-      Digits(strength) + "\n" +
+      FloatDigits(strength) + "\n" +
       PartText("link", "box = [0.2, 1]\nposition = [0, -1]\nrepeat = {count = " +
                            std::to_string(links) + ", step = [0, -1]}");
   text += HingeText("h", "hook", "link.0", 0, -0.5);
@@ -50,7 +50,7 @@ TEST(ExactStatics, ASwingingLoadStrainsItsAnchorByTheWayRound) {
            PartText("hook", "box = [0.4, 0.4]\nposition = [0, 0]\ndensity = 0.01\ngroup = -1") +
            "[[joint]]\nname = \"glue\"\nkind = \"glue\"\na = \"wall\"\nb = \"hook\"\n"
            "anchor = [-0.2, 0]\nstrength = " +
-           Digits(strength) + "\n" +
+           FloatDigits(strength) + "\n" +
            PartText("rod", "box = [2, 0.1]\nposition = [1, 0]\ngroup = -1") +
            HingeText("h", "hook", "rod", 0, 0);
   };
@@ -67,7 +67,7 @@ bool TearsOff(double strength, const std::string& joint) {
       PartText("hook", "box = [0.4, 1]\nposition = [0, 0]") +
       "[[joint]]\nname = \"glue\"\nkind = \"glue\"\na = \"wall\"\nb = \"hook\"\n"
       "anchor = [-0.2, 0]\nstrength = " +
-      Digits(strength) + "\n" + PartText("load", "box = [1, 1]\nposition = [0, -2]") +
+      FloatDigits(strength) + "\n" + PartText("load", "box = [1, 1]\nposition = [0, -2]") +
       "[[joint]]\nname = \"j\"\na = \"hook\"\nb = \"load\"\n" + joint + "\n");
   return !Live(world.get(), 30).empty();
 }
@@ -88,13 +88,13 @@ TEST(ExactStatics, GlueFeelsTheLoadThroughEveryKindOfJoint) {
 /// A disc of 1 kg m2 on a hinge with this motor.
 std::unique_ptr<World> Turned(const std::string& motor, const std::string& rest = "") {
   const double radius = std::pow(2 / kPi, 0.25);  // pi r^4 / 2 = 1
-  return ExactWorld(PostText(0, 0) + PartText("wheel", "circle = " + Digits(radius)) +
+  return ExactWorld(PostText(0, 0) + PartText("wheel", "circle = " + FloatDigits(radius)) +
                     HingeText("axle", "post", "wheel", 0, 0, "motor = " + motor + "\n" + rest));
 }
 
 TEST(ExactStatics, AMotorAtItsBoundGivesExactlyThatTorque) {
   for (const double torque : {0.25, 4.0, 100.0}) {
-    const auto world = Turned("{speed = 1000, torque = " + Digits(torque) + "}");
+    const auto world = Turned("{speed = 1000, torque = " + FloatDigits(torque) + "}");
     Steps(world.get(), 30);
     EXPECT_NEAR(world->Read(0).spin / (torque * 0.5), 1, 1e-4) << torque;
     // Turned back, it brakes with as much.
@@ -107,7 +107,7 @@ TEST(ExactStatics, AMotorStrongerThanItsLoadTurnsAtItsSpeedAndAWeakerOneSinks) {
   const auto arm = [](double torque) {
     return ExactWorld(PostText(0, 0) + PartText("arm", "box = [2, 0.1]\nposition = [1, 0]") +
                       HingeText("axle", "post", "arm", 0, 0,
-                                "motor = {speed = 0, torque = " + Digits(torque) + "}"));
+                                "motor = {speed = 0, torque = " + FloatDigits(torque) + "}"));
   };
   // 0.2 kg at 1 m: 2 N m.
   const auto holds = arm(2.002);

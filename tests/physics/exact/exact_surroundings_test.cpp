@@ -12,7 +12,7 @@ namespace {
 
 /// Two planks of 1 m, hinged, flat on what is at height `y`.
 std::string Planks(double y) {
-  return PartText("plank", "box = [1, 0.3]\nposition = [0, " + Digits(y + 0.165) +
+  return PartText("plank", "box = [1, 0.3]\nposition = [0, " + FloatDigits(y + 0.165) +
                                "]\nfriction = 0.8\nrepeat = {count = 2, step = [1, 0]}") +
          HingeText("h", "plank.0", "plank.1", 0.5, y + 0.165);
 }

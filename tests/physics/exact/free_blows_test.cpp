@@ -16,7 +16,7 @@ namespace {
 constexpr const char* kWeightless = "gravity = [0, 0]\n";
 
 std::string Elastic(const std::string& name, const std::string& rest, double friction = 0) {
-  return PartText(name, rest + "\nrestitution = 1\nfriction = " + Digits(friction));
+  return PartText(name, rest + "\nrestitution = 1\nfriction = " + FloatDigits(friction));
 }
 
 /// A closed box of 12 m by 12 m.
@@ -39,9 +39,9 @@ std::string Gas(const std::string& shape, unsigned seed) {
   for (int i = 0; i < 25; ++i) {
     const double x = i % 5 * 2.2 - 4.4, y = i / 5 * 2.2 - 4.4;
     const double vx = speed(random), vy = speed(random);
-    text += Elastic("disc" + std::to_string(i), shape + "\nposition = [" + Digits(x) + ", " +
-                                                    Digits(y) + "]\nvelocity = [" + Digits(vx) +
-                                                    ", " + Digits(vy) + "]");
+    text += Elastic("disc" + std::to_string(i), shape + "\nposition = [" + FloatDigits(x) + ", " +
+                                                    FloatDigits(y) + "]\nvelocity = [" +
+                                                    FloatDigits(vx) + ", " + FloatDigits(vy) + "]");
   }
   return text;
 }
@@ -97,13 +97,15 @@ TEST(FreeBlows, ABallUnderGravityComesBackToItsHeight) {
 double LeftInAPit(const std::string& solver) {
   std::string parts = Elastic("floor", "box = [9, 1]\nposition = [0, -0.5]\nanchored = true");
   for (const int side : {-1, 1}) {
-    parts += Elastic("side" + std::to_string(side + 1),
-                     "box = [1, 40]\nposition = [" + Digits(4 * side) + ", 20]\nanchored = true");
+    parts +=
+        Elastic("side" + std::to_string(side + 1),
+                "box = [1, 40]\nposition = [" + FloatDigits(4 * side) + ", 20]\nanchored = true");
   }
   for (int i = 0; i < 30; ++i) {
     const double x = i % 6 * 1.1 - 2.7 + 0.03 * (i / 6);
-    parts += Elastic("square" + std::to_string(i), "box = [0.7, 0.7]\nposition = [" + Digits(x) +
-                                                       ", " + Digits(1 + i / 6 * 1.2) + "]");
+    parts +=
+        Elastic("square" + std::to_string(i), "box = [0.7, 0.7]\nposition = [" + FloatDigits(x) +
+                                                  ", " + FloatDigits(1 + i / 6 * 1.2) + "]");
   }
   const auto world = SmallWorld(parts, solver);
   const double begin = world->Energy();
@@ -121,7 +123,7 @@ TEST(FreeBlows, OfARowOfDiscsTheLastFlies) {
   std::string parts;
   for (int i = 0; i < 5; ++i) {
     parts += Elastic("disc" + std::to_string(i),
-                     "circle = 0.5\nposition = [" + Digits(i * 0.999) + ", 0]");
+                     "circle = 0.5\nposition = [" + FloatDigits(i * 0.999) + ", 0]");
   }
   parts += Elastic("one", "circle = 0.5\nposition = [-1.2, 0]\nvelocity = [4, 0]");
   const auto world = SmallWorld(parts, "", kWeightless);
