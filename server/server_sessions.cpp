@@ -62,12 +62,11 @@ void Server::FollowSessions(std::int64_t now_us) {
   }
 }
 
-/// Of who does not let go. What it withholds it loses at once; what else it has it may have in good
-/// faith, and would go on with until its lease ends: so it is answered no more, and dropped when it
-/// must have let go of all by itself.
+/// Of who does not let go. It may not have heard the question while its pings were answered, and
+/// goes on until its lease ends: so it is answered no more, and loses what it has when it is dropped,
+/// by when it must have let go of all by itself.
 void Server::EndLeases(std::int64_t now_us) {
   const PeerSet withholding = authority_.Withholding(now_us);
-  if (withholding.size() > 0) broadcast_.Tell(authority_.TakeBackWithheld(now_us));
   sessions_.ForEachReady(0, [&](Session& session) {
     if (withholding.Has(session.peer) && session.ending_us < 0) {
       session.lapsed = true;

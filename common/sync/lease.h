@@ -34,9 +34,6 @@ static_assert(kLeaseUs < kPatienceUs,
 /// million takes longer than this. Shorter drops honest clients there; longer lets one that
 /// withholds its answer keep a mechanism from the others.
 constexpr std::int64_t kReleasePatienceUs = 5000000;
-static_assert(
-    kLeaseUs < kReleasePatienceUs,
-    "a client that hears nothing must have let go by itself before the server takes back");
 /// A holder that has not answered for so long, us, or for four round trips, is told that it has it
 /// still: until it answers, others would believe that nobody has it, and drop what it says. It is
 /// asked again once it is heard, and that question stands. Shorter withdraws from paths that are
@@ -45,13 +42,10 @@ constexpr std::int64_t kWithdrawUs = 1000000;
 constexpr int kWithdrawRoundTrips = 4;
 /// us from there until it is asked again.
 constexpr std::int64_t kAskAgainUs = 250000;
-/// us that a question stands at least before its holder is dropped.
+/// us that a question stands at least before its holder has to leave.
 constexpr std::int64_t kAnswerPatienceUs = kReleasePatienceUs - kWithdrawUs - kAskAgainUs;
-static_assert(kLeaseUs < kAnswerPatienceUs,
-              "a client that hears nothing of the last question must have let go by itself");
-/// us that a client which did not let go is kept without an answer to its pings, while the server
-/// has what it withheld: what else it has it lets go of meanwhile, unless it is hostile. Longer
-/// leaves to one that is hostile what it has.
+/// us that a client which did not let go is kept without an answer to its pings: it lets go of all
+/// that it has meanwhile, unless it is hostile. Longer leaves to one that is hostile what it has.
 constexpr std::int64_t kEndingUs = 3500000;
 static_assert(kLeaseUs < kEndingUs, "two authorities: it would be dropped before it has let go");
 static_assert(kPatienceUs < kReleasePatienceUs,

@@ -42,11 +42,9 @@ class AuthorityManager {
   };
   std::vector<Given> TakeGiven() { return std::exchange(given_, {}); }
   /// Peers that were told to let go of something kReleasePatienceUs ago and have not answered. They
-  /// have to leave: TakeBackWithheld now, and TakeBack when their lease must have ended, since what
-  /// else they have they may have in good faith.
+  /// have to leave: TakeBack when their lease must have ended. Not before, of nothing: they may not
+  /// have heard the question behind what was lost, and have all that they have in good faith.
   PeerSet Withholding(std::int64_t now_us) const;
-  /// The server has what is withheld. States of the epochs in which it was held count no more.
-  std::vector<Grants> TakeBackWithheld(std::int64_t now_us);
   /// Somebody came or went: the next Update plans.
   void PlanSoon() { plan_due_ = true; }
   /// The server has what a peer that is gone had. States of the epochs it had count no more.

@@ -8,7 +8,6 @@ namespace seam {
 bool AuthorityManager::Withheld(std::int64_t now_us, int m) const {
   const Memory& memory = memory_[static_cast<std::size_t>(m)];
   if (memory.hand_over != HandOver::kRevoking) return false;
-  // It has let go by now, or heard nothing for longer than its lease: since the last question.
   const bool answers = now_us - memory.unanswered_us <= kReleasePatienceUs ||
                        now_us - memory.revoked_us <= kAnswerPatienceUs;
   return !answers;
@@ -20,14 +19,6 @@ PeerSet AuthorityManager::Withholding(std::int64_t now_us) const {
     if (Withheld(now_us, m)) peers.Add(table().at(m).authority);
   }
   return peers;
-}
-
-std::vector<Grants> AuthorityManager::TakeBackWithheld(std::int64_t now_us) {
-  std::vector<int> withheld;
-  for (const int m : open_) {
-    if (Withheld(now_us, m)) withheld.push_back(m);
-  }
-  return TakeBack(now_us, withheld);
 }
 
 std::vector<Grants> AuthorityManager::TakeBack(std::int64_t now_us, int peer) {

@@ -4,12 +4,15 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <tuple>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "common/sync/lease.h"
 #include "tests/lab/cluster.h"
@@ -119,8 +122,76 @@ TEST(Release, WhoAcknowledgesNothingAnyMoreKeepsNothing) {
     }
   };
   cluster.RunToTick(60 * 16);
-  EXPECT_LT(longest_us, kReleasePatienceUs + 100000);
+  EXPECT_LT(longest_us, kReleasePatienceUs + kEndingUs + 100000);
   EXPECT_GT(longest_us, kReleasePatienceUs - 100000) << "the test would show nothing";
+}
+
+/// A client's network, of which datagrams that arrive may be lost.
+class LosingNet : public Net {
+ public:
+  /// Whether a datagram that arrives at that time is lost.
+  using Loses = std::function<bool(std::int64_t now_us, ByteView datagram)>;
+  LosingNet(std::unique_ptr<Net> net, Loses loses)
+      : net_(std::move(net)), loses_(std::move(loses)) {}
+
+  void Advance(std::int64_t now_us) override {
+    now_us_ = now_us;
+    net_->Advance(now_us);
+  }
+  void Flush() override { net_->Flush(); }
+  bool Receive(Address* from, Bytes* datagram) override {
+    while (net_->Receive(from, datagram)) {
+      if (!loses_(now_us_, *datagram)) return true;
+    }
+    return false;
+  }
+  void Send(const Address& to, ByteView datagram) override { net_->Send(to, datagram); }
+  std::int64_t discarded() const override { return net_->discarded(); }
+
+ private:
+  std::unique_ptr<Net> net_;
+  Loses loses_;
+  std::int64_t now_us_ = 0;
+};
+
+bool HasGrants(ByteView datagram) {
+  std::vector<DatagramMessage> messages;
+  if (!ReadMessages(datagram, &messages)) return false;
+  return std::any_of(messages.begin(), messages.end(), [](const DatagramMessage& message) {
+    return std::holds_alternative<Grants>(
+        Decode(Bytes(message.bytes.begin(), message.bytes.end())));
+  });
+}
+
+/// Her pings are answered until long after the server's last question, which she never hears; then
+/// she is cut off. Her lease ends when nobody has answered for 3 s, not before.
+TEST(Release, WhoNeverHearsTheQuestionKeepsItForAsLongAsItsLease) {
+  ClusterConfig config = Shuttle("perfect");
+  config.duration_s = 16;
+  std::int64_t asked_us = -1;
+  bool playing = false;
+  int lost = 0;
+  config.client_net = [&](std::size_t client, std::unique_ptr<Net> net) -> std::unique_ptr<Net> {
+    if (client != 0) return net;
+    return std::make_unique<LosingNet>(std::move(net), [&](std::int64_t now_us, ByteView datagram) {
+      const bool grants = playing && HasGrants(datagram);
+      if (asked_us < 0 && grants) asked_us = now_us;
+      if (asked_us < 0) return false;
+      lost += grants ? 1 : 0;
+      return grants || now_us > asked_us + 3500000;
+    });
+  };
+  Cluster cluster(config);
+  AuthorityWatch watch;
+  cluster.each_instant = [&] {
+    watch.Look(cluster);
+    playing = cluster.server().started() && cluster.server().tick() > 60;
+  };
+  cluster.Run();
+  EXPECT_GT(lost, 3);
+  EXPECT_EQ(watch.several, 0);
+  EXPECT_EQ(watch.two_holders_of_an_epoch, 0);
+  EXPECT_GT(Said(cluster.recording(), "ann (peer 1) is gone"), 0);
 }
 
 TEST(Release, NobodyHonestIsAccusedOnATerribleNetwork) {
