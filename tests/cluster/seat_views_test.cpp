@@ -242,7 +242,7 @@ TEST(SeatViews, WhoLeavesTheRoomAtTheWheelDrivesOnNoMore) {
 TEST(SeatViews, WhoJoinsInTheMiddleOfTheWaySeesTheSameAfterASecond) {
   // How far ann is then, bob finds from her place and speed (common/stages/seat_way.h). Of 420 runs
   // two are above 5 cm in the first second (6.4, 9.1): ann stops while bob only displays her. None
-  // later (2.8 at most).
+  // later (3.5 cm at most).
   int in_the_middle = 0, above_five = 0;
   const int runs = 7 * Soak(2);
   for (int i = 0; i < runs; ++i) {
