@@ -63,8 +63,8 @@ void Server::FollowSessions(std::int64_t now_us) {
 }
 
 /// Of who does not let go. It may not have heard the question while its pings were answered, and
-/// goes on until its lease ends: so it is answered no more, and loses what it has when it is dropped,
-/// by when it must have let go of all by itself.
+/// goes on until its lease ends: so it is answered no more, and loses what it has when it is
+/// dropped, by when it must have let go of all by itself.
 void Server::EndLeases(std::int64_t now_us) {
   const PeerSet withholding = authority_.Withholding(now_us);
   sessions_.ForEachReady(0, [&](Session& session) {
