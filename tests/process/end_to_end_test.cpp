@@ -252,7 +252,8 @@ TEST_F(EndToEnd, TheMeasuresOfACaptureAreSane) {
   EXPECT_GT(number["retrospect"]["rebound"], 0.9) << "the brick gets what is due to it";
   EXPECT_LT(number["retrospect"]["rebound"], 1.1);
   EXPECT_GT(number["central"]["rebound"], 0.9);
-  // Mostly below .3, in one capture of many .80: it hangs on when which datagram came.
+  // It hangs on when which datagram comes: in virtual time .03 to .07 with 36 of 40 seeds, .41 to
+  // 1.09 with the others.
   EXPECT_LT(number["strict"]["rebound"], 0.9) << "the rubber wall";
   EXPECT_LT(number["retrospect"]["error_rms_m"], number["strict"]["error_rms_m"]);
   for (const char* run : {"retrospect", "central"}) {

@@ -119,7 +119,7 @@ TEST(Reckoner, StatesOfDifferentTicksDoNotTearIt) {
   EXPECT_LT(JointMeter(world.scene(), world.composition()).Worst(here), 1e-3);
 }
 
-/// Three rods and a floor: they fit in two ways.
+/// Three rods in a row whose ends are at a fixed distance: they fit in two ways.
 const char* kFourBar = R"(gravity = [0, 0]
 [[part]]
 name = "left"

@@ -95,7 +95,8 @@ class Corrector {
   BodyMemory& memory_;
   Display& display_;
   Replay& replay_;
-  std::vector<States> waiting_;  // of ticks or edits still to come
+  std::vector<States> waiting_;   // of ticks or edits still to come
+  std::vector<BodyState> poses_;  // by body: of the mechanism that is being closed
 };
 
 }  // namespace seam

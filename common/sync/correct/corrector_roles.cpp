@@ -50,13 +50,13 @@ void Corrector::FollowRoles(const std::vector<int>& bodies) {
 void Corrector::CloseBegun(int mechanism) {
   const JointCloser& joints = display_.joints();
   if (!joints.jointed(mechanism)) return;
-  std::vector<BodyState> poses(static_cast<std::size_t>(world_.body_count()));
+  poses_.resize(static_cast<std::size_t>(world_.body_count()));
   for (const int body : joints.bodies(mechanism)) {
-    poses[static_cast<std::size_t>(body)] = world_.Read(body);
+    poses_[static_cast<std::size_t>(body)] = world_.Read(body);
   }
-  joints.Close(mechanism, false, &poses);
+  joints.Close(mechanism, false, &poses_);
   for (const int body : joints.bodies(mechanism)) {
-    const BodyState& closed = poses[static_cast<std::size_t>(body)];
+    const BodyState& closed = poses_[static_cast<std::size_t>(body)];
     const BodyState by = Minus(closed, world_.Read(body));
     if (Negligible(by) || world_.motion(body) != Motion::kDynamic) continue;
     world_.Write(body, closed);
