@@ -5,7 +5,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
+#include <vector>
 
 #include "common/measure/measure.h"
 
@@ -40,8 +42,18 @@ TEST(Cluster, EveryPeerOfTheOracleShowsTheSameBits) {
 
 TEST(Cluster, StrictShowsTheRubberWallAndBufferDoesNot) {
   const Measures strict = MeasureRun(With("crossing", "strict"));
-  ASSERT_TRUE(strict.rebound.has_value());
-  EXPECT_LT(*strict.rebound, 0.6) << "the artifact must be reproduced";
+  // One run hangs on when which datagram comes: of 40 seeds 36 give .03 to .07, the others .41 to
+  // 1.09.
+  std::vector<double> rebounds;
+  for (std::uint64_t seed = 1; seed <= 9; ++seed) {
+    ClusterConfig config = With("crossing", "strict");
+    config.seed = seed;
+    const Measures m = MeasureRun(config);
+    ASSERT_TRUE(m.rebound.has_value()) << "seed " << seed;
+    rebounds.push_back(*m.rebound);
+  }
+  std::nth_element(rebounds.begin(), rebounds.begin() + 4, rebounds.end());
+  EXPECT_LT(rebounds[4], 0.2) << "the artifact must be reproduced";
   for (const char* cure : {"fade", "retrospect"}) {
     const Measures m = MeasureRun(With("crossing", "buffer", cure));
     ASSERT_TRUE(m.rebound.has_value()) << cure;

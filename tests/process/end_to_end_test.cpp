@@ -252,9 +252,9 @@ TEST_F(EndToEnd, TheMeasuresOfACaptureAreSane) {
   EXPECT_GT(number["retrospect"]["rebound"], 0.9) << "the brick gets what is due to it";
   EXPECT_LT(number["retrospect"]["rebound"], 1.1);
   EXPECT_GT(number["central"]["rebound"], 0.9);
-  // It hangs on when which datagram comes: in virtual time .03 to .07 with 36 of 40 seeds, .41 to
-  // 1.09 with the others.
-  EXPECT_LT(number["strict"]["rebound"], 0.9) << "the rubber wall";
+  // That strict shows the rubber wall hangs, in one capture, on when which datagram comes: its
+  // median over seeds is Cluster.StrictShowsTheRubberWall...'s.
+  EXPECT_GT(number["strict"]["rebound"], 0);
   EXPECT_LT(number["retrospect"]["error_rms_m"], number["strict"]["error_rms_m"]);
   for (const char* run : {"retrospect", "central"}) {
     EXPECT_GT(number[run]["error_max_m"], 0) << run;
