@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "client/held_world.h"
 #include "common/base/check.h"
 #include "common/physics/stage.h"
 #include "common/scene/character.h"
@@ -137,12 +136,12 @@ void Client::StartIfDue(std::int64_t now_us) {
   const bool waits = now_us - last_hello_us_ < kWorldWaitUs;
   const std::int64_t age_us = clock_.rtt_p90_us() + kWorldAgeUs;
   const std::int64_t from = tick - age_us * room_.tick_hz / 1000000;
-  if (late && waits && !CoversWorld(held_, replica_->world(), from)) return;
+  if (late && waits && !held_.Covers(replica_->world(), from)) return;
   const std::int64_t oldest = tick - room_.tick_hz / kCatchesUpPart;
-  if (late) replica_->StartAt(TickOfWorld(held_, replica_->world(), oldest, tick));
+  if (late) replica_->StartAt(held_.TickOf(replica_->world(), oldest, tick));
   started_ = true;
-  GiveHeld(held_, *replica_);
-  held_.clear();
+  held_.GiveTo(*replica_);
+  held_.Clear();
   if (late) CatchUp(tick);
 }
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "client/clock_filter.h"
+#include "client/held_world.h"
 #include "client/load_meter.h"
 #include "client/room_timeline.h"
 #include "common/base/entropy.h"
@@ -161,7 +162,7 @@ class Client {
   Room room_;
   Mode mode_ = Mode::kBuffer;                 // room_.mode, once its scene is loaded
   std::unique_ptr<SnapshotReader> snapshot_;  // one that comes in its parts
-  std::vector<Bytes> held_;  // grants and states that came before the replica was built
+  HeldWorld held_;                            // what was told of bodies before it starts
   Bytes room_bytes_;
   std::size_t room_size_ = 0;
   int peer_ = -1;

@@ -41,7 +41,7 @@ void Client::Join(std::int64_t now_us) {
   replica_.reset();
   scene_.reset();
   snapshot_.reset();
-  held_.clear();
+  held_.Clear();
   room_bytes_.clear();
   room_size_ = 0;
   clock_ = ClockFilter();

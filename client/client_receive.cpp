@@ -9,11 +9,6 @@
 #include "common/sync/method.h"
 
 namespace seam {
-namespace {
-
-constexpr std::size_t kHeldMax = 256;
-
-}  // namespace
 
 void Client::ReceiveAll(std::int64_t now_us) {
   Address from;
@@ -56,8 +51,8 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
   } else if (const auto* rest = std::get_if<Rest>(&any)) {
     if (started_) {
       replica_->Receive(*rest);
-    } else if (held_.size() < kHeldMax) {
-      held_.emplace_back(bytes.begin(), bytes.end());
+    } else {
+      held_.Add(*rest);
     }
   } else if (const auto* inputs = std::get_if<Inputs>(&any)) {
     const bool known = scene_ != nullptr && inputs->player >= 0 && inputs->player != player_ &&
@@ -75,8 +70,8 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
 void Client::OnStates(const States& states) {
   if (started_) {
     stats_.dropped_stale += replica_->Receive(states).stale;
-  } else if (held_.size() < kHeldMax) {
-    held_.push_back(Encode(states));
+  } else {
+    held_.Add(states);
   }
 }
 

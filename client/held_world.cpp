@@ -5,33 +5,61 @@
 #include <limits>
 #include <map>
 #include <set>
-#include <variant>
-
-#include "common/codec/codec.h"
+#include <utility>
 
 namespace seam {
-namespace {
 
-/// Of a message about bodies; -1: it is none.
-std::int64_t TickOf(const AnyMessage& any) {
-  if (const auto* states = std::get_if<States>(&any)) return states->tick;
-  const auto* rest = std::get_if<Rest>(&any);
-  return rest != nullptr ? rest->tick : -1;
+void HeldWorld::Add(const States& states) { Add(Message(states)); }
+void HeldWorld::Add(const Rest& rest) { Add(Message(rest)); }
+
+void HeldWorld::Add(Message message) {
+  if (held_.size() >= room_) LetGo();
+  if (held_.size() < kHeldMax) held_.push_back(std::move(message));
 }
 
-}  // namespace
+void HeldWorld::Clear() {
+  held_.clear();
+  room_ = kRoomMin;
+}
 
-bool CoversWorld(const std::vector<Bytes>& held, const World& world, std::int64_t from) {
+/// What told of rest is said once and stays. Doubles the room, so that this is done seldom.
+void HeldWorld::LetGo() {
+  std::map<std::int32_t, std::int64_t> newest;
+  for (const Message& message : held_) {
+    const auto* states = std::get_if<States>(&message);
+    if (states == nullptr) continue;
+    for (const std::int32_t id : states->id) {
+      const auto known = newest.emplace(id, states->tick).first;
+      known->second = std::max(known->second, states->tick);
+    }
+  }
+  const auto outdated = [&](const Message& message) {
+    const auto* states = std::get_if<States>(&message);
+    return states != nullptr &&
+           std::all_of(states->id.begin(), states->id.end(),
+                       [&](std::int32_t id) { return newest.at(id) > states->tick; });
+  };
+  held_.erase(std::remove_if(held_.begin(), held_.end(), outdated), held_.end());
+  room_ = std::min(kHeldMax, std::max(kRoomMin, 2 * held_.size()));
+}
+
+std::int64_t HeldWorld::TickOf(const Message& message) {
+  return std::visit([](const auto& of) { return std::int64_t{of.tick}; }, message);
+}
+
+bool HeldWorld::Covers(const World& world, std::int64_t from) const {
   const auto composition = static_cast<std::int64_t>(world.composition().hash);
   std::set<int> heard;
   const auto note = [&](const auto& message) {
     if (message.composition == composition) heard.insert(message.id.begin(), message.id.end());
   };
-  for (const Bytes& bytes : held) {
-    const AnyMessage any = Decode(bytes);
-    const auto* states = std::get_if<States>(&any);
-    if (states != nullptr && states->tick >= from) note(*states);
-    if (const auto* rest = std::get_if<Rest>(&any)) note(*rest);
+  for (const Message& message : held_) {
+    const auto* states = std::get_if<States>(&message);
+    if (states == nullptr) {
+      note(std::get<Rest>(message));
+    } else if (states->tick >= from) {
+      note(*states);
+    }
   }
   for (int body = 0; body < world.body_count(); ++body) {
     if (heard.count(world.id(body)) == 0) return false;
@@ -39,8 +67,7 @@ bool CoversWorld(const std::vector<Bytes>& held, const World& world, std::int64_
   return true;
 }
 
-std::int64_t TickOfWorld(const std::vector<Bytes>& held, const World& world, std::int64_t oldest,
-                         std::int64_t now) {
+std::int64_t HeldWorld::TickOf(const World& world, std::int64_t oldest, std::int64_t now) const {
   const auto composition = static_cast<std::int64_t>(world.composition().hash);
   struct Heard {
     std::int64_t first = std::numeric_limits<std::int64_t>::max(), newest = -1;
@@ -57,10 +84,8 @@ std::int64_t TickOfWorld(const std::vector<Bytes>& held, const World& world, std
       of.rests = rests;
     }
   };
-  for (const Bytes& bytes : held) {
-    const AnyMessage any = Decode(bytes);
-    if (const auto* states = std::get_if<States>(&any)) note(*states, false);
-    if (const auto* rest = std::get_if<Rest>(&any)) note(*rest, true);
+  for (const Message& message : held_) {
+    std::visit([&](const auto& of) { note(of, std::holds_alternative<Rest>(message)); }, message);
   }
   std::int64_t tick = now, least = oldest;
   for (const auto& [id, of] : heard) {
@@ -72,25 +97,26 @@ std::int64_t TickOfWorld(const std::vector<Bytes>& held, const World& world, std
 
 /// Of what is not after its tick the newest first: what a body was before, whether it moved or lay,
 /// is no news of it then. What lay after a tick lies so in that tick, too.
-void GiveHeld(const std::vector<Bytes>& held, Replica& replica) {
-  std::vector<AnyMessage> all;
-  for (const Bytes& bytes : held) all.push_back(Decode(bytes));
-  std::stable_sort(all.begin(), all.end(), [](const AnyMessage& a, const AnyMessage& b) {
-    const auto order = [](const AnyMessage& any) {
-      return 2 * TickOf(any) + (std::holds_alternative<Rest>(any) ? 1 : 0);
+void HeldWorld::GiveTo(Replica& replica) const {
+  std::vector<const Message*> all;
+  for (const Message& message : held_) all.push_back(&message);
+  std::stable_sort(all.begin(), all.end(), [](const Message* a, const Message* b) {
+    const auto order = [](const Message& of) {
+      return 2 * TickOf(of) + (std::holds_alternative<Rest>(of) ? 1 : 0);
     };
-    return order(a) < order(b);
+    return order(*a) < order(*b);
   });
-  const auto later = std::find_if(
-      all.begin(), all.end(), [&](const AnyMessage& any) { return TickOf(any) > replica.tick(); });
-  const auto place = [&](const AnyMessage& any) {
-    if (const auto* states = std::get_if<States>(&any)) replica.Place(*states);
-    if (const auto* rest = std::get_if<Rest>(&any)) replica.Receive(*rest);
+  const auto later = std::find_if(all.begin(), all.end(), [&](const Message* message) {
+    return TickOf(*message) > replica.tick();
+  });
+  const auto place = [&](const Message* message) {
+    if (const auto* states = std::get_if<States>(message)) replica.Place(*states);
+    if (const auto* rest = std::get_if<Rest>(message)) replica.Receive(*rest);
   };
   std::for_each(std::make_reverse_iterator(later), all.rend(), place);
   std::for_each(later, all.end(), place);
-  std::for_each(later, all.end(), [&](const AnyMessage& any) {
-    if (const auto* states = std::get_if<States>(&any)) replica.Receive(*states);
+  std::for_each(later, all.end(), [&](const Message* message) {
+    if (const auto* states = std::get_if<States>(message)) replica.Receive(*states);
   });
 }
 

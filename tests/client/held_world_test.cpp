@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "common/codec/codec.h"
 #include "common/scene/scene.h"
 #include "common/sync/quantize.h"
 
@@ -18,9 +17,9 @@ Scene TwoBoxes() {
       "two.toml");
 }
 
-class HeldWorld : public ::testing::Test {
+class AHeldWorld : public ::testing::Test {
  protected:
-  HeldWorld() {
+  AHeldWorld() {
     config_.tick_hz = 60;
     replica_ = std::make_unique<Replica>(TwoBoxes(), config_, 1, -1);
   }
@@ -35,7 +34,7 @@ class HeldWorld : public ::testing::Test {
     PackedBody body;
     body.id = id;
     body.state = {{x, 3}, 0, {2, 0}, 0};
-    for (const States& states : Pack(header, {body})) held_.push_back(Encode(states));
+    for (const States& states : Pack(header, {body})) held_.Add(states);
   }
   void Lies(PartId id, std::int64_t tick, float x) {
     Rest rest;
@@ -46,7 +45,7 @@ class HeldWorld : public ::testing::Test {
     rest.x = {x};
     rest.y = {3};
     rest.angle = {0};
-    held_.push_back(Encode(rest));
+    held_.Add(rest);
   }
   BodyState Begun(PartId id) const {
     return replica_->world().Read(replica_->world().BodyOfId(id));
@@ -54,62 +53,81 @@ class HeldWorld : public ::testing::Test {
 
   SyncConfig config_;
   std::unique_ptr<Replica> replica_;
-  std::vector<Bytes> held_;
+  HeldWorld held_;
 };
 
-TEST_F(HeldWorld, WhatLayOnceAndMovesSinceMoves) {
+TEST_F(AHeldWorld, WhatLayOnceAndMovesSinceMoves) {
   replica_->StartAt(70);
   Moves(0, 66, 1);
   Lies(0, 50, 0);
-  GiveHeld(held_, *replica_);
+  held_.GiveTo(*replica_);
   EXPECT_NEAR(Begun(0).velocity.x(), 2, 0.01);
   EXPECT_NEAR(Begun(0).position.x(), 1 + 2 * 4 / 60.0, 0.01);
   EXPECT_FALSE(replica_->rest().Holds(replica_->world().BodyOfId(0)));
 }
 
-TEST_F(HeldWorld, WhatMovedOnceAndLiesSinceLies) {
+TEST_F(AHeldWorld, WhatMovedOnceAndLiesSinceLies) {
   replica_->StartAt(70);
   Lies(0, 66, 1);
   Moves(0, 50, 0);
-  GiveHeld(held_, *replica_);
+  held_.GiveTo(*replica_);
   EXPECT_EQ(Begun(0).position.x(), 1);
   EXPECT_EQ(Begun(0).velocity.x(), 0);
   EXPECT_TRUE(replica_->rest().Holds(replica_->world().BodyOfId(0)));
 }
 
-TEST_F(HeldWorld, BeginsAtTheLatestTickOfWhichAllIsKnown) {
+TEST_F(AHeldWorld, BeginsAtTheLatestTickOfWhichAllIsKnown) {
   const World& world = replica_->world();
-  EXPECT_EQ(TickOfWorld(held_, world, 40, 70), 70) << "nothing was heard";
+  EXPECT_EQ(held_.TickOf(world, 40, 70), 70) << "nothing was heard";
   Moves(0, 50, 0);
   Moves(0, 66, 0);
   Moves(1, 62, 0);
-  EXPECT_EQ(TickOfWorld(held_, world, 40, 70), 62);
+  EXPECT_EQ(held_.TickOf(world, 40, 70), 62);
   Moves(1, 69, 0);
-  EXPECT_EQ(TickOfWorld(held_, world, 40, 70), 66);
-  EXPECT_EQ(TickOfWorld(held_, world, 68, 70), 68) << "not earlier than that";
-  EXPECT_EQ(TickOfWorld(held_, world, 40, 64), 62) << "what is still to come does not count";
+  EXPECT_EQ(held_.TickOf(world, 40, 70), 66);
+  EXPECT_EQ(held_.TickOf(world, 68, 70), 68) << "not earlier than that";
+  EXPECT_EQ(held_.TickOf(world, 40, 64), 62) << "what is still to come does not count";
   Lies(0, 67, 0);
-  EXPECT_EQ(TickOfWorld(held_, world, 40, 70), 69) << "what lies is known of all ticks since";
+  EXPECT_EQ(held_.TickOf(world, 40, 70), 69) << "what lies is known of all ticks since";
 }
 
-TEST_F(HeldWorld, WhatIsOfALaterTickWaitsForIt) {
+TEST_F(AHeldWorld, WhatIsOfALaterTickWaitsForIt) {
   Moves(0, 62, 0);
   Moves(1, 62, 5);
   Moves(1, 64, 7);
   replica_->StartAt(62);
-  GiveHeld(held_, *replica_);
+  held_.GiveTo(*replica_);
   EXPECT_NEAR(Begun(0).position.x(), 0, 0.01);
   EXPECT_NEAR(Begun(1).position.x(), 5, 0.01);
   for (int i = 0; i < 4; ++i) replica_->Step();
   EXPECT_GT(Begun(1).position.x(), 6.9f) << "it was told of at tick 64";
 }
 
-TEST_F(HeldWorld, WhatIsKnownOnlyOfALaterTickIsThereAtOnce) {
+TEST_F(AHeldWorld, WhatIsKnownOnlyOfALaterTickIsThereAtOnce) {
   Moves(0, 62, 0);
   Moves(1, 64, 7);
   replica_->StartAt(62);
-  GiveHeld(held_, *replica_);
+  held_.GiveTo(*replica_);
   EXPECT_NEAR(Begun(1).position.x(), 7, 0.01);
+}
+
+TEST_F(AHeldWorld, OfALongWaitTheNewestIsKept) {
+  const auto ticks = static_cast<std::int64_t>(HeldWorld::kHeldMax);
+  Lies(1, 3, 5);
+  for (std::int64_t tick = 1; tick <= 2 * ticks; ++tick) Moves(0, tick, 0.1f);
+  Moves(0, 2 * ticks + 1, 7);
+  EXPECT_LT(held_.size(), 600u) << "what was told since is let go";
+  EXPECT_TRUE(held_.Covers(replica_->world(), 2 * ticks + 1));
+  replica_->StartAt(2 * ticks + 1);
+  held_.GiveTo(*replica_);
+  EXPECT_NEAR(Begun(0).position.x(), 7, 0.01);
+  EXPECT_EQ(Begun(1).position.x(), 5) << "what was said once of rest is not";
+}
+
+TEST_F(AHeldWorld, NoServerFillsTheMemoryOfAClient) {
+  const auto most = static_cast<PartId>(HeldWorld::kHeldMax);
+  for (PartId id = 0; id < 2 * most; ++id) Moves(id, 5, 0);
+  EXPECT_EQ(held_.size(), HeldWorld::kHeldMax);
 }
 
 }  // namespace

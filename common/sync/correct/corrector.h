@@ -67,7 +67,7 @@ class Corrector {
   void PutExact(int body, std::int64_t from, const BodyState& difference, const BodyState& told,
                 std::int64_t told_tick);
   void BringBack(int body, const BodyState& told, std::int64_t tick);
-  void PlaceNow(int body, const States& states, std::size_t i, const BodyState& remote);
+  void PlaceNow(int body, std::int64_t tick, const BodyState& remote, bool asleep);
   void PlaceBody(int body, const BodyState& state, bool asleep);
   /// Mass-weighted mean of Xr(t1) - Xl(t1) by mechanism.
   std::map<int, BodyState> CommonDifferences(const States& states,

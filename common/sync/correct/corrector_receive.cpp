@@ -92,7 +92,7 @@ bool Corrector::ReceiveOne(const States& states, std::size_t i, int body) {
   if (!memory_.track(body).placed) memory_.snapshots().ForgetAfter(body, states.tick - 1);
   memory_.snapshots().Add(body, states.tick, remote);
   if (!memory_.track(body).placed) {
-    PlaceNow(body, states, i, remote);
+    PlaceNow(body, states.tick, remote, (states.flags[i] & kStateAsleep) != 0);
     return false;
   }
   return config_.reconcile != nullptr && roles_.RoleOfBody(body) == kRoleSecondary;
@@ -107,18 +107,17 @@ void Corrector::Place(const States& states) {
     const BodyState remote = Unpack(states, i, world_.Read(body).angle);
     memory_.snapshots().ForgetAfter(body, states.tick - 1);
     memory_.snapshots().Add(body, states.tick, remote);
-    PlaceNow(body, states, i, remote);
+    PlaceNow(body, states.tick, remote, (states.flags[i] & kStateAsleep) != 0);
   }
 }
 
 /// The message is as old as its way was long: the body begins where it is by now, in motion.
-void Corrector::PlaceNow(int body, const States& states, std::size_t i, const BodyState& remote) {
-  const bool asleep = (states.flags[i] & kStateAsleep) != 0;
+void Corrector::PlaceNow(int body, std::int64_t tick, const BodyState& remote, bool asleep) {
   BodyState by_now = remote;
-  if (!asleep && states.tick < world_.tick()) {
+  if (!asleep && tick < world_.tick()) {
     by_now = memory_.snapshots().Extrapolate(body, world_.tick(), world_.dt(), kReckonMax);
     by_now.angle = UnwrapAngle(by_now.angle, remote.angle);
-    by_now.position = WayTo(body, remote.position, states.tick, by_now.position);
+    by_now.position = WayTo(body, remote.position, tick, by_now.position);
   }
   PlaceBody(body, by_now, asleep);
 }

@@ -41,12 +41,16 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
     const bool ours = record.authority == roles_.self() && roles_.self() != 0;
     if (ours || exact.epoch[i] < record.epoch || exact.tick < track.heard_tick) continue;
     BodyState there = WithinLimits(StateOf(exact, i), world_.scene().speed_limit);
+    if (!track.placed) memory_.snapshots().ForgetAfter(body, exact.tick - 1);
     memory_.snapshots().Add(body, exact.tick, there);
     track.heard_tick = exact.tick;
     track.heard_epoch = exact.epoch[i];
     memory_.NoteNews(body);
-    const bool simulated = track.placed && world_.motion(body) == Motion::kDynamic;
-    if (!simulated) continue;
+    if (!track.placed) {  // what becomes this peer's and was never placed, nobody would speak for
+      PlaceNow(body, exact.tick, there, false);
+      continue;
+    }
+    if (world_.motion(body) != Motion::kDynamic) continue;
     const std::int64_t from = std::min(exact.tick, now);
     const BodyState* then = memory_.ComparablePast(body, from);
     const float late = static_cast<float>(now - exact.tick) * world_.dt();
