@@ -53,6 +53,19 @@ void SetDistance(const b2DistanceJoint& made, Pin* pin) {
   pin->upper = made.GetMaxLength() < FLT_MAX ? made.GetMaxLength() : kNoEnd;
 }
 
+/// Where a spring of this frequency (Hz) rests; its damping ends a swing sooner.
+void SetSpring(b2Joint* made, float frequency, Pin* pin) {
+  const float swing = 2 * b2_pi * frequency;
+  if (made->GetType() == e_wheelJoint) pin->swing = swing;
+  if (made->GetType() == e_distanceJoint) {
+    pin->swing = swing;
+    pin->rest = static_cast<b2DistanceJoint*>(made)->GetLength();
+  }
+  if (made->GetType() != e_weldJoint) return;
+  pin->turn_swing = swing;
+  pin->turn_rest = static_cast<b2WeldJoint*>(made)->GetReferenceAngle();
+}
+
 /// False: it holds no geometry.
 bool SetHold(b2Joint* made, Pin* pin) {
   switch (made->GetType()) {
@@ -87,6 +100,7 @@ std::vector<Pin> World::Impl::FindPins() const {
     Pin pin;
     if (!SetHold(made, &pin)) continue;
     const Joint& joint = scene.joints[j];
+    SetSpring(made, joint.frequency_hz, &pin);
     pin.a.body = IndexOf(made->GetBodyA());
     pin.b.body = IndexOf(made->GetBodyB());
     pin.a.assembly = composition.assembly_of_part[static_cast<std::size_t>(joint.a)];

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <string>
 
 #include "common/base/geometry.h"
 #include "common/measure/joint_drift.h"
@@ -102,6 +103,56 @@ TEST(Reckoner, AMechanismGoesOnAsOneAndItsWheelGoesOnTurning) {
     apart.push_back(snapshots.Extrapolate(body, 24, world.dt(), kReckonMax));
   }
   EXPECT_GT(meter.Worst(apart), 0.3);
+}
+
+/// Of two parts whose joint is a spring of 5 Hz: where "b" is in a's frame, and how it is turned,
+/// when both are reckoned on by `ticks` after b was told of with this motion and a with none.
+BodyState SwungAfter(const std::string& joint, std::int64_t ticks, const BodyState& moves) {
+  World world(ParseScene(
+      "gravity = [0, 0]\n[[part]]\nname = \"a\"\nbox = [3, 1]\nposition = [0, 2]\n"
+      "[[part]]\nname = \"b\"\nbox = [0.5, 0.5]\nposition = [1, 1]\n[[joint]]\nname = \"spring\"\n"
+      "a = \"a\"\nb = \"b\"\nfrequency = 5\n" +
+          joint,
+      "sprung.toml"));
+  Snapshots snapshots(2);
+  BodyState b = world.Read(1);
+  b.velocity = moves.velocity;
+  b.spin = moves.spin;
+  snapshots.Add(0, 0, world.Read(0));
+  snapshots.Add(1, 0, b);
+  const JointCloser joints(world);
+  Reckoner reckoner(world, snapshots, joints);
+  reckoner.Begin(ticks);
+  const BodyState at = reckoner.There(0), of = reckoner.There(1);
+  BodyState out;
+  out.position = Turned(Vec2(of.position - at.position), -at.angle);
+  out.angle = of.angle - at.angle;
+  return out;
+}
+
+TEST(Reckoner, WhatASpringHoldsSwingsAndTravelsNoFurther) {
+  const float swing = 2 * kPiFloat * 5;
+  for (const std::int64_t ticks : {1, 30, 119}) {
+    BodyState moves;
+    moves.velocity = Vec2(0, -6);
+    const BodyState wheel =
+        SwungAfter("kind = \"wheel\"\naxis = [0, 1]\nanchor = [1, 1]\n", ticks, moves);
+    EXPECT_LE(std::fabs(wheel.position.y() + 1), 6 / swing + 0.01f) << "after " << ticks;
+    EXPECT_NEAR(wheel.position.x(), 1, 0.01) << "after " << ticks;
+    const BodyState tied =
+        SwungAfter("kind = \"distance\"\nanchor_a = [1, 2]\nanchor_b = [1, 1]\n", ticks, moves);
+    EXPECT_LE(std::fabs((tied.position - Vec2(1, 0)).norm() - 1), 6 / swing + 0.05f)
+        << "after " << ticks;
+    moves.velocity.setZero();
+    moves.spin = 10;
+    const BodyState bent = SwungAfter("kind = \"weld\"\nanchor = [1, 1]\n", ticks, moves);
+    EXPECT_LE(std::fabs(WrapAngle(bent.angle)), 10 / swing + 0.01f) << "after " << ticks;
+  }
+  BodyState moves;
+  moves.velocity = Vec2(0, -6);
+  const BodyState slides =
+      SwungAfter("kind = \"wheel\"\naxis = [0, 1]\nanchor = [1, 1]\n", 1, moves);
+  EXPECT_NEAR(slides.position.y(), -1.1, 0.02) << "within that it moves as it did";
 }
 
 TEST(Reckoner, StatesOfDifferentTicksDoNotTearIt) {

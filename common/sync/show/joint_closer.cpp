@@ -20,18 +20,23 @@ struct Hold {
 /// A mechanism's bodies in these poses, then what its pins are anchored to.
 struct Assembled {
   std::vector<PinnedBody> list;
+  std::vector<BodyState> states;  // of the same
   std::vector<Hold> holds;
 
   template <class PoseOf>
   Assembled(const World& world, const std::vector<int>& bodies, const std::vector<Pin>& pins,
             const PoseOf& pose_of) {
-    for (const int body : bodies) list.emplace_back(pose_of(body), world.mass_point(body));
+    const auto add = [&](const BodyState& state, const MassPoint& mass) {
+      list.emplace_back(state, mass);
+      states.push_back(state);
+    };
+    for (const int body : bodies) add(pose_of(body), world.mass_point(body));
     const auto index = [&](const PinEnd& end) {
       if (end.body >= 0) {
         const auto at = std::lower_bound(bodies.begin(), bodies.end(), end.body);
         return static_cast<std::size_t>(at - bodies.begin());
       }
-      list.emplace_back(world.ReadAssembly(end.assembly), MassPoint{});
+      add(world.ReadAssembly(end.assembly), MassPoint{});
       return list.size() - 1;
     };
     for (const Pin& pin : pins) {
@@ -63,12 +68,32 @@ void JointCloser::Rebuild() {
     const int body = pin.a.body >= 0 ? pin.a.body : pin.b.body;
     Jointed& jointed = mechanisms_[static_cast<std::size_t>(world_.mechanism(body))];
     jointed.pins.push_back(pin);
+    jointed.sprung = jointed.sprung || pin.swing > 0 || pin.turn_swing > 0;
     jointed.anchored = jointed.anchored || pin.a.body < 0 || pin.b.body < 0;
   }
 }
 
 void JointCloser::Close(int mechanism, bool simulated, std::vector<BodyState>* poses) const {
+  Close(At(mechanism), simulated, poses);
+}
+
+void JointCloser::CloseMovedOn(int mechanism, const std::vector<BodyState>& from,
+                               std::vector<BodyState>* poses) const {
   const Jointed& jointed = At(mechanism);
+  if (!jointed.sprung) return Close(jointed, false, poses);
+  const Assembled then(world_, jointed.bodies, jointed.pins,
+                       [&](int body) { return from[static_cast<std::size_t>(body)]; });
+  Jointed narrowed = jointed;
+  for (std::size_t i = 0; i < narrowed.pins.size(); ++i) {
+    const std::size_t a = then.holds[i].a, b = then.holds[i].b;
+    narrowed.pins[i] =
+        Within(narrowed.pins[i], then.list[a], then.states[a], then.list[b], then.states[b]);
+  }
+  Close(narrowed, false, poses);
+}
+
+void JointCloser::Close(const Jointed& jointed, bool simulated,
+                        std::vector<BodyState>* poses) const {
   SEAM_ASSERT(static_cast<int>(poses->size()) == world_.body_count());
   Assembled shown(world_, jointed.bodies, jointed.pins,
                   [&](int body) { return (*poses)[static_cast<std::size_t>(body)]; });

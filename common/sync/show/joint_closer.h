@@ -29,13 +29,19 @@ class JointCloser {
   /// as they are in the world: a load opens them there and in the truth alike. A mechanism whose
   /// joints are closed is left alone bit for bit.
   void Close(int mechanism, bool simulated, std::vector<BodyState>* poses) const;
+  /// The same of poses that were moved on from these states (by body) as if there were no springs:
+  /// what a spring holds swings about its rest and travels no further.
+  void CloseMovedOn(int mechanism, const std::vector<BodyState>& from,
+                    std::vector<BodyState>* poses) const;
 
  private:
   struct Jointed {
     std::vector<int> bodies;
     std::vector<Pin> pins;
     bool anchored = false;
+    bool sprung = false;
   };
+  void Close(const Jointed& jointed, bool simulated, std::vector<BodyState>* poses) const;
   const Jointed& At(int mechanism) const {
     return mechanisms_[static_cast<std::size_t>(mechanism)];
   }

@@ -20,6 +20,18 @@ float TooMuch(float gap, float left) {
   return Beyond(gap, std::min(left, 0.0f), std::max(left, 0.0f));
 }
 
+Vec2 SpeedAt(const Vec2& at, const PinnedBody& body, const BodyState& moves) {
+  const Vec2 arm = at - body.centre;
+  return moves.velocity + moves.spin * Vec2(-arm.y(), arm.x());
+}
+
+void Narrow(float rest, float reach, float* lower, float* upper) {
+  const float least = std::max(*lower, rest - reach), most = std::min(*upper, rest + reach);
+  if (least > most) return;  // it is out of its limits
+  *lower = least;
+  *upper = most;
+}
+
 bool CloseTurn(float excess, PinnedBody* a, PinnedBody* b) {
   const float weight = a->inverse_inertia + b->inverse_inertia;
   if (std::fabs(excess) < kClosed || weight <= 0) return false;
@@ -72,6 +84,23 @@ PinGap GapOf(const Pin& pin, const PinnedBody& a, const PinnedBody& b) {
   const float half = (pin.angle_upper - pin.angle_lower) / 2;
   if (half < kPiFloat) gap.turn = Beyond(WrapAngle(b.angle - a.angle - middle), -half, half);
   return gap;
+}
+
+Pin Within(Pin pin, const PinnedBody& a, const BodyState& a_moves, const PinnedBody& b,
+           const BodyState& b_moves) {
+  if (pin.swing > 0) {
+    const PinGap gap = GapOf(pin, a, b);
+    const Vec2 speed = SpeedAt(gap.at_b, b, b_moves) - SpeedAt(gap.at_b, a, a_moves);
+    const float reach =
+        std::fabs(gap.along - pin.rest) + std::fabs(gap.axis.dot(speed)) / pin.swing;
+    Narrow(pin.rest, reach, &pin.lower, &pin.upper);
+  }
+  if (pin.turn_swing > 0) {
+    const float reach = std::fabs(WrapAngle(b.angle - a.angle - pin.turn_rest)) +
+                        std::fabs(b_moves.spin - a_moves.spin) / pin.turn_swing;
+    Narrow(pin.turn_rest, reach, &pin.angle_lower, &pin.angle_upper);
+  }
+  return pin;
 }
 
 bool ClosePin(const Pin& pin, const PinLeft& left, PinnedBody* a, PinnedBody* b) {

@@ -35,6 +35,12 @@ struct PinGap {
 };
 PinGap GapOf(const Pin& pin, const PinnedBody& a, const PinnedBody& b);
 
+/// The pin with the ranges of its springs narrowed to what its bodies reach from here, without
+/// damping: as far from rest as they are, and their speed there / swing. `a_moves`, `b_moves`: the
+/// velocities of their centres of mass.
+Pin Within(Pin pin, const PinnedBody& a, const BodyState& a_moves, const PinnedBody& b,
+           const BodyState& b_moves);
+
 /// Moves both by as little, weighed by mass, as closes the pin but for what may stay. False: it is
 /// closed, to 0.1 mm and 0.1 mrad, or nothing can be moved.
 bool ClosePin(const Pin& pin, const PinLeft& left, PinnedBody* a, PinnedBody* b);

@@ -65,6 +65,7 @@ void Reckoner::Begin(std::int64_t next) {
   next_ = next;
   const auto bodies = static_cast<std::size_t>(world_.body_count());
   done_.assign(world_.composition().mechanisms.size(), false);
+  paths_.heard.resize(bodies);
   paths_.here.resize(bodies);
   paths_.there.resize(bodies);
   paths_.speed.resize(bodies);
@@ -124,8 +125,12 @@ void Reckoner::CloseJoints(int mechanism) {
   const std::vector<int>& bodies = joints_.bodies(mechanism);
   open_.clear();
   for (const int body : bodies) open_.push_back(paths_.speed[static_cast<std::size_t>(body)]);
-  joints_.Close(mechanism, false, &paths_.here);
-  joints_.Close(mechanism, false, &paths_.there);
+  for (const int body : bodies) {
+    BodyState& from = paths_.heard[static_cast<std::size_t>(body)];
+    from = snapshots_.has(body) ? snapshots_.newest(body) : world_.Read(body);
+  }
+  joints_.CloseMovedOn(mechanism, paths_.heard, &paths_.here);
+  joints_.CloseMovedOn(mechanism, paths_.heard, &paths_.there);
   if (!IsMotion(mechanism)) return;
   for (const int body : bodies) paths_.speed[static_cast<std::size_t>(body)] = SpeedOf(body);
 }

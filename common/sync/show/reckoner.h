@@ -44,6 +44,7 @@ class Reckoner {
 
  private:
   struct Paths {
+    std::vector<BodyState> heard;        // by body; of jointed mechanisms
     std::vector<BodyState> here, there;  // by body
     std::vector<PathSpeed> speed;        // by body
   };
