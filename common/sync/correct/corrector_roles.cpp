@@ -35,7 +35,8 @@ void Corrector::FollowRoles(const std::vector<int>& bodies) {
     memory_.Unpark(body);
     // What was simulated here is from now on reckoned from where it is, not from what was last
     // heard of it, which may be from before this peer had the authority.
-    if (wanted != Motion::kDynamic) memory_.snapshots().Add(body, now, world_.Read(body));
+    const bool ends = world_.motion(body) == Motion::kDynamic;
+    if (ends) memory_.snapshots().Add(body, now, world_.Read(body));
     world_.SetMotion(body, wanted);
     const bool begins = wanted == Motion::kDynamic && memory_.snapshots().has(body);
     if (begins && !BeginToSimulate(body)) begun.push_back(world_.mechanism(body));
