@@ -115,6 +115,7 @@ void HeldWorld::GiveTo(Replica& replica) const {
   };
   std::for_each(std::make_reverse_iterator(later), all.rend(), place);
   std::for_each(later, all.end(), place);
+  replica.Begin();
   std::for_each(later, all.end(), [&](const Message* message) {
     if (const auto* states = std::get_if<States>(message)) replica.Receive(*states);
   });

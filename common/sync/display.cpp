@@ -81,6 +81,7 @@ void Display::Remap(const BodyRemap& change) {
   for (const BodyOrigin& origin : change.bodies) from.push_back(origin.body);
   smoother_.Remap(from);
   joints_.Rebuild();
+  seats_.Forget();
   corrected_ticks_.assign(world_.composition().mechanisms.size(), 0);
   far_.assign(world_.composition().mechanisms.size(), Nowhere());
   if (config_.mode == Mode::kOracle) return;  // the oracle hides nothing
@@ -111,6 +112,13 @@ void Display::Glide(const Roles& roles) {
 /// poses in every tick, the view would jump whenever physics does.
 void Display::KeepClosed(const Roles& roles) {
   const std::vector<BodyState>& poses = ShownPoses(roles, config_.shows_far);
+  for (const int m : seats_.gentle()) {
+    const bool simulated = roles.RoleOf(m) != kRoleRemote;
+    if (!simulated && !config_.shows_far) continue;
+    const std::vector<int>& bodies = joints_.bodies(m);
+    if (seats_.HoldBack(world_, bodies, &poses_)) joints_.Close(m, simulated, &poses_);
+    seats_.Shown(world_, bodies, poses_);
+  }
   EachShown(roles, config_.shows_far, [&](int body) {
     if (!joints_.jointed(world_.mechanism(body))) return;
     smoother_.Set(body, Minus(poses[static_cast<std::size_t>(body)], world_.Read(body)));

@@ -50,6 +50,11 @@ void Replica::StartAt(std::int64_t tick) {
   memory_.Record();
 }
 
+void Replica::Begin() {
+  corrector_.ClosePlaced();
+  replay_.TakeBarrier();
+}
+
 void Replica::Step() {
   ApplyEdits();
   const std::int64_t next = tick() + 1;

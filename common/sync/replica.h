@@ -50,6 +50,8 @@ class Replica {
   /// Begins (or, after an absence, goes on) at `tick`. Beginning at 0 all bodies are where the
   /// scene puts them; later, each body waits for its first state and is placed there.
   void StartAt(std::int64_t tick);
+  /// After StartAt, when all that is known of then is placed: from there it can be stepped again.
+  void Begin();
   /// After StartAt, for a world that replaces another: what `before` has too goes on from where it
   /// is there, until it is heard of.
   void GoOnFrom(const World& before);

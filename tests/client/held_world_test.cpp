@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "common/base/geometry.h"
 #include "common/scene/scene.h"
 #include "common/sync/quantize.h"
 
@@ -128,6 +129,35 @@ TEST_F(AHeldWorld, NoServerFillsTheMemoryOfAClient) {
   const auto most = static_cast<PartId>(HeldWorld::kHeldMax);
   for (PartId id = 0; id < 2 * most; ++id) Moves(id, 5, 0);
   EXPECT_EQ(held_.size(), HeldWorld::kHeldMax);
+}
+
+/// The wire's angles have lost their turns: nearest to where the scene had it, the second was six
+/// radians beyond its hinge's limits, and the engine flung it.
+TEST(AHeldMechanism, HasTheTurnsThatItsHingesAllow) {
+  SyncConfig config;
+  config.tick_hz = 60;
+  Replica replica(ParseScene("gravity = [0, 0]\n[[part]]\nname = \"one\"\nbox = [1, 0.2]\n"
+                             "[[part]]\nname = \"two\"\nbox = [1, 0.2]\nposition = [1, 0]\n"
+                             "[[joint]]\nname = \"elbow\"\nkind = \"hinge\"\na = \"one\"\n"
+                             "b = \"two\"\nanchor = [0.5, 0]\nlimits = [-1, 1]\n",
+                             "elbow.toml"),
+                  config, 1, -1);
+  States header;
+  header.tick = 70;
+  header.composition = static_cast<std::int64_t>(replica.world().composition().hash);
+  std::vector<PackedBody> bodies(2);
+  bodies[1].id = 1;
+  bodies[0].state.angle = 3;
+  bodies[1].state.angle = 3.6f;
+  const Vec2 elbow = Turned(Vec2(0.5f, 0), 3.0f);
+  bodies[1].state.position = elbow + Turned(Vec2(0.5f, 0), 3.6f);
+  HeldWorld held;
+  for (const States& states : Pack(header, bodies)) held.Add(states);
+  replica.StartAt(70);
+  held.GiveTo(replica);
+  EXPECT_NEAR(replica.world().Read(1).angle - replica.world().Read(0).angle, 0.6, 1e-3);
+  for (int tick = 0; tick < 5; ++tick) replica.Step();
+  EXPECT_LT(replica.world().Read(1).velocity.norm(), 0.1f);
 }
 
 }  // namespace

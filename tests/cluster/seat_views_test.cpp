@@ -240,13 +240,15 @@ TEST(SeatViews, WhoLeavesTheRoomAtTheWheelDrivesOnNoMore) {
 }
 
 TEST(SeatViews, WhoJoinsInTheMiddleOfTheWaySeesTheSameAfterASecond) {
-  // How far ann is then, bob finds from her place and speed (common/stages/seat_way.h). Of 420 runs
-  // two are above 5 cm in the first second (6.4, 9.1): ann stops while bob only displays her. None
-  // later (3.5 cm at most).
-  int in_the_middle = 0, above_five = 0;
-  const int runs = 7 * Soak(2);
-  for (int i = 0; i < runs; ++i) {
-    const int revived = 90 + 10 * (i % 7), seed = 31 + i / 7;
+  // How far ann is then, bob finds from her place and speed (common/stages/seat_way.h). The first
+  // of these jumped: what was heard of ann as she stopped was no news, since she had been reckoned
+  // past it (43, 114, 125, 154); her legs were a turn beyond their limits (93); limits of the
+  // glide, and closing joints, added up (36, 346).
+  std::vector<std::pair<int, int>> starts = {{43, 110}, {114, 90}, {125, 140}, {154, 110},
+                                             {93, 150}, {36, 120}, {346, 120}};
+  for (int i = 0; i < 7 * Soak(2); ++i) starts.emplace_back(31 + i / 7, 90 + 10 * (i % 7));
+  int in_the_middle = 0;
+  for (const auto& [seed, revived] : starts) {
     SCOPED_TRACE("seed " + std::to_string(seed) + ", revived at tick " + std::to_string(revived));
     ClusterConfig config;
     config.scene_text = Cart();
@@ -286,11 +288,9 @@ TEST(SeatViews, WhoJoinsInTheMiddleOfTheWaySeesTheSameAfterASecond) {
     std::printf("[          ] first view at tick %lld%s: %.4f m (%s), later %.4f m (%s)\n",
                 static_cast<long long>(first), middle ? ", on the way" : "", early.metres,
                 early.where.c_str(), jump.metres, jump.where.c_str());
-    EXPECT_LT(early.metres, 0.1) << early.where;
+    EXPECT_LT(early.metres, 0.05) << early.where;
     EXPECT_LT(jump.metres, 0.05) << jump.where;
-    above_five += early.metres > 0.05 ? 1 : 0;
   }
-  EXPECT_LE(above_five, runs / 100);
   EXPECT_GE(in_the_middle, 4);
 }
 

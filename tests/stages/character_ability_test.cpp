@@ -69,7 +69,8 @@ TEST(CharacterAbility, ClimbsAndDescendsStairsOfFifteenAndTwentyCentimetres) {
 }
 
 /// Where the knee of the leg that bears yields, its ankle must not turn the foot over the edge: at
-/// 20 cm it fell in 16 of 60.
+/// 20 cm it fell in 16 of 60. And its heel must not come down on the edge of the stair that it
+/// leaves: it fell in 7 to 19 of 60.
 TEST(CharacterAbility, DescendsOtherFlightsOfTwelveToTwentyCentimetres) {
   std::map<std::string, Tally> flights;
   for (int start = 20001; start <= 20240; ++start) {
@@ -80,12 +81,18 @@ TEST(CharacterAbility, DescendsOtherFlightsOfTwelveToTwentyCentimetres) {
     flight.good += trial.good ? 1 : 0;
     if (!trial.good) flight.failed += " " + std::to_string(start);
   }
-  for (const auto& [stairs, least] : {std::pair("12 cm down", 55), std::pair("15 cm down", 55),
-                                      std::pair("18 cm down", 52), std::pair("20 cm down", 48)}) {
+  for (const auto& [stairs, least] : {std::pair("12 cm down", 58), std::pair("15 cm down", 58),
+                                      std::pair("18 cm down", 57), std::pair("20 cm down", 55)}) {
     const Tally& down = flights[stairs];
     ASSERT_EQ(down.count, 60);
     EXPECT_GE(down.good, least) << stairs << down.failed;
   }
+}
+
+TEST(CharacterAbility, DescendsSixStairsOfTwentyCentimetres) {
+  const Tally down = TryFrom(20001, "stairs", 20144, "20 cm down");
+  ASSERT_EQ(down.count, 36);
+  EXPECT_GE(down.good, 32) << down.failed << ", where 22 were good";
 }
 
 TEST(CharacterAbility, GetsUpFromFrontAndBackOnSlopesOfTenAndSeventeenDegrees) {

@@ -95,6 +95,30 @@ TEST(JointCloser, AWeldKeepsItsAngleAndAHingeItsLimits) {
   EXPECT_GT(poses[1].angle - poses[0].angle, 0);
 }
 
+TEST(JointCloser, WholeTurnsComeOffWhereAHingeHasLimits) {
+  std::string scene = Box("a", 0);
+  for (int i = 0; i < 3; ++i) {
+    const std::string before(1, static_cast<char>('a' + i)), next(1, static_cast<char>('b' + i));
+    scene += Box(next, i + 1) +
+             Between(before, next, i + 0.5,
+                     std::string("kind = \"hinge\"\n") + (i < 2 ? "limits = [-1, 1]" : ""));
+  }
+  const auto world = SmallWorld(scene);
+  const JointCloser joints(*world);
+  std::vector<BodyState> poses;
+  for (int body = 0; body < 4; ++body) poses.push_back(world->Read(body));
+  const float turn = 2 * kPiFloat;
+  poses[0].angle = 3.0f;
+  poses[1].angle = 3.6f - turn;  // as the wire has it
+  poses[2].angle = 3.2f + 2 * turn;
+  poses[3].angle = 40;
+  joints.Unwind(0, &poses);
+  EXPECT_EQ(poses[0].angle, 3.0f);
+  EXPECT_NEAR(poses[1].angle, 3.6f, 1e-5);
+  EXPECT_NEAR(poses[2].angle, 3.2f, 1e-5);
+  EXPECT_EQ(poses[3].angle, 40) << "it may turn freely";
+}
+
 TEST(JointCloser, TheCentreOfMassStaysAndTheLightGivesWay) {
   const auto world = SmallWorld(Box("a", 0) + Box("b", 1, "density = 5") +
                                 Between("a", "b", 0.5, "kind = \"revolute\""));

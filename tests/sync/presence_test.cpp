@@ -56,9 +56,12 @@ class Line {
   Motion MotionOf(int body) const { return replica.world().motion(body); }
   /// Its authority says where it is and how fast.
   void Hear(int body, const Vec2& position, const Vec2& velocity) {
+    HearOf(replica.tick(), body, position, velocity);
+  }
+  void HearOf(std::int64_t tick, int body, const Vec2& position, const Vec2& velocity) {
     States states;
     states.peer = 2;
-    states.tick = replica.tick();
+    states.tick = tick;
     states.composition = static_cast<std::int64_t>(replica.world().composition().hash);
     PackedBody told;
     told.id = replica.world().id(body);
@@ -103,6 +106,21 @@ TEST(Presence, WhatComesIsThereBeforeItArrives) {
   const float gap = line.replica.world().Read(kFar).position.x() - 1;
   EXPECT_GT(gap, 0) << "it was there in time";
   EXPECT_LT(gap, 45) << "and not all the time";
+}
+
+/// It was taken for heard of where it was reckoned when it came near, and what was heard of an
+/// earlier tick was no news any more.
+TEST(Presence, WhatComesNearGoesWhereItIsHeardToHaveTurnedMeanwhile) {
+  Line line;
+  line.Steps(10);
+  line.Hear(kFar, {20, 0}, {-20, 0});
+  const std::int64_t heard = line.replica.tick();
+  for (int tick = 0; tick < 60 && line.MotionOf(kFar) != Motion::kLed; ++tick) line.Steps(1);
+  ASSERT_EQ(line.MotionOf(kFar), Motion::kLed);
+  ASSERT_GT(line.replica.tick(), heard + 1);
+  line.HearOf(heard + 1, kFar, {19.7f, 0}, {0, 0});
+  line.Steps(1);
+  EXPECT_NEAR(line.replica.world().Read(kFar).position.x(), 19.7, 0.01) << "it has stopped";
 }
 
 TEST(Presence, WhatIsAbsentIsShownOnItsPath) {

@@ -110,15 +110,21 @@ class CharacterControl {
   /// Of the ground that the step goes over.
   struct StairGait {
     float speed, time, height, ahead, lean;
+    bool down;
+  };
+  /// m beyond heel and toe that a foothold needs; below 0: that may hang over.
+  struct Rims {
+    float heel, toe;
   };
   StairGait Stairs() const;
   float Ahead(float omega) const;
   b2Vec2 EdgeAhead(const CharacterSense& s, float from_x) const;
   float WishedFoothold(const CharacterSense& s, float support_x) const;
-  bool FlatAt(const CharacterSense& s, float x, float rim, Foothold* foothold) const;
+  bool FlatAt(const CharacterSense& s, float x, const Rims& rims, Foothold* foothold) const;
   Foothold NextFoothold(const CharacterSense& s, float support_x) const;
   float StepRate(const CharacterSense& s, float support_x, float foothold_x) const;
   b2Vec2 SwingAt(float time, const Foothold& to) const;
+  float LeastHeight(const CharacterSense& s, int side, const Foothold& to) const;
   void Swing(const CharacterSense& s, int side, const Foothold& to);
 
   // character_air.cpp

@@ -15,6 +15,10 @@ constexpr float kScan = 0.05f, kRiser = 0.06f;
 /// m beside the wished foothold, where it looks for a flat one, and how many on either side.
 constexpr float kAsideMax = 0.32f;
 constexpr int kAsides = 8;
+/// Times of a step after which a foot that has not come past an edge goes down all the same.
+constexpr float kHoverMax = 1.5f;
+/// A height that holds nothing up, m.
+constexpr float kNoHeight = -1e6f;
 
 float Smooth(float t) {
   const float u = std::clamp(t, 0.0f, 1.0f);
@@ -26,13 +30,13 @@ float Smooth(float t) {
 /// What is different where a stair is within reach.
 CharacterControl::StairGait CharacterControl::Stairs() const {
   const CharacterGains& g = gains_;
-  if (memory_.edge.x >= kNoEdge) return {g.run_speed_max, 1, 0, 0, 0};
+  if (memory_.edge.x >= kNoEdge) return {g.run_speed_max, 1, 0, 0, 0, false};
   const float rise = memory_.edge.y + limbs_.shape().ankle - memory_.from.y;
   if (rise > 0)
-    return {g.upstairs_speed, g.upstairs_time, g.upstairs_height, g.upstairs_ahead,
-            g.upstairs_lean};
-  return {g.downstairs_speed, g.downstairs_time, g.downstairs_height, g.downstairs_ahead,
-          g.downstairs_lean};
+    return {g.upstairs_speed, g.upstairs_time, g.upstairs_height,
+            g.upstairs_ahead, g.upstairs_lean, false};
+  return {g.downstairs_speed, g.downstairs_time, g.downstairs_height,
+          g.downstairs_ahead, g.downstairs_lean, true};
 }
 
 float CharacterControl::StepTime() const {
@@ -96,18 +100,18 @@ float CharacterControl::Ahead(float omega) const {
          (shape.toe - shape.heel) / 2 + Stairs().ahead * limbs_.scale();
 }
 
-/// Whether heel and toe, and `rim` m beyond them, are on one face of the ground; the foothold there
+/// Whether heel and toe, and `rims` beyond them, are on one face of the ground; the foothold there
 /// in any case.
-bool CharacterControl::FlatAt(const CharacterSense& s, float x, float rim,
+bool CharacterControl::FlatAt(const CharacterSense& s, float x, const Rims& rims,
                               Foothold* foothold) const {
   const CharacterShape& shape = limbs_.shape();
   const float ground_y = s.legs[memory_.stance].ankle.y - shape.ankle;
   const float from_y = ground_y + 0.5f * shape.hip, depth = 1.2f * shape.hip;
-  const GroundPoint heel = limbs_.GroundBelow(b2Vec2(x - shape.heel - rim, from_y), depth);
-  const GroundPoint toe = limbs_.GroundBelow(b2Vec2(x + shape.toe + rim, from_y), depth);
+  const GroundPoint heel = limbs_.GroundBelow(b2Vec2(x - shape.heel - rims.heel, from_y), depth);
+  const GroundPoint toe = limbs_.GroundBelow(b2Vec2(x + shape.toe + rims.toe, from_y), depth);
   const float heel_y = heel.found ? heel.point.y : ground_y;
   const float toe_y = toe.found ? toe.point.y : ground_y;
-  const float length = shape.heel + shape.toe + 2 * rim;
+  const float length = shape.heel + shape.toe + rims.heel + rims.toe;
   // One face: what its two ends say of its slope is also what its normal says.
   const bool flat = std::abs(toe_y - heel_y) < gains_.slope_max * length &&
                     (heel.normal - toe.normal).Length() < 0.3f &&
@@ -117,7 +121,7 @@ bool CharacterControl::FlatAt(const CharacterSense& s, float x, float rim,
   foothold->slope = 0;
   if (!flat) return false;
   foothold->slope = std::atan2(toe_y - heel_y, length);
-  foothold->ankle.y = heel_y + (toe_y - heel_y) * (shape.heel + rim) / length + shape.ankle;
+  foothold->ankle.y = heel_y + (toe_y - heel_y) * (shape.heel + rims.heel) / length + shape.ankle;
   return true;
 }
 
@@ -127,10 +131,10 @@ CharacterControl::Foothold CharacterControl::NextFoothold(const CharacterSense& 
   const float scale = limbs_.scale();
   float wished = WishedFoothold(s, support_x);
   Foothold next;
-  bool flat = FlatAt(s, wished, 0, &next);
+  bool flat = FlatAt(s, wished, {0, 0}, &next);
   if (memory_.step > gains_.edge_commit * StepTime()) {
     Foothold chosen;
-    const bool was_flat = FlatAt(s, memory_.to, 0, &chosen);
+    const bool was_flat = FlatAt(s, memory_.to, {0, 0}, &chosen);
     if (std::abs(chosen.ankle.y - next.ankle.y) > kRiser * scale) {
       wished = memory_.to;
       next = chosen;
@@ -139,6 +143,10 @@ CharacterControl::Foothold CharacterControl::NextFoothold(const CharacterSense& 
   }
   if (flat) return next;
   const Foothold edge = next;
+  // Downstairs the heel keeps off the riser behind it, and toes may look over the next edge.
+  const bool down = Stairs().down;
+  const Rims rims{(down ? gains_.downstairs_heel : gains_.edge_rim) * scale,
+                  (down ? gains_.downstairs_toe : gains_.edge_rim) * scale};
   // The nearest of what lies beside it; one that was chosen before has a start.
   float nearest = kAsideMax * scale;
   bool found = false;
@@ -147,7 +155,7 @@ CharacterControl::Foothold CharacterControl::NextFoothold(const CharacterSense& 
     float far = std::abs(x - wished);
     if (std::abs(x - memory_.to) > gains_.edge_keep * scale) far += gains_.edge_keep * scale;
     Foothold other;
-    if (far >= nearest || !FlatAt(s, x, gains_.edge_rim * scale, &other)) continue;
+    if (far >= nearest || !FlatAt(s, x, rims, &other)) continue;
     nearest = far;
     next = other;
     found = true;
@@ -182,20 +190,39 @@ b2Vec2 CharacterControl::SwingAt(float time, const Foothold& to) const {
       edge || (to.ankle.y > from.y + 0.05f * limbs_.scale() && std::abs(to.slope) < 0.05f);
   const float wait = stair ? gains_.stair_wait : 0;
   const float lifted = stair ? gains_.stair_lifted : gains_.lifted;
-  const float x = from.x + (to.ankle.x - from.x) * Smooth((t - wait) / (gains_.arrive - wait));
+  const bool down = Stairs().down;
+  const float arrive = down ? gains_.downstairs_arrive : gains_.arrive;
+  const float x = from.x + (to.ankle.x - from.x) * Smooth((t - wait) / (arrive - wait));
   const float over = edge ? from.y + above : from.y;
   const float top = std::max({from.y, to.ankle.y, over}) +
                     (stair ? gains_.stair_clearance : gains_.clearance) * limbs_.scale();
-  const float y = t < 0.5f ? from.y + (top - from.y) * Smooth(t / lifted)
-                           : top + (to.ankle.y - top) * Smooth((t - 0.5f) / 0.5f);
+  const float falls = down ? gains_.downstairs_falls : 0.5f;
+  const float y = t < falls ? from.y + (top - from.y) * Smooth(t / lifted)
+                            : top + (to.ankle.y - top) * Smooth((t - falls) / (1 - falls));
   const float late = t > 1 ? gains_.search * limbs_.scale() * (time - whole) : 0;
   return b2Vec2(x, y - late);
 }
 
+/// Of the ankle of a swinging foot, m: over the stair that its heel has not left yet. By where the
+/// foot is and not by the time: one that came late would come down on the edge, and turn over it.
+float CharacterControl::LeastHeight(const CharacterSense& s, int side, const Foothold& to) const {
+  const CharacterShape& shape = limbs_.shape();
+  const float scale = limbs_.scale();
+  if (!Stairs().down || memory_.step > kHoverMax * StepTime()) return kNoHeight;
+  const b2Vec2 heel = s.legs[side].ankle + b2Vec2(-shape.heel, 0.3f * shape.hip);
+  const GroundPoint below = limbs_.GroundBelow(heel, 0.8f * shape.hip);
+  const float on_it = below.point.y + shape.ankle;
+  if (!below.found || to.ankle.y > on_it - kRiser * scale) return kNoHeight;
+  return on_it + gains_.downstairs_hover * scale;
+}
+
 void CharacterControl::Swing(const CharacterSense& s, int side, const Foothold& to) {
   constexpr float kAhead = 0.01f;  // s, for the foot's velocity
-  const b2Vec2 now = SwingAt(memory_.step, to);
-  const b2Vec2 then = SwingAt(memory_.step + kAhead, to);
+  const float least = LeastHeight(s, side, to);
+  b2Vec2 now = SwingAt(memory_.step, to);
+  b2Vec2 then = SwingAt(memory_.step + kAhead, to);
+  now.y = std::max(now.y, least);
+  then.y = std::max(then.y, least);
   Reach(s, side, now, 1 / kAhead * (then - now), to.slope, gains_.swing_stiffness);
 }
 
@@ -228,8 +255,11 @@ void CharacterControl::StepOn(const CharacterSense& s, float h) {
   const float ground_y = stance.ankle.y - shape.ankle;
   const float relative = s.velocity.x - stance.ground_velocity.x;
   const float middle = stance.ankle.x + (shape.toe - shape.heel) / 2;
+  // A sole that turns over its toes, over an edge, is pressed down by its heel.
+  const float tipped = stairs.down ? gains_.downstairs_flat * std::min(0.0f, stance.foot) : 0;
   const float pressure =
-      Sole(s, memory_.stance, middle + gains_.step_pressure * (relative - memory_.speed)).x;
+      Sole(s, memory_.stance, middle + gains_.step_pressure * (relative - memory_.speed)).x +
+      tipped;
   const int swing_side = 1 - memory_.stance;
   const float support = middle + gains_.step_trust * (pressure - middle);
   const Foothold next = NextFoothold(s, support);

@@ -44,6 +44,9 @@ class Corrector {
   void ReceiveWaiting();
   /// Takes poses as they are, of bodies whose pose is not known yet.
   void Place(const States& states);
+  /// After the last of them: what has been moved on to now body by body is closed, and whole turns
+  /// are as hinges allow them.
+  void ClosePlaced();
   /// Where bodies were when their holder let go: copies are put right at once, so that who takes
   /// over begins from there. The largest difference there was; zero of what is only displayed.
   BodyState TakeOver(const ExactStates& exact);
@@ -85,6 +88,8 @@ class Corrector {
   Motion WantedMotion(int body) const;
   bool BeginToSimulate(int body);
   void CloseBegun(int mechanism);
+  template <class Put>
+  void Close(int mechanism, bool only_turns, const Put& put);
   BodyState PullTarget(int body, std::int64_t at) const;
   void NoteArrival(int body);
 
@@ -95,7 +100,9 @@ class Corrector {
   BodyMemory& memory_;
   Display& display_;
   Replay& replay_;
-  std::vector<States> waiting_;   // of ticks or edits still to come
+  std::vector<States> waiting_;  // of ticks or edits still to come
+  /// Ids of bodies that have been placed, and whether they were moved on to now: not closed yet.
+  std::vector<std::pair<int, bool>> placed_;
   std::vector<BodyState> poses_;  // by body: of the mechanism that is being closed
 };
 

@@ -45,6 +45,7 @@ Received Corrector::Receive(const States& states) {
     memory_.NoteNews(body);
     if (ReceiveOne(states, i, body)) to_correct.emplace_back(i, body);
   }
+  ClosePlaced();
   const std::map<int, BodyState> common = CommonDifferences(states, to_correct);
   for (const auto& [i, body] : to_correct) {
     Correct(body, states, i, common.at(world_.mechanism(body)));
@@ -114,7 +115,9 @@ void Corrector::Place(const States& states) {
 /// The message is as old as its way was long: the body begins where it is by now, in motion.
 void Corrector::PlaceNow(int body, std::int64_t tick, const BodyState& remote, bool asleep) {
   BodyState by_now = remote;
-  if (!asleep && tick < world_.tick()) {
+  const bool moves_on = !asleep && tick < world_.tick();
+  placed_.emplace_back(world_.id(body), moves_on);
+  if (moves_on) {
     by_now = memory_.snapshots().Extrapolate(body, world_.tick(), world_.dt(), kReckonMax);
     by_now.angle = UnwrapAngle(by_now.angle, remote.angle);
     by_now.position = WayTo(body, remote.position, tick, by_now.position);

@@ -35,7 +35,8 @@ void Corrector::FollowRoles(const std::vector<int>& bodies) {
     memory_.Unpark(body);
     // What was simulated here is from now on reckoned from where it is, not from what was last
     // heard of it, which may be from before this peer had the authority.
-    if (wanted != Motion::kDynamic) memory_.snapshots().Add(body, now, world_.Read(body));
+    const bool ends = world_.motion(body) == Motion::kDynamic;
+    if (ends) memory_.snapshots().Add(body, now, world_.Read(body));
     world_.SetMotion(body, wanted);
     const bool begins = wanted == Motion::kDynamic && memory_.snapshots().has(body);
     if (begins && !BeginToSimulate(body)) begun.push_back(world_.mechanism(body));
@@ -48,20 +49,52 @@ void Corrector::FollowRoles(const std::vector<int>& bodies) {
 
 /// Its bodies have gone on one by one, which tears it; the engine would shut it with a crash.
 void Corrector::CloseBegun(int mechanism) {
+  Close(mechanism, false, [&](int body, const BodyState& closed) {
+    if (world_.motion(body) != Motion::kDynamic) return;
+    display_.Moved(body, Minus(closed, world_.Read(body)));
+    world_.Write(body, closed);
+  });
+}
+
+/// Nobody has seen it yet.
+void Corrector::ClosePlaced() {
+  std::map<int, bool> mechanisms;  // whether something of it was moved on
+  for (const auto& [id, moved_on] : placed_) {
+    const int body = world_.BodyOfId(id);
+    if (body < 0) continue;
+    bool& any = mechanisms[world_.mechanism(body)];
+    any = any || moved_on;
+  }
+  placed_.clear();
+  for (const auto& [mechanism, moved_on] : mechanisms) {
+    const std::vector<int>& bodies = display_.joints().bodies(mechanism);
+    const bool whole = std::all_of(bodies.begin(), bodies.end(),
+                                   [&](int body) { return memory_.track(body).placed; });
+    if (!whole) continue;
+    Close(mechanism, !moved_on, [&](int body, const BodyState& closed) {
+      const bool awake = world_.awake(body);
+      world_.Write(body, closed);
+      if (!awake) world_.SetAwake(body, false);
+    });
+  }
+}
+
+/// `put` is given each body of a mechanism that closing moves, and its pose then.
+template <class Put>
+void Corrector::Close(int mechanism, bool only_turns, const Put& put) {
   const JointCloser& joints = display_.joints();
   if (!joints.jointed(mechanism)) return;
   poses_.resize(static_cast<std::size_t>(world_.body_count()));
   for (const int body : joints.bodies(mechanism)) {
     poses_[static_cast<std::size_t>(body)] = world_.Read(body);
   }
-  joints.Close(mechanism, false, &poses_);
+  joints.Unwind(mechanism, &poses_);
+  if (!only_turns) joints.Close(mechanism, false, &poses_);
   for (const int body : joints.bodies(mechanism)) {
     const BodyState& closed = poses_[static_cast<std::size_t>(body)];
-    const BodyState by = Minus(closed, world_.Read(body));
-    if (Negligible(by) || world_.motion(body) != Motion::kDynamic) continue;
-    world_.Write(body, closed);
-    display_.Moved(body, by);
-    if (BodyState* past = memory_.history().At(world_.tick(), body)) *past = closed;
+    if (Negligible(Minus(closed, world_.Read(body)))) continue;
+    put(body, closed);
+    if (BodyState* past = memory_.history().At(world_.tick(), body)) *past = world_.Read(body);
   }
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/base/check.h"
+#include "common/base/geometry.h"
 
 namespace seam {
 namespace {
@@ -52,6 +53,14 @@ struct Assembled {
   }
 };
 
+/// Whole turns by which the angle between two bodies is off the range that a pin allows it; 0 where
+/// that is a turn or more.
+float TurnsBeyond(const Pin& pin, float angle_a, float angle_b) {
+  const float middle = (pin.angle_lower + pin.angle_upper) / 2;
+  if (pin.angle_upper - pin.angle_lower >= 2 * kPiFloat) return 0;
+  return std::round((angle_b - angle_a - middle) / (2 * kPiFloat));
+}
+
 Assembled InWorld(const World& world, const std::vector<int>& bodies,
                   const std::vector<Pin>& pins) {
   return Assembled(world, bodies, pins, [&](int body) { return world.Read(body); });
@@ -70,6 +79,29 @@ void JointCloser::Rebuild() {
     jointed.pins.push_back(pin);
     jointed.sprung = jointed.sprung || pin.swing > 0 || pin.turn_swing > 0;
     jointed.anchored = jointed.anchored || pin.a.body < 0 || pin.b.body < 0;
+  }
+}
+
+void JointCloser::Unwind(int mechanism, std::vector<BodyState>* poses) const {
+  const Jointed& jointed = At(mechanism);
+  if (jointed.pins.empty()) return;
+  std::vector<int> known = {jointed.bodies.front()};
+  const auto is_known = [&](int body) {
+    return std::find(known.begin(), known.end(), body) != known.end();
+  };
+  for (bool more = true; more;) {
+    more = false;
+    for (const Pin& pin : jointed.pins) {
+      if (pin.a.body < 0 || pin.b.body < 0 || is_known(pin.a.body) == is_known(pin.b.body))
+        continue;
+      float& a = (*poses)[static_cast<std::size_t>(pin.a.body)].angle;
+      float& b = (*poses)[static_cast<std::size_t>(pin.b.body)].angle;
+      const float turns = TurnsBeyond(pin, a, b) * 2 * kPiFloat;
+      const bool moves_b = is_known(pin.a.body);
+      (moves_b ? b : a) += moves_b ? -turns : turns;
+      known.push_back(moves_b ? pin.b.body : pin.a.body);
+      more = true;
+    }
   }
 }
 

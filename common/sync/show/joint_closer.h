@@ -23,6 +23,10 @@ class JointCloser {
   /// Whether one of its joints holds it to something anchored.
   bool anchored(int mechanism) const { return At(mechanism).anchored; }
 
+  /// Takes whole turns off the angles of this mechanism's bodies until each is within the limits
+  /// that its hinges allow it, of what has been told without its turns. The first body keeps its.
+  void Unwind(int mechanism, std::vector<BodyState>* poses) const;
+
   /// Moves poses of this mechanism's bodies (`poses` is by body) until its joints and their limits
   /// are within 0.1 mm and 0.1 mrad, or kRoundsMax sweeps are over. Mass times displacement sums up
   /// to 0 where nothing is anchored. Velocities stay. If `simulated`, joints may stay as far open

@@ -1,7 +1,9 @@
 #include "common/sync/show/seat_glide.h"
 
 #include <algorithm>
+#include <cmath>
 
+#include "common/base/geometry.h"
 #include "common/physics/part_places.h"
 
 namespace seam {
@@ -9,6 +11,11 @@ namespace {
 
 /// How long after somebody has left a seat, s: who hears of it late shows it late.
 constexpr int kAfter = 2;
+/// m in a tick of what is seen beside the velocity: the glide's own limit, and what closing joints
+/// adds to it.
+constexpr float kGentleBeside = 0.04f;
+/// rad/s; nobody can tell where something faster has turned to.
+constexpr float kSpinSeen = 12;
 
 }  // namespace
 
@@ -31,6 +38,39 @@ void SeatGlide::Look(const World& world) {
 
 bool SeatGlide::IsGentle(int mechanism) const {
   return std::find(gentle_.begin(), gentle_.end(), mechanism) != gentle_.end();
+}
+
+bool SeatGlide::HoldBack(const World& world, const std::vector<int>& bodies,
+                         std::vector<BodyState>* poses) const {
+  if (shown_.empty()) return false;
+  float share = 1;
+  for (const int body : bodies) {
+    const ShownPose& before = shown_[static_cast<std::size_t>(body)];
+    if (before.tick != world.tick() - 1) return false;
+    const BodyState& pose = (*poses)[static_cast<std::size_t>(body)];
+    const float speed = std::max(pose.velocity.norm(), before.pose.velocity.norm());
+    const float moved = (pose.position - before.pose.position).norm();
+    const float most = speed * world.dt() + kGentleBeside;
+    if (moved > most) share = std::min(share, most / moved);
+  }
+  if (share == 1) return false;
+  for (const int body : bodies) {
+    const BodyState& before = shown_[static_cast<std::size_t>(body)].pose;
+    BodyState& pose = (*poses)[static_cast<std::size_t>(body)];
+    pose.position = before.position + share * (pose.position - before.position);
+    if (std::fabs(pose.spin) > kSpinSeen) continue;
+    pose.angle = before.angle + share * WrapAngle(pose.angle - before.angle);
+  }
+  return true;
+}
+
+void SeatGlide::Shown(const World& world, const std::vector<int>& bodies,
+                      const std::vector<BodyState>& poses) {
+  shown_.resize(static_cast<std::size_t>(world.body_count()));
+  for (const int body : bodies) {
+    const auto i = static_cast<std::size_t>(body);
+    shown_[i] = {world.tick(), poses[i]};
+  }
 }
 
 }  // namespace seam

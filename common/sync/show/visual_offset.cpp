@@ -147,6 +147,38 @@ void ReturnRest(float dt, float rate, float glide, std::vector<VisualOffset>* re
   }
 }
 
+/// Both shares of a mechanism's offsets come back.
+void ReturnSplit(float dt, float rate, float glide, float reach, Split* split) {
+  ReturnCommon(dt, rate, glide, reach, &split->common);
+  ReturnRest(dt, rate, glide, &split->rest);
+}
+
+/// Of a body's centre, beside where it is in physics.
+Vec2 CentreOffset(const Split& split, std::size_t i) {
+  const Rotation<float> turn(split.common.angle);
+  return split.common.position + turn(split.arms[i]) - split.arms[i] + split.rest[i].position;
+}
+
+/// The way of the body that comes back furthest, m.
+float FurthestWay(const Split& before, const Split& after) {
+  float furthest = 0;
+  for (std::size_t i = 0; i < before.rest.size(); ++i) {
+    furthest = std::max(furthest, (CentreOffset(after, i) - CentreOffset(before, i)).norm());
+  }
+  return furthest;
+}
+
+/// A foot is moved by the shift, by the turn and by what it has beside them: each within the limit
+/// is three times the limit together.
+void ReturnGently(float dt, float rate, float reach, Split* split) {
+  const Split before = *split;
+  ReturnSplit(dt, rate, kGentle, reach, split);
+  const float furthest = FurthestWay(before, *split);
+  if (furthest <= kGentle * dt) return;
+  *split = before;
+  ReturnSplit(dt, rate, kGentle * (kGentle * dt / furthest), reach, split);
+}
+
 bool Over(const VisualOffset& o) {
   return o.position.norm() < kOver && o.velocity.norm() < kOverSpeed &&
          std::fabs(o.angle) < kOver && std::fabs(o.spin) < kOverSpeed;
@@ -192,9 +224,12 @@ void ReturnTogether(float dt, float rate, const std::vector<OffsetBody>& bodies,
     mass += bodies[i].mass.mass;
     reach = std::max(reach, split.arms[i].norm());
   }
-  const float glide = gentle ? kGentle : GlideMax((momentum / mass).norm());
-  ReturnCommon(dt, rate, glide, reach, &split.common);
-  ReturnRest(dt, rate, glide, &split.rest);
+  const float glide = GlideMax((momentum / mass).norm());
+  if (gentle) {
+    ReturnGently(dt, rate, reach, &split);
+  } else {
+    ReturnSplit(dt, rate, glide, reach, &split);
+  }
   const Rotation<float> turn(split.common.angle);
   bool over = true;
   for (std::size_t i = 0; i < bodies.size(); ++i) {
