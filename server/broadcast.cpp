@@ -160,7 +160,9 @@ void Broadcast::SendWaitingTo(std::int64_t now_us, Session& session, bool steppe
   if (stepped) TellLostAgain(now_us, session);
   const bool now = stepped || session.outbox.pressing() || !session.packer.empty();
   if (now && !session.outbox.empty()) {
-    for (const States& s : session.outbox.Compose(now_us, newest_)) session.packer.Add(s);
+    for (const Outbox::Message& message : session.outbox.Compose(now_us, newest_)) {
+      session.packer.Add(message.header, message.begin, message.end);
+    }
   }
   for (const StatesPacker::Message& message : session.packer.Take(now_us)) {
     const Bytes bytes = Encode(message.packed);

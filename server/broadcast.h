@@ -36,12 +36,12 @@ class Broadcast {
   /// On the bus only.
   template <class Message>
   void Publish(const Message& message) {
-    publisher_.Publish(message);
+    if (publisher_.listening()) publisher_.Publish(message);
   }
   /// On the bus and, reliably, to everyone who has proved its address.
   template <class Message>
   void ToAll(const Message& message) {
-    publisher_.Publish(message);
+    Publish(message);
     sessions_.SendToAll(Encode(message));
   }
   /// Changes of authority: on the bus, and at once to those whom they concern; the others hear of
@@ -106,6 +106,7 @@ class Broadcast {
   /// By peer, what is due of what `entries_` has.
   void FindDue(int but_peer);
   void FindDueOfAny(int but_peer);
+  void FindDueByConcern(int but_peer);
   void RelayDue(std::int64_t now_us, const States& states, const Due& due, Session& session);
   /// Whether who simulates it itself is told where it is in its silent holder's name.
   bool TellsFollowers(std::int64_t now_us, int holder, int body);

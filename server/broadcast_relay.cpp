@@ -39,20 +39,34 @@ void Broadcast::FindDueOfAny(int but_peer) {
 
 /// Most of what is told is no news: it goes to who simulates it, and nobody else is looked at.
 void Broadcast::FindDue(int but_peer) {
-  const bool by_record = config_.mode == Mode::kBuffer;
   for (const Entry& entry : entries_) {
-    const auto m = static_cast<std::size_t>(entry.mechanism);
-    if (by_record && entry.to_followers) {
-      const int holder = replica_.authority().at(entry.mechanism).authority;
-      if (holder != but_peer) AddDue(holder, entry, Urgency::kFollowed);
-      for (const int peer : followers_[m]) {
-        if (peer == holder || peer == but_peer || !Simulates(peer, entry.mechanism)) continue;
+    const AuthorityRecord& record = replica_.authority().at(entry.mechanism);
+    if (entry.to_followers && record.authority != but_peer) {
+      AddDue(record.authority, entry, Urgency::kFollowed);
+    }
+    for (const int peer : followers_[static_cast<std::size_t>(entry.mechanism)]) {
+      const bool follows = record.authority != peer && record.secondaries.Has(peer);
+      if (entry.to_followers && follows && peer != but_peer) {
         AddDue(peer, entry, Urgency::kFollowed);
       }
     }
-    if (by_record && entry.news == News::kNobody) continue;
+    if (entry.news == News::kNobody) continue;
+    const bool far = entry.news == News::kAll;
+    const std::vector<int>& hearing =
+        far ? interest_.Hearing(entry.mechanism) : interest_.HearingNear(entry.mechanism);
+    for (const int peer : hearing) {
+      if (peer == but_peer || peer == record.authority || record.secondaries.Has(peer)) continue;
+      const bool near = !far || interest_.Of(peer, entry.mechanism) >= Concern::kNear;
+      AddDue(peer, entry, near ? Urgency::kNear : Urgency::kFar);
+    }
+  }
+}
+
+/// Mode central: what concerns whom is all that tells who predicts it.
+void Broadcast::FindDueByConcern(int but_peer) {
+  for (const Entry& entry : entries_) {
     for (const int peer : interest_.Hearing(entry.mechanism)) {
-      if (peer == but_peer || (by_record && Simulates(peer, entry.mechanism))) continue;
+      if (peer == but_peer) continue;
       if (const auto urgency = DueTo(peer, entry)) AddDue(peer, entry, *urgency);
     }
   }
@@ -91,6 +105,8 @@ void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) 
   hearing_.clear();
   if (interest_.small() || interest_.unknown()) {
     FindDueOfAny(from_peer);
+  } else if (config_.mode == Mode::kCentral) {
+    FindDueByConcern(from_peer);
   } else {
     FindDue(from_peer);
   }

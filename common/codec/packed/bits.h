@@ -30,13 +30,13 @@ class BitWriter {
     if (bits_ >= 32) PutHeld();
   }
   /// `value` in exponential Golomb code with parameter `k`, 0..16: k + 1 bits if it is below 2^k.
-  void PutGolomb(std::uint32_t value, int k) {
+  __attribute__((always_inline)) void PutGolomb(std::uint32_t value, int k) {
     const std::uint64_t shifted = value + (std::uint64_t{1} << k);
     const int rest = BitWidth(shifted) - 1;  // bits behind the leading one
     const int zeros = rest - k;
-    if (zeros + 1 + rest <= 32) return Put(shifted, zeros + 1 + rest);
+    if (__builtin_expect(zeros + 1 + rest <= 32, 1)) return Put(shifted, zeros + 1 + rest);
     Put(0, zeros);
-    Put(1, 1);
+    Put(shifted >> rest, 1);
     Put(shifted, rest);
   }
   /// Bytes so far, with the last begun one.
@@ -52,7 +52,7 @@ class BitWriter {
 
  private:
   /// Four bytes at once: one at a time is most of what packing costs.
-  void PutHeld() {
+  __attribute__((noinline)) void PutHeld() {
     bits_ -= 32;
     if (bytes_.size() < size_ + 4) bytes_.resize(2 * size_ + 64);
     const std::uint64_t four = held_ >> bits_;
