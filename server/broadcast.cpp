@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "common/physics/stage.h"
 #include "common/sync/lease.h"
 
 namespace seam {
@@ -23,89 +22,6 @@ bool Broadcast::Simulates(int peer, int mechanism) const {
   if (config_.mode == Mode::kCentral) return interest_.Of(peer, mechanism) == Concern::kClose;
   const AuthorityRecord& record = replica_.authority().at(mechanism);
   return record.authority == peer || record.secondaries.Has(peer);
-}
-
-void Broadcast::FindDue(int peer) {
-  due_.clear();
-  for (const Entry& entry : entries_) {
-    const bool has = Simulates(peer, entry.mechanism);
-    const Concern concern = has ? Concern::kClose : interest_.Of(peer, entry.mechanism);
-    if (concern == Concern::kClose) {
-      if (entry.to_followers) due_.emplace_back(entry.id, Urgency::kFollowed);
-    } else if (concern == Concern::kNear && entry.news >= News::kNear) {
-      due_.emplace_back(entry.id, Urgency::kNear);
-    } else if (concern == Concern::kFar && entry.news == News::kAll) {
-      due_.emplace_back(entry.id, Urgency::kFar);
-    }
-  }
-}
-
-template <class Visit>
-void Broadcast::ForEachHearing(int but_peer, Visit visit) {
-  if (interest_.small() || interest_.unknown()) return sessions_.ForEachReady(but_peer, visit);
-  hearing_.clear();
-  const auto add = [&](int peer) {
-    const auto p = static_cast<std::size_t>(peer);
-    if (hears_.size() <= p) hears_.resize(p + 1, 0);
-    if (peer == but_peer || std::exchange(hears_[p], 1) != 0) return;
-    hearing_.push_back(peer);
-  };
-  int before = -1;
-  for (const Entry& entry : entries_) {
-    if (std::exchange(before, entry.mechanism) == entry.mechanism) continue;
-    for (const int peer : interest_.Hearing(entry.mechanism)) add(peer);
-    add(replica_.authority().at(entry.mechanism).authority);
-    for (const int peer : followers_[static_cast<std::size_t>(entry.mechanism)]) add(peer);
-  }
-  for (const int peer : hearing_) {
-    hears_[static_cast<std::size_t>(peer)] = 0;
-    Session* session = sessions_.Find(peer);
-    if (session != nullptr && session->stage == SessionStage::kReady) visit(*session);
-  }
-}
-
-/// Who simulates what a silent holder has knows as much of it as the server: the last state that
-/// was heard, and the same inputs. A server that began to simulate it only then knows less: not how
-/// a character stood to its next step, nor what a suspension or a contact bore. Its word counts
-/// once the driver is taken to have let go, which followers hear of from the server alone.
-bool Broadcast::TellsFollowers(std::int64_t now_us, int holder, int body) {
-  const World& world = replica_.world();
-  const bool small = world.body_count() <= world.scene().server_follow && ShowsViews();
-  const bool all_along = small || ProposesEdits(world.scene());
-  if (all_along && replica_.SimulatedBefore(body)) return true;
-  const Session* const session = sessions_.Find(holder);
-  return session == nullptr || now_us - session->link.last_receive_us() > kDriverSilentUs;
-}
-
-void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) {
-  if (Plain()) {
-    const Bytes whole = Encode(states);
-    sessions_.ForEachReady(from_peer,
-                           [&](Session& session) { session.link.SendUnreliable(whole); });
-    return;
-  }
-  const bool for_silent = from_peer == 0 && states.peer != 0;
-  const double repeat_s = for_silent ? kNewsRepeatSilent : kNewsRepeat;
-  const std::vector<News>& news = newest_.Take(states, repeat_s);
-  entries_.clear();
-  for (std::size_t i = 0; i < states.id.size(); ++i) {
-    const int body = replica_.world().BodyOfId(states.id[i]);
-    if (body < 0) continue;  // it has left meanwhile
-    const bool to_followers = !for_silent || TellsFollowers(now_us, states.peer, body);
-    entries_.push_back({states.id[i], replica_.world().mechanism(body), news[i], to_followers});
-  }
-  ForEachHearing(from_peer, [&](Session& session) {
-    FindDue(session.peer);
-    if (due_.empty()) return;
-    if (due_.size() == states.id.size() && session.outbox.empty() &&
-        session.outbox.Affords(now_us, due_.size())) {
-      session.packer.Add(states);
-      NotePressing(session);
-      return;
-    }
-    for (const auto& [id, urgency] : due_) session.outbox.Add(now_us, id, urgency);
-    if (session.outbox.pressing()) NotePressing(session);
-  });
 }
 
 void Broadcast::Send(std::int64_t now_us, Session& session, std::vector<Grants> messages) {
@@ -244,7 +160,9 @@ void Broadcast::SendWaitingTo(std::int64_t now_us, Session& session, bool steppe
   if (stepped) TellLostAgain(now_us, session);
   const bool now = stepped || session.outbox.pressing() || !session.packer.empty();
   if (now && !session.outbox.empty()) {
-    for (const States& s : session.outbox.Compose(now_us, newest_)) session.packer.Add(s);
+    for (const Outbox::Message& message : session.outbox.Compose(now_us, newest_)) {
+      session.packer.Add(message.header, message.begin, message.end);
+    }
   }
   for (const StatesPacker::Message& message : session.packer.Take(now_us)) {
     const Bytes bytes = Encode(message.packed);
@@ -257,7 +175,7 @@ void Broadcast::SendWaitingTo(std::int64_t now_us, Session& session, bool steppe
 void Broadcast::LookAround(std::int64_t now_us) {
   const bool anew = std::exchange(stale_, false);
   if (Plain()) return;
-  if (anew || followers_.empty()) FindFollowers();
+  if (anew || std::exchange(come_, false) || followers_.empty()) FindFollowers();
   std::vector<Interest::Receiver> receivers;
   sessions_.ForEachReady(0, [&](const Session& session) {
     receivers.push_back({session.peer, session.player});

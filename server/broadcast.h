@@ -2,7 +2,9 @@
 /// What everyone is told: numbered on the bus, and to the sessions that it concerns.
 
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "common/sync/publisher.h"
@@ -34,12 +36,12 @@ class Broadcast {
   /// On the bus only.
   template <class Message>
   void Publish(const Message& message) {
-    publisher_.Publish(message);
+    if (publisher_.listening()) publisher_.Publish(message);
   }
   /// On the bus and, reliably, to everyone who has proved its address.
   template <class Message>
   void ToAll(const Message& message) {
-    publisher_.Publish(message);
+    Publish(message);
     sessions_.SendToAll(Encode(message));
   }
   /// Changes of authority: on the bus, and at once to those whom they concern; the others hear of
@@ -47,6 +49,8 @@ class Broadcast {
   void Tell(const std::vector<Grants>& changes);
   /// What peers are owed of such changes by now. Every tick.
   void TellOwed(std::int64_t now_us);
+  /// A peer is ready: LookAround is due.
+  void NoteCome() { come_ = true; }
   /// A peer was told of all authorities.
   void NoteTold(int peer) { grant_news_.NoteTold(peer); }
   /// To each of the other peers what concerns it: all of the bodies that it follows, of the others
@@ -93,12 +97,17 @@ class Broadcast {
   void NoteFollowers(const std::vector<Grants>& changes);
   void FindFollowers();
   void TellNothings(std::int64_t now_us, Session& session);
-  /// Calls `visit(Session&)` for all but one peer whom something in `entries_` may concern.
-  template <class Visit>
-  void ForEachHearing(int but_peer, Visit visit);
   void AddNewest(std::int64_t now_us, Session& session, int mechanism, Urgency urgency);
-  /// What is due to a peer of what `entries_` has.
-  void FindDue(int peer);
+  /// Of the entries of a message what is due to a peer.
+  using Due = std::vector<std::pair<PartId, Urgency>>;
+  /// How urgently an entry is due to a peer, if it is.
+  std::optional<Urgency> DueTo(int peer, const Entry& entry) const;
+  void AddDue(int peer, const Entry& entry, Urgency urgency);
+  /// By peer, what is due of what `entries_` has.
+  void FindDue(int but_peer);
+  void FindDueOfAny(int but_peer);
+  void FindDueByConcern(int but_peer);
+  void RelayDue(std::int64_t now_us, const States& states, const Due& due, Session& session);
   /// Whether who simulates it itself is told where it is in its silent holder's name.
   bool TellsFollowers(std::int64_t now_us, int holder, int body);
   /// Whether states go to everyone whole: nobody's mode tells apart what concerns whom.
@@ -113,13 +122,13 @@ class Broadcast {
   NewestStates newest_;
   Interest interest_;
   GrantNews grant_news_;
-  std::vector<Entry> entries_;                   // of the message that is relayed
-  std::vector<std::pair<PartId, Urgency>> due_;  // to the peer that is looked at
-  std::vector<std::vector<int>> followers_;      // by mechanism: peers; of a large room
-  std::vector<int> hearing_;                     // peers, in ForEachHearing
-  std::vector<char> hears_;                      // by peer: is in hearing_
-  std::vector<int> pressing_;                    // peers for whom something does not wait
-  std::vector<char> presses_;                    // by peer: is in pressing_
+  std::vector<Entry> entries_;               // of the message that is relayed
+  std::vector<Due> due_;                     // by peer, of it; else empty
+  std::vector<int> hearing_;                 // peers to whom anything of it is due
+  bool come_ = false;                        // a peer has: whom it follows is not in followers_
+  std::vector<std::vector<int>> followers_;  // by mechanism: peers; of a large room
+  std::vector<int> pressing_;                // peers for whom something does not wait
+  std::vector<char> presses_;                // by peer: is in pressing_
 };
 
 }  // namespace seam

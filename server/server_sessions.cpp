@@ -46,6 +46,7 @@ void Server::FollowSessions(std::int64_t now_us) {
         if (rules_ != nullptr && event.player >= 0) rules_->OnJoin(event.player);
         authority_.PlanSoon();
         look_soon_ = true;
+        broadcast_.NoteCome();
         broadcast_.Say(now_us, event.name + " is ready as " + peer);
         Tell(event.name + " is here as " + peer + ", " + ToString(event.address));
         break;

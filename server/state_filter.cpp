@@ -25,16 +25,27 @@ void AddPose(const Message& from, std::size_t i, Message* to) {
   to->angle.push_back(from.angle[i]);
 }
 
-void Clear(States* states) {
-  states->id.clear();
-  states->epoch.clear();
-  states->flags.clear();
-  states->x.clear();
-  states->y.clear();
-  states->angle.clear();
-  states->vx.clear();
-  states->vy.clear();
-  states->spin.clear();
+/// Each of a message's arrays with only the entries `kept`, ascending; all of them as a rule.
+template <class T>
+void KeepOf(const std::vector<T>& from, const std::vector<std::size_t>& kept, std::vector<T>* to) {
+  if (kept.size() == from.size()) {
+    to->assign(from.begin(), from.end());
+    return;
+  }
+  to->clear();
+  for (const std::size_t i : kept) to->push_back(from[i]);
+}
+
+void KeepOf(const States& from, const std::vector<std::size_t>& kept, States* to) {
+  KeepOf(from.id, kept, &to->id);
+  KeepOf(from.epoch, kept, &to->epoch);
+  KeepOf(from.flags, kept, &to->flags);
+  KeepOf(from.x, kept, &to->x);
+  KeepOf(from.y, kept, &to->y);
+  KeepOf(from.angle, kept, &to->angle);
+  KeepOf(from.vx, kept, &to->vx);
+  KeepOf(from.vy, kept, &to->vy);
+  KeepOf(from.spin, kept, &to->spin);
 }
 
 /// And how it moves.
@@ -87,11 +98,6 @@ bool StateFilter::Reachable(int body, std::int64_t tick, const Vec2& position, f
   return (position - last.position).norm() <= way;
 }
 
-bool StateFilter::MayMove(int body, const States& states, std::size_t i) {
-  return MayMove(body, {states.peer, states.tick, states.revision, states.epoch[i],
-                        Unpack(states, i, 0), false});
-}
-
 /// A state waits for the next one. A commitment to rest is said once: it counts although another,
 /// whose clock was ahead, had the body before; and when it is said again, because it was lost.
 bool StateFilter::Outdated(int body, const Claim& claim) const {
@@ -139,8 +145,19 @@ bool StateFilter::MayMove(int body, const Claim& claim) {
 
 const States& StateFilter::Keep(std::int64_t now_us, int peer, const States& states) {
   States& kept = kept_;
-  Clear(&kept);
-  if (!MayLookAt(peer, states)) return kept;
+  passed_.clear();
+  const bool any = MayLookAt(peer, states);
+  for (std::size_t i = 0; any && i < states.id.size(); ++i) {
+    const int body = replica_.world().BodyOfId(states.id[i]);
+    const Claim claim{states.peer,     states.tick,          states.revision,
+                      states.epoch[i], Unpack(states, i, 0), false};
+    if (!MayMove(body, claim)) continue;
+    accepted_[static_cast<std::size_t>(body)] = {states.tick, states.epoch[i],
+                                                 claim.state.position};
+    passed_.push_back(i);
+  }
+  KeepOf(states, passed_, &kept);
+  if (passed_.empty()) return kept;
   kept.utime = now_us;
   kept.peer = states.peer;
   kept.tick = states.tick;
@@ -148,15 +165,9 @@ const States& StateFilter::Keep(std::int64_t now_us, int peer, const States& sta
   kept.composition = states.composition;
   kept.origin_x = states.origin_x;
   kept.origin_y = states.origin_y;
-  for (std::size_t i = 0; i < states.id.size(); ++i) {
-    const int body = replica_.world().BodyOfId(states.id[i]);
-    if (!MayMove(body, states, i)) continue;
-    accepted_[static_cast<std::size_t>(body)] = {states.tick, states.epoch[i],
-                                                 Unpack(states, i, 0).position};
-    AddPose(states, i, &kept);
-    kept.epoch.back() = EpochOf(body);  // who had it all the time may not know the last one yet
-    AddMotion(states, i, &kept);
-    kept.flags.push_back(states.flags[i]);
+  // Who had it all the time may not know the last one yet.
+  for (std::size_t i = 0; i < kept.id.size(); ++i) {
+    kept.epoch[i] = EpochOf(replica_.world().BodyOfId(kept.id[i]));
   }
   return kept;
 }

@@ -36,10 +36,9 @@ class StateFilter {
  private:
   /// Whether the message as a whole may be looked at.
   bool MayLookAt(int peer, const States& states);
-  /// Whether the i-th body of the message may be moved.
+  /// Whether what a peer says of the i-th body, which it has let go of, counts.
   bool MayRelease(int peer, int body, const ExactStates& exact, std::size_t i);
   std::int32_t EpochOf(int body) const;
-  bool MayMove(int body, const States& states, std::size_t i);
   /// Whether a body may be where a message of that peer, tick, revision and epoch says, in `state`.
   struct Claim {
     int peer = 0;
@@ -68,7 +67,9 @@ class StateFilter {
   Stats& stats_;
   std::vector<LastAccepted> accepted_;  // by body
   std::vector<int> outside_;
-  States kept_;  // of the last message: its memory is used again
+  // Of the last message: their memory is used again.
+  States kept_;
+  std::vector<std::size_t> passed_;  // its entries that are kept
 };
 
 }  // namespace seam

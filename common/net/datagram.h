@@ -49,8 +49,10 @@ class DatagramWriter {
   void Append(const DatagramMessage& message);
   std::size_t bytes() const { return data_.size(); }
   bool empty() const { return data_.size() == kDatagramHeaderBytes; }
-  /// Fills in header and checksum.
+  /// Fills in header and checksum. What it returns holds until the next call.
   const Bytes& Finish(const DatagramHeader& header);
+  /// Begins another, in the same memory.
+  void Clear() { data_.resize(kDatagramHeaderBytes); }
 
  private:
   Bytes data_;

@@ -27,6 +27,8 @@ constexpr std::int64_t kIdleQuietUs = 1'500'000;
 constexpr std::int64_t kLateUsMin = 50'000;
 /// Sequence numbers that one ack field and its 32 bits cover.
 constexpr std::int64_t kAckSpan = 33;
+/// Records that are acknowledged, whose memory is kept for the next.
+constexpr std::size_t kSpareMost = 16;
 
 struct Receipt {
   int slot = -1;  // -1: nobody wants one
@@ -59,6 +61,7 @@ struct Link::Impl {
   std::vector<std::int64_t> listed;                     // of kListedSlot, that arrived
   ReliableQueue reliable;
   std::deque<SentRecord> sent;  // of successive sequence numbers up to the newest
+  std::vector<SentRecord> spare;
   std::int64_t srtt_us = -1;
   bool ever_acked = false;
   std::int64_t acks_newest = 0;  // of acknowledged datagrams; and which of the 64 up to it are
@@ -73,36 +76,47 @@ struct Link::Impl {
   std::int64_t last_receive_us = -1;
   std::int64_t rejected = 0;
 
+  // For one Flush or Receive at a time: they keep their memory.
+  DatagramWriter writer;
+  SentRecord carried;  // by the datagram in the writer
+  std::vector<std::int64_t> acks;
+  std::vector<DatagramMessage> messages;
+
   explicit Impl(std::uint64_t number) : session(number) { arrived.fill(-1); }
 
   // ---- sending
 
-  /// One Flush at work: the datagram being filled, and what it carries.
+  /// One Flush at work: writer is the datagram being filled, and carried what it carries.
   struct Packing {
     std::int64_t now_us;
     const Sink& send;
-    std::vector<std::int64_t> acks;  // ack fields for the datagrams, newest first
     std::size_t datagrams = 0;
-    DatagramWriter writer{};
-    std::vector<std::int64_t> ids{};
-    std::vector<Receipt> receipts{};
   };
 
-  /// The ack fields that together cover all that arrived since the last Flush. One is the rule;
-  /// more when over 33 datagrams came in between.
-  std::vector<std::int64_t> AckPoints() const {
-    std::vector<std::int64_t> points;
+  /// The ack fields for the datagrams, newest first, that together cover all that arrived since the
+  /// last Flush. One is the rule; more when over 33 datagrams came in between.
+  void FindAckPoints() {
+    acks.clear();
     std::int64_t at = window.newest();
     const std::int64_t oldest = window.newest() - SequenceWindow::kSize;
-    while (!window.empty() && at > oldest && (points.empty() || at > flushed_newest)) {
+    while (!window.empty() && at > oldest && (acks.empty() || at > flushed_newest)) {
       if (window.Has(at)) {
-        points.push_back(at);
+        acks.push_back(at);
         at -= kAckSpan;
       } else {
         --at;
       }
     }
-    return points;
+  }
+
+  /// Remembers what the datagram in the writer carries.
+  void NoteSent(std::int64_t now_us) {
+    if (sent.size() >= kSentRecords) sent.pop_front();
+    carried.sent_us = now_us;
+    sent.push_back(std::exchange(carried, {}));
+    if (spare.empty()) return;
+    carried = std::move(spare.back());
+    spare.pop_back();
   }
 
   /// Sends the datagram being filled, which may be empty.
@@ -110,26 +124,23 @@ struct Link::Impl {
     DatagramHeader header;
     header.session = session;
     header.sequence = static_cast<std::uint16_t>(++sequence);
-    if (!packing.acks.empty()) {
-      const std::int64_t ack = packing.acks[std::min(packing.datagrams, packing.acks.size() - 1)];
+    if (!acks.empty()) {
+      const std::int64_t ack = acks[std::min(packing.datagrams, acks.size() - 1)];
       header.ack = static_cast<std::uint16_t>(ack);
       header.ack_bits = window.BitsBefore(ack);
     }
-    if (sent.size() >= kSentRecords) sent.pop_front();
-    sent.push_back({packing.now_us, false, std::move(packing.ids), std::move(packing.receipts)});
-    packing.send(packing.writer.Finish(header));
+    NoteSent(packing.now_us);
+    packing.send(writer.Finish(header));
     ++packing.datagrams;
-    packing.writer = DatagramWriter();
-    packing.ids.clear();
-    packing.receipts.clear();
+    writer.Clear();
     last_send_us = packing.now_us;
     ack_owed = false;
   }
 
   void Pack(Packing& packing, const DatagramMessage& message) {
     const std::size_t bytes = FramedBytes(message.bytes.size, message.reliable);
-    if (packing.writer.bytes() + bytes > kDatagramBytesMax) Emit(packing);
-    packing.writer.Append(message);
+    if (writer.bytes() + bytes > kDatagramBytesMax) Emit(packing);
+    writer.Append(message);
   }
 
   /// Whether a datagram goes out even without messages.
@@ -144,19 +155,20 @@ struct Link::Impl {
   }
 
   void Flush(std::int64_t now_us, const Sink& send) {
-    Packing packing{now_us, send, AckPoints()};
+    FindAckPoints();
+    Packing packing{now_us, send};
     const bool rides = !unreliable.empty() || OwesDatagram(now_us);
     reliable.Take(now_us, rides, [&](std::int64_t id, ByteView message) {
       Pack(packing, {true, static_cast<std::uint16_t>(id), message});
-      packing.ids.push_back(id);
+      carried.ids.push_back(id);
     });
     for (const Passing& message : unreliable) {
       Pack(packing, {false, 0, message.bytes});
-      if (message.receipt.slot >= 0) packing.receipts.push_back(message.receipt);
+      if (message.receipt.slot >= 0) carried.receipts.push_back(message.receipt);
     }
     unreliable.clear();
-    if (!packing.writer.empty() || OwesDatagram(now_us)) Emit(packing);
-    while (packing.datagrams > 0 && packing.datagrams < packing.acks.size()) Emit(packing);
+    if (!writer.empty() || OwesDatagram(now_us)) Emit(packing);
+    while (packing.datagrams > 0 && packing.datagrams < acks.size()) Emit(packing);
     if (packing.datagrams > 0) flushed_newest = window.newest();
   }
 
@@ -183,6 +195,18 @@ struct Link::Impl {
       if (receipt.slot == kListedSlot) listed.push_back(receipt.number);
     }
     for (const std::int64_t id : record.ids) reliable.NoteAcked(id);
+    Spare(&record);
+  }
+
+  /// Nobody asks any more what it carried.
+  void Spare(SentRecord* record) {
+    record->ids.clear();
+    record->receipts.clear();
+    const bool worth = record->ids.capacity() + record->receipts.capacity() > 0;
+    if (!worth || spare.size() >= kSpareMost) return;
+    spare.emplace_back();
+    spare.back().ids.swap(record->ids);
+    spare.back().receipts.swap(record->receipts);
   }
 
   /// Whether the datagram is one of the last that are known to have arrived; then it is one. Each
@@ -211,7 +235,7 @@ struct Link::Impl {
     }
   }
 
-  bool IdsInWindow(const std::vector<DatagramMessage>& messages) const {
+  bool IdsInWindow() const {
     return std::all_of(messages.begin(), messages.end(), [this](const DatagramMessage& message) {
       return !message.reliable || Unwrap(message.id, next_in) - next_in < kReliableWindow;
     });
@@ -223,6 +247,10 @@ struct Link::Impl {
     // What is repeated was acknowledged, by a datagram that may have been lost.
     ack_owed = ack_owed || !repeated || now_us - last_send_us >= kLateUsMin;
     if (repeated) return;
+    if (id == next_in && early.empty()) {
+      ++next_in;
+      return deliver(message.bytes);
+    }
     early.emplace(id, Bytes(message.bytes.begin(), message.bytes.end()));
     while (!early.empty() && early.begin()->first == next_in) {
       deliver(early.extract(next_in++).mapped());
@@ -242,9 +270,8 @@ struct Link::Impl {
     if (!ReadHeader(datagram, &header) || !Authentic(header)) return false;
     const std::int64_t number = window.Full(header.sequence);
     const std::int64_t ack = Unwrap(header.ack, sequence);
-    std::vector<DatagramMessage> messages;
     if (!window.IsNew(number) || ack > sequence) return false;
-    if (!ReadMessages(datagram, &messages) || !IdsInWindow(messages)) return false;
+    if (!ReadMessages(datagram, &messages) || !IdsInWindow()) return false;
     if (!gate(messages.size())) return false;
     window.Insert(number);
     last_receive_us = now_us;

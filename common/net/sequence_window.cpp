@@ -36,11 +36,13 @@ void SequenceWindow::Insert(std::int64_t number) {
 }
 
 std::uint32_t SequenceWindow::BitsBefore(std::int64_t number) const {
-  std::uint32_t bits = 0;
-  for (int i = 0; i < 32; ++i) {
-    if (Has(number - 1 - i)) bits |= 1u << i;
-  }
-  return bits;
+  // Of numbers beyond the newest one none has arrived.
+  const std::int64_t age = newest_ - (number - 1);
+  if (empty_ || age <= -32 || age >= kSize) return 0;
+  const std::bitset<kSize> low32(0xffffffffu);
+  if (age < 0) return static_cast<std::uint32_t>((arrived_ & low32).to_ulong() << -age);
+  const auto shift = static_cast<std::size_t>(age);
+  return static_cast<std::uint32_t>((arrived_ >> shift & low32).to_ulong());
 }
 
 std::int64_t SequenceWindow::loss_ppm() const {

@@ -58,7 +58,9 @@ void BodyMemory::NoteContacts(const AuthorityTable& table) {
 
 void BodyMemory::Record() {
   history_.Begin(world_.tick());
-  for (const int body : tended_) *history_.At(world_.tick(), body) = world_.Read(body);
+  if (tended_.empty()) return;
+  BodyState* const now = history_.At(world_.tick(), 0);  // of all bodies, one after the other
+  for (const int body : tended_) now[body] = world_.Read(body);
 }
 
 /// All of them.

@@ -15,6 +15,7 @@ class PeerSet {
   void Add(int peer) { peers_.set(At(peer)); }
   void Remove(int peer) { peers_.reset(At(peer)); }
   void Add(const PeerSet& others) { peers_ |= others.peers_; }
+  bool empty() const { return peers_.none(); }
   int size() const { return static_cast<int>(peers_.count()); }
   bool operator==(const PeerSet& o) const { return peers_ == o.peers_; }
   bool operator!=(const PeerSet& o) const { return peers_ != o.peers_; }

@@ -85,10 +85,10 @@ std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const Situatio
 }
 
 void AuthorityManager::Plan(std::int64_t now_us, const Situation& situation) {
-  AuthorityView view = Look(situation);
-  LookAtCapacity(now_us, situation, &view);
-  plan_ = PlanAuthority(view);
-  replica_.LeaveUnwatched(Unwatched(view));
+  Look(situation);
+  LookAtCapacity(now_us, situation, &view_);
+  plan_ = PlanAuthority(view_);
+  replica_.LeaveUnwatched(Unwatched(view_));
   for (int m = 0; m < table().count(); ++m) {
     const PlannedAuthority& planned = plan_[static_cast<std::size_t>(m)];
     const AuthorityRecord& record = table().at(m);

@@ -115,8 +115,8 @@ class AuthorityManager {
   };
 
   const AuthorityTable& table() const { return replica_.authority(); }
-  /// What planning sees (authority_view.cpp).
-  AuthorityView Look(const Situation& situation);
+  /// Fills in what planning sees (authority_view.cpp).
+  void Look(const Situation& situation);
   void LookAtMechanisms(AuthorityView* view);
   void LookAtCapacity(std::int64_t now_us, const Situation& situation, AuthorityView* view);
   void Plan(std::int64_t now_us, const Situation& situation);
@@ -144,6 +144,7 @@ class AuthorityManager {
   const bool physics_edits_;
   const bool islands_;
   AuthorityPlan plan_;  // the last one
+  AuthorityView view_;  // what it saw: its memory is used again
   CapacityWatch capacity_;
   std::vector<int> restricted_;  // parts that not everybody may push
   bool sort_open_ = false;

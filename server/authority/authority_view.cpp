@@ -25,8 +25,11 @@ std::vector<int> RestrictedParts(const Scene& scene) {
   return restricted;
 }
 
-AuthorityView AuthorityManager::Look(const Situation& situation) {
-  AuthorityView view;
+void AuthorityManager::Look(const Situation& situation) {
+  AuthorityView& view = view_;
+  view.players.clear();
+  view.mechanisms.clear();
+  view.boxes.clear();
   view.mode = config_.mode;
   view.tick_hz = config_.tick_hz;
   view.buffer_m = scene_.buffer_m;
@@ -60,7 +63,6 @@ AuthorityView AuthorityManager::Look(const Situation& situation) {
     view.mechanisms[static_cast<std::size_t>(mechanism)].may_have &=
         world.scene().parts[static_cast<std::size_t>(id)].rules->push;
   }
-  return view;
 }
 
 void AuthorityManager::LookAtCapacity(std::int64_t now_us, const Situation& situation,

@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "common/base/sort_keys.h"
 #include "common/sync/reach/zones.h"
-#include "server/authority/sort_keys.h"
 
 namespace seam {
 

@@ -92,7 +92,7 @@ std::vector<Grants> GrantNews::Owed(int peer, const std::vector<int>& mechanisms
     const auto m = static_cast<std::size_t>(mechanism);
     if (!any_owed_[m] || !owed_[m].Has(peer)) continue;
     owed_[m].Remove(peer);
-    any_owed_[m] = owed_[m].size() > 0;
+    any_owed_[m] = !owed_[m].empty();
     merged_[m] = merged_[m] && any_owed_[m];
     Add(peer, mechanism, replica_.authority().at(mechanism), &out);
   }

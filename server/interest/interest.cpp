@@ -26,30 +26,51 @@ Interest::Interest(const Scene& scene, const SyncConfig& config, const Replica& 
 
 void Interest::Remap() {
   concern_.clear();
-  small_ = replica_.world().body_count() <= scene_.follow_bodies;
+  const World& world = replica_.world();
+  by_mechanism_.clear();
+  for (int body = 0; body < world.body_count(); ++body) {
+    by_mechanism_.emplace_back(world.mechanism(body), body);
+  }
+  std::sort(by_mechanism_.begin(), by_mechanism_.end());
+  small_ = world.body_count() <= scene_.follow_bodies;
 }
 
-Interest::Cells Interest::CellsOf(float side) const {
+void Interest::FindCells(float side, Cells* cells) {
   const World& world = replica_.world();
-  std::vector<std::pair<std::uint64_t, int>> all;  // cell, mechanism
-  all.reserve(static_cast<std::size_t>(world.body_count()));
-  for (int body = 0; body < world.body_count(); ++body) {
-    const Vec2 at = world.Read(body).position;
-    all.emplace_back(Key(CellOf(at.x(), side), CellOf(at.y(), side)), world.mechanism(body));
+  const std::size_t count = by_mechanism_.size();
+  places_.resize(count);
+  order_.resize(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Vec2 at = world.Read(by_mechanism_[i].second).position;
+    places_[i] = {CellOf(at.x(), side), CellOf(at.y(), side)};
   }
-  std::sort(all.begin(), all.end());
-  all.erase(std::unique(all.begin(), all.end()), all.end());
-  Cells cells;
-  cells.mechanisms.reserve(all.size());
-  for (const auto& [key, mechanism] : all) {
-    if (cells.keys.empty() || cells.keys.back() != key) {
-      cells.keys.push_back(key);
-      cells.begin.push_back(static_cast<int>(cells.mechanisms.size()));
+  const auto by = [](std::int32_t key, std::size_t i) {
+    return static_cast<SortKey>(static_cast<std::uint32_t>(key)) << 32 | i;
+  };
+  // By x, then y, then mechanism, the last first: what is alike stays in its order.
+  for (std::size_t i = 0; i < count; ++i) order_[i] = by(places_[i].second, i);
+  SortByKey(&order_, &spare_);
+  for (SortKey& key : order_) {
+    const auto i = static_cast<std::size_t>(key & 0xffffffffu);
+    key = by(places_[i].first, i);
+  }
+  SortByKey(&order_, &spare_);
+  cells->keys.clear();
+  cells->begin.clear();
+  cells->mechanisms.clear();
+  for (const SortKey sorted : order_) {
+    const auto i = static_cast<std::size_t>(sorted & 0xffffffffu);
+    const std::uint64_t key = Key(places_[i].first, places_[i].second);
+    const int mechanism = by_mechanism_[i].first;
+    if (cells->keys.empty() || cells->keys.back() != key) {
+      cells->keys.push_back(key);
+      cells->begin.push_back(static_cast<int>(cells->mechanisms.size()));
+    } else if (cells->mechanisms.back() == mechanism) {
+      continue;
     }
-    cells.mechanisms.push_back(mechanism);
+    cells->mechanisms.push_back(mechanism);
   }
-  cells.begin.push_back(static_cast<int>(cells.mechanisms.size()));
-  return cells;
+  cells->begin.push_back(static_cast<int>(cells->mechanisms.size()));
 }
 
 void Interest::FindThings(const Receiver& receiver) {
@@ -65,15 +86,26 @@ void Interest::FindThings(const Receiver& receiver) {
   }
 }
 
-void Interest::Note(const Receiver& receiver, int mechanism, Concern to) {
+void Interest::Note(const Receiver& receiver, const int* begin, const int* end, Concern to) {
   const auto peer = static_cast<std::size_t>(receiver.peer);
-  const auto m = static_cast<std::size_t>(mechanism);
-  Concern& now = concern_[peer * stride_ + m];
-  if (now == Concern::kNone) {
-    noted_[peer].push_back(mechanism);
-    hearing_[m].push_back(receiver.peer);
+  Concern* const row = &concern_[peer * stride_];
+  std::vector<int>& noted = noted_[peer];
+  for (; begin != end; ++begin) {
+    Concern& now = row[*begin];
+    if (now >= to) continue;
+    if (now == Concern::kNone) {
+      noted.push_back(*begin);
+      hearing_[static_cast<std::size_t>(*begin)].push_back(receiver.peer);
+    }
+    if (now < Concern::kNear && to >= Concern::kNear) {
+      hearing_near_[static_cast<std::size_t>(*begin)].push_back(receiver.peer);
+    }
+    now = to;
   }
-  now = std::max(now, to);
+}
+
+void Interest::NoteAll(const Receiver& receiver, Concern to) {
+  for (int m = 0; m < static_cast<int>(stride_); ++m) Note(receiver, &m, &m + 1, to);
 }
 
 void Interest::Raise(const Receiver& receiver, const Cells& cells, float side, Concern to) {
@@ -92,9 +124,8 @@ void Interest::Raise(const Receiver& receiver, const Cells& cells, float side, C
     const auto found = std::lower_bound(cells.keys.begin(), cells.keys.end(), key);
     if (found == cells.keys.end() || *found != key) continue;
     const auto cell = static_cast<std::size_t>(found - cells.keys.begin());
-    for (int i = cells.begin[cell]; i < cells.begin[cell + 1]; ++i) {
-      Note(receiver, cells.mechanisms[static_cast<std::size_t>(i)], to);
-    }
+    const int* const all = cells.mechanisms.data();
+    Note(receiver, all + cells.begin[cell], all + cells.begin[cell + 1], to);
   }
 }
 
@@ -120,6 +151,8 @@ void Interest::Begin(std::size_t peers, std::size_t mechanisms) {
   for (std::vector<int>& held : held_) held.clear();
   hearing_.resize(mechanisms);
   for (std::vector<int>& hearing : hearing_) hearing.clear();
+  hearing_near_.resize(mechanisms);
+  for (std::vector<int>& hearing : hearing_near_) hearing.clear();
 }
 
 void Interest::FindRisen(const Receiver& receiver, std::vector<Risen>* risen) const {
@@ -138,8 +171,7 @@ std::vector<Interest::Risen> Interest::Look(const std::vector<Receiver>& receive
   int highest = 0;
   for (const Receiver& receiver : receivers) highest = std::max(highest, receiver.peer);
   const std::size_t peers = static_cast<std::size_t>(highest) + 1;
-  const int mechanisms = static_cast<int>(world.composition().mechanisms.size());
-  Begin(peers, static_cast<std::size_t>(mechanisms));
+  Begin(peers, world.composition().mechanisms.size());
   for (int body = 0; body < world.body_count(); ++body) {
     const auto holder =
         static_cast<std::size_t>(replica_.authority().at(world.mechanism(body)).authority);
@@ -147,20 +179,21 @@ std::vector<Interest::Risen> Interest::Look(const std::vector<Receiver>& receive
   }
   const bool central = config_.mode == Mode::kCentral;
   const float hear = scene_.planner->hear;
-  const Cells far = CellsOf(hear), near = CellsOf(kNearReach);
-  const Cells close = central ? CellsOf(kCloseReach) : Cells{};
+  FindCells(hear, &far_);
+  FindCells(kNearReach, &near_);
+  if (central) FindCells(kCloseReach, &close_);
   std::vector<Risen> risen;
   for (const Receiver& receiver : receivers) {
     looked_[static_cast<std::size_t>(receiver.peer)] = 1;
     if (receiver.player < 0) {
-      for (int m = 0; m < mechanisms; ++m) Note(receiver, m, Concern::kNear);
+      NoteAll(receiver, Concern::kNear);
     } else {
       FindThings(receiver);
       // Who has nothing at all may look anywhere.
-      for (int m = 0; things_.empty() && m < mechanisms; ++m) Note(receiver, m, Concern::kFar);
-      Raise(receiver, far, hear, Concern::kFar);
-      Raise(receiver, near, kNearReach, Concern::kNear);
-      if (central) Raise(receiver, close, kCloseReach, Concern::kClose);
+      if (things_.empty()) NoteAll(receiver, Concern::kFar);
+      Raise(receiver, far_, hear, Concern::kFar);
+      Raise(receiver, near_, kNearReach, Concern::kNear);
+      if (central) Raise(receiver, close_, kCloseReach, Concern::kClose);
     }
     FindRisen(receiver, &risen);
   }

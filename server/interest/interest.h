@@ -3,9 +3,11 @@
 /// concerns it less.
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "common/sync/replica.h"
+#include "common/base/sort_keys.h"
 
 namespace seam {
 
@@ -49,6 +51,10 @@ class Interest {
   const std::vector<int>& Hearing(int mechanism) const {
     return hearing_[static_cast<std::size_t>(mechanism)];
   }
+  /// Of those: the receivers to whom it is at least near.
+  const std::vector<int>& HearingNear(int mechanism) const {
+    return hearing_near_[static_cast<std::size_t>(mechanism)];
+  }
   /// Whether all is close to everyone.
   bool small() const { return small_; }
   /// The mechanisms have changed: in a large room all is near until the next Look.
@@ -64,11 +70,13 @@ class Interest {
     std::vector<int> begin;           // by cell: where it begins in mechanisms; one more at the end
     std::vector<int> mechanisms;
   };
-  Cells CellsOf(float side) const;
+  void FindCells(float side, Cells* cells);
   /// What is in the cells of the receiver's things and in those beside them concerns it so much.
   void Raise(const Receiver& receiver, const Cells& cells, float side, Concern to);
   void FindThings(const Receiver& receiver);
-  void Note(const Receiver& receiver, int mechanism, Concern to);
+  /// These mechanisms concern the receiver at least so much.
+  void Note(const Receiver& receiver, const int* begin, const int* end, Concern to);
+  void NoteAll(const Receiver& receiver, Concern to);
   void Begin(std::size_t peers, std::size_t mechanisms);
   /// What concerns a receiver more than in the Look before.
   void FindRisen(const Receiver& receiver, std::vector<Risen>* risen) const;
@@ -83,9 +91,15 @@ class Interest {
   std::vector<std::vector<int>> noted_, noted_before_;  // by peer: mechanisms of at least kFar
   std::vector<char> looked_, looked_before_;            // by peer: was a receiver
   std::vector<std::vector<int>> hearing_;               // by mechanism: peers
+  std::vector<std::vector<int>> hearing_near_;          // the same
   std::vector<std::vector<int>> held_;           // by peer, in a Look: bodies it has authority over
   std::vector<int> things_;                      // of the receiver at hand: bodies
   std::vector<std::uint64_t> centres_, around_;  // cells: with its things, and beside them
+  Cells far_, near_, close_;                     // of a Look
+  std::vector<std::pair<int, int>> by_mechanism_;  // mechanism, body; ascending
+  // For FindCells: the cell of each of those, and their order.
+  std::vector<std::pair<std::int32_t, std::int32_t>> places_;
+  std::vector<SortKey> order_, spare_;
 };
 
 }  // namespace seam

@@ -64,23 +64,21 @@ bool NewestStates::IsNews(const Body& body, const HeardState& told, const NewsRu
   return off > rule.off;
 }
 
-const std::vector<News>& NewestStates::Take(const States& states, double repeat_s) {
+const std::vector<NewestStates::Told>& NewestStates::Take(const States& states, double repeat_s) {
   const std::size_t count = states.id.size();
-  news_.assign(count, News::kNobody);
+  told_.assign(count, Told{});
   together_.resize(world_.composition().mechanisms.size(), News::kNobody);
-  const auto mechanism = [&](std::size_t i) {
-    const int body = world_.BodyOfId(states.id[i]);
-    return body < 0 ? -1 : world_.mechanism(body);
-  };
   for (std::size_t i = 0; i < count; ++i) {
     const auto id = static_cast<std::size_t>(states.id[i]);
     if (bodies_.size() <= id) bodies_.resize(id + 1);
+    Told& told = told_[i];
+    told.body = world_.BodyOfId(states.id[i]);
+    if (told.body < 0) continue;
+    told.mechanism = world_.mechanism(told.body);
     Body& body = bodies_[id];
-    const int m = mechanism(i);
-    if (m < 0) continue;
     body.heard = Entry(states, i);
-    if (body.reach < 0) body.reach = ReachOf(world_, world_.BodyOfId(states.id[i]));
-    News& news = together_[static_cast<std::size_t>(m)];
+    if (body.reach < 0) body.reach = ReachOf(world_, told.body);
+    News& news = together_[static_cast<std::size_t>(told.mechanism)];
     if (IsNews(body, body.far, kFarNews, repeat_s)) {
       news = News::kAll;
     } else if (news == News::kNobody && IsNews(body, body.near, kNearNews, repeat_s)) {
@@ -88,18 +86,17 @@ const std::vector<News>& NewestStates::Take(const States& states, double repeat_
     }
   }
   for (std::size_t i = 0; i < count; ++i) {
-    const int m = mechanism(i);
-    if (m < 0) continue;
+    Told& told = told_[i];
+    if (told.body < 0) continue;
     Body& body = bodies_[static_cast<std::size_t>(states.id[i])];
-    news_[i] = together_[static_cast<std::size_t>(m)];
-    if (news_[i] >= News::kNear) body.near = body.heard;
-    if (news_[i] == News::kAll) body.far = body.heard;
+    told.news = together_[static_cast<std::size_t>(told.mechanism)];
+    if (told.news >= News::kNear) body.near = body.heard;
+    if (told.news == News::kAll) body.far = body.heard;
   }
-  for (std::size_t i = 0; i < count; ++i) {
-    const int m = mechanism(i);
-    if (m >= 0) together_[static_cast<std::size_t>(m)] = News::kNobody;
+  for (const Told& told : told_) {
+    if (told.body >= 0) together_[static_cast<std::size_t>(told.mechanism)] = News::kNobody;
   }
-  return news_;
+  return told_;
 }
 
 void NewestStates::Remap(const std::vector<BodyOrigin>& bodies) {

@@ -52,10 +52,15 @@ class NewestStates {
   /// `world` must outlive it.
   NewestStates(const World& world, int tick_hz) : world_(world), tick_hz_(tick_hz) {}
 
-  /// Takes a message; by its entries, whom they are news to. All of a mechanism that are in it are
-  /// news together, as they are shown as one.
+  /// An entry of a message: which body it is of, and whom it is news to.
+  struct Told {
+    int body = -1, mechanism = -1;  ///< -1: it has left meanwhile
+    News news = News::kNobody;
+  };
+  /// Takes a message; by its entries, what it told. All of a mechanism that are in it are news
+  /// together, as they are shown as one.
   /// `repeat_s`: of what moves, s after which it is told in any case.
-  const std::vector<News>& Take(const States& states, double repeat_s = kNewsRepeat);
+  const std::vector<Told>& Take(const States& states, double repeat_s = kNewsRepeat);
   /// Of an assembly. Requires that it has been heard of.
   const HeardState& at(PartId id) const { return bodies_[static_cast<std::size_t>(id)].heard; }
   bool has(PartId id) const {
@@ -76,7 +81,7 @@ class NewestStates {
   const World& world_;
   const int tick_hz_;
   std::vector<Body> bodies_;    // by part
-  std::vector<News> news_;      // of the last message
+  std::vector<Told> told_;      // of the last message
   std::vector<News> together_;  // by mechanism, in Take
 };
 

@@ -14,46 +14,39 @@ constexpr std::int32_t kReach = 60 * kQuantaPerMetre;
 /// Bytes that a message costs besides its bodies: with the headers of link and datagram.
 constexpr double kMessageCost = static_cast<double>(kStatesBytes.empty) + 30;
 
-/// Whether a state can be in the message.
-bool Fits(const States& message, const HeardState& state) {
-  return message.id.size() < kStatesBodiesMax && message.peer == state.peer &&
-         message.tick == state.tick && message.revision == state.revision &&
-         message.composition == state.composition &&
-         std::abs(state.x - message.origin_x * kQuantaPerMetre) < kReach &&
-         std::abs(state.y - message.origin_y * kQuantaPerMetre) < kReach;
+/// Of what the bodies of a message have to be, beside who and when: near its first one.
+struct Origin {
+  std::int32_t x, y;
+
+  explicit Origin(const HeardState& first)
+      : x(first.x / kQuantaPerMetre * kQuantaPerMetre),
+        y(first.y / kQuantaPerMetre * kQuantaPerMetre) {}
+  bool Reaches(const HeardState& state) const {
+    return std::abs(state.x - x) < kReach && std::abs(state.y - y) < kReach;
+  }
+};
+
+PackedHeader HeaderOf(const HeardState& state) {
+  return {state.peer, state.tick, state.revision, state.composition};
 }
 
-void Begin(const HeardState& state, States* message) {
-  message->peer = state.peer;
-  message->tick = state.tick;
-  message->revision = state.revision;
-  message->composition = state.composition;
-  message->origin_x = state.x / kQuantaPerMetre;
-  message->origin_y = state.y / kQuantaPerMetre;
+bool Same(const PackedHeader& a, const PackedHeader& b) {
+  return a.peer == b.peer && a.tick == b.tick && a.revision == b.revision &&
+         a.composition == b.composition;
 }
 
-void Clear(States* message) {
-  message->id.clear();
-  message->epoch.clear();
-  message->flags.clear();
-  message->x.clear();
-  message->y.clear();
-  message->angle.clear();
-  message->vx.clear();
-  message->vy.clear();
-  message->spin.clear();
-}
-
-void Append(PartId id, const HeardState& state, States* message) {
-  message->id.push_back(static_cast<decltype(message->id)::value_type>(id));
-  message->epoch.push_back(state.epoch);
-  message->flags.push_back(state.flags);
-  message->x.push_back(static_cast<std::int16_t>(state.x - message->origin_x * kQuantaPerMetre));
-  message->y.push_back(static_cast<std::int16_t>(state.y - message->origin_y * kQuantaPerMetre));
-  message->angle.push_back(state.angle);
-  message->vx.push_back(state.vx);
-  message->vy.push_back(state.vy);
-  message->spin.push_back(state.spin);
+PackedState Packed(const HeardState& state) {
+  PackedState packed;
+  packed.tick = state.tick;
+  packed.epoch = state.epoch;
+  packed.x = static_cast<std::uint32_t>(state.x);
+  packed.y = static_cast<std::uint32_t>(state.y);
+  packed.angle = state.angle;
+  packed.vx = state.vx;
+  packed.vy = state.vy;
+  packed.spin = state.spin;
+  packed.flags = state.flags;
+  return packed;
 }
 
 }  // namespace
@@ -112,22 +105,25 @@ bool Outbox::Place::operator<(const Place& o) const {
   return std::tie(peer, tick, id) < std::tie(o.peer, o.tick, o.id);
 }
 
-/// An empty one at the end of composed_.
-States& Outbox::AddMessage() {
-  if (spare_.empty()) {
-    composed_.emplace_back();
-  } else {
-    composed_.push_back(std::move(spare_.back()));
-    spare_.pop_back();
+void Outbox::ComposeInOrder(const NewestStates& newest) {
+  bodies_.resize(order_.size());  // pointers into it hold
+  Origin origin{HeardState{}};
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const PartId id = order_[i].id;
+    const HeardState& state = newest.at(id);
+    const PackedHeader header = HeaderOf(state);
+    const bool fits = !composed_.empty() && composed_.back().size() < kStatesBodiesMax &&
+                      Same(composed_.back().header, header) && origin.Reaches(state);
+    if (!fits) {
+      origin = Origin(state);
+      composed_.push_back({header, &bodies_[i], &bodies_[i]});
+    }
+    bodies_[i] = {static_cast<std::int32_t>(id), Packed(state)};
+    ++composed_.back().end;
   }
-  return composed_.back();
 }
 
-const std::vector<States>& Outbox::Compose(std::int64_t now_us, const NewestStates& newest) {
-  for (States& told : composed_) {
-    Clear(&told);
-    spare_.push_back(std::move(told));
-  }
+const std::vector<Outbox::Message>& Outbox::Compose(std::int64_t now_us, const NewestStates& newest) {
   composed_.clear();
   std::size_t count = waiting_.size();
   if (bytes_per_s_ > 0) count = Affordable(now_us);
@@ -141,11 +137,7 @@ const std::vector<States>& Outbox::Compose(std::int64_t now_us, const NewestStat
     order_.push_back({state.peer, state.tick, id});
   }
   std::sort(order_.begin(), order_.end());
-  for (const Place& place : order_) {
-    const HeardState& state = newest.at(place.id);
-    if (composed_.empty() || !Fits(composed_.back(), state)) Begin(state, &AddMessage());
-    Append(place.id, state, &composed_.back());
-  }
+  ComposeInOrder(newest);
   waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
   pressing_ = false;
   for (std::size_t i = 0; i < waiting_.size(); ++i) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "common/codec/messages.h"
+#include "common/codec/packed/packing.h"
 #include "common/sync/limits.h"
 #include "server/interest/newest_states.h"
 
@@ -26,10 +27,15 @@ class Outbox {
   void Add(std::int64_t now_us, PartId id, Urgency urgency);
   /// So many bytes went to it, of whatever.
   void Spend(std::size_t bytes) { credit_ -= static_cast<double>(bytes); }
+  /// What one message tells: of one authority and tick, within the reach of one origin.
+  struct Message {
+    PackedHeader header;
+    const PackedEntry *begin = nullptr, *end = nullptr;  ///< ids ascend
+    std::size_t size() const { return static_cast<std::size_t>(end - begin); }
+  };
   /// Messages with the most urgent of what waits, as many as the budget allows now; the rest waits
-  /// on. utime is left 0.
-  /// They hold until the next call.
-  const std::vector<States>& Compose(std::int64_t now_us, const NewestStates& newest);
+  /// on. They hold until the next call.
+  const std::vector<Message>& Compose(std::int64_t now_us, const NewestStates& newest);
   bool empty() const { return waiting_.empty(); }
   /// Of what is nothing to the receiver: the last mechanism that had its turn, and since when turns
   /// have been taken from the first on, us. For who adds them.
@@ -61,7 +67,8 @@ class Outbox {
     bool operator<(const Place& o) const;
   };
   void Fill(std::int64_t now_us);
-  States& AddMessage();
+  /// Of order_.
+  void ComposeInOrder(const NewestStates& newest);
   /// The first so many of what waits, once ordered, fit the budget.
   std::size_t Affordable(std::int64_t now_us);
 
@@ -70,7 +77,8 @@ class Outbox {
   std::int64_t filled_us_ = -1;
   std::vector<Waiting> waiting_;
   bool pressing_ = false;
-  std::vector<States> composed_, spare_;  // of the last Compose; and empty ones
+  std::vector<Message> composed_;   // of the last Compose
+  std::vector<PackedEntry> bodies_;  // of its messages
   std::vector<Place> order_;
   std::vector<std::int32_t> place_;  // by part: in waiting_, -1: it does not wait
   double each_ = static_cast<double>(kStatesBytes.each);  // bytes of a body, as it was lately

@@ -29,7 +29,7 @@ class NewestStatesTest : public ::testing::Test {
     states.x = {static_cast<std::int16_t>(std::lround(512 * x))};
     states.vx = {static_cast<std::int16_t>(std::lround(256 * vx))};
     states.y = states.angle = states.vy = states.spin = {0};
-    return newest_.Take(states, repeat_s)[0];
+    return newest_.Take(states, repeat_s)[0].news;
   }
 
   World world_;

@@ -6,8 +6,8 @@
 
 #include <algorithm>
 #include <set>
+#include <utility>
 
-#include "common/codec/codec.h"
 #include "common/scene/scene.h"
 
 namespace seam {
@@ -15,6 +15,11 @@ namespace {
 
 constexpr int kBodies = 200;
 constexpr std::int64_t kTickUs = 16667;
+
+/// As a States, which is what a budget counts with at first.
+std::size_t BytesOf(const Outbox::Message& message) {
+  return kStatesBytes.empty + kStatesBytes.each * message.size();
+}
 
 class OutboxTest : public ::testing::Test {
  protected:
@@ -51,12 +56,13 @@ TEST_F(OutboxTest, WithoutABudgetAllGoesAtOnceInMessagesThatFit) {
   Outbox outbox(0);
   for (int id = 0; id < kBodies; ++id) outbox.Add(0, id, Urgency::kFar);
   std::set<int> told;
-  for (const States& states : outbox.Compose(0, newest_)) {
-    EXPECT_LE(states.id.size(), kStatesBodiesMax);
-    EXPECT_TRUE(std::is_sorted(states.id.begin(), states.id.end()));
-    for (std::size_t i = 0; i < states.id.size(); ++i) {
-      EXPECT_EQ(states.x[i], states.id[i]) << "it tells of that body";
-      told.insert(states.id[i]);
+  for (const Outbox::Message& message : outbox.Compose(0, newest_)) {
+    EXPECT_LE(message.size(), kStatesBodiesMax);
+    int before = -1;
+    for (const PackedEntry* body = message.begin; body != message.end; ++body) {
+      EXPECT_GT(body->id, std::exchange(before, body->id));
+      EXPECT_EQ(static_cast<int>(body->state.x), body->id) << "it tells of that body";
+      told.insert(body->id);
     }
   }
   EXPECT_EQ(told.size(), static_cast<std::size_t>(kBodies));
@@ -74,11 +80,13 @@ TEST_F(OutboxTest, ABudgetIsKeptTheUrgentGoesFirstAndAllGoesInTheEnd) {
   std::size_t bytes = 0;
   std::int64_t now_us = 0;
   for (; !outbox.empty() && now_us < 10'000'000; now_us += kTickUs) {
-    for (const States& states : outbox.Compose(now_us, newest_)) {
-      const std::size_t size = Encode(states).size();
+    for (const Outbox::Message& message : outbox.Compose(now_us, newest_)) {
+      const std::size_t size = BytesOf(message);
       outbox.Spend(size);
       bytes += size;
-      told.insert(told.end(), states.id.begin(), states.id.end());
+      for (const PackedEntry* body = message.begin; body != message.end; ++body) {
+        told.push_back(body->id);
+      }
     }
     const auto followed =
         std::count_if(told.begin(), told.end(), [](int id) { return id % 10 == 3; });
@@ -104,9 +112,11 @@ TEST_F(OutboxTest, WhatIsRaisedWhileItWaitsIsThatBody) {
   for (int id = 7; id < kBodies; id += 20) raised.insert(id);
   for (const int id : raised) outbox.Add(now_us, id, Urgency::kFollowed);
   for (; told.size() < raised.size() && now_us < 10'000'000; now_us += kTickUs) {
-    for (const States& states : outbox.Compose(now_us, newest_)) {
-      outbox.Spend(Encode(states).size());
-      told.insert(states.id.begin(), states.id.end());
+    for (const Outbox::Message& message : outbox.Compose(now_us, newest_)) {
+      outbox.Spend(BytesOf(message));
+      for (const PackedEntry* body = message.begin; body != message.end; ++body) {
+        told.insert(body->id);
+      }
     }
   }
   for (const int id : raised) EXPECT_EQ(told.count(id), 1u) << id;

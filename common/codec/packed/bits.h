@@ -26,32 +26,46 @@ class BitWriter {
   /// Of `value` the lowest `width` bits; 0..32.
   void Put(std::uint64_t value, int width) {
     held_ = held_ << width | (value & ((std::uint64_t{1} << width) - 1));
-    for (bits_ += width; bits_ >= 8; bits_ -= 8) {
-      bytes_.push_back(static_cast<std::uint8_t>(held_ >> (bits_ - 8)));
-    }
+    bits_ += width;
+    if (bits_ >= 32) PutHeld();
   }
   /// `value` in exponential Golomb code with parameter `k`, 0..16: k + 1 bits if it is below 2^k.
-  void PutGolomb(std::uint32_t value, int k) {
+  __attribute__((always_inline)) void PutGolomb(std::uint32_t value, int k) {
     const std::uint64_t shifted = value + (std::uint64_t{1} << k);
     const int rest = BitWidth(shifted) - 1;  // bits behind the leading one
-    Put(0, rest - k);
-    Put(1, 1);
+    const int zeros = rest - k;
+    if (__builtin_expect(zeros + 1 + rest <= 32, 1)) return Put(shifted, zeros + 1 + rest);
+    Put(0, zeros);
+    Put(shifted >> rest, 1);
     Put(shifted, rest);
   }
   /// Bytes so far, with the last begun one.
-  std::size_t size() const { return bytes_.size() + (bits_ > 0 ? 1 : 0); }
+  std::size_t size() const { return size_ + static_cast<std::size_t>(bits_ + 7) / 8; }
   /// All of it, the last byte filled with zeros; begins anew.
   Bytes Finish() {
-    if (bits_ > 0) Put(0, 8 - bits_);
-    Bytes out;
-    out.swap(bytes_);
+    const std::size_t bytes = size();
+    Put(0, (32 - bits_) % 32);
+    Bytes out(bytes_.begin(), bytes_.begin() + static_cast<std::ptrdiff_t>(bytes));
+    size_ = 0;
     return out;
   }
 
  private:
-  Bytes bytes_;
+  /// Four bytes at once: one at a time is most of what packing costs.
+  __attribute__((noinline)) void PutHeld() {
+    bits_ -= 32;
+    if (bytes_.size() < size_ + 4) bytes_.resize(2 * size_ + 64);
+    const std::uint64_t four = held_ >> bits_;
+    for (int i = 0; i < 4; ++i) {
+      bytes_[size_ + static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(four >> (24 - 8 * i));
+    }
+    size_ += 4;
+  }
+
+  Bytes bytes_;           // its first size_ are written; it keeps its memory
+  std::size_t size_ = 0;  // a multiple of four
   std::uint64_t held_ = 0;  // its lowest bits_ are not in bytes_ yet
-  int bits_ = 0;            // below 8
+  int bits_ = 0;            // below 32
 };
 
 /// Reads what BitWriter wrote; past the end it reads zeros and is no longer ok().

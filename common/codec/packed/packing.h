@@ -31,6 +31,19 @@ struct PackedState {
   std::int8_t flags = 0;
 };
 
+/// What a message says of all its entries: of whom and when they are.
+struct PackedHeader {
+  std::int32_t peer = 0;  ///< the authority
+  std::int64_t tick = 0;
+  std::int32_t revision = 0;
+  std::int64_t composition = 0;
+};
+/// An entry of one.
+struct PackedEntry {
+  std::int32_t id = 0;
+  PackedState state;
+};
+
 /// Fields of a PackedState that are coded as differences, in this order.
 enum PackedField { kPackedVx, kPackedVy, kPackedSpin, kPackedX, kPackedY, kPackedAngle };
 constexpr std::size_t kPackedFields = 6;

@@ -59,7 +59,7 @@ void StatesPacker::Spare(std::vector<Sent>* bodies) {
   *bodies = {};
 }
 
-void StatesPacker::Begin(const States& states) {
+void StatesPacker::Begin(const PackedHeader& header) {
   open_ = true;
   ++number_;
   if (sent_.size() >= kSentMost) {
@@ -72,25 +72,25 @@ void StatesPacker::Begin(const States& states) {
     spare_.pop_back();
   }
   context_ = PackedContext();
-  revision_ = states.revision;
-  composition_ = states.composition;
-  const auto composition = static_cast<std::uint64_t>(states.composition);
+  revision_ = header.revision;
+  composition_ = header.composition;
+  const auto composition = static_cast<std::uint64_t>(header.composition);
   bits_.Put(static_cast<std::uint64_t>(number_), 16);
-  bits_.PutGolomb(static_cast<std::uint32_t>(states.revision), 4);
+  bits_.PutGolomb(static_cast<std::uint32_t>(header.revision), 4);
   bits_.Put(composition >> 32, 32);
   bits_.Put(composition, 32);
-  bits_.Put(static_cast<std::uint64_t>(states.tick) >> 20, 20);
-  bits_.Put(static_cast<std::uint64_t>(states.tick), 20);
-  context_.tick = states.tick;
+  bits_.Put(static_cast<std::uint64_t>(header.tick) >> 20, 20);
+  bits_.Put(static_cast<std::uint64_t>(header.tick), 20);
+  context_.tick = header.tick;
 }
 
-void StatesPacker::BeginGroup(const States& states) {
+void StatesPacker::BeginGroup(const PackedHeader& header) {
   group_ = true;
   bits_.Put(1, 1);
-  bits_.PutGolomb(static_cast<std::uint32_t>(states.peer), 4);
-  const std::int64_t ticks = states.tick - context_.tick;
+  bits_.PutGolomb(static_cast<std::uint32_t>(header.peer), 4);
+  const std::int64_t ticks = header.tick - context_.tick;
   bits_.PutGolomb(ZigZag(static_cast<std::int32_t>(ticks)), 0);
-  context_.tick = states.tick;
+  context_.tick = header.tick;
   context_.id = -1;
   context_.id_gap = 0;
 }
@@ -168,23 +168,36 @@ void StatesPacker::AddBody(const PackedState& state, std::int32_t id) {
   sent_.back().push_back({id, ++known.sent, state});
 }
 
+void StatesPacker::AddEntry(const PackedHeader& header, std::int32_t id, const PackedState& state,
+                            bool* begun) {
+  if (open_ && bits_.size() + kEntryBytesMost > kPackedBytesMax) End();
+  if (!open_) {
+    Begin(header);
+    *begun = false;
+  }
+  if (!*begun) {
+    if (group_) bits_.Put(0, 1);
+    BeginGroup(header);
+    *begun = true;
+  }
+  AddBody(state, id);
+}
+
 void StatesPacker::Add(const States& states) {
-  const bool other = states.revision != revision_ || states.composition != composition_;
+  const PackedHeader header{states.peer, states.tick, states.revision, states.composition};
+  const bool other = header.revision != revision_ || header.composition != composition_;
   if (open_ && other) End();
   bool begun = false;
   for (std::size_t i = 0; i < states.id.size(); ++i) {
-    if (open_ && bits_.size() + kEntryBytesMost > kPackedBytesMax) End();
-    if (!open_) {
-      Begin(states);
-      begun = false;
-    }
-    if (!begun) {
-      if (group_) bits_.Put(0, 1);
-      BeginGroup(states);
-      begun = true;
-    }
-    AddBody(EntryOf(states, i), states.id[i]);
+    AddEntry(header, states.id[i], EntryOf(states, i), &begun);
   }
+}
+
+void StatesPacker::Add(const PackedHeader& header, const PackedEntry* begin, const PackedEntry* end) {
+  const bool other = header.revision != revision_ || header.composition != composition_;
+  if (open_ && other) End();
+  bool begun = false;
+  for (; begin != end; ++begin) AddEntry(header, begin->id, begin->state, &begun);
 }
 
 std::vector<StatesPacker::Message> StatesPacker::Take(std::int64_t now_us) {

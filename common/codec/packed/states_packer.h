@@ -26,6 +26,8 @@ class StatesPacker {
   };
   /// Adds what a States tells, but for utime and sequence.
   void Add(const States& states);
+  /// The same of these bodies, whose ids ascend; the tick of their states is the header's.
+  void Add(const PackedHeader& header, const PackedEntry* begin, const PackedEntry* end);
   bool empty() const { return !open_ && ready_.empty(); }
   /// What was added since, in its order, to be sent at `now_us`.
   std::vector<Message> Take(std::int64_t now_us);
@@ -59,8 +61,10 @@ class StatesPacker {
     std::int32_t count = 0, sent = 0;
     PackedState state;
   };
-  void Begin(const States& states);
-  void BeginGroup(const States& states);
+  void Begin(const PackedHeader& header);
+  void BeginGroup(const PackedHeader& header);
+  /// An entry of a message of whose entries `*begun` says whether any is in the open group.
+  void AddEntry(const PackedHeader& header, std::int32_t id, const PackedState& state, bool* begun);
   void End();
   void Spare(std::vector<Sent>* bodies);
   void AddBody(const PackedState& state, std::int32_t id);

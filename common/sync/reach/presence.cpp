@@ -33,6 +33,7 @@ class Sorted {
     }
   }
 
+  bool empty() const { return boxes_.empty(); }
   bool MayMeetAny(const MovingBox& box, float seconds) const {
     if (boxes_.empty()) return false;
     const float way = way_ + WayOf(box, seconds);
@@ -95,6 +96,7 @@ void Presence::Look() {
   }
   const Sorted there(std::move(simulated), kNearSeconds + kNearKeep);
   std::vector<char> near(near_.size(), 0);
+  if (there.empty()) displayed.clear();  // nothing can touch it
   for (const int body : displayed) {
     const auto m = static_cast<std::size_t>(world_.mechanism(body));
     if (near[m] != 0) continue;

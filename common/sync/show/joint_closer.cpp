@@ -27,6 +27,9 @@ struct Assembled {
   template <class PoseOf>
   Assembled(const World& world, const std::vector<int>& bodies, const std::vector<Pin>& pins,
             const PoseOf& pose_of) {
+    list.reserve(bodies.size() + 2 * pins.size());
+    states.reserve(list.capacity());
+    holds.reserve(pins.size());
     const auto add = [&](const BodyState& state, const MassPoint& mass) {
       list.emplace_back(state, mass);
       states.push_back(state);
@@ -106,32 +109,31 @@ void JointCloser::Unwind(int mechanism, std::vector<BodyState>* poses) const {
 }
 
 void JointCloser::Close(int mechanism, bool simulated, std::vector<BodyState>* poses) const {
-  Close(At(mechanism), simulated, poses);
+  Close(At(mechanism).bodies, At(mechanism).pins, simulated, poses);
 }
 
 void JointCloser::CloseMovedOn(int mechanism, const std::vector<BodyState>& from,
                                std::vector<BodyState>* poses) const {
   const Jointed& jointed = At(mechanism);
-  if (!jointed.sprung) return Close(jointed, false, poses);
+  if (!jointed.sprung) return Close(jointed.bodies, jointed.pins, false, poses);
   const Assembled then(world_, jointed.bodies, jointed.pins,
                        [&](int body) { return from[static_cast<std::size_t>(body)]; });
-  Jointed narrowed = jointed;
-  for (std::size_t i = 0; i < narrowed.pins.size(); ++i) {
+  std::vector<Pin> narrowed = jointed.pins;
+  for (std::size_t i = 0; i < narrowed.size(); ++i) {
     const std::size_t a = then.holds[i].a, b = then.holds[i].b;
-    narrowed.pins[i] =
-        Within(narrowed.pins[i], then.list[a], then.states[a], then.list[b], then.states[b]);
+    narrowed[i] = Within(narrowed[i], then.list[a], then.states[a], then.list[b], then.states[b]);
   }
-  Close(narrowed, false, poses);
+  Close(jointed.bodies, narrowed, false, poses);
 }
 
-void JointCloser::Close(const Jointed& jointed, bool simulated,
-                        std::vector<BodyState>* poses) const {
+void JointCloser::Close(const std::vector<int>& bodies, const std::vector<Pin>& pins,
+                        bool simulated, std::vector<BodyState>* poses) const {
   SEAM_ASSERT(static_cast<int>(poses->size()) == world_.body_count());
-  Assembled shown(world_, jointed.bodies, jointed.pins,
+  Assembled shown(world_, bodies, pins,
                   [&](int body) { return (*poses)[static_cast<std::size_t>(body)]; });
-  std::vector<PinLeft> left(jointed.pins.size());
+  std::vector<PinLeft> left(pins.size());
   if (simulated) {
-    const Assembled real = InWorld(world_, jointed.bodies, jointed.pins);
+    const Assembled real = InWorld(world_, bodies, pins);
     for (std::size_t i = 0; i < left.size(); ++i) {
       const PinGap gap = real.Gap(i);
       left[i] = {gap.excess, gap.turn};
@@ -147,10 +149,10 @@ void JointCloser::Close(const Jointed& jointed, bool simulated,
       open = ClosePin(*hold.pin, left[at], &shown.list[hold.a], &shown.list[hold.b]) || open;
     }
   }
-  for (std::size_t i = 0; i < jointed.bodies.size(); ++i) {
+  for (std::size_t i = 0; i < bodies.size(); ++i) {
     const PinnedBody& body = shown.list[i];
     if (!body.moved) continue;
-    BodyState& pose = (*poses)[static_cast<std::size_t>(jointed.bodies[i])];
+    BodyState& pose = (*poses)[static_cast<std::size_t>(bodies[i])];
     pose.position = body.ToWorld(Vec2(0, 0));
     pose.angle = body.angle;
   }

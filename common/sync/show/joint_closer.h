@@ -45,7 +45,8 @@ class JointCloser {
     bool anchored = false;
     bool sprung = false;
   };
-  void Close(const Jointed& jointed, bool simulated, std::vector<BodyState>* poses) const;
+  void Close(const std::vector<int>& bodies, const std::vector<Pin>& pins, bool simulated,
+             std::vector<BodyState>* poses) const;
   const Jointed& At(int mechanism) const {
     return mechanisms_[static_cast<std::size_t>(mechanism)];
   }

@@ -11,6 +11,12 @@ namespace {
 /// Closing may always add this much, m/s and rad/s: what is reckoned is off by more.
 constexpr float kClosingSpeed = 2, kClosingSpin = 2;
 
+/// From a body's origin to its centre of mass; of most they are one point, and nothing turns.
+Vec2 ArmOf(const MassPoint& mass, float angle) {
+  if (mass.centre == Vec2(0, 0)) return Vec2(0, 0);
+  return Turned(mass.centre, angle);
+}
+
 }  // namespace
 
 /// A body as it was last heard of, by its centre of mass.
@@ -99,7 +105,7 @@ void Reckoner::Reckon(int mechanism) {
       paths_.there[i] = snapshots_.Extrapolate(body, next_, world_.dt(), kReckonShownMax);
     } else {
       Heard h{body, world_.mass_point(body), snapshots_.newest(body), newest, Vec2(0, 0)};
-      h.centre = h.state.position + Turned(h.mass.centre, h.state.angle);
+      h.centre = h.state.position + ArmOf(h.mass, h.state.angle);
       together_.push_back(h);
     }
   }
@@ -175,7 +181,7 @@ void Reckoner::MoveOn(const Common& common, std::int64_t newest, std::int64_t ti
     BodyState& state = (*states)[static_cast<std::size_t>(h.body)];
     state = h.state;
     state.angle += forward * h.state.spin;
-    state.position = centre + turn(Vec2(arm + forward * own)) - Turned(h.mass.centre, state.angle);
+    state.position = centre + turn(Vec2(arm + forward * own)) - ArmOf(h.mass, state.angle);
     state.velocity = common.velocity + gained + turn(Vec2(h.state.velocity - common.velocity));
   }
 }

@@ -31,6 +31,9 @@ inline void SortByKey(std::vector<SortKey>* keys, std::vector<SortKey>* spare) {
   spare->resize(keys->size());
   for (int digit = 0; digit < kDigits; ++digit) {
     auto& at = begin[static_cast<std::size_t>(digit)];
+    const bool all_alike =
+        !keys->empty() && at[(keys->front() >> (32 + digit * kBits)) & kMask] == keys->size();
+    if (all_alike) continue;
     std::uint32_t sum = 0;
     for (std::uint32_t& count : at) {
       const std::uint32_t here = count;

@@ -1,0 +1,135 @@
+/// Broadcast, who is told of which states: to whom each entry of a message is due.
+
+#include <utility>
+
+#include "common/physics/stage.h"
+#include "common/sync/lease.h"
+#include "server/broadcast.h"
+
+namespace seam {
+
+std::optional<Urgency> Broadcast::DueTo(int peer, const Entry& entry) const {
+  const bool has = Simulates(peer, entry.mechanism);
+  const Concern concern = has ? Concern::kClose : interest_.Of(peer, entry.mechanism);
+  if (concern == Concern::kClose) {
+    if (entry.to_followers) return Urgency::kFollowed;
+  } else if (concern == Concern::kNear && entry.news >= News::kNear) {
+    return Urgency::kNear;
+  } else if (concern == Concern::kFar && entry.news == News::kAll) {
+    return Urgency::kFar;
+  }
+  return std::nullopt;
+}
+
+void Broadcast::AddDue(int peer, const Entry& entry, Urgency urgency) {
+  const auto p = static_cast<std::size_t>(peer);
+  if (due_.size() <= p) due_.resize(p + 1);
+  if (due_[p].empty()) hearing_.push_back(peer);
+  due_[p].emplace_back(entry.id, urgency);
+}
+
+/// In a small room, or where nobody has looked yet, anything may be due to anybody.
+void Broadcast::FindDueOfAny(int but_peer) {
+  sessions_.ForEachReady(but_peer, [&](const Session& session) {
+    for (const Entry& entry : entries_) {
+      if (const auto urgency = DueTo(session.peer, entry)) AddDue(session.peer, entry, *urgency);
+    }
+  });
+}
+
+/// Most of what is told is no news: it goes to who simulates it, and nobody else is looked at.
+void Broadcast::FindDue(int but_peer) {
+  for (const Entry& entry : entries_) {
+    const AuthorityRecord& record = replica_.authority().at(entry.mechanism);
+    if (entry.to_followers && record.authority != but_peer) {
+      AddDue(record.authority, entry, Urgency::kFollowed);
+    }
+    for (const int peer : followers_[static_cast<std::size_t>(entry.mechanism)]) {
+      const bool follows = record.authority != peer && record.secondaries.Has(peer);
+      if (entry.to_followers && follows && peer != but_peer) {
+        AddDue(peer, entry, Urgency::kFollowed);
+      }
+    }
+    if (entry.news == News::kNobody) continue;
+    const bool far = entry.news == News::kAll;
+    const std::vector<int>& hearing =
+        far ? interest_.Hearing(entry.mechanism) : interest_.HearingNear(entry.mechanism);
+    for (const int peer : hearing) {
+      if (peer == but_peer || peer == record.authority || record.secondaries.Has(peer)) continue;
+      const bool near = !far || interest_.Of(peer, entry.mechanism) >= Concern::kNear;
+      AddDue(peer, entry, near ? Urgency::kNear : Urgency::kFar);
+    }
+  }
+}
+
+/// Mode central: what concerns whom is all that tells who predicts it.
+void Broadcast::FindDueByConcern(int but_peer) {
+  for (const Entry& entry : entries_) {
+    for (const int peer : interest_.Hearing(entry.mechanism)) {
+      if (peer == but_peer) continue;
+      if (const auto urgency = DueTo(peer, entry)) AddDue(peer, entry, *urgency);
+    }
+  }
+}
+
+/// Who simulates what a silent holder has knows as much of it as the server: the last state that
+/// was heard, and the same inputs. A server that began to simulate it only then knows less: not how
+/// a character stood to its next step, nor what a suspension or a contact bore. Its word counts
+/// once the driver is taken to have let go, which followers hear of from the server alone.
+bool Broadcast::TellsFollowers(std::int64_t now_us, int holder, int body) {
+  const World& world = replica_.world();
+  const bool small = world.body_count() <= world.scene().server_follow && ShowsViews();
+  const bool all_along = small || ProposesEdits(world.scene());
+  if (all_along && replica_.SimulatedBefore(body)) return true;
+  const Session* const session = sessions_.Find(holder);
+  return session == nullptr || now_us - session->link.last_receive_us() > kDriverSilentUs;
+}
+
+void Broadcast::Relay(std::int64_t now_us, const States& states, int from_peer) {
+  if (Plain()) {
+    const Bytes whole = Encode(states);
+    sessions_.ForEachReady(from_peer,
+                           [&](Session& session) { session.link.SendUnreliable(whole); });
+    return;
+  }
+  const bool for_silent = from_peer == 0 && states.peer != 0;
+  const double repeat_s = for_silent ? kNewsRepeatSilent : kNewsRepeat;
+  const std::vector<NewestStates::Told>& told = newest_.Take(states, repeat_s);
+  entries_.clear();
+  for (std::size_t i = 0; i < states.id.size(); ++i) {
+    const int body = told[i].body;
+    if (body < 0) continue;  // it has left meanwhile
+    const bool to_followers = !for_silent || TellsFollowers(now_us, states.peer, body);
+    entries_.push_back({states.id[i], told[i].mechanism, told[i].news, to_followers});
+  }
+  hearing_.clear();
+  if (interest_.small() || interest_.unknown()) {
+    FindDueOfAny(from_peer);
+  } else if (config_.mode == Mode::kCentral) {
+    FindDueByConcern(from_peer);
+  } else {
+    FindDue(from_peer);
+  }
+  for (const int peer : hearing_) {
+    Due& due = due_[static_cast<std::size_t>(peer)];
+    Session* const session = sessions_.Find(peer);
+    if (session != nullptr && session->stage == SessionStage::kReady) {
+      RelayDue(now_us, states, due, *session);
+    }
+    due.clear();
+  }
+}
+
+void Broadcast::RelayDue(std::int64_t now_us, const States& states, const Due& due,
+                         Session& session) {
+  if (due.size() == states.id.size() && session.outbox.empty() &&
+      session.outbox.Affords(now_us, due.size())) {
+    session.packer.Add(states);
+    NotePressing(session);
+    return;
+  }
+  for (const auto& [id, urgency] : due) session.outbox.Add(now_us, id, urgency);
+  if (session.outbox.pressing()) NotePressing(session);
+}
+
+}  // namespace seam
