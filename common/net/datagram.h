@@ -49,6 +49,8 @@ class DatagramWriter {
   void Append(const DatagramMessage& message);
   std::size_t bytes() const { return data_.size(); }
   bool empty() const { return data_.size() == kDatagramHeaderBytes; }
+  /// Begins the next one, in the same memory.
+  void Clear() { data_.resize(kDatagramHeaderBytes); }
   /// Fills in header and checksum.
   const Bytes& Finish(const DatagramHeader& header);
 

@@ -54,6 +54,7 @@ struct Link::Impl {
 
   std::int64_t sequence = 0;  // of the newest datagram sent; the first is 1
   std::int64_t last_send_us = -1;
+  DatagramWriter writer;  // the datagram being filled; empty between two calls of Flush
   std::deque<Passing> unreliable;
   std::array<std::int64_t, kReceiptSlots + 1> arrived;  // by slot, the largest number
   std::vector<std::int64_t> listed;                     // of kListedSlot, that arrived
@@ -81,9 +82,8 @@ struct Link::Impl {
   struct Packing {
     std::int64_t now_us;
     const Sink& send;
-    std::vector<std::int64_t> acks;  // ack fields for the datagrams, newest first
+    std::vector<std::int64_t> acks{};  // ack fields for the datagrams, newest first; of the first on
     std::size_t datagrams = 0;
-    DatagramWriter writer{};
     std::vector<std::int64_t> ids{};
     std::vector<Receipt> receipts{};
   };
@@ -110,6 +110,7 @@ struct Link::Impl {
     DatagramHeader header;
     header.session = session;
     header.sequence = static_cast<std::uint16_t>(++sequence);
+    if (packing.datagrams == 0) packing.acks = AckPoints();
     if (!packing.acks.empty()) {
       const std::int64_t ack = packing.acks[std::min(packing.datagrams, packing.acks.size() - 1)];
       header.ack = static_cast<std::uint16_t>(ack);
@@ -117,9 +118,9 @@ struct Link::Impl {
     }
     if (sent.size() >= kSentRecords) sent.pop_front();
     sent.push_back({packing.now_us, false, std::move(packing.ids), std::move(packing.receipts)});
-    packing.send(packing.writer.Finish(header));
+    packing.send(writer.Finish(header));
     ++packing.datagrams;
-    packing.writer = DatagramWriter();
+    writer.Clear();
     packing.ids.clear();
     packing.receipts.clear();
     last_send_us = packing.now_us;
@@ -128,8 +129,8 @@ struct Link::Impl {
 
   void Pack(Packing& packing, const DatagramMessage& message) {
     const std::size_t bytes = FramedBytes(message.bytes.size, message.reliable);
-    if (packing.writer.bytes() + bytes > kDatagramBytesMax) Emit(packing);
-    packing.writer.Append(message);
+    if (writer.bytes() + bytes > kDatagramBytesMax) Emit(packing);
+    writer.Append(message);
   }
 
   /// Whether a datagram goes out even without messages.
@@ -144,7 +145,7 @@ struct Link::Impl {
   }
 
   void Flush(std::int64_t now_us, const Sink& send) {
-    Packing packing{now_us, send, AckPoints()};
+    Packing packing{now_us, send};
     const bool rides = !unreliable.empty() || OwesDatagram(now_us);
     reliable.Take(now_us, rides, [&](std::int64_t id, ByteView message) {
       Pack(packing, {true, static_cast<std::uint16_t>(id), message});
@@ -155,7 +156,7 @@ struct Link::Impl {
       if (message.receipt.slot >= 0) packing.receipts.push_back(message.receipt);
     }
     unreliable.clear();
-    if (!packing.writer.empty() || OwesDatagram(now_us)) Emit(packing);
+    if (!writer.empty() || OwesDatagram(now_us)) Emit(packing);
     while (packing.datagrams > 0 && packing.datagrams < packing.acks.size()) Emit(packing);
     if (packing.datagrams > 0) flushed_newest = window.newest();
   }
