@@ -77,7 +77,7 @@ void Client::OnStates(const States& states) {
 
 /// Also what comes before the start is taken: the server counts on what has arrived.
 void Client::OnPacked(const PackedStates& packed) {
-  std::optional<std::vector<States>> all;
+  const std::vector<States>* all = nullptr;
   if (scene_ != nullptr) {
     if (!unpacker_) {
       unpacker_.emplace(
@@ -85,7 +85,7 @@ void Client::OnPacked(const PackedStates& packed) {
     }
     all = unpacker_->Take(packed);
   }
-  if (!all) {
+  if (all == nullptr) {
     ++stats_.dropped_malformed;
     return;
   }

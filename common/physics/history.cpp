@@ -1,6 +1,7 @@
 #include "common/physics/history.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "common/base/check.h"
 
@@ -9,7 +10,8 @@ namespace seam {
 History::History(int body_count, int capacity_ticks)
     : bodies_(body_count),
       capacity_(capacity_ticks),
-      ring_(static_cast<std::size_t>(body_count) * static_cast<std::size_t>(capacity_ticks)) {
+      pieces_each_((capacity_ticks + kPiece - 1) / kPiece),
+      pieces_(static_cast<std::size_t>(body_count) * static_cast<std::size_t>(pieces_each_)) {
   SEAM_ASSERT(body_count >= 0 && capacity_ticks > 0);
 }
 
@@ -22,17 +24,27 @@ void History::Begin(std::int64_t tick) {
 void History::Record(std::int64_t tick, const std::vector<BodyState>& states) {
   SEAM_ASSERT(static_cast<int>(states.size()) == bodies_);
   Begin(tick);
-  std::copy(states.begin(), states.end(), ring_.begin() + (tick % capacity_) * bodies_);
+  for (int body = 0; body < bodies_; ++body) {
+    *At(tick, body) = states[static_cast<std::size_t>(body)];
+  }
 }
 
 const BodyState* History::At(std::int64_t tick, int body) const {
   SEAM_ASSERT(body >= 0 && body < bodies_);
-  if (count_ == 0 || tick > newest_ || tick <= newest_ - count_) return nullptr;
-  return &ring_[static_cast<std::size_t>((tick % capacity_) * bodies_ + body)];
+  static const BodyState kNothing;
+  if (!Has(tick)) return nullptr;
+  const int slot = static_cast<int>(tick % capacity_);
+  const std::unique_ptr<Piece>& piece = pieces_[PieceOf(slot, body)];
+  return piece == nullptr ? &kNothing : &(*piece)[static_cast<std::size_t>(slot % kPiece)];
 }
 
 BodyState* History::At(std::int64_t tick, int body) {
-  return const_cast<BodyState*>(static_cast<const History*>(this)->At(tick, body));
+  SEAM_ASSERT(body >= 0 && body < bodies_);
+  if (!Has(tick)) return nullptr;
+  const int slot = static_cast<int>(tick % capacity_);
+  std::unique_ptr<Piece>& piece = pieces_[PieceOf(slot, body)];
+  if (piece == nullptr) piece = std::make_unique<Piece>();
+  return &(*piece)[static_cast<std::size_t>(slot % kPiece)];
 }
 
 std::int64_t History::newest() const { return count_ == 0 ? -1 : newest_; }
@@ -41,19 +53,17 @@ void History::Clear() { count_ = 0; }
 
 void History::Remap(const std::vector<BodyOrigin>& origins, const std::vector<BodyState>& now) {
   SEAM_ASSERT(origins.size() == now.size());
-  const int bodies = static_cast<int>(origins.size());
-  std::vector<BodyState> ring(static_cast<std::size_t>(bodies) *
-                              static_cast<std::size_t>(capacity_));
+  History then(static_cast<int>(origins.size()), capacity_);
+  std::swap(*this, then);
+  count_ = then.count_;
+  newest_ = then.newest_;
   for (std::int64_t tick = oldest(); count_ > 0 && tick <= newest_; ++tick) {
-    for (int body = 0; body < bodies; ++body) {
+    for (int body = 0; body < bodies_; ++body) {
       const BodyOrigin& origin = origins[static_cast<std::size_t>(body)];
-      BodyState& state = ring[static_cast<std::size_t>((tick % capacity_) * bodies + body)];
-      state = origin.body < 0 ? now[static_cast<std::size_t>(body)]
-                              : Carried(origin, *At(tick, origin.body));
+      *At(tick, body) = origin.body < 0 ? now[static_cast<std::size_t>(body)]
+                                        : Carried(origin, *then.At(tick, origin.body));
     }
   }
-  ring_ = std::move(ring);
-  bodies_ = bodies;
 }
 
 }  // namespace seam

@@ -1,7 +1,9 @@
 #pragma once
 /// The recent past of a world's bodies, tick by tick: what retrospective corrections look at.
 
+#include <array>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "common/scene/types.h"
@@ -31,11 +33,24 @@ class History {
   void Remap(const std::vector<BodyOrigin>& origins, const std::vector<BodyState>& now);
 
  private:
+  // A body's ticks lie together, in pieces that are made when something is first noted in them: in
+  // a large room most bodies are never looked at, and what a tick costs is the memory that it is
+  // in.
+  static constexpr int kPiece = 12;  // ticks
+  using Piece = std::array<BodyState, kPiece>;
+  bool Has(std::int64_t tick) const {
+    return count_ > 0 && tick <= newest_ && tick > newest_ - count_;
+  }
+  std::size_t PieceOf(int slot, int body) const {
+    return static_cast<std::size_t>(body * pieces_each_ + slot / kPiece);
+  }
+
   int bodies_ = 0;
   int capacity_ = 0;
+  int pieces_each_ = 0;  // of a body
   int count_ = 0;
   std::int64_t newest_ = -1;
-  std::vector<BodyState> ring_;
+  std::vector<std::unique_ptr<Piece>> pieces_;
 };
 
 }  // namespace seam

@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "common/physics/world_shapes.h"
 #include "common/scene/forces.h"
 #include "common/stages/make_stages.h"
@@ -11,16 +13,19 @@ class ConveyorStage : public Stage {
       : world_(world), inputs_(world.scene.players.size() + world.scene.seats.size()) {}
 
   void Rebuilt(b2World* /*world*/) override {
+    // Speeds hang on inputs and edits alone: a barrier, which a client takes at every other tick,
+    // changes none of a room's belts.
     if (revision_ != world_.topology.revision()) FindBelts();
-    for (const PartId belt : belts_) Set(PartAt(belt));
   }
   void SetInput(int player, const Input& input) override {
     Input& last = inputs_[static_cast<std::size_t>(player)];
     if (last == input) return;
     last = input;
-    for (const PartId belt : belts_) {
-      const Part& part = PartAt(belt);
-      if (part.conveyor->player == player && Set(part)) WakeWhatLiesOn(part);
+    const auto [first, end] =
+        std::equal_range(belts_.begin(), belts_.end(), Belt{player, 0},
+                         [](const Belt& x, const Belt& y) { return x.player < y.player; });
+    for (auto belt = first; belt != end; ++belt) {
+      if (Set(PartAt(belt->part))) WakeWhatLiesOn(PartAt(belt->part));
     }
   }
   bool listens() const override { return true; }
@@ -32,14 +37,23 @@ class ConveyorStage : public Stage {
   }
 
  private:
+  struct Belt {
+    int player = -1;  // or seat; -1: nobody's
+    PartId part = 0;
+  };
+
   const Part& PartAt(PartId id) const { return world_.scene.parts[static_cast<std::size_t>(id)]; }
   void FindBelts() {
     revision_ = world_.topology.revision();
     speeds_.assign(world_.scene.parts.size(), 0);
     belts_.clear();
     for (const Part& part : world_.scene.parts) {
-      if (part.conveyor->speed != 0) belts_.push_back(part.id);
+      if (part.conveyor->speed == 0) continue;
+      belts_.push_back({part.conveyor->player, part.id});
+      Set(part);
     }
+    std::stable_sort(belts_.begin(), belts_.end(),
+                     [](const Belt& x, const Belt& y) { return x.player < y.player; });
   }
   /// True if the part's speed is another one now.
   bool Set(const Part& part) {
@@ -69,7 +83,7 @@ class ConveyorStage : public Stage {
   const StageWorld world_;
   std::vector<Input> inputs_;  // by player, then by seat
   std::vector<float> speeds_;  // by part, m/s
-  std::vector<PartId> belts_;  // parts with a conveyor
+  std::vector<Belt> belts_;    // parts with a conveyor, by player
   int revision_ = -1;          // of the scene, of which these are
 };
 

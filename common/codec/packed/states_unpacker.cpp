@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <iterator>
 #include <utility>
 
 #include "common/codec/validate.h"
@@ -135,7 +136,29 @@ bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry
   return bits->ok() && InRange(state.x) && InRange(state.y);
 }
 
-std::optional<std::vector<States>> StatesUnpacker::Take(const PackedStates& packed) {
+/// The next States of a message, without bodies; its origin is where the first is to be.
+States* StatesUnpacker::Begin(const States& header, const PackedState& first) {
+  if (spare_.empty()) spare_.emplace_back();
+  told_.push_back(std::move(spare_.back()));
+  spare_.pop_back();
+  States& states = told_.back();
+  states.peer = header.peer;
+  states.tick = header.tick;
+  states.revision = header.revision;
+  states.composition = header.composition;
+  states.origin_x = static_cast<std::int32_t>(first.x) / kQuantaPerMetre;
+  states.origin_y = static_cast<std::int32_t>(first.y) / kQuantaPerMetre;
+  states.id.clear();
+  states.epoch.clear();
+  states.flags.clear();
+  for (auto* all :
+       {&states.x, &states.y, &states.angle, &states.vx, &states.vy, &states.spin}) {
+    all->clear();
+  }
+  return &states;
+}
+
+const std::vector<States>* StatesUnpacker::Take(const PackedStates& packed) {
   BitReader bits(ByteView(packed.data));
   const auto low = static_cast<std::uint16_t>(newest_);
   const auto wire = static_cast<std::uint16_t>(bits.Get(16));
@@ -148,36 +171,32 @@ std::optional<std::vector<States>> StatesUnpacker::Take(const PackedStates& pack
   context_ = PackedContext();
   const std::int64_t tick_high = bits.Get(20);
   context_.tick = tick_high << 20 | bits.Get(20);
-  std::vector<States> all;
-  std::vector<Entry> entries;
+  std::move(told_.begin(), told_.end(), std::back_inserter(spare_));
+  told_.clear();
+  entries_.clear();
   while (bits.Get(1) != 0) {
     header.peer = static_cast<std::int32_t>(bits.GetGolomb(4));
     context_.tick += UnZigZag(bits.GetGolomb(0));
     header.tick = context_.tick;
     context_.id = -1;
     context_.id_gap = 0;
-    bool begun = false;
+    States* states = nullptr;
     while (bits.Get(1) != 0) {
       Entry entry;
-      if (!TakeBody(&bits, number, &entry)) return std::nullopt;
-      if (!begun || !Fits(all.back(), entry.state)) {
-        all.push_back(header);
-        all.back().origin_x = static_cast<std::int32_t>(entry.state.x) / kQuantaPerMetre;
-        all.back().origin_y = static_cast<std::int32_t>(entry.state.y) / kQuantaPerMetre;
-        begun = true;
-      }
-      Append(entry.id, entry.state, &all.back());
-      entries.push_back(entry);
+      if (!TakeBody(&bits, number, &entry)) return nullptr;
+      if (states == nullptr || !Fits(*states, entry.state)) states = Begin(header, entry.state);
+      Append(entry.id, entry.state, states);
+      entries_.push_back(entry);
     }
-    if (!begun || !bits.ok()) return std::nullopt;
+    if (states == nullptr || !bits.ok()) return nullptr;
   }
   const auto valid = [](const States& states) { return Valid(states); };
-  if (!bits.AtEnd() || all.empty() || !std::all_of(all.begin(), all.end(), valid)) {
-    return std::nullopt;
+  if (!bits.AtEnd() || told_.empty() || !std::all_of(told_.begin(), told_.end(), valid)) {
+    return nullptr;
   }
   newest_ = std::max(newest_, number);
-  for (const Entry& entry : entries) Keep(number, entry);
-  return all;
+  for (const Entry& entry : entries_) Keep(number, entry);
+  return &told_;
 }
 
 }  // namespace seam

@@ -2,7 +2,6 @@
 /// Reads what a StatesPacker wrote; distrusts every bit of it.
 
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "common/base/bytes.h"
@@ -16,10 +15,10 @@ class StatesUnpacker {
  public:
   explicit StatesUnpacker(const PackedMotion& motion) : motion_(motion) {}
 
-  /// The States that the message tells, all valid, in its order; nothing when it is malformed or
-  /// tells differences from what never came: then it is as if it had been lost. Takes memory in
-  /// proportion to what has come, and for a body of kPackedKept states at most.
-  std::optional<std::vector<States>> Take(const PackedStates& packed);
+  /// The States that the message tells, all valid, in its order, until the next call; nullptr when
+  /// it is malformed or tells differences from what never came: then it is as if it had been lost.
+  /// Takes memory in proportion to what has come, and for a body of kPackedKept states at most.
+  const std::vector<States>* Take(const PackedStates& packed);
 
  private:
   struct Kept {
@@ -30,6 +29,7 @@ class StatesUnpacker {
     std::int32_t id = 0, peer = 0;
     PackedState state;
   };
+  States* Begin(const States& header, const PackedState& first);
   bool TakeBody(BitReader* bits, std::int64_t number, Entry* entry);
   const PackedState* Find(std::int32_t id, std::int64_t number) const;
   void Keep(std::int64_t number, const Entry& entry);
@@ -39,6 +39,9 @@ class StatesUnpacker {
   std::int64_t newest_ = 0;              // number of a message
   std::vector<std::int32_t> place_;      // by id: in kept_; -1: nothing came
   std::vector<std::vector<Kept>> kept_;  // those with the largest numbers, in any order
+  // Of the last message. A client takes one in every tick: their memory is used again.
+  std::vector<States> told_, spare_;
+  std::vector<Entry> entries_;
 };
 
 }  // namespace seam

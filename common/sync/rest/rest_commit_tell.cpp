@@ -158,7 +158,8 @@ bool RestCommit::ReceiveOne(const Rest& rest, std::size_t i) {
   if (places) memory_.snapshots().ForgetAfter(body, rest.tick - 1);  // it was assumed
   memory_.snapshots().Add(body, rest.tick, pose);
   memory_.NoteNews(body);
-  for (std::int64_t tick = rest.tick; tick <= world_.tick() && !memory_.parked(body); ++tick) {
+  std::int64_t tick = std::max(rest.tick, memory_.history().oldest());
+  for (; tick <= world_.tick() && !memory_.parked(body); ++tick) {
     if (BodyState* past = memory_.history().At(tick, body)) *past = pose;
   }
   Put(body);

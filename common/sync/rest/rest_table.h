@@ -29,10 +29,7 @@ class RestTable {
   void Prolong(int body, std::int64_t tick) {
     records_[static_cast<std::size_t>(body)].tick = tick;
   }
-  void End(int body) {
-    records_[static_cast<std::size_t>(body)].committed = false;
-    hashed_ = false;
-  }
+  void End(int body);
   void Clear();
   /// The bodies have changed: what was committed of those that are the same holds on.
   void Remap(const std::vector<BodyOrigin>& origins);
@@ -44,9 +41,15 @@ class RestTable {
   std::vector<Rest> Pack(const World& world, int peer, std::vector<int> bodies) const;
 
  private:
+  void NoteChanged(int body);
+
   std::vector<RestRecord> records_;
-  mutable std::uint64_t hash_ = 0;  // of what has not changed since, if `hashed_`
-  mutable bool hashed_ = false;
+  int committed_ = 0;  // how many
+  // A hash goes on from one body to the next: of each kBlock of them it is kept how it begins, so
+  // that it is made anew only from the first that has changed.
+  static constexpr int kBlock = 32;
+  mutable std::vector<std::uint64_t> begins_;
+  mutable int known_ = 0;  // how many of these are as they should be
 };
 
 }  // namespace seam
