@@ -12,6 +12,7 @@
 #include <cerrno>
 #include <cstring>
 #include <ctime>
+#include <utility>
 
 #include "common/base/check.h"
 
@@ -167,20 +168,24 @@ struct UdpNet::Impl {
   Batch in;
   UdpSender::Impl out;
   unsigned in_count = 0, in_next = 0;  // received, and handed out of them
+  bool drained = false;                // the last call left nothing
   std::int64_t discarded = 0;
 
   ~Impl() {
     if (fd >= 0) close(fd);
   }
 
-  /// Fetches up to kBatch datagrams; false when none wait.
+  /// Fetches up to kBatch datagrams; false when none wait. Who asks until none do is spared the
+  /// call that would say so, where the one before found fewer than it had room for.
   bool Fetch() {
+    for (unsigned i = 0; i < in_count; ++i) in.Reset(i, kSlotBytes);  // those that were filled
     in_count = in_next = 0;
+    if (std::exchange(drained, false)) return false;
     for (int errors = 0; errors < kErrorsPassedOver; ++errors) {
-      for (unsigned i = 0; i < kBatch; ++i) in.Reset(i, kSlotBytes);
       const int got = recvmmsg(fd, in.headers.data(), kBatch, MSG_DONTWAIT, nullptr);
       if (got > 0) {
         in_count = static_cast<unsigned>(got);
+        drained = in_count < kBatch;
         return true;
       }
       // EAGAIN: empty. Anything else is an error left by an earlier send: that datagram was lost.
@@ -243,6 +248,7 @@ std::int64_t UdpNet::discarded() const { return impl_->discarded; }
 
 void UdpNet::Wait(std::int64_t timeout_us, int extra_fd) {
   if (impl_->in_next < impl_->in_count) return;
+  impl_->drained = false;
   pollfd fds[2] = {{impl_->fd, POLLIN, 0}, {extra_fd, POLLIN, 0}};
   const std::int64_t us = std::max<std::int64_t>(timeout_us, 0);
   timespec timeout{};

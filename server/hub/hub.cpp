@@ -88,8 +88,9 @@ void Hub::Wait() {
   if (lanes_ == nullptr) {
     for (const auto& room : rooms_) due_us = std::min(due_us, room->due_us());
   }
-  SleepUs(std::min(polled_us_ + kGatherUs, due_us) - SteadyClockUs());
+  // Where datagrams are few the first comes later than that, and nobody wakes in vain.
   udp_.Wait(std::max<std::int64_t>(0, due_us - SteadyClockUs()));
+  SleepUs(std::min(polled_us_ + kGatherUs, due_us) - SteadyClockUs());
 }
 
 bool Hub::done() const {

@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "common/sync/replica.h"
 #include "common/base/sort_keys.h"
+#include "common/sync/replica.h"
 
 namespace seam {
 

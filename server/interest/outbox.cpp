@@ -123,7 +123,8 @@ void Outbox::ComposeInOrder(const NewestStates& newest) {
   }
 }
 
-const std::vector<Outbox::Message>& Outbox::Compose(std::int64_t now_us, const NewestStates& newest) {
+const std::vector<Outbox::Message>& Outbox::Compose(std::int64_t now_us,
+                                                    const NewestStates& newest) {
   composed_.clear();
   std::size_t count = waiting_.size();
   if (bytes_per_s_ > 0) count = Affordable(now_us);

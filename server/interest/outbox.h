@@ -77,7 +77,7 @@ class Outbox {
   std::int64_t filled_us_ = -1;
   std::vector<Waiting> waiting_;
   bool pressing_ = false;
-  std::vector<Message> composed_;   // of the last Compose
+  std::vector<Message> composed_;    // of the last Compose
   std::vector<PackedEntry> bodies_;  // of its messages
   std::vector<Place> order_;
   std::vector<std::int32_t> place_;  // by part: in waiting_, -1: it does not wait

@@ -62,8 +62,8 @@ class BitWriter {
     size_ += 4;
   }
 
-  Bytes bytes_;           // its first size_ are written; it keeps its memory
-  std::size_t size_ = 0;  // a multiple of four
+  Bytes bytes_;             // its first size_ are written; it keeps its memory
+  std::size_t size_ = 0;    // a multiple of four
   std::uint64_t held_ = 0;  // its lowest bits_ are not in bytes_ yet
   int bits_ = 0;            // below 32
 };

@@ -193,7 +193,8 @@ void StatesPacker::Add(const States& states) {
   }
 }
 
-void StatesPacker::Add(const PackedHeader& header, const PackedEntry* begin, const PackedEntry* end) {
+void StatesPacker::Add(const PackedHeader& header, const PackedEntry* begin,
+                       const PackedEntry* end) {
   const bool other = header.revision != revision_ || header.composition != composition_;
   if (open_ && other) End();
   bool begun = false;
