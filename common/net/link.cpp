@@ -82,7 +82,7 @@ struct Link::Impl {
   struct Packing {
     std::int64_t now_us;
     const Sink& send;
-    std::vector<std::int64_t> acks{};  // ack fields for the datagrams, newest first; of the first on
+    std::vector<std::int64_t> acks{};  // ack fields for the datagrams, newest first
     std::size_t datagrams = 0;
     std::vector<std::int64_t> ids{};
     std::vector<Receipt> receipts{};
