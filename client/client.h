@@ -12,6 +12,7 @@
 #include "client/held_world.h"
 #include "client/load_meter.h"
 #include "client/room_timeline.h"
+#include "client/scene_shelf.h"
 #include "common/base/entropy.h"
 #include "common/codec/packed/states_unpacker.h"
 #include "common/net/link.h"
@@ -41,6 +42,7 @@ struct ClientConfig {
   Publish publish = Publish::kAll;
   bool shows = false;  ///< somebody looks at replica()'s view: all of it has to be true
   bool watch = false;  ///< to look on is what is wanted; else a name without a place is fatal
+  SceneShelf* scenes = nullptr;  ///< of its thread, outlives the client; nullptr: it reads its own
 };
 
 class Client {
@@ -155,7 +157,7 @@ class Client {
   std::int64_t key_ = 0;
   std::unique_ptr<Link> link_;
   std::unique_ptr<Publisher> publisher_;
-  std::unique_ptr<Scene> scene_;
+  std::shared_ptr<const Scene> scene_;
   std::unique_ptr<Replica> replica_;
   ClockFilter clock_;
   MetaTable metadata_;

@@ -209,7 +209,9 @@ void Client::Build(std::int64_t now_us) {
   }
   room_ = *room;
   try {
-    scene_ = std::make_unique<Scene>(ParseScene(room_.scene_text, room_.scene_name + ".toml"));
+    SceneShelf own;
+    SceneShelf& scenes = config_.scenes != nullptr ? *config_.scenes : own;
+    scene_ = scenes.Of(room_.scene_text, room_.scene_name + ".toml");
     if (scene_->solver.tick_hz != room_.tick_hz) {
       throw OperatorError("its tick rate is not its scene's");
     }

@@ -29,7 +29,8 @@ Group::Group() : epoll_(epoll_create1(EPOLL_CLOEXEC)) {
 
 Group::~Group() { close(epoll_); }
 
-void Group::Add(const ClientConfig& config, bool first_of_room) {
+void Group::Add(ClientConfig config, bool first_of_room) {
+  config.scenes = &scenes_;
   first_of_room_.push_back(first_of_room);
   members_.push_back(std::make_unique<Member>(config));
   epoll_event event{};

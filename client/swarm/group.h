@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "client/scene_shelf.h"
 #include "client/swarm/held.h"
 #include "client/swarm/member.h"
 
@@ -20,7 +21,7 @@ class Group {
 
   /// One more member; of `first_of_room` Moving asks what the server has. Throws OperatorError when
   /// there are no more sockets to be had.
-  void Add(const ClientConfig& config, bool first_of_room);
+  void Add(ClientConfig config, bool first_of_room);
   const std::vector<std::unique_ptr<Member>>& members() const { return members_; }
 
   /// Runs until `until_us` (SteadyClockUs), or for at most 100 ms: the caller looks in between.
@@ -43,6 +44,7 @@ class Group {
  private:
   void Sleep(std::int64_t us) const;
 
+  SceneShelf scenes_;  // outlives the members
   std::vector<std::unique_ptr<Member>> members_;
   std::vector<bool> first_of_room_;  // by member
   int epoll_ = -1;

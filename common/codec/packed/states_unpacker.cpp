@@ -151,8 +151,7 @@ States* StatesUnpacker::Begin(const States& header, const PackedState& first) {
   states.id.clear();
   states.epoch.clear();
   states.flags.clear();
-  for (auto* all :
-       {&states.x, &states.y, &states.angle, &states.vx, &states.vy, &states.spin}) {
+  for (auto* all : {&states.x, &states.y, &states.angle, &states.vx, &states.vy, &states.spin}) {
     all->clear();
   }
   return &states;

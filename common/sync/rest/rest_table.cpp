@@ -69,8 +69,8 @@ void RestTable::Remap(const std::vector<BodyOrigin>& origins) {
     records.push_back(same ? at(origin.body) : RestRecord{});
   }
   records_ = std::move(records);
-  committed_ = static_cast<int>(std::count_if(
-      records_.begin(), records_.end(), [](const RestRecord& r) { return r.committed; }));
+  committed_ = static_cast<int>(std::count_if(records_.begin(), records_.end(),
+                                              [](const RestRecord& r) { return r.committed; }));
   known_ = 0;
 }
 

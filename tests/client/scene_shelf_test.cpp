@@ -1,0 +1,44 @@
+/// SceneShelf: the same text is one scene, and what is no scene is refused as ParseScene does.
+
+#include "client/scene_shelf.h"
+
+#include <gtest/gtest.h>
+
+#include "common/base/check.h"
+
+namespace seam {
+namespace {
+
+const char* const kBall = "[[part]]\nname = \"ball\"\ncircle = 0.5\n";
+
+TEST(SceneShelf, TheSameTextIsOneSceneForAsLongAsSomebodyHasIt) {
+  SceneShelf shelf;
+  auto one = shelf.Of(kBall, "ball.toml");
+  auto other = shelf.Of(kBall, "ball.toml");
+  EXPECT_EQ(one, other);
+  EXPECT_EQ(one->parts.size(), 1u);
+  const std::weak_ptr<const Scene> gone = one;
+  one.reset();
+  EXPECT_FALSE(gone.expired());
+  other.reset();
+  EXPECT_TRUE(gone.expired()) << "nobody has it";
+  EXPECT_EQ(shelf.Of(kBall, "ball.toml")->parts.size(), 1u);
+}
+
+TEST(SceneShelf, AnotherTextOrNameIsAnotherScene) {
+  SceneShelf shelf;
+  const auto ball = shelf.Of(kBall, "ball.toml");
+  const auto named = shelf.Of(kBall, "disc.toml");
+  const auto larger = shelf.Of("[[part]]\nname = \"ball\"\ncircle = 0.7\n", "ball.toml");
+  EXPECT_NE(ball, named);
+  EXPECT_EQ(named->name, "disc");
+  EXPECT_NE(ball, larger);
+}
+
+TEST(SceneShelf, WhatIsNoSceneIsRefusedEachTime) {
+  SceneShelf shelf;
+  for (int i = 0; i < 2; ++i) EXPECT_THROW(shelf.Of("[[part]]\n", "x.toml"), OperatorError);
+}
+
+}  // namespace
+}  // namespace seam
