@@ -58,9 +58,7 @@ void BodyMemory::NoteContacts(const AuthorityTable& table) {
 
 void BodyMemory::Record() {
   history_.Begin(world_.tick());
-  if (tended_.empty()) return;
-  BodyState* const now = history_.At(world_.tick(), 0);  // of all bodies, one after the other
-  for (const int body : tended_) now[body] = world_.Read(body);
+  for (const int body : tended_) *history_.At(world_.tick(), body) = world_.Read(body);
 }
 
 /// All of them.
