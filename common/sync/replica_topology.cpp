@@ -9,6 +9,18 @@
 #include "common/sync/replica.h"
 
 namespace seam {
+namespace {
+
+/// What let go may hold again at once, as a hand does that reaches on along a wall.
+void ForgetBonds(const Scene& scene, std::int32_t broken, ProposalQueue* proposals) {
+  if (broken < 0 || static_cast<std::size_t>(broken) >= scene.joints.size()) return;
+  const Joint& joint = scene.joints[static_cast<std::size_t>(broken)];
+  for (const BondCause cause : {BondCause::kConnectors, BondCause::kGroup, BondCause::kGrip}) {
+    proposals->Forget(KeyOf(Edit(BondEdit{joint.a, joint.b, {0, 0}, 0, 0, cause})));
+  }
+}
+
+}  // namespace
 
 bool Replica::Queue(const EditOrder& order) {
   const Edit edit = ToEdit(order);
@@ -128,7 +140,10 @@ bool Replica::IsHeldBack(const Edit& edit, std::int64_t found) {
 
 void Replica::ForgetProposals(const Edit& edit) {
   const EditKey key = KeyOf(edit);
-  if (edit.As<BreakEdit>() != nullptr) proposals_.Forget(key);
+  if (const BreakEdit* broken = edit.As<BreakEdit>()) {
+    proposals_.Forget(key);
+    ForgetBonds(world_.scene(), broken->joint, &proposals_);
+  }
   awaited_.erase(std::remove_if(awaited_.begin(), awaited_.end(),
                                 [&](const Awaited& a) { return a.key == key; }),
                  awaited_.end());
