@@ -107,6 +107,10 @@ void Client::SendReadyAndPing(std::int64_t now_us) {
       ping.revision = replica_->revision();
       ping.composition = static_cast<std::int64_t>(replica_->world().composition().hash);
       ping.rest = static_cast<std::int64_t>(replica_->rest().Hash());
+      const RestBlock at = RestBlock::Of(replica_->world().body_count(), rest_turn_++);
+      ping.rest_blocks = static_cast<std::int16_t>(at.blocks);
+      ping.rest_block = static_cast<std::int16_t>(at.block);
+      ping.rest_part = static_cast<std::int32_t>(replica_->rest().HashOf(at, -1));
       ping.load = load_.permille();
     }
     link_->SendUnreliable(Encode(ping));
@@ -201,7 +205,7 @@ void Client::NoteOwnInput() {
 }
 
 bool Client::Quiet() const {
-  if (replica_ == nullptr || !started_ || !rest_.agrees() || !replica_->rest().all()) return false;
+  if (replica_ == nullptr || !started_ || !rest_agrees_ || !replica_->rest().all()) return false;
   const bool idle = replica_->tick() - idle_since_ > kInputKnownAfter * room_.tick_hz;
   return idle && !link_->reliable_pending();
 }

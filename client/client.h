@@ -24,7 +24,7 @@
 #include "common/sync/publish.h"
 #include "common/sync/publisher.h"
 #include "common/sync/replica.h"
-#include "common/sync/rest/rest_agreement.h"
+#include "common/sync/rest/rest_blocks.h"
 
 namespace seam {
 
@@ -175,7 +175,9 @@ class Client {
   bool closed_ = false;
   std::string fatal_;
   RoomTimeline timeline_;
-  RestAgreement rest_;            // with what the server knows to rest
+  RestBlocks rest_;               // with what the server knows of what of mine rests
+  std::int64_t rest_turn_ = 0;    // of the block that the next ping looks at
+  bool rest_agrees_ = false;      // all that rests, when a ping was answered last
   std::int64_t idle_since_ = 0;   // tick from which on our input has been neutral
   double lead_us_ = -1;           // mode central: how far ahead of the server we simulate
   std::int64_t answered_us_ = 0;  // when we sent the newest ping that was answered

@@ -43,6 +43,24 @@ void Broadcast::Tell(const std::vector<Grants>& changes) {
   const std::int64_t now_us = changes.back().utime;
   sessions_.ForEachTold(
       [&](Session& session) { Send(now_us, session, grant_news_.For(session.peer)); });
+  TellRestToFollowers(now_us, changes);
+}
+
+/// Who begins to simulate something has to know how it lies.
+void Broadcast::TellRestToFollowers(std::int64_t now_us, const std::vector<Grants>& changes) {
+  const AuthorityTable& table = replica_.authority();
+  for (const Grants& grants : changes) {
+    for (const std::int32_t id : grants.mechanism) {
+      const int m = table.IndexOf(id);
+      if (m < 0 || static_cast<std::size_t>(m) >= followers_.size()) continue;
+      std::vector<int> peers = followers_[static_cast<std::size_t>(m)];
+      peers.push_back(table.at(m).authority);
+      for (const int peer : peers) {
+        Session* const session = sessions_.Find(peer);
+        if (session != nullptr) TellOwedRest(now_us, *session, {m});
+      }
+    }
+  }
 }
 
 /// A question to a holder names it beside those who follow: that is no harm.
@@ -89,7 +107,34 @@ void Broadcast::AddNewest(std::int64_t now_us, Session& session, int mechanism, 
   }
 }
 
-/// What rests needs no turn: that is told to everyone (RestCommit).
+/// Who simulates it hears of it, too, wherever it is; and who is not ready yet of everything.
+bool Broadcast::HearsRest(const Session& session, int mechanism) const {
+  return session.stage != SessionStage::kReady || Simulates(session.peer, mechanism) ||
+         interest_.Of(session.peer, mechanism) != Concern::kNone;
+}
+
+void Broadcast::TellRest(const Rest& rest, int from_peer) {
+  if (Plain() || interest_.small() || interest_.unknown()) {
+    sessions_.SendToAll(Encode(rest), from_peer);
+    return;
+  }
+  rest_news_.Take(rest);
+  sessions_.ForEachTold([&](Session& session) {
+    if (session.peer == from_peer) return;
+    const auto hears = [&](int mechanism) { return HearsRest(session, mechanism); };
+    const Rest told = rest_news_.For(session.peer, hears);
+    if (!told.id.empty()) sessions_.SendTo(session, Encode(told));
+  });
+}
+
+void Broadcast::TellOwedRest(std::int64_t now_us, Session& session,
+                             const std::vector<int>& mechanisms) {
+  for (Rest& rest : rest_news_.Owed(session.peer, mechanisms)) {
+    rest.utime = now_us;
+    sessions_.SendTo(session, Encode(rest));
+  }
+}
+
 void Broadcast::TellNothings(std::int64_t now_us, Session& session) {
   if (interest_.small() || session.player < 0) return;
   constexpr int kEach = kNothingPerSecond / kLooksPerSecond, kLookedAtMost = 16 * kEach;
@@ -97,13 +142,17 @@ void Broadcast::TellNothings(std::int64_t now_us, Session& session) {
   const int mechanisms = static_cast<int>(made.mechanisms.size());
   int& next = session.outbox.nothing;
   int told = 0;
+  std::vector<int> resting;
   for (int i = 0; i < std::min(kLookedAtMost, mechanisms) && told < kEach; ++i) {
     if (next + 1 >= mechanisms) {
-      if (now_us - session.outbox.nothings_us < kNothingEveryUs) return;
+      if (now_us - session.outbox.nothings_us < kNothingEveryUs) break;
       session.outbox.nothings_us = now_us;
       next = -1;
     }
     ++next;
+    const bool owed = rest_news_.Owes(session.peer, next);
+    if (owed) resting.push_back(next);
+    told += owed ? 1 : 0;
     if (interest_.Of(session.peer, next) != Concern::kNone) continue;
     if (Simulates(session.peer, next)) continue;
     const auto& assemblies = made.mechanisms[static_cast<std::size_t>(next)].assemblies;
@@ -113,8 +162,9 @@ void Broadcast::TellNothings(std::int64_t now_us, Session& session) {
     });
     if (!moves) continue;
     AddNewest(now_us, session, next, Urgency::kFar);
-    ++told;
+    told += owed ? 0 : 1;
   }
+  TellOwedRest(now_us, session, resting);
 }
 
 /// Who is only shown a body hears of it when it is not as it would be guessed from what was told
@@ -188,6 +238,7 @@ void Broadcast::LookAround(std::int64_t now_us) {
     near.push_back(risen.mechanism);
     if (i + 1 == all.size() || all[i + 1].peer != risen.peer) {
       Send(now_us, *session, grant_news_.Owed(risen.peer, near));
+      TellOwedRest(now_us, *session, near);
       near.clear();
     }
     AddNewest(now_us, *session, risen.mechanism, Urgency::kNear);
@@ -204,6 +255,7 @@ void Broadcast::Remap(const BodyRemap& change) {
   newest_.Remap(change.bodies);
   interest_.Remap();
   grant_news_.Remap(change.mechanisms);
+  rest_news_.Remap(change.mechanisms);
   stale_ = true;
 }
 

@@ -13,6 +13,7 @@
 #include "server/interest/grant_news.h"
 #include "server/interest/interest.h"
 #include "server/interest/newest_states.h"
+#include "server/interest/rest_news.h"
 #include "server/sessions/session_table.h"
 
 namespace seam {
@@ -29,7 +30,8 @@ class Broadcast {
         sessions_(sessions),
         newest_(replica.world(), config.tick_hz),
         interest_(scene, config_, replica),
-        grant_news_(replica, interest_) {}
+        grant_news_(replica, interest_),
+        rest_news_(replica) {}
 
   /// Whether anybody can see what this server shows of bodies.
   bool ShowsViews() const { return views_ && publisher_.listening(); }
@@ -52,7 +54,15 @@ class Broadcast {
   /// A peer is ready: LookAround is due.
   void NoteCome() { come_ = true; }
   /// A peer was told of all authorities.
-  void NoteTold(int peer) { grant_news_.NoteTold(peer); }
+  void NoteTold(int peer) {
+    grant_news_.NoteTold(peer);
+    rest_news_.NoteTold(peer);
+  }
+  /// Bodies have come to rest: at once to those to whom they are at least far, reliably; to the
+  /// others as their turn comes (TellNothings), or when they come to concern them.
+  void TellRest(const Rest& rest, int from_peer);
+  /// Whether a peer was not told yet of all that rests in a block.
+  bool OwesRest(int peer, const RestBlock& at) const { return rest_news_.Owes(peer, at); }
   /// To each of the other peers what concerns it: all of the bodies that it follows, of the others
   /// what is news to it (NewestStates). What is not sent at once waits for SendWaiting. Not on the
   /// bus.
@@ -98,6 +108,10 @@ class Broadcast {
   void FindFollowers();
   void TellNothings(std::int64_t now_us, Session& session);
   void AddNewest(std::int64_t now_us, Session& session, int mechanism, Urgency urgency);
+  bool HearsRest(const Session& session, int mechanism) const;
+  /// What a session is owed of the rest of these mechanisms.
+  void TellOwedRest(std::int64_t now_us, Session& session, const std::vector<int>& mechanisms);
+  void TellRestToFollowers(std::int64_t now_us, const std::vector<Grants>& changes);
   /// Of the entries of a message what is due to a peer.
   using Due = std::vector<std::pair<PartId, Urgency>>;
   /// How urgently an entry is due to a peer, if it is.
@@ -122,6 +136,7 @@ class Broadcast {
   NewestStates newest_;
   Interest interest_;
   GrantNews grant_news_;
+  RestNews rest_news_;
   std::vector<Entry> entries_;               // of the message that is relayed
   std::vector<Due> due_;                     // by peer, of it; else empty
   std::vector<int> hearing_;                 // peers to whom anything of it is due

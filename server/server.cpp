@@ -161,19 +161,13 @@ void Server::SendBodies(std::int64_t now_us, Session& session) {
   }
 }
 
-void Server::SendRest(std::int64_t now_us, Session& session) {
-  for (const Rest& rest : replica_.rest().Again(false)) {
-    session.link.SendReliable(Encode(At(now_us, rest)));
-  }
-}
-
 void Server::TellRest(std::int64_t now_us) {
   for (const Rest& rest : replica_.rest().Take()) {
-    sessions_.SendToAll(Encode(At(now_us, rest)));
+    broadcast_.TellRest(At(now_us, rest), 0);
   }
   const bool quiet = replica_.rest().all();
   sessions_.ForEachReady(
-      0, [&](Session& session) { session.link.SetQuiet(quiet && session.rest.agrees()); });
+      0, [&](Session& session) { session.link.SetQuiet(quiet && session.rest_agrees); });
 }
 
 void Server::StartIfReady(std::int64_t now_us) {

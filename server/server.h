@@ -122,8 +122,9 @@ class Server {
   /// Where all bodies are, once more: since it was sent the world, while its clock settled, a
   /// client has heard of none of them.
   void SendBodies(std::int64_t now_us, Session& session);
-  /// All that rests, to one who has not heard of it.
-  void SendRest(std::int64_t now_us, Session& session);
+  /// What rests of the block that a ping looks at: said again where the client has lost it; and
+  /// what of its own the server knows of, for its answer.
+  void LookAtRest(std::int64_t now_us, Session& session, const Ping& ping, Pong* pong);
   /// What came to rest in the last step, and whether the room is quiet.
   void TellRest(std::int64_t now_us);
   void StartIfReady(std::int64_t now_us);
@@ -165,7 +166,7 @@ class Server {
   std::vector<std::string> news_;  // not taken yet
   RoomClock clock_;
   std::int64_t last_room_us_ = -1000000000;
-  bool look_soon_ = false;              // somebody has come: what concerns whom is not known
+  bool look_soon_ = false;             // somebody has come: what concerns whom is not known
   std::int64_t drivers_heard_us_ = 0;  // until then no driver has been silent for too long
   std::vector<int> inputs_due_;        // players of whom some have come
   std::int64_t inputs_due_tick_ = -1;  // when they were relayed last

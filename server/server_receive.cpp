@@ -87,14 +87,10 @@ void Server::OnPing(std::int64_t now_us, Session& session, const Ping& ping) {
   pong.client_us = ping.utime;
   pong.tick0_us = clock_.Tick0Us(now_us);
   pong.speed_ppm = clock_.speed_ppm();
-  const std::uint64_t ours = replica_.rest().Hash();
-  pong.rest = static_cast<std::int64_t>(ours);
+  LookAtRest(now_us, session, ping, &pong);
   session.load = static_cast<float>(ping.load) * 1e-3f;
   session.revision = ping.revision;
   if (session.ending_us < 0) session.link.SendUnreliable(Encode(pong));
-  const bool ready = session.stage == SessionStage::kReady;
-  const bool lost = session.rest.Lost(now_us, ours, static_cast<std::uint64_t>(ping.rest));
-  if (ready && lost) SendRest(now_us, session);
   const bool more = session.link.reliable_pending();
   if (config_.sync.mode == Mode::kOracle) return;  // each peer edits by its own clock
   if (session.stage != SessionStage::kReady || !edits_.NeedsRepair(ping, more)) return;
@@ -107,6 +103,29 @@ void Server::OnPing(std::int64_t now_us, Session& session, const Ping& ping) {
   ++stats_.counters.dropped_implausible;
   session.link.SendReliable(Encode(edits_.BeginAnew(now_us)));
   SendWorld(now_us, session);
+}
+
+void Server::LookAtRest(std::int64_t now_us, Session& session, const Ping& ping, Pong* pong) {
+  const RestCommit& rest = replica_.rest();
+  pong->rest = static_cast<std::int64_t>(rest.Hash());
+  session.rest_agrees = pong->rest == ping.rest;
+  const bool same_bodies =
+      ping.revision == replica_.revision() &&
+      ping.composition == static_cast<std::int64_t>(replica_.world().composition().hash);
+  const RestBlock at{ping.rest_blocks, ping.rest_block};
+  if (session.stage != SessionStage::kReady || at.blocks == 0 || !same_bodies) return;
+  pong->rest_blocks = ping.rest_blocks;
+  pong->rest_block = ping.rest_block;
+  pong->rest_own = static_cast<std::int32_t>(rest.HashOf(at, session.peer));
+  if (broadcast_.OwesRest(session.peer, at)) {
+    session.rest.Skip(at);
+  } else if (session.rest.Lost(now_us, at, rest.HashOf(at, -1),
+                               static_cast<std::uint32_t>(ping.rest_part))) {
+    for (Rest& again : replica_.rest().Again(at, -1)) {
+      again.utime = now_us;
+      session.link.SendReliable(Encode(again));
+    }
+  }
 }
 
 /// From the first to the last tick of a message that was not known yet, noted, as it is known now.
@@ -212,7 +231,7 @@ void Server::OnRest(std::int64_t now_us, Session& session, const Rest& rest) {
   const Rest kept = filter_.Keep(now_us, session.peer, rest);
   if (kept.id.empty()) return;
   replica_.Receive(kept);
-  sessions_.SendToAll(Encode(kept), session.peer);
+  broadcast_.TellRest(kept, session.peer);
 }
 
 void Server::OnExactStates(std::int64_t now_us, const Session& session, const ExactStates& exact) {

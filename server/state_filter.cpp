@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "common/scene/scene_limits.h"
+#include "server/interest/pose_entry.h"
 #include "server/rules/bounds_watch.h"
 
 namespace seam {
@@ -14,16 +15,6 @@ constexpr double kStatesPast = 2.0;
 constexpr double kStatesFuture = 0.5;
 /// A body may move this much more than its speed explains between two states, m: a hard correction.
 constexpr float kJumpSlack = 5.0f;
-
-/// Who the i-th body of a message is and where, added to `to`.
-template <class Message>
-void AddPose(const Message& from, std::size_t i, Message* to) {
-  to->id.push_back(from.id[i]);
-  to->epoch.push_back(from.epoch[i]);
-  to->x.push_back(from.x[i]);
-  to->y.push_back(from.y[i]);
-  to->angle.push_back(from.angle[i]);
-}
 
 /// Each of a message's arrays with only the entries `kept`, ascending; all of them as a rule.
 template <class T>

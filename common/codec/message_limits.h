@@ -34,6 +34,8 @@ constexpr std::size_t kReleasesMax = 80;
 static_assert(26 + 8 * kReleasesMax <= kMessageBytesMax);
 /// Most bodies in one Rest message: 50 + 20 bytes each must fit kMessageBytesMax.
 constexpr std::size_t kRestBodiesMax = 54;
+/// Blocks of which a ping looks at one: RestBlock.
+constexpr int kRestBlocksMax = 64;
 static_assert(50 + 20 * kRestBodiesMax <= kMessageBytesMax);
 /// Most values in one Meta message: 34 + 10 bytes each must fit kMessageBytesMax.
 constexpr std::size_t kMetaMax = 110;

@@ -24,8 +24,10 @@
   X(Room, room_t, kBusRoom, "scene", m.utime, m.sequence, m.protocol, m.room, m.scene_name,       \
     m.scene_text, m.mode, m.reconcile, m.predict, m.impair, m.seed, m.tick_hz, m.send_hz,         \
     m.input_delay_ticks)                                                                          \
-  X(Ping, ping_t, kEdge, "", m.utime, m.revision, m.composition, m.rest, m.load)                  \
-  X(Pong, pong_t, kEdge, "", m.utime, m.client_us, m.tick0_us, m.rest, m.speed_ppm)               \
+  X(Ping, ping_t, kEdge, "", m.utime, m.revision, m.composition, m.rest, m.rest_blocks,           \
+    m.rest_block, m.rest_part, m.load)                                                            \
+  X(Pong, pong_t, kEdge, "", m.utime, m.client_us, m.tick0_us, m.rest, m.rest_blocks,             \
+    m.rest_block, m.rest_own, m.speed_ppm)                                                        \
   X(Inputs, inputs_t, kBusPlayer, "inputs", m.utime, m.sequence, m.player, m.first_tick, m.drive, \
     m.lift, m.buttons)                                                                            \
   X(States, states_t, kBusPeer, "states", m.utime, m.sequence, m.peer, m.tick, m.revision,        \
@@ -53,8 +55,8 @@
     m.y)                                                                                          \
   X(Stats, stats_t, kBusPeer, "stats", m.utime, m.sequence, m.peer, m.tick, m.bytes_out,          \
     m.bytes_in, m.datagrams_out, m.datagrams_in, m.dropped_malformed, m.dropped_stale,            \
-    m.dropped_right, m.dropped_implausible, m.dropped_budget, m.cpu_us, m.rtt_us,                 \
-    m.jitter_us, m.loss_ppm, m.tick_late_us, m.clock_offset_us)                                   \
+    m.dropped_right, m.dropped_implausible, m.dropped_budget, m.cpu_us, m.rtt_us, m.jitter_us,    \
+    m.loss_ppm, m.tick_late_us, m.clock_offset_us)                                                \
   X(Load, load_t, kBusRoom, "load", m.utime, m.sequence, m.tick, m.speed_ppm, m.ticks,            \
     m.tick_p50_us, m.tick_p99_us, m.tick_max_us, m.late_p50_us, m.late_p99_us, m.late_max_us,     \
     m.cpu_us, m.clients, m.players, m.bodies, m.moving, m.moving_held, m.islands, m.hand_overs,   \

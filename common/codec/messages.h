@@ -14,7 +14,9 @@
 namespace seam {
 
 /// Bumped when any message changes: peers of different versions do not talk.
-constexpr std::int32_t kProtocolVersion = 8;
+constexpr std::int32_t kProtocolVersion = 9;
+/// The oldest whose messages on the bus are those of today: what was recorded since can be read.
+constexpr std::int32_t kOldestRecorded = 8;
 
 /// Client -> server, until answered: is there a room, of which protocol? No version may change its
 /// fields, so that peers of any two can tell each other theirs.
@@ -86,15 +88,21 @@ struct Ping {
   std::int32_t revision = -1;    ///< edits applied so far, -1 before there is a world
   std::int64_t composition = 0;  ///< hash of the composition after them
   std::int64_t rest = 0;         ///< hash of the bodies at rest, 0 for none
-  std::int16_t load = -1;        ///< 1/1000 of its time that it needs for its ticks; -1: not known
+  std::int16_t rest_blocks = 0;  ///< a block of them (RestBlock); 0: none
+  std::int16_t rest_block = 0;
+  std::int32_t rest_part = 0;  ///< its hash
+  std::int16_t load = -1;      ///< 1/1000 of its time that it needs for its ticks; -1: not known
 };
 
 /// Server -> client: the answer.
 struct Pong {
-  std::int64_t utime = 0;      ///< server's clock when it answers
-  std::int64_t client_us = 0;  ///< Ping::utime, returned
-  std::int64_t tick0_us = -1;  ///< the room's clock shows utime - tick0_us; -1: waits for players
-  std::int64_t rest = 0;       ///< hash of the bodies at rest, 0 for none
+  std::int64_t utime = 0;        ///< server's clock when it answers
+  std::int64_t client_us = 0;    ///< Ping::utime, returned
+  std::int64_t tick0_us = -1;    ///< the room's clock shows utime - tick0_us; -1: waits for players
+  std::int64_t rest = 0;         ///< hash of the bodies at rest, 0 for none
+  std::int16_t rest_blocks = 0;  ///< Ping::rest_blocks and rest_block, returned; 0: none
+  std::int16_t rest_block = 0;
+  std::int32_t rest_own = 0;               ///< of the block's bodies that are the client's
   std::int32_t speed_ppm = kFullSpeedPpm;  ///< of the room's clock, per million of real time
 };
 

@@ -20,6 +20,10 @@ bool Counter(std::int64_t n) { return n >= 0 && n < kTimeMaxUs; }
 bool Tick(std::int64_t tick) { return tick >= 0 && tick < kTickMax; }
 /// Statistics and events may come before the first tick: -1.
 bool TickOrBefore(std::int64_t tick) { return tick == -1 || Tick(tick); }
+/// One of so many blocks, or none of none.
+bool Block(int blocks, int block) {
+  return Within(blocks, 0, kRestBlocksMax) && Within(block, 0, std::max(0, blocks - 1));
+}
 bool Peer(std::int32_t peer) { return Within(peer, 0, kPeersMax - 1); }
 
 template <class... Vectors>
@@ -115,11 +119,13 @@ bool Valid(const Room& m) {
          Within(m.tick_hz, kTickHzMin, kTickHzMax) && Within(m.send_hz, 1, m.tick_hz);
 }
 
-bool Valid(const Ping& m) { return Time(m.utime) && m.revision >= -1 && m.load >= -1; }
+bool Valid(const Ping& m) {
+  return Time(m.utime) && m.revision >= -1 && m.load >= -1 && Block(m.rest_blocks, m.rest_block);
+}
 
 bool Valid(const Pong& m) {
   return Time(m.utime) && Time(m.client_us) && Time(m.tick0_us) &&
-         Within(m.speed_ppm, kLeastSpeedPpm, kFullSpeedPpm);
+         Within(m.speed_ppm, kLeastSpeedPpm, kFullSpeedPpm) && Block(m.rest_blocks, m.rest_block);
 }
 
 bool Valid(const Inputs& m) {

@@ -9,7 +9,7 @@
 #include "common/net/link.h"
 #include "common/net/net.h"
 #include "common/sync/input_feed.h"
-#include "common/sync/rest/rest_agreement.h"
+#include "common/sync/rest/rest_blocks.h"
 #include "server/interest/outbox.h"
 #include "server/sessions/account_book.h"
 #include "server/sessions/traffic_budget.h"
@@ -43,7 +43,8 @@ struct Session {
   std::vector<InputFeed> feeds;      ///< of the others' inputs, by player
   std::vector<int> heard_players;    ///< whose inputs concern it
   Outbox outbox;                     ///< states of others that wait for it
-  RestAgreement rest;                ///< with what the client knows to rest
+  RestBlocks rest;                   ///< with what the client knows to rest
+  bool rest_agrees = false;          ///< all of it, as of its newest ping
   ClientAccount* account = nullptr;  ///< the name's; outlives the session
   std::string name;
   int peer = 0;

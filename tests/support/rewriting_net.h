@@ -1,10 +1,11 @@
 #pragma once
-/// A client's network whose outgoing messages a test may change: the client is honest, what arrives
-/// from it is not. All else of the conversation (sequences, acknowledgements) stays right.
+/// A client's network whose messages a test may change: the client is honest, what arrives from it,
+/// or at it, is not. All else of the conversation (sequences, acknowledgements) stays right.
 
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,8 @@ class RewritingNet : public Net {
   /// Called with the time and the header of each datagram that is sent; may change it.
   using RewriteHeader = std::function<void(std::int64_t now_us, DatagramHeader* header)>;
   RewriteHeader rewrite_header;
+  /// Called with the time and each message that arrives; may change it.
+  std::function<void(std::int64_t now_us, Bytes* message)> rewrite_received;
 
   RewritingNet(std::unique_ptr<Net> net, Rewrite rewrite)
       : net_(std::move(net)), rewrite_(std::move(rewrite)) {}
@@ -32,25 +35,41 @@ class RewritingNet : public Net {
     net_->Advance(now_us);
   }
   void Flush() override { net_->Flush(); }
-  bool Receive(Address* from, Bytes* datagram) override { return net_->Receive(from, datagram); }
+  bool Receive(Address* from, Bytes* datagram) override {
+    if (!net_->Receive(from, datagram)) return false;
+    if (!rewrite_received) return true;
+    std::optional<Bytes> changed =
+        Rewritten(*datagram, [this](std::int64_t now_us, Bytes* message) {
+          rewrite_received(now_us, message);
+          return true;
+        });
+    *datagram = std::move(*changed);
+    return true;
+  }
   std::int64_t discarded() const override { return net_->discarded(); }
 
   void Send(const Address& to, ByteView datagram) override {
+    const std::optional<Bytes> changed = Rewritten(datagram, rewrite_, rewrite_header);
+    if (changed) net_->Send(to, *changed);
+  }
+
+ private:
+  std::optional<Bytes> Rewritten(ByteView datagram, const Rewrite& rewrite,
+                                 const RewriteHeader& rewrite_head = {}) const {
     DatagramHeader header;
     std::vector<DatagramMessage> messages;
     SEAM_ASSERT(ReadHeader(datagram, &header) && ReadMessages(datagram, &messages));
     DatagramWriter writer;
     for (DatagramMessage message : messages) {
       Bytes bytes(message.bytes.begin(), message.bytes.end());
-      if (!rewrite_(now_us_, &bytes)) return;
+      if (!rewrite(now_us_, &bytes)) return std::nullopt;
       message.bytes = bytes;
       writer.Append(message);
     }
-    if (rewrite_header) rewrite_header(now_us_, &header);
-    net_->Send(to, writer.Finish(header));
+    if (rewrite_head) rewrite_head(now_us_, &header);
+    return writer.Finish(header);
   }
 
- private:
   std::unique_ptr<Net> net_;
   Rewrite rewrite_;
   std::int64_t now_us_ = 0;

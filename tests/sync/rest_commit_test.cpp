@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "common/scene/scene.h"
-#include "common/sync/rest/rest_agreement.h"
 
 namespace seam {
 namespace {
@@ -171,11 +170,18 @@ TEST(RestCommit, WhatIsSaidAgainIsAsOfNow) {
   room.Steps(100);
   ASSERT_EQ(room.rest.Everything().size(), 1u);
   EXPECT_LT(room.rest.Everything()[0].tick, 40);
-  ASSERT_EQ(room.rest.Again(true).size(), 1u);
-  EXPECT_EQ(room.rest.Again(true)[0].tick, 100);
+  const RestBlock all = RestBlock::Of(2, 0);
+  ASSERT_EQ(room.rest.Again(all, 0).size(), 1u);
+  EXPECT_EQ(room.rest.Again(all, 0)[0].tick, 100);
+  const std::uint32_t both = room.rest.HashOf(all, -1);
+  EXPECT_EQ(both, static_cast<std::uint32_t>(room.rest.Hash()));
+  EXPECT_EQ(room.rest.HashOf(all, 0), both);
   room.Give(0, 1);
-  EXPECT_EQ(room.rest.Again(true)[0].id.size(), 1u) << "its own";
-  EXPECT_EQ(room.rest.Again(false)[0].id.size(), 2u);
+  EXPECT_EQ(room.rest.Again(all, 0)[0].id.size(), 1u) << "its own";
+  EXPECT_EQ(room.rest.Again(all, -1)[0].id.size(), 2u);
+  EXPECT_EQ(room.rest.HashOf(all, 0) + room.rest.HashOf(all, 1), both);
+  EXPECT_TRUE(room.rest.Again({2, 1}, 1).empty()) << "the other block";
+  EXPECT_TRUE(room.rest.Again({2, 0}, 0).empty());
 }
 
 TEST(RestCommit, AWordThatComesToACopyThatWasWokenSinceIsWhereThatGoesBackTo) {
@@ -243,30 +249,6 @@ TEST(RestCommit, AnOwnBodyThatIsMovedIsAwakeAndCommittedAnew) {
   const std::vector<Rest> told = room.Steps(240);
   ASSERT_EQ(told.size(), 1u);
   EXPECT_GT(told[0].x[0], 0.01f);
-}
-
-TEST(RestAgreement, SaysItAgainOnlyWhenTheSameDifferenceLasts) {
-  RestAgreement agreement;
-  EXPECT_FALSE(agreement.Lost(0, 1, 2));
-  EXPECT_FALSE(agreement.Lost(900000, 1, 2));
-  EXPECT_FALSE(agreement.Lost(1000000, 1, 3)) << "another one: something came";
-  EXPECT_FALSE(agreement.Lost(1900000, 1, 3));
-  EXPECT_TRUE(agreement.Lost(2000000, 1, 3));
-  EXPECT_FALSE(agreement.Lost(2100000, 1, 3)) << "it is under way";
-  EXPECT_FALSE(agreement.agrees());
-  EXPECT_FALSE(agreement.Lost(2200000, 3, 3));
-  EXPECT_TRUE(agreement.agrees());
-}
-
-TEST(RestAgreement, SaysItAgainAfterThreeSecondsWhereSomethingAlwaysChanges) {
-  RestAgreement agreement;
-  std::int64_t now_us = 7000000;
-  EXPECT_FALSE(agreement.Lost(now_us, 1, 1));
-  for (std::uint64_t n = 1; n < 30; ++n) {
-    EXPECT_FALSE(agreement.Lost(now_us += 100000, 1000 + n, n)) << n;
-  }
-  EXPECT_TRUE(agreement.Lost(now_us += 100000, 1, 0));
-  EXPECT_FALSE(agreement.Lost(now_us += 100000, 1, 2));
 }
 
 }  // namespace

@@ -25,6 +25,7 @@
 #include "common/sync/mode.h"
 #include "common/sync/reach/driven.h"
 #include "common/sync/reach/reach.h"
+#include "common/sync/rest/rest_blocks.h"
 #include "common/sync/rest/rest_table.h"
 #include "common/sync/rest/rest_watch.h"
 #include "common/sync/roles.h"
@@ -63,15 +64,20 @@ class RestCommit {
   std::vector<Rest> Take();
   /// All that rests, for one who joins.
   std::vector<Rest> Everything() const;
-  /// The same for one who has lost it, which may have heard something else since: what is held lies
-  /// so after this tick, too. Only this peer's own bodies if `own`.
-  std::vector<Rest> Again(bool own) const;
+  /// What is held of these bodies (ascending), for one who has not heard of it yet or has lost it,
+  /// and may have heard something else since: it lies so after this tick, too.
+  std::vector<Rest> Again(const std::vector<int>& bodies) const;
+  /// The same of a block; only what `peer` has authority over, unless below 0.
+  std::vector<Rest> Again(const RestBlock& at, int peer) const;
 
   /// Whether the body lies committed, and is to be corrected, replayed and driven by nothing.
   bool Holds(int body) const { return memory_.track(body).at_rest; }
   /// Whether every body lies so.
   bool all() const;
-  std::uint64_t Hash() const { return table_.Hash(world_); }
+  /// The sum of the hashes of all that is committed; 0: nothing.
+  std::uint64_t Hash() const { return table_.Hash(); }
+  /// The same of a block, its lower 32 bits; only what `peer` has authority over, unless below 0.
+  std::uint32_t HashOf(const RestBlock& at, int peer) const;
   /// What is known of a body's rest.
   const RestRecord& record(int body) const { return table_.at(body); }
   /// Messages of ticks still to come.
@@ -92,6 +98,7 @@ class RestCommit {
     return config_.StampsInputs(roles_.self()) || config_.mode == Mode::kCentral;
   }
   bool Own(int body) const { return roles_.IsAuthority(world_.mechanism(body)); }
+  int AuthorityOf(int body) const { return roles_.table().at(world_.mechanism(body)).authority; }
   Disturbance& disturbed(int body) { return disturbed_[static_cast<std::size_t>(body)]; }
   std::int64_t Ticks(double seconds) const;
   void EndOutdated(int body);

@@ -65,7 +65,8 @@ void RestCommit::Commit(int body) {
   // Later than all that another authority can have said of it, whose clock may be a tick ahead.
   const std::int64_t tick =
       std::max({world_.tick(), table_.at(body).tick + 1, memory_.track(body).heard_tick});
-  table_.Commit(body, roles_.table().at(world_.mechanism(body)).epoch, tick, world_.Read(body));
+  const std::int32_t epoch = roles_.table().at(world_.mechanism(body)).epoch;
+  table_.Commit(body, world_.id(body), epoch, tick, world_.Read(body));
   memory_.track(body).at_rest = true;
   disturbed(body).pushed_ticks = 0;
   disturbed(body).freed_tick = -1;
@@ -92,15 +93,30 @@ std::vector<Rest> RestCommit::Everything() const {
   return table_.Pack(world_, roles_.self(), bodies);
 }
 
-std::vector<Rest> RestCommit::Again(bool own) const {
+std::vector<Rest> RestCommit::Again(const std::vector<int>& bodies) const {
   std::vector<int> held;
-  for (int body = 0; body < world_.body_count(); ++body) {
-    const bool told = !own || Own(body);
-    if (told && table_.at(body).committed && Holds(body)) held.push_back(body);
+  for (const int body : bodies) {
+    if (table_.at(body).committed && Holds(body)) held.push_back(body);
   }
-  std::vector<Rest> out = table_.Pack(world_, roles_.self(), held);
-  for (Rest& rest : out) rest.tick = std::max(rest.tick, world_.tick());
-  return out;
+  return table_.Pack(world_, roles_.self(), held, world_.tick());
+}
+
+std::uint32_t RestCommit::HashOf(const RestBlock& at, int peer) const {
+  std::uint64_t sum = 0;
+  const int count = world_.body_count();
+  for (int body = at.begin(count); body < at.end(count); ++body) {
+    if (peer < 0 || AuthorityOf(body) == peer) sum += table_.HashOf(body);
+  }
+  return static_cast<std::uint32_t>(sum);
+}
+
+std::vector<Rest> RestCommit::Again(const RestBlock& at, int peer) const {
+  std::vector<int> told;
+  const int count = world_.body_count();
+  for (int body = at.begin(count); body < at.end(count); ++body) {
+    if (peer < 0 || AuthorityOf(body) == peer) told.push_back(body);
+  }
+  return Again(told);
 }
 
 bool RestCommit::Receive(const Rest& rest) {
@@ -141,14 +157,14 @@ bool RestCommit::ReceiveOne(const Rest& rest, std::size_t i) {
   pose.angle = rest.angle[i];
   if (!places && WokenSince(body, rest.tick, pose)) {
     // It goes on until its authority says that it moves, or goes back to where that says it rests.
-    table_.Commit(body, rest.epoch[i], rest.tick, pose);
+    table_.Commit(body, rest.id[i], rest.epoch[i], rest.tick, pose);
     track.heard_tick = rest.tick;
     track.heard_epoch = rest.epoch[i];
     if (disturbed(body).freed_tick < 0) LetGo(body);
     return false;
   }
   const BodyState moved = Minus(pose, world_.Read(body));
-  table_.Commit(body, rest.epoch[i], rest.tick, pose);
+  table_.Commit(body, rest.id[i], rest.epoch[i], rest.tick, pose);
   track.at_rest = track.placed = true;
   track.heard_tick = rest.tick;
   track.heard_epoch = rest.epoch[i];

@@ -1,5 +1,5 @@
 #pragma once
-/// Which bodies their authorities have committed to rest, where exactly they lie, and the hash by
+/// Which bodies their authorities have committed to rest, where exactly they lie, and the hashes by
 /// which two peers find out whether they know the same of it.
 
 #include <cstdint>
@@ -20,11 +20,13 @@ struct RestRecord {
 /// One record per body, by index.
 class RestTable {
  public:
-  explicit RestTable(int body_count) : records_(static_cast<std::size_t>(body_count)) {}
+  explicit RestTable(int body_count)
+      : records_(static_cast<std::size_t>(body_count)),
+        hashes_(static_cast<std::size_t>(body_count), 0) {}
 
   const RestRecord& at(int body) const { return records_[static_cast<std::size_t>(body)]; }
-  /// The velocity of `pose` is dropped.
-  void Commit(int body, std::int32_t epoch, std::int64_t tick, const BodyState& pose);
+  /// `id`: the body's. The velocity of `pose` is dropped.
+  void Commit(int body, PartId id, std::int32_t epoch, std::int64_t tick, const BodyState& pose);
   /// It still lies so at a later tick.
   void Prolong(int body, std::int64_t tick) {
     records_[static_cast<std::size_t>(body)].tick = tick;
@@ -34,22 +36,21 @@ class RestTable {
   /// The bodies have changed: what was committed of those that are the same holds on.
   void Remap(const std::vector<BodyOrigin>& origins);
 
-  /// Over id, epoch and the bits of the pose of every committed body; 0 for none.
-  std::uint64_t Hash(const World& world) const;
-  /// These bodies (all committed), by tick, in as few messages as fit a datagram. `utime` and
-  /// `number` are left 0.
-  std::vector<Rest> Pack(const World& world, int peer, std::vector<int> bodies) const;
+  /// The sum of the hashes of all bodies; 0 if none is committed.
+  std::uint64_t Hash() const { return sum_; }
+  /// Over id, epoch and the bits of the pose of a committed body; 0 of one that is not.
+  std::uint64_t HashOf(int body) const { return hashes_[static_cast<std::size_t>(body)]; }
+  /// These bodies (ascending, all committed), by tick, in as few messages as fit a datagram; what
+  /// lies so since before `least_tick` lies so after it. `utime` and `number` are left 0.
+  std::vector<Rest> Pack(const World& world, int peer, std::vector<int> bodies,
+                         std::int64_t least_tick = -1) const;
 
  private:
-  void NoteChanged(int body);
+  void SetHash(int body, std::uint64_t hash);
 
   std::vector<RestRecord> records_;
-  int committed_ = 0;  // how many
-  // A hash goes on from one body to the next: of each kBlock of them it is kept how it begins, so
-  // that it is made anew only from the first that has changed.
-  static constexpr int kBlock = 32;
-  mutable std::vector<std::uint64_t> begins_;
-  mutable int known_ = 0;  // how many of these are as they should be
+  std::vector<std::uint64_t> hashes_;  // by body
+  std::uint64_t sum_ = 0;              // of them
 };
 
 }  // namespace seam

@@ -8,8 +8,9 @@
 namespace seam {
 namespace {
 
-/// What rests is known to, if it was lost: RestAgreement finds that out within three seconds.
-constexpr std::int64_t kRestKnownUs = 7000000;
+/// What rests is known to, if it was lost: RestBlocks finds that out within three seconds, and the
+/// time in which each block has its turn twice.
+constexpr std::int64_t kRestKnownUs = 7000000, kRestBlockUs = 200000;
 /// Bit for bit the same is what its holder has not moved for so long, us, but where something moves
 /// it here: there it must not come to lie otherwise, us.
 constexpr std::int64_t kStillUs = 10000000, kStillElsewhereUs = 3000000;
@@ -56,7 +57,8 @@ void Invariants::LookAtRest() {
       if (equal || !ours.committed || !Well(p, kToldUs)) continue;
       const auto since = peer.rest_other_us.find(id);
       other_us[id] = since == peer.rest_other_us.end() ? cluster_.now_us() : since->second;
-      if (cluster_.now_us() - other_us[id] <= kRestKnownUs) continue;
+      const int blocks = RestBlock::Of(server.world().body_count(), 0).blocks;
+      if (cluster_.now_us() - other_us[id] <= kRestKnownUs + blocks * kRestBlockUs) continue;
       Say("rest is known everywhere", who + ": " + Text(theirs) + "; at the server: " + Text(ours));
     }
     peer.rest_other_us = std::move(other_us);

@@ -1,0 +1,80 @@
+#include "server/interest/rest_news.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace seam {
+
+void RestNews::Take(const Rest& rest) {
+  rest_ = rest;
+  head_ = Rest{};
+  head_.utime = rest.utime;
+  head_.peer = rest.peer;
+  head_.number = rest.number;
+  head_.tick = rest.tick;
+  head_.revision = rest.revision;
+  head_.composition = rest.composition;
+  mechanisms_.clear();
+  const World& world = replica_.world();
+  for (const std::int32_t id : rest.id) {
+    const int body = world.BodyOfId(id);
+    mechanisms_.push_back(body < 0 ? -1 : world.mechanism(body));
+  }
+}
+
+void RestNews::Owe(int peer, int mechanism) {
+  const auto m = static_cast<std::size_t>(mechanism);
+  if (m >= owed_.size()) owed_.resize(m + 1);
+  owed_[m].Add(peer);
+}
+
+bool RestNews::Owes(int peer, const RestBlock& at) const {
+  if (owed_.empty()) return false;
+  const World& world = replica_.world();
+  const int count = world.body_count();
+  for (int body = at.begin(count); body < at.end(count); ++body) {
+    const bool rests = replica_.rest().record(body).committed;
+    if (rests && Owes(peer, world.mechanism(body))) return true;
+  }
+  return false;
+}
+
+std::vector<Rest> RestNews::Owed(int peer, const std::vector<int>& mechanisms) {
+  const World& world = replica_.world();
+  const Composition& made = world.composition();
+  std::vector<int> bodies;
+  for (const int mechanism : mechanisms) {
+    if (!Owes(peer, mechanism)) continue;
+    owed_[static_cast<std::size_t>(mechanism)].Remove(peer);
+    for (const int assembly : made.mechanisms[static_cast<std::size_t>(mechanism)].assemblies) {
+      const int body = world.BodyOfId(made.assemblies[static_cast<std::size_t>(assembly)].id);
+      const bool told = body >= 0 && replica_.rest().record(body).committed;
+      if (!told) continue;
+      if (replica_.rest().Holds(body)) {
+        bodies.push_back(body);
+      } else {
+        Owe(peer, mechanism);  // it may move: its authority has not said so
+      }
+    }
+  }
+  std::sort(bodies.begin(), bodies.end());  // as turns come, mechanisms do not ascend
+  return bodies.empty() ? std::vector<Rest>{} : replica_.rest().Again(bodies);
+}
+
+void RestNews::NoteTold(int peer) {
+  for (PeerSet& owed : owed_) owed.Remove(peer);
+}
+
+void RestNews::Remap(const std::vector<std::vector<int>>& from) {
+  if (owed_.empty()) return;
+  std::vector<PeerSet> owed(from.size());
+  for (std::size_t m = 0; m < from.size(); ++m) {
+    for (const int old : from[m]) {
+      const auto o = static_cast<std::size_t>(old);
+      if (o < owed_.size()) owed[m].Add(owed_[o]);
+    }
+  }
+  owed_ = std::move(owed);
+}
+
+}  // namespace seam
