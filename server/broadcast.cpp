@@ -77,14 +77,17 @@ void Broadcast::NoteFollowers(const std::vector<Grants>& changes) {
 }
 
 void Broadcast::FindFollowers() {
+  PeerSet ready;
+  sessions_.ForEachReady(0, [&ready](const Session& session) { ready.Add(session.peer); });
   const AuthorityTable& table = replica_.authority();
-  followers_.assign(static_cast<std::size_t>(table.count()), {});
-  sessions_.ForEachReady(0, [&](const Session& session) {
-    for (int m = 0; m < table.count(); ++m) {
-      if (!table.at(m).secondaries.Has(session.peer)) continue;
-      followers_[static_cast<std::size_t>(m)].push_back(session.peer);
-    }
-  });
+  followers_.resize(static_cast<std::size_t>(table.count()));
+  for (int m = 0; m < table.count(); ++m) {
+    std::vector<int>& followers = followers_[static_cast<std::size_t>(m)];
+    followers.clear();
+    table.at(m).secondaries.Each([&](int peer) {
+      if (ready.Has(peer)) followers.push_back(peer);
+    });
+  }
 }
 
 void Broadcast::TellOwed(std::int64_t now_us) {

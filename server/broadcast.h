@@ -79,6 +79,28 @@ class Broadcast {
   bool stale() const { return stale_; }
   /// Whether a peer simulates a mechanism, or predicts it: whose inputs move it concern that peer.
   bool Simulates(int peer, int mechanism) const;
+  /// Calls `visit(Session&)` for each ready client that does, maybe more than once.
+  template <class Visit>
+  void EachSimulating(int mechanism, const Visit& visit) const {
+    const bool central = config_.mode == Mode::kCentral;
+    if (config_.mode == Mode::kOracle || (central && interest_.small())) {
+      return sessions_.ForEachReady(0, visit);
+    }
+    const auto visit_peer = [&](int peer) {
+      Session* const session = sessions_.Find(peer);
+      if (session != nullptr && session->stage == SessionStage::kReady) visit(*session);
+    };
+    if (central) {
+      if (interest_.unknown()) return;
+      for (const int peer : interest_.Hearing(mechanism)) {
+        if (Simulates(peer, mechanism)) visit_peer(peer);
+      }
+      return;
+    }
+    const AuthorityRecord& record = replica_.authority().at(mechanism);
+    visit_peer(record.authority);
+    record.secondaries.Each(visit_peer);
+  }
   /// Something a person wants to read; on the bus only.
   void Say(std::int64_t now_us, const std::string& text);
 

@@ -194,18 +194,19 @@ void Server::RelayInputs(std::int64_t now_us) {
 
 /// After authority, or what concerns whom, has changed: whose inputs each client hears.
 void Server::FindHeardPlayers() {
-  std::vector<Session*> ready;
-  sessions_.ForEachReady(0, [&](Session& session) {
-    session.heard_players.clear();
-    ready.push_back(&session);
-  });
-  const int players = static_cast<int>(scene_.players.size());
-  // Player by player, so that what is known of the mechanisms of one is at hand for all.
-  for (int p = 0; p < players; ++p) {
-    for (Session* session : ready) {
-      if (p == session->player) continue;
-      const auto concerns = [&](int m) { return broadcast_.Simulates(session->peer, m); };
-      if (replica_.drivers().Moves(p, concerns)) session->heard_players.push_back(p);
+  sessions_.ForEachReady(0, [](Session& session) { session.heard_players.clear(); });
+  const Drivers& drivers = replica_.drivers();
+  for (int p = 0; p < static_cast<int>(scene_.players.size()); ++p) {
+    const auto hears = [&](Session& session) {
+      std::vector<int>& heard = session.heard_players;
+      if (session.player != p && (heard.empty() || heard.back() != p)) heard.push_back(p);
+    };
+    if (drivers.MovesBelt(p)) {
+      sessions_.ForEachReady(0, hears);
+      continue;
+    }
+    for (const int m : drivers.MechanismsOf(p)) {
+      broadcast_.EachSimulating(m, hears);
     }
   }
 }

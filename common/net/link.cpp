@@ -154,6 +154,11 @@ struct Link::Impl {
     return reliable.Due(now_us);
   }
 
+  /// Until when nothing is sent, if nothing is now and nothing happens.
+  std::int64_t IdleUntilUs() const {
+    return std::min(last_send_us + (quiet ? kIdleQuietUs : kIdleUs), reliable.DueUs());
+  }
+
   void Flush(std::int64_t now_us, const Sink& send) {
     FindAckPoints();
     Packing packing{now_us, send};
@@ -296,6 +301,7 @@ Link& Link::operator=(Link&&) noexcept = default;
 
 void Link::SendUnreliable(ByteView message) {
   SEAM_ASSERT(message.size >= 1 && message.size <= kMessageBytesMax);
+  Wake();
   if (impl_->unreliable.size() >= kUnreliableQueueMax) impl_->unreliable.pop_front();
   impl_->unreliable.push_back({Bytes(message.begin(), message.end()), {}});
 }
@@ -308,15 +314,20 @@ void Link::SendUnreliable(ByteView message, int slot, std::int64_t number) {
 
 bool Link::SendReliable(ByteView message) {
   SEAM_ASSERT(message.size >= 1 && message.size <= kMessageBytesMax);
+  Wake();
   return impl_->reliable.Push(message, false);
 }
 
 bool Link::SendUrgent(ByteView message) {
   SEAM_ASSERT(message.size >= 1 && message.size <= kMessageBytesMax);
+  Wake();
   return impl_->reliable.Push(message, true);
 }
 
-void Link::Flush(std::int64_t now_us, const Sink& send) { impl_->Flush(now_us, send); }
+void Link::Flush(std::int64_t now_us, const Sink& send) {
+  Wake();
+  impl_->Flush(now_us, send);
+}
 
 bool Link::Receive(std::int64_t now_us, ByteView datagram, const Sink& deliver) {
   return Receive(
@@ -324,18 +335,27 @@ bool Link::Receive(std::int64_t now_us, ByteView datagram, const Sink& deliver) 
 }
 
 bool Link::Receive(std::int64_t now_us, ByteView datagram, const Gate& gate, const Sink& deliver) {
+  Wake();
   const bool accepted = impl_->Receive(now_us, datagram, gate, deliver);
   if (!accepted) ++impl_->rejected;
   return accepted;
 }
 
-void Link::SetQuiet(bool quiet) { impl_->quiet = quiet; }
+void Link::SetQuiet(bool quiet) {
+  if (impl_->quiet == quiet) return;
+  impl_->quiet = quiet;
+  Wake();
+}
 std::int64_t Link::acked(int slot) const {
   SEAM_ASSERT(slot >= 0 && slot < kReceiptSlots);
   return impl_->arrived[static_cast<std::size_t>(slot)];
 }
 std::vector<std::int64_t> Link::TakeArrived() { return std::exchange(impl_->listed, {}); }
-bool Link::Sends(std::int64_t now_us) const { return impl_->Sends(now_us); }
+bool Link::SendsNow(std::int64_t now_us) const {
+  if (impl_->Sends(now_us)) return true;
+  idle_until_us_ = impl_->IdleUntilUs();
+  return false;
+}
 std::int64_t Link::last_receive_us() const { return impl_->last_receive_us; }
 std::int64_t Link::rtt_us() const { return impl_->srtt_us; }
 std::int64_t Link::loss_ppm() const { return impl_->window.loss_ppm(); }

@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -72,8 +73,9 @@ class Link {
   std::int64_t acked(int slot) const;
   /// Numbers of the messages of kListedSlot that arrived, as far as we know, since the last call.
   std::vector<std::int64_t> TakeArrived();
-  /// Whether Flush would send anything now.
-  bool Sends(std::int64_t now_us) const;
+  /// Whether Flush would send anything now. Costs a comparison as long as nothing is due: a server
+  /// asks each of its links in every call.
+  bool Sends(std::int64_t now_us) const { return now_us >= idle_until_us_ && SendsNow(now_us); }
 
   std::int64_t last_receive_us() const;  ///< -1 before the first
   /// Smoothed (RFC 6298), with the time the peer lets pass until its next datagram; -1 before the
@@ -86,7 +88,13 @@ class Link {
 
  private:
   struct Impl;
+  bool SendsNow(std::int64_t now_us) const;
+  /// Something has come in or is to go out: what is due when has to be looked at anew.
+  void Wake() { idle_until_us_ = std::numeric_limits<std::int64_t>::min(); }
+
   std::unique_ptr<Impl> impl_;
+  /// Before that nothing is sent unless Wake is called.
+  mutable std::int64_t idle_until_us_ = std::numeric_limits<std::int64_t>::min();
 };
 
 }  // namespace seam

@@ -23,6 +23,8 @@ class ReliableQueue {
 
   /// Whether something is to be sent now, in a datagram of its own if need be.
   bool Due(std::int64_t now_us) const;
+  /// After that said no: when it may be, us.
+  std::int64_t DueUs() const { return due_us_; }
   using Pack = std::function<void(std::int64_t id, ByteView message)>;
   /// What is to be sent now. `rides`: a datagram goes out in any case.
   void Take(std::int64_t now_us, bool rides, const Pack& pack);

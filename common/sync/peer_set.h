@@ -1,7 +1,10 @@
 #pragma once
 /// A set of peers.
 
-#include <bitset>
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
 
 #include "common/base/check.h"
 #include "common/codec/messages.h"
@@ -11,21 +14,41 @@ namespace seam {
 /// Peers 0..kPeersMax - 1 (asserted).
 class PeerSet {
  public:
-  bool Has(int peer) const { return peers_[At(peer)]; }
-  void Add(int peer) { peers_.set(At(peer)); }
-  void Remove(int peer) { peers_.reset(At(peer)); }
-  void Add(const PeerSet& others) { peers_ |= others.peers_; }
-  bool empty() const { return peers_.none(); }
-  int size() const { return static_cast<int>(peers_.count()); }
-  bool operator==(const PeerSet& o) const { return peers_ == o.peers_; }
-  bool operator!=(const PeerSet& o) const { return peers_ != o.peers_; }
+  bool Has(int peer) const { return (words_[Word(peer)] & Bit(peer)) != 0; }
+  void Add(int peer) { words_[Word(peer)] |= Bit(peer); }
+  void Remove(int peer) { words_[Word(peer)] &= ~Bit(peer); }
+  void Add(const PeerSet& others) {
+    for (std::size_t i = 0; i < words_.size(); ++i) words_[i] |= others.words_[i];
+  }
+  bool empty() const {
+    return std::all_of(words_.begin(), words_.end(), [](std::uint64_t w) { return w == 0; });
+  }
+  int size() const {
+    int count = 0;
+    Each([&count](int) { ++count; });
+    return count;
+  }
+  /// Calls `visit(peer)` for each, ascending.
+  template <class Visit>
+  void Each(const Visit& visit) const {
+    for (std::size_t i = 0; i < words_.size(); ++i) {
+      for (std::uint64_t left = words_[i]; left != 0; left &= left - 1) {
+        visit(static_cast<int>(i) * kBits + __builtin_ctzll(left));
+      }
+    }
+  }
+  bool operator==(const PeerSet& o) const { return words_ == o.words_; }
+  bool operator!=(const PeerSet& o) const { return words_ != o.words_; }
 
  private:
-  static std::size_t At(int peer) {
+  static constexpr int kBits = 64;
+  static std::size_t Word(int peer) {
     SEAM_ASSERT(peer >= 0 && peer < kPeersMax);
-    return static_cast<std::size_t>(peer);
+    return static_cast<std::size_t>(peer / kBits);
   }
-  std::bitset<static_cast<std::size_t>(kPeersMax)> peers_;
+  static std::uint64_t Bit(int peer) { return std::uint64_t{1} << (peer % kBits); }
+
+  std::array<std::uint64_t, (kPeersMax + kBits - 1) / kBits> words_{};
 };
 
 }  // namespace seam

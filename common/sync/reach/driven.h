@@ -30,6 +30,8 @@ class Drivers {
   const std::vector<int>& MovedBy(int player) const {
     return moved_[static_cast<std::size_t>(player)];
   }
+  /// Whether the player's axes move an anchored belt.
+  bool MovesBelt(int player) const { return belts_[static_cast<std::size_t>(player)] != 0; }
   /// Whether any player's axes move the mechanism; buttons do not count.
   bool Driven(int mechanism) const { return by_axes_[static_cast<std::size_t>(mechanism)] != 0; }
   /// Whether the player's inputs move something that this peer simulates, or a belt that does not
