@@ -127,18 +127,18 @@ int RunSwarm(const Flags& f) {
   Swarm swarm(config);
   ProgressLine line(f.quiet);
   swarm.Start();
-  std::vector<RoomLoad> heard;
+  ServerTold told;
   if (WaitUntilJoined(f, swarm, &line)) {
     const std::int64_t begin_us = SteadyClockUs();
     swarm.BeginToMeasure(begin_us);
-    if (loads != nullptr) (void)loads->Take(begin_us);  // of the time before
+    if (loads != nullptr) told.before = loads->TakeNow(begin_us);
     const auto end_us = begin_us + static_cast<std::int64_t>(seconds * 1e6);
     for (std::int64_t now_us = begin_us; now_us < end_us; now_us = SteadyClockUs()) {
       if (g_stop != 0 || swarm.closed() || !swarm.Fatal().empty()) break;
       if (loads != nullptr) {
         for (RoomLoad& load : loads->Take(now_us)) {
           if (load.load.utime == 0) load.load.utime = now_us;
-          heard.push_back(std::move(load));
+          told.meanwhile.push_back(std::move(load));
         }
       }
       if (line.Due(now_us)) {
@@ -147,13 +147,14 @@ int RunSwarm(const Flags& f) {
       }
       Doze();
     }
+    if (loads != nullptr) told.after = loads->TakeNow(SteadyClockUs());
   }
   line.End();
   const std::string fatal = swarm.Fatal();
   swarm.Finish(SteadyClockUs());
   if (!fatal.empty()) throw OperatorError(fatal);
-  std::printf("%s", SwarmReport(swarm, heard).c_str());
-  if (loads != nullptr && heard.empty() && !loads->trouble().empty()) {
+  std::printf("%s", SwarmReport(swarm, told).c_str());
+  if (loads != nullptr && told.meanwhile.empty() && !loads->trouble().empty()) {
     PrintError("seam-swarm", loads->trouble());
   }
   if (swarm.closed()) {

@@ -23,10 +23,28 @@ struct Heard {
   double seconds() const { return static_cast<double>(last.utime - first.utime) * 1e-6; }
 };
 
+/// Of all rooms, from the first to the last time that each was counted.
+BucketHistogram Counted(const ServerTold& told, BucketHistogram RoomLoad::*of) {
+  std::map<std::string, std::pair<BucketHistogram, BucketHistogram>> rooms;  // first and last
+  for (const auto* loads : {&told.before, &told.meanwhile, &told.after}) {
+    for (const RoomLoad& load : *loads) {
+      rooms.try_emplace(load.room, load.*of, load.*of).first->second.second = load.*of;
+    }
+  }
+  BucketHistogram all;
+  for (const auto& [room, counts] : rooms) all.Add(counts.second.Since(counts.first));
+  return all;
+}
+
+/// "3.10 ms, " before what the worst second says; "" of nothing.
+std::string P99(const BucketHistogram& counted) {
+  return counted.count > 0 ? Line("%.2f ms, ", counted.QuantileUs(0.99) * 1e-3) : "";
+}
+
 }  // namespace
 
-std::string ServerReport(const std::vector<RoomLoad>& loads) {
-  if (loads.empty()) {
+std::string ServerReport(const ServerTold& told) {
+  if (told.meanwhile.empty()) {
     return "server: not heard (--metrics HOST:PORT of a server with --metrics, or a bus)\n";
   }
   std::map<std::string, Heard> rooms;
@@ -34,8 +52,9 @@ std::string ServerReport(const std::vector<RoomLoad>& loads) {
   std::vector<std::int32_t> medians;
   std::int32_t slowest = kFullSpeedPpm;
   double moving = 0, held = 0;
-  for (const auto& [room, load] : loads) {
-    const auto [found, fresh] = rooms.try_emplace(room, Heard{load, load});
+  for (const RoomLoad& heard : told.meanwhile) {
+    const Load& load = heard.load;
+    const auto [found, fresh] = rooms.try_emplace(heard.room, Heard{load, load});
     if (!fresh) found->second.last = load;
     medians.push_back(load.tick_p50_us);
     worst.tick_p99_us = std::max(worst.tick_p99_us, load.tick_p99_us);
@@ -56,10 +75,12 @@ std::string ServerReport(const std::vector<RoomLoad>& loads) {
     seconds = std::max(seconds, heard.seconds());
   }
   std::string text =
-      Line("server: tick p50 %.2f ms, p99 %.2f ms in the worst second, max %.2f ms\n",
-           Ms(medians[medians.size() / 2]), Ms(worst.tick_p99_us), Ms(worst.tick_max_us));
-  text += Line("server lateness: p50 %.2f ms, p99 %.2f ms in the worst second, max %.2f ms\n",
-               Ms(worst.late_p50_us), Ms(worst.late_p99_us), Ms(worst.late_max_us));
+      Line("server: tick p50 %.2f ms, p99 %s%.2f ms in the worst second, max %.2f ms\n",
+           Ms(medians[medians.size() / 2]), P99(Counted(told, &RoomLoad::tick)).c_str(),
+           Ms(worst.tick_p99_us), Ms(worst.tick_max_us));
+  text += Line("server lateness: p50 %.2f ms, p99 %s%.2f ms in the worst second, max %.2f ms\n",
+               Ms(worst.late_p50_us), P99(Counted(told, &RoomLoad::late)).c_str(),
+               Ms(worst.late_p99_us), Ms(worst.late_max_us));
   text +=
       Line("server room: %zu room(s), slowest clock %.0f %%, clients hold %.1f %% of what moves\n",
            rooms.size(), slowest * 1e-4, moving > 0 ? 100 * held / moving : 0.0);
@@ -68,7 +89,7 @@ std::string ServerReport(const std::vector<RoomLoad>& loads) {
   return text;
 }
 
-std::string SwarmReport(const Swarm& swarm, const std::vector<RoomLoad>& loads) {
+std::string SwarmReport(const Swarm& swarm, const ServerTold& told) {
   const MemberFigures figures = swarm.Figures();
   const Swarm::Traffic traffic = swarm.TrafficOfAll();
   const MovingBodies moving = swarm.Moving();
@@ -98,7 +119,7 @@ std::string SwarmReport(const Swarm& swarm, const std::vector<RoomLoad>& loads) 
       1000 * traffic.rtt_worst_s, static_cast<long long>(traffic.rejoins));
   text += Line("moving: clients hold %.1f %% of %.1f moving bodies\n", 100 * moving.share(),
                moving.held + moving.server);
-  return text + ServerReport(loads);
+  return text + ServerReport(told);
 }
 
 }  // namespace seam

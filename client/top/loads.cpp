@@ -24,7 +24,7 @@ class BusLoads : public Loads {
                      if (load == nullptr) return;
                      // "SEAM.<room>.load"; a room's name has no dot.
                      const std::size_t end = channel.find('.', 5);
-                     heard_.push_back({channel.substr(5, end - 5), *load});
+                     heard_.push_back({channel.substr(5, end - 5), *load, {}, {}});
                    });
   }
   std::vector<RoomLoad> Take(std::int64_t) override {
@@ -44,7 +44,9 @@ class PageLoads : public Loads {
  public:
   explicit PageLoads(std::string address) : address_(std::move(address)) {}
   std::vector<RoomLoad> Take(std::int64_t now_us) override {
-    if (now_us < next_us_) return {};
+    return now_us < next_us_ ? std::vector<RoomLoad>{} : TakeNow(now_us);
+  }
+  std::vector<RoomLoad> TakeNow(std::int64_t now_us) override {
     next_us_ = now_us + kLookUs;
     std::string page;
     const Status status = FetchPage(address_, kPatienceOfLookUs, &page);

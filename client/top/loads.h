@@ -15,6 +15,9 @@ class Loads {
   virtual ~Loads() = default;
   /// What was told since the last call, oldest first. `now_us`: SteadyClockUs.
   virtual std::vector<RoomLoad> Take(std::int64_t now_us) = 0;
+  /// The same, but of a page that was just fetched, however short the last look is ago: what it
+  /// counts is of this moment. Its Load may be one that was told already.
+  virtual std::vector<RoomLoad> TakeNow(std::int64_t now_us) { return Take(now_us); }
   /// Why nothing is heard, one line; "": nothing is wrong.
   virtual std::string trouble() const { return ""; }
 };

@@ -17,7 +17,7 @@ namespace seam {
 namespace {
 
 /// A page is never longer, bytes: 1000 rooms take half of it.
-constexpr std::size_t kPageBytesMax = 8 << 20;
+constexpr std::size_t kPageBytesMax = 16 << 20;
 
 std::int64_t MonotonicUs() {
   timespec t{};

@@ -48,8 +48,19 @@ class Paged {
   template <class At>
   void Remake(std::size_t page, const At& at) {
     SEAM_ASSERT(page < pages_.size());
-    auto made = std::make_shared<Page>();
-    for (std::size_t i = begin(page); i < end(page); ++i) (*made)[i - begin(page)] = at(i);
+    pages_[page] = nullptr;
+    Remake(
+        page, [](std::size_t) { return true; }, at);
+  }
+  /// The same, but elements that are not `changed` are copied, unless there is no such page yet.
+  template <class Changed, class At>
+  void Remake(std::size_t page, const Changed& changed, const At& at) {
+    SEAM_ASSERT(page < pages_.size());
+    const Page* before = pages_[page].get();
+    auto made = before != nullptr ? std::make_shared<Page>(*before) : std::make_shared<Page>();
+    for (std::size_t i = begin(page); i < end(page); ++i) {
+      if (before == nullptr || changed(i)) (*made)[i - begin(page)] = at(i);
+    }
     pages_[page] = std::move(made);
   }
 

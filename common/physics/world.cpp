@@ -38,11 +38,8 @@ void World::SetTick(std::int64_t tick) {
 float World::dt() const { return 1.0f / static_cast<float>(impl_->scene.solver.tick_hz); }
 
 int World::BodyOfId(PartId assembly) const {
-  const Composition& made = composition();
   const auto part = static_cast<std::size_t>(assembly);  // negative ones become large
-  const int a = part < made.assembly_of_part.size() ? made.assembly_of_part[part] : -1;
-  if (a < 0 || made.assemblies[static_cast<std::size_t>(a)].id != assembly) return -1;
-  return IndexOf(impl_->built.bodies[static_cast<std::size_t>(a)]);
+  return part < impl_->body_of_id.size() ? impl_->body_of_id[part] : -1;
 }
 
 BodyState World::Read(int body) const {

@@ -36,6 +36,10 @@ struct World::Impl {
   void Build() {
     memory.revision = topology.revision();
     built = BuildScene(scene, composition, &*world, &memory);
+    body_of_id.assign(scene.parts.size(), -1);
+    for (std::size_t i = 0; i < built.moving.size(); ++i) {
+      body_of_id[static_cast<std::size_t>(built.moving[i].id)] = static_cast<int>(i);
+    }
     motions.assign(built.moving.size(), Motion::kDynamic);
     led_count = 0;
     lightest = FLT_MAX;
@@ -126,6 +130,12 @@ struct World::Impl {
   void Cross(int body, bool goes);
   /// Nothing is known of which pages are as they were.
   void ForgetPages();
+  /// The body, and so its page of `kept`, may have changed.
+  void NoteChanged(int body) {
+    const auto i = static_cast<std::size_t>(body);
+    stale[i / kept.kPage] = 1;
+    changed[i] = 1;
+  }
   /// A body that is aside was changed.
   void NoteAside(int body);
   /// Any of them may have been.
@@ -147,6 +157,7 @@ struct World::Impl {
   BuildMemory memory;
   BuiltScene built;
   std::optional<ExactStep> exact;      // only when there are joints for it
+  std::vector<int> body_of_id;         // by part: the moving body of that id, -1: none
   std::vector<Motion> motions;         // by moving body
   mutable std::int64_t looks = 0;      // calls of moving()
   int led_count = 0;                   // of them kLed
@@ -160,8 +171,9 @@ struct World::Impl {
   std::vector<char> noted_awake;       // by moving body: it is in awake_aside
   Paged<WorldSnapshot::Body> kept;     // of the last Keep
   std::vector<char> stale;             // by page of `kept`: what it tells of may have changed since
-  float lightest = FLT_MAX;            // kg, of the moving bodies
-  bool gives_all = false;              // GivesAll of the scene
+  std::vector<char> changed;  // by moving body of such a page: it may have; else it has not
+  float lightest = FLT_MAX;   // kg, of the moving bodies
+  bool gives_all = false;     // GivesAll of the scene
   mutable std::optional<std::uint64_t> joints_hash;  // of this revision
   mutable int joints_hash_revision = -1;
   /// While bodies are absent: the joints as they were found when none was.

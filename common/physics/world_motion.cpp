@@ -120,11 +120,12 @@ void World::Impl::Cross(int body, bool goes) {
 void World::Impl::ForgetPages() {
   kept.Resize(built.moving.size());
   stale.assign(kept.page_count(), 1);
+  changed.assign(kept.size(), 1);
 }
 
 void World::Impl::NoteAside(int body) {
   const auto i = static_cast<std::size_t>(body);
-  stale[i / kept.kPage] = 1;
+  NoteChanged(body);
   if (noted_awake[i] != 0 || !built.moving[i].body->IsAwake()) return;
   noted_awake[i] = 1;
   awake_aside.push_back(body);
@@ -136,7 +137,7 @@ void World::Impl::NoteAllAside() {
 }
 
 void World::Impl::NotePresent() {
-  for (const int body : present) stale[static_cast<std::size_t>(body) / kept.kPage] = 1;
+  for (const int body : present) NoteChanged(body);
 }
 
 Motion World::motion(int body) const {
@@ -179,7 +180,7 @@ void World::Impl::MoveAbsentBodies() {
     const auto i = static_cast<std::size_t>(index);
     noted_awake[i] = 0;
     if (!IsAside(*body) || !body->IsAwake()) continue;
-    stale[i / kept.kPage] = 1;
+    NoteChanged(index);
     const bool turns = body->GetAngularVelocity() != 0;
     if (!turns && body->GetLinearVelocity() == b2Vec2(0, 0)) body->SetAwake(false);
     body->SetTransform(body->GetPosition() + dt * body->GetLinearVelocity(),

@@ -52,7 +52,8 @@ WorldSnapshot World::Impl::Keep() {
   NotePresent();
   for (std::size_t page = 0; page < kept.page_count(); ++page) {
     if (stale[page] == 0) continue;
-    kept.Remake(page, [this](std::size_t i) {
+    const auto noted = [this](std::size_t i) { return std::exchange(changed[i], 0) != 0; };
+    kept.Remake(page, noted, [this](std::size_t i) {
       const b2Body* b = built.moving[i].body;
       WorldSnapshot::Body body;
       body.state = {FromB2(b->GetPosition()), b->GetAngle(), FromB2(b->GetLinearVelocity()),
@@ -70,10 +71,10 @@ WorldSnapshot World::Impl::Keep() {
   });
   std::sort(out.points.begin(), out.points.end(),
             [](const auto& x, const auto& y) { return KeyOf(x) < KeyOf(y); });
-  for (b2Joint* joint : built.joints) {
-    out.joints.emplace_back();
-    if (joint == nullptr) continue;
-    for (const float* impulse : ImpulsesOf(joint)) out.joints.back().push_back(*impulse);
+  out.joints.resize(built.joints.size());
+  for (const int joint : memory.joints) {
+    const auto j = static_cast<std::size_t>(joint);
+    for (const float* impulse : ImpulsesOf(built.joints[j])) out.joints[j].push_back(*impulse);
   }
   for (const auto& stage : stages) stage->Save(&out.stages);
   out.speeds = Speeds();
@@ -161,7 +162,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
   if (same) {
     const auto at = [&](int body) { return snapshot.bodies[static_cast<std::size_t>(body)].state; };
     BuildPresent(scene, composition, {present, crossed, at}, &*world, &memory, &built);
-    for (const int body : crossed) stale[static_cast<std::size_t>(body) / kept.kPage] = 1;
+    for (const int body : crossed) NoteChanged(body);
     crossed.clear();
     Built();
   } else {
@@ -180,9 +181,12 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
   // What is aside, and was so, is as it was unless something has changed it.
   const auto each = [&](const auto& visit) {
     for (std::size_t page = 0; page < snapshot.bodies.page_count(); ++page) {
-      if (stale[page] == 0 && snapshot.bodies.Shares(kept, page)) continue;
+      const bool shared = snapshot.bodies.Shares(kept, page);
+      if (stale[page] == 0 && shared) continue;
       stale[page] = 1;
       for (std::size_t i = snapshot.bodies.begin(page); i < snapshot.bodies.end(page); ++i) {
+        if (shared && changed[i] == 0) continue;
+        changed[i] = 1;
         visit(i, snapshot.bodies[i]);
       }
     }
@@ -209,8 +213,9 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
     point->normalImpulse = found->normal;
     point->tangentImpulse = found->tangent;
   });
-  for (std::size_t j = 0; j < built.joints.size() && j < snapshot.joints.size(); ++j) {
-    if (built.joints[j] == nullptr || snapshot.joints[j].empty()) continue;
+  for (const int joint : memory.joints) {
+    const auto j = static_cast<std::size_t>(joint);
+    if (j >= snapshot.joints.size() || snapshot.joints[j].empty()) continue;
     std::size_t next = 0;
     for (float* impulse : ImpulsesOf(built.joints[j])) *impulse = snapshot.joints[j].at(next++);
   }

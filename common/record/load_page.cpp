@@ -6,6 +6,8 @@
 #include <cstdlib>
 #include <sstream>
 
+#include "common/record/load_histograms.h"
+
 namespace seam {
 namespace {
 
@@ -161,28 +163,29 @@ std::string WriteLoadPage(const std::vector<RoomLoad>& loads) {
   std::string text;
   for (const Metric& metric : kMetrics) {
     text += Head(metric.name, metric.type, metric.help);
-    for (const auto& [room, load] : loads) {
-      text += Sample(metric.name, room, "", Value(metric, load));
+    for (const RoomLoad& of : loads) {
+      text += Sample(metric.name, of.room, "", Value(metric, of.load));
     }
   }
   text += Head(kDropped, "counter", "Messages and datagrams that were dropped.");
-  for (const auto& [room, load] : loads) {
+  for (const RoomLoad& of : loads) {
     for (const Reason& reason : kReasons) {
       const std::string label = std::string(",reason=\"") + reason.name + '"';
-      text += Sample(kDropped, room, label, static_cast<double>(load.*reason.count));
+      text += Sample(kDropped, of.room, label, static_cast<double>(of.load.*reason.count));
     }
   }
   text += Head(kBytes, "counter", "Bytes of UDP payload.");
-  for (const auto& [room, load] : loads) {
+  for (const RoomLoad& of : loads) {
+    const Load& load = of.load;
     for (std::size_t i = 0; i < load.kind.size(); ++i) {
       const std::string kind = std::string(",kind=\"") + TrafficName(load.kind[i]) + '"';
-      text +=
-          Sample(kBytes, room, kind + ",direction=\"out\"", static_cast<double>(load.bytes_out[i]));
-      text +=
-          Sample(kBytes, room, kind + ",direction=\"in\"", static_cast<double>(load.bytes_in[i]));
+      text += Sample(kBytes, of.room, kind + ",direction=\"out\"",
+                     static_cast<double>(load.bytes_out[i]));
+      text += Sample(kBytes, of.room, kind + ",direction=\"in\"",
+                     static_cast<double>(load.bytes_in[i]));
     }
   }
-  return text;
+  return text + WriteHistograms(loads);
 }
 
 std::vector<RoomLoad> ReadLoadPage(const std::string& text) {
@@ -196,10 +199,11 @@ std::vector<RoomLoad> ReadLoadPage(const std::string& text) {
     RoomLoad* found = nullptr;
     for (RoomLoad& known : loads) found = known.room == room ? &known : found;
     if (found == nullptr) {
-      loads.push_back({room, Load{}});
+      loads.push_back({room, Load{}, {}, {}});
       found = &loads.back();
     }
     Take(line, &found->load);
+    TakeHistogram(line.name, line.Label("le"), line.value, found);
   }
   return loads;
 }

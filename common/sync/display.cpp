@@ -183,7 +183,7 @@ void Display::Leave(int body) {
 
 void Display::Drive(std::int64_t next, const MovingBox& seen) {
   if (config_.mode == Mode::kOracle) return;  // nothing is only displayed
-  const double delay = delay_.Advance();
+  const double delay = config_.mode == Mode::kBuffer ? 0 : delay_.Advance();  // there it has none
   reckoner_.Begin(next);
   LookAtParked(next, seen);
   leaving_.clear();

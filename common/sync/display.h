@@ -41,7 +41,9 @@ class Display {
   /// Closes mechanisms' joints, of the world's bodies as they are now.
   const JointCloser& joints() const { return joints_; }
   /// A state was this many ticks old when it was received.
-  void AddAge(std::int64_t age_ticks) { delay_.AddAge(age_ticks); }
+  void AddAge(std::int64_t age_ticks) {
+    if (config_.mode != Mode::kBuffer) delay_.AddAge(age_ticks);
+  }
   /// The bodies have changed: visual offsets stay with what a body became.
   void Remap(const BodyRemap& change);
 

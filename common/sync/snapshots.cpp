@@ -44,12 +44,14 @@ void Snapshots::Ring::Push(const Stamped& stamped) {
   next_ = next_ + 1 == slots_.size() ? 0 : next_ + 1;
   size_ = std::min<std::uint32_t>(size_ + 1, static_cast<std::uint32_t>(slots_.size()));
   newest_tick_ = stamped.tick;
+  newest_ = stamped.state;
 }
 
 void Snapshots::Ring::DropNewest() {
   next_ = next_ == 0 ? static_cast<std::uint32_t>(slots_.size()) - 1 : next_ - 1;
   --size_;
   newest_tick_ = size_ == 0 ? -1 : FromNewest(0).tick;
+  if (size_ > 0) newest_ = FromNewest(0).state;
 }
 
 void Snapshots::Ring::Grow() {
@@ -70,10 +72,7 @@ void Snapshots::Remap(const std::vector<BodyOrigin>& origins) {
   for (std::size_t i = 0; i < origins.size(); ++i) {
     if (origins[i].body < 0) continue;
     rings[i] = rings_[static_cast<std::size_t>(origins[i].body)];
-    for (std::size_t k = 0; k < rings[i].size(); ++k) {
-      BodyState& state = rings[i].FromNewest(k).state;
-      state = Carried(origins[i], state);
-    }
+    rings[i].Change([&](const BodyState& state) { return Carried(origins[i], state); });
   }
   rings_ = std::move(rings);
 }
@@ -94,7 +93,7 @@ const BodyState* Snapshots::At(int body, std::int64_t tick) const {
 BodyState Snapshots::Interpolate(int body, double tick) const {
   const Ring& ring = rings_[static_cast<std::size_t>(body)];
   SEAM_ASSERT(ring.size() > 0);
-  if (tick >= static_cast<double>(ring.newest_tick())) return ring.FromNewest(0).state;
+  if (tick >= static_cast<double>(ring.newest_tick())) return ring.newest();
   for (std::size_t k = 1; k < ring.size(); ++k) {
     const Stamped& a = ring.FromNewest(k);
     if (static_cast<double>(a.tick) > tick) continue;
@@ -129,7 +128,7 @@ BodyState Snapshots::Onward(const Ring& ring, std::int64_t tick, float dt, float
                             const Vec2& acceleration) {
   SEAM_ASSERT(ring.size() > 0);
   const float forward = Forward(ring.newest_tick(), tick, dt, max_s);
-  BodyState out = seam::Extrapolate(ring.FromNewest(0).state, forward);
+  BodyState out = seam::Extrapolate(ring.newest(), forward);
   out.velocity += SpeedGained(acceleration, forward);
   out.position += ShiftGained(acceleration, forward);
   return out;

@@ -39,7 +39,7 @@ class Snapshots {
   }
   /// Requires has(body).
   const BodyState& newest(int body) const {
-    return rings_[static_cast<std::size_t>(body)].FromNewest(0).state;
+    return rings_[static_cast<std::size_t>(body)].newest();
   }
 
   /// The state of exactly this tick; nullptr when it is not kept.
@@ -65,15 +65,25 @@ class Snapshots {
     BodyState state;
   };
   /// The newest kKeep of a body, in one piece of memory that is as large as they need: a room hears
-  /// of thousands of bodies in a second, and what an entry costs is the memory that it is in.
-  class Ring {
+  /// of thousands of bodies in a second, and what an entry costs is the memory that it is in. The
+  /// newest lies in the ring itself, too, beside its tick: most who ask want no other.
+  class alignas(64) Ring {
    public:
     void Push(const Stamped& stamped);
     void DropNewest();
     std::size_t size() const { return size_; }
     std::int64_t newest_tick() const { return newest_tick_; }  ///< -1 when none
+    const BodyState& newest() const { return newest_; }        ///< requires size() > 0
+    /// All states become what `to(state)` says.
+    template <class To>
+    void Change(const To& to) {
+      for (std::size_t k = 0; k < size_; ++k) {
+        BodyState& state = slots_[SlotOf(k)].state;
+        state = to(state);
+      }
+      if (size_ > 0) newest_ = FromNewest(0).state;
+    }
     /// 0 is the newest. Requires back < size().
-    Stamped& FromNewest(std::size_t back) { return slots_[SlotOf(back)]; }
     const Stamped& FromNewest(std::size_t back) const { return slots_[SlotOf(back)]; }
 
    private:
@@ -83,6 +93,7 @@ class Snapshots {
     }
     void Grow();
     std::int64_t newest_tick_ = -1;
+    BodyState newest_;
     std::vector<Stamped> slots_;
     std::uint32_t next_ = 0, size_ = 0;  // where the next goes, and how many there are
   };

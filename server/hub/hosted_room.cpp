@@ -42,6 +42,7 @@ void HostedRoom::Run(std::int64_t now_us) {
   sink_.Poll();
   tick_times_.Note(SteadyClockUs() - now_us, server_.tick() - tick);
   watch_.NoteCall(server_, now_us, SteadyClockUs() - now_us, ThreadCpuUs() - cpu_us, tick, due_us);
+  if (server_.tick() != tick) NoteTicks();
   CollectNews();
   if (watch_.Due(now_us)) Tell(now_us);
   EndIfDone(now_us);
@@ -59,6 +60,12 @@ std::int64_t HostedRoom::due_us() const {
     return impaired_.sending() ? ran_us_ + kRunUs : std::numeric_limits<std::int64_t>::max();
   }
   return std::min({server_.next_tick_us(), impaired_.next_due_us(), ran_us_ + kRunUs});
+}
+
+void HostedRoom::NoteTicks() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  newest_.tick = watch_.tick_total();
+  newest_.late = watch_.late_total();
 }
 
 void HostedRoom::Tell(std::int64_t now_us) {

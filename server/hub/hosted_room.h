@@ -45,7 +45,8 @@ class HostedRoom : public Runnable {
 
   /// By any thread: a datagram for it.
   void Deliver(const Address& from, Bytes datagram) { net_.Deliver(from, std::move(datagram)); }
-  /// By any thread: the last Load that it told; utime is 0 before the first.
+  /// By any thread: the last Load that it told, with utime 0 before the first, and the histograms
+  /// up to its last tick.
   RoomLoad newest() const;
   /// By any thread: the tick after which it was to end is done.
   bool done() const;
@@ -66,6 +67,7 @@ class HostedRoom : public Runnable {
   const TickTimes& tick_times() const { return tick_times_; }
 
  private:
+  void NoteTicks();
   void Tell(std::int64_t now_us);
   void CollectNews();
   void EndIfDone(std::int64_t now_us);

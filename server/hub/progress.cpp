@@ -35,7 +35,8 @@ std::string HubProgress(const Hub& hub) {
   if (hub.lane_count() == 0 && hub.rooms().size() == 1) return OneRoom(*hub.rooms()[0]);
   int players = 0;
   std::int32_t tick_us = 0, late_us = 0, speed_ppm = kFullSpeedPpm;
-  for (const auto& [name, load] : hub.Loads()) {
+  for (const RoomLoad& room : hub.Loads()) {
+    const Load& load = room.load;
     players += load.players;
     tick_us = std::max(tick_us, load.tick_p99_us);
     late_us = std::max(late_us, load.late_p99_us);

@@ -1,10 +1,11 @@
 #pragma once
 /// What a room costs and whether its server keeps up, measured from outside of it and told once a
-/// second as a Load.
+/// second as a Load; and all ticks so far, counted.
 
 #include <cstdint>
 #include <vector>
 
+#include "common/base/bucket_histogram.h"
 #include "common/base/duration_histogram.h"
 #include "server/load/traffic_count.h"
 #include "server/server.h"
@@ -22,6 +23,9 @@ class LoadWatch {
   Load Tell(std::int64_t now_us, const Server& server, const TrafficCount& traffic);
 
   std::int64_t cpu_us() const { return cpu_us_; }
+  /// Wall time of all ticks so far, and how long after it was due each began.
+  const BucketHistogram& tick_total() const { return wall_total_; }
+  const BucketHistogram& late_total() const { return late_total_; }
 
   static constexpr std::int64_t kEveryUs = 1000000;
 
@@ -29,6 +33,7 @@ class LoadWatch {
   void CountHandOvers(const Server& server);
 
   DurationHistogram wall_, late_;  // of the ticks since the last Load
+  BucketHistogram wall_total_, late_total_;
   std::int64_t cpu_us_ = 0;
   std::int64_t told_us_ = 0;
   std::int64_t hand_overs_ = 0;

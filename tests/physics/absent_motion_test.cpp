@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "common/base/geometry.h"
+#include "common/base/random.h"
 #include "common/physics/world.h"
 #include "tests/support/scripted_world.h"
 #include "tests/support/small_world.h"
@@ -111,6 +112,41 @@ TEST(AbsentBody, KeepsItsPoseAmongManyThatAreAbsent) {
   world->Write(70, moved, false);
   ASSERT_TRUE(world->Restore(then).ok());
   EXPECT_EQ(world->Read(70).position, placed[70].position) << "it goes back as well";
+}
+
+TEST(AbsentBody, EachBarrierTellsOfEveryBodyWhateverCameGoesAndWasMoved) {
+  constexpr int kMany = 100;
+  const std::unique_ptr<World> world = SmallWorld(
+      "[[part]]\nname = \"disc\"\ncircle = 0.5\nposition = [0, 0]\nvelocity = [0.5, 0]\n"
+      "repeat = {count = 100, step = [1.2, 0]}\n",
+      "", kNoGravity);
+  Random random(5);
+  const auto any = [&] { return static_cast<int>(random.Next() % kMany); };
+  std::vector<WorldSnapshot> barriers;
+  for (int tick = 0; tick < 300; ++tick) {
+    for (int i = 0; i < 3; ++i) {
+      world->SetMotion(any(), random.Next() % 4 == 0 ? Motion::kDynamic : Motion::kAbsent);
+    }
+    const int moved = any();
+    BodyState state = world->Read(moved);
+    state.position.y() += 0.25f;
+    state.velocity.x() = random.Next() % 2 == 0 ? 0.0f : 1.0f;
+    world->Write(moved, state, random.Next() % 2 == 0);
+    world->SetAwake(any(), random.Next() % 2 == 0);
+    world->Step();
+    if (tick % 3 != 0) continue;
+    if (tick % 30 == 0 && !barriers.empty()) {
+      ASSERT_TRUE(world->Restore(barriers[random.Next() % barriers.size()]).ok());
+    }
+    barriers.push_back(world->Barrier());
+    for (int body = 0; body < kMany; ++body) {
+      const WorldSnapshot::Body& told = barriers.back().bodies[static_cast<std::size_t>(body)];
+      const BodyState now = world->Read(body);
+      EXPECT_EQ(told.state.position, now.position) << tick << " " << body;
+      EXPECT_EQ(told.state.velocity, now.velocity) << tick << " " << body;
+      EXPECT_EQ(told.awake, world->awake(body)) << tick << " " << body;
+    }
+  }
 }
 
 /// A rope of links from a post, and a box that lies apart.

@@ -13,6 +13,7 @@
 #include "common/record/recording.h"
 #include "tests/support/in_namespace.h"
 #include "tests/support/program.h"
+#include "tests/support/source_tree.h"
 
 namespace seam {
 namespace {
@@ -82,6 +83,11 @@ TEST_F(SwarmProgram, FourClientsPlayForThreeSecondsAndLeaveCleanly) {
   EXPECT_GT(NumberAfter(said, "client bytes: in "), 0.5) << said;
   EXPECT_GT(NumberAfter(said, "moving: clients hold "), 80) << said;
   EXPECT_GT(NumberAfter(said, "server: tick p50 "), 0) << said;
+  const std::string tick = said.substr(said.find("server: tick p50 "));
+  const Regex whole(
+      "server: tick p50 [0-9.]+ ms, p99 [0-9.]+ ms, [0-9.]+ ms in the worst second,.*");
+  EXPECT_TRUE(whole.Matches(tick.substr(0, tick.find('\n')))) << said;
+  EXPECT_GT(NumberAfter(tick, ", p99 "), 0) << said;
   EXPECT_EQ(NumberAfter(said, "server room: "), 1) << said;
   EXPECT_GE(NumberAfter(said, "server cpu: "), 0) << said;
   // Nobody is there any more, at once: they said goodbye.
@@ -92,6 +98,9 @@ TEST_F(SwarmProgram, FourClientsPlayForThreeSecondsAndLeaveCleanly) {
   }
   ASSERT_EQ(loads.size(), 1u);
   EXPECT_EQ(loads[0].load.clients, 0);
+  EXPECT_GT(loads[0].tick.count, 120) << "each of its ticks is counted";
+  EXPECT_EQ(loads[0].late.count, loads[0].tick.count);
+  EXPECT_GT(loads[0].tick.sum_us, 0);
   server->Signal(SIGINT);
   EXPECT_TRUE(server->Wait(kPatience));
   EXPECT_EQ(server->status(), 0) << server->Story();

@@ -5,10 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <map>
 #include <set>
 #include <sstream>
 
+#include "common/base/random.h"
 #include "common/codec/message_list.h"
 #include "tests/support/random_messages.h"
 #include "tests/support/source_tree.h"
@@ -30,10 +33,25 @@ Load RandomLoad(RandomMessages* random) {
   return load;
 }
 
+/// Ticks as they may have been, of any length.
+BucketHistogram RandomTicks(Random* random) {
+  BucketHistogram ticks;
+  for (int i = 0; i < 200; ++i) {
+    ticks.Add(static_cast<std::int64_t>(random->Next() >> (44 + random->Next() % 16)));
+  }
+  return ticks;
+}
+
+RoomLoad RandomRoom(const std::string& name, RandomMessages* messages, Random* ticks) {
+  return {name, RandomLoad(messages), RandomTicks(ticks), RandomTicks(ticks)};
+}
+
 TEST(LoadPage, WhatIsWrittenIsReadBack) {
   RandomMessages random(3);
+  Random ticks(4);
   for (int i = 0; i < 50; ++i) {
-    std::vector<RoomLoad> loads = {{"main-1", RandomLoad(&random)}, {"b_2", RandomLoad(&random)}};
+    std::vector<RoomLoad> loads = {RandomRoom("main-1", &random, &ticks),
+                                   RandomRoom("b_2", &random, &ticks)};
     for (RoomLoad& room : loads) {  // a page has 15 digits
       for (auto* n :
            {&room.load.cpu_us, &room.load.tick, &room.load.hand_overs, &room.load.jumps,
@@ -48,13 +66,18 @@ TEST(LoadPage, WhatIsWrittenIsReadBack) {
       EXPECT_EQ(read[r].room, loads[r].room);
       EXPECT_EQ(MessageTraits<Load>::Fields(read[r].load),
                 MessageTraits<Load>::Fields(loads[r].load));
+      for (const auto of : {&RoomLoad::tick, &RoomLoad::late}) {
+        EXPECT_EQ((read[r].*of).at_most, (loads[r].*of).at_most);
+        EXPECT_EQ((read[r].*of).count, 200);
+        EXPECT_EQ((read[r].*of).sum_us, (loads[r].*of).sum_us);
+      }
     }
   }
 }
 
 /// "" if the text keeps to the rules of the text format, else the first line that does not.
 std::string BrokenLine(const std::string& text) {
-  const Regex help("# HELP [a-z_0-9]+ .+"), type("# TYPE ([a-z_0-9]+) (counter|gauge)");
+  const Regex help("# HELP [a-z_0-9]+ .+"), type("# TYPE ([a-z_0-9]+) (counter|gauge|histogram)");
   const Regex sample(
       "([a-zA-Z_:][a-zA-Z0-9_:]*)"
       "[{][a-zA-Z_][a-zA-Z0-9_]*=\"[^\"\\]*\"(,[a-zA-Z_][a-zA-Z0-9_]*=\"[^\"\\]*\")*[}]"
@@ -72,7 +95,11 @@ std::string BrokenLine(const std::string& text) {
       if (!types.emplace(now, kind).second || total != (kind == "counter")) return line;
       continue;
     }
-    if (!sample.Matches(line) || sample.Group(line) != now) return line;
+    if (!sample.Matches(line)) return line;
+    const std::string name = sample.Group(line);
+    const bool part = types[now] == "histogram" &&
+                      (name == now + "_bucket" || name == now + "_sum" || name == now + "_count");
+    if (!part && (name != now || types[now] == "histogram")) return line;
     if (!seen.insert(line.substr(0, line.find("} "))).second) return line;
   }
   return text.empty() || text.back() != '\n' ? "the last line has no end" : "";
@@ -80,14 +107,46 @@ std::string BrokenLine(const std::string& text) {
 
 TEST(LoadPage, KeepsToTheExpositionFormat) {
   RandomMessages random(5);
+  Random ticks(6);
   const std::string page =
-      WriteLoadPage({{"main-1", RandomLoad(&random)}, {"main-2", RandomLoad(&random)}});
+      WriteLoadPage({RandomRoom("main-1", &random, &ticks), RandomRoom("main-2", &random, &ticks)});
   EXPECT_EQ(BrokenLine(page), "");
   EXPECT_GT(std::count(page.begin(), page.end(), '\n'), 100);
   // And this test can fail.
   EXPECT_EQ(BrokenLine("# TYPE a gauge\nb{room=\"x\"} 1\n"), "b{room=\"x\"} 1");
   EXPECT_EQ(BrokenLine("# TYPE a counter\na{room=\"x\"} 1\n"), "# TYPE a counter");
+  EXPECT_EQ(BrokenLine("# TYPE a histogram\na{room=\"x\"} 1\n"), "a{room=\"x\"} 1");
+  EXPECT_EQ(BrokenLine("# TYPE a gauge\na_sum{room=\"x\"} 1\n"), "a_sum{room=\"x\"} 1");
   EXPECT_EQ(BrokenLine("# TYPE a gauge\na{room=\"x\"} nan\n"), "a{room=\"x\"} nan");
+}
+
+/// The text after the last `before` in the line, as a number; "+Inf" is infinity.
+double NumberAfter(const std::string& line, const std::string& before) {
+  return std::strtod(line.c_str() + line.rfind(before) + before.size(), nullptr);
+}
+
+TEST(LoadPage, BucketsGrowInBoundAndCountAndTheLastIsTheCount) {
+  RandomMessages random(7);
+  Random ticks(8);
+  std::istringstream page(WriteLoadPage(
+      {RandomRoom("main-1", &random, &ticks), RandomRoom("main-2", &random, &ticks)}));
+  int histograms = 0;
+  double bound = -1, count = 0;
+  for (std::string line; std::getline(page, line);) {
+    if (line.find("_seconds_bucket{") != std::string::npos) {
+      EXPECT_GT(NumberAfter(line, "le=\""), bound) << line;
+      EXPECT_GE(NumberAfter(line, "} "), count) << line;
+      bound = NumberAfter(line, "le=\"");
+      count = NumberAfter(line, "} ");
+    } else if (line.find("_seconds_count{") != std::string::npos) {
+      EXPECT_TRUE(std::isinf(bound)) << line;
+      EXPECT_EQ(NumberAfter(line, "} "), count) << line;
+      EXPECT_EQ(count, 200) << line;
+      bound = -1, count = 0;
+      ++histograms;
+    }
+  }
+  EXPECT_EQ(histograms, 4);
 }
 
 TEST(LoadPage, ForeignAndBrokenPagesAreReadWithoutHarm) {
@@ -95,12 +154,18 @@ TEST(LoadPage, ForeignAndBrokenPagesAreReadWithoutHarm) {
   EXPECT_TRUE(ReadLoadPage("<html>{\n}{} \n# HELP\nseam_tick 3\nseam_tick{room=\"\"} 3\n").empty());
   const std::vector<RoomLoad> read = ReadLoadPage(
       "seam_tick{room=\"a\"} 7\nseam_clients{room=\"a\"} 1e14\nother{room=\"a\"} 1\n"
+      "seam_late_seconds_bucket{room=\"a\",le=\"1e-4\"} 5\n"
+      "seam_late_seconds_bucket{room=\"a\",le=\"many\"} 6\n"
+      "seam_late_seconds_bucket{room=\"a\"} 7\nseam_late_seconds_other{room=\"a\"} 8\n"
       "seam_tick{room=\"a\"} nan\nseam_bodies{room=\"a\"} 1e99\nseam_dropped_total{room=\"a\"} "
       "1\n");
   ASSERT_EQ(read.size(), 1u);
   EXPECT_EQ(read[0].load.tick, 7);
   EXPECT_EQ(read[0].load.clients, INT32_MAX);
   EXPECT_EQ(read[0].load.bodies, 0);
+  EXPECT_EQ(read[0].late.at_most[0], 5);
+  EXPECT_EQ(read[0].late.at_most[1], 0);
+  EXPECT_EQ(read[0].late.count, 0);
 }
 
 }  // namespace

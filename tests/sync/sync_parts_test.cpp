@@ -248,6 +248,26 @@ TEST(Snapshots, ReckonAStartOrABlowOfOnceWithoutItsAcceleration) {
   }
 }
 
+TEST(Snapshots, TheNewestIsTheLastThatIsKeptAndCarriedOver) {
+  Snapshots snapshots(2);
+  EXPECT_FALSE(snapshots.has(0));
+  for (int tick = 1; tick <= 200; ++tick) {  // around its ring, twice
+    snapshots.Add(0, tick, State(static_cast<float>(tick), 0, 0));
+    EXPECT_EQ(snapshots.newest(0).position.x(), static_cast<float>(tick));
+  }
+  snapshots.ForgetAfter(0, 150);
+  EXPECT_EQ(snapshots.newest_tick(0), 150);
+  EXPECT_EQ(snapshots.newest(0).position.x(), 150);
+  std::vector<BodyOrigin> origins(1);
+  origins[0].body = 0;
+  origins[0].root = {2, 0};
+  snapshots.Remap(origins);
+  EXPECT_EQ(snapshots.newest(0).position.x(), 152);
+  EXPECT_EQ(snapshots.At(0, 149)->position.x(), 151);
+  snapshots.ForgetAfter(0, 0);
+  EXPECT_FALSE(snapshots.has(0));
+}
+
 TEST(Snapshots, InterpolateBetweenAndHoldBeyond) {
   Snapshots snapshots(1);
   BodyState s;
