@@ -10,6 +10,7 @@
 #include "common/base/check.h"
 #include "common/net/datagram.h"
 #include "common/net/reliable_queue.h"
+#include "common/net/sent_record.h"
 #include "common/net/sequence_window.h"
 
 namespace seam {
@@ -29,25 +30,6 @@ constexpr std::int64_t kLateUsMin = 50'000;
 constexpr std::int64_t kAckSpan = 33;
 /// Records that are acknowledged, whose memory is kept for the next.
 constexpr std::size_t kSpareMost = 16;
-
-struct Receipt {
-  int slot = -1;  // -1: nobody wants one
-  std::int64_t number = -1;
-};
-
-/// An unreliable message that waits for a Flush.
-struct Passing {
-  Bytes bytes;
-  Receipt receipt;
-};
-
-/// What a datagram carried.
-struct SentRecord {
-  std::int64_t sent_us = 0;
-  bool acked = false;
-  std::vector<std::int64_t> ids;
-  std::vector<Receipt> receipts;
-};
 
 }  // namespace
 
