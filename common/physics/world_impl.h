@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cfloat>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -42,6 +43,7 @@ struct World::Impl {
     for (const MovingBody& m : built.moving) lightest = std::min(lightest, m.mass.mass);
     gives_all = GivesAll(scene);
     joints_hash.reset();
+    remembered.clear();
     ForgetPages();
     Built();
   }
@@ -132,6 +134,8 @@ struct World::Impl {
   void NoteAllAside();
   /// Pages of what is present are never as they were.
   void NotePresent();
+  /// What is remembered of contacts of those that are present and lie as they did then; ascending.
+  std::vector<WorldSnapshot::Point> Remembered(const WorldSnapshot& snapshot) const;
 
   const MovingBody& moving(int body) const {
     SEAM_ASSERT(body >= 0 && body < static_cast<int>(built.moving.size()));
@@ -160,8 +164,13 @@ struct World::Impl {
   std::vector<char> noted_awake;       // by moving body: it is in awake_aside
   Paged<WorldSnapshot::Body> kept;     // of the last Keep
   std::vector<char> stale;             // by page of `kept`: what it tells of may have changed since
-  float lightest = FLT_MAX;            // kg, of the moving bodies
-  bool gives_all = false;              // GivesAll of the scene
+  struct Contacts {
+    BodyState pose;
+    std::vector<WorldSnapshot::Point> points;
+  };
+  std::map<int, Contacts> remembered;                // by moving body, see RememberContacts
+  float lightest = FLT_MAX;                          // kg, of the moving bodies
+  bool gives_all = false;                            // GivesAll of the scene
   mutable std::optional<std::uint64_t> joints_hash;  // of this revision
   mutable int joints_hash_revision = -1;
   /// While bodies are absent: the joints as they were found when none was.
