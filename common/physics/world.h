@@ -121,6 +121,11 @@ class World {
   /// anew; all bodies of a mechanism should be absent together, because no joint holds one that is.
   void SetMotion(int body, Motion motion);
   Motion motion(int body) const;
+  /// Before a body that sleeps becomes absent: what its contacts pressed with, they begin with when
+  /// it is there again and lies as it does now. Else they begin with nothing, as of all that comes.
+  void RememberContacts(int body);
+  /// Lets it hold now, if there is a change to or from kAbsent: before an edit that looks around.
+  void Settle();
   /// Those that are not absent, ascending: what the work of a tick is to be proportional to.
   const std::vector<int>& present() const;
   /// How often a body was looked at, or written to, by its index: the work that callers made of it.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cfloat>
+#include <map>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -46,6 +47,7 @@ struct World::Impl {
     for (const MovingBody& m : built.moving) lightest = std::min(lightest, m.mass.mass);
     gives_all = GivesAll(scene);
     joints_hash.reset();
+    remembered.clear();
     ForgetPages();
     Built();
   }
@@ -142,6 +144,8 @@ struct World::Impl {
   void NoteAllAside();
   /// Pages of what is present are never as they were.
   void NotePresent();
+  /// What is remembered of contacts of those that are present and lie as they did then; ascending.
+  std::vector<WorldSnapshot::Point> Remembered(const WorldSnapshot& snapshot) const;
 
   const MovingBody& moving(int body) const {
     SEAM_ASSERT(body >= 0 && body < static_cast<int>(built.moving.size()));
@@ -172,8 +176,13 @@ struct World::Impl {
   Paged<WorldSnapshot::Body> kept;     // of the last Keep
   std::vector<char> stale;             // by page of `kept`: what it tells of may have changed since
   std::vector<char> changed;  // by moving body of such a page: it may have; else it has not
-  float lightest = FLT_MAX;   // kg, of the moving bodies
-  bool gives_all = false;     // GivesAll of the scene
+  struct Contacts {
+    BodyState pose;
+    std::vector<WorldSnapshot::Point> points;
+  };
+  std::map<int, Contacts> remembered;                // by moving body, see RememberContacts
+  float lightest = FLT_MAX;                          // kg, of the moving bodies
+  bool gives_all = false;                            // GivesAll of the scene
   mutable std::optional<std::uint64_t> joints_hash;  // of this revision
   mutable int joints_hash_revision = -1;
   /// While bodies are absent: the joints as they were found when none was.

@@ -200,4 +200,13 @@ float World::FreeWay(int body, const Vec2& from, const Vec2& to) const {
   return first.share;
 }
 
+/// The joints as they are while nothing is absent.
+void World::Impl::KnowJoints(bool any_absent) {
+  if (!any_absent) return all_present.reset();
+  if (all_present) return;
+  all_present.emplace();
+  all_present->pins = FindPins();
+  for (const b2Joint* joint : built.joints) all_present->made.push_back(joint != nullptr ? 1 : 0);
+}
+
 }  // namespace seam

@@ -23,23 +23,42 @@ SEAM_REVEAL(SleepTime, float, b2Body, m_sleepTime);
 using PointKey = std::tuple<std::uint64_t, std::uint64_t>;
 PointKey KeyOf(const WorldSnapshot::Point& p) { return {p.pair, p.feature}; }
 
-/// Calls `visit(key, point)` for all points of contacts.
+/// Calls `visit(key, point)` for all points of a contact.
+template <typename Visit>
+void EachPointOf(b2Contact* c, const Visit& visit) {
+  // Part numbers and ids of features are below 2^32, a chain's segments and pieces of parts
+  // below 2^12: together they tell points apart.
+  const std::uint64_t a = PartOf(c->GetFixtureA()), b = PartOf(c->GetFixtureB());
+  const std::uint64_t pieces =
+      std::uint64_t{PieceOf(c->GetFixtureA())} << 8 | PieceOf(c->GetFixtureB());
+  const auto child =
+      static_cast<std::uint64_t>(c->GetChildIndexA() + c->GetChildIndexB()) | pieces << 12;
+  b2Manifold* manifold = c->GetManifold();
+  for (int32 i = 0; i < manifold->pointCount; ++i) {
+    b2ManifoldPoint& point = manifold->points[i];
+    visit(PointKey{a << 32 | b, child << 32 | point.id.key}, &point);
+  }
+}
+
+/// The same of all contacts.
 template <typename Visit>
 void EachPoint(b2World* world, const Visit& visit) {
   for (b2Contact* c = world->GetContactList(); c != nullptr; c = c->GetNext()) {
-    // Part numbers and ids of features are below 2^32, a chain's segments and pieces of parts
-    // below 2^12: together they tell points apart.
-    const std::uint64_t a = PartOf(c->GetFixtureA()), b = PartOf(c->GetFixtureB());
-    const std::uint64_t pieces =
-        std::uint64_t{PieceOf(c->GetFixtureA())} << 8 | PieceOf(c->GetFixtureB());
-    const auto child =
-        static_cast<std::uint64_t>(c->GetChildIndexA() + c->GetChildIndexB()) | pieces << 12;
-    b2Manifold* manifold = c->GetManifold();
-    for (int32 i = 0; i < manifold->pointCount; ++i) {
-      b2ManifoldPoint& point = manifold->points[i];
-      visit(PointKey{a << 32 | b, child << 32 | point.id.key}, &point);
-    }
+    EachPointOf(c, visit);
   }
+}
+
+bool Before(const WorldSnapshot::Point& x, const WorldSnapshot::Point& y) {
+  return KeyOf(x) < KeyOf(y);
+}
+
+/// nullptr: it is not among them, which ascend.
+const WorldSnapshot::Point* Find(const std::vector<WorldSnapshot::Point>& points,
+                                 const PointKey& key) {
+  const auto found = std::lower_bound(
+      points.begin(), points.end(), key,
+      [](const WorldSnapshot::Point& p, const PointKey& k) { return KeyOf(p) < k; });
+  return found == points.end() || KeyOf(*found) != key ? nullptr : &*found;
 }
 
 }  // namespace
@@ -69,8 +88,7 @@ WorldSnapshot World::Impl::Keep() {
     const auto& [pair, feature] = key;
     out.points.push_back({pair, feature, point->normalImpulse, point->tangentImpulse});
   });
-  std::sort(out.points.begin(), out.points.end(),
-            [](const auto& x, const auto& y) { return KeyOf(x) < KeyOf(y); });
+  std::sort(out.points.begin(), out.points.end(), Before);
   out.joints.resize(built.joints.size());
   for (const int joint : memory.joints) {
     const auto j = static_cast<std::size_t>(joint);
@@ -111,13 +129,34 @@ void World::Impl::Settle() {
   Rebuild(Keep(), nullptr);
 }
 
-/// The joints as they are while nothing is absent.
-void World::Impl::KnowJoints(bool any_absent) {
-  if (!any_absent) return all_present.reset();
-  if (all_present) return;
-  all_present.emplace();
-  all_present->pins = FindPins();
-  for (const b2Joint* joint : built.joints) all_present->made.push_back(joint != nullptr ? 1 : 0);
+void World::Settle() { impl_->Settle(); }
+
+void World::RememberContacts(int body) {
+  b2Body* const b = impl_->moving(body).body;
+  if (IsAside(*b)) return;  // what is remembered is as it was
+  std::vector<WorldSnapshot::Point> points;
+  for (b2ContactEdge* edge = b->GetContactList(); edge != nullptr; edge = edge->next) {
+    EachPointOf(edge->contact, [&](const PointKey& key, const b2ManifoldPoint* point) {
+      const auto& [pair, feature] = key;
+      points.push_back({pair, feature, point->normalImpulse, point->tangentImpulse});
+    });
+  }
+  impl_->remembered[body] = {Read(body), std::move(points)};
+}
+
+std::vector<WorldSnapshot::Point> World::Impl::Remembered(const WorldSnapshot& snapshot) const {
+  std::vector<WorldSnapshot::Point> points;
+  if (remembered.empty()) return points;
+  for (const int body : present) {
+    const auto found = remembered.find(body);
+    if (found == remembered.end()) continue;
+    const BodyState& lies = snapshot.bodies[static_cast<std::size_t>(body)].state;
+    const BodyState& lay = found->second.pose;
+    if (lies.position != lay.position || lies.angle != lay.angle) continue;
+    points.insert(points.end(), found->second.points.begin(), found->second.points.end());
+  }
+  std::sort(points.begin(), points.end(), Before);
+  return points;
 }
 
 /// Before a rebuild of everything: says which bodies are to be aside. While what is remembered is
@@ -205,11 +244,11 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
   ordered = true;
   // No time passes, but contacts begin to touch, which wakes what they touch.
   world->Step(0, 1, 1);
+  const std::vector<WorldSnapshot::Point> before = Remembered(snapshot);
   EachPoint(&*world, [&](const PointKey& key, b2ManifoldPoint* point) {
-    const auto found = std::lower_bound(
-        snapshot.points.begin(), snapshot.points.end(), key,
-        [](const WorldSnapshot::Point& p, const PointKey& k) { return KeyOf(p) < k; });
-    if (found == snapshot.points.end() || KeyOf(*found) != key) return;
+    const WorldSnapshot::Point* found = Find(snapshot.points, key);
+    if (found == nullptr) found = Find(before, key);
+    if (found == nullptr) return;
     point->normalImpulse = found->normal;
     point->tangentImpulse = found->tangent;
   });

@@ -38,6 +38,7 @@ struct BodyTrack {
   int changed_at = 0;              ///< edits there were when it was last changed
   PullTrack pull;
   bool at_rest = false;  ///< its authority has committed it to rest, and it lies there (RestCommit)
+  bool idle = false;     ///< own, at rest, and absent because nothing could touch it (Presence)
 };
 
 /// What is remembered of one mechanism.

@@ -189,7 +189,7 @@ void Display::Drive(std::int64_t next, const MovingBox& seen) {
   leaving_.clear();
   for (const int body : memory_.tended()) {
     const Motion motion = world_.motion(body);
-    if (motion == Motion::kDynamic) continue;
+    if (motion == Motion::kDynamic || memory_.track(body).idle) continue;
     const int m = world_.mechanism(body);
     if (motion == Motion::kAbsent) {
       const bool back = std::binary_search(back_.begin(), back_.end(), body);

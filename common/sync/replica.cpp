@@ -60,6 +60,7 @@ void Replica::Step() {
   const std::int64_t next = tick() + 1;
   replay_.Run();
   ApplyInputs(next);
+  if (presence_.LookIfAsked()) corrector_.FollowRoles(memory_.tended());
   display_.Drive(next, presence_.around());
   corrector_.PullCopies();
   rest_.BeforeStep();
@@ -82,7 +83,7 @@ void Replica::Step() {
 
 void Replica::FollowRoles() {
   drivers_.Look();
-  corrector_.FollowRoles();
+  if (corrector_.FollowRoles()) presence_.Ask();
 }
 
 void Replica::NoteInput(int player, std::int64_t tick, const Input& input) {
@@ -132,11 +133,21 @@ void Replica::ApplyInputs(std::int64_t next) {
   std::size_t left = 0;
   for (const int player : players) {
     const InputTrack& track = inputs(player);
+    if (!(track.At(next) == Input{})) NeedDriven(player);
     if (drivers_.Concerns(player)) world_.SetInput(player, track.At(next));
     ApplyPresses(player, next);
     if (track.newest() > next) players[left++] = player;  // more of it is still to come
   }
   players.resize(left);
+}
+
+/// What the player's inputs move is there when they do.
+void Replica::NeedDriven(int player) {
+  std::vector<int> mechanisms;
+  for (const int m : drivers_.MechanismsOf(player)) {
+    if (presence_.Need(m)) mechanisms.push_back(m);
+  }
+  if (!mechanisms.empty()) corrector_.FollowRoles(BodiesOf(mechanisms));
 }
 
 /// Where inputs are stamped, every peer that simulates what is pushed pushes it, at that tick;
@@ -152,6 +163,7 @@ void Replica::ApplyPresses(int player, std::int64_t next) {
     world_.Act(player, a);
     replay_.NoteAction(next, player, a);
   });
+  if (pressed_missed_[p] != 0) NeedDriven(player);
   EachAction(world_, player, std::exchange(pressed_missed_[p], 0), [&](int a, int m) {
     if (roles_.IsAuthority(m)) world_.Act(player, a);
   });
@@ -166,7 +178,7 @@ std::vector<int> Replica::ApplyGrants(const Grants& grants) {
   // Most of what a client of a large room is granted is between others.
   if (!applied.roles.empty()) {
     drivers_.Look();
-    corrector_.FollowRoles(BodiesOf(applied.roles));
+    if (corrector_.FollowRoles(BodiesOf(applied.roles))) presence_.Ask();
     rest_.PutBack();
   }
   return std::move(applied.let_go);

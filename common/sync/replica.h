@@ -68,8 +68,8 @@ class Replica {
     rest_.PutBack();
   }
   /// See Presence::LeaveUnwatched.
-  void LeaveUnwatched(std::vector<char> unwatched) {
-    presence_.LeaveUnwatched(std::move(unwatched));
+  void LeaveUnwatched(std::vector<char> unwatched, const PeerSet& doubtful) {
+    presence_.LeaveUnwatched(std::move(unwatched), doubtful);
   }
   const Drivers& drivers() const { return drivers_; }
   /// Follows the server's word. Returns the mechanisms that this peer had authority over and has no
@@ -194,6 +194,7 @@ class Replica {
   /// Of joints that the edit takes away: a later bond may take their places, and break at once.
   void ForgetProposals(const Edit& edit);
   void ApplyInputs(std::int64_t next);
+  void NeedDriven(int player);
   void ApplyPresses(int player, std::int64_t next);
 
   // In this order: each uses those above it.

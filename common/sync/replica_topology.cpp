@@ -56,6 +56,10 @@ std::optional<BodyRemap> Replica::ApplyNextEdit() {
   const QueuedEdit next = std::move(queued_.front());
   queued_.erase(queued_.begin());
   memory_.UnparkAll();  // it may reach any of them
+  if (presence_.NeedAll()) {
+    corrector_.FollowRoles();
+    world_.Settle();
+  }
   replay_.GoBackTo(next.tick);
   std::optional<BodyRemap> change = world_.Apply({next.edit});
   ForgetProposals(next.edit);

@@ -88,7 +88,7 @@ void AuthorityManager::Plan(std::int64_t now_us, const Situation& situation) {
   Look(situation);
   LookAtCapacity(now_us, situation, &view_);
   plan_ = PlanAuthority(view_);
-  replica_.LeaveUnwatched(Unwatched(view_));
+  replica_.LeaveUnwatched(Unwatched(view_), Doubtful(view_));
   for (int m = 0; m < table().count(); ++m) {
     const PlannedAuthority& planned = plan_[static_cast<std::size_t>(m)];
     const AuthorityRecord& record = table().at(m);

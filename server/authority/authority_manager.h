@@ -123,6 +123,8 @@ class AuthorityManager {
   /// By mechanism, as it is planned: 1 where what sleeps here becomes somebody's before anything
   /// touches it, so that nobody else's things have to be here on its account.
   std::vector<char> Unwatched(const AuthorityView& view) const;
+  /// Peers that are not given all that they will touch.
+  PeerSet Doubtful(const AuthorityView& view) const;
   std::vector<Grants> TakeBack(std::int64_t now_us, const std::vector<int>& mechanisms);
   /// Whether its holder was told to let go of it long ago, and has not answered.
   bool Withheld(std::int64_t now_us, int m) const;

@@ -116,17 +116,21 @@ void AuthorityManager::LookAtMechanisms(AuthorityView* view) {
 
 std::vector<char> AuthorityManager::Unwatched(const AuthorityView& view) const {
   std::vector<char> unwatched(view.mechanisms.size(), 0);
-  // Not everyone is given what it will touch.
-  const bool any = std::any_of(view.players.begin(), view.players.end(), [](const PlayerView& p) {
-    return p.limited() || (p.silent && p.peer > 0);
-  });
-  if (!view.islands || any) return unwatched;
+  if (!view.islands) return unwatched;
   for (std::size_t m = 0; m < unwatched.size(); ++m) {
     const MechanismView& seen = view.mechanisms[m];
     const bool free = seen.asleep && seen.may_have.everyone();
     unwatched[m] = free && plan_[m].authority == 0 && seen.now.authority == 0 ? 1 : 0;
   }
   return unwatched;
+}
+
+PeerSet AuthorityManager::Doubtful(const AuthorityView& view) const {
+  PeerSet doubtful;
+  for (const PlayerView& p : view.players) {
+    if (p.limited() || (p.silent && p.peer > 0)) doubtful.Add(p.peer);
+  }
+  return doubtful;
 }
 
 }  // namespace seam

@@ -84,10 +84,10 @@ TEST(Presence, WhatIsBesideIsThereAndWhatIsFarIsNot) {
 
 TEST(Presence, WhatSleepsUnwatchedNeedsNobodyNearIt) {
   Line line;
-  line.replica.LeaveUnwatched({1, 0, 0});
+  line.replica.LeaveUnwatched({1, 0, 0}, {});
   line.Steps(60);
   EXPECT_EQ(line.MotionOf(kBeside), Motion::kAbsent) << "the own box sleeps";
-  line.replica.LeaveUnwatched({0, 0, 0});
+  line.replica.LeaveUnwatched({0, 0, 0}, {});
   line.Steps(12);
   EXPECT_EQ(line.MotionOf(kBeside), Motion::kLed);
 }

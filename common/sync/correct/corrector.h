@@ -52,10 +52,11 @@ class Corrector {
   BodyState TakeOver(const ExactStates& exact);
   /// Before a step: pulls copies on, if the room's rule acts in every tick.
   void PullCopies();
-  /// After a change of roles: bodies become dynamic, led, absent or kinematic.
-  void FollowRoles();
+  /// After a change of roles: bodies become dynamic, led, absent or kinematic. Whether one that
+  /// moves begins to be simulated.
+  bool FollowRoles();
   /// The same of these bodies alone, ascending. After a change of who is near: of what is tended.
-  void FollowRoles(const std::vector<int>& bodies);
+  bool FollowRoles(const std::vector<int>& bodies);
   /// Messages of ticks or edits still to come.
   std::size_t waiting() const { return waiting_.size(); }
 

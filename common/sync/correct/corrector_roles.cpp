@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 #include "common/base/geometry.h"
 #include "common/sync/correct/corrector.h"
@@ -12,24 +13,29 @@ namespace seam {
 
 /// What is displayed has its real mass, so that it neither is a wall to what is simulated nor pumps
 /// energy into it; what is far from all of that is not there at all. Strict shows what comes of
-/// infinite mass, and interpolated paths of the past are nothing to lean on.
+/// infinite mass, and interpolated paths of the past are nothing to lean on. Of what is simulated
+/// that is not there at all which rests where nothing can touch it.
 Motion Corrector::WantedMotion(int body) const {
-  if (roles_.Simulates(body)) return Motion::kDynamic;
+  const bool idle = presence_.Idle(world_.mechanism(body));
+  if (roles_.Simulates(body)) return idle ? Motion::kAbsent : Motion::kDynamic;
   if (config_.mode != Mode::kBuffer) return Motion::kKinematic;
   return presence_.Near(world_.mechanism(body)) ? Motion::kLed : Motion::kAbsent;
 }
 
-void Corrector::FollowRoles() {
+bool Corrector::FollowRoles() {
   std::vector<int> all(static_cast<std::size_t>(world_.body_count()));
   std::iota(all.begin(), all.end(), 0);
-  FollowRoles(all);
+  return FollowRoles(all);
 }
 
-void Corrector::FollowRoles(const std::vector<int>& bodies) {
+bool Corrector::FollowRoles(const std::vector<int>& bodies) {
   const std::int64_t now = world_.tick();
+  bool moves = false;
   std::vector<int> begun;  // mechanisms that begin to be simulated from where they are by now
   for (const int body : bodies) {
     const Motion wanted = WantedMotion(body);
+    const bool idle = wanted == Motion::kAbsent && roles_.Simulates(body);
+    const bool was_idle = std::exchange(memory_.track(body).idle, idle);
     if (world_.motion(body) == wanted) continue;
     const bool parked = memory_.parked(body);
     memory_.Unpark(body);
@@ -37,14 +43,22 @@ void Corrector::FollowRoles(const std::vector<int>& bodies) {
     // heard of it, which may be from before this peer had the authority.
     const bool ends = world_.motion(body) == Motion::kDynamic;
     if (ends) memory_.snapshots().Add(body, now, world_.Read(body));
+    const bool asleep = !world_.awake(body);
+    if (idle) world_.RememberContacts(body);
     world_.SetMotion(body, wanted);
+    if (was_idle) {  // it was simulated all along
+      if (asleep) world_.SetAwake(body, false);
+      continue;
+    }
     const bool begins = wanted == Motion::kDynamic && memory_.snapshots().has(body);
+    moves = moves || (wanted == Motion::kDynamic && !asleep);
     if (begins && !BeginToSimulate(body)) begun.push_back(world_.mechanism(body));
     if (parked) display_.Reset(body);  // nobody saw it where it lay
   }
   std::sort(begun.begin(), begun.end());
   begun.erase(std::unique(begun.begin(), begun.end()), begun.end());
   for (const int mechanism : begun) CloseBegun(mechanism);
+  return moves;
 }
 
 /// Its bodies have gone on one by one, which tears it; the engine would shut it with a crash.

@@ -280,10 +280,21 @@ bool Replay::Depart(std::int64_t from, bool all) {
   }
   journey_ = std::move(journey);
   credit_ -= static_cast<double>(journey_->now - world_.tick());
+  PutIdle();
   if (config_.StampsInputs(roles_.self())) PutToRest(world_, roles_, memory_);
   PutIn();
   RepeatEdits();
   return true;
+}
+
+/// What nothing could touch lay then where it lies now: without its surroundings it would go astray
+/// from a tick at which it had not quite come to rest.
+void Replay::PutIdle() {
+  for (const Shown& shown : journey_->shown) {
+    if (!memory_.track(shown.body).idle) continue;
+    world_.Write(shown.body, shown.state, false);
+    world_.SetAwake(shown.body, false);
+  }
 }
 
 void Replay::StepTo(std::int64_t tick) {

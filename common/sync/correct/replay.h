@@ -122,6 +122,7 @@ class Replay {
   /// and newer ones are on their way.
   bool IsBeforeEdit(std::int64_t tick) const;
   bool Depart(std::int64_t from, bool all);
+  void PutIdle();
   void StepTo(std::int64_t tick);
   void Arrive();
   void BarrierAfterEdits();

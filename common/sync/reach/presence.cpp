@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/physics/part_places.h"
+#include "common/physics/stage.h"
+#include "common/scene/forces.h"
 #include "common/sync/reach/reach.h"
 
 namespace seam {
@@ -19,8 +22,36 @@ float WayOf(const MovingBox& box, float seconds) {
   return box.velocity.norm() * seconds + box.acceleration * seconds * seconds / 2 + kZoneSlack / 2;
 }
 
+/// Whether nothing but a body, an input or an edit wakes what sleeps: no anchored part moves or
+/// turns a belt, nobody is drawn into a seat, nothing is joined where it lies.
+bool OnlyBodiesWake(const World& world) {
+  const Scene& scene = world.scene();
+  const std::vector<Assembly>& assemblies = world.composition().assemblies;
+  const auto driven = [](const Assembly& a) { return a.anchored && a.kinematic >= 0; };
+  const auto belt = [&](const Part& part) {
+    return !part.gone && part.conveyor->speed != 0 && MechanismOf(world, part.id) < 0;
+  };
+  return scene.seats.empty() && !ProposesEdits(scene) &&
+         std::none_of(assemblies.begin(), assemblies.end(), driven) &&
+         std::none_of(scene.parts.begin(), scene.parts.end(), belt);
+}
+
+/// By mechanism. What has joints is not, because they would begin without what they pulled with.
+std::vector<char> MayIdle(const World& world) {
+  std::vector<char> may(world.composition().mechanisms.size(), OnlyBodiesWake(world) ? 1 : 0);
+  for (const Joint& joint : world.scene().joints) {
+    for (const PartId part : {joint.a, joint.b}) {
+      const int m = joint.gone || part < 0 ? -1 : MechanismOf(world, part);
+      if (m >= 0) may[static_cast<std::size_t>(m)] = 0;
+    }
+  }
+  return may;
+}
+
+}  // namespace
+
 /// Boxes in the order of their left sides, grown by the way that each can make.
-class Sorted {
+class Presence::Sorted {
  public:
   Sorted(std::vector<MovingBox> boxes, float seconds) : boxes_(std::move(boxes)) {
     std::sort(boxes_.begin(), boxes_.end(),
@@ -35,16 +66,21 @@ class Sorted {
 
   bool empty() const { return boxes_.empty(); }
   bool MayMeetAny(const MovingBox& box, float seconds) const {
-    if (boxes_.empty()) return false;
+    return !EachMeeting(box, seconds, [](const MovingBox&) { return false; });
+  }
+  /// Calls `visit` of each that may meet the box until one says false; false then.
+  template <class Visit>
+  bool EachMeeting(const MovingBox& box, float seconds, const Visit& visit) const {
+    if (boxes_.empty()) return true;
     const float way = way_ + WayOf(box, seconds);
-    if (box.max.y() + way < low_ || box.min.y() - way > high_) return false;
+    if (box.max.y() + way < low_ || box.min.y() - way > high_) return true;
     const float from = box.min.x() - way - widest_, to = box.max.x() + way;
     auto at = std::lower_bound(boxes_.begin(), boxes_.end(), from,
                                [](const MovingBox& b, float x) { return b.min.x() < x; });
     for (; at != boxes_.end() && at->min.x() <= to; ++at) {
-      if (MayMeet(*at, box, seconds)) return true;
+      if (MayMeet(*at, box, seconds) && !visit(*at)) return false;
     }
-    return false;
+    return true;
   }
 
  private:
@@ -52,8 +88,6 @@ class Sorted {
   float way_ = 0, widest_ = 0;
   float low_ = 1e30f, high_ = -1e30f;  // m
 };
-
-}  // namespace
 
 Presence::Presence(const SyncConfig& config, const World& world, const Roles& roles,
                    const BodyMemory& memory)
@@ -64,6 +98,9 @@ Presence::Presence(const SyncConfig& config, const World& world, const Roles& ro
 void Presence::Remap() {
   near_.assign(world_.composition().mechanisms.size(), 1);
   unwatched_.clear();
+  idle_.assign(near_.size(), kNotIdle);
+  needed_until_.assign(near_.size(), -1);
+  may_idle_ = MayIdle(world_);
   around_.min.setConstant(-1e9f);
   around_.max.setConstant(1e9f);
 }
@@ -75,15 +112,92 @@ bool Presence::LookIfDue() {
   return true;
 }
 
+bool Presence::LookIfAsked() {
+  if (config_.mode != Mode::kBuffer || !std::exchange(asked_, false)) return false;
+  Look();
+  return true;
+}
+
+bool Presence::Need(int mechanism) {
+  const auto m = static_cast<std::size_t>(mechanism);
+  needed_until_[m] = world_.tick() + config_.tick_hz;
+  return std::exchange(idle_[m], kNotIdle) != kNotIdle;
+}
+
+bool Presence::NeedAll() {
+  const auto idle = [](std::int32_t epoch) { return epoch != kNotIdle; };
+  if (std::none_of(idle_.begin(), idle_.end(), idle)) return false;
+  idle_.assign(idle_.size(), kNotIdle);
+  return true;
+}
+
+/// By mechanism: 1 for what rests and a mover may reach, directly or through others that rest.
+std::vector<char> Presence::FindNeeded(const std::vector<MovingBox>& movers,
+                                       const std::vector<MovingBox>& resting) const {
+  std::vector<char> needed(near_.size(), 0);
+  const Sorted moving(movers, kRestSeconds + kRestKeep);
+  std::vector<MovingBox> reached;
+  for (const MovingBox& box : resting) {
+    const auto m = static_cast<std::size_t>(box.group);
+    const float seconds = kRestSeconds + (idle_[m] == kNotIdle ? kRestKeep : 0);
+    if (!moving.MayMeetAny(box, seconds)) continue;
+    needed[m] = 1;
+    reached.push_back(box);
+  }
+  if (reached.empty()) return needed;
+  const Sorted others(resting, kNearSeconds);
+  while (!reached.empty()) {
+    MovingBox box = reached.back();
+    reached.pop_back();
+    box.acceleration = kDrivenAcceleration;  // a blow passes through it
+    others.EachMeeting(box, kNearSeconds, [&](const MovingBox& other) {
+      char& is = needed[static_cast<std::size_t>(other.group)];
+      if (is == 0) reached.push_back(other);
+      is = 1;
+      return true;
+    });
+  }
+  return needed;
+}
+
+void Presence::FindIdle(const std::vector<char>& needed) {
+  if (unwatched_.empty()) return idle_.assign(idle_.size(), kNotIdle);
+  std::vector<char> rests = may_idle_;
+  for (const int body : memory_.tended()) {
+    const auto m = static_cast<std::size_t>(world_.mechanism(body));
+    // What rests under its present epoch has been there for a step of it (RestCommit::AfterStep).
+    const bool lies = memory_.track(body).at_rest && Unwatched(body) &&
+                      (world_.motion(body) == Motion::kDynamic || memory_.track(body).idle);
+    if (!lies) rests[m] = 0;
+  }
+  for (std::size_t m = 0; m < idle_.size(); ++m) {
+    const bool own = roles_.RoleOf(static_cast<int>(m)) == kRoleAuthority;
+    const bool idle = own && rests[m] != 0 && needed[m] == 0 && needed_until_[m] < world_.tick();
+    idle_[m] = idle ? roles_.table().at(static_cast<int>(m)).epoch : kNotIdle;
+  }
+}
+
 void Presence::Look() {
-  std::vector<MovingBox> simulated;
+  asked_ = false;
+  std::vector<MovingBox> simulated, movers, resting;
   std::vector<int> displayed;
   for (const int body : memory_.tended()) {
-    if (roles_.Simulates(body)) {
-      if (!Unwatched(body)) simulated.push_back(FreeBoxOf(world_, body));
-    } else {
+    if (!roles_.Simulates(body)) {
       displayed.push_back(body);
+      const int holder = roles_.table().at(world_.mechanism(body)).authority;
+      if (doubtful_.Has(holder)) movers.push_back(FreeBoxOf(world_, body));
+    } else if (Unwatched(body)) {
+      resting.push_back(BoxOf(world_, body));
+    } else {
+      simulated.push_back(FreeBoxOf(world_, body));
     }
+  }
+  movers.insert(movers.end(), simulated.begin(), simulated.end());
+  const std::vector<char> needed = FindNeeded(movers, resting);
+  for (const MovingBox& box : resting) {
+    if (needed[static_cast<std::size_t>(box.group)] == 0) continue;
+    simulated.push_back(box);
+    simulated.back().acceleration = kDrivenAcceleration;
   }
   if (!simulated.empty()) {
     around_ = simulated.front();
@@ -103,6 +217,7 @@ void Presence::Look() {
     const float seconds = kNearSeconds + (near_[m] != 0 ? kNearKeep : 0);
     if (there.MayMeetAny(FreeBoxOf(world_, body), seconds)) near[m] = 1;
   }
+  FindIdle(needed);
   // What is simulated would be near if it ceased to be.
   for (const int body : world_.present()) {
     if (roles_.Simulates(body)) near[static_cast<std::size_t>(world_.mechanism(body))] = 1;

@@ -1,14 +1,20 @@
 #pragma once
-/// Which bodies that are only displayed a peer's world has to have: those that could touch, before
-/// the next look, one that it simulates. The others are absent (Motion::kAbsent) and cost a step
-/// nothing.
+/// Which bodies a peer's world has to have. Of those that are only displayed: what could touch,
+/// before the next look, one that it simulates. Of its own that rest: what something that moves
+/// could touch. The others are absent (Motion::kAbsent) and cost a step nothing.
+///
+///   simulated, awake   there
+///   own, at rest       there if a mover could reach it, or one that such a one touches; else idle
+///   displayed          there if it could reach one of these; else not near
 
+#include <cstdint>
 #include <utility>
 #include <vector>
 
 #include "common/physics/world.h"
 #include "common/sync/body_memory.h"
 #include "common/sync/mode.h"
+#include "common/sync/peer_set.h"
 #include "common/sync/reach/zones.h"
 #include "common/sync/roles.h"
 
@@ -23,13 +29,32 @@ class Presence {
 
   /// After a step; when a look is due, looks. Whether it did.
   bool LookIfDue();
+  /// Before a step: the same if somebody has asked for one.
+  bool LookIfAsked();
+  /// What moves has begun to be simulated here: it may be near what was not needed until now.
+  void Ask() { asked_ = true; }
   /// Whether a mechanism that is only displayed has to be there.
   bool Near(int mechanism) const { return near_[static_cast<std::size_t>(mechanism)] != 0; }
+  /// Whether a mechanism is this peer's own, at rest, and nothing needs it to be there.
+  bool Idle(int mechanism) const {
+    const auto m = static_cast<std::size_t>(mechanism);
+    return idle_[m] != kNotIdle && idle_[m] == roles_.table().at(mechanism).epoch &&
+           roles_.RoleOf(mechanism) == kRoleAuthority;
+  }
+  /// Something that is no body is about to move the mechanism: it is not idle, for a second.
+  /// Whether it was.
+  bool Need(int mechanism);
+  /// The same of all, until the next look.
+  bool NeedAll();
   /// What is outside of it is near nothing that is simulated, for a second and more.
   const MovingBox& around() const { return around_; }
-  /// By mechanism: 1 where what is simulated needs nobody near it while it sleeps. Until the next
-  /// call, or until the bodies change.
-  void LeaveUnwatched(std::vector<char> unwatched) { unwatched_ = std::move(unwatched); }
+  /// By mechanism: 1 where what is simulated becomes somebody's before that peer's things touch it:
+  /// while it sleeps it needs nobody near it, and need not be there itself. Things of `doubtful`
+  /// peers may touch it all the same. Until the next call, or until the bodies change.
+  void LeaveUnwatched(std::vector<char> unwatched, const PeerSet& doubtful) {
+    unwatched_ = std::move(unwatched);
+    doubtful_ = doubtful;
+  }
   /// The bodies have changed: everything is near until the next look.
   void Remap();
 
@@ -38,11 +63,19 @@ class Presence {
   /// new beginning.
   static constexpr int kLooksPerSecond = 10;
   static constexpr float kNearSeconds = 0.2f, kNearKeep = 0.5f;
+  /// The same for a mover and what rests, s: what is heard of the mover may be a way old besides,
+  /// and what is aside costs little to come.
+  static constexpr float kRestSeconds = 0.4f, kRestKeep = 0.2f;
   /// m from all that is simulated to the edge of around().
   static constexpr float kAround = 60;
 
  private:
+  class Sorted;
+  static constexpr std::int32_t kNotIdle = -1;
   void Look();
+  std::vector<char> FindNeeded(const std::vector<MovingBox>& movers,
+                               const std::vector<MovingBox>& resting) const;
+  void FindIdle(const std::vector<char>& needed);
 
   const SyncConfig& config_;
   const World& world_;
@@ -55,6 +88,11 @@ class Presence {
 
   std::vector<char> near_;       // by mechanism
   std::vector<char> unwatched_;  // by mechanism; empty: none
+  PeerSet doubtful_;
+  std::vector<char> may_idle_;              // by mechanism, see MayIdle
+  bool asked_ = false;                      // see Ask
+  std::vector<std::int32_t> idle_;          // by mechanism: its epoch then; kNotIdle
+  std::vector<std::int64_t> needed_until_;  // by mechanism: tick, see Need
   MovingBox around_;
 };
 

@@ -197,7 +197,7 @@ void RestCommit::HoldIsland(const std::vector<int>& island) {
 void RestCommit::AfterStep() {
   if (Off()) return;
   bool woken = false, open = false;
-  for (const int body : world_.present()) {  // what is absent sleeps, and is another's
+  for (const int body : world_.present()) {  // what is absent is another's, or idle
     woken = woken || (Holds(body) && world_.awake(body));
     open = open || (!Holds(body) && Own(body));
     const bool anew = Own(body) && Holds(body) &&
@@ -209,7 +209,7 @@ void RestCommit::AfterStep() {
   }
   watch_.Look();
   if (open && world_.tick() % config_.send_every() == 0) {
-    // What this peer may commit is never absent.
+    // What this peer may still commit is never absent.
     for (const std::vector<int>& island : FindPresentIslands(world_)) CommitIsland(island);
   }
   std::vector<Rest> waiting;

@@ -58,6 +58,57 @@ TEST(UnseenServer, SimulatesNothingOfWhatClientsHold) {
   EXPECT_EQ(FollowsAndHas(Publish::kAll, false), nothing) << "nobody listens";
 }
 
+/// Two sleds that their players drive past piles of crates, 6 m from each and 20 m apart.
+const char* const kPlain = R"(
+duration = 6
+server_follow = 0
+follow = 0
+buffer = 4
+[[player]]
+name = "p"
+repeat = {count = 2, step = [20, 0]}
+vehicle = "sled.0"
+script = [[0.0, {}], [0.5, {drive = 0.5}], [2.0, {drive = -0.5}], [3.5, {}]]
+[[part]]
+name = "ground"
+chain = [[-90, 20], [-90, 0], [290, 0], [290, 20]]
+friction = 0.5
+[[part]]
+name = "sled"
+box = [2, 0.5]
+position = [0, 0.26]
+friction = 0.6
+conveyor = {player = "p-0", speed = 1}
+owners = ["p-*"]
+repeat = {count = 2, step = [20, 0]}
+[[part]]
+name = "crate"
+box = [0.7, 0.7]
+position = [6, 0.36]
+density = 0.5
+repeat = {count = [8, 2], step = [20, 0.71]}
+)";
+
+/// What rests is the server's, which looks at it only when something of its own may touch it.
+TEST(UnseenServer, HasNothingThereOfWhatRests) {
+  ClusterConfig config;
+  config.scene = "plain";
+  config.scene_text = kPlain;
+  config.publish = Publish::kNone;
+  config.keep = false;
+  Cluster cluster(config);
+  cluster.Run();
+  const Replica& server = cluster.server().replica();
+  int own = 0, sleds = 0;
+  for (int body = 0; body < server.world().body_count(); ++body) {
+    const int authority = server.authority().at(server.world().mechanism(body)).authority;
+    (authority == 0 ? own : sleds) += 1;
+  }
+  EXPECT_EQ(own, 16) << "all crates";
+  EXPECT_EQ(sleds, 2);
+  EXPECT_TRUE(server.world().present().empty());
+}
+
 /// What clients see of the others, m.
 double ErrorOfOthers(const std::string& text, int seed) {
   ClusterConfig config;
