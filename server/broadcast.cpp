@@ -138,8 +138,17 @@ void Broadcast::TellOwedRest(std::int64_t now_us, Session& session,
   }
 }
 
+void Broadcast::TellNothings(std::int64_t now_us) {
+  if (Plain() || interest_.small()) return;
+  const int every = ticks_per_look();
+  sessions_.ForEachReady(0, [&](Session& session) {
+    // Not all in the same tick.
+    if ((replica_.tick() + session.peer) % every == 0) TellNothings(now_us, session);
+  });
+}
+
 void Broadcast::TellNothings(std::int64_t now_us, Session& session) {
-  if (interest_.small() || session.player < 0) return;
+  if (session.player < 0) return;
   constexpr int kEach = kNothingPerSecond / kLooksPerSecond, kLookedAtMost = 16 * kEach;
   const Composition& made = replica_.world().composition();
   const int mechanisms = static_cast<int>(made.mechanisms.size());
@@ -246,7 +255,6 @@ void Broadcast::LookAround(std::int64_t now_us) {
     }
     AddNewest(now_us, *session, risen.mechanism, Urgency::kNear);
   }
-  sessions_.ForEachReady(0, [&](Session& session) { TellNothings(now_us, session); });
   if (!anew) return;
   // Edits have made others of them: what came near is not known, and what was merged is urgent.
   sessions_.ForEachTold([&](Session& session) {

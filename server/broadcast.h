@@ -1,6 +1,7 @@
 #pragma once
 /// What everyone is told: numbered on the bus, and to the sessions that it concerns.
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -71,9 +72,11 @@ class Broadcast {
   /// waits for the call in which the room has stepped, or goes along with what is followed: states
   /// come from each client at another time, and a datagram for each would be mostly headers.
   void SendWaiting(std::int64_t now_us, bool stepped);
-  /// Looks anew at what concerns whom, and tells what concerns somebody more than before; and a
-  /// little of what is nothing to them.
+  /// Looks anew at what concerns whom, and tells what concerns somebody more than before.
   void LookAround(std::int64_t now_us);
+  /// Tells everyone a little of what is nothing to them: to each in another tick. Every tick.
+  void TellNothings(std::int64_t now_us);
+  int ticks_per_look() const { return std::max(1, config_.tick_hz / kLooksPerSecond); }
   /// The bodies have changed; LookAround is due.
   void Remap(const BodyRemap& change);
   bool stale() const { return stale_; }

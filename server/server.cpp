@@ -304,10 +304,12 @@ void Server::UpdateAuthority(std::int64_t now_us) {
 }
 
 void Server::UpdateInterest(std::int64_t now_us, bool changed) {
-  const int every = std::max(1, config_.sync.tick_hz / Broadcast::kLooksPerSecond);
-  const bool due = replica_.tick() % every == 0 || broadcast_.stale();
+  // A tick after the plan, which is as much work.
+  const int every = broadcast_.ticks_per_look();
+  const bool due = replica_.tick() % every == std::min(1, every - 1) || broadcast_.stale();
   if (due) broadcast_.LookAround(now_us);
   if (due || changed) FindHeardPlayers();
+  broadcast_.TellNothings(now_us);
 }
 
 void Server::RunRules(std::int64_t now_us) {
