@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/scene/mechanism_ids.h"
 #include "common/sync/lease.h"
 
 namespace seam {
@@ -103,11 +104,9 @@ void Broadcast::TellOwed(std::int64_t now_us) {
 }
 
 void Broadcast::AddNewest(std::int64_t now_us, Session& session, int mechanism, Urgency urgency) {
-  const Composition& made = replica_.world().composition();
-  for (const int assembly : made.mechanisms[static_cast<std::size_t>(mechanism)].assemblies) {
-    const PartId id = made.assemblies[static_cast<std::size_t>(assembly)].id;
+  EachIdOf(replica_.world().composition(), mechanism, [&](PartId id) {
     if (newest_.has(id)) session.outbox.Add(now_us, id, urgency);
-  }
+  });
 }
 
 /// Who simulates it hears of it, too, wherever it is; and who is not ready yet of everything.
@@ -167,9 +166,7 @@ void Broadcast::TellNothings(std::int64_t now_us, Session& session) {
     told += owed ? 1 : 0;
     if (interest_.Of(session.peer, next) != Concern::kNone) continue;
     if (Simulates(session.peer, next)) continue;
-    const auto& assemblies = made.mechanisms[static_cast<std::size_t>(next)].assemblies;
-    const bool moves = std::any_of(assemblies.begin(), assemblies.end(), [&](int assembly) {
-      const PartId id = made.assemblies[static_cast<std::size_t>(assembly)].id;
+    const bool moves = AnyIdOf(made, next, [&](PartId id) {
       return newest_.has(id) && (newest_.at(id).flags & kStateAsleep) == 0;
     });
     if (!moves) continue;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "common/scene/mechanism_ids.h"
 #include "common/sync/correct/presses.h"
 #include "common/sync/input_source.h"
 
@@ -186,12 +187,11 @@ std::vector<int> Replica::ApplyGrants(const Grants& grants) {
 
 std::vector<int> Replica::BodiesOf(const std::vector<int>& mechanisms) const {
   std::vector<int> bodies;
-  const Composition& composition = world_.composition();
   for (const int m : mechanisms) {
-    for (const int a : composition.mechanisms[static_cast<std::size_t>(m)].assemblies) {
-      const int body = world_.BodyOfId(composition.assemblies[static_cast<std::size_t>(a)].id);
+    EachIdOf(world_.composition(), m, [&](PartId id) {
+      const int body = world_.BodyOfId(id);
       if (body >= 0) bodies.push_back(body);
-    }
+    });
   }
   std::sort(bodies.begin(), bodies.end());
   return bodies;

@@ -2,20 +2,20 @@
 
 #include "common/sync/replica.h"
 
+#include "common/scene/mechanism_ids.h"
+
 namespace seam {
 
 std::vector<ExactStates> Replica::MakeExact(const std::vector<int>& mechanisms,
                                             std::int32_t epochs_on) const {
   std::vector<ExactStates> all;
-  const Composition& composition = world_.composition();
   for (const int m : mechanisms) {
-    for (const int a : composition.mechanisms[static_cast<std::size_t>(m)].assemblies) {
+    EachIdOf(world_.composition(), m, [&](PartId id) {
       if (all.empty() || all.back().id.size() >= kExactBodiesMax) {
         all.emplace_back();
         all.back().tick = tick();
         all.back().revision = revision();
       }
-      const PartId id = composition.assemblies[static_cast<std::size_t>(a)].id;
       const BodyState state = world_.Read(world_.BodyOfId(id));
       ExactStates& out = all.back();
       out.id.push_back(id);
@@ -26,7 +26,7 @@ std::vector<ExactStates> Replica::MakeExact(const std::vector<int>& mechanisms,
       out.vx.push_back(state.velocity.x());
       out.vy.push_back(state.velocity.y());
       out.spin.push_back(state.spin);
-    }
+    });
   }
   return all;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/mechanism_ids.h"
 #include "common/scene/planner/planner_rules.h"
 
 namespace seam {
@@ -77,12 +78,11 @@ void Interest::FindThings(const Receiver& receiver) {
   things_ = held_[static_cast<std::size_t>(receiver.peer)];
   if (receiver.player < 0) return;
   const World& world = replica_.world();
-  const Composition& made = world.composition();
   for (const int m : replica_.drivers().MechanismsOf(receiver.player)) {
-    for (const int assembly : made.mechanisms[static_cast<std::size_t>(m)].assemblies) {
-      const int body = world.BodyOfId(made.assemblies[static_cast<std::size_t>(assembly)].id);
+    EachIdOf(world.composition(), m, [&](PartId id) {
+      const int body = world.BodyOfId(id);
       if (body >= 0) things_.push_back(body);
-    }
+    });
   }
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "common/scene/mechanism_ids.h"
+
 namespace seam {
 
 void RestNews::Take(const Rest& rest) {
@@ -41,21 +43,20 @@ bool RestNews::Owes(int peer, const RestBlock& at) const {
 
 std::vector<Rest> RestNews::Owed(int peer, const std::vector<int>& mechanisms) {
   const World& world = replica_.world();
-  const Composition& made = world.composition();
   std::vector<int> bodies;
   for (const int mechanism : mechanisms) {
     if (!Owes(peer, mechanism)) continue;
     owed_[static_cast<std::size_t>(mechanism)].Remove(peer);
-    for (const int assembly : made.mechanisms[static_cast<std::size_t>(mechanism)].assemblies) {
-      const int body = world.BodyOfId(made.assemblies[static_cast<std::size_t>(assembly)].id);
+    EachIdOf(world.composition(), mechanism, [&](PartId id) {
+      const int body = world.BodyOfId(id);
       const bool told = body >= 0 && replica_.rest().record(body).committed;
-      if (!told) continue;
+      if (!told) return;
       if (replica_.rest().Holds(body)) {
         bodies.push_back(body);
       } else {
         Owe(peer, mechanism);  // it may move: its authority has not said so
       }
-    }
+    });
   }
   std::sort(bodies.begin(), bodies.end());  // as turns come, mechanisms do not ascend
   return bodies.empty() ? std::vector<Rest>{} : replica_.rest().Again(bodies);

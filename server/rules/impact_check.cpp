@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "common/scene/mechanism_ids.h"
+
 namespace seam {
 namespace {
 
@@ -46,11 +48,9 @@ float LargestRestitution(const World& world, int body) {
 
 float MechanismMass(const World& world, int body) {
   float mass = 0;
-  const Composition& c = world.composition();
-  const int mechanism = world.mechanism(body);
-  for (const int index : c.mechanisms[static_cast<std::size_t>(mechanism)].assemblies) {
-    mass += world.mass(world.BodyOfId(c.assemblies[static_cast<std::size_t>(index)].id));
-  }
+  EachIdOf(world.composition(), world.mechanism(body), [&](PartId id) {
+    mass += world.mass(world.BodyOfId(id));
+  });
   return mass;
 }
 
