@@ -35,6 +35,8 @@ struct BodyTrack {
   bool placed = true;              ///< its pose is known
   float priority = 0;              ///< grows until it is sent
   std::int64_t asleep_since = -1;  ///< tick, as far as sending noticed; -1 awake
+  std::int64_t told_tick = -1;     ///< newest that this peer has told of as its authority, and
+                                   ///< that no input still to come can change
   int changed_at = 0;              ///< edits there were when it was last changed
   PullTrack pull;
   bool at_rest = false;  ///< its authority has committed it to rest, and it lies there (RestCommit)

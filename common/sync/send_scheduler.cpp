@@ -36,7 +36,9 @@ void SendScheduler::Collect() {
   std::map<std::pair<std::int64_t, int>, std::vector<PackedBody>> told;  // by tick and authority
   for (const int body : ChooseBodies()) {
     const int authority = roles_.table().at(world_.mechanism(body)).authority;
-    told[{ToldTick(body), authority}].push_back(Tell(body));
+    const std::int64_t tick = ToldTick(body);
+    told[{tick, authority}].push_back(Tell(body, tick));
+    NoteTold(body, tick);
   }
   for (const auto& [of, bodies] : told) {
     States header = Header();
@@ -52,8 +54,22 @@ std::int64_t SendScheduler::ToldTick(int body) const {
   const std::int64_t now = world_.tick();
   const int m = world_.mechanism(body);
   if (!config_.rolls_back || !roles_.IsAuthority(m)) return now;
-  const std::int64_t complete = std::min(reach_.CompleteTick(m), replay_.settled());
+  const std::int64_t complete = FinalTick(m);
   return memory_.ComparablePast(body, complete) != nullptr ? complete : now;
+}
+
+/// The newest tick whose state of ours no input that is still to come can change.
+std::int64_t SendScheduler::FinalTick(int mechanism) const {
+  if (!config_.rolls_back) return world_.tick();
+  return std::min(reach_.CompleteTick(mechanism), replay_.settled());
+}
+
+/// What others were told of a tick at which all was known is a fact (Replay::FollowsHistory).
+void SendScheduler::NoteTold(int body, std::int64_t tick) {
+  const int m = world_.mechanism(body);
+  if (!roles_.IsAuthority(m) || tick > FinalTick(m)) return;
+  BodyTrack& track = memory_.track(body);
+  track.told_tick = std::max(track.told_tick, tick);
 }
 
 std::vector<States> SendScheduler::Take() { return std::exchange(outgoing_, {}); }
@@ -107,7 +123,7 @@ PackedBody SendScheduler::Describe(int body) const {
   return packed;
 }
 
-PackedBody SendScheduler::Tell(int body) {
+PackedBody SendScheduler::Tell(int body, std::int64_t tick) {
   memory_.track(body).priority = 0;
   PackedBody packed = Describe(body);
   const bool awake = world_.awake(body);
@@ -116,7 +132,6 @@ PackedBody SendScheduler::Tell(int body) {
     packed.state.velocity.setZero();
     packed.state.spin = 0;
   }
-  const std::int64_t tick = ToldTick(body);
   if (tick < world_.tick()) {
     packed.state = *memory_.ComparablePast(body, tick);
     const bool moved = packed.state.velocity.squaredNorm() > 0 || packed.state.spin != 0;

@@ -41,9 +41,11 @@ class SendScheduler {
   bool Speaks(int body) const;
   std::vector<int> ChooseBodies();
   PackedBody Describe(int body) const;
-  PackedBody Tell(int body);
+  PackedBody Tell(int body, std::int64_t tick);
+  void NoteTold(int body, std::int64_t tick);
   /// The tick of which a body's state is told.
   std::int64_t ToldTick(int body) const;
+  std::int64_t FinalTick(int mechanism) const;
   States Header() const;
 
   const SyncConfig& config_;

@@ -150,6 +150,17 @@ void Replay::FindPressed(std::int64_t from) {
   }
 }
 
+/// Whether others were told where the body of ours was then, or later, by a state that no input can
+/// change any more. If all agree it goes there again by itself. Where they do not (one was cut off,
+/// say) each would go back for what the other has told, make its own go another way than it has
+/// told, and the other go back for that: in a room full of blows they never agreed again, and won
+/// energy with each blow that only one of two had. A rule that does not know which inputs are still
+/// to come knows it where nobody's inputs move anything.
+bool Replay::IsFact(int body, std::int64_t tick) const {
+  if (tick > memory_.track(body).told_tick) return false;
+  return config_.StampsInputs(roles_.self()) || drivers_.concerned().empty();
+}
+
 /// Whether the body goes again where it went: it was not stepped here then, or is held to what was
 /// told of it.
 bool Replay::FollowsHistory(int body, std::int64_t tick) const {
@@ -157,6 +168,7 @@ bool Replay::FollowsHistory(int body, std::int64_t tick) const {
   if (memory_.track(body).at_rest && !config_.StampsInputs(roles_.self())) return true;
   if (tick <= memory_.track(body).dynamic_since) return true;
   if (roles_.RoleOfBody(body) != kRoleAuthority) return false;
+  if (IsFact(body, tick)) return true;
   if (config_.StampsInputs(roles_.self())) return false;
   // What was told of a body at rest is bit for bit where it lies.
   return pressed_[static_cast<std::size_t>(world_.mechanism(body))] || !world_.awake(body);

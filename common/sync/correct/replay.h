@@ -135,6 +135,7 @@ class Replay {
   bool BeginsEarlier(int body, std::int64_t tick);
   void FindPressed(std::int64_t from);
   bool FollowsHistory(int body, std::int64_t tick) const;
+  bool IsFact(int body, std::int64_t tick) const;
   /// Whether a difference is one that stays as it is.
   bool Agrees(const BodyState& difference) const;
   void EndRest();

@@ -80,8 +80,13 @@ bool Replay::LacksEdit(int revision, std::int64_t tick) const {
   });
 }
 
-/// Whatever was heard of later ticks came from peers that lacked the edit, too.
+/// Whatever was heard of later ticks came from peers that lacked the edit, and what was told of
+/// them was told without it, too.
 void Replay::ForgetHeard() {
+  for (const int body : world_.present()) {
+    BodyTrack& track = memory_.track(body);
+    track.told_tick = std::min(track.told_tick, world_.tick());
+  }
   if (!config_.StampsInputs(roles_.self())) return;
   Snapshots& heard = memory_.snapshots();
   for (const int body : world_.present()) {

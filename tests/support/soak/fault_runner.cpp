@@ -8,7 +8,9 @@
 namespace seam {
 
 FaultRunner::FaultRunner(const FaultPlan& plan) : plan_(plan) {
-  const Scene scene = LoadScene("scenes/" + plan.config.scene + ".toml");
+  const ClusterConfig& config = plan.config;
+  const Scene scene = config.scene_text.empty() ? LoadScene("scenes/" + config.scene + ".toml")
+                                                : ParseScene(config.scene_text, config.scene);
   const std::size_t count = scene.players.size() + static_cast<std::size_t>(plan.config.spectators);
   for (std::size_t i = 0; i < count; ++i) clients_.push_back(std::make_unique<State>());
 }
