@@ -158,6 +158,7 @@ void Replay::FindPressed(std::int64_t from) {
 /// to come knows it where nobody's inputs move anything.
 bool Replay::IsFact(int body, std::int64_t tick) const {
   if (tick > memory_.track(body).told_tick) return false;
+  if (roles_.RoleOfBody(body) != kRoleAuthority) return false;
   return config_.StampsInputs(roles_.self()) || drivers_.concerned().empty();
 }
 
@@ -167,8 +168,8 @@ bool Replay::FollowsHistory(int body, std::int64_t tick) const {
   if (!roles_.Simulates(body)) return true;
   if (memory_.track(body).at_rest && !config_.StampsInputs(roles_.self())) return true;
   if (tick <= memory_.track(body).dynamic_since) return true;
-  if (roles_.RoleOfBody(body) != kRoleAuthority) return false;
   if (IsFact(body, tick)) return true;
+  if (roles_.RoleOfBody(body) != kRoleAuthority) return false;
   if (config_.StampsInputs(roles_.self())) return false;
   // What was told of a body at rest is bit for bit where it lies.
   return pressed_[static_cast<std::size_t>(world_.mechanism(body))] || !world_.awake(body);
@@ -201,7 +202,9 @@ void Replay::PutIn() {
 void Replay::PutIn(int body) {
   BodyState* past = memory_.history().At(world_.tick(), body);
   if (FollowsHistory(body, world_.tick())) {
-    world_.Write(body, *past, false);
+    // What woke it then may not have come this time: it moves on from there all the same.
+    const bool moved = past->velocity.squaredNorm() > 0 || past->spin != 0;
+    world_.Write(body, *past, moved && IsFact(body, world_.tick()));
     return;
   }
   const BodyState* heard = memory_.snapshots().At(body, world_.tick());
@@ -323,7 +326,7 @@ void Replay::Arrive() {
   for (const Shown& shown : journey_->shown) {
     const int body = shown.body;
     if (FollowsHistory(body, journey_->now) || RestsAsBefore(body, shown.state)) {
-      world_.Write(body, shown.state, false);
+      world_.Write(body, shown.state, shown.awake && IsFact(body, journey_->now));
       if (!shown.awake) world_.SetAwake(body, false);
     }
     display_.Moved(body, Apart(world_.Read(body), shown.state));
