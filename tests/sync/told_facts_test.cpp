@@ -24,8 +24,8 @@ restitution = 1
 constexpr int kOwn = 0, kOther = 1;
 constexpr std::int64_t kLate = 10;  // ticks
 
-/// The other's disc strikes the own one here alone: its authority has it 20 m away, and says so when
-/// the blow has been told already. The first step back is to before it.
+/// The other's disc strikes the own one here alone: its authority has it 20 m away, and says so
+/// when the blow has been told already. The first step back is to before it.
 TEST(ToldFact, WhatWasToldAsStruckMovesOnThoughNothingStruckIt) {
   FollowedCopy peers(kTwoDiscs, "rollback", kLate, {kOwn});
   peers.Steps(90);

@@ -150,16 +150,15 @@ void Replay::FindPressed(std::int64_t from) {
   }
 }
 
-/// Whether others were told where the body of ours was then, or later, by a state that no input can
-/// change any more. If all agree it goes there again by itself. Where they do not (one was cut off,
-/// say) each would go back for what the other has told, make its own go another way than it has
-/// told, and the other go back for that: in a room full of blows they never agreed again, and won
-/// energy with each blow that only one of two had. A rule that does not know which inputs are still
-/// to come knows it where nobody's inputs move anything.
+/// Whether others were told where the body of ours was then, or later, and no input can change it.
+/// If all agree it goes there again by itself. Where they do not (one was cut off, say) each would
+/// go back for what the other has told, make its own go another way than it has told, and the other
+/// go back for that: in a room full of blows they never agreed again, and won energy with each blow
+/// that only one of two had. Only where nobody's inputs move anything: elsewhere what is told now
+/// and then turns out wrong, and to revise it is what brings all to the same (docs/lessons.md).
 bool Replay::IsFact(int body, std::int64_t tick) const {
-  if (tick > memory_.track(body).told_tick) return false;
-  if (roles_.RoleOfBody(body) != kRoleAuthority) return false;
-  return config_.StampsInputs(roles_.self()) || drivers_.concerned().empty();
+  if (tick > memory_.track(body).told_tick || !drivers_.concerned().empty()) return false;
+  return roles_.RoleOfBody(body) == kRoleAuthority;
 }
 
 /// Whether the body goes again where it went: it was not stepped here then, or is held to what was
