@@ -64,7 +64,7 @@ std::int64_t SendScheduler::FinalTick(int mechanism) const {
   return std::min(reach_.CompleteTick(mechanism), replay_.settled());
 }
 
-/// What others were told of a tick at which all was known is a fact (Replay::FollowsHistory).
+/// What others were told of a tick at which all was known can be a fact (Replay::IsFact).
 void SendScheduler::NoteTold(int body, std::int64_t tick) {
   const int m = world_.mechanism(body);
   if (!roles_.IsAuthority(m) || tick > FinalTick(m)) return;

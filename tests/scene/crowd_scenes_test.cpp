@@ -5,18 +5,11 @@
 #include <algorithm>
 #include <set>
 
-#include "common/measure/energy.h"
 #include "tests/support/gas_room.h"
 #include "tests/support/scripted_world.h"
 
 namespace seam {
 namespace {
-
-double KineticEnergy(const World& world) {
-  std::vector<BodyState> states;
-  for (int b = 0; b < world.body_count(); ++b) states.push_back(world.Read(b));
-  return MechanicalEnergy(world.scene(), world.composition(), states);  // without gravity
-}
 
 TEST(Gas, AloneItKeepsItsEnergyForAMinuteAndBlowsCrossTheSeam) {
   ScriptedWorld run("gas");

@@ -7,8 +7,19 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <vector>
+
+#include "common/measure/energy.h"
+#include "common/physics/world.h"
 
 namespace seam {
+
+/// Of a room without gravity, J.
+inline double KineticEnergy(const World& world) {
+  std::vector<BodyState> states;
+  for (int b = 0; b < world.body_count(); ++b) states.push_back(world.Read(b));
+  return MechanicalEnergy(world.scene(), world.composition(), states);  // without gravity
+}
 
 /// The scene's text for `discs` discs, a multiple of 20: the same density and the same speeds in a
 /// longer room. 200 is the file itself.
