@@ -117,6 +117,20 @@ TEST(Tune, WhatCostsLessThanPredictedIsFoundToo) {
   EXPECT_EQ(best.solver.tick_hz * best.solver.substeps, 60);
 }
 
+TEST(Tune, OneOddTimingDoesNotDecide) {
+  TuneProblem problem = MadeUpProblem(1.5 / 60, 1);
+  bool odd = true;
+  problem.measured_cost = [&odd, cost = problem.measured_cost](const Solver& s) {
+    const bool half = odd && s.velocity_iterations == 2;
+    if (half) odd = false;
+    return cost(s) * (half ? 0.5 : 1);
+  };
+  const TuneResult result = Tune(problem);
+  ASSERT_FALSE(odd) << "it was timed";
+  ASSERT_TRUE(result.best.has_value());
+  EXPECT_EQ(result.trials[*result.best].solver.velocity_iterations, 1);
+}
+
 TEST(Tune, TriesExactAndIterativeJointsWhereThereAreJoints) {
   TuneProblem problem = MadeUpProblem(1.5 / 60, 1);
   problem.jointed = true;
@@ -180,9 +194,8 @@ TEST(LabTune, PrintsLinesToPasteOrThatNoneReachesIt) {
               "position = [0, 20]\n");
   const std::string found =
       OutputOf({"tune", files / "fall.toml", "--error", "0.03", "--keep-hz"}, 0);
-  EXPECT_NE(found.find("\n[solver]\nsubsteps = 2\nvelocity_iterations = 1\n"
-                       "position_iterations = 1\n"),
-            std::string::npos)
+  // The iterations of what touches nothing cost nothing: which of them it names is up to the clock.
+  EXPECT_NE(found.find("\n[solver]\nsubsteps = 2\nvelocity_iterations = "), std::string::npos)
       << found;
   const std::string none =
       OutputOf({"tune", files / "fall.toml", "--error", "1e-5", "--keep-hz"}, 1);

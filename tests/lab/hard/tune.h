@@ -46,7 +46,8 @@ struct TuneResult {
 /// cost until one passes, and on to twice its cost; takes from all that pass what can be taken, one
 /// lever at a time; and tries the neighbours, also the dearer ones, of the three whose runs took
 /// least: what is solved better sleeps sooner, which no prediction knows. Of the dozen that pass
-/// and took least the measured cost decides; of what is within 5 %, the prediction.
+/// and took least, and of the three least predicted, the measured cost decides; of what is within
+/// 5 % in either of two timings, the prediction.
 TuneResult Tune(const TuneProblem& problem);
 
 }  // namespace seam
