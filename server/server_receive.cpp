@@ -218,6 +218,10 @@ void Server::OnStates(std::int64_t now_us, Session& session, const States& state
   }
   const States& kept = filter_.Keep(now_us, session.peer, states);
   if (kept.id.empty()) return;
+  if (authority_.WatchesAgreement()) {
+    replica_.EachOff(
+        kept, [this](int body, const BodyState& off) { authority_.NoteTold(body, off); });
+  }
   stats_.counters.dropped_stale += replica_.Receive(kept).stale;
   if (rule_source_ != nullptr) rule_source_->NoteStates(kept);
   broadcast_.Relay(now_us, kept, session.peer);

@@ -84,6 +84,9 @@ class Replica {
                                      std::int32_t epochs_on) const;
   /// What another peer let go of. How far this copy was from it, at most; see Corrector::TakeOver.
   BodyState TakeOver(const ExactStates& exact);
+  /// How far this peer's copies were from what was received, where it simulated them at that tick:
+  /// calls `call(body, off)`.
+  void EachOff(const States& states, const std::function<void(int, const BodyState&)>& call) const;
   /// The server only; see Roles::SpeakFor.
   void SpeakFor(const PeerSet& silent) { roles_.SpeakFor(silent); }
   /// Gives up every authority (the server has not been heard for too long).

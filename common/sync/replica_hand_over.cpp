@@ -38,4 +38,15 @@ BodyState Replica::TakeOver(const ExactStates& exact) {
   return off;
 }
 
+void Replica::EachOff(const States& states,
+                      const std::function<void(int, const BodyState&)>& call) const {
+  for (std::size_t i = 0; i < states.id.size(); ++i) {
+    const int body = world_.BodyOfId(states.id[i]);
+    if (body < 0 || world_.motion(body) != Motion::kDynamic) continue;
+    if (states.revision != revision()) continue;
+    const BodyState* then = memory_.ComparablePast(body, states.tick);
+    if (then != nullptr) call(body, Minus(Unpack(states, i, then->angle), *then));
+  }
+}
+
 }  // namespace seam

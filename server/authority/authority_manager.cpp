@@ -9,6 +9,10 @@
 namespace seam {
 namespace {
 
+/// Further apart than what a replay that is still to come puts right, m and m/s.
+constexpr float kContestedOff = 0.1f, kContestedVelocity = 1;
+/// How long that counts, s.
+constexpr int kContestedSeconds = 4;
 /// Plans of who simulates what: more often follows faster bodies, and costs more with many.
 constexpr int kPlansPerSecond = 10;
 
@@ -235,6 +239,14 @@ void AuthorityManager::NoteJump(int body, const BodyState& off) {
   memory_[static_cast<std::size_t>(m)].keep_until_tick =
       replica_.tick() + static_cast<std::int64_t>(kConvergeS * config_.tick_hz);
   Open(m);
+}
+
+void AuthorityManager::NoteTold(int body, const BodyState& off) {
+  const bool far =
+      off.position.norm() > kContestedOff || off.velocity.norm() > kContestedVelocity;
+  Memory& memory = memory_[static_cast<std::size_t>(replica_.world().mechanism(body))];
+  memory.contested *= 1 - 1 / static_cast<float>(kContestedSeconds * config_.send_hz);
+  if (far) memory.contested += 1;
 }
 
 bool AuthorityManager::Awaits(int peer, int body) const {

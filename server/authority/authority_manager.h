@@ -83,6 +83,10 @@ class AuthorityManager {
   /// The server's copy of a body that changes hands was off by this much. If that is a lot, the
   /// server keeps its mechanism for kConvergeS before the successor gets it.
   void NoteJump(int body, const BodyState& off);
+  /// Whether NoteTold is of use; see AuthorityView::exact.
+  bool WatchesAgreement() const { return view_.exact; }
+  /// How far the server's copy of a body was from what its holder tells of a tick.
+  void NoteTold(int body, const BodyState& off);
   /// Whether the peer needs to hear where a mechanism's holder let go of it.
   bool Awaits(int peer, int body) const;
 
@@ -112,6 +116,7 @@ class AuthorityManager {
     int last_authority = 0;                // when it was planned last
     std::int64_t changed_tick = -1000000;  // when a plan first saw that authority
     bool open = false;                     // is in open_
+    float contested = 0;                   // see MechanismView
   };
 
   const AuthorityTable& table() const { return replica_.authority(); }

@@ -34,7 +34,11 @@ void AuthorityManager::Look(const Situation& situation) {
   view.tick_hz = config_.tick_hz;
   view.buffer_m = scene_.buffer_m;
   view.follow_bodies = scene_.follow_bodies;
-  view.server_follow = situation.shown ? scene_.server_follow : 0;
+  view.exact = config_.GoesBack(0);
+  for (int p = 0; p < static_cast<int>(scene_.players.size()) && view.exact; ++p) {
+    view.exact = replica_.drivers().MechanismsOf(p).empty();
+  }
+  view.server_follow = situation.shown || view.exact ? scene_.server_follow : 0;
   view.physics_edits = physics_edits_;
   view.islands = islands_;
   view.rules = *scene_.planner;
@@ -103,6 +107,10 @@ void AuthorityManager::LookAtMechanisms(AuthorityView* view) {
       memory.changed_tick = world.tick();
     }
     seen.held_ticks = world.tick() - memory.changed_tick;
+    if (seen.now.authority == 0) memory.contested = 0;
+    seen.contested = memory.contested;
+    seen.decided = static_cast<std::size_t>(m) < plan_.size() &&
+                   plan_[static_cast<std::size_t>(m)].decided;
     view->mechanisms.push_back(seen);
   }
   if (!islands_) return;

@@ -1,5 +1,6 @@
 #include "server/authority/plan.h"
 
+#include "server/authority/plan_contested.h"
 #include "server/authority/plan_followers.h"
 #include "server/authority/plan_islands.h"
 #include "server/authority/plan_rectangles.h"
@@ -49,7 +50,10 @@ AuthorityPlan PlanAuthority(const AuthorityView& view) {
   } else {
     PlanRectangles(view, &plan);
   }
-  if (view.mode == Mode::kBuffer) PlanFollowers(view, &plan);
+  if (view.mode == Mode::kBuffer) {
+    if (view.exact) DecideContested(view, &plan);
+    PlanFollowers(view, &plan);
+  }
   BringTogether(view, &plan);
   Forbid(view, &plan);
   return plan;

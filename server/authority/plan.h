@@ -19,6 +19,7 @@ namespace seam {
 struct PlannedAuthority {
   int authority = 0;
   PeerSet secondaries;
+  bool decided = false;  ///< the server's as part of a crowd whose owners do not agree
 };
 
 /// One entry per mechanism, by its index.
@@ -47,6 +48,8 @@ struct MechanismView {
   bool asleep = false;                 ///< all of its bodies
   int driver = -1;                     ///< the player who drives it: vehicle, character, seat
   PlayerMask may_have = kEveryPlayer;  ///< players whose peers may have its authority
+  float contested = 0;   ///< holder's states that were far from the server's copy, of late
+  bool decided = false;  ///< in the last plan
 };
 
 /// All that planning looks at. The memory of when what changed (dwell) is in it too, as data.
@@ -55,8 +58,10 @@ struct AuthorityView {
   int tick_hz = 60;
   float buffer_m = 0;          ///< width of the buffer zone
   int follow_bodies = 0;       ///< see Scene::follow_bodies
-  int server_follow = 0;       ///< see Scene::server_follow
+  int server_follow = 0;       ///< see Scene::server_follow; 0 where it need not see
   bool physics_edits = false;  ///< see ProposesEdits: the server follows everything
+  /// Nobody drives anything and peers go back to what they hear: all should come to the same bits.
+  bool exact = false;
   bool islands = false;        ///< by islands around the players, not by their regions
   PlannerRules rules;          ///< of islands; and how long authority lasts at least
   std::vector<PlayerView> players;
@@ -71,6 +76,8 @@ struct AuthorityView {
 ///   authority, by rectangles: the owner's peer if it is here; else the peer in whose region the
 ///   mechanism's root is (with kHysteresis before it leaves the one that has it); else the server.
 ///   By islands: see PlanIslands. A client's authority lasts rules.dwell_s at least.
+///   Where nobody drives anything, what the owners of a crowd do not agree on is the server's: see
+///   DecideContested.
 ///   Mechanisms that are to be joined go to one peer; a peer whose player may not have
 ///   a mechanism gives way to the server. Secondary (mode buffer): peers whose region, or whose
 ///   mechanisms, are within the scene's buffer width of its boxes, or with whose mechanisms it may

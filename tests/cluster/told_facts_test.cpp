@@ -1,6 +1,6 @@
 /// Two players of whom one was cut off or killed have simulated the same discs each in its own way.
-/// What each has told of its own is a fact from then on, so they agree again, and the room keeps
-/// its energy.
+/// What each has told of its own is a fact from then on, and what they still do not agree on the
+/// server decides: so they agree again, and the room keeps its energy.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ namespace {
 
 constexpr int kDiscs = 60;
 
-/// By how much a copy of the second's is off where the first client has it, m, at the same tick.
+/// By how much the first client's copies of what the second has are off, m, at the same tick.
 std::vector<double> Off(const Replica& first, const Replica& second, int second_peer) {
   std::vector<double> off;
   if (first.tick() != second.tick()) return off;
@@ -46,16 +46,24 @@ struct Outcome {
   double off_m = 0;     ///< the same in the last 3 s
 };
 
-Outcome After(FaultKind kind, const char* reconcile, std::int64_t seed) {
+/// The second client has a fault from 2 to 4 s.
+FaultPlan PlanOf(FaultKind kind, const char* reconcile, std::int64_t seed) {
   FaultPlan plan;
   plan.config.scene = "gas-60";
   plan.config.scene_text = GasRoomText(kDiscs);
   plan.config.reconcile = reconcile;
   plan.config.seed = seed;
-  plan.config.duration_s = 14;
   plan.config.drive = Drive::kNone;
   plan.config.keep = false;
   plan.faults = {Fault{kind, 1, 2, 4, 0}};
+  return plan;
+}
+
+/// Where the server simulates nothing that clients hold.
+Outcome After(FaultKind kind, const char* reconcile, std::int64_t seed) {
+  FaultPlan plan = PlanOf(kind, reconcile, seed);
+  plan.config.scene_text = "server_follow = 0\n" + plan.config.scene_text;
+  plan.config.duration_s = 14;
   FaultRunner faults(plan);
   Cluster cluster(faults.Config());
   std::vector<double> parted, off;
@@ -63,18 +71,20 @@ Outcome After(FaultKind kind, const char* reconcile, std::int64_t seed) {
   std::int64_t looked = -1;
   cluster.each_instant = [&] {
     faults.Act(cluster);
-    const std::int64_t tick = cluster.server().tick();
-    if (tick == looked || tick < 60 || tick % 2 != 0) return;
-    looked = tick;
     const Client *const ann = cluster.client(0), *const bob = cluster.client(1);
+    const Replica& server = cluster.server().replica();
+    const std::int64_t tick = server.tick();
+    if (tick == looked || tick < 60 || tick % 2 != 0 || ann->replica()->tick() != tick) return;
+    looked = tick;
     if (tick == 60) before = KineticEnergy(ann->replica()->world());
     if (tick < 4 * 60 || bob == nullptr || bob->replica() == nullptr) return;
-    const std::vector<double> now = Off(*ann->replica(), *bob->replica(), bob->peer());
+    std::vector<double> now = Off(*ann->replica(), *bob->replica(), bob->peer());
     if (tick < 5 * 60) parted.insert(parted.end(), now.begin(), now.end());
+    for (const double m : Off(*ann->replica(), server, 0)) now.push_back(m);
     if (tick >= 11 * 60) off.insert(off.end(), now.begin(), now.end());
   };
   cluster.Run();
-  EXPECT_GT(off.size(), 200u) << "bob has some again, and ann has copies of them";
+  EXPECT_GT(off.size(), 200u) << "ann has copies of what bob or the server has";
   return {KineticEnergy(cluster.client(0)->replica()->world()) / before, MedianOf(parted),
           MedianOf(off)};
 }
@@ -98,6 +108,58 @@ TEST(ToldFacts, WhoWasGoneAgreesAgainAndNoEnergyComesFromIt) {
       EXPECT_LT(MedianOf(off), 0.05);
       EXPECT_LT(MedianOf(energy), 1.6);
       EXPECT_GT(MedianOf(energy), 0.6);
+    }
+  }
+}
+
+/// What the room's energy is at the server: at 10 s and at the end, of that at the start.
+struct Energies {
+  double then = 0, end = 0;
+  int decided = 0;  ///< discs that are the server's at the end
+};
+
+Energies EnergiesAfter(FaultKind kind, const char* reconcile, const char* impair,
+                       std::int64_t seed) {
+  FaultPlan plan = PlanOf(kind, reconcile, seed);
+  plan.config.impair = impair;
+  plan.config.duration_s = 20;
+  FaultRunner faults(plan);
+  Cluster cluster(faults.Config());
+  const World& world = cluster.server().replica().world();
+  const double before = KineticEnergy(world);
+  Energies seen;
+  cluster.each_instant = [&] {
+    faults.Act(cluster);
+    if (cluster.server().tick() == 10 * 60) seen.then = KineticEnergy(world) / before;
+  };
+  cluster.Run();
+  seen.end = KineticEnergy(world) / before;
+  const AuthorityTable& authority = cluster.server().replica().authority();
+  for (int m = 0; m < authority.count(); ++m) seen.decided += authority.at(m).authority == 0;
+  return seen;
+}
+
+/// The server, which has gone on with all of it, speaks for who is cut off: nothing is lost.
+TEST(ContestedCrowd, WhoWasCutOffHasMissedNothing) {
+  for (const char* impair : {"demo", "4g"}) {
+    SCOPED_TRACE(impair);
+    const Energies seen = EnergiesAfter(FaultKind::kCut, "rollback", impair, 1);
+    EXPECT_NEAR(seen.end, 1, 0.001);
+    EXPECT_LT(seen.decided, kDiscs / 2);
+  }
+}
+
+/// Who did not run, or begins anew, has other discs than the server goes on with. Before one owner
+/// decided them the room had up to 15 times its energy after 24 s of this network, rising.
+TEST(ContestedCrowd, TheServerDecidesOnWhatItsOwnersDoNotAgreeOn) {
+  for (const FaultKind kind : {FaultKind::kPause, FaultKind::kKill}) {
+    for (const char* reconcile : {"rollback", "resimulate"}) {
+      SCOPED_TRACE(std::string(reconcile) + ", " + ToString(kind));
+      const Energies seen = EnergiesAfter(kind, reconcile, "delay=105ms,jitter=12ms,loss=6%", 2);
+      EXPECT_EQ(seen.decided, kDiscs);
+      EXPECT_NEAR(seen.end / seen.then, 1, 0.002);
+      EXPECT_LT(seen.end, 2);
+      EXPECT_GT(seen.end, 0.5);
     }
   }
 }

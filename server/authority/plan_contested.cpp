@@ -1,0 +1,51 @@
+#include "server/authority/plan_contested.h"
+
+#include <algorithm>
+
+#include "server/authority/contact_groups.h"
+
+namespace seam {
+namespace {
+
+/// Of what is awake in a contact group.
+struct Crowd {
+  int members = 0, decided = 0;
+  float contested = 0;
+  int owner = -1;  // of the first
+  bool several = false;
+
+  void Add(const MechanismView& mechanism) {
+    const int authority = mechanism.now.authority;
+    several = several || (members > 0 && authority != owner);
+    if (members++ == 0) owner = authority;
+    decided += mechanism.decided ? 1 : 0;
+    contested += mechanism.contested;
+  }
+  bool Contested() const { return several && contested >= kContestedSum; }
+  /// What has come to what is decided goes with it.
+  bool Decided() const { return members > 1 && 2 * decided >= members; }
+};
+
+}  // namespace
+
+void DecideContested(const AuthorityView& view, AuthorityPlan* plan) {
+  const bool any = std::any_of(
+      view.mechanisms.begin(), view.mechanisms.end(),
+      [](const MechanismView& mechanism) { return mechanism.contested > 0 || mechanism.decided; });
+  if (!any) return;
+  const std::vector<int> groups = FindContactGroups(view, *plan).soon;
+  std::vector<Crowd> crowds(plan->size());
+  for (std::size_t m = 0; m < plan->size(); ++m) {
+    const MechanismView& mechanism = view.mechanisms[m];
+    if (!mechanism.asleep) crowds[static_cast<std::size_t>(groups[m])].Add(mechanism);
+  }
+  for (std::size_t m = 0; m < plan->size(); ++m) {
+    const Crowd& crowd = crowds[static_cast<std::size_t>(groups[m])];
+    const MechanismView& mechanism = view.mechanisms[m];
+    if (mechanism.asleep || (!crowd.Contested() && !crowd.Decided())) continue;
+    (*plan)[m].authority = 0;
+    (*plan)[m].decided = true;
+  }
+}
+
+}  // namespace seam
