@@ -103,7 +103,17 @@ void Corrector::Close(int mechanism, bool only_turns, const Put& put) {
     poses_[static_cast<std::size_t>(body)] = world_.Read(body);
   }
   joints.Unwind(mechanism, &poses_);
-  if (!only_turns) joints.Close(mechanism, false, &poses_);
+  if (!only_turns) {
+    // As they were heard of: a wheel that was told in a crash would travel along its spring for as
+    // long as it is moved on, and the engine would pull it back with a crash.
+    std::vector<BodyState> heard = poses_;
+    for (const int body : joints.bodies(mechanism)) {
+      if (!memory_.snapshots().has(body)) continue;
+      heard[static_cast<std::size_t>(body)] = memory_.snapshots().newest(body);
+    }
+    joints.Unwind(mechanism, &heard);
+    joints.CloseMovedOn(mechanism, heard, &poses_);
+  }
   for (const int body : joints.bodies(mechanism)) {
     const BodyState& closed = poses_[static_cast<std::size_t>(body)];
     if (Negligible(Minus(closed, world_.Read(body)))) continue;
