@@ -1,6 +1,7 @@
 /// Two players of whom one was cut off or killed have simulated the same discs each in its own way.
 /// What each has told of its own is a fact from then on, and what they still do not agree on the
-/// server decides: so they agree again, and the room keeps its energy.
+/// server decides: so they agree again, and the room keeps its energy. Either may be what does it
+/// here; facts alone are in tests/sync/told_facts_test.cpp.
 
 #include <gtest/gtest.h>
 
@@ -59,7 +60,7 @@ FaultPlan PlanOf(FaultKind kind, const char* reconcile, std::int64_t seed) {
   return plan;
 }
 
-/// Where the server simulates nothing that clients hold.
+/// Where the server simulates nothing that clients hold, but for what a silent one has.
 Outcome After(FaultKind kind, const char* reconcile, std::int64_t seed) {
   FaultPlan plan = PlanOf(kind, reconcile, seed);
   plan.config.scene_text = "server_follow = 0\n" + plan.config.scene_text;
