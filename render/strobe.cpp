@@ -100,11 +100,11 @@ void DrawRowLabel(DrawList& list, const Rect& area, const Playback& playback) {
   const float scale = list.font().scale();
   const Room& room = playback.recording().room;
   float y = area.y + 16 * scale;
-  list.Text(area.x, y, TextStyle::kNumber, room.reconcile.empty() ? room.mode : room.reconcile,
-            kInk);
+  const std::string method = room.reconcile.empty() ? room.mode : room.reconcile;
+  const std::string predicts = room.predict.empty() ? "" : "/" + room.predict;
+  list.Text(area.x, y, TextStyle::kNumber, method + predicts, kInk);
   y += 16 * scale;
-  const std::string predicts = room.predict.empty() ? "" : ", predict " + room.predict;
-  list.Text(area.x, y, TextStyle::kBody, Explained(room.mode) + predicts, kFaintInk);
+  list.Text(area.x, y, TextStyle::kBody, Explained(room.mode), kFaintInk);
   y += 4 * scale;
   const auto figure = [&](const std::string& name, const std::string& value) {
     y += 16 * scale;
