@@ -1,6 +1,7 @@
 /// ExactStep: which bodies are one island, and in what order.
 
 #include <algorithm>
+#include <limits>
 
 #include "common/physics/exact/engine_members.h"
 #include "common/physics/exact/exact_step.h"
@@ -10,6 +11,9 @@ namespace {
 
 /// Multiplications of one factorisation above which contacts are relaxed.
 constexpr long kDirectMost = 30000;
+/// Of one substep, solves included, above which an island is left to the engine: so many, or what so
+/// many factorisations take. Nothing but heaps takes them.
+constexpr long kSubstepMost = 400000, kFactorsMost = 20;
 /// A mechanism that takes so many by itself is above kDirectMost whatever touches it, even if its
 /// bodies come in another order then.
 constexpr long kNeverDirect = 4 * kDirectMost;
@@ -284,6 +288,10 @@ long ExactStep::Build(Found* found, bool relaxed) {
   }
   LoadPoses(found);
   const long cost = island.Shape(relaxed, kDirectMost);
+  island.work_most = std::numeric_limits<long>::max();
+  if (solver_.joints == JointSolving::kAuto) {
+    island.work_most = solver_.joint_substeps * std::max(kSubstepMost, kFactorsMost * cost);
+  }
   if (relaxed || cost <= kDirectMost) return cost;
   if (solver_.joints == JointSolving::kAuto) {
     found->island.reset();  // left to the engine

@@ -12,6 +12,8 @@ namespace {
 
 /// Steps for which a cosine is turned with its angle before it is found anew: each turn rounds it.
 constexpr int kTurnsMost = 1000;
+/// An island that took too much is left to the engine for so many steps.
+constexpr int kLeftFor = 30;
 
 void ReadPose(b2Body* body, ExactBody* q) {
   const b2Sweep& sweep = body->*Member(BodySweep());
@@ -243,6 +245,16 @@ bool ExactStep::Told(const Slot& s) {
          v.x == s.told_vx && v.y == s.told_vy && s.body->GetAngularVelocity() == s.told_w;
 }
 
+/// False: it took too much, and nothing has changed.
+bool ExactStep::Solve(const Pace& pace, bool warm, Found* found) {
+  Load(found);
+  found->island->Step(pace, warm);
+  if (!found->island->given_up()) return true;
+  found->left_for = kLeftFor;
+  found->sign.clear();
+  return false;
+}
+
 void ExactStep::Step(float h, int velocity_iterations, int position_iterations) {
   auto& contacts = const_cast<b2ContactManager&>(world_->GetContactManager());
   bool& fresh = world_->*Member(NewContacts());
@@ -270,14 +282,16 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
   for (std::size_t m = 0; m < mechanisms_.size(); ++m) {
     if (slots_[static_cast<std::size_t>(mechanisms_[m].slots[0])].island >= 0) continue;
     Found& found = found_[m];
-    const bool ours = Gather(static_cast<int>(m), &found);
+    bool ours = Gather(static_cast<int>(m), &found);
+    if (found.left_for > 0) {
+      --found.left_for;
+      ours = false;
+    }
     if (ours) Prepare(h, &found);
-    if (!ours || !found.island) {
+    if (!ours || !found.island || !Solve(pace, step.warmStarting, &found)) {
       Leave(h, found);
       continue;
     }
-    Load(&found);
-    found.island->Step(pace, step.warmStarting);
     Save(&found, h);
     Report(found);
     found.island->BoundCarried();

@@ -51,6 +51,7 @@ class ExactStep {
     std::vector<b2Contact*> contacts;
     std::vector<const void*> sign;  // of what `island` was built for
     std::unique_ptr<ExactIsland> island;
+    int left_for = 0;  // steps for which it is left to the engine, since it took too much
   };
 
   void FindMechanisms();
@@ -67,6 +68,7 @@ class ExactStep {
   void Save(Found* found, float h);
   void SavePoses(const Found& found);
   void Prepare(float h, Found* found);
+  bool Solve(const Pace& pace, bool warm, Found* found);
   void Leave(float h, const Found& found);
   class Quiet;
   void Continuous(const b2TimeStep& step, const Pace& pace);

@@ -3,6 +3,7 @@
 /// are its rows. Two solves a substep, at the old and at the new pose (docs/solver.md).
 
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -41,6 +42,10 @@ class ExactIsland {
   /// Advances the bodies by pace.h * pace.substeps. `warm`: begin with what contacts and joints
   /// had last.
   void Step(const Pace& pace, bool warm);
+  /// A Step that takes more multiplications than `work_most` is broken off, and the bodies here are
+  /// nowhere then.
+  long work_most = std::numeric_limits<long>::max();
+  bool given_up() const { return work_ > work_most; }
   /// After something else has moved some of the bodies: brings the joints together again, positions
   /// and, if some were `struck`, velocities. `pace` as in Step; no time passes.
   void Rejoin(const Pace& pace, bool struck);
@@ -210,6 +215,7 @@ class ExactIsland {
   std::vector<InMatrix> in_matrix_;   // by end
   Skyline matrix_;
   int bounded_ = 0;
+  long work_ = 0;                // multiplications of this Step so far
   double turned_ = 0;            // rad: the most that a body has turned in this substep
   int changed_ = 0;              // the matrix's rows from here on are not those that were assembled
   int dirty_ = 0;                // the factors of rows from here on are old

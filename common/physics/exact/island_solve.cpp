@@ -112,6 +112,7 @@ void ExactIsland::Factor() {
     in_[at] = in;
     dirty_ = std::min(dirty_, p);
   }
+  work_ += matrix_.CostFrom(dirty_) + matrix_.SolveCost();  // a Solve follows
   if (dirty_ >= size) return;
   matrix_.Factor(in_, dirty_);
   dirty_ = size;
@@ -165,6 +166,7 @@ bool ExactIsland::Pivot(int* wrong) {
 bool ExactIsland::PivotToTheEnd() {
   int fewest = static_cast<int>(rows_.size()) + 1, patience = kPatience;
   for (int i = 0; i < kPivots; ++i) {
+    if (given_up()) return true;
     int wrong = 0;
     if (Pivot(&wrong)) return true;
     if (wrong < fewest) {
@@ -210,6 +212,7 @@ bool ExactIsland::NextFrictionBounds() {
 }
 
 void ExactIsland::Solve(bool ahead) {
+  if (given_up()) return;
   if (relaxed_) {
     Relax(ahead);
     return;
@@ -237,6 +240,7 @@ void ExactIsland::Descend() {
   }
   const std::size_t n = rows_.size();
   for (int round = 0; round < kRounds; ++round) {
+    if (given_up()) return;
     Factor();
     for (std::size_t p = 0; p < n; ++p) {
       const Row& row = *by_place_[p];

@@ -36,6 +36,7 @@ constexpr double kUtmost = 50;
 
 void ExactIsland::Step(const Pace& pace, bool warm) {
   stirred = false;
+  work_ = 0;
   Look(pace);
   FillFirst(pace);
   const double share = warm ? 1.0 / pace.substeps : 0;
@@ -58,6 +59,7 @@ void ExactIsland::Step(const Pace& pace, bool warm) {
   for (int i = 0; i < pace.substeps; ++i) {
     if (i > 0) FillAgain(pace);
     Substep(pace);
+    if (given_up()) return;
   }
 }
 

@@ -20,6 +20,11 @@ inline double Dot(const double* a, const double* b, int from, int to) {
   return from < to ? even + odd + a[from] * b[from] : even + odd;
 }
 
+long RowCost(const std::vector<int>& first, std::size_t row) {
+  const long width = static_cast<long>(row) - first[row] + 1;
+  return width * width / 2;
+}
+
 inline double Inverse(double left, double diagonal) {
   return left > kDependent * diagonal ? 1 / left : kNoShare;
 }
@@ -28,20 +33,19 @@ inline double Inverse(double left, double diagonal) {
 
 long Skyline::Cost(const std::vector<int>& first) {
   long cost = 0;
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    const long width = static_cast<long>(i) - first[i] + 1;
-    cost += width * width / 2;
-  }
+  for (std::size_t i = 0; i < first.size(); ++i) cost += RowCost(first, i);
   return cost;
 }
 
 void Skyline::SetShape(const std::vector<int>& first) {
   first_ = first;
   start_.resize(first.size());
+  cost_.assign(1, 0);
   int next = 0;
   for (std::size_t i = 0; i < first.size(); ++i) {
     start_[i] = next - first[i];
     next += static_cast<int>(i) - first[i] + 1;
+    cost_.push_back(cost_.back() + RowCost(first, i));
   }
   matrix_.assign(static_cast<std::size_t>(next), 0.0);
   factor_.assign(static_cast<std::size_t>(next), 0.0);

@@ -4,6 +4,7 @@
 /// of Large Sparse Positive Definite Systems", 1981, chapter 4). Rows may be left out without
 /// changing the shape.
 
+#include <cstddef>
 #include <vector>
 
 namespace seam {
@@ -15,6 +16,9 @@ class Skyline {
   int size() const { return static_cast<int>(first_.size()); }
   /// What one Factor of such a shape costs at most, multiplications.
   static long Cost(const std::vector<int>& first);
+  /// The same of Factor from this row on; and of one Solve.
+  long CostFrom(int row) const { return cost_.back() - cost_[static_cast<std::size_t>(row)]; }
+  long SolveCost() const { return 2 * static_cast<long>(matrix_.size()); }
   /// Makes the entries of rows from `from` on 0.
   void Clear(int from = 0);
   /// Where the entry is, for `At`; requires first[row] <= column <= row.
@@ -37,6 +41,7 @@ class Skyline {
   void FactorTwo(const char* in, int row);
 
   std::vector<int> first_, start_;                 // entry (i, k) is at start_[i] + k
+  std::vector<long> cost_{0};                      // of the rows before each; in the end of all
   std::vector<double> matrix_, factor_, inverse_;  // the last of D
   std::vector<char>
       leads_;             // whether a row and the next one, which begins where it does, go together
