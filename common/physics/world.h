@@ -65,6 +65,11 @@ struct WorldSnapshot {
     std::uint64_t feature = 0;      ///< which pieces of them
     float normal = 0, tangent = 0;  ///< N s
   };
+  struct Left {
+    int body = -1;  ///< the lowest of its first mechanism
+    int steps = 0;  ///< for so many more
+    bool operator==(const Left& o) const { return body == o.body && steps == o.steps; }
+  };
   std::int64_t tick = 0;
   std::uint64_t composition = 0;   ///< hash of who was one body with whom
   std::uint64_t joints_there = 0;  ///< hash of which joints there were
@@ -72,6 +77,7 @@ struct WorldSnapshot {
   std::vector<Point> points;       ///< ascending by pair, feature
   /// Impulses, N s and N m s, by the scene's joints; empty: broken, or its bodies were absent.
   std::vector<std::vector<float>> joints;
+  std::vector<Left> left;     ///< islands of joints that are not solved as a whole, ascending
   std::vector<float> speeds;  ///< of motors, rad/s or m/s, by the scene's joints
   std::vector<float> stages;  ///< what each stage remembers
 };

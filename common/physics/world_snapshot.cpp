@@ -94,6 +94,7 @@ WorldSnapshot World::Impl::Keep() {
     const auto j = static_cast<std::size_t>(joint);
     for (const float* impulse : ImpulsesOf(built.joints[j])) out.joints[j].push_back(*impulse);
   }
+  if (exact) out.left = exact->Left();
   for (const auto& stage : stages) stage->Save(&out.stages);
   out.speeds = Speeds();
   return out;
@@ -266,6 +267,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
     b->*Member(SleepTime()) = body.quiet_s;
     if (IsAside(*b)) NoteAside(static_cast<int>(i));
   });
+  if (exact && snapshot.composition == composition.hash) exact->Leave(snapshot.left);
   std::size_t taken = 0;
   if (!snapshot.stages.empty()) {
     for (const auto& stage : stages) taken += stage->Load(snapshot.stages.data() + taken);
@@ -293,7 +295,9 @@ bool World::Impl::BuiltAlready(const WorldSnapshot& snapshot) const {
   if (!still || !AllStill() || still->composition != snapshot.composition) return false;
   if (still->joints_there != snapshot.joints_there || still->joints != snapshot.joints)
     return false;
-  if (still->speeds != snapshot.speeds || still->stages != snapshot.stages) return false;
+  if (still->left != snapshot.left || still->speeds != snapshot.speeds ||
+      still->stages != snapshot.stages)
+    return false;
   const auto same_point = [](const WorldSnapshot::Point& x, const WorldSnapshot::Point& y) {
     return KeyOf(x) == KeyOf(y) && x.normal == y.normal && x.tangent == y.tangent;
   };

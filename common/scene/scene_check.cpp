@@ -122,7 +122,9 @@ void CheckPlayers(const Checked& c) {
       int& other = driver[static_cast<std::size_t>(assembly.mechanism)];
       if (other >= 0) {
         const Player& first = c.scene.players[static_cast<std::size_t>(other)];
-        c.Fail(player.line, vehicle + "'" + first.name + "'s already");
+        const bool joined = first.vehicle != player.vehicle;
+        c.Fail(player.line, vehicle + (joined ? "joined to '" : "'") + first.name +
+                                (joined ? "'s: what is joined is one player's" : "'s already"));
       }
       other = static_cast<int>(p);
     }

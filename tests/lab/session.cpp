@@ -29,6 +29,10 @@ ClusterConfig Configure(const SessionSettings& settings, const Scene& scene) {
   CheckRange("seed", static_cast<double>(settings.seed), 0, static_cast<double>(kSeedMax));
   CheckRange("send_hz", settings.send_hz, 1, kSendHzMax);
   CheckRange("players", settings.players, 0, kPlayersMax);
+  if (settings.players > static_cast<int>(scene.players.size())) {
+    throw OperatorError("--players " + std::to_string(settings.players) + ": " + scene.name +
+                        " has " + std::to_string(scene.players.size()) + " player(s)");
+  }
   CheckRange("duration", settings.duration_s, 0, kDurationMax);
   MakeSyncConfig(MethodNames{settings.mode, settings.reconcile, settings.predict});
   FindProfile(settings.impair);

@@ -77,6 +77,31 @@ TEST(JointCloser, ClosesEveryKindOfJoint) {
   }
 }
 
+TEST(JointCloser, ClosesATableOfTwoSlidesWhoseCrossIsLight) {
+  // The second slide takes hold two metres from the centre of the cross, which is turned by it.
+  const auto world = SmallWorld(
+      "[[part]]\nname = \"post\"\nbox = [0.2, 0.2]\nposition = [0, 0]\nanchored = true\n"
+      "[[part]]\nname = \"cross\"\nbox = [0.3, 0.3]\nposition = [0.5, 0]\ndensity = 0.2\n"
+      "[[part]]\nname = \"mallet\"\ncircle = 0.4\nposition = [0.5, 2]\ndensity = 3\n"
+      "[[joint]]\nname = \"x\"\nkind = \"prismatic\"\na = \"post\"\nb = \"cross\"\n"
+      "axis = [1, 0]\nlimits = [-2, 2]\n"
+      "[[joint]]\nname = \"y\"\nkind = \"prismatic\"\na = \"cross\"\nb = \"mallet\"\n"
+      "axis = [0, 1]\nlimits = [-2, 2]\n");
+  const JointMeter meter(world->scene(), world->composition());
+  const JointCloser joints(*world);
+  Random random(3);
+  for (int i = 0; i < 50; ++i) {
+    std::vector<BodyState> poses = {world->Read(0), world->Read(1)};
+    for (BodyState& pose : poses) {
+      pose.position.x() += static_cast<float>(random.Uniform(-0.2, 0.2));
+      pose.position.y() += static_cast<float>(random.Uniform(-0.2, 0.2));
+      pose.angle += static_cast<float>(random.Uniform(-0.1, 0.1));
+    }
+    joints.Close(0, false, &poses);
+    EXPECT_LT(meter.Worst(poses), 2e-4) << i;
+  }
+}
+
 TEST(JointCloser, AWeldKeepsItsAngleAndAHingeItsLimits) {
   const auto weld = SmallWorld(
       Box("a", 0) + Box("b", 1) + Between("a", "b", 0.5, "kind = \"weld\""), "welds = \"joint\"");

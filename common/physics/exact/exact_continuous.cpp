@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "common/physics/exact/engine_members.h"
 #include "common/physics/exact/exact_step.h"
@@ -24,26 +25,44 @@ class ExactStep::Quiet : public b2ContactListener {
       : listener_(listener), slots_(slots) {}
   void BeginContact(b2Contact* contact) override { listener_->BeginContact(contact); }
   void EndContact(b2Contact* contact) override { listener_->EndContact(contact); }
+  /// A blow of ours that is not heard of must not move the body on, either: it would be in the air
+  /// when the mechanism is to have it, and never have it, while all of its fall is kept.
   void PreSolve(b2Contact* contact, const b2Manifold* old) override {
     listener_->PreSolve(contact, old);
+    const float gives_back = contact->GetRestitution();
+    if (gives_back == 0 || Counts(*contact)) return;
+    gave_back_.emplace_back(contact, gives_back);
+    contact->SetRestitution(0);
   }
   void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override {
     b2Body* const a = contact->GetFixtureA()->GetBody();
     b2Body* const b = contact->GetFixtureB()->GetBody();
     const bool both = Moves(a) && Moves(b);
-    bool ours = false;
     for (b2Body* body : {a, b}) {
-      if (!Moves(body)) continue;
-      Slot& slot = (*slots_)[static_cast<std::size_t>(IndexOf(body))];
-      slot.struck = slot.struck || both;
-      ours = ours || slot.solved;
+      if (both) (*slots_)[static_cast<std::size_t>(IndexOf(body))].struck = true;
     }
-    if (both || !ours) listener_->PostSolve(contact, impulse);
+    if (Counts(*contact)) listener_->PostSolve(contact, impulse);
+  }
+  /// Contacts give back again what they gave.
+  void End() const {
+    for (const auto& [contact, gives_back] : gave_back_) contact->SetRestitution(gives_back);
   }
 
  private:
+  /// Whether its blow is the engine's: of two that move, or of what is not ours.
+  bool Counts(b2Contact& contact) const {
+    bool all = true, ours = false;
+    for (b2Body* body : {contact.GetFixtureA()->GetBody(), contact.GetFixtureB()->GetBody()}) {
+      const bool moves = Moves(body);
+      all = all && moves;
+      ours = ours || (moves && (*slots_)[static_cast<std::size_t>(IndexOf(body))].solved);
+    }
+    return all || !ours;
+  }
+
   b2ContactListener* const listener_;
   std::vector<Slot>* const slots_;
+  std::vector<std::pair<b2Contact*, float>> gave_back_;
 };
 
 /// As the engine's, but what it took back to where it hit keeps its velocity and its joints.
@@ -54,6 +73,7 @@ void ExactStep::Continuous(const b2TimeStep& step, const Pace& pace) {
   world_->SetContactListener(&quiet);
   (world_->*Member(EngineSolveToi()))(step);
   world_->SetContactListener(listener);
+  quiet.End();
   RejoinWhatMoved(step.dt, pace);
 }
 

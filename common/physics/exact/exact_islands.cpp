@@ -1,4 +1,4 @@
-/// ExactStep: which bodies are one island, and in what order.
+/// ExactStep: which bodies are one island, in what order, and who solves it.
 
 #include <algorithm>
 #include <limits>
@@ -11,69 +11,13 @@ namespace {
 
 /// Multiplications of one factorisation above which contacts are relaxed.
 constexpr long kDirectMost = 30000;
-/// Of one substep, solves included, above which an island is left to the engine: so many, or what so
-/// many factorisations take. Nothing but heaps takes them.
-constexpr long kSubstepMost = 400000, kFactorsMost = 20;
-/// A mechanism that takes so many by itself is above kDirectMost whatever touches it, even if its
-/// bodies come in another order then.
-constexpr long kNeverDirect = 4 * kDirectMost;
-/// One of fewer rows cannot take so many.
-constexpr int kRowsOfLarge = 85;
-
+/// Multiplications of a tick, solves included, above which a heap is left to the engine: so many,
+/// or what so many factorisations in each substep take.
+constexpr long kTickMost = 800000, kFactorsMost = 20;
+/// It is one from so many points of contact on: what is jointed against itself takes much, too, and
+/// is not the engine's.
+constexpr int kPointsOfHeap = 24;
 }  // namespace
-
-void ExactStep::FindMechanisms() {
-  std::vector<std::vector<int>> joined(slots_.size());  // joints, by slot
-  for (std::size_t j = 0; j < joints_.size(); ++j) {
-    for (const int slot : {joints_[j].slot_a, joints_[j].slot_b}) {
-      if (slot >= 0) joined[static_cast<std::size_t>(slot)].push_back(static_cast<int>(j));
-    }
-  }
-  std::vector<char> taken(joints_.size(), 0);
-  for (std::size_t first = 0; first < slots_.size(); ++first) {
-    if (slots_[first].mechanism >= 0 || joined[first].empty()) continue;
-    const int index = static_cast<int>(mechanisms_.size());
-    mechanisms_.emplace_back();
-    Mechanism& mechanism = mechanisms_.back();
-    mechanism.slots.push_back(static_cast<int>(first));
-    slots_[first].mechanism = index;
-    for (std::size_t i = 0; i < mechanism.slots.size(); ++i) {
-      for (const int j : joined[static_cast<std::size_t>(mechanism.slots[i])]) {
-        const ExactJoint& joint = joints_[static_cast<std::size_t>(j)];
-        if (!taken[static_cast<std::size_t>(j)]) mechanism.joints.push_back(j);
-        taken[static_cast<std::size_t>(j)] = 1;
-        for (const int slot : {joint.slot_a, joint.slot_b}) {
-          if (slot < 0 || slots_[static_cast<std::size_t>(slot)].mechanism >= 0) continue;
-          slots_[static_cast<std::size_t>(slot)].mechanism = index;
-          mechanism.slots.push_back(slot);
-        }
-      }
-    }
-    std::sort(mechanism.joints.begin(), mechanism.joints.end());
-  }
-  found_.resize(mechanisms_.size());
-}
-
-/// What is too large in any case is not looked at again.
-void ExactStep::LeaveLarge() {
-  for (std::size_t m = 0; m < mechanisms_.size(); ++m) {
-    Mechanism& mechanism = mechanisms_[m];
-    int rows = 0;  // no limit is near yet
-    for (const int j : mechanism.joints) rows += RowCount(joints_[static_cast<std::size_t>(j)]);
-    if (!mechanism.exact || rows < kRowsOfLarge) continue;
-    Found alone;
-    alone.mechanisms.push_back(static_cast<int>(m));
-    for (const int slot : mechanism.slots) {
-      if (Moves(slots_[static_cast<std::size_t>(slot)].body)) alone.slots.push_back(slot);
-    }
-    mechanism.exact = alone.slots.empty() || Build(&alone, false) <= kNeverDirect;
-  }
-}
-
-bool ExactStep::needed() const {
-  return blows_->needed() || std::any_of(mechanisms_.begin(), mechanisms_.end(),
-                                         [](const Mechanism& m) { return m.exact; });
-}
 
 bool ExactStep::Gather(int first, Found* found) {
   found->slots.clear();
@@ -218,6 +162,12 @@ long ExactStep::LeastCost(const Found& found) {
   return static_cast<long>(sum / ends);
 }
 
+bool ExactStep::IsHeap(const Found& found) {
+  int points = 0;
+  for (b2Contact* contact : found.contacts) points += contact->GetManifold()->pointCount;
+  return points >= kPointsOfHeap;
+}
+
 /// Returns what a direct factorisation takes, in multiplications.
 long ExactStep::Build(Found* found, bool relaxed) {
   Order(found);
@@ -289,8 +239,9 @@ long ExactStep::Build(Found* found, bool relaxed) {
   LoadPoses(found);
   const long cost = island.Shape(relaxed, kDirectMost);
   island.work_most = std::numeric_limits<long>::max();
-  if (solver_.joints == JointSolving::kAuto) {
-    island.work_most = solver_.joint_substeps * std::max(kSubstepMost, kFactorsMost * cost);
+  if (solver_.joints == JointSolving::kAuto && !relaxed && IsHeap(*found)) {
+    island.work_most =
+        std::max(kTickMost / solver_.substeps, kFactorsMost * cost * long{solver_.joint_substeps});
   }
   if (relaxed || cost <= kDirectMost) return cost;
   if (solver_.joints == JointSolving::kAuto) {
@@ -306,6 +257,7 @@ void ExactStep::Sign(const Found& found, std::vector<const void*>* sign) const {
   const auto number = [&](int n) {
     sign->push_back(reinterpret_cast<const void*>(std::intptr_t{n}));
   };
+  number(found.relaxed ? 1 : 0);
   number(static_cast<int>(found.slots.size()));
   for (const int slot : found.slots) number(slot);
   for (b2Contact* contact : found.contacts) {
@@ -332,6 +284,10 @@ void ExactStep::Prepare(float h, Found* found) {
   Sign(*found, &sign_);
   if (sign_ == found->sign) return;
   found->sign = sign_;
+  if (found->relaxed) {
+    Build(found, true);
+    return;
+  }
   // To order and shape a heap in each step costs many times what the engine's step does.
   if (solver_.joints == JointSolving::kAuto && LeastCost(*found) > kDirectMost) {
     found->island.reset();

@@ -16,9 +16,26 @@ double Length(const b2Vec2& v) { return static_cast<double>(v.Length()); }
 
 }  // namespace
 
+std::vector<WorldSnapshot::Left> ExactStep::Left() const {
+  std::vector<WorldSnapshot::Left> left;
+  for (std::size_t m = 0; m < found_.size(); ++m) {
+    if (found_[m].left_for > 0) left.push_back({mechanisms_[m].slots[0], found_[m].left_for});
+  }
+  return left;
+}
+
+void ExactStep::Leave(const std::vector<WorldSnapshot::Left>& left) {
+  for (const auto& [body, steps] : left) {
+    const int m = slots_[static_cast<std::size_t>(body)].mechanism;
+    if (m < 0 || mechanisms_[static_cast<std::size_t>(m)].slots[0] != body) continue;
+    found_[static_cast<std::size_t>(m)].left_for = steps;
+  }
+}
+
 /// The engine begins with the impulses of the step before, and its few rounds do not come back from
-/// any that are too large: where a jam of ours has left such ones, it begins with none.
-void ExactStep::Leave(float h, const Found& found) {
+/// any that are too large: where a jam of ours or what is taut has left such ones, it begins with
+/// none.
+void ExactStep::LeaveOne(float h, const Found& found) {
   if (found.slots.empty()) return;
   double mass = 0, momentum = 0, fastest = 0;
   b2Vec2 sum(0, 0);
@@ -56,6 +73,8 @@ void ExactStep::Leave(float h, const Found& found) {
   for (const int m : found.mechanisms) {
     for (const int j : mechanisms_[static_cast<std::size_t>(m)].joints) {
       const ExactJoint& joint = joints_[static_cast<std::size_t>(j)];
+      pressed =
+          std::max(pressed, static_cast<double>(h) * Length(joint.made->GetReactionForce(1 / h)));
       if (joint.drives) momentum += static_cast<double>(h) * joint.most;
     }
   }

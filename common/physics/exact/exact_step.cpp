@@ -283,13 +283,19 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
     if (slots_[static_cast<std::size_t>(mechanisms_[m].slots[0])].island >= 0) continue;
     Found& found = found_[m];
     bool ours = Gather(static_cast<int>(m), &found);
-    if (found.left_for > 0) {
-      --found.left_for;
-      ours = false;
-    }
+    const bool left = ours && found.left_for > 0;
+    if (left) --found.left_for;
+    const bool easy = Easy(found);
+    found.relaxed = left && !easy;
+    if (left && easy) ours = false;
     if (ours) Prepare(h, &found);
-    if (!ours || !found.island || !Solve(pace, step.warmStarting, &found)) {
-      Leave(h, found);
+    if (ours && found.island && !Solve(pace, step.warmStarting, &found)) {
+      found.relaxed = !easy;
+      if (found.relaxed) Prepare(h, &found);
+      ours = found.relaxed && Solve(pace, step.warmStarting, &found);
+    }
+    if (!ours || !found.island) {
+      LeaveOne(h, found);
       continue;
     }
     Save(&found, h);

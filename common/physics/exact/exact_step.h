@@ -8,6 +8,7 @@
 
 #include "common/physics/exact/free_blows.h"
 #include "common/physics/exact/island.h"
+#include "common/physics/world.h"
 #include "common/physics/world_build.h"
 #include "common/scene/scene.h"
 
@@ -21,6 +22,12 @@ class ExactStep {
   /// Whether there is a joint that it would solve, or a blow that gives everything back; else the
   /// engine's own Step does.
   bool needed() const;
+
+  /// Islands that are left to the engine or relaxed since they took too much: by the lowest moving
+  /// body of the first mechanism, for how many more steps while they are awake. Ascending.
+  std::vector<WorldSnapshot::Left> Left() const;
+  /// Of what is no mechanism's lowest body, nothing.
+  void Leave(const std::vector<WorldSnapshot::Left>& left);
 
   /// As b2World::Step.
   void Step(float h, int velocity_iterations, int position_iterations);
@@ -45,16 +52,21 @@ class ExactStep {
     std::vector<int> slots;   // in the order of the system
     std::vector<int> joints;  // indices
     bool exact = true;        // false: its envelope is too large
+    bool easy = true;         // the engine comes to terms with it at any moment
   };
   struct Found {  // an island, under the number of its first mechanism
     std::vector<int> slots, mechanisms;
     std::vector<b2Contact*> contacts;
     std::vector<const void*> sign;  // of what `island` was built for
     std::unique_ptr<ExactIsland> island;
-    int left_for = 0;  // steps for which it is left to the engine, since it took too much
+    int left_for = 0;      // steps for which it is not solved as a whole, since it took too much
+    bool relaxed = false;  // in this step
   };
 
   void FindMechanisms();
+  bool Easy(const Mechanism& mechanism) const;
+  bool Easy(const Found& found) const;
+  static bool IsHeap(const Found& found);
   void LeaveCharacters(const Scene& scene);
   void LeaveLarge();
   bool Gather(int first, Found* found);
@@ -69,7 +81,7 @@ class ExactStep {
   void SavePoses(const Found& found);
   void Prepare(float h, Found* found);
   bool Solve(const Pace& pace, bool warm, Found* found);
-  void Leave(float h, const Found& found);
+  void LeaveOne(float h, const Found& found);
   class Quiet;
   void Continuous(const b2TimeStep& step, const Pace& pace);
   void RejoinWhatMoved(float h, const Pace& pace);

@@ -120,7 +120,12 @@ class ExactIsland {
 
   double Pull() const;
   void Look(const Pace& pace);
+  static bool Shuts(const Row& row);
+  double SquaresApart(double* most) const;
   void BringTogether(const Pace& pace);
+  void ShiftTogether(double damping);
+  void MakeAlike();
+  void TakeMassesOf(const std::vector<ExactBody>& from);
   // Of a substep, in their order.
   void Substep(const Pace& pace);
   bool Course(const Pace& pace, bool whole);
@@ -175,7 +180,8 @@ class ExactIsland {
   // The system of rows, for the velocities as they are.
   /// `hard`, `bounded`: what a row's own entry is enlarged by, as a share, for rows that others
   /// imply.
-  void Assemble(double hard = 1e-7, double bounded = 1e-6);
+  static constexpr double kHardShare = 1e-7, kBoundedShare = 1e-6;
+  void Assemble(double hard = kHardShare, double bounded = kBoundedShare);
   bool Assembles(double hard, double bounded);
   int FirstChanged(double hard, double bounded);
   void Factor();

@@ -14,6 +14,13 @@ constexpr double kApart = 1e-5, kOverstepped = 5e-3, kTogetherMost = 0.2;
 /// Once they are moved, to this.
 constexpr double kTogether = 1e-7;
 constexpr int kTogetherTries = 8;
+/// A try after which they are farther apart, or that turns a body by more, rad, is taken back. The
+/// next is as if all bodies were alike; then it is damped: own entries are enlarged by such a
+/// share, and by so many times as much after each that fails; so many may.
+constexpr double kTurnMost = 1, kDamped = 1e-3, kDampedMore = 10;
+constexpr int kTriesThatFail = 12;
+/// What is alike is as hard to turn as a rod of so many times its length.
+constexpr double kHardToTurn = 2;
 /// What falls for so many steps has a blow; what falls less lies.
 constexpr double kRestSteps = 4;
 
@@ -33,42 +40,99 @@ void ExactIsland::Look(const Pace& pace) {
   for (ExactContact& contact : contacts) ReadContact(bodies, rest, &contact);
 }
 
+/// Whether a row is to be shut when joints are brought together.
+bool ExactIsland::Shuts(const Row& row) {
+  return row.kind == RowKind::kHard || (row.kind == RowKind::kLimit && row.error < -kOverstepped);
+}
+
+/// Of those rows, the sum of the squares of m and rad, and the largest of hard ones.
+double ExactIsland::SquaresApart(double* most) const {
+  double sum = 0;
+  *most = 0;
+  for (const Row& row : rows_) {
+    if (!Shuts(row)) continue;
+    sum += row.error * row.error;
+    *most = std::max(*most, row.kind == RowKind::kHard ? std::fabs(row.error) : 1.0);
+  }
+  return sum;
+}
+
 /// What was put apart since the last step, by a message, an edit or continuous collision, is moved
 /// together, and limits that are overstepped are gone back to: positions only, as little as the
-/// masses allow, no velocity comes of it.
+/// masses allow, no velocity comes of it. In chains of light links that are almost straight that
+/// way is to turn the links, where only the load at their end can come: where it fails, all bodies
+/// give way alike, and then it is damped (Levenberg 1944, Marquardt 1963).
 void ExactIsland::BringTogether(const Pace& pace) {
   held_.clear();
-  for (int tries = 0; tries < kTogetherTries; ++tries) {
-    bool apart = false;
-    for (const Row& row : rows_) {
-      const double most = tries == 0 ? kApart : kTogether;
-      apart = apart || (row.kind == RowKind::kHard && std::fabs(row.error) > most) ||
-              (row.kind == RowKind::kLimit && row.error < -kOverstepped);
-    }
-    if (!apart) break;
+  double most = 0, damping = kHardShare;
+  double apart = SquaresApart(&most);
+  bool alike = false;
+  for (int tries = 0, failed = 0; tries - failed < kTogetherTries && failed < kTriesThatFail;
+       ++tries) {
+    if (most <= (tries == 0 ? kApart : kTogether)) break;
     if (held_.empty()) {
       for (const Row& row : rows_) held_.push_back(row.state);
     }
-    std::fill(x_.begin(), x_.end(), 0.0);
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      Row& row = rows_[i];
-      const bool shuts =
-          row.kind == RowKind::kHard || (row.kind == RowKind::kLimit && row.error < -kOverstepped);
-      const bool held = row.kind == RowKind::kNormal && row.error <= 0;
-      row.state = shuts || held ? RowState::kFree : RowState::kOut;
-      if (!shuts || place_[i] < 0) continue;
-      x_[static_cast<std::size_t>(place_[i])] =
-          std::clamp(-row.error, -kTogetherMost, kTogetherMost);
-    }
-    Assemble();
-    SoftenContacts();
-    Factor();
-    matrix_.Solve(&x_);
-    for (std::size_t p = 0; p < row_at_.size(); ++p) Shift(*by_place_[p], x_[p]);
+    bodies_before_ = bodies;
+    if (alike) MakeAlike();
+    ShiftTogether(damping);
+    if (alike) TakeMassesOf(bodies_before_);
     Fill(pace);
+    double turned = 0;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+      turned = std::max(turned, std::fabs(bodies[b].a - bodies_before_[b].a));
+    }
+    const double now = SquaresApart(&most);
+    if (now <= apart && turned <= kTurnMost) {
+      apart = now;
+      damping = std::max(kHardShare, damping / kDampedMore);
+      continue;
+    }
+    bodies = bodies_before_;
+    Fill(pace);
+    apart = SquaresApart(&most);
+    if (alike) damping = std::max(kDamped, damping * kDampedMore);
+    alike = true;
+    ++failed;
   }
   for (std::size_t i = 0; i < held_.size(); ++i) rows_[i].state = held_[i];
   held_.clear();
+}
+
+/// For one solve.
+void ExactIsland::MakeAlike() {
+  for (ExactBody& q : bodies) {
+    if (!q.moves()) continue;
+    q.ii = 1 / (kHardToTurn * kHardToTurn * q.inertia * q.im);
+    q.im = 1;
+  }
+  rewritten_ = true;
+}
+
+void ExactIsland::TakeMassesOf(const std::vector<ExactBody>& from) {
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    bodies[b].im = from[b].im;
+    bodies[b].ii = from[b].ii;
+  }
+  rewritten_ = true;
+}
+
+/// By the way that shuts all rows at once, were they straight.
+void ExactIsland::ShiftTogether(double damping) {
+  std::fill(x_.begin(), x_.end(), 0.0);
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    Row& row = rows_[i];
+    const bool shuts = Shuts(row);
+    const bool held = row.kind == RowKind::kNormal && row.error <= 0;
+    row.state = shuts || held ? RowState::kFree : RowState::kOut;
+    if (!shuts || place_[i] < 0) continue;
+    x_[static_cast<std::size_t>(place_[i])] = std::clamp(-row.error, -kTogetherMost, kTogetherMost);
+  }
+  Assemble(damping);
+  SoftenContacts();
+  Factor();
+  matrix_.Solve(&x_);
+  for (std::size_t p = 0; p < row_at_.size(); ++p) Shift(*by_place_[p], x_[p]);
 }
 
 void ExactIsland::Rejoin(const Pace& pace, bool struck) {

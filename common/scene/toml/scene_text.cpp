@@ -110,9 +110,9 @@ void CheckNesting(const std::string& text, const std::string& file) {
 
 void CheckSceneText(const std::string& text, const std::string& file) {
   if (text.size() > kSceneBytesMax) {
-    Fail(file, 1,
-         "a scene may have at most " + std::to_string(kSceneBytesMax) + " bytes, not " +
-             std::to_string(text.size()));
+    Fail(
+        file, 1,
+        "a scene may have at most " + std::to_string(kSceneBytesMax) + " bytes; this one has more");
   }
   CheckCharacters(text, file);
   CheckNesting(text, file);

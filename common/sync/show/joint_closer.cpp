@@ -12,6 +12,12 @@ namespace {
 /// What is off by centimetres takes a few sweeps; a chain of a dozen links that is off by half a
 /// metre everywhere takes about a hundred. What is left after these is seen as an open joint.
 constexpr int kRoundsMax = 120;
+/// What is not closed by then is closed as if all its bodies were alike, and what pins keep from
+/// turning only shifts: where something light is between what is heavy or anchored, each sweep only
+/// moves or turns it to and fro.
+constexpr int kRoundsByMass = 20;
+/// In place of the inertia of what does not turn, kg m2.
+constexpr float kAnchored = 1e12f;
 /// A pin between two bodies of a list.
 struct Hold {
   const Pin* pin = nullptr;
@@ -62,6 +68,53 @@ float TurnsBeyond(const Pin& pin, float angle_a, float angle_b) {
   const float middle = (pin.angle_lower + pin.angle_upper) / 2;
   if (pin.angle_upper - pin.angle_lower >= 2 * kPiFloat) return 0;
   return std::round((angle_b - angle_a - middle) / (2 * kPiFloat));
+}
+
+bool KeepsTurn(const Pin& pin) { return !pin.by_distance && pin.angle_lower == pin.angle_upper; }
+
+/// Gives bodies that pins keep from turning against each other the turn that they have on average,
+/// or that of what is anchored among them; after that they turn no more.
+void HoldTurns(const std::vector<Hold>& holds, std::vector<PinnedBody>* list) {
+  std::vector<char> held(list->size(), 0);
+  struct Member {
+    std::size_t body = 0;
+    float wants = 0;  // rad: its angle less the first one's
+  };
+  for (std::size_t first = 0; first < list->size(); ++first) {
+    if (held[first]) continue;
+    std::vector<Member> group = {{first, 0}};
+    held[first] = 1;
+    for (std::size_t next = 0; next < group.size(); ++next) {
+      const Member member = group[next];
+      for (const Hold& hold : holds) {
+        const bool from_a = hold.a == member.body;
+        const std::size_t other = from_a ? hold.b : hold.a;
+        if (!KeepsTurn(*hold.pin) || (!from_a && hold.b != member.body) || held[other]) continue;
+        held[other] = 1;
+        const float turn = hold.pin->angle_lower;
+        group.push_back({other, member.wants + (from_a ? turn : -turn)});
+      }
+    }
+    if (group.size() < 2) continue;
+    const float angle = (*list)[first].angle;
+    const auto off = [&](const Member& member) {
+      return WrapAngle((*list)[member.body].angle - member.wants - angle);
+    };
+    float sum = 0, weights = 0;
+    for (const Member& member : group) {
+      const PinnedBody& body = (*list)[member.body];
+      const float weight = body.inverse_inertia > 0 ? 1 / body.inverse_inertia : kAnchored;
+      sum += weight * off(member);
+      weights += weight;
+    }
+    for (const Member& member : group) {
+      PinnedBody& body = (*list)[member.body];
+      if (body.inverse_mass <= 0) continue;
+      body.angle += sum / weights - off(member);
+      body.inverse_inertia = 0;
+      body.moved = true;
+    }
+  }
 }
 
 Assembled InWorld(const World& world, const std::vector<int>& bodies,
@@ -142,6 +195,10 @@ void JointCloser::Close(const std::vector<int>& bodies, const std::vector<Pin>& 
   bool open = true;
   for (int round = 0; open && round < kRoundsMax; ++round) {
     open = false;
+    if (round == kRoundsByMass) {
+      HoldTurns(shown.holds, &shown.list);
+      for (PinnedBody& body : shown.list) body.MakeAlike();
+    }
     for (std::size_t i = 0; i < left.size(); ++i) {
       // To and fro, or what is off travels along a chain only a link a sweep.
       const std::size_t at = round % 2 == 0 ? i : left.size() - 1 - i;

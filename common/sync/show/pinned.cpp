@@ -10,6 +10,8 @@ namespace {
 
 /// Closed is what is nearer than this to where it should be, m and rad: far below a pixel.
 constexpr float kClosed = 1e-4f;
+/// Of bodies that are alike: as a rod of twice its length.
+constexpr float kHarderToTurn = 4;
 
 float Beyond(float value, float lower, float upper) {
   return value - std::clamp(value, lower, upper);
@@ -59,6 +61,12 @@ PinnedBody::PinnedBody(const BodyState& pose, const MassPoint& mass)
 
 Vec2 PinnedBody::ToWorld(const Vec2& point) const {
   return centre + Turned(Vec2(point - local), angle);
+}
+
+void PinnedBody::MakeAlike() {
+  if (inverse_mass <= 0) return;
+  inverse_inertia /= kHarderToTurn * inverse_mass;
+  inverse_mass = 1;
 }
 
 void PinnedBody::Push(const Vec2& at, const Vec2& impulse) {

@@ -15,6 +15,8 @@ struct PinnedBody {
 
   PinnedBody(const BodyState& pose, const MassPoint& mass);
   Vec2 ToWorld(const Vec2& point) const;
+  /// What can be moved has a mass like any other from now on, and is harder to turn.
+  void MakeAlike();
   /// As an impulse acts on velocities, but at once and on the pose.
   void Push(const Vec2& at, const Vec2& impulse);
 };

@@ -1,0 +1,95 @@
+/// ExactStep: what is jointed together, and which of it is left to the engine from the beginning or
+/// may be at any moment.
+
+#include <algorithm>
+
+#include "common/physics/exact/engine_members.h"
+#include "common/physics/exact/exact_step.h"
+
+namespace seam {
+namespace {
+
+/// The engine comes to terms at once with a mechanism of so few joints, or whose masses differ by
+/// so little. Light links with a heavy load that it gets in the middle of a swing it tears apart.
+constexpr std::size_t kJointsOfEasy = 4;
+constexpr float kMassRatioOfEasy = 10;
+/// A mechanism that takes so many by itself is too large whatever touches it, even if its
+/// bodies come in another order then.
+constexpr long kNeverDirect = 120000;
+/// One of fewer rows cannot take so many.
+constexpr int kRowsOfLarge = 85;
+
+}  // namespace
+
+void ExactStep::FindMechanisms() {
+  std::vector<std::vector<int>> joined(slots_.size());  // joints, by slot
+  for (std::size_t j = 0; j < joints_.size(); ++j) {
+    for (const int slot : {joints_[j].slot_a, joints_[j].slot_b}) {
+      if (slot >= 0) joined[static_cast<std::size_t>(slot)].push_back(static_cast<int>(j));
+    }
+  }
+  std::vector<char> taken(joints_.size(), 0);
+  for (std::size_t first = 0; first < slots_.size(); ++first) {
+    if (slots_[first].mechanism >= 0 || joined[first].empty()) continue;
+    const int index = static_cast<int>(mechanisms_.size());
+    mechanisms_.emplace_back();
+    Mechanism& mechanism = mechanisms_.back();
+    mechanism.slots.push_back(static_cast<int>(first));
+    slots_[first].mechanism = index;
+    for (std::size_t i = 0; i < mechanism.slots.size(); ++i) {
+      for (const int j : joined[static_cast<std::size_t>(mechanism.slots[i])]) {
+        const ExactJoint& joint = joints_[static_cast<std::size_t>(j)];
+        if (!taken[static_cast<std::size_t>(j)]) mechanism.joints.push_back(j);
+        taken[static_cast<std::size_t>(j)] = 1;
+        for (const int slot : {joint.slot_a, joint.slot_b}) {
+          if (slot < 0 || slots_[static_cast<std::size_t>(slot)].mechanism >= 0) continue;
+          slots_[static_cast<std::size_t>(slot)].mechanism = index;
+          mechanism.slots.push_back(slot);
+        }
+      }
+    }
+    std::sort(mechanism.joints.begin(), mechanism.joints.end());
+    mechanism.easy = Easy(mechanism);
+  }
+  found_.resize(mechanisms_.size());
+}
+
+bool ExactStep::Easy(const Mechanism& mechanism) const {
+  if (mechanism.joints.size() <= kJointsOfEasy) return true;
+  float least = b2_maxFloat, most = 0;
+  for (const int slot : mechanism.slots) {
+    const b2Body& body = *slots_[static_cast<std::size_t>(slot)].body;
+    if (!Moves(const_cast<b2Body*>(&body))) continue;
+    least = std::min(least, body.GetMass());
+    most = std::max(most, body.GetMass());
+  }
+  return most <= kMassRatioOfEasy * least;
+}
+
+bool ExactStep::Easy(const Found& found) const {
+  return std::all_of(found.mechanisms.begin(), found.mechanisms.end(),
+                     [this](int m) { return mechanisms_[static_cast<std::size_t>(m)].easy; });
+}
+
+/// What is too large in any case is not looked at again.
+void ExactStep::LeaveLarge() {
+  for (std::size_t m = 0; m < mechanisms_.size(); ++m) {
+    Mechanism& mechanism = mechanisms_[m];
+    int rows = 0;  // no limit is near yet
+    for (const int j : mechanism.joints) rows += RowCount(joints_[static_cast<std::size_t>(j)]);
+    if (!mechanism.exact || rows < kRowsOfLarge) continue;
+    Found alone;
+    alone.mechanisms.push_back(static_cast<int>(m));
+    for (const int slot : mechanism.slots) {
+      if (Moves(slots_[static_cast<std::size_t>(slot)].body)) alone.slots.push_back(slot);
+    }
+    mechanism.exact = alone.slots.empty() || Build(&alone, false) <= kNeverDirect;
+  }
+}
+
+bool ExactStep::needed() const {
+  return blows_->needed() || std::any_of(mechanisms_.begin(), mechanisms_.end(),
+                                         [](const Mechanism& m) { return m.exact; });
+}
+
+}  // namespace seam
