@@ -253,8 +253,8 @@ TEST_F(EndToEnd, TheMeasuresOfACaptureAreSane) {
   EXPECT_LT(number["retrospect"]["rebound"], 1.1);
   EXPECT_GT(number["central"]["rebound"], 0.9);
   // That strict shows the rubber wall hangs, in one capture, on when which datagram comes: its
-  // median over seeds is Cluster.StrictShowsTheRubberWall...'s.
-  EXPECT_GT(number["strict"]["rebound"], 0);
+  // median over seeds is Cluster.StrictShowsTheRubberWall...'s. Here the brick may get nothing.
+  EXPECT_GE(number["strict"]["rebound"], 0);
   EXPECT_LT(number["retrospect"]["error_rms_m"], number["strict"]["error_rms_m"]);
   for (const char* run : {"retrospect", "central"}) {
     EXPECT_GT(number[run]["error_max_m"], 0) << run;
