@@ -83,7 +83,8 @@ void ExactIsland::BringTogether(const Pace& pace) {
       turned = std::max(turned, std::fabs(bodies[b].a - bodies_before_[b].a));
     }
     const double now = SquaresApart(&most);
-    if (now <= apart && turned <= kTurnMost) {
+    // Where limits are relaxed no try shuts them.
+    if (relaxed_ || (now <= apart && turned <= kTurnMost)) {
       apart = now;
       damping = std::max(kHardShare, damping / kDampedMore);
       continue;
