@@ -11,12 +11,13 @@ namespace {
 
 /// Multiplications of one factorisation above which contacts are relaxed.
 constexpr long kDirectMost = 30000;
-/// Multiplications of a tick, solves included, above which a heap is left to the engine: so many,
-/// or what so many factorisations in each substep take.
+/// Multiplications of a tick, solves included, above which a heap is left to the engine or
+/// relaxed: so many, or what so many factorisations in each substep take.
 constexpr long kTickMost = 800000, kFactorsMost = 20;
 /// It is one from so many points of contact on: what is jointed against itself takes much, too, and
 /// is not the engine's.
 constexpr int kPointsOfHeap = 24;
+
 }  // namespace
 
 bool ExactStep::Gather(int first, Found* found) {
