@@ -42,8 +42,8 @@ TEST(Cluster, EveryPeerOfTheOracleShowsTheSameBits) {
 
 TEST(Cluster, StrictShowsTheRubberWallAndBufferDoesNot) {
   const Measures strict = MeasureRun(With("crossing", "strict"));
-  // One run hangs on when which datagram comes: of 40 seeds of 0.18.2 36 gave .03 to .07, the others
-  // .41 to 1.09.
+  // One run hangs on when which datagram comes: of 40 seeds of 0.18.2 36 gave .03 to .07, the
+  // others .41 to 1.09.
   std::vector<double> rebounds;
   for (std::uint64_t seed = 1; seed <= 9; ++seed) {
     ClusterConfig config = With("crossing", "strict");
