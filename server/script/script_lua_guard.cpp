@@ -14,6 +14,9 @@ constexpr std::size_t kStringHeader = 64;
 /// A unit of work for so many bytes that are asked for, and for so many that a full collection,
 /// which follows each refusal, looks at.
 constexpr std::size_t kBytesPerUnit = 64;
+/// Units of work for an error that is kept: its message is made, and Lua looks through all calls
+/// that are under way in order to shrink the stack.
+constexpr std::int64_t kErrorUnits = 200;
 
 void Look(lua_State* L, lua_Debug* /*where*/) {
   LuaGuard& guard = GuardOf(L);
@@ -100,9 +103,8 @@ void LuaRefuse(lua_State* L, const char* what) {
 
 void LuaAfter(lua_State* L, int status) {
   LuaGuard& guard = GuardOf(L);
-  if (guard.spent) LuaSpend(L);
-  if (status != LUA_ERRMEM) return;
-  LuaSpend(L);
+  if (guard.spent || status == LUA_ERRMEM) LuaSpend(L);
+  if (status != LUA_OK && status != LUA_YIELD) LuaCharge(L, kErrorUnits);
 }
 
 void LuaExplain(LuaGuard* guard) {

@@ -53,7 +53,8 @@ void LuaCharge(lua_State* L, std::int64_t units);
 [[noreturn]] void LuaSpend(lua_State* L);
 /// Which limit was met, as one line in guard.why: when the work is not done, it was memory.
 void LuaExplain(LuaGuard* guard);
-/// After what ran protected inside ended with `status`: raises again what must not be kept.
+/// After what ran protected inside ended with `status`: raises again what must not be kept, and
+/// charges for an error that is.
 void LuaAfter(lua_State* L, int status);
 
 /// Raises `what` with the script's line, unless it begins with its scene's name and a line.

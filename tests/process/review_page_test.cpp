@@ -79,9 +79,19 @@ TEST_F(ReviewPage, IsScrubbedByMouseAndByKeys) {
   browser_->Press("ArrowLeft");
   browser_->Press("ArrowLeft");
   EXPECT_EQ(browser_->Number("review.state.tick"), middle - 1);
+  // From one event to the next and back again, wherever this run has them.
+  browser_->Evaluate("review.page.player.go(0)");
   browser_->Click("#next");
-  EXPECT_GT(browser_->Number("review.state.tick"), middle - 1);
+  const double first = browser_->Number("review.state.tick");
+  EXPECT_GT(first, 0);
+  EXPECT_GT(browser_->Number("review.page.events().filter((event) => event.at === " +
+                             std::to_string(first) + ").length"),
+            0);
   EXPECT_NE(browser_->Evaluate("document.getElementById('event-text').textContent"), "");
+  browser_->Click("#next");
+  EXPECT_GT(browser_->Number("review.state.tick"), first);
+  browser_->Click("#previous");
+  EXPECT_EQ(browser_->Number("review.state.tick"), first);
   // Slowly, so that it does not end by itself on a machine that draws few pictures a second.
   browser_->Evaluate("(review.state.speed = 1 / 16, review.page.player.go(60))");
   browser_->Click("#play");

@@ -121,16 +121,34 @@ const Attack kAttacks[] = {
      "too large"},
 };
 
+double StepSeconds(FakeRoom* room) {
+  const std::clock_t begin = std::clock();
+  room->Step();
+  return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+}
+
+/// CPU time of a tick's work that is nothing but honest: tables, calls and arithmetic.
+double HonestSeconds() {
+  double least_s = 1e9;
+  for (int i = 0; i < 5; ++i) {
+    FakeRoom room(
+        "local function f(t) t.n = t.n + 1 return {n = t.n} end\n"
+        "function on_tick() local t = {n = 0} while true do t = f(t) end end");
+    least_s = std::min(least_s, StepSeconds(&room));
+    EXPECT_TRUE(room.script.stopped());
+  }
+  return least_s;
+}
+
 TEST(ScriptHostile, StopsEveryAttackWithinATicksWorkAndMemory) {
+  const double honest_s = HonestSeconds();
   double worst_s = 0;
   std::string worst;
   for (const Attack& attack : kAttacks) {
     FakeRoom room(std::string("function on_tick()\n") + attack.code + "\nend");
     ASSERT_EQ(room.script.error(), "") << attack.name;
     for (int tick = 0; tick < 200 && !room.script.stopped(); ++tick) {
-      const std::clock_t begin = std::clock();
-      room.Step();
-      const double took_s = static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
+      const double took_s = StepSeconds(&room);
       EXPECT_LE(room.script.memory_bytes(), 4 << 20) << attack.name;
       if (took_s > worst_s) worst = attack.name;
       worst_s = std::max(worst_s, took_s);
@@ -144,8 +162,9 @@ TEST(ScriptHostile, StopsEveryAttackWithinATicksWorkAndMemory) {
     EXPECT_TRUE(line == "10:" || line == "11:" || line == "12:") << room.script.error();
     EXPECT_EQ(room.script.error().find('\n'), std::string::npos);
   }
-  std::printf("[          ] worst tick: %.1f ms of CPU time (%s)\n", 1e3 * worst_s, worst.c_str());
-  EXPECT_LT(worst_s, 1.0);
+  std::printf("[          ] worst tick: %.1f ms of CPU time (%s), an honest one %.1f\n",
+              1e3 * worst_s, worst.c_str(), 1e3 * honest_s);
+  EXPECT_LT(worst_s, 20 * honest_s);
 }
 
 TEST(ScriptHostile, ALoopWhileLoadingIsStoppedAsWell) {
