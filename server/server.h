@@ -50,8 +50,9 @@ class Server {
   ~Server();
 
   /// Receives, steps the ticks that are due, sends. `now_us`: any clock that never runs backwards;
-  /// `cpu_us`: CPU time used so far, for the record (0 when unknown).
+  /// `cpu_us`: CPU time used so far, for the record (0 when unknown); read where stats_due.
   void Tick(std::int64_t now_us, std::int64_t cpu_us);
+  bool stats_due(std::int64_t now_us) const { return stats_.Due(now_us); }
   /// When the next tick is due on the clock of Tick; INT64_MAX before the room starts.
   std::int64_t next_tick_us() const;
   /// Says goodbye to everyone; call Tick no more.

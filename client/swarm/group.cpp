@@ -58,12 +58,15 @@ void Group::Run(std::int64_t until_us) {
     for (const auto& member : members_) due_us = std::min(due_us, member->due_us());
     Sleep(due_us - now_us);
     const int ready = epoll_wait(epoll_, events.data(), kEvents, 0);
+    std::int64_t cpu_us = ThreadCpuUs();
     for (int i = 0; i < ready; ++i) {
-      members_[events[static_cast<std::size_t>(i)].data.u64]->Tick(SteadyClockUs());
+      members_[events[static_cast<std::size_t>(i)].data.u64]->Tick(SteadyClockUs(), &cpu_us);
     }
+    std::int64_t at_us = SteadyClockUs();
     for (const auto& member : members_) {
-      const std::int64_t at_us = SteadyClockUs();
-      if (member->due_us() <= at_us) member->Tick(at_us);
+      if (member->due_us() > at_us) continue;
+      member->Tick(at_us, &cpu_us);
+      at_us = SteadyClockUs();
     }
   }
 }

@@ -14,13 +14,13 @@ void MemberFigures::Add(const MemberFigures& other) {
 Member::Member(const ClientConfig& config)
     : name_(config.name), udp_(Address{0, 0}), client_(config, udp_, nowhere_, entropy_) {}
 
-void Member::Tick(std::int64_t now_us) {
+void Member::Tick(std::int64_t now_us, std::int64_t* cpu_us) {
   const bool ran = client_.running();
   const std::int64_t before = ran ? client_.replica()->tick() : 0;
   const std::int64_t due_us = due_us_;
-  const std::int64_t cpu_us = ThreadCpuUs();
   client_.Tick(now_us, spent_us_);
-  const std::int64_t cost_us = ThreadCpuUs() - cpu_us;
+  const std::int64_t cost_us = ThreadCpuUs() - *cpu_us;
+  *cpu_us += cost_us;
   spent_us_ += cost_us;
   figures_.cpu_us += cost_us;
   const bool runs = ran && client_.running();

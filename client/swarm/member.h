@@ -24,8 +24,9 @@ class Member {
   /// Throws OperatorError when there is no socket to be had.
   explicit Member(const ClientConfig& config);
 
-  /// Runs what is due at `now_us` (SteadyClockUs).
-  void Tick(std::int64_t now_us);
+  /// Runs what is due at `now_us` (SteadyClockUs). `cpu_us`: of this thread when it was last read,
+  /// which is then read again: that costs as much as a datagram.
+  void Tick(std::int64_t now_us, std::int64_t* cpu_us);
   /// When to call Tick again at the latest.
   std::int64_t due_us() const { return due_us_; }
   /// For epoll: readable when Tick has something to do.

@@ -28,7 +28,7 @@ struct RoomPlan {
   std::string lcm_url = "none";
   std::string record;  ///< path of its log; "": none
   bool force = false;
-  bool alone = true;  ///< the only room of the program: its Stats tell the program's CPU time
+  bool alone = true;  ///< the only room of the program: it tells the program's CPU time
   bool news = true;   ///< who comes and goes is told
 };
 
@@ -67,6 +67,7 @@ class HostedRoom : public Runnable {
   const TickTimes& tick_times() const { return tick_times_; }
 
  private:
+  std::int64_t CpuForStats(std::int64_t now_us) const;
   void NoteTicks();
   void Tell(std::int64_t now_us);
   void CollectNews();

@@ -60,6 +60,7 @@ class Hub {
   std::vector<bool> mail_;  // by room, in one Take
   std::int64_t strangers_ = 0;
   std::int64_t polled_us_ = 0;
+  int in_a_row_ = 0;  // calls after which datagrams came at once
   std::unique_ptr<Lanes> lanes_;
 };
 

@@ -26,8 +26,7 @@ void CountMoving(const Replica& replica, Load* load) {
 }  // namespace
 
 void LoadWatch::NoteCall(const Server& server, std::int64_t begin_us, std::int64_t wall_us,
-                         std::int64_t cpu_us, std::int64_t tick_before, std::int64_t due_us) {
-  cpu_us_ += cpu_us;
+                         std::int64_t tick_before, std::int64_t due_us) {
   const std::int64_t steps = server.tick() - tick_before;
   if (steps <= 0) return;
   const std::int64_t period_us = (server.next_tick_us() - due_us) / steps;

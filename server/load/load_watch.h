@@ -17,7 +17,9 @@ class LoadWatch {
   /// A call of Server::Tick: it began at `begin_us` and took `wall_us`; from `tick_before` on it
   /// stepped the ticks up to the server's, the first of which was due at `due_us`.
   void NoteCall(const Server& server, std::int64_t begin_us, std::int64_t wall_us,
-                std::int64_t cpu_us, std::int64_t tick_before, std::int64_t due_us);
+                std::int64_t tick_before, std::int64_t due_us);
+  /// CPU time that was spent on the room.
+  void NoteCpu(std::int64_t cpu_us) { cpu_us_ += cpu_us; }
   bool Due(std::int64_t now_us) const { return now_us - told_us_ >= kEveryUs; }
   /// Of the time since the last one.
   Load Tell(std::int64_t now_us, const Server& server, const TrafficCount& traffic);

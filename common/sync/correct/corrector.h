@@ -65,6 +65,8 @@ class Corrector {
   using Entry = std::pair<std::size_t, int>;
 
   /// Whether an entry is news; counts it.
+  bool IsEarly(const States& states) const;
+  bool MayWait(const States& states) const;
   bool IsNews(const States& states, std::size_t i, int body, Received* result) const;
   /// Notes one entry; true if its body is simulated here and to be corrected.
   bool ReceiveOne(const States& states, std::size_t i, int body);

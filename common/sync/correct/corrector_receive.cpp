@@ -24,11 +24,9 @@ Corrector::Corrector(const SyncConfig& config, World& world, const Roles& roles,
       replay_(replay) {}
 
 Received Corrector::Receive(const States& states) {
-  const std::int64_t now = world_.tick();
   Received result;
-  if (states.tick > now || states.revision > world_.topology().revision()) {
-    if (waiting_.size() < kWaitingMax && states.tick <= now + kWaitingTicksMax &&
-        states.tick > now - kWaitingTicksMax) {
+  if (IsEarly(states)) {
+    if (MayWait(states)) {
       waiting_.push_back(states);
       result.used = static_cast<int>(states.id.size());
     } else {
@@ -50,14 +48,30 @@ Received Corrector::Receive(const States& states) {
   for (const auto& [i, body] : to_correct) {
     Correct(body, states, i, common.at(world_.mechanism(body)));
   }
-  if (result.used > 0) display_.AddAge(now - states.tick);
+  if (result.used > 0) display_.AddAge(world_.tick() - states.tick);
   return result;
+}
+
+/// Of a tick, or of a composition, that is still to come here.
+bool Corrector::IsEarly(const States& states) const {
+  return states.tick > world_.tick() || states.revision > world_.topology().revision();
+}
+
+bool Corrector::MayWait(const States& states) const {
+  return waiting_.size() < kWaitingMax && states.tick <= world_.tick() + kWaitingTicksMax &&
+         states.tick > world_.tick() - kWaitingTicksMax;
 }
 
 void Corrector::ReceiveWaiting() {
   std::vector<States> waiting;
   waiting.swap(waiting_);
-  for (const States& states : waiting) Receive(states);
+  for (States& states : waiting) {
+    if (!IsEarly(states)) {
+      Receive(states);
+    } else if (MayWait(states)) {
+      waiting_.push_back(std::move(states));
+    }
+  }
 }
 
 bool Corrector::IsNews(const States& states, std::size_t i, int body, Received* result) const {
