@@ -282,8 +282,10 @@ class Followers {
     }
   }
 
-  /// One whose capacity is limited follows what it may meet, then its buffer zone, then in a room
-  /// that is followed whole the nearest, as long as it can step that.
+  /// One whose capacity is limited follows what it may meet, however much that is: of each blow
+  /// between what it has and what it does not follow, two peers would have another outcome each,
+  /// and both would be told as facts. Then its buffer zone, then in a room that is followed whole
+  /// the nearest, as long as it can step that.
   void FollowWithin(std::size_t player) {
     const int peer = view_.players[player].peer;
     within_.clear();
@@ -304,7 +306,7 @@ class Followers {
       const int limit = rank == 2 ? std::min(most, view_.follow_bodies) : most;
       PlannedAuthority& of = planned(m);
       if (of.authority == peer || of.secondaries.Has(peer)) continue;
-      if (steps_[player] + bodies_[static_cast<std::size_t>(m)] > limit) continue;
+      if (rank > 0 && steps_[player] + bodies_[static_cast<std::size_t>(m)] > limit) continue;
       of.secondaries.Add(peer);
       steps_[player] += bodies_[static_cast<std::size_t>(m)];
     }

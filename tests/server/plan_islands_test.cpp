@@ -275,5 +275,21 @@ TEST_F(PlanIslandsTest, WhoIsAtItsCapacityFollowsNoMoreThanThat) {
   EXPECT_EQ(steps, 5);
 }
 
+TEST_F(PlanIslandsTest, WhoIsAtItsCapacityFollowsAllThatItMayMeet) {
+  view_.players[0].capacity = 3;
+  std::vector<std::size_t> coming;
+  for (int n = 0; n < 6; ++n) {
+    coming.push_back(Add(-28, static_cast<float>(n) - 2.5f));
+    view_.boxes[coming.back()].velocity = {-20, 0};
+  }
+  const AuthorityPlan plan = PlanAuthority(view_);
+  int held = 0;
+  for (const std::size_t m : coming) {
+    held += plan[m].authority == kAnn ? 1 : 0;
+    EXPECT_TRUE(plan[m].authority == kAnn || plan[m].secondaries.Has(kAnn)) << m;
+  }
+  EXPECT_LE(held, 2);
+}
+
 }  // namespace
 }  // namespace seam
