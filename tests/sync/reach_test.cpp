@@ -12,7 +12,7 @@ namespace {
 /// ann's and bob's boxes `gap` m apart, and a crate far from both; this is ann's peer.
 class Lot {
  public:
-  explicit Lot(float gap, int own_player = 0)
+  explicit Lot(float gap, int own_player = 0, int ticks = 60)
       : lot(ParseScene("[[player]]\nname = \"ann\"\nvehicle = \"hers\"\n"
                        "[[player]]\nname = \"bob\"\nvehicle = \"his\"\n"
                        "[[part]]\nname = \"ground\"\nchain = [[-900, 0], [900, 0]]\n"
@@ -23,7 +23,7 @@ class Lot {
                            "[[part]]\nname = \"crate\"\nbox = [1, 1]\nposition = [-800, 0.5]\n",
                        "lot.toml")),
         roles(config, 1, own_player, lot.world) {
-    for (int t = 0; t < 60; ++t) lot.Step();
+    for (int t = 0; t < ticks; ++t) lot.Step();
     for (int m = 0; m < roles.table().count(); ++m) {  // it follows everything
       AuthorityRecord record;
       record.secondaries.Add(1);
@@ -96,6 +96,16 @@ TEST(Reach, NobodyWaitsForWhoWasNeverHeardOrNotForThreeSeconds) {
   EXPECT_EQ(gone.Missing("hers"), 180) << "who drove on may brake";
   gone.lot.Step();
   EXPECT_EQ(gone.Missing("hers"), 0);
+}
+
+TEST(Reach, InTheFirstThreeQuartersOfASecondTheFirstWordIsOnItsWay) {
+  Lot lot(0.1f, 0, 44);
+  EXPECT_EQ(lot.Missing("hers"), 44) << "bob may have driven from the first tick on";
+  EXPECT_EQ(lot.Missing("crate"), 0) << "out of reach of both";
+  lot.Heard(1, 4);
+  EXPECT_EQ(lot.Missing("hers"), 4);
+  Lot later(0.1f, 0, 45);
+  EXPECT_EQ(later.Missing("hers"), 0) << "who was not heard of by now is not there";
 }
 
 TEST(Reach, WhoHadLetGoIsWaitedForAtMostASecondAndAQuarter) {

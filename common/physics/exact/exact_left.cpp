@@ -5,6 +5,7 @@
 
 #include "common/physics/exact/engine_members.h"
 #include "common/physics/exact/exact_step.h"
+#include "common/physics/world_couplings.h"
 
 namespace seam {
 namespace {
@@ -73,8 +74,9 @@ void ExactStep::LeaveOne(float h, const Found& found) {
   for (const int m : found.mechanisms) {
     for (const int j : mechanisms_[static_cast<std::size_t>(m)].joints) {
       const ExactJoint& joint = joints_[static_cast<std::size_t>(j)];
-      pressed =
-          std::max(pressed, static_cast<double>(h) * Length(joint.made->GetReactionForce(1 / h)));
+      // The engine's own word has the directions of its last step, and a new joint has none.
+      const b2Vec2 force = ForcesOf(joint.made, 1 / h).on_a;
+      pressed = std::max(pressed, static_cast<double>(h) * Length(force));
       if (joint.drives) momentum += static_cast<double>(h) * joint.most;
     }
   }

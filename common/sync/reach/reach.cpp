@@ -13,6 +13,9 @@ namespace {
 constexpr double kSilent = 3.0;
 /// The same of who had let go of everything: of who has left the server says so.
 constexpr double kSilentIdle = 1.25;
+/// From the beginning of the room on, s: of who was not heard of yet the first word is still on its
+/// way, and all that is known is the state of tick 0. Later, who was never heard of is not there.
+constexpr double kFirstWord = 0.75;
 
 }  // namespace
 
@@ -54,8 +57,11 @@ void Reach::Look() {
   // Of who does not concern this peer it hears seldom, and that is of no matter.
   for (const int player : drivers_.concerned()) {
     const InputTrack& track = inputs_[static_cast<std::size_t>(player)];
-    const std::int64_t newest = track.newest();
-    if (player == roles_.own_player() || newest < 0) continue;
+    const std::int64_t newest = std::max<std::int64_t>(0, track.newest());
+    if (player == roles_.own_player()) continue;
+    if (track.newest() < 0 && now >= static_cast<std::int64_t>(kFirstWord * config_.tick_hz)) {
+      continue;
+    }
     const double silent = track.At(newest) == Input{} ? kSilentIdle : kSilent;
     if (newest < now - static_cast<std::int64_t>(silent * config_.tick_hz)) continue;
     missing.emplace_back(player, std::max<std::int64_t>(0, now - newest));
