@@ -77,6 +77,9 @@ void ReadJoints(const SceneReader& root, SceneDraft* draft);
 void ReadWaters(const SceneReader& root, SceneDraft* draft);
 /// [[player]]: all but the names. Requires parts.
 void ReadPlayers(const SceneReader& root, SceneDraft* draft);
+/// follow and server_follow, unless the scene says them: less where many players begin farther from
+/// each other than twice what they hear. Requires players and the planner's rules.
+void LimitFollowing(const SceneReader& root, SceneDraft* draft);
 /// [[seat]]: only names, so that motors can refer to them. Requires players' names.
 void ReadSeatNames(const SceneReader& root, SceneDraft* draft);
 /// [[seat]]: all but the names. Requires parts.

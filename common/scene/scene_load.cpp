@@ -126,6 +126,7 @@ Scene ParseScene(const std::string& text, const std::string& file_name) {
   ReadWaters(root, &draft);
   ReadGrouping(root, &draft);
   ReadPlayers(root, &draft);
+  LimitFollowing(root, &draft);
   ReadSeats(root, &draft);
   ReadTriggers(root, &draft);
   ReadCharges(root, &draft);

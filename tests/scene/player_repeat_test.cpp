@@ -170,5 +170,26 @@ repeat = {count = 2, step = [5, 0]}
   says(Complaint("name = \"bot\"", "name = \"" + longest + "\""), "is too long");
 }
 
+/// So many players in a row.
+Scene Row(int players, int apart_m, const std::string& top) {
+  const std::string count = std::to_string(players);
+  return ParseScene(top + "\n[[player]]\nname = \"p\"\nrepeat = {count = " + count +
+                        "}\nvehicle = \"car.0\"\n[[part]]\nname = \"car\"\nbox = [1, 1]\n" +
+                        "repeat = {count = " + count + ", step = [" + std::to_string(apart_m) +
+                        ", 0]}\n",
+                    "x.toml");
+}
+
+TEST(PlayerRepeat, ARoomOfManyPlayersFarFromEachOtherIsFollowedWholeIfItHasFewBodies) {
+  EXPECT_EQ(Row(16, 50, "").follow_bodies, 256);
+  EXPECT_EQ(Row(32, 7, "").follow_bodies, 256) << "217 m";
+  EXPECT_EQ(Row(32, 8, "").follow_bodies, 128) << "248 m";
+  EXPECT_EQ(Row(32, 8, "").server_follow, 128);
+  EXPECT_EQ(Row(64, 8, "").follow_bodies, 64);
+  EXPECT_EQ(Row(64, 8, "follow = 200").follow_bodies, 200);
+  EXPECT_EQ(Row(64, 8, "follow = 200").server_follow, 64);
+  EXPECT_EQ(Row(32, 8, "planner = {hear = 200}").follow_bodies, 256);
+}
+
 }  // namespace
 }  // namespace seam

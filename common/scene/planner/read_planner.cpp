@@ -1,7 +1,16 @@
+#include <algorithm>
+#include <cfloat>
+
 #include "common/scene/planner/planner_rules.h"
 #include "common/scene/scene_draft.h"
 
 namespace seam {
+namespace {
+
+/// Players times bodies that are followed whole, at most, where players begin far from each other.
+constexpr int kFollowedByAll = 4096;
+
+}  // namespace
 
 void ReadPlanner(const SceneReader& root, SceneDraft* draft) {
   const TomlNode* table = root.Table("planner");
@@ -21,6 +30,22 @@ void ReadPlanner(const SceneReader& root, SceneDraft* draft) {
                          "): who keeps less than it takes would change all the time");
   }
   draft->scene.planner.Set(rules);
+}
+
+void LimitFollowing(const SceneReader& root, SceneDraft* draft) {
+  Scene& scene = draft->scene;
+  Vec2 min(FLT_MAX, FLT_MAX), max(-FLT_MAX, -FLT_MAX);
+  for (const Player& player : scene.players) {
+    if (player.vehicle < 0) continue;
+    const Vec2& at = scene.parts[static_cast<std::size_t>(player.vehicle)].position;
+    min = min.cwiseMin(at);
+    max = max.cwiseMax(at);
+  }
+  const bool spread = (max - min).maxCoeff() > 2 * scene.planner->hear;
+  if (!spread) return;
+  const int most = kFollowedByAll / static_cast<int>(scene.players.size());
+  if (!root.Has("follow")) scene.follow_bodies = std::min(scene.follow_bodies, most);
+  if (!root.Has("server_follow")) scene.server_follow = std::min(scene.server_follow, most);
 }
 
 }  // namespace seam
