@@ -138,8 +138,7 @@ class Followers {
     }
   }
 
-  /// What presses on something of a peer's, directly or through others, that peer follows however
-  /// far it is: of a crowd, too.
+  /// What presses on something of a peer's, directly or through others, that peer follows anyway.
   void FollowTouching() {
     const GroupLists touching(*touching_);
     last_group_.assign(view_.players.size(), -1);
@@ -282,10 +281,9 @@ class Followers {
     }
   }
 
-  /// One whose capacity is limited follows what it may meet, however much that is: of each blow
-  /// between what it has and what it does not follow, two peers would have another outcome each,
-  /// and both would be told as facts. Then its buffer zone, then in a room that is followed whole
-  /// the nearest, as long as it can step that.
+  /// One whose capacity is limited follows what it may meet, however much that is: else a blow of
+  /// the two had another outcome at each of two peers. Then, as long as it can step that, its
+  /// buffer zone, and in a room that is followed whole the nearest.
   void FollowWithin(std::size_t player) {
     const int peer = view_.players[player].peer;
     within_.clear();
