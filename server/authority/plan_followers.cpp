@@ -138,7 +138,7 @@ class Followers {
     }
   }
 
-  /// What presses on something of a peer's, directly or through others, that peer follows anyway.
+  /// What presses on a peer's, directly or through others, it follows however far, of a crowd, too.
   void FollowTouching() {
     const GroupLists touching(*touching_);
     last_group_.assign(view_.players.size(), -1);
