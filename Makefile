@@ -27,7 +27,7 @@ CXXFLAGS_release := -O2 -g1
 CXXFLAGS_debug := -O0 -g
 CXXFLAGS_asan := -O1 -g1 $(INSTRUMENT_asan) -fno-sanitize-recover=all -fno-omit-frame-pointer
 # Checks that take half of the time to compile a test; what the tests test is compiled with them.
-TEST_CXXFLAGS_asan := -fno-sanitize=null,alignment,object-size,vptr
+TEST_CXXFLAGS_asan := -O0 -fno-sanitize=null,alignment,object-size,vptr
 CXXFLAGS_tsan := -O1 -g1 $(INSTRUMENT_tsan)
 # Signals and threads end programs at any time: counters are added atomically.
 CXXFLAGS_coverage := -O1 -g1 $(INSTRUMENT_coverage) -fprofile-update=atomic
@@ -88,8 +88,8 @@ SOAK ?= 300
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
-.PHONY: all docs help deps demo bench report spy test tests hashes check-fast run-tests coverage soak format lint \
-	compile_commands.json install install-built clean force
+.PHONY: all docs help deps demo bench report spy test tests hashes sanitize check-fast run-tests coverage soak format \
+	lint compile_commands.json install install-built clean force
 
 all: build/.deps-build $(PROGRAMS) $(OUT)/share/.stamp   ## build the programs
 
@@ -186,6 +186,14 @@ $(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(SERVER) $(CLIENT) $(OUT)/libse
 $(OUT)/seam-tests: $(LAB) $(SERVER) $(CLIENT) $(WATCHERS) $(RENDER) $(TESTS) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(RENDER_LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
+# The tests of what reads from outside and keeps it, without long simulations, programs and pictures: under half of the
+# sources.
+CORE_TESTS := $(foreach f,base client codec net record scene server sync topology,$(filter \
+	tests/$(f)/%_test.cpp,$(SOURCES))) $(filter tests/support/%,$(SOURCES)) \
+	tests/lab/cluster.cpp tests/lab/world/plan_worlds.cpp
+$(OUT)/seam-tests-core: $(call obj,$(CORE_TESTS)) $(WATCHERS) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
+	$(LINK) $(LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
+
 # Man pages and completion, by the programs themselves: from what parses their flags, and from the scenes here.
 $(OUT)/share/.stamp: $(PROGRAMS) $(wildcard scenes/*.toml)
 	@rm -rf $(@D) && mkdir -p $(addprefix $(@D)/,man bash zsh fish)
@@ -213,6 +221,10 @@ run-tests = SEAM_BIN=$(OUT) $(OUT)/seam-tests $(if $(FILTER),--gtest_filter='$(F
 
 test: tests                          ## build and run all tests (tests/run.sh), or FILTER='Suite.*'
 	$(if $(FILTER),$(run-tests),tests/run.sh $(OUT))
+
+sanitize:                            ## the tests of what reads from outside, under asan and ubsan: a quarter of an hour
+	@$(MAKE) --no-print-directory BUILD=asan build/.deps-build build/asan/seam-tests-core
+	tests/run.sh build/asan seam-tests-core
 
 check-fast: FILTER := -$(subst $() ,,$(SLOW))
 check-fast: tests                    ## build and run the tests that take no processes or long simulations

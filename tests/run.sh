@@ -1,11 +1,14 @@
 #!/usr/bin/env bash
-# tests/run.sh BUILD_DIR: all tests, on every processor (JOBS=1: on one), and then, one after the
-# other, those that go by the clock of the wall. What fails is printed, everything else is in
-# BUILD_DIR/test-logs/. Last line: "N passed, N failed"; a program that ends without its summary
-# counts as one failed. Exit code 1 if anything failed. LEAVE_OUT: patterns of tests not to be run.
+# tests/run.sh BUILD_DIR [PROGRAM]: all tests, on every processor (JOBS=1: on one), and then, one
+# after the other, those that go by the clock of the wall. What fails is printed, everything else is
+# in BUILD_DIR/test-logs/. Last line: "N passed, N failed"; a program that ends without its summary
+# counts as one failed, and so does one that is still at it after LIMIT (2h). Exit code 1 if
+# anything failed.
 set -uo pipefail
 cd "$(dirname "$0")/.."
 bin=$1
+tests=$bin/${2:-seam-tests}
+limit=${LIMIT:-2h}
 jobs=${JOBS:-$(nproc)}
 logs=$bin/test-logs
 rm -rf "$logs" && mkdir -p "$logs" || exit 2
@@ -19,7 +22,8 @@ pids=()
 trap 'kill "${pids[@]}" 2>/dev/null; exit 130' INT TERM
 for ((i = 0; i < jobs; ++i)); do
   GTEST_TOTAL_SHARDS=$jobs GTEST_SHARD_INDEX=$i \
-    "$bin/seam-tests" --gtest_filter="-$timed${LEAVE_OUT:+:$LEAVE_OUT}" > "$logs/part-$i.log" 2>&1 &
+    timeout "$limit" "$tests" --gtest_filter="-$timed" \
+    > "$logs/part-$i.log" 2>&1 &
   pids+=($!)
 done
 
@@ -48,7 +52,7 @@ for ((i = 0; i < jobs; ++i)); do
   finish "$logs/part-$i.log" $?
 done
 # Not in the background, where a shell makes programs ignore SIGINT.
-"$bin/seam-tests" --gtest_filter="$timed" > "$logs/timed.log" 2>&1
+timeout --foreground "$limit" "$tests" --gtest_filter="$timed" > "$logs/timed.log" 2>&1
 finish "$logs/timed.log" $?
 
 sed -nE 's/^\[  (     OK|FAILED) +\] (\S+) \(([0-9]+) ms\)$/\3 ms: \2/p' "$logs"/*.log | sort -rn | head -5
