@@ -246,15 +246,15 @@ bool UdpNet::Receive(Address* from, Bytes* datagram) {
 
 std::int64_t UdpNet::discarded() const { return impl_->discarded; }
 
-void UdpNet::Wait(std::int64_t timeout_us, int extra_fd) {
-  if (impl_->in_next < impl_->in_count) return;
+bool UdpNet::Wait(std::int64_t timeout_us, int extra_fd) {
+  if (impl_->in_next < impl_->in_count) return true;
   impl_->drained = false;
   pollfd fds[2] = {{impl_->fd, POLLIN, 0}, {extra_fd, POLLIN, 0}};
   const std::int64_t us = std::max<std::int64_t>(timeout_us, 0);
   timespec timeout{};
   timeout.tv_sec = static_cast<time_t>(us / 1'000'000);
   timeout.tv_nsec = static_cast<long>(us % 1'000'000) * 1000;
-  (void)ppoll(fds, extra_fd >= 0 ? 2 : 1, &timeout, nullptr);
+  return ppoll(fds, extra_fd >= 0 ? 2 : 1, &timeout, nullptr) > 0 && fds[0].revents != 0;
 }
 
 Address UdpNet::local() const {

@@ -28,8 +28,8 @@ class UdpNet : public Net {
 
   /// Sleeps in poll until a datagram (or, if >= 0, `extra_fd`) is readable or `timeout_us` has
   /// passed; a signal ends it early. Returns at once at the end of file of `extra_fd`: do not pass
-  /// it again then. Does not Flush.
-  void Wait(std::int64_t timeout_us, int extra_fd = -1);
+  /// it again then. Does not Flush. True: a datagram is there.
+  bool Wait(std::int64_t timeout_us, int extra_fd = -1);
 
   Address local() const;
   /// For poll and epoll: readable when a datagram waits.

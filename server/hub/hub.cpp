@@ -14,12 +14,6 @@ namespace {
 /// Datagrams taken in one call: a flood must not keep the rooms from running.
 constexpr int kDatagramsMax = 4096;
 constexpr std::int64_t kWaitUs = 20000;
-/// After a call datagrams are gathered for so long, us, unless a room is due: a call for each costs
-/// several times what they cost together, and the clients of a full room send hundreds in a tick.
-/// To be woken costs as much as several datagrams.
-constexpr std::int64_t kGatherUs = 1000;
-/// So many calls after which datagrams came before that.
-constexpr int kInARow = 2;
 
 std::vector<std::string> NamesOfRooms(const std::vector<RoomPlan>& plans) {
   std::vector<std::string> names;
@@ -73,7 +67,7 @@ void Hub::Take(std::int64_t now_us) {
 }
 
 void Hub::Poll(std::int64_t now_us) {
-  polled_us_ = now_us;
+  gather_.NotePolled(now_us);
   Take(now_us);
   for (std::size_t r = 0; r < rooms_.size(); ++r) {
     const bool mail = mail_[r];
@@ -91,14 +85,9 @@ void Hub::Wait() {
   if (lanes_ == nullptr) {
     for (const auto& room : rooms_) due_us = std::min(due_us, room->due_us());
   }
-  const std::int64_t gathered_us = std::min(polled_us_ + kGatherUs, due_us);
-  // Where datagrams are few the first comes later than that, and nobody wakes only to gather. Where
-  // they have come in a row the next is expected, and nobody wakes for it alone.
-  if (in_a_row_ >= kInARow) SleepUs(gathered_us - SteadyClockUs());
-  udp_.Wait(std::max<std::int64_t>(0, due_us - SteadyClockUs()));
-  const std::int64_t rest_us = gathered_us - SteadyClockUs();
-  in_a_row_ = rest_us > -kGatherUs / 2 && gathered_us < due_us ? in_a_row_ + 1 : 0;
-  SleepUs(rest_us);
+  SleepUs(gather_.SleepsUntil(due_us) - SteadyClockUs());
+  const bool came = udp_.Wait(std::max<std::int64_t>(0, due_us - SteadyClockUs()));
+  gather_.NoteWaited(SteadyClockUs(), came);
 }
 
 bool Hub::done() const {

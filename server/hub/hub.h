@@ -9,6 +9,7 @@
 
 #include "common/net/http_page.h"
 #include "common/net/udp.h"
+#include "server/hub/gather.h"
 #include "server/hub/hosted_room.h"
 #include "server/hub/lanes.h"
 #include "server/hub/room_finder.h"
@@ -30,8 +31,8 @@ class Hub {
   /// Hands out what has come; without workers runs the rooms that are due. To be called whenever
   /// Wait returns. Never waits.
   void Poll(std::int64_t now_us);
-  /// Until a datagram comes, but at least until 1 ms after the last Poll, or a room is due; at most
-  /// 20 ms.
+  /// Until a datagram comes (a few ms later where they come in a row: Gather) or a room is due; at
+  /// most 20 ms.
   void Wait();
   /// Each room has done its last tick.
   bool done() const;
@@ -59,8 +60,7 @@ class Hub {
   std::vector<std::unique_ptr<HostedRoom>> rooms_;
   std::vector<bool> mail_;  // by room, in one Take
   std::int64_t strangers_ = 0;
-  std::int64_t polled_us_ = 0;
-  int in_a_row_ = 0;  // calls after which datagrams came at once
+  Gather gather_;
   std::unique_ptr<Lanes> lanes_;
 };
 
