@@ -112,10 +112,11 @@ class Watch {
   void LookAt(int m, bool ticked) {
     const Replica& server = cluster_.server().replica();
     int holder = -1, believers = 0;
-    bool simulated = false;
     const auto& mechanisms = server.world().composition().mechanisms;
     const int first = mechanisms[static_cast<std::size_t>(m)].assemblies.front();
     const PartId id = server.world().composition().assemblies[static_cast<std::size_t>(first)].id;
+    // What lies committed needs nobody.
+    bool simulated = server.rest().Holds(server.world().BodyOfId(id));
     for (const auto& [peer, replica] : peers_) {
       const bool has = replica->authority().at(m).authority == peer;
       believers += has ? 1 : 0;
