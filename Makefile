@@ -222,7 +222,7 @@ run-tests = SEAM_BIN=$(OUT) $(OUT)/seam-tests $(if $(FILTER),--gtest_filter='$(F
 test: tests                          ## build and run all tests (tests/run.sh), or FILTER='Suite.*'
 	$(if $(FILTER),$(run-tests),tests/run.sh $(OUT))
 
-sanitize:                            ## the tests of what reads from outside, under asan and ubsan: a quarter of an hour
+sanitize:                            ## the tests of what reads from outside, under asan and ubsan: twenty minutes
 	@$(MAKE) --no-print-directory BUILD=asan build/.deps-build build/asan/seam-tests-core
 	tests/run.sh build/asan seam-tests-core
 

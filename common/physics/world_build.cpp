@@ -33,9 +33,10 @@ void AddShapes(const Scene& scene, const Assembly& assembly, const Part& frame, 
   }
 }
 
-/// `at`: where it is; nullptr: where the scene puts it.
+/// `at`: where it is; nullptr: where the scene puts it. `ready`: of this body, or nullptr.
 b2Body* AddBody(const Scene& scene, const Assembly& assembly, const BodyState* at, bool enabled,
-                b2World* world, std::map<PartId, std::vector<PartId>>* merged) {
+                b2World* world, std::map<PartId, std::vector<PartId>>* merged,
+                ReadyFixtures* ready) {
   const Part& root = scene.parts[static_cast<std::size_t>(assembly.id)];
   b2BodyDef def;
   def.type = !assembly.anchored        ? b2_dynamicBody
@@ -48,7 +49,12 @@ b2Body* AddBody(const Scene& scene, const Assembly& assembly, const BodyState* a
     def.bullet = def.bullet || scene.parts[static_cast<std::size_t>(id)].bullet;
   }
   b2Body* body = world->CreateBody(&def);
+  if (ready != nullptr && ready->has()) {
+    ready->Give(body);
+    return body;
+  }
   AddShapes(scene, assembly, root, assembly.anchored || def.bullet, body, merged);
+  if (ready != nullptr) ready->Take(body);
   return body;
 }
 
@@ -106,7 +112,9 @@ b2Body* BodyAside(const Scene& scene, const Assembly& assembly, std::size_t inde
                   BuildMemory* memory) {
   b2Body*& body = memory->bodies[index];
   std::map<PartId, std::vector<PartId>> merged;  // it touches nothing
-  if (body == nullptr) body = AddBody(scene, assembly, nullptr, false, &memory->aside, &merged);
+  if (body == nullptr) {
+    body = AddBody(scene, assembly, nullptr, false, &memory->aside, &merged, nullptr);
+  }
   return body;
 }
 
@@ -127,7 +135,7 @@ class Builder {
     const Assembly& of = composition_.assemblies[a];
     shared_.Count(of);
     if (!memory_.share[a]) {
-      built_.bodies[a] = AddBody(scene_, of, nullptr, true, world_, &built_.merged);
+      built_.bodies[a] = AddBody(scene_, of, nullptr, true, world_, &built_.merged, nullptr);
       return;
     }
     built_.bodies[a] = AddToShared(scene_, of, memory_.shared[a], &shared_, &built_.merged);
@@ -142,7 +150,8 @@ class Builder {
     const bool absent = memory_.absent[i] != 0;
     const bool kept = absent && memory_.bodies[i] != nullptr;
     b2Body* made = absent ? BodyAside(scene_, of, i, &memory_)
-                          : AddBody(scene_, of, at, true, world_, &built_.merged);
+                          : AddBody(scene_, of, at, true, world_, &built_.merged,
+                                    &memory_.ready[i]);
     built_.bodies[a] = built_.moving[i].body = made;
     if (kept) return;  // as it was left
     made->GetUserData().pointer = i + 1;
@@ -210,6 +219,7 @@ void BuildMemory::Clear(std::uint64_t hash) {
   }
   bodies.clear();
   absent.clear();
+  ready.clear();
   anchored.clear();
   assembly_of.clear();
   joints_of.clear();
@@ -233,6 +243,7 @@ BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2Worl
   memory->anchored.clear();
   memory->assembly_of.clear();
   memory->joints_of.assign(memory->bodies.size(), {});
+  memory->ready.assign(memory->bodies.size(), {});
   memory->joints.clear();
   built.bodies.resize(composition.assemblies.size(), nullptr);
   built.moving.reserve(memory->bodies.size());

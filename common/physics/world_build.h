@@ -12,6 +12,7 @@
 
 #include "common/physics/faces.h"
 #include "common/physics/world_joints.h"
+#include "common/physics/world_shapes.h"
 #include "common/scene/assembly.h"
 #include "common/scene/mass.h"
 #include "common/scene/scene.h"
@@ -58,6 +59,7 @@ struct BuildMemory {
   std::vector<int> assembly_of;             ///< by moving body
   std::vector<std::vector<int>> joints_of;  ///< by moving body: the scene's joints at it, ascending
   std::vector<int> joints;                  ///< that are made
+  std::vector<ReadyFixtures> ready;         ///< by moving body, as far as it has been made
 
   /// What was is of other bodies.
   void Clear(std::uint64_t hash);

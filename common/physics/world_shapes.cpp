@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <vector>
 
 #include "common/physics/world_build.h"
@@ -141,6 +142,17 @@ void AddCapsule(const Part& part, const Part& root, float skin, bool guarded, Pi
   pieces->Add(box);
 }
 
+using Copied = std::variant<b2CircleShape, b2PolygonShape, b2EdgeShape>;
+
+std::optional<Copied> CopyOf(const b2Shape& shape) {
+  switch (shape.GetType()) {
+    case b2Shape::e_circle: return static_cast<const b2CircleShape&>(shape);
+    case b2Shape::e_polygon: return static_cast<const b2PolygonShape&>(shape);
+    case b2Shape::e_edge: return static_cast<const b2EdgeShape&>(shape);
+    default: return std::nullopt;  // a chain owns its points
+  }
+}
+
 }  // namespace
 
 void AddFixture(const Part& part, const Part& root, float skin, bool guarded, b2Body* body) {
@@ -172,6 +184,36 @@ void AddFixture(const Part& part, const Part& root, float skin, bool guarded, b2
       pieces.Add(edge);
       break;
     }
+  }
+}
+
+void ReadyFixtures::Take(b2Body* from) {
+  fixtures_.clear();
+  for (b2Fixture* f = from->GetFixtureList(); f != nullptr; f = f->GetNext()) {
+    const std::optional<Copied> shape = CopyOf(*f->GetShape());
+    if (!shape) {
+      fixtures_.clear();
+      return;
+    }
+    b2FixtureDef def;
+    def.friction = f->GetFriction();
+    def.restitution = f->GetRestitution();
+    def.restitutionThreshold = f->GetRestitutionThreshold();
+    def.density = f->GetDensity();
+    def.isSensor = f->IsSensor();
+    def.filter = f->GetFilterData();
+    def.userData = f->GetUserData();
+    fixtures_.push_back({def, *shape});
+  }
+  std::reverse(fixtures_.begin(), fixtures_.end());  // the engine's list begins with the last
+}
+
+void ReadyFixtures::Give(b2Body* to) const {
+  for (const Fixture& fixture : fixtures_) {
+    b2FixtureDef def = fixture.def;
+    def.shape = std::visit([](const auto& shape) -> const b2Shape* { return &shape; },
+                           fixture.shape);
+    to->CreateFixture(&def);
   }
 }
 

@@ -4,6 +4,8 @@
 #include <box2d/box2d.h>
 
 #include <cstdint>
+#include <variant>
+#include <vector>
 
 #include "common/scene/scene.h"
 
@@ -24,6 +26,24 @@ namespace seam {
 /// One fixture, or several pieces: a capsule's box and discs, a large polygon's cuts. Segments keep
 /// their rim of 1 cm on both sides.
 void AddFixture(const Part& part, const Part& root, float skin, bool guarded, b2Body* body);
+
+/// The fixtures of a body, remembered: to work them out of the scene again whenever a world is
+/// built anew costs about as much as the engine does to take them.
+class ReadyFixtures {
+ public:
+  /// Remembers what the body has now; nothing, if one of its shapes is a chain.
+  void Take(b2Body* from);
+  /// Gives the same to another body, in the order in which the first one got them. Requires has().
+  void Give(b2Body* to) const;
+  bool has() const { return !fixtures_.empty(); }
+
+ private:
+  struct Fixture {
+    b2FixtureDef def;  // without its shape
+    std::variant<b2CircleShape, b2PolygonShape, b2EdgeShape> shape;
+  };
+  std::vector<Fixture> fixtures_;
+};
 
 /// What a fixture's user data says: the part's id in the low 32 bits, which of its pieces above.
 inline std::uint32_t PartOf(const b2Fixture* fixture) {
