@@ -75,11 +75,12 @@ class Replica {
   /// Follows the server's word. Returns the mechanisms that this peer had authority over and has no
   /// longer.
   std::vector<int> ApplyGrants(const Grants& grants);
-  /// Where the bodies of the mechanisms are that ApplyGrants took from this peer since the last
-  /// call, bit for bit as they were then. utime is left 0.
+  /// Where the bodies of the mechanisms were that ApplyGrants took from this peer since the last
+  /// call, bit for bit: then, or as MakeExact says. utime is left 0.
   std::vector<ExactStates> TakeReleased() { return std::exchange(released_, {}); }
   /// The same of mechanisms that this peer has now, with an epoch on from theirs: for who gets
-  /// them.
+  /// them. Where peers go back for inputs, as they were at the newest tick that none still to come
+  /// can change.
   std::vector<ExactStates> MakeExact(const std::vector<int>& mechanisms,
                                      std::int32_t epochs_on) const;
   /// What another peer let go of. How far this copy was from it, at most; see Corrector::TakeOver.

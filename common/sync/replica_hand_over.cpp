@@ -2,31 +2,51 @@
 
 #include "common/sync/replica.h"
 
+#include <algorithm>
+#include <map>
+
 #include "common/scene/mechanism_ids.h"
 
 namespace seam {
 
 std::vector<ExactStates> Replica::MakeExact(const std::vector<int>& mechanisms,
                                             std::int32_t epochs_on) const {
-  std::vector<ExactStates> all;
-  for (const int m : mechanisms) {
+  // Everybody puts it in as it is: if it rested on an assumption about an input, what that input
+  // really does would be lost.
+  const auto final_tick = [&](int m) {
+    if (!config_.rolls_back) return tick();
+    const std::int64_t complete = std::min(reach_.CompleteTick(m), replay_.settled());
+    bool known = true;
     EachIdOf(world_.composition(), m, [&](PartId id) {
-      if (all.empty() || all.back().id.size() >= kExactBodiesMax) {
-        all.emplace_back();
-        all.back().tick = tick();
-        all.back().revision = revision();
-      }
-      const BodyState state = world_.Read(world_.BodyOfId(id));
-      ExactStates& out = all.back();
-      out.id.push_back(id);
-      out.epoch.push_back(roles_.table().at(m).epoch + epochs_on);
-      out.x.push_back(state.position.x());
-      out.y.push_back(state.position.y());
-      out.angle.push_back(state.angle);
-      out.vx.push_back(state.velocity.x());
-      out.vy.push_back(state.velocity.y());
-      out.spin.push_back(state.spin);
+      known = known && memory_.ComparablePast(world_.BodyOfId(id), complete) != nullptr;
     });
+    return known ? complete : tick();
+  };
+  std::map<std::int64_t, std::vector<int>> of_tick;
+  for (const int m : mechanisms) of_tick[final_tick(m)].push_back(m);
+  std::vector<ExactStates> all;
+  const auto add = [&](std::int64_t of, int m, PartId id) {
+    if (all.empty() || all.back().tick != of || all.back().id.size() >= kExactBodiesMax) {
+      all.emplace_back();
+      all.back().tick = of;
+      all.back().revision = revision();
+    }
+    const int body = world_.BodyOfId(id);
+    const BodyState state = of == tick() ? world_.Read(body) : *memory_.ComparablePast(body, of);
+    ExactStates& out = all.back();
+    out.id.push_back(id);
+    out.epoch.push_back(roles_.table().at(m).epoch + epochs_on);
+    out.x.push_back(state.position.x());
+    out.y.push_back(state.position.y());
+    out.angle.push_back(state.angle);
+    out.vx.push_back(state.velocity.x());
+    out.vy.push_back(state.velocity.y());
+    out.spin.push_back(state.spin);
+  };
+  for (const auto& [of, those] : of_tick) {
+    for (const int m : those) {
+      EachIdOf(world_.composition(), m, [&](PartId id) { add(of, m, id); });
+    }
   }
   return all;
 }

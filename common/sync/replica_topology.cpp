@@ -189,6 +189,7 @@ void Replica::Remap(const BodyRemap& change) {
   replay_.Remap(change);
   rest_.Remap(change);
   FollowRoles();
+  if (config_.rolls_back) reach_.Look();  // it knows them by their numbers
 }
 
 }  // namespace seam

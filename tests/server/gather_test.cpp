@@ -64,11 +64,11 @@ TEST(Gather, TwoClientsAreServedAtOnceForAWakeEachAndOneForTheTick) {
   EXPECT_LE(played.latest_us, 1000);
 }
 
-TEST(Gather, HundredsAreServedForAFewWakesATickAndNoneWaitsForMoreThanAFewMilliseconds) {
+TEST(Gather, HundredsAreServedForTenWakesATickAndNoneWaitsForMoreThanTwoMilliseconds) {
   for (const int clients : {9, 30, 256}) {
     const Played played = Play(clients);
     EXPECT_GT(played.taken, 590u * static_cast<unsigned>(clients));
-    EXPECT_LE(played.wakes_a_tick, 6) << clients;
+    EXPECT_LE(played.wakes_a_tick, 10) << clients;
     EXPECT_LE(played.latest_us, Gather::kGatherUs) << clients;
   }
 }

@@ -1,0 +1,140 @@
+/// rollback: what changes hands is told of as no input that is still to come can change it.
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "common/sync/edits/edit_order.h"
+#include "common/sync/input_source.h"
+#include "tests/support/scripted_world.h"
+#include "tests/support/wired_replicas.h"
+
+namespace seam {
+namespace {
+
+/// ann and bob squeeze the server's crate, now more, now less. Nothing sleeps.
+Scene Squeezed() {
+  return ParseScene(R"(
+[solver]
+sleep = false
+[[player]]
+name = "ann"
+vehicle = "hers"
+script = [[0, {drive = 0.8}], [1.0, {drive = 0.3}], [1.5, {drive = 1}], [2.2, {}]]
+[[player]]
+name = "bob"
+vehicle = "his"
+script = [[0, {drive = -0.8}], [1.2, {drive = -0.3}], [1.6, {drive = -0.9}], [2.3, {}]]
+[[part]]
+name = "floor"
+chain = [[-90, 0], [90, 0]]
+friction = 0.3
+[[part]]
+name = "hers"
+box = [1, 1]
+position = [-1.5, 0.5]
+owner = "ann"
+[[part]]
+name = "his"
+box = [1, 1]
+position = [1.5, 0.5]
+owner = "bob"
+[[part]]
+name = "crate"
+box = [1, 1]
+position = [0.1, 0.5]
+[[thrust]]
+name = "jet-a"
+part = "hers"
+force = [30, 0]
+player = "ann"
+[[thrust]]
+name = "jet-b"
+part = "his"
+force = [30, 0]
+player = "bob"
+)",
+                    "squeezed.toml");
+}
+
+constexpr std::int64_t kEnd = 240, kLate = 10;
+
+WiredReplicas Room(const Scene& scene) {
+  return WiredReplicas(
+      scene, MakeSyncConfig("buffer", "rollback"), kLate,
+      [scene](int peer, std::int64_t tick) { return ScriptedInput(scene, peer - 1, tick); });
+}
+
+/// One world that is built anew at the ticks at which the peers build theirs; by tick and body.
+std::vector<std::vector<BodyState>> Truth(const Scene& scene) {
+  ScriptedWorld truth(scene);
+  truth.world.Barrier();
+  std::vector<std::vector<BodyState>> states;
+  while (true) {
+    states.emplace_back();
+    for (int body = 0; body < truth.world.body_count(); ++body) {
+      states.back().push_back(truth.world.Read(body));
+    }
+    if (truth.world.tick() == kEnd) return states;
+    truth.Step();
+    if (truth.world.tick() % 2 == 0) truth.world.Barrier();
+  }
+}
+
+/// A state that rests on what was assumed would be put in by all others as it is, and never become
+/// what the inputs make of it.
+TEST(HandedOver, WhatInputsStillUnknownMayHaveReachedIsToldOfAsItWasBeforeThem) {
+  const Scene scene = Squeezed();
+  const std::vector<std::vector<BodyState>> truth = Truth(scene);
+  for (const std::int64_t given : {63, 94, 136}) {  // inputs have just changed
+    SCOPED_TRACE(given);
+    WiredReplicas room = Room(scene);
+    room.StepTo(given);
+    const World& world = room.at(0).world();
+    const int crate = room.Body(0, "crate");
+    const auto body = static_cast<std::size_t>(crate);
+    const std::vector<ExactStates> told = room.at(0).MakeExact({world.mechanism(crate)}, 1);
+    ASSERT_EQ(told.size(), 1u);
+    const ExactStates& exact = told[0];
+    EXPECT_LE(exact.tick, given - kLate);
+    EXPECT_GE(exact.tick, given - kLate - 2) << "no older than it has to be";
+    const BodyState& then = truth[static_cast<std::size_t>(exact.tick)][body];
+    EXPECT_EQ(Vec2(exact.x[0], exact.y[0]), then.position);
+    EXPECT_EQ(Vec2(exact.vx[0], exact.vy[0]), then.velocity);
+    EXPECT_NE(world.Read(crate).position, truth[static_cast<std::size_t>(given)][body].position)
+        << "what it has itself is wrong";
+    room.StepTo(given + kLate);
+    for (const int peer : {1, 2}) room.at(peer).TakeOver(exact);
+    room.StepTo(kEnd);
+    for (int peer = 0; peer < room.count(); ++peer) {
+      const BodyState is = room.Read(peer, "crate"), should = truth[kEnd][body];
+      EXPECT_EQ(is.position, should.position) << "peer " << peer;
+      EXPECT_EQ(is.velocity, should.velocity) << "peer " << peer;
+    }
+  }
+}
+
+/// Right after an edit nobody has looked yet how far inputs reach.
+TEST(HandedOver, WhatAnEditHasJustMadeIsToldOfSinceItIsThere) {
+  WiredReplicas room = Room(Squeezed());
+  room.StepTo(120);
+  InsertEdit insert;
+  insert.text = "[[part]]\nname = \"ball\"\ncircle = 0.2\nposition = [0, 9]\n";
+  EditOrder order = ToOrder(Edit(insert));
+  order.tick = 117;
+  order.number = room.at(0).revision();
+  ASSERT_TRUE(room.at(0).Queue(order));
+  room.at(0).ApplyEdits();
+  const int ball = room.Body(0, "ball");
+  ASSERT_GE(ball, 0);
+  const std::vector<ExactStates> told =
+      room.at(0).MakeExact({room.at(0).world().mechanism(ball)}, 1);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_GE(told[0].tick, 117);
+  EXPECT_LE(told[0].y[0], 9.0f);
+  EXPECT_GT(told[0].y[0], 8.9f);
+}
+
+}  // namespace
+}  // namespace seam
