@@ -12,7 +12,8 @@ namespace seam {
 class Gather {
  public:
   /// us: what comes within it is taken in one call. A state or an input is relayed so much later at
-  /// worst, an eighth of a tick at 60 Hz: 4 ms would save 5 more wakes of 30 players' 10 a tick.
+  /// worst, an eighth of a tick at 60 Hz. 30 players wake the server 7.6 times a tick; with 1 ms 11
+  /// times, with 4 ms 4.6 (measured).
   static constexpr std::int64_t kGatherUs = 2000;
   /// After so many calls that others followed within kGatherUs nobody wakes for a datagram alone.
   static constexpr int kInARow = 2;
