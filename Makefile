@@ -186,8 +186,8 @@ $(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(SERVER) $(CLIENT) $(OUT)/libse
 $(OUT)/seam-tests: $(LAB) $(SERVER) $(CLIENT) $(WATCHERS) $(RENDER) $(TESTS) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(RENDER_LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
-# The tests of what reads from outside and keeps it, without long simulations, programs and pictures: 477 of 876
-# sources.
+# The tests of what reads from outside and keeps it, without long simulations, programs and pictures: a little
+# more than half of the sources.
 CORE_TESTS := $(foreach f,base client codec net record scene server sync topology,$(filter \
 	tests/$(f)/%_test.cpp,$(SOURCES))) $(filter tests/support/%,$(SOURCES)) \
 	tests/lab/cluster.cpp tests/lab/world/plan_worlds.cpp
