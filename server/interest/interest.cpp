@@ -14,8 +14,15 @@ std::uint64_t Key(std::int32_t x, std::int32_t y) {
          static_cast<std::uint32_t>(y);
 }
 
+/// Orders as Key does.
+std::uint32_t ShortKey(std::int32_t x, std::int32_t y) {
+  return static_cast<std::uint32_t>(x) << 16 | static_cast<std::uint16_t>(y);
+}
+
+/// What lies beyond the border, hundreds of km away, is in the border's cells.
 std::int32_t CellOf(float coordinate, float side) {
-  return static_cast<std::int32_t>(std::floor(coordinate / side));
+  constexpr float kLow = -32768, kHigh = 32767;  // of 16 bits
+  return static_cast<std::int32_t>(std::clamp(std::floor(coordinate / side), kLow, kHigh));
 }
 
 }  // namespace
@@ -41,19 +48,11 @@ void Interest::FindCells(float side, Cells* cells) {
   const std::size_t count = by_mechanism_.size();
   places_.resize(count);
   order_.resize(count);
+  // By x, then y, then mechanism: what is alike stays in its order.
   for (std::size_t i = 0; i < count; ++i) {
     const Vec2 at = world.Read(by_mechanism_[i].second).position;
     places_[i] = {CellOf(at.x(), side), CellOf(at.y(), side)};
-  }
-  const auto by = [](std::int32_t key, std::size_t i) {
-    return static_cast<SortKey>(static_cast<std::uint32_t>(key)) << 32 | i;
-  };
-  // By x, then y, then mechanism, the last first: what is alike stays in its order.
-  for (std::size_t i = 0; i < count; ++i) order_[i] = by(places_[i].second, i);
-  SortByKey(&order_, &spare_);
-  for (SortKey& key : order_) {
-    const auto i = static_cast<std::size_t>(key & 0xffffffffu);
-    key = by(places_[i].first, i);
+    order_[i] = SortKey{ShortKey(places_[i].first, places_[i].second)} << 32 | i;
   }
   SortByKey(&order_, &spare_);
   cells->keys.clear();
