@@ -17,6 +17,43 @@ constexpr std::size_t kSpareMost = 16;
 /// Bytes that an entry, a group's header and all ends take at most.
 constexpr std::size_t kEntryBytesMost = 64;
 
+/// Codes in a row, put as one: the writer keeps what it holds in memory, this in registers. All of
+/// it is inlined, or it would not.
+class Run {
+ public:
+  explicit Run(BitWriter* bits) : bits_(bits) {}
+  /// As BitWriter's; `value` has no more than `width` bits.
+  __attribute__((always_inline)) void Put(std::uint64_t value, int width) {
+    if (width_ + width > 32) End();
+    held_ = held_ << width | value;
+    width_ += width;
+  }
+  __attribute__((always_inline)) void PutGolomb(std::uint32_t value, int k) {
+    const std::uint64_t shifted = value + (std::uint64_t{1} << k);
+    const int width = 2 * BitWidth(shifted) - 1 - k;
+    if (__builtin_expect(width <= 32, 1)) return Put(shifted, width);
+    End();
+    PutLong(bits_, value, k);
+  }
+  __attribute__((always_inline)) void End() {
+    PutAll(bits_, held_, width_);
+    held_ = 0;
+    width_ = 0;
+  }
+
+ private:
+  __attribute__((noinline)) static void PutAll(BitWriter* bits, std::uint64_t held, int width) {
+    bits->Put(held, width);
+  }
+  __attribute__((noinline)) static void PutLong(BitWriter* bits, std::uint32_t value, int k) {
+    bits->PutGolomb(value, k);
+  }
+
+  BitWriter* const bits_;
+  std::uint64_t held_ = 0;
+  int width_ = 0;  // at most 32
+};
+
 PackedState EntryOf(const States& states, std::size_t i) {
   PackedState state;
   state.tick = states.tick;
@@ -108,57 +145,61 @@ void StatesPacker::End() {
 
 void StatesPacker::PutDifferences(const PackedState& state, const PackedState& guess,
                                   std::array<Learned, kPackedFields>* learned) {
-  const auto put = [&](PackedField field, std::int32_t difference) {
+  Run run(&bits_);
+  const auto put = [&](PackedField field, std::int32_t difference) __attribute__((always_inline)) {
     Learned& with = (*learned)[field];
     const std::uint32_t code = ZigZag(difference);
-    bits_.PutGolomb(code, with.k());
+    run.PutGolomb(code, with.k());
     with.Note(code);
   };
-  PackedState place = guess;
   put(kPackedVx, Difference(state.vx, guess.vx));
   put(kPackedVy, Difference(state.vy, guess.vy));
   put(kPackedSpin, Difference(state.spin, guess.spin));
-  put(kPackedX, static_cast<std::int32_t>(state.x - place.x));
-  put(kPackedY, static_cast<std::int32_t>(state.y - place.y));
-  put(kPackedAngle, Difference(state.angle, place.angle));
+  put(kPackedX, static_cast<std::int32_t>(state.x - guess.x));
+  put(kPackedY, static_cast<std::int32_t>(state.y - guess.y));
+  put(kPackedAngle, Difference(state.angle, guess.angle));
+  run.End();
 }
 
 void StatesPacker::AddBody(const PackedState& state, std::int32_t id) {
-  bits_.Put(1, 1);
+  Run run(&bits_);
+  run.Put(1, 1);
   const std::int32_t gap = id - context_.id;
   if (gap == context_.id_gap) {
-    bits_.Put(1, 1);
+    run.Put(1, 1);
   } else {
-    if (context_.id_gap > 0) bits_.Put(0, 1);
-    bits_.PutGolomb(static_cast<std::uint32_t>(gap - 1), context_.id < 0 ? 8 : 2);
+    if (context_.id_gap > 0) run.Put(0, 1);
+    run.PutGolomb(static_cast<std::uint32_t>(gap - 1), context_.id < 0 ? 8 : 2);
   }
   context_.id_gap = context_.id < 0 ? 1 : gap;
   context_.id = id;
   Known& known = KnownOf(id);
   const bool kept = known.number >= 0 && known.sent - known.count < kPackedKept;
   const auto back = kept ? static_cast<std::uint32_t>(number_ - known.number) : 0;
-  bits_.Put(back == context_.back ? 1 : 0, 1);
-  if (back != context_.back) bits_.PutGolomb(back, 4);
+  run.Put(back == context_.back ? 1 : 0, 1);
+  if (back != context_.back) run.PutGolomb(back, 4);
   context_.back = back;
   const PackedState& before = kept ? known.state : context_.last;
   const bool same = state.epoch == before.epoch && state.flags == before.flags;
-  bits_.Put(same ? 1 : 0, 1);
+  run.Put(same ? 1 : 0, 1);
   if (!same) {
-    bits_.PutGolomb(static_cast<std::uint32_t>(state.epoch), 4);
-    bits_.Put(static_cast<std::uint64_t>(state.flags), 2);
+    run.PutGolomb(static_cast<std::uint32_t>(state.epoch), 4);
+    run.Put(static_cast<std::uint64_t>(state.flags) & 3, 2);
   }
   if (kept) {
-    PackedState guess = GuessVelocity(motion_, before, state.tick, false);
+    // What does not fall goes on as before.
     const PackedState fallen = GuessVelocity(motion_, before, state.tick, true);
-    const bool falls = OffBy(state, fallen) < OffBy(state, guess);
-    bits_.Put(falls ? 1 : 0, 1);
+    const bool falls = OffBy(state, fallen) < OffBy(state, before);
+    run.Put(falls ? 1 : 0, 1);
+    run.End();
     PackedState now = state;
     GuessPlace(motion_, before, &now);
-    now.vx = falls ? fallen.vx : guess.vx;
-    now.vy = falls ? fallen.vy : guess.vy;
-    now.spin = guess.spin;
+    now.vx = falls ? fallen.vx : before.vx;
+    now.vy = falls ? fallen.vy : before.vy;
+    now.spin = before.spin;
     PutDifferences(state, now, &context_.known);
   } else {
+    run.End();
     PackedState guess;
     guess.x = context_.last.x;
     guess.y = context_.last.y;
