@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "common/base/geometry.h"
 #include "common/sync/reconcile/reconcile.h"
@@ -40,6 +41,39 @@ MovingBox Nowhere() {
 bool Overlap(const MovingBox& a, const MovingBox& b) {
   return a.min.x() <= b.max.x() && b.min.x() <= a.max.x() && a.min.y() <= b.max.y() &&
          b.min.y() <= a.max.y();
+}
+
+/// Bodies that may be driven to the tick `next`, ascending: those that are present but not
+/// simulated, the absent ones whose turn it is, and those that have come `back`.
+std::vector<int> FindDriven(const World& world, const BodyMemory& memory, const JointCloser& joints,
+                            const std::vector<int>& back, std::int64_t next) {
+  std::vector<int> driven;
+  for (const int body : world.present()) {
+    if (world.motion(body) != Motion::kDynamic) driven.push_back(body);
+  }
+  const auto absent = [&](int body) { return world.motion(body) == Motion::kAbsent; };
+  const auto mechanisms = static_cast<int>(world.composition().mechanisms.size());
+  const auto turn = static_cast<int>(next % kAbsentEvery);
+  for (int m = (kAbsentEvery - turn) % kAbsentEvery; m < mechanisms; m += kAbsentEvery) {
+    for (const int body : joints.bodies(m)) {
+      if (absent(body) && !memory.parked(body)) driven.push_back(body);
+    }
+  }
+  std::copy_if(back.begin(), back.end(), std::back_inserter(driven), absent);
+  std::sort(driven.begin(), driven.end());
+  driven.erase(std::unique(driven.begin(), driven.end()), driven.end());
+  return driven;
+}
+
+/// Whether a body that is absent lies asleep where it was last said to rest: wherever its path took
+/// it, it would be put back there before the step (RestCommit).
+bool Lies(const World& world, const BodyMemory& memory, int body) {
+  const Snapshots& heard = memory.snapshots();
+  if (!memory.track(body).at_rest || world.awake(body) || !heard.has(body)) return false;
+  const BodyState &told = heard.newest(body), now = world.Read(body);
+  return told.position == now.position && told.angle == now.angle &&
+         told.velocity == now.velocity && told.spin == now.spin && now.spin == 0 &&
+         now.velocity == Vec2(0, 0);
 }
 
 float TurnTo(float from, float to) { return WrapAngle(to - from); }
@@ -91,21 +125,20 @@ void Display::Remap(const BodyRemap& change) {
 }
 
 void Display::Glide(const Roles& roles) {
+  for (int& corrected : corrected_ticks_) corrected = std::max(0, corrected - 1);
+  if (config_.smooth_rate <= 0) return;
   seats_.Look(world_);
   for (const int first : memory_.tended()) {
     const int m = world_.mechanism(first);
     const std::vector<int>& bodies = joints_.bodies(m);
     if (bodies.front() != first) continue;
-    int& corrected = corrected_ticks_[static_cast<std::size_t>(m)];
-    corrected = std::max(0, corrected - 1);
-    if (config_.smooth_rate <= 0) continue;
     if (bodies.size() == 1) {
       smoother_.Advance(first, world_.dt(), world_.Read(first).velocity.norm());
     } else {
       smoother_.AdvanceTogether(world_, bodies, seats_.IsGentle(m));
     }
   }
-  if (config_.smooth_rate > 0) KeepClosed(roles);
+  KeepClosed(roles);
 }
 
 /// What closing has moved becomes part of the offset and returns with it: closed anew from torn
@@ -187,18 +220,14 @@ void Display::Drive(std::int64_t next, const MovingBox& seen) {
   reckoner_.Begin(next);
   LookAtParked(next, seen);
   leaving_.clear();
-  for (const int body : memory_.tended()) {
-    const Motion motion = world_.motion(body);
-    if (motion == Motion::kDynamic || memory_.track(body).idle) continue;
-    const int m = world_.mechanism(body);
-    if (motion == Motion::kAbsent) {
-      const bool back = std::binary_search(back_.begin(), back_.end(), body);
-      if (!back && (next + m) % kAbsentEvery != 0) continue;
-      if (!config_.shows_far && !Overlap(FarBox(m), seen)) {
-        leaving_.push_back(body);
-        continue;
-      }
+  for (const int body : FindDriven(world_, memory_, joints_, back_, next)) {
+    if (memory_.track(body).idle) continue;
+    const bool absent = world_.motion(body) == Motion::kAbsent;
+    if (absent && !config_.shows_far && !Overlap(FarBox(world_.mechanism(body)), seen)) {
+      leaving_.push_back(body);
+      continue;
     }
+    if (absent && Lies(world_, memory_, body)) continue;
     BodyState state = world_.Read(body);
     if (!snapshots_.has(body)) {
       state.velocity.setZero();
@@ -211,7 +240,7 @@ void Display::Drive(std::int64_t next, const MovingBox& seen) {
     }
     const bool moves = state.velocity.squaredNorm() > 0 || state.spin != 0;
     world_.Write(body, state, moves);
-    if (motion == Motion::kAbsent) memory_.NoteNews(body);
+    if (absent) memory_.NoteNews(body);
   }
   for (const int body : leaving_) Leave(body);
 }
