@@ -16,10 +16,12 @@ namespace seam {
 /// infinite mass, and interpolated paths of the past are nothing to lean on. Of what is simulated
 /// that is not there at all which rests where nothing can touch it.
 Motion Corrector::WantedMotion(int body) const {
-  const bool idle = presence_.Idle(world_.mechanism(body));
-  if (roles_.Simulates(body)) return idle ? Motion::kAbsent : Motion::kDynamic;
+  const int m = world_.mechanism(body);
+  if (roles_.RoleOf(m) != kRoleRemote) {
+    return presence_.Idle(m) ? Motion::kAbsent : Motion::kDynamic;
+  }
   if (config_.mode != Mode::kBuffer) return Motion::kKinematic;
-  return presence_.Near(world_.mechanism(body)) ? Motion::kLed : Motion::kAbsent;
+  return presence_.Near(m) ? Motion::kLed : Motion::kAbsent;
 }
 
 bool Corrector::FollowRoles() {
@@ -34,7 +36,7 @@ bool Corrector::FollowRoles(const std::vector<int>& bodies) {
   std::vector<int> begun;  // mechanisms that begin to be simulated from where they are by now
   for (const int body : bodies) {
     const Motion wanted = WantedMotion(body);
-    const bool idle = wanted == Motion::kAbsent && roles_.Simulates(body);
+    const bool idle = wanted == Motion::kAbsent && presence_.Idle(world_.mechanism(body));
     const bool was_idle = std::exchange(memory_.track(body).idle, idle);
     if (world_.motion(body) == wanted) continue;
     const bool parked = memory_.parked(body);
