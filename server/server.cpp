@@ -38,6 +38,13 @@ Room MakeRoom(const Scene& scene, const ServerConfig& config) {
   return room;
 }
 
+/// Of the server's world: where nobody gets its views, it hides no corrections in them.
+SyncConfig OwnSync(const ServerConfig& config, const Recorder& recorder) {
+  SyncConfig sync = config.sync;
+  if (config.publish == Publish::kNone || !recorder.listening()) sync.smooth_rate = 0;
+  return sync;
+}
+
 template <class Message>
 Message At(std::int64_t now_us, Message message) {
   message.utime = now_us;
@@ -64,7 +71,7 @@ Server::Server(const Scene& scene, const ServerConfig& config, Net& net, Recorde
       config_(config),
       room_(MakeRoom(scene_, config_)),
       net_(net),
-      replica_(scene_, config.sync, 0, -1),
+      replica_(scene_, OwnSync(config, recorder), 0, -1),
       sessions_(scene_, Encode(room_), AllowedTraffic(config.sync.tick_hz, config.sync.send_hz),
                 net, entropy, config.client_bytes_per_s),
       authority_(scene_, config.sync, replica_),

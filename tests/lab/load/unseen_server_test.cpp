@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -162,6 +163,41 @@ TEST(UnseenServer, IsUnseenOnABusWithoutViews) {
           << scene << " seed " << seed;
     }
   }
+}
+
+/// By how much the server's view of what has one body is ever off its world, m: what hides
+/// corrections moves it, and a little the closing of joints to what is anchored.
+float MostHidden(Publish publish, bool keep) {
+  ClusterConfig config;
+  config.scene = "heap";
+  config.scene_text = LoadScene("scenes/heap.toml").text;
+  config.impair = "4g";
+  config.publish = publish;
+  config.keep = keep;
+  Cluster cluster(config);
+  const Replica& server = cluster.server().replica();
+  const World& world = server.world();
+  std::vector<int> bodies(world.composition().mechanisms.size(), 0);
+  for (int body = 0; body < world.body_count(); ++body) {
+    ++bodies[static_cast<std::size_t>(world.mechanism(body))];
+  }
+  float most = 0;
+  for (std::int64_t tick = 60; tick <= 360; tick += 5) {
+    cluster.RunToTick(tick);
+    const View view = server.MakeView();
+    for (std::size_t i = 0; i < view.id.size(); ++i) {
+      const int body = world.BodyOfId(view.id[i]);
+      if (bodies[static_cast<std::size_t>(world.mechanism(body))] > 1) continue;
+      most = std::max(most, (Vec2(view.x[i], view.y[i]) - world.Read(body).position).norm());
+    }
+  }
+  return most;
+}
+
+TEST(UnseenServer, HidesNoCorrectionsInViewsThatNobodyGets) {
+  EXPECT_GT(MostHidden(Publish::kAll, true), 0.01f);
+  EXPECT_LT(MostHidden(Publish::kNone, true), 0.001f) << "it shows nothing";
+  EXPECT_LT(MostHidden(Publish::kAll, false), 0.001f) << "nobody listens";
 }
 
 }  // namespace
