@@ -1,5 +1,7 @@
 #include "common/sync/smoother.h"
 
+#include <algorithm>
+
 #include "common/base/geometry.h"
 
 namespace seam {
@@ -40,13 +42,13 @@ void Smoother::Set(int body, const BodyState& beside) {
 void Smoother::Reset(int body) { At(body) = VisualOffset{}; }
 
 void Smoother::AdvanceTogether(const World& world, const std::vector<int>& bodies, bool gentle) {
+  if (std::all_of(bodies.begin(), bodies.end(), [&](int body) { return At(body).zero(); })) return;
   std::vector<OffsetBody> together;
-  bool any = false;
+  together.reserve(bodies.size());
   for (const int body : bodies) {
     together.push_back({world.mass_point(body), world.Read(body), &At(body)});
-    any = any || !At(body).zero();
   }
-  if (any) ReturnTogether(world.dt(), rate_, together, gentle);
+  ReturnTogether(world.dt(), rate_, together, gentle);
 }
 
 const Vec2& Smoother::offset(int body) const {

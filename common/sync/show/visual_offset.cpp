@@ -188,6 +188,7 @@ bool Over(const VisualOffset& o) {
 
 void ReturnAlone(float dt, float rate, float speed, VisualOffset* offset) {
   VisualOffset& o = *offset;
+  if (o.zero()) return;  // of nearly all bodies, in every tick
   if (o.position.norm() > kGiveUp) o = VisualOffset{};
   const Vec2 was = o.position;
   Return(dt, rate, &o.position, &o.velocity);
