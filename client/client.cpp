@@ -233,11 +233,11 @@ void Client::SendInputs(std::int64_t now_us) {
   // Where edits wait for everybody's inputs, who has nothing else to tell does not hold them up.
   const bool due = replica_->tick() % std::max(1, room_.tick_hz / room_.send_hz) == 0;
   const bool rides = link_->Sends(now_us) || (due && mode_ == Mode::kBuffer && EditsWait());
-  std::optional<Inputs> inputs =
-      feed_.Take(track, player_, link_->acked(player_), replica_->tick(), rides);
-  if (!inputs) return;
-  inputs->utime = now_us;
-  link_->SendUnreliable(Encode(*inputs), player_, track.newest());
+  const int count = feed_.Take(track, link_->acked(player_), replica_->tick(), rides);
+  if (count == 0) return;
+  Inputs inputs = track.Export(player_, count);
+  inputs.utime = now_us;
+  link_->SendUnreliable(Encode(inputs), {{player_, track.newest()}});
 }
 
 void Client::StepOnce(std::int64_t now_us) {

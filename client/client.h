@@ -134,6 +134,7 @@ class Client {
   void TellRest(std::int64_t now_us);
   void OnStates(const States& states);
   void OnPacked(const PackedStates& packed);
+  void OnInputs(const PackedInputs& packed);
   void OnPong(std::int64_t now_us, const Pong& pong);
   /// Whether all lies still, here and at the server, and nobody here does anything: until it does,
   /// a ping a second is enough.

@@ -1,7 +1,9 @@
 /// Client, incoming: the server is distrusted too.
 
 #include <algorithm>
+#include <optional>
 #include <variant>
+#include <vector>
 
 #include "client/client.h"
 #include "common/base/check.h"
@@ -54,10 +56,8 @@ void Client::OnMessage(std::int64_t now_us, ByteView bytes) {
     } else {
       held_.Add(*rest);
     }
-  } else if (const auto* inputs = std::get_if<Inputs>(&any)) {
-    const bool known = scene_ != nullptr && inputs->player >= 0 && inputs->player != player_ &&
-                       static_cast<std::size_t>(inputs->player) < scene_->players.size();
-    if (known) replica_->NoteInputs(*inputs);
+  } else if (const auto* inputs = std::get_if<PackedInputs>(&any)) {
+    OnInputs(*inputs);
   } else if (const auto* bye = std::get_if<Bye>(&any)) {
     if (peer_ < 0) return OnRefusal(now_us, bye->reason);
     if (asked_names_us_ >= 0) return GiveUpName(bye->reason);
@@ -90,6 +90,20 @@ void Client::OnPacked(const PackedStates& packed) {
     return;
   }
   for (const States& states : *all) OnStates(states);
+}
+
+void Client::OnInputs(const PackedInputs& packed) {
+  const std::optional<std::vector<Inputs>> all = UnpackInputs(packed);
+  if (!all) {
+    ++stats_.dropped_malformed;
+    return;
+  }
+  if (scene_ == nullptr) return;
+  for (const Inputs& inputs : *all) {
+    const bool known = inputs.player != player_ &&
+                       static_cast<std::size_t>(inputs.player) < scene_->players.size();
+    if (known) replica_->NoteInputs(inputs);
+  }
 }
 
 void Client::OnPong(std::int64_t now_us, const Pong& pong) {

@@ -226,7 +226,7 @@ void Broadcast::SendWaitingTo(std::int64_t now_us, Session& session, bool steppe
   for (const StatesPacker::Message& message : session.packer.Take(now_us)) {
     const Bytes bytes = Encode(message.packed);
     session.outbox.NoteCost(bytes.size(), message.bodies);
-    session.link.SendUnreliable(bytes, kListedSlot, message.number);
+    session.link.SendUnreliable(bytes, {{kListedSlot, message.number}});
   }
   if (session.outbox.pressing()) NotePressing(session);  // beyond its budget
 }

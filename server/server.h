@@ -105,6 +105,7 @@ class Server {
   void OnPing(std::int64_t now_us, Session& session, const Ping& ping);
   void OnInputs(std::int64_t now_us, Session& session, const Inputs& inputs);
   void RelayInputs(std::int64_t now_us);
+  void RelayInputs(std::int64_t now_us, const std::vector<int>& players, Session& session);
   void FindHeardPlayers();
   Inputs TakeFresh(std::int64_t now_us, const Inputs& inputs);
   void OnStates(std::int64_t now_us, Session& session, const States& states);
@@ -171,6 +172,11 @@ class Server {
   std::int64_t drivers_heard_us_ = 0;  // until then no driver has been silent for too long
   std::vector<int> inputs_due_;        // players of whom some have come
   std::int64_t inputs_due_tick_ = -1;  // when they were relayed last
+  std::vector<Inputs> newest_inputs_;  // by player, to be relayed; without ticks: not looked up
+  // Of what is relayed of inputs to one session at a time.
+  InputsPacker inputs_packer_;
+  std::vector<Receipt> input_receipts_;
+  std::vector<int> input_candidates_;
 };
 
 }  // namespace seam

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <iterator>
 #include <utility>
 
 #include "server/authority_source.h"
@@ -165,36 +166,75 @@ void Server::OnInputs(std::int64_t now_us, Session& session, const Inputs& input
   broadcast_.Publish(fresh);
 }
 
-/// In the same call as they came, since everything is flushed at its end.
+/// In the same call as they came, since everything is flushed at its end. All that anybody hears is
+/// looked at once a tick; between, what has come, and what waits for others with which to go.
 void Server::RelayInputs(std::int64_t now_us) {
   const bool stepped = std::exchange(inputs_due_tick_, replica_.tick()) != replica_.tick();
-  const auto relay = [&](Session& session, int p, bool* rides) {
-    const InputTrack& track = replica_.inputs(p);
-    if (track.newest() < 0) return;
-    std::optional<Inputs> inputs = session.feeds[static_cast<std::size_t>(p)].Take(
-        track, p, session.link.acked(p), replica_.tick(), *rides);
-    if (!inputs) return;
-    inputs->utime = now_us;
-    session.link.SendUnreliable(Encode(*inputs), p, track.newest());
-    *rides = true;
-  };
+  std::sort(inputs_due_.begin(), inputs_due_.end());
+  inputs_due_.erase(std::unique(inputs_due_.begin(), inputs_due_.end()), inputs_due_.end());
+  newest_inputs_.resize(scene_.players.size());
+  for (const int p : inputs_due_) newest_inputs_[static_cast<std::size_t>(p)].drive.clear();
   sessions_.ForEachReady(0, [&](Session& session) {
     session.feeds.resize(scene_.players.size());
-    const std::vector<int>& heard = session.heard_players;
-    bool rides = session.link.Sends(now_us);
-    // Within a tick, where nothing goes with which others could ride, only what is new is sent.
-    bool all = stepped || rides;
-    for (std::size_t i = 0; !all && i < inputs_due_.size(); ++i) {
-      all = std::binary_search(heard.begin(), heard.end(), inputs_due_[i]);
+    if (stepped) {
+      RelayInputs(now_us, session.heard_players, session);
+      return;
     }
-    for (std::size_t i = 0; all && i < heard.size(); ++i) relay(session, heard[i], &rides);
+    const std::vector<int>& heard = session.heard_players;
+    input_candidates_.clear();
+    std::set_intersection(inputs_due_.begin(), inputs_due_.end(), heard.begin(), heard.end(),
+                          std::back_inserter(input_candidates_));
+    const std::vector<int>& unsent = session.unsent_players;
+    const bool none = input_candidates_.empty();
+    if (none && (unsent.empty() || !session.link.Sends(now_us))) return;
+    const auto due = static_cast<std::ptrdiff_t>(input_candidates_.size());
+    input_candidates_.insert(input_candidates_.end(), unsent.begin(), unsent.end());
+    std::inplace_merge(input_candidates_.begin(), input_candidates_.begin() + due,
+                       input_candidates_.end());
+    const auto end = std::unique(input_candidates_.begin(), input_candidates_.end());
+    input_candidates_.erase(end, input_candidates_.end());
+    RelayInputs(now_us, input_candidates_, session);
   });
   inputs_due_.clear();
 }
 
+/// Of these players, ascending, to one that hears them.
+void Server::RelayInputs(std::int64_t now_us, const std::vector<int>& players, Session& session) {
+  const auto send = [&] {
+    if (!inputs_packer_.empty()) {
+      session.link.SendUnreliable(Encode(inputs_packer_.Finish()), input_receipts_);
+    }
+    input_receipts_.clear();
+  };
+  bool rides = session.link.Sends(now_us);
+  session.unsent_players.clear();
+  for (const int p : players) {
+    const InputTrack& track = replica_.inputs(p);
+    if (track.newest() < 0) continue;
+    InputFeed& feed = session.feeds[static_cast<std::size_t>(p)];
+    const int count = feed.Take(track, session.link.acked(p), replica_.tick(), rides);
+    if (count > 0) {
+      Inputs& newest = newest_inputs_[static_cast<std::size_t>(p)];
+      if (newest.drive.empty()) track.Export(p, kInputsRedundant, &newest);
+      if (!inputs_packer_.Add(newest, static_cast<std::size_t>(count))) {
+        send();
+        inputs_packer_.Add(newest, static_cast<std::size_t>(count));
+      }
+      input_receipts_.push_back({p, track.newest()});
+      rides = true;
+    } else if (feed.Waits(track)) {
+      session.unsent_players.push_back(p);
+    }
+  }
+  send();
+}
+
 /// After authority, or what concerns whom, has changed: whose inputs each client hears.
 void Server::FindHeardPlayers() {
-  sessions_.ForEachReady(0, [](Session& session) { session.heard_players.clear(); });
+  sessions_.ForEachReady(0, [](Session& session) {
+    session.heard_players.clear();
+    session.unsent_players.clear();  // the next tick looks at all
+  });
   const Drivers& drivers = replica_.drivers();
   for (int p = 0; p < static_cast<int>(scene_.players.size()); ++p) {
     const auto hears = [&](Session& session) {

@@ -6,6 +6,7 @@
 #include <tuple>
 
 #include "common/codec/messages.h"
+#include "common/codec/packed/packed_inputs.h"
 #include "common/codec/packed/packed_states.h"
 
 /// X(struct, LCM type, where it travels, kind in the channel, fields of `m` in the .lcm's order)
@@ -64,7 +65,8 @@
     m.dropped_budget, m.kind, m.bytes_out, m.bytes_in)                                            \
   X(Event, event_t, kBusPeer, "event", m.utime, m.sequence, m.peer, m.tick, m.text)               \
   X(Bye, bye_t, kEdge, "", m.utime, m.reason)                                                     \
-  X(PackedStates, packed_states_t, kEdge, "", m.data)
+  X(PackedStates, packed_states_t, kEdge, "", m.data)                                             \
+  X(PackedInputs, packed_inputs_t, kEdge, "", m.bits)
 
 namespace seam {
 

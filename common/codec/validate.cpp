@@ -144,6 +144,8 @@ bool Valid(const States& m) {
          Within(m.origin_x, -kOriginMax, kOriginMax) && Within(m.origin_y, -kOriginMax, kOriginMax);
 }
 
+bool Valid(const PackedInputs& m) { return Within(m.bits.size(), 1, kPackedBytesMax); }
+
 bool Valid(const PackedStates& m) { return Within(m.data.size(), 1, kPackedBytesMax); }
 
 bool Valid(const Rest& m) {

@@ -151,7 +151,7 @@ struct Link::Impl {
     });
     for (const Passing& message : unreliable) {
       Pack(packing, {false, 0, message.bytes});
-      if (message.receipt.slot >= 0) carried.receipts.push_back(message.receipt);
+      for (const Receipt& receipt : message.receipts) carried.receipts.push_back(receipt);
     }
     unreliable.clear();
     if (!writer.empty() || OwesDatagram(now_us)) Emit(packing);
@@ -281,17 +281,14 @@ Link::~Link() = default;
 Link::Link(Link&&) noexcept = default;
 Link& Link::operator=(Link&&) noexcept = default;
 
-void Link::SendUnreliable(ByteView message) {
+void Link::SendUnreliable(ByteView message, std::vector<Receipt> receipts) {
   SEAM_ASSERT(message.size >= 1 && message.size <= kMessageBytesMax);
+  for (const Receipt& receipt : receipts) {
+    SEAM_ASSERT(receipt.slot >= 0 && receipt.slot <= kListedSlot);
+  }
   Wake();
   if (impl_->unreliable.size() >= kUnreliableQueueMax) impl_->unreliable.pop_front();
-  impl_->unreliable.push_back({Bytes(message.begin(), message.end()), {}});
-}
-
-void Link::SendUnreliable(ByteView message, int slot, std::int64_t number) {
-  SEAM_ASSERT(slot >= 0 && slot <= kListedSlot);
-  SendUnreliable(message);
-  impl_->unreliable.back().receipt = {slot, number};
+  impl_->unreliable.push_back({Bytes(message.begin(), message.end()), std::move(receipts)});
 }
 
 bool Link::SendReliable(ByteView message) {

@@ -16,6 +16,7 @@
 #include "common/base/bytes.h"
 #include "common/base/limits.h"
 #include "common/net/net.h"
+#include "common/net/sent_record.h"
 
 namespace seam {
 
@@ -36,12 +37,10 @@ class Link {
   Link& operator=(Link&&) noexcept;
 
   /// Sent once with the next Flush. Requires 1..kMessageBytesMax bytes. Of more than 1024 without a
-  /// Flush the oldest are forgotten.
-  void SendUnreliable(ByteView message);
-  /// The same, with a receipt: once a datagram that carried such a message of `slot` has been
-  /// acknowledged, acked(slot) is at least its `number`. Requires a slot below kReceiptSlots, or
-  /// kListedSlot.
-  void SendUnreliable(ByteView message, int slot, std::int64_t number);
+  /// Flush the oldest are forgotten. With receipts: once a datagram that carried it has been
+  /// acknowledged, acked(slot) is at least the `number` of each. Requires slots below
+  /// kReceiptSlots, or kListedSlot.
+  void SendUnreliable(ByteView message, std::vector<Receipt> receipts = {});
   /// Repeated until acknowledged, delivered once and in order. Requires 1..kMessageBytesMax bytes.
   /// False when 4096 are waiting: the peer is gone or hostile, drop it.
   bool SendReliable(ByteView message);

@@ -8,15 +8,16 @@
 
 namespace seam {
 
+/// Asks whether a message arrived: Link::SendUnreliable.
 struct Receipt {
-  int slot = -1;  // -1: nobody wants one
+  int slot = 0;
   std::int64_t number = -1;
 };
 
 /// An unreliable message that waits for a Flush.
 struct Passing {
   Bytes bytes;
-  Receipt receipt;
+  std::vector<Receipt> receipts;
 };
 
 /// What a datagram carried.

@@ -54,9 +54,16 @@ std::vector<int> FindDriven(const World& world, const BodyMemory& memory, const 
   const auto absent = [&](int body) { return world.motion(body) == Motion::kAbsent; };
   const auto mechanisms = static_cast<int>(world.composition().mechanisms.size());
   const auto turn = static_cast<int>(next % kAbsentEvery);
-  for (int m = (kAbsentEvery - turn) % kAbsentEvery; m < mechanisms; m += kAbsentEvery) {
-    for (const int body : joints.bodies(m)) {
-      if (absent(body) && !memory.parked(body)) driven.push_back(body);
+  // Where much is parked it is looked at through what is not, else through the mechanisms.
+  const std::vector<int>& tended = memory.tended();
+  if (static_cast<int>(tended.size()) < world.body_count()) {
+    std::copy_if(tended.begin(), tended.end(), std::back_inserter(driven), [&](int body) {
+      return absent(body) && (turn + world.mechanism(body)) % kAbsentEvery == 0;
+    });
+  } else {
+    for (int m = (kAbsentEvery - turn) % kAbsentEvery; m < mechanisms; m += kAbsentEvery) {
+      const std::vector<int>& bodies = joints.bodies(m);
+      std::copy_if(bodies.begin(), bodies.end(), std::back_inserter(driven), absent);
     }
   }
   std::copy_if(back.begin(), back.end(), std::back_inserter(driven), absent);

@@ -3,7 +3,6 @@
 /// until it is acknowledged, the rest along with other messages.
 
 #include <cstdint>
-#include <optional>
 
 #include "common/sync/input_track.h"
 
@@ -16,11 +15,12 @@ static_assert(static_cast<std::size_t>(kInputsRedundant) <= kInputsMax,
 
 class InputFeed {
  public:
-  /// The message to send now, if any. `acked`: the newest tick that the peer has acknowledged, -1:
-  /// none. `now`: our own tick; nothing is sent twice within one, but for what is new. `rides`:
-  /// other messages go to the peer now.
-  std::optional<Inputs> Take(const InputTrack& track, int player, std::int64_t acked,
-                             std::int64_t now, bool rides);
+  /// How many of the newest ticks (InputTrack::Export) to send now; 0: nothing. `acked`: the newest
+  /// tick that the peer has acknowledged, -1: none. `now`: our own tick; nothing is sent twice
+  /// within one, but for what is new. `rides`: other messages go to the peer now.
+  int Take(const InputTrack& track, std::int64_t acked, std::int64_t now, bool rides);
+  /// Whether it knows of something that was not sent.
+  bool Waits(const InputTrack& track) const { return track.newest() > sent_newest_; }
 
  private:
   std::int64_t sent_newest_ = -1, sent_at_ = -1;

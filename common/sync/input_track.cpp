@@ -22,11 +22,26 @@ const InputTrack::Known* InputTrack::Before(std::int64_t tick) const {
 void InputTrack::Note(std::int64_t tick, const Input& input) {
   if (tick < 0 || tick < newest_ - kKeepTicks || knows(tick)) return;
   if (ring_.empty()) ring_.resize(static_cast<std::size_t>(kKeepTicks + 1));
+  const bool next = tick > newest_;
+  if (next && !(input == At(tick))) newest_change_ = tick;
   ring_[Place(tick)] = {tick, input};
   if (newest_ < 0) oldest_ = tick;
   newest_ = std::max(newest_, tick);
   oldest_ = std::max(std::min(oldest_, tick), newest_ - kKeepTicks);
   while (ring_[Place(oldest_)].tick != oldest_) ++oldest_;
+  if (!next) FindNewestChange();
+}
+
+/// What comes late may be a change, or make the one after it none.
+void InputTrack::FindNewestChange() {
+  newest_change_ = -1;
+  const Known* after = Before(newest_);
+  while (after != nullptr && newest_change_ < 0) {
+    const Known* const before = Before(after->tick - 1);
+    const Input guess = before == nullptr ? Input{} : before->input;
+    if (!(after->input == guess)) newest_change_ = after->tick;
+    after = before;
+  }
 }
 
 void InputTrack::Note(const Inputs& inputs) {
@@ -42,18 +57,11 @@ Input InputTrack::At(std::int64_t tick) const {
 }
 
 bool InputTrack::Surprises(std::int64_t from) const {
-  std::int64_t tick = std::max(from, oldest_);
-  if (newest_ < 0 || tick > newest_) return false;
-  Input guess = At(from - 1);
-  // Round the ring without a division a tick: servers ask for every player and receiver.
-  for (std::size_t place = Place(tick); tick <= newest_; ++tick) {
-    const Known& known = ring_[place];
-    if (++place == ring_.size()) place = 0;
-    if (known.tick != tick) continue;
-    if (!(known.input == guess)) return true;
-    guess = known.input;
-  }
-  return false;
+  if (newest_ < 0 || from > newest_) return false;
+  // In constant time: servers ask for every player and receiver. Who knows nothing before the
+  // oldest takes it to be neutral.
+  const bool changed = newest_change_ > oldest_ && newest_change_ >= from;
+  return changed || (from <= oldest_ && !(At(oldest_) == Input{}));
 }
 
 int InputTrack::ButtonsBefore(std::int64_t tick) const {
@@ -81,18 +89,26 @@ std::int16_t InputTrack::PressedAt(std::int64_t tick) const {
 
 Inputs InputTrack::Export(int player, int count) const {
   Inputs out;
-  out.player = player;
-  if (newest_ < 0) return out;
+  Export(player, count, &out);
+  return out;
+}
+
+void InputTrack::Export(int player, int count, Inputs* to) const {
+  to->player = player;
+  to->first_tick = 0;
+  to->drive.clear();
+  to->lift.clear();
+  to->buttons.clear();
+  if (newest_ < 0) return;
   std::int64_t first = newest_;
   while (newest_ - first + 1 < count && knows(first - 1)) --first;
-  out.first_tick = first;
+  to->first_tick = first;
   for (std::int64_t tick = first; tick <= newest_; ++tick) {
     const Input& input = Find(tick)->input;
-    out.drive.push_back(input.drive);
-    out.lift.push_back(input.lift);
-    out.buttons.push_back(input.buttons);
+    to->drive.push_back(input.drive);
+    to->lift.push_back(input.lift);
+    to->buttons.push_back(input.buttons);
   }
-  return out;
 }
 
 }  // namespace seam

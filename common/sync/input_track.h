@@ -32,6 +32,8 @@ class InputTrack {
 
   /// The last `count` known successive ticks up to `newest()`, for the wire; all if there are less.
   Inputs Export(int player, int count) const;
+  /// The same, into a message that keeps its memory; its utime and sequence stay.
+  void Export(int player, int count, Inputs* to) const;
 
   static constexpr std::int64_t kKeepTicks = 600;
 
@@ -47,9 +49,11 @@ class InputTrack {
   /// The newest known one at or before `tick`; nullptr: there is none.
   const Known* Before(std::int64_t tick) const;
   int ButtonsBefore(std::int64_t tick) const;
+  void FindNewestChange();
 
   std::vector<Known> ring_;  // by tick modulo its size; empty: nothing is known
   std::int64_t newest_ = -1, oldest_ = -1;
+  std::int64_t newest_change_ = -1;  // known, and another than the known one before it
   std::int64_t presses_taken_until_ = -1;
 };
 

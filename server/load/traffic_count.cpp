@@ -13,6 +13,7 @@ std::int8_t KindOfType(const std::string& name) {
       {"states_t", kTrafficStates},
       {"packed_states_t", kTrafficStates},
       {"inputs_t", kTrafficInputs},
+      {"packed_inputs_t", kTrafficInputs},
       {"rest_t", kTrafficRest},
       {"grants_t", kTrafficGrants},
       {"release_t", kTrafficHandOver},

@@ -41,7 +41,8 @@ struct Session {
   Link link;
   TrafficBudget budget;
   std::vector<InputFeed> feeds;      ///< of the others' inputs, by player
-  std::vector<int> heard_players;    ///< whose inputs concern it
+  std::vector<int> heard_players;    ///< whose inputs concern it, ascending
+  std::vector<int> unsent_players;   ///< of them, of whom something waits to go along with others
   Outbox outbox;                     ///< states of others that wait for it
   RestBlocks rest;                   ///< with what the client knows to rest
   bool rest_agrees = false;          ///< all of it, as of its newest ping

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
+#include <string>
+
 #include "common/sync/input_source.h"
+#include "server/interest/outbox.h"
 #include "tests/lab/cluster.h"
 
 namespace seam {
@@ -71,6 +75,51 @@ TEST(InputSending, AHeldInputCostsLittle) {
       static_cast<double>(cluster.client(1)->stats().bytes_out - before) / 3.0;
   std::printf("[          ] %.0f bytes/s by a client that holds its input\n", bytes_per_s);
   EXPECT_LT(bytes_per_s, 2000) << "a message of 16 ticks in each tick was 7700";
+}
+
+/// Discs in a row in space, each with a player who moves its surface.
+std::string Row(int players) {
+  const std::string repeat = "repeat = {count = " + std::to_string(players) + ", step = [4, 0]}\n";
+  return R"(
+gravity = [0, 0]
+duration = 8
+[[player]]
+name = "p"
+vehicle = "disc.0"
+)" + repeat +
+         R"(
+[[part]]
+name = "disc"
+circle = 0.5
+owners = ["p-*"]
+conveyor = {player = "p-0", speed = 3}
+)" + repeat;
+}
+
+/// Bytes a second that a client gets of a full room in which all predict all.
+double BytesInFullRoom(int players) {
+  ClusterConfig config = With("central", "delay=40ms,jitter=5ms");
+  config.scene = "row";
+  config.scene_text = Row(players);
+  config.drive = Drive::kBot;
+  Cluster cluster(config);
+  cluster.RunToTick(90);
+  const std::int64_t before = cluster.client(0)->stats().bytes_in;
+  cluster.RunToTick(270);
+  // Every other player's inputs have come: what is counted is not that they were left out.
+  const std::int64_t end = cluster.server().tick() - 12;
+  for (int player = 1; player < players; ++player) {
+    EXPECT_TRUE(cluster.client(0)->replica()->inputs(player).At(end) ==
+                BotInput(config.seed, player, end, 60))
+        << player;
+  }
+  return static_cast<double>(cluster.client(0)->stats().bytes_in - before) / 3.0;
+}
+
+TEST(InputSending, OfManyPlayersTheyTakeASmallPartOfABudget) {
+  const double few = BytesInFullRoom(4), many = BytesInFullRoom(40);
+  std::printf("[          ] %.0f bytes/s to a client of 4, %.0f of 40\n", few, many);
+  EXPECT_LT(many, 0.2 * kClientBytesPerS) << "36 more, 60 times a second: 177 kB/s as inputs_t";
 }
 
 }  // namespace

@@ -44,8 +44,12 @@ class CountingNet : public Net {
         for (const States& states : *all) {
           for (const std::int32_t id : states.id) ++counts_->states[id];
         }
-      } else if (const auto* inputs = std::get_if<Inputs>(&any)) {
-        ++counts_->inputs[inputs->player];
+      } else if (const auto* inputs = std::get_if<PackedInputs>(&any)) {
+        const auto told = UnpackInputs(*inputs);
+        EXPECT_TRUE(told.has_value());
+        for (const Inputs& one : told.value_or(std::vector<Inputs>{})) {
+          ++counts_->inputs[one.player];
+        }
       }
     }
     return true;

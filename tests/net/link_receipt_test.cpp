@@ -25,8 +25,8 @@ TEST(LinkReceipts, TellTheLargestNumberThatArrivedOfEachSlot) {
   std::int64_t now_us = 0;
   std::vector<Bytes> sent;
   for (const std::int64_t number : {5, 6, 7}) {
-    here.SendUnreliable(message, 0, number);
-    here.SendUnreliable(message, 1, number * 10);
+    here.SendUnreliable(message, {{0, number}});
+    here.SendUnreliable(message, {{1, number * 10}});
     here.SendUnreliable(message);
     sent.push_back(Drain(here, now_us += 1000).at(0));
   }
@@ -45,6 +45,20 @@ TEST(LinkReceipts, TellTheLargestNumberThatArrivedOfEachSlot) {
   EXPECT_EQ(here.acked(0), 6) << "an older one does not take it back";
   answer(2);
   EXPECT_EQ(here.acked(1), 70);
+}
+
+TEST(LinkReceipts, OneMessageMayHaveSeveral) {
+  Link here(kSession), there(kSession);
+  const Bytes message = {1, 2, 3};
+  here.SendUnreliable(message, {{3, 30}, {0, 7}, {255, 9}});
+  there.Receive(1000, Drain(here, 1000).at(0), [](ByteView) {});
+  EXPECT_EQ(here.acked(0), -1) << "sent is not arrived";
+  there.SendUnreliable(message);
+  here.Receive(2000, Drain(there, 2000).at(0), [](ByteView) {});
+  EXPECT_EQ(here.acked(3), 30);
+  EXPECT_EQ(here.acked(0), 7);
+  EXPECT_EQ(here.acked(255), 9);
+  EXPECT_EQ(here.acked(1), -1);
 }
 
 TEST(LinkReceipts, SendsSaysWhetherAFlushWouldSend) {

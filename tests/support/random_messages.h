@@ -73,6 +73,7 @@ class RandomMessages {
   }
   void Fill(States& m) { Fill(m, Count(0, kStatesBodiesMax)); }
   void Fill(PackedStates& m) { Vector(m.data, Count(1, kPackedBytesMax), 0, 255); }
+  void Fill(PackedInputs& m) { Vector(m.bits, Count(1, kPackedBytesMax), 0, 255); }
   void Fill(Rest& m, std::size_t count) {
     Common(m), Set(m.peer, 0, 31), Set(m.number, 0, kTimeMaxUs - 1), m.tick = Tick();
     Set(m.revision, 0, INT32_MAX), m.composition = static_cast<std::int64_t>(random_.Next());
