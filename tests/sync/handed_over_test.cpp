@@ -136,5 +136,38 @@ TEST(HandedOver, WhatAnEditHasJustMadeIsToldOfSinceItIsThere) {
   EXPECT_GT(told[0].y[0], 8.9f);
 }
 
+/// While a client loads the room it may be given something and asked for it again: all of that can
+/// come in one datagram, before its first step. And the server plans in its first ticks, of which
+/// it looks at every second.
+TEST(HandedOver, WhatIsTakenBackBeforeTheFirstStepIsToldOfAsItIs) {
+  Replica ann(Squeezed(), MakeSyncConfig("buffer", "rollback"), 1, 0);
+  const int hers = ann.world().mechanism(0);
+  const auto grant = [&](int peer, int epoch) {
+    Grants grants;
+    grants.mechanism = {ann.authority().id(hers)};
+    grants.authority = {static_cast<std::int16_t>(peer)};
+    grants.epoch = {epoch};
+    grants.followers = {0};
+    return ann.ApplyGrants(grants);
+  };
+  EXPECT_TRUE(grant(1, 1).empty());
+  EXPECT_EQ(grant(0, 2), std::vector<int>{hers});
+  const std::vector<ExactStates> told = ann.TakeReleased();
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].tick, ann.tick());
+  EXPECT_EQ(told[0].id.size(), 1u);
+  EXPECT_EQ(told[0].x[0], -1.5f);
+  EXPECT_EQ(told[0].y[0], 0.5f);
+}
+
+TEST(HandedOver, WhatTheServerGivesAwayInItsFirstTickIsToldOfAsItIs) {
+  Replica server(Squeezed(), MakeSyncConfig("buffer", "rollback"), 0, -1);
+  server.Step();
+  const std::vector<ExactStates> told = server.MakeExact({server.world().mechanism(0)}, 1);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_EQ(told[0].tick, server.tick());
+  EXPECT_EQ(told[0].x[0], server.world().Read(0).position.x());
+}
+
 }  // namespace
 }  // namespace seam

@@ -13,8 +13,9 @@
 namespace seam {
 
 /// Server -> client: Inputs of other players, all that are news to it. They come 60 times a second
-/// of each, and as Inputs most of their bytes would say what is held and which message it is: a
-/// client among 63 others got 325 kB/s of them. InputsPacker writes and UnpackInputs reads them.
+/// of each, and as Inputs most of their bytes would say what is held and which message it is: 82
+/// bytes each, framed, 310 kB/s for a client among 63 others. InputsPacker writes and UnpackInputs
+/// reads them.
 struct PackedInputs {
   std::vector<std::uint8_t> bits;  ///< 1..kPackedBytesMax bytes
 };

@@ -26,9 +26,10 @@ class Reach {
   /// After a step: looks at what may have met within the time of which inputs are missing.
   void Look();
 
-  /// Newest input-complete tick, at most the world's. Requires that Look was called since the
-  /// bodies changed.
+  /// Newest input-complete tick, at most the world's; -1 before the first Look. Requires that Look
+  /// was called since the bodies changed.
   std::int64_t CompleteTick(int mechanism) const {
+    if (looked_ < 0) return -1;  // grants may come before the first step
     return std::min(looked_, complete_[static_cast<std::size_t>(mechanism)]);
   }
 
