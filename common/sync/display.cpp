@@ -43,13 +43,13 @@ bool Overlap(const MovingBox& a, const MovingBox& b) {
          b.min.y() <= a.max.y();
 }
 
-/// Bodies that may be driven to the tick `next`, ascending: those that are present but not
-/// simulated, the absent ones whose turn it is, and those that have come `back`.
-std::vector<int> FindDriven(const World& world, const BodyMemory& memory, const JointCloser& joints,
-                            const std::vector<int>& back, std::int64_t next) {
-  std::vector<int> driven;
+/// Fills `driven` with bodies that may be driven to the tick `next`, ascending: those that are
+/// present but not simulated, the absent ones whose turn it is, and those that have come `back`.
+void FindDriven(const World& world, const BodyMemory& memory, const JointCloser& joints,
+                const std::vector<int>& back, std::int64_t next, std::vector<int>* driven) {
+  driven->clear();
   for (const int body : world.present()) {
-    if (world.motion(body) != Motion::kDynamic) driven.push_back(body);
+    if (world.motion(body) != Motion::kDynamic) driven->push_back(body);
   }
   const auto absent = [&](int body) { return world.motion(body) == Motion::kAbsent; };
   const auto mechanisms = static_cast<int>(world.composition().mechanisms.size());
@@ -57,19 +57,18 @@ std::vector<int> FindDriven(const World& world, const BodyMemory& memory, const 
   // Where much is parked it is looked at through what is not, else through the mechanisms.
   const std::vector<int>& tended = memory.tended();
   if (static_cast<int>(tended.size()) < world.body_count()) {
-    std::copy_if(tended.begin(), tended.end(), std::back_inserter(driven), [&](int body) {
+    std::copy_if(tended.begin(), tended.end(), std::back_inserter(*driven), [&](int body) {
       return absent(body) && (turn + world.mechanism(body)) % kAbsentEvery == 0;
     });
   } else {
     for (int m = (kAbsentEvery - turn) % kAbsentEvery; m < mechanisms; m += kAbsentEvery) {
       const std::vector<int>& bodies = joints.bodies(m);
-      std::copy_if(bodies.begin(), bodies.end(), std::back_inserter(driven), absent);
+      std::copy_if(bodies.begin(), bodies.end(), std::back_inserter(*driven), absent);
     }
   }
-  std::copy_if(back.begin(), back.end(), std::back_inserter(driven), absent);
-  std::sort(driven.begin(), driven.end());
-  driven.erase(std::unique(driven.begin(), driven.end()), driven.end());
-  return driven;
+  std::copy_if(back.begin(), back.end(), std::back_inserter(*driven), absent);
+  std::sort(driven->begin(), driven->end());
+  driven->erase(std::unique(driven->begin(), driven->end()), driven->end());
 }
 
 /// Whether a body that is absent lies asleep where it was last said to rest: wherever its path took
@@ -227,7 +226,8 @@ void Display::Drive(std::int64_t next, const MovingBox& seen) {
   reckoner_.Begin(next);
   LookAtParked(next, seen);
   leaving_.clear();
-  for (const int body : FindDriven(world_, memory_, joints_, back_, next)) {
+  FindDriven(world_, memory_, joints_, back_, next, &driven_);
+  for (const int body : driven_) {
     if (memory_.track(body).idle) continue;
     const bool absent = world_.motion(body) == Motion::kAbsent;
     if (absent && !config_.shows_far && !Overlap(FarBox(world_.mechanism(body)), seen)) {

@@ -80,7 +80,7 @@ class Display {
   std::function<void(int)> on_corrected_ = [](int) {};
   std::vector<int> corrected_ticks_;  // by mechanism: how much longer it may be torn in physics
   std::vector<MovingBox> far_;        // by mechanism: of what is parked, where it can have come to
-  std::vector<int> leaving_, back_;   // bodies, in this Drive
+  std::vector<int> driven_, leaving_, back_;  // bodies, in this Drive
   mutable std::vector<BodyState> poses_;  // room for ShownPoses, by body
 };
 

@@ -115,6 +115,39 @@ TEST(HandedOver, WhatInputsStillUnknownMayHaveReachedIsToldOfAsItWasBeforeThem) 
   }
 }
 
+/// Of a player who is not heard nothing is assumed for up to kDriverSilentUs: what changes hands
+/// then is told of as it was when it was last heard.
+TEST(HandedOver, WhatAPlayerMayReachWhoIsNotHeardIsToldOfAsItWasWhenHeWas) {
+  const Scene scene = Squeezed();
+  const std::vector<std::vector<BodyState>> truth = Truth(scene);
+  constexpr std::int64_t kCut = 60, kGiven = 107, kHeard = 115;
+  WiredReplicas room = Room(scene);
+  room.held_up = [&room](int from, int to) {
+    const std::int64_t now = room.at(0).tick();
+    return (from == 2 || to == 2) && now >= kCut && now < kHeard;
+  };
+  room.StepTo(kGiven);
+  const World& world = room.at(0).world();
+  const int crate = room.Body(0, "crate");
+  const auto body = static_cast<std::size_t>(crate);
+  const std::vector<ExactStates> told = room.at(0).MakeExact({world.mechanism(crate)}, 1);
+  ASSERT_EQ(told.size(), 1u);
+  const ExactStates& exact = told[0];
+  EXPECT_LE(exact.tick, kCut);
+  EXPECT_GE(exact.tick, kCut - kLate - 2) << "no older than it has to be";
+  const BodyState& then = truth[static_cast<std::size_t>(exact.tick)][body];
+  EXPECT_EQ(Vec2(exact.x[0], exact.y[0]), then.position);
+  EXPECT_EQ(Vec2(exact.vx[0], exact.vy[0]), then.velocity);
+  room.StepTo(kGiven + kLate);
+  for (const int peer : {1, 2}) room.at(peer).TakeOver(exact);
+  room.StepTo(kEnd);
+  for (int peer = 0; peer < room.count(); ++peer) {
+    const BodyState is = room.Read(peer, "crate"), should = truth[kEnd][body];
+    EXPECT_EQ(is.position, should.position) << "peer " << peer;
+    EXPECT_EQ(is.velocity, should.velocity) << "peer " << peer;
+  }
+}
+
 /// Right after an edit nobody has looked yet how far inputs reach.
 TEST(HandedOver, WhatAnEditHasJustMadeIsToldOfSinceItIsThere) {
   WiredReplicas room = Room(Squeezed());
