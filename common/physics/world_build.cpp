@@ -153,6 +153,7 @@ class Builder {
                           : AddBody(scene_, of, at, true, world_, &built_.merged,
                                     &memory_.ready[i]);
     built_.bodies[a] = built_.moving[i].body = made;
+    if (!absent) memory_.made.push_back(body);
     if (kept) return;  // as it was left
     made->GetUserData().pointer = i + 1;
     made->SetMassData(&memory_.mass[i]);
@@ -223,6 +224,7 @@ void BuildMemory::Clear(std::uint64_t hash) {
   anchored.clear();
   assembly_of.clear();
   joints_of.clear();
+  made.clear();
   joints.clear();
 }
 
@@ -244,6 +246,7 @@ BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2Worl
   memory->assembly_of.clear();
   memory->joints_of.assign(memory->bodies.size(), {});
   memory->ready.assign(memory->bodies.size(), {});
+  memory->made.clear();
   memory->joints.clear();
   built.bodies.resize(composition.assemblies.size(), nullptr);
   built.moving.reserve(memory->bodies.size());
@@ -282,6 +285,7 @@ void BuildPresent(const Scene& scene, const Composition& composition, const Pres
     memory->bodies[i] = nullptr;
   }
   for (const int joint : memory->joints) built->joints[static_cast<std::size_t>(joint)] = nullptr;
+  memory->made.clear();
   memory->joints.clear();
   built->motors.clear();
   built->tethers.clear();

@@ -58,7 +58,8 @@ struct BuildMemory {
   std::vector<int> anchored;                ///< assemblies
   std::vector<int> assembly_of;             ///< by moving body
   std::vector<std::vector<int>> joints_of;  ///< by moving body: the scene's joints at it, ascending
-  std::vector<int> joints;                  ///< that are made
+  std::vector<int> made;                    ///< moving bodies that are in the world, ascending
+  std::vector<int> joints;                  ///< that are made, ascending
   std::vector<ReadyFixtures> ready;         ///< by moving body, as far as it has been made
 
   /// What was is of other bodies.

@@ -57,7 +57,7 @@ struct World::Impl {
     meter.Set(scene.solver.substeps, lightest);
     if (scene.solver.joints == JointSolving::kIterative) return;
     if (memory.joints.empty() && !gives_all) return exact.reset();
-    exact.emplace(scene, &*world, built);
+    exact.emplace(scene, &*world, built, memory, gives_all);
     if (!exact->needed()) exact.reset();
   }
 

@@ -21,8 +21,7 @@ constexpr double kLiftShare = 0.05, kLiftPerMass = 0.05;
 /// moving bodies (bullets) the blow counts, and `struck` remembers whom it met.
 class ExactStep::Quiet : public b2ContactListener {
  public:
-  Quiet(b2ContactListener* listener, std::vector<Slot>* slots)
-      : listener_(listener), slots_(slots) {}
+  Quiet(b2ContactListener* listener, ExactStep* step) : listener_(listener), step_(*step) {}
   void BeginContact(b2Contact* contact) override { listener_->BeginContact(contact); }
   void EndContact(b2Contact* contact) override { listener_->EndContact(contact); }
   /// A blow of ours that is not heard of must not move the body on, either: it would be in the air
@@ -39,7 +38,7 @@ class ExactStep::Quiet : public b2ContactListener {
     b2Body* const b = contact->GetFixtureB()->GetBody();
     const bool both = Moves(a) && Moves(b);
     for (b2Body* body : {a, b}) {
-      if (both) (*slots_)[static_cast<std::size_t>(IndexOf(body))].struck = true;
+      if (both) SlotOf(body).struck = true;
     }
     if (Counts(*contact)) listener_->PostSolve(contact, impulse);
   }
@@ -49,26 +48,29 @@ class ExactStep::Quiet : public b2ContactListener {
   }
 
  private:
+  Slot& SlotOf(b2Body* body) const {
+    return step_.slots_[static_cast<std::size_t>(step_.SlotOf(body))];
+  }
   /// Whether its blow is the engine's: of two that move, or of what is not ours.
   bool Counts(b2Contact& contact) const {
     bool all = true, ours = false;
     for (b2Body* body : {contact.GetFixtureA()->GetBody(), contact.GetFixtureB()->GetBody()}) {
       const bool moves = Moves(body);
       all = all && moves;
-      ours = ours || (moves && (*slots_)[static_cast<std::size_t>(IndexOf(body))].solved);
+      ours = ours || (moves && SlotOf(body).solved);
     }
     return all || !ours;
   }
 
   b2ContactListener* const listener_;
-  std::vector<Slot>* const slots_;
+  ExactStep& step_;
   std::vector<std::pair<b2Contact*, float>> gave_back_;
 };
 
 /// As the engine's, but what it took back to where it hit keeps its velocity and its joints.
 void ExactStep::Continuous(const b2TimeStep& step, const Pace& pace) {
   b2ContactListener* const listener = world_->GetContactManager().m_contactListener;
-  Quiet quiet(listener, &slots_);
+  Quiet quiet(listener, this);
   for (Slot& slot : slots_) slot.struck = false;
   world_->SetContactListener(&quiet);
   (world_->*Member(EngineSolveToi()))(step);

@@ -47,7 +47,7 @@ bool ExactStep::Gather(int first, Found* found) {
         continue;
       }
       if (edge->contact->GetFixtureA()->GetBody() == body) found->contacts.push_back(edge->contact);
-      const int slot = IndexOf(edge->other);
+      const int slot = SlotOf(edge->other);
       Slot& other = slots_[static_cast<std::size_t>(slot)];
       if (other.island >= 0) continue;
       if (other.mechanism >= 0) {
@@ -87,8 +87,8 @@ void ExactStep::Order(Found* found) {
     }
   }
   for (const b2Contact* contact : found->contacts) {
-    const int a = place(IndexOf(const_cast<b2Fixture*>(contact->GetFixtureA())->GetBody()));
-    const int b = place(IndexOf(const_cast<b2Fixture*>(contact->GetFixtureB())->GetBody()));
+    const int a = place(SlotOf(const_cast<b2Fixture*>(contact->GetFixtureA())->GetBody()));
+    const int b = place(SlotOf(const_cast<b2Fixture*>(contact->GetFixtureB())->GetBody()));
     if (a >= 0 && b >= 0) join(a, b);
   }
   std::vector<int>& order = order_;
@@ -117,7 +117,7 @@ void ExactStep::Order(Found* found) {
   seen.assign(n, 0);
   for (const b2Contact* contact : found->contacts) {
     for (const b2Fixture* fixture : {contact->GetFixtureA(), contact->GetFixtureB()}) {
-      const int at = place(IndexOf(const_cast<b2Fixture*>(fixture)->GetBody()));
+      const int at = place(SlotOf(const_cast<b2Fixture*>(fixture)->GetBody()));
       if (at >= 0) seen[static_cast<std::size_t>(at)] = 1;
     }
   }
@@ -152,8 +152,8 @@ long ExactStep::LeastCost(const Found& found) {
   }
   for (b2Contact* contact : found.contacts) {
     const int more = 2 * contact->GetManifold()->pointCount;
-    count(IndexOf(contact->GetFixtureA()->GetBody()), more);
-    count(IndexOf(contact->GetFixtureB()->GetBody()), more);
+    count(SlotOf(contact->GetFixtureA()->GetBody()), more);
+    count(SlotOf(contact->GetFixtureB()->GetBody()), more);
   }
   double sum = 0;
   for (const int slot : found.slots) {
@@ -196,7 +196,7 @@ long ExactStep::Build(Found* found, bool relaxed) {
     island.bodies.push_back(q);
   }
   const auto place = [&](b2Body* body) {
-    if (Moves(body)) return slots_[static_cast<std::size_t>(IndexOf(body))].place;
+    if (Moves(body)) return slots_[static_cast<std::size_t>(SlotOf(body))].place;
     for (std::size_t i = found->slots.size(); i < island.bodies.size(); ++i) {
       if (island.bodies[i].body == body) return static_cast<int>(i);
     }

@@ -20,15 +20,18 @@ double Length(const b2Vec2& v) { return static_cast<double>(v.Length()); }
 std::vector<WorldSnapshot::Left> ExactStep::Left() const {
   std::vector<WorldSnapshot::Left> left;
   for (std::size_t m = 0; m < found_.size(); ++m) {
-    if (found_[m].left_for > 0) left.push_back({mechanisms_[m].slots[0], found_[m].left_for});
+    if (found_[m].left_for <= 0) continue;
+    b2Body* const lowest = slots_[static_cast<std::size_t>(mechanisms_[m].slots[0])].body;
+    left.push_back({IndexOf(lowest), found_[m].left_for});
   }
   return left;
 }
 
 void ExactStep::Leave(const std::vector<WorldSnapshot::Left>& left) {
   for (const auto& [body, steps] : left) {
-    const int m = slots_[static_cast<std::size_t>(body)].mechanism;
-    if (m < 0 || mechanisms_[static_cast<std::size_t>(m)].slots[0] != body) continue;
+    const int slot = slot_of_[static_cast<std::size_t>(body)];
+    const int m = slot < 0 ? -1 : slots_[static_cast<std::size_t>(slot)].mechanism;
+    if (m < 0 || mechanisms_[static_cast<std::size_t>(m)].slots[0] != slot) continue;
     found_[static_cast<std::size_t>(m)].left_for = steps;
   }
 }

@@ -88,8 +88,8 @@ void ExactStep::LeaveLarge() {
 }
 
 bool ExactStep::needed() const {
-  return blows_->needed() || std::any_of(mechanisms_.begin(), mechanisms_.end(),
-                                         [](const Mechanism& m) { return m.exact; });
+  return blows_ || std::any_of(mechanisms_.begin(), mechanisms_.end(),
+                               [](const Mechanism& m) { return m.exact; });
 }
 
 }  // namespace seam

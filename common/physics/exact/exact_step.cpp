@@ -32,28 +32,36 @@ bool SamePose(const ExactBody& p, const ExactBody& q) {
 
 }  // namespace
 
-ExactStep::ExactStep(const Scene& scene, b2World* world, const BuiltScene& built)
-    : solver_(scene.solver), world_(world) {
-  for (const MovingBody& m : built.moving) {
+ExactStep::ExactStep(const Scene& scene, b2World* world, const BuiltScene& built,
+                     const BuildMemory& memory, bool gives_all)
+    : solver_(scene.solver), world_(world), slot_of_(built.moving.size(), -1) {
+  slots_.reserve(memory.made.size());
+  for (const int body : memory.made) {
+    slot_of_[static_cast<std::size_t>(body)] = static_cast<int>(slots_.size());
     slots_.emplace_back();
-    slots_.back().body = m.body;
+    slots_.back().body = built.moving[static_cast<std::size_t>(body)].body;
   }
-  for (std::size_t j = 0; j < built.joints.size(); ++j) {
-    b2Joint* const made = built.joints[j];
-    if (made == nullptr) continue;
+  joints_.reserve(memory.joints.size());
+  for (const int joint : memory.joints) {
+    b2Joint* const made = built.joints[static_cast<std::size_t>(joint)];
     joints_.push_back(ReadJoint(made));
-    joints_.back().index = static_cast<int>(j);
-    joints_.back().slot_a = IndexOf(made->GetBodyA());
-    joints_.back().slot_b = IndexOf(made->GetBodyB());
+    joints_.back().index = joint;
+    joints_.back().slot_a = SlotOf(made->GetBodyA());
+    joints_.back().slot_b = SlotOf(made->GetBodyB());
   }
-  for (const b2Body* body : built.bodies) {
-    paths_ = paths_ || (body->GetType() == b2_kinematicBody &&
-                        const_cast<b2Body*>(body)->GetUserData().pointer == 0);
+  for (const int assembly : memory.anchored) {
+    const b2Body* const body = built.bodies[static_cast<std::size_t>(assembly)];
+    paths_ = paths_ || body->GetType() == b2_kinematicBody;
   }
   FindMechanisms();
-  std::vector<char> jointed;
-  for (const Slot& slot : slots_) jointed.push_back(slot.mechanism >= 0 ? 1 : 0);
-  blows_ = std::make_unique<FreeBlows>(built, std::move(jointed));
+  if (gives_all) {
+    std::vector<char> jointed(built.moving.size(), 0);
+    for (Slot& slot : slots_) {
+      jointed[static_cast<std::size_t>(IndexOf(slot.body))] = slot.mechanism >= 0 ? 1 : 0;
+    }
+    blows_ = std::make_unique<FreeBlows>(built, std::move(jointed));
+    if (!blows_->needed()) blows_.reset();
+  }
   if (solver_.joints != JointSolving::kAuto) return;
   LeaveCharacters(scene);
   LeaveLarge();
@@ -61,6 +69,7 @@ ExactStep::ExactStep(const Scene& scene, b2World* world, const BuiltScene& built
 
 /// A character's gait is tuned on the engine's joints, which are cheaper in a heap of them.
 void ExactStep::LeaveCharacters(const Scene& scene) {
+  if (scene.characters.empty()) return;
   std::vector<char> limbs(scene.joints.size(), 0);
   for (const Character& character : scene.characters) {
     for (const int joint : character.joints) limbs[static_cast<std::size_t>(joint)] = 1;
@@ -306,7 +315,7 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
     moving += found.slots.size();
     solved_.push_back(static_cast<int>(m));
   }
-  if (blows_->needed()) blows_->Act(world_, h);
+  if (blows_) blows_->Act(world_, h);
   if (moving < slots_.size() || paths_) {
     (world_->*Member(EngineSolve()))(step);
   } else {
@@ -314,7 +323,7 @@ void ExactStep::Step(float h, int velocity_iterations, int position_iterations) 
   }
   for (const int m : solved_) Show(found_[static_cast<std::size_t>(m)]);
   if (world_->GetContinuousPhysics()) Continuous(step, pace);
-  if (blows_->needed()) blows_->Done();
+  if (blows_) blows_->Done();
   last_inverse = step.inv_dt;
   if (world_->GetAutoClearForces()) world_->ClearForces();
   locked = false;

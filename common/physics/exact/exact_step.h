@@ -16,7 +16,10 @@ namespace seam {
 
 class ExactStep {
  public:
-  ExactStep(const Scene& scene, b2World* world, const BuiltScene& built);
+  /// `memory`: what is made. `gives_all`: GivesAll of the scene. Neither this nor a step does
+  /// anything for each body that is aside.
+  ExactStep(const Scene& scene, b2World* world, const BuiltScene& built, const BuildMemory& memory,
+            bool gives_all);
   ~ExactStep();
 
   /// Whether there is a joint that it would solve, or a blow that gives everything back; else the
@@ -33,7 +36,7 @@ class ExactStep {
   void Step(float h, int velocity_iterations, int position_iterations);
 
  private:
-  struct Slot {  // of a moving body
+  struct Slot {  // of a moving body that is in the world
     b2Body* body = nullptr;
     int mechanism = -1;
     int island = -1;  // in this step
@@ -63,6 +66,11 @@ class ExactStep {
     bool relaxed = false;  // in this step
   };
 
+  /// -1: of none that moves.
+  int SlotOf(b2Body* body) const {
+    const int moving = IndexOf(body);
+    return moving < 0 ? -1 : slot_of_[static_cast<std::size_t>(moving)];
+  }
   void FindMechanisms();
   bool Easy(const Mechanism& mechanism) const;
   bool Easy(const Found& found) const;
@@ -95,13 +103,14 @@ class ExactStep {
 
   const Solver solver_;
   b2World* world_;
-  std::vector<Slot> slots_;
+  std::vector<int> slot_of_;  // by moving body; -1: aside
+  std::vector<Slot> slots_;   // in the order of the bodies
   std::vector<ExactJoint> joints_;
   std::vector<Mechanism> mechanisms_;
   std::vector<Found> found_;
   std::vector<const void*> sign_;
   std::vector<int> solved_;
-  std::unique_ptr<FreeBlows> blows_;
+  std::unique_ptr<FreeBlows> blows_;  // nullptr: nothing gives everything back
   // Room for Order: by place in a list of bodies, who is joined to it, and whether it was seen.
   std::vector<std::vector<int>> near_;
   std::vector<char> seen_;
