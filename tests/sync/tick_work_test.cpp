@@ -2,18 +2,20 @@
 
 #include <gtest/gtest.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 
 #include "common/sync/quantize.h"
 #include "common/sync/replica.h"
+#include "tests/support/count_allocations.h"
 
 namespace seam {
 namespace {
 
 /// The own box, one beside it that it leans on, and others far away, of the server's. Nobody looks.
-std::unique_ptr<Replica> RoomOf(int far) {
+std::unique_ptr<Replica> RoomOf(int far, const std::string& more = "") {
   const std::string text =
       "gravity = [0, 0]\nbounds = [[-1000, -1000], [9000, 1000]]\n"
       "[[player]]\nname = \"ann\"\nvehicle = \"own\"\n"
@@ -21,7 +23,7 @@ std::unique_ptr<Replica> RoomOf(int far) {
       "[[part]]\nname = \"beside\"\nbox = [1, 1]\nposition = [1.1, 0]\n"
       "[[part]]\nname = \"far\"\nbox = [1, 1]\nposition = [300, 0]\nvelocity = [0.5, 0]\n"
       "repeat = {count = " +
-      std::to_string(far) + ", step = [3, 0]}\n";
+      std::to_string(far) + ", step = [3, 0]}\n" + more;
   SyncConfig config = MakeSyncConfig("buffer", "rollback");
   config.shows_far = false;
   auto replica = std::make_unique<Replica>(ParseScene(text, "room.toml"), config, 1, 0);
@@ -47,6 +49,27 @@ TEST(TickWork, IsTheSameHoweverManyBodiesAreFar) {
   const std::int64_t few = Looks(10);
   EXPECT_GT(few, 0);
   EXPECT_EQ(Looks(2000), few);
+}
+
+/// Bytes that a tick asks for, of a room in which the own box has a wheel.
+double BytesWithJoint(int far) {
+  const std::unique_ptr<Replica> replica = RoomOf(
+      far,
+      "[[part]]\nname = \"wheel\"\ncircle = 0.2\nposition = [0, -0.8]\nspin = 3\n"
+      "[[joint]]\nname = \"axle\"\nkind = \"wheel\"\na = \"own\"\nb = \"wheel\"\nfrequency = 5\n");
+  for (int tick = 0; tick < 60; ++tick) replica->Step();
+  EXPECT_EQ(replica->world().present().size(), 3u);
+  constexpr int kTicks = 240;
+  const std::size_t before = AllocatedBytes();
+  for (int tick = 0; tick < kTicks; ++tick) replica->Step();
+  return static_cast<double>(AllocatedBytes() - before) / kTicks;
+}
+
+/// The exact solver is made anew at every barrier: of what takes part.
+TEST(TickWork, NextToJointsItAsksForNoMemoryForWhatIsFar) {
+  const double few = BytesWithJoint(10), many = BytesWithJoint(2010);
+  EXPECT_GT(few, 0);
+  EXPECT_LT((many - few) / 2000, 8) << "a number for each, at every second tick";
 }
 
 TEST(TickWork, OfWhatIsFarItBeginsWhereItsAuthorityPutsItNear) {
