@@ -95,7 +95,7 @@ Display::Display(const SyncConfig& config, World& world, BodyMemory& memory)
       delay_(config.send_every()),
       joints_(world),
       reckoner_(world, memory.snapshots(), joints_),
-      corrected_ticks_(world.composition().mechanisms.size(), 0),
+      corrected_until_(world.composition().mechanisms.size(), 0),
       far_(world.composition().mechanisms.size(), Nowhere()) {}
 
 /// What a person could see of a jump: of a wheel that spins, or did before, nobody can tell by how
@@ -113,7 +113,7 @@ BodyState Display::Visible(int body, BodyState jump) const {
 void Display::Moved(int body, const BodyState& by) {
   if (!Negligible(by)) on_corrected_(body);
   smoother_.Moved(body, Visible(body, by));
-  corrected_ticks_[static_cast<std::size_t>(world_.mechanism(body))] = kCorrectedTicks;
+  corrected_until_[static_cast<std::size_t>(world_.mechanism(body))] = glides_ + kCorrectedTicks;
 }
 
 void Display::Remap(const BodyRemap& change) {
@@ -122,7 +122,7 @@ void Display::Remap(const BodyRemap& change) {
   smoother_.Remap(from);
   joints_.Rebuild();
   seats_.Forget();
-  corrected_ticks_.assign(world_.composition().mechanisms.size(), 0);
+  corrected_until_.assign(world_.composition().mechanisms.size(), 0);
   far_.assign(world_.composition().mechanisms.size(), Nowhere());
   if (config_.mode == Mode::kOracle) return;  // the oracle hides nothing
   for (std::size_t body = 0; body < change.jumps.size(); ++body) {
@@ -131,7 +131,7 @@ void Display::Remap(const BodyRemap& change) {
 }
 
 void Display::Glide(const Roles& roles) {
-  for (int& corrected : corrected_ticks_) corrected = std::max(0, corrected - 1);
+  ++glides_;
   if (config_.smooth_rate <= 0) return;
   seats_.Look(world_);
   for (const int first : memory_.tended()) {
@@ -290,7 +290,7 @@ BodyState Display::AlongReckoned(int body, BodyState state) {
 
 bool Display::IsOff(int mechanism) const {
   const std::vector<int>& bodies = joints_.bodies(mechanism);
-  return corrected_ticks_[static_cast<std::size_t>(mechanism)] > 0 ||
+  return corrected_until_[static_cast<std::size_t>(mechanism)] > glides_ ||
          std::any_of(bodies.begin(), bodies.end(),
                      [&](int body) { return smoother_.active(body); });
 }

@@ -78,10 +78,11 @@ class Display {
   Reckoner reckoner_;
   SeatGlide seats_;
   std::function<void(int)> on_corrected_ = [](int) {};
-  std::vector<int> corrected_ticks_;  // by mechanism: how much longer it may be torn in physics
-  std::vector<MovingBox> far_;        // by mechanism: of what is parked, where it can have come to
+  std::int64_t glides_ = 0;                    // calls of Glide
+  std::vector<std::int64_t> corrected_until_;  // by mechanism: in glides, may be torn in physics
+  std::vector<MovingBox> far_;  // by mechanism: of what is parked, where it can have come to
   std::vector<int> driven_, leaving_, back_;  // bodies, in this Drive
-  mutable std::vector<BodyState> poses_;  // room for ShownPoses, by body
+  mutable std::vector<BodyState> poses_;      // room for ShownPoses, by body
 };
 
 }  // namespace seam
