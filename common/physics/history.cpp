@@ -19,13 +19,23 @@ void History::Begin(std::int64_t tick) {
   SEAM_ASSERT(tick >= 0 && (count_ == 0 || tick == newest_ + 1));
   newest_ = tick;
   count_ = std::min(count_ + 1, capacity_);
+  const int slot = static_cast<int>(tick % capacity_);
+  piece_ = slot / kPiece;
+  in_piece_ = slot % kPiece;
+}
+
+void History::Put(int body, const BodyState& state) {
+  SEAM_ASSERT(body >= 0 && body < bodies_ && count_ > 0);
+  std::unique_ptr<Piece>& piece = pieces_[static_cast<std::size_t>(body * pieces_each_ + piece_)];
+  if (piece == nullptr) piece = std::make_unique<Piece>();
+  (*piece)[static_cast<std::size_t>(in_piece_)] = state;
 }
 
 void History::Record(std::int64_t tick, const std::vector<BodyState>& states) {
   SEAM_ASSERT(static_cast<int>(states.size()) == bodies_);
   Begin(tick);
   for (int body = 0; body < bodies_; ++body) {
-    *At(tick, body) = states[static_cast<std::size_t>(body)];
+    Put(body, states[static_cast<std::size_t>(body)]);
   }
 }
 
@@ -57,6 +67,8 @@ void History::Remap(const std::vector<BodyOrigin>& origins, const std::vector<Bo
   std::swap(*this, then);
   count_ = then.count_;
   newest_ = then.newest_;
+  piece_ = then.piece_;
+  in_piece_ = then.in_piece_;
   for (std::int64_t tick = oldest(); count_ > 0 && tick <= newest_; ++tick) {
     for (int body = 0; body < bodies_; ++body) {
       const BodyOrigin& origin = origins[static_cast<std::size_t>(body)];

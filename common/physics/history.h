@@ -22,6 +22,8 @@ class History {
   /// Begins a tick of which no body's state is noted yet: At(tick, body) is what it was long ago
   /// until it is written. Requires the same.
   void Begin(std::int64_t tick);
+  /// Notes a body's state after the newest tick. Requires that there is one.
+  void Put(int body, const BodyState& state);
   /// nullptr when the tick is not in the ring.
   const BodyState* At(std::int64_t tick, int body) const;
   BodyState* At(std::int64_t tick, int body);
@@ -50,6 +52,7 @@ class History {
   int pieces_each_ = 0;  // of a body
   int count_ = 0;
   std::int64_t newest_ = -1;
+  int piece_ = 0, in_piece_ = 0;  // where the newest tick is, of each body
   std::vector<std::unique_ptr<Piece>> pieces_;
 };
 

@@ -58,7 +58,7 @@ void BodyMemory::NoteContacts(const AuthorityTable& table) {
 
 void BodyMemory::Record() {
   history_.Begin(world_.tick());
-  for (const int body : tended_) *history_.At(world_.tick(), body) = world_.Read(body);
+  for (const int body : tended_) history_.Put(body, world_.Read(body));
 }
 
 /// All of them.

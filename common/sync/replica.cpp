@@ -61,7 +61,7 @@ void Replica::Step() {
   const std::int64_t next = tick() + 1;
   replay_.Run();
   ApplyInputs(next);
-  if (presence_.LookIfAsked()) corrector_.FollowRoles(memory_.tended());
+  if (presence_.LookIfAsked()) corrector_.FollowRoles(BodiesOf(presence_.changed()));
   display_.Drive(next, presence_.around());
   corrector_.PullCopies();
   rest_.BeforeStep();
@@ -76,7 +76,7 @@ void Replica::Step() {
   QueueAppointed();
   scheduler_.Collect();
   memory_.Record();
-  if (presence_.LookIfDue()) corrector_.FollowRoles(memory_.tended());
+  if (presence_.LookIfDue()) corrector_.FollowRoles(BodiesOf(presence_.changed()));
   replay_.TakeBarrier();
   display_.Glide(roles_);
   corrector_.ReceiveWaiting();

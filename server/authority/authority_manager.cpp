@@ -91,9 +91,20 @@ std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const Situatio
 void AuthorityManager::Plan(std::int64_t now_us, const Situation& situation) {
   Look(situation);
   LookAtCapacity(now_us, situation, &view_);
-  plan_ = PlanAuthority(view_);
+  const auto limited = [](const PlayerView& p) { return p.limited(); };
+  limited_ = std::any_of(view_.players.begin(), view_.players.end(), limited);
+  if (limited_ && view_.left_out > 0) {  // it may be asked to step any of it
+    Look(situation);
+    LookAtCapacity(now_us, situation, &view_);
+  }
+  const AuthorityPlan plan = PlanAuthority(view_);
+  // Of what was left out, plan and record are the server's alone: see MayLie.
+  plan_.resize(static_cast<std::size_t>(table().count()));
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    plan_[static_cast<std::size_t>(seen_[i])] = plan[i];
+  }
   replica_.LeaveUnwatched(Unwatched(view_), Doubtful(view_));
-  for (int m = 0; m < table().count(); ++m) {
+  for (const int m : seen_) {
     const PlannedAuthority& planned = plan_[static_cast<std::size_t>(m)];
     const AuthorityRecord& record = table().at(m);
     const bool same = planned.authority == record.authority &&
@@ -105,6 +116,7 @@ void AuthorityManager::Plan(std::int64_t now_us, const Situation& situation) {
 
 void AuthorityManager::Open(int m) {
   Memory& memory = memory_[static_cast<std::size_t>(m)];
+  if (lying_.size() > 0) lying_.Take(m);
   if (memory.open) return;
   memory.open = true;
   sort_open_ = sort_open_ || (!open_.empty() && open_.back() > m);
@@ -280,6 +292,7 @@ void AuthorityManager::Remap(const std::vector<std::vector<int>>& from) {
   open_.clear();
   for (Memory& each : memory_) each.open = false;
   restricted_ = RestrictedParts(replica_.world().scene());
+  lying_.Clear(0);
   plan_due_ = true;
 }
 

@@ -8,6 +8,7 @@
 
 #include "common/sync/replica.h"
 #include "server/authority/capacity_watch.h"
+#include "server/authority/lying.h"
 #include "server/authority/plan.h"
 
 namespace seam {
@@ -122,7 +123,22 @@ class AuthorityManager {
   const AuthorityTable& table() const { return replica_.authority(); }
   /// Fills in what planning sees (authority_view.cpp).
   void Look(const Situation& situation);
+  void LookAtPlayers(const Situation& situation, AuthorityView* view) const;
   void LookAtMechanisms(AuthorityView* view);
+  void LookAtMechanism(int m, AuthorityView* view);
+  void LookAtBoxes(AuthorityView* view) const;
+  /// Whether the view may be without what lies far from all else.
+  bool LeavesOut(const AuthorityView& view) const;
+  /// Chooses what the view is of (authority_lying.cpp).
+  void SeeAll();
+  void SeeWithoutLying(const AuthorityView& view);
+  bool MayLie(int m) const;
+  bool Lies(int m) const;
+  void PutLying(int m);
+  /// A mechanism's index in the view; -1: left out.
+  int PlaceOf(int m) const;
+  template <class Visit>
+  void EachBody(int m, const Visit& visit) const;
   void LookAtCapacity(std::int64_t now_us, const Situation& situation, AuthorityView* view);
   void Plan(std::int64_t now_us, const Situation& situation);
   /// By mechanism, as it is planned: 1 where what sleeps here becomes somebody's before anything
@@ -152,6 +168,14 @@ class AuthorityManager {
   const bool islands_;
   AuthorityPlan plan_;  // the last one
   AuthorityView view_;  // what it saw: its memory is used again
+  std::vector<int> seen_;  // mechanisms that it is of, ascending
+  bool limited_ = false;   // somebody's capacity is, in the last plan
+  Lying lying_;
+  struct Pose {
+    Vec2 position{0, 0};
+    float angle = 0;
+  };
+  std::vector<Pose> lay_;  // by body: where what lies began to
   CapacityWatch capacity_;
   std::vector<int> restricted_;  // parts that not everybody may push
   bool sort_open_ = false;

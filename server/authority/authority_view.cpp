@@ -43,7 +43,30 @@ void AuthorityManager::Look(const Situation& situation) {
   view.islands = islands_;
   view.rules = *scene_.planner;
   view.together = situation.together;
-  view.players.reserve(scene_.players.size());
+  LookAtPlayers(situation, &view);
+  LeavesOut(view) ? SeeWithoutLying(view) : SeeAll();
+  for (std::vector<int>& mechanisms : view.together) {
+    for (int& m : mechanisms) m = PlaceOf(m);
+  }
+  LookAtMechanisms(&view);
+  const bool boxes = config_.mode == Mode::kBuffer || (islands_ && config_.mode == Mode::kStrict);
+  if (boxes) LookAtBoxes(&view);
+  view.left_out = seen_.size() < memory_.size()
+                      ? static_cast<std::size_t>(replica_.world().body_count()) - view.boxes.size()
+                      : 0;
+  // Who may not push a part does not get its authority.
+  const World& world = replica_.world();
+  for (const int id : restricted_) {
+    const int mechanism = MechanismOf(world, static_cast<PartId>(id));
+    const int place = mechanism < 0 ? -1 : PlaceOf(mechanism);
+    if (place < 0) continue;
+    view.mechanisms[static_cast<std::size_t>(place)].may_have &=
+        world.scene().parts[static_cast<std::size_t>(id)].rules->push;
+  }
+}
+
+void AuthorityManager::LookAtPlayers(const Situation& situation, AuthorityView* view) const {
+  view->players.reserve(scene_.players.size());
   for (std::size_t p = 0; p < scene_.players.size(); ++p) {
     const Player& player = scene_.players[p];
     PlayerView seen;
@@ -53,19 +76,8 @@ void AuthorityManager::Look(const Situation& situation) {
     seen.region_min = player.region_min;
     seen.region_max = player.region_max;
     seen.silent = situation.silent.Has(std::max(0, seen.peer));
-    if (view.rules.capacity > 0) seen.capacity = view.rules.capacity;
-    view.players.push_back(seen);
-  }
-  const World& world = replica_.world();
-  LookAtMechanisms(&view);
-  const bool boxes = config_.mode == Mode::kBuffer || (islands_ && config_.mode == Mode::kStrict);
-  if (boxes) view.boxes = BoxesOf(world, replica_.drivers(), true);
-  // Who may not push a part does not get its authority.
-  for (const int id : restricted_) {
-    const int mechanism = MechanismOf(world, static_cast<PartId>(id));
-    if (mechanism < 0) continue;
-    view.mechanisms[static_cast<std::size_t>(mechanism)].may_have &=
-        world.scene().parts[static_cast<std::size_t>(id)].rules->push;
+    if (view->rules.capacity > 0) seen.capacity = view->rules.capacity;
+    view->players.push_back(seen);
   }
 }
 
@@ -89,44 +101,56 @@ void AuthorityManager::LookAtCapacity(std::int64_t now_us, const Situation& situ
 }
 
 void AuthorityManager::LookAtMechanisms(AuthorityView* view) {
-  const World& world = replica_.world();
-  view->mechanisms.reserve(static_cast<std::size_t>(table().count()));
-  for (int m = 0; m < table().count(); ++m) {
-    const Mechanism& mechanism = world.composition().mechanisms[static_cast<std::size_t>(m)];
-    Memory& memory = memory_[static_cast<std::size_t>(m)];
-    MechanismView seen;
-    const int root = world.BodyOfId(mechanism.id);
-    const BodyState state = world.Read(root);
-    seen.position = state.position;
-    seen.owner = seen.driver = mechanism.owner;
-    seen.moves = world.awake(root) && state.velocity.norm() > kMissed;
-    seen.asleep = !world.awake(root);
-    seen.now = table().at(m);
-    if (seen.now.authority != memory.last_authority) {
-      memory.last_authority = seen.now.authority;
-      memory.changed_tick = world.tick();
-    }
-    seen.held_ticks = world.tick() - memory.changed_tick;
-    if (seen.now.authority == 0) memory.contested = 0;
-    seen.contested = memory.contested;
-    seen.decided = static_cast<std::size_t>(m) < plan_.size() &&
-                   plan_[static_cast<std::size_t>(m)].decided;
-    view->mechanisms.push_back(seen);
-  }
+  view->mechanisms.reserve(seen_.size());
+  for (const int m : seen_) LookAtMechanism(m, view);
   if (!islands_) return;
   for (int p = 0; p < static_cast<int>(view->players.size()); ++p) {
     for (const int m : replica_.drivers().MechanismsOf(p)) {
-      MechanismView& seen = view->mechanisms[static_cast<std::size_t>(m)];
+      const int place = PlaceOf(m);
+      if (place < 0) continue;
+      MechanismView& seen = view->mechanisms[static_cast<std::size_t>(place)];
       if (seen.driver < 0 && replica_.drivers().Driven(m)) seen.driver = p;
     }
   }
 }
 
+void AuthorityManager::LookAtMechanism(int m, AuthorityView* view) {
+  const World& world = replica_.world();
+  const Mechanism& mechanism = world.composition().mechanisms[static_cast<std::size_t>(m)];
+  Memory& memory = memory_[static_cast<std::size_t>(m)];
+  MechanismView seen;
+  const int root = world.BodyOfId(mechanism.id);
+  const BodyState state = world.Read(root);
+  seen.position = state.position;
+  seen.owner = seen.driver = mechanism.owner;
+  seen.moves = world.awake(root) && state.velocity.norm() > kMissed;
+  seen.asleep = !world.awake(root);
+  seen.now = table().at(m);
+  if (seen.now.authority != memory.last_authority) {
+    memory.last_authority = seen.now.authority;
+    memory.changed_tick = world.tick();
+  }
+  seen.held_ticks = world.tick() - memory.changed_tick;
+  if (seen.now.authority == 0) memory.contested = 0;
+  seen.contested = memory.contested;
+  seen.decided =
+      static_cast<std::size_t>(m) < plan_.size() && plan_[static_cast<std::size_t>(m)].decided;
+  view->mechanisms.push_back(seen);
+}
+
 std::vector<char> AuthorityManager::Unwatched(const AuthorityView& view) const {
-  std::vector<char> unwatched(view.mechanisms.size(), 0);
+  std::vector<char> unwatched(memory_.size(), 0);
   if (!view.islands) return unwatched;
-  for (std::size_t m = 0; m < unwatched.size(); ++m) {
-    const MechanismView& seen = view.mechanisms[m];
+  if (view.left_out > 0) {
+    std::fill(unwatched.begin(), unwatched.end(), char{1});  // what is left out lies
+    for (const int id : restricted_) {
+      const int m = MechanismOf(replica_.world(), static_cast<PartId>(id));
+      if (m >= 0) unwatched[static_cast<std::size_t>(m)] = 0;
+    }
+  }
+  for (std::size_t i = 0; i < seen_.size(); ++i) {
+    const auto m = static_cast<std::size_t>(seen_[i]);
+    const MechanismView& seen = view.mechanisms[i];
     const bool free = seen.asleep && seen.may_have.everyone();
     unwatched[m] = free && plan_[m].authority == 0 && seen.now.authority == 0 ? 1 : 0;
   }

@@ -3,6 +3,7 @@
 /// pure function of what planning looks at. By the rectangles that the scene fixes
 /// (plan_rectangles.cpp), or by contact islands around the players (plan_islands.cpp).
 
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -52,7 +53,8 @@ struct MechanismView {
   bool decided = false;  ///< in the last plan
 };
 
-/// All that planning looks at. The memory of when what changed (dwell) is in it too, as data.
+/// All that planning looks at; indices of mechanisms are into `mechanisms`. The memory of when what
+/// changed (dwell) is in it too, as data.
 struct AuthorityView {
   Mode mode = Mode::kBuffer;
   int tick_hz = 60;
@@ -66,7 +68,9 @@ struct AuthorityView {
   PlannerRules rules;          ///< of islands; and how long authority lasts at least
   std::vector<PlayerView> players;
   std::vector<MechanismView> mechanisms;
-  std::vector<MovingBox> boxes;  ///< of all bodies; group: the mechanism's index
+  std::vector<MovingBox> boxes;  ///< of all their bodies; group: the mechanism's index
+  /// Bodies of the room that are left out: the server's, asleep, near nothing else (Lying).
+  std::size_t left_out = 0;
   /// Mechanisms that an edit is about to join: those of each entry should be in one hand.
   std::vector<std::vector<int>> together;
 };

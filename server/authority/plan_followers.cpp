@@ -22,7 +22,8 @@ class Followers {
       : view_(view),
         plan_(*plan),
         players_(view),
-        crowded_(view.boxes.size() > static_cast<std::size_t>(std::max(0, view.follow_bodies))),
+        room_(view.boxes.size() + view.left_out),
+        crowded_(room_ > static_cast<std::size_t>(std::max(0, view.follow_bodies))),
         bodies_(plan->size(), 0),
         steps_(view.players.size(), 0),
         own_begin_(view.players.size() + 1, 0),
@@ -44,9 +45,8 @@ class Followers {
       FindWays();
       FollowTouching();
     }
-    const auto all = static_cast<int>(view_.boxes.size());
     for (std::size_t p = 0; p < view_.players.size(); ++p) {
-      const bool has_all = steps_[p] == all && !limited(p);
+      const bool has_all = steps_[p] == static_cast<int>(view_.boxes.size()) && !limited(p);
       if (view_.players[p].peer > 0 && !has_all) FollowNear(p);
     }
   }
@@ -105,7 +105,7 @@ class Followers {
     for (const PlayerView& player : view_.players) {
       if (player.silent && player.peer > 0) silent.Add(player.peer);
     }
-    const bool small = view_.boxes.size() <= static_cast<std::size_t>(view_.server_follow);
+    const bool small = room_ <= static_cast<std::size_t>(view_.server_follow);
     for (std::size_t m = 0; m < plan_.size(); ++m) {
       PlannedAuthority& of = plan_[m];
       const bool follows = view_.mechanisms[m].now.secondaries.Has(0);
@@ -262,8 +262,7 @@ class Followers {
       }
       return;
     }
-    constexpr float kRounding = 0.1f;
-    const Vec2 reach(near + kRounding, near + kRounding);
+    const Vec2 reach = Vec2::Constant(near + 0.1f);  // m, for rounding
     if (any) grid_->Near(all.min - reach, all.max + reach, from_own);
     if (player.has_region) {
       grid_->Near(region.min - reach, region.max + reach, from_region);
@@ -323,6 +322,7 @@ class Followers {
   const AuthorityView& view_;
   AuthorityPlan& plan_;
   const PlayerOfPeer players_;
+  const std::size_t room_;  // bodies
   const bool crowded_;
   std::vector<int> bodies_;                   // by mechanism
   std::vector<int> steps_;                    // by player: bodies of what it has and follows

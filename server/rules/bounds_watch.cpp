@@ -1,10 +1,17 @@
 #include "server/rules/bounds_watch.h"
 
+#include <algorithm>
 #include <set>
 
 #include "common/physics/part_places.h"
 
 namespace seam {
+namespace {
+
+/// Of a room of more bodies than kAtOnce, what is absent is looked at once in kParts ticks.
+constexpr int kAtOnce = 256, kParts = 30;
+
+}  // namespace
 
 bool OutsideBounds(const Scene& scene, const Vec2& position) {
   return (position.array() < scene.bounds_min.array()).any() ||
@@ -21,9 +28,16 @@ std::vector<Edit> BoundsWatch::Next(const std::vector<int>& told) {
   const Scene& scene = world.scene();
   std::set<int> leaving;
   for (const int body : told) leaving.insert(world.mechanism(body));
-  for (int b = 0; b < world.body_count(); ++b) {
-    if (!IsOurs(b) || !OutsideBounds(scene, world.Read(b).position)) continue;
+  const auto look = [&](int b) {
+    if (!IsOurs(b) || !OutsideBounds(scene, world.Read(b).position)) return;
     leaving.insert(world.mechanism(b));
+  };
+  for (const int b : world.present()) look(b);
+  // What is absent does not go far by itself.
+  const int count = world.body_count(), each = count <= kAtOnce ? count : 1 + count / kParts;
+  const int first = each == count ? 0 : static_cast<int>(world.tick() % kParts) * each;
+  for (int b = first; b < std::min(count, first + each); ++b) {
+    if (world.motion(b) == Motion::kAbsent) look(b);
   }
   std::vector<Edit> edits;
   if (leaving.empty()) return edits;

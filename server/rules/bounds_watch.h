@@ -23,6 +23,7 @@ class BoundsWatch {
   /// To be called once after each tick. `told`: bodies of which their authorities say that they are
   /// outside. The removals of parts that are due now, at most kPartsMax; those asked for in the
   /// last kAgainSeconds, which may still wait for their order, are not among them.
+  /// What is absent in a large room is looked at twice a second.
   std::vector<Edit> Next(const std::vector<int>& told);
   /// To be called with each edit that was applied.
   void NoteApplied(const Edit& edit);

@@ -217,10 +217,15 @@ void Presence::Look() {
     const float seconds = kNearSeconds + (near_[m] != 0 ? kNearKeep : 0);
     if (there.MayMeetAny(FreeBoxOf(world_, body), seconds)) near[m] = 1;
   }
+  const std::vector<std::int32_t> idle = idle_;
   FindIdle(needed);
   // What is simulated would be near if it ceased to be.
   for (const int body : world_.present()) {
     if (roles_.Simulates(body)) near[static_cast<std::size_t>(world_.mechanism(body))] = 1;
+  }
+  changed_.clear();
+  for (std::size_t m = 0; m < near.size(); ++m) {
+    if (near[m] != near_[m] || idle_[m] != idle[m]) changed_.push_back(static_cast<int>(m));
   }
   near_ = std::move(near);
 }

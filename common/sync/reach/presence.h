@@ -33,6 +33,8 @@ class Presence {
   bool LookIfAsked();
   /// What moves has begun to be simulated here: it may be near what was not needed until now.
   void Ask() { asked_ = true; }
+  /// Mechanisms of which the last look has another answer than the one before; ascending.
+  const std::vector<int>& changed() const { return changed_; }
   /// Whether a mechanism that is only displayed has to be there.
   bool Near(int mechanism) const { return near_[static_cast<std::size_t>(mechanism)] != 0; }
   /// Whether a mechanism is this peer's own, at rest, and nothing needs it to be there.
@@ -93,6 +95,7 @@ class Presence {
   bool asked_ = false;                      // see Ask
   std::vector<std::int32_t> idle_;          // by mechanism: its epoch then; kNotIdle
   std::vector<std::int64_t> needed_until_;  // by mechanism: tick, see Need
+  std::vector<int> changed_;
   MovingBox around_;
 };
 

@@ -1,0 +1,137 @@
+/// AuthorityManager: which mechanisms a plan is of. In a large room those that lie asleep far from
+/// all else are left out: they stay the server's, and nobody follows them.
+
+#include <algorithm>
+#include <numeric>
+#include <vector>
+
+#include "common/scene/mechanism_ids.h"
+#include "common/sync/reach/reach.h"
+#include "server/authority/authority_manager.h"
+
+namespace seam {
+namespace {
+
+std::vector<MovingBox> BoxesOf(const Replica& replica, const std::vector<int>& bodies) {
+  std::vector<MovingBox> boxes;
+  boxes.reserve(bodies.size());
+  for (const int body : bodies) {
+    boxes.push_back(BoxOf(replica.world(), body));
+    if (replica.drivers().Driven(boxes.back().group)) {
+      boxes.back().acceleration = kDrivenAcceleration;
+    }
+  }
+  return boxes;
+}
+
+}  // namespace
+
+template <class Visit>
+void AuthorityManager::EachBody(int m, const Visit& visit) const {
+  const World& world = replica_.world();
+  EachIdOf(world.composition(), m, [&](PartId id) { visit(world.BodyOfId(id)); });
+}
+
+bool AuthorityManager::LeavesOut(const AuthorityView& view) const {
+  const int whole = std::max(view.follow_bodies, view.server_follow);
+  return view.islands && view.mode == Mode::kBuffer && !view.exact && !limited_ &&
+         view.rules.capacity == 0 && replica_.world().body_count() > whole;
+}
+
+void AuthorityManager::SeeAll() {
+  seen_.resize(memory_.size());
+  std::iota(seen_.begin(), seen_.end(), 0);
+}
+
+/// Whether it has been planned to be the server's alone, is, and nobody can drive it.
+bool AuthorityManager::MayLie(int m) const {
+  const auto i = static_cast<std::size_t>(m);
+  const Memory& memory = memory_[i];
+  const AuthorityRecord& record = table().at(m);
+  if (i >= plan_.size() || memory.open || memory.hand_over != HandOver::kNone) return false;
+  if (record.authority != 0 || memory.last_authority != 0 || memory.contested != 0) return false;
+  const PlannedAuthority& planned = plan_[i];
+  return planned.authority == 0 && !planned.decided && planned.secondaries.empty() &&
+         record.secondaries.empty() && replica_.world().composition().mechanisms[i].owner < 0 &&
+         !replica_.drivers().Driven(m);
+}
+
+/// Whether all of it sleeps, and what lies has not been moved.
+bool AuthorityManager::Lies(int m) const {
+  const World& world = replica_.world();
+  const bool lay = lying_.Has(m);
+  bool lies = !replica_.drivers().Driven(m);
+  EachBody(m, [&](int body) {
+    if (!lies) return;
+    lies = !world.awake(body);
+    if (!lies) return;
+    const BodyState now = world.Read(body);
+    const Pose& then = lay_[static_cast<std::size_t>(body)];
+    lies = lay ? now.position == then.position && now.angle == then.angle
+               : now.velocity == Vec2(0, 0) && now.spin == 0;
+  });
+  return lies;
+}
+
+void AuthorityManager::PutLying(int m) {
+  const World& world = replica_.world();
+  MovingBox around;
+  bool first = true;
+  EachBody(m, [&](int body) {
+    const BodyState state = world.Read(body);
+    lay_[static_cast<std::size_t>(body)] = {state.position, state.angle};
+    const MovingBox box = BoxOf(world, body);
+    around.min = first ? box.min : around.min.cwiseMin(box.min);
+    around.max = first ? box.max : around.max.cwiseMax(box.max);
+    first = false;
+  });
+  lying_.Put(m, around);
+}
+
+void AuthorityManager::SeeWithoutLying(const AuthorityView& view) {
+  if (lying_.size() != memory_.size()) {
+    lying_.Clear(memory_.size());
+    lay_.assign(static_cast<std::size_t>(replica_.world().body_count()), {});
+  }
+  seen_.clear();
+  std::vector<int> bodies, joined;
+  for (const std::vector<int>& mechanisms : view.together) {
+    joined.insert(joined.end(), mechanisms.begin(), mechanisms.end());
+  }
+  for (const int m : joined) lying_.Take(m);
+  for (int m = 0; m < static_cast<int>(memory_.size()); ++m) {
+    if (lying_.Has(m)) {
+      if (Lies(m)) continue;
+      lying_.Take(m);
+    } else if (MayLie(m) && Lies(m) && std::count(joined.begin(), joined.end(), m) == 0) {
+      PutLying(m);
+      continue;
+    }
+    seen_.push_back(m);
+    EachBody(m, [&](int body) { bodies.push_back(body); });
+  }
+  const std::vector<int> near = lying_.Near(BoxesOf(replica_, bodies), SightOf(view));
+  const auto middle = static_cast<std::ptrdiff_t>(seen_.size());
+  seen_.insert(seen_.end(), near.begin(), near.end());
+  std::inplace_merge(seen_.begin(), seen_.begin() + middle, seen_.end());
+}
+
+void AuthorityManager::LookAtBoxes(AuthorityView* view) const {
+  if (seen_.size() == memory_.size()) {
+    view->boxes = seam::BoxesOf(replica_.world(), replica_.drivers(), true);
+    return;
+  }
+  std::vector<int> bodies;
+  for (const int m : seen_) EachBody(m, [&](int body) { bodies.push_back(body); });
+  std::sort(bodies.begin(), bodies.end());
+  view->boxes = BoxesOf(replica_, bodies);
+  for (MovingBox& box : view->boxes) box.group = PlaceOf(box.group);
+}
+
+int AuthorityManager::PlaceOf(int m) const {
+  if (seen_.size() == memory_.size()) return m;
+  const auto at = std::lower_bound(seen_.begin(), seen_.end(), m);
+  return at == seen_.end() || *at != m ? -1 : static_cast<int>(at - seen_.begin());
+}
+
+}  // namespace seam
