@@ -12,6 +12,10 @@
 namespace seam {
 namespace {
 
+/// Where more than half of a room has to be seen, so many plans see all of it: to look for what
+/// lies would cost more than it saves.
+constexpr int kSeeAll = 10;
+
 std::vector<MovingBox> BoxesOf(const Replica& replica, const std::vector<int>& bodies) {
   std::vector<MovingBox> boxes;
   boxes.reserve(bodies.size());
@@ -32,7 +36,11 @@ void AuthorityManager::EachBody(int m, const Visit& visit) const {
   EachIdOf(world.composition(), m, [&](PartId id) { visit(world.BodyOfId(id)); });
 }
 
-bool AuthorityManager::LeavesOut(const AuthorityView& view) const {
+bool AuthorityManager::LeavesOut(const AuthorityView& view) {
+  if (see_all_ > 0) {
+    --see_all_;
+    return false;
+  }
   const int whole = std::max(view.follow_bodies, view.server_follow);
   return view.islands && view.mode == Mode::kBuffer && !view.exact && !limited_ &&
          view.rules.capacity == 0 && replica_.world().body_count() > whole;
@@ -114,6 +122,7 @@ void AuthorityManager::SeeWithoutLying(const AuthorityView& view) {
   const auto middle = static_cast<std::ptrdiff_t>(seen_.size());
   seen_.insert(seen_.end(), near.begin(), near.end());
   std::inplace_merge(seen_.begin(), seen_.begin() + middle, seen_.end());
+  if (2 * seen_.size() > memory_.size()) see_all_ = kSeeAll;
 }
 
 void AuthorityManager::LookAtBoxes(AuthorityView* view) const {

@@ -128,7 +128,7 @@ class AuthorityManager {
   void LookAtMechanism(int m, AuthorityView* view);
   void LookAtBoxes(AuthorityView* view) const;
   /// Whether the view may be without what lies far from all else.
-  bool LeavesOut(const AuthorityView& view) const;
+  bool LeavesOut(const AuthorityView& view);
   /// Chooses what the view is of (authority_lying.cpp).
   void SeeAll();
   void SeeWithoutLying(const AuthorityView& view);
@@ -170,6 +170,7 @@ class AuthorityManager {
   AuthorityView view_;  // what it saw: its memory is used again
   std::vector<int> seen_;  // mechanisms that it is of, ascending
   bool limited_ = false;   // somebody's capacity is, in the last plan
+  int see_all_ = 0;        // so many more plans see all: most of it is awake
   Lying lying_;
   struct Pose {
     Vec2 position{0, 0};
