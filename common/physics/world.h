@@ -119,6 +119,9 @@ class World {
   /// move is small; bit-equal values change nothing.
   void Write(int body, const BodyState& state, bool wake = true);
   bool awake(int body) const;
+  /// Of what is absent and sleeps, a number that is another one once it may have been moved or
+  /// woken; 0 of all else. Asks for no look at the body itself.
+  std::uint64_t still(int body) const;
   void SetAwake(int body, bool awake);
 
   /// The velocity of bodies that are not dynamic is that of `position`, not of the centre of mass.

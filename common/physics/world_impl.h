@@ -137,6 +137,7 @@ struct World::Impl {
     const auto i = static_cast<std::size_t>(body);
     stale[i / kept.kPage] = 1;
     changed[i] = 1;
+    stamps[i] = ++last_stamp;
   }
   /// A body that is aside was changed.
   void NoteAside(int body);
@@ -175,7 +176,9 @@ struct World::Impl {
   std::vector<char> noted_awake;       // by moving body: it is in awake_aside
   Paged<WorldSnapshot::Body> kept;     // of the last Keep
   std::vector<char> stale;             // by page of `kept`: what it tells of may have changed since
-  std::vector<char> changed;  // by moving body of such a page: it may have; else it has not
+  std::vector<char> changed;          // by moving body of such a page: it may have; else it has not
+  std::vector<std::uint64_t> stamps;  // by moving body: another each time that it may have changed
+  std::uint64_t last_stamp = 0;
   struct Contacts {
     BodyState pose;
     std::vector<WorldSnapshot::Point> points;

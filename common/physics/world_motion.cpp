@@ -121,6 +121,7 @@ void World::Impl::ForgetPages() {
   kept.Resize(built.moving.size());
   stale.assign(kept.page_count(), 1);
   changed.assign(kept.size(), 1);
+  stamps.assign(kept.size(), ++last_stamp);
 }
 
 void World::Impl::NoteAside(int body) {
@@ -138,6 +139,14 @@ void World::Impl::NoteAllAside() {
 
 void World::Impl::NotePresent() {
   for (const int body : present) NoteChanged(body);
+}
+
+std::uint64_t World::still(int body) const {
+  const auto i = static_cast<std::size_t>(body);
+  SEAM_ASSERT(body >= 0 && i < impl_->motions.size());
+  const bool aside = impl_->motions[i] == Motion::kAbsent && i < impl_->memory.absent.size() &&
+                     impl_->memory.absent[i] != 0;
+  return aside && impl_->noted_awake[i] == 0 ? impl_->stamps[i] : 0;
 }
 
 Motion World::motion(int body) const {

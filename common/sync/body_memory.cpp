@@ -58,12 +58,22 @@ void BodyMemory::NoteContacts(const AuthorityTable& table) {
 
 void BodyMemory::Record() {
   history_.Begin(world_.tick());
-  for (const int body : tended_) history_.Put(body, world_.Read(body));
+  const int all = kHistory * config_.tick_hz;
+  for (const int body : tended_) {
+    // What has lain still for as long as the past is noted has the same past at every tick.
+    Noted& noted = noted_[static_cast<std::size_t>(body)];
+    const std::uint64_t still = world_.still(body);
+    if (still == 0 || noted.still != still) noted = {still, 0};
+    if (noted.ticks == all) continue;
+    if (still != 0) ++noted.ticks;
+    history_.Put(body, world_.Read(body));
+  }
 }
 
 /// All of them.
 void BodyMemory::Tend() {
   parked_.assign(bodies_.size(), {});
+  noted_.assign(bodies_.size(), {});
   news_.clear();
   tended_.resize(bodies_.size());
   std::iota(tended_.begin(), tended_.end(), 0);
@@ -86,6 +96,7 @@ void BodyMemory::Unpark(int body) {
   if (!parked(body)) return;
   FillPast(body);
   parked_[static_cast<std::size_t>(body)].since = -1;
+  noted_[static_cast<std::size_t>(body)] = {};
   tended_.insert(std::lower_bound(tended_.begin(), tended_.end(), body), body);
 }
 

@@ -113,6 +113,11 @@ class BodyMemory {
   };
   void Tend();
   void FillPast(int body);
+  struct Noted {
+    std::uint64_t still = 0;  // World::still when it was last recorded
+    int ticks = 0;            // recorded in a row with that
+  };
+  std::vector<Noted> noted_;    // by body
   std::vector<Parked> parked_;  // by body
   std::vector<int> tended_, news_;
 };

@@ -64,19 +64,20 @@ bool AuthorityManager::MayLie(int m) const {
          !replica_.drivers().Driven(m);
 }
 
-/// Whether all of it sleeps, and what lies has not been moved.
-bool AuthorityManager::Lies(int m) const {
+/// Whether all of it sleeps, and what lies has not been moved since.
+bool AuthorityManager::Lies(int m) {
   const World& world = replica_.world();
   const bool lay = lying_.Has(m);
   bool lies = !replica_.drivers().Driven(m);
   EachBody(m, [&](int body) {
-    if (!lies) return;
-    lies = !world.awake(body);
-    if (!lies) return;
+    Lay& then = lay_[static_cast<std::size_t>(body)];
+    const std::uint64_t still = world.still(body);
+    if (!lies || (lay && still != 0 && still == then.still)) return;
     const BodyState now = world.Read(body);
-    const Pose& then = lay_[static_cast<std::size_t>(body)];
-    lies = lay ? now.position == then.position && now.angle == then.angle
-               : now.velocity == Vec2(0, 0) && now.spin == 0;
+    const bool there = lay ? now.position == then.position && now.angle == then.angle
+                           : now.velocity == Vec2(0, 0) && now.spin == 0;
+    lies = there && !world.awake(body);
+    then.still = still;
   });
   return lies;
 }
@@ -87,7 +88,7 @@ void AuthorityManager::PutLying(int m) {
   bool first = true;
   EachBody(m, [&](int body) {
     const BodyState state = world.Read(body);
-    lay_[static_cast<std::size_t>(body)] = {state.position, state.angle};
+    lay_[static_cast<std::size_t>(body)] = {world.still(body), state.position, state.angle};
     const MovingBox box = BoxOf(world, body);
     around.min = first ? box.min : around.min.cwiseMin(box.min);
     around.max = first ? box.max : around.max.cwiseMax(box.max);

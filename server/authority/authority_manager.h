@@ -133,7 +133,7 @@ class AuthorityManager {
   void SeeAll();
   void SeeWithoutLying(const AuthorityView& view);
   bool MayLie(int m) const;
-  bool Lies(int m) const;
+  bool Lies(int m);
   void PutLying(int m);
   /// A mechanism's index in the view; -1: left out.
   int PlaceOf(int m) const;
@@ -166,17 +166,18 @@ class AuthorityManager {
   Replica& replica_;
   const bool physics_edits_;
   const bool islands_;
-  AuthorityPlan plan_;  // the last one
-  AuthorityView view_;  // what it saw: its memory is used again
+  AuthorityPlan plan_;     // the last one
+  AuthorityView view_;     // what it saw: its memory is used again
   std::vector<int> seen_;  // mechanisms that it is of, ascending
   bool limited_ = false;   // somebody's capacity is, in the last plan
   int see_all_ = 0;        // so many more plans see all: most of it is awake
   Lying lying_;
-  struct Pose {
+  struct Lay {
+    std::uint64_t still = 0;  // World::still
     Vec2 position{0, 0};
     float angle = 0;
   };
-  std::vector<Pose> lay_;  // by body: where what lies began to
+  std::vector<Lay> lay_;  // by body of what lies
   CapacityWatch capacity_;
   std::vector<int> restricted_;  // parts that not everybody may push
   bool sort_open_ = false;

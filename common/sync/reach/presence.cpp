@@ -101,6 +101,7 @@ void Presence::Remap() {
   idle_.assign(near_.size(), kNotIdle);
   needed_until_.assign(near_.size(), -1);
   may_idle_ = MayIdle(world_);
+  rested_.assign(static_cast<std::size_t>(world_.body_count()), {});
   around_.min.setConstant(-1e9f);
   around_.max.setConstant(1e9f);
 }
@@ -177,6 +178,14 @@ void Presence::FindIdle(const std::vector<char>& needed) {
   }
 }
 
+/// Worked out once for as long as it lies there.
+const MovingBox& Presence::BoxOfResting(int body) {
+  Rested& rested = rested_[static_cast<std::size_t>(body)];
+  const std::uint64_t still = world_.still(body);
+  if (still == 0 || rested.still != still) rested = {still, BoxOf(world_, body)};
+  return rested.box;
+}
+
 void Presence::Look() {
   asked_ = false;
   std::vector<MovingBox> simulated, movers, resting;
@@ -187,7 +196,7 @@ void Presence::Look() {
       const int holder = roles_.table().at(world_.mechanism(body)).authority;
       if (doubtful_.Has(holder)) movers.push_back(FreeBoxOf(world_, body));
     } else if (Unwatched(body)) {
-      resting.push_back(BoxOf(world_, body));
+      resting.push_back(BoxOfResting(body));
     } else {
       simulated.push_back(FreeBoxOf(world_, body));
     }

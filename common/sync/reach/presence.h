@@ -85,8 +85,10 @@ class Presence {
   const BodyMemory& memory_;
   bool Unwatched(int body) const {
     const auto m = static_cast<std::size_t>(world_.mechanism(body));
-    return m < unwatched_.size() && unwatched_[m] != 0 && !world_.awake(body);
+    return m < unwatched_.size() && unwatched_[m] != 0 &&
+           (world_.still(body) != 0 || !world_.awake(body));
   }
+  const MovingBox& BoxOfResting(int body);
 
   std::vector<char> near_;       // by mechanism
   std::vector<char> unwatched_;  // by mechanism; empty: none
@@ -96,6 +98,11 @@ class Presence {
   std::vector<std::int32_t> idle_;          // by mechanism: its epoch then; kNotIdle
   std::vector<std::int64_t> needed_until_;  // by mechanism: tick, see Need
   std::vector<int> changed_;
+  struct Rested {
+    std::uint64_t still = 0;  // World::still then
+    MovingBox box;
+  };
+  std::vector<Rested> rested_;  // by body
   MovingBox around_;
 };
 
