@@ -64,8 +64,8 @@ struct AuthorityView {
   bool physics_edits = false;  ///< see ProposesEdits: the server follows everything
   /// Nobody drives anything and peers go back to what they hear: all should come to the same bits.
   bool exact = false;
-  bool islands = false;        ///< by islands around the players, not by their regions
-  PlannerRules rules;          ///< of islands; and how long authority lasts at least
+  bool islands = false;  ///< by islands around the players, not by their regions
+  PlannerRules rules;    ///< of islands; and how long authority lasts at least
   std::vector<PlayerView> players;
   std::vector<MechanismView> mechanisms;
   std::vector<MovingBox> boxes;  ///< of all their bodies; group: the mechanism's index

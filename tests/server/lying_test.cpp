@@ -1,5 +1,7 @@
 /// Lying: the plan without what lies far from all else is, entry by entry, the plan of everything.
 
+#include "server/authority/lying.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include <vector>
 
 #include "common/base/random.h"
-#include "server/authority/lying.h"
 #include "server/authority/plan.h"
 #include "tests/lab/world/plan_worlds.h"
 

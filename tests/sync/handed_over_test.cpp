@@ -82,6 +82,34 @@ std::vector<std::vector<BodyState>> Truth(const Scene& scene) {
   }
 }
 
+/// The server gives the crate away at a tick, when all inputs up to `known` have come; everybody
+/// ends up with what the inputs make of it.
+void GiveCrate(std::int64_t given, std::int64_t known,
+               const std::vector<std::vector<BodyState>>& truth, WiredReplicas* room) {
+  room->StepTo(given);
+  const World& world = room->at(0).world();
+  const int crate = room->Body(0, "crate");
+  const auto body = static_cast<std::size_t>(crate);
+  const std::vector<ExactStates> told = room->at(0).MakeExact({world.mechanism(crate)}, 1);
+  ASSERT_EQ(told.size(), 1u);
+  const ExactStates& exact = told[0];
+  EXPECT_LE(exact.tick, known);
+  EXPECT_GE(exact.tick, known - 2) << "no older than it has to be";
+  const BodyState& then = truth[static_cast<std::size_t>(exact.tick)][body];
+  EXPECT_EQ(Vec2(exact.x[0], exact.y[0]), then.position);
+  EXPECT_EQ(Vec2(exact.vx[0], exact.vy[0]), then.velocity);
+  EXPECT_NE(world.Read(crate).position, truth[static_cast<std::size_t>(given)][body].position)
+      << "what it has itself is wrong";
+  room->StepTo(given + kLate);
+  for (const int peer : {1, 2}) room->at(peer).TakeOver(exact);
+  room->StepTo(kEnd);
+  for (int peer = 0; peer < room->count(); ++peer) {
+    const BodyState is = room->Read(peer, "crate"), should = truth[kEnd][body];
+    EXPECT_EQ(is.position, should.position) << "peer " << peer;
+    EXPECT_EQ(is.velocity, should.velocity) << "peer " << peer;
+  }
+}
+
 /// A state that rests on what was assumed would be put in by all others as it is, and never become
 /// what the inputs make of it.
 TEST(HandedOver, WhatInputsStillUnknownMayHaveReachedIsToldOfAsItWasBeforeThem) {
@@ -90,28 +118,7 @@ TEST(HandedOver, WhatInputsStillUnknownMayHaveReachedIsToldOfAsItWasBeforeThem) 
   for (const std::int64_t given : {63, 94, 136}) {  // inputs have just changed
     SCOPED_TRACE(given);
     WiredReplicas room = Room(scene);
-    room.StepTo(given);
-    const World& world = room.at(0).world();
-    const int crate = room.Body(0, "crate");
-    const auto body = static_cast<std::size_t>(crate);
-    const std::vector<ExactStates> told = room.at(0).MakeExact({world.mechanism(crate)}, 1);
-    ASSERT_EQ(told.size(), 1u);
-    const ExactStates& exact = told[0];
-    EXPECT_LE(exact.tick, given - kLate);
-    EXPECT_GE(exact.tick, given - kLate - 2) << "no older than it has to be";
-    const BodyState& then = truth[static_cast<std::size_t>(exact.tick)][body];
-    EXPECT_EQ(Vec2(exact.x[0], exact.y[0]), then.position);
-    EXPECT_EQ(Vec2(exact.vx[0], exact.vy[0]), then.velocity);
-    EXPECT_NE(world.Read(crate).position, truth[static_cast<std::size_t>(given)][body].position)
-        << "what it has itself is wrong";
-    room.StepTo(given + kLate);
-    for (const int peer : {1, 2}) room.at(peer).TakeOver(exact);
-    room.StepTo(kEnd);
-    for (int peer = 0; peer < room.count(); ++peer) {
-      const BodyState is = room.Read(peer, "crate"), should = truth[kEnd][body];
-      EXPECT_EQ(is.position, should.position) << "peer " << peer;
-      EXPECT_EQ(is.velocity, should.velocity) << "peer " << peer;
-    }
+    GiveCrate(given, given - kLate, truth, &room);
   }
 }
 
@@ -119,33 +126,13 @@ TEST(HandedOver, WhatInputsStillUnknownMayHaveReachedIsToldOfAsItWasBeforeThem) 
 /// then is told of as it was when it was last heard.
 TEST(HandedOver, WhatAPlayerMayReachWhoIsNotHeardIsToldOfAsItWasWhenHeWas) {
   const Scene scene = Squeezed();
-  const std::vector<std::vector<BodyState>> truth = Truth(scene);
   constexpr std::int64_t kCut = 60, kGiven = 107, kHeard = 115;
   WiredReplicas room = Room(scene);
   room.held_up = [&room](int from, int to) {
     const std::int64_t now = room.at(0).tick();
     return (from == 2 || to == 2) && now >= kCut && now < kHeard;
   };
-  room.StepTo(kGiven);
-  const World& world = room.at(0).world();
-  const int crate = room.Body(0, "crate");
-  const auto body = static_cast<std::size_t>(crate);
-  const std::vector<ExactStates> told = room.at(0).MakeExact({world.mechanism(crate)}, 1);
-  ASSERT_EQ(told.size(), 1u);
-  const ExactStates& exact = told[0];
-  EXPECT_LE(exact.tick, kCut);
-  EXPECT_GE(exact.tick, kCut - kLate - 2) << "no older than it has to be";
-  const BodyState& then = truth[static_cast<std::size_t>(exact.tick)][body];
-  EXPECT_EQ(Vec2(exact.x[0], exact.y[0]), then.position);
-  EXPECT_EQ(Vec2(exact.vx[0], exact.vy[0]), then.velocity);
-  room.StepTo(kGiven + kLate);
-  for (const int peer : {1, 2}) room.at(peer).TakeOver(exact);
-  room.StepTo(kEnd);
-  for (int peer = 0; peer < room.count(); ++peer) {
-    const BodyState is = room.Read(peer, "crate"), should = truth[kEnd][body];
-    EXPECT_EQ(is.position, should.position) << "peer " << peer;
-    EXPECT_EQ(is.velocity, should.velocity) << "peer " << peer;
-  }
+  GiveCrate(kGiven, kCut - kLate, Truth(scene), &room);
 }
 
 /// Right after an edit nobody has looked yet how far inputs reach.
