@@ -16,18 +16,6 @@ namespace {
 /// lies would cost more than it saves.
 constexpr int kSeeAll = 10;
 
-std::vector<MovingBox> BoxesOf(const Replica& replica, const std::vector<int>& bodies) {
-  std::vector<MovingBox> boxes;
-  boxes.reserve(bodies.size());
-  for (const int body : bodies) {
-    boxes.push_back(BoxOf(replica.world(), body));
-    if (replica.drivers().Driven(boxes.back().group)) {
-      boxes.back().acceleration = kDrivenAcceleration;
-    }
-  }
-  return boxes;
-}
-
 }  // namespace
 
 template <class Visit>
@@ -119,7 +107,8 @@ void AuthorityManager::SeeWithoutLying(const AuthorityView& view) {
     seen_.push_back(m);
     EachBody(m, [&](int body) { bodies.push_back(body); });
   }
-  const std::vector<int> near = lying_.Near(BoxesOf(replica_, bodies), SightOf(view));
+  const std::vector<int> near =
+      lying_.Near(BoxesOf(replica_.world(), replica_.drivers(), bodies), SightOf(view));
   const auto middle = static_cast<std::ptrdiff_t>(seen_.size());
   seen_.insert(seen_.end(), near.begin(), near.end());
   std::inplace_merge(seen_.begin(), seen_.begin() + middle, seen_.end());
@@ -128,13 +117,13 @@ void AuthorityManager::SeeWithoutLying(const AuthorityView& view) {
 
 void AuthorityManager::LookAtBoxes(AuthorityView* view) const {
   if (seen_.size() == memory_.size()) {
-    view->boxes = seam::BoxesOf(replica_.world(), replica_.drivers(), true);
+    view->boxes = BoxesOf(replica_.world(), replica_.drivers(), true);
     return;
   }
   std::vector<int> bodies;
   for (const int m : seen_) EachBody(m, [&](int body) { bodies.push_back(body); });
   std::sort(bodies.begin(), bodies.end());
-  view->boxes = BoxesOf(replica_, bodies);
+  view->boxes = BoxesOf(replica_.world(), replica_.drivers(), bodies);
   for (MovingBox& box : view->boxes) box.group = PlaceOf(box.group);
 }
 

@@ -116,7 +116,7 @@ void AuthorityManager::Plan(std::int64_t now_us, const Situation& situation) {
 
 void AuthorityManager::Open(int m) {
   Memory& memory = memory_[static_cast<std::size_t>(m)];
-  if (lying_.size() > 0) lying_.Take(m);
+  lying_.Take(m);
   if (memory.open) return;
   memory.open = true;
   sort_open_ = sort_open_ || (!open_.empty() && open_.back() > m);

@@ -40,7 +40,7 @@ std::vector<Grants> AuthorityManager::TakeBack(std::int64_t now_us,
     record.epoch += memory.hand_over != HandOver::kNone ? 2 : 1;  // a revocation has used up one
     memory.hand_over = HandOver::kNone;
     replica_.authority().Set(m, record);
-    if (lying_.size() > 0) lying_.Take(m);
+    lying_.Take(m);
     ForgetQuestions(m);
   }
   if (mechanisms.empty()) return {};

@@ -29,7 +29,10 @@ class Lying {
   bool Has(int mechanism) const { return entry_[static_cast<std::size_t>(mechanism)] >= 0; }
   /// It lies within that box, from now on.
   void Put(int mechanism, const MovingBox& box);
-  void Take(int mechanism) { entry_[static_cast<std::size_t>(mechanism)] = -1; }
+  /// It lies no more, if it did.
+  void Take(int mechanism) {
+    if (!entry_.empty()) entry_[static_cast<std::size_t>(mechanism)] = -1;
+  }
 
   /// What of it a plan has to see, ascending: what `boxes` (of all that does not lie) may touch in
   /// the time that the plan looks ahead, directly or through others that lie, and what is around

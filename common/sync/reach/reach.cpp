@@ -1,6 +1,7 @@
 #include "common/sync/reach/reach.h"
 
 #include <algorithm>
+#include <numeric>
 #include <tuple>
 
 #include "common/sync/reach/driven.h"
@@ -27,21 +28,23 @@ MovingBox BoxOf(const World& world, int body) {
   return box;
 }
 
-std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers, bool absent_too) {
+std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers,
+                               const std::vector<int>& bodies) {
   std::vector<MovingBox> boxes;
-  const auto add = [&](int body) {
+  boxes.reserve(bodies.size());
+  for (const int body : bodies) {
     MovingBox box = BoxOf(world, body);
     if (drivers.Driven(box.group)) box.acceleration = kDrivenAcceleration;
     boxes.push_back(box);
-  };
-  if (absent_too) {
-    boxes.reserve(static_cast<std::size_t>(world.body_count()));
-    for (int body = 0; body < world.body_count(); ++body) add(body);
-  } else {
-    boxes.reserve(world.present().size());
-    for (const int body : world.present()) add(body);
   }
   return boxes;
+}
+
+std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers, bool absent_too) {
+  if (!absent_too) return BoxesOf(world, drivers, world.present());
+  std::vector<int> all(static_cast<std::size_t>(world.body_count()));
+  std::iota(all.begin(), all.end(), 0);
+  return BoxesOf(world, drivers, all);
 }
 
 void Reach::Look() {

@@ -51,5 +51,8 @@ MovingBox BoxOf(const World& world, int body);
 /// The boxes of a world's bodies, grouped by mechanism, without those that are absent unless
 /// `absent_too`. What any player drives can accelerate.
 std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers, bool absent_too);
+/// The same of these bodies, in their order.
+std::vector<MovingBox> BoxesOf(const World& world, const Drivers& drivers,
+                               const std::vector<int>& bodies);
 
 }  // namespace seam
