@@ -122,6 +122,10 @@ class World {
   /// Of what is absent and sleeps, a number that is another one once it may have been moved or
   /// woken; 0 of all else. Asks for no look at the body itself.
   std::uint64_t still(int body) const;
+  /// Appends the bodies, some several times, for which still() may have another answer than when
+  /// last_change() was `change`. False, and nothing appended, when that is too long ago to know.
+  bool ChangedSince(std::uint64_t change, std::vector<int>* bodies) const;
+  std::uint64_t last_change() const;
   void SetAwake(int body, bool awake);
 
   /// The velocity of bodies that are not dynamic is that of `position`, not of the centre of mass.

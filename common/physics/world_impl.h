@@ -138,6 +138,7 @@ struct World::Impl {
     stale[i / kept.kPage] = 1;
     changed[i] = 1;
     stamps[i] = ++last_stamp;
+    change_log[last_stamp & (change_log.size() - 1)] = body;
   }
   /// A body that is aside was changed.
   void NoteAside(int body);
@@ -179,6 +180,8 @@ struct World::Impl {
   std::vector<char> changed;          // by moving body of such a page: it may have; else it has not
   std::vector<std::uint64_t> stamps;  // by moving body: another each time that it may have changed
   std::uint64_t last_stamp = 0;
+  std::vector<int> change_log;  // by stamp, the last of them: the body; 2^n of them
+  std::uint64_t log_from = 0;   // stamps up to this one are not in it
   struct Contacts {
     BodyState pose;
     std::vector<WorldSnapshot::Point> points;

@@ -122,6 +122,10 @@ void World::Impl::ForgetPages() {
   stale.assign(kept.page_count(), 1);
   changed.assign(kept.size(), 1);
   stamps.assign(kept.size(), ++last_stamp);
+  std::size_t size = 256;
+  while (size < 2 * kept.size()) size *= 2;
+  change_log.assign(size, 0);
+  log_from = last_stamp;
 }
 
 void World::Impl::NoteAside(int body) {
@@ -147,6 +151,17 @@ std::uint64_t World::still(int body) const {
   const bool aside = impl_->motions[i] == Motion::kAbsent && i < impl_->memory.absent.size() &&
                      impl_->memory.absent[i] != 0;
   return aside && impl_->noted_awake[i] == 0 ? impl_->stamps[i] : 0;
+}
+
+std::uint64_t World::last_change() const { return impl_->last_stamp; }
+
+bool World::ChangedSince(std::uint64_t change, std::vector<int>* bodies) const {
+  const std::size_t size = impl_->change_log.size();
+  if (change < impl_->log_from || impl_->last_stamp - change > size) return false;
+  for (std::uint64_t stamp = change + 1; stamp <= impl_->last_stamp; ++stamp) {
+    bodies->push_back(impl_->change_log[stamp & (size - 1)]);
+  }
+  return true;
 }
 
 Motion World::motion(int body) const {

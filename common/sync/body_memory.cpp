@@ -56,24 +56,46 @@ void BodyMemory::NoteContacts(const AuthorityTable& table) {
   }
 }
 
+void BodyMemory::OpenChanged() {
+  changed_.clear();
+  if (world_.ChangedSince(change_, &changed_)) {
+    for (const int body : changed_) Open(body);
+  } else {
+    for (const int body : tended_) Open(body);
+  }
+  change_ = world_.last_change();
+}
+
 void BodyMemory::Record() {
   history_.Begin(world_.tick());
+  OpenChanged();
   const int all = kHistory * config_.tick_hz;
-  for (const int body : tended_) {
-    // What has lain still for as long as the past is noted has the same past at every tick.
+  // What has lain still for as long as the past is noted has the same past at every tick.
+  std::size_t left = 0;
+  for (const int body : open_) {
     Noted& noted = noted_[static_cast<std::size_t>(body)];
     const std::uint64_t still = world_.still(body);
-    if (still == 0 || noted.still != still) noted = {still, 0};
-    if (noted.ticks == all) continue;
+    if (still == 0 || noted.still != still) {
+      noted.still = still;
+      noted.ticks = 0;
+    }
+    if (parked(body) || noted.ticks == all) {
+      noted.open = false;
+      continue;
+    }
     if (still != 0) ++noted.ticks;
     history_.Put(body, world_.Read(body));
+    open_[left++] = body;
   }
+  open_.resize(left);
 }
 
 /// All of them.
 void BodyMemory::Tend() {
   parked_.assign(bodies_.size(), {});
   noted_.assign(bodies_.size(), {});
+  open_.clear();
+  for (std::size_t body = 0; body < bodies_.size(); ++body) Open(static_cast<int>(body));
   news_.clear();
   tended_.resize(bodies_.size());
   std::iota(tended_.begin(), tended_.end(), 0);
@@ -96,7 +118,10 @@ void BodyMemory::Unpark(int body) {
   if (!parked(body)) return;
   FillPast(body);
   parked_[static_cast<std::size_t>(body)].since = -1;
-  noted_[static_cast<std::size_t>(body)] = {};
+  Noted& noted = noted_[static_cast<std::size_t>(body)];
+  noted.still = 0;
+  noted.ticks = 0;
+  Open(body);
   tended_.insert(std::lower_bound(tended_.begin(), tended_.end(), body), body);
 }
 

@@ -3,6 +3,7 @@
 /// what happened to them. A remap carries all of it at once.
 
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "common/physics/history.h"
@@ -113,11 +114,22 @@ class BodyMemory {
   };
   void Tend();
   void FillPast(int body);
+  /// Its pose is to be recorded at every tick until it has lain still for long.
+  void Open(int body) {
+    if (std::exchange(noted_[static_cast<std::size_t>(body)].open, true)) return;
+    open_.push_back(body);
+  }
+  void OpenChanged();
   struct Noted {
     std::uint64_t still = 0;  // World::still when it was last recorded
     int ticks = 0;            // recorded in a row with that
+    bool open = false;        // it is in open_
   };
   std::vector<Noted> noted_;    // by body
+  std::vector<int> open_;       // bodies that Record looks at: all that are tended but for those
+                                // that have lain still for as long as the past is noted
+  std::uint64_t change_ = 0;    // World::last_change when it was found last what is open
+  std::vector<int> changed_;    // for OpenChanged
   std::vector<Parked> parked_;  // by body
   std::vector<int> tended_, news_;
 };

@@ -48,10 +48,11 @@ bool Overlap(const MovingBox& a, const MovingBox& b) {
 void FindDriven(const World& world, const BodyMemory& memory, const JointCloser& joints,
                 const std::vector<int>& back, std::int64_t next, std::vector<int>* driven) {
   driven->clear();
+  const auto idle = [&](int body) { return memory.track(body).idle; };
   for (const int body : world.present()) {
-    if (world.motion(body) != Motion::kDynamic) driven->push_back(body);
+    if (world.motion(body) != Motion::kDynamic && !idle(body)) driven->push_back(body);
   }
-  const auto absent = [&](int body) { return world.motion(body) == Motion::kAbsent; };
+  const auto absent = [&](int b) { return world.motion(b) == Motion::kAbsent && !idle(b); };
   const auto mechanisms = static_cast<int>(world.composition().mechanisms.size());
   const auto turn = static_cast<int>(next % kAbsentEvery);
   // Where much is parked it is looked at through what is not, else through the mechanisms.
@@ -228,7 +229,6 @@ void Display::Drive(std::int64_t next, const MovingBox& seen) {
   leaving_.clear();
   FindDriven(world_, memory_, joints_, back_, next, &driven_);
   for (const int body : driven_) {
-    if (memory_.track(body).idle) continue;
     const bool absent = world_.motion(body) == Motion::kAbsent;
     if (absent && !config_.shows_far && !Overlap(FarBox(world_.mechanism(body)), seen)) {
       leaving_.push_back(body);

@@ -57,9 +57,12 @@ bool AuthorityManager::Lies(int m) {
   const World& world = replica_.world();
   const bool lay = lying_.Has(m);
   bool lies = !replica_.drivers().Driven(m);
+  char& doubtful = doubtful_[static_cast<std::size_t>(m)];
+  doubtful = 0;
   EachBody(m, [&](int body) {
     Lay& then = lay_[static_cast<std::size_t>(body)];
     const std::uint64_t still = world.still(body);
+    if (still == 0) doubtful = 1;  // whether it changes is not told
     if (!lies || (lay && still != 0 && still == then.still)) return;
     const BodyState now = world.Read(body);
     const bool there = lay ? now.position == then.position && now.angle == then.angle
@@ -85,11 +88,25 @@ void AuthorityManager::PutLying(int m) {
   lying_.Put(m, around);
 }
 
+/// What lies and has not been changed since it was looked at lies still.
+void AuthorityManager::FindDoubtful() {
+  const World& world = replica_.world();
+  stirred_.clear();
+  if (world.ChangedSince(lay_change_, &stirred_)) {
+    for (const int body : stirred_) doubtful_[static_cast<std::size_t>(world.mechanism(body))] = 1;
+  } else {
+    doubtful_.assign(doubtful_.size(), 1);
+  }
+  lay_change_ = world.last_change();
+}
+
 void AuthorityManager::SeeWithoutLying(const AuthorityView& view) {
   if (lying_.size() != memory_.size()) {
     lying_.Clear(memory_.size());
     lay_.assign(static_cast<std::size_t>(replica_.world().body_count()), {});
+    doubtful_.assign(memory_.size(), 1);
   }
+  FindDoubtful();
   seen_.clear();
   std::vector<int> bodies, joined;
   for (const std::vector<int>& mechanisms : view.together) {
@@ -98,7 +115,7 @@ void AuthorityManager::SeeWithoutLying(const AuthorityView& view) {
   for (const int m : joined) lying_.Take(m);
   for (int m = 0; m < static_cast<int>(memory_.size()); ++m) {
     if (lying_.Has(m)) {
-      if (Lies(m)) continue;
+      if (doubtful_[static_cast<std::size_t>(m)] == 0 || Lies(m)) continue;
       lying_.Take(m);
     } else if (MayLie(m) && Lies(m) && std::count(joined.begin(), joined.end(), m) == 0) {
       PutLying(m);

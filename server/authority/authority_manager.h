@@ -133,6 +133,7 @@ class AuthorityManager {
   void SeeAll();
   void SeeWithoutLying(const AuthorityView& view);
   bool MayLie(int m) const;
+  void FindDoubtful();
   bool Lies(int m);
   void PutLying(int m);
   /// A mechanism's index in the view; -1: left out.
@@ -177,7 +178,10 @@ class AuthorityManager {
     Vec2 position{0, 0};
     float angle = 0;
   };
-  std::vector<Lay> lay_;  // by body of what lies
+  std::vector<Lay> lay_;          // by body of what lies
+  std::vector<char> doubtful_;    // by mechanism that lies: it may lie no more
+  std::vector<int> stirred_;      // for FindDoubtful: bodies
+  std::uint64_t lay_change_ = 0;  // World::last_change when it was found last what lies
   CapacityWatch capacity_;
   std::vector<int> restricted_;  // parts that not everybody may push
   bool sort_open_ = false;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cfloat>
 
-#include "server/authority/box_grid.h"
+#include "common/sync/reach/box_grid.h"
 #include "server/authority/dwell.h"
 #include "server/authority/islands.h"
 #include "server/authority/plan_capacity.h"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "common/scene/mechanism_ids.h"
 #include "common/scene/planner/planner_rules.h"
@@ -18,6 +19,15 @@ std::uint64_t Key(std::int32_t x, std::int32_t y) {
 std::uint32_t ShortKey(std::int32_t x, std::int32_t y) {
   return static_cast<std::uint32_t>(x) << 16 | static_cast<std::uint16_t>(y);
 }
+
+/// Of the same cell.
+std::uint64_t KeyOf(std::uint32_t short_key) {
+  return Key(static_cast<std::int16_t>(short_key >> 16), static_cast<std::int16_t>(short_key));
+}
+
+/// Cells share slots: who asks whether a cell is wanted may be told so of another's sake.
+constexpr std::size_t kSlots = 1 << 15;
+std::size_t Slot(std::uint32_t short_key) { return (short_key * 0x9e3779b1u) >> 17; }
 
 /// What lies beyond the border, hundreds of km away, is in the border's cells.
 std::int32_t CellOf(float coordinate, float side) {
@@ -40,19 +50,62 @@ void Interest::Remap() {
     by_mechanism_.emplace_back(world.mechanism(body), body);
   }
   std::sort(by_mechanism_.begin(), by_mechanism_.end());
+  place_of_.resize(by_mechanism_.size());
+  for (std::size_t i = 0; i < by_mechanism_.size(); ++i) {
+    place_of_[static_cast<std::size_t>(by_mechanism_[i].second)] = static_cast<int>(i);
+  }
+  all_moved_ = true;
   small_ = world.body_count() <= scene_.follow_bodies;
 }
 
-void Interest::FindCells(float side, Cells* cells) {
+void Interest::Want(const Receiver& receiver, float side, Cells* cells) {
+  FindThings(receiver);
+  std::uint64_t last = 0;
+  bool any = false;
+  for (const int body : things_) {
+    const Vec2 at = replica_.world().Read(body).position;
+    const std::int32_t x = CellOf(at.x(), side), y = CellOf(at.y(), side);
+    if (any && last == Key(x, y)) continue;
+    any = true;
+    last = Key(x, y);
+    for (int i = 0; i < 9; ++i) {
+      cells->wanted[Slot(ShortKey(x + i % 3 - 1, y + i / 3 - 1))] = 1;
+    }
+  }
+}
+
+void Interest::FindMoved() {
+  const World& world = replica_.world();
+  moved_.clear();
+  if (!all_moved_ && world.ChangedSince(change_, &moved_)) {
+    moved_.insert(moved_.end(), world.present().begin(), world.present().end());
+  } else {
+    moved_.resize(by_mechanism_.size());
+    std::iota(moved_.begin(), moved_.end(), 0);
+  }
+  all_moved_ = false;
+  change_ = world.last_change();
+}
+
+void Interest::FindCells(float side, const std::vector<Receiver>& receivers, Cells* cells) {
   const World& world = replica_.world();
   const std::size_t count = by_mechanism_.size();
-  places_.resize(count);
-  order_.resize(count);
+  // Nobody asks for other cells: what is there, mostly asleep, need not be put in order.
+  cells->wanted.assign(kSlots, 0);
+  for (const Receiver& receiver : receivers) {
+    if (receiver.player >= 0) Want(receiver, side, cells);
+  }
+  cells->places.resize(count);
+  for (const int body : moved_) {
+    const Vec2 at = world.Read(body).position;
+    cells->places[static_cast<std::size_t>(place_of_[static_cast<std::size_t>(body)])] =
+        ShortKey(CellOf(at.x(), side), CellOf(at.y(), side));
+  }
+  order_.clear();
   // By x, then y, then mechanism: what is alike stays in its order.
   for (std::size_t i = 0; i < count; ++i) {
-    const Vec2 at = world.Read(by_mechanism_[i].second).position;
-    places_[i] = {CellOf(at.x(), side), CellOf(at.y(), side)};
-    order_[i] = SortKey{ShortKey(places_[i].first, places_[i].second)} << 32 | i;
+    const std::uint32_t key = cells->places[i];
+    if (cells->wanted[Slot(key)] != 0) order_.push_back(SortKey{key} << 32 | i);
   }
   SortByKey(&order_, &spare_);
   cells->keys.clear();
@@ -60,7 +113,7 @@ void Interest::FindCells(float side, Cells* cells) {
   cells->mechanisms.clear();
   for (const SortKey sorted : order_) {
     const auto i = static_cast<std::size_t>(sorted & 0xffffffffu);
-    const std::uint64_t key = Key(places_[i].first, places_[i].second);
+    const std::uint64_t key = KeyOf(static_cast<std::uint32_t>(sorted >> 32));
     const int mechanism = by_mechanism_[i].first;
     if (cells->keys.empty() || cells->keys.back() != key) {
       cells->keys.push_back(key);
@@ -178,9 +231,10 @@ std::vector<Interest::Risen> Interest::Look(const std::vector<Receiver>& receive
   }
   const bool central = config_.mode == Mode::kCentral;
   const float hear = scene_.planner->hear;
-  FindCells(hear, &far_);
-  FindCells(kNearReach, &near_);
-  if (central) FindCells(kCloseReach, &close_);
+  FindMoved();
+  FindCells(hear, receivers, &far_);
+  FindCells(kNearReach, receivers, &near_);
+  if (central) FindCells(kCloseReach, receivers, &close_);
   std::vector<Risen> risen;
   for (const Receiver& receiver : receivers) {
     looked_[static_cast<std::size_t>(receiver.peer)] = 1;

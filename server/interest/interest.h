@@ -69,8 +69,15 @@ class Interest {
     std::vector<std::uint64_t> keys;  // of cells with anything, ascending
     std::vector<int> begin;           // by cell: where it begins in mechanisms; one more at the end
     std::vector<int> mechanisms;
+    std::vector<char> wanted;           // by slot, see FindCells
+    std::vector<std::uint32_t> places;  // in the order of by_mechanism_: the body's cell
   };
-  void FindCells(float side, Cells* cells);
+  /// Which bodies may be elsewhere than in the last Look.
+  void FindMoved();
+  /// Those that the receivers may ask for, and some others.
+  void FindCells(float side, const std::vector<Receiver>& receivers, Cells* cells);
+  /// Marks the cells of the receiver's things and those beside them.
+  void Want(const Receiver& receiver, float side, Cells* cells);
   /// What is in the cells of the receiver's things and in those beside them concerns it so much.
   void Raise(const Receiver& receiver, const Cells& cells, float side, Concern to);
   void FindThings(const Receiver& receiver);
@@ -97,9 +104,11 @@ class Interest {
   std::vector<std::uint64_t> centres_, around_;  // cells: with its things, and beside them
   Cells far_, near_, close_;                     // of a Look
   std::vector<std::pair<int, int>> by_mechanism_;  // mechanism, body; ascending
-  // For FindCells: the cell of each of those, and their order.
-  std::vector<std::pair<std::int32_t, std::int32_t>> places_;
-  std::vector<SortKey> order_, spare_;
+  std::vector<int> place_of_;                      // by body: its place in by_mechanism_
+  std::vector<int> moved_;                         // of a Look: bodies, some twice
+  std::uint64_t change_ = 0;                       // World::last_change at the last Look
+  bool all_moved_ = true;                          // places are not known
+  std::vector<SortKey> order_, spare_;             // for FindCells
 };
 
 }  // namespace seam

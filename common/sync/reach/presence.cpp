@@ -6,6 +6,7 @@
 #include "common/physics/part_places.h"
 #include "common/physics/stage.h"
 #include "common/scene/forces.h"
+#include "common/scene/mechanism_ids.h"
 #include "common/sync/reach/reach.h"
 
 namespace seam {
@@ -20,6 +21,10 @@ MovingBox FreeBoxOf(const World& world, int body) {
 /// How far a box can come by itself, m.
 float WayOf(const MovingBox& box, float seconds) {
   return box.velocity.norm() * seconds + box.acceleration * seconds * seconds / 2 + kZoneSlack / 2;
+}
+
+bool SameBox(const MovingBox& a, const MovingBox& b) {
+  return a.min == b.min && a.max == b.max && a.velocity == b.velocity && a.group == b.group;
 }
 
 /// Whether nothing but a body, an input or an edit wakes what sleeps: no anchored part moves or
@@ -66,21 +71,16 @@ class Presence::Sorted {
 
   bool empty() const { return boxes_.empty(); }
   bool MayMeetAny(const MovingBox& box, float seconds) const {
-    return !EachMeeting(box, seconds, [](const MovingBox&) { return false; });
-  }
-  /// Calls `visit` of each that may meet the box until one says false; false then.
-  template <class Visit>
-  bool EachMeeting(const MovingBox& box, float seconds, const Visit& visit) const {
-    if (boxes_.empty()) return true;
+    if (boxes_.empty()) return false;
     const float way = way_ + WayOf(box, seconds);
-    if (box.max.y() + way < low_ || box.min.y() - way > high_) return true;
+    if (box.max.y() + way < low_ || box.min.y() - way > high_) return false;
     const float from = box.min.x() - way - widest_, to = box.max.x() + way;
     auto at = std::lower_bound(boxes_.begin(), boxes_.end(), from,
                                [](const MovingBox& b, float x) { return b.min.x() < x; });
     for (; at != boxes_.end() && at->min.x() <= to; ++at) {
-      if (MayMeet(*at, box, seconds) && !visit(*at)) return false;
+      if (MayMeet(*at, box, seconds)) return true;
     }
-    return true;
+    return false;
   }
 
  private:
@@ -102,6 +102,10 @@ void Presence::Remap() {
   needed_until_.assign(near_.size(), -1);
   may_idle_ = MayIdle(world_);
   rested_.assign(static_cast<std::size_t>(world_.body_count()), {});
+  resting_.Clear(rested_.size());
+  rests_.clear();
+  fastest_ = 0;
+  needed_in_.assign(near_.size(), -1);
   around_.min.setConstant(-1e9f);
   around_.max.setConstant(1e9f);
 }
@@ -132,80 +136,119 @@ bool Presence::NeedAll() {
   return true;
 }
 
-/// By mechanism: 1 for what rests and a mover may reach, directly or through others that rest.
-std::vector<char> Presence::FindNeeded(const std::vector<MovingBox>& movers,
-                                       const std::vector<MovingBox>& resting) const {
-  std::vector<char> needed(near_.size(), 0);
-  const Sorted moving(movers, kRestSeconds + kRestKeep);
-  std::vector<MovingBox> reached;
-  for (const MovingBox& box : resting) {
-    const auto m = static_cast<std::size_t>(box.group);
-    const float seconds = kRestSeconds + (idle_[m] == kNotIdle ? kRestKeep : 0);
-    if (!moving.MayMeetAny(box, seconds)) continue;
-    needed[m] = 1;
-    reached.push_back(box);
-  }
-  if (reached.empty()) return needed;
-  const Sorted others(resting, kNearSeconds);
-  while (!reached.empty()) {
-    MovingBox box = reached.back();
-    reached.pop_back();
-    box.acceleration = kDrivenAcceleration;  // a blow passes through it
-    others.EachMeeting(box, kNearSeconds, [&](const MovingBox& other) {
-      char& is = needed[static_cast<std::size_t>(other.group)];
-      if (is == 0) reached.push_back(other);
-      is = 1;
-      return true;
-    });
-  }
-  return needed;
+/// What rested in the look before and was not changed since lies as it did.
+void Presence::FindChanged() {
+  stirred_.clear();
+  const bool known = world_.ChangedSince(change_, &stirred_);
+  change_ = world_.last_change();
+  for (const int body : stirred_) rested_[static_cast<std::size_t>(body)].changed_in = looks_;
+  if (known) return;
+  for (Rested& rested : rested_) rested.changed_in = looks_;
 }
 
-void Presence::FindIdle(const std::vector<char>& needed) {
-  if (unwatched_.empty()) return idle_.assign(idle_.size(), kNotIdle);
-  std::vector<char> rests = may_idle_;
-  for (const int body : memory_.tended()) {
-    const auto m = static_cast<std::size_t>(world_.mechanism(body));
-    // What rests under its present epoch has been there for a step of it (RestCommit::AfterStep).
-    const bool lies = memory_.track(body).at_rest && Unwatched(body) &&
-                      (world_.motion(body) == Motion::kDynamic || memory_.track(body).idle);
-    if (!lies) rests[m] = 0;
+void Presence::Rest(int body, std::uint64_t still) {
+  Rested& rested = rested_[static_cast<std::size_t>(body)];
+  rested.seen_in = looks_;
+  const bool kept = resting_.Has(body);
+  if (kept && still != 0 && rested.still == still) return;
+  rested.still = still;
+  const MovingBox box = BoxOf(world_, body);
+  if (kept && SameBox(resting_.at(body), box)) return;
+  if (!kept) rests_.push_back(body);
+  resting_.Put(body, box);
+  fastest_ = std::max(fastest_, box.velocity.norm());
+}
+
+void Presence::ForgetOthers() {
+  const auto rests = [&](int body) {
+    if (rested_[static_cast<std::size_t>(body)].seen_in == looks_) return true;
+    resting_.Take(body);
+    return false;
+  };
+  rests_.erase(std::stable_partition(rests_.begin(), rests_.end(), rests), rests_.end());
+  resting_.Tidy();
+}
+
+/// All of it that rests is needed.
+void Presence::Reach(int mechanism) {
+  needed_in_[static_cast<std::size_t>(mechanism)] = looks_;
+  EachIdOf(world_.composition(), mechanism, [&](PartId id) {
+    const int body = world_.BodyOfId(id);
+    if (body >= 0 && resting_.Has(body)) needed_.push_back(body);
+  });
+}
+
+/// What rests and a mover may reach, directly or through others that rest.
+void Presence::FindNeeded(const std::vector<MovingBox>& movers) {
+  needed_.clear();
+  const auto each = [&](const MovingBox& box, float most, const auto& seconds_of) {
+    const float way = WayOf(box, most) + fastest_ * most + kZoneSlack;
+    resting_.EachWithin(box.min.array() - way, box.max.array() + way,
+                        [&](int, const MovingBox& other) {
+                          if (Needed(other.group)) return;
+                          if (MayMeet(other, box, seconds_of(other.group))) Reach(other.group);
+                        });
+  };
+  for (const MovingBox& box : movers) {
+    each(box, kRestSeconds + kRestKeep, [&](int m) {
+      return kRestSeconds + (idle_[static_cast<std::size_t>(m)] == kNotIdle ? kRestKeep : 0);
+    });
   }
+  for (std::size_t i = 0; i < needed_.size(); ++i) {
+    MovingBox box = resting_.at(needed_[i]);
+    box.acceleration = kDrivenAcceleration;  // a blow passes through it
+    each(box, kNearSeconds, [](int) { return kNearSeconds; });
+  }
+}
+
+void Presence::FindIdle() {
+  if (unwatched_.empty()) return idle_.assign(idle_.size(), kNotIdle);
   for (std::size_t m = 0; m < idle_.size(); ++m) {
     const bool own = roles_.RoleOf(static_cast<int>(m)) == kRoleAuthority;
-    const bool idle = own && rests[m] != 0 && needed[m] == 0 && needed_until_[m] < world_.tick();
+    const bool idle =
+        own && lies_[m] != 0 && !Needed(static_cast<int>(m)) && needed_until_[m] < world_.tick();
     idle_[m] = idle ? roles_.table().at(static_cast<int>(m)).epoch : kNotIdle;
   }
 }
 
-/// Worked out once for as long as it lies there.
-const MovingBox& Presence::BoxOfResting(int body) {
-  Rested& rested = rested_[static_cast<std::size_t>(body)];
-  const std::uint64_t still = world_.still(body);
-  if (still == 0 || rested.still != still) rested = {still, BoxOf(world_, body)};
-  return rested.box;
-}
-
 void Presence::Look() {
   asked_ = false;
-  std::vector<MovingBox> simulated, movers, resting;
+  ++looks_;
+  FindChanged();
+  std::vector<MovingBox> simulated, movers;
   std::vector<int> displayed;
+  lies_ = may_idle_;
   for (const int body : memory_.tended()) {
-    if (!roles_.Simulates(body)) {
+    const int m = world_.mechanism(body);
+    if (roles_.RoleOf(m) == kRoleRemote) {
       displayed.push_back(body);
-      const int holder = roles_.table().at(world_.mechanism(body)).authority;
-      if (doubtful_.Has(holder)) movers.push_back(FreeBoxOf(world_, body));
-    } else if (Unwatched(body)) {
-      resting.push_back(BoxOfResting(body));
+      if (doubtful_.Has(roles_.table().at(m).authority)) {
+        movers.push_back(FreeBoxOf(world_, body));
+      }
+      continue;
+    }
+    const Rested& rested = rested_[static_cast<std::size_t>(body)];
+    const bool as_before =
+        rested.still != 0 && rested.seen_in == looks_ - 1 && rested.changed_in != looks_;
+    const bool unwatched = Unwatched(m);
+    const std::uint64_t still = as_before ? rested.still : unwatched ? world_.still(body) : 0;
+    const bool rests = unwatched && (still != 0 || !world_.awake(body));
+    if (rests) {
+      Rest(body, still);
     } else {
       simulated.push_back(FreeBoxOf(world_, body));
     }
+    // What rests under its present epoch has been there for a step of it (RestCommit::AfterStep).
+    const BodyTrack& track = memory_.track(body);
+    if (!rests || !track.at_rest || !(track.idle || world_.motion(body) == Motion::kDynamic)) {
+      lies_[static_cast<std::size_t>(m)] = 0;
+    }
   }
   movers.insert(movers.end(), simulated.begin(), simulated.end());
-  const std::vector<char> needed = FindNeeded(movers, resting);
-  for (const MovingBox& box : resting) {
-    if (needed[static_cast<std::size_t>(box.group)] == 0) continue;
-    simulated.push_back(box);
+  ForgetOthers();
+  FindNeeded(movers);
+  for (const int body : needed_) {
+    simulated.push_back(resting_.at(body));
     simulated.back().acceleration = kDrivenAcceleration;
   }
   if (!simulated.empty()) {
@@ -227,7 +270,7 @@ void Presence::Look() {
     if (there.MayMeetAny(FreeBoxOf(world_, body), seconds)) near[m] = 1;
   }
   const std::vector<std::int32_t> idle = idle_;
-  FindIdle(needed);
+  FindIdle();
   // What is simulated would be near if it ceased to be.
   for (const int body : world_.present()) {
     if (roles_.Simulates(body)) near[static_cast<std::size_t>(world_.mechanism(body))] = 1;

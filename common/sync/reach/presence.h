@@ -15,7 +15,7 @@
 #include "common/sync/body_memory.h"
 #include "common/sync/mode.h"
 #include "common/sync/peer_set.h"
-#include "common/sync/reach/zones.h"
+#include "common/sync/reach/kept_boxes.h"
 #include "common/sync/roles.h"
 
 namespace seam {
@@ -75,20 +75,25 @@ class Presence {
   class Sorted;
   static constexpr std::int32_t kNotIdle = -1;
   void Look();
-  std::vector<char> FindNeeded(const std::vector<MovingBox>& movers,
-                               const std::vector<MovingBox>& resting) const;
-  void FindIdle(const std::vector<char>& needed);
+  void FindNeeded(const std::vector<MovingBox>& movers);
+  void FindChanged();
+  void FindIdle();
 
   const SyncConfig& config_;
   const World& world_;
   const Roles& roles_;
   const BodyMemory& memory_;
-  bool Unwatched(int body) const {
-    const auto m = static_cast<std::size_t>(world_.mechanism(body));
-    return m < unwatched_.size() && unwatched_[m] != 0 &&
-           (world_.still(body) != 0 || !world_.awake(body));
+  bool Unwatched(int mechanism) const {
+    const auto m = static_cast<std::size_t>(mechanism);
+    return m < unwatched_.size() && unwatched_[m] != 0;
   }
-  const MovingBox& BoxOfResting(int body);
+  /// It rests, in this look; then: what rested in the one before and does no more.
+  void Rest(int body, std::uint64_t still);
+  void ForgetOthers();
+  void Reach(int mechanism);
+  bool Needed(int mechanism) const {
+    return needed_in_[static_cast<std::size_t>(mechanism)] == looks_;
+  }
 
   std::vector<char> near_;       // by mechanism
   std::vector<char> unwatched_;  // by mechanism; empty: none
@@ -98,11 +103,22 @@ class Presence {
   std::vector<std::int32_t> idle_;          // by mechanism: its epoch then; kNotIdle
   std::vector<std::int64_t> needed_until_;  // by mechanism: tick, see Need
   std::vector<int> changed_;
+  // What rests, by body: it is kept from look to look, since it mostly lies where it lay.
   struct Rested {
     std::uint64_t still = 0;  // World::still then
-    MovingBox box;
+    int seen_in = -1;         // the last look in which it rested
+    int changed_in = -1;      // the last look before which it may have been changed
   };
-  std::vector<Rested> rested_;  // by body
+  std::vector<Rested> rested_;
+  KeptBoxes resting_;
+  std::vector<int> rests_;    // those that are kept; some rest no more
+  float fastest_ = 0;         // m/s, of any of them
+  std::uint64_t change_ = 0;  // World::last_change at the last look
+  std::vector<int> stirred_;  // for FindChanged: bodies
+  std::vector<char> lies_;    // of this look, by mechanism that may idle: all of it rests
+  int looks_ = 0;
+  std::vector<int> needed_in_;  // by mechanism: the last look that needed it, see FindNeeded
+  std::vector<int> needed_;     // of this look: bodies that rest
   MovingBox around_;
 };
 

@@ -1,4 +1,4 @@
-#include "server/authority/box_grid.h"
+#include "common/sync/reach/box_grid.h"
 
 #include <cmath>
 
