@@ -17,8 +17,8 @@ namespace seam {
 constexpr std::size_t kManyHolders = 8;
 constexpr float kCrowdReach = 24;
 
-/// A heap in which a push goes through: three quarters of its members and more touch another.
-/// `touching`: by mechanism, the lowest of what touches it, directly or not.
+/// A heap in which a push goes through: three quarters of its members and more press on another.
+/// `touching`: by mechanism, the lowest of what it presses on, directly or not.
 inline bool IsPacked(const std::vector<int>& touching, const GroupLists::Members& group) {
   std::vector<int> names;
   for (const int m : group) names.push_back(touching[static_cast<std::size_t>(m)]);

@@ -168,7 +168,7 @@ class Followers {
   bool IsCrowd(const GroupLists& groups, std::size_t group) {
     if (!crowded_ || holders_.size() < kManyHolders) return false;
     if (!touching_) {
-      touching_ = Components(static_cast<int>(plan_.size()), MeetingGroups(view_.boxes, 0));
+      touching_ = Components(static_cast<int>(plan_.size()), PressingGroups(view_.boxes));
     }
     return !IsPacked(*touching_, groups.Of(group));
   }

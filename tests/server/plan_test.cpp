@@ -184,6 +184,14 @@ TEST(PlanAuthority, OfACrowdOnlyWhatIsNearIsMetThroughOthers) {
   EXPECT_TRUE(Follows(Row(10, 0.5f), 299, 1)) << "a push goes through all of a heap";
 }
 
+/// Balls that bounce in a row lay at .2 m from each other, were taken for a heap, and everyone
+/// followed all of them.
+TEST(PlanAuthority, WhatFliesSideBySideIsNoHeap) {
+  EXPECT_FALSE(Follows(Row(10, 0.5f + 0.2f), 299, 1));
+  EXPECT_TRUE(Follows(Row(10, 0.5f + 0.2f), 29 + 20, 1)) << "14 m away";
+  EXPECT_TRUE(Follows(Row(10, 0.5f + 0.02f), 299, 1)) << "stacks have gaps";
+}
+
 TEST(PlanAuthority, WhatIsMetThroughOthersIsFollowedToo) {
   AuthorityView view = TwoSides({-50, 20, 20.6f, 21.2f, 30});
   view.mechanisms[1].owner = 0;  // ann's, among a row of bob's that touch

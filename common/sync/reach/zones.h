@@ -26,6 +26,10 @@ constexpr float kDrivenAcceleration = 10;
 /// What is this near counts as touching, m: resting things have gaps, and a tick goes by.
 constexpr float kZoneSlack = 0.25f;
 
+/// What is this near presses, m: stacks have gaps of a centimetre or two, and what is heard of them
+/// is old and rounded. What flies side by side is often nearer than kZoneSlack and presses nothing.
+constexpr float kPressGap = 0.05f;
+
 /// Distance of two boxes, m; 0 where they overlap.
 inline float Gap(const MovingBox& a, const MovingBox& b) {
   const Vec2 apart = (a.min - b.max).cwiseMax(b.min - a.max).cwiseMax(Vec2(0, 0));
@@ -46,6 +50,9 @@ std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& box
                                                const std::function<float(int, int)>& seconds_of);
 /// The same for all pairs alike.
 std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& boxes, float seconds);
+
+/// Likewise all pairs of groups of which a box of each is within kPressGap of the other's now.
+std::vector<std::pair<int, int>> PressingGroups(const std::vector<MovingBox>& boxes);
 
 /// The connected components that pairs make of `count` groups: by group, the lowest of its own.
 std::vector<int> Components(int count, const std::vector<std::pair<int, int>>& pairs);

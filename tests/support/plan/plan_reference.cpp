@@ -147,12 +147,22 @@ void FollowAtServer(const AuthorityView& view, const std::vector<std::pair<int, 
   }
 }
 
+/// By mechanism, the lowest of those that it presses on, directly or through others.
+std::vector<int> Pressing(const AuthorityView& view) {
+  std::vector<std::pair<int, int>> pairs;
+  for (const MovingBox& a : view.boxes) {
+    for (const MovingBox& b : view.boxes) {
+      if (a.group < b.group && Gap(a, b) <= 0.05f) pairs.emplace_back(a.group, b.group);
+    }
+  }
+  return Components(static_cast<int>(view.mechanisms.size()), pairs);
+}
+
 /// By mechanism: whether its group is a crowd, of which only what is near is followed.
 std::vector<bool> InCrowds(const AuthorityView& view, const ReferencePlan& plan,
                            const std::vector<int>& group) {
   std::vector<std::set<int>> holders(plan.size());
-  const std::vector<int> touching =
-      Components(static_cast<int>(plan.size()), MeetingGroups(view.boxes, 0));
+  const std::vector<int> touching = Pressing(view);
   std::vector<int> alone(plan.size(), 0), mechanisms(plan.size(), 0);
   for (std::size_t m = 0; m < plan.size(); ++m) {
     const auto g = static_cast<std::size_t>(group[m]);
@@ -187,7 +197,7 @@ void AddFollowers(const AuthorityView& view, ReferencePlan* plan) {
   const std::vector<int> later = Components(count, pairs_later);
   const std::vector<bool> crowd_soon = InCrowds(view, *plan, soon);
   const std::vector<bool> crowd_later = InCrowds(view, *plan, later);
-  const std::vector<int> touching = Components(count, MeetingGroups(view.boxes, 0));
+  const std::vector<int> touching = Pressing(view);
   constexpr float kCrowdReach = 24;
   float longest = 0;
   for (const PlayerView& player : view.players) longest = std::max(longest, player.one_way_s);
