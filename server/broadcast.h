@@ -116,6 +116,9 @@ class Broadcast {
   static constexpr int kNothingPerSecond = 240;
   static constexpr std::int64_t kNothingEveryUs = 1000000;
 
+  /// How much a mechanism concerns a peer.
+  Concern ConcernOf(int peer, int mechanism) const { return interest_.Of(peer, mechanism); }
+
  private:
   /// An entry of a message, and whom it concerns.
   struct Entry {

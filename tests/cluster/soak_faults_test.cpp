@@ -22,18 +22,19 @@ namespace {
 
 /// Sessions in a test, and of how many s each; a soak has more, of a minute each.
 constexpr int kRuns = 20, kRunsMax = 2000;
+constexpr int kNarrowRuns = 8;
 constexpr double kSeconds = 20, kSecondsSoak = 60;
 
-/// Rooms of more players, and of this many bodies, have tests of their own.
+/// Sessions have at most so many players; rooms of more than so many bodies are among the narrow.
 constexpr std::size_t kPlayersMost = 8, kPartsMost = 450;
 
-std::vector<std::string> Scenes() {
+std::vector<std::string> Scenes(bool large) {
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator("scenes")) {
     if (entry.path().extension() != ".toml") continue;
     const Scene scene = LoadScene(entry.path());
-    const bool large = scene.players.size() > kPlayersMost || scene.parts.size() > kPartsMost;
-    if (!large) names.push_back(entry.path().stem());
+    const bool is = scene.players.size() > kPlayersMost || scene.parts.size() > kPartsMost;
+    if (large || !is) names.push_back(entry.path().stem());
   }
   std::sort(names.begin(), names.end());
   return names;
@@ -70,16 +71,18 @@ std::string Perform(const FaultPlan& plan) {
   return out.str();
 }
 
-TEST(SoakFaultsCluster, EverySeedKeepsItsInvariantsAtEveryInstant) {
-  const int count = std::min(Soak(kRuns), kRunsMax);
+void RunSeeds(bool narrow, int count, const char* filter) {
   const bool soak = count > kRuns;
   const int first = FromEnvironment("SEAM_SEED", 1);
   const int runs = FromEnvironment("SEAM_SEEDS", std::getenv("SEAM_SEED") != nullptr ? 1 : count);
-  const double seconds =
+  FaultChoice choice;
+  choice.scenes = Scenes(narrow);
+  choice.seconds =
       FromEnvironment("SEAM_SECONDS", static_cast<int>(soak ? kSecondsSoak : kSeconds));
-  const std::vector<std::string> scenes = Scenes();
+  choice.players = static_cast<int>(kPlayersMost);
+  choice.narrow = narrow;
   const auto plan = [&](std::size_t n) {
-    return DrawFaults(static_cast<std::uint64_t>(first) + n, scenes, seconds);
+    return DrawFaults(static_cast<std::uint64_t>(first) + n, choice);
   };
   int failed = 0;
   RunJobs(
@@ -92,14 +95,22 @@ TEST(SoakFaultsCluster, EverySeedKeepsItsInvariantsAtEveryInstant) {
         if (!good || all) std::printf("%s%s\n", good ? "" : "FAILED ", result.text.c_str());
         if (!result.good) std::printf("  %s\n", plan(n).name.c_str());
         if (!good)
-          std::printf(
-              "  repeat: SEAM_SEED=%zu SEAM_SECONDS=%.0f seam-tests --gtest_filter='SoakFaults*'\n",
-              static_cast<std::size_t>(first) + n, seconds);
+          std::printf("  repeat: SEAM_SEED=%zu SEAM_SECONDS=%.0f seam-tests --gtest_filter='%s'\n",
+                      static_cast<std::size_t>(first) + n, choice.seconds, filter);
         std::fflush(stdout);
         failed += good ? 0 : 1;
       },
       [] { return false; });
   EXPECT_EQ(failed, 0) << "of " << runs << " seeds";
+}
+
+TEST(SoakFaultsCluster, EverySeedKeepsItsInvariantsAtEveryInstant) {
+  RunSeeds(false, std::min(Soak(kRuns), kRunsMax), "SoakFaults*");
+}
+
+/// What a peer leaves out, is told late or does not do in a large room keeps them as well.
+TEST(SoakNarrowCluster, EverySeedKeepsItsInvariantsInLargeRoomsAndNarrowOnes) {
+  RunSeeds(true, std::min(Soak(kNarrowRuns), kRunsMax), "SoakNarrow*");
 }
 
 }  // namespace

@@ -110,8 +110,8 @@ TEST_F(SoakInvariants, QueuesThatGrowAreFound) {
 }
 
 TEST(SoakFaultPlan, ASeedDrawsTheSameAgainAndAnotherSomethingElse) {
-  const std::vector<std::string> scenes = {"crossing", "stack", "wall"};
-  const FaultPlan plan = DrawFaults(7, scenes, 60), again = DrawFaults(7, scenes, 60);
+  const FaultChoice choice{{"crossing", "stack", "wall"}, 60};
+  const FaultPlan plan = DrawFaults(7, choice), again = DrawFaults(7, choice);
   EXPECT_EQ(plan.name, again.name);
   ASSERT_EQ(plan.faults.size(), again.faults.size());
   for (std::size_t i = 0; i < plan.faults.size(); ++i) {
@@ -119,7 +119,7 @@ TEST(SoakFaultPlan, ASeedDrawsTheSameAgainAndAnotherSomethingElse) {
     EXPECT_EQ(plan.faults[i].kind, again.faults[i].kind);
     EXPECT_LE(plan.faults[i].to_s, 60 - kCalmSeconds);
   }
-  EXPECT_NE(plan.name, DrawFaults(8, scenes, 60).name);
+  EXPECT_NE(plan.name, DrawFaults(8, choice).name);
 }
 
 }  // namespace

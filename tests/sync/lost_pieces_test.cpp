@@ -17,7 +17,7 @@ constexpr float kLost = -1;
 
 /// Holders with a piece below the ground, by ticks and pieces.
 int Lost(std::uint64_t seed, const char* rule) {
-  FaultPlan plan = DrawFaults(seed, {"battlefield"}, 20);
+  FaultPlan plan = DrawFaults(seed, {{"battlefield"}, 20});
   plan.config.mode = "buffer";
   plan.config.predict = "";
   plan.config.reconcile = rule;

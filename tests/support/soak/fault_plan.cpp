@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <sstream>
 
 #include "common/base/random.h"
 #include "common/scene/scene.h"
@@ -58,6 +59,45 @@ Fault DrawFault(Random* random, int client, double from_s) {
   return fault;
 }
 
+/// A scene's text without its players' regions: who has what is planned by what is near whom.
+std::string WithoutRegions(const std::string& text) {
+  std::istringstream in(text);
+  std::string line, without;
+  while (std::getline(in, line)) {
+    if (line.rfind("region = ", 0) != 0) without += line + "\n";
+  }
+  return without;
+}
+
+/// Makes a room narrow. What was drawn, for people.
+std::string Narrow(const Scene& scene, Random* random, ClusterConfig* config) {
+  char text[160];
+  const int parts = static_cast<int>(scene.parts.size());
+  const int follow = random->Chance(0.5) ? 0 : Between(random, 0, parts);
+  std::snprintf(text, sizeof text, "follow = %d\nserver_follow = %d\n", follow, follow);
+  config->scene_text = text + scene.text;
+  std::string drawn = ", follows " + std::to_string(follow);
+  const bool regions = std::any_of(scene.players.begin(), scene.players.end(),
+                                   [](const Player& player) { return player.has_region; });
+  if (regions && random->Chance(0.7)) {
+    config->scene_text = text + WithoutRegions(scene.text);
+    drawn += ", no regions";
+  }
+  if (random->Chance(0.4)) {
+    const int kilobytes = Between(random, 8, 60);
+    config->client_bytes_per_s = 1000.0 * kilobytes;
+    drawn += ", " + std::to_string(kilobytes) + " kB/s";
+  }
+  // In mode central nothing keeps a client from more than its machine can do.
+  if (config->mode == "buffer" && random->Chance(0.4)) {
+    const int body_us = Between(random, 10, 300), slower = Between(random, 1, 6);
+    config->client_body_us = body_us;
+    config->client_throttle = {1.0 * slower};
+    drawn += ", " + std::to_string(body_us) + " us a body";
+  }
+  return drawn;
+}
+
 }  // namespace
 
 const char* ToString(FaultKind kind) {
@@ -71,11 +111,11 @@ const char* ToString(FaultKind kind) {
   return "";
 }
 
-FaultPlan DrawFaults(std::uint64_t seed, const std::vector<std::string>& scenes, double seconds) {
+FaultPlan DrawFaults(std::uint64_t seed, const FaultChoice& choice) {
   Random random = Random(seed).Fork(1);
   FaultPlan plan;
   ClusterConfig& config = plan.config;
-  config.scene = scenes[random.Next() % scenes.size()];
+  config.scene = choice.scenes[random.Next() % choice.scenes.size()];
   const Named& method = kMethods[random.Next() % std::size(kMethods)];
   config.mode = method.mode;
   config.reconcile = method.reconcile;
@@ -83,27 +123,31 @@ FaultPlan DrawFaults(std::uint64_t seed, const std::vector<std::string>& scenes,
   config.impair = DrawNetwork(&random);
   config.drive = random.Chance(0.5) ? Drive::kBot : Drive::kScript;
   config.seed = static_cast<std::int64_t>(seed);
-  config.duration_s = seconds;
+  config.duration_s = choice.seconds;
   config.spectators = random.Chance(0.3) ? 1 : 0;
   config.keep = false;
   const Scene scene = LoadScene("scenes/" + config.scene + ".toml");
-  const int clients = static_cast<int>(scene.players.size()) + config.spectators;
+  config.players = std::min(static_cast<int>(scene.players.size()), choice.players);
+  const int clients = config.players + config.spectators;
   for (int client = 0; client < clients; ++client) {
     double at = kFirstSeconds;
     while (true) {
       at += kBetweenSecondsMin + random.Exponential(kBetweenSeconds);
       const Fault fault = DrawFault(&random, client, at);
       at = fault.to_s;
-      if (at > seconds - kCalmSeconds) break;
+      if (at > choice.seconds - kCalmSeconds) break;
       plan.faults.push_back(fault);
     }
   }
   std::stable_sort(plan.faults.begin(), plan.faults.end(),
                    [](const Fault& a, const Fault& b) { return a.from_s < b.from_s; });
+  Random other = Random(seed).Fork(2);
+  const std::string narrow =
+      choice.narrow && other.Chance(0.5) ? Narrow(scene, &other, &config) : "";
   plan.name = "seed " + std::to_string(seed) + ": " + config.scene + " " + config.mode + " " +
               config.reconcile + config.predict +
-              (config.drive == Drive::kBot ? " bots " : " script ") + config.impair + ", " +
-              std::to_string(clients) + " clients, " + std::to_string(plan.faults.size()) +
+              (config.drive == Drive::kBot ? " bots " : " script ") + config.impair + narrow +
+              ", " + std::to_string(clients) + " clients, " + std::to_string(plan.faults.size()) +
               " faults";
   return plan;
 }

@@ -35,7 +35,17 @@ struct FaultPlan {
 /// The last faults are over so long before the end, s.
 constexpr double kCalmSeconds = 10;
 
-/// Draws a session of `seconds` in one of `scenes`. The same seed and scenes draw the same.
-FaultPlan DrawFaults(std::uint64_t seed, const std::vector<std::string>& scenes, double seconds);
+/// What sessions are drawn from.
+struct FaultChoice {
+  std::vector<std::string> scenes;
+  double seconds = 20;
+  int players = 8;  ///< at most so many of the scene's are there
+  /// In half of the sessions a room is as narrow for what is in it as a large one is for much more:
+  /// nobody follows it whole, clients get few bytes, their machines are slow; some of that in each.
+  bool narrow = false;
+};
+
+/// Draws a session. The same seed and choice draw the same.
+FaultPlan DrawFaults(std::uint64_t seed, const FaultChoice& choice);
 
 }  // namespace seam

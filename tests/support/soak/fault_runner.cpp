@@ -11,7 +11,9 @@ FaultRunner::FaultRunner(const FaultPlan& plan) : plan_(plan) {
   const ClusterConfig& config = plan.config;
   const Scene scene = config.scene_text.empty() ? LoadScene("scenes/" + config.scene + ".toml")
                                                 : ParseScene(config.scene_text, config.scene);
-  const std::size_t count = scene.players.size() + static_cast<std::size_t>(plan.config.spectators);
+  std::size_t count = scene.players.size();
+  if (config.players > 0) count = std::min(count, static_cast<std::size_t>(config.players));
+  count += static_cast<std::size_t>(config.spectators);
   for (std::size_t i = 0; i < count; ++i) clients_.push_back(std::make_unique<State>());
 }
 

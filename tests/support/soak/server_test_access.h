@@ -1,5 +1,5 @@
 #pragma once
-/// How much a server keeps waiting: for tests that watch that nothing grows.
+/// How much a server keeps waiting, and what it thinks concerns whom: for tests that watch it.
 
 #include <algorithm>
 
@@ -16,6 +16,10 @@ struct ServerTestAccess {
     return most;
   }
   static const AuthorityManager& Authority(const Server& server) { return server.authority_; }
+  /// How much a mechanism concerns a peer, as the server sees it.
+  static Concern ConcernOf(const Server& server, int peer, int mechanism) {
+    return server.broadcast_.ConcernOf(peer, mechanism);
+  }
   static std::size_t WaitingEdits(const Server& server) { return server.edits_.waiting(); }
 };
 
