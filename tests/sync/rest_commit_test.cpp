@@ -8,6 +8,7 @@
 #include <memory>
 #include <vector>
 
+#include "common/codec/validate.h"
 #include "common/scene/scene.h"
 
 namespace seam {
@@ -249,6 +250,28 @@ TEST(RestCommit, AnOwnBodyThatIsMovedIsAwakeAndCommittedAnew) {
   const std::vector<Rest> told = room.Steps(240);
   ASSERT_EQ(told.size(), 1u);
   EXPECT_GT(told[0].x[0], 0.01f);
+}
+
+/// A client that joins late, or was stopped, steps many times before it tells anything: what had
+/// come to rest twice was told twice in one message, which no message may, and the client ended.
+TEST(RestCommit, WhatCameToRestTwiceBeforeItIsToldIsToldOnce) {
+  OnTheGround room;
+  for (int i = 0; i < 40; ++i) room.Step();
+  ASSERT_TRUE(room.rest.all());
+  BodyState moving = room.world->Read(0);
+  moving.velocity = Vec2(1, 0);
+  room.world->Write(0, moving);
+  room.Step();
+  room.Step();
+  ASSERT_FALSE(room.rest.Holds(0));
+  for (int i = 0; i < 240; ++i) room.Step();
+  ASSERT_TRUE(room.rest.all());
+  std::vector<PartId> ids;
+  for (const Rest& told : room.rest.Take()) {
+    EXPECT_TRUE(Valid(told));
+    ids.insert(ids.end(), told.id.begin(), told.id.end());
+  }
+  EXPECT_EQ(ids.size(), 2u) << "each once, as it lies now";
 }
 
 }  // namespace

@@ -138,7 +138,7 @@ class RestCommit {
   std::vector<int> due_;                // bodies that a step has to look at
   mutable int open_ = 0;                // the body that was found not to be held last
   bool edited_ = false;
-  std::vector<int> committed_;  // in the last step
+  std::vector<int> committed_;  // since the last Take; some twice
   std::int64_t number_ = 0;     // of the next Rest
   std::vector<Rest> waiting_;   // of ticks still to come
 };

@@ -79,7 +79,9 @@ std::vector<Rest> RestCommit::Take() {
   for (const int body : std::exchange(committed_, {})) {
     if (table_.at(body).committed && Own(body)) bodies.push_back(body);
   }
+  // Who catches up steps many times in one go: something may have come to rest there twice.
   std::sort(bodies.begin(), bodies.end());
+  bodies.erase(std::unique(bodies.begin(), bodies.end()), bodies.end());
   std::vector<Rest> out = table_.Pack(world_, roles_.self(), bodies);
   for (Rest& rest : out) rest.number = number_++;
   return out;
