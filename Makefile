@@ -72,6 +72,8 @@ CLIENT := $(filter-out $(WATCHERS),$(call obj,$(filter-out $(MAINS),$(filter cli
 RENDER := $(call obj,$(filter-out $(MAINS),$(filter render/%,$(SOURCES))))
 EXPORT := $(call obj,$(filter render/export/% render/canvas/shapes.cpp render/canvas/figure.cpp,$(SOURCES)))
 LAB := $(call obj,$(filter-out $(MAINS) %_test.cpp,$(filter tests/lab/%,$(SOURCES))))
+# What seam-lab has from the tests.
+LAB_SUPPORT := $(call obj,tests/support/plan/plain_scene.cpp)
 TESTS := $(call obj,$(filter %_test.cpp tests/support/%,$(filter tests/%,$(SOURCES))))
 CODEC := $(filter $(OUT)/common/codec/%,$(COMMON))
 OBJECTS := $(call obj,$(SOURCES))
@@ -88,7 +90,7 @@ SOAK ?= 300
 
 .DEFAULT_GOAL := all
 .DELETE_ON_ERROR:
-.PHONY: all docs help deps demo bench report spy test tests hashes sanitize check-fast run-tests coverage soak format \
+.PHONY: all docs help deps demo bench report relief spy test tests hashes sanitize check-fast run-tests coverage soak format \
 	lint compile_commands.json install install-built clean force
 
 all: build/.deps-build $(PROGRAMS) $(OUT)/share/.stamp   ## build the programs
@@ -180,7 +182,7 @@ $(OUT)/seam-measure: $(OUT)/render/measure_main.o $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
 $(OUT)/seam-export: $(OUT)/render/export_main.o $(EXPORT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) -o $@
-$(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
+$(OUT)/seam-lab: $(OUT)/tests/lab/main.o $(LAB) $(LAB_SUPPORT) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
 # The tests last: of an inline function that they use too the tested objects' copy is taken.
 $(OUT)/seam-tests: $(LAB) $(SERVER) $(CLIENT) $(WATCHERS) $(RENDER) $(TESTS) $(OUT)/libseam-common.a
@@ -290,6 +292,11 @@ spy: $(SPY)/seam-types.jar           ## the messages for lcm-spy and lcm-logplay
 # QUICK=1: fewer seeds and settings, in two minutes.
 report: build/.deps-report all       ## speed against error: all the measurements, into out/report/ (QUICK=1)
 	SEAM_BIN=$(OUT) FORCE=$(FORCE) FILL="$(FILL)" tests/report.sh out/report $(if $(QUICK),quick)
+
+# QUICK=1: fewer players and seeds. FILL=docs/server.md puts the tables into that page.
+relief: build/.deps-report all       ## what distribution takes off the server, beside its bars: out/relief/ (QUICK=1)
+	$(OUT)/seam-lab relief $(if $(QUICK),--quick) -o out/relief/data/relief
+	$(OUT)/seam-lab report out/relief/data -o out/relief $(if $(FILL),--markdown $(FILL))
 
 install: all $(OUT)/libseam.a        ## programs, man pages, scenes, library, headers under PREFIX (DESTDIR)
 	@$(MAKE) --no-print-directory install-built

@@ -85,7 +85,7 @@ std::string ServerReport(const ServerTold& told) {
       Line("server room: %zu room(s), slowest clock %.0f %%, clients hold %.1f %% of what moves\n",
            rooms.size(), slowest * 1e-4, moving > 0 ? 100 * held / moving : 0.0);
   if (seconds > 0)
-    text += Line("server cpu: %.1f %% of a core in its rooms\n", 100 * cpu / seconds);
+    text += Line("server cpu: %.2f %% of a core in its rooms\n", 100 * cpu / seconds);
   return text;
 }
 

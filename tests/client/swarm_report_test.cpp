@@ -52,7 +52,7 @@ TEST(SwarmReport, WhatDidNotAnswerAtTheBeginningIsCountedFromWhereItDid) {
   told.meanwhile.push_back(a);
   const std::string said = ServerReport(told);
   EXPECT_NE(said.find("p99 0.68 ms, 18.00 ms in the worst second"), std::string::npos) << said;
-  EXPECT_NE(said.find("server cpu: 10.0 % of a core"), std::string::npos) << said;
+  EXPECT_NE(said.find("server cpu: 10.00 % of a core"), std::string::npos) << said;
 }
 
 TEST(SwarmReport, OnABusOnlyTheWorstSecondIsKnown) {

@@ -110,14 +110,17 @@ struct OverheadCommand {
 /// Prints what World::Step costs beside the engine alone. 1: they end differently, or a signal.
 int RunOverhead(const OverheadCommand& command);
 
-struct WorldCommand {
+struct BenchCommand {
   std::vector<std::string> benches;  ///< names; empty: all
   std::string folder;                ///< for a CSV and a Markdown table each; empty: none
   bool quick = false;                ///< smaller and fewer
 };
 
 /// Prints what the features of a scene cost and err beside their baselines. 1: a signal came.
-int RunWorld(const WorldCommand& command);
+int RunWorld(const BenchCommand& command);
+/// Prints what distribution takes off the server, and what it costs, beside its bars. 1: a signal
+/// came.
+int RunRelief(const BenchCommand& command);
 
 struct FairnessCommand {
   std::string scene = "headon";                     ///< two players with a vehicle each, mirrored

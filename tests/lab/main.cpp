@@ -141,12 +141,12 @@ CLI::App* DefineOverhead(CLI::App& app, OverheadCommand& c) {
   return overhead;
 }
 
-CLI::App* DefineWorld(CLI::App& app, WorldCommand& c) {
-  CLI::App* world = app.add_subcommand("world", "features of a scene beside their baselines");
-  world->add_option("NAMES", c.benches, "which (default: all)");
-  world->add_option("-o,--output", c.folder, "folder for a CSV and a Markdown table each");
-  world->add_flag("--quick", c.quick, "smaller and fewer");
-  return world;
+CLI::App* DefineBenches(CLI::App& app, const char* name, const char* what, BenchCommand& c) {
+  CLI::App* benches = app.add_subcommand(name, what);
+  benches->add_option("NAMES", c.benches, "which (default: all)");
+  benches->add_option("-o,--output", c.folder, "folder for a CSV and a Markdown table each");
+  benches->add_flag("--quick", c.quick, "smaller and fewer");
+  return benches;
 }
 
 CLI::App* DefineFairness(CLI::App& app, FairnessCommand& c) {
@@ -238,7 +238,7 @@ int main(int argc, char** argv) {
   TuneCommand tune;
   TuneGaitCommand gait;
   OverheadCommand overhead;
-  WorldCommand world;
+  BenchCommand world, relief;
   FairnessCommand fairness;
   TitlesCommand titles;
   LoadCommand load;
@@ -256,7 +256,10 @@ int main(int argc, char** argv) {
                 {DefineTune(app, tune, gait),
                  [&] { return gait.objective.empty() ? RunTune(tune) : RunTuneGait(gait); }},
                 {DefineOverhead(app, overhead), [&] { return RunOverhead(overhead); }},
-                {DefineWorld(app, world), [&] { return RunWorld(world); }},
+                {DefineBenches(app, "world", "features of a scene beside their baselines", world),
+                 [&] { return RunWorld(world); }},
+                {DefineBenches(app, "relief", "what distribution takes off the server", relief),
+                 [&] { return RunRelief(relief); }},
                 {DefineFairness(app, fairness), [&] { return RunFairnessTable(fairness); }},
                 {DefineTitles(app, titles), [&] { return RunTitles(titles); }},
                 {DefineLoad(app, load), [&] { return RunLoad(load); }},

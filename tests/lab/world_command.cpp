@@ -9,6 +9,7 @@
 #include "common/measure/table.h"
 #include "tests/lab/commands.h"
 #include "tests/lab/grid.h"
+#include "tests/lab/relief/benches.h"
 #include "tests/lab/world/bench.h"
 
 namespace seam {
@@ -46,19 +47,17 @@ void WriteCsv(const TextTable& table, const std::string& path) {
   WriteText(text, path);
 }
 
-}  // namespace
-
-int RunWorld(const WorldCommand& command) {
+int RunBenches(const BenchCommand& command, const std::vector<Bench>& benches) {
   for (const std::string& name : command.benches) {
     std::vector<std::string> known;
-    for (const WorldBench& bench : WorldBenches()) known.emplace_back(bench.name);
+    for (const Bench& bench : benches) known.emplace_back(bench.name);
     if (std::count(known.begin(), known.end(), name) == 0) {
       throw OperatorError("there is no bench '" + name + "'; " + Suggestion(name, known));
     }
   }
   if (!command.folder.empty()) std::filesystem::create_directories(command.folder);
   StopOnSignals();
-  for (const WorldBench& bench : WorldBenches()) {
+  for (const Bench& bench : benches) {
     bool wanted = command.benches.empty();
     for (const std::string& name : command.benches) wanted = wanted || name == bench.name;
     if (!wanted || g_stop != 0) continue;
@@ -73,5 +72,11 @@ int RunWorld(const WorldCommand& command) {
   }
   return g_stop == 0 ? 0 : 1;
 }
+
+}  // namespace
+
+int RunWorld(const BenchCommand& command) { return RunBenches(command, WorldBenches()); }
+
+int RunRelief(const BenchCommand& command) { return RunBenches(command, ReliefBenches()); }
 
 }  // namespace seam

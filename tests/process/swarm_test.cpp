@@ -11,6 +11,7 @@
 #include "common/net/http_page.h"
 #include "common/record/load_page.h"
 #include "common/record/recording.h"
+#include "tests/lab/relief/swarm_figures.h"
 #include "tests/support/in_namespace.h"
 #include "tests/support/program.h"
 #include "tests/support/source_tree.h"
@@ -89,7 +90,15 @@ TEST_F(SwarmProgram, FourClientsPlayForThreeSecondsAndLeaveCleanly) {
   EXPECT_TRUE(whole.Matches(tick.substr(0, tick.find('\n')))) << said;
   EXPECT_GT(NumberAfter(tick, ", p99 "), 0) << said;
   EXPECT_EQ(NumberAfter(said, "server room: "), 1) << said;
-  EXPECT_GE(NumberAfter(said, "server cpu: "), 0) << said;
+  const SwarmFigures figures = ReadSwarm(said);
+  EXPECT_EQ(figures.held, NumberAfter(said, "moving: clients hold "));
+  EXPECT_GT(figures.moving, 1) << said;
+  EXPECT_GT(figures.tick_p99_ms, 0) << said;
+  EXPECT_GT(figures.server_cpu, 0) << said;
+  EXPECT_GT(figures.swarm_cpu, 0) << said;
+  EXPECT_GT(figures.client_us, 0) << said;
+  EXPECT_EQ(figures.rejoins, 0) << said;
+  EXPECT_GT(figures.slowest_clock, 0) << said;
   // Nobody is there any more, at once: they said goodbye.
   std::vector<RoomLoad> loads = Loads(17500);
   for (int i = 0; i < 30 && !loads.empty() && loads[0].load.clients > 0; ++i) {

@@ -196,6 +196,7 @@ TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
       {"tests/lab/report/sessions", "tests/lab(/report)?"},
       {"tests/lab/report/joints", "tests/lab(/report)?"},
       {"tests/lab/load", "tests/lab"},
+      {"tests/lab/relief", "tests/lab(/(handover|load|report|world))?"},
       {"tests/lab/titles", "tests/lab(/report(/sessions)?)?"},
       {"tests/lab/validity", "tests/lab"},
       {"tests/lab/world", "tests/lab(/report)?"}};

@@ -1,6 +1,7 @@
 #include "tests/lab/load/load.h"
 
 #include <algorithm>
+#include <map>
 #include <vector>
 
 namespace seam {
@@ -9,14 +10,28 @@ namespace {
 /// Sums over the ticks of who has what.
 struct Held {
   std::int64_t awake = 0, stepped = 0, by_clients = 0, touches = 0, split = 0;
+  std::map<int, const Replica*> holders;  // by peer
 
-  void Add(const Replica& server) {
+  void Add(Cluster& cluster) {
+    const Replica& server = cluster.server().replica();
+    FindHolders(cluster);
     const World& world = server.world();
     for (int body = 0; body < world.body_count(); ++body) {
       stepped += world.motion(body) == Motion::kAbsent ? 0 : 1;
-      if (!world.awake(body)) continue;
+      const int holder = server.authority().at(world.mechanism(body)).authority;
+      // The server's copy of what a client has may be absent: the client knows.
+      const auto found = holders.find(holder);
+      const bool known = found != holders.end() && found->second->revision() == server.revision();
+      if (!(known ? found->second->world() : world).awake(body)) continue;
       ++awake;
-      by_clients += server.authority().at(world.mechanism(body)).authority > 0 ? 1 : 0;
+      by_clients += holder > 0 ? 1 : 0;
+    }
+  }
+  void FindHolders(Cluster& cluster) {
+    holders.clear();
+    for (int i = 0; i < cluster.client_count(); ++i) {
+      const Client& client = *cluster.client(i);
+      if (client.running()) holders[client.peer()] = client.replica();
     }
   }
   /// Touches of what the peer has authority over: each pair of two authorities is seen by both.
@@ -55,7 +70,7 @@ SessionLoad MeasureLoad(ClusterConfig config) {
     cluster.RunToTick(tick);
     tick_us.push_back(cluster.server_cpu_us() - before_us);
     before_us = cluster.server_cpu_us();
-    held.Add(cluster.server().replica());
+    held.Add(cluster);
     for (int i = 0; i < cluster.client_count(); ++i) {
       const Client& client = *cluster.client(i);
       if (client.running()) held.AddTouches(*client.replica(), client.peer());

@@ -12,7 +12,7 @@ namespace seam {
 struct SessionLoad {
   int players = 0;
   int bodies = 0;               ///< that move, in the scene
-  double awake = 0;             ///< of them, on average, at the server's copy
+  double awake = 0;             ///< of them, on average, at whoever has them
   double stepped = 0;           ///< bodies in the server's steps, on average, displayed ones too
   double server_us = 0;         ///< CPU time a tick, network included; sockets are not
   double server_p99_us = 0;     ///< of the ticks

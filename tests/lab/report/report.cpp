@@ -151,6 +151,8 @@ std::vector<Section> BuildReport(const ReportInput& input) {
   if (!cost.items.empty()) sections.push_back(std::move(cost));
   Section world = WorldSection((data / "world").string());
   if (!world.items.empty()) sections.push_back(std::move(world));
+  Section relief = ReliefSection((data / "relief").string());
+  if (!relief.items.empty()) sections.push_back(std::move(relief));
   const fs::path titles = data / "titles.csv";
   if (fs::exists(titles)) {
     sections.push_back(

@@ -28,6 +28,8 @@ Section RendersSection(const std::string& out);
 /// A table for each FOLDER/NAME.csv, as `seam-lab world -o FOLDER` leaves them; no items where
 /// there is no such folder.
 Section WorldSection(const std::string& folder);
+/// The same of `seam-lab relief`.
+Section ReliefSection(const std::string& folder);
 /// frame_00000.png, ... as far as they go without a hole.
 std::vector<std::string> FramesOf(const std::string& folder);
 

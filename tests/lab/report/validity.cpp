@@ -42,7 +42,8 @@ std::string WithValidity(const std::string& value, const Validity& validity) {
 
 std::vector<std::string> TablesNotValid(const std::string& data) {
   std::vector<std::string> lines;
-  for (const fs::path& folder : {fs::path(data), fs::path(data) / "world"}) {
+  for (const fs::path& folder :
+       {fs::path(data), fs::path(data) / "world", fs::path(data) / "relief"}) {
     std::error_code none;  // a folder that is not there has no tables
     for (const fs::path& path : FilesIn(folder, ".csv", &none)) {
       const Validity validity = FindValidity(CsvTable::Load(path.string()));

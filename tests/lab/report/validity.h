@@ -24,9 +24,9 @@ Validity FindValidity(const CsvTable& table);
 /// valid)" behind it where some is not.
 std::string WithValidity(const std::string& value, const Validity& validity);
 
-/// A line for each CSV file of the report's data, world/*.csv included, of which more than a tenth
-/// of the rows is not valid: "PATH: 12 of 40 rows are not valid, the first: REASON". Throws
-/// OperatorError for a file that is damaged.
+/// A line for each CSV file of the report's data, those of world and relief included, of which more
+/// than a tenth of the rows is not valid: "PATH: 12 of 40 rows are not valid, the first: REASON".
+/// Throws OperatorError for a file that is damaged.
 std::vector<std::string> TablesNotValid(const std::string& data);
 
 }  // namespace seam

@@ -13,10 +13,10 @@ namespace {
 namespace fs = std::filesystem;
 
 /// NAME.csv, and title and note from NAME.txt.
-TextTable LoadBench(const fs::path& csv_path) {
+TextTable LoadBench(const fs::path& csv_path, const std::string& command) {
   const CsvTable csv = CsvTable::Load(csv_path.string());
   TextTable table;
-  table.name = "world-" + csv_path.stem().string();
+  table.name = command + "-" + csv_path.stem().string();
   table.title = csv_path.stem().string();
   table.header = csv.header();
   const auto valid = std::find(table.header.begin(), table.header.end(), "valid");
@@ -35,9 +35,16 @@ TextTable LoadBench(const fs::path& csv_path) {
   std::string line;
   if (std::getline(words, line) && !line.empty()) table.title = line;
   while (std::getline(words, line)) table.note += (table.note.empty() ? "" : " ") + line;
-  table.command = "seam-lab world " + csv_path.stem().string();
+  table.command = "seam-lab " + command + " " + csv_path.stem().string();
   table.open = true;
   return table;
+}
+
+void AddBenches(const std::string& folder, const std::string& command, Section* section) {
+  std::error_code error;  // a folder that is not there has none
+  for (const fs::path& file : FilesIn(folder, ".csv", &error)) {
+    section->items.emplace_back(LoadBench(file, command));
+  }
 }
 
 }  // namespace
@@ -49,9 +56,18 @@ Section WorldSection(const std::string& folder) {
   section.intro =
       "Each table is one run: the feature and what it is compared with take turns, and ratios are "
       "medians over pairs of turns. Errors are against mathematics.";
-  std::error_code error;
-  for (const fs::path& file : FilesIn(folder, ".csv", &error))
-    section.items.emplace_back(LoadBench(file));
+  AddBenches(folder, "world", &section);
+  return section;
+}
+
+Section ReliefSection(const std::string& folder) {
+  Section section;
+  section.id = "relief";
+  section.title = "What distribution takes off the server";
+  section.intro =
+      "Each figure beside what it must be, and what had to be so that it says anything. Times are "
+      "of the machine of the run; ratios are of sessions in turn.";
+  AddBenches(folder, "relief", &section);
   return section;
 }
 

@@ -10,13 +10,13 @@
 
 namespace seam {
 
-struct WorldBench {
+struct Bench {
   const char* name;              ///< a-z, 0-9, -
   TextTable (*run)(bool quick);  ///< quick: fewer bodies and repeats, seconds in all
 };
 
 /// All of them, in the order of the report.
-const std::vector<WorldBench>& WorldBenches();
+const std::vector<Bench>& WorldBenches();
 
 // Each in its own file tests/lab/world/NAME.cpp, and named in benches.cpp.
 TextTable FeatherweightBench(bool quick);
@@ -30,6 +30,11 @@ TextTable CharactersBench(bool quick);
 TextTable FactorBench(bool quick);
 TextTable PlannerBench(bool quick);
 TextTable ClientTickBench(bool quick);
+
+/// CPU time of one plan of a room so wide and high, m, in which all moves, ms: the median of some.
+double PlanMs(int players, int mechanisms, float width, float height, int repeats);
+/// What each of so many bodies that concern a client in nothing costs its tick, ns.
+double FarBodyNs(int far, int ticks, int pairs);
 
 /// CPU seconds of this process so far.
 double CpuSeconds();

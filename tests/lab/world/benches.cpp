@@ -5,8 +5,8 @@
 
 namespace seam {
 
-const std::vector<WorldBench>& WorldBenches() {
-  static const std::vector<WorldBench> benches = {
+const std::vector<Bench>& WorldBenches() {
+  static const std::vector<Bench> benches = {
       {"featherweight", FeatherweightBench},
       {"anchored", AnchoredBench},
       {"water", WaterBench},

@@ -44,7 +44,27 @@ double TickUs(Replica* replica, int ticks) {
   return 1e6 * (CpuSeconds() - began) / ticks;
 }
 
+/// By turns with a room of few.
+struct FarCost {
+  FarCost(int far, int ticks, int pairs) {
+    const std::unique_ptr<Replica> few = RoomOf(kFew), many = RoomOf(far);
+    for (int pair = 0; pair < pairs; ++pair) {
+      const double base = TickUs(few.get(), ticks);
+      tick_us.push_back(TickUs(many.get(), ticks));
+      body_ns.push_back(1e3 * (tick_us.back() - base) / (far - kFew));
+    }
+    std::sort(tick_us.begin(), tick_us.end());
+    std::sort(body_ns.begin(), body_ns.end());
+  }
+  std::vector<double> tick_us, body_ns;  // ascending
+};
+
 }  // namespace
+
+double FarBodyNs(int far, int ticks, int pairs) {
+  const FarCost cost(far, ticks, pairs);
+  return cost.body_ns[cost.body_ns.size() / 2];
+}
 
 TextTable ClientTickBench(bool quick) {
   const int ticks = quick ? 120 : 600, pairs = quick ? 3 : 9;
@@ -52,20 +72,11 @@ TextTable ClientTickBench(bool quick) {
   table.name = "world-client-tick";
   table.title = "A client's tick beside bodies that concern it in nothing";
   table.header = {"far bodies", "us a tick", "ns a far body"};
-  const std::unique_ptr<Replica> few = RoomOf(kFew);
   for (const int far : {1000, 10000, 60000}) {
     if (quick && far > 1000) break;
-    const std::unique_ptr<Replica> many = RoomOf(far);
-    std::vector<double> cost, each;
-    for (int pair = 0; pair < pairs; ++pair) {
-      const double base = TickUs(few.get(), ticks);
-      cost.push_back(TickUs(many.get(), ticks));
-      each.push_back(1e3 * (cost.back() - base) / (far - kFew));
-    }
-    std::sort(cost.begin(), cost.end());
-    std::sort(each.begin(), each.end());
-    table.rows.push_back(
-        {std::to_string(far), Digits(cost[cost.size() / 2]), Digits(each[each.size() / 2])});
+    const FarCost cost(far, ticks, pairs);
+    table.rows.push_back({std::to_string(far), Digits(cost.tick_us[cost.tick_us.size() / 2]),
+                          Digits(cost.body_ns[cost.body_ns.size() / 2])});
   }
   table.note =
       "CPU time of a client that simulates one box and displays another that it touches; the "

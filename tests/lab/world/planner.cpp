@@ -40,7 +40,6 @@ AuthorityView Settled(const Case& of, int mechanisms) {
   return view;
 }
 
-/// CPU time of one plan, ms: the median of some.
 double PlanMs(const AuthorityView& view, int repeats) {
   std::vector<double> all;
   for (int i = 0; i < repeats; ++i) {
@@ -53,6 +52,10 @@ double PlanMs(const AuthorityView& view, int repeats) {
 }
 
 }  // namespace
+
+double PlanMs(int players, int mechanisms, float width, float height, int repeats) {
+  return PlanMs(Settled(Case{"", players, width, height, false}, mechanisms), repeats);
+}
 
 TextTable PlannerBench(bool quick) {
   const int repeats = quick ? 5 : 51;
