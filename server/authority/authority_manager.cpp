@@ -164,7 +164,12 @@ bool AuthorityManager::Advance(std::int64_t now_us, int m) {
     grants_.push_back(Told(now_us, replica_.tick(), memory.revoked_id, WithoutHolder(record)));
     return true;
   }
-  if (authority == record.authority && secondaries == record.secondaries) return kept;
+  if (authority == record.authority && secondaries == record.secondaries) {
+    // The question was told to the holder alone where not all is told to all (GrantNews).
+    const bool others_know = replica_.world().body_count() <= scene_.follow_bodies;
+    if (released && !others_know) changed_.push_back(m);
+    return kept;
+  }
   if (authority != record.authority) {
     if (!released && replica_.tick() > 0) {
       for (ExactStates& exact : replica_.MakeExact({m}, 1)) {
@@ -254,8 +259,7 @@ void AuthorityManager::NoteJump(int body, const BodyState& off) {
 }
 
 void AuthorityManager::NoteTold(int body, const BodyState& off) {
-  const bool far =
-      off.position.norm() > kContestedOff || off.velocity.norm() > kContestedVelocity;
+  const bool far = off.position.norm() > kContestedOff || off.velocity.norm() > kContestedVelocity;
   Memory& memory = memory_[static_cast<std::size_t>(replica_.world().mechanism(body))];
   memory.contested *= 1 - 1 / static_cast<float>(kContestedSeconds * config_.send_hz);
   if (far) memory.contested += 1;

@@ -88,13 +88,6 @@ std::string Narrow(const Scene& scene, Random* random, ClusterConfig* config) {
     config->client_bytes_per_s = 1000.0 * kilobytes;
     drawn += ", " + std::to_string(kilobytes) + " kB/s";
   }
-  // In mode central nothing keeps a client from more than its machine can do.
-  if (config->mode == "buffer" && random->Chance(0.4)) {
-    const int body_us = Between(random, 10, 300), slower = Between(random, 1, 6);
-    config->client_body_us = body_us;
-    config->client_throttle = {1.0 * slower};
-    drawn += ", " + std::to_string(body_us) + " us a body";
-  }
   return drawn;
 }
 

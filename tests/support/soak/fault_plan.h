@@ -41,7 +41,7 @@ struct FaultChoice {
   double seconds = 20;
   int players = 8;  ///< at most so many of the scene's are there
   /// In half of the sessions a room is as narrow for what is in it as a large one is for much more:
-  /// nobody follows it whole, clients get few bytes, their machines are slow; some of that in each.
+  /// nobody follows it whole, and in some clients get few bytes.
   bool narrow = false;
 };
 
