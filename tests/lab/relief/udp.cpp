@@ -144,6 +144,7 @@ void AddRelief(const SceneFolder& files, int players, double most, int pairs, do
                std::vector<BarRow>* rows) {
   ReliefRoom room;
   room.players = players;
+  room.sleep = true;  // else as many are awake in central alone: buffer's holders let what lies lie
   UdpCase of;
   of.scene = files.Write(room);
   of.clients = players;
