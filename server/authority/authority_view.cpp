@@ -33,6 +33,7 @@ void AuthorityManager::Look(const Situation& situation) {
   view.mode = config_.mode;
   view.tick_hz = config_.tick_hz;
   view.buffer_m = scene_.buffer_m;
+  view.gravity = scene_.gravity;
   view.follow_bodies = scene_.follow_bodies;
   view.exact = config_.GoesBack(0);
   for (int p = 0; p < static_cast<int>(scene_.players.size()) && view.exact; ++p) {

@@ -4,6 +4,7 @@
 
 #include "server/authority/box_sweep.h"
 #include "server/authority/player_of_peer.h"
+#include "server/authority/swept_boxes.h"
 #include "server/authority/unions.h"
 
 namespace seam {
@@ -22,9 +23,10 @@ float LongestWay(const AuthorityView& view) {
 
 class Look {
  public:
-  Look(const AuthorityView& view, const AuthorityPlan& plan)
+  Look(const AuthorityView& view, const AuthorityPlan& plan, bool by_ways)
       : view_(view),
         plan_(plan),
+        fall_(by_ways ? FallAxisOf(view.gravity) : FallAxis{}),
         one_way_(plan.size(), 0),
         servers_(plan.size(), 0),
         soon_(plan.size()),
@@ -93,17 +95,25 @@ class Look {
     const auto within = [&](float seconds) {
       return gap <= speed * seconds + (kZoneSlack + acceleration * seconds * seconds / 2);
     };
-    const float seconds = ZoneSeconds(one_way_[x], one_way_[y]);
-    if (!within(kZoneKeep + seconds)) return;
+    const float soon = ZoneSeconds(one_way_[x], one_way_[y]), later = kZoneKeep + soon;
+    if (!within(later)) return;
+    const bool may_soon = within(soon);
+    if (servers) {
+      server_later_[x] = server_later_[y] = 1;
+      if (may_soon) server_soon_[x] = server_soon_[y] = 1;
+    }
+    if (!OnTheirWays(a, b, later)) return;
     later_.Unite(a.group, b.group);
-    if (servers) server_later_[x] = server_later_[y] = 1;
-    if (!within(seconds)) return;
-    soon_.Unite(a.group, b.group);
-    if (servers) server_soon_[x] = server_soon_[y] = 1;
+    if (may_soon && OnTheirWays(a, b, soon)) soon_.Unite(a.group, b.group);
+  }
+
+  bool OnTheirWays(const MovingBox& a, const MovingBox& b, float seconds) const {
+    return fall_.axis < 0 || MayMeetOnTheirWays(a, b, fall_, seconds);
   }
 
   const AuthorityView& view_;
   const AuthorityPlan& plan_;
+  const FallAxis fall_;         // none: as MayMeet says
   std::vector<float> one_way_;  // by mechanism: to who is planned to have it
   std::vector<int> servers_;    // by mechanism: 1 where the server has to see to it
   Unions soon_, later_;
@@ -112,8 +122,9 @@ class Look {
 
 }  // namespace
 
-ContactGroups FindContactGroups(const AuthorityView& view, const AuthorityPlan& plan) {
-  return Look(view, plan).Sweep();
+ContactGroups FindContactGroups(const AuthorityView& view, const AuthorityPlan& plan,
+                                bool by_ways) {
+  return Look(view, plan, by_ways).Sweep();
 }
 
 }  // namespace seam

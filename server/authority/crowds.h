@@ -6,6 +6,8 @@
 
 #include "common/sync/reach/zones.h"
 #include "server/authority/group_lists.h"
+#include "server/authority/plan.h"
+#include "server/authority/player_of_peer.h"
 
 namespace seam {
 
@@ -45,6 +47,14 @@ struct Way {
 inline float WayOf(const MovingBox& box, float seconds) {
   return box.velocity.norm() * seconds + kZoneSlack / 2 + box.acceleration * seconds * seconds / 2;
 }
+
+/// How far the boxes get before a grant could tell, at most.
+struct Ways {
+  std::vector<Way> of;   ///< by mechanism
+  std::vector<Way> own;  ///< by player: of what its peer is planned to have
+  Way farthest;          ///< of any
+};
+Ways FindWays(const AuthorityView& view, const AuthorityPlan& plan, const PlayerOfPeer& players);
 
 /// What is in which crowd, and which players have something in it.
 class Crowds {

@@ -59,6 +59,7 @@ struct AuthorityView {
   Mode mode = Mode::kBuffer;
   int tick_hz = 60;
   float buffer_m = 0;          ///< width of the buffer zone
+  Vec2 gravity{0, 0};          ///< m/s^2
   int follow_bodies = 0;       ///< see Scene::follow_bodies
   int server_follow = 0;       ///< see Scene::server_follow; 0 where it need not see
   bool physics_edits = false;  ///< see ProposesEdits: the server follows everything
@@ -86,9 +87,10 @@ struct AuthorityView {
 ///   a mechanism gives way to the server. Secondary (mode buffer): peers whose region, or whose
 ///   mechanisms, are within the scene's buffer width of its boxes, or with whose mechanisms it may
 ///   come into contact, directly or through others, before a grant could tell them (ZoneSeconds);
-///   and all of a room of at most follow_bodies. In a larger one, where things of eight peers may
-///   come into contact with each other and less than three quarters of them touch: through others
-///   only within 24 m, or if all touches on the way.
+///   and all of a room of at most follow_bodies. In a larger one only what may do so on the ways on
+///   which they are (MayMeetOnTheirWays), and where things of eight peers may come into contact
+///   with each other and less than three quarters of them touch: through others only within 24 m,
+///   or if all touches on the way.
 ///   The server: everything in a room of at most server_follow bodies, and where physics finds
 ///   edits, which it orders as soon as it knows the inputs that they hang on; else what may come
 ///   into contact with something of its own, and what moves of a silent holder.

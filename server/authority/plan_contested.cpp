@@ -33,7 +33,7 @@ void DecideContested(const AuthorityView& view, AuthorityPlan* plan) {
       view.mechanisms.begin(), view.mechanisms.end(),
       [](const MechanismView& mechanism) { return mechanism.contested > 0 || mechanism.decided; });
   if (!any) return;
-  const std::vector<int> groups = FindContactGroups(view, *plan).soon;
+  const std::vector<int> groups = FindContactGroups(view, *plan, false).soon;
   std::vector<Crowd> crowds(plan->size());
   for (std::size_t m = 0; m < plan->size(); ++m) {
     const MechanismView& mechanism = view.mechanisms[m];

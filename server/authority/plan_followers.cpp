@@ -35,14 +35,14 @@ class Followers {
   }
 
   void Plan() {
-    const ContactGroups contacts = FindContactGroups(view_, plan_);
+    const ContactGroups contacts = FindContactGroups(view_, plan_, crowded_);
     FollowAtServer(contacts);
     const GroupLists soon(contacts.soon);
     FollowGroups(soon, nullptr);
     FollowGroups(GroupLists(contacts.later), &soon);
     if (crowded_) grid_.emplace(view_.boxes);
     if (soon_crowds_.any() || later_crowds_.any()) {
-      FindWays();
+      ways_ = FindWays(view_, plan_, players_);
       FollowTouching();
     }
     for (std::size_t p = 0; p < view_.players.size(); ++p) {
@@ -178,33 +178,16 @@ class Followers {
     const bool follows = now(m).secondaries.Has(view_.players[player].peer);
     const float reach = view_.buffer_m + (follows ? kHysteresis : 0.0f);
     if (soon_crowds_.Has(player, m) || (follows && later_crowds_.Has(player, m))) {
-      return std::max(reach, CrowdReach(ways_[static_cast<std::size_t>(m)], player, follows));
+      return std::max(reach, CrowdReach(ways_.of[static_cast<std::size_t>(m)], player, follows));
     }
     return reach;
   }
 
   /// The same in a crowd, of what can make such a way.
   float CrowdReach(const Way& way, std::size_t player, bool follows) const {
-    const Way& own = own_ways_[player];
+    const Way& own = ways_.own[player];
     return follows ? std::max(kCrowdReach + kHysteresis, way.later + own.later)
                    : std::max(kCrowdReach, way.soon + own.soon);
-  }
-
-  /// How far the boxes get before a grant could tell.
-  void FindWays() {
-    float longest = 0;
-    for (const PlayerView& player : view_.players) longest = std::max(longest, player.one_way_s);
-    const float soon_s = ZoneSeconds(longest, longest), later_s = soon_s + kZoneKeep;
-    ways_.resize(plan_.size());
-    own_ways_.resize(view_.players.size());
-    for (const MovingBox& box : view_.boxes) {
-      const Way way{WayOf(box, soon_s), WayOf(box, later_s)};
-      const auto m = static_cast<std::size_t>(box.group);
-      ways_[m].Raise(way);
-      farthest_.Raise(way);
-      const int player = plan_[m].authority > 0 ? players_.At(plan_[m].authority) : -1;
-      if (player >= 0) own_ways_[static_cast<std::size_t>(player)].Raise(way);
-    }
   }
 
   void FollowNear(std::size_t player) {
@@ -226,8 +209,8 @@ class Followers {
   void Measure(std::size_t p) {
     const PlayerView& player = view_.players[p];
     const bool any_crowd = soon_crowds_.Any(p) || later_crowds_.Any(p);
-    const float near =
-        std::max(view_.buffer_m + kHysteresis, any_crowd ? CrowdReach(farthest_, p, true) : 0.0f);
+    const float near = std::max(view_.buffer_m + kHysteresis,
+                                any_crowd ? CrowdReach(ways_.farthest, p, true) : 0.0f);
     MovingBox all;
     for (int k = own_begin_[p]; k < own_begin_[p + 1]; ++k) {
       const MovingBox& box = Own(k);
@@ -330,9 +313,7 @@ class Followers {
   std::vector<int> own_;                      // indices of the boxes
   std::optional<std::vector<int>> touching_;  // by mechanism: the lowest of what touches it now
   Crowds soon_crowds_, later_crowds_;
-  std::vector<Way> ways_;      // by mechanism; these three: if there are crowds
-  std::vector<Way> own_ways_;  // by player
-  Way farthest_;
+  Ways ways_;                                // if there are crowds
   std::vector<float> distance_;              // by mechanism, for the player that seen_by_ says
   std::vector<int> seen_by_;                 // by mechanism
   std::vector<int> seen_;                    // mechanisms

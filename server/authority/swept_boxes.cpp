@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cfloat>
+#include <cmath>
 
 namespace seam {
 
@@ -22,6 +23,32 @@ float SecondsToTouch(const MovingBox& a, const MovingBox& b, float gap, float se
     leave = std::min(leave, std::max(low / v, high / v));
   }
   return enter <= leave ? enter : FLT_MAX;
+}
+
+FallAxis FallAxisOf(const Vec2& gravity) {
+  if (gravity.x() == 0 && gravity.y() != 0) return {1, std::fabs(gravity.y())};
+  if (gravity.y() == 0 && gravity.x() != 0) return {0, std::fabs(gravity.x())};
+  return {};
+}
+
+bool MayMeetOnTheirWays(const MovingBox& a, const MovingBox& b, const FallAxis& fall,
+                        float seconds) {
+  const float slack = kPressGap + (a.acceleration + b.acceleration) * seconds * seconds / 2;
+  const int across = 1 - fall.axis, along = fall.axis;
+  const float low = b.min[across] - slack - a.max[across];
+  const float high = b.max[across] + slack - a.min[across];
+  const float v = a.velocity[across] - b.velocity[across];
+  float enter = 0, leave = seconds;  // when one is over the other
+  if (v == 0) {
+    if (low > 0 || high < 0) return false;
+  } else {
+    enter = std::max(enter, std::min(low / v, high / v));
+    leave = std::min(leave, std::max(low / v, high / v));
+    if (enter > leave) return false;
+  }
+  const float apart = std::max(a.min[along] - b.max[along], b.min[along] - a.max[along]);
+  const float speeds = std::fabs(a.velocity[along]) + std::fabs(b.velocity[along]);
+  return apart <= speeds * leave + fall.pull * leave * leave + slack;
 }
 
 }  // namespace seam

@@ -192,6 +192,26 @@ TEST(PlanAuthority, WhatFliesSideBySideIsNoHeap) {
   EXPECT_TRUE(Follows(Row(10, 0.5f + 0.02f), 299, 1)) << "stacks have gaps";
 }
 
+/// Balls that bounce beside each other fall and rise, but do not come nearer.
+TEST(PlanAuthority, InALargeRoomWhatIsFollowedIsWhatMayBeMetOnTheWay) {
+  AuthorityView view = TwoSides({-50, 20, 21.2f, 22.4f});
+  for (std::size_t m = 1; m < 4; ++m) view.boxes[m].velocity = {0, m % 2 == 0 ? 8.0f : -8.0f};
+  view.mechanisms[1].owner = 0;  // ann's, in a row of bob's
+  view.buffer_m = 0;
+  view.follow_bodies = 3;
+  EXPECT_TRUE(Follows(view, 2, kAnn)) << "no way down is known: they may turn anywhere";
+  view.gravity = {0, -10};
+  EXPECT_FALSE(Follows(view, 2, kAnn));
+  view.boxes[2].velocity.x() = -2;
+  EXPECT_TRUE(Follows(view, 2, kAnn)) << "it comes";
+  EXPECT_FALSE(Follows(view, 3, kAnn));
+  view.boxes[3].velocity.x() = -4;
+  EXPECT_TRUE(Follows(view, 3, kAnn)) << "it comes through the other";
+  view.follow_bodies = 4;
+  view.boxes[2].velocity.x() = view.boxes[3].velocity.x() = 0;
+  EXPECT_TRUE(Follows(view, 2, kAnn)) << "a room that is followed whole";
+}
+
 TEST(PlanAuthority, WhatIsMetThroughOthersIsFollowedToo) {
   AuthorityView view = TwoSides({-50, 20, 20.6f, 21.2f, 30});
   view.mechanisms[1].owner = 0;  // ann's, among a row of bob's that touch

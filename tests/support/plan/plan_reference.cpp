@@ -7,6 +7,8 @@
 #include <set>
 #include <utility>
 
+#include "server/authority/swept_boxes.h"
+
 namespace seam {
 namespace {
 
@@ -55,9 +57,9 @@ int PlannedHolder(const AuthorityView& view, const MechanismView& mechanism) {
 }
 
 /// Pairs of mechanisms that may come into contact within the time of their peers and `more`
-/// seconds.
+/// seconds. `by_ways`: those alone that may on the ways on which they are.
 std::vector<std::pair<int, int>> ContactPairs(const AuthorityView& view, const ReferencePlan& plan,
-                                              float more) {
+                                              float more, bool by_ways) {
   std::vector<float> one_way(plan.size(), 0);
   float longest = 0;
   for (const PlayerView& player : view.players) {
@@ -70,7 +72,19 @@ std::vector<std::pair<int, int>> ContactPairs(const AuthorityView& view, const R
     return more +
            ZoneSeconds(one_way[static_cast<std::size_t>(a)], one_way[static_cast<std::size_t>(b)]);
   };
-  return MeetingGroups(view.boxes, more + ZoneSeconds(longest, longest), seconds_of);
+  const FallAxis fall = FallAxisOf(view.gravity);
+  if (!by_ways || fall.axis < 0) {
+    return MeetingGroups(view.boxes, more + ZoneSeconds(longest, longest), seconds_of);
+  }
+  std::set<std::pair<int, int>> pairs;
+  for (const MovingBox& a : view.boxes) {
+    for (const MovingBox& b : view.boxes) {
+      const float seconds = seconds_of(a.group, b.group);
+      const bool may = MayMeet(a, b, seconds) && MayMeetOnTheirWays(a, b, fall, seconds);
+      if (a.group < b.group && may) pairs.insert({a.group, b.group});
+    }
+  }
+  return {pairs.begin(), pairs.end()};
 }
 
 /// By mechanism: whether it is in a group with one of the peer's.
@@ -186,13 +200,14 @@ std::vector<bool> InCrowds(const AuthorityView& view, const ReferencePlan& plan,
 
 /// Adds to each mechanism the peers in whose buffer zone it is.
 void AddFollowers(const AuthorityView& view, ReferencePlan* plan) {
-  const auto pairs_soon = ContactPairs(view, *plan, 0);
-  const auto pairs_later = ContactPairs(view, *plan, kZoneKeep);
-  FollowAtServer(view, pairs_soon, pairs_later, plan);
+  const bool whole = view.boxes.size() <= static_cast<std::size_t>(view.follow_bodies);
+  FollowAtServer(view, ContactPairs(view, *plan, 0, false),
+                 ContactPairs(view, *plan, kZoneKeep, false), plan);
+  const auto pairs_soon = ContactPairs(view, *plan, 0, !whole);
+  const auto pairs_later = ContactPairs(view, *plan, kZoneKeep, !whole);
   // By mechanism, the lowest of those that it may come into contact with, directly or through
   // others.
   const auto count = static_cast<int>(plan->size());
-  const bool whole = view.boxes.size() <= static_cast<std::size_t>(view.follow_bodies);
   const std::vector<int> soon = Components(count, pairs_soon);
   const std::vector<int> later = Components(count, pairs_later);
   const std::vector<bool> crowd_soon = InCrowds(view, *plan, soon);
