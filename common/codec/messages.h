@@ -14,7 +14,7 @@
 namespace seam {
 
 /// Bumped when any message changes: peers of different versions do not talk.
-constexpr std::int32_t kProtocolVersion = 10;
+constexpr std::int32_t kProtocolVersion = 11;
 /// The oldest whose messages on the bus are those of today: what was recorded since can be read.
 constexpr std::int32_t kOldestRecorded = 8;
 
@@ -130,7 +130,7 @@ struct States {
   std::int32_t origin_y = 0;         ///< whole metres
   std::vector<std::int32_t> id;      ///< assembly ids, ascending; all vectors of one length
   std::vector<std::int32_t> epoch;   ///< of the body's mechanism
-  std::vector<std::int8_t> flags;    ///< kStateAsleep | kStateImpact
+  std::vector<std::int8_t> flags;    ///< kStateAsleep | kStateImpact | kStateFalls
   std::vector<std::int16_t> x, y;    ///< 1/512 m
   std::vector<std::int16_t> angle;   ///< 2*pi/65536 rad, wraps
   std::vector<std::int16_t> vx, vy;  ///< 1/256 m/s
@@ -138,6 +138,7 @@ struct States {
 };
 constexpr std::int8_t kStateAsleep = 1;
 constexpr std::int8_t kStateImpact = 2;  ///< a major impact in the last second, on the authority
+constexpr std::int8_t kStateFalls = 4;   ///< touches nothing: gravity alone moves it
 
 /// Reliable: bodies that have come to rest at the peer that has authority over them, as they lie
 /// after `tick`, bit for bit. They hold until a newer state of the body.

@@ -140,7 +140,7 @@ bool Valid(const States& m) {
          m.id.size() <= kStatesBodiesMax &&
          Lengths(m.id.size(), m.epoch, m.flags, m.x, m.y, m.angle, m.vx, m.vy, m.spin) &&
          Ascending(m.id) && AllWithin(m.epoch, 0, INT32_MAX) &&
-         AllWithin(m.flags, 0, kStateAsleep | kStateImpact) &&
+         AllWithin(m.flags, 0, kStateAsleep | kStateImpact | kStateFalls) &&
          Within(m.origin_x, -kOriginMax, kOriginMax) && Within(m.origin_y, -kOriginMax, kOriginMax);
 }
 

@@ -177,6 +177,10 @@ class World {
   /// not count.
   float FreeWay(int body, const Vec2& from, const Vec2& to) const;
 
+  /// Where the body comes from a state in `seconds` of free flight: gravity moves it, and it
+  /// bounces off what is anchored and stands still; other bodies, joints and water are not met.
+  BodyState AfterFlight(int body, const BodyState& from, float seconds) const;
+
   /// After the last tick, ascending by body; at most two per body.
   const std::vector<BlockedDirection>& blocked_directions() const;
 

@@ -13,6 +13,7 @@
 #include "common/base/check.h"
 #include "common/physics/contact_hub.h"
 #include "common/physics/exact/exact_step.h"
+#include "common/physics/flight/flight.h"
 #include "common/physics/stage.h"
 #include "common/physics/world.h"
 #include "common/physics/world_build.h"
@@ -201,6 +202,7 @@ struct World::Impl {
   std::vector<std::unique_ptr<Stage>> stages;  // in their order of action
   std::unique_ptr<ContactHub> hub;             // only when a stage listens
   std::vector<Impact> impacts;
+  mutable Flight flight;
   // Computed when asked for, so that a world that nobody asks has no cost.
   std::optional<std::vector<Touch>> touches;
   std::optional<std::vector<BlockedDirection>> blocked_directions;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "common/physics/flight/solid.h"
 #include "common/physics/world_impl.h"
 
 namespace seam {
@@ -30,8 +31,7 @@ class FirstAnchored : public b2RayCastCallback {
 
   float ReportFixture(b2Fixture* fixture, const b2Vec2&, const b2Vec2&, float fraction) override {
     const b2Body& other = *fixture->GetBody();
-    const bool solid = other.GetType() == b2_staticBody && !fixture->IsSensor();
-    if (!solid || !Collides(*fixture) || Tied(body_, other)) return -1;
+    if (!IsSolidAndAnchored(*fixture) || !Collides(*fixture) || Tied(body_, other)) return -1;
     share = fraction;
     return fraction;
   }
@@ -40,18 +40,8 @@ class FirstAnchored : public b2RayCastCallback {
 
  private:
   bool Collides(const b2Fixture& other) const {
-    const b2Filter& theirs = other.GetFilterData();
     for (const b2Fixture* own = body_.GetFixtureList(); own != nullptr; own = own->GetNext()) {
-      const b2Filter& ours = own->GetFilterData();
-      if (own->IsSensor()) continue;
-      if (ours.groupIndex == theirs.groupIndex && ours.groupIndex != 0) {
-        if (ours.groupIndex > 0) return true;
-        continue;
-      }
-      if ((ours.maskBits & theirs.categoryBits) != 0 &&
-          (ours.categoryBits & theirs.maskBits) != 0) {
-        return true;
-      }
+      if (!own->IsSensor() && Collide(*own, other)) return true;
     }
     return false;
   }
@@ -222,6 +212,12 @@ float World::FreeWay(int body, const Vec2& from, const Vec2& to) const {
   FirstAnchored first(*impl_->moving(body).body);
   impl_->world->RayCast(&first, begin, end);
   return first.share;
+}
+
+BodyState World::AfterFlight(int body, const BodyState& from, float seconds) const {
+  const MovingBody& moving = impl_->moving(body);
+  impl_->flight.Begin(*impl_->world, *moving.body, moving.mass, impl_->step_s());
+  return impl_->flight.After(from, seconds);
 }
 
 /// The joints as they are while nothing is absent.

@@ -10,6 +10,11 @@ namespace {
 constexpr int kHistory = 3;
 /// Mechanisms stay coupled for 1 s / kCoupledPart after they last touched: contact flickers.
 constexpr int kCoupledPart = 4;
+/// What gravity does in a tick may be off by this share of it, and by this for rounding, m/s, of
+/// what falls freely: less than what lies, slides, rolls or swims is off by.
+constexpr float kFallsOff = 0.05f, kFallsRounding = 1e-4f;
+/// What was changed by more than this in a tick, and leaves that way with more, was thrown, m/s.
+constexpr float kThrown = 1, kLeaves = 0.5f;
 
 }  // namespace
 
@@ -38,6 +43,25 @@ bool BodyMemory::Coupled(int mechanism) const {
 
 bool BodyMemory::Struck(int body) const {
   return world_.tick() - track(body).last_impact_tick < config_.tick_hz;
+}
+
+bool BodyMemory::FallsFreely(int body, std::int64_t tick, const BodyState& state) const {
+  const auto m = static_cast<std::size_t>(world_.mechanism(body));
+  if (world_.composition().mechanisms[m].assemblies.size() > 1) return false;
+  const BodyState* before = ComparablePast(body, tick - 1);
+  if (before == nullptr) return false;
+  const Vec2 pull = world_.dt() * world_.scene().gravity;
+  const Vec2 kick = state.velocity - before->velocity - pull;
+  const float size = kick.norm();
+  if (size <= kFallsOff * pull.norm() + kFallsRounding) return true;
+  return size > kThrown && state.velocity.dot(kick) > kLeaves * size;
+}
+
+BodyState BodyMemory::MovedOn(int body, std::int64_t tick) const {
+  if (!snapshots_.falls(body)) return snapshots_.Extrapolate(body, tick, world_.dt(), kReckonMax);
+  const std::int64_t from = snapshots_.newest_tick(body);
+  return world_.AfterFlight(body, snapshots_.newest(body),
+                            Snapshots::Forward(from, tick, world_.dt(), kReckonMax));
 }
 
 void BodyMemory::NoteContacts(const AuthorityTable& table) {

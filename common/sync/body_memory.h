@@ -69,6 +69,13 @@ class BodyMemory {
   /// Whether the body had a major impact within the last second.
   bool Struck(int body) const;
 
+  /// Whether gravity alone moved it to this state at `tick`, or threw it back from what it touched:
+  /// the tick of a bounce is the first of a flight. Of what has joints nobody asks: never.
+  bool FallsFreely(int body, std::int64_t tick, const BodyState& state) const;
+  /// The newest that was heard of it, moved on to `tick`, by kReckonMax at most. Requires that
+  /// something was.
+  BodyState MovedOn(int body, std::int64_t tick) const;
+
   /// After a step: major impacts, and what touches across authorities.
   void NoteContacts(const AuthorityTable& table);
   /// At the end of a tick: all poses become past.

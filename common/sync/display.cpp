@@ -11,10 +11,6 @@
 namespace seam {
 namespace {
 
-/// Ticks from one look at the path of what touches nothing to the next: between them it goes
-/// straight on.
-constexpr int kAbsentEvery = 6;
-
 /// Kinematic bodies are not made to spin faster than this, rad/s: the engine clamps at 94.
 constexpr float kSpinDrivenMax = 90.0f;
 /// A turn of more than this within a tick is taken for a fast wheel's, whose angle nobody follows.
@@ -82,8 +78,6 @@ bool Lies(const World& world, const BodyMemory& memory, int body) {
          told.velocity == now.velocity && told.spin == now.spin && now.spin == 0 &&
          now.velocity == Vec2(0, 0);
 }
-
-float TurnTo(float from, float to) { return WrapAngle(to - from); }
 
 }  // namespace
 
@@ -175,9 +169,13 @@ MovingBox Display::FarBox(int mechanism) const {
       return box;
     }
     const BodyState& heard = snapshots_.newest(body);
-    const Vec2 at = heard.position + kReckonShownMax * heard.velocity;
+    Vec2 at = heard.position + kReckonShownMax * heard.velocity;
     box.min = box.min.cwiseMin(heard.position.cwiseMin(at));
     box.max = box.max.cwiseMax(heard.position.cwiseMax(at));
+    if (!snapshots_.falls(body)) continue;
+    at += (kReckonShownMax * kReckonShownMax / 2) * world_.scene().gravity;
+    box.min = box.min.cwiseMin(at);
+    box.max = box.max.cwiseMax(at);
   }
   return box;
 }
@@ -265,7 +263,7 @@ BodyState Display::AlongSnapshots(int body, const BodyState& target, BodyState s
   }
   // A fast wheel turns by more than the wire's angle can tell: it spins as it should and its
   // angle is placed.
-  const float turn = TurnTo(state.angle, target.angle);
+  const float turn = WrapAngle(target.angle - state.angle);
   const bool fast = std::fabs(turn) > kSpinDrivenMax * world_.dt();
   state.spin = fast ? target.spin : turn / world_.dt();
   if (fast) state.angle += turn - target.spin * world_.dt();
@@ -278,12 +276,14 @@ BodyState Display::AlongReckoned(int body, BodyState state) {
   const BodyState here = reckoner_.Here(body);
   const PathSpeed& speed = reckoner_.Speed(body);
   BodyState along = here;
-  along.angle = state.angle + TurnTo(state.angle, here.angle);
+  along.angle = UnwrapAngle(here.angle, state.angle);
   along.velocity = speed.velocity;
   along.spin = speed.spin;
   BodyState jump = Minus(along, state);
   if (std::fabs(jump.angle) > kTurnSeen) jump.angle = 0;
   jump.spin = 0;
+  // What gravity and bounces change is no jump.
+  if (snapshots_.falls(body)) jump.velocity.setZero();
   smoother_.Moved(body, jump);
   return along;
 }

@@ -137,6 +137,8 @@ PackedBody SendScheduler::Tell(int body, std::int64_t tick) {
     const bool moved = packed.state.velocity.squaredNorm() > 0 || packed.state.spin != 0;
     packed.flags = static_cast<std::int8_t>(moved ? packed.flags & ~kStateAsleep : packed.flags);
   }
+  const bool asleep = (packed.flags & kStateAsleep) != 0;
+  if (!asleep && memory_.FallsFreely(body, tick, packed.state)) packed.flags |= kStateFalls;
   // The sender goes on from its own numbers, in motion and at rest: writing the rounded pose back
   // topples a stack of ten boxes even in a world of its own (docs/lessons.md).
   return packed;

@@ -41,15 +41,16 @@ Snapshots::Snapshots(int body_count) : rings_(static_cast<std::size_t>(body_coun
 void Snapshots::Ring::Push(const Stamped& stamped) {
   if (size_ == slots_.size() && size_ < kKeep) Grow();
   slots_[next_] = stamped;
-  next_ = next_ + 1 == slots_.size() ? 0 : next_ + 1;
-  size_ = std::min<std::uint32_t>(size_ + 1, static_cast<std::uint32_t>(slots_.size()));
+  next_ = next_ + 1u == slots_.size() ? std::uint16_t{0} : static_cast<std::uint16_t>(next_ + 1);
+  size_ = static_cast<std::uint16_t>(std::min(size_ + std::size_t{1}, slots_.size()));
   newest_tick_ = stamped.tick;
   newest_ = stamped.state;
 }
 
 void Snapshots::Ring::DropNewest() {
-  next_ = next_ == 0 ? static_cast<std::uint32_t>(slots_.size()) - 1 : next_ - 1;
+  next_ = static_cast<std::uint16_t>((next_ == 0 ? slots_.size() : next_) - 1);
   --size_;
+  falls = false;  // of older ones it is not kept
   newest_tick_ = size_ == 0 ? -1 : FromNewest(0).tick;
   if (size_ > 0) newest_ = FromNewest(0).state;
 }
@@ -62,9 +63,11 @@ void Snapshots::Ring::Grow() {
   next_ = size_;
 }
 
-void Snapshots::Add(int body, std::int64_t tick, const BodyState& state) {
+void Snapshots::Add(int body, std::int64_t tick, const BodyState& state, bool falls) {
   Ring& ring = rings_[static_cast<std::size_t>(body)];
-  if (ring.size() == 0 || ring.newest_tick() < tick) ring.Push({tick, state});
+  if (ring.size() != 0 && ring.newest_tick() >= tick) return;
+  ring.Push({tick, state});
+  ring.falls = falls;
 }
 
 void Snapshots::Remap(const std::vector<BodyOrigin>& origins) {
@@ -73,6 +76,7 @@ void Snapshots::Remap(const std::vector<BodyOrigin>& origins) {
     if (origins[i].body < 0) continue;
     rings[i] = rings_[static_cast<std::size_t>(origins[i].body)];
     rings[i].Change([&](const BodyState& state) { return Carried(origins[i], state); });
+    rings[i].falls = rings[i].falls && origins[i].same;
   }
   rings_ = std::move(rings);
 }

@@ -25,8 +25,8 @@ class Snapshots {
  public:
   explicit Snapshots(int body_count);
 
-  /// Keeps the state if it is newer than what it has of this body.
-  void Add(int body, std::int64_t tick, const BodyState& state);
+  /// Keeps the state if it is newer than what it has of this body. `falls`: gravity alone moves it.
+  void Add(int body, std::int64_t tick, const BodyState& state, bool falls = false);
   /// The bodies have changed: what was heard of those they come from is carried over.
   void Remap(const std::vector<BodyOrigin>& origins);
   /// What was heard of later ticks was of another body.
@@ -41,6 +41,9 @@ class Snapshots {
   const BodyState& newest(int body) const {
     return rings_[static_cast<std::size_t>(body)].newest();
   }
+
+  /// Whether the newest state is of free fall. Requires has(body).
+  bool falls(int body) const { return rings_[static_cast<std::size_t>(body)].falls; }
 
   /// The state of exactly this tick; nullptr when it is not kept.
   const BodyState* At(int body, std::int64_t tick) const;
@@ -85,6 +88,7 @@ class Snapshots {
     }
     /// 0 is the newest. Requires back < size().
     const Stamped& FromNewest(std::size_t back) const { return slots_[SlotOf(back)]; }
+    bool falls = false;  ///< of the newest
 
    private:
     std::size_t SlotOf(std::size_t back) const {
@@ -95,7 +99,7 @@ class Snapshots {
     std::int64_t newest_tick_ = -1;
     BodyState newest_;
     std::vector<Stamped> slots_;
-    std::uint32_t next_ = 0, size_ = 0;  // where the next goes, and how many there are
+    std::uint16_t next_ = 0, size_ = 0;  // where the next goes, and how many there are
   };
   /// Between the state that is so many back and the one before it.
   static Vec2 AccelerationBefore(std::size_t back, const Ring& ring, float dt);

@@ -54,7 +54,14 @@ bool NewestStates::IsNews(const Body& body, const HeardState& told, const NewsRu
   if (seconds < rule.least) return false;
   const float x = static_cast<float>(now.x - told.x) * kQuantum - seconds * kSpeed * told.vx;
   const float y = static_cast<float>(now.y - told.y) * kQuantum - seconds * kSpeed * told.vy;
-  float off = std::hypot(x, y);
+  Vec2 way(x, y);
+  if ((told.flags & kStateFalls) != 0) {
+    // As the engine does it, whose steps end with the speed that they have gained (Flight).
+    const Solver& solver = world_.scene().solver;
+    const float step = world_.dt() / static_cast<float>(solver.substeps);
+    way -= (seconds * (seconds + step) / 2) * world_.scene().gravity;
+  }
+  float off = way.norm();
   if (std::abs(static_cast<int>(now.spin)) * kSpeed < kSpinSeen) {
     const auto steps =
         static_cast<std::int16_t>(static_cast<std::uint16_t>(now.angle - told.angle));

@@ -90,14 +90,16 @@ Outcome After(FaultKind kind, const char* reconcile, std::int64_t seed) {
           MedianOf(off)};
 }
 
-/// Upper medians over four seeds. Where each went back for what the other had told, and told
-/// otherwise after it, copies were off by 35 to 83 cm (the same) for as long as the room ran.
+/// Upper medians over eight seeds. Over sixty, medians of the energy are 1.09 to 1.33, and of the
+/// rooms of `resimulate` whose second client was killed one in six ends above 1.6. Where each went
+/// back for what the other had told, and told otherwise after it, copies were off by 35 to 83 cm
+/// (the same) for as long as the room ran.
 TEST(ToldFacts, WhoWasGoneAgreesAgainAndNoEnergyComesFromIt) {
   for (const char* reconcile : {"rollback", "resimulate"}) {
     for (const FaultKind kind : {FaultKind::kCut, FaultKind::kKill}) {
       SCOPED_TRACE(std::string(reconcile) + ", " + ToString(kind));
       std::vector<double> energy, parted, off;
-      for (int seed = 1; seed <= 4; ++seed) {
+      for (int seed = 1; seed <= 8; ++seed) {
         const Outcome seen = After(kind, reconcile, seed);
         energy.push_back(seen.energy);
         parted.push_back(seen.parted_m);

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "common/scene/scene.h"
+#include "common/sync/quantize.h"
 
 namespace seam {
 namespace {
@@ -67,6 +68,44 @@ TEST_F(NewestStatesTest, WhatIsSaidForASilentHolderIsToldAllTwiceAsOften) {
   EXPECT_EQ(Tell(quarter - 1, 2.0 * (quarter - 1) / kHz, 2, 1, kNewsRepeatSilent), News::kNobody);
   EXPECT_EQ(Tell(quarter, 0.5, 2, 1, kNewsRepeatSilent), News::kAll);
   EXPECT_EQ(Tell(2 * quarter, 1, 2), News::kNobody) << "its holder is heard again";
+}
+
+/// What a ball does that is thrown is guessed from the state in which it left, so that it is told
+/// of again twice a second and where it bounces.
+TEST(NewestStates, OfWhatFallsItsBouncesAreNews) {
+  World world(
+      ParseScene("[[part]]\nname = \"ground\"\nbox = [40, 2]\nposition = [0, -1]\nanchored = "
+                 "true\n[[part]]\nname = \"ball\"\ncircle = 0.5\nposition = [0, 6]\n"
+                 "velocity = [1, 2]\nrestitution = 0.8\n[solver]\nsubsteps = 2\n",
+                 "ball"));
+  NewestStates newest(world, kHz);
+  int told = 0, bounces = 0, flights = 0;
+  BodyState before = world.Read(0);
+  for (int tick = 0; tick < 4 * kHz; ++tick) {
+    world.Step();
+    const BodyState now = world.Read(0);
+    const bool falls = now.velocity.y() < before.velocity.y();
+    bounces += falls ? 0 : 1;
+    before = now;
+    if (tick % 2 != 0) continue;
+    ++flights;
+    PackedBody body;
+    body.id = 1;
+    body.flags = falls ? kStateFalls : std::int8_t{0};
+    body.state = now;
+    const std::vector<States> states = Pack(
+        [&] {
+          States header;
+          header.tick = world.tick();
+          return header;
+        }(),
+        {body});
+    told += newest.Take(states[0])[0].news == News::kNobody ? 0 : 1;
+  }
+  EXPECT_GE(bounces, 2);
+  EXPECT_GE(flights, 100);
+  // At a bounce the state of its tick, and the first of the flight after it.
+  EXPECT_LE(told, 2 * 4 + 2 + 3 * bounces);
 }
 
 }  // namespace

@@ -150,6 +150,7 @@ TEST(Layering, TheTableHasNoCycles) {
 TEST(Layering, InnerRoomsDoNotKnowWhoUsesThem) {
   const std::vector<std::pair<const char*, const char*>> table = {
       {"common/physics/exact", "common/physics"},
+      {"common/physics/flight", "none"},
       {"common/codec/packed", "common/codec"},
       {"common/sync/reconcile", "none"},
       {"common/sync/correct", "common/sync(/reconcile|/reach|/rest)?"},

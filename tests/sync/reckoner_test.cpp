@@ -241,6 +241,80 @@ TEST(Reckoner, WhatClosingTornJointsFindsIsNoMotion) {
   EXPECT_LT(fastest, 20);
 }
 
+/// A ball and a crate that are heard of while they fall, and no more: both hit the floor, the ball
+/// a wall, too.
+const char* kThrown = R"([[part]]
+name = "floor"
+box = [40, 2]
+position = [0, -1]
+anchored = true
+[[part]]
+name = "wall"
+box = [1, 40]
+position = [6, 20]
+anchored = true
+[[part]]
+name = "ball"
+circle = 0.4
+position = [4, 3]
+velocity = [5, 0]
+restitution = 0.8
+friction = 0.2
+[[part]]
+name = "crate"
+box = [1, 1]
+position = [-5, 4]
+velocity = [-1, 1]
+spin = 1
+)";
+
+TEST(Reckoner, WhatFallsFreelyBouncesOffWhatIsAnchored) {
+  World world(ParseScene(kThrown, "test.toml"));
+  const JointCloser joints(world);
+  Snapshots falling(2), straight(2);
+  for (int body = 0; body < 2; ++body) {
+    falling.Add(body, 0, world.Read(body), true);
+    straight.Add(body, 0, world.Read(body));
+  }
+  Reckoner reckoner(world, falling, joints), straight_on(world, straight, joints);
+  float off = 0, lowest = 9, rightmost = -9, straight_off = 0;
+  for (int tick = 1; tick <= 90; ++tick) {
+    world.Step();
+    reckoner.Begin(tick + 1);
+    straight_on.Begin(tick + 1);
+    for (int body = 0; body < 2; ++body) {
+      const Vec2 at = reckoner.Here(body).position, is = world.Read(body).position;
+      if (body == 0) off = std::max(off, (at - is).norm());
+      if (body == 0) rightmost = std::max(rightmost, at.x());
+      lowest = std::min(lowest, at.y());
+      straight_off = std::max(straight_off, (straight_on.Here(body).position - is).norm());
+    }
+  }
+  EXPECT_GT(straight_off, 5) << "nothing fell or bounced";
+  EXPECT_LT(off, 0.25f) << "over two bounces, m";
+  EXPECT_GT(lowest, 0.3f);
+  EXPECT_LT(rightmost, 5.15f);
+}
+
+/// What is absent is looked at every few ticks and goes straight on between: to where it is then.
+TEST(Reckoner, WhatIsAbsentIsTakenToWhereItFallsUntilTheNextLook) {
+  World world(ParseScene(kThrown, "test.toml"));
+  World truth(ParseScene(kThrown, "test.toml"));
+  world.SetMotion(0, Motion::kAbsent);
+  const JointCloser joints(world);
+  Snapshots snapshots(2);
+  snapshots.Add(0, 0, world.Read(0), true);
+  Reckoner reckoner(world, snapshots, joints);
+  for (int tick = 0; tick <= 24; tick += kAbsentEvery) {
+    reckoner.Begin(tick + 1);
+    EXPECT_LT((reckoner.Here(0).position - truth.Read(0).position).norm(), 0.02f) << tick;
+    const Vec2 next =
+        reckoner.Here(0).position + kAbsentEvery * world.dt() * reckoner.Speed(0).velocity;
+    for (int more = 0; more < kAbsentEvery; ++more) truth.Step();
+    EXPECT_LT((next - truth.Read(0).position).norm(), 0.02f) << tick;
+  }
+}
+
 TEST(Smoother, ARigidJumpOfAMechanismReturnsRigidly) {
   World world(ParseScene(kRods, "test.toml"));
   Smoother smoother(3, kSmoothRate);

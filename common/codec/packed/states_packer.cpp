@@ -184,7 +184,7 @@ void StatesPacker::AddBody(const PackedState& state, std::int32_t id) {
   run.Put(same ? 1 : 0, 1);
   if (!same) {
     run.PutGolomb(static_cast<std::uint32_t>(state.epoch), 4);
-    run.Put(static_cast<std::uint64_t>(state.flags) & 3, 2);
+    run.Put(static_cast<std::uint64_t>(state.flags) & 7, 3);
   }
   if (kept) {
     // What does not fall goes on as before.

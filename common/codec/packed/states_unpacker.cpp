@@ -103,7 +103,7 @@ bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry
   state.flags = before.flags;
   if (bits->Get(1) == 0) {
     state.epoch = static_cast<std::int32_t>(bits->GetGolomb(4));
-    state.flags = static_cast<std::int8_t>(bits->Get(2));
+    state.flags = static_cast<std::int8_t>(bits->Get(3));
   }
   std::array<Learned, kPackedFields>& learned = from != nullptr ? context.known : context.fresh;
   const auto get = [&](PackedField field) {

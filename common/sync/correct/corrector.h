@@ -90,6 +90,7 @@ class Corrector {
   void Blend(int body, const BodyState& local, const Correction& c, std::int64_t from);
   Motion WantedMotion(int body) const;
   bool BeginToSimulate(int body);
+  bool WasStruckHereAlone(int body) const;
   void CloseBegun(int mechanism);
   template <class Put>
   void Close(int mechanism, bool only_turns, const Put& put);

@@ -105,7 +105,7 @@ bool Corrector::IsNews(const States& states, std::size_t i, int body, Received* 
 bool Corrector::ReceiveOne(const States& states, std::size_t i, int body) {
   const BodyState remote = Unpack(states, i, world_.Read(body).angle);
   if (!memory_.track(body).placed) memory_.snapshots().ForgetAfter(body, states.tick - 1);
-  memory_.snapshots().Add(body, states.tick, remote);
+  memory_.snapshots().Add(body, states.tick, remote, (states.flags[i] & kStateFalls) != 0);
   if (!memory_.track(body).placed) {
     PlaceNow(body, states.tick, remote, (states.flags[i] & kStateAsleep) != 0);
     return false;
@@ -121,7 +121,7 @@ void Corrector::Place(const States& states) {
     memory_.track(body).heard_epoch = states.epoch[i];
     const BodyState remote = Unpack(states, i, world_.Read(body).angle);
     memory_.snapshots().ForgetAfter(body, states.tick - 1);
-    memory_.snapshots().Add(body, states.tick, remote);
+    memory_.snapshots().Add(body, states.tick, remote, (states.flags[i] & kStateFalls) != 0);
     PlaceNow(body, states.tick, remote, (states.flags[i] & kStateAsleep) != 0);
   }
 }
@@ -132,9 +132,11 @@ void Corrector::PlaceNow(int body, std::int64_t tick, const BodyState& remote, b
   const bool moves_on = !asleep && tick < world_.tick();
   placed_.emplace_back(world_.id(body), moves_on);
   if (moves_on) {
-    by_now = memory_.snapshots().Extrapolate(body, world_.tick(), world_.dt(), kReckonMax);
+    by_now = memory_.MovedOn(body, world_.tick());
     by_now.angle = UnwrapAngle(by_now.angle, remote.angle);
-    by_now.position = WayTo(body, remote.position, tick, by_now.position);
+    if (!memory_.snapshots().falls(body)) {  // which goes through nothing
+      by_now.position = WayTo(body, remote.position, tick, by_now.position);
+    }
   }
   PlaceBody(body, by_now, asleep);
 }

@@ -10,6 +10,12 @@
 #include "common/sync/state_limits.h"
 
 namespace seam {
+namespace {
+
+/// What was heard a second / kHeardLatelyPart ago, or less, is of a moment ago.
+constexpr int kHeardLatelyPart = 5;
+
+}  // namespace
 
 /// What is displayed has its real mass, so that it neither is a wall to what is simulated nor pumps
 /// energy into it; what is far from all of that is not there at all. Strict shows what comes of
@@ -44,7 +50,10 @@ bool Corrector::FollowRoles(const std::vector<int>& bodies) {
     // What was simulated here is from now on reckoned from where it is, not from what was last
     // heard of it, which may be from before this peer had the authority.
     const bool ends = world_.motion(body) == Motion::kDynamic;
-    if (ends) memory_.snapshots().Add(body, now, world_.Read(body));
+    if (ends && !WasStruckHereAlone(body)) {
+      const BodyState state = world_.Read(body);
+      memory_.snapshots().Add(body, now, state, memory_.FallsFreely(body, now, state));
+    }
     const bool asleep = !world_.awake(body);
     if (idle) world_.RememberContacts(body);
     world_.SetMotion(body, wanted);
@@ -61,6 +70,17 @@ bool Corrector::FollowRoles(const std::vector<int>& bodies) {
   begun.erase(std::unique(begun.begin(), begun.end()), begun.end());
   for (const int mechanism : begun) CloseBegun(mechanism);
   return moves;
+}
+
+/// Whether a copy moves on from a blow that its holder, heard a moment ago, knows nothing of: what
+/// is shown would go on with that until the holder is heard again, which is seldom from now on.
+bool Corrector::WasStruckHereAlone(int body) const {
+  const std::int64_t now = world_.tick();
+  const Snapshots& heard = memory_.snapshots();
+  const std::int64_t lately = now - config_.tick_hz / kHeardLatelyPart;
+  if (!heard.has(body) || heard.newest_tick(body) < lately) return false;
+  const Vec2 off = world_.Read(body).velocity - memory_.MovedOn(body, now).velocity;
+  return off.norm() > kMajorImpact;
 }
 
 /// Its bodies have gone on one by one, which tears it; the engine would shut it with a crash.
@@ -130,13 +150,15 @@ void Corrector::Close(int mechanism, bool only_turns, const Put& put) {
 bool Corrector::BeginToSimulate(int body) {
   const std::int64_t now = world_.tick();
   const BodyState before = world_.Read(body);
-  BodyState state = memory_.snapshots().Extrapolate(body, now, world_.dt(), kReckonMax);
+  BodyState state = memory_.MovedOn(body, now);
   state.angle = UnwrapAngle(state.angle, before.angle);
   const Vec2 told = memory_.snapshots().newest(body).position;
   const std::int64_t told_tick = memory_.snapshots().newest_tick(body);
   // It was only shown until now, and goes through walls then: that it came there means nothing.
   memory_.track(body).dynamic_since = now;
-  state.position = WayTo(body, told, told_tick, state.position);
+  if (!memory_.snapshots().falls(body)) {  // which goes through nothing
+    state.position = WayTo(body, told, told_tick, state.position);
+  }
   world_.Write(body, state);
   display_.Moved(body, Minus(state, before));
   if (BodyState* past = memory_.history().At(now, body)) *past = state;

@@ -42,7 +42,8 @@ BodyState Corrector::TakeOver(const ExactStates& exact) {
     if (ours || exact.epoch[i] < record.epoch || exact.tick < track.heard_tick) continue;
     BodyState there = WithinLimits(StateOf(exact, i), world_.scene().speed_limit);
     if (!track.placed) memory_.snapshots().ForgetAfter(body, exact.tick - 1);
-    memory_.snapshots().Add(body, exact.tick, there);
+    const bool falls = memory_.snapshots().has(body) && memory_.snapshots().falls(body);
+    memory_.snapshots().Add(body, exact.tick, there, falls);
     track.heard_tick = exact.tick;
     track.heard_epoch = exact.epoch[i];
     memory_.NoteNews(body);

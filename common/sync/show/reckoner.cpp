@@ -75,6 +75,9 @@ void Reckoner::Begin(std::int64_t next) {
   paths_.here.resize(bodies);
   paths_.there.resize(bodies);
   paths_.speed.resize(bodies);
+  if (revision_ == world_.topology().revision()) return;
+  revision_ = world_.topology().revision();
+  flown_.assign(bodies, Flown{});
 }
 
 const Reckoner::Paths& Reckoner::Reckoned(int body) {
@@ -94,6 +97,10 @@ void Reckoner::Reckon(int mechanism) {
   const bool free = !joints_.anchored(mechanism);
   for (const int body : joints_.bodies(mechanism)) {
     newest = std::max(newest, snapshots_.newest_tick(body));
+  }
+  const int first = joints_.bodies(mechanism).front();
+  if (free && joints_.bodies(mechanism).size() == 1 && newest >= 0 && snapshots_.falls(first)) {
+    return Fly(first);
   }
   together_.clear();
   for (const int body : joints_.bodies(mechanism)) {
@@ -118,6 +125,35 @@ void Reckoner::Reckon(int mechanism) {
     paths_.speed[static_cast<std::size_t>(body)] = SpeedOf(body);
   }
   if (joints_.jointed(mechanism)) CloseJoints(mechanism);
+}
+
+void Reckoner::Fly(int body) {
+  const auto i = static_cast<std::size_t>(body);
+  paths_.here[i] = FlownTo(body, next_ - 1);
+  const int ahead = world_.motion(body) == Motion::kAbsent ? kAbsentEvery : 1;
+  const BodyState& then = FlownTo(body, next_ - 1 + ahead);
+  const float seconds = static_cast<float>(ahead) * world_.dt();
+  BodyState &here = paths_.here[i], &there = paths_.there[i];
+  there = then;
+  PathSpeed& speed = paths_.speed[i];
+  speed.velocity = (then.position - here.position) / seconds;
+  speed.spin = (then.angle - here.angle) / seconds;
+  there.position = here.position + world_.dt() * speed.velocity;
+  there.angle = here.angle + world_.dt() * speed.spin;
+}
+
+const BodyState& Reckoner::FlownTo(int body, std::int64_t tick) {
+  Flown& flown = flown_[static_cast<std::size_t>(body)];
+  const std::int64_t heard = snapshots_.newest_tick(body);
+  const BodyState& newest = snapshots_.newest(body);
+  const auto most = static_cast<std::int64_t>(kReckonShownMax / world_.dt());
+  tick = std::clamp(tick, heard, heard + most);
+  const bool known = flown.heard == heard && flown.at <= tick && flown.from == newest.position;
+  if (!known) flown = {heard, heard, newest.position, newest};
+  const float seconds = static_cast<float>(tick - flown.at) * world_.dt();
+  if (tick > flown.at) flown.state = world_.AfterFlight(body, flown.state, seconds);
+  flown.at = tick;
+  return flown.state;
 }
 
 PathSpeed Reckoner::SpeedOf(int body) const {

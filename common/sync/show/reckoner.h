@@ -14,6 +14,9 @@ namespace seam {
 /// moment, and what stood still then would jump after it.
 constexpr float kReckonShownMax = 2.0f;
 
+/// Ticks from one look at the path of what is absent to the next: between them it goes straight on.
+constexpr int kAbsentEvery = 6;
+
 /// A body's motion along its path: of its origin, m/s, and rad/s.
 struct PathSpeed {
   Vec2 velocity{0, 0};
@@ -23,6 +26,7 @@ struct PathSpeed {
 /// A mechanism's centre of mass goes on with its momentum, its bodies turn about that with its
 /// angular momentum (that of their centres), each turns with its own spin and drifts with what is
 /// left of its velocity; then its joints are closed. So wheels go on turning and limbs swinging.
+/// A body without joints that falls freely goes on by gravity and bounces off what is anchored.
 class Reckoner {
  public:
   /// All must outlive this.
@@ -37,7 +41,8 @@ class Reckoner {
   /// heard of is where the world has it.
   const BodyState& Here(int body) { return Reckoned(body).here[static_cast<std::size_t>(body)]; }
   const BodyState& There(int body) { return Reckoned(body).there[static_cast<std::size_t>(body)]; }
-  /// How it moves from Here to There. Joints that are torn can often be closed in two ways: if one
+  /// How it moves from Here to There, or if it falls and is absent, to where it is in kAbsentEvery
+  /// ticks. Joints that are torn can often be closed in two ways: if one
   /// is found at Here and the other at There, what lies between is no motion, and the mechanism's
   /// bodies move as if nothing had been closed.
   const PathSpeed& Speed(int body) { return Reckoned(body).speed[static_cast<std::size_t>(body)]; }
@@ -53,6 +58,8 @@ class Reckoner {
   static Common CommonOf(const std::vector<Heard>& heard, const Snapshots& snapshots, float dt);
   const Paths& Reckoned(int body);
   void Reckon(int mechanism);
+  void Fly(int body);
+  const BodyState& FlownTo(int body, std::int64_t tick);
   PathSpeed SpeedOf(int body) const;
   void CloseJoints(int mechanism);
   bool IsMotion(int mechanism) const;
@@ -65,6 +72,14 @@ class Reckoner {
   std::int64_t next_ = 0;
   std::vector<bool> done_;  // by mechanism
   Paths paths_;
+  /// Where the flight of what falls has come to since it was heard of.
+  struct Flown {
+    std::int64_t heard = -1, at = -1;  // ticks
+    Vec2 from{0, 0};                   // m, when it was heard of
+    BodyState state;
+  };
+  std::vector<Flown> flown_;     // by body
+  int revision_ = -1;            // of the world, of which flown_ is
   std::vector<Heard> together_;  // bodies of the mechanism that is reckoned
   std::vector<PathSpeed> open_;  // of its bodies, before its joints were closed
 };
