@@ -25,10 +25,17 @@ class NearestBox {
   NearestBox(const std::vector<MovingBox>& boxes, const std::vector<int>& indices, int begin,
              int end)
       : boxes_(boxes), indices_(indices), begin_(begin), end_(end) {
+    if (any()) around_ = At(begin);
     for (int k = begin; k < end; ++k) {
       widest_ = std::max(widest_, At(k).max.x() - At(k).min.x());
+      around_.min = around_.min.cwiseMin(At(k).min);
+      around_.max = around_.max.cwiseMax(At(k).max);
     }
   }
+
+  bool any() const { return begin_ < end_; }
+  /// All of them. Requires any().
+  const MovingBox& around() const { return around_; }
 
   /// m, as Gap; FLT_MAX: there are none.
   float DistanceTo(const MovingBox& box) const {
@@ -58,6 +65,16 @@ class NearestBox {
     return best == FLT_MAX ? FLT_MAX : std::sqrt(best);
   }
 
+  /// Whether one of them is within `reach`, m.
+  bool Within(const MovingBox& box, float reach) const {
+    for (int k = begin_; k < end_; ++k) {
+      const float way = At(k).min.x() - box.max.x();
+      if (way > reach) return false;
+      if (Square(box, At(k)) <= reach * reach) return true;
+    }
+    return false;
+  }
+
  private:
   const MovingBox& At(int k) const {
     return boxes_[static_cast<std::size_t>(indices_[static_cast<std::size_t>(k)])];
@@ -71,6 +88,7 @@ class NearestBox {
   const std::vector<MovingBox>& boxes_;
   const std::vector<int>& indices_;
   const int begin_, end_;
+  MovingBox around_;
   float widest_ = 0;  // m along x
 };
 

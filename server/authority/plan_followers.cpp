@@ -167,9 +167,7 @@ class Followers {
 
   bool IsCrowd(const GroupLists& groups, std::size_t group) {
     if (!crowded_ || holders_.size() < kManyHolders) return false;
-    if (!touching_) {
-      touching_ = Components(static_cast<int>(plan_.size()), PressingGroups(view_.boxes));
-    }
+    if (!touching_) touching_ = Pressing(view_.boxes, plan_.size());
     return !IsPacked(*touching_, groups.Of(group));
   }
 
@@ -195,61 +193,79 @@ class Followers {
       for (int m = 0; m < static_cast<int>(plan_.size()); ++m) Follow(player, m);
       return;
     }
+    if (!limited(player)) return FollowAround(player);
     Measure(player);
-    if (limited(player)) return FollowWithin(player);
-    for (const int m : seen_) {
-      if (distance_[static_cast<std::size_t>(m)] <= ReachOf(player, m)) Follow(player, m);
+    FollowWithin(player);
+  }
+
+  /// How near any mechanism can have to be for the player to follow it, m.
+  float FarthestReach(std::size_t player) const {
+    const bool any_crowd = soon_crowds_.Any(player) || later_crowds_.Any(player);
+    return std::max(view_.buffer_m + kHysteresis,
+                    any_crowd ? CrowdReach(ways_.farthest, player, true) : 0.0f);
+  }
+
+  /// What is within reach of the player's region or of a box of its own, in a room that is not
+  /// followed whole.
+  void FollowAround(std::size_t player) {
+    const int peer = view_.players[player].peer;
+    const Vec2 farthest = Vec2::Constant(FarthestReach(player) + 0.1f);  // m, for rounding
+    const auto follow_within = [&](const MovingBox& around, const auto& within) {
+      grid_->Near(around.min - farthest, around.max + farthest, [&](int i) {
+        const MovingBox& box = view_.boxes[static_cast<std::size_t>(i)];
+        const PlannedAuthority& of = planned(box.group);
+        if (of.authority == peer || of.secondaries.Has(peer)) return;
+        const float reach = ReachOf(player, box.group);
+        if (Gap(box, around) <= reach && within(box, reach)) Follow(player, box.group);
+      });
+    };
+    const NearestBox own = NearOwn(player);
+    if (own.any()) {
+      follow_within(own.around(),
+                    [&](const MovingBox& box, float reach) { return own.Within(box, reach); });
+    }
+    if (view_.players[player].has_region) {
+      follow_within(RegionOf(player), [](const MovingBox&, float) { return true; });
     }
   }
 
-  /// By mechanism that is seen, of those that it does not follow yet unless its capacity is
-  /// limited: how far its nearest box is from the player's region or from a box of its own, m. Of
-  /// what is farther than the buffer zone only the distance from the box around all of its own is
-  /// known. In a room that is not followed whole what is farther is not seen.
+  NearestBox NearOwn(std::size_t player) const {
+    return {view_.boxes, own_, own_begin_[player], own_begin_[player + 1]};
+  }
+  MovingBox RegionOf(std::size_t player) const {
+    return {view_.players[player].region_min, view_.players[player].region_max, {0, 0}, 0, -1};
+  }
+
+  /// For one whose capacity is limited, by mechanism that is seen: how far its nearest box is from
+  /// the player's region or from a box of its own, m. Of what is farther than the buffer zone only
+  /// the distance from the box around all of its own is known. In a room that is not followed whole
+  /// what is farther is not seen.
   void Measure(std::size_t p) {
-    const PlayerView& player = view_.players[p];
-    const bool any_crowd = soon_crowds_.Any(p) || later_crowds_.Any(p);
-    const float near = std::max(view_.buffer_m + kHysteresis,
-                                any_crowd ? CrowdReach(ways_.farthest, p, true) : 0.0f);
-    MovingBox all;
-    for (int k = own_begin_[p]; k < own_begin_[p + 1]; ++k) {
-      const MovingBox& box = Own(k);
-      all.min = k == own_begin_[p] ? box.min : all.min.cwiseMin(box.min);
-      all.max = k == own_begin_[p] ? box.max : all.max.cwiseMax(box.max);
-    }
-    const bool any = own_begin_[p] < own_begin_[p + 1];
-    const NearestBox near_own(view_.boxes, own_, own_begin_[p], own_begin_[p + 1]);
+    const float near = FarthestReach(p);
+    const MovingBox region = RegionOf(p);
+    const NearestBox own = NearOwn(p);
     seen_.clear();
-    const int peer = player.peer;
-    const bool all_count = limited(p);
-    const auto followed = [&](int m) {
-      return !all_count && (planned(m).authority == peer || planned(m).secondaries.Has(peer));
-    };
     const auto from_own = [&](int i) {
       const MovingBox& box = view_.boxes[static_cast<std::size_t>(i)];
-      if (followed(box.group)) return;
-      const float around = any ? Gap(box, all) : FLT_MAX;
-      See(box.group, static_cast<int>(p), around > near ? around : near_own.DistanceTo(box));
+      const float around = own.any() ? Gap(box, own.around()) : FLT_MAX;
+      See(box.group, static_cast<int>(p), around > near ? around : own.DistanceTo(box));
     };
-    const MovingBox region{player.region_min, player.region_max, {0, 0}, 0, -1};
     const auto from_region = [&](int i) {
       const MovingBox& box = view_.boxes[static_cast<std::size_t>(i)];
-      if (followed(box.group)) return;
       See(box.group, static_cast<int>(p), Gap(box, region));
     };
+    const bool has_region = view_.players[p].has_region;
     if (!crowded_) {
       for (int m = 0; m < static_cast<int>(plan_.size()); ++m) See(m, static_cast<int>(p), FLT_MAX);
       for (int i = 0; i < static_cast<int>(view_.boxes.size()); ++i) {
         from_own(i);
-        if (player.has_region) from_region(i);
+        if (has_region) from_region(i);
       }
       return;
     }
     const Vec2 reach = Vec2::Constant(near + 0.1f);  // m, for rounding
-    if (any) grid_->Near(all.min - reach, all.max + reach, from_own);
-    if (player.has_region) {
-      grid_->Near(region.min - reach, region.max + reach, from_region);
-    }
+    if (own.any()) grid_->Near(own.around().min - reach, own.around().max + reach, from_own);
+    if (has_region) grid_->Near(region.min - reach, region.max + reach, from_region);
   }
 
   void See(int mechanism, int player, float distance) {

@@ -11,6 +11,14 @@ namespace seam {
 
 struct ReplicaTestAccess {
   static World& world(Replica& replica) { return replica.world_; }
+  /// Whether what is at `at` is shown to nobody here, and lies where it was when it was left
+  /// (Display::Leave).
+  static bool OutOfSight(const Replica& replica, int body, const Vec2& at) {
+    const MovingBox& seen = replica.presence_.around();
+    const bool within =
+        (at.array() >= seen.min.array()).all() && (at.array() <= seen.max.array()).all();
+    return replica.memory_.parked(body) && !within;
+  }
   /// Edits, states and rests that wait for something.
   static std::map<std::string, std::size_t> Queues(const Replica& replica) {
     return {{"edits ordered", replica.queued_.size()},

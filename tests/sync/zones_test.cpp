@@ -20,31 +20,6 @@ MovingBox Box(const Vec2& min, const Vec2& max, const Vec2& velocity = {0, 0}, i
   return box;
 }
 
-TEST(Zones, WhatPressesIsFoundAmongAllPairs) {
-  Random random(3);
-  std::size_t found = 0;
-  for (int round = 0; round < 50; ++round) {
-    std::vector<MovingBox> boxes;
-    for (int i = 0; i < 60; ++i) {
-      const Vec2 at(static_cast<float>(random.Uniform(0, 12)),
-                    static_cast<float>(random.Uniform(0, 3)));
-      boxes.push_back(Box(at, at + Vec2(0.5f, 0.5f), {5, 0}, i / 2));
-    }
-    std::set<std::pair<int, int>> all;
-    for (const MovingBox& a : boxes) {
-      for (const MovingBox& b : boxes) {
-        if (a.group < b.group && Gap(a, b) <= kPressGap) all.emplace(a.group, b.group);
-      }
-    }
-    const std::vector<std::pair<int, int>> pairs = PressingGroups(boxes);
-    EXPECT_EQ(pairs, (std::vector<std::pair<int, int>>(all.begin(), all.end())));
-    found += pairs.size();
-  }
-  EXPECT_GT(found, 500u);
-  EXPECT_TRUE(PressingGroups({Box({0, 0}, {1, 1}, {0, 0}, 1), Box({1.06f, 0}, {2, 1})}).empty());
-  EXPECT_EQ(PressingGroups({Box({0, 0}, {1, 1}, {0, 0}, 1), Box({1.04f, 0}, {2, 1})}).size(), 1u);
-}
-
 TEST(Zones, TheGapIsTheDistanceOfTheNearestPoints) {
   const MovingBox a = Box({0, 0}, {2, 1});
   EXPECT_FLOAT_EQ(Gap(a, Box({5, 0}, {6, 1})), 3) << "side by side";

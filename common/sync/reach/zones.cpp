@@ -5,13 +5,14 @@
 
 namespace seam {
 
-namespace {
+std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& boxes, float seconds) {
+  return MeetingGroups(boxes, seconds, [seconds](int, int) { return seconds; });
+}
 
-/// Of boxes that are grown by `grown`, m, and then overlap, those that `meet`; each pair of their
-/// groups once, ascending.
-template <class Grown, class Meet>
-std::vector<std::pair<int, int>> SweepGroups(const std::vector<MovingBox>& boxes,
-                                             const Grown& grown, const Meet& meet) {
+std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& boxes,
+                                               float seconds_max,
+                                               const std::function<float(int, int)>& seconds_of) {
+  // Each box grown by the way it can make itself: two that may meet overlap then.
   struct Span {
     float from, to;
     std::size_t box;
@@ -19,8 +20,10 @@ std::vector<std::pair<int, int>> SweepGroups(const std::vector<MovingBox>& boxes
   std::vector<Span> spans;
   spans.reserve(boxes.size());
   for (std::size_t i = 0; i < boxes.size(); ++i) {
-    const float by = grown(boxes[i]);
-    spans.push_back({boxes[i].min.x() - by, boxes[i].max.x() + by, i});
+    const MovingBox& box = boxes[i];
+    const float by = box.velocity.norm() * seconds_max + kZoneSlack / 2 +
+                     box.acceleration * seconds_max * seconds_max / 2;
+    spans.push_back({box.min.x() - by, box.max.x() + by, i});
   }
   std::sort(spans.begin(), spans.end(), [](const Span& a, const Span& b) {
     return a.from != b.from ? a.from < b.from : a.box < b.box;
@@ -30,40 +33,14 @@ std::vector<std::pair<int, int>> SweepGroups(const std::vector<MovingBox>& boxes
     const MovingBox& a = boxes[spans[i].box];
     for (std::size_t j = i + 1; j < spans.size() && spans[j].from <= spans[i].to; ++j) {
       const MovingBox& b = boxes[spans[j].box];
-      if (a.group == b.group || !meet(a, b)) continue;
+      if (a.group == b.group) continue;
+      if (!MayMeet(a, b, std::min(seconds_max, seconds_of(a.group, b.group)))) continue;
       pairs.emplace_back(std::min(a.group, b.group), std::max(a.group, b.group));
     }
   }
   std::sort(pairs.begin(), pairs.end());
   pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
   return pairs;
-}
-
-}  // namespace
-
-std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& boxes, float seconds) {
-  return MeetingGroups(boxes, seconds, [seconds](int, int) { return seconds; });
-}
-
-std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& boxes,
-                                               float seconds_max,
-                                               const std::function<float(int, int)>& seconds_of) {
-  // Each box grown by the way it can make itself: two that may meet overlap then.
-  return SweepGroups(
-      boxes,
-      [&](const MovingBox& box) {
-        return box.velocity.norm() * seconds_max + kZoneSlack / 2 +
-               box.acceleration * seconds_max * seconds_max / 2;
-      },
-      [&](const MovingBox& a, const MovingBox& b) {
-        return MayMeet(a, b, std::min(seconds_max, seconds_of(a.group, b.group)));
-      });
-}
-
-std::vector<std::pair<int, int>> PressingGroups(const std::vector<MovingBox>& boxes) {
-  return SweepGroups(
-      boxes, [](const MovingBox&) { return kPressGap / 2; },
-      [](const MovingBox& a, const MovingBox& b) { return Gap(a, b) <= kPressGap; });
 }
 
 std::vector<int> Components(int count, const std::vector<std::pair<int, int>>& pairs) {

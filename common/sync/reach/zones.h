@@ -51,9 +51,6 @@ std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& box
 /// The same for all pairs alike.
 std::vector<std::pair<int, int>> MeetingGroups(const std::vector<MovingBox>& boxes, float seconds);
 
-/// Likewise all pairs of groups of which a box of each is within kPressGap of the other's now.
-std::vector<std::pair<int, int>> PressingGroups(const std::vector<MovingBox>& boxes);
-
 /// The connected components that pairs make of `count` groups: by group, the lowest of its own.
 std::vector<int> Components(int count, const std::vector<std::pair<int, int>>& pairs);
 
