@@ -36,6 +36,10 @@ class Broadcast {
 
   /// Whether anybody can see what this server shows of bodies.
   bool ShowsViews() const { return views_ && publisher_.listening(); }
+  /// Whether nothing but gravity moves the body of an assembly, as was last heard of it.
+  bool Falls(PartId id) const {
+    return newest_.has(id) && (newest_.at(id).flags & kStateFalls) != 0;
+  }
   /// On the bus only.
   template <class Message>
   void Publish(const Message& message) {

@@ -298,6 +298,7 @@ void Server::UpdateAuthority(std::int64_t now_us) {
   }
   situation.together = edits_.WaitingMechanisms();
   situation.shown = broadcast_.ShowsViews();
+  situation.falls = [this](PartId id) { return broadcast_.Falls(id); };
   const std::vector<Grants> grants = authority_.Update(now_us, situation);
   for (AuthorityManager::Given& given : authority_.TakeGiven()) {
     given.exact.utime = now_us;

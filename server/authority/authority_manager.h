@@ -3,6 +3,7 @@
 /// one holder at a time, and says what is to be told to everyone; it sends nothing itself.
 
 #include <cstdint>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -30,6 +31,8 @@ class AuthorityManager {
     std::vector<float> load;
     /// Somebody looks at what the server shows: see Scene::server_follow.
     bool shown = true;
+    /// Whether a mechanism of one body falls freely, by the body's id; empty: none.
+    std::function<bool(PartId)> falls;
   };
 
   /// After each tick: plans when that is due, and takes every hand-over as far as it can go.
@@ -116,6 +119,7 @@ class AuthorityManager {
     std::int64_t keep_until_tick = 0;      // the server's, until its copies have converged
     int last_authority = 0;                // when it was planned last
     std::int64_t changed_tick = -1000000;  // when a plan first saw that authority
+    std::int64_t fell_tick = -1000000;     // when a plan last saw that it falls freely
     bool open = false;                     // is in open_
     float contested = 0;                   // see MechanismView
   };
@@ -124,8 +128,8 @@ class AuthorityManager {
   /// Fills in what planning sees (authority_view.cpp).
   void Look(const Situation& situation);
   void LookAtPlayers(const Situation& situation, AuthorityView* view) const;
-  void LookAtMechanisms(AuthorityView* view);
-  void LookAtMechanism(int m, AuthorityView* view);
+  void LookAtMechanisms(const Situation& situation, AuthorityView* view);
+  void LookAtMechanism(int m, const Situation& situation, AuthorityView* view);
   void LookAtBoxes(AuthorityView* view) const;
   /// Whether the view may be without what lies far from all else.
   bool LeavesOut(const AuthorityView& view);

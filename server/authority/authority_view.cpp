@@ -11,6 +11,13 @@
 
 namespace seam {
 
+namespace {
+
+/// A touch of a second / kBouncePart is a bounce, after which it flies on.
+constexpr int kBouncePart = 4;
+
+}  // namespace
+
 bool PlansIslands(const Scene& scene) {
   const bool regions = std::any_of(scene.players.begin(), scene.players.end(),
                                    [](const Player& player) { return player.has_region; });
@@ -49,7 +56,7 @@ void AuthorityManager::Look(const Situation& situation) {
   for (std::vector<int>& mechanisms : view.together) {
     for (int& m : mechanisms) m = PlaceOf(m);
   }
-  LookAtMechanisms(&view);
+  LookAtMechanisms(situation, &view);
   const bool boxes = config_.mode == Mode::kBuffer || (islands_ && config_.mode == Mode::kStrict);
   if (boxes) LookAtBoxes(&view);
   view.left_out = seen_.size() < memory_.size()
@@ -101,9 +108,9 @@ void AuthorityManager::LookAtCapacity(std::int64_t now_us, const Situation& situ
   }
 }
 
-void AuthorityManager::LookAtMechanisms(AuthorityView* view) {
+void AuthorityManager::LookAtMechanisms(const Situation& situation, AuthorityView* view) {
   view->mechanisms.reserve(seen_.size());
-  for (const int m : seen_) LookAtMechanism(m, view);
+  for (const int m : seen_) LookAtMechanism(m, situation, view);
   if (!islands_) return;
   for (int p = 0; p < static_cast<int>(view->players.size()); ++p) {
     for (const int m : replica_.drivers().MechanismsOf(p)) {
@@ -115,7 +122,7 @@ void AuthorityManager::LookAtMechanisms(AuthorityView* view) {
   }
 }
 
-void AuthorityManager::LookAtMechanism(int m, AuthorityView* view) {
+void AuthorityManager::LookAtMechanism(int m, const Situation& situation, AuthorityView* view) {
   const World& world = replica_.world();
   const Mechanism& mechanism = world.composition().mechanisms[static_cast<std::size_t>(m)];
   Memory& memory = memory_[static_cast<std::size_t>(m)];
@@ -126,6 +133,8 @@ void AuthorityManager::LookAtMechanism(int m, AuthorityView* view) {
   seen.owner = seen.driver = mechanism.owner;
   seen.moves = world.awake(root) && state.velocity.norm() > kMissed;
   seen.asleep = !world.awake(root);
+  if (situation.falls && situation.falls(mechanism.id)) memory.fell_tick = world.tick();
+  seen.falls = world.tick() - memory.fell_tick <= config_.tick_hz / kBouncePart;
   seen.now = table().at(m);
   if (seen.now.authority != memory.last_authority) {
     memory.last_authority = seen.now.authority;

@@ -108,7 +108,10 @@ class Look {
   }
 
   bool OnTheirWays(const MovingBox& a, const MovingBox& b, float seconds) const {
-    return fall_.axis < 0 || MayMeetOnTheirWays(a, b, fall_, seconds);
+    return (!Falls(a) && !Falls(b)) || MayMeetOnTheirWays(a, b, fall_, seconds);
+  }
+  bool Falls(const MovingBox& box) const {
+    return fall_.axis >= 0 && view_.mechanisms[static_cast<std::size_t>(box.group)].falls;
   }
 
   const AuthorityView& view_;

@@ -14,8 +14,8 @@ struct ContactGroups {
   std::vector<char> server_soon, server_later;
 };
 
-/// Of mechanisms with the planned authorities. May touch: as MayMeet says. `by_ways`: of each
-/// other, but for the server's, as MayMeetOnTheirWays says, too, if gravity has an axis.
+/// Of mechanisms with the planned authorities. May touch: as MayMeet says. `by_ways`: what falls
+/// freely, but for what is the server's, as MayMeetOnTheirWays says, too, if gravity has an axis.
 ContactGroups FindContactGroups(const AuthorityView& view, const AuthorityPlan& plan, bool by_ways);
 
 }  // namespace seam

@@ -51,6 +51,7 @@ struct MechanismView {
   PlayerMask may_have = kEveryPlayer;  ///< players whose peers may have its authority
   float contested = 0;   ///< holder's states that were far from the server's copy, of late
   bool decided = false;  ///< in the last plan
+  bool falls = false;    ///< one body that falls freely, or did a moment ago: it does not turn
 };
 
 /// All that planning looks at; indices of mechanisms are into `mechanisms`. The memory of when what
@@ -87,13 +88,12 @@ struct AuthorityView {
 ///   a mechanism gives way to the server. Secondary (mode buffer): peers whose region, or whose
 ///   mechanisms, are within the scene's buffer width of its boxes, or with whose mechanisms it may
 ///   come into contact, directly or through others, before a grant could tell them (ZoneSeconds);
-///   and all of a room of at most follow_bodies. In a larger one only what may do so on the ways on
-///   which they are (MayMeetOnTheirWays), and where things of eight peers may come into contact
-///   with each other and less than three quarters of them touch: through others only within 24 m,
-///   or if all touches on the way.
-///   The server: everything in a room of at most server_follow bodies, and where physics finds
-///   edits, which it orders as soon as it knows the inputs that they hang on; else what may come
-///   into contact with something of its own, and what moves of a silent holder.
+///   and all of a room of at most follow_bodies. In a larger one what falls freely only if it may
+///   on its way (MayMeetOnTheirWays), and where things of eight peers may come into contact with
+///   each other and less than three quarters of them touch: through others only within 24 m, or if
+///   all touches on the way. The server: everything in a room of at most server_follow bodies, and
+///   where physics finds edits, which it orders as soon as it knows the inputs that they hang on;
+///   else what may come into contact with something of its own, and what moves of a silent holder.
 ///   Modes oracle and central: all the server's.
 AuthorityPlan PlanAuthority(const AuthorityView& view);
 

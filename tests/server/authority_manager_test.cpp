@@ -295,5 +295,35 @@ name = "bob"
   EXPECT_TRUE(manager.Has(0, 0));
 }
 
+/// What bounces touches something for a tick or two, and flies on as it did.
+TEST(AuthorityManager, WhoFollowsWhatFallsIsPlannedByItsWayForAMomentMore) {
+  const Scene scene = ParseScene(
+      "follow = 0\nbuffer = 1\n"
+      "[[part]]\nname = \"hers\"\ncircle = 0.5\nposition = [-1.6, 90]\n"
+      "[[part]]\nname = \"his\"\ncircle = 0.5\nposition = [1.6, 87]\nvelocity = [0, 12]\n"
+      "[[player]]\nname = \"ann\"\nregion = [[-100, -100], [-0.001, 200]]\n"
+      "[[player]]\nname = \"bob\"\nregion = [[0, -100], [100, 200]]\n",
+      "test.toml");
+  const SyncConfig config = MakeSyncConfig("buffer", "");
+  Replica replica(scene, config, 0, -1);
+  AuthorityManager manager(scene, config, replica);
+  AuthorityManager::Situation situation;
+  situation.peer_of_player = {kAnn, kBob};
+  const auto ann_follows_his = [&] {
+    manager.PlanSoon();
+    manager.Update(1, situation);
+    EXPECT_EQ(std::as_const(replica).authority().at(1).authority, kBob);
+    return std::as_const(replica).authority().at(1).secondaries.Has(kAnn);
+  };
+  bool falls = true;
+  situation.falls = [&](PartId) { return falls; };
+  EXPECT_FALSE(ann_follows_his()) << "it flies beside hers";
+  falls = false;
+  for (int tick = 0; tick < 10; ++tick) replica.Step();
+  EXPECT_FALSE(ann_follows_his()) << "it bounces";
+  for (int tick = 0; tick < 10; ++tick) replica.Step();
+  EXPECT_TRUE(ann_follows_his()) << "it may turn";
+}
+
 }  // namespace
 }  // namespace seam

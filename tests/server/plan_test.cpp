@@ -193,15 +193,23 @@ TEST(PlanAuthority, WhatFliesSideBySideIsNoHeap) {
 }
 
 /// Balls that bounce beside each other fall and rise, but do not come nearer.
-TEST(PlanAuthority, InALargeRoomWhatIsFollowedIsWhatMayBeMetOnTheWay) {
+TEST(PlanAuthority, InALargeRoomWhatFallsIsFollowedIfItMayBeMetOnItsWay) {
   AuthorityView view = TwoSides({-50, 20, 21.2f, 22.4f});
-  for (std::size_t m = 1; m < 4; ++m) view.boxes[m].velocity = {0, m % 2 == 0 ? 8.0f : -8.0f};
+  for (std::size_t m = 1; m < 4; ++m) {
+    view.boxes[m].velocity = {0, m % 2 == 0 ? 8.0f : -8.0f};
+    view.mechanisms[m].falls = true;
+  }
   view.mechanisms[1].owner = 0;  // ann's, in a row of bob's
   view.buffer_m = 0;
   view.follow_bodies = 3;
   EXPECT_TRUE(Follows(view, 2, kAnn)) << "no way down is known: they may turn anywhere";
   view.gravity = {0, -10};
   EXPECT_FALSE(Follows(view, 2, kAnn));
+  view.mechanisms[2].falls = false;
+  EXPECT_FALSE(Follows(view, 2, kAnn)) << "of two one falls";
+  view.mechanisms[1].falls = false;
+  EXPECT_TRUE(Follows(view, 2, kAnn)) << "what touches something may turn";
+  view.mechanisms[1].falls = view.mechanisms[2].falls = true;
   view.boxes[2].velocity.x() = -2;
   EXPECT_TRUE(Follows(view, 2, kAnn)) << "it comes";
   EXPECT_FALSE(Follows(view, 3, kAnn));

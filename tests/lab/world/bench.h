@@ -32,8 +32,7 @@ TextTable PlannerBench(bool quick);
 TextTable ClientTickBench(bool quick);
 
 /// CPU time of one plan of a room so wide and high, m, in which all moves, ms: the median of some.
-/// Unless it is seen from above, gravity pulls downwards.
-double PlanMs(int players, int mechanisms, float width, float height, bool from_above, int repeats);
+double PlanMs(int players, int mechanisms, float width, float height, int repeats);
 /// What each of so many bodies that concern a client in nothing costs its tick, ns.
 double FarBodyNs(int far, int ticks, int pairs);
 

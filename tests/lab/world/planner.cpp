@@ -13,7 +13,7 @@ struct Case {
   const char* name;
   int players;
   float width, height;  // m
-  bool regions, from_above;
+  bool regions;
 };
 
 /// Everything that moves, as it is held after some plans.
@@ -29,7 +29,6 @@ AuthorityView Settled(const Case& of, int mechanisms) {
   world.chains = false;
   world.one_way_s = 0.05f;
   AuthorityView view = RandomView(world, 1);
-  if (!of.from_above) view.gravity = {0, -10};
   for (int plan = 0; plan < 3; ++plan) {
     for (MechanismView& mechanism : view.mechanisms) mechanism.held_ticks = 1000;
     const AuthorityPlan planned = PlanAuthority(view);
@@ -54,9 +53,8 @@ double PlanMs(const AuthorityView& view, int repeats) {
 
 }  // namespace
 
-double PlanMs(int players, int mechanisms, float width, float height, bool from_above,
-              int repeats) {
-  return PlanMs(Settled(Case{"", players, width, height, false, from_above}, mechanisms), repeats);
+double PlanMs(int players, int mechanisms, float width, float height, int repeats) {
+  return PlanMs(Settled(Case{"", players, width, height, false}, mechanisms), repeats);
 }
 
 TextTable PlannerBench(bool quick) {
@@ -65,20 +63,18 @@ TextTable PlannerBench(bool quick) {
   table.name = "world-planner";
   table.title = "A plan of who has authority and who follows, 1000 bodies and vehicles that move";
   table.header = {"room", "players", "bodies", "ms a plan"};
-  for (const Case& of : {Case{"players 30 m apart in a row", 256, 7680, 20, false, false},
-                         Case{"seen from above, 1500 m wide", 256, 1500, 1500, false, true},
-                         Case{"seen from above, 500 m wide", 256, 500, 500, false, true},
-                         Case{"crowded: 100 m wide", 256, 100, 20, false, false},
-                         Case{"200 m wide", 31, 200, 40, false, false},
-                         Case{"200 m wide, by regions", 31, 200, 40, true, false}}) {
+  for (const Case& of :
+       {Case{"players 30 m apart in a row", 256, 7680, 20, false},
+        Case{"seen from above, 1500 m wide", 256, 1500, 1500, false},
+        Case{"seen from above, 500 m wide", 256, 500, 500, false},
+        Case{"crowded: 100 m wide", 256, 100, 20, false}, Case{"200 m wide", 31, 200, 40, false},
+        Case{"200 m wide, by regions", 31, 200, 40, true}}) {
     const AuthorityView view = Settled(of, 1000);
     table.rows.push_back({of.name, std::to_string(view.players.size()),
                           std::to_string(view.boxes.size()), Digits(PlanMs(view, repeats))});
   }
   table.note =
-      "CPU time of the median plan; plans come ten times a second. Vehicles have three bodies. "
-      "Where "
-      "it is not seen from above gravity pulls downwards.";
+      "CPU time of the median plan; plans come ten times a second. Vehicles have three bodies.";
   table.command = "build/release/seam-lab world planner";
   return table;
 }

@@ -57,7 +57,7 @@ int PlannedHolder(const AuthorityView& view, const MechanismView& mechanism) {
 }
 
 /// Pairs of mechanisms that may come into contact within the time of their peers and `more`
-/// seconds. `by_ways`: those alone that may on the ways on which they are.
+/// seconds. `by_ways`: where one falls, those alone that may on their ways.
 std::vector<std::pair<int, int>> ContactPairs(const AuthorityView& view, const ReferencePlan& plan,
                                               float more, bool by_ways) {
   std::vector<float> one_way(plan.size(), 0);
@@ -80,7 +80,10 @@ std::vector<std::pair<int, int>> ContactPairs(const AuthorityView& view, const R
   for (const MovingBox& a : view.boxes) {
     for (const MovingBox& b : view.boxes) {
       const float seconds = seconds_of(a.group, b.group);
-      const bool may = MayMeet(a, b, seconds) && MayMeetOnTheirWays(a, b, fall, seconds);
+      const bool falls = view.mechanisms[static_cast<std::size_t>(a.group)].falls ||
+                         view.mechanisms[static_cast<std::size_t>(b.group)].falls;
+      const bool may =
+          MayMeet(a, b, seconds) && (!falls || MayMeetOnTheirWays(a, b, fall, seconds));
       if (a.group < b.group && may) pairs.insert({a.group, b.group});
     }
   }
