@@ -91,9 +91,10 @@ struct AuthorityView {
 ///   and all of a room of at most follow_bodies. In a larger one what falls freely only if it may
 ///   on its way (MayMeetOnTheirWays), and where things of eight peers may come into contact with
 ///   each other and less than three quarters of them touch: through others only within 24 m, or if
-///   all touches on the way. The server: everything in a room of at most server_follow bodies, and
-///   where physics finds edits, which it orders as soon as it knows the inputs that they hang on;
-///   else what may come into contact with something of its own, and what moves of a silent holder.
+///   all touches on the way.
+///   The server: everything in a room of at most server_follow bodies, and where physics finds
+///   edits, which it orders as soon as it knows the inputs that they hang on; else what may come
+///   into contact with something of its own, and what moves of a silent holder.
 ///   Modes oracle and central: all the server's.
 AuthorityPlan PlanAuthority(const AuthorityView& view);
 
