@@ -42,9 +42,9 @@ class Reckoner {
   const BodyState& Here(int body) { return Reckoned(body).here[static_cast<std::size_t>(body)]; }
   const BodyState& There(int body) { return Reckoned(body).there[static_cast<std::size_t>(body)]; }
   /// How it moves from Here to There, or if it falls and is absent, to where it is in kAbsentEvery
-  /// ticks. Joints that are torn can often be closed in two ways: if one
-  /// is found at Here and the other at There, what lies between is no motion, and the mechanism's
-  /// bodies move as if nothing had been closed.
+  /// ticks. Joints that are torn can often be closed in two ways: if one is found at Here and the
+  /// other at There, what lies between is no motion, and the mechanism's bodies move as if nothing
+  /// had been closed.
   const PathSpeed& Speed(int body) { return Reckoned(body).speed[static_cast<std::size_t>(body)]; }
 
  private:
