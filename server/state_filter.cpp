@@ -158,7 +158,11 @@ const States& StateFilter::Keep(std::int64_t now_us, int peer, const States& sta
   kept.origin_y = states.origin_y;
   // Who had it all the time may not know the last one yet.
   for (std::size_t i = 0; i < kept.id.size(); ++i) {
-    kept.epoch[i] = EpochOf(replica_.world().BodyOfId(kept.id[i]));
+    const int body = replica_.world().BodyOfId(kept.id[i]);
+    kept.epoch[i] = EpochOf(body);
+    // What hangs on others does not fall freely, whoever says so: an edit may just have joined it.
+    const bool falls = (kept.flags[i] & kStateFalls) != 0;
+    if (falls && replica_.world().Joined(body)) kept.flags[i] ^= kStateFalls;
   }
   return kept;
 }

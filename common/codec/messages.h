@@ -14,7 +14,7 @@
 namespace seam {
 
 /// Bumped when any message changes: peers of different versions do not talk.
-constexpr std::int32_t kProtocolVersion = 11;
+constexpr std::int32_t kProtocolVersion = 12;
 /// The oldest whose messages on the bus are those of today: what was recorded since can be read.
 constexpr std::int32_t kOldestRecorded = 8;
 

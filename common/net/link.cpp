@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <deque>
-#include <map>
 #include <utility>
 #include <vector>
 
 #include "common/base/check.h"
 #include "common/net/datagram.h"
+#include "common/net/reliable_inbox.h"
 #include "common/net/reliable_queue.h"
 #include "common/net/sent_record.h"
 #include "common/net/sequence_window.h"
@@ -53,8 +53,7 @@ struct Link::Impl {
   SequenceWindow window;
   std::int64_t flushed_newest = -1;     // window.newest() at the last Flush
   bool ack_owed = false;                // something reliable came since the last datagram
-  std::int64_t next_in = 0;             // id of the next reliable message to deliver
-  std::map<std::int64_t, Bytes> early;  // reliable messages ahead of it, within the window
+  ReliableInbox inbox;
   std::int64_t last_receive_us = -1;
   std::int64_t rejected = 0;
 
@@ -222,26 +221,11 @@ struct Link::Impl {
     }
   }
 
-  bool IdsInWindow() const {
-    return std::all_of(messages.begin(), messages.end(), [this](const DatagramMessage& message) {
-      return !message.reliable || Unwrap(message.id, next_in) - next_in < kReliableWindow;
-    });
-  }
-
   void DeliverReliable(std::int64_t now_us, const DatagramMessage& message, const Sink& deliver) {
-    const std::int64_t id = Unwrap(message.id, next_in);
-    const bool repeated = id < next_in || early.count(id) > 0;
+    const bool repeated = inbox.Has(message.id);
     // What is repeated was acknowledged, by a datagram that may have been lost.
     ack_owed = ack_owed || !repeated || now_us - last_send_us >= kLateUsMin;
-    if (repeated) return;
-    if (id == next_in && early.empty()) {
-      ++next_in;
-      return deliver(message.bytes);
-    }
-    early.emplace(id, Bytes(message.bytes.begin(), message.bytes.end()));
-    while (!early.empty() && early.begin()->first == next_in) {
-      deliver(early.extract(next_in++).mapped());
-    }
+    if (!repeated) inbox.Take(message, deliver);
   }
 
   /// The one place that says whether the other end of this session wrote a datagram; all that a
@@ -258,7 +242,7 @@ struct Link::Impl {
     const std::int64_t number = window.Full(header.sequence);
     const std::int64_t ack = Unwrap(header.ack, sequence);
     if (!window.IsNew(number) || ack > sequence) return false;
-    if (!ReadMessages(datagram, &messages) || !IdsInWindow()) return false;
+    if (!ReadMessages(datagram, &messages) || !inbox.InWindow(messages)) return false;
     if (!gate(messages.size())) return false;
     window.Insert(number);
     last_receive_us = now_us;

@@ -36,6 +36,7 @@ bool ReliableQueue::Push(ByteView message, bool urgent) {
   queued.chance = urgent;
   queued.bytes.assign(message.begin(), message.end());
   messages_.push_back(std::move(queued));
+  FillWindow();
   due_us_ = 0;
   return true;
 }
@@ -44,9 +45,12 @@ void ReliableQueue::NoteAcked(std::int64_t id) {
   const auto index = static_cast<std::size_t>(messages_.empty() ? -1 : id - messages_.front().id);
   if (index < messages_.size()) messages_[index].acked = true;
   while (!messages_.empty() && messages_.front().acked) {
+    window_bytes_ -= messages_.front().bytes.size();
+    --window_;
     messages_.pop_front();
     due_us_ = 0;  // the window moves on
   }
+  FillWindow();
 }
 
 void ReliableQueue::SetLate(std::int64_t late_us) {
@@ -54,8 +58,13 @@ void ReliableQueue::SetLate(std::int64_t late_us) {
   due_us_ = 0;  // what is repeated may be due earlier
 }
 
-std::size_t ReliableQueue::window() const {
-  return std::min<std::size_t>(messages_.size(), kReliableWindow);
+void ReliableQueue::FillWindow() {
+  while (window_ < messages_.size() && window_ < kReliableWindow) {
+    const std::size_t bytes = messages_[window_].bytes.size();
+    if (window_bytes_ + bytes > kReliableWindowBytes) return;
+    window_bytes_ += bytes;
+    ++window_;
+  }
 }
 
 /// When a message is due that is not acknowledged; its chance is `chance_us` after it.
@@ -69,7 +78,7 @@ std::int64_t ReliableQueue::DueUs(const Message& message, std::int64_t chance_us
 
 std::int64_t ReliableQueue::FirstDueUs() const {
   std::int64_t due_us = std::numeric_limits<std::int64_t>::max();
-  for (std::size_t i = 0; i < window(); ++i) {
+  for (std::size_t i = 0; i < window_; ++i) {
     if (!messages_[i].acked) due_us = std::min(due_us, DueUs(messages_[i], kChanceUs));
   }
   return due_us;
@@ -88,7 +97,7 @@ void ReliableQueue::Take(std::int64_t now_us, bool rides, const Pack& pack) {
   if (now_us < due_us_ && !rides) return;
   const std::int64_t chance_us = rides ? kChanceRidesUs : kChanceUs;
   std::size_t budget = kTakeBytes;
-  for (std::size_t i = 0; i < window(); ++i) {
+  for (std::size_t i = 0; i < window_; ++i) {
     Message& message = messages_[i];
     if (message.acked || now_us < DueUs(message, chance_us)) continue;
     if (message.bytes.size() > budget) break;

@@ -40,13 +40,16 @@ class ReliableQueue {
     bool acked = false;
     Bytes bytes;
   };
-  std::size_t window() const;
   std::int64_t DueUs(const Message& message, std::int64_t chance_us) const;
   std::int64_t FirstDueUs() const;
+  /// Lets in what fits.
+  void FillWindow();
   /// For a repeat on the chance.
   void Pay(std::int64_t now_us, const Message& message);
 
-  std::deque<Message> messages_;  // the first kReliableWindow of them are the window
+  std::deque<Message> messages_;
+  std::size_t window_ = 0;        // so many of the first of them are the window,
+  std::size_t window_bytes_ = 0;  // that are so long
   std::int64_t next_id_ = 0;
   std::int64_t late_us_;
   std::int64_t chances_paid_us_ = 0;  // by then for what was repeated on the chance

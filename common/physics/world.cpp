@@ -179,6 +179,8 @@ const std::vector<BlockedDirection>& World::blocked_directions() const {
   return *impl_->blocked_directions;
 }
 
+WorldSnapshot World::Keep() { return impl_->Keep(); }
+
 std::uint64_t World::Hash() const {
   std::uint64_t hash = Fnv1a(&impl_->tick, sizeof impl_->tick);
   for (int body = 0; body < body_count(); ++body) {

@@ -177,6 +177,8 @@ class World {
   /// not count.
   float FreeWay(int body, const Vec2& from, const Vec2& to) const;
 
+  /// Whether a joint holds the body, to another or to what is anchored.
+  bool Joined(int body) const;
   /// Where the body comes from a state in `seconds` of free flight: gravity moves it, and it
   /// bounces off what is anchored and stands still; other bodies, joints and water are not met.
   BodyState AfterFlight(int body, const BodyState& from, float seconds) const;
@@ -187,6 +189,9 @@ class World {
   /// Rebuilds the world, so that nothing is left in it of how it came to its state, and returns
   /// that state. Bodies, motions and motors stay; impulses of contacts and joints are carried over.
   WorldSnapshot Barrier();
+  /// That state, and nothing is rebuilt: what is stepped again from it comes out almost as it did,
+  /// but not bit for bit.
+  WorldSnapshot Keep();
   /// Goes back to a state that Barrier returned. Motions stay as they are now; motors turn as they
   /// did then, or the next input would wake what it changes nothing of. With the same calls after
   /// it, the world does again, bit for bit, what it did then.

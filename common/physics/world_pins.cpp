@@ -1,5 +1,6 @@
 /// World: its joints as pins. Springs and motors that yield are none, only their limits are.
 
+#include <algorithm>
 #include <cfloat>
 #include <limits>
 
@@ -108,6 +109,13 @@ std::vector<Pin> World::Impl::FindPins() const {
     pins.push_back(pin);
   }
   return pins;
+}
+
+bool World::Joined(int body) const {
+  const std::vector<int>& joints = impl_->memory.joints_of[static_cast<std::size_t>(body)];
+  return std::any_of(joints.begin(), joints.end(), [this](int joint) {
+    return !impl_->scene.joints[static_cast<std::size_t>(joint)].gone;
+  });
 }
 
 MassPoint World::mass_point(int body) const {

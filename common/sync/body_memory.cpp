@@ -46,8 +46,7 @@ bool BodyMemory::Struck(int body) const {
 }
 
 bool BodyMemory::FallsFreely(int body, std::int64_t tick, const BodyState& state) const {
-  const auto m = static_cast<std::size_t>(world_.mechanism(body));
-  if (world_.composition().mechanisms[m].assemblies.size() > 1) return false;
+  if (world_.Joined(body)) return false;
   const BodyState* before = ComparablePast(body, tick - 1);
   if (before == nullptr) return false;
   const Vec2 pull = world_.dt() * world_.scene().gravity;

@@ -38,6 +38,17 @@ const std::vector<bool>& Roles::Own() const {
   return own_;
 }
 
+bool Roles::Shares() const {
+  if (config_.mode != Mode::kBuffer) return true;
+  const std::vector<int>& present = world_.present();
+  return std::any_of(present.begin(), present.end(), [this](int body) {
+    if (!world_.awake(body)) return false;
+    const AuthorityRecord& record = table_.at(world_.mechanism(body));
+    const bool has = record.authority == self_;
+    return has ? !record.secondaries.empty() : record.secondaries.Has(self_);
+  });
+}
+
 bool Roles::Proposes(const Edit& edit) const {
   if (config_.mode == Mode::kOracle) return true;
   for (const PartId part : world_.topology().PartsOf(edit)) {

@@ -44,6 +44,8 @@ class Roles {
     const AuthorityRecord& record = table_.at(mechanism);
     return silent_.Has(record.authority) && record.secondaries.Has(self_);
   }
+  /// Whether another peer steps any of the bodies that are awake here and that this one steps.
+  bool Shares() const;
   /// Whether this peer is to propose an edit that physics found: the authority of the first part
   /// concerned that is in a mechanism; in mode oracle every peer.
   bool Proposes(const Edit& edit) const;

@@ -1,12 +1,26 @@
 #include "server/interest/grant_news.h"
 
 namespace seam {
+namespace {
 
-/// At first the server has everything, and nobody was told anything.
+/// The lowest client that follows; -1: none does. Its holder has to know of one, whose world is to
+/// come to the same bits as its own, but not of all.
+int OneFollower(const AuthorityRecord& record) {
+  int lowest = -1;
+  record.secondaries.Each([&](int peer) {
+    if (lowest < 0 && peer > 0 && peer != record.authority) lowest = peer;
+  });
+  return lowest;
+}
+
+}  // namespace
+
+/// Who is told everything is told the table as it is.
 void GrantNews::Begin() {
   if (!told_.empty()) return;
-  const auto count = static_cast<std::size_t>(replica_.authority().count());
-  told_.assign(count, AuthorityRecord{});
+  const AuthorityTable& table = replica_.authority();
+  const auto count = static_cast<std::size_t>(table.count());
+  for (int m = 0; m < table.count(); ++m) told_.push_back(table.at(m));
   owed_.assign(count, PeerSet{});
   any_owed_.assign(count, false);
   merged_.assign(count, false);
@@ -44,6 +58,7 @@ bool GrantNews::Concerns(int peer, const Change& change, const AuthorityRecord& 
   const bool holds = now.authority == peer;
   // Who has it proposes its edits, unless the server follows it.
   if (holds && before.secondaries.Has(0) != now.secondaries.Has(0)) return true;
+  if (holds && (OneFollower(before) < 0) != (OneFollower(now) < 0)) return true;
   if (!changed) return false;
   return holds || before.authority == peer || follows ||
          interest_.Of(peer, change.mechanism) >= Concern::kNear;
@@ -100,6 +115,7 @@ std::vector<Grants> GrantNews::Owed(int peer, const std::vector<int>& mechanisms
 }
 
 void GrantNews::NoteTold(int peer) {
+  Begin();
   for (PeerSet& owed : owed_) owed.Remove(peer);
 }
 
@@ -136,8 +152,9 @@ void GrantNews::Add(int peer, int mechanism, const AuthorityRecord& record,
   grants.authority.push_back(static_cast<std::int16_t>(record.authority));
   grants.epoch.push_back(record.epoch);
   std::int16_t followers = 0;
-  for (const int follower : {0, peer}) {
-    if (!record.secondaries.Has(follower)) continue;
+  const int other = record.authority == peer ? OneFollower(record) : peer;
+  for (const int follower : {0, other}) {
+    if (follower < 0 || !record.secondaries.Has(follower)) continue;
     grants.follower.push_back(static_cast<std::int16_t>(follower));
     ++followers;
   }

@@ -47,7 +47,8 @@ class GrantNews {
     std::int32_t epoch = 0;  // of the question
     AuthorityRecord before;  // as it was told
   };
-  /// Adds a record as it concerns a peer: of the followers only itself and the server.
+  /// Adds a record as it concerns a peer: of the followers only the server and itself, or for its
+  /// holder one of them.
   void Add(int peer, int mechanism, const AuthorityRecord& record, std::vector<Grants>* to) const;
   bool Concerns(int peer, const Change& change, const AuthorityRecord& now) const;
   void Begin();

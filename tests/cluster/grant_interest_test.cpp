@@ -132,6 +132,41 @@ TEST(GrantInterest, WhomItIsNothingHearsOfItInTheEnd) {
   EXPECT_LT(longest[1], 21 * 60);
 }
 
+bool AnyClientFollows(const AuthorityRecord& record) {
+  PeerSet others = record.secondaries;
+  others.Remove(0);
+  others.Remove(record.authority);
+  return !others.empty();
+}
+
+/// By that it knows whether its world has to come to the same bits as another's.
+TEST(GrantInterest, AHolderKnowsWhetherAnyClientFollowsWhatItHas) {
+  Cluster cluster(Room("demo"));
+  cluster.RunToTick(30);
+  int seen[2] = {0, 0}, longest = 0, apart = 0;  // apart: from what the server knows
+  std::map<int, int> strange;                    // mechanism: ticks in which its holder errs
+  while (cluster.server().tick() < 20 * 60) {
+    cluster.RunToTick(cluster.server().tick() + 1);
+    const AuthorityTable& ours = cluster.server().replica().authority();
+    for (int m = 0; m < ours.count(); ++m) {
+      const int holder = ours.at(m).authority;
+      if (holder == 0) continue;
+      const AuthorityRecord& theirs =
+          cluster.client(holder - 1)->replica()->authority().at(m);
+      const bool right = theirs.epoch == ours.at(m).epoch &&
+                         AnyClientFollows(theirs) == AnyClientFollows(ours.at(m));
+      ++seen[AnyClientFollows(ours.at(m))];
+      apart += right ? 0 : 1;
+      strange[m] = right ? 0 : strange[m] + 1;
+      longest = std::max(longest, strange[m]);
+    }
+  }
+  EXPECT_GT(seen[0], 1000) << "or nothing was tried";
+  EXPECT_GT(seen[1], 1000) << "or nothing was tried";
+  EXPECT_GT(apart, 0) << "news takes its time";
+  EXPECT_LT(longest, 30) << "ticks";
+}
+
 TEST(GrantInterest, OnlyTheHolderHearsTheQuestionToLetGo) {
   Cluster cluster(Room("demo"));
   cluster.RunToTick(30);

@@ -6,6 +6,8 @@
 #include "common/net/link.h"
 #include "tests/lab/cluster.h"
 #include "tests/support/live_session.h"
+#include "tests/support/pendulums.h"
+#include "tests/support/rewriting_net.h"
 #include "tests/support/session_guest.h"
 
 namespace seam {
@@ -136,6 +138,42 @@ TEST(Hostile, WhoWasAwayForTenSecondsHasTheCarBackAtOnceAndNobodyElseHadIt) {
   EXPECT_TRUE(cluster.client(1)->running());
   EXPECT_EQ(cluster.client(1)->peer(), 2);
   EXPECT_EQ(HeldBy(cluster, 2), held);
+}
+
+TEST(Hostile, WhatHangsOnAJointDoesNotFallFreelyWhateverItsHolderSays) {
+  for (const bool lies : {false, true}) {
+    ClusterConfig config;
+    config.scene = "pendulums.toml";
+    config.scene_text = Pendulums(4);
+    config.impair = "perfect";
+    config.duration_s = 4;
+    int forged = 0;
+    config.client_net = [&](std::size_t, std::unique_ptr<Net> net) -> std::unique_ptr<Net> {
+      return std::make_unique<RewritingNet>(std::move(net), [&](std::int64_t, Bytes* message) {
+        AnyMessage any = Decode(*message);
+        States* const states = std::get_if<States>(&any);
+        if (states == nullptr || !lies) return true;
+        for (std::int8_t& flags : states->flags) {
+          forged += (flags & kStateAsleep) == 0 ? 1 : 0;
+          if ((flags & kStateAsleep) == 0) flags |= kStateFalls;
+        }
+        *message = Encode(*states);
+        return true;
+      });
+    };
+    Cluster cluster(config);
+    cluster.Run();
+    int told = 0, falls = 0;
+    for (const States& states : cluster.recording().states) {
+      for (const std::int8_t flags : states.flags) {
+        ++told;
+        falls += (flags & kStateFalls) != 0 ? 1 : 0;
+      }
+    }
+    EXPECT_GT(told, 100);
+    EXPECT_EQ(forged > 100, lies);
+    EXPECT_EQ(falls, 0) << "of " << told;
+  }
 }
 
 TEST(Hostile, InputsBeforeReadyDoNotCount) {

@@ -99,7 +99,7 @@ TEST(Link, RejectsMalformedFramingBeforeDeliveringAnything) {
       {0, 2, 'x'},            // beyond the end
       {0x80, 1, 0},           // reliable without its id
       {0x80, 1, 0, 0},        // reliable without its byte
-      {0x80, 1, 0, 64, 'x'},  // an id beyond the window
+      {0x80, 1, 1, 0, 'x'},   // an id beyond the window
       {0x7f, 0xff, 'x'},      // a length no datagram can hold
   };
   int delivered = 0;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <memory>
 #include <set>
 #include <string>
@@ -118,6 +119,60 @@ TEST(Link, CarriesALargeRoomInChunksBothWaysAtOnceUnderLoss) {
   for (int tick = 0; tick < 600; ++tick) pair.Tick();
   EXPECT_EQ(pair.a.heard, sent);
   EXPECT_EQ(pair.b.heard, sent);
+}
+
+/// As many as a holder's hand-overs at their worst: what is lost holds up what comes after it, and
+/// no more than that.
+TEST(Link, ManySmallMessagesASecondDoNotPileUpWhereAQuarterIsLost) {
+  Pair pair("delay=96ms,jitter=16ms,loss=27%");
+  const int per_s = 120, ticks = 1200;
+  std::vector<double> told_s, late_s;  // by message: when it was said, and how long it took
+  std::size_t most = 0;
+  for (int tick = 0; tick < ticks + 300; ++tick) {
+    for (int k = 0; k < per_s / 60 && tick < ticks; ++k) {
+      told_s.push_back(static_cast<double>(pair.now_us) * 1e-6);
+      ASSERT_TRUE(pair.a.link.SendUrgent(Text(std::string(48, 'g'))));
+    }
+    pair.Tick();
+    most = std::max(most, pair.a.link.waiting());
+    while (late_s.size() < pair.b.heard.size()) {
+      late_s.push_back(static_cast<double>(pair.now_us) * 1e-6 - told_s[late_s.size()]);
+    }
+  }
+  ASSERT_EQ(late_s.size(), told_s.size());
+  EXPECT_GT(pair.b.link.loss_ppm(), 200'000);
+  std::sort(late_s.begin(), late_s.end());
+  const double p99 = late_s[late_s.size() * 99 / 100];
+  std::printf("[          ] p99 %.2f s, %zu waiting at most\n", p99, most);
+  EXPECT_LE(p99, 1.8);
+  EXPECT_LT(most, static_cast<std::size_t>(kReliableWindow));
+}
+
+TEST(Link, TheWindowIsBoundedInBytesAtBothEnds) {
+  Link a(kSession), b(kSession);
+  for (int i = 0; i < 200; ++i) ASSERT_TRUE(a.SendReliable(Bytes(kMessageBytesMax, 'x')));
+  std::size_t sent = 0, heard = 0;
+  for (int tick = 0; tick < 12; ++tick) {  // not yet late
+    for (const Bytes& datagram : Drain(a, tick * kTickUs)) {
+      if (++sent == 1) continue;  // lost: all others wait for it
+      EXPECT_TRUE(b.Receive(0, datagram, [&](ByteView) { ++heard; }));
+    }
+  }
+  EXPECT_EQ(sent, kReliableWindowBytes / kMessageBytesMax);
+  EXPECT_EQ(heard, 0u);
+  const auto more = [&](std::uint8_t id, std::size_t bytes) {
+    const Bytes body(bytes, 'x');
+    DatagramWriter writer;
+    writer.Append({true, id, body});
+    return b.Receive(0, writer.Finish({kSession, static_cast<std::uint16_t>(300 + id), 0, 0}),
+                     [&](ByteView) { ++heard; });
+  };
+  EXPECT_TRUE(more(100, kMessageBytesMax)) << "as long as the one that is missing at most";
+  EXPECT_FALSE(more(101, 1));
+  EXPECT_TRUE(more(5, kMessageBytesMax)) << "which it has";
+  EXPECT_TRUE(more(0, kMessageBytesMax)) << "the one that was lost";
+  EXPECT_EQ(heard, sent);
+  EXPECT_TRUE(more(101, 1));
 }
 
 TEST(Link, UnreliableMessagesArriveAtMostOnceAndMostlyDo) {

@@ -66,7 +66,9 @@ class Corrector {
 
   /// Whether an entry is news; counts it.
   bool IsEarly(const States& states) const;
-  bool MayWait(const States& states) const;
+  /// Whether it is of a tick that is not far from now.
+  bool IsNear(const States& states) const;
+  void Wait(const States& states);
   bool IsNews(const States& states, std::size_t i, int body, Received* result) const;
   /// Notes one entry; true if its body is simulated here and to be corrected.
   bool ReceiveOne(const States& states, std::size_t i, int body);
@@ -105,6 +107,7 @@ class Corrector {
   Display& display_;
   Replay& replay_;
   std::vector<States> waiting_;  // of ticks or edits still to come
+  std::vector<States> waited_;   // that waited: their memory is used again
   /// Ids of bodies that have been placed, and whether they were moved on to now: not closed yet.
   std::vector<std::pair<int, bool>> placed_;
   std::vector<BodyState> poses_;  // by body: of the mechanism that is being closed

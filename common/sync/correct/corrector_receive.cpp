@@ -1,5 +1,8 @@
 /// Corrector, incoming: other peers' states become snapshots, corrections or a replay.
 
+#include <iterator>
+#include <utility>
+
 #include "common/sync/correct/corrector.h"
 #include "common/sync/quantize.h"
 #include "common/sync/state_limits.h"
@@ -26,8 +29,8 @@ Corrector::Corrector(const SyncConfig& config, World& world, const Roles& roles,
 Received Corrector::Receive(const States& states) {
   Received result;
   if (IsEarly(states)) {
-    if (MayWait(states)) {
-      waiting_.push_back(states);
+    if (IsNear(states) && waiting_.size() < kWaitingMax) {
+      Wait(states);
       result.used = static_cast<int>(states.id.size());
     } else {
       result.stale = static_cast<int>(states.id.size());
@@ -57,21 +60,30 @@ bool Corrector::IsEarly(const States& states) const {
   return states.tick > world_.tick() || states.revision > world_.topology().revision();
 }
 
-bool Corrector::MayWait(const States& states) const {
-  return waiting_.size() < kWaitingMax && states.tick <= world_.tick() + kWaitingTicksMax &&
+bool Corrector::IsNear(const States& states) const {
+  return states.tick <= world_.tick() + kWaitingTicksMax &&
          states.tick > world_.tick() - kWaitingTicksMax;
 }
 
+void Corrector::Wait(const States& states) {
+  if (waited_.empty()) waited_.emplace_back();
+  waiting_.push_back(std::move(waited_.back()));
+  waited_.pop_back();
+  waiting_.back() = states;
+}
+
 void Corrector::ReceiveWaiting() {
-  std::vector<States> waiting;
-  waiting.swap(waiting_);
-  for (States& states : waiting) {
+  std::size_t left = 0;
+  for (States& states : waiting_) {
     if (!IsEarly(states)) {
       Receive(states);
-    } else if (MayWait(states)) {
-      waiting_.push_back(std::move(states));
+    } else if (IsNear(states)) {
+      std::swap(waiting_[left++], states);
     }
   }
+  std::move(waiting_.begin() + static_cast<std::ptrdiff_t>(left), waiting_.end(),
+            std::back_inserter(waited_));
+  waiting_.resize(left);
 }
 
 bool Corrector::IsNews(const States& states, std::size_t i, int body, Received* result) const {

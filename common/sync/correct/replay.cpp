@@ -16,6 +16,8 @@ namespace {
 /// Most that is stepped again, s. At 200 ms one way, an input is known elsewhere after 0.4 s, and
 /// the state of the tick that it completed another 0.4 s later. Less than the history.
 constexpr int kReplayMax = 2;
+/// Who is alone goes back for edits, which are rare: from a barrier in 1/4 s.
+constexpr int kAlonePart = 4;
 /// Of the difference, where bodies of several authorities press against each other. All of it
 /// doubles the error of a shoved stack; much less is no longer a correction.
 constexpr float kPressedShare = 0.3f;
@@ -108,9 +110,19 @@ void Replay::AskFrom(std::int64_t tick) {
   if (from_ < 0 || tick < from_) from_ = tick;
 }
 
+bool Replay::IsAlone() const {
+  const std::vector<int>& players = drivers_.concerned();
+  const auto other = [this](int player) { return player != roles_.own_player(); };
+  return std::none_of(players.begin(), players.end(), other) && !roles_.Shares();
+}
+
 void Replay::TakeBarrier() {
   if (!config_.TakesBarriers(roles_.self()) || world_.tick() % config_.send_every() != 0) return;
-  AddBarrier();
+  // What has fallen asleep is built anew once as it lies.
+  const bool is_alone = IsAlone(), alone = std::exchange(was_alone_, is_alone) && is_alone;
+  const std::int64_t every = alone ? config_.tick_hz / kAlonePart : 0;
+  if (!barriers_.empty() && world_.tick() - barriers_.back().world.tick < every) return;
+  AddBarrier(alone);
   while (barriers_.front().world.tick < world_.tick() - kReplayMax * config_.tick_hz) {
     barriers_.pop_front();
   }

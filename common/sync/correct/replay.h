@@ -59,7 +59,7 @@ class Replay {
   void OnSteppedAgain(std::function<void()> call) { on_stepped_again_ = std::move(call); }
   /// After a step to a tick of which States are sent: makes it one to go back to. At every such
   /// tick, needed or not: worlds that are to come to the same bits are built anew at the same
-  /// ticks.
+  /// ticks. One that is not to, since nobody else steps what it does, is not, and less often.
   void TakeBarrier();
   /// This peer did a player's action (index) before the step to `tick`; a replay repeats it. Not
   /// for rules that stamp inputs.
@@ -126,7 +126,9 @@ class Replay {
   void StepTo(std::int64_t tick);
   void Arrive();
   void BarrierAfterEdits();
-  void AddBarrier();
+  void AddBarrier(bool alone);
+  /// Whether nothing that this peer steps is stepped, or moved by inputs, by another.
+  bool IsAlone() const;
   void DropBarriers();
   void NoteSitters();
   void ForgetHeard();
@@ -160,6 +162,7 @@ class Replay {
   std::deque<Action> actions_;                        // since the first barrier
   std::int64_t from_ = -1;                            // oldest tick asked for, -1 none
   std::vector<bool> pressed_;                         // by mechanism, of the replay that runs
+  bool was_alone_ = false;                            // at the send tick before
   double credit_ = 0;                                 // ticks that may be stepped again
   std::function<void()> on_stepped_again_ = [] {};
   std::optional<Journey> journey_;  // while the world is in the past

@@ -120,7 +120,9 @@ void Replay::RepeatEdits() {
   }
 }
 
-void Replay::AddBarrier() { barriers_.push_back({world_.Barrier(), edits_done_}); }
+void Replay::AddBarrier(bool alone) {
+  barriers_.push_back({alone ? world_.Keep() : world_.Barrier(), edits_done_});
+}
 
 void Replay::DropBarriers() {
   barriers_.clear();
@@ -136,7 +138,7 @@ bool Replay::IsBeforeEdit(std::int64_t tick) const {
 
 /// Where bodies have become others the world is built anew, so this is a tick to go back to, too.
 void Replay::BarrierAfterEdits() {
-  if (std::exchange(edited_, false) && config_.GoesBack(roles_.self())) AddBarrier();
+  if (std::exchange(edited_, false) && config_.GoesBack(roles_.self())) AddBarrier(false);
 }
 
 void Replay::GoOn() {
