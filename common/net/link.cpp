@@ -51,8 +51,8 @@ struct Link::Impl {
   bool quiet = false;
 
   SequenceWindow window;
-  std::int64_t flushed_newest = -1;     // window.newest() at the last Flush
-  bool ack_owed = false;                // something reliable came since the last datagram
+  std::int64_t flushed_newest = -1;  // window.newest() at the last Flush
+  bool ack_owed = false;             // something reliable came since the last datagram
   ReliableInbox inbox;
   std::int64_t last_receive_us = -1;
   std::int64_t rejected = 0;

@@ -151,8 +151,7 @@ TEST(GrantInterest, AHolderKnowsWhetherAnyClientFollowsWhatItHas) {
     for (int m = 0; m < ours.count(); ++m) {
       const int holder = ours.at(m).authority;
       if (holder == 0) continue;
-      const AuthorityRecord& theirs =
-          cluster.client(holder - 1)->replica()->authority().at(m);
+      const AuthorityRecord& theirs = cluster.client(holder - 1)->replica()->authority().at(m);
       const bool right = theirs.epoch == ours.at(m).epoch &&
                          AnyClientFollows(theirs) == AnyClientFollows(ours.at(m));
       ++seen[AnyClientFollows(ours.at(m))];

@@ -94,13 +94,13 @@ TEST(Link, RejectsMalformedFramingBeforeDeliveringAnything) {
   const DatagramHeader header{kSession, 1, 0, 0};
   const Bytes good = {0, 1, 'g'};
   const Bytes bad_tails[] = {
-      {0},                    // half a header
-      {0, 0},                 // length 0
-      {0, 2, 'x'},            // beyond the end
-      {0x80, 1, 0},           // reliable without its id
-      {0x80, 1, 0, 0},        // reliable without its byte
-      {0x80, 1, 1, 0, 'x'},   // an id beyond the window
-      {0x7f, 0xff, 'x'},      // a length no datagram can hold
+      {0},                   // half a header
+      {0, 0},                // length 0
+      {0, 2, 'x'},           // beyond the end
+      {0x80, 1, 0},          // reliable without its id
+      {0x80, 1, 0, 0},       // reliable without its byte
+      {0x80, 1, 1, 0, 'x'},  // an id beyond the window
+      {0x7f, 0xff, 'x'},     // a length no datagram can hold
   };
   int delivered = 0;
   for (const Bytes& tail : bad_tails) {
