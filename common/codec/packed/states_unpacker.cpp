@@ -52,8 +52,12 @@ bool Fits(const States& states, const PackedState& state) {
 const PackedState* StatesUnpacker::Find(std::int32_t id, std::int64_t number) const {
   const auto i = static_cast<std::size_t>(id);
   if (i >= place_.size() || place_[i] < 0) return nullptr;
-  for (const Kept& kept : kept_[static_cast<std::size_t>(place_[i])]) {
-    if (kept.number == number) return &kept.state;
+  // Most differences are from what came shortly before.
+  const Body& body = kept_[static_cast<std::size_t>(place_[i])];
+  std::size_t at = body.newest;
+  for (std::size_t k = 0; k < body.all.size(); ++k) {
+    if (body.all[at].number == number) return &body.all[at].state;
+    at = (at == 0 ? body.all.size() : at) - 1;
   }
   return nullptr;
 }
@@ -65,7 +69,8 @@ void StatesUnpacker::Keep(std::int64_t number, const Entry& entry) {
     place_[i] = static_cast<std::int32_t>(kept_.size());
     kept_.emplace_back();
   }
-  std::vector<Kept>& all = kept_[static_cast<std::size_t>(place_[i])];
+  Body& body = kept_[static_cast<std::size_t>(place_[i])];
+  std::vector<Kept>& all = body.all;
   std::size_t oldest = 0;
   for (std::size_t k = 0; k < all.size(); ++k) {
     if (all[k].number == number) {  // twice in one message: the later counts
@@ -75,8 +80,10 @@ void StatesUnpacker::Keep(std::int64_t number, const Entry& entry) {
     if (all[k].number < all[oldest].number) oldest = k;
   }
   if (all.size() < static_cast<std::size_t>(kPackedKept)) {
+    body.newest = all.size();
     all.push_back({number, entry.state});
   } else if (all[oldest].number < number) {
+    body.newest = oldest;
     all[oldest] = {number, entry.state};
   }
 }

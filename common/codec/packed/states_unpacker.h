@@ -25,6 +25,10 @@ class StatesUnpacker {
     std::int64_t number = 0;  // of the message
     PackedState state;
   };
+  struct Body {
+    std::vector<Kept> all;   // those with the largest numbers, in any order
+    std::size_t newest = 0;  // the last that was kept
+  };
   struct Entry {
     std::int32_t id = 0, peer = 0;
     PackedState state;
@@ -36,9 +40,9 @@ class StatesUnpacker {
 
   const PackedMotion motion_;
   PackedContext context_;
-  std::int64_t newest_ = 0;              // number of a message
-  std::vector<std::int32_t> place_;      // by id: in kept_; -1: nothing came
-  std::vector<std::vector<Kept>> kept_;  // those with the largest numbers, in any order
+  std::int64_t newest_ = 0;          // number of a message
+  std::vector<std::int32_t> place_;  // by id: in kept_; -1: nothing came
+  std::vector<Body> kept_;
   // Of the last message. A client takes one in every tick: their memory is used again.
   std::vector<States> told_, spare_;
   std::vector<Entry> entries_;

@@ -125,8 +125,10 @@ void RestCommit::BeforeStep() {
   if (Off()) return;
   if (!Trusts()) driven_ = DrivenIn(world_, drivers_, inputs_, world_.tick() + 1);
   FindDue();
-  for (const int body : due_) EndOutdated(body);
-  for (const int body : due_) Hold(body);
+  for (const int body : due_) {
+    EndOutdated(body);
+    Hold(body);
+  }
   edited_ = false;
 }
 
