@@ -1,5 +1,7 @@
 #include "common/physics/world.h"
 
+#include <box2d/b2_timer.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -10,6 +12,13 @@
 #include "common/physics/anchored_bodies.h"
 #include "common/physics/contact_order.h"
 #include "common/physics/world_impl.h"
+
+// The engine reads the clock six times for each island that it solves, for a profile that nobody
+// here asks for: an eighth of the time of a client of balls in the air. The linker takes a
+// program's own functions before a shared library's.
+b2Timer::b2Timer() : m_start_sec(0), m_start_usec(0) {}
+void b2Timer::Reset() {}
+float b2Timer::GetMilliseconds() const { return 0; }
 
 namespace seam {
 namespace {

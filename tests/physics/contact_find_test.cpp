@@ -114,5 +114,22 @@ TEST(ContactFind, WhatMovesAfterwardsIsFoundByTheEngine) {
   EXPECT_EQ(Sorted(ContactsOf(swept)), Sorted(ContactsOf(engine)));
 }
 
+/// Nobody reads the engine's profile: it does not read the clock for it (world.cpp).
+TEST(Engine, ReadsNoClock) {
+  b2World engine(b2Vec2(0, -10));
+  b2CircleShape circle;
+  circle.m_radius = 0.5f;
+  for (int i = 0; i < 300; ++i) {
+    b2BodyDef def;
+    def.type = b2_dynamicBody;
+    def.position.Set(static_cast<float>(i % 20), static_cast<float>(i / 20));
+    engine.CreateBody(&def)->CreateFixture(&circle, 1);
+  }
+  for (int step = 0; step < 20; ++step) {
+    engine.Step(1.0f / 60, 8, 3);
+    EXPECT_EQ(engine.GetProfile().step, 0) << "ms; else it takes some";
+  }
+}
+
 }  // namespace
 }  // namespace seam
