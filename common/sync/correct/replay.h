@@ -59,7 +59,7 @@ class Replay {
   void OnSteppedAgain(std::function<void()> call) { on_stepped_again_ = std::move(call); }
   /// After a step to a tick of which States are sent: makes it one to go back to. At every such
   /// tick, needed or not: worlds that are to come to the same bits are built anew at the same
-  /// ticks. One that is not to, since nobody else steps what it does, is not, and less often.
+  /// ticks. A world that has to agree with nobody's is kept as it is, and less often.
   void TakeBarrier();
   /// This peer did a player's action (index) before the step to `tick`; a replay repeats it. Not
   /// for rules that stamp inputs.
