@@ -36,17 +36,21 @@ class Group {
   /// Whether the server has closed the room of one of them.
   bool Closed() const;
   /// What moves now: of each member's bodies by its own copy, of the server's by the copy of the
-  /// first of each room.
-  MovingBodies Moving() const;
+  /// first of each room. Of the members whose number is `part` of `parts` only.
+  MovingBodies Moving(std::size_t part, std::size_t parts) const;
   MemberFigures Figures() const;
   void Forget();
 
  private:
   void Sleep(std::int64_t us) const;
+  void TickOne(std::size_t member, std::int64_t now_us, std::int64_t* cpu_us);
+  /// Steps whoever is due; says when the next one will be.
+  std::int64_t TickDue(std::int64_t* cpu_us);
 
   SceneShelf scenes_;  // outlives the members
   std::vector<std::unique_ptr<Member>> members_;
-  std::vector<bool> first_of_room_;  // by member
+  std::vector<bool> first_of_room_;   // by member
+  std::vector<std::int64_t> due_us_;  // the same: when it is due
   int epoll_ = -1;
 };
 

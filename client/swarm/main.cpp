@@ -9,6 +9,7 @@
 #include "client/swarm/swarm.h"
 #include "client/top/loads.h"
 #include "common/base/command_line.h"
+#include "common/base/huge_pages.h"
 #include "common/base/names.h"
 #include "common/base/progress_line.h"
 #include "common/codec/version_line.h"
@@ -92,6 +93,9 @@ void Doze() {
   nanosleep(&moment, nullptr);
 }
 
+/// Until those who have waited for others to join have caught up, us.
+constexpr std::int64_t kSettleUs = 1000000;
+
 /// Waits until all simulate. False: stopped by a signal.
 bool WaitUntilJoined(const Flags& f, const Swarm& swarm, ProgressLine* line) {
   const std::int64_t begin_us = SteadyClockUs();
@@ -107,7 +111,9 @@ bool WaitUntilJoined(const Flags& f, const Swarm& swarm, ProgressLine* line) {
     if (line->Due(now_us)) line->Show(now_us, std::to_string(swarm.running()) + " have joined");
     Doze();
   }
-  return true;
+  const std::int64_t settled_us = SteadyClockUs() + kSettleUs;
+  while (SteadyClockUs() < settled_us && g_stop == 0) Doze();
+  return g_stop == 0;
 }
 
 int RunSwarm(const Flags& f) {
@@ -172,5 +178,8 @@ int main(int argc, char** argv) {
                          VersionLine("seam-swarm"), ""};
   return RunCommandLine(
       text, argc, argv, [&](CLI::App& app) { Define(app, flags); },
-      [&] { return RunSwarm(flags); });
+      [&] {
+        UseHugePages(argv, Heaps::kOne);
+        return RunSwarm(flags);
+      });
 }

@@ -13,8 +13,10 @@
 namespace seam {
 namespace {
 
-/// How often who holds what is counted, us.
+/// How often who holds what is counted, us; by a part of the clients at a time: many would be late
+/// for it.
 constexpr std::int64_t kSampleUs = 500000;
+constexpr std::size_t kSampleParts = 10;
 
 /// As many open files as the system lets us have: each client has a socket.
 void RaiseFileLimit() {
@@ -33,7 +35,8 @@ struct Swarm::Lane {
   // Of the thread alone, until it has ended.
   bool measuring = false;
   std::int64_t sample_us = 0, samples = 0;
-  MovingBodies moving;                                              // sum of the samples
+  std::size_t part = 0;                                             // of the sample at hand
+  MovingBodies sample, moving;                                      // so far; sum of the samples
   std::vector<std::pair<std::int64_t, std::int64_t>> bytes_before;  // in, out, by member
 };
 
@@ -108,8 +111,11 @@ void Swarm::Look(Lane* lane) {
   }
   const std::int64_t now_us = SteadyClockUs();
   if (now_us < lane->sample_us) return;
-  lane->sample_us = now_us + kSampleUs;
-  lane->moving.Add(lane->group.Moving());
+  lane->sample_us = now_us + kSampleUs / static_cast<std::int64_t>(kSampleParts);
+  lane->sample.Add(lane->group.Moving(lane->part, kSampleParts));
+  lane->part = (lane->part + 1) % kSampleParts;
+  if (lane->part != 0) return;
+  lane->moving.Add(std::exchange(lane->sample, {}));
   ++lane->samples;
 }
 

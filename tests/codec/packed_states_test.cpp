@@ -111,9 +111,10 @@ class Balls {
 struct Path {
   double loss = 0;          // of messages, and of acknowledgements
   std::size_t late = 0;     // messages that are under way, each way
-  double out_of_order = 0;  // share that is overtaken by the next
+  double out_of_order = 0;  // share of those that overtake others
   double width = 90;        // m that the balls are from the origin at most
   bool all = false;         // all of them are told in each tick
+  std::size_t by = 1;       // how many they overtake
 };
 
 struct Traffic {
@@ -146,8 +147,9 @@ Traffic Send(std::uint64_t seed, const Path& path, int ticks) {
       ++traffic.messages;
     }
     ways.push_back(way);
-    if (ways.size() > 1 && balls.random().Chance(path.out_of_order)) {
-      std::swap(ways.back(), ways[ways.size() - 2]);
+    if (ways.size() > path.by && balls.random().Chance(path.out_of_order)) {
+      std::rotate(ways.end() - static_cast<std::ptrdiff_t>(path.by) - 1, ways.end() - 1,
+                  ways.end());
     }
     if (ways.size() <= path.late) continue;
     std::vector<Told> arrived;
@@ -187,7 +189,34 @@ TEST(PackedStates, ArriveAsTheyWereToldWhateverThePathDoes) {
     Send(seed, Path{0.02, 300, 0.1}, 900);
     Send(seed, Path{1, 3, 0}, 100);
     Send(seed, Path{0.1, 5, 0.1, 400000}, 100);
+    Path overtaken{0.1, 12, 0.3};
+    overtaken.by = 8;
+    Send(seed, overtaken, 400);
   }
+}
+
+TEST(PackedStates, TheReceiverForgetsWhatNoDifferenceWillBeFrom) {
+  Balls balls(7, 20);
+  StatesPacker packer(kMotion);
+  StatesUnpacker unpacker(kMotion);
+  std::deque<std::int64_t> acks;
+  std::size_t bodies = 0;
+  for (int tick = 0; tick < 2400; ++tick) {
+    balls.Step();
+    const bool all = tick % 40 == 0;  // most are told now and then
+    for (const States& states : balls.Tell(all ? 1 : 0.02)) packer.Add(states);
+    std::size_t told = 0;
+    for (const auto& message : packer.Take(0)) {
+      ASSERT_NE(unpacker.Take(message.packed), nullptr);
+      told += message.bodies;
+      acks.push_back(message.number);
+    }
+    if (all) bodies = std::max(bodies, told);
+    for (; acks.size() > 4; acks.pop_front()) packer.Acknowledge(acks.front());
+  }
+  EXPECT_GT(bodies, 50u);
+  EXPECT_GT(unpacker.kept(), bodies) << "what is older, for messages that were overtaken";
+  EXPECT_LT(unpacker.kept(), 6 * bodies) << "of about 60 that were told of each";
 }
 
 TEST(PackedStates, ABodyThatFliesTakesAThirdOfAPlainEntry) {

@@ -115,6 +115,29 @@ TEST_F(SwarmProgram, FourClientsPlayForThreeSecondsAndLeaveCleanly) {
   EXPECT_EQ(server->status(), 0) << server->Story();
 }
 
+/// All of a file, "" if there is none.
+std::string Contents(const std::string& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+TEST_F(SwarmProgram, ItsHeapIsOnHugePagesWhereTheSystemHasAny) {
+  SEAM_INSIDE_ONLY();
+  const std::string offered = Contents("/sys/kernel/mm/transparent_hugepage/enabled");
+  if (offered.empty() || offered.find("[never]") != std::string::npos) GTEST_SKIP() << offered;
+  const auto server = Serve(17507, {"playground"});
+  const auto swarm = Swarm(17507, {"--clients", "4", "--for", "3s", "--threads", "2"});
+  const std::string of = "/proc/" + std::to_string(swarm->pid()) + "/";
+  double huge_kb = 0;
+  for (int i = 0; i < 10 * kPatience && huge_kb <= 0 && !swarm->Wait(0.1); ++i) {
+    huge_kb = NumberAfter(Contents(of + "smaps_rollup"), "AnonHugePages:");
+  }
+  EXPECT_GT(huge_kb, 0) << swarm->Story();
+  EXPECT_EQ(Contents(of + "comm"), "seam-swarm\n") << "it was started anew under its name";
+  ASSERT_TRUE(swarm->Wait(kPatience));
+  EXPECT_EQ(swarm->status(), 0) << swarm->Story();
+}
+
 TEST_F(SwarmProgram, MoreClientsThanPlayersNoServerAndWrongTimesAreOneLineEach) {
   SEAM_INSIDE_ONLY();
   const auto server = Serve(17501, {"crossing"});

@@ -29,6 +29,8 @@ class Program {
   bool WaitForErrors(const std::string& text, double seconds);
   void Signal(int signal);
 
+  /// -1 when it has ended.
+  int pid() const { return pid_; }
   /// Of its exit, 128 + signal when it was killed, -1 while it runs.
   int status() const { return status_; }
   std::string output() const;  ///< what it has written to stdout so far

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <iterator>
+#include <numeric>
 #include <utility>
 
 #include "common/codec/validate.h"
@@ -13,6 +14,9 @@ namespace {
 constexpr std::int32_t kQuantaPerMetre = 512;
 /// Of an origin, in quanta: int16 reaches 64 m.
 constexpr std::int32_t kReach = 60 * kQuantaPerMetre;
+/// What is told later is a difference from the same state or a newer one. A message may be
+/// overtaken by so many, at least.
+constexpr std::int64_t kOvertaken = 64;
 
 std::int16_t Low(std::uint32_t value) {
   return static_cast<std::int16_t>(static_cast<std::uint16_t>(value & 0xffffu));
@@ -53,13 +57,15 @@ const PackedState* StatesUnpacker::Find(std::int32_t id, std::int64_t number) co
   const auto i = static_cast<std::size_t>(id);
   if (i >= place_.size() || place_[i] < 0) return nullptr;
   // Most differences are from what came shortly before.
-  const Body& body = kept_[static_cast<std::size_t>(place_[i])];
-  std::size_t at = body.newest;
-  for (std::size_t k = 0; k < body.all.size(); ++k) {
-    if (body.all[at].number == number) return &body.all[at].state;
-    at = (at == 0 ? body.all.size() : at) - 1;
-  }
-  return nullptr;
+  const std::vector<Kept>& all = kept_[static_cast<std::size_t>(place_[i])].all;
+  auto at = all.rbegin();
+  while (at != all.rend() && at->number > number) ++at;
+  return at != all.rend() && at->number == number ? &at->state : nullptr;
+}
+
+std::size_t StatesUnpacker::kept() const {
+  return std::accumulate(kept_.begin(), kept_.end(), std::size_t{0},
+                         [](std::size_t sum, const Body& body) { return sum + body.all.size(); });
 }
 
 void StatesUnpacker::Keep(std::int64_t number, const Entry& entry) {
@@ -71,21 +77,19 @@ void StatesUnpacker::Keep(std::int64_t number, const Entry& entry) {
   }
   Body& body = kept_[static_cast<std::size_t>(place_[i])];
   std::vector<Kept>& all = body.all;
-  std::size_t oldest = 0;
-  for (std::size_t k = 0; k < all.size(); ++k) {
-    if (all[k].number == number) {  // twice in one message: the later counts
-      all[k].state = entry.state;
-      return;
-    }
-    if (all[k].number < all[oldest].number) oldest = k;
+  auto at = all.end();
+  while (at != all.begin() && (at - 1)->number > number) --at;
+  if (at != all.begin() && (at - 1)->number == number) {
+    (at - 1)->state = entry.state;  // twice in one message: the later counts
+    return;
   }
-  if (all.size() < static_cast<std::size_t>(kPackedKept)) {
-    body.newest = all.size();
-    all.push_back({number, entry.state});
-  } else if (all[oldest].number < number) {
-    body.newest = oldest;
-    all[oldest] = {number, entry.state};
-  }
+  all.insert(at, {number, entry.state});
+  if (all.size() > static_cast<std::size_t>(kPackedKept)) all.erase(all.begin());
+  if (number - body.marked < kOvertaken) return;
+  const auto forgotten = [&](const Kept& kept) { return kept.number < body.marked_from; };
+  all.erase(all.begin(), std::find_if_not(all.begin(), all.end(), forgotten));
+  body.marked = number;
+  body.marked_from = entry.from;
 }
 
 bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry) {
@@ -100,7 +104,8 @@ bool StatesUnpacker::TakeBody(BitReader* bits, std::int64_t number, Entry* entry
   if (bits->Get(1) == 0) context.back = bits->GetGolomb(4);
   const PackedState* from = nullptr;
   if (context.back > 0) {
-    from = Find(entry->id, number - context.back);
+    entry->from = number - context.back;
+    from = Find(entry->id, entry->from);
     if (from == nullptr) return false;
   }
   const PackedState& before = from != nullptr ? *from : context.last;

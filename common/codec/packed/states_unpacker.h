@@ -17,8 +17,11 @@ class StatesUnpacker {
 
   /// The States that the message tells, all valid, in its order, until the next call; nullptr when
   /// it is malformed or tells differences from what never came: then it is as if it had been lost.
-  /// Takes memory in proportion to what has come, and for a body of kPackedKept states at most.
+  /// Takes memory in proportion to what has come, and for a body of kPackedKept states at most:
+  /// mostly of those since what its newest differences are from.
   const std::vector<States>* Take(const PackedStates& packed);
+  /// States that are kept, of all bodies together.
+  std::size_t kept() const;
 
  private:
   struct Kept {
@@ -26,11 +29,14 @@ class StatesUnpacker {
     PackedState state;
   };
   struct Body {
-    std::vector<Kept> all;   // those with the largest numbers, in any order
-    std::size_t newest = 0;  // the last that was kept
+    std::vector<Kept> all;  // those with the largest numbers, ascending
+    /// A message that came a while ago, and what its difference was from: of those sent since none
+    /// is from what is older. -1: from none.
+    std::int64_t marked = -1, marked_from = -1;
   };
   struct Entry {
-    std::int32_t id = 0, peer = 0;
+    std::int32_t id = 0;
+    std::int64_t from = -1;  // number of the message that it is a difference from; -1: of none
     PackedState state;
   };
   States* Begin(const States& header, const PackedState& first);

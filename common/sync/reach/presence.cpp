@@ -58,8 +58,9 @@ std::vector<char> MayIdle(const World& world) {
 /// Boxes in the order of their left sides, grown by the way that each can make.
 class Presence::Sorted {
  public:
-  Sorted(std::vector<MovingBox> boxes, float seconds) : boxes_(std::move(boxes)) {
-    std::sort(boxes_.begin(), boxes_.end(),
+  /// Puts the boxes in order; they must outlive it.
+  Sorted(std::vector<MovingBox>* boxes, float seconds) : boxes_(*boxes) {
+    std::sort(boxes->begin(), boxes->end(),
               [](const MovingBox& a, const MovingBox& b) { return a.min.x() < b.min.x(); });
     for (const MovingBox& box : boxes_) {
       way_ = std::max(way_, WayOf(box, seconds));
@@ -84,7 +85,7 @@ class Presence::Sorted {
   }
 
  private:
-  std::vector<MovingBox> boxes_;
+  const std::vector<MovingBox>& boxes_;
   float way_ = 0, widest_ = 0;
   float low_ = 1e30f, high_ = -1e30f;  // m
 };
@@ -181,7 +182,7 @@ void Presence::Reach(int mechanism) {
 }
 
 /// What rests and a mover may reach, directly or through others that rest.
-void Presence::FindNeeded(const std::vector<MovingBox>& movers) {
+void Presence::FindNeeded() {
   needed_.clear();
   const auto each = [&](const MovingBox& box, float most, const auto& seconds_of) {
     const float way = WayOf(box, most) + fastest_ * most + kZoneSlack;
@@ -191,7 +192,7 @@ void Presence::FindNeeded(const std::vector<MovingBox>& movers) {
                           if (MayMeet(other, box, seconds_of(other.group))) Reach(other.group);
                         });
   };
-  for (const MovingBox& box : movers) {
+  for (const MovingBox& box : movers_) {
     each(box, kRestSeconds + kRestKeep, [&](int m) {
       return kRestSeconds + (idle_[static_cast<std::size_t>(m)] == kNotIdle ? kRestKeep : 0);
     });
@@ -213,19 +214,17 @@ void Presence::FindIdle() {
   }
 }
 
-void Presence::Look() {
-  asked_ = false;
-  ++looks_;
-  FindChanged();
-  std::vector<MovingBox> simulated, movers;
-  std::vector<int> displayed;
+void Presence::SortOut() {
+  simulated_.clear();
+  movers_.clear();
+  displayed_.clear();
   lies_ = may_idle_;
   for (const int body : memory_.tended()) {
     const int m = world_.mechanism(body);
     if (roles_.RoleOf(m) == kRoleRemote) {
-      displayed.push_back(body);
+      displayed_.push_back(body);
       if (doubtful_.Has(roles_.table().at(m).authority)) {
-        movers.push_back(FreeBoxOf(world_, body));
+        movers_.push_back(FreeBoxOf(world_, body));
       }
       continue;
     }
@@ -238,7 +237,7 @@ void Presence::Look() {
     if (rests) {
       Rest(body, still);
     } else {
-      simulated.push_back(FreeBoxOf(world_, body));
+      simulated_.push_back(FreeBoxOf(world_, body));
     }
     // What rests under its present epoch has been there for a step of it (RestCommit::AfterStep).
     const BodyTrack& track = memory_.track(body);
@@ -246,42 +245,56 @@ void Presence::Look() {
       lies_[static_cast<std::size_t>(m)] = 0;
     }
   }
-  movers.insert(movers.end(), simulated.begin(), simulated.end());
-  ForgetOthers();
-  FindNeeded(movers);
-  for (const int body : needed_) {
-    simulated.push_back(resting_.at(body));
-    simulated.back().acceleration = kDrivenAcceleration;
+  movers_.insert(movers_.end(), simulated_.begin(), simulated_.end());
+}
+
+/// Of what is only displayed: what may meet what is simulated.
+void Presence::FindNear() {
+  near_.swap(near_before_);
+  near_.assign(near_before_.size(), 0);
+  const Sorted there(&simulated_, kNearSeconds + kNearKeep);
+  if (there.empty()) displayed_.clear();  // nothing can touch it
+  for (const int body : displayed_) {
+    const auto m = static_cast<std::size_t>(world_.mechanism(body));
+    if (near_[m] != 0) continue;
+    const float seconds = kNearSeconds + (near_before_[m] != 0 ? kNearKeep : 0);
+    if (there.MayMeetAny(FreeBoxOf(world_, body), seconds)) near_[m] = 1;
   }
-  if (!simulated.empty()) {
-    around_ = simulated.front();
-    for (const MovingBox& box : simulated) {
+}
+
+void Presence::Look() {
+  asked_ = false;
+  ++looks_;
+  FindChanged();
+  SortOut();
+  ForgetOthers();
+  FindNeeded();
+  for (const int body : needed_) {
+    simulated_.push_back(resting_.at(body));
+    simulated_.back().acceleration = kDrivenAcceleration;
+  }
+  if (!simulated_.empty()) {
+    around_ = simulated_.front();
+    for (const MovingBox& box : simulated_) {
       around_.min = around_.min.cwiseMin(box.min);
       around_.max = around_.max.cwiseMax(box.max);
     }
     around_.min.array() -= kAround;
     around_.max.array() += kAround;
   }
-  const Sorted there(std::move(simulated), kNearSeconds + kNearKeep);
-  std::vector<char> near(near_.size(), 0);
-  if (there.empty()) displayed.clear();  // nothing can touch it
-  for (const int body : displayed) {
-    const auto m = static_cast<std::size_t>(world_.mechanism(body));
-    if (near[m] != 0) continue;
-    const float seconds = kNearSeconds + (near_[m] != 0 ? kNearKeep : 0);
-    if (there.MayMeetAny(FreeBoxOf(world_, body), seconds)) near[m] = 1;
-  }
-  const std::vector<std::int32_t> idle = idle_;
+  FindNear();
+  idle_before_ = idle_;
   FindIdle();
   // What is simulated would be near if it ceased to be.
   for (const int body : world_.present()) {
-    if (roles_.Simulates(body)) near[static_cast<std::size_t>(world_.mechanism(body))] = 1;
+    if (roles_.Simulates(body)) near_[static_cast<std::size_t>(world_.mechanism(body))] = 1;
   }
   changed_.clear();
-  for (std::size_t m = 0; m < near.size(); ++m) {
-    if (near[m] != near_[m] || idle_[m] != idle[m]) changed_.push_back(static_cast<int>(m));
+  for (std::size_t m = 0; m < near_.size(); ++m) {
+    if (near_[m] != near_before_[m] || idle_[m] != idle_before_[m]) {
+      changed_.push_back(static_cast<int>(m));
+    }
   }
-  near_ = std::move(near);
 }
 
 }  // namespace seam

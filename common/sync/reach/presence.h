@@ -75,7 +75,10 @@ class Presence {
   class Sorted;
   static constexpr std::int32_t kNotIdle = -1;
   void Look();
-  void FindNeeded(const std::vector<MovingBox>& movers);
+  /// Sorts what moves, what is only displayed, and what rests.
+  void SortOut();
+  void FindNeeded();
+  void FindNear();
   void FindChanged();
   void FindIdle();
 
@@ -119,6 +122,11 @@ class Presence {
   int looks_ = 0;
   std::vector<int> needed_in_;  // by mechanism: the last look that needed it, see FindNeeded
   std::vector<int> needed_;     // of this look: bodies that rest
+  // Of this look; a client has ten in a second: their memory is used again.
+  std::vector<MovingBox> simulated_, movers_;
+  std::vector<int> displayed_;  // bodies
+  std::vector<char> near_before_;
+  std::vector<std::int32_t> idle_before_;
   MovingBox around_;
 };
 
