@@ -13,9 +13,10 @@ namespace {
 /// on for kAccelerationLasts, unless it is more than gravity, brakes and drag make, or the states
 /// are far apart. s, m/s^2, s
 constexpr float kAccelerationLasts = 0.3f, kAccelerationMax = 30, kAccelerationSpan = 0.5f;
-constexpr std::size_t kKeep = 96;      // states per body: about three seconds
-constexpr std::size_t kAges = 90;      // arrivals looked at for the delay
-constexpr double kSlewPerTick = 0.02;  // ticks of delay per tick: 2 % slower or faster
+constexpr std::size_t kKeep = 96;         // states per body: about three seconds
+constexpr std::int64_t kKeepTicks = 256;  // ...and of what is told seldom none that is older
+constexpr std::size_t kAges = 90;         // arrivals looked at for the delay
+constexpr double kSlewPerTick = 0.02;     // ticks of delay per tick: 2 % slower or faster
 
 /// The shortest vector on the way from `a` to `b`: both where they agree, 0 where they are opposed
 /// or one of them is.
@@ -39,7 +40,8 @@ Vec2 ShiftGained(const Vec2& acceleration, float forward) {
 Snapshots::Snapshots(int body_count) : rings_(static_cast<std::size_t>(body_count)) {}
 
 void Snapshots::Ring::Push(const Stamped& stamped) {
-  if (size_ == slots_.size() && size_ < kKeep) Grow();
+  const bool needed = size_ == 0 || FromNewest(size_ - 1u).tick > stamped.tick - kKeepTicks;
+  if (size_ == slots_.size() && size_ < kKeep && needed) Grow();
   slots_[next_] = stamped;
   next_ = next_ + 1u == slots_.size() ? std::uint16_t{0} : static_cast<std::uint16_t>(next_ + 1);
   size_ = static_cast<std::uint16_t>(std::min(size_ + std::size_t{1}, slots_.size()));
