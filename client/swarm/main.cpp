@@ -179,7 +179,7 @@ int main(int argc, char** argv) {
   return RunCommandLine(
       text, argc, argv, [&](CLI::App& app) { Define(app, flags); },
       [&] {
-        UseHugePages(argv, Heaps::kOne);
+        if (flags.threads == 1) UseHugePages(argv);
         return RunSwarm(flags);
       });
 }

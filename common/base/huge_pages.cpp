@@ -30,13 +30,12 @@ std::string OwnPath() {
 
 }  // namespace
 
-void UseHugePages(char** argv, Heaps heaps) {
+void UseHugePages(char** argv) {
   if (std::getenv("GLIBC_TUNABLES") != nullptr || !GivenToWhoAsks()) return;
   const std::string path = OwnPath();
   if (path.empty()) return;
-  const char* const one = "glibc.malloc.hugetlb=1:glibc.malloc.arena_max=1";
-  const char* const usual = "glibc.malloc.hugetlb=1";
-  if (setenv("GLIBC_TUNABLES", heaps == Heaps::kOne ? one : usual, 0) != 0) return;
+  const char* const tunables = "glibc.malloc.hugetlb=1:glibc.malloc.arena_max=1";
+  if (setenv("GLIBC_TUNABLES", tunables, 0) != 0) return;
   execv(path.c_str(), argv);
   // It could not be started (its file was replaced meanwhile): this one runs on as it is.
 }

@@ -14,7 +14,7 @@ namespace {
 /// are far apart. s, m/s^2, s
 constexpr float kAccelerationLasts = 0.3f, kAccelerationMax = 30, kAccelerationSpan = 0.5f;
 constexpr std::size_t kKeep = 96;         // states per body: about three seconds
-constexpr std::int64_t kKeepTicks = 256;  // ...and of what is told seldom none that is older
+constexpr std::int64_t kKeepTicks = 512;  // ...and of what is told seldom none that is older
 constexpr std::size_t kAges = 90;         // arrivals looked at for the delay
 constexpr double kSlewPerTick = 0.02;     // ticks of delay per tick: 2 % slower or faster
 

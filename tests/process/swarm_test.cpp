@@ -126,7 +126,7 @@ TEST_F(SwarmProgram, ItsHeapIsOnHugePagesWhereTheSystemHasAny) {
   const std::string offered = Contents("/sys/kernel/mm/transparent_hugepage/enabled");
   if (offered.empty() || offered.find("[never]") != std::string::npos) GTEST_SKIP() << offered;
   const auto server = Serve(17507, {"playground"});
-  const auto swarm = Swarm(17507, {"--clients", "4", "--for", "3s", "--threads", "2"});
+  const auto swarm = Swarm(17507, {"--clients", "4", "--for", "3s", "--threads", "1"});
   const std::string of = "/proc/" + std::to_string(swarm->pid()) + "/";
   double huge_kb = 0;
   for (int i = 0; i < 10 * kPatience && huge_kb <= 0 && !swarm->Wait(0.1); ++i) {

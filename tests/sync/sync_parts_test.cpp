@@ -268,6 +268,19 @@ TEST(Snapshots, TheNewestIsTheLastThatIsKeptAndCarriedOver) {
   EXPECT_FALSE(snapshots.has(0));
 }
 
+TEST(Snapshots, KeepThreeSecondsAndOfWhatIsToldSeldomNothingThatIsMuchOlder) {
+  constexpr std::int64_t kSeconds = 60;
+  Snapshots snapshots(2);
+  for (std::int64_t tick = 0; tick <= 100 * kSeconds; tick += 2) {
+    snapshots.Add(0, tick, BodyState());
+    if (tick % kSeconds == 0) snapshots.Add(1, tick, BodyState());
+  }
+  EXPECT_NE(snapshots.At(0, 97 * kSeconds), nullptr);
+  EXPECT_EQ(snapshots.At(0, 96 * kSeconds), nullptr);
+  EXPECT_NE(snapshots.At(1, 92 * kSeconds), nullptr);
+  EXPECT_EQ(snapshots.At(1, 86 * kSeconds), nullptr);
+}
+
 TEST(Snapshots, InterpolateBetweenAndHoldBeyond) {
   Snapshots snapshots(1);
   BodyState s;
