@@ -111,9 +111,10 @@ void Swarm::Look(Lane* lane) {
   }
   const std::int64_t now_us = SteadyClockUs();
   if (now_us < lane->sample_us) return;
+  const std::size_t parts = lane->samples == 0 ? 1 : kSampleParts;  // the first at once
   lane->sample_us = now_us + kSampleUs / static_cast<std::int64_t>(kSampleParts);
-  lane->sample.Add(lane->group.Moving(lane->part, kSampleParts));
-  lane->part = (lane->part + 1) % kSampleParts;
+  lane->sample.Add(lane->group.Moving(lane->part, parts));
+  lane->part = (lane->part + 1) % parts;
   if (lane->part != 0) return;
   lane->moving.Add(std::exchange(lane->sample, {}));
   ++lane->samples;
