@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "common/base/geometry.h"
+#include "common/base/nearest.h"
 #include "common/scene/joint_kinds.h"
 #include "common/scene/joints/read_couplings.h"
 #include "common/scene/scene_draft.h"
@@ -54,8 +55,10 @@ const Kind& ReadKind(const SceneReader& r) {
       "ground_a",  "ground_b"};
   const std::string name = r.Text("kind");
   std::string all;
+  std::vector<std::string> names;
   for (const Kind& kind : Kinds()) {
     all += std::string(all.empty() ? "" : ", ") + kind.name;
+    names.push_back(kind.name);
     if (name != kind.name) continue;
     for (const char* key : kSome) {
       const bool local =
@@ -67,7 +70,7 @@ const Kind& ReadKind(const SceneReader& r) {
     }
     return kind;
   }
-  r.FailAt("kind", "kind must be one of " + all);
+  r.FailAt("kind", "kind must be one of " + all + DidYouMean(name, names));
 }
 
 /// Hinge: rad; distance: m, of its length; else m from the start.

@@ -18,7 +18,7 @@ namespace seam {
 ///                         +-----+     --> along
 class BoxSweep {
  public:
-  /// `grow` (of a box): m on all sides.
+  /// `grow` (of a box's index): m on all sides.
   template <class Grow>
   BoxSweep(const std::vector<MovingBox>& boxes, const Grow& grow) {
     grown_.reserve(boxes.size());
@@ -27,7 +27,7 @@ class BoxSweep {
       const MovingBox& box = boxes[i];
       low = i == 0 ? box.min : low.cwiseMin(box.min);
       high = i == 0 ? box.max : high.cwiseMax(box.max);
-      grown_.push_back(grow(box) + kRounding);
+      grown_.push_back(grow(i) + kRounding);
       sides += box.max - box.min + 2 * Vec2(grown_.back(), grown_.back());
     }
     const int along = high.x() - low.x() >= high.y() - low.y() ? 0 : 1;
@@ -46,16 +46,22 @@ class BoxSweep {
       }
     }
   }
-  /// The same for those pairs alone whose boxes are within `count` boxes along the sweep.
+  /// The same for those pairs alone whose boxes are within `count` boxes along the sweep. Whether
+  /// there may be others.
   template <class Visit>
-  void EachNearPair(std::size_t count, const Visit& visit) const {
+  bool EachNearPair(std::size_t count, const Visit& visit) const {
+    bool others = false;
     for (std::size_t i = 0; i < spans_.size(); ++i) {
       const Span& a = spans_[i];
-      const std::size_t end = std::min(end_[static_cast<std::size_t>(a.strip)], i + 1 + count);
-      for (std::size_t j = i + 1; j < end && spans_[j].from <= a.to; ++j) {
+      const std::size_t strip_end = end_[static_cast<std::size_t>(a.strip)];
+      const std::size_t end = std::min(strip_end, i + 1 + count);
+      std::size_t j = i + 1;
+      for (; j < end && spans_[j].from <= a.to; ++j) {
         if (Here(a, spans_[j])) visit(a.box, spans_[j].box);
       }
+      others = others || (j == end && end < strip_end && spans_[j].from <= a.to);
     }
+    return others;
   }
   /// The same for all the other pairs (EachNearPair of `count` has the rest), but those whose boxes
   /// have the same label, from 0 on. `label` (of an index): below 0 for a box that is in all its
@@ -125,14 +131,16 @@ class BoxSweep {
     }
     SortByKey(&keys, &spare);
     end_.assign(static_cast<std::size_t>(strips_), 0);
-    const auto strips = [&](std::size_t i, const auto& visit) {
-      const int across = 1 - along;
-      const int first = StripOf(boxes[i].min[across] - grown_[i]);
-      const int last = StripOf(boxes[i].max[across] + grown_[i]);
-      for (int strip = first; strip <= last; ++strip) visit(strip, first);
+    struct Strips {
+      std::int32_t first = 0, last = 0;
     };
+    std::vector<Strips> strips(boxes.size());  // that each box is in
     for (std::size_t i = 0; i < boxes.size(); ++i) {
-      strips(i, [&](int strip, int) { ++end_[static_cast<std::size_t>(strip)]; });
+      if (strips_ > 1) {
+        strips[i].first = StripOf(boxes[i].min[1 - along] - grown_[i]);
+        strips[i].last = StripOf(boxes[i].max[1 - along] + grown_[i]);
+      }
+      for (int s = strips[i].first; s <= strips[i].last; ++s) ++end_[static_cast<std::size_t>(s)];
     }
     std::size_t sum = 0;
     for (std::size_t& end : end_) {  // where each begins, until it is filled
@@ -145,15 +153,12 @@ class BoxSweep {
       const auto i = static_cast<std::size_t>(key & 0xffffffffu);
       const float more = grown_[i];
       const Vec2 &min = boxes[i].min, &max = boxes[i].max;
-      strips(i, [&](int strip, int first) {
-        spans_[end_[static_cast<std::size_t>(strip)]++] = {min[along] - more,
-                                                           max[along] + more,
-                                                           min[1 - along] - more,
-                                                           max[1 - along] + more,
-                                                           strip,
-                                                           first,
-                                                           static_cast<std::uint32_t>(i)};
-      });
+      Span span{
+          min[along] - more, max[along] + more, min[1 - along] - more,        max[1 - along] + more,
+          strips[i].first,   strips[i].first,   static_cast<std::uint32_t>(i)};
+      for (; span.strip <= strips[i].last; ++span.strip) {
+        spans_[end_[static_cast<std::size_t>(span.strip)]++] = span;
+      }
     }
   }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "server/authority/box_sweep.h"
+#include "server/authority/crowds.h"
 #include "server/authority/player_of_peer.h"
 #include "server/authority/swept_boxes.h"
 #include "server/authority/unions.h"
@@ -12,7 +13,7 @@ namespace {
 
 /// Neighbours along the sweep that are compared first: in a crowd they make one group of nearly
 /// all, and what is in one group already need not be compared.
-constexpr std::size_t kNeighbours = 12;
+constexpr std::size_t kNeighbours = 32;
 
 /// One way, of the farthest player, s.
 float LongestWay(const AuthorityView& view) {
@@ -23,21 +24,22 @@ float LongestWay(const AuthorityView& view) {
 
 class Look {
  public:
-  Look(const AuthorityView& view, const AuthorityPlan& plan, bool by_ways)
-      : view_(view),
+  Look(const PlanGround& ground, const AuthorityPlan& plan, bool by_ways)
+      : view_(ground.view()),
+        clusters_(ground.clusters()),
         plan_(plan),
-        fall_(by_ways ? FallAxisOf(view.gravity) : FallAxis{}),
+        fall_(by_ways ? FallAxisOf(view_.gravity) : FallAxis{}),
         one_way_(plan.size(), 0),
         servers_(plan.size(), 0),
         soon_(plan.size()),
         later_(plan.size()),
         server_soon_(plan.size(), 0),
         server_later_(plan.size(), 0) {
-    const PlayerOfPeer players(view);
+    const PlayerOfPeer players(view_);
     for (std::size_t m = 0; m < plan.size(); ++m) {
       servers_[m] = IsServers(m) ? 1 : 0;
       const int player = players.At(plan[m].authority);
-      if (player >= 0) one_way_[m] = view.players[static_cast<std::size_t>(player)].one_way_s;
+      if (player >= 0) one_way_[m] = view_.players[static_cast<std::size_t>(player)].one_way_s;
     }
   }
 
@@ -45,26 +47,27 @@ class Look {
     // Each box grown by the way that it can make in the farthest that any pair is looked ahead:
     // all pairs that touch or may meet.
     const float longest = LongestWay(view_), seconds = kZoneKeep + ZoneSeconds(longest, longest);
-    const BoxSweep sweep(view_.boxes, [seconds](const MovingBox& box) {
-      return box.velocity.norm() * seconds + kZoneSlack / 2 +
-             box.acceleration * seconds * seconds / 2;
+    const BoxSweep sweep(clusters_.around(), [this, seconds](std::size_t c) {
+      float way = 0;
+      for (std::size_t i = clusters_.begin(c); i < clusters_.end(c); ++i) {
+        way = std::max(way, WayOf(view_.boxes[i], seconds));
+      }
+      return way;
     });
-    const auto meet = [this](std::size_t i, std::size_t j) {
-      Meet(view_.boxes[i], view_.boxes[j]);
-    };
-    sweep.EachNearPair(kNeighbours, meet);
+    const auto meet = [this](std::size_t a, std::size_t b) { MeetAny(a, b); };
+    if (!sweep.EachNearPair(kNeighbours, meet)) return Groups();
     const std::vector<int> group = soon_.Lowest();
     sweep.EachPairApart(
-        kNeighbours, [&](std::size_t i) { return group[GroupOf(i)]; }, meet);
+        kNeighbours, [&](std::size_t c) { return group[GroupOf(c)]; }, meet);
     // Within a group it still matters what meets something of the server's.
     const bool any = std::find(servers_.begin(), servers_.end(), 1) != servers_.end();
     if (!any) return Groups();
-    const auto unless_marked = [&](std::size_t i, std::size_t j) {
-      const bool known = server_soon_[GroupOf(i)] != 0 && server_soon_[GroupOf(j)] != 0;
-      if (!known) meet(i, j);
+    const auto unless_marked = [&](std::size_t a, std::size_t b) {
+      const bool known = server_soon_[GroupOf(a)] != 0 && server_soon_[GroupOf(b)] != 0;
+      if (!known) meet(a, b);
     };
     sweep.EachPairApart(
-        kNeighbours, [&](std::size_t i) { return -servers_[GroupOf(i)]; }, unless_marked);
+        kNeighbours, [&](std::size_t c) { return -servers_[GroupOf(c)]; }, unless_marked);
     return Groups();
   }
 
@@ -79,16 +82,27 @@ class Look {
     return plan_[m].authority == 0 && !(view_.islands && view_.mechanisms[m].asleep);
   }
 
-  std::size_t GroupOf(std::size_t box) const {
-    return static_cast<std::size_t>(view_.boxes[box].group);
+  std::size_t GroupOf(std::size_t cluster) const {
+    return static_cast<std::size_t>(clusters_.GroupOf(cluster));
   }
 
-  void Meet(const MovingBox& a, const MovingBox& b) {
-    if (a.group == b.group) return;
-    const auto x = static_cast<std::size_t>(a.group), y = static_cast<std::size_t>(b.group);
+  /// Boxes of two clusters, until nothing is left to be found of their groups.
+  void MeetAny(std::size_t a, std::size_t b) {
+    const std::size_t x = GroupOf(a), y = GroupOf(b);
+    if (x == y) return;
     const bool servers = servers_[x] != 0 || servers_[y] != 0;
-    const bool known = !servers || (server_soon_[x] != 0 && server_soon_[y] != 0);
-    if (known && soon_.Same(a.group, b.group)) return;  // and later with it
+    for (std::size_t i = clusters_.begin(a); i < clusters_.end(a); ++i) {
+      for (std::size_t j = clusters_.begin(b); j < clusters_.end(b); ++j) {
+        const bool known = !servers || (server_soon_[x] != 0 && server_soon_[y] != 0);
+        if (known && soon_.Same(static_cast<int>(x), static_cast<int>(y))) return;  // and later
+        Meet(view_.boxes[i], view_.boxes[j], servers);
+      }
+    }
+  }
+
+  /// `servers`: one of them is.
+  void Meet(const MovingBox& a, const MovingBox& b, bool servers) {
+    const auto x = static_cast<std::size_t>(a.group), y = static_cast<std::size_t>(b.group);
     // As MayMeet, for both times.
     const float gap = Gap(a, b), speed = (a.velocity - b.velocity).norm();
     const float acceleration = a.acceleration + b.acceleration;
@@ -115,6 +129,7 @@ class Look {
   }
 
   const AuthorityView& view_;
+  const BoxClusters& clusters_;
   const AuthorityPlan& plan_;
   const FallAxis fall_;         // none: as MayMeet says
   std::vector<float> one_way_;  // by mechanism: to who is planned to have it
@@ -125,9 +140,8 @@ class Look {
 
 }  // namespace
 
-ContactGroups FindContactGroups(const AuthorityView& view, const AuthorityPlan& plan,
-                                bool by_ways) {
-  return Look(view, plan, by_ways).Sweep();
+ContactGroups FindContactGroups(const PlanGround& ground, const AuthorityPlan& plan, bool by_ways) {
+  return Look(ground, plan, by_ways).Sweep();
 }
 
 }  // namespace seam

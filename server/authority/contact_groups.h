@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "server/authority/plan.h"
+#include "server/authority/plan_ground.h"
 
 namespace seam {
 
@@ -16,6 +16,6 @@ struct ContactGroups {
 
 /// Of mechanisms with the planned authorities. May touch: as MayMeet says. `by_ways`: what falls
 /// freely, but for what is the server's, as MayMeetOnTheirWays says, too, if gravity has an axis.
-ContactGroups FindContactGroups(const AuthorityView& view, const AuthorityPlan& plan, bool by_ways);
+ContactGroups FindContactGroups(const PlanGround& ground, const AuthorityPlan& plan, bool by_ways);
 
 }  // namespace seam

@@ -1,19 +1,6 @@
 #include "server/authority/crowds.h"
 
-#include "server/authority/box_sweep.h"
-#include "server/authority/unions.h"
-
 namespace seam {
-
-std::vector<int> Pressing(const std::vector<MovingBox>& boxes, std::size_t groups) {
-  Unions pressing(groups);
-  const BoxSweep sweep(boxes, [](const MovingBox&) { return kPressGap / 2; });
-  sweep.EachPair([&](std::size_t i, std::size_t j) {
-    const MovingBox &a = boxes[i], &b = boxes[j];
-    if (a.group != b.group && Gap(a, b) <= kPressGap) pressing.Unite(a.group, b.group);
-  });
-  return pressing.Lowest();
-}
 
 Ways FindWays(const AuthorityView& view, const AuthorityPlan& plan, const PlayerOfPeer& players) {
   float longest = 0;

@@ -19,10 +19,6 @@ namespace seam {
 constexpr std::size_t kManyHolders = 8;
 constexpr float kCrowdReach = 24;
 
-/// By group of the boxes, of which there are `groups`: the lowest of those on which it presses
-/// (kPressGap), directly or through others.
-std::vector<int> Pressing(const std::vector<MovingBox>& boxes, std::size_t groups);
-
 /// A heap in which a push goes through: three quarters of its members and more press on another.
 /// `touching`: by mechanism, the lowest of what it presses on, directly or not.
 inline bool IsPacked(const std::vector<int>& touching, const GroupLists::Members& group) {

@@ -2,35 +2,24 @@
 
 #include <algorithm>
 
-#include "server/authority/box_sweep.h"
-#include "server/authority/unions.h"
-
 namespace seam {
 
-Islands::Islands(const AuthorityView& view, const PlayerOfPeer& players)
-    : driver_(view.mechanisms.size(), -1), bodies_(view.mechanisms.size(), 0) {
+Islands::Islands(const PlanGround& ground, const PlayerOfPeer& players)
+    : driver_(ground.view().mechanisms.size(), -1), bodies_(driver_.size(), 0) {
+  const AuthorityView& view = ground.view();
   for (std::size_t m = 0; m < driver_.size(); ++m) {
     const int driver = view.mechanisms[m].driver;
     if (driver >= 0 && view.players[static_cast<std::size_t>(driver)].peer > 0) driver_[m] = driver;
   }
   for (const MovingBox& box : view.boxes) ++bodies_[static_cast<std::size_t>(box.group)];
-  Group(view);
+  Group(ground);
   Describe(view);
   FindHolders(view, players);
 }
 
-void Islands::Group(const AuthorityView& view) {
-  const std::size_t count = view.mechanisms.size();
-  Unions touching(count);
-  std::vector<int> touched;  // one of the two of each contact
-  const BoxSweep sweep(view.boxes, [](const MovingBox&) { return kTouchGap / 2; });
-  sweep.EachPair([&](std::size_t i, std::size_t j) {
-    const MovingBox &a = view.boxes[i], &b = view.boxes[j];
-    if (a.group == b.group || Gap(a, b) > kTouchGap) return;
-    touching.Unite(a.group, b.group);
-    touched.push_back(a.group);
-  });
-  const std::vector<int> lowest = touching.Lowest();
+void Islands::Group(const PlanGround& ground) {
+  const std::size_t count = ground.view().mechanisms.size();
+  const std::vector<int>& lowest = ground.touching().lowest;
   islands_.reserve(count);
   island_.assign(count, -1);
   for (std::size_t m = 0; m < count; ++m) {
@@ -43,7 +32,7 @@ void Islands::Group(const AuthorityView& view) {
     }
     ++islands_[static_cast<std::size_t>(island_[m])].members;
   }
-  for (const int m : touched) ++Of(m).contacts;
+  for (const int m : ground.touching().touched) ++Of(m).contacts;
   begin_.assign(islands_.size() + 1, 0);
   for (std::size_t i = 0; i < islands_.size(); ++i) begin_[i + 1] = begin_[i] + islands_[i].members;
   members_.resize(count);
@@ -78,6 +67,12 @@ void Islands::FindHolders(const AuthorityView& view, const PlayerOfPeer& players
   std::vector<int> has(view.players.size(), 0);  // bodies of the island at hand
   for (std::size_t i = 0; i < islands_.size(); ++i) {
     Island& island = islands_[i];
+    if (island.members == 1) {  // most are
+      const int m = *MembersOf(static_cast<int>(i)).begin();
+      const int player = players.At(view.mechanisms[static_cast<std::size_t>(m)].now.authority);
+      if (player >= 0 && driver(m) < 0 && bodies(m) > 0) island.holder = player;
+      continue;
+    }
     const auto each = [&](const auto& visit) {
       for (const int m : MembersOf(static_cast<int>(i))) {
         const auto& now = view.mechanisms[static_cast<std::size_t>(m)].now;

@@ -4,6 +4,7 @@
 #include <cfloat>
 #include <vector>
 
+#include "server/authority/plan_ground.h"
 #include "server/authority/plan_islands.h"
 #include "server/authority/player_of_peer.h"
 
@@ -39,7 +40,7 @@ struct Island {
 class Islands {
  public:
   /// Who has what is as of now; claims and distances are for others to fill in.
-  Islands(const AuthorityView& view, const PlayerOfPeer& players);
+  Islands(const PlanGround& ground, const PlayerOfPeer& players);
 
   const std::vector<Island>& all() const { return islands_; }
   Island& Of(int mechanism) {
@@ -65,7 +66,7 @@ class Islands {
   std::vector<MovingBox> VehicleBoxes(const AuthorityView& view) const;
 
  private:
-  void Group(const AuthorityView& view);
+  void Group(const PlanGround& ground);
   void Describe(const AuthorityView& view);
   void FindHolders(const AuthorityView& view, const PlayerOfPeer& players);
 

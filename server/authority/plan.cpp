@@ -45,14 +45,15 @@ void Forbid(const AuthorityView& view, AuthorityPlan* plan) {
 AuthorityPlan PlanAuthority(const AuthorityView& view) {
   AuthorityPlan plan(view.mechanisms.size());
   if (view.mode == Mode::kOracle || view.mode == Mode::kCentral) return plan;
+  const PlanGround ground(view);
   if (view.islands) {
-    PlanIslands(view, &plan);
+    PlanIslands(ground, &plan);
   } else {
     PlanRectangles(view, &plan);
   }
   if (view.mode == Mode::kBuffer) {
-    if (view.exact) DecideContested(view, &plan);
-    PlanFollowers(view, &plan);
+    if (view.exact) DecideContested(ground, &plan);
+    PlanFollowers(ground, &plan);
   }
   BringTogether(view, &plan);
   Forbid(view, &plan);

@@ -28,12 +28,13 @@ struct Crowd {
 
 }  // namespace
 
-void DecideContested(const AuthorityView& view, AuthorityPlan* plan) {
+void DecideContested(const PlanGround& ground, AuthorityPlan* plan) {
+  const AuthorityView& view = ground.view();
   const bool any = std::any_of(
       view.mechanisms.begin(), view.mechanisms.end(),
       [](const MechanismView& mechanism) { return mechanism.contested > 0 || mechanism.decided; });
   if (!any) return;
-  const std::vector<int> groups = FindContactGroups(view, *plan, false).soon;
+  const std::vector<int> groups = FindContactGroups(ground, *plan, false).soon;
   std::vector<Crowd> crowds(plan->size());
   for (std::size_t m = 0; m < plan->size(); ++m) {
     const MechanismView& mechanism = view.mechanisms[m];

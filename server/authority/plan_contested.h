@@ -1,7 +1,7 @@
 #pragma once
 /// Crowds whose owners do not agree: one owner decides them.
 
-#include "server/authority/plan.h"
+#include "server/authority/plan_ground.h"
 
 namespace seam {
 
@@ -15,7 +15,7 @@ namespace seam {
 /// (ContactGroups::soon). It is contested when several peers have of it and their states were
 /// kContestedSum times far from the server's copies of late. What comes to a crowd of which most is
 /// decided goes with it.
-void DecideContested(const AuthorityView& view, AuthorityPlan* plan);
+void DecideContested(const PlanGround& ground, AuthorityPlan* plan);
 
 /// Sum of MechanismView::contested over a crowd.
 constexpr float kContestedSum = 3;

@@ -10,7 +10,7 @@
 #include "server/authority/contact_groups.h"
 #include "server/authority/crowds.h"
 #include "server/authority/group_lists.h"
-#include "server/authority/nearest_box.h"
+#include "server/authority/own_boxes.h"
 #include "server/authority/player_of_peer.h"
 
 namespace seam {
@@ -18,29 +18,32 @@ namespace {
 
 class Followers {
  public:
-  Followers(const AuthorityView& view, AuthorityPlan* plan)
-      : view_(view),
+  Followers(const PlanGround& ground, AuthorityPlan* plan)
+      : ground_(ground),
+        clusters_(ground.clusters()),
+        view_(ground.view()),
         plan_(*plan),
-        players_(view),
-        room_(view.boxes.size() + view.left_out),
-        crowded_(room_ > static_cast<std::size_t>(std::max(0, view.follow_bodies))),
+        players_(view_),
+        room_(view_.boxes.size() + view_.left_out),
+        crowded_(room_ > static_cast<std::size_t>(std::max(0, view_.follow_bodies))),
         bodies_(plan->size(), 0),
-        steps_(view.players.size(), 0),
-        own_begin_(view.players.size() + 1, 0),
-        soon_crowds_(plan->size(), view.players.size()),
-        later_crowds_(plan->size(), view.players.size()),
+        steps_(view_.players.size(), 0),
+        own_(view_, *plan, players_),
+        soon_crowds_(plan->size(), view_.players.size()),
+        later_crowds_(plan->size(), view_.players.size()),
         distance_(plan->size(), FLT_MAX),
         seen_by_(plan->size(), -1) {
-    ListOwn();
+    for (const MovingBox& box : view_.boxes) ++bodies_[static_cast<std::size_t>(box.group)];
+    for (std::size_t p = 0; p < steps_.size(); ++p) steps_[p] = own_.CountOf(p);
   }
 
   void Plan() {
-    const ContactGroups contacts = FindContactGroups(view_, plan_, crowded_);
+    const ContactGroups contacts = FindContactGroups(ground_, plan_, crowded_);
     FollowAtServer(contacts);
     const GroupLists soon(contacts.soon);
     FollowGroups(soon, nullptr);
     FollowGroups(GroupLists(contacts.later), &soon);
-    if (crowded_) grid_.emplace(view_.boxes);
+    if (crowded_) grid_.emplace(clusters_.around());
     if (soon_crowds_.any() || later_crowds_.any()) {
       ways_ = FindWays(view_, plan_, players_);
       FollowTouching();
@@ -55,28 +58,6 @@ class Followers {
   PlannedAuthority& planned(int m) { return plan_[static_cast<std::size_t>(m)]; }
   const AuthorityRecord& now(int m) const {
     return view_.mechanisms[static_cast<std::size_t>(m)].now;
-  }
-
-  /// The boxes by the player whose peer is planned to have them, and how many bodies each steps.
-  void ListOwn() {
-    std::vector<int> player_of(view_.boxes.size(), -1);
-    for (std::size_t i = 0; i < view_.boxes.size(); ++i) {
-      const auto m = static_cast<std::size_t>(view_.boxes[i].group);
-      ++bodies_[m];
-      player_of[i] = plan_[m].authority > 0 ? players_.At(plan_[m].authority) : -1;
-      if (player_of[i] >= 0) ++steps_[static_cast<std::size_t>(player_of[i])];
-    }
-    for (std::size_t p = 0; p < steps_.size(); ++p) own_begin_[p + 1] = own_begin_[p] + steps_[p];
-    own_.resize(static_cast<std::size_t>(own_begin_.back()));
-    std::vector<int> next(own_begin_.begin(), own_begin_.end() - 1);
-    for (std::size_t i = 0; i < player_of.size(); ++i) {
-      if (player_of[i] < 0) continue;
-      own_[static_cast<std::size_t>(next[static_cast<std::size_t>(player_of[i])]++)] =
-          static_cast<int>(i);
-    }
-    for (std::size_t p = 0; p < steps_.size(); ++p) {
-      NearestBox::Sort(view_.boxes, own_begin_[p], own_begin_[p + 1], &own_);
-    }
   }
 
   bool limited(std::size_t player) const {
@@ -140,7 +121,7 @@ class Followers {
 
   /// What presses on a peer's, directly or through others, it follows however far, of a crowd, too.
   void FollowTouching() {
-    const GroupLists touching(*touching_);
+    const GroupLists touching(ground_.touching().lowest);
     last_group_.assign(view_.players.size(), -1);
     for (std::size_t g = 0; g < touching.count(); ++g) {
       if (touching.SizeOf(g) < 2) continue;
@@ -167,8 +148,7 @@ class Followers {
 
   bool IsCrowd(const GroupLists& groups, std::size_t group) {
     if (!crowded_ || holders_.size() < kManyHolders) return false;
-    if (!touching_) touching_ = Pressing(view_.boxes, plan_.size());
-    return !IsPacked(*touching_, groups.Of(group));
+    return !IsPacked(ground_.touching().lowest, groups.Of(group));
   }
 
   /// How near a mechanism has to be for the player to follow it, m.
@@ -212,26 +192,27 @@ class Followers {
     const Vec2 farthest = Vec2::Constant(FarthestReach(player) + 0.1f);  // m, for rounding
     const auto follow_within = [&](const MovingBox& around, const auto& within) {
       grid_->Near(around.min - farthest, around.max + farthest, [&](int i) {
-        const MovingBox& box = view_.boxes[static_cast<std::size_t>(i)];
-        const PlannedAuthority& of = planned(box.group);
+        const auto c = static_cast<std::size_t>(i);
+        const int m = clusters_.GroupOf(c);
+        const PlannedAuthority& of = planned(m);
         if (of.authority == peer || of.secondaries.Has(peer)) return;
-        const float reach = ReachOf(player, box.group);
-        if (Gap(box, around) <= reach && within(box, reach)) Follow(player, box.group);
+        const float reach = ReachOf(player, m);
+        const bool follows = clusters_.Any(c, [&](std::size_t b) {
+          const MovingBox& box = view_.boxes[b];
+          return Gap(box, around) <= reach && within(box, reach);
+        });
+        if (follows) Follow(player, m);
       });
     };
-    const NearestBox own = NearOwn(player);
-    if (own.any()) {
+    own_.EachRun(player, 2 * farthest.x(), [&](const NearestBox& own) {
       follow_within(own.around(),
                     [&](const MovingBox& box, float reach) { return own.Within(box, reach); });
-    }
+    });
     if (view_.players[player].has_region) {
       follow_within(RegionOf(player), [](const MovingBox&, float) { return true; });
     }
   }
 
-  NearestBox NearOwn(std::size_t player) const {
-    return {view_.boxes, own_, own_begin_[player], own_begin_[player + 1]};
-  }
   MovingBox RegionOf(std::size_t player) const {
     return {view_.players[player].region_min, view_.players[player].region_max, {0, 0}, 0, -1};
   }
@@ -241,31 +222,37 @@ class Followers {
   /// the distance from the box around all of its own is known. In a room that is not followed whole
   /// what is farther is not seen.
   void Measure(std::size_t p) {
-    const float near = FarthestReach(p);
+    const float farthest = FarthestReach(p);
     const MovingBox region = RegionOf(p);
-    const NearestBox own = NearOwn(p);
     seen_.clear();
-    const auto from_own = [&](int i) {
-      const MovingBox& box = view_.boxes[static_cast<std::size_t>(i)];
+    const auto from_own = [&](const NearestBox& own, std::size_t i) {
+      const MovingBox& box = view_.boxes[i];
       const float around = own.any() ? Gap(box, own.around()) : FLT_MAX;
-      See(box.group, static_cast<int>(p), around > near ? around : own.DistanceTo(box));
+      See(box.group, static_cast<int>(p), around > farthest ? around : own.DistanceTo(box));
     };
-    const auto from_region = [&](int i) {
-      const MovingBox& box = view_.boxes[static_cast<std::size_t>(i)];
+    const auto from_region = [&](std::size_t i) {
+      const MovingBox& box = view_.boxes[i];
       See(box.group, static_cast<int>(p), Gap(box, region));
     };
     const bool has_region = view_.players[p].has_region;
     if (!crowded_) {
+      const NearestBox own = own_.Of(p);
       for (int m = 0; m < static_cast<int>(plan_.size()); ++m) See(m, static_cast<int>(p), FLT_MAX);
-      for (int i = 0; i < static_cast<int>(view_.boxes.size()); ++i) {
-        from_own(i);
+      for (std::size_t i = 0; i < view_.boxes.size(); ++i) {
+        from_own(own, i);
         if (has_region) from_region(i);
       }
       return;
     }
-    const Vec2 reach = Vec2::Constant(near + 0.1f);  // m, for rounding
-    if (own.any()) grid_->Near(own.around().min - reach, own.around().max + reach, from_own);
-    if (has_region) grid_->Near(region.min - reach, region.max + reach, from_region);
+    const Vec2 reach = Vec2::Constant(farthest + 0.1f);  // m, for rounding
+    const auto near = [&](const MovingBox& around, const auto& visit) {
+      grid_->Near(around.min - reach, around.max + reach,
+                  [&](int c) { clusters_.Each(static_cast<std::size_t>(c), visit); });
+    };
+    own_.EachRun(p, 2 * reach.x(), [&](const NearestBox& run) {
+      near(run.around(), [&](std::size_t i) { from_own(run, i); });
+    });
+    if (has_region) near(region, from_region);
   }
 
   void See(int mechanism, int player, float distance) {
@@ -314,26 +301,22 @@ class Followers {
     return seen_by_[i] == static_cast<int>(player) ? distance_[i] : FLT_MAX;
   }
 
-  const MovingBox& Own(int k) const {
-    return view_.boxes[static_cast<std::size_t>(own_[static_cast<std::size_t>(k)])];
-  }
-
+  const PlanGround& ground_;
+  const BoxClusters& clusters_;
   const AuthorityView& view_;
   AuthorityPlan& plan_;
   const PlayerOfPeer players_;
   const std::size_t room_;  // bodies
   const bool crowded_;
-  std::vector<int> bodies_;                   // by mechanism
-  std::vector<int> steps_;                    // by player: bodies of what it has and follows
-  std::vector<int> own_begin_;                // by player: where its boxes begin in own_
-  std::vector<int> own_;                      // indices of the boxes
-  std::optional<std::vector<int>> touching_;  // by mechanism: the lowest of what touches it now
+  std::vector<int> bodies_;  // by mechanism
+  std::vector<int> steps_;   // by player: bodies of what it has and follows
+  const OwnBoxes own_;
   Crowds soon_crowds_, later_crowds_;
   Ways ways_;                                // if there are crowds
   std::vector<float> distance_;              // by mechanism, for the player that seen_by_ says
   std::vector<int> seen_by_;                 // by mechanism
   std::vector<int> seen_;                    // mechanisms
-  std::optional<BoxGrid> grid_;              // of all boxes of a room that is not followed whole
+  std::optional<BoxGrid> grid_;              // of all clusters of a room that is not followed whole
   std::vector<int> last_group_;              // by player: the last of which it is a holder
   std::vector<std::size_t> holders_;         // players
   std::vector<std::pair<int, int>> wanted_;  // player, mechanism
@@ -342,6 +325,8 @@ class Followers {
 
 }  // namespace
 
-void PlanFollowers(const AuthorityView& view, AuthorityPlan* plan) { Followers(view, plan).Plan(); }
+void PlanFollowers(const PlanGround& ground, AuthorityPlan* plan) {
+  Followers(ground, plan).Plan();
+}
 
 }  // namespace seam

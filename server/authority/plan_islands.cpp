@@ -1,7 +1,9 @@
 #include "server/authority/plan_islands.h"
 
 #include <algorithm>
+#include <array>
 #include <cfloat>
+#include <cmath>
 
 #include "common/sync/reach/box_grid.h"
 #include "server/authority/dwell.h"
@@ -14,16 +16,17 @@ namespace {
 
 class IslandPlan {
  public:
-  IslandPlan(const AuthorityView& view, AuthorityPlan* plan)
-      : view_(view),
+  IslandPlan(const PlanGround& ground, AuthorityPlan* plan)
+      : ground_(ground),
+        view_(ground.view()),
         plan_(*plan),
-        players_(view),
-        islands_(view, players_),
+        players_(view_),
+        islands_(ground, players_),
         open_(OpenBoxes()),
-        grid_(view.boxes, &open_) {
-    near_player_.assign(view.mechanisms.size(), -1);
-    near_gap_.assign(view.mechanisms.size(), FLT_MAX);
-    for (const MovingBox& box : view.boxes) speed_ = std::max(speed_, box.velocity.norm());
+        grid_(view_.boxes, &open_) {
+    near_player_.assign(view_.mechanisms.size(), -1);
+    near_gap_.assign(view_.mechanisms.size(), FLT_MAX);
+    for (const MovingBox& box : view_.boxes) speed_ = std::max(speed_, box.velocity.norm());
   }
 
   void Plan() {
@@ -56,10 +59,11 @@ class IslandPlan {
       const int p = islands_.driver(vehicle.group);
       if (!player(p).silent) LookNear(vehicle, p);
     }
-    for (const MovingBox& box : view_.boxes) {
-      const int p = islands_.driver(box.group);
-      if (p >= 0 && !player(p).silent) LookAhead(box, p);
-      if (p < 0) LookAheadLoose(box);
+    const BoxClusters& clusters = ground_.clusters();
+    for (std::size_t c = 0; c < clusters.count(); ++c) {
+      const int p = islands_.driver(clusters.GroupOf(c));
+      if (p >= 0 && !player(p).silent) LookAhead(c, p);
+      if (p < 0) clusters.Each(c, [&](std::size_t i) { LookAheadLoose(view_.boxes[i]); });
     }
   }
 
@@ -69,12 +73,12 @@ class IslandPlan {
     const MechanismView& mechanism = view_.mechanisms[static_cast<std::size_t>(box.group)];
     const int p = players_.At(mechanism.now.authority);
     if (p < 0 || !mechanism.moves || player(p).silent) return;
-    const float way = box.velocity.norm() * SecondsAhead(p, box) + kTouchGap;
+    const float ahead = SecondsAhead(p, box), way = box.velocity.norm() * ahead + kTouchGap;
     const Vec2 reach(way, way);
     grid_.Near(box.min - reach, box.max + reach, [&](int b) {
       const MovingBox& other = view_.boxes[static_cast<std::size_t>(b)];
       Island& island = islands_.Of(other.group);
-      if (!island.awake && island.driver < 0) Claim(box, other, p, &island);
+      if (!island.awake && island.driver < 0) Claim(box, ahead, other, p, &island);
     });
   }
 
@@ -112,8 +116,10 @@ class IslandPlan {
     return 2 * player(p).one_way_s + kPlanPeriod + ahead;
   }
 
-  void Claim(const MovingBox& own, const MovingBox& other, int p, Island* island) const {
-    const float after = SecondsToTouch(own, other, kTouchGap, SecondsAhead(p, own));
+  /// `ahead`: as SecondsAhead says.
+  static void Claim(const MovingBox& own, float ahead, const MovingBox& other, int p,
+                    Island* island) {
+    const float after = SecondsToTouch(own, other, kTouchGap, ahead);
     if (after == FLT_MAX) return;
     if (p == island->holder) island->holder_claims = true;
     if (after < island->claim_s || (after == island->claim_s && p < island->claim)) {
@@ -122,16 +128,34 @@ class IslandPlan {
     }
   }
 
-  void LookAhead(const MovingBox& own, int p) {
-    const float seconds = SecondsAhead(p, own);
-    const float way = (own.velocity.norm() + std::min(speed_, kApproachMax)) * seconds + kTouchGap +
-                      own.acceleration * seconds * seconds / 2;
+  /// `cluster`: of boxes of what player p drives.
+  void LookAhead(std::size_t cluster, int p) {
+    const BoxClusters& clusters = ground_.clusters();
+    std::array<float, BoxClusters::kMost> ahead{};  // by its boxes, s
+    float way = 0, own_way = 0, longest = 0;
+    clusters.Each(cluster, [&](std::size_t i) {
+      const MovingBox& own = view_.boxes[i];
+      const float seconds = SecondsAhead(p, own);
+      ahead[i - clusters.begin(cluster)] = seconds;
+      const float speeds = own.velocity.norm() + std::min(speed_, kApproachMax);
+      const float more = kTouchGap + own.acceleration * seconds * seconds / 2;
+      way = std::max(way, speeds * seconds + more);
+      own_way = std::max(own_way, own.velocity.norm() * seconds + more);
+      longest = std::max(longest, seconds);
+    });
+    const MovingBox& around = clusters.around()[cluster];
     const Vec2 reach(way, way);
-    grid_.Near(own.min - reach, own.max + reach, [&](int b) {
+    grid_.Near(around.min - reach, around.max + reach, [&](int b) {
       const MovingBox& box = view_.boxes[static_cast<std::size_t>(b)];
       Island& island = islands_.Of(box.group);
       if (island.driver >= 0) return;  // it is who drives in it's
-      Claim(own, box, p, &island);
+      const float speed = std::max(std::fabs(box.velocity.x()), std::fabs(box.velocity.y()));
+      const float other_way = (speed + box.acceleration * longest / 2) * longest + kRounding;
+      const Vec2 apart = (around.min - box.max).cwiseMax(box.min - around.max);
+      if (std::max(apart.x(), apart.y()) > own_way + other_way) return;
+      clusters.Each(cluster, [&](std::size_t i) {
+        Claim(view_.boxes[i], ahead[i - clusters.begin(cluster)], box, p, &island);
+      });
     });
   }
 
@@ -174,6 +198,10 @@ class IslandPlan {
     }
   }
 
+  /// m; by rounding no claim may be missed.
+  static constexpr float kRounding = 0.01f;
+
+  const PlanGround& ground_;
   const AuthorityView& view_;
   AuthorityPlan& plan_;
   const PlayerOfPeer players_;
@@ -187,6 +215,6 @@ class IslandPlan {
 
 }  // namespace
 
-void PlanIslands(const AuthorityView& view, AuthorityPlan* plan) { IslandPlan(view, plan).Plan(); }
+void PlanIslands(const PlanGround& ground, AuthorityPlan* plan) { IslandPlan(ground, plan).Plan(); }
 
 }  // namespace seam

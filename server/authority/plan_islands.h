@@ -10,7 +10,7 @@
 ///   [car of p][][][][car of q]   each keeps its own vehicle; the rest stays with who has it until
 ///                                it settles or is dense: then it is one player's
 
-#include "server/authority/plan.h"
+#include "server/authority/plan_ground.h"
 
 namespace seam {
 
@@ -26,10 +26,10 @@ namespace seam {
 /// would touch it if one looked kTouchKeep farther ahead, or has fallen silent. Who is silent
 /// gets nothing new, and whom an island would ask to step more than its capacity does not get it:
 /// see plan_capacity.h.
-void PlanIslands(const AuthorityView& view, AuthorityPlan* plan);
+void PlanIslands(const PlanGround& ground, AuthorityPlan* plan);
 
 /// m between boxes of what touches. Resting things are up to 2 cm apart, copies a few more.
-constexpr float kTouchGap = 0.05f;
+constexpr float kTouchGap = kPressGap;
 /// s from a plan to the next, and s more that a touch is seen ahead: what is touched touches the
 /// next, which nothing moves towards yet.
 constexpr float kPlanPeriod = 0.1f, kTouchAhead = 0.4f;
