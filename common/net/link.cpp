@@ -288,6 +288,7 @@ bool Link::SendUrgent(ByteView message) {
 }
 
 void Link::Flush(std::int64_t now_us, const Sink& send) {
+  if (!Sends(now_us)) return;
   Wake();
   impl_->Flush(now_us, send);
 }
