@@ -84,6 +84,8 @@ void World::Write(int body, const BodyState& state, bool wake) {
 bool World::awake(int body) const { return impl_->moving(body).body->IsAwake(); }
 void World::SetAwake(int body, bool awake) {
   b2Body* b = impl_->moving(body).body;
+  const bool sleeps = impl_->scene.solver.sleep || motion(body) != Motion::kDynamic;
+  if (!awake && !sleeps) return;
   b->SetAwake(awake);
   if (IsAside(*b)) impl_->NoteAside(body);
 }

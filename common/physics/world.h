@@ -126,6 +126,7 @@ class World {
   /// last_change() was `change`. False, and nothing appended, when that is too long ago to know.
   bool ChangedSince(std::uint64_t change, std::vector<int>* bodies) const;
   std::uint64_t last_change() const;
+  /// Where a scene's solver has no sleep, nothing that is simulated sleeps.
   void SetAwake(int body, bool awake);
 
   /// The velocity of bodies that are not dynamic is that of `position`, not of the centre of mass.

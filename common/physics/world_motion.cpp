@@ -72,7 +72,8 @@ void World::SetMotion(int body, Motion motion) {
       m.body->SetMassData(&m.mass);
     }
     const bool dynamic = motion == Motion::kDynamic;
-    if (dynamic && now == Motion::kAbsent) m.body->SetAwake(true);  // it lay on nothing
+    const bool lay_on_nothing = now == Motion::kAbsent;
+    if (dynamic && (lay_on_nothing || !impl_->scene.solver.sleep)) m.body->SetAwake(true);
     m.body->SetLinearVelocity(dynamic ? AtCentre(*m.body, origin_velocity) : origin_velocity);
   }
   impl_->led_count += (motion == Motion::kLed ? 1 : 0) - (now == Motion::kLed ? 1 : 0);

@@ -195,5 +195,29 @@ TEST(LedBody, BothHalvesOfOneThatBreaksAreLed) {
   EXPECT_NEAR(run.Read("light").position.x(), 15, 1e-4);
 }
 
+/// A disc that was only shown, or nowhere, at rest in the air, and is let go: metres that it falls
+/// in half a second.
+float FallsOnceSimulated(Motion shown, const std::string& sleep) {
+  const Scene scene = ParseScene("[solver]\nsleep = " + sleep +
+                                     "\n[[part]]\nname = \"disc\"\ncircle = 0.5\n"
+                                     "position = [0, 5]\n",
+                                 "test.toml");
+  World world(scene);
+  world.SetMotion(0, shown);
+  world.SetAwake(0, false);
+  Steps(&world, 3);
+  world.SetMotion(0, Motion::kDynamic);
+  world.SetAwake(0, false);  // as it was
+  Steps(&world, 30);
+  return 5 - world.Read(0).position.y();
+}
+
+TEST(LedBody, WhereNothingSleepsNothingHangsInTheAirAsItWasShown) {
+  for (const Motion shown : {Motion::kKinematic, Motion::kLed, Motion::kAbsent}) {
+    EXPECT_NEAR(FallsOnceSimulated(shown, "false"), 10 * 0.5 * 0.5 / 2, 0.1);
+    EXPECT_EQ(FallsOnceSimulated(shown, "true"), 0) << "it sleeps on, as it is told";
+  }
+}
+
 }  // namespace
 }  // namespace seam

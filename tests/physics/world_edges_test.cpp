@@ -50,7 +50,8 @@ TEST(WorldEdgesDeathTest, WriteRefusesWhatIsNotFinite) {
 }
 
 TEST(WorldEdges, HashSeesEveryBitOfEveryField) {
-  const auto world = SmallWorld(Box("a", 0, 0) + Box("b", 5, 0));
+  const Scene sleeps = ParseScene(Box("a", 0, 0) + Box("b", 5, 0), "test.toml");
+  const auto world = std::make_unique<World>(sleeps);
   std::uint64_t last = world->Hash();
   const auto changed = [&] {
     const std::uint64_t before = last;

@@ -14,9 +14,10 @@ namespace {
 class Row {
  public:
   explicit Row(int count)
-      : world(SmallWorld(
+      : world(std::make_unique<World>(ParseScene(
             "[[part]]\nname = \"box\"\nbox = [1, 1]\nposition = [0, 0]\nrepeat = {count = " +
-            std::to_string(count) + ", step = [2, 0]}\n")) {
+                std::to_string(count) + ", step = [2, 0]}\n",
+            "test.toml"))) {
     AuthorityRecord own;
     own.authority = kSelf;
     for (int m = 0; m < roles.table().count(); ++m) roles.table().Set(m, own);
