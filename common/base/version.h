@@ -5,6 +5,6 @@ namespace seam {
 
 /// Raised with every release, and with a commit that changes what a session does or how it is
 /// measured: the lab's tables hold only rows of one version (docs/lab.md).
-constexpr const char* kVersion = "0.22.1";
+constexpr const char* kVersion = "0.22.2";
 
 }  // namespace seam

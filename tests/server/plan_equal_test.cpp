@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cfloat>
 #include <map>
 #include <utility>
 #include <vector>
 
 #include "server/authority/plan.h"
+#include "server/authority/plan_islands.h"
+#include "server/authority/swept_boxes.h"
 #include "tests/lab/world/plan_worlds.h"
 #include "tests/support/plan/plan_reference.h"
 
@@ -40,6 +43,70 @@ int DifferencesOver(PlanWorld world, int seeds) {
     differ += Differences(view);
   }
   return differ;
+}
+
+/// Vehicles that drive among single boxes that sleep; all players are here, the server has the
+/// rest.
+AuthorityView VehiclesAmongSleepers(std::uint64_t seed) {
+  PlanWorld world;
+  world.players = 20;
+  world.mechanisms = 400;
+  world.width = 500;
+  world.chains = world.regions = false;
+  AuthorityView view = RandomView(world, seed);
+  for (std::size_t p = 0; p < view.players.size(); ++p) {
+    view.players[p].peer = static_cast<int>(p) + 1;
+    view.players[p].silent = false;
+  }
+  for (MechanismView& mechanism : view.mechanisms) {
+    mechanism.now = {};
+    mechanism.may_have = kEveryPlayer;
+    mechanism.asleep = mechanism.driver < 0;
+  }
+  for (MovingBox& box : view.boxes) {
+    if (view.mechanisms[static_cast<std::size_t>(box.group)].asleep) box.velocity = {0, 0};
+  }
+  return view;
+}
+
+/// Whose vehicle touches it first of those that the planner looks ahead for; -1: nobody's.
+int FirstToTouch(const AuthorityView& view, const MovingBox& box) {
+  int first = -1;
+  float soonest = FLT_MAX;
+  for (const MovingBox& own : view.boxes) {
+    const int p = view.mechanisms[static_cast<std::size_t>(own.group)].driver;
+    if (p < 0) continue;
+    const float ahead = own.velocity.norm() > kSettles ? kTouchAhead : kStandingAhead;
+    const float one_way = view.players[static_cast<std::size_t>(p)].one_way_s;
+    const float after = SecondsToTouch(own, box, kTouchGap, 2 * one_way + kPlanPeriod + ahead);
+    if (after < soonest || (after == soonest && after != FLT_MAX && p < first)) {
+      soonest = after;
+      first = p;
+    }
+  }
+  return first;
+}
+
+TEST(PlanEqual, WhatSleepsGoesToWhomItMeetsFirst) {
+  int differ = 0, met = 0, nobody = 0;
+  for (int seed = 1; seed <= 30; ++seed) {
+    const AuthorityView view = VehiclesAmongSleepers(static_cast<std::uint64_t>(seed));
+    const AuthorityPlan plan = PlanAuthority(view);
+    for (const MovingBox& box : view.boxes) {
+      const auto m = static_cast<std::size_t>(box.group);
+      const bool alone =
+          std::none_of(view.boxes.begin(), view.boxes.end(), [&](const MovingBox& other) {
+            return other.group != box.group && Gap(box, other) <= kTouchGap;
+          });
+      if (!view.mechanisms[m].asleep || !alone) continue;
+      const int player = FirstToTouch(view, box);
+      ++(player < 0 ? nobody : met);
+      differ += plan[m].authority == (player < 0 ? 0 : player + 1) ? 0 : 1;
+    }
+  }
+  EXPECT_EQ(differ, 0);
+  EXPECT_GT(met, 300);
+  EXPECT_GT(nobody, 300);
 }
 
 /// The first boxes of all mechanisms, then the second ones: no two of one stand beside each other.
