@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include "client/load_meter.h"
 #include "server/authority/capacity_watch.h"
 #include "server/authority/plan.h"
@@ -89,13 +91,35 @@ TEST(LoadMeter, OfAMachineThatCannotKeepUpItSaysByHowMuch) {
   EXPECT_NEAR(meter.permille(), 3000, 150);
 }
 
-TEST(LoadMeter, WhoseTicksAreLateIsTooBusyWhateverItsCpuTimeSays) {
+/// What the meter says after two seconds of calls that are late as `late_us` (of the time) says and
+/// cost next to nothing.
+std::int16_t LoadOfLate(const std::function<std::int64_t(std::int64_t)>& late_us) {
   LoadMeter meter;
   std::int64_t cpu = 1;
-  for (std::int64_t now = 0; now <= 2000000; now += 16667) meter.Note(now, ++cpu, 1, 20000, 16667);
+  for (std::int64_t now = 0; now <= 2000000; now += 16667) {
+    meter.Note(now, ++cpu, 1, late_us(now), 16667);
+  }
+  return meter.permille();
+}
+
+TEST(LoadMeter, WhoseTicksGetLaterIsTooBusyWhateverItsCpuTimeSays) {
+  EXPECT_EQ(LoadOfLate([](std::int64_t now) { return 20000 + now / 10; }), LoadMeter::kLateLoad);
+  EXPECT_EQ(LoadOfLate([](std::int64_t) { return 80000; }), LoadMeter::kLateLoad)
+      << "and whose are very late";
+}
+
+TEST(LoadMeter, WhoKeepsUpThoughLateOrCatchesUpHasTheTime) {
+  EXPECT_LT(LoadOfLate([](std::int64_t) { return 25000; }), 10);
+  EXPECT_LT(LoadOfLate([](std::int64_t now) { return 280000 - now / 10; }), 10);
+  EXPECT_LT(LoadOfLate([](std::int64_t now) { return now / 200; }), 10) << "not by a tick yet";
+}
+
+TEST(LoadMeter, ForgetsThatItWasLate) {
+  LoadMeter meter;
+  std::int64_t cpu = 1, now = 0;
+  for (; now <= 2000000; now += 16667) meter.Note(now, ++cpu, 1, 80000, 16667);
   EXPECT_EQ(meter.permille(), LoadMeter::kLateLoad);
-  for (std::int64_t now = 2016667; now <= 4000000; now += 16667)
-    meter.Note(now, ++cpu, 1, 0, 16667);
+  for (; now <= 4000000; now += 16667) meter.Note(now, ++cpu, 1, 0, 16667);
   EXPECT_LT(meter.permille(), 10);
 }
 
