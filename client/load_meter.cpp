@@ -33,9 +33,13 @@ void LoadMeter::Note(std::int64_t now_us, std::int64_t cpu_us, int ticks, std::i
 }
 
 bool LoadMeter::TooLate(double tick_us) const {
-  if (2 * late_ <= calls_ || first_.calls == 0 || second_.calls == 0) return false;
-  const double later = second_.mean() - first_.mean(), trend = kTrend * tick_us;
-  return later > trend || (later > -trend && second_.mean() > kLateTicks * tick_us);
+  if (2 * late_ <= calls_) return false;
+  const double much = kLateTicks * tick_us, trend = kTrend * tick_us;
+  if (first_.calls == 0 || second_.calls == 0) {  // hardly any: there is no trend
+    return static_cast<double>(first_.late_us + second_.late_us) > much * calls_;
+  }
+  const double later = second_.mean() - first_.mean();
+  return later > trend || (later > -trend && second_.mean() > much);
 }
 
 }  // namespace seam

@@ -114,6 +114,15 @@ TEST(LoadMeter, WhoKeepsUpThoughLateOrCatchesUpHasTheTime) {
   EXPECT_LT(LoadOfLate([](std::int64_t now) { return now / 200; }), 10) << "not by a tick yet";
 }
 
+TEST(LoadMeter, WhoHardlyComesToItsTicksIsTooBusy) {
+  LoadMeter meter;
+  std::int64_t cpu = 1;
+  for (std::int64_t now = 0; now <= 4000000; now += 400000) {
+    meter.Note(now, ++cpu, 20, 390000, 16667);
+  }
+  EXPECT_EQ(meter.permille(), LoadMeter::kLateLoad);
+}
+
 TEST(LoadMeter, ForgetsThatItWasLate) {
   LoadMeter meter;
   std::int64_t cpu = 1, now = 0;
