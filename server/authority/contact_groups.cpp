@@ -49,9 +49,8 @@ class Look {
     const float longest = LongestWay(view_), seconds = kZoneKeep + ZoneSeconds(longest, longest);
     const BoxSweep sweep(clusters_.around(), [this, seconds](std::size_t c) {
       float way = 0;
-      for (std::size_t i = clusters_.begin(c); i < clusters_.end(c); ++i) {
-        way = std::max(way, WayOf(view_.boxes[i], seconds));
-      }
+      clusters_.Each(c,
+                     [&](std::size_t i) { way = std::max(way, WayOf(view_.boxes[i], seconds)); });
       return way;
     });
     const auto meet = [this](std::size_t a, std::size_t b) { MeetAny(a, b); };

@@ -1,6 +1,7 @@
 #pragma once
 /// The boxes of what each player's peer is planned to have.
 
+#include <algorithm>
 #include <vector>
 
 #include "server/authority/nearest_box.h"
