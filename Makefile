@@ -18,6 +18,8 @@ OUT := build/$(BUILD)
 GEN := build/gen
 
 CXX ?= g++
+# The fastest linker that is installed; lld is not tried: it comes with a clang, whose version must fit.
+LINKER := $(firstword $(foreach linker,mold gold,$(if $(shell command -v ld.$(linker)),-fuse-ld=$(linker))))
 WARN := -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Werror
 # What a program linked with the objects needs too.
 INSTRUMENT_asan := -fsanitize=address,undefined
@@ -59,24 +61,35 @@ DEBS_format := clang-format git
 DEBS_hashes := clang
 DEBS_lint := clang-tidy git
 
-# All .cpp below a folder; and their objects.
+# All .cpp below a folder.
 below = $(sort $(shell find $(1) -name '*.cpp'))
-obj = $(patsubst %.cpp,$(OUT)/%.o,$(1))
 MAINS := server/main.cpp client/main.cpp client/swarm/main.cpp client/top/main.cpp render/main.cpp render/measure_main.cpp render/export_main.cpp tests/lab/main.cpp
 SOURCES := $(call below,common server client render tests)
+
+# The objects of sources. Two thirds of a build is parsing headers, so the sources of a folder are compiled together
+# (UNITY=0: each by itself): $(OUT)/unity/FOLDER.cpp includes those that are no tests, FOLDER-tests.cpp the tests.
+UNITY ?= 1
+alone = $(patsubst %.cpp,$(OUT)/%.o,$(1))
+folders = $(patsubst %/,%,$(sort $(dir $(1))))
+tests_of = $(filter %_test.cpp,$(1))
+unit_names = $(call folders,$(filter-out %_test.cpp,$(1))) $(addsuffix -tests,$(call folders,$(tests_of)))
+units = $(call alone,$(filter $(MAINS),$(1))) $(patsubst %,$(OUT)/unity/%.o,$(call unit_names,$(filter-out $(MAINS),$(1))))
+obj = $(if $(filter 0,$(UNITY)),$(alone),$(units))
+UNITS := $(call unit_names,$(filter-out $(MAINS),$(SOURCES)))
 COMMON := $(call obj,$(filter common/%,$(SOURCES)))
 SERVER := $(call obj,$(filter-out $(MAINS),$(filter server/%,$(SOURCES))))
 # The programs beside a player's: what a load test and a view of the server's load have in common with it.
 WATCHERS := $(call obj,$(filter-out $(MAINS),$(filter client/swarm/% client/top/%,$(SOURCES))))
 CLIENT := $(filter-out $(WATCHERS),$(call obj,$(filter-out $(MAINS),$(filter client/%,$(SOURCES)))))
 RENDER := $(call obj,$(filter-out $(MAINS),$(filter render/%,$(SOURCES))))
-EXPORT := $(call obj,$(filter render/export/% render/canvas/shapes.cpp render/canvas/figure.cpp,$(SOURCES)))
+EXPORT := $(call obj,$(filter render/export/%,$(SOURCES))) $(call alone,render/canvas/shapes.cpp render/canvas/figure.cpp)
 LAB := $(call obj,$(filter-out $(MAINS) %_test.cpp,$(filter tests/lab/%,$(SOURCES))))
 # What seam-lab has from the tests.
 LAB_SUPPORT := $(call obj,tests/support/plan/plain_scene.cpp)
 TESTS := $(call obj,$(filter %_test.cpp tests/support/%,$(filter tests/%,$(SOURCES))))
-CODEC := $(filter $(OUT)/common/codec/%,$(COMMON))
-OBJECTS := $(call obj,$(SOURCES))
+# Everything that may be compiled: the units, and each source alone.
+OBJECTS := $(call alone,$(SOURCES)) $(UNITS:%=$(OUT)/unity/%.o)
+CODEC := $(filter $(OUT)/common/codec/% $(OUT)/unity/common/codec%,$(OBJECTS))
 PROGRAMS := $(addprefix $(OUT)/,seam-server seam-client seam-swarm seam-top seam-render seam-measure seam-export seam-lab)
 LCM_TYPES := $(sort $(wildcard lcmtypes/*.lcm))
 VERSION := $(shell sed -n 's/.*kVersion = "\(.*\)".*/\1/p' common/base/version.h)
@@ -145,20 +158,24 @@ $(OUT)/.sources: force
 endif
 $(OUT)/.sources:
 	@mkdir -p $(@D)
+	@printf '%s\n' $(SOURCES) | OUT=$(OUT) MAINS='$(MAINS)' tests/units.sh
 	@printf '%s\n' '$(SOURCES)' > $@
+$(UNITS:%=$(OUT)/unity/%.cpp): | $(OUT)/.sources ;
 $(PROGRAMS) $(addprefix $(OUT)/,seam-tests libseam.a libseam-common.a): $(OUT)/.sources
 LINKED = $(filter-out %/.sources,$^)
 
 $(CODEC): private ALL_CXXFLAGS += $(CODEC_CXXFLAGS)
 $(CODEC): $(GEN)/.stamp
 $(TESTS): private ALL_CXXFLAGS += $(TEST_CXXFLAGS_$(BUILD))
+$(OUT)/unity/%.o: $(OUT)/unity/%.cpp $(OUT)/.flags | build/.deps-build
+	$(CXX) $(ALL_CXXFLAGS) $(if $(PRECOMPILED),-include $(PRECOMPILED)) -c $< -o $@
 $(OUT)/%.o: %.cpp $(OUT)/.flags | build/.deps-build
 	@mkdir -p $(@D)
 	$(CXX) $(ALL_CXXFLAGS) $(if $(PRECOMPILED),-include $(PRECOMPILED)) -c $< -o $@
 
 # What the pages are made of is copied into the programs (render/page/assets.cpp).
-$(OUT)/render/page/assets.o: $(wildcard render/page/*.html render/page/*.css render/page/*.js)
-$(OUT)/tests/lab/report/html/report_assets.o: $(wildcard tests/lab/report/html/*.css tests/lab/report/html/*.js)
+$(OUT)/render/page/assets.o $(OUT)/unity/render/page.o: $(wildcard render/page/*.html render/page/*.css render/page/*.js)
+$(OUT)/tests/lab/report/html/report_assets.o $(OUT)/unity/tests/lab/report/html.o: $(wildcard tests/lab/report/html/*.css tests/lab/report/html/*.js)
 
 # Appended to nothing: two members may have the same name.
 $(OUT)/libseam-common.a: $(COMMON)
@@ -167,7 +184,7 @@ $(OUT)/%.a:
 	@rm -f $@
 	@ar qcs $@ $(LINKED)
 
-LINK = $(CXX) $(ALL_CXXFLAGS) $(LDFLAGS) $(LINKED)
+LINK = $(CXX) $(ALL_CXXFLAGS) $(LINKER) $(LDFLAGS) $(LINKED)
 $(OUT)/seam-server: $(OUT)/server/main.o $(SERVER) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -o $@
 $(OUT)/seam-client: $(OUT)/client/main.o $(CLIENT) $(OUT)/libseam-common.a
@@ -191,9 +208,8 @@ $(OUT)/seam-tests: $(LAB) $(SERVER) $(CLIENT) $(WATCHERS) $(RENDER) $(TESTS) $(O
 # The tests of what reads from outside and keeps it, without long simulations, programs and pictures: a little
 # more than half of the sources.
 CORE_TESTS := $(foreach f,base client codec net record scene server sync topology,$(filter \
-	tests/$(f)/%_test.cpp,$(SOURCES))) $(filter tests/support/%,$(SOURCES)) \
-	tests/lab/cluster.cpp tests/lab/world/plan_worlds.cpp
-$(OUT)/seam-tests-core: $(call obj,$(CORE_TESTS)) $(WATCHERS) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
+	tests/$(f)/%_test.cpp,$(SOURCES))) $(filter tests/support/%,$(SOURCES))
+$(OUT)/seam-tests-core: $(call obj,$(CORE_TESTS)) $(call alone,tests/lab/cluster.cpp tests/lab/world/plan_worlds.cpp) $(WATCHERS) $(SERVER) $(CLIENT) $(OUT)/libseam-common.a
 	$(LINK) $(LIBS) $(SERVER_LIBS) -lgtest -lgtest_main -o $@
 
 # Man pages and completion, by the programs themselves: from what parses their flags, and from the scenes here.
@@ -213,7 +229,7 @@ $(OUT)/precompiled.h.gch: $(OUT)/precompiled.h $(OUT)/.flags
 ifneq ($(PRECOMPILED),)
 $(OBJECTS): | $(PRECOMPILED).gch
 endif
-WORLD := $(foreach room,base scene topology physics stages,$(filter $(OUT)/common/$(room)/%,$(COMMON)))
+WORLD := $(call obj,$(foreach room,base scene topology physics stages,$(filter common/$(room)/%,$(SOURCES))))
 $(OUT)/seam-hashes: $(OUT)/tests/physics/determinism_test.o $(WORLD)
 	$(LINK) $(LIBS) -lgtest -lgtest_main -o $@
 

@@ -10,7 +10,7 @@
 #include "common/base/random.h"
 
 namespace seam {
-namespace {
+namespace bucket_histogram_test {
 
 TEST(BucketHistogram, OfNothingEverythingIsNought) {
   const BucketHistogram none;
@@ -89,5 +89,5 @@ TEST(BucketHistogram, SinceIsWhatHasComeAndAllOfItWhenItWasBegunAnew) {
   EXPECT_EQ(more.Since(more).count, 0);
 }
 
-}  // namespace
+}  // namespace bucket_histogram_test
 }  // namespace seam

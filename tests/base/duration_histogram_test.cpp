@@ -10,7 +10,7 @@
 #include "common/base/random.h"
 
 namespace seam {
-namespace {
+namespace duration_histogram_test {
 
 TEST(DurationHistogram, OfNothingEverythingIsNought) {
   const DurationHistogram none;
@@ -49,5 +49,5 @@ TEST(DurationHistogram, TimesThatRanBackwardsAreNoughtAndHugeOnesAreKept) {
   EXPECT_EQ(histogram.PercentileUs(0.5), 0);
 }
 
-}  // namespace
+}  // namespace duration_histogram_test
 }  // namespace seam

@@ -7,7 +7,7 @@
 #include <limits>
 
 namespace seam {
-namespace {
+namespace geometry_test {
 
 using Eigen::Vector2d;
 using Eigen::Vector2f;
@@ -101,5 +101,5 @@ TEST(Geometry, ThenAppliesTheInnerMotionFirst) {
   EXPECT_GT((outer.Then(inner)(p) - inner(outer(p))).norm(), 0.1) << "the order counts";
 }
 
-}  // namespace
+}  // namespace geometry_test
 }  // namespace seam

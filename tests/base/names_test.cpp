@@ -7,7 +7,7 @@
 #include <clocale>
 
 namespace seam {
-namespace {
+namespace names_test {
 
 TEST(Names, LettersDigitsUnderscoreAndHyphenAreAName) {
   EXPECT_TRUE(IsName("Ann_2-x"));
@@ -41,5 +41,5 @@ TEST(Names, TheLocaleDoesNotAddLetters) {
   std::setlocale(LC_CTYPE, before.c_str());
 }
 
-}  // namespace
+}  // namespace names_test
 }  // namespace seam

@@ -13,7 +13,7 @@
 #include "common/base/progress_count.h"
 
 namespace seam {
-namespace {
+namespace progress_line_test {
 
 /// While it lives, stderr is a terminal.
 class TerminalErrors {
@@ -135,5 +135,5 @@ TEST(ProgressCount, WritesItsLineOnATerminalAndNothingToAFile) {
   EXPECT_EQ(terminal.Read(), "\r\n");
 }
 
-}  // namespace
+}  // namespace progress_line_test
 }  // namespace seam

@@ -7,7 +7,7 @@
 #include "common/net/memory.h"
 
 namespace seam {
-namespace {
+namespace client_join_test {
 
 class ClientJoin : public ::testing::Test {
  protected:
@@ -148,5 +148,5 @@ TEST_F(ClientJoin, ARefusalThatComesAfterTheWelcomeIsTooLate) {
   EXPECT_EQ(client_.stats().dropped_malformed, 0);
 }
 
-}  // namespace
+}  // namespace client_join_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "common/sync/quantize.h"
 
 namespace seam {
-namespace {
+namespace held_world_test {
 
 Scene TwoBoxes() {
   return ParseScene(
@@ -160,5 +160,5 @@ TEST(AHeldMechanism, HasTheTurnsThatItsHingesAllow) {
   EXPECT_LT(replica.world().Read(1).velocity.norm(), 0.1f);
 }
 
-}  // namespace
+}  // namespace held_world_test
 }  // namespace seam

@@ -12,7 +12,7 @@
 #include "tests/support/program.h"
 
 namespace seam {
-namespace {
+namespace key_file_test {
 
 class KeyFileTest : public ::testing::Test {
  protected:
@@ -86,5 +86,5 @@ TEST_F(KeyFileTest, AnythingElseThanAKeyIsRefused) {
   EXPECT_EQ(Refusal("empty"), "") << "an interrupted writer's: no key yet";
 }
 
-}  // namespace
+}  // namespace key_file_test
 }  // namespace seam

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 namespace seam {
-namespace {
+namespace room_timeline_test {
 
 Pong At(std::int64_t utime, std::int64_t tick0_us, std::int32_t speed_ppm = kFullSpeedPpm) {
   Pong pong;
@@ -66,5 +66,5 @@ TEST(RoomTimeline, AskedEveryMicrosecondItComesAsFarAsAskedSeldom) {
   EXPECT_NEAR(static_cast<double>(often.At(2100000)), static_cast<double>(seldom.At(2100000)), 2);
 }
 
-}  // namespace
+}  // namespace room_timeline_test
 }  // namespace seam

@@ -7,7 +7,7 @@
 #include "common/base/check.h"
 
 namespace seam {
-namespace {
+namespace scene_shelf_test {
 
 const char* const kBall = "[[part]]\nname = \"ball\"\ncircle = 0.5\n";
 
@@ -40,5 +40,5 @@ TEST(SceneShelf, WhatIsNoSceneIsRefusedEachTime) {
   for (int i = 0; i < 2; ++i) EXPECT_THROW(shelf.Of("[[part]]\n", "x.toml"), OperatorError);
 }
 
-}  // namespace
+}  // namespace scene_shelf_test
 }  // namespace seam

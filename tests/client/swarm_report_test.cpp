@@ -5,7 +5,7 @@
 #include "client/swarm/report.h"
 
 namespace seam {
-namespace {
+namespace swarm_report_test {
 
 RoomLoad Told(const std::string& room, std::int64_t seconds) {
   RoomLoad told;
@@ -64,5 +64,5 @@ TEST(SwarmReport, OnABusOnlyTheWorstSecondIsKnown) {
   EXPECT_EQ(ServerReport({}).rfind("server: not heard", 0), 0u);
 }
 
-}  // namespace
+}  // namespace swarm_report_test
 }  // namespace seam

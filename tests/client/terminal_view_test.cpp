@@ -7,7 +7,7 @@
 #include "tests/support/two_sides.h"
 
 namespace seam {
-namespace {
+namespace terminal_view_test {
 
 std::string Stripped(const std::string& text) {
   std::string plain;
@@ -84,5 +84,5 @@ TEST(WatchOrPlay, AnUnknownNameIsFatalUnlessItOnlyWatches) {
   }
 }
 
-}  // namespace
+}  // namespace terminal_view_test
 }  // namespace seam

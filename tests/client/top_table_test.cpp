@@ -8,7 +8,7 @@
 #include <vector>
 
 namespace seam {
-namespace {
+namespace top_table_test {
 
 RoomLoad LoadOf(const std::string& room, std::int64_t seconds) {
   RoomLoad told;
@@ -74,5 +74,5 @@ TEST(TopTable, ASilentRoomIsLeftOut) {
   EXPECT_FALSE(Row(table.Text(6500000), "yard").empty());
 }
 
-}  // namespace
+}  // namespace top_table_test
 }  // namespace seam

@@ -10,7 +10,7 @@
 #include "tests/support/two_sides.h"
 
 namespace seam {
-namespace {
+namespace assembly_cluster_test {
 
 int Count(const Scene& scene, bool (*what)(const Joint&)) {
   return static_cast<int>(std::count_if(scene.joints.begin(), scene.joints.end(), what));
@@ -129,5 +129,5 @@ TEST_P(AssemblyCluster, GroupsAreMadeAndUndoneForAllPeersAlike) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, AssemblyCluster, ::testing::Range(1, 1 + Soak(3)));
 
-}  // namespace
+}  // namespace assembly_cluster_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "tests/support/soak.h"
 
 namespace seam {
-namespace {
+namespace authority_test {
 
 /// Two pendulums that swing over the seam: authority must follow.
 const char* const kShuttle = R"(
@@ -163,5 +163,5 @@ TEST(Authority, ACutOfFiveSecondsEndsInARejoinWithoutTwoAuthorities) {
   EXPECT_EQ(watcher.several, 0);
 }
 
-}  // namespace
+}  // namespace authority_test
 }  // namespace seam

@@ -13,7 +13,7 @@
 #include "tests/support/two_sides.h"
 
 namespace seam {
-namespace {
+namespace blast_cluster_test {
 
 /// Crates on both sides of the seam, some of them behind walls, and two charges.
 std::string Yard() {
@@ -209,5 +209,5 @@ TEST(BlastCluster, AMessageWithAWrongImpulseIsRefused) {
   for (const Bytes& wrong : {nan, more, push}) EXPECT_FALSE(decodes(wrong));
 }
 
-}  // namespace
+}  // namespace blast_cluster_test
 }  // namespace seam

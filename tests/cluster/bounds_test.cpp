@@ -14,7 +14,7 @@
 #include "tests/support/two_sides.h"
 
 namespace seam {
-namespace {
+namespace bounds_test {
 
 /// A stone of ann's is thrown out to the right, a barrow of nobody's with two parts rolls off to
 /// the left and falls, and a crate stays.
@@ -128,5 +128,5 @@ TEST(Bounds, WhoJoinsLaterDoesNotGetWhatHasLeft) {
   EXPECT_EQ(cluster.client(1)->replica()->world().body_count(), 1);
 }
 
-}  // namespace
+}  // namespace bounds_test
 }  // namespace seam

@@ -12,7 +12,7 @@
 #include "common/measure/measure.h"
 
 namespace seam {
-namespace {
+namespace cluster_test {
 
 Measures MeasureRun(const ClusterConfig& config) {
   const Recording recording = RunCluster(config);
@@ -265,5 +265,5 @@ TEST(Cluster, VirtualTimeIsFasterThanRealTime) {
   EXPECT_GT(simulated, 5);
 }
 
-}  // namespace
+}  // namespace cluster_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace conveyor_test {
 
 /// How often each box has passed x = 0 on the upper belt, to the left.
 class Laps {
@@ -61,5 +61,5 @@ TEST(ConveyorScene, AllBoxesGoRoundForTenMinutesAndNoneIsLost) {
   }
 }
 
-}  // namespace
+}  // namespace conveyor_test
 }  // namespace seam

@@ -10,7 +10,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace crane_test {
 
 BodyState Named(const World& world, const std::string& name) {
   for (const Part& part : world.scene().parts) {
@@ -63,5 +63,5 @@ TEST(CraneScene, LiftsAGluedCrateOverTheSeamIntoTheBoatOverTenSeedsUnder4g) {
   }
 }
 
-}  // namespace
+}  // namespace crane_test
 }  // namespace seam

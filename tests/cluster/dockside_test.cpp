@@ -12,7 +12,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace dockside_test {
 
 PartId IdOf(const World& world, const std::string& name) {
   for (const Part& part : world.scene().parts) {
@@ -67,5 +67,5 @@ TEST(DocksideScene, TheCrateIsLoadedAndDeliveredAndScoredOverTenSeedsUnder4g) {
   }
 }
 
-}  // namespace
+}  // namespace dockside_test
 }  // namespace seam

@@ -14,7 +14,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace edit_tick_test {
 
 Recording Break(const std::string& impair, std::int64_t seed) {
   ClusterConfig config;
@@ -302,5 +302,5 @@ TEST(EditTick, WhatHangsOnInputsIsOrderedWhenTheseAreKnownAndIsTheOracles) {
   }
 }
 
-}  // namespace
+}  // namespace edit_tick_test
 }  // namespace seam

@@ -14,7 +14,7 @@
 #include "tests/support/soak.h"
 
 namespace seam {
-namespace {
+namespace exact_hand_over_test {
 
 std::vector<HandOverSeen> HandOvers(const ClusterConfig& config) {
   const Recording recording = RunCluster(config);
@@ -95,5 +95,5 @@ TEST(ExactHandOver, WhoSaysWhereOthersBodiesAreIsNotBelieved) {
   }
 }
 
-}  // namespace
+}  // namespace exact_hand_over_test
 }  // namespace seam

@@ -10,7 +10,7 @@
 #include "tests/support/two_sides.h"
 
 namespace seam {
-namespace {
+namespace freight_cluster_test {
 
 struct Session {
   const char *mode, *reconcile;
@@ -100,5 +100,5 @@ TEST_P(Freight, SixtyCratesAreOneBodyWhileTheCartRollsAndSixtyWhenItBrakes) {
 
 INSTANTIATE_TEST_SUITE_P(Seeds, Freight, ::testing::Range(1, 1 + Soak(2)));
 
-}  // namespace
+}  // namespace freight_cluster_test
 }  // namespace seam

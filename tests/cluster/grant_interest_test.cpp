@@ -16,7 +16,7 @@
 #include "tests/support/soak.h"
 
 namespace seam {
-namespace {
+namespace grant_interest_test {
 
 constexpr int kAnn = 0, kCarl = 2;  // clients
 
@@ -222,5 +222,5 @@ TEST(GrantInterest, WhoComesBackKnowsAllOwners) {
   EXPECT_EQ(Strays(cluster, kCarl), 0);
 }
 
-}  // namespace
+}  // namespace grant_interest_test
 }  // namespace seam

@@ -16,7 +16,7 @@
 #include "tests/support/soak.h"
 
 namespace seam {
-namespace {
+namespace handover_faults_test {
 
 constexpr int kAnn = 0;  // client
 
@@ -168,5 +168,5 @@ TEST(HandOverFaults, AHolderThatIsNotHeardIsSpokenFor) {
   }
 }
 
-}  // namespace
+}  // namespace handover_faults_test
 }  // namespace seam

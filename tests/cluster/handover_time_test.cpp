@@ -9,7 +9,7 @@
 #include "tests/support/pendulums.h"
 
 namespace seam {
-namespace {
+namespace handover_time_test {
 
 TEST(HandOver, TakesOneRoundTripHoweverManyThereAre) {
   for (const int count : {1, 8, 60}) {
@@ -27,5 +27,5 @@ TEST(HandOver, TakesOneRoundTripHoweverManyThereAre) {
   }
 }
 
-}  // namespace
+}  // namespace handover_time_test
 }  // namespace seam

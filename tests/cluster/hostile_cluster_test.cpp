@@ -11,7 +11,7 @@
 #include "tests/support/session_guest.h"
 
 namespace seam {
-namespace {
+namespace hostile_cluster_test {
 
 ClusterConfig Crossing() {
   ClusterConfig config;
@@ -282,5 +282,5 @@ TEST(Hostile, NoHonestClientLosesAnythingToItsBudgetOverAnyNetwork) {
   }
 }
 
-}  // namespace
+}  // namespace hostile_cluster_test
 }  // namespace seam

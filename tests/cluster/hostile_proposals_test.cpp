@@ -10,7 +10,7 @@
 #include "tests/support/two_sides.h"
 
 namespace seam {
-namespace {
+namespace hostile_proposals_test {
 
 /// What rests in a group is ann's: she may propose bonds of it.
 const std::string kGroups = std::string("duration = 30\nbuffer = 8\n") + kTwoSides + R"(
@@ -186,5 +186,5 @@ TEST_F(HostileProposals, WhatIsForgedOnTheWireIsCountedAndTheRoomRunsOn) {
   EXPECT_EQ(cluster_->client(1)->replica()->revision(), server.replica().revision());
 }
 
-}  // namespace
+}  // namespace hostile_proposals_test
 }  // namespace seam

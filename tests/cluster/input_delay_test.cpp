@@ -8,7 +8,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace input_delay_test {
 
 /// A wheel that nothing moves before its motor does, in tick 31.
 std::string WheelScene(int delay) {
@@ -105,5 +105,5 @@ TEST(InputDelay, StandsInTheRecordingWithWhatIsPredicted) {
   EXPECT_EQ(RunCluster(config).room.predict, "");
 }
 
-}  // namespace
+}  // namespace input_delay_test
 }  // namespace seam

@@ -10,7 +10,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace input_sending_test {
 
 ClusterConfig With(const std::string& mode, const std::string& impair) {
   ClusterConfig config;
@@ -122,5 +122,5 @@ TEST(InputSending, OfManyPlayersTheyTakeASmallPartOfABudget) {
   EXPECT_LT(many, 0.2 * kClientBytesPerS) << "36 more, 60 times a second: 177 kB/s as inputs_t";
 }
 
-}  // namespace
+}  // namespace input_sending_test
 }  // namespace seam

@@ -16,7 +16,7 @@
 #include "tests/support/soak.h"
 
 namespace seam {
-namespace {
+namespace interest_test {
 
 /// Counts what comes to a client: states by body, inputs by player.
 class CountingNet : public Net {
@@ -275,5 +275,5 @@ TEST(Interest, WhatRestsIsKnownExactlyToThoseWhomItIsNothing) {
   }
 }
 
-}  // namespace
+}  // namespace interest_test
 }  // namespace seam

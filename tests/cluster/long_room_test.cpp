@@ -11,7 +11,7 @@
 #include "tests/support/two_sides.h"
 
 namespace seam {
-namespace {
+namespace long_room_test {
 
 /// Two players, and boxes in pairs that nobody is near to.
 const std::string kPairs =
@@ -154,5 +154,5 @@ TEST(LongRoom, WhoJoinsDuringManyEditsUnderLossEndsTheSame) {
             server.replica().world().composition().hash);
 }
 
-}  // namespace
+}  // namespace long_room_test
 }  // namespace seam

@@ -21,7 +21,7 @@ extern "C" std::size_t __sanitizer_get_current_allocated_bytes();
 #endif
 
 namespace seam {
-namespace {
+namespace long_session_test {
 
 /// Bytes that are allocated now.
 std::size_t HeapBytes() {
@@ -176,5 +176,5 @@ TEST(LongSessionCluster, MemoryIsFlatWhileThingsAreBondedAndBreak) {
   EXPECT_LT(static_cast<double>(late), 1.02 * static_cast<double>(early));
 }
 
-}  // namespace
+}  // namespace long_session_test
 }  // namespace seam

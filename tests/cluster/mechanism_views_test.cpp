@@ -7,7 +7,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace mechanism_views_test {
 
 /// A car with two trailers drives over a seam and pushes a ragdoll, which hangs on nothing.
 const char* kTrailers = R"(title = "Trailers"
@@ -134,5 +134,5 @@ TEST(MechanismViews, JointsAreNoFurtherOpenThanInTheOracle) {
   }
 }
 
-}  // namespace
+}  // namespace mechanism_views_test
 }  // namespace seam

@@ -12,7 +12,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace oracle_row_test {
 
 /// Scenes of more parts are played by a few, and not to their end.
 constexpr std::size_t kPartsOfSmall = 500;
@@ -73,5 +73,5 @@ TEST(OracleRow, TheServerOfModeCentralIsTheOracleWhereNoInputIsLate) {
   EXPECT_EQ(ServerIsOff("heap", 4), 0);
 }
 
-}  // namespace
+}  // namespace oracle_row_test
 }  // namespace seam

@@ -10,7 +10,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace overload_test {
 
 constexpr std::int64_t kPeriodUs = 1000000 / 60;
 /// The server is overloaded from the first of these ticks to the second.
@@ -124,5 +124,5 @@ TEST_P(Overload, TicksOfTwiceTheirPeriodSlowTheRoomForAllAndNobodyTeleports) {
 
 INSTANTIATE_TEST_SUITE_P(Modes, Overload, ::testing::Values("buffer", "central", "strict"));
 
-}  // namespace
+}  // namespace overload_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "tests/support/two_sides.h"
 
 namespace seam {
-namespace {
+namespace planner_cluster_test {
 
 ClusterConfig Plain(const PlainScene& plain) {
   ClusterConfig config;
@@ -70,5 +70,5 @@ TEST(PlannerCluster, WhatLiesStillIsTheServersAgain) {
   }
 }
 
-}  // namespace
+}  // namespace planner_cluster_test
 }  // namespace seam

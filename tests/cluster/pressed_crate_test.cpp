@@ -12,7 +12,7 @@
 #include "tests/support/soak.h"
 
 namespace seam {
-namespace {
+namespace pressed_crate_test {
 
 /// ann's box comes from the left and bob's from the right, both push a crate between them for
 /// seconds, one now and then a little less.
@@ -190,5 +190,5 @@ TEST(PressedCrate, ForgedReportsHurtNobodyAndAreCounted) {
   EXPECT_GE(stats.dropped_implausible, forged / 3);
 }
 
-}  // namespace
+}  // namespace pressed_crate_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace reconcile_cluster_test {
 
 /// What is beyond the buffer zone is displayed only: a rule that pulls a copy of all there is on in
 /// every tick is another matter.
@@ -129,5 +129,5 @@ TEST(RuleSessions, TheStackStandsUnderResimulateAndSpring) {
   }
 }
 
-}  // namespace
+}  // namespace reconcile_cluster_test
 }  // namespace seam

@@ -7,7 +7,7 @@
 #include "tests/lab/session.h"
 
 namespace seam {
-namespace {
+namespace relay_test {
 
 TEST(Relay, HandsOverAgainAndAgainInAnOrderlyWorld) {
   SessionSettings settings;
@@ -35,5 +35,5 @@ TEST(Relay, APerfectNetworkHandsOverWithoutAGap) {
   EXPECT_LT(m.handover_gap_m.value(), 0.01);
 }
 
-}  // namespace
+}  // namespace relay_test
 }  // namespace seam

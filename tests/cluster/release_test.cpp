@@ -22,7 +22,7 @@
 #include "tests/support/soak.h"
 
 namespace seam {
-namespace {
+namespace release_test {
 
 constexpr int kAnn = 1, kBob = 2;
 
@@ -311,5 +311,5 @@ TEST(Release, ForgedOnesAreDroppedCountedAndTakeNothingFromOthers) {
   EXPECT_GE(cluster.server().stats().dropped_right - before, forged - 2);
 }
 
-}  // namespace
+}  // namespace release_test
 }  // namespace seam

@@ -13,7 +13,7 @@
 #include "tests/support/soak.h"
 
 namespace seam {
-namespace {
+namespace rest_cluster_test {
 
 /// Three of ten datagrams lost.
 constexpr const char* kLossy = "loss=30%,delay=40ms,jitter=10ms";
@@ -139,5 +139,5 @@ INSTANTIATE_TEST_SUITE_P(Methods, RestCluster,
                                            Method{"buffer", "spring"}),
                          [](const auto& method) { return Name(method.param); });
 
-}  // namespace
+}  // namespace rest_cluster_test
 }  // namespace seam

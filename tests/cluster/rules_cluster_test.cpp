@@ -11,7 +11,7 @@
 #include "tests/support/two_sides.h"
 
 namespace seam {
-namespace {
+namespace rules_cluster_test {
 
 /// Two pucks run towards each other through twelve coins and past each other, without gravity.
 std::string Race(const std::string& more = "") {
@@ -295,5 +295,5 @@ TEST(RulesCluster, ACharacterThatDiesGoesLimpForEverybody) { ExpectDead("active"
 
 TEST(RulesCluster, ARagdollThatDiesComesApartAtItsJointsForEverybody) { ExpectDead("passive", 12); }
 
-}  // namespace
+}  // namespace rules_cluster_test
 }  // namespace seam

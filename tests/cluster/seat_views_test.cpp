@@ -13,7 +13,7 @@
 #include "tests/support/two_sides.h"
 
 namespace seam {
-namespace {
+namespace seat_views_test {
 
 /// ann's character walks to a cart that rolls slowly, gets in at 2 s, drives, and gets out at 7 s.
 std::string Cart() {
@@ -294,5 +294,5 @@ TEST(SeatViews, WhoJoinsInTheMiddleOfTheWaySeesTheSameAfterASecond) {
   EXPECT_GE(in_the_middle, 4);
 }
 
-}  // namespace
+}  // namespace seat_views_test
 }  // namespace seam

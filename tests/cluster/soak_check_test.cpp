@@ -7,7 +7,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace soak_check_test {
 
 /// Two cars, and an oracle whose joints are open for a tick.
 class SoakCheck : public ::testing::Test {
@@ -56,5 +56,5 @@ TEST_F(SoakCheck, TheEngineIsNoExcuseAwayFromACrashOrForLong) {
   EXPECT_GT(Torn(crash_, 12, 2).torn_m, 0.5);
 }
 
-}  // namespace
+}  // namespace soak_check_test
 }  // namespace seam

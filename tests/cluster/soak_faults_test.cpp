@@ -18,7 +18,7 @@
 #include "tests/support/soak/invariants.h"
 
 namespace seam {
-namespace {
+namespace soak_faults_test {
 
 /// Sessions in a test, and of how many s each; a soak has more, of a minute each.
 constexpr int kRuns = 20, kRunsMax = 2000;
@@ -113,5 +113,5 @@ TEST(SoakNarrowCluster, EverySeedKeepsItsInvariantsInLargeRoomsAndNarrowOnes) {
   RunSeeds(true, std::min(Soak(kNarrowRuns), kRunsMax), "SoakNarrow*");
 }
 
-}  // namespace
+}  // namespace soak_faults_test
 }  // namespace seam

@@ -6,7 +6,7 @@
 #include "tests/support/soak/invariants.h"
 
 namespace seam {
-namespace {
+namespace soak_invariants_test {
 
 /// A session in which nothing goes wrong by itself.
 class SoakInvariants : public ::testing::Test {
@@ -122,5 +122,5 @@ TEST(SoakFaultPlan, ASeedDrawsTheSameAgainAndAnotherSomethingElse) {
   EXPECT_NE(plan.name, DrawFaults(8, choice).name);
 }
 
-}  // namespace
+}  // namespace soak_invariants_test
 }  // namespace seam

@@ -19,7 +19,7 @@
 #include "tests/support/soak/soak_check.h"
 
 namespace seam {
-namespace {
+namespace soak_scenes_test {
 
 /// Sessions in a test; SEAM_SOAK multiplies them, up to so many.
 constexpr int kRuns = 20, kRunsMax = 2000;
@@ -162,5 +162,5 @@ TEST(SoakCluster, NothingExplodesIsTornOrGetsLostInAnyScene) {
       [](const Session&) { return 20.0; });
 }
 
-}  // namespace
+}  // namespace soak_scenes_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "tests/support/rewriting_net.h"
 
 namespace seam {
-namespace {
+namespace stale_states_test {
 
 TEST(StaleStates, AReplayedMessageReachesNeitherOtherClientsNorTheBus) {
   ClusterConfig config;
@@ -50,5 +50,5 @@ TEST(StaleStates, AReplayedMessageReachesNeitherOtherClientsNorTheBus) {
   EXPECT_GE(cluster.server().stats().dropped_stale, replayed) << "dropped without being counted";
 }
 
-}  // namespace
+}  // namespace stale_states_test
 }  // namespace seam

@@ -10,7 +10,7 @@
 #include "tests/support/soak.h"
 
 namespace seam {
-namespace {
+namespace throttle_test {
 
 /// Sessions with bots of other seeds: the bar is for their median, since what tumbles otherwise
 /// once stays so, in either.
@@ -40,5 +40,5 @@ TEST(Throttle, AClientThatIsSlowedToAQuarterSimulatesWhatItCanAndTheOthersSeeLit
   EXPECT_LE(ratios.back(), 2) << "a guard, no bar";
 }
 
-}  // namespace
+}  // namespace throttle_test
 }  // namespace seam

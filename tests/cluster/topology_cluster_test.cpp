@@ -13,7 +13,7 @@
 #include "tests/support/two_sides.h"
 
 namespace seam {
-namespace {
+namespace topology_cluster_test {
 
 /// A bar of four glued boxes slides from ann's side to bob's; a crate lies where it passes.
 const std::string kBar = std::string("duration = 6\nbuffer = 8\n") + kTwoSides + R"(
@@ -315,5 +315,5 @@ button = 3
   EXPECT_LT(end, 0.5f) << "nobody drives";
 }
 
-}  // namespace
+}  // namespace topology_cluster_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "tests/support/scripted_world.h"
 
 namespace seam {
-namespace {
+namespace tracks_test {
 
 Vec2 PlaceOf(const World& world, const std::string& name) {
   for (const Part& part : world.scene().parts) {
@@ -77,5 +77,5 @@ TEST(TracksScene, BothHaveTheSameMassAndWheelsDoNotClimbTheSlopeEither) {
   EXPECT_LT(farthest, 10) << "and stays at the first beams";
 }
 
-}  // namespace
+}  // namespace tracks_test
 }  // namespace seam

@@ -10,7 +10,7 @@
 #include "tests/lab/session.h"
 
 namespace seam {
-namespace {
+namespace train_cluster_test {
 
 /// A body's x in a view; nullopt where it is not in it.
 std::optional<float> Shown(const View& view, PartId body) {
@@ -92,5 +92,5 @@ TEST(TrainCluster, EachOfTheFourPlayersHasTheWholeTrainInTurn) {
   EXPECT_EQ(holders, (std::vector<int>{1, 2, 3, 4}));
 }
 
-}  // namespace
+}  // namespace train_cluster_test
 }  // namespace seam

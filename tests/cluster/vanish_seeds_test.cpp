@@ -10,7 +10,7 @@
 #include "tests/support/soak.h"
 
 namespace seam {
-namespace {
+namespace vanish_seeds_test {
 
 constexpr int kSeeds = 4, kSeedsSoak = 20;
 /// Of the holder's last state, s, and m.
@@ -34,5 +34,5 @@ TEST(VanishCluster, NothingStandsOrJumpsWhoeverVanishesWherever) {
   }
 }
 
-}  // namespace
+}  // namespace vanish_seeds_test
 }  // namespace seam

@@ -8,7 +8,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace vanish_test {
 
 /// Ann's disc goes by at 5 m/s; bob only looks, and the server has nothing there.
 const char* const kPassing = R"(
@@ -166,5 +166,5 @@ TEST(Vanish, WhoOnlyLagsDrivesOn) {
   }
 }
 
-}  // namespace
+}  // namespace vanish_test
 }  // namespace seam

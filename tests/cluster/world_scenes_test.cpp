@@ -8,7 +8,7 @@
 #include "tests/support/two_sides.h"
 
 namespace seam {
-namespace {
+namespace world_scenes_test {
 
 class WorldScene : public ::testing::TestWithParam<const char*> {};
 
@@ -64,5 +64,5 @@ INSTANTIATE_TEST_SUITE_P(Scenes, WorldScene,
                                            "battlefield"),
                          [](const auto& scene) { return std::string(scene.param); });
 
-}  // namespace
+}  // namespace world_scenes_test
 }  // namespace seam

@@ -16,7 +16,7 @@
 #include "tests/support/soak.h"
 
 namespace seam {
-namespace {
+namespace codec_test {
 
 using Messages =
     ::testing::Types<Hello, Welcome, Chunk, Room, Ping, Pong, Inputs, States, Rest, PackedStates,
@@ -315,5 +315,5 @@ TEST(CodecWire, TypeHashesArePinnedToTheProtocolVersion) {
   EXPECT_EQ(hashes["bye_t"], 0x51c7828d52d2d8f2u);
 }
 
-}  // namespace
+}  // namespace codec_test
 }  // namespace seam

@@ -7,7 +7,7 @@
 #include "common/codec/codec.h"
 
 namespace seam {
-namespace {
+namespace ids_test {
 
 constexpr std::int32_t kHigh = 65534;
 
@@ -148,5 +148,5 @@ TEST(Ids, AMechanismThatEveryPlayerAndTheServerFollowFitsOneMessage) {
   EXPECT_EQ(arrived.follower, grants.follower);
 }
 
-}  // namespace
+}  // namespace ids_test
 }  // namespace seam

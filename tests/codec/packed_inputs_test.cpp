@@ -12,7 +12,7 @@
 #include "tests/support/soak.h"
 
 namespace seam {
-namespace {
+namespace packed_inputs_test {
 
 /// As a player drives: mostly held, or other in every tick; `ticks` of them up to `last`.
 Inputs Driven(int player, std::int64_t last, int ticks, bool held, Random* random) {
@@ -175,5 +175,5 @@ TEST(PackedInputs, NoBitsDoHarm) {
   }
 }
 
-}  // namespace
+}  // namespace packed_inputs_test
 }  // namespace seam

@@ -17,7 +17,7 @@
 #include "tests/support/soak.h"
 
 namespace seam {
-namespace {
+namespace packed_states_test {
 
 constexpr int kHz = 60;
 const PackedMotion kMotion(0, -10, kHz);
@@ -320,5 +320,5 @@ TEST(PackedStates, DifferencesFromWhatNeverCameAreRefused) {
   EXPECT_EQ(unpacker.Take(message().packed), nullptr);
 }
 
-}  // namespace
+}  // namespace packed_states_test
 }  // namespace seam

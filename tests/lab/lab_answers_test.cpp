@@ -9,7 +9,7 @@
 #include "tests/lab/report/html/answers.h"
 
 namespace seam {
-namespace {
+namespace lab_answers_test {
 
 TEST(Answers, ASceneInWhichFewMethodsRanSaysNothingOfTheOthers) {
   // In wall three methods, fade with the least error; in stack strict alone.
@@ -39,5 +39,5 @@ TEST(Answers, ASceneInWhichFewMethodsRanSaysNothingOfTheOthers) {
   EXPECT_EQ(answers->rows[0].back(), "1");
 }
 
-}  // namespace
+}  // namespace lab_answers_test
 }  // namespace seam

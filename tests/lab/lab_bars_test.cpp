@@ -10,7 +10,7 @@
 #include "tests/lab/report/hurry_section.h"
 
 namespace seam {
-namespace {
+namespace lab_bars_test {
 
 constexpr const char* kHead =
     "scene,set,mode,reconcile,impair,drive,smooth,seed,error_others_m,error_rms_m,stutter_mps2,"
@@ -177,5 +177,5 @@ TEST(Report, TheSweepsItRunsCanBeRunAndLeaveNoReconcilerOut) {
   }
 }
 
-}  // namespace
+}  // namespace lab_bars_test
 }  // namespace seam

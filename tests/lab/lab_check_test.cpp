@@ -9,7 +9,7 @@
 #include "tests/support/source_tree.h"
 
 namespace seam {
-namespace {
+namespace lab_check_test {
 
 namespace fs = std::filesystem;
 
@@ -191,5 +191,5 @@ TEST(LabCheckProgram, PrintsThePlaceAndDrawsTheScene) {
   EXPECT_EQ(two.errors(), "seam-lab: -o draws one scene, not several\n");
 }
 
-}  // namespace
+}  // namespace lab_check_test
 }  // namespace seam

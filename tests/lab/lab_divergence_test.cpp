@@ -14,7 +14,7 @@
 #include "tests/support/lab_workspace.h"
 
 namespace seam {
-namespace {
+namespace lab_divergence_test {
 
 /// A short session in memory.
 Recording Session() {
@@ -159,5 +159,5 @@ TEST(FirstDivergence, TheProgramSaysWhereAndByHowMuch) {
   EXPECT_NE(run({files / "cradle.lcm"}, 2).find("another scene"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace lab_divergence_test
 }  // namespace seam

@@ -14,7 +14,7 @@
 #include "tests/support/lab_workspace.h"
 
 namespace seam {
-namespace {
+namespace lab_gait_test {
 
 /// Least value found in so many generations.
 template <class Function>
@@ -212,5 +212,5 @@ TEST(LabGaitProgram, WritesTheGainsFileOnlyWhenAsked) {
   EXPECT_EQ(files.Read("right.inc"), text + "// the end\n") << "nothing was searched";
 }
 
-}  // namespace
+}  // namespace lab_gait_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "tests/support/lab_workspace.h"
 
 namespace seam {
-namespace {
+namespace lab_grid_test {
 
 Grid GridOf(const LabWorkspace& files, const std::string& text) {
   files.Write("sweep.toml", text);
@@ -173,5 +173,5 @@ TEST(Grid, MistakesAreSaidBeforeAnythingRuns) {
   EXPECT_THROW(ReadGrid(files / "none.toml"), OperatorError);
 }
 
-}  // namespace
+}  // namespace lab_grid_test
 }  // namespace seam

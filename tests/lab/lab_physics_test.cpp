@@ -20,7 +20,7 @@
 #include "tests/support/lab_workspace.h"
 
 namespace seam {
-namespace {
+namespace lab_physics_test {
 
 const char* const kGround = "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [50, 0]]\n";
 const char* const kBall =
@@ -329,5 +329,5 @@ TEST(LabPhysics, MistakesAreSaidAndNothingIsWritten) {
   EXPECT_TRUE(files.Names().empty());
 }
 
-}  // namespace
+}  // namespace lab_physics_test
 }  // namespace seam

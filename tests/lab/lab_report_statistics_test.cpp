@@ -14,7 +14,7 @@
 #include "tests/lab/report/text_table.h"
 
 namespace seam {
-namespace {
+namespace lab_report_statistics_test {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -156,5 +156,5 @@ TEST(Csv, ALineIsReadAsItWasWritten) {
   EXPECT_THROW(CsvFields("a\nb"), OperatorError) << "two lines";
 }
 
-}  // namespace
+}  // namespace lab_report_statistics_test
 }  // namespace seam

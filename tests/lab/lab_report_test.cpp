@@ -14,7 +14,7 @@
 #include "tests/support/lab_workspace.h"
 
 namespace seam {
-namespace {
+namespace lab_report_test {
 
 /// Two methods at two latencies, three seeds each: fade errs 1, 2, 3 and 4, 5, 6 mm, strict ten
 /// times that.
@@ -334,5 +334,5 @@ TEST(Report, AnInputDelayIsPaidForWithTheOwnResponse) {
   EXPECT_TRUE(FrontTable({sweep}).rows.empty()) << "it is no matter of CPU or bytes";
 }
 
-}  // namespace
+}  // namespace lab_report_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "tests/support/lab_workspace.h"
 
 namespace seam {
-namespace {
+namespace lab_run_test {
 
 RunCommand Short(const std::string& log) {
   RunCommand command;
@@ -121,5 +121,5 @@ TEST(LabRun, ANetworkThatLetsNobodyInIsSaid) {
   EXPECT_THROW(RunSession(Configure(settings)), OperatorError);
 }
 
-}  // namespace
+}  // namespace lab_run_test
 }  // namespace seam

@@ -7,7 +7,7 @@
 #include "tests/lab/scene_settings.h"
 
 namespace seam {
-namespace {
+namespace lab_settings_test {
 
 const char* const kText = R"(title = "Set me"
 buffer = 10     # metres
@@ -83,5 +83,5 @@ TEST(SceneSettings, ThatMeanNothingAreRefused) {
   EXPECT_THROW(With("solver.substeps=4", "solver.substeps = 2\n"), OperatorError);
 }
 
-}  // namespace
+}  // namespace lab_settings_test
 }  // namespace seam

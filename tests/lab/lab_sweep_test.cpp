@@ -18,7 +18,7 @@
 #include "tests/support/lab_workspace.h"
 
 namespace seam {
-namespace {
+namespace lab_sweep_test {
 
 Grid GridOf(const LabWorkspace& files, const std::string& text) {
   files.Write("sweep.toml", text);
@@ -324,5 +324,5 @@ TEST(LabSweep, ARunThatFailsLeavesNoRowAndTheOthersGoOn) {
   EXPECT_EQ(files.Read("other.csv"), "mine\n");
 }
 
-}  // namespace
+}  // namespace lab_sweep_test
 }  // namespace seam

@@ -16,7 +16,7 @@
 #include "tests/support/lab_workspace.h"
 
 namespace seam {
-namespace {
+namespace lab_tune_test {
 
 TEST(Settings, AreWrittenAsTheSceneFileReadsThem) {
   for (const GridSize size : {GridSize::kReport, GridSize::kFull}) {
@@ -241,5 +241,5 @@ TEST(LabOverhead, WritesARowForEachSceneAndGoesOnWhereItStopped) {
   EXPECT_EQ(files.Names(), std::vector<std::string>{"o.csv"}) << "nothing is written";
 }
 
-}  // namespace
+}  // namespace lab_tune_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "tests/support/source_tree.h"
 
 namespace seam {
-namespace {
+namespace contents_test {
 
 Recording Played() {
   ClusterConfig config;
@@ -88,5 +88,5 @@ TEST(ContentsProgram, RenderAndMeasureListTheSame) {
   EXPECT_EQ(folder.Content(), before) << "nothing is written";
 }
 
-}  // namespace
+}  // namespace contents_test
 }  // namespace seam

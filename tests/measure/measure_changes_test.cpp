@@ -15,7 +15,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace measure_changes_test {
 
 /// A bar of two boxes, the heavy one its root, that flies and turns; and a box on its own.
 const char* const kScene = R"(
@@ -265,5 +265,5 @@ TEST(Changes, ALongRoomsEditsAreAllReadAndADamagedNumberCostsNoMemory) {
   EXPECT_TRUE(EditsOf(damaged).empty());
 }
 
-}  // namespace
+}  // namespace measure_changes_test
 }  // namespace seam

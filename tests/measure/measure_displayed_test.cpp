@@ -11,7 +11,7 @@
 #include "tests/support/made_recording.h"
 
 namespace seam {
-namespace {
+namespace measure_displayed_test {
 
 /// Bodies 3 and 7 of a made recording, as boxes of 1 kg, and anchored things out of the way. 3 is
 /// above a floor at y = 0, which does not reach to where 7 stands.
@@ -258,5 +258,5 @@ TEST(Cost, WhatClientsSendIsAlsoToldApart) {
   EXPECT_DOUBLE_EQ(m.bytes_per_s, (2000.0 + 2250.0) / 2);
 }
 
-}  // namespace
+}  // namespace measure_displayed_test
 }  // namespace seam

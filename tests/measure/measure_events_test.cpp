@@ -9,7 +9,7 @@
 #include "tests/support/made_recording.h"
 
 namespace seam {
-namespace {
+namespace measure_events_test {
 
 // ---- rebound
 
@@ -169,5 +169,5 @@ TEST(Cost, WaitingAndRestartsAreLeftOut) {
   EXPECT_DOUBLE_EQ(Measure(run, MakeOracle(10, Moving(2))).bytes_per_s, 1000);
 }
 
-}  // namespace
+}  // namespace measure_events_test
 }  // namespace seam

@@ -14,7 +14,7 @@
 #include "common/physics/world.h"
 
 namespace seam {
-namespace {
+namespace measure_geometry_test {
 
 struct Meters {
   explicit Meters(const std::string& text)
@@ -336,5 +336,5 @@ TEST(Energy, OfABouncingSpringIsKeptByTheWorld) {
   EXPECT_NEAR(lowest, -20 / (4 * M_PI * M_PI), 1e-3);  // 2 g / omega^2: energy went to and fro
 }
 
-}  // namespace
+}  // namespace measure_geometry_test
 }  // namespace seam

@@ -13,7 +13,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace measure_limit_test {
 
 constexpr std::int64_t kTickUs = 16667;
 
@@ -247,5 +247,5 @@ TEST(Oracles, LookForAContactOfTwoPlayersWhereTheSceneExpectsOne) {
   EXPECT_FALSE(ComputeOracle(recording).contact.value());
 }
 
-}  // namespace
+}  // namespace measure_limit_test
 }  // namespace seam

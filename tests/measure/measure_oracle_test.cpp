@@ -18,7 +18,7 @@
 #include "tests/support/temporary_file.h"
 
 namespace seam {
-namespace {
+namespace measure_oracle_test {
 
 /// A box that its motor-less player may kick, and another that it hits.
 const char* const kScene = R"(
@@ -297,5 +297,5 @@ TEST_F(MeasureProgram, WarnsOfDamageAndMeasuresTheRest) {
   EXPECT_NE(output_.find("kick"), std::string::npos) << output_;
 }
 
-}  // namespace
+}  // namespace measure_oracle_test
 }  // namespace seam

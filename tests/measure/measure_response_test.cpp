@@ -13,7 +13,7 @@
 #include "tests/support/made_recording.h"
 
 namespace seam {
-namespace {
+namespace measure_response_test {
 
 /// Nothing but a disc of pi/4 kg that its player pushes by a button, and another player's.
 const char* const kScene = R"(
@@ -189,5 +189,5 @@ TEST(Response, AreTheChangesThatWereRecordedEvenlyChosen) {
   EXPECT_EQ(some[1].tick, 300);
 }
 
-}  // namespace
+}  // namespace measure_response_test
 }  // namespace seam

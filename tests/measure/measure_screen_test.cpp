@@ -10,7 +10,7 @@
 #include "tests/support/made_recording.h"
 
 namespace seam {
-namespace {
+namespace measure_screen_test {
 
 /// One moving assembly for each text of parts; all of a scene of two players.
 Scene MakeScene(const std::string& parts) {
@@ -206,5 +206,5 @@ TEST(Handover, ThePercentileOfTheGapsIsTheNearestRank) {
   EXPECT_EQ(m.handover_dv_p95_mps, 0);
 }
 
-}  // namespace
+}  // namespace measure_screen_test
 }  // namespace seam

@@ -7,7 +7,7 @@
 #include "tests/support/made_recording.h"
 
 namespace seam {
-namespace {
+namespace measure_seam_test {
 
 TEST(Seam, APeerWhoShowsWhatTheAuthorityShowsHasNoneHoweverWrongBothAre) {
   const Recording run = MakeRecording(3, 100, Moving(2));
@@ -52,5 +52,5 @@ TEST(Seam, IsNotMeasuredWhereNobodyFollows) {
   EXPECT_FALSE(Measure(run, MakeOracle(50, Moving(2))).seam_rms_m);
 }
 
-}  // namespace
+}  // namespace measure_seam_test
 }  // namespace seam

@@ -13,7 +13,7 @@
 #include "tests/support/made_recording.h"
 
 namespace seam {
-namespace {
+namespace measure_seen_test {
 
 /// A vehicle on a winding road: never twice the same velocity.
 BodyState Winding(double s) {
@@ -292,5 +292,5 @@ TEST(Kinetic, IsTheRatioOfWhatIsShownToTheOracles) {
   EXPECT_NEAR(*m.hottest_ratio, 4, 1e-5);
 }
 
-}  // namespace
+}  // namespace measure_seen_test
 }  // namespace seam

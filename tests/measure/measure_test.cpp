@@ -11,7 +11,7 @@
 #include "tests/support/made_recording.h"
 
 namespace seam {
-namespace {
+namespace measure_test {
 
 TEST(Measure, ARecordingEqualToItsOracleHasNoErrorAtAll) {
   const Path motion = [](std::int64_t t) {
@@ -244,5 +244,5 @@ TEST(Table, IsAlignedAndShowsWhatDoesNotApplyAsADash) {
   EXPECT_NE(FormatTable({first}, true).find("hand-over"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace measure_test
 }  // namespace seam

@@ -18,7 +18,7 @@
 #include "tests/support/program.h"
 
 namespace seam {
-namespace {
+namespace publish_own_test {
 
 /// Three players far from each other, each with a cart and crates of its own.
 Recording Played(Publish publish, Recorder* recorder = nullptr) {
@@ -208,5 +208,5 @@ TEST_F(PublishOwnPrograms, APageAPictureAndOtherFormatsAreMadeOfIt) {
   EXPECT_EQ(errors_.find("all.lcm: views with a part"), std::string::npos) << errors_;
 }
 
-}  // namespace
+}  // namespace publish_own_test
 }  // namespace seam

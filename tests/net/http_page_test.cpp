@@ -16,7 +16,7 @@
 #include "common/base/process.h"
 
 namespace seam {
-namespace {
+namespace http_page_test {
 
 /// A page that is served by a thread while the object lives.
 class Served {
@@ -129,5 +129,5 @@ TEST(HttpPage, NobodyListensAndATakenPortAreOneLineEach) {
   }
 }
 
-}  // namespace
+}  // namespace http_page_test
 }  // namespace seam

@@ -7,7 +7,7 @@
 #include "common/base/entropy.h"
 
 namespace seam {
-namespace {
+namespace keyed_hash_test {
 
 TEST(KeyedHash, IsThePapersExample) {
   HashKey key;
@@ -31,5 +31,5 @@ TEST(Entropy, OfTheSystemDiffersAndOfASeedRepeats) {
   }
 }
 
-}  // namespace
+}  // namespace keyed_hash_test
 }  // namespace seam

@@ -13,7 +13,7 @@
 #include "common/net/sequence_window.h"
 
 namespace seam {
-namespace {
+namespace link_distrust_test {
 
 constexpr std::uint64_t kSession = 0x1122334455667788ULL;
 const Link::Sink kIgnore = [](ByteView) {};
@@ -226,5 +226,5 @@ TEST(SequenceWindow, KnowsWhatArrivedAndWhatShareDidNot) {
   EXPECT_TRUE(window.IsNew(1019 - 255));
 }
 
-}  // namespace
+}  // namespace link_distrust_test
 }  // namespace seam

@@ -7,7 +7,7 @@
 #include "common/net/link.h"
 
 namespace seam {
-namespace {
+namespace link_receipt_test {
 
 constexpr std::uint64_t kSession = 7;
 
@@ -74,5 +74,5 @@ TEST(LinkReceipts, SendsSaysWhetherAFlushWouldSend) {
   }
 }
 
-}  // namespace
+}  // namespace link_receipt_test
 }  // namespace seam

@@ -10,7 +10,7 @@
 #include "common/net/link.h"
 
 namespace seam {
-namespace {
+namespace link_repeat_test {
 
 constexpr std::uint64_t kSession = 0x1122334455667788ULL;
 constexpr std::int64_t kTickUs = 16'667, kOneWayUs = 50'000;
@@ -119,5 +119,5 @@ TEST(LinkRepeat, CopiesOfMuchTakeABoundedShareOfThePath) {
   EXPECT_LE(copies, 32'000 * ticks / 60.0 + kMessageBytesMax + 204 + 24 * ticks);
 }
 
-}  // namespace
+}  // namespace link_repeat_test
 }  // namespace seam

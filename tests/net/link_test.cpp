@@ -16,7 +16,7 @@
 #include "common/net/memory.h"
 
 namespace seam {
-namespace {
+namespace link_test {
 
 constexpr std::uint64_t kSession = 0x1122334455667788ULL;
 constexpr std::int64_t kTickUs = 16'667;
@@ -335,5 +335,5 @@ TEST(Link, MayBeUsedFromWithinADelivery) {
   EXPECT_EQ(heard, "pong");
 }
 
-}  // namespace
+}  // namespace link_test
 }  // namespace seam

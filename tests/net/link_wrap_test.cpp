@@ -12,7 +12,7 @@
 #include "common/net/sequence_window.h"
 
 namespace seam {
-namespace {
+namespace link_wrap_test {
 
 constexpr std::uint64_t kSession = 77;
 
@@ -188,5 +188,5 @@ TEST(Link, WhatItsGateRefusesIsAsIfItHadBeenLost) {
   EXPECT_EQ(asked, 1u);
 }
 
-}  // namespace
+}  // namespace link_wrap_test
 }  // namespace seam

@@ -8,7 +8,7 @@
 #include "tests/support/traffic.h"
 
 namespace seam {
-namespace {
+namespace net_impair_test {
 
 TEST(Impair, PerfectDeliversAtOnceAndUnchanged) {
   const Traffic run;
@@ -234,5 +234,5 @@ TEST(Impair, AFloodIsBoundedInMemory) {
   EXPECT_EQ(count, ImpairedNet::kPathBytesMax / 1000);
 }
 
-}  // namespace
+}  // namespace net_impair_test
 }  // namespace seam

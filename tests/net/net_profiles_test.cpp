@@ -11,7 +11,7 @@
 #include "tests/support/traffic.h"
 
 namespace seam {
-namespace {
+namespace net_profiles_test {
 
 /// Long run share of losses of a Gilbert-Elliott chain (Elliott 1963).
 double ExpectedLoss(const ImpairProfile& profile) {
@@ -189,5 +189,5 @@ TEST(Profiles, AWrongSpecIsOneLineThatSaysWhatToChange) {
   }
 }
 
-}  // namespace
+}  // namespace net_profiles_test
 }  // namespace seam

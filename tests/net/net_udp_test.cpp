@@ -15,7 +15,7 @@
 #include "common/net/udp.h"
 
 namespace seam {
-namespace {
+namespace net_udp_test {
 
 constexpr std::uint32_t kLoopback = 0x7f000001;
 
@@ -242,5 +242,5 @@ TEST(MemoryNetwork, ARestartedEndpointTakesTheOldOnesPlace) {
   EXPECT_TRUE(fresh->Receive(&from, &data));
 }
 
-}  // namespace
+}  // namespace net_udp_test
 }  // namespace seam

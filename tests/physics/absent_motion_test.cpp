@@ -12,7 +12,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace absent_motion_test {
 
 const char* const kNoGravity = "gravity = [0, 0]\n";
 constexpr int kBall = 0, kShown = 1;
@@ -279,5 +279,5 @@ INSTANTIATE_TEST_SUITE_P(Scenes, AbsentInScene,
                                          "battlefield", "harbour", "titanic", "crane", "dockside"),
                          [](const auto& scene) { return std::string(scene.param); });
 
-}  // namespace
+}  // namespace absent_motion_test
 }  // namespace seam

@@ -13,7 +13,7 @@
 #include "tests/support/living_world.h"
 
 namespace seam {
-namespace {
+namespace anchored_bodies_test {
 
 int CountShared(const Scene& scene) {
   const std::vector<bool> share = ShareBodies(scene, Compose(scene));
@@ -261,5 +261,5 @@ TEST(AnchoredBodies, ABarrierAmongThemIsBitExact) {
   EXPECT_EQ(first, again);
 }
 
-}  // namespace
+}  // namespace anchored_bodies_test
 }  // namespace seam

@@ -19,7 +19,7 @@
 #include "common/scene/scene.h"
 
 namespace seam {
-namespace {
+namespace blast_push_test {
 
 const std::string kWeightless = "gravity = [0, 0]\n";
 
@@ -311,5 +311,5 @@ TEST(BlastPush, TheTickAfterItCostsLittleBesideAThousandGluedBoxes) {
   EXPECT_LT(looks, 100) << "170 where each push looks at all boxes";
 }
 
-}  // namespace
+}  // namespace blast_push_test
 }  // namespace seam

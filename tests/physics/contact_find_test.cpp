@@ -11,7 +11,7 @@
 #include "common/physics/world_shapes.h"
 
 namespace seam {
-namespace {
+namespace contact_find_test {
 
 /// Part and segment of the first shape and of the second.
 using Contact = std::tuple<std::uint32_t, int, std::uint32_t, int>;
@@ -131,5 +131,5 @@ TEST(Engine, ReadsNoClock) {
   }
 }
 
-}  // namespace
+}  // namespace contact_find_test
 }  // namespace seam

@@ -8,7 +8,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace contact_order_test {
 
 /// A ball shoved into a heap of crates; with many more crates around it, which come first, after
 /// and in between by their ids.
@@ -138,5 +138,5 @@ TEST(ContactOrder, ABarrierOfWhatSleepsIsAsGoodAsBuildingItAnew) {
   EXPECT_LT(saved->Read(3).position.y(), 5) << "it fell";
 }
 
-}  // namespace
+}  // namespace contact_order_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace couplings_test {
 
 const std::string kPost =
     "[[part]]\nname = \"post\"\nbox = [0.2, 0.2]\nposition = [0, 5]\nanchored = true\n";
@@ -216,5 +216,5 @@ TEST(Couplings, GlueFeelsThePullOfARopeAtEitherEnd) {
   EXPECT_TRUE(TearsOff(9.8));
 }
 
-}  // namespace
+}  // namespace couplings_test
 }  // namespace seam

@@ -20,7 +20,7 @@
 #include "tests/support/scripted_world.h"
 
 namespace seam {
-namespace {
+namespace determinism_test {
 
 constexpr const char* kScenes[] = {"crossing", "wall",    "stack",   "cradle",  "relay",
                                    "harbour",  "regatta", "skyline", "titanic", "gluehouse",
@@ -147,5 +147,5 @@ TEST(Determinism, EveryBuildComputesTheGoldenHashes) {
   EXPECT_EQ(computed, golden) << "see the head of this file";
 }
 
-}  // namespace
+}  // namespace determinism_test
 }  // namespace seam

@@ -8,7 +8,7 @@
 #include "common/physics/world.h"
 
 namespace seam {
-namespace {
+namespace displayed_joint_test {
 
 TEST(DisplayedJoint, ASpringBetweenAnAnchorAndADisplayedBodyStaysFinite) {
   const Scene scene = ParseScene(R"(
@@ -56,5 +56,5 @@ TEST(DisplayedJoint, WhollyDisplayedScenesStayFinite) {
   }
 }
 
-}  // namespace
+}  // namespace displayed_joint_test
 }  // namespace seam

@@ -7,7 +7,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace faces_test {
 
 std::vector<Face> FacesIn(const std::string& parts, const std::string& solver = "") {
   const auto world = SmallWorld(parts, solver);
@@ -70,5 +70,5 @@ TEST(Faces, MergedPartsFallAndRestAsTheyDoOneByOne) {
   EXPECT_FLOAT_EQ(merged->mass(0), each->mass(0));
 }
 
-}  // namespace
+}  // namespace faces_test
 }  // namespace seam

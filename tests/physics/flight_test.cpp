@@ -10,7 +10,7 @@
 #include "common/physics/world.h"
 
 namespace seam {
-namespace {
+namespace flight_test {
 
 /// A body over ground. {} is the part, with what it hits.
 World WorldOf(const std::string& text) { return World(ParseScene(text, "flight.toml")); }
@@ -115,5 +115,5 @@ TEST(Flight, FiltersAndWhatIsNotAnchoredAreNotMet) {
   EXPECT_LT(through.AfterFlight(0, through.Read(0), 1.5f).position.y(), -5);
 }
 
-}  // namespace
+}  // namespace flight_test
 }  // namespace seam

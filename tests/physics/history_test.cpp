@@ -7,7 +7,7 @@
 #include <algorithm>
 
 namespace seam {
-namespace {
+namespace history_test {
 
 /// Two bodies whose states say which tick and body they are.
 std::vector<BodyState> StatesOf(std::int64_t tick) {
@@ -67,5 +67,5 @@ TEST(HistoryDeathTest, GapsAreOurOwnBug) {
   EXPECT_DEATH(history.At(3, 2), "assertion failed");
 }
 
-}  // namespace
+}  // namespace history_test
 }  // namespace seam

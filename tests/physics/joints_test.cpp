@@ -10,7 +10,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace joints_test {
 
 const char* kPost = "[[part]]\nname = \"post\"\nbox = [0.2, 0.2]\nanchored = true\n";
 const char* kDriver = "[[player]]\nname = \"ann\"\n";
@@ -340,5 +340,5 @@ TEST(JointDrift, KnowsAxesLimitsAndRopes) {
   EXPECT_EQ(drift("motor", "force = 1\ntorque = 1", {5, 5}), 0);
 }
 
-}  // namespace
+}  // namespace joints_test
 }  // namespace seam

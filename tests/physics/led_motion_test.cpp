@@ -7,7 +7,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace led_motion_test {
 
 const char* const kNoGravity = "gravity = [0, 0]\n";
 
@@ -219,5 +219,5 @@ TEST(LedBody, WhereNothingSleepsNothingHangsInTheAirAsItWasShown) {
   }
 }
 
-}  // namespace
+}  // namespace led_motion_test
 }  // namespace seam

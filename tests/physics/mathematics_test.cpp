@@ -7,7 +7,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace mathematics_test {
 
 constexpr double kG = 10;
 
@@ -235,5 +235,5 @@ TEST(Mathematics, FreeAssemblyTurnsAboutItsCentreOfMass) {
   EXPECT_NEAR(world->Energy(), energy, 1e-6 * energy);
 }
 
-}  // namespace
+}  // namespace mathematics_test
 }  // namespace seam

@@ -6,7 +6,7 @@
 #include "common/scene/scene.h"
 
 namespace seam {
-namespace {
+namespace ready_fixtures_test {
 
 /// Of every kind that may move; a polygon of ten corners is two pieces, a capsule three.
 const char* const kParts = R"(
@@ -93,5 +93,5 @@ TEST(ReadyFixtures, ABodyWithAChainIsNotRemembered) {
   EXPECT_FALSE(ready.has());
 }
 
-}  // namespace
+}  // namespace ready_fixtures_test
 }  // namespace seam

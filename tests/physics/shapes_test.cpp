@@ -11,7 +11,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace shapes_test {
 
 const char* kGround = "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [50, 0]]\n";
 
@@ -185,5 +185,5 @@ TEST(Shapes, PiecesOfOnePartHaveImpulsesOfTheirOwnInABarrier) {
   }
 }
 
-}  // namespace
+}  // namespace shapes_test
 }  // namespace seam

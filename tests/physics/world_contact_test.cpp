@@ -7,7 +7,7 @@
 #include "tests/support/scripted_world.h"
 
 namespace seam {
-namespace {
+namespace world_contact_test {
 
 ScriptedWorld Simulate(const std::string& text) {
   return ScriptedWorld(ParseScene(text, "test.toml"));
@@ -224,5 +224,5 @@ damping_ratio = 0
   EXPECT_NEAR(run.Read("mass").position.x(), 3.5, 0.06) << "a soft constraint damps by h";
 }
 
-}  // namespace
+}  // namespace world_contact_test
 }  // namespace seam

@@ -7,7 +7,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace world_edges_test {
 
 std::string Box(const char* name, double x, double y, const char* more = "") {
   return std::string("[[part]]\nname = \"") + name + "\"\nbox = [1, 1]\nposition = [" +
@@ -152,5 +152,5 @@ TEST(WorldEdges, ImpactsOfATickAreTheSameInAnySubsteps) {
   }
 }
 
-}  // namespace
+}  // namespace world_edges_test
 }  // namespace seam

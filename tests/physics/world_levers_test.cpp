@@ -9,7 +9,7 @@
 #include "common/physics/world.h"
 
 namespace seam {
-namespace {
+namespace world_levers_test {
 
 std::unique_ptr<World> Levers(const std::string& solver, const std::string& parts) {
   return std::make_unique<World>(
@@ -81,5 +81,5 @@ TEST(Levers, WithoutWarmStartingAStackIsSofter) {
   EXPECT_GT(sunk[false], sunk[true] + 0.01f);
 }
 
-}  // namespace
+}  // namespace world_levers_test
 }  // namespace seam

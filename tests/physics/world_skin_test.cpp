@@ -9,7 +9,7 @@
 #include "common/physics/world.h"
 
 namespace seam {
-namespace {
+namespace world_skin_test {
 
 /// Ground whose surface is y = 0, as a box or as a chain.
 std::string Ground(bool chain) {
@@ -112,5 +112,5 @@ TEST(Skin, OutOfItsRangeIsAMistake) {
   EXPECT_ANY_THROW(ParseScene("[solver]\nskin = 0.02\n" + Ground(true), "s.toml"));
 }
 
-}  // namespace
+}  // namespace world_skin_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace world_snapshot_test {
 
 /// Runs `ticks` of a scene with a barrier every `every`, goes back to each barrier in turn and does
 /// again what came after it. The number of ticks whose hash was another one then.
@@ -231,5 +231,5 @@ TEST(Snapshot, SaysWhatABarrierCosts) {
   }
 }
 
-}  // namespace
+}  // namespace world_snapshot_test
 }  // namespace seam

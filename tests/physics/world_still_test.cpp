@@ -9,7 +9,7 @@
 #include "common/physics/world.h"
 
 namespace seam {
-namespace {
+namespace world_still_test {
 
 const char* const kBoxes = R"(
 [[player]]
@@ -114,5 +114,5 @@ TEST(WorldStill, WhatIsTooLongAgoIsNotKnown) {
   EXPECT_EQ(changed, std::vector<int>{3});
 }
 
-}  // namespace
+}  // namespace world_still_test
 }  // namespace seam

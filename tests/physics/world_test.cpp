@@ -10,7 +10,7 @@
 #include "tests/support/scripted_world.h"
 
 namespace seam {
-namespace {
+namespace world_test {
 
 ScriptedWorld Simulate(const std::string& text) {
   return ScriptedWorld(ParseScene(text, "test.toml"));
@@ -247,5 +247,5 @@ b = "bob"
   EXPECT_NEAR(std::abs(blocked_directions[2].normal.dot(along)), 1, 1e-4);
 }
 
-}  // namespace
+}  // namespace world_test
 }  // namespace seam

@@ -4,7 +4,7 @@
 #include "tests/support/operator_mistakes.h"
 
 namespace seam {
-namespace {
+namespace bad_input_test {
 
 TEST_F(BadInput, ScenesAreRefusedByFileAndLine) {
   std::vector<Mistake> mistakes = {Server({"missing.toml"}, "missing.toml: no such"),
@@ -247,5 +247,5 @@ TEST(ServerProgram, SaysOnItsTerminalWhyAScriptWasStopped) {
       << run.Story();
 }
 
-}  // namespace
+}  // namespace bad_input_test
 }  // namespace seam

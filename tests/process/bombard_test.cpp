@@ -17,7 +17,7 @@
 #include "tests/support/udp_socket.h"
 
 namespace seam {
-namespace {
+namespace bombard_test {
 
 constexpr std::uint64_t kSeed = 20;
 constexpr std::int64_t kTicks = 240;  ///< of a session
@@ -249,5 +249,5 @@ TEST_F(Bombarded, AForgedPlayerHarmsNeitherTheServerNorTheOthersNorItsOwnProgram
   EXPECT_TRUE(bob->status() == 0 || bob->status() == 2) << "no crash, no abort";
 }
 
-}  // namespace
+}  // namespace bombard_test
 }  // namespace seam

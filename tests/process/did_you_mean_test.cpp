@@ -9,7 +9,7 @@
 #include "tests/support/source_tree.h"
 
 namespace seam {
-namespace {
+namespace did_you_mean_test {
 
 using Words = std::vector<std::string>;
 
@@ -74,5 +74,5 @@ TEST(DidYouMean, IsSaidOfSubcommandsScenesAndNames) {
   }
 }
 
-}  // namespace
+}  // namespace did_you_mean_test
 }  // namespace seam

@@ -16,7 +16,7 @@
 #include "tests/support/live_session.h"
 
 namespace seam {
-namespace {
+namespace end_to_end_test {
 
 constexpr std::int64_t kTicks = 240;  ///< of each session: 4 s. The blow is at 2.6 s
 constexpr std::int64_t kEdge = 30;    ///< a client may begin so late and end so early, ticks
@@ -315,5 +315,5 @@ TEST_F(EndToEnd, TheRendererDrawsACapture) {
   EXPECT_EQ(Content(strobe).substr(1, 3), "PNG");
 }
 
-}  // namespace
+}  // namespace end_to_end_test
 }  // namespace seam

@@ -13,7 +13,7 @@
 #include "tests/support/source_tree.h"
 
 namespace seam {
-namespace {
+namespace how_to_test {
 
 /// A block of the page that is marked: a file to write, or commands to run.
 struct Block {
@@ -77,5 +77,5 @@ TEST(HowTo, ABlockThatFailsIsSeen) {
   EXPECT_NE(shell.status(), 0);
 }
 
-}  // namespace
+}  // namespace how_to_test
 }  // namespace seam

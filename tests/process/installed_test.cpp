@@ -14,7 +14,7 @@
 #include "tests/support/source_tree.h"
 
 namespace seam {
-namespace {
+namespace installed_test {
 
 namespace fs = std::filesystem;
 using Words = std::vector<std::string>;
@@ -153,5 +153,5 @@ TEST_F(Installed, AScenesNameThatIsNowhereIsOneLineThatSaysWhereItLooked) {
   EXPECT_EQ(path->errors().rfind("seam-server: ./crossing: no such", 0), 0u) << path->Story();
 }
 
-}  // namespace
+}  // namespace installed_test
 }  // namespace seam

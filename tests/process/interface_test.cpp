@@ -26,7 +26,7 @@
 #include "tests/support/source_tree.h"
 
 namespace seam {
-namespace {
+namespace interface_test {
 
 using Names = std::vector<std::string>;
 
@@ -236,5 +236,5 @@ TEST(Interface, HelpIsReadHoweverItIsLaidOut) {
   EXPECT_EQ(Below(help, "subcommands"), (Names{"run"}));
 }
 
-}  // namespace
+}  // namespace interface_test
 }  // namespace seam

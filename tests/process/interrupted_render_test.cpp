@@ -10,7 +10,7 @@
 #include "tests/support/program.h"
 
 namespace seam {
-namespace {
+namespace interrupted_render_test {
 
 namespace fs = std::filesystem;
 
@@ -68,5 +68,5 @@ TEST(InterruptedRender, AFullDiskLeavesTheOldPictureAndNothingElse) {
   EXPECT_FALSE(fs::exists(folder / "old.png.tmp"));
 }
 
-}  // namespace
+}  // namespace interrupted_render_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "tests/support/live_session.h"
 
 namespace seam {
-namespace {
+namespace join_leave_test {
 
 constexpr std::int64_t kHz = 60;
 /// The longest that anything is waited for, s: normally under 5; a busy machine takes its time.
@@ -304,5 +304,5 @@ TEST_F(JoinLeave, AClosedTerminalIsAGoodbye) {
       session.WaitUntil([](const Recording& r) { return Says(r, "is gone: left"); }, kPatience));
 }
 
-}  // namespace
+}  // namespace join_leave_test
 }  // namespace seam

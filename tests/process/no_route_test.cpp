@@ -9,7 +9,7 @@
 #include "tests/support/program.h"
 
 namespace seam {
-namespace {
+namespace no_route_test {
 
 class NoRoute : public InNamespace {};
 
@@ -50,5 +50,5 @@ TEST_F(NoRoute, TheDoctorSaysSoAndTheRoomCanDoWithoutTheBus) {
   EXPECT_EQ(server.status(), 0) << server.Story();
 }
 
-}  // namespace
+}  // namespace no_route_test
 }  // namespace seam

@@ -12,7 +12,7 @@
 #include "tests/support/source_tree.h"
 
 namespace seam {
-namespace {
+namespace pages_test {
 
 using Words = std::vector<std::string>;
 
@@ -148,5 +148,5 @@ TEST(Pages, AnUnknownKindIsOneLine) {
       "seam-lab: --generate takes man, bash, zsh or fish, not 'bsh' (did you mean 'bash'?)\n");
 }
 
-}  // namespace
+}  // namespace pages_test
 }  // namespace seam

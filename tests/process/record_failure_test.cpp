@@ -11,7 +11,7 @@
 #include "tests/support/program.h"
 
 namespace seam {
-namespace {
+namespace record_failure_test {
 
 using Words = std::vector<std::string>;
 
@@ -100,5 +100,5 @@ TEST(RecordFailure, TheLabAndTheMeasuresFailToo) {
   EXPECT_EQ(LinesWith(lab.errors(), "full.lcm: cannot be written: "), 1) << lab.Story();
 }
 
-}  // namespace
+}  // namespace record_failure_test
 }  // namespace seam

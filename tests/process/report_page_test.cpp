@@ -11,7 +11,7 @@
 #include "tests/support/render_synthetic.h"
 
 namespace seam {
-namespace {
+namespace report_page_test {
 
 /// Of two scenes at two latencies: in wall fade errs less, at 100 ms in stack strict does.
 std::string LatencyCsv() {
@@ -116,5 +116,5 @@ TEST_F(ReportInBrowser, ASceneCanBeChosenAndTheScaleMadeLinear) {
             0);
 }
 
-}  // namespace
+}  // namespace report_page_test
 }  // namespace seam

@@ -6,7 +6,7 @@
 #include "tests/support/render_synthetic.h"
 
 namespace seam {
-namespace {
+namespace review_layers_test {
 
 constexpr const char* kReady = "window.review && review.page.rects";
 constexpr const char* kPicture = "document.getElementById('world').toDataURL()";
@@ -100,5 +100,5 @@ TEST_F(ReviewLayers, BricksThatABlastFreedAreHolesFromThenOn) {
   EXPECT_GT(Number("Math.max(..." + worlds + ".map((w) => w.holes.length))"), 0);
 }
 
-}  // namespace
+}  // namespace review_layers_test
 }  // namespace seam

@@ -14,7 +14,7 @@
 #include "tests/support/render_synthetic.h"
 
 namespace seam {
-namespace {
+namespace review_page_test {
 
 constexpr const char* kReady = "window.review && review.page.rects";
 constexpr const char* kPicture = "document.getElementById('world').toDataURL()";
@@ -206,5 +206,5 @@ TEST(ReviewPageNames, OfARecordingAreTextAndNeverMarkup) {
   for (const std::string& complaint : browser.complaints()) ADD_FAILURE() << complaint;
 }
 
-}  // namespace
+}  // namespace review_page_test
 }  // namespace seam

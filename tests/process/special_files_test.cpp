@@ -17,7 +17,7 @@
 #include "tests/support/program.h"
 
 namespace seam {
-namespace {
+namespace special_files_test {
 
 using Words = std::vector<std::string>;
 
@@ -125,5 +125,5 @@ TEST_F(SpecialFiles, AreNoTableAndNoPictureToWrite) {
   ExpectRefused(commands);
 }
 
-}  // namespace
+}  // namespace special_files_test
 }  // namespace seam

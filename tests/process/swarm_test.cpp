@@ -17,7 +17,7 @@
 #include "tests/support/source_tree.h"
 
 namespace seam {
-namespace {
+namespace swarm_test {
 
 using Words = std::vector<std::string>;
 
@@ -218,5 +218,5 @@ TEST_F(SwarmProgram, SixRoomsOfTwoScenesAreFilledRecordedAndShown) {
   }
 }
 
-}  // namespace
+}  // namespace swarm_test
 }  // namespace seam

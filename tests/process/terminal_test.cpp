@@ -9,7 +9,7 @@
 #include "tests/support/program.h"
 
 namespace seam {
-namespace {
+namespace terminal_test {
 
 /// The longest that anything is waited for, s.
 constexpr double kPatience = 60;
@@ -119,5 +119,5 @@ TEST_F(Terminals, DrivingByKeyboardShowsTheWorldAndItsKeys) {
   EXPECT_EQ(piped.status(), 2) << "a pipe has no keys: " << piped.Story();
 }
 
-}  // namespace
+}  // namespace terminal_test
 }  // namespace seam

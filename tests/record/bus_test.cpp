@@ -18,7 +18,7 @@
 #include "tests/support/temporary_file.h"
 
 namespace seam {
-namespace {
+namespace bus_test {
 
 /// LCM wants multicast, and a test should not speak on the machine's network: each test here runs
 /// itself again in a network namespace of its own, where `network` has been typed.
@@ -320,5 +320,5 @@ TEST_F(BusInNamespace, StockPlayerReplaysOurLog) {
   }
 }
 
-}  // namespace
+}  // namespace bus_test
 }  // namespace seam

@@ -17,7 +17,7 @@
 #include "tests/support/source_tree.h"
 
 namespace seam {
-namespace {
+namespace load_page_test {
 
 /// A Load of numbers that a page can hold, with each kind of traffic at most once.
 Load RandomLoad(RandomMessages* random) {
@@ -168,5 +168,5 @@ TEST(LoadPage, ForeignAndBrokenPagesAreReadWithoutHarm) {
   EXPECT_EQ(read[0].late.count, 0);
 }
 
-}  // namespace
+}  // namespace load_page_test
 }  // namespace seam

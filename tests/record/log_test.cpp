@@ -15,7 +15,7 @@
 #include "tests/support/temporary_file.h"
 
 namespace seam {
-namespace {
+namespace log_test {
 
 std::vector<LogEvent> RandomEvents(std::uint64_t seed, int count, std::size_t bytes_max) {
   Random random(seed);
@@ -284,5 +284,5 @@ TEST(Log, ManyNestedFalseHeadersAreReadInLinearWork) {
   EXPECT_LE(AllocatedBytes() - before, 64u * log.size());
 }
 
-}  // namespace
+}  // namespace log_test
 }  // namespace seam

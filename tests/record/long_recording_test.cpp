@@ -6,7 +6,7 @@
 #include "common/record/recording.h"
 
 namespace seam {
-namespace {
+namespace long_recording_test {
 
 Stats Numbered(std::int64_t sequence, std::int64_t tick) {
   Stats stats;
@@ -38,5 +38,5 @@ TEST(LongRecording, SequencesBeyond32BitsAreKeptAndTheirGapsCounted) {
   }
 }
 
-}  // namespace
+}  // namespace long_recording_test
 }  // namespace seam

@@ -14,7 +14,7 @@
 #include "tests/support/render_synthetic.h"
 
 namespace seam {
-namespace {
+namespace loss_timeline_test {
 
 std::vector<Loss> OfKind(const std::vector<Loss>& losses, Loss::Kind kind) {
   std::vector<Loss> some;
@@ -105,5 +105,5 @@ TEST(LossTimeline, WhatTheLoggerMissedIsFoundByTheNumbersOfItsChannel) {
   EXPECT_EQ(Within(losses, {1, 1.01}).size(), 2u);
 }
 
-}  // namespace
+}  // namespace loss_timeline_test
 }  // namespace seam

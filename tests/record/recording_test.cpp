@@ -9,7 +9,7 @@
 #include "tests/support/temporary_file.h"
 
 namespace seam {
-namespace {
+namespace recording_test {
 
 Room MakeRoom(std::int64_t seed = 7) {
   Room room;
@@ -345,5 +345,5 @@ TEST(ReadRecording, ReadsALogAndCountsItsDamage) {
   EXPECT_THROW(ReadRecording(file.path() + ".none"), OperatorError);
 }
 
-}  // namespace
+}  // namespace recording_test
 }  // namespace seam

@@ -15,7 +15,7 @@
 #include "tests/support/render_fixture.h"
 
 namespace seam {
-namespace {
+namespace drawing_processes_test {
 
 namespace fs = std::filesystem;
 
@@ -71,5 +71,5 @@ TEST(DrawingProcesses, OneThatIsKilledIsAnError) {
               testing::StartsWith("a drawing process was ended: "));
 }
 
-}  // namespace
+}  // namespace drawing_processes_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "tests/support/program.h"
 
 namespace seam {
-namespace {
+namespace export_hostile_test {
 
 const char* const kHostile =
     R"x("}],"poses":[{"tick":1}], </script><script>alert(1)</script> \" ,"",)x";
@@ -73,5 +73,5 @@ assert [(r["view"], r["body"]) for r in rows] == [("server", "ball"), ("peer 1",
   EXPECT_EQ(check.status(), 0) << check.Story();
 }
 
-}  // namespace
+}  // namespace export_hostile_test
 }  // namespace seam

@@ -15,7 +15,7 @@
 #include "tests/support/source_tree.h"
 
 namespace seam {
-namespace {
+namespace export_mcap_test {
 
 struct McapRecord {
   std::uint8_t opcode = 0;
@@ -256,5 +256,5 @@ TEST(Crc32OfMcap, IsTheOneOfZip) {
   EXPECT_EQ(Crc32("6789", Crc32("12345")), Crc32("123456789"));
 }
 
-}  // namespace
+}  // namespace export_mcap_test
 }  // namespace seam

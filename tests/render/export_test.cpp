@@ -17,7 +17,7 @@
 #include "tests/support/source_tree.h"
 
 namespace seam {
-namespace {
+namespace export_test {
 
 using Words = std::vector<std::string>;
 
@@ -321,5 +321,5 @@ TEST(ExportText, HostileNamesStayOneFieldAndOneString) {
   EXPECT_EQ(JsonNumber(std::numeric_limits<double>::infinity()), "null");
 }
 
-}  // namespace
+}  // namespace export_test
 }  // namespace seam

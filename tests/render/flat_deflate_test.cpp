@@ -11,7 +11,7 @@
 #include "render/canvas/row_checksum.h"
 
 namespace seam {
-namespace {
+namespace flat_deflate_test {
 
 using Bytes = std::vector<std::uint8_t>;
 
@@ -98,5 +98,5 @@ TEST(RowChecksum, IsThatOfZlib) {
   }
 }
 
-}  // namespace
+}  // namespace flat_deflate_test
 }  // namespace seam

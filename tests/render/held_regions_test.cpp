@@ -8,7 +8,7 @@
 #include "tests/support/plan/plain_scene.h"
 
 namespace seam {
-namespace {
+namespace held_regions_test {
 
 Playback Recorded(const std::string& scene_text) {
   ClusterConfig config;
@@ -51,5 +51,5 @@ TEST(HeldRegions, ASceneThatFixesItsRegionsHasNone) {
       << "she has no vehicle: everything is the server's";
 }
 
-}  // namespace
+}  // namespace held_regions_test
 }  // namespace seam

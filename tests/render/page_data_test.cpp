@@ -17,7 +17,7 @@
 #include "tests/support/render_fixture.h"
 
 namespace seam {
-namespace {
+namespace page_data_test {
 
 /// Floats of metres are not exact to the last digit.
 constexpr double kHalf = 0.5 + 1e-3;
@@ -212,5 +212,5 @@ TEST(PageJson, Base64IsTheStandards) {
   EXPECT_EQ(of("foobar"), "Zm9vYmFy");
 }
 
-}  // namespace
+}  // namespace page_data_test
 }  // namespace seam

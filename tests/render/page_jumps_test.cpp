@@ -6,7 +6,7 @@
 #include "tests/support/render_synthetic.h"
 
 namespace seam {
-namespace {
+namespace page_jumps_test {
 
 using namespace synthetic;
 
@@ -39,5 +39,5 @@ TEST(PageJumps, AStepOfAMillimetreIsNone) {
   EXPECT_TRUE(JumpsOf(recording).empty());
 }
 
-}  // namespace
+}  // namespace page_jumps_test
 }  // namespace seam

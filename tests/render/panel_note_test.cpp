@@ -7,7 +7,7 @@
 #include "tests/support/render_synthetic.h"
 
 namespace seam {
-namespace {
+namespace panel_note_test {
 
 using namespace synthetic;
 
@@ -66,5 +66,5 @@ TEST(PeerReport, IsTheLastByTheMomentAndTheServersTheWorst) {
   EXPECT_LT(ReportOf(recording, 7, 60).loss_percent, 0);
 }
 
-}  // namespace
+}  // namespace panel_note_test
 }  // namespace seam

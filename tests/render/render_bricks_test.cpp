@@ -7,7 +7,7 @@
 #include "tests/support/render_fixture.h"
 
 namespace seam {
-namespace {
+namespace render_bricks_test {
 
 FeatherStore SmallCity() {
   BrickField street;
@@ -105,5 +105,5 @@ TEST(DrawBricks, AMillionBricksFromFarAreFewTriangles) {
   }
 }
 
-}  // namespace
+}  // namespace render_bricks_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "tests/support/render_fixture.h"
 
 namespace seam {
-namespace {
+namespace render_camera_test {
 
 std::vector<Playback> PlaybacksOf(const std::string& scene, const std::string& reconcile) {
   SessionSettings settings;
@@ -167,5 +167,5 @@ TEST(Sheet, HasAPanelForEachMomentEachAtItsOwn) {
   EXPECT_GT(Differences(six, half, 0, 60, 1280, 720), 1000);
 }
 
-}  // namespace
+}  // namespace render_camera_test
 }  // namespace seam

@@ -6,7 +6,7 @@
 #include "tests/support/render_fixture.h"
 
 namespace seam {
-namespace {
+namespace render_canvas_test {
 
 namespace fs = std::filesystem;
 
@@ -176,5 +176,5 @@ TEST(Png, ADiskThatDoesNotTakeItIsAnOperatorError) {
   EXPECT_TRUE(fs::is_character_file("/dev/full"));
 }
 
-}  // namespace
+}  // namespace render_canvas_test
 }  // namespace seam

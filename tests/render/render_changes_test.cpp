@@ -9,7 +9,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace render_changes_test {
 
 std::string Box(const std::string& name, int x, int y) {
   return "[[part]]\nname = \"" + name + "\"\nbox = [1, 1]\nposition = [" + std::to_string(x) +
@@ -82,5 +82,5 @@ TEST(RenderChanges, EachViewIsDrawnByItsOwnTopology) {
   EXPECT_LT(changed, 120);
 }
 
-}  // namespace
+}  // namespace render_changes_test
 }  // namespace seam

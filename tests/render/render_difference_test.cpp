@@ -12,7 +12,7 @@
 #include "tests/support/render_synthetic.h"
 
 namespace seam {
-namespace {
+namespace render_difference_test {
 
 using namespace synthetic;
 
@@ -80,5 +80,5 @@ TEST(PlayerColour, OfASceneIsHexOrANumberOfThePaletteAndNothingElse) {
   }
 }
 
-}  // namespace
+}  // namespace render_difference_test
 }  // namespace seam

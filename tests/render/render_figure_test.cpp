@@ -9,7 +9,7 @@
 #include "tests/support/character_world.h"
 
 namespace seam {
-namespace {
+namespace render_figure_test {
 
 std::vector<BodyShapes> Bodies(const Scene& scene) {
   return ShapesOf(scene, Compose(scene), false);
@@ -77,5 +77,5 @@ TEST(Figure, FarLimbsArePaintedBeforeTheTorsoAndNearOnesAfterIt) {
   }
 }
 
-}  // namespace
+}  // namespace render_figure_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "tests/support/render_fixture.h"
 
 namespace seam {
-namespace {
+namespace render_live_test {
 
 /// A renderer that is fed by hand, ten small frames a second.
 class RenderLive : public ::testing::Test {
@@ -138,5 +138,5 @@ TEST_F(RenderLog, LiveDrawsWhatTheStockPlayerSends) {
   EXPECT_FALSE(frames.front() == frames.back()) << "nothing moved";
 }
 
-}  // namespace
+}  // namespace render_live_test
 }  // namespace seam

@@ -7,7 +7,7 @@
 #include "tests/support/render_fixture.h"
 
 namespace seam {
-namespace {
+namespace render_page_test {
 
 TEST(Page, IsNotBlank) {
   const Playback playback = MakePlayback();
@@ -165,5 +165,5 @@ TEST(Strobe, AnEmptyWindowIsAnOperatorError) {
   EXPECT_THROW(PlanStrobe(runs, StrobeOptions{0, 1e9, 1}), OperatorError);
 }
 
-}  // namespace
+}  // namespace render_page_test
 }  // namespace seam

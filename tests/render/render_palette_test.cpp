@@ -11,7 +11,7 @@
 #include "render/canvas/palette.h"
 
 namespace seam {
-namespace {
+namespace render_palette_test {
 
 using Triple = std::array<double, 3>;
 using Matrix = std::array<Triple, 3>;
@@ -105,5 +105,5 @@ TEST(Palette, TheHeatGrowsDarkerWithTheError) {
   }
 }
 
-}  // namespace
+}  // namespace render_palette_test
 }  // namespace seam

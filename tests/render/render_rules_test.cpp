@@ -4,7 +4,7 @@
 #include "tests/support/render_fixture.h"
 
 namespace seam {
-namespace {
+namespace render_rules_test {
 
 constexpr double kTick = 60;
 constexpr PartId kHurt = 2;
@@ -74,5 +74,5 @@ TEST(DrawRules, ScoresAreSaidFromWhenTheyAreKnown) {
       50);
 }
 
-}  // namespace
+}  // namespace render_rules_test
 }  // namespace seam

@@ -10,7 +10,7 @@
 #include "tests/support/render_fixture.h"
 
 namespace seam {
-namespace {
+namespace render_test {
 
 namespace fs = std::filesystem;
 
@@ -321,5 +321,5 @@ TEST_F(RenderLog, WithoutFfmpegAVideoIsRefusedBeforeAnythingIsDrawn) {
   EXPECT_EQ(folder_.List(), untouched_);
 }
 
-}  // namespace
+}  // namespace render_test
 }  // namespace seam

@@ -6,7 +6,7 @@
 #include "tests/support/render_fixture.h"
 
 namespace seam {
-namespace {
+namespace render_world_test {
 
 TEST(DrawWorld, ABoxColoursThePixelsWhereItIsInTheWorld) {
   const Playback playback = MakePlayback();
@@ -207,5 +207,5 @@ TEST(Playback, WithoutAnOracleThereAreNoErrorsAndNoGhosts) {
             100);
 }
 
-}  // namespace
+}  // namespace render_world_test
 }  // namespace seam

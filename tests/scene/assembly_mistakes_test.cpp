@@ -6,7 +6,7 @@
 #include "common/scene/scene.h"
 
 namespace seam {
-namespace {
+namespace assembly_mistakes_test {
 
 std::string Complaint(const std::string& text) {
   try {
@@ -66,5 +66,5 @@ TEST(AssemblyMistakes, CopiesAreJoinedWithTheirNeighbours) {
   EXPECT_EQ(scene.joints.front().name, "p.h.0.0");
 }
 
-}  // namespace
+}  // namespace assembly_mistakes_test
 }  // namespace seam

@@ -10,7 +10,7 @@
 #include "common/scene/mass.h"
 
 namespace seam {
-namespace {
+namespace assembly_test {
 
 /// A part of unit density.
 std::string Box(const char* name, double width, double height, double x, double y,
@@ -135,5 +135,5 @@ TEST(Mass, PolygonsAgreeWithBoxesAndTriangles) {
   EXPECT_EQ(PartMass(part), 0);
 }
 
-}  // namespace
+}  // namespace assembly_test
 }  // namespace seam

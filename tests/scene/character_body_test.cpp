@@ -7,7 +7,7 @@
 #include "tests/support/character_world.h"
 
 namespace seam {
-namespace {
+namespace character_body_test {
 
 std::string Complaint(const std::string& character) {
   try {
@@ -144,5 +144,5 @@ TEST(Character, MistakesNameTheLine) {
             "");
 }
 
-}  // namespace
+}  // namespace character_body_test
 }  // namespace seam

@@ -6,7 +6,7 @@
 #include "common/scene/scene.h"
 
 namespace seam {
-namespace {
+namespace coupling_mistakes_test {
 
 const std::string kParts =
     "[[part]]\nname = \"post\"\nbox = [1, 1]\nanchored = true\n"
@@ -76,5 +76,5 @@ TEST(CouplingMistakes, CopiesOfAPulleyHaveTheirOwnGround) {
   EXPECT_EQ(scene.joints[1].length, scene.joints[0].length);
 }
 
-}  // namespace
+}  // namespace coupling_mistakes_test
 }  // namespace seam

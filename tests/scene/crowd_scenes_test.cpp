@@ -9,7 +9,7 @@
 #include "tests/support/scripted_world.h"
 
 namespace seam {
-namespace {
+namespace crowd_scenes_test {
 
 TEST(Gas, AloneItKeepsItsEnergyForAMinuteAndBlowsCrossTheSeam) {
   ScriptedWorld run("gas");
@@ -113,5 +113,5 @@ TEST(Train, CrossesThreeSeamsWithItsCouplingsShutAndPushesTheCratesAhead) {
   for (const char* car : cars) EXPECT_GT(run.Read(car).position.x(), 22) << car;
 }
 
-}  // namespace
+}  // namespace crowd_scenes_test
 }  // namespace seam

@@ -13,7 +13,7 @@
 #include "common/topology/topology.h"
 
 namespace seam {
-namespace {
+namespace crowding_test {
 
 /// A floor, and on line 5 boxes of `side` m: `columns` times `rows`, `step` m apart.
 std::string Boxes(int columns, int rows, double step, const std::string& more = "",
@@ -131,5 +131,5 @@ TEST(Crowding, WhatIsInsertedIsHeldToTheSameLimits) {
   }
 }
 
-}  // namespace
+}  // namespace crowding_test
 }  // namespace seam

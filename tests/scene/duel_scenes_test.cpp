@@ -10,7 +10,7 @@
 #include "tests/support/scripted_world.h"
 
 namespace seam {
-namespace {
+namespace duel_scenes_test {
 
 /// Whether two bodies have touched at any end of a tick so far; Note after each step.
 class Meetings {
@@ -161,5 +161,5 @@ TEST(Seesaw, WhatOnePlayerDoesMovesTheOther) {
   EXPECT_GT(largest, 0.3);
 }
 
-}  // namespace
+}  // namespace duel_scenes_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "common/scene/scene.h"
 
 namespace seam {
-namespace {
+namespace player_repeat_test {
 
 /// What is said of a scene; "" if nothing is wrong.
 std::string WhatIsWrong(const std::string& text) {
@@ -191,5 +191,5 @@ TEST(PlayerRepeat, ARoomOfManyPlayersFarFromEachOtherIsFollowedWholeIfItHasFewBo
   EXPECT_EQ(Row(32, 8, "planner = {hear = 200}").follow_bodies, 256);
 }
 
-}  // namespace
+}  // namespace player_repeat_test
 }  // namespace seam

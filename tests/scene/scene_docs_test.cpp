@@ -9,7 +9,7 @@
 #include "tests/support/scripted_world.h"
 
 namespace seam {
-namespace {
+namespace scene_docs_test {
 
 std::string Page() {
   std::ifstream in("docs/scenes.md");
@@ -76,5 +76,5 @@ TEST(SceneDocs, EveryKeyIsOnThePage) {
   }
 }
 
-}  // namespace
+}  // namespace scene_docs_test
 }  // namespace seam

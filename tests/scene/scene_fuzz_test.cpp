@@ -13,7 +13,7 @@
 #include "tests/support/soak.h"
 
 namespace seam {
-namespace {
+namespace scene_fuzz_test {
 
 const char* const kShipped[] = {"crossing", "wall", "stack", "cradle", "relay"};
 
@@ -158,5 +158,5 @@ TEST(SceneFuzz, RandomScenesThatPassNeverMakeBox2DAbort) {
   EXPECT_GT(good, 1000);
 }
 
-}  // namespace
+}  // namespace scene_fuzz_test
 }  // namespace seam

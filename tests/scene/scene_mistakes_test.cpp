@@ -6,7 +6,7 @@
 #include "common/scene/scene.h"
 
 namespace seam {
-namespace {
+namespace scene_mistakes_test {
 
 /// What ParseScene complains about; "" when it does not.
 std::string Complaint(const std::string& text) {
@@ -345,5 +345,5 @@ TEST(SceneMistakes, NameFileLineAndReason) {
   EXPECT_EQ(Complaint(Around("", "")), "");  // what they are all built on is good
 }
 
-}  // namespace
+}  // namespace scene_mistakes_test
 }  // namespace seam

@@ -10,7 +10,7 @@
 #include "common/scene/scene_limits.h"
 
 namespace seam {
-namespace {
+namespace scene_size_test {
 
 /// What is said of a scene; "" if nothing is wrong.
 std::string WhatIsWrong(const std::string& text) {
@@ -76,5 +76,5 @@ TEST(SceneSize, WithAllItsPartsItIsReadAndBuiltInSeconds) {
   EXPECT_LT(took.count(), 20) << "what is quadratic takes minutes";
 }
 
-}  // namespace
+}  // namespace scene_size_test
 }  // namespace seam

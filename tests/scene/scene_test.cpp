@@ -7,7 +7,7 @@
 #include "common/base/check.h"
 
 namespace seam {
-namespace {
+namespace scene_test {
 
 TEST(Scene, ReadsEveryKey) {
   const Scene s = ParseScene(R"(
@@ -210,5 +210,5 @@ TEST(Scene, LimitsThemselvesAreAllowed) {
   EXPECT_ANY_THROW(ParseScene("[[part]]\nname = \"p\"\nbox = [0.0499, 10]\n", "s.toml"));
 }
 
-}  // namespace
+}  // namespace scene_test
 }  // namespace seam

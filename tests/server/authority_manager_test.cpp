@@ -11,7 +11,7 @@
 #include "common/sync/lease.h"
 
 namespace seam {
-namespace {
+namespace authority_manager_test {
 
 using Right = AuthorityManager::Right;
 
@@ -325,5 +325,5 @@ TEST(AuthorityManager, WhoFollowsWhatFallsIsPlannedByItsWayForAMomentMore) {
   EXPECT_TRUE(ann_follows_his()) << "it may turn";
 }
 
-}  // namespace
+}  // namespace authority_manager_test
 }  // namespace seam

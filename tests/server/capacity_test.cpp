@@ -9,7 +9,7 @@
 #include "server/authority/plan.h"
 
 namespace seam {
-namespace {
+namespace capacity_test {
 
 constexpr int kPeer = 3;
 
@@ -138,5 +138,5 @@ TEST(LoadMeter, WithoutCpuTimeItIsNotKnown) {
   EXPECT_EQ(meter.permille(), -1);
 }
 
-}  // namespace
+}  // namespace capacity_test
 }  // namespace seam

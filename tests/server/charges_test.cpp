@@ -12,7 +12,7 @@
 #include "server/script/script_host.h"
 
 namespace seam {
-namespace {
+namespace charges_test {
 
 struct Went {
   std::int64_t tick;
@@ -139,5 +139,5 @@ TEST(Charges, AMistakeIsOneLine) {
   EXPECT_NE(complaint(good + "[[charges]]\n" + good).find("another charge"), std::string::npos);
 }
 
-}  // namespace
+}  // namespace charges_test
 }  // namespace seam

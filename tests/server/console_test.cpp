@@ -10,7 +10,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace console_test {
 
 using Lines = std::vector<std::string>;
 
@@ -144,5 +144,5 @@ TEST(SessionSummary, IsEmptyWhenNobodyGotReady) {
   EXPECT_EQ(SessionSummary({ClientAccount{}}), "");
 }
 
-}  // namespace
+}  // namespace console_test
 }  // namespace seam

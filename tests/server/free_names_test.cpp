@@ -6,7 +6,7 @@
 #include "server/sessions/place_table.h"
 
 namespace seam {
-namespace {
+namespace free_names_test {
 
 Scene SceneOf(const std::vector<std::string>& players) {
   std::string text = "[[part]]\nname = \"ball\"\ncircle = 0.5\n";
@@ -49,5 +49,5 @@ TEST(FreeNames, AreCountedWhereTheyDoNotFitAMessage) {
   EXPECT_TRUE(std::holds_alternative<Bye>(Decode(Encode(bye)))) << bye.reason.size() << " bytes";
 }
 
-}  // namespace
+}  // namespace free_names_test
 }  // namespace seam

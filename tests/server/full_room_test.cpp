@@ -7,7 +7,7 @@
 #include "server/sessions/place_table.h"
 
 namespace seam {
-namespace {
+namespace full_room_test {
 
 class Counting : public Entropy {
  public:
@@ -48,5 +48,5 @@ circle = 1
   EXPECT_EQ(places.FreeNames(0), "no player is free");
 }
 
-}  // namespace
+}  // namespace full_room_test
 }  // namespace seam

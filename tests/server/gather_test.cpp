@@ -10,7 +10,7 @@
 #include "common/base/random.h"
 
 namespace seam {
-namespace {
+namespace gather_test {
 
 constexpr std::int64_t kTickUs = 16667, kPlayedUs = 10000000;
 
@@ -55,7 +55,7 @@ Played Play(int clients) {
   return played;
 }
 
-}  // namespace
+}  // namespace gather_test
 
 TEST(Gather, TwoClientsAreServedAtOnceForAWakeEachAndOneForTheTick) {
   const Played played = Play(2);

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace seam {
-namespace {
+namespace impact_check_test {
 
 /// Body 0 at x = 0 and body 1, four times as heavy, at x = 1, both of 1 m; what is known of them is
 /// of tick 10.
@@ -93,5 +93,5 @@ TEST_F(ImpactCheckTest, WhatStandsStillDoesNotStrikeTheGround) {
   EXPECT_FALSE(Possible(world_, falling, {0, -1, 12, {0, -0.5f}}, 11));
 }
 
-}  // namespace
+}  // namespace impact_check_test
 }  // namespace seam

@@ -8,7 +8,7 @@
 #include "server/interest/interest.h"
 
 namespace seam {
-namespace {
+namespace interest_look_test {
 
 constexpr int kAnn = 1, kWatcher = 2;
 
@@ -87,5 +87,5 @@ TEST_F(InterestLook, WhoCameAfterTheLastLookIsNearAll) {
   EXPECT_EQ(interest_->Of(7, 1), Concern::kNear);
 }
 
-}  // namespace
+}  // namespace interest_look_test
 }  // namespace seam

@@ -7,7 +7,7 @@
 #include "common/scene/scene.h"
 
 namespace seam {
-namespace {
+namespace islands_test {
 
 /// Two crates in a stack, one apart, and two that a rope joins in the air.
 constexpr const char* kFive = R"(
@@ -51,5 +51,5 @@ TEST(Islands, WhatTouchesOrIsJoinedIsOneAndWhatSleepsIsNone) {
   EXPECT_EQ(CountIslands(world), 0);
 }
 
-}  // namespace
+}  // namespace islands_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "common/base/process.h"
 
 namespace seam {
-namespace {
+namespace lanes_test {
 
 constexpr std::int64_t kPeriodUs = 16667;
 
@@ -107,5 +107,5 @@ TEST(Lanes, ARoomIsRunWhenItIsWoken) {
   EXPECT_EQ(other.runs, 0);
 }
 
-}  // namespace
+}  // namespace lanes_test
 }  // namespace seam

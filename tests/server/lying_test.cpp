@@ -15,7 +15,7 @@
 #include "tests/lab/world/plan_worlds.h"
 
 namespace seam {
-namespace {
+namespace lying_test {
 
 /// Lays most of what nobody drives to sleep, the server's alone. By mechanism: whether it lies.
 std::vector<char> LayDown(std::uint64_t seed, AuthorityView* view) {
@@ -195,5 +195,5 @@ TEST(Lying, FindsTheSameHoweverItCameToLieThere) {
   EXPECT_GT(found, 200);
 }
 
-}  // namespace
+}  // namespace lying_test
 }  // namespace seam

@@ -8,7 +8,7 @@
 #include "common/sync/quantize.h"
 
 namespace seam {
-namespace {
+namespace newest_states_test {
 
 constexpr int kHz = 60;
 
@@ -108,5 +108,5 @@ TEST(NewestStates, OfWhatFallsItsBouncesAreNews) {
   EXPECT_LE(told, 2 * 4 + 2 + 3 * bounces);
 }
 
-}  // namespace
+}  // namespace newest_states_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "common/scene/scene.h"
 
 namespace seam {
-namespace {
+namespace outbox_test {
 
 constexpr int kBodies = 200;
 constexpr std::int64_t kTickUs = 16667;
@@ -122,5 +122,5 @@ TEST_F(OutboxTest, WhatIsRaisedWhileItWaitsIsThatBody) {
   for (const int id : raised) EXPECT_EQ(told.count(id), 1u) << id;
 }
 
-}  // namespace
+}  // namespace outbox_test
 }  // namespace seam

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 namespace seam {
-namespace {
+namespace plan_contested_test {
 
 constexpr int kAnn = 1, kBob = 2;
 
@@ -98,5 +98,5 @@ TEST_F(PlanContested, ItStaysTheServersUntilItIsAloneOrSleeps) {
   EXPECT_EQ(Decided(), 0);
 }
 
-}  // namespace
+}  // namespace plan_contested_test
 }  // namespace seam

@@ -16,7 +16,7 @@
 #include "tests/support/plan/plan_reference.h"
 
 namespace seam {
-namespace {
+namespace plan_equal_test {
 
 /// Entries that differ.
 int Differences(const AuthorityView& view) {
@@ -198,5 +198,5 @@ TEST(PlanEqual, NobodyAndNothing) {
   EXPECT_TRUE(PlanAuthority(AuthorityView{}).empty());
 }
 
-}  // namespace
+}  // namespace plan_equal_test
 }  // namespace seam

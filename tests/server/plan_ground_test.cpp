@@ -5,7 +5,7 @@
 #include "common/base/random.h"
 
 namespace seam {
-namespace {
+namespace plan_ground_test {
 
 MovingBox Box(const Vec2& min, const Vec2& max, int group) {
   return {min, max, Vec2(5, 0), 0, group};
@@ -99,5 +99,5 @@ TEST(PlanGround, ACarIsOneClusterAndAChainSeveral) {
   ExpectClusters({Box({0, 0}, {40, 1}, 0), Box({0, 0}, {1, 1}, 0)}, 2);  // a plank
 }
 
-}  // namespace
+}  // namespace plan_ground_test
 }  // namespace seam

@@ -8,7 +8,7 @@
 #include "server/authority/plan.h"
 
 namespace seam {
-namespace {
+namespace plan_islands_test {
 
 constexpr int kServer = 0, kAnn = 1, kBob = 2;
 constexpr std::int64_t kLong = 1000000;
@@ -291,5 +291,5 @@ TEST_F(PlanIslandsTest, WhoIsAtItsCapacityFollowsAllThatItMayMeet) {
   EXPECT_LE(held, 2);
 }
 
-}  // namespace
+}  // namespace plan_islands_test
 }  // namespace seam

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace seam {
-namespace {
+namespace plan_test {
 
 constexpr int kAnn = 1, kBob = 2;
 constexpr std::int64_t kLong = 1000000;
@@ -317,5 +317,5 @@ TEST(PlanAuthority, ComingTogetherDoesNotGiveWhatIsForbidden) {
   EXPECT_EQ(PlanAuthority(view)[1].authority, 0);
 }
 
-}  // namespace
+}  // namespace plan_test
 }  // namespace seam

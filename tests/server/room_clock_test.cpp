@@ -7,7 +7,7 @@
 #include <algorithm>
 
 namespace seam {
-namespace {
+namespace room_clock_test {
 
 constexpr int kHz = 60;
 constexpr std::int64_t kPeriodUs = 1000000 / kHz;
@@ -95,5 +95,5 @@ TEST(RoomClock, HoweverSlowTheServerTheSpeedHasABoundAndTheClockNeverRunsBackwar
   EXPECT_EQ(server.clock.speed_ppm(), kLeastSpeedPpm);
 }
 
-}  // namespace
+}  // namespace room_clock_test
 }  // namespace seam

@@ -10,7 +10,7 @@
 #include "server/hub/room_net.h"
 
 namespace seam {
-namespace {
+namespace room_finder_test {
 
 const Address kAnn{0x7f000001, 20001}, kBob{0x7f000001, 20002};
 
@@ -139,5 +139,5 @@ TEST(TrafficCount, BytesAreCountedByWhatTheyCarryAndNothingIsLost) {
   EXPECT_EQ(load.kind[1], kTrafficJoining);
 }
 
-}  // namespace
+}  // namespace room_finder_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "server/script/script_host.h"
 
 namespace seam {
-namespace {
+namespace rules_test {
 
 using Lines = std::vector<std::string>;
 
@@ -301,5 +301,5 @@ TEST(Rules, APartOfABodyIsWhereItsRootHasCarriedIt) {
   EXPECT_NEAR(b.position.y() - a.position.y(), 3 * std::sin(turn), 1e-4);
 }
 
-}  // namespace
+}  // namespace rules_test
 }  // namespace seam

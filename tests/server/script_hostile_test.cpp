@@ -7,7 +7,7 @@
 #include "tests/support/fake_script_host.h"
 
 namespace seam {
-namespace {
+namespace script_hostile_test {
 
 struct Attack {
   const char* name;
@@ -212,5 +212,5 @@ TEST(ScriptHostile, TheLimitsAreTheScenes) {
   EXPECT_EQ(large.script.error(), "");
 }
 
-}  // namespace
+}  // namespace script_hostile_test
 }  // namespace seam

@@ -8,7 +8,7 @@
 #include "tests/support/fake_script_host.h"
 
 namespace seam {
-namespace {
+namespace script_test {
 
 using Lines = std::vector<std::string>;
 
@@ -250,5 +250,5 @@ TEST(Script, HasObjectsWithMetatables) {
                                    "AB xxx 3 a7 3 4", "Hi llo 97 98 99", "1,2,3,9 2 3"}));
 }
 
-}  // namespace
+}  // namespace script_test
 }  // namespace seam

@@ -8,7 +8,7 @@
 #include "tests/support/session_guest.h"
 
 namespace seam {
-namespace {
+namespace session_table_test {
 
 const char* const kTwoPlayers = R"(
 [[part]]
@@ -343,5 +343,5 @@ TEST_F(SessionTableTest, WhatIsBeyondTheBudgetIsNotDeliveredAndWhoInsistsHasToLe
               static_cast<int>(seconds * 60) * 5 * 392);
 }
 
-}  // namespace
+}  // namespace session_table_test
 }  // namespace seam

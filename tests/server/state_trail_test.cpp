@@ -8,7 +8,7 @@
 #include "server/rules/triggers.h"
 
 namespace seam {
-namespace {
+namespace state_trail_test {
 
 BodyState At(float x) {
   BodyState state;
@@ -102,5 +102,5 @@ TEST(StateTrail, ABurstOfStatesDoesNotCarryABodyPastATrigger) {
   EXPECT_EQ(left, 1);
 }
 
-}  // namespace
+}  // namespace state_trail_test
 }  // namespace seam

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace seam {
-namespace {
+namespace traffic_budget_test {
 
 TEST(TrafficBudget, AllowsFourTimesWhatAClientNeedsAsTheProtocolPageSays) {
   const TrafficRate honest = HonestTraffic(60, 30), allowed = AllowedTraffic(60, 30);
@@ -43,5 +43,5 @@ TEST(TrafficBudget, CountsTheTimeBeyondItUntilAPauseOfASecond) {
   EXPECT_EQ(budget.over_us(7000000), 1);
 }
 
-}  // namespace
+}  // namespace traffic_budget_test
 }  // namespace seam

@@ -10,7 +10,7 @@
 #include "common/sync/metadata.h"
 
 namespace seam {
-namespace {
+namespace triggers_test {
 
 /// Parts 0, 1, 2 of players 0, 1 and nobody, on a line.
 struct Places {
@@ -126,5 +126,5 @@ TEST(Metadata, TellsChangesOnceAndEverythingToLatecomers) {
   EXPECT_EQ(server.Get({kMetaPlayer, 4, kMetaScore}), 0);
 }
 
-}  // namespace
+}  // namespace triggers_test
 }  // namespace seam

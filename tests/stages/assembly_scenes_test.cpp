@@ -7,7 +7,7 @@
 #include "tests/support/scripted_world.h"
 
 namespace seam {
-namespace {
+namespace assembly_scenes_test {
 
 int Broken(const World& world) {
   const auto& joints = world.scene().joints;
@@ -44,5 +44,5 @@ TEST(GlueHouse, StandsUntilItIsHitAndThenBreaksAndJoins) {
   EXPECT_GT(house.world.scene().joints.size(), joints) << "pieces joined again";
 }
 
-}  // namespace
+}  // namespace assembly_scenes_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "tests/support/character_world.h"
 
 namespace seam {
-namespace {
+namespace character_ability_test {
 
 /// Of the trials whose group begins with one of these words.
 struct Tally {
@@ -193,5 +193,5 @@ TEST(CharacterAbility, ABarrierReplaysStairsAndTheWayUpFromTheGroundBitForBit) {
   }
 }
 
-}  // namespace
+}  // namespace character_ability_test
 }  // namespace seam

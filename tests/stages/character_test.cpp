@@ -5,7 +5,7 @@
 #include "tests/support/character_world.h"
 
 namespace seam {
-namespace {
+namespace character_test {
 
 /// m that the hero comes along in `seconds` of a script, or 0 if it falls.
 float Way(const std::string& script, float seconds, const std::string& ground = kFlatGround,
@@ -194,5 +194,5 @@ TEST(ActiveCharacter, ABarrierReplaysItBitForBit) {
   }
 }
 
-}  // namespace
+}  // namespace character_test
 }  // namespace seam

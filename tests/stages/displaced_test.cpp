@@ -10,7 +10,7 @@
 #include "common/base/random.h"
 
 namespace seam {
-namespace {
+namespace displaced_test {
 
 constexpr double kWide = 1e4;
 
@@ -101,5 +101,5 @@ TEST(Displaced, FourWatersThatMeetInADiscShareItAll) {
   EXPECT_NEAR(sum.area, M_PI, 1e-9);
 }
 
-}  // namespace
+}  // namespace displaced_test
 }  // namespace seam

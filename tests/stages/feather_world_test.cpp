@@ -13,7 +13,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace feather_world_test {
 
 /// 500 m of pavement, 1000 bricks of 0.5 m wide in 63 cells, whose surface is y = 0; or one box.
 std::string Pavement(bool bricks, const std::string& friction) {
@@ -309,5 +309,5 @@ TEST(Feather, BricksAsPartsAreTheSameBricks) {
   EXPECT_NEAR(feather.Read(0).position.y(), parts.Read(0).position.y(), 0.1);
 }
 
-}  // namespace
+}  // namespace feather_world_test
 }  // namespace seam

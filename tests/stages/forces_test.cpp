@@ -9,7 +9,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace forces_test {
 
 const char* kAnn = "[[player]]\nname = \"ann\"\n";
 
@@ -172,5 +172,5 @@ TEST(Forces, ReplayBitForBitFromABarrier) {
   }
 }
 
-}  // namespace
+}  // namespace forces_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "tests/support/living_world.h"
 
 namespace seam {
-namespace {
+namespace glue_test {
 
 /// Forces that hold a chain of `count` equal masses up by its first.
 std::vector<Eigen::Vector2d> Hung(int count, double weight) {
@@ -169,5 +169,5 @@ TEST(Glue, TheSameBondsBreakAgainAfterGoingBack) {
   EXPECT_EQ(proposed(), first);
 }
 
-}  // namespace
+}  // namespace glue_test
 }  // namespace seam

@@ -14,7 +14,7 @@
 #include "tests/support/character_world.h"
 
 namespace seam {
-namespace {
+namespace grip_test {
 
 /// A pool with a ledge 0.35 m above the water, whose wall is at x = 0; the hero swims to it.
 constexpr const char* kPool = R"(
@@ -223,5 +223,5 @@ TEST(Grip, ABarrierReplaysAClimbBitForBit) {
   }
 }
 
-}  // namespace
+}  // namespace grip_test
 }  // namespace seam

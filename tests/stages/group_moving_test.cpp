@@ -13,7 +13,7 @@
 #include "tests/support/water_world.h"
 
 namespace seam {
-namespace {
+namespace group_moving_test {
 
 using Eigen::Vector2d;
 
@@ -255,5 +255,5 @@ TEST(MovingGroup, WhatIsJammedAndPressedInIsNotGrouped) {
   EXPECT_LT(world->Read(5).velocity.norm(), 0.05f) << "they stand still all the same";
 }
 
-}  // namespace
+}  // namespace group_moving_test
 }  // namespace seam

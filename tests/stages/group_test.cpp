@@ -6,7 +6,7 @@
 #include "tests/support/living_world.h"
 
 namespace seam {
-namespace {
+namespace group_test {
 
 const char* const kGround = "[[part]]\nname = \"ground\"\nchain = [[-20, 0], [20, 0]]\n";
 
@@ -66,5 +66,5 @@ TEST(Group, MechanismsAndAnchoredThingsStayAsTheyAre) {
   EXPECT_TRUE(Live(world.get(), 120).empty());
 }
 
-}  // namespace
+}  // namespace group_test
 }  // namespace seam

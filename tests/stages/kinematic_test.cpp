@@ -12,7 +12,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace kinematic_test {
 
 std::string Platform(const std::string& motion, const std::string& rest = "") {
   return "[[part]]\nname = \"platform\"\nbox = [4, 0.5]\nposition = [1, 2]\nanchored = true\n" +
@@ -156,5 +156,5 @@ TEST(Kinematic, NobodyOwnsIt) {
   EXPECT_EQ(world.body_count(), 2);
 }
 
-}  // namespace
+}  // namespace kinematic_test
 }  // namespace seam

@@ -5,7 +5,7 @@
 #include "tests/support/character_world.h"
 
 namespace seam {
-namespace {
+namespace limp_test {
 
 /// N m; the most that a motor turned with in the last of the engine's steps.
 float Most(ScriptedWorld* run) {
@@ -138,5 +138,5 @@ TEST(Severed, OneArmedItRunsOnAndLimbByLimbNothingBreaksDown) {
   }
 }
 
-}  // namespace
+}  // namespace limp_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "tests/support/water_world.h"
 
 namespace seam {
-namespace {
+namespace propeller_test {
 
 /// Bollard pull is measured on a hull of 2000 kg without gravity, which hardly moves: 40 m x 0.5 m
 /// far above the level 0.
@@ -200,5 +200,5 @@ TEST(PaddleWheel, TurnsItsHullTheOtherWay) {
   EXPECT_GT(hull * static_cast<double>(wet->Read(0).spin), 3 * turned);
 }
 
-}  // namespace
+}  // namespace propeller_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace seat_test {
 
 constexpr const char* kVehicle = R"(
 [[part]]
@@ -246,5 +246,5 @@ TEST(Seat, ThePullIsBounded) {
   }
 }
 
-}  // namespace
+}  // namespace seat_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "common/stages/make_stages.h"
 
 namespace seam {
-namespace {
+namespace seat_way_test {
 
 using Eigen::Vector2d;
 
@@ -74,5 +74,5 @@ TEST(SeatWay, WhoStandsFarFromTheSeatHasNotSetOutAndWhoIsThereStays) {
   EXPECT_EQ(way.ticks, SeatTicks(solver.tick_hz)) << "shown beyond it, by what was heard before";
 }
 
-}  // namespace
+}  // namespace seat_way_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "tests/support/water_world.h"
 
 namespace seam {
-namespace {
+namespace water_motion_test {
 
 /// The mean period of a body's rising through `level`, s.
 double Period(World* world, double level, double seconds) {
@@ -183,5 +183,5 @@ TEST(WaterMotion, EnergyNeverGrowsInStillWater) {
   EXPECT_LT(before, 1);
 }
 
-}  // namespace
+}  // namespace water_motion_test
 }  // namespace seam

@@ -8,7 +8,7 @@
 #include "tests/support/water_world.h"
 
 namespace seam {
-namespace {
+namespace water_rest_test {
 
 constexpr double kDegree = M_PI / 180;
 
@@ -133,5 +133,5 @@ TEST(WaterRest, ThePartBesideTheWaterIsNotLifted) {
   EXPECT_LT(world->Read(0).angle, -0.05);
 }
 
-}  // namespace
+}  // namespace water_rest_test
 }  // namespace seam

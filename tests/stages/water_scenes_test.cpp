@@ -8,7 +8,7 @@
 #include "tests/support/scripted_world.h"
 
 namespace seam {
-namespace {
+namespace water_scenes_test {
 
 std::string With(std::string text, const std::string& what, const std::string& instead) {
   std::size_t at = text.find(what);
@@ -72,5 +72,5 @@ TEST(Harbour, TheBoatCrossesTheSeamAndPushesWhatFloats) {
   }
 }
 
-}  // namespace
+}  // namespace water_scenes_test
 }  // namespace seam

@@ -10,7 +10,7 @@
 #include "common/stages/water/wet_shape.h"
 
 namespace seam {
-namespace {
+namespace water_world_test {
 
 Scene SceneOf(const std::string& parts, const std::string& solver = "") {
   return ParseScene("[solver]\n" + solver + "\n" + parts, "test.toml");
@@ -230,5 +230,5 @@ TEST(WaterWorld, MistakesNameFileLineAndReason) {
   }
 }
 
-}  // namespace
+}  // namespace water_world_test
 }  // namespace seam

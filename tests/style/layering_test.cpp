@@ -13,7 +13,7 @@
 #include "tests/support/source_tree.h"
 
 namespace seam {
-namespace {
+namespace layering_test {
 
 namespace fs = std::filesystem;
 
@@ -287,5 +287,5 @@ TEST(Layering, PhysicsKnowsNoClockSocketOrUnseededChance) {
       "chrono|ctime|time\\.h|sys/time\\.h|random|unistd\\.h|thread");
 }
 
-}  // namespace
+}  // namespace layering_test
 }  // namespace seam

@@ -13,7 +13,7 @@
 #include "tests/support/source_tree.h"
 
 namespace seam {
-namespace {
+namespace style_test {
 
 namespace fs = std::filesystem;
 
@@ -255,5 +255,5 @@ TEST(LcmTypes, TheHardeningRefusesWhatItDoesNotUnderstand) {
   EXPECT_FALSE(Hardens(decoder + "    tlen = __double_decode_array(buf, 0, 8, &this->d, 1);\n"));
 }
 
-}  // namespace
+}  // namespace style_test
 }  // namespace seam

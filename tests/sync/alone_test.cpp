@@ -8,7 +8,7 @@
 #include "common/sync/replica.h"
 
 namespace seam {
-namespace {
+namespace alone_test {
 
 /// Boxes that tumble onto each other: another order of contacts is other bits.
 const std::string kTumble = R"(
@@ -72,5 +72,5 @@ TEST(Alone, WhatAnotherFollowsHasABarrierAtEverySendTick) {
   EXPECT_EQ(HashOf(true), HashOfWorld(true));
 }
 
-}  // namespace
+}  // namespace alone_test
 }  // namespace seam

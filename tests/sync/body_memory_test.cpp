@@ -5,7 +5,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace body_memory_test {
 
 /// Two boxes glued together, a loose one beside them, and an anchored one.
 const char* kBoxes =
@@ -143,5 +143,5 @@ TEST(BodyMemoryCoupling, HoldsForAQuarterOfASecondAndThroughARemap) {
   EXPECT_FALSE(coupled(1));
 }
 
-}  // namespace
+}  // namespace body_memory_test
 }  // namespace seam

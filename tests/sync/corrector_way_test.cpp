@@ -8,7 +8,7 @@
 #include "tests/support/followed_copy.h"
 
 namespace seam {
-namespace {
+namespace corrector_way_test {
 
 const char* const kGround =
     "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [50, 0]]\n"
@@ -87,5 +87,5 @@ TEST(CorrectorWay, WhoCameRoundACornerStaysThere) {
   EXPECT_GT(pair.copy_world().Read(0).position.x(), 4);
 }
 
-}  // namespace
+}  // namespace corrector_way_test
 }  // namespace seam

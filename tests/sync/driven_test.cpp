@@ -10,7 +10,7 @@
 #include "tests/support/scripted_world.h"
 
 namespace seam {
-namespace {
+namespace driven_test {
 
 const char* const kYard = R"(
 [[player]]
@@ -169,5 +169,5 @@ TEST_F(DrivenTest, AMotorThatIsGoneDrivesNothing) {
   EXPECT_EQ(Driven(0).count("arm"), 0u);
 }
 
-}  // namespace
+}  // namespace driven_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "tests/support/water_world.h"
 
 namespace seam {
-namespace {
+namespace falls_freely_test {
 
 const char* const kGround = "[[part]]\nname = \"ground\"\nchain = [[-90, 0], [90, 0]]\n";
 
@@ -108,5 +108,5 @@ TEST(FallsFreely, WhatNobodyElseSawStruckGoesOnFromWhatWasHeardOfItALittleAgo) {
   EXPECT_GT(ApartAfterABlow(40), 2) << "of what was long ago the copy knows better";
 }
 
-}  // namespace
+}  // namespace falls_freely_test
 }  // namespace seam

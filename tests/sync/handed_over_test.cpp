@@ -11,7 +11,7 @@
 #include "tests/support/wired_replicas.h"
 
 namespace seam {
-namespace {
+namespace handed_over_test {
 
 /// ann and bob squeeze the server's crate, now more, now less. Nothing sleeps.
 Scene Squeezed() {
@@ -189,5 +189,5 @@ TEST(HandedOver, WhatTheServerGivesAwayInItsFirstTickIsToldOfAsItIs) {
   EXPECT_EQ(told[0].x[0], server.world().Read(0).position.x());
 }
 
-}  // namespace
+}  // namespace handed_over_test
 }  // namespace seam

@@ -10,7 +10,7 @@
 #include "common/sync/replica.h"
 
 namespace seam {
-namespace {
+namespace idle_test {
 
 /// Three crates in a row that nearly touch; a disc that comes by. No gravity.
 std::string Row(const std::string& disc) {
@@ -212,5 +212,5 @@ TEST(Idle, GoesOverToAClientAndComesBack) {
   EXPECT_NEAR(room.x(kFirst), 0, 1e-6);
 }
 
-}  // namespace
+}  // namespace idle_test
 }  // namespace seam

@@ -5,7 +5,7 @@
 #include "tests/support/wired_replicas.h"
 
 namespace seam {
-namespace {
+namespace impact_again_test {
 
 /// A vase of bob's, half a metre in front of ann's sledge.
 const char* const kVase = R"(
@@ -55,5 +55,5 @@ TEST(ImpactsAgain, ABlowThatOnlyAReplayFindsIsToldOfAtItsTick) {
   EXPECT_EQ(late[0].id, at_once[0].id);
 }
 
-}  // namespace
+}  // namespace impact_again_test
 }  // namespace seam

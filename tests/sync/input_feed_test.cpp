@@ -5,7 +5,7 @@
 #include <optional>
 
 namespace seam {
-namespace {
+namespace input_feed_test {
 
 /// A player's inputs, and what is sent of them to a peer in each tick.
 struct InputFeedTest : ::testing::Test {
@@ -65,5 +65,5 @@ TEST_F(InputFeedTest, SendsOnceATickUnlessSomethingNewComes) {
   EXPECT_TRUE(feed.Take(track, acked, tick + 1, false)) << "again: not acknowledged";
 }
 
-}  // namespace
+}  // namespace input_feed_test
 }  // namespace seam

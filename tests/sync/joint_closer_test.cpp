@@ -12,7 +12,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace joint_closer_test {
 
 std::string Box(const std::string& name, double x, const std::string& more = "") {
   return "[[part]]\nname = \"" + name + "\"\nbox = [0.8, 0.2]\nposition = [" + FloatDigits(x) +
@@ -192,5 +192,5 @@ TEST(JointCloser, LeavesOpenWhatTheEngineLeavesOpen) {
   EXPECT_NEAR(meter.Worst(poses), 0.05, 1e-4);
 }
 
-}  // namespace
+}  // namespace joint_closer_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "common/base/random.h"
 
 namespace seam {
-namespace {
+namespace kept_boxes_test {
 
 MovingBox BoxAt(Random* random, float wide, float side) {
   const Vec2 at(static_cast<float>(random->Uniform(-wide, wide)),
@@ -64,5 +64,5 @@ TEST(KeptBoxes, EachThatOverlapsIsFoundOnceAndNoOther) {
   }
 }
 
-}  // namespace
+}  // namespace kept_boxes_test
 }  // namespace seam

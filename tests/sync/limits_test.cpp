@@ -8,7 +8,7 @@
 #include "tests/support/random_messages.h"
 
 namespace seam {
-namespace {
+namespace limits_test {
 
 template <class Message>
 void ExpectBytes(const MessageBytes& bytes, std::size_t count) {
@@ -55,5 +55,5 @@ TEST(Limits, GrantsAndReleasesAreAsLargeAsIsReckoned) {
   EXPECT_EQ(Encode(release).size(), Largest(kReleaseBytes, 2));
 }
 
-}  // namespace
+}  // namespace limits_test
 }  // namespace seam

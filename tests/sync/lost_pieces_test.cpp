@@ -10,7 +10,7 @@
 #include "tests/support/two_sides.h"
 
 namespace seam {
-namespace {
+namespace lost_pieces_test {
 
 /// Everything of `battlefield` lies on ground at y = 0, which is a line.
 constexpr float kLost = -1;
@@ -125,5 +125,5 @@ TEST(LostPiecesCluster, PostsThatAreBlownApartTwiceLieOnTheGround) {
   }
 }
 
-}  // namespace
+}  // namespace lost_pieces_test
 }  // namespace seam

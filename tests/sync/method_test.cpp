@@ -5,7 +5,7 @@
 #include "common/base/check.h"
 
 namespace seam {
-namespace {
+namespace method_test {
 
 SyncConfig Config(const std::string& method) { return MakeSyncConfig(SplitMethod(method)); }
 
@@ -56,5 +56,5 @@ TEST(Method, RefusesWhatIsUnknownOrOfAnotherMode) {
   EXPECT_EQ(complaint({"central", "", "own"}), "none");
 }
 
-}  // namespace
+}  // namespace method_test
 }  // namespace seam

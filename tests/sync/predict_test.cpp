@@ -6,7 +6,7 @@
 #include "tests/support/wired_replicas.h"
 
 namespace seam {
-namespace {
+namespace predict_test {
 
 const char* const kRoom = R"(
 gravity = [0, 0]
@@ -103,5 +103,5 @@ TEST(Predict, AllStepsOthersWithTheirInputsAsFarAsTheyAreKnown) {
   }
 }
 
-}  // namespace
+}  // namespace predict_test
 }  // namespace seam

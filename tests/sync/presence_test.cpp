@@ -13,7 +13,7 @@
 #include "tests/support/replica_test_access.h"
 
 namespace seam {
-namespace {
+namespace presence_test {
 
 /// The own box at 0, others along a line; no gravity.
 const char* const kLine = R"(
@@ -258,5 +258,5 @@ TEST(InputTrack, KnowsWhatItWasToldAndForgetsWhatIsOld) {
   }
 }
 
-}  // namespace
+}  // namespace presence_test
 }  // namespace seam

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 namespace seam {
-namespace {
+namespace proposal_queue_test {
 
 Edit BreakOf(std::int32_t joint) { return Edit(BreakEdit{joint}); }
 
@@ -44,5 +44,5 @@ TEST(ProposalQueue, GivesEachProposalOnceInItsOrder) {
   EXPECT_FALSE(queue.Add(BreakOf(7), 110)) << "it is remembered after it was taken";
 }
 
-}  // namespace
+}  // namespace proposal_queue_test
 }  // namespace seam

@@ -7,7 +7,7 @@
 #include "tests/support/scripted_world.h"
 
 namespace seam {
-namespace {
+namespace reach_test {
 
 /// ann's and bob's boxes `gap` m apart, and a crate far from both; this is ann's peer.
 class Lot {
@@ -123,5 +123,5 @@ TEST(Reach, InputsOfTicksStillToComeAreNotMissing) {
   EXPECT_EQ(lot.Missing("his"), 0);
 }
 
-}  // namespace
+}  // namespace reach_test
 }  // namespace seam

@@ -16,7 +16,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace reckoner_test {
 
 /// Two rods on a hinge; `wheel` on the first.
 const char* kRods = R"(gravity = [0, 0]
@@ -343,5 +343,5 @@ TEST(Smoother, ARigidJumpOfAMechanismReturnsRigidly) {
   EXPECT_LT(smoother.offset(0).norm(), 0.01f);
 }
 
-}  // namespace
+}  // namespace reckoner_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "tests/support/followed_copy.h"
 
 namespace seam {
-namespace {
+namespace reconcile_pvb_test {
 
 /// Follows the rule through one blend of `interval` with no force but `g`, and the authority's path
 /// `there(t)`. The copy's end state; `worst_move` is the largest way in one tick.
@@ -133,5 +133,5 @@ TEST(Pvb, PlacesOnlyWhatIsFarOff) {
   EXPECT_FLOAT_EQ(ReconcilePvb(in).now.position.x(), 8.1f);
 }
 
-}  // namespace
+}  // namespace reconcile_pvb_test
 }  // namespace seam

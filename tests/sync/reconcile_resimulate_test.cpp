@@ -8,7 +8,7 @@
 #include "tests/support/followed_copy.h"
 
 namespace seam {
-namespace {
+namespace reconcile_resimulate_test {
 
 /// The copy is put wrong at tick 30; the largest distance from the truth from 30 ticks after the
 /// first message about it until `ticks`, m.
@@ -144,5 +144,5 @@ TEST(Resimulate, OwnBodiesStayWhereTheyAreWhileOthersAreSteppedAgain) {
   EXPECT_LT(worst, 2e-2f) << "by its velocity and what pushes it out, never by a replay";
 }
 
-}  // namespace
+}  // namespace reconcile_resimulate_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "tests/support/followed_copy.h"
 
 namespace seam {
-namespace {
+namespace reconcile_spring_test {
 
 const char* kWeightless = "gravity = [0, 0]\n[solver]\nsleep = false\n";
 
@@ -148,5 +148,5 @@ TEST(Spring, StandingOnTheGroundIsNotBeingBlocked) {
   EXPECT_NEAR(f.Apart(0).x(), 0, 0.05);
 }
 
-}  // namespace
+}  // namespace reconcile_spring_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "common/base/check.h"
 
 namespace seam {
-namespace {
+namespace reconcile_test {
 
 BodyState At(float x, float vx = 0) {
   BodyState s;
@@ -201,5 +201,5 @@ TEST(Reconcile, EveryRuleLeavesEqualStatesAlone) {
   EXPECT_THROW(FindReconciler("magic"), OperatorError);
 }
 
-}  // namespace
+}  // namespace reconcile_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "common/sync/replica.h"
 
 namespace seam {
-namespace {
+namespace replica_correct_test {
 
 const char* kBall =
     "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [50, 0]]\n"
@@ -119,5 +119,5 @@ TEST(Correct, WhatSpinsIsShownAtItsAngleAtOnceAndItsCentreGlides) {
   EXPECT_NEAR(slow.moved, 0, 1e-5f);
 }
 
-}  // namespace
+}  // namespace replica_correct_test
 }  // namespace seam

@@ -12,7 +12,7 @@
 #include "common/scene/scene.h"
 
 namespace seam {
-namespace {
+namespace rest_commit_test {
 
 /// Two boxes side by side on the ground; this is peer 0, who has them all at first.
 class OnTheGround {
@@ -274,5 +274,5 @@ TEST(RestCommit, WhatCameToRestTwiceBeforeItIsToldIsToldOnce) {
   EXPECT_EQ(ids.size(), 2u) << "each once, as it lies now";
 }
 
-}  // namespace
+}  // namespace rest_commit_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "common/sync/rest/rest_blocks.h"
 
 namespace seam {
-namespace {
+namespace rest_table_test {
 
 template <class T>
 std::uint64_t Add(const T& value, std::uint64_t hash) {
@@ -118,5 +118,5 @@ TEST(RestBlocks, WhatGoesOnToDifferIsLostAndWhatChangesIsUnderWay) {
   EXPECT_TRUE(lost);
 }
 
-}  // namespace
+}  // namespace rest_table_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "tests/support/wired_replicas.h"
 
 namespace seam {
-namespace {
+namespace rollback_test {
 
 /// ann's and bob's sledges with a crate between, on a floor; the second button of each pushes the
 /// crate. Nothing sleeps: being at rest has rules of its own.
@@ -317,5 +317,5 @@ TEST(Rollback, WhatRestsStaysAtRestThroughAReplayThatBeginsAfterItDidWithTheCopy
   ExpectBobsCopyRests(off, 20);
 }
 
-}  // namespace
+}  // namespace rollback_test
 }  // namespace seam

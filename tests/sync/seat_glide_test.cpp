@@ -8,7 +8,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace seat_glide_test {
 
 const char* const kTwo =
     "[[part]]\nname = \"one\"\nbox = [1, 1]\nvelocity = [3, 0]\n"
@@ -64,5 +64,5 @@ TEST(SeatGlide, ShiftTurnAndTheRestOfALimbTogetherStayWithinTheGentleLimit) {
   EXPECT_GT((foot.position - shown).norm(), 0.01f);
 }
 
-}  // namespace
+}  // namespace seat_glide_test
 }  // namespace seam

@@ -8,7 +8,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace send_scheduler_test {
 
 /// Boxes in a row, in free fall, 2 m apart; peer 0 has them all.
 class Row {
@@ -119,5 +119,5 @@ TEST(SendScheduler, WhatIsCommittedToRestIsToldNoMore) {
   EXPECT_EQ(everything[0].id, std::vector<std::int32_t>{1}) << "a Rest says where the other lies";
 }
 
-}  // namespace
+}  // namespace send_scheduler_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "tests/support/two_sides.h"
 
 namespace seam {
-namespace {
+namespace strand_view_test {
 
 const char* const kFlyer = R"(
 [[part]]
@@ -127,5 +127,5 @@ TEST(StrandView, MistakesAreOneClearLine) {
             std::string::npos);
 }
 
-}  // namespace
+}  // namespace strand_view_test
 }  // namespace seam

@@ -15,7 +15,7 @@
 #include "common/sync/snapshots.h"
 
 namespace seam {
-namespace {
+namespace sync_parts_test {
 
 TEST(Quantize, IsIdempotentAndBothEndsHoldTheSameNumbers) {
   Random random(7);
@@ -319,5 +319,5 @@ TEST(Mode, NamesAreCheckedAndReconcilersBelongToBuffer) {
   }
 }
 
-}  // namespace
+}  // namespace sync_parts_test
 }  // namespace seam

@@ -7,7 +7,7 @@
 #include "tests/support/followed_copy.h"
 
 namespace seam {
-namespace {
+namespace take_over_test {
 
 const char* const kFlying =
     "[[part]]\nname = \"ball\"\ncircle = 0.5\nposition = [0, 30]\nvelocity = [4, 0]\n";
@@ -75,5 +75,5 @@ TEST(TakeOver, OfAnEpochThatIsOverChangesNothing) {
   EXPECT_EQ(pair.copy_world().Read(0).position, before);
 }
 
-}  // namespace
+}  // namespace take_over_test
 }  // namespace seam

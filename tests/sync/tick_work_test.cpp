@@ -12,7 +12,7 @@
 #include "tests/support/count_allocations.h"
 
 namespace seam {
-namespace {
+namespace tick_work_test {
 
 /// The own box, one beside it that it leans on, and others far away, of the server's. Nobody looks.
 std::unique_ptr<Replica> RoomOf(int far, const std::string& more = "") {
@@ -90,5 +90,5 @@ TEST(TickWork, OfWhatIsFarItBeginsWhereItsAuthorityPutsItNear) {
   EXPECT_NEAR(replica->world().Read(kFirst).position.y(), 1.6 - 2 * 12.0 / 60, 0.1);
 }
 
-}  // namespace
+}  // namespace tick_work_test
 }  // namespace seam

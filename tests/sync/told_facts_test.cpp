@@ -5,7 +5,7 @@
 #include "tests/support/followed_copy.h"
 
 namespace seam {
-namespace {
+namespace told_facts_test {
 
 /// A disc of one's own and one of somebody else's, both at rest, 20 m apart.
 const char* const kTwoDiscs = R"(
@@ -45,5 +45,5 @@ TEST(ToldFact, WhatWasToldAsStruckMovesOnThoughNothingStruckIt) {
   EXPECT_NEAR(now.position.x(), told.position.x() + 12 * told.velocity.x() / 60, 1e-3);
 }
 
-}  // namespace
+}  // namespace told_facts_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "common/base/random.h"
 
 namespace seam {
-namespace {
+namespace zones_test {
 
 MovingBox Box(const Vec2& min, const Vec2& max, const Vec2& velocity = {0, 0}, int group = 0) {
   MovingBox box;
@@ -133,5 +133,5 @@ TEST(Zones, ALongChainIsOneComponentWhateverTheOrderOfItsLinks) {
   EXPECT_EQ(Components(kCount, links), std::vector<int>(kCount, 0));
 }
 
-}  // namespace
+}  // namespace zones_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "common/scene/scene_limits.h"
 
 namespace seam {
-namespace {
+namespace feather_blast_test {
 
 std::vector<BrickField> Wall(float strength = 0) {
   BrickField wall;
@@ -99,5 +99,5 @@ TEST(Blast, StrongBricksStayAndTakenOnesDoNotComeAgain) {
   EXPECT_TRUE(BlastBricks(Wall(0), FeatherStore(Wall(0)), {Vec2(200, 6), 5, 20}).bricks.empty());
 }
 
-}  // namespace
+}  // namespace feather_blast_test
 }  // namespace seam

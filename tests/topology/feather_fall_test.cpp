@@ -12,7 +12,7 @@
 #include "common/topology/topology.h"
 
 namespace seam {
-namespace {
+namespace feather_fall_test {
 
 const std::string kGround = "[[part]]\nname = \"ground\"\nchain = [[-50, 0], [50, 0]]\n";
 
@@ -138,5 +138,5 @@ TEST(Fall, APieceLeavesTheHoleThatItFits) {
   EXPECT_LT(world.Read(0).position.y(), 0.2f);
 }
 
-}  // namespace
+}  // namespace feather_fall_test
 }  // namespace seam

@@ -15,7 +15,7 @@
 #include "tests/support/soak.h"
 
 namespace seam {
-namespace {
+namespace feather_store_test {
 
 BrickField Rectangle(int x, int y, int columns, int rows, int width = 10, int height = 5) {
   BrickField field;
@@ -209,5 +209,5 @@ TEST(FeatherOutline, WindowsAreHolesAndTowersDiffer) {
   EXPECT_GT(heights.size(), 10u);
 }
 
-}  // namespace
+}  // namespace feather_store_test
 }  // namespace seam

@@ -13,7 +13,7 @@
 #include "common/topology/topology_fold.h"
 
 namespace seam {
-namespace {
+namespace foundation_test {
 
 std::string Ground(const std::string& points) {
   return "[[part]]\nname = \"ground\"\nchain = [" + points + "]\n";
@@ -211,5 +211,5 @@ TEST(Foundations, WhoJoinsLaterHasTheSameBricks) {
       << "only the low ones stand";
 }
 
-}  // namespace
+}  // namespace foundation_test
 }  // namespace seam

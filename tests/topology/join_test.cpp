@@ -11,7 +11,7 @@
 #include "tests/support/living_world.h"
 
 namespace seam {
-namespace {
+namespace join_test {
 
 const char* const kNoGravity = "gravity = [0, 0]";
 
@@ -105,5 +105,5 @@ TEST(Join, OnlyWhatConnectorsWouldDoMayBeProposed) {
   EXPECT_FALSE(MayPropose(topology, Edit(wrong))) << "this scene does not group";
 }
 
-}  // namespace
+}  // namespace join_test
 }  // namespace seam

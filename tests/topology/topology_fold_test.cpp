@@ -14,7 +14,7 @@
 #include "tests/support/soak.h"
 
 namespace seam {
-namespace {
+namespace topology_fold_test {
 
 /// Of all kinds of joints a few, a seat and a wall to blast.
 const std::string kScene = R"(
@@ -343,5 +343,5 @@ TEST(TopologyFold, APlaceThatABondHasLeftIsTakenByTheNext) {
   EXPECT_FALSE(topology.scene().joints[static_cast<std::size_t>(scenes)].gone);
 }
 
-}  // namespace
+}  // namespace topology_fold_test
 }  // namespace seam

@@ -13,7 +13,7 @@
 #include "tests/support/small_world.h"
 
 namespace seam {
-namespace {
+namespace topology_test {
 
 std::string Part(const std::string& name, double width, double height, double x, double y,
                  const std::string& more = "") {
@@ -322,5 +322,5 @@ TEST(Topology, ABondWithWhatIsAnchoredCarriesTheMechanismAlong) {
   EXPECT_LT((PartPose(*world, 1).position - Vec2(5, 2)).norm(), 1e-5f);
 }
 
-}  // namespace
+}  // namespace topology_test
 }  // namespace seam

@@ -12,7 +12,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace climb_cluster_test {
 
 constexpr float kWall = 4;  // m, where the pool ends
 
@@ -84,5 +84,5 @@ TEST(ClimbCluster, HandOverHandOutOfTheWaterIsSeenByEverybody) {
   }
 }
 
-}  // namespace
+}  // namespace climb_cluster_test
 }  // namespace seam

@@ -9,7 +9,7 @@
 #include "tests/support/two_sides.h"
 
 namespace seam {
-namespace {
+namespace jump_seen_test {
 
 const char* const kJumper = R"(
 [solver]
@@ -56,5 +56,5 @@ TEST(JumpSeen, AnotherPlayersScreenShowsItWithin300Ms) {
   }
 }
 
-}  // namespace
+}  // namespace jump_seen_test
 }  // namespace seam

@@ -10,7 +10,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace first_ticks_test {
 
 /// A cart at x on two wheels, driven by `player` towards `to`.
 std::string CartText(const std::string& player, double x, int to) {
@@ -82,5 +82,5 @@ TEST(FirstTicks, WhoeverDrivesFromTheStartOnAllComeToTheSameBits) {
   }
 }
 
-}  // namespace
+}  // namespace first_ticks_test
 }  // namespace seam

@@ -13,7 +13,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace capacity_test {
 
 /// Eight players steer a disc each, in the middle of 144 others.
 std::string RoomText(int capacity) {
@@ -64,5 +64,5 @@ TEST(Capacity, RoomsOfElasticDiscsGainNoEnergyHoweverLittleClientsMayStep) {
   }
 }
 
-}  // namespace
+}  // namespace capacity_test
 }  // namespace seam

@@ -10,7 +10,7 @@
 #include "tests/support/soak/server_test_access.h"
 
 namespace seam {
-namespace {
+namespace handed_back_cluster_test {
 
 /// Where the plan's followers were those that the question to let go had left, nobody else was
 /// told: seed 400001 of the soak of narrow rooms.
@@ -54,5 +54,5 @@ TEST(HandedBackCluster, WhoIsNearHearsOfItWithinTwoSeconds) {
   EXPECT_EQ(stray, 0) << "client-ticks in which one near it did not know";
 }
 
-}  // namespace
+}  // namespace handed_back_cluster_test
 }  // namespace seam

@@ -12,7 +12,7 @@
 #include "tests/support/rewriting_net.h"
 
 namespace seam {
-namespace {
+namespace rest_interest_test {
 
 constexpr int kCrates = 60;
 
@@ -137,5 +137,5 @@ TEST(RestInterest, WhatWasLostOfABlockIsSaidAgainAndNoMore) {
   }
 }
 
-}  // namespace
+}  // namespace rest_interest_test
 }  // namespace seam

@@ -13,7 +13,7 @@
 #include "tests/support/lab_workspace.h"
 
 namespace seam {
-namespace {
+namespace lab_exact_case_test {
 
 /// A ball thrown from 10 m; the code begins on line 10.
 const char* const kThrown =
@@ -262,5 +262,5 @@ TEST(ExactCase, AScriptOfAGameMayStillBeginByChangingItsWorld) {
   EXPECT_LT(scene.Error(), 1e-5);
 }
 
-}  // namespace
+}  // namespace lab_exact_case_test
 }  // namespace seam

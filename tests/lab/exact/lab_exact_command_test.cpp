@@ -11,7 +11,7 @@
 #include "tests/support/lab_workspace.h"
 
 namespace seam {
-namespace {
+namespace lab_exact_command_test {
 
 const char* const kBall =
     "duration = 1\n[[part]]\nname = \"ball\"\ncircle = 0.5\nposition = [0, 10]\n";
@@ -129,5 +129,5 @@ TEST(Reference, IsConvergedWhenItsOwnErrorIsAQuarterOfStocksOrBelowRounding) {
   EXPECT_FALSE(reference.converged());
 }
 
-}  // namespace
+}  // namespace lab_exact_command_test
 }  // namespace seam

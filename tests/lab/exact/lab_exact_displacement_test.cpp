@@ -8,7 +8,7 @@
 #include "tests/lab/exact/displacement.h"
 
 namespace seam {
-namespace {
+namespace lab_exact_displacement_test {
 
 Part PartOf(const std::string& shape) {
   return ParseScene("[[part]]\nname = \"a\"\nposition = [5, 5]\n" + shape + "\n", "made-up.toml")
@@ -54,5 +54,5 @@ TEST(Displacement, OfAStateThatIsNoNumberIsNone) {
   EXPECT_TRUE(std::isnan(Displacement(box, At(0, 0, NAN), Wanted(0, 0, 0))));
 }
 
-}  // namespace
+}  // namespace lab_exact_displacement_test
 }  // namespace seam

@@ -13,7 +13,7 @@
 #include "tests/support/lab_workspace.h"
 
 namespace seam {
-namespace {
+namespace lab_fairness_test {
 
 FairnessRun Headon(const std::string& mode, const std::string& reconcile = "") {
   FairnessRun run;
@@ -173,5 +173,5 @@ TEST(FairnessCommand, WritesARowForEachSeedAndAssignmentAndGoesOnWhereItWas) {
   EXPECT_THROW(RunFairnessTable(command), OperatorError);
 }
 
-}  // namespace
+}  // namespace lab_fairness_test
 }  // namespace seam

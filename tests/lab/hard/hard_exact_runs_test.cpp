@@ -9,7 +9,7 @@
 #include "tests/support/hard_case_named.h"
 
 namespace seam {
-namespace {
+namespace hard_exact_runs_test {
 
 struct Verdict {
   double error;
@@ -180,5 +180,5 @@ TEST(HardExactRuns, TheDominoWaveHasOneSpeedAndTheSceneAlmostIt) {
   EXPECT_NEAR(WaveSpeed(60, 2) / fine, 1, 0.008);
 }
 
-}  // namespace
+}  // namespace hard_exact_runs_test
 }  // namespace seam

@@ -10,7 +10,7 @@
 #include "tests/support/hard_case_named.h"
 
 namespace seam {
-namespace {
+namespace hard_exact_test {
 
 /// A case's world, whose bodies are placed by hand and shown to its judge at chosen times.
 struct Puppet {
@@ -295,5 +295,5 @@ TEST(HardExact, ShotsBehindTheirWallAreCountedAndThoseThatWereSlowed) {
   EXPECT_EQ(p.ErrorAt(0.03), 2.0 / 32);
 }
 
-}  // namespace
+}  // namespace hard_exact_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "tests/lab/hard/invariant_judges.h"
 
 namespace seam {
-namespace {
+namespace hard_invariant_test {
 
 /// Two boxes 5 m apart.
 const char* const kTwoBoxes =
@@ -315,5 +315,5 @@ TEST(HardInvariant, FamiliesAreWhereTheirNamesSay) {
   EXPECT_EQ(far.joints[0].anchor_a, Vec2(8000, 6000));
 }
 
-}  // namespace
+}  // namespace hard_invariant_test
 }  // namespace seam

@@ -5,7 +5,7 @@
 #include "tests/lab/load/load.h"
 
 namespace seam {
-namespace {
+namespace lab_load_test {
 
 /// Four players, each with a box and two crates, far from each other.
 std::string Apart(int server_follow) {
@@ -62,5 +62,5 @@ TEST(LabLoad, TellsWhoDoesTheWork) {
   EXPECT_EQ(relieved.split_share, 0) << "nobody is near another";
 }
 
-}  // namespace
+}  // namespace lab_load_test
 }  // namespace seam

@@ -12,7 +12,7 @@
 #include "tests/lab/cluster.h"
 
 namespace seam {
-namespace {
+namespace unseen_server_test {
 
 /// Two discs, each a player's, that pass each other.
 const char* const kTwo = R"(
@@ -200,5 +200,5 @@ TEST(UnseenServer, HidesNoCorrectionsInViewsThatNobodyGets) {
   EXPECT_LT(MostHidden(Publish::kAll, false), 0.001f) << "nobody listens";
 }
 
-}  // namespace
+}  // namespace unseen_server_test
 }  // namespace seam

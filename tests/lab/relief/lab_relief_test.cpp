@@ -16,7 +16,7 @@
 #include "tests/support/lab_workspace.h"
 
 namespace seam {
-namespace {
+namespace lab_relief_test {
 
 TEST(LabRelief, ARoomHasSoManyPlayersAndBodies) {
   for (const ReliefThings things : {ReliefThings::kCrates, ReliefThings::kBalls}) {
@@ -109,5 +109,5 @@ TEST(LabRelief, ASwarmThatSaysNothingOfTheServerIsNotRead) {
   EXPECT_THROW(ReadSwarm(""), OperatorError);
 }
 
-}  // namespace
+}  // namespace lab_relief_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "tests/support/soak.h"
 
 namespace seam {
-namespace {
+namespace lab_titles_test {
 
 class TitleOfScene : public ::testing::TestWithParam<Title> {
  protected:
@@ -51,5 +51,5 @@ TEST(Titles, TheDocsHaveEachSentence) {
   }
 }
 
-}  // namespace
+}  // namespace lab_titles_test
 }  // namespace seam

@@ -5,7 +5,7 @@
 #include "tests/lab/report/sweep_section.h"
 
 namespace seam {
-namespace {
+namespace lab_floor_table_test {
 
 Sweep SweepOf(const std::string& rows) {
   CsvTable table = CsvTable::Parse(
@@ -62,5 +62,5 @@ TEST(InformationLimit, IsATableOfMultiplesWhereASweepHasIt) {
   EXPECT_EQ(tables, 1);
 }
 
-}  // namespace
+}  // namespace lab_floor_table_test
 }  // namespace seam

@@ -13,7 +13,7 @@
 #include "tests/support/lab_workspace.h"
 
 namespace seam {
-namespace {
+namespace lab_validity_test {
 
 /// A scene in which nothing touches anything, with what it expects.
 std::string Apart(const std::string& expect) {
@@ -163,5 +163,5 @@ TEST(Validity, ATableOfAnEarlierVersionHasNoSuchColumnAndIsValid) {
   EXPECT_EQ(FindValidity(table).invalid, 0u);
 }
 
-}  // namespace
+}  // namespace lab_validity_test
 }  // namespace seam

@@ -7,7 +7,7 @@
 #include "tests/physics/exact/rows_of_scene.h"
 
 namespace seam {
-namespace {
+namespace contact_rows_test {
 
 const char* kFloor = "[[part]]\nname = \"floor\"\nbox = [10, 1]\nposition = [0, -0.5]\n";
 
@@ -135,5 +135,5 @@ TEST(ContactRows, OverlapIsPushedOutSlowlyAndAGapMayShut) {
   EXPECT_EQ(row.lo, 0);
 }
 
-}  // namespace
+}  // namespace contact_rows_test
 }  // namespace seam

@@ -8,7 +8,7 @@
 #include "tests/physics/exact/exact_scenes.h"
 
 namespace seam {
-namespace {
+namespace exact_edits_test {
 
 std::string HungChain(int count) {
   return PostText(0, 0) + ChainText(count, 0, 0) + HingeText("top", "post", "link.0", 0, 0);
@@ -132,5 +132,5 @@ TEST(ExactEdits, AWriteThatTearsAJointApartIsUndoneWithoutSpeed) {
   }
 }
 
-}  // namespace
+}  // namespace exact_edits_test
 }  // namespace seam

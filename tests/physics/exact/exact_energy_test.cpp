@@ -11,7 +11,7 @@
 #include "tests/physics/exact/exact_scenes.h"
 
 namespace seam {
-namespace {
+namespace exact_energy_test {
 
 double EnergyOf(const World& world) {
   return MechanicalEnergy(world.scene(), world.composition(), StatesOf(world));
@@ -318,5 +318,5 @@ TEST(ExactEnergy, WhatIsPulledThroughAPulleysPointGainsNothing) {
   EXPECT_LT(Drift(*world), 1e-5);
 }
 
-}  // namespace
+}  // namespace exact_energy_test
 }  // namespace seam

@@ -12,7 +12,7 @@
 #include "tests/physics/exact/exact_scenes.h"
 
 namespace seam {
-namespace {
+namespace exact_handed_test {
 
 double Fastest(const World& world) {
   double most = 0;
@@ -113,5 +113,5 @@ TEST(ExactHanded, ALightChainThatComesBackOpenIsShutNotThrown) {
   }
 }
 
-}  // namespace
+}  // namespace exact_handed_test
 }  // namespace seam

@@ -10,7 +10,7 @@
 #include "tests/physics/exact/exact_jams.h"
 
 namespace seam {
-namespace {
+namespace exact_jam_test {
 
 double MassOf(const World& world) {
   double mass = 0;
@@ -131,5 +131,5 @@ TEST(ExactJam, AJamIsTheSameAfterABarrierAndAfterGoingBack) {
   }
 }
 
-}  // namespace
+}  // namespace exact_jam_test
 }  // namespace seam

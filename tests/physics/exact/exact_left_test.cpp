@@ -13,7 +13,7 @@
 #include "tests/physics/exact/exact_scenes.h"
 
 namespace seam {
-namespace {
+namespace exact_left_test {
 
 /// Discs at distances of 1 m, each joined to its neighbours, that come down at 50 m/s.
 std::string FallingGrid() {
@@ -198,5 +198,5 @@ TEST(ExactLeft, WhatANewJointsMemoryHeldBeforeIsOfNoMatter) {
   }
 }
 
-}  // namespace
+}  // namespace exact_left_test
 }  // namespace seam

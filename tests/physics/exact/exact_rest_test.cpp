@@ -5,7 +5,7 @@
 #include "tests/physics/exact/exact_scenes.h"
 
 namespace seam {
-namespace {
+namespace exact_rest_test {
 
 /// A chain of `count` links that hangs from a post at height 8; it may sleep.
 std::string Hanging(int count) {
@@ -169,5 +169,5 @@ TEST(ExactRest, WhatSleepsIsNotMovedWhenAMechanismIsBroughtTogether) {
   EXPECT_EQ(moved, 0);
 }
 
-}  // namespace
+}  // namespace exact_rest_test
 }  // namespace seam

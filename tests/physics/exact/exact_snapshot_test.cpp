@@ -9,7 +9,7 @@
 #include "tests/physics/exact/exact_scenes.h"
 
 namespace seam {
-namespace {
+namespace exact_snapshot_test {
 
 constexpr int kEvery = 3, kBack = 10;
 
@@ -115,5 +115,5 @@ TEST(ExactSnapshot, WhatIsFreeHasTheSameBitsBesideAnExactMechanism) {
   EXPECT_TRUE(other_chain) << "the chain was to be solved in another way";
 }
 
-}  // namespace
+}  // namespace exact_snapshot_test
 }  // namespace seam

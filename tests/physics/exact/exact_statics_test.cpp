@@ -9,7 +9,7 @@
 #include "tests/support/living_world.h"
 
 namespace seam {
-namespace {
+namespace exact_statics_test {
 
 /// A hook of 0.4 kg glued to a wall, from which `links` of 0.2 kg hang in a row.
 std::string HungFromGlue(double strength, int links) {
@@ -162,5 +162,5 @@ TEST(ExactStatics, ARopeOverAPulleyBalancesByItsRatio) {
   EXPECT_NEAR(world->Read(1).position.y(), 0, 1e-4);
 }
 
-}  // namespace
+}  // namespace exact_statics_test
 }  // namespace seam

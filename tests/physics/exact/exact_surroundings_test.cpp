@@ -8,7 +8,7 @@
 #include "tests/physics/exact/exact_scenes.h"
 
 namespace seam {
-namespace {
+namespace exact_surroundings_test {
 
 /// Two planks of 1 m, hinged, flat on what is at height `y`.
 std::string Planks(double y) {
@@ -185,5 +185,5 @@ TEST(ExactSurroundings, AnElasticBlowOnAMechanismIsReportedToo) {
   EXPECT_NEAR(world->Read(0).velocity.x(), 9 * 2 * m / (m + planks), 0.02);
 }
 
-}  // namespace
+}  // namespace exact_surroundings_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "tests/physics/exact/exact_scenes.h"
 
 namespace seam {
-namespace {
+namespace free_blows_test {
 
 constexpr const char* kWeightless = "gravity = [0, 0]\n";
 
@@ -205,5 +205,5 @@ TEST(FreeBlows, GoBackBitForBit) {
   }
 }
 
-}  // namespace
+}  // namespace free_blows_test
 }  // namespace seam

@@ -8,7 +8,7 @@
 #include "tests/physics/exact/rows_of_scene.h"
 
 namespace seam {
-namespace {
+namespace joint_rows_test {
 
 /// Two bodies whose origins are not their centres of mass, apart in the air.
 const char* kTwo = R"(
@@ -209,5 +209,5 @@ TEST(JointRows, WhatDoesNotMoveFreelyAddsItsSpeed) {
   EXPECT_NEAR(rows[1].row.fixed_speed, -1.75, 1e-12);
 }
 
-}  // namespace
+}  // namespace joint_rows_test
 }  // namespace seam

@@ -11,7 +11,7 @@
 #include "common/base/random.h"
 
 namespace seam {
-namespace {
+namespace skyline_test {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
@@ -177,5 +177,5 @@ TEST(Skyline, CountsWhatAFactorisationMultipliesAtMost) {
   EXPECT_EQ(Skyline::Cost({0, 0, 1, 0}), 0 + 2 + 2 + 8);  // widths 1, 2, 2, 4
 }
 
-}  // namespace
+}  // namespace skyline_test
 }  // namespace seam

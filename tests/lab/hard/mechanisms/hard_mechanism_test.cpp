@@ -12,7 +12,7 @@
 #include "tests/support/hard_case_named.h"
 
 namespace seam {
-namespace {
+namespace hard_mechanism_test {
 
 /// A jaw at the origin with a load beside it, hinged to a post by a rod.
 const char* const kHeld =
@@ -208,5 +208,5 @@ TEST(HardMechanism, EachLoadedJointIsAloneWithItsKind) {
   }
 }
 
-}  // namespace
+}  // namespace hard_mechanism_test
 }  // namespace seam

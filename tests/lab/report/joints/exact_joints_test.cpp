@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 namespace seam {
-namespace {
+namespace exact_joints_test {
 
 /// A row of `seam-lab physics`: what is not said is as in all.
 std::string Row(const std::string& name, const std::string& role, const std::string& joints,
@@ -115,5 +115,5 @@ TEST(ExactJoints, LosersAreNamed) {
   EXPECT_EQ(table.rows[3][3], "not measured");
 }
 
-}  // namespace
+}  // namespace exact_joints_test
 }  // namespace seam

@@ -13,7 +13,7 @@
 #include "tests/support/soak/fault_runner.h"
 
 namespace seam {
-namespace {
+namespace told_facts_cluster_test {
 
 constexpr int kDiscs = 60;
 
@@ -167,5 +167,5 @@ TEST(ContestedCrowd, TheServerDecidesOnWhatItsOwnersDoNotAgreeOn) {
   }
 }
 
-}  // namespace
+}  // namespace told_facts_cluster_test
 }  // namespace seam
