@@ -29,8 +29,8 @@ struct BodyRemap {
   std::vector<std::vector<int>> mechanisms;
 };
 
-/// Returns the state of a body whose earlier body had the state `before`, by the same rigid motion;
-/// also valid for past ticks. Requires origin.body >= 0.
+/// Returns the state of a body if its earlier body had the state `before`, by the same rigid
+/// motion; also valid for past ticks. Requires origin.body >= 0.
 BodyState Carried(const BodyOrigin& origin, const BodyState& before);
 
 }  // namespace seam

@@ -69,7 +69,7 @@ struct SeatEdit {
 /// blast.
 struct BlastEdit {
   Vec2 centre{0, 0};  ///< m
-  float radius = 0;   ///< m: bricks whose middle is within, and bodies that reach into it
+  float radius = 0;   ///< m: acts on brick centres within, and on bodies that reach into it
   float speed = 0;    ///< m/s of bricks in the centre, falling to 0 at the radius
   float impulse = 0;  ///< N s for each metre of silhouette in the centre, falling likewise
 };

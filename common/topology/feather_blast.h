@@ -16,7 +16,7 @@ constexpr int kBlastPiecesMax = 40;
 
 struct Blast {
   Vec2 centre{0, 0};  ///< m
-  float radius = 1;   ///< m: bricks whose middle is within it
+  float radius = 1;   ///< m: brick centres within it
   float speed = 10;   ///< m/s in the centre, falling to 0 at the radius
   float impulse = 0;  ///< N s for each metre of a body's silhouette, falling likewise
 };

@@ -106,7 +106,7 @@ class Topology {
   bool stale_ = false;                 // composition_ is older than scene_
   int revision_ = 0;
   mutable std::shared_ptr<FeatherStore> left_;  // shared by copies until one of them changes it
-  mutable std::size_t left_parts_ = 0;          // parts whose bricks are already removed
+  mutable std::size_t left_parts_ = 0;          // number of parts already applied to it
   std::shared_ptr<const std::vector<Part>> ground_;  // parts that bricks may lie on, at the start
   mutable std::shared_ptr<const Foundations> foundations_;  // made with left_
   std::optional<Vec2> hanging_;

@@ -1,5 +1,5 @@
 #pragma once
-/// Compacts the edit history to what is needed to rebuild the current topology from the scene.
+/// Compacts the edit history to the minimum that rebuilds the current topology from the scene.
 /// Pushes, and glue that formed and broke, leave no entry.
 ///
 ///   steps    inserts and blasts in order (they number the parts and joints), interleaved with

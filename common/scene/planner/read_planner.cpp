@@ -7,7 +7,7 @@
 namespace seam {
 namespace {
 
-/// Players times bodies that are followed whole, at most, where players begin far from each other.
+/// Largest product of players and fully followed bodies if players start far apart.
 constexpr int kFollowedByAll = 4096;
 
 }  // namespace
