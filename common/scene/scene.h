@@ -212,8 +212,8 @@ struct Scene {
   /// Every peer follows a room of at most this many moving bodies whole. In a larger room, a peer
   /// uses dead reckoning for bodies outside its buffer zone that cannot soon meet its own.
   int follow_bodies = 256;
-  /// The server also simulates all bodies of rooms with at most this many moving bodies, whoever
-  /// has the authority.
+  /// The server also simulates all bodies of rooms with at most this many moving bodies, under any
+  /// authority.
   int server_follow = 256;
   int input_delay_ticks = 0;                              ///< from sampling an input to its tick
   float speed_limit = 120;                                ///< m/s: faster states are implausible

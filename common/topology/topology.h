@@ -54,7 +54,7 @@ class Topology {
   /// Returns whether the edit could be applied now. Does not check distances.
   Status Validate(const Edit& edit) const;
 
-  /// Returns the existing parts that an edit concerns; for an insert, none of its own.
+  /// Returns the existing parts that an edit refers to; for an insert, none of its own.
   std::vector<PartId> PartsOf(const Edit& edit) const;
 
   /// Returns true if a joint of this number exists or has existed.
