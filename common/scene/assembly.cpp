@@ -11,7 +11,7 @@
 namespace seam {
 namespace {
 
-/// Disjoint sets of 0..count-1; a set's name is its lowest member.
+/// Disjoint sets of 0..count-1; the lowest member represents a set.
 class Sets {
  public:
   explicit Sets(std::size_t count) : parent_(count) {
@@ -80,7 +80,7 @@ void JoinAssemblies(const Scene& scene, Composition* composition) {
                            !assemblies[static_cast<std::size_t>(b)].anchored;
     if (both_move) sets.Unite(a, b);
   }
-  // A set's name is its lowest index, and indices ascend with ids: mechanisms come out ascending.
+  // A set is named by its lowest index, and indices ascend with ids: mechanisms come out ascending.
   std::map<int, int> mechanism_of_set;
   for (std::size_t i = 0; i < assemblies.size(); ++i) {
     if (assemblies[i].anchored) continue;
@@ -103,7 +103,7 @@ void JoinAssemblies(const Scene& scene, Composition* composition) {
 std::uint64_t HashOf(const Composition& composition) {
   std::uint64_t hash = Fnv1a(nullptr, 0);
   const auto add = [&hash](std::int32_t value) {
-    // By bytes, lowest first: the same on every machine.
+    // Byte by byte, lowest first: the same on every machine.
     for (int shift = 0; shift < 32; shift += 8) {
       const auto byte = static_cast<std::uint8_t>(static_cast<std::uint32_t>(value) >> shift);
       hash = Fnv1a(&byte, 1, hash);

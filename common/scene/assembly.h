@@ -8,14 +8,14 @@
 
 namespace seam {
 
-/// Parts that are rigidly joined; one body. Its id is its root's: the part of greatest mass,
-/// ties to the lowest id.
+/// Parts that are rigidly joined: one body. Its id is that of its root, the part of greatest mass
+/// (ties: the lowest id).
 struct Assembly {
   PartId id = 0;
-  bool anchored = false;      ///< a member is anchored: never moves
+  bool anchored = false;      ///< a member is anchored: never moves by contacts
   std::vector<PartId> parts;  ///< ascending
   int mechanism = -1;         ///< index into Composition::mechanisms; -1 when anchored
-  int kinematic = -1;         ///< anchored, but moved by this joint (index); -1: stands still
+  int kinematic = -1;         ///< anchored, but moved by this joint (index); -1: motionless
 };
 
 /// Moving assemblies connected by non-rigid joints: never split between peers.
@@ -25,20 +25,20 @@ struct Mechanism {
   int owner = -1;               ///< player that owns a part of it, lowest part first; -1: none
 };
 
-/// Who is joined to whom. The same parts and joints give the same composition, in the same order,
-/// on every peer.
+/// Grouping of the parts into assemblies and mechanisms. The same parts and joints give the same
+/// composition, in the same order, on every peer.
 struct Composition {
   std::vector<Assembly> assemblies;   ///< ascending by id; anchored ones included
   std::vector<Mechanism> mechanisms;  ///< ascending by id
   std::vector<int> assembly_of_part;  ///< by part id
-  std::uint64_t hash = 0;             ///< of all of the above
+  std::uint64_t hash = 0;             ///< hash of all of the above
 };
 
-/// Mass of one part from its shape and density, kg; 0 for lines.
+/// Returns a part's mass from its shape and density, kg; 0 for lines.
 float PartMass(const Part& part);
 
-/// Whether a joint, while it is there, makes its parts one body: glue, or a rigid weld unless the
-/// scene wants the engine's joints for those.
+/// Returns true if a joint that is present makes its parts one body: glue, or a rigid weld unless
+/// the scene solves welds as the engine's joints.
 inline bool IsRigid(const Joint& joint, const Solver& solver) {
   if (joint.kind == JointKind::kGlue) return true;
   return joint.kind == JointKind::kWeld && joint.frequency_hz <= 0 && !solver.weld_joints;

@@ -5,22 +5,22 @@
 namespace seam {
 namespace {
 
-/// Lengths of a building in units, nearest to what people build.
+/// Lengths of a building in units, close to real ones.
 constexpr int kStorey = 60, kBay = 60, kWindowWidth = 26, kWindowHeight = 30, kSill = 18;
 
-/// Bricks of `side` units that come nearest to `length`, at least one.
+/// Returns the number of bricks of `side` units nearest to `length`, at least one.
 int Bricks(int length, int side) {
   const int nearest = (length + side / 2) / side;
   return nearest < 1 ? 1 : nearest;
 }
 
-/// From..to inclusive.
+/// Returns a random number in from..to, both inclusive.
 int Between(Random& random, int from, int to) {
   const auto span = static_cast<std::uint64_t>(to - from + 1);
   return from + static_cast<int>(random.Next() % span);
 }
 
-/// Bays lie centred between the side walls, storeys from the ground up; what is left over is wall.
+/// Bays are centred between the side walls, storeys count from the ground; the remainder is wall.
 class Windows {
  public:
   Windows(const BrickField& field, int columns, int rows)
@@ -35,8 +35,8 @@ class Windows {
         left_((columns - bays_ * bay_) / 2) {
     if (wide_ >= bay_ || sill_ + high_ >= storey_) bays_ = 0;  // bricks too large for windows
   }
-  /// Whether there is a hole. No window is cut by the sides at `aside`, or by the row from which on
-  /// the tower stands back.
+  /// Returns true if there is a hole. No window is cut by the sides at `aside`, or by the row where
+  /// the setback begins.
   bool operator()(int column, int row, int aside, int setback_row) const {
     const int c = column - left_;
     if (c < 0 || c >= bays_ * bay_ || row >= storeys_ * storey_) return false;
@@ -52,11 +52,11 @@ class Windows {
   int bay_, storey_, wide_, high_, sill_, bays_, storeys_, columns_, left_;
 };
 
-/// A tower as its seed makes it: the upper part of most stands back.
+/// A tower generated from its seed; most towers are narrower from some row on (the setback).
 struct Tower {
-  int x = 0;                         // units, of its left side
+  int x = 0;                         // left side, units
   int columns = 0, rows = 0;         // bricks
-  int setback = 0, setback_row = 0;  // columns on each side, from that row on
+  int setback = 0, setback_row = 0;  // columns less on each side, from that row on
 
   Tower(const BrickField& field, int index) {
     const BrickField::Towers& t = field.towers;

@@ -1,6 +1,6 @@
 #pragma once
-/// A character: twelve parts and eleven limited hinges that a `[[character]]` of a scene stands
-/// for, as ordinary parts and joints of one mechanism.
+/// A character: a `[[character]]` of a scene expands into twelve parts and eleven limited hinges,
+/// ordinary parts and joints of one mechanism.
 ///
 ///        (o)      head            neck
 ///        |#|      torso           shoulders, hips
@@ -10,8 +10,7 @@
 ///        | |      lower legs      ankles
 ///        |_|_     feet            (facing right: the toes are on the right)
 ///
-/// Each part is one convex outline of eight corners, tapered like the limb it stands for; soles are
-/// flat.
+/// Each part is one convex outline of eight corners, tapered like a real limb; soles are flat.
 
 #include <array>
 #include <memory>
@@ -22,8 +21,8 @@
 
 namespace seam {
 
-/// Indices into Character::parts. Left and right are the same in two dimensions; the right one is
-/// numbered after the left one.
+/// Indices into Character::parts. Left and right look the same in two dimensions; right follows
+/// left.
 enum CharacterPart {
   kHead,
   kTorso,
@@ -56,7 +55,7 @@ enum CharacterJoint {
   kCharacterJoints
 };
 
-/// Arms and legs.
+/// True for arms and legs.
 constexpr bool IsLimb(int part) { return part >= kUpperArmLeft; }
 /// Requires IsLimb(part).
 constexpr bool IsLeft(int part) {
@@ -66,26 +65,26 @@ constexpr bool IsLeft(int part) {
 struct CharacterGains;  // common/stages/character/character_gains.h
 
 struct Character {
-  std::string name;     ///< its parts are "name.head", its joints "name.neck" and so on
-  bool active = false;  ///< its joints have motors that a controller turns
-  int player = -1;      ///< whose axes drive it; -1: it only stands
+  std::string name;     ///< its parts are "name.head" etc., its joints "name.neck" etc.
+  bool active = false;  ///< its joints have motors, which a controller drives
+  int player = -1;      ///< its axes drive the character; -1: it only stands
   float facing = 1;     ///< 1: toes to the right, -1: to the left
   float height = 1.8f;  ///< m
   std::array<PartId, kCharacterParts> parts{};
   std::array<int, kCharacterJoints> joints{};  ///< indices into Scene::joints
-  /// N m by which each joint resists turning when nothing drives it: muscle tone, for a body that
-  /// is limp, passive or dead.
+  /// N m by which each joint resists turning while not driven: muscle tone of a limp, passive or
+  /// dead body.
   std::array<float, kCharacterJoints> slack{};
-  /// Numbers of its controller, for searches of better ones; nullptr: those built in. No part of a
-  /// scene file: a peer has always those built in.
+  /// Gains of its controller, for optimisation; nullptr: the built-in ones. Not part of a scene
+  /// file: a peer always uses the built-in ones.
   std::shared_ptr<const CharacterGains> gains;
-  bool grip = false;  ///< its hands may hold what they touch (common/topology/grip.h)
-  int line = 0;       ///< in the scene file
+  bool grip = false;  ///< its hands may grip parts (common/topology/grip.h)
+  int line = 0;       ///< line in the scene file
 };
 
 struct Scene;
 
-/// A body's measures, m, for the height 1.8 m; others are in proportion. Heights are above the
+/// Measures of a body, m, for the height 1.8 m; they scale with the height. Heights are above the
 /// soles, standing straight.
 struct CharacterShape {
   float hip = 0.96f, shoulder = 1.46f, neck = 1.54f;
@@ -95,7 +94,7 @@ struct CharacterShape {
   float upper_arm = 0.30f, lower_arm = 0.34f;  ///< shoulder to elbow, elbow to fingertips
 };
 
-/// The joints of a character, to be broken when it dies: indices into Scene::joints.
+/// Returns a character's joints, to be broken when it dies: indices into Scene::joints.
 std::vector<int> JointsOf(const Scene& scene, int character);
 
 }  // namespace seam

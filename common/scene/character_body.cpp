@@ -7,14 +7,14 @@
 namespace seam {
 namespace {
 
-constexpr int kCorners = 8;  ///< what the engine takes as one shape
+constexpr int kCorners = 8;  ///< the engine's limit for one shape
 
-/// m, about the part's middle, facing right, counter-clockwise: the profile of a body.
+/// Profile of a body part, m: about the part's middle, facing right, counter-clockwise.
 struct PartOutline {
   float x[kCorners], y[kCorners];
 };
 
-/// Along y, with the radii `top` and `bottom`, m: a limb, thick where its muscles are.
+/// Returns a limb along y, with radii `top` and `bottom`, m, thick at its muscles.
 constexpr PartOutline Limb(float length, float top, float bottom) {
   const float up = length / 2, down = -length / 2;
   return {{-0.5f * bottom, 0.5f * bottom, bottom, top, 0.5f * top, -0.5f * top, -top, -bottom},
@@ -22,11 +22,11 @@ constexpr PartOutline Limb(float length, float top, float bottom) {
            down + 0.8f * bottom}};
 }
 
-/// The chin forward, the back of the skull round.
+/// Chin forward, back of the skull round.
 constexpr PartOutline kHeadOutline = {
     {-0.03f, 0.07f, 0.105f, 0.10f, 0.04f, -0.05f, -0.11f, -0.10f},
     {-0.13f, -0.125f, -0.03f, 0.06f, 0.13f, 0.13f, 0.06f, -0.05f}};
-/// Pelvis below, chest above.
+/// Pelvis at the bottom, chest at the top.
 constexpr PartOutline kTorsoOutline = {
     {-0.09f, 0.08f, 0.135f, 0.155f, 0.08f, -0.08f, -0.145f, -0.14f},
     {-0.30f, -0.30f, -0.20f, 0.12f, 0.30f, 0.30f, 0.14f, -0.20f}};
@@ -34,17 +34,17 @@ constexpr PartOutline kUpperArm = Limb(0.32f, 0.058f, 0.045f);
 constexpr PartOutline kLowerArm = Limb(0.34f, 0.048f, 0.036f);
 constexpr PartOutline kUpperLeg = Limb(0.46f, 0.090f, 0.062f);
 constexpr PartOutline kLowerLeg = Limb(0.44f, 0.066f, 0.042f);
-/// A flat sole from the heel to the toe; the instep rises to the ankle.
+/// A flat sole from heel to toe; the instep rises to the ankle.
 constexpr PartOutline kFoot = {{-0.15f, 0.15f, 0.15f, 0.11f, 0.02f, -0.05f, -0.10f, -0.15f},
                                {-0.045f, -0.045f, -0.02f, 0.002f, 0.038f, 0.045f, 0.040f, -0.005f}};
 
 struct PartMeasure {
   const char* name;
-  float x, y;  ///< m; of its middle, facing right, above the soles
+  float x, y;  ///< m; its middle, facing right, above the soles
   const PartOutline& outline;
 };
 
-/// For 1.8 m. In this order: CharacterPart.
+/// For the height 1.8 m, in the order of CharacterPart.
 constexpr PartMeasure kParts[kCharacterParts] = {
     {"head", 0, 1.67f, kHeadOutline},     {"torso", 0, 1.24f, kTorsoOutline},
     {"upper-arm-l", 0, 1.31f, kUpperArm}, {"lower-arm-l", 0, 0.99f, kLowerArm},
@@ -58,13 +58,13 @@ struct HingeMeasure {
   const char* name;
   CharacterPart a, b;
   float y;             ///< m above the soles
-  float lower, upper;  ///< rad from upright, facing right; equal: it turns freely
-  /// Bound of torque as a share of weight x height (m x 10 m/s^2 x height): a man of 75 kg and
-  /// 1.8 m does about 0.1 to 0.2 of it (150 to 250 N m) at ankle, knee and hip.
+  float lower, upper;  ///< rad from upright, facing right; equal: unlimited
+  /// Torque limit as a share of weight x height (m x 10 m/s^2 x height): a man of 75 kg and 1.8 m
+  /// reaches about 0.1 to 0.2 of that (150 to 250 N m) at ankle, knee and hip.
   float share;
 };
 
-/// In this order: CharacterJoint. Counter-clockwise is forward for what hangs (thigh, arm).
+/// In the order of CharacterJoint. Counter-clockwise is forward for hanging limbs (thigh, arm).
 constexpr HingeMeasure kHinges[kCharacterJoints] = {
     {"neck", kTorso, kHead, 1.54f, -0.6f, 0.6f, 0.03f},
     {"shoulder-l", kTorso, kUpperArmLeft, 1.46f, 0, 0, 0.08f},
@@ -79,17 +79,17 @@ constexpr HingeMeasure kHinges[kCharacterJoints] = {
     {"ankle-r", kLowerLegRight, kFootRight, 0.09f, -0.9f, 0.9f, 0.12f},
 };
 
-constexpr float kHeight = 1.8f;  ///< m; of the tables above
-constexpr float kGravity = 10;   ///< m/s^2; of the bounds of torque, in every scene
+constexpr float kHeight = 1.8f;  ///< m; height for which the tables above hold
+constexpr float kGravity = 10;   ///< m/s^2; used for torque limits in every scene
 
-/// From the body's frame, facing right and 1.8 m, to the world.
+/// Transforms from the body's frame (facing right, 1.8 m) to the world.
 Vec2 ToWorld(const CharacterDraft& draft, float x, float y) {
   const float scale = draft.character.height / kHeight;
   const Vec2 local(draft.character.facing * scale * x, scale * y);
   return draft.position + Turned(local, draft.angle);
 }
 
-/// The outline's corners in the part's frame, counter-clockwise also where the mirror turns them.
+/// Returns the outline's corners in the part's frame, counter-clockwise even if mirrored.
 std::vector<Vec2> Corners(const PartOutline& outline, float facing, float scale) {
   std::vector<Vec2> corners;
   for (int i = 0; i < kCorners; ++i) {
@@ -99,7 +99,7 @@ std::vector<Vec2> Corners(const PartOutline& outline, float facing, float scale)
   return corners;
 }
 
-/// Makes the part's position its centre of mass, as a box's is.
+/// Shifts the part's origin to its centre of mass, as a box has it.
 void MoveToCentre(Part* part) {
   const Vec2 centre = PartProperties(*part).centre.cast<float>();
   for (Vec2& p : part->points) p -= centre;

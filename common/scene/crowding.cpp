@@ -13,8 +13,8 @@
 namespace seam {
 namespace {
 
-/// What may overlap without counting, m: things that touch and are rounded the wrong way. The
-/// engine lets things overlap by as much.
+/// Overlap that does not count, m: touching shapes with rounded coordinates. The engine tolerates
+/// as much.
 constexpr float kSlop = 0.005f;
 
 /// A part's box along the world's axes, m.
@@ -63,7 +63,7 @@ Limits LimitsOf(const Part& part) {
   return limits;
 }
 
-/// How many shapes the engine gets for a part that is no chain, at most.
+/// Returns the largest number of shapes that the engine receives for a part other than a chain.
 int PiecesOf(const Part& part) {
   if (part.kind == ShapeKind::kCapsule) return 3;
   const auto points = static_cast<int>(part.points.size());
@@ -74,7 +74,7 @@ bool Overlap(const Limits& a, const Box& b) {
   return ((a.max - b.min).array() > kSlop).all() && ((b.max - a.min).array() > kSlop).all();
 }
 
-/// Segments of a chain that overlap a box.
+/// Returns the number of segments of a chain that overlap a box.
 int SegmentsIn(const Part& chain, const Box& box) {
   int count = 0;
   for (std::size_t i = 0; i + 1 < chain.points.size(); ++i) {
@@ -104,7 +104,7 @@ class Count {
     const int axis = Axis(boxes);
     std::sort(boxes.begin(), boxes.end(),
               [&](const Box& a, const Box& b) { return a.min[axis] < b.min[axis]; });
-    std::vector<const Box*> moving, still;  // that may reach the next box
+    std::vector<const Box*> moving, still;  // boxes that may reach the next one
     for (const Box& box : boxes) {
       Meet(box, axis, &moving);
       if (box.moves) Meet(box, axis, &still);
@@ -139,7 +139,7 @@ class Count {
     return boxes;
   }
 
-  /// The one along which the boxes are spread more.
+  /// Returns the axis along which the boxes are spread more.
   static int Axis(const std::vector<Box>& boxes) {
     Eigen::Array2d sum(0, 0), squares(0, 0);
     for (const Box& box : boxes) {
@@ -152,7 +152,7 @@ class Count {
     return spread.y() > spread.x() ? 1 : 0;
   }
 
-  /// Counts `box` with those of `open` that it overlaps; drops those that end before it.
+  /// Counts the overlaps of `box` with `open`; drops boxes that end before it.
   void Meet(const Box& box, int axis, std::vector<const Box*>* open) {
     std::size_t kept = 0;
     for (const Box* other : *open) {
@@ -186,7 +186,7 @@ class Count {
     }
   }
 
-  /// The part from `first_` on with the largest number; -1 if all are 0.
+  /// Returns the part from `first_` on with the largest number; -1 if all are 0.
   PartId Most(const std::vector<std::int64_t>& numbers) const {
     const auto begin =
         numbers.begin() + std::min<std::ptrdiff_t>(first_, std::ptrdiff_t(numbers.size()));
@@ -198,7 +198,7 @@ class Count {
   const Scene& scene_;
   const Composition& composition_;
   const PartId first_;
-  std::set<std::pair<int, int>> joined_;  // assemblies that a joint keeps from colliding
+  std::set<std::pair<int, int>> joined_;  // pairs of assemblies that a joint keeps from colliding
   std::vector<std::int64_t> of_part_, bullets_of_part_;
   Crowding out_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// Refuses scenes in which so much begins in one place that the first ticks would take minutes.
+/// Refuses scenes with so many overlapping shapes that the first ticks would take minutes.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,24 +9,23 @@
 
 namespace seam {
 
-/// Pairs of shapes whose boxes (along the world's axes) overlap where the scene puts them, and that
-/// may collide: of different assemblies, at least one of which moves, not kept apart by a group or
-/// a joint. A part that the engine gets in pieces (a capsule, a large polygon, a chain's segments)
-/// counts as its pieces.
+/// Number of shape pairs that overlap at the start (by world-axis-aligned boxes) and may collide:
+/// of different assemblies, at least one moving, not excluded by a group or a joint. A part that
+/// the engine receives in pieces (a capsule, a large polygon, a chain's segments) counts by its
+/// pieces.
 struct Crowding {
-  std::int64_t pairs = 0;         ///< without a bullet
-  std::int64_t bullet_pairs = 0;  ///< with one, both moving
-  PartId part = -1;               ///< that is in most of the pairs, if there are any
-  PartId bullet_part = -1;        ///< that is in most of the pairs with a bullet
+  std::int64_t pairs = 0;         ///< pairs without a bullet
+  std::int64_t bullet_pairs = 0;  ///< pairs with a bullet, both moving
+  PartId part = -1;               ///< part with the most pairs, if any
+  PartId bullet_part = -1;        ///< part with the most pairs with a bullet
 };
 
-/// Counts pairs in which the later part is `first` or after it. With `first` above 0, of the parts
-/// before it only those count that never move: where the others are by now, a scene does not say.
-/// A sweep along the axis on which the parts are spread more: O(n log n + pairs that overlap
-/// there).
+/// Counts the pairs whose later part is `first` or after it. With `first` above 0, earlier parts
+/// count only if they never move: the scene does not know the current place of moving parts. Sweeps
+/// along the axis of larger spread: O(n log n + pairs that overlap on it).
 Crowding CrowdingOf(const Scene& scene, const Composition& composition, PartId first = 0);
 
-/// Throws OperatorError "FILE:LINE: ..." when there are more than kCrowdMax or kBulletCrowdMax.
+/// Throws OperatorError "FILE:LINE: ..." if the pairs exceed kCrowdMax or kBulletCrowdMax.
 void CheckCrowding(const Scene& scene, const Composition& composition, const std::string& file,
                    PartId first = 0);
 

@@ -1,6 +1,6 @@
 #pragma once
-/// What only some scenes have, held so that Scene need not know its type: whoever uses a feature
-/// includes that feature's header, and a change of it concerns nobody else.
+/// Holders for optional parts of a Scene, which then need not know their types: only users of a
+/// feature include its header and are recompiled when it changes.
 
 #include <cstddef>
 #include <initializer_list>
@@ -10,7 +10,7 @@
 
 namespace seam {
 
-/// A T that is replaced as a whole; copies share it. Without one it reads as T{}.
+/// A T that is replaced as a whole; copies share it. Reads as T{} when unset.
 template <class T>
 class Feature {
  public:
@@ -25,14 +25,14 @@ class Feature {
   std::shared_ptr<const T> value_;
 };
 
-/// A list of T that only grows; copies share it until one of them does.
+/// A list of T that only grows; copies share it until one of them grows.
 template <class T>
 class FeatureList {
  public:
   FeatureList() = default;
   FeatureList(std::initializer_list<T> values)
       : values_(std::make_shared<const std::vector<T>>(values)) {}
-  FeatureList(std::vector<T> values)  // NOLINT: a list is as good as one
+  FeatureList(std::vector<T> values)  // NOLINT: implicit on purpose
       : values_(std::make_shared<const std::vector<T>>(std::move(values))) {}
 
   bool empty() const { return values_ == nullptr || values_->empty(); }

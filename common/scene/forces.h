@@ -1,6 +1,6 @@
 #pragma once
-/// What pushes parts besides gravity, contacts, joints and water, as a scene names it: conveyors,
-/// thrust and propellers.
+/// Forces on parts besides gravity, contacts, joints and water, as a scene describes them:
+/// conveyors, thrust and propellers.
 
 #include <string>
 
@@ -8,38 +8,38 @@
 
 namespace seam {
 
-/// A surface that moves along itself while its part stays where it is.
+/// A surface that moves along itself while its part stays in place.
 struct Conveyor {
   float speed = 0;  ///< m/s, clockwise around the part: its top to the right
-  int player = -1;  ///< whose axis the speed follows; -1: it always runs
+  int player = -1;  ///< the speed follows this player's axis; -1: always runs
   InputAxis axis = InputAxis::kDrive;
 };
 
-/// A propeller, seen from its side: a disc whose blades push the water that they meet.
+/// A propeller, seen from its side: a disc with blades that push the water they meet.
 ///
 ///            |  blades, at radius r pitched by atan(pitch / 2 pi r)
-///   at  -----+----->  along the force: where it pushes at positive turns
+///   at  -----+----->  along the force: the direction of the push at positive turns
 ///            |  diameter, across
 struct Screw {
   float diameter = 0;  ///< m; 0: there is none
-  float pitch = 0;     ///< m, what a turn would advance it through something solid
+  float pitch = 0;     ///< m, advance per turn through a solid medium
   float turns = 0;     ///< 1/s, at full axis
-  float solidity = 1;  ///< share of the disc that its blades cover
-  float torque = 0;    ///< N m, the most that its shaft turns with; 0: any
+  float solidity = 1;  ///< share of the disc that the blades cover
+  float torque = 0;    ///< N m, largest torque of the shaft; 0: unlimited
 };
 
-/// A force that a part carries with it: a rocket, a propeller in air; or, with a screw, a propeller
-/// in water, whose force is what the water gives.
+/// A force fixed to a part: a rocket, or a propeller in air; with a screw, a propeller in water,
+/// whose force comes from the water.
 struct Thrust {
   std::string name;  ///< unique
   PartId part = 0;
   Vec2 at{0, 0};     ///< m, in the part's frame
-  Vec2 force{0, 0};  ///< N, in the part's frame; of a screw its direction, of length 1
-  int player = -1;   ///< who commands it; -1: it always pushes
+  Vec2 force{0, 0};  ///< N, in the part's frame; with a screw: its direction, a unit vector
+  int player = -1;   ///< player that commands it; -1: always pushes
   InputAxis axis = InputAxis::kDrive;
-  int button = -1;  ///< pushes while it is pressed, instead of following the axis
+  int button = -1;  ///< pushes while pressed, instead of following the axis
   Screw screw;
-  int line = 0;  ///< in the scene file
+  int line = 0;  ///< line in the scene file
 };
 
 }  // namespace seam

@@ -1,13 +1,13 @@
 #pragma once
-/// Parts at rest against each other that become one body until something disturbs them.
+/// Grouping: parts at rest against each other become one body until a disturbance.
 
 namespace seam {
 
 struct Grouping {
-  float after = 0;         ///< s at rest against each other; 0: nothing is grouped
-  float impact = 0.5f;     ///< m/s, change of velocity of the whole within a tick that undoes it
-  float acceleration = 3;  ///< m/s^2, of the whole, above which it is undone
-  float spin = 0.5f;       ///< rad/s, of the whole, likewise
+  float after = 0;         ///< s at rest before grouping; 0: no grouping
+  float impact = 0.5f;     ///< m/s; a larger change of the group's velocity in a tick undoes it
+  float acceleration = 3;  ///< m/s^2; a larger acceleration of the group undoes it
+  float spin = 0.5f;       ///< rad/s; a larger spin of the group undoes it
 };
 
 }  // namespace seam

@@ -1,21 +1,21 @@
 #pragma once
-/// What the kinds of joints are, for whoever need not know each. A new kind is asked for here, by a
-/// switch without default: the compiler names every place that has to decide.
+/// Properties of the kinds of joints, for code that need not know each kind. A new kind is added in
+/// switches without default: the compiler reports every place that must handle it.
 
 #include "common/scene/scene.h"
 
 namespace seam {
 
-/// What holds the two parts to each other.
+/// The constraint between the two parts.
 enum class JointHold {
-  kBond,     ///< all of it: the parts are as one, or bend a little (weld, glue)
-  kPoint,    ///< a point of each (hinge, wheel)
-  kAxis,     ///< a line along which they slide (prismatic)
-  kLine,     ///< the distance between two points (distance, rope)
-  kPose,     ///< a motor with bounded force (motor)
-  kImposed,  ///< nothing: one part moves by a given path (kinematic)
-  kCoupled,  ///< nothing of its own: how far two other joints have moved (gear)
-  kPulley,   ///< the weighted sum of their distances to two fixed points (pulley)
+  kBond,     ///< complete: rigid, or a little elastic (weld, glue)
+  kPoint,    ///< a common point (hinge, wheel)
+  kAxis,     ///< a common line along which they slide (prismatic)
+  kLine,     ///< distance between two points (distance, rope)
+  kPose,     ///< pose, by a motor with bounded force (motor)
+  kImposed,  ///< none: one part moves along a given path (kinematic)
+  kCoupled,  ///< none of its own: couples the motions of two other joints (gear)
+  kPulley,   ///< weighted sum of the distances to two fixed points (pulley)
 };
 
 inline JointHold HoldOf(JointKind kind) {
@@ -32,10 +32,10 @@ inline JointHold HoldOf(JointKind kind) {
     case JointKind::kGear: return JointHold::kCoupled;
     case JointKind::kPulley: return JointHold::kPulley;
   }
-  return JointHold::kBond;  // not reached: the switch has all kinds
+  return JointHold::kBond;  // not reached: the switch is complete
 }
 
-/// What `limits` are in.
+/// Quantity that the joint's limits bound.
 enum class JointLimits { kNone, kAngle, kLength, kShift };
 
 inline JointLimits LimitsOf(JointKind kind) {
@@ -55,7 +55,7 @@ inline JointLimits LimitsOf(JointKind kind) {
   return JointLimits::kNone;  // not reached
 }
 
-/// What the spring of a joint with a frequency acts on.
+/// Coordinate that the spring of a joint with a frequency acts on.
 enum class JointSpring { kNone, kAngle, kAxis, kLength };
 
 inline JointSpring SpringOf(JointKind kind) {

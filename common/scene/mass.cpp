@@ -7,8 +7,8 @@
 namespace seam {
 namespace {
 
-/// Sums over the triangles that the first point makes with each edge. A triangle with corners 0, a
-/// and b has the centroid (a + b)/3 and, about corner 0, the moment (a.a + a.b + b.b)/6 per mass.
+/// Sums over the triangles between the first point and each edge. A triangle with corners 0, a and
+/// b has the centroid (a + b)/3 and, about corner 0, the moment (a.a + a.b + b.b)/6 per mass.
 MassProperties PolygonProperties(const Part& part, double density) {
   const Eigen::Vector2d base = part.points[0].cast<double>();
   double area = 0, second = 0;
@@ -28,7 +28,7 @@ MassProperties PolygonProperties(const Part& part, double density) {
 }
 
 /// A box and two half discs. The centroid of a half disc is 4 r/3 pi from its flat side: about a
-/// point d further, on the flat side, its moment per mass is r^2/2 + 2 d 4 r/3 pi + d^2.
+/// point d beyond the flat side, its moment per mass is r^2/2 + 2 d 4 r/3 pi + d^2.
 MassProperties CapsuleProperties(const Part& part, double density) {
   const Eigen::Vector2d first = part.points[0].cast<double>(), last = part.points[1].cast<double>();
   const double length = (last - first).norm(), r = static_cast<double>(part.radius);
@@ -63,8 +63,8 @@ MassProperties PartProperties(const Part& part) {
 }
 
 Eigen::Vector2d ToRootFrame(const Part& part, const Part& root, const Eigen::Vector2d& point) {
-  // Exact for the root itself: no rounding may move a lone part's shape. (A merged face has the
-  // number of one of its parts, but another pose.)
+  // Exact for the root itself: rounding must not shift a single part's shape. (A merged face has
+  // the number of one of its parts, but another pose.)
   if (part.id == root.id && part.position == root.position) return point;
   const double turn = static_cast<double>(part.angle);
   const double back = -static_cast<double>(root.angle);

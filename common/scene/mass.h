@@ -7,17 +7,17 @@ namespace seam {
 
 struct MassProperties {
   double mass = 0;               ///< kg
-  Eigen::Vector2d centre{0, 0};  ///< m, in the frame that was asked for
+  Eigen::Vector2d centre{0, 0};  ///< m, in the frame named by the function
   double inertia = 0;            ///< kg m^2, about the centre
 };
 
-/// In the part's own frame. All zero for lines.
+/// Returns the properties in the part's own frame; all zero for lines.
 MassProperties PartProperties(const Part& part);
 
-/// In the frame of the assembly's root part.
+/// Returns the properties in the frame of the assembly's root part.
 MassProperties AssemblyProperties(const Scene& scene, const Assembly& assembly);
 
-/// A point of `part`'s frame in `root`'s frame, m.
+/// Converts a point of `part`'s frame to `root`'s frame, m.
 Eigen::Vector2d ToRootFrame(const Part& part, const Part& root, const Eigen::Vector2d& point);
 
 }  // namespace seam

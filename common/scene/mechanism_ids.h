@@ -1,5 +1,5 @@
 #pragma once
-/// The walk from a mechanism to what it is made of.
+/// Iterates over the bodies of a mechanism.
 
 #include <algorithm>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace seam {
 
-/// Visits the ids of a mechanism's assemblies, which are its bodies' ids, ascending.
+/// Calls `visit` with the ids of a mechanism's assemblies, which are its bodies' ids, ascending.
 /// `mechanism`: index into Composition::mechanisms.
 template <class Visit>
 void EachIdOf(const Composition& composition, int mechanism, const Visit& visit) {
@@ -17,7 +17,7 @@ void EachIdOf(const Composition& composition, int mechanism, const Visit& visit)
   }
 }
 
-/// Whether any of those ids is as `is` says.
+/// Returns true if `is` holds for any of these ids.
 template <class Is>
 bool AnyIdOf(const Composition& composition, int mechanism, const Is& is) {
   const auto& all = composition.mechanisms[static_cast<std::size_t>(mechanism)].assemblies;

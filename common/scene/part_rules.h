@@ -1,6 +1,6 @@
 #pragma once
-/// What the server alone decides in a room, as a scene says it: scripts, triggers, health, score,
-/// permissions. Physics knows nothing of it.
+/// Game rules of a scene that only the server evaluates: scripts, triggers, health, score,
+/// permissions. They are no part of the physics.
 
 #include <cstddef>
 #include <cstdint>
@@ -12,47 +12,47 @@
 
 namespace seam {
 
-/// What one script may use up.
+/// Resource limits of one script.
 struct ScriptLimits {
-  std::int64_t instructions = 200000;  ///< in a tick; other work is charged as instructions
+  std::int64_t instructions = 200000;  ///< in a tick; other work is converted to instructions
   std::int64_t memory_bytes = 4 << 20;
 };
 
-/// A program in Lua 5.4, run by the server. docs/scripts.md is its reference.
+/// A Lua 5.4 program, run by the server. docs/scripts.md is its reference.
 struct ScriptSource {
   std::string name;  ///< unique
   std::string code;
-  int line = 1;  ///< of the scene file, on which the code begins
+  int line = 1;  ///< line of the scene file on which the code begins
   ScriptLimits limits;
 };
 
 /// A part's score, health and permissions.
 struct PartRules {
-  float health = 0;                 ///< at the start; 0: nothing hurts it
-  float hurt_above = 5;             ///< m/s: a blow that changes its velocity by more hurts
-  float hurt_factor = 10;           ///< health lost for each m/s above
-  float score = 0;                  ///< points for the player whose vehicle destroys it
-  PlayerMask drive = kEveryPlayer;  ///< whose axes may turn motors on it
-  PlayerMask push = kEveryPlayer;   ///< whose actions may push it, and who may have its authority
-  PlayerMask take = kEveryPlayer;   ///< who may take it, if it is a pickup
+  float health = 0;                 ///< at the start; 0: invulnerable
+  float hurt_above = 5;             ///< m/s: an impact that changes its velocity by more hurts
+  float hurt_factor = 10;           ///< health lost for each m/s above that
+  float score = 0;                  ///< points for the driver of the vehicle that destroys it
+  PlayerMask drive = kEveryPlayer;  ///< players with axes that may turn motors on it
+  PlayerMask push = kEveryPlayer;   ///< players that may push it by actions, and may own it
+  PlayerMask take = kEveryPlayer;   ///< players that may take it, if it is a pickup
 };
 
 enum class TriggerKind { kArea, kCheckpoint, kPickup, kHazard };
 
-/// A box in which something happens to parts. A part is in it when its position is.
+/// A box that reacts to parts. A part is inside when its position is.
 struct Trigger {
   std::string name;  ///< unique
   TriggerKind kind = TriggerKind::kArea;
-  Vec2 position{0, 0};                ///< m, of its centre; from `part`, if there is one
+  Vec2 position{0, 0};                ///< m, of its centre; relative to `part`, if given
   Vec2 size{1, 1};                    ///< m, full width and height, along the world's axes
-  PartId part = -1;                   ///< moves with it (without turning), ends with it; -1: stays
-  std::vector<PartId> parts;          ///< the parts that it looks for
-  PlayerMask players = kEveryPlayer;  ///< whose parts; all: nobody's too
-  bool once = false;                  ///< ends with the first part that enters (a pickup always)
+  PartId part = -1;                   ///< moves with it (without turning), ends with it; -1: fixed
+  std::vector<PartId> parts;          ///< parts that it reacts to
+  PlayerMask players = kEveryPlayer;  ///< owners of the parts; all: parts without owner too
+  bool once = false;                  ///< ends with the first part that enters (always for pickups)
   int order = 0;                      ///< kCheckpoint: from 1
-  float score = 0;                    ///< points for the player of who enters
-  float health = 0;                   ///< kPickup: given at once; kHazard: taken in a second
-  int line = 0;                       ///< in the scene file
+  float score = 0;                    ///< points for the player of the entering part
+  float health = 0;                   ///< kPickup: gained at once; kHazard: lost per second
+  int line = 0;                       ///< line in the scene file
 };
 
 }  // namespace seam

@@ -5,7 +5,7 @@
 namespace seam {
 namespace {
 
-/// How many players a [[player]] is. Requires one of a scene that parses.
+/// Returns the number of players that a [[player]] makes. Requires a valid scene.
 std::size_t CopiesOf(const TomlNode& player) {
   const TomlNode* repeat = player.Find("repeat");
   const TomlNode* count = repeat == nullptr ? nullptr : repeat->Find("count");
@@ -25,7 +25,7 @@ std::vector<std::string> PlayerColours(const Scene& scene) {
   const TomlNode* players = tree.Find("player");
   if (players == nullptr) return colours;
   for (const TomlNode& player : players->items) {
-    const TomlNode* colour = player.Find("colour");  // it was checked when the scene was read
+    const TomlNode* colour = player.Find("colour");  // checked when the scene was read
     std::string text;
     if (colour != nullptr) {
       text = colour->kind == TomlNode::Kind::kText

@@ -1,5 +1,5 @@
 #pragma once
-/// The colours that a scene gives its players, which only pictures ask for.
+/// Reads the colours that a scene gives its players; only pictures need them.
 
 #include <string>
 #include <vector>
@@ -8,8 +8,8 @@
 
 namespace seam {
 
-/// By player: "#rrggbb", "1" to "10" of the palette, or "" for its peer's colour. Empty for a scene
-/// that was not read from a text.
+/// Returns by player: "#rrggbb", "1" to "10" of the palette, or "" for the colour of its peer.
+/// Empty for a scene that was not read from a text.
 std::vector<std::string> PlayerColours(const Scene& scene);
 
 }  // namespace seam

@@ -1,5 +1,5 @@
 #pragma once
-/// A set of players, as permissions name it.
+/// A set of players, for permissions.
 
 #include <bitset>
 #include <cstddef>
@@ -9,10 +9,10 @@
 
 namespace seam {
 
-/// Some of a scene's players, or everybody: who does not play at all, too.
+/// Some of a scene's players, or everyone, spectators included.
 class PlayerMask {
  public:
-  /// Nobody.
+  /// The empty set.
   constexpr PlayerMask() = default;
   static constexpr PlayerMask Everyone() {
     PlayerMask mask;
@@ -25,7 +25,7 @@ class PlayerMask {
     SEAM_ASSERT(player >= 0 && player < kPlayersMax);
     players_.set(static_cast<std::size_t>(player));
   }
-  /// Leaves those that are in `other`, too.
+  /// Keeps only the members that are in `other` too.
   PlayerMask& operator&=(const PlayerMask& other) {
     if (everyone_) {
       *this = other;
@@ -34,7 +34,7 @@ class PlayerMask {
     }
     return *this;
   }
-  /// Whether the player is in it; -1 stands for who does not play.
+  /// Returns true if the player is in the set; -1 stands for a peer that does not play.
   bool Allows(int player) const {
     return everyone_ ||
            (player >= 0 && player < kPlayersMax && players_[static_cast<std::size_t>(player)]);

@@ -9,7 +9,7 @@
 namespace seam {
 namespace {
 
-/// A length that must be a whole number of units.
+/// Converts a length that must be a whole number of units.
 int ToUnits(const SceneReader& r, const char* key, float metres) {
   const double units = static_cast<double>(metres) / static_cast<double>(kBrickUnit);
   const long long whole = std::llround(units);
@@ -20,7 +20,7 @@ int ToUnits(const SceneReader& r, const char* key, float metres) {
   return static_cast<int>(whole);
 }
 
-/// [least, most] in m as whole numbers of bricks of `side` units.
+/// Reads [least, most] in m and rounds to whole numbers of bricks of `side` units.
 void ReadSpan(const SceneReader& r, const char* key, int side, int* least, int* most) {
   const Vec2 span = r.Vector(key, {kBrickUnit, 1000});
   if (span.x() > span.y()) r.FailAt(key, std::string(key) + ": the least is above the most");
@@ -54,7 +54,7 @@ void ReadCount(const SceneReader& r, BrickField* field) {
   }
 }
 
-/// How many there are now; complains when they are too many or too far away.
+/// Returns the total with this field; complains if there are too many or if one is too far away.
 std::size_t Counted(const SceneReader& r, const BrickField& field, std::size_t before) {
   constexpr int kFar = 600000;  // units: 30 km
   static_assert(kFar / 20 == kCoordinate.max && kFar / 20 == -kCoordinate.min);
@@ -73,7 +73,7 @@ std::size_t Counted(const SceneReader& r, const BrickField& field, std::size_t b
   return count;
 }
 
-/// The same bricks as anchored parts NAME.0, NAME.1, ...
+/// Adds the same bricks as anchored parts NAME.0, NAME.1, ...
 void AddAsParts(const SceneReader& r, const BrickField& field, SceneDraft* draft) {
   if (draft->part_of_name.count(field.name) != 0 || draft->group_of_name.count(field.name) != 0) {
     r.FailAt("name", "there is a part of this name");

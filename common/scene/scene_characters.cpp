@@ -9,10 +9,11 @@
 namespace seam {
 namespace {
 
-/// Group of the first character's parts, the next one's is one less: below what parts may state.
+/// Group of the first character's parts; each further character's is one less. Below the range that
+/// parts may state.
 constexpr int kFirstGroup = -2000;
 
-/// `torque = {hip = 2.5}`: both sides' joints of that kind.
+/// Reads `torque = {hip = 2.5}`, which applies to both sides' joints of that kind.
 void ReadTorque(const SceneReader& r, const std::string& file, CharacterDraft* draft) {
   const TomlNode* table = r.Table("torque");
   if (table == nullptr) return;

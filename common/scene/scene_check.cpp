@@ -10,7 +10,7 @@
 namespace seam {
 namespace {
 
-/// What the checks look at, and how they complain.
+/// Subject of the checks, and the way to report a fault.
 struct Checked {
   const Scene& scene;
   const Composition& composition;
@@ -83,7 +83,7 @@ void CheckJoints(const Checked& c) {
     if (a.id == b.id) c.Fail(joint.line, name + "its parts are welded together");
     if (a.anchored && b.anchored) c.Fail(joint.line, name + "both its parts are anchored");
     if (HoldOf(joint.kind) != JointHold::kCoupled) continue;
-    for (const PartId id : {joint.a, joint.b}) {  // the engine looks for a gear only at what moves
+    for (const PartId id : {joint.a, joint.b}) {  // the engine finds gears only at moving bodies
       if (!c.assembly_of(id).anchored) continue;
       c.Fail(joint.line, name + "it turns '" + c.part(id).name + "', which is anchored");
     }

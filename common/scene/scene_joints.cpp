@@ -12,7 +12,7 @@
 namespace seam {
 namespace {
 
-/// What a kind of joint is called, and which keys it takes besides those of all.
+/// Name of a kind of joint, and the keys that it takes besides the common ones.
 struct Kind {
   const char* name;
   JointKind kind;
@@ -44,7 +44,7 @@ const std::vector<Kind>& Kinds() {
   return kinds;
 }
 
-/// Complains about keys that this kind of joint would ignore.
+/// Returns the joint's kind; complains about keys that this kind would ignore.
 const Kind& ReadKind(const SceneReader& r) {
   static const char* const kSome[] = {
       "a",         "anchor",        "anchor_a",        "anchor_b", "axis",
@@ -73,7 +73,7 @@ const Kind& ReadKind(const SceneReader& r) {
   r.FailAt("kind", "kind must be one of " + all + DidYouMean(name, names));
 }
 
-/// Hinge: rad; distance: m, of its length; else m from the start.
+/// Reads limits. Hinge: rad; distance: m, of its length; else m from the start.
 void ReadLimits(const SceneReader& r, Joint* joint) {
   if (!r.Has("limits")) return;
   const Range angles{-100, 100}, lengths{kEdgeMin, 10000}, shifts{-1000, 1000};
@@ -122,7 +122,7 @@ void ReadPoseMotor(const SceneReader& r, const SceneDraft& draft, Joint* joint) 
   if (joint->motor_player < 0) f.Fail("player is missing");
 }
 
-/// The longest that a path may be travelled for, s: sessions count ticks for days.
+/// Longest period of a path, s: sessions count ticks for days.
 constexpr double kPeriodMax = 86400;
 
 void ReadKinematic(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
@@ -147,7 +147,7 @@ void ReadKinematic(const SceneReader& r, const SceneDraft& draft, Joint* joint) 
   }
 }
 
-/// Where the ends are: at the parts' positions unless said otherwise.
+/// Reads the joint's ends; default: the parts' positions.
 void ReadEnds(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
   const auto position = [&](PartId part) {
     return draft.scene.parts[static_cast<std::size_t>(part)].position;
@@ -167,8 +167,8 @@ void ReadDistance(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
   }
 }
 
-/// Ends given in the parts' own frames, and the angle between the parts at which the joint is at
-/// rest: for parts joined while they move, whose poses in the scene mean nothing.
+/// Reads ends given in the parts' own frames, and the angle between the parts at which the joint is
+/// at rest: for parts joined in motion, whose poses in the scene are not meaningful.
 void ReadLocal(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
   const auto place = [&](PartId id, const char* key, Vec2* anchor) {
     if (!r.Has(key)) return;
@@ -216,7 +216,7 @@ void Copy(const SceneReader& r, const Joint& first, SceneDraft* draft) {
   }
 }
 
-/// What is the kind's own. Requires a, b and the anchors.
+/// Reads the keys of the joint's kind. Requires a, b and the anchors.
 void ReadDetails(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
   switch (joint->kind) {
     case JointKind::kWeld:
@@ -246,7 +246,7 @@ void ReadDetails(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
     case JointKind::kRope: ReadDistance(r, draft, joint); break;
     case JointKind::kMotor: ReadPoseMotor(r, draft, joint); break;
     case JointKind::kKinematic: ReadKinematic(r, draft, joint); break;
-    case JointKind::kGear: break;  // read with its parts
+    case JointKind::kGear: break;  // read together with its parts
     case JointKind::kPulley: ReadEnds(r, draft, joint); break;
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
-/// What a scene may say, in SI units. Within these limits Box2D 2.4.1 does not assert and stays
-/// stable; docs/scenes.md repeats them.
+/// Limits of a scene, in SI units. Within these, Box2D 2.4.1 does not assert and stays stable;
+/// docs/scenes.md repeats them.
 
 #include <cstddef>
 #include <cstdint>
@@ -11,10 +11,10 @@
 namespace seam {
 
 constexpr Range kTickHz{kTickHzMin, kTickHzMax};
-/// Coordinates, m. Single precision is good to 2 mm at 30 km; piles shake from 100 km.
+/// Coordinates, m. Single precision resolves 2 mm at 30 km; piles become unstable from 100 km.
 constexpr Range kCoordinate{-30000, 30000};
-/// Size of a moving thing, m; `size_max` may raise the upper limit up to kSizeMaxMax, which is also
-/// the limit of anchored things.
+/// Size of a moving part, m; `size_max` may raise the upper limit up to kSizeMaxMax, which is also
+/// the limit of anchored parts.
 constexpr float kSizeMin = 0.05f, kSizeMaxDefault = 10, kSizeMaxMax = 1000;
 /// Shortest edge and least distance of a polygon's or chain's points, m. Box2D merges points at
 /// 2.5 mm and asserts at chain spacings of 5 mm.
@@ -23,9 +23,9 @@ constexpr float kEdgeMin = 0.02f;
 constexpr float kAreaMin = 1e-3f, kConvexMin = 1e-3f;
 /// Points of a polygon and of a chain. The engine's polygons have 8: larger ones are cut.
 constexpr std::size_t kPolygonPointsMax = 64, kChainPointsMax = 2000;
-/// Points of a kinematic part's path.
+/// Number of points of a kinematic part's path.
 constexpr std::size_t kPathPointsMax = 200;
-/// kg/m^2; the engine's solver wants mass ratios that are not extreme.
+/// kg/m^2; the engine's solver needs moderate mass ratios.
 constexpr Range kDensity{0.01, 100};
 /// rad/s: a quarter turn a step at 60 Hz, the engine's own clamp.
 constexpr float kSpinMax = 94;
@@ -37,38 +37,38 @@ constexpr Range kSkinRange{0.0025, 0.01};
 /// Width and height of water, m, and its flow, m/s.
 constexpr float kWaterSizeMax = 20000, kFlowMax = 50;
 constexpr std::size_t kWatersMax = 64;
-/// Numbers of things; of players see common/base/limits.h.
+/// Largest numbers of parts and joints; for players see common/base/limits.h.
 constexpr std::size_t kPartsMax = 65535, kJointsMax = 65535;
-/// Of a player.
+/// Largest number of actions of a player.
 constexpr std::size_t kActionsMax = 15;
 constexpr std::size_t kScriptMax = 2000, kWatchMax = 16, kThrustsMax = 256;
-/// Of [[strand]]; all their points together fit one message.
+/// Limits of [[strand]]; the points of all strands fit one message.
 constexpr std::size_t kStrandsMax = 64, kStrandLinksMax = 32;
-/// Inlets, and outlets, of one part.
+/// Largest number of inlets, and of outlets, of one part.
 constexpr std::size_t kConnectorsMax = 16;
 /// m; smaller ones would have parts below kSizeMin.
 constexpr Range kCharacterHeight{1, 5};
 constexpr std::size_t kCharactersMax = 64;
 /// Pairs of shapes that may overlap at the start (crowding.h), normal below 100; the densest scene
-/// of the project has 1500. At the limit a first step takes .1 to 1.2 s; with 10 times as many, as
-/// of 1000 boxes at one point, 4 s, and with 8 million, of 4000 boxes, minutes.
+/// of the project has 1500. At the limit a first step takes .1 to 1.2 s; with 10 times as many
+/// (1000 boxes at one point) 4 s, with 8 million (4000 boxes) minutes.
 constexpr std::int64_t kCrowdMax = 50000;
-/// The same with a bullet in the pair, normal 0: each impact of a bullet looks through all contacts
-/// again. At the limit a first step takes .1 to 1.3 s; with 5 times as many up to 8 s.
+/// Likewise for pairs with a bullet, normal 0: each impact of a bullet searches all contacts again.
+/// At the limit a first step takes .1 to 1.3 s; with 5 times as many up to 8 s.
 constexpr std::int64_t kBulletCrowdMax = 1000;
-/// Of parts or joints, those that are still there.
+/// Returns the number of parts or joints that are not gone.
 template <class Things>
 std::size_t CountLiving(const Things& things) {
   std::size_t living = 0;
   for (const auto& thing : things) living += thing.gone ? 0 : 1;
   return living;
 }
-/// Whether there are as many as there may be.
+/// Returns true if the limit is reached.
 template <class Things>
 bool Full(const Things& things, std::size_t most) {
   return things.size() >= most && CountLiving(things) >= most;
 }
-/// Welded parts farther than this from their root would lose their edges to rounding, m.
+/// Largest distance of welded parts from their root, m: beyond it their edges are lost to rounding.
 constexpr float kWeldReachMax = 1000;
 
 }  // namespace seam

@@ -23,7 +23,7 @@ void ReadMotion(const SceneReader& r, float speed_limit, Part* part) {
   }
 }
 
-/// Who owns the copies, in turn; -1 for nobody.
+/// Returns the owners of the copies, in turn; -1 for nobody.
 std::vector<int> ReadOwners(const SceneReader& r, const SceneDraft& draft, bool anchored) {
   if (r.Has("owner") && r.Has("owners")) r.Fail("has both owner and owners");
   const char* key = r.Has("owners") ? "owners" : "owner";
@@ -49,7 +49,8 @@ void Place(const SceneReader& r, Part part, const std::string& name, SceneDraft*
   scene.parts.push_back(std::move(part));
 }
 
-/// "name.h.2.0" joins copy (2, 0) with (3, 0), "name.v.2.0" with (2, 1).
+/// Joins neighbouring copies: joint "name.h.2.0" joins copy (2, 0) with (3, 0), "name.v.2.0" with
+/// (2, 1).
 void JoinCopies(const SceneReader& r, const Repeat& repeat, const std::string& name,
                 const std::vector<PartId>& group, SceneDraft* draft) {
   const auto part = [&](int column, int row) {
@@ -81,7 +82,7 @@ void JoinCopies(const SceneReader& r, const Repeat& repeat, const std::string& n
   }
 }
 
-/// The conveyor of a copy follows the next copy of the player that the first follows.
+/// Makes a copy's conveyor follow the corresponding copy of the first one's player.
 void FollowCopy(const SceneReader& r, int followed, const Repeat& repeat, int column, int row,
                 const SceneDraft& draft, Part* part) {
   if (followed < 0) return;

@@ -15,7 +15,7 @@ SceneReader PlayerReader(const TomlNode& node, const SceneDraft& draft) {
                      {"name", "vehicle", "region", "colour", "actions", "script", "repeat"});
 }
 
-/// A script's time in seconds to the nearest tick.
+/// Converts a script's time in seconds to the nearest tick.
 std::int64_t ToTick(double seconds, const Scene& scene) {
   return std::llround(seconds * scene.solver.tick_hz);
 }
@@ -85,7 +85,7 @@ void ReadRegion(const SceneReader& r, Player* player) {
   player->region_max = corners[1];
 }
 
-/// "#rrggbb", or the number of a colour of the palette; pictures ask for it (player_colours.h).
+/// Checks for "#rrggbb", or the number of a palette colour; player_colours.h reads it for pictures.
 void CheckColour(const SceneReader& r) {
   if (!r.Has("colour")) return;
   if (!r.IsText("colour")) {
@@ -111,8 +111,8 @@ void AddName(const SceneReader& r, const std::string& name, SceneDraft* draft) {
   players.back().name = name;
 }
 
-/// What copy (column, row) has of its own: the vehicle and the actions' parts are the next copies,
-/// the region lies further.
+/// Adapts copy (column, row): the vehicle and the actions' parts become the corresponding copies,
+/// and the region is shifted.
 void MoveCopy(const SceneReader& r, const Repeat& repeat, int column, int row,
               const SceneDraft& draft, Player* player) {
   const auto after = [&](PartId part) {

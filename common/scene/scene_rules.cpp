@@ -1,4 +1,4 @@
-/// [[script]], [[trigger]], and what a part says of health, score and permissions.
+/// Reads [[script]], [[trigger]], and a part's health, score and permissions.
 
 #include <algorithm>
 
@@ -14,8 +14,8 @@ constexpr std::size_t kScriptsMax = 8, kTriggersMax = 256;
 constexpr Range kInstructions{1000, 2000000}, kMemoryKb{256, 65536};
 constexpr Range kPoints{-1e6, 1e6};
 
-/// The line of the file on which code begins: that of the quotes, or the one after it if nothing
-/// stands behind them.
+/// Returns the line of the file on which code begins: the line of the opening quotes, or the next
+/// one if the quotes end their line.
 int FirstLine(const SceneReader& r, const char* key, const std::string& text) {
   const int line = r.LineOf(key);
   std::size_t at = 0;
@@ -41,7 +41,7 @@ void AddScript(const SceneReader& r, const char* key, ScriptSource script, Scene
   draft->scene.scripts.push_back(std::move(script));
 }
 
-/// The players named at `key`; everybody when it is absent.
+/// Returns the players named at `key`; everyone if it is absent.
 PlayerMask ReadMask(const SceneReader& r, const char* key, const SceneDraft& draft) {
   if (!r.Has(key)) return kEveryPlayer;
   PlayerMask mask;
@@ -58,8 +58,8 @@ TriggerKind ReadKind(const SceneReader& r) {
   r.FailAt("kind", "kind must be area, checkpoint, pickup or hazard");
 }
 
-/// Whom a trigger looks at when it does not say: the players' vehicles, and a hazard at what can be
-/// hurt as well.
+/// Returns the parts that a trigger reacts to by default: the players' vehicles; for a hazard, all
+/// movable parts with health as well.
 std::vector<PartId> UsualParts(const Trigger& trigger, const SceneDraft& draft,
                                const std::vector<PartId>& vehicles) {
   std::vector<PartId> parts = vehicles;

@@ -6,7 +6,7 @@
 namespace seam {
 namespace {
 
-/// Points are counted from 1 in messages.
+/// Returns the number of a point, from 1, for messages.
 std::string Number(std::size_t i) { return std::to_string(i + 1); }
 
 std::string TooClose(std::size_t i, std::size_t k) {
@@ -42,8 +42,8 @@ void ReadCapsule(const SceneReader& r, float size_max, Part* part) {
   }
 }
 
-/// A right triangle about the middle of its legs' box, its right angle on the lower right: a ramp
-/// up to the right. With a negative width up to the left.
+/// Reads a right triangle, centred in the box of its legs, with the right angle at the lower right:
+/// a ramp up to the right; with a negative width, up to the left.
 void ReadWedge(const SceneReader& r, float size_max, Part* part) {
   const Vec2 half = r.Vector("wedge", {-size_max, size_max}) / 2;
   part->kind = ShapeKind::kPolygon;
@@ -114,7 +114,7 @@ Status ValidatePolygon(const std::vector<Vec2>& points, float size_max) {
   if (std::abs(area) < static_cast<double>(kAreaMin)) {
     return Status::Error("the area must be at least " + Decimal(kAreaMin) + " m^2");
   }
-  // Every other point strictly on the inner side of every edge: convex, and wound only once.
+  // Convex and wound only once if all other points are strictly on the inner side of every edge.
   const double turn = area > 0 ? 1 : -1;
   for (std::size_t i = 0; i < n; ++i) {
     const Vec2 edge = points[(i + 1) % n] - points[i];

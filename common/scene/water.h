@@ -7,10 +7,10 @@
 
 namespace seam {
 
-/// How much of a thing is under water, and where the middle of that is.
+/// Method of computing the submerged area and its centroid.
 enum class Buoyancy {
-  kVoxel,  ///< cells of the thing's bounding box, each sunk by its depth
-  kExact   ///< the shapes cut by the water's outline
+  kVoxel,  ///< cells of the body's bounding box, each submerged by its depth
+  kExact   ///< the shapes clipped by the water's outline
 };
 
 struct Water {
@@ -18,7 +18,7 @@ struct Water {
   Vec2 min{-10, -10}, max{10, 0};  ///< m; lower left and upper right corner; the level is max.y
   float density = 1;               ///< kg/m^2
   Vec2 flow{0, 0};                 ///< m/s
-  float drag_normal = 1;           ///< coefficient of form drag on edges that face the water's way
+  float drag_normal = 1;           ///< coefficient of form drag on edges that face the flow
   float drag_tangent = 0.05f;      ///< coefficient of friction along edges
   float viscosity = 0.5f;          ///< kg/(m^2 s): linear drag per submerged area
   Buoyancy method = Buoyancy::kExact;

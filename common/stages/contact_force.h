@@ -1,5 +1,5 @@
 #pragma once
-/// Which parts a contact pushes, and how hard.
+/// Finds the parts that a contact pushes, and the impulses.
 
 #include <map>
 
@@ -10,15 +10,15 @@
 
 namespace seam {
 
-/// A push on what a fixture stands for; resolved to one part only when somebody wants to know.
+/// An impulse on a fixture; resolved to a single part only on demand.
 struct PartPush {
-  PartId fixture = -1;            ///< the part whose number the fixture has
+  PartId fixture = -1;            ///< the part that numbers the fixture
   b2Vec2 point{0, 0};             ///< in the body's frame, m
-  Eigen::Vector2d impulse{0, 0};  ///< N s, in the world's directions
+  Eigen::Vector2d impulse{0, 0};  ///< N s, in world directions
 };
 
-/// Finds the part that a fixture has at a point of its body's frame, m; cheap for many points of
-/// the same fixtures.
+/// Finds the part that a fixture has at a point of its body's frame, m; efficient for many points
+/// of the same fixtures.
 class PartFinder {
  public:
   explicit PartFinder(const StageWorld& world) : w_(world) {}
@@ -32,7 +32,7 @@ class PartFinder {
     }
     const int assembly = w_.composition.assembly_of_part[static_cast<std::size_t>(fixture)];
     const Assembly& whole = w_.composition.assemblies[static_cast<std::size_t>(assembly)];
-    if (whole.anchored && whole.kinematic < 0) {  // its body may be others', too
+    if (whole.anchored && whole.kinematic < 0) {  // the body may be shared with other parts
       const b2Vec2 at = w_.built.bodies[static_cast<std::size_t>(assembly)]->GetWorldPoint(point);
       return found->second.At(FromB2(at).cast<double>());
     }
@@ -46,13 +46,13 @@ class PartFinder {
   std::map<PartId, NearestOf> seen_;  // by fixture
 };
 
-/// The part that is at the point.
+/// Returns the part at the point.
 inline PartId PartAt(const StageWorld& w, PartId fixture, const b2Vec2& point) {
   return PartFinder(w).At(fixture, point);
 }
 
-/// visit(push) for both sides of each point of a contact that was solved, but not for what stages
-/// made.
+/// Calls visit(push) for both sides of each point of a solved contact, but not for fixtures made by
+/// stages.
 template <typename Visit>
 void EachContactPush(b2Contact* contact, const b2ContactImpulse& impulse, const Visit& visit) {
   b2WorldManifold manifold;

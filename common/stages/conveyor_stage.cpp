@@ -13,8 +13,8 @@ class ConveyorStage : public Stage {
       : world_(world), inputs_(world.scene.players.size() + world.scene.seats.size()) {}
 
   void Rebuilt(b2World* /*world*/) override {
-    // Speeds hang on inputs and edits alone: a barrier, which a client takes at every other tick,
-    // changes none of a room's belts.
+    // Speeds depend only on inputs and edits: a barrier, which a client takes at every other tick,
+    // changes no belt.
     if (revision_ != world_.topology.revision()) FindBelts();
   }
   void SetInput(int player, const Input& input) override {
@@ -31,14 +31,14 @@ class ConveyorStage : public Stage {
   bool listens() const override { return true; }
   void PreSolve(b2Contact* contact) override {
     const float a = SpeedOf(contact->GetFixtureA()), b = SpeedOf(contact->GetFixtureB());
-    // The engine drives B along the right hand side of the normal from A to B against A: clockwise
+    // The engine drives B against A along the right-hand side of the normal from A to B: clockwise
     // around A, and for A, seen from B, clockwise around B.
     if (a != 0 || b != 0 || contact->GetTangentSpeed() != 0) contact->SetTangentSpeed(a + b);
   }
 
  private:
   struct Belt {
-    int player = -1;  // or seat; -1: nobody's
+    int player = -1;  // or seat; -1: always on
     PartId part = 0;
   };
 
@@ -55,7 +55,7 @@ class ConveyorStage : public Stage {
     std::stable_sort(belts_.begin(), belts_.end(),
                      [](const Belt& x, const Belt& y) { return x.player < y.player; });
   }
-  /// True if the part's speed is another one now.
+  /// Updates the part's speed; returns true if it has changed.
   bool Set(const Part& part) {
     const Conveyor& c = *part.conveyor;
     const float share =
@@ -67,13 +67,13 @@ class ConveyorStage : public Stage {
   }
   float SpeedOf(const b2Fixture* fixture) const {
     const std::size_t part = PartOf(fixture);
-    return part < speeds_.size() ? speeds_[part] : 0;  // stages' own fixtures are no parts
+    return part < speeds_.size() ? speeds_[part] : 0;  // fixtures of stages are not parts
   }
   void WakeWhatLiesOn(const Part& part) {
     const int assembly = world_.composition.assembly_of_part[static_cast<std::size_t>(part.id)];
     if (assembly < 0) return;
     b2Body* body = world_.built.bodies[static_cast<std::size_t>(assembly)];
-    if (IsAside(*body)) return;  // nothing lies on it
+    if (IsAside(*body)) return;  // out of the world: no contacts
     for (b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
       if (edge->contact->IsTouching()) edge->other->SetAwake(true);
     }
@@ -84,7 +84,7 @@ class ConveyorStage : public Stage {
   std::vector<Input> inputs_;  // by player, then by seat
   std::vector<float> speeds_;  // by part, m/s
   std::vector<Belt> belts_;    // parts with a conveyor, by player
-  int revision_ = -1;          // of the scene, of which these are
+  int revision_ = -1;          // revision of the scene for the above
 };
 
 }  // namespace

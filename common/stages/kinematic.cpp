@@ -107,7 +107,7 @@ BodyState ImposedMotions::At(int index, double tick) const {
     while (leg + 1 < m.ends.size() && way >= m.ends[leg]) ++leg;
     const double from = leg == 0 ? 0 : m.ends[leg - 1], length = m.ends[leg] - from;
     const Vector2d along = m.path[(leg + 1) % m.path.size()] - m.path[leg];
-    // A leg of no length is nowhere entered for longer than an instant.
+    // A leg of zero length lasts no longer than an instant.
     const double u = length > 0 ? std::min(1.0, (way - from) / length) : 0;
     const double share = m.ease ? (1 - std::cos(kPi * u)) / 2 : u;
     const double pace = m.ease ? kPi / 2 * std::sin(kPi * u) : 1;

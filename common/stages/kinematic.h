@@ -1,6 +1,6 @@
 #pragma once
-/// Anchored parts that are moved: along a path or turning, as a function of time alone, so
-/// that every peer has them in the same pose without any message.
+/// Anchored parts that follow a prescribed path or turn, as a function of time alone: every peer
+/// has them in the same pose without any message.
 
 #include <memory>
 #include <vector>
@@ -12,25 +12,25 @@ namespace seam {
 class Stage;
 struct StageWorld;
 
-/// The motions that a scene imposes, ascending by assembly id.
+/// The scene's prescribed motions, ascending by assembly id.
 class ImposedMotions {
  public:
   ImposedMotions(const Scene& scene, const Composition& composition);
 
   int count() const { return static_cast<int>(motions_.size()); }
   int assembly(int index) const;    ///< index into the composition's
-  int IndexOf(int assembly) const;  ///< -1: it stands still, or moves freely
-  /// Where the assembly's root is, and how it moves; `tick` may lie between ticks.
+  int IndexOf(int assembly) const;  ///< -1: motionless, or free
+  /// Returns the pose and motion of the assembly's root; `tick` may be fractional.
   BodyState At(int index, double tick) const;
 
  private:
   struct Motion {
     int assembly = 0;
-    Eigen::Vector2d pivot{0, 0};        // m, where the path's origin is; it turns about it
-    Eigen::Vector2d arm{0, 0};          // m, from there to the root's position
+    Eigen::Vector2d pivot{0, 0};        // m, origin of the path and centre of rotation
+    Eigen::Vector2d arm{0, 0};          // m, from the pivot to the root's position
     double angle = 0, turning = 0;      // rad, rad/s
     std::vector<Eigen::Vector2d> path;  // m, from the pivot
-    std::vector<double> ends;           // m along the path, where each leg ends
+    std::vector<double> ends;           // m along the path, end of each leg
     double period_s = 1, phase = 0;
     bool ease = false;
   };
@@ -38,8 +38,8 @@ class ImposedMotions {
   double tick_s_ = 1;
 };
 
-/// Moves them by their velocities, so that what lies on them rides, and puts them exactly where
-/// they are at each tick.
+/// Makes a stage that moves these parts by their velocities, so that bodies on them are carried
+/// along, and sets the exact pose at each tick.
 std::unique_ptr<Stage> MakeKinematicStage(const StageWorld& world);
 
 }  // namespace seam

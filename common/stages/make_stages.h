@@ -1,6 +1,6 @@
 #pragma once
-/// How each stage is made, and what tells whether a scene needs it. MakeStages (stages.cpp) has one
-/// line for each.
+/// Factories of the stages, and tests for the need of each. MakeStages (stages.cpp) has one line
+/// for each.
 
 #include <memory>
 
@@ -8,76 +8,77 @@
 
 namespace seam {
 
-/// Gives the contacts of parts with a conveyor their tangent speed: friction does the rest, and is
-/// the most that a belt can pull with.
+/// Sets the tangent speed of the contacts of parts with a conveyor: friction does the rest and
+/// limits the belt's pull.
 std::unique_ptr<Stage> MakeConveyorStage(const StageWorld& world);
 
-/// Pushes bodies before each of the engine's steps. What sleeps is woken when a player's command
-/// changes, and by nothing else.
+/// Applies thrusts before each of the engine's steps. Only a changed command of a player wakes a
+/// sleeping body.
 std::unique_ptr<Stage> MakeThrustStage(const StageWorld& world);
 
-/// Bodies of water: sensors in the contact pipeline say which bodies they hold.
+/// Simulates bodies of water: sensors in the contact pipeline report the bodies within.
 std::unique_ptr<Stage> MakeWaterStage(const StageWorld& world);
 
-/// Turns propellers: each is pushed by the water that its blades meet, and by nothing else. What
-/// sleeps is woken when a player's command changes.
+/// Drives propellers: only the water that the blades meet pushes them. A changed command of a
+/// player wakes a sleeping body.
 std::unique_ptr<Stage> MakePropellerStage(const StageWorld& world);
 
-/// Whether anything in the scene can break.
+/// Returns true if the scene has breakable glue.
 bool HasBreakableGlue(const Scene& scene);
 
-/// Forces are means over a tick: a blow of J N s counts as J times the scene's ticks per second.
-/// What acts on a part: contacts and joints. Whatever else moves the body (gravity, water, thrust)
-/// is taken to act on all of it alike, by mass, and so strains nothing; but gravity on what is
-/// anchored does. A body that could not break by the sum of all that acts costs next to nothing.
+/// Breaks overloaded glue. Forces are means over a tick: an impulse of J N s counts as J times the
+/// scene's ticks per second. Contacts and joints act on single parts. All other forces (gravity,
+/// water, thrust) are taken to act on the whole body in proportion to mass, and so cause no strain;
+/// but gravity on anchored parts does. A body that all forces together could not break costs next
+/// to nothing.
 std::unique_ptr<Stage> MakeGlueStage(const StageWorld& world);
 
-/// Finds connectors that meet.
+/// Joins connectors that meet.
 std::unique_ptr<Stage> MakeJoinStage(const StageWorld& world);
 
-/// Whether a bond may be one that resting parts make: of single bodies that no joint holds.
+/// Returns true if a bond may be a group's: between single bodies that no joint holds.
 bool MayGroup(const Scene& scene, const Composition& composition, const BondEdit& bond);
 
-/// Grouped: single bodies (no joint holds them) that touch and have moved against each other by
-/// less than kRestSpeed and kRestSpin for the scene's time, wherever both are going. Undone: when
-/// the group is shaken (Grouping), or the engine's box around what moves against it by twice as
-/// much comes to its own, which is before the blow: otherwise the blow would meet one body of all
-/// their mass.
+/// Groups single bodies (held by no joint) that touch and have moved relative to each other by less
+/// than kRestSpeed and kRestSpin for the scene's time, however both move. A group is undone when it
+/// is shaken (Grouping), or when the engine's box of a body with at least twice that relative
+/// motion reaches the group's box. This happens before the impact; otherwise the impact would meet
+/// one body of the whole mass.
 std::unique_ptr<Stage> MakeGroupStage(const StageWorld& world);
 
-/// m/s and rad/s: below, things rest against each other. The engine's own limits for sleep are 0.01
-/// and 0.035.
+/// m/s and rad/s: relative motion below these counts as rest. The engine's own limits for sleep are
+/// 0.01 and 0.035.
 constexpr float kRestSpeed = 0.05f, kRestSpin = 0.05f;
 
-/// Gives bricks fixtures where something moves, and takes them away again.
-/// Requires world.scene.bricks. Which cells have fixtures is a function of where the bodies are and
-/// were since the world was last built; nothing that touches or could touch within a tick is ever
+/// Creates the fixtures of bricks near moving bodies, and removes them again. Requires
+/// world.scene.bricks. The set of cells with fixtures is a function of the bodies' positions since
+/// the world was last built; a fixture that touches a body, or could within a tick, is never
 /// missing.
 std::unique_ptr<Stage> MakeFeatherStage(const StageWorld& world);
 
-/// Whether any of the scene's characters is active; MakeCharacterStage requires one.
+/// Returns true if any character of the scene is active; MakeCharacterStage requires one.
 bool HasActiveCharacter(const Scene& scene);
 std::unique_ptr<Stage> MakeCharacterStage(const StageWorld& world);
 
-/// Draws whoever takes a seat to it, rigidly with all limbs, from the SeatEdit on, by a pull of at
-/// most kSeatPull (seat_pull.h). After SeatTicks ticks the player's part is in its place there, if
+/// Draws a player that takes a seat to it, rigidly with all limbs, from the SeatEdit on, by a pull
+/// of at most kSeatPull (seat_pull.h). After SeatTicks ticks the player's part is in its place, if
 /// the pull was enough; it is held until a bond joins the two.
 std::unique_ptr<Stage> MakeSeatStage(const StageWorld& world);
 
-/// Draws whoever leaves a seat out of it: from the breaking of the bond on, upwards from the seat
-/// at kLeaveSpeed and by the same pull, through the vehicle and no longer than it is in it. The
-/// seat feels the reaction.
+/// Draws a player that leaves a seat out of it: from the breaking of the bond on, upwards from the
+/// seat at kLeaveSpeed and by the same pull, through the vehicle and only while inside it. The seat
+/// receives the reaction.
 std::unique_ptr<Stage> MakeSeatLeaveStage(const StageWorld& world);
 
-/// m/s. And after so long, s, it is let go wherever it is.
+/// m/s. After kLeaveSeconds, s, the player is released in any case.
 constexpr float kLeaveSpeed = 2;
 constexpr double kLeaveSeconds = 0.8;
 
-/// How long the way to a seat takes, s: shorter looks like a jump, and longer like flying. And how
-/// long after the SeatEdit it begins: less than the edit is under way to a peer, and the view of
-/// that peer has to catch up.
+/// Duration of the way to a seat, s: shorter looks like a jump, longer like flying. And the delay
+/// after the SeatEdit, s: if the edit takes longer to reach a peer, that peer's view has to catch
+/// up.
 constexpr double kSeatSeconds = 0.5, kSeatWaitSeconds = 0.13;
-/// In ticks, until it begins and until it is over.
+/// Return the ticks until the way begins, and until it ends.
 constexpr int SeatWaitTicks(int tick_hz) {
   return static_cast<int>(kSeatWaitSeconds * tick_hz + 0.5);
 }

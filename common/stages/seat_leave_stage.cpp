@@ -1,6 +1,5 @@
-/// Whoever gets out of a seat is drawn out as one rigid thing: upwards from the seat, until it is
-/// clear of the vehicle; before that the two do not collide. What is given to it is taken from the
-/// vehicle.
+/// Leaving a seat: the player is drawn out as one rigid body, upwards from the seat, until clear of
+/// the vehicle; until then the two do not collide. The vehicle receives the reaction.
 
 #include <cmath>
 
@@ -11,13 +10,13 @@
 namespace seam {
 namespace {
 
-/// Not before this many ticks: contacts are found in the steps.
+/// Fewest ticks before release: contacts are only found in the steps.
 constexpr int kLeaveTicksMin = 3;
 
-/// On the way out. All of it is remembered.
+/// A player on the way out. All of it is saved.
 struct Departure {
-  int ticks = -1;    // since the bond broke; -1: nobody
-  PartId part = -1;  // who was fastened there
+  int ticks = -1;    // since the bond broke; -1: none
+  PartId part = -1;  // the part that was fastened to the seat
 };
 
 class SeatLeaveStage : public Stage {
@@ -106,14 +105,15 @@ class SeatLeaveStage : public Stage {
   const Assembly& At(int assembly) const {
     return w_.composition.assemblies[static_cast<std::size_t>(assembly)];
   }
-  /// Requires a part that is there.
+  /// Requires an existing part.
   int MechanismOf(PartId part) const { return At(AssemblyOf(part)).mechanism; }
   int SideOf(b2Body* body) const {
     const int index = IndexOf(body);
     return index < 0 ? 0 : sides_[static_cast<std::size_t>(index)];
   }
 
-  /// Whether who left and what it left are there and two things that move.
+  /// Returns true if the leaving part and the seat's part exist and are two separate mechanisms
+  /// that move.
   bool IsApart(std::size_t seat) const {
     const int out = AssemblyOf(departures_[seat].part), in = AssemblyOf(SeatOf(seat).part);
     if (out < 0 || in < 0 || At(out).anchored || At(in).anchored) return false;
@@ -143,8 +143,8 @@ class SeatLeaveStage : public Stage {
 
   const StageWorld w_;
   std::vector<Departure> departures_;  // by the scene's seats
-  std::vector<bool> touches_;          // by seat: in this tick, who leaves and what it leaves
-  std::vector<int> sides_;  // by moving body: a seat's number from 1, -: the vehicle; empty: none
+  std::vector<bool> touches_;          // by seat: the player touches the vehicle in this tick
+  std::vector<int> sides_;  // by moving body: seat number from 1, -: the vehicle; empty: none
   b2Vec2 gravity_{0, 0};
 };
 

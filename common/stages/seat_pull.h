@@ -1,19 +1,19 @@
 #pragma once
-/// The bounded pull by which a seat draws somebody in and sets somebody down: all bodies move as
-/// one rigid thing, and their common centre changes its velocity by no more than kSeatPull.
+/// The bounded pull with which a seat draws a player in and puts a player out: all bodies move as
+/// one rigid body, and their common centre changes its velocity by no more than kSeatPull.
 
 #include "common/physics/stage.h"
 
 namespace seam {
 
-/// m/s^2, ten times the weight. More would tear who is drawn along with whatever the vehicle does;
-/// with less, who runs towards a vehicle that drives does not get there in time.
+/// m/s^2, ten times gravity. More would drag a player along with any motion of the vehicle; with
+/// less, a player who runs towards a moving vehicle would not reach it in time.
 constexpr float kSeatPull = 100;
 
-/// Sets the velocities that `velocity_of(body)`, m/s of its centre, and `spin`, rad/s, ask for
-/// after a step of `h` s under `gravity`, all of them short by the same where that is beyond
-/// kSeatPull. `each` calls what it is given for every body, with its mass, kg. Returns the momentum
-/// that it took, N s.
+/// Sets the velocities that `velocity_of(body)` (of its centre, m/s) and `spin` (rad/s) demand
+/// after a step of `h` s under `gravity`. If that exceeds kSeatPull, all velocities fall short by
+/// the same amount. `each` calls its argument for every body, with the body's mass, kg. Returns the
+/// momentum transferred, N s.
 template <typename Each, typename VelocityOf>
 b2Vec2 PullTogether(const Each& each, const VelocityOf& velocity_of, float spin, float h,
                     const b2Vec2& gravity) {

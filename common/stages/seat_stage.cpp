@@ -1,8 +1,8 @@
-/// Whoever takes a seat goes there with all limbs as one rigid thing, and touches nothing on its
-/// way: the bond follows when it is there. Before it goes there it waits, so that all peers have
-/// heard of it when it does. What is done to its velocity meanwhile is made good at
-/// the bond, so that the vehicle gets the momentum that came. While it sits there its limbs do not
-/// collide with the vehicle: there is no room for legs in most.
+/// Seats: a player that takes a seat moves there with all limbs as one rigid body, without contacts
+/// on the way; the bond follows on arrival. The motion starts after a delay, so that all peers have
+/// received the edit by then. The change of its momentum on the way is compensated at the bond, so
+/// that the vehicle receives the momentum that the player brought. A seated player's limbs do not
+/// collide with the vehicle: most have no room for legs.
 ///
 ///   share of the way   1 |              ______  held until the bond
 ///                        |           .-'
@@ -23,27 +23,27 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Who has waited for the bond for so long is let go, s.
+/// Longest wait for the bond, s; then the player is released.
 constexpr int kHeldMost = 4;
 
-/// Where ticks are remembered, those of a late approach count downwards from here.
+/// In saved memory, the ticks of a late approach count downwards from here.
 constexpr int kLateTicks = -2;
 
 Transform2 PoseOf(const b2Body& body) {
   return {FromB2(body.GetPosition()).cast<double>(), static_cast<double>(body.GetAngle())};
 }
 
-/// On the way to a seat. All of it is remembered.
+/// A player on the way to a seat. All of it is saved.
 struct Approach : SeatWay {
-  bool late = false;  // this peer has not seen it begin: how far it is, the bodies say
-  b2Vec2 came{0, 0};  // N s, of the whole mechanism, when it set out
-  b2Vec2 owed{0, 0};  // N s, of that what the way has taken
+  bool late = false;  // this peer missed its start: progress is estimated from the bodies
+  b2Vec2 came{0, 0};  // N s, of the whole mechanism, at the start
+  b2Vec2 owed{0, 0};  // N s, lost on the way, to be repaid
 };
 
 class SeatStage : public Stage {
  public:
   explicit SeatStage(const StageWorld& world) : w_(world), approaches_(world.scene.seats.size()) {
-    // Somebody is on the way in the room that this peer comes into.
+    // A player may be on the way already when this peer joins the room.
     for (std::size_t s = 0; s < approaches_.size(); ++s) {
       if (!IsApart(s)) continue;
       approaches_[s].ticks = 0;
@@ -60,7 +60,7 @@ class SeatStage : public Stage {
     sides_.clear();
   }
 
-  /// A peer that comes in hears what was before, and hears it as if it were now.
+  /// A joining peer receives earlier edits as if they were new.
   void TickSet() override {
     started_ = w_.tick;
     for (Approach& a : approaches_) a.late = a.late || (a.ticks >= 0 && w_.tick > 0);
@@ -152,7 +152,7 @@ class SeatStage : public Stage {
     const int player = SeatOf(seat).player;
     return player < 0 ? -1 : w_.scene.players[static_cast<std::size_t>(player)].vehicle;
   }
-  /// Index of an assembly; -1: there is no such part.
+  /// Returns the index of an assembly; -1 if there is no such part.
   int AssemblyOf(PartId part) const {
     const auto p = static_cast<std::size_t>(part);
     return part < 0 ? -1 : w_.composition.assembly_of_part[p];
@@ -168,7 +168,7 @@ class SeatStage : public Stage {
     return body < 0 || sides_.empty() ? 0 : sides_[static_cast<std::size_t>(body)];
   }
 
-  /// Whether the part of a seat and its sitter's are one body.
+  /// Returns true if the seat's part and the player's are one body.
   bool IsBonded(std::size_t seat) const {
     const int own = AssemblyOf(Sitter(seat));
     return own >= 0 && own == AssemblyOf(SeatOf(seat).part);
@@ -177,7 +177,7 @@ class SeatStage : public Stage {
     return joint.kind == JointKind::kGlue && joint.a == SeatOf(seat).part &&
            joint.b == Sitter(seat);
   }
-  /// By part: whether joints other than the seat's bond connect it with the sitter.
+  /// Returns by part: true if joints other than the seat's bond connect it with the player.
   std::vector<bool> PartsOfSitter(std::size_t seat) const {
     std::vector<bool> found(w_.scene.parts.size(), false);
     found[static_cast<std::size_t>(Sitter(seat))] = true;
@@ -193,8 +193,8 @@ class SeatStage : public Stage {
     }
     return found;
   }
-  /// Which bodies are limbs of who sits in a vehicle, and which are the vehicle's: the one that
-  /// both have become is.
+  /// Finds the bodies that are limbs of seated players, and those of the vehicles. The body formed
+  /// by the bond counts as the vehicle's.
   void FindSides() {
     sides_.clear();
     for (std::size_t s = 0; s < approaches_.size(); ++s) {
@@ -213,7 +213,7 @@ class SeatStage : public Stage {
     }
   }
 
-  /// Whether somebody sits there whose mechanism is another one, and can move.
+  /// Returns true if a player has the seat, is of another mechanism, and can move.
   bool IsApart(std::size_t seat) const {
     const int own = AssemblyOf(Sitter(seat)), there = AssemblyOf(SeatOf(seat).part);
     if (own < 0 || there < 0 || At(own).anchored) return false;
@@ -237,7 +237,7 @@ class SeatStage : public Stage {
     return sum;
   }
 
-  /// A part's pose, when its body has this one.
+  /// Returns a part's pose, given that of its body.
   Transform2 PoseOfPart(PartId id, const Transform2& body) const {
     const Part& part = w_.scene.parts[static_cast<std::size_t>(id)];
     const Part& root = w_.scene.parts[static_cast<std::size_t>(At(AssemblyOf(id)).id)];
@@ -248,12 +248,12 @@ class SeatStage : public Stage {
     return *w_.built.bodies[static_cast<std::size_t>(AssemblyOf(part))];
   }
 
-  /// Whether it is on its way, or there, in this tick.
+  /// Returns true if the player is on the way, or waiting at its end, in this tick.
   bool Leads(std::size_t seat) const {
     return approaches_[seat].ticks >= SeatWaitTicks(w_.scene.solver.tick_hz) && IsApart(seat);
   }
 
-  /// The sitter's part in the frame of the seat's.
+  /// Returns the player's part's pose in the frame of the seat's part.
   Transform2 PlaceOf(std::size_t seat) const {
     const PartId own = Sitter(seat), there = SeatOf(seat).part;
     const Transform2 vehicle = PoseOfPart(there, PoseOf(BodyOf(there)));
@@ -276,8 +276,8 @@ class SeatStage : public Stage {
     FindWay(SeatOf(seat), w_.scene.solver, {place, seen}, &approaches_[seat]);
   }
 
-  /// Gives all bodies the velocities with which they are, rigidly, where they are to be after the
-  /// step, as far as the pull is strong enough. What is only displayed has a path of its own.
+  /// Sets all bodies' velocities so that, as one rigid body, they are in place after the step, as
+  /// far as the pull allows. Bodies that are only displayed follow their own path.
   void Lead(std::size_t seat, float h) {
     const Approach& a = approaches_[seat];
     const PartId own = Sitter(seat);
@@ -296,7 +296,8 @@ class SeatStage : public Stage {
     Transform2 now = PoseOfPart(own, PoseOf(BodyOf(own)));
     now.angle = UnwrapAngle(now.angle, wanted.angle);
     const Transform2 moves = wanted.Then(now.Inverse());
-    // Whoever has fallen behind comes after no faster than twice as fast as the way would be.
+    // A player that has fallen behind catches up at no more than twice the highest speed of the
+    // way.
     const double fastest = 3 * (a.from.shift - at.cast<double>()).norm() / kSeatSeconds + 0.5;
     const auto velocity_of = [&](const b2Body* body) {
       const Vector2d centre = FromB2(body->GetWorldCenter()).cast<double>();
@@ -314,7 +315,8 @@ class SeatStage : public Stage {
     PullTogether(each, velocity_of, static_cast<float>(moves.angle) / h, h, gravity_);
   }
 
-  /// To all of the mechanism that now is one alike: that is no strain on its joints.
+  /// Distributes the momentum over the whole joined mechanism in proportion to mass, which does not
+  /// strain its joints.
   void Repay(std::size_t seat) {
     const int whole = AssemblyOf(SeatOf(seat).part);
     if (whole < 0 || At(whole).anchored) return;
@@ -329,9 +331,9 @@ class SeatStage : public Stage {
 
   const StageWorld w_;
   std::vector<Approach> approaches_;  // by the scene's seats
-  std::int64_t started_ = 0;          // tick at which this peer came in
-  std::vector<bool> ghosts_;          // by moving body; empty: nobody is on the way
-  std::vector<int> sides_;  // by moving body: a seat's number from 1, -: the vehicle; empty: none
+  std::int64_t started_ = 0;          // tick at which this peer joined
+  std::vector<bool> ghosts_;          // by moving body; empty: no approach
+  std::vector<int> sides_;  // by moving body: seat number from 1, -: the vehicle; empty: none
   b2Vec2 gravity_{0, 0};
   int steps_ = 0;  // of the engine, in this tick
 };

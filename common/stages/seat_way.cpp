@@ -10,13 +10,13 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Who has so little of the way left, m, is there; and who has this and does not come nearer: what
-/// is heard of a vehicle and of who is in it is not of one tick.
+/// Remaining way, m, at which a player has arrived; and at which a player that comes no nearer has:
+/// the heard states of a vehicle and of its player are not of the same tick.
 constexpr double kThere = 0.03, kThereAtRest = 0.5;
-/// speed/left T below which nobody need have set out: it is more from 3 ticks on.
+/// speed/remaining T below which a player may not have set out: it is larger from 3 ticks on.
 constexpr double kSetsOut = 0.5;
-/// Share up to which the way is looked for again, and x up to which it is found: then too little is
-/// left of it to tell.
+/// Share up to which the way is estimated again, and x up to which an estimate counts: beyond it,
+/// too little of the way is left to tell.
 constexpr double kLookedFor = 0.9, kFoundUpTo = 0.94;
 /// rad: a way turns by less than half a turn.
 constexpr double kTurnMost = 3.1;
@@ -45,7 +45,7 @@ void FindWay(const Seat& seat, const Solver& solver, const SeatSight& seen, Seat
   }
   if (k < kSetsOut) return;
   const double x = (k - 6 + std::sqrt((6 - k) * (6 - k) + 8 * k * k)) / (4 * k);
-  // The speed is that of the middle of the last step.
+  // The speed is that at the middle of the last step.
   const double ticks = x * (all - wait) + 0.5 / solver.substeps, most = kFoundUpTo * (all - wait);
   const int found = wait + std::max(1, static_cast<int>(std::lround(std::min(ticks, most))));
   const double share = ShareOfWay(found, solver.tick_hz);

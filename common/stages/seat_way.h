@@ -1,6 +1,6 @@
 #pragma once
-/// The way to a seat: how much of it is behind somebody when, and, for who has not seen it begin,
-/// where it began.
+/// Progress of a player on the way to a seat; for a peer that missed the start, also an estimate of
+/// it.
 
 #include <Eigen/Core>
 
@@ -9,29 +9,30 @@
 
 namespace seam {
 
-/// Share of the way, 0..1, so many ticks after the seat was taken: 3x^2 - 2x^3 of its time, so that
-/// it begins and ends without a jerk.
+/// Returns the share of the way, 0..1, at this many ticks after the seat was taken: 3x^2 - 2x^3 of
+/// its time, so that it begins and ends smoothly.
 double ShareOfWay(double ticks, int tick_hz);
 
 struct SeatWay {
-  int ticks = -1;   ///< since the seat was taken; -1: nobody is on the way
-  Transform2 from;  ///< the player's part in the seat's frame, when it set out
+  int ticks = -1;   ///< since the seat was taken; -1: no approach
+  Transform2 from;  ///< the player's part in the seat's frame, at the start
 };
 
-/// What is seen of somebody who is on the way.
+/// Observation of a player on the way.
 struct SeatSight {
   Transform2 place;             ///< the player's part in the seat's frame
   Eigen::Vector2d speed{0, 0};  ///< m/s, of that part there, in that frame, against the seat's
 };
 
-/// Puts `way` right by what is seen, for somebody who was on the way before this peer came. It says
-/// little of who stands still far from the seat: then `way` stays, and goes on as if it began now.
+/// Corrects `way` from an observation, for a player that set out before this peer joined. A player
+/// at rest far from the seat tells little: then `way` stays, as if it began now.
 ///
-/// With x of the time T behind it, of a way of length d, its speed is d 6x(1 - x)/T, and d (1 -
-/// x)^2 (1 + 2x) is left. So speed/left T = 6x/((1 - x)(1 + 2x)), which has one solution in 0..1.
+/// With the share x of the time T elapsed, on a way of length d, the speed is d 6x(1 - x)/T and the
+/// remaining way d (1 - x)^2 (1 + 2x). So speed/remaining T = 6x/((1 - x)(1 + 2x)), with one
+/// solution in 0..1.
 void FindWay(const Seat& seat, const Solver& solver, const SeatSight& seen, SeatWay* way);
 
-/// As floats have it: what is remembered as floats is the same with and without a way back.
+/// Rounds to single precision, so that a pose is the same before and after saving as floats.
 Transform2 Rounded(const Transform2& pose);
 
 }  // namespace seam

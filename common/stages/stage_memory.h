@@ -1,5 +1,5 @@
 #pragma once
-/// What several stages remember in the same way, as the numbers of Stage::Save and Load.
+/// Memory that several stages save in the same format, as the numbers of Stage::Save and Load.
 
 #include <map>
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace seam {
 
-/// Ticks by part: how many there are, then part and ticks of each.
+/// Saves ticks by part: their number, then part and ticks of each.
 inline void SaveTicks(const std::map<PartId, int>& ticks, std::vector<float>* memory) {
   memory->push_back(static_cast<float>(ticks.size()));
   for (const auto& [part, count] : ticks) {
@@ -17,7 +17,7 @@ inline void SaveTicks(const std::map<PartId, int>& ticks, std::vector<float>* me
   }
 }
 
-/// Returns how many numbers it took.
+/// Returns the number of values read.
 inline std::size_t LoadTicks(const float* memory, std::map<PartId, int>* ticks) {
   const auto size = static_cast<std::size_t>(memory[0]);
   ticks->clear();

@@ -23,7 +23,7 @@ std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world) {
   const auto any = [](const auto& all, const auto& uses) {
     return std::any_of(all.begin(), all.end(), uses);
   };
-  // A stage for each feature that the scene uses, and no other.
+  // One stage for each feature that the scene uses, and no others.
   std::vector<std::unique_ptr<Stage>> stages;
   if (any(world.scene.joints,
           [](const Joint& j) { return HoldOf(j.kind) == JointHold::kImposed; })) {
@@ -45,7 +45,7 @@ std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world) {
   if (joins) stages.push_back(MakeJoinStage(world));
   if (world.scene.grouping->after > 0) stages.push_back(MakeGroupStage(world));
   if (HasActiveCharacter(world.scene)) stages.push_back(MakeCharacterStage(world));
-  if (!world.scene.seats.empty()) {  // they lead, so they are last
+  if (!world.scene.seats.empty()) {  // last, as they prescribe motion
     stages.push_back(MakeSeatLeaveStage(world));
     stages.push_back(MakeSeatStage(world));
   }

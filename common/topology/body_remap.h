@@ -1,5 +1,5 @@
 #pragma once
-/// How the bodies after a change of topology come from the bodies before it.
+/// Maps the bodies after a change of topology to the bodies before it.
 
 #include <Eigen/Core>
 #include <vector>
@@ -8,28 +8,29 @@
 
 namespace seam {
 
-/// Where a body's motion comes from: the body that its root part belonged to.
+/// Origin of a body's motion: the earlier body that its root part belonged to.
 struct BodyOrigin {
-  int body = -1;      ///< index before; -1: was anchored, or is new
-  bool same = false;  ///< the same parts under the same root
+  int body = -1;      ///< index before the change; -1: anchored or absent then
+  bool same = false;  ///< the same parts with the same root
   // In the frame of the root before, m and rad:
-  Eigen::Vector2d root{0, 0};  ///< the root part now
+  Eigen::Vector2d root{0, 0};  ///< root part after the change
   double angle = 0;
-  Eigen::Vector2d centre{0, 0};         ///< the centre of mass of the parts that came from there
-  Eigen::Vector2d centre_before{0, 0};  ///< that of the whole body before
+  Eigen::Vector2d centre{0, 0};         ///< centre of mass of the parts that came from `body`
+  Eigen::Vector2d centre_before{0, 0};  ///< centre of mass of the whole earlier body
 };
 
 struct BodyRemap {
-  std::vector<BodyOrigin> bodies;  ///< by body, as they are now
-  /// By body: how a bond moved it that moved another body of its mechanism; empty: it moved none.
+  std::vector<BodyOrigin> bodies;  ///< by body after the change
+  /// By body after the change: displacement caused by a bond that moved another body of the same
+  /// mechanism. Empty if no bond moved anything.
   std::vector<BodyState> jumps;
-  /// By mechanism, as they are now: those before that parts of it were in, ascending, but first
-  /// that of the mechanism's first body; empty when all is new or was anchored.
+  /// By mechanism after the change: earlier mechanisms that its parts were in, ascending, except
+  /// that the mechanism of its first body comes first. Empty if all parts are new or were anchored.
   std::vector<std::vector<int>> mechanisms;
 };
 
-/// The state that a body has now (or had then, as part of another) when the body it comes from has
-/// `before`: the same rigid motion. Requires origin.body >= 0.
+/// Returns the state of a body if its earlier body had the state `before`, by the same rigid
+/// motion; also valid for past ticks. Requires origin.body >= 0.
 BodyState Carried(const BodyOrigin& origin, const BodyState& before);
 
 }  // namespace seam

@@ -8,7 +8,7 @@
 namespace seam {
 namespace {
 
-/// Parts of one body are within this of its root after a bond, m: shapes far from their body's
+/// Largest distance of a part from its body's root after a bond, m: shapes far from their body's
 /// origin lose their edges to rounding.
 constexpr float kBondReachMax = 2 * kWeldReachMax;
 

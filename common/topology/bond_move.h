@@ -1,5 +1,5 @@
 #pragma once
-/// How a bond puts the places of two assemblies together.
+/// Computes how a bond moves one assembly onto another.
 
 #include "common/base/geometry.h"
 #include "common/scene/assembly.h"
@@ -7,22 +7,22 @@
 
 namespace seam {
 
-/// Where the scene puts a part.
+/// Returns a part's pose in the scene.
 inline Transform2 PlaceOf(const Part& part) {
   return {part.position.cast<double>(), static_cast<double>(part.angle)};
 }
 
-/// What a bond moves, and how.
+/// The assembly that a bond moves, and its motion.
 struct BondMove {
-  int assembly = 0;  ///< index; the side that is not anchored; b's if neither is
+  int assembly = 0;  ///< index of the assembly that is not anchored; b's if neither is
   Transform2 moves;
 };
 
-/// Requires parts that are there, and two assemblies.
+/// Requires existing parts in two different assemblies.
 BondMove MoveOf(const Scene& scene, const Composition& composition, const BondEdit& bond);
 
-/// Whether all parts of both sides stay where shapes are sound: near their body's origin, and
-/// within kPlaceMax and kTurnMax. Requires what MoveOf does.
+/// Returns true if all parts of both assemblies stay where shapes are numerically sound: near their
+/// body's origin, and within kPlaceMax and kTurnMax. Requires the same as MoveOf.
 bool FitsTogether(const Scene& scene, const Composition& composition, const BondEdit& bond);
 
 }  // namespace seam

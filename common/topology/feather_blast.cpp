@@ -20,7 +20,7 @@ Vector2d MiddleOf(const BrickField& field, int x, int y, int columns, int rows) 
   return Vector2d(2 * x + columns * field.width, 2 * y + rows * field.height) * (kUnit / 2);
 }
 
-/// m/s outwards at a position.
+/// Returns the velocity, m/s, that the blast gives at a position: outwards.
 Vector2d SpeedAt(const Blast& blast, const Vector2d& place) {
   const Vector2d out = place - blast.centre.cast<double>();
   const double distance = std::sqrt(out.x() * out.x() + out.y() * out.y());
@@ -35,7 +35,7 @@ bool Before(const Brick& a, const Brick& b) {
   return std::tie(a.kind, a.y, a.x) < std::tie(b.kind, b.y, b.x);
 }
 
-/// All that the blast would free, by kind, from below, from the left.
+/// Returns all bricks that the blast would free, sorted by kind, then y, then x.
 std::vector<Brick> Loosened(const FeatureList<BrickField>& fields, const FeatherStore& left,
                             const Blast& blast) {
   if (blast.speed <= 0) return {};
@@ -57,14 +57,14 @@ std::vector<Brick> Loosened(const FeatureList<BrickField>& fields, const Feather
   return loose;
 }
 
-/// Neighbours that fly together.
+/// Neighbouring bricks that fly together.
 struct Piece {
-  Brick first;  ///< its lower left
+  Brick first;  ///< lower left
   int columns = 1, rows = 1;
-  double distance = 0;  ///< m, of its middle from the blast's
+  double distance = 0;  ///< m, from its middle to the blast's centre
 };
 
-/// Two by two where there are four, else two side by side, else one on another, else one.
+/// Groups bricks two by two where possible, else two side by side, else two stacked, else single.
 std::vector<Piece> Pieces(const FeatureList<BrickField>& fields, const std::vector<Brick>& loose,
                           const Blast& blast) {
   std::vector<bool> used(loose.size(), false);

@@ -1,5 +1,5 @@
 #pragma once
-/// Bricks that a blast sets free: what they were, and the parts that they become.
+/// Computes the bricks that a blast sets free, and the parts that they become.
 
 #include <vector>
 
@@ -11,12 +11,12 @@
 
 namespace seam {
 
-/// Parts from one blast, the most: a blast of any size stays affordable for every peer.
+/// Most parts from one blast, so that a blast of any size stays affordable for every peer.
 constexpr int kBlastPiecesMax = 40;
 
 struct Blast {
   Vec2 centre{0, 0};  ///< m
-  float radius = 1;   ///< m: bricks whose middle is within it
+  float radius = 1;   ///< m: brick centres within it
   float speed = 10;   ///< m/s in the centre, falling to 0 at the radius
   float impulse = 0;  ///< N s for each metre of a body's silhouette, falling likewise
 };
@@ -28,29 +28,30 @@ struct Freed {
   std::vector<Part> parts;    ///< boxes of up to two by two of them; without ids
 };
 
-/// m: a part is smaller by this on each side than the bricks that it was, so that it can leave its
-/// hole: shapes come to rest 1.5 cm apart, and bricks lie without a gap. Its mass is theirs.
+/// Each side of a freed part is smaller by this than its bricks, m, so that it can leave its hole:
+/// shapes come to rest 1.5 cm apart, and bricks lie without a gap. Its mass is that of the bricks.
 constexpr float kFreedGap = 0.015f;
 
-/// So many columns and rows of bricks from `first`, its lower left, as a part without id, at rest.
+/// Returns a part without id, at rest: `columns` by `rows` bricks, `first` at the lower left.
 Part FreedPart(const BrickField& field, const Brick& first, int columns, int rows);
 
-/// Those of the bricks `left` of `fields` that the blast would give a speed above their strength,
-/// nearest first, as pieces; and no more pieces than kBlastPiecesMax, the rest stays where it is.
-/// A function of its arguments: the same on every peer. Costs a look at what is near.
+/// Selects the bricks of `left` that the blast would give a speed above their strength, and groups
+/// them into pieces, nearest first. At most kBlastPiecesMax pieces; further bricks stay in place.
+/// Depends on nothing but its arguments: the same on every peer. Cost: a search of the bricks near
+/// the blast.
 Freed BlastBricks(const FeatureList<BrickField>& fields, const FeatherStore& left,
                   const Blast& blast);
 
-/// All bricks that have become parts: a piece is named after what it was, "towers@-120,35+2x2" for
-/// two by two bricks of `towers` whose lower left corner is at (-120, 35) units. No name in a scene
-/// has an @. In the order of the parts, those that have left included.
+/// Returns all bricks that have become parts, in the order of the parts, parts that have left
+/// included. A freed part is named after its bricks: "towers@-120,35+2x2" is two by two bricks of
+/// `towers` whose lower left corner is at (-120, 35) units. No name in a scene contains an @.
 std::vector<Brick> FreedBricks(const FeatureList<BrickField>& fields,
                                const std::vector<Part>& parts);
 
-/// m that a blast's centre is from the origin at most, along x and along y.
+/// Largest distance of a blast's centre from the origin, along x and along y, m.
 constexpr float kBlastPlaceMax = 1e6f;
 
-/// Whether a blast is one that can be: of at most kBlastPlaceMax, kBlastRadiusMax, kSpeedMax and
+/// Returns true if a blast is within kBlastPlaceMax, kBlastRadiusMax, kSpeedMax and
 /// kBlastImpulseMax.
 bool Possible(const Blast& blast);
 

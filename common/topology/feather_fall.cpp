@@ -18,7 +18,7 @@ bool IsBefore(const Brick& a, const Brick& b) {
   return std::tie(a.kind, a.y, a.x) < std::tie(b.kind, b.y, b.x);
 }
 
-/// Those that share a part of an edge with the brick, not only a corner.
+/// Returns the bricks that share a part of an edge with `b`, not only a corner.
 std::vector<Brick> Neighbours(const FeatherStore& store, const Brick& b) {
   const BrickKind& own = store.kinds()[static_cast<std::size_t>(b.kind)];
   const int right = b.x + own.width, top = b.y + own.height;
@@ -34,13 +34,13 @@ std::vector<Brick> Neighbours(const FeatherStore& store, const Brick& b) {
   return near;
 }
 
-/// Finds for one brick after the other whether it stands.
+/// Finds out, brick by brick, whether a foundation supports it.
 class Support {
  public:
   Support(const Foundations& foundations, const std::vector<Part>& parts, const FeatherStore& left)
       : foundations_(foundations), parts_(parts), left_(left) {}
 
-  /// If the brick hangs, adds it and all that hangs with it to `hanging`, once.
+  /// Adds the brick and all that hang with it to `hanging`, once, if no foundation supports it.
   void Look(const Brick& brick, std::vector<Brick>* hanging) {
     if (known_.count(KeyOf(brick)) > 0) return;
     std::vector<Brick> open = {brick}, seen;
@@ -52,7 +52,7 @@ class Support {
       seen.push_back(b);
       if (foundations_.Holds(b, parts_)) stands = true;
       std::vector<Brick> near = Neighbours(left_, b);
-      // The lowest is looked at next: that is the short way to the ground.
+      // The lowest comes next: the short way to the ground.
       std::stable_sort(near.begin(), near.end(),
                        [](const Brick& one, const Brick& two) { return one.y > two.y; });
       for (const Brick& next : near) {
@@ -72,10 +72,10 @@ class Support {
   const Foundations& foundations_;
   const std::vector<Part>& parts_;
   const FeatherStore& left_;
-  std::unordered_set<std::uint64_t> known_, stood_;  // looked at; and stand
+  std::unordered_set<std::uint64_t> known_, stood_;  // visited; supported
 };
 
-/// Cuts what hangs into boxes, from below, from the left.
+/// Cuts hanging bricks into boxes, from below, from the left.
 class Cutter {
  public:
   Cutter(const FeatureList<BrickField>& fields, std::vector<Brick> bricks)
@@ -107,7 +107,8 @@ class Cutter {
   }
 
  private:
-  /// Index of the brick so many columns and rows from `b`; bricks_.size(): there is none left.
+  /// Returns the index of the brick `column` columns and `row` rows from `b`; bricks_.size() if
+  /// there is none or it is used.
   std::size_t Find(const Brick& b, int column, int row) const {
     const BrickField& field = fields_[static_cast<std::size_t>(b.kind)];
     const Brick wanted{b.x + column * field.width, b.y + row * field.height, b.kind};
@@ -133,7 +134,7 @@ Fallen FallingBricks(const FeatureList<BrickField>& fields, const Foundations& f
                      const std::vector<Part>& parts, const FeatherStore& left,
                      const std::vector<Brick>& freed, const Blast& blast) {
   Support support(foundations, parts, left);
-  std::vector<Brick> hanging = left.hanging();  // nothing can have come below them
+  std::vector<Brick> hanging = left.hanging();  // already known; no support can have come below
   for (const Brick& b : freed) {
     for (const Brick& next : Neighbours(left, b)) support.Look(next, &hanging);
   }

@@ -1,6 +1,6 @@
 #pragma once
-/// Bricks that nothing holds up any more: what a blast leaves in the air comes down. No statics:
-/// what is connected to a foundation stands.
+/// Lets bricks fall that nothing supports any more, such as the remains of a blast in the air. No
+/// statics: bricks connected to a foundation stand.
 
 #include <vector>
 
@@ -11,27 +11,29 @@
 
 namespace seam {
 
-/// Parts that one edit lets fall, the most; what is left falls by the next edit.
+/// Most parts that one edit lets fall; further bricks fall by the next edit.
 constexpr int kFallPiecesMax = 100;
-/// Units: a piece is no larger along x or y, unless a single brick is.
+/// Largest side of a piece along x or y, units, unless a single brick is larger.
 constexpr int kFallSideMax = 30;
 
 struct Fallen {
   std::vector<Part> parts;     ///< boxes of neighbours of one kind, at rest; without ids
-  std::vector<Brick> hanging;  ///< that nothing holds up either
+  std::vector<Brick> hanging;  ///< further unsupported bricks, still in place
 };
 
-/// The bricks of `left` near the blast, and next to what it freed, that no row of neighbours (by a
-/// common edge, however short) connects to a foundation, and what is known to hang: from below, at
-/// most kFallPiecesMax pieces. `parts`: the scene's, as they are now.
-/// Integer arithmetic: the same on every peer. Costs a walk over what hangs, and from what stands
-/// down to its foundation.
+/// Lets fall, from below and as at most kFallPiecesMax pieces, the bricks of `left` that no chain
+/// of neighbours (sharing an edge, however short) connects to a foundation. Searches the bricks
+/// near the blast, the neighbours of the bricks that it freed, and the bricks known to hang.
+/// `parts`: the scene's current parts.
+/// Integer arithmetic: the same on every peer. Cost: a walk over all hanging bricks, and from each
+/// standing brick down to its foundation.
 Fallen FallingBricks(const FeatureList<BrickField>& fields, const Foundations& foundations,
                      const std::vector<Part>& parts, const FeatherStore& left,
                      const std::vector<Brick>& freed, const Blast& blast);
 
-/// The bricks of `left` that hang when a part that they lay on has left or is freed, and what is
-/// known to hang: ascending by kind, y, x. `parts`: without it. Costs as much.
+/// Returns the bricks of `left` that hang once a part below them has left or been freed, and the
+/// bricks known to hang: ascending by kind, y, x. `parts`: without that part. Cost: as
+/// FallingBricks.
 std::vector<Brick> HangingWithout(PartId part, const Foundations& foundations,
                                   const std::vector<Part>& parts, const FeatherStore& left);
 

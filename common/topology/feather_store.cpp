@@ -46,7 +46,7 @@ FeatherStore::FeatherStore(const FeatureList<BrickField>& fields) : kinds_(Kinds
       if (count == nullptr || key != last_key) count = &count_of_cell[last_key = key];
       ++*count;
       ++size_;
-      // The cells that it reaches into have an outline, too, even if no brick begins there.
+      // Cells that the brick reaches into need an outline too, even if no brick begins there.
       const int x1 = CellOf(x + field.width - 1), y1 = CellOf(y + field.height - 1);
       if (x1 != CellOf(x)) count_of_cell[KeyOf(x1, CellOf(y))] += 0;
       if (y1 != CellOf(y)) count_of_cell[KeyOf(CellOf(x), y1)] += 0;
@@ -121,7 +121,7 @@ void FeatherStore::Append(int cell, std::vector<Brick>* out) const {
 std::vector<Brick> FeatherStore::InBox(int x0, int y0, int x1, int y1) const {
   std::vector<Brick> out;
   if (cells_.empty()) return out;
-  // A brick may reach in from the cell before.
+  // A brick of the previous cell may reach in.
   const int from_x = std::max(CellOf(x0 - kBrickSideMax), min_x_);
   const int from_y = std::max(CellOf(y0 - kBrickSideMax), min_y_);
   const int to_x = std::min(CellOf(x1), max_x_), to_y = std::min(CellOf(y1), max_y_);
@@ -160,7 +160,7 @@ std::size_t FeatherStore::Remove(const std::vector<Brick>& bricks) {
     const std::uint32_t packed = Pack(brick, cx, cy);
     const auto found = std::lower_bound(begin, end, packed);
     if (found == end || *found != packed) continue;
-    std::rotate(found, found + 1, end);  // the others keep their order
+    std::rotate(found, found + 1, end);  // the rest keeps its order
     --c.count;
     --size_;
     ++removed;

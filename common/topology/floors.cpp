@@ -12,7 +12,7 @@ using Eigen::Vector2d;
 
 std::int64_t Millimetres(double metres) { return std::llround(metres * 1000); }
 
-/// From `a` to `b`, whichever of them is on the left.
+/// Adds the line between `a` and `b`, in either order.
 void AddLine(const Vector2d& a, const Vector2d& b, std::vector<Floor>* floors) {
   const Vector2d &left = a.x() < b.x() ? a : b, &right = a.x() < b.x() ? b : a;
   const Floor floor{Millimetres(left.x()), Millimetres(left.y()), Millimetres(right.x()),
@@ -33,7 +33,7 @@ void AddPolygon(const std::vector<Vector2d>& points, std::vector<Floor>* floors)
   }
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vector2d &a = points[i], &b = points[(i + 1) % points.size()];
-    if ((b.x() - a.x()) * area < 0) AddLine(a, b, floors);  // what is inside is below
+    if ((b.x() - a.x()) * area < 0) AddLine(a, b, floors);  // the inside is below
   }
 }
 

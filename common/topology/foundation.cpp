@@ -41,14 +41,15 @@ void EachOn(const Floor& floor, const FeatherStore& whole, const Visit& visit) {
   }
 }
 
-/// A block and the tower that it is of.
+/// A block and its tower.
 struct Node {
   Storeys block;
   std::size_t tower = 0;
-  int begins = 0, height = 0;  // units: where its [[bricks]] begin, and one of them
+  int begins = 0, height = 0;  // units: start of its [[bricks]], and height of one brick
 };
 
-/// Calls `visit` with all pairs that have a part of their width in common, or an upright edge.
+/// Calls `visit` with all pairs of blocks of different towers that overlap along x or share an
+/// upright edge.
 template <class Visit>
 void EachPair(const std::vector<Node>& by_x0, const Visit& visit) {
   std::vector<const Node*> open;
@@ -70,7 +71,7 @@ bool Touch(const Storeys& a, const Storeys& b) {
   return near && (Beside(a, b) || Over(a, b));
 }
 
-/// Sets that grow together.
+/// Union-find.
 class Sets {
  public:
   explicit Sets(std::size_t count) : parent_(count) {
@@ -121,7 +122,7 @@ Foundations::Foundations(const FeatherStore& whole, const FeatureList<BrickField
   EachPair(nodes, [&](const Node& a, const Node& b) {
     if (Touch(a.block, b.block)) buildings.Join(a.tower, b.tower);
   });
-  std::vector<bool> on_ground(towers, false);  // by building: its first tower
+  std::vector<bool> on_ground(towers, false);  // by building, at the index of its first tower
   for (const Rest& rest : rests_) on_ground[buildings.Find(TowerOf(rest.brick))] = true;
   by_itself_.assign(towers, true);
   for (std::size_t t = 0; t < towers; ++t) by_itself_[t] = !on_ground[buildings.Find(t)];

@@ -1,6 +1,6 @@
 #pragma once
-/// What holds a scene's bricks up: the places where they lie on anchored parts, and of a building
-/// that lies on none, its own lowest rows.
+/// Foundations of a scene's bricks: places where they lie on anchored parts; for a building that
+/// lies on none, its own lowest rows.
 
 #include <cstddef>
 #include <vector>
@@ -12,36 +12,38 @@
 
 namespace seam {
 
-/// mm: bricks lie on a part that is no further below them: one unit of theirs.
+/// Bricks lie on a part up to this far below them, mm: one of their units.
 constexpr int kRestGap = 50;
-/// mm: what reaches below or into a brick by less, from its side, holds it not.
+/// A part that reaches below or into a brick from its side by less than this, mm, does not support
+/// it.
 constexpr int kRestSide = 10;
 
-/// A building is what common edges connect in the scene as it begins, of whichever [[bricks]].
+/// A building: all bricks, of any [[bricks]], connected by common edges at the start of the scene.
 ///
 ///     |--------deck--------|
 ///       |pier|    |lamp|  |steps      The pier holds all: it lies on a part. Without that part,
 ///       |    |            |______     pier and steps would hold it, since the scene hangs it in
 ///     =ground==                       the air; the lamp would not if there were bricks below it.
 ///
-/// Where a building lies on anchored parts (on a face of theirs that looks up), the bricks that do
-/// are its foundations, in whichever row, and no others. Each holds as long as one of the parts
-/// that it lies on is there and anchored. A building that lies on none stands by the lowest row of
-/// each of its [[bricks]] (of each of their towers), unless that row touches some that begin lower,
-/// or others of the building lie straight below it.
+/// If a building lies on anchored parts (on their upward faces), exactly the bricks that do are its
+/// foundations, in any row. Each holds as long as one of the parts below it exists and is anchored.
+/// A building on no such part stands by the lowest row of each of its [[bricks]] (of each tower),
+/// unless that row touches bricks of a field that begins lower, or other bricks of the building lie
+/// directly below it.
 ///
-/// Faces are rounded to a millimetre, all else are integers: the same on every peer.
+/// Faces are rounded to a millimetre, all other numbers are integers: the same on every peer.
 class Foundations {
  public:
-  /// `whole`: all bricks of the scene; `ground`: its parts that are anchored and stand still, by
-  /// ascending id. Costs a look at the bricks along their faces, and at each building.
+  /// `whole`: all bricks of the scene; `ground`: its anchored, motionless parts, by ascending id.
+  /// Cost: a search along their faces, and a visit of each building.
   Foundations(const FeatherStore& whole, const FeatureList<BrickField>& fields,
               const std::vector<Part>& ground);
 
-  /// Whether the brick is a foundation, with the scene's parts as they are now.
+  /// Returns true if the brick is a foundation, given the scene's current parts.
   bool Holds(const Brick& brick, const std::vector<Part>& parts) const;
 
-  /// The bricks that lie on a part, ascending by kind, y, x; none if it is no ground.
+  /// Returns the bricks that lie on a part, ascending by kind, y, x; none if the part is not
+  /// ground.
   std::vector<Brick> On(PartId part) const;
 
  private:
@@ -50,7 +52,7 @@ class Foundations {
     PartId part = 0;
   };
 
-  /// Index of the brick's tower, or rectangle.
+  /// Returns the index of the brick's tower, or rectangle.
   std::size_t TowerOf(const Brick& brick) const;
 
   FeatureList<BrickField> fields_;

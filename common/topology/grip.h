@@ -1,6 +1,6 @@
 #pragma once
-/// Grips: a character's hand holds what it touches by a hinge, which is a bond like others: an edit
-/// makes it (BondCause::kGrip), an edit breaks it. It lets go above its strength.
+/// Grips: a character's hand holds a part by a hinge. A grip is a bond: an edit makes it
+/// (BondCause::kGrip), an edit breaks it. It breaks under a force above its strength.
 
 #include <optional>
 
@@ -9,23 +9,23 @@
 
 namespace seam {
 
-/// Whether the joint is a grip. What a scene file makes is none.
+/// Returns true if the joint is a grip. Joints of a scene file never are.
 inline bool IsGrip(const Joint& joint) {
   return joint.kind == JointKind::kRevolute && joint.strength > 0;
 }
 
-/// Index of the character whose lower arm the part is; -1: it is nobody's.
+/// Returns the index of the character that owns this lower arm; -1 if it is no lower arm.
 int CharacterOfHand(const Scene& scene, PartId part);
 
-/// The fingertip of a lower arm, m, in the part's own frame: as far beyond its middle as the elbow
-/// is before it. nullopt: the part is no character's lower arm, or has been severed.
+/// Returns the fingertip of a lower arm, m, in the part's frame: as far beyond its middle as the
+/// elbow is before it. nullopt if the part is no character's lower arm, or is severed.
 std::optional<Vec2> FingertipOf(const Scene& scene, PartId hand);
 
-/// N; the weight of the whole character, which is the most that a grip of it holds.
+/// Returns the strength of a grip, N: the weight of the whole character.
 float GripStrength(const Scene& scene, int character);
 
-/// Whether the bond is a grip that may be: of a character that has them, on another thing, of that
-/// strength.
+/// Returns true if the bond is a permitted grip: by a free hand of a character that may grip, on a
+/// part that is not its own, with the right strength.
 bool MayGrip(const Scene& scene, const BondEdit& bond);
 
 }  // namespace seam

@@ -9,12 +9,12 @@
 namespace seam {
 namespace {
 
-/// Two connectors within this of each other are joined: m, rad.
+/// Two connectors within this of each other count as joined: m, rad.
 constexpr float kJoinedAt = 0.005f, kJoinedAngle = 0.02f;
-/// How exactly a proposal must say where a bond puts its parts: m and rad.
+/// Permitted error of a proposal's relative pose of the parts: m and rad.
 constexpr float kExact = 1e-3f;
 
-/// In double precision, then rounded.
+/// Rotates in double precision, then rounds.
 Vec2 TurnedExactly(const Vec2& v, double angle) {
   return Turned(v.cast<double>(), angle).cast<float>();
 }

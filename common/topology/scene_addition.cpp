@@ -1,4 +1,4 @@
-/// A piece of a scene that is added while the room runs: the same reader, the same checks.
+/// Adds a piece of a scene while the room runs, with the same reader and the same checks.
 
 #include "common/base/check.h"
 #include "common/scene/crowding.h"
@@ -11,8 +11,7 @@
 namespace seam {
 namespace {
 
-/// What only shows when it is known who is one body with whom; of the parts and joints from
-/// `parts` and `joints` on.
+/// Checks that need the composition, for the parts and joints from `parts` and `joints` on.
 void CheckTogether(const SceneReader& root, const Scene& scene, const std::string& file,
                    std::size_t parts, std::size_t joints) {
   const Composition composition = Compose(scene);

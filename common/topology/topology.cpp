@@ -16,9 +16,9 @@
 namespace seam {
 namespace {
 
-/// A bond over more than this, m, is nonsense: no assembly is so large.
+/// Largest offset of a bond, m: no assembly is larger.
 constexpr float kBondDistanceMax = 1000;
-/// A bond's angle may be a turn off, not more: sines of huge angles are noise, and Box2D asserts.
+/// Largest angle of a bond: one turn. Sines of huge angles are noise, and Box2D asserts.
 constexpr float kBondAngleMax = 6.2831853f;
 
 }  // namespace
@@ -116,7 +116,7 @@ Status Topology::Validate(const Edit& edit) const {
                    if (!Possible(BlastOf(blast))) {
                      return Status::Error("the blast is too large, too fast or too far away");
                    }
-                   if (blast.impulse > 0) return Status::Ok();  // it pushes, whatever it frees
+                   if (blast.impulse > 0) return Status::Ok();  // pushes even without bricks
                    if (scene_.bricks.empty()) return Status::Error("there are no bricks");
                    return RoomFor(kBlastPiecesMax + kFallPiecesMax)
                               ? Status::Ok()
@@ -173,7 +173,7 @@ std::vector<Status> Topology::Apply(const std::vector<Edit>& edits) {
 }
 
 Status Topology::ApplyOne(const Edit& edit) {
-  // Only bonds look at who is one body with whom.
+  // Only bonds depend on the composition.
   if (edit.As<BondEdit>() != nullptr) UpdateComposition();
   if (const InsertEdit* insert = edit.As<InsertEdit>()) return Insert(*insert);
   Status status = Validate(edit);
@@ -228,7 +228,7 @@ void Topology::MoveSide(const BondEdit& edit) {
 }
 
 void Topology::Bond(const BondEdit& edit) {
-  for (Joint& joint : scene_.joints) {  // "as placed" was before this
+  for (Joint& joint : scene_.joints) {  // "as placed" means before this bond
     if (joint.gone || joint.length > 0) continue;
     joint.length = (joint.anchor_b - joint.anchor_a).norm();
   }
@@ -257,7 +257,7 @@ void Topology::PutBond(std::int32_t slot, const BondEdit& edit) {
   bond.strength = edit.strength;
   bond.grouped = edit.cause == BondCause::kGroup;
   if (edit.cause == BondCause::kGrip) {
-    // Where the scene puts the two need not fit: each end is given on its own part.
+    // The parts' places in the scene need not fit together: each end is given on its own part.
     bond.kind = JointKind::kRevolute;
     bond.anchor_a = a.position + Turned(edit.position, a.angle);
     bond.anchor_b = b.position + Turned(FingertipOf(scene_, edit.b).value_or(Vec2(0, 0)), b.angle);
@@ -282,7 +282,7 @@ Status Topology::Insert(const InsertEdit& edit) {
 void Topology::Break(std::int32_t joint) {
   scene_.joints[static_cast<std::size_t>(joint)].gone = true;
   if (IsBond(joint)) free_bonds_.insert(joint);
-  for (std::size_t j = 0; j < scene_.joints.size(); ++j) {  // a gear goes with either of its joints
+  for (std::size_t j = 0; j < scene_.joints.size(); ++j) {  // a gear ends with either of its joints
     const Joint& gear = scene_.joints[j];
     const bool on_it = gear.coupled[0] == joint || gear.coupled[1] == joint;
     if (on_it && !gear.gone) Break(static_cast<std::int32_t>(j));

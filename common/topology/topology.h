@@ -1,6 +1,6 @@
 #pragma once
-/// A scene as it has become by edits: its parts and joints, and who is one body with whom. The same
-/// scene and edits give the same topology, bit for bit, on every peer and in every program.
+/// A scene as edits have changed it: its parts, its joints and its composition. The same scene and
+/// edits give the same topology, bit for bit, on every peer and in every program.
 
 #include <cstddef>
 #include <cstdint>
@@ -21,48 +21,48 @@ class FeatherStore;
 class Foundations;
 struct Brick;
 
-/// Parts and joints are never renumbered: what leaves stays in its place with `gone` set, what
-/// comes is appended; but a bond takes the lowest place that a bond before it has left. Where the
-/// scene puts a part (position, angle) is its place within its assembly: a bond moves the places of
-/// all parts of one side, so that the assembly fits together.
+/// Parts and joints are never renumbered: a removed one keeps its index with `gone` set, a new one
+/// is appended; but a bond reuses the lowest index of a former bond. The position and angle of a
+/// part in the scene are its place within its assembly: a bond moves the places of all parts of one
+/// side, so that the assembly fits together.
 class Topology {
  public:
-  /// Requires a scene that ParseScene accepted, or one as good.
+  /// Requires a scene that ParseScene accepted, or an equally valid one.
   explicit Topology(const Scene& scene);
 
   const Scene& scene() const { return scene_; }
   const Composition& composition() const { return composition_; }
-  /// Edits applied so far, whether or not they could do anything.
+  /// Number of edits applied, including edits without effect.
   int revision() const { return revision_; }
 
-  /// The bricks that no blast has freed. The first call makes the store (0.1 s for a million
-  /// bricks); later ones follow what was freed since. Not for several threads at once.
+  /// Returns the bricks that no blast has freed. The first call builds the store (0.1 s for a
+  /// million bricks); later calls only remove the bricks freed since. Not thread-safe.
   const FeatherStore& BricksLeft() const;
 
-  /// m: where there are bricks that nothing holds up: the last blast has left them, since one edit
-  /// frees only so many, or what they lay on has left or was freed. A blast there, of any speed,
-  /// lets them fall.
+  /// Position of bricks that nothing supports, m: remains of the last blast, since one edit frees
+  /// only a limited number, or bricks above a part that has left or was freed. A blast there, of
+  /// any speed, lets them fall.
   const std::optional<Vec2>& hanging() const { return hanging_; }
 
-  /// Applies edits in their order. An edit that cannot be (its part has left, its text is wrong)
-  /// counts but does nothing: the same on every peer. Returns what became of each.
+  /// Applies edits in order. An impossible edit (its part has left, its text is wrong) counts but
+  /// has no effect: the same on every peer. Returns the result of each.
   std::vector<Status> Apply(const std::vector<Edit>& edits);
 
-  /// Who sits where, and nothing else: no edit is counted. Ignored: it is not possible.
+  /// Sets a seat's player without counting an edit. Has no effect if impossible.
   void Sit(const SeatEdit& seat);
 
-  /// Whether the edit could be applied now. Does not look at distances.
+  /// Returns whether the edit could be applied now. Does not check distances.
   Status Validate(const Edit& edit) const;
 
-  /// Parts that an edit is about, as far as they exist; none for kInsert's own.
+  /// Returns the existing parts that an edit refers to; for an insert, none of its own.
   std::vector<PartId> PartsOf(const Edit& edit) const;
 
-  /// Whether there is, or was, a joint of this number.
+  /// Returns true if a joint of this number exists or has existed.
   bool HasJoint(std::int32_t joint) const;
-  /// Whether the joint's place is one that bonds take. Requires HasJoint.
+  /// True if the joint's index is one that bonds reuse. Requires HasJoint.
   bool IsBond(std::int32_t joint) const { return slots_[static_cast<std::size_t>(joint)].bond; }
-  /// The revision at which the joint of this number was made; 0: the scene has it. What somebody
-  /// says of a joint at an earlier revision is about another one. Requires HasJoint.
+  /// Revision at which the joint of this number was made; 0: it is the scene's. A message about
+  /// this joint from an earlier revision means another joint. Requires HasJoint.
   int JointMadeAt(std::int32_t joint) const {
     return slots_[static_cast<std::size_t>(joint)].made_at;
   }
@@ -70,28 +70,29 @@ class Topology {
  private:
   friend class TopologyBuilder;
 
-  /// What is known of a joint's place besides the joint.
+  /// Data about a joint's index besides the joint.
   struct Slot {
     int made_at = 0;    // revision
-    bool bond = false;  // a bond made it: once it is gone, the next bond takes its place
+    bool bond = false;  // made by a bond: once the joint is gone, the next bond takes its index
   };
 
   Status ValidateBond(const BondEdit& bond) const;
   Status ValidateInsert(const InsertEdit& insert) const;
   Status ApplyOne(const Edit& edit);
   void Bond(const BondEdit& edit);
-  /// Glue or a grip in a place that bonds take.
+  /// Puts glue or a grip at an index for bonds.
   void PutBond(std::int32_t slot, const BondEdit& edit);
-  /// Moves the places of one side to where the bond wants them.
+  /// Moves the places of one side as the bond requires.
   void MoveSide(const BondEdit& edit);
   Status Insert(const InsertEdit& edit);
   void Break(std::int32_t joint);
   void Free(PartId part);
   void Remove(PartId part);
   void FreeBricks(const BlastEdit& blast);
-  /// Keeps what bricks may lie on, as the scene begins.
+  /// Stores the parts that bricks may lie on at the start of the scene.
   void KeepGround();
-  /// After a part has left, or is anchored no more: notes the bricks that lay on it and now hang.
+  /// Records the bricks that lay on a part and now hang, after it has left or is no longer
+  /// anchored.
   void NoteHanging(PartId part);
   void SetHanging(std::vector<Brick> hanging);
   bool Has(PartId part) const;
@@ -101,30 +102,30 @@ class Topology {
   Scene scene_;
   Composition composition_;
   std::vector<Slot> slots_;            // by joint
-  std::set<std::int32_t> free_bonds_;  // places of bonds that are gone
+  std::set<std::int32_t> free_bonds_;  // indices of bonds that are gone
   bool stale_ = false;                 // composition_ is older than scene_
   int revision_ = 0;
   mutable std::shared_ptr<FeatherStore> left_;  // shared by copies until one of them changes it
-  mutable std::size_t left_parts_ = 0;          // parts whose bricks are out of it
-  std::shared_ptr<const std::vector<Part>> ground_;  // what bricks may lie on, as the scene begins
+  mutable std::size_t left_parts_ = 0;          // number of parts already applied to it
+  std::shared_ptr<const std::vector<Part>> ground_;  // parts that bricks may lie on, at the start
   mutable std::shared_ptr<const Foundations> foundations_;  // made with left_
   std::optional<Vec2> hanging_;
 };
 
-/// Parts that may come to be while a room runs, gone ones included.
+/// Most parts during the life of a room, removed ones included.
 constexpr std::size_t kPartsEver = 250000;
-/// The same of joints; those that bonds make are fewer than the parts that are there.
+/// Most joints likewise; bonds make fewer than there are parts.
 constexpr std::size_t kJointsEver = 250000;
 
-/// Welded parts may be this far from their root, m, by bonds and inserts in their turn.
+/// Largest distance of welded parts from their root, m, reached by bonds and inserts in turn.
 constexpr float kReachEver = 4000;
-/// Places of parts and ends of joints stay within this, m and rad, however often bonds move them.
+/// Bound on part positions and joint anchors, m and rad, however often bonds move them.
 constexpr float kPlaceMax = 1e5f, kTurnMax = 1e6f;
 
-/// Adds the [[part]]s and [[joint]]s of `text` to a scene. Throws OperatorError, with the scene
-/// unchanged, "insert:LINE: what". Joints may name parts of the scene. What is added is held to the
-/// limits of crowding.h: among itself and with what never moves. `whole` false leaves out that, and
-/// what has to do with who is one body with whom.
+/// Adds the [[part]]s and [[joint]]s of `text` to a scene. Throws OperatorError "insert:LINE: what"
+/// and leaves the scene unchanged. Joints may name parts of the scene. The added parts are subject
+/// to crowding.h's limits, among themselves and with parts that never move. With `whole` false,
+/// skips that check and those of the composition.
 void AddToScene(const std::string& text, Scene* scene, bool whole = true);
 
 }  // namespace seam

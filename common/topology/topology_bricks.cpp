@@ -1,4 +1,4 @@
-/// Topology: what becomes of bricks.
+/// Topology: edits of bricks.
 
 #include <algorithm>
 #include <utility>
@@ -12,7 +12,7 @@
 namespace seam {
 namespace {
 
-/// m, its lower left.
+/// Returns the lower left corner, m.
 Vec2 CornerOf(const Brick& b) {
   return Vec2(static_cast<float>(b.x), static_cast<float>(b.y)) * kBrickUnit;
 }

@@ -10,9 +10,9 @@
 namespace seam {
 namespace {
 
-/// Joints' places, the most: those ever inserted, and one bond less than there are parts.
+/// Most joint indices: all joints ever inserted, and one bond less than there are parts.
 constexpr std::size_t kJointPlacesMax = kJointsEver + kPartsMax;
-/// An axis is a unit vector, to rounding.
+/// Largest deviation of an axis from unit length, for rounding.
 constexpr float kAxisOff = 0.1f;
 
 bool Within(float value, float most) { return std::fabs(value) <= most; }  // false for NaN
@@ -81,7 +81,7 @@ Status TopologyBuilder::Insert(const TopologyEntry& entry) {
   if (entry.text.size() > kEditTextMax) return Status::Error("the text is too long");
   Scene& scene = topology_.scene_;
   try {
-    AddToScene(entry.text, &scene, false);  // who is one body with whom is not yet known
+    AddToScene(entry.text, &scene, false);  // the composition is not yet known
   } catch (const OperatorError& e) {
     return Status::Error(e.what());
   }
@@ -127,7 +127,7 @@ Status TopologyBuilder::Bond(const TopologyEntry& entry) {
   }
   BondEdit bond{entry.a, entry.b, {0, 0}, 0, strength, cause};
   topology_.PutBond(entry.joint, bond);
-  topology_.scene_.joints[static_cast<std::size_t>(entry.joint)].length = 0;  // measured
+  topology_.scene_.joints[static_cast<std::size_t>(entry.joint)].length = 0;  // see Measure
   return Status::Ok();
 }
 

@@ -1,6 +1,6 @@
 #pragma once
-/// A topology from its entries. Everything in them is distrusted: what comes out is as good as what
-/// edits could have made, or nothing does.
+/// Builds a topology from its entries, which are not trusted: the result is one that edits could
+/// have made, or an error.
 
 #include <cstddef>
 
@@ -12,14 +12,14 @@ namespace seam {
 
 class TopologyBuilder {
  public:
-  /// Begins with the scene. Requires one that ParseScene accepted.
+  /// Starts from the scene. Requires a scene that ParseScene accepted.
   explicit TopologyBuilder(const Scene& scene) : topology_(scene) {}
 
-  /// Takes the next entry. After an error the builder is of no more use.
+  /// Applies the next entry. After an error the builder must not be used again.
   Status Add(const TopologyEntry& entry);
-  /// After the last entry: what it is after so many edits. Requires revision >= 0.
+  /// Completes the topology, as the state after `revision` edits. Requires revision >= 0.
   Status Finish(int revision);
-  /// Requires that Finish was good.
+  /// Requires a successful Finish.
   const Topology& topology() const { return topology_; }
 
  private:

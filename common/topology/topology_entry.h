@@ -1,7 +1,6 @@
 #pragma once
-/// A world that has become by edits, as a list of entries that make it of its scene: what has left
-/// is a number, what edits have moved is where it is. It is as long as what is there, however long
-/// the room has run.
+/// Entries that turn a scene into the current, edited topology: a removed part is only a count, a
+/// moved part is a pose. The list grows with the existing parts, not with the age of the room.
 
 #include <array>
 #include <cstdint>
@@ -10,23 +9,23 @@
 namespace seam {
 
 struct TopologyEntry {
-  /// `joint`, `a`, `b`, `value` and `text` as said; what is not said is not looked at. The place of
-  /// a kind is its number in messages.
+  /// Says which of `joint`, `a`, `b`, `value` and `text` are used; the rest is ignored. The value
+  /// of a kind is its number in messages.
   enum class Kind : std::int8_t {
-    kParts = 1,      ///< there are `a` parts; those that are not known have left
-    kJoints = 2,     ///< there are `joint` joints; likewise
-    kBonds = 3,      ///< likewise, and the places are bonds'
+    kParts = 1,      ///< there have been `a` parts; those not yet known are removed ones
+    kJoints = 2,     ///< there have been `joint` joints; unknown ones are removed ones
+    kBonds = 3,      ///< like kJoints, and the unknown indices are for bonds
     kInsert = 4,     ///< `text`, as InsertEdit
     kBlast = 5,      ///< value: x, y, radius, speed, as BlastEdit
-    kRemove = 6,     ///< part `a` has left
+    kRemove = 6,     ///< part `a` is removed
     kFree = 7,       ///< part `a` is no longer anchored
-    kBreak = 8,      ///< `joint` is gone
+    kBreak = 8,      ///< `joint` is removed
     kPlace = 9,      ///< part `a` is at x, y (m), angle (rad)
-    kMeasured = 10,  ///< of the first `joint` joints, the lengths "as placed" are what they are now
+    kMeasured = 10,  ///< the first `joint` joints: a length "as placed" is fixed to the current one
     kBond = 11,      ///< `joint` is glue between `a` and `b`; value: strength (N), 1: grouped,
                      ///< 2: a grip, a hinge
-    kEnds = 12,      ///< of `joint`: anchor a, anchor b (m), axis, turn (rad), length (m)
-    kSeat = 13,      ///< seat `a` is player `b`'s, -1: nobody's
+    kEnds = 12,      ///< `joint`: anchor a, anchor b (m), axis, turn (rad), length (m)
+    kSeat = 13,      ///< seat `a` is taken by player `b`; -1: empty
   };
   static constexpr std::size_t kKinds = 13, kValuesMax = 8;
 
@@ -37,7 +36,7 @@ struct TopologyEntry {
   std::string text;
 };
 
-/// How many numbers an entry of a kind has.
+/// Returns how many numbers an entry of a kind has.
 inline std::size_t ValuesOf(TopologyEntry::Kind kind) {
   switch (kind) {
     case TopologyEntry::Kind::kBlast: return 4;

@@ -11,10 +11,10 @@ namespace {
 
 using Kind = TopologyEntry::Kind;
 
-/// Steps are looked through when there are twice as many as the last time, and this many more.
+/// Pruning takes place when there are twice as many steps as after the last, plus this many.
 constexpr std::size_t kPruneSlack = 256;
 
-/// A peer's 0 and another's -0 would be two worlds.
+/// Compares bitwise: 0 on one peer and -0 on another would be two different worlds.
 bool SameBits(const float* a, const float* b, std::size_t count) {
   return std::memcmp(a, b, count * sizeof *a) == 0;
 }
@@ -43,7 +43,7 @@ TopologyEntry Count(Kind kind, std::size_t count) {
   return entry;
 }
 
-/// Whether the last edit of the topology did.
+/// Returns true if the topology's last edit made a bond.
 bool MadeABond(const Topology& now) {
   for (std::size_t j = 0; j < now.scene().joints.size(); ++j) {
     const auto index = static_cast<std::int32_t>(j);
@@ -52,7 +52,7 @@ bool MadeABond(const Topology& now) {
   return false;
 }
 
-/// Counts that follow each other are one.
+/// Appends a count; replaces a preceding count of the same kind.
 void AddCount(Kind kind, std::size_t count, std::vector<TopologyEntry>* entries) {
   if (!entries->empty() && entries->back().kind == kind) entries->pop_back();
   entries->push_back(Count(kind, count));
@@ -109,7 +109,7 @@ void TopologyFold::Note(const Edit& edit, const Topology& now) {
                       born_joints_.size(),
                       {}});
   };
-  // What an edit could not do is not there to be seen.
+  // An edit that failed left no trace in `now`.
   const auto is_part = [&](PartId part) {
     return part >= 0 && static_cast<std::size_t>(part) < scene.parts.size();
   };
@@ -131,7 +131,7 @@ void TopologyFold::Note(const Edit& edit, const Topology& now) {
                      const Joint& joint = scene.joints[j];
                      const bool held = joint.a == removed.part || joint.b == removed.part;
                      if (!held) continue;
-                     broken_[j] = true;  // that says it, too
+                     broken_[j] = true;  // the removal implies it
                      NoteGearsOf(static_cast<std::int32_t>(j), scene);
                    }
                  },
@@ -187,7 +187,7 @@ std::vector<bool> TopologyFold::Dropped(const Topology& now) const {
     for (std::size_t p = step.parts_before; p < step.parts_after; ++p) lost[p] = true;
     for (std::size_t j = step.joints_before; j < step.joints_after; ++j) unmade[j] = true;
   }
-  // What is never made need not be taken away.
+  // Parts and joints that are never made need not be removed.
   for (std::size_t i = 0; i < steps_.size(); ++i) {
     const AnyEdit& what = steps_[i].what;
     if (const auto* e = std::get_if<RemoveEdit>(&what)) {

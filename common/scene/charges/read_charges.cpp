@@ -1,4 +1,4 @@
-/// [[charges]]: what explodes by itself.
+/// Reads [[charges]].
 
 #include <cstddef>
 

@@ -40,7 +40,7 @@ void ReadGear(const SceneReader& r, const SceneDraft& draft, Joint* joint) {
 }
 
 void ReadPulley(const SceneReader& r, Joint* joint) {
-  constexpr float kLeast = 0.1f;  // m; nearer, the engine takes the rope to have no direction
+  constexpr float kLeast = 0.1f;  // m; at less, the engine finds no direction of the rope
   joint->ground_a = r.Vector("ground_a", kCoordinate);
   joint->ground_b = r.Vector("ground_b", kCoordinate);
   joint->ratio = ReadRatio(r, 0);

@@ -1,13 +1,13 @@
 #pragma once
-/// Joints that couple movements: what [[joint]] says of a gear or a pulley. docs/scenes.md has the
+/// Reads the joints that couple motions, gear and pulley, from [[joint]]. docs/scenes.md has the
 /// equations.
 
 #include "common/scene/scene_draft.h"
 
 namespace seam {
 
-/// Its parts too: the second ones of the joints it couples, which must stand above it. Throws
-/// OperatorError.
+/// Sets the parts too: the second parts of the two coupled joints, which must precede it in the
+/// file. Throws OperatorError.
 void ReadGear(const SceneReader& r, const SceneDraft& draft, Joint* joint);
 
 /// Requires the anchors. Throws OperatorError.

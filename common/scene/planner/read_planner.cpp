@@ -7,7 +7,7 @@
 namespace seam {
 namespace {
 
-/// Players times bodies that are followed whole, at most, where players begin far from each other.
+/// Largest product of players and fully followed bodies if players start far apart.
 constexpr int kFollowedByAll = 4096;
 
 }  // namespace
@@ -27,7 +27,7 @@ void ReadPlanner(const SceneReader& root, SceneDraft* draft) {
   rules.capacity = r.Integer("capacity", {0, 65535}, rules.capacity);
   if (rules.keep < rules.acquire) {
     r.FailAt("keep", "keep must be at least acquire (" + Decimal(rules.acquire) +
-                         "): who keeps less than it takes would change all the time");
+                         "): otherwise authority would change all the time");
   }
   draft->scene.planner.Set(rules);
 }

@@ -71,7 +71,7 @@ const TomlNode* SceneReader::Get(const char* key, bool required) const {
 double SceneReader::NumberIn(const TomlNode& node, const char* key, Range range) const {
   const bool is_number =
       node.kind == TomlNode::Kind::kInteger || node.kind == TomlNode::Kind::kNumber;
-  // As single precision, which limits are in: 0.05 is not below 0.05f. Written so that NaN fails.
+  // Compared in single precision, as the limits are: 0.05 is not below 0.05f. NaN fails.
   const auto value = static_cast<float>(node.number);
   const bool inside =
       value >= static_cast<float>(range.min) && value <= static_cast<float>(range.max);

@@ -8,7 +8,7 @@
 namespace seam {
 namespace {
 
-/// Code point at `at`, which is moved behind it; -1 when the bytes are not UTF-8.
+/// Returns the code point at `at` and advances `at` past it; -1 if the bytes are not UTF-8.
 std::int32_t NextCodePoint(const std::string& text, std::size_t* at) {
   const auto byte = [&](std::size_t i) {
     return static_cast<std::int32_t>(static_cast<unsigned char>(text[i]));
@@ -46,8 +46,8 @@ void CheckCharacters(const std::string& text, const std::string& file) {
   }
 }
 
-/// The end of code that is written over several lines at `at`; moves `line` to it. Only scripts may
-/// have it, and only between ''': it is taken as it stands, so that its lines are the file's.
+/// Returns the end of the multi-line code at `at`; moves `line` to it. Only scripts may be
+/// multi-line, and only between ''': such text is literal, so that its lines are the file's.
 std::size_t EndOfCode(const std::string& text, std::size_t at, const std::string& file, int* line) {
   const std::size_t begin = text.rfind('\n', at) + 1;  // npos + 1 is 0
   std::string before = text.substr(begin, at - begin);
@@ -66,7 +66,7 @@ std::size_t EndOfCode(const std::string& text, std::size_t at, const std::string
   return end + 2;
 }
 
-/// Reads just enough TOML to know brackets from text and comments.
+/// Reads just enough TOML to tell brackets from text and comments.
 void CheckNesting(const std::string& text, const std::string& file) {
   int line = 1, depth = 0, dots = 0;
   char quote = 0;

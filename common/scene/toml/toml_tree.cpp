@@ -10,7 +10,7 @@
 namespace seam {
 namespace {
 
-/// Where the lines of a text end.
+/// Positions of a text's line ends.
 class LineEnds {
  public:
   explicit LineEnds(const std::string& text) {
@@ -18,7 +18,7 @@ class LineEnds {
       if (text[i] == '\n') ends_.push_back(static_cast<std::ptrdiff_t>(i));
     }
   }
-  /// Of a character, from 1.
+  /// Returns the line of a character, from 1.
   int LineOf(std::ptrdiff_t offset) const {
     const auto before = std::lower_bound(ends_.begin(), ends_.end(), offset) - ends_.begin();
     return static_cast<int>(before) + 1;
@@ -28,7 +28,7 @@ class LineEnds {
   std::vector<std::ptrdiff_t> ends_;
 };
 
-// What differs between toml11 3 (Debian 12) and 4 (Debian 13): where a value and an error are.
+// Differences between toml11 3 (Debian 12) and 4 (Debian 13): the positions of values and errors.
 #if TOML11_VERSION_MAJOR >= 4
 int LineOf(const toml::source_location& at) { return static_cast<int>(at.first_line_number()); }
 int LineOf(const toml::value& value, const LineEnds&) { return LineOf(value.location()); }
@@ -41,7 +41,7 @@ std::pair<int, std::string> Explain(const toml::syntax_error& e) {
 }
 #else
 int LineOf(const toml::source_location& at) { return static_cast<int>(at.line()); }
-/// Its own answer counts all lines before the value, for each value.
+/// toml11's own answer counts all lines before the value, for each value.
 int LineOf(const toml::value& value, const LineEnds& ends) {
   const auto* at = dynamic_cast<const toml::detail::region*>(toml::detail::get_region(value));
   return at == nullptr ? LineOf(value.location()) : ends.LineOf(at->first() - at->begin());

@@ -1,6 +1,6 @@
 #pragma once
-/// A TOML text as a plain tree that knows its lines. toml_tree.cpp alone includes toml11, so that
-/// the differences between its versions 3 and 4 stay in one place.
+/// A TOML text as a plain tree with line numbers. Only toml_tree.cpp includes toml11, so that the
+/// differences between its versions 3 and 4 stay in one place.
 
 #include <cstdint>
 #include <string>
@@ -13,22 +13,22 @@ struct TomlNode {
   enum class Kind { kBoolean, kInteger, kNumber, kText, kArray, kTable, kOther };
 
   Kind kind = Kind::kOther;  ///< kOther: dates and times
-  int line = 0;              ///< where it begins, from 1
+  int line = 0;              ///< line of its beginning, from 1
   bool boolean = false;
   std::int64_t integer = 0;
-  double number = 0;  ///< of integers too
+  double number = 0;  ///< also set for integers
   std::string text;
-  std::vector<TomlNode> items;                            ///< of an array
-  std::vector<std::pair<std::string, TomlNode>> members;  ///< of a table, by line, then by key
+  std::vector<TomlNode> items;                            ///< an array's
+  std::vector<std::pair<std::string, TomlNode>> members;  ///< a table's, by line, then by key
 
-  /// nullptr when this is no table or has no such member.
+  /// Returns nullptr if this is no table or has no such member.
   const TomlNode* Find(const std::string& key) const;
 };
 
-/// "text", "a number": for messages.
+/// Returns "text", "a number" ... for messages.
 const char* KindName(TomlNode::Kind kind);
 
-/// Requires a text that passed CheckSceneText. Throws OperatorError "file:line: what".
+/// Requires a text that passed CheckSceneText. Throws OperatorError "file:line: FAULT".
 TomlNode ParseToml(const std::string& text, const std::string& file);
 
 }  // namespace seam

@@ -7,10 +7,10 @@
 namespace seam {
 namespace {
 
-/// Residual at which the shifts are good enough, relative to the forces.
+/// Residual at which the iteration stops, relative to the forces.
 constexpr double kResidual = 1e-10;
 
-/// Names of sets by the lowest index in them.
+/// Returns the representative of a set: its lowest index.
 int NameOf(std::vector<int>* of, int i) {
   while ((*of)[static_cast<std::size_t>(i)] != i) i = (*of)[static_cast<std::size_t>(i)];
   return i;
@@ -29,7 +29,7 @@ int PlaceOf(const std::vector<PartId>& parts, PartId part) {
 
 bool CanBreak(const Joint& joint) { return joint.kind == JointKind::kGlue && joint.strength > 0; }
 
-/// The Laplacian of the network: what shifts cost in force.
+/// Returns the Laplacian of the network times `shifts`: the spring forces.
 std::vector<double> Resisted(const BondNet& net, const std::vector<double>& shifts) {
   std::vector<double> forces(shifts.size(), 0.0);
   for (const BondNet::Bond& bond : net.bonds) {
@@ -47,8 +47,8 @@ double Dot(const std::vector<double>& x, const std::vector<double>& y) {
   return sum;
 }
 
-/// Conjugate gradients (Hestenes and Stiefel 1952); the network hangs together and the forces sum
-/// to zero, so that there is an answer, but for a shift of the whole.
+/// Returns the displacements, by conjugate gradients (Hestenes and Stiefel 1952). The network is
+/// connected and the forces sum to zero, so a solution exists, up to a common displacement.
 std::vector<double> Shifts(const BondNet& net, const std::vector<double>& forces) {
   std::vector<double> shifts(forces.size(), 0.0), rest = forces, way = forces;
   const double enough = kResidual * kResidual * Dot(forces, forces);
@@ -109,7 +109,7 @@ BondNet NetOf(const Scene& scene, const Assembly& assembly, const std::vector<in
   for (BondNet::Bond bond : bonds) {
     bond.a = net.node_of[static_cast<std::size_t>(bond.a)];
     bond.b = net.node_of[static_cast<std::size_t>(bond.b)];
-    if (bond.a == bond.b) continue;  // something that does not break is beside it
+    if (bond.a == bond.b) continue;  // bypassed by an unbreakable connection
     if (net.bonds.empty() || bond.strength < net.weakest) net.weakest = bond.strength;
     net.bonds.push_back(bond);
   }

@@ -14,17 +14,17 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// A body with glue in it.
+/// A body that contains glue.
 struct Glued {
   int assembly = 0;  // index into Composition::assemblies
   BondNet net;
   std::vector<double> mass;   // kg, by node
   std::vector<Vector2d> arm;  // m, by node, from the centre of mass, in the root's frame
-  double reach = 0;           // m: no part's centre is farther from the centre of mass
+  double reach = 0;           // m: largest distance of a part's centre from the centre of mass
   double whole = 0;           // kg
-  std::vector<int> joints;    // of the engine's, with an end at it: index into joints
-  // Of the tick under way:
-  std::vector<PartPush> felt;    // of contacts
+  std::vector<int> joints;    // joints of the engine with an end at it: indices into joints
+  // Of the current tick:
+  std::vector<PartPush> felt;    // contacts' impulses
   std::vector<Vector2d> pushed;  // N s, by node
   double pushes = 0;             // N s, sum of all magnitudes
   double spin = 0;               // rad/s, before the tick
@@ -84,12 +84,12 @@ class GlueStage : public Stage {
   void Feel(const BlastHit& hit);
 
   const StageWorld w_;
-  bool stale_ = true;  // the glue has changed since the bodies were looked at
+  bool stale_ = true;  // the glue has changed since the last Look
   std::vector<Glued> glued_;
   std::vector<int> glued_of_;  // by assembly; -1: none
   b2World* b2_ = nullptr;
-  std::vector<BlastEdit> blasts_;  // that have pushed the bodies since the last tick
-  std::vector<int> breaking_;      // joints that the last tick was too much for
+  std::vector<BlastEdit> blasts_;  // blasts that have pushed the bodies since the last tick
+  std::vector<int> breaking_;      // joints overloaded in the last tick
 };
 
 void GlueStage::Look() {
@@ -156,7 +156,7 @@ void GlueStage::Edited(const Edit& edit) {
   if (pushes) blasts_.push_back(*blast);
 }
 
-/// What the glue felt is found again from the poses, which are still those of the blast.
+/// Recomputes the blasts' impulses on the glue from the poses, which are still those of the blast.
 void GlueStage::FeelBlasts() {
   for (const BlastEdit& blast : blasts_) {
     if (glued_.empty()) break;
@@ -174,7 +174,7 @@ void GlueStage::Feel(const BlastHit& hit) {
   glued->felt.push_back({part, body->GetLocalPoint(hit.point), impulse});
   glued->pushes += impulse.norm();
   if (body->GetType() != b2_dynamicBody) return;
-  // The body turns by it already: before the blast it did not.
+  // The body's spin already includes the blast: restore the spin before it.
   const Vector2d arm = FromB2(hit.point - body->GetWorldCenter()).cast<double>();
   const float inertia =
       body->GetInertia() - body->GetMass() * body->GetLocalCenter().LengthSquared();
@@ -214,7 +214,7 @@ void GlueStage::AddJoints(Glued* glued) {
   for (const int j : glued->joints) {
     b2Joint* held = w_.built.joints[static_cast<std::size_t>(j)];
     if (held == nullptr) continue;
-    // Of the last substep: it stands for the others.
+    // The last substep stands for all substeps.
     const JointForces forces = ForcesOf(held, hz);
     const Vector2d on_a = tick_s * FromB2(forces.on_a).cast<double>();
     const Vector2d on_b = tick_s * FromB2(forces.on_b).cast<double>();
@@ -233,7 +233,7 @@ void GlueStage::Strain(Glued* glued) {
   const double spin = static_cast<double>(body->GetAngularVelocity());
   const double turning = anchored ? 0 : (spin - glued->spin) * hz;
   const Vector2d gravity = w_.scene.gravity.cast<double>();
-  // No bond bears more than half of the sum of all forces, with what they accelerate.
+  // No bond bears more than half of the sum of all forces, inertial forces included.
   const double inner =
       anchored ? gravity.norm() : (std::fabs(turning) + spin * spin) * glued->reach / 2;
   if (glued->pushes * hz + inner * glued->whole <= glued->net.weakest) return;
@@ -251,7 +251,7 @@ void GlueStage::Strain(Glued* glued) {
     if (anchored) {
       force += glued->mass[n] * gravity;
     } else {
-      // Less mass times acceleration; what moves all alike cancels.
+      // Subtract mass times acceleration; a common acceleration cancels.
       const Vector2d arm = rotation(glued->arm[n]);
       force -= glued->mass[n] / glued->whole * sum;
       force -= glued->mass[n] * (turning * Vector2d(-arm.y(), arm.x()) - spin * spin * arm);

@@ -11,7 +11,7 @@
 namespace seam {
 namespace {
 
-/// A joint that is none of rigid bonds holds the assembly.
+/// Returns the assemblies held by a joint to another assembly.
 std::set<int> HeldAssemblies(const Scene& scene, const Composition& composition) {
   std::set<int> held;
   for (const Joint& joint : scene.joints) {
@@ -23,12 +23,13 @@ std::set<int> HeldAssemblies(const Scene& scene, const Composition& composition)
   return held;
 }
 
-/// What undoes a group moves against it by more than what joins one: else it would come and go.
+/// A group is undone only by a relative motion this many times that at which one forms: otherwise
+/// groups would come and go.
 constexpr float kApart = 2;
-/// m, and ticks at their speed against each other, from which on two will meet: no less than what
-/// the engine's boxes stand out by and look ahead.
+/// Two bodies will meet soon if their gap is below kMeetGap, m, plus kMeetTicks at their relative
+/// speed: no less than the engine's boxes are enlarged by and look ahead.
 constexpr float kMeetGap = 2 * b2_aabbExtension, kMeetTicks = 4;
-/// Ticks from one look at what rests to the next. Groups are watched in every tick.
+/// Ticks between searches for resting pairs. Groups are watched in every tick.
 constexpr int kLookTicks = 4;
 
 class GroupStage : public Stage {
@@ -47,8 +48,8 @@ class GroupStage : public Stage {
  private:
   enum class State {
     kAtRest,
-    kPressed,    // something overlaps it more than at rest: it does not join
-    kDisturbed,  // something moves against it, or it is shaken
+    kPressed,    // overlapped more than at rest: does not join
+    kDisturbed,  // relative motion nearby, or shaken
   };
 
   void Look();
@@ -64,7 +65,7 @@ class GroupStage : public Stage {
   b2World* world_ = nullptr;
   bool stale_ = true;
   std::vector<bool> single_;              // by body: no joint holds it
-  std::vector<std::vector<int>> groups_;  // by body: joints that a touch undoes
+  std::vector<std::vector<int>> groups_;  // by body: joints that a disturbance undoes
   RestPairs pairs_;
   std::vector<b2Vec2> before_;             // m/s, by body, before the tick
   std::vector<State> states_;              // by body, in this tick
@@ -101,7 +102,7 @@ void GroupStage::BeforeTick() {
   for (const MovingBody& m : w_.built.moving) before_.push_back(m.body->GetLinearVelocity());
 }
 
-/// By what acts on all of it.
+/// Returns true if the forces on the whole group are above the limits.
 bool GroupStage::IsShaken(int body) const {
   const b2Body* b = w_.built.moving[static_cast<std::size_t>(body)].body;
   if (!b->IsAwake() || IsAside(*b)) return false;
@@ -117,8 +118,8 @@ bool GroupStage::MayJoin(int body) const {
          w_.built.moving[static_cast<std::size_t>(body)].body->GetType() == b2_dynamicBody;
 }
 
-/// Both are disturbed if they move against each other and will meet soon, at this speed. The
-/// engine's boxes meet before that: what comes finds single bodies again.
+/// Marks both as disturbed if they move against each other and, at this speed, will meet soon. The
+/// engine's boxes meet earlier, so an approaching body finds single bodies again.
 RelativeMotion GroupStage::Disturb(b2Contact* contact) {
   b2Body* const bodies[] = {contact->GetFixtureA()->GetBody(), contact->GetFixtureB()->GetBody()};
   const auto wakes = [](b2Body* b) { return b->GetType() != b2_staticBody && b->IsAwake(); };
@@ -139,7 +140,7 @@ void GroupStage::Note(const b2Contact& contact, State state) {
   }
 }
 
-/// Counts how long things have rested, and finds what is to be grouped.
+/// Counts the time at rest, and finds the pairs to be grouped.
 void GroupStage::LookForPairs() {
   for (std::size_t b = 0; b < states_.size(); ++b) {
     if (IsShaken(static_cast<int>(b))) states_[b] = State::kDisturbed;
@@ -173,7 +174,7 @@ void GroupStage::LookForPairs() {
   }
 }
 
-/// What groups meet, each contact once.
+/// Checks the contacts of groups, each contact once.
 void GroupStage::WatchGroups() {
   for (std::size_t b = 0; b < states_.size(); ++b) {
     if (groups_[b].empty()) continue;
@@ -203,7 +204,7 @@ void GroupStage::AfterTick() {
   }
 }
 
-/// As they lie.
+/// Returns a bond at the current poses.
 BondEdit GroupStage::BondOf(int body, int other) const {
   const MovingBody& a = w_.built.moving[static_cast<std::size_t>(body)];
   const MovingBody& b = w_.built.moving[static_cast<std::size_t>(other)];
@@ -222,8 +223,8 @@ void GroupStage::ProposeEdits(std::vector<Edit>* edits) {
     if (w_.scene.joints[static_cast<std::size_t>(joint)].gone) continue;
     edits->emplace_back(BreakEdit{joint});
   }
-  if (stale_) return;  // the bodies are others already
-  // Of all that touch, only so many that each is held once.
+  if (stale_) return;  // the bodies have already changed
+  // Of all touching pairs, only enough bonds to hold each body once.
   std::vector<int> group(w_.built.moving.size());
   std::iota(group.begin(), group.end(), 0);
   const auto name = [&group](int i) {

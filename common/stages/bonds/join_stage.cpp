@@ -19,10 +19,10 @@ struct Open {
   FreeConnector what;
   int assembly = 0;    // index into Composition::assemblies
   b2Vec2 local{0, 0};  // m, in the body's frame
-  float turn = 0;      // rad, likewise
+  float turn = 0;      // rad, in the body's frame
 };
 
-/// Where one is now.
+/// Current place of a free connector.
 struct Where {
   const Open* open = nullptr;
   b2Vec2 at{0, 0};        // m
@@ -30,7 +30,7 @@ struct Where {
   b2Vec2 velocity{0, 0};  // m/s
 };
 
-/// An outlet and an inlet that meet, nearest first.
+/// An outlet and an inlet that meet, ordered by distance.
 using Meeting = std::tuple<float, PartId, int, PartId, int>;  // distance, outlet, inlet
 
 class JoinStage : public Stage {
@@ -56,10 +56,10 @@ class JoinStage : public Stage {
   bool Meet(const Where& outlet, const Where& inlet) const;
 
   const StageWorld w_;
-  bool stale_ = true;  // parts were joined or broken since the last look
+  bool stale_ = true;  // parts were joined or broken since the last Look
   std::vector<Open> open_;
-  float reach_ = 0;                // m; the longest
-  std::map<PartId, int> waiting_;  // ticks left of parts that have just been torn off
+  float reach_ = 0;                // m; largest reach
+  std::map<PartId, int> waiting_;  // ticks left for parts that were just torn off
   std::set<Meeting> met_;
 };
 
@@ -147,7 +147,7 @@ void JoinStage::AfterTick() {
 }
 
 void JoinStage::ProposeEdits(std::vector<Edit>* edits) {
-  // The poses of assemblies that were bonded in this tick are not known yet: one bond at a time.
+  // The poses of assemblies bonded in this tick are not known yet: one bond at a time.
   std::set<int> busy;
   for (const auto& [distance, a, outlet, b, inlet] : met_) {
     const int one = w_.composition.assembly_of_part[static_cast<std::size_t>(a)];

@@ -16,18 +16,18 @@ using Parts = std::pair<PartId, PartId>;
 Parts PartsOf(const NearPair& pair) { return {pair.a, pair.b}; }
 bool Before(const NearPair& x, const NearPair& y) { return PartsOf(x) < PartsOf(y); }
 
-/// Where the engine leaves bodies at rest they overlap by its slop. What overlaps more than this is
-/// being pushed apart: m.
+/// Overlap above which bodies are being pushed apart, m. The engine leaves bodies at rest
+/// overlapping by its slop.
 constexpr float kPressedIn = 3 * b2_linearSlop;
 
-/// The middle of where their boxes overlap.
+/// Returns the middle of the overlap of the two boxes.
 b2Vec2 PointOf(b2Contact* contact) {
   const b2AABB& a = contact->GetFixtureA()->GetAABB(contact->GetChildIndexA());
   const b2AABB& b = contact->GetFixtureB()->GetAABB(contact->GetChildIndexB());
   return 0.5f * (b2Max(a.lowerBound, b.lowerBound) + b2Min(a.upperBound, b.upperBound));
 }
 
-/// The velocity of a led body is that of its origin.
+/// Returns a body's velocity at a point. A prescribed body's velocity is that of its origin.
 b2Vec2 VelocityAt(const StageWorld& world, b2Body* body, const b2Vec2& point) {
   const int index = IndexOf(body);
   const bool led = index >= 0 && world.motions[static_cast<std::size_t>(index)] == Motion::kLed;

@@ -1,6 +1,6 @@
 #pragma once
-/// How much bodies that are near each other move against each other, and for how long they have
-/// not: at rest is meant against each other, wherever both of them may be going.
+/// Relative motion of neighbouring bodies, and the time for which they have been at rest relative
+/// to each other, however both may move.
 
 #include <box2d/box2d.h>
 
@@ -10,7 +10,7 @@
 
 namespace seam {
 
-/// Of two bodies, at the middle of where their boxes overlap.
+/// Motion of two bodies against each other at the middle of the overlap of their boxes.
 struct RelativeMotion {
   float speed = 0;  ///< m/s
   float spin = 0;   ///< rad/s
@@ -18,35 +18,36 @@ struct RelativeMotion {
 
 RelativeMotion MotionAt(const StageWorld& world, b2Contact* contact);
 
-/// Whether they overlap more than the engine leaves bodies that rest on each other.
+/// Returns true if the two overlap more than the engine leaves bodies that rest on each other.
 bool IsPressed(b2Contact* contact);
 
-/// What is between their shapes, rims included, m; 0 where they touch. Boxes around what lies at an
-/// angle meet far from it.
+/// Returns the gap between the shapes, rims included, m; 0 if they touch. Needed because the boxes
+/// of rotated shapes meet while the shapes are still far apart.
 float GapOf(b2Contact* contact);
 
-/// Two parts of different bodies whose boxes meet.
+/// Two parts of different bodies with overlapping boxes.
 struct NearPair {
   PartId a = 0, b = 0;  ///< a < b
   int body_a = 0, body_b = 0;
-  bool still = false;     ///< they rest against each other
+  bool still = false;     ///< at rest relative to each other
   bool touching = false;  ///< with contact points
-  int looks = 0;          ///< at how many looks in a row they have rested, at most the limit
+  int looks = 0;          ///< number of consecutive checks at rest, up to the limit
 };
 
-/// Looks at which pairs of parts rested. What a pair has is kept as long as its boxes meet.
+/// Counts the checks at which pairs of parts were at rest. A pair's count is kept while its boxes
+/// overlap.
 class RestPairs {
  public:
-  /// Takes the pairs of a look in any order; the same pair may be there several times, and rests
-  /// only if each of them does. Counts them on, up to `limit`.
+  /// Takes the pairs of one check in any order. A pair may occur several times, and is at rest only
+  /// if each occurrence is. Counts up to `limit`.
   void Count(std::vector<NearPair> now, int limit);
-  /// Those of the last Count, ascending by parts, each once.
+  /// Pairs of the last Count, ascending by parts, each once.
   const std::vector<NearPair>& pairs() const { return pairs_; }
-  /// Pairs of the part begin anew.
+  /// Restarts the counts of the part's pairs.
   void Forget(PartId part);
 
   void Save(std::vector<float>* memory) const;
-  /// Returns how many numbers it took.
+  /// Returns the number of values read.
   std::size_t Load(const float* memory);
 
  private:

@@ -10,10 +10,10 @@ b2Vec2 Unit(Heading d) {
   return b2Vec2(kX[d], kY[d]);
 }
 
-/// Into the solid: left of the way.
+/// Returns the direction into the solid: left of the path.
 b2Vec2 Inward(Heading d) { return Unit(static_cast<Heading>((d + 1) % 4)); }
 
-/// In the cell's frame, m, moved in by `depth`.
+/// Converts to the cell's frame, m, moved in by `depth`.
 b2Vec2 Place(const OutlinePath::Corner& c, int x0, int y0, float depth) {
   b2Vec2 point(static_cast<float>(c.x - x0), static_cast<float>(c.y - y0));
   point *= kBrickUnit;
@@ -33,7 +33,7 @@ Chunk ChunkOf(const FeatherStore& store, int cell_x, int cell_y, float skin) {
     Chunk::Chain chain;
     for (const auto& corner : path.corners) chain.points.push_back(Place(corner, x0, y0, depth));
     chain.closed = path.closed;
-    // How the outline goes on in the next cell: a metre of it, only its direction matters.
+    // Continuation of the outline in the next cell: one metre; only its direction matters.
     chain.before = chain.points.front() - Unit(path.corners.front().before);
     chain.after = chain.points.back() + Unit(path.corners.back().after);
     for (const BrickKind& kind : store.kinds()) {

@@ -8,7 +8,7 @@ namespace {
 Heading Left(Heading d) { return static_cast<Heading>((d + 1) % 4); }
 Heading Right(Heading d) { return static_cast<Heading>((d + 3) % 4); }
 
-/// A side of a solid square: the one on the right of `way` when the square's centre is on its left.
+/// A side of a solid square, to the right of the direction `way` as seen from the square's centre.
 ///
 ///        <- kWest        Counter-clockwise around the solid:
 ///       +---+            the sides of one square.
@@ -36,7 +36,7 @@ class Tracer {
         seen_(static_cast<std::size_t>(4 * raster.columns() * raster.rows()), false) {}
 
   std::vector<OutlinePath> Run() {
-    // Those that end come first: whatever is left then is closed.
+    // Open paths come first: all remaining ones are closed.
     Scan([&](const Side& side) {
       if (!Same(Before(side), side)) Trace(side, false);
     });
@@ -53,14 +53,15 @@ class Tracer {
   int Surface(const Side& s) const { return raster_.Surface(s.column, s.row); }
   bool Same(const Side& a, const Side& b) const { return Surface(a) == Surface(b); }
 
-  /// The boundary's next side. Where two solids touch at a corner only, it stays with its own.
+  /// Returns the boundary's next side. Where two solids touch only at a corner, stays with its own
+  /// solid.
   Side Next(const Side& s) const {
     const Side ahead = s.Beyond(s.way), aside = ahead.Beyond(Right(s.way));
     if (!Solid(ahead)) return s.Turned(Left(s.way));
     if (!Solid(aside)) return ahead;
     return aside.Turned(Right(s.way));
   }
-  /// Next(Before(s)) is s.
+  /// Returns the previous side: Next(Before(s)) is s.
   Side Before(const Side& s) const {
     const Side behind = s.Beyond(Left(Left(s.way))), aside = behind.Beyond(Right(s.way));
     if (!Solid(behind)) return s.Turned(Right(s.way));
@@ -94,13 +95,13 @@ class Tracer {
       side = Next(side);
     } while (Same(side, first) && !(side == first));
     if (!closed) {
-      // Where the last side ends: the start of the side that follows it.
+      // End of the last side: the start of the side after it.
       AddCorner(side, before, &path);
     }
     paths_.push_back(std::move(path));
   }
 
-  /// Where `side` begins.
+  /// Adds the start of `side`.
   void AddCorner(const Side& side, Heading before, OutlinePath* path) const {
     const int right = side.way == kNorth || side.way == kWest;
     const int up = side.way == kWest || side.way == kSouth;

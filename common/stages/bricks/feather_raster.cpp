@@ -5,7 +5,7 @@
 namespace seam {
 namespace {
 
-/// Lines of one axis from the rim's outer side to the other's, and where each unit's line is.
+/// Grid lines of one axis, from one outer side of the rim to the other, and the line at each unit.
 class Axis {
  public:
   explicit Axis(int cell) : from_(cell * FeatherStore::kCell - 1), marked_(kUnits + 1, false) {
@@ -13,7 +13,7 @@ class Axis {
   }
   int Clamped(int units) const { return std::clamp(units - from_, 0, kUnits); }
   void Mark(int units) { marked_[static_cast<std::size_t>(Clamped(units))] = true; }
-  /// After all marks.
+  /// Requires that all lines are marked.
   std::vector<int> Lines() {
     std::vector<int> lines;
     rank_.resize(marked_.size());

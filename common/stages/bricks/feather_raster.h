@@ -1,5 +1,6 @@
 #pragma once
-/// A cell's bricks and a rim of one unit around it on a grid whose lines are the bricks' sides.
+/// Rasterises a cell's bricks and a rim of one unit around it, on a grid with lines at the bricks'
+/// sides.
 
 #include <cstddef>
 #include <cstdint>
@@ -9,7 +10,7 @@
 
 namespace seam {
 
-/// Squares of the grid, as wide and high as the bricks allow: few. The outermost ones are the rim.
+/// Grid of squares, as wide and high as the bricks allow: few. The outermost squares are the rim.
 class FeatherRaster {
  public:
   FeatherRaster(const FeatherStore& store, int cell_x, int cell_y);
@@ -20,14 +21,14 @@ class FeatherRaster {
   int x(int line) const { return xs_[static_cast<std::size_t>(line)]; }
   int y(int line) const { return ys_[static_cast<std::size_t>(line)]; }
   bool Solid(int column, int row) const { return At(column, row) != kAir; }
-  /// -1 for air and for the rim.
+  /// Returns -1 for air and for the rim.
   int Surface(int column, int row) const {
     const bool rim = column == 0 || row == 0 || column == columns() - 1 || row == rows() - 1;
     return rim || !Solid(column, row) ? -1 : At(column, row) - 1;
   }
 
  private:
-  static constexpr std::uint8_t kAir = 0;  // else 1 + surface
+  static constexpr std::uint8_t kAir = 0;  // otherwise 1 + surface
   std::uint8_t At(int column, int row) const {
     return squares_[static_cast<std::size_t>(row) * (xs_.size() - 1) +
                     static_cast<std::size_t>(column)];

@@ -11,13 +11,13 @@
 namespace seam {
 namespace {
 
-/// How far ahead a body's way is laid, s, and how many cells a tick for that. What it could touch
-/// within the tick does not count: that is there at once.
+/// Time ahead for which a body's path gets fixtures, s, and the cells per tick for that. Cells that
+/// the body could touch within the tick do not count: they get fixtures at once.
 constexpr float kAhead = 0.2f;
 constexpr int kCellsPerTick = 2;
-/// m beyond which a cell is dropped that a body had asked for.
+/// m; a body's cells beyond this distance are dropped.
 constexpr float kKeep = 4;
-/// The engine moves nothing farther in a step, m; and its boxes are larger than the shapes by this.
+/// The engine's largest motion in a step, m, and the margin of its boxes around shapes, m.
 constexpr float kStepMax = 2, kFat = 0.2f;
 
 /// Cells from..to inclusive; none: from > to.
@@ -39,7 +39,7 @@ struct CellRange {
   }
 };
 
-/// Nothing of a body's shapes is farther from its origin than this, m.
+/// Returns the largest distance of a body's shapes from its origin, m.
 float ReachOf(b2Body* body) {
   float reach = 0;
   b2Transform still;
@@ -57,7 +57,7 @@ float ReachOf(b2Body* body) {
 
 class FeatherStage : public Stage {
  public:
-  /// Cheap: stages are also made to see how many a scene needs.
+  /// Must be cheap: stages are also made only to be counted.
   explicit FeatherStage(const StageWorld& world) : world_(world) {
     const Solver& solver = world.scene.solver;
     tick_s_ = 1.0f / static_cast<float>(solver.tick_hz);
@@ -78,7 +78,7 @@ class FeatherStage : public Stage {
   }
   void Emptied() override {
     b2_ = nullptr;
-    for (Loaded& l : loaded_) {  // the chunks are still right
+    for (Loaded& l : loaded_) {  // the chunks stay valid
       l.body = nullptr;
       l.wanted = 0;
     }
@@ -89,15 +89,15 @@ class FeatherStage : public Stage {
  private:
   struct Loaded {
     b2Body* body = nullptr;
-    int wanted = 0;                // by so many bodies
-    std::unique_ptr<Chunk> chunk;  // kept while the world is built anew
+    int wanted = 0;                // number of bodies that want it
+    std::unique_ptr<Chunk> chunk;  // kept while the world is rebuilt
   };
   struct Followed {
     float reach = 0;  // m
-    CellRange cells;  // that it wants
+    CellRange cells;  // cells that it wants
   };
 
-  /// Brings the store to what the scene says is left. Requires that nothing has fixtures.
+  /// Brings the store up to date with the scene's freed bricks. Requires that no cell has fixtures.
   void TakeOut() {
     const std::vector<Brick> gone = FreedBricks(world_.scene.bricks, world_.scene.parts);
     const std::size_t known = std::min(taken_.size(), gone.size());
@@ -116,7 +116,7 @@ class FeatherStage : public Stage {
     }
     taken_ = gone;
   }
-  /// The outlines of the cells whose boundary a brick is part of.
+  /// Drops the outlines of the cells with this brick on their boundary.
   void ForgetAround(const Brick& b) {
     const BrickKind& kind = store_.kinds()[static_cast<std::size_t>(b.kind)];
     for (int y = FeatherStore::CellOf(b.y - 1); y <= FeatherStore::CellOf(b.y + kind.height); ++y) {
@@ -128,7 +128,7 @@ class FeatherStage : public Stage {
     }
   }
 
-  /// The cells within `margin` m of the body, on the way that it makes in `ahead` s.
+  /// Returns the cells within `margin` m of the body's path over `ahead` s.
   CellRange CellsNear(const b2Body& body, float reach, float margin, float ahead) const {
     const b2Vec2 from = body.GetPosition();
     const b2Vec2 to = from + ahead * body.GetLinearVelocity();
@@ -164,7 +164,7 @@ class FeatherStage : public Stage {
     }
   }
 
-  /// Returns how many cells got their fixtures.
+  /// Sets the cells that a body wants; returns how many got their fixtures.
   int Want(const CellRange& cells, Followed* f) {
     int made = 0;
     for (int y = cells.y0; y <= cells.y1; ++y) {
@@ -200,14 +200,14 @@ class FeatherStage : public Stage {
     l.body = nullptr;
     l.chunk.reset();
   }
-  /// Of a cell's first fixture; a cell has fewer than 1024 outlines that anything could touch.
+  /// Returns the id of a cell's first fixture; a cell has fewer than 1024 reachable outlines.
   static std::uintptr_t IdOf(int cell) {
     return kStageFixture + (static_cast<std::uintptr_t>(cell) << 10);
   }
 
   const StageWorld world_;
   FeatherStore store_{FeatureList<BrickField>()};
-  std::vector<Brick> taken_;  // out of the store
+  std::vector<Brick> taken_;  // removed from the store
   b2World* b2_ = nullptr;
   std::vector<Loaded> loaded_;      // by cell
   std::vector<Followed> followed_;  // by moving body

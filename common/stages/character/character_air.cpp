@@ -8,7 +8,8 @@
 
 namespace seam {
 
-/// Crouches (only from standing), then pushes with all that is on the ground until it no longer is.
+/// Crouches (only from standing), then pushes with every foot on the ground until both have left
+/// it.
 void CharacterControl::Jump(const CharacterSense& s) {
   const CharacterShape& shape = limbs_.shape();
   const LegSense& low = s.legs[s.legs[0].ankle.y < s.legs[1].ankle.y ? 0 : 1];
@@ -27,7 +28,7 @@ void CharacterControl::Jump(const CharacterSense& s) {
   }
   const bool push = memory_.phase >= 1;
   const bool running = memory_.phase == 2;
-  // Pressure behind the centre of mass drives forward.
+  // Pressure behind the centre of mass accelerates forward.
   const float pressure = s.centre.x + (push ? 0 : s.velocity.x / Omega(s, ground_y)) -
                          (running ? 0 : gains_.jump_forward * limbs_.scale() * drive_);
   const float lift = push
@@ -37,7 +38,8 @@ void CharacterControl::Jump(const CharacterSense& s) {
   const bool both = s.legs[0].down == s.legs[1].down;
   for (int side = 0; side < 2; ++side) {
     if (push && (both || s.legs[side].down)) {
-      // Through the centre of mass, but for what stops it from turning: it could not in the air.
+      // Through the centre of mass, plus a part that stops its rotation, which would be impossible
+      // in the air.
       const b2Vec2 pressed = Sole(s, side, pressure);
       const float up = both ? 0.5f * lift : lift;
       const float stop = (both ? 0.5f : 1.0f) * gains_.jump_still * s.turning;
@@ -54,7 +56,8 @@ void CharacterControl::Jump(const CharacterSense& s) {
   Arms(arms, arms, 0.2f);
 }
 
-/// Legs drawn up while it rises, stretched to where the pendulum will want them as it sinks.
+/// Draws the legs up while rising; while sinking, stretches them to where the pendulum will need
+/// them.
 void CharacterControl::Air(const CharacterSense& s) {
   const CharacterShape& shape = limbs_.shape();
   const bool touch = s.legs[0].down || s.legs[1].down;

@@ -1,4 +1,4 @@
-/// CharacterControl: what bears and moves a body on its legs, and standing.
+/// CharacterControl: support by the legs, and standing.
 
 #include <algorithm>
 #include <cmath>
@@ -20,19 +20,19 @@ float CharacterControl::Lift(const CharacterSense& s, float ground_y, float hip_
                     gains_.lift_max * s.mass * gravity_);
 }
 
-/// The leg pushes the ground with `lift` N at `pressure_x`, and the torso with `torso_torque`. The
-/// force's horizontal part follows from the two.
+/// Pushes the ground through one leg with `lift` N at `pressure_x`, and the torso with
+/// `torso_torque`. The force's horizontal part follows from the two.
 void CharacterControl::Bear(const CharacterSense& s, int side, float pressure_x, float lift,
                             float torso_torque) {
   const b2Vec2 pressure = Sole(s, side, pressure_x);
   const float height = std::max(0.2f * limbs_.shape().hip, s.hip.y - pressure.y);
-  // The push goes through the hip; the body above leans over it.
+  // The push goes through the hip; the upper body leans over it.
   torso_torque -=
       gains_.upper_share * lift * gains_.upper_height * limbs_.scale() * std::sin(s.torso);
   Push(s, side, pressure, lift, (torso_torque - (pressure.x - s.hip.x) * lift) / height);
 }
 
-/// The leg's pressure point: `x`, or the nearest on its sole.
+/// Returns the leg's pressure point: `x`, or the nearest point of its sole.
 b2Vec2 CharacterControl::Sole(const CharacterSense& s, int side, float x) const {
   const b2Vec2 ankle = s.legs[side].ankle;
   const CharacterShape& shape = limbs_.shape();
@@ -41,10 +41,10 @@ b2Vec2 CharacterControl::Sole(const CharacterSense& s, int side, float x) const 
                 ankle.y - shape.ankle);
 }
 
-/// The legs are taken as massless: the torque in each joint is the ground's force about it. In a
-/// step, when the knee cannot bear it, the force is what the knee bears: an ankle that went on with
-/// the torque of the whole would turn the foot over its toe, as one does who jumps. Not while it
-/// stands or gets up: there it cost some of the climbs over a ledge (docs/lab.md).
+/// Treats the legs as massless: the torque in each joint is the ground's force about it. In a step,
+/// if the knee cannot bear the force, it is reduced to what the knee bears: an ankle with the full
+/// torque would turn the foot over its toe, as in a jump. Not so while standing or getting up:
+/// there it cost some of the climbs over a ledge (docs/lab.md).
 void CharacterControl::Push(const CharacterSense& s, int side, b2Vec2 pressure, float lift,
                             float forward) {
   const b2Vec2 force(std::clamp(forward, -gains_.grip * lift, gains_.grip * lift), lift);
@@ -58,7 +58,8 @@ void CharacterControl::Push(const CharacterSense& s, int side, b2Vec2 pressure, 
   limbs_.Torque(Ankle(side), borne * torque_at(leg.ankle));
 }
 
-/// Angles of thigh and shank, absolute, that bring the ankle `way` from the hip, the knee forward.
+/// Returns absolute angles of thigh and shank that put the ankle at `way` from the hip, knee
+/// forward.
 CharacterControl::LegPose CharacterControl::PoseFor(b2Vec2 way) const {
   const float a = limbs_.shape().thigh, b = limbs_.shape().shank;
   const float distance = std::clamp(way.Length(), std::abs(a - b) + 0.25f * a, 0.995f * (a + b));
@@ -68,7 +69,7 @@ CharacterControl::LegPose CharacterControl::PoseFor(b2Vec2 way) const {
   return {down + at_hip, at_knee - b2_pi};
 }
 
-/// Leads the ankle to a point that moves, and the foot to an angle, all in the own frame.
+/// Moves the ankle to a moving point, and the foot to an angle, all in the own frame.
 void CharacterControl::Reach(const CharacterSense& s, int side, b2Vec2 ankle, b2Vec2 velocity,
                              float foot, float stiffness) {
   constexpr float kAhead = 0.01f;  // s, for the rates of the angles
@@ -113,7 +114,7 @@ void CharacterControl::Stand(const CharacterSense& s) {
   memory_.speed = 0;
   const bool lost = capture < low - margin || capture > high + margin;
   if ((lost || std::abs(drive_) > 0.1f) && !none) {
-    // Away from where it falls to: the foot that is nearer there bears.
+    // The foot nearer to the side of the fall supports.
     const bool forward = lost ? capture > middle : drive_ > 0;
     const bool left_ahead = s.legs[0].ankle.x > s.legs[1].ankle.x;
     BeginStep(s, both ? (forward == left_ahead ? 0 : 1) : (s.legs[0].down ? 0 : 1));
@@ -124,7 +125,7 @@ void CharacterControl::Stand(const CharacterSense& s) {
   const float pressure = capture + gains_.capture_gain * (capture - middle);
   const float lift = Lift(s, ground_y, gains_.stand_height * shape.hip, ground_vy);
   const float torso = TorsoTorque(s, 0);
-  float share = 0.5f;  // of the left
+  float share = 0.5f;  // the left leg's
   const float apart = s.legs[1].ankle.x - s.legs[0].ankle.x;
   if (std::abs(apart) > 0.1f * shape.hip) {
     share = std::clamp((s.legs[1].ankle.x - pressure) / apart, 0.1f, 0.9f);

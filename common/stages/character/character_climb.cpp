@@ -1,14 +1,14 @@
-/// CharacterControl: out of the water over a ledge, hand over hand. The hands hold the ledge by
-/// grips, which are edits; what lifts the body is torque in shoulders and elbows.
+/// CharacterControl: climbing out of the water over a ledge, hand over hand. The hands hold the
+/// ledge by grips, which are edits; torque in shoulders and elbows lifts the body.
 ///
 ///              o   P: the edge        1  reach P, or the wall's face as high as it goes; hold
-///             /|\__________           2  lead the shoulders up and over P
+///             /|\__________           2  move the shoulders up and over P
 ///   ~~~~~~~~~~ |~|  ledge             3  on the ledge, each hand that is behind reaches on
 ///             / \|                       until the legs are over, too
 ///
-/// Before the wall legs hang: what they push it with, the hands must hold. An arm pulls less the
-/// more its hand bears. Where all of it lies still, as on arms that prop the chest up, hands let
-/// go: the chest goes down, and they reach on.
+/// In front of the wall the legs hang: the hands would have to hold against their push. An arm
+/// pulls less the more its hand bears. If the whole body lies still, for example on arms that prop
+/// the chest up, the hands let go: the chest goes down, and they reach on.
 
 #include <algorithm>
 #include <cmath>
@@ -19,12 +19,13 @@
 namespace seam {
 namespace {
 
-/// s over which a hand feels what it bears: a blow as short as an engine's step is none.
+/// Averaging time of a hand's load, s: an impact as short as an engine's step does not count.
 constexpr float kGripMoment = 0.1f;
 
 }  // namespace
 
-/// Something solid before the chest, with a top that hands can reach. In the own frame.
+/// Finds a solid obstacle in front of the chest, with a top within reach of the hands. In the own
+/// frame.
 CharacterControl::Ledge CharacterControl::LedgeAhead(const CharacterSense& s) const {
   const float m = limbs_.scale();
   const b2Vec2 chest = limbs_.Own(limbs_.body(kTorso)->GetPosition());
@@ -44,7 +45,7 @@ CharacterControl::Ledge CharacterControl::LedgeAhead(const CharacterSense& s) co
   return ledge;
 }
 
-/// Both arms' joints for a fingertip `way` from the shoulder; elbows bend forwards only.
+/// Poses an arm's joints for a fingertip `way` from the shoulder; elbows bend forwards only.
 void CharacterControl::ReachWith(const CharacterSense& s, int side, b2Vec2 way) {
   const float a = limbs_.shape().upper_arm, b = limbs_.shape().lower_arm;
   const float distance = std::clamp(way.Length(), 0.35f * (a + b), 0.99f * (a + b));
@@ -55,11 +56,11 @@ void CharacterControl::ReachWith(const CharacterSense& s, int side, b2Vec2 way) 
   Pose(Elbow(side), b2_pi - at_elbow, gains_.climb_elbow);
 }
 
-/// An arm that is to reach up or on goes round behind the body, straight, as in a crawl, and comes
-/// down on the ledge from above: before the body there is the wall. False: it is there.
+/// Moves an arm that reaches up or on: behind the body, straight, as in a crawl, and down on the
+/// ledge from above, since the wall is in front. Returns false once it is there.
 bool CharacterControl::RaiseArm(const CharacterSense& s, int side, b2Vec2 tip, b2Vec2 edge) {
   const float m = limbs_.scale();
-  const float arm = WrapAngle(s.torso + limbs_.angle(Shoulder(side)));  // 0 hangs, then forwards
+  const float arm = WrapAngle(s.torso + limbs_.angle(Shoulder(side)));  // 0: hanging; then forwards
   const b2Vec2 shoulder = limbs_.At(Shoulder(side));
   const float high = std::min(edge.y + 0.02f * m, shoulder.y + gains_.climb_raised * m);
   if (memory_.phase == 0 ? tip.y > high && arm > 0 : arm > gains_.climb_before) return false;
@@ -69,9 +70,9 @@ bool CharacterControl::RaiseArm(const CharacterSense& s, int side, b2Vec2 tip, b
   return true;
 }
 
-/// The arm pulls the body by `force` N from where the hand holds. Arms are taken as massless.
+/// Pulls the body by `force` N from the grip of one arm. Arms are treated as massless.
 void CharacterControl::PullWith(int side, b2Vec2 force) {
-  // Less than wished for, where the hand bears nearly all that it can: else it would let go.
+  // Less than demanded if the hand bears nearly all that it can: otherwise it would let go.
   const float spare = 1 - memory_.load[side] / hands_.Strength(side);
   force *= std::clamp(spare / (1 - gains_.climb_ease), 0.0f, 1.0f);
   const b2Vec2 tip = limbs_.Own(hands_.Tip(side));
@@ -79,14 +80,14 @@ void CharacterControl::PullWith(int side, b2Vec2 force) {
   float turn = -b2Cross(tip - shoulder, force);
   float bend = -b2Cross(tip - elbow, force);
   if (memory_.phase == 1) {
-    // As much of it as both joints can do: a bound on one of them alone would turn the force.
+    // The share that both joints can do: a limit on only one would turn the force's direction.
     const float share =
         std::min({1.0f, limbs_.bound(Shoulder(side)) / std::max(std::abs(turn), 1e-6f),
                   limbs_.bound(Elbow(side)) / std::max(std::abs(bend), 1e-6f)});
     turn *= share;
     bend *= share;
   }
-  // Elbows that are straight stay so, whatever pulls: they bend as for a pull along the arm.
+  // Straight elbows stay straight under any pull: they bend only for a pull along the arm.
   b2Vec2 line = tip - shoulder;
   line.Normalize();
   const float along = memory_.phase == 0 ? force.Length() : std::max(b2Dot(force, line), 0.0f);
@@ -100,7 +101,7 @@ void CharacterControl::LetGo() {
   for (float& hold : memory_.hold) hold = std::min(hold, 0.0f);
 }
 
-/// A hand lets go of what is too heavy for it, and rests.
+/// Releases a hand that is overloaded, and lets it rest.
 void CharacterControl::FeelHands(float h) {
   for (int side = 0; side < 2; ++side) {
     float& hold = memory_.hold[side];
@@ -112,16 +113,16 @@ void CharacterControl::FeelHands(float h) {
   }
 }
 
-/// N; what all hands together are to do, held at `tip` on average. Before the wall they pull the
-/// centre of mass to the tip, and across that line as the torso's lean asks for; on the ledge they
-/// press it up and pull it on.
+/// Returns the force that all hands together must exert, N, with `tip` the mean grip. In front of
+/// the wall they pull the centre of mass towards the tip, and sideways to that line as the torso's
+/// lean demands; on the ledge they press it up and pull it on.
 b2Vec2 CharacterControl::PullTo(const CharacterSense& s, b2Vec2 tip) const {
   const float m = limbs_.scale(), weight = s.mass * gravity_;
   const float slow = gains_.climb_damping / std::sqrt(m);
   if (memory_.phase == 1) {
-    // It leans over the edge, and falls on it.
+    // The body leans over the edge, and falls on it.
     const float missing = (memory_.from.y - limbs_.At(kShoulderLeft).y) / m + gains_.climb_chest;
-    // With the chest on the ledge, hands only pull: to press would lower the hips.
+    // With the chest on the ledge, the hands only pull: pressing would lower the hips.
     const bool on = limbs_.At(kShoulderLeft).x > memory_.from.x + gains_.climb_on * m;
     if (on) return weight * b2Vec2(gains_.climb_forward, gains_.climb_slide);
     const float up = gains_.climb_lift + gains_.climb_press * missing - slow * s.velocity.y;
@@ -135,8 +136,8 @@ b2Vec2 CharacterControl::PullTo(const CharacterSense& s, b2Vec2 tip) const {
   return std::max(pull, 0.0f) * line + across * b2Vec2(-line.y, line.x);
 }
 
-/// Whether a hand that holds is to let go and reach on: one on the wall that the shoulder has come
-/// up to, one on the ledge that it has passed.
+/// Returns true if a holding hand must let go and reach on: a hand on the wall once the shoulder is
+/// level with it, a hand on the ledge once the body has passed it.
 bool CharacterControl::ReachesOn(int side, b2Vec2 tip, b2Vec2 shoulder) const {
   const float m = limbs_.scale();
   // One hand at a time.
@@ -148,7 +149,7 @@ bool CharacterControl::ReachesOn(int side, b2Vec2 tip, b2Vec2 shoulder) const {
   return tip.y < memory_.from.y - 0.1f * m && tip.y < shoulder.y + gains_.climb_again * m;
 }
 
-/// Legs before the wall.
+/// Poses the legs in front of the wall.
 void CharacterControl::Hang() {
   for (int side = 0; side < 2; ++side) {
     Pose(Hip(side), gains_.climb_hang_hip, gains_.climb_hang);
@@ -161,10 +162,10 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
   const float m = limbs_.scale();
   const float reach = limbs_.shape().upper_arm + limbs_.shape().lower_arm;
   const bool arms = limbs_.has(kShoulderLeft) && limbs_.has(kShoulderRight);
-  // The edge is remembered in `from`: over it, there is no wall ahead to be seen any more.
+  // The edge is stored in `from`: once over it, no wall ahead is visible any more.
   const bool loose = !hands_.holds(0) && !hands_.holds(1);
   const b2Vec2 shoulder = limbs_.At(kShoulderLeft);
-  // The chest on the ledge: it lies there without hands, too.
+  // The chest is on the ledge: it stays there without hands, too.
   const bool on = memory_.phase == 1 && shoulder.x > memory_.from.x && shoulder.y > memory_.from.y;
   bool lost = loose && !on && std::abs(s.torso) > gains_.tilt_max;
   if (memory_.phase == 0 || (loose && !on)) {
@@ -183,7 +184,7 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
   const float above = (shoulder.y - edge.y) / m;
   if (above > gains_.climb_above) memory_.phase = 1;
   if (above < gains_.climb_above - 0.1f && !on) memory_.phase = 0;
-  // Hands that hold it where it lies and get it no further let go, and reach on.
+  // Hands that hold a motionless body without progress let go, and reach on.
   const bool still = on && s.velocity.LengthSquared() < gains_.climb_still * gains_.climb_still * m;
   memory_.phase_time = still ? memory_.phase_time + h : 0;
   if (memory_.phase_time > gains_.climb_stuck) {
@@ -203,7 +204,7 @@ void CharacterControl::Climb(const CharacterSense& s, float h) {
       continue;
     }
     b2Vec2 there = edge + b2Vec2((0.05f + 0.05f * static_cast<float>(side)) * m, 0) - shoulder;
-    // On the ledge, and on it with some weight.
+    // On the ledge, pressing down a little.
     if (memory_.phase == 1)
       there.Set(std::max(there.x, gains_.climb_ahead * reach), there.y - 0.1f * m);
     if (memory_.phase == 0 && there.Length() > reach) {  // not yet the top: the wall's face

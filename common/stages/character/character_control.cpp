@@ -10,13 +10,14 @@
 namespace seam {
 namespace {
 
-/// A player's lift below this, which is all the way down, makes a character limp.
+/// A player's lift below this (fully down) makes a character limp.
 constexpr float kLimpLift = -0.9f;
 
-/// s at the beginning without any muscle tone: it would keep one that stands still on its feet.
+/// s at the start of limpness without muscle tone, which would keep a standing character on its
+/// feet.
 constexpr float kBuckle = 0.5f;
 
-/// m of water over the ground, for 1.8 m: from which on it swims, and below which it stands up.
+/// m of water over the ground, for 1.8 m: above the first it swims, below the second it stands up.
 constexpr float kSwimDepth = 0.75f, kWadeDepth = 0.3f;
 
 }  // namespace
@@ -108,13 +109,14 @@ void CharacterControl::Act(float h) {
   }
 }
 
-/// What cannot go on as it is; each mode ends itself in its own function when it is done.
+/// Switches to the modes that circumstances force; each mode ends itself in its own function.
 void CharacterControl::Choose(const CharacterSense& s, float h) {
   if (!world_.scene.waters.empty()) {
     const float depth = ChestDepth(s) / limbs_.scale();
     if (memory_.mode == CharacterMode::kClimb) return;
     const bool swims = memory_.mode == CharacterMode::kSwim;
-    // In water that one can stand in one does not swim: who comes to a beach gets up and walks.
+    // In water shallow enough to stand in, a character does not swim: at a beach it gets up and
+    // walks.
     const float over = WaterOverGround(s) / limbs_.scale();
     if (!swims && depth > gains_.swim_from && over > kSwimDepth) {
       Enter(CharacterMode::kSwim);
@@ -149,14 +151,14 @@ void CharacterControl::Choose(const CharacterSense& s, float h) {
     Enter(CharacterMode::kAir);
   } else if (lift_ > 0.5f && down && memory_.time > gains_.jump_rest) {
     const bool running = memory_.mode == CharacterMode::kStep;
-    // Only with the foot below, or there is nothing to push on that does not turn the body.
+    // Jumps from a run only with the foot below the body: otherwise the push would turn the body.
     const LegSense& stance = s.legs[memory_.stance];
     const float over = s.centre.x - stance.ankle.x;
     const bool below =
         over > -gains_.jump_behind * limbs_.scale() && over < gains_.jump_before * limbs_.scale();
     if (running && (!below || !stance.down)) return;
     Enter(CharacterMode::kJump);
-    memory_.phase = running ? 2 : 0;  // who runs has no time to crouch
+    memory_.phase = running ? 2 : 0;  // no time to crouch while running
   }
 }
 

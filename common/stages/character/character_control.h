@@ -1,20 +1,20 @@
 #pragma once
-/// What makes an active character stand, run, jump, fall, get up and swim: before each of the
-/// engine's steps it looks at its own body and tells the motors what torque to do.
+/// Controls an active character: it stands, steps, jumps, falls, gets up and swims. Before each
+/// step of the engine, reads the character's body and sets its motors' torques.
 ///
 ///   stand --drive, or pushed too far--> step --slow enough--> stand
 ///   stand, step --lift--> jump --> air --feet touch--> step or stand
-///   anything --tilted, sunk down--> fall --it lies--> rise --up--> stand
-///   anything --in water--> swim --a ledge in reach--> climb --over it--> fall
-///   anything --its player's lift fully down, a hard blow, a command--> limp --over--> fall
+///   anything --tilted, sunk down--> fall --lying--> rise --up--> stand
+///   anything --in water--> swim --a ledge in reach--> climb --over the ledge--> fall
+///   anything --player's lift fully down, a hard impact, a command--> limp --over--> fall
 ///   a leg or the torso gone--> limp
 ///
-/// The balance is the linear inverted pendulum's: its divergent part, the point x + v / w0 with
-/// w0 = sqrt(g / h), must be over or be caught by a foot (Pratt and others, "Capture Point: A Step
-/// toward Humanoid Push Recovery", 2006). Standing legs do virtual forces (Pratt and others,
-/// "Virtual Model Control", 2001); swinging ones are led to a foothold from where the pendulum goes
-/// on at the wished speed (Englsberger and others, "Three-Dimensional Bipedal Walking Control
-/// Based on Divergent Component of Motion", 2015).
+/// Balance is that of the linear inverted pendulum: its divergent component, the point x + v / w0
+/// with w0 = sqrt(g / h), must be over a foot or be caught by one (Pratt and others, "Capture
+/// Point: A Step toward Humanoid Push Recovery", 2006). Standing legs use virtual forces (Pratt and
+/// others, "Virtual Model Control", 2001). A swinging leg goes to the foothold from which the
+/// pendulum continues at the desired speed (Englsberger and others, "Three-Dimensional Bipedal
+/// Walking Control Based on Divergent Component of Motion", 2015).
 
 #include "common/scene/character.h"
 #include "common/stages/character/character_gains.h"
@@ -25,24 +25,24 @@ namespace seam {
 
 enum class CharacterMode { kStand, kStep, kJump, kAir, kFall, kRise, kSwim, kLimp, kClimb };
 
-/// m; x of an edge that is not there.
+/// m; x of an absent edge.
 constexpr float kNoEdge = 1e6f;
 
-/// All that a controller remembers; numbers only, so that a world can save it.
+/// State of a controller; numbers only, so that a world can save it.
 struct CharacterMemory {
   CharacterMode mode = CharacterMode::kStand;
-  float time = 0;     ///< s in this mode
-  int stance = 0;     ///< kStep: the side that bears
-  float step = 0;     ///< s; kStep: since the swinging foot left the ground; kSwim: turns of legs
-  b2Vec2 from{0, 0};  ///< m; kStep: where it left, own frame
-  float to = 0;       ///< m; kStep: where its ankle is to stand, own frame
-  b2Vec2 edge{kNoEdge, 0};  ///< m; kStep: of the first stair before it
-  float speed = 0;          ///< m/s that is wished for now
-  int phase = 0;            ///< kRise: of the way up
-  float phase_time = 0;     ///< s in it; kSwim: turns of the arms; kClimb: s that it lies still
-  float hold[2] = {};       ///< 1: the hand is to hold what it touches; -x: for x s it cannot
-  float load[2] = {};       ///< N; what each hand bears, the mean of the last moment
-  float limp = 0;           ///< s that it stays limp after a blow or a command
+  float time = 0;           ///< s in this mode
+  int stance = 0;           ///< kStep: the supporting side
+  float step = 0;           ///< s; kStep: since lift-off of the swinging foot; kSwim: leg cycles
+  b2Vec2 from{0, 0};        ///< m; kStep: lift-off point, own frame
+  float to = 0;             ///< m; kStep: target of its ankle, own frame
+  b2Vec2 edge{kNoEdge, 0};  ///< m; kStep: edge of the next stair
+  float speed = 0;          ///< m/s; current target speed
+  int phase = 0;            ///< kRise: stage of getting up
+  float phase_time = 0;     ///< s in the phase; kSwim: arm cycles; kClimb: s of lying still
+  float hold[2] = {};       ///< 1: the hand grips what it touches; -x: it cannot for x s
+  float load[2] = {};       ///< N; load of each hand, a short moving average
+  float limp = 0;           ///< s left of limpness after an impact or a command
 
   void Save(std::vector<float>* memory) const;
   std::size_t Load(const float* memory);
@@ -61,15 +61,15 @@ class CharacterControl {
     hands_.Forget();
   }
   void SetInput(const Input& input);
-  /// Before the engine's step of `h` s.
+  /// Acts before the engine's step of `h` s.
   void Act(float h);
-  /// A blow of `impulse` N s on one of its parts: a hard one makes it limp for a moment.
+  /// Takes an impact of `impulse` N s on one of its parts: a hard one makes it limp for a moment.
   void Struck(float impulse);
-  /// For at least `seconds`; below 0: no longer.
+  /// Makes it limp for at least `seconds`; below 0: ends the limpness.
   void GoLimp(float seconds);
-  /// After a tick: grips that are to be made or given up.
+  /// Proposes grips to make or release. Called after a tick.
   void ProposeGrips(std::vector<Edit>* edits) const { hands_.Propose(memory_.hold, edits); }
-  /// After a tick of `h` s.
+  /// Updates the hands' loads. Called after a tick of `h` s.
   void FeelHands(float h);
 
   const CharacterMemory& memory() const { return memory_; }
@@ -102,17 +102,17 @@ class CharacterControl {
   void StepOn(const CharacterSense& s, float h);
   float StepTime() const;
   void BeginStep(const CharacterSense& s, int stance);
-  /// Where the swinging foot is to stand: its ankle, and the ground's slope there, rad.
+  /// Target of the swinging foot: its ankle, and the ground's slope there, rad.
   struct Foothold {
     b2Vec2 ankle{0, 0};
     float slope = 0;
   };
-  /// Of the ground that the step goes over.
+  /// Gait on the ground ahead.
   struct StairGait {
     float speed, time, height, ahead, lean;
     bool down;
   };
-  /// m beyond heel and toe that a foothold needs; below 0: that may hang over.
+  /// m beyond heel and toe that a foothold needs; below 0: length that may overhang.
   struct Rims {
     float heel, toe;
   };
@@ -145,7 +145,7 @@ class CharacterControl {
   void Swim(const CharacterSense& s, float h);
   void Tread(const CharacterSense& s);
   float RightingHz(const CharacterSense& s, float error) const;
-  /// rad of the joints of one leg.
+  /// Angles of one leg's joints, rad.
   struct Legs {
     float hip = 0, knee = 0, ankle = 0;
   };
@@ -170,10 +170,11 @@ class CharacterControl {
   void LetGo();
   void Hang();
 
-  /// N m: weight x height, by which all gains are in proportion.
+  /// N m: weight x height, the unit of all gains.
   float unit() const { return unit_; }
   float Omega(const CharacterSense& s, float ground_y) const;
-  /// A servo of so many units per rad; `rate` 1/s is its stiffness over its damping.
+  /// Drives a joint as a servo of `strength` units per rad; `rate` 1/s is its stiffness over its
+  /// damping.
   void Pose(CharacterJoint joint, float angle, float strength, float spin, float rate);
   void Pose(CharacterJoint joint, float angle, float strength, float spin = 0) {
     Pose(joint, angle, strength, spin, gains_.servo_rate);

@@ -9,7 +9,7 @@
 namespace seam {
 namespace {
 
-/// m from the fingertip within which a contact is one of the hand, for 1.8 m.
+/// m from the fingertip within which a contact counts as the hand's, for 1.8 m.
 constexpr float kHandLength = 0.12f;
 
 PartId HandOf(const Character& character, int side) {
@@ -97,7 +97,7 @@ void CharacterHands::ProposeGrip(int side, std::vector<Edit>* edits) const {
   const Part& root =
       world_.scene.parts[static_cast<std::size_t>(world_.composition.assemblies[index].id)];
   const b2Body& body = *world_.built.bodies[index];
-  // The body of what never moves may be others', too, and lie anywhere.
+  // An anchored part's body may be shared with other parts, and lie anywhere.
   const bool still = body.GetType() == b2_staticBody;
   const Transform2 whole = still ? Transform2{root.position.cast<double>(), root.angle}
                                  : Transform2{FromB2(body.GetPosition()).cast<double>(),

@@ -1,5 +1,5 @@
 #pragma once
-/// A character's hands in the engine: what they touch and what they hold.
+/// A character's hands in the engine: touch and grip.
 
 #include <vector>
 
@@ -13,20 +13,20 @@ class CharacterHands {
   CharacterHands(const Character& character, const StageWorld& world)
       : character_(character), world_(world) {}
 
-  /// Looks the hands and their grips up.
+  /// Looks up the hands and their grips.
   void Find();
   void Forget();
 
-  /// Whether there is a hand at this side, 0 left or 1 right.
+  /// True if there is a hand on this side: 0 left, 1 right.
   bool has(int side) const { return body_[side] != nullptr; }
   bool holds(int side) const { return grip_[side] >= 0; }
-  /// m, in the world. Requires has(side).
+  /// Fingertip, m, in the world. Requires has(side).
   b2Vec2 Tip(int side) const { return body_[side]->GetWorldPoint(tip_[side]); }
 
-  /// After a tick: a grip of each hand with hold > 0 that touches something; the end of each with
-  /// hold <= 0.
+  /// Proposes, after a tick, a grip for each hand with hold > 0 that touches something, and the
+  /// release of each grip with hold <= 0.
   void Propose(const float hold[2], std::vector<Edit>* edits) const;
-  /// N; what the grip bore in the engine's last step, and what it may. Requires holds(side).
+  /// N; load of the grip in the engine's last step, and its strength. Requires holds(side).
   float Force(int side) const;
   float Strength(int side) const;
 

@@ -9,12 +9,12 @@
 namespace seam {
 namespace {
 
-/// A motor that is to do a torque runs towards a spin that it does not reach, rad/s.
+/// A motor in torque mode runs towards this unreachable spin, rad/s.
 constexpr float kSpinBeyond = 1000;
-/// How far up the normal of what bears must point.
+/// Least upward component of the normal of a supporting contact.
 constexpr float kBearing = 0.5f;
 
-/// The nearest fixture along a ray that is solid and not of the group.
+/// Finds the nearest solid fixture along a ray that is not of the group.
 struct Nearest : b2RayCastCallback {
   int16 group = 0;
   GroundPoint ground;
@@ -80,7 +80,7 @@ bool CharacterLimbs::Touches(CharacterPart part, float up_min, b2Vec2* velocity)
     if (contact->GetFixtureA()->IsSensor() || contact->GetFixtureB()->IsSensor()) continue;
     b2WorldManifold manifold;
     contact->GetWorldManifold(&manifold);
-    // Its normal points from the first to the second. What stands before one does not bear one.
+    // The normal points from the first to the second. An obstacle in front gives no support.
     const bool first = contact->GetFixtureA()->GetBody() == body;
     if ((first ? -manifold.normal.y : manifold.normal.y) < up_min) continue;
     *velocity = Own(edge->other->GetLinearVelocityFromWorldPoint(body->GetWorldCenter()));
@@ -125,7 +125,7 @@ CharacterSense CharacterLimbs::Sense() const {
   sense.torso_spin = facing_ * torso->GetAngularVelocity();
   for (int side = 0; side < 2; ++side) {
     SenseLeg(side, &sense.legs[side]);
-    // As whole turns of the torso do not count, they must not in the legs, either.
+    // Whole turns of the torso are removed, so the legs' angles must lose them too.
     for (float* angle :
          {&sense.legs[side].thigh, &sense.legs[side].shank, &sense.legs[side].foot}) {
       *angle += sense.torso - turn;
@@ -148,7 +148,7 @@ void CharacterLimbs::Servo(CharacterJoint joint, float angle, float spin, float 
   b2RevoluteJoint* j = joints_[joint];
   if (j == nullptr) return;
   float missing = angle - this->angle(joint);
-  if (!j->IsLimitEnabled()) missing = WrapAngle(missing);  // what turns freely takes the short way
+  if (!j->IsLimitEnabled()) missing = WrapAngle(missing);  // the shorter way round
   const float there = spin + stiffness / damping * missing;
   const float proposed = damping * (there - facing_ * j->GetJointSpeed());
   told_[joint] = std::clamp(proposed, -bound_[joint], bound_[joint]);

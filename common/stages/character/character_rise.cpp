@@ -9,16 +9,16 @@
 namespace seam {
 namespace {
 
-/// A pose of the way up, both sides the same, by the gains that say it.
+/// A pose of the way up, equal on both sides, by the gains that define it.
 struct RiseFrame {
-  float CharacterGains::*seconds;  ///< until it is reached, from the one before
-  float CharacterGains::*hip;      ///< rad, as the next four
+  float CharacterGains::*seconds;  ///< duration from the previous pose
+  float CharacterGains::*hip;      ///< rad; so are the next four
   float CharacterGains::*knee;
   float CharacterGains::*ankle;
   float CharacterGains::*shoulder;
   float CharacterGains::*elbow;
   float CharacterGains::*seconds_slope;  ///< s per rad of the ground's slope, up forwards
-  float CharacterGains::*hip_slope;      ///< rad per rad, as the next two
+  float CharacterGains::*hip_slope;      ///< rad per rad; so are the next two
   float CharacterGains::*knee_slope;
   float CharacterGains::*shoulder_slope;
 };
@@ -65,7 +65,8 @@ void CharacterControl::Fall(const CharacterSense& s) {
   }
 }
 
-/// Of the ground below the middle of the body, rad, up forwards; 0 without ground.
+/// Returns the slope of the ground below the middle of the body, rad, uphill forwards; 0 without
+/// ground.
 float CharacterControl::SlopeBelow(const CharacterSense& s) const {
   const float aside = 0.25f * limbs_.shape().hip, above = 0.4f * limbs_.shape().hip;
   const b2Vec2 from = s.centre + b2Vec2(0, above);
@@ -76,7 +77,7 @@ float CharacterControl::SlopeBelow(const CharacterSense& s) const {
   return std::clamp(slope, -kSlopeKnown, kSlopeKnown);
 }
 
-/// Where hips and knees are to bring the feet flat below the centre of mass.
+/// Returns the angles of hips and knees that bring the feet flat below the centre of mass.
 CharacterControl::LegPose CharacterControl::Gathered(const CharacterSense& s, float place,
                                                      float lead, float slope) const {
   const CharacterShape& shape = limbs_.shape();
@@ -86,13 +87,13 @@ CharacterControl::LegPose CharacterControl::Gathered(const CharacterSense& s, fl
       limbs_.GroundBelow(b2Vec2(x, s.centre.y + 0.2f * shape.hip), 1.5f * shape.hip);
   const float y = ground.found ? ground.point.y : s.hip.y - 0.5f * shape.hip;
   LegPose pose = PoseFor(b2Vec2(x, y + shape.ankle / std::cos(slope)) - s.hip);
-  // As of the joint: within half a turn of straight.
+  // As a joint's angle: within half a turn of straight.
   const float hip = pose.thigh - s.torso;
   pose.thigh = hip - 2 * b2_pi * std::round(hip / (2 * b2_pi));
   return pose;
 }
 
-/// On both soles with the body over them, however it came there.
+/// Returns true if the body is on both soles and balanced over them, in whatever way it came there.
 bool CharacterControl::Squats(const CharacterSense& s) const {
   const bool bears = s.legs[0].down && s.legs[1].down && !s.lying;
   const bool calm =
@@ -150,7 +151,7 @@ void CharacterControl::Rise(const CharacterSense& s, float h) {
   memory_.phase_time = 0;
 }
 
-/// Squatting over its feet: up, the torso leaning forward the more the deeper it is.
+/// Rises from a squat; the deeper the squat, the more the torso leans forward.
 void CharacterControl::Up(const CharacterSense& s) {
   const CharacterShape& shape = limbs_.shape();
   const float ground_y = std::min(s.legs[0].ankle.y, s.legs[1].ankle.y) - shape.ankle;

@@ -65,7 +65,7 @@ class CharacterStage : public Stage {
  private:
   const float tick_s_;
   std::vector<int> players_;
-  std::vector<std::vector<PartId>> parts_;  // of each
+  std::vector<std::vector<PartId>> parts_;  // of each character
   std::vector<CharacterControl> controls_;
 };
 

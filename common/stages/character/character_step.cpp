@@ -1,5 +1,5 @@
-/// CharacterControl: stepping. The pendulum says where the next foot is wished, the ground where it
-/// can stand, and the time of the step makes up for the difference.
+/// CharacterControl: stepping. The pendulum gives the desired foothold, the ground the possible
+/// ones, and the step's duration makes up for the difference.
 
 #include <algorithm>
 #include <cmath>
@@ -10,14 +10,14 @@
 namespace seam {
 namespace {
 
-/// m between looks at the ground ahead, and the rise from one to the next that is a stair's.
+/// m between samples of the ground ahead, and the rise between two samples that counts as a stair.
 constexpr float kScan = 0.05f, kRiser = 0.06f;
-/// m beside the wished foothold, where it looks for a flat one, and how many on either side.
+/// Distance from the desired foothold within which a flat one is searched, m, and samples per side.
 constexpr float kAsideMax = 0.32f;
 constexpr int kAsides = 8;
-/// Times of a step after which a foot that has not come past an edge goes down all the same.
+/// Step durations after which a foot that has not passed an edge goes down anyway.
 constexpr float kHoverMax = 1.5f;
-/// A height that holds nothing up, m.
+/// A height that never limits, m.
 constexpr float kNoHeight = -1e6f;
 
 float Smooth(float t) {
@@ -27,7 +27,7 @@ float Smooth(float t) {
 
 }  // namespace
 
-/// What is different where a stair is within reach.
+/// Returns the gait changes near a stair.
 CharacterControl::StairGait CharacterControl::Stairs() const {
   const CharacterGains& g = gains_;
   if (memory_.edge.x >= kNoEdge) return {g.run_speed_max, 1, 0, 0, 0, false};
@@ -51,8 +51,8 @@ void CharacterControl::BeginStep(const CharacterSense& s, int stance) {
   memory_.edge = EdgeAhead(s, memory_.from.x + limbs_.shape().toe);
 }
 
-/// The edge, on its far side, of the first stair up or down from `from_x` to where a foot can come;
-/// kNoEdge if none.
+/// Returns the edge, on its far side, of the first stair up or down from `from_x` within a foot's
+/// reach; kNoEdge if none.
 b2Vec2 CharacterControl::EdgeAhead(const CharacterSense& s, float from_x) const {
   const CharacterShape& shape = limbs_.shape();
   const float scale = limbs_.scale(), ground_y = s.legs[memory_.stance].ankle.y - shape.ankle;
@@ -79,7 +79,7 @@ b2Vec2 CharacterControl::EdgeAhead(const CharacterSense& s, float from_x) const 
   return b2Vec2(kNoEdge, 0);
 }
 
-/// Of the ankle, m: where the pendulum goes on at the wished speed.
+/// Returns the ankle's x, m, from which the pendulum continues at the desired speed.
 float CharacterControl::WishedFoothold(const CharacterSense& s, float support_x) const {
   const CharacterShape& shape = limbs_.shape();
   const LegSense& stance = s.legs[memory_.stance];
@@ -93,15 +93,15 @@ float CharacterControl::WishedFoothold(const CharacterSense& s, float support_x)
                     hip_then + gains_.reach_max * limbs_.scale());
 }
 
-/// m by which the divergent component is to be before the ankle of the next foot.
+/// Returns how far the divergent component must be ahead of the next foot's ankle, m.
 float CharacterControl::Ahead(float omega) const {
   const CharacterShape& shape = limbs_.shape();
   return memory_.speed * StepTime() / (std::exp(omega * StepTime()) - 1) +
          (shape.toe - shape.heel) / 2 + Stairs().ahead * limbs_.scale();
 }
 
-/// Whether heel and toe, and `rims` beyond them, are on one face of the ground; the foothold there
-/// in any case.
+/// Returns true if heel and toe, and `rims` beyond them, are on one face of the ground. Sets the
+/// foothold in either case.
 bool CharacterControl::FlatAt(const CharacterSense& s, float x, const Rims& rims,
                               Foothold* foothold) const {
   const CharacterShape& shape = limbs_.shape();
@@ -112,7 +112,7 @@ bool CharacterControl::FlatAt(const CharacterSense& s, float x, const Rims& rims
   const float heel_y = heel.found ? heel.point.y : ground_y;
   const float toe_y = toe.found ? toe.point.y : ground_y;
   const float length = shape.heel + shape.toe + rims.heel + rims.toe;
-  // One face: what its two ends say of its slope is also what its normal says.
+  // On one face, the slope between its two ends agrees with its normal.
   const bool flat = std::abs(toe_y - heel_y) < gains_.slope_max * length &&
                     (heel.normal - toe.normal).Length() < 0.3f &&
                     std::abs((toe_y - heel_y) * heel.normal.y + length * heel.normal.x) <
@@ -125,7 +125,7 @@ bool CharacterControl::FlatAt(const CharacterSense& s, float x, const Rims& rims
   return true;
 }
 
-/// Not across the edge of a stair, if there is room beside it.
+/// Returns the next foothold: not across the edge of a stair, if there is room beside it.
 CharacterControl::Foothold CharacterControl::NextFoothold(const CharacterSense& s,
                                                           float support_x) const {
   const float scale = limbs_.scale();
@@ -143,11 +143,11 @@ CharacterControl::Foothold CharacterControl::NextFoothold(const CharacterSense& 
   }
   if (flat) return next;
   const Foothold edge = next;
-  // Downstairs the heel keeps off the riser behind it, and toes may look over the next edge.
+  // Downstairs the heel keeps clear of the riser behind, and toes may overhang the next edge.
   const bool down = Stairs().down;
   const Rims rims{(down ? gains_.downstairs_heel : gains_.edge_rim) * scale,
                   (down ? gains_.downstairs_toe : gains_.edge_rim) * scale};
-  // The nearest of what lies beside it; one that was chosen before has a start.
+  // The nearest one beside it, with a preference for the previous choice.
   float nearest = kAsideMax * scale;
   bool found = false;
   for (int i = -kAsides; i <= kAsides; ++i) {
@@ -163,9 +163,9 @@ CharacterControl::Foothold CharacterControl::NextFoothold(const CharacterSense& 
   return found ? next : edge;
 }
 
-/// By how much faster than usual the step must be for the divergent component to be where it is
-/// wanted when the foot stands at `foothold_x`. After Khadiv and others, "Step Timing Adjustment: A
-/// Step toward Generating Robust Gaits", 2016.
+/// Returns how much faster than usual the step must be for the divergent component to be in place
+/// when the foot stands at `foothold_x`. After Khadiv and others, "Step Timing Adjustment: A Step
+/// toward Generating Robust Gaits", 2016.
 float CharacterControl::StepRate(const CharacterSense& s, float support_x, float foothold_x) const {
   const LegSense& stance = s.legs[memory_.stance];
   const float omega = Omega(s, stance.ankle.y - limbs_.shape().ankle);
@@ -177,12 +177,12 @@ float CharacterControl::StepRate(const CharacterSense& s, float support_x, float
   return std::clamp(left / needed, gains_.step_rate_min, gains_.step_rate_max);
 }
 
-/// Of the swinging foot, at `time` s: up, over, down to where it is to stand.
+/// Returns the swinging foot's path at `time` s: up, over, and down to its foothold.
 b2Vec2 CharacterControl::SwingAt(float time, const Foothold& to) const {
   const float whole = StepTime();
   const float t = time / whole;
   const b2Vec2 from = memory_.from;
-  // Onto a stair it goes up before it goes on.
+  // Onto a stair, the foot goes up before it goes forward.
   const float toe = to.ankle.x + limbs_.shape().toe + gains_.edge_before * limbs_.scale();
   const float above = memory_.edge.y + limbs_.shape().ankle - from.y;
   const bool edge = toe > memory_.edge.x && above > 0.5f * kRiser * limbs_.scale();
@@ -203,8 +203,9 @@ b2Vec2 CharacterControl::SwingAt(float time, const Foothold& to) const {
   return b2Vec2(x, y - late);
 }
 
-/// Of the ankle of a swinging foot, m: over the stair that its heel has not left yet. By where the
-/// foot is and not by the time: one that came late would come down on the edge, and turn over it.
+/// Returns the least height of the swinging ankle, m: above the stair that its heel has not left
+/// yet. Depends on the foot's position and not on time: a late foot would come down on the edge,
+/// and turn over it.
 float CharacterControl::LeastHeight(const CharacterSense& s, int side, const Foothold& to) const {
   const CharacterShape& shape = limbs_.shape();
   const float scale = limbs_.scale();
@@ -255,7 +256,7 @@ void CharacterControl::StepOn(const CharacterSense& s, float h) {
   const float ground_y = stance.ankle.y - shape.ankle;
   const float relative = s.velocity.x - stance.ground_velocity.x;
   const float middle = stance.ankle.x + (shape.toe - shape.heel) / 2;
-  // A sole that turns over its toes, over an edge, is pressed down by its heel.
+  // A sole that tips over its toes at an edge is pressed down at its heel.
   const float tipped = stairs.down ? gains_.downstairs_flat * std::min(0.0f, stance.foot) : 0;
   const float pressure =
       Sole(s, memory_.stance, middle + gains_.step_pressure * (relative - memory_.speed)).x +
@@ -266,7 +267,7 @@ void CharacterControl::StepOn(const CharacterSense& s, float h) {
   memory_.to = next.ankle.x;
   memory_.step += h * StepRate(s, support, next.ankle.x);
   Swing(s, swing_side, next);
-  // The height that the hip keeps is above the line from foot to foot.
+  // The hip keeps its height above the line from foot to foot.
   const b2Vec2 way = next.ankle - stance.ankle;
   const bool apart = std::abs(way.x) > 0.15f * shape.hip;
   const float rise = apart ? std::clamp(way.y / way.x, -gains_.slope_max, gains_.slope_max) : 0;

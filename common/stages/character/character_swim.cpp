@@ -1,6 +1,6 @@
-/// CharacterControl: swimming. What moves the body is the water's drag, nothing else: arms that
-/// turn, and a sine in each joint of arms and legs, as in Tan, Gu, Turk and Liu, "Articulated
-/// Swimming Creatures", 2011. The legs' skew keeps the torso's lean.
+/// CharacterControl: swimming. Only the water's drag moves the body: arms that turn, and a sine in
+/// each joint of arms and legs, as in Tan, Gu, Turk and Liu, "Articulated Swimming Creatures",
+/// 2011. The legs' mean angle keeps the torso's lean.
 
 #include <algorithm>
 #include <cmath>
@@ -11,18 +11,19 @@
 namespace seam {
 namespace {
 
-/// Phases of CharacterMode::kSwim; arms that right the torso before a stroke do so in each of the
-/// others.
+/// Phases of CharacterMode::kSwim; arms that right the torso before a stroke do so in both other
+/// phases.
 constexpr int kTreads = 0, kStrokes = 1, kRights = 2;
 
-/// Of a sine, `phase` in turns.
+/// Returns a sine, `phase` in turns.
 float Sine(float phase) { return std::sin(2 * b2_pi * (phase - std::floor(phase))); }
 
-/// -1 to 1 by a phase in turns: faster up than down by a `haste` of 0 to 1, slower by 0 to -1. Drag
-/// goes by the square of the speed, so what beats so pushes the water one way in the mean.
+/// Returns -1 to 1 by a phase in turns: faster up than down for a `haste` of 0 to 1, slower for 0
+/// to -1. Drag grows with the square of the speed, so such a beat pushes the water one way on
+/// average.
 float Scull(float phase, float haste) { return Sine(phase + haste * Sine(phase) / (2 * b2_pi)); }
 
-/// By so many turns; whole ones do not count.
+/// Advances by some turns, modulo whole turns.
 void TurnOn(float* turns, float by) {
   *turns += by;
   *turns -= std::floor(*turns);
@@ -30,7 +31,7 @@ void TurnOn(float* turns, float by) {
 
 }  // namespace
 
-/// m of the chest below the level of the water it is in; negative above it or without water.
+/// Returns the depth of the chest below the water's level, m; negative above it or without water.
 float CharacterControl::ChestDepth(const CharacterSense& s) const {
   const b2Vec2 chest = limbs_.Own(limbs_.body(kTorso)->GetPosition());
   const float x = character_.facing * chest.x;
@@ -42,7 +43,8 @@ float CharacterControl::ChestDepth(const CharacterSense& s) const {
   return depth;
 }
 
-/// m from the ground below the chest up to the water's level; large where no ground is near.
+/// Returns the height of the water's level over the ground below the chest, m; large without ground
+/// near.
 float CharacterControl::WaterOverGround(const CharacterSense& s) const {
   const b2Vec2 chest = limbs_.Own(limbs_.body(kTorso)->GetPosition());
   const float depth = ChestDepth(s);
@@ -50,7 +52,7 @@ float CharacterControl::WaterOverGround(const CharacterSense& s) const {
   return ground.found ? chest.y + depth - ground.point.y : 1000;
 }
 
-/// Legs that tread: upright, at rest.
+/// Returns the legs for treading water: upright, at rest.
 CharacterControl::Legs CharacterControl::TreadLegs(const CharacterSense& s, float leg) const {
   const CharacterGains& g = gains_;
   const float error = std::clamp(s.torso + g.tread_lean, -1.0f, 1.0f);
@@ -60,12 +62,12 @@ CharacterControl::Legs CharacterControl::TreadLegs(const CharacterSense& s, floa
           g.tread_ankle};
 }
 
-/// rad forward, of the torso while it strokes.
+/// Returns the torso's forward lean during a stroke, rad.
 float CharacterControl::StrokeLean(float share) const {
   return share < 0 ? gains_.swim_lean_back : gains_.swim_lean + share * gains_.swim_lean_more;
 }
 
-/// Legs that beat; `share` of the drive, negative backwards.
+/// Returns the legs for kicking; `share` of the drive, negative backwards.
 CharacterControl::Legs CharacterControl::BeatLegs(const CharacterSense& s, float leg,
                                                   float share) const {
   const CharacterGains& g = gains_;
@@ -87,7 +89,7 @@ void CharacterControl::PoseLegs(const Legs& tread, const Legs& beat, float share
   Pose(Ankle(side), mixed(tread.ankle, beat.ankle), gains_.swim_ankle);
 }
 
-/// Before a ledge, hands busy: legs alone keep the lean.
+/// Treads water in front of a ledge: with busy hands, the legs alone keep the lean.
 void CharacterControl::Tread(const CharacterSense& s) {
   const CharacterGains& g = gains_;
   const float error = std::clamp(s.torso + g.tread_lean, -1.0f, 1.0f);
@@ -96,14 +98,14 @@ void CharacterControl::Tread(const CharacterSense& s) {
   for (int side = 0; side < 2; ++side) PoseLegs(legs, legs, 0, side);
 }
 
-/// Turns per s of the arms that bring the torso back to its lean, from `error` rad beyond it: the
-/// water holds arms that turn, and what they push it with turns the torso the other way.
+/// Returns the arms' turns per s that bring the torso back to its lean, from `error` rad beyond it:
+/// the water resists turning arms, and the reaction turns the torso the other way.
 float CharacterControl::RightingHz(const CharacterSense& s, float error) const {
   const CharacterGains& g = gains_;
   return std::clamp(-g.right_turn * error - g.right_rate * s.torso_spin, -g.right_max, g.right_max);
 }
 
-/// Legs on their way to the stroke's middle, while the arms right the torso.
+/// Returns the legs between treading and the stroke's mean, while the arms right the torso.
 CharacterControl::Legs CharacterControl::ReadyLegs(const Legs& tread, float error,
                                                    float share) const {
   const CharacterGains& g = gains_;
@@ -115,12 +117,12 @@ CharacterControl::Legs CharacterControl::ReadyLegs(const Legs& tread, float erro
 
 void CharacterControl::Swim(const CharacterSense& s, float h) {
   const CharacterGains& g = gains_;
-  // The drive comes slowly, and the stroke with it: a sudden one turns the body over.
+  // The drive is ramped, and the stroke with it: a sudden one turns the body over.
   memory_.speed += std::clamp(drive_ - memory_.speed, -g.swim_ramp * h, g.swim_ramp * h);
   const float share = std::clamp(memory_.speed, -1.0f, 1.0f), size = std::abs(share);
   const float driven = std::min(size / g.swim_full, 1.0f);
-  // A stroke turns the body over from an unfit lean: then the arms right the torso first, further
-  // than the stroke's lean by what its beginning turns it back.
+  // From an unfit lean a stroke turns the body over: then the arms first right the torso, beyond
+  // the stroke's lean by as much as the stroke's beginning turns it back.
   const float off = s.torso + StrokeLean(share),
               lead = share < 0 ? -g.stroke_lead_back : g.stroke_lead;
   const float error = s.torso + g.tread_lean + driven * (off + lead - s.torso - g.tread_lean);
@@ -141,12 +143,12 @@ void CharacterControl::Swim(const CharacterSense& s, float h) {
   const float over = memory_.phase == kRights ? 1.0f : 0.0f;
   turned_over += std::clamp(over - turned_over, -h / g.stroke_fade, h / g.stroke_fade);
   const float swims = memory_.to * driven, rights = (1 - memory_.to) * driven;
-  // Drag goes by the square of the speed: the same stroke in reverse pushes the other way.
+  // Drag goes with the square of the speed: the same stroke in reverse pushes the other way.
   const float turning = g.swim_slow_hz + size * (g.swim_hz - g.swim_slow_hz);
-  // Who lies turned over at rest is righted by the arms, too.
+  // The arms also right a body that lies turned over at rest.
   const float turned = (1 - driven) * turned_over;
   const float rests = 1 - driven - turned, rights_all = rights + turned;
-  // At rest, arms sink to before and behind the torso.
+  // At rest, the arms sink to in front of and behind the torso.
   const float sinking = -g.arms_back * (memory_.phase_time - std::round(memory_.phase_time));
   const float hz = swims * (share < 0 ? -turning : turning) + rights_all * RightingHz(s, error) +
                    rests * sinking;
@@ -155,8 +157,8 @@ void CharacterControl::Swim(const CharacterSense& s, float h) {
   TurnOn(&memory_.phase_time, hz * h);
   TurnOn(&memory_.step, g.tread_hz * h);
   const float skew = rests * g.tread_arms_skew * std::clamp(error, -1.0f, 1.0f);
-  // Both arms at once, down fast and slowly up, which lifts the body; more the one towards which
-  // the torso falls, which brings it back.
+  // Both arms beat at once, fast down and slowly up, which lifts the body; the arm on the side of
+  // the torso's fall beats more, which brings the torso back.
   const float scull = g.tread_scull * Scull(memory_.step, g.tread_haste);
   const float tilt = g.tread_balance * error + g.tread_balance_rate * s.torso_spin;
   const float strength = g.swim_shoulder + rights_all * (g.right_shoulder - g.swim_shoulder) +
@@ -165,7 +167,7 @@ void CharacterControl::Swim(const CharacterSense& s, float h) {
   for (int side = 0; side < 2; ++side) {
     const float half = 0.5f * static_cast<float>(side);
     const float turn = memory_.phase_time - 0.25f + half;
-    // From overhead down before the body; at rest one before, one behind.
+    // From overhead down in front of the body; at rest, one in front and one behind.
     const float ahead = side == 0 ? 1.0f : -1.0f;
     const float beat = scull * std::clamp(1 - ahead * tilt, 0.0f, 2.0f);
     const float apart = 0.5f * b2_pi + rests * (g.tread_arms + beat - 0.5f * b2_pi);
@@ -179,7 +181,7 @@ void CharacterControl::Swim(const CharacterSense& s, float h) {
     const Legs tread = ReadyLegs(TreadLegs(s, memory_.step + half), error, ready);
     PoseLegs(tread, BeatLegs(s, turn, share), swims, side);
   }
-  // The face out of the water.
+  // Keeps the face out of the water.
   Pose(kNeck, std::clamp(-s.torso, -0.5f, 0.5f), g.neck_stiffness);
 }
 

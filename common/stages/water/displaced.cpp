@@ -12,7 +12,7 @@ namespace {
 /// Each of the four cuts adds at most one corner to a convex polygon.
 constexpr int kCornersMax = kCutCornersMax + 4;
 
-/// Keeps what has sign * (coordinate - limit) <= 0; returns the number of corners left.
+/// Keeps the points with sign * (coordinate - limit) <= 0; returns the number of corners left.
 int Cut(const Vec2d* in, int count, int axis, double limit, double sign, Vec2d* out) {
   int left = 0;
   for (int i = 0; i < count; ++i) {
@@ -20,7 +20,7 @@ int Cut(const Vec2d* in, int count, int axis, double limit, double sign, Vec2d* 
     const Vec2d& b = in[i + 1 < count ? i + 1 : 0];
     const double over_a = sign * (a[axis] - limit), over_b = sign * (b[axis] - limit);
     if (over_a <= 0) out[left++] = a;
-    // From the inner to the outer end, so that an edge is cut at the same bits from both sides.
+    // From the inner to the outer end, so that an edge is cut at identical bits from both sides.
     if ((over_a <= 0) == (over_b <= 0)) continue;
     const Vec2d& inner = over_a <= 0 ? a : b;
     const Vec2d& outer = over_a <= 0 ? b : a;
@@ -30,10 +30,10 @@ int Cut(const Vec2d* in, int count, int axis, double limit, double sign, Vec2d* 
   return left;
 }
 
-/// The part of a disc on the far side of a line at `depth` from its centre, -radius..radius: the
-/// greater the depth, the more. `towards`: unit, from the line into that part.
+/// Returns the part of a disc beyond a line at `depth` from its centre, -radius..radius: larger for
+/// a larger depth. `towards`: unit, from the line into that part.
 AreaMoments Segment(const Vec2d& centre, double radius, double depth, const Vec2d& towards) {
-  // Half the angle at which the chord is seen, and the same for what is left out.
+  // Half the angle subtended by the chord.
   const double chord = std::sqrt(std::max(0.0, radius * radius - depth * depth));
   const double half = std::atan2(chord, -depth);
   const double r2 = radius * radius;
@@ -41,7 +41,8 @@ AreaMoments Segment(const Vec2d& centre, double radius, double depth, const Vec2
   part.area = r2 * half + depth * chord;
   if (part.area <= 0) return {};
   // First moment along `towards` from the disc's centre, and second moment about the centre: a
-  // sector of 2 half has r^4 half / 2, the triangle of the chord and the centre the rest.
+  // sector of angle 2 half has r^4 half / 2, and the triangle of the chord and the centre adds the
+  // rest.
   const double first = 2 * chord * chord * chord / 3;
   const double about = r2 * r2 * half / 2 + depth * chord * (depth * depth / 2 + chord * chord / 6);
   const double arm = first / part.area;
@@ -63,7 +64,7 @@ AreaMoments DiscAsPolygon(const Vec2d& centre, double radius, const Bounds& boun
 }  // namespace
 
 AreaMoments AreaOf(const Vec2d* corners, int count) {
-  // Sums over the triangles that the first corner makes with each edge, as in mass.cpp.
+  // Sums over the triangles between the first corner and each edge, as in mass.cpp.
   double twice = 0, second = 0;
   Vec2d first{0, 0};
   for (int i = 1; i + 1 < count; ++i) {
@@ -102,7 +103,7 @@ AreaMoments AreaWithin(const Vec2d* corners, int count, const Bounds& bounds) {
 }
 
 AreaMoments DiscWithin(const Vec2d& centre, double radius, const Bounds& bounds) {
-  // How far inside of each side the centre lies.
+  // Depth of the centre inside each side.
   const double depths[4] = {bounds.max.y() - centre.y(), centre.y() - bounds.min.y(),
                             bounds.max.x() - centre.x(), centre.x() - bounds.min.x()};
   static const Vec2d kInwards[4] = {{0, -1}, {0, 1}, {-1, 0}, {1, 0}};

@@ -8,7 +8,7 @@
 namespace seam {
 namespace {
 
-/// Integral of cos^3 phi = r^3 / (r^2 + a^2)^(3/2) from 0 to `r`, odd in r.
+/// Returns the integral of cos^3 phi = r^3 / (r^2 + a^2)^(3/2) from 0 to `r`, odd in r.
 double SpanTo(double a, double r) {
   const double root = std::sqrt(r * r + a * a);
   const double span = (r * r + 2 * a * a) / root - 2 * a;

@@ -71,7 +71,8 @@ class PropellerStage : public Stage {
 
   const Thrust& Of(const Mounted& mounted) const { return world_.scene.thrusts[mounted.thrust]; }
 
-  /// One propeller in one water. It pushes at the middle of what of its disc is in the water.
+  /// Applies one propeller in one water. The force acts at the middle of the disc's part in the
+  /// water.
   void Turn(const Mounted& mounted, const Water& water, float h) {
     const Screw& screw = Of(mounted).screw;
     b2Body& body = *mounted.body;
@@ -91,7 +92,7 @@ class PropellerStage : public Stage {
         static_cast<double>(water.density) * static_cast<double>(water.drag_normal) / 2;
     const double turns = static_cast<double>(mounted.share) * static_cast<double>(screw.turns);
     const double speed = velocity.dot(along);
-    // No more than what ends the slip within the step: a light body would shake.
+    // At most the force that ends the slip within the step: a light body would shake.
     const double most = static_cast<double>(body.GetMass()) / static_cast<double>(h) *
                         std::fabs(turns * pitch - speed);
     const double thrust = std::clamp(PropellerThrust(screw, span, drag, turns, speed), -most, most);

@@ -32,7 +32,7 @@ AreaMoments DisplacedExactly(const WetPart& part, const FloatingBody& body, cons
   return AreaWithin(corners, count, water);
 }
 
-/// Each cell is under water by the share of its height that is below the level.
+/// Each cell is submerged by the share of its height below the level.
 AreaMoments DisplacedByCells(const WetCells& cells, const FloatingBody& body, const Bounds& water) {
   const double height = std::fabs(body.rotation.sine) * cells.size.x() +
                         std::fabs(body.rotation.cosine) * cells.size.y();
@@ -68,7 +68,7 @@ void WaterSum::AddLinear(const Eigen::Vector3d& row, double speed, double factor
   slope_ += factor * row * row.transpose();
 }
 
-/// factor * |speed| speed against `way` at `arm`.
+/// Adds factor * |speed| speed against `way` at `arm`.
 void WaterSum::Resist(const Vec2d& arm, const Vec2d& way, double speed, double factor) {
   const Eigen::Vector3d row(way.x(), way.y(), Cross(arm, way));
   const double strength = factor * std::fabs(speed);
@@ -83,11 +83,11 @@ void WaterSum::AddEdge(const WetEdge& edge, const Bounds& bounds, const Water& w
   const Vec2d middle = (from + to) / 2 - body_.centre, half = (to - from) / 2;
   const double length = 2 * half.norm(), rho = static_cast<double>(water.density) / 2;
 
-  // Along a straight edge of a rigid body the tangential speed is the same everywhere,
+  // Along a straight edge of a rigid body the tangential speed is constant,
   const double slip = Relative(middle, water).dot(along);
   Resist(middle, along, slip, rho * static_cast<double>(water.drag_tangent) * length);
 
-  // and the normal speed changes evenly: s in -1..1 from `from` to `to`, positive between a and b.
+  // and the normal speed is linear: s in -1..1 from `from` to `to`, positive between a and b.
   const double speed = Relative(middle, water).dot(normal);
   const double change = edge.arc ? 0 : body_.spin * Cross(half, normal);
   double a = -1, b = 1;
@@ -96,7 +96,7 @@ void WaterSum::AddEdge(const WetEdge& edge, const Bounds& bounds, const Water& w
   } else if (speed <= 0) {
     return;
   }
-  // Gauss's two points integrate the force, of second degree, and its torque, of third, exactly.
+  // Gauss's two points integrate the force (second degree) and its torque (third) exactly.
   const double factor = rho * static_cast<double>(water.drag_normal) * length * (b - a) / 4;
   for (const double sign : {-1.0, 1.0}) {
     const double s = (a + b) / 2 + sign * (b - a) / 2 * 0.57735026918962576;
@@ -134,8 +134,8 @@ Push WaterSum::Over(double h) const {
   Eigen::Matrix3d heavy = h * slope_;
   heavy.diagonal() += masses;
   const Eigen::Vector3d change = heavy.llt().solve(pushed);
-  // Of the step's push, what the drag gives: all but the others'; without the difference of large
-  // numbers, drag - K dv.
+  // The drag's share of the step's force: drag - K dv, which avoids the difference of large
+  // numbers.
   const Eigen::Vector3d drag = drag_ - slope_ * change;
   push.force += Vec2d(drag.x(), drag.y());
   push.torque += drag.z();

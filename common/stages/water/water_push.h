@@ -1,5 +1,5 @@
 #pragma once
-/// What water does to one body in one step: buoyancy, form drag, friction, viscosity. Pure
+/// Force of water on one body in one step: buoyancy, form drag, friction, viscosity. Pure
 /// arithmetic, for any engine.
 
 #include <Eigen/Core>
@@ -10,12 +10,12 @@
 
 namespace seam {
 
-/// A rigid body as water sees it.
+/// A rigid body in water.
 struct FloatingBody {
-  Vec2d position{0, 0};          ///< m; of the shape's frame
-  Rotation<double> rotation;     ///< by its angle
-  Vec2d centre{0, 0};            ///< m; of mass, in the world
-  Vec2d velocity{0, 0};          ///< m/s; of the centre of mass
+  Vec2d position{0, 0};          ///< m; origin of the shape's frame
+  Rotation<double> rotation;     ///< body's angle
+  Vec2d centre{0, 0};            ///< m; centre of mass, in the world
+  Vec2d velocity{0, 0};          ///< m/s; velocity of the centre of mass
   double spin = 0;               ///< rad/s
   double mass = 0, inertia = 0;  ///< kg, kg m^2 about the centre of mass
 
@@ -24,7 +24,7 @@ struct FloatingBody {
 
 Bounds BoundsOf(const Water& water);
 
-/// What the body displaces. `cells`: as the water's method wants them, else nullptr.
+/// Returns the displaced area. `cells`: as the water's method needs them, else nullptr.
 AreaMoments Displaced(const WetShape& shape, const WetCells* cells, const FloatingBody& body,
                       const Bounds& water);
 
@@ -33,12 +33,12 @@ struct Push {
   double torque = 0;  ///< N m
 };
 
-/// The sum of what bodies of water do to one body. With u the velocity of a point of the body
+/// Sum of the forces of several waters on one body. With u the velocity of a point of the body
 /// relative to the flow, n the edge's outward normal, t its direction and rho the density:
 ///
 ///   buoyancy    -rho * gravity * displaced area, at its centre
 ///   form drag   -rho/2 * drag_normal * (u.n)^2 n per length of wet edge where u.n > 0: pressure
-///               on what moves against the water, no suction behind it
+///               on edges that move against the water, no suction behind them
 ///   friction    -rho/2 * drag_tangent * |u.t| (u.t) t per length of wet edge
 ///   viscosity   -viscosity * u per displaced area
 ///
@@ -51,11 +51,11 @@ class WaterSum {
   void Add(const WetShape& shape, const WetCells* cells, const Water& water);
   bool empty() const { return empty_; }
 
-  /// Constant push over the next step of `h` s. Explicit drag is unstable for h > vt/g; this is
-  /// linearly implicit (Rosenbrock 1963, one stage): with M the masses, F all forces and K the
-  /// drag's slope by velocity, the change of velocity is (M + h K)^-1 h F. It never turns a
-  /// relative velocity round, never adds energy in still water, and is exact at terminal speed.
-  /// Joints and contacts are not in F.
+  /// Returns the constant force over the next step of `h` s. Explicit drag is unstable for h >
+  /// vt/g; this is linearly implicit (Rosenbrock 1963, one stage): with M the masses, F all forces
+  /// and K the drag's slope by velocity, the change of velocity is (M + h K)^-1 h F. Never reverses
+  /// a relative velocity, never adds energy in still water, and is exact at terminal speed. F
+  /// excludes joints and contacts.
   Push Over(double h) const;
 
  private:

@@ -9,11 +9,11 @@ namespace seam {
 namespace {
 
 /// Steps for which a new body, or one that was kinematic, may be in water without a contact: the
-/// engine finds the contacts of what becomes dynamic at the end of a step, and looks at them in the
-/// next.
+/// engine finds the contacts of a body that becomes dynamic at the end of a step, and processes
+/// them in the next.
 constexpr int kStepsUnseen = 2;
 
-/// A body's shape and cells, made when it first gets wet.
+/// A body's shape and cells, computed when it first gets wet.
 struct Wettable {
   WetShape shape;
   std::map<int, WetCells> cells;  // by their number
@@ -51,10 +51,10 @@ class WaterStage : public Stage {
   const StageWorld w_;
   b2Body* pool_ = nullptr;     // anchored, with one sensor for each water
   std::vector<int> touching_;  // fixtures in contact, by body and water
-  std::vector<int> wet_;       // bodies with any, ascending
+  std::vector<int> wet_;       // bodies in any water, ascending
   std::vector<Unseen> unseen_;
   std::vector<char> kinematic_;       // by body, after the last tick
-  std::uint64_t composition_ = 0;     // that the shapes below are of
+  std::uint64_t composition_ = 0;     // composition of the shapes below
   std::map<int, Wettable> wettable_;  // by body
 };
 
@@ -82,7 +82,7 @@ void WaterStage::Rebuilt(b2World* world) {
   for (std::size_t i = 0; i < kinematic_.size(); ++i) unseen_.push_back({static_cast<int>(i)});
 }
 
-/// The motions are set by now, and contacts are found before the next step.
+/// Motions are set by now, and contacts are found before the next step.
 void WaterStage::Placed() {
   NoteMotions();
   unseen_.clear();
@@ -134,7 +134,7 @@ Wettable& WaterStage::WettableOf(int body) {
   return wettable_[body] = std::move(made);
 }
 
-/// Whether something may hold the body against a flow: a joint, or a contact.
+/// Returns true if a joint or contact may hold the body against a flow.
 bool IsHeld(b2Body* body) {
   if (body->GetJointList() != nullptr) return true;
   for (const b2ContactEdge* edge = body->GetContactList(); edge != nullptr; edge = edge->next) {
@@ -158,7 +158,7 @@ FloatingBody AsFloating(const b2Body& b) {
           static_cast<double>(b.GetInertia()) - mass * local.dot(local)};
 }
 
-/// By the engine's boxes around fixtures.
+/// Returns true if the engine's boxes around the body's fixtures overlap any water.
 bool WaterStage::IsNear(b2Body* body) const {
   for (b2Fixture* fixture = body->GetFixtureList(); fixture != nullptr;
        fixture = fixture->GetNext()) {
@@ -175,7 +175,7 @@ void WaterStage::Push(int body, bool unseen, float h) {
   if (IsAside(*b) || b->GetType() != b2_dynamicBody || (unseen && !IsNear(b))) return;
   const auto in = [&](std::size_t i) { return unseen || Touching(body, i) > 0; };
   for (std::size_t i = 0; i < w_.scene.waters.size(); ++i) {
-    // What drifts too slowly for the engine must not fall asleep on its way.
+    // A body that drifts too slowly for the engine must not fall asleep on the way.
     if (in(i) && w_.scene.waters[i].flow != Vec2(0, 0) && !IsHeld(b)) b->SetAwake(true);
   }
   if (!b->IsAwake()) return;

@@ -10,9 +10,9 @@
 namespace seam {
 namespace {
 
-/// How far outside of an edge one looks for another part, and by how much less than that part
-/// counts larger than it is: faces up to 1.5 mm apart touch, and of two edges that lie on one
-/// another and face the same way neither covers the other. m
+/// Distance outside an edge at which another part is searched for, and growth of that part for the
+/// search, m. Faces up to 1.5 mm apart touch, and of two coincident edges that face the same way
+/// neither covers the other.
 constexpr double kLookOut = 1e-3, kLarger = 5e-4;
 /// Shorter pieces of edges are left out, m.
 constexpr double kEdgeMin = 2e-3;
@@ -38,7 +38,8 @@ std::vector<Vec2d> LocalCorners(const Part& part) {
   return corners;
 }
 
-/// From the end at points[1] about to the one at points[0], grown to the capsule's area.
+/// Returns the corners, from the end at points[1] around to the one at points[0], scaled to the
+/// capsule's area.
 std::vector<Vec2d> CapsuleCorners(const Part& part) {
   const Vec2d ends[2] = {part.points[1].cast<double>(), part.points[0].cast<double>()};
   const double radius = static_cast<double>(part.radius);
@@ -81,7 +82,8 @@ WetEdge EdgeOf(const Vec2d& from, const Vec2d& to, bool arc) {
   return {from, to, Vec2d(along.y(), -along.x()) / along.norm(), arc};
 }
 
-/// A circle's pieces are as long as its edge: they end outside of it.
+/// Returns the edges. The pieces of a circle have the total length of its edge, so their ends lie
+/// outside it.
 std::vector<WetEdge> EdgesOf(const WetPart& part) {
   std::vector<WetEdge> edges;
   if (part.disc) {
@@ -102,7 +104,7 @@ std::vector<WetEdge> EdgesOf(const WetPart& part) {
   return edges;
 }
 
-/// The span of the way from `from` to `to` that lies in the part; empty (first >= second) if none.
+/// Returns the span of the segment `from`..`to` inside the part; empty (first >= second) if none.
 Span SpanIn(const WetPart& part, const Vec2d& from, const Vec2d& to) {
   const Vec2d along = to - from;
   if (part.disc) {
@@ -128,7 +130,7 @@ Span SpanIn(const WetPart& part, const Vec2d& from, const Vec2d& to) {
   return span;
 }
 
-/// What `covered` leaves of an edge.
+/// Adds the pieces of an edge that `covered` leaves free.
 void AddUncovered(const WetEdge& edge, std::vector<Span> covered, std::vector<WetEdge>* out) {
   std::sort(covered.begin(), covered.end());
   covered.emplace_back(1, 1);

@@ -1,6 +1,7 @@
 #pragma once
-/// What of an assembly water can touch: its parts' outlines, its outer edges, and the cells of its
-/// bounding box. Made once per assembly, in the frame of its root part (the body's).
+/// The part of an assembly that water can touch: its parts' outlines, its outer edges, and the
+/// cells of its bounding box. Computed once per assembly, in the frame of its root part (the
+/// body's).
 
 #include <vector>
 
@@ -11,18 +12,18 @@
 namespace seam {
 
 /// The outline of one part: convex corners counter-clockwise, or a disc. A capsule is a polygon of
-/// its area, each end in kCapArcs pieces.
+/// equal area, with kCapArcs pieces at each end.
 struct WetPart {
   bool disc = false, capsule = false;
   std::vector<Vec2d> corners;  ///< m; disc: none
   double radius = 0;           ///< m; disc
   AreaMoments whole;
-  double reach = 0;  ///< m: nothing of it is farther from whole.centre
+  double reach = 0;  ///< m: largest distance from whole.centre
 };
 
-/// A piece of the outer edge. `arc`: stands for a piece of a circle, along which the normal turns.
+/// A piece of the outer edge. `arc`: represents a piece of a circle, along which the normal turns.
 struct WetEdge {
-  Vec2d from{0, 0}, to{0, 0};  ///< m; the solid is on the left of the way
+  Vec2d from{0, 0}, to{0, 0};  ///< m; the solid is on the left of the direction
   Vec2d normal{0, 1};          ///< unit, outwards
   bool arc = false;
 };
@@ -30,19 +31,20 @@ struct WetEdge {
 struct WetShape {
   std::vector<WetPart> parts;
   std::vector<WetEdge> edges;
-  Bounds box;          ///< m; of all parts
-  Vec2d centre{0, 0};  ///< m; of the box
-  double reach = 0;    ///< m: nothing is farther from the centre
+  Bounds box;          ///< m; bounding box of all parts
+  Vec2d centre{0, 0};  ///< m; centre of the box
+  double reach = 0;    ///< m: largest distance from the centre
 };
 
-/// A circle's edge, and the half circle at a capsule's end, are drawn with so many pieces.
+/// Number of pieces of a circle's edge, and of the half circle at a capsule's end.
 constexpr int kArcs = 24, kCapArcs = 12;
 
-/// Edges of one part that another of the same assembly touches or covers are left out: water does
-/// not get there. Parts that overlap displace twice what they share, as they weigh twice there.
+/// Builds the shape. Edges of one part that another part of the assembly touches or covers are left
+/// out: water does not get there. Overlapping parts displace their intersection twice, as they also
+/// weigh twice there.
 WetShape WetShapeOf(const Scene& scene, const Assembly& assembly);
 
-/// The shape cut into n x n cells of its box: what lies in each, row by row, empty ones left out.
+/// Pieces of the shape in n x n cells of its box, row by row, empty ones left out.
 struct WetCells {
   std::vector<AreaMoments> pieces;
   Vec2d size{0, 0};  ///< m; width and height of a cell
