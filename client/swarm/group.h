@@ -37,7 +37,7 @@ class Group {
   std::string Fatal() const;
   /// True if the server has closed the room of a member.
   bool Closed() const;
-  /// Counts the moving bodies, only for the members whose number is `part` modulo `parts`: each
+  /// Counts the moving bodies, only for the members with number `part` modulo `parts`: each
   /// member's bodies by its own copy, the server's by the first member of each room.
   MovingBodies Moving(std::size_t part, std::size_t parts) const;
   MemberFigures Figures() const;

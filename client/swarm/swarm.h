@@ -77,7 +77,7 @@ class Swarm {
   double measured_s_ = 0, cpu_s_ = 0;
 };
 
-/// Returns the room that a server shows a player, found by a spectator who leaves again at once.
+/// Returns the room that a server shows a player, found by a spectator that leaves again at once.
 /// Throws OperatorError if there is no answer within 10 s, or a refusal.
 Room AskForRoom(const Address& server, const std::string& room);
 

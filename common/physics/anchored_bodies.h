@@ -45,7 +45,7 @@ class AnchoredBodies {
   };
   /// Counts an anchored assembly, with a body of its own or not.
   void Count(const Assembly& assembly);
-  /// Returns the shared body for an assembly whose root is `root`.
+  /// Returns the shared body for the assembly with this root.
   const Body& For(const Part& root);
 
  private:

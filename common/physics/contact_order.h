@@ -10,7 +10,7 @@
 
 namespace seam {
 
-/// Finds the contacts of an engine whose shapes are all new, as its next step would, and adds them
+/// Finds the contacts of an engine with only new shapes, as its next step would, and adds them
 /// in that order.
 void FindContactsInOrder(b2World* world);
 

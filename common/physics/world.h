@@ -122,8 +122,9 @@ class World {
   /// Returns a stamp of a body that is absent and sleeps, 0 for any other body. The stamp changes
   /// whenever the body may have been moved or woken. Does not read the body itself.
   std::uint64_t still(int body) const;
-  /// Appends the bodies, possibly repeated, whose still() may have changed since last_change() was
-  /// `change`. False, with nothing appended, if that is longer ago than the log reaches.
+  /// Appends the bodies, possibly repeated, with a still() that may have changed since
+  /// last_change() was `change`. False, with nothing appended, if that is longer ago than the log
+  /// reaches.
   bool ChangedSince(std::uint64_t change, std::vector<int>* bodies) const;
   std::uint64_t last_change() const;
   /// Wakes the body or puts it to sleep. If the scene's solver has no sleep, dynamic bodies stay

@@ -37,7 +37,7 @@ struct BuiltScene {
   std::vector<b2Joint*> joints;    ///< by index into Scene::joints; nullptr: not made
   std::vector<Motor> motors;
   std::vector<b2DistanceJoint*> tethers;  ///< rigid distance joints and ropes to something anchored
-  /// Parts that collide as one shape, by the lowest of them, whose number the shape has.
+  /// Parts that collide as one shape, by the lowest of them, which numbers the shape.
   std::map<PartId, std::vector<PartId>> merged;
 };
 
