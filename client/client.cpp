@@ -15,25 +15,26 @@ namespace {
 constexpr std::int64_t kPingFastUs = 50000;  // until the clock has settled and the room started
 constexpr std::int64_t kPingSlowUs = 100000;
 constexpr std::int64_t kPingQuietUs = 1000000;  // while everything rests
-/// A ping of a quiet room that is not answered in its usual time and this is repeated, us: after
-/// the lease nobody would know who holds what.
+/// An unanswered ping of a quiet room is repeated after the usual round trip and this, us: after
+/// the lease nobody would know the authorities.
 constexpr std::int64_t kPingAgainUs = 50000;
-/// Its usual time is no longer than this, us, whatever the path or a stop of this process made of
-/// it: a second and a half of repeats fit into the lease.
+/// Upper limit of that usual round trip, us, whatever the path or a pause of this process made of
+/// it: then a second and a half of repeats fit into the lease.
 constexpr std::int64_t kUsualMaxUs = 500000;
 static_assert(kPingQuietUs + kUsualMaxUs <= kLeaseUs / 2,
               "one lost ping of a quiet room would end its lease");
-/// A neutral input that has been sent for so long, s, is known in spite of loss.
+/// A neutral input that has been sent for this long, s, has arrived in spite of loss.
 constexpr std::int64_t kInputKnownAfter = 2;
-/// Most ticks stepped in one call; further behind than kGiveUpTicks we rejoin.
+/// Most ticks stepped in one call. If further behind than kGiveUpTicks we rejoin.
 constexpr int kStepsMax = 20;
 constexpr std::int64_t kGiveUpTicks = 300;
-/// Who joins late waits for the world for so long after its last hello, us; then it begins with
-/// what it has.
+/// A late joiner waits this long after its last hello for all bodies' states, us; then it starts
+/// with those it has.
 constexpr std::int64_t kWorldWaitUs = 4000000;
-/// States older than the round trip and this are not the world as it is, us.
+/// States older than the round trip and this are not current, us.
 constexpr std::int64_t kWorldAgeUs = 250000;
-/// It begins up to 1 s / kCatchesUpPart ago, with what was told of then, and steps on to now.
+/// A late joiner starts up to 1 s / kCatchesUpPart ago, with the states of that time, and steps up
+/// to now.
 constexpr std::int64_t kCatchesUpPart = 4;
 /// Mode central: inputs should arrive this long before the server needs them, us.
 constexpr double kInputMarginUs = 35000;
@@ -55,9 +56,9 @@ void Client::Tick(std::int64_t now_us, std::int64_t cpu_us) {
     replica_->ReleaseAll();
     released_ = true;
   }
-  // What we let go of we do not take up again as the same session: the server may have given it on.
-  // Nor one whose welcome never came: the server may have had it and dropped it, and a Join of its
-  // number does not count again.
+  // A session that has released its mechanisms is not resumed: the server may have given them to
+  // others. Nor is one without a welcome: the server may have had it and dropped it, and another
+  // Join with its number is ignored.
   const bool lost = silence_us > kLostUs && (peer_ >= 0 || token_);
   if (lost || (peer_ >= 0 && released_ && silence_us < kLeaseUs)) {
     if (peer_ >= 0) ++rejoins_;
@@ -134,7 +135,7 @@ void Client::StartIfDue(std::int64_t now_us) {
   if (started_ || replica_ == nullptr || !clock_.settled() || !timeline_.known()) return;
   const std::int64_t time = RoomTime(now_us);
   if (time < 0) return;
-  // Within the first half second we were here from the start and only step a little late.
+  // Within the first half second we count as present from the start, only late in stepping.
   const std::int64_t tick = time * room_.tick_hz / 1000000;
   const bool late = tick > room_.tick_hz / 2;
   const bool waits = now_us - last_hello_us_ < kWorldWaitUs;
@@ -149,7 +150,7 @@ void Client::StartIfDue(std::int64_t now_us) {
   if (late) CatchUp(tick);
 }
 
-/// Nobody sees these ticks, nor hears of them.
+/// Steps without display; messages of these ticks are discarded.
 void Client::CatchUp(std::int64_t tick) {
   while (replica_->tick() < tick) replica_->Step();
   replica_->TakeStates();
@@ -194,7 +195,7 @@ void Client::NoteOwnInput() {
     case Drive::kBot: input = BotInput(room_.seed, player_, next, room_.tick_hz); break;
     case Drive::kLive: input = live_; break;
   }
-  // What is read for this tick acts in a later one; in those before the first, nobody drives.
+  // An input read for this tick acts in a later one; before the first of those, input is neutral.
   const std::int64_t acts = next + room_.input_delay_ticks;
   const InputTrack& track = replica_->inputs(player_);
   for (std::int64_t tick = std::max(next, track.newest() + 1); tick < acts; ++tick) {
@@ -230,7 +231,7 @@ bool Client::EditsWait() {
 void Client::SendInputs(std::int64_t now_us) {
   if (player_ < 0 || mode_ == Mode::kOracle || Quiet()) return;
   const InputTrack& track = replica_->inputs(player_);
-  // Where edits wait for everybody's inputs, who has nothing else to tell does not hold them up.
+  // Where edits wait for all players' inputs, an otherwise silent client must not delay them.
   const bool due = replica_->tick() % std::max(1, room_.tick_hz / room_.send_hz) == 0;
   const bool rides = link_->Sends(now_us) || (due && mode_ == Mode::kBuffer && EditsWait());
   const int count = feed_.Take(track, link_->acked(player_), replica_->tick(), rides);
@@ -283,7 +284,7 @@ void Client::PublishShown(std::int64_t now_us) {
 }
 
 std::int64_t Client::next_tick_us(std::int64_t now_us) {
-  // A hundredth of a second is often enough while joining; then as the timeline says.
+  // While joining, 10 ms is often enough; then the timeline decides.
   if (!started_) return now_us + 10000;
   const std::int64_t time = RoomTime(now_us);
   const std::int64_t next = (replica_->tick() + 1) * 1000000 / room_.tick_hz;
@@ -291,7 +292,7 @@ std::int64_t Client::next_tick_us(std::int64_t now_us) {
 }
 
 void Client::Flush(std::int64_t now_us) {
-  // Before the server has a session for us, nothing of a link means anything to it.
+  // Before the server has a session for us, it ignores datagrams of a link.
   if (link_->last_receive_us() < 0) return net_.Flush();
   link_->Flush(now_us, [&](ByteView datagram) {
     stats_.bytes_out += static_cast<std::int64_t>(datagram.size);
@@ -334,7 +335,7 @@ void Client::Shutdown(std::int64_t now_us) {
   Bye bye;
   bye.utime = now_us;
   bye.reason = "left";
-  for (int copy = 0; copy < 4; ++copy) {  // it may be lost, and nobody waits to repeat it
+  for (int copy = 0; copy < 4; ++copy) {  // may be lost, and is not retransmitted
     link_->SendUnreliable(Encode(bye));
     Flush(now_us);
   }

@@ -1,4 +1,4 @@
-/// Client, getting in: Hello, Challenge, Join, Welcome. See docs/protocol.md, "Joining".
+/// Client, joining: Hello, Challenge, Join, Welcome. See docs/protocol.md, "Joining".
 
 #include <cstdio>
 #include <variant>
@@ -10,15 +10,16 @@
 namespace seam {
 namespace {
 
-/// A Hello or Join that is not answered is repeated after this, us.
+/// An unanswered Hello or Join is repeated after this, us.
 constexpr std::int64_t kHelloUs = 100000;
 /// A refused join is repeated for this long, us.
 constexpr std::int64_t kInsistUs = 3000000;
 
-/// A server that does not say which names are free within this long never does, us.
+/// Time for the server to answer which names are free, us; older servers never do.
 constexpr std::int64_t kNamesUs = 1000000;
 
-/// One line with both versions when `reason` says that the server speaks another protocol; else "".
+/// Returns a line with both versions if `reason` says that the server speaks another protocol; else
+/// "".
 std::string OtherProtocol(const std::string& reason) {
   int theirs = 0, end = 0;
   const bool says =
@@ -86,9 +87,9 @@ void Client::SendLoose(const Bytes& message) {
 bool Client::OnHandshake(std::int64_t now_us, const Bytes& datagram) {
   DatagramHeader header;
   if (!ReadHeader(datagram, &header) || header.session != session_) return false;
-  // Once we are in, such a datagram is an answer that comes late.
+  // Once we have joined, such a datagram is a late answer.
   if (peer_ >= 0) return header.loose();
-  // Servers of older protocols refuse in a datagram with a number: it is not looked at.
+  // Servers of older protocols refuse in a numbered datagram: the number is ignored.
   const AnyMessage any = Decode(FirstUnreliable(datagram));
   if (const auto* challenge = std::get_if<Challenge>(&any)) {
     token_fresh_ = token_ != challenge->token;
@@ -103,7 +104,7 @@ bool Client::OnHandshake(std::int64_t now_us, const Bytes& datagram) {
 
 void Client::OnRefusal(std::int64_t now_us, const std::string& reason) {
   const std::string other = OtherProtocol(reason);
-  // Our own earlier session may still hold the name: insist for a while.
+  // Our own earlier session may still hold the name: retry for a while.
   if (refused_us_ < 0) refused_us_ = now_us;
   if (!other.empty()) {
     fatal_ = other;

@@ -1,4 +1,4 @@
-/// Client, incoming: the server is distrusted too.
+/// Client, incoming messages. The server is distrusted, too.
 
 #include <algorithm>
 #include <optional>
@@ -75,7 +75,7 @@ void Client::OnStates(const States& states) {
   }
 }
 
-/// Also what comes before the start is taken: the server counts on what has arrived.
+/// Unpacks states before the start, too: the server counts on those that have arrived.
 void Client::OnPacked(const PackedStates& packed) {
   const std::vector<States>* all = nullptr;
   if (scene_ != nullptr) {
@@ -123,7 +123,8 @@ void Client::OnPong(std::int64_t now_us, const Pong& pong) {
   }
 }
 
-/// The server waits for our word before it gives on what we had.
+/// Applies grants and confirms what we release: the server waits for that before it grants it to
+/// others.
 void Client::OnGrants(std::int64_t now_us, const Grants& grants) {
   if (replica_ == nullptr || released_) return;
   Release release;
@@ -151,7 +152,7 @@ void Client::TellReleaseOfAll(std::int64_t now_us) {
     release.mechanism.push_back(table.id(m));
     release.epoch.push_back(table.at(m).epoch);
   }
-  // One is as good as all of them: the server takes everything back.
+  // One message is enough: on it the server takes everything back.
   if (!release.mechanism.empty()) link_->SendUrgent(Encode(release));
 }
 
@@ -161,7 +162,7 @@ void Client::OnEdit(const EditOrder& order) {
     if (!released_ && !replica_->Queue(order)) ++stats_.dropped_stale;
     return;
   }
-  // Our composition was not the room's: begin with the scene, everything else follows.
+  // Our composition differed from the room's: start again from the scene; the rest follows.
   MakeReplica();
 }
 
@@ -196,14 +197,14 @@ void Client::MakeReplica(const Topology* become) {
   replica_ = std::make_unique<Replica>(topology, sync, peer_, player_);
   replica_->OnCorrected([this](int) { ++corrections_; });
   if (before == nullptr) return;
-  // What is known of inputs stays known: our own of the next ticks may have been sent, and nobody
-  // repeats what we acknowledged.
+  // Keep all known inputs: our own of the next ticks may have been sent, and others do not repeat
+  // the inputs that we acknowledged.
   for (int p = 0; p < static_cast<int>(scene_->players.size()); ++p) {
     replica_->NoteInputs(before->inputs(p).Export(p, InputTrack::kKeepTicks));
   }
   if (!started_) return;
   replica_->StartAt(before->tick());
-  replica_->GoOnFrom(before->world());  // nobody is shown where the scene began
+  replica_->GoOnFrom(before->world());  // so that the start of the scene is not displayed
 }
 
 void Client::OnChunk(std::int64_t now_us, const Chunk& chunk) {

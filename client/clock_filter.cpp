@@ -14,8 +14,8 @@ void ClockFilter::AddSample(std::int64_t sent_us, std::int64_t server_us,
   window_[static_cast<std::size_t>(samples_ % kWindow)] = s;
   ++samples_;
   const auto count = static_cast<std::size_t>(std::min<std::int64_t>(samples_, kWindow));
-  // The least-delayed samples err least (NTP's clock filter, RFC 5905 section 10): the mean of the
-  // best quarter, because with symmetric jitter the single best is noisy.
+  // The least-delayed samples are the most accurate (NTP's clock filter, RFC 5905 section 10). This
+  // takes the mean of the best quarter, because with symmetric jitter the single best is noisy.
   std::array<Sample, kWindow> sorted = window_;
   std::sort(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count),
             [](const Sample& a, const Sample& b) {

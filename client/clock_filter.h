@@ -1,6 +1,6 @@
 #pragma once
-/// Learns the server's clock from pings: believes the least-delayed answers, and once settled
-/// changes its mind only slowly, so that simulated time never jumps.
+/// Estimates the server's clock from pings: trusts the least-delayed answers and, once settled,
+/// slews only slowly, so that simulated time never jumps.
 
 #include <array>
 #include <cstdint>
@@ -9,22 +9,22 @@ namespace seam {
 
 class ClockFilter {
  public:
-  /// A ping sent at `sent_us` (our clock) was answered at `server_us` (its clock) and the answer
-  /// came at `received_us` (our clock). Nonsense (received before sent) is ignored.
+  /// Adds a ping sent at `sent_us` (our clock), answered at `server_us` (the server's clock) and
+  /// received at `received_us` (our clock). Ignores samples received before they were sent.
   void AddSample(std::int64_t sent_us, std::int64_t server_us, std::int64_t received_us);
 
-  /// Enough samples to start with.
+  /// True if there are enough samples to start with.
   bool settled() const { return samples_ >= kSettleSamples; }
 
-  /// The server's clock at our `now_us`. Once settled it never runs backwards while now_us grows:
-  /// it slews towards the best estimate by at most kSlewPpm (kSlewFarPpm when far off).
+  /// Returns the server's clock at our `now_us`. Once settled it never runs backwards while now_us
+  /// grows: it slews towards the best estimate by at most kSlewPpm (kSlewFarPpm when far off).
   std::int64_t ServerTime(std::int64_t now_us);
 
-  /// Least round trip in the window; -1 before the first sample.
+  /// Returns the least round trip in the window; -1 before the first sample.
   std::int64_t rtt_min_us() const;
-  /// Round trip that 9 of 10 samples of the window stay below; -1 before the first sample.
+  /// Returns the 90th percentile of round trips in the window; -1 before the first sample.
   std::int64_t rtt_p90_us() const;
-  /// What is still to be slewed, us.
+  /// Returns the offset still to be slewed, us.
   std::int64_t pending_us() const { return static_cast<std::int64_t>(target_ - offset_); }
 
   static constexpr int kSettleSamples = 8;
@@ -38,7 +38,7 @@ class ClockFilter {
   };
   std::array<Sample, kWindow> window_{};
   std::int64_t samples_ = 0;
-  double target_ = 0;  // best estimate of server minus ours, us
+  double target_ = 0;  // best estimate of the server's clock minus ours, us
   double offset_ = 0;  // in use, us
   bool used_ = false;
   std::int64_t last_now_us_ = 0;

@@ -1,5 +1,5 @@
 #pragma once
-/// Makes this process as slow as a slower machine would be.
+/// Slows this process down to the speed of a slower machine.
 
 #include <time.h>
 
@@ -9,10 +9,10 @@ namespace seam {
 
 class CpuThrottle {
  public:
-  /// `factor`: how many times slower, at least 1.
+  /// `factor`: slowdown, at least 1.
   explicit CpuThrottle(double factor) : factor_(factor), until_now_us_(CpuUs()) {}
 
-  /// Sleeps for as long as a slower machine would still compute what was done since the last call.
+  /// Sleeps for the extra time that a slower machine would need for the work since the last call.
   void Slow() {
     const auto more = static_cast<double>(CpuUs() - until_now_us_) * (factor_ - 1);
     if (more >= 1) {

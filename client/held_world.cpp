@@ -22,7 +22,8 @@ void HeldWorld::Clear() {
   room_ = kRoomMin;
 }
 
-/// What told of rest is said once and stays. Doubles the room, so that this is done seldom.
+/// Drops outdated states. Messages of rest stay, because they are sent once. Doubles the room, so
+/// that this is done seldom.
 void HeldWorld::LetGo() {
   std::map<std::int32_t, std::int64_t> newest;
   for (const Message& message : held_) {
@@ -71,7 +72,7 @@ std::int64_t HeldWorld::TickOf(const World& world, std::int64_t oldest, std::int
   const auto composition = static_cast<std::int64_t>(world.composition().hash);
   struct Heard {
     std::int64_t first = std::numeric_limits<std::int64_t>::max(), newest = -1;
-    bool rests = false;  // by the newest
+    bool rests = false;  // according to the newest
   };
   std::map<int, Heard> heard;
   const auto note = [&](const auto& message, bool rests) {
@@ -95,8 +96,8 @@ std::int64_t HeldWorld::TickOf(const World& world, std::int64_t oldest, std::int
   return std::min(now, std::max(tick, least));
 }
 
-/// Of what is not after its tick the newest first: what a body was before, whether it moved or lay,
-/// is no news of it then. What lay after a tick lies so in that tick, too.
+/// First passes the messages up to the replica's tick, the newest first, because the replica
+/// ignores older ones. A later message of rest is valid at the replica's tick, too.
 void HeldWorld::GiveTo(Replica& replica) const {
   std::vector<const Message*> all;
   for (const Message& message : held_) all.push_back(&message);

@@ -49,9 +49,9 @@ void KeyFile::Close() {
   fd_ = -1;
 }
 
-/// No file is no error without O_CREAT; anything else that is no file is.
+/// Opens the file. A missing file is an error only with O_CREAT; anything but a file always is.
 void KeyFile::Open(int more_flags) {
-  // Without O_NONBLOCK a FIFO would keep us waiting for a writer.
+  // Without O_NONBLOCK a FIFO would block until it has a writer.
   fd_ = open(path_.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC | more_flags, 0600);
   if (fd_ >= 0 || (errno == ENOENT && more_flags == 0)) return;
   Refuse(path_, errno == ELOOP ? "is a symbolic link" : std::strerror(errno));

@@ -1,6 +1,6 @@
 #pragma once
-/// The key of a player's place, kept in a file that nobody else may read, so that the player has
-/// the place back after a restart.
+/// Keeps the key of a player's place in a private file, so that the player gets the place back
+/// after a restart.
 
 #include <cstdint>
 #include <string>
@@ -9,18 +9,18 @@ namespace seam {
 
 class KeyFile {
  public:
-  /// Reads the file if it is there. Throws OperatorError when it is not a plain file of ours that
-  /// nobody else may touch, holds something else than a key, or could not be created; a symbolic
-  /// link is not followed.
+  /// Reads the file if it exists. Throws OperatorError if it is not a plain file of ours without
+  /// access for others, does not contain a key, or could not be created. Does not follow symbolic
+  /// links.
   explicit KeyFile(const std::string& path);
   ~KeyFile();
   KeyFile(const KeyFile&) = delete;
   KeyFile& operator=(const KeyFile&) = delete;
 
-  /// What was read or written last; 0: none.
+  /// Returns the key that was read or written last; 0: none.
   std::int64_t key() const { return key_; }
-  /// Creates the file (mode 0600) if need be; then too nothing is followed or taken over. Throws
-  /// OperatorError when it cannot be written.
+  /// Creates the file (mode 0600) if need be, without following links or overwriting anything.
+  /// Throws OperatorError if it cannot be written.
   void Write(std::int64_t key);
 
  private:

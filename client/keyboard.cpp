@@ -52,7 +52,7 @@ Input Keyboard::Poll(std::int64_t now_us) {
   char keys[64];
   const ssize_t count = read(0, keys, sizeof keys);
   for (ssize_t i = 0; i < count; ++i) Press(keys[i], now_us);
-  pollfd terminal{0, 0, 0};  // reports a hang-up unasked; read() alone says 0 for that too
+  pollfd terminal{0, 0, 0};  // reports a hang-up unasked; read() alone returns 0 for that, too
   if (poll(&terminal, 1, 0) > 0) quit_ = true;
   Input input;
   input.drive =

@@ -8,18 +8,18 @@
 
 namespace seam {
 
-/// Puts the terminal into raw mode while it lives. Terminals tell of key presses only, not of
-/// releases: a key counts as held until kHoldUs after its last repetition.
+/// Puts the terminal into raw mode while it lives. Terminals report key presses only, no releases:
+/// a key counts as held until kHoldUs after its last repetition.
 class Keyboard {
  public:
-  /// Throws OperatorError when standard input is not a terminal.
+  /// Throws OperatorError if standard input is not a terminal.
   Keyboard();
   ~Keyboard();
   Keyboard(const Keyboard&) = delete;
   Keyboard& operator=(const Keyboard&) = delete;
 
-  /// Reads what was typed and returns the state of the controls. `q`, Ctrl-C and a terminal that
-  /// is closed set quit().
+  /// Reads the keys typed and returns the state of the controls. `q`, Ctrl-C and the closing of the
+  /// terminal set quit().
   Input Poll(std::int64_t now_us);
   bool quit() const { return quit_; }
   int fd() const { return 0; }
@@ -33,7 +33,7 @@ class Keyboard {
   std::unique_ptr<Saved> saved_;
   std::int64_t right_us_ = 0, left_us_ = 0, up_us_ = 0, down_us_ = 0;
   std::int64_t button_us_[10] = {};
-  int escape_ = 0;  // bytes of an arrow's ESC [ or ESC O that have come
+  int escape_ = 0;  // number of bytes received of an arrow's ESC [ or ESC O
   bool quit_ = false;
 };
 

@@ -35,7 +35,7 @@ void LoadMeter::Note(std::int64_t now_us, std::int64_t cpu_us, int ticks, std::i
 bool LoadMeter::TooLate(double tick_us) const {
   if (2 * late_ <= calls_) return false;
   const double much = kLateTicks * tick_us, trend = kTrend * tick_us;
-  if (first_.calls == 0 || second_.calls == 0) {  // hardly any: there is no trend
+  if (first_.calls == 0 || second_.calls == 0) {  // too few calls for a trend
     return static_cast<double>(first_.late_us + second_.late_us) > much * calls_;
   }
   const double later = second_.mean() - first_.mean();

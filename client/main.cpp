@@ -119,17 +119,17 @@ ClientConfig Configure(const Flags& f) {
   return config;
 }
 
-/// What the keyboard does.
+/// Help for the keyboard.
 const char* const kKeys = "keys: arrows or WASD drive and lift, space and 0-9 press, q quits";
 
-/// "10", "0.5".
+/// Formats a number: "10", "0.5".
 std::string Seconds(double seconds) {
   char text[32];
   std::snprintf(text, sizeof text, "%g", seconds);
   return text;
 }
 
-/// "ann: 12 s, peer 1, round trip 100 ms, loss 1.0 %, 12 corrections, 0 rejoin(s)".
+/// Returns "ann: 12 s, peer 1, round trip 100 ms, loss 1.0 %, 12 corrections, 0 rejoin(s)".
 std::string Progress(const Flags& f, const Client& client, double elapsed_s) {
   char line[160];
   std::snprintf(

@@ -1,6 +1,6 @@
 #pragma once
-/// Scenes that the clients of one thread have been sent: those of one room are sent the same text,
-/// and it is read, and checked, once for all of them.
+/// Cache of scenes for the clients of one thread: clients of one room receive the same text, which
+/// is parsed and checked once for all of them.
 
 #include <memory>
 #include <string>
@@ -12,7 +12,8 @@ namespace seam {
 
 class SceneShelf {
  public:
-  /// ParseScene, for as long as somebody has it the same one. Throws OperatorError likewise.
+  /// Parses like ParseScene; returns the same scene as long as it is in use. Throws OperatorError
+  /// likewise.
   std::shared_ptr<const Scene> Of(const std::string& text, const std::string& file_name);
 
  private:

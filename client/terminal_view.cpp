@@ -19,7 +19,8 @@ constexpr int kGroundColour = 250;
 constexpr float kFar = 30000;  // m; no brick is further away
 constexpr int kColumnsMax = 400, kRowsMax = 200;
 
-/// A braille cell is about twice as high as wide and has 2 by 4 dots: dots are square.
+/// Maps the world to dots. A braille cell is about twice as high as wide and has 2 by 4 dots, so
+/// that dots are square.
 struct View2 {
   Vec2 centre{0, 0};
   float dots_per_m = 1;
@@ -31,7 +32,7 @@ struct View2 {
   }
 };
 
-/// A part's outline in its own frame; whether it closes.
+/// Returns a part's outline in its own frame; `closed`: the last point is joined to the first.
 std::vector<Vec2> OutlineOf(const Part& part, bool* closed) {
   *closed = !IsLine(part.kind);
   const auto round = [](const Vec2& centre, float radius, std::vector<Vec2>* points) {
@@ -44,7 +45,7 @@ std::vector<Vec2> OutlineOf(const Part& part, bool* closed) {
   if (part.kind == ShapeKind::kCircle) {
     round({0, 0}, part.radius, &points);
     points.push_back({part.radius, 0});
-    points.push_back({0, 0});  // a spoke, so that it is seen to turn
+    points.push_back({0, 0});  // a spoke, so that rotation is visible
   } else if (part.kind == ShapeKind::kCapsule) {
     for (const Vec2& end : part.points) round(end, part.radius, &points);
   } else if (part.kind == ShapeKind::kBox) {
@@ -56,7 +57,7 @@ std::vector<Vec2> OutlineOf(const Part& part, bool* closed) {
   return points;
 }
 
-/// Where a part is shown, and who has it; -1: it is anchored.
+/// A part's displayed pose and its authority; -1: anchored.
 struct ShownPart {
   Vec2 position{0, 0};
   Rotation<float> rotation;
@@ -93,13 +94,13 @@ View2 Camera2(const Client& client, const View& view, const BrailleCanvas& canva
   if (vehicle < 0) return camera;
   const Part& part = scene.parts[static_cast<std::size_t>(vehicle)];
   if (!FindShown(world, view, part, &own)) return camera;
-  // A third of what the scene's camera shows, about the own vehicle.
+  // A third of the scene's camera, around the own vehicle.
   camera.centre = own.position + Vec2(0, 0.1f * size.y());
   camera.dots_per_m *= 3;
   return camera;
 }
 
-/// As they were at first: holes that were blown since are not seen.
+/// Draws the bricks of the scene, without the holes blown since.
 void DrawBricks(const FeatherStore& bricks, const View2& camera, BrailleCanvas* canvas) {
   const Vec2 half = Vec2(static_cast<float>(camera.width), static_cast<float>(camera.height)) /
                     (2 * camera.dots_per_m);
@@ -130,7 +131,7 @@ BrailleCanvas::BrailleCanvas(int columns, int rows)
 
 void BrailleCanvas::Dot(int x, int y, int colour) {
   if (x < 0 || y < 0 || x >= width() || y >= height()) return;
-  // Unicode's order of the dots of a cell: down the left, down the right, then the lowest two.
+  // Unicode's order of a cell's dots: down the left, down the right, then the lowest two.
   constexpr std::uint8_t kBits[4][2] = {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
   Cell& cell = cells_[static_cast<std::size_t>((y / 4) * columns_ + x / 2)];
   cell.dots = static_cast<std::uint8_t>(cell.dots | kBits[y % 4][x % 2]);
@@ -138,7 +139,7 @@ void BrailleCanvas::Dot(int x, int y, int colour) {
 }
 
 void BrailleCanvas::Line(Vec2 from, Vec2 to, int colour) {
-  // Cut at the canvas first (Liang and Barsky): lines of the ground are kilometres long.
+  // Clip to the canvas first (Liang and Barsky): lines of the ground are kilometres long.
   const Vec2 way = to - from;
   float begin = 0, end = 1;
   const float limits[2] = {static_cast<float>(width()), static_cast<float>(height())};
@@ -208,7 +209,7 @@ void DrawInTerminal(const Client& client, const FeatherStore* bricks, BrailleCan
 
 namespace {
 
-/// A line that is wrapped would push the picture up.
+/// Cuts a line, because a wrapped one would push the picture up.
 std::string CutTo(const std::string& line, int columns) {
   return line.substr(0, static_cast<std::size_t>(std::max(0, columns - 1)));
 }

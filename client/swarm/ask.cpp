@@ -1,4 +1,4 @@
-/// Before a swarm joins: what is the room?
+/// Asks a server for its room before a swarm joins.
 
 #include "client/swarm/swarm.h"
 #include "common/base/check.h"

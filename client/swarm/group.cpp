@@ -18,7 +18,7 @@ namespace {
 
 /// The longest stay in Run, us.
 constexpr std::int64_t kRunUs = 100000;
-/// Sockets looked at in one call of the system.
+/// Sockets reported by one system call.
 constexpr int kEvents = 256;
 
 }  // namespace
@@ -42,7 +42,7 @@ void Group::Add(ClientConfig config, bool first_of_room) {
   }
 }
 
-/// Until a socket is readable. Not by epoll_wait itself: that counts in milliseconds.
+/// Sleeps until a socket is readable. Not by epoll_wait itself, which counts in milliseconds.
 void Group::Sleep(std::int64_t us) const {
   pollfd watched{epoll_, POLLIN, 0};
   timespec timeout{};
@@ -65,8 +65,8 @@ std::int64_t Group::TickDue(std::int64_t* cpu_us) {
   return *std::min_element(due_us_.begin(), due_us_.end());
 }
 
-/// Who is due comes before who has mail: it reads its own, and each call costs as much as many
-/// datagrams, since what it needs has left the processor's caches meanwhile.
+/// Steps due members before those with datagrams: a due one reads its own, and a call costs as much
+/// as many datagrams, since the member's data has left the processor's caches meanwhile.
 void Group::Run(std::int64_t until_us) {
   const std::int64_t end_us = std::min(until_us, SteadyClockUs() + kRunUs);
   std::array<epoll_event, kEvents> events{};
@@ -80,7 +80,7 @@ void Group::Run(std::int64_t until_us) {
     const int ready = epoll_wait(epoll_, events.data(), kEvents, 0);
     for (int i = 0; i < ready; ++i) {
       now_us = SteadyClockUs();
-      if (now_us >= due_us) break;  // the rest of the mail waits
+      if (now_us >= due_us) break;  // remaining datagrams wait
       TickOne(events[static_cast<std::size_t>(i)].data.u64, now_us, &cpu_us);
     }
   }

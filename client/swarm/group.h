@@ -1,5 +1,6 @@
 #pragma once
-/// The members of a swarm that one thread runs: it sleeps until a datagram comes or a tick is due.
+/// The members of a swarm that one thread runs. The thread sleeps until a datagram arrives or a
+/// tick is due.
 
 #include <cstdint>
 #include <memory>
@@ -19,24 +20,25 @@ class Group {
   Group(const Group&) = delete;
   Group& operator=(const Group&) = delete;
 
-  /// One more member; of `first_of_room` Moving asks what the server has. Throws OperatorError when
-  /// there are no more sockets to be had.
+  /// Adds a member; if `first_of_room`, Moving counts the server's bodies by its copy. Throws
+  /// OperatorError if there are no more sockets.
   void Add(ClientConfig config, bool first_of_room);
   const std::vector<std::unique_ptr<Member>>& members() const { return members_; }
 
-  /// Runs until `until_us` (SteadyClockUs), or for at most 100 ms: the caller looks in between.
+  /// Runs until `until_us` (SteadyClockUs), but at most 100 ms, so that the caller can check for
+  /// results.
   void Run(std::int64_t until_us);
-  /// All say goodbye.
+  /// Says goodbye for all members.
   void Leave(std::int64_t now_us);
 
-  /// Members that simulate.
+  /// Returns the number of members that simulate.
   int running() const;
-  /// Name and reason of the first that was refused or was sent something it cannot use; "": none.
+  /// Returns name and reason of the first member with a fatal error; "": none.
   std::string Fatal() const;
-  /// Whether the server has closed the room of one of them.
+  /// True if the server has closed the room of a member.
   bool Closed() const;
-  /// What moves now: of each member's bodies by its own copy, of the server's by the copy of the
-  /// first of each room. Of the members whose number is `part` of `parts` only.
+  /// Counts the moving bodies, only for the members with number `part` modulo `parts`: each
+  /// member's bodies by its own copy, the server's by the first member of each room.
   MovingBodies Moving(std::size_t part, std::size_t parts) const;
   MemberFigures Figures() const;
   void Forget();
@@ -44,13 +46,13 @@ class Group {
  private:
   void Sleep(std::int64_t us) const;
   void TickOne(std::size_t member, std::int64_t now_us, std::int64_t* cpu_us);
-  /// Steps whoever is due; says when the next one will be.
+  /// Steps the members that are due; returns the next due time.
   std::int64_t TickDue(std::int64_t* cpu_us);
 
   SceneShelf scenes_;  // outlives the members
   std::vector<std::unique_ptr<Member>> members_;
   std::vector<bool> first_of_room_;   // by member
-  std::vector<std::int64_t> due_us_;  // the same: when it is due
+  std::vector<std::int64_t> due_us_;  // by member
   int epoll_ = -1;
 };
 

@@ -1,6 +1,5 @@
 #pragma once
-/// Of the bodies that move in a room: how many its clients simulate, each those it has authority
-/// over, and how many are left to the server.
+/// Counts a room's moving bodies by authority: those of each client, and the server's.
 
 #include <vector>
 
@@ -9,8 +8,8 @@
 namespace seam {
 
 struct MovingBodies {
-  double held = 0;    ///< by clients
-  double server = 0;  ///< by the server
+  double held = 0;    ///< with a client's authority
+  double server = 0;  ///< with the server's authority
   double share() const { return held + server > 0 ? held / (held + server) : 0; }
   void Add(const MovingBodies& other) {
     held += other.held;
@@ -18,7 +17,7 @@ struct MovingBodies {
   }
 };
 
-/// Moving bodies that `peer` (0: the server) has authority over, as this copy shows them.
+/// Returns the number of moving bodies under the authority of `peer` (0: the server), in this copy.
 int MovingHeld(const Replica& replica, int peer);
 
 }  // namespace seam

@@ -50,7 +50,7 @@ void Define(CLI::App& app, Flags& f) {
   app.add_flag("--quiet", f.quiet, "no progress line");
 }
 
-/// "60s", "5m", "90": seconds.
+/// Parses "60s", "5m", "90" into seconds.
 double Seconds(const std::string& text) {
   std::size_t used = 0;
   double seconds = -1;
@@ -93,10 +93,10 @@ void Doze() {
   nanosleep(&moment, nullptr);
 }
 
-/// Until those who have waited for others to join have caught up, us.
+/// Time for members that have waited for others to catch up, us.
 constexpr std::int64_t kSettleUs = 1000000;
 
-/// Waits until all simulate. False: stopped by a signal.
+/// Waits until all clients simulate. False if stopped by a signal.
 bool WaitUntilJoined(const Flags& f, const Swarm& swarm, ProgressLine* line) {
   const std::int64_t begin_us = SteadyClockUs();
   while (swarm.running() < f.clients) {

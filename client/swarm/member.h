@@ -1,6 +1,6 @@
 #pragma once
-/// One of a swarm: a real Client on a socket of its own, without bus, view and smoother, and what
-/// it took to run it.
+/// A member of a swarm: a real Client on its own socket, without bus, view and smoother, and the
+/// cost of running it.
 
 #include <cstdint>
 
@@ -10,24 +10,24 @@
 
 namespace seam {
 
-/// What was counted of one member, or of several together.
+/// Measurements of one member, or of several together.
 struct MemberFigures {
-  DurationHistogram late;       ///< of each tick: how long after it was due it began
-  DurationHistogram tick_cost;  ///< CPU time of the calls in which ticks were stepped, for each
+  DurationHistogram late;       ///< of each tick: its start after it was due
+  DurationHistogram tick_cost;  ///< CPU time of a call that stepped ticks, divided among them
   std::int64_t ticks = 0;
-  std::int64_t cpu_us = 0;  ///< of all calls
+  std::int64_t cpu_us = 0;  ///< sum of all calls
   void Add(const MemberFigures& other);
 };
 
 class Member {
  public:
-  /// Throws OperatorError when there is no socket to be had.
+  /// Throws OperatorError if there are no more sockets.
   explicit Member(const ClientConfig& config);
 
-  /// Runs what is due at `now_us` (SteadyClockUs). `cpu_us`: of this thread when it was last read,
-  /// which is then read again: that costs as much as a datagram.
+  /// Does the work due at `now_us` (SteadyClockUs). `cpu_us`: the thread's CPU time as last read;
+  /// it is read again, which costs as much as a datagram.
   void Tick(std::int64_t now_us, std::int64_t* cpu_us);
-  /// When to call Tick again at the latest.
+  /// Returns the latest time for the next call of Tick.
   std::int64_t due_us() const { return due_us_; }
   /// For epoll: readable when Tick has something to do.
   int fd() const { return udp_.fd(); }
@@ -37,11 +37,11 @@ class Member {
   const std::string& name() const { return name_; }
   const Client& client() const { return client_; }
   const MemberFigures& figures() const { return figures_; }
-  /// Begins to count anew: what joining took is no part of the load.
+  /// Restarts the measurements, so that joining is not counted as load.
   void Forget() { figures_ = MemberFigures(); }
 
  private:
-  /// Nobody listens.
+  /// A recorder that discards everything.
   class Nowhere : public Recorder {
    public:
     bool listening() const override { return false; }

@@ -17,13 +17,13 @@ std::string Line(const char* format, Args... args) {
   return text;
 }
 
-/// Of one room: what changed while it was heard.
+/// First and last load of a room.
 struct Heard {
   Load first, last;
   double seconds() const { return static_cast<double>(last.utime - first.utime) * 1e-6; }
 };
 
-/// Of all rooms, from the first to the last time that each was counted.
+/// Returns the counts of all rooms, between the first and the last load of each.
 BucketHistogram Counted(const ServerTold& told, BucketHistogram RoomLoad::*of) {
   std::map<std::string, std::pair<BucketHistogram, BucketHistogram>> rooms;  // first and last
   for (const auto* loads : {&told.before, &told.meanwhile, &told.after}) {
@@ -36,7 +36,7 @@ BucketHistogram Counted(const ServerTold& told, BucketHistogram RoomLoad::*of) {
   return all;
 }
 
-/// "3.10 ms, " before what the worst second says; "" of nothing.
+/// Returns "3.10 ms, ", to precede the worst second's value; "" without counts.
 std::string P99(const BucketHistogram& counted) {
   return counted.count > 0 ? Line("%.2f ms, ", counted.QuantileUs(0.99) * 1e-3) : "";
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// What seam-swarm prints at its end: lines of "name: figures", for people and for grep.
+/// The final report of seam-swarm: lines of "name: figures", for people and for grep.
 
 #include <string>
 #include <vector>
@@ -9,18 +9,20 @@
 
 namespace seam {
 
-/// What a server told of its rooms, in any order: when the swarm's clients began to be measured, of
-/// the seconds in which they were, and at their end.
+/// Loads of a server's rooms, in any order: at the start of the measurement, during it, and at its
+/// end.
 struct ServerTold {
   std::vector<RoomLoad> before, meanwhile, after;
 };
 
-/// Of a measured swarm; where nothing was told meanwhile the server was not heard.
+/// Returns the report of a measured swarm; without loads during the measurement it says that the
+/// server was not heard.
 std::string SwarmReport(const Swarm& swarm, const ServerTold& told);
 
-/// The server's lines alone; "server: not heard ..." of nothing. p99 of all rooms' ticks of the
-/// measured time, if the server counts them (its page does, the bus does not); percentiles of the
-/// worst second and the worst room, CPU from the first to the last telling of each room.
+/// Returns the server's lines alone; "server: not heard ..." if there are none. p99 is over the
+/// measured ticks of all rooms, if the server counts them (its page does, the bus does not). Other
+/// percentiles are those of the worst second and room. CPU is from the first to the last load of
+/// each room.
 std::string ServerReport(const ServerTold& told);
 
 }  // namespace seam

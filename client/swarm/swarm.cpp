@@ -13,12 +13,12 @@
 namespace seam {
 namespace {
 
-/// How often who holds what is counted, us; by a part of the clients at a time: many would be late
-/// for it.
+/// Period of counting moving bodies by authority, us. Each time a part of the clients is counted:
+/// counting all would make many late.
 constexpr std::int64_t kSampleUs = 500000;
 constexpr std::size_t kSampleParts = 10;
 
-/// As many open files as the system lets us have: each client has a socket.
+/// Raises the limit of open files to the system's maximum: each client has a socket.
 void RaiseFileLimit() {
   rlimit limit{};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
@@ -32,10 +32,10 @@ struct Swarm::Lane {
   Group group;
   std::thread thread;
   std::atomic<int> running{0};
-  // Of the thread alone, until it has ended.
+  // Used by the thread alone, until it has ended.
   bool measuring = false;
   std::int64_t sample_us = 0, samples = 0;
-  std::size_t part = 0;                                             // of the sample at hand
+  std::size_t part = 0;                                             // of the current sample
   MovingBodies sample, moving;                                      // so far; sum of the samples
   std::vector<std::pair<std::int64_t, std::int64_t>> bytes_before;  // in, out, by member
 };

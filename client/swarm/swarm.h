@@ -24,39 +24,38 @@ struct SwarmConfig {
 class Swarm {
  public:
   /// Asks each room for its players: client i is player i / rooms of its room, in the scene's
-  /// order. Throws OperatorError when a room does not answer within 10 s, refuses, or has fewer
-  /// players than clients would come. Nobody has joined then.
+  /// order. Throws OperatorError if a room does not answer within 10 s, refuses, or has fewer
+  /// players than clients would come. No client has joined then.
   explicit Swarm(const SwarmConfig& config);
   ~Swarm();
 
   /// Starts the threads; the clients join.
   void Start();
-  /// Clients that simulate.
+  /// Returns the number of clients that simulate.
   int running() const;
-  /// The first client's misfortune that ends it all; "": none. Final.
+  /// Returns the first client's fatal error; "": none. Final.
   std::string Fatal() const;
   bool closed() const { return closed_; }
-  /// Forgets what joining took: from here on counts what the report says.
+  /// Restarts the measurements: the report covers the time from here on.
   void BeginToMeasure(std::int64_t now_us);
-  /// All say goodbye and the threads end; then figures() and the others may be read.
+  /// Says goodbye for all clients and ends the threads; then Figures() and all below may be read.
   void Finish(std::int64_t now_us);
 
-  /// How long it was measured, s.
+  /// Duration of the measurement, s.
   double measured_s() const { return measured_s_; }
   MemberFigures Figures() const;
-  /// On average over the samples, two a second.
+  /// Average over the samples, two a second.
   MovingBodies Moving() const;
-  /// Of each client: what it has sent and received since BeginToMeasure, and its loss and round
-  /// trip at the end.
+  /// Traffic of the clients since BeginToMeasure, and their loss and round trip at the end.
   struct Traffic {
-    double bytes_in = 0, bytes_out = 0;      ///< of all clients together
-    double loss_mean = 0, loss_worst = 0;    ///< shares, of what comes in
+    double bytes_in = 0, bytes_out = 0;      ///< sum of all clients
+    double loss_mean = 0, loss_worst = 0;    ///< shares of received packets
     double rtt_mean_s = 0, rtt_worst_s = 0;  ///< s
-    double load_mean = 0, load_worst = 0;    ///< shares of its time that a client says it needs
+    double load_mean = 0, load_worst = 0;    ///< shares of its time that a client reports as needed
     std::int64_t rejoins = 0;
   };
   Traffic TrafficOfAll() const;
-  /// CPU time of this program while it was measured, s.
+  /// CPU time of this program during the measurement, s.
   double cpu_s() const { return cpu_s_; }
   const Room& room() const { return room_; }
   int client_count() const { return config_.clients; }
@@ -78,8 +77,8 @@ class Swarm {
   double measured_s_ = 0, cpu_s_ = 0;
 };
 
-/// The room that a server would show a player, asked for by a spectator who leaves again at once.
-/// Throws OperatorError when there is no answer within 10 s, or a refusal.
+/// Returns the room that a server shows a player, found by a spectator that leaves again at once.
+/// Throws OperatorError if there is no answer within 10 s, or a refusal.
 Room AskForRoom(const Address& server, const std::string& room);
 
 }  // namespace seam

@@ -1,5 +1,5 @@
 #pragma once
-/// Where seam-top and seam-swarm hear how a server is: its Loads on the LCM bus, or its page.
+/// Sources of a server's Loads for seam-top and seam-swarm: the LCM bus, or the server's page.
 
 #include <cstdint>
 #include <memory>
@@ -13,19 +13,20 @@ namespace seam {
 class Loads {
  public:
   virtual ~Loads() = default;
-  /// What was told since the last call, oldest first. `now_us`: SteadyClockUs.
+  /// Returns the loads since the last call, oldest first. `now_us`: SteadyClockUs.
   virtual std::vector<RoomLoad> Take(std::int64_t now_us) = 0;
-  /// The same, but of a page that was just fetched, however short the last look is ago: what it
-  /// counts is of this moment. Its Load may be one that was told already.
+  /// Like Take, but fetches the page now, however recent the last fetch is: its counters are
+  /// current. Its Load may have been returned before.
   virtual std::vector<RoomLoad> TakeNow(std::int64_t now_us) { return Take(now_us); }
-  /// Why nothing is heard, one line; "": nothing is wrong.
+  /// Returns one line that says why nothing is received; "": nothing is wrong.
   virtual std::string trouble() const { return ""; }
 };
 
-/// Of all rooms on the bus. Throws OperatorError from Bus.
+/// Returns the loads of all rooms on the bus. Throws OperatorError from Bus.
 std::unique_ptr<Loads> LoadsOnBus(const std::string& lcm_url);
 
-/// Of the page at "host:port", looked at once a second; a look may take half a second.
+/// Returns the loads of the page at "host:port", fetched once a second; a fetch may take half a
+/// second.
 std::unique_ptr<Loads> LoadsOnPage(const std::string& address);
 
 }  // namespace seam

@@ -1,4 +1,4 @@
-/// seam-top: what the rooms of a server cost, in a terminal. `seam-top --help`.
+/// seam-top: shows the load of a server's rooms in a terminal. `seam-top --help`.
 
 #include <time.h>
 #include <unistd.h>
@@ -31,7 +31,7 @@ void Define(CLI::App& app, Flags& f) {
       ->check(CLI::Range(0, 1000000));
 }
 
-/// Clears a terminal before each table; elsewhere the tables follow each other.
+/// Prints a table. Clears a terminal before each; other outputs get one table after another.
 void Print(const std::string& table) {
   if (isatty(1) != 0) std::printf("\033[H\033[J");
   std::printf("%s", table.c_str());
@@ -44,7 +44,7 @@ int Watch(const Flags& f) {
   StopOnSignals();
   TopTable table;
   int printed = 0;
-  std::int64_t next_us = SteadyClockUs() + 1200000;  // so long until each room was heard
+  std::int64_t next_us = SteadyClockUs() + 1200000;  // time to receive each room once
   bool failed = false;
   while (g_stop == 0 && (f.times == 0 || printed < f.times)) {
     const std::int64_t now_us = SteadyClockUs();

@@ -11,7 +11,7 @@ constexpr std::int64_t kSilentUs = 5000000;
 
 double Ms(std::int32_t us) { return us * 1e-3; }
 
-/// By kind of traffic; 0 of a kind that is not there.
+/// Returns the bytes of a kind of traffic; 0 if the kind is missing.
 std::int64_t Bytes(const Load& load, const std::vector<std::int64_t>& bytes, int kind) {
   for (std::size_t i = 0; i < load.kind.size(); ++i) {
     if (load.kind[i] == kind) return bytes[i];

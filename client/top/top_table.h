@@ -1,5 +1,5 @@
 #pragma once
-/// The table that seam-top shows: a line for each room, and where its bytes go.
+/// The table of seam-top: a line for each room, and the traffic by kind.
 
 #include <cstdint>
 #include <map>
@@ -11,11 +11,11 @@ namespace seam {
 
 class TopTable {
  public:
-  /// Heard at `now_us`, on any clock that never runs backwards.
+  /// Adds a load received at `now_us`, on any clock that never runs backwards.
   void Take(std::int64_t now_us, const RoomLoad& load);
   bool empty() const { return rooms_.empty(); }
-  /// Rates are those between the last two that were heard of a room. A room that has not been heard
-  /// for 5 s is left out.
+  /// Returns the table. Rates are those between a room's last two loads. Leaves out rooms without a
+  /// load for 5 s.
   std::string Text(std::int64_t now_us) const;
 
  private:

@@ -12,13 +12,13 @@
 namespace seam {
 namespace {
 
-/// Sides of the squares, m. In each of its steps the engine walks through the contacts of the later
-/// body of a pair, so a body should not have those of a whole city.
+/// Side of the squares, m. In each step the engine walks through the contacts of the later body of
+/// a pair, so a body must not have the contacts of a whole city.
 constexpr float kSquare = 16;
 
 SEAM_REVEAL(Proxies, b2FixtureProxy*, b2Fixture, m_proxies);
 SEAM_REVEAL(ContactFlags, uint32, b2Contact, m_flags);
-/// The engine's own bit: asks the filter again at the next step.
+/// The engine's own flag: ask the contact filter again at the next step.
 constexpr uint32 kFilterAgain = 0x0008;
 
 using Square = std::pair<int, int>;  // column and row
@@ -28,8 +28,8 @@ Square SquareOf(const Part& root) {
   return {square(root.position.x()), square(root.position.y())};
 }
 
-/// Whether the engine's box around `other`, within which it may move unnoticed, lies beyond a side
-/// of the anchored polygon.
+/// True if the engine's enlarged box of `other`, within which moves go unnoticed, lies beyond a
+/// side of the anchored polygon.
 bool IsBeyond(b2Fixture* anchored, b2Fixture* other) {
   const b2Body* body = anchored->GetBody();
   if (body->GetType() != b2_staticBody || anchored->GetType() != b2Shape::e_polygon) return false;
@@ -47,8 +47,8 @@ bool IsBeyond(b2Fixture* anchored, b2Fixture* other) {
   return false;
 }
 
-/// Leaves out pairs of which only the boxes meet: a long wall at an angle has a box as large as a
-/// city. The engine asks again whenever the other has left its box.
+/// Rejects pairs of which only the boxes overlap: a long wall at an angle has a box as large as a
+/// city. The engine asks again when the other shape has left its box.
 class SidesFilter : public b2ContactFilter {
  public:
   bool ShouldCollide(b2Fixture* a, b2Fixture* b) override {

@@ -1,6 +1,7 @@
 #pragma once
-/// Anchored assemblies that share a body: a body each would cost the engine time in every step, and
-/// nobody needs to know of whom a body is that never moves. Shapes say which part they are.
+/// Shared Box2D bodies for anchored assemblies: a body each would cost the engine time in every
+/// step, and nobody asks which body an immovable shape belongs to. Each shape still says which part
+/// it is.
 
 #include <box2d/box2d.h>
 
@@ -13,38 +14,38 @@
 
 namespace seam {
 
-/// By assembly: whether it may share a body. It is anchored and stands still, and nothing takes
-/// hold of its own body: no joint that is not rigid, no glue that can break, no connector, belt,
-/// seat or thrust. False for all of them where they are fewer than kShareFrom.
+/// Returns, by assembly, true if it may share a body: it is anchored and stationary, and nothing is
+/// attached to its body (no non-rigid joint, breakable glue, connector, belt, seat or thrust). All
+/// false if fewer than kShareFrom assemblies qualify.
 std::vector<bool> ShareBodies(const Scene& scene, const Composition& composition);
 
-/// The shapes of those that share (see ShareBodies), by the assembly of the lowest part of each: on
-/// one body, boxes of any of them that make a rectangle are one shape, as bricks have no inner
-/// sides. Each list ascends.
+/// Returns the shapes of the sharing assemblies (see ShareBodies), by the assembly of each shape's
+/// lowest part. Boxes that lie on one body and form a rectangle become one shape, whichever
+/// assemblies they belong to, so that bricks have no inner sides. Each list ascends.
 std::vector<std::vector<Face>> SharedFaces(const Scene& scene, const Composition& composition,
                                            const std::vector<bool>& share);
 
-/// Lets the engine's next step drop what is a contact no longer (see AnchoredBodies).
+/// Makes the engine's next step drop contacts that are no longer contacts (see AnchoredBodies).
 void DropFarContacts(b2World* world);
 
-/// As many as a scene may have before they share bodies.
+/// Number of anchored assemblies from which they share bodies.
 constexpr int kShareFrom = 32;
 
-/// What a world has that is anchored. They share a body in each square of the plane in which there
-/// is one of their roots, so that no shape is far from its body's origin. Where there are
-/// kShareFrom parts, a pair of which only the engine's boxes meet is no contact: a long wall at an
-/// angle has a box as large as a city.
+/// Makes the bodies of a world's anchored assemblies. Assemblies whose roots lie in the same square
+/// of the plane share a body, so that no shape is far from its body's origin. From kShareFrom parts
+/// on, a pair of shapes of which only the bounding boxes meet is not made a contact: a long wall at
+/// an angle has a box as large as a city.
 class AnchoredBodies {
  public:
   explicit AnchoredBodies(b2World* world) : world_(world) {}
 
   struct Body {
     b2Body* body = nullptr;
-    Part frame;  ///< lies as it does
+    Part frame;  ///< has the body's pose
   };
-  /// There is one more, with a body of its own or not.
+  /// Counts an anchored assembly, with a body of its own or not.
   void Count(const Assembly& assembly);
-  /// The body for an assembly whose root is `root`.
+  /// Returns the shared body for the assembly with this root.
   const Body& For(const Part& root);
 
  private:
@@ -52,7 +53,7 @@ class AnchoredBodies {
   std::size_t parts_ = 0;
   using Square = std::pair<int, int>;  // column and row
   std::map<Square, Body> bodies_;
-  const std::pair<const Square, Body>* last_ = nullptr;  // of these: neighbours follow each other
+  const std::pair<const Square, Body>* last_ = nullptr;  // last found: neighbours follow each other
 };
 
 }  // namespace seam

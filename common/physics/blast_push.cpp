@@ -15,11 +15,11 @@ namespace {
 
 constexpr float kRayGap = 0.06f;  // m, between rays at the radius
 constexpr int kRaysMin = 128, kRaysMax = 1024;
-/// What is nearer than this, m, has no direction.
+/// A hit nearer than this, m, has no direction.
 constexpr float kNearMin = 1e-3f;
 constexpr float kTurn = 6.2831853f;  // rad
 
-/// The rays of a blast, and how far bricks let each of them go.
+/// The rays of a blast, each with its length up to the first brick.
 class Fan {
  public:
   explicit Fan(const BlastEdit& blast)
@@ -44,13 +44,13 @@ class Fan {
     });
   }
 
-  /// visit(ray, distance, m) for the rays that meet the box, unless the centre is in it.
+  /// Calls visit(ray, distance, m) for the rays that meet the box, unless the centre is in it.
   template <typename Visit>
   void EachEntry(const b2Vec2& lower, const b2Vec2& upper, const Visit& visit) const {
     const b2Vec2 centre(blast_.centre.x(), blast_.centre.y());
     const b2Vec2 low = lower - centre, high = upper - centre;
     if (low.x < 0 && low.y < 0 && high.x > 0 && high.y > 0) return;
-    // Seen from outside, a box is less than half a turn wide.
+    // Seen from outside, a box covers less than half a turn.
     const float middle = std::atan2(low.y + high.y, low.x + high.x);
     float from = 0, to = 0;
     for (const b2Vec2& corner : {low, high, b2Vec2(low.x, high.y), b2Vec2(high.x, low.y)}) {
@@ -68,7 +68,7 @@ class Fan {
   }
 
  private:
-  /// Where the ray enters the box, by its two pairs of sides; the radius: nowhere.
+  /// Returns the distance at which the ray enters the box (slab test), m; the radius if it misses.
   float Entry(int ray, const b2Vec2& low, const b2Vec2& high) const {
     const b2Vec2 along = Direction(ray);
     float enter = 0, leave = blast_.radius;
@@ -103,8 +103,8 @@ void CoverByBricks(const FeatherStore& bricks, const BlastEdit& blast, Fan* fan)
   }
 }
 
-/// Pieces of bricks that lie where the bricks were: what a blast has just freed. They are smaller
-/// (kFreedGap), but the blast meets the wall.
+/// Pieces that the blast has just freed and that still lie in their bricks' places. They are
+/// smaller than their bricks (kFreedGap); for a blast they have the bricks' size.
 class Rooms : public b2QueryCallback {
  public:
   Rooms(const b2World& world, const Scene& scene, const Fan& fan, const BlastEdit& blast)
@@ -133,7 +133,8 @@ class Rooms : public b2QueryCallback {
     return true;
   }
 
-  /// Whose room the ray enters before that distance, m; nullptr: none's, or `hit` is one of them.
+  /// Returns the piece that the ray meets before that distance, m; nullptr if none, or if `hit` is
+  /// a piece.
   b2Fixture* Before(int ray, float distance, const b2Fixture* hit) const {
     const Ray& nearest = rays_[static_cast<std::size_t>(ray)];
     return nearest.enter >= distance || (hit != nullptr && IsPiece(*hit)) ? nullptr : nearest.piece;
@@ -142,7 +143,7 @@ class Rooms : public b2QueryCallback {
 
  private:
   struct Ray {
-    b2Fixture* piece = nullptr;  // the first whose room it enters
+    b2Fixture* piece = nullptr;  // the first on the ray
     float enter = 0;             // m
   };
   bool IsPiece(const b2Fixture& fixture) const {
@@ -159,8 +160,8 @@ class Rooms : public b2QueryCallback {
   std::vector<Ray> rays_;
 };
 
-/// The first shape on a ray; of two that begin at one point that of the lower number, so that the
-/// order in which the engine looks does not count.
+/// Finds the first shape on a ray; of two at the same distance the one with the lower number, so
+/// that the engine's order of search does not matter.
 class First : public b2RayCastCallback {
  public:
   float ReportFixture(b2Fixture* fixture, const b2Vec2& point, const b2Vec2& /*normal*/,

@@ -19,7 +19,7 @@ const Assembly& AssemblyAt(const PlacedBodies& at, int index) {
   return at.composition.assemblies[static_cast<std::size_t>(index)];
 }
 
-/// Of a part that moves; -1: it is anchored, or not there.
+/// Returns the mechanism of a moving part; -1 if it is anchored, or gone.
 int MechanismOf(const PlacedBodies& at, PartId part) {
   const int index = AssemblyIndex(at, part);
   return index < 0 || AssemblyAt(at, index).anchored ? -1 : AssemblyAt(at, index).mechanism;
@@ -29,7 +29,7 @@ Transform2 PoseOf(const BodyState& state) {
   return {state.position.cast<double>(), static_cast<double>(state.angle)};
 }
 
-/// By assembly: index into the states; -1: anchored.
+/// Returns, by assembly, the index into the states; -1: anchored.
 std::vector<int> BodyOfAssembly(const Composition& composition) {
   std::vector<int> bodies;
   int next = 0;
@@ -37,7 +37,7 @@ std::vector<int> BodyOfAssembly(const Composition& composition) {
   return bodies;
 }
 
-/// Where a part is. Requires one that is there.
+/// Returns the pose of a part. Requires one that is not gone.
 Transform2 PlaceNow(const PlacedBodies& at, const std::vector<int>& bodies, PartId id) {
   const int index = AssemblyIndex(at, id);
   const Part& part = at.parts[static_cast<std::size_t>(id)];

@@ -1,6 +1,6 @@
 #pragma once
-/// What a bond carries along: where it moves one body of a mechanism, the rest of the mechanism
-/// makes the same rigid motion, so that no limb stays behind.
+/// Moves a mechanism along with a bond: if the bond moves one of its bodies, the rest of the
+/// mechanism makes the same rigid motion, so that no limb stays behind.
 
 #include <vector>
 
@@ -8,16 +8,16 @@
 
 namespace seam {
 
-/// Bodies at one time: who they are, where the scene puts their parts, and where they lie.
+/// Bodies at one time: their composition, their parts' places in the scene, and their states.
 struct PlacedBodies {
   const Composition& composition;
   const std::vector<Part>& parts;
   const std::vector<BodyState>& states;  ///< by moving assembly, ascending by id
 };
 
-/// By body as they are now: the motion from where it lies to where it belongs. Not zero only for
-/// bodies that are the same as before, and whose mechanism has another body that was bonded to
-/// another mechanism, or to what is anchored, and lies elsewhere now. Empty: none is to be moved.
+/// Returns, by current body, the motion that brings it back to its mechanism. It is zero except for
+/// unchanged bodies of a mechanism with another body that was bonded to another mechanism, or to
+/// something anchored, and was moved by that. Empty if no body is to be moved.
 std::vector<BodyState> CarriedAlong(const PlacedBodies& before, const PlacedBodies& now);
 
 }  // namespace seam

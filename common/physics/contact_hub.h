@@ -1,5 +1,5 @@
 #pragma once
-/// Passes the engine's contact events on to the stages that listen, and impulses to the meter.
+/// Forwards the engine's contact events to the stages that listen, and impulses to the meter.
 
 #include <vector>
 

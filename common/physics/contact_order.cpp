@@ -22,7 +22,7 @@ SEAM_REVEAL(ProxiesOfFixture, int32, b2Fixture, m_proxyCount);
 SEAM_REVEAL(Tree, b2DynamicTree, b2BroadPhase, m_tree);
 SEAM_REVEAL(MovedCount, int32, b2BroadPhase, m_moveCount);
 
-/// A bit of b2Contact::m_flags that the engine leaves alone: its place is decided.
+/// A bit of b2Contact::m_flags that the engine does not use: the contact is in order already.
 constexpr uint32 kOrdered = 0x80000000u;
 
 using ShapeKey = std::tuple<std::uint32_t, std::uint32_t, int32>;
@@ -32,7 +32,7 @@ ShapeKey KeyOf(const b2Fixture* fixture, int32 child) {
   return {PartOf(fixture), PieceOf(fixture), child};
 }
 
-/// The engine exchanges the two shapes of a contact by their types.
+/// Sorts the key, because the engine may swap the two shapes of a contact by type.
 ContactKey Ordered(const ShapeKey& a, const ShapeKey& b) {
   return {std::min(a, b), std::max(a, b)};
 }
@@ -41,7 +41,7 @@ b2ContactManager& ManagerOf(b2World* world) {
   return const_cast<b2ContactManager&>(world->GetContactManager());
 }
 
-/// Shapes whose boxes, as the engine's tree has them, touch.
+/// Shapes of which the boxes in the engine's tree overlap.
 struct Pair {
   ContactKey key;
   b2FixtureProxy *a, *b;
@@ -54,7 +54,8 @@ struct Shape {
 
 bool BeginsLeft(const Shape& x, const Shape& y) { return x.box.lowerBound.x < y.box.lowerBound.x; }
 
-/// Pairs of `shape` and those of `others`, sorted, from `from` on that begin where it is along x.
+/// Adds the pairs of `shape` with those of `others`, which are sorted, from index `from` on that
+/// begin within its range of x.
 void Sweep(const Shape& shape, const std::vector<Shape>& others, std::size_t from,
            std::vector<Pair>* pairs) {
   const b2AABB& box = shape.box;
@@ -66,7 +67,7 @@ void Sweep(const Shape& shape, const std::vector<Shape>& others, std::size_t fro
       continue;
     }
     if (other.proxy->fixture->GetBody() == fixture->GetBody()) continue;
-    // As the engine does: the one that was made first is the first.
+    // As in the engine: the older proxy comes first.
     const bool first = shape.proxy->proxyId < other.proxy->proxyId;
     pairs->push_back({Ordered(KeyOf(fixture, shape.proxy->childIndex),
                               KeyOf(other.proxy->fixture, other.proxy->childIndex)),
@@ -74,7 +75,7 @@ void Sweep(const Shape& shape, const std::vector<Shape>& others, std::size_t fro
   }
 }
 
-/// Pairs with at least one of `moving`; both sorted.
+/// Returns the pairs with at least one of `moving`. Requires both sorted.
 std::vector<Pair> SweepAll(const std::vector<Shape>& moving, const std::vector<Shape>& resting) {
   std::vector<Pair> pairs;
   std::size_t m = 0, r = 0;
@@ -90,7 +91,7 @@ std::vector<Pair> SweepAll(const std::vector<Shape>& moving, const std::vector<S
   return pairs;
 }
 
-/// Marks those that are not yet: they stand first in the list.
+/// Marks and returns the unmarked contacts, which are first in the list.
 std::vector<b2Contact*> TakeNew(b2World* world) {
   std::vector<b2Contact*> fresh;
   b2Contact* c = world->GetContactList();
@@ -135,8 +136,8 @@ void LinkFirst(b2Contact* c, b2ContactManager* manager) {
 
 }  // namespace
 
-/// The engine asks its tree for every shape. All of them are new here: one sweep along x finds the
-/// same pairs, cheaply unless all stands in one tower.
+/// The engine would query its tree for every shape. Here all shapes are new, and a sweep along x
+/// finds the same pairs; it is cheap unless the shapes form one tower.
 void FindContactsInOrder(b2World* world) {
   b2ContactManager& manager = ManagerOf(world);
   std::vector<Shape> moving, resting;

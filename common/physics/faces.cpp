@@ -14,10 +14,11 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// What counts as the same position, m.
+/// Positions closer than this are equal, m.
 constexpr double kSame = 1e-3;
 
-/// Boxes that may become one: angle, friction, restitution, group, conveyor.
+/// Properties in which boxes must agree to be merged: angle, friction, restitution, group,
+/// conveyor.
 using Kind = std::tuple<float, float, float, int, float, int, int>;
 
 Kind KindOf(const Part& part) {
@@ -30,7 +31,7 @@ Kind KindOf(const Part& part) {
           static_cast<int>(part.conveyor->axis)};
 }
 
-/// A rectangle in the frame of a kind's first box.
+/// A rectangle in the frame of its kind's first box.
 struct Rectangle {
   Vector2d min{0, 0}, max{0, 0};  // m
   std::vector<PartId> parts;
@@ -38,7 +39,8 @@ struct Rectangle {
 
 std::int64_t Cell(double value) { return std::llround(value / kSame); }
 
-/// Joins rectangles that follow each other along `axis` and are as wide across it.
+/// Merges rectangles that follow each other along `axis` and have the same extent across. True if
+/// any were merged.
 bool JoinAlong(int axis, std::vector<Rectangle>* all) {
   const int across = 1 - axis;
   const auto key = [&](const Rectangle& r) {
@@ -90,7 +92,7 @@ void AddMerged(const Scene& scene, const std::vector<PartId>& boxes, std::vector
   }
 }
 
-/// Without those boxes that have another of the same size on all four sides.
+/// Adds the boxes, except those with a neighbour of the same size on all four sides.
 void AddOuter(const Scene& scene, const std::vector<PartId>& boxes, std::vector<Face>* faces) {
   const Part& first = scene.parts[static_cast<std::size_t>(boxes.front())];
   const auto place = [&](const Part& part, double columns, double rows) {
@@ -151,7 +153,7 @@ PartId NearestOf::At(const Vector2d& point) const {
   PartId nearest = boxes_.front().id;
   double least = 1e30;
   for (const Box& box : boxes_) {
-    // However it is turned, it is not nearer than that: most of many need no more than this.
+    // A lower bound that holds at any angle: it excludes most of many boxes.
     const Vector2d from = point - box.position;
     const double enough = least + box.half.x() + box.half.y() + kSame;
     if (from.squaredNorm() > enough * enough) continue;

@@ -1,6 +1,6 @@
 #pragma once
-/// The shapes that an assembly collides with: few rectangles instead of many aligned boxes, so that
-/// inner faces cost nothing and bodies do not catch at its seams.
+/// Collision shapes of an assembly: merges aligned boxes into few rectangles, so that inner faces
+/// cost nothing and bodies do not catch on its seams.
 
 #include <vector>
 
@@ -8,20 +8,20 @@
 
 namespace seam {
 
-/// Assemblies of fewer parts collide with each of them.
+/// Assemblies of fewer parts collide with each part.
 constexpr std::size_t kFacesFrom = 8;
 
 struct Face {
-  Part shape;                 ///< with the number of the lowest of its parts
+  Part shape;                 ///< has the number of its lowest part
   std::vector<PartId> parts;  ///< ascending
 };
 
-/// Ascending by number. Boxes become one when they have the same angle, friction, restitution and
-/// group, and share a whole side, to a millimetre.
+/// Returns the shapes, ascending by number. Boxes are merged if they have the same angle, friction,
+/// restitution and group, and share a whole side, to a millimetre.
 std::vector<Face> FacesOf(const Scene& scene, const Assembly& assembly);
 
-/// Which of some boxes is the nearest to a point of their common frame (the scene's poses), m; of
-/// several the first.
+/// Finds the box nearest to a point, m, in the boxes' common frame (the scene's poses); the first
+/// of several that are equally near.
 class NearestOf {
  public:
   /// Requires at least one.
@@ -37,7 +37,7 @@ class NearestOf {
   std::vector<Box> boxes_;
 };
 
-/// The same for one point.
+/// Returns the nearest box for a single point.
 inline PartId NearestPart(const Scene& scene, const std::vector<PartId>& parts,
                           const Eigen::Vector2d& point) {
   return NearestOf(scene, parts).At(point);

@@ -12,7 +12,7 @@ constexpr int kSweeps = 8;  // over all links, a step
 
 b2Vec2 ToB2(const Vec2& v) { return {v.x(), v.y()}; }
 
-/// The engine shows a rope's points only to who draws them.
+/// The engine gives out a rope's points only by drawing.
 class PointCollector : public b2Draw {
  public:
   std::vector<Vec2> points;
@@ -30,7 +30,7 @@ class PointCollector : public b2Draw {
 };
 
 b2RopeTuning TuningOf(const Strand& strand) {
-  b2RopeTuning tuning;  // the engine leaves some of these as the memory was
+  b2RopeTuning tuning;  // the engine leaves some of these uninitialised
   tuning.stretchHertz = 0;
   tuning.stretchDamping = 0;
   tuning.damping = strand.damping;

@@ -1,6 +1,6 @@
 #pragma once
-/// A rope that hangs on a point and that nothing feels: the engine's b2Rope, positions made to fit
-/// their lengths (Müller and others, "Position Based Dynamics", 2007). For what is only looked at.
+/// A rope for display only: it hangs on a point and acts on nothing. Uses the engine's b2Rope,
+/// position-based dynamics (Müller and others, "Position Based Dynamics", 2007).
 
 #include <memory>
 #include <vector>
@@ -11,15 +11,15 @@ namespace seam {
 
 class HangingRope {
  public:
-  /// Hanging straight down (along gravity) from a point, m.
+  /// Hangs straight down (along gravity) from a point, m.
   HangingRope(const Strand& strand, const Vec2& gravity, const Vec2& at);
   ~HangingRope();
   HangingRope(HangingRope&&) noexcept;
 
-  /// Lets `h` s pass while the upper end goes to a point. One that is further away than the rope is
-  /// long was not gone to but placed: the rope hangs there anew.
+  /// Advances by `h` s while the upper end moves to a point. If that is farther away than the rope
+  /// is long, the rope is placed there anew instead.
   void Step(float h, const Vec2& at);
-  /// m, from the upper end: strand.links + 1 of them.
+  /// Returns the points, m, from the upper end on: strand.links + 1.
   std::vector<Vec2> Points() const;
 
  private:

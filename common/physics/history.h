@@ -1,5 +1,5 @@
 #pragma once
-/// The recent past of a world's bodies, tick by tick: what retrospective corrections look at.
+/// Recent states of a world's bodies, by tick, for retrospective corrections.
 
 #include <array>
 #include <cstdint>
@@ -16,28 +16,27 @@ class History {
  public:
   History(int body_count, int capacity_ticks);
 
-  /// Notes all bodies' states after `tick`. Requires tick == newest() + 1, or empty and tick >= 0;
-  /// use Clear before a jump.
+  /// Records all bodies' states after `tick`. Requires tick == newest() + 1, or empty and tick >=
+  /// 0; use Clear before a jump.
   void Record(std::int64_t tick, const std::vector<BodyState>& states);
-  /// Begins a tick of which no body's state is noted yet: At(tick, body) is what it was long ago
-  /// until it is written. Requires the same.
+  /// Begins a tick without states: until one is written, At(tick, body) returns an obsolete state.
+  /// Requires the same as Record.
   void Begin(std::int64_t tick);
-  /// Notes a body's state after the newest tick. Requires that there is one.
+  /// Stores a body's state after the newest tick. Requires that there is a newest tick.
   void Put(int body, const BodyState& state);
-  /// nullptr when the tick is not in the ring.
+  /// Returns nullptr if the tick is not in the ring.
   const BodyState* At(std::int64_t tick, int body) const;
   BodyState* At(std::int64_t tick, int body);
   std::int64_t newest() const;  ///< -1 when empty
   std::int64_t oldest() const;  ///< -1 when empty
   void Clear();
-  /// The bodies have changed: each one's past is that of where it came from, moved rigidly; of
-  /// what is new there is none, and `now` is taken instead.
+  /// Renumbers after an edit. Each body inherits the past of the body that it came from, moved
+  /// rigidly; the past of a new body is filled with `now`.
   void Remap(const std::vector<BodyOrigin>& origins, const std::vector<BodyState>& now);
 
  private:
-  // A body's ticks lie together, in pieces that are made when something is first noted in them: in
-  // a large room most bodies are never looked at, and what a tick costs is the memory that it is
-  // in.
+  // A body's ticks lie together, in pieces that are allocated at the first write: in a large room
+  // most bodies are never accessed, and the cost of a tick is the memory that it touches.
   static constexpr int kPiece = 12;  // ticks
   using Piece = std::array<BodyState, kPiece>;
   bool Has(std::int64_t tick) const {
@@ -52,7 +51,7 @@ class History {
   int pieces_each_ = 0;  // of a body
   int count_ = 0;
   std::int64_t newest_ = -1;
-  int piece_ = 0, in_piece_ = 0;  // where the newest tick is, of each body
+  int piece_ = 0, in_piece_ = 0;  // position of the newest tick, of each body
   std::vector<std::unique_ptr<Piece>> pieces_;
 };
 

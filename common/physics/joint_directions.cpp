@@ -68,7 +68,7 @@ void SetDirections(b2Joint* joint) {
       break;
     }
     case e_gearJoint: SetGear(static_cast<b2GearJoint*>(joint)); break;
-    default: break;  // the others' are the world's
+    default: break;  // other joints have the world's axes
   }
 }
 

@@ -1,12 +1,12 @@
 #pragma once
-/// The impulses that the engine's joints begin their next step with, and that it reads reactions
-/// from: no getters, no setters.
+/// Access to the private impulses of the engine's joints: the warm start of the next step, and the
+/// source of the reactions.
 
 #include <box2d/box2d.h>
 
 namespace seam {
 
-/// Where a joint keeps its impulses, N s or N m s, of the last step. What `at` holds, by type:
+/// Pointers to a joint's impulses of the last step, N s or N m s. The order in `at`, by type:
 /// revolute: x, y, motor, lower, upper; prismatic: across, angle, motor, lower, upper; wheel:
 /// across, motor, spring, lower, upper; distance: along, lower, upper; weld and motor: x, y, angle.
 struct JointImpulses {

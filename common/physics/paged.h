@@ -1,6 +1,6 @@
 #pragma once
-/// A sequence in pages that copies share: what nothing has changed is neither copied nor read
-/// again.
+/// A copy-on-write sequence in pages: copies share unchanged pages, which are neither copied nor
+/// read again.
 
 #include <array>
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace seam {
 
-/// Pages are never changed once they are shared; whoever changes one makes it anew (Remake).
+/// A shared page never changes; Remake replaces it by a new one.
 template <class T>
 class Paged {
  public:
@@ -22,18 +22,18 @@ class Paged {
   bool empty() const { return size_ == 0; }
   const T& operator[](std::size_t i) const { return (*pages_[i / kPage])[i % kPage]; }
   std::size_t page_count() const { return pages_.size(); }
-  /// Whether both have the same page there, so that it is equal.
+  /// True if both have the same page there, so that its elements are equal.
   bool Shares(const Paged& other, std::size_t page) const {
     return page < other.pages_.size() && pages_[page] == other.pages_[page];
   }
-  /// Elements before `end(page)` and from `begin(page)` on are those of a page.
+  /// A page holds the elements from `begin(page)` up to, but not including, `end(page)`.
   std::size_t begin(std::size_t page) const { return page * kPage; }
   std::size_t end(std::size_t page) const {
     const std::size_t last = (page + 1) * kPage;
     return last < size_ ? last : size_;
   }
 
-  /// As many elements as that, none known: every page has to be made.
+  /// Sets the number of elements and drops all pages: each has to be made.
   void Resize(std::size_t size) {
     size_ = size;
     pages_.assign((size + kPage - 1) / kPage, nullptr);
@@ -44,7 +44,7 @@ class Paged {
       Remake(page, [&](std::size_t i) { return all[i]; });
     }
   }
-  /// Makes a page of what `at` says of each of its elements.
+  /// Makes a page from the values `at(i)` of its elements.
   template <class At>
   void Remake(std::size_t page, const At& at) {
     SEAM_ASSERT(page < pages_.size());
@@ -52,7 +52,8 @@ class Paged {
     Remake(
         page, [](std::size_t) { return true; }, at);
   }
-  /// The same, but elements that are not `changed` are copied, unless there is no such page yet.
+  /// Makes a page from the elements that are `changed`; the rest is copied from the old page, if
+  /// there is one.
   template <class Changed, class At>
   void Remake(std::size_t page, const Changed& changed, const At& at) {
     SEAM_ASSERT(page < pages_.size());

@@ -1,5 +1,5 @@
 #pragma once
-/// Where every part of a world is, and what it belongs to: parts of one body from the pose of their
+/// Finds the pose, body and mechanism of a part. The parts of a body are placed by the pose of its
 /// root.
 
 #include <functional>
@@ -9,21 +9,22 @@
 
 namespace seam {
 
-/// Pose of a part, and the velocity of its body's centre of mass; false when it is gone.
+/// Reads the pose of a part and the velocity of its body's centre of mass. False if the part is
+/// gone.
 bool ReadPart(const World& world, PartId part, BodyState* state);
 
-/// The same, where the state of a moving body is what `read` says.
+/// Like ReadPart above, with the states of moving bodies taken from `read`.
 bool ReadPart(const World& world, PartId part, const std::function<BodyState(int body)>& read,
               BodyState* state);
 
-/// The same. Requires a part that has not left.
+/// Returns the same state. Requires a part that is not gone.
 BodyState PartPose(const World& world, PartId part);
 
-/// The mechanism of a part; -1 when it is anchored or gone.
+/// Returns the mechanism of a part; -1 if it is anchored or gone.
 int MechanismOf(const World& world, PartId part);
 
-/// The bond that makes b rigid with a where it is now, up to `strength` N (0: for ever). Requires
-/// parts that have not left.
+/// Returns the bond that makes b rigid with a in their current poses, up to `strength` N (0: for
+/// ever). Requires parts that are not gone.
 BondEdit BondAsTheyAre(const World& world, PartId a, PartId b, float strength);
 
 }  // namespace seam

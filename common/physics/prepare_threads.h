@@ -1,11 +1,10 @@
 #pragma once
-/// What a program with worlds in several threads does first.
+/// Initialisation for programs that step worlds in several threads.
 
 namespace seam {
 
-/// The engine fills a table of its own at the first contact of any world, without a lock. This
-/// makes one, so that worlds may be stepped in several threads afterwards, each world in one at a
-/// time.
+/// Makes a contact, at which the engine fills a global table without a lock. Call once before
+/// worlds are stepped in several threads; each world may be in one thread at a time.
 void PrepareForThreads();
 
 }  // namespace seam

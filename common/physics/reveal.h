@@ -1,7 +1,7 @@
 #pragma once
-/// Members of the engine's classes that have no public access and decide how a world goes on. An
-/// explicit instantiation may name private members ([temp.spec]), so this is no trick on the
-/// compiler, only on the class. Box2D 2.4 only.
+/// Access to private members of the engine's classes that determine a world's future. An explicit
+/// instantiation may name private members ([temp.spec]), so this bypasses only the class, not the
+/// compiler. Box2D 2.4 only.
 
 #include <box2d/box2d.h>
 
@@ -13,7 +13,7 @@ struct Reveal {
   friend typename Tag::Type Member(Tag) { return kMember; }
 };
 
-/// `object.*Member(tag())` is the member.
+/// Declares `tag`, so that `object.*Member(tag())` is the member.
 #define SEAM_REVEAL(tag, type, owner, member) \
   struct tag {                                \
     using Type = type owner::*;               \

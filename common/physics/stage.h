@@ -1,6 +1,7 @@
 #pragma once
-/// What acts on a world besides gravity, contacts and joints: water, conveyors, thrust, characters,
-/// the fixtures of featherweight parts. One stage each, made only for scenes that use it.
+/// Interface of the modules that act on a world besides gravity, contacts and joints: water,
+/// conveyors, thrust, characters, fixtures of featherweight parts. Made only for scenes that use
+/// them.
 
 #include <box2d/box2d.h>
 
@@ -19,8 +20,8 @@ namespace seam {
 
 enum class Motion;  // world.h
 
-/// What a stage works on. The references stay valid for the stage's life; what they refer to
-/// changes (bodies are made anew by Barrier, Restore and changes of topology).
+/// The data that a stage works on. The references stay valid for the stage's life, but the objects
+/// change: Barrier, Restore and changes of topology rebuild the bodies.
 struct StageWorld {
   const Scene& scene;
   const Composition& composition;
@@ -30,47 +31,48 @@ struct StageWorld {
   const Topology& topology;
 };
 
-/// Deterministic: a function of the scene, the calls and what Save keeps. In each tick:
+/// Deterministic: a function of the scene, the calls and the saved memory. In each tick:
 ///
 ///   BeforeTick,  then per substep: BeforeStep, the engine's step (contacts),  then AfterTick
 ///
-/// No hidden forces: whatever moves a body comes from here or from the engine.
+/// No hidden forces: a body is moved only by a stage or by the engine.
 class Stage {
  public:
   virtual ~Stage() = default;
 
-  /// The bodies, fixtures and joints in `world` are new (also called once at the start): look them
-  /// up again. May add fixtures, and bodies whose user data pointer is 0 (anchored); no joints.
+  /// Called when the bodies, fixtures and joints in `world` are new (also once at the start): look
+  /// them up again. May add fixtures, and bodies whose user data pointer is 0 (anchored); no
+  /// joints.
   virtual void Rebuilt(b2World* world) = 0;
-  /// After Rebuilt, when the world goes back to a snapshot: the bodies are where they were then,
-  /// velocities and memory follow. Contacts are found next: what bodies touch must be there.
+  /// Called after Rebuilt when the world goes back to a snapshot: the bodies are placed, velocities
+  /// and memory follow. Contacts are found next: fixtures that bodies may touch must exist by then.
   virtual void Placed() {}
-  /// Before the world is emptied: forget all pointers into it.
+  /// Called before the world is emptied: drop all pointers into it.
   virtual void Emptied() {}
-  /// The tick is another one than that after the last step: a peer joined late, or went back.
+  /// Called when the tick jumps: a peer joined late, or went back.
   virtual void TickSet() {}
-  /// Once before each tick, awake bodies or not: choose motor speeds, stream fixtures.
+  /// Called once before each tick, even if no body is awake: choose motor speeds, stream fixtures.
   virtual void BeforeTick() {}
-  /// Before each of the engine's steps of `h` s: apply forces. Forces must not wake what sleeps
-  /// (pass wake = false) unless something changed.
+  /// Called before each of the engine's steps of `h` s: apply forces. Forces must not wake sleeping
+  /// bodies (pass wake = false) unless something changed.
   virtual void BeforeStep(float /*h*/) {}
   virtual void AfterTick() {}
-  /// A player's axes and buttons from the next tick on.
+  /// Sets a player's axes and buttons from the next tick on.
   virtual void SetInput(int /*player*/, const Input& /*input*/) {}
 
-  /// After AfterTick: adds what this stage finds should change (a bond breaks, parts join). Whoever
-  /// has authority proposes it; nothing has changed yet.
+  /// Called after AfterTick: adds the edits that this stage finds necessary (a bond breaks, parts
+  /// join). The authority proposes them; nothing has changed yet.
   virtual void ProposeEdits(std::vector<Edit>* /*edits*/) {}
-  /// An edit was applied (after Rebuilt, if bodies changed).
+  /// Called when an edit was applied (after Rebuilt, if bodies changed).
   virtual void Edited(const Edit& /*edit*/) {}
 
-  /// What the stage remembers from tick to tick, so that Restore can go back bit for bit. Load
-  /// takes what Save gave.
+  /// Saves the stage's memory between ticks, so that Restore can go back bit for bit. Load takes
+  /// the values that Save gave.
   virtual void Save(std::vector<float>* /*memory*/) const {}
-  /// Returns how many it took.
+  /// Returns the number of values that it took.
   virtual std::size_t Load(const float* /*memory*/) { return 0; }
 
-  /// Stages that return true hear of contacts; others cost the contact pipeline nothing.
+  /// True if the stage needs contact events; the contact pipeline is unchanged for the rest.
   virtual bool listens() const { return false; }
   virtual void BeginContact(b2Contact* /*contact*/) {}
   virtual void EndContact(b2Contact* /*contact*/) {}
@@ -78,15 +80,14 @@ class Stage {
   virtual void PostSolve(b2Contact* /*contact*/, const b2ContactImpulse* /*impulse*/) {}
 };
 
-/// The stages that this scene needs, in their order of action (stages.cpp has one line for each).
+/// Returns the stages that this scene needs, in their order of action (a line each in stages.cpp).
 std::vector<std::unique_ptr<Stage>> MakeStages(const StageWorld& world);
 
-/// Whether physics alone can give reason to edits of the scene (a bond breaks, parts join, a hand
-/// grips).
+/// True if physics alone can cause edits of the scene (a bond breaks, parts join, a hand grips).
 bool ProposesEdits(const Scene& scene);
 
-/// Fixtures carry their part's id in their user data; those that stages make carry at least this,
-/// so that they are never taken for a part's.
+/// Fixtures carry their part's id in their user data. Fixtures of stages carry at least this
+/// number, so that they are never mistaken for a part's.
 constexpr std::uintptr_t kStageFixture = 1u << 24;
 
 }  // namespace seam

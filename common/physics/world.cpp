@@ -13,9 +13,9 @@
 #include "common/physics/contact_order.h"
 #include "common/physics/world_impl.h"
 
-// The engine reads the clock six times for each island that it solves, for a profile that nobody
-// here asks for: an eighth of the time of a client of balls in the air. The linker takes a
-// program's own functions before a shared library's.
+// Replaces the engine's timer. The engine reads the clock six times for each island, for a profile
+// that is not used here: an eighth of the time of a client with balls in the air. The linker
+// prefers a program's own functions to those of a shared library.
 b2Timer::b2Timer() : m_start_sec(0), m_start_usec(0) {}
 void b2Timer::Reset() {}
 float b2Timer::GetMilliseconds() const { return 0; }
@@ -23,7 +23,7 @@ float b2Timer::GetMilliseconds() const { return 0; }
 namespace seam {
 namespace {
 
-/// Stricter than ==: a peer's 0 and another's -0 would be two poses.
+/// Stricter than ==: 0 and -0 would give peers two different poses.
 bool SameBits(float a, float b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 }  // namespace
@@ -47,7 +47,7 @@ void World::SetTick(std::int64_t tick) {
 float World::dt() const { return 1.0f / static_cast<float>(impl_->scene.solver.tick_hz); }
 
 int World::BodyOfId(PartId assembly) const {
-  const auto part = static_cast<std::size_t>(assembly);  // negative ones become large
+  const auto part = static_cast<std::size_t>(assembly);  // negative numbers become large
   return part < impl_->body_of_id.size() ? impl_->body_of_id[part] : -1;
 }
 
@@ -58,7 +58,7 @@ BodyState World::Read(int body) const {
 }
 
 void World::Write(int body, const BodyState& state, bool wake) {
-  // The setters below do not look: one NaN would poison everything that this body touches.
+  // The setters below do not check: one NaN would spread to everything that this body touches.
   SEAM_ASSERT(state.position.allFinite() && state.velocity.allFinite());
   SEAM_ASSERT(std::isfinite(state.angle) && std::isfinite(state.spin));
   b2Body* b = impl_->moving(body).body;
@@ -70,7 +70,7 @@ void World::Write(int body, const BodyState& state, bool wake) {
       !SameBits(now.position.y(), state.position.y()) || !SameBits(now.angle, state.angle)) {
     b->SetTransform(ToB2(state.position), state.angle);
   }
-  // Setting a velocity restarts the time to sleep: only when it is another one.
+  // Setting a velocity restarts the sleep timer: do so only for a new one.
   if (!SameBits(now.velocity.x(), state.velocity.x()) ||
       !SameBits(now.velocity.y(), state.velocity.y())) {
     b->SetLinearVelocity(ToB2(state.velocity));
@@ -133,7 +133,7 @@ void World::Act(int player, int action) {
   SEAM_ASSERT(action >= 0 && action < static_cast<int>(actions.size()));
   const Action& a = actions[static_cast<std::size_t>(action)];
   const int assembly = impl_->composition.assembly_of_part[static_cast<std::size_t>(a.part)];
-  if (assembly < 0) return;  // the part has left
+  if (assembly < 0) return;  // the part is gone
   impl_->built.bodies[static_cast<std::size_t>(assembly)]->ApplyLinearImpulseToCenter(
       ToB2(a.impulse), true);
   impl_->NoteAllAside();
@@ -158,7 +158,7 @@ void World::Step() {
     if (w.ordered) OrderNewContacts(&*w.world);
     if (w.led_count > 0) w.PutLedBodiesOnTheirPath(h);
   }
-  if (!w.scene.seats.empty()) w.NoteAllAside();  // a stage may have moved one
+  if (!w.scene.seats.empty()) w.NoteAllAside();  // a stage may have moved an absent body
   w.MoveAbsentBodies();
   ++w.tick;
   for (const auto& stage : w.stages) stage->AfterTick();

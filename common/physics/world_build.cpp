@@ -18,7 +18,7 @@ void AddFace(const Face& face, const Part& frame, float skin, bool guarded, b2Bo
   if (face.parts.size() > 1) (*merged)[face.shape.id] = face.parts;
 }
 
-/// `frame`: a part that lies as the body does.
+/// `frame`: a part with the body's pose.
 void AddShapes(const Scene& scene, const Assembly& assembly, const Part& frame, bool guarded,
                b2Body* body, std::map<PartId, std::vector<PartId>>* merged) {
   if (assembly.parts.size() < kFacesFrom) {  // without copies of its parts
@@ -33,7 +33,7 @@ void AddShapes(const Scene& scene, const Assembly& assembly, const Part& frame, 
   }
 }
 
-/// `at`: where it is; nullptr: where the scene puts it. `ready`: of this body, or nullptr.
+/// `at`: its pose; nullptr: the scene's. `ready`: the body's cached fixtures, or nullptr.
 b2Body* AddBody(const Scene& scene, const Assembly& assembly, const BodyState* at, bool enabled,
                 b2World* world, std::map<PartId, std::vector<PartId>>* merged,
                 ReadyFixtures* ready) {
@@ -58,7 +58,7 @@ b2Body* AddBody(const Scene& scene, const Assembly& assembly, const BodyState* a
   return body;
 }
 
-/// `faces`: of this and others that share the body.
+/// `faces`: shapes of this and other assemblies on the same body.
 b2Body* AddToShared(const Scene& scene, const Assembly& assembly, const std::vector<Face>& faces,
                     AnchoredBodies* shared, std::map<PartId, std::vector<PartId>>* merged) {
   const AnchoredBodies::Body& its = shared->For(scene.parts[static_cast<std::size_t>(assembly.id)]);
@@ -74,14 +74,14 @@ b2MassData MassDataOf(const Scene& scene, const Assembly& assembly) {
   data.mass = static_cast<float>(own.mass);
   data.center = ToB2(own.centre.cast<float>());
   data.I = static_cast<float>(own.inertia + own.mass * own.centre.dot(own.centre));
-  // Box2D subtracts again and asserts that something is left. Something is: the root is the
+  // Box2D subtracts this again and asserts a positive rest. The rest is positive: the root is the
   // heaviest of at most 65 535 parts, so its distance to the centre is part of the inertia.
   SEAM_ASSERT(own.inertia > 1e-5 * own.mass * own.centre.dot(own.centre));
   return data;
 }
 
-/// nullptr: one of its joints is not there, or turns something that does not move: the engine
-/// would not find the gear, which it looks for only at the second bodies of the two joints.
+/// Returns nullptr if one of the coupled joints is not made, or turns a body that does not move:
+/// the engine looks for a gear only at the second bodies of its two joints.
 b2Joint* AddGear(const Joint& gear, b2Body* a, b2Body* b, b2World* world, const BuiltScene& built) {
   b2Joint* first = built.joints[static_cast<std::size_t>(gear.coupled[0])];
   b2Joint* second = built.joints[static_cast<std::size_t>(gear.coupled[1])];
@@ -89,7 +89,8 @@ b2Joint* AddGear(const Joint& gear, b2Body* a, b2Body* b, b2World* world, const 
   return MakeGear(gear, first, second, world);
 }
 
-/// nullptr: its parts are one body, or one is moved by the tick alone.
+/// Returns nullptr if the parts are one body, a body is aside, or both bodies are anchored or
+/// kinematic.
 b2Joint* AddJoint(const Scene& scene, int index, b2Body* a, b2Body* b, b2World* world,
                   BuiltScene* built) {
   const Joint& joint = scene.joints[static_cast<std::size_t>(index)];
@@ -107,18 +108,18 @@ b2Joint* AddJoint(const Scene& scene, int index, b2Body* a, b2Body* b, b2World* 
   return made;
 }
 
-/// The body aside; it is made if it is not there.
+/// Returns the body in `aside`; makes it if it is missing.
 b2Body* BodyAside(const Scene& scene, const Assembly& assembly, std::size_t index,
                   BuildMemory* memory) {
   b2Body*& body = memory->bodies[index];
-  std::map<PartId, std::vector<PartId>> merged;  // it touches nothing
+  std::map<PartId, std::vector<PartId>> merged;  // unused: the body has no contacts
   if (body == nullptr) {
     body = AddBody(scene, assembly, nullptr, false, &memory->aside, &merged, nullptr);
   }
   return body;
 }
 
-/// Makes a scene's bodies and joints, one after the other.
+/// Makes a scene's bodies and joints, in order.
 class Builder {
  public:
   Builder(const Scene& scene, const Composition& composition, b2World* world, BuildMemory* memory,
@@ -141,8 +142,8 @@ class Builder {
     built_.bodies[a] = AddToShared(scene_, of, memory_.shared[a], &shared_, &built_.merged);
   }
 
-  /// Makes it in the world, `at` there if that is not nullptr, or aside if it is to be absent and
-  /// is not there yet.
+  /// Makes the body in the world, at pose `at` if that is not nullptr; or, if absent, in `aside`,
+  /// unless it is there already.
   void AddMoving(int body, const BodyState* at) {
     const auto i = static_cast<std::size_t>(body);
     const auto a = static_cast<std::size_t>(memory_.assembly_of[i]);
@@ -154,7 +155,7 @@ class Builder {
                                     &memory_.ready[i]);
     built_.bodies[a] = built_.moving[i].body = made;
     if (!absent) memory_.made.push_back(body);
-    if (kept) return;  // as it was left
+    if (kept) return;  // keeps its state
     made->GetUserData().pointer = i + 1;
     made->SetMassData(&memory_.mass[i]);
     const Part& root = scene_.parts[static_cast<std::size_t>(of.id)];
@@ -169,7 +170,7 @@ class Builder {
     if (made != nullptr) memory_.joints.push_back(joint);
   }
 
-  /// Indices of those of its bodies that move.
+  /// Returns the indices of the joint's moving bodies.
   std::vector<int> MovingOf(int joint) const {
     const Joint& j = scene_.joints[static_cast<std::size_t>(joint)];
     std::vector<int> bodies;
@@ -198,8 +199,8 @@ class Builder {
   AnchoredBodies shared_;
 };
 
-/// Makes as much room in the memory as there are bodies, and takes back those that are absent no
-/// more.
+/// Resizes the memory to the number of bodies, and drops bodies of `aside` that are no longer
+/// absent.
 void Arrange(std::size_t bodies, BuildMemory* memory) {
   memory->bodies.resize(bodies, nullptr);
   memory->absent.resize(bodies, 0);
@@ -301,7 +302,7 @@ void BuildPresent(const Scene& scene, const Composition& composition, const Pres
     const auto i = static_cast<std::size_t>(body);
     add_anchored_before(memory->assembly_of[i]);
     const BodyState at = present.at(body);
-    // Joints are made where the scene has their ends.
+    // Bodies with joints start where the scene has the joints' ends.
     builder.AddMoving(body, memory->joints_of[i].empty() ? &at : nullptr);
     joints.insert(joints.end(), memory->joints_of[i].begin(), memory->joints_of[i].end());
   }

@@ -1,7 +1,7 @@
 #pragma once
-/// Puts a scene into a Box2D world: one body per assembly, in the order of their ids, but few for
-/// the anchored ones of which there are many, then the joints in the scene's order. The same scene
-/// gives the same bodies in the same order everywhere.
+/// Puts a scene into a Box2D world: one body per assembly, in the order of their ids (anchored
+/// assemblies share a few bodies if there are many), then the joints in the scene's order. The same
+/// scene gives the same bodies in the same order everywhere.
 
 #include <box2d/box2d.h>
 
@@ -34,60 +34,60 @@ struct BuiltScene {
   /// By index into Composition::assemblies. Anchored ones may share one (anchored_bodies.h).
   std::vector<b2Body*> bodies;
   std::vector<MovingBody> moving;  ///< ascending by id
-  std::vector<b2Joint*> joints;    ///< by index into Scene::joints; nullptr: one body
+  std::vector<b2Joint*> joints;    ///< by index into Scene::joints; nullptr: not made
   std::vector<Motor> motors;
-  std::vector<b2DistanceJoint*> tethers;  ///< no springs, to something anchored
-  /// Parts that collide as one shape, by the lowest of them, whose number the shape has.
+  std::vector<b2DistanceJoint*> tethers;  ///< rigid distance joints and ropes to something anchored
+  /// Parts that collide as one shape, by the lowest of them, which numbers the shape.
   std::map<PartId, std::vector<PartId>> merged;
 };
 
-/// What builds of the same bodies, one after the other, have in common.
+/// Data reused by successive builds of the same bodies.
 struct BuildMemory {
-  std::uint64_t composition = 0;          ///< hash of who was one body with whom
+  std::uint64_t composition = 0;          ///< hash of the parts of each body
   std::vector<b2MassData> mass;           ///< by moving body; empty: not known yet
-  int revision = 0;                       ///< of the scene: edits that it has had
-  int share_revision = -1;                ///< of which `share` and `shared` are
+  int revision = 0;                       ///< number of edits that the scene has had
+  int share_revision = -1;                ///< revision of `share` and `shared`
   std::vector<bool> share;                ///< by assembly: see ShareBodies
   std::vector<std::vector<Face>> shared;  ///< by assembly: see SharedFaces
-  /// An engine that is never stepped, for the bodies that take no part in steps: a body that is
-  /// only disabled costs every step time. They lie there disabled.
+  /// A Box2D world that is never stepped, for the bodies that take no part in steps. They are
+  /// disabled there; a disabled body in the real world would still cost time in every step.
   b2World aside{b2Vec2(0, 0)};
   std::vector<b2Body*> bodies;  ///< by moving body: in `aside`; nullptr: in the world
-  std::vector<char> absent;     ///< by moving body: is to be aside; empty: none
-  /// Of the last whole build, so that only what is present is built again.
+  std::vector<char> absent;     ///< by moving body: must be in `aside`; empty: none
+  /// From the last full build, so that only present bodies are built again.
   std::vector<int> anchored;                ///< assemblies
   std::vector<int> assembly_of;             ///< by moving body
   std::vector<std::vector<int>> joints_of;  ///< by moving body: the scene's joints at it, ascending
   std::vector<int> made;                    ///< moving bodies that are in the world, ascending
-  std::vector<int> joints;                  ///< that are made, ascending
-  std::vector<ReadyFixtures> ready;         ///< by moving body, as far as it has been made
+  std::vector<int> joints;                  ///< joints that are made, ascending
+  std::vector<ReadyFixtures> ready;         ///< by moving body, once it has been made
 
-  /// What was is of other bodies.
+  /// Drops everything, for other bodies with this composition hash.
   void Clear(std::uint64_t hash);
 };
 
-/// Whether a body takes no part in steps.
+/// True if a body takes no part in steps.
 inline bool IsAside(const b2Body& body) { return !body.IsEnabled(); }
 
 /// Index into BuiltScene::moving; -1 for anchored bodies.
 int IndexOf(b2Body* body);
 
-/// Requires a scene that ParseScene accepted, or one as good. A joint to a body that is aside is
-/// not made.
+/// Builds all bodies and joints. Requires a scene that ParseScene accepted, or one as good. A joint
+/// to a body that is aside is not made.
 BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2World* world,
                       BuildMemory* memory);
-/// Who of the moving bodies is there, and where.
+/// The present moving bodies and their states.
 struct Present {
   const std::vector<int>& bodies;   ///< ascending
-  const std::vector<int>& crossed;  ///< have come or gone since the last build, as absent says
+  const std::vector<int>& crossed;  ///< have become present or absent since the last build
   std::function<BodyState(int body)> at;
 };
-/// The same bodies and joints again, of the same revision of the scene: only those that are present
-/// and of anchored assemblies are made, in the order in which BuildScene would; what has no joints
-/// in its place, the others where the scene has them.
+/// Builds the same bodies and joints again, for the same revision of the scene. Only present bodies
+/// and anchored assemblies are made, in the order of BuildScene. Bodies without joints are made at
+/// their current poses, bodies with joints where the scene has them.
 void BuildPresent(const Scene& scene, const Composition& composition, const Present& present,
                   b2World* world, BuildMemory* memory, BuiltScene* built);
-/// The same as BuildScene, with nothing remembered.
+/// Like BuildScene above, without a memory.
 BuiltScene BuildScene(const Scene& scene, const Composition& composition, b2World* world);
 
 }  // namespace seam

@@ -11,7 +11,7 @@
 namespace seam {
 namespace {
 
-/// Indices of a contact's bodies, the lower first; -1: anchored.
+/// Returns the indices of a contact's bodies, the lower first; -1: anchored.
 std::pair<int, int> PairOf(const b2Contact* contact) {
   const int a = IndexOf(const_cast<b2Fixture*>(contact->GetFixtureA())->GetBody());
   const int b = IndexOf(const_cast<b2Fixture*>(contact->GetFixtureB())->GetBody());
@@ -22,13 +22,13 @@ bool Touching(const b2Contact* contact) {
   return contact->IsTouching() && contact->GetManifold()->pointCount > 0;
 }
 
-/// Cosine above which two directions count as one.
+/// Cosine above which two directions count as equal.
 constexpr float kSameDirection = 0.9f;
 
-/// A rope this much shorter than it may be is still taut, m.
+/// A rope this much shorter than its maximal length still counts as taut, m.
 constexpr float kTaut = 0.01f;
 
-/// Of each body at most two, the first found of those that point the same way.
+/// Keeps at most two directions of each body, the first of those that are nearly parallel.
 std::vector<BlockedDirection> Distinct(std::vector<BlockedDirection> all) {
   std::stable_sort(
       all.begin(), all.end(),
@@ -50,8 +50,8 @@ std::vector<BlockedDirection> Distinct(std::vector<BlockedDirection> all) {
 void ImpulseMeter::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) {
   Felt felt;
   for (int i = 0; i < impulse->count; ++i) felt.impulse += impulse->normalImpulses[i];
-  if (felt.impulse <= least_) return;  // without a look at the bodies: most contacts, every step
-  // Anchored bodies have no mass here.
+  if (felt.impulse <= least_) return;  // most contacts end here, without access to their bodies
+  // Anchored bodies have mass 0 here.
   const float mass_a = contact->GetFixtureA()->GetBody()->GetMass();
   const float mass_b = contact->GetFixtureB()->GetBody()->GetMass();
   const float lighter = mass_a <= 0 || (mass_b > 0 && mass_b < mass_a) ? mass_b : mass_a;
@@ -64,7 +64,7 @@ void ImpulseMeter::PostSolve(b2Contact* contact, const b2ContactImpulse* impulse
 }
 
 std::vector<Impact> ImpulseMeter::Impacts(const std::vector<MovingBody>& moving) {
-  // Stable: the order of solving decides the order of summing, the same everywhere.
+  // Stable: sums in the order of solving, which is the same everywhere.
   std::stable_sort(felt_.begin(), felt_.end(), [](const Felt& x, const Felt& y) {
     return std::tie(x.body_a, x.body_b) < std::tie(y.body_a, y.body_b);
   });

@@ -1,5 +1,5 @@
 #pragma once
-/// What a tick's contacts did: impacts, touches, and which directions are blocked.
+/// Results of a tick's contacts: impacts, touches and blocked directions.
 
 #include <vector>
 
@@ -8,24 +8,25 @@
 
 namespace seam {
 
-/// Listens to Box2D and sums the normal impulses of a tick's substeps by pair of bodies.
+/// Contact listener that sums the normal impulses of a tick's substeps by pair of bodies.
 class ImpulseMeter : public b2ContactListener {
  public:
-  /// `substeps` per tick: into how many parts a blow may be divided. `lightest`: least mass that
-  /// moves, kg.
+  /// `substeps`: per tick, the number of parts into which an impact may be divided. `lightest`:
+  /// least mass of a moving body, kg.
   void Set(int substeps, float lightest) {
     counts_from_ = kImpactRecordMin / (kShares * static_cast<float>(substeps));
     least_ = counts_from_ * lightest;
   }
   void Clear() { felt_.clear(); }
-  /// Ascending by pair; only those above kImpactRecordMin.
+  /// Returns the impacts above kImpactRecordMin, ascending by pair.
   std::vector<Impact> Impacts(const std::vector<MovingBody>& moving);
 
   void PostSolve(b2Contact* contact, const b2ContactImpulse* impulse) override;
 
  private:
-  /// A contact's impulse counts from this share of the least impact in each substep: resting bodies
-  /// cost almost nothing, and a blow is overlooked only if three shapes of one body share it.
+  /// Inverse of the share of the least impact that a contact's impulse needs in a substep to be
+  /// counted. With it resting bodies cost almost nothing, and an impact is missed only if it is
+  /// divided among three shapes of one body.
   static constexpr float kShares = 2;
   struct Felt {
     int body_a = -1, body_b = -1;  // a < b
@@ -37,15 +38,15 @@ class ImpulseMeter : public b2ContactListener {
   float least_ = 0;         // N s: counts_from_ for the lightest body of all
 };
 
-/// Touching pairs of moving bodies, ascending, each once.
+/// Returns the touching pairs of moving bodies, ascending, each once.
 std::vector<Touch> FindTouches(const b2World& world);
 
-/// Touching pairs of parts, ascending, each once; not what stages have added. Of anchored ones that
-/// are one shape that which is touched.
+/// Returns the touching pairs of parts, ascending, each once, without fixtures of stages. If
+/// anchored parts are merged into one shape, the part at the contact point counts.
 std::vector<PartTouch> FindPartTouches(const b2World& world, const Scene& scene,
                                        const BuiltScene& built);
 
-/// At most two directions for each body, ascending by body.
+/// Returns at most two directions for each body, ascending by body.
 std::vector<BlockedDirection> FindBlockedDirections(const b2World& world,
                                                     const std::vector<b2DistanceJoint*>& tethers);
 

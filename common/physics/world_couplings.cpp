@@ -11,15 +11,15 @@ namespace {
 
 SEAM_REVEAL(GearConstant, float, b2GearJoint, m_constant);
 
-/// The direction in which a gear pushes at the second body of its joint: none at a hinge's.
+/// Returns the direction in which a gear pushes the second body of its joint: zero for a hinge.
 b2Vec2 PushOf(b2Joint* geared) {
   if (geared->GetType() != e_prismaticJoint) return b2Vec2_zero;
   const auto& slide = *static_cast<b2PrismaticJoint*>(geared);
   return geared->GetBodyA()->GetWorldVector(slide.GetLocalAxisA());
 }
 
-// The engine's own GetReactionForce has directions of its last step, and none where it did not
-// solve the joint.
+// The engine's own GetReactionForce uses the directions of its last step, which are unset where it
+// did not solve the joint.
 
 JointForces ForcesOfGear(b2GearJoint* gear, float hz) {
   const float along = hz * *ImpulsesOf(gear).at[0];
@@ -35,12 +35,13 @@ JointForces ForcesOfPulley(b2PulleyJoint* pulley, float hz) {
   return {pull * up_a, pulley->GetRatio() * pull * up_b};
 }
 
-/// N: what the impulses, N s, along and across a direction of A make of it.
+/// Returns the force, N, of impulses, N s, along and across an axis.
 b2Vec2 Along(float hz, float along, float across, const b2Vec2& axis) {
   return hz * (along * axis + across * b2Cross(1.0f, axis));
 }
 
-/// On body B. Not the engine's reaction, which uses directions that only its own solver keeps.
+/// Returns the force on body B. The engine's reaction would use directions that only its own solver
+/// sets.
 b2Vec2 ForceOnB(b2Joint* joint, float hz) {
   const JointImpulses impulses = ImpulsesOf(joint);
   const auto& p = impulses.at;
@@ -75,7 +76,7 @@ b2Joint* MakeGear(const Joint& gear, b2Joint* first, b2Joint* second, b2World* w
   def.ratio = gear.ratio;
   def.collideConnected = gear.collide;
   auto* made = static_cast<b2GearJoint*>(world->CreateJoint(&def));
-  // The engine keeps what it finds; where bonds have moved parts, that is not how they started.
+  // The engine takes the current value, which is not the initial one after bonds have moved parts.
   made->*Member(GearConstant()) = 0;
   return made;
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// What a World is made of; for its own files.
+/// Private data of World, for its own files.
 
 #include <box2d/box2d.h>
 
@@ -34,7 +34,7 @@ struct World::Impl {
     for (const auto& stage : stages) stage->Rebuilt(&*world);
   }
 
-  /// Everything.
+  /// Builds all bodies and joints.
   void Build() {
     memory.revision = topology.revision();
     built = BuildScene(scene, composition, &*world, &memory);
@@ -53,7 +53,7 @@ struct World::Impl {
     Built();
   }
 
-  /// The bodies and joints of the world are new.
+  /// Prepares the meter and the exact solver for new bodies and joints.
   void Built() {
     meter.Set(scene.solver.substeps, lightest);
     if (scene.solver.joints == JointSolving::kIterative) return;
@@ -94,46 +94,46 @@ struct World::Impl {
     world->SetWarmStarting(scene.solver.warm_starting);
   }
 
-  /// Of one of the engine's steps, s.
+  /// Returns the duration of one of the engine's steps, s.
   float step_s() const {
     return 1.0f / static_cast<float>(scene.solver.tick_hz * scene.solver.substeps);
   }
 
-  /// What survives when the bodies are made anew.
+  /// Returns the state that survives when the bodies are made anew.
   WorldSnapshot Keep();
   std::vector<float> Speeds() const;  ///< of motors, by the scene's joints
-  /// Whether its bodies and joints are those that are there now.
+  /// Returns an error if the snapshot has other bodies or joints than the world.
   Status ValidateSnapshot(const WorldSnapshot& snapshot) const;
-  /// Makes everything anew, in the states of the snapshot. What it has of joints that are gone
-  /// is left out. The snapshot of stages may be empty: they begin anew, too.
-  /// `new_motions`: by body of the snapshot; nullptr: they stay, and so do the bodies.
+  /// Makes everything anew, in the states of the snapshot. Data of joints that are gone is left
+  /// out. The stages' data may be empty: then they begin anew, too. `new_motions`: by body of the
+  /// snapshot; nullptr: motions and bodies stay.
   void Rebuild(const WorldSnapshot& snapshot, const std::vector<Motion>* new_motions);
-  /// Whether nothing that takes part in steps moves, or is moved.
+  /// True if every body that takes part in steps is at rest and nothing moves on a path.
   bool AllStill() const;
   bool BuiltAlready(const WorldSnapshot& snapshot) const;
-  /// Lets bodies that have become absent, or are so no more, leave the engine or come back.
+  /// Moves bodies between the engine and `aside` after changes to or from kAbsent.
   void Settle();
   /// Before a rebuild: decides which bodies will be aside.
   void Arrange(const std::vector<Motion>& wanted);
   void ArrangeCrossed();
   void KnowJoints(bool any_absent);
-  /// Hashes of which joints are there, absent bodies' included.
+  /// Returns a hash of the existing joints, absent bodies' joints included.
   std::uint64_t JointsHash() const;
-  /// Whether the joint holds, or would if its bodies were not absent.
+  /// True if the joint exists, or would if its bodies were not absent.
   bool Holds(std::size_t joint) const;
   std::vector<Pin> FindPins() const;
 
-  /// Before and after one of the engine's steps of h seconds.
+  /// Called before and after one of the engine's steps of h seconds.
   void LetLedBodiesMove();
   void PutLedBodiesOnTheirPath(float h);
-  /// After a tick.
+  /// Called after a tick.
   void MoveAbsentBodies();
-  /// By motions: who is present. All else is to be moved aside, if `aside` is not set.
+  /// Finds the present bodies by their motions. Absent ones are to be moved aside if not `aside`.
   void FindPresent(bool aside);
   void Cross(int body, bool goes);
-  /// Nothing is known of which pages are as they were.
+  /// Marks all pages as changed.
   void ForgetPages();
-  /// The body, and so its page of `kept`, may have changed.
+  /// Marks the body, and so its page of `kept`, as possibly changed.
   void NoteChanged(int body) {
     const auto i = static_cast<std::size_t>(body);
     stale[i / kept.kPage] = 1;
@@ -141,13 +141,13 @@ struct World::Impl {
     stamps[i] = ++last_stamp;
     change_log[last_stamp & (change_log.size() - 1)] = body;
   }
-  /// A body that is aside was changed.
+  /// Marks a body that is aside as changed.
   void NoteAside(int body);
-  /// Any of them may have been.
+  /// Marks all bodies as possibly changed, if any is absent.
   void NoteAllAside();
-  /// Pages of what is present are never as they were.
+  /// Marks all present bodies as possibly changed.
   void NotePresent();
-  /// What is remembered of contacts of those that are present and lie as they did then; ascending.
+  /// Returns the remembered contact points of present bodies in the remembered pose; ascending.
   std::vector<WorldSnapshot::Point> Remembered(const WorldSnapshot& snapshot) const;
 
   const MovingBody& moving(int body) const {
@@ -167,21 +167,21 @@ struct World::Impl {
   std::vector<int> body_of_id;         // by part: the moving body of that id, -1: none
   std::vector<Motion> motions;         // by moving body
   mutable std::int64_t looks = 0;      // calls of moving()
-  int led_count = 0;                   // of them kLed
-  std::vector<BodyState> led_path;     // by moving body: of led ones, where the step began
-  bool ordered = false;                // contacts are solved in an order of their own
-  std::optional<WorldSnapshot> still;  // of which all was built, when nothing moved
-  bool unsettled = false;              // some are absent, or are so no more, but still to be moved
+  int led_count = 0;                   // number of kLed bodies
+  std::vector<BodyState> led_path;     // by moving body: state of a kLed one before the step
+  bool ordered = false;                // true once contacts are sorted (contact_order.h)
+  std::optional<WorldSnapshot> still;  // the state last built from, if nothing moved then
+  bool unsettled = false;              // a change to or from kAbsent is pending
   std::vector<int> present;            // moving bodies that are not absent, ascending
   std::vector<int> crossed;            // moving bodies that have come or gone since the last build
   std::vector<int> awake_aside;        // moving bodies that are aside and may be awake
   std::vector<char> noted_awake;       // by moving body: it is in awake_aside
   Paged<WorldSnapshot::Body> kept;     // of the last Keep
-  std::vector<char> stale;             // by page of `kept`: what it tells of may have changed since
-  std::vector<char> changed;          // by moving body of such a page: it may have; else it has not
-  std::vector<std::uint64_t> stamps;  // by moving body: another each time that it may have changed
+  std::vector<char> stale;             // by page of `kept`: may have changed since
+  std::vector<char> changed;           // by moving body of a stale page: may have changed
+  std::vector<std::uint64_t> stamps;   // by moving body: renewed at each possible change
   std::uint64_t last_stamp = 0;
-  std::vector<int> change_log;  // by stamp, the last of them: the body; 2^n of them
+  std::vector<int> change_log;  // body by stamp, a ring of the last 2^n
   std::uint64_t log_from = 0;   // stamps up to this one are not in it
   struct Contacts {
     BodyState pose;
@@ -190,9 +190,9 @@ struct World::Impl {
   std::map<int, Contacts> remembered;                // by moving body, see RememberContacts
   float lightest = FLT_MAX;                          // kg, of the moving bodies
   bool gives_all = false;                            // GivesAll of the scene
-  mutable std::optional<std::uint64_t> joints_hash;  // of this revision
+  mutable std::optional<std::uint64_t> joints_hash;  // for the revision below
   mutable int joints_hash_revision = -1;
-  /// While bodies are absent: the joints as they were found when none was.
+  /// While bodies are absent: the joints as they were when none was.
   struct AllPresent {
     std::vector<Pin> pins;
     std::vector<char> made;  // by the scene's joints
@@ -203,7 +203,7 @@ struct World::Impl {
   std::unique_ptr<ContactHub> hub;             // only when a stage listens
   std::vector<Impact> impacts;
   mutable Flight flight;
-  // Computed when asked for, so that a world that nobody asks has no cost.
+  // Computed on demand, so that an unused result has no cost.
   std::optional<std::vector<Touch>> touches;
   std::optional<std::vector<BlockedDirection>> blocked_directions;
 };

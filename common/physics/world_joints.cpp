@@ -8,14 +8,14 @@
 namespace seam {
 namespace {
 
-/// What revolute, wheel and prismatic have in common but for their names.
+/// Sets the fields that revolute, wheel and prismatic joints share.
 template <typename Def>
 void SetCommon(const Joint& joint, Def* def) {
   def->enableMotor = joint.motor_torque > 0;
   def->collideConnected = joint.collide;
 }
 
-/// Where bonds have moved an end, the two ends are no longer one point of the scene.
+/// Sets B's end, which may lie apart from A's after bonds have moved an end.
 template <typename Def>
 void SetEnds(const Joint& joint, b2Body* b, Def* def) {
   def->localAnchorB = b->GetLocalPoint(ToB2(joint.anchor_b));
@@ -55,8 +55,8 @@ b2Joint* AddWheel(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
   if (joint.frequency_hz > 0) {
     b2LinearStiffness(def.stiffness, def.damping, joint.frequency_hz, joint.damping_ratio, a, b);
   }
-  // Without a spring Box2D would let the wheel slide along the axis: hold it, or let it slide as
-  // far as the scene says.
+  // Without a spring Box2D would let the wheel slide freely along the axis: fix it, or use the
+  // scene's limits.
   def.enableLimit = joint.limited || joint.frequency_hz <= 0;
   def.lowerTranslation = joint.limited ? joint.lower : 0;
   def.upperTranslation = joint.limited ? joint.upper : 0;
@@ -64,9 +64,9 @@ b2Joint* AddWheel(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
   return world->CreateJoint(&def);
 }
 
-/// Longer than anything, m. Not FLT_MAX: the engine divides what is left to it by a step's seconds
-/// and multiplies by the mass, which is zero between two bodies that are not simulated: 0 times
-/// infinity is no number.
+/// A length beyond any limit, m. Not FLT_MAX: the engine divides the remaining length by a step's
+/// seconds and multiplies by the mass, which is zero between two bodies that are not simulated, and
+/// 0 times infinity is NaN.
 constexpr float kNoLimit = 1e30f;
 
 b2Joint* AddDistance(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
@@ -104,7 +104,7 @@ b2Joint* AddWeld(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
 b2Joint* AddPoseMotor(const Joint& joint, b2Body* a, b2Body* b, b2World* world) {
   b2MotorJointDef def;
   def.Initialize(a, b);
-  // Where b's origin is in a's frame when the ends meet at the angle of rest.
+  // Offset of b's origin in a's frame when the ends meet at the rest angle.
   def.angularOffset -= joint.turn;
   def.linearOffset = a->GetLocalPoint(ToB2(joint.anchor_a)) -
                      b2Mul(b2Rot(def.angularOffset), b->GetLocalPoint(ToB2(joint.anchor_b)));

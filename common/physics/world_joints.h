@@ -1,5 +1,5 @@
 #pragma once
-/// A scene's joints as Box2D's, and the motors in them.
+/// A scene's joints as Box2D joints, and their motors.
 
 #include <box2d/box2d.h>
 
@@ -7,7 +7,7 @@
 
 namespace seam {
 
-/// What turns, drives or moves the two sides of a joint against each other.
+/// A drive that turns or moves the two sides of a joint against each other.
 struct Motor {
   int index = 0;                       ///< into Scene::joints
   b2Joint* joint = nullptr;            ///< revolute, wheel, prismatic or motor
@@ -18,17 +18,17 @@ struct Motor {
   float angle = 0, swing = 0;          ///< motor joint, rad: likewise
   float held = 0;                      ///< motor joint: its speed now
 
-  /// `share` of full drive, -1..1. Wakes the bodies if the speed changes.
+  /// Drives at `share` of full drive, -1..1. Wakes the bodies if the speed changes.
   void Drive(float share) { SetSpeed(share * speed); }
-  /// rad/s or m/s, as it is now; a motor joint's: the share of its reach.
+  /// Returns the current speed, rad/s or m/s; for a motor joint, the share of its reach.
   float Speed() const;
   void SetSpeed(float now);
 };
 
-/// Makes a joint that is not one body (IsRigid) and is not kinematic.
+/// Makes a Box2D joint. Requires one that is not rigid (IsRigid), not a gear and not kinematic.
 b2Joint* MakeJoint(const Joint& joint, b2Body* a, b2Body* b, b2World* world);
 
-/// Whether something turns it; then MotorOf tells what.
+/// True if the joint has a motor; then MotorOf returns it.
 bool HasMotor(const Joint& joint);
 Motor MotorOf(const Joint& joint, b2Joint* made, int index);
 

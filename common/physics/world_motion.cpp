@@ -1,6 +1,7 @@
-/// World: bodies that are displayed and not simulated. A kinematic body hits like a wall of
-/// infinite mass, and in a closed room that pumps energy into all that it touches. A led one is
-/// solved like any other, with its own mass, and only then put where its path takes it.
+/// World: motion of bodies that are displayed and not simulated. A kinematic body hits like a wall
+/// of infinite mass, and in a closed room that pumps energy into everything that it touches. A body
+/// on a prescribed path (kLed) is solved like any other, with its own mass, and put back on its
+/// path afterwards.
 
 #include <algorithm>
 
@@ -10,13 +11,13 @@
 namespace seam {
 namespace {
 
-/// From the velocity of the body's origin to that of its centre of mass.
+/// Converts the velocity of the body's origin to that of its centre of mass.
 b2Vec2 AtCentre(const b2Body& body, const b2Vec2& at_origin) {
   const b2Vec2 arm = body.GetWorldCenter() - body.GetPosition();
   return at_origin + b2Cross(body.GetAngularVelocity(), arm);
 }
 
-/// Whether a joint keeps two bodies from colliding.
+/// True if a joint keeps two bodies from colliding.
 bool Tied(const b2Body& body, const b2Body& other) {
   for (const b2JointEdge* edge = body.GetJointList(); edge != nullptr; edge = edge->next) {
     if (edge->other == &other && !edge->joint->GetCollideConnected()) return true;
@@ -24,7 +25,7 @@ bool Tied(const b2Body& body, const b2Body& other) {
   return false;
 }
 
-/// The nearest anchored fixture that collides with one of the body's.
+/// Finds the nearest anchored fixture that collides with one of the body's.
 class FirstAnchored : public b2RayCastCallback {
  public:
   explicit FirstAnchored(const b2Body& body) : body_(body) {}
@@ -57,7 +58,7 @@ void World::SetMotion(int body, Motion motion) {
   blocked_directions();
   const MovingBody& m = impl_->moving(body);
   Motion& now = impl_->motions[static_cast<std::size_t>(body)];
-  b2Vec2 origin_velocity = m.body->GetLinearVelocity();  // of what is kinematic or led
+  b2Vec2 origin_velocity = m.body->GetLinearVelocity();  // as for kinematic and kLed bodies
   if (now == Motion::kDynamic) {
     origin_velocity = m.body->GetLinearVelocityFromLocalPoint(b2Vec2(0, 0));
   }
@@ -95,7 +96,7 @@ void World::Impl::FindPresent(bool aside) {
   }
 }
 
-/// It is to come or to go, which the next rebuild does.
+/// Records that a body becomes absent or present, which the next rebuild carries out.
 void World::Impl::Cross(int body, bool goes) {
   unsettled = true;
   crossed.push_back(body);
@@ -186,7 +187,7 @@ void World::Impl::PutLedBodiesOnTheirPath(float h) {
   }
 }
 
-/// What is aside and sleeps costs nothing.
+/// Moves the absent bodies that are awake; sleeping ones cost nothing.
 void World::Impl::MoveAbsentBodies() {
   const float dt = 1.0f / static_cast<float>(scene.solver.tick_hz);
   std::size_t awake = 0;
@@ -221,7 +222,7 @@ BodyState World::AfterFlight(int body, const BodyState& from, float seconds) con
   return impl_->flight.After(from, seconds);
 }
 
-/// The joints as they are while nothing is absent.
+/// Stores the joints as they are while no body is absent.
 void World::Impl::KnowJoints(bool any_absent) {
   if (!any_absent) return all_present.reset();
   if (all_present) return;

@@ -1,4 +1,5 @@
-/// World: its joints as pins. Springs and motors that yield are none, only their limits are.
+/// World: its joints as pins. Springs and motors are left out, but their joints' limits are
+/// included.
 
 #include <algorithm>
 #include <cfloat>
@@ -54,7 +55,7 @@ void SetDistance(const b2DistanceJoint& made, Pin* pin) {
   pin->upper = made.GetMaxLength() < FLT_MAX ? made.GetMaxLength() : kNoEnd;
 }
 
-/// Where a spring of this frequency (Hz) rests; its damping ends a swing sooner.
+/// Sets the rest position of a spring of this frequency (Hz). Its damping is ignored.
 void SetSpring(b2Joint* made, float frequency, Pin* pin) {
   const float swing = 2 * b2_pi * frequency;
   if (made->GetType() == e_wheelJoint) pin->swing = swing;
@@ -67,7 +68,7 @@ void SetSpring(b2Joint* made, float frequency, Pin* pin) {
   pin->turn_rest = static_cast<b2WeldJoint*>(made)->GetReferenceAngle();
 }
 
-/// False: it holds no geometry.
+/// False if the joint constrains no geometry.
 bool SetHold(b2Joint* made, Pin* pin) {
   switch (made->GetType()) {
     case e_revoluteJoint: SetRevolute(*static_cast<b2RevoluteJoint*>(made), pin); return true;

@@ -11,9 +11,9 @@
 namespace seam {
 namespace {
 
-/// Edges shorter than this are not moved in: the engine merges points at 2.5 mm. m
+/// Edges shorter than this are not moved in, m: the engine merges points at 2.5 mm.
 constexpr float kEdgeMin = 0.01f;
-/// A sharp corner's point moves in by at most this many times its edges' distance.
+/// Limit of a sharp corner's move, as a multiple of its edges' move.
 constexpr float kMiterMax = 5;
 
 b2Vec2 InRoot(const Part& part, const Part& root, const Vec2& point) {
@@ -26,13 +26,14 @@ std::vector<b2Vec2> PointsInRoot(const Part& part, const Part& root) {
   return points;
 }
 
-/// Where a corner of two edges with these outward normals goes when both move in by `depth`.
+/// Returns the new position of a corner of two edges with these outward normals, both moved in by
+/// `depth`.
 b2Vec2 MovedIn(const b2Vec2& corner, const b2Vec2& before, const b2Vec2& after, float depth) {
   const float share = std::min(kMiterMax, 1 / std::max(1e-3f, 1 + b2Dot(before, after)));
   return corner - depth * share * (before + after);
 }
 
-/// Moves all edges in by `depth`; leaves a polygon that is too small for it as it is.
+/// Moves all edges in by `depth`. False, and unchanged, if the polygon is too small for it.
 bool MoveIn(float depth, b2PolygonShape* polygon) {
   const int32 count = polygon->m_count;
   std::vector<b2Vec2> points;
@@ -59,15 +60,15 @@ void SetSkin(float skin, bool guarded, b2PolygonShape* polygon) {
   }
 }
 
-/// Chains collide on the right of the way along their points in the engine, on the left in a
-/// scene: so that ground is written in reading order. The ends continue straight on.
+/// In the engine chains collide on the right of their direction, in a scene on the left, so that
+/// ground is written in reading order. The ends continue straight on.
 void SetChain(const std::vector<b2Vec2>& points, float skin, b2ChainShape* chain) {
   std::vector<b2Vec2> p(points.rbegin(), points.rend());
   if (skin > 0) {
     const auto outward = [&](std::size_t segment) {
       b2Vec2 along = points[segment + 1] - points[segment];
       along.Normalize();
-      return b2Vec2(-along.y, along.x);  // left of the way in a scene: open air
+      return b2Vec2(-along.y, along.x);  // left of the direction in a scene: open air
     };
     const std::size_t last = points.size() - 1;
     for (std::size_t i = 0; i <= last; ++i) {
@@ -101,8 +102,8 @@ class Pieces {
   b2FixtureDef def_;
 };
 
-/// Convex points in order. More than the engine's eight are cut in halves, so that no piece is a
-/// sliver.
+/// Adds a polygon of convex points in order. More than the engine's eight are cut in halves, so
+/// that no piece is a sliver.
 void AddPolygon(const std::vector<b2Vec2>& points, float skin, bool guarded, Pieces* pieces) {
   if (points.size() > b2_maxPolygonVertices) {
     const auto middle = points.begin() + static_cast<std::ptrdiff_t>(points.size() / 2);
@@ -118,8 +119,8 @@ void AddPolygon(const std::vector<b2Vec2>& points, float skin, bool guarded, Pie
   pieces->Add(polygon);
 }
 
-/// The engine gives circles no rim: with `skin` they get one, or they would rest in what they lie
-/// on.
+/// Adds a circle. The engine gives circles no rim; with `skin` they get one, or they would sink
+/// into the surface below.
 void AddCircle(const b2Vec2& centre, float radius, float skin, Pieces* pieces) {
   b2CircleShape circle;
   circle.m_radius = radius + skin;
@@ -127,7 +128,7 @@ void AddCircle(const b2Vec2& centre, float radius, float skin, Pieces* pieces) {
   pieces->Add(circle);
 }
 
-/// Two circles and a box between them whose rim ends where theirs does.
+/// Adds two circles and a box between them, with the rims aligned.
 void AddCapsule(const Part& part, const Part& root, float skin, bool guarded, Pieces* pieces) {
   const b2Vec2 first = InRoot(part, root, part.points[0]);
   const b2Vec2 last = InRoot(part, root, part.points[1]);

@@ -1,5 +1,5 @@
 #pragma once
-/// A part as Box2D's shape, with the rim (skin) that its scene asks for.
+/// A part as a Box2D shape, with the rim (skin) that its scene sets.
 
 #include <box2d/box2d.h>
 
@@ -20,20 +20,20 @@ namespace seam {
 ///   anchored   |  1 cm rim         anchored  |  1 cm rim, moved in by 7.5 mm
 ///
 /// The engine lets rims overlap by its slop of 5 mm: stock boxes rest 1.5 cm apart, these touch.
-/// Continuous collision wants a sum of rims of 1.25 cm or more, and has it against all that is
-/// guarded; with less, discs and boxes pass through thin floors.
+/// Continuous collision needs a sum of rims of at least 1.25 cm and has it against every guarded
+/// shape; with less, discs and boxes pass through thin floors.
 ///
-/// One fixture, or several pieces: a capsule's box and discs, a large polygon's cuts. Segments keep
-/// their rim of 1 cm on both sides.
+/// Adds one fixture, or several pieces: a capsule's box and discs, a large polygon's cuts. Segments
+/// keep their rim of 1 cm on both sides.
 void AddFixture(const Part& part, const Part& root, float skin, bool guarded, b2Body* body);
 
-/// The fixtures of a body, remembered: to work them out of the scene again whenever a world is
-/// built anew costs about as much as the engine does to take them.
+/// Cached fixtures of a body: computing them again from the scene at each rebuild would cost about
+/// as much as the engine needs to add them.
 class ReadyFixtures {
  public:
-  /// Remembers what the body has now; nothing, if one of its shapes is a chain.
+  /// Copies the body's fixtures; none if one of its shapes is a chain.
   void Take(b2Body* from);
-  /// Gives the same to another body, in the order in which the first one got them. Requires has().
+  /// Adds the same fixtures to another body, in their original order. Requires has().
   void Give(b2Body* to) const;
   bool has() const { return !fixtures_.empty(); }
 
@@ -45,7 +45,7 @@ class ReadyFixtures {
   std::vector<Fixture> fixtures_;
 };
 
-/// What a fixture's user data says: the part's id in the low 32 bits, which of its pieces above.
+/// User data of a fixture: the part's id in the low 32 bits, the number of its piece above.
 inline std::uint32_t PartOf(const b2Fixture* fixture) {
   return static_cast<std::uint32_t>(const_cast<b2Fixture*>(fixture)->GetUserData().pointer &
                                     0xffffffffu);

@@ -1,7 +1,7 @@
-/// World: going back in time. In this engine a snapshot of poses, velocities and impulses alone
-/// does not replay, because the order in which contacts are solved is history, too, and cannot be
-/// set. So the world that goes on takes the same way as the one that goes back: it is built anew
-/// from the snapshot at the tick it takes one (the barrier, docs/lessons.md).
+/// World: snapshots and going back in time. In this engine a snapshot of poses, velocities and
+/// impulses alone does not replay, because the order in which contacts are solved depends on
+/// history and cannot be set. So the live world goes the same way as a restored one: it is rebuilt
+/// from its own snapshot at the tick at which it takes one (the barrier, docs/lessons.md).
 
 #include <algorithm>
 #include <cstring>
@@ -26,8 +26,8 @@ PointKey KeyOf(const WorldSnapshot::Point& p) { return {p.pair, p.feature}; }
 /// Calls `visit(key, point)` for all points of a contact.
 template <typename Visit>
 void EachPointOf(b2Contact* c, const Visit& visit) {
-  // Part numbers and ids of features are below 2^32, a chain's segments and pieces of parts
-  // below 2^12: together they tell points apart.
+  // Part numbers and ids of features are below 2^32, a chain's segments and pieces of parts below
+  // 2^12: together they identify a point.
   const std::uint64_t a = PartOf(c->GetFixtureA()), b = PartOf(c->GetFixtureB());
   const std::uint64_t pieces =
       std::uint64_t{PieceOf(c->GetFixtureA())} << 8 | PieceOf(c->GetFixtureB());
@@ -40,7 +40,7 @@ void EachPointOf(b2Contact* c, const Visit& visit) {
   }
 }
 
-/// The same of all contacts.
+/// Calls `visit(key, point)` for all points of all contacts.
 template <typename Visit>
 void EachPoint(b2World* world, const Visit& visit) {
   for (b2Contact* c = world->GetContactList(); c != nullptr; c = c->GetNext()) {
@@ -52,7 +52,7 @@ bool Before(const WorldSnapshot::Point& x, const WorldSnapshot::Point& y) {
   return KeyOf(x) < KeyOf(y);
 }
 
-/// nullptr: it is not among them, which ascend.
+/// Returns nullptr if the point is not found. Requires ascending points.
 const WorldSnapshot::Point* Find(const std::vector<WorldSnapshot::Point>& points,
                                  const PointKey& key) {
   const auto found = std::lower_bound(
@@ -134,7 +134,7 @@ void World::Settle() { impl_->Settle(); }
 
 void World::RememberContacts(int body) {
   b2Body* const b = impl_->moving(body).body;
-  if (IsAside(*b)) return;  // what is remembered is as it was
+  if (IsAside(*b)) return;  // already remembered
   std::vector<WorldSnapshot::Point> points;
   for (b2ContactEdge* edge = b->GetContactList(); edge != nullptr; edge = edge->next) {
     EachPointOf(edge->contact, [&](const PointKey& key, const b2ManifoldPoint* point) {
@@ -160,8 +160,8 @@ std::vector<WorldSnapshot::Point> World::Impl::Remembered(const WorldSnapshot& s
   return points;
 }
 
-/// Before a rebuild of everything: says which bodies are to be aside. While what is remembered is
-/// of other bodies, none is: the next rebuild may move them.
+/// Before a full rebuild: decides which bodies are to be aside. If the memory is of other bodies,
+/// none is, and the next rebuild may move them.
 void World::Impl::Arrange(const std::vector<Motion>& wanted) {
   const bool any = std::find(wanted.begin(), wanted.end(), Motion::kAbsent) != wanted.end();
   const bool others = memory.composition != composition.hash;
@@ -178,7 +178,7 @@ void World::Impl::Arrange(const std::vector<Motion>& wanted) {
   }
 }
 
-/// The same before a rebuild of what is present.
+/// Likewise, before a rebuild of the present bodies.
 void World::Impl::ArrangeCrossed() {
   unsettled = false;
   KnowJoints(present.size() < motions.size());
@@ -195,9 +195,9 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
   if (!same) wanted = new_motions != nullptr ? *new_motions : motions;
   same ? ArrangeCrossed() : Arrange(wanted);
   Empty();
-  tick = snapshot.tick;  // stages put things where they are then
-  // The engine scales the impulses it begins with by the ratio to its last step, which a new world
-  // takes for 0: let it have had one.
+  tick = snapshot.tick;  // stages place things by the tick
+  // The engine scales warm-start impulses by the ratio to its last step, which is 0 in a new world:
+  // give it one.
   world->Step(step_s(), 1, 1);
   if (same) {
     const auto at = [&](int body) { return snapshot.bodies[static_cast<std::size_t>(body)].state; };
@@ -218,7 +218,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
     const auto index = static_cast<std::size_t>(motor.index);
     if (index < snapshot.speeds.size()) motor.SetSpeed(snapshot.speeds[index]);
   }
-  // What is aside, and was so, is as it was unless something has changed it.
+  // A body that was aside, and still is, is visited only if it may have changed.
   const auto each = [&](const auto& visit) {
     for (std::size_t page = 0; page < snapshot.bodies.page_count(); ++page) {
       const bool shared = snapshot.bodies.Shares(kept, page);
@@ -243,7 +243,7 @@ void World::Impl::Rebuild(const WorldSnapshot& snapshot, const std::vector<Motio
   for (const auto& stage : stages) stage->Placed();
   FindContactsInOrder(&*world);
   ordered = true;
-  // No time passes, but contacts begin to touch, which wakes what they touch.
+  // No time passes, but contacts begin to touch, which wakes their bodies.
   world->Step(0, 1, 1);
   const std::vector<WorldSnapshot::Point> before = Remembered(snapshot);
   EachPoint(&*world, [&](const PointKey& key, b2ManifoldPoint* point) {
@@ -289,8 +289,8 @@ bool World::Impl::AllStill() const {
                                 [](const Assembly& assembly) { return assembly.kinematic >= 0; });
 }
 
-/// Whether to build the world anew from it would change nothing: it was built so, and nothing that
-/// takes part in steps has moved since.
+/// True if a rebuild from the snapshot would change nothing: the world was built from it, and
+/// nothing that takes part in steps has moved since.
 bool World::Impl::BuiltAlready(const WorldSnapshot& snapshot) const {
   if (!still || !AllStill() || still->composition != snapshot.composition) return false;
   if (still->joints_there != snapshot.joints_there || still->joints != snapshot.joints)

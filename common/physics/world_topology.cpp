@@ -29,8 +29,8 @@ int AssemblyIndex(const Composition& c, PartId part) {
   return p < c.assembly_of_part.size() ? c.assembly_of_part[p] : -1;
 }
 
-/// From the velocity of a body's origin to that of its centre of mass, or back with `sign` -1.
-/// What is led or kinematic has the first, and momentum is reckoned with the second.
+/// Converts the velocity of a body's origin to that of its centre of mass, or back with `sign` -1.
+/// The states of kLed and kinematic bodies have the former; momentum needs the latter.
 void ShiftVelocity(const Vector2d& centre, double sign, BodyState* state) {
   const Vector2d arm = Turned(centre, static_cast<double>(state->angle));
   const double spin = sign * static_cast<double>(state->spin);
@@ -38,7 +38,7 @@ void ShiftVelocity(const Vector2d& centre, double sign, BodyState* state) {
       (state->velocity.cast<double>() + spin * Vector2d(-arm.y(), arm.x())).cast<float>();
 }
 
-/// What the world was before the edits.
+/// The world before the edits.
 struct Before {
   Composition composition;
   std::vector<Part> parts;                 // poses within their assemblies
@@ -119,7 +119,7 @@ BodyOrigin OriginOf(const Before& before, const Scene& scene, const Assembly& no
   return origin;
 }
 
-/// The motion of a body made of pieces.
+/// Returns the motion of a body made of pieces.
 BodyState StateOf(const Before& before, const Scene& scene, const Assembly& now,
                   const BodyOrigin& origin) {
   const Part& root = scene.parts[static_cast<std::size_t>(now.id)];
@@ -148,7 +148,7 @@ BodyState StateOf(const Before& before, const Scene& scene, const Assembly& now,
                  static_cast<double>(then.angle));
       velocity = then.velocity.cast<double>() + spin * Vector2d(-arm.y(), arm.x());
     } else {
-      velocity = root.velocity.cast<double>();  // of what was anchored: 0
+      velocity = root.velocity.cast<double>();  // 0 for anchored parts
       spin = static_cast<double>(root.spin);
     }
     momentum += piece.mass * velocity;
@@ -160,7 +160,7 @@ BodyState StateOf(const Before& before, const Scene& scene, const Assembly& now,
   return state;
 }
 
-/// Moves what bonds carry along. Velocities stay: so does momentum. Returns by how much.
+/// Moves bodies along with bonds and returns by how much. Velocities stay, and so does momentum.
 std::vector<BodyState> Carry(const Before& before, const Scene& scene, const Composition& now,
                              std::vector<WorldSnapshot::Body>* bodies) {
   std::vector<BodyState> states;
@@ -221,7 +221,7 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
   const std::uint64_t hash = w.composition.hash;
   const std::size_t joints_before = w.scene.joints.size();
   Before before{w.composition, w.scene.parts, {}, BodyOfAssembly(w.composition), {}};
-  std::vector<bool> held;  // joints that are there, broken ones not
+  std::vector<bool> held;  // joints that exist, not broken ones
   for (std::size_t j = 0; j < joints_before; ++j) held.push_back(w.Holds(j));
   for (int body = 0; body < body_count(); ++body) before.states.push_back(Read(body));
   for (const Assembly& a : w.composition.assemblies) {
@@ -239,7 +239,7 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
     bonded = bonded || (edits[i].As<BondEdit>() != nullptr && results[i].ok());
   }
   bool changed = w.composition.hash != hash || w.scene.joints.size() != joints_before;
-  changed = changed || bonded;  // in the place of one that is gone
+  changed = changed || bonded;  // in place of one that is gone
   for (std::size_t j = 0; j < joints_before; ++j) {
     changed = changed || (held[j] && w.scene.joints[j].gone);
   }
@@ -277,7 +277,7 @@ std::optional<BodyRemap> World::Apply(const std::vector<Edit>& edits) {
     const std::size_t stages = w.stages.size();
     w.FindStages();
     if (w.stages.size() == stages) snapshot.stages = kept.stages;
-    w.memory.composition = 0;  // what is remembered is of other bodies or joints
+    w.memory.composition = 0;  // it belongs to other bodies or joints
     w.Rebuild(snapshot, &motions);
     w.impacts.clear();
   }
@@ -301,7 +301,7 @@ void World::Do(const Edit& edit) {
   }
   const SeatEdit* seat = edit.As<SeatEdit>();
   if (seat != nullptr && seat->player < 0 && w.topology.Validate(edit).ok()) {
-    Follow(static_cast<int>(w.scene.players.size()) + seat->seat, Input{});  // nobody drives on
+    Follow(static_cast<int>(w.scene.players.size()) + seat->seat, Input{});  // stops its motors
   }
   for (const auto& stage : w.stages) stage->Edited(edit);
   w.NoteAllAside();

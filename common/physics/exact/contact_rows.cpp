@@ -5,10 +5,11 @@
 namespace seam {
 namespace {
 
-/// Overlap is undone by this share of it per step, at most so fast: the engine's own, m/s.
+/// Share of an overlap that is undone per step, and the maximal speed of that, m/s: the engine's
+/// own.
 constexpr double kPushOut = 0.2;
 constexpr double kPushOutMost = 2;
-/// m/s: blows below have no restitution where nothing weighs.
+/// m/s: slower impacts have no restitution even without gravity.
 constexpr double kSlowest = 1e-6;
 
 void Split(const b2Fixture* fixture, const ExactBody& body, double px, double py, double* turning_x,

@@ -1,6 +1,6 @@
 #pragma once
-/// What of the engine has no public access and an exact step needs: a body's motion, and the parts
-/// of b2World::Step.
+/// Private members of the engine that an exact step needs: a body's motion, and the parts of
+/// b2World::Step.
 
 #include <box2d/box2d.h>
 
@@ -46,7 +46,7 @@ template struct Reveal<EngineSolveToi, &b2World::SolveTOI>;
 constexpr uint16 kBodyAwake = 0x0002, kBodyAutoSleep = 0x0004, kBodyEnabled = 0x0020;
 constexpr uint32 kContactEnabled = 0x0004;
 
-/// Whether the contact acts on its bodies.
+/// True if the contact acts on its bodies.
 inline bool Pushes(const b2Contact* contact) {
   return contact->IsTouching() && contact->IsEnabled() && !contact->GetFixtureA()->IsSensor() &&
          !contact->GetFixtureB()->IsSensor();

@@ -1,4 +1,4 @@
-/// ExactStep: continuous collision, which knows no joints.
+/// ExactStep: continuous collision, which ignores joints.
 
 #include <algorithm>
 #include <cmath>
@@ -10,22 +10,23 @@
 namespace seam {
 namespace {
 
-/// A mechanism may be lifted by continuous collision at no cost by so much of its kinetic energy
-/// and so many J/kg.
+/// Share of its kinetic energy, and J/kg, by which continuous collision may lift a mechanism
+/// without a correction.
 constexpr double kLiftShare = 0.05, kLiftPerMass = 0.05;
 
 }  // namespace
 
-/// Listens while the engine does continuous collision. Its blow on a mechanism's body by something
-/// that does not give way is not heard of: the whole mechanism has it in the next step. Between
-/// moving bodies (bullets) the blow counts, and `struck` remembers whom it met.
+/// Listens during the engine's continuous collision. Does not report its impacts of a mechanism's
+/// body with something immovable: the whole mechanism has that impact in the next step. Impacts
+/// between moving bodies (bullets) are reported, and their bodies marked as `struck`.
 class ExactStep::Quiet : public b2ContactListener {
  public:
   Quiet(b2ContactListener* listener, ExactStep* step) : listener_(listener), step_(*step) {}
   void BeginContact(b2Contact* contact) override { listener_->BeginContact(contact); }
   void EndContact(b2Contact* contact) override { listener_->EndContact(contact); }
-  /// A blow of ours that is not heard of must not move the body on, either: it would be in the air
-  /// when the mechanism is to have it, and never have it, while all of its fall is kept.
+  /// Removes the restitution of an impact that is not reported: otherwise the body would bounce
+  /// now, be in the air in the next step and never have the mechanism's impact, while all of its
+  /// fall is kept.
   void PreSolve(b2Contact* contact, const b2Manifold* old) override {
     listener_->PreSolve(contact, old);
     const float gives_back = contact->GetRestitution();
@@ -42,7 +43,7 @@ class ExactStep::Quiet : public b2ContactListener {
     }
     if (Counts(*contact)) listener_->PostSolve(contact, impulse);
   }
-  /// Contacts give back again what they gave.
+  /// Restores the contacts' restitution.
   void End() const {
     for (const auto& [contact, gives_back] : gave_back_) contact->SetRestitution(gives_back);
   }
@@ -51,7 +52,7 @@ class ExactStep::Quiet : public b2ContactListener {
   Slot& SlotOf(b2Body* body) const {
     return step_.slots_[static_cast<std::size_t>(step_.SlotOf(body))];
   }
-  /// Whether its blow is the engine's: of two that move, or of what is not ours.
+  /// True if the impact is the engine's: between two moving bodies, or with no body solved here.
   bool Counts(b2Contact& contact) const {
     bool all = true, ours = false;
     for (b2Body* body : {contact.GetFixtureA()->GetBody(), contact.GetFixtureB()->GetBody()}) {
@@ -67,7 +68,7 @@ class ExactStep::Quiet : public b2ContactListener {
   std::vector<std::pair<b2Contact*, float>> gave_back_;
 };
 
-/// As the engine's, but what it took back to where it hit keeps its velocity and its joints.
+/// As the engine's, but bodies moved back to their impact keep their velocity and their joints.
 void ExactStep::Continuous(const b2TimeStep& step, const Pace& pace) {
   b2ContactListener* const listener = world_->GetContactManager().m_contactListener;
   Quiet quiet(listener, this);
@@ -79,7 +80,7 @@ void ExactStep::Continuous(const b2TimeStep& step, const Pace& pace) {
   RejoinWhatMoved(step.dt, pace);
 }
 
-/// J: kinetic and of gravity. `left`: as it was before continuous collision.
+/// Returns kinetic and potential energy, J. `left`: as before continuous collision.
 double ExactStep::EnergyOf(const Found& found, bool left) const {
   const b2Vec2& gravity = world_->GetGravity();
   const auto gx = static_cast<double>(gravity.x), gy = static_cast<double>(gravity.y);
@@ -96,8 +97,8 @@ double ExactStep::EnergyOf(const Found& found, bool left) const {
   return sum;
 }
 
-/// Bodies that are taken back to where they hit, and others with them, may be lifted: in a jam that
-/// comes again in each step. What that is worth is taken from their motion.
+/// Bodies that are moved back to their impact, and others with them, may be lifted, in a jam at
+/// every step. Takes the gained energy from their motion.
 void ExactStep::PayForLift(double before, Found* found) const {
   double mass = 0;
   for (const ExactBody& q : found->island->bodies) mass += q.moves() ? 1 / q.im : 0;
@@ -113,8 +114,8 @@ void ExactStep::PayForLift(double before, Found* found) const {
   }
 }
 
-/// What touches a mechanism only since it was taken back may sleep. Where it is moved along, it is
-/// struck: asleep it would lie elsewhere than where it was agreed to rest.
+/// Wakes sleeping bodies that Rejoin has moved. A body may touch the mechanism only since that was
+/// moved back; asleep it would rest elsewhere than agreed between peers.
 void ExactStep::WakeWhatMoves(const Found& found) {
   for (const ExactBody& q : found.island->bodies) {
     if (q.slot < 0 || q.body->IsAwake()) continue;

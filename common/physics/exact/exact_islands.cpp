@@ -1,4 +1,4 @@
-/// ExactStep: which bodies are one island, in what order, and who solves it.
+/// ExactStep: finds islands, orders their bodies and chooses the solver.
 
 #include <algorithm>
 #include <limits>
@@ -9,13 +9,13 @@
 namespace seam {
 namespace {
 
-/// Multiplications of one factorisation above which contacts are relaxed.
+/// Multiplications of a factorisation above which contacts are relaxed.
 constexpr long kDirectMost = 30000;
-/// Multiplications of a tick, solves included, above which a heap is left to the engine or
-/// relaxed: so many, or what so many factorisations in each substep take.
+/// Multiplications of a tick, solves included, above which a heap is left to the engine or relaxed:
+/// the larger of kTickMost and the cost of kFactorsMost factorisations in each substep.
 constexpr long kTickMost = 800000, kFactorsMost = 20;
-/// It is one from so many points of contact on: what is jointed against itself takes much, too, and
-/// is not the engine's.
+/// Number of contact points from which an island is a heap. A mechanism in contact with itself is
+/// expensive, too, but is not left to the engine.
 constexpr int kPointsOfHeap = 24;
 
 }  // namespace
@@ -61,8 +61,9 @@ bool ExactStep::Gather(int first, Found* found) {
   return awake && exact && !found->slots.empty();
 }
 
-/// Bodies in the order of their distance from one at the edge: neighbours are near each other. What
-/// has contacts comes late, if it can: contacts change most, and what is before them is kept.
+/// Orders bodies by their distance from one at the edge, so that neighbours are near each other.
+/// Bodies with contacts come last, if possible: contacts change most, and the factors before them
+/// are kept.
 void ExactStep::Order(Found* found) {
   const std::size_t n = found->slots.size();
   for (std::size_t i = 0; i < n; ++i) {
@@ -104,7 +105,7 @@ void ExactStep::Order(Found* found) {
     };
     visit(start);
     for (std::size_t next = 0, k = 0; k < n; ++k) {
-      if (k == order.size()) {  // what only anchored things hold together
+      if (k == order.size()) {  // parts connected only through anchored bodies
         while (seen[next]) ++next;
         visit(next);
       }
@@ -132,9 +133,9 @@ void ExactStep::Order(Found* found) {
   found->slots = order;
 }
 
-/// Multiplications that a direct factorisation takes at least, in whatever order: the k rows of a
-/// body are tied to each other, so that the last of them is k wide, the one before k - 1; and a row
-/// is one of two bodies, of a gear of four.
+/// Returns a lower bound of the multiplications of a direct factorisation in any order. The k rows
+/// of a body are coupled, so that the last of them is k wide, the one before k - 1; and a row
+/// belongs to two bodies, that of a gear to four.
 long ExactStep::LeastCost(const Found& found) {
   std::vector<int>& rows = order_;
   rows.assign(slots_.size(), 0);
@@ -169,7 +170,7 @@ bool ExactStep::IsHeap(const Found& found) {
   return points >= kPointsOfHeap;
 }
 
-/// Returns what a direct factorisation takes, in multiplications.
+/// Builds the island. Returns the cost of a direct factorisation, in multiplications.
 long ExactStep::Build(Found* found, bool relaxed) {
   Order(found);
   if (relaxed) {
@@ -275,7 +276,7 @@ void ExactStep::Sign(const Found& found, std::vector<const void*>* sign) const {
   }
 }
 
-/// Makes the island for what was gathered, if the last one is not for the same.
+/// Makes the island for the gathered bodies, unless the last one has the same contents.
 void ExactStep::Prepare(float h, Found* found) {
   for (const int m : found->mechanisms) {
     for (const int j : mechanisms_[static_cast<std::size_t>(m)].joints) {
@@ -289,7 +290,7 @@ void ExactStep::Prepare(float h, Found* found) {
     Build(found, true);
     return;
   }
-  // To order and shape a heap in each step costs many times what the engine's step does.
+  // Ordering and shaping a heap in each step would cost many times the engine's step.
   if (solver_.joints == JointSolving::kAuto && LeastCost(*found) > kDirectMost) {
     found->island.reset();
     return;

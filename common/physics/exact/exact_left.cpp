@@ -1,4 +1,4 @@
-/// ExactStep: what an island takes along when it is left to the engine.
+/// ExactStep: state of islands that are left to the engine.
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 namespace seam {
 namespace {
 
-/// So many times all the momentum there is, nothing is pressed or pulled with more.
+/// Limit of an impulse, as a multiple of all momentum.
 constexpr double kImpulseMost = 3;
 
 double Length(const b2Vec2& v) { return static_cast<double>(v.Length()); }
@@ -36,9 +36,8 @@ void ExactStep::Leave(const std::vector<WorldSnapshot::Left>& left) {
   }
 }
 
-/// The engine begins with the impulses of the step before, and its few rounds do not come back from
-/// any that are too large: where a jam of ours or what is taut has left such ones, it begins with
-/// none.
+/// Removes the last step's impulses if they are too large. The engine warm-starts from them, and
+/// its few iterations do not recover from those that a jam or a taut rope has left here.
 void ExactStep::LeaveOne(float h, const Found& found) {
   if (found.slots.empty()) return;
   double mass = 0, momentum = 0, fastest = 0;
@@ -77,7 +76,7 @@ void ExactStep::LeaveOne(float h, const Found& found) {
   for (const int m : found.mechanisms) {
     for (const int j : mechanisms_[static_cast<std::size_t>(m)].joints) {
       const ExactJoint& joint = joints_[static_cast<std::size_t>(j)];
-      // The engine's own word has the directions of its last step, and a new joint has none.
+      // The engine's reaction uses the directions of its last step, and a new joint has none.
       const b2Vec2 force = ForcesOf(joint.made, 1 / h).on_a;
       pressed = std::max(pressed, static_cast<double>(h) * Length(force));
       if (joint.drives) momentum += static_cast<double>(h) * joint.most;

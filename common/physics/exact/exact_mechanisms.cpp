@@ -1,5 +1,5 @@
-/// ExactStep: what is jointed together, and which of it is left to the engine from the beginning or
-/// may be at any moment.
+/// ExactStep: finds the mechanisms, and decides which are always left to the engine and which may
+/// be at any moment.
 
 #include <algorithm>
 
@@ -9,14 +9,14 @@
 namespace seam {
 namespace {
 
-/// The engine comes to terms at once with a mechanism of so few joints, or whose masses differ by
-/// so little. Light links with a heavy load that it gets in the middle of a swing it tears apart.
+/// The engine solves a mechanism well at once with so few joints, or with a mass ratio this small.
+/// It tears apart light links with a heavy load when it gets them in the middle of a swing.
 constexpr std::size_t kJointsOfEasy = 4;
 constexpr float kMassRatioOfEasy = 10;
-/// A mechanism that takes so many by itself is too large whatever touches it, even if its
-/// bodies come in another order then.
+/// A mechanism that alone costs more multiplications than this is too large with any contacts, even
+/// if its bodies come in another order then.
 constexpr long kNeverDirect = 120000;
-/// One of fewer rows cannot take so many.
+/// A mechanism of fewer rows cannot cost that much.
 constexpr int kRowsOfLarge = 85;
 
 }  // namespace
@@ -71,11 +71,11 @@ bool ExactStep::Easy(const Found& found) const {
                      [this](int m) { return mechanisms_[static_cast<std::size_t>(m)].easy; });
 }
 
-/// What is too large in any case is not looked at again.
+/// Excludes mechanisms that are always too large, once and for all.
 void ExactStep::LeaveLarge() {
   for (std::size_t m = 0; m < mechanisms_.size(); ++m) {
     Mechanism& mechanism = mechanisms_[m];
-    int rows = 0;  // no limit is near yet
+    int rows = 0;  // without limits: none is near yet
     for (const int j : mechanism.joints) rows += RowCount(joints_[static_cast<std::size_t>(j)]);
     if (!mechanism.exact || rows < kRowsOfLarge) continue;
     Found alone;

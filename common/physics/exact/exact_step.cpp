@@ -10,9 +10,10 @@
 namespace seam {
 namespace {
 
-/// Steps for which a cosine is turned with its angle before it is found anew: each turn rounds it.
+/// Steps for which cosine and sine are turned with the angle before they are computed anew: each
+/// turn adds a rounding error.
 constexpr int kTurnsMost = 1000;
-/// An island that took too much is left to the engine for so many steps.
+/// An island that was too expensive is left to the engine, or relaxed, for so many steps.
 constexpr int kLeftFor = 30;
 
 void ReadPose(b2Body* body, ExactBody* q) {
@@ -67,7 +68,7 @@ ExactStep::ExactStep(const Scene& scene, b2World* world, const BuiltScene& built
   LeaveLarge();
 }
 
-/// A character's gait is tuned on the engine's joints, which are cheaper in a heap of them.
+/// Leaves characters to the engine: their gait is tuned on its joints, which are cheaper in a heap.
 void ExactStep::LeaveCharacters(const Scene& scene) {
   if (scene.characters.empty()) return;
   std::vector<char> limbs(scene.joints.size(), 0);
@@ -83,7 +84,7 @@ void ExactStep::LeaveCharacters(const Scene& scene) {
 
 ExactStep::~ExactStep() = default;
 
-/// Of a body that moves, as it was left or as the engine has it.
+/// Loads a moving body: as stored by the last solve, or, if changed since, from the engine.
 void ExactStep::LoadMoving(ExactBody* q) {
   Slot& s = slots_[static_cast<std::size_t>(q->slot)];
   if (Told(s)) {
@@ -118,7 +119,7 @@ void ExactStep::LoadPoses(Found* found) {
       continue;
     }
     ReadPose(q.body, &q);
-    if (q.a != q.read_a) {  // else c and s are its own
+    if (q.a != q.read_a) {  // else c and s are up to date
       q.read_a = q.w == 0 ? q.a : std::nan("");
       q.c = std::cos(q.a);
       q.s = std::sin(q.a);
@@ -228,7 +229,7 @@ void ExactStep::Report(const Found& found) const {
   }
 }
 
-/// The engine's own Solve must not see what has been solved.
+/// Hides the solved bodies and contacts from the engine's own Solve.
 void ExactStep::Hide(const Found& found) {
   for (const ExactBody& q : found.island->bodies) {
     if (q.slot >= 0) q.body->*Member(BodyFlags()) &= static_cast<uint16>(~kBodyEnabled);
@@ -254,7 +255,7 @@ bool ExactStep::Told(const Slot& s) {
          v.x == s.told_vx && v.y == s.told_vy && s.body->GetAngularVelocity() == s.told_w;
 }
 
-/// False: it took too much, and nothing has changed.
+/// False if the island was too expensive; then nothing has changed.
 bool ExactStep::Solve(const Pace& pace, bool warm, Found* found) {
   Load(found);
   found->island->Step(pace, warm);

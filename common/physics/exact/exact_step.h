@@ -1,7 +1,7 @@
 #pragma once
 /// One of the engine's steps, in which islands that contain a joint are solved as one system
-/// (ExactIsland) and all others by the engine, bit for bit as ever. The engine finds contacts,
-/// keeps the tree of boxes and does continuous collision for all.
+/// (ExactIsland). All other islands are solved by the engine, bit for bit as without this class.
+/// The engine finds contacts, keeps the tree of boxes and does continuous collision for all.
 
 #include <memory>
 #include <vector>
@@ -16,35 +16,36 @@ namespace seam {
 
 class ExactStep {
  public:
-  /// `memory`: what is made. `gives_all`: GivesAll of the scene. Neither this nor a step does
-  /// anything for each body that is aside.
+  /// `memory`: lists the bodies and joints that are made. `gives_all`: the result of GivesAll for
+  /// the scene. Bodies that are aside cost nothing, neither here nor in a step.
   ExactStep(const Scene& scene, b2World* world, const BuiltScene& built, const BuildMemory& memory,
             bool gives_all);
   ~ExactStep();
 
-  /// Whether there is a joint that it would solve, or a blow that gives everything back; else the
-  /// engine's own Step does.
+  /// True if there is a joint to solve or an elastic contact (restitution 1); else the engine's own
+  /// Step does.
   bool needed() const;
 
-  /// Islands that are left to the engine or relaxed since they took too much: by the lowest moving
-  /// body of the first mechanism, for how many more steps while they are awake. Ascending.
+  /// Returns the islands that are left to the engine, or relaxed, because they were too expensive:
+  /// the lowest moving body of the first mechanism, and the number of steps left while awake.
+  /// Ascending.
   std::vector<WorldSnapshot::Left> Left() const;
-  /// Of what is no mechanism's lowest body, nothing.
+  /// Restores the result of Left. Ignores bodies that are not the lowest of a mechanism.
   void Leave(const std::vector<WorldSnapshot::Left>& left);
 
-  /// As b2World::Step.
+  /// Steps like b2World::Step.
   void Step(float h, int velocity_iterations, int position_iterations);
 
  private:
-  struct Slot {  // of a moving body that is in the world
+  struct Slot {  // a moving body that is in the world
     b2Body* body = nullptr;
     int mechanism = -1;
     int island = -1;  // in this step
-    int place = -1;   // in its list of bodies
-    // What it was left with, and the same as the engine has it.
+    int place = -1;   // index in that island's list of bodies
+    // The state after the last solve, in double precision and as rounded in the engine.
     bool known = false;
     bool solved = false;  // in this step, not left to the engine
-    bool struck = false;  // by something that moves, in continuous collision
+    bool struck = false;  // by another moving body, in continuous collision
     double x = 0, y = 0, a = 0, vx = 0, vy = 0, w = 0;
     double c = 1, s = 0;  // cosine and sine of a, turned with it for `turns` steps
     int turns = 0;
@@ -53,20 +54,20 @@ class ExactStep {
   };
   struct Mechanism {
     std::vector<int> slots;   // in the order of the system
-    std::vector<int> joints;  // indices
-    bool exact = true;        // false: its envelope is too large
-    bool easy = true;         // the engine comes to terms with it at any moment
+    std::vector<int> joints;  // indices into joints_
+    bool exact = true;        // false: too expensive to factor
+    bool easy = true;         // the engine solves it well at any moment
   };
-  struct Found {  // an island, under the number of its first mechanism
+  struct Found {  // an island, stored at the index of its first mechanism
     std::vector<int> slots, mechanisms;
     std::vector<b2Contact*> contacts;
-    std::vector<const void*> sign;  // of what `island` was built for
+    std::vector<const void*> sign;  // key of the contents that `island` was built for
     std::unique_ptr<ExactIsland> island;
-    int left_for = 0;      // steps for which it is not solved as a whole, since it took too much
+    int left_for = 0;      // steps for which it is not solved as a whole: it was too expensive
     bool relaxed = false;  // in this step
   };
 
-  /// -1: of none that moves.
+  /// Returns -1 for a body that does not move.
   int SlotOf(b2Body* body) const {
     const int moving = IndexOf(body);
     return moving < 0 ? -1 : slot_of_[static_cast<std::size_t>(moving)];
@@ -110,12 +111,12 @@ class ExactStep {
   std::vector<Found> found_;
   std::vector<const void*> sign_;
   std::vector<int> solved_;
-  std::unique_ptr<FreeBlows> blows_;  // nullptr: nothing gives everything back
-  // Room for Order: by place in a list of bodies, who is joined to it, and whether it was seen.
+  std::unique_ptr<FreeBlows> blows_;  // nullptr: nothing is elastic
+  // Scratch space of Order: by index in a list of bodies, its neighbours, and if it was visited.
   std::vector<std::vector<int>> near_;
   std::vector<char> seen_;
   std::vector<int> order_;
-  bool paths_ = false;  // something anchored is moved along a path
+  bool paths_ = false;  // something anchored moves along a path
 };
 
 }  // namespace seam

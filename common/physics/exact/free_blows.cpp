@@ -10,24 +10,25 @@
 namespace seam {
 namespace {
 
-/// A restitution from here on is meant to give everything back.
+/// Restitution from here on counts as 1.
 constexpr float kEverything = 0.999f;
-/// What falls for so many steps has a blow; what falls less lies. m/s more where nothing weighs.
+/// A body has an impact after a fall of more steps than this; else it rests. kSlowest: m/s added,
+/// for scenes without gravity.
 constexpr double kRestSteps = 4, kSlowest = 1e-3;
-/// Blows in one step, for each contact; and of so many contacts that are looked at for them, in
-/// all: where thousands of bodies begin in one place a step must end.
+/// Impacts per contact in one step; and limit of contact checks in a step, which must end even
+/// where thousands of bodies start in one place.
 constexpr std::size_t kBlowsEach = 8, kLooksMost = 5000000;
-/// Halvings of the restitution when a blow with friction would gain energy, the last is 0.
+/// Tries with less restitution if an impact with friction would gain energy; the last has none.
 constexpr int kSofterTries = 3;
-/// Rounds over the two points and two directions of a contact, until no impulse changes by more
-/// than this share.
+/// Iterations over the points and directions of a contact, until no impulse changes by more than
+/// this share.
 constexpr int kRounds = 300;
 constexpr double kSame = 1e-12;
-/// A gain of energy up to this share is rounding.
+/// A gain of energy up to this share counts as rounding.
 constexpr double kRounded = 1e-7;
-constexpr double kFast = 1e9;  // m/s, nothing is
+constexpr double kFast = 1e9;  // m/s, faster than anything
 
-/// What gravity and forces give a body, m/s2.
+/// Returns the acceleration by gravity and forces, m/s2.
 b2Vec2 Pull(const b2World& world, b2Body* body) {
   if (!Moves(body)) return {0, 0};
   return body->GetGravityScale() * world.GetGravity() +
@@ -53,7 +54,7 @@ FreeBlows::FreeBlows(const BuiltScene& built, std::vector<char> jointed)
     : jointed_(std::move(jointed)), place_(jointed_.size(), -1) {
   bool free = false;
   for (const char held : jointed_) free = free || held == 0;
-  // Anchored assemblies share bodies: each is looked at once.
+  // Anchored assemblies share bodies: visit each once.
   const std::set<const b2Body*> all(built.bodies.begin(), built.bodies.end());
   for (const b2Body* body : all) needed_ = needed_ || (free && GivesAll(body));
   for (const MovingBody& m : built.moving) needed_ = needed_ || (free && GivesAll(m.body));
@@ -63,8 +64,8 @@ bool FreeBlows::Free(b2Body* body) const {
   return !Moves(body) || jointed_[static_cast<std::size_t>(IndexOf(body))] == 0;
 }
 
-/// Its place in bodies_, where it is put if it is not there. What does not give way has one for
-/// each contact.
+/// Returns the body's index in bodies_, to which it is added if necessary. Immovable bodies have
+/// one for each contact.
 int FreeBlows::Place(const b2World& world, float h, b2Body* body) {
   const bool moves = Moves(body);
   if (moves) {
@@ -98,7 +99,7 @@ void FreeBlows::Find(b2World* world, float h) {
     const double rest = kSlowest + kRestSteps * static_cast<double>(h * pull);
     const float usual =
         std::min(fixture_a->GetRestitutionThreshold(), fixture_b->GetRestitutionThreshold());
-    // For blows of continuous collision, too.
+    // For impacts of continuous collision, too.
     c->SetRestitutionThreshold(std::min(usual, static_cast<float>(rest)));
     if (!Pushes(c) || !(a->IsAwake() || b->IsAwake())) continue;
     b2WorldManifold manifold;
@@ -156,8 +157,9 @@ void FreeBlows::Push(const Touch& touch, const Point& p, double normal, double t
   b.w += b.ii * (p.bx * y - p.by * x);
 }
 
-/// One blow with `share` of its restitution: each point leaves at no less than that times the speed
-/// it came with, friction has at most its share of what pushes. What it gains of kinetic energy, J.
+/// Solves an impact with `share` of its restitution: each point separates at no less than that
+/// times its approach speed, and friction is at most its share of the normal impulse. Returns the
+/// kinetic energy gained, J.
 double FreeBlows::Solve(const Touch& touch, double share, double* pushed, double* rubbed) {
   const Body& a = At(touch.a);
   const Body& b = At(touch.b);
@@ -205,8 +207,8 @@ double FreeBlows::Solve(const Touch& touch, double share, double* pushed, double
   return friction > 0 && gained > kRounded * before ? gained : 0;
 }
 
-/// With friction a blow may gain energy (Kane and Levinson 1985): then with less restitution,
-/// unless a belt or a moving platform gives it.
+/// Solves an impact. With friction it may gain energy (Kane and Levinson 1985): then restitution is
+/// reduced, unless a belt or a moving platform supplies the energy.
 void FreeBlows::Blow(Touch* touch) {
   bool driven = touch->made->GetTangentSpeed() != 0;
   for (const int end : {touch->a, touch->b}) {

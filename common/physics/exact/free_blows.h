@@ -1,8 +1,8 @@
 #pragma once
-/// Blows that give everything back (restitution 1), between bodies that no joint holds: one pair
-/// after the other, the fastest first, before the engine solves its step. The engine solves all
-/// blows of a step at once in a few rounds, which loses energy where three bodies meet, or gains
-/// some, and lets what comes slower than 1 m/s stick.
+/// Perfectly elastic impacts (restitution 1) between bodies without joints. They are solved one
+/// pair after the other, the fastest first, before the engine solves its step. The engine solves
+/// all impacts of a step at once in a few rounds, which loses or gains energy where three bodies
+/// meet, and makes impacts below 1 m/s inelastic.
 
 #include <cstddef>
 #include <vector>
@@ -11,45 +11,45 @@
 
 namespace seam {
 
-/// Whether a part of the scene gives everything back: where none does, nothing here is needed.
+/// True if a part of the scene is perfectly elastic; else this class is not needed.
 bool GivesAll(const Scene& scene);
 
 class FreeBlows {
  public:
-  /// Looks for a shape of restitution 1. `jointed`: by moving body, whether a joint holds it.
+  /// Looks for a shape of restitution 1. `jointed`: by moving body, true if a joint holds it.
   FreeBlows(const BuiltScene& built, std::vector<char> jointed);
 
-  /// Whether anything gives everything back; else Act has nothing to do.
+  /// True if a body without joints, or something anchored, is elastic; else Act has nothing to do.
   bool needed() const { return needed_; }
 
-  /// Between the narrow phase and the engine's solver, for a step of h s. Changes velocities, wakes
-  /// what was hit, and tells the world's listener the impulses (PostSolve). Contacts that are
-  /// disabled are let alone.
+  /// Solves the impacts between the narrow phase and the engine's solver, for a step of h s.
+  /// Changes velocities, wakes the bodies that were hit, and reports the impulses to the world's
+  /// listener (PostSolve). Ignores disabled contacts.
   void Act(b2World* world, float h);
-  /// After the step: contacts that Act has left out of it are there again.
+  /// Called after the step: enables the contacts that Act has disabled for it.
   void Done();
 
  private:
   struct Body {
     b2Body* body = nullptr;
-    double im = 0, ii = 0;          // 1/kg, 1/(kg m2); 0: does not give way
-    double vx = 0, vy = 0, w = 0;   // m/s, rad/s, in the middle of the step's kick
-    double kick_x = 0, kick_y = 0;  // m/s: half of what gravity and forces give it
+    double im = 0, ii = 0;          // 1/kg, 1/(kg m2); 0: immovable
+    double vx = 0, vy = 0, w = 0;   // m/s, rad/s, halfway through the step's kick
+    double kick_x = 0, kick_y = 0;  // m/s: half of the step's change by gravity and forces
     bool struck = false;
   };
   struct Point {
     double ax = 0, ay = 0, bx = 0, by = 0;  // m, arms
-    double pushed = 0, rubbed = 0;          // N s, in all blows of the step
+    double pushed = 0, rubbed = 0;          // N s, of all impacts of the step
   };
   struct Touch {
     b2Contact* made = nullptr;
-    int a = 0, b = 0;  // of bodies_
+    int a = 0, b = 0;  // indices into bodies_
     int points = 0;
     Point point[b2_maxManifoldPoints];
     double nx = 0, ny = 0;
     double threshold = 0;  // m/s
-    double closing = 0;    // m/s, of the point that comes fastest
-    bool parts = false;    // left out of the engine's step
+    double closing = 0;    // m/s, of the fastest approaching point
+    bool parts = false;    // disabled during the engine's step, as its bodies separate
   };
 
   bool Free(b2Body* body) const;
@@ -65,7 +65,7 @@ class FreeBlows {
 
   bool needed_ = false;
   std::vector<char> jointed_;
-  std::vector<int> place_;  // by moving body: in bodies_, -1: not yet
+  std::vector<int> place_;  // by moving body: index into bodies_, -1: not yet
   std::vector<Body> bodies_;
   std::vector<Touch> touches_;
 };

@@ -20,7 +20,7 @@ GearSides::Side ReadSide(b2Joint* joint) {
   return side;
 }
 
-/// Adds to the end that the body has, or begins one.
+/// Adds to the row's end for this body, or makes one.
 void Add(int place, const ExactBody& body, double jx, double jy, double jw, Row* row) {
   if (!body.moves()) {
     row->fixed_speed += jx * body.vx + jy * body.vy + jw * body.w;
@@ -37,8 +37,8 @@ void Add(int place, const ExactBody& body, double jx, double jy, double jw, Row*
   row->End(place, jx, jy, jw);
 }
 
-/// From the centre of mass to a point of the body, in the world, m: in double precision, or a rack
-/// could be shut no better than single precision tells.
+/// Arm from the centre of mass to a point of the body, in the world, m. In double precision,
+/// because single precision would limit the accuracy of a rack.
 struct Arm {
   double x, y;
 };

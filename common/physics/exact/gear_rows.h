@@ -1,5 +1,5 @@
 #pragma once
-/// Gears as rows: the one kind of joint that binds more than two bodies.
+/// A gear as a row: the only kind of joint that binds more than two bodies.
 
 #include <vector>
 
@@ -7,11 +7,11 @@
 
 namespace seam {
 
-/// The two joints that it couples.
+/// Returns the two joints that the gear couples.
 GearSides ReadGear(b2GearJoint* gear);
 
-/// Its one row, q1 + ratio q2 = 0, with q the angle of a hinge or the shift of a prismatic joint.
-/// Bodies that both joints have are one end. `h`: s, of a substep.
+/// Writes its row, q1 + ratio q2 = 0, with q the angle of a hinge or the shift of a prismatic
+/// joint. A body that belongs to both joints is one end. `h`: duration of a substep, s.
 void FillGear(const ExactJoint& joint, const JointEnds& ends, const std::vector<ExactBody>& bodies,
               double h, Row* row);
 

@@ -1,4 +1,4 @@
-/// ExactIsland: what it consists of, and the shape of its system.
+/// ExactIsland: its rows, and the shape of its matrix.
 
 #include "common/physics/exact/island.h"
 
@@ -45,7 +45,7 @@ long ExactIsland::Shape(bool relaxed, long most) {
 }
 
 long ExactIsland::ShapeMatrix(long most) {
-  // Rows in the order of their last body, then of their first: what is bound stays together.
+  // Order rows by their last body, then by their first: coupled rows stay together.
   const std::size_t n = rows_.size();
   std::vector<std::pair<int, int>>& key = key_;
   key.resize(n);
@@ -135,7 +135,7 @@ void ExactIsland::Fill(const Pace& pace) {
   }
 }
 
-/// As Fill, of bodies that have not moved since: what a solve has set is put back.
+/// Like Fill, for bodies that have not moved since: restores the values that a solve has changed.
 void ExactIsland::FillAgain(const Pace& pace) {
   for (Row& row : rows_) {
     switch (row.kind) {
@@ -158,8 +158,8 @@ void ExactIsland::FillAgain(const Pace& pace) {
   }
 }
 
-/// Fill at the beginning of a step: where the bodies are those of the last one's end, only contacts
-/// and motors are not.
+/// Fill at the beginning of a step: if the bodies are unchanged since the last one, only contacts
+/// and motors are filled.
 void ExactIsland::FillFirst(const Pace& pace) {
   if (!still || filled_h_ != pace.h) {
     Fill(pace);

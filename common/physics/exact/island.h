@@ -1,6 +1,6 @@
 #pragma once
-/// An island that contains a joint, as one system: joints, limits, motors, contacts and friction
-/// are its rows. Two solves a substep, at the old and at the new pose (docs/solver.md).
+/// Solves an island that contains a joint as one system, whose rows are joints, limits, motors,
+/// contacts and friction. Two solves a substep, at the old and at the new pose (docs/solver.md).
 
 #include <cstddef>
 #include <limits>
@@ -18,55 +18,54 @@ class ExactIsland {
   struct Held {
     const ExactJoint* joint = nullptr;
     JointEnds ends;
-    int row = 0, rows = 0;  // of its rows: the first, how many
+    int row = 0, rows = 0;  // its first row, and their number
   };
 
-  /// What it consists of. Filled by whoever finds it; then Shape, then Step.
-  std::vector<ExactBody> bodies;  ///< moving ones, in the order of the system, then fixed ones
+  /// The island's contents, filled by the caller; then Shape, then Step.
+  std::vector<ExactBody> bodies;  ///< moving bodies in the order of the system, then fixed ones
   std::vector<Held> joints;
   std::vector<ExactContact> contacts;
-  /// Whether all bodies are where the last Step or Rejoin left them, to the last bit, and what does
-  /// not move freely has the same speed.
+  /// True if all bodies are where the last Step or Rejoin left them, to the last bit, and the
+  /// speeds of anchored and kinematic ones are unchanged.
   bool still = false;
-  /// Whether the last Step moved something without velocity, so that it does not lie.
+  /// True if the last Step moved bodies without velocity, so that they are not at rest.
   bool stirred = false;
 
-  /// The rows and the matrix's shape from bodies, joints and contacts (of which a, b and count
-  /// are there). Returns the multiplications of a factorisation; what takes more than `most` of
-  /// them has no shape then, and only another Shape may follow.
-  /// `relaxed`: the bounded rows are left to Relax; then bodies that have joints with each other
-  /// must be neighbours in the list, and there is no `most`.
+  /// Makes the rows and the matrix's shape from bodies, joints and contacts (a, b and count must be
+  /// set). Returns the number of multiplications of a factorisation. Above `most` no shape is made,
+  /// and only another Shape may follow. `relaxed`: the bounded rows are left to Relax; then bodies
+  /// with common joints must be neighbours in the list, and `most` is ignored.
   long Shape(bool relaxed, long most);
   int bounded_rows() const { return bounded_; }
 
-  /// Advances the bodies by pace.h * pace.substeps. `warm`: begin with what contacts and joints
-  /// had last.
+  /// Advances the bodies by pace.h * pace.substeps. `warm`: start from the last impulses of
+  /// contacts and joints.
   void Step(const Pace& pace, bool warm);
-  /// A Step that takes more multiplications than `work_most` is broken off, and the bodies here are
-  /// nowhere then.
+  /// Limit of multiplications of a Step. A Step that exceeds it is aborted and leaves the bodies
+  /// here in undefined states.
   long work_most = std::numeric_limits<long>::max();
   bool given_up() const { return work_ > work_most; }
-  /// After something else has moved some of the bodies: brings the joints together again, positions
-  /// and, if some were `struck`, velocities. `pace` as in Step; no time passes.
+  /// Brings joints together again after something else has moved some of the bodies: positions and,
+  /// if some were `struck`, velocities. `pace` as in Step; no time passes.
   void Rejoin(const Pace& pace, bool struck);
-  /// What the step did, to the engine's joints and contacts.
+  /// Writes the step's impulses to the engine's joints and contacts.
   void Store() const;
-  /// After Store and reports: what contacts take along to the next step, which may be the engine's,
-  /// is no more than the engine's rounds come back from.
+  /// Called after Store and reports: limits the contact impulses carried over to the next step to
+  /// an amount that the engine's solver recovers from, in case it takes over.
   void BoundCarried() const;
 
  private:
-  struct Pair {       // of rows that share a body
-    double* at;       // in the matrix
-    const double* m;  // of one's end
-    const double* j;  // of the other's
+  struct Pair {       // a pair of rows that share a body
+    double* at;       // its entry in the matrix
+    const double* m;  // of one row's end
+    const double* j;  // of the other row's end
   };
-  struct Assembled {        // what the matrix has of a row
-    int end = 0, ends = 0;  // of all ends: the first, how many
-    int pair = 0;           // of all pairs: the first
+  struct Assembled {        // the values of a row in the matrix
+    int end = 0, ends = 0;  // its first end among all, and their number
+    int pair = 0;           // its first pair among all
     double share = 0, gamma = 0;
   };
-  struct InMatrix {  // what it has of an end
+  struct InMatrix {  // the values of a row's end in the matrix
     double j[3] = {}, mj[3] = {};
     bool Has(const RowEnd& end) const {
       return end.j[0] == j[0] && end.j[1] == j[1] && end.j[2] == j[2] && end.mj[0] == mj[0] &&
@@ -82,34 +81,34 @@ class ExactIsland {
   struct Group {  // a mechanism, or a body without joints
     int group;
     int first_body, bodies;
-    int first_row, rows;  // places
+    int first_row, rows;  // indices in the matrix
   };
-  struct Reach {  // of a bounded row
+  struct Reach {  // a bounded row and its mechanisms
     int row = 0;
     int groups = 0;
     int group[2] = {};
-    std::size_t at[2] = {};  // of its answer
-    double own = 0;          // m/s or rad/s per impulse: its own speed
+    std::size_t at[2] = {};  // start of its responses in answer_
+    double own = 0;          // m/s or rad/s per impulse: the row's own speed
   };
-  struct Flying {                              // of a mechanism, against its centre of mass
-    double x = 0, y = 0, vx = 0, vy = 0;       // of that: m, m/s
+  struct Flying {                         // motion of a mechanism relative to its centre of mass
+    double x = 0, y = 0, vx = 0, vy = 0;  // centre of mass: m, m/s
     double inertia = 0, spin = 0, energy = 0;  // kg m2, N m s, J
   };
-  struct Flight {  // a mechanism that may fly
+  struct Flight {  // a mechanism in possible free flight
     int group = -1;
-    int first_body = 0, bodies = 0;  // of flight_bodies_
-    int first_row = 0, rows = 0;     // of flight_rows_: what may push it
-    bool flies = false;              // in this substep, if none of them does
+    int first_body = 0, bodies = 0;  // range in flight_bodies_
+    int first_row = 0, rows = 0;     // range in flight_rows_: the rows that may push it
+    bool flies = false;              // in this substep, unless one of the rows acts
     Flying before;
   };
-  struct Act {  // what a row does to a body
+  struct Act {  // effect of a row on a body
     std::size_t place = 0;
     const double* mj = nullptr;
   };
-  struct Shutting {  // a row that is being shut
+  struct Shutting {  // a row whose error is being corrected
     std::size_t row = 0, place = 0;
     double goal = 0;  // m or rad
-    double side = 0;  // m/s or rad/s, of the last correction
+    double side = 0;  // m/s or rad/s, at the last correction
   };
   Row& At(int row) { return rows_[static_cast<std::size_t>(row)]; }
   ExactBody& Body(int body) { return bodies[static_cast<std::size_t>(body)]; }
@@ -126,15 +125,15 @@ class ExactIsland {
   void ShiftTogether(double damping);
   void MakeAlike();
   void TakeMassesOf(const std::vector<ExactBody>& from);
-  // Of a substep, in their order.
+  // The parts of a substep, in their order.
   void Substep(const Pace& pace);
   bool Course(const Pace& pace, bool whole);
   void GoBack(const Pace& pace);
   // Jams.
-  struct Start {         // of a substep, after its kick
+  struct Start {         // state of a substep after its kick
     double energy = 0;   // J, kinetic
     double mass = 0;     // kg
-    double impulse = 0;  // N s, MostImpulse
+    double impulse = 0;  // N s, the result of MostImpulse
   };
   double MostImpulse(const Pace& pace) const;
   double MostCarried(const Pace& pace) const;
@@ -172,14 +171,14 @@ class ExactIsland {
   void SoftenContacts();
   void SolveAtEnd(const Pace& pace);
 
-  // The tension of joints as inertia.
+  // The tension of joints as additional inertia.
   static double Stiffened(const ExactBody& q);
   void Tension(double h);
   bool Stiffer();
 
-  // The system of rows, for the velocities as they are.
-  /// `hard`, `bounded`: what a row's own entry is enlarged by, as a share, for rows that others
-  /// imply.
+  // The system of rows, for the current velocities.
+  /// `hard`, `bounded`: shares by which diagonal entries are enlarged, because rows may be
+  /// redundant.
   static constexpr double kHardShare = 1e-7, kBoundedShare = 1e-6;
   void Assemble(double hard = kHardShare, double bounded = kBoundedShare);
   bool Assembles(double hard, double bounded);
@@ -207,48 +206,48 @@ class ExactIsland {
   void Restore(const std::vector<double>& velocities);
 
   std::vector<Row> rows_, rows_before_;
-  std::vector<Row> now_;  // of one joint, while it is shut
+  std::vector<Row> now_;  // rows of one joint, while its errors are corrected
   std::vector<RowEnd> now_ends_;
   std::vector<ExactBody> bodies_before_;
   std::vector<RowEnd> ends_;
-  std::vector<int> contact_row_;  // by contact: the first of its rows
+  std::vector<int> contact_row_;  // by contact: its first row
   std::vector<int> place_;        // by row: its index in the matrix
-  std::vector<int> row_at_;       // the other way round
-  std::vector<Row*> by_place_;    // the rows that are in the matrix
+  std::vector<int> row_at_;       // by index in the matrix: its row
+  std::vector<Row*> by_place_;    // by index in the matrix
   std::vector<int> bounded_places_;
-  std::vector<Pair> pairs_;           // in the order of places
-  std::vector<Assembled> assembled_;  // by place
+  std::vector<Pair> pairs_;           // in the order of matrix indices
+  std::vector<Assembled> assembled_;  // by index in the matrix
   std::vector<InMatrix> in_matrix_;   // by end
   Skyline matrix_;
   int bounded_ = 0;
   long work_ = 0;                // multiplications of this Step so far
-  double turned_ = 0;            // rad: the most that a body has turned in this substep
-  int changed_ = 0;              // the matrix's rows from here on are not those that were assembled
-  int dirty_ = 0;                // the factors of rows from here on are old
-  double gained_ = 0;            // J: what substeps with contacts have gained, falling slowly
-  double carried_ = 0;           // N s: what a contact's impulse may be for the next step
-  double filled_h_ = 0;          // s: the substep that rows were written for
-  bool rewritten_ = true;        // rows were, since they were assembled
-  double hard_ = 0, bound_ = 0;  // what that was done with
-  bool moved_ = false;           // velocities are not those of before_
+  double turned_ = 0;            // rad: the largest rotation of a body in this substep
+  int changed_ = 0;              // first row of the matrix that differs from the assembled one
+  int dirty_ = 0;                // first row whose factors are outdated
+  double gained_ = 0;            // J: energy gained in substeps with contacts, decaying slowly
+  double carried_ = 0;           // N s: limit of a contact's impulse for the next step
+  double filled_h_ = 0;          // s: the substep for which rows were written
+  bool rewritten_ = true;        // rows were rewritten since they were assembled
+  double hard_ = 0, bound_ = 0;  // the shares used for assembling
+  bool moved_ = false;           // velocities differ from before_
   std::vector<char> in_;
   std::vector<double> x_, before_, start_;
-  std::vector<double> poses_;         // of what moves, where the substep began
-  std::vector<double> errors_;        // by row: of joints, m or rad
-  std::vector<double> last_, shift_;  // of the last correction: as solved, as made
-  std::vector<Shutting> shutting_;    // in the order of places
-  std::vector<Act> acts_;             // by body, ExactBody::acts of each, in the order of places
+  std::vector<double> poses_;         // poses at the beginning of the substep
+  std::vector<double> errors_;        // by row: errors of joints, m or rad
+  std::vector<double> last_, shift_;  // the last correction: as solved, as applied
+  std::vector<Shutting> shutting_;    // in the order of matrix indices
+  std::vector<Act> acts_;  // by body, ExactBody::acts each, in the order of matrix indices
   bool relaxed_ = false;
   std::vector<Group> groups_;
   std::vector<Reach> reaches_;                            // in the order of rows
-  std::vector<std::vector<std::pair<int, int>>> joined_;  // by body: place, end
+  std::vector<std::vector<std::pair<int, int>>> joined_;  // by body: index in the matrix, end
   std::vector<double> answer_, velocity_;
   std::vector<Flight> flights_;
   std::vector<int> flight_bodies_, flight_rows_;
-  std::vector<RowState> next_;  // by place
-  std::vector<RowState> held_;  // kept while something takes no part
-  // Room for Shape.
-  std::vector<int> ends_of_, first_, lead_;            // by row; by place; by body
+  std::vector<RowState> next_;  // by index in the matrix
+  std::vector<RowState> held_;  // saved while some rows take no part
+  // Scratch space of Shape.
+  std::vector<int> ends_of_, first_, lead_;            // by row; by index in the matrix; by body
   std::vector<std::pair<int, int>> key_;               // by row
   std::vector<std::vector<std::pair<int, int>>> met_;  // by body: row, end
 };
@@ -274,7 +273,7 @@ inline void ExactIsland::Push(const Row& row, double impulse) {
   }
 }
 
-/// Of the bodies that move, J.
+/// Returns the kinetic energy of the moving bodies, J.
 double KineticOf(const std::vector<ExactBody>& bodies);
 
 }  // namespace seam

@@ -1,7 +1,8 @@
-/// ExactIsland: mechanisms that fly. What no anchor holds and nothing but its own joints pushes
-/// keeps its momentum, its spin about the centre of mass, and its energy about it: joints do no
-/// work, gravity is the same for all. A substep in which bodies turn far keeps that only in the
-/// mean, so the velocities at its end are projected on it (Hairer, Lubich and Wanner 2006, IV.4).
+/// ExactIsland: mechanisms in free flight. A mechanism without anchor or outer contact keeps its
+/// momentum, its angular momentum about the centre of mass, and its energy relative to it: joints
+/// do no work, and gravity accelerates all bodies alike. A substep with large rotations keeps these
+/// only in the mean, so its final velocities are projected on them (Hairer, Lubich and Wanner 2006,
+/// IV.4).
 
 #include <algorithm>
 #include <cmath>
@@ -11,21 +12,21 @@
 namespace seam {
 namespace {
 
-/// The energy of what moves in itself changes by this much at most in one projection, as a share.
+/// Bounds of the scale of internal velocities in one projection.
 constexpr double kLeast = 0.5, kMost = 2;
-/// Less than that of the energy is rounding.
+/// Internal energy below this share of the energy is rounding.
 constexpr double kLittle = 1e-12;
 
 }  // namespace
 
-/// The mechanisms that may fly: all their joints are between their own bodies, rigid and without a
-/// motor, and push with no momentum from outside, as a pulley's rope does.
+/// Finds the mechanisms that may fly: all their joints are rigid, without a motor and between their
+/// own bodies, and none takes momentum from outside, as a pulley's rope does.
 void ExactIsland::ShapeFlights() {
   flights_.clear();
   flight_bodies_.clear();
   flight_rows_.clear();
   const auto group_of = [&](int body) { return body < 0 ? -1 : Body(body).group; };
-  std::vector<int>& tied = first_;  // groups that cannot
+  std::vector<int>& tied = first_;  // groups that cannot fly
   tied.clear();
   for (const Held& held : joints) {
     bool free = held.joint->type != e_pulleyJoint;
@@ -93,7 +94,7 @@ ExactIsland::Flying ExactIsland::FlyingOf(const Flight& flight) const {
   return f;
 }
 
-/// Before a substep's velocities change: what it has to keep.
+/// Stores the conserved quantities, before a substep's velocities change.
 void ExactIsland::Depart() {
   for (Flight& flight : flights_) {
     const ExactBody& lead = Body(flight_bodies_[static_cast<std::size_t>(flight.first_body)]);
@@ -107,8 +108,9 @@ void ExactIsland::Depart() {
   }
 }
 
-/// At its end: those that nothing has pushed keep it. What turns as one turns so as to keep the
-/// spin, and what moves beside that is scaled, which leaves joints shut.
+/// At the substep's end, restores the quantities of mechanisms without outer impulses. The common
+/// rotation is set by the angular momentum; the velocities relative to that are scaled, which keeps
+/// joints satisfied.
 void ExactIsland::Arrive() {
   for (const Flight& flight : flights_) {
     bool flies = flight.flies;

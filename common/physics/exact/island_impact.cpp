@@ -1,4 +1,4 @@
-/// ExactIsland: blows with restitution.
+/// ExactIsland: impacts with restitution.
 
 #include <algorithm>
 #include <cmath>
@@ -8,22 +8,22 @@
 namespace seam {
 namespace {
 
-/// A limit or a contact that is nearer than this is reached, m or rad.
+/// Gap below which a limit or a contact counts as reached, m or rad.
 constexpr double kReached = 1e-6;
-/// Halvings of the restitution when a blow with friction would gain energy, the last is 0.
+/// Tries with less restitution if an impact with friction would gain energy; the last has none.
 constexpr int kSofterTries = 3;
-/// Blows in one substep, for each contact.
+/// Impacts in one substep, for each contact.
 constexpr int kBlowsEach = 8;
-/// What a row's own entry is enlarged by in a blow, as a share: what is more takes energy where a
-/// mechanism can hardly give way. More where with little the row of a joint is lost in rounding,
-/// which leaves its ends at another speed than this, m/s or rad/s.
+/// Shares by which diagonal entries are enlarged in an impact. More takes energy where a mechanism
+/// can hardly give way. kOwnOfLost is used if with less a joint's row is lost in rounding, that is,
+/// leaves its ends a relative speed above kHeldTo, m/s or rad/s.
 constexpr double kOwnOfBlow = 1e-12, kOwnOfLost = 1e-9, kHeldTo = 1e-3;
-/// What joints may take of the energy by giving way in a blow that presses beyond measure.
+/// Share of the energy that joints may absorb by giving way in an impact with an excessive impulse.
 constexpr double kYieldedMost = 0.05;
-/// What it may gain, as a share of the energy: without friction by rounding alone, which a fast
-/// blow makes of what joints were moving by; and if it has no restitution.
+/// Energy that an impact may gain, as a share: without friction, by rounding, which a fast impact
+/// makes of joints' residual speeds; with friction; and in the last try, without restitution.
 constexpr double kGainRounded = 1e-3, kGainRubbed = 1e-9, kGainLast = 0.01;
-/// Its impulses are scaled within these bounds so as to keep the energy.
+/// Bounds for scaling the impulses so as to keep the energy.
 constexpr double kScaledLeast = 0.5, kScaledMost = 2;
 
 double Kinetic(const ExactBody& q) {
@@ -38,7 +38,7 @@ double KineticOf(const std::vector<ExactBody>& bodies) {
   return sum;
 }
 
-/// Whether something elastic hits. Sets `approach` of the contacts' points.
+/// True if an elastic contact has an impact. Sets `approach` of the contacts' points.
 bool ExactIsland::FindImpacts() {
   bool hits = false;
   for (std::size_t c = 0; c < contacts.size(); ++c) {
@@ -56,18 +56,18 @@ bool ExactIsland::FindImpacts() {
       const ExactContact::Point& p = contact.point[i];
       Row& normal = At(contact_row_[c] + 2 * i);
       Row& friction = At(contact_row_[c] + 2 * i + 1);
-      // Where it gives everything back, no point of it is pushed while another has a blow or parts.
+      // For full restitution: no point is pushed while another has an impact or separates.
       const bool whole = strikes && contact.returns;
       if (std::fabs(p.approach) < contact.threshold && !whole) continue;
       hits = hits || (normal.error <= 0 && p.approach < 0);
-      // It has its blow now, or when it is there; and what parts needs no push.
+      // Its impact is now, or when it touches; and separating points need no push.
       normal.state = friction.state = RowState::kOut;
     }
   }
   return hits;
 }
 
-/// Of those elastic contacts that touch, the one whose bodies come at each other fastest; -1: none.
+/// Returns the touching elastic contact with the fastest approach; -1: none.
 int ExactIsland::FastestBlow() {
   int fastest = -1;
   double most = 0;
@@ -86,8 +86,8 @@ int ExactIsland::FastestBlow() {
   return fastest;
 }
 
-/// Blows without duration, the fastest first, one pair of bodies after the other as a wave would go
-/// through them: so the last ball of a cradle flies, and not all of them back.
+/// Solves impacts without duration one pair of bodies after the other, the fastest first, as a wave
+/// would travel through them: so the last ball of a cradle flies off, and not all of them back.
 void ExactIsland::Impact(double pressed) {
   for (ExactBody& q : bodies) {
     if (q.moves()) q.ii = 1 / q.inertia;
@@ -100,11 +100,11 @@ void ExactIsland::Impact(double pressed) {
     const int contact = FastestBlow();
     if (contact < 0) break;
     ExactContact& struck = contacts[static_cast<std::size_t>(contact)];
-    // A jam that has no blow without a gain of energy: it is pressed like what lies.
+    // In a jam every impact would gain energy: treat it as a resting contact.
     if (!Blow(struck, contact_row_[static_cast<std::size_t>(contact)], pressed)) {
       struck.restitution = 0;
     }
-    // What is told of it is bounded, as in a jam.
+    // The reported impulse is bounded, as in a jam.
     const double press = Pressed(struck, contact_row_[static_cast<std::size_t>(contact)]);
     const double told = press > pressed ? pressed / press : 1;
     for (Row& row : rows_) {
@@ -117,7 +117,7 @@ void ExactIsland::Impact(double pressed) {
   }
 }
 
-/// N s: what this blow presses a point with, at most.
+/// Returns the largest normal impulse of this impact, N s.
 double ExactIsland::Pressed(const ExactContact& contact, int first_row) const {
   double most = 0;
   for (int i = 0; i < contact.count; ++i) {
@@ -126,14 +126,14 @@ double ExactIsland::Pressed(const ExactContact& contact, int first_row) const {
   return most;
 }
 
-/// Whether joints' ends move together, but for `speed`, m/s or rad/s.
+/// True if the relative speeds at joints are at most `speed`, m/s or rad/s.
 bool ExactIsland::Holds(double speed) const {
   return std::none_of(rows_.begin(), rows_.end(), [&](const Row& row) {
     return row.kind == RowKind::kHard && std::fabs(Speed(row)) > speed;
   });
 }
 
-/// J: what joints and limits take in this blow by giving way: their rows' own share of it.
+/// Returns the energy that joints and limits absorb in this impact by the enlarged diagonal, J.
 double ExactIsland::Yielded() const {
   double work = 0;
   for (const Row& row : rows_) {
@@ -143,7 +143,7 @@ double ExactIsland::Yielded() const {
   return work;
 }
 
-/// J: what a belt or what is moved by force can have given in it.
+/// Returns the maximal energy supplied by a belt or kinematic bodies in this impact, J.
 double ExactIsland::Driven(const ExactContact& contact, int first_row) const {
   double work = 0;
   for (int i = 0; i < 2 * contact.count; ++i) {
@@ -153,25 +153,25 @@ double ExactIsland::Driven(const ExactContact& contact, int first_row) const {
   return work;
 }
 
-/// Whether a limit takes part in this blow: it gives nothing back.
+/// True if a limit takes part in this impact: a limit has no restitution.
 bool ExactIsland::Stops() const {
   return std::any_of(rows_.begin(), rows_.end(),
                      [](const Row& row) { return row.kind == RowKind::kLimit && row.lambda != 0; });
 }
 
-/// Whether something that is moved by force takes part.
+/// True if a kinematic body is moving.
 bool ExactIsland::Leads() const {
   return std::any_of(bodies.begin(), bodies.end(), [](const ExactBody& q) {
     return !q.moves() && (q.vx != 0 || q.vy != 0 || q.w != 0);
   });
 }
 
-/// A blow gives energy or takes it by what joints moved by before, or by what rows give way by. All
-/// its impulses are scaled so that the energy is again what it was, which keeps the momentum.
-/// `all`: also if it took some. False: it has another energy.
+/// An impact gains or loses energy by residual speeds of joints and by rows that give way. Scales
+/// its impulses to restore the energy, which keeps the momentum. `all`: also if energy was lost.
+/// False if that is not possible.
 bool ExactIsland::GiveBack(bool all) {
   const double* v = start_.data();
-  double square = 0, cross = 0;  // of what the blow does, and with what was
+  double square = 0, cross = 0;  // of the change, and of the change with the old velocities
   for (const ExactBody& q : bodies) {
     const double was[3] = {v[0], v[1], v[2]};
     v += 3;
@@ -195,7 +195,8 @@ bool ExactIsland::GiveBack(bool all) {
   return true;
 }
 
-/// Joints that move before a blow, as after a jam, would give it energy or take some.
+/// Removes residual speeds of joints before an impact, as after a jam: they would change its
+/// energy.
 void ExactIsland::HoldBefore() {
   if (Holds(kHeldTo)) return;
   for (Row& row : rows_) {
@@ -209,10 +210,10 @@ void ExactIsland::HoldBefore() {
   }
 }
 
-/// One of them (Moreau 1988): each of its points leaves at no less than its restitution times the
-/// speed it came with, so that energy is never gained without friction. With it, it may be (Kane
-/// and Levinson 1985): then with less restitution. False: there is none that gives what can be, and
-/// nothing has been done.
+/// Solves an impact (Moreau 1988): each of its points separates at no less than its restitution
+/// times its approach speed, so that without friction energy is never gained. With friction it may
+/// be (Kane and Levinson 1985): then restitution is reduced. False, with nothing changed, if no try
+/// gives a possible result.
 bool ExactIsland::Blow(const ExactContact& contact, int first_row, double most) {
   Save(&start_);
   const double before = KineticOf(bodies);
@@ -258,8 +259,8 @@ bool ExactIsland::Blow(const ExactContact& contact, int first_row, double most) 
     const bool all = share * contact.restitution >= 1 && !Stops();
     const bool kept = !rubs && !last && !driven && !leads && GiveBack(all);
     const double spare = driven ? Driven(contact, first_row) : gain * before;
-    // A mechanism that can hardly give way, a folded one that is struck along itself, presses with
-    // many times its momentum: where its joints hold against that, it is what happens.
+    // A mechanism that can hardly give way, as a folded one that is hit along its links, has many
+    // times its momentum as impulse. That is accepted if its joints hold.
     const bool can_be = Pressed(contact, first_row) <= most || (kept && all && Holds(kHeldTo)) ||
                         Yielded() <= kYieldedMost * before;
     const double after = KineticOf(bodies);

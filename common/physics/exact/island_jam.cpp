@@ -1,7 +1,7 @@
-/// ExactIsland: jams. Bodies clamped from more sides than they can give way to, by a press, rails
-/// or joints, leave the system without a solution: then its impulses grow until rounding or the
-/// rows' own share ends them, and what acts on another pose or in the engine makes speed of them.
-/// Here is what tells such a substep from others, and what is done instead.
+/// ExactIsland: jams. Bodies clamped by a press, rails or joints from more sides than they can give
+/// way to make the system unsolvable: then its impulses grow until rounding or the enlarged
+/// diagonal ends them, and would turn into speed at another pose or in the engine. This file
+/// detects such a substep and solves it differently.
 
 #include <algorithm>
 #include <cmath>
@@ -11,30 +11,30 @@
 namespace seam {
 namespace {
 
-/// What a substep that pushes out of an overlap may gain of kinetic energy, as a share, and J/kg.
+/// Kinetic energy that a substep may gain while it resolves an overlap, as a share, and J/kg.
 constexpr double kGainShare = 0.05, kGainPerMass = 0.05;
-/// Of that, what any substep may gain by itself; what the account of many may hold; and what is
-/// left of a gain in it after a substep.
+/// Multiples of that: the gain that any substep may have unexplained; the accumulated gain of many.
+/// kGainKept: share of that sum left per substep.
 constexpr double kGainOnce = 2, kGainLasting = 4, kGainKept = 0.998;
-/// A contact's impulse is taken for possible up to so many times the momentum there is.
+/// Limit of a contact's impulse, as a multiple of all momentum.
 constexpr double kImpulseMost = 50;
-/// And what of it the next step begins with.
+/// The same limit for the next step's warm start.
 constexpr double kCarriedMost = 3;
-/// What is led throws others at up to so many times its own speed.
+/// Bodies are thrown at up to this many times the speed of a kinematic one.
 constexpr double kLedMost = 4;
-/// What a row's own entry is enlarged by in a jam, as a share: what contradicts itself by 1 m/s is
-/// pressed with a thousand times the momentum, no more.
+/// Share by which diagonal entries are enlarged in a jam: a contradiction of 1 m/s then makes an
+/// impulse of at most a thousand times the momentum.
 constexpr double kOwnOfJam = 1e-3;
-/// m: an overlap that is undone without velocity in a jam.
+/// m: an overlap that is resolved without velocity in a jam.
 constexpr double kDeep = 0.03;
-/// m/s: what is pushed apart without velocity moves no faster; and what moves slower may sleep.
+/// m/s: maximal speed of that motion; and the speed below which it may be ignored for sleep.
 constexpr double kApartMost = 1, kApartStill = 0.01;
 
 }  // namespace
 
-/// N s: what a contact may be pressed with, so many times all momentum that may meet in one point
-/// in this substep: of bodies against their mean and against what is moved by force, of gravity and
-/// forces, and of motors.
+/// Returns the maximal impulse of a contact, N s: a multiple of all momentum that may meet in one
+/// point in this substep. That is the momentum of bodies relative to their mean and to kinematic
+/// bodies, of gravity and forces, and of motors.
 double ExactIsland::MostImpulse(const Pace& pace) const {
   double mass = 0, px = 0, py = 0, led = 0;
   for (const ExactBody& q : bodies) {
@@ -46,7 +46,7 @@ double ExactIsland::MostImpulse(const Pace& pace) const {
     px += q.vx / q.im;
     py += q.vy / q.im;
   }
-  const bool fixed = !bodies.back().moves();  // against what stands still, all of it counts
+  const bool fixed = !bodies.back().moves();  // relative to something stationary, all of it counts
   if (fixed) px = py = 0;
   double sum = mass * led;
   for (const ExactBody& q : bodies) {
@@ -76,9 +76,9 @@ void ExactIsland::BoundCarried() const {
   }
 }
 
-/// J: what motors, springs, belts and what is moved by force have done since `bodies_before_`, at
-/// most. A motor gives nothing above the speed it is set to, and nothing gives more than it takes
-/// to throw everything at kLedMost times the speed of what pushes.
+/// Returns an upper bound of the work of motors, springs, belts and kinematic bodies since
+/// `bodies_before_`, J. A motor does no work above its set speed, and belts and kinematic bodies do
+/// no more than throws all bodies at kLedMost times their speed.
 double ExactIsland::WorkDone(double mass) {
   double work = 0, led = 0, fastest = 0;
   for (const Row& row : rows_) {
@@ -107,10 +107,9 @@ ExactIsland::Start ExactIsland::StartOf(const Pace& pace) const {
   return start;
 }
 
-/// Whether the substep's impulses can be what happened: no contact presses with more than there is
-/// to press with, and no more energy has come than was supplied, in this substep and in those
-/// before it. `pushes`: contacts push out of an
-/// overlap.
+/// True if the substep's impulses are possible: no contact exceeds its maximal impulse, and no more
+/// energy was gained than supplied, in this substep and in those before it. `pushes`: contacts
+/// resolve an overlap.
 bool ExactIsland::Possible(const Start& start, bool pushes) {
   for (const Row& row : rows_) {
     if (row.kind == RowKind::kNormal && std::fabs(row.base) > start.impulse) return false;
@@ -124,7 +123,7 @@ bool ExactIsland::Possible(const Start& start, bool pushes) {
   return true;
 }
 
-/// Where nothing touches, poses alone are kept: SolveAhead keeps the velocities.
+/// Saves poses. Sufficient without contacts, as SolveAhead saves the velocities.
 void ExactIsland::KeepPoses() {
   poses_.resize(5 * bodies.size());
   double* pose = poses_.data();
@@ -137,9 +136,9 @@ void ExactIsland::KeepPoses() {
   }
 }
 
-/// A substep in which nothing touches and joints could not be shut, or energy came: a mechanism at
-/// its dead end, a pulley without rope, which can do nothing but stop. If it gained more than was
-/// supplied, it is calmed. `whole`: all of its kick was at the beginning.
+/// Checks a substep without contacts in which joints could not be satisfied or energy grew: a
+/// mechanism at its dead centre or a pulley without rope can only stop. Calms it if it gained more
+/// than was supplied. `whole`: all of its kick was at the beginning.
 void ExactIsland::Doubt(const Pace& pace, bool whole) {
   bodies_before_ = bodies;
   const double* pose = poses_.data();
@@ -163,11 +162,11 @@ void ExactIsland::Doubt(const Pace& pace, bool whole) {
   if (!whole) Kick(pace.h / 2);
 }
 
-/// The substep as a blow without restitution: the velocities that are nearest to the ones that are
-/// there, of those that neither part joints nor press anything together. With the bodies' own
-/// inertias and no speed asked for but by motors and springs, that takes energy and never gives
-/// any, however far the solve gets; rows give way a little, so that what contradicts itself is
-/// pressed with bounded impulses. Joints are brought together without velocity.
+/// Solves the substep as an inelastic impact: finds the velocities nearest to the current ones that
+/// neither separate joints nor press contacts together. With the bodies' own inertias, and target
+/// speeds only for motors and springs, that takes energy and never adds any, however far the solve
+/// gets. Rows give way a little, so that contradictions make bounded impulses. Joints are brought
+/// together without velocity.
 void ExactIsland::Calm(const Pace& pace, const Start& start) {
   GoBack(pace);
   for (ExactBody& q : bodies) {
@@ -194,7 +193,7 @@ void ExactIsland::Calm(const Pace& pace, const Start& start) {
   for (const Row& row : rows_) {
     if (row.kind == RowKind::kNormal) most = std::max(most, std::fabs(row.lambda));
   }
-  // What is told of it is what can be.
+  // The reported impulses are bounded by the possible.
   const double share = std::min(1.0, start.impulse / std::max(most, 1e-30));
   for (Row& row : rows_) {
     row.base = row.warm = share * row.lambda;
@@ -208,10 +207,10 @@ void ExactIsland::Calm(const Pace& pace, const Start& start) {
   gained_ *= kGainKept;
 }
 
-/// Overlaps that could not be undone by the substep's velocities are by a motion of its own, of
-/// which no velocity is left: how fast the points part is what it is without a jam, joints stay
-/// shut and what touches does not come nearer. Rows give way as in a blow, so that what pushes from
-/// two sides stays between them.
+/// Resolves overlaps that remain after a jammed substep by a separate motion that leaves no
+/// velocity. Points separate as fast as without a jam, joints stay satisfied and touching points do
+/// not approach. Rows give way as in an impact, so that a body pushed from two sides stays between
+/// them.
 void ExactIsland::PushApart(const Pace& pace) {
   const bool deep = std::any_of(rows_.begin(), rows_.end(), [](const Row& row) {
     return row.kind == RowKind::kNormal && row.error < -kDeep && row.state != RowState::kOut;

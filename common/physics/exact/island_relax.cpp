@@ -1,7 +1,7 @@
-/// ExactIsland: piles, whose contacts are too many for one system. The joints of each mechanism are
-/// solved exactly as ever; contacts, friction, limits and motors by projected Gauss-Seidel sweeps
-/// on what that leaves: each impulse acts on its bodies and on all that their joints pass it on to
-/// (the Schur complement of the joints' rows), so that joints hold after every single one of them.
+/// ExactIsland: piles, which have too many contacts for one system. The joints of each mechanism
+/// are solved exactly as ever. Contacts, friction, limits and motors are solved by projected
+/// Gauss-Seidel sweeps on the Schur complement of the joints' rows: each impulse acts on its bodies
+/// and on all bodies that joints pass it on to, so that joints hold after every single impulse.
 
 #include <algorithm>
 #include <cmath>
@@ -11,14 +11,14 @@
 namespace seam {
 namespace {
 
-/// Sweeps ahead, and at the end, where little is left to do.
+/// Sweeps of the first solve, and of the second, which has little left to do.
 constexpr int kSweepsAhead = 8, kSweepsAtEnd = 4;
-/// A row that nothing can move has this much answer or less.
+/// Response of a row, per impulse, below which it is immovable.
 constexpr double kNothing = 1e-12;
-/// A row is taken for so much of what its bodies alone would answer, at least: where joints jam it,
-/// what is left is rounding.
+/// Least response of a row, as a share of its bodies' response without joints: where joints jam it,
+/// the rest is rounding.
 constexpr double kYields = 1e-4;
-/// What the answers were found for still holds after turns of so many rad.
+/// Rotation up to which the responses remain valid, rad.
 constexpr double kTurnsFew = 0.01;
 
 }  // namespace
@@ -59,7 +59,7 @@ void ExactIsland::ShapeGroups() {
     for (int e = 0; e < row.ends; ++e) {
       const int g = group_of[static_cast<std::size_t>(row.end[e].body)];
       if (reach.groups > 0 && reach.group[0] == g) continue;
-      if (reach.groups == 2) continue;  // a gear over three mechanisms: they are one
+      if (reach.groups == 2) continue;  // a gear over three mechanisms: these are one
       reach.group[reach.groups] = g;
       reach.at[reach.groups++] = next;
       next += 3 * static_cast<std::size_t>(groups_[static_cast<std::size_t>(g)].bodies);
@@ -70,7 +70,8 @@ void ExactIsland::ShapeGroups() {
   velocity_.assign(3 * bodies.size(), 0.0);
 }
 
-/// What an impulse of 1 on the row does to all bodies of its mechanisms, joints holding.
+/// Computes the effect of an impulse of 1 on the row on all bodies of its mechanisms, with joints
+/// holding.
 void ExactIsland::FindAnswer(Reach* reach) {
   const Row& row = At(reach->row);
   reach->own = 0;
@@ -152,7 +153,7 @@ void ExactIsland::Sweep(bool friction) {
   }
 }
 
-/// `ahead`: the first of the two solves, which begins with what the last step had.
+/// `ahead`: the first of the two solves, which starts from the last step's impulses.
 void ExactIsland::Relax(bool ahead) {
   for (Row& row : rows_) row.lambda = 0;
   Save(&before_);

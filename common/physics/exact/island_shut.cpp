@@ -1,5 +1,5 @@
-/// ExactIsland: joints are shut after the move, by Newton's method with the matrix of the old pose
-/// as long as that will do.
+/// ExactIsland: closes joints after the move, by Newton's method with the matrix of the old pose as
+/// long as that converges.
 
 #include <algorithm>
 #include <cmath>
@@ -9,26 +9,28 @@
 namespace seam {
 namespace {
 
-/// Joints are shut to this, m or rad, in at most so many corrections; less well where something
-/// touches, which leaves more behind.
+/// Error to which joints are closed, m or rad; larger with contacts, which leave larger errors.
+/// kCorrections: maximal number of corrections.
 constexpr double kShut = 1e-9, kShutTouching = 1e-7;
 constexpr int kCorrections = 8;
-/// By no more than this, m/s or rad/s; contacts yield by this share.
+/// Maximal speed of a correction, m/s or rad/s; and softness of contacts, as a share.
 constexpr double kShutFastest = 8, kYield = 1e-3;
-/// The matrix is made anew in them when one leaves more than this share. Not before: impulses that
-/// act along the rows of the old pose keep the energy, and those along other rows lose some. But
-/// where contacts press, which takes energy anyway, as soon as a body turns by more than that, rad.
+/// The matrix is rebuilt when a correction leaves more than kSlow of the error. Not before:
+/// impulses along the rows of the old pose keep the energy, and those along other rows lose some.
+/// But if contacts press, which takes energy anyway, it is rebuilt as soon as a body turns by more
+/// than kTurnsFast, rad.
 constexpr double kSlow = 0.3, kTurnsFast = 0.25;
-/// Joints that hold what others hold already contradict each other by what single precision makes
-/// of their lengths. So where a correction with a new matrix leaves more than this share of less
-/// than that, m or rad, they are shut as far as they can be.
+/// Redundant joints contradict each other by the rounding of their lengths in single precision. So
+/// if a correction with a new matrix leaves more than kStalled of an error below kShutAtBest, m or
+/// rad, joints are closed as far as possible.
 constexpr double kStalled = 0.7, kShutAtBest = 1e-5;
-/// Of the last correction, what the next one takes back or adds at most, as a share.
+/// Bounds of the share of the last correction that the next one takes back or adds.
 constexpr double kSlopeLeast = -1, kSlopeMost = 0.5;
 
 }  // namespace
 
-/// The rows that shut, in the order of places: their states stay while joints are shut.
+/// Lists the rows to be closed, in the order of the matrix: their states stay during the
+/// corrections.
 void ExactIsland::FindShutting() {
   shutting_.clear();
   for (std::size_t p = 0; p < row_at_.size(); ++p) {
@@ -39,10 +41,10 @@ void ExactIsland::FindShutting() {
   }
 }
 
-/// Joints' errors less their goals, as sides of the system. Returns the greatest, m or rad. `anew`:
-/// the rows are written as the bodies are now. `slope`: how much of the last correction to take
-/// back, so that what the last two left cancels (Anderson 1965, of depth one; in one row the secant
-/// method).
+/// Writes joints' errors less their goals as right-hand sides. Returns the greatest error, m or
+/// rad. `anew`: writes the rows for the current bodies. `slope`: share of the last correction to
+/// take back, so that the errors of the last two cancel (Anderson 1965, of depth one; for a single
+/// row the secant method).
 double ExactIsland::SidesOfErrors(const Pace& pace, bool anew, double* slope) {
   double* const errors = errors_.data();
   for (const Held& held : joints) {
@@ -73,7 +75,7 @@ double ExactIsland::SidesOfErrors(const Pace& pace, bool anew, double* slope) {
   return far;
 }
 
-/// Adds the solution to the substep's impulses, and moves the bodies by what it does.
+/// Adds the solution to the substep's impulses, and moves the bodies accordingly.
 void ExactIsland::Correct(double h) {
   const double* const x = x_.data();
   for (std::size_t p = 0; p < row_at_.size(); ++p) {
@@ -82,7 +84,7 @@ void ExactIsland::Correct(double h) {
   }
   const Act* act = acts_.data();
   for (ExactBody& q : bodies) {
-    if (!q.moves()) break;  // those that do come first
+    if (!q.moves()) break;  // moving bodies come first
     double vx = 0, vy = 0, w = 0;
     for (const Act* const stop = act + q.acts; act != stop; ++act) {
       const double by = x[act->place];
@@ -99,7 +101,7 @@ void ExactIsland::Correct(double h) {
   }
 }
 
-/// False: they were not found shut after the last correction that there is.
+/// Closes the joints. False if they are not closed after the last correction.
 bool ExactIsland::ShutJoints(const Pace& pace) {
   const auto presses = [](const Row& row) {
     return row.kind == RowKind::kNormal && row.state == RowState::kFree;
@@ -130,7 +132,7 @@ bool ExactIsland::ShutJoints(const Pace& pace) {
   return false;
 }
 
-/// Takes `slope` of the last correction back.
+/// Takes back `slope` of the last correction.
 void ExactIsland::Accelerate(double slope) {
   const std::size_t n = x_.size();
   double* const x = x_.data();
@@ -144,8 +146,8 @@ void ExactIsland::Accelerate(double slope) {
   }
 }
 
-/// While joints shut, contacts give way a little: with them a mechanism may be held in more ways
-/// than it can move.
+/// Softens contacts a little while joints are closed: with them a mechanism may be constrained in
+/// more directions than it can move.
 void ExactIsland::SoftenContacts() {
   int first = matrix_.size();
   for (std::size_t i = 0; i < rows_.size(); ++i) {

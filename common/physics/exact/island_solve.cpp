@@ -1,6 +1,6 @@
 /// ExactIsland: the system of rows, a linear complementarity problem with bounds. Solved by block
-/// pivoting (Júdice and Pires 1994), one row at a time once that stalls (Murty 1974), with bounds
-/// of friction that are found from the normal impulses of the round before.
+/// pivoting (Júdice and Pires 1994), with Descend once that stalls. The bounds of friction come
+/// from the normal impulses of the round before.
 
 #include <algorithm>
 #include <cmath>
@@ -10,14 +10,14 @@
 namespace seam {
 namespace {
 
-/// Rounds of friction, and when they are over: the bounds change by less than this share.
+/// Rounds of friction; they end when the bounds change by less than kFrictionSame, as a share.
 constexpr int kFrictionRounds = 3;
 constexpr double kFrictionSame = 0.02;
-/// Pivots before Descend takes over; so many without progress, too.
+/// Pivots before Descend takes over; and the number of those without progress.
 constexpr int kPivots = 12, kPatience = 3;
-/// Rounds of Descend.
+/// Maximal number of rounds of Descend.
 constexpr int kRounds = 200;
-/// A row at its bound may be this wrong in its speed, m/s.
+/// Tolerated error of the speed of a row at its bound, m/s.
 constexpr double kSpeedError = 1e-6;
 
 }  // namespace
@@ -41,8 +41,8 @@ void ExactIsland::Restore(const std::vector<double>& velocities) {
   }
 }
 
-/// The first row, by place, that is not as the matrix has it, or was in it with another share. The
-/// matrix is asked for it as it is at the end of a substep when the next one begins.
+/// Returns the first row, by index in the matrix, that has changed since it was assembled, or had
+/// another share. At the beginning of a substep the matrix still is that of the last one's end.
 int ExactIsland::FirstChanged(double hard, double bounded) {
   const int n = std::min(changed_, matrix_.size());
   for (int p = 0; p < n; ++p) {
@@ -57,7 +57,7 @@ int ExactIsland::FirstChanged(double hard, double bounded) {
   return n;
 }
 
-/// Whether rows, inertias and shares are those that the matrix was assembled for last.
+/// True if rows, inertias and shares are those of the last assembled matrix.
 bool ExactIsland::Assembles(double hard, double bounded) {
   bool same = !rewritten_ && changed_ == matrix_.size() && hard == hard_ && bounded == bound_;
   for (ExactBody& q : bodies) {
@@ -118,7 +118,7 @@ void ExactIsland::Factor() {
   dirty_ = size;
 }
 
-/// Solves with the states as they are and says what they should be. True: nothing to change.
+/// Solves with the current states and finds the next ones. True if none changes.
 bool ExactIsland::Pivot(int* wrong) {
   if (moved_) Restore(before_);
   moved_ = true;
@@ -191,7 +191,7 @@ void ExactIsland::SetFrictionBounds() {
   }
 }
 
-/// False: the bounds are as good as they were.
+/// False if the bounds have hardly changed.
 bool ExactIsland::NextFrictionBounds() {
   double change = 0;
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -227,10 +227,10 @@ void ExactIsland::Solve(bool ahead) {
   }
 }
 
-/// The impulses' bounds kept, each round takes the way to the solution for the rows that are free
-/// until one of them meets its bound, and frees those at a bound that push the wrong way once it is
-/// reached: the quadratic form that the solution minimises only falls (Nocedal and Wright 2006,
-/// 16.5), so that whatever round it is left in is better than none.
+/// Solves with the impulses kept within their bounds. Each round moves towards the solution for the
+/// free rows until one of them meets its bound; once that solution is reached, it frees the rows at
+/// a bound that push the wrong way. The quadratic form that the solution minimises only decreases
+/// (Nocedal and Wright 2006, 16.5), so that any round improves on the one before.
 void ExactIsland::Descend() {
   Restore(before_);
   for (Row& row : rows_) {
@@ -286,7 +286,7 @@ void ExactIsland::Descend() {
   HoldJoints();
 }
 
-/// Solves the joints with all other impulses as they are.
+/// Solves the joints with all other impulses fixed.
 void ExactIsland::HoldJoints() {
   held_.clear();
   for (Row& row : rows_) {

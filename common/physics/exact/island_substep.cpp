@@ -11,25 +11,25 @@
 namespace seam {
 namespace {
 
-/// Of the stiffness that tension gives a body against turning, the share that its inertia is
-/// enlarged by (after Tournier, Nesme, Gilles and Faure 2015: as much as keeps the step stable).
+/// Share of the rotational stiffness by tension that is added to a body's inertia (after Tournier,
+/// Nesme, Gilles and Faure 2015: as much as keeps the step stable).
 constexpr double kStiffness = 0.35;
-/// It counts in full from this stiffness over inertia on, and below the other not at all.
+/// It counts in full from this ratio of stiffness to inertia on, and below kStiffFrom not at all.
 constexpr double kStiffTo = 1, kStiffFrom = 0.4;
-/// Less than that, whatever is rounded.
+/// A little less than that, to allow for rounding.
 constexpr double kSurelyLittle = 0.39;
-/// What is jammed tells of any tension: at most so many times the inertia.
+/// Limit of the stiffness, as a multiple of the inertia: a jam may report any tension.
 constexpr double kStiffMost = 100;
-/// What is left of it after a substep when the tension is gone: inertias that jump make noise.
+/// Share of the stiffness left per substep without tension: inertias that jump cause noise.
 constexpr double kLasts = 0.999;
-/// The inertia is found anew while it lacks more than this.
+/// The inertia is computed anew while it is too small by more than this factor.
 constexpr double kStifferBy = 1.1;
 constexpr int kStifferTries = 4;
-/// A limit or a contact that is nearer than this is reached, m or rad.
+/// Gap below which a limit or a contact counts as reached, m or rad.
 constexpr double kReached = 1e-6;
-/// Where nothing touches, a substep that leaves more than so many times the energy is looked at.
+/// Growth of energy from which a substep without contacts is checked.
 constexpr double kMuchMore = 2;
-/// A motor that lacks so much speed does all it may, rad/s or m/s.
+/// A motor that lacks this much speed applies its maximum, rad/s or m/s.
 constexpr double kUtmost = 50;
 
 }  // namespace
@@ -46,10 +46,10 @@ void ExactIsland::Step(const Pace& pace, bool warm) {
     if (contacts[c].count > 0) LoadImpulses(contacts[c], share, &At(contact_row_[c]));
   }
   Tension(pace.h);
-  for (ExactBody& q : bodies) {  // blows are among the last step's impulses, and are no tension
+  for (ExactBody& q : bodies) {  // impacts are among the last step's impulses, and are no tension
     if (q.lasting > 0) q.stiffness = std::min(q.stiffness, q.lasting);
   }
-  for (Row& row : rows_) {  // a motor that is to do its utmost, whatever it did last
+  for (Row& row : rows_) {  // a motor far below its speed starts at its maximum
     if (row.kind != RowKind::kMotor) continue;
     const double lacks = row.target - Speed(row);
     if (std::fabs(lacks) > kUtmost) row.state = lacks > 0 ? RowState::kHigh : RowState::kLow;
@@ -71,9 +71,9 @@ void ExactIsland::Substep(const Pace& pace) {
   if (FindImpacts()) {
     Impact(MostImpulse(pace));
     Fill(pace);
-    FindImpacts();  // what comes at a contact by another's blow hits in the next substep
+    FindImpacts();  // approaches caused by these impacts are solved in the next substep
   }
-  // What contacts or springs carry would have half a kick left: only projections take that back.
+  // With contacts or springs, half a kick would be left over: only projections take it back.
   const bool whole = !contacts.empty() || std::any_of(rows_.begin(), rows_.end(), [](const Row& r) {
     return r.kind == RowKind::kSoft;
   });
@@ -91,8 +91,8 @@ void ExactIsland::Substep(const Pace& pace) {
   const bool pushes = PushesOut();
   Course(pace, whole);
   if (Possible(start, pushes)) return;
-  // Where a mechanism is jammed, contacts that push out of an overlap make energy that the solve at
-  // the end cannot take back: then without pushing out.
+  // In a jam, contacts that resolve an overlap add energy that the solve at the end cannot take
+  // back: try without that.
   if (pushes) {
     GoBack(pace);
     for (Row& row : rows_) {
@@ -108,7 +108,7 @@ void ExactIsland::Substep(const Pace& pace) {
   PushApart(pace);
 }
 
-/// To where the substep's course began.
+/// Returns to the state before the substep's course.
 void ExactIsland::GoBack(const Pace& pace) {
   bodies = bodies_before_;
   rows_ = rows_before_;
@@ -121,8 +121,8 @@ bool ExactIsland::PushesOut() const {
   });
 }
 
-/// The substep from its kick, which was whole or half of one, to its end. Returns whether joints
-/// are shut.
+/// Advances the substep from its kick to its end. `whole`: the kick was whole, not half. Returns
+/// true if joints are closed.
 bool ExactIsland::Course(const Pace& pace, bool whole) {
   SolveAhead(pace);
   Move(pace.h);
@@ -143,8 +143,8 @@ void ExactIsland::Kick(double h) {
   }
 }
 
-/// kg m2, what the tension makes of a body's inertia. Little tension makes nothing of it, so that
-/// a pendulum stays as exact as it is.
+/// Returns a body's inertia including tension, kg m2. A small tension is ignored, so that a
+/// pendulum stays exact.
 double ExactIsland::Stiffened(const ExactBody& q) {
   const double tense = std::min(std::max(q.stiffness, q.lasting), kStiffMost * q.inertia);
   if (tense < kSurelyLittle * q.inertia) return q.inertia;
@@ -161,7 +161,7 @@ void ExactIsland::Tension(double h) {
   }
 }
 
-/// Enlarges inertias that are too small for the tension just found. False: none is.
+/// Enlarges inertias that are too small for the tension just found. False if none is.
 bool ExactIsland::Stiffer() {
   bool lacks = false;
   for (const ExactBody& q : bodies) {
@@ -205,7 +205,7 @@ void ExactIsland::SolveAtEnd(const Pace& pace) {
     if (row.state == RowState::kOut) continue;
     switch (row.kind) {
       case RowKind::kHard: row.target = 0; break;
-      case RowKind::kSoft:  // has acted for the whole substep
+      case RowKind::kSoft:  // acts for the whole substep already
         row.state = RowState::kOut;
         break;
       case RowKind::kMotor:

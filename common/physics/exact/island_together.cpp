@@ -1,4 +1,5 @@
-/// ExactIsland: what is moved without velocities, before a step and after others have moved bodies.
+/// ExactIsland: corrections of positions without velocity, before a step and after bodies were
+/// moved from outside.
 
 #include <algorithm>
 #include <cmath>
@@ -8,44 +9,45 @@
 namespace seam {
 namespace {
 
-/// Joints that are farther apart than this, m or rad, are moved together before a step, and limits
-/// that are overstepped by more; by at most so much for each try.
+/// Errors from which joints are brought together before a step, and limits are restored, m or rad;
+/// and the maximal correction in each try.
 constexpr double kApart = 1e-5, kOverstepped = 5e-3, kTogetherMost = 0.2;
-/// Once they are moved, to this.
+/// Error to which they are corrected then.
 constexpr double kTogether = 1e-7;
 constexpr int kTogetherTries = 8;
-/// A try after which they are farther apart, or that turns a body by more, rad, is taken back. The
-/// next is as if all bodies were alike; then it is damped: own entries are enlarged by such a
-/// share, and by so many times as much after each that fails; so many may.
+/// A try that enlarges the errors, or turns a body by more than kTurnMost, rad, is undone. The next
+/// one treats all bodies as alike. After that corrections are damped: diagonal entries are enlarged
+/// by kDamped, and by kDampedMore times as much after each failure.
 constexpr double kTurnMost = 1, kDamped = 1e-3, kDampedMore = 10;
 constexpr int kTriesThatFail = 12;
-/// What is alike is as hard to turn as a rod of so many times its length.
+/// Bodies treated as alike are as hard to turn as a rod of so many times their length.
 constexpr double kHardToTurn = 2;
-/// What falls for so many steps has a blow; what falls less lies.
+/// A body has an impact after a fall of more steps than this; else it rests.
 constexpr double kRestSteps = 4;
 
 }  // namespace
 
-/// The greatest acceleration that acts on a body, m/s2.
+/// Returns the largest acceleration of a body, m/s2.
 double ExactIsland::Pull() const {
   double most = 0;
   for (const ExactBody& q : bodies) most = std::max(most, std::sqrt(q.ax * q.ax + q.ay * q.ay));
   return most;
 }
 
-/// Reads the contacts as they are before a step.
+/// Reads the contacts before a step.
 void ExactIsland::Look(const Pace& pace) {
   if (contacts.empty()) return;
   const double rest = kRestSteps * Pull() * pace.h * pace.substeps;
   for (ExactContact& contact : contacts) ReadContact(bodies, rest, &contact);
 }
 
-/// Whether a row is to be shut when joints are brought together.
+/// True if the row is corrected when joints are brought together.
 bool ExactIsland::Shuts(const Row& row) {
   return row.kind == RowKind::kHard || (row.kind == RowKind::kLimit && row.error < -kOverstepped);
 }
 
-/// Of those rows, the sum of the squares of m and rad, and the largest of hard ones.
+/// Returns the sum of those rows' squared errors, m and rad. `most`: the largest error of
+/// hard rows; at least 1 if a limit is exceeded.
 double ExactIsland::SquaresApart(double* most) const {
   double sum = 0;
   *most = 0;
@@ -57,11 +59,11 @@ double ExactIsland::SquaresApart(double* most) const {
   return sum;
 }
 
-/// What was put apart since the last step, by a message, an edit or continuous collision, is moved
-/// together, and limits that are overstepped are gone back to: positions only, as little as the
-/// masses allow, no velocity comes of it. In chains of light links that are almost straight that
-/// way is to turn the links, where only the load at their end can come: where it fails, all bodies
-/// give way alike, and then it is damped (Levenberg 1944, Marquardt 1963).
+/// Corrects joints that a message, an edit or continuous collision has pulled apart since the last
+/// step, and limits that are exceeded: positions only, with the least motion weighted by mass, and
+/// without velocity. In chains of light links that are almost straight, that motion would turn the
+/// links, where only moving the load at their end helps. So if it fails, all bodies are treated as
+/// alike, and then it is damped (Levenberg 1944, Marquardt 1963).
 void ExactIsland::BringTogether(const Pace& pace) {
   held_.clear();
   double most = 0, damping = kHardShare;
@@ -83,7 +85,7 @@ void ExactIsland::BringTogether(const Pace& pace) {
       turned = std::max(turned, std::fabs(bodies[b].a - bodies_before_[b].a));
     }
     const double now = SquaresApart(&most);
-    // Where limits are relaxed no try shuts them.
+    // If limits are relaxed no try restores them.
     if (relaxed_ || (now <= apart && turned <= kTurnMost)) {
       apart = now;
       damping = std::max(kHardShare, damping / kDampedMore);
@@ -100,7 +102,7 @@ void ExactIsland::BringTogether(const Pace& pace) {
   held_.clear();
 }
 
-/// For one solve.
+/// Gives all bodies the same mass, for one solve.
 void ExactIsland::MakeAlike() {
   for (ExactBody& q : bodies) {
     if (!q.moves()) continue;
@@ -118,7 +120,7 @@ void ExactIsland::TakeMassesOf(const std::vector<ExactBody>& from) {
   rewritten_ = true;
 }
 
-/// By the way that shuts all rows at once, were they straight.
+/// Shifts bodies so as to close all rows at once in linear approximation.
 void ExactIsland::ShiftTogether(double damping) {
   std::fill(x_.begin(), x_.end(), 0.0);
   for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -148,13 +150,13 @@ void ExactIsland::Rejoin(const Pace& pace, bool struck) {
   }
   for (std::size_t c = 0; c < contacts.size(); ++c) {
     for (int i = 0; i < contacts[c].count && contacts[c].restitution > 0; ++i) {
-      At(contact_row_[c] + 2 * i).state = RowState::kOut;  // its blow comes in the next step
+      At(contact_row_[c] + 2 * i).state = RowState::kOut;  // its impact comes in the next step
     }
   }
   SolveAtEnd(pace);
 }
 
-/// What an impulse of `by` would do in a second: m or rad.
+/// Shifts positions as an impulse of `by` would in one second: m or rad.
 void ExactIsland::Shift(const Row& row, double by) {
   if (by == 0) return;
   for (int e = 0; e < row.ends; ++e) {

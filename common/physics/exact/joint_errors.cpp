@@ -1,4 +1,5 @@
-/// The errors of a joint's rows alone, as FillJoint finds them, for the corrections that shut them.
+/// Computes only the errors of a joint's rows, as FillJoint does, for the corrections that close
+/// joints.
 
 #include <cmath>
 
@@ -7,7 +8,7 @@
 namespace seam {
 namespace {
 
-/// Of a range, in the order of its rows.
+/// Writes the errors of a range, in the order of its rows.
 double* RangeErrors(const ExactJoint& joint, double at, double* next) {
   if (joint.limited && joint.lower >= joint.upper) {
     *next++ = at - joint.lower;

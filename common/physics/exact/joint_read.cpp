@@ -1,4 +1,4 @@
-/// Joints of the engine: what they are, and the impulses that they keep.
+/// Reads the engine's joints and their impulses.
 
 #include <algorithm>
 #include <cmath>
@@ -10,9 +10,9 @@
 namespace seam {
 namespace {
 
-/// A motor this near its bound is at it.
+/// Share of its bound from which a motor counts as at it.
 constexpr double kNearly = 1 - 1e-6;
-/// A limit is near within this and twice the way of a step, rad and m.
+/// A limit is near within this distance plus twice the motion of a step, rad and m.
 constexpr double kNearAngle = 0.1, kNearLength = 0.1;
 
 template <typename Made>
@@ -172,10 +172,10 @@ void LookAt(double h, ExactJoint* joint) {
   joint->near_upper = (both || joint->near_upper) && joint->upper - at < reach;
 }
 
-/// Of a row that keeps no impulse: the engine's joint has none for it.
+/// Marks a row without a stored impulse: the engine's joint has none for it.
 constexpr int kNotKept = -1;
 
-/// Which of the joint's impulses each of its rows has, in their order. Returns how many.
+/// Finds the index of each row's impulse in the joint, in the rows' order. Returns their number.
 static int KeptAt(const ExactJoint& joint, int* kept) {
   int count = 0;
   const auto range = [&](int lower) {

@@ -8,9 +8,9 @@
 namespace seam {
 namespace {
 
-/// How much of its error a pose motor takes back in a step; the engine's own default.
+/// Share of its error that a pose motor corrects in a step; the engine's default.
 constexpr double kPoseShare = 0.3;
-/// Two points this near have no direction, m.
+/// Two points closer than this have no direction, m.
 constexpr double kNoDirection = 1e-9;
 
 template <typename Made>
@@ -18,14 +18,14 @@ const Made& As(const ExactJoint& joint) {
   return *static_cast<const Made*>(joint.made);
 }
 
-/// Of the ends' speeds.
+/// Coefficients of the ends' velocities in a row's speed.
 struct Jacobian {
   double ax, ay, aw, bx, by, bw;
 };
 constexpr Jacobian kTurn{0, 0, -1, 0, 0, 1};
 constexpr Jacobian kTurnBack{0, 0, 1, 0, 0, -1};
 
-/// The rows of one joint, as they are written.
+/// Writes the rows of one joint.
 class Writer {
  public:
   Writer(const ExactJoint& joint, const JointEnds& ends, const std::vector<ExactBody>& bodies,
@@ -72,7 +72,7 @@ class Writer {
     Row& row = Bind(joint_.stiffness > 0 ? RowKind::kSoft : RowKind::kHard, turned(), kTurn);
     if (joint_.stiffness > 0) Spring(&row);
   }
-  /// The ends of a range that `at` must stay in.
+  /// Writes the rows that keep `at` within the joint's range.
   void RangeOfAngle(double at) {
     if (joint_.near_lower) Bind(RowKind::kLimit, at - joint_.lower, kTurn);
     if (joint_.near_upper) Bind(RowKind::kLimit, joint_.upper - at, kTurnBack);
@@ -94,7 +94,7 @@ class Writer {
   void Slide(bool turns);
 
  private:
-  /// Of the way along a line that turns with A.
+  /// Returns the Jacobian of the distance along a line that turns with A.
   Jacobian Line(double ux, double uy) const {
     return {-ux, -uy, -((dx_ + ax_) * uy - (dy_ + ay_) * ux), ux, uy, bx_ * uy - by_ * ux};
   }
@@ -141,7 +141,7 @@ void Writer::Distance() {
   const double length = std::sqrt(dx_ * dx_ + dy_ * dy_);
   const double ux = length > kNoDirection ? dx_ / length : 0;
   const double uy = length > kNoDirection ? dy_ / length : 1;
-  // Not turning with A: the line is that between the points.
+  // Does not turn with A: the line connects the points.
   const Jacobian along{-ux, -uy, -(ax_ * uy - ay_ * ux), ux, uy, bx_ * uy - by_ * ux};
   const Jacobian back{ux, uy, -along.aw, -ux, -uy, -along.bw};
   const double arm_a = ax_ * ux + ay_ * uy, arm_b = bx_ * ux + by_ * uy;
@@ -156,7 +156,7 @@ void Writer::Distance() {
   if (joint_.near_upper) Tense(arm_a, -arm_b, &Bind(RowKind::kLimit, joint_.upper - length, back));
 }
 
-/// length = way of a + ratio * way of b, and both are pulled up, as far as their stops.
+/// length = distance of a + ratio * distance of b; both ends are pulled up, as far as their stops.
 void Writer::Pulley() {
   const auto way = [](double x, double y, const b2Vec2& ground, double* ux, double* uy) {
     *ux = x - static_cast<double>(ground.x);
@@ -182,7 +182,8 @@ void Writer::Pose() {
   const auto& made = As<b2MotorJoint>(joint_);
   const b2Vec2 offset = made.GetLinearOffset();
   const auto ox = static_cast<double>(offset.x), oy = static_cast<double>(offset.y);
-  // The engine's: B's origin at the offset in A's frame; the ends' points are the bodies' origins.
+  // As in the engine: B's origin is at the offset in A's frame; the anchors are the bodies'
+  // origins.
   const double wx = a_.c * ox - a_.s * oy, wy = a_.s * ox + a_.c * oy;
   const double ex = dx_ - wx, ey = dy_ - wy;
   const auto turn = static_cast<double>(made.GetAngularOffset());

@@ -7,10 +7,10 @@ namespace {
 
 /// A pivot below this share of its diagonal is rounding.
 constexpr double kDependent = 1e-10;
-/// In place of its inverse then.
+/// Replaces the inverse of such a pivot.
 constexpr double kNoShare = 1e-30;
 
-/// In two halves, whatever the compiler would do: sums must not depend on it.
+/// Sums in two halves, independent of the compiler: results must not depend on it.
 inline double Dot(const double* a, const double* b, int from, int to) {
   double even = 0, odd = 0;
   for (; from + 1 < to; from += 2) {
@@ -67,7 +67,7 @@ void Skyline::Clear(int from) {
 }
 
 void Skyline::Factor(const std::vector<char>& in, int from) {
-  // A row that is the second of two is done again with the first: it comes out the same.
+  // The second row of a pair is factored again together with the first, with the same result.
   if (from > 0 && from < size() && leads_[static_cast<std::size_t>(from - 1)]) --from;
   for (int i = from; i < size(); ++i) {
     if (leads_[static_cast<std::size_t>(i)]) {
@@ -94,7 +94,7 @@ void Skyline::FactorOne(const char* in, int i) {
   for (int k = begin; k < i; ++k) {
     l[k] = in[k] ? a[k] - Dot(l, factor + start[k], std::max(begin, first[k]), k) : 0;
   }
-  // l holds L D so far; the dots above had the other rows' own L.
+  // l holds L D here; the dots above used the other rows' L.
   double left = a[i];
   for (int k = begin; k < i; ++k) {
     const double share = l[k] * inverse[k];
@@ -104,8 +104,8 @@ void Skyline::FactorOne(const char* in, int i) {
   inverse[i] = Inverse(left, a[i]);
 }
 
-/// Rows i and i + 1, which begin in the same column: each column of the rows above is read once for
-/// both. The same sums in the same order as in FactorOne.
+/// Factors rows i and i + 1, which begin in the same column, and reads each column of the rows
+/// above once for both. Same sums in the same order as in FactorOne.
 void Skyline::FactorTwo(const char* in, int i) {
   const int* const start = start_.data();
   const int* const first = first_.data();

@@ -10,13 +10,13 @@
 namespace seam {
 namespace {
 
-/// A path of one leg is a chord of a parabola: at 10 m/s^2 it is off by a centimetre. s
+/// Duration of a leg, s. Its path is the chord of a parabola, off by a centimetre at 10 m/s^2.
 constexpr float kLeg = 0.1f;
-/// Bounces in a leg; who has more lies in a corner, and stays there for the rest of the leg.
+/// Bounces in a leg; a body with more is in a corner, and stays there for the rest of the leg.
 constexpr int kBouncesMost = 4;
-/// What is this near touches, m: resting shapes overlap by the engine's slop, or have a gap of it.
+/// Shapes this near touch, m: resting shapes overlap by the engine's slop, or have a gap of it.
 constexpr float kTouch = 2 * b2_linearSlop;
-/// What leaves with less than this rests on what it touches, m/s.
+/// A body that leaves a surface more slowly than this rests on it, m/s.
 constexpr float kLeaves = 0.1f;
 
 b2DistanceProxy ProxyOf(const b2Fixture& fixture, int child) {
@@ -25,7 +25,7 @@ b2DistanceProxy ProxyOf(const b2Fixture& fixture, int child) {
   return proxy;
 }
 
-/// A line with one solid side is not met from behind it.
+/// True if the point is behind a line that is solid on one side only, from where it is not hit.
 bool IsBehind(const b2Fixture& line, int child, const b2Vec2& point) {
   b2EdgeShape edge;
   if (line.GetType() == b2Shape::e_chain) {
@@ -41,7 +41,7 @@ bool IsBehind(const b2Fixture& line, int child, const b2Vec2& point) {
   return b2Dot(b2Vec2(along.y, -along.x), local - edge.m_vertex1) < 0;
 }
 
-/// What is anchored and has a shape in a box.
+/// Visits the shapes in a box.
 template <class Visit>
 struct InBox {
   const b2BroadPhase& phase;
@@ -54,18 +54,18 @@ struct InBox {
 
 }  // namespace
 
-/// By the centre of mass.
+/// State of the centre of mass.
 struct Flight::Pose {
   b2Vec2 centre{0, 0}, velocity{0, 0};
   float angle = 0, spin = 0;
 };
 
-/// With something anchored. `normal` points from it.
+/// A contact with something anchored. `normal` points away from that.
 struct Flight::Contact {
   const b2Fixture* own = nullptr;
   const b2Fixture* other = nullptr;
   b2Vec2 point{0, 0}, normal{0, 0};
-  float share = 1;  ///< of a leg's shift, after which it begins
+  float share = 1;  ///< share of a leg's shift up to the contact
 };
 
 void Flight::Begin(const b2World& world, const b2Body& body, const b2MassData& mass, float step_s) {
@@ -77,8 +77,7 @@ void Flight::Begin(const b2World& world, const b2Body& body, const b2MassData& m
   step_s_ = step_s;
 }
 
-/// The engine moves a body by its velocity after gravity's pull: half a step's farther than a
-/// parabola.
+/// The engine applies gravity before it moves a body: half a step's fall farther than a parabola.
 b2Vec2 Flight::ShiftOf(const Pose& pose, const b2Vec2& pull, float seconds) const {
   return seconds * pose.velocity + (seconds * (seconds + step_s_) / 2) * pull;
 }
@@ -145,7 +144,7 @@ void Flight::FindNear(const b2Transform& at, const b2Vec2& shift) {
   phase.Query(&in_box, box);
 }
 
-/// Of shapes that collide.
+/// Visits pairs of shapes that collide.
 template <class Visit>
 void Flight::EachPair(const Visit& visit) const {
   for (const b2Fixture* own = body_->GetFixtureList(); own != nullptr; own = own->GetNext()) {
@@ -159,7 +158,8 @@ void Flight::EachPair(const Visit& visit) const {
   }
 }
 
-/// Lets it bounce off what it touches already. What is left of `pull` where it rests on that.
+/// Makes the body bounce off shapes that it touches already. Returns `pull` less the parts that
+/// they support.
 b2Vec2 Flight::HeldBack(Pose* at, const b2Vec2& pull) const {
   b2Vec2 left = pull;
   EachPair([&](const b2Fixture& own, int own_child, const b2Fixture& other, int child) {
@@ -175,7 +175,7 @@ b2Vec2 Flight::HeldBack(Pose* at, const b2Vec2& pull) const {
     b2DistanceOutput output;
     b2Distance(&output, &cache, &input);
     if (output.distance - input.proxyA.m_radius - input.proxyB.m_radius > kTouch) return;
-    if (output.distance < b2_epsilon) {  // too deep to say which way is out but by its centre
+    if (output.distance < b2_epsilon) {  // too deep to find the way out except by the centre
       input.proxyB = b2DistanceProxy();
       input.proxyB.Set(&at->centre, 1, 0);
       input.transformB.SetIdentity();
@@ -196,7 +196,7 @@ b2Vec2 Flight::HeldBack(Pose* at, const b2Vec2& pull) const {
   return left;
 }
 
-/// On the straight way. What is touched at its beginning is not hit.
+/// Finds the first hit on the straight path. Shapes touched at its beginning are ignored.
 bool Flight::FirstHit(const b2Transform& at, const b2Vec2& shift, Contact* hit) const {
   bool any = false;
   EachPair([&](const b2Fixture& own, int own_child, const b2Fixture& other, int child) {
@@ -209,14 +209,14 @@ bool Flight::FirstHit(const b2Transform& at, const b2Vec2& shift, Contact* hit) 
     input.translationB = shift;
     b2ShapeCastOutput output;
     if (!b2ShapeCast(&output, &input) || output.lambda >= hit->share) return;
-    if (b2Dot(output.normal, shift) >= 0) return;  // it leaves what it has just bounced off
+    if (b2Dot(output.normal, shift) >= 0) return;  // it leaves after a bounce
     *hit = {&own, &other, output.point, output.normal, output.lambda};
     any = true;
   });
   return any;
 }
 
-/// An impulse with Coulomb friction at a point, as Box2D's solver makes of it.
+/// Applies an impulse with Coulomb friction at a point, as Box2D's solver computes it.
 void Flight::Bounce(const Contact& contact, Pose* at) const {
   const b2Vec2 arm = contact.point - at->centre, normal = contact.normal;
   const b2Vec2 tangent = b2Cross(normal, 1.0f);

@@ -1,9 +1,9 @@
 #pragma once
-/// Where a body comes that touches nothing: gravity alone moves it, and it bounces off what is
-/// anchored, as the engine would let it, in legs of up to a tenth of a second. Other bodies are not
-/// met. For what is displayed and not simulated (dead reckoning): one leg costs about a query of
-/// the broad phase, and a shape cast (van den Bergen, "Ray Casting against General Convex Objects",
-/// 2004) for what is near.
+/// Free flight of a body: gravity moves it, and it bounces off anchored shapes as in the engine, in
+/// legs of up to a tenth of a second. Other bodies are ignored. Used for bodies that are displayed
+/// and not simulated (dead reckoning). A leg costs about a query of the broad phase, and a shape
+/// cast (van den Bergen, "Ray Casting against General Convex Objects", 2004) for each anchored
+/// shape nearby.
 
 #include <box2d/box2d.h>
 
@@ -15,11 +15,11 @@ namespace seam {
 
 class Flight {
  public:
-  /// Of a body with these shapes and mass (about its origin), in a world that is stepped by
-  /// `step_s`. Both must outlive the calls of After.
+  /// Sets the body, its mass (about its origin) and the world, which is stepped by `step_s`. World
+  /// and body must outlive the calls of After.
   void Begin(const b2World& world, const b2Body& body, const b2MassData& mass, float step_s);
 
-  /// `seconds` later. Velocities are of the centre of mass. Requires Begin.
+  /// Returns the state `seconds` later. Velocities are of the centre of mass. Requires Begin.
   BodyState After(const BodyState& from, float seconds);
 
  private:
@@ -41,9 +41,9 @@ class Flight {
 
   const b2World* world_ = nullptr;
   const b2Body* body_ = nullptr;
-  b2Vec2 centre_{0, 0};  // m, of mass, from the body's origin
+  b2Vec2 centre_{0, 0};  // centre of mass, m, from the body's origin
   float mass_ = 1, inertia_ = 0, step_s_ = 0;
-  std::vector<Near> near_;  // of this leg: what is anchored
+  std::vector<Near> near_;  // anchored shapes near this leg
 };
 
 }  // namespace seam

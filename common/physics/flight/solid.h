@@ -1,5 +1,5 @@
 #pragma once
-/// What something that is not simulated would bounce off.
+/// Collision tests for bodies that are not simulated.
 
 #include <box2d/box2d.h>
 
@@ -9,7 +9,7 @@ inline bool IsSolidAndAnchored(const b2Fixture& fixture) {
   return fixture.GetBody()->GetType() == b2_staticBody && !fixture.IsSensor();
 }
 
-/// By their filters, as the engine has it.
+/// True if their filters let them collide, as in the engine.
 inline bool Collide(const b2Fixture& a, const b2Fixture& b) {
   const b2Filter &ours = a.GetFilterData(), &theirs = b.GetFilterData();
   if (ours.groupIndex == theirs.groupIndex && ours.groupIndex != 0) return ours.groupIndex > 0;
