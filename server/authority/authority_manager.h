@@ -75,7 +75,7 @@ class AuthorityManager {
 
   enum class Right {
     kYes,
-    kStale,  ///< of an epoch that is over
+    kStale,  ///< the epoch is over
     kNo,
   };
   /// Decides if a peer may report a body's state in an epoch: yes if it has held the
@@ -200,7 +200,7 @@ class AuthorityManager {
   bool sort_open_ = false;
   std::vector<int> open_;       // mechanisms with pending hand-over work, ascending
   std::vector<int> changed_;    // in this Update
-  std::vector<Grants> grants_;  // of this Update
+  std::vector<Grants> grants_;  // from this Update
   bool taken_over_ = false;     // in this Update
   std::vector<Given> given_;
   PeerSet silent_;                           // in the last Update
