@@ -98,7 +98,7 @@ void AuthorityManager::Plan(std::int64_t now_us, const Situation& situation) {
     LookAtCapacity(now_us, situation, &view_);
   }
   const AuthorityPlan plan = PlanAuthority(view_);
-  // Mechanisms left out have no followers and belong to the server in plan and record: see MayLie.
+  // Left-out mechanisms have no followers and belong to the server, also by record: MayLie.
   plan_.resize(static_cast<std::size_t>(table().count()));
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     plan_[static_cast<std::size_t>(seen_[i])] = plan[i];
