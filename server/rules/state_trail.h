@@ -30,8 +30,8 @@ class StateTrail {
   /// Returns the states of a body around a range of ticks: the last one before `from`, and all from
   /// `from` to `to`. Empty if all known states are later.
   std::vector<Seen> Between(int body, std::int64_t from, std::int64_t to) const;
-  /// Returns the ticks that became known for any body since NoteLooked, each once, ascending: the
-  /// ticks of new states, and those between a new state and the one before it.
+  /// Returns the ticks that became known for any body since NoteLooked, each once, ascending:
+  /// the ticks of new states, and those between a new state and the one before it.
   std::vector<std::int64_t> NewTicks() const;
   /// Returns the pose at a tick, interpolated linearly between the states around it; the newest
   /// state if all are older. Never earlier than the last processed tick of that body: bodies are
