@@ -1,5 +1,5 @@
-/// AuthorityManager: which mechanisms a plan is of. In a large room those that lie asleep far from
-/// all else are left out: they stay the server's, and nobody follows them.
+/// AuthorityManager: chooses the mechanisms of a plan. In a large room, mechanisms asleep far from
+/// everything else are left out: the server keeps them, and nobody follows them.
 
 #include <algorithm>
 #include <numeric>
@@ -12,8 +12,8 @@
 namespace seam {
 namespace {
 
-/// Where more than half of a room has to be seen, so many plans see all of it: to look for what
-/// lies would cost more than it saves.
+/// Number of plans that see the whole room once more than half of it has to be seen: then the
+/// search for sleeping mechanisms costs more than it saves.
 constexpr int kSeeAll = 10;
 
 }  // namespace
@@ -39,7 +39,7 @@ void AuthorityManager::SeeAll() {
   std::iota(seen_.begin(), seen_.end(), 0);
 }
 
-/// Whether it has been planned to be the server's alone, is, and nobody can drive it.
+/// True if the server alone has the mechanism, by plan and by record, and nobody can drive it.
 bool AuthorityManager::MayLie(int m) const {
   const auto i = static_cast<std::size_t>(m);
   const Memory& memory = memory_[i];
@@ -52,7 +52,7 @@ bool AuthorityManager::MayLie(int m) const {
          !replica_.drivers().Driven(m);
 }
 
-/// Whether all of it sleeps, and what lies has not been moved since.
+/// True if all of it sleeps and, if indexed already, has not moved since.
 bool AuthorityManager::Lies(int m) {
   const World& world = replica_.world();
   const bool lay = lying_.Has(m);
@@ -62,7 +62,7 @@ bool AuthorityManager::Lies(int m) {
   EachBody(m, [&](int body) {
     Lay& then = lay_[static_cast<std::size_t>(body)];
     const std::uint64_t still = world.still(body);
-    if (still == 0) doubtful = 1;  // whether it changes is not told
+    if (still == 0) doubtful = 1;  // the World does not report changes of it
     if (!lies || (lay && still != 0 && still == then.still)) return;
     const BodyState now = world.Read(body);
     const bool there = lay ? now.position == then.position && now.angle == then.angle
@@ -88,7 +88,7 @@ void AuthorityManager::PutLying(int m) {
   lying_.Put(m, around);
 }
 
-/// What lies and has not been changed since it was looked at lies still.
+/// Marks the sleeping mechanisms that may have changed since the last call.
 void AuthorityManager::FindDoubtful() {
   const World& world = replica_.world();
   stirred_.clear();

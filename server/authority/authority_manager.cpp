@@ -9,14 +9,14 @@
 namespace seam {
 namespace {
 
-/// Further apart than what a replay that is still to come puts right, m and m/s.
+/// Larger than the errors that a pending replay will correct, m and m/s.
 constexpr float kContestedOff = 0.1f, kContestedVelocity = 1;
-/// How long that counts, s.
+/// Time constant with which these errors are forgotten, s.
 constexpr int kContestedSeconds = 4;
-/// Plans of who simulates what: more often follows faster bodies, and costs more with many.
+/// Plans per second: more follow faster bodies; the cost grows with the number of bodies.
 constexpr int kPlansPerSecond = 10;
 
-/// One mechanism with another record than the table's.
+/// Returns a grant of one mechanism with the given record instead of the table's.
 Grants Told(std::int64_t now_us, std::int64_t tick, PartId id, const AuthorityRecord& record) {
   Grants told;
   told.utime = now_us;
@@ -69,7 +69,7 @@ std::vector<Grants> AuthorityManager::Update(std::int64_t now_us, const Situatio
     Plan(now_us, situation);
   }
   changed_.clear();
-  grants_.clear();  // revocations first
+  grants_.clear();  // revocations are sent first
   taken_over_ = false;
   std::size_t left = 0;
   if (sort_open_) std::sort(open_.begin(), open_.end());
@@ -93,12 +93,12 @@ void AuthorityManager::Plan(std::int64_t now_us, const Situation& situation) {
   LookAtCapacity(now_us, situation, &view_);
   const auto limited = [](const PlayerView& p) { return p.limited(); };
   limited_ = std::any_of(view_.players.begin(), view_.players.end(), limited);
-  if (limited_ && view_.left_out > 0) {  // it may be asked to step any of it
+  if (limited_ && view_.left_out > 0) {  // such a player may have to step any body
     Look(situation);
     LookAtCapacity(now_us, situation, &view_);
   }
   const AuthorityPlan plan = PlanAuthority(view_);
-  // Of what was left out, plan and record are the server's alone: see MayLie.
+  // Left-out mechanisms have no followers and belong to the server, also by record: MayLie.
   plan_.resize(static_cast<std::size_t>(table().count()));
   for (std::size_t i = 0; i < seen_.size(); ++i) {
     plan_[static_cast<std::size_t>(seen_[i])] = plan[i];
@@ -126,7 +126,7 @@ void AuthorityManager::Open(int m) {
 bool AuthorityManager::Advance(std::int64_t now_us, int m) {
   Memory& memory = memory_[static_cast<std::size_t>(m)];
   AuthorityRecord record = table().at(m);
-  // One authority at a time: the server takes over only once the holder has let go.
+  // One authority at a time: the server takes over only once the holder has released it.
   if (memory.hand_over == HandOver::kRevoking) {
     if (memory.withdrawn || now_us - memory.revoked_us <= PatienceUs(m)) return true;
     Withdraw(m);
@@ -135,7 +135,7 @@ bool AuthorityManager::Advance(std::int64_t now_us, int m) {
   }
   if (memory.hand_over == HandOver::kOvertaken) {
     memory.hand_over = HandOver::kNone;
-    record.epoch += 2;  // past all that anybody was told
+    record.epoch += 2;  // later than any epoch sent so far
     replica_.authority().Set(m, record);
     changed_.push_back(m);
     return true;
@@ -165,7 +165,7 @@ bool AuthorityManager::Advance(std::int64_t now_us, int m) {
     return true;
   }
   if (authority == record.authority && secondaries == record.secondaries) {
-    // The question was told to the holder alone where not all is told to all (GrantNews).
+    // In large rooms only the holder heard of the question (GrantNews).
     const bool others_know = replica_.world().body_count() <= scene_.follow_bodies;
     if (released && !others_know) changed_.push_back(m);
     return kept;
@@ -197,12 +197,12 @@ void AuthorityManager::Withdraw(int m) {
   if (memory.held_from < 0) memory.held_from = record.epoch;
   memory.hand_over = HandOver::kNone;
   memory.withdrawn = true;
-  record.epoch += 2;  // the question was one
+  record.epoch += 2;  // the question used up one
   replica_.authority().Set(m, record);
   changed_.push_back(m);
 }
 
-/// Another has it, or will.
+/// Called once another peer has the mechanism, or will have it.
 void AuthorityManager::ForgetQuestions(int m) {
   Memory& memory = memory_[static_cast<std::size_t>(m)];
   memory.withdrawn = false;
@@ -217,11 +217,11 @@ AuthorityManager::Right AuthorityManager::NoteRelease(int peer, PartId mechanism
   const AuthorityRecord& record = table().at(m);
   Memory& memory = memory_[static_cast<std::size_t>(m)];
   if (epoch <= record.epoch) {
-    // An answer that came too late: what it let go of it was given anew.
+    // A late answer: the mechanism was granted to it again after the question was withdrawn.
     const bool late = record.authority == peer && memory.held_from >= 0 &&
                       epoch > memory.held_from && (record.epoch - epoch) % 2 == 1;
     const bool wanted = late && memory.hand_over == HandOver::kNone && Wanted(m) == peer;
-    if (wanted) memory.withdrawn = false;  // it answers; who answers too late for ever has to leave
+    if (wanted) memory.withdrawn = false;  // it answers; one that is always late must leave
     return late ? Right::kYes : Right::kStale;
   }
   const bool asked = memory.hand_over == HandOver::kRevoking && record.authority == peer;
@@ -272,7 +272,7 @@ bool AuthorityManager::Awaits(int peer, int body) const {
 }
 
 AuthorityRecord AuthorityManager::WithoutHolder(AuthorityRecord record) const {
-  // Who lets go goes on simulating until the next grant: its copy is the best there is.
+  // A peer that releases goes on simulating until the next grant: its copy is the best there is.
   if (config_.mode == Mode::kBuffer) record.secondaries.Add(record.authority);
   record.authority = 0;
   record.epoch += 1;
@@ -334,7 +334,7 @@ AuthorityManager::Right AuthorityManager::RightToMove(int peer, int body,
   if (record.authority == peer) {
     const auto m = static_cast<std::size_t>(replica_.world().mechanism(body));
     const std::int32_t from = memory_[m].held_from < 0 ? record.epoch : memory_[m].held_from;
-    // Each question took one, in which nobody had it.
+    // Each question used up one epoch, in which nobody had the mechanism.
     const bool held = epoch >= from && epoch <= record.epoch && (record.epoch - epoch) % 2 == 0;
     return held ? Right::kYes : Right::kStale;
   }

@@ -1,6 +1,6 @@
 #pragma once
-/// Who owns a body: the server's one answer. It holds the state of authority, follows the plan with
-/// one holder at a time, and says what is to be told to everyone; it sends nothing itself.
+/// Server-side authority over mechanisms: applies the plan with one authority at a time, and
+/// returns the grants to send. Sends nothing itself.
 
 #include <cstdint>
 #include <functional>
@@ -16,154 +16,163 @@ namespace seam {
 
 class AuthorityManager {
  public:
-  /// Writes the table of `replica`, which, like `scene`, must outlive it. At first the server has
-  /// everything; in mode buffer it follows everything too, so that it can take over at any moment.
+  /// Writes the authority table of `replica`; both `scene` and `replica` must outlive this object.
+  /// At first the server has authority over everything; in mode buffer it is also a follower of
+  /// everything, so that it can take over at any moment.
   AuthorityManager(const Scene& scene, const SyncConfig& config, Replica& replica);
 
-  /// What it cannot know by itself.
+  /// Per-tick inputs of the planner that come from outside.
   struct Situation {
-    std::vector<int> peer_of_player;         ///< -1: nobody is ready to drive it
-    std::vector<float> one_way_s;            ///< by player, from the server to it; empty: all 0
-    PeerSet silent;                          ///< peers not heard for kSilentUs
+    std::vector<int> peer_of_player;         ///< by player; -1: no client is ready to drive it
+    std::vector<float> one_way_s;            ///< s, by player, from the server; empty: all 0
+    PeerSet silent;                          ///< peers not heard from for kSilentUs
     std::vector<std::vector<int>> together;  ///< see AuthorityView
-    /// By player: share of its time that its peer needs for its ticks; below 0: not known. Empty:
-    /// of nobody.
+    /// By player: share of real time that its peer needs for its ticks; below 0: unknown. Empty:
+    /// unknown for all.
     std::vector<float> load;
-    /// Somebody looks at what the server shows: see Scene::server_follow.
+    /// True if someone displays the server's view: see Scene::server_follow.
     bool shown = true;
-    /// Whether a mechanism of one body falls freely, by the body's id; empty: none.
+    /// Returns true if a single-body mechanism, given by its body's id, falls freely. Empty: none
+    /// does.
     std::function<bool(PartId)> falls;
   };
 
-  /// After each tick: plans when that is due, and takes every hand-over as far as it can go.
-  /// Returns what everyone is to be told, in this order.
+  /// Called after each tick. Replans if due, advances every hand-over as far as possible, and
+  /// returns the grants for everyone in sending order.
   std::vector<Grants> Update(std::int64_t now_us, const Situation& situation);
-  /// Where the bodies were that the last Update took from the server itself, for who gets them:
-  /// to be told before the grants.
+  /// Exact states of the mechanisms that the last Update took from the server, for the new
+  /// authority. Send these before the grants.
   struct Given {
     int peer = 0;
     ExactStates exact;
   };
   std::vector<Given> TakeGiven() { return std::exchange(given_, {}); }
-  /// Peers that were told to let go of something kReleasePatienceUs ago and have not answered. They
-  /// have to leave: TakeBack when their lease must have ended. Not before, of nothing: they may not
-  /// have heard the question behind what was lost, and have all that they have in good faith.
+  /// Returns the peers that were asked kReleasePatienceUs ago to release a mechanism and have not
+  /// answered. The caller drops them and calls TakeBack once their lease must have ended. Nothing
+  /// of theirs may be taken back earlier: the question may have been lost, and they hold everything
+  /// in good faith.
   PeerSet Withholding(std::int64_t now_us) const;
-  /// Somebody came or went: the next Update plans.
+  /// Makes the next Update replan. Called when a client comes or goes.
   void PlanSoon() { plan_due_ = true; }
-  /// The server has what a peer that is gone had. States of the epochs it had count no more.
+  /// Returns authority over everything a departed peer had to the server. States of that peer's
+  /// epochs no longer count.
   std::vector<Grants> TakeBack(std::int64_t now_us, int peer);
-  /// The mechanisms are others now; see BodyRemap.
+  /// Renumbers after the mechanisms have changed; see BodyRemap.
   void Remap(const std::vector<std::vector<int>>& from);
 
-  /// Everything, for one who joins: what is being revoked is nobody's, as the others were told.
+  /// Returns the whole table for a joining client. A mechanism being revoked is listed without an
+  /// authority, as other peers were told.
   std::vector<Grants> Export(std::int64_t now_us) const;
-  /// Whether the peer has authority over the mechanism, as far as everyone was told.
+  /// True if the peer has authority over the mechanism according to the grants sent so far.
   bool Has(int peer, int mechanism) const { return table().at(mechanism).authority == peer; }
-  /// Whom the last plan gives a mechanism; its authority where nothing is planned yet.
+  /// Returns the authority that the last plan gives a mechanism, or the current one if there is no
+  /// plan yet.
   int Wanted(int mechanism) const;
-  /// Whether the peer follows a body in its buffer zone.
+  /// True if the peer follows a body in its buffer zone.
   bool Follows(int peer, int body) const;
-  /// Whether mechanisms have one authority, and none of them is changing hands.
+  /// True if all mechanisms have the same authority and none is being handed over.
   bool InOneHand(const std::vector<int>& mechanisms) const;
 
   enum class Right {
     kYes,
-    kStale,  ///< of an epoch that is over
+    kStale,  ///< the epoch is over
     kNo,
   };
-  /// Whether a peer may say, in an epoch, where a body is: in any in which it had it all the time
-  /// until now.
+  /// Decides if a peer may report a body's state in an epoch: yes if it has held the
+  /// mechanism without a break from that epoch until now.
   Right RightToMove(int peer, int body, std::int32_t epoch) const;
-  /// A peer says that it has let go of a mechanism (by its id), as the grant of that epoch told it.
-  /// Believed only of the holder and of exactly that grant; the next Update acts on it. Of a grant
-  /// that was withdrawn meanwhile it means nothing.
+  /// Handles a peer's answer that it has released a mechanism (by id), as the grant of that epoch
+  /// asked. Accepted only from the holder and for exactly that grant; the next Update acts on it.
+  /// An answer to a withdrawn grant has no effect.
   Right NoteRelease(int peer, PartId mechanism, std::int32_t epoch);
-  /// Whether a peer says of a mechanism, in the epoch in which it has it, that it has let go of it
-  /// although nobody asked: its lease has ended. TakeBack follows.
+  /// True if a peer that reports an unasked release (its lease has ended) holds the mechanism in
+  /// that epoch. The caller then calls TakeBack.
   bool GivesUp(int peer, PartId mechanism, std::int32_t epoch) const;
-  /// Whether a peer may say where a body was when it let go, as the grant of that epoch told it.
+  /// Decides if a peer may report the state in which it released a body, as the grant of that epoch
+  /// asked.
   Right RightToRelease(int peer, int body, std::int32_t epoch) const;
-  /// The server's copy of a body that changes hands was off by this much. If that is a lot, the
-  /// server keeps its mechanism for kConvergeS before the successor gets it.
+  /// Records the error of the server's copy of a body that is being handed over. If it is above
+  /// kJump or kJumpVelocity, the server keeps the mechanism for kConvergeS before the successor
+  /// gets it.
   void NoteJump(int body, const BodyState& off);
-  /// Whether NoteTold is of use; see AuthorityView::exact.
+  /// True if NoteTold has an effect; see AuthorityView::exact.
   bool WatchesAgreement() const { return view_.exact; }
-  /// How far the server's copy of a body was from what its holder tells of a tick.
+  /// Records the error of the server's copy of a body against its holder's state of the same tick.
   void NoteTold(int body, const BodyState& off);
-  /// Whether the peer needs to hear where a mechanism's holder let go of it.
+  /// True if the peer needs the state in which a mechanism's holder released it.
   bool Awaits(int peer, int body) const;
 
-  /// Differences above these are shown as a jump, m and m/s. Copies glide to what they were
-  /// corrected to within kConvergeS, s; longer delays hand-overs, at most by half a second.
+  /// Corrections above these, m and m/s, are visible as a jump. Copies converge to a correction
+  /// within kConvergeS, s; longer delays hand-overs, by half a second at most.
   static constexpr float kJump = 0.05f, kJumpVelocity = 0.2f;
   static constexpr double kConvergeS = 0.25;
 
  private:
-  /// How far a mechanism is on its way from its holder, whom the table names until the end.
+  /// Stage of a hand-over. The table names the old holder until the end.
   enum class HandOver {
     kNone,
-    kRevoking,   // the holder is told to let go
-    kReleased,   // and has answered
-    kOvertaken,  // an edit made another mechanism of it meanwhile: its holder gets it anew
+    kRevoking,   // the holder was asked to release it
+    kReleased,   // the holder has answered
+    kOvertaken,  // an edit replaced the mechanism meanwhile: its holder gets a new grant
   };
-  /// What is remembered of a mechanism besides its record.
+  /// State of a mechanism besides its record in the table.
   struct Memory {
     HandOver hand_over = HandOver::kNone;
-    std::int64_t revoked_us = 0;           // when the holder was told to let go
-    PartId revoked_id = 0;                 // of what
-    std::int64_t unanswered_us = 0;        // when it was told so first, without an answer yet
-    bool withdrawn = false;                // since then: the next question stands
-    std::int64_t ask_us = 0;               // after that it is not asked before this
-    std::int32_t held_from = -1;           // epoch since which it has it all the time; -1: the last
-    std::int64_t keep_until_tick = 0;      // the server's, until its copies have converged
-    int last_authority = 0;                // when it was planned last
-    std::int64_t changed_tick = -1000000;  // when a plan first saw that authority
-    std::int64_t fell_tick = -1000000;     // when a plan last saw that it falls freely
-    bool open = false;                     // is in open_
+    std::int64_t revoked_us = 0;           // when the holder was asked to release it
+    PartId revoked_id = 0;                 // the mechanism's id at that time
+    std::int64_t unanswered_us = 0;        // first question that is still unanswered
+    bool withdrawn = false;                // the question was withdrawn; the next one stands
+    std::int64_t ask_us = 0;               // after a withdrawal: not asked again earlier
+    std::int32_t held_from = -1;           // first epoch of uninterrupted holding; -1: current one
+    std::int64_t keep_until_tick = 0;      // the server's until copies have converged
+    int last_authority = 0;                // at the last plan
+    std::int64_t changed_tick = -1000000;  // tick of the first plan with that authority
+    std::int64_t fell_tick = -1000000;     // tick of the last plan that saw it in free fall
+    bool open = false;                     // listed in open_
     float contested = 0;                   // see MechanismView
   };
 
   const AuthorityTable& table() const { return replica_.authority(); }
-  /// Fills in what planning sees (authority_view.cpp).
+  /// Fills in the planner's input (authority_view.cpp).
   void Look(const Situation& situation);
   void LookAtPlayers(const Situation& situation, AuthorityView* view) const;
   void LookAtMechanisms(const Situation& situation, AuthorityView* view);
   void LookAtMechanism(int m, const Situation& situation, AuthorityView* view);
   void LookAtBoxes(AuthorityView* view) const;
-  /// Whether the view may be without what lies far from all else.
+  /// True if the view may leave out mechanisms asleep far from all else.
   bool LeavesOut(const AuthorityView& view);
-  /// Chooses what the view is of (authority_lying.cpp).
+  /// Choose the mechanisms of the view (authority_lying.cpp).
   void SeeAll();
   void SeeWithoutLying(const AuthorityView& view);
   bool MayLie(int m) const;
   void FindDoubtful();
   bool Lies(int m);
   void PutLying(int m);
-  /// A mechanism's index in the view; -1: left out.
+  /// Returns a mechanism's index in the view; -1: left out.
   int PlaceOf(int m) const;
   template <class Visit>
   void EachBody(int m, const Visit& visit) const;
   void LookAtCapacity(std::int64_t now_us, const Situation& situation, AuthorityView* view);
   void Plan(std::int64_t now_us, const Situation& situation);
-  /// By mechanism, as it is planned: 1 where what sleeps here becomes somebody's before anything
-  /// touches it, so that nobody else's things have to be here on its account.
+  /// Returns by mechanism: 1 if it sleeps at the server and a plan will give it to a player before
+  /// anything touches it. Other peers' bodies near it then need not be in the Box2D world on its
+  /// account.
   std::vector<char> Unwatched(const AuthorityView& view) const;
-  /// Peers that are not given all that they will touch.
+  /// Returns peers that may lack authority over bodies they are about to touch.
   PeerSet Doubtful(const AuthorityView& view) const;
   std::vector<Grants> TakeBack(std::int64_t now_us, const std::vector<int>& mechanisms);
-  /// Whether its holder was told to let go of it long ago, and has not answered.
+  /// True if the holder was asked to release the mechanism long ago and has not answered.
   bool Withheld(std::int64_t now_us, int m) const;
-  /// The holder has not answered: it keeps what it was asked to let go of, an epoch on.
+  /// Withdraws an unanswered question: the holder keeps the mechanism in a new epoch.
   void Withdraw(int m);
   void ForgetQuestions(int m);
   std::int64_t PatienceUs(int m) const;
-  /// Takes the hand-over of a mechanism as far as it can go; false: nothing is left to do before
-  /// the next plan.
+  /// Advances the hand-over of a mechanism as far as possible. Returns false if nothing is left to
+  /// do before the next plan.
   bool Advance(std::int64_t now_us, int m);
-  /// The next Update looks at the mechanism.
+  /// Lists the mechanism for the next Update.
   void Open(int m);
-  /// The record while nobody has it: the server next, an epoch on.
+  /// Returns the record for the time without a holder: the server is next, in a new epoch.
   AuthorityRecord WithoutHolder(AuthorityRecord record) const;
 
   const Scene& scene_;
@@ -172,26 +181,26 @@ class AuthorityManager {
   const bool physics_edits_;
   const bool islands_;
   AuthorityPlan plan_;     // the last one
-  AuthorityView view_;     // what it saw: its memory is used again
-  std::vector<int> seen_;  // mechanisms that it is of, ascending
-  bool limited_ = false;   // somebody's capacity is, in the last plan
-  int see_all_ = 0;        // so many more plans see all: most of it is awake
+  AuthorityView view_;     // input of the last plan; kept to reuse its memory
+  std::vector<int> seen_;  // mechanisms in view_, ascending
+  bool limited_ = false;   // the last plan had a player of limited capacity
+  int see_all_ = 0;        // plans left that view all, as most of it is awake
   Lying lying_;
   struct Lay {
     std::uint64_t still = 0;  // World::still
     Vec2 position{0, 0};
     float angle = 0;
   };
-  std::vector<Lay> lay_;          // by body of what lies
-  std::vector<char> doubtful_;    // by mechanism that lies: it may lie no more
-  std::vector<int> stirred_;      // for FindDoubtful: bodies
-  std::uint64_t lay_change_ = 0;  // World::last_change when it was found last what lies
+  std::vector<Lay> lay_;          // by body of a sleeping mechanism
+  std::vector<char> doubtful_;    // by sleeping mechanism: it may have been woken
+  std::vector<int> stirred_;      // scratch of FindDoubtful: bodies
+  std::uint64_t lay_change_ = 0;  // World::last_change at the last FindDoubtful
   CapacityWatch capacity_;
-  std::vector<int> restricted_;  // parts that not everybody may push
+  std::vector<int> restricted_;  // parts that not every player may push
   bool sort_open_ = false;
-  std::vector<int> open_;       // mechanisms of which something is to be done, ascending
+  std::vector<int> open_;       // mechanisms with pending hand-over work, ascending
   std::vector<int> changed_;    // in this Update
-  std::vector<Grants> grants_;  // of this Update
+  std::vector<Grants> grants_;  // from this Update
   bool taken_over_ = false;     // in this Update
   std::vector<Given> given_;
   PeerSet silent_;                           // in the last Update

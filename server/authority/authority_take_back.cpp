@@ -1,4 +1,4 @@
-/// AuthorityManager, without the holder's consent: what is withheld, and what one who is gone had.
+/// AuthorityManager: takes mechanisms back without the holder's consent.
 
 #include "common/sync/lease.h"
 #include "server/authority/authority_manager.h"
@@ -37,7 +37,7 @@ std::vector<Grants> AuthorityManager::TakeBack(std::int64_t now_us,
     Memory& memory = memory_[static_cast<std::size_t>(m)];
     record.secondaries.Remove(record.authority);
     record.authority = 0;
-    record.epoch += memory.hand_over != HandOver::kNone ? 2 : 1;  // a revocation has used up one
+    record.epoch += memory.hand_over != HandOver::kNone ? 2 : 1;  // a revocation used up one
     memory.hand_over = HandOver::kNone;
     replica_.authority().Set(m, record);
     lying_.Take(m);

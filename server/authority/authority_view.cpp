@@ -13,7 +13,7 @@ namespace seam {
 
 namespace {
 
-/// A touch of a second / kBouncePart is a bounce, after which it flies on.
+/// A contact shorter than a second / kBouncePart is a bounce and does not end a fall.
 constexpr int kBouncePart = 4;
 
 }  // namespace
@@ -62,7 +62,7 @@ void AuthorityManager::Look(const Situation& situation) {
   view.left_out = seen_.size() < memory_.size()
                       ? static_cast<std::size_t>(replica_.world().body_count()) - view.boxes.size()
                       : 0;
-  // Who may not push a part does not get its authority.
+  // A player that may not push a part does not get its authority.
   const World& world = replica_.world();
   for (const int id : restricted_) {
     const int mechanism = MechanismOf(world, static_cast<PartId>(id));
@@ -94,7 +94,7 @@ void AuthorityManager::LookAtCapacity(std::int64_t now_us, const Situation& situ
   if (situation.load.empty()) return;
   for (std::size_t p = 0; p < view->players.size(); ++p) {
     PlayerView& player = view->players[p];
-    // What it was planned to step is only counted where it matters: nearly nobody's.
+    // Counted only on demand: most players are never overloaded.
     const auto steps = [&] {
       int bodies = 0;
       for (const MovingBox& box : view->boxes) {
@@ -152,7 +152,7 @@ std::vector<char> AuthorityManager::Unwatched(const AuthorityView& view) const {
   std::vector<char> unwatched(memory_.size(), 0);
   if (!view.islands) return unwatched;
   if (view.left_out > 0) {
-    std::fill(unwatched.begin(), unwatched.end(), char{1});  // what is left out lies
+    std::fill(unwatched.begin(), unwatched.end(), char{1});  // all left-out mechanisms sleep
     for (const int id : restricted_) {
       const int m = MechanismOf(replica_.world(), static_cast<PartId>(id));
       if (m >= 0) unwatched[static_cast<std::size_t>(m)] = 0;

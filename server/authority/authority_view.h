@@ -1,5 +1,5 @@
 #pragma once
-/// What planning needs to know of a scene once, and not at every plan.
+/// Facts of a scene that the planner needs, computed once instead of at every plan.
 
 #include <vector>
 
@@ -7,11 +7,11 @@
 
 namespace seam {
 
-/// Whether authority is planned by islands around the players: the scene says [planner], or its
+/// True if authority is planned by islands around the players: the scene has [planner], or its
 /// players have no regions.
 bool PlansIslands(const Scene& scene);
 
-/// Parts that not every player may push, ascending.
+/// Returns the parts that not every player may push, ascending.
 std::vector<int> RestrictedParts(const Scene& scene);
 
 }  // namespace seam

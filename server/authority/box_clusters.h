@@ -1,6 +1,6 @@
 #pragma once
-/// Boxes of one mechanism, a few as one: what is compared pair by pair is compared by these first,
-/// so that a car of three bodies is one thing to what is far from it.
+/// Clusters of neighbouring boxes of one mechanism, for a broad phase: pairs of clusters are
+/// compared before pairs of boxes. A car of three bodies is one box to everything far from it.
 
 #include <algorithm>
 #include <vector>
@@ -11,11 +11,11 @@ namespace seam {
 
 class BoxClusters {
  public:
-  /// Boxes in one, and how long its longer side may be, m: a long chain is several.
+  /// Boxes per cluster, and the longest side of a cluster, m: a long chain makes several.
   static constexpr std::size_t kMost = 8;
   static constexpr float kLongest = 6;
 
-  /// Of boxes that stand beside each other in the list and are of one group.
+  /// Clusters boxes that are adjacent in the list and of the same group.
   explicit BoxClusters(const std::vector<MovingBox>& boxes) {
     around_.reserve(boxes.size());
     begin_.reserve(boxes.size() + 1);
@@ -29,19 +29,19 @@ class BoxClusters {
   }
 
   std::size_t count() const { return around_.size(); }
-  /// Corners and group of each; it moves as its first box.
+  /// Returns the bounding box and group of each cluster; its velocity is the first box's.
   const std::vector<MovingBox>& around() const { return around_; }
   int GroupOf(std::size_t cluster) const { return around_[cluster].group; }
-  /// Its boxes, by index: from one, up to before the other.
+  /// The cluster's boxes are the index range [begin, end).
   std::size_t begin(std::size_t cluster) const { return begin_[cluster]; }
   std::size_t end(std::size_t cluster) const { return begin_[cluster + 1]; }
 
-  /// Calls `visit` (the index of a box) for each of its boxes.
+  /// Calls `visit` (index of a box) for each of its boxes.
   template <class Visit>
   void Each(std::size_t cluster, const Visit& visit) const {
     for (std::size_t i = begin(cluster); i < end(cluster); ++i) visit(i);
   }
-  /// Whether `test` (of the index of a box) is true of any of its boxes.
+  /// True if `test` (index of a box) holds for any of its boxes.
   template <class Test>
   bool Any(std::size_t cluster, const Test& test) const {
     for (std::size_t i = begin(cluster); i < end(cluster); ++i) {
@@ -49,7 +49,7 @@ class BoxClusters {
     }
     return false;
   }
-  /// Calls `visit` (two indices of boxes) for each pair of the boxes of two of them.
+  /// Calls `visit` (two indices of boxes) for each pair of boxes of two clusters.
   template <class Visit>
   void EachPair(std::size_t a, std::size_t b, const Visit& visit) const {
     for (std::size_t i = begin(a); i < end(a); ++i) {
@@ -58,7 +58,7 @@ class BoxClusters {
   }
 
  private:
-  /// Whether box `i` becomes part of the last cluster.
+  /// Adds box `i` to the last cluster if it fits; else returns false.
   bool Joins(const MovingBox& box, std::size_t i) {
     if (around_.empty() || around_.back().group != box.group) return false;
     MovingBox& last = around_.back();

@@ -1,6 +1,6 @@
 #pragma once
-/// All pairs of boxes that overlap when each is grown: a sweep along the axis along which they are
-/// spread most, in strips across it, n for what does not crowd.
+/// Finds all pairs of boxes that overlap when each is grown. Sweeps along the axis of greatest
+/// spread, in strips across it; linear in the number of boxes if they are not crowded.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ namespace seam {
 ///                         +-----+     --> along
 class BoxSweep {
  public:
-  /// `grow` (of a box's index): m on all sides.
+  /// `grow` (of a box's index) returns the margin on all sides, m.
   template <class Grow>
   BoxSweep(const std::vector<MovingBox>& boxes, const Grow& grow) {
     grown_.reserve(boxes.size());
@@ -46,8 +46,8 @@ class BoxSweep {
       }
     }
   }
-  /// The same for those pairs alone whose boxes are within `count` boxes along the sweep. Whether
-  /// there may be others.
+  /// Like EachPair, but only for pairs within `count` boxes of each other along the sweep. Returns
+  /// true if there may be more pairs.
   template <class Visit>
   bool EachNearPair(std::size_t count, const Visit& visit) const {
     bool others = false;
@@ -63,12 +63,12 @@ class BoxSweep {
     }
     return others;
   }
-  /// The same for all the other pairs (EachNearPair of `count` has the rest), but those whose boxes
-  /// have the same label, from 0 on. `label` (of an index): below 0 for a box that is in all its
+  /// Like EachPair for the remaining pairs (EachNearPair of `count` has visited the rest), except
+  /// pairs with the same label. `label` (of an index) is >= 0; below 0 excludes none of that box's
   /// pairs.
   template <class Label, class Visit>
   void EachPairApart(std::size_t count, const Label& label, const Visit& visit) const {
-    // From each span: the next that has another label, or none.
+    // From each span: the next span with another label, or the end.
     std::vector<std::size_t> other(spans_.size());
     std::vector<int> labels(spans_.size());
     for (std::size_t i = spans_.size(); i-- > 0;) {
@@ -91,15 +91,15 @@ class BoxSweep {
   }
 
  private:
-  /// m; by rounding no pair may be missed.
+  /// m; a margin so that rounding misses no pair.
   static constexpr float kRounding = 0.01f;
-  /// Strips at most, and how high one is at least, in mean heights of a grown box.
+  /// Most strips, and the least height of a strip in mean heights of a grown box.
   static constexpr float kStripsMax = 256, kStripHeight = 1.5f;
 
   struct Span {
     float from, to;             // along the sweep
-    float low, high;            // at right angles to it
-    std::int32_t strip, first;  // this one, and the first that the box is in
+    float low, high;            // across the sweep
+    std::int32_t strip, first;  // this strip, and the first one that the box is in
     std::uint32_t box;
   };
 
@@ -107,7 +107,7 @@ class BoxSweep {
     return b.low <= a.high && a.low <= b.high && std::max(a.first, b.first) == a.strip;
   }
 
-  /// `heights`: of all grown boxes, in all.
+  /// `heights` is the sum over all grown boxes.
   void Divide(std::size_t boxes, float low, float high, float heights) {
     low_ = low;
     if (boxes == 0) return;
@@ -134,7 +134,7 @@ class BoxSweep {
     struct Strips {
       std::int32_t first = 0, last = 0;
     };
-    std::vector<Strips> strips(boxes.size());  // that each box is in
+    std::vector<Strips> strips(boxes.size());  // strips of each box
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       if (strips_ > 1) {
         strips[i].first = StripOf(boxes[i].min[1 - along] - grown_[i]);
@@ -143,7 +143,7 @@ class BoxSweep {
       for (int s = strips[i].first; s <= strips[i].last; ++s) ++end_[static_cast<std::size_t>(s)];
     }
     std::size_t sum = 0;
-    for (std::size_t& end : end_) {  // where each begins, until it is filled
+    for (std::size_t& end : end_) {  // start of each strip, until filled
       const std::size_t count = end;
       end = sum;
       sum += count;
@@ -165,7 +165,7 @@ class BoxSweep {
   std::vector<float> grown_;  // by box, m
   float low_ = 0, per_m_ = 0;
   int strips_ = 1;
-  std::vector<Span> spans_;       // strip by strip, in each by where they begin
+  std::vector<Span> spans_;       // strip by strip, sorted by `from`
   std::vector<std::size_t> end_;  // by strip, in spans_
 };
 

@@ -25,7 +25,7 @@ int CapacityWatch::Look(std::size_t player, std::int64_t now_us, int peer, float
     return answer();
   }
   seen.bodies *= factor;
-  // It has room for more than twice of what there is for it: it is no longer limited.
+  // Its capacity is more than twice its bodies: it is no longer limited.
   if (seen.bodies > 2 * now) seen.bodies = 0;
   return answer();
 }

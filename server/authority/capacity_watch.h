@@ -1,9 +1,9 @@
 #pragma once
-/// How many bodies each player's machine can step, from how busy it says it is.
+/// Estimates how many bodies each player's machine can step, from its reported load.
 ///
-///   load   1.0 |    *                      its machine needs all of its time: it gets less
-///          0.8 |- - - *- - *-*-*- - - - -  what is aimed at
-///              |__*__________*___________  below it, one that had too much gets more again
+///   load   1.0 |    *                      overloaded: it gets fewer bodies
+///          0.8 |- - - *- - *-*-*- - - - -  target
+///              |__*__________*___________  below it, a limited machine gets more again
 
 #include <cstdint>
 #include <functional>
@@ -13,20 +13,21 @@ namespace seam {
 
 class CapacityWatch {
  public:
-  /// What the player's peer can step now, bodies; PlayerView::kUnlimited while it was never too
-  /// busy, or is not any more. `load`: share of its time that it needs, below 0: not known.
-  /// `steps`: bodies that it has or follows now, asked only when it may be too busy. Another peer
-  /// begins anew.
+  /// Returns the number of bodies that the player's peer can step now; PlayerView::kUnlimited if it
+  /// was never overloaded or no longer is. `load`: share of real time that it needs, below 0:
+  /// unknown. `steps` returns how many bodies it has or follows now; called only if it may be
+  /// overloaded. A different peer starts with no limit.
   int Look(std::size_t player, std::int64_t now_us, int peer, float load,
            const std::function<int()>& steps);
 
-  /// Above this it is too busy.
+  /// Load above which a machine is overloaded.
   static constexpr float kFull = 1.0f;
-  /// Aimed at: what is stepped again comes in bursts.
+  /// Target load; below 1 because replayed ticks come in bursts.
   static constexpr float kTarget = 0.8f;
-  /// A change shows in what is said after this: the client's window, the way, a hand-over. us
+  /// Delay until a change shows in the reported load, us: the client's window, the network path, a
+  /// hand-over.
   static constexpr std::int64_t kSettleUs = 900000;
-  /// Most that one look may take or give, as a factor.
+  /// Limits of the factor by which one call changes the capacity.
   static constexpr float kLeast = 0.3f, kMost = 1.2f;
 
  private:

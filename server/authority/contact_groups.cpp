@@ -11,11 +11,11 @@
 namespace seam {
 namespace {
 
-/// Neighbours along the sweep that are compared first: in a crowd they make one group of nearly
-/// all, and what is in one group already need not be compared.
+/// Neighbours along the sweep that are compared first. In a crowd these pairs already unite nearly
+/// everything, and pairs within one group need no comparison.
 constexpr std::size_t kNeighbours = 32;
 
-/// One way, of the farthest player, s.
+/// Returns the one-way delay of the farthest player, s.
 float LongestWay(const AuthorityView& view) {
   float longest = 0;
   for (const PlayerView& player : view.players) longest = std::max(longest, player.one_way_s);
@@ -44,8 +44,8 @@ class Look {
   }
 
   ContactGroups Sweep() {
-    // Each box grown by the way that it can make in the farthest that any pair is looked ahead:
-    // all pairs that touch or may meet.
+    // Grows each box by the distance it may cover in the longest look-ahead of any pair: the sweep
+    // then finds all pairs that touch or may meet.
     const float longest = LongestWay(view_), seconds = kZoneKeep + ZoneSeconds(longest, longest);
     const BoxSweep sweep(clusters_.around(), [this, seconds](std::size_t c) {
       float way = 0;
@@ -58,7 +58,7 @@ class Look {
     const std::vector<int> group = soon_.Lowest();
     sweep.EachPairApart(
         kNeighbours, [&](std::size_t c) { return group[GroupOf(c)]; }, meet);
-    // Within a group it still matters what meets something of the server's.
+    // Within a group, contacts with mechanisms of the server still have to be marked.
     const bool any = std::find(servers_.begin(), servers_.end(), 1) != servers_.end();
     if (!any) return Groups();
     const auto unless_marked = [&](std::size_t a, std::size_t b) {
@@ -75,8 +75,8 @@ class Look {
     return {soon_.Lowest(), later_.Lowest(), std::move(server_soon_), std::move(server_later_)};
   }
 
-  /// Whether the server has to see to a mechanism. Where it plans by islands what sleeps is its
-  /// own, costs nothing, and becomes somebody's before it is touched.
+  /// True if the server has to simulate the mechanism. When planning by islands, a sleeping one
+  /// does not count: it costs nothing, and a player gets it before anything touches it.
   bool IsServers(std::size_t m) const {
     return plan_[m].authority == 0 && !(view_.islands && view_.mechanisms[m].asleep);
   }
@@ -85,7 +85,7 @@ class Look {
     return static_cast<std::size_t>(clusters_.GroupOf(cluster));
   }
 
-  /// Boxes of two clusters, until nothing is left to be found of their groups.
+  /// Compares the boxes of two clusters until the result for their groups is known.
   void MeetAny(std::size_t a, std::size_t b) {
     const std::size_t x = GroupOf(a), y = GroupOf(b);
     if (x == y) return;
@@ -93,16 +93,16 @@ class Look {
     for (std::size_t i = clusters_.begin(a); i < clusters_.end(a); ++i) {
       for (std::size_t j = clusters_.begin(b); j < clusters_.end(b); ++j) {
         const bool known = !servers || (server_soon_[x] != 0 && server_soon_[y] != 0);
-        if (known && soon_.Same(static_cast<int>(x), static_cast<int>(y))) return;  // and later
+        if (known && soon_.Same(static_cast<int>(x), static_cast<int>(y))) return;  // implies later
         Meet(view_.boxes[i], view_.boxes[j], servers);
       }
     }
   }
 
-  /// `servers`: one of them is.
+  /// `servers`: one of them is the server's.
   void Meet(const MovingBox& a, const MovingBox& b, bool servers) {
     const auto x = static_cast<std::size_t>(a.group), y = static_cast<std::size_t>(b.group);
-    // As MayMeet, for both times.
+    // The condition of MayMeet, for both look-aheads.
     const float gap = Gap(a, b), speed = (a.velocity - b.velocity).norm();
     const float acceleration = a.acceleration + b.acceleration;
     const auto within = [&](float seconds) {
@@ -130,9 +130,9 @@ class Look {
   const AuthorityView& view_;
   const BoxClusters& clusters_;
   const AuthorityPlan& plan_;
-  const FallAxis fall_;         // none: as MayMeet says
-  std::vector<float> one_way_;  // by mechanism: to who is planned to have it
-  std::vector<int> servers_;    // by mechanism: 1 where the server has to see to it
+  const FallAxis fall_;         // no axis: only MayMeet counts
+  std::vector<float> one_way_;  // by mechanism: delay of its planned authority, s
+  std::vector<int> servers_;    // by mechanism: 1 if the server has to simulate it
   Unions soon_, later_;
   std::vector<char> server_soon_, server_later_;
 };

@@ -1,5 +1,5 @@
 #pragma once
-/// Which mechanisms may come into contact before a grant could tell anyone, and through whom.
+/// Groups of mechanisms that may come into contact before a grant could reach the peers.
 
 #include <vector>
 
@@ -7,15 +7,16 @@
 
 namespace seam {
 
-/// By mechanism. `soon` looks as far ahead as ZoneSeconds says, `later` kZoneKeep farther.
+/// By mechanism. `soon` looks ZoneSeconds ahead, `later` kZoneKeep farther.
 struct ContactGroups {
-  std::vector<int> soon, later;  ///< the lowest of those that it may touch, directly or not
-  /// 1: it may touch one that the server has, or has one and may touch.
+  std::vector<int> soon, later;  ///< lowest index in its group of direct and indirect contacts
+  /// 1: it may touch one of the server's, or is one and may touch another.
   std::vector<char> server_soon, server_later;
 };
 
-/// Of mechanisms with the planned authorities. May touch: as MayMeet says. `by_ways`: what falls
-/// freely, but for what is the server's, as MayMeetOnTheirWays says, too, if gravity has an axis.
+/// Groups mechanisms with their planned authorities by MayMeet. With `by_ways`, and if gravity has
+/// an axis, a freely falling mechanism must also pass MayMeetOnTheirWays; pairs with the server's
+/// mechanisms need not.
 ContactGroups FindContactGroups(const PlanGround& ground, const AuthorityPlan& plan, bool by_ways);
 
 }  // namespace seam

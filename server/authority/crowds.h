@@ -1,5 +1,6 @@
 #pragma once
-/// Groups in which nearly everything may touch everything, through others: a gas, a heap of many.
+/// Crowds: large groups with many holders, such as a gas or a scattered heap, of which a peer
+/// follows only the surroundings of its own mechanisms.
 
 #include <algorithm>
 #include <vector>
@@ -11,16 +12,17 @@
 
 namespace seam {
 
-/// In a room that is not followed whole, a group of so many holders is a crowd, unless it is
-/// packed: nearly everything may touch everything through others. What is done far away does not
-/// arrive within a round trip, unless all touches on the way, so of a crowd a holder follows what
-/// it may meet itself, what presses on its own, directly or through others, and what is within
-/// kCrowdReach of its own, m: as far as mode central predicts (Interest::kCloseReach).
+/// In a room that is not followed whole, a group with at least kManyHolders holders is a crowd,
+/// unless packed. Nearly every member may touch every other through chains of contacts, but a
+/// distant disturbance does not arrive within a round trip unless all members on the way touch. So
+/// a holder follows only those members that it may meet itself, that press on its own mechanisms
+/// directly or through others, or that are within kCrowdReach of these, m: as far as mode central
+/// predicts (Interest::kCloseReach).
 constexpr std::size_t kManyHolders = 8;
 constexpr float kCrowdReach = 24;
 
-/// A heap in which a push goes through: three quarters of its members and more press on another.
-/// `touching`: by mechanism, the lowest of what it presses on, directly or not.
+/// True if a push propagates through the group: at least three quarters of its members press on
+/// another. `touching`: by mechanism, the lowest index in its touching component.
 inline bool IsPacked(const std::vector<int>& touching, const GroupLists::Members& group) {
   std::vector<int> names;
   for (const int m : group) names.push_back(touching[static_cast<std::size_t>(m)]);
@@ -34,7 +36,7 @@ inline bool IsPacked(const std::vector<int>& touching, const GroupLists::Members
   return 4 * alone <= names.size();
 }
 
-/// How far something gets within ZoneSeconds, and kZoneKeep later, m.
+/// Distance covered within ZoneSeconds (`soon`), and within kZoneKeep more (`later`), m.
 struct Way {
   float soon = 0, later = 0;
   void Raise(const Way& other) {
@@ -43,20 +45,20 @@ struct Way {
   }
 };
 
-/// As FindContactGroups takes it.
+/// Returns the distance that a box may cover within `seconds`, m; FindContactGroups uses the same.
 inline float WayOf(const MovingBox& box, float seconds) {
   return box.velocity.norm() * seconds + kZoneSlack / 2 + box.acceleration * seconds * seconds / 2;
 }
 
-/// How far the boxes get before a grant could tell, at most.
+/// Upper bounds of the distances that boxes cover before a grant could arrive.
 struct Ways {
   std::vector<Way> of;   ///< by mechanism
-  std::vector<Way> own;  ///< by player: of what its peer is planned to have
-  Way farthest;          ///< of any
+  std::vector<Way> own;  ///< by player: over all mechanisms that its peer is planned to have
+  Way farthest;          ///< over all mechanisms
 };
 Ways FindWays(const AuthorityView& view, const AuthorityPlan& plan, const PlayerOfPeer& players);
 
-/// What is in which crowd, and which players have something in it.
+/// Crowd of each mechanism, and the crowds in which each player has authority over a member.
 class Crowds {
  public:
   Crowds(std::size_t mechanisms, std::size_t players) : of_(mechanisms, -1), has_(players) {}
@@ -68,7 +70,7 @@ class Crowds {
   }
   bool any() const { return count_ > 0; }
   bool Any(std::size_t player) const { return !has_[player].empty(); }
-  /// Whether the mechanism is in a crowd in which the player has something.
+  /// True if the mechanism is in a crowd of which the player has a member.
   bool Has(std::size_t player, int m) const {
     const int crowd = of_[static_cast<std::size_t>(m)];
     return crowd >= 0 &&

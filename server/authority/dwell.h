@@ -1,11 +1,12 @@
 #pragma once
-/// Whether an authority is too young to change.
+/// Minimum time that an authority lasts.
 
 #include "server/authority/player_of_peer.h"
 
 namespace seam {
 
-/// A player's peer keeps what it has for the dwell; the server gives at once.
+/// True if a player's peer has had the mechanism for less than the dwell time. The server's
+/// authority has no minimum.
 inline bool Dwells(const AuthorityView& view, const PlayerOfPeer& players,
                    const MechanismView& mechanism) {
   const auto ticks = static_cast<std::int64_t>(view.rules.dwell_s * view.tick_hz);

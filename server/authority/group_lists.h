@@ -1,5 +1,5 @@
 #pragma once
-/// Who is in each group, in flat arrays.
+/// Members of each group, in flat arrays.
 
 #include <vector>
 
@@ -7,7 +7,7 @@ namespace seam {
 
 class GroupLists {
  public:
-  /// `lowest`: by member, the lowest member of its group, which is the group's name.
+  /// `lowest`: by member, the lowest member of its group, which serves as the group's number.
   explicit GroupLists(const std::vector<int>& lowest)
       : begin_(lowest.size() + 1, 0), members_(lowest.size()) {
     for (const int g : lowest) ++begin_[static_cast<std::size_t>(g) + 1];
@@ -19,13 +19,13 @@ class GroupLists {
     }
   }
 
-  /// Names are below this.
+  /// Group numbers are below this.
   std::size_t count() const { return members_.size(); }
-  /// 0: nobody's name.
+  /// 0: there is no group of that number.
   std::size_t SizeOf(std::size_t group) const {
     return static_cast<std::size_t>(begin_[group + 1] - begin_[group]);
   }
-  /// Members, ascending.
+  /// Members of a group, ascending.
   struct Members {
     const int *first, *last;
     const int* begin() const { return first; }

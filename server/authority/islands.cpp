@@ -64,10 +64,10 @@ void Islands::Describe(const AuthorityView& view) {
 }
 
 void Islands::FindHolders(const AuthorityView& view, const PlayerOfPeer& players) {
-  std::vector<int> has(view.players.size(), 0);  // bodies of the island at hand
+  std::vector<int> has(view.players.size(), 0);  // bodies of the current island
   for (std::size_t i = 0; i < islands_.size(); ++i) {
     Island& island = islands_[i];
-    if (island.members == 1) {  // most are
+    if (island.members == 1) {  // the common case
       const int m = *MembersOf(static_cast<int>(i)).begin();
       const int player = players.At(view.mechanisms[static_cast<std::size_t>(m)].now.authority);
       if (player >= 0 && driver(m) < 0 && bodies(m) > 0) island.holder = player;

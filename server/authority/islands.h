@@ -1,5 +1,5 @@
 #pragma once
-/// The contact islands of a view: who drives in each, who has it, what is to be known of it.
+/// Contact islands of a view, with their drivers, holders and distances to the players.
 
 #include <cfloat>
 #include <vector>
@@ -10,26 +10,26 @@
 
 namespace seam {
 
-/// Mechanisms that touch, directly or through others. Players are indices; -1: none.
+/// Mechanisms connected by contacts. Players are indices; -1: none.
 struct Island {
-  int driver = -1;        ///< the lowest player who drives something of it
-  bool disputed = false;  ///< several drive
-  bool awake = false;     ///< anything of it
+  int driver = -1;        ///< lowest player that drives a member
+  bool disputed = false;  ///< several players drive members
+  bool awake = false;     ///< any member is awake
   int members = 0;
-  int rest = 0;         ///< members that nobody drives
-  int rest_bodies = 0;  ///< of those
-  int contacts = 0;     ///< pairs of bodies that touch
-  float fastest = 0;    ///< of the rest, m/s
-  int holder = -1;      ///< the player who has most bodies of the rest, the lowest of several
-  float holder_gap = FLT_MAX;  ///< m to the holder's vehicles, if that is within rules.keep
-  int nearest = -1;            ///< the player whose vehicle is nearest, within rules.keep
+  int rest = 0;                ///< members without a driver
+  int rest_bodies = 0;         ///< bodies of these
+  int contacts = 0;            ///< pairs of bodies that touch
+  float fastest = 0;           ///< speed of any body without a driver, m/s
+  int holder = -1;             ///< player with most bodies of the rest; the lowest of several
+  float holder_gap = FLT_MAX;  ///< m to the holder's vehicles, if within rules.keep
+  int nearest = -1;            ///< player of the nearest vehicle within rules.keep
   float nearest_gap = FLT_MAX;
-  int claim = -1;           ///< the player whose vehicle will touch it first
-  float claim_s = FLT_MAX;  ///< in so many seconds
+  int claim = -1;           ///< player that will touch the island first with its vehicle
+  float claim_s = FLT_MAX;  ///< time until then
   bool holder_claims = false;
-  bool holder_keeps = false;  ///< it would claim what sleeps if it looked kTouchKeep farther ahead
+  bool holder_keeps = false;  ///< would claim it asleep if looking kTouchKeep farther ahead
 
-  /// Whether its rest should be one player's, although several press on it.
+  /// True if one player should have the whole rest although several press on it.
   bool Merges() const {
     const bool dense = rest >= kDenseCount &&
                        static_cast<float>(contacts) >= kDenseContacts * static_cast<float>(members);
@@ -39,7 +39,7 @@ struct Island {
 
 class Islands {
  public:
-  /// Who has what is as of now; claims and distances are for others to fill in.
+  /// Fills in current holders; the caller fills in claims and distances.
   Islands(const PlanGround& ground, const PlayerOfPeer& players);
 
   const std::vector<Island>& all() const { return islands_; }
@@ -56,13 +56,13 @@ class Islands {
     const auto i = static_cast<std::size_t>(island);
     return {members_.data() + begin_[i], members_.data() + begin_[i + 1]};
   }
-  /// The player who drives the mechanism and is here; -1: nobody.
+  /// Returns the present player that drives the mechanism; -1: none.
   int driver(int mechanism) const { return driver_[static_cast<std::size_t>(mechanism)]; }
-  /// Bodies of a mechanism.
+  /// Returns the number of bodies of a mechanism.
   int bodies(int mechanism) const { return bodies_[static_cast<std::size_t>(mechanism)]; }
-  /// Whether the player drives something of the island.
+  /// True if the player drives a member of the island.
   bool Drives(int player, const Island& island) const;
-  /// The box around each mechanism that somebody drives; its group is the mechanism.
+  /// Returns the bounding box of each driven mechanism; its group is the mechanism.
   std::vector<MovingBox> VehicleBoxes(const AuthorityView& view) const;
 
  private:
@@ -72,7 +72,7 @@ class Islands {
 
   std::vector<Island> islands_;
   std::vector<int> island_, driver_, bodies_;  // by mechanism
-  std::vector<int> begin_, members_;           // by island: where its members begin, and they
+  std::vector<int> begin_, members_;           // by island: start of its members, and the members
 };
 
 }  // namespace seam

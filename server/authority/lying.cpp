@@ -8,7 +8,7 @@
 namespace seam {
 namespace {
 
-/// m, so that no rounding leaves out what is just as far as it may be.
+/// m, so that rounding leaves out nothing at exactly the limit.
 constexpr float kRounding = 0.1f;
 
 }  // namespace

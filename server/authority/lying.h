@@ -1,6 +1,6 @@
 #pragma once
-/// What lies asleep, is the server's, and concerns nobody: a plan needs to see of it only what
-/// something else may come to. Kept from plan to plan, so that what lies costs a plan next to
+/// Index of sleeping mechanisms of the server that nobody follows; a plan loads only those that a
+/// moving body may reach. Kept from plan to plan, so that sleeping mechanisms cost a plan almost
 /// nothing.
 
 #include <cstddef>
@@ -11,34 +11,35 @@
 
 namespace seam {
 
-/// How far a plan sees from what does not lie.
+/// Reach of a plan around bodies that are not in the index.
 struct PlanSight {
   float seconds = 0;  ///< ahead
-  float around = 0;   ///< m
+  float around = 0;   ///< distance, m
 };
-/// Of these players: as far ahead as it looks for what may meet, and their buffer zone.
+/// Returns the look-ahead for contacts, with the longest delay of these players, and their buffer
+/// zone.
 PlanSight SightOf(const AuthorityView& view);
 
 class Lying {
  public:
-  /// Of so many mechanisms none lies.
+  /// Sets the number of mechanisms; none is in the index.
   void Clear(std::size_t mechanisms);
   std::size_t size() const { return boxes_.numbers(); }  ///< mechanisms
   bool Has(int mechanism) const { return boxes_.Has(mechanism); }
-  /// It lies within that box, from now on.
+  /// Adds a mechanism within that box, or moves it there.
   void Put(int mechanism, const MovingBox& box) { boxes_.Put(mechanism, box); }
-  /// It lies no more, if it did.
+  /// Removes a mechanism, if present.
   void Take(int mechanism) { boxes_.Take(mechanism); }
 
-  /// What of it a plan has to see, ascending: what `boxes` (of all that does not lie) may touch in
-  /// the time that the plan looks ahead, directly or through others that lie, and what is around
-  /// any of those.
+  /// Returns the mechanisms that a plan needs, ascending. These are the ones that `boxes` (all
+  /// bodies not in the index) may touch within the look-ahead, directly or through others of the
+  /// index, and all within `sight.around` of any of them.
   std::vector<int> Near(const std::vector<MovingBox>& boxes, const PlanSight& sight);
 
  private:
   KeptBoxes boxes_;
   int looks_ = 0;
-  std::vector<int> found_in_;  // by mechanism: the last look that found it
+  std::vector<int> found_in_;  // by mechanism: number of the last search that found it
 };
 
 }  // namespace seam

@@ -1,5 +1,5 @@
 #pragma once
-/// How far a box is from the nearest of some others, without a look at all of them.
+/// Distance from a box to the nearest of a set of boxes, without visiting all of them.
 
 #include <algorithm>
 #include <cfloat>
@@ -12,7 +12,7 @@ namespace seam {
 
 class NearestBox {
  public:
-  /// Sorts a part of `indices` of the boxes as the constructor wants it: by their left sides.
+  /// Sorts the range [begin, end) of `indices` as the constructor needs it: by left side.
   static void Sort(const std::vector<MovingBox>& boxes, int begin, int end,
                    std::vector<int>* indices) {
     const auto left = [&](int i) { return boxes[static_cast<std::size_t>(i)].min.x(); };
@@ -20,8 +20,8 @@ class NearestBox {
               [&](int a, int b) { return left(a) != left(b) ? left(a) < left(b) : a < b; });
   }
 
-  /// From the boxes that `indices`, sorted, name from `begin` on and before `end`. All must outlive
-  /// this.
+  /// Takes the boxes that the sorted range [begin, end) of `indices` names. All arguments must
+  /// outlive this object.
   NearestBox(const std::vector<MovingBox>& boxes, const std::vector<int>& indices, int begin,
              int end)
       : boxes_(boxes), indices_(indices), begin_(begin), end_(end) {
@@ -34,13 +34,13 @@ class NearestBox {
   }
 
   bool any() const { return begin_ < end_; }
-  /// All of them. Requires any().
+  /// Returns the bounding box of the set. Requires any().
   const MovingBox& around() const { return around_; }
 
-  /// m, as Gap; FLT_MAX: there are none.
+  /// Returns the distance as defined by Gap, m; FLT_MAX: the set is empty.
   float DistanceTo(const MovingBox& box) const {
-    // The first that begins right of it; from there to both sides, until the way along x alone is
-    // longer than the best.
+    // Starts at the first box that begins right of `box` and goes both ways until the distance
+    // along x alone exceeds the best.
     int right = begin_, count = end_ - begin_;
     while (count > 0) {
       const int half = count / 2;
@@ -65,7 +65,7 @@ class NearestBox {
     return best == FLT_MAX ? FLT_MAX : std::sqrt(best);
   }
 
-  /// Whether one of them is within `reach`, m.
+  /// True if one of the set is within `reach`, m.
   bool Within(const MovingBox& box, float reach) const {
     for (int k = begin_; k < end_; ++k) {
       const float way = At(k).min.x() - box.max.x();

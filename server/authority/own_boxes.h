@@ -1,5 +1,5 @@
 #pragma once
-/// The boxes of what each player's peer is planned to have.
+/// Boxes of the mechanisms that each player's peer is planned to have.
 
 #include <algorithm>
 #include <vector>
@@ -12,18 +12,18 @@ namespace seam {
 
 class OwnBoxes {
  public:
-  /// The view must outlive this.
+  /// `view` must outlive this object.
   OwnBoxes(const AuthorityView& view, const AuthorityPlan& plan, const PlayerOfPeer& players);
 
   int CountOf(std::size_t player) const { return begin_[player + 1] - begin_[player]; }
 
-  /// All of them.
+  /// Returns all boxes of a player.
   NearestBox Of(std::size_t player) const {
     return {boxes_, own_, begin_[player], begin_[player + 1]};
   }
 
-  /// Calls `visit` (a NearestBox) for those together along x that lie no more than `apart` behind
-  /// each other, m: what a player has may be strewn over the room.
+  /// Calls `visit` (a NearestBox) for each run of boxes with gaps of at most `apart` m along x: a
+  /// player's bodies may be scattered over the room.
   template <class Visit>
   void EachRun(std::size_t player, float apart, const Visit& visit) const {
     const int end = begin_[player + 1];
@@ -41,8 +41,8 @@ class OwnBoxes {
   }
 
   const std::vector<MovingBox>& boxes_;
-  std::vector<int> begin_;  // by player: where its boxes begin in own_
-  std::vector<int> own_;    // indices of the boxes, of each player as NearestBox sorts them
+  std::vector<int> begin_;  // by player: start of its boxes in own_
+  std::vector<int> own_;    // indices of boxes, per player in the order of NearestBox::Sort
 };
 
 }  // namespace seam

@@ -9,11 +9,11 @@
 namespace seam {
 namespace {
 
-/// Plans mechanisms that are to be joined for the same authority.
+/// Plans one common authority for mechanisms that are to be joined.
 void BringTogether(const AuthorityView& view, AuthorityPlan* plan) {
   for (const std::vector<int>& mechanisms : view.together) {
     if (mechanisms.size() < 2) continue;
-    // To whom the owner of either plays; else to whom has the first.
+    // The peer planned for the first that has an owner; else the peer planned for the first.
     int to = (*plan)[static_cast<std::size_t>(mechanisms.front())].authority;
     for (const int m : mechanisms) {
       if (view.mechanisms[static_cast<std::size_t>(m)].owner >= 0) {
@@ -30,7 +30,7 @@ void BringTogether(const AuthorityView& view, AuthorityPlan* plan) {
   }
 }
 
-/// What a player may not have is the server's.
+/// Gives the server each mechanism that the planned player may not have.
 void Forbid(const AuthorityView& view, AuthorityPlan* plan) {
   const PlayerOfPeer players(view);
   for (std::size_t m = 0; m < plan->size(); ++m) {

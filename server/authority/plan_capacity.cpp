@@ -6,20 +6,20 @@
 namespace seam {
 namespace {
 
-/// The planned part of an island that nobody drives.
+/// Part of an island without a driver, planned for one player.
 struct Share {
   int player = -1;
   float gap = FLT_MAX;  // m from the island to the player's vehicles
   int island = 0;
   int bodies = 0;
-  bool held = false;  // some of it already
+  bool held = false;  // the player has some of it already
 };
 
 bool Limited(const AuthorityView& view, int player) {
   return view.players[static_cast<std::size_t>(player)].capacity != PlayerView::kUnlimited;
 }
 
-/// How far each island is from the vehicles of the player that is planned to have most of it.
+/// Returns the distance from an island to the vehicles of the player it is planned for, m.
 float GapTo(int player, const Island& island) {
   if (island.driver == player) return 0;
   if (island.holder == player) return island.holder_gap;

@@ -7,11 +7,11 @@
 namespace seam {
 namespace {
 
-/// Of what is awake in a contact group.
+/// Awake members of a contact group.
 struct Crowd {
   int members = 0, decided = 0;
   float contested = 0;
-  int owner = -1;  // of the first
+  int owner = -1;  // of the first member
   bool several = false;
 
   void Add(const MechanismView& mechanism) {
@@ -22,7 +22,7 @@ struct Crowd {
     contested += mechanism.contested;
   }
   bool Contested() const { return several && contested >= kContestedSum; }
-  /// What has come to what is decided goes with it.
+  /// True if most members are taken already: newcomers are taken with them.
   bool Decided() const { return members > 1 && 2 * decided >= members; }
 };
 

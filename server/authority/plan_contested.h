@@ -1,23 +1,23 @@
 #pragma once
-/// Crowds whose owners do not agree: one owner decides them.
+/// Crowds of disagreeing owners: the server becomes the only authority.
 
 #include "server/authority/plan_ground.h"
 
 namespace seam {
 
-/// Where nobody drives anything all peers come to the same bits, unless one was cut off or away and
-/// has simulated its things in its own way meanwhile. In a crowd full of blows they never agree
-/// again after that: each blow makes more of a difference, and blows that only one of two had win
-/// energy (docs/lessons.md). So such a crowd becomes the server's, and stays so until it sleeps or
-/// is alone.
+/// If nobody drives, all peers compute equal bits, unless one was disconnected or away and has
+/// simulated its bodies differently meanwhile. In a crowd full of impacts such peers never converge
+/// again: each impact amplifies the difference, and impacts that only one of two peers computed add
+/// energy (docs/lessons.md). So the server takes such a crowd, until it sleeps or its members
+/// separate.
 ///
-/// A crowd is what is awake and may come into contact, directly or through others
-/// (ContactGroups::soon). It is contested when several peers have of it and their states were
-/// kContestedSum times far from the server's copies of late. What comes to a crowd of which most is
-/// decided goes with it.
+/// A crowd is a group of awake mechanisms that may come into contact, directly or through others
+/// (ContactGroups::soon). It is contested if several peers have members and the recent states of
+/// these were far from the server's copies kContestedSum times. Newcomers to a crowd are taken with
+/// it if most members are taken already.
 void DecideContested(const PlanGround& ground, AuthorityPlan* plan);
 
-/// Sum of MechanismView::contested over a crowd.
+/// Least sum of MechanismView::contested over a contested crowd.
 constexpr float kContestedSum = 3;
 
 }  // namespace seam

@@ -64,8 +64,8 @@ class Followers {
     return view_.players[player].capacity != PlayerView::kUnlimited;
   }
 
-  /// Makes the player's peer follow, unless it does already. One whose capacity is limited follows
-  /// by FollowWithin instead.
+  /// Makes the player's peer a follower, unless it is one already. If its capacity is limited, only
+  /// queues the request for FollowWithin.
   void Follow(std::size_t player, int m) {
     const int peer = view_.players[player].peer;
     PlannedAuthority& of = planned(m);
@@ -78,9 +78,9 @@ class Followers {
     steps_[player] += bodies_[static_cast<std::size_t>(m)];
   }
 
-  /// Adds the server to what may come into contact with something of its own, or to everything if
-  /// the room is small: its copies are what spectators of its view see. Of a large one it is
-  /// relieved.
+  /// Makes the server a follower of all that may touch its own mechanisms, or of everything in a
+  /// small room, where its copies are displayed to spectators. In a large room this would cost too
+  /// much.
   void FollowAtServer(const ContactGroups& contacts) {
     PeerSet silent;
     for (const PlayerView& player : view_.players) {
@@ -98,13 +98,13 @@ class Followers {
     }
   }
 
-  /// What may come into contact with something of a peer's, directly or through others, that peer
-  /// follows. `soon`: of larger groups than those, what it follows now.
+  /// Makes each holder in a group a follower of the whole group. If `soon` is given, `groups` are
+  /// the wider ones, in which a peer only keeps following.
   void FollowGroups(const GroupLists& groups, const GroupLists* soon) {
     last_group_.assign(view_.players.size(), -1);
     for (std::size_t g = 0; g < groups.count(); ++g) {
       if (groups.SizeOf(g) < 2) continue;
-      if (soon != nullptr && soon->SizeOf(g) == groups.SizeOf(g)) continue;  // all follow it
+      if (soon != nullptr && soon->SizeOf(g) == groups.SizeOf(g)) continue;  // no wider than soon
       FindHolders(groups, g);
       if (IsCrowd(groups, g)) {
         (soon == nullptr ? soon_crowds_ : later_crowds_).Note(groups, g, holders_);
@@ -119,7 +119,8 @@ class Followers {
     }
   }
 
-  /// What presses on a peer's, directly or through others, it follows however far, of a crowd, too.
+  /// Makes a peer follow all that presses on its mechanisms, directly or through others, at any
+  /// distance and in crowds too.
   void FollowTouching() {
     const GroupLists touching(ground_.touching().lowest);
     last_group_.assign(view_.players.size(), -1);
@@ -132,7 +133,7 @@ class Followers {
     }
   }
 
-  /// Players whose peers are planned to have something of a group.
+  /// Finds the players planned to have a member of a group.
   void FindHolders(const GroupLists& groups, std::size_t group) {
     holders_.clear();
     for (const int m : groups.Of(group)) {
@@ -151,7 +152,7 @@ class Followers {
     return !IsPacked(ground_.touching().lowest, groups.Of(group));
   }
 
-  /// How near a mechanism has to be for the player to follow it, m.
+  /// Returns the distance within which the player follows a mechanism, m.
   float ReachOf(std::size_t player, int m) const {
     const bool follows = now(m).secondaries.Has(view_.players[player].peer);
     const float reach = view_.buffer_m + (follows ? kHysteresis : 0.0f);
@@ -161,7 +162,7 @@ class Followers {
     return reach;
   }
 
-  /// The same in a crowd, of what can make such a way.
+  /// Returns that distance within a crowd, for a mechanism that may cover `way`.
   float CrowdReach(const Way& way, std::size_t player, bool follows) const {
     const Way& own = ways_.own[player];
     return follows ? std::max(kCrowdReach + kHysteresis, way.later + own.later)
@@ -178,15 +179,15 @@ class Followers {
     FollowWithin(player);
   }
 
-  /// How near any mechanism can have to be for the player to follow it, m.
+  /// Returns an upper bound of ReachOf over all mechanisms, m.
   float FarthestReach(std::size_t player) const {
     const bool any_crowd = soon_crowds_.Any(player) || later_crowds_.Any(player);
     return std::max(view_.buffer_m + kHysteresis,
                     any_crowd ? CrowdReach(ways_.farthest, player, true) : 0.0f);
   }
 
-  /// What is within reach of the player's region or of a box of its own, in a room that is not
-  /// followed whole.
+  /// Follows all within reach of the player's region or of one of its boxes; only in rooms that are
+  /// not followed whole.
   void FollowAround(std::size_t player) {
     const int peer = view_.players[player].peer;
     const Vec2 farthest = Vec2::Constant(FarthestReach(player) + 0.1f);  // m, for rounding
@@ -217,10 +218,9 @@ class Followers {
     return {view_.players[player].region_min, view_.players[player].region_max, {0, 0}, 0, -1};
   }
 
-  /// For one whose capacity is limited, by mechanism that is seen: how far its nearest box is from
-  /// the player's region or from a box of its own, m. Of what is farther than the buffer zone only
-  /// the distance from the box around all of its own is known. In a room that is not followed whole
-  /// what is farther is not seen.
+  /// Finds the distance of each mechanism's nearest box to the region and boxes of a player of
+  /// limited capacity, m. Beyond the buffer zone it is the distance to the bounding box of all of
+  /// the player's boxes. In a room that is not followed whole, farther mechanisms are not found.
   void Measure(std::size_t p) {
     const float farthest = FarthestReach(p);
     const MovingBox region = RegionOf(p);
@@ -266,9 +266,9 @@ class Followers {
     }
   }
 
-  /// One whose capacity is limited follows what it may meet, however much that is: else a blow of
-  /// the two had another outcome at each of two peers. Then, as long as it can step that, its
-  /// buffer zone, and in a room that is followed whole the nearest.
+  /// Chooses the mechanisms that a peer of limited capacity follows. It follows all that it may
+  /// touch, however many: otherwise both peers would compute a different impact. Then it follows
+  /// its buffer zone while within capacity, and in a room that is followed whole the nearest.
   void FollowWithin(std::size_t player) {
     const int peer = view_.players[player].peer;
     within_.clear();
@@ -295,7 +295,7 @@ class Followers {
     }
   }
 
-  /// FLT_MAX: not seen by it.
+  /// Returns FLT_MAX if not found by Measure for this player.
   float DistanceOf(std::size_t player, int m) const {
     const auto i = static_cast<std::size_t>(m);
     return seen_by_[i] == static_cast<int>(player) ? distance_[i] : FLT_MAX;
@@ -309,17 +309,17 @@ class Followers {
   const std::size_t room_;  // bodies
   const bool crowded_;
   std::vector<int> bodies_;  // by mechanism
-  std::vector<int> steps_;   // by player: bodies of what it has and follows
+  std::vector<int> steps_;   // by player: bodies that it has or follows
   const OwnBoxes own_;
   Crowds soon_crowds_, later_crowds_;
-  Ways ways_;                                // if there are crowds
-  std::vector<float> distance_;              // by mechanism, for the player that seen_by_ says
-  std::vector<int> seen_by_;                 // by mechanism
-  std::vector<int> seen_;                    // mechanisms
-  std::optional<BoxGrid> grid_;              // of all clusters of a room that is not followed whole
-  std::vector<int> last_group_;              // by player: the last of which it is a holder
-  std::vector<std::size_t> holders_;         // players
-  std::vector<std::pair<int, int>> wanted_;  // player, mechanism
+  Ways ways_;                                        // only if there are crowds
+  std::vector<float> distance_;                      // by mechanism, for the player in seen_by_
+  std::vector<int> seen_by_;                         // by mechanism
+  std::vector<int> seen_;                            // mechanisms found by Measure
+  std::optional<BoxGrid> grid_;                      // of all clusters; only if not followed whole
+  std::vector<int> last_group_;                      // by player: last group that it is a holder of
+  std::vector<std::size_t> holders_;                 // players
+  std::vector<std::pair<int, int>> wanted_;          // player, mechanism
   std::vector<std::tuple<int, float, int>> within_;  // rank, m, mechanism
 };
 

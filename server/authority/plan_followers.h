@@ -1,11 +1,11 @@
 #pragma once
-/// Who follows each mechanism in its buffer zone.
+/// Followers of each mechanism: the buffer zones.
 
 #include "server/authority/plan_ground.h"
 
 namespace seam {
 
-/// Adds the followers to a plan of authorities; see PlanAuthority.
+/// Adds followers to a plan of authorities; see PlanAuthority.
 void PlanFollowers(const PlanGround& ground, AuthorityPlan* plan);
 
 }  // namespace seam

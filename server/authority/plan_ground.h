@@ -1,5 +1,5 @@
 #pragma once
-/// What several steps of one plan look at: the boxes in clusters, and what touches.
+/// Data shared by the steps of one plan: the boxes in clusters, and the touching boxes.
 
 #include <optional>
 #include <vector>
@@ -9,24 +9,24 @@
 
 namespace seam {
 
-/// What touches now: boxes of two mechanisms that are not farther apart than kPressGap.
+/// Touching boxes: of two mechanisms and at most kPressGap apart.
 struct Touching {
-  std::vector<int> lowest;   ///< by mechanism: the lowest of what it touches, directly or not
-  std::vector<int> touched;  ///< of each pair of boxes that touch: the mechanism of one
+  std::vector<int> lowest;   ///< by mechanism: lowest in its component of touching ones
+  std::vector<int> touched;  ///< one mechanism of each pair of touching boxes
 };
 
-/// Groups of the boxes are below `groups`.
+/// Requires that all groups of the boxes are below `groups`.
 Touching FindTouching(const std::vector<MovingBox>& boxes, const BoxClusters& clusters,
                       std::size_t groups);
 
 class PlanGround {
  public:
-  /// The view must outlive this.
+  /// `view` must outlive this object.
   explicit PlanGround(const AuthorityView& view) : view_(view), clusters_(view.boxes) {}
 
   const AuthorityView& view() const { return view_; }
   const BoxClusters& clusters() const { return clusters_; }
-  /// Found when it is first asked for.
+  /// Computed at the first call.
   const Touching& touching() const {
     if (!touching_) touching_ = FindTouching(view_.boxes, clusters_, view_.mechanisms.size());
     return *touching_;

@@ -39,7 +39,7 @@ class IslandPlan {
   const PlayerView& player(int p) const { return view_.players[static_cast<std::size_t>(p)]; }
   int PeerOf(int p) const { return p < 0 ? 0 : player(p).peer; }
 
-  /// By box: 1 where who is near the box's island, or touches it soon, decides anything.
+  /// Returns by box: 0 if its island already has an authority regardless of distances and contacts.
   std::vector<char> OpenBoxes() {
     const bool limited = std::any_of(view_.players.begin(), view_.players.end(),
                                      [](const PlayerView& p) { return p.limited(); });
@@ -52,7 +52,7 @@ class IslandPlan {
     return open;
   }
 
-  /// For each vehicle: who will be touched by it, and what is near it.
+  /// Finds for each vehicle the islands it will touch, and the mechanisms near it.
   void LookAround() {
     const std::vector<MovingBox> around = islands_.VehicleBoxes(view_);
     for (const MovingBox& vehicle : around) {
@@ -67,8 +67,7 @@ class IslandPlan {
     }
   }
 
-  /// What somebody has and nobody drives: what sleeps and will be hit by it becomes the same
-  /// player's.
+  /// Claims for the holder of a moving mechanism without driver the sleeping islands it will hit.
   void LookAheadLoose(const MovingBox& box) {
     const MechanismView& mechanism = view_.mechanisms[static_cast<std::size_t>(box.group)];
     const int p = players_.At(mechanism.now.authority);
@@ -109,14 +108,14 @@ class IslandPlan {
     });
   }
 
-  /// How far ahead it is looked for what player p's peer must have in time, s. What stands may be
-  /// driven any way.
+  /// Returns the look-ahead within which player p's peer must get what `own` will touch, s. Shorter
+  /// for standing vehicles: these may be driven in any direction.
   float SecondsAhead(int p, const MovingBox& own) const {
     const float ahead = own.velocity.norm() > kSettles ? kTouchAhead : kStandingAhead;
     return 2 * player(p).one_way_s + kPlanPeriod + ahead;
   }
 
-  /// `ahead`: as SecondsAhead says.
+  /// Claims the island for player p if it will touch within `ahead` s, see SecondsAhead.
   static void Claim(const MovingBox& own, float ahead, const MovingBox& other, int p,
                     Island* island) {
     const float after = SecondsToTouch(own, other, kTouchGap, ahead);
@@ -128,10 +127,10 @@ class IslandPlan {
     }
   }
 
-  /// `cluster`: of boxes of what player p drives.
+  /// Claims the islands that the boxes of a cluster, driven by player p, will touch.
   void LookAhead(std::size_t cluster, int p) {
     const BoxClusters& clusters = ground_.clusters();
-    std::array<float, BoxClusters::kMost> ahead{};  // by its boxes, s
+    std::array<float, BoxClusters::kMost> ahead{};  // by box of the cluster, s
     float way = 0, own_way = 0, longest = 0;
     clusters.Each(cluster, [&](std::size_t i) {
       const MovingBox& own = view_.boxes[i];
@@ -148,7 +147,7 @@ class IslandPlan {
     grid_.Near(around.min - reach, around.max + reach, [&](int b) {
       const MovingBox& box = view_.boxes[static_cast<std::size_t>(b)];
       Island& island = islands_.Of(box.group);
-      if (island.driver >= 0) return;  // it is who drives in it's
+      if (island.driver >= 0) return;  // an island with a driver belongs to the driver
       const float speed = std::max(std::fabs(box.velocity.x()), std::fabs(box.velocity.y()));
       const float other_way = (speed + box.acceleration * longest / 2) * longest + kRounding;
       const Vec2 apart = (around.min - box.max).cwiseMax(box.min - around.max);
@@ -159,12 +158,13 @@ class IslandPlan {
     });
   }
 
-  /// What sleeps loses nothing by its holder's silence, and who lies still says little.
+  /// True if a sleeping island stays with its holder. A silent holder loses nothing: it reports
+  /// little about sleeping bodies anyway.
   bool KeepsAsleep(const Island& island) const {
     return island.holder >= 0 && (island.holder_keeps || player(island.holder).silent);
   }
 
-  /// The player who should have what nobody drives of an island; -1: the server.
+  /// Returns the player for the bodies without driver of an island; -1: the server.
   int Choose(const Island& island) const {
     if (island.driver >= 0) {
       if (!island.disputed) return island.driver;
@@ -198,7 +198,7 @@ class IslandPlan {
     }
   }
 
-  /// m; by rounding no claim may be missed.
+  /// m; a margin so that rounding misses no claim.
   static constexpr float kRounding = 0.01f;
 
   const PlanGround& ground_;
@@ -207,9 +207,9 @@ class IslandPlan {
   const PlayerOfPeer players_;
   Islands islands_;
   const std::vector<char> open_;  // by box
-  const BoxGrid grid_;            // of those
-  float speed_ = 0;               // of the fastest, m/s
-  std::vector<int> near_player_;  // by mechanism: whose vehicle is nearest, within rules.keep
+  const BoxGrid grid_;            // of the open boxes
+  float speed_ = 0;               // of the fastest box, m/s
+  std::vector<int> near_player_;  // by mechanism: player of the nearest vehicle, within rules.keep
   std::vector<float> near_gap_;   // m
 };
 

@@ -11,7 +11,7 @@ float DistanceToRegion(const Vec2& p, const PlayerView& player) {
   return (p - nearest).norm();
 }
 
-/// The player in whose region the mechanism is, present or not; -1: none.
+/// Returns the player of the region that the mechanism is in, present or not; -1: none.
 int RegionalPlayer(const AuthorityView& view, const Vec2& at, int current_player) {
   if (current_player >= 0) {
     const PlayerView& current = view.players[static_cast<std::size_t>(current_player)];

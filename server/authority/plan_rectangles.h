@@ -1,11 +1,11 @@
 #pragma once
-/// Authority by the rectangles that the scene fixes.
+/// Authority by the fixed rectangles of the scene.
 
 #include "server/authority/plan.h"
 
 namespace seam {
 
-/// Sets the authority of each mechanism: its owner's peer, else by regions; see PlanAuthority.
+/// Sets the authority of each mechanism: the owner's peer, else by region; see PlanAuthority.
 void PlanRectangles(const AuthorityView& view, AuthorityPlan* plan);
 
 }  // namespace seam

@@ -1,5 +1,5 @@
 #pragma once
-/// Which player of a view a peer plays.
+/// Map from a peer to the player it drives, for one view.
 
 #include <algorithm>
 #include <vector>
@@ -19,14 +19,14 @@ class PlayerOfPeer {
       if (peer > 0) players_[static_cast<std::size_t>(peer)] = static_cast<int>(p);
     }
   }
-  /// -1: the server, or a peer that plays nobody. Requires a peer's number.
+  /// Returns -1 for the server and for a spectator. Requires a valid peer number.
   int At(int peer) const {
     const auto i = static_cast<std::size_t>(peer);
     return i < players_.size() ? players_[i] : -1;
   }
 
  private:
-  std::vector<int> players_;  // by peer, as far as there are players'
+  std::vector<int> players_;  // by peer, up to the last player's
 };
 
 }  // namespace seam

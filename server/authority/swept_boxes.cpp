@@ -9,11 +9,11 @@ namespace seam {
 float SecondsToTouch(const MovingBox& a, const MovingBox& b, float gap, float seconds_max) {
   const float slack = gap + (a.acceleration + b.acceleration) * seconds_max * seconds_max / 2;
   const Vec2 velocity = a.velocity - b.velocity;
-  // The times in which a, seen from b, is over b along each axis; at the end along both.
+  // The time interval in which a overlaps b along each axis; their intersection is a contact.
   float enter = 0, leave = seconds_max;
   for (int axis = 0; axis < 2; ++axis) {
-    const float low = b.min[axis] - slack - a.max[axis];   // a has to move farther than this
-    const float high = b.max[axis] + slack - a.min[axis];  // and no farther than this
+    const float low = b.min[axis] - slack - a.max[axis];   // least displacement of a relative to b
+    const float high = b.max[axis] + slack - a.min[axis];  // greatest displacement
     const float v = velocity[axis];
     if (v == 0) {
       if (low > 0 || high < 0) return FLT_MAX;
@@ -38,7 +38,7 @@ bool MayMeetOnTheirWays(const MovingBox& a, const MovingBox& b, const FallAxis& 
   const float low = b.min[across] - slack - a.max[across];
   const float high = b.max[across] + slack - a.min[across];
   const float v = a.velocity[across] - b.velocity[across];
-  float enter = 0, leave = seconds;  // when one is over the other
+  float enter = 0, leave = seconds;  // while they overlap across gravity
   if (v == 0) {
     if (low > 0 || high < 0) return false;
   } else {

@@ -1,26 +1,26 @@
 #pragma once
-/// When two moving boxes will touch.
+/// Time until two moving boxes touch.
 
 #include "common/sync/reach/zones.h"
 
 namespace seam {
 
-/// Seconds until the two, moving on as they do now, come nearer than `gap` m (and what players can
-/// accelerate within that time); FLT_MAX: not within `seconds_max`. Neither recedes into the other:
-/// what moves apart does not touch.
+/// Returns the seconds until the two, at constant velocity, are nearer than `gap` m (plus the
+/// distance that players can gain by accelerating within `seconds_max`); FLT_MAX: not within
+/// `seconds_max`. Boxes that move apart do not touch.
 float SecondsToTouch(const MovingBox& a, const MovingBox& b, float gap, float seconds_max);
 
-/// The axis along which gravity pulls, and by how much, m/s^2.
+/// Axis along which gravity pulls, and its strength, m/s^2.
 struct FallAxis {
-  int axis = -1;  ///< 0: x, 1: y; -1: none, or neither
+  int axis = -1;  ///< 0: x, 1: y; -1: no gravity, or along both axes
   float pull = 0;
 };
 FallAxis FallAxisOf(const Vec2& gravity);
 
-/// Whether the two may come nearer than kPressGap within `seconds`, on the ways on which they are:
-/// across gravity each goes on as it does, along it anywhere where it can fall, rise and bounce to
-/// in the meantime. Requires an axis. Finer than MayMeet, which has them turn anywhere: what is
-/// struck on the way by something else, or comes back from a wall, is seen when it does.
+/// True if the two may come nearer than kPressGap within `seconds` on their ballistic paths: at
+/// constant velocity across gravity, and along gravity anywhere within reach of a fall, rise or
+/// bounce. Requires an axis. Stricter than MayMeet, which allows any change of direction: a body
+/// deflected by another body or a wall is found only after that.
 bool MayMeetOnTheirWays(const MovingBox& a, const MovingBox& b, const FallAxis& fall,
                         float seconds);
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Sets of things that are united pair by pair, in one flat array.
+/// Disjoint sets (union-find) in one flat array.
 
 #include <numeric>
 #include <vector>
@@ -8,10 +8,10 @@ namespace seam {
 
 class Unions {
  public:
-  /// Of 0..count - 1, each alone at first.
+  /// Creates the sets {0} to {count - 1}.
   explicit Unions(std::size_t count) : up_(count) { std::iota(up_.begin(), up_.end(), 0); }
 
-  /// The lowest of its set.
+  /// Returns the lowest member of the set.
   int Find(int of) {
     while (At(of) != of) {
       At(of) = At(At(of));
@@ -29,7 +29,7 @@ class Unions {
       At(a) = b;
     }
   }
-  /// By member: the lowest of its set.
+  /// Returns by member: the lowest member of its set.
   std::vector<int> Lowest() {
     std::vector<int> lowest(up_.size());
     for (std::size_t i = 0; i < up_.size(); ++i) lowest[i] = Find(static_cast<int>(i));

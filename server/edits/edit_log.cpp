@@ -11,18 +11,18 @@
 namespace seam {
 namespace {
 
-/// A proposal that cannot be ordered yet (its parts are changing hands) is forgotten after this, s.
+/// A proposal that cannot be ordered (its parts are being handed over) is dropped after this, s.
 constexpr double kPendingSeconds = 3;
-/// A tick longer ago than this, s, is not one to go back to: replays do not reach there.
+/// Ticks further in the past than this, s, are out of reach for replays.
 constexpr double kBackSeconds = 1;
 
-/// Joints that the edits of a batch take away, before any of them is applied. A bond after them may
-/// take their places: what breaks "them" once more would break it.
+/// Joints that edits of a batch remove, before any of them is applied. A later bond may reuse their
+/// indices: a second break of the same index would break the new bond.
 class TakenAway {
  public:
   explicit TakenAway(const Topology& topology) : topology_(topology) {}
 
-  /// Whether the edit would break what another of the batch has put in a joint's place.
+  /// True if the edit would break a joint that another edit of the batch puts in that place.
   bool Misses(const Edit& edit) const {
     const BreakEdit* broken = edit.As<BreakEdit>();
     if (broken == nullptr || !bond_) return false;
@@ -42,8 +42,8 @@ class TakenAway {
   bool bond_ = false;
 };
 
-/// Parts that edits of a batch are about. What one peer's physics found in one tick belongs
-/// together, and happens together: sixty crates become one body at once, not a pair at a time.
+/// Parts that edits of a batch use. Edits that one peer's physics found in one tick belong
+/// together: sixty crates become one body at once, not a pair at a time.
 class TakenParts {
  public:
   struct By {
@@ -84,8 +84,8 @@ bool EditLog::Wait(const Edit& edit, int peer, std::int64_t found) {
   return true;
 }
 
-/// What physics found is ordered for the tick after which it was found, if that can be: everyone
-/// goes back to it. What comes from outside happens when it is ordered.
+/// Returns the tick of an edit. One that physics found gets the tick in which it was found, if
+/// possible: every peer goes back to it. An edit from outside gets the current tick.
 std::int64_t EditLog::TickOf(const Pending& pending) const {
   const std::int64_t now = world_.tick();
   const bool found = pending.edit.cause == EditCause::kPhysics && pending.found <= now &&
@@ -93,8 +93,8 @@ std::int64_t EditLog::TickOf(const Pending& pending) const {
   return std::max(last_tick_, found ? pending.found : now);
 }
 
-/// In this order, so that nothing a peer says is read, parsed or copied before it is clear that the
-/// peer may say such a thing.
+/// The order of the checks matters: a peer's right is checked before its proposal is read, parsed
+/// or copied further.
 EditLog::Verdict EditLog::Propose(int peer, const EditOrder& proposal) {
   const Topology& topology = world_.topology();
   const Edit edit = ToEdit(proposal);
@@ -109,7 +109,7 @@ EditLog::Verdict EditLog::Propose(int peer, const EditOrder& proposal) {
   });
   if (!right) return Verdict::kNoRight;
   if (broken != nullptr && topology.JointMadeAt(broken->joint) > proposal.sequence) {
-    return Verdict::kStale;  // it means the one that was there before
+    return Verdict::kStale;  // it means an earlier joint
   }
   if (!topology.Validate(edit).ok()) return Verdict::kStale;
   if (!MayPropose(topology, edit)) return Verdict::kNoRight;
@@ -161,7 +161,7 @@ EditLog::Batch EditLog::OrderPending(std::int64_t now_us) {
       if (world_.tick() - pending.since < patience) waiting.push_back(pending);
       continue;
     }
-    if (physics && !PlausibleProposal(world_, pending.edit)) continue;  // it has moved on
+    if (physics && !PlausibleProposal(world_, pending.edit)) continue;  // the parts have moved on
     taken.Add(parts, by);
     taken_away.Add(pending.edit);
     EditOrder order = ToOrder(pending.edit);

@@ -1,7 +1,7 @@
 #pragma once
-/// The order of the room's edits: peers propose, the log gives numbers, everyone applies them in
-/// that order. It keeps what waits, and of what was ordered only what the world owes to it; it says
-/// what is to be sent and sends nothing itself.
+/// Total order of the room's edits: peers propose, the log assigns numbers, everyone applies the
+/// edits in that order. Keeps pending edits, and of ordered ones only their remaining effect on the
+/// world. Returns the messages to send, and sends nothing itself.
 
 #include <array>
 #include <cstdint>
@@ -18,74 +18,77 @@ namespace seam {
 
 class EditLog {
  public:
-  /// `world` and `authority` must outlive it. Requires a world that has had no edits.
+  /// `world` and `authority` must outlive it. Requires a world without edits.
   EditLog(const World& world, const AuthorityManager& authority, int tick_hz);
 
-  /// The server's own: ordered at the next tick, or as soon as its parts are in one hand. One that
-  /// cannot be is dropped; Topology::Validate tells beforehand. False: kWaitingMax wait already.
+  /// Adds an edit of the server: ordered at the next tick, or as soon as its parts have one
+  /// authority. Dropped if impossible; Topology::Validate tells beforehand. Returns false if
+  /// kWaitingMax are pending.
   bool Add(const Edit& edit) { return Wait(edit, 0, world_.tick()); }
-  /// The same of one that physics found after an earlier tick.
+  /// Adds an edit that physics found after an earlier tick.
   bool Add(const Edit& edit, std::int64_t found) { return Wait(edit, 0, found); }
 
   enum class Verdict {
     kTaken,
-    kStale,  ///< cannot be any more: somebody else's came first
+    kStale,  ///< impossible by now: another edit came first
     kNoRight,
     kImplausible,
-    kTooMany,  ///< kWaitingMax of this peer wait already
+    kTooMany,  ///< kWaitingMax of this peer are pending
   };
-  /// A peer's. Requires a message that Decode accepted. What a peer has no right to costs a look at
-  /// its parts, whatever it says.
+  /// Checks and adds a peer's edit. Requires a message that Decode accepted. A proposal without
+  /// right costs only a look at its parts, whatever its contents.
   Verdict Propose(int peer, const EditOrder& proposal);
 
-  /// What was decided in one go.
+  /// Result of one OrderPending.
   struct Batch {
     std::vector<EditOrder> orders;  ///< for everyone, in this order
-    std::int64_t stale = 0;         ///< peers' proposals that cannot be any more
+    std::int64_t stale = 0;         ///< peers' proposals that became impossible
   };
-  /// Gives numbers to all that can be ordered now. They must be applied, one by one, each followed
-  /// by NoteApplied, before the next call.
+  /// Numbers all edits that can be ordered now. The caller must apply them one by one, each
+  /// followed by NoteApplied, before the next call.
   Batch OrderPending(std::int64_t now_us);
-  /// For each edit that waits, the mechanisms that should be in one hand for it.
+  /// Returns for each pending edit the mechanisms that need one common authority.
   std::vector<std::vector<int>> WaitingMechanisms() const;
 
-  /// Edits that wait to be ordered, of all peers.
+  /// Number of pending edits, of all peers.
   std::size_t waiting() const { return pending_.size(); }
 
-  /// To be called after each edit was applied.
+  /// Call after each applied edit.
   void NoteApplied();
 
-  // Mode oracle, where every peer applies its edits alone, in the tick in which they are found:
-  /// What waits, instead of OrderPending; without numbers, and nothing waits any more.
+  // Mode oracle only, where every peer applies its edits alone, in the tick in which it finds them:
+  /// Returns and clears the pending edits, without numbers. Used instead of OrderPending.
   std::vector<Edit> TakePending();
-  /// After an edit was applied, instead of NoteApplied: its order, for the record.
+  /// Call after an applied edit, instead of NoteApplied. Returns its order, for the record.
   EditOrder NoteAlone(const Edit& edit, std::int64_t now_us);
 
-  /// Whether it is known that after `revision` edits the world is not made of `composition`.
+  /// True if the composition after `revision` edits is known and is not `composition`.
   bool Differs(int revision, std::int64_t composition) const;
-  /// Whether a peer that says so of itself has to be repaired: it differs, or has applied edits
-  /// that there never were, or, with nothing more under way to it, so few that it lost its place.
+  /// True if a peer with this ping must be repaired: its composition differs, or it has applied
+  /// more edits than exist, or, with nothing more in flight to it, so few that their hashes are
+  /// forgotten.
   bool NeedsRepair(const Ping& ping, bool more_under_way) const;
-  /// Tells a peer to begin anew; the history follows.
+  /// Returns the order that makes a peer start over; the history follows.
   EditOrder BeginAnew(std::int64_t now_us) const;
-  /// What turns the scene into the world as it is, for one who joins or is repaired; empty: there
-  /// has been no edit. The one place that decides how much of the past that needs: none of it. It
-  /// is as long as what is there. Requires that all that was ordered has been applied.
+  /// Returns the edits that turn the scene into the current world, for a peer that joins or is
+  /// repaired; empty if there has been no edit. The size depends on the current world, not on the
+  /// past: this is the one place that decides how much of the past is needed. Requires that every
+  /// ordered edit has been applied.
   std::vector<Snapshot> History(std::int64_t now_us) const;
 
-  /// Edits of one peer that may wait: a hostile one fills its own share.
+  /// Most pending edits of one peer, so that a hostile one fills only its own share.
   static constexpr int kWaitingMax = 1024;
-  /// Compositions that are remembered, of the last so many edits: more than can be under way to a
-  /// peer (a Link gives up with 4096).
+  /// Number of remembered compositions, of the latest edits: more than can be in flight to a peer
+  /// (a Link gives up at 4096).
   static constexpr int kHashesMax = 8192;
 
  private:
   struct Pending {
     Edit edit;
-    int peer = 0;            // who proposed it
+    int peer = 0;            // proposer
     std::int64_t since = 0;  // tick
-    std::int64_t found = 0;  // tick after which it is to be
-    int made_at = 0;         // of the joint that is to break: another in its place is not meant
+    std::int64_t found = 0;  // tick after which it should apply
+    int made_at = 0;         // revision of the joint to break; a later joint in its place stays
   };
 
   bool Wait(const Edit& edit, int peer, std::int64_t found);
@@ -96,12 +99,12 @@ class EditLog {
   const World& world_;
   const AuthorityManager& authority_;
   const int tick_hz_;
-  std::vector<Pending> pending_;  // in the order of coming
+  std::vector<Pending> pending_;  // by time of arrival
   std::array<int, kPeersMax> waiting_of_peer_{};
-  int ordered_ = 0;                          // edits that have a number
-  std::int64_t last_tick_ = 0;               // of the last of them
-  std::deque<Edit> unapplied_;               // the last of them
-  std::map<int, std::uint64_t> hash_after_;  // of the composition, by number of edits applied
+  int ordered_ = 0;                          // number of ordered edits
+  std::int64_t last_tick_ = 0;               // tick of the last of these
+  std::deque<Edit> unapplied_;               // ordered edits not yet applied
+  std::map<int, std::uint64_t> hash_after_;  // composition, by number of edits applied
   TopologyFold fold_;
 };
 

@@ -11,11 +11,12 @@
 namespace seam {
 namespace {
 
-/// How far from where a bond puts them parts may be in our copy, m: two copies of fast things.
+/// Largest distance of a part from its place in a bond, m, in our copy: both parts may be fast
+/// copies.
 constexpr float kBondReach = 2;
-/// The same of a hand from what it holds: both are slower.
+/// Like kBondReach, between a hand and the held part: both are slower.
 constexpr float kGripReach = 1;
-/// And how far turned, rad.
+/// Largest deviation of the angle, rad.
 constexpr float kBondTurn = 1;
 
 }  // namespace

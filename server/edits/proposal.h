@@ -1,5 +1,5 @@
 #pragma once
-/// Which edits a peer may propose for what it has authority over, and whether they are likely.
+/// Rights and plausibility of the edits that a peer may propose for its mechanisms.
 
 #include "common/physics/world.h"
 #include "common/topology/edit.h"
@@ -7,13 +7,13 @@
 
 namespace seam {
 
-/// Whether physics could have found this edit, by what the scene says: glue that can break, parts
-/// that can join. Requires topology.Validate(edit).ok().
+/// True if physics could have found this edit in the scene: the glue can break, the parts can join.
+/// Requires topology.Validate(edit).ok().
 bool MayPropose(const Topology& topology, const Edit& edit);
 
-/// Whether the parts of a bond are about where it puts them, in our copy. Glue that breaks is
-/// always likely: its parts are one rigid body in every copy, so there is no distance between them
-/// to be measured, and the blow that broke it was felt by the authority alone.
+/// True if the parts of a bond are roughly where the bond puts them, in our copy. Breaking glue is
+/// always plausible: its parts are one rigid body in every copy, so there is no distance to
+/// measure, and only the authority felt the impact that broke it.
 bool PlausibleProposal(const World& world, const Edit& edit);
 
 }  // namespace seam

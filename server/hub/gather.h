@@ -1,30 +1,32 @@
 #pragma once
-/// When a server that waits for datagrams is to be woken: by each of them where they are few, at a
-/// steady pace where they come one after the other.
+/// Wake-up policy of a server that waits for datagrams: each datagram wakes it while they are rare;
+/// it wakes at a steady pace while they come in a row.
 
 #include <algorithm>
 #include <cstdint>
 
 namespace seam {
 
-/// To be woken costs as much as several datagrams (25 us of a processor beside 3, measured), and
-/// the clients of a full room send hundreds in a tick.
+/// A wake-up costs as much as several datagrams (25 us of CPU time beside 3, measured), and the
+/// clients of a full room send hundreds in a tick.
 class Gather {
  public:
-  /// us: what comes within it is taken in one call. A state or an input is relayed so much later at
-  /// worst, an eighth of a tick at 60 Hz. 30 players wake the server 7.6 times a tick; with 1 ms 11
-  /// times, with 4 ms 4.6 (measured).
+  /// us; datagrams that arrive within this time are taken in one call. The relay of a
+  /// state or an input is that much later at worst, an eighth of a tick at 60 Hz. 30 players wake
+  /// the server 7.6 times a tick; with 1 ms 11 times, with 4 ms 4.6 (measured).
   static constexpr std::int64_t kGatherUs = 2000;
-  /// After so many calls that others followed within kGatherUs nobody wakes for a datagram alone.
+  /// After so many datagrams in a row, at most 1.5 kGatherUs apart, a datagram alone no longer
+  /// wakes.
   static constexpr int kInARow = 2;
 
-  /// What had come was taken at now_us.
+  /// Records that all received datagrams were taken at now_us.
   void NotePolled(std::int64_t now_us) { polled_us_ = now_us; }
-  /// Until when to sleep whatever comes, us; not beyond due_us. In the past: not at all.
+  /// Returns the time until which to sleep despite datagrams, us; not beyond due_us. A time in the
+  /// past means no sleep.
   std::int64_t SleepsUntil(std::int64_t due_us) const {
     return in_a_row_ < kInARow ? polled_us_ : std::min(polled_us_ + kGatherUs, due_us);
   }
-  /// After the wait that followed the sleep: `came`, a datagram was there at now_us.
+  /// Records the result of the wait after that sleep: `came` if a datagram was there at now_us.
   void NoteWaited(std::int64_t now_us, bool came) {
     const bool soon = now_us - came_us_ <= kGatherUs + kGatherUs / 2;
     if (came) {

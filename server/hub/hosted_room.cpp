@@ -10,10 +10,10 @@
 namespace seam {
 namespace {
 
-/// A room is run at least so often: it notices who has fallen silent.
+/// Longest time between two runs of a room, us: each run also detects silent clients.
 constexpr std::int64_t kRunUs = 20000;
 
-/// Nothing is done to what passes through a perfect network: it need not be copied for that.
+/// Returns the net to use: a perfect network needs no simulation, which would copy every datagram.
 Net& Through(const ImpairProfile& profile, Net& direct, Net& impaired) {
   return profile.name == "perfect" ? direct : impaired;
 }
@@ -50,7 +50,8 @@ void HostedRoom::Run(std::int64_t now_us) {
   EndIfDone(now_us);
 }
 
-/// These clocks cost as much as a datagram: they are read where somebody is told.
+/// Returns the CPU time for the Stats. These clocks cost as much as a datagram, so they are read
+/// only when Stats are due.
 std::int64_t HostedRoom::CpuForStats(std::int64_t now_us) const {
   if (!plan_.alone) return watch_.cpu_us();
   return server_.stats_due(now_us) ? CpuUs() : 0;
@@ -84,7 +85,7 @@ void HostedRoom::Tell(std::int64_t now_us) {
   newest_.load = load;
 }
 
-/// What has happened with when it did: "12.3 s: bob is gone: left".
+/// Prefixes each event with its time: "12.3 s: bob is gone: left".
 void HostedRoom::CollectNews() {
   std::vector<std::string> told = server_.TakeWarnings();
   const std::vector<std::string> come_and_gone = server_.TakeNews();

@@ -1,6 +1,6 @@
 #pragma once
-/// A room of a server that has several, or one: a Server with its end of the socket, its simulated
-/// network and its recording, run when it is due and measured.
+/// One room of a server program: a Server with its end of the socket, its simulated network and its
+/// recording. Runs when due, and measures its load.
 
 #include <cstdint>
 #include <memory>
@@ -19,45 +19,46 @@
 
 namespace seam {
 
-/// What a room is made of.
+/// Configuration of a room.
 struct RoomPlan {
   Scene scene;
-  ServerConfig config;         ///< with its name
-  ImpairProfile profile;       ///< of its simulated network, both ways
-  std::int64_t last_tick = 0;  ///< it is done after this tick; 0: never
+  ServerConfig config;         ///< includes the room's name
+  ImpairProfile profile;       ///< of its simulated network, both directions
+  std::int64_t last_tick = 0;  ///< the room ends after this tick; 0: never
   std::string lcm_url = "none";
   std::string record;  ///< path of its log; "": none
   bool force = false;
-  bool alone = true;  ///< the only room of the program: it tells the program's CPU time
-  bool news = true;   ///< who comes and goes is told
+  bool alone = true;  ///< only room of the program: reports the program's CPU time
+  bool news = true;   ///< reports players that come and go
 };
 
 class HostedRoom : public Runnable {
  public:
-  /// `finder` and `out` must outlive it; it only sends by `out`, which nobody else uses. `index`:
-  /// the finder's. Throws OperatorError for a log or a bus that is not to be had.
+  /// `finder` and `out` must outlive it; `out` is used for sending only, and by this room only.
+  /// `index` is the room's index in the finder. Throws OperatorError if the log or the bus cannot
+  /// be opened.
   HostedRoom(const RoomPlan& plan, int index, RoomFinder& finder, Net& out);
 
-  /// Runs the server once. After its last tick the clients are told goodbye, and nothing more is
-  /// done than to let that through.
+  /// Runs the server once. After the last tick says goodbye to the clients, and from then on only
+  /// flushes the simulated network.
   void Run(std::int64_t now_us) override;
   std::int64_t due_us() const override;
 
-  /// By any thread: a datagram for it.
+  /// Thread-safe: queues a datagram for the room.
   void Deliver(const Address& from, Bytes datagram) { net_.Deliver(from, std::move(datagram)); }
-  /// By any thread: the last Load that it told, with utime 0 before the first, and the histograms
-  /// up to its last tick.
+  /// Thread-safe: returns the last published Load, with utime 0 before the first, and the
+  /// histograms up to the last tick.
   RoomLoad newest() const;
-  /// By any thread: the tick after which it was to end is done.
+  /// Thread-safe: true after the last tick of a room with an end.
   bool done() const;
-  /// By any thread: what the operator should read since the last call, a line each: warnings, and
-  /// who came and went.
+  /// Thread-safe: returns the lines for the operator since the last call: warnings, and players
+  /// that came and went.
   std::vector<std::string> TakeNews();
 
-  // Not while a thread runs it:
-  /// Says goodbye to its clients, unless it is done, and closes its recording.
+  // Only while no thread runs the room:
+  /// Says goodbye to the clients, unless done, and closes the recording.
   void Close(std::int64_t now_us);
-  /// Lets what was sent through the simulated network; false when nothing is under way any more.
+  /// Advances the simulated network; false if nothing is in flight any more.
   bool LetThrough(std::int64_t now_us);
   const Server& server() const { return server_; }
   const Scene& scene() const { return plan_.scene; }
@@ -78,13 +79,13 @@ class HostedRoom : public Runnable {
   ImpairedNet impaired_;
   Sink sink_;
   OsEntropy entropy_;
-  Publisher publisher_;  // of its Loads
+  Publisher publisher_;  // for its Loads
   Server server_;
   LoadWatch watch_;
   TickTimes tick_times_;
   std::int64_t ran_us_ = 0;
   bool trouble_said_ = false;
-  mutable std::mutex mutex_;  // of all below
+  mutable std::mutex mutex_;  // guards all below
   RoomLoad newest_;
   bool done_ = false;
   std::vector<std::string> news_;

@@ -11,7 +11,7 @@
 namespace seam {
 namespace {
 
-/// Datagrams taken in one call: a flood must not keep the rooms from running.
+/// Most datagrams taken in one call: a flood must not keep the rooms from running.
 constexpr int kDatagramsMax = 4096;
 constexpr std::int64_t kWaitUs = 20000;
 

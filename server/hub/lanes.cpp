@@ -9,9 +9,9 @@
 namespace seam {
 namespace {
 
-/// How often it is looked whether a lane is held, us: with kSlowUs half a tick at 60 Hz.
+/// Period of the check for held lanes, us: with kSlowUs half a tick at 60 Hz.
 constexpr std::int64_t kWatchUs = 3000;
-/// The longest sleep of a lane, us.
+/// Longest sleep of a lane, us.
 constexpr std::int64_t kSleepUs = 1000000;
 
 }  // namespace
@@ -42,7 +42,7 @@ Lanes::~Lanes() {
   for (const auto& lane : lanes_) lane->thread.join();
 }
 
-/// Requires the lock.
+/// Adds a lane and its thread. Requires the lock.
 Lanes::Lane* Lanes::AddLane() {
   lanes_.push_back(std::make_unique<Lane>());
   Lane* const lane = lanes_.back().get();
@@ -82,14 +82,14 @@ void Lanes::Work(Lane* lane) {
     lane->busy = nullptr;
     const std::int64_t end_us = SteadyClockUs();
     if (end_us - now_us > kSlowUs) lane->slow_us = end_us;
-    // Who waited longest is first next time: nobody starves beside one that is always due.
+    // The room goes to the back: a room that is always due does not starve the others.
     const auto at = std::find(lane->rooms.begin(), lane->rooms.end(), room);
     std::rotate(at, at + 1, lane->rooms.end());
   }
   lane->ended = true;
 }
 
-/// Requires the lock; a thread that has ended needs it no more.
+/// Joins and deletes finished threads. Requires the lock, which a finished thread no longer needs.
 void Lanes::RemoveEnded() {
   for (auto lane = lanes_.begin(); lane != lanes_.end();) {
     if (!(*lane)->ended) {
@@ -118,7 +118,7 @@ void Lanes::Watch() {
   }
 }
 
-/// The room that holds the lane keeps its thread; the others get a new one.
+/// Leaves the slow room on its thread and moves the other rooms to a new one.
 void Lanes::Part(std::int64_t now_us, Lane* lane) {
   lane->slow_us = now_us;
   Room* const slow = lane->busy;
@@ -130,7 +130,8 @@ void Lanes::Part(std::int64_t now_us, Lane* lane) {
   other->wake.notify_one();
 }
 
-/// The only room of a lane goes to the one that has fewest, if there are more lanes than workers.
+/// Moves the only room of a lane to the lane with the fewest rooms, if there are more lanes than
+/// workers.
 void Lanes::Join(Lane* lane) {
   std::size_t open = 0;
   Lane* fewest = nullptr;

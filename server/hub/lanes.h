@@ -1,6 +1,6 @@
 #pragma once
-/// Worker threads for rooms. Each room is pinned to one; where a room holds its thread for too
-/// long, the other rooms of that thread go on by another, so that none of them waits for it.
+/// Worker threads for rooms. Each room is pinned to one thread. When a room holds its thread for
+/// too long, the other rooms of that thread move to a new one, so that none waits for it.
 
 #include <condition_variable>
 #include <cstdint>
@@ -11,34 +11,34 @@
 
 namespace seam {
 
-/// Something that runs now and then, by one thread at a time.
+/// Interface of a task that is run repeatedly, by one thread at a time.
 class Runnable {
  public:
   virtual ~Runnable() = default;
-  /// Does what is due.
+  /// Does the work that is due.
   virtual void Run(std::int64_t now_us) = 0;
-  /// When to call Run at the latest, on the same clock; asked between calls of Run.
+  /// Returns the latest time of the next Run, on the same clock; called only between calls of Run.
   virtual std::int64_t due_us() const = 0;
 };
 
 class Lanes {
  public:
-  /// Runs each of `rooms`, which must outlive it, in one of `workers` (at least 1) threads, in
-  /// turn. The clock is SteadyClockUs.
+  /// Runs `rooms`, which must outlive it, distributed over `workers` (at least 1) threads in turn.
+  /// The clock is SteadyClockUs.
   Lanes(const std::vector<Runnable*>& rooms, int workers);
-  /// Ends the threads; each finishes the call it is in.
+  /// Ends the threads; each finishes its current call.
   ~Lanes();
   Lanes(const Lanes&) = delete;
   Lanes& operator=(const Lanes&) = delete;
 
-  /// Room `room` is to be run soon, whenever it is due. By any thread.
+  /// Thread-safe: makes a room run soon, even if it is not due.
   void Wake(int room);
-  /// Threads that run rooms now: as many as workers, and one for each room that was too slow.
+  /// Returns the number of threads that run rooms now: the workers, and one for each slow room.
   int lane_count() const;
 
-  /// A call that takes longer holds up the others, us: a third of a tick at 60 Hz.
+  /// A call that takes longer holds up other rooms, us: a third of a tick at 60 Hz.
   static constexpr std::int64_t kSlowUs = 5000;
-  /// A room that was not slow for so long shares a thread again, us.
+  /// A slow room shares a thread again after so long without a slow call, us.
   static constexpr std::int64_t kCalmUs = 10000000;
 
  private:
@@ -51,16 +51,16 @@ class Lanes {
     std::vector<Room*> rooms;
     Room* busy = nullptr;
     std::int64_t busy_since_us = 0;
-    std::int64_t slow_us = 0;  // when a call was slow last
+    std::int64_t slow_us = 0;  // time of the last slow call
     bool over = false;         // has no rooms, and gets none
-    bool ended = false;        // and its thread does no more
+    bool ended = false;        // over, and the thread is finished
     std::condition_variable wake;
     std::thread thread;
   };
 
   void Work(Lane* lane);
   static Room* NextDue(const Lane& lane, std::int64_t now_us, std::int64_t* due_us);
-  /// Every kWatchUs: parts the rooms of a lane that is held, joins what has been calm.
+  /// Every kWatchUs: moves the other rooms off a held lane, and rejoins calm rooms.
   void Watch();
   void Part(std::int64_t now_us, Lane* lane);
   void Join(Lane* lane);
@@ -69,8 +69,8 @@ class Lanes {
 
   std::vector<std::unique_ptr<Room>> rooms_;
   const std::size_t workers_;
-  mutable std::mutex mutex_;  // of all below, and of what the rooms and lanes say of themselves
-  std::vector<std::unique_ptr<Lane>> lanes_;  // also those that are over, until they have ended
+  mutable std::mutex mutex_;                  // guards all below, and the fields of rooms and lanes
+  std::vector<std::unique_ptr<Lane>> lanes_;  // also lanes that are over, until ended
   std::condition_variable watch_;
   bool stop_ = false;
   std::thread watcher_;

@@ -10,13 +10,13 @@
 namespace seam {
 namespace {
 
-/// " at 47 % of its speed" when the clock is slowed.
+/// Returns ", overloaded: runs at 47 % of its speed" if the clock is slowed, else "".
 std::string Slowed(std::int32_t speed_ppm) {
   if (speed_ppm == kFullSpeedPpm) return "";
   return ", overloaded: runs at " + std::to_string(speed_ppm / 10000) + " % of its speed";
 }
 
-/// Nobody else runs the room meanwhile.
+/// Requires that no worker thread runs the room.
 std::string OneRoom(const HostedRoom& room) {
   const Server& server = room.server();
   return ServerProgress(server, room.last_tick(), room.tick_times()) + Slowed(server.speed_ppm());

@@ -1,5 +1,5 @@
 #pragma once
-/// What seam-server says of its rooms: a line while they run, lines at the end.
+/// Progress line and final report of seam-server.
 
 #include <string>
 
@@ -7,16 +7,16 @@
 
 namespace seam {
 
-/// Whether there is anything to tell of it: one room, or one of several that has started.
+/// True if there is something to report: no worker threads, or a room that has started.
 bool HubTells(const Hub& hub);
 
-/// One room: see ServerProgress. Several: "64
-/// rooms, 980 player(s), worst p99 tick 2.1 ms, lateness 4.0 ms". And how slow the slowest clock
-/// is, if the server does not keep up.
+/// Returns the progress line: for one room as ServerProgress, for several "64 rooms, 980 player(s),
+/// worst p99 tick 2.1 ms, lateness 4.0 ms, 2 thread(s)". Adds the speed of the slowest clock if the
+/// server is overloaded.
 std::string HubProgress(const Hub& hub);
 
-/// Prints what each room did, to stderr; of many rooms the sum. Returns the program's exit status:
-/// 1 when a recording failed. To be called after Hub::Close.
+/// Prints the totals of all rooms to stderr. Returns the program's exit status: 1 if a recording
+/// failed. To be called after Hub::Close.
 int ReportEnd(const Hub& hub);
 
 }  // namespace seam

@@ -9,10 +9,11 @@
 namespace seam {
 namespace {
 
-/// How often what is old is looked for, us.
+/// Period of the search for old sessions, us.
 constexpr std::int64_t kSweepUs = 5000000;
 
-/// Session and whether it is outside of any, read without the checksum: the room checks that.
+/// Reads the session, and `loose`: the datagram is outside of any. Skips the checksum, which the
+/// room checks.
 bool ReadSession(ByteView datagram, std::uint64_t* session, bool* loose) {
   if (datagram.size < kDatagramHeaderBytes) return false;
   *session = 0;

@@ -1,6 +1,6 @@
 #pragma once
-/// Which room a datagram is for: by its session, and before there is one by the name in its Join.
-/// It remembers only sessions that a room has admitted. For any thread.
+/// Finds the room of a datagram: by its session, or for a Join by the room it names. Remembers only
+/// sessions that a room has admitted. Thread-safe.
 
 #include <cstdint>
 #include <mutex>
@@ -14,28 +14,29 @@ namespace seam {
 
 class RoomFinder {
  public:
-  /// Names of the rooms, each once.
+  /// `rooms`: names, each once.
   explicit RoomFinder(std::vector<std::string> rooms) : rooms_(std::move(rooms)) {}
 
-  /// The datagram is of no session and asks for no room.
+  /// The datagram belongs to no session and asks for no room.
   static constexpr int kNone = -1;
-  /// It asks for a room that is not here; see Refusal.
+  /// It asks for a room that does not exist here; see Refusal.
   static constexpr int kUnknown = -2;
-  /// It is a Hello, which names no room: whoever answers it with a Challenge draws a Join, and the
-  /// room that the Join names makes a Challenge of its own.
+  /// It is a Hello, which names no room. A Challenge as answer makes the client send a Join, and
+  /// the room that the Join names sends its own Challenge.
   static constexpr int kHello = -3;
-  /// Index of the room, or one of the above. With a single room everything is for it, but a Join to
-  /// another.
+  /// Returns the index of the room, or one of the above. With a single room, everything goes to it
+  /// except a Join to another room.
   int Find(std::int64_t now_us, const Address& from, ByteView datagram);
-  /// A line for who asked for an unknown room.
+  /// Returns the refusal for a client that asked for an unknown room.
   std::string Refusal() const;
 
-  /// Room `room` sends within a session: what comes from there in it is for that room from now on.
+  /// Records that a room sends in a session: from now on datagrams of that session and address go
+  /// to the room.
   void Learn(std::int64_t now_us, int room, const Address& to, std::uint64_t session);
-  /// Sessions that can still be found.
+  /// Number of remembered sessions.
   std::size_t count() const;
 
-  /// A session that nothing has come of for so long is forgotten, us: its room has dropped it long
+  /// A session without a datagram for so long is forgotten, us: its room has dropped it long
   /// before.
   static constexpr std::int64_t kKeepUs = 30000000;
 
@@ -45,7 +46,7 @@ class RoomFinder {
     std::uint64_t session = 0;
     bool operator==(const Key& o) const { return session == o.session && address == o.address; }
   };
-  struct Hash {  // sessions are random, and only of who was admitted
+  struct Hash {  // sessions are random, and only of admitted clients
     std::size_t operator()(const Key& key) const {
       return static_cast<std::size_t>(key.session ^ key.address.ip ^ key.address.port);
     }

@@ -5,7 +5,7 @@
 namespace seam {
 namespace {
 
-/// More sessions than a room ever has at a time: then it begins to learn them anew.
+/// More sessions than a room ever has at a time; above this, all are learned anew.
 constexpr std::size_t kLearnedMax = 8192;
 
 }  // namespace
@@ -44,8 +44,8 @@ bool RoomNet::Receive(Address* from, Bytes* datagram) {
   return true;
 }
 
-/// A datagram with a number is sent only to who has been admitted: that is how the finder learns
-/// its session, before the first answer can come.
+/// Sends, and tells the finder each new session. Only admitted clients get numbered datagrams, so
+/// the finder knows the session before the client's first answer can arrive.
 void RoomNet::Send(const Address& to, ByteView datagram) {
   traffic_.Add(datagram, true);
   DatagramHeader header;

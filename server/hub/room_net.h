@@ -1,6 +1,6 @@
 #pragma once
-/// A room's end of the socket that all rooms share: what the hub has sorted out for it comes in,
-/// what it sends goes out by a sender of its own, and both are counted.
+/// A room's end of the shared socket: receives the datagrams that the hub delivers, sends by a
+/// sender of its own, and counts both.
 
 #include <cstdint>
 #include <deque>
@@ -16,15 +16,16 @@ namespace seam {
 
 class RoomNet : public Net {
  public:
-  /// `finder` and `out` must outlive it; it only sends by `out`.
+  /// `finder` and `out` must outlive it; `out` is used for sending only.
   RoomNet(RoomFinder& finder, int room, Net& out) : finder_(finder), room_(room), out_(out) {}
 
-  /// By the hub's thread: a datagram for this room. Beyond kInboxMax it is lost, and counted.
+  /// Called by the hub's thread: queues a datagram for this room. Drops and counts it if kInboxMax
+  /// are queued.
   void Deliver(const Address& from, Bytes datagram);
-  /// By any thread: something waits that was not taken yet.
+  /// Thread-safe: true if a datagram is queued.
   bool HasMail() const;
 
-  // By the room's thread alone.
+  // Called by the room's thread alone.
   void Advance(std::int64_t now_us) override;
   void Send(const Address& to, ByteView datagram) override;
   void Flush() override { out_.Flush(); }
@@ -32,7 +33,7 @@ class RoomNet : public Net {
   std::int64_t discarded() const override;
   const TrafficCount& traffic() const { return traffic_; }
 
-  /// Datagrams that may wait: a room that stands still for long must not take all memory.
+  /// Most queued datagrams, so that a room that is stuck does not use all memory.
   static constexpr std::size_t kInboxMax = 8192;
 
  private:
@@ -41,12 +42,12 @@ class RoomNet : public Net {
   RoomFinder& finder_;
   const int room_;
   Net& out_;
-  mutable std::mutex mutex_;  // of inbox_ and lost_
+  mutable std::mutex mutex_;  // guards inbox_ and lost_
   Datagrams inbox_;
   std::int64_t lost_ = 0;
   Datagrams taken_;
   std::int64_t now_us_ = 0;
-  std::set<std::pair<Address, std::uint64_t>> learned_;  // sessions the finder was told of
+  std::set<std::pair<Address, std::uint64_t>> learned_;  // sessions known to the finder
   TrafficCount traffic_;
 };
 

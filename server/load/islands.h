@@ -1,12 +1,12 @@
 #pragma once
-/// How many groups of bodies that influence each other a world has: for those who watch its cost.
+/// Number of simulation islands of a world, for load reports.
 
 #include "common/physics/world.h"
 
 namespace seam {
 
-/// Awake bodies that touch, or belong to one mechanism, are of one island; so is all that is
-/// connected in this way. A sleeping body is of none.
+/// Counts the islands of awake bodies. Bodies that touch or belong to one mechanism are of one
+/// island; sleeping bodies are of none.
 int CountIslands(const World& world);
 
 }  // namespace seam

@@ -12,7 +12,7 @@ std::int32_t Small(std::int64_t n) {
   return static_cast<std::int32_t>(std::clamp<std::int64_t>(n, 0, INT32_MAX));
 }
 
-/// How many bodies move, and how many of them a client has.
+/// Counts the moving bodies, and those among them that a client has.
 void CountMoving(const Replica& replica, Load* load) {
   const World& world = replica.world();
   load->bodies = world.body_count();
@@ -43,7 +43,7 @@ void LoadWatch::NoteCall(const Server& server, std::int64_t begin_us, std::int64
 
 void LoadWatch::CountHandOvers(const Server& server) {
   const AuthorityTable& table = server.replica().authority();
-  // An edit makes other mechanisms of them: who has those is not a hand-over.
+  // An edit replaces mechanisms: their authorities are not counted as hand-overs.
   const bool same = revision_ == server.replica().revision() &&
                     holders_.size() == static_cast<std::size_t>(table.count());
   revision_ = server.replica().revision();

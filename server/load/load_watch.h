@@ -1,6 +1,6 @@
 #pragma once
-/// What a room costs and whether its server keeps up, measured from outside of it and told once a
-/// second as a Load; and all ticks so far, counted.
+/// Load of a room and lateness of its server, measured from outside. Published once a second as a
+/// Load; also histograms of all ticks so far.
 
 #include <cstdint>
 #include <vector>
@@ -14,18 +14,18 @@ namespace seam {
 
 class LoadWatch {
  public:
-  /// A call of Server::Tick: it began at `begin_us` and took `wall_us`; from `tick_before` on it
-  /// stepped the ticks up to the server's, the first of which was due at `due_us`.
+  /// Records a call of Server::Tick that began at `begin_us` and took `wall_us`. It stepped the
+  /// ticks from `tick_before` to the server's current one, the first of which was due at `due_us`.
   void NoteCall(const Server& server, std::int64_t begin_us, std::int64_t wall_us,
                 std::int64_t tick_before, std::int64_t due_us);
-  /// CPU time that was spent on the room.
+  /// Adds CPU time spent on the room.
   void NoteCpu(std::int64_t cpu_us) { cpu_us_ += cpu_us; }
   bool Due(std::int64_t now_us) const { return now_us - told_us_ >= kEveryUs; }
-  /// Of the time since the last one.
+  /// Returns the Load of the time since the last call.
   Load Tell(std::int64_t now_us, const Server& server, const TrafficCount& traffic);
 
   std::int64_t cpu_us() const { return cpu_us_; }
-  /// Wall time of all ticks so far, and how long after it was due each began.
+  /// Wall time of all ticks so far, and the lateness of each.
   const BucketHistogram& tick_total() const { return wall_total_; }
   const BucketHistogram& late_total() const { return late_total_; }
 
@@ -34,13 +34,13 @@ class LoadWatch {
  private:
   void CountHandOvers(const Server& server);
 
-  DurationHistogram wall_, late_;  // of the ticks since the last Load
+  DurationHistogram wall_, late_;  // ticks since the last Load
   BucketHistogram wall_total_, late_total_;
   std::int64_t cpu_us_ = 0;
   std::int64_t told_us_ = 0;
   std::int64_t hand_overs_ = 0;
-  int revision_ = -1;         // of what holders_ is about
-  std::vector<int> holders_;  // by mechanism, when we last looked
+  int revision_ = -1;         // edits applied when holders_ was read
+  std::vector<int> holders_;  // by mechanism, at the last call
 };
 
 }  // namespace seam

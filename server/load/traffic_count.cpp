@@ -35,7 +35,7 @@ std::int8_t KindOfType(const std::string& name) {
   return found == kinds.end() ? kTrafficOther : found->second;
 }
 
-/// By the type's hash, with which a message begins.
+/// Finds the kind by the type's hash, with which a message begins.
 std::int8_t KindOf(ByteView message) {
   static const auto kinds = [] {
     std::unordered_map<std::uint64_t, std::int8_t> by_hash;

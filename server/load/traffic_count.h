@@ -1,5 +1,5 @@
 #pragma once
-/// Bytes of datagrams by what they carry.
+/// Bytes of datagrams by kind of content.
 
 #include <array>
 #include <cstdint>
@@ -12,15 +12,15 @@ namespace seam {
 
 class TrafficCount {
  public:
-  /// A datagram that was sent (`out`) or came. What is no datagram of ours counts as other.
+  /// Counts a datagram, sent (`out`) or received. A malformed one counts as kTrafficOther.
   void Add(ByteView datagram, bool out);
-  /// Into the Load's lists: the kinds of which there was something.
+  /// Writes the kinds with any bytes into the lists of `load`.
   void Write(Load* load) const;
 
  private:
   static constexpr std::size_t kKinds = kTrafficOther + 1;
   std::array<std::int64_t, kKinds> out_{}, in_{};
-  std::vector<DatagramMessage> messages_;  // of the last datagram; keeps its memory
+  std::vector<DatagramMessage> messages_;  // scratch of Add; keeps its memory
 };
 
 }  // namespace seam

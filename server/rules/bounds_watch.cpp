@@ -8,7 +8,7 @@
 namespace seam {
 namespace {
 
-/// Of a room of more bodies than kAtOnce, what is absent is looked at once in kParts ticks.
+/// In a room of more than kAtOnce bodies, one check of all absent bodies takes kParts ticks.
 constexpr int kAtOnce = 256, kParts = 30;
 
 }  // namespace
@@ -33,7 +33,7 @@ std::vector<Edit> BoundsWatch::Next(const std::vector<int>& told) {
     leaving.insert(world.mechanism(b));
   };
   for (const int b : world.present()) look(b);
-  // What is absent does not go far by itself.
+  // Absent bodies do not get far by themselves.
   const int count = world.body_count(), each = count <= kAtOnce ? count : 1 + count / kParts;
   const int first = each == count ? 0 : static_cast<int>(world.tick() % kParts) * each;
   for (int b = first; b < std::min(count, first + each); ++b) {

@@ -8,17 +8,17 @@
 namespace seam {
 namespace {
 
-/// Speeds are looked for in this many ticks before the impact: an authority tells a state every
-/// second tick. Longer lets a blow be explained by the speed before another one; the tick itself
-/// would let it explain itself.
+/// Speeds are taken from this many ticks before the impact: an authority sends a state every second
+/// tick. A longer time could explain an impact by the speed before an earlier one; the tick itself
+/// would let the impact explain itself.
 constexpr std::int64_t kTicksBefore = 4;
-/// A blow may change the velocity by this much more than momentum explains, m/s: rounding, weight,
-/// and the push of motors in one tick.
+/// Allowed change of velocity beyond the momentum's, m/s: for rounding, weight, and the impulse of
+/// motors in one tick.
 constexpr float kSlack = 1.0f;
-/// The point may be this far from the bodies, m, besides what they move in kTicksBefore.
+/// Largest distance of the point from the bodies, m, besides their motion in kTicksBefore.
 constexpr float kNear = 0.5f;
 
-/// How far the body's matter reaches from its root's position, m.
+/// Returns the distance from the body's root to its farthest point, m.
 float Reach(const World& world, int body) {
   const Composition& c = world.composition();
   const std::vector<Part>& parts = world.scene().parts;
@@ -54,7 +54,7 @@ float MechanismMass(const World& world, int body) {
   return mass;
 }
 
-/// Whether anything anchored moves: how fast it strikes is not looked up.
+/// True if any anchored part moves. Its speed at impact is not looked up.
 bool HasMovers(const World& world) {
   const std::vector<Assembly>& all = world.composition().assemblies;
   return std::any_of(all.begin(), all.end(), [](const Assembly& a) { return a.kinematic >= 0; });
@@ -62,8 +62,8 @@ bool HasMovers(const World& world) {
 
 using Trail = std::vector<StateTrail::Seen>;
 
-/// Whether the body was at the point in that tick, or, by the newest that was told of it, is on its
-/// way there: where inputs come late, states are told later than blows.
+/// True if the body was at the point in that tick, or its newest known state moves it there: where
+/// inputs come late, states arrive later than impacts.
 bool IsNear(const Trail& trail, const Vec2& point, std::int64_t tick, float reach, float dt) {
   return std::any_of(trail.begin(), trail.end(), [&](const StateTrail::Seen& seen) {
     const float moves = seen.state.velocity.norm() * dt * static_cast<float>(kTicksBefore);
@@ -73,7 +73,7 @@ bool IsNear(const Trail& trail, const Vec2& point, std::int64_t tick, float reac
   });
 }
 
-/// The largest relative speed of any two states, the turning of both included, m/s.
+/// Returns the largest relative speed of any two states, rotation of both included, m/s.
 float RelativeSpeed(const Trail& one, float reach_one, const Trail& other, float reach_other) {
   float largest = 0;
   for (const StateTrail::Seen& a : one) {
@@ -104,10 +104,10 @@ bool Possible(const World& world, const StateTrail& trail, const Blow& blow, std
     restitution = std::max(restitution, LargestRestitution(world, blow.by));
   } else {
     if (HasMovers(world)) return true;
-    restitution = 1;  // of what is anchored there nothing is looked up
+    restitution = 1;  // not looked up for anchored parts
   }
-  // Alone a body gains at most (1 + e) times the relative speed. Held by something else meanwhile,
-  // it passes on all the momentum that came, however heavy what brought it.
+  // A free body gains at most (1 + e) times the relative speed. A body held by another at the same
+  // time can pass on all the incoming momentum, however heavy its source.
   const float bringing = MechanismMass(world, blow.by >= 0 ? blow.by : blow.body);
   const float ratio = std::max(1.0f, bringing / world.mass(blow.body));
   const float speed = RelativeSpeed(struck, reach, striker, reach_by);

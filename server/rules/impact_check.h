@@ -1,5 +1,5 @@
 #pragma once
-/// Whether an impact can have happened, by what the authorities of its two bodies told of them.
+/// Plausibility of impacts, by the states that the authorities of both bodies reported.
 
 #include <cstdint>
 
@@ -9,10 +9,10 @@
 
 namespace seam {
 
-/// Whether a blow in a tick can be: the point is at both bodies, and the struck one's velocity
-/// changes by no more than the momentum explains that the other (or, of anchored things, its own
-/// mechanism) brought with their relative speed just before. False as well when nothing is known
-/// of one of them yet.
+/// True if a reported impact in a tick is possible. The point must be at both bodies. The struck
+/// body's velocity must not change by more than momentum explains: that of the other body's
+/// mechanism (for anchored parts, of its own) at their relative speed just before. False also if
+/// nothing is known of one of the bodies yet.
 bool Possible(const World& world, const StateTrail& trail, const Blow& blow, std::int64_t tick);
 
 }  // namespace seam

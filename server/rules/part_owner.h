@@ -1,11 +1,12 @@
 #pragma once
-/// Which player owns a part or mechanism.
+/// Player that owns a mechanism.
 
 #include "common/physics/part_places.h"
 
 namespace seam {
 
-/// The owner of a mechanism: the player whose vehicle is part of it, else its owner; -1 nobody's.
+/// Returns the player that has its vehicle in the mechanism, else the mechanism's owner; -1:
+/// nobody.
 inline int PlayerOf(const World& world, int mechanism) {
   if (mechanism < 0) return -1;
   const std::vector<Player>& players = world.scene().players;

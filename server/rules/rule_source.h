@@ -1,5 +1,5 @@
 #pragma once
-/// What the rules go by: where bodies are, and what struck them.
+/// Input of the rules: states of the bodies, and impacts on them.
 
 #include <cstdint>
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace seam {
 
-/// Something struck a body.
+/// Impact on one body.
 struct Blow {
-  int body = -1;     ///< index of the body that was struck, >= 0
-  int by = -1;       ///< of the body that struck it; -1: something anchored
+  int body = -1;     ///< index of the struck body, >= 0
+  int by = -1;       ///< index of the striking body; -1: an anchored part
   float dv = 0;      ///< m/s, change of velocity of the struck body
   Vec2 point{0, 0};  ///< m
 };
@@ -19,24 +19,25 @@ struct Blow {
 class RuleSource {
  public:
   virtual ~RuleSource() = default;
-  /// Where a body is.
+  /// Returns the state of a body.
   virtual BodyState Read(int body) const = 0;
-  /// Ticks that became known of any body since the last tick of the rules, ascending, up to now.
+  /// Returns the ticks that became known for any body since the last tick of the rules, ascending.
   virtual std::vector<std::int64_t> Ticks() const = 0;
-  /// Where a body was at one of them, or as near to it as is known and not looked at yet.
+  /// Returns the state of a body at one of these ticks, or at the nearest known tick that the rules
+  /// have not passed yet.
   virtual BodyState ReadAt(int body, std::int64_t tick) const = 0;
-  /// The tick at which it was there: never falls from one call to the next of a later tick.
+  /// Returns the tick of that state. It never decreases from one call to the next of a later tick.
   virtual std::int64_t TickOf(int body, std::int64_t tick) const = 0;
-  /// The rules have looked at all of them.
+  /// Marks all known ticks as processed.
   virtual void NoteLooked() = 0;
-  /// What struck bodies since the last call, each blow once.
+  /// Returns the impacts on bodies since the last call, each once.
   virtual std::vector<Blow> TakeBlows() = 0;
 };
 
-/// What a world felt in its last tick: a blow for each moving body of an impact.
+/// Returns the impacts of the world's last tick: one Blow for each moving body of an impact.
 std::vector<Blow> BlowsOf(const World& world);
 
-/// A world that nobody else simulates.
+/// Source for a world that no other peer simulates.
 class WorldSource : public RuleSource {
  public:
   /// `world` must outlive it.

@@ -11,8 +11,8 @@
 namespace seam {
 namespace {
 
-/// What a hazard does is put off this long for news of who is inside, ticks: 0.5 s. Less hurts who
-/// has already left; more, and who sleeps inside feels it late.
+/// Hazards wait at most this long for a state of a body inside, ticks: 0.5 s. A smaller value hurts
+/// bodies that have already left; a larger one hurts sleeping bodies late.
 constexpr std::int64_t kSilentMost = 30;
 
 }  // namespace
@@ -34,7 +34,7 @@ Rules::Rules(const World& world, std::int64_t seed, RoomCommands& commands, Rule
     last_checkpoint_ = std::max(last_checkpoint_, trigger.order);
   }
   NoteNewParts();
-  // Errors name the file; Lua cuts names of more than 59 characters.
+  // Errors name the file; Lua truncates names of more than 59 characters.
   const std::string file = scene().name.substr(0, 48) + ".toml";
   std::uint64_t number = 0;
   for (const ScriptSource& script : scene().scripts) {
@@ -117,14 +117,14 @@ void Rules::OnEntered(const TriggerEvent& event) {
     table_.Add({kMetaPlayer, player, kMetaScore}, trigger.score);
 }
 
-/// Checkpoints count in their order only; after the last one a lap is done.
+/// Counts checkpoints in their order only; the last one completes a lap.
 void Rules::OnCheckpoint(const TriggerEvent& event) {
   const Trigger& trigger = scene().triggers[static_cast<std::size_t>(event.trigger)];
   if (event.player < 0) return;
   const std::int32_t player = event.player;
   const MetaKey reached{kMetaPlayer, player, kMetaCheckpoint};
   const auto before = static_cast<int>(table_.Get(reached));
-  // The next order there is: orders may have gaps.
+  // The next existing order: orders may have gaps.
   int next = last_checkpoint_;
   for (const Trigger& other : scene().triggers) {
     if (other.order > before) next = std::min(next, other.order);
@@ -147,7 +147,7 @@ void Rules::OnPickup(const TriggerEvent& event) {
     try {
       commands_.RemovePart(trigger.part);
     } catch (const ScriptRefusal&) {
-      // A script has removed it in the same tick: it is taken all the same.
+      // A script has removed the part in the same tick: it counts as taken all the same.
     }
   }
   const Part& taker = scene().parts[static_cast<std::size_t>(event.part)];
@@ -174,8 +174,8 @@ void Rules::NoteHazards(std::int64_t tick) {
   }
 }
 
-/// What is inside is hurt by the time of who tells where it is: once for each tick in there,
-/// however the network bunches them. When long nothing is heard of it, by the server's time.
+/// Hurts bodies inside once per tick of their authority's time, independent of network jitter.
+/// After a long silence, the server's time counts.
 void Rules::RunHazards() {
   for (auto it = stays_.begin(); it != stays_.end();) {
     auto& [index_part, stay] = *it;

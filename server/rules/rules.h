@@ -1,7 +1,6 @@
 #pragma once
-/// What the server decides in a room beyond motion: triggers, damage, scores, scripts. From what
-/// its RuleSource says, once per tick; what is to change in the world it asks for through
-/// RoomCommands.
+/// Server-side rules of a room besides motion: triggers, damage, scores, scripts. Run once per tick
+/// on the states of a RuleSource; request changes of the world through RoomCommands.
 
 #include <cstdint>
 #include <map>
@@ -21,23 +20,23 @@ namespace seam {
 class Script;
 class ScriptRoom;
 
-/// What the rules may do to the room. Changes reach every peer a little later.
+/// Commands of the rules to the room. Changes reach every peer a little later.
 class RoomCommands {
  public:
   virtual ~RoomCommands() = default;
-  /// Each throws ScriptRefusal when it cannot be.
+  /// Each throws ScriptRefusal if it cannot be done.
   virtual void RemovePart(PartId part) = 0;
   virtual void BreakJoint(int joint) = 0;  ///< index into Scene::joints
-  /// Makes b rigid with a where it is now, up to `strength` N (0: for ever).
+  /// Makes b rigid with a in its current pose, up to `strength` N (0: for ever).
   virtual void Bond(PartId a, PartId b, float strength) = 0;
   virtual void Push(PartId part, const Vec2& impulse) = 0;
-  /// The active character of the part goes limp for `seconds`; below 0: it ends.
+  /// Makes the part's active character limp for `seconds`; below 0 ends that.
   virtual void Limp(PartId part, float seconds) = 0;
   virtual void Blast(const Vec2& centre, float radius, float speed, float impulse) = 0;
-  /// [[part]] and [[joint]] as a scene writes them.
+  /// `text`: [[part]] and [[joint]] as in a scene file.
   virtual void Insert(const std::string& text) = 0;
   virtual void Say(const std::string& text) = 0;
-  /// Like Say, and the operator reads it in the terminal.
+  /// Like Say, and also prints the text on the operator's terminal.
   virtual void Warn(const std::string& text) = 0;
   virtual bool Present(int player) const = 0;
   virtual Input ReadInput(int player) const = 0;
@@ -45,19 +44,20 @@ class RoomCommands {
 
 class Rules {
  public:
-  /// True for a scene that has anything to decide; else no Rules are needed.
+  /// True if the scene has triggers, scripts, charges or parts with health; else no Rules are
+  /// needed.
   static bool Needed(const Scene& scene);
 
-  /// `world` and `commands` must outlive it. Scripts are loaded; one that is wrong is stopped at
-  /// once, and reported after the first tick.
-  /// `source`, if there is one, must outlive it; else the rules go by `world` alone.
+  /// `world` and `commands` must outlive it. Loads the scripts; a wrong one is stopped at once, and
+  /// reported after the first tick. `source`, if given, must outlive it; otherwise the rules use
+  /// `world` alone.
   Rules(const World& world, std::int64_t seed, RoomCommands& commands,
         RuleSource* source = nullptr);
   ~Rules();
 
-  /// After each tick of the world.
+  /// Call after each tick of the world.
   void AfterTick();
-  /// A player became ready, or is gone: told to the scripts with the next tick.
+  /// A player became ready, or left: scripts hear of it with the next tick.
   void OnJoin(int player);
   void OnLeave(int player);
 
@@ -107,20 +107,20 @@ class Rules {
   RuleSource& source_;
   Triggers triggers_;
   MetaTable table_;
-  int last_checkpoint_ = 0;          // the highest order of all
-  std::size_t parts_noted_ = 0;      // whose health is set
+  int last_checkpoint_ = 0;          // highest order in the scene
+  std::size_t parts_noted_ = 0;      // parts with initial health set
   std::map<PartId, int> struck_by_;  // player, in this tick
   std::set<PartId> dead_;
-  std::vector<TriggerEvent> happened_;  // in triggers, in this tick
+  std::vector<TriggerEvent> happened_;  // trigger events of this tick
   struct Stay {
-    std::int64_t first = 0, last = 0;  // ticks at which it was known to be inside
-    std::int64_t hurt = 0;             // for how many ticks it was
-    std::int64_t silent = 0;           // ticks since more became known
+    std::int64_t first = 0, last = 0;  // first and last tick known to be inside
+    std::int64_t hurt = 0;             // ticks of damage applied so far
+    std::int64_t silent = 0;           // ticks without a newer state
   };
   std::map<std::pair<int, PartId>, Stay> stays_;  // in hazards; by trigger, part
-  std::vector<std::int64_t> charge_due_;          // by charge: tick at which it goes off
+  std::vector<std::int64_t> charge_due_;          // by charge: tick at which it detonates
   std::vector<PlayerEvent> player_events_;
-  std::unique_ptr<ScriptRoom> room_;  // what scripts see of all this
+  std::unique_ptr<ScriptRoom> room_;  // host of the scripts
   std::vector<std::unique_ptr<Script>> scripts_;
   std::set<std::string> stopped_said_;
   std::vector<PartTouch> touching_;  // after the last tick

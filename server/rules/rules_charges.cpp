@@ -1,4 +1,4 @@
-/// Rules: charges go off at their time, or when something has entered their trigger.
+/// Rules: detonates charges at their time, or once a body has entered their trigger.
 
 #include <cmath>
 
@@ -10,7 +10,7 @@
 namespace seam {
 namespace {
 
-constexpr std::int64_t kNotYet = INT64_MAX, kOver = -1;  // of what is due
+constexpr std::int64_t kNotYet = INT64_MAX, kOver = -1;  // values of charge_due_
 
 std::int64_t Ticks(double seconds, int tick_hz) {
   return static_cast<std::int64_t>(std::llround(seconds * tick_hz));

@@ -1,4 +1,4 @@
-/// Blows, health, and its end.
+/// Rules: damage by impacts, health, and destruction.
 
 #include <algorithm>
 #include <limits>
@@ -28,7 +28,7 @@ void Rules::RunDamage() {
 void Rules::Strike(const Blow& blow) {
   const Composition& c = world_.composition();
   const int index = c.assembly_of_part[static_cast<std::size_t>(world_.id(blow.body))];
-  // It is the nearest part to the blow that is hurt, of those that can be.
+  // Hurts the part nearest to the impact among those with health.
   PartId hurt = -1;
   float nearest = std::numeric_limits<float>::max();
   for (const PartId id : c.assemblies[static_cast<std::size_t>(index)].parts) {
@@ -63,15 +63,15 @@ void Rules::RunDeaths() {
   }
 }
 
-/// What is dead stays: an active character limp, for good; any other mechanism comes apart at the
-/// joints, or, if it has none, at the welds.
+/// Destroys a part, which stays in the room: an active character goes limp for good; any other
+/// mechanism breaks at its joints or, if it has none, at its welds.
 void Rules::Die(PartId id) {
   const bool person = OfActiveCharacter(scene(), id);
   if (person) {
     try {
       commands_.Limp(id, kLimpForGood);
     } catch (const ScriptRefusal&) {
-      return;  // too many edits are waiting: again with the next tick
+      return;  // too many edits are pending: retried in the next tick
     }
   }
   dead_.insert(id);

@@ -1,4 +1,4 @@
-/// Scripts, called after each tick with what happened in it.
+/// Rules: calls the scripts after each tick with the tick's events.
 
 #include <algorithm>
 #include <iterator>

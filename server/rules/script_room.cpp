@@ -13,7 +13,7 @@
 namespace seam {
 namespace {
 
-/// Longest text of an event that a script says, bytes.
+/// Longest text of a script's event, bytes.
 constexpr std::size_t kSayMax = 200;
 
 }  // namespace

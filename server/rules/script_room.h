@@ -1,5 +1,5 @@
 #pragma once
-/// A room as its scripts see it: by names instead of numbers; wrong requests throw ScriptRefusal.
+/// A room for its scripts: uses names instead of numbers; throws ScriptRefusal for wrong requests.
 
 #include <map>
 #include <string>
@@ -40,14 +40,14 @@ class ScriptRoom : public ScriptHost {
   void Say(const std::string& text) override;
 
  private:
-  /// -1 when there is none of this name now.
+  /// Returns -1 if there is no part of this name now.
   PartId FindPart(const std::string& name) const;
   PartId NeedPart(const std::string& name) const;
   int NeedPlayer(const std::string& name) const;
   MetaKey KeyOf(const std::string& subject, const std::string& key) const;
 
   Rules& rules_;
-  // What was looked up so far; parts are only appended.
+  // Names found so far; parts are only ever appended.
   mutable std::map<std::string, PartId> part_of_name_;
   mutable std::size_t parts_known_ = 0;
 };

@@ -10,17 +10,17 @@
 namespace seam {
 namespace {
 
-/// Whoever is so near to a place in a seat, m and rad, can be fastened there without a jump.
+/// A part this near to its place in a seat, m and rad, can be fastened without a visible jump.
 constexpr float kFastenWithin = 0.05f, kFastenTurn = 0.2f;
-/// And who has not come there so long after the time that the way takes is let go, s.
+/// A part that has not arrived this long after the normal time of the way is released, s.
 constexpr int kComeWithin = 2;
-/// Peers that heard of it late show it come after at this speed at least, m/s.
+/// Least speed at which peers that heard late show the part catching up, m/s.
 constexpr float kComesAfter = 2;
-/// What comes into a view only now has settled there after this time, s.
+/// Time until a body has settled in the view of a peer that has just joined, s.
 constexpr double kSettles = 0.6;
-/// Way::heard_at while somebody comes in.
+/// Way::heard_at while a peer is joining.
 constexpr int kComingIn = -2;
-/// Nobody waits for them for longer than this after the way is over, s.
+/// Longest wait for such peers after the end of the way, s.
 constexpr double kPeersWithin = 1.5;
 
 bool PlayerSits(const World& world, int player) {
@@ -30,7 +30,7 @@ bool PlayerSits(const World& world, int player) {
   return false;
 }
 
-/// False, and nothing: it cannot be.
+/// Returns false and adds no edit if the player cannot get in.
 bool GetIn(const World& world, int player, int index, std::vector<Edit>* edits) {
   const Seat& seat = world.scene().seats[static_cast<std::size_t>(index)];
   if (world.scene().parts[static_cast<std::size_t>(seat.part)].gone) return false;
@@ -61,7 +61,7 @@ void GetOut(const World& world, int index, std::vector<Edit>* edits) {
   edits->emplace_back(SeatEdit{index, -1}, EditCause::kOutside);
 }
 
-/// Whether a player's part is where the seat will have it.
+/// True if a player's part is where the seat will hold it.
 bool IsThere(const World& world, const Seat& seat, PartId own) {
   const BodyState vehicle = PartPose(world, seat.part), now = PartPose(world, own);
   const Vec2 place = vehicle.position + Turned(seat.at, vehicle.angle);
@@ -130,9 +130,9 @@ std::vector<Edit> SeatBonds::Next(const World& world, int heard) {
   return edits;
 }
 
-/// Ticks after it was taken, from which on a bond is no jump to anybody. Who hears of the way late
-/// sees it begin late, while the vehicle goes on; a bond before it is there in that view would put
-/// it there at once.
+/// Returns the first tick, counted from the taking of the seat, at which a bond is a jump for
+/// nobody. A peer that hears late displays the way late, while the vehicle moves on; a bond before
+/// the displayed part arrives would make it jump.
 int SeatBonds::Due(const World& world, std::size_t seat) const {
   const int hz = world.scene().solver.tick_hz;
   const int last = SeatTicks(hz) + static_cast<int>(kPeersWithin * hz);

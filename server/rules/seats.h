@@ -1,6 +1,6 @@
 #pragma once
-/// Seats: who presses a seat's button beside it gets in, who presses it in there gets out. Decided
-/// by the server alone, from its own world.
+/// Seats: a player who presses a seat's button beside it gets in, and pressing it inside gets out.
+/// The server alone decides, from its own world.
 
 #include <set>
 #include <vector>
@@ -10,28 +10,30 @@
 
 namespace seam {
 
-/// Bonds whoever has taken a seat to it, once the way there is over (MakeSeatStage).
+/// Bonds a player's part to its seat once it has moved there (MakeSeatStage).
 class SeatBonds {
  public:
-  /// Called once after each tick. `heard`: how many edits the last of the peers has applied.
+  /// Returns the edits that are due: bonds of parts that have arrived, and releases of seats that
+  /// were not reached in time. Call once after each tick. `heard`: number of edits that all peers
+  /// have applied; below 0 while a peer is joining.
   std::vector<Edit> Next(const World& world, int heard);
 
  private:
-  /// One seat's, while somebody is on the way there or sits there.
+  /// State of one seat, from the taking of the seat until it is left.
   struct Way {
-    PartId own = -1;    // whose; -1: nobody's
-    int revision = 0;   // with which it was taken
+    PartId own = -1;    // player's part; -1: the seat is free
+    int revision = 0;   // at which the seat was taken
     int ticks = 0;      // since then
-    int heard_at = -1;  // of these, when all peers had heard of it; -1: not yet
+    int heard_at = -1;  // `ticks` when all peers had that edit; -1: not yet
   };
   int Due(const World& world, std::size_t seat) const;
 
   std::vector<Way> ways_;      // by seat
-  std::vector<PartId> asked_;  // by seat: whose bond was asked for, -1: nobody's
+  std::vector<PartId> asked_;  // by seat: part with a requested bond, -1: none
 };
 
-/// What a player's buttons that went down (a bit field) change about who sits where. `taken`: seats
-/// that others have taken by edits that the world has not had yet; what this player takes is added.
+/// Returns the edits that result from the buttons a player has just pressed (a bit field). `taken`:
+/// seats taken by edits that the world has not applied yet; a seat that this player takes is added.
 std::vector<Edit> SeatEdits(const World& world, int player, int pressed, std::set<int>* taken);
 
 }  // namespace seam

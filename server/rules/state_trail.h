@@ -1,6 +1,6 @@
 #pragma once
-/// The last second or two of each body as its authorities told it: accepted states, and the
-/// server's own of what it simulates itself.
+/// States of each body over the last one or two seconds: accepted states of its authority, and the
+/// server's own for bodies it simulates.
 
 #include <cstdint>
 #include <deque>
@@ -23,42 +23,42 @@ class StateTrail {
       : trails_(static_cast<std::size_t>(body_count)),
         looked_(static_cast<std::size_t>(body_count), -1) {}
 
-  /// Keeps a state that is newer than the body's newest.
+  /// Adds a state if it is newer than the body's newest.
   void Add(int body, std::int64_t tick, const BodyState& state);
-  /// The newest; nullptr when there is none.
+  /// Returns the newest state; nullptr if there is none.
   const Seen* Newest(int body) const;
-  /// What is known of a body around a tick: the last state before `from`, and all from then to
-  /// `to`. Empty when all that is known is later.
+  /// Returns the states of a body around a range of ticks: the last one before `from`, and all from
+  /// `from` to `to`. Empty if all known states are later.
   std::vector<Seen> Between(int body, std::int64_t from, std::int64_t to) const;
-  /// Ticks that became known of any body since NoteLooked, each once, ascending: those of states
-  /// that came, and those between a state and the one before it.
+  /// Returns the ticks that became known for any body since NoteLooked, each once, ascending:
+  /// the ticks of new states, and those between a new state and the one before it.
   std::vector<std::int64_t> NewTicks() const;
-  /// Where a body was at a tick, on the straight way between the states around it; the newest
-  /// state when all are older. Never earlier than what was looked at: what is known of one body
-  /// is later than what is known of another, and none may go back. nullopt when all that is known
-  /// is later.
+  /// Returns the pose at a tick, interpolated linearly between the states around it; the newest
+  /// state if all are older. Never earlier than the last processed tick of that body: bodies are
+  /// known up to different ticks, and none may go back. nullopt if all known states are later.
   std::optional<BodyState> At(int body, std::int64_t tick) const;
-  /// The tick that this is of; -1 when all that is known is later.
+  /// Returns the tick of the state that At returns; -1 if all known states are later.
   std::int64_t TickOf(int body, std::int64_t tick) const;
-  /// All that is here was looked at.
+  /// Marks all states as processed.
   void NoteLooked();
-  /// The bodies have changed: one that is no longer the same has no past.
+  /// Renumbers after the bodies have changed; a body that is no longer the same loses its past.
   void Remap(const std::vector<BodyOrigin>& bodies);
 
   static constexpr std::size_t kKept = 128;  ///< states: two seconds of every tick
-  /// A way between two states is looked at up to this long, ticks; after a longer silence a body
-  /// is only where it is told to be.
+  /// Longest gap between two states that is interpolated, ticks; after a longer silence only the
+  /// reported states count.
   static constexpr std::int64_t kWayMost = 60;
-  /// What moves further than this in a tick was put there, m: 120 m/s, twice what is thrown fast.
+  /// A body that moves further than this per tick was teleported, m: 120 m/s, twice the speed of
+  /// fast throws.
   static constexpr float kPutThere = 2;
 
  private:
   using Trail = std::deque<Seen>;
-  /// The first tick that a state makes known of a body, given the one before it.
+  /// Returns the first tick that state `i` makes known, given the state before it.
   std::int64_t FirstOf(const Trail& trail, std::size_t i) const;
 
-  std::vector<Trail> trails_;         // by body, ascending
-  std::vector<std::int64_t> looked_;  // by body: tick of the last state looked at, -1 none
+  std::vector<Trail> trails_;         // by body, ascending by tick
+  std::vector<std::int64_t> looked_;  // by body: last processed tick, -1: none
 };
 
 }  // namespace seam

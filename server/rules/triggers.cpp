@@ -5,11 +5,11 @@
 namespace seam {
 namespace {
 
-/// What is inside leaves only when it is this far outside, m: more than authorities differ at a
-/// hand-over, so that nothing enters twice for that.
+/// A part inside leaves only when it is this far outside, m: more than two authorities differ at a
+/// hand-over, so that a hand-over causes no second entry.
 constexpr float kLeaveMargin = 0.05f;
 
-/// The sides belong to it.
+/// True if the place is inside, borders included.
 bool Within(const Vec2& place, const Vec2& centre, const Vec2& size, float margin) {
   return ((place - centre).array().abs() <= size.array() / 2 + margin).all();
 }

@@ -1,5 +1,5 @@
 #pragma once
-/// Who is in which trigger of a scene. A function of the poses it is told, in the order of ticks.
+/// Contents of the triggers of a scene: a function of the poses given, tick by tick.
 
 #include <functional>
 #include <optional>
@@ -14,22 +14,23 @@ namespace seam {
 
 struct TriggerEvent {
   int trigger = -1;     ///< index into Scene::triggers
-  PartId part = -1;     ///< who
-  int player = -1;      ///< whose it is
-  bool entered = true;  ///< else left
+  PartId part = -1;     ///< the part inside
+  int player = -1;      ///< owner of the part; -1: none
+  bool entered = true;  ///< false: left
 };
 
 class Triggers {
  public:
-  /// Where a part is; nullopt when it is gone.
+  /// Returns the position of a part; nullopt if it is gone.
   using PlaceOf = std::function<std::optional<Vec2>(PartId)>;
-  /// Whose a part is; -1 nobody's.
+  /// Returns the owner of a part; -1: none.
   using PlayerOf = std::function<int(PartId)>;
 
   explicit Triggers(const FeatureList<Trigger>& triggers);
 
-  /// After a tick: who entered and who left, in the order of triggers, then of parts. A trigger
-  /// that is over (once, and entered; its part is gone) says that its parts left, then no more.
+  /// Returns the parts that entered and left in a tick, in the order of triggers, then of parts. A
+  /// trigger that is over (`once` and entered, or its carrier is gone) reports that its parts
+  /// leave, and then nothing more.
   std::vector<TriggerEvent> Update(const PlaceOf& place_of, const PlayerOf& player_of);
 
   /// Pairs (trigger, part) that are inside now.

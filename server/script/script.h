@@ -1,6 +1,6 @@
 #pragma once
-/// One script of a scene: Lua 5.4 in a sandbox, with limits to what it may compute and keep. An
-/// error stops it for good; the room goes on.
+/// One script of a scene: Lua 5.4 in a sandbox, with limits on computation and memory. An error
+/// stops the script for good; the room goes on.
 
 #include <cstdint>
 #include <memory>
@@ -15,37 +15,38 @@ namespace seam {
 
 class Script {
  public:
-  /// Compiles the code and runs it once, which defines its callbacks. `scene_file`: what its
-  /// errors begin with. `host` must outlive the script.
+  /// Compiles the code and runs it once, which defines its callbacks. `scene_file` is the prefix of
+  /// its error messages. `host` must outlive the script.
   Script(const ScriptSource& source, const std::string& scene_file, std::uint64_t seed,
          ScriptHost& host);
   ~Script();
   Script(const Script&) = delete;
   Script& operator=(const Script&) = delete;
 
-  /// A tick begins: the limit of work is full again.
+  /// Begins a tick: resets the work limit.
   void BeginTick();
-  /// The callbacks; each does nothing when the script has no such function or is stopped.
+  /// Run the callbacks. Each does nothing if the script has no such function or is stopped.
   void OnTick(double t);
   void OnTouch(const std::string& a, const std::string& b);
   void OnTrigger(const std::string& trigger, const std::string& part, bool entered);
   void OnJoin(const std::string& player);
   void OnLeave(const std::string& player);
-  /// Whether there is a callback of this name now.
+  /// True if the script currently has a callback of this name.
   bool Defines(const char* callback) const;
-  /// The line of the scene file on which a global function begins; 0: there is nothing of that
-  /// name; -1: it is no function of Lua.
+  /// Returns the line of the scene file on which a global function begins; 0: there is no global of
+  /// that name; -1: it is not a function. A C function counts as line 1.
   int LineOf(const char* function) const;
-  /// Calls a global function with a number and returns its first `results` values (kOther: nil),
-  /// tables as trees of 20 000 entries at most. Empty when there is no such function or the script
-  /// is stopped, then or by this call.
+  /// Calls a global function with a number and returns its first `results` values (kOther: nil);
+  /// tables become trees of at most 20 000 entries. Returns nothing if there is no such function or
+  /// the script is stopped, before or by this call.
   std::vector<TomlNode> Ask(const char* function, double argument, int results);
 
   bool stopped() const;
-  /// "scene.toml:12: what", once stopped.
+  /// Returns the error as "scene.toml:12: text", once stopped.
   const std::string& error() const;
   const std::string& name() const;
-  /// Of the last tick: instructions and other work; and what it keeps now, bytes.
+  /// Returns the work of the last tick in units (an instruction is one), and the memory in use,
+  /// bytes.
   std::int64_t work() const;
   std::int64_t memory_bytes() const;
 

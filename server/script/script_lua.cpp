@@ -1,4 +1,4 @@
-/// A script's life: made, called, stopped.
+/// Life of a script: loading, calls, stopping.
 
 #include <algorithm>
 #include <cstring>
@@ -10,12 +10,12 @@
 namespace seam {
 namespace {
 
-/// Reading the code and running it once may take so many ticks' work.
+/// Compiling the code and running it once may take the work of so many ticks.
 constexpr std::int64_t kLoadTicks = 10;
-/// Entries of a table that is an answer: poses of some thousand parts.
+/// Most entries of an answer's tables: poses of some thousand parts.
 constexpr int kAnswerEntriesMax = 20000;
 
-/// Notes where an error was raised; what it is stays as it is.
+/// Message handler: records the line of an error and returns the error unchanged.
 int NoteLine(lua_State* L) {
   LuaGuard& guard = GuardOf(L);
   if (guard.spent) return 1;
@@ -30,7 +30,7 @@ int NoteLine(lua_State* L) {
   return 1;
 }
 
-/// The line on which the function on top begins: 1 for one that is no script's.
+/// Returns the line on which the function on top begins; 1 for a C function.
 int BeginOf(lua_State* L) {
   lua_Debug about;
   lua_pushvalue(L, -1);
@@ -47,7 +47,7 @@ int OpenAll(lua_State* L) {
   return 0;
 }
 
-/// A script may say anything: one line without control characters, to be printed and published.
+/// Returns a script's text as one printable line, safe to print and publish.
 std::string Plain(const char* text, std::size_t bytes) {
   std::string out(text, std::min<std::size_t>(bytes, 200));
   for (char& c : out) {
@@ -56,7 +56,7 @@ std::string Plain(const char* text, std::size_t bytes) {
   return out;
 }
 
-/// Gives the code to Lua after as many line ends as there are lines before it in the scene.
+/// Feeds the code to Lua after as many newlines as the scene file has lines before it.
 struct Source {
   const std::string& code;
   std::string before;
@@ -97,8 +97,8 @@ struct Script::Impl {
 
   void Load() {
     guard.work = kLoadTicks * guard.limits.instructions;
-    // One character before the first would put a '#' line or a mark of binary code there; mode "t"
-    // takes text only.
+    // The first character must precede the code: at the very start, Lua would skip a '#' line or
+    // accept binary code. Mode "t" allows text only.
     const auto lines = static_cast<std::size_t>(std::max(source.line - 1, 0));
     Source reader{source.code, lines > 0 ? std::string(lines, '\n') : " "};
     const std::string chunk = "=" + scene_file;
@@ -109,7 +109,7 @@ struct Script::Impl {
     Call(0, source.line);
   }
 
-  /// Calls the function below the `count` arguments on the stack, above NoteLine at 1.
+  /// Calls the function below the `count` arguments on the stack, above NoteLine at index 1.
   void Call(int count, int line) {
     guard.line = 0;
     const int status = lua_pcall(state, count, 0, 1);
@@ -117,7 +117,7 @@ struct Script::Impl {
     lua_settop(state, 0);
   }
 
-  /// 0: there is nothing of that name; -1: no function of Lua.
+  /// Returns 0 if there is no such global, -1 if it is not a function, 1 for a C function.
   int LineOf(const char* function) {
     if (state == nullptr || guard.spent) return 0;
     lua_settop(state, 0);
@@ -190,7 +190,7 @@ struct Script::Impl {
       lua_rawgeti(L, LUA_REGISTRYINDEX, LUA_RIDX_GLOBALS);
       lua_pushstring(L, c.name);
       if (lua_rawget(L, 1) != LUA_TFUNCTION) return 0;
-      GuardOf(L).line = BeginOf(L);  // should memory fail, which tells no line
+      GuardOf(L).line = BeginOf(L);  // for out-of-memory errors, which have no line
       for (const char* text : c.text) {
         if (text != nullptr) lua_pushstring(L, text);
       }
@@ -210,7 +210,7 @@ struct Script::Impl {
       LuaExplain(&guard);
       return Stop(line, guard.why);
     }
-    // Nothing that could run the script's code or raise: text is taken as it is.
+    // Nothing here may run the script's code or raise: only an error that is a string is read.
     if (lua_type(state, -1) != LUA_TSTRING) {
       return Stop(line, std::string("an error that is no text but a ") + luaL_typename(state, -1));
     }
@@ -218,7 +218,7 @@ struct Script::Impl {
     const char* text = lua_tolstring(state, -1, &bytes);
     const std::string prefix = scene_file + ":";
     if (std::strncmp(text, prefix.c_str(), prefix.size()) == 0) {
-      // Lua, or the scene's reader, has said where.
+      // The message has its line already, from Lua or the scene's reader.
       error = Plain(text, bytes);
       return Close();
     }

@@ -1,5 +1,6 @@
-/// The basic functions of a script, and coroutines: Lua's own where they are harmless, ours where
-/// theirs could hide an error from the limits, reach what is not a script's, or differ by run.
+/// Basic functions and coroutines of a script: Lua's own where these are harmless, replacements
+/// where Lua's could hide an error from the limits, reach outside the sandbox, or differ between
+/// runs.
 
 #include <cstring>
 
@@ -8,17 +9,17 @@
 namespace seam {
 namespace {
 
-/// What a metatable may do. Not in it: `__gc` and `__close`, which Lua calls while it cannot be
-/// interrupted, and `__mode`, by which it could be kept busy collecting.
+/// Metamethods that a script may define. Excluded: `__gc` and `__close`, which run uninterruptible,
+/// and `__mode`, which could keep the collector busy.
 constexpr const char* kMetamethods[] = {
     "__add",    "__sub",      "__mul",  "__div",      "__mod", "__pow",   "__unm",
     "__idiv",   "__band",     "__bor",  "__bxor",     "__shl", "__shr",   "__bnot",
     "__concat", "__len",      "__eq",   "__lt",       "__le",  "__index", "__newindex",
     "__call",   "__tostring", "__name", "__metatable"};
 
-/// Work of catching an error: the stack is cut back and grows again.
+/// Work of catching an error: the stack shrinks and grows again.
 constexpr std::int64_t kCatchUnits = 20;
-/// Registry keys: their addresses.
+/// Addresses that serve as registry keys.
 const char kCopies = 0;
 
 int FinishCall(lua_State* L, int status, lua_KContext /*context*/) {
@@ -37,8 +38,8 @@ int ProtectedCall(lua_State* L) {
   return FinishCall(L, lua_pcallk(L, lua_gettop(L) - 2, LUA_MULTRET, 0, 0, FinishCall), 0);
 }
 
-/// Moves `count` arguments to `co`, runs it, and moves its results back: how many, or -1 with the
-/// error on the stack.
+/// Moves `count` arguments to `co`, runs it, and moves its results back. Returns their number, or
+/// -1 with the error on the stack.
 int Run(lua_State* L, lua_State* co, int count) {
   if (lua_checkstack(co, count) == 0) {
     lua_pushliteral(L, "too many arguments to resume");
@@ -84,7 +85,7 @@ int Wrap(lua_State* L) {
   return 1;
 }
 
-/// Like Lua's, but without addresses: they differ from run to run.
+/// Like Lua's tostring, but without addresses: these differ between runs.
 int ToString(lua_State* L) {
   luaL_checkany(L, 1);
   const int type = lua_type(L, 1);
@@ -98,8 +99,8 @@ int ToString(lua_State* L) {
   return 1;
 }
 
-/// Leaves on the stack what objects get instead of the metatable at 2: a copy with what is allowed,
-/// made when it is first used.
+/// Pushes the copy that objects get instead of the metatable at 2, with allowed metamethods only.
+/// Made at its first use.
 void PushCopy(lua_State* L) {
   lua_rawgetp(L, LUA_REGISTRYINDEX, &kCopies);
   lua_pushvalue(L, 2);
@@ -116,7 +117,7 @@ void PushCopy(lua_State* L) {
   lua_pushliteral(L, "__metatable");
   if (lua_rawget(L, -2) == LUA_TNIL) {
     lua_pushvalue(L, 2);
-    lua_setfield(L, -3, "__metatable");  // so that getmetatable gives what setmetatable was given
+    lua_setfield(L, -3, "__metatable");  // getmetatable returns the original
   } else {
     lua_pushboolean(L, 1);
     lua_rawseti(L, -3, 1);  // protected
@@ -167,7 +168,7 @@ void OpenLuaBase(lua_State* L) {
   constexpr const char* kTaken[] = {"assert",   "error",    "getmetatable", "ipairs",
                                     "rawequal", "rawget",   "rawlen",       "rawset",
                                     "select",   "tonumber", "type",         "_VERSION"};
-  // Lua's own go into a table that no script sees.
+  // Lua's library goes into a table hidden from scripts.
   lua_pushcfunction(L, luaopen_base);
   lua_call(L, 0, 1);
   const int all = lua_gettop(L);

@@ -7,15 +7,15 @@
 namespace seam {
 namespace {
 
-/// Instructions between two looks at what is left.
+/// Instructions between two checks of the remaining work.
 constexpr int kLookEvery = 200;
-/// A string's header is at most this, bytes.
+/// Upper bound of a string's header, bytes.
 constexpr std::size_t kStringHeader = 64;
-/// A unit of work for so many bytes that are asked for, and for so many that a full collection,
-/// which follows each refusal, looks at.
+/// Bytes per unit of work: of allocated memory, and of memory scanned by the full collection that
+/// follows each refused allocation.
 constexpr std::size_t kBytesPerUnit = 64;
-/// Units of work for an error that is kept: its message is made, and Lua looks through all calls
-/// that are under way in order to shrink the stack.
+/// Units of work for a caught error: Lua makes its message, and walks all active calls to shrink
+/// the stack.
 constexpr std::int64_t kErrorUnits = 200;
 
 void Look(lua_State* L, lua_Debug* /*where*/) {
@@ -24,8 +24,8 @@ void Look(lua_State* L, lua_Debug* /*where*/) {
   if (guard.work < 0 || guard.spent) LuaSpend(L);
 }
 
-/// No block is larger than this, so that no single instruction (a call with a long list of values,
-/// a step through an emptied table) takes long.
+/// Returns the largest block of memory, which bounds the time of a single instruction (a call with
+/// a long list of values, a step through an emptied table).
 std::size_t BlockMax(const ScriptLimits& limits) {
   return std::max<std::size_t>(static_cast<std::size_t>(limits.memory_bytes) / 16, 65536);
 }
@@ -41,7 +41,7 @@ bool TooMuch(const LuaGuard& guard, bool is_string, std::size_t more, std::size_
 
 void* LuaAllocate(void* user, void* block, std::size_t old_bytes, std::size_t new_bytes) {
   LuaGuard& guard = *static_cast<LuaGuard*>(user);
-  // For a new block Lua says in `old_bytes` what it is for.
+  // For a new block, `old_bytes` is the kind of its object.
   const std::size_t had = block != nullptr ? old_bytes : 0;
   if (new_bytes == 0) {
     std::free(block);
@@ -57,7 +57,7 @@ void* LuaAllocate(void* user, void* block, std::size_t old_bytes, std::size_t ne
     }
   }
   void* made = std::realloc(block, new_bytes);
-  if (made == nullptr) return new_bytes <= had ? block : nullptr;  // Lua counts on shrinking
+  if (made == nullptr) return new_bytes <= had ? block : nullptr;  // shrinking must not fail
   guard.memory += static_cast<std::int64_t>(new_bytes) - static_cast<std::int64_t>(had);
   return made;
 }
@@ -75,7 +75,7 @@ void LuaSpend(lua_State* L) {
   if (!guard.spent) {
     guard.spent = true;
     LuaExplain(&guard);
-    // The line: of the function that runs, or, from a C function, of the one that called it.
+    // Takes the line of the running function, or of the Lua function that called a C function.
     lua_Debug where;
     for (int level = 0; level < 4 && lua_getstack(L, level, &where) != 0; ++level) {
       lua_getinfo(L, "l", &where);
@@ -84,9 +84,9 @@ void LuaSpend(lua_State* L) {
       break;
     }
   }
-  // What still runs on the way out (variables to be closed) is stopped at its first instruction.
+  // Code that still runs while unwinding (variables to be closed) stops at its first instruction.
   lua_sethook(L, Look, LUA_MASKCOUNT, 1);
-  lua_pushnil(L);  // the message is in the guard: to make one could fail
+  lua_pushnil(L);  // guard.why has the message: making one here could fail
   lua_error(L);
   std::abort();  // lua_error does not return
 }

@@ -1,4 +1,4 @@
-/// What a script may put into the world and take out of it: parts and joints.
+/// Script functions that add and remove parts and joints.
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 namespace seam {
 namespace {
 
-/// Tables within tables and entries in all, of a part or joint that a script makes.
+/// Most nested tables, and most entries in all, of a part or joint that a script makes.
 constexpr int kNestingMax = 4, kEntriesMax = 200;
 
 ScriptHost& HostOf(lua_State* L) { return GuardOf(L).host; }
@@ -22,8 +22,8 @@ int LineOf(lua_State* L) {
   return where.currentline;
 }
 
-/// The value at the top as a scene's text would have it, of at most `left` entries. Raises nothing;
-/// throws ScriptRefusal.
+/// Converts the value on top to a scene node of at most `left` entries. Raises nothing; throws
+/// ScriptRefusal.
 TomlNode NodeAt(lua_State* L, int line, int depth, int* left) {
   TomlNode node;
   node.line = line;
@@ -72,7 +72,7 @@ TomlNode NodeAt(lua_State* L, int line, int depth, int* left) {
     node.members.emplace_back(std::move(name), NodeAt(L, line, depth + 1, left));
     lua_pop(L, 1);
   }
-  // Lua's order is that of its hashes.
+  // Lua's own order depends on its hashes.
   std::sort(node.members.begin(), node.members.end(),
             [](const auto& x, const auto& y) { return x.first < y.first; });
   return node;
@@ -91,7 +91,7 @@ int Add(lua_State* L, void (ScriptHost::*add)(const TomlNode&)) {
 int AddPart(lua_State* L) { return Add(L, &ScriptHost::AddPart); }
 int AddJoint(lua_State* L) { return Add(L, &ScriptHost::AddJoint); }
 
-/// hinge(name, a, b, x, y) and distance(name, a, b, length): the usual joints in short.
+/// hinge(name, a, b, x, y) and distance(name, a, b, length): short forms of the usual joints.
 template <bool kAnchored>
 int Join(lua_State* L, const char* kind) {
   const char* texts[] = {luaL_checkstring(L, 1), luaL_checkstring(L, 2), luaL_checkstring(L, 3)};
@@ -119,7 +119,7 @@ int Join(lua_State* L, const char* kind) {
     BodyState from, to;
     if (!placed && !kAnchored && HostOf(L).ReadPart(texts[1], &from) &&
         HostOf(L).ReadPart(texts[2], &to)) {
-      x = (to.position - from.position).norm();  // as they are now, not as the scene put them
+      x = (to.position - from.position).norm();  // current distance, not the scene's
       placed = true;
     }
     TomlNode joint;

@@ -1,5 +1,5 @@
-/// A script's `table` and `math`, and `pairs` in an order that is the same in every run: Lua's own
-/// follows addresses and a hash seeded by the clock.
+/// The `table` and `math` libraries of a script, and a `pairs` with the same order in every run:
+/// Lua's own order depends on addresses and a hash seeded by the clock.
 
 #include <algorithm>
 #include <cmath>
@@ -10,12 +10,12 @@
 namespace seam {
 namespace {
 
-/// A key of a table while it is sorted. Its text belongs to Lua and does not move.
+/// Sort key of a table entry. Its text belongs to Lua and does not move.
 struct Key {
   int place = 0;  ///< in the list of keys
   int kind = 0;   ///< 0 number, 1 text, 2 boolean
   double number = 0;
-  lua_Integer integer = 0;  ///< beyond 2^53 numbers are equal that are not
+  lua_Integer integer = 0;  ///< exact; doubles beyond 2^53 are not
   const char* text = nullptr;
   std::size_t bytes = 0;
 };
@@ -50,7 +50,7 @@ Key ReadKey(lua_State* L, int place) {
   }
 }
 
-/// Upvalues: the table, its keys in order, how many have been given.
+/// Iterator of pairs. Upvalues: the table, its keys in order, the number of keys returned.
 int NextInOrder(lua_State* L) {
   auto given = lua_tointeger(L, lua_upvalueindex(3));
   for (;;) {
@@ -58,7 +58,7 @@ int NextInOrder(lua_State* L) {
     ++given;
     if (lua_rawgeti(L, lua_upvalueindex(2), given) == LUA_TNIL) return 1;
     lua_pushvalue(L, -1);
-    if (lua_rawget(L, lua_upvalueindex(1)) != LUA_TNIL) break;  // removed on the way: left out
+    if (lua_rawget(L, lua_upvalueindex(1)) != LUA_TNIL) break;  // skips removed keys
     lua_pop(L, 2);
   }
   lua_pushinteger(L, given);
@@ -69,9 +69,9 @@ int NextInOrder(lua_State* L) {
 int Pairs(lua_State* L) {
   luaL_checktype(L, 1, LUA_TTABLE);
   lua_settop(L, 1);
-  lua_newtable(L);  // 2: keys as they come
+  lua_newtable(L);  // 2: keys in Lua's order
   int count = 0;
-  // Going through a table that was emptied costs its former size, which nobody tells.
+  // A walk through an emptied table costs its former size, which Lua does not reveal.
   LuaCharge(L, 100);
   for (lua_pushnil(L); lua_next(L, 1) != 0;) {
     lua_pop(L, 1);
@@ -98,7 +98,8 @@ int Pairs(lua_State* L) {
   return 1;
 }
 
-/// The length of the list at 1. A `__len` could say another one when Lua's own function asks again.
+/// Returns the length of the list at 1. Refuses a `__len`: it could return another length when
+/// Lua's own function calls it again.
 std::int64_t PlainLength(lua_State* L) {
   luaL_checktype(L, 1, LUA_TTABLE);
   if (luaL_getmetafield(L, 1, "__len") != LUA_TNIL) {
@@ -114,13 +115,14 @@ int CallUpvalue(lua_State* L) {
   return lua_gettop(L);
 }
 
-/// insert and remove move what comes after. A list with holes may have any length: that is charged.
+/// Charges insert and remove for moving the entries behind. A list with holes may have any length,
+/// so the length measured here is charged.
 int ChargedByLength(lua_State* L) {
   LuaCharge(L, PlainLength(L) / 2);
   return CallUpvalue(L);
 }
 
-/// Makes the arguments at `first` and the next one numbers: from where to where.
+/// Turns the optional range at `first` and `first` + 1 into numbers. Returns its length.
 std::int64_t FixRange(lua_State* L, int first) {
   const std::int64_t length = PlainLength(L);
   lua_settop(L, first + 1);
@@ -150,7 +152,7 @@ int Unpack(lua_State* L) {
   return CallUpvalue(L);
 }
 
-/// A comparison written in Lua is counted as it runs; Lua's own is charged: n log n of them.
+/// Comparisons written in Lua are counted while running; Lua's own are charged here: n log n.
 int Sort(lua_State* L) {
   const auto length = static_cast<double>(PlainLength(L));
   LuaCharge(L, static_cast<std::int64_t>(std::min(2 * length * std::log2(length + 2), 1e12)));
@@ -186,7 +188,7 @@ void OpenLuaTable(lua_State* L) {
 void OpenLuaMath(lua_State* L, std::uint64_t seed) {
   lua_pushcfunction(L, luaopen_math);
   lua_call(L, 0, 1);
-  // The same numbers in every run of a room of this seed, and no way to begin anew by the clock.
+  // Seeds math.random: equal numbers in every run with the same seed; no reseeding by the clock.
   lua_getfield(L, -1, "randomseed");
   lua_pushinteger(L, static_cast<lua_Integer>(seed));
   lua_pushinteger(L, 0x5ea3);

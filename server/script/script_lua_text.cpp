@@ -1,5 +1,5 @@
-/// A script's `string`: without patterns, dumps and binary formats, and charged by length. A count
-/// of instructions does not see what happens inside of a C function.
+/// The `string` library of a script: without patterns, dumps and binary formats. Charged by length,
+/// because the instruction count does not cover time spent in C functions.
 
 #include <algorithm>
 #include <cstring>
@@ -9,16 +9,16 @@
 namespace seam {
 namespace {
 
-/// Bytes for a unit of work.
+/// Bytes per unit of work.
 constexpr std::size_t kBytesPerUnit = 16;
-/// For a conversion of string.format: "%99.99f" of the largest number takes some microseconds.
+/// Units per conversion of string.format: "%99.99f" of the largest number takes some microseconds.
 constexpr std::int64_t kConversionUnits = 100;
 
 void ChargeBytes(lua_State* L, std::size_t bytes) {
   LuaCharge(L, static_cast<std::int64_t>(bytes / kBytesPerUnit));
 }
 
-/// Lua's own function, the upvalue, after a charge for the text it is given.
+/// Charges for the text at 1, then calls Lua's own function, the upvalue.
 int Charged(lua_State* L) {
   std::size_t bytes = 0;
   luaL_checklstring(L, 1, &bytes);
@@ -29,7 +29,7 @@ int Charged(lua_State* L) {
   return lua_gettop(L);
 }
 
-/// string.byte(s, i, j): few values, because all of them stand on the stack.
+/// string.byte(s, i, j): limits the range, because all values go on the stack.
 int ByteAt(lua_State* L) {
   std::size_t bytes = 0;
   const char* text = luaL_checklstring(L, 1, &bytes);
@@ -68,7 +68,7 @@ int Repeat(lua_State* L) {
   luaL_checklstring(L, 1, &bytes);
   const lua_Integer count = luaL_checkinteger(L, 2);
   luaL_optlstring(L, 3, "", &between);
-  // Both are at most kScriptStringMax: the sum does not overflow, and nor does the product below.
+  // Both are at most kScriptStringMax: neither the sum nor the product below overflows.
   const std::size_t each = std::max<std::size_t>(bytes + between, 1);
   if (count > 0 && static_cast<std::size_t>(count) > kScriptStringMax / each) {
     return luaL_error(L, "a string of more than %d bytes", static_cast<int>(kScriptStringMax));
@@ -80,7 +80,7 @@ int Repeat(lua_State* L) {
   return 1;
 }
 
-/// string.find(s, text, init): the text as it is. `plain` is always true here.
+/// string.find(s, text, init): finds plain text only; `plain` is always true here.
 int Find(lua_State* L) {
   std::size_t bytes = 0, wanted = 0;
   const char* text = luaL_checklstring(L, 1, &bytes);
@@ -89,7 +89,7 @@ int Find(lua_State* L) {
   lua_Integer from = luaL_optinteger(L, 3, 1);
   if (from < 0) from = size + from + 1;
   from = std::max<lua_Integer>(from, 1);
-  // At worst all of it is compared at every position.
+  // In the worst case the whole text is compared at every position.
   ChargeBytes(L, bytes * std::max<std::size_t>(wanted, 1));
   if (from > size + 1) return 0;
   const char* at = std::search(text + from - 1, text + bytes, what, what + wanted);
@@ -100,7 +100,7 @@ int Find(lua_State* L) {
   return 2;
 }
 
-/// Lua's own, with tables and functions made text without their addresses, and no "%p".
+/// Calls Lua's string.format, with tables and functions as text without addresses, and no "%p".
 int Format(lua_State* L) {
   std::size_t bytes = 0;
   const char* format = luaL_checklstring(L, 1, &bytes);
@@ -128,7 +128,7 @@ int Format(lua_State* L) {
   return 1;
 }
 
-/// Sets the field `name` of the table on top to `function` with Lua's own, from `all`, as upvalue.
+/// Sets the field `name` of the table on top to `function`, with Lua's own from `all` as upvalue.
 void Wrapped(lua_State* L, int all, const char* name, lua_CFunction function) {
   lua_getfield(L, all, name);
   lua_pushcclosure(L, function, 1);
@@ -152,7 +152,8 @@ void OpenLuaText(lua_State* L) {
   lua_setfield(L, -2, "format");
   const luaL_Reg ours[] = {{"byte", ByteAt}, {"char", CharOf}, {"find", Find}, {nullptr, nullptr}};
   luaL_setfuncs(L, ours, 0);
-  // ("x"):rep(3) finds the same, and nobody finds Lua's own through a string's metatable.
+  // Methods such as ("x"):rep(3) use the same functions: Lua's own stay unreachable through the
+  // metatable of strings.
   lua_pushliteral(L, "");
   lua_newtable(L);
   lua_pushvalue(L, -3);

@@ -1,4 +1,4 @@
-/// A script's `world`: what docs/scripts.md lists, each function a few lines over ScriptHost.
+/// The `world` library of a script, see docs/scripts.md: thin wrappers of ScriptHost.
 
 #include <string>
 #include <utility>
@@ -40,7 +40,7 @@ int ReadPart(lua_State* L) {
   return 1;
 }
 
-/// Pushes `text` when it begins with the argument at 1 (anything does when there is none).
+/// Pushes `text` if it begins with `prefix`; an empty prefix matches everything.
 bool PushIfWanted(lua_State* L, const std::string& text, const char* prefix, std::size_t bytes) {
   LuaCharge(L, 2);
   if (text.compare(0, bytes, prefix, bytes) != 0) return false;
@@ -143,7 +143,7 @@ int Set(lua_State* L) {
   return 0;
 }
 
-/// score(player, more) and health(part, more): adds `more`, if given, and returns what it is then.
+/// score(player, more) and health(part, more): adds `more`, if given, and returns the new value.
 int Change(lua_State* L, const char* key) {
   const char* subject = luaL_checkstring(L, 1);
   const bool changes = !lua_isnoneornil(L, 2);

@@ -1,5 +1,5 @@
-/// Parts and joints that scripts make, written as a scene writes them: so that one reader checks
-/// both, and one text goes to every peer.
+/// Writes parts and joints of scripts as TOML of a scene: one reader checks both, and one text goes
+/// to every peer.
 
 #include <cmath>
 #include <cstdio>
@@ -34,7 +34,7 @@ std::string Number(double number) {
   char text[40];
   std::snprintf(text, sizeof text, "%.9g", number);  // enough for single precision
   std::string out = text;
-  // To TOML 1e+06 is a float as it is, 3 would be an integer.
+  // TOML reads 1e+06 as a float, but 3 as an integer.
   if (out.find_first_of(".e") == std::string::npos) out += ".0";
   return out;
 }
