@@ -1,5 +1,5 @@
 #pragma once
-/// What buttons do: a player's actions on the mechanisms that they push.
+/// Maps a player's pressed buttons to actions on mechanisms.
 
 #include <cstddef>
 #include <vector>
