@@ -13,8 +13,7 @@ namespace {
 
 /// Maximum spin given to a kinematic body, rad/s: the engine clamps at 94.
 constexpr float kSpinDrivenMax = 90.0f;
-/// A larger turn within a tick is taken for that of a fast wheel, whose angle cannot be followed by
-/// eye.
+/// A larger turn within a tick is taken for a fast wheel's, which the eye cannot follow.
 constexpr float kTurnSeen = 0.5f;
 
 /// Above this spin, rad/s, the angle of a body (a wheel, a paddle) cannot be seen. Limbs are
@@ -222,8 +221,7 @@ void Display::Leave(int body) {
 
 void Display::Drive(std::int64_t next, const MovingBox& seen) {
   if (config_.mode == Mode::kOracle) return;  // no body is only displayed
-  const double delay = config_.mode == Mode::kBuffer ? 0 : delay_.Advance();  // that mode has no
-                                                                              // delay
+  const double delay = config_.mode == Mode::kBuffer ? 0 : delay_.Advance();  // it has none
   reckoner_.Begin(next);
   LookAtParked(next, seen);
   leaving_.clear();
@@ -252,8 +250,7 @@ void Display::Drive(std::int64_t next, const MovingBox& seen) {
   for (const int body : leaving_) Leave(body);
 }
 
-/// Moves a body in the past, between snapshots: the path has no jumps, so its steps give the
-/// velocity.
+/// Moves a body in the past, between snapshots: the path has no jumps; its steps are the velocity.
 BodyState Display::AlongSnapshots(int body, const BodyState& target, BodyState state) {
   state.velocity = (target.position - state.position) / world_.dt();
   if (state.velocity.norm() > world_.scene().speed_limit) {
@@ -264,8 +261,7 @@ BodyState Display::AlongSnapshots(int body, const BodyState& target, BodyState s
     state.position = target.position;
     state.velocity.setZero();
   }
-  // A fast wheel turns by more than the wire's angle can tell: it gets its spin, and its angle is
-  // placed.
+  // A fast wheel turns by more than the wire's angle can tell: its spin is set, its angle placed.
   const float turn = WrapAngle(target.angle - state.angle);
   const bool fast = std::fabs(turn) > kSpinDrivenMax * world_.dt();
   state.spin = fast ? target.spin : turn / world_.dt();

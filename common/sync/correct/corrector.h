@@ -72,7 +72,7 @@ class Corrector {
   /// True if its tick is not far from now.
   bool IsNear(const States& states) const;
   void Wait(const States& states);
-  /// True if an entry is newer than what is known of its body; counts the outcome in `result`.
+  /// True if an entry is newer than the known state of its body; counts the outcome in `result`.
   bool IsNews(const States& states, std::size_t i, int body, Received* result) const;
   /// Records one entry. Returns true if its body is simulated here and to be corrected.
   bool ReceiveOne(const States& states, std::size_t i, int body);

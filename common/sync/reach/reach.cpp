@@ -12,7 +12,7 @@ namespace {
 /// A player not heard for this long is absent: no peer waits for its inputs. In a quiet room inputs
 /// come once a second. s
 constexpr double kSilent = 3.0;
-/// The same for a player who had released all controls: the server announces a player's departure.
+/// The same for a player with all controls released: the server announces a player's departure.
 constexpr double kSilentIdle = 1.25;
 /// From the room's start, s: a player's first inputs may still be on their way, and only the state
 /// of tick 0 is known. Later, a player never heard of is absent.

@@ -1,6 +1,6 @@
 #pragma once
 /// Finds the newest input-complete tick of each mechanism: the newest tick for which the inputs of
-/// all players who can influence it are known here.
+/// all players that can influence it are known here.
 
 #include <algorithm>
 #include <cstdint>

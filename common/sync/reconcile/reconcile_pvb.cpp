@@ -1,11 +1,11 @@
 /// pvb: projective velocity blending, after C. Murphy, "Believable Dead Reckoning for Networked
-/// Games" (Game Engine Gems 2, 2011, chapter 18). When a message comes, our copy is at P0 with V0,
-/// the authority's, moved on to then, at P0' with V0' and acceleration A'. With t since then and
-/// T = t / (time in which to blend), at most 1:
+/// Games" (Game Engine Gems 2, 2011, chapter 18). When a message comes, our copy is at P0 with V0;
+/// the authority's, extrapolated to that time, is at P0' with V0' and acceleration A'. With t since
+/// then and T = t / (time of the blend), at most 1:
 ///   Vb = V0 + (V0' - V0) T                 P  = P0  + Vb  t + A' t^2 / 2
 ///   Q  = P + (P' - P) T                    P' = P0' + V0' t + A' t^2 / 2
-/// Here Q is not where the copy is put but where its velocity leads: what is in its way still stops
-/// it, which ends the blend, and the next message begins from where that left it.
+/// Here the copy is not put at Q; its velocity leads there. An obstacle still stops the copy, which
+/// ends the blend, and the next message starts from there.
 
 #include <algorithm>
 #include <cmath>

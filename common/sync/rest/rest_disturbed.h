@@ -20,7 +20,7 @@ constexpr float kRestBlow = 0.5f;
 std::vector<bool> DrivenIn(const World& world, const Drivers& drivers,
                            const std::vector<InputTrack>& inputs, std::int64_t tick);
 
-/// Call after a step. Returns the held bodies that the step woke in islands whose rest is over;
+/// Call after a step. Returns the held bodies that the step woke in islands that no longer rest;
 /// ascending within each island.
 std::vector<int> DisturbedRest(const World& world, const Drivers& drivers, const BodyMemory& memory,
                                const std::vector<InputTrack>& inputs);
