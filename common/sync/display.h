@@ -82,9 +82,9 @@ class Display {
   std::int64_t glides_ = 0;                    // number of Glide calls
   std::vector<std::int64_t> corrected_until_;  // by mechanism, in glides: joints may be torn until
                                                // then
-  std::vector<MovingBox> far_;  // by mechanism: where a parked one may have moved to
-  std::vector<int> driven_, leaving_, back_;  // bodies, in this Drive
-  mutable std::vector<BodyState> poses_;      // memory for ShownPoses, by body
+  std::vector<MovingBox> far_;                 // by mechanism: where a parked one may have moved to
+  std::vector<int> driven_, leaving_, back_;   // bodies, in this Drive
+  mutable std::vector<BodyState> poses_;       // memory for ShownPoses, by body
 };
 
 }  // namespace seam

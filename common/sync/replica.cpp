@@ -138,8 +138,7 @@ void Replica::ApplyInputs(std::int64_t next) {
     if (!(track.At(next) == Input{})) NeedDriven(player);
     if (drivers_.Concerns(player)) world_.SetInput(player, track.At(next));
     ApplyPresses(player, next);
-    if (track.newest() > next) players[left++] = player;  // more inputs of this player are still to
-                                                          // come
+    if (track.newest() > next) players[left++] = player;  // inputs still to come
   }
   players.resize(left);
 }

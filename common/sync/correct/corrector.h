@@ -110,7 +110,7 @@ class Corrector {
   BodyMemory& memory_;
   Display& display_;
   Replay& replay_;
-  std::vector<States> waiting_;  // of future ticks or edits
+  std::vector<States> waiting_;  // for future ticks or edits
   std::vector<States> waited_;   // former entries of waiting_; their memory is reused
   /// Bodies that were placed but not yet closed: id, and true if extrapolated to now.
   std::vector<std::pair<int, bool>> placed_;

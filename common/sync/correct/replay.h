@@ -103,7 +103,7 @@ class Replay {
   struct Repeated {
     Edit edit;
     std::int64_t tick = 0;
-    int sat = -1;  ///< of a SeatEdit: the player who had the seat before
+    int sat = -1;  ///< if a SeatEdit: the seat's player before
   };
 
   bool RestsAsBefore(int body, const BodyState& pose);
@@ -167,7 +167,7 @@ class Replay {
   double credit_ = 0;                                 // ticks that may still be stepped again
   std::function<void()> on_stepped_again_ = [] {};
   std::optional<Journey> journey_;  // set while the world is in the past
-  std::int64_t edited_tick_ = -1;   // of the last edit that changed bodies; -1: none
+  std::int64_t edited_tick_ = -1;   // last edit that changed bodies; -1: none
   bool edited_ = false;             // bodies were recreated since the last step
   std::int64_t stepped_again_ = 0;
   std::int64_t deferred_ = 0;

@@ -29,9 +29,9 @@ struct ReconcileInput {
   /// Speed at which the body has its authority's kinetic energy plus our copy's gain since t1, m/s.
   /// More would create energy.
   float speed_max = FLT_MAX;
-  bool alone = true;      ///< its mechanism is this one body
-  int blocked_count = 0;  ///< number of blocked_directions
-  Vec2 blocked_directions[2] = {{0, 0}, {0, 0}};  ///< of the mechanism, unit vectors
+  bool alone = true;                              ///< its mechanism is this one body
+  int blocked_count = 0;                          ///< number of blocked_directions
+  Vec2 blocked_directions[2] = {{0, 0}, {0, 0}};  ///< unit vectors
 };
 
 /// Correction of our copy. `then` is the part already due at t1. If the rule knows it, the history
@@ -65,7 +65,7 @@ struct PullInput {
 struct PullMemory {
   Vec2 before{0, 0};  ///< velocity before the last pull
   Vec2 asked{0, 0};   ///< change of velocity by the last pull
-  float share = 1;    ///< of the wanted change that is asked for; below 1: blocked
+  float share = 1;    ///< share of the wanted change that is asked for; below 1: blocked
 };
 
 /// Returns the change of velocity and spin before the step. Poses are left to the step.

@@ -1,5 +1,5 @@
 #pragma once
-/// Dead reckoning of displayed bodies: of single ones, and of mechanisms, which move on as a whole.
+/// Dead reckoning of displayed bodies: single ones, and mechanisms, which move on as a whole.
 
 #include <cstdint>
 #include <vector>
@@ -17,7 +17,7 @@ constexpr float kReckonShownMax = 2.0f;
 /// Ticks between two updates of an absent body's path; it goes straight on in between.
 constexpr int kAbsentEvery = 6;
 
-/// Velocity of a body along its path: of its origin, m/s, and spin, rad/s.
+/// Motion of a body along its path: velocity of its origin, m/s, and spin, rad/s.
 struct PathSpeed {
   Vec2 velocity{0, 0};
   float spin = 0;
